@@ -1,0 +1,41 @@
+# A layer is one library: its sources are the folder src/NAME, its headers include/wisp/NAME, and it may use only the
+# layers below it.
+#
+#   wisp_layer(NAME [FOLDER src-folder] [USES layer…] [LINKS private-library…]
+#              [OPTIONS private-compiler-option…])
+function(wisp_layer name)
+  cmake_parse_arguments(LAYER "" "FOLDER" "USES;LINKS;OPTIONS" ${ARGN})
+  if(NOT LAYER_FOLDER)
+    set(LAYER_FOLDER ${name})
+  endif()
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${LAYER_FOLDER}/*.cpp)
+  set(target wisp_${name})
+  if(NOT sources)
+    add_library(${target} INTERFACE)
+    add_library(wisp::${name} ALIAS ${target})
+    return()
+  endif()
+  add_library(${target} ${sources})
+  add_library(wisp::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON CXX_EXTENSIONS OFF)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_include_directories(${target}
+    PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    PRIVATE ${PROJECT_SOURCE_DIR}/src)
+  foreach(below IN LISTS LAYER_USES)
+    target_link_libraries(${target} PUBLIC wisp::${below})
+  endforeach()
+  target_link_libraries(${target} PRIVATE ${LAYER_LINKS})
+  target_compile_options(${target} PRIVATE ${LAYER_OPTIONS})
+  wisp_warnings(${target})
+  set_property(GLOBAL APPEND PROPERTY WISP_LAYERS ${target})
+endfunction()
+
+function(wisp_warnings target)
+  if(PROJECT_IS_TOP_LEVEL)
+    target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+  endif()
+  if(WISP_WERROR)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+endfunction()

@@ -1,0 +1,54 @@
+#pragma once
+// Whole files in and out: output appears whole or not at all.
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "wisp/base/result.hpp"
+
+namespace wisp {
+
+/// Reads a whole file. Returns its bytes.
+/// Errors: the file cannot be opened (missing, a folder, no permission), cannot be read to its end, or is larger than
+/// `most_bytes`.
+Result<std::vector<std::byte>> read_file(const std::filesystem::path& path,
+                                         std::size_t most_bytes = std::size_t{1} << 32);
+
+/// Writes a whole file: beside its place first (`.NAME.part-PID`), then renamed over it, so that a reader sees the old
+/// file or the new one and never a half.
+/// Errors: the folder is missing or not writable, the disk is full; nothing is left behind then.
+Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+Result<void> write_file(const std::filesystem::path& path, std::string_view text);
+
+/// A file that something else writes (an encoder, a picture library) and that appears under its name only when
+/// `commit()` is called. Destroyed without commit, nothing is left behind.
+class PendingFile {
+ public:
+  /// `path` is the final name. Errors: the folder is missing, or `path` is a folder.
+  static Result<PendingFile> create(const std::filesystem::path& path);
+
+  PendingFile(PendingFile&& other) noexcept;
+  PendingFile& operator=(PendingFile&& other) noexcept;
+  PendingFile(const PendingFile&) = delete;
+  PendingFile& operator=(const PendingFile&) = delete;
+  ~PendingFile();
+
+  /// Where to write until then; beside the final name, with the same extension.
+  const std::filesystem::path& path() const { return pending_; }
+
+  /// Renames the pending file to its final name. Errors: nothing was written, or the rename failed.
+  Result<void> commit();
+
+ private:
+  PendingFile(std::filesystem::path pending, std::filesystem::path final_path);
+  void discard();
+
+  std::filesystem::path pending_;
+  std::filesystem::path final_;
+};
+
+}  // namespace wisp

@@ -1,0 +1,91 @@
+#pragma once
+// ARX dynamics: autoregression with exogenous inputs, as a value.
+//
+//   y(t) + A₁ y(t−1) + … + A_na y(t−na) = B₁ u(t−nk) + … + B_nb u(t−nk−nb+1) + c + e(t)
+//
+// on deviations y − output_mean and u − input_mean. Signs and the meaning of na, nb, nk as in L. Ljung, System
+// Identification (2nd ed.), section 4.2, and MATLAB's arx. Orders are matrices: every output row is its own regression
+// with its own regressors, and what is zero costs nothing.
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "wisp/base/result.hpp"
+
+namespace wisp {
+
+/// A small dense matrix of non-negative integers, row-major.
+class OrderMatrix {
+ public:
+  OrderMatrix() = default;
+  OrderMatrix(int rows, int columns, int value = 0)
+      : rows_(rows), columns_(columns), values_(static_cast<std::size_t>(rows) * columns, value) {}
+
+  int rows() const { return rows_; }
+  int columns() const { return columns_; }
+  int& operator()(int row, int column) { return values_[static_cast<std::size_t>(row) * columns_ + column]; }
+  int operator()(int row, int column) const { return values_[static_cast<std::size_t>(row) * columns_ + column]; }
+  std::span<const int> values() const { return values_; }
+
+  friend bool operator==(const OrderMatrix&, const OrderMatrix&) = default;
+
+ private:
+  int rows_ = 0;
+  int columns_ = 0;
+  std::vector<int> values_;
+};
+
+/// The orders of an ARX model: na is ny × ny, nb and nk are ny × nu.
+struct ArxOrders {
+  OrderMatrix na;
+  OrderMatrix nb;
+  OrderMatrix nk;
+
+  int outputs() const { return na.rows(); }
+  int inputs() const { return nb.columns(); }
+
+  /// Coefficients of output row i.
+  int row_size(int i) const;
+
+  /// Largest lag of any output or input: the samples of history that a step needs.
+  int history() const;
+
+  friend bool operator==(const ArxOrders&, const ArxOrders&) = default;
+};
+
+/// Residual noise e(t) = diag(sd) w(t) + mixing v(t), w and v independent standard normal.
+struct ResidualNoise {
+  std::vector<double> sd;                       ///< per output, in the output's unit
+  std::vector<std::array<double, 2>> sd_ci95;   ///< 95 % interval of the residual's standard deviation, per output
+  int rank = 0;                                 ///< columns of `mixing`: shocks that outputs share
+  std::vector<double> mixing;                   ///< ny × rank, row-major
+};
+
+/// Coefficients of output row i lie together: for each output j its na(i,j) lags of A in the equation's own sign and
+/// without the leading 1, then for each input k its nb(i,k) lags of B.
+struct ArxModel {
+  ArxOrders orders;
+  std::vector<std::vector<double>> theta;      ///< per output row
+  std::vector<std::vector<double>> std_error;  ///< the same shape, or empty where unknown
+  std::vector<double> constant;                ///< c, per output
+  std::vector<double> output_mean;             ///< the operating point, per output
+  std::vector<double> input_mean;              ///< per regressor input
+  ResidualNoise noise;
+
+  /// Lags 1 … na(i,j) of output j in row i.
+  std::span<const double> a(int i, int j) const;
+  /// Lags nk … nk+nb−1 of input k in row i.
+  std::span<const double> b(int i, int k) const;
+};
+
+/// Checks shapes, orders and finiteness. Errors say which coefficient or matrix and what was expected.
+Result<void> check(const ArxModel& model);
+
+/// Largest absolute eigenvalue of the companion matrix of A(q), with coefficients rounded to single precision as
+/// `run/` uses them: below 1 the model is stable. 0 for a model without feedback. Independent blocks of outputs are
+/// found and solved apart.
+double spectral_radius(const ArxModel& model);
+
+}  // namespace wisp

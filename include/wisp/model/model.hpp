@@ -1,0 +1,95 @@
+#pragma once
+// What a model is: plain values, as learned, as stored, as played.
+//
+// A model is dynamics, a view that says what the outputs mean, and an account of how it was made. Every number is in
+// the model's own units; design notes are in docs/architecture.md.
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "wisp/model/arx.hpp"
+
+namespace wisp {
+
+/// How one external input enters the dynamics.
+enum class InputShape {
+  kLinear,     ///< as it is: one regressor
+  kSplitSign,  ///< as two non-negative regressors, max(u, 0) and max(−u, 0): a gust from the right is not a negative one
+};
+
+/// An input as the world gives it.
+struct Input {
+  std::string name;
+  std::string unit;       ///< the unit of 1; empty where it has none
+  double lowest = 0;      ///< the trained range; input beyond it and a margin is held to it
+  double highest = 0;
+  InputShape shape = InputShape::kLinear;
+};
+
+/// An output as the dynamics make it.
+struct Output {
+  std::string name;
+  std::string unit;
+  double lowest = 0;   ///< the seen range; output is held to it and half of it more
+  double highest = 0;
+};
+
+/// The outputs are the control points of an outline: p0.x, p0.y, p1.x, p1.y, … from the base's left over the tip to the
+/// base's right. Origin at the middle of the base, x right, y up, mean height 1.
+struct OutlineView {
+  std::vector<double> knots;   ///< full, clamped, cubic: outputs/2 + 4 values
+  double metres_per_unit = 0;  ///< 0 where it is not known
+  double pixels_per_unit = 0;  ///< of the clip that it was learned from; 0 where there was none
+};
+
+/// The outputs stand for nothing but themselves.
+struct PlainView {};
+
+using Dynamics = std::variant<ArxModel>;
+using View = std::variant<PlainView, OutlineView>;
+
+/// Whether a model may be used, and why not (or why so).
+struct Usable {
+  bool verdict = false;
+  std::string reason;
+};
+
+/// A named fact about how the model was made.
+struct Note {
+  std::string name;
+  std::string value;
+};
+
+/// A named figure of how good it is.
+struct Figure {
+  std::string name;
+  double value = 0;
+};
+
+/// How the model was made.
+struct Provenance {
+  std::string program;               ///< name and version of what wrote it
+  std::vector<std::string> sources;  ///< file names of the recordings
+  std::vector<Note> options;         ///< as given to the learner
+  std::vector<Figure> figures;       ///< figures of fit
+  Usable usable;
+};
+
+/// A model of how a thing behaves.
+struct Model {
+  std::string name;
+  double rate_hz = 0;  ///< its own steps a second
+  std::vector<Input> inputs;
+  std::vector<Output> outputs;
+  Dynamics dynamics;
+  View view;
+  Provenance provenance;
+};
+
+/// Number of regressors that the inputs make: the number of inputs that the dynamics see.
+std::size_t regressor_count(const std::vector<Input>& inputs);
+
+}  // namespace wisp

@@ -1,0 +1,120 @@
+#include "wisp/base/file.hpp"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+namespace wisp {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
+Error file_error(const fs::path& path, const std::string& what) { return {path.string() + ": " + what}; }
+
+std::string reason() { return std::strerror(errno); }
+
+fs::path pending_name(const fs::path& path) {
+  // Two threads may write the same name at once; the process number alone would let them share a pending file.
+  static std::atomic<unsigned> counter{0};
+  std::string name = "." + path.stem().string() + ".part-" + std::to_string(::getpid()) + "-" +
+                     std::to_string(counter.fetch_add(1)) + path.extension().string();
+  return path.parent_path() / name;
+}
+
+}  // namespace
+
+Result<std::vector<std::byte>> read_file(const fs::path& path, std::size_t most_bytes) {
+  std::error_code code;
+  if (fs::is_directory(path, code)) return file_error(path, "is a folder, expected a file");
+  File file(std::fopen(path.c_str(), "rb"));
+  if (!file) return file_error(path, "cannot be opened: " + reason());
+
+  std::vector<std::byte> bytes;
+  const auto size = fs::file_size(path, code);
+  if (!code) {
+    if (size > most_bytes) return file_error(path, "is too large: " + std::to_string(size) + " bytes");
+    bytes.reserve(static_cast<std::size_t>(size) + 1);
+  }
+  // Pipes and /proc files report no size, so the end is found by reading.
+  for (;;) {
+    const std::size_t before = bytes.size();
+    const std::size_t chunk = std::max<std::size_t>(bytes.capacity() - before, std::size_t{1} << 16);
+    bytes.resize(before + chunk);
+    const std::size_t got = std::fread(bytes.data() + before, 1, chunk, file.get());
+    bytes.resize(before + got);
+    if (bytes.size() > most_bytes) return file_error(path, "is too large");
+    if (got < chunk) break;
+  }
+  if (std::ferror(file.get())) return file_error(path, "cannot be read to its end: " + reason());
+  return bytes;
+}
+
+Result<void> write_file(const fs::path& path, std::span<const std::byte> bytes) {
+  auto pending = PendingFile::create(path);
+  if (!pending) return pending.error();
+  File file(std::fopen(pending->path().c_str(), "wb"));
+  if (!file) return file_error(path, "cannot be written: " + reason());
+  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
+  const bool flushed = std::fflush(file.get()) == 0;
+  const std::string why = reason();
+  const bool closed = std::fclose(file.release()) == 0;
+  if (!written || !flushed || !closed) return file_error(path, "cannot be written whole: " + why);
+  return pending->commit();
+}
+
+Result<void> write_file(const fs::path& path, std::string_view text) {
+  return write_file(path, std::as_bytes(std::span(text.data(), text.size())));
+}
+
+PendingFile::PendingFile(fs::path pending, fs::path final_path)
+    : pending_(std::move(pending)), final_(std::move(final_path)) {}
+
+PendingFile::PendingFile(PendingFile&& other) noexcept
+    : pending_(std::exchange(other.pending_, {})), final_(std::exchange(other.final_, {})) {}
+
+PendingFile& PendingFile::operator=(PendingFile&& other) noexcept {
+  if (this == &other) return *this;
+  discard();
+  pending_ = std::exchange(other.pending_, {});
+  final_ = std::exchange(other.final_, {});
+  return *this;
+}
+
+PendingFile::~PendingFile() { discard(); }
+
+void PendingFile::discard() {
+  if (pending_.empty()) return;
+  std::error_code ignored;
+  fs::remove(pending_, ignored);
+}
+
+Result<PendingFile> PendingFile::create(const fs::path& path) {
+  std::error_code code;
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  if (path.filename().empty()) return file_error(path, "names no file to write");
+  if (fs::is_directory(path, code)) return file_error(path, "is a folder, expected a file name to write to");
+  if (!fs::is_directory(folder, code)) {
+    return file_error(path, "cannot be written: the folder " + folder.string() + " does not exist; make it first");
+  }
+  if (::access(folder.c_str(), W_OK) != 0) return file_error(path, "cannot be written: " + reason());
+  return PendingFile(pending_name(path), path);
+}
+
+Result<void> PendingFile::commit() {
+  std::error_code code;
+  fs::rename(pending_, final_, code);
+  if (code) return file_error(final_, "cannot be put in place: " + code.message());
+  pending_.clear();
+  return {};
+}
+
+}  // namespace wisp

@@ -1,0 +1,208 @@
+#include "wisp/model/arx.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+#include <string>
+
+namespace wisp {
+namespace {
+
+constexpr int kMostChannels = 4096;
+constexpr int kMostOrder = 4096;
+
+std::string at(const char* what, int i, int j) {
+  return std::string(what) + "(" + std::to_string(i) + "," + std::to_string(j) + ")";
+}
+
+Result<void> check_orders(const ArxOrders& orders) {
+  const int ny = orders.outputs();
+  const int nu = orders.inputs();
+  if (ny < 1 || ny > kMostChannels) return Error{"an ARX model has " + std::to_string(ny) + " outputs, expected 1 to 4096"};
+  if (nu > kMostChannels) return Error{"an ARX model has " + std::to_string(nu) + " inputs, expected at most 4096"};
+  if (orders.na.columns() != ny) return Error{"na is not a square matrix of outputs"};
+  if (orders.nb.rows() != ny) return Error{"nb has not one row an output"};
+  if (orders.nk.rows() != ny || orders.nk.columns() != nu) return Error{"nk has not the shape of nb"};
+  for (const auto& [matrix, name] : {std::pair{&orders.na, "na"}, {&orders.nb, "nb"}, {&orders.nk, "nk"}}) {
+    for (int i = 0; i < matrix->rows(); ++i) {
+      for (int j = 0; j < matrix->columns(); ++j) {
+        const int order = (*matrix)(i, j);
+        if (order < 0 || order > kMostOrder) {
+          return Error{at(name, i, j) + " is " + std::to_string(order) + ", expected 0 to 4096"};
+        }
+      }
+    }
+  }
+  return {};
+}
+
+Result<void> check_finite(std::span<const double> values, std::size_t expected, const std::string& what) {
+  if (values.size() != expected) {
+    return Error{what + " has " + std::to_string(values.size()) + " values, expected " + std::to_string(expected)};
+  }
+  for (double value : values) {
+    if (!std::isfinite(value)) return Error{what + " holds a number that is not finite"};
+  }
+  return {};
+}
+
+Result<void> check_noise(const ResidualNoise& noise, std::size_t ny) {
+  if (auto ok = check_finite(noise.sd, ny, "the residual's standard deviation"); !ok) return ok;
+  for (double sd : noise.sd) {
+    if (sd < 0) return Error{"a residual's standard deviation is negative"};
+  }
+  if (!noise.sd_ci95.empty() && noise.sd_ci95.size() != ny) return Error{"the 95 % intervals are not one an output"};
+  for (const auto& interval : noise.sd_ci95) {
+    if (!(std::isfinite(interval[0]) && std::isfinite(interval[1]) && interval[0] <= interval[1])) {
+      return Error{"a 95 % interval of a standard deviation is not an interval"};
+    }
+  }
+  if (noise.rank < 0 || static_cast<std::size_t>(noise.rank) > ny) return Error{"the noise's rank is out of range"};
+  return check_finite(noise.mixing, ny * noise.rank, "the noise's mixing matrix");
+}
+
+// Outputs that feed each other, directly or through others, share a label.
+std::vector<int> coupled_blocks(const OrderMatrix& na) {
+  std::vector<int> label(na.rows());
+  std::iota(label.begin(), label.end(), 0);
+  bool changed = true;
+  while (changed) {
+    changed = false;
+    for (int i = 0; i < na.rows(); ++i) {
+      for (int j = 0; j < na.columns(); ++j) {
+        if (na(i, j) == 0 || label[i] == label[j]) continue;
+        label[i] = label[j] = std::min(label[i], label[j]);
+        changed = true;
+      }
+    }
+  }
+  return label;
+}
+
+using Square = std::vector<double>;  // n × n, row-major
+
+// The companion matrix of one block of outputs, coefficients rounded to single precision.
+Square companion(const ArxModel& model, const std::vector<int>& outputs, int& size) {
+  int order = 0;
+  for (int i : outputs) {
+    for (int j : outputs) order = std::max(order, model.orders.na(i, j));
+  }
+  const int ny = static_cast<int>(outputs.size());
+  size = ny * order;
+  Square matrix(static_cast<std::size_t>(size) * size, 0.0);
+  for (int r = 0; r < ny; ++r) {
+    for (int c = 0; c < ny; ++c) {
+      const auto lags = model.a(outputs[r], outputs[c]);
+      for (std::size_t lag = 0; lag < lags.size(); ++lag) {
+        matrix[static_cast<std::size_t>(r) * size + lag * ny + c] = -static_cast<double>(static_cast<float>(lags[lag]));
+      }
+    }
+  }
+  for (int r = ny; r < size; ++r) matrix[static_cast<std::size_t>(r) * size + (r - ny)] = 1.0;
+  return matrix;
+}
+
+Square squared(const Square& m, int n) {
+  Square out(m.size(), 0.0);
+  for (int i = 0; i < n; ++i) {
+    for (int k = 0; k < n; ++k) {
+      const double factor = m[static_cast<std::size_t>(i) * n + k];
+      if (factor == 0.0) continue;
+      for (int j = 0; j < n; ++j) out[static_cast<std::size_t>(i) * n + j] += factor * m[static_cast<std::size_t>(k) * n + j];
+    }
+  }
+  return out;
+}
+
+double frobenius(const Square& m) {
+  double sum = 0;
+  for (double value : m) sum += value * value;
+  return std::sqrt(sum);
+}
+
+// Gelfand's formula, rho = lim ‖Mᵏ‖^(1/k), with k doubled by squaring: after 40 doublings the factor that separates
+// norm from radius has been raised to 2^−40. The matrix is scaled to norm 1 before each squaring, and log2 of the
+// scales is added up.
+double radius(Square m, int n) {
+  double log_radius = 0;
+  double share = 1;
+  for (int doubling = 0; doubling < 40; ++doubling) {
+    const double norm = frobenius(m);
+    if (norm == 0.0) return 0.0;
+    for (double& value : m) value /= norm;
+    log_radius += share * std::log2(norm);
+    share /= 2;
+    m = squared(m, n);
+  }
+  return std::exp2(log_radius);
+}
+
+}  // namespace
+
+int ArxOrders::row_size(int i) const {
+  int size = 0;
+  for (int j = 0; j < na.columns(); ++j) size += na(i, j);
+  for (int k = 0; k < nb.columns(); ++k) size += nb(i, k);
+  return size;
+}
+
+int ArxOrders::history() const {
+  int history = 0;
+  for (int order : na.values()) history = std::max(history, order);
+  for (int i = 0; i < nb.rows(); ++i) {
+    for (int k = 0; k < nb.columns(); ++k) {
+      if (nb(i, k) > 0) history = std::max(history, nk(i, k) + nb(i, k) - 1);
+    }
+  }
+  return history;
+}
+
+std::span<const double> ArxModel::a(int i, int j) const {
+  std::size_t begin = 0;
+  for (int before = 0; before < j; ++before) begin += orders.na(i, before);
+  return std::span(theta[i]).subspan(begin, orders.na(i, j));
+}
+
+std::span<const double> ArxModel::b(int i, int k) const {
+  std::size_t begin = 0;
+  for (int j = 0; j < orders.na.columns(); ++j) begin += orders.na(i, j);
+  for (int before = 0; before < k; ++before) begin += orders.nb(i, before);
+  return std::span(theta[i]).subspan(begin, orders.nb(i, k));
+}
+
+Result<void> check(const ArxModel& model) {
+  if (auto ok = check_orders(model.orders); !ok) return ok;
+  const auto ny = static_cast<std::size_t>(model.orders.outputs());
+  if (model.theta.size() != ny) return Error{"an ARX model has not one row of coefficients an output"};
+  if (!model.std_error.empty() && model.std_error.size() != ny) return Error{"standard errors are not one row an output"};
+  for (std::size_t i = 0; i < ny; ++i) {
+    const auto size = static_cast<std::size_t>(model.orders.row_size(static_cast<int>(i)));
+    const std::string row = "row " + std::to_string(i) + " of ";
+    if (auto ok = check_finite(model.theta[i], size, row + "the ARX coefficients"); !ok) return ok;
+    if (model.std_error.empty()) continue;
+    if (auto ok = check_finite(model.std_error[i], size, row + "the standard errors"); !ok) return ok;
+  }
+  if (auto ok = check_finite(model.constant, ny, "the constant term"); !ok) return ok;
+  if (auto ok = check_finite(model.output_mean, ny, "the outputs' mean"); !ok) return ok;
+  if (auto ok = check_finite(model.input_mean, model.orders.inputs(), "the inputs' mean"); !ok) return ok;
+  return check_noise(model.noise, ny);
+}
+
+double spectral_radius(const ArxModel& model) {
+  const std::vector<int> block = coupled_blocks(model.orders.na);
+  double largest = 0;
+  for (int label = 0; label < static_cast<int>(block.size()); ++label) {
+    std::vector<int> outputs;
+    for (int i = 0; i < static_cast<int>(block.size()); ++i) {
+      if (block[i] == label) outputs.push_back(i);
+    }
+    if (outputs.empty()) continue;
+    int size = 0;
+    Square matrix = companion(model, outputs, size);
+    if (size > 0) largest = std::max(largest, radius(std::move(matrix), size));
+  }
+  return largest;
+}
+
+}  // namespace wisp
