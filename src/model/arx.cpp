@@ -19,7 +19,8 @@ std::string at(const char* what, int i, int j) {
 Result<void> check_orders(const ArxOrders& orders) {
   const int ny = orders.outputs();
   const int nu = orders.inputs();
-  if (ny < 1 || ny > kMostChannels) return Error{"an ARX model has " + std::to_string(ny) + " outputs, expected 1 to 4096"};
+  if (ny < 1 || ny > kMostChannels)
+    return Error{"an ARX model has " + std::to_string(ny) + " outputs, expected 1 to 4096"};
   if (nu > kMostChannels) return Error{"an ARX model has " + std::to_string(nu) + " inputs, expected at most 4096"};
   if (orders.na.columns() != ny) return Error{"na is not a square matrix of outputs"};
   if (orders.nb.rows() != ny) return Error{"nb has not one row an output"};
@@ -109,7 +110,8 @@ Square squared(const Square& m, int n) {
     for (int k = 0; k < n; ++k) {
       const double factor = m[static_cast<std::size_t>(i) * n + k];
       if (factor == 0.0) continue;
-      for (int j = 0; j < n; ++j) out[static_cast<std::size_t>(i) * n + j] += factor * m[static_cast<std::size_t>(k) * n + j];
+      for (int j = 0; j < n; ++j)
+        out[static_cast<std::size_t>(i) * n + j] += factor * m[static_cast<std::size_t>(k) * n + j];
     }
   }
   return out;
@@ -175,7 +177,8 @@ Result<void> check(const ArxModel& model) {
   if (auto ok = check_orders(model.orders); !ok) return ok;
   const auto ny = static_cast<std::size_t>(model.orders.outputs());
   if (model.theta.size() != ny) return Error{"an ARX model has not one row of coefficients an output"};
-  if (!model.std_error.empty() && model.std_error.size() != ny) return Error{"standard errors are not one row an output"};
+  if (!model.std_error.empty() && model.std_error.size() != ny)
+    return Error{"standard errors are not one row an output"};
   for (std::size_t i = 0; i < ny; ++i) {
     const auto size = static_cast<std::size_t>(model.orders.row_size(static_cast<int>(i)));
     const std::string row = "row " + std::to_string(i) + " of ";

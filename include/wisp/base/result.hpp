@@ -26,9 +26,18 @@ class [[nodiscard]] Result {
 
   explicit operator bool() const { return held_.index() == 0; }
 
-  T& value() & { assert(*this); return *std::get_if<0>(&held_); }
-  const T& value() const& { assert(*this); return *std::get_if<0>(&held_); }
-  T&& value() && { assert(*this); return std::move(*std::get_if<0>(&held_)); }
+  T& value() & {
+    assert(*this);
+    return *std::get_if<0>(&held_);
+  }
+  const T& value() const& {
+    assert(*this);
+    return *std::get_if<0>(&held_);
+  }
+  T&& value() && {
+    assert(*this);
+    return std::move(*std::get_if<0>(&held_));
+  }
 
   T& operator*() & { return value(); }
   const T& operator*() const& { return value(); }
@@ -36,7 +45,10 @@ class [[nodiscard]] Result {
   T* operator->() { return &value(); }
   const T* operator->() const { return &value(); }
 
-  const Error& error() const { assert(!*this); return *std::get_if<1>(&held_); }
+  const Error& error() const {
+    assert(!*this);
+    return *std::get_if<1>(&held_);
+  }
 
  private:
   std::variant<T, Error> held_;
@@ -50,7 +62,10 @@ class [[nodiscard]] Result<void> {
   Result(Error error) : error_(std::move(error)), failed_(true) {}
 
   explicit operator bool() const { return !failed_; }
-  const Error& error() const { assert(failed_); return error_; }
+  const Error& error() const {
+    assert(failed_);
+    return error_;
+  }
 
  private:
   Error error_;

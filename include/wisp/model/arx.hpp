@@ -57,10 +57,10 @@ struct ArxOrders {
 
 /// Residual noise e(t) = diag(sd) w(t) + mixing v(t), w and v independent standard normal.
 struct ResidualNoise {
-  std::vector<double> sd;                       ///< per output, in the output's unit
-  std::vector<std::array<double, 2>> sd_ci95;   ///< 95 % interval of the residual's standard deviation, per output
-  int rank = 0;                                 ///< columns of `mixing`: shocks that outputs share
-  std::vector<double> mixing;                   ///< ny × rank, row-major
+  std::vector<double> sd;                      ///< per output, in the output's unit
+  std::vector<std::array<double, 2>> sd_ci95;  ///< 95 % interval of the residual's standard deviation, per output
+  int rank = 0;                                ///< columns of `mixing`: shocks that outputs share
+  std::vector<double> mixing;                  ///< ny × rank, row-major
 };
 
 /// Coefficients of output row i lie together: for each output j its na(i,j) lags of A in the equation's own sign and

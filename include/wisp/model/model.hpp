@@ -17,14 +17,15 @@ namespace wisp {
 /// How one external input enters the dynamics.
 enum class InputShape {
   kLinear,     ///< as it is: one regressor
-  kSplitSign,  ///< as two non-negative regressors, max(u, 0) and max(−u, 0): a gust from the right is not a negative one
+  kSplitSign,  ///< as two non-negative regressors, max(u, 0) and max(−u, 0): a gust from the right is not a negative
+               ///< one
 };
 
 /// An input as the world gives it.
 struct Input {
   std::string name;
-  std::string unit;       ///< the unit of 1; empty where it has none
-  double lowest = 0;      ///< the trained range; input beyond it and a margin is held to it
+  std::string unit;   ///< the unit of 1; empty where it has none
+  double lowest = 0;  ///< the trained range; input beyond it and a margin is held to it
   double highest = 0;
   InputShape shape = InputShape::kLinear;
 };
@@ -33,7 +34,7 @@ struct Input {
 struct Output {
   std::string name;
   std::string unit;
-  double lowest = 0;   ///< the seen range; output is held to it and half of it more
+  double lowest = 0;  ///< the seen range; output is held to it and half of it more
   double highest = 0;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 // Recordings as CSV: Wisp's own form (docs/recordings.md) and plain tables from elsewhere.
 
+#include <cstddef>
 #include <filesystem>
 #include <iosfwd>
 #include <string>
@@ -16,15 +17,54 @@ namespace wisp {
 /// `inputs` and `outputs`, which, when given, choose the channels to keep and their roles.
 struct CsvOptions {
   double rate_hz = 0;                ///< samples a second; 0: the file must state it
-  std::vector<std::string> inputs;   ///< columns that are inputs
-  std::vector<std::string> outputs;  ///< columns that are outputs
+  std::vector<std::string> inputs{};   ///< columns that are inputs
+  std::vector<std::string> outputs{};  ///< columns that are outputs
 };
 
-/// Reads a recording from a CSV file, in bounded memory beside the recording itself.
+/// A table read a stretch at a time, for recordings larger than memory.
+class CsvReader {
+ public:
+  /// Reads the comment lines and the header. `name` stands for the file in messages.
+  /// Errors, each with file and row (1-based, as an editor counts lines): not text, no header, no rate, an unknown
+  /// version, an unknown or repeated column.
+  ///
+  /// Precondition: `stream` outlives the reader.
+  static Result<CsvReader> open(std::istream& stream, std::string_view name, const CsvOptions& options = {});
+
+  /// The recording without its rows: rate, channels, flags and attributes.
+  const Recording& header() const { return header_; }
+
+  /// Appends up to `most_rows` further rows to `recording`, which is the header or what was read before.
+  /// Returns how many; 0 at the end.
+  /// Errors: a wrong number of columns, text, NaN or infinity where a number belongs, a line longer than 16 MiB.
+  Result<std::size_t> read(Recording& recording, std::size_t most_rows);
+
+ private:
+  struct Column {
+    enum class Kind { kSkip, kChannel, kFlag, kEpisode } kind = Kind::kSkip;
+    std::size_t index = 0;  // of the channel or flag
+  };
+
+  Result<bool> next_line();
+  Result<void> read_attributes();
+  Result<void> read_columns(const CsvOptions& options);
+  Result<void> add_row(Recording& recording);
+  Result<void> add_cell(Recording& recording, const Column& column, std::string_view cell, std::size_t place);
+  Error at_row(const std::string& what) const;
+
+  std::istream* stream_ = nullptr;
+  std::string name_;
+  Recording header_;
+  std::vector<Column> columns_;
+  std::string line_;
+  std::size_t row_ = 0;
+  char separator_ = ',';
+  bool own_form_ = false;
+};
+
+/// Reads a recording from a CSV file.
 /// Returns it with missing samples as NaN; numbers are the nearest doubles to what is written.
-/// Errors, each with file and row (1-based, as an editor counts lines): not text, no header, a wrong number of columns,
-/// text, NaN or infinity where a number belongs, no rate, no rows, a line longer than 16 MiB, an unknown version,
-/// an unknown or repeated column.
+/// Errors: as CsvReader, no rows, and where the file cannot be opened.
 Result<Recording> read_csv(const std::filesystem::path& path, const CsvOptions& options = {});
 
 /// The same from a stream; `name` stands for the file in messages.

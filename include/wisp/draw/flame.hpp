@@ -1,0 +1,81 @@
+#pragma once
+// The cartoon candle: a flame filled from its outline, its glow, its candle, and the smoke when it is out.
+//
+// Light is added up in linear intensities and shown through one exposure curve, so that glows overlap as real ones do
+// and nothing clips. How thick the glowing body is at each pixel follows from the outline alone (the chord of a body of
+// revolution, from a Poisson equation inside the outline), so layers move as smoothly as the outline does, whatever its
+// shape. The same call draws the same bytes.
+
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "wisp/draw/image.hpp"
+
+namespace wisp {
+
+/// How a candle and its flame look. Lengths are in model units: 1 is the mean height of the calm flame.
+struct FlameStyle {
+  Colour core{255, 246, 214};  ///< the bright middle, where the glow is thickest
+  Colour body{255, 176, 48};   ///< between core and rim: soot at about 1800 K seen through a camera
+  Colour rim{255, 84, 12};     ///< the translucent outer layer and the tip, where soot is thin and cooler
+  Colour base{40, 84, 255};    ///< the blue of burning gas without soot, around the base
+  Colour halo{255, 140, 52};   ///< light scattered in the air and the lens around the flame
+
+  float exposure = 1.0F;    ///< light that reaches the picture, 0 … 8; 1 leaves the core just short of white
+  float glow = 1.0F;        ///< strength of the halo, 0 … 4; 0 leaves it out
+  float glow_reach = 1.0F;  ///< size of the halo, 0.25 … 4; 1 reaches about one flame height
+  float softness = 1.0F;    ///< of the flame's edge, 0 … 4; 0 is as crisp as the pixels allow
+
+  bool candle = true;          ///< draw the candle; without it only the flame's own light and smoke
+  Colour wax{240, 226, 200};   ///< the candle's colour by daylight
+  float candle_width = 0.62F;  ///< 0.05 … 4; 22 mm under a flame of 35 mm
+  float candle_height = 2.2F;  ///< 0.05 … 20; what does not fit is cut off by the picture
+  float wick_gap = 0.12F;      ///< from the candle's top to the flame's base, 0 … 1
+  float wick_height = 0.24F;   ///< from the candle's top to the wick's end, 0 … 1
+  float ambient = 0.05F;       ///< light of the room on the candle, 0 … 1: it stays visible when the flame is out
+};
+
+inline constexpr float kLongAgo = std::numeric_limits<float>::infinity();
+
+/// Where a candle stands in the picture and what happens to it.
+///
+/// It burns unless it went out more recently than it was lit. A flame that catches or dies is drawn over a few tenths
+/// of a second; smoke rises from the wick between going out and being lit again, and drifts on afterwards.
+struct FlameScene {
+  Point base;                   ///< pixel of the outline's origin, the middle of the flame's base; y down
+  float pixels_per_unit = 200;  ///< pixels of the mean flame height, 1 … 10000
+  float brightness = 1;         ///< of this flame against the style's, 0 … 4
+  float seconds_since_lit = kLongAgo;
+  float seconds_since_out = kLongAgo;
+  float wind = 0;          ///< moves the smoke sideways: units a second, positive to the right, −8 … 8
+  std::uint64_t seed = 1;  ///< chooses the smoke's curls and the wick's bend
+};
+
+/// Whether the scene's flame burns: it never went out, or was lit since.
+bool burns(const FlameScene& scene);
+
+/// A candle of a picture with several: its outline is a polyline in model units (origin at the middle of the base,
+/// x right, y up, mean height 1) from the base's left over the tip to the base's right, closed by a straight line.
+struct Flame {
+  std::span<const Point> outline;
+  FlameScene scene;
+};
+
+/// Draws candles over what the picture holds, the first one farthest: first every candle, lit by all flames, then
+/// smoke, then the light of all flames. Points that are not finite are left out; an outline of fewer than three points
+/// or without area draws a candle that does not burn. Fields outside their range are held to it.
+void draw_flames(Image& image, std::span<const Flame> flames, const FlameStyle& style = {});
+
+/// Draws one candle.
+void draw_flame(Image& image, std::span<const Point> outline, const FlameScene& scene, const FlameStyle& style = {});
+
+/// Fills a picture with a dark room for candles to stand in: a vertical gradient that is finer than 8 bits (dithered,
+/// so that video does not show steps).
+void draw_night(Image& image);
+
+/// A scene that frames one candle well in a picture of that size: the flame in the upper middle with room to lean and
+/// grow to twice its mean height, the candle reaching the lower edge.
+FlameScene framed(int width, int height);
+
+}  // namespace wisp

@@ -1,0 +1,47 @@
+#pragma once
+// Outlines, control points and labels over a video frame.
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "wisp/draw/image.hpp"
+
+namespace wisp {
+
+/// Colours that stay apart on fire and on black, for colour-blind eyes too: what was captured and what was simulated.
+inline constexpr Colour kCapturedColour{64, 224, 255};
+inline constexpr Colour kSimulatedColour{255, 72, 176};
+
+/// How a line over a picture looks.
+struct LineStyle {
+  Colour colour = kCapturedColour;
+  float width = 1.8F;  ///< pixels, 0.25 … 50
+  bool dashed = false;
+  bool closed = true;   ///< from the last point straight back to the first
+  float casing = 1.4F;  ///< pixels of dark edge on either side, 0 … 20: the line stays visible on the flame
+};
+
+/// Draws a polyline in pixels (y down; the centre of the top left pixel is 0.5, 0.5). Points that are not finite break
+/// the line.
+void draw_outline(Image& image, std::span<const Point> outline, const LineStyle& style = {});
+
+/// Draws control points as small rings joined by a thin line, in pixels (y down).
+void draw_control_polygon(Image& image, std::span<const Point> points, Colour colour = kCapturedColour);
+
+enum class Corner { kTopLeft, kTopRight, kBottomLeft, kBottomRight };
+
+/// One line of a legend.
+struct LegendEntry {
+  std::string text;  ///< UTF-8
+  LineStyle style;
+};
+
+/// Draws a small legend on a translucent dark plate; `text_height` in pixels, 0 chooses by the picture's size.
+void draw_legend(Image& image, std::span<const LegendEntry> entries, Corner corner = Corner::kTopLeft,
+                 float text_height = 0);
+
+/// Draws a line of text on a translucent dark plate (frame number, time).
+void draw_label(Image& image, std::string_view text, Corner corner = Corner::kBottomLeft, float text_height = 0);
+
+}  // namespace wisp

@@ -1,0 +1,59 @@
+#pragma once
+// Pictures and sound into an MP4 file: H.264 video, AAC sound.
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "wisp/base/result.hpp"
+#include "wisp/draw/image.hpp"
+
+namespace wisp {
+
+/// How a clip is encoded.
+struct VideoOptions {
+  int width = 0;  ///< pixels, 2 … 16384; odd sizes are padded by one repeated column or row
+  int height = 0;
+  double rate_hz = 0;             ///< frames a second, 0.1 … 1000; 30000/1001 and its like are kept exactly
+  int crf = 17;                   ///< x264's constant rate factor, 0 (lossless) … 51; 17 shows no loss on soft glows
+  std::string preset = "medium";  ///< x264's speed: "ultrafast" … "veryslow"
+  bool full_range = false;        ///< luma 0 … 255, marked so in the file: what write_gray() stores is then exact
+  int sound_rate_hz = 0;          ///< samples a second of a mono sound track, such as 44100; 0: no sound track
+  int threads = 0;                ///< of the video encoder; 0: one a core. The bytes depend on it
+};
+
+/// An MP4 file in the making, written beside its name and renamed by finish(). Destroyed before that, nothing is left.
+class VideoWriter {
+ public:
+  /// Opens the file. Errors: options out of range, the folder is missing or not writable, no H.264 or AAC encoder in
+  /// this FFmpeg.
+  static Result<VideoWriter> create(const std::filesystem::path& path, const VideoOptions& options);
+
+  VideoWriter(VideoWriter&&) noexcept;
+  VideoWriter& operator=(VideoWriter&&) noexcept;
+  ~VideoWriter();
+
+  /// Appends a frame; opacity is ignored. Errors: a frame of another size, the encoder or the disk fails.
+  Result<void> write(const Image& image);
+
+  /// Appends a frame of gray bytes as luma, `row_bytes` from row to row (0: rows follow without gaps): width × height
+  /// of them, 0 … 255 where `full_range` is set and scaled to 16 … 235 otherwise. Errors: as write(), too few bytes.
+  Result<void> write_gray(std::span<const std::uint8_t> gray, std::size_t row_bytes = 0);
+
+  /// Appends sound, −1 … 1, any number of samples at any time; what is beyond is clipped, NaN is silence.
+  /// Errors: there is no sound track, the encoder or the disk fails.
+  Result<void> write_sound(std::span<const float> samples);
+
+  /// Completes the file and gives it its name. Nothing can be written afterwards.
+  /// Errors: no frame was written, the encoder or the disk fails; then no file appears.
+  Result<void> finish();
+
+ private:
+  struct Encoder;
+  explicit VideoWriter(std::unique_ptr<Encoder> encoder);
+  std::unique_ptr<Encoder> encoder_;
+};
+
+}  // namespace wisp

@@ -1,0 +1,93 @@
+#pragma once
+// ARX estimation by least squares, with the figures that say how good the estimate is.
+//
+// Source: L. Ljung, System Identification: Theory for the User (2nd ed.), sections 4.2 (model), 7.3 (least squares),
+// 9.3–9.4 (covariance of the estimate), 16.4 (FPE, AIC). Every output row is its own regression. Departures: rows with
+// a missing sample are left out one by one, and an unstable estimate is made stable (section 7.3 has no such step).
+// Equations and conventions: docs/identification.md.
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "wisp/base/result.hpp"
+#include "wisp/learn/channel_choice.hpp"
+#include "wisp/model/arx.hpp"
+#include "wisp/model/model.hpp"
+#include "wisp/record/recording.hpp"
+
+namespace wisp {
+
+/// How the operating point is found.
+enum class ArxOffset {
+  kMean,      ///< the mean of every channel over all of its samples is subtracted first (MATLAB: detrend(z, 0))
+  kNone,      ///< data is taken as it is
+  kEstimate,  ///< as kMean, and a constant term is estimated with the other coefficients
+};
+
+/// How to fit.
+struct ArxOptions {
+  ArxOrders orders;                     ///< see make_orders
+  ArxOffset offset = ArxOffset::kMean;  ///< a linear model describes deviations from an operating point
+  double ridge = 0;  ///< ≥ 0, no unit: weight of every coefficient's size, as a share of its regressor's own energy
+  std::optional<int> first_sample;  ///< first row of an episode to be predicted, 0-based, at least the longest lag;
+                                    ///< unset: the longest lag, max(na, nb + nk − 1)
+  bool stabilise = true;            ///< re-estimate an unstable model under the constraint that it is stable
+  double stability_margin = 1e-3;   ///< in (0, 1): a repaired model's spectral radius is at most 1 − this
+};
+
+/// A coefficient that the data cannot tell: its regressor is (nearly) a combination of others. It is set to 0.
+struct RankProblem {
+  int row = 0;          ///< output row
+  std::string channel;  ///< whose lag
+  int lag = 0;
+  std::string reason;  ///< one sentence, with the channels and lags that it depends on
+};
+
+/// The outcome of the check of stability.
+struct ArxStability {
+  double radius = 0;       ///< of the model as returned, rounded to single precision
+  bool changed = false;    ///< whether the estimate had to be changed
+  double estimated = 0;    ///< radius of the unconstrained estimate
+  double loss_factor = 1;  ///< geometric mean over outputs of loss with the change / loss without
+};
+
+/// How good the fit is, and what happened. Figures are those of the model as returned.
+struct ArxSummary {
+  std::vector<double> loss;              ///< V: mean squared residual per output over the rows used, output's unit²
+  std::vector<double> noise_covariance;  ///< ny × ny, row-major: mean products of residuals over the rows used
+  double fpe = 0;                        ///< det(noise covariance)·(1 + d/n)/(1 − d/n), d = coefficients per output
+  double aic = 0;                        ///< n ln det(noise covariance) + 2 d_total
+  double aicc = 0;                       ///< aic + 2 d_total (d_total + 1)/(n − d_total − 1)
+  double bic = 0;                        ///< n ln det(noise covariance) + d_total ln n
+  std::vector<double> row_fpe;           ///< V·(1 + d/n)/(1 − d/n) per output row with its own d
+  std::vector<double> fit_percent;       ///< one step ahead, 100(1 − ‖y − ŷ‖/‖y − ȳ‖) per output
+  std::vector<double> condition;         ///< 2-norm condition number of every row's regressor, in the data's units
+  std::vector<RankProblem> rank_problems;
+  ArxStability stable;
+  std::size_t samples_used = 0;  ///< n: rows in the regression
+  int first_sample = 0;          ///< first row of an episode that was predicted, 0-based
+  std::size_t episodes_used = 0;
+  std::size_t episodes_skipped = 0;  ///< too short to predict a single row
+  std::size_t rows_left_out = 0;     ///< because a sample in them or in their history is missing
+  std::string method;                ///< which factorisation and why
+  std::vector<std::string> warnings;
+  Usable usable;
+};
+
+/// A model and what to think of it.
+struct ArxFit {
+  ArxModel model;
+  ArxSummary summary;
+};
+
+/// Fits an ARX model to all episodes of all recordings together; no history crosses a gap.
+/// Returns the model (means, coefficients, standard errors, noise) and its summary. A fit that cannot be trusted is
+/// returned with `usable.verdict` false and the reason.
+/// Errors: no recordings, a channel that a recording has not, orders of the wrong shape, rates that differ, more
+/// coefficients than rows, delays longer than the data, infinite samples.
+Result<ArxFit> fit_arx(std::span<const Recording> recordings, const ChannelChoice& channels, const ArxOptions& options);
+
+}  // namespace wisp

@@ -1,0 +1,169 @@
+#include "wisp/draw/overlay.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "draw/cairo.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr Colour kCasing{0, 0, 0, 170};
+constexpr Colour kPlate{8, 8, 10, 165};
+constexpr Colour kText{244, 240, 232, 255};
+
+// Cairo keeps coordinates in 24.8 fixed point; what is farther out cannot be seen anyway.
+constexpr float kFarthest = 1e5F;
+
+bool finite(Point p) { return std::isfinite(p.x) && std::isfinite(p.y); }
+
+void trace(cairo_t* context, std::span<const Point> points, bool closed) {
+  cairo_new_path(context);
+  bool broken = true;
+  bool whole = !points.empty();
+  for (const Point p : points) {
+    if (!finite(p)) {
+      broken = true;
+      whole = false;
+      continue;
+    }
+    const double x = std::clamp(p.x, -kFarthest, kFarthest);
+    const double y = std::clamp(p.y, -kFarthest, kFarthest);
+    if (broken)
+      cairo_move_to(context, x, y);
+    else
+      cairo_line_to(context, x, y);
+    broken = false;
+  }
+  if (closed && whole) cairo_close_path(context);
+}
+
+void stroke(cairo_t* context, const LineStyle& style) {
+  const double width = std::clamp(style.width, 0.25F, 50.0F);
+  const double casing = std::clamp(style.casing, 0.0F, 20.0F);
+  cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
+  cairo_set_line_cap(context, style.dashed ? CAIRO_LINE_CAP_BUTT : CAIRO_LINE_CAP_ROUND);
+  if (casing > 0) {
+    set_colour(context, kCasing);
+    cairo_set_line_width(context, width + 2 * casing);
+    cairo_stroke_preserve(context);
+  }
+  if (style.dashed) {
+    const std::array<double, 2> dashes{width * 3.5, width * 2.2};
+    cairo_set_dash(context, dashes.data(), dashes.size(), 0);
+  }
+  set_colour(context, style.colour);
+  cairo_set_line_width(context, width);
+  cairo_stroke(context);
+  cairo_set_dash(context, nullptr, 0, 0);
+}
+
+void rounded_box(cairo_t* context, double x, double y, double width, double height, double radius) {
+  cairo_new_sub_path(context);
+  cairo_arc(context, x + width - radius, y + radius, radius, -M_PI / 2, 0);
+  cairo_arc(context, x + width - radius, y + height - radius, radius, 0, M_PI / 2);
+  cairo_arc(context, x + radius, y + height - radius, radius, M_PI / 2, M_PI);
+  cairo_arc(context, x + radius, y + radius, radius, M_PI, 3 * M_PI / 2);
+  cairo_close_path(context);
+}
+
+// Text of 1/36 of the picture's height is read easily and hides little.
+double text_size(const Image& image, float asked) {
+  if (asked > 0) return asked;
+  return std::clamp(image.height() / 36.0, 9.0, 40.0);
+}
+
+struct Plate {
+  double x = 0;
+  double y = 0;
+};
+
+// Draws the plate in its corner and returns where its content begins.
+Plate draw_plate(cairo_t* context, const Image& image, Corner corner, double width, double height, double pad) {
+  const bool right = corner == Corner::kTopRight || corner == Corner::kBottomRight;
+  const bool bottom = corner == Corner::kBottomLeft || corner == Corner::kBottomRight;
+  const double margin = pad;
+  const double x = right ? image.width() - margin - width - 2 * pad : margin;
+  const double y = bottom ? image.height() - margin - height - 2 * pad : margin;
+  rounded_box(context, std::round(x), std::round(y), std::round(width + 2 * pad), std::round(height + 2 * pad),
+              pad * 0.6);
+  set_colour(context, kPlate);
+  cairo_fill(context);
+  return {std::round(x) + pad, std::round(y) + pad};
+}
+
+void choose_font(cairo_t* context, double size) {
+  cairo_select_font_face(context, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(context, size);
+}
+
+double text_width(cairo_t* context, const std::string& text) {
+  cairo_text_extents_t extents;
+  cairo_text_extents(context, text.c_str(), &extents);
+  return extents.x_advance;
+}
+
+}  // namespace
+
+void draw_outline(Image& image, std::span<const Point> outline, const LineStyle& style) {
+  if (image.empty() || outline.empty()) return;
+  const CairoContext context = context_of(image);
+  trace(context.get(), outline, style.closed);
+  stroke(context.get(), style);
+}
+
+void draw_control_polygon(Image& image, std::span<const Point> points, Colour colour) {
+  if (image.empty()) return;
+  const CairoContext context = context_of(image);
+  Colour faint = colour;
+  faint.opacity = static_cast<std::uint8_t>(colour.opacity / 2);
+  trace(context.get(), points, false);
+  stroke(context.get(), {.colour = faint, .width = 1, .casing = 0.6F});
+  for (const Point p : points) {
+    if (!finite(p)) continue;
+    cairo_new_path(context.get());
+    cairo_arc(context.get(), std::clamp(p.x, -kFarthest, kFarthest), std::clamp(p.y, -kFarthest, kFarthest), 3, 0,
+              2 * M_PI);
+    stroke(context.get(), {.colour = colour, .width = 1.4F, .casing = 1});
+  }
+}
+
+void draw_legend(Image& image, std::span<const LegendEntry> entries, Corner corner, float text_height) {
+  if (image.empty() || entries.empty()) return;
+  const CairoContext context = context_of(image);
+  const double size = text_size(image, text_height);
+  choose_font(context.get(), size);
+  double widest = 0;
+  for (const LegendEntry& entry : entries) widest = std::max(widest, text_width(context.get(), entry.text));
+  const double sample = size * 1.9;
+  const double line = size * 1.45;
+  const Plate plate = draw_plate(context.get(), image, corner, sample + size * 0.6 + widest,
+                                 line * static_cast<double>(entries.size()), size * 0.6);
+  double middle = plate.y + line / 2;
+  for (const LegendEntry& entry : entries) {
+    cairo_new_path(context.get());
+    cairo_move_to(context.get(), plate.x, middle);
+    cairo_line_to(context.get(), plate.x + sample, middle);
+    stroke(context.get(), entry.style);
+    set_colour(context.get(), kText);
+    cairo_move_to(context.get(), plate.x + sample + size * 0.6, middle + size * 0.36);
+    cairo_show_text(context.get(), entry.text.c_str());
+    middle += line;
+  }
+}
+
+void draw_label(Image& image, std::string_view text, Corner corner, float text_height) {
+  if (image.empty() || text.empty()) return;
+  const CairoContext context = context_of(image);
+  const double size = text_size(image, text_height);
+  choose_font(context.get(), size);
+  const std::string line(text);
+  const Plate plate = draw_plate(context.get(), image, corner, text_width(context.get(), line), size * 1.1, size * 0.5);
+  set_colour(context.get(), kText);
+  cairo_move_to(context.get(), plate.x, plate.y + size * 0.91);
+  cairo_show_text(context.get(), line.c_str());
+}
+
+}  // namespace wisp

@@ -1,0 +1,81 @@
+// The meaning of a model: what every reader of a file, and every bank, relies on.
+
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "wisp/model/bspline.hpp"
+#include "wisp/model/file.hpp"
+
+namespace wisp {
+namespace {
+
+template <class Channel>
+Result<void> check_channels(const std::vector<Channel>& channels, const std::string& what) {
+  std::set<std::string> names;
+  for (const Channel& channel : channels) {
+    if (channel.name.empty()) return Error{"an " + what + " has no name"};
+    if (!names.insert(channel.name).second) return Error{"two " + what + "s are named " + channel.name};
+    const bool finite = std::isfinite(channel.lowest) && std::isfinite(channel.highest);
+    if (!finite || channel.lowest > channel.highest) {
+      return Error{what + " " + channel.name + " has a range that is not one: " + std::to_string(channel.lowest) +
+                   " to " + std::to_string(channel.highest)};
+    }
+  }
+  return {};
+}
+
+Result<void> check_dynamics(const Model& model, const ArxModel& arx) {
+  if (auto ok = check(arx); !ok) return ok;
+  if (static_cast<std::size_t>(arx.orders.outputs()) != model.outputs.size()) {
+    return Error{"the dynamics have " + std::to_string(arx.orders.outputs()) + " outputs, the model names " +
+                 std::to_string(model.outputs.size())};
+  }
+  const std::size_t seen = regressor_count(model.inputs);
+  if (static_cast<std::size_t>(arx.orders.inputs()) != seen) {
+    return Error{"the dynamics have " + std::to_string(arx.orders.inputs()) + " inputs, the model's inputs make " +
+                 std::to_string(seen)};
+  }
+  const double radius = spectral_radius(arx);
+  if (!(radius < 1.0)) {
+    return Error{"the dynamics are unstable in single precision: spectral radius " + std::to_string(radius) +
+                 ", expected below 1; learn it again with stabilisation on"};
+  }
+  return {};
+}
+
+Result<void> check_view(const Model& model, const OutlineView& outline) {
+  if (!valid_knots(outline.knots))
+    return Error{"the outline's knots are not a clamped, ascending cubic knot vector over 0 to 1"};
+  const std::size_t points = outline.knots.size() - kSplineDegree - 1;
+  if (model.outputs.size() != 2 * points) {
+    return Error{"the outline has " + std::to_string(points) + " control points, expected half of the " +
+                 std::to_string(model.outputs.size()) + " outputs"};
+  }
+  for (double scale : {outline.metres_per_unit, outline.pixels_per_unit}) {
+    if (!std::isfinite(scale) || scale < 0) return Error{"the outline's scale is not a positive number"};
+  }
+  return {};
+}
+
+Result<void> check_view(const Model&, const PlainView&) { return {}; }
+
+}  // namespace
+
+Result<void> check(const Model& model) {
+  if (!(std::isfinite(model.rate_hz) && model.rate_hz > 0 && model.rate_hz <= 1e6)) {
+    return Error{"the model's rate is " + std::to_string(model.rate_hz) + " Hz, expected above 0 and at most 1000000"};
+  }
+  if (model.outputs.empty()) return Error{"the model has no outputs"};
+  if (auto ok = check_channels(model.inputs, "input"); !ok) return ok;
+  if (auto ok = check_channels(model.outputs, "output"); !ok) return ok;
+  if (auto ok = std::visit([&](const auto& dynamics) { return check_dynamics(model, dynamics); }, model.dynamics); !ok)
+    return ok;
+  if (auto ok = std::visit([&](const auto& view) { return check_view(model, view); }, model.view); !ok) return ok;
+  for (const Figure& figure : model.provenance.figures) {
+    if (!std::isfinite(figure.value)) return Error{"the figure " + figure.name + " is not a finite number"};
+  }
+  return {};
+}
+
+}  // namespace wisp

@@ -1,0 +1,248 @@
+#include "model/payload.hpp"
+
+#include <cstdint>
+#include <string>
+
+#include "wisp_generated.h"
+
+namespace wisp {
+namespace {
+
+namespace fb = wisp_flatbuffers;
+
+std::vector<std::uint16_t> flat(const OrderMatrix& matrix) {
+  std::vector<std::uint16_t> values;
+  for (int order : matrix.values()) values.push_back(static_cast<std::uint16_t>(order));
+  return values;
+}
+
+std::vector<double> joined(const std::vector<std::vector<double>>& rows) {
+  std::vector<double> all;
+  for (const auto& row : rows) all.insert(all.end(), row.begin(), row.end());
+  return all;
+}
+
+std::vector<double> joined(const std::vector<std::array<double, 2>>& pairs) {
+  std::vector<double> all;
+  for (const auto& pair : pairs) all.insert(all.end(), pair.begin(), pair.end());
+  return all;
+}
+
+using Builder = fb::FlatBufferBuilder;
+
+// Empty optional vectors are absent in the file.
+fb::Offset<fb::Vector<double>> optional_vector(Builder& builder, const std::vector<double>& values) {
+  return values.empty() ? 0 : builder.CreateVector(values);
+}
+
+fb::Offset<file::Arx> write_arx(Builder& builder, const ArxModel& arx) {
+  const auto na = builder.CreateVector(flat(arx.orders.na));
+  const auto nb = builder.CreateVector(flat(arx.orders.nb));
+  const auto nk = builder.CreateVector(flat(arx.orders.nk));
+  const auto theta = builder.CreateVector(joined(arx.theta));
+  const auto std_error = optional_vector(builder, joined(arx.std_error));
+  const auto constant = builder.CreateVector(arx.constant);
+  const auto output_mean = builder.CreateVector(arx.output_mean);
+  const auto input_mean = builder.CreateVector(arx.input_mean);
+  const auto sd = builder.CreateVector(arx.noise.sd);
+  const auto ci = optional_vector(builder, joined(arx.noise.sd_ci95));
+  const auto mixing = optional_vector(builder, arx.noise.mixing);
+  return file::CreateArx(builder, na, nb, nk, theta, std_error, constant, output_mean, input_mean, sd, ci,
+                         static_cast<std::uint16_t>(arx.noise.rank), mixing);
+}
+
+fb::Offset<file::Provenance> write_provenance(Builder& builder, const Provenance& made) {
+  std::vector<fb::Offset<file::Note>> options;
+  for (const Note& note : made.options)
+    options.push_back(file::CreateNoteDirect(builder, note.name.c_str(), note.value.c_str()));
+  std::vector<fb::Offset<file::Figure>> figures;
+  for (const Figure& figure : made.figures)
+    figures.push_back(file::CreateFigureDirect(builder, figure.name.c_str(), figure.value));
+  const auto program = builder.CreateString(made.program);
+  const auto sources = builder.CreateVectorOfStrings(made.sources);
+  const auto options_at = builder.CreateVector(options);
+  const auto figures_at = builder.CreateVector(figures);
+  const auto reason = builder.CreateString(made.usable.reason);
+  return file::CreateProvenance(builder, program, sources, options_at, figures_at, made.usable.verdict, reason);
+}
+
+std::string text(const fb::String* string) { return string ? string->str() : std::string(); }
+
+std::vector<double> numbers(const fb::Vector<double>* values) {
+  return values ? std::vector<double>(values->begin(), values->end()) : std::vector<double>();
+}
+
+Error wrong_size(const char* what, std::size_t found, std::size_t expected) {
+  return {std::string("is damaged: ") + what + " holds " + std::to_string(found) + " values, expected " +
+          std::to_string(expected)};
+}
+
+Result<OrderMatrix> read_orders(const fb::Vector<std::uint16_t>& values, int rows, int columns, const char* name) {
+  if (values.size() != static_cast<std::size_t>(rows) * columns) {
+    return wrong_size(name, values.size(), static_cast<std::size_t>(rows) * columns);
+  }
+  OrderMatrix matrix(rows, columns);
+  for (int i = 0; i < rows; ++i) {
+    for (int j = 0; j < columns; ++j) matrix(i, j) = values[static_cast<fb::uoffset_t>(i * columns + j)];
+  }
+  return matrix;
+}
+
+Result<std::vector<std::vector<double>>> read_rows(const fb::Vector<double>& values, const ArxOrders& orders,
+                                                   const char* name) {
+  std::size_t expected = 0;
+  for (int i = 0; i < orders.outputs(); ++i) expected += orders.row_size(i);
+  if (values.size() != expected) return wrong_size(name, values.size(), expected);
+  std::vector<std::vector<double>> rows;
+  auto next = values.begin();
+  for (int i = 0; i < orders.outputs(); ++i) {
+    rows.emplace_back(next, next + orders.row_size(i));
+    next += orders.row_size(i);
+  }
+  return rows;
+}
+
+Result<void> read_noise(const file::Arx& stored, ResidualNoise& noise) {
+  noise.sd = numbers(stored.noise_sd());
+  noise.rank = stored.noise_rank();
+  noise.mixing = numbers(stored.noise_mixing());
+  const std::vector<double> ci = numbers(stored.noise_sd_ci95());
+  if (!ci.empty() && ci.size() != 2 * noise.sd.size())
+    return wrong_size("noise_sd_ci95", ci.size(), 2 * noise.sd.size());
+  for (std::size_t k = 0; k + 1 < ci.size(); k += 2) noise.sd_ci95.push_back({ci[k], ci[k + 1]});
+  return {};
+}
+
+Result<ArxModel> read_arx(const file::Arx& stored, int ny, int nu) {
+  ArxModel arx;
+  auto na = read_orders(*stored.na(), ny, ny, "na");
+  if (!na) return na.error();
+  auto nb = read_orders(*stored.nb(), ny, nu, "nb");
+  if (!nb) return nb.error();
+  auto nk = read_orders(*stored.nk(), ny, nu, "nk");
+  if (!nk) return nk.error();
+  arx.orders = {std::move(*na), std::move(*nb), std::move(*nk)};
+  auto theta = read_rows(*stored.theta(), arx.orders, "theta");
+  if (!theta) return theta.error();
+  arx.theta = std::move(*theta);
+  if (stored.std_error()) {
+    auto std_error = read_rows(*stored.std_error(), arx.orders, "std_error");
+    if (!std_error) return std_error.error();
+    arx.std_error = std::move(*std_error);
+  }
+  arx.constant = numbers(stored.constant());
+  arx.output_mean = numbers(stored.output_mean());
+  arx.input_mean = numbers(stored.input_mean());
+  if (auto ok = read_noise(stored, arx.noise); !ok) return ok.error();
+  return arx;
+}
+
+Provenance read_provenance(const file::Provenance& stored) {
+  Provenance made;
+  made.program = text(stored.program());
+  if (stored.sources()) {
+    for (const auto* source : *stored.sources()) made.sources.push_back(source->str());
+  }
+  if (stored.options()) {
+    for (const auto* note : *stored.options()) made.options.push_back({note->name()->str(), text(note->value())});
+  }
+  if (stored.figures()) {
+    for (const auto* figure : *stored.figures()) made.figures.push_back({figure->name()->str(), figure->value()});
+  }
+  made.usable = {stored.usable(), text(stored.usable_reason())};
+  return made;
+}
+
+Result<InputShape> read_shape(file::InputShape shape) {
+  switch (shape) {
+    case file::InputShape::Linear:
+      return InputShape::kLinear;
+    case file::InputShape::SplitSign:
+      return InputShape::kSplitSign;
+  }
+  return Error{"has an input shape that this program does not know; update Wisp"};
+}
+
+Result<void> read_channels(const file::Model& stored, Model& model) {
+  if (stored.inputs()) {
+    for (const auto* input : *stored.inputs()) {
+      const auto shape = read_shape(input->shape());
+      if (!shape) return shape.error();
+      model.inputs.push_back({input->name()->str(), text(input->unit()), input->lowest(), input->highest(), *shape});
+    }
+  }
+  for (const auto* output : *stored.outputs()) {
+    model.outputs.push_back({output->name()->str(), text(output->unit()), output->lowest(), output->highest()});
+  }
+  return {};
+}
+
+Result<void> read_dynamics(const file::Model& stored, Model& model) {
+  const auto* arx = stored.dynamics_as_Arx();
+  if (!arx) return Error{"has a kind of dynamics that this program does not know; update Wisp"};
+  auto read = read_arx(*arx, static_cast<int>(model.outputs.size()), static_cast<int>(regressor_count(model.inputs)));
+  if (!read) return read.error();
+  model.dynamics = std::move(*read);
+  return {};
+}
+
+Result<void> read_view(const file::Model& stored, Model& model) {
+  if (stored.view_type() == file::View::NONE) return {};
+  const auto* outline = stored.view_as_Outline();
+  if (!outline) return Error{"has a view that this program does not know; update Wisp"};
+  model.view = OutlineView{numbers(outline->knots()), outline->metres_per_unit(), outline->pixels_per_unit()};
+  return {};
+}
+
+}  // namespace
+
+std::vector<std::byte> write_payload(const Model& model) {
+  Builder builder;
+  std::vector<fb::Offset<file::Input>> inputs;
+  for (const Input& input : model.inputs) {
+    const auto shape = input.shape == InputShape::kSplitSign ? file::InputShape::SplitSign : file::InputShape::Linear;
+    inputs.push_back(
+        file::CreateInputDirect(builder, input.name.c_str(), input.unit.c_str(), input.lowest, input.highest, shape));
+  }
+  std::vector<fb::Offset<file::Output>> outputs;
+  for (const Output& output : model.outputs) {
+    outputs.push_back(
+        file::CreateOutputDirect(builder, output.name.c_str(), output.unit.c_str(), output.lowest, output.highest));
+  }
+  const auto arx = write_arx(builder, std::get<ArxModel>(model.dynamics));
+  fb::Offset<void> view;
+  file::View view_type = file::View::NONE;
+  if (const auto* outline = std::get_if<OutlineView>(&model.view)) {
+    view =
+        file::CreateOutlineDirect(builder, &outline->knots, outline->metres_per_unit, outline->pixels_per_unit).Union();
+    view_type = file::View::Outline;
+  }
+  const auto provenance = write_provenance(builder, model.provenance);
+  const auto name = builder.CreateString(model.name);
+  const auto inputs_at = builder.CreateVector(inputs);
+  const auto outputs_at = builder.CreateVector(outputs);
+  builder.Finish(file::CreateModel(builder, name, model.rate_hz, inputs_at, outputs_at, file::Dynamics::Arx,
+                                   arx.Union(), view_type, view, provenance));
+  const auto bytes = std::as_bytes(std::span(builder.GetBufferPointer(), builder.GetSize()));
+  return {bytes.begin(), bytes.end()};
+}
+
+Result<Model> read_payload(std::span<const std::byte> payload) {
+  // FlatBuffers reads aligned; the payload of a file in memory need not be, so it is verified and read from a copy.
+  std::vector<std::uint64_t> aligned((payload.size() + 7) / 8);
+  std::copy(payload.begin(), payload.end(), reinterpret_cast<std::byte*>(aligned.data()));
+  fb::Verifier verifier(reinterpret_cast<const std::uint8_t*>(aligned.data()), payload.size());
+  if (!file::VerifyModelBuffer(verifier)) return Error{"is damaged: its contents are not a valid model table"};
+  const file::Model& stored = *file::GetModel(aligned.data());
+
+  Model model;
+  model.name = text(stored.name());
+  model.rate_hz = stored.rate_hz();
+  if (auto ok = read_channels(stored, model); !ok) return ok.error();
+  if (auto ok = read_dynamics(stored, model); !ok) return ok.error();
+  if (auto ok = read_view(stored, model); !ok) return ok.error();
+  if (stored.provenance()) model.provenance = read_provenance(*stored.provenance());
+  return model;
+}
+
+}  // namespace wisp

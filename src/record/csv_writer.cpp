@@ -1,0 +1,112 @@
+#include <charconv>
+#include <cmath>
+
+#include "wisp/base/file.hpp"
+#include "wisp/record/csv.hpp"
+
+namespace wisp {
+namespace {
+
+// The shortest text that reads back as the same double.
+void append_number(std::string& text, double value) {
+  char digits[32];
+  const auto [end, code] = std::to_chars(digits, digits + sizeof digits, value);
+  text.append(digits, end);
+}
+
+std::string_view role_letter(Role role) {
+  switch (role) {
+    case Role::kInput:
+      return "u";
+    case Role::kOutput:
+      return "y";
+    case Role::kMotion:
+      return "m";
+  }
+  return "";
+}
+
+// A table of a single column has an episode column too: without it a missing sample would be a blank line.
+bool writes_episodes(const Recording& recording) {
+  return !recording.episode_ids.empty() || recording.channels.size() + recording.flags.size() == 1;
+}
+
+void append_head(std::string& text, const Recording& recording) {
+  text += "# wisp-recording 1\n# rate_hz ";
+  append_number(text, recording.rate_hz);
+  text += '\n';
+  for (const Attribute& attribute : recording.attributes) text += "# " + attribute.name + " " + attribute.value + "\n";
+
+  const char* comma = "";
+  const auto column = [&](const std::string& name) {
+    text += comma + name;
+    comma = ",";
+  };
+  if (writes_episodes(recording)) column("episode");
+  for (const Channel& channel : recording.channels) {
+    const std::string unit = channel.unit.empty() ? "" : "[" + channel.unit + "]";
+    column(std::string(role_letter(channel.role)) + ":" + channel.name + unit);
+  }
+  for (const RowFlag& flag : recording.flags) column("flag:" + flag.name);
+  text += '\n';
+}
+
+void append_row(std::string& text, const Recording& recording, std::size_t row) {
+  bool first = true;
+  const auto separate = [&] {
+    if (!first) text += ',';
+    first = false;
+  };
+  if (writes_episodes(recording)) {
+    separate();
+    text += std::to_string(recording.episode_ids.empty() ? 0 : recording.episode_ids[row]);
+  }
+  for (const Channel& channel : recording.channels) {
+    separate();
+    if (!std::isnan(channel.samples[row])) append_number(text, channel.samples[row]);
+  }
+  for (const RowFlag& flag : recording.flags) {
+    separate();
+    text += flag.rows[row] ? '1' : '0';
+  }
+  text += '\n';
+}
+
+// A name or value that the form could not give back.
+Result<void> check_text(const std::string& text, std::string_view forbidden, const std::string& what) {
+  const std::size_t bad = text.find_first_of(forbidden);
+  if (bad == std::string::npos) return {};
+  return Error{what + " \"" + text + "\" cannot be written: it holds a character that CSV uses itself"};
+}
+
+Result<void> check_writable(const Recording& recording) {
+  if (auto ok = check(recording); !ok) return ok;
+  for (const Channel& channel : recording.channels) {
+    if (auto ok = check_text(channel.name, ",\n\r\"[]", "the channel's name"); !ok) return ok;
+    if (auto ok = check_text(channel.unit, ",\n\r\"[]", "the channel's unit"); !ok) return ok;
+  }
+  for (const RowFlag& flag : recording.flags) {
+    if (auto ok = check_text(flag.name, ",\n\r\"[]", "the flag's name"); !ok) return ok;
+  }
+  for (const Attribute& attribute : recording.attributes) {
+    if (auto ok = check_text(attribute.name, " \t\n\r", "the attribute's name"); !ok) return ok;
+    if (auto ok = check_text(attribute.value, "\n\r", "the attribute's value"); !ok) return ok;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string csv_text(const Recording& recording) {
+  std::string text;
+  append_head(text, recording);
+  for (std::size_t row = 0; row < recording.rows(); ++row) append_row(text, recording, row);
+  return text;
+}
+
+Result<void> write_csv(const std::filesystem::path& path, const Recording& recording) {
+  if (auto ok = check_writable(recording); !ok) return Error{path.string() + ": " + ok.error().message};
+  return write_file(path, csv_text(recording));
+}
+
+}  // namespace wisp

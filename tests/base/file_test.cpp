@@ -1,0 +1,80 @@
+#include "wisp/base/file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace wisp {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FileTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::size_t files() const { return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), {})); }
+
+  fs::path folder_;
+};
+
+std::string text_of(const std::vector<std::byte>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+TEST_F(FileTest, WhatIsWrittenIsRead) {
+  ASSERT_TRUE(write_file(folder_ / "a.txt", std::string_view("one\0two", 7)));
+  const auto bytes = read_file(folder_ / "a.txt");
+  ASSERT_TRUE(bytes);
+  EXPECT_EQ(text_of(*bytes), std::string("one\0two", 7));
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(FileTest, AnEmptyFileIsNoBytes) {
+  ASSERT_TRUE(write_file(folder_ / "empty", std::string_view()));
+  const auto bytes = read_file(folder_ / "empty");
+  ASSERT_TRUE(bytes);
+  EXPECT_TRUE(bytes->empty());
+}
+
+TEST_F(FileTest, AMissingFileAndAFolderAreNamed) {
+  const auto missing = read_file(folder_ / "nowhere");
+  ASSERT_FALSE(missing);
+  EXPECT_NE(missing.error().message.find("nowhere"), std::string::npos);
+  const auto folder = read_file(folder_);
+  ASSERT_FALSE(folder);
+  EXPECT_NE(folder.error().message.find("is a folder"), std::string::npos);
+}
+
+TEST_F(FileTest, AFileLargerThanAllowedIsRefused) {
+  ASSERT_TRUE(write_file(folder_ / "big", std::string(1000, 'x')));
+  EXPECT_FALSE(read_file(folder_ / "big", 999));
+  EXPECT_TRUE(read_file(folder_ / "big", 1000));
+}
+
+TEST_F(FileTest, APendingFileThatIsNotCommittedLeavesTheOldOneAndNothingElse) {
+  ASSERT_TRUE(write_file(folder_ / "a.txt", "old"));
+  {
+    auto pending = PendingFile::create(folder_ / "a.txt");
+    ASSERT_TRUE(pending);
+    EXPECT_EQ(pending->path().extension(), ".txt");
+    std::ofstream(pending->path()) << "half";
+    EXPECT_EQ(files(), 2u);
+  }
+  EXPECT_EQ(files(), 1u);
+  EXPECT_EQ(text_of(*read_file(folder_ / "a.txt")), "old");
+}
+
+TEST_F(FileTest, WritingIntoAMissingFolderSaysSo) {
+  const auto outcome = write_file(folder_ / "none" / "a.txt", "text");
+  ASSERT_FALSE(outcome);
+  EXPECT_NE(outcome.error().message.find("does not exist"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace wisp

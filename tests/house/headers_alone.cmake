@@ -1,0 +1,27 @@
+# Every public header compiles alone, as C++ and, where it is C's, as C: one source a header, which includes it twice
+# and nothing else.
+#
+#   wisp_headers_alone(TARGET INCLUDE_FOLDER)    makes TARGET an object library of those sources
+function(wisp_headers_alone target folder)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${folder} ${folder}/*.hpp ${folder}/*.h)
+  if(NOT headers)
+    message(FATAL_ERROR "${folder} holds no header: there is nothing to compile alone")
+  endif()
+  set(sources)
+  foreach(header IN LISTS headers)
+    string(MAKE_C_IDENTIFIER ${header} name)
+    set(languages cpp)
+    if(header MATCHES "\\.h$")
+      set(languages cpp c)
+    endif()
+    foreach(language IN LISTS languages)
+      set(source ${CMAKE_CURRENT_BINARY_DIR}/${target}/${name}.${language})
+      file(CONFIGURE OUTPUT ${source} CONTENT "#include \"${header}\"\n#include \"${header}\"\n")
+      list(APPEND sources ${source})
+    endforeach()
+  endforeach()
+  add_library(${target} OBJECT ${sources})
+  target_include_directories(${target} PRIVATE ${folder})
+  target_compile_features(${target} PRIVATE cxx_std_20)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF UNITY_BUILD OFF)
+endfunction()

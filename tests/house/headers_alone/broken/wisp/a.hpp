@@ -1,0 +1,6 @@
+#pragma once
+#include <vector>
+
+namespace wisp {
+std::vector<int> a();
+}

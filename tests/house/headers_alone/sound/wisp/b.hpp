@@ -1,0 +1,6 @@
+#pragma once
+#include "wisp/a.hpp"
+
+namespace wisp {
+std::vector<int> b();
+}

@@ -1,0 +1,147 @@
+#include "wisp/model/file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+
+#include "model/sample_model.hpp"
+#include "wisp/base/file.hpp"
+
+namespace wisp {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string kGolden = WISP_SOURCE_DIR "/tests/model/golden/v1.wisp";
+
+std::vector<std::byte> sample_bytes() { return std::move(model_bytes(sample_model())).value(); }
+
+void expect_same(const Model& a, const Model& b) {
+  EXPECT_EQ(*model_bytes(a), *model_bytes(b));
+  const auto &x = std::get<ArxModel>(a.dynamics), &y = std::get<ArxModel>(b.dynamics);
+  EXPECT_EQ(x.orders, y.orders);
+  EXPECT_EQ(x.theta, y.theta);
+  EXPECT_EQ(x.std_error, y.std_error);
+  EXPECT_EQ(x.constant, y.constant);
+  EXPECT_EQ(x.output_mean, y.output_mean);
+  EXPECT_EQ(x.input_mean, y.input_mean);
+  EXPECT_EQ(x.noise.sd, y.noise.sd);
+  EXPECT_EQ(x.noise.sd_ci95, y.noise.sd_ci95);
+  EXPECT_EQ(x.noise.mixing, y.noise.mixing);
+  EXPECT_EQ(a.rate_hz, b.rate_hz);
+  EXPECT_EQ(a.inputs.at(0).shape, b.inputs.at(0).shape);
+  EXPECT_EQ(a.outputs.at(3).name, b.outputs.at(3).name);
+  EXPECT_EQ(std::get<OutlineView>(a.view).knots, std::get<OutlineView>(b.view).knots);
+  EXPECT_EQ(a.provenance.usable.verdict, b.provenance.usable.verdict);
+  EXPECT_EQ(a.provenance.figures.at(0).value, b.provenance.figures.at(0).value);
+  EXPECT_EQ(a.provenance.options.at(0).value, b.provenance.options.at(0).value);
+}
+
+TEST(ModelFile, WhatIsWrittenIsRead) {
+  const auto read = parse_model(sample_bytes(), "sample.wisp");
+  ASSERT_TRUE(read) << read.error().message;
+  expect_same(*read, sample_model());
+}
+
+// The golden file was written by the first release; it must load, and mean the same, for ever.
+TEST(ModelFile, TheGoldenFileOfVersion1StillMeansTheSame) {
+  if (std::getenv("WISP_WRITE_GOLDEN")) {
+    ASSERT_TRUE(write_model(kGolden, sample_model()));
+  }
+  const auto read = read_model(kGolden);
+  ASSERT_TRUE(read) << read.error().message;
+  expect_same(*read, sample_model());
+}
+
+TEST(ModelFile, EverySingleBitFlipIsAnError) {
+  std::vector<std::byte> bytes = sample_bytes();
+  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
+    bytes[bit / 8] ^= std::byte{1} << (bit % 8);
+    const auto outcome = parse_model(bytes, "flipped.wisp");
+    ASSERT_FALSE(outcome) << "bit " << bit;
+    ASSERT_THAT(outcome.error().message, HasSubstr("flipped.wisp"));
+    bytes[bit / 8] ^= std::byte{1} << (bit % 8);
+  }
+}
+
+TEST(ModelFile, EveryTruncationIsAnError) {
+  const std::vector<std::byte> bytes = sample_bytes();
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    ASSERT_FALSE(parse_model(std::span(bytes).first(size), "cut.wisp")) << size;
+  }
+}
+
+// With the hash mended, damage reaches the FlatBuffer's verifier and the checks of meaning: none may crash, and what
+// still loads must be a valid model.
+TEST(ModelFile, DamageBehindAGoodHashNeverGivesAnInvalidModel) {
+  const std::vector<std::byte> good = sample_bytes();
+  const auto fnv = [](std::span<const std::byte> payload) {
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    for (std::byte byte : payload) hash = (hash ^ std::to_integer<std::uint64_t>(byte)) * 0x100000001b3u;
+    return hash;
+  };
+  std::size_t refused = 0;
+  for (std::size_t at = 32; at < good.size(); ++at) {
+    for (int value : {0x00, 0x01, 0x7f, 0x80, 0xff}) {
+      std::vector<std::byte> bytes = good;
+      bytes[at] = static_cast<std::byte>(value);
+      const std::uint64_t hash = fnv(std::span(bytes).subspan(32));
+      for (int k = 0; k < 8; ++k) bytes[24 + k] = static_cast<std::byte>(hash >> (8 * k));
+      const auto outcome = parse_model(bytes, "hostile.wisp");
+      if (outcome) {
+        EXPECT_TRUE(check(*outcome));
+      } else {
+        ++refused;
+      }
+    }
+  }
+  EXPECT_GT(refused, 100u);
+}
+
+TEST(ModelFile, OtherFilesAndVersionsAreNamed) {
+  const std::string text = "This is not a model, it is a letter.";
+  const auto letter = parse_model(std::as_bytes(std::span(text)), "letter.txt");
+  ASSERT_FALSE(letter);
+  EXPECT_THAT(letter.error().message, HasSubstr("is not a .wisp model"));
+  std::vector<std::byte> bytes = sample_bytes();
+  bytes[8] = std::byte{7};
+  EXPECT_THAT(parse_model(bytes, "new.wisp").error().message, HasSubstr("format version 7"));
+  EXPECT_THAT(parse_model({}, "empty.wisp").error().message, HasSubstr("is empty"));
+}
+
+TEST(ModelFile, AModelWithoutMeaningIsNeitherWrittenNorRead) {
+  const auto arx = [](Model& model) -> ArxModel& { return std::get<ArxModel>(model.dynamics); };
+  const std::vector<std::pair<std::string, std::function<void(Model&)>>> broken = {
+      {"rate", [](Model& m) { m.rate_hz = 0; }},
+      {"outputs", [](Model& m) { m.outputs.pop_back(); }},
+      {"inputs", [](Model& m) { m.inputs.clear(); }},
+      {"named", [](Model& m) { m.outputs[1].name = m.outputs[0].name; }},
+      {"range", [](Model& m) { m.outputs[1].lowest = 99; }},
+      {"finite", [&](Model& m) { arx(m).theta[0][0] = NAN; }},
+      {"coefficients", [&](Model& m) { arx(m).theta[3].pop_back(); }},
+      {"negative", [&](Model& m) { arx(m).noise.sd[0] = -1; }},
+      {"unstable",
+       [&](Model& m) {
+         arx(m).theta[0] = {-2.0, 0.5, 0.01, 0.3, -0.3};
+       }},
+      {"knots", [](Model& m) { std::get<OutlineView>(m.view).knots[4] = -1; }},
+      {"control points",
+       [](Model& m) {
+         m.view = OutlineView{uniform_knots(5), 0, 0};
+       }},
+      {"figure", [](Model& m) { m.provenance.figures[0].value = INFINITY; }},
+  };
+  for (const auto& [word, harm] : broken) {
+    Model model = sample_model();
+    harm(model);
+    const auto outcome = model_bytes(model);
+    ASSERT_FALSE(outcome) << word;
+    EXPECT_THAT(outcome.error().message, HasSubstr(word));
+  }
+}
+
+}  // namespace
+}  // namespace wisp

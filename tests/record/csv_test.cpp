@@ -1,0 +1,188 @@
+#include "wisp/record/csv.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <random>
+#include <sstream>
+
+namespace wisp {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+Result<Recording> parse(const std::string& text, const CsvOptions& options = {}) {
+  std::istringstream stream(text);
+  return read_csv(stream, "test.csv", options);
+}
+
+std::string complaint(const std::string& text, const CsvOptions& options = {}) {
+  const auto outcome = parse(text, options);
+  return outcome ? "no complaint" : outcome.error().message;
+}
+
+const std::string kHead = "# wisp-recording 1\n# rate_hz 30\n";
+
+TEST(Csv, ReadsItsOwnFormWithRolesUnitsEpisodesFlagsAndAttributes) {
+  const auto recording = parse(kHead +
+                               "# knots 0 0 0 0 1 1 1 1\n"
+                               "episode,u:wind[m/s],y:p0.x[px],m:base.x[px],flag:filled\n"
+                               "0,0.5,1e-3,7,0\n"
+                               "0,,2,7,1\n"
+                               "4,-1,3,8,0\n");
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_EQ(recording->rate_hz, 30);
+  ASSERT_EQ(recording->channels.size(), 3u);
+  EXPECT_EQ(recording->channels[0].role, Role::kInput);
+  EXPECT_EQ(recording->channels[0].unit, "m/s");
+  EXPECT_EQ(recording->channels[1].name, "p0.x");
+  EXPECT_EQ(recording->channels[2].role, Role::kMotion);
+  EXPECT_TRUE(std::isnan(recording->channels[0].samples[1]));
+  EXPECT_EQ(recording->flags.at(0).rows, (std::vector<std::uint8_t>{0, 1, 0}));
+  EXPECT_EQ(find_attribute(*recording, "knots"), "0 0 0 0 1 1 1 1");
+  const auto found = episodes(*recording);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].end, 2u);
+  EXPECT_EQ(found[1].size(), 1u);
+}
+
+TEST(Csv, ReadsAPlainTableWhenNamesAndRateAreGiven) {
+  const auto recording = parse("\xef\xbb\xbftime, \"u1\",y1\r\n12:00,1,2\r\n12:01,+3,-4.5e2\r\n\r\n",
+                               {.rate_hz = 12.5, .inputs = {"u1"}, .outputs = {"y1"}});
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_EQ(recording->rate_hz, 12.5);
+  ASSERT_EQ(recording->rows(), 2u);
+  EXPECT_EQ(recording->channels[1].samples[1], -450);
+}
+
+TEST(Csv, ReadsSemicolonsAndTabs) {
+  const CsvOptions options{.rate_hz = 1, .outputs = {"b"}};
+  EXPECT_EQ(parse("a;b\n1;2\n", options)->channels[0].samples[0], 2);
+  EXPECT_EQ(parse("a\tb\n1\t2\n", options)->channels[0].samples[0], 2);
+}
+
+TEST(Csv, NumbersRoundTripBitForBit) {
+  Recording recording{"", 29.97002997002997, {{"a", "", Role::kOutput, {}}, {"b", "px", Role::kInput, {}}}, {}, {}, {}};
+  std::mt19937_64 random(1);
+  while (recording.channels[0].samples.size() < 20000) {
+    const double value = std::bit_cast<double>(random());
+    if (!std::isfinite(value)) continue;
+    recording.channels[0].samples.push_back(value);
+    recording.channels[1].samples.push_back(random() % 7 ? value / 3 : std::numeric_limits<double>::quiet_NaN());
+  }
+  recording.channels[0].samples[0] = -0.0;
+  recording.channels[0].samples[1] = std::numeric_limits<double>::denorm_min();
+  const auto read = parse(csv_text(recording));
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->rate_hz, recording.rate_hz);
+  for (std::size_t k : {0u, 1u}) {
+    for (std::size_t row = 0; row < recording.rows(); ++row) {
+      const double was = recording.channels[k].samples[row], is = read->channels[k].samples[row];
+      if (std::isnan(was)) {
+        EXPECT_TRUE(std::isnan(is));
+      } else {
+        EXPECT_EQ(std::bit_cast<std::uint64_t>(was), std::bit_cast<std::uint64_t>(is));
+      }
+    }
+  }
+}
+
+TEST(Csv, ASingleChannelKeepsItsMissingSamples) {
+  Recording recording{"", 1, {{"a", "", Role::kOutput, {1, std::nan(""), 3}}}, {}, {}, {}};
+  const auto read = parse(csv_text(recording));
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_EQ(read->rows(), 3u);
+  EXPECT_TRUE(std::isnan(read->channels[0].samples[1]));
+}
+
+TEST(Csv, AWrongColumnCountIsNamedWithItsRow) {
+  EXPECT_THAT(complaint(kHead + "u:a,y:b\n1,2\n1,2,3\n"), AllOf(HasSubstr("test.csv, row 5"), HasSubstr("3 columns")));
+  EXPECT_THAT(complaint(kHead + "u:a,y:b\n1\n"),
+              AllOf(HasSubstr("row 4"), HasSubstr("has 1 columns, the header has 2")));
+}
+
+TEST(Csv, WhatIsNotANumberIsNamedWithItsRow) {
+  EXPECT_THAT(complaint(kHead + "u:a,y:b\n1,two\n"), AllOf(HasSubstr("row 4"), HasSubstr("\"two\", column 2")));
+  EXPECT_THAT(complaint(kHead + "u:a,y:b\n1,2.5.1\n"), HasSubstr("expected a number"));
+  EXPECT_THAT(complaint(kHead + "u:a,y:b\n1,0x10\n"), HasSubstr("expected a number"));
+  for (const char* cell : {"nan", "NaN", "inf", "-Infinity", "1e999"}) {
+    EXPECT_THAT(complaint(kHead + "u:a,y:b\n1," + cell + "\n"), HasSubstr("expected a finite number")) << cell;
+  }
+}
+
+TEST(Csv, AFileWithoutRateRowsOrHeaderIsRefused) {
+  EXPECT_THAT(complaint("# wisp-recording 1\nu:a\n1\n"), HasSubstr("states no rate"));
+  EXPECT_THAT(complaint("# wisp-recording 1\n# rate_hz fast\nu:a\n1\n"), HasSubstr("rate_hz is \"fast\""));
+  EXPECT_THAT(complaint("# wisp-recording 1\n# rate_hz -30\nu:a\n1\n"), HasSubstr("above 0"));
+  EXPECT_THAT(complaint(kHead + "u:a,y:b\n"), HasSubstr("no rows"));
+  EXPECT_THAT(complaint(""), HasSubstr("is empty"));
+  EXPECT_THAT(complaint(kHead), HasSubstr("is empty"));
+  EXPECT_THAT(complaint("1,2\n3,4\n", {.rate_hz = 1, .inputs = {"a"}}),
+              HasSubstr("starts with numbers"));
+}
+
+TEST(Csv, ColumnsThatCannotBeUnderstoodAreNamed) {
+  EXPECT_THAT(complaint(kHead + "u:a,b\n1,2\n"), HasSubstr("\"b\" has no role"));
+  EXPECT_THAT(complaint(kHead + "u:a,y:a\n1,2\n"), HasSubstr("two columns are named"));
+  EXPECT_THAT(complaint("a,b\n1,2\n", {.rate_hz = 1}), HasSubstr("--inputs and --outputs"));
+  EXPECT_THAT(complaint("a,b\n1,2\n", {.rate_hz = 1, .inputs = {"c"}}),
+              HasSubstr("its columns are a, b"));
+  EXPECT_THAT(complaint("# wisp-recording 9\n# rate_hz 1\nu:a\n1\n"), HasSubstr("version"));
+  EXPECT_THAT(complaint(kHead + "y:a,flag:x\n1,2\n"), HasSubstr("expected a flag, 0 or 1"));
+  EXPECT_THAT(complaint(kHead + "episode,y:a\n1.5,2\n"), HasSubstr("whole number"));
+}
+
+TEST(Csv, BinaryRubbishAndEndlessLinesAreRefusedInBoundedMemory) {
+  EXPECT_THAT(complaint(std::string("\x7f\x45\x4c\x46\x02\x01\x00\x00", 8)), HasSubstr("not text"));
+  EXPECT_THAT(complaint(kHead + "u:a,y:b\n1,\x01\n"), AllOf(HasSubstr("row 4"), HasSubstr("not text")));
+
+  // A stream that never ends a line stands for the 2 GB one; reading must stop by itself.
+  struct Endless : std::streambuf {
+    char block[4096];
+    std::size_t served = 0;
+    int underflow() override {
+      served += sizeof block;
+      std::fill(std::begin(block), std::end(block), '7');
+      setg(block, block, block + sizeof block);
+      return block[0];
+    }
+  } endless;
+  std::istream stream(&endless);
+  const auto outcome = read_csv(stream, "endless.csv");
+  ASSERT_FALSE(outcome);
+  EXPECT_THAT(outcome.error().message, HasSubstr("longer than 16 MiB"));
+  EXPECT_LT(endless.served, std::size_t{17} << 20);
+}
+
+TEST(Csv, IsReadAStretchAtATime) {
+  std::istringstream stream(kHead + "u:a\n1\n2\n3\n");
+  auto reader = CsvReader::open(stream, "test.csv");
+  ASSERT_TRUE(reader);
+  Recording chunk = reader->header();
+  EXPECT_EQ(*reader->read(chunk, 2), 2u);
+  EXPECT_EQ(*reader->read(chunk, 2), 1u);
+  EXPECT_EQ(*reader->read(chunk, 2), 0u);
+  EXPECT_EQ(chunk.channels[0].samples, (std::vector<double>{1, 2, 3}));
+}
+
+TEST(Csv, ABadRecordingIsNotWritten) {
+  const auto path = std::filesystem::path(testing::TempDir()) / "bad_recording.csv";
+  std::filesystem::remove(path);
+  Recording recording{"", 0, {{"a", "", Role::kOutput, {1}}}, {}, {}, {}};
+  EXPECT_FALSE(write_csv(path, recording));
+  recording.rate_hz = 1;
+  recording.channels[0].name = "a,b";
+  EXPECT_FALSE(write_csv(path, recording));
+  recording.channels[0].name = "a";
+  recording.channels[0].samples[0] = INFINITY;
+  EXPECT_FALSE(write_csv(path, recording));
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+}  // namespace
+}  // namespace wisp
