@@ -1,0 +1,49 @@
+#pragma once
+// How a channel moves: its power over frequency, its memory over time, and how far two of them are apart.
+//
+// Source: P. D. Welch, "The use of fast Fourier transform for the estimation of power spectra", IEEE Trans. Audio
+// Electroacoust. 15 (1967); A. V. Oppenheim & R. W. Schafer, Discrete-Time Signal Processing, section 10.6.
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace wisp {
+
+/// Stretches of consecutive samples of one channel.
+using Samples = std::span<const std::vector<double>>;
+
+/// Power spectral density.
+struct Spectrum {
+  std::vector<double> frequency_hz;  ///< 0 … rate/2
+  std::vector<double> power;         ///< one-sided, squared unit per hertz; sums over frequency to the variance
+  std::size_t segments = 0;          ///< periodograms averaged
+};
+
+/// Welch's estimate: segments of `length` samples that overlap by half, each without its mean and under a Hann window,
+/// their periodograms averaged. Segments never cross from one stretch to the next.
+/// Returns the spectrum; without power where no stretch has `length` samples.
+///
+/// Precondition: length is even and >= 2; rate_hz > 0.
+Spectrum welch(Samples stretches, double rate_hz, std::size_t length);
+
+/// Root mean square over frequency of 10 log10(P/Q), in decibels; the frequency 0 is left out, because segments have
+/// had their means removed. Power more than 100 dB below the larger spectrum's peak counts as that, so that a still
+/// channel against a still one is 0. NaN where a spectrum has no power estimates.
+///
+/// Precondition: both have the same frequencies.
+double log_spectral_distance(const Spectrum& p, const Spectrum& q);
+
+/// Autocorrelation at lags 0 … lags−1: products over the pairs there are, mean of each stretch removed, 1 at lag 0.
+/// Stretches of fewer than 2 · lags samples are left out where longer ones exist. A channel that never changes has
+/// r = 0 beyond lag 0.
+///
+/// Precondition: some stretch is longer than `lags`; lags >= 1.
+std::vector<double> autocorrelation(Samples stretches, std::size_t lags);
+
+/// Mean |r − s| over the lags from 1 on.
+///
+/// Precondition: the same number of lags, at least 2.
+double autocorrelation_distance(std::span<const double> r, std::span<const double> s);
+
+}  // namespace wisp

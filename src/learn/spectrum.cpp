@@ -1,0 +1,137 @@
+#include "wisp/learn/spectrum.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+namespace wisp {
+namespace {
+
+std::vector<double> hann(std::size_t length) {
+  std::vector<double> window(length);
+  for (std::size_t i = 0; i < length; ++i) {
+    window[i] = 0.5 - 0.5 * std::cos(2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(length));
+  }
+  return window;
+}
+
+// cos and sin of 2π k i / length for k = 0 … length/2: a few dozen samples need no fast transform.
+struct Fourier {
+  explicit Fourier(std::size_t length) : length_(length), cosine_(length), sine_(length) {
+    for (std::size_t i = 0; i < length; ++i) {
+      const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(length);
+      cosine_[i] = std::cos(angle);
+      sine_[i] = std::sin(angle);
+    }
+  }
+
+  double squared_magnitude(std::span<const double> samples, std::size_t k) const {
+    double real = 0;
+    double imaginary = 0;
+    for (std::size_t i = 0; i < length_; ++i) {
+      const std::size_t at = (i * k) % length_;
+      real += samples[i] * cosine_[at];
+      imaginary -= samples[i] * sine_[at];
+    }
+    return real * real + imaginary * imaginary;
+  }
+
+ private:
+  std::size_t length_;
+  std::vector<double> cosine_;
+  std::vector<double> sine_;
+};
+
+double mean_of(std::span<const double> samples) {
+  return std::accumulate(samples.begin(), samples.end(), 0.0) / static_cast<double>(samples.size());
+}
+
+std::vector<double> without_mean(std::span<const double> samples) {
+  const double mean = mean_of(samples);
+  std::vector<double> out(samples.begin(), samples.end());
+  for (double& value : out) value -= mean;
+  return out;
+}
+
+// Sum over pairs `lag` apart, and their number.
+struct Pairs {
+  double sum = 0;
+  double count = 0;
+};
+
+void add_pairs(std::span<const double> centred, std::size_t lag, Pairs& pairs) {
+  for (std::size_t t = lag; t < centred.size(); ++t) pairs.sum += centred[t] * centred[t - lag];
+  if (centred.size() > lag) pairs.count += static_cast<double>(centred.size() - lag);
+}
+
+}  // namespace
+
+Spectrum welch(Samples stretches, double rate_hz, std::size_t length) {
+  assert(length >= 2 && length % 2 == 0 && rate_hz > 0);
+  const std::vector<double> window = hann(length);
+  const Fourier fourier(length);
+  const double energy = std::inner_product(window.begin(), window.end(), window.begin(), 0.0);
+  Spectrum out;
+  std::vector<double> sum(length / 2 + 1, 0.0);
+  for (const auto& stretch : stretches) {
+    for (std::size_t first = 0; first + length <= stretch.size(); first += length / 2) {
+      std::vector<double> segment = without_mean(std::span(stretch).subspan(first, length));
+      for (std::size_t i = 0; i < length; ++i) segment[i] *= window[i];
+      for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += fourier.squared_magnitude(segment, k);
+      ++out.segments;
+    }
+  }
+  for (std::size_t k = 0; k < sum.size(); ++k) {
+    out.frequency_hz.push_back(rate_hz * static_cast<double>(k) / static_cast<double>(length));
+    if (out.segments == 0) continue;
+    const double sides = k == 0 || k == length / 2 ? 1 : 2;
+    out.power.push_back(sides * sum[k] / (rate_hz * energy * static_cast<double>(out.segments)));
+  }
+  return out;
+}
+
+double log_spectral_distance(const Spectrum& p, const Spectrum& q) {
+  assert(p.frequency_hz.size() == q.frequency_hz.size());
+  if (p.power.empty() || q.power.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const double peak =
+      std::max(*std::max_element(p.power.begin(), p.power.end()), *std::max_element(q.power.begin(), q.power.end()));
+  if (peak == 0) return 0;
+  const double least = peak * 1e-10;
+  double sum = 0;
+  for (std::size_t k = 1; k < p.power.size(); ++k) {
+    const double decibels = 10 * std::log10(std::max(p.power[k], least) / std::max(q.power[k], least));
+    sum += decibels * decibels;
+  }
+  return std::sqrt(sum / static_cast<double>(p.power.size() - 1));
+}
+
+std::vector<double> autocorrelation(Samples stretches, std::size_t lags) {
+  std::size_t longest = 0;
+  for (const auto& stretch : stretches) longest = std::max(longest, stretch.size());
+  assert(lags >= 1 && longest > lags);
+  const std::size_t least = longest >= 2 * lags ? 2 * lags : lags + 1;
+  std::vector<Pairs> pairs(lags);
+  for (const auto& stretch : stretches) {
+    if (stretch.size() < least) continue;
+    const std::vector<double> centred = without_mean(stretch);
+    for (std::size_t lag = 0; lag < lags; ++lag) add_pairs(centred, lag, pairs[lag]);
+  }
+  std::vector<double> r(lags, 0.0);
+  r[0] = 1;
+  const double variance = pairs[0].sum / pairs[0].count;
+  if (variance <= 0) return r;
+  for (std::size_t lag = 1; lag < lags; ++lag) r[lag] = pairs[lag].sum / pairs[lag].count / variance;
+  return r;
+}
+
+double autocorrelation_distance(std::span<const double> r, std::span<const double> s) {
+  assert(r.size() == s.size() && r.size() >= 2);
+  double sum = 0;
+  for (std::size_t lag = 1; lag < r.size(); ++lag) sum += std::abs(r[lag] - s[lag]);
+  return sum / static_cast<double>(r.size() - 1);
+}
+
+}  // namespace wisp
