@@ -1,0 +1,28 @@
+# What `cmake --install` puts in place: headers, one static library a layer, the package files of find_package(wisp),
+# and the program. Every layer is an export set of its own, so that a game that asks for wisp::run never has to find
+# FFmpeg.
+include(CMakePackageConfigHelpers)
+
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/wisp)
+get_property(layers GLOBAL PROPERTY WISP_LAYERS)
+set(WISP_INSTALLED_LAYERS)
+foreach(layer IN LISTS layers)
+  string(REGEX REPLACE "^wisp_" "" name ${layer})
+  list(APPEND WISP_INSTALLED_LAYERS ${name})
+  install(TARGETS ${layer} EXPORT wisp-${name} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(EXPORT wisp-${name} NAMESPACE wisp:: DESTINATION ${package})
+endforeach()
+
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/wisp-config.cmake.in
+  ${PROJECT_BINARY_DIR}/wisp-config.cmake INSTALL_DESTINATION ${package} NO_SET_AND_CHECK_MACRO)
+# Before 1.0 a minor version may break what a host relies on.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/wisp-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/wisp-config.cmake ${PROJECT_BINARY_DIR}/wisp-config-version.cmake
+  DESTINATION ${package})
+
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/wisp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+  FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+if(TARGET wisp)
+  install(TARGETS wisp RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()

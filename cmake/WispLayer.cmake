@@ -13,12 +13,16 @@ function(wisp_layer name)
   if(NOT sources)
     add_library(${target} INTERFACE)
     add_library(wisp::${name} ALIAS ${target})
+    set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+    set_property(GLOBAL APPEND PROPERTY WISP_LAYERS ${target})
     return()
   endif()
   add_library(${target} ${sources})
   add_library(wisp::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON CXX_EXTENSIONS OFF)
   target_compile_features(${target} PUBLIC cxx_std_20)
+  # A host's include_directories() would come first and bring its own version of what a layer uses.
+  set_target_properties(${target} PROPERTIES INCLUDE_DIRECTORIES "")
   target_include_directories(${target}
     PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
     PRIVATE ${PROJECT_SOURCE_DIR}/src)
@@ -38,4 +42,6 @@ function(wisp_warnings target)
   if(WISP_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
+  # GCC 12 and 13 wrongly see overlapping copies in "text" + std::string (GCC bug 105651).
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 endfunction()

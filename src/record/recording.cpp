@@ -56,13 +56,6 @@ std::optional<std::size_t> find_channel(const Recording& recording, std::string_
   return std::nullopt;
 }
 
-std::optional<std::string_view> find_attribute(const Recording& recording, std::string_view name) {
-  for (const Attribute& attribute : recording.attributes) {
-    if (attribute.name == name) return attribute.value;
-  }
-  return std::nullopt;
-}
-
 Recording slice(const Recording& recording, std::size_t first, std::size_t last) {
   Recording out{recording.source, recording.rate_hz, {}, {}, {}, recording.attributes};
   for (const Channel& channel : recording.channels) {

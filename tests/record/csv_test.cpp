@@ -122,16 +122,14 @@ TEST(Csv, AFileWithoutRateRowsOrHeaderIsRefused) {
   EXPECT_THAT(complaint(kHead + "u:a,y:b\n"), HasSubstr("no rows"));
   EXPECT_THAT(complaint(""), HasSubstr("is empty"));
   EXPECT_THAT(complaint(kHead), HasSubstr("is empty"));
-  EXPECT_THAT(complaint("1,2\n3,4\n", {.rate_hz = 1, .inputs = {"a"}}),
-              HasSubstr("starts with numbers"));
+  EXPECT_THAT(complaint("1,2\n3,4\n", {.rate_hz = 1, .inputs = {"a"}}), HasSubstr("starts with numbers"));
 }
 
 TEST(Csv, ColumnsThatCannotBeUnderstoodAreNamed) {
   EXPECT_THAT(complaint(kHead + "u:a,b\n1,2\n"), HasSubstr("\"b\" has no role"));
   EXPECT_THAT(complaint(kHead + "u:a,y:a\n1,2\n"), HasSubstr("two columns are named"));
   EXPECT_THAT(complaint("a,b\n1,2\n", {.rate_hz = 1}), HasSubstr("--inputs and --outputs"));
-  EXPECT_THAT(complaint("a,b\n1,2\n", {.rate_hz = 1, .inputs = {"c"}}),
-              HasSubstr("its columns are a, b"));
+  EXPECT_THAT(complaint("a,b\n1,2\n", {.rate_hz = 1, .inputs = {"c"}}), HasSubstr("its columns are a, b"));
   EXPECT_THAT(complaint("# wisp-recording 9\n# rate_hz 1\nu:a\n1\n"), HasSubstr("version"));
   EXPECT_THAT(complaint(kHead + "y:a,flag:x\n1,2\n"), HasSubstr("expected a flag, 0 or 1"));
   EXPECT_THAT(complaint(kHead + "episode,y:a\n1.5,2\n"), HasSubstr("whole number"));

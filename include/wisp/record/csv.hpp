@@ -16,7 +16,7 @@ namespace wisp {
 /// How to understand a table that does not say so itself. A file's own words win where both speak, except
 /// `inputs` and `outputs`, which, when given, choose the channels to keep and their roles.
 struct CsvOptions {
-  double rate_hz = 0;                ///< samples a second; 0: the file must state it
+  double rate_hz = 0;                  ///< samples a second; 0: the file must state it
   std::vector<std::string> inputs{};   ///< columns that are inputs
   std::vector<std::string> outputs{};  ///< columns that are outputs
 };

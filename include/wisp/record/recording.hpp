@@ -49,12 +49,12 @@ struct Episode {
 
 /// Inputs, outputs and motion over time. All channels and flags have `rows()` entries.
 struct Recording {
-  std::string source;  ///< where it came from, for messages
-  double rate_hz = 0;  ///< samples a second, > 0
-  std::vector<Channel> channels;
-  std::vector<RowFlag> flags;
-  std::vector<std::int64_t> episode_ids;  ///< one a row; empty: a single episode
-  std::vector<Attribute> attributes;
+  std::string source{};  ///< where it came from, for messages
+  double rate_hz = 0;    ///< samples a second, > 0
+  std::vector<Channel> channels{};
+  std::vector<RowFlag> flags{};
+  std::vector<std::int64_t> episode_ids{};  ///< one a row; empty: a single episode
+  std::vector<Attribute> attributes{};
 
   std::size_t rows() const { return channels.empty() ? 0 : channels.front().samples.size(); }
 };
@@ -70,6 +70,13 @@ std::optional<std::size_t> find_channel(const Recording& recording, std::string_
 
 /// The attribute's value, or nothing.
 std::optional<std::string_view> find_attribute(const Recording& recording, std::string_view name);
+
+/// The attribute's value as numbers separated by blanks; nothing where there is no such attribute.
+/// Errors: something in it is not a finite number.
+Result<std::optional<std::vector<double>>> numbers_attribute(const Recording& recording, std::string_view name);
+
+/// Sets an attribute to numbers that numbers_attribute() reads back bit for bit.
+void set_numbers_attribute(Recording& recording, std::string_view name, std::span<const double> values);
 
 /// Rows [first, last) of a recording, with its channels, flags, episodes and attributes.
 ///

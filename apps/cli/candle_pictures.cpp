@@ -1,0 +1,44 @@
+#include "candle_pictures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wisp::cli {
+namespace {
+
+constexpr int kHeight = 720;
+constexpr int kLoneWidth = 640;  // room for one flame to lean either way
+constexpr int kWidest = 1920;
+
+}  // namespace
+
+CandlePictures::CandlePictures(const Bank& bank)
+    : width_(std::min(kLoneWidth + 220 * (bank.size() - 1), kWidest)), height_(kHeight) {
+  const int count = bank.size();
+  for (int k = 0; k < count; ++k) {
+    FlameScene scene = framed(width_, height_);
+    const double spacing = static_cast<double>(width_) / (count + 1);
+    scene.base.x = static_cast<float>(spacing * (k + 1));
+    if (count > 1) scene.pixels_per_unit = std::min(scene.pixels_per_unit, static_cast<float>(spacing));
+    scene.seed = static_cast<std::uint64_t>(k) + 1;
+    scenes_.push_back(scene);
+  }
+  const auto slots = static_cast<std::size_t>(bank.slots());
+  polylines_.resize(slots * bank.polyline_points() * 2);
+  points_.resize(slots * bank.polyline_points());
+  image_ = Image(width_, height_);
+}
+
+const Image& CandlePictures::draw(const Bank& bank) {
+  bank.polylines(polylines_);
+  for (std::size_t k = 0; k < points_.size(); ++k) points_[k] = {polylines_[2 * k], polylines_[2 * k + 1]};
+  const auto each = static_cast<std::size_t>(bank.polyline_points());
+  std::vector<Flame> flames;
+  for (std::size_t k = 0; k < scenes_.size(); ++k)
+    flames.push_back({std::span(points_).subspan(k * each, each), scenes_[k]});
+  draw_night(image_);
+  draw_flames(image_, flames);
+  return image_;
+}
+
+}  // namespace wisp::cli

@@ -1,0 +1,100 @@
+#pragma once
+// What a command of the program is: one entry of the table from which parser, help and docs/cli.md are made.
+
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "wisp/base/result.hpp"
+
+namespace wisp::cli {
+
+class Terminal;
+
+/// What a flag takes, so that wrong usage is found before any work is done.
+enum class Kind {
+  kSwitch,         ///< nothing: it is there or not
+  kText,           ///< any text
+  kPath,           ///< a file or folder name
+  kInteger,        ///< a whole number, not negative
+  kNumber,         ///< a finite number
+  kChoice,         ///< one of the words in `words`
+  kIntegerOrWord,  ///< a whole number, or one of the words
+  kNames,          ///< names, separated by commas
+  kSamples,        ///< a range A:B of samples, 1-based, inclusive
+};
+
+/// One flag of a command.
+struct Flag {
+  std::string name;  ///< without the dashes
+  Kind kind = Kind::kSwitch;
+  std::string value;     ///< how help names its value
+  std::string fallback;  ///< its default as text; empty: none
+  std::string help;
+  std::vector<std::string> words{};
+  bool required = false;
+};
+
+/// What stands without dashes.
+struct Positional {
+  std::string name;
+  std::string help;
+  bool many = false;
+  bool optional = false;
+};
+
+struct Example {
+  std::string line;
+  std::string what;
+};
+
+/// 1-based and inclusive, as identification people write them.
+struct SampleRange {
+  std::size_t first = 1;
+  std::size_t last = 0;
+};
+
+/// What the user gave, defaults filled in. Values were checked against their Kind by the parser.
+class Arguments {
+ public:
+  bool has(std::string_view flag) const { return values_.count(std::string(flag)) > 0; }
+  bool on(std::string_view flag) const { return has(flag); }
+  const std::string& text(std::string_view flag) const { return values_.at(std::string(flag)); }
+  int integer(std::string_view flag) const;
+  double number(std::string_view flag) const;
+  std::vector<std::string> names(std::string_view flag) const;
+  SampleRange samples(std::string_view flag) const;
+  const std::string& positional() const { return positionals_.front(); }
+  const std::vector<std::string>& positionals() const { return positionals_; }
+
+  void set(const std::string& flag, std::string value) { values_[flag] = std::move(value); }
+  void set_positionals(std::vector<std::string> values) { positionals_ = std::move(values); }
+
+ private:
+  std::map<std::string, std::string> values_;
+  std::vector<std::string> positionals_;
+};
+
+/// A command: its words (`learn arx`), what it takes, and what it does. `run` returns the error of exit status 1.
+struct Command {
+  std::string name;
+  std::string summary;
+  std::vector<Positional> positionals;
+  std::vector<Flag> flags;
+  std::vector<Example> examples;
+  std::function<Result<void>(const Arguments&, Terminal&)> run;
+};
+
+/// All commands, in the order of help and manual.
+const std::vector<Command>& commands();
+
+/// Flags that every command has.
+const std::vector<Flag>& common_flags();
+
+/// docs/cli.md, made from the table.
+std::string manual();
+
+}  // namespace wisp::cli

@@ -1,0 +1,41 @@
+#include "commands.hpp"
+
+#include <cstdio>
+
+#include "terminal.hpp"
+
+namespace wisp::cli {
+
+const std::vector<Command>& commands() {
+  static const std::vector<Command> all = {
+      capture_outline_command(),
+      capture_flame_command(),
+      learn_outline_command(),
+      learn_flame_command(),
+      learn_arx_command(),
+      validate_command(),
+      run_command(),
+      info_command(),
+      demo_command(),
+      manual_command(),
+  };
+  return all;
+}
+
+Command manual_command() {
+  return {"manual",
+          "Prints this page: all commands and flags, as Markdown.",
+          {},
+          {},
+          {},
+          [](const Arguments&, Terminal& terminal) -> Result<void> {
+            if (terminal.json()) {
+              terminal.result()["manual"] = manual();
+            } else {
+              std::fputs(manual().c_str(), stdout);
+            }
+            return {};
+          }};
+}
+
+}  // namespace wisp::cli

@@ -1,0 +1,19 @@
+#pragma once
+// The entries of the table, one a file.
+
+#include "command.hpp"
+
+namespace wisp::cli {
+
+Command capture_outline_command();
+Command capture_flame_command();
+Command learn_outline_command();
+Command learn_flame_command();
+Command learn_arx_command();
+Command validate_command();
+Command run_command();
+Command info_command();
+Command demo_command();
+Command manual_command();
+
+}  // namespace wisp::cli

@@ -1,0 +1,118 @@
+// `wisp info`: what a model file holds.
+
+#include "commands.hpp"
+#include "figures_json.hpp"
+#include "terminal.hpp"
+#include "wisp/base/file.hpp"
+#include "wisp/model/file.hpp"
+
+namespace wisp::cli {
+namespace {
+
+Json channels_of(const Model& model) {
+  Json inputs = Json::array(), outputs = Json::array();
+  for (const Input& input : model.inputs) {
+    inputs.push_back({{"name", input.name},
+                      {"unit", input.unit},
+                      {"range", {number(input.lowest), number(input.highest)}},
+                      {"shape", input.shape == InputShape::kSplitSign ? "split sign" : "linear"}});
+  }
+  for (const Output& output : model.outputs) {
+    outputs.push_back({{"name", output.name}, {"unit", output.unit}, {"range", {number(output.lowest), number(output.highest)}}});
+  }
+  return {{"inputs", inputs}, {"outputs", outputs}};
+}
+
+Json view_of(const Model& model) {
+  const auto* outline = std::get_if<OutlineView>(&model.view);
+  if (!outline) return {{"kind", "plain"}};
+  return {{"kind", "outline"},
+          {"points", model.outputs.size() / 2},
+          {"knots", json_of(outline->knots)},
+          {"metres_per_unit", number(outline->metres_per_unit)},
+          {"pixels_per_unit", number(outline->pixels_per_unit)}};
+}
+
+Json made_by(const Provenance& provenance) {
+  Json options = Json::object(), figures = Json::object();
+  for (const Note& note : provenance.options) options[note.name] = note.value;
+  for (const Figure& figure : provenance.figures) figures[figure.name] = number(figure.value);
+  return {{"program", provenance.program}, {"sources", provenance.sources}, {"options", options}, {"figures", figures}};
+}
+
+std::string names_of(const Json& channels) {
+  std::string text;
+  for (const Json& channel : channels) text += (text.empty() ? "" : ", ") + channel["name"].get<std::string>();
+  return text.empty() ? "none" : text;
+}
+
+std::string listed(const Json& object) {
+  std::string text;
+  for (const auto& [name, value] : object.items()) {
+    text += (text.empty() ? "" : ", ") + name + " " + (value.is_string() ? value.get<std::string>() : value.dump());
+  }
+  return text;
+}
+
+void describe(const Json& result, Terminal& terminal) {
+  const Json& dynamics = result["dynamics"];
+  terminal.say(result["name"].get<std::string>() + ": " + result["view"]["kind"].get<std::string>() + " model at " +
+               shown(result["rate_hz"].get<double>(), 5) + " steps a second, " + std::to_string(result["bytes"].get<std::size_t>()) +
+               " bytes");
+  terminal.say("inputs    " + names_of(result["inputs"]));
+  terminal.say("outputs   " + names_of(result["outputs"]));
+  terminal.say("dynamics  " + dynamics["kind"].get<std::string>() + ", history of " + dynamics["history"].dump() +
+               " samples, spectral radius " + shown(dynamics["radius"].get<double>(), 5));
+  terminal.say("cost      " + result["cost"]["multiply_adds_per_frame"].dump() + " multiply-adds a frame, " +
+               result["cost"]["operations_per_frame"].dump() + " operations with noise and view");
+  terminal.say("made by   " + result["made"]["program"].get<std::string>() + " from " + result["made"]["sources"].dump());
+  terminal.say("options   " + listed(result["made"]["options"]));
+  terminal.say("figures   " + listed(result["made"]["figures"]));
+  terminal.say(std::string(result["usable"]["verdict"].get<bool>() ? "usable    " : "NOT usable: ") +
+               result["usable"]["reason"].get<std::string>());
+}
+
+Result<void> run(const Arguments& arguments, Terminal& terminal) {
+  const auto bytes = read_file(arguments.positional());
+  if (!bytes) return bytes.error();
+  const auto model = parse_model(*bytes, arguments.positional());
+  if (!model) return model.error();
+  const auto cost = cost_of(*model);
+  if (!cost) return cost.error();
+
+  Json& result = terminal.result();
+  const auto& arx = std::get<ArxModel>(model->dynamics);
+  result["name"] = model->name;
+  result["format_version"] = kModelFormatVersion;
+  result["bytes"] = bytes->size();
+  result["rate_hz"] = model->rate_hz;
+  result.update(channels_of(*model));
+  result["dynamics"] = {{"kind", "arx"},
+                        {"na", json_of(arx.orders.na)},
+                        {"nb", json_of(arx.orders.nb)},
+                        {"nk", json_of(arx.orders.nk)},
+                        {"history", arx.orders.history()},
+                        {"noise_rank", arx.noise.rank},
+                        {"radius", number(spectral_radius(arx))}};
+  result["view"] = view_of(*model);
+  result["cost"] = *cost;
+  result["made"] = made_by(model->provenance);
+  result["usable"] = json_of(model->provenance.usable);
+  describe(result, terminal);
+  return {};
+}
+
+}  // namespace
+
+Command info_command() {
+  return {
+      "info",
+      "Says what a model file holds, how it was made, and what it costs a frame.",
+      {{"MODEL", "the model, a .wisp file"}},
+      {},
+      {{"wisp info flame.wisp", "The facts of a model"}},
+      run,
+  };
+}
+
+}  // namespace wisp::cli

@@ -1,0 +1,193 @@
+// The program `wisp`: one command of the table, run.
+//
+// Exit status: 0 done, 1 the data or a file was bad, 2 wrong usage.
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <memory>
+
+#include "command.hpp"
+#include "terminal.hpp"
+
+namespace wisp::cli {
+namespace {
+
+constexpr int kDone = 0, kBadData = 1, kWrongUsage = 2;
+
+bool is_whole(const std::string& text) {
+  return !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+bool is_number(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == '\0' && std::isfinite(value);
+}
+
+bool is_sample_range(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) return false;
+  const std::string first = text.substr(0, colon), last = text.substr(colon + 1);
+  return is_whole(first) && is_whole(last) && std::atol(first.c_str()) >= 1 &&
+         std::atol(first.c_str()) <= std::atol(last.c_str());
+}
+
+bool is_word(const Flag& flag, const std::string& text) {
+  return std::find(flag.words.begin(), flag.words.end(), text) != flag.words.end();
+}
+
+std::string words_of(const Flag& flag) {
+  std::string all;
+  for (const std::string& word : flag.words) all += (all.empty() ? "" : ", ") + word;
+  return all;
+}
+
+// What is wrong with a flag's value; empty: nothing.
+std::string complaint(const Flag& flag, const std::string& text) {
+  const std::string found = "found \"" + text + "\", expected ";
+  switch (flag.kind) {
+    case Kind::kSwitch:
+    case Kind::kText:
+      return {};
+    case Kind::kPath:
+    case Kind::kNames:
+      return text.empty() ? "is empty" : std::string();
+    case Kind::kInteger:
+      return is_whole(text) ? std::string() : found + "a whole number";
+    case Kind::kNumber:
+      return is_number(text) ? std::string() : found + "a number";
+    case Kind::kChoice:
+      return is_word(flag, text) ? std::string() : found + "one of " + words_of(flag);
+    case Kind::kIntegerOrWord:
+      return is_whole(text) || is_word(flag, text) ? std::string() : found + "a whole number or " + words_of(flag);
+    case Kind::kSamples:
+      return is_sample_range(text) ? std::string() : found + "a range A:B of samples with 1 <= A <= B, such as 1:300";
+  }
+  return {};
+}
+
+// A command wired into the parser: where CLI11 leaves what the user gave.
+struct Wired {
+  const Command* command = nullptr;
+  CLI::App* app = nullptr;
+  std::map<std::string, std::string> values;
+  std::map<std::string, bool> switches;
+  std::vector<std::string> positionals;
+  std::vector<std::string> single;
+};
+
+void add_flag(Wired& wired, const Flag& flag) {
+  if (flag.kind == Kind::kSwitch) {
+    wired.app->add_flag("--" + flag.name, wired.switches[flag.name], flag.help);
+    return;
+  }
+  const std::string short_name = flag.name == "output" ? "-o," : "";
+  auto* option = wired.app->add_option(short_name + "--" + flag.name, wired.values[flag.name], flag.help);
+  option->type_name(flag.value)->check(CLI::Validator([flag](std::string& text) { return complaint(flag, text); }, ""));
+  if (!flag.fallback.empty()) option->default_str(flag.fallback);
+  if (flag.required) option->required();
+}
+
+void add_positionals(Wired& wired) {
+  wired.single.resize(wired.command->positionals.size());
+  for (std::size_t k = 0; k < wired.command->positionals.size(); ++k) {
+    const Positional& positional = wired.command->positionals[k];
+    CLI::Option* option = positional.many ? wired.app->add_option(positional.name, wired.positionals, positional.help)
+                                          : wired.app->add_option(positional.name, wired.single[k], positional.help);
+    option->type_name("");
+    if (!positional.optional) option->required();
+  }
+}
+
+std::string footer(const Command& command) {
+  if (command.examples.empty()) return {};
+  std::string text = "Examples:";
+  for (const Example& example : command.examples) text += "\n  " + example.line + "\n      " + example.what;
+  return text;
+}
+
+CLI::App* subcommand(CLI::App& root, const std::string& name) {
+  const std::size_t space = name.find(' ');
+  if (space == std::string::npos) return root.add_subcommand(name);
+  const std::string group = name.substr(0, space);
+  CLI::App* parent = root.get_subcommand_no_throw(group);
+  if (!parent) parent = root.add_subcommand(group)->require_subcommand(1);
+  return parent->add_subcommand(name.substr(space + 1));
+}
+
+void wire(CLI::App& root, Wired& wired) {
+  wired.app = subcommand(root, wired.command->name);
+  wired.app->description(wired.command->summary);
+  wired.app->footer(footer(*wired.command));
+  add_positionals(wired);
+  for (const Flag& flag : wired.command->flags) add_flag(wired, flag);
+  for (const Flag& flag : common_flags()) add_flag(wired, flag);
+}
+
+Arguments arguments_of(const Wired& wired) {
+  Arguments arguments;
+  for (const Flag& flag : wired.command->flags) {
+    if (flag.kind == Kind::kSwitch) {
+      if (wired.switches.at(flag.name)) arguments.set(flag.name, "on");
+    } else if (const std::string& given = wired.values.at(flag.name); !given.empty()) {
+      arguments.set(flag.name, given);
+    } else if (!flag.fallback.empty()) {
+      arguments.set(flag.name, flag.fallback);
+    }
+  }
+  std::vector<std::string> positionals;
+  for (const std::string& value : wired.single) {
+    if (!value.empty()) positionals.push_back(value);
+  }
+  positionals.insert(positionals.end(), wired.positionals.begin(), wired.positionals.end());
+  arguments.set_positionals(std::move(positionals));
+  return arguments;
+}
+
+int run_command(const Wired& wired) {
+  Terminal terminal({wired.switches.at("json"), wired.switches.at("quiet")});
+  const auto outcome = wired.command->run(arguments_of(wired), terminal);
+  if (!outcome) {
+    terminal.fail(outcome.error().message);
+    return kBadData;
+  }
+  terminal.finish();
+  return kDone;
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App root("Wisp learns how a thing behaves from recordings of it and plays that behaviour live.", "wisp");
+  root.set_version_flag("--version", "wisp " WISP_VERSION);
+  root.require_subcommand(1);
+  std::vector<std::unique_ptr<Wired>> all;
+  for (const Command& command : commands()) {
+    all.push_back(std::make_unique<Wired>());
+    all.back()->command = &command;
+    wire(root, *all.back());
+  }
+  try {
+    root.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // CLI11 has exit codes of its own; ours are 0 for help and 2 for wrong usage.
+    return root.exit(error) == 0 ? kDone : kWrongUsage;
+  }
+  for (const auto& wired : all) {
+    if (wired->app->parsed()) return run_command(*wired);
+  }
+  return kWrongUsage;
+}
+
+}  // namespace
+}  // namespace wisp::cli
+
+int main(int argc, char** argv) {
+  try {
+    return wisp::cli::run_program(argc, argv);
+  } catch (const std::bad_alloc&) {
+    std::fputs("wisp: out of memory; give a smaller recording, or cut it with --range or --frames\n", stderr);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "wisp: %s\n", error.what());
+  }
+  return wisp::cli::kBadData;
+}

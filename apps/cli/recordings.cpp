@@ -1,0 +1,63 @@
+#include "recordings.hpp"
+
+#include "wisp/record/csv.hpp"
+
+namespace wisp::cli {
+
+std::vector<Flag> recording_flags() {
+  return {
+      {"rate", Kind::kNumber, "HZ", "",
+       "samples a second of a table, or frames a second of a folder of images, that does not say so itself"},
+      {"dt", Kind::kNumber, "S", "", "seconds between samples, instead of --rate"},
+      {"skip-bad", Kind::kSwitch, "", "", "leave bad recordings out, listing them, instead of stopping at the first"},
+  };
+}
+
+bool is_table(const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  return extension == ".csv" || extension == ".txt" || extension == ".CSV";
+}
+
+Result<Recording> read_table(const std::filesystem::path& path, const Arguments& arguments) {
+  CsvOptions options;
+  options.inputs = arguments.names("inputs");
+  options.outputs = arguments.names("outputs");
+  if (arguments.has("dt")) {
+    const double seconds = arguments.number("dt");
+    if (!(seconds > 0)) return Error{"--dt is " + arguments.text("dt") + ", expected seconds above 0"};
+    options.rate_hz = 1 / seconds;
+  }
+  if (arguments.has("rate")) options.rate_hz = arguments.number("rate");
+  return read_csv(path, options);
+}
+
+Result<std::vector<Recording>> read_tables(const std::vector<std::string>& paths, const Arguments& arguments,
+                                           Terminal& terminal) {
+  std::vector<Recording> recordings;
+  for (const std::string& path : paths) {
+    auto recording = read_table(path, arguments);
+    if (recording) recording = in_range(std::move(recording).value(), arguments, "range");
+    if (recording) {
+      recordings.push_back(std::move(recording).value());
+    } else if (arguments.on("skip-bad")) {
+      terminal.warn("left out: " + recording.error().message);
+      terminal.result()["skipped"].push_back({{"file", path}, {"reason", recording.error().message}});
+    } else {
+      return recording.error();
+    }
+  }
+  if (recordings.empty()) return Error{"none of the recordings can be used"};
+  return recordings;
+}
+
+Result<Recording> in_range(Recording recording, const Arguments& arguments, std::string_view flag) {
+  if (!arguments.has(flag)) return recording;
+  const SampleRange range = arguments.samples(flag);
+  if (range.last > recording.rows()) {
+    return Error{recording.source + ": --" + std::string(flag) + " " + arguments.text(flag) + " reaches beyond its " +
+                 std::to_string(recording.rows()) + " rows"};
+  }
+  return slice(recording, range.first - 1, range.last);
+}
+
+}  // namespace wisp::cli

@@ -1,0 +1,32 @@
+#pragma once
+// Recordings as commands take them: files by name, read by what they are.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "command.hpp"
+#include "terminal.hpp"
+#include "wisp/record/recording.hpp"
+
+namespace wisp::cli {
+
+/// Flags of every command that reads recordings: --rate, --dt, --skip-bad.
+std::vector<Flag> recording_flags();
+
+/// Whether a name is that of a table (`.csv`, `.txt`) rather than of a clip.
+bool is_table(const std::filesystem::path& path);
+
+/// Reads one table; --inputs and --outputs, where the command has them, name its columns.
+Result<Recording> read_table(const std::filesystem::path& path, const Arguments& arguments);
+
+/// Reads all of them. A bad one is the error, or, with --skip-bad, a warning and an entry of `skipped` in the result.
+/// Errors: also where none is left.
+Result<std::vector<Recording>> read_tables(const std::vector<std::string>& paths, const Arguments& arguments,
+                                           Terminal& terminal);
+
+/// Rows of --range (1-based, inclusive), or all of them where the flag is not given.
+/// Errors: the range reaches beyond the recording.
+Result<Recording> in_range(Recording recording, const Arguments& arguments, std::string_view flag);
+
+}  // namespace wisp::cli

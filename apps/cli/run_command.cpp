@@ -1,0 +1,172 @@
+// `wisp run`: what a model does, as numbers, as a picture, or as a film.
+
+#include <filesystem>
+
+#include "candle_pictures.hpp"
+#include "commands.hpp"
+#include "recordings.hpp"
+#include "terminal.hpp"
+#include "wind_input.hpp"
+#include "wisp/draw/plot.hpp"
+#include "wisp/draw/video_writer.hpp"
+#include "wisp/model/file.hpp"
+#include "wisp/record/csv.hpp"
+#include "wisp/run/bank.hpp"
+
+namespace wisp::cli {
+namespace {
+
+struct Play {
+  Model model;
+  InputTrack input;
+  std::size_t frames = 0;
+  std::uint64_t seed = 1;
+};
+
+Result<Bank> make_bank(const Play& play, const Arguments& arguments) {
+  const int instances = arguments.integer("instances");
+  auto bank = Bank::create(play.model, {.capacity = instances, .seed = play.seed, .polyline_points = 96});
+  if (!bank) return bank;
+  bank->set_noise(arguments.text("noise") == "on" ? 1.0F : 0.0F);
+  for (int k = 0; k < instances; ++k) bank->spawn();
+  return bank;
+}
+
+// The recording that the run will become: its channels, empty.
+Recording empty_recording(const Play& play, int instances) {
+  Recording recording;
+  recording.rate_hz = play.model.rate_hz;
+  recording.attributes = {{"model", play.model.name}, {"seed", std::to_string(play.seed)}};
+  if (const auto* outline = std::get_if<OutlineView>(&play.model.view)) {
+    set_numbers_attribute(recording, "knots", outline->knots);
+  }
+  for (const Input& input : play.model.inputs) recording.channels.push_back({input.name, input.unit, Role::kInput, {}});
+  for (int k = 0; k < instances; ++k) {
+    const std::string prefix = instances == 1 ? "" : "i" + std::to_string(k) + ".";
+    for (const Output& output : play.model.outputs) {
+      recording.channels.push_back({prefix + output.name, output.unit, Role::kOutput, {}});
+    }
+  }
+  return recording;
+}
+
+Recording record_run(const Play& play, Bank& bank) {
+  Recording recording = empty_recording(play, bank.size());
+  std::vector<float> outputs(static_cast<std::size_t>(bank.slots()) * bank.output_count());
+  for (std::size_t frame = 0; frame < play.frames; ++frame) {
+    const auto inputs = play.input.at(frame);
+    bank.set_common_inputs(inputs);
+    bank.step();
+    bank.outputs(outputs);
+    std::size_t channel = 0;
+    for (float input : inputs) recording.channels[channel++].samples.push_back(input);
+    for (float output : outputs) recording.channels[channel++].samples.push_back(output);
+  }
+  return recording;
+}
+
+Result<void> write_film(const Play& play, Bank& bank, const std::string& path, Terminal& terminal) {
+  CandlePictures pictures(bank);
+  auto film = VideoWriter::create(
+      path, {.width = pictures.width(), .height = pictures.height(), .rate_hz = play.model.rate_hz});
+  if (!film) return film.error();
+  for (std::size_t frame = 0; frame < play.frames; ++frame) {
+    bank.set_common_inputs(play.input.at(frame));
+    bank.step();
+    if (auto ok = film->write(pictures.draw(bank)); !ok) return ok;
+    terminal.progress("drawing", static_cast<double>(frame + 1) / static_cast<double>(play.frames));
+  }
+  return film->finish();
+}
+
+Result<void> write_picture(const Play& play, Bank& bank, const std::string& path) {
+  if (std::holds_alternative<OutlineView>(play.model.view)) {
+    for (std::size_t frame = 0; frame < play.frames; ++frame) {
+      bank.set_common_inputs(play.input.at(frame));
+      bank.step();
+    }
+    CandlePictures pictures(bank);
+    return write_png(path, pictures.draw(bank));
+  }
+  const Recording recording = record_run(play, bank);
+  Plot plot{.title = play.model.name, .x = {.label = "seconds"}, .y = {}};
+  for (const Channel& channel : recording.channels) {
+    PlotSeries series{.label = channel.name, .x = {}, .y = channel.samples};
+    for (std::size_t row = 0; row < channel.samples.size(); ++row)
+      series.x.push_back(static_cast<double>(row) / recording.rate_hz);
+    plot.series.push_back(std::move(series));
+  }
+  return write_plots(path, {.title = "", .plots = {std::move(plot)}, .plot_width = 800});
+}
+
+Result<void> write_run(const Play& play, Bank& bank, const std::string& path, Terminal& terminal) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension == ".csv") return write_csv(path, record_run(play, bank));
+  if (extension == ".png") return write_picture(play, bank, path);
+  if (extension != ".mp4") return Error{path + ": cannot be written, expected a name that ends in .csv, .png or .mp4"};
+  if (!std::holds_alternative<OutlineView>(play.model.view)) {
+    return Error{path + ": the model's outputs have no picture to film; write a .csv or a .png"};
+  }
+  return write_film(play, bank, path, terminal);
+}
+
+Result<Play> prepare(const Arguments& arguments) {
+  auto model = read_model(arguments.positional());
+  if (!model) return model.error();
+  auto input = InputTrack::from(*model, arguments);
+  if (!input) return input.error();
+  Play play{std::move(*model), std::move(*input), 0, static_cast<std::uint64_t>(arguments.integer("seed"))};
+  play.frames = arguments.has("frames") ? static_cast<std::size_t>(arguments.integer("frames")) : play.input.rows();
+  if (play.frames == 0) return Error{"nothing to run: give --frames N, at least 1, or --input with a recording"};
+  const int instances = arguments.integer("instances");
+  if (instances < 1 || instances > 10000)
+    return Error{"--instances is " + arguments.text("instances") + ", expected 1 to 10000"};
+  return play;
+}
+
+Result<void> run(const Arguments& arguments, Terminal& terminal) {
+  const auto play = prepare(arguments);
+  if (!play) return play.error();
+  auto bank = make_bank(*play, arguments);
+  if (!bank) return bank.error();
+  const std::string& path = arguments.text("output");
+  if (auto ok = write_run(*play, *bank, path, terminal); !ok) return ok;
+
+  const auto held = bank->held();
+  terminal.result()["frames"] = play->frames;
+  terminal.result()["instances"] = bank->size();
+  terminal.result()["seed"] = play->seed;
+  terminal.result()["held_share"] = held.steps ? static_cast<double>(held.held) / static_cast<double>(held.steps) : 0.0;
+  terminal.result()["output"] = path;
+  terminal.say("wrote " + path + ": " + std::to_string(play->frames) + " frames at " + shown(play->model.rate_hz, 5) +
+               " a second, seed " + std::to_string(play->seed));
+  return {};
+}
+
+}  // namespace
+
+Command run_command() {
+  return {
+      "run",
+      "Plays a model and writes what it does: numbers (.csv), a picture (.png) or a film (.mp4).",
+      {{"MODEL", "the model, a .wisp file"}},
+      {
+          {"output", Kind::kPath, "OUT", "", "what to write: OUT.csv, OUT.png or OUT.mp4", {}, true},
+          {"frames", Kind::kInteger, "N", "", "frames at the model's rate; default: as many as --input has"},
+          {"input", Kind::kPath, "REC", "", "a recording, or a WAV of blowing, whose input drives the model"},
+          {"wind", Kind::kNumber, "W", "0", "a constant value for every input, where there is no --input"},
+          {"noise", Kind::kChoice, "on|off", "on", "the residual noise", {"on", "off"}},
+          {"instances", Kind::kInteger, "K", "1", "how many at once, each with its own chance"},
+          {"seed", Kind::kInteger, "N", "1", "of all chance; the same seed gives the same bytes"},
+      },
+      {
+          {"wisp run flame.wisp --frames 600 -o flame.mp4",
+           "Twenty seconds of a flame at 30 frames a second, as a film"},
+          {"wisp run flame.wisp --frames 1000 --wind 0.5 --noise off -o steady.csv",
+           "The noiseless response to steady wind, as numbers"},
+      },
+      run,
+  };
+}
+
+}  // namespace wisp::cli

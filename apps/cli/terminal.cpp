@@ -1,0 +1,72 @@
+#include "terminal.hpp"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace wisp::cli {
+
+Terminal::Terminal(Options options) : options_(options), terminal_(::isatty(STDERR_FILENO) == 1) {
+  result_["warnings"] = Json::array();
+}
+
+void Terminal::progress(std::string_view what, double done) {
+  if (options_.quiet || !terminal_) return;
+  constexpr int kWidth = 30;
+  const int percent = done < 0 ? -1 : static_cast<int>(100 * std::min(done, 1.0));
+  if (bar_shown_ && percent == last_percent_ && what == last_what_) return;
+  last_percent_ = percent;
+  last_what_ = what;
+  bar_shown_ = true;
+  std::string bar;
+  for (int k = 0; k < kWidth; ++k) bar += 100 * k < percent * kWidth ? "━" : "╌";
+  if (percent < 0) {
+    std::fprintf(stderr, "\r\033[K%.*s …", static_cast<int>(what.size()), what.data());
+  } else {
+    std::fprintf(stderr, "\r\033[K%.*s %s %3d %%", static_cast<int>(what.size()), what.data(), bar.c_str(), percent);
+  }
+  std::fflush(stderr);
+}
+
+void Terminal::clear_bar() {
+  if (bar_shown_) std::fputs("\r\033[K", stderr);
+  bar_shown_ = false;
+}
+
+void Terminal::warn(std::string_view text) {
+  clear_bar();
+  result_["warnings"].push_back(std::string(text));
+  std::fprintf(stderr, "wisp: warning: %.*s\n", static_cast<int>(text.size()), text.data());
+}
+
+void Terminal::say(std::string_view text) {
+  if (options_.json) return;
+  clear_bar();
+  std::fprintf(stdout, "%.*s\n", static_cast<int>(text.size()), text.data());
+}
+
+void Terminal::finish() {
+  clear_bar();
+  if (!options_.json) return;
+  if (result_["warnings"].empty()) result_.erase("warnings");
+  std::fprintf(stdout, "%s\n", result_.dump(1, ' ', false, Json::error_handler_t::replace).c_str());
+}
+
+void Terminal::fail(std::string_view message) {
+  clear_bar();
+  std::fprintf(stderr, "wisp: %.*s\n", static_cast<int>(message.size()), message.data());
+  if (!options_.json) return;
+  const Json failure = {{"error", std::string(message)}};
+  std::fprintf(stdout, "%s\n", failure.dump(1, ' ', false, Json::error_handler_t::replace).c_str());
+}
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+std::string shown(double value, int digits) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
+}
+
+}  // namespace wisp::cli

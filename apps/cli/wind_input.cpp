@@ -1,0 +1,53 @@
+#include "wind_input.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "recordings.hpp"
+
+namespace wisp::cli {
+
+std::vector<float> at_rate(const std::vector<double>& samples, double from_hz, double to_hz) {
+  std::vector<double> held(samples.size());
+  double last = 0;
+  for (std::size_t k = 0; k < samples.size(); ++k) held[k] = last = std::isnan(samples[k]) ? last : samples[k];
+  if (held.empty()) return {};
+  std::vector<float> out;
+  const auto count =
+      static_cast<std::size_t>(std::floor(static_cast<double>(held.size() - 1) * to_hz / from_hz + 1e-9)) + 1;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double place = static_cast<double>(k) * from_hz / to_hz;
+    const auto before = std::min(static_cast<std::size_t>(place), held.size() - 1);
+    const auto after = std::min(before + 1, held.size() - 1);
+    const double share = place - static_cast<double>(before);
+    out.push_back(static_cast<float>(held[before] + share * (held[after] - held[before])));
+  }
+  return out;
+}
+
+Result<InputTrack> InputTrack::from(const Model& model, const Arguments& arguments) {
+  InputTrack track;
+  if (!arguments.has("input")) {
+    track.tracks_.assign(model.inputs.size(), {static_cast<float>(arguments.number("wind"))});
+    return track;
+  }
+  const std::string& path = arguments.text("input");
+  const auto recording = read_table(path, arguments);
+  if (!recording) return recording.error();
+  for (const Input& input : model.inputs) {
+    const auto channel = find_channel(*recording, input.name);
+    if (!channel) return Error{path + ": has no channel " + input.name + ", which the model takes as input"};
+    track.tracks_.push_back(at_rate(recording->channels[*channel].samples, recording->rate_hz, model.rate_hz));
+    track.rows_ = std::max(track.rows_, track.tracks_.back().size());
+  }
+  return track;
+}
+
+std::vector<float> InputTrack::at(std::size_t frame) const {
+  std::vector<float> values;
+  for (const auto& samples : tracks_)
+    values.push_back(samples.empty() ? 0.0F : samples[std::min(frame, samples.size() - 1)]);
+  return values;
+}
+
+}  // namespace wisp::cli

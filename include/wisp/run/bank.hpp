@@ -1,0 +1,168 @@
+#pragma once
+// Living instances of one model, stepped together. A single flame is a bank of one.
+//
+// The frame path (everything here but create() and the destructor) allocates nothing, takes no lock and makes no system
+// call. What comes out depends only on the model, the seed, each instance's stream number and its inputs: the same bits
+// with any compiler, at any level of optimisation, in a bank of any size and in any slot of it.
+//
+// Bulk buffers have one row per slot, in the order of the slots: row `id.slot` belongs to instance `id`. Rows of empty
+// slots are ignored on the way in and are zeros on the way out.
+//
+// A bank is used by one thread at a time; different banks are independent.
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "wisp/base/result.hpp"
+#include "wisp/model/model.hpp"
+
+namespace wisp {
+
+/// Names one living instance of a bank, by value. The id of an ended instance stays invalid: the next one in its slot
+/// has another generation.
+struct InstanceId {
+  std::uint32_t slot = 0;
+  std::uint32_t generation = 0;  ///< 0 names no instance
+
+  friend bool operator==(const InstanceId&, const InstanceId&) = default;
+};
+
+/// How a bank is made.
+struct BankOptions {
+  int capacity = 1;                  ///< most instances alive at once; 1 to 1 048 576
+  std::uint64_t seed = 1;            ///< of all random streams of the bank
+  int polyline_points = 32;          ///< points of an outline's polyline; 2 to 4096. 32 is smooth at 500 pixels' height
+  std::span<std::byte> memory = {};  ///< where the bank lives, at least bank_bytes(); empty: it allocates once
+};
+
+/// Bytes that a bank with these options needs, wherever its memory comes from (`options.memory` is not looked at).
+/// Errors: as Bank::create().
+Result<std::size_t> bank_bytes(const Model& model, const BankOptions& options);
+
+/// A longer pause than this is cut to it by Bank::advance(): nobody has watched it.
+inline constexpr std::chrono::nanoseconds kLongestAdvance = std::chrono::seconds(10);
+
+/// Share of the trained or seen range by which inputs and outputs may go beyond it, on either side.
+inline constexpr double kRangeMargin = 0.5;
+
+/// A bank of instances of one model.
+///
+/// Precondition of every bulk function: the span has exactly the stated size.
+/// Precondition of all but move and destruction: the bank has not been moved from.
+class Bank {
+ public:
+  /// Makes an empty bank. The model is copied as far as it is needed and may go afterwards; memory that the caller
+  /// gives must outlive the bank.
+  /// Errors: the model is not valid (check()) or holds numbers that single precision can't, an option is out of its
+  /// range, the memory is too small.
+  static Result<Bank> create(const Model& model, const BankOptions& options = {});
+
+  Bank(Bank&& other) noexcept;
+  Bank& operator=(Bank&& other) noexcept;
+  ~Bank();
+
+  // Facts.
+  int capacity() const;
+  int size() const;             ///< instances alive
+  int slots() const;            ///< rows of every bulk buffer: one more than the highest slot in use
+  int input_count() const;      ///< external inputs, before signs are split
+  int output_count() const;     ///< for an outline: x and y of each control point, as OutlineView orders them
+  int polyline_points() const;  ///< 0 where the view is not an outline
+  std::chrono::nanoseconds step_time() const;
+
+  /// Starts an instance at the model's operating point, in the lowest empty slot, with all inputs zero. Its random
+  /// stream is `stream`, or the count of spawns so far. Two instances of the same stream and inputs live the same life.
+  /// Returns its id; an id that is not valid when the bank is full.
+  InstanceId spawn();
+  InstanceId spawn(std::uint64_t stream);
+
+  /// Ends an instance. Returns false, and does nothing, when `id` is not valid.
+  bool end(InstanceId id);
+
+  /// Whether `id` names a living instance.
+  bool valid(InstanceId id) const;
+
+  /// The id of the instance in a slot; not valid when the slot is empty.
+  InstanceId at(int slot) const;
+
+  /// Sets what acts on every instance from the next step on: slots() × input_count(), in the inputs' units. Numbers
+  /// beyond the trained range and kRangeMargin are held to it; what is not a number counts as 0.
+  void set_inputs(std::span<const float> values);
+
+  /// The same inputs for every instance: input_count() values.
+  void set_common_inputs(std::span<const float> values);
+
+  /// The inputs of one instance: input_count() values. Returns false when `id` is not valid.
+  bool set_inputs(InstanceId id, std::span<const float> values);
+
+  /// Scale of the residual noise: 1 as learned, 0 none; held to [0, 10]. At 0 a step costs less.
+  void set_noise(float scale);
+  float noise() const;
+
+  /// One step of the model, for all instances. Outputs read afterwards are those of that step.
+  void step();
+
+  /// Lets time pass: makes the steps that fall into it, and shows the outputs between the last two steps in proportion
+  /// (one step of latency). A negative time counts as none, a longer one than kLongestAdvance as that. Returns the
+  /// number of steps made.
+  int advance(std::chrono::nanoseconds time);
+
+  /// Reads all outputs: slots() × output_count(), in the outputs' units, held to the seen range and kRangeMargin.
+  void outputs(std::span<float> values) const;
+
+  /// Reads the outputs of one instance: output_count() values. Returns false when `id` is not valid.
+  bool outputs(InstanceId id, std::span<float> values) const;
+
+  /// Reads all outlines: slots() × polyline_points() × (x, y), from the base's left over the tip to the base's right at
+  /// equal steps of the spline's parameter.
+  ///
+  /// Precondition: polyline_points() > 0.
+  void polylines(std::span<float> values) const;
+
+  /// Reads the outline of one instance: polyline_points() × (x, y). Returns false when `id` is not valid.
+  bool polyline(InstanceId id, std::span<float> values) const;
+
+  /// Puts one instance, or all that live and the bank's time, back to where they were when spawned; streams and inputs
+  /// stay. Returns false when `id` is not valid.
+  bool reset(InstanceId id);
+  void reset();
+
+  /// How many instance-steps there were since the bank was made or restored, and in how many of them at least one
+  /// output was held at its range. More than 1 in 1000 on ordinary input says that the model is not usable.
+  struct Held {
+    std::uint64_t held = 0;
+    std::uint64_t steps = 0;
+  };
+  Held held() const;
+
+  /// Bytes that save() writes for a bank with this model and capacity.
+  std::size_t save_bytes() const;
+
+  /// Writes the whole state of the bank, so that a bank restored from it goes on with the same bits.
+  ///
+  /// Precondition: `bytes` has save_bytes() bytes.
+  void save(std::span<std::byte> bytes) const;
+
+  /// Takes over a state written by save() of a bank with the same model and capacity (the seed comes with it).
+  /// Errors: too short or too long, not a bank's state, another version, another model or capacity, damaged. The bank
+  /// stays as it was then.
+  Result<void> restore(std::span<const std::byte> bytes);
+
+ private:
+  friend Result<std::size_t> bank_bytes(const Model& model, const BankOptions& options);
+
+  struct State;
+  struct Release {
+    bool owned = false;
+    void operator()(State* state) const;
+  };
+
+  explicit Bank(std::unique_ptr<State, Release> state);
+
+  std::unique_ptr<State, Release> state_;
+};
+
+}  // namespace wisp

@@ -1,0 +1,26 @@
+#pragma once
+// What a model costs: counted by running the real kernels on numbers that count.
+
+#include <cstdint>
+
+#include "wisp/base/result.hpp"
+#include "wisp/model/model.hpp"
+
+namespace wisp {
+
+/// Work of one instance in one frame (one step, one reading of the view).
+struct Cost {
+  std::int64_t multiply_adds_per_frame = 0;  ///< by the paper's count: coefficients of A and B that are not zero
+  std::int64_t operations_per_frame = 0;     ///< all arithmetic: the sum of the four below
+  std::int64_t dynamics_operations = 0;      ///< inputs, filters and outputs: + − × ÷ √ on numbers
+  std::int64_t noise_operations = 0;         ///< from random words to what is added to the outputs, on numbers
+  std::int64_t random_operations = 0;        ///< arithmetic and logic on 32-bit words, for the noise
+  std::int64_t view_operations = 0;          ///< the polyline, on numbers
+};
+
+/// Counts what one frame of one instance costs, with a polyline of `polyline_points` (0: the view is not read).
+/// Comparisons, conversions and moves are not arithmetic and are not counted.
+/// Errors: as Bank::create().
+Result<Cost> count_operations(const Model& model, int polyline_points = 32);
+
+}  // namespace wisp

@@ -1,0 +1,118 @@
+#pragma once
+// Wind heard by a microphone: how strong it blows, frame by frame, and whether it is blowing at all.
+//
+// Reissell & Pai 2001, section 3.3, take the plain RMS of the sound at the video's frame rate, less the mean of the
+// stretches without wind. That stays here (`rms`, `rms_clean`). Beyond it: a measure proportional to wind speed, from a
+// band that microphones pass, and a confidence that tells blowing from talking (docs/wind.md has features and figures).
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "wisp/base/result.hpp"
+
+namespace wisp {
+
+/// What the samples are.
+struct SoundFormat {
+  double rate_hz = 44100;  ///< samples a second of each channel, 8000 to 192000
+  int channels = 1;        ///< interleaved channels, 1 to 8; powers are averaged over them
+};
+
+/// How the wind level is made.
+struct WindOptions {
+  double frame_rate_hz = 60;  ///< frames a second, 1 to 1000: the video's, or the model's
+
+  /// Wind speed goes as the band's RMS to this power, 0.1 to 2. The default, 2/3, is what the one public record of a
+  /// microphone beside an anemometer gives (power as U³); stagnation pressure alone would give 1/2, and the plain RMS
+  /// is 1. It belongs to the microphone: set it where the truth is known.
+  double exponent = 2.0 / 3.0;
+
+  /// Mean wind speed over this time, seconds, 0 (the frame alone) to 1. Less follows gusts better, more is steadier:
+  /// sound of 16 ms tells its level to about 20 per cent only.
+  double smoothing_seconds = 0.02;
+
+  /// 95th percentile of the level's speed measure where nothing has been heard yet: `speed` is 1 at this band RMS
+  /// (full scale 1). It is replaced, within about a second of blowing, by what is heard.
+  double first_gust_rms = 0.05;
+};
+
+/// The wind during one video frame. Amplitudes are root mean squares with full scale 1.
+struct WindFrame {
+  std::int64_t index = 0;  ///< frame k covers the sound from k / frame rate to (k + 1) / frame rate
+  float rms = 0;           ///< the paper's: plain RMS of all samples in the frame
+  float rms_clean = 0;     ///< rms less the background's, not below 0
+  float level = 0;         ///< RMS of the band 100–900 Hz less its background in power
+  float speed = 0;         ///< proportional to wind speed; 1 is the 95th percentile while it blows
+  float wind = 0;          ///< speed, let through only while `confidence` says blowing: what a live model is given
+  float confidence = 0;    ///< 0 to 1: this is blowing, not talking
+  float background = 0;    ///< the plain RMS of the background as known at this frame
+  float clipped = 0;       ///< share of samples at full scale, 0 to 1
+};
+
+/// What a microphone in a room was found to be: kept, it spares the next start the finding.
+struct WindCalibration {
+  float background_rms = 0;    ///< plain RMS without wind
+  float background_level = 0;  ///< RMS of the band without wind
+  float gust_rms = 0;          ///< RMS of the band at wind 1; 0: not known yet
+};
+
+/// What a call of feed() took and made.
+struct WindFed {
+  std::size_t samples = 0;  ///< samples taken from the block (all channels counted)
+  std::size_t frames = 0;   ///< frames written
+};
+
+/// Turns sound into wind as it comes.
+///
+/// Frames do not depend, to the bit, on how the sound was cut into blocks, nor on compiler or machine: all arithmetic
+/// after and at creation is + − × ÷ and square root in a fixed order. feed() allocates nothing, locks nothing, calls
+/// nothing of the system. Movable; not for several threads at once.
+class WindLevel {
+ public:
+  /// Returns an estimator at the start of a stream.
+  /// Errors: rate, channels or an option outside its range, named with what was found and what is allowed.
+  static Result<WindLevel> create(const SoundFormat& format, const WindOptions& options = {});
+
+  WindLevel(WindLevel&&) noexcept;
+  WindLevel& operator=(WindLevel&&) noexcept;
+  ~WindLevel();
+
+  /// Takes interleaved samples, full scale ±1, until they are used up or `frames` is full; feed the rest again then.
+  /// NaN counts as 0; beyond ±8 is held there. Returns how many samples were taken and frames written.
+  ///
+  /// Precondition: samples.size() is a multiple of the channels.
+  WindFed feed(std::span<const float> samples, std::span<WindFrame> frames);
+
+  /// The same for 16-bit samples: the same frames as those samples divided by 32768.
+  WindFed feed(std::span<const std::int16_t> samples, std::span<WindFrame> frames);
+
+  /// The latest frame made; all zero before the first.
+  const WindFrame& latest() const;
+
+  /// Takes the coming `seconds` of sound (0.5 to 30 used) as the room without wind.
+  void calibrate(double seconds = 3);
+
+  /// Whether calibrate()'s time is still running.
+  bool calibrating() const;
+
+  /// What is known of microphone and room by now.
+  WindCalibration calibration() const;
+
+  /// Starts from what was known of this microphone and room before.
+  void set_calibration(const WindCalibration& known);
+
+  /// Forgets everything but the options.
+  void reset();
+
+  /// Seconds between wind and the frame that tells of it, beyond the frame itself: the delay of filters and smoothing.
+  double latency_seconds() const;
+
+ private:
+  struct State;
+  explicit WindLevel(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace wisp

@@ -1,0 +1,145 @@
+#include "run/arx_program.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace wisp {
+namespace {
+
+constexpr double kMostSum = 1e30;  // far below the largest float, so that no sum overflows
+
+float kept(double value) { return std::abs(value) < kLeastCoefficient ? 0.0f : static_cast<float>(value); }
+
+double output_scale(const Model& model, int i) {
+  return channel_scale(model.outputs[i].lowest, model.outputs[i].highest);
+}
+
+// The input that a regressor is made of.
+const Input& input_of(const Model& model, int regressor) {
+  int next = 0;
+  for (const Input& input : model.inputs) {
+    next += input.shape == InputShape::kSplitSign ? 2 : 1;
+    if (regressor < next) return input;
+  }
+  return model.inputs.back();
+}
+
+double regressor_scale(const Model& model, int k) {
+  const Input& input = input_of(model, k);
+  return channel_scale(input.lowest, input.highest);
+}
+
+// Calls tap(row, channel, lag, coefficient) for every coefficient that is not zero, in the order of adding.
+template <class Tap>
+void for_each_tap(const Model& model, const ArxModel& arx, Tap tap) {
+  const int ny = arx.orders.outputs();
+  for (int i = 0; i < ny; ++i) {
+    const double unit = output_scale(model, i);
+    for (int j = 0; j < ny; ++j) {
+      const double factor = -output_scale(model, j) / unit;
+      std::uint32_t lag = 1;
+      for (double a : arx.a(i, j)) {
+        if (const float coefficient = kept(a * factor); coefficient != 0) tap(i, j, lag, coefficient);
+        ++lag;
+      }
+    }
+    for (int k = 0; k < arx.orders.inputs(); ++k) {
+      const double factor = regressor_scale(model, k) / unit;
+      auto lag = static_cast<std::uint32_t>(arx.orders.nk(i, k));
+      for (double b : arx.b(i, k)) {
+        if (const float coefficient = kept(b * factor); coefficient != 0) tap(i, ny + k, lag, coefficient);
+        ++lag;
+      }
+    }
+  }
+}
+
+// Where the next tap would continue a run.
+struct RunEnd {
+  int row = -1;
+  int channel = -1;
+  std::uint32_t lag = 0;
+
+  bool continued_by(int next_row, int next_channel, std::uint32_t next_lag) const {
+    return row == next_row && channel == next_channel && lag == next_lag;
+  }
+};
+
+struct TapCount {
+  std::size_t runs = 0;
+  std::size_t coefficients = 0;
+};
+
+TapCount count_taps(const Model& model, const ArxModel& arx) {
+  TapCount count;
+  RunEnd end;
+  for_each_tap(model, arx, [&](int row, int channel, std::uint32_t lag, float) {
+    if (!end.continued_by(row, channel, lag)) ++count.runs;
+    ++count.coefficients;
+    end = {row, channel, lag + 1};
+  });
+  return count;
+}
+
+void fill_taps(const Model& model, const ArxModel& arx, ArxProgram& program) {
+  std::uint32_t runs = 0, coefficients = 0;
+  RunEnd end;
+  std::fill(program.row_end.begin(), program.row_end.end(), 0U);
+  for_each_tap(model, arx, [&](int row, int channel, std::uint32_t lag, float coefficient) {
+    if (!end.continued_by(row, channel, lag)) {
+      program.runs[runs++] = {static_cast<std::uint32_t>(channel), lag, 0, coefficients};
+    }
+    ++program.runs[runs - 1].count;
+    program.coefficients[coefficients++] = coefficient;
+    program.row_end[row] = runs;
+    end = {row, channel, lag + 1};
+  });
+  for (std::size_t row = 1; row < program.row_end.size(); ++row) {
+    program.row_end[row] = std::max(program.row_end[row], program.row_end[row - 1]);
+  }
+}
+
+}  // namespace
+
+ArxProgram make_arx_program(const Model& model, const ArxModel& arx, Arena& arena) {
+  ArxProgram program;
+  program.outputs = arx.orders.outputs();
+  program.regressors = arx.orders.inputs();
+  program.depth = std::max(arx.orders.history() + 1, 2);
+  program.rank = arx.noise.rank;
+  const TapCount count = count_taps(model, arx);
+  const auto ny = static_cast<std::size_t>(program.outputs);
+  program.runs = arena.take<TapRun>(count.runs);
+  program.row_end = arena.take<std::uint32_t>(ny);
+  program.coefficients = arena.take<float>(count.coefficients);
+  program.constant = arena.take<float>(ny);
+  program.sd = arena.take<float>(ny);
+  program.mixing = arena.take<float>(ny * program.rank);
+  if (arena.measures()) return program;
+  fill_taps(model, arx, program);
+  for (int i = 0; i < program.outputs; ++i) {
+    const double unit = output_scale(model, i);
+    program.constant[i] = kept(arx.constant[i] / unit);
+    program.sd[i] = kept(arx.noise.sd[i] / unit);
+    for (int r = 0; r < program.rank; ++r) {
+      program.mixing[i * program.rank + r] = kept(arx.noise.mixing[i * program.rank + r] / unit);
+    }
+  }
+  return program;
+}
+
+Result<void> check_arx_program(const Model& model, const ArxModel& arx) {
+  double sum = 0;
+  for_each_tap(model, arx, [&](int, int, std::uint32_t, float coefficient) { sum += std::abs(coefficient); });
+  for (int i = 0; i < arx.orders.outputs(); ++i) {
+    const double unit = output_scale(model, i);
+    sum += std::abs(arx.constant[i]) / unit + arx.noise.sd[i] / unit;
+  }
+  for (double share : arx.noise.mixing) sum += std::abs(share);
+  if (sum < kMostSum) return {};
+  return Error{"the ARX coefficients add up to " + std::to_string(sum) +
+               " in units of the channels' ranges, expected less than 1e30: learn the model again"};
+}
+
+}  // namespace wisp

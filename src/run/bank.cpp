@@ -1,0 +1,361 @@
+#include "wisp/run/bank.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <new>
+#include <string>
+
+#include "run/bank_state.hpp"
+#include "wisp/model/file.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr int kMostCapacity = 1 << 20;
+constexpr int kMostPolylinePoints = 4096;
+constexpr float kMostNoise = 10.0f;
+constexpr float kLeastNoise = 1e-6f;
+constexpr double kNanosecondsPerSecond = 1e9;
+
+OperatingPoint operating_point(const Model& model) {
+  return std::visit(
+      [](const ArxModel& arx) {
+        return OperatingPoint{arx.output_mean, arx.input_mean};
+      },
+      model.dynamics);
+}
+
+Stepper make_stepper(const Model& model, const Channels& channels, int blocks, Arena& arena) {
+  return std::visit(
+      [&](const ArxModel& arx) -> Stepper { return ArxStepper<LiveNumbers>(model, arx, channels, blocks, arena); },
+      model.dynamics);
+}
+
+std::span<PolylinePoint> make_view(const Model& model, int points, Arena& arena) {
+  const auto* outline = std::get_if<OutlineView>(&model.view);
+  return outline ? make_polyline(*outline, points, arena) : std::span<PolylinePoint>();
+}
+
+Result<void> check_options(const BankOptions& options) {
+  if (options.capacity < 1 || options.capacity > kMostCapacity) {
+    return Error{"a bank's capacity is " + std::to_string(options.capacity) + ", expected 1 to 1048576"};
+  }
+  if (options.polyline_points < 2 || options.polyline_points > kMostPolylinePoints) {
+    return Error{"a bank's polyline has " + std::to_string(options.polyline_points) + " points, expected 2 to 4096"};
+  }
+  return {};
+}
+
+Result<void> check_all(const Model& model, const BankOptions& options) {
+  if (auto ok = check_options(options); !ok) return ok;
+  if (auto ok = check(model); !ok) return ok;
+  if (auto ok = check_channels(model, operating_point(model)); !ok) return ok;
+  return std::visit([&](const ArxModel& arx) { return check_arx_program(model, arx); }, model.dynamics);
+}
+
+std::int64_t step_nanoseconds(double rate_hz) {
+  return static_cast<std::int64_t>(kNanosecondsPerSecond / rate_hz + 0.5);
+}
+
+}  // namespace
+
+Bank::State::State(const Model& model, const BankOptions& options, Arena& arena)
+    : capacity(options.capacity),
+      inputs(static_cast<int>(model.inputs.size())),
+      seed(options.seed),
+      keys(random_keys(options.seed)),
+      step_time(step_nanoseconds(model.rate_hz)),
+      channels(make_channels(model, operating_point(model), arena)),
+      stepper(make_stepper(model, channels, (capacity + kLanes - 1) / kLanes, arena)),
+      polyline(make_view(model, options.polyline_points, arena)) {
+  const std::size_t lanes = static_cast<std::size_t>((capacity + kLanes - 1) / kLanes) * kLanes;
+  generation = arena.take<std::uint32_t>(lanes);
+  alive = arena.take<std::uint8_t>(lanes);
+  stream = arena.take<std::uint64_t>(lanes);
+  age = arena.take<std::uint64_t>(lanes);
+  regressors = arena.take<float>(lanes * regressor_count(model.inputs));
+  shown = arena.take<float>(lanes * model.outputs.size());
+}
+
+void Bank::State::start(int slot) {
+  const int block = slot / kLanes, lane = slot % kLanes;
+  std::visit([&](auto& dynamics) { dynamics.start(block, lane); }, stepper);
+  age[slot] = 0;
+  for (std::size_t i = 0; i < channels.outputs.size(); ++i) {
+    const OutputChannel& channel = channels.outputs[i];
+    shown_of(block)[i * kLanes + lane] = present(channel, channel.start);
+  }
+}
+
+void Bank::State::clear_inputs(int slot) {
+  const int block = slot / kLanes, lane = slot % kLanes;
+  for (std::size_t k = 0; k < channels.regressors.size(); ++k) {
+    regressors_of(block)[k * kLanes + lane] = regress(channels.regressors[k], 0.0f);
+  }
+}
+
+void Bank::State::set_inputs(int slot, const float* values) {
+  const int block = slot / kLanes, lane = slot % kLanes;
+  for (std::size_t k = 0; k < channels.regressors.size(); ++k) {
+    const RegressorChannel& channel = channels.regressors[k];
+    regressors_of(block)[k * kLanes + lane] = regress(channel, values[channel.input]);
+  }
+}
+
+void Bank::State::step_all() {
+  std::visit(
+      [&](auto& dynamics) {
+        dynamics.turn();
+        const std::size_t size = channels.regressors.size() * kLanes;
+        for (int block = 0; block < blocks(); ++block) {
+          std::copy_n(regressors_of(block), size, dynamics.regressors(block));
+          const std::size_t first = static_cast<std::size_t>(block) * kLanes;
+          std::uint32_t flags[kLanes] = {};
+          dynamics.step(block, {&keys, {stream.data() + first, age.data() + first}, noise, flags});
+          for (int lane = 0; lane < kLanes; ++lane) {
+            held.held += flags[lane] & alive[first + lane];
+            ++age[first + lane];
+          }
+        }
+      },
+      stepper);
+  held.steps += static_cast<std::uint64_t>(living);
+}
+
+void Bank::State::show_newest() {
+  std::visit(
+      [&](const auto& dynamics) {
+        for (int block = 0; block < blocks(); ++block) {
+          const float* newest = dynamics.newest(block);
+          float* out = shown_of(block);
+          for (const OutputChannel& channel : channels.outputs) {
+            for (int lane = 0; lane < kLanes; ++lane) out[lane] = present(channel, newest[lane]);
+            newest += kLanes;
+            out += kLanes;
+          }
+        }
+      },
+      stepper);
+}
+
+void Bank::State::show_between(float share) {
+  std::visit(
+      [&](const auto& dynamics) {
+        for (int block = 0; block < blocks(); ++block) {
+          const float* newest = dynamics.newest(block);
+          const float* previous = dynamics.previous(block);
+          float* out = shown_of(block);
+          for (const OutputChannel& channel : channels.outputs) {
+            for (int lane = 0; lane < kLanes; ++lane) {
+              const float z = previous[lane] + share * (newest[lane] - previous[lane]);
+              out[lane] = present(channel, hold(z, channel.low, channel.high));
+            }
+            newest += kLanes;
+            previous += kLanes;
+            out += kLanes;
+          }
+        }
+      },
+      stepper);
+}
+
+void Bank::State::read_outputs(int slot, float* values) const {
+  const float* row = shown_of(slot / kLanes) + slot % kLanes;
+  for (std::size_t i = 0; i < channels.outputs.size(); ++i) values[i] = row[i * kLanes];
+}
+
+void Bank::Release::operator()(State* state) const {
+  std::destroy_at(state);
+  if (owned) ::operator delete(static_cast<void*>(state), std::align_val_t(kArenaAlignment));
+}
+
+Bank::Bank(std::unique_ptr<State, Release> state) : state_(std::move(state)) {}
+Bank::Bank(Bank&&) noexcept = default;
+Bank& Bank::operator=(Bank&&) noexcept = default;
+Bank::~Bank() = default;
+
+Result<std::size_t> bank_bytes(const Model& model, const BankOptions& options) {
+  if (auto ok = check_all(model, options); !ok) return ok.error();
+  Arena arena;
+  arena.take<std::byte>(sizeof(Bank::State));
+  const Bank::State measured(model, options, arena);
+  return arena.bytes();
+}
+
+Result<Bank> Bank::create(const Model& model, const BankOptions& options) {
+  const auto bytes = bank_bytes(model, options);
+  if (!bytes) return bytes.error();
+  std::span<std::byte> memory = options.memory;
+  if (!memory.empty() && memory.size() < *bytes) {
+    return Error{"a bank was given " + std::to_string(memory.size()) + " bytes, expected at least " +
+                 std::to_string(*bytes) + ": ask bank_bytes()"};
+  }
+  const bool owned = memory.empty();
+  if (owned) {
+    void* fresh = ::operator new(*bytes, std::align_val_t(kArenaAlignment), std::nothrow);
+    if (!fresh) return Error{"no memory for a bank of " + std::to_string(*bytes) + " bytes: choose a smaller capacity"};
+    memory = {static_cast<std::byte*>(fresh), *bytes};
+  }
+  Arena arena(memory);
+  void* place = arena.take<std::byte>(sizeof(State)).data();
+  return Bank(std::unique_ptr<State, Release>(new (place) State(model, options, arena), Release{owned}));
+}
+
+int Bank::capacity() const { return state_->capacity; }
+int Bank::size() const { return state_->living; }
+int Bank::slots() const { return state_->rows; }
+int Bank::input_count() const { return state_->inputs; }
+int Bank::output_count() const { return static_cast<int>(state_->channels.outputs.size()); }
+int Bank::polyline_points() const { return static_cast<int>(state_->polyline.size()); }
+std::chrono::nanoseconds Bank::step_time() const { return std::chrono::nanoseconds(state_->step_time); }
+bool Bank::valid(InstanceId id) const { return state_->valid(id); }
+Bank::Held Bank::held() const { return state_->held; }
+float Bank::noise() const { return state_->noise; }
+
+InstanceId Bank::at(int slot) const {
+  if (slot < 0 || slot >= state_->rows || !state_->alive[slot]) return {};
+  return {static_cast<std::uint32_t>(slot), state_->generation[slot]};
+}
+
+InstanceId Bank::spawn() { return spawn(state_->spawned); }
+
+InstanceId Bank::spawn(std::uint64_t stream) {
+  State& s = *state_;
+  if (s.living == s.capacity) return {};
+  int slot = s.lowest_free;
+  while (s.alive[slot]) ++slot;
+  s.lowest_free = slot + 1;
+  s.alive[slot] = 1;
+  s.generation[slot] = std::max(s.generation[slot] + 1, 1U);
+  s.stream[slot] = stream;
+  s.rows = std::max(s.rows, slot + 1);
+  ++s.living;
+  ++s.spawned;
+  s.clear_inputs(slot);
+  s.start(slot);
+  return at(slot);
+}
+
+bool Bank::end(InstanceId id) {
+  State& s = *state_;
+  if (!s.valid(id)) return false;
+  const int slot = static_cast<int>(id.slot);
+  s.alive[slot] = 0;
+  --s.living;
+  s.lowest_free = std::min(s.lowest_free, slot);
+  while (s.rows > 0 && !s.alive[s.rows - 1]) --s.rows;
+  return true;
+}
+
+void Bank::set_inputs(std::span<const float> values) {
+  State& s = *state_;
+  assert(values.size() == static_cast<std::size_t>(s.rows) * s.inputs);
+  for (int slot = 0; slot < s.rows; ++slot) {
+    if (s.alive[slot]) s.set_inputs(slot, values.data() + static_cast<std::size_t>(slot) * s.inputs);
+  }
+}
+
+void Bank::set_common_inputs(std::span<const float> values) {
+  State& s = *state_;
+  assert(values.size() == static_cast<std::size_t>(s.inputs));
+  for (int slot = 0; slot < s.rows; ++slot) {
+    if (s.alive[slot]) s.set_inputs(slot, values.data());
+  }
+}
+
+bool Bank::set_inputs(InstanceId id, std::span<const float> values) {
+  if (!valid(id)) return false;
+  assert(values.size() == static_cast<std::size_t>(state_->inputs));
+  state_->set_inputs(static_cast<int>(id.slot), values.data());
+  return true;
+}
+
+void Bank::set_noise(float scale) {
+  const float held = hold(scale, 0.0f, kMostNoise);
+  state_->noise = held < kLeastNoise ? 0.0f : held;
+}
+
+void Bank::step() {
+  state_->step_all();
+  state_->passed = 0;
+  state_->show_newest();
+}
+
+int Bank::advance(std::chrono::nanoseconds time) {
+  State& s = *state_;
+  const auto most = static_cast<std::int64_t>(kLongestAdvance.count());
+  s.passed += std::clamp<std::int64_t>(time.count(), 0, most);
+  int steps = 0;
+  for (; s.passed >= s.step_time; ++steps) {
+    s.step_all();
+    s.passed -= s.step_time;
+  }
+  s.show_between(static_cast<float>(s.passed) / static_cast<float>(s.step_time));
+  return steps;
+}
+
+void Bank::outputs(std::span<float> values) const {
+  const State& s = *state_;
+  const std::size_t count = s.channels.outputs.size();
+  assert(values.size() == s.rows * count);
+  for (int slot = 0; slot < s.rows; ++slot) {
+    float* row = values.data() + slot * count;
+    if (s.alive[slot]) {
+      s.read_outputs(slot, row);
+    } else {
+      std::fill_n(row, count, 0.0f);
+    }
+  }
+}
+
+bool Bank::outputs(InstanceId id, std::span<float> values) const {
+  if (!valid(id)) return false;
+  assert(values.size() == state_->channels.outputs.size());
+  state_->read_outputs(static_cast<int>(id.slot), values.data());
+  return true;
+}
+
+void Bank::polylines(std::span<float> values) const {
+  const State& s = *state_;
+  assert(!s.polyline.empty() && values.size() == s.rows * s.polyline.size() * 2);
+  const std::size_t row = s.polyline.size() * 2;
+  for (int block = 0; block < s.blocks(); ++block) {
+    const int first = block * State::kLanes;
+    const int lanes = std::min(State::kLanes, s.rows - first);
+    for (std::size_t k = 0; k < row; ++k) {
+      float coordinate[State::kLanes];
+      polyline_lanes<LiveNumbers>(s.polyline[k / 2], static_cast<int>(k % 2), s.shown_of(block), coordinate);
+      for (int lane = 0; lane < lanes; ++lane) {
+        values[(first + lane) * row + k] = s.alive[first + lane] ? coordinate[lane] : 0.0f;
+      }
+    }
+  }
+}
+
+bool Bank::polyline(InstanceId id, std::span<float> values) const {
+  const State& s = *state_;
+  if (!s.valid(id)) return false;
+  assert(!s.polyline.empty() && values.size() == s.polyline.size() * 2);
+  const int block = static_cast<int>(id.slot) / State::kLanes, lane = static_cast<int>(id.slot) % State::kLanes;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    float coordinate[State::kLanes];
+    polyline_lanes<LiveNumbers>(s.polyline[k / 2], static_cast<int>(k % 2), s.shown_of(block), coordinate);
+    values[k] = coordinate[lane];
+  }
+  return true;
+}
+
+bool Bank::reset(InstanceId id) {
+  if (!valid(id)) return false;
+  state_->start(static_cast<int>(id.slot));
+  return true;
+}
+
+void Bank::reset() {
+  for (int slot = 0; slot < state_->rows; ++slot) {
+    if (state_->alive[slot]) state_->start(slot);
+  }
+  state_->passed = 0;
+}
+
+}  // namespace wisp

@@ -1,0 +1,63 @@
+#pragma once
+// What a bank consists of; everything lies in the bank's one piece of memory, this struct included.
+
+#include <variant>
+
+#include "run/arx_stepper.hpp"
+#include "run/outline_lanes.hpp"
+#include "wisp/run/bank.hpp"
+
+namespace wisp {
+
+/// Every kind of dynamics is a stepper with the functions of ArxStepper: constructor, turn, regressors, step, newest,
+/// previous, start. A new kind is its file and its name here and in make_stepper().
+using Stepper = std::variant<ArxStepper<LiveNumbers>>;
+
+struct Bank::State {
+  static constexpr int kLanes = LiveNumbers::kLanes;
+
+  State(const Model& model, const BankOptions& options, Arena& arena);
+
+  int blocks() const { return (rows + kLanes - 1) / kLanes; }
+  bool valid(InstanceId id) const {
+    return id.generation != 0 && id.slot < static_cast<std::uint32_t>(capacity) && alive[id.slot] &&
+           generation[id.slot] == id.generation;
+  }
+  float* regressors_of(int block) { return regressors.data() + block * channels.regressors.size() * kLanes; }
+  float* shown_of(int block) { return shown.data() + block * channels.outputs.size() * kLanes; }
+  const float* shown_of(int block) const { return const_cast<State*>(this)->shown_of(block); }
+
+  void start(int slot);
+  void clear_inputs(int slot);
+  void set_inputs(int slot, const float* values);
+  void step_all();
+  void show_newest();
+  void show_between(float share);
+  void read_outputs(int slot, float* values) const;
+
+  int capacity;
+  int inputs;
+  std::uint64_t seed;
+  RandomKeys keys;
+  std::int64_t step_time;  // nanoseconds
+  Channels channels;
+  Stepper stepper;
+  std::span<PolylinePoint> polyline;
+
+  std::span<std::uint32_t> generation;  // per slot, as are the next three
+  std::span<std::uint8_t> alive;
+  std::span<std::uint64_t> stream;
+  std::span<std::uint64_t> age;
+  std::span<float> regressors;  // [block][regressor][lane]: what acts now
+  std::span<float> shown;       // [block][output][lane]: what is read
+
+  int living = 0;
+  int rows = 0;         // one more than the highest slot in use
+  int lowest_free = 0;  // no slot below it is free
+  std::uint64_t spawned = 0;
+  std::int64_t passed = 0;  // nanoseconds since the last step
+  float noise = 1.0f;
+  Held held;
+};
+
+}  // namespace wisp

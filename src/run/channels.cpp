@@ -1,0 +1,111 @@
+#include "run/channels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "wisp/run/bank.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr double kLargest = 1e12;    // of a range or mean, in the model's units
+constexpr double kSmallest = 1e-12;  // of a range that is not zero
+
+double margin(double lowest, double highest) { return kRangeMargin * (highest - lowest); }
+
+float toward(float value, float target) { return std::nextafter(value, target); }
+
+// The z nearest to `wanted` whose presented value does not leave [lowest, highest] when it is rounded.
+float held_limit(OutputChannel channel, double wanted, float lowest, float highest) {
+  auto z = static_cast<float>(wanted);
+  while (present(channel, z) < lowest) z = toward(z, std::numeric_limits<float>::max());
+  while (present(channel, z) > highest) z = toward(z, std::numeric_limits<float>::lowest());
+  return z;
+}
+
+OutputChannel make_output(const Output& output, double mean) {
+  const double scale = channel_scale(output.lowest, output.highest);
+  const double room = margin(output.lowest, output.highest);
+  OutputChannel channel{static_cast<float>(mean), static_cast<float>(scale), 0, 0, 0};
+  const double low = output.lowest - room, high = output.highest + room;
+  const auto lowest = static_cast<float>(low), highest = static_cast<float>(high);
+  const auto rounded = static_cast<double>(channel.mean);
+  channel.low = held_limit(channel, (low - rounded) / scale, lowest, highest);
+  channel.high = held_limit(channel, (high - rounded) / scale, lowest, highest);
+  channel.start = settle(hold(0.0f, channel.low, channel.high));
+  return channel;
+}
+
+RegressorChannel make_regressor(const Input& input, int index, Part part, double mean) {
+  const double room = margin(input.lowest, input.highest);
+  return {index,
+          part,
+          static_cast<float>(input.lowest - room),
+          static_cast<float>(input.highest + room),
+          static_cast<float>(mean),
+          static_cast<float>(1.0 / channel_scale(input.lowest, input.highest))};
+}
+
+Result<void> check_channel(const std::string& what, double lowest, double highest, double mean) {
+  const double size = std::max({std::abs(lowest), std::abs(highest), std::abs(mean)});
+  if (!(size <= kLargest)) {
+    return Error{what + " reaches " + std::to_string(size) + ", expected at most 1e12: choose a larger unit"};
+  }
+  if (!(highest >= lowest)) return Error{what + " has a range that ends before it begins"};
+  if (highest > lowest && highest - lowest < kSmallest) {
+    return Error{what + " has a range narrower than 1e-12: choose a smaller unit"};
+  }
+  return {};
+}
+
+}  // namespace
+
+double channel_scale(double lowest, double highest) {
+  if (!(highest > lowest)) return 1.0;
+  int exponent = 0;
+  std::frexp(highest - lowest, &exponent);
+  return std::ldexp(1.0, exponent - 1);
+}
+
+Channels make_channels(const Model& model, const OperatingPoint& point, Arena& arena) {
+  Channels channels{arena.take<OutputChannel>(model.outputs.size()),
+                    arena.take<RegressorChannel>(regressor_count(model.inputs))};
+  if (arena.measures()) return channels;
+  for (std::size_t i = 0; i < model.outputs.size(); ++i) {
+    channels.outputs[i] = make_output(model.outputs[i], point.outputs[i]);
+  }
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < model.inputs.size(); ++k) {
+    const Input& input = model.inputs[k];
+    const auto add = [&](Part part) {
+      channels.regressors[next] = make_regressor(input, static_cast<int>(k), part, point.regressors[next]);
+      ++next;
+    };
+    if (input.shape == InputShape::kSplitSign) {
+      add(Part::kPositive);
+      add(Part::kNegative);
+    } else {
+      add(Part::kWhole);
+    }
+  }
+  return channels;
+}
+
+Result<void> check_channels(const Model& model, const OperatingPoint& point) {
+  for (std::size_t i = 0; i < model.outputs.size(); ++i) {
+    const Output& output = model.outputs[i];
+    if (auto ok = check_channel("output " + output.name, output.lowest, output.highest, point.outputs[i]); !ok)
+      return ok;
+  }
+  std::size_t next = 0;
+  for (const Input& input : model.inputs) {
+    const double mean = point.regressors[next];
+    if (auto ok = check_channel("input " + input.name, input.lowest, input.highest, mean); !ok) return ok;
+    next += input.shape == InputShape::kSplitSign ? 2 : 1;
+  }
+  return {};
+}
+
+}  // namespace wisp

@@ -1,0 +1,71 @@
+#include "run/wind_design.hpp"
+
+#include <string>
+
+namespace wisp::wind {
+namespace {
+
+constexpr double kLeastAnalysisHz = 8000;
+constexpr double kLeastBoxedHz = 32000;  // the box's dip at 3.4 kHz stays below 0.2 dB
+constexpr int kTapsPerPhase = 5;         // the low-pass: −24 dB at the frequency that would fold onto 2.6 kHz
+
+Result<void> in_range(const char* what, double found, double least, double most, const char* unit) {
+  if (found >= least && found <= most) return {};
+  const auto text = [](double x) {
+    std::string s = std::to_string(x);
+    while (s.find('.') != std::string::npos && (s.back() == '0' || s.back() == '.')) {
+      const bool dot = s.back() == '.';
+      s.pop_back();
+      if (dot) break;
+    }
+    return s;
+  };
+  return Error{std::string("wind level: ") + what + " is " + text(found) + unit + ", expected " + text(least) + " to " +
+               text(most) + unit};
+}
+
+int rounded(double x) { return static_cast<int>(x + 0.5); }
+
+}  // namespace
+
+Design design(const SoundFormat& format, const WindOptions& options) {
+  Design d;
+  d.channels = format.channels;
+  d.box = static_cast<int>(format.rate_hz / kLeastBoxedHz);
+  if (d.box < 1) d.box = 1;
+  const double boxed = format.rate_hz / d.box;
+  d.decimation = static_cast<int>(boxed / kLeastAnalysisHz);
+  const double rate = boxed / d.decimation;
+  d.analysis_rate_hz = rate;
+  if (d.decimation > 1) d.taps = windowed_sinc(kTapsPerPhase * d.decimation, 3800 / boxed);
+  for (float& tap : d.taps) tap /= static_cast<float>(d.box);  // the box hands on a sum
+
+  d.total = high_pass(80, 0.707, rate);
+  d.low = band_pass(126.5, 1.054, rate);
+  d.high = band_pass(2646, 1.764, rate);
+  d.voice_high = high_pass(100, 0.707, rate);
+  d.voice_low = low_pass(900, 0.707, rate);
+
+  d.hop = 2 * rounded(rate * 0.005);
+  d.first_lag = rounded(rate / 2 / 400);
+  d.last_lag = rounded(rate / 2 / 80);
+  const double hop_seconds = d.hop / rate;
+  d.power_approach = static_cast<float>(approach(hop_seconds, 0.050));
+  d.voice_release = static_cast<float>(approach(hop_seconds, 0.300));
+  d.floor_fall = static_cast<float>(approach(hop_seconds, 0.050));
+  d.floor_rise_db = static_cast<float>(hop_seconds);
+  d.smoothing = static_cast<float>(approach(1 / rate, options.smoothing_seconds));
+  d.exponent = static_cast<float>(options.exponent / 2);
+  return d;
+}
+
+Result<void> check(const SoundFormat& format, const WindOptions& options) {
+  if (auto ok = in_range("the sound's rate", format.rate_hz, 8000, 192000, " Hz"); !ok) return ok;
+  if (auto ok = in_range("the number of channels", format.channels, 1, 8, ""); !ok) return ok;
+  if (auto ok = in_range("the frame rate", options.frame_rate_hz, 1, 1000, " Hz"); !ok) return ok;
+  if (auto ok = in_range("the exponent", options.exponent, 0.1, 2, ""); !ok) return ok;
+  if (auto ok = in_range("the smoothing", options.smoothing_seconds, 0, 1, " s"); !ok) return ok;
+  return in_range("the first gust's RMS", options.first_gust_rms, 1e-6, 8, "");
+}
+
+}  // namespace wisp::wind

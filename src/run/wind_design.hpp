@@ -1,0 +1,44 @@
+#pragma once
+// Everything about hearing wind that is fixed when the estimator is made: rates, filters, time constants, thresholds.
+
+#include <vector>
+
+#include "run/wind_filters.hpp"
+#include "wisp/run/wind_level.hpp"
+
+namespace wisp::wind {
+
+/// The sound's way to the analysis rate (8 to 16 kHz): the mean of `box` samples, then a low-pass, keeping one in
+/// `decimation`. Then the bands, whose powers are summed over hops of about 10 ms.
+struct Design {
+  int channels = 1;
+  int box = 1;
+  int decimation = 1;
+  double analysis_rate_hz = 8000;
+  std::vector<float> taps;  ///< of the low-pass; empty where nothing is left out
+
+  Section total;       ///< high-pass 80 Hz
+  Section low;         ///< band-pass 126.5 Hz
+  Section high;        ///< band-pass 2646 Hz
+  Section voice_high;  ///< high-pass 100 Hz of the voice band
+  Section voice_low;   ///< low-pass 900 Hz of the voice band
+
+  int hop = 80;        ///< analysis samples a hop; even
+  int first_lag = 10;  ///< periods of a voice, in samples of half the analysis rate
+  int last_lag = 50;
+
+  float power_approach = 1;     ///< of band powers in one hop (50 ms)
+  float voice_release = 1;      ///< of the held voicing in one hop (300 ms)
+  float floor_fall = 1;         ///< of the floor downwards in one hop (50 ms)
+  float floor_rise_db = 0.01F;  ///< of the floor upwards in one hop (1 dB/s)
+  float smoothing = 1;          ///< of the band power that becomes the level, one analysis sample
+  float exponent = 1.0F / 3;    ///< of that power
+};
+
+/// The design for a format and options that have been checked.
+Design design(const SoundFormat& format, const WindOptions& options);
+
+/// Checks format and options. Errors name the value, what was found and what is allowed.
+Result<void> check(const SoundFormat& format, const WindOptions& options);
+
+}  // namespace wisp::wind

@@ -1,0 +1,71 @@
+#pragma once
+// The few functions beyond + − × ÷ √ that hearing wind needs, made of nothing else, so that they give the same bits
+// with every compiler and C library.
+
+#include <bit>
+#include <cstdint>
+
+namespace wisp::wind {
+
+// The kernel is a template over its number type: float in the product, a counting type where its cost is measured.
+// Only these two functions look inside a number; a counting type overloads them.
+inline float plain(float x) { return x; }
+
+/// x as m · 2^e with m in [1/√2, √2). For finite x >= 2^-126.
+struct Split {
+  float mantissa;
+  int exponent;
+};
+
+inline Split split(float x) {
+  constexpr std::uint32_t kRootHalf = 0x3f3504f3U;  // the bits of 1/√2
+  const std::uint32_t bits = std::bit_cast<std::uint32_t>(x);
+  const std::uint32_t above = bits - kRootHalf;
+  const std::uint32_t exponent = above & 0xff800000U;
+  return {std::bit_cast<float>(bits - exponent), static_cast<std::int32_t>(exponent) >> 23};
+}
+
+/// 2^n for n in −126 … 127.
+inline float power_of_two(int n) { return std::bit_cast<float>(static_cast<std::uint32_t>(n + 127) << 23); }
+
+/// Base-2 logarithm, from the series of artanh((m−1)/(m+1)) cut after its fourth term (remainder below 4.2e-8);
+/// absolute error below 2e-7 for |log2 x| < 1, else one rounding of the result more. For finite x >= 2^-126.
+template <class T>
+T log2_of(T x) {
+  const Split parts = split(plain(x));
+  const T m = T(parts.mantissa);
+  const T s = (m - T(1.0F)) / (m + T(1.0F));
+  const T s2 = s * s;
+  const T series = T(2.8853900818F) + s2 * (T(0.9617966939F) + s2 * (T(0.5770780164F) + s2 * T(0.4121985831F)));
+  return T(static_cast<float>(parts.exponent)) + s * series;
+}
+
+/// 2 to the power x, from the power series of 2^f, |f| <= 1/2, cut after f^6 (remainder below 1.3e-7 of the value);
+/// relative error below 4e-7. x is held to −125 … 125.
+template <class T>
+T exp2_of(T x) {
+  if (x < T(-125.0F)) x = T(-125.0F);
+  if (x > T(125.0F)) x = T(125.0F);
+  const float given = plain(x);
+  const int whole = static_cast<int>(given < 0 ? given - 0.5F : given + 0.5F);
+  const T f = x - T(static_cast<float>(whole));
+  const T low = T(1.0F) + f * (T(0.6931471806F) + f * (T(0.2402265070F) + f * T(0.0555041087F)));
+  const T f2 = f * f;
+  const T high = f2 * f2 * (T(0.0096181291F) + f * (T(0.0013333558F) + f * T(0.0001540353F)));
+  return (low + high) * T(power_of_two(whole));
+}
+
+/// Decibels of a power ratio; powers below 1e-12 count as 1e-12 (−120 dB).
+template <class T>
+T decibels(T power) {
+  if (power < T(1e-12F)) power = T(1e-12F);
+  return T(3.0102999566F) * log2_of(power);
+}
+
+/// 1 / (1 + e^−x).
+template <class T>
+T sigmoid(T x) {
+  return T(1.0F) / (T(1.0F) + exp2_of(x * T(-1.4426950409F)));
+}
+
+}  // namespace wisp::wind

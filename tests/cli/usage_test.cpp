@@ -1,0 +1,71 @@
+// Exit statuses, help and the manual.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/program.hpp"
+
+namespace wisp {
+namespace {
+
+using testing::HasSubstr;
+
+class Usage : public testing::Test {
+ protected:
+  Said wisp(const std::string& arguments) { return run_wisp(arguments, folder_); }
+  void SetUp() override {
+    folder_ = std::filesystem::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::filesystem::path folder_;
+};
+
+TEST_F(Usage, HelpIsStatus0AndWrongUsageIsStatus2) {
+  EXPECT_EQ(wisp("--help").status, 0);
+  EXPECT_EQ(wisp("learn arx --help").status, 0);
+  EXPECT_EQ(wisp("--version").status, 0);
+  EXPECT_EQ(wisp("").status, 2);
+  EXPECT_EQ(wisp("dance").status, 2);
+  EXPECT_EQ(wisp("info").status, 2);
+  EXPECT_EQ(wisp("info a.wisp --nonsense").status, 2);
+  EXPECT_EQ(wisp("run a.wisp -o a.csv --frames many").status, 2);
+  EXPECT_EQ(wisp("run a.wisp -o a.csv --frames 10 --noise loud").status, 2);
+  EXPECT_EQ(wisp("learn arx a.csv -o m.wisp --outputs y --range 30:1").status, 2);
+}
+
+TEST_F(Usage, AMissingOutputNameIsWrongUsage) {
+  EXPECT_EQ(wisp("run a.wisp --frames 10").status, 2);
+  EXPECT_EQ(wisp("learn arx a.csv --outputs y").status, 2);
+}
+
+TEST_F(Usage, AMissingFileIsStatus1AndOneLine) {
+  const Said said = wisp("info nowhere.wisp");
+  EXPECT_EQ(said.status, 1);
+  EXPECT_THAT(said.err, HasSubstr("nowhere.wisp"));
+  EXPECT_EQ(std::count(said.err.begin(), said.err.end(), '\n'), 1);
+  EXPECT_EQ(said.out, "");
+}
+
+TEST_F(Usage, WithJsonAFailureIsADocumentToo) {
+  const Said said = wisp("info nowhere.wisp --json");
+  EXPECT_EQ(said.status, 1);
+  EXPECT_THAT(said.json()["error"].get<std::string>(), HasSubstr("nowhere.wisp"));
+}
+
+TEST_F(Usage, EveryCommandHasHelpWithAnExample) {
+  for (const char* command : {"capture outline", "capture flame", "learn outline", "learn flame", "learn arx", "validate",
+                              "run", "info", "demo"}) {
+    const Said said = wisp(std::string(command) + " --help");
+    EXPECT_EQ(said.status, 0) << command;
+    EXPECT_THAT(said.out, HasSubstr("Examples:")) << command;
+    EXPECT_THAT(said.out, HasSubstr("--json")) << command;
+  }
+}
+
+TEST_F(Usage, TheManualInDocsIsTheProgramsOwn) {
+  EXPECT_EQ(wisp("manual").out, file_text(WISP_SOURCE_DIR "/docs/cli.md")) << "make it again: wisp manual > docs/cli.md";
+}
+
+}  // namespace
+}  // namespace wisp
