@@ -199,6 +199,7 @@ void write_criteria(const Work& work, ArxSummary& summary) {
   const double per_output = total / ny;
   const double log_det = log_determinant(summary.noise_covariance, ny);
   summary.fpe = std::exp(log_det) * (1 + per_output / n) / (1 - per_output / n);
+  summary.fpe_total = std::exp(log_det) * (1 + total / n) / (1 - total / n);
   summary.aic = n * log_det + 2 * total;
   summary.aicc = summary.aic + 2 * total * (total + 1) / (n - total - 1);
   summary.bic = n * log_det + total * std::log(n);

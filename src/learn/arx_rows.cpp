@@ -106,9 +106,9 @@ Result<void> scale_channel(Signals& signals, int channel, ArxOffset offset) {
   const Sums square = sum_over_recordings(signals, channel, centre, true);
   const double rms = std::sqrt(square.sum / static_cast<double>(square.count));
   const bool still = rms <= kStandsStill * largest_magnitude(signals, channel);
-  signals.offset.push_back(centre);
-  signals.deviation.push_back(still ? 0.0 : rms);
-  signals.scale.push_back(still ? 0.0 : std::ldexp(1.0, -std::ilogb(rms)));
+  signals.offset[channel] = centre;
+  signals.deviation[channel] = still ? 0.0 : rms;
+  signals.scale[channel] = still ? 0.0 : std::ldexp(1.0, -std::ilogb(rms));
   signals.missing |= mean.count != total_rows(signals);
   return {};
 }
@@ -150,7 +150,7 @@ void add_runs(RowPlan& plan, std::size_t recording, std::size_t begin, std::size
 
 }  // namespace
 
-Result<Signals> gather_signals(std::span<const Recording> recordings, const ChannelChoice& channels, ArxOffset offset) {
+Result<Signals> find_signals(std::span<const Recording> recordings, const ChannelChoice& channels) {
   if (recordings.empty()) return Error{"no recording to learn from"};
   if (channels.outputs.empty()) return Error{"no output channel was named"};
   Signals signals;
@@ -159,8 +159,19 @@ Result<Signals> gather_signals(std::span<const Recording> recordings, const Chan
   signals.names = channels.outputs;
   signals.names.insert(signals.names.end(), channels.inputs.begin(), channels.inputs.end());
   if (auto ok = find_samples(recordings, signals); !ok) return ok.error();
-  for (int c = 0; c < signals.channels(); ++c) {
-    if (auto ok = scale_channel(signals, c, offset); !ok) return ok.error();
+  signals.offset.assign(signals.names.size(), 0.0);
+  signals.scale.assign(signals.names.size(), 1.0);
+  signals.deviation.assign(signals.names.size(), 0.0);
+  signals.missing = true;
+  return signals;
+}
+
+Result<Signals> gather_signals(std::span<const Recording> recordings, const ChannelChoice& channels, ArxOffset offset) {
+  auto signals = find_signals(recordings, channels);
+  if (!signals) return signals;
+  signals->missing = false;
+  for (int c = 0; c < signals->channels(); ++c) {
+    if (auto ok = scale_channel(*signals, c, offset); !ok) return ok.error();
   }
   return signals;
 }

@@ -54,7 +54,10 @@ struct RowPlan {
   std::size_t rows_left_out = 0;
 };
 
-/// Finds the channels and their offsets and scales. Errors: as fit_arx, for recordings and channels.
+/// Finds the channels, with offsets 0 and scales 1. Errors: as fit_arx, for recordings and channels.
+Result<Signals> find_signals(std::span<const Recording> recordings, const ChannelChoice& channels);
+
+/// Finds the channels and their offsets and scales. Errors: as find_signals, and where a channel has no sample.
 Result<Signals> gather_signals(std::span<const Recording> recordings, const ChannelChoice& channels, ArxOffset offset);
 
 /// The lags of each channel that any of `columns` uses, ascending, and lag 0 of every output.

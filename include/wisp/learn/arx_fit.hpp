@@ -58,13 +58,14 @@ struct ArxStability {
 struct ArxSummary {
   std::vector<double> loss;              ///< V: mean squared residual per output over the rows used, output's unit²
   std::vector<double> noise_covariance;  ///< ny × ny, row-major: mean products of residuals over the rows used
-  double fpe = 0;                        ///< det(noise covariance)·(1 + d/n)/(1 − d/n), d = coefficients per output
-  double aic = 0;                        ///< n ln det(noise covariance) + 2 d_total
-  double aicc = 0;                       ///< aic + 2 d_total (d_total + 1)/(n − d_total − 1)
-  double bic = 0;                        ///< n ln det(noise covariance) + d_total ln n
-  std::vector<double> row_fpe;           ///< V·(1 + d/n)/(1 − d/n) per output row with its own d
-  std::vector<double> fit_percent;       ///< one step ahead, 100(1 − ‖y − ŷ‖/‖y − ȳ‖) per output
-  std::vector<double> condition;         ///< 2-norm condition number of every row's regressor, in the data's units
+  double fpe = 0;        ///< det(noise covariance)·(1 + d/n)/(1 − d/n), d = mean number of coefficients of an output
+  double fpe_total = 0;  ///< the same with d = d_total, the coefficients of all outputs together, as MATLAB counts
+  double aic = 0;        ///< n ln det(noise covariance) + 2 d_total
+  double aicc = 0;       ///< aic + 2 d_total (d_total + 1)/(n − d_total − 1)
+  double bic = 0;        ///< n ln det(noise covariance) + d_total ln n
+  std::vector<double> row_fpe;      ///< V·(1 + d/n)/(1 − d/n) per output row with its own d
+  std::vector<double> fit_percent;  ///< one step ahead, 100(1 − ‖y − ŷ‖/‖y − ȳ‖) per output
+  std::vector<double> condition;    ///< 2-norm condition number of every row's regressor, in the data's units
   std::vector<RankProblem> rank_problems;
   ArxStability stable;
   std::size_t samples_used = 0;  ///< n: rows in the regression
