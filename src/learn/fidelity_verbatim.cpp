@@ -45,7 +45,8 @@ std::size_t longest_common_run(const Stretch& a, const Stretch& b, std::span<con
 
 }  // namespace
 
-std::size_t longest_verbatim_run(std::span<const Stretch> real, std::span<const Stretch> synthesized, double tolerance) {
+std::size_t longest_verbatim_run(std::span<const Stretch> real, std::span<const Stretch> synthesized,
+                                 double tolerance) {
   const std::vector<double> allowed = tolerances(real, tolerance);
   std::size_t longest = 0;
   for (const Stretch& a : real) {

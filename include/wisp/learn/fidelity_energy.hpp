@@ -25,7 +25,7 @@ struct FeatureWindows {
 };
 
 /// Cuts stretches into windows of `rows` rows that start every `hop` rows; the features are the rows themselves and
-/// their differences from the row before. A block is as long as two windows.
+/// their differences from the row before. A block is as long as four windows.
 ///
 /// Precondition: rows >= 1, hop >= 1.
 FeatureWindows motion_windows(std::span<const Stretch> stretches, std::size_t rows, std::size_t hop);
@@ -40,7 +40,7 @@ void standardise(FeatureWindows& reference, FeatureWindows& other);
 /// An energy distance and how likely chance alone makes one as large.
 struct EnergyTest {
   double distance = 0;  ///< (2E‖X−Y‖ − E‖X−X′‖ − E‖Y−Y′‖) / (2E‖X−Y‖), in [0, 1]; 0: the same distribution
-  double p_value = 1;   ///< share of random exchanges of whole blocks, this one counted, with at least this distance
+  double p_value = 1;  ///< share of random exchanges of whole blocks, this one counted, with at least this distance
 };
 
 /// Compares two sets of windows. E‖X−X′‖ runs over all pairs, a window with itself included, so the distance of two

@@ -1,0 +1,86 @@
+#pragma once
+// How like the real thing is synthesized behaviour? Every measure stands between two bounds from the same data: the
+// floor (real against real) and the ceiling (real against its own frames in random order).
+//
+// Definitions, sources and how to read the figures: docs/fidelity.md.
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "wisp/base/result.hpp"
+#include "wisp/record/recording.hpp"
+
+namespace wisp {
+
+/// How to compare.
+struct FidelityOptions {
+  std::vector<std::string> channels;  ///< which to compare; empty: all outputs of the first real recording
+  std::size_t welch_samples = 64;     ///< even, at least 16; shortened where half of the data has no such stretch
+  double memory_seconds = 2;          ///< > 0: autocorrelation up to this lag, or half of the longest half stretch
+  double window_seconds = 0.5;        ///< > 0: length of a feature window; half a second is a few flickers
+  std::size_t most_windows = 500;     ///< ≥ 2, a side
+  std::size_t permutations = 199;     ///< 0: no p-value; 199 tell 0.005
+  double verbatim_tolerance = 0.02;   ///< in standard deviations of a channel, ≥ 0: what no eye tells apart
+  std::uint64_t seed = 1;
+};
+
+/// A measure and what it is worth.
+struct Bounded {
+  double value = 0;    ///< real against synthesized
+  double floor = 0;    ///< real against real: one half of the recordings against the other, or of a single one in time
+  double ceiling = 0;  ///< real against its own frames in random order
+
+  /// value / floor; infinite where the floor is 0 and the value is not, 1 where both are.
+  double floor_ratio() const;
+};
+
+/// One channel.
+struct ChannelFidelity {
+  std::string name;
+  double sd_real = 0;
+  double sd_synthesized = 0;
+  Bounded log_spectral_distance;     ///< dB
+  Bounded autocorrelation_distance;  ///< mean |r − r̂|
+  Bounded wasserstein_value;         ///< of the samples, over their standard deviation; its ceiling is 0, since the
+                                     ///< order of frames does not change which there are
+  Bounded wasserstein_speed;         ///< of |y(t) − y(t−1)|, over its standard deviation
+};
+
+/// The comparison. NaN where there are too few data for a measure.
+struct Fidelity {
+  std::vector<ChannelFidelity> channels;
+
+  // Means over channels.
+  Bounded log_spectral_distance;
+  Bounded autocorrelation_distance;
+  Bounded wasserstein_value;
+  Bounded wasserstein_speed;
+
+  Bounded energy_distance;  ///< normalised, in [0, 1], over standardised windows of all channels and their velocities
+  double energy_p_value = std::numeric_limits<double>::quiet_NaN();  ///< of the value, by exchange of whole blocks
+
+  double verbatim_seconds = 0;          ///< longest stretch of synthesized behaviour that is copied from the real one
+  double verbatim_floor_seconds = 0;    ///< the same of one half of the real one in the other
+  double verbatim_ceiling_seconds = 0;  ///< longest stretch that there is to copy
+
+  // What was used.
+  std::size_t real_rows = 0;
+  std::size_t synthesized_rows = 0;
+  std::size_t welch_samples = 0;
+  double memory_seconds = 0;
+  std::size_t windows_real = 0;
+  std::size_t windows_synthesized = 0;
+};
+
+/// Compares synthesized recordings with real ones, which learning should not have seen. Synthesized stretches are cut
+/// to the length of the longest real one, so that both are seen through the same window.
+/// Errors: no recordings, a channel that one of them has not, rates that differ, fewer than 16 consecutive complete
+/// rows in either half of the real or in the synthesized data.
+Result<Fidelity> fidelity(std::span<const Recording> real, std::span<const Recording> synthesized,
+                          const FidelityOptions& options = {});
+
+}  // namespace wisp

@@ -1,0 +1,54 @@
+#pragma once
+// The shape that control points make: the outline as a polyline, its tip, and how well two filled outlines cover each
+// other.
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace wisp {
+
+/// A point of an outline: x, y.
+using OutlinePoint = std::array<double, 2>;
+
+/// The outline curve at evenly spaced parameters, with weights that are computed once.
+class OutlineCurve {
+ public:
+  /// Precondition: valid_knots(knots); samples >= 2.
+  explicit OutlineCurve(std::span<const double> knots, std::size_t samples = 200);
+
+  std::size_t control_points() const { return points_; }
+
+  /// Points of the curve for control points x0, y0, x1, y1, …, from the base's left over the tip to the base's right.
+  ///
+  /// Precondition: control.size() == 2 · control_points().
+  std::vector<OutlinePoint> polyline(std::span<const double> control) const;
+
+ private:
+  struct Sample {
+    std::size_t first;
+    std::array<double, 4> weight;
+  };
+  std::size_t points_;
+  std::vector<Sample> samples_;
+};
+
+/// The tip of an outline: the mean of the fiftieth part of its points that is farthest from the middle of its base (its
+/// two ends). A mean, because the farthest single point jumps on a blunt tip.
+///
+/// Precondition: the polyline has points.
+OutlinePoint tip_of(std::span<const OutlinePoint> polyline);
+
+/// Distance of the tip from the middle of the base.
+double height_of(std::span<const OutlinePoint> polyline);
+
+/// Area of the closed polygon where it is filled by the even-odd rule.
+double area_of(std::span<const OutlinePoint> polygon);
+
+/// Intersection over union of two closed polygons, each filled by the even-odd rule, in [0, 1]; 0 where neither has an
+/// area. Both are cut into 512 horizontal strips over their common height, and each strip's intervals are exact at its
+/// middle: the error is below 1e-3 (0.0002 is typical), which a test holds it to.
+double overlap_of(std::span<const OutlinePoint> a, std::span<const OutlinePoint> b);
+
+}  // namespace wisp

@@ -1,0 +1,216 @@
+#include "wisp/learn/outline_units.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "wisp/learn/outline_shape.hpp"
+#include "wisp/model/bspline.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr std::size_t kLeastPoints = kSplineDegree + 1;
+constexpr std::string_view kUnitAttribute = "pixels_per_unit";
+
+std::optional<double> number(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+Result<std::vector<double>> parse_knots(std::string_view text, const std::string& source) {
+  std::vector<double> knots;
+  std::size_t at = 0;
+  while ((at = text.find_first_not_of(" \t,", at)) != std::string_view::npos) {
+    const std::size_t end = std::min(text.find_first_of(" \t,", at), text.size());
+    const auto knot = number(text.substr(at, end - at));
+    if (!knot) {
+      return Error{source + ": '" + std::string(text.substr(at, end - at)) + "' in its knots is not a number"};
+    }
+    knots.push_back(*knot);
+    at = end;
+  }
+  return knots;
+}
+
+Result<std::vector<double>> knots_of(const Recording& recording, std::size_t points) {
+  const auto text = find_attribute(recording, "knots");
+  if (!text) return uniform_knots(static_cast<int>(points));
+  auto knots = parse_knots(*text, recording.source);
+  if (!knots) return knots;
+  if (knots->size() != points + kLeastPoints) {
+    return Error{recording.source + ": has " + std::to_string(knots->size()) + " knots, expected " +
+                 std::to_string(points + kLeastPoints) + " for " + std::to_string(points) + " control points"};
+  }
+  if (!valid_knots(*knots)) {
+    return Error{recording.source + ": its knots are not ascending from 0 to 1 with multiplicity 4 at both ends"};
+  }
+  return knots;
+}
+
+// The frame of one row: the middle between the first and the last control point. NaN where one is missing.
+OutlineFrame frame_of(const Recording& recording, const OutlineLayout& layout, std::size_t row, double pixels_per_unit) {
+  const auto sample = [&](std::size_t k) { return recording.channels[layout.outputs[k]].samples[row]; };
+  const std::size_t last = layout.outputs.size() - 2;
+  return {(sample(0) + sample(last)) / 2, (sample(1) + sample(last + 1)) / 2, pixels_per_unit};
+}
+
+std::vector<double> row_of(const Recording& recording, const OutlineLayout& layout, std::size_t row) {
+  std::vector<double> control;
+  for (std::size_t c : layout.outputs) control.push_back(recording.channels[c].samples[row]);
+  return control;
+}
+
+bool complete(std::span<const double> control) {
+  return std::none_of(control.begin(), control.end(), [](double value) { return std::isnan(value); });
+}
+
+void set_row(Recording& recording, const OutlineLayout& layout, std::size_t row, std::span<const double> control) {
+  for (std::size_t k = 0; k < control.size(); ++k) recording.channels[layout.outputs[k]].samples[row] = control[k];
+}
+
+std::vector<double>& motion(Recording& recording, const std::string& name) {
+  if (const auto index = find_channel(recording, name)) return recording.channels[*index].samples;
+  recording.channels.push_back({name, "px", Role::kMotion, std::vector<double>(recording.rows())});
+  return recording.channels.back().samples;
+}
+
+void set_attribute(Recording& recording, std::string_view name, const std::string& value) {
+  for (Attribute& attribute : recording.attributes) {
+    if (attribute.name == name) {
+      attribute.value = value;
+      return;
+    }
+  }
+  recording.attributes.push_back({std::string(name), value});
+}
+
+std::string shortest_text(double value) {
+  char text[32];
+  const auto [end, error] = std::to_chars(text, text + sizeof text, value);
+  return {text, end};
+}
+
+}  // namespace
+
+std::vector<std::string> outline_outputs(std::size_t points) {
+  std::vector<std::string> names;
+  for (std::size_t p = 0; p < points; ++p) {
+    names.push_back("p" + std::to_string(p) + ".x");
+    names.push_back("p" + std::to_string(p) + ".y");
+  }
+  return names;
+}
+
+Result<OutlineLayout> outline_layout(const Recording& recording) {
+  OutlineLayout layout;
+  for (;; ++layout.points) {
+    const std::string name = "p" + std::to_string(layout.points);
+    const auto x = find_channel(recording, name + ".x");
+    const auto y = find_channel(recording, name + ".y");
+    if (!x && !y) break;
+    if (!x || !y) return Error{recording.source + ": control point " + name + " has no " + (x ? "y" : "x")};
+    layout.outputs.insert(layout.outputs.end(), {*x, *y});
+  }
+  if (layout.points < kLeastPoints) {
+    return Error{recording.source + ": has " + std::to_string(layout.points) +
+                 " control points (p0.x, p0.y, …), expected at least 4: is it a recording of an outline?"};
+  }
+  auto knots = knots_of(recording, layout.points);
+  if (!knots) return knots.error();
+  layout.knots = *std::move(knots);
+  return layout;
+}
+
+Result<OutlineLayout> common_layout(std::span<const Recording> recordings) {
+  if (recordings.empty()) return Error{"there is no recording to learn from"};
+  auto first = outline_layout(recordings.front());
+  if (!first) return first;
+  for (const Recording& recording : recordings.subspan(1)) {
+    const auto layout = outline_layout(recording);
+    if (!layout) return layout;
+    if (layout->points != first->points) {
+      return Error{recording.source + ": has " + std::to_string(layout->points) + " control points, but " +
+                   recordings.front().source + " has " + std::to_string(first->points) +
+                   "; capture both with the same --points"};
+    }
+    if (layout->knots != first->knots) {
+      return Error{recording.source + ": has other knots than " + recordings.front().source +
+                   "; capture it with that recording's knots"};
+    }
+  }
+  return first;
+}
+
+std::vector<double> to_model_units(std::span<const double> pixels, const OutlineFrame& frame) {
+  std::vector<double> units(pixels.size());
+  for (std::size_t k = 0; k + 1 < pixels.size(); k += 2) {
+    units[k] = (pixels[k] - frame.base_x) / frame.pixels_per_unit;
+    units[k + 1] = (frame.base_y - pixels[k + 1]) / frame.pixels_per_unit;
+  }
+  return units;
+}
+
+std::vector<double> to_pixels(std::span<const double> units, const OutlineFrame& frame) {
+  std::vector<double> pixels(units.size());
+  for (std::size_t k = 0; k + 1 < units.size(); k += 2) {
+    pixels[k] = frame.base_x + units[k] * frame.pixels_per_unit;
+    pixels[k + 1] = frame.base_y - units[k + 1] * frame.pixels_per_unit;
+  }
+  return pixels;
+}
+
+double mean_height_pixels(const Recording& recording, const OutlineLayout& layout, std::span<const std::uint8_t> rows) {
+  const OutlineCurve curve(layout.knots);
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t row = 0; row < recording.rows(); ++row) {
+    if (!rows.empty() && rows[row] == 0) continue;
+    const std::vector<double> control = row_of(recording, layout, row);
+    if (!complete(control)) continue;
+    sum += height_of(curve.polyline(control));
+    ++count;
+  }
+  return count == 0 ? 0 : sum / static_cast<double>(count);
+}
+
+Recording to_model_units(const Recording& recording, const OutlineLayout& layout, double pixels_per_unit) {
+  Recording out = recording;
+  std::vector<double>& base_x = motion(out, "base.x");
+  for (std::size_t row = 0; row < out.rows(); ++row) {
+    base_x[row] = frame_of(recording, layout, row, pixels_per_unit).base_x;
+  }
+  std::vector<double>& base_y = motion(out, "base.y");
+  for (std::size_t row = 0; row < out.rows(); ++row) {
+    const OutlineFrame frame = frame_of(recording, layout, row, pixels_per_unit);
+    base_y[row] = frame.base_y;
+    set_row(out, layout, row, to_model_units(row_of(recording, layout, row), frame));
+  }
+  for (std::size_t c : layout.outputs) out.channels[c].unit.clear();
+  set_attribute(out, kUnitAttribute, shortest_text(pixels_per_unit));
+  return out;
+}
+
+Result<Recording> to_pixels(const Recording& recording) {
+  const auto layout = outline_layout(recording);
+  if (!layout) return layout.error();
+  const auto base_x = find_channel(recording, "base.x");
+  const auto base_y = find_channel(recording, "base.y");
+  const auto unit_text = find_attribute(recording, kUnitAttribute);
+  const auto unit = unit_text ? number(*unit_text) : std::nullopt;
+  if (!base_x || !base_y || !unit) {
+    return Error{recording.source + ": has no base.x, base.y and pixels_per_unit to go back to pixels by"};
+  }
+  Recording out = recording;
+  for (std::size_t row = 0; row < out.rows(); ++row) {
+    const OutlineFrame frame{recording.channels[*base_x].samples[row], recording.channels[*base_y].samples[row], *unit};
+    set_row(out, *layout, row, to_pixels(row_of(recording, *layout, row), frame));
+  }
+  for (std::size_t c : layout->outputs) out.channels[c].unit = "px";
+  return out;
+}
+
+}  // namespace wisp
