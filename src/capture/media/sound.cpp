@@ -105,8 +105,8 @@ Result<std::optional<SoundInfo>> stream_sound(const std::filesystem::path& path,
   return std::optional<SoundInfo>(track.info);
 }
 
-Result<std::optional<Sound>> read_sound(const std::filesystem::path& path) {
-  Sound sound;
+Result<std::optional<SoundTrack>> read_sound(const std::filesystem::path& path) {
+  SoundTrack sound;
   bool too_long = false;
   const auto info = stream_sound(path, [&](const SoundInfo&, std::span<const float> samples) {
     too_long = sound.samples.size() + samples.size() > kMostSamples;
@@ -114,10 +114,10 @@ Result<std::optional<Sound>> read_sound(const std::filesystem::path& path) {
     return !too_long;
   });
   if (!info) return info.error();
-  if (!info->has_value()) return std::optional<Sound>();
+  if (!info->has_value()) return std::optional<SoundTrack>();
   if (too_long) return Error{path.string() + ": more than 2^30 samples of sound; cut the clip into parts"};
   sound.info = **info;
-  return std::optional<Sound>(std::move(sound));
+  return std::optional<SoundTrack>(std::move(sound));
 }
 
 }  // namespace wisp
