@@ -34,7 +34,7 @@ double begin_of(const AVFormatContext& format, const AVStream& sound) {
 
 // Planar or packed samples of any kind to packed floats, rate and channels unchanged.
 bool start_resampler(SoundTrack& track) {
-  const AVFrame& frame = *track.frame;
+  AVFrame& frame = *track.frame;
   SwrContext* raw = nullptr;
   const auto format = static_cast<AVSampleFormat>(frame.format);
   const int code = swr_alloc_set_opts2(&raw, &frame.ch_layout, AV_SAMPLE_FMT_FLT, frame.sample_rate, &frame.ch_layout,
@@ -105,8 +105,8 @@ Result<std::optional<SoundInfo>> stream_sound(const std::filesystem::path& path,
   return std::optional<SoundInfo>(track.info);
 }
 
-Result<std::optional<SoundTrack>> read_sound(const std::filesystem::path& path) {
-  SoundTrack sound;
+Result<std::optional<Sound>> read_sound(const std::filesystem::path& path) {
+  Sound sound;
   bool too_long = false;
   const auto info = stream_sound(path, [&](const SoundInfo&, std::span<const float> samples) {
     too_long = sound.samples.size() + samples.size() > kMostSamples;
@@ -114,10 +114,10 @@ Result<std::optional<SoundTrack>> read_sound(const std::filesystem::path& path) 
     return !too_long;
   });
   if (!info) return info.error();
-  if (!info->has_value()) return std::optional<SoundTrack>();
+  if (!info->has_value()) return std::optional<Sound>();
   if (too_long) return Error{path.string() + ": more than 2^30 samples of sound; cut the clip into parts"};
   sound.info = **info;
-  return std::optional<SoundTrack>(std::move(sound));
+  return std::optional<Sound>(std::move(sound));
 }
 
 }  // namespace wisp

@@ -1,5 +1,5 @@
 #pragma once
-// SoundTrack of a WAV file or of a video's track, as samples.
+// Sound of a WAV file or of a video's track, as samples.
 
 #include <filesystem>
 #include <functional>
@@ -24,7 +24,7 @@ struct SoundInfo {
 };
 
 /// A whole sound track.
-struct SoundTrack {
+struct Sound {
   SoundInfo info;
   std::vector<float> samples;  ///< channels interleaved, full scale 1
 };
@@ -39,6 +39,6 @@ Result<std::optional<SoundInfo>> stream_sound(const std::filesystem::path& path,
 
 /// Reads a sound track whole. Returns it, or nothing where the file has no sound track.
 /// Errors: as stream_sound(), and a track of more than 2^30 samples.
-Result<std::optional<SoundTrack>> read_sound(const std::filesystem::path& path);
+Result<std::optional<Sound>> read_sound(const std::filesystem::path& path);
 
 }  // namespace wisp
