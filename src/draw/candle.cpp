@@ -43,9 +43,9 @@ struct Spot {
 
 // Light that enters the wax at the top and seeps down inside: short ways stay yellow, long ways redden.
 Light seeping(const Spot& spot, const Light& wax, float width, float lean) {
-  const float scale = width / 0.62F;
-  const Light way{std::exp(-spot.depth / (0.46F * scale)), std::exp(-spot.depth / (0.23F * scale)),
-                  std::exp(-spot.depth / (0.13F * scale))};
+  const float scale = std::sqrt(width / 0.62F);
+  const Light way{std::exp(-spot.depth / (0.46F * scale)), std::exp(-spot.depth / (0.26F * scale)),
+                  std::exp(-spot.depth / (0.15F * scale))};
   const float lip = 1 + 0.55F * std::exp(-spot.depth / 0.022F);
   const float turned = 0.42F + 0.58F * spot.facing;
   const float sided = 1 + 0.35F * spot.across * lean;
@@ -121,7 +121,7 @@ class Shader {
       : body_(body),
         style_(style),
         own_(own),
-        wax_(linear_of(style.wax)),
+        wax_(Tone::get().linear(style.wax)),
         drips_(drips_of(seed, style.candle_width)),
         pixel_(1 / (0.1F * body.half)) {
     lean_ = std::clamp((own.place.x - body.middle) / (0.5F * body.unit), -1.0F, 1.0F);

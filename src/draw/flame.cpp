@@ -22,6 +22,10 @@ constexpr float kDying = 0.16F;
 // The area of a calm flame in square model units: a quarter as wide as high, tapering. Its light is 1.
 constexpr float kCalmArea = 0.15F;
 
+// The night behind the candle: cold above, a trace of warmth below.
+constexpr Light kSky{0.0022F, 0.0032F, 0.0082F};
+constexpr Light kFloor{0.0056F, 0.0042F, 0.0048F};
+
 float held(float value, float low, float high) { return std::isnan(value) ? low : std::clamp(value, low, high); }
 
 FlameStyle held(FlameStyle style) {
@@ -86,7 +90,7 @@ Candle prepared(const Flame& flame, const FlameStyle& style, int width, int heig
   candle.mood = stage.mood;
   candle.wick = make_wick(candle.scene, style, width, height);
   if (stage.mood.brightness <= 0) return candle;
-  const float cap = std::max(0.04F, 0.65F * style.wick_gap);
+  const float cap = std::max(0.04F, 0.72F * style.wick_gap);
   candle.shape = flame_shape(flame.outline, candle.scene, stage.scale, cap, width, height);
   // A very small flame burns blue.
   candle.mood.soot *= smooth_step(0.06F, 0.40F, candle.shape.height);
@@ -131,13 +135,13 @@ void add_ember(LightField& field, const Candle& candle) {
 
 void add_glow(LightField& field, const FlameStyle& style, float unit) {
   if (style.glow <= 0) return;
-  const Light halo = linear_of(style.halo);
-  const Light rim = linear_of(style.rim);
+  const Light halo = Tone::get().linear(style.halo);
+  const Light rim = Tone::get().linear(style.rim);
   const float reach = unit * style.glow_reach;
   const std::array<HaloRing, 4> rings{{{0.022F * reach, 0.24F * style.glow * halo},
                                        {0.085F * reach, 0.17F * style.glow * halo},
                                        {0.28F * reach, 0.15F * style.glow * halo},
-                                       {0.80F * reach, 0.17F * style.glow * (0.5F * halo + 0.5F * rim)}}};
+                                       {0.80F * reach, 0.17F * style.glow * (0.8F * halo + 0.2F * rim)}}};
   add_halo(field, rings);
 }
 
@@ -192,22 +196,25 @@ void draw_flame(Image& image, std::span<const Point> outline, const FlameScene& 
 }
 
 void draw_night(Image& image) {
+  const Tone& tone = Tone::get();
   const float last = static_cast<float>(std::max(1, image.height() - 1));
   for (int y = 0; y < image.height(); ++y) {
     const float down = static_cast<float>(y) / last;
-    const Light light = (1 - down) * Light{0.0022F, 0.0032F, 0.0082F} + down * Light{0.0056F, 0.0042F, 0.0048F};
+    const Light light = (1 - down) * kSky + down * kFloor;
+    const Light code{tone.code(light.red), tone.code(light.green), tone.code(light.blue)};
     const auto row = image.row(y);
     for (int x = 0; x < image.width(); ++x) {
-      row[static_cast<std::size_t>(x)] = 0xFF000000U;
-      blend(row[static_cast<std::size_t>(x)], light, 1, dither_at(x, y));
+      const float dither = dither_at(x, y);
+      row[x] = 0xFF000000U | dithered(code.red, dither) << 16 | dithered(code.green, dither) << 8 |
+               dithered(code.blue, dither);
     }
   }
 }
 
 FlameScene framed(int width, int height) {
   FlameScene scene;
-  scene.pixels_per_unit = std::min(static_cast<float>(height) * 0.36F, static_cast<float>(width) * 0.45F);
-  scene.base = {static_cast<float>(width) / 2, static_cast<float>(height) * 0.76F};
+  scene.pixels_per_unit = std::min(static_cast<float>(height) * 0.38F, static_cast<float>(width) * 0.45F);
+  scene.base = {static_cast<float>(width) / 2, static_cast<float>(height) * 0.77F};
   return scene;
 }
 

@@ -52,7 +52,7 @@ Bounds bounds_of(std::span<const Point> points) {
   return b;
 }
 
-// A cubic half-moon from the base's right to its left, below the line between them.
+// A half-moon from the base's right to its left, below the line between them.
 void append_cap(std::vector<Point>& points, float cap) {
   const Point right = points.back();
   const Point left = points.front();
@@ -63,7 +63,7 @@ void append_cap(std::vector<Point>& points, float cap) {
   constexpr int kSteps = 16;
   for (int k = 1; k < kSteps; ++k) {
     const float s = static_cast<float>(k) / kSteps;
-    const float bulge = 4 * s * (1 - s);
+    const float bulge = std::pow(4 * s * (1 - s), 0.6F);
     points.push_back(
         {right.x + s * (left.x - right.x) + bulge * down.x, right.y + s * (left.y - right.y) + bulge * down.y});
   }

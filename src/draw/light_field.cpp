@@ -8,9 +8,9 @@
 namespace wisp {
 namespace {
 
-// A Gaussian needs no more than three grid cells a standard deviation to look smooth, so wide ones are blurred on
+// A Gaussian needs no more than this many grid cells a standard deviation to look smooth, so wide ones are blurred on
 // coarse grids: each level halves the one before.
-constexpr float kCellsPerSigma = 3;
+constexpr float kCellsPerSigma = 1.6F;
 constexpr int kMostLevels = 12;
 
 Plane luminance_of(const LightField& field) {
@@ -150,6 +150,7 @@ void add_light(Image& image, const LightField& field) {
   assert(image.width() == field.width() && image.height() == field.height());
   // A thousandth of the darkest code: nothing that anyone could see.
   constexpr float kDarkest = 3e-7F;
+  const Tone& tone = Tone::get();
   for (int y = 0; y < image.height(); ++y) {
     const auto pixels = image.row(y);
     const float* red = field.red.row(y);
@@ -159,9 +160,9 @@ void add_light(Image& image, const LightField& field) {
       if (red[x] + green[x] + blue[x] < kDarkest) continue;
       const std::uint32_t before = pixels[x];
       const float dither = dither_at(x, y);
-      const auto lit = [&](int shift, float light) -> std::uint32_t {
-        const float there = linear_of(static_cast<std::uint8_t>(before >> shift & 0xFFU));
-        return encoded(1 - (1 - there) * transmitted(light), dither);
+      const auto lit = [&](int shift, float light) {
+        const float there = tone.linear(before >> shift & 0xFFU);
+        return dithered(tone.code(1 - (1 - there) * transmitted(light)), dither);
       };
       const std::uint32_t r = lit(16, red[x]);
       const std::uint32_t g = lit(8, green[x]);
