@@ -45,6 +45,41 @@ T likeness_of(const Features<T>& f) {
   return sigmoid(z) * sigmoid((T(0.70F) - f.voicing) * T(25.0F));
 }
 
+/// A gust that dies away does so in a few soft puffs that by themselves sound like anything. For half a second after
+/// sure blowing (50 ms of it) its likeness is kept while the sound only gets softer; whoever starts to talk gets louder.
+template <class T>
+class Tail {
+ public:
+  T end_hop(T likeness, T loudness_db) {
+    if (T(0.8F) < likeness) {
+      sure_hops_ = sure_hops_ < kSureHops ? sure_hops_ + 1 : kSureHops;
+      softest_db_ = loudness_db;
+      kept_ = likeness;
+      left_hops_ = sure_hops_ == kSureHops ? kTailHops : left_hops_;
+      return likeness;
+    }
+    sure_hops_ = 0;
+    if (left_hops_ == 0) return likeness;
+    if (softest_db_ + T(kRiseDb) < loudness_db) {
+      left_hops_ = 0;
+      return likeness;
+    }
+    if (loudness_db < softest_db_) softest_db_ = loudness_db;
+    --left_hops_;
+    return likeness < kept_ ? kept_ : likeness;
+  }
+
+ private:
+  static constexpr int kSureHops = 5;
+  static constexpr int kTailHops = 50;
+  static constexpr float kRiseDb = 3;
+
+  int sure_hops_ = 0;
+  int left_hops_ = 0;
+  T softest_db_ = T(0.0F);
+  T kept_ = T(0.0F);
+};
+
 template <class T>
 class Kernel {
  public:
@@ -83,6 +118,7 @@ class Kernel {
   }
 
   const Features<T>& features() const { return features_; }
+  T likeness() const { return likeness_; }
 
  private:
   struct Channel {
@@ -151,7 +187,7 @@ class Kernel {
     }
     smooth(sums);
     describe();
-    likeness_ = likeness_of(features_);
+    likeness_ = tail_.end_hop(likeness_of(features_), features_.loudness_db);
   }
 
   void smooth(const BandSums<T>& sums) {
@@ -191,6 +227,7 @@ class Kernel {
   T group_power_ = T(0.0F), power_ = T(0.0F), frame_band_ = T(0.0F), band_power_ = T(0.0F);
   BandSums<T> mean_;
   Features<T> features_;
+  Tail<T> tail_;
   T likeness_ = T(0.0F);
 };
 
