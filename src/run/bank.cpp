@@ -13,7 +13,6 @@ namespace {
 
 constexpr int kMostCapacity = 1 << 20;
 constexpr int kMostPolylinePoints = 4096;
-constexpr double kLeastRate = 1e-6;
 
 Result<void> check_options(const BankOptions& options) {
   if (options.capacity < 1 || options.capacity > kMostCapacity) {
@@ -28,9 +27,6 @@ Result<void> check_options(const BankOptions& options) {
 Result<void> check_all(const Model& model, const BankOptions& options) {
   if (auto ok = check_options(options); !ok) return ok;
   if (auto ok = check(model); !ok) return ok;
-  if (model.rate_hz < kLeastRate) {
-    return Error{"the model's rate is " + std::to_string(model.rate_hz) + " Hz, expected at least 0.000001"};
-  }
   if (auto ok = check_channels(model, operating_point(model)); !ok) return ok;
   return std::visit([&](const ArxModel& arx) { return check_arx_program(model, arx); }, model.dynamics);
 }
