@@ -37,7 +37,9 @@ endfunction()
 
 function(wisp_warnings target)
   if(PROJECT_IS_TOP_LEVEL)
-    target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+    # Designated initialisers leave the other fields at their defaults on purpose.
+    target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                           -Wno-sign-conversion -Wno-missing-field-initializers)
   endif()
   if(WISP_WERROR)
     target_compile_options(${target} PRIVATE -Werror)

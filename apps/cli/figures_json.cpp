@@ -47,7 +47,8 @@ Coefficients json_of(const ArxOrders& orders, const std::vector<std::vector<doub
 Result<Json> cost_of(const Model& model) {
   const auto cost = count_operations(model);
   if (!cost) return cost.error();
-  return Json{{"multiply_adds_per_frame", cost->multiply_adds_per_frame}, {"operations_per_frame", cost->operations_per_frame}};
+  return Json{{"multiply_adds_per_frame", cost->multiply_adds_per_frame},
+              {"operations_per_frame", cost->operations_per_frame}};
 }
 
 }  // namespace wisp::cli

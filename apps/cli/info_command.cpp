@@ -18,7 +18,8 @@ Json channels_of(const Model& model) {
                       {"shape", input.shape == InputShape::kSplitSign ? "split sign" : "linear"}});
   }
   for (const Output& output : model.outputs) {
-    outputs.push_back({{"name", output.name}, {"unit", output.unit}, {"range", {number(output.lowest), number(output.highest)}}});
+    outputs.push_back(
+        {{"name", output.name}, {"unit", output.unit}, {"range", {number(output.lowest), number(output.highest)}}});
   }
   return {{"inputs", inputs}, {"outputs", outputs}};
 }
@@ -57,15 +58,16 @@ std::string listed(const Json& object) {
 void describe(const Json& result, Terminal& terminal) {
   const Json& dynamics = result["dynamics"];
   terminal.say(result["name"].get<std::string>() + ": " + result["view"]["kind"].get<std::string>() + " model at " +
-               shown(result["rate_hz"].get<double>(), 5) + " steps a second, " + std::to_string(result["bytes"].get<std::size_t>()) +
-               " bytes");
+               shown(result["rate_hz"].get<double>(), 5) + " steps a second, " +
+               std::to_string(result["bytes"].get<std::size_t>()) + " bytes");
   terminal.say("inputs    " + names_of(result["inputs"]));
   terminal.say("outputs   " + names_of(result["outputs"]));
   terminal.say("dynamics  " + dynamics["kind"].get<std::string>() + ", history of " + dynamics["history"].dump() +
                " samples, spectral radius " + shown(dynamics["radius"].get<double>(), 5));
   terminal.say("cost      " + result["cost"]["multiply_adds_per_frame"].dump() + " multiply-adds a frame, " +
                result["cost"]["operations_per_frame"].dump() + " operations with noise and view");
-  terminal.say("made by   " + result["made"]["program"].get<std::string>() + " from " + result["made"]["sources"].dump());
+  terminal.say("made by   " + result["made"]["program"].get<std::string>() + " from " +
+               result["made"]["sources"].dump());
   terminal.say("options   " + listed(result["made"]["options"]));
   terminal.say("figures   " + listed(result["made"]["figures"]));
   terminal.say(std::string(result["usable"]["verdict"].get<bool>() ? "usable    " : "NOT usable: ") +

@@ -55,7 +55,8 @@ Model model_of(const ArxFit& fit, const ChannelChoice& channels, const std::vect
   for (const char* flag : {"na", "nb", "nk", "coupling", "offset", "range"}) {
     if (arguments.has(flag)) model.provenance.options.push_back({flag, arguments.text(flag)});
   }
-  model.provenance.figures = {{"fpe", fit.summary.fpe}, {"samples_used", static_cast<double>(fit.summary.samples_used)}};
+  model.provenance.figures = {{"fpe", fit.summary.fpe},
+                              {"samples_used", static_cast<double>(fit.summary.samples_used)}};
   model.provenance.usable = fit.summary.usable;
   return model;
 }
@@ -107,7 +108,8 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   const auto recordings = read_tables(arguments.positionals(), arguments, terminal);
   if (!recordings) return recordings.error();
   const ChannelChoice channels{arguments.names("inputs"), arguments.names("outputs")};
-  auto orders = orders_from(arguments, static_cast<int>(channels.outputs.size()), static_cast<int>(channels.inputs.size()));
+  auto orders =
+      orders_from(arguments, static_cast<int>(channels.outputs.size()), static_cast<int>(channels.inputs.size()));
   if (!orders) return orders.error();
   ArxOptions options;
   options.orders = std::move(*orders);
@@ -132,9 +134,19 @@ std::vector<Flag> flags() {
       {"na", Kind::kText, "N", "4", "order of A: a number, or a matrix row by row such as '4,2;3,4'"},
       {"nb", Kind::kText, "N", "4", "order of B: a number, or a matrix with a row an output and a column an input"},
       {"nk", Kind::kText, "N", "1", "delay in samples, likewise"},
-      {"coupling", Kind::kChoice, "C", "full", "which outputs appear in an output's equation: full, diagonal, band", {"full", "diagonal", "band"}},
+      {"coupling",
+       Kind::kChoice,
+       "C",
+       "full",
+       "which outputs appear in an output's equation: full, diagonal, band",
+       {"full", "diagonal", "band"}},
       {"range", Kind::kSamples, "A:B", "", "rows to learn from, 1-based and inclusive"},
-      {"offset", Kind::kChoice, "O", "mean", "the operating point: mean removes means, none, estimate adds a constant term", {"mean", "none", "estimate"}},
+      {"offset",
+       Kind::kChoice,
+       "O",
+       "mean",
+       "the operating point: mean removes means, none, estimate adds a constant term",
+       {"mean", "none", "estimate"}},
       {"ridge", Kind::kNumber, "R", "0", "weight of the coefficients' size, as a share of each regressor's energy"},
       {"common-start", Kind::kInteger, "T", "", "first row predicted, 0-based, instead of max(na, nb+nk-1)"},
   };
@@ -151,7 +163,8 @@ Command learn_arx_command() {
       {{"REC", "recordings, CSV files", true}},
       flags(),
       {
-          {"wisp learn arx hairdryer.csv -o dryer.wisp --inputs u1 --outputs y1 --dt 0.08 --na 2 --nb 2 --nk 3 --range 1:300",
+          {"wisp learn arx hairdryer.csv -o dryer.wisp --inputs u1 --outputs y1 --dt 0.08 --na 2 --nb 2 --nk 3 --range "
+           "1:300",
            "A classic: a hair dryer's air temperature from its heating power"},
       },
       run,

@@ -111,8 +111,8 @@ CLI::App* subcommand(CLI::App& root, const std::string& name) {
   const std::size_t space = name.find(' ');
   if (space == std::string::npos) return root.add_subcommand(name);
   const std::string group = name.substr(0, space);
-  CLI::App* parent = root.get_subcommand_no_throw(group);
-  if (!parent) parent = root.add_subcommand(group)->require_subcommand(1);
+  const auto groups = root.get_subcommands([&](const CLI::App* app) { return app->get_name() == group; });
+  CLI::App* parent = groups.empty() ? root.add_subcommand(group)->require_subcommand(1) : groups.front();
   return parent->add_subcommand(name.substr(space + 1));
 }
 

@@ -40,13 +40,15 @@ Result<OrderMatrix> parse_orders(const std::string& text, int rows, int columns,
   }
   const auto shape = std::to_string(rows) + " × " + std::to_string(columns);
   if (row_texts.size() != static_cast<std::size_t>(rows)) {
-    return Error{"--" + flag + " has " + std::to_string(row_texts.size()) + " rows, expected " + shape + " for these outputs and inputs"};
+    return Error{"--" + flag + " has " + std::to_string(row_texts.size()) + " rows, expected " + shape +
+                 " for these outputs and inputs"};
   }
   OrderMatrix matrix(rows, columns);
   for (int i = 0; i < rows; ++i) {
     const auto cells = split(row_texts[i], ',');
     if (cells.size() != static_cast<std::size_t>(columns)) {
-      return Error{"--" + flag + ", row " + std::to_string(i + 1) + ", has " + std::to_string(cells.size()) + " entries, expected " + shape};
+      return Error{"--" + flag + ", row " + std::to_string(i + 1) + ", has " + std::to_string(cells.size()) +
+                   " entries, expected " + shape};
     }
     for (int j = 0; j < columns; ++j) {
       const auto order = parse_order(cells[j], flag);
@@ -65,8 +67,11 @@ Result<ArxOrders> orders_from(const Arguments& arguments, int outputs, int input
   auto nk = parse_orders(arguments.text("nk"), outputs, inputs, "nk");
   if (!nk) return nk.error();
   const std::string& word = arguments.text("coupling");
-  const Coupling coupling = word == "diagonal" ? Coupling::kDiagonal : word == "band" ? Coupling::kBand : Coupling::kFull;
-  const ArxOrders mask = make_orders({.outputs = outputs, .inputs = inputs, .na = 1, .nb = 1, .nk = 0, .coupling = coupling});
+  const Coupling coupling = word == "diagonal" ? Coupling::kDiagonal
+                            : word == "band"   ? Coupling::kBand
+                                               : Coupling::kFull;
+  const ArxOrders mask =
+      make_orders({.outputs = outputs, .inputs = inputs, .na = 1, .nb = 1, .nk = 0, .coupling = coupling});
   for (int i = 0; i < outputs; ++i) {
     for (int j = 0; j < outputs; ++j) {
       if (mask.na(i, j) == 0) (*na)(i, j) = 0;

@@ -66,7 +66,7 @@ Error option_error(const std::filesystem::path& path, const std::string& what) {
   return {path.string() + ": cannot be encoded: " + what};
 }
 
-Result<void> check_options(const std::filesystem::path& path, const VideoOptions& options) {
+Result<void> check_options(const std::filesystem::path& path, const VideoWriterOptions& options) {
   constexpr int kLargestSide = 16384;
   if (options.width < 2 || options.height < 2 || options.width > kLargestSide || options.height > kLargestSide) {
     return option_error(path, "frames are " + std::to_string(options.width) + " x " + std::to_string(options.height) +
@@ -89,12 +89,12 @@ Result<void> check_options(const std::filesystem::path& path, const VideoOptions
 }  // namespace
 
 struct VideoWriter::Encoder {
-  Encoder(std::filesystem::path name, PendingFile pending_file, const VideoOptions& video_options)
+  Encoder(std::filesystem::path name, PendingFile pending_file, const VideoWriterOptions& video_options)
       : path(std::move(name)), pending(std::move(pending_file)), options(video_options) {}
 
   std::filesystem::path path;
   PendingFile pending;
-  VideoOptions options;
+  VideoWriterOptions options;
   Owned<AVFormatContext> format;
   Owned<SwsContext> scaler;
   Owned<AVPacket> packet;
@@ -266,7 +266,7 @@ VideoWriter::VideoWriter(VideoWriter&&) noexcept = default;
 VideoWriter& VideoWriter::operator=(VideoWriter&&) noexcept = default;
 VideoWriter::~VideoWriter() = default;
 
-Result<VideoWriter> VideoWriter::create(const std::filesystem::path& path, const VideoOptions& options) {
+Result<VideoWriter> VideoWriter::create(const std::filesystem::path& path, const VideoWriterOptions& options) {
   if (auto checked = check_options(path, options); !checked) return checked.error();
   auto pending = PendingFile::create(path);
   if (!pending) return pending.error();

@@ -26,7 +26,8 @@ class LearnArx : public testing::Test {
   // y(t) = 1.5 y(t−1) − 0.7 y(t−2) + 0.5 u(t−1) + 0.25 u(t−2), without noise.
   void write_system() {
     std::mt19937 random(1);
-    Recording recording{.source = "", .rate_hz = 10, .channels = {{"push", "N", Role::kInput, {}}, {"place", "m", Role::kOutput, {}}}};
+    Recording recording{
+        .source = "", .rate_hz = 10, .channels = {{"push", "N", Role::kInput, {}}, {"place", "m", Role::kOutput, {}}}};
     auto &u = recording.channels[0].samples, &y = recording.channels[1].samples;
     for (int t = 0; t < 500; ++t) {
       u.push_back(static_cast<double>(random() % 1000) / 500 - 1);
@@ -38,7 +39,8 @@ class LearnArx : public testing::Test {
   Said wisp(const std::string& arguments) { return run_wisp(arguments, folder_); }
   std::string at(const std::string& name) const { return (folder_ / name).string(); }
   std::string learn(const std::string& more) const {
-    return "learn arx " + at("system.csv") + " -o " + at("m.wisp") + " --inputs push --outputs place --offset none --json " + more;
+    return "learn arx " + at("system.csv") + " -o " + at("m.wisp") +
+           " --inputs push --outputs place --offset none --json " + more;
   }
 
   std::filesystem::path folder_;
@@ -83,7 +85,8 @@ TEST_F(LearnArx, TheModelIsDescribedAndRun) {
 }
 
 TEST_F(LearnArx, AMatrixOfTheWrongShapeIsExplained) {
-  const Said said = wisp("learn arx " + at("system.csv") + " -o " + at("m.wisp") + " --inputs push --outputs place --na '2,2;2,2'");
+  const Said said =
+      wisp("learn arx " + at("system.csv") + " -o " + at("m.wisp") + " --inputs push --outputs place --na '2,2;2,2'");
   EXPECT_EQ(said.status, 1);
   EXPECT_THAT(said.err, HasSubstr("expected 1 × 1"));
   EXPECT_FALSE(std::filesystem::exists(at("m.wisp")));

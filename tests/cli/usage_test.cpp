@@ -54,8 +54,8 @@ TEST_F(Usage, WithJsonAFailureIsADocumentToo) {
 }
 
 TEST_F(Usage, EveryCommandHasHelpWithAnExample) {
-  for (const char* command : {"capture outline", "capture flame", "learn outline", "learn flame", "learn arx", "validate",
-                              "run", "info", "demo"}) {
+  for (const char* command : {"capture outline", "capture flame", "learn outline", "learn flame", "learn arx",
+                              "validate", "run", "info", "demo"}) {
     const Said said = wisp(std::string(command) + " --help");
     EXPECT_EQ(said.status, 0) << command;
     EXPECT_THAT(said.out, HasSubstr("Examples:")) << command;
@@ -64,7 +64,8 @@ TEST_F(Usage, EveryCommandHasHelpWithAnExample) {
 }
 
 TEST_F(Usage, TheManualInDocsIsTheProgramsOwn) {
-  EXPECT_EQ(wisp("manual").out, file_text(WISP_SOURCE_DIR "/docs/cli.md")) << "make it again: wisp manual > docs/cli.md";
+  EXPECT_EQ(wisp("manual").out, file_text(WISP_SOURCE_DIR "/docs/cli.md"))
+      << "make it again: wisp manual > docs/cli.md";
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace wisp {
 
 /// How a clip is encoded.
-struct VideoOptions {
+struct VideoWriterOptions {
   int width = 0;  ///< pixels, 2 … 16384; odd sizes are padded by one repeated column or row
   int height = 0;
   double rate_hz = 0;             ///< frames a second, 0.1 … 1000; 30000/1001 and its like are kept exactly
@@ -29,7 +29,7 @@ class VideoWriter {
  public:
   /// Opens the file. Errors: options out of range, the folder is missing or not writable, no H.264 or AAC encoder in
   /// this FFmpeg.
-  static Result<VideoWriter> create(const std::filesystem::path& path, const VideoOptions& options);
+  static Result<VideoWriter> create(const std::filesystem::path& path, const VideoWriterOptions& options);
 
   VideoWriter(VideoWriter&&) noexcept;
   VideoWriter& operator=(VideoWriter&&) noexcept;

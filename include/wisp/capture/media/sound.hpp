@@ -1,0 +1,44 @@
+#pragma once
+// Sound of a WAV file or of a video's track, as samples.
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "wisp/base/result.hpp"
+
+namespace wisp {
+
+/// What a sound track is.
+struct SoundInfo {
+  double rate_hz = 0;  ///< samples a second
+  int channels = 0;
+  std::size_t samples = 0;  ///< a channel, as decoded
+  double begin = 0;         ///< seconds after the clip's first frame at which it begins; may be negative
+  float peak = 0;           ///< largest absolute sample, full scale 1
+
+  /// Nothing can be heard: below −80 dB of full scale.
+  bool silent() const { return peak < 1e-4F; }
+};
+
+/// A whole sound track.
+struct Sound {
+  SoundInfo info;
+  std::vector<float> samples;  ///< channels interleaved, full scale 1
+};
+
+/// Takes one block of interleaved samples; returns whether to go on.
+using SoundBlock = std::function<bool(const SoundInfo& info, std::span<const float> samples)>;
+
+/// Reads a sound track block by block, in bounded memory. Returns what it was, or nothing where the file has no sound
+/// track. While blocks are handed out, `info` holds rate, channels and begin.
+/// Errors: missing, not a sound or video file, a codec that FFmpeg cannot decode.
+Result<std::optional<SoundInfo>> stream_sound(const std::filesystem::path& path, const SoundBlock& block);
+
+/// Reads a sound track whole. Returns it, or nothing where the file has no sound track.
+/// Errors: as stream_sound(), and a track of more than 2^30 samples.
+Result<std::optional<Sound>> read_sound(const std::filesystem::path& path);
+
+}  // namespace wisp

@@ -1,0 +1,97 @@
+#pragma once
+// From frames to a recording of an outline, one frame at a time and in bounded memory.
+//
+// The first frames are held back until channel, level, place and knots are decided (survey.hpp, knots.hpp); from then
+// on a frame is looked at once, in the neighbourhood of the thing, and let go.
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "wisp/base/result.hpp"
+#include "wisp/capture/vision/edge_cloud.hpp"
+#include "wisp/capture/vision/outline_tracker.hpp"
+#include "wisp/capture/vision/picture.hpp"
+#include "wisp/capture/vision/survey.hpp"
+#include "wisp/record/recording.hpp"
+
+namespace wisp {
+
+/// How an outline is captured.
+struct OutlineCaptureOptions {
+  int points = 8;                       ///< control points, 4 to 64; 8 as in the paper
+  std::optional<PixelChannel> channel;  ///< nothing: the one that separates best
+  bool dark = false;                    ///< the thing is dark on a light ground
+  Region region;                        ///< where to look, pixels; empty: the whole picture
+  std::optional<BaseSide> base;         ///< where the outline is open; nothing: the side that cuts it off, else below
+  bool place_knots = true;              ///< put knots where the outline bends, if that fits better than uniform ones
+  double rate_hz = 0;                   ///< frames a second, > 0
+  std::string source;                   ///< where the frames come from, for messages and the recording
+  std::size_t held_bytes = 48u << 20;   ///< frames held back for the first decisions, bytes; at least 8 frames are
+  int held_frames = 40;                 ///< … and frames, 8 to 200
+};
+
+/// Why a frame has no outline.
+struct DroppedFrame {
+  std::size_t frame = 0;  ///< 0-based row of the recording
+  std::string reason;     ///< "fade", "no bright region", "duplicate", "lost"
+};
+
+/// What happened, in figures.
+struct CaptureReport {
+  std::size_t frames = 0;             ///< rows, lost frames included
+  std::size_t tracked = 0;            ///< rows with an outline of their own
+  std::size_t duplicates = 0;         ///< frames that repeat the one before
+  std::size_t filled = 0;             ///< rows filled between their neighbours
+  std::vector<DroppedFrame> dropped;  ///< rows without an outline
+  double rate_hz = 0;
+  int points = 0;
+  double threshold = 0;  ///< brightness of the level, 0 black to 255 white
+  PixelChannel channel = PixelChannel::kLuma;
+  double separation = 0;  ///< of the two clusters, 0 to 1
+  Histogram histogram{};  ///< of brightness, 0 black to 255 white
+  int width = 0;          ///< of the picture, pixels
+  int height = 0;
+  double residual = 0;                ///< mean root-mean-square distance of edge points from the curve, pixels
+  bool knots_placed = false;          ///< knots are not uniform
+  std::vector<double> knots;          ///< the full knot vector
+  std::vector<std::string> warnings;  ///< what the maker should know, one sentence each
+};
+
+/// A recording of an outline and how it came about.
+struct CapturedOutline {
+  Recording recording;
+  CaptureReport report;
+};
+
+/// Captures an outline from frames that are fed in their order.
+class OutlineCapture {
+ public:
+  /// Precondition: options.points >= 4 and options.rate_hz > 0.
+  explicit OutlineCapture(OutlineCaptureOptions options);
+  OutlineCapture(OutlineCapture&&) noexcept;
+  OutlineCapture& operator=(OutlineCapture&&) noexcept;
+  ~OutlineCapture();
+
+  /// Takes in the next frame; it is borrowed for the call.
+  /// Errors: a frame of another size than the first, a region outside the picture, a channel that the picture has not,
+  /// nothing that stands out in the first frames.
+  Result<void> feed(const Picture& picture);
+
+  /// Notes that the clip lost `count` frames here.
+  void lost(int count = 1);
+
+  /// Ends the clip. Returns the recording: outputs p0.x, p0.y, … and motion base.x, base.y in pixels, flag `filled`,
+  /// one row a frame, missing rows empty.
+  /// Errors: fewer than 10 frames with an outline, and why.
+  Result<CapturedOutline> finish();
+
+ private:
+  class Stage;
+  std::unique_ptr<Stage> stage_;
+};
+
+}  // namespace wisp

@@ -1,0 +1,87 @@
+#pragma once
+// The outline as a random curve: a Gaussian over the control points of a B-spline, brought up to date by edge points.
+//
+// Source: section 3.2 of the paper: the spline is a random curve with a distribution over its control points, the data
+// cloud is processed point by point, the posterior is approximated by a Gaussian, and the estimate is its median (which
+// is its mean). Blake & Isard, Active Contours (Springer 1998), chapters 6 to 10, for measurements along the normal and
+// the prior that is the previous frame's posterior, widened.
+//
+// The recursion is kept in its information form (inverse covariance): adding one edge point then touches only the four
+// control points that carry the curve there, where the covariance form would touch all of them; both are the same
+// posterior. Departure: beside its tight measurement along the normal, an edge point says weakly where along the curve
+// it should lie, or control points would slide round the outline from frame to frame.
+
+#include <span>
+#include <vector>
+
+#include "wisp/capture/vision/edge_cloud.hpp"
+#include "wisp/capture/vision/spline_table.hpp"
+
+namespace wisp {
+
+/// How much is believed. Lengths are shares of the outline's height, so that a flame filmed larger is tracked alike.
+struct TrackerOptions {
+  double normal_sd = 0.002;        ///< of one edge point along the normal, 0.0005 to 0.02; never under a quarter pixel
+  double tangent_sd = 0.04;        ///< of one edge point along the curve, 0.005 to 0.5: some twenty times looser
+  double normal_widening = 0.1;    ///< added sd a frame across the curve, 0.01 to 1: a flame crosses its own width
+  double tangent_widening = 0.02;  ///< added sd a frame along the curve, 0.001 to 1
+  double gate = 6;                 ///< an edge point farther off than this many typical residuals is left out, 3 to 20
+  int passes = 3;                  ///< times that edge points are projected anew onto the curve, 1 to 10
+};
+
+/// The Gaussian after one frame.
+struct OutlineEstimate {
+  std::vector<double> mean;        ///< x and y of each control point, alternating: 2N values
+  std::vector<double> covariance;  ///< 2N × 2N
+  double residual = 0;             ///< root mean square distance of the edge points used from the curve, pixels
+  int used = 0;                    ///< edge points that counted
+  int gated = 0;                   ///< edge points left out
+};
+
+/// Tracks one outline from frame to frame.
+class OutlineTracker {
+ public:
+  /// Precondition: valid_knots(knots).
+  explicit OutlineTracker(std::span<const double> knots, const TrackerOptions& options = {});
+
+  int points() const { return table_.points(); }
+  const SplineTable& table() const { return table_; }
+
+  /// Takes in one frame's edge points. Returns the posterior, good until the next call.
+  const OutlineEstimate& update(const EdgeCloud& cloud);
+
+  /// Forgets the past: the next frame starts an episode with no prior.
+  void forget() { has_past_ = false; }
+
+ private:
+  struct Measurement {
+    double s = 0;
+    bool out = false;
+  };
+  void predict(const EdgeCloud& cloud);
+  void widen(double height);
+  void add(double s, double nx, double ny, double value, double precision);
+  void measure(const EdgeCloud& cloud, bool along_own_normal);
+  void hold_ends(const EdgeCloud& cloud);
+  void solve();
+  void project(const EdgeCloud& cloud);
+  void gate(const EdgeCloud& cloud);
+
+  SplineTable table_;
+  TrackerOptions options_;
+  bool has_past_ = false;
+  double base_x_ = 0;
+  double base_y_ = 0;
+  double normal_precision_ = 0;
+  double tangent_precision_ = 0;
+  OutlineEstimate estimate_;
+  std::vector<double> prior_information_;  // 2N × 2N
+  std::vector<double> prior_vector_;       // information × mean
+  std::vector<double> information_;
+  std::vector<double> vector_;
+  std::vector<double> factor_;
+  std::vector<Measurement> measurements_;
+  std::vector<double> residuals_;
+};
+
+}  // namespace wisp

@@ -1,0 +1,82 @@
+#pragma once
+// One frame of a video as the planes that it already has, and any channel of it over a region.
+//
+// A decoder hands out luma and two planes of colour difference; a picture file or a browser hands out packed RGB. Both
+// are borrowed as they are, so that what is never looked at is never converted.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "wisp/capture/vision/image.hpp"
+
+namespace wisp {
+
+/// How the planes make colour.
+enum class PictureLayout {
+  kGrey,  ///< one plane: brightness
+  kYuv,   ///< luma, blue difference, red difference; the latter two perhaps at lower resolution
+  kRgb,   ///< red, green, blue
+};
+
+/// One borrowed plane of a picture.
+struct PicturePlane {
+  const std::uint8_t* pixels = nullptr;
+  std::ptrdiff_t stride = 0;  ///< bytes from one row to the next
+  int step = 1;               ///< bytes from one pixel to the next: 1 planar, 2 to 4 packed
+};
+
+/// A borrowed picture.
+struct Picture {
+  PictureLayout layout = PictureLayout::kGrey;
+  int width = 0;
+  int height = 0;
+  std::array<PicturePlane, 3> planes;
+  int chroma_shift_x = 0;  ///< kYuv: colour planes are 2^shift times narrower
+  int chroma_shift_y = 0;  ///< kYuv: … and lower
+  bool full_range = true;  ///< kYuv and kGrey: black is 0 and white 255; else 16 and 235, as video has it
+  bool bt709 = false;      ///< kYuv: colour matrix ITU-R BT.709; else BT.601
+
+  Region frame() const { return {0, 0, width, height}; }
+};
+
+/// A grey picture over one plane.
+Picture grey_picture(const ImageView& image);
+
+/// A picture over packed RGB (`step` 3) or RGBA (`step` 4).
+Picture rgb_picture(const ImageView& first_channel, int step);
+
+/// Whether `channel` exists in the picture: a grey one has luma only.
+bool has_channel(const Picture& picture, PixelChannel channel);
+
+/// The channel as a plane of the picture itself, without copying; `pixels` is null where it must be computed.
+ImageView plane_in_place(const Picture& picture, PixelChannel channel);
+
+/// Computes `channel` over `region` into `out`, row by row, `region.width` bytes a row, as it is stored: luma of a
+/// picture that is not full range keeps its range, red, green and blue are 0 to 255.
+///
+/// Precondition: has_channel(picture, channel).
+/// Precondition: region lies inside the picture and `out` holds region.width × region.height bytes.
+void extract_channel(const Picture& picture, PixelChannel channel, const Region& region, std::uint8_t* out);
+
+/// A stored value of `channel` as brightness from 0 (black) to 255 (white).
+double brightness(const Picture& picture, PixelChannel channel, double stored);
+
+/// A picture that owns its planes.
+class OwnedPicture {
+ public:
+  /// Copies a picture, packed planes becoming planar.
+  explicit OwnedPicture(const Picture& picture);
+  OwnedPicture(OwnedPicture&&) noexcept = default;
+  OwnedPicture& operator=(OwnedPicture&&) noexcept = default;
+
+  const Picture& picture() const { return picture_; }
+  std::size_t bytes() const { return pixels_.size(); }
+
+ private:
+  std::vector<std::uint8_t> pixels_;
+  Picture picture_;
+};
+
+}  // namespace wisp

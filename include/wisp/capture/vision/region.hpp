@@ -1,0 +1,71 @@
+#pragma once
+// Connected bright regions of a picture, and the line around one of them.
+//
+// A region is a maximal set of pixels brighter than a level that touch by side or corner. What it encloses belongs to
+// it: only the outer boundary is followed, so holes (a wick, a dark core) are filled by that.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "wisp/capture/vision/image.hpp"
+
+namespace wisp {
+
+/// One bright region.
+struct BrightRegion {
+  Region box;             ///< around it
+  std::int64_t area = 0;  ///< bright pixels, holes not counted
+  double centre_x = 0;    ///< of gravity
+  double centre_y = 0;
+  int seed_x = 0;  ///< the leftmost pixel of its first row: where its boundary starts
+  int seed_y = 0;
+};
+
+/// A pixel.
+struct PixelPosition {
+  int x = 0;
+  int y = 0;
+  friend bool operator==(const PixelPosition&, const PixelPosition&) = default;
+};
+
+/// Finds bright regions; keeps its memory from one picture to the next.
+class RegionFinder {
+ public:
+  /// All regions of pixels above `level`, largest first; those under `least_area` pixels are left out.
+  /// The span is good until the next call.
+  std::span<const BrightRegion> find(const ImageView& image, int level, std::int64_t least_area);
+
+ private:
+  struct Run {
+    int begin = 0;
+    int end = 0;
+    int region = 0;
+  };
+  int root(int region);
+  int join(int a, int b);
+  void find_runs(const std::uint8_t* row, int width, int level, std::vector<Run>& runs);
+  void connect(std::vector<Run>& runs, const std::vector<Run>& above, int y);
+  int new_region(const Run& run, int y);
+  void add(int region, const Run& run, int y);
+
+  struct Sum {
+    BrightRegion region;
+    double x = 0;
+    double y = 0;
+  };
+  std::vector<std::uint8_t> bright_;
+  std::vector<Run> runs_;
+  std::vector<Run> above_;
+  std::vector<int> parent_;
+  std::vector<Sum> sums_;
+  std::vector<BrightRegion> found_;
+};
+
+/// Follows the outer boundary of the region at `seed`, clockwise on the screen, starting there: each pixel touches the
+/// next by side or corner and lies in the region. Appends to `boundary`, which is cleared first.
+///
+/// Precondition: seed is the leftmost pixel of the region's first row.
+void follow_boundary(const ImageView& image, int level, PixelPosition seed, std::vector<PixelPosition>& boundary);
+
+}  // namespace wisp

@@ -1,0 +1,58 @@
+#pragma once
+// A B-spline's basis as one cubic polynomial a span, for curves that are evaluated many thousand times.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "wisp/model/bspline.hpp"
+
+namespace wisp {
+
+/// A point or a direction in the picture.
+struct CurvePoint {
+  double x = 0;
+  double y = 0;
+};
+
+/// The basis functions over one knot vector.
+class SplineTable {
+ public:
+  /// Precondition: valid_knots(knots).
+  explicit SplineTable(std::span<const double> knots);
+
+  int points() const { return points_; }
+  std::span<const double> knots() const { return knots_; }
+
+  /// The four weights at s and the first control point that they belong to; s is held to [0, 1].
+  BasisWeights weights(double s) const;
+
+  /// Their derivatives with respect to s.
+  BasisWeights derivatives(double s) const;
+
+  /// The curve at s. `controls` holds x and y of each control point, alternating.
+  CurvePoint at(std::span<const double> controls, double s) const;
+
+  /// Its derivative.
+  CurvePoint slope(std::span<const double> controls, double s) const;
+
+ private:
+  struct Span {
+    double begin = 0;
+    int first = 0;
+    std::array<std::array<double, 4>, 4> power{};  // power[k][r]: coefficient of (s − begin)^k in weight r
+  };
+  const Span& span_at(double s) const;
+
+  std::vector<double> knots_;
+  int points_ = 0;
+  std::vector<Span> spans_;
+  std::vector<int> guess_;  // the span in which each of equal cells of [0, 1] begins
+};
+
+/// The outline as a polyline of `count` points evenly spread over s, closed by the reader.
+///
+/// Precondition: count >= 2.
+std::vector<CurvePoint> curve_polyline(const SplineTable& table, std::span<const double> controls, int count);
+
+}  // namespace wisp

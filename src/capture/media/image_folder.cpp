@@ -1,0 +1,167 @@
+#include "capture/media/image_folder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstring>
+#include <limits>
+
+#include "wisp/base/file.hpp"
+
+namespace wisp {
+namespace {
+
+struct ImageKind {
+  std::string_view extension;
+  AVCodecID codec;
+};
+
+constexpr std::array<ImageKind, 9> kKinds{{{".png", AV_CODEC_ID_PNG},
+                                           {".jpg", AV_CODEC_ID_MJPEG},
+                                           {".jpeg", AV_CODEC_ID_MJPEG},
+                                           {".pgm", AV_CODEC_ID_PGM},
+                                           {".ppm", AV_CODEC_ID_PPM},
+                                           {".pnm", AV_CODEC_ID_PPM},
+                                           {".bmp", AV_CODEC_ID_BMP},
+                                           {".tif", AV_CODEC_ID_TIFF},
+                                           {".tiff", AV_CODEC_ID_TIFF}}};
+
+// A picture of more than this is not a frame of a clip.
+constexpr std::size_t kMostImageBytes = std::size_t{256} << 20;
+
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+AVCodecID codec_of(const std::filesystem::path& path) {
+  const std::string extension = lower(path.extension().string());
+  for (const ImageKind& kind : kKinds) {
+    if (kind.extension == extension) return kind.codec;
+  }
+  return AV_CODEC_ID_NONE;
+}
+
+// The last group of digits in the name, or −1.
+std::int64_t number_in(const std::filesystem::path& path) {
+  const std::string stem = path.stem().string();
+  const auto digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+  std::size_t end = stem.size();
+  while (end > 0 && !digit(stem[end - 1])) --end;
+  std::size_t begin = end;
+  while (begin > 0 && digit(stem[begin - 1])) --begin;
+  if (begin == end || end - begin > 18) return -1;
+  return std::stoll(stem.substr(begin, end - begin));
+}
+
+std::string pixels(int width, int height) { return std::to_string(width) + " x " + std::to_string(height) + " pixels"; }
+
+}  // namespace
+
+Result<std::vector<ImageFolder::NumberedImage>> ImageFolder::list(const std::filesystem::path& path) {
+  std::vector<NumberedImage> images;
+  std::error_code code;
+  for (const auto& entry : std::filesystem::directory_iterator(path, code)) {
+    if (codec_of(entry.path()) == AV_CODEC_ID_NONE) continue;
+    const std::int64_t number = number_in(entry.path());
+    if (number >= 0) images.push_back({entry.path(), number, 0});
+  }
+  if (code) return Error{path.string() + ": the folder cannot be read (" + code.message() + ")"};
+  if (images.empty()) {
+    return Error{path.string() +
+                 ": found no numbered images in the folder, expected PNG, JPEG, PGM, PPM, BMP or TIFF " +
+                 "such as 000.png"};
+  }
+  std::sort(images.begin(), images.end(), [](const NumberedImage& a, const NumberedImage& b) {
+    return a.number != b.number ? a.number < b.number : a.path < b.path;
+  });
+  for (std::size_t k = 1; k < images.size(); ++k) {
+    if (images[k].number != images[k - 1].number) continue;
+    return Error{images[k].path.string() + ": has the same number as " + images[k - 1].path.filename().string() +
+                 "; keep one clip in a folder"};
+  }
+  return images;
+}
+
+// Numbers that are left out are lost frames; numbering by tens (an extract of every tenth frame) is not.
+void ImageFolder::place(std::vector<NumberedImage>& images) {
+  std::int64_t step = std::numeric_limits<std::int64_t>::max();
+  for (std::size_t k = 1; k < images.size(); ++k) step = std::min(step, images[k].number - images[k - 1].number);
+  for (NumberedImage& image : images) image.index = (image.number - images.front().number) / step;
+}
+
+Result<ImageFolder> ImageFolder::open(const std::filesystem::path& path, const VideoOptions& options) {
+  if (!(options.rate_hz > 0))
+    return Error{path.string() + ": a folder of images has no rate of its own; give --rate HZ"};
+  auto images = list(path);
+  if (!images) return images.error();
+  ImageFolder folder;
+  folder.images_ = std::move(images).value();
+  place(folder.images_);
+  if (options.frames) {
+    const std::int64_t last = folder.images_.back().index + 1;
+    if (options.frames->first > last) {
+      return Error{path.string() + ": found " + std::to_string(last) + " frames, expected frame " +
+                   std::to_string(options.frames->first) + " as the first; give a range inside the clip"};
+    }
+    std::erase_if(folder.images_, [&](const NumberedImage& image) {
+      return image.index + 1 < options.frames->first || image.index + 1 > options.frames->last;
+    });
+  }
+  folder.packet_.reset(av_packet_alloc());
+  folder.frame_.reset(av_frame_alloc());
+  folder.info_.rate_hz = options.rate_hz;
+  folder.info_.frames = static_cast<std::int64_t>(folder.images_.size());
+  folder.info_.images = true;
+  if (folder.images_.empty()) return folder;
+  if (auto decoded = folder.decode(folder.images_.front().path); !decoded) return decoded.error();
+  folder.info_.width = folder.frame_->width;
+  folder.info_.height = folder.frame_->height;
+  return folder;
+}
+
+Result<void> ImageFolder::decode(const std::filesystem::path& path) {
+  const auto bytes = read_file(path, kMostImageBytes);
+  if (!bytes) return bytes.error();
+  const AVCodecID id = codec_of(path);
+  if (!codec_ || codec_->codec_id != id) {
+    const AVCodec* codec = avcodec_find_decoder(id);
+    codec_.reset(codec == nullptr ? nullptr : avcodec_alloc_context3(codec));
+    if (codec_) codec_->thread_count = 1;
+    if (!codec_ || avcodec_open2(codec_.get(), codec, nullptr) < 0) {
+      return Error{path.string() + ": this FFmpeg cannot decode such images; convert them to PNG"};
+    }
+  }
+  avcodec_flush_buffers(codec_.get());
+  if (av_new_packet(packet_.get(), static_cast<int>(bytes->size())) < 0) {
+    return Error{path.string() + ": not enough memory to read the image"};
+  }
+  std::memcpy(packet_->data, bytes->data(), bytes->size());
+  int code = avcodec_send_packet(codec_.get(), packet_.get());
+  av_packet_unref(packet_.get());
+  if (code >= 0) code = avcodec_receive_frame(codec_.get(), frame_.get());
+  if (code == AVERROR(EAGAIN)) {
+    avcodec_send_packet(codec_.get(), nullptr);
+    code = avcodec_receive_frame(codec_.get(), frame_.get());
+  }
+  if (code < 0) {
+    return Error{path.string() + ": the image cannot be decoded (" + libav_message(code) + "); remove or replace it"};
+  }
+  return {};
+}
+
+Result<std::optional<VideoFrame>> ImageFolder::next() {
+  if (at_ == images_.size()) return std::optional<VideoFrame>();
+  const NumberedImage& image = images_[at_++];
+  if (auto decoded = decode(image.path); !decoded) return decoded.error();
+  if (frame_->width != info_.width || frame_->height != info_.height) {
+    return Error{image.path.string() + ": found " + pixels(frame_->width, frame_->height) + ", expected " +
+                 pixels(info_.width, info_.height) + " as in " + images_.front().path.filename().string() +
+                 "; keep images of one size in a folder"};
+  }
+  auto picture = pictures_.view(*frame_);
+  if (!picture) return Error{image.path.string() + ": " + picture.error().message};
+  return std::optional<VideoFrame>(VideoFrame{*picture, image.index});
+}
+
+}  // namespace wisp

@@ -1,0 +1,60 @@
+#pragma once
+// FFmpeg's C interface with owners for what it allocates.
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/display.h>
+#include <libavutil/imgutils.h>
+#include <libavutil/pixdesc.h>
+#include <libswresample/swresample.h>
+#include <libswscale/swscale.h>
+}
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "wisp/base/result.hpp"
+
+namespace wisp {
+
+struct FormatCloser {
+  void operator()(AVFormatContext* format) const { avformat_close_input(&format); }
+};
+struct CodecCloser {
+  void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
+};
+struct FrameCloser {
+  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
+};
+struct PacketCloser {
+  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
+};
+struct ScalerCloser {
+  void operator()(SwsContext* scaler) const { sws_freeContext(scaler); }
+};
+struct ResamplerCloser {
+  void operator()(SwrContext* resampler) const { swr_free(&resampler); }
+};
+
+using FormatOwner = std::unique_ptr<AVFormatContext, FormatCloser>;
+using CodecOwner = std::unique_ptr<AVCodecContext, CodecCloser>;
+using FrameOwner = std::unique_ptr<AVFrame, FrameCloser>;
+using PacketOwner = std::unique_ptr<AVPacket, PacketCloser>;
+using ScalerOwner = std::unique_ptr<SwsContext, ScalerCloser>;
+using ResamplerOwner = std::unique_ptr<SwrContext, ResamplerCloser>;
+
+/// FFmpeg's words for one of its error codes.
+std::string libav_message(int code);
+
+/// Opens a media file and reads what tracks it has. FFmpeg's own chatter on standard error is silenced: what matters
+/// comes back as errors and warnings.
+/// Errors: missing, a folder, not a media file, cut off before its index.
+Result<FormatOwner> open_media(const std::filesystem::path& path);
+
+/// A decoder for one track, opened with `threads` threads.
+/// Errors: a codec that FFmpeg cannot decode.
+Result<CodecOwner> open_decoder(const std::filesystem::path& path, const AVStream& track, int threads);
+
+}  // namespace wisp

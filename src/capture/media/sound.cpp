@@ -1,0 +1,123 @@
+#include "wisp/capture/media/sound.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "capture/media/libav.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr std::size_t kMostSamples = std::size_t{1} << 30;
+
+// One sound track on its way from the file to blocks of floats.
+struct SoundTrack {
+  FormatOwner format;
+  CodecOwner codec;
+  ResamplerOwner resampler;
+  PacketOwner packet{av_packet_alloc()};
+  FrameOwner frame{av_frame_alloc()};
+  int track = -1;
+  SoundInfo info;
+  std::vector<float> samples;
+};
+
+double begin_of(const AVFormatContext& format, const AVStream& sound) {
+  if (sound.start_time == AV_NOPTS_VALUE) return 0;
+  const double begin = static_cast<double>(sound.start_time) * av_q2d(sound.time_base);
+  const int video = av_find_best_stream(const_cast<AVFormatContext*>(&format), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
+  if (video < 0) return 0;
+  const AVStream& pictures = *format.streams[video];
+  if (pictures.start_time == AV_NOPTS_VALUE) return begin;
+  return begin - static_cast<double>(pictures.start_time) * av_q2d(pictures.time_base);
+}
+
+// Planar or packed samples of any kind to packed floats, rate and channels unchanged.
+bool start_resampler(SoundTrack& track) {
+  AVFrame& frame = *track.frame;
+  SwrContext* raw = nullptr;
+  const auto format = static_cast<AVSampleFormat>(frame.format);
+  const int code = swr_alloc_set_opts2(&raw, &frame.ch_layout, AV_SAMPLE_FMT_FLT, frame.sample_rate, &frame.ch_layout,
+                                       format, frame.sample_rate, 0, nullptr);
+  track.resampler.reset(raw);
+  return code >= 0 && swr_init(raw) >= 0;
+}
+
+// Returns whether to go on.
+bool hand_out(SoundTrack& track, const SoundBlock& block) {
+  const AVFrame& frame = *track.frame;
+  if (!track.resampler && !start_resampler(track)) return false;
+  if (frame.ch_layout.nb_channels != track.info.channels) return true;  // a stray block of another make
+  track.samples.resize(static_cast<std::size_t>(frame.nb_samples) * track.info.channels);
+  std::uint8_t* out[1] = {reinterpret_cast<std::uint8_t*>(track.samples.data())};
+  const int got = swr_convert(track.resampler.get(), out, frame.nb_samples,
+                              const_cast<const std::uint8_t**>(frame.extended_data), frame.nb_samples);
+  if (got < 0) return true;
+  track.samples.resize(static_cast<std::size_t>(got) * track.info.channels);
+  for (float& sample : track.samples) {
+    if (!std::isfinite(sample)) sample = 0;
+    track.info.peak = std::max(track.info.peak, std::abs(sample));
+  }
+  track.info.samples += static_cast<std::size_t>(got);
+  return block(track.info, track.samples);
+}
+
+bool drain(SoundTrack& track, const SoundBlock& block) {
+  while (avcodec_receive_frame(track.codec.get(), track.frame.get()) >= 0) {
+    if (!hand_out(track, block)) return false;
+  }
+  return true;
+}
+
+void decode_all(SoundTrack& track, const SoundBlock& block) {
+  while (av_read_frame(track.format.get(), track.packet.get()) >= 0) {
+    if (track.packet->stream_index == track.track) avcodec_send_packet(track.codec.get(), track.packet.get());
+    av_packet_unref(track.packet.get());
+    if (!drain(track, block)) return;
+  }
+  avcodec_send_packet(track.codec.get(), nullptr);
+  drain(track, block);
+}
+
+}  // namespace
+
+Result<std::optional<SoundInfo>> stream_sound(const std::filesystem::path& path, const SoundBlock& block) {
+  SoundTrack track;
+  auto format = open_media(path);
+  if (!format) return format.error();
+  track.format = std::move(format).value();
+  track.track = av_find_best_stream(track.format.get(), AVMEDIA_TYPE_AUDIO, -1, -1, nullptr, 0);
+  if (track.track < 0) return std::optional<SoundInfo>();
+  for (unsigned k = 0; k < track.format->nb_streams; ++k) {
+    if (static_cast<int>(k) != track.track) track.format->streams[k]->discard = AVDISCARD_ALL;
+  }
+  const AVStream& sound = *track.format->streams[track.track];
+  auto codec = open_decoder(path, sound, 1);
+  if (!codec) return codec.error();
+  track.codec = std::move(codec).value();
+  track.info.rate_hz = track.codec->sample_rate;
+  track.info.channels = track.codec->ch_layout.nb_channels;
+  track.info.begin = begin_of(*track.format, sound);
+  if (track.info.channels < 1 || track.info.rate_hz <= 0) {
+    return Error{path.string() + ": the sound track states no rate or no channels; convert it to WAV"};
+  }
+  decode_all(track, block);
+  return std::optional<SoundInfo>(track.info);
+}
+
+Result<std::optional<Sound>> read_sound(const std::filesystem::path& path) {
+  Sound sound;
+  bool too_long = false;
+  const auto info = stream_sound(path, [&](const SoundInfo&, std::span<const float> samples) {
+    too_long = sound.samples.size() + samples.size() > kMostSamples;
+    if (!too_long) sound.samples.insert(sound.samples.end(), samples.begin(), samples.end());
+    return !too_long;
+  });
+  if (!info) return info.error();
+  if (!info->has_value()) return std::optional<Sound>();
+  if (too_long) return Error{path.string() + ": more than 2^30 samples of sound; cut the clip into parts"};
+  sound.info = **info;
+  return std::optional<Sound>(std::move(sound));
+}
+
+}  // namespace wisp

@@ -1,0 +1,54 @@
+#include "wisp/capture/media/video.hpp"
+
+#include <variant>
+
+#include "capture/media/image_folder.hpp"
+#include "capture/media/video_file.hpp"
+
+namespace wisp {
+
+class VideoReader::Source {
+ public:
+  explicit Source(VideoFile file) : held(std::move(file)) {}
+  explicit Source(ImageFolder folder) : held(std::move(folder)) {}
+  std::variant<VideoFile, ImageFolder> held;
+};
+
+VideoReader::VideoReader(std::unique_ptr<Source> source) : source_(std::move(source)) {}
+VideoReader::VideoReader(VideoReader&&) noexcept = default;
+VideoReader& VideoReader::operator=(VideoReader&&) noexcept = default;
+VideoReader::~VideoReader() = default;
+
+Result<VideoReader> VideoReader::open(const std::filesystem::path& path, const VideoOptions& options) {
+  if (options.frames && (options.frames->first < 1 || options.frames->last < options.frames->first)) {
+    return Error{path.string() + ": found frames " + std::to_string(options.frames->first) + ":" +
+                 std::to_string(options.frames->last) + ", expected A:B with 1 <= A <= B"};
+  }
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    auto folder = ImageFolder::open(path, options);
+    if (!folder) return folder.error();
+    return VideoReader(std::make_unique<Source>(std::move(folder).value()));
+  }
+  auto file = VideoFile::open(path, options);
+  if (!file) return file.error();
+  return VideoReader(std::make_unique<Source>(std::move(file).value()));
+}
+
+const VideoInfo& VideoReader::info() const {
+  return std::visit([](const auto& clip) -> const VideoInfo& { return clip.info(); }, source_->held);
+}
+
+Result<std::optional<VideoFrame>> VideoReader::next() {
+  return std::visit([](auto& clip) { return clip.next(); }, source_->held);
+}
+
+RgbImage VideoReader::rgb() {
+  return std::visit([](auto& clip) { return clip.rgb(); }, source_->held);
+}
+
+std::vector<std::string> VideoReader::warnings() const {
+  return std::visit([](const auto& clip) { return clip.warnings(); }, source_->held);
+}
+
+}  // namespace wisp

@@ -1,0 +1,169 @@
+#include "capture/media/video_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace wisp {
+namespace {
+
+// Above this, a frame rate is a file's clock, not a camera's.
+constexpr double kHighestRate = 1000;
+
+// A longer hole in a clip's times is taken as this long: what matters is that an episode ends there.
+constexpr double kLongestGapSeconds = 2;
+
+// The rate of the grid that frames lie on. A camera's nominal rate (the lowest in which all times can be written) is
+// right while not too many of its frames were lost; else the mean rate is.
+double grid_rate(const AVStream& track) {
+  const double nominal = av_q2d(track.r_frame_rate), mean = av_q2d(track.avg_frame_rate);
+  if (!(nominal > 0) || nominal > kHighestRate) return mean;
+  if (!(mean > 0)) return nominal;
+  return nominal / mean < 1.5 ? nominal : mean;
+}
+
+int quarter_turns(const AVStream& track) {
+  const std::uint8_t* matrix = av_stream_get_side_data(&track, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
+  if (matrix == nullptr) return 0;
+  const double degrees = -av_display_rotation_get(reinterpret_cast<const std::int32_t*>(matrix));
+  if (std::isnan(degrees)) return 0;
+  return static_cast<int>(std::lround(degrees / 90) % 4 + 4) % 4;
+}
+
+std::int64_t stated_frames(const AVFormatContext& format, const AVStream& track, double rate) {
+  if (track.nb_frames > 0) return track.nb_frames;
+  if (track.duration != AV_NOPTS_VALUE) {
+    return std::llround(static_cast<double>(track.duration) * av_q2d(track.time_base) * rate);
+  }
+  if (format.duration == AV_NOPTS_VALUE) return 0;
+  return std::llround(static_cast<double>(format.duration) / AV_TIME_BASE * rate);
+}
+
+}  // namespace
+
+Result<VideoFile> VideoFile::open(const std::filesystem::path& path, const VideoOptions& options) {
+  VideoFile file;
+  file.path_ = path;
+  file.options_ = options;
+  auto format = open_media(path);
+  if (!format) return format.error();
+  file.format_ = std::move(format).value();
+  file.track_ = av_find_best_stream(file.format_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
+  if (file.track_ < 0) return Error{path.string() + ": found no video track, expected one; give a video file"};
+  const AVStream& track = *file.format_->streams[file.track_];
+  auto codec = open_decoder(path, track, options.threads);
+  if (!codec) return codec.error();
+  file.codec_ = std::move(codec).value();
+  file.seconds_per_tick_ = av_q2d(track.time_base);
+  VideoInfo& info = file.info_;
+  info.rate_hz = options.rate_hz > 0 ? options.rate_hz : grid_rate(track);
+  if (!(info.rate_hz > 0)) return Error{path.string() + ": states no frame rate; give it as --rate"};
+  const int turns = quarter_turns(track);
+  info.width = turns % 2 == 0 ? track.codecpar->width : track.codecpar->height;
+  info.height = turns % 2 == 0 ? track.codecpar->height : track.codecpar->width;
+  info.frames = stated_frames(*file.format_, track, info.rate_hz);
+  info.has_sound = av_find_best_stream(file.format_.get(), AVMEDIA_TYPE_AUDIO, -1, -1, nullptr, 0) >= 0;
+  file.pictures_ = FramePictures(turns);
+  file.packet_.reset(av_packet_alloc());
+  file.frame_.reset(av_frame_alloc());
+  for (unsigned k = 0; k < file.format_->nb_streams; ++k) {
+    if (static_cast<int>(k) != file.track_) file.format_->streams[k]->discard = AVDISCARD_ALL;
+  }
+  return file;
+}
+
+// Feeds the decoder one packet of the track. Returns false once there are none.
+bool VideoFile::send_packet() {
+  while (true) {
+    const int code = av_read_frame(format_.get(), packet_.get());
+    if (code < 0) {
+      read_error_ = code != AVERROR_EOF;
+      avcodec_send_packet(codec_.get(), nullptr);
+      return false;
+    }
+    const bool ours = packet_->stream_index == track_;
+    const bool whole = (packet_->flags & AV_PKT_FLAG_CORRUPT) == 0;
+    if (ours && !whole) ++broken_;
+    if (ours && whole && avcodec_send_packet(codec_.get(), packet_.get()) < 0) ++broken_;
+    av_packet_unref(packet_.get());
+    if (ours) return true;
+  }
+}
+
+// The next whole frame into frame_. Returns false at the end.
+bool VideoFile::decode() {
+  while (true) {
+    const int code = avcodec_receive_frame(codec_.get(), frame_.get());
+    if (code == AVERROR(EAGAIN)) {
+      if (!ended_) ended_ = !send_packet();
+      continue;
+    }
+    if (code == AVERROR_EOF) return false;
+    if (code < 0) {
+      ++broken_;
+      if (ended_) return false;
+      ended_ = !send_packet();
+      continue;
+    }
+    if ((frame_->flags & AV_FRAME_FLAG_CORRUPT) == 0 && frame_->decode_error_flags == 0) return true;
+    ++broken_;
+  }
+}
+
+std::int64_t VideoFile::place_on_grid() {
+  const std::int64_t tick = frame_->best_effort_timestamp;
+  const std::int64_t next = last_index_ + 1;
+  if (tick == AV_NOPTS_VALUE || options_.rate_hz > 0) return next;
+  if (first_tick_ == AV_NOPTS_VALUE) first_tick_ = tick;
+  const double place = static_cast<double>(tick - first_tick_) * seconds_per_tick_ * info_.rate_hz;
+  const double longest = static_cast<double>(next) + kLongestGapSeconds * info_.rate_hz;
+  if (place > longest) {
+    // From here on, time is counted from this frame.
+    ++long_gaps_;
+    const std::int64_t index = static_cast<std::int64_t>(longest);
+    first_tick_ = tick - std::llround(static_cast<double>(index) / (info_.rate_hz * seconds_per_tick_));
+    return index;
+  }
+  const std::int64_t index = std::max(next, static_cast<std::int64_t>(std::llround(place)));
+  worst_misplacement_ = std::max(worst_misplacement_, std::abs(place - static_cast<double>(index)));
+  return index;
+}
+
+Result<std::optional<VideoFrame>> VideoFile::next() {
+  while (decode()) {
+    ++decoded_;
+    last_index_ = place_on_grid();
+    if (options_.frames && last_index_ + 1 < options_.frames->first) continue;
+    if (options_.frames && last_index_ + 1 > options_.frames->last) return std::optional<VideoFrame>();
+    auto picture = pictures_.view(*frame_);
+    if (!picture) return Error{path_.string() + ": " + picture.error().message};
+    return std::optional<VideoFrame>(VideoFrame{*picture, last_index_});
+  }
+  if (options_.frames && last_index_ + 1 < options_.frames->first) {
+    return Error{path_.string() + ": found " + std::to_string(last_index_ + 1) + " frames, expected frame " +
+                 std::to_string(options_.frames->first) + " as the first; give a range inside the clip"};
+  }
+  return std::optional<VideoFrame>();
+}
+
+std::vector<std::string> VideoFile::warnings() const {
+  std::vector<std::string> out;
+  const std::string name = path_.string();
+  const bool to_the_end = !options_.frames || last_index_ + 1 < options_.frames->last;
+  if (broken_ > 0) out.push_back(name + ": " + std::to_string(broken_) + " broken frames were left out");
+  const std::int64_t stated = format_->streams[track_]->nb_frames;
+  if (to_the_end && (read_error_ || (stated > 0 && decoded_ + broken_ < stated))) {
+    out.push_back(name + ": cut off: found " + std::to_string(decoded_) + " frames of " + std::to_string(stated) +
+                  " stated; what is there is used");
+  }
+  if (long_gaps_ > 0) out.push_back(name + ": " + std::to_string(long_gaps_) + " holes in time were shortened");
+  if (worst_misplacement_ > 0.6) {
+    char line[160];
+    std::snprintf(line, sizeof line, ": frames come at irregular times, up to %.1f ms off a rate of %.6g a second",
+                  1000 * worst_misplacement_ / info_.rate_hz, info_.rate_hz);
+    out.push_back(name + line);
+  }
+  return out;
+}
+
+}  // namespace wisp

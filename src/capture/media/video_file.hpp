@@ -1,0 +1,44 @@
+#pragma once
+// Frames of a video file.
+
+#include "capture/media/frame_picture.hpp"
+#include "capture/media/libav.hpp"
+#include "wisp/capture/media/video.hpp"
+
+namespace wisp {
+
+class VideoFile {
+ public:
+  static Result<VideoFile> open(const std::filesystem::path& path, const VideoOptions& options);
+
+  const VideoInfo& info() const { return info_; }
+  Result<std::optional<VideoFrame>> next();
+  RgbImage rgb() { return pictures_.rgb(*frame_); }
+  std::vector<std::string> warnings() const;
+
+ private:
+  bool decode();
+  bool send_packet();
+  std::int64_t place_on_grid();
+
+  std::filesystem::path path_;
+  VideoOptions options_;
+  VideoInfo info_;
+  FormatOwner format_;
+  CodecOwner codec_;
+  PacketOwner packet_;
+  FrameOwner frame_;
+  FramePictures pictures_;
+  int track_ = 0;
+  double seconds_per_tick_ = 0;
+  bool ended_ = false;
+  bool read_error_ = false;
+  std::int64_t first_tick_ = AV_NOPTS_VALUE;
+  std::int64_t decoded_ = 0;
+  std::int64_t last_index_ = -1;
+  std::int64_t broken_ = 0;
+  std::int64_t long_gaps_ = 0;
+  double worst_misplacement_ = 0;
+};
+
+}  // namespace wisp

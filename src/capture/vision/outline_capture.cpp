@@ -1,0 +1,218 @@
+#include "wisp/capture/vision/outline_capture.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "capture/vision/outline_rows.hpp"
+#include "capture/vision/outline_seeker.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr std::size_t kLeastTracked = 10;
+constexpr std::size_t kLeastHeld = 8;
+
+std::string text(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.6g", value);
+  return buffer;
+}
+
+std::string full_text(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.17g", value);
+  return buffer;
+}
+
+}  // namespace
+
+// What a capture knows between frames.
+class OutlineCapture::Stage {
+ public:
+  explicit Stage(OutlineCaptureOptions options) : options_(std::move(options)) {}
+
+  Result<void> feed(const Picture& picture);
+  void lost();
+  Result<CapturedOutline> finish();
+
+ private:
+  Result<void> accept(const Picture& picture);
+  Result<void> decide();
+  void look(const Picture& picture);
+  void note_lost();
+  Error complaint(const std::string& what) const { return Error{options_.source + ": " + what}; }
+  void describe(CapturedOutline& out) const;
+
+  OutlineCaptureOptions options_;
+  int width_ = 0;
+  int height_ = 0;
+  std::size_t fed_ = 0;
+  std::vector<std::optional<OwnedPicture>> held_;  // nothing: a lost frame
+  std::size_t held_bytes_ = 0;
+  std::optional<Survey> survey_;
+  std::optional<Picture> format_;  // the first picture's layout, without its planes
+  std::optional<OutlineSeeker> seeker_;
+  std::optional<OutlineTracker> tracker_;
+  EdgeCloudOptions cloud_options_;
+  EdgeCloud cloud_;
+  FrameFindings findings_;
+};
+
+Result<void> OutlineCapture::Stage::accept(const Picture& picture) {
+  if (fed_++ == 0) {
+    width_ = picture.width;
+    height_ = picture.height;
+    format_ = picture;
+    const Region& region = options_.region;
+    if (!region.empty() && !(intersection(region, picture.frame()) == region)) {
+      return complaint("the region " + std::to_string(region.x) + "," + std::to_string(region.y) + "," +
+                       std::to_string(region.width) + "," + std::to_string(region.height) +
+                       " reaches outside the picture of " + std::to_string(width_) + " x " + std::to_string(height_) +
+                       " pixels; give one inside it as X,Y,W,H");
+    }
+    if (options_.channel && !has_channel(picture, *options_.channel)) {
+      return complaint("found grey pictures, expected colour for channel " +
+                       std::string(channel_name(*options_.channel)) + "; use luma");
+    }
+    return {};
+  }
+  if (picture.width != width_ || picture.height != height_) {
+    return complaint("frame " + std::to_string(fed_ - 1) + " is " + std::to_string(picture.width) + " x " +
+                     std::to_string(picture.height) + " pixels, expected " + std::to_string(width_) + " x " +
+                     std::to_string(height_) + " as the first one");
+  }
+  return {};
+}
+
+Result<void> OutlineCapture::Stage::feed(const Picture& picture) {
+  if (auto accepted = accept(picture); !accepted) return accepted;
+  if (survey_) {
+    look(picture);
+    return {};
+  }
+  held_.emplace_back(OwnedPicture(picture));
+  held_bytes_ += held_.back()->bytes();
+  const bool enough = held_.size() >= static_cast<std::size_t>(options_.held_frames) ||
+                      (held_bytes_ >= options_.held_bytes && held_.size() >= kLeastHeld);
+  return enough ? decide() : Result<void>();
+}
+
+void OutlineCapture::Stage::lost() {
+  if (survey_) return note_lost();
+  held_.emplace_back(std::nullopt);
+}
+
+void OutlineCapture::Stage::note_lost() {
+  findings_.frames.push_back({FrameFinding::Kind::kLost, 0, 0, 0});
+  findings_.controls.resize(findings_.controls.size() + 2 * static_cast<std::size_t>(options_.points));
+}
+
+Result<void> OutlineCapture::Stage::decide() {
+  std::vector<Picture> pictures;
+  for (const auto& held : held_) {
+    if (held) pictures.push_back(held->picture());
+  }
+  auto survey = survey_scene(pictures, {options_.channel, options_.dark, options_.region});
+  if (!survey) return complaint(survey.error().message);
+  survey_ = std::move(survey).value();
+  seeker_.emplace(*survey_, options_.dark, options_.region.empty() ? pictures.front().frame() : options_.region);
+  cloud_options_.base = options_.base.value_or(BaseSide::kBottom);
+  tracker_.emplace(uniform_knots(options_.points));
+  for (const auto& held : held_) {
+    if (held) {
+      look(held->picture());
+    } else {
+      note_lost();
+    }
+  }
+  held_.clear();
+  held_.shrink_to_fit();
+  return {};
+}
+
+void OutlineCapture::Stage::look(const Picture& picture) {
+  FrameFinding finding;
+  const bool seen = seeker_->seek(picture, cloud_options_, cloud_);
+  if (seen) {
+    const OutlineEstimate& estimate = tracker_->update(cloud_);
+    finding.kind = FrameFinding::Kind::kTracked;
+    finding.change = static_cast<float>(seeker_->change());
+    finding.brightness = static_cast<float>(seeker_->brightness());
+    finding.residual = static_cast<float>(estimate.residual);
+    findings_.controls.insert(findings_.controls.end(), estimate.mean.begin(), estimate.mean.end());
+  } else {
+    tracker_->forget();
+    findings_.controls.resize(findings_.controls.size() + 2 * static_cast<std::size_t>(options_.points));
+  }
+  findings_.frames.push_back(finding);
+}
+
+void OutlineCapture::Stage::describe(CapturedOutline& out) const {
+  CaptureReport& report = out.report;
+  report.rate_hz = options_.rate_hz;
+  report.points = options_.points;
+  report.channel = survey_->channel;
+  report.separation = survey_->separation;
+  report.width = width_;
+  report.height = height_;
+  const auto bright = [&](int stored) {
+    return brightness(*format_, survey_->channel, options_.dark ? 255 - stored : stored);
+  };
+  report.threshold = bright(survey_->level);
+  for (int v = 0; v < 256; ++v) {
+    report.histogram[static_cast<std::size_t>(std::lround(bright(v)))] += survey_->histogram[v];
+  }
+  const auto knots = tracker_->table().knots();
+  report.knots.assign(knots.begin(), knots.end());
+  report.knots_placed = report.knots != uniform_knots(options_.points);
+  Recording& recording = out.recording;
+  recording.source = options_.source;
+  recording.rate_hz = options_.rate_hz;
+  if (report.knots_placed) {
+    std::string line;
+    for (const double knot : knots) line += (line.empty() ? "" : " ") + full_text(knot);
+    recording.attributes.push_back({"knots", line});
+  }
+  recording.attributes.push_back({"source", options_.source});
+  recording.attributes.push_back({"width", std::to_string(width_)});
+  recording.attributes.push_back({"height", std::to_string(height_)});
+  recording.attributes.push_back({"channel", std::string(channel_name(survey_->channel))});
+  recording.attributes.push_back({"threshold", text(report.threshold)});
+}
+
+Result<CapturedOutline> OutlineCapture::Stage::finish() {
+  if (fed_ < kLeastTracked) {
+    return complaint("found " + std::to_string(fed_) + " frames, expected at least " + std::to_string(kLeastTracked) +
+                     "; give a longer clip");
+  }
+  if (!survey_) {
+    if (auto decided = decide(); !decided) return decided.error();
+  }
+  CapturedOutline out;
+  describe(out);
+  assemble_rows(findings_, options_.points, out.recording, out.report);
+  if (out.report.tracked < kLeastTracked) {
+    return complaint("an outline was found in " + std::to_string(out.report.tracked) + " of " +
+                     std::to_string(out.report.frames) + " frames, expected at least " + std::to_string(kLeastTracked) +
+                     "; try another channel, or a region around the thing");
+  }
+  return out;
+}
+
+OutlineCapture::OutlineCapture(OutlineCaptureOptions options) : stage_(std::make_unique<Stage>(std::move(options))) {}
+OutlineCapture::OutlineCapture(OutlineCapture&&) noexcept = default;
+OutlineCapture& OutlineCapture::operator=(OutlineCapture&&) noexcept = default;
+OutlineCapture::~OutlineCapture() = default;
+
+Result<void> OutlineCapture::feed(const Picture& picture) { return stage_->feed(picture); }
+
+void OutlineCapture::lost(int count) {
+  for (int k = 0; k < count; ++k) stage_->lost();
+}
+
+Result<CapturedOutline> OutlineCapture::finish() { return stage_->finish(); }
+
+}  // namespace wisp

@@ -1,0 +1,150 @@
+#include "capture/vision/outline_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace wisp {
+namespace {
+
+constexpr double kFadeShare = 0.73;       // a thing dimmer than this share of its usual brightness is fading
+constexpr double kDuplicateShare = 0.15;  // a frame that changes less than this share of the usual repeats the last one
+constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+
+enum class Fate : std::uint8_t { kKept, kDuplicate, kFilled, kFade, kNothing, kLost };
+
+double median(std::vector<float> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Fades and duplicates are told by comparison with the clip's usual brightness and change.
+std::vector<Fate> judge(const FrameFindings& findings) {
+  std::vector<float> brightness, change;
+  for (const FrameFinding& f : findings.frames) {
+    if (f.kind != FrameFinding::Kind::kTracked) continue;
+    brightness.push_back(f.brightness);
+    change.push_back(f.change);
+  }
+  const double usual_brightness = median(brightness), usual_change = median(change);
+  std::vector<Fate> fate;
+  for (const FrameFinding& f : findings.frames) {
+    switch (f.kind) {
+      case FrameFinding::Kind::kLost:
+        fate.push_back(Fate::kLost);
+        break;
+      case FrameFinding::Kind::kNothing:
+        fate.push_back(Fate::kNothing);
+        break;
+      case FrameFinding::Kind::kTracked:
+        if (f.brightness < kFadeShare * usual_brightness) {
+          fate.push_back(Fate::kFade);
+        } else {
+          fate.push_back(f.change < kDuplicateShare * usual_change ? Fate::kDuplicate : Fate::kKept);
+        }
+    }
+  }
+  return fate;
+}
+
+// The dark end of a fade has no bright region at all: it is part of the fade.
+void extend_fades(std::vector<Fate>& fate) {
+  for (std::size_t k = 1; k < fate.size(); ++k) {
+    if (fate[k] == Fate::kNothing && fate[k - 1] == Fate::kFade) fate[k] = Fate::kFade;
+  }
+  for (std::size_t k = fate.size(); k-- > 1;) {
+    if (fate[k - 1] == Fate::kNothing && fate[k] == Fate::kFade) fate[k - 1] = Fate::kFade;
+  }
+}
+
+bool fillable(Fate fate) { return fate == Fate::kDuplicate || fate == Fate::kLost; }
+
+void fill_single_gaps(std::vector<Fate>& fate, std::vector<double>& controls, std::size_t width) {
+  for (std::size_t k = 1; k + 1 < fate.size(); ++k) {
+    if (!fillable(fate[k]) || fate[k - 1] != Fate::kKept || fate[k + 1] != Fate::kKept) continue;
+    fate[k] = Fate::kFilled;
+    for (std::size_t i = 0; i < width; ++i) {
+      controls[k * width + i] = 0.5 * (controls[(k - 1) * width + i] + controls[(k + 1) * width + i]);
+    }
+  }
+}
+
+const char* reason(Fate fate) {
+  switch (fate) {
+    case Fate::kDuplicate:
+      return "duplicate";
+    case Fate::kFade:
+      return "fade";
+    case Fate::kLost:
+      return "lost";
+    default:
+      return "no bright region";
+  }
+}
+
+bool present(Fate fate) { return fate == Fate::kKept || fate == Fate::kFilled; }
+
+void count(const std::vector<Fate>& fate, const FrameFindings& findings, CaptureReport& report) {
+  report.frames = fate.size();
+  double residuals = 0;
+  for (std::size_t k = 0; k < fate.size(); ++k) {
+    if (!present(fate[k])) report.dropped.push_back({k, reason(fate[k])});
+    report.filled += fate[k] == Fate::kFilled;
+    if (fate[k] != Fate::kKept) continue;
+    ++report.tracked;
+    residuals += findings.frames[k].residual;
+  }
+  report.residual = report.tracked == 0 ? 0 : residuals / static_cast<double>(report.tracked);
+}
+
+void write_channels(const std::vector<Fate>& fate, const std::vector<double>& controls, int points,
+                    Recording& recording) {
+  const std::size_t rows = fate.size(), width = 2 * static_cast<std::size_t>(points);
+  for (std::size_t i = 0; i < width; ++i) {
+    Channel channel{"p" + std::to_string(i / 2) + (i % 2 == 0 ? ".x" : ".y"), "px", Role::kOutput, {}};
+    channel.samples.reserve(rows);
+    for (std::size_t k = 0; k < rows; ++k)
+      channel.samples.push_back(present(fate[k]) ? controls[k * width + i] : kMissing);
+    recording.channels.push_back(std::move(channel));
+  }
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    Channel channel{axis == 0 ? "base.x" : "base.y", "px", Role::kMotion, {}};
+    const std::vector<double>& left = recording.channels[axis].samples;
+    const std::vector<double>& right = recording.channels[width - 2 + axis].samples;
+    for (std::size_t k = 0; k < rows; ++k) channel.samples.push_back(0.5 * (left[k] + right[k]));
+    recording.channels.push_back(std::move(channel));
+  }
+}
+
+// Missing rows belong to the episode before them; the next outline starts a new one.
+void write_episodes(const std::vector<Fate>& fate, Recording& recording) {
+  RowFlag filled{"filled", {}};
+  std::int64_t episode = 0;
+  bool seen = false, gap = false;
+  for (const Fate f : fate) {
+    if (present(f) && gap && seen) ++episode;
+    gap = !present(f);
+    seen = seen || present(f);
+    recording.episode_ids.push_back(episode);
+    filled.rows.push_back(f == Fate::kFilled);
+  }
+  recording.flags.push_back(std::move(filled));
+}
+
+}  // namespace
+
+void assemble_rows(const FrameFindings& findings, int points, Recording& recording, CaptureReport& report) {
+  std::vector<Fate> fate = judge(findings);
+  report.duplicates = static_cast<std::size_t>(std::count(fate.begin(), fate.end(), Fate::kDuplicate));
+  extend_fades(fate);
+  std::vector<double> controls = findings.controls;
+  fill_single_gaps(fate, controls, 2 * static_cast<std::size_t>(points));
+  count(fate, findings, report);
+  write_channels(fate, controls, points, recording);
+  write_episodes(fate, recording);
+}
+
+}  // namespace wisp

@@ -1,0 +1,140 @@
+#include "capture/vision/outline_seeker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace wisp {
+namespace {
+
+constexpr double kMarginShare = 0.2;     // of the thing's longer side: how far it may move from frame to frame
+constexpr int kLeastMargin = 8;          // pixels
+constexpr double kLeastAreaShare = 0.1;  // of its usual area: less is a spark or what is left after it went out
+constexpr int kLeastArea = 24;           // pixels
+
+double area_of(const Region& region) { return static_cast<double>(region.width) * region.height; }
+
+}  // namespace
+
+OutlineSeeker::OutlineSeeker(const Survey& survey, bool dark, const Region& area)
+    : channel_(survey.channel),
+      level_(survey.level),
+      dark_(dark),
+      area_(area),
+      home_(survey.home),
+      still_(survey.still) {}
+
+OutlineSeeker::Window OutlineSeeker::open(const Picture& picture, const Region& place) {
+  const ImageView direct = plane_in_place(picture, channel_);
+  if (direct.pixels != nullptr && !dark_) return {place, crop(direct, place)};
+  plane_.resize(static_cast<std::size_t>(place.width) * place.height);
+  extract_channel(picture, channel_, place, plane_.data());
+  if (dark_) {
+    for (std::uint8_t& value : plane_) value = static_cast<std::uint8_t>(255 - value);
+  }
+  return {place, {plane_.data(), place.width, place.height, place.width}};
+}
+
+bool OutlineSeeker::still(const Region& box) const {
+  return std::any_of(still_.begin(), still_.end(),
+                     [&](const Region& region) { return area_of(intersection(region, box)) > 0.8 * area_of(box); });
+}
+
+// Nearest to what was there before: the overlap of boxes times the area.
+bool OutlineSeeker::choose(std::span<const BrightRegion> regions, const Region& place) {
+  const Region expected = following_ ? found_.box : home_;
+  double best = 0;
+  for (const BrightRegion& region : regions) {
+    if (static_cast<double>(region.area) < kLeastAreaShare * usual_area_) continue;
+    BrightRegion moved = region;
+    moved.box.x += place.x;
+    moved.box.y += place.y;
+    if (!following_ && still(moved.box)) continue;
+    const double shared = area_of(intersection(moved.box, expected));
+    const double likeness = (shared + 1) / (area_of(moved.box) + area_of(expected) - shared);
+    const double score = static_cast<double>(region.area) * likeness;
+    if (score <= best) continue;
+    best = score;
+    moved.centre_x += place.x;
+    moved.centre_y += place.y;
+    moved.seed_x += place.x;
+    moved.seed_y += place.y;
+    found_ = moved;
+  }
+  return best > 0;
+}
+
+// Looks inside `place`, and in more while the thing reaches out of it.
+bool OutlineSeeker::find_in(const Picture& picture, Region place) {
+  while (true) {
+    place = intersection(place, area_);
+    if (place.empty()) return false;
+    window_ = open(picture, place);
+    if (!choose(finder_.find(window_.image, level_, kLeastArea), place)) return false;
+    const Region box = found_.box;
+    const bool reaches_out = (box.x == place.x && place.x > area_.x) || (box.y == place.y && place.y > area_.y) ||
+                             (box.right() == place.right() && place.right() < area_.right()) ||
+                             (box.bottom() == place.bottom() && place.bottom() < area_.bottom());
+    if (!reaches_out) return true;
+    place = grown(enclosing(place, box), std::max(kLeastMargin, std::max(box.width, box.height) / 2));
+  }
+}
+
+void OutlineSeeker::measure_change() {
+  const Region place = window_.place;
+  const Region both = intersection(place, before_place_);
+  std::int64_t sum = 0;
+  for (int y = both.y; y < both.bottom(); ++y) {
+    const std::uint8_t* now = window_.image.row(y - place.y) + (both.x - place.x);
+    const std::uint8_t* then = before_.data() + static_cast<std::size_t>(y - before_place_.y) * before_place_.width +
+                               (both.x - before_place_.x);
+    int row = 0;
+    for (int x = 0; x < both.width; ++x) row += std::abs(now[x] - then[x]);
+    sum += row;
+  }
+  const double pixels = area_of(both);
+  change_ = pixels == 0 ? 255 : static_cast<double>(sum) / pixels;
+  before_.resize(static_cast<std::size_t>(place.width) * place.height);
+  for (int y = 0; y < place.height; ++y) {
+    std::copy_n(window_.image.row(y), place.width, before_.data() + static_cast<std::size_t>(y) * place.width);
+  }
+  before_place_ = place;
+}
+
+void OutlineSeeker::measure_brightness(const Picture& picture) {
+  const Region box = found_.box;
+  std::int64_t sum = 0, count = 0;
+  for (int y = box.y; y < box.bottom(); y += 2) {
+    const std::uint8_t* row = window_.image.row(y - window_.place.y) + (box.x - window_.place.x);
+    for (int x = 0; x < box.width; ++x) {
+      const bool bright = row[x] > level_;
+      sum += bright ? row[x] : 0;
+      count += bright;
+    }
+  }
+  const double mean = count == 0 ? 0 : static_cast<double>(sum) / static_cast<double>(count);
+  brightness_ = dark_ ? mean : wisp::brightness(picture, channel_, mean);
+}
+
+bool OutlineSeeker::seek(const Picture& picture, const EdgeCloudOptions& options, EdgeCloud& cloud) {
+  bool seen = false;
+  if (following_) {
+    const int longer = std::max(found_.box.width, found_.box.height);
+    seen = find_in(picture, grown(found_.box, std::max(kLeastMargin, static_cast<int>(kMarginShare * longer))));
+  }
+  if (!seen) {
+    following_ = false;
+    seen = find_in(picture, area_);
+  }
+  if (!seen) return false;
+  following_ = true;
+  usual_area_ = usual_area_ == 0 ? static_cast<double>(found_.area)
+                                 : 0.95 * usual_area_ + 0.05 * static_cast<double>(found_.area);
+  measure_change();
+  measure_brightness(picture);
+  const Region place = window_.place;
+  follow_boundary(window_.image, level_, {found_.seed_x - place.x, found_.seed_y - place.y}, boundary_);
+  return make_edge_cloud({window_.image, place, area_, level_}, boundary_, options, cloud);
+}
+
+}  // namespace wisp

@@ -1,0 +1,60 @@
+#pragma once
+// Finds the thing in each frame, near where it was in the one before, and gives its edge points.
+
+#include <cstdint>
+#include <vector>
+
+#include "wisp/capture/vision/edge_cloud.hpp"
+#include "wisp/capture/vision/picture.hpp"
+#include "wisp/capture/vision/region.hpp"
+#include "wisp/capture/vision/survey.hpp"
+
+namespace wisp {
+
+class OutlineSeeker {
+ public:
+  /// `area` is where the thing may be at all.
+  OutlineSeeker(const Survey& survey, bool dark, const Region& area);
+
+  /// Looks for the thing in the next frame. Returns whether it is there; then `cloud` holds its edge points.
+  bool seek(const Picture& picture, const EdgeCloudOptions& options, EdgeCloud& cloud);
+
+  /// Mean absolute difference between this frame and the one before, in the thing's neighbourhood.
+  double change() const { return change_; }
+  /// Mean brightness of the thing's pixels, 0 to 255.
+  double brightness() const { return brightness_; }
+  const BrightRegion& found() const { return found_; }
+
+ private:
+  /// The part of the picture that is looked at, as one plane, and where it lies.
+  struct Window {
+    Region place;
+    ImageView image;
+  };
+  Window open(const Picture& picture, const Region& place);
+  bool find_in(const Picture& picture, Region place);
+  bool choose(std::span<const BrightRegion> regions, const Region& place);
+  bool still(const Region& box) const;
+  void measure_change();
+  void measure_brightness(const Picture& picture);
+
+  PixelChannel channel_;
+  int level_;
+  bool dark_;
+  Region area_;
+  Region home_;
+  std::vector<Region> still_;
+  bool following_ = false;
+  double usual_area_ = 0;
+  BrightRegion found_;
+  Window window_;
+  std::vector<std::uint8_t> plane_;
+  Region before_place_;
+  std::vector<std::uint8_t> before_;
+  double change_ = 0;
+  double brightness_ = 0;
+  RegionFinder finder_;
+  std::vector<PixelPosition> boundary_;
+};
+
+}  // namespace wisp

@@ -1,0 +1,198 @@
+#include "wisp/capture/vision/outline_tracker.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "capture/vision/cholesky.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr double kLeastNormalSd = 0.25;  // pixels: what is left of noise when an edge is located well
+
+// A prior that says next to nothing, for the first frame: sd of ten heights.
+constexpr double kVagueSd = 10;
+
+}  // namespace
+
+OutlineTracker::OutlineTracker(std::span<const double> knots, const TrackerOptions& options)
+    : table_(knots), options_(options) {
+  const std::size_t n = 2 * static_cast<std::size_t>(table_.points());
+  estimate_.mean.assign(n, 0.0);
+  for (auto* matrix : {&estimate_.covariance, &prior_information_, &information_, &factor_}) matrix->assign(n * n, 0.0);
+  prior_vector_.assign(n, 0.0);
+  vector_.assign(n, 0.0);
+}
+
+// The prior's mean is the previous posterior's, carried along with the base; its covariance is widened.
+void OutlineTracker::predict(const EdgeCloud& cloud) {
+  const int n = static_cast<int>(vector_.size());
+  if (!has_past_) {
+    std::fill(prior_information_.begin(), prior_information_.end(), 0.0);
+    const double precision = 1 / (kVagueSd * cloud.height * kVagueSd * cloud.height);
+    for (int i = 0; i < n; ++i) {
+      prior_information_[static_cast<std::size_t>(i) * n + i] = precision;
+      prior_vector_[i] = precision * (i % 2 == 0 ? cloud.base_x() : cloud.base_y());
+    }
+    return;
+  }
+  for (int i = 0; i < n; i += 2) {
+    estimate_.mean[i] += cloud.base_x() - base_x_;
+    estimate_.mean[i + 1] += cloud.base_y() - base_y_;
+  }
+  widen(cloud.height);
+  factor_ = estimate_.covariance;
+  const bool definite = cholesky(factor_, n);
+  assert(definite);
+  static_cast<void>(definite);
+  cholesky_inverse(factor_, n, prior_information_);
+  for (int i = 0; i < n; ++i) {
+    double sum = 0;
+    for (int j = 0; j < n; ++j) sum += prior_information_[static_cast<std::size_t>(i) * n + j] * estimate_.mean[j];
+    prior_vector_[i] = sum;
+  }
+}
+
+void OutlineTracker::widen(double height) {
+  const int points = table_.points();
+  const std::size_t n = vector_.size();
+  const double across = options_.normal_widening * height, along = options_.tangent_widening * height;
+  for (int k = 0; k < points; ++k) {
+    // A control point acts where its basis function is largest: near the mean of its three inner knots.
+    const auto knots = table_.knots();
+    const double s = (knots[k + 1] + knots[k + 2] + knots[k + 3]) / 3;
+    const CurvePoint slope = table_.slope(estimate_.mean, s);
+    const double length = std::max(std::hypot(slope.x, slope.y), 1e-9);
+    const double tx = slope.x / length, ty = slope.y / length;
+    const double cross = (along * along - across * across) * tx * ty;
+    double* block = estimate_.covariance.data() + 2 * k * n + 2 * k;
+    block[0] += along * along * tx * tx + across * across * ty * ty;
+    block[1] += cross;
+    block[n] += cross;
+    block[n + 1] += along * along * ty * ty + across * across * tx * tx;
+  }
+}
+
+// One scalar measurement: n · curve(s) = value, with that precision (1 / variance). Four control points carry the curve
+// at s: 8 entries of the vector and 8 × 8 of the information (its lower triangle) change.
+void OutlineTracker::add(double s, double nx, double ny, double value, double precision) {
+  const BasisWeights weights = table_.weights(s);
+  const std::size_t n = vector_.size(), first = 2 * static_cast<std::size_t>(weights.first);
+  std::array<double, 8> row;
+  for (int r = 0; r < 4; ++r) {
+    row[2 * r] = weights.weight[r] * nx;
+    row[2 * r + 1] = weights.weight[r] * ny;
+  }
+  for (int i = 0; i < 8; ++i) {
+    const double scaled = precision * row[i];
+    vector_[first + i] += scaled * value;
+    double* information = information_.data() + (first + i) * n + first;
+    for (int j = 0; j <= i; ++j) information[j] += scaled * row[j];
+  }
+}
+
+// Before anything is known of the curve in this frame, an edge point's own gradient is the normal; after that, the
+// curve's.
+void OutlineTracker::measure(const EdgeCloud& cloud, bool along_own_normal) {
+  information_ = prior_information_;
+  vector_ = prior_vector_;
+  for (std::size_t k = 0; k < cloud.points.size(); ++k) {
+    if (measurements_[k].out) continue;
+    const EdgePoint& edge = cloud.points[k];
+    double nx = edge.normal_x, ny = edge.normal_y;
+    if (!along_own_normal) {
+      const CurvePoint slope = table_.slope(estimate_.mean, measurements_[k].s);
+      const double length = std::max(std::hypot(slope.x, slope.y), 1e-9);
+      nx = slope.y / length;
+      ny = -slope.x / length;
+    }
+    add(measurements_[k].s, nx, ny, nx * edge.x + ny * edge.y, normal_precision_);
+    add(cloud.s[k], -ny, nx, nx * edge.y - ny * edge.x, tangent_precision_);
+  }
+  hold_ends(cloud);
+}
+
+// The curve's ends are points, not places on a line: both directions count, and as much as a whole side's edge points.
+void OutlineTracker::hold_ends(const EdgeCloud& cloud) {
+  const double precision = normal_precision_ * 4;
+  for (const bool last : {false, true}) {
+    const EdgePoint& end = last ? cloud.points.back() : cloud.points.front();
+    add(last ? 1.0 : 0.0, 1, 0, end.x, precision);
+    add(last ? 1.0 : 0.0, 0, 1, end.y, precision);
+  }
+}
+
+void OutlineTracker::solve() {
+  const int n = static_cast<int>(vector_.size());
+  factor_ = information_;
+  const bool definite = cholesky(factor_, n);
+  assert(definite);
+  static_cast<void>(definite);
+  estimate_.mean = vector_;
+  cholesky_solve(factor_, n, estimate_.mean);
+}
+
+// One Newton step a pass towards the curve's nearest point.
+void OutlineTracker::project(const EdgeCloud& cloud) {
+  constexpr double kLongestStep = 0.03;
+  for (std::size_t k = 0; k < cloud.points.size(); ++k) {
+    double& s = measurements_[k].s;
+    const CurvePoint at = table_.at(estimate_.mean, s), slope = table_.slope(estimate_.mean, s);
+    const double square = slope.x * slope.x + slope.y * slope.y;
+    if (square <= 0) continue;
+    const double step = ((cloud.points[k].x - at.x) * slope.x + (cloud.points[k].y - at.y) * slope.y) / square;
+    s = std::clamp(s + std::clamp(step, -kLongestStep, kLongestStep), 0.0, 1.0);
+  }
+}
+
+void OutlineTracker::gate(const EdgeCloud& cloud) {
+  const std::size_t count = cloud.points.size();
+  residuals_.resize(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const CurvePoint at = table_.at(estimate_.mean, measurements_[k].s);
+    residuals_[k] = std::hypot(cloud.points[k].x - at.x, cloud.points[k].y - at.y);
+  }
+  std::vector<double>& sorted = vector_;  // solved already, and rebuilt by the next measure()
+  sorted.assign(residuals_.begin(), residuals_.end());
+  std::nth_element(sorted.begin(), sorted.begin() + count / 2, sorted.end());
+  const double typical = std::max(sorted[count / 2], kLeastNormalSd);
+  // A sharp tip that few control points cannot follow is no outlier.
+  const double limit = std::max(options_.gate * typical, 0.05 * cloud.height);
+  double squares = 0;
+  estimate_.used = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    measurements_[k].out = residuals_[k] > limit;
+    if (measurements_[k].out) continue;
+    squares += residuals_[k] * residuals_[k];
+    ++estimate_.used;
+  }
+  vector_.resize(estimate_.mean.size());
+  estimate_.gated = static_cast<int>(count) - estimate_.used;
+  estimate_.residual = std::sqrt(squares / std::max(estimate_.used, 1));
+}
+
+const OutlineEstimate& OutlineTracker::update(const EdgeCloud& cloud) {
+  const double normal_sd = std::max(options_.normal_sd * cloud.height, kLeastNormalSd);
+  const double tangent_sd = options_.tangent_sd * cloud.height;
+  normal_precision_ = 1 / (normal_sd * normal_sd);
+  tangent_precision_ = 1 / (tangent_sd * tangent_sd);
+  measurements_.resize(cloud.points.size());
+  for (std::size_t k = 0; k < cloud.points.size(); ++k) measurements_[k] = {cloud.s[k], false};
+  predict(cloud);
+  measure(cloud, true);
+  solve();
+  for (int pass = 1; pass < options_.passes; ++pass) {
+    project(cloud);
+    gate(cloud);
+    measure(cloud, false);
+    solve();
+  }
+  cholesky_inverse(factor_, static_cast<int>(vector_.size()), estimate_.covariance);
+  base_x_ = cloud.base_x();
+  base_y_ = cloud.base_y();
+  has_past_ = true;
+  return estimate_;
+}
+
+}  // namespace wisp

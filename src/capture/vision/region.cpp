@@ -1,0 +1,149 @@
+#include "wisp/capture/vision/region.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstring>
+
+namespace wisp {
+namespace {
+
+constexpr std::uint64_t kAllDark = 0;
+constexpr std::uint64_t kAllBright = 0x0101010101010101ULL;
+
+// The first index at or after `x` whose byte is not `same`, eight bytes at a time while they agree.
+int end_of_stretch(const std::vector<std::uint8_t>& bright, int x, int width, std::uint8_t same) {
+  const std::uint64_t eight = same ? kAllBright : kAllDark;
+  while (x < width && bright[x] == same) {
+    if (x + 8 <= width) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bright.data() + x, sizeof word);
+      if (word == eight) {
+        x += 8;
+        continue;
+      }
+    }
+    ++x;
+  }
+  return x;
+}
+
+}  // namespace
+
+int RegionFinder::root(int region) {
+  while (parent_[region] != region) {
+    parent_[region] = parent_[parent_[region]];
+    region = parent_[region];
+  }
+  return region;
+}
+
+int RegionFinder::join(int a, int b) {
+  a = root(a);
+  b = root(b);
+  if (a == b) return a;
+  if (b < a) std::swap(a, b);
+  parent_[b] = a;  // the older region stays: its seed is the higher one
+  Sum& into = sums_[a];
+  const Sum& from = sums_[b];
+  into.region.box = enclosing(into.region.box, from.region.box);
+  into.region.area += from.region.area;
+  into.x += from.x;
+  into.y += from.y;
+  return a;
+}
+
+void RegionFinder::find_runs(const std::uint8_t* row, int width, int level, std::vector<Run>& runs) {
+  const std::uint8_t limit = static_cast<std::uint8_t>(level);
+  for (int x = 0; x < width; ++x) bright_[x] = row[x] > limit;
+  runs.clear();
+  for (int x = end_of_stretch(bright_, 0, width, 0); x < width;) {
+    const int end = end_of_stretch(bright_, x, width, 1);
+    runs.push_back({x, end, -1});
+    x = end_of_stretch(bright_, end, width, 0);
+  }
+}
+
+int RegionFinder::new_region(const Run& run, int y) {
+  const int region = static_cast<int>(parent_.size());
+  parent_.push_back(region);
+  Sum sum;
+  sum.region.seed_x = run.begin;
+  sum.region.seed_y = y;
+  sums_.push_back(sum);
+  return region;
+}
+
+void RegionFinder::add(int region, const Run& run, int y) {
+  Sum& sum = sums_[region];
+  const int length = run.end - run.begin;
+  sum.region.area += length;
+  sum.region.box = enclosing(sum.region.box, {run.begin, y, length, 1});
+  sum.x += 0.5 * length * (run.begin + run.end - 1);
+  sum.y += static_cast<double>(length) * y;
+}
+
+void RegionFinder::connect(std::vector<Run>& runs, const std::vector<Run>& above, int y) {
+  std::size_t first = 0;
+  for (Run& run : runs) {
+    while (first < above.size() && above[first].end < run.begin) ++first;
+    for (std::size_t k = first; k < above.size() && above[k].begin <= run.end; ++k) {
+      run.region = run.region < 0 ? root(above[k].region) : join(run.region, above[k].region);
+    }
+    if (run.region < 0) run.region = new_region(run, y);
+    add(run.region, run, y);
+  }
+}
+
+std::span<const BrightRegion> RegionFinder::find(const ImageView& image, int level, std::int64_t least_area) {
+  parent_.clear();
+  sums_.clear();
+  above_.clear();
+  bright_.resize(image.width);
+  for (int y = 0; y < image.height; ++y) {
+    find_runs(image.row(y), image.width, level, runs_);
+    connect(runs_, above_, y);
+    std::swap(runs_, above_);
+  }
+  found_.clear();
+  for (std::size_t k = 0; k < sums_.size(); ++k) {
+    Sum& sum = sums_[k];
+    if (parent_[k] != static_cast<int>(k) || sum.region.area < least_area) continue;
+    sum.region.centre_x = sum.x / static_cast<double>(sum.region.area);
+    sum.region.centre_y = sum.y / static_cast<double>(sum.region.area);
+    found_.push_back(sum.region);
+  }
+  std::stable_sort(found_.begin(), found_.end(),
+                   [](const BrightRegion& a, const BrightRegion& b) { return a.area > b.area; });
+  return found_;
+}
+
+void follow_boundary(const ImageView& image, int level, PixelPosition seed, std::vector<PixelPosition>& boundary) {
+  // Moore neighbours, clockwise on the screen from the east.
+  constexpr std::array<int, 8> kDx{1, 1, 0, -1, -1, -1, 0, 1};
+  constexpr std::array<int, 8> kDy{0, 1, 1, 1, 0, -1, -1, -1};
+  const auto bright = [&](int x, int y) {
+    return x >= 0 && y >= 0 && x < image.width && y < image.height && image.at(x, y) > level;
+  };
+  assert(bright(seed.x, seed.y));
+  boundary.clear();
+  PixelPosition at = seed;
+  int from = 5;  // the pixel to the north-west of the seed is dark, as is all above and to the left of it
+  int first_step = -1;
+  while (true) {
+    int step = -1;
+    for (int turn = 1; turn <= 8 && step < 0; ++turn) {
+      const int direction = (from + turn) & 7;
+      if (bright(at.x + kDx[direction], at.y + kDy[direction])) step = direction;
+    }
+    if (at == seed && step == first_step && !boundary.empty()) return;
+    if (boundary.empty()) first_step = step;
+    boundary.push_back(at);
+    if (step < 0) return;  // a single pixel
+    at = {at.x + kDx[step], at.y + kDy[step]};
+    from = (step + 5) & 7;  // the last dark pixel looked at, seen from the new place, lies one turn back
+    if ((step & 1) == 0) from = (step + 6) & 7;
+  }
+}
+
+}  // namespace wisp

@@ -1,0 +1,189 @@
+#include "wisp/capture/vision/survey.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wisp/capture/vision/region.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr int kGridWidth = 240;        // the coarse grid is about this wide and high: enough to tell regions apart
+constexpr double kLitShare = 0.75;     // a picture counts when its contrast is this share of the best one's
+constexpr double kChangeShare = 0.25;  // a grid point moves when its range is this share of the clusters' distance
+constexpr double kPersistence = 0.6;   // the thing is there in this share of the pictures
+constexpr double kLeastContrast = 12;  // levels between the clusters, of 255: less is noise of one brightness
+
+// All pictures on a coarse grid.
+struct Grid {
+  int step = 1;
+  int width = 0;
+  int height = 0;
+  std::vector<std::vector<std::uint8_t>> pictures;
+  std::size_t size() const { return static_cast<std::size_t>(width) * height; }
+};
+
+Grid sample(std::span<const Picture> pictures, PixelChannel channel, const Region& area, bool dark) {
+  Grid grid;
+  grid.step = std::max(1, std::max(area.width, area.height) / kGridWidth);
+  grid.width = (area.width + grid.step - 1) / grid.step;
+  grid.height = (area.height + grid.step - 1) / grid.step;
+  std::vector<std::uint8_t> row(area.width);
+  for (const Picture& picture : pictures) {
+    std::vector<std::uint8_t> out(grid.size());
+    for (int y = 0; y < grid.height; ++y) {
+      extract_channel(picture, channel, {area.x, area.y + y * grid.step, area.width, 1}, row.data());
+      for (int x = 0; x < grid.width; ++x) {
+        const std::uint8_t value = row[static_cast<std::size_t>(x) * grid.step];
+        out[static_cast<std::size_t>(y) * grid.width + x] = dark ? static_cast<std::uint8_t>(255 - value) : value;
+      }
+    }
+    grid.pictures.push_back(std::move(out));
+  }
+  return grid;
+}
+
+ImageView view(const Grid& grid, const std::vector<std::uint8_t>& picture) {
+  return {picture.data(), grid.width, grid.height, grid.width};
+}
+
+// Pictures of a fade would pull the level down.
+std::vector<std::size_t> lit_pictures(const Grid& grid) {
+  std::vector<double> contrast;
+  for (const auto& picture : grid.pictures) {
+    Histogram histogram{};
+    add_to_histogram(histogram, view(grid, picture), 1);
+    const TwoClusters clusters = split_histogram(histogram);
+    contrast.push_back(clusters.bright_mean - clusters.dark_mean);
+  }
+  const double best = *std::max_element(contrast.begin(), contrast.end());
+  std::vector<std::size_t> lit;
+  for (std::size_t k = 0; k < contrast.size(); ++k) {
+    if (contrast[k] >= kLitShare * best) lit.push_back(k);
+  }
+  return lit;
+}
+
+// What one channel has to say.
+struct Candidate {
+  Survey survey;
+  double score = -1;
+};
+
+struct Extent {
+  std::vector<std::uint8_t> lowest;
+  std::vector<std::uint8_t> highest;
+};
+
+Extent extent(const Grid& grid, std::span<const std::size_t> lit) {
+  Extent out{std::vector<std::uint8_t>(grid.size(), 255), std::vector<std::uint8_t>(grid.size(), 0)};
+  for (const std::size_t k : lit) {
+    const auto& picture = grid.pictures[k];
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+      out.lowest[i] = std::min(out.lowest[i], picture[i]);
+      out.highest[i] = std::max(out.highest[i], picture[i]);
+    }
+  }
+  return out;
+}
+
+// How a region of "ever bright" grid points behaves. Counted over its box: boxes of different things rarely overlap.
+struct Behaviour {
+  double motion = 0;      // moving grid points
+  double presence = 0;    // share of lit pictures with a bright point
+  double moving_rim = 0;  // share of its rim, in each picture, that lies on moving points
+};
+
+bool on_rim(const ImageView& image, int level, int x, int y) {
+  if (image.at(x, y) <= level) return false;
+  return (x > 0 && image.at(x - 1, y) <= level) || (x + 1 < image.width && image.at(x + 1, y) <= level) ||
+         (y > 0 && image.at(x, y - 1) <= level) || (y + 1 < image.height && image.at(x, y + 1) <= level);
+}
+
+Behaviour behaviour(const Grid& grid, std::span<const std::size_t> lit, int level, const Region& box,
+                    const std::vector<std::uint8_t>& moving) {
+  Behaviour out;
+  std::int64_t rim = 0, rim_moving = 0, present = 0;
+  for (int y = box.y; y < box.bottom(); ++y) {
+    for (int x = box.x; x < box.right(); ++x) out.motion += moving[static_cast<std::size_t>(y) * grid.width + x];
+  }
+  for (const std::size_t k : lit) {
+    const ImageView image = view(grid, grid.pictures[k]);
+    bool any = false;
+    for (int y = box.y; y < box.bottom(); ++y) {
+      for (int x = box.x; x < box.right(); ++x) {
+        if (image.at(x, y) <= level) continue;
+        any = true;
+        if (!on_rim(image, level, x, y)) continue;
+        ++rim;
+        rim_moving += moving[static_cast<std::size_t>(y) * grid.width + x];
+      }
+    }
+    present += any;
+  }
+  out.presence = static_cast<double>(present) / static_cast<double>(lit.size());
+  out.moving_rim = rim == 0 ? 0 : static_cast<double>(rim_moving) / static_cast<double>(rim);
+  return out;
+}
+
+Region to_pixels(const Grid& grid, const Region& box, const Region& area) {
+  const Region out{area.x + box.x * grid.step, area.y + box.y * grid.step, box.width * grid.step,
+                   box.height * grid.step};
+  return intersection(grown(out, grid.step), area);
+}
+
+Candidate judge(const Grid& grid, PixelChannel channel, const Region& area) {
+  Candidate out;
+  out.survey.channel = channel;
+  const std::vector<std::size_t> lit = lit_pictures(grid);
+  for (const std::size_t k : lit) add_to_histogram(out.survey.histogram, view(grid, grid.pictures[k]), 1);
+  const TwoClusters clusters = split_histogram(out.survey.histogram);
+  const double contrast = clusters.bright_mean - clusters.dark_mean;
+  if (contrast < kLeastContrast) return out;
+  out.survey.level = clusters.threshold;
+  out.survey.separation = clusters.separation;
+  const Extent range = extent(grid, lit);
+  std::vector<std::uint8_t> moving(grid.size());
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    moving[i] = range.highest[i] - range.lowest[i] > kChangeShare * contrast;
+  }
+  RegionFinder finder;
+  const auto regions = finder.find(view(grid, range.highest), clusters.threshold, 1);
+  const BrightRegion* thing = nullptr;
+  Behaviour best;
+  for (const BrightRegion& region : regions) {
+    const Behaviour b = behaviour(grid, lit, clusters.threshold, region.box, moving);
+    if (b.moving_rim < 0.05) out.survey.still.push_back(to_pixels(grid, region.box, area));
+    if (b.presence < kPersistence) continue;
+    if (thing != nullptr && b.motion <= best.motion) continue;
+    thing = &region;
+    best = b;
+  }
+  if (thing == nullptr) return out;
+  out.survey.home = to_pixels(grid, thing->box, area);
+  out.survey.moves = best.motion > 0;
+  std::erase(out.survey.still, out.survey.home);
+  out.score = clusters.separation * best.moving_rim;
+  return out;
+}
+
+}  // namespace
+
+Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptions& options) {
+  const Region area = options.region.empty() ? pictures.front().frame() : options.region;
+  Candidate best;
+  for (const PixelChannel channel :
+       {PixelChannel::kLuma, PixelChannel::kRed, PixelChannel::kGreen, PixelChannel::kBlue}) {
+    if (options.channel ? channel != *options.channel : !has_channel(pictures.front(), channel)) continue;
+    Candidate candidate = judge(sample(pictures, channel, area, options.dark), channel, area);
+    if (candidate.score > best.score) best = std::move(candidate);
+  }
+  if (best.score < 0) {
+    return Error{std::string("nothing ") + (options.dark ? "dark" : "bright") +
+                 " stands out: the picture has one brightness only; expected " +
+                 (options.dark ? "a dark thing on a light ground" : "a bright thing on a dark ground")};
+  }
+  return std::move(best.survey);
+}
+
+}  // namespace wisp
