@@ -1,66 +1,193 @@
 #include "wisp/draw/flame.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
-#include "draw/cairo.hpp"
+#include "draw/candle.hpp"
+#include "draw/flame_light.hpp"
+#include "draw/flame_shape.hpp"
+#include "draw/light_field.hpp"
+#include "draw/smoke.hpp"
+#include "draw/wick.hpp"
 
 namespace wisp {
 namespace {
 
-std::vector<Point> to_pixels(const Flame& flame) {
-  std::vector<Point> points;
-  for (const Point p : flame.outline) {
-    if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
-    points.push_back({flame.scene.base.x + flame.scene.pixels_per_unit * std::clamp(p.x, -8.0F, 8.0F),
-                      flame.scene.base.y - flame.scene.pixels_per_unit * std::clamp(p.y, -8.0F, 8.0F)});
-  }
-  return points;
+// A flame catches within this time of being lit, and dies within the other of going out, in seconds.
+constexpr float kCatching = 0.40F;
+constexpr float kDying = 0.16F;
+
+// The area of a calm flame in square model units: a quarter as wide as high, tapering. Its light is 1.
+constexpr float kCalmArea = 0.15F;
+
+// The night behind the candle: cold above, a trace of warmth below.
+constexpr Light kSky{0.0022F, 0.0032F, 0.0082F};
+constexpr Light kFloor{0.0056F, 0.0042F, 0.0048F};
+
+float held(float value, float low, float high) { return std::isnan(value) ? low : std::clamp(value, low, high); }
+
+FlameStyle held(FlameStyle style) {
+  style.exposure = held(style.exposure, 0, 8);
+  style.glow = held(style.glow, 0, 4);
+  style.glow_reach = held(style.glow_reach, 0.25F, 4);
+  style.candle_width = held(style.candle_width, 0.05F, 4);
+  style.candle_height = held(style.candle_height, 0.05F, 20);
+  style.wick_gap = held(style.wick_gap, 0, 1);
+  style.wick_height = held(style.wick_height, 0, 1);
+  style.ambient = held(style.ambient, 0, 1);
+  return style;
 }
 
-void draw_candle(cairo_t* context, const FlameScene& scene, const FlameStyle& style) {
-  const double unit = scene.pixels_per_unit;
-  const double width = style.candle_width * unit;
-  const double top = scene.base.y + style.wick_gap * unit;
-  const CairoPattern wax(cairo_pattern_create_linear(0, top, 0, top + width));
-  cairo_pattern_add_color_stop_rgb(wax.get(), 0, 0.85, 0.6, 0.35);
-  cairo_pattern_add_color_stop_rgb(wax.get(), 1, 0.2, 0.12, 0.07);
-  cairo_set_source(context, wax.get());
-  cairo_rectangle(context, scene.base.x - width / 2, top, width, style.candle_height * unit);
-  cairo_fill(context);
-  cairo_set_source_rgb(context, 0.1, 0.07, 0.05);
-  cairo_set_line_width(context, 0.03 * unit);
-  cairo_move_to(context, scene.base.x, top);
-  cairo_line_to(context, scene.base.x, top - style.wick_height * unit);
-  cairo_stroke(context);
+FlameScene held(FlameScene scene) {
+  scene.base.x = held(scene.base.x, -1e5F, 1e5F);
+  scene.base.y = held(scene.base.y, -1e5F, 1e5F);
+  scene.pixels_per_unit = held(scene.pixels_per_unit, 1, 10000);
+  scene.brightness = held(scene.brightness, 0, 4);
+  scene.seconds_since_lit = held(scene.seconds_since_lit, 0, kLongAgo);
+  scene.seconds_since_out = held(scene.seconds_since_out, 0, kLongAgo);
+  scene.wind = held(scene.wind, -8, 8);
+  return scene;
+}
+
+// How far a flame has grown or shrunk: its size against its outline, and its light.
+struct Stage {
+  float scale = 1;
+  FlameMood mood;
+};
+
+Stage stage_of(const FlameScene& scene) {
+  Stage stage;
+  stage.mood.brightness = scene.brightness;
+  if (burns(scene)) {
+    const float grown = smooth_step(0, kCatching, scene.seconds_since_lit);
+    stage.scale = 0.22F + 0.78F * grown;
+    stage.mood.soot = 0.25F + 0.75F * smooth_step(0.15F, 0.9F, grown);
+    stage.mood.brightness *= 0.5F + 0.5F * grown;
+    return stage;
+  }
+  const float gone = smooth_step(0, kDying, scene.seconds_since_out);
+  stage.scale = 1 - 0.55F * gone;
+  stage.mood.soot = 1 - gone;
+  stage.mood.brightness *= 1 - gone;
+  return stage;
+}
+
+// All that is known of one candle before anything is drawn.
+struct Candle {
+  FlameScene scene;
+  FlameShape shape;
+  FlameMood mood;
+  Wick wick;
+  Lamp lamp;
+};
+
+Candle prepared(const Flame& flame, const FlameStyle& style, int width, int height) {
+  Candle candle;
+  candle.scene = held(flame.scene);
+  const Stage stage = stage_of(candle.scene);
+  candle.mood = stage.mood;
+  candle.wick = make_wick(candle.scene, style, width, height);
+  if (stage.mood.brightness <= 0) return candle;
+  const float cap = std::max(0.04F, 0.72F * style.wick_gap);
+  candle.shape = flame_shape(flame.outline, candle.scene, stage.scale, cap, width, height);
+  // A very small flame burns blue.
+  candle.mood.soot *= smooth_step(0.06F, 0.40F, candle.shape.height);
+  const float area = std::min(3.0F, candle.shape.area / kCalmArea);
+  const float glowing = candle.mood.brightness * (0.06F + 0.94F * candle.mood.soot);
+  candle.lamp = {candle.shape.middle, glowing * std::pow(area, 0.7F)};
+  return candle;
+}
+
+// The wick hides what burns behind it, and most of what burns before it is thin there.
+Plane wick_shade(const Candle& candle) {
+  constexpr float kHides = 0.82F;
+  const PixelBox& box = candle.shape.box;
+  Plane shade(box.width, box.height);
+  for (int y = 0; y < box.height; ++y) {
+    for (int x = 0; x < box.width; ++x) shade.row(y)[x] = kHides * wick_at(candle.wick, box.x + x, box.y + y);
+  }
+  return shade;
+}
+
+// The glowing end of the wick: hidden in the flame's light while it burns, fading for seconds when it is out.
+void add_ember(LightField& field, const Candle& candle) {
+  const FlameScene& scene = candle.scene;
+  if (candle.wick.empty()) return;
+  const float out = scene.seconds_since_out;
+  const float heat = burns(scene) ? 0.16F : 0.75F * std::exp(-out / 0.7F) + 0.25F * std::exp(-out / 2.6F);
+  if (heat < 0.004F) return;
+  const Light glow = heat * Light{2.6F, 0.62F * (0.25F + 0.75F * heat), 0.10F * heat};
+  const float radius = 0.62F * candle.wick.width + 0.5F;
+  const int reach = static_cast<int>(std::ceil(2.2F * radius));
+  const int middle_x = static_cast<int>(candle.wick.end.x);
+  const int middle_y = static_cast<int>(candle.wick.end.y + 0.5F * radius);
+  for (int y = std::max(0, middle_y - reach); y <= std::min(field.height() - 1, middle_y + reach); ++y) {
+    for (int x = std::max(0, middle_x - reach); x <= std::min(field.width() - 1, middle_x + reach); ++x) {
+      const float dx = static_cast<float>(x) + 0.5F - candle.wick.end.x;
+      const float dy = static_cast<float>(y) + 0.5F - candle.wick.end.y - 0.5F * radius;
+      const float near = std::exp(-1.6F * (dx * dx + dy * dy) / (radius * radius));
+      field.add(x, y, near * (0.25F + 0.75F * wick_at(candle.wick, x, y)) * glow);
+    }
+  }
+}
+
+void add_glow(LightField& field, const FlameStyle& style, float unit) {
+  if (style.glow <= 0) return;
+  const Light halo = Tone::get().linear(style.halo);
+  const Light rim = Tone::get().linear(style.rim);
+  const float reach = unit * style.glow_reach;
+  const std::array<HaloRing, 4> rings{{{0.022F * reach, 0.24F * style.glow * halo},
+                                       {0.085F * reach, 0.17F * style.glow * halo},
+                                       {0.28F * reach, 0.15F * style.glow * halo},
+                                       {0.80F * reach, 0.17F * style.glow * (0.8F * halo + 0.2F * rim)}}};
+  add_halo(field, rings);
+}
+
+void expose(LightField& field, float exposure) {
+  if (exposure == 1) return;
+  for (Plane* plane : {&field.red, &field.green, &field.blue}) {
+    for (float& value : plane->values) value *= exposure;
+  }
+}
+
+std::vector<Lamp> lamps_but(std::span<const Candle> candles, std::size_t own) {
+  std::vector<Lamp> lamps;
+  for (std::size_t k = 0; k < candles.size(); ++k) {
+    if (k != own) lamps.push_back(candles[k].lamp);
+  }
+  return lamps;
 }
 
 }  // namespace
 
 bool burns(const FlameScene& scene) { return scene.seconds_since_lit <= scene.seconds_since_out; }
 
-void draw_flames(Image& image, std::span<const Flame> flames, const FlameStyle& style) {
-  if (image.empty()) return;
-  const CairoContext context = context_of(image);
+void draw_flames(Image& image, std::span<const Flame> flames, const FlameStyle& asked) {
+  if (image.empty() || flames.empty()) return;
+  const FlameStyle style = held(asked);
+  std::vector<Candle> candles;
+  float unit = 1;
   for (const Flame& flame : flames) {
-    if (style.candle) draw_candle(context.get(), flame.scene, style);
+    candles.push_back(prepared(flame, style, image.width(), image.height()));
+    unit = std::max(unit, candles.back().scene.pixels_per_unit);
   }
-  for (const Flame& flame : flames) {
-    const auto points = to_pixels(flame);
-    if (points.size() < 3 || !burns(flame.scene)) continue;
-    const double unit = flame.scene.pixels_per_unit;
-    const double y = flame.scene.base.y - unit / 2;
-    const CairoPattern halo(cairo_pattern_create_radial(flame.scene.base.x, y, 0, flame.scene.base.x, y, unit));
-    cairo_pattern_add_color_stop_rgba(halo.get(), 0, 1, 0.6, 0.2, 0.35);
-    cairo_pattern_add_color_stop_rgba(halo.get(), 1, 1, 0.6, 0.2, 0);
-    cairo_set_source(context.get(), halo.get());
-    cairo_paint(context.get());
-    for (const Point p : points) cairo_line_to(context.get(), p.x, p.y);
-    cairo_close_path(context.get());
-    set_colour(context.get(), style.body);
-    cairo_fill(context.get());
+  for (std::size_t k = 0; k < candles.size(); ++k) {
+    const Candle& candle = candles[k];
+    if (style.candle) draw_candle(image, candle.scene, style, candle.wick, candle.lamp, lamps_but(candles, k));
   }
+  for (std::size_t k = 0; k < candles.size(); ++k) {
+    draw_smoke(image, candles[k].scene, candles[k].wick.end, lamps_but(candles, k));
+  }
+  LightField field(image.width(), image.height());
+  for (const Candle& candle : candles) {
+    add_flame_light(field, candle.shape, candle.mood, style, style.candle ? wick_shade(candle) : Plane());
+    if (style.candle) add_ember(field, candle);
+  }
+  add_glow(field, style, unit);
+  expose(field, style.exposure);
+  add_light(image, field);
 }
 
 void draw_flame(Image& image, std::span<const Point> outline, const FlameScene& scene, const FlameStyle& style) {
@@ -69,16 +196,25 @@ void draw_flame(Image& image, std::span<const Point> outline, const FlameScene& 
 }
 
 void draw_night(Image& image) {
-  if (image.empty()) return;
-  const CairoContext context = context_of(image);
-  set_colour(context.get(), {8, 8, 12, 255});
-  cairo_paint(context.get());
+  const Tone& tone = Tone::get();
+  const float last = static_cast<float>(std::max(1, image.height() - 1));
+  for (int y = 0; y < image.height(); ++y) {
+    const float down = static_cast<float>(y) / last;
+    const Light light = (1 - down) * kSky + down * kFloor;
+    const Light code{tone.code(light.red), tone.code(light.green), tone.code(light.blue)};
+    const auto row = image.row(y);
+    for (int x = 0; x < image.width(); ++x) {
+      const float dither = dither_at(x, y);
+      row[x] = 0xFF000000U | dithered(code.red, dither) << 16 | dithered(code.green, dither) << 8 |
+               dithered(code.blue, dither);
+    }
+  }
 }
 
 FlameScene framed(int width, int height) {
   FlameScene scene;
-  scene.pixels_per_unit = std::min(static_cast<float>(height) * 0.36F, static_cast<float>(width) * 0.45F);
-  scene.base = {static_cast<float>(width) / 2, static_cast<float>(height) * 0.76F};
+  scene.pixels_per_unit = std::min(static_cast<float>(height) * 0.38F, static_cast<float>(width) * 0.45F);
+  scene.base = {static_cast<float>(width) / 2, static_cast<float>(height) * 0.77F};
   return scene;
 }
 

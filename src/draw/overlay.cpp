@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "draw/cairo.hpp"
+#include "draw/text.hpp"
 
 namespace wisp {
 namespace {
@@ -94,17 +95,6 @@ Plate draw_plate(cairo_t* context, const Image& image, Corner corner, double wid
   return {std::round(x) + pad, std::round(y) + pad};
 }
 
-void choose_font(cairo_t* context, double size) {
-  cairo_select_font_face(context, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(context, size);
-}
-
-double text_width(cairo_t* context, const std::string& text) {
-  cairo_text_extents_t extents;
-  cairo_text_extents(context, text.c_str(), &extents);
-  return extents.x_advance;
-}
-
 }  // namespace
 
 void draw_outline(Image& image, std::span<const Point> outline, const LineStyle& style) {
@@ -134,9 +124,8 @@ void draw_legend(Image& image, std::span<const LegendEntry> entries, Corner corn
   if (image.empty() || entries.empty()) return;
   const CairoContext context = context_of(image);
   const double size = text_size(image, text_height);
-  choose_font(context.get(), size);
   double widest = 0;
-  for (const LegendEntry& entry : entries) widest = std::max(widest, text_width(context.get(), entry.text));
+  for (const LegendEntry& entry : entries) widest = std::max(widest, text_width(context.get(), entry.text, {size}));
   const double sample = size * 1.9;
   const double line = size * 1.45;
   const Plate plate = draw_plate(context.get(), image, corner, sample + size * 0.6 + widest,
@@ -147,9 +136,7 @@ void draw_legend(Image& image, std::span<const LegendEntry> entries, Corner corn
     cairo_move_to(context.get(), plate.x, middle);
     cairo_line_to(context.get(), plate.x + sample, middle);
     stroke(context.get(), entry.style);
-    set_colour(context.get(), kText);
-    cairo_move_to(context.get(), plate.x + sample + size * 0.6, middle + size * 0.36);
-    cairo_show_text(context.get(), entry.text.c_str());
+    show_text(context.get(), entry.text, plate.x + sample + size * 0.6, middle + size * 0.36, {size}, kText);
     middle += line;
   }
 }
@@ -158,12 +145,9 @@ void draw_label(Image& image, std::string_view text, Corner corner, float text_h
   if (image.empty() || text.empty()) return;
   const CairoContext context = context_of(image);
   const double size = text_size(image, text_height);
-  choose_font(context.get(), size);
-  const std::string line(text);
-  const Plate plate = draw_plate(context.get(), image, corner, text_width(context.get(), line), size * 1.1, size * 0.5);
-  set_colour(context.get(), kText);
-  cairo_move_to(context.get(), plate.x, plate.y + size * 0.91);
-  cairo_show_text(context.get(), line.c_str());
+  const Plate plate =
+      draw_plate(context.get(), image, corner, text_width(context.get(), text, {size}), size * 1.1, size * 0.5);
+  show_text(context.get(), text, plate.x, plate.y + size * 0.91, {size}, kText);
 }
 
 }  // namespace wisp

@@ -63,8 +63,8 @@ Result<void> check_view(const Model&, const PlainView&) { return {}; }
 }  // namespace
 
 Result<void> check(const Model& model) {
-  if (!(std::isfinite(model.rate_hz) && model.rate_hz > 0 && model.rate_hz <= 1e6)) {
-    return Error{"the model's rate is " + std::to_string(model.rate_hz) + " Hz, expected above 0 and at most 1000000"};
+  if (!(std::isfinite(model.rate_hz) && model.rate_hz >= 1e-6 && model.rate_hz <= 1e6)) {
+    return Error{"the model's rate is " + std::to_string(model.rate_hz) + " Hz, expected 0.000001 to 1000000"};
   }
   if (model.outputs.empty()) return Error{"the model has no outputs"};
   if (auto ok = check_channels(model.inputs, "input"); !ok) return ok;

@@ -1,6 +1,7 @@
 #include "model/payload.hpp"
 
 #include <cstdint>
+#include <cstring>
 #include <string>
 
 #include "wisp_generated.h"
@@ -68,8 +69,11 @@ fb::Offset<file::Provenance> write_provenance(Builder& builder, const Provenance
 
 std::string text(const fb::String* string) { return string ? string->str() : std::string(); }
 
+// The verifier bounds a vector but does not align its elements beyond 4 bytes, so doubles are copied out as bytes.
 std::vector<double> numbers(const fb::Vector<double>* values) {
-  return values ? std::vector<double>(values->begin(), values->end()) : std::vector<double>();
+  std::vector<double> out(values ? values->size() : 0);
+  if (!out.empty()) std::memcpy(out.data(), values->Data(), out.size() * sizeof(double));
+  return out;
 }
 
 Error wrong_size(const char* what, std::size_t found, std::size_t expected) {
@@ -88,8 +92,9 @@ Result<OrderMatrix> read_orders(const fb::Vector<std::uint16_t>& values, int row
   return matrix;
 }
 
-Result<std::vector<std::vector<double>>> read_rows(const fb::Vector<double>& values, const ArxOrders& orders,
+Result<std::vector<std::vector<double>>> read_rows(const fb::Vector<double>& stored, const ArxOrders& orders,
                                                    const char* name) {
+  const std::vector<double> values = numbers(&stored);
   std::size_t expected = 0;
   for (int i = 0; i < orders.outputs(); ++i) expected += orders.row_size(i);
   if (values.size() != expected) return wrong_size(name, values.size(), expected);

@@ -1,4 +1,4 @@
-# Builds the host in tests/house/host against Wisp and runs it.
+# Builds the host in tests/house/host and the example in examples/flicker against Wisp and runs them.
 #
 #   cmake -DHOW=installed|subproject -DSOURCE=… -DBUILD=… -DSCRATCH=… -DGENERATOR=… -DNM=… -P consumer.cmake
 #
@@ -14,6 +14,7 @@ function(run what)
     message(FATAL_ERROR "${what} warns:\n${output}")
   endif()
   message(STATUS "${what}: done")
+  set(output "${output}" PARENT_SCOPE)
 endfunction()
 
 # A package that names the folder it was built in works only there.
@@ -54,11 +55,37 @@ else()
   set(where -DWISP_SOURCE=${SOURCE})
 endif()
 
-run("configuring the host" ${CMAKE_COMMAND} -S ${SOURCE}/tests/house/host -B ${SCRATCH}/build -G ${GENERATOR}
+set(model ${SOURCE}/tests/model/golden/v1.wisp)
+run("configuring the host" ${CMAKE_COMMAND} -S ${SOURCE}/tests/house/host -B ${SCRATCH}/host -G ${GENERATOR}
   -DCMAKE_BUILD_TYPE=Release ${where} -Werror=dev)
-run("building the host" ${CMAKE_COMMAND} --build ${SCRATCH}/build)
-run("running the host" ${SCRATCH}/build/host ${SOURCE}/tests/model/golden/v1.wisp)
+run("building the host" ${CMAKE_COMMAND} --build ${SCRATCH}/host)
+run("running the host" ${SCRATCH}/host/host-O0 ${model})
+set(plain ${output})
+run("running the host, built with fast mathematics" ${SCRATCH}/host/host-Ofast ${model})
+if(NOT plain MATCHES "^checksum" OR NOT output STREQUAL plain)
+  message(FATAL_ERROR "a host's own flags change what a model does:\n-O0:    ${plain}-Ofast: ${output}")
+endif()
 
-file(GLOB_RECURSE library ${SCRATCH}/libwisp_model.a)
+# The subproject is built with fast mathematics all over, what is installed without.
+set(checksum ${BUILD}/house/checksum_installed.txt)
+if(HOW STREQUAL "installed")
+  file(WRITE ${checksum} "${plain}")
+else()
+  file(READ ${checksum} expected)
+  if(NOT expected STREQUAL plain)
+    message(FATAL_ERROR "a host's flags change what a model does:\ninstalled:  ${expected}subproject: ${plain}")
+  endif()
+endif()
+
+run("configuring the example" ${CMAKE_COMMAND} -S ${SOURCE}/examples/flicker -B ${SCRATCH}/example -G ${GENERATOR}
+  -DCMAKE_BUILD_TYPE=Release ${where})
+run("building the example" ${CMAKE_COMMAND} --build ${SCRATCH}/example)
+run("running the example" ${SCRATCH}/example/flicker ${model})
+if(NOT output MATCHES "^0\\.000 [-0-9.]+ [0-9.]+\n")
+  message(FATAL_ERROR "the example should print one line a frame, and prints:\n${output}")
+endif()
+
+file(GLOB_RECURSE libraries ${SCRATCH}/libwisp_model.a)
+list(GET libraries 0 library)
 expect_no_symbol_of_flatbuffers(${library})
 file(REMOVE_RECURSE ${SCRATCH})

@@ -16,16 +16,15 @@ namespace wisp {
 
 /// How a candle and its flame look. Lengths are in model units: 1 is the mean height of the calm flame.
 struct FlameStyle {
-  Colour core{255, 246, 214};  ///< the bright middle, where the glow is thickest
-  Colour body{255, 176, 48};   ///< between core and rim: soot at about 1800 K seen through a camera
-  Colour rim{255, 84, 12};     ///< the translucent outer layer and the tip, where soot is thin and cooler
-  Colour base{40, 84, 255};    ///< the blue of burning gas without soot, around the base
+  Colour core{255, 248, 224};  ///< the bright middle, where the glow is thickest
+  Colour body{255, 196, 74};   ///< between core and rim: soot at about 1800 K seen through a camera
+  Colour rim{255, 134, 30};    ///< the translucent outer layer and the tip, where soot is thin and cooler
+  Colour base{84, 168, 255};   ///< the blue of burning gas without soot, around the base
   Colour halo{255, 140, 52};   ///< light scattered in the air and the lens around the flame
 
   float exposure = 1.0F;    ///< light that reaches the picture, 0 … 8; 1 leaves the core just short of white
   float glow = 1.0F;        ///< strength of the halo, 0 … 4; 0 leaves it out
   float glow_reach = 1.0F;  ///< size of the halo, 0.25 … 4; 1 reaches about one flame height
-  float softness = 1.0F;    ///< of the flame's edge, 0 … 4; 0 is as crisp as the pixels allow
 
   bool candle = true;          ///< draw the candle; without it only the flame's own light and smoke
   Colour wax{240, 226, 200};   ///< the candle's colour by daylight
@@ -33,7 +32,7 @@ struct FlameStyle {
   float candle_height = 2.2F;  ///< 0.05 … 20; what does not fit is cut off by the picture
   float wick_gap = 0.12F;      ///< from the candle's top to the flame's base, 0 … 1
   float wick_height = 0.24F;   ///< from the candle's top to the wick's end, 0 … 1
-  float ambient = 0.05F;       ///< light of the room on the candle, 0 … 1: it stays visible when the flame is out
+  float ambient = 0.06F;       ///< light of the room on the candle, 0 … 1: it stays visible when the flame is out
 };
 
 inline constexpr float kLongAgo = std::numeric_limits<float>::infinity();

@@ -1,0 +1,52 @@
+#pragma once
+// The true outline of the rig's flame: the contour of its yellow light, its tip, and control points fitted to it.
+
+#include <array>
+#include <vector>
+
+#include "wisp/simulate/candle_rig.hpp"
+
+namespace wisp {
+
+/// A point in millimetres: x from the candle's axis, y up from its upper rim.
+struct PointMm {
+  double x = 0;
+  double y = 0;
+};
+
+/// How the outline is taken.
+struct FlameOutlineOptions {
+  double level = 0.3;  ///< light of glowing soot at the contour; 0.3 is about half of full brightness in a picture of
+                       ///< the default camera, (0, 10]
+  int points = 8;      ///< control points of the cubic B-spline, 4 … 32
+  double cut = 0.05;   ///< the base lies this share of the flame's height above its lowest point, [0, 0.5): the round
+                       ///< bottom of a contour has no corners that a control point could hold on to
+};
+
+/// The outline of one frame. All empty or zero where there is no flame.
+struct FlameOutline {
+  bool found = false;
+  std::vector<PointMm> contour;  ///< the largest closed contour, cut at the base: from the base's left over the tip to
+                                 ///< the base's right, about evenly spaced
+  std::vector<PointMm> control_points;  ///< of an open, clamped, uniform cubic B-spline along it, least squares
+  PointMm base;                         ///< middle between the contour's ends
+  PointMm tip;                          ///< mean of the 2 % of the contour farthest from the base
+  double height = 0;                    ///< mm, of the tip above the base
+  double length = 0;                    ///< mm, from base to tip
+  double lean = 0;                      ///< degrees from upright, positive towards +x
+  double width = 0;                     ///< mm, at a quarter of the way from base to tip, across it
+  double area = 0;                      ///< mm² inside the contour
+  double brightness = 0;                ///< light summed over the whole grid, in mm² of unit light
+};
+
+/// Takes the outline of a frame's light.
+///
+/// Precondition: light.soot has columns × rows entries, each of at least 4.
+FlameOutline flame_outline(const FlameLight& light, const FlameOutlineOptions& options = {});
+
+/// Point of the spline at parameter s in [0, 1].
+///
+/// Precondition: at least 4 control points.
+PointMm outline_point(const std::vector<PointMm>& control_points, double s);
+
+}  // namespace wisp
