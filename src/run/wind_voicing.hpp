@@ -11,19 +11,20 @@
 
 namespace wisp::wind {
 
-/// One channel's voice band at half the analysis rate, differenced (which levels a voice's harmonics): this hop's
+/// One channel's voice band at a lower rate (near 4 kHz), differenced (which levels a voice's harmonics): this hop's
 /// samples and as many before as the longest period has.
 template <class T>
 class VoiceHistory {
  public:
   explicit VoiceHistory(const Design& d)
       : before_hop_(static_cast<std::size_t>(d.last_lag)),
-        samples_(before_hop_ + static_cast<std::size_t>(d.hop / 2), T(0.0F)),
-        at_(before_hop_) {}
+        samples_(before_hop_ + static_cast<std::size_t>(d.hop / d.voice_step), T(0.0F)),
+        at_(before_hop_),
+        step_(d.voice_step) {}
 
   void push(T voice) {
-    odd_ = !odd_;
-    if (odd_) return;
+    if (++phase_ < step_) return;
+    phase_ = 0;
     samples_[at_++] = voice - before_;
     before_ = voice;
   }
@@ -40,12 +41,14 @@ class VoiceHistory {
   std::size_t before_hop_;
   std::vector<T> samples_;
   std::size_t at_;
-  bool odd_ = false;
+  int step_;
+  int phase_ = 0;
   T before_ = T(0.0F);
 };
 
-/// The largest normalised autocorrelation over periods of 80 to 400 Hz in the last three hops (30 ms); a peak is held
-/// and fades in 300 ms, so that the gaps between syllables do not pass for blowing.
+/// The largest normalised autocorrelation over periods of 70 to 400 Hz in the last three hops (30 ms); a peak is held
+/// and fades in 300 ms, so that the gaps between syllables do not pass for blowing. It fades only as new sound comes in
+/// place of that which it was found in: what rings on in the powers' 50 ms means keeps its voicing.
 ///
 /// The three hops' sums are kept, so that each hop costs only its own products.
 template <class T>
@@ -53,7 +56,7 @@ class Voicing {
  public:
   explicit Voicing(const Design& d)
       : first_lag_(d.first_lag),
-        length_(d.hop / 2),
+        length_(d.hop / d.voice_step),
         lags_(static_cast<std::size_t>(d.last_lag - d.first_lag + 1)),
         release_(d.voice_release) {
     for (auto& hop : window_) {
@@ -62,12 +65,13 @@ class Voicing {
     }
   }
 
-  /// Takes a hop of samples, with the longest period readable before it. Returns the held voicing, 0 to 1.
-  T end_hop(const T* now) {
+  /// Takes a hop of samples, with the longest period readable before it; `fresh` is the hop's power over the 50 ms
+  /// mean, 0 to 1. Returns the held voicing, 0 to 1.
+  T end_hop(const T* now, T fresh) {
     slot_ = (slot_ + 1) % window_.size();
     sum(now, window_[slot_]);
     const T most = largest();
-    held_ = held_ < most ? most : held_ + release_ * (most - held_);
+    held_ = held_ < most ? most : held_ + release_ * fresh * (most - held_);
     if (held_ < T(1e-6F)) held_ = T(0.0F);
     return held_;
   }
