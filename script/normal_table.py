@@ -3,7 +3,7 @@
 
 A 32-bit word w stands for the probability (w + 1/2) / 2^32. Folded about one half, p = (m + 1/2) / 2^32 with
 m < 2^31, and f = float(m) + 0.5f. The bits of f above its 19 lowest are the segment: an octave of p and a sixteenth of
-it. The 19 lowest are the place t in the segment. Each segment holds -x(p) = c0 + c1 t + c2 t^2, interpolated at the
+it. The 19 lowest are the place t in the segment. Each segment holds x(p) = c0 + c1 t + c2 t^2, interpolated at the
 three Chebyshev nodes, which is within a few per cent of the minimax quadratic; its error is at most 1.12e-6, largest in
 the octave next to one half. x(p) is Python's statistics.NormalDist (Wichura's algorithm AS 241, 1e-16).
 """
@@ -21,7 +21,7 @@ FIRST, LAST = -1, 31  # octaves of f: from 0.5 up to 2^31, which stands for p = 
 def quadratic(low, high):
     """c0, c1, c2 over t in [0, STEPS) for p from low to high."""
     nodes = [0.5 + 0.5 * math.cos(math.pi * (2 * k + 1) / 6) for k in range(3)]
-    values = [-NormalDist().inv_cdf(low + (high - low) * s) for s in nodes]
+    values = [NormalDist().inv_cdf(low + (high - low) * s) for s in nodes]
     first = (values[1] - values[0]) / (nodes[1] - nodes[0])
     second = ((values[2] - values[1]) / (nodes[2] - nodes[1]) - first) / (nodes[2] - nodes[0])
     c1 = first - second * (nodes[0] + nodes[1])

@@ -11,6 +11,7 @@
 
 #include "model/payload.hpp"
 #include "wisp/base/file.hpp"
+#include "wisp/base/hash.hpp"
 
 namespace wisp {
 namespace {
@@ -37,13 +38,6 @@ T get(const std::byte* at) {
   T value = 0;
   for (std::size_t k = 0; k < sizeof(T); ++k) value |= static_cast<T>(std::to_integer<T>(at[k]) << (8 * k));
   return value;
-}
-
-// FNV-1a, 64 bits: detects damage, promises nothing against malice; the checks that follow do that.
-std::uint64_t hash_of(std::span<const std::byte> bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (std::byte byte : bytes) hash = (hash ^ std::to_integer<std::uint64_t>(byte)) * 0x100000001b3u;
-  return hash;
 }
 
 std::string hex(std::uint64_t value) {
@@ -78,7 +72,7 @@ Result<void> check_payload(const Header& header, std::span<const std::byte> payl
     return bad(name, "holds " + std::to_string(payload.size()) + " bytes after the header, which promises " +
                          std::to_string(header.size) + "; it was cut or damaged; learn or fetch it again");
   }
-  const std::uint64_t found = hash_of(payload);
+  const std::uint64_t found = hash_bytes(payload);
   if (found != header.hash) {
     return bad(name, "is damaged: its contents hash to " + hex(found) + ", the header says " + hex(header.hash) +
                          "; learn or fetch it again");
@@ -96,7 +90,7 @@ Result<std::vector<std::byte>> model_bytes(const Model& model) {
   put<std::uint32_t>(&bytes[8], kModelFormatVersion);
   put<std::uint32_t>(&bytes[12], 0);
   put<std::uint64_t>(&bytes[16], payload.size());
-  put<std::uint64_t>(&bytes[24], hash_of(payload));
+  put<std::uint64_t>(&bytes[24], hash_bytes(payload));
   std::copy(payload.begin(), payload.end(), bytes.begin() + kHeaderSize);
   return bytes;
 }

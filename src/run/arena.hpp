@@ -2,6 +2,7 @@
 // Lays arrays out in one piece of memory. Without memory it only adds up how much they would take, so that measuring
 // and making are the same code.
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -33,6 +34,7 @@ class Arena {
     const std::size_t begin = used_;
     used_ += (count * sizeof(T) + kArenaAlignment - 1) / kArenaAlignment * kArenaAlignment;
     if (measures()) return {};
+    assert(used_ <= size_);
     T* first = reinterpret_cast<T*>(start_ + begin);
     std::uninitialized_value_construct_n(first, count);
     return {first, count};
@@ -40,7 +42,6 @@ class Arena {
 
   /// Bytes that were taken; with what a start that is not aligned may cost.
   std::size_t bytes() const { return measures() ? used_ + kArenaAlignment : used_; }
-  std::size_t size() const { return size_; }
 
  private:
   static std::size_t padding(const std::byte* start) {

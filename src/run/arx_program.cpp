@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "run/model_hash.hpp"
+
 namespace wisp {
 namespace {
 
@@ -127,6 +129,18 @@ ArxProgram make_arx_program(const Model& model, const ArxModel& arx, Arena& aren
     }
   }
   return program;
+}
+
+std::uint64_t hash_of(const ArxProgram& program, std::uint64_t before) {
+  std::uint64_t hash = hash_number(static_cast<std::uint32_t>(program.depth), before);
+  for (const TapRun& run : program.runs) {
+    for (std::uint32_t number : {run.channel, run.first_lag, run.count}) hash = hash_number(number, hash);
+  }
+  for (std::uint32_t end : program.row_end) hash = hash_number(end, hash);
+  for (const auto numbers : {program.coefficients, program.constant, program.sd, program.mixing}) {
+    hash = hash_floats(numbers, hash);
+  }
+  return hash;
 }
 
 Result<void> check_arx_program(const Model& model, const ArxModel& arx) {

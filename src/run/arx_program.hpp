@@ -35,6 +35,9 @@ struct ArxProgram {
 /// Lays the program out and, unless the arena measures, fills it.
 ArxProgram make_arx_program(const Model& model, const ArxModel& arx, Arena& arena);
 
+/// A hash of the program, over a hash of what came before.
+std::uint64_t hash_of(const ArxProgram& program, std::uint64_t before);
+
 /// Errors: coefficients so large that a step could overflow single precision.
 Result<void> check_arx_program(const Model& model, const ArxModel& arx);
 

@@ -17,8 +17,7 @@ template <class N>
 struct Moment {
   const RandomKeys* keys = nullptr;
   LaneCounters counters{};        ///< of the block
-  typename N::Real noise = 0;     ///< scale of the noise; 0 none
-  std::uint32_t* held = nullptr;  ///< per lane: set to 1 where an output was held
+  std::uint32_t* held = nullptr;  ///< per lane: not 0 afterwards where an output was held
 };
 
 template <class N>
@@ -34,9 +33,22 @@ class ArxStepper {
     ring_ = arena.take<Real>(static_cast<std::size_t>(blocks) * depth * row_);
     lag_row_ = arena.take<std::uint32_t>(2 * depth);
     shocks_ = arena.take<Real>(static_cast<std::size_t>(groups()) * 4 * kLanes);
+    sd_ = arena.take<float>(program_.outputs);
+    mixing_ = arena.take<float>(static_cast<std::size_t>(program_.outputs) * program_.rank);
     if (arena.measures()) return;
     for (std::size_t k = 0; k < 2 * depth; ++k)
       lag_row_[k] = static_cast<std::uint32_t>((2 * depth - k) % depth * row_);
+  }
+
+  /// Sets the scale of the residual noise.
+  void set_noise(float scale) {
+    noisy_ = false;
+    const auto scaled = [&](float size) {
+      noisy_ |= scale * size != 0;
+      return scale * size;
+    };
+    std::transform(program_.sd.begin(), program_.sd.end(), sd_.begin(), scaled);
+    std::transform(program_.mixing.begin(), program_.mixing.end(), mixing_.begin(), scaled);
   }
 
   /// Moves every block's history by one sample; the newest is now to be made.
@@ -47,17 +59,20 @@ class ArxStepper {
 
   /// Makes the newest sample of a block.
   void step(int block, const Moment<N>& moment) {
-    const bool noisy = moment.noise > Real(0);
-    if (noisy) draw(moment);
+    if (noisy_) draw(moment);
     Real* newest = sample(block, 0);
+    auto held = all<Words<N>>(0U);
     std::uint32_t run = 0;
     for (int i = 0; i < program_.outputs; ++i) {
-      Real sum[kLanes];
-      for (int lane = 0; lane < kLanes; ++lane) sum[lane] = Real(program_.constant[i]);
-      for (; run < program_.row_end[i]; ++run) add_run(block, program_.runs[run], sum);
-      if (noisy) add_noise(i, moment.noise, sum);
-      finish(channels_.outputs[i], sum, moment.held, newest + i * kLanes);
+      auto sum = all<Reals<N>>(program_.constant[i]);
+      for (; run < program_.row_end[i]; ++run) sum = add_run(block, program_.runs[run], sum);
+      if (noisy_) sum = add_noise(i, sum);
+      const OutputChannel& channel = channels_.outputs[i];
+      const auto value = hold(sum, all<Reals<N>>(channel.low), all<Reals<N>>(channel.high));
+      held = held | differ(value, sum);
+      store(settle(value), newest + i * kLanes);
     }
+    store(held, moment.held);
   }
 
   /// Outputs of the last step, and of the one before: [output][lane].
@@ -73,6 +88,34 @@ class ArxStepper {
     }
   }
 
+  /// Coefficients of A and B that a step multiplies by.
+  std::int64_t multiply_adds() const { return static_cast<std::int64_t>(program_.coefficients.size()); }
+
+  /// Numbers of state that one lane holds.
+  std::size_t lane_values() const {
+    return static_cast<std::size_t>(program_.depth) * (program_.outputs + program_.regressors);
+  }
+
+  /// Calls visit(value, low, high) for each number of one lane's state, in an order that does not depend on where in
+  /// the ring it lies: the way to save, check and restore it.
+  template <class Visit>
+  void visit_lane(int block, int lane, Visit visit) {
+    for (int lag = 0; lag < program_.depth; ++lag) {
+      Real* row = sample(block, lag) + lane;
+      for (const OutputChannel& channel : channels_.outputs) {
+        visit(*row, channel.low, channel.high);
+        row += kLanes;
+      }
+      for (const RegressorChannel& channel : channels_.regressors) {
+        visit(*row, channel.least, channel.most);
+        row += kLanes;
+      }
+    }
+  }
+
+  /// Goes into the hash that tells models apart.
+  std::uint64_t hash(std::uint64_t before) const { return hash_of(program_, before); }
+
  private:
   int groups() const { return (program_.outputs + program_.rank + 3) / 4; }
 
@@ -84,53 +127,35 @@ class ArxStepper {
   }
   Real* sample(int block, int lag) { return const_cast<Real*>(std::as_const(*this).sample(block, lag)); }
 
-  void add_run(int block, const TapRun& run, Real* sum) const {
+  // The run's products are added in the order of its lags, each to what was there before.
+  Reals<N> add_run(int block, const TapRun& run, Reals<N> sum) const {
     const Real* ring = ring_.data() + static_cast<std::size_t>(block) * program_.depth * row_ + run.channel * kLanes;
     const std::uint32_t* row = lag_row_.data() + (program_.depth - place_) + run.first_lag;
-    const float* c = program_.coefficients.data() + run.coefficient;
-    std::uint32_t k = 0;
-    for (; k + 4 <= run.count; k += 4) {
-      const Real *x0 = ring + row[k], *x1 = ring + row[k + 1], *x2 = ring + row[k + 2], *x3 = ring + row[k + 3];
-      const Real c0(c[k]), c1(c[k + 1]), c2(c[k + 2]), c3(c[k + 3]);
-      for (int lane = 0; lane < kLanes; ++lane) {
-        sum[lane] = sum[lane] + c0 * x0[lane] + c1 * x1[lane] + c2 * x2[lane] + c3 * x3[lane];
-      }
+    const float* coefficient = program_.coefficients.data() + run.coefficient;
+    for (std::uint32_t k = 0; k < run.count; ++k) {
+      sum = sum + all<Reals<N>>(coefficient[k]) * load<Reals<N>>(ring + row[k]);
     }
-    for (; k < run.count; ++k) {
-      const Real* x = ring + row[k];
-      const Real factor(c[k]);
-      for (int lane = 0; lane < kLanes; ++lane) sum[lane] = sum[lane] + factor * x[lane];
-    }
+    return sum;
   }
 
   // Standard normal deviates for every output and every shared shock.
   void draw(const Moment<N>& moment) {
+    Words<N> counters[4], words[4];
+    random_counters<N>(moment.counters, counters);
     for (int group = 0; group < groups(); ++group) {
-      typename N::Word words[4][kLanes];
-      random_group<N>(*moment.keys, moment.counters, static_cast<std::uint32_t>(group), words);
-      for (int k = 0; k < 4; ++k) normal_lanes<N>(words[k], shocks_.data() + (group * 4 + k) * kLanes);
+      random_group<N>(*moment.keys, counters, static_cast<std::uint32_t>(group), words);
+      for (int k = 0; k < 4; ++k) store(normal_lanes<N>(words[k]), shocks_.data() + (group * 4 + k) * kLanes);
     }
   }
 
-  void add_noise(int i, Real scale, Real* sum) const {
-    add_shock(i, scale * Real(program_.sd[i]), sum);
-    for (int r = 0; r < program_.rank; ++r) {
-      add_shock(program_.outputs + r, scale * Real(program_.mixing[i * program_.rank + r]), sum);
-    }
+  Reals<N> add_noise(int i, Reals<N> sum) const {
+    sum = add_shock(i, sd_[i], sum);
+    for (int r = 0; r < program_.rank; ++r) sum = add_shock(program_.outputs + r, mixing_[i * program_.rank + r], sum);
+    return sum;
   }
 
-  void add_shock(int channel, Real size, Real* sum) const {
-    const Real* shock = shocks_.data() + channel * kLanes;
-    for (int lane = 0; lane < kLanes; ++lane) sum[lane] = sum[lane] + size * shock[lane];
-  }
-
-  static void finish(const OutputChannel& channel, const Real* sum, std::uint32_t* held, Real* out) {
-    const Real low(channel.low), high(channel.high);
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const Real value = hold(sum[lane], low, high);
-      held[lane] |= value == sum[lane] ? 0U : 1U;
-      out[lane] = settle(value);
-    }
+  Reals<N> add_shock(int channel, float size, const Reals<N>& sum) const {
+    return sum + all<Reals<N>>(size) * load<Reals<N>>(shocks_.data() + channel * kLanes);
   }
 
   ArxProgram program_;
@@ -138,8 +163,11 @@ class ArxStepper {
   std::span<Real> ring_;
   std::span<std::uint32_t> lag_row_;
   std::span<Real> shocks_;
+  std::span<float> sd_;  // those of the program, scaled, as is the next
+  std::span<float> mixing_;
   std::size_t row_ = 0;
   int place_ = 0;
+  bool noisy_ = false;
 };
 
 }  // namespace wisp

@@ -13,28 +13,6 @@ namespace {
 
 constexpr int kMostCapacity = 1 << 20;
 constexpr int kMostPolylinePoints = 4096;
-constexpr float kMostNoise = 10.0f;
-constexpr float kLeastNoise = 1e-6f;
-constexpr double kNanosecondsPerSecond = 1e9;
-
-OperatingPoint operating_point(const Model& model) {
-  return std::visit(
-      [](const ArxModel& arx) {
-        return OperatingPoint{arx.output_mean, arx.input_mean};
-      },
-      model.dynamics);
-}
-
-Stepper make_stepper(const Model& model, const Channels& channels, int blocks, Arena& arena) {
-  return std::visit(
-      [&](const ArxModel& arx) -> Stepper { return ArxStepper<LiveNumbers>(model, arx, channels, blocks, arena); },
-      model.dynamics);
-}
-
-std::span<PolylinePoint> make_view(const Model& model, int points, Arena& arena) {
-  const auto* outline = std::get_if<OutlineView>(&model.view);
-  return outline ? make_polyline(*outline, points, arena) : std::span<PolylinePoint>();
-}
 
 Result<void> check_options(const BankOptions& options) {
   if (options.capacity < 1 || options.capacity > kMostCapacity) {
@@ -53,116 +31,7 @@ Result<void> check_all(const Model& model, const BankOptions& options) {
   return std::visit([&](const ArxModel& arx) { return check_arx_program(model, arx); }, model.dynamics);
 }
 
-std::int64_t step_nanoseconds(double rate_hz) {
-  return static_cast<std::int64_t>(kNanosecondsPerSecond / rate_hz + 0.5);
-}
-
 }  // namespace
-
-Bank::State::State(const Model& model, const BankOptions& options, Arena& arena)
-    : capacity(options.capacity),
-      inputs(static_cast<int>(model.inputs.size())),
-      seed(options.seed),
-      keys(random_keys(options.seed)),
-      step_time(step_nanoseconds(model.rate_hz)),
-      channels(make_channels(model, operating_point(model), arena)),
-      stepper(make_stepper(model, channels, (capacity + kLanes - 1) / kLanes, arena)),
-      polyline(make_view(model, options.polyline_points, arena)) {
-  const std::size_t lanes = static_cast<std::size_t>((capacity + kLanes - 1) / kLanes) * kLanes;
-  generation = arena.take<std::uint32_t>(lanes);
-  alive = arena.take<std::uint8_t>(lanes);
-  stream = arena.take<std::uint64_t>(lanes);
-  age = arena.take<std::uint64_t>(lanes);
-  regressors = arena.take<float>(lanes * regressor_count(model.inputs));
-  shown = arena.take<float>(lanes * model.outputs.size());
-}
-
-void Bank::State::start(int slot) {
-  const int block = slot / kLanes, lane = slot % kLanes;
-  std::visit([&](auto& dynamics) { dynamics.start(block, lane); }, stepper);
-  age[slot] = 0;
-  for (std::size_t i = 0; i < channels.outputs.size(); ++i) {
-    const OutputChannel& channel = channels.outputs[i];
-    shown_of(block)[i * kLanes + lane] = present(channel, channel.start);
-  }
-}
-
-void Bank::State::clear_inputs(int slot) {
-  const int block = slot / kLanes, lane = slot % kLanes;
-  for (std::size_t k = 0; k < channels.regressors.size(); ++k) {
-    regressors_of(block)[k * kLanes + lane] = regress(channels.regressors[k], 0.0f);
-  }
-}
-
-void Bank::State::set_inputs(int slot, const float* values) {
-  const int block = slot / kLanes, lane = slot % kLanes;
-  for (std::size_t k = 0; k < channels.regressors.size(); ++k) {
-    const RegressorChannel& channel = channels.regressors[k];
-    regressors_of(block)[k * kLanes + lane] = regress(channel, values[channel.input]);
-  }
-}
-
-void Bank::State::step_all() {
-  std::visit(
-      [&](auto& dynamics) {
-        dynamics.turn();
-        const std::size_t size = channels.regressors.size() * kLanes;
-        for (int block = 0; block < blocks(); ++block) {
-          std::copy_n(regressors_of(block), size, dynamics.regressors(block));
-          const std::size_t first = static_cast<std::size_t>(block) * kLanes;
-          std::uint32_t flags[kLanes] = {};
-          dynamics.step(block, {&keys, {stream.data() + first, age.data() + first}, noise, flags});
-          for (int lane = 0; lane < kLanes; ++lane) {
-            held.held += flags[lane] & alive[first + lane];
-            ++age[first + lane];
-          }
-        }
-      },
-      stepper);
-  held.steps += static_cast<std::uint64_t>(living);
-}
-
-void Bank::State::show_newest() {
-  std::visit(
-      [&](const auto& dynamics) {
-        for (int block = 0; block < blocks(); ++block) {
-          const float* newest = dynamics.newest(block);
-          float* out = shown_of(block);
-          for (const OutputChannel& channel : channels.outputs) {
-            for (int lane = 0; lane < kLanes; ++lane) out[lane] = present(channel, newest[lane]);
-            newest += kLanes;
-            out += kLanes;
-          }
-        }
-      },
-      stepper);
-}
-
-void Bank::State::show_between(float share) {
-  std::visit(
-      [&](const auto& dynamics) {
-        for (int block = 0; block < blocks(); ++block) {
-          const float* newest = dynamics.newest(block);
-          const float* previous = dynamics.previous(block);
-          float* out = shown_of(block);
-          for (const OutputChannel& channel : channels.outputs) {
-            for (int lane = 0; lane < kLanes; ++lane) {
-              const float z = previous[lane] + share * (newest[lane] - previous[lane]);
-              out[lane] = present(channel, hold(z, channel.low, channel.high));
-            }
-            newest += kLanes;
-            previous += kLanes;
-            out += kLanes;
-          }
-        }
-      },
-      stepper);
-}
-
-void Bank::State::read_outputs(int slot, float* values) const {
-  const float* row = shown_of(slot / kLanes) + slot % kLanes;
-  for (std::size_t i = 0; i < channels.outputs.size(); ++i) values[i] = row[i * kLanes];
-}
 
 void Bank::Release::operator()(State* state) const {
   std::destroy_at(state);
@@ -272,13 +141,14 @@ bool Bank::set_inputs(InstanceId id, std::span<const float> values) {
 
 void Bank::set_noise(float scale) {
   const float held = hold(scale, 0.0f, kMostNoise);
-  state_->noise = held < kLeastNoise ? 0.0f : held;
+  state_->set_noise(held < kLeastNoise ? 0.0f : held);
 }
 
 void Bank::step() {
   state_->step_all();
   state_->passed = 0;
-  state_->show_newest();
+  state_->between = false;
+  state_->show();
 }
 
 int Bank::advance(std::chrono::nanoseconds time) {
@@ -290,7 +160,8 @@ int Bank::advance(std::chrono::nanoseconds time) {
     s.step_all();
     s.passed -= s.step_time;
   }
-  s.show_between(static_cast<float>(s.passed) / static_cast<float>(s.step_time));
+  s.between = true;
+  s.show();
   return steps;
 }
 
@@ -324,7 +195,7 @@ void Bank::polylines(std::span<float> values) const {
     const int lanes = std::min(State::kLanes, s.rows - first);
     for (std::size_t k = 0; k < row; ++k) {
       float coordinate[State::kLanes];
-      polyline_lanes<LiveNumbers>(s.polyline[k / 2], static_cast<int>(k % 2), s.shown_of(block), coordinate);
+      store(polyline_lanes<LiveNumbers>(s.polyline[k / 2], static_cast<int>(k % 2), s.shown_of(block)), coordinate);
       for (int lane = 0; lane < lanes; ++lane) {
         values[(first + lane) * row + k] = s.alive[first + lane] ? coordinate[lane] : 0.0f;
       }
@@ -339,7 +210,7 @@ bool Bank::polyline(InstanceId id, std::span<float> values) const {
   const int block = static_cast<int>(id.slot) / State::kLanes, lane = static_cast<int>(id.slot) % State::kLanes;
   for (std::size_t k = 0; k < values.size(); ++k) {
     float coordinate[State::kLanes];
-    polyline_lanes<LiveNumbers>(s.polyline[k / 2], static_cast<int>(k % 2), s.shown_of(block), coordinate);
+    store(polyline_lanes<LiveNumbers>(s.polyline[k / 2], static_cast<int>(k % 2), s.shown_of(block)), coordinate);
     values[k] = coordinate[lane];
   }
   return true;

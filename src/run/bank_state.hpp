@@ -9,9 +9,14 @@
 
 namespace wisp {
 
-/// Every kind of dynamics is a stepper with the functions of ArxStepper: constructor, turn, regressors, step, newest,
-/// previous, start. A new kind is its file and its name here and in make_stepper().
+/// Every kind of dynamics is a stepper with the public functions of ArxStepper. A new kind is its file, and its name
+/// here and in make_stepper().
 using Stepper = std::variant<ArxStepper<LiveNumbers>>;
+
+inline constexpr float kMostNoise = 10.0f;
+inline constexpr float kLeastNoise = 1e-6f;  // what is less is none
+
+OperatingPoint operating_point(const Model& model);
 
 struct Bank::State {
   static constexpr int kLanes = LiveNumbers::kLanes;
@@ -31,8 +36,9 @@ struct Bank::State {
   void clear_inputs(int slot);
   void set_inputs(int slot, const float* values);
   void step_all();
-  void show_newest();
-  void show_between(float share);
+  void show();
+  void show_block(int block);
+  void set_noise(float scale);
   void read_outputs(int slot, float* values) const;
 
   int capacity;
@@ -40,6 +46,7 @@ struct Bank::State {
   std::uint64_t seed;
   RandomKeys keys;
   std::int64_t step_time;  // nanoseconds
+  std::uint64_t model_hash;
   Channels channels;
   Stepper stepper;
   std::span<PolylinePoint> polyline;
@@ -56,7 +63,8 @@ struct Bank::State {
   int lowest_free = 0;  // no slot below it is free
   std::uint64_t spawned = 0;
   std::int64_t passed = 0;  // nanoseconds since the last step
-  float noise = 1.0f;
+  bool between = false;     // what is shown lies between the last two steps, by `passed`
+  float noise = 0.0f;
   Held held;
 };
 

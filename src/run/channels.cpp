@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <string>
 
+#include "run/model_hash.hpp"
 #include "wisp/run/bank.hpp"
 
 namespace wisp {
@@ -16,6 +18,8 @@ constexpr double kSmallest = 1e-12;  // of a range that is not zero
 double margin(double lowest, double highest) { return kRangeMargin * (highest - lowest); }
 
 float toward(float value, float target) { return std::nextafter(value, target); }
+
+float present(const OutputChannel& channel, float z) { return channel.mean + channel.scale * z; }
 
 // The z nearest to `wanted` whose presented value does not leave [lowest, highest] when it is rounded.
 float held_limit(OutputChannel channel, double wanted, float lowest, float highest) {
@@ -40,12 +44,18 @@ OutputChannel make_output(const Output& output, double mean) {
 
 RegressorChannel make_regressor(const Input& input, int index, Part part, double mean) {
   const double room = margin(input.lowest, input.highest);
-  return {index,
-          part,
-          static_cast<float>(input.lowest - room),
-          static_cast<float>(input.highest + room),
-          static_cast<float>(mean),
-          static_cast<float>(1.0 / channel_scale(input.lowest, input.highest))};
+  RegressorChannel channel{};
+  channel.input = index;
+  channel.part = part;
+  channel.low = static_cast<float>(input.lowest - room);
+  channel.high = static_cast<float>(input.highest + room);
+  channel.mean = static_cast<float>(mean);
+  channel.inverse_scale = static_cast<float>(1.0 / channel_scale(input.lowest, input.highest));
+  // A newborn's history is z = 0, whatever the range is.
+  const float ends[] = {regress(channel, channel.low), regress(channel, channel.high), regress(channel, 0.0f), 0.0f};
+  channel.least = *std::min_element(std::begin(ends), std::end(ends));
+  channel.most = *std::max_element(std::begin(ends), std::end(ends));
+  return channel;
 }
 
 Result<void> check_channel(const std::string& what, double lowest, double highest, double mean) {
@@ -67,6 +77,16 @@ double channel_scale(double lowest, double highest) {
   int exponent = 0;
   std::frexp(highest - lowest, &exponent);
   return std::ldexp(1.0, exponent - 1);
+}
+
+std::uint64_t hash_of(const Channels& channels, std::uint64_t before) {
+  std::uint64_t hash = before;
+  for (const OutputChannel& c : channels.outputs) hash = hash_floats({c.mean, c.scale, c.low, c.high, c.start}, hash);
+  for (const RegressorChannel& c : channels.regressors) {
+    const auto place = static_cast<float>(c.input * 3 + static_cast<int>(c.part));
+    hash = hash_floats({place, c.low, c.high, c.mean, c.inverse_scale}, hash);
+  }
+  return hash;
 }
 
 Channels make_channels(const Model& model, const OperatingPoint& point, Arena& arena) {

@@ -32,6 +32,8 @@ struct RegressorChannel {
   float high;
   float mean;
   float inverse_scale;
+  float least;  ///< z is never below this,
+  float most;   ///< nor above that
 };
 
 struct Channels {
@@ -54,21 +56,44 @@ Channels make_channels(const Model& model, const OperatingPoint& point, Arena& a
 /// Errors: a range or a mean that single precision can't hold with room to compute.
 Result<void> check_channels(const Model& model, const OperatingPoint& point);
 
-/// The regressors' values for a block's raw inputs of one lane.
+/// A hash of the channels, over a hash of what came before.
+std::uint64_t hash_of(const Channels& channels, std::uint64_t before);
+
+/// The value of a regressor for its input; what is not a number counts as 0.
 template <class Real>
 inline Real regress(const RegressorChannel& channel, Real input) {
-  const Real number = input == input ? input : Real(0);
-  const Real held = hold(number, Real(channel.low), Real(channel.high));
+  const Real zero(0.0f);
+  const Real held = hold(input == input ? input : zero, Real(channel.low), Real(channel.high));
   Real part = held;
-  if (channel.part == Part::kPositive) part = held > Real(0) ? held : Real(0);
-  if (channel.part == Part::kNegative) part = held < Real(0) ? -held : Real(0);
+  if (channel.part == Part::kPositive) part = held > zero ? held : zero;
+  if (channel.part == Part::kNegative) part = held < zero ? -held : zero;
   return settle((part - Real(channel.mean)) * Real(channel.inverse_scale));
 }
 
-/// The output's value in its own unit.
-template <class Real>
-inline Real present(const OutputChannel& channel, Real z) {
-  return Real(channel.mean) + Real(channel.scale) * z;
+/// The outputs' values in their own units: [output][lane] from the state of the newest sample.
+template <class N>
+inline void show_newest(const Channels& channels, const typename N::Real* newest, typename N::Real* out) {
+  for (const OutputChannel& channel : channels.outputs) {
+    const auto z = load<Reals<N>>(newest);
+    store(all<Reals<N>>(channel.mean) + all<Reals<N>>(channel.scale) * z, out);
+    newest += N::kLanes;
+    out += N::kLanes;
+  }
+}
+
+/// The same `share` of the way from the sample before to the newest; between its own limits even when rounded.
+template <class N>
+inline void show_between(const Channels& channels, const typename N::Real* previous, const typename N::Real* newest,
+                         float share, typename N::Real* out) {
+  for (const OutputChannel& channel : channels.outputs) {
+    const auto from = load<Reals<N>>(previous), to = load<Reals<N>>(newest);
+    const auto between = from + all<Reals<N>>(share) * (to - from);
+    const auto z = hold(between, all<Reals<N>>(channel.low), all<Reals<N>>(channel.high));
+    store(all<Reals<N>>(channel.mean) + all<Reals<N>>(channel.scale) * z, out);
+    previous += N::kLanes;
+    newest += N::kLanes;
+    out += N::kLanes;
+  }
 }
 
 }  // namespace wisp

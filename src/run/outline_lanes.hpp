@@ -24,15 +24,11 @@ std::span<PolylinePoint> make_polyline(const OutlineView& view, int points, Aren
 
 /// One coordinate (0 x, 1 y) of one point of the polyline; `controls` is [control point][x, y][lane].
 template <class N>
-inline void polyline_lanes(const PolylinePoint& point, int coordinate, const typename N::Real* controls,
-                           typename N::Real* out) {
-  using Real = typename N::Real;
-  const Real* p = controls + (2 * point.first + coordinate) * N::kLanes;
-  const Real w0(point.weight[0]), w1(point.weight[1]), w2(point.weight[2]), w3(point.weight[3]);
-  constexpr int kNext = 2 * N::kLanes;
-  for (int lane = 0; lane < N::kLanes; ++lane) {
-    out[lane] = w0 * p[lane] + w1 * p[lane + kNext] + w2 * p[lane + 2 * kNext] + w3 * p[lane + 3 * kNext];
-  }
+inline Reals<N> polyline_lanes(const PolylinePoint& point, int coordinate, const typename N::Real* controls) {
+  const auto* p = controls + (2 * point.first + coordinate) * N::kLanes;
+  auto sum = all<Reals<N>>(point.weight[0]) * load<Reals<N>>(p);
+  for (int k = 1; k < 4; ++k) sum = sum + all<Reals<N>>(point.weight[k]) * load<Reals<N>>(p + 2 * k * N::kLanes);
+  return sum;
 }
 
 }  // namespace wisp

@@ -3,26 +3,25 @@
 #include "run/random_lanes.hpp"
 
 namespace wisp {
-namespace {
-
-struct OneLane {
-  using Real = float;
-  using Word = std::uint32_t;
-  static constexpr int kLanes = 1;
-};
-
-}  // namespace
 
 std::array<std::uint32_t, 4> random_words(const RandomKey& key) {
-  std::uint32_t words[4][1];
-  random_group<OneLane>(random_keys(key.seed), {&key.stream, &key.step}, key.group, words);
-  return {words[0][0], words[1][0], words[2][0], words[3][0]};
+  const std::uint64_t streams[LiveNumbers::kLanes] = {key.stream}, ages[LiveNumbers::kLanes] = {key.step};
+  Words<LiveNumbers> counters[4], words[4];
+  random_counters<LiveNumbers>({streams, ages}, counters);
+  random_group<LiveNumbers>(random_keys(key.seed), counters, key.group, words);
+  std::array<std::uint32_t, 4> out{};
+  for (int k = 0; k < 4; ++k) {
+    std::uint32_t lanes[LiveNumbers::kLanes];
+    store(words[k], lanes);
+    out[k] = lanes[0];
+  }
+  return out;
 }
 
 float normal(std::uint32_t word) {
-  float deviate = 0;
-  normal_lanes<OneLane>({word}, &deviate);
-  return deviate;
+  float lanes[LiveNumbers::kLanes];
+  store(normal_lanes<LiveNumbers>(all<Words<LiveNumbers>>(word)), lanes);
+  return lanes[0];
 }
 
 }  // namespace wisp

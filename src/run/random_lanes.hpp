@@ -25,17 +25,17 @@ inline RandomKeys random_keys(std::uint64_t seed) {
   return keys;
 }
 
-/// Philox4x32: turns the counters in `words` into four random words a lane.
+/// Philox4x32: turns four counters a lane into four random words a lane.
 template <class N>
-inline void philox(const RandomKeys& keys, typename N::Word (&words)[4][N::kLanes]) {
+inline void philox(const RandomKeys& keys, Words<N> (&words)[4]) {
   for (const auto& key : keys) {
-    for (int lane = 0; lane < N::kLanes; ++lane) {
-      const auto a = wide_product(words[0][lane], 0xD2511F53U);
-      const auto b = wide_product(words[2][lane], 0xCD9E8D57U);
-      words[0][lane] = b.high ^ words[1][lane] ^ key[0];
-      words[1][lane] = b.low;
-      words[2][lane] = a.high ^ words[3][lane] ^ key[1];
-      words[3][lane] = a.low;
+    for (int i = 0; i < N::kParts; ++i) {
+      const auto a = wide_product_part(words[0].part[i], 0xD2511F53U);
+      const auto b = wide_product_part(words[2].part[i], 0xCD9E8D57U);
+      words[0].part[i] = b.high ^ words[1].part[i] ^ key[0];
+      words[1].part[i] = b.low;
+      words[2].part[i] = a.high ^ words[3].part[i] ^ key[1];
+      words[3].part[i] = a.low;
     }
   }
 }
@@ -46,18 +46,25 @@ struct LaneCounters {
   const std::uint64_t* age;
 };
 
+/// The lanes' counters, for group 0.
+template <class N>
+inline void random_counters(const LaneCounters& lanes, Words<N> (&words)[4]) {
+  std::uint32_t counters[4][N::kLanes];
+  for (int lane = 0; lane < N::kLanes; ++lane) {
+    counters[0][lane] = static_cast<std::uint32_t>(lanes.age[lane]);
+    counters[1][lane] = static_cast<std::uint32_t>(lanes.age[lane] >> 32) << 16;
+    counters[2][lane] = static_cast<std::uint32_t>(lanes.stream[lane]);
+    counters[3][lane] = static_cast<std::uint32_t>(lanes.stream[lane] >> 32);
+  }
+  for (int k = 0; k < 4; ++k) words[k] = load<Words<N>>(counters[k]);
+}
+
 /// Random words of one group of four channels.
 template <class N>
-inline void random_group(const RandomKeys& keys, const LaneCounters& counters, std::uint32_t group,
-                         typename N::Word (&words)[4][N::kLanes]) {
-  for (int lane = 0; lane < N::kLanes; ++lane) {
-    const std::uint64_t age = counters.age[lane];
-    const std::uint64_t stream = counters.stream[lane];
-    words[0][lane] = static_cast<std::uint32_t>(age);
-    words[1][lane] = static_cast<std::uint32_t>(age >> 32) << 16 | group;
-    words[2][lane] = static_cast<std::uint32_t>(stream);
-    words[3][lane] = static_cast<std::uint32_t>(stream >> 32);
-  }
+inline void random_group(const RandomKeys& keys, const Words<N> (&counters)[4], std::uint32_t group,
+                         Words<N> (&words)[4]) {
+  for (int k = 0; k < 4; ++k) words[k] = counters[k];
+  words[1] = words[1] ^ all<Words<N>>(group);
   philox<N>(keys, words);
 }
 
@@ -74,28 +81,22 @@ inline constexpr std::uint32_t kFirstSegment = 126U << 4;  // the bits of 0.5f a
 /// 16 parts of every octave of the smaller tail. Error: 1.12e-6 by the quadratics, half a unit in the last place of c0
 /// and of the result (2.4e-7 each at 6), together below 1.7e-6; the tests find the true maximum.
 template <class N>
-inline void normal_lanes(const typename N::Word (&words)[N::kLanes], typename N::Real* deviates) {
-  using Real = typename N::Real;
-  using Word = typename N::Word;
-  Word sign[N::kLanes];
-  Real place[N::kLanes], c0[N::kLanes], c1[N::kLanes], c2[N::kLanes];
+inline Reals<N> normal_lanes(const Words<N>& words) {
+  const Words<N> sign = spread_sign(words);
+  const Words<N> bits = bits_of(real_of(words ^ sign) + all<Reals<N>>(0.5f));
   std::uint32_t segment[N::kLanes];
+  store(bits >> 19, segment);
+  float c0[N::kLanes], c1[N::kLanes], c2[N::kLanes];
   for (int lane = 0; lane < N::kLanes; ++lane) {
-    sign[lane] = spread_sign(words[lane]);
-    const Word folded = words[lane] ^ sign[lane];
-    const Word bits = bits_of(real_of(folded) + Real(0.5f));
-    segment[lane] = plain(bits >> 19) - kFirstSegment;
-    place[lane] = real_of(bits & 0x7ffffU);
+    const NormalSegment& quadratic = kNormalSegments[segment[lane] - kFirstSegment];
+    c0[lane] = quadratic.c0;
+    c1[lane] = quadratic.c1;
+    c2[lane] = quadratic.c2;
   }
-  for (int lane = 0; lane < N::kLanes; ++lane) {
-    c0[lane] = kNormalSegments[segment[lane]].c0;
-    c1[lane] = kNormalSegments[segment[lane]].c1;
-    c2[lane] = kNormalSegments[segment[lane]].c2;
-  }
-  for (int lane = 0; lane < N::kLanes; ++lane) {
-    const Real size = c0[lane] + place[lane] * (c1[lane] + place[lane] * c2[lane]);
-    deviates[lane] = real_of_bits(bits_of(size) ^ (~sign[lane] & 0x80000000U));
-  }
+  const Reals<N> place = real_of(bits & all<Words<N>>(0x7ffffU));
+  const Reals<N> slope = load<Reals<N>>(c1) + place * load<Reals<N>>(c2);
+  const Reals<N> lower = load<Reals<N>>(c0) + place * slope;
+  return real_of_bits(bits_of(lower) ^ (sign & all<Words<N>>(0x80000000U)));
 }
 
 }  // namespace wisp

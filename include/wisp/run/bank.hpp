@@ -54,6 +54,8 @@ inline constexpr double kRangeMargin = 0.5;
 /// Precondition of all but move and destruction: the bank has not been moved from.
 class Bank {
  public:
+  struct State;  ///< private to run/
+
   /// Makes an empty bank. The model is copied as far as it is needed and may go afterwards; memory that the caller
   /// gives must outlive the bank.
   /// Errors: the model is not valid (check()) or holds numbers that single precision can't, an option is out of its
@@ -154,7 +156,6 @@ class Bank {
  private:
   friend Result<std::size_t> bank_bytes(const Model& model, const BankOptions& options);
 
-  struct State;
   struct Release {
     bool owned = false;
     void operator()(State* state) const;

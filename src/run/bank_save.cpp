@@ -1,0 +1,169 @@
+// A bank's state as bytes. Little-endian: 8 bytes magic, 4 version, 4 zero, 8 size of what follows the header, 8 its
+// hash; then the bank's own fields, then one record of the same size for every slot.
+
+#include <array>
+#include <cassert>
+#include <cstring>
+#include <string>
+
+#include "run/bank_state.hpp"
+#include "run/little_endian.hpp"
+#include "wisp/base/hash.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr std::array<char, 8> kMagic = {'\x89', 'W', 'I', 'S', 'P', 'B', 'N', 'K'};
+constexpr std::uint32_t kVersion = 1;
+constexpr std::size_t kHeaderSize = 32;
+constexpr std::size_t kFieldsSize = 10 * 8;
+constexpr std::uint64_t kMostAge = std::uint64_t{1} << 48;
+
+std::size_t record_size(const Bank::State& s) {
+  const std::size_t values = std::visit([](const auto& dynamics) { return dynamics.lane_values(); }, s.stepper);
+  return 3 * 8 + 4 * (s.channels.regressors.size() + values);
+}
+
+void save_slot(Bank::State& s, int slot, ByteWriter& out) {
+  out.put(s.generation[slot]);
+  out.put(static_cast<std::uint32_t>(s.alive[slot]));
+  out.put(s.stream[slot]);
+  out.put(s.age[slot]);
+  const int block = slot / s.kLanes, lane = slot % s.kLanes;
+  for (std::size_t k = 0; k < s.channels.regressors.size(); ++k) out.put(s.regressors_of(block)[k * s.kLanes + lane]);
+  std::visit([&](auto& dynamics) { dynamics.visit_lane(block, lane, [&](float& z, float, float) { out.put(z); }); },
+             s.stepper);
+}
+
+bool within(float value, float low, float high) { return value >= low && value <= high; }
+
+// Whether a slot's record could have been written by save().
+bool slot_is_sound(Bank::State& s, ByteReader& in) {
+  in.get32();
+  bool sound = in.get32() <= 1;
+  in.get64();
+  sound &= in.get64() < kMostAge;
+  for (const RegressorChannel& channel : s.channels.regressors) {
+    sound &= within(in.get_float(), channel.least, channel.most);
+  }
+  const auto check = [&](float&, float low, float high) { sound &= within(in.get_float(), low, high); };
+  std::visit([&](auto& dynamics) { dynamics.visit_lane(0, 0, check); }, s.stepper);
+  return sound;
+}
+
+void restore_slot(Bank::State& s, int slot, ByteReader& in) {
+  s.generation[slot] = in.get32();
+  s.alive[slot] = static_cast<std::uint8_t>(in.get32());
+  s.stream[slot] = in.get64();
+  s.age[slot] = in.get64();
+  const int block = slot / s.kLanes, lane = slot % s.kLanes;
+  for (std::size_t k = 0; k < s.channels.regressors.size(); ++k) {
+    s.regressors_of(block)[k * s.kLanes + lane] = in.get_float();
+  }
+  const auto take = [&](float& z, float, float) { z = in.get_float(); };
+  std::visit([&](auto& dynamics) { dynamics.visit_lane(block, lane, take); }, s.stepper);
+  if (!s.alive[slot]) return;
+  ++s.living;
+  s.rows = slot + 1;
+}
+
+struct Fields {
+  std::uint64_t model, capacity, seed, spawned, passed, between, noise, held, steps, reserved;
+};
+
+Fields read_fields(ByteReader& in) {
+  return {in.get64(), in.get64(), in.get64(), in.get64(), in.get64(),
+          in.get64(), in.get64(), in.get64(), in.get64(), in.get64()};
+}
+
+bool fields_are_sound(const Bank::State& s, const Fields& fields) {
+  const float noise = std::bit_cast<float>(static_cast<std::uint32_t>(fields.noise));
+  return fields.noise >> 32 == 0 && (noise == 0 || within(noise, kLeastNoise, kMostNoise)) && fields.between <= 1 &&
+         fields.passed < static_cast<std::uint64_t>(s.step_time) && fields.reserved == 0;
+}
+
+Error damaged(const std::string& what) { return {"a saved bank is damaged: " + what + "; save it again"}; }
+
+Result<void> check_header(const Bank::State& s, std::span<const std::byte> bytes, std::size_t expected) {
+  if (bytes.size() < kHeaderSize || std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0) {
+    return Error{"these " + std::to_string(bytes.size()) + " bytes are not a saved bank: they have not its signature"};
+  }
+  ByteReader in(bytes.data() + kMagic.size());
+  const std::uint32_t version = in.get32();
+  if (version != kVersion) {
+    return Error{"a saved bank has version " + std::to_string(version) + ", this build reads version 1: update Wisp"};
+  }
+  const std::uint32_t reserved = in.get32();
+  const std::uint64_t size = in.get64(), hash = in.get64();
+  const auto payload = bytes.subspan(kHeaderSize);
+  if (reserved != 0) return damaged("reserved bytes of its header are not zero");
+  if (size != payload.size()) {
+    return damaged("it holds " + std::to_string(payload.size()) + " bytes after its header, which promises " +
+                   std::to_string(size));
+  }
+  if (hash != hash_bytes(payload)) return damaged("its contents have not the hash that its header says");
+  if (payload.size() < kFieldsSize) return damaged("it is too short to hold a bank");
+  ByteReader fields(payload.data());
+  if (fields.get64() != s.model_hash) {
+    return Error{"a saved bank is of another model: make the bank that is restored from the model that was saved"};
+  }
+  if (const std::uint64_t capacity = fields.get64(); capacity != static_cast<std::uint64_t>(s.capacity)) {
+    return Error{"a saved bank has capacity " + std::to_string(capacity) + ", the bank to restore has " +
+                 std::to_string(s.capacity) + ": make it with the same"};
+  }
+  if (bytes.size() != expected) {
+    return damaged("it has " + std::to_string(bytes.size()) + " bytes, expected " + std::to_string(expected));
+  }
+  return {};
+}
+
+}  // namespace
+
+std::size_t Bank::save_bytes() const {
+  return kHeaderSize + kFieldsSize + static_cast<std::size_t>(state_->capacity) * record_size(*state_);
+}
+
+void Bank::save(std::span<std::byte> bytes) const {
+  State& s = *state_;
+  assert(bytes.size() == save_bytes());
+  const auto payload = bytes.subspan(kHeaderSize);
+  ByteWriter out(payload.data());
+  for (std::uint64_t field :
+       {s.model_hash, static_cast<std::uint64_t>(s.capacity), s.seed, s.spawned, static_cast<std::uint64_t>(s.passed),
+        std::uint64_t{s.between}, std::uint64_t{std::bit_cast<std::uint32_t>(s.noise)}, s.held.held, s.held.steps,
+        std::uint64_t{0}}) {
+    out.put(field);
+  }
+  for (int slot = 0; slot < s.capacity; ++slot) save_slot(s, slot, out);
+  std::memcpy(bytes.data(), kMagic.data(), kMagic.size());
+  ByteWriter header(bytes.data() + kMagic.size());
+  header.put(kVersion);
+  header.put(std::uint32_t{0});
+  header.put(std::uint64_t{payload.size()});
+  header.put(hash_bytes(payload));
+}
+
+Result<void> Bank::restore(std::span<const std::byte> bytes) {
+  State& s = *state_;
+  if (auto ok = check_header(s, bytes, save_bytes()); !ok) return ok;
+  const std::byte* first = bytes.data() + kHeaderSize;
+  ByteReader fields_in(first), sound_in(first + kFieldsSize), in(first + kFieldsSize);
+  const Fields fields = read_fields(fields_in);
+  if (!fields_are_sound(s, fields)) return damaged("its time or noise is out of range");
+  for (int slot = 0; slot < s.capacity; ++slot) {
+    if (!slot_is_sound(s, sound_in)) return damaged("slot " + std::to_string(slot) + " holds what no bank can");
+  }
+  s.seed = fields.seed;
+  s.keys = random_keys(fields.seed);
+  s.spawned = fields.spawned;
+  s.passed = static_cast<std::int64_t>(fields.passed);
+  s.between = fields.between != 0;
+  s.set_noise(std::bit_cast<float>(static_cast<std::uint32_t>(fields.noise)));
+  s.held = {fields.held, fields.steps};
+  s.living = s.rows = s.lowest_free = 0;
+  for (int slot = 0; slot < s.capacity; ++slot) restore_slot(s, slot, in);
+  s.show();
+  return {};
+}
+
+}  // namespace wisp

@@ -1,0 +1,126 @@
+#include "run/bank_state.hpp"
+
+#include <algorithm>
+
+namespace wisp {
+namespace {
+
+constexpr double kNanosecondsPerSecond = 1e9;
+
+std::int64_t step_nanoseconds(double rate_hz) {
+  return static_cast<std::int64_t>(kNanosecondsPerSecond / rate_hz + 0.5);
+}
+
+Stepper make_stepper(const Model& model, const Channels& channels, int blocks, Arena& arena) {
+  return std::visit(
+      [&](const ArxModel& arx) -> Stepper { return ArxStepper<LiveNumbers>(model, arx, channels, blocks, arena); },
+      model.dynamics);
+}
+
+std::span<PolylinePoint> make_view(const Model& model, int points, Arena& arena) {
+  const auto* outline = std::get_if<OutlineView>(&model.view);
+  return outline ? make_polyline(*outline, points, arena) : std::span<PolylinePoint>();
+}
+
+}  // namespace
+
+OperatingPoint operating_point(const Model& model) {
+  return std::visit(
+      [](const ArxModel& arx) {
+        return OperatingPoint{arx.output_mean, arx.input_mean};
+      },
+      model.dynamics);
+}
+
+Bank::State::State(const Model& model, const BankOptions& options, Arena& arena)
+    : capacity(options.capacity),
+      inputs(static_cast<int>(model.inputs.size())),
+      seed(options.seed),
+      keys(random_keys(options.seed)),
+      step_time(step_nanoseconds(model.rate_hz)),
+      channels(make_channels(model, operating_point(model), arena)),
+      stepper(make_stepper(model, channels, (capacity + kLanes - 1) / kLanes, arena)),
+      polyline(make_view(model, options.polyline_points, arena)) {
+  const std::size_t lanes = static_cast<std::size_t>((capacity + kLanes - 1) / kLanes) * kLanes;
+  model_hash = std::visit([&](const auto& dynamics) { return dynamics.hash(hash_of(channels, step_time)); }, stepper);
+  set_noise(1.0f);
+  generation = arena.take<std::uint32_t>(lanes);
+  alive = arena.take<std::uint8_t>(lanes);
+  stream = arena.take<std::uint64_t>(lanes);
+  age = arena.take<std::uint64_t>(lanes);
+  regressors = arena.take<float>(lanes * regressor_count(model.inputs));
+  shown = arena.take<float>(lanes * model.outputs.size());
+  if (arena.measures()) return;
+  for (std::size_t slot = 0; slot < lanes; ++slot) start(static_cast<int>(slot));
+}
+
+void Bank::State::start(int slot) {
+  const int block = slot / kLanes, lane = slot % kLanes;
+  age[slot] = 0;
+  std::visit([&](auto& dynamics) { dynamics.start(block, lane); }, stepper);
+  show_block(block);
+}
+
+void Bank::State::clear_inputs(int slot) {
+  const int block = slot / kLanes, lane = slot % kLanes;
+  for (std::size_t k = 0; k < channels.regressors.size(); ++k) {
+    regressors_of(block)[k * kLanes + lane] = regress(channels.regressors[k], 0.0f);
+  }
+}
+
+void Bank::State::set_inputs(int slot, const float* values) {
+  const int block = slot / kLanes, lane = slot % kLanes;
+  for (std::size_t k = 0; k < channels.regressors.size(); ++k) {
+    const RegressorChannel& channel = channels.regressors[k];
+    regressors_of(block)[k * kLanes + lane] = regress(channel, values[channel.input]);
+  }
+}
+
+void Bank::State::set_noise(float scale) {
+  noise = scale;
+  std::visit([&](auto& dynamics) { dynamics.set_noise(scale); }, stepper);
+}
+
+void Bank::State::step_all() {
+  std::visit(
+      [&](auto& dynamics) {
+        dynamics.turn();
+        const std::size_t size = channels.regressors.size() * kLanes;
+        for (int block = 0; block < blocks(); ++block) {
+          std::copy_n(regressors_of(block), size, dynamics.regressors(block));
+          const std::size_t first = static_cast<std::size_t>(block) * kLanes;
+          std::uint32_t flags[kLanes] = {};
+          dynamics.step(block, {&keys, {stream.data() + first, age.data() + first}, flags});
+          for (int lane = 0; lane < kLanes; ++lane) {
+            if (flags[lane] != 0) held.held += alive[first + lane];
+            ++age[first + lane];
+          }
+        }
+      },
+      stepper);
+  held.steps += static_cast<std::uint64_t>(living);
+}
+
+void Bank::State::show() {
+  for (int block = 0; block < blocks(); ++block) show_block(block);
+}
+
+void Bank::State::show_block(int block) {
+  std::visit(
+      [&](const auto& dynamics) {
+        if (between) {
+          const float share = static_cast<float>(passed) / static_cast<float>(step_time);
+          show_between<LiveNumbers>(channels, dynamics.previous(block), dynamics.newest(block), share, shown_of(block));
+        } else {
+          show_newest<LiveNumbers>(channels, dynamics.newest(block), shown_of(block));
+        }
+      },
+      stepper);
+}
+
+void Bank::State::read_outputs(int slot, float* values) const {
+  const float* row = shown_of(slot / kLanes) + slot % kLanes;
+  for (std::size_t i = 0; i < channels.outputs.size(); ++i) values[i] = row[i * kLanes];
+}
+
+}  // namespace wisp

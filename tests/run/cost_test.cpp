@@ -1,0 +1,81 @@
+#include "wisp/run/cost.hpp"
+
+#include <gtest/gtest.h>
+
+#include "run/flame_model.hpp"
+
+namespace wisp {
+namespace {
+
+Cost cost_of(const Model& model, int polyline_points = 0) {
+  const auto cost = count_operations(model, polyline_points);
+  EXPECT_TRUE(cost) << cost.error().message;
+  return *cost;
+}
+
+TEST(Cost, AFlameOfEightPointsAndOrderFourTakesThePapers192MultiplyAdds) {
+  EXPECT_EQ(cost_of(flame_model()).multiply_adds_per_frame, 192);
+}
+
+TEST(Cost, SignedWindTakes256) {
+  EXPECT_EQ(cost_of(flame_model({.wind = InputShape::kSplitSign})).multiply_adds_per_frame, 256);
+}
+
+TEST(Cost, CoefficientsThatAreZeroCostNothing) {
+  Model model = flame_model();
+  const Cost full = cost_of(model);
+  std::get<ArxModel>(model.dynamics).theta[4][5] = 0;
+  std::get<ArxModel>(model.dynamics).theta[9][2] = 0;
+  const Cost sparse = cost_of(model);
+  EXPECT_EQ(sparse.multiply_adds_per_frame, 190);
+  EXPECT_EQ(sparse.dynamics_operations, full.dynamics_operations - 4);
+}
+
+// One output, one input: y(t) = 0.5 y(t−1) + u(t) + e(t).
+Model smallest_model() {
+  Model model;
+  model.rate_hz = 10;
+  model.inputs = {{"u", "", -1, 1, InputShape::kLinear}};
+  model.outputs = {{"y", "", -2, 2}};
+  ArxModel arx;
+  arx.orders = {OrderMatrix(1, 1, 1), OrderMatrix(1, 1, 1), OrderMatrix(1, 1, 0)};
+  arx.theta = {{-0.5, 1.0}};
+  arx.constant = arx.output_mean = arx.input_mean = {0};
+  arx.noise.sd = {0.1};
+  model.dynamics = arx;
+  return model;
+}
+
+TEST(Cost, IsWhatOneCountsByHand) {
+  const Cost cost = cost_of(smallest_model());
+  EXPECT_EQ(cost.multiply_adds_per_frame, 2);
+  EXPECT_EQ(cost.dynamics_operations, 2 + 2 * 2);  // input: − ×; each coefficient: × +
+  // Four deviates are made at a time, each + of ½, and × + × + of the quadratic; the one that is used, × +.
+  EXPECT_EQ(cost.noise_operations, 4 * 5 + 2);
+  // Counter's group 1; seven rounds of two products and four exclusive ors; per word: shift, xor, shift, and, and, xor.
+  EXPECT_EQ(cost.random_operations, 1 + 7 * 6 + 4 * 6);
+  EXPECT_EQ(cost.view_operations, 3 + 2);  // between two steps: − × +; to the output's unit: × +
+  EXPECT_EQ(cost.operations_per_frame, cost.dynamics_operations + cost.noise_operations + cost.random_operations +
+                                           cost.view_operations);
+}
+
+TEST(Cost, APolylinePointTakesFourteenOperations) {
+  const Model model = flame_model();
+  EXPECT_EQ(cost_of(model, 33).view_operations, cost_of(model).view_operations + 33 * 14);
+}
+
+TEST(Cost, AModelWithoutNoiseDrawsNoRandomNumbers) {
+  Model model = flame_model();
+  std::get<ArxModel>(model.dynamics).noise.sd.assign(16, 0.0);
+  EXPECT_EQ(cost_of(model).random_operations, 0);
+  EXPECT_EQ(cost_of(model).noise_operations, 0);
+}
+
+TEST(Cost, ABadModelHasNone) {
+  Model model = flame_model();
+  model.rate_hz = -1;
+  EXPECT_FALSE(count_operations(model));
+}
+
+}  // namespace
+}  // namespace wisp

@@ -1,0 +1,55 @@
+#pragma once
+// A made-up flame for tests and benchmarks: eight control points, each a system of two outputs of order 4, one wind.
+
+#include <string>
+
+#include "wisp/model/bspline.hpp"
+#include "wisp/model/model.hpp"
+
+namespace wisp {
+
+/// What may differ between made-up flames.
+struct FlameOptions {
+  int points = 8;
+  InputShape wind = InputShape::kLinear;
+  int noise_rank = 0;
+};
+
+/// A stable flame: every channel has the poles 0.75 ± 0.37i, 0.5 and −0.3, a little of its point's other coordinate,
+/// and four taps of wind (of either sign of it).
+inline Model flame_model(const FlameOptions& options = {}) {
+  const int outputs = 2 * options.points;
+  const int regressors = options.wind == InputShape::kSplitSign ? 2 : 1;
+  ArxModel arx;
+  arx.orders = {OrderMatrix(outputs, outputs), OrderMatrix(outputs, regressors, 4), OrderMatrix(outputs, regressors)};
+  Model model;
+  model.name = "made-up flame";
+  model.rate_hz = 30;
+  model.inputs = {{"wind", "", regressors == 2 ? -1.0 : 0.0, 1.0, options.wind}};
+  for (int i = 0; i < outputs; ++i) {
+    const bool x_row = i % 2 == 0;
+    const double along = static_cast<double>(i / 2) / (options.points - 1);
+    const double mean = x_row ? along - 0.5 : 4 * along * (1 - along);
+    model.outputs.push_back({"p" + std::to_string(i / 2) + (x_row ? ".x" : ".y"), "", mean - 0.4, mean + 0.4});
+    arx.orders.na(i, i) = arx.orders.na(i, i ^ 1) = 4;
+    const std::vector<double> own{-1.7, 0.85, 0.085, -0.105}, other{0.01, -0.02, 0.015, -0.005};
+    std::vector<double> row = x_row ? own : other;
+    row.insert(row.end(), (x_row ? other : own).begin(), (x_row ? other : own).end());
+    for (int k = 0; k < regressors; ++k) {
+      const double sign = x_row && k == 1 ? -1 : 1;
+      for (double b : {0.02, 0.015, -0.004, 0.002}) row.push_back((x_row ? sign : -0.3) * b * (1 + along));
+    }
+    arx.theta.push_back(row);
+    arx.constant.push_back(0);
+    arx.output_mean.push_back(mean);
+    arx.noise.sd.push_back(x_row ? 0.006 : 0.008);
+    for (int r = 0; r < options.noise_rank; ++r) arx.noise.mixing.push_back(0.002 * (1 + r) - 0.0005 * (i % 3));
+  }
+  arx.input_mean.assign(regressors, 0.1);
+  arx.noise.rank = options.noise_rank;
+  model.dynamics = arx;
+  model.view = OutlineView{uniform_knots(options.points), 0.03, 0};
+  return model;
+}
+
+}  // namespace wisp
