@@ -9,6 +9,9 @@
 #include "draw/text.hpp"
 
 namespace wisp {
+
+using namespace drawing;
+
 namespace {
 
 constexpr Colour kCasing{0, 0, 0, 170};

@@ -14,6 +14,9 @@
 #include "wisp/base/file.hpp"
 
 namespace wisp {
+
+using namespace drawing;
+
 namespace {
 
 constexpr Colour kPaper{255, 255, 255};

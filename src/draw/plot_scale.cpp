@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace wisp {
+namespace wisp::drawing {
 namespace {
 
 // The round number (1, 2 or 5 times a power of ten) that divides the length into about `wanted` steps.
@@ -117,4 +117,4 @@ void Extent::take(double value, bool logarithmic) {
   high_ = std::max(high_, value);
 }
 
-}  // namespace wisp
+}  // namespace wisp::drawing

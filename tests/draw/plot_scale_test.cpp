@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace wisp {
+namespace wisp::drawing {
 namespace {
 
 using ::testing::ElementsAre;
@@ -62,4 +62,4 @@ TEST(PlotScale, PlacesAreLinearOrLogarithmic) {
 }
 
 }  // namespace
-}  // namespace wisp
+}  // namespace wisp::drawing
