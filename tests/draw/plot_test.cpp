@@ -8,6 +8,10 @@
 #include "draw/draw_test_pictures.hpp"
 #include "wisp/base/file.hpp"
 
+// Fontconfig keeps what it has read until the process ends.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig"; }
+
 namespace wisp {
 namespace {
 
