@@ -6,7 +6,7 @@
 #include "draw/random.hpp"
 #include "draw/tone.hpp"
 
-namespace wisp {
+namespace wisp::drawing {
 namespace {
 
 // The eye is a little above the candle's top: its circle is seen as an ellipse this flat.
@@ -254,4 +254,4 @@ void draw_candle(Image& image, const FlameScene& scene, const FlameStyle& style,
   draw_wick(image, wick, own, style.ambient);
 }
 
-}  // namespace wisp
+}  // namespace wisp::drawing

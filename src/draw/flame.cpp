@@ -13,6 +13,9 @@
 #include "draw/wick.hpp"
 
 namespace wisp {
+
+using namespace drawing;
+
 namespace {
 
 // A flame catches within this time of being lit, and dies within the other of going out, in seconds.

@@ -5,7 +5,7 @@
 
 #include "draw/cairo.hpp"
 
-namespace wisp {
+namespace wisp::drawing {
 namespace {
 
 // No flame is larger than this many model units; it keeps absurd outlines from asking for absurd memory.
@@ -201,4 +201,4 @@ FlameShape flame_shape(std::span<const Point> outline, const FlameScene& scene, 
   return shape;
 }
 
-}  // namespace wisp
+}  // namespace wisp::drawing

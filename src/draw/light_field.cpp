@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace wisp {
+namespace wisp::drawing {
 namespace {
 
 // A Gaussian needs no more than this many grid cells a standard deviation to look smooth, so wide ones are blurred on
@@ -185,4 +185,4 @@ void add_light(Image& image, const LightField& field) {
   }
 }
 
-}  // namespace wisp
+}  // namespace wisp::drawing

@@ -9,6 +9,9 @@
 #include "draw/text.hpp"
 
 namespace wisp {
+
+using namespace drawing;
+
 namespace {
 
 constexpr Colour kCasing{0, 0, 0, 170};
@@ -138,9 +141,11 @@ void draw_legend(Image& image, std::span<const LegendEntry> entries, Corner corn
                                  line * static_cast<double>(entries.size()), size * 0.6);
   double middle = plate.y + line / 2;
   for (const LegendEntry& entry : entries) {
+    // On the middle of a row of pixels even a thin line has its full colour.
+    const double row = std::floor(middle) + 0.5;
     cairo_new_path(context.get());
-    cairo_move_to(context.get(), plate.x, middle);
-    cairo_line_to(context.get(), plate.x + sample, middle);
+    cairo_move_to(context.get(), plate.x, row);
+    cairo_line_to(context.get(), plate.x + sample, row);
     stroke(context.get(), entry.style, line_width(image, entry.style.width));
     show_text(context.get(), entry.text, plate.x + sample + size * 0.6, middle + size * 0.36, {size}, kText);
     middle += line;

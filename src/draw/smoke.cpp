@@ -8,7 +8,7 @@
 #include "draw/light_field.hpp"
 #include "draw/random.hpp"
 
-namespace wisp {
+namespace wisp::drawing {
 namespace {
 
 constexpr float kTau = 2 * std::numbers::pi_v<float>;
@@ -138,4 +138,4 @@ void draw_smoke(Image& image, const FlameScene& scene, Point wick_end, std::span
   }
 }
 
-}  // namespace wisp
+}  // namespace wisp::drawing

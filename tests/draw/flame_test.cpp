@@ -118,8 +118,8 @@ TEST(Flame, LeaningMovesItsLight) {
 TEST(Flame, TheSameCallDrawsTheSameBytes) {
   FlameScene smoking = scene();
   smoking.seconds_since_out = 1.7F;
-  EXPECT_EQ(drawn(drop_outline(0.2F), scene()), drawn(drop_outline(0.2F), scene()));
-  EXPECT_EQ(drawn(drop_outline(), smoking), drawn(drop_outline(), smoking));
+  EXPECT_TRUE(drawn(drop_outline(0.2F), scene()) == drawn(drop_outline(0.2F), scene()));
+  EXPECT_TRUE(drawn(drop_outline(), smoking) == drawn(drop_outline(), smoking));
 }
 
 TEST(Flame, ASmallMoveOfTheOutlineChangesThePictureALittle) {
@@ -146,7 +146,7 @@ TEST(Flame, AnOutlineWithoutAreaDrawsACandleThatDoesNotBurn) {
       {{0.2F, 0.2F}, {0.2F, 0.2F}, {0.2F, 0.2F}, {0.2F, 0.2F}},
       {{kNan, 0}, {0, kNan}, {kInfinity, 1}, {1, -kInfinity}, {0, 1}},
   };
-  for (const auto& outline : degenerate) EXPECT_EQ(drawn(outline, scene()), dark) << outline.size() << " points";
+  for (const auto& outline : degenerate) EXPECT_TRUE(drawn(outline, scene()) == dark) << outline.size() << " points";
 }
 
 TEST(Flame, PointsThatAreNotFiniteAreLeftOut) {
@@ -155,7 +155,7 @@ TEST(Flame, PointsThatAreNotFiniteAreLeftOut) {
   dirty.insert(dirty.begin() + 30, {kNan, 0.5F});
   dirty.insert(dirty.begin() + 50, {0.1F, kInfinity});
   dirty.push_back({kNan, kNan});
-  EXPECT_EQ(drawn(dirty, scene()), drawn(clean, scene()));
+  EXPECT_TRUE(drawn(dirty, scene()) == drawn(clean, scene()));
 }
 
 TEST(Flame, WithoutCandleAndOutlineNothingIsDrawn) {
@@ -164,9 +164,9 @@ TEST(Flame, WithoutCandleAndOutlineNothingIsDrawn) {
   Image image(kWidth, kHeight, {1, 2, 3, 255});
   const Image before = image;
   draw_flame(image, {}, scene(), bare);
-  EXPECT_EQ(image, before);
+  EXPECT_TRUE(image == before);
   draw_flames(image, {});
-  EXPECT_EQ(image, before);
+  EXPECT_TRUE(image == before);
 }
 
 TEST(Flame, AbsurdScenesAndStylesAreHeldToTheirRanges) {
@@ -249,7 +249,7 @@ TEST(Flame, DiesWithinASecondAndLeavesAnEmberAndSmoke) {
 TEST(Flame, SmokeAndEmberAreGoneAfterAWhile) {
   FlameScene at = scene();
   at.seconds_since_out = 60;
-  EXPECT_EQ(drawn({}, at), drawn({}, scene()));
+  EXPECT_TRUE(drawn({}, at) == drawn({}, scene()));
 }
 
 TEST(Flame, WindCarriesTheSmoke) {
@@ -274,7 +274,7 @@ TEST(Flame, RelitItGrowsBackToFullSize) {
     EXPECT_GT(here, last) << "after " << seconds;
     last = here;
   }
-  EXPECT_EQ(drawn(drop_outline(), at), drawn(drop_outline(), scene()));
+  EXPECT_TRUE(drawn(drop_outline(), at) == drawn(drop_outline(), scene()));
 }
 
 TEST(Flame, BrightnessScalesItsLight) {

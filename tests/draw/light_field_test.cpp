@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-namespace wisp {
+namespace wisp::drawing {
 namespace {
 
 double total(const Plane& plane) { return std::accumulate(plane.values.begin(), plane.values.end(), 0.0); }
@@ -75,4 +75,4 @@ TEST(LightField, LightOnlyBrightens) {
 }
 
 }  // namespace
-}  // namespace wisp
+}  // namespace wisp::drawing

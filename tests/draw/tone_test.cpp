@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace wisp {
+namespace wisp::drawing {
 namespace {
 
 TEST(Tone, EveryCodeComesBackWhateverTheDither) {
@@ -39,4 +39,4 @@ TEST(Tone, LightBeyondWhiteIsWhite) {
 }
 
 }  // namespace
-}  // namespace wisp
+}  // namespace wisp::drawing

@@ -33,8 +33,8 @@ enum class Corner { kTopLeft, kTopRight, kBottomLeft, kBottomRight };
 
 /// One line of a legend.
 struct LegendEntry {
-  std::string text;  ///< UTF-8
-  LineStyle style;
+  std::string text{};  ///< UTF-8
+  LineStyle style{};
 };
 
 /// Draws a small legend on a translucent dark plate; `text_height` in pixels, 0 chooses by the picture's size.
