@@ -1,5 +1,5 @@
-# What `cmake --install` puts in place: headers, one static library a layer, the package files of find_package(wisp),
-# and the program. Every layer is an export set of its own, so that a game that asks for wisp::run never has to find
+# What `cmake --install` puts in place beside the program: headers, one static library a layer, and the package files of
+# find_package(wisp). Every layer is an export set of its own, so that a game that asks for wisp::run never has to find
 # FFmpeg.
 include(CMakePackageConfigHelpers)
 
@@ -23,6 +23,3 @@ install(FILES ${PROJECT_BINARY_DIR}/wisp-config.cmake ${PROJECT_BINARY_DIR}/wisp
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/wisp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
-if(TARGET wisp)
-  install(TARGETS wisp RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-endif()

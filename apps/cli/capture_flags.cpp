@@ -96,7 +96,8 @@ Result<CapturedClip> capture_clip(const std::filesystem::path& path, const Argum
   const auto skipped = options->video.frames ? static_cast<std::size_t>(options->video.frames->first - 1) : 0;
   auto wind = hear_wind(path, clip.report.rate_hz, skipped + clip.recording.rows());
   if (!wind) return wind.error();
-  if (!wind->frames.empty()) wind->frames.erase(wind->frames.begin(), wind->frames.begin() + static_cast<std::ptrdiff_t>(skipped));
+  if (!wind->frames.empty())
+    wind->frames.erase(wind->frames.begin(), wind->frames.begin() + static_cast<std::ptrdiff_t>(skipped));
   add_wind(*wind, clip);
   return clip;
 }

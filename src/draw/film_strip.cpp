@@ -4,8 +4,12 @@
 #include <cmath>
 
 #include "draw/cairo.hpp"
+#include "draw/text.hpp"
 
 namespace wisp {
+
+using namespace drawing;
+
 namespace {
 
 constexpr Colour kFilm{14, 13, 15, 255};
@@ -68,24 +72,6 @@ Result<Layout> lay_out(const FilmStrip& strip) {
   return at;
 }
 
-void show_text(cairo_t* context, const std::string& text, double x, double y, double size, Colour colour,
-               bool bold = false) {
-  cairo_select_font_face(context, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
-                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(context, size);
-  set_colour(context, colour);
-  cairo_move_to(context, x, y);
-  cairo_show_text(context, text.c_str());
-}
-
-void show_centred(cairo_t* context, const std::string& text, double x, double y, double size, Colour colour) {
-  cairo_select_font_face(context, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(context, size);
-  cairo_text_extents_t extents;
-  cairo_text_extents(context, text.c_str(), &extents);
-  show_text(context, text, x - extents.x_advance / 2, y, size, colour);
-}
-
 void show_frame(cairo_t* context, const Image& frame, int x, int y, const Layout& at) {
   cairo_rectangle(context, x, y, at.cell_width, at.cell_height);
   set_colour(context, kEmpty);
@@ -112,11 +98,11 @@ Result<Image> draw_film_strip(const FilmStrip& strip) {
   const CairoContext context = context_of(image);
   int y = at.margin / 2;
   if (!strip.title.empty()) {
-    show_text(context.get(), strip.title, at.margin, y + at.text * 1.5, at.text * 1.2, kCaption, true);
+    show_text(context.get(), strip.title, at.margin, y + at.text * 1.5, {at.text * 1.2, true}, kCaption);
     y += at.title;
   }
   for (const FilmRow& row : strip.rows) {
-    if (!row.caption.empty()) show_text(context.get(), row.caption, at.margin, y + at.text * 1.35, at.text, kCaption);
+    if (!row.caption.empty()) show_text(context.get(), row.caption, at.margin, y + at.text * 1.35, {at.text}, kCaption);
     y += row.caption.empty() ? at.margin / 2 : at.caption;
     for (std::size_t column = 0; column < row.frames.size(); ++column) {
       show_frame(context.get(), row.frames[column], at.cell_x(static_cast<int>(column)), y, at);
@@ -124,8 +110,8 @@ Result<Image> draw_film_strip(const FilmStrip& strip) {
     y += at.cell_height;
   }
   for (std::size_t column = 0; column < strip.times.size() && column < static_cast<std::size_t>(at.columns); ++column) {
-    show_centred(context.get(), strip.times[column], at.cell_x(static_cast<int>(column)) + at.cell_width / 2.0,
-                 y + at.text * 1.3, at.text * 0.8, kTime);
+    show_text(context.get(), strip.times[column], at.cell_x(static_cast<int>(column)) + at.cell_width / 2.0,
+              y + at.text * 1.3, {at.text * 0.8}, kTime, Align::kCentre);
   }
   return image;
 }

@@ -13,6 +13,9 @@
 #include "draw/wick.hpp"
 
 namespace wisp {
+
+using namespace drawing;
+
 namespace {
 
 // A flame catches within this time of being lit, and dies within the other of going out, in seconds.
@@ -21,6 +24,10 @@ constexpr float kDying = 0.16F;
 
 // The area of a calm flame in square model units: a quarter as wide as high, tapering. Its light is 1.
 constexpr float kCalmArea = 0.15F;
+
+// The night behind the candle: cold above, a trace of warmth below.
+constexpr Light kSky{0.0022F, 0.0032F, 0.0082F};
+constexpr Light kFloor{0.0056F, 0.0042F, 0.0048F};
 
 float held(float value, float low, float high) { return std::isnan(value) ? low : std::clamp(value, low, high); }
 
@@ -86,7 +93,7 @@ Candle prepared(const Flame& flame, const FlameStyle& style, int width, int heig
   candle.mood = stage.mood;
   candle.wick = make_wick(candle.scene, style, width, height);
   if (stage.mood.brightness <= 0) return candle;
-  const float cap = std::max(0.04F, 0.65F * style.wick_gap);
+  const float cap = std::max(0.04F, 0.72F * style.wick_gap);
   candle.shape = flame_shape(flame.outline, candle.scene, stage.scale, cap, width, height);
   // A very small flame burns blue.
   candle.mood.soot *= smooth_step(0.06F, 0.40F, candle.shape.height);
@@ -110,7 +117,7 @@ Plane wick_shade(const Candle& candle) {
 // The glowing end of the wick: hidden in the flame's light while it burns, fading for seconds when it is out.
 void add_ember(LightField& field, const Candle& candle) {
   const FlameScene& scene = candle.scene;
-  if (candle.wick.empty()) return;
+  if (candle.wick.empty() || (burns(scene) && candle.shape.empty())) return;
   const float out = scene.seconds_since_out;
   const float heat = burns(scene) ? 0.16F : 0.75F * std::exp(-out / 0.7F) + 0.25F * std::exp(-out / 2.6F);
   if (heat < 0.004F) return;
@@ -131,13 +138,13 @@ void add_ember(LightField& field, const Candle& candle) {
 
 void add_glow(LightField& field, const FlameStyle& style, float unit) {
   if (style.glow <= 0) return;
-  const Light halo = linear_of(style.halo);
-  const Light rim = linear_of(style.rim);
+  const Light halo = Tone::get().linear(style.halo);
+  const Light rim = Tone::get().linear(style.rim);
   const float reach = unit * style.glow_reach;
   const std::array<HaloRing, 4> rings{{{0.022F * reach, 0.24F * style.glow * halo},
                                        {0.085F * reach, 0.17F * style.glow * halo},
                                        {0.28F * reach, 0.15F * style.glow * halo},
-                                       {0.80F * reach, 0.17F * style.glow * (0.5F * halo + 0.5F * rim)}}};
+                                       {0.80F * reach, 0.17F * style.glow * (0.8F * halo + 0.2F * rim)}}};
   add_halo(field, rings);
 }
 
@@ -173,9 +180,8 @@ void draw_flames(Image& image, std::span<const Flame> flames, const FlameStyle& 
     const Candle& candle = candles[k];
     if (style.candle) draw_candle(image, candle.scene, style, candle.wick, candle.lamp, lamps_but(candles, k));
   }
-  for (std::size_t k = 0; k < candles.size(); ++k) {
-    draw_smoke(image, candles[k].scene, candles[k].wick.end, lamps_but(candles, k));
-  }
+  const std::vector<Lamp> lamps = lamps_but(candles, candles.size());
+  for (const Candle& candle : candles) draw_smoke(image, candle.scene, candle.wick.end, lamps);
   LightField field(image.width(), image.height());
   for (const Candle& candle : candles) {
     add_flame_light(field, candle.shape, candle.mood, style, style.candle ? wick_shade(candle) : Plane());
@@ -192,22 +198,25 @@ void draw_flame(Image& image, std::span<const Point> outline, const FlameScene& 
 }
 
 void draw_night(Image& image) {
+  const Tone& tone = Tone::get();
   const float last = static_cast<float>(std::max(1, image.height() - 1));
   for (int y = 0; y < image.height(); ++y) {
     const float down = static_cast<float>(y) / last;
-    const Light light = (1 - down) * Light{0.0022F, 0.0032F, 0.0082F} + down * Light{0.0056F, 0.0042F, 0.0048F};
+    const Light light = (1 - down) * kSky + down * kFloor;
+    const Light code{tone.code(light.red), tone.code(light.green), tone.code(light.blue)};
     const auto row = image.row(y);
     for (int x = 0; x < image.width(); ++x) {
-      row[static_cast<std::size_t>(x)] = 0xFF000000U;
-      blend(row[static_cast<std::size_t>(x)], light, 1, dither_at(x, y));
+      const float dither = dither_at(x, y);
+      row[x] = 0xFF000000U | dithered(code.red, dither) << 16 | dithered(code.green, dither) << 8 |
+               dithered(code.blue, dither);
     }
   }
 }
 
 FlameScene framed(int width, int height) {
   FlameScene scene;
-  scene.pixels_per_unit = std::min(static_cast<float>(height) * 0.36F, static_cast<float>(width) * 0.45F);
-  scene.base = {static_cast<float>(width) / 2, static_cast<float>(height) * 0.76F};
+  scene.pixels_per_unit = std::min(static_cast<float>(height) * 0.38F, static_cast<float>(width) * 0.45F);
+  scene.base = {static_cast<float>(width) / 2, static_cast<float>(height) * 0.77F};
   return scene;
 }
 

@@ -5,7 +5,7 @@
 
 #include "draw/cairo.hpp"
 
-namespace wisp {
+namespace wisp::drawing {
 namespace {
 
 // No flame is larger than this many model units; it keeps absurd outlines from asking for absurd memory.
@@ -52,7 +52,7 @@ Bounds bounds_of(std::span<const Point> points) {
   return b;
 }
 
-// A cubic half-moon from the base's right to its left, below the line between them.
+// A half-moon from the base's right to its left, below the line between them.
 void append_cap(std::vector<Point>& points, float cap) {
   const Point right = points.back();
   const Point left = points.front();
@@ -63,7 +63,7 @@ void append_cap(std::vector<Point>& points, float cap) {
   constexpr int kSteps = 16;
   for (int k = 1; k < kSteps; ++k) {
     const float s = static_cast<float>(k) / kSteps;
-    const float bulge = 4 * s * (1 - s);
+    const float bulge = std::pow(4 * s * (1 - s), 0.6F);
     points.push_back(
         {right.x + s * (left.x - right.x) + bulge * down.x, right.y + s * (left.y - right.y) + bulge * down.y});
   }
@@ -201,4 +201,4 @@ FlameShape flame_shape(std::span<const Point> outline, const FlameScene& scene, 
   return shape;
 }
 
-}  // namespace wisp
+}  // namespace wisp::drawing

@@ -7,6 +7,9 @@
 #include "wisp/base/file.hpp"
 
 namespace wisp {
+
+using namespace drawing;
+
 namespace {
 
 constexpr std::uint32_t kOpaque = 0xFF000000U;

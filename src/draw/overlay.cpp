@@ -6,8 +6,12 @@
 #include <vector>
 
 #include "draw/cairo.hpp"
+#include "draw/text.hpp"
 
 namespace wisp {
+
+using namespace drawing;
+
 namespace {
 
 constexpr Colour kCasing{0, 0, 0, 170};
@@ -40,8 +44,13 @@ void trace(cairo_t* context, std::span<const Point> points, bool closed) {
   if (closed && whole) cairo_close_path(context);
 }
 
-void stroke(cairo_t* context, const LineStyle& style) {
-  const double width = std::clamp(style.width, 0.25F, 50.0F);
+// A line of a three-hundredth of the picture is seen from across the room and hides little.
+double line_width(const Image& image, float asked) {
+  if (asked > 0) return std::clamp(asked, 0.25F, 50.0F);
+  return std::clamp(image.height() / 300.0, 1.2, 6.0);
+}
+
+void stroke(cairo_t* context, const LineStyle& style, double width) {
   const double casing = std::clamp(style.casing, 0.0F, 20.0F);
   cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
   cairo_set_line_cap(context, style.dashed ? CAIRO_LINE_CAP_BUTT : CAIRO_LINE_CAP_ROUND);
@@ -94,39 +103,29 @@ Plate draw_plate(cairo_t* context, const Image& image, Corner corner, double wid
   return {std::round(x) + pad, std::round(y) + pad};
 }
 
-void choose_font(cairo_t* context, double size) {
-  cairo_select_font_face(context, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(context, size);
-}
-
-double text_width(cairo_t* context, const std::string& text) {
-  cairo_text_extents_t extents;
-  cairo_text_extents(context, text.c_str(), &extents);
-  return extents.x_advance;
-}
-
 }  // namespace
 
 void draw_outline(Image& image, std::span<const Point> outline, const LineStyle& style) {
   if (image.empty() || outline.empty()) return;
   const CairoContext context = context_of(image);
   trace(context.get(), outline, style.closed);
-  stroke(context.get(), style);
+  stroke(context.get(), style, line_width(image, style.width));
 }
 
 void draw_control_polygon(Image& image, std::span<const Point> points, Colour colour) {
   if (image.empty()) return;
   const CairoContext context = context_of(image);
+  const double width = line_width(image, 0);
   Colour faint = colour;
   faint.opacity = static_cast<std::uint8_t>(colour.opacity / 2);
   trace(context.get(), points, false);
-  stroke(context.get(), {.colour = faint, .width = 1, .casing = 0.6F});
+  stroke(context.get(), {.colour = faint, .casing = 0.6F}, 0.5 * width);
   for (const Point p : points) {
     if (!finite(p)) continue;
     cairo_new_path(context.get());
-    cairo_arc(context.get(), std::clamp(p.x, -kFarthest, kFarthest), std::clamp(p.y, -kFarthest, kFarthest), 3, 0,
-              2 * M_PI);
-    stroke(context.get(), {.colour = colour, .width = 1.4F, .casing = 1});
+    cairo_arc(context.get(), std::clamp(p.x, -kFarthest, kFarthest), std::clamp(p.y, -kFarthest, kFarthest),
+              1.6 * width, 0, 2 * M_PI);
+    stroke(context.get(), {.colour = colour, .casing = 1}, 0.75 * width);
   }
 }
 
@@ -134,22 +133,21 @@ void draw_legend(Image& image, std::span<const LegendEntry> entries, Corner corn
   if (image.empty() || entries.empty()) return;
   const CairoContext context = context_of(image);
   const double size = text_size(image, text_height);
-  choose_font(context.get(), size);
   double widest = 0;
-  for (const LegendEntry& entry : entries) widest = std::max(widest, text_width(context.get(), entry.text));
+  for (const LegendEntry& entry : entries) widest = std::max(widest, text_width(context.get(), entry.text, {size}));
   const double sample = size * 1.9;
   const double line = size * 1.45;
   const Plate plate = draw_plate(context.get(), image, corner, sample + size * 0.6 + widest,
                                  line * static_cast<double>(entries.size()), size * 0.6);
   double middle = plate.y + line / 2;
   for (const LegendEntry& entry : entries) {
+    // On the middle of a row of pixels even a thin line has its full colour.
+    const double row = std::floor(middle) + 0.5;
     cairo_new_path(context.get());
-    cairo_move_to(context.get(), plate.x, middle);
-    cairo_line_to(context.get(), plate.x + sample, middle);
-    stroke(context.get(), entry.style);
-    set_colour(context.get(), kText);
-    cairo_move_to(context.get(), plate.x + sample + size * 0.6, middle + size * 0.36);
-    cairo_show_text(context.get(), entry.text.c_str());
+    cairo_move_to(context.get(), plate.x, row);
+    cairo_line_to(context.get(), plate.x + sample, row);
+    stroke(context.get(), entry.style, line_width(image, entry.style.width));
+    show_text(context.get(), entry.text, plate.x + sample + size * 0.6, middle + size * 0.36, {size}, kText);
     middle += line;
   }
 }
@@ -158,12 +156,9 @@ void draw_label(Image& image, std::string_view text, Corner corner, float text_h
   if (image.empty() || text.empty()) return;
   const CairoContext context = context_of(image);
   const double size = text_size(image, text_height);
-  choose_font(context.get(), size);
-  const std::string line(text);
-  const Plate plate = draw_plate(context.get(), image, corner, text_width(context.get(), line), size * 1.1, size * 0.5);
-  set_colour(context.get(), kText);
-  cairo_move_to(context.get(), plate.x, plate.y + size * 0.91);
-  cairo_show_text(context.get(), line.c_str());
+  const Plate plate =
+      draw_plate(context.get(), image, corner, text_width(context.get(), text, {size}), size * 1.1, size * 0.5);
+  show_text(context.get(), text, plate.x, plate.y + size * 0.91, {size}, kText);
 }
 
 }  // namespace wisp

@@ -8,7 +8,7 @@
 #include "draw/light_field.hpp"
 #include "draw/random.hpp"
 
-namespace wisp {
+namespace wisp::drawing {
 namespace {
 
 constexpr float kTau = 2 * std::numbers::pi_v<float>;
@@ -82,7 +82,7 @@ Plane plume(const Image& image, const FlameScene& scene, Point wick_end, float c
   const float unit = scene.pixels_per_unit / cell;
   const float now = scene.seconds_since_out;
   const auto first = static_cast<long>(std::ceil(std::max(0.0F, now - kOldest) / kThreadSeconds));
-  const auto last = static_cast<long>(std::floor(std::min(now, smoking) / kThreadSeconds));
+  const auto last = static_cast<long>(std::floor(smoking / kThreadSeconds));
   for (long k = first; k <= last; ++k) {
     const float left = static_cast<float>(k) * kThreadSeconds;
     const float age = now - left;
@@ -114,12 +114,12 @@ Light smoke_light(const FlameScene& scene, Point wick_end, std::span<const Lamp>
 }  // namespace
 
 void draw_smoke(Image& image, const FlameScene& scene, Point wick_end, std::span<const Lamp> lamps) {
-  const float smoking =
-      std::min(kSmoulders, scene.seconds_since_out - std::min(scene.seconds_since_lit, scene.seconds_since_out));
-  const float end = burns(scene) ? smoking : kSmoulders;
-  if (!std::isfinite(scene.seconds_since_out) || scene.seconds_since_out - end > kOldest) return;
+  const float out = scene.seconds_since_out;
+  if (!std::isfinite(out)) return;
+  const float smoking = std::min(kSmoulders, burns(scene) ? out - scene.seconds_since_lit : out);
+  if (smoking <= 0 || out - smoking > kOldest) return;
   const float cell = std::max(1.0F, scene.pixels_per_unit / 110);
-  const Plane density = plume(image, scene, wick_end, cell, end);
+  const Plane density = plume(image, scene, wick_end, cell, smoking);
   const Light light = smoke_light(scene, wick_end, lamps);
   for (int y = 0; y < image.height(); ++y) {
     const float v = (static_cast<float>(y) + 0.5F) / cell - 0.5F;
@@ -138,4 +138,4 @@ void draw_smoke(Image& image, const FlameScene& scene, Point wick_end, std::span
   }
 }
 
-}  // namespace wisp
+}  // namespace wisp::drawing

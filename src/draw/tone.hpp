@@ -1,11 +1,14 @@
 #pragma once
 // Between the 8-bit sRGB of pictures and linear light.
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "wisp/draw/image.hpp"
 
-namespace wisp {
+namespace wisp::drawing {
 
 /// Linear light or reflectance in sRGB's primaries; 1 is the picture's white.
 struct Light {
@@ -20,25 +23,57 @@ struct Light {
 
 inline float luminance(Light light) { return 0.2126F * light.red + 0.7152F * light.green + 0.0722F * light.blue; }
 
-/// Linear value of an 8-bit sRGB channel, 0 … 1.
-float linear_of(std::uint8_t channel);
-Light linear_of(Colour colour);
+/// sRGB's curve in both directions, as tables. Fetched once and then used for all pixels.
+class Tone {
+ public:
+  static const Tone& get();
+
+  /// Linear value of an 8-bit channel, 0 … 1.
+  float linear(std::uint32_t channel) const { return linear_[channel]; }
+  Light linear(Colour colour) const { return {linear_[colour.red], linear_[colour.green], linear_[colour.blue]}; }
+
+  /// The channel's code of a linear value, with its fraction, 0 … 255; within 0.004.
+  float code(float linear_value) const {
+    const float at = std::sqrt(std::clamp(linear_value, 0.0F, 1.0F)) * kSteps;
+    const int k = static_cast<int>(at);
+    return code_[k] + (at - static_cast<float>(k)) * (code_[k + 1] - code_[k]);
+  }
+
+ private:
+  Tone();
+
+  // Codes over the square root of the linear value, where the curve is nearly straight.
+  static constexpr int kSteps = 1024;
+  std::array<float, 256> linear_{};
+  std::array<float, kSteps + 2> code_{};
+};
+
+/// A code with its fraction as a whole one: rounded up where the fraction is above 1 − `dither`, which is in [0, 1).
+/// What is a whole code but for the table's error stays that code.
+inline std::uint32_t dithered(float code, float dither) {
+  constexpr float kTableError = 0.004F;
+  return static_cast<std::uint32_t>(std::min(255.0F, code + dither * (1 - 2 * kTableError) + kTableError));
+}
+
+/// Ordered noise in [0, 1) that spreads rounding over neighbouring pixels: interleaved gradient noise (J. Jimenez, Next
+/// Generation Post Processing in Call of Duty: Advanced Warfare, SIGGRAPH 2014), in fixed point. The same for every
+/// frame, so that video does not boil.
+inline float dither_at(int x, int y) {
+  const std::uint32_t along = static_cast<std::uint32_t>(x) * 288237660U + static_cast<std::uint32_t>(y) * 25070368U;
+  const auto spread = static_cast<std::uint32_t>(static_cast<std::uint64_t>(along) * 888907844U >> 24);
+  return static_cast<float>(spread >> 8) / 16777216.0F;
+}
 
 /// The emission that add_light() shows as that colour on black.
 Light emission_of(Colour colour);
 
-/// 8-bit sRGB of a linear value. `dither` in [0, 1) decides how fractions of a code are rounded; a value that is a
-/// code exactly stays that code.
-std::uint8_t encoded(float linear, float dither);
-
 /// Lays a surface that sends that light over a premultiplied pixel, `opacity` 0 … 1.
 void blend(std::uint32_t& pixel, Light light, float opacity, float dither);
 
-/// Ordered noise in [0, 1) that spreads rounding over neighbouring pixels (J. Jimenez, Next Generation Post Processing
-/// in Call of Duty: Advanced Warfare, SIGGRAPH 2014). The same for every frame, so that video does not boil.
-float dither_at(int x, int y);
-
 /// 0 below `low`, 1 above `high`, smooth between.
-float smooth_step(float low, float high, float value);
+inline float smooth_step(float low, float high, float value) {
+  const float t = std::clamp((value - low) / (high - low), 0.0F, 1.0F);
+  return t * t * (3 - 2 * t);
+}
 
-}  // namespace wisp
+}  // namespace wisp::drawing

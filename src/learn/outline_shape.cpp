@@ -10,7 +10,7 @@
 namespace wisp {
 namespace {
 
-constexpr int kStrips = 512;
+constexpr int kStrips = 1024;
 
 OutlinePoint base_of(std::span<const OutlinePoint> polyline) {
   const OutlinePoint& left = polyline.front();

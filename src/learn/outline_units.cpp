@@ -52,7 +52,8 @@ Result<std::vector<double>> knots_of(const Recording& recording, std::size_t poi
 }
 
 // The frame of one row: the middle between the first and the last control point. NaN where one is missing.
-OutlineFrame frame_of(const Recording& recording, const OutlineLayout& layout, std::size_t row, double pixels_per_unit) {
+OutlineFrame frame_of(const Recording& recording, const OutlineLayout& layout, std::size_t row,
+                      double pixels_per_unit) {
   const auto sample = [&](std::size_t k) { return recording.channels[layout.outputs[k]].samples[row]; };
   const std::size_t last = layout.outputs.size() - 2;
   return {(sample(0) + sample(last)) / 2, (sample(1) + sample(last + 1)) / 2, pixels_per_unit};

@@ -290,10 +290,10 @@ Result<std::size_t> WavReader::read(std::span<float> interleaved) {
   return written;
 }
 
-Result<Sound> read_wav(const std::filesystem::path& path) {
+Result<WavSound> read_wav(const std::filesystem::path& path) {
   auto reader = WavReader::open(path);
   if (!reader) return reader.error();
-  Sound sound;
+  WavSound sound;
   sound.format = reader->format();
   sound.samples.resize(static_cast<std::size_t>(reader->frames()) * static_cast<std::size_t>(sound.format.channels));
   auto count = reader->read(sound.samples);
@@ -428,7 +428,7 @@ Result<void> WavWriter::commit() {
   return s.pending.commit();
 }
 
-Result<void> write_wav(const std::filesystem::path& path, const Sound& sound) {
+Result<void> write_wav(const std::filesystem::path& path, const WavSound& sound) {
   auto writer = WavWriter::create(path, sound.format);
   if (!writer) return writer.error();
   if (auto ok = writer->write(sound.samples); !ok) return ok;

@@ -1,6 +1,7 @@
 #pragma once
 // Everything about hearing wind that is fixed when the estimator is made: rates, filters, time constants, thresholds.
 
+#include <cstdint>
 #include <vector>
 
 #include "run/wind_filters.hpp"
@@ -17,23 +18,44 @@ struct Design {
   double analysis_rate_hz = 8000;
   std::vector<float> taps;  ///< of the low-pass; empty where nothing is left out
 
-  Section total;       ///< high-pass 80 Hz
-  Section low;         ///< band-pass 126.5 Hz
-  Section high;        ///< band-pass 2646 Hz
-  Section voice_high;  ///< high-pass 100 Hz of the voice band
-  Section voice_low;   ///< low-pass 900 Hz of the voice band
+  Section high_pass;  ///< 100 Hz: all that is listened to
+  Section low_pass;   ///< 900 Hz, after it: the voice band
+  Section low;        ///< band-pass 126.5 Hz
+  Section high;       ///< band-pass 2646 Hz
 
-  int hop = 80;        ///< analysis samples a hop; even
-  int first_lag = 10;  ///< periods of a voice, in samples of half the analysis rate
-  int last_lag = 50;
+  // Powers of the filters' gains, left out of the sums.
+  float total_gain = 1;
+  float voice_gain = 1;
+  float low_gain = 1;
+  float high_gain = 1;
+
+  double delay_seconds = 0;  ///< of the filters that the level passes
+
+  int hop = 80;        ///< analysis samples a hop; a multiple of voice_step
+  int voice_step = 2;  ///< analysis samples for one in which a voice's period is sought (near 4 kHz)
+  int first_lag = 10;  ///< shortest and longest period of a voice, in those samples
+  int last_lag = 57;
 
   float power_approach = 1;     ///< of band powers in one hop (50 ms)
   float voice_release = 1;      ///< of the held voicing in one hop (300 ms)
   float floor_fall = 1;         ///< of the floor downwards in one hop (50 ms)
-  float floor_rise_db = 0.01F;  ///< of the floor upwards in one hop (1 dB/s)
-  float smoothing = 1;          ///< of the band power that becomes the level, one analysis sample
-  float exponent = 1.0F / 3;    ///< of that power
+  float floor_rise_db = 0.01F;  ///< of the floor upwards in one hop
+  float smoothing = 1;          ///< of the level's band power in one frame
+  float level_gain = 1;         ///< of that power, so that the level band passes 300 Hz as it is
+  float power_exponent = 0.25F;
+
+  int quiet_run_frames = 18;      ///< quiet must last so long before it counts (0.3 s)
+  float quiet_span_frames = 600;  ///< memory of the background (10 s of quiet)
+  float first_gust_db = -26;      ///< gust level before anything is heard
+  float first_gust_frames = 3;    ///< what that weighs (50 ms of blowing)
+  float known_gust_frames = 900;  ///< what a given gust level weighs (15 s of blowing)
+  float gust_keep = 1;            ///< memory of gusts in one frame of blowing (60 s of it)
 };
+
+constexpr int kMostChannels = 8;
+
+/// A 16-bit sample with full scale 1.
+inline float from_pcm16(std::int16_t x) { return static_cast<float>(x) * (1.0F / 32768.0F); }
 
 /// The design for a format and options that have been checked.
 Design design(const SoundFormat& format, const WindOptions& options);

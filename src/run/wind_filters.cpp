@@ -44,27 +44,26 @@ Denominator denominator(double frequency_hz, double q, double rate_hz) {
   return {w.sin, w.cos, w.sin / (2 * q)};
 }
 
-Section section(const Denominator& d, double first_zero, double numerator) {
+Section section(const Denominator& d, double numerator) {
   const double a0 = 1 + d.alpha;
-  return {static_cast<float>(first_zero), static_cast<float>(-2 * d.cos / a0), static_cast<float>((1 - d.alpha) / a0),
-          numerator / a0};
+  return {static_cast<float>(-2 * d.cos / a0), static_cast<float>((1 - d.alpha) / a0), numerator / a0};
 }
 
 }  // namespace
 
 Section high_pass(double frequency_hz, double q, double rate_hz) {
   const Denominator d = denominator(frequency_hz, q, rate_hz);
-  return section(d, -2, (1 + d.cos) / 2);
+  return section(d, (1 + d.cos) / 2);
 }
 
 Section low_pass(double frequency_hz, double q, double rate_hz) {
   const Denominator d = denominator(frequency_hz, q, rate_hz);
-  return section(d, 2, (1 - d.cos) / 2);
+  return section(d, (1 - d.cos) / 2);
 }
 
 Section band_pass(double frequency_hz, double q, double rate_hz) {
   const Denominator d = denominator(frequency_hz, q, rate_hz);
-  return section(d, 0, d.alpha);
+  return section(d, d.alpha);
 }
 
 std::vector<float> windowed_sinc(int taps, double cutoff) {
@@ -82,6 +81,10 @@ std::vector<float> windowed_sinc(int taps, double cutoff) {
   rounded.reserve(exact.size());
   for (const double tap : exact) rounded.push_back(static_cast<float>(tap / sum));
   return rounded;
+}
+
+double magnitude_of_difference(double frequency_hz, double rate_hz) {
+  return 2 * sin_cos(kPi * frequency_hz / rate_hz).sin;
 }
 
 double approach(double step_seconds, double constant_seconds) {

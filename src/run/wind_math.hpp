@@ -62,6 +62,12 @@ T decibels(T power) {
   return T(3.0102999566F) * log2_of(power);
 }
 
+/// The power ratio of decibels.
+template <class T>
+T from_decibels(T db) {
+  return exp2_of(db * T(0.3321928095F));
+}
+
 /// 1 / (1 + e^−x).
 template <class T>
 T sigmoid(T x) {

@@ -1,5 +1,5 @@
 #pragma once
-// From what was observed and what is known of the background to the frame that is handed out.
+// An observation set against background and gusts: the frame that is handed out.
 
 #include <cmath>
 
@@ -9,36 +9,61 @@
 
 namespace wisp::wind {
 
-/// What the frame is set against.
-struct Background {
-  float rms = 0;
-  float band_power = 0;
-  float gust_db = 0;  ///< band power of wind 1
+/// What observations are set against.
+template <class T>
+struct Surroundings {
+  T rms = T(0.0F);         ///< of the background
+  T band_power = T(0.0F);  ///< of the background
+  T floor_db = T(0.0F);    ///< loudness of the background
+  T gust_db = T(0.0F);     ///< band power at wind 1
 };
 
-inline float root_of(float x) { return std::sqrt(x); }
+constexpr float kSureDb = 10;          ///< loudness over the floor from which blowing can be told from the room
+constexpr float kPassedDb = 8;         ///< the same for letting wind through: its background is taken off besides
+constexpr float kLeastPower = 1e-12F;  ///< of the band: no wind
 
-inline float from_decibels(float db) { return exp2_of(db * 0.3321928095F); }
+/// 0 to 1: loudness stands out of the floor.
+template <class T>
+T audible(T over_floor_db, float sure_db, float width_db) {
+  return sigmoid((over_floor_db - T(sure_db)) * T(1 / width_db));
+}
 
-/// 0 … 1: how sure it is that something is heard `above_floor_db` over the floor.
-inline float audible(float above_floor_db) { return sigmoid((above_floor_db - 12.0F) * (1.0F / 1.5F)); }
+template <class T>
+T confidence_of(const Observation<T>& seen, T floor_db) {
+  return seen.likeness * audible(seen.loudness_db - floor_db, kSureDb, 1.5F);
+}
 
-inline WindFrame verdict(const Observation<float>& seen, float confidence, const Background& background,
-                         float exponent) {
+/// Band power above the background's.
+template <class T>
+T power_over(const Observation<T>& seen, T background) {
+  return background < seen.band_power ? seen.band_power - background : T(0.0F);
+}
+
+/// How much of the speed is let through as wind.
+template <class T>
+T opening(const Observation<T>& seen, T floor_db) {
+  T open = (seen.likeness - T(0.2F)) * T(1 / 0.6F);
+  if (open < T(0.0F)) open = T(0.0F);
+  if (T(1.0F) < open) open = T(1.0F);
+  return open * audible(seen.loudness_db - floor_db, kPassedDb, 1.0F);
+}
+
+template <class T>
+WindFrame verdict(const Observation<T>& seen, const Surroundings<T>& around, float power_exponent) {
+  using std::sqrt;
+  const T power = power_over(seen, around.band_power);
+  const T db = decibels(power);
+  T speed = T(0.0F);
+  if (T(kLeastPower) < power) speed = exp2_of((db - around.gust_db) * T(power_exponent * 0.3321928095F));
   WindFrame frame;
-  frame.rms = seen.rms;
-  frame.background = background.rms;
-  frame.rms_clean = seen.rms > background.rms ? seen.rms - background.rms : 0.0F;
-  const float power = seen.band_power > background.band_power ? seen.band_power - background.band_power : 0.0F;
-  frame.level = root_of(power);
-  // Decibels over the gust level; at −120 dB of power and below there is no wind.
-  if (power > 1e-12F) frame.speed = from_decibels((decibels(power) - background.gust_db) * exponent);
-  frame.confidence = confidence;
-  float open = (confidence - 0.2F) * (1.0F / 0.6F);
-  if (open < 0) open = 0;
-  if (open > 1) open = 1;
-  frame.wind = frame.speed * open;
-  frame.clipped = seen.clipped;
+  frame.rms = plain(seen.rms);
+  frame.rms_clean = around.rms < seen.rms ? plain(seen.rms - around.rms) : 0.0F;
+  frame.level = plain(T(sqrt(power)));
+  frame.speed = plain(speed);
+  frame.wind = plain(speed * opening(seen, around.floor_db));
+  frame.confidence = plain(confidence_of(seen, around.floor_db));
+  frame.background = plain(around.rms);
+  frame.clipped = plain(seen.clipped);
   return frame;
 }
 

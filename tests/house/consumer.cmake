@@ -66,6 +66,17 @@ if(NOT plain MATCHES "^checksum" OR NOT output STREQUAL plain)
   message(FATAL_ERROR "a host's own flags change what a model does:\n-O0:    ${plain}-Ofast: ${output}")
 endif()
 
+# The subproject is built with fast mathematics all over, what is installed without.
+set(checksum ${BUILD}/house/checksum_installed.txt)
+if(HOW STREQUAL "installed")
+  file(WRITE ${checksum} "${plain}")
+else()
+  file(READ ${checksum} expected)
+  if(NOT expected STREQUAL plain)
+    message(FATAL_ERROR "a host's flags change what a model does:\ninstalled:  ${expected}subproject: ${plain}")
+  endif()
+endif()
+
 run("configuring the example" ${CMAKE_COMMAND} -S ${SOURCE}/examples/flicker -B ${SCRATCH}/example -G ${GENERATOR}
   -DCMAKE_BUILD_TYPE=Release ${where})
 run("building the example" ${CMAKE_COMMAND} --build ${SCRATCH}/example)

@@ -42,7 +42,7 @@ inline constexpr float kLongAgo = std::numeric_limits<float>::infinity();
 /// It burns unless it went out more recently than it was lit. A flame that catches or dies is drawn over a few tenths
 /// of a second; smoke rises from the wick between going out and being lit again, and drifts on afterwards.
 struct FlameScene {
-  Point base;                   ///< pixel of the outline's origin, the middle of the flame's base; y down
+  Point base{};                 ///< pixel of the outline's origin, the middle of the flame's base; y down
   float pixels_per_unit = 200;  ///< pixels of the mean flame height, 1 … 10000
   float brightness = 1;         ///< of this flame against the style's, 0 … 4
   float seconds_since_lit = kLongAgo;
@@ -57,8 +57,8 @@ bool burns(const FlameScene& scene);
 /// A candle of a picture with several: its outline is a polyline in model units (origin at the middle of the base,
 /// x right, y up, mean height 1) from the base's left over the tip to the base's right, closed by a straight line.
 struct Flame {
-  std::span<const Point> outline;
-  FlameScene scene;
+  std::span<const Point> outline{};
+  FlameScene scene{};
 };
 
 /// Draws candles over what the picture holds, the first one farthest: first every candle, lit by all flames, then

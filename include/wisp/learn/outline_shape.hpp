@@ -47,8 +47,8 @@ double height_of(std::span<const OutlinePoint> polyline);
 double area_of(std::span<const OutlinePoint> polygon);
 
 /// Intersection over union of two closed polygons, each filled by the even-odd rule, in [0, 1]; 0 where neither has an
-/// area. Both are cut into 512 horizontal strips over their common height, and each strip's intervals are exact at its
-/// middle: the error is below 1e-3 (0.0002 is typical), which a test holds it to.
+/// area. Both are cut into 1024 horizontal strips over their common height, and each strip's intervals are exact at its
+/// middle: the error is that of a strip where a side is level, at most 1e-3, and 1e-4 on round outlines.
 double overlap_of(std::span<const OutlinePoint> a, std::span<const OutlinePoint> b);
 
 }  // namespace wisp

@@ -1,8 +1,8 @@
 #pragma once
 // A captured outline in the model's own units, and back.
 //
-// A capture is in its clip's pixels: origin top left, y down. A model is in its own: origin at the middle of the base in
-// every frame, x right, y up, mean height of the calm outline 1. The base's own motion stays a separate channel.
+// A capture is in its clip's pixels: origin top left, y down. A model is in its own: origin at the middle of the base
+// in every frame, x right, y up, mean height of the calm outline 1. The base's own motion stays a separate channel.
 
 #include <cstddef>
 #include <cstdint>

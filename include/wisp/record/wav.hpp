@@ -54,13 +54,13 @@ class WavReader {
 };
 
 /// A whole WAV file in memory.
-struct Sound {
+struct WavSound {
   WavFormat format;
   std::vector<float> samples;  ///< interleaved
 };
 
 /// Reads a whole file. Errors: as WavReader.
-Result<Sound> read_wav(const std::filesystem::path& path);
+Result<WavSound> read_wav(const std::filesystem::path& path);
 
 /// Reads a whole file as a recording: one input channel a track, named `sound` or `sound.0`, `sound.1`, ….
 /// Errors: as WavReader; a sample that is not finite.
@@ -92,6 +92,6 @@ class WavWriter {
 };
 
 /// Writes a whole file, whole or not at all. Errors: as WavWriter.
-Result<void> write_wav(const std::filesystem::path& path, const Sound& sound);
+Result<void> write_wav(const std::filesystem::path& path, const WavSound& sound);
 
 }  // namespace wisp

@@ -24,17 +24,21 @@ struct SoundFormat {
 struct WindOptions {
   double frame_rate_hz = 60;  ///< frames a second, 1 to 1000: the video's, or the model's
 
-  /// Wind speed goes as the band's RMS to this power, 0.1 to 2. The default, 2/3, is what the one public record of a
-  /// microphone beside an anemometer gives (power as U³); stagnation pressure alone would give 1/2, and the plain RMS
-  /// is 1. It belongs to the microphone: set it where the truth is known.
-  double exponent = 2.0 / 3.0;
+  /// Wind speed goes as the band's RMS to this power, 0.1 to 2. The default, 1/2, is what stagnation pressure gives
+  /// (pressure as the square of speed) and what the one public record of microphones beside an anemometer bears out
+  /// (0.55 ± 0.04; docs/wind.md); 1 is a plain RMS. It belongs to the microphone: set it where the truth is known.
+  double exponent = 0.5;
 
-  /// Mean wind speed over this time, seconds, 0 (the frame alone) to 1. Less follows gusts better, more is steadier:
-  /// sound of 16 ms tells its level to about 20 per cent only.
-  double smoothing_seconds = 0.02;
+  /// Mean of the level over this time, seconds, 0 (each frame by itself) to 1. A frame of 16 ms tells its level to
+  /// some ten per cent; whatever learns from it averages better than a fixed mean would, so the default is 0.
+  double smoothing_seconds = 0;
 
-  /// 95th percentile of the level's speed measure where nothing has been heard yet: `speed` is 1 at this band RMS
-  /// (full scale 1). It is replaced, within about a second of blowing, by what is heard.
+  /// How fast the background is believed to grow, dB a second, 0 to 60. At 1 a fan that is switched on passes for wind
+  /// for ten to thirty seconds, and wind that never pauses for that long passes for a fan. 0: as calibrated, for ever.
+  double floor_rise_db_per_second = 1;
+
+  /// Wind 1 before any blowing was heard: this RMS of the band, full scale 1, 1e-6 to 8. A second of blowing replaces
+  /// it.
   double first_gust_rms = 0.05;
 };
 
@@ -43,18 +47,19 @@ struct WindFrame {
   std::int64_t index = 0;  ///< frame k covers the sound from k / frame rate to (k + 1) / frame rate
   float rms = 0;           ///< the paper's: plain RMS of all samples in the frame
   float rms_clean = 0;     ///< rms less the background's, not below 0
-  float level = 0;         ///< RMS of the band 100–900 Hz less its background in power
+  float level = 0;         ///< RMS of the band 100–900 Hz, its spectrum levelled, less the background in power
   float speed = 0;         ///< proportional to wind speed; 1 is the 95th percentile while it blows
-  float wind = 0;          ///< speed, let through only while `confidence` says blowing: what a live model is given
-  float confidence = 0;    ///< 0 to 1: this is blowing, not talking
-  float background = 0;    ///< the plain RMS of the background as known at this frame
-  float clipped = 0;       ///< share of samples at full scale, 0 to 1
+  float wind = 0;  ///< speed while it sounds like blowing and stands out of the background, else 0: a model's input
+  float confidence = 0;  ///< 0 to 1: this is blowing, not talking
+  float background = 0;  ///< the plain RMS of the background as known at this frame
+  float clipped = 0;     ///< share of samples at full scale, 0 to 1
 };
 
 /// What a microphone in a room was found to be: kept, it spares the next start the finding.
 struct WindCalibration {
   float background_rms = 0;    ///< plain RMS without wind
-  float background_level = 0;  ///< RMS of the band without wind
+  float background_level = 0;  ///< RMS of the level's band without wind
+  float floor_db = -85;        ///< loudness without wind: power of 100–900 Hz, dB of full scale
   float gust_rms = 0;          ///< RMS of the band at wind 1; 0: not known yet
 };
 

@@ -34,7 +34,7 @@ double begin_of(const AVFormatContext& format, const AVStream& sound) {
 
 // Planar or packed samples of any kind to packed floats, rate and channels unchanged.
 bool start_resampler(SoundTrack& track) {
-  const AVFrame& frame = *track.frame;
+  AVFrame& frame = *track.frame;
   SwrContext* raw = nullptr;
   const auto format = static_cast<AVSampleFormat>(frame.format);
   const int code = swr_alloc_set_opts2(&raw, &frame.ch_layout, AV_SAMPLE_FMT_FLT, frame.sample_rate, &frame.ch_layout,

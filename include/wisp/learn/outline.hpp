@@ -1,0 +1,97 @@
+#pragma once
+// Learning an outline: from recordings of its control points to a model that moves like it.
+//
+// Source: L.-M. Reissell and D. K. Pai (2001), section 3.4: every control point its own ARX system of two outputs,
+// order 4, driven by the wind, its residual fed back as Gaussian noise. Beyond it: wind from both sides, inputs or
+// none, shocks that the control points share (docs/fidelity.md says why), a part held out for judging.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "wisp/base/result.hpp"
+#include "wisp/learn/arx_fit.hpp"
+#include "wisp/learn/outline_figures.hpp"
+#include "wisp/learn/outline_inputs.hpp"
+#include "wisp/model/model.hpp"
+#include "wisp/record/recording.hpp"
+#include "wisp/run/cost.hpp"
+
+namespace wisp {
+
+/// Which control points feed each other.
+enum class OutlineCoupling {
+  kPoint,  ///< every point its own system, as in the paper
+  kBand,   ///< every point hears its neighbours too
+  kFull,   ///< every point hears all others but the last, which mirrors the first about the base
+};
+
+/// What shakes the outline.
+enum class OutlineNoise {
+  kIndependent,  ///< every channel by itself, with its residual's standard deviation: the paper's
+  kResidual,     ///< shared shocks with the residuals' covariance
+  kMatched,      ///< shared shocks under which the whole outline at rest has the recording's covariance
+};
+
+/// How to learn.
+struct OutlineOptions {
+  int order = 4;  ///< lags of outputs and of inputs, 1 to 64; 4 is the paper's, two damped resonances a coordinate
+  int delay = 0;  ///< frames until an input acts, 0 to 1000; 0: in the same frame, the paper's
+  OutlineCoupling coupling = OutlineCoupling::kPoint;  ///< more costs more and did not look better (docs/fidelity.md)
+  std::optional<std::vector<std::string>> inputs;  ///< names; unset: all inputs of the recordings; empty: none, flicker
+  bool one_sided = false;      ///< inputs as they are, no sign and no mirror image: the paper's 192 multiply-adds
+  std::optional<bool> mirror;  ///< learn from the mirror image too; unset: where inputs have signs
+  double holdout = 0.3;        ///< 0 to 0.9: the last part of each recording, kept for judging
+  bool refit = true;           ///< after judging, learn the model that is returned from everything
+  OutlineNoise noise = OutlineNoise::kMatched;
+  int shared_shocks = 6;         ///< 1 to 64: normal numbers a frame; six carry 97 % of what real flames do
+  bool match_variance = true;    ///< scale the noise until every channel at rest has the recording's variance
+  double pixels_per_unit = 0;    ///< 0: each recording's own mean calm height is 1
+  std::uint64_t seed = 1;        ///< of the trial runs
+  std::string name = "outline";  ///< of the model
+};
+
+/// One channel's residual noise, one step ahead, in the model's units.
+struct OutlineResidual {
+  double sd = 0;
+  std::array<double, 2> sd_ci95{};  ///< χ² interval
+};
+
+/// How good the model is.
+struct OutlineSummary {
+  double rate_hz = 0;
+  std::vector<OutlineInput> inputs;
+  std::size_t points = 0;
+  ArxOrders orders;
+  std::size_t rows_learned = 0;            ///< complete rows before the cut, which the judged model was learned from
+  std::size_t rows_held_out = 0;           ///< and after it
+  bool refitted = false;                   ///< whether the returned model was learned from both
+  OutlineFigures learned;                  ///< on what was learned from
+  std::optional<OutlineFigures> held_out;  ///< on what was held out; nothing where that is too short
+  std::vector<OutlineResidual> residuals;  ///< of the returned model, one a channel
+  double fpe = 0;                          ///< of the returned model, mean over rows of V·(1 + d/n)/(1 − d/n)
+  ArxStability stable;
+  Cost cost;
+  double held_share = 0;       ///< of steps in which an output is held at its range, playing freely with noise
+  double shared_variance = 0;  ///< share of the wanted shocks' variance that the shared ones carry, 0 to 1
+  bool variance_matched = false;
+  double pixels_per_unit = 0;  ///< of the first recording
+  std::vector<std::string> warnings;
+  Usable usable;
+};
+
+/// A model of an outline and what to think of it.
+struct OutlineFit {
+  Model model;
+  OutlineSummary summary;
+};
+
+/// Learns a model from recordings of an outline in pixels (outline_units.hpp).
+/// Errors, naming the recording: not an outline, another number of points or other knots than the first, rates that
+/// differ, inputs that it has not, too few rows for the order, options out of range.
+Result<OutlineFit> learn_outline(std::span<const Recording> recordings, const OutlineOptions& options = {});
+
+}  // namespace wisp

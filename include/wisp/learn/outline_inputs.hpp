@@ -1,0 +1,54 @@
+#pragma once
+// What drives an outline: inputs in the model's units, signs, and the mirror image.
+//
+// A wind of 1 is the 95th percentile of the training wind while it blows. Sign is carried as two non-negative inputs,
+// NAME+ and NAME-, so that a linear model does not answer a gust from the right by a flame that grows where a gust from
+// the left makes it shrink.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "wisp/base/result.hpp"
+#include "wisp/learn/outline_units.hpp"
+#include "wisp/record/recording.hpp"
+
+namespace wisp {
+
+/// Below this share of its largest hundredth an input counts as calm: microphones and anemometers are never at 0.
+inline constexpr double kCalmShare = 0.1;
+
+/// One input of an outline.
+struct OutlineInput {
+  std::string name;
+  std::string unit;    ///< of the recording
+  double scale = 1;    ///< the recording's value that is 1 in the model, > 0
+  double lowest = 0;   ///< seen, in the model's units
+  double highest = 0;  ///< seen, in the model's units
+};
+
+/// The 95th percentile of |input| over all rows of all recordings where it is above kCalmShare of its 99th percentile.
+/// Returns the input with its scale and seen range.
+/// Errors: a recording without that channel, no sample, an input that is 0 throughout.
+Result<OutlineInput> scaled_input(std::span<const Recording> recordings, const std::string& name);
+
+/// One byte a row: 1 where every input is calm (all rows where there are no inputs).
+std::vector<std::uint8_t> calm_rows(const Recording& recording, std::span<const OutlineInput> inputs);
+
+/// Names of the regressors that inputs make: NAME, or NAME+ and NAME- where sign is split.
+std::vector<std::string> regressor_names(std::span<const OutlineInput> inputs, bool split_sign);
+
+/// A recording with an input channel for every regressor, in the model's units, in the place of its inputs; missing
+/// samples stay missing.
+///
+/// Precondition: the recording has the inputs.
+Recording with_regressors(const Recording& recording, std::span<const OutlineInput> inputs, bool split_sign);
+
+/// The mirror image of a recording in model units with split regressors: x negated, control points in reverse order
+/// (the base's left is the base's right then), NAME+ and NAME- exchanged.
+///
+/// Precondition: layout is the recording's.
+Recording mirrored(const Recording& recording, const OutlineLayout& layout, std::span<const OutlineInput> inputs);
+
+}  // namespace wisp

@@ -1,0 +1,276 @@
+#include "wisp/learn/outline.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "outline_noise.hpp"
+#include "outline_preparation.hpp"
+#include "outline_verdict.hpp"
+#include "wisp/learn/arx_orders.hpp"
+#include "wisp/learn/outline_synthesis.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr std::size_t kTrialSteps = 100000;  // the verdict is about 1 in 1000: 100 of them
+constexpr std::size_t kLeastHeldOut = 10;    // rows, beside a history, that figures can be made from
+
+std::string text(double value) {
+  std::string out = std::to_string(value);
+  while (out.back() == '0') out.pop_back();
+  if (out.back() == '.') out.pop_back();
+  return out;
+}
+
+Result<void> check_options(const OutlineOptions& options) {
+  const auto refuse = [](const std::string& what, double value, const std::string& range) {
+    return Error{what + " is " + text(value) + ", expected " + range};
+  };
+  if (options.order < 1 || options.order > 64) return refuse("the order", options.order, "1 to 64");
+  if (options.delay < 0 || options.delay > 1000) return refuse("the delay", options.delay, "0 to 1000 frames");
+  if (!(options.holdout >= 0 && options.holdout <= 0.9))
+    return refuse("the held-out share", options.holdout, "0 to 0.9");
+  if (options.shared_shocks < 1 || options.shared_shocks > 64) {
+    return refuse("the number of shared shocks", options.shared_shocks, "1 to 64");
+  }
+  if (!(options.pixels_per_unit >= 0 && std::isfinite(options.pixels_per_unit))) {
+    return refuse("the scale", options.pixels_per_unit, "0 or more pixels per unit");
+  }
+  return {};
+}
+
+ArxOrders outline_orders(const OutlineOptions& options, const PreparedOutlines& prepared) {
+  UniformOrders uniform;
+  uniform.outputs = static_cast<int>(prepared.channels.outputs.size());
+  uniform.inputs = static_cast<int>(prepared.channels.inputs.size());
+  uniform.na = uniform.nb = options.order;
+  uniform.nk = options.delay;
+  uniform.group = 2;
+  switch (options.coupling) {
+    case OutlineCoupling::kPoint:
+      uniform.coupling = Coupling::kDiagonal;
+      break;
+    case OutlineCoupling::kBand:
+      uniform.coupling = Coupling::kBand;
+      break;
+    case OutlineCoupling::kFull:
+      uniform.coupling = Coupling::kFull;
+      break;
+  }
+  ArxOrders orders = make_orders(uniform);
+  if (options.coupling != OutlineCoupling::kFull) return orders;
+  // The last point is the first one mirrored about the base: together they would be a regressor twice.
+  for (int i = 0; i < uniform.outputs; ++i) {
+    for (int j = uniform.outputs - 2; j < uniform.outputs; ++j) orders.na(i, j) = 0;
+  }
+  return orders;
+}
+
+bool mirror_wanted(const OutlineOptions& options, const PreparedOutlines& prepared) {
+  return options.mirror.value_or(prepared.split_sign);
+}
+
+// Fits rows and, where wanted, their mirror images.
+Result<ArxFit> fit(std::span<const Recording> recordings, const PreparedOutlines& prepared,
+                   const OutlineOptions& options) {
+  const ArxOptions arx{.orders = outline_orders(options, prepared)};
+  if (!mirror_wanted(options, prepared)) return fit_arx(recordings, prepared.channels, arx);
+  return fit_arx(with_mirror_images(recordings, prepared), prepared.channels, arx);
+}
+
+// The covariance of what the inputs alone leave unexplained: the outline's flicker.
+Result<Covariance> flicker_covariance(const ArxModel& model, std::span<const Recording> recordings,
+                                      const ChannelChoice& channels) {
+  const auto ny = static_cast<Eigen::Index>(channels.outputs.size());
+  Covariance sum = Covariance::Zero(ny, ny);
+  double rows = 0;
+  for (const Recording& recording : recordings) {
+    const auto simulated = predict(model, recording, channels, {.steps = kFreeRun, .initial = InitialState::kZero});
+    if (!simulated) return simulated.error();
+    Eigen::VectorXd error(ny);
+    for (std::size_t row = 0; row < recording.rows(); ++row) {
+      for (Eigen::Index i = 0; i < ny; ++i) {
+        const auto& measured = recording.channels[*find_channel(recording, channels.outputs[i])].samples;
+        error[i] = measured[row] - (*simulated)[i][row];
+      }
+      if (!error.allFinite()) continue;
+      sum += error * error.transpose();
+      ++rows;
+    }
+  }
+  return Covariance(sum / std::max(1.0, rows));
+}
+
+Covariance residual_covariance(const ArxFit& fitted) {
+  const auto ny = static_cast<Eigen::Index>(fitted.model.noise.sd.size());
+  Covariance out(ny, ny);
+  for (Eigen::Index i = 0; i < ny; ++i) {
+    for (Eigen::Index j = 0; j < ny; ++j) out(i, j) = fitted.summary.noise_covariance[i * ny + j];
+  }
+  return out;
+}
+
+void set_shared(const Eigen::MatrixXd& factor, ResidualNoise& noise) {
+  std::fill(noise.sd.begin(), noise.sd.end(), 0.0);
+  noise.rank = static_cast<int>(factor.cols());
+  noise.mixing.clear();
+  for (Eigen::Index i = 0; i < factor.rows(); ++i) {
+    for (Eigen::Index r = 0; r < factor.cols(); ++r) noise.mixing.push_back(factor(i, r));
+  }
+}
+
+double carried(const Covariance& shocks, const Eigen::MatrixXd& factor) {
+  double share = 0;
+  double channels = 0;
+  for (Eigen::Index i = 0; i < shocks.rows(); ++i) {
+    if (!(shocks(i, i) > 0)) continue;
+    share += std::min(1.0, factor.row(i).squaredNorm() / shocks(i, i));
+    ++channels;
+  }
+  return channels > 0 ? share / channels : 1;
+}
+
+// Gives the model the noise that was asked for.
+Result<void> set_noise(const ArxFit& fitted, std::span<const Recording> recordings, const ChannelChoice& channels,
+                       const OutlineOptions& options, ArxModel& model, OutlineSummary& summary) {
+  const auto wanted = flicker_covariance(model, recordings, channels);
+  if (!wanted) return wanted.error();
+  summary.shared_variance = 1;
+  Eigen::MatrixXd factor;
+  if (options.noise == OutlineNoise::kIndependent) {
+    factor = Eigen::Map<const Eigen::VectorXd>(model.noise.sd.data(), wanted->rows()).asDiagonal();
+  } else {
+    const Covariance shocks =
+        options.noise == OutlineNoise::kMatched ? shocks_for(model, *wanted) : residual_covariance(fitted);
+    factor = shared_factor(shocks, options.shared_shocks);
+    summary.shared_variance = carried(shocks, factor);
+  }
+  if (options.match_variance) summary.variance_matched = scale_to_variance(model, *wanted, factor);
+  if (options.noise != OutlineNoise::kIndependent) {
+    set_shared(factor, model.noise);
+    return {};
+  }
+  for (std::size_t i = 0; i < model.noise.sd.size(); ++i) model.noise.sd[i] = factor(i, i);
+  return {};
+}
+
+// What was seen, and at least three standard deviations of it about the mean: a short recording has not seen all of its
+// own flicker.
+Output output_of(const std::string& name, std::span<const Recording> recordings) {
+  Output out{name, "", std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  double count = 0;
+  double sum = 0;
+  double square = 0;
+  for (const Recording& recording : recordings) {
+    for (double value : recording.channels[*find_channel(recording, name)].samples) {
+      if (std::isnan(value)) continue;
+      out.lowest = std::min(out.lowest, value);
+      out.highest = std::max(out.highest, value);
+      sum += value;
+      square += value * value;
+      ++count;
+    }
+  }
+  const double mean = sum / count;
+  const double sd = std::sqrt(std::max(0.0, square / count - mean * mean));
+  out.lowest = std::min(out.lowest, mean - 3 * sd);
+  out.highest = std::max(out.highest, mean + 3 * sd);
+  return out;
+}
+
+Input input_of(const OutlineInput& input, bool split_sign) {
+  const double strongest = std::max(std::abs(input.lowest), std::abs(input.highest));
+  return {input.name, text(input.scale) + (input.unit.empty() ? "" : " " + input.unit),
+          split_sign ? -strongest : input.lowest, split_sign ? strongest : input.highest,
+          split_sign ? InputShape::kSplitSign : InputShape::kLinear};
+}
+
+Model model_of(const ArxModel& arx, const PreparedOutlines& prepared, const OutlineOptions& options) {
+  Model model;
+  model.name = options.name;
+  model.rate_hz = prepared.recordings.front().rate_hz;
+  for (const OutlineInput& input : prepared.inputs) model.inputs.push_back(input_of(input, prepared.split_sign));
+  const auto seen =
+      mirror_wanted(options, prepared) ? with_mirror_images(prepared.recordings, prepared) : prepared.recordings;
+  for (const std::string& name : prepared.channels.outputs) model.outputs.push_back(output_of(name, seen));
+  model.dynamics = arx;
+  model.view = OutlineView{prepared.layout.knots, 0, prepared.pixels_per_unit.front()};
+  return model;
+}
+
+// Judges a model that has seen only the first part of every recording.
+Result<ArxFit> judge(const PreparedOutlines& prepared, const OutlineOptions& options, OutlineSummary& summary) {
+  const OutlineParts parts = hold_out(prepared.recordings, prepared.channels, options.holdout);
+  for (const Recording& part : parts.learned) summary.rows_learned += complete_rows(part, prepared.channels);
+  for (const Recording& part : parts.held_out) summary.rows_held_out += complete_rows(part, prepared.channels);
+  auto fitted = fit(parts.learned, prepared, options);
+  if (!fitted) return fitted;
+  auto learned = outline_figures(fitted->model, parts.learned, prepared.channels, prepared.layout);
+  if (!learned) return learned.error();
+  summary.learned = *std::move(learned);
+  const auto history = static_cast<std::size_t>(fitted->model.orders.history());
+  if (summary.rows_held_out < kLeastHeldOut + history) return fitted;
+  auto held_out = outline_figures(fitted->model, parts.held_out, prepared.channels, prepared.layout);
+  if (held_out) summary.held_out = *std::move(held_out);
+  return fitted;
+}
+
+void take_fit(const ArxFit& fitted, OutlineSummary& summary) {
+  summary.orders = fitted.model.orders;
+  summary.stable = fitted.summary.stable;
+  summary.warnings = fitted.summary.warnings;
+  for (double fpe : fitted.summary.row_fpe) {
+    summary.fpe += fpe / static_cast<double>(fitted.summary.row_fpe.size());
+  }
+  for (std::size_t i = 0; i < fitted.model.noise.sd.size(); ++i) {
+    summary.residuals.push_back({fitted.model.noise.sd[i], fitted.model.noise.sd_ci95[i]});
+  }
+}
+
+// What it costs, and whether it stays in its range when it plays along the first recording's inputs.
+Result<void> try_out(const Model& model, const OutlineOptions& options, const Recording& first,
+                     OutlineSummary& summary) {
+  const auto cost = count_operations(model);
+  if (!cost) return cost.error();
+  summary.cost = *cost;
+  const Recording driving = with_regressors(first, summary.inputs, false);
+  const auto held = held_share(model, kTrialSteps, {.seed = options.seed, .input = &driving});
+  if (!held) return held.error();
+  summary.held_share = *held;
+  return {};
+}
+
+}  // namespace
+
+Result<OutlineFit> learn_outline(std::span<const Recording> recordings, const OutlineOptions& options) {
+  if (auto ok = check_options(options); !ok) return ok.error();
+  auto prepared = prepare_outlines(recordings, {options.inputs, !options.one_sided, options.pixels_per_unit});
+  if (!prepared) return prepared.error();
+  OutlineFit out;
+  OutlineSummary& summary = out.summary;
+  auto fitted = judge(*prepared, options, summary);
+  if (!fitted) return fitted.error();
+  if (options.refit && summary.rows_held_out > 0) {
+    fitted = fit(prepared->recordings, *prepared, options);
+    if (!fitted) return fitted.error();
+    summary.refitted = true;
+  }
+  summary.rate_hz = prepared->recordings.front().rate_hz;
+  summary.inputs = prepared->inputs;
+  summary.points = prepared->layout.points;
+  summary.pixels_per_unit = prepared->pixels_per_unit.front();
+  take_fit(*fitted, summary);
+  ArxModel arx = fitted->model;
+  const auto seen = hold_out(prepared->recordings, prepared->channels, summary.refitted ? 0 : options.holdout).learned;
+  const auto shaken = mirror_wanted(options, *prepared) ? with_mirror_images(seen, *prepared) : seen;
+  if (auto ok = set_noise(*fitted, shaken, prepared->channels, options, arx, summary); !ok) return ok.error();
+  out.model = model_of(arx, *prepared, options);
+  if (auto ok = try_out(out.model, options, recordings.front(), summary); !ok) return ok.error();
+  summary.usable = outline_verdict(fitted->summary, summary);
+  out.model.provenance = outline_provenance(recordings, options, summary);
+  return out;
+}
+
+}  // namespace wisp

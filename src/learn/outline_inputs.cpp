@@ -1,0 +1,123 @@
+#include "wisp/learn/outline_inputs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wisp {
+namespace {
+
+constexpr double kWindOne = 0.95;
+constexpr double kLargest = 0.99;
+
+double percentile(std::vector<double>& values, double share) {
+  const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
+  return values[at];
+}
+
+struct Strengths {
+  std::vector<double> all;  // |sample|, missing ones left out
+  double lowest = 0;
+  double highest = 0;
+  std::string unit;
+};
+
+Result<Strengths> strengths(std::span<const Recording> recordings, const std::string& name) {
+  Strengths out;
+  for (const Recording& recording : recordings) {
+    const auto index = find_channel(recording, name);
+    if (!index) return Error{recording.source + ": there is no input " + name + ", which the others have"};
+    out.unit = recording.channels[*index].unit;
+    for (double value : recording.channels[*index].samples) {
+      if (std::isnan(value)) continue;
+      out.all.push_back(std::abs(value));
+      out.lowest = std::min(out.lowest, value);
+      out.highest = std::max(out.highest, value);
+    }
+  }
+  return out;
+}
+
+// Below this an input is calm: its scale stands for its 95th percentile while it blows, which is near enough to the
+// largest hundredth for the same threshold.
+double calm_below(const OutlineInput& input) { return kCalmShare * input.scale; }
+
+}  // namespace
+
+Result<OutlineInput> scaled_input(std::span<const Recording> recordings, const std::string& name) {
+  auto found = strengths(recordings, name);
+  if (!found) return found.error();
+  const std::string& source = recordings.front().source;
+  if (found->all.empty()) return Error{source + ": its input " + name + " has no sample"};
+  const double calm = kCalmShare * percentile(found->all, kLargest);
+  std::erase_if(found->all, [&](double strength) { return !(strength > calm); });
+  if (found->all.empty()) {
+    return Error{source + ": its input " + name + " is 0 throughout; learn without inputs instead"};
+  }
+  OutlineInput input{name, found->unit, percentile(found->all, kWindOne), 0, 0};
+  input.lowest = found->lowest / input.scale;
+  input.highest = found->highest / input.scale;
+  return input;
+}
+
+std::vector<std::uint8_t> calm_rows(const Recording& recording, std::span<const OutlineInput> inputs) {
+  std::vector<std::uint8_t> calm(recording.rows(), 1);
+  for (const OutlineInput& input : inputs) {
+    const auto index = find_channel(recording, input.name);
+    if (!index) continue;
+    const auto& samples = recording.channels[*index].samples;
+    for (std::size_t row = 0; row < calm.size(); ++row) {
+      if (!(std::abs(samples[row]) <= calm_below(input))) calm[row] = 0;
+    }
+  }
+  return calm;
+}
+
+std::vector<std::string> regressor_names(std::span<const OutlineInput> inputs, bool split_sign) {
+  std::vector<std::string> names;
+  for (const OutlineInput& input : inputs) {
+    names.push_back(split_sign ? input.name + "+" : input.name);
+    if (split_sign) names.push_back(input.name + "-");
+  }
+  return names;
+}
+
+Recording with_regressors(const Recording& recording, std::span<const OutlineInput> inputs, bool split_sign) {
+  Recording out = recording;
+  std::erase_if(out.channels, [](const Channel& channel) { return channel.role == Role::kInput; });
+  for (const OutlineInput& input : inputs) {
+    std::vector<double> samples = recording.channels[*find_channel(recording, input.name)].samples;
+    for (double& value : samples) value /= input.scale;
+    if (!split_sign) {
+      out.channels.push_back({input.name, "", Role::kInput, std::move(samples)});
+      continue;
+    }
+    Channel plus{input.name + "+", "", Role::kInput, samples};
+    Channel minus{input.name + "-", "", Role::kInput, std::move(samples)};
+    for (double& value : plus.samples) value = value < 0 ? 0 : value;
+    for (double& value : minus.samples) value = value > 0 ? 0 : -value;
+    out.channels.push_back(std::move(plus));
+    out.channels.push_back(std::move(minus));
+  }
+  return out;
+}
+
+Recording mirrored(const Recording& recording, const OutlineLayout& layout, std::span<const OutlineInput> inputs) {
+  Recording out = recording;
+  out.source += " (mirrored)";
+  for (std::size_t p = 0; p < layout.points; ++p) {
+    const std::size_t other = 2 * (layout.points - 1 - p);
+    auto& x = out.channels[layout.outputs[2 * p]].samples;
+    x = recording.channels[layout.outputs[other]].samples;
+    for (double& value : x) value = -value;
+    out.channels[layout.outputs[2 * p + 1]].samples = recording.channels[layout.outputs[other + 1]].samples;
+  }
+  for (const OutlineInput& input : inputs) {
+    const auto plus = find_channel(out, input.name + "+");
+    const auto minus = find_channel(out, input.name + "-");
+    if (plus && minus) std::swap(out.channels[*plus].samples, out.channels[*minus].samples);
+  }
+  return out;
+}
+
+}  // namespace wisp

@@ -1,0 +1,136 @@
+#include "outline_preparation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wisp {
+namespace {
+
+// Fewer calm rows than this say little about the calm height; then all rows are taken.
+constexpr double kCalmSeconds = 0.5;
+
+std::vector<std::string> input_names(const Recording& recording) {
+  std::vector<std::string> names;
+  for (std::size_t c : channels_with_role(recording, Role::kInput)) names.push_back(recording.channels[c].name);
+  return names;
+}
+
+Result<double> own_scale(const Recording& recording, const OutlineLayout& layout,
+                         std::span<const OutlineInput> inputs) {
+  auto calm = calm_rows(recording, inputs);
+  const auto count = static_cast<double>(std::count(calm.begin(), calm.end(), std::uint8_t{1}));
+  if (count < kCalmSeconds * recording.rate_hz) calm.clear();
+  const double height = mean_height_pixels(recording, layout, calm);
+  if (height > 0) return height;
+  return Error{recording.source + ": has no row with an outline"};
+}
+
+ChannelChoice channel_choice(const PreparedOutlines& prepared) {
+  return {regressor_names(prepared.inputs, prepared.split_sign), outline_outputs(prepared.layout.points)};
+}
+
+Result<void> add(const Recording& recording, double pixels_per_unit, PreparedOutlines& prepared) {
+  for (const OutlineInput& input : prepared.inputs) {
+    if (!find_channel(recording, input.name)) {
+      return Error{recording.source + ": there is no input " + input.name + ", which the model is driven by"};
+    }
+  }
+  const auto own = own_scale(recording, prepared.layout, prepared.inputs);
+  if (!own) return own.error();
+  const double scale = pixels_per_unit > 0 ? pixels_per_unit : *own;
+  prepared.pixels_per_unit.push_back(scale);
+  prepared.recordings.push_back(
+      with_regressors(to_model_units(recording, prepared.layout, scale), prepared.inputs, prepared.split_sign));
+  return {};
+}
+
+std::vector<const std::vector<double>*> samples_of(const Recording& recording, const ChannelChoice& channels) {
+  std::vector<const std::vector<double>*> out;
+  for (const auto* names : {&channels.outputs, &channels.inputs}) {
+    for (const std::string& name : *names) out.push_back(&recording.channels[*find_channel(recording, name)].samples);
+  }
+  return out;
+}
+
+bool complete(const std::vector<const std::vector<double>*>& samples, std::size_t row) {
+  return std::none_of(samples.begin(), samples.end(), [&](const auto* channel) { return std::isnan((*channel)[row]); });
+}
+
+// The row before which `count` complete rows lie.
+std::size_t row_after(const Recording& recording, const ChannelChoice& channels, std::size_t count) {
+  const auto samples = samples_of(recording, channels);
+  std::size_t row = 0;
+  for (; row < recording.rows() && count > 0; ++row) count -= complete(samples, row) ? 1 : 0;
+  return row;
+}
+
+std::size_t near_episode_boundary(const Recording& recording, std::size_t cut) {
+  std::size_t best = cut;
+  std::size_t nearest = recording.rows() / 10 + 1;
+  for (const Episode& episode : episodes(recording)) {
+    if (episode.begin == 0) continue;
+    const std::size_t away = episode.begin > cut ? episode.begin - cut : cut - episode.begin;
+    if (away >= nearest) continue;
+    nearest = away;
+    best = episode.begin;
+  }
+  return best;
+}
+
+}  // namespace
+
+Result<PreparedOutlines> prepare_outlines(std::span<const Recording> recordings, const PreparationOptions& options) {
+  auto layout = common_layout(recordings);
+  if (!layout) return layout.error();
+  PreparedOutlines prepared;
+  prepared.layout = *std::move(layout);
+  for (const std::string& name : options.inputs ? *options.inputs : input_names(recordings.front())) {
+    auto input = scaled_input(recordings, name);
+    if (!input) return input.error();
+    prepared.inputs.push_back(*std::move(input));
+  }
+  prepared.split_sign = options.split_sign && !prepared.inputs.empty();
+  prepared.channels = channel_choice(prepared);
+  for (const Recording& recording : recordings) {
+    if (auto ok = add(recording, options.pixels_per_unit, prepared); !ok) return ok.error();
+  }
+  return prepared;
+}
+
+Result<PreparedOutlines> prepare_outline(const Recording& recording, const OutlineLayout& layout,
+                                         std::vector<OutlineInput> inputs, bool split_sign, double pixels_per_unit) {
+  PreparedOutlines prepared;
+  prepared.layout = layout;
+  prepared.inputs = std::move(inputs);
+  prepared.split_sign = split_sign && !prepared.inputs.empty();
+  prepared.channels = channel_choice(prepared);
+  if (auto ok = add(recording, pixels_per_unit, prepared); !ok) return ok.error();
+  return prepared;
+}
+
+std::size_t complete_rows(const Recording& recording, const ChannelChoice& channels) {
+  const auto samples = samples_of(recording, channels);
+  std::size_t count = 0;
+  for (std::size_t row = 0; row < recording.rows(); ++row) count += complete(samples, row) ? 1 : 0;
+  return count;
+}
+
+OutlineParts hold_out(std::span<const Recording> recordings, const ChannelChoice& channels, double share) {
+  OutlineParts parts;
+  for (const Recording& recording : recordings) {
+    const auto kept = (1 - share) * static_cast<double>(complete_rows(recording, channels));
+    const std::size_t in_time = row_after(recording, channels, static_cast<std::size_t>(std::lround(kept)));
+    const std::size_t cut = share > 0 ? near_episode_boundary(recording, in_time) : recording.rows();
+    parts.learned.push_back(slice(recording, 0, cut));
+    if (cut < recording.rows()) parts.held_out.push_back(slice(recording, cut, recording.rows()));
+  }
+  return parts;
+}
+
+std::vector<Recording> with_mirror_images(std::span<const Recording> recordings, const PreparedOutlines& prepared) {
+  std::vector<Recording> out(recordings.begin(), recordings.end());
+  for (const Recording& recording : recordings) out.push_back(mirrored(recording, prepared.layout, prepared.inputs));
+  return out;
+}
+
+}  // namespace wisp

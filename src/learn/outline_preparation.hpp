@@ -1,0 +1,56 @@
+#pragma once
+// Recordings of outlines as the estimator wants them.
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "wisp/learn/channel_choice.hpp"
+#include "wisp/learn/outline_inputs.hpp"
+#include "wisp/learn/outline_units.hpp"
+
+namespace wisp {
+
+/// What decides how a recording is prepared.
+struct PreparationOptions {
+  std::optional<std::vector<std::string>> inputs;  ///< unset: all inputs of the first recording
+  bool split_sign = true;
+  double pixels_per_unit = 0;  ///< 0: each recording's own mean calm height is 1
+};
+
+/// Recordings in the model's units, with its regressors as inputs.
+struct PreparedOutlines {
+  OutlineLayout layout;
+  std::vector<OutlineInput> inputs;
+  bool split_sign = false;  ///< false where there are no inputs
+  ChannelChoice channels;
+  std::vector<double> pixels_per_unit;  ///< one a recording
+  std::vector<Recording> recordings;
+};
+
+/// Errors: as common_layout() and scaled_input(); a recording without an outline in any row.
+Result<PreparedOutlines> prepare_outlines(std::span<const Recording> recordings, const PreparationOptions& options);
+
+/// One recording, for inputs whose scale is known.
+/// Errors: an input that it has not; no outline in any row.
+Result<PreparedOutlines> prepare_outline(const Recording& recording, const OutlineLayout& layout,
+                                         std::vector<OutlineInput> inputs, bool split_sign, double pixels_per_unit);
+
+/// Rows with all outputs and all regressors.
+std::size_t complete_rows(const Recording& recording, const ChannelChoice& channels);
+
+/// Both sides of the cuts.
+struct OutlineParts {
+  std::vector<Recording> learned;
+  std::vector<Recording> held_out;
+};
+
+/// Cuts the last `share` off every recording: at the boundary of episodes nearest to there, where one lies within a
+/// tenth of the recording, and otherwise in time. The last rows without an outline do not count.
+OutlineParts hold_out(std::span<const Recording> recordings, const ChannelChoice& channels, double share);
+
+/// The recordings and after them their mirror images.
+std::vector<Recording> with_mirror_images(std::span<const Recording> recordings, const PreparedOutlines& prepared);
+
+}  // namespace wisp

@@ -1,0 +1,110 @@
+#include "wisp/learn/outline_synthesis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "wisp/run/bank.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr int kCrowd = 100;
+
+// The inputs' samples, one row after the other; empty where the model is driven by nothing.
+Result<std::vector<std::vector<float>>> input_rows(const Model& model, const Recording* input) {
+  std::vector<std::vector<float>> rows;
+  if (input == nullptr || model.inputs.empty()) return rows;
+  rows.assign(input->rows(), std::vector<float>(model.inputs.size()));
+  for (std::size_t k = 0; k < model.inputs.size(); ++k) {
+    const auto channel = find_channel(*input, model.inputs[k].name);
+    if (!channel) return Error{input->source + ": there is no input " + model.inputs[k].name};
+    const auto& samples = input->channels[*channel].samples;
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      // A missing sample is taken as calm: what is synthesized must have some input everywhere.
+      rows[row][k] = std::isnan(samples[row]) ? 0.0F : static_cast<float>(samples[row]);
+    }
+  }
+  return rows;
+}
+
+std::size_t warm_up_steps(const Model& model, const SynthesisOptions& options) {
+  return static_cast<std::size_t>(std::ceil(options.warm_up_seconds * model.rate_hz));
+}
+
+// Steps a bank along the inputs. Row 0 acts on the first step after the warm-up.
+class Player {
+ public:
+  Player(Bank& bank, const std::vector<std::vector<float>>& rows, std::size_t warm_up)
+      : bank_(bank), rows_(rows), at_(rows.empty() ? 0 : (rows.size() - warm_up % rows.size()) % rows.size()) {}
+
+  void step() {
+    if (!rows_.empty()) {
+      bank_.set_common_inputs(rows_[at_]);
+      at_ = (at_ + 1) % rows_.size();
+    }
+    bank_.step();
+  }
+
+ private:
+  Bank& bank_;
+  const std::vector<std::vector<float>>& rows_;
+  std::size_t at_;
+};
+
+Recording empty_recording(const Model& model, std::size_t rows) {
+  Recording out;
+  out.source = model.name + " (synthesized)";
+  out.rate_hz = model.rate_hz;
+  for (const Output& output : model.outputs) {
+    out.channels.push_back({output.name, output.unit, Role::kOutput, {}});
+    out.channels.back().samples.reserve(rows);
+  }
+  return out;
+}
+
+double share(const Bank::Held& before, const Bank::Held& after) {
+  const std::uint64_t steps = after.steps - before.steps;
+  return steps == 0 ? 0 : static_cast<double>(after.held - before.held) / static_cast<double>(steps);
+}
+
+}  // namespace
+
+Result<Synthesis> synthesize(const Model& model, const SynthesisOptions& options) {
+  const auto inputs = input_rows(model, options.input);
+  if (!inputs) return inputs.error();
+  auto bank = Bank::create(model, {.capacity = 1, .seed = options.seed});
+  if (!bank) return bank.error();
+  bank->set_noise(options.noise);
+  const InstanceId id = bank->spawn();
+  const std::size_t warm_up = warm_up_steps(model, options);
+  Player player(*bank, *inputs, warm_up);
+  for (std::size_t t = 0; t < warm_up; ++t) player.step();
+  const Bank::Held before = bank->held();
+  const std::size_t rows = options.rows > 0 ? options.rows : inputs->size();
+  Synthesis out{empty_recording(model, rows), 0};
+  std::vector<float> values(model.outputs.size());
+  for (std::size_t t = 0; t < rows; ++t) {
+    player.step();
+    bank->outputs(id, values);
+    for (std::size_t k = 0; k < values.size(); ++k) out.recording.channels[k].samples.push_back(values[k]);
+  }
+  out.held_share = share(before, bank->held());
+  return out;
+}
+
+Result<double> held_share(const Model& model, std::size_t steps, const SynthesisOptions& options) {
+  const auto inputs = input_rows(model, options.input);
+  if (!inputs) return inputs.error();
+  auto bank = Bank::create(model, {.capacity = kCrowd, .seed = options.seed});
+  if (!bank) return bank.error();
+  bank->set_noise(options.noise);
+  for (int k = 0; k < kCrowd; ++k) (void)bank->spawn();
+  const std::size_t warm_up = warm_up_steps(model, options);
+  Player player(*bank, *inputs, warm_up);
+  for (std::size_t t = 0; t < warm_up; ++t) player.step();
+  const Bank::Held before = bank->held();
+  for (std::size_t t = 0; t < steps; t += kCrowd) player.step();
+  return share(before, bank->held());
+}
+
+}  // namespace wisp

@@ -1,0 +1,140 @@
+#include "outline_verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace wisp {
+namespace {
+
+constexpr std::size_t kLeastRows = 50;
+constexpr double kMostHeld = 1e-3;
+constexpr double kMostLossGrown = 1.2;  // of a repaired model, in variance: beyond it is another model
+
+std::string rounded(double value, int digits) {
+  char out[64];
+  std::snprintf(out, sizeof out, "%.*f", digits, value);
+  return out;
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// The median channel's fit for a number of steps.
+double typical_fit(const OutlineFigures& figures, int steps) {
+  const auto at = std::find(figures.steps.begin(), figures.steps.end(), steps) - figures.steps.begin();
+  std::vector<double> fits;
+  for (const OutlineChannelFigures& channel : figures.channels) fits.push_back(channel.fit_percent[at]);
+  return median(std::move(fits));
+}
+
+double tip_fit(const OutlineFigures& figures, int steps) {
+  const auto at = std::find(figures.steps.begin(), figures.steps.end(), steps) - figures.steps.begin();
+  return figures.tip_fit_percent[at];
+}
+
+const char* coupling_name(OutlineCoupling coupling) {
+  switch (coupling) {
+    case OutlineCoupling::kPoint:
+      return "point";
+    case OutlineCoupling::kBand:
+      return "band";
+    case OutlineCoupling::kFull:
+      return "full";
+  }
+  return "";
+}
+
+const char* noise_name(OutlineNoise noise) {
+  switch (noise) {
+    case OutlineNoise::kIndependent:
+      return "independent";
+    case OutlineNoise::kResidual:
+      return "residual";
+    case OutlineNoise::kMatched:
+      return "matched";
+  }
+  return "";
+}
+
+std::vector<Note> notes(const OutlineOptions& options) {
+  return {{"order", std::to_string(options.order)},
+          {"delay", std::to_string(options.delay)},
+          {"coupling", coupling_name(options.coupling)},
+          {"one_sided", options.one_sided ? "yes" : "no"},
+          {"holdout", rounded(options.holdout, 3)},
+          {"refit", options.refit ? "yes" : "no"},
+          {"noise", noise_name(options.noise)},
+          {"shared_shocks", std::to_string(options.shared_shocks)},
+          {"match_variance", options.match_variance ? "yes" : "no"}};
+}
+
+void add_channel_figures(const OutlineFigures& judged, const OutlineSummary& summary, std::vector<Figure>& figures) {
+  for (std::size_t i = 0; i < summary.residuals.size(); ++i) {
+    figures.push_back({"residual_sd." + judged.channels[i].name, summary.residuals[i].sd});
+  }
+}
+
+}  // namespace
+
+Usable outline_verdict(const ArxSummary& fit, const OutlineSummary& summary) {
+  const std::size_t rows = summary.rows_learned + (summary.refitted ? summary.rows_held_out : 0);
+  const OutlineFigures& judged = summary.held_out ? *summary.held_out : summary.learned;
+  if (!fit.usable.verdict) return fit.usable;
+  if (rows < kLeastRows) {
+    return {false, "learned from " + std::to_string(rows) + " frames; at least " + std::to_string(kLeastRows) +
+                       " are needed to tell flicker from chance: record longer"};
+  }
+  if (fit.stable.changed && fit.stable.loss_factor > kMostLossGrown) {
+    return {false, "the estimate was unstable (radius " + rounded(fit.stable.estimated, 4) +
+                       ") and became another model by being made stable: try a lower order or more frames"};
+  }
+  if (summary.held_share > kMostHeld) {
+    return {false, "its outputs are held at their range in " + rounded(1000 * summary.held_share, 1) +
+                       " of 1000 frames, more than 1: record longer or try a lower order"};
+  }
+  if (typical_fit(judged, 1) <= 0) {
+    return {false, "it predicts the next frame no better than the mean does (median fit " +
+                       rounded(typical_fit(judged, 1), 1) + " %)"};
+  }
+  if (!summary.inputs.empty() && tip_fit(judged, kFreeRun) <= 0) {
+    return {false, "simulated from its inputs alone the tip is followed no better than by its mean (fit " +
+                       rounded(tip_fit(judged, kFreeRun), 1) + " %): learn without inputs, or check their timing"};
+  }
+  std::string reason =
+      "predicts the next frame of held-out data with a median fit of " + rounded(typical_fit(judged, 1), 1) + " %";
+  if (fit.stable.changed) reason += "; the estimate was unstable and was made stable at hardly any cost";
+  return {true, reason};
+}
+
+Provenance outline_provenance(std::span<const Recording> recordings, const OutlineOptions& options,
+                              const OutlineSummary& summary) {
+  Provenance out;
+  for (const Recording& recording : recordings) out.sources.push_back(recording.source);
+  out.options = notes(options);
+  const OutlineFigures& judged = summary.held_out ? *summary.held_out : summary.learned;
+  out.figures = {{"fpe", summary.fpe},
+                 {"radius", summary.stable.radius},
+                 {"rows_learned", static_cast<double>(summary.rows_learned)},
+                 {"rows_held_out", static_cast<double>(summary.rows_held_out)},
+                 {"held_share", summary.held_share},
+                 {"pixels_per_unit", summary.pixels_per_unit}};
+  for (const OutlineInput& input : summary.inputs) out.figures.push_back({input_scale_figure(input.name), input.scale});
+  for (std::size_t k = 0; k < judged.steps.size(); ++k) {
+    const std::string steps = judged.steps[k] == kFreeRun ? "inf" : std::to_string(judged.steps[k]);
+    out.figures.push_back({"fit." + steps, typical_fit(judged, judged.steps[k])});
+    out.figures.push_back({"tip_fit." + steps, judged.tip_fit_percent[k]});
+    out.figures.push_back({"overlap." + steps, judged.overlap[k]});
+  }
+  add_channel_figures(judged, summary, out.figures);
+  out.usable = summary.usable;
+  return out;
+}
+
+std::string input_scale_figure(const std::string& input) { return "input_scale." + input; }
+
+}  // namespace wisp

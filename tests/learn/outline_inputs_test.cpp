@@ -1,0 +1,106 @@
+#include "wisp/learn/outline_inputs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace wisp {
+namespace {
+
+Recording windy(std::vector<double> wind) {
+  Recording recording;
+  recording.source = "windy.csv";
+  recording.rate_hz = 60;
+  const std::size_t rows = wind.size();
+  for (const std::string& name : outline_outputs(4)) {
+    recording.channels.push_back({name, "", Role::kOutput, std::vector<double>(rows, 0.0)});
+  }
+  recording.channels.push_back({"wind", "m/s", Role::kInput, std::move(wind)});
+  return recording;
+}
+
+const std::vector<double>& samples(const Recording& recording, const char* name) {
+  return recording.channels[*find_channel(recording, name)].samples;
+}
+
+TEST(OutlineInputs, WindOneIsThe95thPercentileWhileItBlows) {
+  std::vector<double> wind(1000, 0.01);  // hiss, below a tenth of the gusts
+  for (int k = 1; k <= 100; ++k) wind.push_back(0.5 + 0.01 * k);
+  const auto input = scaled_input(std::vector{windy(wind)}, "wind");
+  ASSERT_TRUE(input);
+  EXPECT_NEAR(input->scale, 1.45, 0.011);
+  EXPECT_NEAR(input->highest, 1.5 / 1.45, 0.01);
+  EXPECT_EQ(input->lowest, 0);
+  EXPECT_EQ(input->unit, "m/s");
+}
+
+TEST(OutlineInputs, WindFromBothSidesCountsByItsStrength) {
+  std::vector<double> wind;
+  for (int k = 0; k < 100; ++k) wind.push_back(k % 2 == 0 ? 2 : -1);
+  const auto input = scaled_input(std::vector{windy(wind)}, "wind");
+  EXPECT_DOUBLE_EQ(input->scale, 2);
+  EXPECT_DOUBLE_EQ(input->lowest, -0.5);
+}
+
+TEST(OutlineInputs, AStillInputIsRefused) {
+  const auto input = scaled_input(std::vector{windy({0, 0, 0})}, "wind");
+  ASSERT_FALSE(input);
+  EXPECT_EQ(input.error().message, "windy.csv: its input wind is 0 throughout; learn without inputs instead");
+}
+
+TEST(OutlineInputs, AMissingInputNamesTheRecording) {
+  EXPECT_EQ(scaled_input(std::vector{windy({1})}, "rain").error().message,
+            "windy.csv: there is no input rain, which the others have");
+}
+
+TEST(OutlineInputs, CalmRowsAreThoseBelowATenth) {
+  const std::vector input{OutlineInput{"wind", "m/s", 2, 0, 1}};
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(calm_rows(windy({0, 0.1, 0.3, -0.3, nan}), input), (std::vector<std::uint8_t>{1, 1, 0, 0, 0}));
+  EXPECT_EQ(calm_rows(windy({0, 5}), {}), (std::vector<std::uint8_t>{1, 1}));
+}
+
+TEST(OutlineInputs, SignIsSplitIntoTwoNonNegativeRegressors) {
+  const std::vector input{OutlineInput{"wind", "m/s", 2, -1, 1}};
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Recording split = with_regressors(windy({1, -4, nan}), input, true);
+  EXPECT_EQ(regressor_names(input, true), (std::vector<std::string>{"wind+", "wind-"}));
+  EXPECT_FALSE(find_channel(split, "wind"));
+  EXPECT_EQ(samples(split, "wind+")[0], 0.5);
+  EXPECT_EQ(samples(split, "wind-")[0], 0);
+  EXPECT_EQ(samples(split, "wind+")[1], 0);
+  EXPECT_EQ(samples(split, "wind-")[1], 2);
+  EXPECT_TRUE(std::isnan(samples(split, "wind+")[2]));
+  EXPECT_TRUE(std::isnan(samples(split, "wind-")[2]));
+}
+
+TEST(OutlineInputs, OneSidedInputsAreOnlyScaled) {
+  const std::vector input{OutlineInput{"wind", "m/s", 2, 0, 1}};
+  EXPECT_EQ(samples(with_regressors(windy({1, 4}), input, false), "wind"), (std::vector<double>{0.5, 2}));
+}
+
+TEST(OutlineInputs, TheMirrorExchangesSidesAndSigns) {
+  const std::vector input{OutlineInput{"wind", "m/s", 1, 0, 1}};
+  Recording split = with_regressors(windy({1, 0}), input, true);
+  split.channels[*find_channel(split, "p0.x")].samples = {-0.3, -0.2};
+  split.channels[*find_channel(split, "p3.y")].samples = {0.7, 0.8};
+  const Recording mirror = mirrored(split, *outline_layout(split), input);
+  EXPECT_EQ(samples(mirror, "p3.x"), (std::vector<double>{0.3, 0.2}));
+  EXPECT_EQ(samples(mirror, "p0.y"), (std::vector<double>{0.7, 0.8}));
+  EXPECT_EQ(samples(mirror, "wind+"), (std::vector<double>{0, 0}));
+  EXPECT_EQ(samples(mirror, "wind-"), (std::vector<double>{1, 0}));
+}
+
+TEST(OutlineInputs, MirroredTwiceIsTheSame) {
+  const std::vector input{OutlineInput{"wind", "m/s", 1, 0, 1}};
+  Recording split = with_regressors(windy({1, -0.5}), input, true);
+  split.channels[*find_channel(split, "p1.x")].samples = {-0.3, -0.2};
+  const auto layout = *outline_layout(split);
+  const Recording twice = mirrored(mirrored(split, layout, input), layout, input);
+  for (std::size_t c = 0; c < split.channels.size(); ++c)
+    EXPECT_EQ(twice.channels[c].samples, split.channels[c].samples);
+}
+
+}  // namespace
+}  // namespace wisp
