@@ -55,8 +55,8 @@ TEST(Cost, IsWhatOneCountsByHand) {
   // Counter's group 1; seven rounds of two products and four exclusive ors; per word: shift, xor, shift, and, and, xor.
   EXPECT_EQ(cost.random_operations, 1 + 7 * 6 + 4 * 6);
   EXPECT_EQ(cost.view_operations, 3 + 2);  // between two steps: − × +; to the output's unit: × +
-  EXPECT_EQ(cost.operations_per_frame, cost.dynamics_operations + cost.noise_operations + cost.random_operations +
-                                           cost.view_operations);
+  EXPECT_EQ(cost.operations_per_frame,
+            cost.dynamics_operations + cost.noise_operations + cost.random_operations + cost.view_operations);
 }
 
 TEST(Cost, APolylinePointTakesFourteenOperations) {
