@@ -36,7 +36,6 @@ Result<std::vector<Recording>> read_tables(const std::vector<std::string>& paths
   std::vector<Recording> recordings;
   for (const std::string& path : paths) {
     auto recording = read_table(path, arguments);
-    if (recording) recording = in_range(std::move(recording).value(), arguments, "range");
     if (recording) {
       recordings.push_back(std::move(recording).value());
     } else if (arguments.on("skip-bad")) {
