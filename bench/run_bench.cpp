@@ -58,5 +58,3 @@ BENCHMARK(flame_frame)->ArgName("flames")->Arg(1)->Arg(100)->Arg(10000);
 
 }  // namespace
 }  // namespace wisp
-
-BENCHMARK_MAIN();

@@ -55,11 +55,11 @@ Result<Bank> Bank::create(const Model& model, const BankOptions& options) {
   const auto bytes = bank_bytes(model, options);
   if (!bytes) return bytes.error();
   std::span<std::byte> memory = options.memory;
-  if (!memory.empty() && memory.size() < *bytes) {
+  const bool owned = memory.data() == nullptr;
+  if (!owned && memory.size() < *bytes) {
     return Error{"a bank was given " + std::to_string(memory.size()) + " bytes, expected at least " +
                  std::to_string(*bytes) + ": ask bank_bytes()"};
   }
-  const bool owned = memory.empty();
   if (owned) {
     void* fresh = ::operator new(*bytes, std::align_val_t(kArenaAlignment), std::nothrow);
     if (!fresh) return Error{"no memory for a bank of " + std::to_string(*bytes) + " bytes: choose a smaller capacity"};

@@ -7,10 +7,6 @@ namespace {
 
 constexpr double kNanosecondsPerSecond = 1e9;
 
-std::int64_t step_nanoseconds(double rate_hz) {
-  return static_cast<std::int64_t>(kNanosecondsPerSecond / rate_hz + 0.5);
-}
-
 Stepper make_stepper(const Model& model, const Channels& channels, int blocks, Arena& arena) {
   return std::visit(
       [&](const ArxModel& arx) -> Stepper { return ArxStepper<LiveNumbers>(model, arx, channels, blocks, arena); },
@@ -23,6 +19,10 @@ std::span<PolylinePoint> make_view(const Model& model, int points, Arena& arena)
 }
 
 }  // namespace
+
+std::chrono::nanoseconds step_time(const Model& model) {
+  return std::chrono::nanoseconds(static_cast<std::int64_t>(kNanosecondsPerSecond / model.rate_hz + 0.5));
+}
 
 OperatingPoint operating_point(const Model& model) {
   return std::visit(
@@ -37,7 +37,7 @@ Bank::State::State(const Model& model, const BankOptions& options, Arena& arena)
       inputs(static_cast<int>(model.inputs.size())),
       seed(options.seed),
       keys(random_keys(options.seed)),
-      step_time(step_nanoseconds(model.rate_hz)),
+      step_time(wisp::step_time(model).count()),
       channels(make_channels(model, operating_point(model), arena)),
       stepper(make_stepper(model, channels, (capacity + kLanes - 1) / kLanes, arena)),
       polyline(make_view(model, options.polyline_points, arena)) {
