@@ -31,16 +31,6 @@ Json channels_json(const OutlineFit& fit) {
   return channels;
 }
 
-std::vector<double> mean_per_step(const std::vector<std::vector<double>>& per_step) {
-  std::vector<double> means;
-  for (const auto& values : per_step) {
-    double sum = 0;
-    for (double value : values) sum += value;
-    means.push_back(values.empty() ? 0 : sum / static_cast<double>(values.size()));
-  }
-  return means;
-}
-
 Json j_json(const OutlineFigures& figures) {
   Json j = Json::object();
   for (std::size_t k = 0; k < figures.steps.size(); ++k) {
@@ -83,6 +73,16 @@ Json by_steps(const std::vector<int>& steps, const std::vector<double>& values) 
     out[steps[k] == kFreeRun ? "inf" : std::to_string(steps[k])] = number(values[k]);
   }
   return out;
+}
+
+std::vector<double> mean_per_step(const std::vector<std::vector<double>>& per_step) {
+  std::vector<double> means;
+  for (const auto& values : per_step) {
+    double sum = 0;
+    for (double value : values) sum += value;
+    means.push_back(values.empty() ? 0 : sum / static_cast<double>(values.size()));
+  }
+  return means;
 }
 
 double at_steps(const OutlineFigures& figures, const std::vector<double>& values, int steps) {

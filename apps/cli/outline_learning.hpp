@@ -27,6 +27,9 @@ void report_outline(const OutlineFit& fit, Terminal& terminal);
 /// `J` {k: …}, by number of steps.
 Json by_steps(const std::vector<int>& steps, const std::vector<double>& values);
 
+/// The mean over control points of figures that are one a number of steps and control point.
+std::vector<double> mean_per_step(const std::vector<std::vector<double>>& per_step);
+
 /// The entry of `values` for a number of steps, kFreeRun among them; NaN where it was not judged.
 double at_steps(const OutlineFigures& figures, const std::vector<double>& values, int steps);
 

@@ -18,10 +18,11 @@ bool is_table(const std::filesystem::path& path) {
   return extension == ".csv" || extension == ".txt" || extension == ".CSV";
 }
 
-Result<Recording> read_table(const std::filesystem::path& path, const Arguments& arguments) {
+Result<Recording> read_table(const std::filesystem::path& path, const Arguments& arguments,
+                             const ChannelChoice& channels) {
   CsvOptions options;
-  options.inputs = arguments.names("inputs");
-  options.outputs = arguments.names("outputs");
+  options.inputs = arguments.has("inputs") ? arguments.names("inputs") : channels.inputs;
+  options.outputs = arguments.has("outputs") ? arguments.names("outputs") : channels.outputs;
   if (arguments.has("dt")) {
     const double seconds = arguments.number("dt");
     if (!(seconds > 0)) return Error{"--dt is " + arguments.text("dt") + ", expected seconds above 0"};
