@@ -87,6 +87,11 @@ Result<CapturedClip> capture_clip(const std::filesystem::path& path, const Argum
     return true;
   });
   if (!captured) return captured.error();
+  if (options->video.frames &&
+      captured->recording.rows() < arguments.samples("frames").last - arguments.samples("frames").first + 1) {
+    return Error{path.string() + ": --frames " + arguments.text("frames") + " reaches beyond its end, frame " +
+                 std::to_string(arguments.samples("frames").first - 1 + captured->recording.rows())};
+  }
   CapturedClip clip{std::move(captured->recording), std::move(captured->report), false, 0, ""};
   if (std::filesystem::is_directory(path)) {
     clip.wind_note = "not heard: images have no sound";
