@@ -12,11 +12,13 @@ std::filesystem::path truth_path(const std::filesystem::path& clip) {
 
 Result<Recording> write_simulated_clip(const std::filesystem::path& path, const CandleClipOptions& options,
                                        Terminal& terminal) {
-  auto film = VideoWriter::create(path, {.width = options.camera.width,
-                                         .height = options.camera.height,
-                                         .rate_hz = options.rig.rate_hz,
-                                         .preset = "veryfast",
-                                         .sound_rate_hz = static_cast<int>(options.microphone.rate_hz)});
+  auto film =
+      VideoWriter::create(path, {.width = options.camera.width,
+                                 .height = options.camera.height,
+                                 .rate_hz = options.rig.rate_hz,
+                                 .crf = 12,  // the sensor's noise survives, so that a calm flame is not a still picture
+                                 .preset = "veryfast",
+                                 .sound_rate_hz = static_cast<int>(options.microphone.rate_hz)});
   if (!film) return film.error();
   CandleClipOutputs outputs;
   outputs.on_frame = [&](const CandleFrame& frame) {
