@@ -13,6 +13,7 @@
 
 #include "wisp/learn/arx_fit.hpp"
 #include "wisp/learn/arx_orders.hpp"
+#include "wisp/learn/order_search.hpp"
 #include "wisp/learn/prediction.hpp"
 
 namespace wisp {
@@ -86,6 +87,18 @@ void prediction_errors_of_20_steps(benchmark::State& state) {
   }
 }
 BENCHMARK(prediction_errors_of_20_steps)->Unit(benchmark::kMillisecond);
+
+void search_400_structures(benchmark::State& state) {
+  static const Recording estimation = slice(single(), 0, 50000);
+  static const Recording validation = slice(single(), 50000, 100000);
+  SearchOptions options;
+  options.by = OrderCriterion::kValidation;
+  options.common_start = state.range(0) != 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(search_orders({&estimation, 1}, {&validation, 1}, {{"u1"}, {"y1"}}, options));
+  }
+}
+BENCHMARK(search_400_structures)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace wisp

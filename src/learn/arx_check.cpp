@@ -27,12 +27,16 @@ Result<void> check_matrix(const char* name, const OrderMatrix& matrix, int rows,
 
 }  // namespace
 
-Result<void> check_options(const ArxOptions& options, const ChannelChoice& channels) {
+Result<void> check_orders(const ArxOrders& orders, const ChannelChoice& channels) {
   const auto ny = static_cast<int>(channels.outputs.size());
   const auto nu = static_cast<int>(channels.inputs.size());
-  if (auto ok = check_matrix("na", options.orders.na, ny, ny); !ok) return ok;
-  if (auto ok = check_matrix("nb", options.orders.nb, ny, nu); !ok) return ok;
-  if (auto ok = check_matrix("nk", options.orders.nk, ny, nu); !ok) return ok;
+  if (auto ok = check_matrix("na", orders.na, ny, ny); !ok) return ok;
+  if (auto ok = check_matrix("nb", orders.nb, ny, nu); !ok) return ok;
+  return check_matrix("nk", orders.nk, ny, nu);
+}
+
+Result<void> check_options(const ArxOptions& options, const ChannelChoice& channels) {
+  if (auto ok = check_orders(options.orders, channels); !ok) return ok;
   if (!(options.ridge >= 0) || !std::isfinite(options.ridge)) return Error{"the ridge must be 0 or more"};
   if (!(options.stability_margin > 0 && options.stability_margin < 1)) {
     return Error{"the stability margin must lie between 0 and 1"};

@@ -8,6 +8,9 @@
 
 namespace wisp {
 
+/// Shapes and ranges of order matrices, against the channels named.
+Result<void> check_orders(const ArxOrders& orders, const ChannelChoice& channels);
+
 /// Shapes and ranges of the options, against the channels named.
 Result<void> check_options(const ArxOptions& options, const ChannelChoice& channels);
 

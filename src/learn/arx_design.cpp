@@ -3,21 +3,19 @@
 #include <algorithm>
 
 namespace wisp {
-namespace {
 
-std::vector<LaggedChannel> regressors(const ArxOrders& orders, int i, ArxOffset offset) {
+std::vector<LaggedChannel> row_regressors(const ArxOrders& orders, int output, ArxOffset offset) {
   std::vector<LaggedChannel> columns;
   for (int j = 0; j < orders.outputs(); ++j) {
-    for (int lag = 1; lag <= orders.na(i, j); ++lag) columns.push_back({j, lag});
+    for (int lag = 1; lag <= orders.na(output, j); ++lag) columns.push_back({j, lag});
   }
   for (int k = 0; k < orders.inputs(); ++k) {
-    for (int lag = 0; lag < orders.nb(i, k); ++lag) columns.push_back({orders.outputs() + k, orders.nk(i, k) + lag});
+    for (int lag = 0; lag < orders.nb(output, k); ++lag)
+      columns.push_back({orders.outputs() + k, orders.nk(output, k) + lag});
   }
   if (offset == ArxOffset::kEstimate) columns.push_back({kConstantChannel, 0});
   return columns;
 }
-
-}  // namespace
 
 std::size_t ArxDesign::row_size(int output) const {
   for (const SharedRows& group : groups) {
@@ -32,7 +30,7 @@ ArxDesign make_design(const ArxOrders& orders, ArxOffset offset) {
   std::vector<std::vector<LaggedChannel>> rows;
   std::vector<LaggedChannel> used;
   for (int i = 0; i < orders.outputs(); ++i) {
-    rows.push_back(regressors(orders, i, offset));
+    rows.push_back(row_regressors(orders, i, offset));
     used.insert(used.end(), rows.back().begin(), rows.back().end());
   }
   ArxDesign design{LagLayout(orders.outputs(), orders.inputs(), used), {}};

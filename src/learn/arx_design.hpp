@@ -24,6 +24,9 @@ struct ArxDesign {
   std::size_t row_size(int output) const;
 };
 
+/// Regressors of one output row in theta's order; the constant, where it is estimated, comes last.
+std::vector<LaggedChannel> row_regressors(const ArxOrders& orders, int output, ArxOffset offset);
+
 ArxDesign make_design(const ArxOrders& orders, ArxOffset offset);
 
 /// Channels whose products the design's rows need.

@@ -26,7 +26,7 @@ Result<ArxFit> fit_arx(std::span<const Recording> recordings, const ChannelChoic
   const bool driven = std::any_of(options.orders.nb.values().begin(), options.orders.nb.values().end(),
                                   [](int order) { return order > 0; });
   if (options.judge_free_run && driven) {
-    const Tally tally = free_run_tally(fit.model, *signals, 1, InitialState::kMeasured);
+    const Tally tally = free_run_tally(fit.model, *signals, 1, InitialState::kMeasured, options.orders.history());
     fit.summary.free_run_fit_percent = tally.figures(kFreeRun).fit_percent;
   }
   judge_fit(facts, fit.summary);

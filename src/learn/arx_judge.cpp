@@ -23,7 +23,7 @@ std::string percent(double value) {
 
 // A one-step fit that promises this much more than free simulation keeps hides the model's failure.
 constexpr double kPromise = 80;
-constexpr double kKept = 50;
+constexpr double kKept = 60;
 
 }  // namespace
 

@@ -3,8 +3,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "arx_criteria.hpp"
 #include "arx_stability.hpp"
 #include "chi_squared.hpp"
 
@@ -113,33 +113,20 @@ void write_std_errors(const FitFacts& facts, const ArxDesign& design, const ArxE
   }
 }
 
-// ln det by way of correlations, so that units do not over- or underflow it.
-double log_determinant(const std::vector<double>& covariance, int ny) {
-  const auto at = [&](int i, int j) { return covariance[static_cast<std::size_t>(i) * ny + j]; };
-  Eigen::MatrixXd correlation(ny, ny);
-  double log = 0;
-  for (int i = 0; i < ny; ++i) {
-    log += std::log(at(i, i));
-    for (int j = 0; j < ny; ++j) correlation(i, j) = at(i, j) / std::sqrt(at(i, i) * at(j, j));
-  }
-  return log + Eigen::LDLT<Eigen::MatrixXd>(correlation).vectorD().array().log().sum();
-}
-
 void write_criteria(const FitFacts& facts, const ArxDesign& design, ArxSummary& summary) {
   const double n = static_cast<double>(facts.rows);
-  double total = 0;
-  for (int i = 0; i < facts.outputs; ++i) total += static_cast<double>(design.row_size(i));
-  const double per_output = total / facts.outputs;
-  const double log_det = log_determinant(summary.noise_covariance, facts.outputs);
-  summary.fpe = std::exp(log_det) * (1 + per_output / n) / (1 - per_output / n);
-  summary.fpe_total = std::exp(log_det) * (1 + total / n) / (1 - total / n);
-  summary.aic = n * log_det + 2 * total;
-  summary.aicc = summary.aic + 2 * total * (total + 1) / (n - total - 1);
-  summary.bic = n * log_det + total * std::log(n);
+  double coefficients = 0;
   for (int i = 0; i < facts.outputs; ++i) {
     const double d = static_cast<double>(design.row_size(i));
+    coefficients += d;
     summary.row_fpe.push_back(summary.loss[i] * (1 + d / n) / (1 - d / n));
   }
+  const Criteria criteria = criteria_of(summary.noise_covariance, facts.outputs, n, coefficients);
+  summary.fpe = criteria.fpe;
+  summary.fpe_total = criteria.fpe_total;
+  summary.aic = criteria.aic;
+  summary.aicc = criteria.aicc;
+  summary.bic = criteria.bic;
 }
 
 void write_loss(const FitFacts& facts, const ArxEstimate& estimate, const Eigen::MatrixXd& residual_gram,

@@ -159,12 +159,12 @@ void simulate_stretch(const Runner& runner, const RowRun& run, InitialState init
 
 }  // namespace
 
-void free_run(const ArxModel& model, const Signals& signals, std::size_t recording, InitialState initial,
+void free_run(const ArxModel& model, const Signals& signals, std::size_t recording, const FreeRunStart& start,
               const SimulatedRows& visit) {
   const Runner runner(model, signals, recording);
   const LagLayout layout = layout_of_model(model);
-  for (const RowRun& run : plan_input_rows(signals, layout, model.orders.history()).runs) {
-    if (run.recording == recording) simulate_stretch(runner, run, initial, visit);
+  for (const RowRun& run : plan_input_rows(signals, layout, start.first_sample).runs) {
+    if (run.recording == recording) simulate_stretch(runner, run, start.initial, visit);
   }
 }
 

@@ -19,6 +19,22 @@ Result<void> check_steps(int steps) {
   return Error{"a prediction of " + std::to_string(steps) + " steps was asked for, expected 1 to 100000"};
 }
 
+Result<void> check_figures(const ArxModel& model, const FigureOptions& options) {
+  if (options.steps.empty()) return Error{"no number of steps was asked for"};
+  for (int steps : options.steps) {
+    if (auto ok = check_steps(steps); !ok) return ok;
+  }
+  if (options.group < 1 || model.orders.outputs() % options.group != 0) {
+    return Error{std::to_string(model.orders.outputs()) + " outputs cannot be taken in groups of " +
+                 std::to_string(options.group)};
+  }
+  if (options.first_sample && *options.first_sample < model.orders.history()) {
+    return Error{"the first sample is " + std::to_string(*options.first_sample) + ", but the model's history is " +
+                 std::to_string(model.orders.history()) + " samples"};
+  }
+  return {};
+}
+
 // Errors of k-step predictions for k = 1, 2, …, block by block: err_k(t) = err_{k−1}(t) + F_{k−1} e(t − k + 1).
 class StepErrors {
  public:
@@ -61,7 +77,7 @@ class StepErrors {
 // Figures of all finite numbers of steps.
 class Tallies {
  public:
-  Tallies(const ArxModel& model, const Signals& signals, const FigureOptions& options)
+  Tallies(const ArxModel& model, const Signals& signals, const FigureOptions& options, int first_sample)
       : signals_(signals),
         group_(options.group),
         at_(1 + *std::max_element(options.steps.begin(), options.steps.end()), -1) {
@@ -73,7 +89,7 @@ class Tallies {
     const int most = static_cast<int>(at_.size()) - 1;
     if (most < 1) return;
     StepErrors errors(model, signals, most);
-    for (const RowRun& run : plan_rows(signals, layout_of_model(model), model.orders.history()).runs) {
+    for (const RowRun& run : plan_rows(signals, layout_of_model(model), first_sample).runs) {
       errors.run(run, [&](int k, std::size_t first, const Eigen::MatrixXd& block) { add(run, k, first, block); });
       add_outputs(run, most);
     }
@@ -141,31 +157,31 @@ Result<std::vector<std::vector<double>>> predict(const ArxModel& model, const Re
   if (!signals) return signals.error();
   if (options.steps != kFreeRun) return predict_steps(model, *signals, options.steps);
   auto out = nothing_predicted(*signals);
-  free_run(model, *signals, 0, options.initial, [&](std::size_t first, std::size_t rows, const double* values) {
-    for (std::size_t t = first; t < first + rows; ++t) {
-      for (int i = 0; i < signals->outputs; ++i) out[i][t] = *values++ + model.output_mean[i];
-    }
-  });
+  free_run(model, *signals, 0, {options.initial, model.orders.history()},
+           [&](std::size_t first, std::size_t rows, const double* values) {
+             for (std::size_t t = first; t < first + rows; ++t) {
+               for (int i = 0; i < signals->outputs; ++i) out[i][t] = *values++ + model.output_mean[i];
+             }
+           });
   return out;
 }
 
 Result<std::vector<PredictionFigures>> prediction_figures(const ArxModel& model, std::span<const Recording> recordings,
                                                           const ChannelChoice& channels, const FigureOptions& options) {
-  if (options.steps.empty()) return Error{"no number of steps was asked for"};
-  for (int steps : options.steps) {
-    if (auto ok = check_steps(steps); !ok) return ok.error();
-  }
-  if (options.group < 1 || model.orders.outputs() % options.group != 0) {
-    return Error{std::to_string(model.orders.outputs()) + " outputs cannot be taken in groups of " +
-                 std::to_string(options.group)};
-  }
   const auto signals = signals_of_model(model, recordings, channels);
   if (!signals) return signals.error();
-  const Tallies tallies(model, *signals, options);
+  return figures_of(model, *signals, options);
+}
+
+Result<std::vector<PredictionFigures>> figures_of(const ArxModel& model, const Signals& signals,
+                                                  const FigureOptions& options) {
+  if (auto ok = check_figures(model, options); !ok) return ok.error();
+  const int first_sample = options.first_sample.value_or(model.orders.history());
+  const Tallies tallies(model, signals, options, first_sample);
   std::vector<PredictionFigures> out;
   for (int steps : options.steps) {
-    const Tally tally =
-        steps == kFreeRun ? free_run_tally(model, *signals, options.group, options.initial) : tallies[steps];
+    const Tally tally = steps == kFreeRun ? free_run_tally(model, signals, options.group, options.initial, first_sample)
+                                          : tallies[steps];
     if (tally.rows() == 0) {
       return Error{"no row can be predicted: no stretch without gaps is longer than the model's history of " +
                    std::to_string(model.orders.history()) + " samples"};

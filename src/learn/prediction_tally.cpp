@@ -68,23 +68,24 @@ PredictionFigures Tally::figures(int steps) const {
   return out;
 }
 
-Tally free_run_tally(const ArxModel& model, const Signals& signals, int group, InitialState initial) {
+Tally free_run_tally(const ArxModel& model, const Signals& signals, int group, InitialState initial, int first_sample) {
   Tally tally(signals.outputs, group);
   Eigen::MatrixXd measured(static_cast<Eigen::Index>(kBlockRows), signals.outputs);
   Eigen::MatrixXd errors(static_cast<Eigen::Index>(kBlockRows), signals.outputs);
   for (std::size_t r = 0; r < signals.samples.size(); ++r) {
-    free_run(model, signals, r, initial, [&](std::size_t first, std::size_t rows, const double* values) {
-      const auto count = static_cast<Eigen::Index>(rows);
-      const Eigen::Map<const Eigen::MatrixXd> simulated(values, signals.outputs, count);
-      for (int i = 0; i < signals.outputs; ++i) {
-        const double* samples = signals.samples[r][i].data() + first;
-        measured.col(i).head(count) = Eigen::Map<const Eigen::VectorXd>(samples, count).array() - signals.offset[i];
-      }
-      errors.topRows(count) = measured.topRows(count) - simulated.transpose();
-      const Eigen::Index whole = drop_missing(count, measured, errors);
-      tally.add_errors(errors.topRows(whole));
-      for (int i = 0; i < signals.outputs; ++i) tally.add_output(i, measured.col(i).head(whole));
-    });
+    free_run(
+        model, signals, r, {initial, first_sample}, [&](std::size_t first, std::size_t rows, const double* values) {
+          const auto count = static_cast<Eigen::Index>(rows);
+          const Eigen::Map<const Eigen::MatrixXd> simulated(values, signals.outputs, count);
+          for (int i = 0; i < signals.outputs; ++i) {
+            const double* samples = signals.samples[r][i].data() + first;
+            measured.col(i).head(count) = Eigen::Map<const Eigen::VectorXd>(samples, count).array() - signals.offset[i];
+          }
+          errors.topRows(count) = measured.topRows(count) - simulated.transpose();
+          const Eigen::Index whole = drop_missing(count, measured, errors);
+          tally.add_errors(errors.topRows(whole));
+          for (int i = 0; i < signals.outputs; ++i) tally.add_output(i, measured.col(i).head(whole));
+        });
   }
   return tally;
 }

@@ -42,9 +42,13 @@ class Tally {
   std::vector<double> norm_;
 };
 
-/// Free simulation over all recordings against what was measured.
+/// Free simulation over all recordings against what was measured, from row `first_sample` of every episode on.
 ///
-/// Precondition: the signals' offsets are the model's operating point.
-Tally free_run_tally(const ArxModel& model, const Signals& signals, int group, InitialState initial);
+/// Preconditions: the signals' offsets are the model's operating point; first_sample >= the model's history.
+Tally free_run_tally(const ArxModel& model, const Signals& signals, int group, InitialState initial, int first_sample);
+
+/// What prediction_figures computes.
+Result<std::vector<PredictionFigures>> figures_of(const ArxModel& model, const Signals& signals,
+                                                  const FigureOptions& options);
 
 }  // namespace wisp

@@ -59,6 +59,7 @@ TEST(Image, CropTakesThePartAndFillsTheOutsideWithBlack) {
   EXPECT_EQ(part.at(5, 0), (Colour{0, 0, 0, 255}));
   EXPECT_EQ(crop(image, {-3, -2, 4, 3}).at(3, 2), image.at(0, 0));
   EXPECT_EQ(crop(image, {500, 500, 2, 2}).at(1, 1), (Colour{0, 0, 0, 255}));
+  EXPECT_EQ(crop(image, {2147483647, -2147483647, 2, 2}).at(1, 1), (Colour{0, 0, 0, 255}));
 }
 
 TEST(Image, ResizingKeepsAFlatColourUpToTheEdges) {

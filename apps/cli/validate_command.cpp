@@ -1,0 +1,237 @@
+// `wisp validate`: a model held against a recording or a clip.
+
+#include <cmath>
+#include <filesystem>
+
+#include "capture_flags.hpp"
+#include "commands.hpp"
+#include "figures_json.hpp"
+#include "outline_film.hpp"
+#include "outline_learning.hpp"
+#include "recordings.hpp"
+#include "validation_figures.hpp"
+#include "wisp/learn/outline_shape.hpp"
+#include "wisp/learn/outline_validation.hpp"
+#include "wisp/model/file.hpp"
+
+namespace wisp::cli {
+namespace {
+
+// A recording and, where there is one, the clip whose frames its rows are.
+struct Subject {
+  Recording recording;
+  ClipFrames clip;
+};
+
+Result<Subject> subject_of(const std::string& path, const Arguments& arguments, Terminal& terminal) {
+  Subject subject;
+  if (is_table(path)) {
+    auto recording = read_table(path, arguments);
+    if (!recording) return recording.error();
+    subject.recording = std::move(*recording);
+    if (arguments.has("clip")) subject.clip.path = arguments.text("clip");
+  } else {
+    auto clip = capture_clip(path, arguments, terminal);
+    if (!clip) return clip.error();
+    for (const std::string& warning : clip->report.warnings) terminal.warn(warning);
+    subject.recording = std::move(clip->recording);
+    subject.clip.path = path;
+  }
+  if (arguments.has("rate")) subject.clip.rate_hz = arguments.number("rate");
+  if (arguments.has("frames")) subject.clip.first_frame = arguments.samples("frames").first - 1;
+  if (arguments.has("range")) subject.clip.first_frame += arguments.samples("range").first - 1;
+  auto part = in_range(std::move(subject.recording), arguments, "range");
+  if (!part) return part.error();
+  subject.recording = std::move(*part);
+  return subject;
+}
+
+Result<std::vector<int>> judged_steps(const Arguments& arguments) {
+  std::vector<int> steps;
+  for (const std::string& word : arguments.names("steps")) {
+    const int step = word == "inf" ? kFreeRun : std::atoi(word.c_str());
+    const bool valid =
+        word == "inf" || (step >= 1 && step <= 100000 && word.find_first_not_of("0123456789") == std::string::npos);
+    if (!valid)
+      return Error{"--steps: found \"" + word + "\", expected numbers from 1 to 100000, or inf, separated by commas"};
+    steps.push_back(step);
+  }
+  return steps;
+}
+
+std::vector<Point> to_picture(const std::vector<OutlinePoint>& polyline) {
+  // A pixel's centre is at whole numbers for capture and at halves for drawing.
+  std::vector<Point> points;
+  for (const OutlinePoint& point : polyline)
+    points.push_back({static_cast<float>(point[0] + 0.5), static_cast<float>(point[1] + 0.5)});
+  return points;
+}
+
+OutlineRows outline_rows(const OutlineValidation& found, const Recording& recording) {
+  const OutlineCurve curve(found.layout.knots);
+  OutlineRows rows;
+  rows.simulated_label = found.predicted_steps == kFreeRun
+                             ? "simulated from the input alone"
+                             : "predicted " + std::to_string(found.predicted_steps) + " frames ahead";
+  for (std::size_t row = 0; row < recording.rows(); ++row) {
+    std::vector<double> control;
+    for (std::size_t channel : found.layout.outputs) control.push_back(recording.channels[channel].samples[row]);
+    const bool missing = std::any_of(control.begin(), control.end(), [](double value) { return std::isnan(value); });
+    rows.captured.push_back(missing ? std::vector<Point>() : to_picture(curve.polyline(control)));
+    const auto& predicted = found.predicted[row];
+    rows.simulated.push_back(predicted.empty() ? std::vector<Point>() : to_picture(curve.polyline(predicted)));
+  }
+  return rows;
+}
+
+// The strip shows twelve moments an eighth of a second apart, where the outline moves most.
+std::vector<std::size_t> strip_rows(const OutlineValidation& found, const Recording& recording) {
+  constexpr std::size_t kColumns = 12;
+  const auto apart = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(recording.rate_hz / 8)));
+  const std::size_t length = (kColumns - 1) * apart + 1;
+  const auto tip = recording.channels[found.layout.outputs[2 * (found.layout.points / 2)]].samples;
+  std::size_t best = 0;
+  double most = -1;
+  for (std::size_t begin = 0; begin + length <= tip.size(); begin += apart) {
+    double motion = 0;
+    bool whole = true;
+    for (std::size_t row = begin + apart; row < begin + length; row += apart) {
+      whole = whole && !std::isnan(tip[row]) && !std::isnan(tip[row - apart]);
+      motion += std::abs(tip[row] - tip[row - apart]);
+    }
+    if (!whole || motion <= most) continue;
+    most = motion;
+    best = begin;
+  }
+  std::vector<std::size_t> rows;
+  for (std::size_t k = 0; k < kColumns && best + k * apart < recording.rows(); ++k) rows.push_back(best + k * apart);
+  return rows;
+}
+
+Result<void> draw(const OutlineValidation& found, const Model& model, const Subject& subject,
+                  const Arguments& arguments, Terminal& terminal) {
+  if (arguments.has("overlay")) {
+    const auto rows = outline_rows(found, subject.recording);
+    if (auto ok = write_overlay(arguments.text("overlay"), subject.clip, subject.recording, rows, terminal); !ok)
+      return ok;
+    terminal.say("wrote " + arguments.text("overlay"));
+  }
+  if (arguments.has("film-strip")) {
+    StripContent content{.rows = strip_rows(found, subject.recording), .recording = &subject.recording};
+    // Driven models meet the recording's wind row for row; a flicker model's life begins anywhere.
+    const Recording life = model.inputs.empty()
+                               ? found.synthesized
+                               : slice(found.synthesized, content.rows.front(), found.synthesized.rows());
+    content.synthesized = &life;
+    content.layout = found.layout;
+    content.pixels_per_unit = found.pixels_per_unit;
+    content.synthesized_caption = model.inputs.empty() ? "synthesized" : "synthesized from the same wind";
+    if (auto ok = write_film_strip(arguments.text("film-strip"), subject.clip, content); !ok) return ok;
+    terminal.say("wrote " + arguments.text("film-strip"));
+  }
+  if (!arguments.has("figures")) return {};
+  if (auto ok = write_validation_figures(arguments.text("figures"), model, subject.recording, found); !ok) return ok;
+  terminal.say("wrote figures to " + arguments.text("figures"));
+  return {};
+}
+
+Json bounded_json(const Bounded& measure) {
+  return {{"value", number(measure.value)}, {"floor", number(measure.floor)}, {"ceiling", number(measure.ceiling)}};
+}
+
+Json fidelity_json(const Fidelity& fidelity) {
+  Json json = {{"log_spectral_distance", bounded_json(fidelity.log_spectral_distance)},
+               {"autocorrelation_distance", bounded_json(fidelity.autocorrelation_distance)},
+               {"wasserstein_value", bounded_json(fidelity.wasserstein_value)},
+               {"wasserstein_speed", bounded_json(fidelity.wasserstein_speed)},
+               {"energy_distance", bounded_json(fidelity.energy_distance)},
+               {"energy_p_value", number(fidelity.energy_p_value)},
+               {"verbatim_seconds", number(fidelity.verbatim_seconds)},
+               {"channels", Json::array()}};
+  for (const ChannelFidelity& channel : fidelity.channels) {
+    json["channels"].push_back({{"name", channel.name},
+                                {"sd_real", number(channel.sd_real)},
+                                {"sd_synthesized", number(channel.sd_synthesized)},
+                                {"log_spectral_distance", bounded_json(channel.log_spectral_distance)}});
+  }
+  return json;
+}
+
+void report(const OutlineValidation& found, Terminal& terminal) {
+  Json& result = terminal.result();
+  const OutlineFigures& figures = found.figures;
+  result["rows"] = figures.rows;
+  result["channels"] = Json::array();
+  for (const OutlineChannelFigures& channel : figures.channels) {
+    result["channels"].push_back({{"name", channel.name},
+                                  {"fit_percent", by_steps(figures.steps, channel.fit_percent)},
+                                  {"whiteness_p", number(channel.whiteness_p)}});
+  }
+  result["J"] = by_steps(figures.steps, mean_per_step(figures.j));
+  result["tip"] = {{"fit_percent", by_steps(figures.steps, figures.tip_fit_percent)}};
+  result["overlap"] = number(at_steps(figures, figures.overlap, kFreeRun));
+  result["overlap_by_steps"] = by_steps(figures.steps, figures.overlap);
+  result["fidelity"] = fidelity_json(found.fidelity);
+  result["held_share"] = number(found.held_share);
+  terminal.say(std::to_string(figures.rows) + " frames judged");
+  for (std::size_t k = 0; k < figures.steps.size(); ++k) {
+    const std::string ahead =
+        figures.steps[k] == kFreeRun ? "free simulation" : std::to_string(figures.steps[k]) + " ahead";
+    terminal.say("  " + ahead + ": tip fit " + shown(figures.tip_fit_percent[k]) + " %, outline overlap " +
+                 shown(figures.overlap[k]));
+  }
+  const Bounded& spectrum = found.fidelity.log_spectral_distance;
+  const Bounded& energy = found.fidelity.energy_distance;
+  terminal.say("synthesized against recorded: log-spectral distance " + shown(spectrum.value) +
+               " dB (two halves of the recording: " + shown(spectrum.floor) +
+               ", shuffled frames: " + shown(spectrum.ceiling) + ")");
+  terminal.say("  normalised energy distance " + shown(energy.value) + " (halves " + shown(energy.floor) +
+               ", shuffled " + shown(energy.ceiling) + ")");
+}
+
+Result<void> run(const Arguments& arguments, Terminal& terminal) {
+  const auto& positionals = arguments.positionals();
+  const auto model = read_model(positionals[0]);
+  if (!model) return model.error();
+  const auto steps = judged_steps(arguments);
+  if (!steps) return steps.error();
+  if (!std::holds_alternative<OutlineView>(model->view)) return validate_plain(*model, *steps, arguments, terminal);
+  const auto subject = subject_of(positionals[1], arguments, terminal);
+  if (!subject) return subject.error();
+  OutlineValidationOptions options{.steps = *steps, .seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
+  const auto found = validate_outline(*model, subject->recording, options);
+  if (!found) return found.error();
+  report(*found, terminal);
+  return draw(*found, *model, *subject, arguments, terminal);
+}
+
+}  // namespace
+
+Command validate_command() {
+  std::vector<Flag> flags = {
+      {"range", Kind::kSamples, "A:B", "", "rows to judge on, 1-based and inclusive"},
+      {"steps", Kind::kNames, "K,…", "1,5,15,inf", "steps ahead; inf is free simulation from the input alone"},
+      {"overlay", Kind::kPath, "OUT.mp4", "", "write the clip with captured and simulated outlines drawn over it"},
+      {"film-strip", Kind::kPath, "OUT.png", "", "write a film strip: recorded above, synthesized below"},
+      {"figures", Kind::kPath, "DIR", "", "write plots there, as PNG and SVG"},
+      {"clip", Kind::kPath, "CLIP", "", "the clip that the recording was captured from, for the pictures"},
+      {"seed", Kind::kInteger, "N", "1", "of the synthesized life"},
+      {"inputs", Kind::kNames, "A,B", "", "columns of a plain table that are inputs"},
+      {"outputs", Kind::kNames, "C,D", "", "columns of a plain table that are outputs"},
+      {"dt", Kind::kNumber, "S", "", "seconds between samples of a plain table"},
+  };
+  for (Flag& flag : capture_flags()) flags.push_back(std::move(flag));
+  return {
+      "validate",
+      "Holds a model against a recording: prediction, free simulation, likeness, pictures.",
+      {{"MODEL", "the model, a .wisp file"}, {"REC_OR_CLIP", "a recording (.csv), or a clip"}},
+      std::move(flags),
+      {{"wisp validate flame.wisp other.mp4 --overlay overlay.mp4 --film-strip strip.png",
+        "On a clip that it has not seen"},
+       {"wisp validate dryer.wisp hairdryer.csv --dt 0.08 --range 501:1000 --steps 1,10,inf",
+        "An ARX model on unseen rows"}},
+      run,
+  };
+}
+
+}  // namespace wisp::cli
