@@ -26,6 +26,12 @@ class ArxStepper {
   using Real = typename N::Real;
   static constexpr int kLanes = N::kLanes;
 
+  /// Where the model's deviations are measured from.
+  static OperatingPoint operating_point(const ArxModel& arx) { return {arx.output_mean, arx.input_mean}; }
+
+  /// Errors: what single precision can't step.
+  static Result<void> check(const Model& model, const ArxModel& arx) { return check_arx_program(model, arx); }
+
   ArxStepper(const Model& model, const ArxModel& arx, const Channels& channels, int blocks, Arena& arena)
       : program_(make_arx_program(model, arx, arena)), channels_(channels) {
     const auto depth = static_cast<std::size_t>(program_.depth);

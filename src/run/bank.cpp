@@ -27,8 +27,12 @@ Result<void> check_options(const BankOptions& options) {
 Result<void> check_all(const Model& model, const BankOptions& options) {
   if (auto ok = check_options(options); !ok) return ok;
   if (auto ok = check(model); !ok) return ok;
-  if (auto ok = check_channels(model, operating_point(model)); !ok) return ok;
-  return std::visit([&](const ArxModel& arx) { return check_arx_program(model, arx); }, model.dynamics);
+  return visit_dynamics<LiveNumbers>(model,
+                                     [&]<class Type>(const auto& dynamics, std::type_identity<Type>) -> Result<void> {
+                                       if (auto ok = check_channels(model, Type::operating_point(dynamics)); !ok)
+                                         return ok;
+                                       return Type::check(model, dynamics);
+                                     });
 }
 
 }  // namespace

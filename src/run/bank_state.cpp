@@ -7,10 +7,16 @@ namespace {
 
 constexpr double kNanosecondsPerSecond = 1e9;
 
+OperatingPoint operating_point(const Model& model) {
+  return visit_dynamics<LiveNumbers>(model, []<class Type>(const auto& dynamics, std::type_identity<Type>) {
+    return Type::operating_point(dynamics);
+  });
+}
+
 Stepper make_stepper(const Model& model, const Channels& channels, int blocks, Arena& arena) {
-  return std::visit(
-      [&](const ArxModel& arx) -> Stepper { return ArxStepper<LiveNumbers>(model, arx, channels, blocks, arena); },
-      model.dynamics);
+  return visit_dynamics<LiveNumbers>(model, [&]<class Type>(const auto& dynamics, std::type_identity<Type>) -> Stepper {
+    return Type(model, dynamics, channels, blocks, arena);
+  });
 }
 
 std::span<PolylinePoint> make_view(const Model& model, int points, Arena& arena) {
@@ -22,14 +28,6 @@ std::span<PolylinePoint> make_view(const Model& model, int points, Arena& arena)
 
 std::chrono::nanoseconds step_time(const Model& model) {
   return std::chrono::nanoseconds(static_cast<std::int64_t>(kNanosecondsPerSecond / model.rate_hz + 0.5));
-}
-
-OperatingPoint operating_point(const Model& model) {
-  return std::visit(
-      [](const ArxModel& arx) {
-        return OperatingPoint{arx.output_mean, arx.input_mean};
-      },
-      model.dynamics);
 }
 
 Bank::State::State(const Model& model, const BankOptions& options, Arena& arena)

@@ -1,22 +1,14 @@
 #pragma once
 // What a bank consists of; everything lies in the bank's one piece of memory, this struct included.
 
-#include <variant>
-
-#include "run/arx_stepper.hpp"
 #include "run/outline_lanes.hpp"
+#include "run/stepper.hpp"
 #include "wisp/run/bank.hpp"
 
 namespace wisp {
 
-/// Every kind of dynamics is a stepper with the public functions of ArxStepper. A new kind is its file, and its name
-/// here and in make_stepper().
-using Stepper = std::variant<ArxStepper<LiveNumbers>>;
-
 inline constexpr float kMostNoise = 10.0f;
 inline constexpr float kLeastNoise = 1e-6f;  // what is less is none
-
-OperatingPoint operating_point(const Model& model);
 
 struct Bank::State {
   static constexpr int kLanes = LiveNumbers::kLanes;
