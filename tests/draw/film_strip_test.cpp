@@ -77,19 +77,21 @@ TEST(FilmStrip, AnEmptyFrameLeavesItsPlaceDark) {
 }
 
 TEST(FilmStrip, CaptionsTitleAndTimesTakeRoomOfTheirOwn) {
-  FilmStrip bare;
-  bare.rows = {{"", {Image(100, 100, kRed)}}};
-  FilmStrip full = bare;
-  full.title = "A candle";
-  full.rows[0].caption = "Real";
-  full.times = {"0.00 s", "of a column that is not there"};
-  const auto without = draw_film_strip(bare);
-  const auto with = draw_film_strip(full);
-  ASSERT_TRUE(without);
-  ASSERT_TRUE(with);
-  EXPECT_EQ(with->width(), without->width());
-  EXPECT_GT(with->height(), without->height() + 30);
-  EXPECT_EQ(pixels_of(*with, kRed), pixels_of(*without, kRed));
+  FilmStrip strip;
+  strip.rows = {{"", {Image(100, 100, kRed)}}};
+  const auto bare = draw_film_strip(strip);
+  strip.title = "A candle";
+  const auto titled = draw_film_strip(strip);
+  strip.rows[0].caption = "Real";
+  const auto captioned = draw_film_strip(strip);
+  strip.times = {"0.00 s", "of a column that is not there"};
+  const auto timed = draw_film_strip(strip);
+  ASSERT_TRUE(bare && titled && captioned && timed);
+  EXPECT_GT(titled->height(), bare->height() + 15);
+  EXPECT_GT(captioned->height(), titled->height() + 10);
+  EXPECT_GT(timed->height(), captioned->height() + 15);
+  EXPECT_EQ(timed->width(), bare->width());
+  EXPECT_EQ(pixels_of(*timed, kRed), pixels_of(*bare, kRed));
 }
 
 TEST(FilmStrip, WithoutFramesThereIsNone) {

@@ -136,6 +136,19 @@ TEST(Flame, ASmallMoveOfTheOutlineChangesThePictureALittle) {
   }
 }
 
+TEST(Flame, ItsLightChangesAtASteadyPaceWithTheOutline) {
+  // Steps of a fortieth of a pixel: where layers hung on whole cells or pixels, light would come in jumps.
+  std::vector<double> light;
+  for (int k = 0; k < 40; ++k) {
+    light.push_back(total_brightness(drawn(drop_outline(0.1F, 1 + 0.00017F * static_cast<float>(k)), scene())));
+  }
+  const double pace = (light.back() - light.front()) / static_cast<double>(light.size() - 1);
+  ASSERT_GT(pace, 0);
+  for (std::size_t k = 1; k < light.size(); ++k) {
+    EXPECT_NEAR((light[k] - light[k - 1]) / pace, 1, 1.5) << "at step " << k;
+  }
+}
+
 TEST(Flame, AnOutlineWithoutAreaDrawsACandleThatDoesNotBurn) {
   const Image dark = drawn({}, scene());
   EXPECT_GT(total_brightness(dark), 0);
@@ -235,15 +248,38 @@ TEST(Flame, DiesWithinASecondAndLeavesAnEmberAndSmoke) {
   at.seconds_since_out = 60;
   const Image cold = drawn({}, at);
   int smoke = 0;
-  int ember = 0;
   for (int y = 0; y < 190; ++y) {
     for (int x = 0; x < kWidth; ++x) smoke += brightness_at(smoking, x, y) > brightness_at(cold, x, y) + 4 ? 1 : 0;
   }
-  for (int y = 190; y < 225; ++y) {
-    for (int x = 100; x < 140; ++x) ember = std::max<int>(ember, smoking.at(x, y).red - cold.at(x, y).red);
-  }
   EXPECT_GT(smoke, 200);
+  int ember = 0;
+  for (int y = 190; y < 225; ++y) {
+    for (int x = 100; x < 140; ++x) ember = std::max<int>(ember, smoking.at(x, y).red - smoking.at(x, y).blue);
+  }
   EXPECT_GT(ember, 60);
+}
+
+TEST(Flame, OutItShowsNoFlameWhateverItsOutline) {
+  FlameScene at = scene();
+  at.seconds_since_out = 1.5F;
+  EXPECT_TRUE(drawn(drop_outline(), at) == drawn({}, at));
+}
+
+TEST(Flame, TheWickSmokesLessAndLess) {
+  FlameScene at = scene();
+  FlameStyle bare;
+  bare.candle = false;
+  double last = 1e9;
+  for (const float seconds : {1.2F, 2.8F, 4.2F, 6.0F}) {
+    at.seconds_since_out = seconds;
+    const Image image = drawn({}, at, bare);
+    double near_wick = 0;
+    for (int y = 140; y < 200; ++y) {
+      for (int x = 90; x < 150; ++x) near_wick += brightness_at(image, x, y);
+    }
+    EXPECT_LT(near_wick, 0.8 * last) << "after " << seconds;
+    last = near_wick;
+  }
 }
 
 TEST(Flame, SmokeAndEmberAreGoneAfterAWhile) {
@@ -275,6 +311,8 @@ TEST(Flame, RelitItGrowsBackToFullSize) {
     last = here;
   }
   EXPECT_TRUE(drawn(drop_outline(), at) == drawn(drop_outline(), scene()));
+  at.seconds_since_lit = 0.05F;
+  EXPECT_LT(brightness_at(drawn(drop_outline(), at), 120, 140), 30);
 }
 
 TEST(Flame, BrightnessScalesItsLight) {
