@@ -19,8 +19,9 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   const std::string& path = arguments.text("output");
   const auto options = outline_options(arguments, std::filesystem::path(path).stem().string());
   if (!options) return options.error();
-  const auto fit = learn_outline(*recordings, *options);
+  auto fit = learn_outline(*recordings, *options);
   if (!fit) return fit.error();
+  fit->model.provenance.program = "wisp " WISP_VERSION;
   for (const std::string& warning : fit->summary.warnings) terminal.warn(warning);
   if (auto ok = write_model(path, fit->model); !ok) return ok;
   report_outline(*fit, terminal);

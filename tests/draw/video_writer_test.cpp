@@ -38,7 +38,7 @@ std::vector<std::uint8_t> decoded(const std::filesystem::path& path, const std::
     GTEST_SKIP() << "no ffmpeg and ffprobe programs to read the clips with"; \
   }
 
-void write_clip(const std::filesystem::path& path, const VideoOptions& options, int frames) {
+void write_clip(const std::filesystem::path& path, const VideoWriterOptions& options, int frames) {
   auto writer = VideoWriter::create(path, options);
   ASSERT_TRUE(writer) << writer.error().message;
   for (int frame = 0; frame < frames; ++frame) {
@@ -251,8 +251,8 @@ TEST(VideoWriter, AFrameOfAnotherSizeIsNamed) {
 
 TEST(VideoWriter, WhatCannotBeIsRefusedBeforeAnyFile) {
   const TestFolder folder("video-options");
-  const VideoOptions good{.width = 64, .height = 48, .rate_hz = 25};
-  std::vector<VideoOptions> bad(8, good);
+  const VideoWriterOptions good{.width = 64, .height = 48, .rate_hz = 25};
+  std::vector<VideoWriterOptions> bad(8, good);
   bad[0].width = 1;
   bad[1].height = 100000;
   bad[2].rate_hz = 0;
