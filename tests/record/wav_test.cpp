@@ -113,7 +113,7 @@ TEST_F(Wav, EveryFormatComesBackAsItWasWritten) {
                                  WavSample::kFloat32, WavSample::kFloat64}) {
     for (const int channels : {1, 2, 6}) {
       for (const double rate : {1.0, 8000.0, 44100.0, 192000.0, 4294967295.0}) {
-        Sound sound{{rate, channels, sample}, {}};
+        WavSound sound{{rate, channels, sample}, {}};
         for (int i = 0; i < 30; ++i) sound.samples.push_back(static_cast<float>(i * 4 - 60) / 128);
         ASSERT_TRUE(write_wav(file("a.wav"), sound));
         const auto back = read_wav(file("a.wav"));
@@ -165,7 +165,7 @@ TEST_F(Wav, Rf64HasItsSizeInAChunkOfItsOwn) {
 }
 
 TEST_F(Wav, ReadsInBlocksOfAnySize) {
-  Sound sound{{48000, 2, WavSample::kFloat32}, {}};
+  WavSound sound{{48000, 2, WavSample::kFloat32}, {}};
   for (int i = 0; i < 50000; ++i) sound.samples.push_back(static_cast<float>(i));
   ASSERT_TRUE(write_wav(file("a.wav"), sound));
   for (const std::size_t size : {2U, 7U, 30000U, 200000U}) {
