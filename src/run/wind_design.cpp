@@ -47,6 +47,7 @@ void set_times(Design& d, const WindOptions& options) {
   const double hop_seconds = d.hop / d.analysis_rate_hz;
   d.power_approach = static_cast<float>(approach(hop_seconds, 0.050));
   d.voice_release = static_cast<float>(approach(hop_seconds, 0.300));
+  d.tone_approach = static_cast<float>(approach(hop_seconds, 0.150));
   d.floor_fall = static_cast<float>(approach(hop_seconds, 0.050));
   d.floor_rise_db = static_cast<float>(options.floor_rise_db_per_second * hop_seconds);
 

@@ -38,6 +38,7 @@ struct Design {
 
   float power_approach = 1;     ///< of band powers in one hop (50 ms)
   float voice_release = 1;      ///< of the held voicing in one hop (300 ms)
+  float tone_approach = 1;      ///< of the mean autocorrelation in one hop (150 ms)
   float floor_fall = 1;         ///< of the floor downwards in one hop (50 ms)
   float floor_rise_db = 0.01F;  ///< of the floor upwards in one hop
   float smoothing = 1;          ///< of the level's band power in one frame

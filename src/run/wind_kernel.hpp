@@ -24,6 +24,7 @@ struct Features {
   T low_db = T(0.0F);          ///< power near 126 Hz over all above 80 Hz
   T high_db = T(0.0F);         ///< power near 2.6 kHz over all above 80 Hz
   T voicing = T(0.0F);         ///< periodicity, 0 to 1, its peak held
+  T tone = T(0.0F);            ///< steadiness of the same, 0 to 1
   T peaked = T(0.0F);          ///< log of the kurtosis of the voice band over a Gaussian's, −1 to 3
   T loudness_db = T(-120.0F);  ///< power of the voice band (100–900 Hz)
 };
@@ -41,8 +42,8 @@ struct Observation {
 /// 0 to 1: whether features are those of blowing.
 template <class T>
 T likeness_of(const Features<T>& f) {
-  const T z = T(5.5F) + T(0.317F) * f.low_db - T(17.0F) * f.voicing - T(0.357F) * f.high_db - T(0.869F) * f.peaked;
-  return sigmoid(z) * sigmoid((T(0.75F) - f.voicing) * T(25.0F));
+  const T z = T(6.5F) + T(0.317F) * f.low_db - T(17.0F) * f.voicing - T(0.357F) * f.high_db - T(0.869F) * f.peaked;
+  return sigmoid(z) * sigmoid((T(0.78F) - f.voicing) * T(25.0F)) * sigmoid((T(0.36F) - f.tone) * T(30.0F));
 }
 
 /// A gust that dies away does so in a few soft puffs that by themselves sound like anything. For half a second after
@@ -183,7 +184,9 @@ class Kernel {
       sums.add(channels_[c].bands.sums());
     }
     smooth(sums);
-    features_.voicing = voicing_.end_hop(channels_[loudest].history.hop(), fresh(sums.voice));
+    voicing_.end_hop(channels_[loudest].history.hop(), fresh(sums.voice));
+    features_.voicing = voicing_.voicing();
+    features_.tone = voicing_.tone();
     for (auto& channel : channels_) {
       channel.bands.end_hop();
       channel.history.end_hop();

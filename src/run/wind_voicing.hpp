@@ -46,11 +46,13 @@ class VoiceHistory {
   T before_ = T(0.0F);
 };
 
-/// The largest normalised autocorrelation over periods of 70 to 400 Hz in the last three hops (30 ms); a peak is held
-/// and fades in 300 ms, so that the gaps between syllables do not pass for blowing. It fades only as new sound comes in
-/// place of that which it was found in: what rings on in the powers' 50 ms means keeps its voicing.
+/// What the normalised autocorrelation over periods of 70 to 400 Hz tells.
 ///
-/// The three hops' sums are kept, so that each hop costs only its own products.
+/// Voicing is its largest value in the last three hops (30 ms). Tone is the largest value of its mean over 150 ms:
+/// noise, however low, averages out, while chords stay, that have no common period short enough for voicing. A peak of
+/// either is held and fades in 300 ms, so that the gaps between syllables and notes do not pass for blowing. Both
+/// change only as new sound comes in place of that which they were found in: what rings on in the powers' 50 ms means
+/// keeps its voicing and tone. The three hops' sums are kept, so that each hop costs only its own products.
 template <class T>
 class Voicing {
  public:
@@ -58,7 +60,9 @@ class Voicing {
       : first_lag_(d.first_lag),
         length_(d.hop / d.voice_step),
         lags_(static_cast<std::size_t>(d.last_lag - d.first_lag + 1)),
-        release_(d.voice_release) {
+        release_(d.voice_release),
+        tone_approach_(d.tone_approach),
+        means_(lags_, T(0.0F)) {
     for (auto& hop : window_) {
       hop.products.assign(lags_, T(0.0F));
       hop.delayed.assign(lags_, T(0.0F));
@@ -66,15 +70,17 @@ class Voicing {
   }
 
   /// Takes a hop of samples, with the longest period readable before it; `fresh` is the hop's power over the 50 ms
-  /// mean, 0 to 1. Returns the held voicing, 0 to 1.
-  T end_hop(const T* now, T fresh) {
+  /// mean, 0 to 1.
+  void end_hop(const T* now, T fresh) {
     slot_ = (slot_ + 1) % window_.size();
     sum(now, window_[slot_]);
     const T most = largest();
-    held_ = held_ < most ? most : held_ + release_ * fresh * (most - held_);
-    if (held_ < T(1e-6F)) held_ = T(0.0F);
-    return held_;
+    hold(voicing_, most, fresh);
+    average(window_[slot_], fresh);
   }
+
+  T voicing() const { return voicing_; }  ///< 0 to 1
+  T tone() const { return tone_; }        ///< 0 to 1
 
  private:
   struct Hop {
@@ -113,6 +119,28 @@ class Voicing {
     return most < T(1.0F) ? most : T(1.0F);
   }
 
+  /// A peak is taken at once and let go in 300 ms.
+  void hold(T& held, T now, T fresh) const {
+    held = held < now ? now : held + release_ * fresh * (now - held);
+    if (held < T(1e-6F)) held = T(0.0F);
+  }
+
+  void average(const Hop& hop, T fresh) {
+    T most = T(0.0F);
+    const bool heard = T(kLeastEnergy) < hop.energy;
+    const T scale = heard ? T(1.0F) / hop.energy : T(0.0F);
+    const T share = tone_approach_ * fresh;
+    for (std::size_t k = 0; k < lags_; ++k) {
+      T& mean = means_[k];
+      mean = mean + share * (hop.products[k] * scale - mean);
+      if (mean < T(1e-6F) && T(-1e-6F) < mean) mean = T(0.0F);
+      if (most < mean) most = mean;
+    }
+    if (T(1.0F) < most) most = T(1.0F);
+    hold(tone_, most, fresh);
+  }
+
+  static constexpr float kLeastEnergy = 1e-12F;
   static constexpr float kLeastSquare = 1e-24F;  // below: nothing is heard
 
   int first_lag_;
@@ -121,7 +149,10 @@ class Voicing {
   T release_;
   std::array<Hop, 3> window_;
   std::size_t slot_ = 0;
-  T held_ = T(0.0F);
+  T tone_approach_;
+  std::vector<T> means_;  ///< of the normalised autocorrelation, per lag
+  T voicing_ = T(0.0F);
+  T tone_ = T(0.0F);
 };
 
 }  // namespace wisp::wind

@@ -169,4 +169,21 @@ inline Samples knocks(double seconds, double rate_hz, double peak, std::uint64_t
   return samples;
 }
 
+/// Major chords of a bass, struck every 0.75 s and dying away: low, without a common period that a voice could have.
+inline Samples chords(double seconds, double rate_hz, double rms) {
+  const double roots[] = {82.4, 110, 98, 123.5};
+  Samples samples(count(seconds, rate_hz));
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double t = static_cast<double>(i) / rate_hz;
+    double sum = 0;
+    for (const double ratio : {1.0, 1.25, 1.5, 2.0}) {
+      const double f = roots[static_cast<std::size_t>(t / 0.75) % 4] * ratio;
+      for (int h = 1; h <= 5; ++h) sum += std::sin(2 * std::numbers::pi * f * h * t) / (h * h);
+    }
+    samples[i] = static_cast<float>(sum * std::exp(-std::fmod(t, 0.75) / 0.4));
+  }
+  scale_to(samples, rms);
+  return samples;
+}
+
 }  // namespace wisp::sounds
