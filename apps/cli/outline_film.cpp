@@ -122,7 +122,7 @@ Cell cell_of(const StripContent& content) {
               {(control[0] + control[last]) / 2, (control[1] + control[last + 1]) / 2, content.pixels_per_unit});
     }
     for (const OutlinePoint& point :
-         curve.polyline(control_points(*content.synthesized, content.layout, row - first))) {
+         curve.polyline(control_points(*content.synthesized, content.synthesized_layout, row - first))) {
       highest = std::max(highest, point[1]);
       widest = std::max(widest, std::abs(point[0]));
     }
@@ -198,7 +198,8 @@ Result<void> write_film_strip(const std::filesystem::path& out, const ClipFrames
     const auto found = frames->find(row);
     const auto control = control_points(*content.recording, content.layout, row);
     strip.rows[0].frames.push_back(filmed(control, found == frames->end() ? Image() : found->second, content, cell));
-    const auto synthesized = control_points(*content.synthesized, content.layout, row - content.rows.front());
+    const auto synthesized =
+        control_points(*content.synthesized, content.synthesized_layout, row - content.rows.front());
     strip.rows[1].frames.push_back(cartoon(synthesized, content, cell));
     strip.times.push_back(seconds_text(static_cast<double>(row - content.rows.front()) / content.recording->rate_hz));
   }

@@ -37,7 +37,8 @@ struct StripContent {
   std::vector<std::size_t> rows;           ///< of the recording, one a column
   const Recording* recording = nullptr;    ///< in pixels
   const Recording* synthesized = nullptr;  ///< in model units, one row for each of `rows` and those between
-  OutlineLayout layout;                    ///< of both
+  OutlineLayout layout;                    ///< of the recording
+  OutlineLayout synthesized_layout;        ///< of the synthesized life
   double pixels_per_unit = 1;
   std::string synthesized_caption;
 };

@@ -124,6 +124,7 @@ Result<void> draw(const OutlineValidation& found, const Model& model, const Subj
                                : slice(found.synthesized, content.rows.front(), found.synthesized.rows());
     content.synthesized = &life;
     content.layout = found.layout;
+    content.synthesized_layout = found.synthesized_layout;
     content.pixels_per_unit = found.pixels_per_unit;
     content.synthesized_caption = model.inputs.empty() ? "synthesized" : "synthesized from the same wind";
     if (auto ok = write_film_strip(arguments.text("film-strip"), subject.clip, content); !ok) return ok;

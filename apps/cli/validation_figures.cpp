@@ -129,7 +129,7 @@ PlotSheet spectrum_sheet(const Recording& recording, const OutlineValidation& fo
     };
     add("captured", tips(recording, found.layout, found.pixels_per_unit * (coordinate == 0 ? 1 : -1), coordinate),
         Dash::kSolid);
-    add("synthesized", tips(found.synthesized, found.layout, 1, coordinate), Dash::kDashed);
+    add("synthesized", tips(found.synthesized, found.synthesized_layout, 1, coordinate), Dash::kDashed);
     sheet.plots.push_back(std::move(plot));
   }
   return sheet;

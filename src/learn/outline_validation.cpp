@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <numeric>
 
 #include "outline_preparation.hpp"
 #include "wisp/learn/outline_synthesis.hpp"
@@ -110,7 +111,7 @@ Result<OutlineValidation> validate_outline(const Model& model, const Recording& 
   const auto& arx = std::get<ArxModel>(model.dynamics);
 
   OutlineValidation out{.layout = *layout, .pixels_per_unit = prepared->pixels_per_unit.front()};
-  auto figures = outline_figures(arx, prepared->recordings, prepared->channels, *layout, options.steps);
+  auto figures = outline_figures(arx, prepared->recordings, prepared->channels, prepared->layout, options.steps);
   if (!figures) return figures.error();
   out.figures = std::move(*figures);
   out.predicted_steps = model.inputs.empty() ? options.shown_steps : kFreeRun;
@@ -120,6 +121,8 @@ Result<OutlineValidation> validate_outline(const Model& model, const Recording& 
   auto life = live(model, recording, *inputs, options.seed);
   if (!life) return life.error();
   out.synthesized = std::move(life->recording);
+  out.synthesized_layout = *layout;
+  std::iota(out.synthesized_layout.outputs.begin(), out.synthesized_layout.outputs.end(), std::size_t{0});
   out.held_share = life->held_share;
   auto likeness = fidelity(prepared->recordings, {&out.synthesized, 1},
                            {.channels = prepared->channels.outputs, .seed = options.seed});

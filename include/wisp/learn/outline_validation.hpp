@@ -23,8 +23,9 @@ struct OutlineValidationOptions {
 
 /// What a model makes of a recording.
 struct OutlineValidation {
-  OutlineLayout layout;
-  double pixels_per_unit = 0;  ///< the recording's own mean calm height
+  OutlineLayout layout;              ///< of the recording
+  OutlineLayout synthesized_layout;  ///< of `synthesized`
+  double pixels_per_unit = 0;        ///< the recording's own mean calm height
   OutlineFigures figures;
   Fidelity fidelity;               ///< of the synthesized life against the recording
   int predicted_steps = kFreeRun;  ///< of `predicted`: free simulation from the inputs, or so many steps ahead
