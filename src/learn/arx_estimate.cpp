@@ -69,9 +69,15 @@ double refine(const ArxDesign& design, const Eigen::MatrixXd& gram, double ridge
   return largest;
 }
 
+ChannelPairs pairs_for(const ArxDesign& design, bool joint) {
+  const int channels = design.layout.channels();
+  return joint ? ChannelPairs::Constant(channels, channels, true).eval() : wanted_pairs(design);
+}
+
 std::optional<ArxEstimate> try_gram(const Signals& signals, const RowPlan& plan, const ArxDesign& design,
-                                    double ridge) {
-  const Eigen::MatrixXd gram = lag_gram(signals, plan, design.layout, wanted_pairs(design));
+                                    const EstimateOptions& options) {
+  const double ridge = options.ridge;
+  Eigen::MatrixXd gram = lag_gram(signals, plan, design.layout, pairs_for(design, options.joint));
   ArxEstimate estimate;
   double condition = 1;
   for (const SharedRows& rows : design.groups) {
@@ -97,6 +103,7 @@ std::optional<ArxEstimate> try_gram(const Signals& signals, const RowPlan& plan,
   }
   estimate.method = "normal equations from the lag structure, refined with residuals from the data (condition " +
                     short_number(condition) + ")";
+  if (options.joint) estimate.gram = std::move(gram);
   estimate.residual_gram_at = [&](const GroupThetas& theta) {
     return residual_products(signals, plan, design, theta).gram;
   };
@@ -111,17 +118,18 @@ GroupThetas ArxEstimate::thetas() const {
   return all;
 }
 
-ArxEstimate estimate_from_data(const Signals& signals, const RowPlan& plan, const ArxDesign& design, double ridge) {
-  if (auto estimate = try_gram(signals, plan, design, ridge)) return std::move(*estimate);
-  return estimate_from_triangle(triangle_by_qr(signals, plan, design.layout), signals.scale, design, ridge);
+ArxEstimate estimate_from_data(const Signals& signals, const RowPlan& plan, const ArxDesign& design,
+                               const EstimateOptions& options) {
+  if (auto estimate = try_gram(signals, plan, design, options)) return std::move(*estimate);
+  return estimate_from_triangle(triangle_by_qr(signals, plan, design.layout), signals.scale, design, options);
 }
 
 ArxEstimate estimate_from_triangle(const Eigen::MatrixXd& triangle, const std::vector<double>& scale,
-                                   const ArxDesign& design, double ridge) {
+                                   const ArxDesign& design, const EstimateOptions& options) {
   ArxEstimate estimate;
   double condition = 1;
   for (const SharedRows& rows : design.groups) {
-    estimate.groups.push_back(solve_with_triangle(triangle, problem_of(rows, scale, design, ridge)));
+    estimate.groups.push_back(solve_with_triangle(triangle, problem_of(rows, scale, design, options.ridge)));
     condition = std::max(condition, estimate.groups.back().scaled_condition);
   }
   const Eigen::MatrixXd residuals = residuals_of(triangle, design, estimate.thetas());
@@ -133,6 +141,7 @@ ArxEstimate estimate_from_triangle(const Eigen::MatrixXd& triangle, const std::v
     const double sum = triangle.col(0).dot(target);
     estimate.target_square[i] = target.squaredNorm() - sum * sum / rows;
   }
+  if (options.joint) estimate.gram = triangle.transpose() * triangle;
   estimate.method = "Householder QR by blocks of rows (condition " + short_number(condition) + ")";
   estimate.residual_gram_at = [triangle, &design](const GroupThetas& theta) {
     const Eigen::MatrixXd at = residuals_of(triangle, design, theta);

@@ -27,19 +27,28 @@ struct ArxEstimate {
   Eigen::VectorXd target_square;       ///< Σ (y − ȳ)² per output
   std::string method;                  ///< which factorisation and why
 
+  Eigen::MatrixXd gram;  ///< of all columns of the layout; empty unless `joint` was asked for
+
   /// Σ r_i r_j for other coefficients than the estimate's.
   std::function<Eigen::MatrixXd(const GroupThetas&)> residual_gram_at;
 
   GroupThetas thetas() const;
 };
 
+/// What to compute.
+struct EstimateOptions {
+  double ridge = 0;
+  bool joint = false;  ///< also the products that tie rows of different groups together
+};
+
 /// From the data. The estimate keeps references to its arguments.
 ///
 /// Precondition: plan.rows > 0.
-ArxEstimate estimate_from_data(const Signals& signals, const RowPlan& plan, const ArxDesign& design, double ridge);
+ArxEstimate estimate_from_data(const Signals& signals, const RowPlan& plan, const ArxDesign& design,
+                               const EstimateOptions& options);
 
 /// From the triangle of all columns of the design's layout; `scale` per channel as in Signals.
 ArxEstimate estimate_from_triangle(const Eigen::MatrixXd& triangle, const std::vector<double>& scale,
-                                   const ArxDesign& design, double ridge);
+                                   const ArxDesign& design, const EstimateOptions& options);
 
 }  // namespace wisp

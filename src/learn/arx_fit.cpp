@@ -22,7 +22,8 @@ Result<ArxFit> fit_arx(std::span<const Recording> recordings, const ChannelChoic
 
   const FitFacts facts{options,   signals->outputs,  signals->names,     signals->offset,       signals->scale,
                        plan.rows, plan.first_sample, plan.episodes_used, plan.episodes_skipped, plan.rows_left_out};
-  ArxFit fit = report_fit(facts, design, estimate_from_data(*signals, plan, design, options.ridge));
+  ArxFit fit =
+      report_fit(facts, design, estimate_from_data(*signals, plan, design, {options.ridge, options.covariance}));
   const bool driven = std::any_of(options.orders.nb.values().begin(), options.orders.nb.values().end(),
                                   [](int order) { return order > 0; });
   if (options.judge_free_run && driven) {

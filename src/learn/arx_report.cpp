@@ -153,6 +153,50 @@ void write_noise(const FitFacts& facts, const ArxDesign& design, const ArxSummar
   }
 }
 
+// Where a row's coefficients begin in the joint covariance.
+std::vector<Eigen::Index> row_starts(const ArxModel& model) {
+  std::vector<Eigen::Index> starts{0};
+  for (const auto& row : model.theta) starts.push_back(starts.back() + static_cast<Eigen::Index>(row.size()));
+  return starts;
+}
+
+// Factors from scaled units without A's sign to the model's coefficients.
+Eigen::VectorXd factors(const FitFacts& facts, const ArxDesign& design, const SharedRows& rows, int output,
+                        Eigen::Index size) {
+  Eigen::VectorXd out(size);
+  for (Eigen::Index p = 0; p < size; ++p) {
+    const LaggedChannel column = design.layout[rows.columns[p]];
+    out[p] = sign_of(facts, column) * scale_of(facts, column) * inverse_or_zero(facts.scale[output]);
+  }
+  return out;
+}
+
+// cov(θ_i, θ_j) = s_ij P_i X_iᵀX_j P_j with P = (XᵀX)⁻¹ and s the covariance of the noise.
+std::vector<double> joint_covariance(const FitFacts& facts, const ArxDesign& design, const ArxEstimate& estimate,
+                                     const ArxModel& model) {
+  const auto starts = row_starts(model);
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> joint(starts.back(), starts.back());
+  for (const SharedRows& left : design.groups) {
+    for (const SharedRows& right : design.groups) {
+      const Eigen::MatrixXd between = estimate.groups[&left - design.groups.data()].inverse *
+                                      estimate.gram(left.columns, right.columns) *
+                                      estimate.groups[&right - design.groups.data()].inverse;
+      const double mean_size = 0.5 * static_cast<double>(left.columns.size() + right.columns.size());
+      for (int i : left.outputs) {
+        for (int j : right.outputs) {
+          const Eigen::Index rows = starts[i + 1] - starts[i];
+          const Eigen::Index columns = starts[j + 1] - starts[j];
+          const double noise = estimate.residual_gram(i, j) / (static_cast<double>(facts.rows) - mean_size);
+          joint.block(starts[i], starts[j], rows, columns) =
+              noise * (factors(facts, design, left, i, rows).asDiagonal() * between.topLeftCorner(rows, columns) *
+                       factors(facts, design, right, j, columns).asDiagonal());
+        }
+      }
+    }
+  }
+  return {joint.data(), joint.data() + joint.size()};
+}
+
 std::string lag_text(const FitFacts& facts, const LaggedChannel& column) {
   if (column.channel == kConstantChannel) return "the constant";
   return "'" + facts.names[column.channel] + "' at lag " + std::to_string(column.lag);
@@ -223,6 +267,7 @@ ArxFit report_fit(const FitFacts& facts, const ArxDesign& design, ArxEstimate es
   }
   to_units(facts, design, fit.model);
   write_std_errors(facts, design, estimate, fit.model);
+  if (facts.options.covariance) fit.covariance = joint_covariance(facts, design, estimate, fit.model);
   write_loss(facts, estimate, residual_gram, summary);
   write_criteria(facts, design, summary);
   write_noise(facts, design, summary, fit.model);

@@ -1,8 +1,10 @@
 // Source: the constrained least-squares problem of S. Lacy and D. Bernstein, "Subspace identification with guaranteed
-// stability using constrained optimization", IEEE Trans. Automatic Control 48 (2003), solved here on the poles
-// themselves: sequential quadratic programming (J. Nocedal and S. Wright, Numerical Optimization, chapter 18) with the
-// derivatives of simple eigenvalues. The boundary of the stable set has corners where poles meet, so every step is kept
-// only if it is feasible and better; the poles scaled inwards are where it starts and what it can never be worse than.
+// stability using constrained optimization", IEEE Trans. Automatic Control 48 (2003), solved here for the coefficients
+// of A. The boundary of the stable set has corners where poles meet, so the way there leads through the inside: a
+// barrier of Lyapunov's equation, which is smooth (J. Nocedal and S. Wright, Numerical Optimization, chapters 6 and
+// 19), lowered step by step; then, on the boundary, sequential quadratic programming (chapter 18) with the derivatives
+// of simple poles. Every step is kept only if it is feasible and better; the poles scaled inwards are where it starts
+// and what it can never be worse than.
 
 #include "arx_stability.hpp"
 
@@ -11,7 +13,9 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numeric>
+#include <optional>
 
 namespace wisp {
 namespace {
@@ -72,6 +76,23 @@ class Block {
     return a;
   }
 
+  /// ln tr P with P = M P Mᵀ + 1 and M the companion matrix over `most`: finite inside, infinite on the boundary and
+  /// beyond. Adds `weight` times its slope to `slope`.
+  double barrier(const VectorXd& a, double most, double weight, VectorXd& slope) const {
+    const MatrixXd m = companion(a) / most;
+    const auto p = lyapunov(m);
+    const auto q = lyapunov(m.transpose());
+    if (!p || !q) return std::numeric_limits<double>::infinity();
+    const MatrixXd push = *q * m * *p * (2 / most / p->trace());
+    for (Index k = 0; k < a.size(); ++k) {
+      slope[k] -= weight * push(coefficients_[k].row, place(coefficients_[k]));
+    }
+    return std::log(p->trace());
+  }
+
+  VectorXd loss_slope(const VectorXd& a) const { return 2 * (stiffness_ * (a - start_)); }
+  const MatrixXd& give() const { return give_; }
+
   /// Poles scaled inwards as far as `most` asks.
   VectorXd feasible(const VectorXd& a, double most) const {
     const double now = radius(a);
@@ -94,8 +115,7 @@ class Block {
       bound.conservativeResize(row + 1);
       for (Index k = 0; k < a.size(); ++k) {
         const Coefficient& c = coefficients_[k];
-        const std::complex<double> moves =
-            -left(p, c.row) * vectors((c.lag - 1) * static_cast<Index>(outputs_.size()) + c.column, p);
+        const std::complex<double> moves = -left(p, c.row) * vectors(place(c), p);
         slope(row, k) = 2 * (std::conj(values[p]) * moves).real();
       }
       bound[row] = most * most - std::norm(values[p]) + slope.row(row).dot(a - start_);
@@ -104,11 +124,27 @@ class Block {
   }
 
  private:
+  // A coefficient's column of the companion matrix.
+  Index place(const Coefficient& c) const { return (c.lag - 1) * static_cast<Index>(outputs_.size()) + c.column; }
+
+  // P = M P Mᵀ + 1 by doubling, or nothing where the sum does not converge.
+  static std::optional<MatrixXd> lyapunov(MatrixXd m) {
+    MatrixXd p = MatrixXd::Identity(m.rows(), m.cols());
+    for (int doubling = 0; doubling < 60; ++doubling) {
+      p += (m * p * m.transpose()).eval();
+      m = (m * m).eval();
+      const double left = m.squaredNorm();
+      if (!(left < 1e200)) return std::nullopt;
+      if (left < 1e-32) return p;
+    }
+    return std::nullopt;
+  }
+
   MatrixXd companion(const VectorXd& a) const {
     const auto ny = static_cast<Index>(outputs_.size());
     MatrixXd matrix = MatrixXd::Zero(ny * order_, ny * order_);
     for (Index k = 0; k < a.size(); ++k) {
-      matrix(coefficients_[k].row, (coefficients_[k].lag - 1) * ny + coefficients_[k].column) = -a[k];
+      matrix(coefficients_[k].row, place(coefficients_[k])) = -a[k];
     }
     for (Index r = ny; r < matrix.rows(); ++r) matrix(r, r - ny) = 1;
     return matrix;
@@ -140,19 +176,53 @@ class Block {
   MatrixXd stiffness_;  // of the loss
 };
 
-// Follows the best coefficients while the bound on the radius is drawn in from where the estimate is.
-VectorXd drawn_in(const Block& block, double most) {
-  constexpr int kSteps = 12;
-  const double outermost = block.radius(block.start());
-  VectorXd a = block.start();
-  for (int step = 1; step <= kSteps; ++step) {
-    const double bound = std::exp(std::lerp(std::log(outermost), std::log(most), static_cast<double>(step) / kSteps));
-    for (int correction = 0; correction < 2; ++correction) {
-      const VectorXd next = block.linearised_best(a, bound);
-      if (!next.allFinite() || block.radius(next) > outermost) return block.feasible(a, most);
-      a = next;
+// Loss and barrier together.
+struct Height {
+  double value;
+  VectorXd slope;
+};
+
+Height height(const Block& block, const VectorXd& a, double most, double weight) {
+  Height at{block.loss(a), block.loss_slope(a)};
+  at.value += weight * block.barrier(a, most, weight, at.slope);
+  return at;
+}
+
+// Quasi-Newton steps (BFGS) down to where loss and barrier balance.
+VectorXd settle(const Block& block, VectorXd a, double most, double weight) {
+  constexpr int kMostSteps = 40;
+  MatrixXd inverse = 0.5 * block.give();
+  Height at = height(block, a, most, weight);
+  for (int step = 0; step < kMostSteps && std::isfinite(at.value); ++step) {
+    const VectorXd direction = -(inverse * at.slope);
+    const double descent = at.slope.dot(direction);
+    if (!(descent < -1e-10 * std::abs(at.value))) break;
+    double share = 1;
+    Height next = height(block, a + direction, most, weight);
+    while (!(next.value <= at.value + 1e-4 * share * descent) && share > 1e-8) {
+      share /= 2;
+      next = height(block, a + share * direction, most, weight);
     }
+    if (share <= 1e-8) break;
+    const VectorXd moved = share * direction;
+    const VectorXd turned = next.slope - at.slope;
+    const double curvature = moved.dot(turned);
+    if (curvature > 0) {
+      const VectorXd image = inverse * turned;
+      inverse += (1 + turned.dot(image) / curvature) / curvature * moved * moved.transpose() -
+                 (image * moved.transpose() + moved * image.transpose()) / curvature;
+    }
+    a += moved;
+    at = std::move(next);
   }
+  return a;
+}
+
+// From the inside to near the boundary, while the barrier is lowered.
+VectorXd through_the_inside(const Block& block, double most) {
+  VectorXd a = block.feasible(block.start(), 0.98 * most);
+  double weight = 0.1 * block.loss(a);
+  for (int level = 0; level < 9; ++level, weight /= 5) a = settle(block, a, most, weight);
   return block.feasible(a, most);
 }
 
@@ -221,8 +291,8 @@ double make_stable(ArxModel& model, const std::vector<RowCurvature>& curvature, 
     const Block block(model, curvature, std::move(outputs));
     if (block.radius(block.start()) <= most_radius) continue;
     const VectorXd from_scaled = descend(block, block.feasible(block.start(), most_radius), most_radius);
-    const VectorXd from_drawn = descend(block, drawn_in(block, most_radius), most_radius);
-    const VectorXd& best = block.loss(from_drawn) < block.loss(from_scaled) ? from_drawn : from_scaled;
+    const VectorXd from_inside = descend(block, through_the_inside(block, most_radius), most_radius);
+    const VectorXd& best = block.loss(from_inside) < block.loss(from_scaled) ? from_inside : from_scaled;
     loss += block.loss(best);
     write_block(block, best, curvature, model);
   }

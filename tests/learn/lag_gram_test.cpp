@@ -20,7 +20,7 @@ Recording noise(std::size_t rows, int outputs, int inputs, unsigned seed) {
   recording.rate_hz = 1;
   for (int c = 0; c < outputs + inputs; ++c) {
     const bool output = c < outputs;
-    recording.channels.push_back({(output ? "y" : "u") + std::to_string(output ? c : c - outputs), "",
+    recording.channels.push_back({std::string(output ? "y" : "u") + std::to_string(output ? c : c - outputs), "",
                                   output ? Role::kOutput : Role::kInput, std::vector<double>(rows)});
     for (double& sample : recording.channels.back().samples) sample = 3 + normal(generator);
   }
@@ -29,8 +29,8 @@ Recording noise(std::size_t rows, int outputs, int inputs, unsigned seed) {
 
 ChannelChoice choice(int outputs, int inputs) {
   ChannelChoice channels;
-  for (int i = 0; i < outputs; ++i) channels.outputs.push_back("y" + std::to_string(i));
-  for (int k = 0; k < inputs; ++k) channels.inputs.push_back("u" + std::to_string(k));
+  for (int i = 0; i < outputs; ++i) channels.outputs.push_back(std::string("y") + std::to_string(i));
+  for (int k = 0; k < inputs; ++k) channels.inputs.push_back(std::string("u") + std::to_string(k));
   return channels;
 }
 

@@ -36,6 +36,7 @@ struct ArxOptions {
                                     ///< unset: the longest lag, max(na, nb + nk − 1)
   bool stabilise = true;            ///< re-estimate an unstable model under the constraint that it is stable
   double stability_margin = 1e-3;   ///< in (0, 1): a repaired model's spectral radius is at most 1 − this
+  bool covariance = false;          ///< compute the covariance of all coefficients together, for confidence bands
   bool judge_free_run = true;       ///< simulate over the recordings too, to warn where one-step fit hides failure
 };
 
@@ -84,6 +85,7 @@ struct ArxSummary {
 struct ArxFit {
   ArxModel model;
   ArxSummary summary;
+  std::vector<double> covariance;  ///< of all rows' theta one after the other, d_total × d_total, row-major; or empty
 };
 
 /// Fits an ARX model to all episodes of all recordings together; no history crosses a gap.
