@@ -94,7 +94,8 @@ Result<void> run_steps(const Places& places, const Clips& clips, const Arguments
 
   const std::string frames =
       std::to_string(std::max(1, static_cast<int>(20 * terminal.result()["learn"]["rate_hz"].get<double>())));
-  const Step film{run_command(), {model}, {{"frames", frames}, {"output", places.at("flame.mp4")}}};
+  Step film{run_command(), {model}, {{"frames", frames}, {"output", places.at("flame.mp4")}}};
+  if (!terminal.result()["learn"]["inputs"].empty()) film.flags.push_back({"input", places.at("recording.csv")});
   return run_step("run", film, terminal);
 }
 
