@@ -16,6 +16,16 @@ constexpr double kSmallest = 1e-12;  // of a range that is not zero
 
 double margin(double lowest, double highest) { return kRangeMargin * (highest - lowest); }
 
+float first_lane(const Reals<LiveNumbers>& reals) {
+  float lanes[LiveNumbers::kLanes];
+  store(reals, lanes);
+  return lanes[0];
+}
+
+float regress(const RegressorChannel& channel, float input) {
+  return first_lane(wisp::regress<LiveNumbers>(channel, all<Reals<LiveNumbers>>(input)));
+}
+
 OutputChannel make_output(const Output& output, double mean) {
   const double scale = channel_scale(output.lowest, output.highest);
   const double room = margin(output.lowest, output.highest);
@@ -27,7 +37,7 @@ OutputChannel make_output(const Output& output, double mean) {
   channel.high = static_cast<float>((highest - mean) / scale);
   channel.lowest = static_cast<float>(lowest);
   channel.highest = static_cast<float>(highest);
-  channel.start = settle(hold(0.0f, channel.low, channel.high));
+  channel.start = first_lane(settle(all<Reals<LiveNumbers>>(std::clamp(0.0f, channel.low, channel.high))));
   return channel;
 }
 

@@ -61,15 +61,15 @@ Result<void> check_channels(const Model& model, const OperatingPoint& point);
 /// A hash of the channels, over a hash of what came before.
 std::uint64_t hash_of(const Channels& channels, std::uint64_t before);
 
-/// The value of a regressor for its input; what is not a number counts as 0.
-template <class Real>
-inline Real regress(const RegressorChannel& channel, Real input) {
-  const Real zero(0.0f);
-  const Real held = hold(input == input ? input : zero, Real(channel.low), Real(channel.high));
-  Real part = held;
-  if (channel.part == RegressorPart::kPositive) part = held > zero ? held : zero;
-  if (channel.part == RegressorPart::kNegative) part = held < zero ? -held : zero;
-  return settle((part - Real(channel.mean)) * Real(channel.inverse_scale));
+/// The values of a regressor for its inputs; what is not a number counts as 0.
+template <class N>
+inline Reals<N> regress(const RegressorChannel& channel, const Reals<N>& inputs) {
+  const auto zero = all<Reals<N>>(0.0f);
+  const auto held = hold(number_or(inputs, zero), all<Reals<N>>(channel.low), all<Reals<N>>(channel.high));
+  auto part = held;
+  if (channel.part == RegressorPart::kPositive) part = larger(held, zero);
+  if (channel.part == RegressorPart::kNegative) part = zero - smaller(held, zero);
+  return settle((part - all<Reals<N>>(channel.mean)) * all<Reals<N>>(channel.inverse_scale));
 }
 
 /// An output's values in its own unit.

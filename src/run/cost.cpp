@@ -22,19 +22,19 @@ OperationCount count(Work work) {
 
 OperationCount count_inputs(const Channels& channels) {
   return count([&] {
-    for (const RegressorChannel& channel : channels.regressors) regress(channel, CountingReal(channel.low));
+    for (const RegressorChannel& channel : channels.regressors) regress<CountingNumbers>(channel, {});
   });
 }
 
 template <class Stepper>
 OperationCount count_step(Stepper& stepper, float noise) {
   const RandomKeys keys = random_keys(1);
-  const std::uint64_t stream = 0, age = 0;
+  const std::uint64_t stream = 0, born = 0;
   std::uint32_t held = 0;
   stepper.set_noise(noise);
   return count([&] {
     stepper.turn();
-    stepper.step(0, {&keys, {&stream, &age}, &held});
+    stepper.step(0, {&keys, {&stream, &born, 0}, &held});
   });
 }
 
@@ -60,7 +60,7 @@ Cost count_frame(const Model& model, const Kind& dynamics, const Channels& chann
   const OperationCount quiet = count_step(stepper, 0), noisy = count_step(stepper, 1);
   Cost cost;
   cost.multiply_adds_per_frame = stepper.multiply_adds();
-  cost.dynamics_operations = count_inputs(channels).numbers + quiet.numbers;
+  cost.dynamics_operations = count_inputs(channels).numbers + quiet.numbers + quiet.words;
   cost.noise_operations = noisy.numbers - quiet.numbers;
   cost.random_operations = noisy.words - quiet.words;
   cost.view_operations = count_view(channels, stepper, polyline).numbers;
@@ -87,16 +87,16 @@ Result<Cost> count_operations(const Model& model, int polyline_points) {
     return bytes.error();
   }
   const int points = std::holds_alternative<OutlineView>(model.view) ? polyline_points : 0;
-  return visit_dynamics<CountingNumbers>(
-      model, [&]<class Type>(const auto& dynamics, std::type_identity<Type>) -> Result<Cost> {
-        const OperatingPoint point = Type::operating_point(dynamics);
-        Arena measured;
-        Surroundings(model, point, points, measured);
-        std::vector<std::byte> memory = room_for(measured);
-        Arena arena(memory);
-        const Surroundings around(model, point, points, arena);
-        return count_frame<Type>(model, dynamics, around.channels, around.polyline);
-      });
+  const auto count_kind = [&]<class Type>(const auto& dynamics, std::type_identity<Type>) -> Result<Cost> {
+    const OperatingPoint point = Type::operating_point(dynamics);
+    Arena measured;
+    Surroundings(model, point, points, measured);
+    std::vector<std::byte> memory = room_for(measured);
+    Arena arena(memory);
+    const Surroundings around(model, point, points, arena);
+    return count_frame<Type>(model, dynamics, around.channels, around.polyline);
+  };
+  return visit_dynamics<CountingNumbers>(model, count_kind);
 }
 
 }  // namespace wisp

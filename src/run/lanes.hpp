@@ -200,15 +200,26 @@ inline auto differ(const Pack<Part, kParts>& a, const Pack<Part, kParts>& b) {
   return each([](const Part& x, const Part& y) { return differ_part(x, y); }, a, b);
 }
 
-/// Held to [low, high]; what is not a number becomes `low`.
-template <class Value>
-inline Value hold(Value value, Value low, Value high) {
-  const Value raised = value > low ? value : low;
-  return raised < high ? raised : high;
+/// The larger and the smaller of two numbers; the second where the first is not a number.
+template <class Part, int kParts>
+inline auto larger(const Pack<Part, kParts>& a, const Pack<Part, kParts>& b) {
+  return each([](const Part& x, const Part& y) { return x > y ? x : y; }, a, b);
 }
 template <class Part, int kParts>
+inline auto smaller(const Pack<Part, kParts>& a, const Pack<Part, kParts>& b) {
+  return each([](const Part& x, const Part& y) { return x < y ? x : y; }, a, b);
+}
+
+/// Held to [low, high].
+template <class Part, int kParts>
 inline auto hold(const Pack<Part, kParts>& value, const Pack<Part, kParts>& low, const Pack<Part, kParts>& high) {
-  return each([](const Part& v, const Part& l, const Part& h) { return hold<Part>(v, l, h); }, value, low, high);
+  return smaller(larger(value, low), high);
+}
+
+/// The value where it is a number, else the other.
+template <class Part, int kParts>
+inline auto number_or(const Pack<Part, kParts>& value, const Pack<Part, kParts>& other) {
+  return each([](const Part& x, const Part& y) { return x == x ? x : y; }, value, other);
 }
 
 /// State nearer to zero than this is zero, so that an engine that flushes denormals sees the same numbers. States are
@@ -217,10 +228,6 @@ inline auto hold(const Pack<Part, kParts>& value, const Pack<Part, kParts>& low,
 inline constexpr float kLeastState = 1e-20f;
 inline constexpr float kLeastCoefficient = 1e-10f;
 
-template <class Value>
-inline Value settle(Value value) {
-  return value < Value(kLeastState) && value > Value(-kLeastState) ? Value(0.0f) : value;
-}
 template <class Part, int kParts>
 inline auto settle(const Pack<Part, kParts>& value) {
   return each(
