@@ -84,8 +84,6 @@ Result<void> run_steps(const Places& places, const Clips& clips, const Arguments
   if (auto ok = run_step("learn", learn, terminal); !ok) return ok;
 
   Step validate{validate_command(), {model, clips.validate}, {{"points", points}}};
-  if (clips.validate == clips.learn)
-    validate = {validate_command(), {model, places.at("recording.csv")}, {{"clip", clips.learn}}};
   if (arguments.has("rate")) validate.flags.push_back({"rate", arguments.text("rate")});
   validate.flags.push_back({"overlay", places.at("overlay.mp4")});
   validate.flags.push_back({"film-strip", places.at("film-strip.png")});

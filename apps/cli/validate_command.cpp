@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include "capture_flags.hpp"
+#include "clip_figures.hpp"
 #include "commands.hpp"
 #include "figures_json.hpp"
 #include "outline_film.hpp"
@@ -21,6 +23,7 @@ namespace {
 struct Subject {
   Recording recording;
   ClipFrames clip;
+  std::optional<CaptureReport> report;  // where it was captured just now
 };
 
 Result<Subject> subject_of(const std::string& path, const Arguments& arguments, Terminal& terminal) {
@@ -35,6 +38,7 @@ Result<Subject> subject_of(const std::string& path, const Arguments& arguments, 
     if (!clip) return clip.error();
     for (const std::string& warning : clip->report.warnings) terminal.warn(warning);
     subject.recording = std::move(clip->recording);
+    subject.report = std::move(clip->report);
     subject.clip.path = path;
   }
   if (arguments.has("rate")) subject.clip.rate_hz = arguments.number("rate");
@@ -131,8 +135,12 @@ Result<void> draw(const OutlineValidation& found, const Model& model, const Subj
     terminal.say("wrote " + arguments.text("film-strip"));
   }
   if (!arguments.has("figures")) return {};
-  if (auto ok = write_validation_figures(arguments.text("figures"), model, subject.recording, found); !ok) return ok;
-  terminal.say("wrote figures to " + arguments.text("figures"));
+  const std::string& folder = arguments.text("figures");
+  if (auto ok = write_validation_figures(folder, model, subject.recording, found); !ok) return ok;
+  if (subject.report) {
+    if (auto ok = write_clip_figures(folder, subject.clip.path, *subject.report); !ok) return ok;
+  }
+  terminal.say("wrote figures to " + folder);
   return {};
 }
 

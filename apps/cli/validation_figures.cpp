@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "clip_figures.hpp"
 #include "outline_learning.hpp"
 #include "recordings.hpp"
 #include "wisp/draw/plot.hpp"
@@ -12,13 +13,6 @@ namespace wisp::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-Result<void> write_figure(const fs::path& folder, const std::string& name, const PlotSheet& sheet) {
-  for (const char* extension : {".png", ".svg"}) {
-    if (auto ok = write_plots(folder / (name + extension), sheet); !ok) return ok;
-  }
-  return {};
-}
 
 Result<void> make_folder(const fs::path& folder) {
   std::error_code code;
