@@ -9,6 +9,7 @@
 #include "outline_preparation.hpp"
 #include "outline_verdict.hpp"
 #include "wisp/learn/arx_orders.hpp"
+#include "wisp/learn/fidelity_marginal.hpp"
 #include "wisp/learn/outline_synthesis.hpp"
 
 namespace wisp {
@@ -142,8 +143,8 @@ Result<void> set_noise(const ArxFit& fitted, std::span<const Recording> recordin
   if (options.noise == OutlineNoise::kIndependent) {
     factor = Eigen::Map<const Eigen::VectorXd>(model.noise.sd.data(), wanted->rows()).asDiagonal();
   } else {
-    const Covariance shocks =
-        options.noise == OutlineNoise::kMatched ? shocks_for(model, *wanted) : residual_covariance(fitted);
+    const bool matched = options.noise == OutlineNoise::kMatched && options.coupling == OutlineCoupling::kPoint;
+    const Covariance shocks = matched ? shocks_for(model, *wanted) : residual_covariance(fitted);
     factor = shared_factor(shocks, options.shared_shocks);
     summary.shared_variance = carried(shocks, factor);
   }
@@ -232,16 +233,30 @@ void take_fit(const ArxFit& fitted, OutlineSummary& summary) {
   }
 }
 
-// What it costs, and whether it stays in its range when it plays along the first recording's inputs.
-Result<void> try_out(const Model& model, const OutlineOptions& options, const Recording& first,
-                     OutlineSummary& summary) {
+double recorded_sd(const std::string& name, std::span<const Recording> recordings) {
+  std::vector<double> samples;
+  for (const Recording& recording : recordings) {
+    for (double value : recording.channels[*find_channel(recording, name)].samples) {
+      if (!std::isnan(value)) samples.push_back(value);
+    }
+  }
+  return standard_deviation(samples);
+}
+
+// What it costs, and what it does when it plays along the first recording's inputs.
+Result<void> try_out(const Model& model, const OutlineOptions& options, const PreparedOutlines& prepared,
+                     const Recording& first, OutlineSummary& summary) {
   const auto cost = count_operations(model);
   if (!cost) return cost.error();
   summary.cost = *cost;
   const Recording driving = with_regressors(first, summary.inputs, false);
-  const auto held = held_share(model, kTrialSteps, {.seed = options.seed, .input = &driving});
-  if (!held) return held.error();
-  summary.held_share = *held;
+  const auto play = play_freely(model, kTrialSteps, {.seed = options.seed, .input = &driving});
+  if (!play) return play.error();
+  summary.held_share = play->held_share;
+  for (std::size_t i = 0; i < play->sd.size(); ++i) {
+    const double recorded = recorded_sd(prepared.channels.outputs[i], prepared.recordings);
+    summary.sd_ratio.push_back(recorded > 0 ? play->sd[i] / recorded : 1);
+  }
   return {};
 }
 
@@ -270,7 +285,7 @@ Result<OutlineFit> learn_outline(std::span<const Recording> recordings, const Ou
   const auto shaken = mirror_wanted(options, *prepared) ? with_mirror_images(seen, *prepared) : seen;
   if (auto ok = set_noise(*fitted, shaken, prepared->channels, options, arx, summary); !ok) return ok.error();
   out.model = model_of(arx, *prepared, options);
-  if (auto ok = try_out(out.model, options, recordings.front(), summary); !ok) return ok.error();
+  if (auto ok = try_out(out.model, options, *prepared, recordings.front(), summary); !ok) return ok.error();
   summary.usable = outline_verdict(fitted->summary, summary);
   out.model.provenance = outline_provenance(recordings, options, summary);
   return out;

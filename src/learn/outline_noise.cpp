@@ -4,19 +4,24 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <vector>
 
 namespace wisp {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
 
-constexpr int kLongestResponse = 30000;  // samples: a radius of 0.999 has fallen to 1e-13 by then
-constexpr double kResponseEnd = 1e-7;    // of the largest value: its square is 1e-14 of the variance
+constexpr int kMostDoublings = 40;
+constexpr double kNothingLeft = 1e-14;  // of what the shocks put in
+constexpr int kMostPasses = 200;
+constexpr double kCloseEnough = 1e-6;
 
-// Outputs that feed each other, and the impulse responses of their dynamics to their shocks.
+// Outputs that feed each other, and the companion matrix of their dynamics.
 struct Block {
   std::vector<int> outputs;
-  std::vector<Matrix> response;
+  Matrix companion;
+
+  Eigen::Index size() const { return static_cast<Eigen::Index>(outputs.size()); }
 };
 
 std::vector<std::vector<int>> coupled_outputs(const ArxModel& model) {
@@ -44,86 +49,107 @@ std::vector<std::vector<int>> coupled_outputs(const ArxModel& model) {
   return blocks;
 }
 
-Matrix next_response(const ArxModel& model, const Block& block) {
-  const auto size = static_cast<Eigen::Index>(block.outputs.size());
-  const auto now = block.response.size();
-  Matrix next = Matrix::Zero(size, size);
+Matrix companion_of(const ArxModel& model, const std::vector<int>& outputs) {
+  const auto size = static_cast<Eigen::Index>(outputs.size());
+  Eigen::Index order = 1;
+  for (int i : outputs) {
+    for (int j : outputs) order = std::max<Eigen::Index>(order, model.orders.na(i, j));
+  }
+  Matrix out = Matrix::Zero(size * order, size * order);
   for (Eigen::Index r = 0; r < size; ++r) {
     for (Eigen::Index c = 0; c < size; ++c) {
-      const auto lags = model.a(block.outputs[r], block.outputs[c]);
-      for (std::size_t lag = 0; lag < lags.size() && lag < now; ++lag) {
-        next.row(r) -= lags[lag] * block.response[now - 1 - lag].row(c);
+      const auto lags = model.a(outputs[r], outputs[c]);
+      for (std::size_t lag = 0; lag < lags.size(); ++lag) {
+        out(r, static_cast<Eigen::Index>(lag) * size + c) = -lags[lag];
       }
     }
   }
-  return next;
-}
-
-Block with_response(const ArxModel& model, std::vector<int> outputs) {
-  Block block{std::move(outputs), {}};
-  const auto size = static_cast<Eigen::Index>(block.outputs.size());
-  block.response.push_back(Matrix::Identity(size, size));
-  const int history = std::max(1, model.orders.history());
-  double largest = 1;
-  for (int quiet = 0; quiet < history && static_cast<int>(block.response.size()) < kLongestResponse;) {
-    block.response.push_back(next_response(model, block));
-    const double size_now = block.response.back().cwiseAbs().maxCoeff();
-    largest = std::max(largest, size_now);
-    quiet = size_now < kResponseEnd * largest ? quiet + 1 : 0;
-  }
-  return block;
+  out.bottomLeftCorner(size * (order - 1), size * (order - 1)).setIdentity();
+  return out;
 }
 
 std::vector<Block> blocks_of(const ArxModel& model) {
   std::vector<Block> blocks;
-  for (auto& outputs : coupled_outputs(model)) blocks.push_back(with_response(model, std::move(outputs)));
+  for (auto& outputs : coupled_outputs(model)) {
+    Matrix companion = companion_of(model, outputs);
+    blocks.push_back({std::move(outputs), std::move(companion)});
+  }
   return blocks;
 }
 
-// The linear map from vec Q_ij to vec P_ij, rows first: Σ H_i ⊗ H_j.
+// Σ F_i^t G F_jᵀ^t, G the shocks in the corner of the state, summed by doubling: X ← X + F X Fᵀ, F ← F².
+Matrix pair_covariance(const Block& i, const Block& j, const Matrix& shocks) {
+  Matrix f = i.companion;
+  Matrix g = j.companion;
+  Matrix sum = Matrix::Zero(f.rows(), g.rows());
+  sum.topLeftCorner(i.size(), j.size()) = shocks;
+  for (int doubling = 0; doubling < kMostDoublings; ++doubling) {
+    sum += f * sum * g.transpose();
+    f = f * f;
+    g = g * g;
+    if (f.cwiseAbs().maxCoeff() * g.cwiseAbs().maxCoeff() < kNothingLeft) break;
+  }
+  return sum.topLeftCorner(i.size(), j.size());
+}
+
+// The linear map from vec Q_ij to vec P_ij, rows first.
 Matrix pair_map(const Block& i, const Block& j) {
-  const auto ni = static_cast<Eigen::Index>(i.outputs.size());
-  const auto nj = static_cast<Eigen::Index>(j.outputs.size());
-  Matrix map = Matrix::Zero(ni * nj, ni * nj);
-  const std::size_t length = std::min(i.response.size(), j.response.size());
-  for (std::size_t t = 0; t < length; ++t) {
-    for (Eigen::Index a = 0; a < ni; ++a) {
-      for (Eigen::Index c = 0; c < ni; ++c) map.block(a * nj, c * nj, nj, nj) += i.response[t](a, c) * j.response[t];
+  Matrix map(i.size() * j.size(), i.size() * j.size());
+  for (Eigen::Index c = 0; c < i.size(); ++c) {
+    for (Eigen::Index d = 0; d < j.size(); ++d) {
+      Matrix unit = Matrix::Zero(i.size(), j.size());
+      unit(c, d) = 1;
+      const Matrix answer = pair_covariance(i, j, unit);
+      for (Eigen::Index a = 0; a < i.size(); ++a) {
+        for (Eigen::Index b = 0; b < j.size(); ++b) map(a * j.size() + b, c * j.size() + d) = answer(a, b);
+      }
     }
   }
   return map;
 }
 
-Eigen::VectorXd stacked(const Covariance& whole, const Block& i, const Block& j) {
-  Eigen::VectorXd out(static_cast<Eigen::Index>(i.outputs.size() * j.outputs.size()));
-  Eigen::Index at = 0;
-  for (int a : i.outputs) {
-    for (int b : j.outputs) out[at++] = whole(a, b);
+Matrix part_of(const Covariance& whole, const Block& i, const Block& j) {
+  Matrix out(i.size(), j.size());
+  for (Eigen::Index a = 0; a < i.size(); ++a) {
+    for (Eigen::Index b = 0; b < j.size(); ++b) out(a, b) = whole(i.outputs[a], j.outputs[b]);
   }
   return out;
 }
 
-void put(const Eigen::VectorXd& values, const Block& i, const Block& j, Covariance& whole) {
-  Eigen::Index at = 0;
-  for (int a : i.outputs) {
-    for (int b : j.outputs) whole(a, b) = whole(b, a) = values[at++];
+void put(const Matrix& part, const Block& i, const Block& j, Covariance& whole) {
+  for (Eigen::Index a = 0; a < i.size(); ++a) {
+    for (Eigen::Index b = 0; b < j.size(); ++b) {
+      whole(i.outputs[a], j.outputs[b]) = whole(j.outputs[b], i.outputs[a]) = part(a, b);
+    }
   }
+}
+
+// For every output of a block the matrix W whose product with the block's shocks, element by element and summed, is the
+// output's stationary variance: the observability Gramian's corner, by doubling X ← X + Fᵀ X F, F ← F².
+std::vector<Matrix> variance_weights(const Block& block) {
+  const Eigen::Index state = block.companion.rows();
+  std::vector<Matrix> sums(block.outputs.size(), Matrix::Zero(state, state));
+  for (Eigen::Index r = 0; r < block.size(); ++r) sums[r](r, r) = 1;
+  Matrix f = block.companion;
+  for (int doubling = 0; doubling < kMostDoublings; ++doubling) {
+    for (Matrix& sum : sums) sum += f.transpose() * sum * f;
+    f = f * f;
+    const double left = f.cwiseAbs().maxCoeff();
+    if (left * left < kNothingLeft) break;
+  }
+  for (Matrix& sum : sums) sum = sum.topLeftCorner(block.size(), block.size()).eval();
+  return sums;
 }
 
 // Least squares with a little weight on size: where two points' dynamics have nothing in common no finite shocks make
 // them move together, and then less is better than absurdly much.
-Eigen::VectorXd solved(const Matrix& map, const Eigen::VectorXd& wanted) {
+Matrix solved(const Matrix& map, const Matrix& wanted) {
   const Matrix normal = map.transpose() * map;
   const double weight = 1e-4 * normal.trace() / static_cast<double>(normal.rows());
   const Matrix weighted = normal + weight * Matrix::Identity(normal.rows(), normal.cols());
-  return weighted.ldlt().solve(map.transpose() * wanted);
-}
-
-// Maps of every block with itself: all that variances need.
-std::vector<Matrix> own_maps(const std::vector<Block>& blocks) {
-  std::vector<Matrix> maps;
-  for (const Block& block : blocks) maps.push_back(pair_map(block, block));
-  return maps;
+  const Eigen::VectorXd stacked = wanted.transpose().reshaped();  // rows first
+  const Eigen::VectorXd found = weighted.ldlt().solve(map.transpose() * stacked);
+  return found.reshaped(wanted.cols(), wanted.rows()).transpose();
 }
 
 }  // namespace
@@ -133,7 +159,7 @@ Covariance stationary_covariance(const ArxModel& model, const Covariance& shocks
   Covariance out = Covariance::Zero(shocks.rows(), shocks.cols());
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     for (std::size_t j = i; j < blocks.size(); ++j) {
-      put(pair_map(blocks[i], blocks[j]) * stacked(shocks, blocks[i], blocks[j]), blocks[i], blocks[j], out);
+      put(pair_covariance(blocks[i], blocks[j], part_of(shocks, blocks[i], blocks[j])), blocks[i], blocks[j], out);
     }
   }
   return out;
@@ -144,7 +170,8 @@ Covariance shocks_for(const ArxModel& model, const Covariance& wanted) {
   Covariance out = Covariance::Zero(wanted.rows(), wanted.cols());
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     for (std::size_t j = i; j < blocks.size(); ++j) {
-      put(solved(pair_map(blocks[i], blocks[j]), stacked(wanted, blocks[i], blocks[j])), blocks[i], blocks[j], out);
+      const Matrix shocks = solved(pair_map(blocks[i], blocks[j]), part_of(wanted, blocks[i], blocks[j]));
+      put(shocks, blocks[i], blocks[j], out);
     }
   }
   return out;
@@ -166,25 +193,25 @@ Eigen::MatrixXd shared_factor(const Covariance& shocks, int rank) {
 }
 
 bool scale_to_variance(const ArxModel& model, const Covariance& wanted, Eigen::MatrixXd& factor) {
-  const std::vector<Block> blocks = blocks_of(model);
-  const std::vector<Matrix> maps = own_maps(blocks);
   double worst = 0;
-  for (int pass = 0; pass < 200; ++pass) {
-    const Covariance shocks = factor * factor.transpose();
-    worst = 0;
-    for (std::size_t k = 0; k < blocks.size(); ++k) {
-      const Eigen::VectorXd reached = maps[k] * stacked(shocks, blocks[k], blocks[k]);
-      const auto size = static_cast<Eigen::Index>(blocks[k].outputs.size());
-      for (Eigen::Index r = 0; r < size; ++r) {
-        const int output = blocks[k].outputs[r];
-        const double variance = reached[r * size + r];
+  for (const Block& block : blocks_of(model)) {
+    const std::vector<Matrix> weights = variance_weights(block);
+    double off = 0;
+    for (int pass = 0; pass < kMostPasses; ++pass) {
+      const Covariance shocks = factor * factor.transpose();
+      const Matrix own = part_of(shocks, block, block);
+      off = 0;
+      for (Eigen::Index r = 0; r < block.size(); ++r) {
+        const double variance = weights[r].cwiseProduct(own).sum();
         if (!(variance > 0)) continue;
+        const int output = block.outputs[r];
         const double ratio = wanted(output, output) / variance;
-        worst = std::max(worst, std::abs(ratio - 1));
+        off = std::max(off, std::abs(ratio - 1));
         factor.row(output) *= std::sqrt(ratio);
       }
+      if (off < kCloseEnough) break;
     }
-    if (worst < 1e-6) break;
+    worst = std::max(worst, off);
   }
   return worst < 0.01;
 }

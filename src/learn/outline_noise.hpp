@@ -28,7 +28,8 @@ Covariance stationary_covariance(const ArxModel& model, const Covariance& shocks
 
 /// The covariance of shocks, not always positive semi-definite, under which the stationary covariance is `wanted`.
 ///
-/// Precondition: the model is stable; `wanted` is symmetric, ny × ny.
+/// Precondition: the model is stable; `wanted` is symmetric, ny × ny; blocks of outputs that feed each other are small
+/// (two outputs of a point): the cost goes as the sixth power of a block's size.
 Covariance shocks_for(const ArxModel& model, const Covariance& wanted);
 
 /// M, ny × rank or narrower, with M Mᵀ as near to `shocks` as that rank allows when every channel counts alike.

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "wisp/model/bspline.hpp"
 
@@ -12,38 +13,19 @@ namespace {
 
 constexpr int kStrips = 1024;
 
+// Twice the signed area of a triangle: which side of the line a–b the point c is on.
+double side(const OutlinePoint& a, const OutlinePoint& b, const OutlinePoint& c) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+bool cross(const OutlinePoint& a, const OutlinePoint& b, const OutlinePoint& c, const OutlinePoint& d) {
+  return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
+}
+
 OutlinePoint base_of(std::span<const OutlinePoint> polyline) {
   const OutlinePoint& left = polyline.front();
   const OutlinePoint& right = polyline.back();
   return {(left[0] + right[0]) / 2, (left[1] + right[1]) / 2};
-}
-
-// Where the polygon's sides cross the line y, ascending: pairs enclose what is filled. A side owns its lower end and
-// not its upper one, so that a corner on the line counts once.
-void crossings(std::span<const OutlinePoint> polygon, double y, std::vector<double>& out) {
-  out.clear();
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const OutlinePoint& a = polygon[k];
-    const OutlinePoint& b = polygon[(k + 1) % polygon.size()];
-    if ((a[1] <= y) == (b[1] <= y)) continue;
-    out.push_back(a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]));
-  }
-  std::sort(out.begin(), out.end());
-}
-
-double length_of(const std::vector<double>& crossing) {
-  double sum = 0;
-  for (std::size_t k = 0; k + 1 < crossing.size(); k += 2) sum += crossing[k + 1] - crossing[k];
-  return sum;
-}
-
-double common_length(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0;
-  for (std::size_t i = 0, j = 0; i + 1 < a.size() && j + 1 < b.size();) {
-    sum += std::max(0.0, std::min(a[i + 1], b[j + 1]) - std::max(a[i], b[j]));
-    (a[i + 1] < b[j + 1] ? i : j) += 2;
-  }
-  return sum;
 }
 
 struct Range {
@@ -56,8 +38,67 @@ struct Range {
       highest = std::max(highest, point[1]);
     }
   }
-  double strip(int k) const { return lowest + (highest - lowest) * (k + 0.5) / kStrips; }
+  bool empty() const { return !(highest > lowest); }
+  double middle(int strip) const { return lowest + (highest - lowest) * (strip + 0.5) / kStrips; }
+
+  // The strip in which y lies, or one next to it.
+  int near(double y) const { return static_cast<int>((y - lowest) / (highest - lowest) * kStrips); }
 };
+
+// Where a polygon's sides cross the middle of every strip, ascending: pairs enclose what is filled.
+class Crossings {
+ public:
+  Crossings(std::span<const OutlinePoint> polygon, const Range& range) : first_(kStrips + 1, 0) {
+    visit(polygon, range, [&](int strip, double) { ++first_[strip + 1]; });
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    x_.resize(first_.back());
+    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+    visit(polygon, range, [&](int strip, double x) { x_[next[strip]++] = x; });
+    for (int strip = 0; strip < kStrips; ++strip) {
+      std::sort(x_.begin() + static_cast<std::ptrdiff_t>(first_[strip]),
+                x_.begin() + static_cast<std::ptrdiff_t>(first_[strip + 1]));
+    }
+  }
+
+  std::span<const double> at(int strip) const {
+    return std::span(x_).subspan(first_[strip], first_[strip + 1] - first_[strip]);
+  }
+
+ private:
+  // A side owns its lower end and not its upper one, so that a corner on the line counts once.
+  template <class Visit>
+  static void visit(std::span<const OutlinePoint> polygon, const Range& range, Visit visit) {
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const OutlinePoint& a = polygon[k];
+      const OutlinePoint& b = polygon[(k + 1) % polygon.size()];
+      const int low = std::max(0, range.near(std::min(a[1], b[1])) - 1);
+      const int high = std::min(kStrips - 1, range.near(std::max(a[1], b[1])) + 1);
+      for (int strip = low; strip <= high; ++strip) {
+        const double y = range.middle(strip);
+        if ((a[1] <= y) == (b[1] <= y)) continue;
+        visit(strip, a[0] + (b[0] - a[0]) * (y - a[1]) / (b[1] - a[1]));
+      }
+    }
+  }
+
+  std::vector<std::size_t> first_;  // of each strip in x_
+  std::vector<double> x_;
+};
+
+double length_of(std::span<const double> crossing) {
+  double sum = 0;
+  for (std::size_t k = 0; k + 1 < crossing.size(); k += 2) sum += crossing[k + 1] - crossing[k];
+  return sum;
+}
+
+double common_length(std::span<const double> a, std::span<const double> b) {
+  double sum = 0;
+  for (std::size_t i = 0, j = 0; i + 1 < a.size() && j + 1 < b.size();) {
+    sum += std::max(0.0, std::min(a[i + 1], b[j + 1]) - std::max(a[i], b[j]));
+    (a[i + 1] < b[j + 1] ? i : j) += 2;
+  }
+  return sum;
+}
 
 }  // namespace
 
@@ -107,16 +148,23 @@ double height_of(std::span<const OutlinePoint> polyline) {
   return std::hypot(tip[0] - base[0], tip[1] - base[1]);
 }
 
+bool crosses_itself(std::span<const OutlinePoint> polyline) {
+  const std::size_t n = polyline.size();
+  for (std::size_t i = 0; i + 2 < n; ++i) {
+    for (std::size_t j = i + 2; j < n; ++j) {
+      if (cross(polyline[i], polyline[i + 1], polyline[j], polyline[(j + 1) % n])) return true;
+    }
+  }
+  return false;
+}
+
 double area_of(std::span<const OutlinePoint> polygon) {
   Range range;
   range.take(polygon);
-  if (!(range.highest > range.lowest)) return 0;
-  std::vector<double> crossing;
+  if (range.empty()) return 0;
+  const Crossings crossings(polygon, range);
   double sum = 0;
-  for (int k = 0; k < kStrips; ++k) {
-    crossings(polygon, range.strip(k), crossing);
-    sum += length_of(crossing);
-  }
+  for (int strip = 0; strip < kStrips; ++strip) sum += length_of(crossings.at(strip));
   return sum * (range.highest - range.lowest) / kStrips;
 }
 
@@ -124,16 +172,15 @@ double overlap_of(std::span<const OutlinePoint> a, std::span<const OutlinePoint>
   Range range;
   range.take(a);
   range.take(b);
-  std::vector<double> of_a;
-  std::vector<double> of_b;
+  if (range.empty()) return 0;
+  const Crossings of_a(a, range);
+  const Crossings of_b(b, range);
   double common = 0;
   double covered = 0;
-  for (int k = 0; k < kStrips; ++k) {
-    crossings(a, range.strip(k), of_a);
-    crossings(b, range.strip(k), of_b);
-    const double both = common_length(of_a, of_b);
+  for (int strip = 0; strip < kStrips; ++strip) {
+    const double both = common_length(of_a.at(strip), of_b.at(strip));
     common += both;
-    covered += length_of(of_a) + length_of(of_b) - both;
+    covered += length_of(of_a.at(strip)) + length_of(of_b.at(strip)) - both;
   }
   return covered > 0 ? common / covered : 0;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "wisp/run/bank.hpp"
 
@@ -62,6 +63,40 @@ Recording empty_recording(const Model& model, std::size_t rows) {
   return out;
 }
 
+// Standard deviations of a bank's outputs about a middle that keeps the sums small.
+class Spread {
+ public:
+  explicit Spread(const Model& model) : sum_(model.outputs.size(), 0.0), square_(model.outputs.size(), 0.0) {
+    for (const Output& output : model.outputs) middle_.push_back((output.lowest + output.highest) / 2);
+  }
+
+  void add(std::span<const float> values) {
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const std::size_t output = k % middle_.size();
+      const double deviation = values[k] - middle_[output];
+      sum_[output] += deviation;
+      square_[output] += deviation * deviation;
+    }
+    count_ += values.size() / middle_.size();
+  }
+
+  std::vector<double> sd() const {
+    std::vector<double> out;
+    const auto n = static_cast<double>(count_);
+    for (std::size_t k = 0; k < middle_.size(); ++k) {
+      const double mean = sum_[k] / n;
+      out.push_back(std::sqrt(std::max(0.0, square_[k] / n - mean * mean)));
+    }
+    return out;
+  }
+
+ private:
+  std::vector<double> middle_;
+  std::vector<double> sum_;
+  std::vector<double> square_;
+  std::size_t count_ = 0;
+};
+
 double share(const Bank::Held& before, const Bank::Held& after) {
   const std::uint64_t steps = after.steps - before.steps;
   return steps == 0 ? 0 : static_cast<double>(after.held - before.held) / static_cast<double>(steps);
@@ -92,7 +127,7 @@ Result<Synthesis> synthesize(const Model& model, const SynthesisOptions& options
   return out;
 }
 
-Result<double> held_share(const Model& model, std::size_t steps, const SynthesisOptions& options) {
+Result<FreePlay> play_freely(const Model& model, std::size_t steps, const SynthesisOptions& options) {
   const auto inputs = input_rows(model, options.input);
   if (!inputs) return inputs.error();
   auto bank = Bank::create(model, {.capacity = kCrowd, .seed = options.seed});
@@ -103,8 +138,14 @@ Result<double> held_share(const Model& model, std::size_t steps, const Synthesis
   Player player(*bank, *inputs, warm_up);
   for (std::size_t t = 0; t < warm_up; ++t) player.step();
   const Bank::Held before = bank->held();
-  for (std::size_t t = 0; t < steps; t += kCrowd) player.step();
-  return share(before, bank->held());
+  Spread spread(model);
+  std::vector<float> values(kCrowd * model.outputs.size());
+  for (std::size_t t = 0; t < steps / kCrowd; ++t) {
+    player.step();
+    bank->outputs(values);
+    spread.add(values);
+  }
+  return FreePlay{share(before, bank->held()), spread.sd()};
 }
 
 }  // namespace wisp

@@ -8,8 +8,10 @@ namespace wisp {
 namespace {
 
 constexpr std::size_t kLeastRows = 50;
+constexpr int kLeastRowsACoefficient = 4;
 constexpr double kMostHeld = 1e-3;
 constexpr double kMostLossGrown = 1.2;  // of a repaired model, in variance: beyond it is another model
+constexpr double kMostSpread = 2;       // playing freely over recorded, of the typical channel, either way
 
 std::string rounded(double value, int digits) {
   char out[64];
@@ -35,6 +37,12 @@ double typical_fit(const OutlineFigures& figures, int steps) {
 double tip_fit(const OutlineFigures& figures, int steps) {
   const auto at = std::find(figures.steps.begin(), figures.steps.end(), steps) - figures.steps.begin();
   return figures.tip_fit_percent[at];
+}
+
+int most_coefficients(const ArxOrders& orders) {
+  int most = 0;
+  for (int i = 0; i < orders.outputs(); ++i) most = std::max(most, orders.row_size(i));
+  return most;
 }
 
 const char* coupling_name(OutlineCoupling coupling) {
@@ -89,6 +97,12 @@ Usable outline_verdict(const ArxSummary& fit, const OutlineSummary& summary) {
     return {false, "learned from " + std::to_string(rows) + " frames; at least " + std::to_string(kLeastRows) +
                        " are needed to tell flicker from chance: record longer"};
   }
+  if (rows < static_cast<std::size_t>(kLeastRowsACoefficient * most_coefficients(summary.orders))) {
+    return {false, std::to_string(most_coefficients(summary.orders)) + " coefficients an output from " +
+                       std::to_string(rows) + " frames tell more of chance than of the thing; at least " +
+                       std::to_string(kLeastRowsACoefficient) +
+                       " frames a coefficient are needed: record longer, or try a lower order or less coupling"};
+  }
   if (fit.stable.changed && fit.stable.loss_factor > kMostLossGrown) {
     return {false, "the estimate was unstable (radius " + rounded(fit.stable.estimated, 4) +
                        ") and became another model by being made stable: try a lower order or more frames"};
@@ -97,9 +111,14 @@ Usable outline_verdict(const ArxSummary& fit, const OutlineSummary& summary) {
     return {false, "its outputs are held at their range in " + rounded(1000 * summary.held_share, 1) +
                        " of 1000 frames, more than 1: record longer or try a lower order"};
   }
-  if (typical_fit(judged, 1) <= 0) {
+  const double spread = median(summary.sd_ratio);
+  if (!(spread < kMostSpread && spread > 1 / kMostSpread)) {
+    return {false, "playing freely it moves " + rounded(spread, 2) +
+                       " times as much as the recording does: try a lower order or less coupling"};
+  }
+  if (typical_fit(summary.learned, 1) <= 0) {
     return {false, "it predicts the next frame no better than the mean does (median fit " +
-                       rounded(typical_fit(judged, 1), 1) + " %)"};
+                       rounded(typical_fit(summary.learned, 1), 1) + " %)"};
   }
   if (!summary.inputs.empty() && tip_fit(judged, kFreeRun) <= 0) {
     return {false, "simulated from its inputs alone the tip is followed no better than by its mean (fit " +
@@ -122,6 +141,7 @@ Provenance outline_provenance(std::span<const Recording> recordings, const Outli
                  {"rows_learned", static_cast<double>(summary.rows_learned)},
                  {"rows_held_out", static_cast<double>(summary.rows_held_out)},
                  {"held_share", summary.held_share},
+                 {"sd_ratio", median(summary.sd_ratio)},
                  {"pixels_per_unit", summary.pixels_per_unit}};
   for (const OutlineInput& input : summary.inputs) out.figures.push_back({input_scale_figure(input.name), input.scale});
   for (std::size_t k = 0; k < judged.steps.size(); ++k) {

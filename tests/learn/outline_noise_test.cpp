@@ -47,7 +47,7 @@ TEST(OutlineNoise, FirstOrderVarianceIsTheGeometricSeries) {
   const Covariance p = stationary_covariance(first_order({0.9, -0.4}), shocks);
   EXPECT_NEAR(p(0, 0), 2 / (1 - 0.81), 1e-9);
   EXPECT_NEAR(p(1, 1), 1 / (1 - 0.16), 1e-12);
-  EXPECT_NEAR(p(0, 1), 0.5 / (1 + 0.36), 1e-8);  // responses end at 1e-7 of their size
+  EXPECT_NEAR(p(0, 1), 0.5 / (1 + 0.36), 1e-12);
   EXPECT_EQ(p(0, 1), p(1, 0));
 }
 

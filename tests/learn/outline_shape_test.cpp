@@ -74,6 +74,14 @@ TEST(OutlineShape, WhereAnOutlineFoldsOverItselfItIsEmpty) {
   EXPECT_NEAR(overlap_of(bow, square(0, 0, 2)), 0.5, 1e-2);
 }
 
+TEST(OutlineShape, ABowTieCrossesItselfAndAFlameDoesNot) {
+  EXPECT_TRUE(crosses_itself(Polygon{{0, 0}, {2, 2}, {2, 0}, {0, 2}}));
+  EXPECT_FALSE(crosses_itself(circle(0, 0, 1)));
+  EXPECT_FALSE(crosses_itself(square(0, 0, 1)));
+  // Only the closing line of the base crosses.
+  EXPECT_TRUE(crosses_itself(Polygon{{0, 0}, {-1, 2}, {1, 2}, {1, 1}, {0.5, -1}, {2, 1}}));
+}
+
 TEST(OutlineShape, NothingOverlapsNothing) {
   const Polygon line{{0, 0}, {1, 0}};
   EXPECT_EQ(overlap_of(line, line), 0);

@@ -33,7 +33,8 @@ enum class OutlineCoupling {
 enum class OutlineNoise {
   kIndependent,  ///< every channel by itself, with its residual's standard deviation: the paper's
   kResidual,     ///< shared shocks with the residuals' covariance
-  kMatched,      ///< shared shocks under which the whole outline at rest has the recording's covariance
+  kMatched,      ///< shared shocks under which the whole outline at rest has the recording's covariance; where points
+                 ///< feed each other, as kResidual: the coupling itself holds the shape
 };
 
 /// How to learn.
@@ -47,7 +48,7 @@ struct OutlineOptions {
   double holdout = 0.3;        ///< 0 to 0.9: the last part of each recording, kept for judging
   bool refit = true;           ///< after judging, learn the model that is returned from everything
   OutlineNoise noise = OutlineNoise::kMatched;
-  int shared_shocks = 6;         ///< 1 to 64: normal numbers a frame; six carry 97 % of what real flames do
+  int shared_shocks = 4;         ///< 1 to 64: normal numbers a frame; more changed no figure (docs/fidelity.md)
   bool match_variance = true;    ///< scale the noise until every channel at rest has the recording's variance
   double pixels_per_unit = 0;    ///< 0: each recording's own mean calm height is 1
   std::uint64_t seed = 1;        ///< of the trial runs
@@ -75,8 +76,9 @@ struct OutlineSummary {
   double fpe = 0;                          ///< of the returned model, mean over rows of V·(1 + d/n)/(1 − d/n)
   ArxStability stable;
   Cost cost;
-  double held_share = 0;       ///< of steps in which an output is held at its range, playing freely with noise
-  double shared_variance = 0;  ///< share of the wanted shocks' variance that the shared ones carry, 0 to 1
+  double held_share = 0;         ///< of steps in which an output is held at its range, playing freely with noise
+  std::vector<double> sd_ratio;  ///< of every channel: playing freely over recorded; 1 where nothing moves
+  double shared_variance = 0;    ///< share of the wanted shocks' variance that the shared ones carry, 0 to 1
   bool variance_matched = false;
   double pixels_per_unit = 0;  ///< of the first recording
   std::vector<std::string> warnings;

@@ -43,6 +43,9 @@ OutlinePoint tip_of(std::span<const OutlinePoint> polyline);
 /// Distance of the tip from the middle of the base.
 double height_of(std::span<const OutlinePoint> polyline);
 
+/// Whether the outline crosses itself: no real flame does. The closing line of the base counts.
+bool crosses_itself(std::span<const OutlinePoint> polyline);
+
 /// Area of the closed polygon where it is filled by the even-odd rule.
 double area_of(std::span<const OutlinePoint> polygon);
 

@@ -1,8 +1,9 @@
 #pragma once
 // What a model does when it is left to itself: recordings made by the very code that plays it in a game.
 
+#include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <vector>
 
 #include "wisp/base/result.hpp"
 #include "wisp/model/model.hpp"
@@ -30,9 +31,16 @@ struct Synthesis {
 /// Errors: as Bank::create(); an input that the recording has not or whose samples are missing.
 Result<Synthesis> synthesize(const Model& model, const SynthesisOptions& options);
 
-/// Share of steps in which an output is held at its range, over `steps` steps of 100 instances together, each after a
-/// warm-up of 10 s, with inputs as in SynthesisOptions.
+/// What a crowd of instances did.
+struct FreePlay {
+  double held_share = 0;   ///< of steps in which an output was held at its range
+  std::vector<double> sd;  ///< standard deviation of every output, in its unit
+};
+
+/// Plays 100 instances for `steps` steps together, each after a warm-up, with inputs as in SynthesisOptions.
 /// Errors: as synthesize().
-Result<double> held_share(const Model& model, std::size_t steps, const SynthesisOptions& options = {});
+///
+/// Precondition: steps >= 100.
+Result<FreePlay> play_freely(const Model& model, std::size_t steps, const SynthesisOptions& options = {});
 
 }  // namespace wisp
