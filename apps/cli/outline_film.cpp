@@ -96,6 +96,11 @@ std::vector<double> control_points(const Recording& recording, const OutlineLayo
   return values;
 }
 
+OutlineFrame frame_of(const std::vector<double>& control, double pixels_per_unit) {
+  const std::size_t last = control.size() - 2;
+  return {(control[0] + control[last]) / 2, (control[1] + control[last + 1]) / 2, pixels_per_unit};
+}
+
 // A film strip's view of one frame, in the clip's pixels.
 struct Cell {
   double width = 0;
@@ -103,31 +108,28 @@ struct Cell {
   double below_base = 0;
 };
 
+// The row in the model's units; empty where it has no outline.
+std::vector<double> row_units(const Recording& recording, const OutlineLayout& layout, std::size_t row,
+                              double pixels_per_unit) {
+  const auto control = control_points(recording, layout, row);
+  if (control.empty()) return {};
+  return to_model_units(control, frame_of(control, pixels_per_unit));
+}
+
 Cell cell_of(const StripContent& content) {
   const OutlineCurve curve(content.layout.knots);
+  const double unit = content.pixels_per_unit;
   double highest = 1, widest = 0.4;
-  const auto include = [&](const std::vector<double>& control, const OutlineFrame& frame) {
-    if (control.empty()) return;
-    for (const OutlinePoint& point : curve.polyline(to_model_units(control, frame))) {
-      highest = std::max(highest, point[1]);
-      widest = std::max(widest, std::abs(point[0]));
-    }
-  };
-  const std::size_t first = content.rows.front();
   for (std::size_t row : content.rows) {
-    const auto control = control_points(*content.recording, content.layout, row);
-    if (!control.empty()) {
-      const std::size_t last = control.size() - 2;
-      include(control,
-              {(control[0] + control[last]) / 2, (control[1] + control[last + 1]) / 2, content.pixels_per_unit});
-    }
-    for (const OutlinePoint& point :
-         curve.polyline(control_points(*content.synthesized, content.synthesized_layout, row - first))) {
-      highest = std::max(highest, point[1]);
-      widest = std::max(widest, std::abs(point[0]));
+    for (const auto& control : {row_units(*content.recording, content.layout, row, unit),
+                                row_units(*content.synthesized, content.synthesized_layout, row, unit)}) {
+      if (control.empty()) continue;
+      for (const OutlinePoint& point : curve.polyline(control)) {
+        highest = std::max(highest, point[1]);
+        widest = std::max(widest, std::abs(point[0]));
+      }
     }
   }
-  const double unit = content.pixels_per_unit;
   return {2.3 * widest * unit, (highest + 0.55) * unit, 0.35 * unit};
 }
 
@@ -152,9 +154,7 @@ Image cartoon(const std::vector<double>& control, const StripContent& content, c
 // The filmed frame around the base; the cartoon of what was captured where there is no film.
 Image filmed(const std::vector<double>& control, const Image& frame, const StripContent& content, const Cell& cell) {
   if (control.empty()) return {};
-  const std::size_t last = control.size() - 2;
-  const OutlineFrame place{(control[0] + control[last]) / 2, (control[1] + control[last + 1]) / 2,
-                           content.pixels_per_unit};
+  const OutlineFrame place = frame_of(control, content.pixels_per_unit);
   if (frame.empty()) return cartoon(to_model_units(control, place), content, cell);
   const int width = static_cast<int>(std::lround(cell.width)), height = static_cast<int>(std::lround(cell.height));
   const int left = static_cast<int>(std::lround(place.base_x - cell.width / 2));
@@ -198,8 +198,7 @@ Result<void> write_film_strip(const std::filesystem::path& out, const ClipFrames
     const auto found = frames->find(row);
     const auto control = control_points(*content.recording, content.layout, row);
     strip.rows[0].frames.push_back(filmed(control, found == frames->end() ? Image() : found->second, content, cell));
-    const auto synthesized =
-        control_points(*content.synthesized, content.synthesized_layout, row - content.rows.front());
+    const auto synthesized = row_units(*content.synthesized, content.synthesized_layout, row, content.pixels_per_unit);
     strip.rows[1].frames.push_back(cartoon(synthesized, content, cell));
     strip.times.push_back(seconds_text(static_cast<double>(row - content.rows.front()) / content.recording->rate_hz));
   }

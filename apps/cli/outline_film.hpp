@@ -36,7 +36,7 @@ Result<void> write_overlay(const std::filesystem::path& out, const ClipFrames& c
 struct StripContent {
   std::vector<std::size_t> rows;           ///< of the recording, one a column
   const Recording* recording = nullptr;    ///< in pixels
-  const Recording* synthesized = nullptr;  ///< in model units, one row for each of `rows` and those between
+  const Recording* synthesized = nullptr;  ///< in pixels, the same rows
   OutlineLayout layout;                    ///< of the recording
   OutlineLayout synthesized_layout;        ///< of the synthesized life
   double pixels_per_unit = 1;

@@ -13,7 +13,7 @@
 #include "recordings.hpp"
 #include "validation_figures.hpp"
 #include "wisp/learn/outline_shape.hpp"
-#include "wisp/learn/outline_validation.hpp"
+#include "wisp/learn/validation.hpp"
 #include "wisp/model/file.hpp"
 
 namespace wisp::cli {
@@ -63,37 +63,38 @@ Result<std::vector<int>> judged_steps(const Arguments& arguments) {
   return steps;
 }
 
-std::vector<Point> to_picture(const std::vector<OutlinePoint>& polyline) {
+// A row's outline in the picture; empty where it has none.
+std::vector<Point> polyline_in_picture(const OutlineCurve& curve, const OutlineLayout& layout,
+                                       const Recording& recording, std::size_t row) {
+  std::vector<double> control;
+  for (std::size_t channel : layout.outputs) control.push_back(recording.channels[channel].samples[row]);
+  if (std::any_of(control.begin(), control.end(), [](double value) { return std::isnan(value); })) return {};
   // A pixel's centre is at whole numbers for capture and at halves for drawing.
   std::vector<Point> points;
-  for (const OutlinePoint& point : polyline)
+  for (const OutlinePoint& point : curve.polyline(control)) {
     points.push_back({static_cast<float>(point[0] + 0.5), static_cast<float>(point[1] + 0.5)});
+  }
   return points;
 }
 
-OutlineRows outline_rows(const OutlineValidation& found, const Recording& recording) {
-  const OutlineCurve curve(found.layout.knots);
+OutlineRows outline_rows(const Judged& judged, const Recording& recording) {
+  const OutlineCurve curve(judged.layout.knots);
+  const PredictedOutlines& shown = judged.shown();
   OutlineRows rows;
-  rows.simulated_label = found.predicted_steps == kFreeRun
-                             ? "simulated from the input alone"
-                             : "predicted " + std::to_string(found.predicted_steps) + " frames ahead";
+  rows.simulated_label = shown_as(shown);
   for (std::size_t row = 0; row < recording.rows(); ++row) {
-    std::vector<double> control;
-    for (std::size_t channel : found.layout.outputs) control.push_back(recording.channels[channel].samples[row]);
-    const bool missing = std::any_of(control.begin(), control.end(), [](double value) { return std::isnan(value); });
-    rows.captured.push_back(missing ? std::vector<Point>() : to_picture(curve.polyline(control)));
-    const auto& predicted = found.predicted[row];
-    rows.simulated.push_back(predicted.empty() ? std::vector<Point>() : to_picture(curve.polyline(predicted)));
+    rows.captured.push_back(polyline_in_picture(curve, judged.layout, recording, row));
+    rows.simulated.push_back(polyline_in_picture(curve, judged.layout, shown.recording, row));
   }
   return rows;
 }
 
 // The strip shows twelve moments an eighth of a second apart, where the outline moves most.
-std::vector<std::size_t> strip_rows(const OutlineValidation& found, const Recording& recording) {
+std::vector<std::size_t> strip_rows(const Judged& judged, const Recording& recording) {
   constexpr std::size_t kColumns = 12;
   const auto apart = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(recording.rate_hz / 8)));
   const std::size_t length = (kColumns - 1) * apart + 1;
-  const auto tip = recording.channels[found.layout.outputs[2 * (found.layout.points / 2)]].samples;
+  const auto tip = recording.channels[judged.layout.outputs[2 * (judged.layout.points / 2)]].samples;
   std::size_t best = 0;
   double most = -1;
   for (std::size_t begin = 0; begin + length <= tip.size(); begin += apart) {
@@ -112,31 +113,31 @@ std::vector<std::size_t> strip_rows(const OutlineValidation& found, const Record
   return rows;
 }
 
-Result<void> draw(const OutlineValidation& found, const Model& model, const Subject& subject,
-                  const Arguments& arguments, Terminal& terminal) {
+Result<void> draw(const Judged& judged, const Model& model, const Subject& subject, const Arguments& arguments,
+                  Terminal& terminal) {
   if (arguments.has("overlay")) {
-    const auto rows = outline_rows(found, subject.recording);
+    const auto rows = outline_rows(judged, subject.recording);
     if (auto ok = write_overlay(arguments.text("overlay"), subject.clip, subject.recording, rows, terminal); !ok)
       return ok;
     terminal.say("wrote " + arguments.text("overlay"));
   }
   if (arguments.has("film-strip")) {
-    StripContent content{.rows = strip_rows(found, subject.recording), .recording = &subject.recording};
-    // Driven models meet the recording's wind row for row; a flicker model's life begins anywhere.
-    const Recording life = model.inputs.empty()
-                               ? found.synthesized
-                               : slice(found.synthesized, content.rows.front(), found.synthesized.rows());
-    content.synthesized = &life;
-    content.layout = found.layout;
-    content.synthesized_layout = found.synthesized_layout;
-    content.pixels_per_unit = found.pixels_per_unit;
-    content.synthesized_caption = model.inputs.empty() ? "synthesized" : "synthesized from the same wind";
+    const auto played_layout = outline_layout(judged.found.played);
+    if (!played_layout) return played_layout.error();
+    const StripContent content{
+        .rows = strip_rows(judged, subject.recording),
+        .recording = &subject.recording,
+        .synthesized = &judged.found.played,
+        .layout = judged.layout,
+        .synthesized_layout = *played_layout,
+        .pixels_per_unit = judged.found.pixels_per_unit,
+        .synthesized_caption = model.inputs.empty() ? "synthesized" : "synthesized from the same wind"};
     if (auto ok = write_film_strip(arguments.text("film-strip"), subject.clip, content); !ok) return ok;
     terminal.say("wrote " + arguments.text("film-strip"));
   }
   if (!arguments.has("figures")) return {};
   const std::string& folder = arguments.text("figures");
-  if (auto ok = write_validation_figures(folder, model, subject.recording, found); !ok) return ok;
+  if (auto ok = write_validation_figures(folder, model, subject.recording, judged); !ok) return ok;
   if (subject.report) {
     if (auto ok = write_clip_figures(folder, subject.clip.path, *subject.report); !ok) return ok;
   }
@@ -180,8 +181,9 @@ void report(const OutlineValidation& found, Terminal& terminal) {
   result["tip"] = {{"fit_percent", by_steps(figures.steps, figures.tip_fit_percent)}};
   result["overlap"] = number(at_steps(figures, figures.overlap, kFreeRun));
   result["overlap_by_steps"] = by_steps(figures.steps, figures.overlap);
-  result["fidelity"] = fidelity_json(found.fidelity);
+  result["fidelity"] = found.fidelity ? fidelity_json(*found.fidelity) : Json(nullptr);
   result["held_share"] = number(found.held_share);
+  result["crossed_share"] = number(found.crossed_share);
   terminal.say(std::to_string(figures.rows) + " frames judged");
   for (std::size_t k = 0; k < figures.steps.size(); ++k) {
     const std::string ahead =
@@ -189,8 +191,16 @@ void report(const OutlineValidation& found, Terminal& terminal) {
     terminal.say("  " + ahead + ": tip fit " + shown(figures.tip_fit_percent[k]) + " %, outline overlap " +
                  shown(figures.overlap[k]));
   }
-  const Bounded& spectrum = found.fidelity.log_spectral_distance;
-  const Bounded& energy = found.fidelity.energy_distance;
+  if (found.static_gain) {
+    const StaticGain& gain = *found.static_gain;
+    result["static_gain"] = {{"tip_fit_percent", number(gain.fit_percent)},
+                             {"delay_seconds", number(gain.delay_seconds)}};
+    terminal.say("  a static gain with the best delay (" + shown(1000 * gain.delay_seconds) + " ms): tip fit " +
+                 shown(gain.fit_percent) + " %");
+  }
+  if (!found.fidelity) return;
+  const Bounded& spectrum = found.fidelity->log_spectral_distance;
+  const Bounded& energy = found.fidelity->energy_distance;
   terminal.say("synthesized against recorded: log-spectral distance " + shown(spectrum.value) +
                " dB (two halves of the recording: " + shown(spectrum.floor) +
                ", shuffled frames: " + shown(spectrum.ceiling) + ")");
@@ -207,11 +217,17 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   if (!std::holds_alternative<OutlineView>(model->view)) return validate_plain(*model, *steps, arguments, terminal);
   const auto subject = subject_of(positionals[1], arguments, terminal);
   if (!subject) return subject.error();
-  OutlineValidationOptions options{.steps = *steps, .seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
-  const auto found = validate_outline(*model, subject->recording, options);
+  OutlineValidationOptions options{.steps = *steps,
+                                   .own_input_scale = arguments.on("own-gain"),
+                                   .seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
+  auto found = validate_outline(*model, subject->recording, options);
   if (!found) return found.error();
-  report(*found, terminal);
-  return draw(*found, *model, *subject, arguments, terminal);
+  for (const std::string& warning : found->warnings) terminal.warn(warning);
+  const auto layout = outline_layout(subject->recording);
+  if (!layout) return layout.error();
+  const Judged judged{*layout, std::move(*found)};
+  report(judged.found, terminal);
+  return draw(judged, *model, *subject, arguments, terminal);
 }
 
 }  // namespace
@@ -224,6 +240,8 @@ Command validate_command() {
       {"film-strip", Kind::kPath, "OUT.png", "", "write a film strip: recorded above, synthesized below"},
       {"figures", Kind::kPath, "DIR", "", "write plots there, as PNG and SVG"},
       {"clip", Kind::kPath, "CLIP", "", "the clip that the recording was captured from, for the pictures"},
+      {"own-gain", Kind::kSwitch, "", "",
+       "input 1 is this recording's own 95th percentile: another microphone, another gain"},
       {"seed", Kind::kInteger, "N", "1", "of the synthesized life"},
       {"inputs", Kind::kNames, "A,B", "", "columns of a plain table that are inputs"},
       {"outputs", Kind::kNames, "C,D", "", "columns of a plain table that are outputs"},

@@ -50,8 +50,11 @@ PlotSheet residual_sheet(const Model& model) {
   return {.plots = {std::move(plot)}};
 }
 
-// The tip's height of control points in some unit, row by row; NaN where missing.
-std::vector<double> tips(const Recording& recording, const OutlineLayout& layout, double unit, int coordinate) {
+// The tip's place beside or above the base, in model units of `unit` pixels, row by row; NaN where missing.
+std::vector<double> tips(const Recording& recording, double unit, int coordinate) {
+  const auto found = outline_layout(recording);
+  if (!found) return std::vector<double>(recording.rows(), std::nan(""));
+  const OutlineLayout& layout = *found;
   const OutlineCurve curve(layout.knots);
   std::vector<double> values;
   for (std::size_t row = 0; row < recording.rows(); ++row) {
@@ -65,27 +68,13 @@ std::vector<double> tips(const Recording& recording, const OutlineLayout& layout
   return values;
 }
 
-std::vector<double> predicted_tips(const OutlineValidation& found) {
-  const OutlineCurve curve(found.layout.knots);
-  std::vector<double> values;
-  for (const auto& control : found.predicted) {
-    if (control.empty()) {
-      values.push_back(std::nan(""));
-      continue;
-    }
-    const double base = (control.front() + control[control.size() - 2]) / 2;
-    values.push_back((tip_of(curve.polyline(control))[0] - base) / found.pixels_per_unit);
-  }
-  return values;
-}
-
-PlotSheet time_sheet(const Recording& recording, const OutlineValidation& found) {
+PlotSheet time_sheet(const Recording& recording, const Judged& judged) {
   const auto seconds = seconds_of(recording.rows(), recording.rate_hz);
-  const std::string how = found.predicted_steps == kFreeRun ? "simulated from the input"
-                                                            : std::to_string(found.predicted_steps) + " frames ahead";
+  const double unit = judged.found.pixels_per_unit;
+  const PredictedOutlines& shown = judged.shown();
   Plot tip{.title = "Tip, sideways", .x = {.label = "seconds"}, .y = {.label = "flame heights"}};
-  tip.series = {{.label = "captured", .x = seconds, .y = tips(recording, found.layout, found.pixels_per_unit, 0)},
-                {.label = how, .x = seconds, .y = predicted_tips(found), .dash = Dash::kDashed}};
+  tip.series = {{.label = "captured", .x = seconds, .y = tips(recording, unit, 0)},
+                {.label = shown_as(shown), .x = seconds, .y = tips(shown.recording, unit, 0), .dash = Dash::kDashed}};
   PlotSheet sheet{.plots = {std::move(tip)}, .columns = 1, .plot_width = 900, .plot_height = 260};
   for (std::size_t channel : channels_with_role(recording, Role::kInput)) {
     const Channel& input = recording.channels[channel];
@@ -109,8 +98,8 @@ std::vector<std::vector<double>> whole_stretches(const std::vector<double>& valu
   return stretches;
 }
 
-PlotSheet spectrum_sheet(const Recording& recording, const OutlineValidation& found) {
-  const std::size_t samples = found.fidelity.welch_samples;
+PlotSheet spectrum_sheet(const Recording& recording, const Judged& judged) {
+  const std::size_t samples = judged.found.fidelity ? judged.found.fidelity->welch_samples : 64;
   PlotSheet sheet;
   for (int coordinate : {0, 1}) {
     Plot plot{.title = coordinate == 0 ? "Flicker of the tip, sideways" : "Flicker of the tip, up and down",
@@ -121,9 +110,9 @@ PlotSheet spectrum_sheet(const Recording& recording, const OutlineValidation& fo
       const Spectrum spectrum = welch(stretches, recording.rate_hz, samples);
       plot.series.push_back({.label = label, .x = spectrum.frequency_hz, .y = spectrum.power, .dash = dash});
     };
-    add("captured", tips(recording, found.layout, found.pixels_per_unit * (coordinate == 0 ? 1 : -1), coordinate),
-        Dash::kSolid);
-    add("synthesized", tips(found.synthesized, found.synthesized_layout, 1, coordinate), Dash::kDashed);
+    const double unit = judged.found.pixels_per_unit * (coordinate == 0 ? 1 : -1);
+    add("captured", tips(recording, unit, coordinate), Dash::kSolid);
+    add("synthesized", tips(judged.found.played, unit, coordinate), Dash::kDashed);
     sheet.plots.push_back(std::move(plot));
   }
   return sheet;
@@ -198,12 +187,30 @@ Result<std::vector<double>> whiteness_of(const ArxModel& arx, const Recording& r
 
 }  // namespace
 
+const PredictedOutlines& Judged::shown() const {
+  constexpr int kLookAhead = 5;
+  const PredictedOutlines* best = &found.predicted.front();
+  for (const PredictedOutlines& predicted : found.predicted) {
+    if (found.static_gain) {
+      if (predicted.steps == kFreeRun) return predicted;
+    } else if (predicted.steps != kFreeRun && predicted.steps <= kLookAhead) {
+      best = &predicted;
+    }
+  }
+  return *best;
+}
+
+std::string shown_as(const PredictedOutlines& predicted) {
+  if (predicted.steps == kFreeRun) return "simulated from the input alone";
+  return "predicted " + std::to_string(predicted.steps) + " frames ahead";
+}
+
 Result<void> write_validation_figures(const fs::path& folder, const Model& model, const Recording& recording,
-                                      const OutlineValidation& found) {
+                                      const Judged& judged) {
   if (auto ok = make_folder(folder); !ok) return ok;
   if (auto ok = write_figure(folder, "residual-noise", residual_sheet(model)); !ok) return ok;
-  if (auto ok = write_figure(folder, "tip", time_sheet(recording, found)); !ok) return ok;
-  return write_figure(folder, "flicker", spectrum_sheet(recording, found));
+  if (auto ok = write_figure(folder, "tip", time_sheet(recording, judged)); !ok) return ok;
+  return write_figure(folder, "flicker", spectrum_sheet(recording, judged));
 }
 
 Result<void> validate_plain(const Model& model, const std::vector<int>& steps, const Arguments& arguments,
