@@ -171,7 +171,7 @@ Result<void> VideoWriter::Encoder::open_video() {
   av_dict_set(&settings, "preset", options.preset.c_str(), 0);
   av_dict_set_int(&settings, "crf", options.crf, 0);
   // Spends more bits on dark, smooth areas, where a halo would otherwise break into steps.
-  av_dict_set(&settings, "x264-params", "log-level=none:aq-mode=3", 0);
+  av_dict_set(&settings, "x264-params", "aq-mode=3", 0);
   auto started = start_track(video, codec, &settings);
   av_dict_free(&settings);
   if (!started) return started;

@@ -165,6 +165,9 @@ TEST(VideoWriter, SoundHasItsLengthAndPitch) {
   EXPECT_NE(text.find("codec_name=aac"), std::string::npos) << text;
   EXPECT_NE(text.find("sample_rate=44100"), std::string::npos);
   EXPECT_NE(text.find("channels=1"), std::string::npos);
+  const std::size_t duration = text.find("duration=");
+  ASSERT_NE(duration, std::string::npos);
+  EXPECT_NEAR(std::stod(text.substr(duration + 9)), 2.0, 0.05);
   const std::string raw = output_of("ffmpeg -v error -i '" + (folder / "a.mp4").string() + "' -f s16le -ac 1 -");
   std::vector<std::int16_t> samples(raw.size() / 2);
   std::memcpy(samples.data(), raw.data(), samples.size() * 2);
@@ -289,31 +292,50 @@ TEST(VideoWriter, SoundWithoutATrackForItIsRefused) {
   EXPECT_FALSE(writer->write_sound(std::vector<float>(10)));
 }
 
-TEST(VideoWriter, AFullDiskIsReportedAndLeavesNothing) {
-  // A limit on the size of files fails writes as a full disk does, with another reason in the message.
-  const TestFolder folder("video-full");
+// Frames that hardly compress, so that files grow.
+Image noise(int frame) {
+  Image image(160, 120);
+  for (std::size_t k = 0; k < image.pixels().size(); ++k) {
+    const auto word = static_cast<std::uint32_t>(k + 1) * 2654435761U + static_cast<std::uint32_t>(frame) * 40503U;
+    image.pixels()[k] = 0xFF000000U | (word ^ word >> 13) >> 8;
+  }
+  return image;
+}
+
+// Whether a clip of noise could be written with files held to that size.
+bool writes_noise(const std::filesystem::path& path, rlim_t largest_file) {
   rlimit before{};
-  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
-  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  if (::getrlimit(RLIMIT_FSIZE, &before) != 0) return false;
   rlimit tight = before;
-  tight.rlim_cur = 20000;
-  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &tight), 0);
-  bool failed = false;
+  tight.rlim_cur = largest_file;
+  if (::setrlimit(RLIMIT_FSIZE, &tight) != 0) return false;
+  bool good = true;
   {
-    auto writer = VideoWriter::create(folder / "a.mp4", {.width = 320, .height = 240, .rate_hz = 25, .crf = 0});
-    for (int frame = 0; writer && frame < 80 && !failed; ++frame) {
-      Image noise(320, 240);
-      for (std::size_t k = 0; k < noise.pixels().size(); ++k) {
-        noise.pixels()[k] = 0xFF000000U | static_cast<std::uint32_t>(k * 2654435761U + frame * 40503U) >> 8;
-      }
-      failed = !writer->write(noise);
-    }
-    if (writer && !failed) failed = !writer->finish();
+    auto writer = VideoWriter::create(path, {.width = 160, .height = 120, .rate_hz = 25, .crf = 10, .threads = 1});
+    good = static_cast<bool>(writer);
+    for (int frame = 0; good && frame < 12; ++frame) good = static_cast<bool>(writer->write(noise(frame)));
+    good = good && static_cast<bool>(writer->finish());
   }
   ::setrlimit(RLIMIT_FSIZE, &before);
+  return good;
+}
+
+TEST(VideoWriter, AFullDiskIsReportedAndLeavesNothing) {
+  // A limit on the size of files fails writes as a full disk does. It is met while frames are written, at the end, and
+  // when the index is moved to the front.
+  const TestFolder folder("video-full");
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  EXPECT_TRUE(writes_noise(folder / "whole.mp4", RLIM_INFINITY));
+  const auto size = std::filesystem::file_size(folder / "whole.mp4");
+  std::filesystem::remove(folder / "whole.mp4");
+  ASSERT_GT(size, 80000U);
+  for (const rlim_t limit :
+       {rlim_t{1}, rlim_t{1000}, rlim_t{size / 2}, rlim_t{size - 40000}, rlim_t{size - 300}, rlim_t{size - 1}}) {
+    EXPECT_FALSE(writes_noise(folder / "a.mp4", limit)) << limit << " of " << size;
+    EXPECT_TRUE(folder.empty()) << limit;
+  }
+  EXPECT_TRUE(writes_noise(folder / "a.mp4", size));
   std::signal(SIGXFSZ, handler);
-  EXPECT_TRUE(failed);
-  EXPECT_TRUE(folder.empty());
 }
 
 TEST(VideoWriter, SaysNothingOnTheTerminal) {
