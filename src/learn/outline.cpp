@@ -204,6 +204,20 @@ Model model_of(const ArxModel& arx, const PreparedOutlines& prepared, const Outl
   return model;
 }
 
+// Fewer rows than coefficients and their history leave nothing to judge.
+Result<void> check_rows(const PreparedOutlines& prepared, const OutlineOptions& options) {
+  const ArxOrders orders = outline_orders(options, prepared);
+  int coefficients = 0;
+  for (int i = 0; i < orders.outputs(); ++i) coefficients = std::max(coefficients, orders.row_size(i));
+  std::size_t rows = 0;
+  for (const Recording& recording : prepared.recordings) rows += complete_rows(recording, prepared.channels);
+  const auto least = static_cast<std::size_t>(2 * (coefficients + orders.history()));
+  if (rows >= least) return {};
+  return Error{prepared.recordings.front().source + ": has " + std::to_string(rows) + " complete rows, and " +
+               std::to_string(coefficients) + " coefficients an output need at least " + std::to_string(least) +
+               "; record longer or lower the order"};
+}
+
 // Judges a model that has seen only the first part of every recording.
 Result<ArxFit> judge(const PreparedOutlines& prepared, const OutlineOptions& options, OutlineSummary& summary) {
   const OutlineParts parts = hold_out(prepared.recordings, prepared.channels, options.holdout);
@@ -266,6 +280,7 @@ Result<OutlineFit> learn_outline(std::span<const Recording> recordings, const Ou
   if (auto ok = check_options(options); !ok) return ok.error();
   auto prepared = prepare_outlines(recordings, {options.inputs, !options.one_sided, options.pixels_per_unit});
   if (!prepared) return prepared.error();
+  if (auto ok = check_rows(*prepared, options); !ok) return ok.error();
   OutlineFit out;
   OutlineSummary& summary = out.summary;
   auto fitted = judge(*prepared, options, summary);

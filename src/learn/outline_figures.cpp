@@ -11,6 +11,7 @@ namespace wisp {
 namespace {
 
 constexpr std::size_t kWhitenessLags = 20;
+constexpr std::size_t kMostShapes = 2000;  // neighbouring frames say the same
 
 using Series = std::vector<std::vector<double>>;  // [output][row]
 
@@ -49,12 +50,13 @@ struct Shapes {
   }
 };
 
+// Takes every `stride`-th row.
 Result<void> add_shapes(const ArxModel& model, const Recording& recording, const ChannelChoice& channels,
-                        const OutlineLayout& layout, int steps, Shapes& shapes) {
+                        const OutlineLayout& layout, int steps, std::size_t stride, Shapes& shapes) {
   const auto series = predict(model, recording, channels, {.steps = steps});
   if (!series) return series.error();
   const OutlineCurve curve(layout.knots);
-  for (std::size_t row = 0; row < recording.rows(); ++row) {
+  for (std::size_t row = 0; row < recording.rows(); row += stride) {
     const auto measured = measured_row(recording, layout, row);
     const auto predicted = predicted_row(*series, row);
     if (!measured.empty() && !predicted.empty()) shapes.add(curve, measured, predicted);
@@ -100,10 +102,13 @@ Result<OutlineFigures> outline_figures(const ArxModel& model, std::span<const Re
     out.j.push_back(fit.j);
     for (std::size_t i = 0; i < out.channels.size(); ++i) out.channels[i].fit_percent.push_back(fit.fit_percent[i]);
   }
+  std::size_t all_rows = 0;
+  for (const Recording& recording : recordings) all_rows += recording.rows();
+  const std::size_t stride = 1 + all_rows / kMostShapes;
   for (int k : steps) {
     Shapes shapes;
     for (const Recording& recording : recordings) {
-      if (auto ok = add_shapes(model, recording, channels, layout, k, shapes); !ok) return ok.error();
+      if (auto ok = add_shapes(model, recording, channels, layout, k, stride, shapes); !ok) return ok.error();
     }
     const auto rows = static_cast<double>(std::max<std::size_t>(1, shapes.tip_measured.size()));
     out.tip_fit_percent.push_back(fit_percent(shapes.tip_measured, shapes.tip_predicted));

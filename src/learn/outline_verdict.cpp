@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t kLeastRows = 50;
 constexpr int kLeastRowsACoefficient = 4;
+constexpr double kLeastFollowed = 5;  // per cent: a short simulation fits a little by where it starts
 constexpr double kMostHeld = 1e-3;
 constexpr double kMostLossGrown = 1.2;  // of a repaired model, in variance: beyond it is another model
 constexpr double kMostSpread = 2;       // playing freely over recorded, of the typical channel, either way
@@ -120,8 +121,8 @@ Usable outline_verdict(const ArxSummary& fit, const OutlineSummary& summary) {
     return {false, "it predicts the next frame no better than the mean does (median fit " +
                        rounded(typical_fit(summary.learned, 1), 1) + " %)"};
   }
-  if (!summary.inputs.empty() && tip_fit(judged, kFreeRun) <= 0) {
-    return {false, "simulated from its inputs alone the tip is followed no better than by its mean (fit " +
+  if (!summary.inputs.empty() && tip_fit(judged, kFreeRun) < kLeastFollowed) {
+    return {false, "simulated from its inputs alone the tip is followed hardly better than by its mean (fit " +
                        rounded(tip_fit(judged, kFreeRun), 1) + " %): learn without inputs, or check their timing"};
   }
   std::string reason =

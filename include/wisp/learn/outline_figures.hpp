@@ -37,7 +37,8 @@ struct OutlineFigures {
 
 /// Judges a model on recordings in its own units, with its regressors as inputs (outline_units.hpp,
 /// outline_inputs.hpp). A model without inputs, simulated freely, is its mean shape: its figures at kFreeRun say how
-/// much the outline moves, not how good the model is.
+/// much the outline moves, not how good the model is. Tip and overlap of long recordings are of at most 2000 frames,
+/// evenly spread.
 /// Errors: as prediction_figures().
 Result<OutlineFigures> outline_figures(const ArxModel& model, std::span<const Recording> recordings,
                                        const ChannelChoice& channels, const OutlineLayout& layout,
