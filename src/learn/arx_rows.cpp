@@ -41,14 +41,7 @@ Result<void> find_samples(std::span<const Recording> recordings, Signals& signal
   return {};
 }
 
-// Sums of sample − reference over what is not missing.
-struct Sums {
-  double sum = 0;
-  double square = 0;
-  std::size_t count = 0;
-};
-
-Sums block_sums(const double* samples, std::size_t rows, double reference) {
+ChannelSums block_sums(const double* samples, std::size_t rows, double reference) {
   Pair sum[4] = {};
   Pair square[4] = {};
   std::size_t t = 0;
@@ -61,7 +54,7 @@ Sums block_sums(const double* samples, std::size_t rows, double reference) {
   }
   const Pair total = (sum[0] + sum[1]) + (sum[2] + sum[3]);
   const Pair total_square = (square[0] + square[1]) + (square[2] + square[3]);
-  Sums sums{total[0] + total[1], total_square[0] + total_square[1], rows};
+  ChannelSums sums{total[0] + total[1], total_square[0] + total_square[1], rows};
   for (; t < rows; ++t) {
     const double value = samples[t] - reference;
     sums.sum += value;
@@ -70,8 +63,8 @@ Sums block_sums(const double* samples, std::size_t rows, double reference) {
   return sums;
 }
 
-Sums block_sums_of_present(const double* samples, std::size_t rows, double reference) {
-  Sums sums;
+ChannelSums block_sums_of_present(const double* samples, std::size_t rows, double reference) {
+  ChannelSums sums;
   for (std::size_t t = 0; t < rows; ++t) {
     if (std::isnan(samples[t])) continue;
     const double value = samples[t] - reference;
@@ -83,13 +76,13 @@ Sums block_sums_of_present(const double* samples, std::size_t rows, double refer
 }
 
 // Blocks are summed apart, so that the rounding error hardly grows with the number of samples.
-Sums channel_sums(const Signals& signals, int channel, double reference) {
-  Sums total;
+ChannelSums channel_sums(const Signals& signals, int channel, double reference) {
+  ChannelSums total;
   for (const auto& samples : signals.samples) {
     const auto series = samples[channel];
     for (std::size_t begin = 0; begin < series.size(); begin += kBlockRows) {
       const std::size_t rows = std::min(kBlockRows, series.size() - begin);
-      Sums part = block_sums(series.data() + begin, rows, reference);
+      ChannelSums part = block_sums(series.data() + begin, rows, reference);
       if (std::isnan(part.sum)) part = block_sums_of_present(series.data() + begin, rows, reference);
       total.sum += part.sum;
       total.square += part.square;
@@ -114,26 +107,17 @@ std::size_t total_rows(const Signals& signals) {
   return rows;
 }
 
-// A channel that moves by less than this share of its size stands still: the rest is rounding.
-constexpr double kStandsStill = 1e-14;
-
 Result<void> scale_channel(Signals& signals, int channel, ArxOffset offset) {
   const double reference = first_present(signals, channel);
-  const Sums sums = channel_sums(signals, channel, reference);
+  const ChannelSums sums = channel_sums(signals, channel, reference);
   const std::string name = "channel '" + signals.names[channel] + "'";
   if (sums.count == 0) return Error{name + " has no sample that is not missing"};
   if (!std::isfinite(sums.sum) || !std::isfinite(sums.square)) {
     return Error{name + " holds an infinite sample, or samples so large that their squares overflow"};
   }
-  const double n = static_cast<double>(sums.count);
-  const double shift = sums.sum / n;
-  const double centre = reference + shift;
-  const double variance = std::max(0.0, sums.square / n - shift * shift);
-  const bool at_zero = offset == ArxOffset::kNone;
-  const double rms = std::sqrt(at_zero ? variance + centre * centre : variance);
-  const bool still = rms <= kStandsStill * std::abs(centre) || rms < std::numeric_limits<double>::min();
-  signals.offset[channel] = at_zero ? 0.0 : centre;
-  signals.scale[channel] = still ? 0.0 : std::ldexp(1.0, -std::ilogb(rms));
+  const ChannelPoint point = operating_point(sums, reference, offset);
+  signals.offset[channel] = point.offset;
+  signals.scale[channel] = point.scale;
   signals.missing |= sums.count != total_rows(signals);
   return {};
 }
@@ -204,6 +188,19 @@ void copy_scaled(const double* in, std::size_t rows, double offset, double scale
 
 }  // namespace
 
+ChannelPoint operating_point(const ChannelSums& sums, double reference, ArxOffset offset) {
+  // A channel that moves by less than this share of its size stands still: the rest is rounding.
+  constexpr double kStandsStill = 1e-14;
+  const double n = static_cast<double>(sums.count);
+  const double shift = sums.sum / n;
+  const double centre = reference + shift;
+  const double variance = std::max(0.0, sums.square / n - shift * shift);
+  const bool at_zero = offset == ArxOffset::kNone;
+  const double rms = std::sqrt(at_zero ? variance + centre * centre : variance);
+  const bool still = rms <= kStandsStill * std::abs(centre) || rms < std::numeric_limits<double>::min();
+  return {at_zero ? 0.0 : centre, still ? 0.0 : std::ldexp(1.0, -std::ilogb(rms))};
+}
+
 Result<Signals> find_signals(std::span<const Recording> recordings, const ChannelChoice& channels) {
   if (recordings.empty()) return Error{"no recording was given"};
   if (channels.outputs.empty()) return Error{"no output channel was named"};
@@ -230,6 +227,22 @@ Result<Signals> gather_signals(std::span<const Recording> recordings, const Chan
 
 RowPlan plan_rows(const Signals& signals, const LagLayout& layout, int first_sample) {
   return plan_channels(signals, layout, first_sample, 0);
+}
+
+RowPlan plan_part(const Signals& signals, const LagLayout& layout, int first_sample, const RowPart& part) {
+  RowPlan plan;
+  plan.first_sample = first_sample;
+  const auto bad = unusable_rows(signals, 0, layout, 0);
+  const auto within = [&](std::size_t row) { return row >= part.begin && row < part.end; };
+  for (const Episode& episode : signals.episodes[0]) {
+    const std::size_t first = episode.begin + static_cast<std::size_t>(first_sample);
+    const bool too_short = episode.end <= first;
+    if (!too_short && within(first)) ++plan.episodes_used;
+    if (too_short && (within(episode.end) || (part.last && episode.end == part.end))) ++plan.episodes_skipped;
+    if (too_short) continue;
+    add_runs(plan, {0, std::max(first, part.begin), std::min(episode.end, part.end)}, bad);
+  }
+  return plan;
 }
 
 RowPlan plan_input_rows(const Signals& signals, const LagLayout& layout, int first_sample) {

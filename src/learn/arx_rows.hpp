@@ -27,6 +27,22 @@ struct Signals {
   int channels() const { return outputs + inputs; }
 };
 
+/// Sums over the samples of a channel that are there, of sample − reference.
+struct ChannelSums {
+  double sum = 0;
+  double square = 0;
+  std::size_t count = 0;
+};
+
+/// What is taken off a channel's samples, and what they are multiplied with then.
+struct ChannelPoint {
+  double offset = 0;
+  double scale = 0;
+};
+
+/// Precondition: sums.count > 0.
+ChannelPoint operating_point(const ChannelSums& sums, double reference, ArxOffset offset);
+
 /// Target rows [begin, end) of one recording, all of them usable.
 struct RowRun {
   std::size_t recording = 0;
@@ -54,6 +70,17 @@ Result<Signals> gather_signals(std::span<const Recording> recordings, const Chan
 ///
 /// Precondition: first_sample >= layout.history().
 RowPlan plan_rows(const Signals& signals, const LagLayout& layout, int first_sample);
+
+/// Rows [begin, end) of the first recording, and whether it ends there.
+struct RowPart {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  bool last = true;
+};
+
+/// The same for one part. An episode counts for the part that has its first target row or, where it is too short to
+/// have one, the row after its end.
+RowPlan plan_part(const Signals& signals, const LagLayout& layout, int first_sample, const RowPart& part);
 
 /// The rows whose inputs are all there, whatever the outputs are.
 RowPlan plan_input_rows(const Signals& signals, const LagLayout& layout, int first_sample);
