@@ -167,9 +167,6 @@ void OutlineCapture::Stage::choose_channel(std::span<const Survey> surveys, std:
       const std::vector<EdgeCloud> clouds = sample_clouds(seeker, pictures, options);
       const double overlap = clouds.empty() ? 0 : 1 - fit_pace(clouds, uniform_knots(kTrialPoints)).misfit;
       score = survey.separation * std::max(overlap, 0.0) * std::abs(overlap);
-      if (getenv("DBG"))
-        fprintf(stderr, "ch %d sep %.4f overlap %.4f level %d\n", (int)survey.channel, survey.separation, overlap,
-                survey.level);
     }
     if (score <= best) continue;
     best = score;
@@ -202,7 +199,6 @@ std::vector<EdgeCloud> OutlineCapture::Stage::sample_clouds(const OutlineSeeker&
 std::vector<double> OutlineCapture::Stage::decide_shape(std::span<const Picture> pictures) {
   CurveShape best;
   for (const bool underside : {false, true}) {
-    if (getenv("US") && (atoi(getenv("US")) != 0) != underside) continue;
     EdgeCloudOptions options = cloud_options_;
     options.underside = underside;
     options.most_points = kSamplePoints;
@@ -215,9 +211,6 @@ std::vector<double> OutlineCapture::Stage::decide_shape(std::span<const Picture>
     }
     clouds = sample_clouds(*seeker_, pictures, options);
     CurveShape shape = choose_shape(clouds, options_.points, options_.place_knots);
-    if (getenv("DBG"))
-      fprintf(stderr, "underside %d misfit %.4f uniform %.4f\n", underside, shape.misfit,
-              choose_shape(clouds, options_.points, false).misfit);
     if (!best.knots.empty() && shape.misfit >= kWorthFollowing * best.misfit) continue;
     best = std::move(shape);
     cloud_options_.underside = underside;
