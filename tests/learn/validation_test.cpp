@@ -1,0 +1,159 @@
+#include "wisp/learn/validation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "learn/made_outline.hpp"
+#include "wisp/learn/outline.hpp"
+#include "wisp/learn/outline_shape.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr made::OutlineRecipe kWindy{.rows = 1200, .shock = 0.003, .wind = true};
+constexpr made::OutlineRecipe kCalm{.rows = 1200};
+
+Model learned(const made::OutlineRecipe& recipe) {
+  const std::vector recordings{made::outline_recording(recipe)};
+  auto fit = learn_outline(recordings);
+  EXPECT_TRUE(fit);
+  return fit->model;
+}
+
+const Model& windy_model() {
+  static const Model model = learned(kWindy);
+  return model;
+}
+
+const Model& calm_model() {
+  static const Model model = learned(kCalm);
+  return model;
+}
+
+// A recording that learning has not seen.
+Recording unseen(made::OutlineRecipe recipe) {
+  recipe.rows = 600;
+  recipe.seed = 7;
+  return made::outline_recording(recipe);
+}
+
+OutlineValidation validated(const Model& model, const Recording& recording, OutlineValidationOptions options = {}) {
+  options.play_seconds = 20;
+  auto result = validate_outline(model, recording, options);
+  EXPECT_TRUE(result) << (result ? "" : result.error().message);
+  return *std::move(result);
+}
+
+const std::vector<double>& samples(const Recording& recording, const char* name) {
+  return recording.channels[*find_channel(recording, name)].samples;
+}
+
+TEST(Validation, ARecordingThatLearningHasNotSeenIsFollowedFromItsWind) {
+  const OutlineValidation out = validated(windy_model(), unseen(kWindy), {.fidelity = false});
+  EXPECT_GT(out.figures.tip_fit_percent.back(), 60);
+  EXPECT_GT(out.figures.overlap.back(), 0.75);
+  for (const OutlineChannelFigures& channel : out.figures.channels) {
+    EXPECT_GT(channel.fit_percent[0], 0) << channel.name;
+  }
+}
+
+TEST(Validation, AStaticGainDoesLessThanTheDynamics) {
+  const OutlineValidation out = validated(windy_model(), unseen(kWindy), {.fidelity = false});
+  ASSERT_TRUE(out.static_gain);
+  EXPECT_GT(out.static_gain->fit_percent, 0);
+  EXPECT_GT(out.static_gain->delay_seconds, 0);
+  EXPECT_LT(out.static_gain->fit_percent, out.figures.tip_fit_percent.back());
+}
+
+TEST(Validation, PredictionsAreInPixelsFrameByFrame) {
+  const Recording recording = unseen(kCalm);
+  const OutlineValidation out = validated(calm_model(), recording, {.fidelity = false});
+  ASSERT_EQ(out.predicted.size(), 4u);
+  EXPECT_EQ(out.predicted[0].steps, 1);
+  const Recording& next = out.predicted[0].recording;
+  ASSERT_EQ(next.rows(), recording.rows());
+  EXPECT_TRUE(std::isnan(samples(next, "p2.y")[0]));
+  double error = 0;
+  for (std::size_t row = 50; row < 600; ++row) {
+    error = std::max(error, std::abs(samples(next, "p2.y")[row] - samples(recording, "p2.y")[row]));
+  }
+  // The tip's shock is 0.0154 heights of about 200 pixels; 3 pixels is one of them, five bound 550 frames.
+  EXPECT_LT(error, 5 * 0.0154 * 200);
+  EXPECT_GT(error, 0);
+}
+
+TEST(Validation, AFreeRunWithoutInputIsTheMeanShapeAndPlayIsNot) {
+  const OutlineValidation out = validated(calm_model(), unseen(kCalm), {.fidelity = false});
+  const auto spread = [](const Recording& recording) {
+    std::vector<double> heights;
+    for (std::size_t row = 300; row < recording.rows(); ++row) {
+      heights.push_back(samples(recording, "p2.y")[row] - samples(recording, "base.y")[row]);
+    }
+    const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+    return *high - *low;
+  };
+  Recording with_base = unseen(kCalm);
+  const Recording units = to_model_units(with_base, *outline_layout(with_base), 200);
+  for (const char* name : {"base.x", "base.y"})
+    with_base.channels.push_back(units.channels[*find_channel(units, name)]);
+  const OutlineValidation based = validated(calm_model(), with_base, {.fidelity = false});
+  EXPECT_LT(spread(based.predicted[3].recording), 1e-3);
+  EXPECT_GT(spread(based.played), 10);
+  EXPECT_EQ(out.figures.steps.back(), kFreeRun);
+}
+
+TEST(Validation, PlayingFreelyIsLikeTheRealThing) {
+  const OutlineValidation out = validated(calm_model(), unseen(kCalm));
+  ASSERT_TRUE(out.fidelity);
+  EXPECT_LT(out.fidelity->log_spectral_distance.floor_ratio(), 2);
+  EXPECT_LT(out.fidelity->energy_distance.value, 0.05);
+  EXPECT_EQ(out.held_share, 0);
+  EXPECT_LT(out.crossed_share, 0.05);
+}
+
+TEST(Validation, FramesOutOfSightHaveAPlayButNoPrediction) {
+  Recording recording = unseen(kCalm);
+  for (Channel& channel : recording.channels) {
+    for (std::size_t row = 100; row < 150; ++row) channel.samples[row] = std::numeric_limits<double>::quiet_NaN();
+  }
+  const OutlineValidation out = validated(calm_model(), recording, {.fidelity = false});
+  EXPECT_TRUE(std::isnan(samples(out.predicted[0].recording, "p1.x")[120]));
+  EXPECT_FALSE(std::isnan(samples(out.played, "p1.x")[120]));
+}
+
+TEST(Validation, AnotherMicrophonesGainIsTakenFromItsOwnGusts) {
+  Recording quiet = unseen(kWindy);
+  for (double& wind : quiet.channels[*find_channel(quiet, "wind")].samples) wind *= 0.1;
+  const double trained = validated(windy_model(), quiet, {.fidelity = false}).figures.tip_fit_percent.back();
+  const double own =
+      validated(windy_model(), quiet, {.own_input_scale = true, .fidelity = false}).figures.tip_fit_percent.back();
+  EXPECT_GT(own, trained + 20);
+}
+
+TEST(Validation, AShortRecordingHasNoFidelityAndSaysSo) {
+  const OutlineValidation out = validated(calm_model(), slice(unseen(kCalm), 0, 30));
+  EXPECT_FALSE(out.fidelity);
+  ASSERT_EQ(out.warnings.size(), 1u);
+  EXPECT_NE(out.warnings[0].find("no fidelity figures"), std::string::npos);
+}
+
+TEST(Validation, WhatDoesNotFitTheModelIsRefused) {
+  Recording other = unseen(kCalm);
+  EXPECT_EQ(validate_outline(windy_model(), other).error().message,
+            "made 7: there is no input wind, which the model is driven by");
+  other.rate_hz = 25;
+  EXPECT_NE(validate_outline(calm_model(), other).error().message.find("samples a second"), std::string::npos);
+  made::OutlineRecipe eight = kCalm;
+  eight.points = 8;
+  EXPECT_EQ(validate_outline(calm_model(), unseen(eight)).error().message,
+            "made 7: has 8 control points, the model 6; capture it with --points 6");
+  Model plain = calm_model();
+  plain.view = PlainView{};
+  EXPECT_NE(validate_outline(plain, unseen(kCalm)).error().message.find("not an outline model"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace wisp
