@@ -1,6 +1,11 @@
 #include "wisp/capture/media/capture_clip.hpp"
 
 namespace wisp {
+namespace {
+
+constexpr int kGlimpses = 6;
+
+}  // namespace
 
 Result<CapturedOutline> capture_outline(const std::filesystem::path& path, const ClipCaptureOptions& options,
                                         const CaptureProgress& progress) {
@@ -10,6 +15,7 @@ Result<CapturedOutline> capture_outline(const std::filesystem::path& path, const
   outline.rate_hz = reader->info().rate_hz;
   outline.source = path.string();
   OutlineCapture capture(std::move(outline));
+  for (const OwnedPicture& picture : reader->glimpses(kGlimpses)) capture.glimpse(picture.picture());
   std::int64_t done = 0, expected_index = -1;
   while (true) {
     auto frame = reader->next();

@@ -137,6 +137,7 @@ Result<void> ImageFolder::decode(const std::filesystem::path& path) {
     return Error{path.string() + ": not enough memory to read the image"};
   }
   std::memcpy(packet_->data, bytes->data(), bytes->size());
+  packet_->flags |= AV_PKT_FLAG_KEY;  // or the PNG decoder takes it for a difference to the image before
   int code = avcodec_send_packet(codec_.get(), packet_.get());
   av_packet_unref(packet_.get());
   if (code >= 0) code = avcodec_receive_frame(codec_.get(), frame_.get());
@@ -148,6 +149,17 @@ Result<void> ImageFolder::decode(const std::filesystem::path& path) {
     return Error{path.string() + ": the image cannot be decoded (" + libav_message(code) + "); remove or replace it"};
   }
   return {};
+}
+
+std::vector<OwnedPicture> ImageFolder::glimpses(int count) {
+  std::vector<OwnedPicture> out;
+  for (int k = 1; k <= count && !images_.empty(); ++k) {
+    const std::size_t at = (images_.size() - 1) * static_cast<std::size_t>(k) / static_cast<std::size_t>(count);
+    if (!decode(images_[at].path)) continue;
+    if (frame_->width != info_.width || frame_->height != info_.height) continue;
+    if (const auto picture = pictures_.view(*frame_)) out.emplace_back(*picture);
+  }
+  return out;
 }
 
 Result<std::optional<VideoFrame>> ImageFolder::next() {

@@ -43,6 +43,10 @@ Result<std::optional<VideoFrame>> VideoReader::next() {
   return std::visit([](auto& clip) { return clip.next(); }, source_->held);
 }
 
+std::vector<OwnedPicture> VideoReader::glimpses(int count) {
+  return std::visit([&](auto& clip) { return clip.glimpses(count); }, source_->held);
+}
+
 RgbImage VideoReader::rgb() {
   return std::visit([](auto& clip) { return clip.rgb(); }, source_->held);
 }

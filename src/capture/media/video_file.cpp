@@ -146,6 +146,33 @@ Result<std::optional<VideoFrame>> VideoFile::next() {
   return std::optional<VideoFrame>();
 }
 
+// A second reader that decodes key frames only.
+std::vector<OwnedPicture> VideoFile::glimpses(int count) {
+  std::vector<OwnedPicture> out;
+  auto opened = open(path_, options_);
+  if (!opened || info_.frames <= 0) return out;
+  VideoFile& file = *opened;
+  const AVStream& track = *file.format_->streams[file.track_];
+  const std::int64_t begin = track.start_time == AV_NOPTS_VALUE ? 0 : track.start_time;
+  const double ticks_per_frame = 1 / (file.seconds_per_tick_ * file.info_.rate_hz);
+  const std::int64_t first = options_.frames ? options_.frames->first - 1 : 0;
+  const std::int64_t last = options_.frames ? std::min(options_.frames->last, info_.frames) : info_.frames;
+  file.codec_->skip_frame = AVDISCARD_NONKEY;
+  std::int64_t before = begin;  // the first frames are seen anyway
+  for (int k = 1; k <= count; ++k) {
+    const double frame = static_cast<double>(first) + static_cast<double>(last - 1 - first) * k / count;
+    const std::int64_t tick = begin + std::llround(frame * ticks_per_frame);
+    if (av_seek_frame(file.format_.get(), file.track_, tick, AVSEEK_FLAG_BACKWARD) < 0) break;
+    avcodec_flush_buffers(file.codec_.get());
+    file.ended_ = false;
+    if (!file.decode() || file.frame_->best_effort_timestamp == before) continue;
+    before = file.frame_->best_effort_timestamp;
+    const auto picture = file.pictures_.view(*file.frame_);
+    if (picture && picture->width == info_.width && picture->height == info_.height) out.emplace_back(*picture);
+  }
+  return out;
+}
+
 std::vector<std::string> VideoFile::warnings() const {
   std::vector<std::string> out;
   const std::string name = path_.string();

@@ -8,74 +8,88 @@ namespace {
 
 constexpr std::size_t kLeastBoundary = 12;
 
-// Depth grows towards the side of the base.
-struct Down {
-  int dx = 0;
-  int dy = 1;
-  double depth(double x, double y) const { return dx * x + dy * y; }
+// A direction across (to the right when the base is below) and one down (towards the base).
+struct Axes {
+  double right_x = 1;
+  double right_y = 0;
+  double across(double x, double y) const { return right_x * x + right_y * y; }
+  double down(double x, double y) const { return -right_y * x + right_x * y; }
 };
 
-Down down(BaseSide side) {
+Axes picture_axes(BaseSide side) {
   switch (side) {
     case BaseSide::kLeft:
-      return {-1, 0};
+      return {0, 1};
     case BaseSide::kTop:
-      return {0, -1};
+      return {-1, 0};
     case BaseSide::kRight:
-      return {1, 0};
+      return {0, -1};
     case BaseSide::kBottom:
       break;
   }
-  return {0, 1};
+  return {1, 0};
 }
 
-// Depth of the last row (or column) that can be seen on the base's side, in the window's pixels.
-double border_depth(const BoundaryWindow& window, const Down& base) {
-  const Region &area = window.area, &place = window.place;
-  if (base.dy > 0) return area.bottom() - 1 - place.y;
-  if (base.dx > 0) return area.right() - 1 - place.x;
-  return base.dy < 0 ? place.y - area.y : place.x - area.x;
+struct Stretch {
+  double low = 1e30;
+  double high = -1e30;
+  void take(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+};
+
+// The middle of what lies between two depths.
+double middle_across(std::span<const PixelPosition> boundary, const Axes& axes, double from, double to) {
+  Stretch across;
+  for (const PixelPosition& p : boundary) {
+    const double down = axes.down(p.x, p.y);
+    if (down >= from && down <= to) across.take(axes.across(p.x, p.y));
+  }
+  return 0.5 * (across.low + across.high);
+}
+
+// How far the lower part's middle line goes to the right for each pixel up.
+double lean(std::span<const PixelPosition> boundary, const Axes& axes) {
+  constexpr double kSteepest = 1.7;  // 60 degrees: a middle line flatter than that is not one
+  Stretch depth;
+  for (const PixelPosition& p : boundary) depth.take(axes.down(p.x, p.y));
+  const double band = std::max(0.1 * (depth.high - depth.low), 1.0);
+  const double upper = depth.high - 3.5 * band, lower = depth.high - 1.5 * band;
+  const double drift = middle_across(boundary, axes, upper - 0.5 * band, upper + 0.5 * band) -
+                       middle_across(boundary, axes, lower - 0.5 * band, lower + 0.5 * band);
+  return std::clamp(drift / (2 * band), -kSteepest, kSteepest);
+}
+
+// The direction in which a corner of the base is farthest out.
+struct Outwards {
+  double x = 0;
+  double y = 0;
+  double reach(double px, double py) const { return x * px + y * py; }
+};
+
+// Down and to the left (side −1) or right (side 1) by 45 degrees; turned with a thing that leans over that corner, or
+// its side would be farther out than its corner.
+Outwards corner_direction(const Axes& axes, int side, double leaning) {
+  const double over = side < 0 ? std::min(leaning, 0.0) : std::max(leaning, 0.0);
+  const double size = std::sqrt(1 + over * over);
+  const double across = (side - over) / size, down = (1 + side * over) / size;
+  return {across * axes.right_x - down * axes.right_y, across * axes.right_y + down * axes.right_x};
+}
+
+std::size_t farthest(std::span<const PixelPosition> boundary, const Outwards& out) {
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < boundary.size(); ++k) {
+    if (out.reach(boundary[k].x, boundary[k].y) > out.reach(boundary[best].x, boundary[best].y)) best = k;
+  }
+  return best;
 }
 
 // A stretch of a closed boundary: `count` pixels from `first` on, clockwise.
 struct Arc {
   std::size_t first = 0;
   std::size_t count = 0;
-  double base_depth = 0;
-  bool cut = false;
 };
-
-// From the tip back and forth until the base's depth is reached.
-Arc arc_above_base(const BoundaryWindow& window, std::span<const PixelPosition> boundary,
-                   const EdgeCloudOptions& options) {
-  const Down base = down(options.base);
-  const std::size_t size = boundary.size();
-  std::size_t highest = 0;
-  double lowest_depth = -1e30, highest_depth = 1e30;
-  for (std::size_t k = 0; k < size; ++k) {
-    const double depth = base.depth(boundary[k].x, boundary[k].y);
-    lowest_depth = std::max(lowest_depth, depth);
-    if (depth < highest_depth) {
-      highest_depth = depth;
-      highest = k;
-    }
-  }
-  // Near the picture's edge the trim shrinks to nothing, so that the base does not jump when the edge cuts it off.
-  const double gap = border_depth(window, base) - lowest_depth;
-  const double trim = std::min(gap, std::max(1.0, options.base_share * (lowest_depth - highest_depth)));
-  Arc arc;
-  arc.cut = gap == 0;
-  arc.base_depth = lowest_depth - trim;
-  const auto above = [&](std::size_t k) {
-    return base.depth(boundary[k % size].x, boundary[k % size].y) < arc.base_depth;
-  };
-  std::size_t back = 0, forth = 0;
-  while (back + 1 < size && above(highest + size - back - 1)) ++back;
-  while (forth + 1 < size - back && above(highest + forth + 1)) ++forth;
-  arc.first = (highest + size - back) % size;
-  arc.count = back + forth + 1;
-  return arc;
-}
 
 void locate_points(const BoundaryWindow& window, std::span<const PixelPosition> boundary, const Arc& arc,
                    int most_points, std::vector<EdgePoint>& points) {
@@ -83,33 +97,62 @@ void locate_points(const BoundaryWindow& window, std::span<const PixelPosition> 
   const std::size_t stride = (arc.count + most - 1) / most;
   points.clear();
   for (std::size_t k = 0; k < arc.count; k += stride) {
-    points.push_back(locate_edge(window.image, window.level, boundary[(arc.first + k) % boundary.size()]));
+    EdgePoint point = locate_edge(window.image, window.level, boundary[(arc.first + k) % boundary.size()]);
+    point.x += window.place.x;
+    point.y += window.place.y;
+    points.push_back(point);
   }
 }
 
-// Moves the outermost point along the side's own direction to the base's depth, so that both ends lie on one line.
-void end_at_base(EdgePoint& end, const EdgePoint& inner, const Down& base, double depth) {
-  const double at = base.depth(end.x, end.y), before = base.depth(inner.x, inner.y);
-  const double run = at - before;
-  const double along = std::abs(run) > 0.5 ? std::clamp((depth - at) / run, -2.0, 2.0) : 0.0;
-  end.x += along * (end.x - inner.x);
-  end.y += along * (end.y - inner.y);
-  const double miss = depth - base.depth(end.x, end.y);
-  end.x += base.dx * miss;
-  end.y += base.dy * miss;
+// Area to the right of a way through the points, closed by a straight line; y down and clockwise: positive.
+double enclosed(std::span<const EdgePoint> points) {
+  double twice = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const EdgePoint &a = points[k], &b = points[(k + 1) % points.size()];
+    twice += a.x * b.y - b.x * a.y;
+  }
+  return 0.5 * twice;
+}
+
+// A corner to a fraction of a pixel: the mean of the edge points near the end, weighted by how nearly they are the
+// farthest in its direction. Points beyond the mean are left out, so that the curve ends there.
+void settle_corner(std::vector<EdgePoint>& points, bool last, const Outwards& out, double height) {
+  const double blur = std::max(0.01 * height, 1.0);
+  const auto at = [&](std::size_t k) -> EdgePoint& { return points[last ? points.size() - 1 - k : k]; };
+  const std::size_t near = std::min<std::size_t>(points.size() / 4, 32);
+  double best = -1e30;
+  for (std::size_t k = 0; k < near; ++k) best = std::max(best, out.reach(at(k).x, at(k).y));
+  double weights = 0, x = 0, y = 0, place = 0;
+  for (std::size_t k = 0; k < near; ++k) {
+    const double share = 1 - (best - out.reach(at(k).x, at(k).y)) / blur;
+    if (share <= 0) continue;
+    weights += share;
+    x += share * at(k).x;
+    y += share * at(k).y;
+    place += share * static_cast<double>(k);
+  }
+  const std::size_t beyond = static_cast<std::size_t>(place / weights);
+  EdgePoint& end = at(beyond);
+  end.x = x / weights;
+  end.y = y / weights;
+  if (last) {
+    points.resize(points.size() - beyond);
+  } else {
+    points.erase(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(beyond));
+  }
 }
 
 // The tip's place in arc length: the mean of places weighted by how nearly farthest from the base they are, which does
 // not leap from corner to corner of a blunt tip.
 double tip_place(const EdgeCloud& cloud, const std::vector<double>& arc_length, double& height) {
-  const double bx = cloud.base_x(), by = cloud.base_y();
-  double farthest = 0;
-  for (const EdgePoint& p : cloud.points) farthest = std::max(farthest, std::hypot(p.x - bx, p.y - by));
-  height = farthest;
-  const double blur = std::max(0.02 * farthest, 0.5);
+  const auto distance = [&](const EdgePoint& p) { return std::hypot(p.x - cloud.base_x, p.y - cloud.base_y); };
+  double farthest_point = 0;
+  for (const EdgePoint& p : cloud.points) farthest_point = std::max(farthest_point, distance(p));
+  height = farthest_point;
+  const double blur = std::max(0.02 * height, 0.5);
   double weights = 0, places = 0;
   for (std::size_t k = 0; k < cloud.points.size(); ++k) {
-    const double short_by = (farthest - std::hypot(cloud.points[k].x - bx, cloud.points[k].y - by)) / blur;
+    const double short_by = (height - distance(cloud.points[k])) / blur;
     if (short_by > 4) continue;
     const double weight = (4 - short_by) * (4 - short_by);
     weights += weight;
@@ -118,42 +161,77 @@ double tip_place(const EdgeCloud& cloud, const std::vector<double>& arc_length, 
   return places / weights;
 }
 
-bool place_along(EdgeCloud& cloud, double tip_s) {
+bool place_along(EdgeCloud& cloud, std::size_t left_corner, std::size_t right_corner, const EdgeCloudOptions& options) {
   std::vector<double>& s = cloud.s;
   s.assign(cloud.points.size(), 0.0);
   for (std::size_t k = 1; k < s.size(); ++k) {
     const EdgePoint &a = cloud.points[k - 1], &b = cloud.points[k];
     s[k] = s[k - 1] + std::hypot(b.x - a.x, b.y - a.y);
   }
-  const double whole = s.back(), tip = tip_place(cloud, s, cloud.height);
-  if (tip <= 0 || tip >= whole) return false;
-  cloud.tip_share = tip / whole;
-  for (double& place : s) {
-    place = place <= tip ? tip_s * place / tip : tip_s + (1 - tip_s) * (place - tip) / (whole - tip);
+  const double whole = s.back();
+  const std::array<double, 5> way{0, s[left_corner], tip_place(cloud, s, cloud.height), s[right_corner], whole};
+  const std::array<double, 5> place{0, options.landmarks[0], options.landmarks[1], options.landmarks[2], 1};
+  if (way[2] <= way[1] || way[2] >= way[3]) return false;
+  for (int k = 0; k < 3; ++k) cloud.shares[k] = way[k + 1] / whole;
+  int leg = 0;
+  for (double& at : s) {
+    while (leg < 3 && at > way[leg + 1]) ++leg;
+    const double length = way[leg + 1] - way[leg];
+    at = length <= 0 ? place[leg + 1] : place[leg] + (place[leg + 1] - place[leg]) * (at - way[leg]) / length;
+    at = at_pace(options.pace, at);
   }
-  s.back() = 1;
   return true;
+}
+
+// Puts half of the underside's points before the left corner and half behind the right one. Returns how many before.
+std::size_t follow_underside(EdgeCloud& cloud, std::vector<EdgePoint>& underside) {
+  const std::ptrdiff_t middle = static_cast<std::ptrdiff_t>(underside.size() / 2);
+  cloud.points.insert(cloud.points.end(), underside.begin(), underside.begin() + middle + 1);
+  cloud.points.insert(cloud.points.begin(), underside.begin() + middle, underside.end());
+  return underside.size() - static_cast<std::size_t>(middle);
 }
 
 }  // namespace
 
+std::vector<double> even_pace() {
+  std::vector<double> pace(kPaceSteps + 1);
+  for (int k = 0; k <= kPaceSteps; ++k) pace[k] = static_cast<double>(k) / kPaceSteps;
+  return pace;
+}
+
+double at_pace(std::span<const double> pace, double place) {
+  const double at = std::clamp(place, 0.0, 1.0) * static_cast<double>(pace.size() - 1);
+  const std::size_t step = std::min(pace.size() - 2, static_cast<std::size_t>(at));
+  return pace[step] + (at - static_cast<double>(step)) * (pace[step + 1] - pace[step]);
+}
+
 bool make_edge_cloud(const BoundaryWindow& window, std::span<const PixelPosition> boundary,
                      const EdgeCloudOptions& options, EdgeCloud& cloud) {
   if (boundary.size() < kLeastBoundary) return false;
-  const Arc arc = arc_above_base(window, boundary, options);
-  if (arc.count < kLeastBoundary / 2) return false;
-  locate_points(window, boundary, arc, options.most_points, cloud.points);
-  cloud.base_cut = arc.cut;
-  const Down base = down(options.base);
-  const double depth = arc.base_depth + (arc.cut ? 0.5 : 0.0);
-  const std::size_t n = cloud.points.size(), inner = std::min<std::size_t>(3, n - 1);
-  end_at_base(cloud.points.front(), EdgePoint(cloud.points[inner]), base, depth);
-  end_at_base(cloud.points.back(), EdgePoint(cloud.points[n - 1 - inner]), base, depth);
-  for (EdgePoint& point : cloud.points) {
-    point.x += window.place.x;
-    point.y += window.place.y;
+  const Axes axes = picture_axes(options.base);
+  const double leaning = lean(boundary, axes);
+  const Outwards to_left = corner_direction(axes, -1, leaning), to_right = corner_direction(axes, 1, leaning);
+  const std::size_t size = boundary.size();
+  const std::size_t left = farthest(boundary, to_left), right = farthest(boundary, to_right);
+  const Arc over{left, (right + size - left) % size + 1}, under{right, (left + size - right) % size + 1};
+  if (over.count < kLeastBoundary / 2) return false;
+  std::vector<EdgePoint> underside;
+  locate_points(window, boundary, over, options.most_points, cloud.points);
+  locate_points(window, boundary, under, options.most_points, underside);
+  if (cloud.points.size() < kLeastBoundary / 2) return false;
+  const double height = std::hypot(window.place.width, window.place.height);
+  settle_corner(cloud.points, false, to_left, 0.5 * height);
+  settle_corner(cloud.points, true, to_right, 0.5 * height);
+  cloud.base_x = 0.5 * (cloud.points.front().x + cloud.points.back().x);
+  cloud.base_y = 0.5 * (cloud.points.front().y + cloud.points.back().y);
+  cloud.left_out = options.underside ? 0 : std::abs(enclosed(underside));
+  std::size_t left_corner = 0, right_corner = cloud.points.size() - 1;
+  if (options.underside) {
+    left_corner = follow_underside(cloud, underside);
+    right_corner += left_corner;
   }
-  return place_along(cloud, options.tip_s);
+  cloud.area = enclosed(cloud.points);
+  return cloud.area > 0 && place_along(cloud, left_corner, right_corner, options);
 }
 
 }  // namespace wisp

@@ -8,12 +8,17 @@
 
 #include "capture/vision/outline_rows.hpp"
 #include "capture/vision/outline_seeker.hpp"
+#include "wisp/capture/vision/knots.hpp"
 
 namespace wisp {
 namespace {
 
 constexpr std::size_t kLeastTracked = 10;
 constexpr std::size_t kLeastHeld = 8;
+constexpr int kSamplePoints = 160;  // edge points that are enough to decide by
+
+// Following the underside takes control points away from the sides and makes them move more: it has to pay.
+constexpr double kWorthFollowing = 0.6;
 
 std::string text(double value) {
   char buffer[32];
@@ -35,12 +40,17 @@ class OutlineCapture::Stage {
   explicit Stage(OutlineCaptureOptions options) : options_(std::move(options)) {}
 
   Result<void> feed(const Picture& picture);
+  void glimpse(const Picture& picture) { glimpses_.emplace_back(picture); }
   void lost();
   Result<CapturedOutline> finish();
 
  private:
   Result<void> accept(const Picture& picture);
   Result<void> decide();
+  void choose_channel(std::span<const Survey> surveys, std::span<const Picture> pictures);
+  std::vector<EdgeCloud> sample_clouds(const OutlineSeeker& seeker, std::span<const Picture> pictures,
+                                       const EdgeCloudOptions& options) const;
+  std::vector<double> decide_shape(std::span<const Picture> pictures);
   void look(const Picture& picture);
   void note_lost();
   Error complaint(const std::string& what) const { return Error{options_.source + ": " + what}; }
@@ -52,6 +62,7 @@ class OutlineCapture::Stage {
   std::size_t fed_ = 0;
   std::vector<std::optional<OwnedPicture>> held_;  // nothing: a lost frame
   std::size_t held_bytes_ = 0;
+  std::vector<OwnedPicture> glimpses_;
   std::optional<Survey> survey_;
   std::optional<Picture> format_;  // the first picture's layout, without its planes
   std::optional<OutlineSeeker> seeker_;
@@ -115,12 +126,14 @@ Result<void> OutlineCapture::Stage::decide() {
   for (const auto& held : held_) {
     if (held) pictures.push_back(held->picture());
   }
-  auto survey = survey_scene(pictures, {options_.channel, options_.dark, options_.region});
-  if (!survey) return complaint(survey.error().message);
-  survey_ = std::move(survey).value();
-  seeker_.emplace(*survey_, options_.dark, options_.region.empty() ? pictures.front().frame() : options_.region);
   cloud_options_.base = options_.base.value_or(BaseSide::kBottom);
-  tracker_.emplace(uniform_knots(options_.points));
+  std::vector<Picture> seen = pictures;
+  for (const OwnedPicture& glimpse : glimpses_) seen.push_back(glimpse.picture());
+  const auto surveys = survey_scene(seen, {options_.channel, options_.dark, options_.region, cloud_options_.base});
+  if (!surveys) return complaint(surveys.error().message);
+  choose_channel(*surveys, pictures);
+  TrackerOptions to; if(getenv("SLIP")) to.slip=atof(getenv("SLIP")); if(getenv("TW")) to.tangent_widening=atof(getenv("TW")); if(getenv("NW")) to.normal_widening=atof(getenv("NW")); if(getenv("TS")) to.tangent_sd=atof(getenv("TS"));if(getenv("NS")) to.normal_sd=atof(getenv("NS"));
+  tracker_.emplace(decide_shape(pictures), to);
   for (const auto& held : held_) {
     if (held) {
       look(held->picture());
@@ -130,7 +143,79 @@ Result<void> OutlineCapture::Stage::decide() {
   }
   held_.clear();
   held_.shrink_to_fit();
+  glimpses_.clear();
   return {};
+}
+
+// The channel that separates best and in which the outline is simplest: where wax, a stand or only part of a flame is
+// in the region, a spline follows it less well.
+void OutlineCapture::Stage::choose_channel(std::span<const Survey> surveys, std::span<const Picture> pictures) {
+  constexpr int kTrialPoints = 8;
+  const Region area = options_.region.empty() ? pictures.front().frame() : options_.region;
+  double best = -1;
+  for (const Survey& survey : surveys) {
+    const OutlineSeeker seeker(survey, options_.dark, area);
+    double score = 0;
+    if (surveys.size() > 1) {
+      EdgeCloudOptions options = cloud_options_;
+      options.most_points = kSamplePoints;
+      const std::vector<EdgeCloud> clouds = sample_clouds(seeker, pictures, options);
+      const double overlap = clouds.empty() ? 0 : 1 - fit_pace(clouds, uniform_knots(kTrialPoints)).misfit;
+      score = survey.separation * std::max(overlap, 0.0) * std::abs(overlap);
+      if (getenv("DBG")) fprintf(stderr,"ch %d sep %.4f overlap %.4f level %d\n",(int)survey.channel,survey.separation,overlap,survey.level);
+    }
+    if (score <= best) continue;
+    best = score;
+    survey_ = survey;
+    seeker_ = seeker;
+  }
+}
+
+// The edge points of a few of the pictures, and of the glimpses.
+std::vector<EdgeCloud> OutlineCapture::Stage::sample_clouds(const OutlineSeeker& seeker,
+                                                            std::span<const Picture> pictures,
+                                                            const EdgeCloudOptions& options) const {
+  constexpr std::size_t kSamples = 8;
+  OutlineSeeker following = seeker;
+  std::vector<EdgeCloud> clouds;
+  EdgeCloud cloud;
+  const std::size_t stride = std::max<std::size_t>(1, pictures.size() / kSamples);
+  for (std::size_t k = stride / 2; k < pictures.size(); k += stride) {
+    if (following.seek(pictures[k], options, cloud)) clouds.push_back(cloud);
+  }
+  for (const OwnedPicture& glimpse : glimpses_) {
+    OutlineSeeker anew = seeker;
+    if (anew.seek(glimpse.picture(), options, cloud)) clouds.push_back(cloud);
+  }
+  return clouds;
+}
+
+// Decides, from a few of the held frames, whether the underside is followed, where along the curve the landmarks lie,
+// and where the knots. Returns the knots.
+std::vector<double> OutlineCapture::Stage::decide_shape(std::span<const Picture> pictures) {
+  CurveShape best;
+  for (const bool underside : {false, true}) {
+ if (getenv("US") && (atoi(getenv("US"))!=0) != underside) continue;
+    EdgeCloudOptions options = cloud_options_;
+    options.underside = underside;
+    options.most_points = kSamplePoints;
+    options.pace = even_pace();
+    std::vector<EdgeCloud> clouds = sample_clouds(*seeker_, pictures, options);
+    if (clouds.empty()) continue;
+    options.landmarks = {0, 0, 0};
+    for (const EdgeCloud& cloud : clouds) {
+      for (int k = 0; k < 3; ++k) options.landmarks[k] += cloud.shares[k] / static_cast<double>(clouds.size());
+    }
+    clouds = sample_clouds(*seeker_, pictures, options);
+    CurveShape shape = choose_shape(clouds, options_.points, options_.place_knots);
+    if (getenv("DBG")) fprintf(stderr,"underside %d misfit %.4f uniform %.4f\n",underside,shape.misfit,choose_shape(clouds,options_.points,false).misfit);
+    if (!best.knots.empty() && shape.misfit >= kWorthFollowing * best.misfit) continue;
+    best = std::move(shape);
+    cloud_options_.underside = underside;
+    cloud_options_.landmarks = options.landmarks;
+    cloud_options_.pace = best.pace;
+  }
+  return best.knots.empty() ? uniform_knots(options_.points) : best.knots;
 }
 
 void OutlineCapture::Stage::look(const Picture& picture) {
@@ -208,6 +293,8 @@ OutlineCapture& OutlineCapture::operator=(OutlineCapture&&) noexcept = default;
 OutlineCapture::~OutlineCapture() = default;
 
 Result<void> OutlineCapture::feed(const Picture& picture) { return stage_->feed(picture); }
+
+void OutlineCapture::glimpse(const Picture& picture) { stage_->glimpse(picture); }
 
 void OutlineCapture::lost(int count) {
   for (int k = 0; k < count; ++k) stage_->lost();

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "capture/vision/waist.hpp"
+
 namespace wisp {
 namespace {
 
@@ -11,6 +13,9 @@ constexpr double kMarginShare = 0.2;     // of the thing's longer side: how far 
 constexpr int kLeastMargin = 8;          // pixels
 constexpr double kLeastAreaShare = 0.1;  // of its usual area: less is a spark or what is left after it went out
 constexpr int kLeastArea = 24;           // pixels
+
+constexpr double kJumpShare = 0.03;  // of its length: reaching suddenly deeper than that, it may have run together
+constexpr int kLeastJump = 3;        // … with what it stands on; pixels
 
 double area_of(const Region& region) { return static_cast<double>(region.width) * region.height; }
 
@@ -22,7 +27,8 @@ OutlineSeeker::OutlineSeeker(const Survey& survey, bool dark, const Region& area
       dark_(dark),
       area_(area),
       home_(survey.home),
-      still_(survey.still) {}
+      still_(survey.still),
+      base_edge_(survey.base_edge) {}
 
 OutlineSeeker::Window OutlineSeeker::open(const Picture& picture, const Region& place) {
   const ImageView direct = plane_in_place(picture, channel_);
@@ -80,6 +86,32 @@ bool OutlineSeeker::find_in(const Picture& picture, Region place) {
   }
 }
 
+// Cuts off what the thing stands on where both have run together. Returns whether there is still something left.
+bool OutlineSeeker::part_from_stand(BaseSide side) {
+  const Region box = found_.box;
+  const int end = wisp::base_edge(box, side);
+  const int length = side == BaseSide::kBottom || side == BaseSide::kTop ? box.height : box.width;
+  const int jump = deeper(end, base_edge_, side);
+  const bool inside = deeper(end, base_edge_, side) < length;
+  if (jump <= std::max(kLeastJump, static_cast<int>(kJumpShare * length)) || !inside) {
+    base_edge_ = end;
+    return true;
+  }
+  const Region place = window_.place;
+  const bool rows = side == BaseSide::kBottom || side == BaseSide::kTop;
+  const int offset = rows ? place.y : place.x;
+  const Region in_window{box.x - place.x, box.y - place.y, box.width, box.height};
+  const auto waist = find_waist(window_.image, level_, in_window, base_edge_ - offset, side);
+  if (!waist) {
+    base_edge_ = end;
+    return true;
+  }
+  const Region kept = above_edge(place, *waist + offset, side);
+  window_.image = crop(window_.image, {kept.x - place.x, kept.y - place.y, kept.width, kept.height});
+  window_.place = kept;
+  return choose(finder_.find(window_.image, level_, kLeastArea), kept);
+}
+
 void OutlineSeeker::measure_change() {
   const Region place = window_.place;
   const Region both = intersection(place, before_place_);
@@ -126,7 +158,7 @@ bool OutlineSeeker::seek(const Picture& picture, const EdgeCloudOptions& options
     following_ = false;
     seen = find_in(picture, area_);
   }
-  if (!seen) return false;
+  if (!seen || !part_from_stand(options.base)) return false;
   following_ = true;
   usual_area_ = usual_area_ == 0 ? static_cast<double>(found_.area)
                                  : 0.95 * usual_area_ + 0.05 * static_cast<double>(found_.area);

@@ -33,6 +33,7 @@ class OutlineSeeker {
   };
   Window open(const Picture& picture, const Region& place);
   bool find_in(const Picture& picture, Region place);
+  bool part_from_stand(BaseSide side);
   bool choose(std::span<const BrightRegion> regions, const Region& place);
   bool still(const Region& box) const;
   void measure_change();
@@ -46,6 +47,7 @@ class OutlineSeeker {
   std::vector<Region> still_;
   bool following_ = false;
   double usual_area_ = 0;
+  int base_edge_;  // where the thing ended when it last stood alone
   BrightRegion found_;
   Window window_;
   std::vector<std::uint8_t> plane_;

@@ -11,6 +11,9 @@ namespace {
 
 constexpr double kLeastNormalSd = 0.25;  // pixels: what is left of noise when an edge is located well
 
+// Nothing nearer than this share of the height is an outlier: few control points cannot follow a sharp tip.
+constexpr double kNoOutlier = 0.1;
+
 // A prior that says next to nothing, for the first frame: sd of ten heights.
 constexpr double kVagueSd = 10;
 
@@ -33,13 +36,13 @@ void OutlineTracker::predict(const EdgeCloud& cloud) {
     const double precision = 1 / (kVagueSd * cloud.height * kVagueSd * cloud.height);
     for (int i = 0; i < n; ++i) {
       prior_information_[static_cast<std::size_t>(i) * n + i] = precision;
-      prior_vector_[i] = precision * (i % 2 == 0 ? cloud.base_x() : cloud.base_y());
+      prior_vector_[i] = precision * (i % 2 == 0 ? cloud.base_x : cloud.base_y);
     }
     return;
   }
   for (int i = 0; i < n; i += 2) {
-    estimate_.mean[i] += cloud.base_x() - base_x_;
-    estimate_.mean[i + 1] += cloud.base_y() - base_y_;
+    estimate_.mean[i] += cloud.base_x - base_x_;
+    estimate_.mean[i + 1] += cloud.base_y - base_y_;
   }
   widen(cloud.height);
   factor_ = estimate_.covariance;
@@ -98,17 +101,19 @@ void OutlineTracker::measure(const EdgeCloud& cloud, bool along_own_normal) {
   information_ = prior_information_;
   vector_ = prior_vector_;
   for (std::size_t k = 0; k < cloud.points.size(); ++k) {
-    if (measurements_[k].out) continue;
+    if (out_[k]) continue;
     const EdgePoint& edge = cloud.points[k];
     double nx = edge.normal_x, ny = edge.normal_y;
     if (!along_own_normal) {
-      const CurvePoint slope = table_.slope(estimate_.mean, measurements_[k].s);
+      const CurvePoint slope = table_.slope(estimate_.mean, places_[k]);
       const double length = std::max(std::hypot(slope.x, slope.y), 1e-9);
       nx = slope.y / length;
       ny = -slope.x / length;
     }
-    add(measurements_[k].s, nx, ny, nx * edge.x + ny * edge.y, normal_precision_);
-    add(cloud.s[k], -ny, nx, nx * edge.y - ny * edge.x, tangent_precision_);
+    add(places_[k], nx, ny, nx * edge.x + ny * edge.y, normal_precision_);
+    const double along = nx * edge.y - ny * edge.x;
+    add(cloud.s[k], -ny, nx, along, tangent_precision_);
+    if (!along_own_normal) add(places_[k], -ny, nx, along, hold_precision_);
   }
   hold_ends(cloud);
 }
@@ -133,42 +138,93 @@ void OutlineTracker::solve() {
   cholesky_solve(factor_, n, estimate_.mean);
 }
 
-// One Newton step a pass towards the curve's nearest point.
+// One Newton step a pass towards the curve's nearest point; kept near the edge point's place in the cloud, or points
+// would gather where the curve happens to pass close by.
 void OutlineTracker::project(const EdgeCloud& cloud) {
-  constexpr double kLongestStep = 0.03;
   for (std::size_t k = 0; k < cloud.points.size(); ++k) {
-    double& s = measurements_[k].s;
+    double& s = places_[k];
     const CurvePoint at = table_.at(estimate_.mean, s), slope = table_.slope(estimate_.mean, s);
     const double square = slope.x * slope.x + slope.y * slope.y;
     if (square <= 0) continue;
     const double step = ((cloud.points[k].x - at.x) * slope.x + (cloud.points[k].y - at.y) * slope.y) / square;
-    s = std::clamp(s + std::clamp(step, -kLongestStep, kLongestStep), 0.0, 1.0);
+    s = std::clamp(s + step, std::max(cloud.s[k] - options_.slip, 0.0), std::min(cloud.s[k] + options_.slip, 1.0));
   }
 }
 
-void OutlineTracker::gate(const EdgeCloud& cloud) {
-  const std::size_t count = cloud.points.size();
-  residuals_.resize(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    const CurvePoint at = table_.at(estimate_.mean, measurements_[k].s);
+void OutlineTracker::measure_residuals(const EdgeCloud& cloud) {
+  residuals_.resize(cloud.points.size());
+  for (std::size_t k = 0; k < residuals_.size(); ++k) {
+    const CurvePoint at = table_.at(estimate_.mean, places_[k]);
     residuals_[k] = std::hypot(cloud.points[k].x - at.x, cloud.points[k].y - at.y);
   }
+}
+
+double OutlineTracker::misfit() const {
+  double sum = 0;
+  for (std::size_t k = 0; k < residuals_.size(); ++k) sum += out_[k] != 0 ? 0 : residuals_[k];
+  return sum;
+}
+
+// Projects and solves anew until the residuals stop falling; where they rise, goes back and holds edge points more
+// firmly where they are along the curve (Levenberg's damping: along the normal alone, steps overshoot at sharp turns).
+void OutlineTracker::settle(const EdgeCloud& cloud) {
+  constexpr double kStillFalling = 0.98;
+  project(cloud);
+  measure_residuals(cloud);
+  double best = misfit();
+  best_mean_ = estimate_.mean;
+  best_places_ = places_;
+  hold_precision_ = options_.hold * normal_precision_;
+  for (int pass = 1; pass < options_.passes; ++pass) {
+    measure(cloud, false);
+    solve();
+    project(cloud);
+    measure_residuals(cloud);
+    const double now = misfit();
+    const bool settled = now > kStillFalling * best && now <= best;
+    if (now < best) {
+      best = now;
+      best_mean_ = estimate_.mean;
+      best_places_ = places_;
+      hold_precision_ *= 0.5;
+    } else {
+      hold_precision_ *= 8;
+    }
+    if (settled) break;
+    estimate_.mean = best_mean_;
+    places_ = best_places_;
+  }
+  estimate_.mean = best_mean_;
+  places_ = best_places_;
+  measure_residuals(cloud);
+}
+
+// Leaves out edge points that lie far from the curve when most do not. Returns whether there were any.
+bool OutlineTracker::gate(const EdgeCloud& cloud) {
+  const std::size_t count = cloud.points.size();
   std::vector<double>& sorted = vector_;  // solved already, and rebuilt by the next measure()
   sorted.assign(residuals_.begin(), residuals_.end());
   std::nth_element(sorted.begin(), sorted.begin() + count / 2, sorted.end());
   const double typical = std::max(sorted[count / 2], kLeastNormalSd);
-  // A sharp tip that few control points cannot follow is no outlier.
-  const double limit = std::max(options_.gate * typical, 0.05 * cloud.height);
+  const double limit = std::max(options_.gate * typical, kNoOutlier * cloud.height);
+  bool any = false;
+  for (std::size_t k = 0; k < count; ++k) {
+    out_[k] = residuals_[k] > limit;
+    any = any || out_[k] != 0;
+  }
+  vector_.resize(estimate_.mean.size());
+  return any;
+}
+
+void OutlineTracker::account() {
   double squares = 0;
   estimate_.used = 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    measurements_[k].out = residuals_[k] > limit;
-    if (measurements_[k].out) continue;
+  for (std::size_t k = 0; k < residuals_.size(); ++k) {
+    if (out_[k]) continue;
     squares += residuals_[k] * residuals_[k];
     ++estimate_.used;
   }
-  vector_.resize(estimate_.mean.size());
-  estimate_.gated = static_cast<int>(count) - estimate_.used;
+  estimate_.gated = static_cast<int>(residuals_.size()) - estimate_.used;
   estimate_.residual = std::sqrt(squares / std::max(estimate_.used, 1));
 }
 
@@ -177,20 +233,17 @@ const OutlineEstimate& OutlineTracker::update(const EdgeCloud& cloud) {
   const double tangent_sd = options_.tangent_sd * cloud.height;
   normal_precision_ = 1 / (normal_sd * normal_sd);
   tangent_precision_ = 1 / (tangent_sd * tangent_sd);
-  measurements_.resize(cloud.points.size());
-  for (std::size_t k = 0; k < cloud.points.size(); ++k) measurements_[k] = {cloud.s[k], false};
+  places_ = cloud.s;
+  out_.assign(cloud.points.size(), 0);
   predict(cloud);
   measure(cloud, true);
   solve();
-  for (int pass = 1; pass < options_.passes; ++pass) {
-    project(cloud);
-    gate(cloud);
-    measure(cloud, false);
-    solve();
-  }
+  settle(cloud);
+  if (gate(cloud)) settle(cloud);
+  account();
   cholesky_inverse(factor_, static_cast<int>(vector_.size()), estimate_.covariance);
-  base_x_ = cloud.base_x();
-  base_y_ = cloud.base_y();
+  base_x_ = cloud.base_x;
+  base_y_ = cloud.base_y;
   has_past_ = true;
   return estimate_;
 }

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture/vision/waist.hpp"
 #include "wisp/capture/vision/region.hpp"
 
 namespace wisp {
 namespace {
 
 constexpr int kGridWidth = 240;        // the coarse grid is about this wide and high: enough to tell regions apart
-constexpr double kLitShare = 0.75;     // a picture counts when its contrast is this share of the best one's
+constexpr double kLitShare = 0.85;     // a picture counts when its contrast is this share of the best one's
 constexpr double kChangeShare = 0.25;  // a grid point moves when its range is this share of the clusters' distance
 constexpr double kPersistence = 0.6;   // the thing is there in this share of the pictures
 constexpr double kLeastContrast = 12;  // levels between the clusters, of 255: less is noise of one brightness
@@ -63,12 +64,6 @@ std::vector<std::size_t> lit_pictures(const Grid& grid) {
   }
   return lit;
 }
-
-// What one channel has to say.
-struct Candidate {
-  Survey survey;
-  double score = -1;
-};
 
 struct Extent {
   std::vector<std::uint8_t> lowest;
@@ -132,16 +127,38 @@ Region to_pixels(const Grid& grid, const Region& box, const Region& area) {
   return intersection(grown(out, grid.step), area);
 }
 
-Candidate judge(const Grid& grid, PixelChannel channel, const Region& area) {
-  Candidate out;
-  out.survey.channel = channel;
+// The row or column, in pixels, in which the thing ends in the middle one of the lit pictures: what it only now and
+// then runs together with does not count.
+int usual_edge(const Grid& grid, std::span<const std::size_t> lit, const Survey& survey, const Region& area,
+               BaseSide base) {
+  RegionFinder finder;
+  std::vector<int> edges;
+  for (const std::size_t k : lit) {
+    Region thing;
+    std::int64_t largest = 0;
+    for (const BrightRegion& region : finder.find(view(grid, grid.pictures[k]), survey.level, 1)) {
+      const Region box = to_pixels(grid, region.box, area);
+      if (region.area <= largest || intersection(box, survey.home).empty()) continue;
+      largest = region.area;
+      thing = box;
+    }
+    if (largest > 0) edges.push_back(base_edge(thing, base));
+  }
+  if (edges.empty()) return base_edge(survey.home, base);
+  std::nth_element(edges.begin(), edges.begin() + edges.size() / 2, edges.end());
+  return edges[edges.size() / 2];
+}
+
+std::optional<Survey> judge(const Grid& grid, PixelChannel channel, const Region& area, BaseSide base) {
+  Survey out;
+  out.channel = channel;
   const std::vector<std::size_t> lit = lit_pictures(grid);
-  for (const std::size_t k : lit) add_to_histogram(out.survey.histogram, view(grid, grid.pictures[k]), 1);
-  const TwoClusters clusters = split_histogram(out.survey.histogram);
+  for (const std::size_t k : lit) add_to_histogram(out.histogram, view(grid, grid.pictures[k]), 1);
+  const TwoClusters clusters = split_histogram(out.histogram);
   const double contrast = clusters.bright_mean - clusters.dark_mean;
-  if (contrast < kLeastContrast) return out;
-  out.survey.level = clusters.threshold;
-  out.survey.separation = clusters.separation;
+  if (contrast < kLeastContrast) return std::nullopt;
+  out.level = clusters.threshold;
+  out.separation = clusters.separation;
   const Extent range = extent(grid, lit);
   std::vector<std::uint8_t> moving(grid.size());
   for (std::size_t i = 0; i < moving.size(); ++i) {
@@ -153,37 +170,37 @@ Candidate judge(const Grid& grid, PixelChannel channel, const Region& area) {
   Behaviour best;
   for (const BrightRegion& region : regions) {
     const Behaviour b = behaviour(grid, lit, clusters.threshold, region.box, moving);
-    if (b.moving_rim < 0.05) out.survey.still.push_back(to_pixels(grid, region.box, area));
+    if (b.moving_rim < 0.05) out.still.push_back(to_pixels(grid, region.box, area));
     if (b.presence < kPersistence) continue;
     if (thing != nullptr && b.motion <= best.motion) continue;
     thing = &region;
     best = b;
   }
-  if (thing == nullptr) return out;
-  out.survey.home = to_pixels(grid, thing->box, area);
-  out.survey.moves = best.motion > 0;
-  std::erase(out.survey.still, out.survey.home);
-  out.score = clusters.separation * best.moving_rim;
+  if (thing == nullptr) return std::nullopt;
+  out.home = to_pixels(grid, thing->box, area);
+  out.moves = best.motion > 0;
+  std::erase(out.still, out.home);
+  out.base_edge = usual_edge(grid, lit, out, area, base);
   return out;
 }
 
 }  // namespace
 
-Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptions& options) {
+Result<std::vector<Survey>> survey_scene(std::span<const Picture> pictures, const SurveyOptions& options) {
   const Region area = options.region.empty() ? pictures.front().frame() : options.region;
-  Candidate best;
+  std::vector<Survey> found;
   for (const PixelChannel channel :
        {PixelChannel::kLuma, PixelChannel::kRed, PixelChannel::kGreen, PixelChannel::kBlue}) {
     if (options.channel ? channel != *options.channel : !has_channel(pictures.front(), channel)) continue;
-    Candidate candidate = judge(sample(pictures, channel, area, options.dark), channel, area);
-    if (candidate.score > best.score) best = std::move(candidate);
+    auto survey = judge(sample(pictures, channel, area, options.dark), channel, area, options.base);
+    if (survey) found.push_back(std::move(*survey));
   }
-  if (best.score < 0) {
+  if (found.empty()) {
     return Error{std::string("nothing ") + (options.dark ? "dark" : "bright") +
                  " stands out: the picture has one brightness only; expected " +
                  (options.dark ? "a dark thing on a light ground" : "a bright thing on a dark ground")};
   }
-  return std::move(best.survey);
+  return found;
 }
 
 }  // namespace wisp

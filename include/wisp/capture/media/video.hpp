@@ -71,6 +71,10 @@ class VideoReader {
   /// video is left out, and told of in warnings().
   Result<std::optional<VideoFrame>> next();
 
+  /// Up to `count` pictures spread over the clip's whole length, cheap to come by (a video's key frames); what next()
+  /// gives is not changed. Fewer, or none, where the file cannot be searched.
+  std::vector<OwnedPicture> glimpses(int count);
+
   /// The frame that next() gave last, as RGB.
   ///
   /// Precondition: next() has given a frame.

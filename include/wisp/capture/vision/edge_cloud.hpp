@@ -2,10 +2,16 @@
 // The edge points of one outline in their order: from the base's left over the tip to the base's right, each with its
 // place along the way.
 //
-// The base is where the outline is open: a little above the lowest point, or the picture's edge where that cuts the
-// thing off. The place s of an edge point is its share of the arc length, counted apart on the two sides of the tip, so
-// that the tip has the same s in every frame and what slides along a growing flame is as little as can be.
+// The base is where the outline is open. Its two corners are the boundary's outermost points towards lower left and
+// lower right, seen along the axis of the thing's lower part: on a flat base its corners, on a round one two points
+// beside the lowest, on a forked one the two feet. (The lowest pixel of a flame jumps about; these do not.) The curve
+// runs from corner to corner, or, where the underside is worth following (a flame forked by its wick), on along the
+// underside until both ends meet in its middle.
+//
+// The place s of an edge point is its share of the arc length, counted apart between landmarks (the base's corners, the
+// tip), so that these have the same s in every frame and what slides along a growing flame is as little as can be.
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -16,26 +22,39 @@ namespace wisp {
 /// The side on which an outline is open and held.
 enum class BaseSide { kBottom, kLeft, kTop, kRight };
 
+/// Steps of a pace that is fitted.
+inline constexpr int kPaceSteps = 64;
+
 /// How a boundary becomes a cloud.
 struct EdgeCloudOptions {
   BaseSide base = BaseSide::kBottom;
-  double base_share = 0.03;  ///< the base lies this share of the height above the lowest point; 0 to 0.2: a round or
-                             ///< ragged underside says little about the flame, and its lowest pixel jumps about
-  int most_points = 320;     ///< edge points at most; a longer boundary is taken in even strides: 40 to a control point
-                             ///< of 8 are far more than needed, and cost follows them
-  double tip_s = 0.5;        ///< where along the curve the tip lies, 0.1 to 0.9
+  bool underside = false;  ///< follow the underside too
+  int most_points = 320;   ///< edge points at most; a longer boundary is taken in even strides: 40 to a control point
+                           ///< of 8 are far more than needed, and cost follows them
+  /// Where along the cloud the landmarks lie: left corner, tip, right corner; ascending. The corners are 0 and 1 where
+  /// the underside is not followed.
+  std::array<double, 3> landmarks{0, 0.5, 1};
+  /// The curve's parameter at evenly spread places of the cloud: ascending from 0 to 1, at least two values. A curve of
+  /// few control points that turns a sharp corner must slow down there.
+  std::vector<double> pace{0, 1};
 };
+
+/// The pace of a curve that is run through evenly.
+std::vector<double> even_pace();
+
+/// The parameter that a pace gives for a place of the cloud, 0 to 1.
+double at_pace(std::span<const double> pace, double place);
 
 /// An outline's edge points.
 struct EdgeCloud {
   std::vector<EdgePoint> points;  ///< base's left, over the tip, to base's right; first and last are the base's ends
-  std::vector<double> s;          ///< of each point, 0 to 1, ascending
-  double tip_share = 0.5;         ///< the left side's share of the whole arc length
-  double height = 0;              ///< from the base's middle to the tip, pixels
-  bool base_cut = false;          ///< the picture's edge cuts the base off
-
-  double base_x() const { return 0.5 * (points.front().x + points.back().x); }
-  double base_y() const { return 0.5 * (points.front().y + points.back().y); }
+  std::vector<double> s;          ///< the curve's parameter where each point belongs, 0 to 1, ascending
+  std::array<double, 3> shares{0, 0.5, 1};  ///< of the whole arc length up to each landmark
+  double height = 0;                        ///< from the base's middle to the tip, pixels
+  double base_x = 0;                        ///< the middle between the base's corners
+  double base_y = 0;
+  double area = 0;      ///< inside the edge points, closed by a straight line, square pixels
+  double left_out = 0;  ///< area between that line and the underside; 0 where that is followed
 };
 
 /// The part of a picture that a boundary was followed in.

@@ -76,6 +76,12 @@ class OutlineCapture {
   OutlineCapture& operator=(OutlineCapture&&) noexcept;
   ~OutlineCapture();
 
+  /// Shows a picture from anywhere in the clip, before the first frames are over: what holds for the whole clip is
+  /// decided better when more of it has been seen. It is copied.
+  ///
+  /// Precondition: the picture has the size and layout of the frames.
+  void glimpse(const Picture& picture);
+
   /// Takes in the next frame; it is borrowed for the call.
   /// Errors: a frame of another size than the first, a region outside the picture, a channel that the picture has not,
   /// nothing that stands out in the first frames.

@@ -11,6 +11,7 @@
 // posterior. Departure: beside its tight measurement along the normal, an edge point says weakly where along the curve
 // it should lie, or control points would slide round the outline from frame to frame.
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -25,8 +26,10 @@ struct TrackerOptions {
   double tangent_sd = 0.04;        ///< of one edge point along the curve, 0.005 to 0.5: some twenty times looser
   double normal_widening = 0.1;    ///< added sd a frame across the curve, 0.01 to 1: a flame crosses its own width
   double tangent_widening = 0.02;  ///< added sd a frame along the curve, 0.001 to 1
-  double gate = 6;                 ///< an edge point farther off than this many typical residuals is left out, 3 to 20
-  int passes = 3;                  ///< times that edge points are projected anew onto the curve, 1 to 10
+  double hold = 0.05;  ///< how firmly, against the normal, an edge point is first held along the curve, 0 to 1
+  double gate = 6;     ///< an edge point farther off than this many typical residuals is left out, 3 to 20
+  double slip = 0.1;   ///< how far in s an edge point may be moved along the curve to where it fits, 0 to 0.2
+  int passes = 16;     ///< times that edge points are projected anew onto the curve, 1 to 10
 };
 
 /// The Gaussian after one frame.
@@ -50,14 +53,16 @@ class OutlineTracker {
   /// Takes in one frame's edge points. Returns the posterior, good until the next call.
   const OutlineEstimate& update(const EdgeCloud& cloud);
 
+  /// Distance of each edge point of the last frame from the posterior's curve, pixels.
+  std::span<const double> residuals() const { return residuals_; }
+
+  /// Parameter of the curve's point nearest to each edge point of the last frame.
+  std::span<const double> places() const { return places_; }
+
   /// Forgets the past: the next frame starts an episode with no prior.
   void forget() { has_past_ = false; }
 
  private:
-  struct Measurement {
-    double s = 0;
-    bool out = false;
-  };
   void predict(const EdgeCloud& cloud);
   void widen(double height);
   void add(double s, double nx, double ny, double value, double precision);
@@ -65,7 +70,11 @@ class OutlineTracker {
   void hold_ends(const EdgeCloud& cloud);
   void solve();
   void project(const EdgeCloud& cloud);
-  void gate(const EdgeCloud& cloud);
+  void measure_residuals(const EdgeCloud& cloud);
+  double misfit() const;
+  void settle(const EdgeCloud& cloud);
+  bool gate(const EdgeCloud& cloud);
+  void account();
 
   SplineTable table_;
   TrackerOptions options_;
@@ -74,13 +83,17 @@ class OutlineTracker {
   double base_y_ = 0;
   double normal_precision_ = 0;
   double tangent_precision_ = 0;
+  double hold_precision_ = 0;
+  std::vector<double> best_mean_;
+  std::vector<double> best_places_;
   OutlineEstimate estimate_;
   std::vector<double> prior_information_;  // 2N × 2N
   std::vector<double> prior_vector_;       // information × mean
   std::vector<double> information_;
   std::vector<double> vector_;
   std::vector<double> factor_;
-  std::vector<Measurement> measurements_;
+  std::vector<double> places_;
+  std::vector<std::uint8_t> out_;  // gated
   std::vector<double> residuals_;
 };
 

@@ -1,16 +1,16 @@
 #pragma once
-// The first look at a clip: which channel, which level, and where the thing is that moves.
+// The first look at a clip: in each channel, which level, and where the thing is that moves.
 //
 // Wax, the wick's holder and reflections are bright too, but they stand still. Over a few pictures and a coarse grid,
 // the survey finds bright regions and how much in them changes; the thing is the region where most changes and that is
-// there in most pictures. A channel is as good as its two clusters are apart, times the share of the thing's rim that
-// moves: a channel in which the flame and its candle are one region has a rim that mostly stands still.
+// there in most pictures.
 
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "wisp/base/result.hpp"
+#include "wisp/capture/vision/edge_cloud.hpp"
 #include "wisp/capture/vision/picture.hpp"
 #include "wisp/capture/vision/threshold.hpp"
 
@@ -18,9 +18,10 @@ namespace wisp {
 
 /// What to look for.
 struct SurveyOptions {
-  std::optional<PixelChannel> channel;  ///< nothing: the one that separates best
+  std::optional<PixelChannel> channel;  ///< nothing: all there are
   bool dark = false;                    ///< the thing is dark on a light ground
   Region region;                        ///< where to look, pixels; empty: the whole picture
+  BaseSide base = BaseSide::kBottom;    ///< where the thing is held
 };
 
 /// What was found.
@@ -30,14 +31,16 @@ struct Survey {
   double separation = 0;      ///< of the two clusters, 0 to 1
   Histogram histogram{};      ///< of the channel as stored (inverted for dark things), over the pictures that count
   Region home;                ///< around all places where the thing was seen
+  int base_edge = 0;          ///< row (or column) in which the thing most often ends on the base's side
   std::vector<Region> still;  ///< bright regions where next to nothing changes
   bool moves = false;         ///< whether anything changed at all
 };
 
-/// Surveys pictures of one size.
-/// Errors: nothing bright anywhere (one brightness only), or nothing bright inside the region.
+/// Surveys pictures of one size. Returns what was found in each channel that was asked for and in which something stands
+/// out; one at least.
+/// Errors: nothing stands out anywhere (one brightness only).
 ///
 /// Precondition: pictures is not empty; all have one size and layout; region is empty or inside them.
-Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptions& options);
+Result<std::vector<Survey>> survey_scene(std::span<const Picture> pictures, const SurveyOptions& options);
 
 }  // namespace wisp

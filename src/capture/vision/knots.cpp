@@ -1,0 +1,144 @@
+#include "wisp/capture/vision/knots.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "wisp/capture/vision/outline_tracker.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr int kBins = 128;
+constexpr double kWorthwhile = 0.98;  // placed knots must miss less than this share of what uniform ones miss
+using Density = std::array<double, kBins>;
+
+// Mean turning of the outlines' direction in each bin of s; sums to 1.
+Density bending(std::span<const EdgeCloud> clouds) {
+  Density out{};
+  for (const EdgeCloud& cloud : clouds) {
+    const std::size_t count = cloud.points.size(), reach = std::max<std::size_t>(2, count / 40);
+    for (std::size_t k = reach; k + reach < count; ++k) {
+      const EdgePoint &a = cloud.points[k - reach], &b = cloud.points[k], &c = cloud.points[k + reach];
+      const double cross = (b.x - a.x) * (c.y - b.y) - (b.y - a.y) * (c.x - b.x);
+      const double dot = (b.x - a.x) * (c.x - b.x) + (b.y - a.y) * (c.y - b.y);
+      const int bin = std::min(kBins - 1, static_cast<int>(cloud.s[k] * kBins));
+      out[bin] += std::abs(std::atan2(cross, dot)) / static_cast<double>(count);
+    }
+  }
+  double sum = 0;
+  for (const double value : out) sum += value;
+  for (double& value : out) value = sum > 0 ? value / sum : 1.0 / kBins;
+  return out;
+}
+
+// Knots with equal amounts of the density (bending^power, mixed with an even share) between them.
+std::vector<double> spread(const Density& bend, int points, double even, double power) {
+  Density density;
+  double sum = 0;
+  for (int k = 0; k < kBins; ++k) {
+    density[k] = std::pow(bend[k] * kBins, power);
+    sum += density[k];
+  }
+  for (double& value : density) value = even / kBins + (1 - even) * value / sum;
+  std::vector<double> interior;
+  const int spans = points - kSplineDegree;
+  double before = 0;
+  int bin = 0;
+  for (int k = 1; k < spans; ++k) {
+    const double target = static_cast<double>(k) / spans;
+    while (bin + 1 < kBins && before + density[bin] < target) before += density[bin++];
+    interior.push_back((bin + std::clamp((target - before) / density[bin], 0.0, 1.0)) / kBins);
+  }
+  return clamped_knots(interior);
+}
+
+double way_between(const EdgeCloud& cloud, std::size_t k) {
+  const EdgePoint &a = cloud.points[k - 1], &b = cloud.points[k];
+  return std::hypot(b.x - a.x, b.y - a.y);
+}
+
+constexpr int kPaceRounds = 3;
+
+double misfit(const EdgeCloud& cloud, std::span<const double> residuals) {
+  double area = cloud.left_out;
+  for (std::size_t k = 1; k < residuals.size(); ++k) {
+    area += 0.5 * (residuals[k - 1] + residuals[k]) * way_between(cloud, k);
+  }
+  return area / cloud.area;
+}
+
+// Where on their curves the edge points ended, against where they were put, gathered over the clouds.
+class PaceMeasure {
+ public:
+  void add(std::span<const double> even, std::span<const double> reached) {
+    for (std::size_t k = 0; k < even.size(); ++k) {
+      const double place = even[k] * kPaceSteps;
+      const int step = std::min(kPaceSteps - 1, static_cast<int>(place));
+      const double share = place - step;
+      weight_[step] += 1 - share;
+      weight_[step + 1] += share;
+      sum_[step] += (1 - share) * reached[k];
+      sum_[step + 1] += share * reached[k];
+    }
+  }
+
+  std::vector<double> pace(std::span<const double> before) const {
+    std::vector<double> out(before.begin(), before.end());
+    for (int k = 1; k < kPaceSteps; ++k) {
+      if (weight_[k] > 0) out[k] = sum_[k] / weight_[k];
+    }
+    // Never backwards, and never standing still: an edge point more has to move the parameter.
+    for (int k = 1; k <= kPaceSteps; ++k) out[k] = std::max(out[k], out[k - 1] + 0.1 / kPaceSteps);
+    const double whole = out.back();
+    for (double& value : out) value /= whole;
+    return out;
+  }
+
+ private:
+  std::array<double, kPaceSteps + 1> weight_{};
+  std::array<double, kPaceSteps + 1> sum_{};
+};
+
+}  // namespace
+
+CurveShape fit_pace(std::span<const EdgeCloud> clouds, std::span<const double> knots) {
+  OutlineTracker tracker(knots, {.slip = 0.1});
+  CurveShape best{{knots.begin(), knots.end()}, even_pace(), 1e30};
+  std::vector<double> pace = best.pace;
+  for (int round = 0; round < kPaceRounds; ++round) {
+    PaceMeasure measure;
+    double sum = 0;
+    for (const EdgeCloud& cloud : clouds) {
+      EdgeCloud paced = cloud;
+      for (double& s : paced.s) s = at_pace(pace, s);
+      tracker.forget();
+      tracker.update(paced);
+      sum += misfit(cloud, tracker.residuals());
+      measure.add(cloud.s, tracker.places());
+    }
+    sum /= static_cast<double>(clouds.size());
+    if (sum < best.misfit) {
+      best.misfit = sum;
+      best.pace = pace;
+    }
+    pace = measure.pace(pace);
+  }
+  return best;
+}
+
+CurveShape choose_shape(std::span<const EdgeCloud> clouds, int points, bool place) {
+  CurveShape best = fit_pace(clouds, uniform_knots(points));
+  if (!place) return best;
+  const double enough = kWorthwhile * best.misfit;
+  const Density bend = bending(clouds);
+  for (const double power : {0.5, 1.0}) {
+    for (const double even : {0.7, 0.5, 0.35, 0.2, 0.1}) {
+      CurveShape tried = fit_pace(clouds, spread(bend, points, even, power));
+      if (tried.misfit < std::min(best.misfit, enough)) best = std::move(tried);
+    }
+  }
+  return best;
+}
+
+}  // namespace wisp
