@@ -87,6 +87,11 @@ Result<CapturedClip> capture_clip(const std::filesystem::path& path, const Argum
     return true;
   });
   if (!captured) return captured.error();
+  if (options->video.frames &&
+      captured->recording.rows() < arguments.samples("frames").last - arguments.samples("frames").first + 1) {
+    return Error{path.string() + ": --frames " + arguments.text("frames") + " reaches beyond its end, frame " +
+                 std::to_string(arguments.samples("frames").first - 1 + captured->recording.rows())};
+  }
   CapturedClip clip{std::move(captured->recording), std::move(captured->report), false, 0, ""};
   if (std::filesystem::is_directory(path)) {
     clip.wind_note = "not heard: images have no sound";
@@ -96,7 +101,8 @@ Result<CapturedClip> capture_clip(const std::filesystem::path& path, const Argum
   const auto skipped = options->video.frames ? static_cast<std::size_t>(options->video.frames->first - 1) : 0;
   auto wind = hear_wind(path, clip.report.rate_hz, skipped + clip.recording.rows());
   if (!wind) return wind.error();
-  if (!wind->frames.empty()) wind->frames.erase(wind->frames.begin(), wind->frames.begin() + static_cast<std::ptrdiff_t>(skipped));
+  if (!wind->frames.empty())
+    wind->frames.erase(wind->frames.begin(), wind->frames.begin() + static_cast<std::ptrdiff_t>(skipped));
   add_wind(*wind, clip);
   return clip;
 }

@@ -14,6 +14,7 @@ const std::vector<Command>& commands() {
       learn_flame_command(),
       learn_arx_command(),
       validate_command(),
+      simulate_candle_command(),
       run_command(),
       info_command(),
       demo_command(),

@@ -11,6 +11,7 @@ Command learn_outline_command();
 Command learn_flame_command();
 Command learn_arx_command();
 Command validate_command();
+Command simulate_candle_command();
 Command run_command();
 Command info_command();
 Command demo_command();

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "arx_search.hpp"
 #include "commands.hpp"
 #include "figures_json.hpp"
 #include "order_flags.hpp"
@@ -103,19 +104,31 @@ Result<void> report(const ArxFit& fit, const ChannelChoice& channels, Terminal& 
   return {};
 }
 
+Result<std::vector<Recording>> ranged(const std::vector<Recording>& whole, const Arguments& arguments) {
+  std::vector<Recording> parts;
+  for (const Recording& recording : whole) {
+    auto part = in_range(recording, arguments, "range");
+    if (!part) return part.error();
+    parts.push_back(std::move(*part));
+  }
+  return parts;
+}
+
 Result<void> run(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
-  const auto recordings = read_tables(arguments.positionals(), arguments, terminal);
+  const auto whole = read_tables(arguments.positionals(), arguments, terminal);
+  if (!whole) return whole.error();
+  const auto recordings = ranged(*whole, arguments);
   if (!recordings) return recordings.error();
   const ChannelChoice channels{arguments.names("inputs"), arguments.names("outputs")};
-  auto orders =
-      orders_from(arguments, static_cast<int>(channels.outputs.size()), static_cast<int>(channels.inputs.size()));
+  auto orders = arguments.has("search") ? search_arx_orders(*recordings, *whole, channels, arguments, terminal)
+                                        : orders_from(arguments, static_cast<int>(channels.outputs.size()),
+                                                      static_cast<int>(channels.inputs.size()));
   if (!orders) return orders.error();
   ArxOptions options;
   options.orders = std::move(*orders);
   options.offset = offset_of(arguments);
   options.ridge = arguments.number("ridge");
-  if (arguments.has("common-start")) options.first_sample = arguments.integer("common-start");
   const auto fit = fit_arx(*recordings, channels, options);
   if (!fit) return fit.error();
   for (const std::string& warning : fit->summary.warnings) terminal.warn(warning);
@@ -148,9 +161,12 @@ std::vector<Flag> flags() {
        "the operating point: mean removes means, none, estimate adds a constant term",
        {"mean", "none", "estimate"}},
       {"ridge", Kind::kNumber, "R", "0", "weight of the coefficients' size, as a share of each regressor's energy"},
-      {"common-start", Kind::kInteger, "T", "", "first row predicted, 0-based, instead of max(na, nb+nk-1)"},
+      {"common-start", Kind::kSwitch, "", "",
+       "judge all candidates of --search on the same rows, those that the longest one can predict"},
   };
-  for (Flag& flag : recording_flags()) all.push_back(std::move(flag));
+  for (auto* more : {&search_flags, &recording_flags}) {
+    for (Flag& flag : (*more)()) all.push_back(std::move(flag));
+  }
   return all;
 }
 
@@ -166,6 +182,9 @@ Command learn_arx_command() {
           {"wisp learn arx hairdryer.csv -o dryer.wisp --inputs u1 --outputs y1 --dt 0.08 --na 2 --nb 2 --nk 3 --range "
            "1:300",
            "A classic: a hair dryer's air temperature from its heating power"},
+          {"wisp learn arx hairdryer.csv -o dryer.wisp --inputs u1 --outputs y1 --dt 0.08 --range 1:500 "
+           "--search na=1:10,nb=1:10,nk=0:3 --by validation --validate 501:1000",
+           "The orders that predict unseen rows best"},
       },
       run,
   };

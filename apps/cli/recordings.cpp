@@ -18,10 +18,11 @@ bool is_table(const std::filesystem::path& path) {
   return extension == ".csv" || extension == ".txt" || extension == ".CSV";
 }
 
-Result<Recording> read_table(const std::filesystem::path& path, const Arguments& arguments) {
+Result<Recording> read_table(const std::filesystem::path& path, const Arguments& arguments,
+                             const ChannelChoice& channels) {
   CsvOptions options;
-  options.inputs = arguments.names("inputs");
-  options.outputs = arguments.names("outputs");
+  options.inputs = arguments.has("inputs") ? arguments.names("inputs") : channels.inputs;
+  options.outputs = arguments.has("outputs") ? arguments.names("outputs") : channels.outputs;
   if (arguments.has("dt")) {
     const double seconds = arguments.number("dt");
     if (!(seconds > 0)) return Error{"--dt is " + arguments.text("dt") + ", expected seconds above 0"};
@@ -36,7 +37,6 @@ Result<std::vector<Recording>> read_tables(const std::vector<std::string>& paths
   std::vector<Recording> recordings;
   for (const std::string& path : paths) {
     auto recording = read_table(path, arguments);
-    if (recording) recording = in_range(std::move(recording).value(), arguments, "range");
     if (recording) {
       recordings.push_back(std::move(recording).value());
     } else if (arguments.on("skip-bad")) {

@@ -7,6 +7,7 @@
 
 #include "command.hpp"
 #include "terminal.hpp"
+#include "wisp/learn/channel_choice.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp::cli {
@@ -17,8 +18,9 @@ std::vector<Flag> recording_flags();
 /// Whether a name is that of a table (`.csv`, `.txt`) rather than of a clip.
 bool is_table(const std::filesystem::path& path);
 
-/// Reads one table; --inputs and --outputs, where the command has them, name its columns.
-Result<Recording> read_table(const std::filesystem::path& path, const Arguments& arguments);
+/// Reads one table; --inputs and --outputs, where the command has them, name its columns, and else `channels` does.
+Result<Recording> read_table(const std::filesystem::path& path, const Arguments& arguments,
+                             const ChannelChoice& channels = {});
 
 /// Reads all of them. A bad one is the error, or, with --skip-bad, a warning and an entry of `skipped` in the result.
 /// Errors: also where none is left.

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "recordings.hpp"
+#include "wisp/record/wav.hpp"
+#include "wisp/run/wind_track.hpp"
 
 namespace wisp::cli {
 
@@ -25,6 +27,30 @@ std::vector<float> at_rate(const std::vector<double>& samples, double from_hz, d
   return out;
 }
 
+Result<InputTrack> InputTrack::heard(const Model& model, const std::string& path) {
+  auto reader = WavReader::open(path);
+  if (!reader) return reader.error();
+  auto tracker = WindTracker::create({.rate_hz = reader->format().rate_hz, .channels = reader->format().channels},
+                                     {.frame_rate_hz = model.rate_hz});
+  if (!tracker) return Error{path + ": " + tracker.error().message};
+  std::vector<float> block(static_cast<std::size_t>(reader->format().channels) * 4096);
+  for (;;) {
+    const auto got = reader->read(block);
+    if (!got) return got.error();
+    if (*got == 0) break;
+    tracker->feed(std::span(block).first(*got));
+  }
+  const auto wind = tracker->finish();
+  if (!wind) return Error{path + ": " + wind.error().message};
+  if (wind->silent) return Error{path + ": is silent; expected the sound of blowing"};
+  InputTrack track;
+  std::vector<float> samples;
+  for (const WindFrame& frame : wind->frames) samples.push_back(frame.speed);
+  track.rows_ = samples.size();
+  track.tracks_.assign(model.inputs.size(), samples);
+  return track;
+}
+
 Result<InputTrack> InputTrack::from(const Model& model, const Arguments& arguments) {
   InputTrack track;
   if (!arguments.has("input")) {
@@ -32,6 +58,7 @@ Result<InputTrack> InputTrack::from(const Model& model, const Arguments& argumen
     return track;
   }
   const std::string& path = arguments.text("input");
+  if (std::filesystem::path(path).extension() == ".wav") return heard(model, path);
   const auto recording = read_table(path, arguments);
   if (!recording) return recording.error();
   for (const Input& input : model.inputs) {

@@ -13,8 +13,9 @@ namespace wisp::cli {
 class InputTrack {
  public:
   /// From --input, or from --wind. A recording's channels are found by the model's input names; where its rate differs
-  /// from the model's it is resampled linearly; a missing sample holds the one before it.
-  /// Errors: the recording cannot be read, or has not an input that the model takes.
+  /// from the model's it is resampled linearly; a missing sample holds the one before it. A WAV file is listened to:
+  /// its wind drives every input. Errors: the recording cannot be read, or has not an input that the model takes; a WAV
+  /// file is silent.
   static Result<InputTrack> from(const Model& model, const Arguments& arguments);
 
   /// Frames of the recording; 0 for a constant.
@@ -24,6 +25,8 @@ class InputTrack {
   std::vector<float> at(std::size_t frame) const;
 
  private:
+  static Result<InputTrack> heard(const Model& model, const std::string& path);
+
   std::vector<std::vector<float>> tracks_;  // one an input; a constant is a single value
   std::size_t rows_ = 0;
 };

@@ -1,6 +1,6 @@
 #include "draw/cairo.hpp"
 
-namespace wisp {
+namespace wisp::drawing {
 
 CairoSurface surface_of(Image& image) {
   return CairoSurface(cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(image.pixels().data()),
@@ -17,4 +17,4 @@ void set_colour(cairo_t* context, Colour colour) {
   cairo_set_source_rgba(context, colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0, colour.opacity / 255.0);
 }
 
-}  // namespace wisp
+}  // namespace wisp::drawing

@@ -1,5 +1,7 @@
 #pragma once
 // Cairo, owned: contexts that draw straight into an Image's pixels.
+//
+// What is private to this layer is in wisp::drawing, so that short names never meet another layer's of the same name.
 
 #include <cairo.h>
 
@@ -7,7 +9,7 @@
 
 #include "wisp/draw/image.hpp"
 
-namespace wisp {
+namespace wisp::drawing {
 
 struct DestroyCairo {
   void operator()(cairo_t* context) const { cairo_destroy(context); }
@@ -26,4 +28,4 @@ CairoContext context_of(Image& image);
 
 void set_colour(cairo_t* context, Colour colour);
 
-}  // namespace wisp
+}  // namespace wisp::drawing

@@ -6,7 +6,7 @@
 #include "draw/random.hpp"
 #include "draw/tone.hpp"
 
-namespace wisp {
+namespace wisp::drawing {
 namespace {
 
 // The eye is a little above the candle's top: its circle is seen as an ellipse this flat.
@@ -44,12 +44,12 @@ struct Spot {
 // Light that enters the wax at the top and seeps down inside: short ways stay yellow, long ways redden.
 Light seeping(const Spot& spot, const Light& wax, float width, float lean) {
   const float scale = std::sqrt(width / 0.62F);
-  const Light way{std::exp(-spot.depth / (0.46F * scale)), std::exp(-spot.depth / (0.26F * scale)),
-                  std::exp(-spot.depth / (0.15F * scale))};
+  const Light way{std::exp(-spot.depth / (0.38F * scale)), std::exp(-spot.depth / (0.22F * scale)),
+                  std::exp(-spot.depth / (0.13F * scale))};
   const float lip = 1 + 0.55F * std::exp(-spot.depth / 0.022F);
   const float turned = 0.42F + 0.58F * spot.facing;
   const float sided = 1 + 0.35F * spot.across * lean;
-  return 0.95F * lip * turned * sided * (wax * way);
+  return 1.10F * lip * turned * sided * (wax * way);
 }
 
 // The pool under the flame, and the ridge of wax around it.
@@ -254,4 +254,4 @@ void draw_candle(Image& image, const FlameScene& scene, const FlameStyle& style,
   draw_wick(image, wick, own, style.ambient);
 }
 
-}  // namespace wisp
+}  // namespace wisp::drawing

@@ -6,7 +6,7 @@
 #include "draw/wick.hpp"
 #include "wisp/draw/flame.hpp"
 
-namespace wisp {
+namespace wisp::drawing {
 
 /// A flame as others see it.
 struct Lamp {
@@ -20,4 +20,4 @@ struct Lamp {
 void draw_candle(Image& image, const FlameScene& scene, const FlameStyle& style, const Wick& wick, const Lamp& own,
                  std::span<const Lamp> others);
 
-}  // namespace wisp
+}  // namespace wisp::drawing

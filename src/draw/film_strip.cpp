@@ -7,6 +7,9 @@
 #include "draw/text.hpp"
 
 namespace wisp {
+
+using namespace drawing;
+
 namespace {
 
 constexpr Colour kFilm{14, 13, 15, 255};

@@ -13,6 +13,9 @@
 #include "draw/wick.hpp"
 
 namespace wisp {
+
+using namespace drawing;
+
 namespace {
 
 // A flame catches within this time of being lit, and dies within the other of going out, in seconds.
@@ -114,7 +117,7 @@ Plane wick_shade(const Candle& candle) {
 // The glowing end of the wick: hidden in the flame's light while it burns, fading for seconds when it is out.
 void add_ember(LightField& field, const Candle& candle) {
   const FlameScene& scene = candle.scene;
-  if (candle.wick.empty()) return;
+  if (candle.wick.empty() || (burns(scene) && candle.shape.empty())) return;
   const float out = scene.seconds_since_out;
   const float heat = burns(scene) ? 0.16F : 0.75F * std::exp(-out / 0.7F) + 0.25F * std::exp(-out / 2.6F);
   if (heat < 0.004F) return;
@@ -177,9 +180,8 @@ void draw_flames(Image& image, std::span<const Flame> flames, const FlameStyle& 
     const Candle& candle = candles[k];
     if (style.candle) draw_candle(image, candle.scene, style, candle.wick, candle.lamp, lamps_but(candles, k));
   }
-  for (std::size_t k = 0; k < candles.size(); ++k) {
-    draw_smoke(image, candles[k].scene, candles[k].wick.end, lamps_but(candles, k));
-  }
+  const std::vector<Lamp> lamps = lamps_but(candles, candles.size());
+  for (const Candle& candle : candles) draw_smoke(image, candle.scene, candle.wick.end, lamps);
   LightField field(image.width(), image.height());
   for (const Candle& candle : candles) {
     add_flame_light(field, candle.shape, candle.mood, style, style.candle ? wick_shade(candle) : Plane());

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace wisp {
+namespace wisp::drawing {
 namespace {
 
 // Light over how much glowing soot is in view (0 none … 1 the thickest part): rim, body, core, each melting into the
@@ -82,4 +82,4 @@ void add_flame_light(LightField& field, const FlameShape& shape, const FlameMood
   }
 }
 
-}  // namespace wisp
+}  // namespace wisp::drawing

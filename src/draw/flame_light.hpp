@@ -4,7 +4,7 @@
 #include "draw/flame_shape.hpp"
 #include "draw/light_field.hpp"
 
-namespace wisp {
+namespace wisp::drawing {
 
 /// What dims or colours a flame as a whole.
 struct FlameMood {
@@ -17,4 +17,4 @@ struct FlameMood {
 void add_flame_light(LightField& field, const FlameShape& shape, const FlameMood& mood, const FlameStyle& style,
                      const Plane& shade);
 
-}  // namespace wisp
+}  // namespace wisp::drawing

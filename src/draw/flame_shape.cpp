@@ -5,7 +5,7 @@
 
 #include "draw/cairo.hpp"
 
-namespace wisp {
+namespace wisp::drawing {
 namespace {
 
 // No flame is larger than this many model units; it keeps absurd outlines from asking for absurd memory.
@@ -52,20 +52,47 @@ Bounds bounds_of(std::span<const Point> points) {
   return b;
 }
 
-// A half-moon from the base's right to its left, below the line between them.
+float dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
+
+// The way that the outline runs out at one end of its base, in shares across (inwards) and down. It never flares, or a
+// wide base would hang over, and never turns back up.
+Point running_out(Point from, Point end, Point inwards, Point down) {
+  const Point along{end.x - from.x, end.y - from.y};
+  const float across = std::max(0.0F, dot(along, inwards));
+  const float below = std::max({dot(along, down), 0.35F * across, 1e-6F});
+  const float norm = std::hypot(across, below);
+  return {across / norm, below / norm};
+}
+
+// Closes the base by a Bézier curve that goes on where the sides end: round under a wide base, a drop's point under
+// one that narrows.
 void append_cap(std::vector<Point>& points, float cap) {
   const Point right = points.back();
   const Point left = points.front();
-  const float across = std::hypot(right.x - left.x, right.y - left.y);
+  const Point base{right.x - left.x, right.y - left.y};
+  const float across = std::hypot(base.x, base.y);
   if (across <= 0 || cap <= 0) return;
-  const float depth = std::min(cap, 0.42F * across);
-  const Point down{depth * (right.y - left.y) / across, -depth * (right.x - left.x) / across};
-  constexpr int kSteps = 16;
+  const float depth = std::min(cap, 0.45F * across);
+  const Point rightwards{base.x / across, base.y / across};
+  const Point leftwards{-rightwards.x, -rightwards.y};
+  const Point down{rightwards.y, -rightwards.x};
+  // The direction over a twelfth of the outline: one sample would pass every wobble on.
+  const std::size_t inner = std::max<std::size_t>(1, points.size() / 12);
+  const auto handle = [&](Point from, Point end, Point inwards) {
+    const Point share = running_out(from, end, inwards, down);
+    const float length = std::min(4.0F / 3 * depth / share.y, 0.45F * across / std::max(share.x, 1e-6F));
+    return Point{end.x + length * (share.x * inwards.x + share.y * down.x),
+                 end.y + length * (share.x * inwards.y + share.y * down.y)};
+  };
+  const Point near_right = handle(points[points.size() - 1 - inner], right, leftwards);
+  const Point near_left = handle(points[inner], left, rightwards);
+  constexpr int kSteps = 20;
   for (int k = 1; k < kSteps; ++k) {
     const float s = static_cast<float>(k) / kSteps;
-    const float bulge = std::pow(4 * s * (1 - s), 0.6F);
-    points.push_back(
-        {right.x + s * (left.x - right.x) + bulge * down.x, right.y + s * (left.y - right.y) + bulge * down.y});
+    const float r = 1 - s;
+    const float a = r * r * r, b = 3 * r * r * s, c = 3 * r * s * s, d = s * s * s;
+    points.push_back({a * right.x + b * near_right.x + c * near_left.x + d * left.x,
+                      a * right.y + b * near_right.y + c * near_left.y + d * left.y});
   }
 }
 
@@ -201,4 +228,4 @@ FlameShape flame_shape(std::span<const Point> outline, const FlameScene& scene, 
   return shape;
 }
 
-}  // namespace wisp
+}  // namespace wisp::drawing

@@ -12,7 +12,7 @@
 #include "draw/light_field.hpp"
 #include "wisp/draw/flame.hpp"
 
-namespace wisp {
+namespace wisp::drawing {
 
 /// A flame laid over a picture. Positions are the picture's pixels; `thickness` and `coverage` hold only the box.
 struct FlameShape {
@@ -34,4 +34,4 @@ struct FlameShape {
 FlameShape flame_shape(std::span<const Point> outline, const FlameScene& scene, float scale, float cap, int width,
                        int height);
 
-}  // namespace wisp
+}  // namespace wisp::drawing

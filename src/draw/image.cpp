@@ -7,6 +7,9 @@
 #include "wisp/base/file.hpp"
 
 namespace wisp {
+
+using namespace drawing;
+
 namespace {
 
 constexpr std::uint32_t kOpaque = 0xFF000000U;
@@ -73,10 +76,13 @@ Colour Image::at(int x, int y) const {
 
 Image crop(const Image& image, PixelBox box) {
   Image part(box.width, box.height);
+  const auto end = [](int begin, int size, int limit) {
+    return static_cast<int>(std::min<std::int64_t>(limit, static_cast<std::int64_t>(begin) + size));
+  };
   const int first = std::max(0, box.x);
-  const int last = std::min(image.width(), box.x + box.width);
+  const int last = end(box.x, box.width, image.width());
   if (first >= last) return part;
-  for (int y = std::max(0, box.y); y < std::min(image.height(), box.y + box.height); ++y) {
+  for (int y = std::max(0, box.y); y < end(box.y, box.height, image.height()); ++y) {
     const auto from = image.row(y).subspan(first, last - first);
     std::ranges::copy(from, part.row(y - box.y).begin() + (first - box.x));
   }

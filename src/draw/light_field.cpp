@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace wisp {
+namespace wisp::drawing {
 namespace {
 
 // A Gaussian needs no more than this many grid cells a standard deviation to look smooth, so wide ones are blurred on
@@ -21,18 +21,29 @@ Plane luminance_of(const LightField& field) {
   return plane;
 }
 
-// Half the size in both directions, rounded up; each cell is the mean of its four (what lies outside is dark).
+// Half the size in both directions, rounded up, by the kernel 1-3-3-1 over 8: it keeps the middle of what it halves in
+// place, so that the halo of a flame that sways follows it smoothly and not from cell to cell. What lies outside is
+// dark.
 Plane halved(const Plane& fine) {
-  Plane coarse((fine.width + 1) / 2, (fine.height + 1) / 2);
+  Plane across((fine.width + 1) / 2, fine.height);
+  std::vector<float> padded(2 * across.width + 2);
+  for (int y = 0; y < fine.height; ++y) {
+    std::copy_n(fine.row(y), fine.width, padded.begin() + 1);
+    float* out = across.row(y);
+    for (int x = 0; x < across.width; ++x) {
+      const float* from = padded.data() + 2 * x;
+      out[x] = 0.125F * (from[0] + from[3]) + 0.375F * (from[1] + from[2]);
+    }
+  }
+  Plane coarse(across.width, (fine.height + 1) / 2);
   for (int y = 0; y < coarse.height; ++y) {
-    const float* above = fine.row(2 * y);
-    const float* below = 2 * y + 1 < fine.height ? fine.row(2 * y + 1) : nullptr;
     float* out = coarse.row(y);
-    for (int x = 0; x < coarse.width; ++x) {
-      const bool pair = 2 * x + 1 < fine.width;
-      float sum = above[2 * x] + (pair ? above[2 * x + 1] : 0);
-      if (below != nullptr) sum += below[2 * x] + (pair ? below[2 * x + 1] : 0);
-      out[x] = 0.25F * sum;
+    for (int k = 0; k < 4; ++k) {
+      const int from = 2 * y + k - 1;
+      if (from < 0 || from >= across.height) continue;
+      const float weight = k == 0 || k == 3 ? 0.125F : 0.375F;
+      const float* row = across.row(from);
+      for (int x = 0; x < across.width; ++x) out[x] += weight * row[x];
     }
   }
   return coarse;
@@ -174,4 +185,4 @@ void add_light(Image& image, const LightField& field) {
   }
 }
 
-}  // namespace wisp
+}  // namespace wisp::drawing

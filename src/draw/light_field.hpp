@@ -7,7 +7,7 @@
 #include "draw/tone.hpp"
 #include "wisp/draw/image.hpp"
 
-namespace wisp {
+namespace wisp::drawing {
 
 /// One channel of floats over a grid.
 struct Plane {
@@ -54,4 +54,4 @@ void add_halo(LightField& field, std::span<const HaloRing> rings);
 /// Precondition: the field has the picture's size.
 void add_light(Image& image, const LightField& field);
 
-}  // namespace wisp
+}  // namespace wisp::drawing

@@ -9,6 +9,9 @@
 #include "draw/text.hpp"
 
 namespace wisp {
+
+using namespace drawing;
+
 namespace {
 
 constexpr Colour kCasing{0, 0, 0, 170};
@@ -41,8 +44,13 @@ void trace(cairo_t* context, std::span<const Point> points, bool closed) {
   if (closed && whole) cairo_close_path(context);
 }
 
-void stroke(cairo_t* context, const LineStyle& style) {
-  const double width = std::clamp(style.width, 0.25F, 50.0F);
+// A line of a three-hundredth of the picture is seen from across the room and hides little.
+double line_width(const Image& image, float asked) {
+  if (asked > 0) return std::clamp(asked, 0.25F, 50.0F);
+  return std::clamp(image.height() / 300.0, 1.2, 6.0);
+}
+
+void stroke(cairo_t* context, const LineStyle& style, double width) {
   const double casing = std::clamp(style.casing, 0.0F, 20.0F);
   cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
   cairo_set_line_cap(context, style.dashed ? CAIRO_LINE_CAP_BUTT : CAIRO_LINE_CAP_ROUND);
@@ -101,22 +109,23 @@ void draw_outline(Image& image, std::span<const Point> outline, const LineStyle&
   if (image.empty() || outline.empty()) return;
   const CairoContext context = context_of(image);
   trace(context.get(), outline, style.closed);
-  stroke(context.get(), style);
+  stroke(context.get(), style, line_width(image, style.width));
 }
 
 void draw_control_polygon(Image& image, std::span<const Point> points, Colour colour) {
   if (image.empty()) return;
   const CairoContext context = context_of(image);
+  const double width = line_width(image, 0);
   Colour faint = colour;
   faint.opacity = static_cast<std::uint8_t>(colour.opacity / 2);
   trace(context.get(), points, false);
-  stroke(context.get(), {.colour = faint, .width = 1, .casing = 0.6F});
+  stroke(context.get(), {.colour = faint, .casing = 0.6F}, 0.5 * width);
   for (const Point p : points) {
     if (!finite(p)) continue;
     cairo_new_path(context.get());
-    cairo_arc(context.get(), std::clamp(p.x, -kFarthest, kFarthest), std::clamp(p.y, -kFarthest, kFarthest), 3, 0,
-              2 * M_PI);
-    stroke(context.get(), {.colour = colour, .width = 1.4F, .casing = 1});
+    cairo_arc(context.get(), std::clamp(p.x, -kFarthest, kFarthest), std::clamp(p.y, -kFarthest, kFarthest),
+              1.6 * width, 0, 2 * M_PI);
+    stroke(context.get(), {.colour = colour, .casing = 1}, 0.75 * width);
   }
 }
 
@@ -132,10 +141,12 @@ void draw_legend(Image& image, std::span<const LegendEntry> entries, Corner corn
                                  line * static_cast<double>(entries.size()), size * 0.6);
   double middle = plate.y + line / 2;
   for (const LegendEntry& entry : entries) {
+    // On the middle of a row of pixels even a thin line has its full colour.
+    const double row = std::floor(middle) + 0.5;
     cairo_new_path(context.get());
-    cairo_move_to(context.get(), plate.x, middle);
-    cairo_line_to(context.get(), plate.x + sample, middle);
-    stroke(context.get(), entry.style);
+    cairo_move_to(context.get(), plate.x, row);
+    cairo_line_to(context.get(), plate.x + sample, row);
+    stroke(context.get(), entry.style, line_width(image, entry.style.width));
     show_text(context.get(), entry.text, plate.x + sample + size * 0.6, middle + size * 0.36, {size}, kText);
     middle += line;
   }

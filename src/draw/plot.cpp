@@ -14,6 +14,9 @@
 #include "wisp/base/file.hpp"
 
 namespace wisp {
+
+using namespace drawing;
+
 namespace {
 
 constexpr Colour kPaper{255, 255, 255};
@@ -108,6 +111,29 @@ cairo_status_t append(void* closure, const unsigned char* data, unsigned int len
   return CAIRO_STATUS_SUCCESS;
 }
 
+// Cairo numbers what it writes through the life of the program; numbered from 1 in each file, the same plot is the
+// same bytes.
+std::string with_own_numbers(const std::string& svg, std::string_view name) {
+  std::string text;
+  std::vector<std::string> seen;
+  std::size_t from = 0;
+  for (std::size_t at = svg.find(name); at != std::string::npos; at = svg.find(name, from)) {
+    const std::size_t digits = at + name.size();
+    const std::size_t end = std::min(svg.find_first_not_of("0123456789", digits), svg.size());
+    text += svg.substr(from, digits - from);
+    from = end;
+    const std::string number = svg.substr(digits, end - digits);
+    if (number.empty() || at == 0 || (svg[at - 1] != '"' && svg[at - 1] != '#')) {
+      text += number;
+      continue;
+    }
+    const auto place = std::ranges::find(seen, number);
+    text += std::to_string(place - seen.begin() + 1);
+    if (place == seen.end()) seen.push_back(number);
+  }
+  return text + svg.substr(from);
+}
+
 Result<void> write_svg(const std::filesystem::path& path, const PlotSheet& sheet, const SheetLayout& at) {
   std::string text;
   const CairoSurface surface(cairo_svg_surface_create_for_stream(append, &text, at.width(), at.height()));
@@ -120,7 +146,7 @@ Result<void> write_svg(const std::filesystem::path& path, const PlotSheet& sheet
   if (status != CAIRO_STATUS_SUCCESS) {
     return Error{path.string() + ": cannot be drawn as SVG: " + cairo_status_to_string(status)};
   }
-  return write_file(path, text);
+  return write_file(path, with_own_numbers(with_own_numbers(text, "surface"), "image"));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "draw/plot_series.hpp"
 #include "draw/text.hpp"
 
-namespace wisp {
+namespace wisp::drawing {
 namespace {
 
 constexpr Colour kInk{30, 30, 34};
@@ -289,4 +289,4 @@ void draw_keys(cairo_t* context, const Plot& plot, const Axes& axes) {
   }
 }
 
-}  // namespace wisp
+}  // namespace wisp::drawing

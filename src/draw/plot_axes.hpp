@@ -6,7 +6,7 @@
 #include "draw/plot_scale.hpp"
 #include "wisp/draw/plot.hpp"
 
-namespace wisp {
+namespace wisp::drawing {
 
 /// The rectangle that data is drawn in, points.
 struct PlotBox {
@@ -38,4 +38,4 @@ void draw_marks(cairo_t* context, const Plot& plot, const Axes& axes);
 /// The legend of the series stands in a line above the data, where it cannot hide any.
 void draw_keys(cairo_t* context, const Plot& plot, const Axes& axes);
 
-}  // namespace wisp
+}  // namespace wisp::drawing

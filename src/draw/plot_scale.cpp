@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace wisp {
+namespace wisp::drawing {
 namespace {
 
 // The round number (1, 2 or 5 times a power of ten) that divides the length into about `wanted` steps.
@@ -83,7 +83,7 @@ Ticks logarithmic_ticks(const Scale& scale, int wanted) {
       if (value < scale.low * (1 - 1e-9) || value > scale.high * (1 + 1e-9)) continue;
       const bool round = digit == 1 && (exponent - first) % every == 0;
       // Over less than two decades the powers of ten alone would leave the axis nearly bare.
-      const bool few = last - first <= 2 && (digit == 2 || digit == 5);
+      const bool few = scale.high < 50 * scale.low && (digit == 2 || digit == 5);
       if (!round && !few) {
         ticks.between.push_back(value);
         continue;
@@ -117,4 +117,4 @@ void Extent::take(double value, bool logarithmic) {
   high_ = std::max(high_, value);
 }
 
-}  // namespace wisp
+}  // namespace wisp::drawing

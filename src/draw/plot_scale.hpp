@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace wisp {
+namespace wisp::drawing {
 
 /// A stretch of data on a stretch of the sheet.
 struct Scale {
@@ -45,4 +45,4 @@ class Extent {
   double high_ = 0;
 };
 
-}  // namespace wisp
+}  // namespace wisp::drawing

@@ -7,7 +7,7 @@
 
 #include "draw/cairo.hpp"
 
-namespace wisp {
+namespace wisp::drawing {
 namespace {
 
 // Apart in lightness as well as in hue, so that they survive a gray printer and colour-blind eyes.
@@ -256,4 +256,4 @@ void draw_sample(cairo_t* context, const PlotSeries& series, Colour colour, doub
   mark(context, marker, x + width / 2, y, std::clamp(series.marker_size, 2.0, 8.0), colour);
 }
 
-}  // namespace wisp
+}  // namespace wisp::drawing

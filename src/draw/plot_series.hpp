@@ -6,7 +6,7 @@
 #include "draw/plot_scale.hpp"
 #include "wisp/draw/plot.hpp"
 
-namespace wisp {
+namespace wisp::drawing {
 
 /// The colour that a series has when it names none: the palette's, by its place among the series.
 Colour series_colour(const PlotSeries& series, std::size_t place);
@@ -21,4 +21,4 @@ void set_dash(cairo_t* context, Dash dash, double width);
 /// How wide bars are, in data units: the smallest step between them; 1 for a single one.
 double bar_width(const PlotSeries& series);
 
-}  // namespace wisp
+}  // namespace wisp::drawing

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace wisp {
+namespace wisp::drawing {
 
 /// A number in [0, 1) for that seed and index (the finaliser of SplitMix64; G. Steele, D. Lea, C. Flood 2014).
 inline float random_at(std::uint64_t seed, std::uint64_t index) {
@@ -13,4 +13,4 @@ inline float random_at(std::uint64_t seed, std::uint64_t index) {
   return static_cast<float>((z ^ z >> 31) >> 40) / 16777216.0F;
 }
 
-}  // namespace wisp
+}  // namespace wisp::drawing

@@ -8,7 +8,7 @@
 #include "draw/light_field.hpp"
 #include "draw/random.hpp"
 
-namespace wisp {
+namespace wisp::drawing {
 namespace {
 
 constexpr float kTau = 2 * std::numbers::pi_v<float>;
@@ -55,12 +55,25 @@ Point drift(float left, float age, float side, float wind, std::span<const Swing
   return p;
 }
 
+// Density over the picture, on a grid of cells, and the part of the grid where there is any.
+struct Plume {
+  Plane density;
+  int left = 0, top = 0, right = -1, bottom = -1;
+};
+
 // A soft round dab of smoke.
-void dab(Plane& density, float x, float y, float radius, float amount) {
+void dab(Plume& plume, float x, float y, float radius, float amount) {
+  Plane& density = plume.density;
   const int left = std::max(0, static_cast<int>(std::ceil(x - radius - 0.5F)));
   const int right = std::min(density.width - 1, static_cast<int>(std::floor(x + radius - 0.5F)));
   const int top = std::max(0, static_cast<int>(std::ceil(y - radius - 0.5F)));
   const int bottom = std::min(density.height - 1, static_cast<int>(std::floor(y + radius - 0.5F)));
+  if (left > right || top > bottom) return;
+  const bool first = plume.right < 0;
+  plume.left = first ? left : std::min(plume.left, left);
+  plume.top = first ? top : std::min(plume.top, top);
+  plume.right = std::max(plume.right, right);
+  plume.bottom = std::max(plume.bottom, bottom);
   const float per_square = 1 / (radius * radius);
   const float peak = amount * per_square;
   for (int row = top; row <= bottom; ++row) {
@@ -74,15 +87,16 @@ void dab(Plane& density, float x, float y, float radius, float amount) {
   }
 }
 
-// Density over the picture, on a grid of `cell` pixels.
-Plane plume(const Image& image, const FlameScene& scene, Point wick_end, float cell, float smoking) {
-  Plane density(static_cast<int>(std::ceil(static_cast<float>(image.width()) / cell)) + 1,
-                static_cast<int>(std::ceil(static_cast<float>(image.height()) / cell)) + 1);
+// All smoke that is in the air, on a grid of `cell` pixels, of a wick that smoked for `smoking` seconds.
+Plume risen(const Image& image, const FlameScene& scene, Point wick_end, float cell, float smoking) {
+  Plume plume;
+  plume.density = Plane(static_cast<int>(std::ceil(static_cast<float>(image.width()) / cell)) + 1,
+                        static_cast<int>(std::ceil(static_cast<float>(image.height()) / cell)) + 1);
   const auto swings = swings_of(scene.seed);
   const float unit = scene.pixels_per_unit / cell;
   const float now = scene.seconds_since_out;
   const auto first = static_cast<long>(std::ceil(std::max(0.0F, now - kOldest) / kThreadSeconds));
-  const auto last = static_cast<long>(std::floor(std::min(now, smoking) / kThreadSeconds));
+  const auto last = static_cast<long>(std::floor(smoking / kThreadSeconds));
   for (long k = first; k <= last; ++k) {
     const float left = static_cast<float>(k) * kThreadSeconds;
     const float age = now - left;
@@ -94,11 +108,11 @@ Plane plume(const Image& image, const FlameScene& scene, Point wick_end, float c
     for (int thread = 0; thread < kThreads; ++thread) {
       const float side = 2.0F * static_cast<float>(thread) / (kThreads - 1) - 1;
       const Point p = drift(left, age, side, scene.wind, swings);
-      dab(density, wick_end.x / cell + unit * p.x, wick_end.y / cell - unit * p.y, radius,
+      dab(plume, wick_end.x / cell + unit * p.x, wick_end.y / cell - unit * p.y, radius,
           0.000115F * strength * unit * unit);
     }
   }
-  return density;
+  return plume;
 }
 
 Light smoke_light(const FlameScene& scene, Point wick_end, std::span<const Lamp> lamps) {
@@ -114,28 +128,34 @@ Light smoke_light(const FlameScene& scene, Point wick_end, std::span<const Lamp>
 }  // namespace
 
 void draw_smoke(Image& image, const FlameScene& scene, Point wick_end, std::span<const Lamp> lamps) {
-  const float smoking =
-      std::min(kSmoulders, scene.seconds_since_out - std::min(scene.seconds_since_lit, scene.seconds_since_out));
-  const float end = burns(scene) ? smoking : kSmoulders;
-  if (!std::isfinite(scene.seconds_since_out) || scene.seconds_since_out - end > kOldest) return;
+  const float out = scene.seconds_since_out;
+  if (!std::isfinite(out)) return;
+  const float smoking = std::min(kSmoulders, burns(scene) ? out - scene.seconds_since_lit : out);
+  if (smoking <= 0 || out - smoking > kOldest) return;
   const float cell = std::max(1.0F, scene.pixels_per_unit / 110);
-  const Plane density = plume(image, scene, wick_end, cell, end);
+  const Plume plume = risen(image, scene, wick_end, cell, smoking);
+  if (plume.right < 0) return;
+  const Plane& density = plume.density;
   const Light light = smoke_light(scene, wick_end, lamps);
-  for (int y = 0; y < image.height(); ++y) {
+  // Interpolation reaches one cell beyond those that hold smoke.
+  const auto pixel = [&](int cells) { return static_cast<int>(static_cast<float>(cells) * cell); };
+  const int end_y = std::min(image.height(), pixel(plume.bottom + 2));
+  const int end_x = std::min(image.width(), pixel(plume.right + 2));
+  for (int y = std::max(0, pixel(plume.top - 1)); y < end_y; ++y) {
     const float v = (static_cast<float>(y) + 0.5F) / cell - 0.5F;
     const int j = std::clamp(static_cast<int>(std::floor(v)), 0, density.height - 2);
     const float b = std::clamp(v - static_cast<float>(j), 0.0F, 1.0F);
-    for (int x = 0; x < image.width(); ++x) {
+    for (int x = std::max(0, pixel(plume.left - 1)); x < end_x; ++x) {
       const float u = (static_cast<float>(x) + 0.5F) / cell - 0.5F;
       const int i = std::clamp(static_cast<int>(std::floor(u)), 0, density.width - 2);
       const float a = std::clamp(u - static_cast<float>(i), 0.0F, 1.0F);
-      const float* top = density.row(j) + i;
-      const float* bottom = density.row(j + 1) + i;
-      const float here = (1 - b) * ((1 - a) * top[0] + a * top[1]) + b * ((1 - a) * bottom[0] + a * bottom[1]);
+      const float* above = density.row(j) + i;
+      const float* below = density.row(j + 1) + i;
+      const float here = (1 - b) * ((1 - a) * above[0] + a * above[1]) + b * ((1 - a) * below[0] + a * below[1]);
       if (here < 1e-4F) continue;
       blend(image.row(y)[x], light, 1 - std::exp(-here), dither_at(x, y));
     }
   }
 }
 
-}  // namespace wisp
+}  // namespace wisp::drawing

@@ -5,7 +5,7 @@
 
 #include "draw/candle.hpp"
 
-namespace wisp {
+namespace wisp::drawing {
 
 /// Draws the smoke that left the wick since it went out, lit by the room and by the lamps. Nothing where the candle
 /// never went out, or all smoke has gone.
@@ -13,4 +13,4 @@ namespace wisp {
 /// Precondition: the scene's fields are in their ranges.
 void draw_smoke(Image& image, const FlameScene& scene, Point wick_end, std::span<const Lamp> lamps);
 
-}  // namespace wisp
+}  // namespace wisp::drawing

@@ -4,7 +4,7 @@
 
 #include "draw/cairo.hpp"
 
-namespace wisp {
+namespace wisp::drawing {
 namespace {
 
 // Length of the UTF-8 sequence that begins the text, or 0 where there is none (RFC 3629).
@@ -67,4 +67,4 @@ void show_text(cairo_t* context, std::string_view text, double x, double y, Font
   cairo_new_path(context);
 }
 
-}  // namespace wisp
+}  // namespace wisp::drawing

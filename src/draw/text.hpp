@@ -8,7 +8,7 @@
 
 #include "wisp/draw/image.hpp"
 
-namespace wisp {
+namespace wisp::drawing {
 
 struct Font {
   double size = 10;  ///< height of a line without its spacing
@@ -26,4 +26,4 @@ double text_width(cairo_t* context, std::string_view text, Font font);
 void show_text(cairo_t* context, std::string_view text, double x, double y, Font font, Colour colour,
                Align align = Align::kLeft);
 
-}  // namespace wisp
+}  // namespace wisp::drawing

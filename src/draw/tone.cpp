@@ -1,6 +1,6 @@
 #include "draw/tone.hpp"
 
-namespace wisp {
+namespace wisp::drawing {
 namespace {
 
 float srgb_decoded(float code) { return code <= 0.04045F ? code / 12.92F : std::pow((code + 0.055F) / 1.055F, 2.4F); }
@@ -46,4 +46,4 @@ void blend(std::uint32_t& pixel, Light light, float opacity, float dither) {
   pixel = alpha << 24 | r << 16 | g << 8 | b;
 }
 
-}  // namespace wisp
+}  // namespace wisp::drawing

@@ -8,7 +8,7 @@
 
 #include "wisp/draw/image.hpp"
 
-namespace wisp {
+namespace wisp::drawing {
 
 /// Linear light or reflectance in sRGB's primaries; 1 is the picture's white.
 struct Light {
@@ -76,4 +76,4 @@ inline float smooth_step(float low, float high, float value) {
   return t * t * (3 - 2 * t);
 }
 
-}  // namespace wisp
+}  // namespace wisp::drawing

@@ -9,10 +9,11 @@ extern "C" {
 }
 
 #include <algorithm>
-#include <cassert>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <string_view>
 #include <vector>
 
 #include "wisp/base/file.hpp"
@@ -62,6 +63,10 @@ struct Track {
   std::int64_t next = 0;  // time of the next frame, in the encoder's time base
 };
 
+// x264 names them itself, but complains about others on the terminal.
+constexpr std::array<std::string_view, 9> kPresets{"ultrafast", "superfast", "veryfast", "faster",  "fast",
+                                                   "medium",    "slow",      "slower",   "veryslow"};
+
 Error option_error(const std::filesystem::path& path, const std::string& what) {
   return {path.string() + ": cannot be encoded: " + what};
 }
@@ -78,6 +83,9 @@ Result<void> check_options(const std::filesystem::path& path, const VideoWriterO
   }
   if (options.crf < 0 || options.crf > 51) {
     return option_error(path, "the rate factor (crf) is " + std::to_string(options.crf) + ", expected 0 to 51");
+  }
+  if (std::ranges::find(kPresets, options.preset) == kPresets.end()) {
+    return option_error(path, "x264 has no preset \"" + options.preset + "\"; expected ultrafast … veryslow");
   }
   if (options.sound_rate_hz != 0 && (options.sound_rate_hz < 7350 || options.sound_rate_hz > 96000)) {
     return option_error(path, "the sound's rate is " + std::to_string(options.sound_rate_hz) +
@@ -162,7 +170,8 @@ Result<void> VideoWriter::Encoder::open_video() {
   AVDictionary* settings = nullptr;
   av_dict_set(&settings, "preset", options.preset.c_str(), 0);
   av_dict_set_int(&settings, "crf", options.crf, 0);
-  av_dict_set(&settings, "x264-params", "log-level=none", 0);
+  // Spends more bits on dark, smooth areas, where a halo would otherwise break into steps.
+  av_dict_set(&settings, "x264-params", "aq-mode=3", 0);
   auto started = start_track(video, codec, &settings);
   av_dict_free(&settings);
   if (!started) return started;

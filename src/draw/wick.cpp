@@ -6,7 +6,7 @@
 #include "draw/cairo.hpp"
 #include "draw/random.hpp"
 
-namespace wisp {
+namespace wisp::drawing {
 namespace {
 
 // Share of each pixel inside a polygon, over a box of the picture.
@@ -83,4 +83,4 @@ float wick_at(const Wick& wick, int x, int y) {
   return wick.coverage.row(row)[column];
 }
 
-}  // namespace wisp
+}  // namespace wisp::drawing

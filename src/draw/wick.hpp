@@ -4,7 +4,7 @@
 #include "draw/light_field.hpp"
 #include "wisp/draw/flame.hpp"
 
-namespace wisp {
+namespace wisp::drawing {
 
 /// A wick laid over a picture.
 struct Wick {
@@ -22,4 +22,4 @@ Wick make_wick(const FlameScene& scene, const FlameStyle& style, int width, int 
 /// The wick's coverage at a pixel of the picture; 0 outside its box.
 float wick_at(const Wick& wick, int x, int y);
 
-}  // namespace wisp
+}  // namespace wisp::drawing

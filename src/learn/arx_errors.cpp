@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "arx_design.hpp"
+#include "stream_kernels.hpp"
+
 namespace wisp {
 
 Result<Signals> signals_of_model(const ArxModel& model, std::span<const Recording> recordings,
@@ -19,55 +22,34 @@ Result<Signals> signals_of_model(const ArxModel& model, std::span<const Recordin
   return signals;
 }
 
-std::vector<std::vector<int>> lags_of_model(const ArxModel& model) {
-  const ArxOrders& orders = model.orders;
-  const int ny = orders.outputs();
-  std::vector<std::vector<int>> lags(ny + orders.inputs());
-  for (int i = 0; i < ny; ++i) {
-    lags[i].push_back(0);
-    for (int j = 0; j < ny; ++j) {
-      for (int lag = 1; lag <= orders.na(i, j); ++lag) lags[j].push_back(lag);
-    }
-    for (int k = 0; k < orders.inputs(); ++k) {
-      for (int lag = 0; lag < orders.nb(i, k); ++lag) lags[ny + k].push_back(orders.nk(i, k) + lag);
-    }
-  }
-  for (auto& list : lags) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-  }
-  return lags;
-}
+LagLayout layout_of_model(const ArxModel& model) { return make_design(model.orders, ArxOffset::kMean).layout; }
 
 ErrorFilter::ErrorFilter(const ArxModel& model, const Signals& signals)
-    : model_(model), signals_(signals), history_(model.orders.history()), terms_(model.orders.outputs()) {
+    : model_(model), block_(signals, model.orders.history()), rows_(model.orders.outputs()) {
   const int ny = model.orders.outputs();
   for (int i = 0; i < ny; ++i) {
     for (int j = 0; j < ny; ++j) {
       const auto a = model.a(i, j);
-      for (std::size_t l = 0; l < a.size(); ++l) terms_[i].push_back({j, static_cast<int>(l) + 1, a[l]});
+      for (std::size_t l = 0; l < a.size(); ++l) rows_[i].columns.push_back({j, static_cast<int>(l) + 1});
+      rows_[i].weights.insert(rows_[i].weights.end(), a.begin(), a.end());
     }
     for (int k = 0; k < model.orders.inputs(); ++k) {
       const auto b = model.b(i, k);
       for (std::size_t l = 0; l < b.size(); ++l) {
-        terms_[i].push_back({ny + k, model.orders.nk(i, k) + static_cast<int>(l), -b[l]});
+        rows_[i].columns.push_back({ny + k, model.orders.nk(i, k) + static_cast<int>(l)});
+        rows_[i].weights.push_back(-b[l]);
       }
     }
   }
 }
 
-void ErrorFilter::errors(std::size_t recording, std::size_t begin, Eigen::Ref<Eigen::MatrixXd> out) {
-  rows_ = out.rows();
-  samples_.resize(rows_ + history_, signals_.channels());
-  for (int c = 0; c < signals_.channels(); ++c) {
-    copy_scaled(signals_, recording, c, begin - static_cast<std::size_t>(history_),
-                begin + static_cast<std::size_t>(rows_), samples_.col(c).data());
-  }
+void ErrorFilter::errors(const RowRun& rows, Eigen::Ref<Eigen::MatrixXd> out) {
+  block_.load(rows);
   for (int i = 0; i < model_.orders.outputs(); ++i) {
-    out.col(i) = samples_.col(i).tail(rows_).array() - model_.constant[i];
-    for (const Term& term : terms_[i]) {
-      out.col(i) += term.weight * samples_.col(term.channel).segment(history_ - term.lag, rows_);
-    }
+    series_.clear();
+    for (const LaggedChannel& column : rows_[i].columns) series_.push_back(block_.series(column));
+    combine(block_.series({i, 0}), series_, rows_[i].weights, block_.rows(), out.col(i).data());
+    if (model_.constant[i] != 0) out.col(i).array() -= model_.constant[i];
   }
 }
 

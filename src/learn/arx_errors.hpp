@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "arx_rows.hpp"
@@ -11,41 +12,35 @@
 
 namespace wisp {
 
-/// The channels of `recordings`, with the model's own operating point. Errors: as find_signals, and channels that do
+/// The channels of `recordings` about the model's own operating point. Errors: as find_signals, and channels that do
 /// not fit the model.
 Result<Signals> signals_of_model(const ArxModel& model, std::span<const Recording> recordings,
                                  const ChannelChoice& channels);
 
-/// The lags of each channel that the model uses, and lag 0 of every output.
-std::vector<std::vector<int>> lags_of_model(const ArxModel& model);
+/// The columns that the model uses.
+LagLayout layout_of_model(const ArxModel& model);
 
-/// A(q) y − B(q) u − c on the signals' deviations.
+/// A(q) y − B(q) u − c on deviations from the operating point.
 class ErrorFilter {
  public:
-  /// Preconditions: `model` and `signals` outlive the filter and fit each other.
+  /// Preconditions: `model` and `signals` outlive the filter and fit each other; scales are 1.
   ErrorFilter(const ArxModel& model, const Signals& signals);
 
-  /// Writes the errors of rows [begin, begin + out.rows()) to `out`, one column an output.
+  /// Writes the errors of the rows to `out`, one column an output.
   ///
-  /// Precondition: the rows' history is there: begin >= model.orders.history().
-  void errors(std::size_t recording, std::size_t begin, Eigen::Ref<Eigen::MatrixXd> out);
-
-  /// The deviations of output i over the rows of the last call.
-  auto output(int i) const { return samples_.col(i).tail(rows_); }
+  /// Preconditions: the rows' history is there, rows.begin >= model.orders.history(); out has as many rows.
+  void errors(const RowRun& rows, Eigen::Ref<Eigen::MatrixXd> out);
 
  private:
-  struct Term {
-    int channel;
-    int lag;
-    double weight;
+  struct Row {
+    std::vector<LaggedChannel> columns;
+    std::vector<double> weights;
   };
 
   const ArxModel& model_;
-  const Signals& signals_;
-  int history_;
-  Eigen::Index rows_ = 0;
-  std::vector<std::vector<Term>> terms_;  // per output
-  Eigen::MatrixXd samples_;
+  ScaledBlock block_;
+  std::vector<Row> rows_;  // per output
+  std::vector<const double*> series_;
 };
 
 /// F_0 … F_{count−1}: the response of the outputs to a unit shock e(0). F_0 is the identity.

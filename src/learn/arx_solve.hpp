@@ -1,35 +1,44 @@
 #pragma once
-// One output row's coefficients from the triangle of the whole regression.
+// Coefficients of output rows that share their regressors, from products or from a triangle.
+//
+// Source: A. Björck, Numerical Methods for Least Squares Problems, sections 2.2 (Cholesky of the normal equations), 2.4
+// (Householder QR), 2.7 (rank), 6.6.5 (corrected normal equations).
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 namespace wisp {
 
-/// A regressor that depends on those before it: column = Σ weight · column[of].
+/// A regressor that depends on those before it.
 struct DependentColumn {
-  int column = 0;       ///< position among the row's regressors
+  int column = 0;       ///< position among the rows' regressors
   std::vector<int> of;  ///< positions of those that it depends on; empty: the column is zero
 };
 
-/// The least-squares solution of one output row, in scaled units.
-struct RowSolution {
-  Eigen::VectorXd theta;    ///< without A's sign; 0 for dependent columns
-  Eigen::MatrixXd inverse;  ///< (XᵀX)⁻¹ over all regressors; rows and columns of dependent ones are 0
+/// The least-squares solution of rows with the same regressors X, in scaled units.
+struct SharedSolution {
+  Eigen::MatrixXd theta;    ///< one column an output row, without A's sign; 0 for dependent regressors
+  Eigen::MatrixXd inverse;  ///< (XᵀX + ridge)⁻¹; 0 in rows and columns of dependent regressors
   std::vector<DependentColumn> dependent;
-  double condition = 1;         ///< of X with its columns weighted by `unit`
+  double condition = 1;         ///< of X with its columns in the data's units, dependent ones left out
   double scaled_condition = 1;  ///< of X with columns of norm 1
 };
 
-/// What to solve: minimise |R(:, target) − R(:, regressors) θ|² + ridge Σ |R(:, regressor)|² θ².
-struct RowProblem {
-  const Eigen::MatrixXd& triangle;
-  std::vector<int> regressors;  ///< columns of the triangle
-  int target = 0;               ///< column of the triangle
-  Eigen::VectorXd unit;         ///< data's unit / scaled unit, per regressor
+/// What to solve: for every target, minimise |target − Xθ|² + ridge Σ |X_j|² θ_j².
+struct SharedProblem {
+  std::vector<int> columns;  ///< X, as columns of the whole regression
+  std::vector<int> targets;  ///< columns of the whole regression
+  Eigen::VectorXd unit;      ///< data's unit / scaled unit, per column of X
   double ridge = 0;
 };
 
-RowSolution solve_row(const RowProblem& problem);
+/// Solves with RᵀR = Gram, R the triangle of the whole regression.
+SharedSolution solve_with_triangle(const Eigen::MatrixXd& triangle, const SharedProblem& problem);
+
+/// Solves with the Gram matrix of the whole regression, or gives up where the scaled condition is above
+/// `most_condition` or the matrix is not positive definite.
+std::optional<SharedSolution> solve_with_gram(const Eigen::MatrixXd& gram, const SharedProblem& problem,
+                                              double most_condition);
 
 }  // namespace wisp

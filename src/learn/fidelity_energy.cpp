@@ -120,21 +120,24 @@ FeatureWindows thinned(const FeatureWindows& windows, std::size_t most) {
 }
 
 void standardise(FeatureWindows& reference, FeatureWindows& other) {
+  // A feature that never moves differs by rounding alone, which must not be blown up to the size of the others.
+  constexpr double kStill = 1e-9;
   const auto n = static_cast<double>(reference.size());
+  std::vector<double> mean(reference.features), sd(reference.features);
   for (std::size_t f = 0; f < reference.features; ++f) {
-    double mean = 0;
-    for (std::size_t i = 0; i < reference.size(); ++i) mean += reference.values[i * reference.features + f] / n;
+    for (std::size_t i = 0; i < reference.size(); ++i) mean[f] += reference.values[i * reference.features + f] / n;
     double variance = 0;
     for (std::size_t i = 0; i < reference.size(); ++i) {
-      const double deviation = reference.values[i * reference.features + f] - mean;
+      const double deviation = reference.values[i * reference.features + f] - mean[f];
       variance += deviation * deviation / n;
     }
-    const double scale = variance > 0 ? 1 / std::sqrt(variance) : 1;
-    for (FeatureWindows* side : {&reference, &other}) {
-      for (std::size_t i = 0; i < side->size(); ++i) {
-        double& value = side->values[i * side->features + f];
-        value = (value - mean) * scale;
-      }
+    sd[f] = std::sqrt(variance);
+  }
+  const double largest = *std::max_element(sd.begin(), sd.end());
+  for (FeatureWindows* side : {&reference, &other}) {
+    for (std::size_t k = 0; k < side->values.size(); ++k) {
+      const std::size_t f = k % side->features;
+      side->values[k] = (side->values[k] - mean[f]) / (sd[f] > kStill * largest ? sd[f] : std::max(largest, 1e-300));
     }
   }
 }

@@ -178,6 +178,9 @@ Output output_of(const std::string& name, std::span<const Recording> recordings)
   const double sd = std::sqrt(std::max(0.0, square / count - mean * mean));
   out.lowest = std::min(out.lowest, mean - 3 * sd);
   out.highest = std::max(out.highest, mean + 3 * sd);
+  // A channel that never moves (a base cut off by the picture's edge) keeps only what rounding left of it: no range.
+  constexpr double kStill = 1e-9;
+  if (out.highest - out.lowest < kStill) out.lowest = out.highest = mean;
   return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace wisp {
 namespace {
@@ -29,19 +30,39 @@ ChannelChoice channel_choice(const PreparedOutlines& prepared) {
   return {regressor_names(prepared.inputs, prepared.split_sign), outline_outputs(prepared.layout.points)};
 }
 
+// The outputs before all other channels, in the layout's order: one layout then fits all prepared recordings, whatever
+// columns they came with.
+Recording outputs_first(Recording recording, const OutlineLayout& layout) {
+  std::vector<Channel> ordered;
+  for (std::size_t c : layout.outputs) ordered.push_back(std::move(recording.channels[c]));
+  for (std::size_t c = 0; c < recording.channels.size(); ++c) {
+    if (std::find(layout.outputs.begin(), layout.outputs.end(), c) != layout.outputs.end()) continue;
+    ordered.push_back(std::move(recording.channels[c]));
+  }
+  recording.channels = std::move(ordered);
+  return recording;
+}
+
 Result<void> add(const Recording& recording, double pixels_per_unit, PreparedOutlines& prepared) {
   for (const OutlineInput& input : prepared.inputs) {
     if (!find_channel(recording, input.name)) {
       return Error{recording.source + ": there is no input " + input.name + ", which the model is driven by"};
     }
   }
-  const auto own = own_scale(recording, prepared.layout, prepared.inputs);
+  const auto layout = outline_layout(recording);
+  if (!layout) return layout.error();
+  const auto own = own_scale(recording, *layout, prepared.inputs);
   if (!own) return own.error();
   const double scale = pixels_per_unit > 0 ? pixels_per_unit : *own;
   prepared.pixels_per_unit.push_back(scale);
-  prepared.recordings.push_back(
-      with_regressors(to_model_units(recording, prepared.layout, scale), prepared.inputs, prepared.split_sign));
+  Recording units = outputs_first(to_model_units(recording, *layout, scale), *layout);
+  prepared.recordings.push_back(with_regressors(std::move(units), prepared.inputs, prepared.split_sign));
   return {};
+}
+
+OutlineLayout prepared_layout(OutlineLayout layout) {
+  std::iota(layout.outputs.begin(), layout.outputs.end(), std::size_t{0});
+  return layout;
 }
 
 std::vector<const std::vector<double>*> samples_of(const Recording& recording, const ChannelChoice& channels) {
@@ -83,7 +104,7 @@ Result<PreparedOutlines> prepare_outlines(std::span<const Recording> recordings,
   auto layout = common_layout(recordings);
   if (!layout) return layout.error();
   PreparedOutlines prepared;
-  prepared.layout = *std::move(layout);
+  prepared.layout = prepared_layout(*std::move(layout));
   for (const std::string& name : options.inputs ? *options.inputs : input_names(recordings.front())) {
     auto input = scaled_input(recordings, name);
     if (!input) return input.error();
@@ -100,7 +121,7 @@ Result<PreparedOutlines> prepare_outlines(std::span<const Recording> recordings,
 Result<PreparedOutlines> prepare_outline(const Recording& recording, const OutlineLayout& layout,
                                          std::vector<OutlineInput> inputs, bool split_sign, double pixels_per_unit) {
   PreparedOutlines prepared;
-  prepared.layout = layout;
+  prepared.layout = prepared_layout(layout);
   prepared.inputs = std::move(inputs);
   prepared.split_sign = split_sign && !prepared.inputs.empty();
   prepared.channels = channel_choice(prepared);

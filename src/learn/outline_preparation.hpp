@@ -21,7 +21,7 @@ struct PreparationOptions {
 
 /// Recordings in the model's units, with its regressors as inputs.
 struct PreparedOutlines {
-  OutlineLayout layout;
+  OutlineLayout layout;  ///< of the prepared recordings: their outputs come first
   std::vector<OutlineInput> inputs;
   bool split_sign = false;  ///< false where there are no inputs
   ChannelChoice channels;

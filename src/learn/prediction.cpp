@@ -7,16 +7,32 @@
 
 #include "arx_errors.hpp"
 #include "free_run.hpp"
+#include "prediction_tally.hpp"
 
 namespace wisp {
 namespace {
 
 constexpr int kMostSteps = 100000;
-constexpr std::size_t kBlockRows = 512;
 
 Result<void> check_steps(int steps) {
   if (steps == kFreeRun || (steps >= 1 && steps <= kMostSteps)) return {};
   return Error{"a prediction of " + std::to_string(steps) + " steps was asked for, expected 1 to 100000"};
+}
+
+Result<void> check_figures(const ArxModel& model, const FigureOptions& options) {
+  if (options.steps.empty()) return Error{"no number of steps was asked for"};
+  for (int steps : options.steps) {
+    if (auto ok = check_steps(steps); !ok) return ok;
+  }
+  if (options.group < 1 || model.orders.outputs() % options.group != 0) {
+    return Error{std::to_string(model.orders.outputs()) + " outputs cannot be taken in groups of " +
+                 std::to_string(options.group)};
+  }
+  if (options.first_sample && *options.first_sample < model.orders.history()) {
+    return Error{"the first sample is " + std::to_string(*options.first_sample) + ", but the model's history is " +
+                 std::to_string(model.orders.history()) + " samples"};
+  }
+  return {};
 }
 
 // Errors of k-step predictions for k = 1, 2, …, block by block: err_k(t) = err_{k−1}(t) + F_{k−1} e(t − k + 1).
@@ -34,7 +50,7 @@ class StepErrors {
     shocks_.setZero(static_cast<Eigen::Index>(kBlockRows) + before, ny);
     for (std::size_t first = run.begin; first < run.end; first += kBlockRows) {
       const auto rows = static_cast<Eigen::Index>(std::min(kBlockRows, run.end - first));
-      filter_.errors(run.recording, first, shocks_.middleRows(before, rows));
+      filter_.errors({run.recording, first, first + static_cast<std::size_t>(rows)}, shocks_.middleRows(before, rows));
       sum_ = shocks_.middleRows(before, rows);
       visit(1, first, sum_);
       for (int k = 2; k <= steps_; ++k) {
@@ -58,52 +74,10 @@ class StepErrors {
   Eigen::MatrixXd sum_;
 };
 
-// Sums from which the figures of one number of steps are made.
-struct Tally {
-  std::size_t rows = 0;
-  std::vector<double> square, y, y_square, norm;
-
-  Tally(int outputs, int group) : square(outputs), y(outputs), y_square(outputs), norm(outputs / group) {}
-
-  /// `errors` and `outputs` have one column an output; rows with NaN must not be among them.
-  template <class Errors>
-  void add_errors(const Errors& errors, int group) {
-    rows += static_cast<std::size_t>(errors.rows());
-    for (std::size_t i = 0; i < square.size(); ++i) square[i] += errors.col(static_cast<Eigen::Index>(i)).squaredNorm();
-    for (std::size_t g = 0; g < norm.size(); ++g) {
-      const auto first = static_cast<Eigen::Index>(g) * group;
-      if (group == 1) {
-        norm[g] += errors.col(first).array().abs().sum();
-      } else {
-        norm[g] += errors.middleCols(first, group).rowwise().norm().sum();
-      }
-    }
-  }
-
-  void add_output(int i, double value, double sign) {
-    y[i] += sign * value;
-    y_square[i] += sign * value * value;
-  }
-
-  PredictionFigures figures(int steps) const {
-    PredictionFigures out;
-    out.steps = steps;
-    out.rows = rows;
-    const double n = static_cast<double>(rows);
-    for (std::size_t i = 0; i < square.size(); ++i) {
-      out.mean_square.push_back(square[i] / n);
-      const double variance = y_square[i] / n - (y[i] / n) * (y[i] / n);
-      out.fit_percent.push_back(variance > 0 ? 100 * (1 - std::sqrt(out.mean_square[i] / variance)) : 0);
-    }
-    for (double sum : norm) out.j.push_back(sum / n);
-    return out;
-  }
-};
-
 // Figures of all finite numbers of steps.
 class Tallies {
  public:
-  Tallies(const ArxModel& model, const Signals& signals, const FigureOptions& options)
+  Tallies(const ArxModel& model, const Signals& signals, const FigureOptions& options, int first_sample)
       : signals_(signals),
         group_(options.group),
         at_(1 + *std::max_element(options.steps.begin(), options.steps.end()), -1) {
@@ -115,7 +89,7 @@ class Tallies {
     const int most = static_cast<int>(at_.size()) - 1;
     if (most < 1) return;
     StepErrors errors(model, signals, most);
-    for (const RowRun& run : plan_rows(signals, lags_of_model(model), model.orders.history()).runs) {
+    for (const RowRun& run : plan_rows(signals, layout_of_model(model), first_sample).runs) {
       errors.run(run, [&](int k, std::size_t first, const Eigen::MatrixXd& block) { add(run, k, first, block); });
       add_outputs(run, most);
     }
@@ -128,7 +102,7 @@ class Tallies {
     if (at_[k] < 0) return;
     const std::size_t start = run.begin + static_cast<std::size_t>(k) - 1;
     const auto skip = static_cast<Eigen::Index>(start > first ? start - first : 0);
-    if (skip < block.rows()) tallies_[at_[k]].add_errors(block.bottomRows(block.rows() - skip), group_);
+    if (skip < block.rows()) tallies_[at_[k]].add_errors(block.bottomRows(block.rows() - skip));
   }
 
   // The outputs' own sums differ between numbers of steps in the first rows of a run only.
@@ -136,13 +110,12 @@ class Tallies {
     for (int i = 0; i < signals_.outputs; ++i) {
       Tally whole(signals_.outputs, group_);
       const auto samples = signals_.samples[run.recording][i];
-      for (std::size_t t = run.begin; t < run.end; ++t) whole.add_output(i, samples[t] - signals_.offset[i], 1);
+      const Eigen::Map<const Eigen::ArrayXd> rows(samples.data() + run.begin,
+                                                  static_cast<Eigen::Index>(run.end - run.begin));
+      whole.add_output(i, (rows - signals_.offset[i]).matrix());
       for (int k = 1; k <= most && run.begin + k <= run.end; ++k) {
-        if (at_[k] >= 0) {
-          tallies_[at_[k]].y[i] += whole.y[i];
-          tallies_[at_[k]].y_square[i] += whole.y_square[i];
-        }
-        whole.add_output(i, samples[run.begin + k - 1] - signals_.offset[i], -1);
+        if (at_[k] >= 0) tallies_[at_[k]].add_output_of(whole, i);
+        whole.take_output(i, samples[run.begin + k - 1] - signals_.offset[i]);
       }
     }
   }
@@ -153,31 +126,15 @@ class Tallies {
   std::vector<Tally> tallies_;
 };
 
-Tally free_run_tally(const ArxModel& model, const Signals& signals, const FigureOptions& options) {
-  Tally tally(signals.outputs, options.group);
-  for (std::size_t r = 0; r < signals.samples.size(); ++r) {
-    const auto simulated = free_run(model, signals, r, options.initial);
-    Eigen::RowVectorXd error(signals.outputs);
-    for (std::size_t t = 0; t < signals.samples[r].front().size(); ++t) {
-      for (int i = 0; i < signals.outputs; ++i) {
-        error[i] = signals.samples[r][i][t] - signals.offset[i] - simulated[i][t];
-      }
-      if (error.hasNaN()) continue;
-      tally.add_errors(error, options.group);
-      for (int i = 0; i < signals.outputs; ++i) {
-        tally.add_output(i, signals.samples[r][i][t] - signals.offset[i], 1);
-      }
-    }
-  }
-  return tally;
+std::vector<std::vector<double>> nothing_predicted(const Signals& signals) {
+  const std::vector<double> series(signals.samples[0].front().size(), std::numeric_limits<double>::quiet_NaN());
+  return std::vector<std::vector<double>>(signals.outputs, series);
 }
 
 std::vector<std::vector<double>> predict_steps(const ArxModel& model, const Signals& signals, int steps) {
-  const std::size_t rows = signals.samples[0].front().size();
-  std::vector<std::vector<double>> out(signals.outputs,
-                                       std::vector<double>(rows, std::numeric_limits<double>::quiet_NaN()));
+  auto out = nothing_predicted(signals);
   StepErrors errors(model, signals, steps);
-  for (const RowRun& run : plan_rows(signals, lags_of_model(model), model.orders.history()).runs) {
+  for (const RowRun& run : plan_rows(signals, layout_of_model(model), model.orders.history()).runs) {
     errors.run(run, [&](int k, std::size_t first, const Eigen::MatrixXd& block) {
       if (k != steps) return;
       for (int i = 0; i < signals.outputs; ++i) {
@@ -199,30 +156,33 @@ Result<std::vector<std::vector<double>>> predict(const ArxModel& model, const Re
   const auto signals = signals_of_model(model, {&recording, 1}, channels);
   if (!signals) return signals.error();
   if (options.steps != kFreeRun) return predict_steps(model, *signals, options.steps);
-  auto out = free_run(model, *signals, 0, options.initial);
-  for (int i = 0; i < signals->outputs; ++i) {
-    for (double& value : out[i]) value += model.output_mean[i];
-  }
+  auto out = nothing_predicted(*signals);
+  free_run(model, *signals, 0, {options.initial, model.orders.history()},
+           [&](std::size_t first, std::size_t rows, const double* values) {
+             for (std::size_t t = first; t < first + rows; ++t) {
+               for (int i = 0; i < signals->outputs; ++i) out[i][t] = *values++ + model.output_mean[i];
+             }
+           });
   return out;
 }
 
 Result<std::vector<PredictionFigures>> prediction_figures(const ArxModel& model, std::span<const Recording> recordings,
                                                           const ChannelChoice& channels, const FigureOptions& options) {
-  if (options.steps.empty()) return Error{"no number of steps was asked for"};
-  for (int steps : options.steps) {
-    if (auto ok = check_steps(steps); !ok) return ok.error();
-  }
-  if (options.group < 1 || model.orders.outputs() % options.group != 0) {
-    return Error{std::to_string(model.orders.outputs()) + " outputs cannot be taken in groups of " +
-                 std::to_string(options.group)};
-  }
   const auto signals = signals_of_model(model, recordings, channels);
   if (!signals) return signals.error();
-  const Tallies tallies(model, *signals, options);
+  return figures_of(model, *signals, options);
+}
+
+Result<std::vector<PredictionFigures>> figures_of(const ArxModel& model, const Signals& signals,
+                                                  const FigureOptions& options) {
+  if (auto ok = check_figures(model, options); !ok) return ok.error();
+  const int first_sample = options.first_sample.value_or(model.orders.history());
+  const Tallies tallies(model, signals, options, first_sample);
   std::vector<PredictionFigures> out;
   for (int steps : options.steps) {
-    const Tally tally = steps == kFreeRun ? free_run_tally(model, *signals, options) : tallies[steps];
-    if (tally.rows == 0) {
+    const Tally tally = steps == kFreeRun ? free_run_tally(model, signals, options.group, options.initial, first_sample)
+                                          : tallies[steps];
+    if (tally.rows() == 0) {
       return Error{"no row can be predicted: no stretch without gaps is longer than the model's history of " +
                    std::to_string(model.orders.history()) + " samples"};
     }

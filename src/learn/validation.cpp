@@ -209,7 +209,8 @@ Result<OutlineValidation> validate_outline(const Model& model, const Recording& 
   const Recording driving = with_regressors(recording, *inputs, false);
   OutlineValidation out;
   out.pixels_per_unit = prepared->pixels_per_unit.front();
-  auto figures = outline_figures(outline->arx, prepared->recordings, prepared->channels, *layout, options.steps);
+  auto figures =
+      outline_figures(outline->arx, prepared->recordings, prepared->channels, prepared->layout, options.steps);
   if (!figures) return figures.error();
   out.figures = *std::move(figures);
   auto predicted = predictions(*outline, *prepared, recording, options.steps);
@@ -220,7 +221,7 @@ Result<OutlineValidation> validate_outline(const Model& model, const Recording& 
   out.played = *std::move(played);
   if (!inputs->empty()) {
     const auto& first = driving.channels[*find_channel(driving, inputs->front().name)].samples;
-    out.static_gain = static_gain(tips(prepared->recordings.front(), *layout), first, recording.rate_hz);
+    out.static_gain = static_gain(tips(prepared->recordings.front(), prepared->layout), first, recording.rate_hz);
   }
   if (!options.fidelity) return out;
   if (auto ok = add_fidelity(*outline, *prepared, driving, options, out); !ok) return ok.error();

@@ -26,13 +26,19 @@ class ArxStepper {
   using Real = typename N::Real;
   static constexpr int kLanes = N::kLanes;
 
+  /// Where the model's deviations are measured from.
+  static OperatingPoint operating_point(const ArxModel& arx) { return {arx.output_mean, arx.input_mean}; }
+
+  /// Errors: what single precision can't step.
+  static Result<void> check(const Model& model, const ArxModel& arx) { return check_arx_program(model, arx); }
+
   ArxStepper(const Model& model, const ArxModel& arx, const Channels& channels, int blocks, Arena& arena)
       : program_(make_arx_program(model, arx, arena)), channels_(channels) {
     const auto depth = static_cast<std::size_t>(program_.depth);
     row_ = static_cast<std::size_t>(program_.outputs + program_.regressors) * kLanes;
     ring_ = arena.take<Real>(static_cast<std::size_t>(blocks) * depth * row_);
     lag_row_ = arena.take<std::uint32_t>(2 * depth);
-    shocks_ = arena.take<Real>(static_cast<std::size_t>(groups()) * 4 * kLanes);
+    shocks_ = arena.take<Real>(static_cast<std::size_t>(program_.outputs + program_.rank) * kLanes);
     sd_ = arena.take<float>(program_.outputs);
     mixing_ = arena.take<float>(static_cast<std::size_t>(program_.outputs) * program_.rank);
     if (arena.measures()) return;
@@ -117,8 +123,6 @@ class ArxStepper {
   std::uint64_t hash(std::uint64_t before) const { return hash_of(program_, before); }
 
  private:
-  int groups() const { return (program_.outputs + program_.rank + 3) / 4; }
-
   // The sample `lag` steps ago of a block: outputs, then regressors. The table holds every distance twice, so that the
   // place in the ring and the lag add up without a modulo.
   const Real* sample(int block, int lag) const {
@@ -142,9 +146,10 @@ class ArxStepper {
   void draw(const Moment<N>& moment) {
     Words<N> counters[4], words[4];
     random_counters<N>(moment.counters, counters);
-    for (int group = 0; group < groups(); ++group) {
-      random_group<N>(*moment.keys, counters, static_cast<std::uint32_t>(group), words);
-      for (int k = 0; k < 4; ++k) store(normal_lanes<N>(words[k]), shocks_.data() + (group * 4 + k) * kLanes);
+    const int channels = program_.outputs + program_.rank;
+    for (int channel = 0; channel < channels; ++channel) {
+      if (channel % 4 == 0) random_group<N>(*moment.keys, counters, static_cast<std::uint32_t>(channel / 4), words);
+      store(normal_lanes<N>(words[channel % 4]), shocks_.data() + channel * kLanes);
     }
   }
 

@@ -27,8 +27,11 @@ Result<void> check_options(const BankOptions& options) {
 Result<void> check_all(const Model& model, const BankOptions& options) {
   if (auto ok = check_options(options); !ok) return ok;
   if (auto ok = check(model); !ok) return ok;
-  if (auto ok = check_channels(model, operating_point(model)); !ok) return ok;
-  return std::visit([&](const ArxModel& arx) { return check_arx_program(model, arx); }, model.dynamics);
+  const auto check_kind = [&]<class Type>(const auto& dynamics, std::type_identity<Type>) -> Result<void> {
+    if (auto ok = check_channels(model, Type::operating_point(dynamics)); !ok) return ok;
+    return Type::check(model, dynamics);
+  };
+  return visit_dynamics<LiveNumbers>(model, check_kind);
 }
 
 }  // namespace
@@ -55,11 +58,11 @@ Result<Bank> Bank::create(const Model& model, const BankOptions& options) {
   const auto bytes = bank_bytes(model, options);
   if (!bytes) return bytes.error();
   std::span<std::byte> memory = options.memory;
-  if (!memory.empty() && memory.size() < *bytes) {
+  const bool owned = memory.data() == nullptr;
+  if (!owned && memory.size() < *bytes) {
     return Error{"a bank was given " + std::to_string(memory.size()) + " bytes, expected at least " +
                  std::to_string(*bytes) + ": ask bank_bytes()"};
   }
-  const bool owned = memory.empty();
   if (owned) {
     void* fresh = ::operator new(*bytes, std::align_val_t(kArenaAlignment), std::nothrow);
     if (!fresh) return Error{"no memory for a bank of " + std::to_string(*bytes) + " bytes: choose a smaller capacity"};
@@ -100,7 +103,7 @@ InstanceId Bank::spawn(std::uint64_t stream) {
   s.rows = std::max(s.rows, slot + 1);
   ++s.living;
   ++s.spawned;
-  s.clear_inputs(slot);
+  s.set_lane_inputs(slot, nullptr);
   s.start(slot);
   return at(slot);
 }
@@ -119,29 +122,29 @@ bool Bank::end(InstanceId id) {
 void Bank::set_inputs(std::span<const float> values) {
   State& s = *state_;
   assert(values.size() == static_cast<std::size_t>(s.rows) * s.inputs);
-  for (int slot = 0; slot < s.rows; ++slot) {
-    if (s.alive[slot]) s.set_inputs(slot, values.data() + static_cast<std::size_t>(slot) * s.inputs);
+  for (int block = 0; block < s.blocks(); ++block) {
+    const int first = block * State::kLanes;
+    s.set_inputs(block, values.data() + static_cast<std::size_t>(first) * s.inputs,
+                 std::min(State::kLanes, s.rows - first));
   }
 }
 
 void Bank::set_common_inputs(std::span<const float> values) {
   State& s = *state_;
   assert(values.size() == static_cast<std::size_t>(s.inputs));
-  for (int slot = 0; slot < s.rows; ++slot) {
-    if (s.alive[slot]) s.set_inputs(slot, values.data());
-  }
+  for (int block = 0; block < s.blocks(); ++block) s.set_common_inputs(block, values.data());
 }
 
 bool Bank::set_inputs(InstanceId id, std::span<const float> values) {
   if (!valid(id)) return false;
   assert(values.size() == static_cast<std::size_t>(state_->inputs));
-  state_->set_inputs(static_cast<int>(id.slot), values.data());
+  state_->set_lane_inputs(static_cast<int>(id.slot), values.data());
   return true;
 }
 
 void Bank::set_noise(float scale) {
-  const float held = hold(scale, 0.0f, kMostNoise);
-  state_->set_noise(held < kLeastNoise ? 0.0f : held);
+  const float held = std::min(scale, kMostNoise);
+  state_->set_noise(held >= kLeastNoise ? held : 0.0f);
 }
 
 void Bank::step() {

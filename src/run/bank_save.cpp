@@ -28,7 +28,7 @@ void save_slot(Bank::State& s, int slot, ByteWriter& out) {
   out.put(s.generation[slot]);
   out.put(static_cast<std::uint32_t>(s.alive[slot]));
   out.put(s.stream[slot]);
-  out.put(s.age[slot]);
+  out.put(s.steps - s.born[slot]);
   const int block = slot / s.kLanes, lane = slot % s.kLanes;
   for (std::size_t k = 0; k < s.channels.regressors.size(); ++k) out.put(s.regressors_of(block)[k * s.kLanes + lane]);
   std::visit([&](auto& dynamics) { dynamics.visit_lane(block, lane, [&](float& z, float, float) { out.put(z); }); },
@@ -55,7 +55,7 @@ void restore_slot(Bank::State& s, int slot, ByteReader& in) {
   s.generation[slot] = in.get32();
   s.alive[slot] = static_cast<std::uint8_t>(in.get32());
   s.stream[slot] = in.get64();
-  s.age[slot] = in.get64();
+  s.born[slot] = s.steps - in.get64();
   const int block = slot / s.kLanes, lane = slot % s.kLanes;
   for (std::size_t k = 0; k < s.channels.regressors.size(); ++k) {
     s.regressors_of(block)[k * s.kLanes + lane] = in.get_float();

@@ -7,14 +7,18 @@ namespace {
 
 constexpr double kNanosecondsPerSecond = 1e9;
 
-std::int64_t step_nanoseconds(double rate_hz) {
-  return static_cast<std::int64_t>(kNanosecondsPerSecond / rate_hz + 0.5);
+OperatingPoint operating_point(const Model& model) {
+  const auto of_kind = []<class Type>(const auto& dynamics, std::type_identity<Type>) {
+    return Type::operating_point(dynamics);
+  };
+  return visit_dynamics<LiveNumbers>(model, of_kind);
 }
 
 Stepper make_stepper(const Model& model, const Channels& channels, int blocks, Arena& arena) {
-  return std::visit(
-      [&](const ArxModel& arx) -> Stepper { return ArxStepper<LiveNumbers>(model, arx, channels, blocks, arena); },
-      model.dynamics);
+  const auto of_kind = [&]<class Type>(const auto& dynamics, std::type_identity<Type>) -> Stepper {
+    return Type(model, dynamics, channels, blocks, arena);
+  };
+  return visit_dynamics<LiveNumbers>(model, of_kind);
 }
 
 std::span<PolylinePoint> make_view(const Model& model, int points, Arena& arena) {
@@ -24,12 +28,8 @@ std::span<PolylinePoint> make_view(const Model& model, int points, Arena& arena)
 
 }  // namespace
 
-OperatingPoint operating_point(const Model& model) {
-  return std::visit(
-      [](const ArxModel& arx) {
-        return OperatingPoint{arx.output_mean, arx.input_mean};
-      },
-      model.dynamics);
+std::chrono::nanoseconds step_time(const Model& model) {
+  return std::chrono::nanoseconds(static_cast<std::int64_t>(kNanosecondsPerSecond / model.rate_hz + 0.5));
 }
 
 Bank::State::State(const Model& model, const BankOptions& options, Arena& arena)
@@ -37,7 +37,7 @@ Bank::State::State(const Model& model, const BankOptions& options, Arena& arena)
       inputs(static_cast<int>(model.inputs.size())),
       seed(options.seed),
       keys(random_keys(options.seed)),
-      step_time(step_nanoseconds(model.rate_hz)),
+      step_time(wisp::step_time(model).count()),
       channels(make_channels(model, operating_point(model), arena)),
       stepper(make_stepper(model, channels, (capacity + kLanes - 1) / kLanes, arena)),
       polyline(make_view(model, options.polyline_points, arena)) {
@@ -47,7 +47,7 @@ Bank::State::State(const Model& model, const BankOptions& options, Arena& arena)
   generation = arena.take<std::uint32_t>(lanes);
   alive = arena.take<std::uint8_t>(lanes);
   stream = arena.take<std::uint64_t>(lanes);
-  age = arena.take<std::uint64_t>(lanes);
+  born = arena.take<std::uint64_t>(lanes);
   regressors = arena.take<float>(lanes * regressor_count(model.inputs));
   shown = arena.take<float>(lanes * model.outputs.size());
   if (arena.measures()) return;
@@ -56,23 +56,43 @@ Bank::State::State(const Model& model, const BankOptions& options, Arena& arena)
 
 void Bank::State::start(int slot) {
   const int block = slot / kLanes, lane = slot % kLanes;
-  age[slot] = 0;
+  born[slot] = steps;
   std::visit([&](auto& dynamics) { dynamics.start(block, lane); }, stepper);
   show_block(block);
 }
 
-void Bank::State::clear_inputs(int slot) {
-  const int block = slot / kLanes, lane = slot % kLanes;
-  for (std::size_t k = 0; k < channels.regressors.size(); ++k) {
-    regressors_of(block)[k * kLanes + lane] = regress(channels.regressors[k], 0.0f);
+// Rows of the first `count` lanes of a block; what the others get is cleared when an instance is spawned there.
+void Bank::State::set_inputs(int block, const float* values, int count) {
+  float* out = regressors_of(block);
+  for (const RegressorChannel& channel : channels.regressors) {
+    float lanes[kLanes] = {};
+    const float* row = lanes;
+    if (inputs == 1 && count == kLanes) {
+      row = values;  // they lie as lanes do
+    } else {
+      for (int lane = 0; lane < count; ++lane) lanes[lane] = values[lane * inputs + channel.input];
+    }
+    store(regress<LiveNumbers>(channel, load<Reals<LiveNumbers>>(row)), out);
+    out += kLanes;
   }
 }
 
-void Bank::State::set_inputs(int slot, const float* values) {
-  const int block = slot / kLanes, lane = slot % kLanes;
-  for (std::size_t k = 0; k < channels.regressors.size(); ++k) {
-    const RegressorChannel& channel = channels.regressors[k];
-    regressors_of(block)[k * kLanes + lane] = regress(channel, values[channel.input]);
+void Bank::State::set_common_inputs(int block, const float* values) {
+  float* out = regressors_of(block);
+  for (const RegressorChannel& channel : channels.regressors) {
+    store(regress<LiveNumbers>(channel, all<Reals<LiveNumbers>>(values[channel.input])), out);
+    out += kLanes;
+  }
+}
+
+void Bank::State::set_lane_inputs(int slot, const float* values) {
+  float* out = regressors_of(slot / kLanes) + slot % kLanes;
+  for (const RegressorChannel& channel : channels.regressors) {
+    const float input = values ? values[channel.input] : 0.0f;
+    float lanes[kLanes];
+    store(regress<LiveNumbers>(channel, all<Reals<LiveNumbers>>(input)), lanes);
+    *out = lanes[0];
+    out += kLanes;
   }
 }
 
@@ -89,15 +109,13 @@ void Bank::State::step_all() {
         for (int block = 0; block < blocks(); ++block) {
           std::copy_n(regressors_of(block), size, dynamics.regressors(block));
           const std::size_t first = static_cast<std::size_t>(block) * kLanes;
-          std::uint32_t flags[kLanes] = {};
-          dynamics.step(block, {&keys, {stream.data() + first, age.data() + first}, flags});
-          for (int lane = 0; lane < kLanes; ++lane) {
-            if (flags[lane] != 0) held.held += alive[first + lane];
-            ++age[first + lane];
-          }
+          std::uint32_t flags[kLanes];
+          dynamics.step(block, {&keys, {stream.data() + first, born.data() + first, steps}, flags});
+          for (int lane = 0; lane < kLanes; ++lane) held.held += (flags[lane] & 1) & alive[first + lane];
         }
       },
       stepper);
+  ++steps;
   held.steps += static_cast<std::uint64_t>(living);
 }
 

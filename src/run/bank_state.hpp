@@ -1,22 +1,14 @@
 #pragma once
 // What a bank consists of; everything lies in the bank's one piece of memory, this struct included.
 
-#include <variant>
-
-#include "run/arx_stepper.hpp"
 #include "run/outline_lanes.hpp"
+#include "run/stepper.hpp"
 #include "wisp/run/bank.hpp"
 
 namespace wisp {
 
-/// Every kind of dynamics is a stepper with the public functions of ArxStepper. A new kind is its file, and its name
-/// here and in make_stepper().
-using Stepper = std::variant<ArxStepper<LiveNumbers>>;
-
 inline constexpr float kMostNoise = 10.0f;
 inline constexpr float kLeastNoise = 1e-6f;  // what is less is none
-
-OperatingPoint operating_point(const Model& model);
 
 struct Bank::State {
   static constexpr int kLanes = LiveNumbers::kLanes;
@@ -33,8 +25,9 @@ struct Bank::State {
   const float* shown_of(int block) const { return const_cast<State*>(this)->shown_of(block); }
 
   void start(int slot);
-  void clear_inputs(int slot);
-  void set_inputs(int slot, const float* values);
+  void set_inputs(int block, const float* values, int count);
+  void set_common_inputs(int block, const float* values);
+  void set_lane_inputs(int slot, const float* values);  // null: zeros
   void step_all();
   void show();
   void show_block(int block);
@@ -54,14 +47,15 @@ struct Bank::State {
   std::span<std::uint32_t> generation;  // per slot, as are the next three
   std::span<std::uint8_t> alive;
   std::span<std::uint64_t> stream;
-  std::span<std::uint64_t> age;
-  std::span<float> regressors;  // [block][regressor][lane]: what acts now
-  std::span<float> shown;       // [block][output][lane]: what is read
+  std::span<std::uint64_t> born;  // value of `steps` when it was spawned or reset
+  std::span<float> regressors;    // [block][regressor][lane]: what acts now
+  std::span<float> shown;         // [block][output][lane]: what is read
 
   int living = 0;
   int rows = 0;         // one more than the highest slot in use
   int lowest_free = 0;  // no slot below it is free
   std::uint64_t spawned = 0;
+  std::uint64_t steps = 0;  // of the bank
   std::int64_t passed = 0;  // nanoseconds since the last step
   bool between = false;     // what is shown lies between the last two steps, by `passed`
   float noise = 0.0f;

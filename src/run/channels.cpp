@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <string>
 
 #include "run/model_hash.hpp"
@@ -17,32 +16,32 @@ constexpr double kSmallest = 1e-12;  // of a range that is not zero
 
 double margin(double lowest, double highest) { return kRangeMargin * (highest - lowest); }
 
-float toward(float value, float target) { return std::nextafter(value, target); }
+float first_lane(const Reals<LiveNumbers>& reals) {
+  float lanes[LiveNumbers::kLanes];
+  store(reals, lanes);
+  return lanes[0];
+}
 
-float present(const OutputChannel& channel, float z) { return channel.mean + channel.scale * z; }
-
-// The z nearest to `wanted` whose presented value does not leave [lowest, highest] when it is rounded.
-float held_limit(OutputChannel channel, double wanted, float lowest, float highest) {
-  auto z = static_cast<float>(wanted);
-  while (present(channel, z) < lowest) z = toward(z, std::numeric_limits<float>::max());
-  while (present(channel, z) > highest) z = toward(z, std::numeric_limits<float>::lowest());
-  return z;
+float regress(const RegressorChannel& channel, float input) {
+  return first_lane(wisp::regress<LiveNumbers>(channel, all<Reals<LiveNumbers>>(input)));
 }
 
 OutputChannel make_output(const Output& output, double mean) {
   const double scale = channel_scale(output.lowest, output.highest);
   const double room = margin(output.lowest, output.highest);
-  OutputChannel channel{static_cast<float>(mean), static_cast<float>(scale), 0, 0, 0};
-  const double low = output.lowest - room, high = output.highest + room;
-  const auto lowest = static_cast<float>(low), highest = static_cast<float>(high);
-  const auto rounded = static_cast<double>(channel.mean);
-  channel.low = held_limit(channel, (low - rounded) / scale, lowest, highest);
-  channel.high = held_limit(channel, (high - rounded) / scale, lowest, highest);
-  channel.start = settle(hold(0.0f, channel.low, channel.high));
+  const double lowest = output.lowest - room, highest = output.highest + room;
+  OutputChannel channel{};
+  channel.mean = static_cast<float>(mean);
+  channel.scale = static_cast<float>(scale);
+  channel.low = static_cast<float>((lowest - mean) / scale);
+  channel.high = static_cast<float>((highest - mean) / scale);
+  channel.lowest = static_cast<float>(lowest);
+  channel.highest = static_cast<float>(highest);
+  channel.start = first_lane(settle(all<Reals<LiveNumbers>>(std::clamp(0.0f, channel.low, channel.high))));
   return channel;
 }
 
-RegressorChannel make_regressor(const Input& input, int index, Part part, double mean) {
+RegressorChannel make_regressor(const Input& input, int index, RegressorPart part, double mean) {
   const double room = margin(input.lowest, input.highest);
   RegressorChannel channel{};
   channel.input = index;
@@ -81,7 +80,7 @@ double channel_scale(double lowest, double highest) {
 
 std::uint64_t hash_of(const Channels& channels, std::uint64_t before) {
   std::uint64_t hash = before;
-  for (const OutputChannel& c : channels.outputs) hash = hash_floats({c.mean, c.scale, c.low, c.high, c.start}, hash);
+  for (const OutputChannel& c : channels.outputs) hash = hash_floats({c.mean, c.scale, c.low, c.high}, hash);
   for (const RegressorChannel& c : channels.regressors) {
     const auto place = static_cast<float>(c.input * 3 + static_cast<int>(c.part));
     hash = hash_floats({place, c.low, c.high, c.mean, c.inverse_scale}, hash);
@@ -99,15 +98,15 @@ Channels make_channels(const Model& model, const OperatingPoint& point, Arena& a
   std::size_t next = 0;
   for (std::size_t k = 0; k < model.inputs.size(); ++k) {
     const Input& input = model.inputs[k];
-    const auto add = [&](Part part) {
+    const auto add = [&](RegressorPart part) {
       channels.regressors[next] = make_regressor(input, static_cast<int>(k), part, point.regressors[next]);
       ++next;
     };
     if (input.shape == InputShape::kSplitSign) {
-      add(Part::kPositive);
-      add(Part::kNegative);
+      add(RegressorPart::kPositive);
+      add(RegressorPart::kNegative);
     } else {
-      add(Part::kWhole);
+      add(RegressorPart::kWhole);
     }
   }
   return channels;

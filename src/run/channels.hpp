@@ -12,22 +12,24 @@
 
 namespace wisp {
 
-/// An output: y = mean + scale · z, z held to [low, high].
+/// An output: y = mean + scale · z, z held to [low, high]; y, once rounded, to [lowest, highest].
 struct OutputChannel {
   float mean;
   float scale;
   float low;
   float high;
+  float lowest;
+  float highest;
   float start;  ///< z of a newborn instance: the operating point
 };
 
 /// How a regressor is made from its input.
-enum class Part : std::uint8_t { kWhole, kPositive, kNegative };
+enum class RegressorPart : std::uint8_t { kWhole, kPositive, kNegative };
 
 /// A regressor: z = (part(u) − mean) · inverse_scale, u held to [low, high].
 struct RegressorChannel {
   std::int32_t input;
-  Part part;
+  RegressorPart part;
   float low;
   float high;
   float mean;
@@ -59,37 +61,41 @@ Result<void> check_channels(const Model& model, const OperatingPoint& point);
 /// A hash of the channels, over a hash of what came before.
 std::uint64_t hash_of(const Channels& channels, std::uint64_t before);
 
-/// The value of a regressor for its input; what is not a number counts as 0.
-template <class Real>
-inline Real regress(const RegressorChannel& channel, Real input) {
-  const Real zero(0.0f);
-  const Real held = hold(input == input ? input : zero, Real(channel.low), Real(channel.high));
-  Real part = held;
-  if (channel.part == Part::kPositive) part = held > zero ? held : zero;
-  if (channel.part == Part::kNegative) part = held < zero ? -held : zero;
-  return settle((part - Real(channel.mean)) * Real(channel.inverse_scale));
+/// The values of a regressor for its inputs; what is not a number counts as 0.
+template <class N>
+inline Reals<N> regress(const RegressorChannel& channel, const Reals<N>& inputs) {
+  const auto zero = all<Reals<N>>(0.0f);
+  const auto held = hold(number_or(inputs, zero), all<Reals<N>>(channel.low), all<Reals<N>>(channel.high));
+  auto part = held;
+  if (channel.part == RegressorPart::kPositive) part = larger(held, zero);
+  if (channel.part == RegressorPart::kNegative) part = zero - smaller(held, zero);
+  return settle((part - all<Reals<N>>(channel.mean)) * all<Reals<N>>(channel.inverse_scale));
 }
 
-/// The outputs' values in their own units: [output][lane] from the state of the newest sample.
+/// An output's values in its own unit.
+template <class N>
+inline Reals<N> present(const OutputChannel& channel, const Reals<N>& z) {
+  const auto y = all<Reals<N>>(channel.mean) + all<Reals<N>>(channel.scale) * z;
+  return hold(y, all<Reals<N>>(channel.lowest), all<Reals<N>>(channel.highest));
+}
+
+/// What is read of a block, [output][lane], when the newest sample is shown.
 template <class N>
 inline void show_newest(const Channels& channels, const typename N::Real* newest, typename N::Real* out) {
   for (const OutputChannel& channel : channels.outputs) {
-    const auto z = load<Reals<N>>(newest);
-    store(all<Reals<N>>(channel.mean) + all<Reals<N>>(channel.scale) * z, out);
+    store(present<N>(channel, load<Reals<N>>(newest)), out);
     newest += N::kLanes;
     out += N::kLanes;
   }
 }
 
-/// The same `share` of the way from the sample before to the newest; between its own limits even when rounded.
+/// The same when a `share` of the way from the sample before to the newest is shown.
 template <class N>
 inline void show_between(const Channels& channels, const typename N::Real* previous, const typename N::Real* newest,
                          float share, typename N::Real* out) {
   for (const OutputChannel& channel : channels.outputs) {
     const auto from = load<Reals<N>>(previous), to = load<Reals<N>>(newest);
-    const auto between = from + all<Reals<N>>(share) * (to - from);
-    const auto z = hold(between, all<Reals<N>>(channel.low), all<Reals<N>>(channel.high));
-    store(all<Reals<N>>(channel.mean) + all<Reals<N>>(channel.scale) * z, out);
+    store(present<N>(channel, from + all<Reals<N>>(share) * (to - from)), out);
     previous += N::kLanes;
     newest += N::kLanes;
     out += N::kLanes;

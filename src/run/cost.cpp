@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "run/arx_stepper.hpp"
 #include "run/counting.hpp"
 #include "run/outline_lanes.hpp"
+#include "run/stepper.hpp"
 #include "wisp/run/bank.hpp"
 
 namespace wisp {
@@ -22,19 +22,19 @@ OperationCount count(Work work) {
 
 OperationCount count_inputs(const Channels& channels) {
   return count([&] {
-    for (const RegressorChannel& channel : channels.regressors) regress(channel, CountingReal(channel.low));
+    for (const RegressorChannel& channel : channels.regressors) regress<CountingNumbers>(channel, {});
   });
 }
 
 template <class Stepper>
 OperationCount count_step(Stepper& stepper, float noise) {
   const RandomKeys keys = random_keys(1);
-  const std::uint64_t stream = 0, age = 0;
+  const std::uint64_t stream = 0, born = 0;
   std::uint32_t held = 0;
   stepper.set_noise(noise);
   return count([&] {
     stepper.turn();
-    stepper.step(0, {&keys, {&stream, &age}, &held});
+    stepper.step(0, {&keys, {&stream, &born, 0}, &held});
   });
 }
 
@@ -49,17 +49,18 @@ OperationCount count_view(const Channels& channels, const Stepper& stepper, std:
   });
 }
 
-Cost count_frame(const Model& model, const ArxModel& arx, const Channels& channels,
+template <class Stepper, class Kind>
+Cost count_frame(const Model& model, const Kind& dynamics, const Channels& channels,
                  std::span<const PolylinePoint> polyline) {
   Arena measured;
-  ArxStepper<CountingNumbers>(model, arx, channels, 1, measured);
+  Stepper(model, dynamics, channels, 1, measured);
   std::vector<std::byte> memory = room_for(measured);
   Arena arena(memory);
-  ArxStepper<CountingNumbers> stepper(model, arx, channels, 1, arena);
+  Stepper stepper(model, dynamics, channels, 1, arena);
   const OperationCount quiet = count_step(stepper, 0), noisy = count_step(stepper, 1);
   Cost cost;
   cost.multiply_adds_per_frame = stepper.multiply_adds();
-  cost.dynamics_operations = count_inputs(channels).numbers + quiet.numbers;
+  cost.dynamics_operations = count_inputs(channels).numbers + quiet.numbers + quiet.words;
   cost.noise_operations = noisy.numbers - quiet.numbers;
   cost.random_operations = noisy.words - quiet.words;
   cost.view_operations = count_view(channels, stepper, polyline).numbers;
@@ -68,27 +69,34 @@ Cost count_frame(const Model& model, const ArxModel& arx, const Channels& channe
   return cost;
 }
 
+// What the stepper stands on, laid out and filled: its channels, and the polyline of `points` (0: none).
+struct Surroundings {
+  Surroundings(const Model& model, const OperatingPoint& point, int points, Arena& arena)
+      : channels(make_channels(model, point, arena)) {
+    if (points > 0) polyline = make_polyline(std::get<OutlineView>(model.view), points, arena);
+  }
+
+  Channels channels;
+  std::span<PolylinePoint> polyline;
+};
+
 }  // namespace
 
 Result<Cost> count_operations(const Model& model, int polyline_points) {
   if (const auto bytes = bank_bytes(model, {.polyline_points = polyline_points ? polyline_points : 2}); !bytes) {
     return bytes.error();
   }
-  const auto* outline = std::get_if<OutlineView>(&model.view);
-  const int points = outline ? polyline_points : 0;
-  return std::visit(
-      [&](const auto& dynamics) -> Result<Cost> {
-        const OperatingPoint point{dynamics.output_mean, dynamics.input_mean};
-        Arena measured;
-        make_channels(model, point, measured);
-        if (points) make_polyline(*outline, points, measured);
-        std::vector<std::byte> memory = room_for(measured);
-        Arena arena(memory);
-        const Channels channels = make_channels(model, point, arena);
-        const auto polyline = points ? make_polyline(*outline, points, arena) : std::span<PolylinePoint>();
-        return count_frame(model, dynamics, channels, polyline);
-      },
-      model.dynamics);
+  const int points = std::holds_alternative<OutlineView>(model.view) ? polyline_points : 0;
+  const auto count_kind = [&]<class Type>(const auto& dynamics, std::type_identity<Type>) -> Result<Cost> {
+    const OperatingPoint point = Type::operating_point(dynamics);
+    Arena measured;
+    Surroundings(model, point, points, measured);
+    std::vector<std::byte> memory = room_for(measured);
+    Arena arena(memory);
+    const Surroundings around(model, point, points, arena);
+    return count_frame<Type>(model, dynamics, around.channels, around.polyline);
+  };
+  return visit_dynamics<CountingNumbers>(model, count_kind);
 }
 
 }  // namespace wisp

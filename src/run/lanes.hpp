@@ -14,7 +14,9 @@
 #if defined(__GNUC__) && !defined(WISP_PLAIN_LANES)
 #define WISP_VECTOR_LANES 1
 #endif
-#if defined(WISP_VECTOR_LANES) && defined(__SSE2__)
+// clang sees by itself that 32-bit numbers multiplied to 64 bits are one instruction; gcc has to be told.
+#if defined(WISP_VECTOR_LANES) && defined(__SSE2__) && !defined(__clang__)
+#define WISP_WIDE_INTRINSICS 1
 #include <immintrin.h>
 #endif
 
@@ -65,14 +67,14 @@ struct WideProduct {
   Part low;
 };
 
-#if defined(WISP_VECTOR_LANES) && defined(__AVX2__)
+#if defined(WISP_WIDE_INTRINSICS) && defined(__AVX2__)
 inline WideProduct<WordPart> wide_product_part(WordPart a, std::uint32_t b) {
   const __m256i x = (__m256i)a, factor = _mm256_set1_epi32(static_cast<int>(b));
   const __m256i even = _mm256_mul_epu32(x, factor), odd = _mm256_mul_epu32(_mm256_srli_epi64(x, 32), factor);
   return {(WordPart)_mm256_blend_epi32(_mm256_srli_epi64(even, 32), odd, 0xAA),
           (WordPart)_mm256_blend_epi32(even, _mm256_slli_epi64(odd, 32), 0xAA)};
 }
-#elif defined(WISP_VECTOR_LANES) && defined(__SSE2__)
+#elif defined(WISP_WIDE_INTRINSICS)
 inline WideProduct<WordPart> wide_product_part(WordPart a, std::uint32_t b) {
   const __m128i x = (__m128i)a, factor = _mm_set1_epi32(static_cast<int>(b));
   const __m128i even = _mm_mul_epu32(x, factor), odd = _mm_mul_epu32(_mm_srli_epi64(x, 32), factor);
@@ -80,18 +82,16 @@ inline WideProduct<WordPart> wide_product_part(WordPart a, std::uint32_t b) {
   return {(WordPart)_mm_unpacklo_epi32(highs, _mm_shuffle_epi32(odd, 0x0D)),
           (WordPart)_mm_unpacklo_epi32(lows, _mm_shuffle_epi32(odd, 0x08))};
 }
+#elif defined(WISP_VECTOR_LANES)
+inline WideProduct<WordPart> wide_product_part(WordPart a, std::uint32_t b) {
+  using WidePart = std::uint64_t __attribute__((vector_size(8 * kPartLanes)));
+  const WidePart product = __builtin_convertvector(a, WidePart) * b;
+  return {__builtin_convertvector(product >> 32, WordPart), __builtin_convertvector(product, WordPart)};
+}
 #else
 inline WideProduct<WordPart> wide_product_part(WordPart a, std::uint32_t b) {
-  WideProduct<WordPart> product{};
-  for (int lane = 0; lane < kPartLanes; ++lane) {
-    std::uint32_t word = 0;
-    std::memcpy(&word, reinterpret_cast<const char*>(&a) + 4 * lane, 4);
-    const std::uint64_t wide = static_cast<std::uint64_t>(word) * b;
-    const auto high = static_cast<std::uint32_t>(wide >> 32), low = static_cast<std::uint32_t>(wide);
-    std::memcpy(reinterpret_cast<char*>(&product.high) + 4 * lane, &high, 4);
-    std::memcpy(reinterpret_cast<char*>(&product.low) + 4 * lane, &low, 4);
-  }
-  return product;
+  const std::uint64_t product = static_cast<std::uint64_t>(a) * b;
+  return {static_cast<std::uint32_t>(product >> 32), static_cast<std::uint32_t>(product)};
 }
 #endif
 
@@ -200,15 +200,26 @@ inline auto differ(const Pack<Part, kParts>& a, const Pack<Part, kParts>& b) {
   return each([](const Part& x, const Part& y) { return differ_part(x, y); }, a, b);
 }
 
-/// Held to [low, high]; what is not a number becomes `low`.
-template <class Value>
-inline Value hold(Value value, Value low, Value high) {
-  const Value raised = value > low ? value : low;
-  return raised < high ? raised : high;
+/// The larger and the smaller of two numbers; the second where the first is not a number.
+template <class Part, int kParts>
+inline auto larger(const Pack<Part, kParts>& a, const Pack<Part, kParts>& b) {
+  return each([](const Part& x, const Part& y) { return x > y ? x : y; }, a, b);
 }
 template <class Part, int kParts>
+inline auto smaller(const Pack<Part, kParts>& a, const Pack<Part, kParts>& b) {
+  return each([](const Part& x, const Part& y) { return x < y ? x : y; }, a, b);
+}
+
+/// Held to [low, high].
+template <class Part, int kParts>
 inline auto hold(const Pack<Part, kParts>& value, const Pack<Part, kParts>& low, const Pack<Part, kParts>& high) {
-  return each([](const Part& v, const Part& l, const Part& h) { return hold<Part>(v, l, h); }, value, low, high);
+  return smaller(larger(value, low), high);
+}
+
+/// The value where it is a number, else the other.
+template <class Part, int kParts>
+inline auto number_or(const Pack<Part, kParts>& value, const Pack<Part, kParts>& other) {
+  return each([](const Part& x, const Part& y) { return x == x ? x : y; }, value, other);
 }
 
 /// State nearer to zero than this is zero, so that an engine that flushes denormals sees the same numbers. States are
@@ -217,10 +228,6 @@ inline auto hold(const Pack<Part, kParts>& value, const Pack<Part, kParts>& low,
 inline constexpr float kLeastState = 1e-20f;
 inline constexpr float kLeastCoefficient = 1e-10f;
 
-template <class Value>
-inline Value settle(Value value) {
-  return value < Value(kLeastState) && value > Value(-kLeastState) ? Value(0.0f) : value;
-}
 template <class Part, int kParts>
 inline auto settle(const Pack<Part, kParts>& value) {
   return each(

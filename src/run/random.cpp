@@ -5,9 +5,9 @@
 namespace wisp {
 
 std::array<std::uint32_t, 4> random_words(const RandomKey& key) {
-  const std::uint64_t streams[LiveNumbers::kLanes] = {key.stream}, ages[LiveNumbers::kLanes] = {key.step};
+  const std::uint64_t streams[LiveNumbers::kLanes] = {key.stream}, born[LiveNumbers::kLanes] = {};
   Words<LiveNumbers> counters[4], words[4];
-  random_counters<LiveNumbers>({streams, ages}, counters);
+  random_counters<LiveNumbers>({streams, born, key.step}, counters);
   random_group<LiveNumbers>(random_keys(key.seed), counters, key.group, words);
   std::array<std::uint32_t, 4> out{};
   for (int k = 0; k < 4; ++k) {

@@ -40,10 +40,11 @@ inline void philox(const RandomKeys& keys, Words<N> (&words)[4]) {
   }
 }
 
-/// What tells the lanes' random numbers apart: the instance's stream and how many steps it has lived.
+/// What tells the lanes' random numbers apart: the instance's stream, and how many steps it has lived.
 struct LaneCounters {
   const std::uint64_t* stream;
-  const std::uint64_t* age;
+  const std::uint64_t* born;  ///< the bank's step when the life began
+  std::uint64_t step;         ///< the bank's step now
 };
 
 /// The lanes' counters, for group 0.
@@ -51,8 +52,9 @@ template <class N>
 inline void random_counters(const LaneCounters& lanes, Words<N> (&words)[4]) {
   std::uint32_t counters[4][N::kLanes];
   for (int lane = 0; lane < N::kLanes; ++lane) {
-    counters[0][lane] = static_cast<std::uint32_t>(lanes.age[lane]);
-    counters[1][lane] = static_cast<std::uint32_t>(lanes.age[lane] >> 32) << 16;
+    const std::uint64_t age = lanes.step - lanes.born[lane];
+    counters[0][lane] = static_cast<std::uint32_t>(age);
+    counters[1][lane] = static_cast<std::uint32_t>(age >> 32) << 16;
     counters[2][lane] = static_cast<std::uint32_t>(lanes.stream[lane]);
     counters[3][lane] = static_cast<std::uint32_t>(lanes.stream[lane] >> 32);
   }

@@ -8,8 +8,8 @@
 namespace wisp::wind {
 
 constexpr float kNothingDb = -110;    ///< of loudness: below, no sound comes at all (a muted or starting stream)
-constexpr float kLeastFloorDb = -85;  ///< a floor below this is a gated microphone's, not a room's
-constexpr float kRoomDb = -65;       ///< a room at first hearing: no louder than this, so that a first gust is one
+constexpr float kLeastFloorDb = -95;  ///< a floor below this is a gated microphone's, not a room's
+constexpr float kRoomDb = -70;        ///< a room at first hearing: no louder than this, so that a first gust is one
 constexpr float kQuietDb = 6;         ///< of loudness over the floor: no wind below this
 constexpr int kWarmHops = 15;         ///< until the 50 ms mean has forgotten its start
 

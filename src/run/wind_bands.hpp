@@ -6,7 +6,7 @@
 
 namespace wisp::wind {
 
-/// Sums over one hop. Gains of the filters are left out of all but the voice band's.
+/// Sums over one hop, without the filters' gains.
 template <class T>
 struct BandSums {
   T total = T(0.0F);
@@ -28,20 +28,14 @@ struct BandSums {
 template <class T>
 class Bands {
  public:
-  explicit Bands(const Design& d)
-      : total_(d.total),
-        low_(d.low),
-        high_(d.high),
-        voice_high_(d.voice_high),
-        voice_low_(d.voice_low),
-        voice_scale_(static_cast<float>(d.voice_high.gain * d.voice_low.gain)) {}
+  explicit Bands(const Design& d) : high_pass_(d.high_pass), low_pass_(d.low_pass), low_(d.low), high_(d.high) {}
 
   /// Takes a sample at the analysis rate; returns the voice band's.
   T push(T x) {
-    const T total = total_.high(x);
+    const T total = high_pass_.high(x);
+    const T voice = low_pass_.low(total);
     const T low = low_.band(x);
     const T high = high_.band(x);
-    const T voice = voice_scale_ * voice_low_.low(voice_high_.high(x));
     sums_.total = sums_.total + total * total;
     sums_.low = sums_.low + low * low;
     sums_.high = sums_.high + high * high;
@@ -56,16 +50,14 @@ class Bands {
   /// Ends the hop. What is too small to hear leaves the filters, before it becomes a number that some machines flush.
   void end_hop() {
     sums_ = {};
-    total_.hush();
+    high_pass_.hush();
+    low_pass_.hush();
     low_.hush();
     high_.hush();
-    voice_high_.hush();
-    voice_low_.hush();
   }
 
  private:
-  Filter<T> total_, low_, high_, voice_high_, voice_low_;
-  T voice_scale_;
+  Filter<T> high_pass_, low_pass_, low_, high_;
   BandSums<T> sums_;
 };
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kLeastAnalysisHz = 8000;
 constexpr double kLeastBoxedHz = 32000;  // the box's dip at 3.4 kHz stays below 0.2 dB
-constexpr int kTapsPerPhase = 5;         // the low-pass: −24 dB at the frequency that would fold onto 2.6 kHz
+constexpr int kTapsPerPhase = 4;         // of the low-pass
 
 Result<void> in_range(const char* what, double found, double least, double most, const char* unit) {
   if (found >= least && found <= most) return {};
@@ -30,19 +30,24 @@ int rounded(double x) { return static_cast<int>(x + 0.5); }
 
 void set_filters(Design& d) {
   const double rate = d.analysis_rate_hz;
-  d.total = high_pass(80, 0.707, rate);
+  d.high_pass = high_pass(100, 0.707, rate);
+  d.low_pass = low_pass(900, 0.707, rate);
   d.low = band_pass(126.5, 1.054, rate);
   d.high = band_pass(2646, 1.764, rate);
-  d.voice_high = high_pass(100, 0.707, rate);
-  d.voice_low = low_pass(900, 0.707, rate);
+  const auto power = [](double gain) { return static_cast<float>(gain * gain); };
+  d.total_gain = power(d.high_pass.gain);
+  d.voice_gain = power(d.high_pass.gain * d.low_pass.gain);
+  d.low_gain = power(d.low.gain);
+  d.high_gain = power(d.high.gain);
   const double slope = magnitude_of_difference(300, rate);
-  d.level_gain = static_cast<float>(1 / (slope * slope));
+  d.level_gain = power(d.high_pass.gain * d.low_pass.gain / slope);
 }
 
 void set_times(Design& d, const WindOptions& options) {
   const double hop_seconds = d.hop / d.analysis_rate_hz;
   d.power_approach = static_cast<float>(approach(hop_seconds, 0.050));
   d.voice_release = static_cast<float>(approach(hop_seconds, 0.300));
+  d.tone_approach = static_cast<float>(approach(hop_seconds, 0.150));
   d.floor_fall = static_cast<float>(approach(hop_seconds, 0.050));
   d.floor_rise_db = static_cast<float>(options.floor_rise_db_per_second * hop_seconds);
 
@@ -74,9 +79,10 @@ Design design(const SoundFormat& format, const WindOptions& options) {
   set_filters(d);
   // Half the decimating low-pass, and what the 900 Hz one delays low frequencies: 1 / (2π · 900 Hz · Q).
   d.delay_seconds = static_cast<double>(d.taps.size()) / 2 / boxed + 0.00025;
-  d.hop = 2 * rounded(rate * 0.005);
-  d.first_lag = rounded(rate / 2 / 400);
-  d.last_lag = rounded(rate / 2 / 80);
+  d.voice_step = rounded(rate / 4000);
+  d.hop = d.voice_step * rounded(rate / d.voice_step * 0.01);
+  d.first_lag = rounded(rate / d.voice_step / 400);
+  d.last_lag = rounded(rate / d.voice_step / 70);
   set_times(d, options);
   return d;
 }

@@ -18,20 +18,27 @@ struct Design {
   double analysis_rate_hz = 8000;
   std::vector<float> taps;  ///< of the low-pass; empty where nothing is left out
 
-  Section total;       ///< high-pass 80 Hz
-  Section low;         ///< band-pass 126.5 Hz
-  Section high;        ///< band-pass 2646 Hz
-  Section voice_high;  ///< high-pass 100 Hz of the voice band
-  Section voice_low;   ///< low-pass 900 Hz of the voice band
+  Section high_pass;  ///< 100 Hz: all that is listened to
+  Section low_pass;   ///< 900 Hz, after it: the voice band
+  Section low;        ///< band-pass 126.5 Hz
+  Section high;       ///< band-pass 2646 Hz
+
+  // Powers of the filters' gains, left out of the sums.
+  float total_gain = 1;
+  float voice_gain = 1;
+  float low_gain = 1;
+  float high_gain = 1;
 
   double delay_seconds = 0;  ///< of the filters that the level passes
 
-  int hop = 80;        ///< analysis samples a hop; even
-  int first_lag = 10;  ///< periods of a voice, in samples of half the analysis rate
-  int last_lag = 50;
+  int hop = 80;        ///< analysis samples a hop; a multiple of voice_step
+  int voice_step = 2;  ///< analysis samples for one in which a voice's period is sought (near 4 kHz)
+  int first_lag = 10;  ///< shortest and longest period of a voice, in those samples
+  int last_lag = 57;
 
   float power_approach = 1;     ///< of band powers in one hop (50 ms)
   float voice_release = 1;      ///< of the held voicing in one hop (300 ms)
+  float tone_approach = 1;      ///< of the mean autocorrelation in one hop (150 ms)
   float floor_fall = 1;         ///< of the floor downwards in one hop (50 ms)
   float floor_rise_db = 0.01F;  ///< of the floor upwards in one hop
   float smoothing = 1;          ///< of the level's band power in one frame

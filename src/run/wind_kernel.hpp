@@ -24,6 +24,7 @@ struct Features {
   T low_db = T(0.0F);          ///< power near 126 Hz over all above 80 Hz
   T high_db = T(0.0F);         ///< power near 2.6 kHz over all above 80 Hz
   T voicing = T(0.0F);         ///< periodicity, 0 to 1, its peak held
+  T tone = T(0.0F);            ///< steadiness of the same, 0 to 1
   T peaked = T(0.0F);          ///< log of the kurtosis of the voice band over a Gaussian's, −1 to 3
   T loudness_db = T(-120.0F);  ///< power of the voice band (100–900 Hz)
 };
@@ -41,12 +42,13 @@ struct Observation {
 /// 0 to 1: whether features are those of blowing.
 template <class T>
 T likeness_of(const Features<T>& f) {
-  const T z = T(4.327F) + T(0.317F) * f.low_db - T(17.0F) * f.voicing - T(0.357F) * f.high_db - T(0.869F) * f.peaked;
-  return sigmoid(z) * sigmoid((T(0.70F) - f.voicing) * T(25.0F));
+  const T z = T(6.5F) + T(0.317F) * f.low_db - T(17.0F) * f.voicing - T(0.357F) * f.high_db - T(0.869F) * f.peaked;
+  return sigmoid(z) * sigmoid((T(0.78F) - f.voicing) * T(25.0F)) * sigmoid((T(0.36F) - f.tone) * T(30.0F));
 }
 
 /// A gust that dies away does so in a few soft puffs that by themselves sound like anything. For half a second after
-/// sure blowing (50 ms of it) its likeness is kept while the sound only gets softer; whoever starts to talk gets louder.
+/// sure blowing (50 ms of it) its likeness is kept while the sound only gets softer; whoever starts to talk gets
+/// louder.
 template <class T>
 class Tail {
  public:
@@ -86,6 +88,7 @@ class Kernel {
   explicit Kernel(const Design& design) : d_(design), voicing_(design) {
     for (int c = 0; c < d_.channels; ++c) channels_.emplace_back(d_);
     per_channel_ = T(1.0F / static_cast<float>(d_.channels));
+    per_hop_ = T(1.0F / static_cast<float>(d_.channels * d_.hop));
   }
 
   /// Takes one sample of every channel. Returns whether a hop has ended, so that features() are new.
@@ -180,20 +183,34 @@ class Kernel {
       if (channels_[loudest].bands.sums().voice < channels_[c].bands.sums().voice) loudest = c;
       sums.add(channels_[c].bands.sums());
     }
-    features_.voicing = voicing_.end_hop(channels_[loudest].history.hop());
+    smooth(sums);
+    voicing_.end_hop(channels_[loudest].history.hop(), fresh(sums.voice));
+    features_.voicing = voicing_.voicing();
+    features_.tone = voicing_.tone();
     for (auto& channel : channels_) {
       channel.bands.end_hop();
       channel.history.end_hop();
     }
-    smooth(sums);
     describe();
-    likeness_ = tail_.end_hop(likeness_of(features_), features_.loudness_db);
+    const T now = judged(sums.voice) ? likeness_of(features_) : T(0.0F);
+    likeness_ = tail_.end_hop(now, features_.loudness_db);
+  }
+
+  /// Whether there is a sound to judge, and one older than two hops: a voice needs as long to show its period.
+  bool judged(T voice_sum) const {
+    const T newest = T(d_.power_approach) * voice_sum * per_hop_;
+    return T(kLeastJudged) < mean_.voice * T(d_.voice_gain) && newest < T(0.5F) * mean_.voice;
+  }
+
+  /// A hop's power over the 50 ms mean that it is part of, at most 1.
+  T fresh(T voice_sum) const {
+    const T power = voice_sum * per_hop_;
+    return power < mean_.voice ? power / mean_.voice : T(1.0F);
   }
 
   void smooth(const BandSums<T>& sums) {
-    const T scale = per_channel_ / T(static_cast<float>(d_.hop));
-    const auto follow = [this, scale](T& mean, T sum) {
-      mean = audible_power(mean + T(d_.power_approach) * (sum * scale - mean));
+    const auto follow = [this](T& mean, T sum) {
+      mean = audible_power(mean + T(d_.power_approach) * (sum * per_hop_ - mean));
     };
     follow(mean_.total, sums.total);
     follow(mean_.low, sums.low);
@@ -203,11 +220,11 @@ class Kernel {
   }
 
   void describe() {
-    const auto db = [](T power, const Section& s) { return decibels(power * T(static_cast<float>(s.gain * s.gain))); };
-    const T total = db(mean_.total, d_.total);
-    features_.low_db = db(mean_.low, d_.low) - total;
-    features_.high_db = db(mean_.high, d_.high) - total;
-    features_.loudness_db = decibels(mean_.voice);
+    const auto db = [](T power, float gain) { return decibels(power * T(gain)); };
+    const T total = db(mean_.total, d_.total_gain);
+    features_.low_db = db(mean_.low, d_.low_gain) - total;
+    features_.high_db = db(mean_.high, d_.high_gain) - total;
+    features_.loudness_db = db(mean_.voice, d_.voice_gain);
     const T gaussian = T(3.0F) * mean_.voice * mean_.voice;
     T peaked = T(-1.0F);
     if (T(1e-24F) < gaussian) peaked = T(0.6931471806F) * log2_of(T(1e-6F) + mean_.voice_fourth / gaussian);
@@ -216,12 +233,14 @@ class Kernel {
     features_.peaked = peaked;
   }
 
-  static constexpr float kFullScale = 0.999F;  // 16-bit clipping leaves 32767 or, after an encoder, a little less
+  static constexpr float kLeastJudged = 1e-11F;  // −110 dB: nothing is heard
+  static constexpr float kFullScale = 0.999F;    // 16-bit clipping leaves 32767 or, after an encoder, a little less
 
   Design d_;
   std::vector<Channel> channels_;
   Voicing<T> voicing_;
   T per_channel_ = T(1.0F);
+  T per_hop_ = T(1.0F);
   int in_hop_ = 0;
   std::int64_t samples_ = 0, clipped_ = 0, analysed_ = 0;
   T group_power_ = T(0.0F), power_ = T(0.0F), frame_band_ = T(0.0F), band_power_ = T(0.0F);

@@ -18,7 +18,7 @@ struct Surroundings {
   T gust_db = T(0.0F);     ///< band power at wind 1
 };
 
-constexpr float kSureDb = 12;          ///< loudness over the floor from which blowing can be told from the room
+constexpr float kSureDb = 10;          ///< loudness over the floor from which blowing can be told from the room
 constexpr float kPassedDb = 8;         ///< the same for letting wind through: its background is taken off besides
 constexpr float kLeastPower = 1e-12F;  ///< of the band: no wind
 

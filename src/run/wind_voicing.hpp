@@ -11,19 +11,20 @@
 
 namespace wisp::wind {
 
-/// One channel's voice band at half the analysis rate, differenced (which levels a voice's harmonics): this hop's
+/// One channel's voice band at a lower rate (near 4 kHz), differenced (which levels a voice's harmonics): this hop's
 /// samples and as many before as the longest period has.
 template <class T>
 class VoiceHistory {
  public:
   explicit VoiceHistory(const Design& d)
       : before_hop_(static_cast<std::size_t>(d.last_lag)),
-        samples_(before_hop_ + static_cast<std::size_t>(d.hop / 2), T(0.0F)),
-        at_(before_hop_) {}
+        samples_(before_hop_ + static_cast<std::size_t>(d.hop / d.voice_step), T(0.0F)),
+        at_(before_hop_),
+        step_(d.voice_step) {}
 
   void push(T voice) {
-    odd_ = !odd_;
-    if (odd_) return;
+    if (++phase_ < step_) return;
+    phase_ = 0;
     samples_[at_++] = voice - before_;
     before_ = voice;
   }
@@ -40,37 +41,46 @@ class VoiceHistory {
   std::size_t before_hop_;
   std::vector<T> samples_;
   std::size_t at_;
-  bool odd_ = false;
+  int step_;
+  int phase_ = 0;
   T before_ = T(0.0F);
 };
 
-/// The largest normalised autocorrelation over periods of 80 to 400 Hz in the last three hops (30 ms); a peak is held
-/// and fades in 300 ms, so that the gaps between syllables do not pass for blowing.
+/// What the normalised autocorrelation over periods of 70 to 400 Hz tells.
 ///
-/// The three hops' sums are kept, so that each hop costs only its own products.
+/// Voicing is its largest value in the last three hops (30 ms). Tone is the largest value of its mean over 150 ms:
+/// noise, however low, averages out, while chords stay, that have no common period short enough for voicing. A peak of
+/// either is held and fades in 300 ms, so that the gaps between syllables and notes do not pass for blowing. Both
+/// change only as new sound comes in place of that which they were found in: what rings on in the powers' 50 ms means
+/// keeps its voicing and tone. The three hops' sums are kept, so that each hop costs only its own products.
 template <class T>
 class Voicing {
  public:
   explicit Voicing(const Design& d)
       : first_lag_(d.first_lag),
-        length_(d.hop / 2),
+        length_(d.hop / d.voice_step),
         lags_(static_cast<std::size_t>(d.last_lag - d.first_lag + 1)),
-        release_(d.voice_release) {
+        release_(d.voice_release),
+        tone_approach_(d.tone_approach),
+        means_(lags_, T(0.0F)) {
     for (auto& hop : window_) {
       hop.products.assign(lags_, T(0.0F));
       hop.delayed.assign(lags_, T(0.0F));
     }
   }
 
-  /// Takes a hop of samples, with the longest period readable before it. Returns the held voicing, 0 to 1.
-  T end_hop(const T* now) {
+  /// Takes a hop of samples, with the longest period readable before it; `fresh` is the hop's power over the 50 ms
+  /// mean, 0 to 1.
+  void end_hop(const T* now, T fresh) {
     slot_ = (slot_ + 1) % window_.size();
     sum(now, window_[slot_]);
     const T most = largest();
-    held_ = held_ < most ? most : held_ + release_ * (most - held_);
-    if (held_ < T(1e-6F)) held_ = T(0.0F);
-    return held_;
+    hold(voicing_, most, fresh);
+    average(window_[slot_], fresh);
   }
+
+  T voicing() const { return voicing_; }  ///< 0 to 1
+  T tone() const { return tone_; }        ///< 0 to 1
 
  private:
   struct Hop {
@@ -109,6 +119,28 @@ class Voicing {
     return most < T(1.0F) ? most : T(1.0F);
   }
 
+  /// A peak is taken at once and let go in 300 ms.
+  void hold(T& held, T now, T fresh) const {
+    held = held < now ? now : held + release_ * fresh * (now - held);
+    if (held < T(1e-6F)) held = T(0.0F);
+  }
+
+  void average(const Hop& hop, T fresh) {
+    T most = T(0.0F);
+    const bool heard = T(kLeastEnergy) < hop.energy;
+    const T scale = heard ? T(1.0F) / hop.energy : T(0.0F);
+    const T share = tone_approach_ * fresh;
+    for (std::size_t k = 0; k < lags_; ++k) {
+      T& mean = means_[k];
+      mean = mean + share * (hop.products[k] * scale - mean);
+      if (mean < T(1e-6F) && T(-1e-6F) < mean) mean = T(0.0F);
+      if (most < mean) most = mean;
+    }
+    if (T(1.0F) < most) most = T(1.0F);
+    hold(tone_, most, fresh);
+  }
+
+  static constexpr float kLeastEnergy = 1e-12F;
   static constexpr float kLeastSquare = 1e-24F;  // below: nothing is heard
 
   int first_lag_;
@@ -117,7 +149,10 @@ class Voicing {
   T release_;
   std::array<Hop, 3> window_;
   std::size_t slot_ = 0;
-  T held_ = T(0.0F);
+  T tone_approach_;
+  std::vector<T> means_;  ///< of the normalised autocorrelation, per lag
+  T voicing_ = T(0.0F);
+  T tone_ = T(0.0F);
 };
 
 }  // namespace wisp::wind

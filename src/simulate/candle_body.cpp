@@ -7,16 +7,26 @@ namespace wisp::flow {
 namespace {
 
 constexpr double kNearWickMm = 2;
+constexpr double kReach = 1.7;
 
 struct Box {
   double left, right, bottom, top;
 };
 
-double overlap(double a, double b, double c, double d) { return std::max(0.0, std::min(b, d) - std::max(a, c)); }
-
-// The share of cell (i, j) that lies in the box; cells of size 1 × 1.
-double share(int i, int j, const Box& box) {
-  return overlap(i, i + 1, box.left, box.right) * overlap(j, j + 1, box.bottom, box.top);
+// A smooth hump over the box's inscribed ellipse, reaching a little beyond it, averaged over cell (i, j): 0 outside,
+// 1 in the middle. A box with corners shows them in the flame's base as soon as the wind presses the flame against it.
+double hump(int i, int j, const Box& box) {
+  constexpr int kSamples = 4;
+  const double across = kReach * (box.right - box.left) / 2;
+  const double upward = kReach * (box.top - box.bottom) / 2;
+  double sum = 0;
+  for (int a = 0; a < kSamples; ++a)
+    for (int b = 0; b < kSamples; ++b) {
+      const double x = (i + (a + 0.5) / kSamples - (box.left + box.right) / 2) / across;
+      const double y = (j + (b + 0.5) / kSamples - (box.bottom + box.top) / 2) / upward;
+      sum += std::pow(std::max(0.0, 1 - x * x - y * y), 2);
+    }
+  return sum / (kSamples * kSamples);
 }
 
 bool inside(int i, int j, const Box& box) {
@@ -53,7 +63,7 @@ CandleBody candle_body(const FlowGrid& grid, const CandleRigOptions& o) {
       body.open_x[cell] = j < grid.ny && !solid(i, j) && !solid(i - 1, j) ? 1.0F : 0.0F;
       body.open_y[cell] = i < grid.nx && !solid(i, j) && !solid(i, j - 1) ? 1.0F : 0.0F;
       if (i == grid.nx || j == grid.ny || solid(i, j)) continue;
-      body.drag[cell] = static_cast<float>(share(i, j, wick));
+      body.drag[cell] = static_cast<float>(hump(i, j, wick));
       if (body.drag[cell] > 0) body.fuel_cells.push_back(cell);
       if (inside(i, j, near_wick)) body.near_wick.push_back(cell);
     }

@@ -99,7 +99,10 @@ class Truth {
     add("brightness", "mm2", Role::kOutput);
     add("lit", "1", Role::kOutput);
     for (int k = 0; k < points_; ++k)
-      for (const char* axis : {".x", ".y"}) add("p" + std::to_string(k) + axis, "px", Role::kOutput);
+      for (const char* axis : {".x", ".y"}) {
+        std::string name = "p";
+        add(name.append(std::to_string(k)).append(axis), "px", Role::kOutput);
+      }
     note("pixels_per_mm", view.pixels_per_mm);
     note("origin_x", view.origin_x);
     note("origin_y", view.origin_y);

@@ -12,8 +12,6 @@ namespace {
 constexpr float kGravity = 9.81F;
 constexpr float kLighterTemperature = 1500.0F;
 constexpr float kLighterFuel = 0.6F;      // share of the fuel rate that a lighter's heat draws from the wick
-constexpr float kDryWick = 400.0F;        // K: a colder wick gives off nothing
-constexpr float kFullWickRange = 400.0F;  // K above that until it gives off all it can
 constexpr int kMostIterations = 40;
 constexpr Float4 kDiffuses = {1.0F, 1.0F, 1.0F, 0.0F};  // soot particles are too large to
 
@@ -78,7 +76,9 @@ float CandleFlow::wick_temperature() const {
 
 void CandleFlow::feed_wick() {
   const float most = static_cast<float>(options_.fuel_rate);
-  const float wanted = most * std::clamp((wick_temperature() - kDryWick) / kFullWickRange, 0.0F, 1.0F);
+  const auto cold = static_cast<float>(options_.wick_cold);
+  const auto warm = static_cast<float>(options_.wick_warm);
+  const float wanted = most * std::clamp((wick_temperature() - cold) / (warm - cold), 0.0F, 1.0F);
   fuel_ += step_ / static_cast<float>(options_.wick_time) * (wanted - fuel_);
 }
 
@@ -241,7 +241,9 @@ void CandleFlow::set_divergence() {
     if (j == 0) std::fill_n(beta_y, grid_.nx + 1, 0.0F);
     if (j == grid_.ny) break;
     for (int i = 0; i < grid_.nx; ++i) {
-      const float expansion = rate * (t[i] - moved[i]) / t[i];
+      const float ratio = (t[i] - moved[i]) / (t[i] + moved[i]);
+      const float square = ratio * ratio;
+      const float expansion = rate * 2.0F * ratio * (1.0F + square * (1.0F / 3 + square * 0.2F));
       const float held = std::min(std::max(expansion, -most), most) + fuel[i];
       right[i] = h * (h * held - ((u[i + 1] - u[i]) + (v[i + stride] - v[i])));
     }

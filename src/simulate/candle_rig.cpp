@@ -30,6 +30,8 @@ Result<void> check_options(const CandleRigOptions& o) {
                                               {"wick_height_mm", o.wick_height_mm, 1, 50},
                                               {"wick_damping", o.wick_damping, 0, 10000},
                                               {"wick_time", o.wick_time, 0.001, 10},
+                                              {"wick_cold", o.wick_cold, 300, 2000},
+                                              {"wick_warm", o.wick_warm, o.wick_cold + 1, 3000},
                                               {"fuel_rate", o.fuel_rate, 0, 1e-2},
                                               {"fuel_temperature", o.fuel_temperature, 300, 1500},
                                               {"diffusivity", o.diffusivity, 1e-6, 1e-4},
@@ -78,8 +80,10 @@ CandleRigOptions candle_rig_options(CandleGrid grid) {
     options.rows = 192;
     options.cell_mm = 1.25 / 3;
     options.steps_per_frame = 10;
-    options.wick_damping = 200;
-    options.wick_time = 0.25;
+    options.wick_damping = 250;
+    options.wick_cold = 450;
+    options.wick_warm = 750;
+    options.fuel_rate = 1.4e-4;
   }
   return options;
 }

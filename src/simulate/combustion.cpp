@@ -69,7 +69,7 @@ double Combustion::burn(const FlowGrid& grid, ScalarPlane& cells, Plane* blue) c
     for (int k = grid.at(0, j), end = k + grid.nx; k < end; ++k) {
       if (cells[k][kTemperature] <= coldest) continue;
       const float burnt = burn_cell(cells[k]);
-      row_total += burnt;
+      row_total += burnt * kAmbientTemperature / cells[k][kTemperature];
       if (blue) (*blue)[k] += burnt / step_;
     }
     total += static_cast<double>(row_total);

@@ -10,7 +10,7 @@ struct Combustion {
   explicit Combustion(const CandleRigOptions& options, float step);
 
   /// Burns fuel, makes and burns soot, in all hot cells. Where `blue` is given, adds to it the fuel burnt a second.
-  /// Returns the fuel burnt, summed over cells.
+  /// Returns the fuel burnt, as a volume of cold gas, summed over cells.
   double burn(const FlowGrid& grid, ScalarPlane& cells, Plane* blue) const;
 
   /// Adds to `light` what soot of that temperature glows.

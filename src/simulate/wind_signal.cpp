@@ -21,7 +21,7 @@ constexpr double kBlowOutRamp = 0.03;  // s
 constexpr double kQuietBefore = 0.5;   // s of calm before a blow-out, so that it is the puff that kills
 constexpr double kQuietAfter = 1.0;    // s of calm after lighting, so that the flame lives
 
-Result<void> check(const WindOptions& o, double seconds) {
+Result<void> check(const WindSignalOptions& o, double seconds) {
   return flow::check_ranges("wind", {
                                         {"most", o.most, 0, 10},
                                         {"noise", o.noise, 0, 10},
@@ -52,7 +52,7 @@ void add_gust(std::vector<double>& wind, flow::RandomNumbers& random, double sta
 }
 
 // Blows and rests by turns: within a blow there is a steady part, wideband noise and a few gusts.
-std::vector<double> gusts(const WindOptions& o, std::size_t count) {
+std::vector<double> gusts(const WindSignalOptions& o, std::size_t count) {
   std::vector<double> wind(count, 0.0);
   flow::LowPass band(o.bandwidth_hz, kRate);
   flow::RandomNumbers noise(o.seed, 1);
@@ -77,7 +77,7 @@ std::vector<double> gusts(const WindOptions& o, std::size_t count) {
   return wind;
 }
 
-void blow_out(const WindOptions& o, std::vector<double>& wind) {
+void blow_out(const WindSignalOptions& o, std::vector<double>& wind) {
   const double quiet_until = o.relight_after < 0 ? 1e9 : o.blow_out_at + o.relight_after + kQuietAfter;
   for (std::size_t k = 0; k < wind.size(); ++k) {
     const double t = static_cast<double>(k) / kRate - o.blow_out_at;
@@ -120,7 +120,7 @@ bool fill_missing(std::vector<double>& samples) {
 
 }  // namespace
 
-Result<WindSignal> WindSignal::generate(const WindOptions& options, double seconds) {
+Result<WindSignal> WindSignal::generate(const WindSignalOptions& options, double seconds) {
   if (auto good = check(options, seconds); !good) return good.error();
   WindSignal signal;
   signal.rate_hz_ = kRate;

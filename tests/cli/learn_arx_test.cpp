@@ -75,10 +75,10 @@ TEST_F(LearnArx, TheModelIsDescribedAndRun) {
   const auto truth = read_csv(folder_ / "system.csv"), run_back = read_csv(folder_ / "a.csv");
   ASSERT_TRUE(truth && run_back);
   ASSERT_EQ(run_back->rows(), truth->rows());
-  // The run takes its input one step at a time, so its output follows the recording's in single precision; the first
-  // rows differ since the recording starts before the model does.
+  // In single precision, rounding of 3e-7 of outputs below 10 adds up to about 3e-5 over the system's memory; the first
+  // rows differ by how the two start, which dies as 0.84^row and is gone after 120.
   double worst = 0;
-  for (std::size_t row = 50; row < truth->rows(); ++row) {
+  for (std::size_t row = 120; row < truth->rows(); ++row) {
     worst = std::max(worst, std::abs(run_back->channels[1].samples[row] - truth->channels[1].samples[row]));
   }
   EXPECT_LT(worst, 1e-4);

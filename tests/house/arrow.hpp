@@ -28,7 +28,8 @@ inline const std::map<std::string, Layer>& layers() {
       // The one place that speaks to the operating system about files.
       {"base", {{}, {"unistd.h"}}},
       {"model", {{"base"}, {"flatbuffers/", "wisp_generated.h"}}},
-      {"run", {{"base", "model"}, {}}},
+      // The compiler's own header of the processor's vector instructions.
+      {"run", {{"base", "model"}, {"immintrin.h"}}},
       {"c", {{"base", "model", "run"}, {}}},
       {"record", {{"base"}, {}}},
       {"learn", {{"base", "model", "run", "record"}, {"Eigen/"}}},
@@ -101,8 +102,8 @@ inline std::optional<std::string> application_objection(const Include& include) 
   if (include.quoted && include.name.starts_with("wisp/")) return {};
   if (layer_of(include.name)) return "includes \"" + include.name + "\", a private header";
   for (const auto& [name, layer] : layers()) {
-    // What an operating system offers is no layer's own.
-    if (name != "base" && starts_with_any(include.name, layer.outside_private)) {
+    // What the operating system and the compiler offer is no layer's own.
+    if (name != "base" && name != "run" && starts_with_any(include.name, layer.outside_private)) {
       return "includes <" + include.name + ">, which belongs to " + name;
     }
   }

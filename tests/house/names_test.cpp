@@ -1,4 +1,5 @@
-// Names that say what is inside, and no word of the machine that a file was written on.
+// Names that say what is inside, tests that are found by their place, and no word of the machine that a file was
+// written on.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -49,6 +50,23 @@ std::vector<std::string> machine_paths(const std::filesystem::path& root) {
   return found;
 }
 
+/// Folders under tests/ with tests that tests/CMakeLists.txt does not build: they would never run.
+std::vector<std::string> forgotten_test_folders(const std::filesystem::path& root) {
+  const std::string list = read_text(root / "tests/CMakeLists.txt");
+  std::set<std::string> folders;
+  for (const std::string& file : project_files(root)) {
+    if (!file.starts_with("tests/") || !file.ends_with("_test.cpp")) continue;
+    folders.insert(std::filesystem::path(file).parent_path().lexically_relative("tests").generic_string());
+  }
+  std::vector<std::string> forgotten;
+  for (const std::string& folder : folders) {
+    const bool built = list.find("wisp_tests(" + folder + " ") != std::string::npos ||
+                       list.find("add_subdirectory(" + folder + ")") != std::string::npos;
+    if (!built) forgotten.push_back(folder);
+  }
+  return forgotten;
+}
+
 TEST(Names, SayWhatIsInside) { EXPECT_THAT(vague_names(WISP_SOURCE_DIR), IsEmpty()); }
 
 TEST(Names, ThatSayNothingAreFound) {
@@ -57,6 +75,15 @@ TEST(Names, ThatSayNothingAreFound) {
   tree.add("src/run/commonality.cpp", "");
   EXPECT_THAT(vague_names(tree.root()),
               ElementsAre("src/common/a.cpp", "src/run/math_helpers.cpp", "src/run/utils.hpp"));
+}
+
+TEST(TestFolders, AreAllBuilt) { EXPECT_THAT(forgotten_test_folders(WISP_SOURCE_DIR), IsEmpty()); }
+
+TEST(TestFolders, ThatAreForgottenAreFound) {
+  ScratchTree tree;
+  tree.add("tests/CMakeLists.txt", "wisp_tests(run LINKS wisp::run)\nadd_subdirectory(house)\n");
+  tree.add("tests/run/a_test.cpp", "").add("tests/house/b_test.cpp", "").add("tests/capture/sound/c_test.cpp", "");
+  EXPECT_THAT(forgotten_test_folders(tree.root()), ElementsAre("capture/sound"));
 }
 
 TEST(MachinePaths, AreNowhereInTheTree) { EXPECT_THAT(machine_paths(WISP_SOURCE_DIR), IsEmpty()); }

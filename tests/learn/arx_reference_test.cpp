@@ -1,14 +1,18 @@
 // The fit against reference estimates of classic identification sets, made with numpy's lstsq on the explicit regressor
 // and agreeing with GNU Octave's arx.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <sstream>
 
 #include "learn/shared_files.hpp"
 #include "wisp/learn/arx_fit.hpp"
 #include "wisp/learn/arx_orders.hpp"
+#include "wisp/learn/order_search.hpp"
 #include "wisp/learn/prediction.hpp"
 
 namespace wisp {
@@ -139,6 +143,78 @@ TEST_F(ArxReference, PredictionErrorsOfTheHairDryerAgreeForTwentySteps) {
   ASSERT_TRUE(got);
   const auto want = extra["Jk_val"].numbers();
   for (std::size_t k = 0; k < 20; ++k) EXPECT_NEAR((*got)[k].mean_square[0] / want[k], 1, 1e-10) << k + 1;
+}
+
+std::vector<std::vector<double>> read_table(const std::filesystem::path& path) {
+  std::ifstream stream(path);
+  std::string line;
+  std::getline(stream, line);
+  std::vector<std::vector<double>> rows;
+  while (std::getline(stream, line)) {
+    std::istringstream cells(line);
+    auto& row = rows.emplace_back();
+    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(std::stod(cell));
+  }
+  return rows;
+}
+
+TEST_F(ArxReference, GridOfTheHairDryerAgreesInAllRows) {
+  const Recording whole = shared::read_sysid("hairdryer");
+  const Recording estimation = slice(whole, 0, 500);
+  const Recording validation = slice(whole, 500, 1000);
+  SearchOptions options;
+  options.by = OrderCriterion::kValidation;
+  const auto search = search_orders({&estimation, 1}, {&validation, 1}, channels_of(whole), options);
+  ASSERT_TRUE(search) << search.error().message;
+  const auto want = read_table(shared::reference("hairdryer_grid400.csv"));
+  ASSERT_EQ(want.size(), 400u);
+  ASSERT_EQ(search->candidates.size(), 400u);
+  std::size_t found = 0;
+  for (const auto& row : want) {
+    for (const OrderCandidate& got : search->candidates) {
+      if (got.na != row[0] || got.nb != row[1] || got.nk != row[2]) continue;
+      ++found;
+      // The table has twelve digits.
+      EXPECT_NEAR(got.loss[0] / row[3], 1, 1e-11);
+      EXPECT_NEAR(got.fpe / row[4], 1, 1e-11);
+      EXPECT_NEAR(got.loss_validation[0] / row[5], 1, 1e-11);
+    }
+  }
+  EXPECT_EQ(found, 400u);
+  options.nk = {3, 3};
+  const auto with_delay = search_orders({&estimation, 1}, {&validation, 1}, channels_of(whole), options);
+  ASSERT_TRUE(with_delay);
+  const OrderCandidate& best = with_delay->candidates[with_delay->best];
+  EXPECT_EQ(std::vector<int>({best.na, best.nb, best.nk}), std::vector<int>({10, 4, 3}));
+}
+
+TEST_F(ArxReference, HairDryerHasItsPublishedModelAndDelay) {
+  const Recording whole = shared::read_sysid("hairdryer");
+  const Recording first = slice(whole, 0, 300);
+  ArxOptions options;
+  options.orders = make_orders({.outputs = 1, .inputs = 1, .na = 2, .nb = 2, .nk = 3});
+  const auto fit = fit_arx({&first, 1}, channels_of(whole), options);
+  ASSERT_TRUE(fit);
+  const std::vector<double> published{-1.274, 0.3935, 0.06662, 0.04448};
+  const std::vector<double> half_a_digit{5e-4, 5e-5, 5e-6, 5e-6};
+  for (std::size_t p = 0; p < 4; ++p) EXPECT_NEAR(fit->model.theta[0][p], published[p], half_a_digit[p]);
+  const auto delays = estimate_delays({&first, 1}, channels_of(whole));
+  ASSERT_TRUE(delays) << delays.error().message;
+  EXPECT_EQ((*delays)(0, 0), 3);
+}
+
+TEST_F(ArxReference, OneStepFitOfRobotArmAndFlutterHidesBadFreeSimulationAndIsWarnedOf) {
+  for (const auto& [name, order] : {std::pair{"robotarm", 4}, {"flutter", 6}}) {
+    const Recording recording = shared::read_sysid(name);
+    ArxOptions options;
+    options.orders = make_orders({.outputs = 1, .inputs = 1, .na = order, .nb = order, .nk = 1});
+    const auto fit = fit_arx({&recording, 1}, channels_of(recording), options);
+    ASSERT_TRUE(fit);
+    EXPECT_GT(fit->summary.fit_percent[0], 97.5);
+    EXPECT_LT(fit->summary.free_run_fit_percent[0], 55);
+    ASSERT_EQ(fit->summary.warnings.size(), 1u) << name;
+    EXPECT_THAT(fit->summary.warnings[0], ::testing::HasSubstr("free simulation"));
+  }
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "learn/made_outline.hpp"
 #include "wisp/learn/outline.hpp"
+#include "wisp/learn/outline_inputs.hpp"
 #include "wisp/learn/outline_shape.hpp"
 
 namespace wisp {
@@ -66,6 +67,30 @@ TEST(Validation, AStaticGainDoesLessThanTheDynamics) {
   EXPECT_GT(out.static_gain->fit_percent, 0);
   EXPECT_GT(out.static_gain->delay_seconds, 0);
   EXPECT_LT(out.static_gain->fit_percent, out.figures.tip_fit_percent.back());
+}
+
+TEST(Validation, WindFromTheOtherSideIsAnsweredByTheMirrorImage) {
+  const Recording right = unseen(kWindy);
+  const OutlineLayout layout = *outline_layout(right);
+  Recording left = mirrored(right, layout, {});
+  for (double& wind : left.channels[*find_channel(left, "wind")].samples) wind = -wind;
+  const double of_right = validated(windy_model(), right, {.fidelity = false}).figures.tip_fit_percent.back();
+  const double of_left = validated(windy_model(), left, {.fidelity = false}).figures.tip_fit_percent.back();
+  EXPECT_NEAR(of_left, of_right, 0.1);
+}
+
+TEST(Validation, TheOrderOfColumnsDoesNotMatter) {
+  Recording wind_first = unseen(kWindy);
+  std::rotate(wind_first.channels.begin(), wind_first.channels.end() - 1, wind_first.channels.end());
+  std::swap(wind_first.channels[3], wind_first.channels[8]);
+  ASSERT_EQ(wind_first.channels[0].name, "wind");
+  const OutlineValidation one = validated(windy_model(), unseen(kWindy), {.fidelity = false});
+  const OutlineValidation two = validated(windy_model(), wind_first, {.fidelity = false});
+  EXPECT_EQ(one.figures.tip_fit_percent, two.figures.tip_fit_percent);
+  EXPECT_EQ(samples(one.played, "p2.x"), samples(two.played, "p2.x"));
+  const auto again = learn_outline(std::vector{wind_first});
+  const auto first = learn_outline(std::vector{unseen(kWindy)});
+  EXPECT_EQ(std::get<ArxModel>(again->model.dynamics).theta, std::get<ArxModel>(first->model.dynamics).theta);
 }
 
 TEST(Validation, PredictionsAreInPixelsFrameByFrame) {

@@ -155,7 +155,8 @@ TEST(SavedBank, AnUnknownVersionIsNamed) {
   EXPECT_THAT(error_of(bank, bytes), HasSubstr("has version 9, this build reads version 1"));
 }
 
-// Damage behind a mended hash reaches the checks of meaning: what they let through must be a state that a bank can live.
+// Damage behind a mended hash reaches the checks of meaning: what they let through must be a state that a bank can
+// live.
 TEST(SavedBank, DamageBehindAGoodHashNeverLeavesTheRange) {
   const Model model = sample_model();
   Bank bank = bank_of(model, 3);

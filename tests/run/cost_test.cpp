@@ -49,14 +49,14 @@ Model smallest_model() {
 TEST(Cost, IsWhatOneCountsByHand) {
   const Cost cost = cost_of(smallest_model());
   EXPECT_EQ(cost.multiply_adds_per_frame, 2);
-  EXPECT_EQ(cost.dynamics_operations, 2 + 2 * 2);  // input: − ×; each coefficient: × +
-  // Four deviates are made at a time, each + of ½, and × + × + of the quadratic; the one that is used, × +.
-  EXPECT_EQ(cost.noise_operations, 4 * 5 + 2);
-  // Counter's group 1; seven rounds of two products and four exclusive ors; per word: shift, xor, shift, and, and, xor.
-  EXPECT_EQ(cost.random_operations, 1 + 7 * 6 + 4 * 6);
+  EXPECT_EQ(cost.dynamics_operations, 2 + 2 * 2 + 1);  // input: − ×; each coefficient: × +; held or not: or
+  EXPECT_EQ(cost.noise_operations, 5 + 2);             // a deviate: + of ½, × + × + of the quadratic; its use: × +
+  // Four words are made at a time: the counter's group, seven rounds of two products and four exclusive ors. The word
+  // that is used: shift, xor, shift, and, and, xor.
+  EXPECT_EQ(cost.random_operations, 1 + 7 * 6 + 6);
   EXPECT_EQ(cost.view_operations, 3 + 2);  // between two steps: − × +; to the output's unit: × +
-  EXPECT_EQ(cost.operations_per_frame, cost.dynamics_operations + cost.noise_operations + cost.random_operations +
-                                           cost.view_operations);
+  EXPECT_EQ(cost.operations_per_frame,
+            cost.dynamics_operations + cost.noise_operations + cost.random_operations + cost.view_operations);
 }
 
 TEST(Cost, APolylinePointTakesFourteenOperations) {

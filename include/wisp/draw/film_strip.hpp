@@ -11,17 +11,17 @@ namespace wisp {
 
 /// One row of a strip.
 struct FilmRow {
-  std::string caption;        ///< UTF-8, drawn above the row; empty: none
-  std::vector<Image> frames;  ///< left to right; an empty image leaves its place dark
+  std::string caption{};        ///< UTF-8, drawn above the row; empty: none
+  std::vector<Image> frames{};  ///< left to right; an empty image leaves its place dark
 };
 
 /// What a strip shows. All frames are scaled into cells of one size, the proportions of the first frame.
 struct FilmStrip {
-  std::string title;  ///< above everything; empty: none
-  std::vector<FilmRow> rows;
-  std::vector<std::string> times;  ///< under the columns, such as "0.25 s"; fewer than columns: the rest are bare
-  int frame_height = 200;          ///< pixels of a cell, 16 … 2000
-  int gap = 4;                     ///< pixels between frames, 0 … 100
+  std::string title{};  ///< above everything; empty: none
+  std::vector<FilmRow> rows{};
+  std::vector<std::string> times{};  ///< under the columns, such as "0.25 s"; fewer than columns: the rest are bare
+  int frame_height = 200;            ///< pixels of a cell, 16 … 2000
+  int gap = 4;                       ///< pixels between frames, 0 … 100
 };
 
 /// Draws the strip. Its size follows from the frames.

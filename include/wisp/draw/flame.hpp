@@ -35,19 +35,21 @@ struct FlameStyle {
   float ambient = 0.06F;       ///< light of the room on the candle, 0 … 1: it stays visible when the flame is out
 };
 
+/// The age of what never happened.
 inline constexpr float kLongAgo = std::numeric_limits<float>::infinity();
 
 /// Where a candle stands in the picture and what happens to it.
 ///
 /// It burns unless it went out more recently than it was lit. A flame that catches or dies is drawn over a few tenths
-/// of a second; smoke rises from the wick between going out and being lit again, and drifts on afterwards.
+/// of a second (go on giving its outline for that long); smoke rises from the wick between going out and being lit
+/// again, and drifts on afterwards.
 struct FlameScene {
-  Point base;                   ///< pixel of the outline's origin, the middle of the flame's base; y down
+  Point base{};                 ///< pixel of the outline's origin, the middle of the flame's base; y down
   float pixels_per_unit = 200;  ///< pixels of the mean flame height, 1 … 10000
   float brightness = 1;         ///< of this flame against the style's, 0 … 4
   float seconds_since_lit = kLongAgo;
   float seconds_since_out = kLongAgo;
-  float wind = 0;          ///< moves the smoke sideways: units a second, positive to the right, −8 … 8
+  float wind = 0;  ///< carries the smoke, all of it alike (a slow mean): units a second, to the right, −8 … 8
   std::uint64_t seed = 1;  ///< chooses the smoke's curls and the wick's bend
 };
 
@@ -55,10 +57,11 @@ struct FlameScene {
 bool burns(const FlameScene& scene);
 
 /// A candle of a picture with several: its outline is a polyline in model units (origin at the middle of the base,
-/// x right, y up, mean height 1) from the base's left over the tip to the base's right, closed by a straight line.
+/// x right, y up, mean height 1) from the base's left over the tip to the base's right; its base is closed roundly
+/// around the wick.
 struct Flame {
-  std::span<const Point> outline;
-  FlameScene scene;
+  std::span<const Point> outline{};
+  FlameScene scene{};
 };
 
 /// Draws candles over what the picture holds, the first one farthest: first every candle, lit by all flames, then

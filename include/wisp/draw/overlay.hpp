@@ -16,10 +16,10 @@ inline constexpr Colour kSimulatedColour{255, 72, 176};
 /// How a line over a picture looks.
 struct LineStyle {
   Colour colour = kCapturedColour;
-  float width = 1.8F;  ///< pixels, 0.25 … 50
+  float width = 0;  ///< pixels, 0.25 … 50; 0 chooses by the picture's size
   bool dashed = false;
   bool closed = true;   ///< from the last point straight back to the first
-  float casing = 1.4F;  ///< pixels of dark edge on either side, 0 … 20: the line stays visible on the flame
+  float casing = 1.2F;  ///< pixels of dark edge on either side, 0 … 20: the line stays visible on the flame
 };
 
 /// Draws a polyline in pixels (y down; the centre of the top left pixel is 0.5, 0.5). Points that are not finite break
@@ -33,8 +33,8 @@ enum class Corner { kTopLeft, kTopRight, kBottomLeft, kBottomRight };
 
 /// One line of a legend.
 struct LegendEntry {
-  std::string text;  ///< UTF-8
-  LineStyle style;
+  std::string text{};  ///< UTF-8
+  LineStyle style{};
 };
 
 /// Draws a small legend on a translucent dark plate; `text_height` in pixels, 0 chooses by the picture's size.

@@ -1,5 +1,6 @@
 #pragma once
-// Plots, described by values and drawn to a picture, PNG or SVG by one renderer.
+// Plots, described by values and drawn to a picture, PNG or SVG by one renderer. Every member has an initialiser, so
+// that designated ones may leave any out without a compiler's warning.
 
 #include <filesystem>
 #include <optional>
@@ -17,15 +18,15 @@ enum class IntervalShape { kBars, kBand };
 
 /// One set of data of a plot. x and y have one length; y that is not finite breaks the line.
 struct PlotSeries {
-  std::string label;  ///< in the legend; empty: not there
-  std::vector<double> x;
-  std::vector<double> y;
-  std::vector<double> low;  ///< ends of intervals around y, as long as y; empty: none
-  std::vector<double> high;
-  std::vector<Colour> colours;  ///< of each line's segment, point or bar in its turn; empty: `colour` for all
+  std::string label{};  ///< in the legend; empty: not there
+  std::vector<double> x{};
+  std::vector<double> y{};
+  std::vector<double> low{};  ///< ends of intervals around y, as long as y; empty: none
+  std::vector<double> high{};
+  std::vector<Colour> colours{};  ///< of each line's segment, point or bar in its turn; empty: `colour` for all
   SeriesShape shape = SeriesShape::kLine;
-  std::optional<Colour> colour;  ///< unset: the palette's next
-  double width = 1.6;            ///< of lines, in points; 0.1 … 20
+  std::optional<Colour> colour{};  ///< unset: the palette's next
+  double width = 1.6;              ///< of lines, in points; 0.1 … 20
   Dash dash = Dash::kSolid;
   Marker marker = Marker::kNone;  ///< at each sample
   double marker_size = 5;         ///< in points; 0.5 … 50
@@ -36,8 +37,8 @@ struct PlotSeries {
 struct PlotMark {
   double at = 0;
   bool vertical = true;  ///< at an x; otherwise at a y
-  std::string label;
-  std::optional<Colour> colour;  ///< unset: a strong red
+  std::string label{};
+  std::optional<Colour> colour{};  ///< unset: a strong red
   Dash dash = Dash::kDashed;
 };
 
@@ -45,37 +46,37 @@ struct PlotMark {
 struct PlotSpan {
   double from = 0;
   double to = 0;
-  std::string label;             ///< at its top; empty: none
-  std::optional<Colour> colour;  ///< unset: a light gray
+  std::string label{};             ///< at its top; empty: none
+  std::optional<Colour> colour{};  ///< unset: a light gray
 };
 
 /// One axis. Unset ends follow the data, rounded to ticks.
 struct PlotAxis {
-  std::string label;
-  std::optional<double> lowest;
-  std::optional<double> highest;
+  std::string label{};
+  std::optional<double> lowest{};
+  std::optional<double> highest{};
   bool logarithmic = false;    ///< values that are not positive are left out
   bool whole_numbers = false;  ///< ticks at whole numbers only (indices)
 };
 
 /// Axes with data.
 struct Plot {
-  std::string title;
-  PlotAxis x;
-  PlotAxis y;
-  std::vector<PlotSeries> series;  ///< later ones are drawn over earlier ones
-  std::vector<PlotMark> marks;
-  std::vector<PlotSpan> spans;
+  std::string title{};
+  PlotAxis x{};
+  PlotAxis y{};
+  std::vector<PlotSeries> series{};  ///< later ones are drawn over earlier ones
+  std::vector<PlotMark> marks{};
+  std::vector<PlotSpan> spans{};
   bool equal_units = false;  ///< one unit is as long in x as in y (trajectories)
-  Image picture;             ///< where not empty, it fills the panel instead of axes
+  Image picture{};           ///< where not empty, it fills the panel instead of axes
 };
 
 /// Plots side by side.
 struct PlotSheet {
-  std::string title;        ///< above all of them; empty: none
-  std::vector<Plot> plots;  ///< row by row
-  int columns = 0;          ///< 0: all in one row
-  double plot_width = 420;  ///< of one plot with its labels, in points; 80 … 4000
+  std::string title{};        ///< above all of them; empty: none
+  std::vector<Plot> plots{};  ///< row by row
+  int columns = 0;            ///< 0: all in one row
+  double plot_width = 420;    ///< of one plot with its labels, in points; 80 … 4000
   double plot_height = 300;
   double pixels_per_point = 2;  ///< of the PNG; 0.25 … 8
 };

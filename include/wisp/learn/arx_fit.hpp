@@ -36,6 +36,8 @@ struct ArxOptions {
                                     ///< unset: the longest lag, max(na, nb + nk − 1)
   bool stabilise = true;            ///< re-estimate an unstable model under the constraint that it is stable
   double stability_margin = 1e-3;   ///< in (0, 1): a repaired model's spectral radius is at most 1 − this
+  bool covariance = false;          ///< compute the covariance of all coefficients together, for confidence bands
+  bool judge_free_run = true;       ///< simulate over the recordings too, to warn where one-step fit hides failure
 };
 
 /// A coefficient that the data cannot tell: its regressor is (nearly) a combination of others. It is set to 0.
@@ -63,9 +65,10 @@ struct ArxSummary {
   double aic = 0;        ///< n ln det(noise covariance) + 2 d_total
   double aicc = 0;       ///< aic + 2 d_total (d_total + 1)/(n − d_total − 1)
   double bic = 0;        ///< n ln det(noise covariance) + d_total ln n
-  std::vector<double> row_fpe;      ///< V·(1 + d/n)/(1 − d/n) per output row with its own d
-  std::vector<double> fit_percent;  ///< one step ahead, 100(1 − ‖y − ŷ‖/‖y − ȳ‖) per output
-  std::vector<double> condition;    ///< 2-norm condition number of every row's regressor, in the data's units
+  std::vector<double> row_fpe;               ///< V·(1 + d/n)/(1 − d/n) per output row with its own d
+  std::vector<double> fit_percent;           ///< one step ahead, 100(1 − ‖y − ŷ‖/‖y − ȳ‖) per output
+  std::vector<double> free_run_fit_percent;  ///< the same for free simulation from the input; empty without inputs
+  std::vector<double> condition;             ///< 2-norm condition number of every row's regressor, in the data's units
   std::vector<RankProblem> rank_problems;
   ArxStability stable;
   std::size_t samples_used = 0;  ///< n: rows in the regression
@@ -82,6 +85,7 @@ struct ArxSummary {
 struct ArxFit {
   ArxModel model;
   ArxSummary summary;
+  std::vector<double> covariance;  ///< of all rows' theta one after the other, d_total × d_total, row-major; or empty
 };
 
 /// Fits an ARX model to all episodes of all recordings together; no history crosses a gap.

@@ -7,6 +7,7 @@
 // computed.
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -55,6 +56,8 @@ struct FigureOptions {
   std::vector<int> steps{1, 5, 15, kFreeRun};
   int group = 1;  ///< consecutive outputs that are one vector, ≥ 1: 2 where outputs are x, y of points
   InitialState initial = InitialState::kMeasured;
+  std::optional<int> first_sample;  ///< first row of an episode for one step, 0-based, at least the model's history;
+                                    ///< unset: the model's history
 };
 
 /// The error of predictions over all recordings together, for every number of steps. All numbers of steps are computed

@@ -42,6 +42,9 @@ struct BankOptions {
 /// Errors: as Bank::create().
 Result<std::size_t> bank_bytes(const Model& model, const BankOptions& options);
 
+/// The time of one step of a model, as banks keep it: whole nanoseconds.
+std::chrono::nanoseconds step_time(const Model& model);
+
 /// A longer pause than this is cut to it by Bank::advance(): nobody has watched it.
 inline constexpr std::chrono::nanoseconds kLongestAdvance = std::chrono::seconds(10);
 

@@ -12,10 +12,10 @@ namespace wisp {
 struct Cost {
   std::int64_t multiply_adds_per_frame = 0;  ///< by the paper's count: coefficients of A and B that are not zero
   std::int64_t operations_per_frame = 0;     ///< all arithmetic: the sum of the four below
-  std::int64_t dynamics_operations = 0;      ///< inputs, filters and outputs: + − × ÷ √ on numbers
-  std::int64_t noise_operations = 0;         ///< from random words to what is added to the outputs, on numbers
-  std::int64_t random_operations = 0;        ///< arithmetic and logic on 32-bit words, for the noise
-  std::int64_t view_operations = 0;          ///< the polyline, on numbers
+  std::int64_t dynamics_operations = 0;  ///< inputs, filters, and noting what was held: + − × ÷ √ on numbers, logic
+  std::int64_t noise_operations = 0;     ///< from random words to what is added to the outputs, on numbers
+  std::int64_t random_operations = 0;    ///< arithmetic and logic on 32-bit words, for the noise
+  std::int64_t view_operations = 0;      ///< the polyline, on numbers
 };
 
 /// Counts what one frame of one instance costs, with a polyline of `polyline_points` (0: the view is not read).

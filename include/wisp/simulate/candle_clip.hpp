@@ -22,7 +22,7 @@ struct CandleClipOptions {
   VirtualCameraOptions camera;
   VirtualMicrophoneOptions microphone;
   FlameOutlineOptions outline;
-  WindOptions wind;
+  WindSignalOptions wind;
   std::optional<Recording> wind_recording;  ///< where set, its wind is taken and `wind` is not
   std::string wind_channel;                 ///< of that recording; empty: its only input
   double seconds = 60;                      ///< length, more than 0, at most 86400

@@ -39,7 +39,9 @@ struct CandleRigOptions {
   double wick_height_mm = 4;      ///< calibrated
   double wick_damping = 80;       ///< 1/s, calibrated: drag of the wick; without it the flame dies at 0.5 m/s
   double wick_time = 0.15;        ///< s, calibrated: how slowly the fuel follows the wick's heat
-  double fuel_rate = 1.4e-4;      ///< m²/s, calibrated: volume of cold vapour a second per depth of a warm wick
+  double wick_cold = 500;     ///< K, calibrated: surroundings of the wick at which it gives off nothing
+  double wick_warm = 900;     ///< K, calibrated: and at which it gives off all it can
+  double fuel_rate = 1.35e-4;      ///< m²/s, calibrated: volume of cold vapour a second per depth of a warm wick
   double fuel_temperature = 600;  ///< K
 
   // The gas.
@@ -60,7 +62,7 @@ struct CandleRigOptions {
   double soot_burnout = 400;  ///< 1/s, calibrated
   double exposure = 0.5;      ///< share of a frame's time that its shutter is open, (0, 1]
 
-  double pressure_tolerance = 4.0;  ///< 1/s, root mean square of what the flow still diverges too much
+  double pressure_tolerance = 0.5;  ///< 1/s, root mean square of what the flow still diverges too much
 };
 
 /// The options of a calibrated grid.

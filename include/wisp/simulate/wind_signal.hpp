@@ -17,7 +17,7 @@ enum class WindKind {
 };
 
 /// The wind. Speeds in m/s.
-struct WindOptions {
+struct WindSignalOptions {
   WindKind kind = WindKind::kGusts;
   double most = 1.0;         ///< what gusts and noise together are held to, 0 … 10; a candle lives through 1 m/s
   double noise = 0.35;       ///< standard deviation of the wideband part while it blows, 0 … 10
@@ -35,7 +35,7 @@ class WindSignal {
  public:
   /// A generated wind, `seconds` long.
   /// Errors: an option outside its range.
-  static Result<WindSignal> generate(const WindOptions& options, double seconds);
+  static Result<WindSignal> generate(const WindSignalOptions& options, double seconds);
 
   /// A recording's channel, in m/s, with missing samples filled by straight lines.
   /// Errors: no such channel, or nothing but missing samples. `channel` may be empty where there is one input only.

@@ -8,8 +8,11 @@
 namespace wisp {
 namespace {
 
-constexpr double kFadeShare = 0.73;       // a thing dimmer than this share of its usual brightness is fading
-constexpr double kDuplicateShare = 0.15;  // a frame that changes less than this share of the usual repeats the last one
+constexpr double kFadeShare = 0.73;  // a thing dimmer than this share of its usual brightness is fading
+constexpr double kDuplicateShare =
+    0.15;  // a frame that changes less than this share of its neighbours repeats the last
+constexpr std::size_t kNeighbours =
+    5;  // frames to either side: a still flame, after encoding, repeats itself for longer
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 enum class Fate : std::uint8_t { kKept, kDuplicate, kFilled, kFade, kNothing, kLost };
@@ -21,17 +24,26 @@ double median(std::vector<float> values) {
   return *middle;
 }
 
-// Fades and duplicates are told by comparison with the clip's usual brightness and change.
-std::vector<Fate> judge(const FrameFindings& findings) {
-  std::vector<float> brightness, change;
-  for (const FrameFinding& f : findings.frames) {
-    if (f.kind != FrameFinding::Kind::kTracked) continue;
-    brightness.push_back(f.brightness);
-    change.push_back(f.change);
+// How much frames around frame k change.
+double usual_change(const std::vector<FrameFinding>& frames, std::size_t k) {
+  std::vector<float> change;
+  const std::size_t end = std::min(frames.size(), k + kNeighbours + 1);
+  for (std::size_t n = k > kNeighbours ? k - kNeighbours : 0; n < end; ++n) {
+    if (frames[n].kind == FrameFinding::Kind::kTracked) change.push_back(frames[n].change);
   }
-  const double usual_brightness = median(brightness), usual_change = median(change);
-  std::vector<Fate> fate;
+  return median(std::move(change));
+}
+
+// Fades are told by the clip's usual brightness, duplicates by how much the frames around them change.
+std::vector<Fate> judge(const FrameFindings& findings) {
+  std::vector<float> brightness;
   for (const FrameFinding& f : findings.frames) {
+    if (f.kind == FrameFinding::Kind::kTracked) brightness.push_back(f.brightness);
+  }
+  const double usual_brightness = median(brightness);
+  std::vector<Fate> fate;
+  for (std::size_t k = 0; k < findings.frames.size(); ++k) {
+    const FrameFinding& f = findings.frames[k];
     switch (f.kind) {
       case FrameFinding::Kind::kLost:
         fate.push_back(Fate::kLost);
@@ -43,7 +55,8 @@ std::vector<Fate> judge(const FrameFindings& findings) {
         if (f.brightness < kFadeShare * usual_brightness) {
           fate.push_back(Fate::kFade);
         } else {
-          fate.push_back(f.change < kDuplicateShare * usual_change ? Fate::kDuplicate : Fate::kKept);
+          const bool repeats = f.change < kDuplicateShare * usual_change(findings.frames, k);
+          fate.push_back(repeats ? Fate::kDuplicate : Fate::kKept);
         }
     }
   }

@@ -1,0 +1,142 @@
+#include "arx_search.hpp"
+
+#include <charconv>
+
+#include "figures_json.hpp"
+#include "recordings.hpp"
+#include "wisp/learn/order_search.hpp"
+#include "wisp/learn/prediction.hpp"
+
+namespace wisp::cli {
+namespace {
+
+Error bad_grid(std::string_view text) {
+  return {"--search: found \"" + std::string(text) + "\", expected such as na=1:10,nb=1:10,nk=0:3"};
+}
+
+// "1:10" or "3".
+Result<OrderRange> parse_range(std::string_view text, std::string_view whole) {
+  OrderRange range;
+  const char* const end = text.data() + text.size();
+  auto [next, code] = std::from_chars(text.data(), end, range.first);
+  if (code != std::errc()) return bad_grid(whole);
+  range.last = range.first;
+  if (next != end) {
+    if (*next != ':') return bad_grid(whole);
+    const auto [last, last_code] = std::from_chars(next + 1, end, range.last);
+    if (last_code != std::errc() || last != end) return bad_grid(whole);
+  }
+  if (range.first < 0 || range.last < range.first) return bad_grid(whole);
+  return range;
+}
+
+Result<SearchOptions> parse_grid(const Arguments& arguments) {
+  SearchOptions options;
+  const std::string& whole = arguments.text("search");
+  options.na = options.nb = {0, 0};
+  options.nk = {1, 1};
+  for (const std::string& part : arguments.names("search")) {
+    const std::string_view text(part);
+    const std::string_view name = text.substr(0, 3);
+    if (name != "na=" && name != "nb=" && name != "nk=") return bad_grid(whole);
+    const auto range = parse_range(text.substr(3), whole);
+    if (!range) return range.error();
+    (name == "na=" ? options.na : name == "nb=" ? options.nb : options.nk) = *range;
+  }
+  return options;
+}
+
+OrderCriterion criterion_of(const std::string& word) {
+  if (word == "aic") return OrderCriterion::kAic;
+  if (word == "aicc") return OrderCriterion::kAicc;
+  if (word == "bic") return OrderCriterion::kBic;
+  return word == "validation" ? OrderCriterion::kValidation : OrderCriterion::kFpe;
+}
+
+Coupling coupling_of(const std::string& word) {
+  if (word == "diagonal") return Coupling::kDiagonal;
+  return word == "band" ? Coupling::kBand : Coupling::kFull;
+}
+
+ArxOffset offset_of(const std::string& word) {
+  if (word == "none") return ArxOffset::kNone;
+  return word == "estimate" ? ArxOffset::kEstimate : ArxOffset::kMean;
+}
+
+Result<SearchOptions> options_from(const Arguments& arguments) {
+  auto options = parse_grid(arguments);
+  if (!options) return options;
+  options->by = criterion_of(arguments.text("by"));
+  options->steps = arguments.text("steps") == "inf" ? kFreeRun : arguments.integer("steps");
+  options->coupling = coupling_of(arguments.text("coupling"));
+  options->offset = offset_of(arguments.text("offset"));
+  options->common_start = arguments.on("common-start");
+  if (options->by == OrderCriterion::kValidation && !arguments.has("validate")) {
+    return Error{"--by validation needs --validate A:B, the rows to judge on"};
+  }
+  return options;
+}
+
+Json candidate_json(const OrderCandidate& candidate) {
+  Json json = {{"na", candidate.na},
+               {"nb", candidate.nb},
+               {"nk", candidate.nk},
+               {"V", json_of(candidate.loss)},
+               {"fpe", number(candidate.fpe)},
+               {"aic", number(candidate.aic)},
+               {"aicc", number(candidate.aicc)},
+               {"bic", number(candidate.bic)},
+               {"samples_used", candidate.rows},
+               {"determined", candidate.determined}};
+  json["V_validation"] = candidate.loss_validation.empty() ? Json(nullptr) : json_of(candidate.loss_validation);
+  return json;
+}
+
+std::string orders_text(const OrderCandidate& candidate) {
+  return "na " + std::to_string(candidate.na) + ", nb " + std::to_string(candidate.nb) + ", nk " +
+         std::to_string(candidate.nk);
+}
+
+}  // namespace
+
+std::vector<Flag> search_flags() {
+  return {
+      {"search", Kind::kNames, "GRID", "",
+       "try a grid of orders and delays and keep the best, such as na=1:10,nb=1:10,nk=0:3"},
+      {"by",
+       Kind::kChoice,
+       "C",
+       "fpe",
+       "what the best candidate is best at",
+       {"fpe", "aic", "aicc", "bic", "validation"}},
+      {"validate", Kind::kSamples, "A:B", "", "rows to validate on, 1-based and inclusive"},
+      {"steps", Kind::kIntegerOrWord, "K", "1", "for validation: steps ahead, or inf for free simulation", {"inf"}},
+  };
+}
+
+Result<ArxOrders> search_arx_orders(const std::vector<Recording>& estimation, const std::vector<Recording>& whole,
+                                    const ChannelChoice& channels, const Arguments& arguments, Terminal& terminal) {
+  const auto options = options_from(arguments);
+  if (!options) return options.error();
+  std::vector<Recording> validation;
+  if (arguments.has("validate")) {
+    for (const Recording& recording : whole) {
+      auto part = in_range(recording, arguments, "validate");
+      if (!part) return part.error();
+      validation.push_back(std::move(*part));
+    }
+  }
+  const auto search = search_orders(estimation, validation, channels, *options);
+  if (!search) return search.error();
+  const OrderCandidate& best = search->candidates[search->best];
+  terminal.result()["candidates"] = Json::array();
+  for (const OrderCandidate& candidate : search->candidates)
+    terminal.result()["candidates"].push_back(candidate_json(candidate));
+  terminal.result()["best"] = candidate_json(best);
+  terminal.result()["best"]["index"] = search->best;
+  terminal.say(std::to_string(search->candidates.size()) + " candidates; best by " + arguments.text("by") + ": " +
+               orders_text(best));
+  return best.orders;
+}
+
+}  // namespace wisp::cli

@@ -1,0 +1,58 @@
+// `wisp learn outline` and its preset `wisp learn flame`: a model of an outline, from clips or recordings.
+
+#include <chrono>
+#include <filesystem>
+
+#include "capture_flags.hpp"
+#include "commands.hpp"
+#include "outline_learning.hpp"
+#include "terminal.hpp"
+#include "wisp/model/file.hpp"
+
+namespace wisp::cli {
+namespace {
+
+Result<void> run(const Arguments& arguments, Terminal& terminal) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto recordings = outline_recordings(arguments.positionals(), arguments, terminal);
+  if (!recordings) return recordings.error();
+  const std::string& path = arguments.text("output");
+  const auto options = outline_options(arguments, std::filesystem::path(path).stem().string());
+  if (!options) return options.error();
+  auto fit = learn_outline(*recordings, *options);
+  if (!fit) return fit.error();
+  fit->model.provenance.program = "wisp " WISP_VERSION;
+  for (const std::string& warning : fit->summary.warnings) terminal.warn(warning);
+  if (auto ok = write_model(path, fit->model); !ok) return ok;
+  report_outline(*fit, terminal);
+  terminal.say("wrote " + path);
+  terminal.result()["output"] = path;
+  terminal.result()["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return {};
+}
+
+Command learn(std::string name, std::string summary, std::vector<Example> examples) {
+  std::vector<Flag> flags = {{"output", Kind::kPath, "M.wisp", "", "where to write the model", {}, true}};
+  for (auto* more : {&outline_flags, &capture_flags}) {
+    for (Flag& flag : (*more)()) flags.push_back(std::move(flag));
+  }
+  return {
+      std::move(name),  std::move(summary),  {{"CLIP_OR_REC", "clips, folders of images, or recordings (.csv)", true}},
+      std::move(flags), std::move(examples), run};
+}
+
+}  // namespace
+
+Command learn_outline_command() {
+  return learn("learn outline", "Learns how an outline moves, by itself and driven by its inputs.",
+               {{"wisp learn outline flag.mp4 --dark --points 12 -o flag.wisp", "Straight from a clip"}});
+}
+
+Command learn_flame_command() {
+  return learn(
+      "learn flame", "Learns a flame: `learn outline` with a flame's settings.",
+      {{"wisp learn flame candle.csv -o flame.wisp", "From a captured recording"},
+       {"wisp learn flame candle.mp4 --points 16 -o flame.wisp", "Straight from a clip, sixteen control points"}});
+}
+
+}  // namespace wisp::cli

@@ -1,0 +1,36 @@
+#pragma once
+// Learning an outline as commands do it: recordings in, flags to options, figures out.
+
+#include <string>
+#include <vector>
+
+#include "command.hpp"
+#include "terminal.hpp"
+#include "wisp/learn/outline.hpp"
+
+namespace wisp::cli {
+
+/// Flags of learning an outline, beside those of capturing it.
+std::vector<Flag> outline_flags();
+
+/// Errors: a value out of its range.
+Result<OutlineOptions> outline_options(const Arguments& arguments, std::string name);
+
+/// Recordings of outlines: tables are read, everything else is captured. A bad one is the error, or is left out and
+/// listed with --skip-bad.
+Result<std::vector<Recording>> outline_recordings(const std::vector<std::string>& paths, const Arguments& arguments,
+                                                  Terminal& terminal);
+
+/// The fit's figures, for people and programs.
+void report_outline(const OutlineFit& fit, Terminal& terminal);
+
+/// `J` {k: …}, by number of steps.
+Json by_steps(const std::vector<int>& steps, const std::vector<double>& values);
+
+/// The mean over control points of figures that are one a number of steps and control point.
+std::vector<double> mean_per_step(const std::vector<std::vector<double>>& per_step);
+
+/// The entry of `values` for a number of steps, kFreeRun among them; NaN where it was not judged.
+double at_steps(const OutlineFigures& figures, const std::vector<double>& values, int steps);
+
+}  // namespace wisp::cli

@@ -1,0 +1,264 @@
+// `wisp validate`: a model held against a recording or a clip.
+
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include "capture_flags.hpp"
+#include "clip_figures.hpp"
+#include "commands.hpp"
+#include "figures_json.hpp"
+#include "outline_film.hpp"
+#include "outline_learning.hpp"
+#include "recordings.hpp"
+#include "validation_figures.hpp"
+#include "wisp/learn/outline_shape.hpp"
+#include "wisp/learn/validation.hpp"
+#include "wisp/model/file.hpp"
+
+namespace wisp::cli {
+namespace {
+
+// A recording and, where there is one, the clip whose frames its rows are.
+struct Subject {
+  Recording recording;
+  ClipFrames clip;
+  std::optional<CaptureReport> report;  // where it was captured just now
+};
+
+Result<Subject> subject_of(const std::string& path, const Arguments& arguments, Terminal& terminal) {
+  Subject subject;
+  if (is_table(path)) {
+    auto recording = read_table(path, arguments);
+    if (!recording) return recording.error();
+    subject.recording = std::move(*recording);
+    if (arguments.has("clip")) subject.clip.path = arguments.text("clip");
+  } else {
+    auto clip = capture_clip(path, arguments, terminal);
+    if (!clip) return clip.error();
+    for (const std::string& warning : clip->report.warnings) terminal.warn(warning);
+    subject.recording = std::move(clip->recording);
+    subject.report = std::move(clip->report);
+    subject.clip.path = path;
+  }
+  if (arguments.has("rate")) subject.clip.rate_hz = arguments.number("rate");
+  if (arguments.has("frames")) subject.clip.first_frame = arguments.samples("frames").first - 1;
+  if (arguments.has("range")) subject.clip.first_frame += arguments.samples("range").first - 1;
+  auto part = in_range(std::move(subject.recording), arguments, "range");
+  if (!part) return part.error();
+  subject.recording = std::move(*part);
+  return subject;
+}
+
+Result<std::vector<int>> judged_steps(const Arguments& arguments) {
+  std::vector<int> steps;
+  for (const std::string& word : arguments.names("steps")) {
+    const int step = word == "inf" ? kFreeRun : std::atoi(word.c_str());
+    const bool valid =
+        word == "inf" || (step >= 1 && step <= 100000 && word.find_first_not_of("0123456789") == std::string::npos);
+    if (!valid)
+      return Error{"--steps: found \"" + word + "\", expected numbers from 1 to 100000, or inf, separated by commas"};
+    steps.push_back(step);
+  }
+  return steps;
+}
+
+// A row's outline in the picture; empty where it has none.
+std::vector<Point> polyline_in_picture(const OutlineCurve& curve, const OutlineLayout& layout,
+                                       const Recording& recording, std::size_t row) {
+  std::vector<double> control;
+  for (std::size_t channel : layout.outputs) control.push_back(recording.channels[channel].samples[row]);
+  if (std::any_of(control.begin(), control.end(), [](double value) { return std::isnan(value); })) return {};
+  // A pixel's centre is at whole numbers for capture and at halves for drawing.
+  std::vector<Point> points;
+  for (const OutlinePoint& point : curve.polyline(control)) {
+    points.push_back({static_cast<float>(point[0] + 0.5), static_cast<float>(point[1] + 0.5)});
+  }
+  return points;
+}
+
+OutlineRows outline_rows(const Judged& judged, const Recording& recording) {
+  const OutlineCurve curve(judged.layout.knots);
+  const PredictedOutlines& shown = judged.shown();
+  OutlineRows rows;
+  rows.simulated_label = shown_as(shown);
+  for (std::size_t row = 0; row < recording.rows(); ++row) {
+    rows.captured.push_back(polyline_in_picture(curve, judged.layout, recording, row));
+    rows.simulated.push_back(polyline_in_picture(curve, judged.layout, shown.recording, row));
+  }
+  return rows;
+}
+
+// The strip shows twelve moments an eighth of a second apart, where the outline moves most.
+std::vector<std::size_t> strip_rows(const Judged& judged, const Recording& recording) {
+  constexpr std::size_t kColumns = 12;
+  const auto apart = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(recording.rate_hz / 8)));
+  const std::size_t length = (kColumns - 1) * apart + 1;
+  const auto tip = recording.channels[judged.layout.outputs[2 * (judged.layout.points / 2)]].samples;
+  std::size_t best = 0;
+  double most = -1;
+  for (std::size_t begin = 0; begin + length <= tip.size(); begin += apart) {
+    double motion = 0;
+    bool whole = true;
+    for (std::size_t row = begin + apart; row < begin + length; row += apart) {
+      whole = whole && !std::isnan(tip[row]) && !std::isnan(tip[row - apart]);
+      motion += std::abs(tip[row] - tip[row - apart]);
+    }
+    if (!whole || motion <= most) continue;
+    most = motion;
+    best = begin;
+  }
+  std::vector<std::size_t> rows;
+  for (std::size_t k = 0; k < kColumns && best + k * apart < recording.rows(); ++k) rows.push_back(best + k * apart);
+  return rows;
+}
+
+Result<void> draw(const Judged& judged, const Model& model, const Subject& subject, const Arguments& arguments,
+                  Terminal& terminal) {
+  if (arguments.has("overlay")) {
+    const auto rows = outline_rows(judged, subject.recording);
+    if (auto ok = write_overlay(arguments.text("overlay"), subject.clip, subject.recording, rows, terminal); !ok)
+      return ok;
+    terminal.say("wrote " + arguments.text("overlay"));
+  }
+  if (arguments.has("film-strip")) {
+    const auto played_layout = outline_layout(judged.found.played);
+    if (!played_layout) return played_layout.error();
+    const StripContent content{
+        .rows = strip_rows(judged, subject.recording),
+        .recording = &subject.recording,
+        .synthesized = &judged.found.played,
+        .layout = judged.layout,
+        .synthesized_layout = *played_layout,
+        .pixels_per_unit = judged.found.pixels_per_unit,
+        .synthesized_caption = model.inputs.empty() ? "synthesized" : "synthesized from the same wind"};
+    if (auto ok = write_film_strip(arguments.text("film-strip"), subject.clip, content); !ok) return ok;
+    terminal.say("wrote " + arguments.text("film-strip"));
+  }
+  if (!arguments.has("figures")) return {};
+  const std::string& folder = arguments.text("figures");
+  if (auto ok = write_validation_figures(folder, model, subject.recording, judged); !ok) return ok;
+  if (subject.report) {
+    if (auto ok = write_clip_figures(folder, subject.clip.path, *subject.report); !ok) return ok;
+  }
+  terminal.say("wrote figures to " + folder);
+  return {};
+}
+
+Json bounded_json(const Bounded& measure) {
+  return {{"value", number(measure.value)}, {"floor", number(measure.floor)}, {"ceiling", number(measure.ceiling)}};
+}
+
+Json fidelity_json(const Fidelity& fidelity) {
+  Json json = {{"log_spectral_distance", bounded_json(fidelity.log_spectral_distance)},
+               {"autocorrelation_distance", bounded_json(fidelity.autocorrelation_distance)},
+               {"wasserstein_value", bounded_json(fidelity.wasserstein_value)},
+               {"wasserstein_speed", bounded_json(fidelity.wasserstein_speed)},
+               {"energy_distance", bounded_json(fidelity.energy_distance)},
+               {"energy_p_value", number(fidelity.energy_p_value)},
+               {"verbatim_seconds", number(fidelity.verbatim_seconds)},
+               {"channels", Json::array()}};
+  for (const ChannelFidelity& channel : fidelity.channels) {
+    json["channels"].push_back({{"name", channel.name},
+                                {"sd_real", number(channel.sd_real)},
+                                {"sd_synthesized", number(channel.sd_synthesized)},
+                                {"log_spectral_distance", bounded_json(channel.log_spectral_distance)}});
+  }
+  return json;
+}
+
+void report(const OutlineValidation& found, Terminal& terminal) {
+  Json& result = terminal.result();
+  const OutlineFigures& figures = found.figures;
+  result["rows"] = figures.rows;
+  result["channels"] = Json::array();
+  for (const OutlineChannelFigures& channel : figures.channels) {
+    result["channels"].push_back({{"name", channel.name},
+                                  {"fit_percent", by_steps(figures.steps, channel.fit_percent)},
+                                  {"whiteness_p", number(channel.whiteness_p)}});
+  }
+  result["J"] = by_steps(figures.steps, mean_per_step(figures.j));
+  result["tip"] = {{"fit_percent", by_steps(figures.steps, figures.tip_fit_percent)}};
+  result["overlap"] = number(at_steps(figures, figures.overlap, kFreeRun));
+  result["overlap_by_steps"] = by_steps(figures.steps, figures.overlap);
+  result["fidelity"] = found.fidelity ? fidelity_json(*found.fidelity) : Json(nullptr);
+  result["held_share"] = number(found.held_share);
+  result["crossed_share"] = number(found.crossed_share);
+  terminal.say(std::to_string(figures.rows) + " frames judged");
+  for (std::size_t k = 0; k < figures.steps.size(); ++k) {
+    const std::string ahead =
+        figures.steps[k] == kFreeRun ? "free simulation" : std::to_string(figures.steps[k]) + " ahead";
+    terminal.say("  " + ahead + ": tip fit " + shown(figures.tip_fit_percent[k]) + " %, outline overlap " +
+                 shown(figures.overlap[k]));
+  }
+  if (found.static_gain) {
+    const StaticGain& gain = *found.static_gain;
+    result["static_gain"] = {{"tip_fit_percent", number(gain.fit_percent)},
+                             {"delay_seconds", number(gain.delay_seconds)}};
+    terminal.say("  a static gain with the best delay (" + shown(1000 * gain.delay_seconds) + " ms): tip fit " +
+                 shown(gain.fit_percent) + " %");
+  }
+  if (!found.fidelity) return;
+  const Bounded& spectrum = found.fidelity->log_spectral_distance;
+  const Bounded& energy = found.fidelity->energy_distance;
+  terminal.say("synthesized against recorded: log-spectral distance " + shown(spectrum.value) +
+               " dB (two halves of the recording: " + shown(spectrum.floor) +
+               ", shuffled frames: " + shown(spectrum.ceiling) + ")");
+  terminal.say("  normalised energy distance " + shown(energy.value) + " (halves " + shown(energy.floor) +
+               ", shuffled " + shown(energy.ceiling) + ")");
+}
+
+Result<void> run(const Arguments& arguments, Terminal& terminal) {
+  const auto& positionals = arguments.positionals();
+  const auto model = read_model(positionals[0]);
+  if (!model) return model.error();
+  const auto steps = judged_steps(arguments);
+  if (!steps) return steps.error();
+  if (!std::holds_alternative<OutlineView>(model->view)) return validate_plain(*model, *steps, arguments, terminal);
+  const auto subject = subject_of(positionals[1], arguments, terminal);
+  if (!subject) return subject.error();
+  OutlineValidationOptions options{.steps = *steps,
+                                   .own_input_scale = arguments.on("own-gain"),
+                                   .seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
+  auto found = validate_outline(*model, subject->recording, options);
+  if (!found) return found.error();
+  for (const std::string& warning : found->warnings) terminal.warn(warning);
+  const auto layout = outline_layout(subject->recording);
+  if (!layout) return layout.error();
+  const Judged judged{*layout, std::move(*found)};
+  report(judged.found, terminal);
+  return draw(judged, *model, *subject, arguments, terminal);
+}
+
+}  // namespace
+
+Command validate_command() {
+  std::vector<Flag> flags = {
+      {"range", Kind::kSamples, "A:B", "", "rows to judge on, 1-based and inclusive"},
+      {"steps", Kind::kNames, "K,…", "1,5,15,inf", "steps ahead; inf is free simulation from the input alone"},
+      {"overlay", Kind::kPath, "OUT.mp4", "", "write the clip with captured and simulated outlines drawn over it"},
+      {"film-strip", Kind::kPath, "OUT.png", "", "write a film strip: recorded above, synthesized below"},
+      {"figures", Kind::kPath, "DIR", "", "write plots there, as PNG and SVG"},
+      {"clip", Kind::kPath, "CLIP", "", "the clip that the recording was captured from, for the pictures"},
+      {"own-gain", Kind::kSwitch, "", "",
+       "input 1 is this recording's own 95th percentile: another microphone, another gain"},
+      {"seed", Kind::kInteger, "N", "1", "of the synthesized life"},
+      {"inputs", Kind::kNames, "A,B", "", "columns of a plain table that are inputs"},
+      {"outputs", Kind::kNames, "C,D", "", "columns of a plain table that are outputs"},
+      {"dt", Kind::kNumber, "S", "", "seconds between samples of a plain table"},
+  };
+  for (Flag& flag : capture_flags()) flags.push_back(std::move(flag));
+  return {
+      "validate",
+      "Holds a model against a recording: prediction, free simulation, likeness, pictures.",
+      {{"MODEL", "the model, a .wisp file"}, {"REC_OR_CLIP", "a recording (.csv), or a clip"}},
+      std::move(flags),
+      {{"wisp validate flame.wisp other.mp4 --overlay overlay.mp4 --film-strip strip.png",
+        "On a clip that it has not seen"},
+       {"wisp validate dryer.wisp hairdryer.csv --dt 0.08 --range 501:1000 --steps 1,10,inf",
+        "An ARX model on unseen rows"}},
+      run,
+  };
+}
+
+}  // namespace wisp::cli

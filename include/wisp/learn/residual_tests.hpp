@@ -1,0 +1,52 @@
+#pragma once
+// Is anything left to model? Tests on what a model's one-step predictions leave.
+//
+// Source: L. Ljung, System Identification (2nd ed.), section 16.6 (whiteness; independence of past inputs); G. Ljung
+// and G. Box, Biometrika 65 (1978), for the whiteness statistic.
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "wisp/base/result.hpp"
+#include "wisp/learn/channel_choice.hpp"
+#include "wisp/model/arx.hpp"
+#include "wisp/record/recording.hpp"
+
+namespace wisp {
+
+/// How to test.
+struct ResidualTestOptions {
+  int lags = 25;                 ///< autocorrelations and cross-correlations over 1 … lags, 1 to 10000
+  bool learned_from_it = false;  ///< the model was learned from these recordings: its coefficients have taken degrees
+                                 ///< of freedom away
+};
+
+/// Whether one output's residual is white.
+struct Whiteness {
+  std::vector<double> correlation;  ///< r(1) … r(lags)
+  double bound = 0;                 ///< 1.96/√n: 95 % of the correlations of a white residual lie within
+  double statistic = 0;             ///< Ljung and Box's Q
+  double p = 1;                     ///< probability of a Q as large where the residual is white
+};
+
+/// Whether one output's residual is independent of one input's past.
+struct Independence {
+  std::vector<double> correlation;  ///< of residual(t) and input(t − lag), lag −lags … lags: 2·lags + 1 values
+  double bound = 0;                 ///< 95 % of these lie within where they are independent, by the colour of both
+  double statistic = 0;             ///< over lags nk … nk + lags
+  double p = 1;                     ///< probability of a statistic as large where they are independent
+};
+
+struct ResidualTests {
+  std::size_t rows = 0;
+  std::vector<Whiteness> whiteness;                     ///< per output
+  std::vector<std::vector<Independence>> independence;  ///< [output][input]
+};
+
+/// Tests the residuals of a model on recordings. History never crosses a gap; correlations are summed over all
+/// stretches. Errors: as prediction_figures; fewer than four rows for every lag.
+Result<ResidualTests> test_residuals(const ArxModel& model, std::span<const Recording> recordings,
+                                     const ChannelChoice& channels, const ResidualTestOptions& options = {});
+
+}  // namespace wisp

@@ -1,0 +1,85 @@
+#pragma once
+// A part of a fit: what some rows have to say about an ARX model, as a small triangle that can be stored, sent and
+// merged.
+//
+// Source: the merging of triangular factors by orthogonal rotations is that of tall-skinny QR (J. Demmel et al., SIAM
+// J. Sci. Comput. 34, 2012); see also Å. Björck, Numerical Methods for Least Squares Problems, section 6.2. However the
+// rows are cut into parts and in whatever order these are merged, the fit is the same but for rounding, and has the
+// accuracy of QR. Memory does not grow with the rows.
+
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "wisp/base/result.hpp"
+#include "wisp/learn/arx_fit.hpp"
+#include "wisp/learn/channel_choice.hpp"
+#include "wisp/record/csv.hpp"
+#include "wisp/record/recording.hpp"
+
+namespace wisp {
+
+/// Which model the parts are of: the same for all that are to be merged.
+struct FactorOptions {
+  ChannelChoice channels;
+  ArxOrders orders;
+  std::optional<int> first_sample;  ///< as ArxOptions'
+};
+
+/// Rows [begin, end) of a recording that a part takes in. Rows before them are history and belong to other parts.
+struct PartRows {
+  std::size_t begin = 0;
+  std::size_t end = std::numeric_limits<std::size_t>::max();  ///< beyond the last row: to the last row
+};
+
+/// The rows of part `index` (0-based) of `count` when `rows` rows are shared out evenly.
+///
+/// Precondition: index < count.
+PartRows part_rows(std::size_t rows, std::size_t index, std::size_t count);
+
+class TriangularFactor {
+ public:
+  /// An empty part. Errors: orders that do not fit the channels or are out of range.
+  static Result<TriangularFactor> create(const FactorOptions& options);
+
+  TriangularFactor(const TriangularFactor& other);
+  TriangularFactor& operator=(const TriangularFactor& other);
+  TriangularFactor(TriangularFactor&&) noexcept;
+  TriangularFactor& operator=(TriangularFactor&&) noexcept;
+  ~TriangularFactor();
+
+  /// Takes in rows of a recording, with what came before them in their episode as history.
+  /// Errors: a channel that the recording has not, another rate than before, infinite samples.
+  Result<void> add(const Recording& recording, const PartRows& rows = {});
+
+  /// Takes in all rows of a table as they are read, a stretch at a time.
+  /// Errors: as add and CsvReader.
+  Result<void> add(CsvReader& reader);
+
+  /// Takes in all that another part knows. Errors: a part of another model.
+  Result<void> merge(const TriangularFactor& other);
+
+  /// Rows in the regression so far.
+  std::size_t rows() const;
+
+  /// As bytes, the same on every machine, with a hash.
+  std::vector<std::byte> bytes() const;
+
+  /// From bytes. Errors: not a factor, cut short, changed, of another version, or not meaningful.
+  static Result<TriangularFactor> from_bytes(std::span<const std::byte> bytes);
+
+  /// The fit of all that was taken in, as fit_arx makes it; channels, orders and first sample of `options` are the
+  /// factor's. Free simulation is not judged: there is no data to simulate.
+  /// Errors: too few rows.
+  Result<ArxFit> finish(const ArxOptions& options) const;
+
+ private:
+  struct State;
+  explicit TriangularFactor(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace wisp

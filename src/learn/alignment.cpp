@@ -1,0 +1,251 @@
+#include "wisp/learn/alignment.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace wisp {
+namespace {
+
+using Series = std::vector<double>;
+
+constexpr std::size_t kWhiteningOrder = 4;  // lags that carry a gust's shape at 25 to 60 frames a second
+constexpr double kFalseAlarm = 0.01;
+
+Error bad(const std::string& what) { return Error{"alignment: " + what}; }
+
+std::string milliseconds(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.0f ms", 1000 * seconds);
+  return text;
+}
+
+Result<void> check(const AlignmentOptions& o) {
+  const auto in = [](double x, double least, double most) { return x >= least && x <= most; };
+  if (!in(o.rate_hz, 1e-3, 1e6)) return bad("the rate is " + std::to_string(o.rate_hz) + " Hz, expected above 0");
+  if (!in(o.most_seconds, 0.05, 10)) {
+    return bad("the search is ±" + std::to_string(o.most_seconds) + " s, expected 0.05 to 10");
+  }
+  if (!in(o.confidence_level, 0.5, 0.999)) {
+    return bad("the confidence level is " + std::to_string(o.confidence_level) + ", expected 0.5 to 0.999");
+  }
+  if (o.resamples < 50 || o.resamples > 100000) {
+    return bad(std::to_string(o.resamples) + " resamples, expected 50 to 100000");
+  }
+  if (!in(o.block_seconds, 0.1, 60)) {
+    return bad("blocks of " + std::to_string(o.block_seconds) + " s, expected 0.1 to 60");
+  }
+  return {};
+}
+
+/// The series less its mean; missing samples stay missing.
+Series centred(std::span<const double> series) {
+  double sum = 0;
+  double count = 0;
+  for (const double x : series) {
+    if (std::isnan(x)) continue;
+    sum += x;
+    count += 1;
+  }
+  Series out(series.begin(), series.end());
+  for (double& x : out) x -= sum / count;
+  return out;
+}
+
+/// Mean of a(t) b(t + lag) where both are known; 0 where that is nowhere.
+double covariance(const Series& a, const Series& b, std::ptrdiff_t lag) {
+  double sum = 0;
+  double count = 0;
+  const std::ptrdiff_t n = static_cast<std::ptrdiff_t>(a.size());
+  for (std::ptrdiff_t t = std::max<std::ptrdiff_t>(0, -lag); t < std::min(n, n - lag); ++t) {
+    const double product = a[static_cast<std::size_t>(t)] * b[static_cast<std::size_t>(t + lag)];
+    if (std::isnan(product)) continue;
+    sum += product;
+    count += 1;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+/// Predictor coefficients a1 … ap of the series (Yule–Walker equations, Levinson–Durbin recursion).
+std::array<double, kWhiteningOrder> predictor(const Series& series) {
+  std::array<double, kWhiteningOrder + 1> r{};
+  // A missing sample takes its products out of each lag's mean alike; a little added to lag 0 keeps it solvable.
+  for (std::size_t lag = 0; lag < r.size(); ++lag)
+    r[lag] = covariance(series, series, static_cast<std::ptrdiff_t>(lag));
+  double error = r[0] * (1 + 1e-6);
+  std::array<double, kWhiteningOrder> a{};
+  for (std::size_t order = 0; order < kWhiteningOrder; ++order) {
+    double rest = r[order + 1];
+    for (std::size_t i = 0; i < order; ++i) rest -= a[i] * r[order - i];
+    const double reflection = rest / error;
+    const auto before = a;
+    for (std::size_t i = 0; i < order; ++i) a[i] = before[i] - reflection * before[order - 1 - i];
+    a[order] = reflection;
+    error *= std::max(1 - reflection * reflection, 1e-6);
+  }
+  return a;
+}
+
+Series whitened(const Series& series, const std::array<double, kWhiteningOrder>& a) {
+  Series out(series.size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t t = kWhiteningOrder; t < series.size(); ++t) {
+    out[t] = series[t];
+    for (std::size_t i = 0; i < kWhiteningOrder; ++i) out[t] -= a[i] * series[t - 1 - i];
+  }
+  return out;
+}
+
+/// Sums and counts of wind(t) motion(t + lag) per block of time, for each lag.
+struct BlockSums {
+  std::size_t lags = 0;
+  std::size_t blocks = 0;
+  Series sums;    ///< blocks × lags
+  Series counts;  ///< blocks × lags
+
+  BlockSums(const Series& wind, const Series& motion, std::ptrdiff_t most, std::size_t block)
+      : lags(static_cast<std::size_t>(2 * most + 1)),
+        blocks((wind.size() + block - 1) / block),
+        sums(blocks * lags, 0.0),
+        counts(blocks * lags, 0.0) {
+    const std::ptrdiff_t n = static_cast<std::ptrdiff_t>(wind.size());
+    for (std::ptrdiff_t t = 0; t < n; ++t) {
+      const std::size_t row = static_cast<std::size_t>(t) / block * lags;
+      for (std::ptrdiff_t lag = std::max(-most, -t); lag <= std::min(most, n - 1 - t); ++lag) {
+        const double product = wind[static_cast<std::size_t>(t)] * motion[static_cast<std::size_t>(t + lag)];
+        if (std::isnan(product)) continue;
+        sums[row + static_cast<std::size_t>(lag + most)] += product;
+        counts[row + static_cast<std::size_t>(lag + most)] += 1;
+      }
+    }
+  }
+
+  /// Means over the blocks that `weights` names so many times.
+  Series means(const Series& weights) const {
+    Series sum(lags, 0.0);
+    Series count(lags, 0.0);
+    for (std::size_t b = 0; b < blocks; ++b) {
+      if (weights[b] == 0) continue;
+      for (std::size_t k = 0; k < lags; ++k) {
+        sum[k] += weights[b] * sums[b * lags + k];
+        count[k] += weights[b] * counts[b * lags + k];
+      }
+    }
+    for (std::size_t k = 0; k < lags; ++k) sum[k] = count[k] > 0 ? sum[k] / count[k] : 0;
+    return sum;
+  }
+};
+
+/// Where |values| is largest, refined by the parabola through it and its neighbours.
+double peak_of(const Series& values) {
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < values.size(); ++k) {
+    if (std::abs(values[k]) > std::abs(values[best])) best = k;
+  }
+  if (best == 0 || best + 1 == values.size()) return static_cast<double>(best);
+  const double sign = values[best] < 0 ? -1 : 1;
+  const double before = sign * values[best - 1];
+  const double after = sign * values[best + 1];
+  const double bend = before - 2 * sign * values[best] + after;
+  const double shift = bend < 0 ? 0.5 * (before - after) / bend : 0;
+  return static_cast<double>(best) + std::clamp(shift, -0.5, 0.5);
+}
+
+/// |correlation| that the largest of `lags` independent chance correlations of unrelated series stays below with
+/// probability 1 − kFalseAlarm: Bartlett's variance with both autocorrelations, Bonferroni over the lags.
+double chance_level(const Series& wind, const Series& motion, std::size_t lags, double pairs) {
+  const double wind_power = covariance(wind, wind, 0);
+  const double motion_power = covariance(motion, motion, 0);
+  double sum = 1;
+  for (std::ptrdiff_t lag = 1; lag < static_cast<std::ptrdiff_t>(lags / 2); ++lag) {
+    sum += 2 * covariance(wind, wind, lag) / wind_power * covariance(motion, motion, lag) / motion_power;
+  }
+  // Gaussian tail P(|z| > x) < exp(−x²/2) for x > 0.7, so this errs on the safe side.
+  const double z = std::sqrt(2 * std::log(static_cast<double>(lags) / kFalseAlarm));
+  return z * std::sqrt(std::max(sum, 1.0) / pairs);
+}
+
+struct Interval {
+  double low = 0;
+  double high = 0;
+};
+
+Interval bootstrap(const BlockSums& sums, const AlignmentOptions& options) {
+  std::mt19937_64 random(options.seed);
+  Series peaks;
+  for (int i = 0; i < options.resamples; ++i) {
+    Series weights(sums.blocks, 0.0);
+    for (std::size_t b = 0; b < sums.blocks; ++b) weights[random() % sums.blocks] += 1;
+    peaks.push_back(peak_of(sums.means(weights)));
+  }
+  std::sort(peaks.begin(), peaks.end());
+  const double tail = (1 - options.confidence_level) / 2;
+  const auto at = [&](double share) {
+    return peaks[static_cast<std::size_t>(share * static_cast<double>(peaks.size() - 1) + 0.5)];
+  };
+  return {at(tail), at(1 - tail)};
+}
+
+void judge(Alignment& found, double most_seconds) {
+  const double width = found.high_seconds - found.low_seconds;
+  if (std::abs(found.correlation) < found.chance) {
+    found.reason = "motion and wind have nothing in common that stands out from chance";
+  } else if (found.low_seconds <= -most_seconds || found.high_seconds >= most_seconds) {
+    found.reason = "the best offset lies at the search's end; search farther";
+  } else if (width > most_seconds) {
+    found.reason = "the offset is only known to " + milliseconds(width);
+  } else {
+    found.usable = true;
+    found.reason = "the motion comes " + milliseconds(found.offset_seconds) + " after the sound (" +
+                   milliseconds(found.low_seconds) + " to " + milliseconds(found.high_seconds) + ")";
+  }
+}
+
+}  // namespace
+
+Result<Alignment> align_offset(std::span<const double> wind, std::span<const double> motion,
+                               const AlignmentOptions& options) {
+  if (auto ok = check(options); !ok) return ok.error();
+  if (wind.size() != motion.size()) {
+    return bad("the wind has " + std::to_string(wind.size()) + " samples, the motion " + std::to_string(motion.size()) +
+               ", expected as many");
+  }
+  double pairs = 0;
+  for (std::size_t t = 0; t < wind.size(); ++t) pairs += std::isfinite(wind[t]) && std::isfinite(motion[t]) ? 1 : 0;
+  const double least = std::max(4 * options.most_seconds * options.rate_hz, 4.0 * kWhiteningOrder);
+  if (pairs < least) {
+    return bad(std::to_string(static_cast<long long>(pairs)) + " samples in which both are known, expected at least " +
+               std::to_string(static_cast<long long>(std::ceil(least))) + " (four times the search)");
+  }
+  const Series centred_wind = centred(wind);
+  const Series centred_motion = centred(motion);
+  if (!(covariance(centred_wind, centred_wind, 0) > 0)) return bad("the wind never changes");
+  if (!(covariance(centred_motion, centred_motion, 0) > 0)) return bad("the motion never changes");
+
+  const auto filter = predictor(centred_wind);
+  const Series white_wind = whitened(centred_wind, filter);
+  const Series white_motion = whitened(centred_motion, filter);
+  const auto most = static_cast<std::ptrdiff_t>(options.most_seconds * options.rate_hz + 0.5);
+  const auto block = std::max<std::size_t>(static_cast<std::size_t>(options.block_seconds * options.rate_hz + 0.5), 1);
+  const BlockSums sums(white_wind, white_motion, most, block);
+  const Series all = sums.means(Series(sums.blocks, 1.0));
+
+  const double scale = std::sqrt(covariance(white_wind, white_wind, 0) * covariance(white_motion, white_motion, 0));
+  const double peak = peak_of(all);
+  const auto seconds = [&](double place) { return (place - static_cast<double>(most)) / options.rate_hz; };
+  const Interval interval = bootstrap(sums, options);
+  Alignment found;
+  found.offset_seconds = seconds(peak);
+  found.low_seconds = seconds(std::min(interval.low, peak));
+  found.high_seconds = seconds(std::max(interval.high, peak));
+  found.correlation = scale > 0 ? all[static_cast<std::size_t>(peak + 0.5)] / scale : 0;
+  found.chance = chance_level(white_wind, white_motion, all.size(), pairs);
+  judge(found, options.most_seconds);
+  return found;
+}
+
+}  // namespace wisp

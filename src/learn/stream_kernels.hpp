@@ -1,0 +1,83 @@
+#pragma once
+// Inner loops over several series at once: the lagged channels of a regression are the same samples, shifted, so a
+// block of them stays in the first-level cache while all products of it are taken.
+
+#include <cstddef>
+#include <cstring>
+#include <span>
+
+namespace wisp {
+
+/// Two doubles in one register on every machine that has one (SSE2, NEON, WebAssembly); elsewhere the compiler splits
+/// it. Wider registers are left alone on purpose: the same recording gives the same model on every machine.
+using Pair = double __attribute__((vector_size(16)));
+
+inline Pair load_pair(const double* from) {
+  Pair pair;
+  std::memcpy(&pair, from, sizeof pair);
+  return pair;
+}
+
+inline void store_pair(double* to, Pair pair) { std::memcpy(to, &pair, sizeof pair); }
+
+template <std::size_t kCount>
+void add_products_of(const double* x, const double* const* y, std::size_t rows, double* sums) {
+  Pair even[kCount] = {};
+  std::size_t t = 0;
+  for (; t + 2 <= rows; t += 2) {
+    const Pair a = load_pair(x + t);
+    for (std::size_t s = 0; s < kCount; ++s) even[s] += a * load_pair(y[s] + t);
+  }
+  for (std::size_t s = 0; s < kCount; ++s) {
+    double sum = even[s][0] + even[s][1];
+    if (t < rows) sum += x[t] * y[s][t];
+    sums[s] += sum;
+  }
+}
+
+/// sums[s] += Σ_t x[t]·y[s][t] for every series s.
+inline void add_products(const double* x, std::span<const double* const> y, std::size_t rows, double* sums) {
+  std::size_t s = 0;
+  for (; s + 8 <= y.size(); s += 8) add_products_of<8>(x, y.data() + s, rows, sums + s);
+  switch (y.size() - s) {
+    case 7:
+      return add_products_of<7>(x, y.data() + s, rows, sums + s);
+    case 6:
+      return add_products_of<6>(x, y.data() + s, rows, sums + s);
+    case 5:
+      return add_products_of<5>(x, y.data() + s, rows, sums + s);
+    case 4:
+      return add_products_of<4>(x, y.data() + s, rows, sums + s);
+    case 3:
+      return add_products_of<3>(x, y.data() + s, rows, sums + s);
+    case 2:
+      return add_products_of<2>(x, y.data() + s, rows, sums + s);
+    case 1:
+      return add_products_of<1>(x, y.data() + s, rows, sums + s);
+    default:
+      return;
+  }
+}
+
+/// out[t] = start[t] + Σ_s weight[s]·x[s][t].
+inline void combine(const double* start, std::span<const double* const> x, std::span<const double> weight,
+                    std::size_t rows, double* out) {
+  std::size_t t = 0;
+  for (; t + 8 <= rows; t += 8) {
+    Pair sum[4];
+    for (std::size_t k = 0; k < 4; ++k) sum[k] = load_pair(start + t + 2 * k);
+    for (std::size_t s = 0; s < x.size(); ++s) {
+      const double* series = x[s] + t;
+      const Pair w = {weight[s], weight[s]};
+      for (std::size_t k = 0; k < 4; ++k) sum[k] += w * load_pair(series + 2 * k);
+    }
+    for (std::size_t k = 0; k < 4; ++k) store_pair(out + t + 2 * k, sum[k]);
+  }
+  for (; t < rows; ++t) {
+    double sum = start[t];
+    for (std::size_t s = 0; s < x.size(); ++s) sum += weight[s] * x[s][t];
+    out[t] = sum;
+  }
+}
+
+}  // namespace wisp

@@ -1,0 +1,168 @@
+// From a clip to a living model, by the program, and every way in which a clip can be bad.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cli/program.hpp"
+#include "wisp/draw/flame.hpp"
+#include "wisp/draw/video_writer.hpp"
+#include "wisp/model/file.hpp"
+#include "wisp/record/csv.hpp"
+
+namespace wisp {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+constexpr int kWidth = 160, kHeight = 200, kFrames = 90;
+
+// A drop-shaped flame that sways and stretches, on black.
+Image flame_frame(int frame) {
+  std::vector<Point> outline;
+  const double sway = 0.15 * std::sin(0.9 * frame) + 0.1 * std::sin(0.37 * frame),
+               height = 1 + 0.12 * std::sin(0.53 * frame);
+  for (int k = 0; k <= 60; ++k) {
+    const double t = k / 60.0, side = t < 0.5 ? -1 : 1, up = 1 - std::abs(2 * t - 1);
+    const double half_width = 0.16 * std::sqrt(1 - up) * (0.6 + 1.4 * up);
+    outline.push_back({static_cast<float>(side * half_width + sway * up * up), static_cast<float>(height * up)});
+  }
+  Image image(kWidth, kHeight);
+  const FlameScene scene{.base = {80, 180}, .pixels_per_unit = 120};
+  draw_flame(image, outline, scene, {.glow = 0, .candle = false});
+  return image;
+}
+
+class Clip : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write_clip(const std::string& name, int frames, bool black = false) {
+    auto film =
+        VideoWriter::create(at(name), {.width = kWidth, .height = kHeight, .rate_hz = 30, .preset = "ultrafast"});
+    ASSERT_TRUE(film) << film.error().message;
+    for (int k = 0; k < frames; ++k) ASSERT_TRUE(film->write(black ? Image(kWidth, kHeight) : flame_frame(k)));
+    ASSERT_TRUE(film->finish());
+  }
+
+  // The command fails with status 1, one line that holds `word`, and no output file.
+  void expect_refused(const std::string& arguments, const std::string& word) {
+    const Said said = wisp(arguments + " -o " + at("out.csv"));
+    EXPECT_EQ(said.status, 1) << arguments;
+    EXPECT_THAT(said.err, HasSubstr(word)) << arguments;
+    EXPECT_EQ(std::count(said.err.begin(), said.err.end(), '\n'), 1) << said.err;
+    EXPECT_FALSE(fs::exists(at("out.csv"))) << arguments;
+  }
+
+  Said wisp(const std::string& arguments) { return run_wisp(arguments, folder_); }
+  std::string at(const std::string& name) const { return (folder_ / name).string(); }
+  fs::path folder_;
+};
+
+TEST_F(Clip, BecomesARecordingAModelAndPictures) {
+  write_clip("clip.mp4", kFrames);
+  const Said captured = wisp("capture flame " + at("clip.mp4") + " -o " + at("rec.csv") + " --json");
+  ASSERT_EQ(captured.status, 0) << captured.err;
+  EXPECT_EQ(captured.json()["frames"], kFrames);
+  EXPECT_GE(captured.json()["tracked"].get<int>(), kFrames - 5);
+  EXPECT_EQ(captured.json()["points"], 8);
+  EXPECT_FALSE(captured.json()["wind"]["heard"]);
+
+  const Said learned = wisp("learn flame " + at("rec.csv") + " -o " + at("m.wisp") + " --json");
+  ASSERT_EQ(learned.status, 0) << learned.err;
+  EXPECT_EQ(learned.json()["cost"]["multiply_adds_per_frame"], 8 * 2 * 2 * 4);
+  EXPECT_EQ(learned.json()["channels"].size(), 16u);
+  EXPECT_LT(learned.json()["stable"]["radius"].get<double>(), 1);
+
+  const Said validated =
+      wisp("validate " + at("m.wisp") + " " + at("rec.csv") + " --clip " + at("clip.mp4") + " --overlay " +
+           at("overlay.mp4") + " --film-strip " + at("strip.png") + " --figures " + at("figures") + " --json");
+  ASSERT_EQ(validated.status, 0) << validated.err;
+  EXPECT_TRUE(validated.json()["tip"]["fit_percent"].contains("inf"));
+  EXPECT_GT(validated.json()["overlap_by_steps"]["1"].get<double>(), 0.7);
+  for (const char* name : {"overlay.mp4", "strip.png", "figures/flicker.svg", "figures/residual-noise.png"}) {
+    EXPECT_GT(fs::file_size(at(name)), 1000u) << name;
+  }
+  EXPECT_EQ(wisp("run " + at("m.wisp") + " --frames 40 --instances 2 -o " + at("flame.mp4")).status, 0);
+  EXPECT_GT(fs::file_size(at("flame.mp4")), 1000u);
+}
+
+TEST_F(Clip, TheSameSeedGivesTheSameBytes) {
+  write_clip("clip.mp4", kFrames);
+  ASSERT_EQ(wisp("learn flame " + at("clip.mp4") + " -o " + at("a.wisp")).status, 0);
+  ASSERT_EQ(wisp("learn flame " + at("clip.mp4") + " -o " + at("b.wisp")).status, 0);
+  for (const char* name : {"a", "b"}) {
+    ASSERT_EQ(
+        wisp("run " + at(std::string(name) + ".wisp") + " --frames 200 --seed 5 -o " + at(std::string(name) + ".csv"))
+            .status,
+        0);
+  }
+  EXPECT_EQ(file_text(at("a.csv")).substr(100), file_text(at("b.csv")).substr(100));
+}
+
+TEST_F(Clip, ThatCannotBeUsedIsRefusedWithOneLineAndNoOutput) {
+  expect_refused("capture flame " + at("nowhere.mp4"), "nowhere.mp4");
+  std::ofstream(at("text.mp4")) << "This is not a film.\n";
+  expect_refused("capture flame " + at("text.mp4"), "text.mp4");
+  write_clip("black.mp4", 40, true);
+  expect_refused("capture flame " + at("black.mp4"), "black.mp4");
+  write_clip("short.mp4", 3);
+  expect_refused("capture flame " + at("short.mp4"), "short.mp4");
+  write_clip("clip.mp4", 40);
+  expect_refused("capture flame " + at("clip.mp4") + " --region 100,100,500,500", "region");
+  expect_refused("capture flame " + at("clip.mp4") + " --region here", "--region");
+  expect_refused("capture flame " + at("clip.mp4") + " --points 3", "--points");
+  expect_refused("capture flame " + at("clip.mp4") + " --frames 30:400", "30:400");
+  fs::create_directories(at("empty"));
+  expect_refused("capture flame --rate 30 " + at("empty"), "empty");
+}
+
+TEST_F(Clip, AFolderWithOneImageOfAnotherSizeNamesIt) {
+  fs::create_directories(at("frames"));
+  for (int k = 0; k < 20; ++k) {
+    const std::string name = at("frames/" + std::to_string(100 + k) + ".png");
+    ASSERT_TRUE(write_png(name, k == 13 ? resized(flame_frame(k), 100, 100) : flame_frame(k)));
+  }
+  expect_refused("capture flame --rate 30 " + at("frames"), "113.png");
+  fs::remove(at("frames/113.png"));
+  EXPECT_EQ(wisp("capture flame --rate 30 " + at("frames") + " -o " + at("ok.csv")).status, 0);
+}
+
+TEST_F(Clip, CutInHalfIsUsedAsFarAsItGoesOrRefused) {
+  write_clip("whole.mp4", kFrames);
+  const std::string bytes = file_text(at("whole.mp4"));
+  std::ofstream(at("half.mp4"), std::ios::binary) << bytes.substr(0, bytes.size() / 2);
+  const Said said = wisp("capture flame " + at("half.mp4") + " -o " + at("half.csv"));
+  EXPECT_NE(said.err, "");
+  EXPECT_EQ(said.status == 0, fs::exists(at("half.csv")));
+}
+
+TEST_F(Clip, ARecordingOfOtherPointsThanTheModelIsExplained) {
+  write_clip("clip.mp4", kFrames);
+  ASSERT_EQ(wisp("capture flame " + at("clip.mp4") + " -o " + at("eight.csv")).status, 0);
+  ASSERT_EQ(wisp("capture flame " + at("clip.mp4") + " --points 12 -o " + at("twelve.csv")).status, 0);
+  ASSERT_EQ(wisp("learn flame " + at("eight.csv") + " -o " + at("m.wisp")).status, 0);
+  const Said said = wisp("validate " + at("m.wisp") + " " + at("twelve.csv"));
+  EXPECT_EQ(said.status, 1);
+  EXPECT_THAT(said.err, HasSubstr("--points 8"));
+}
+
+TEST_F(Clip, TheDemoLeavesItsResultsInAFolder) {
+  write_clip("clip.mp4", kFrames);
+  const Said said = wisp("demo " + at("clip.mp4") + " -o " + at("demo"));
+  ASSERT_EQ(said.status, 0) << said.err;
+  for (const char* name :
+       {"recording.csv", "flame.wisp", "overlay.mp4", "film-strip.png", "flame.mp4", "summary.json"}) {
+    EXPECT_TRUE(fs::exists(fs::path(at("demo")) / name)) << name;
+  }
+  EXPECT_THAT(said.out, HasSubstr("What to try next"));
+}
+
+}  // namespace
+}  // namespace wisp

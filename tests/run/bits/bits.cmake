@@ -1,0 +1,82 @@
+# The frame path gives the same bits whatever compiles it: builds frames.cpp with the run layer's own sources and options
+# in many ways and compares the hashes.
+#
+#   cmake -DSOURCE=… -DWORK=… -DOPTIONS="the layer's options" [-DLAUNCHER=ccache] -P bits.cmake
+#
+# A change of this hash is a change of what every game sees: CHANGES.md says so on a line of its own.
+set(golden fd79da70dd1ea01b)
+
+set(variants
+  "g++ -O0"
+  "g++ -O3"
+  "g++ -O3 -DWISP_PLAIN_LANES"
+  "g++ -Ofast -march=native"
+  "clang++ -O0"
+  "clang++ -O3"
+  "clang++ -O3 -ffast-math -march=native")
+
+separate_arguments(OPTIONS)
+file(GLOB sources ${SOURCE}/src/run/*.cpp)
+list(FILTER sources EXCLUDE REGEX "/wind_")
+list(APPEND sources ${SOURCE}/tests/run/bits/frames.cpp ${SOURCE}/src/base/hash.cpp ${SOURCE}/src/model/arx.cpp
+  ${SOURCE}/src/model/bspline.cpp ${SOURCE}/src/model/check.cpp ${SOURCE}/src/model/model.cpp)
+
+# Compiles and links one variant into `folder`; what is in `last` has the last word over the layer's options.
+function(build folder compiler flags last)
+  file(MAKE_DIRECTORY ${folder})
+  set(objects)
+  foreach(source IN LISTS sources)
+    file(RELATIVE_PATH object ${SOURCE} ${source})
+    string(MAKE_C_IDENTIFIER ${object} object)
+    execute_process(
+      COMMAND ${LAUNCHER} ${compiler} -std=c++20 -DNDEBUG ${flags} ${OPTIONS} ${last} -I${SOURCE}/include
+              -I${SOURCE}/src -I${SOURCE}/tests -c ${source} -o ${folder}/${object}.o
+      RESULT_VARIABLE failed ERROR_VARIABLE errors)
+    if(failed)
+      message(FATAL_ERROR "${compiler} ${flags}: ${source} does not compile:\n${errors}")
+    endif()
+    list(APPEND objects ${folder}/${object}.o)
+  endforeach()
+  execute_process(COMMAND ${compiler} ${flags} ${objects} -o ${folder}/frames RESULT_VARIABLE failed)
+  if(failed)
+    message(FATAL_ERROR "${compiler} ${flags}: does not link")
+  endif()
+endfunction()
+
+set(wrong 0)
+
+foreach(variant IN LISTS variants)
+  separate_arguments(flags UNIX_COMMAND "${variant}")
+  list(POP_FRONT flags compiler)
+  find_program(found_${compiler} ${compiler})
+  if(NOT found_${compiler})
+    message("skipped   ${variant}: there is no ${compiler}")
+    continue()
+  endif()
+  string(MAKE_C_IDENTIFIER "${variant}" name)
+  build(${WORK}/${name} ${compiler} "${flags}" "")
+  foreach(mode "" flush)
+    execute_process(COMMAND ${WORK}/${name}/frames ${mode} OUTPUT_VARIABLE hash OUTPUT_STRIP_TRAILING_WHITESPACE)
+    if(hash STREQUAL golden)
+      message("same      ${variant} ${mode}")
+    else()
+      message("different ${variant} ${mode}: ${hash}, expected ${golden}")
+      math(EXPR wrong "${wrong} + 1")
+    endif()
+  endforeach()
+endforeach()
+
+# That the comparison sees a difference: products and sums fused, as they are without the layer's options.
+file(STRINGS /proc/cpuinfo fuses REGEX "^flags.* fma " LIMIT_COUNT 1)
+if(fuses)
+  build(${WORK}/fused c++ "-O2;-mfma" -ffp-contract=fast)
+  execute_process(COMMAND ${WORK}/fused/frames OUTPUT_VARIABLE hash OUTPUT_STRIP_TRAILING_WHITESPACE)
+  if(hash STREQUAL golden)
+    message("same      fused, which must differ: this test sees nothing")
+    math(EXPR wrong "${wrong} + 1")
+  endif()
+endif()
+
+if(wrong)
+  message(FATAL_ERROR "${wrong} of the builds give other bits than they must")
+endif()

@@ -1,0 +1,108 @@
+// Prints a hash of more than 100 000 frames. The same hash must come out of every compiler, level of optimisation,
+// width of vectors and machine; with the argument "flush" also where denormals are flushed to zero.
+
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#ifdef __SSE2__
+#include <immintrin.h>
+#endif
+
+#include "model/sample_model.hpp"
+#include "run/flame_model.hpp"
+#include "wisp/base/hash.hpp"
+#include "wisp/run/bank.hpp"
+#include "wisp/run/random.hpp"
+
+namespace wisp {
+namespace {
+
+// Little-endian machines only, as everywhere that this program runs.
+void add(std::uint64_t& hash, const std::vector<float>& values) {
+  hash = hash_bytes(std::as_bytes(std::span(values)), hash);
+}
+
+Bank full_bank(const Model& model, int capacity, std::uint64_t seed) {
+  auto bank = Bank::create(model, {.capacity = capacity, .seed = seed, .polyline_points = 9});
+  if (!bank) {
+    std::printf("%s\n", bank.error().message.c_str());
+    std::exit(1);
+  }
+  for (int k = 0; k < capacity; ++k) bank->spawn();
+  return std::move(bank).value();
+}
+
+// Wind of one frame: now and then absurd, else between −2 and 2 in steps of 2^-22.
+float wind_at(int frame, int instance) {
+  const auto words = random_words({.seed = 77, .stream = static_cast<std::uint64_t>(instance), .step = frame / 5U});
+  if (words[1] % 200 == 0) return std::numeric_limits<float>::quiet_NaN();
+  if (words[1] % 200 == 1) return 1e30f;
+  return static_cast<float>(static_cast<std::int32_t>(words[0]) >> 8) / 4194304.0f;
+}
+
+// Raw steps.
+void step_frames(std::uint64_t& hash, const Model& model, int capacity, int frames) {
+  Bank bank = full_bank(model, capacity, 5);
+  std::vector<float> wind(capacity), outputs(static_cast<std::size_t>(capacity) * bank.output_count());
+  for (int frame = 0; frame < frames; ++frame) {
+    for (int k = 0; k < capacity; ++k) wind[k] = wind_at(frame, k);
+    bank.set_inputs(wind);
+    bank.step();
+    bank.outputs(outputs);
+    add(hash, outputs);
+  }
+}
+
+// Time at 60 frames a second, polylines read.
+void time_frames(std::uint64_t& hash, const Model& model, int capacity, int frames) {
+  Bank bank = full_bank(model, capacity, 6);
+  std::vector<float> wind(capacity);
+  std::vector<float> points(static_cast<std::size_t>(capacity) * bank.polyline_points() * 2);
+  for (int frame = 0; frame < frames; ++frame) {
+    for (int k = 0; k < capacity; ++k) wind[k] = wind_at(frame, k);
+    bank.set_inputs(wind);
+    bank.advance(std::chrono::nanoseconds(16'666'667));
+    bank.polylines(points);
+    add(hash, points);
+  }
+}
+
+// A flame that dies away to nothing, over and over: states pass through all that is small.
+void fading_frames(std::uint64_t& hash, int frames) {
+  Model model = flame_model();
+  auto& arx = std::get<ArxModel>(model.dynamics);
+  arx.input_mean.assign(1, 0.0);
+  arx.output_mean.assign(16, 0.0);
+  for (Output& output : model.outputs) output.lowest = -(output.highest = 0.5);
+  Bank bank = full_bank(model, 3, 7);
+  bank.set_noise(0);
+  std::vector<float> outputs(48);
+  for (int frame = 0; frame < frames; ++frame) {
+    const float wind = frame % 700 < 3 ? 1e-3f : 0.0f;
+    bank.set_common_inputs(std::span(&wind, 1));
+    bank.step();
+    bank.outputs(outputs);
+    add(hash, outputs);
+  }
+}
+
+}  // namespace
+}  // namespace wisp
+
+int main(int count, char** arguments) {
+  using namespace wisp;
+#ifdef __SSE2__
+  if (count > 1 && std::strcmp(arguments[1], "flush") == 0) _mm_setcsr(_mm_getcsr() | 0x8040);
+#else
+  static_cast<void>(count), static_cast<void>(arguments);
+#endif
+  std::uint64_t hash = 0;
+  step_frames(hash, flame_model({.wind = InputShape::kSplitSign, .noise_rank = 2}), 1, 30'000);
+  step_frames(hash, sample_model(), 13, 2'000);
+  time_frames(hash, flame_model(), 37, 1'000);
+  fading_frames(hash, 5'000);
+  std::printf("%016llx\n", static_cast<unsigned long long>(hash));
+}

@@ -1,0 +1,196 @@
+// The frame path allocates nothing, takes no lock and makes no system call. Each guard is first shown to fire.
+
+#include <dlfcn.h>
+#include <gtest/gtest.h>
+#include <pthread.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <vector>
+
+#include "run/flame_model.hpp"
+#include "wisp/run/bank.hpp"
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define WISP_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define WISP_SANITIZED 1
+#endif
+#endif
+
+namespace {
+
+struct Counts {
+  long allocations = 0;
+  long locks = 0;
+};
+thread_local Counts counts;
+
+void* counted_allocation(std::size_t size, std::size_t alignment) {
+  ++counts.allocations;
+  const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
+  void* memory = alignment <= alignof(std::max_align_t) ? std::malloc(size) : std::aligned_alloc(alignment, rounded);
+  if (!memory) std::abort();
+  return memory;
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return counted_allocation(size, 1); }
+void* operator new[](std::size_t size) { return counted_allocation(size, 1); }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return counted_allocation(size, 1); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return counted_allocation(size, static_cast<std::size_t>(alignment));
+}
+void* operator new(std::size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept {
+  return counted_allocation(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+
+#ifndef WISP_SANITIZED
+// Every lock of the standard library on this platform ends here.
+extern "C" int pthread_mutex_lock(pthread_mutex_t* mutex) noexcept {
+  using Lock = int (*)(pthread_mutex_t*);
+  static const auto own = reinterpret_cast<Lock>(dlsym(RTLD_NEXT, "pthread_mutex_lock"));
+  ++counts.locks;
+  return own(mutex);
+}
+#endif
+
+namespace wisp {
+namespace {
+
+// A bank in given memory, and buffers for all that can be done with it each frame.
+struct Stage {
+  static constexpr int kCapacity = 20;
+
+  Stage() : memory(*bank_bytes(model, {.capacity = kCapacity})) {
+    auto made = Bank::create(model, {.capacity = kCapacity, .memory = memory});
+    EXPECT_TRUE(made);
+    bank.emplace(std::move(made).value());
+    for (int k = 0; k < kCapacity; ++k) bank->spawn();
+    wind.assign(kCapacity, 0.4f);
+    outputs.resize(kCapacity * 16);
+    polylines.resize(kCapacity * 2 * bank->polyline_points());
+    saved.resize(bank->save_bytes());
+  }
+
+  // Every function of the frame path. `own` runs in the middle of it.
+  template <class Own>
+  void frame(Own own) {
+    Bank& b = *bank;
+    const InstanceId id = b.at(3);
+    b.end(id);
+    const InstanceId next = b.spawn();
+    b.set_inputs(wind);
+    b.set_common_inputs(std::span(wind).first(1));
+    b.set_inputs(next, std::span(wind).first(1));
+    b.set_noise(0.9f);
+    b.step();
+    own();
+    b.advance(std::chrono::nanoseconds(70'000'000));
+    b.outputs(outputs);
+    b.outputs(next, std::span(outputs).first(16));
+    b.polylines(polylines);
+    b.polyline(next, std::span(polylines).first(2 * b.polyline_points()));
+    b.save(saved);
+    if (!b.restore(saved)) std::abort();
+    b.reset(next);
+    b.reset();
+  }
+  void frame() {
+    frame([] {});
+  }
+
+  Model model = flame_model({.wind = InputShape::kSplitSign, .noise_rank = 1});
+  std::vector<std::byte> memory;
+  std::optional<Bank> bank;
+  std::vector<float> wind, outputs, polylines;
+  std::vector<std::byte> saved;
+};
+
+TEST(FramePath, TheGuardSeesAnAllocation) {
+  Stage stage;
+  counts = {};
+  stage.frame([] { delete new volatile int(1); });
+  EXPECT_EQ(counts.allocations, 1);
+}
+
+TEST(FramePath, AllocatesNothing) {
+  Stage stage;
+  counts = {};
+  for (int k = 0; k < 100; ++k) stage.frame();
+  EXPECT_EQ(counts.allocations, 0);
+}
+
+TEST(FramePath, ABankThatOwnsItsMemoryAllocatesItOnce) {
+  const Model model = flame_model();
+  ASSERT_TRUE(bank_bytes(model, {.capacity = 100}));
+  counts = {};
+  ASSERT_TRUE(bank_bytes(model, {.capacity = 100}));
+  const long checking = counts.allocations;
+  counts = {};
+  auto bank = Bank::create(model, {.capacity = 100});
+  EXPECT_EQ(counts.allocations, checking + 1);
+}
+
+#ifndef WISP_SANITIZED
+TEST(FramePath, TheGuardSeesALock) {
+  Stage stage;
+  std::mutex mutex;
+  counts = {};
+  stage.frame([&] { std::lock_guard hold(mutex); });
+  EXPECT_EQ(counts.locks, 1);
+}
+
+TEST(FramePath, TakesNoLock) {
+  Stage stage;
+  counts = {};
+  for (int k = 0; k < 100; ++k) stage.frame();
+  EXPECT_EQ(counts.locks, 0);
+}
+
+// Runs frames where the kernel ends the process at any system call but read, write and exit. Returns how it ended.
+template <class Own>
+int status_of_sealed_frames(Own own) {
+  Stage stage;
+  const pid_t child = fork();
+  if (child == 0) {
+    if (prctl(PR_SET_SECCOMP, 1) != 0) _exit(77);  // 1: strict
+    for (int k = 0; k < 100; ++k) stage.frame(own);
+    syscall(SYS_exit, 0);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  return status;
+}
+
+TEST(FramePath, TheGuardSeesASystemCall) {
+  const int status = status_of_sealed_frames([] { syscall(SYS_getpid); });
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 77) GTEST_SKIP() << "this kernel does not seal processes (seccomp)";
+  ASSERT_TRUE(WIFSIGNALED(status));
+  EXPECT_EQ(WTERMSIG(status), SIGKILL);
+}
+
+TEST(FramePath, MakesNoSystemCall) {
+  const int status = status_of_sealed_frames([] {});
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 77) GTEST_SKIP() << "this kernel does not seal processes (seccomp)";
+  ASSERT_TRUE(WIFEXITED(status)) << "ended by signal " << WTERMSIG(status);
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+}
+#endif
+
+}  // namespace
+}  // namespace wisp
