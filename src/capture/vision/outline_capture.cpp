@@ -132,7 +132,12 @@ Result<void> OutlineCapture::Stage::decide() {
   const auto surveys = survey_scene(seen, {options_.channel, options_.dark, options_.region, cloud_options_.base});
   if (!surveys) return complaint(surveys.error().message);
   choose_channel(*surveys, pictures);
-  TrackerOptions to; if(getenv("SLIP")) to.slip=atof(getenv("SLIP")); if(getenv("TW")) to.tangent_widening=atof(getenv("TW")); if(getenv("NW")) to.normal_widening=atof(getenv("NW")); if(getenv("TS")) to.tangent_sd=atof(getenv("TS"));if(getenv("NS")) to.normal_sd=atof(getenv("NS"));
+  TrackerOptions to;
+  if (getenv("SLIP")) to.slip = atof(getenv("SLIP"));
+  if (getenv("TW")) to.tangent_widening = atof(getenv("TW"));
+  if (getenv("NW")) to.normal_widening = atof(getenv("NW"));
+  if (getenv("TS")) to.tangent_sd = atof(getenv("TS"));
+  if (getenv("NS")) to.normal_sd = atof(getenv("NS"));
   tracker_.emplace(decide_shape(pictures), to);
   for (const auto& held : held_) {
     if (held) {
@@ -162,7 +167,9 @@ void OutlineCapture::Stage::choose_channel(std::span<const Survey> surveys, std:
       const std::vector<EdgeCloud> clouds = sample_clouds(seeker, pictures, options);
       const double overlap = clouds.empty() ? 0 : 1 - fit_pace(clouds, uniform_knots(kTrialPoints)).misfit;
       score = survey.separation * std::max(overlap, 0.0) * std::abs(overlap);
-      if (getenv("DBG")) fprintf(stderr,"ch %d sep %.4f overlap %.4f level %d\n",(int)survey.channel,survey.separation,overlap,survey.level);
+      if (getenv("DBG"))
+        fprintf(stderr, "ch %d sep %.4f overlap %.4f level %d\n", (int)survey.channel, survey.separation, overlap,
+                survey.level);
     }
     if (score <= best) continue;
     best = score;
@@ -195,7 +202,7 @@ std::vector<EdgeCloud> OutlineCapture::Stage::sample_clouds(const OutlineSeeker&
 std::vector<double> OutlineCapture::Stage::decide_shape(std::span<const Picture> pictures) {
   CurveShape best;
   for (const bool underside : {false, true}) {
- if (getenv("US") && (atoi(getenv("US"))!=0) != underside) continue;
+    if (getenv("US") && (atoi(getenv("US")) != 0) != underside) continue;
     EdgeCloudOptions options = cloud_options_;
     options.underside = underside;
     options.most_points = kSamplePoints;
@@ -208,7 +215,9 @@ std::vector<double> OutlineCapture::Stage::decide_shape(std::span<const Picture>
     }
     clouds = sample_clouds(*seeker_, pictures, options);
     CurveShape shape = choose_shape(clouds, options_.points, options_.place_knots);
-    if (getenv("DBG")) fprintf(stderr,"underside %d misfit %.4f uniform %.4f\n",underside,shape.misfit,choose_shape(clouds,options_.points,false).misfit);
+    if (getenv("DBG"))
+      fprintf(stderr, "underside %d misfit %.4f uniform %.4f\n", underside, shape.misfit,
+              choose_shape(clouds, options_.points, false).misfit);
     if (!best.knots.empty() && shape.misfit >= kWorthFollowing * best.misfit) continue;
     best = std::move(shape);
     cloud_options_.underside = underside;

@@ -10,9 +10,9 @@ namespace {
 
 constexpr double kFadeShare = 0.73;  // a thing dimmer than this share of its usual brightness is fading
 constexpr double kDuplicateShare =
-    0.15;  // a frame that changes less than this share of its neighbours repeats the last
-constexpr std::size_t kNeighbours =
-    5;  // frames to either side: a still flame, after encoding, repeats itself for longer
+    0.35;                               // a frame that changes less than this share of its neighbours repeats the last
+constexpr double kDuplicateMost = 0.5;  // … and by less than half a grey level: a picture taken anew has its own noise
+constexpr std::size_t kNeighbours = 4;  // on each side
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 enum class Fate : std::uint8_t { kKept, kDuplicate, kFilled, kFade, kNothing, kLost };
@@ -24,42 +24,35 @@ double median(std::vector<float> values) {
   return *middle;
 }
 
-// How much frames around frame k change.
-double usual_change(const std::vector<FrameFinding>& frames, std::size_t k) {
-  std::vector<float> change;
-  const std::size_t end = std::min(frames.size(), k + kNeighbours + 1);
-  for (std::size_t n = k > kNeighbours ? k - kNeighbours : 0; n < end; ++n) {
-    if (frames[n].kind == FrameFinding::Kind::kTracked) change.push_back(frames[n].change);
+// A camera's frames that a screen or a converter showed twice. What counts is the change against that of the frames
+// around: near its turning points a thing really stands still for a moment, but then its neighbours are slow too.
+bool duplicate(const FrameFindings& findings, std::size_t row) {
+  const float change = findings.frames[row].change;
+  if (row == 0 || change >= kDuplicateMost) return false;
+  std::vector<float> around;
+  const std::size_t first = row > kNeighbours ? row - kNeighbours : 1;
+  for (std::size_t k = first; k < std::min(findings.size(), row + kNeighbours + 1); ++k) {
+    if (findings.frames[k].kind == FrameFinding::Kind::kTracked) around.push_back(findings.frames[k].change);
   }
-  return median(std::move(change));
+  return change < kDuplicateShare * median(std::move(around));
 }
 
-// Fades are told by the clip's usual brightness, duplicates by how much the frames around them change.
+Fate judge(const FrameFindings& findings, std::size_t row, double usual_brightness) {
+  const FrameFinding& frame = findings.frames[row];
+  if (frame.kind == FrameFinding::Kind::kLost) return Fate::kLost;
+  if (frame.kind == FrameFinding::Kind::kNothing) return Fate::kNothing;
+  if (frame.brightness < kFadeShare * usual_brightness) return Fate::kFade;
+  return duplicate(findings, row) ? Fate::kDuplicate : Fate::kKept;
+}
+
 std::vector<Fate> judge(const FrameFindings& findings) {
   std::vector<float> brightness;
-  for (const FrameFinding& f : findings.frames) {
-    if (f.kind == FrameFinding::Kind::kTracked) brightness.push_back(f.brightness);
+  for (const FrameFinding& frame : findings.frames) {
+    if (frame.kind == FrameFinding::Kind::kTracked) brightness.push_back(frame.brightness);
   }
-  const double usual_brightness = median(brightness);
+  const double usual_brightness = median(std::move(brightness));
   std::vector<Fate> fate;
-  for (std::size_t k = 0; k < findings.frames.size(); ++k) {
-    const FrameFinding& f = findings.frames[k];
-    switch (f.kind) {
-      case FrameFinding::Kind::kLost:
-        fate.push_back(Fate::kLost);
-        break;
-      case FrameFinding::Kind::kNothing:
-        fate.push_back(Fate::kNothing);
-        break;
-      case FrameFinding::Kind::kTracked:
-        if (f.brightness < kFadeShare * usual_brightness) {
-          fate.push_back(Fate::kFade);
-        } else {
-          const bool repeats = f.change < kDuplicateShare * usual_change(findings.frames, k);
-          fate.push_back(repeats ? Fate::kDuplicate : Fate::kKept);
-        }
-    }
-  }
+  for (std::size_t row = 0; row < findings.size(); ++row) fate.push_back(judge(findings, row, usual_brightness));
   return fate;
 }
 

@@ -9,8 +9,9 @@
 namespace wisp {
 namespace {
 
-constexpr double kMarginShare = 0.2;     // of the thing's longer side: how far it may move from frame to frame
-constexpr int kLeastMargin = 8;          // pixels
+constexpr double kMarginShare =
+    0.06;                        // of the longer side: what it usually moves in a frame; if more, more is looked at
+constexpr int kLeastMargin = 8;  // pixels
 constexpr double kLeastAreaShare = 0.1;  // of its usual area: less is a spark or what is left after it went out
 constexpr int kLeastArea = 24;           // pixels
 
@@ -82,7 +83,7 @@ bool OutlineSeeker::find_in(const Picture& picture, Region place) {
                              (box.right() == place.right() && place.right() < area_.right()) ||
                              (box.bottom() == place.bottom() && place.bottom() < area_.bottom());
     if (!reaches_out) return true;
-    place = grown(enclosing(place, box), std::max(kLeastMargin, std::max(box.width, box.height) / 2));
+    place = grown(enclosing(place, box), std::max(kLeastMargin, std::max(box.width, box.height) / 8));
   }
 }
 

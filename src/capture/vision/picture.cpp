@@ -1,20 +1,23 @@
 #include "wisp/capture/vision/picture.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 
 namespace wisp {
 namespace {
 
-// Luma to RGB in 16.16 fixed point: value = scale (Y − black) + blue (Cb − 128) + red (Cr − 128).
+// Luma to RGB in fixed point with 13 bits after the point, so that factors and samples are 16 bits wide: products of
+// those are what processors multiply widest. value = scale (Y − black) + blue (Cb − 128) + red (Cr − 128).
 struct Conversion {
   int black = 0;
-  int scale = 65536;
+  int scale = 1 << 13;
   int from_cb = 0;
   int from_cr = 0;
 };
 
-constexpr int kFixedOne = 1 << 16;
+constexpr int kFixedBits = 13;
+constexpr int kFixedOne = 1 << kFixedBits;
 
 int fixed(double value) { return static_cast<int>(value * kFixedOne + (value < 0 ? -0.5 : 0.5)); }
 
@@ -64,13 +67,42 @@ int colour_part(const Conversion& to, const PicturePlane& cb, const PicturePlane
   return to.from_cb * (*plane_row(cb, cx, cy) - 128) + to.from_cr * (*plane_row(cr, cx, cy) - 128) + kFixedOne / 2;
 }
 
+// Up to kBlock pixels of planar YUV, in loops over whole arrays, which compilers turn into wide instructions.
+constexpr int kBlock = 256;
+
+void colour_block(const Conversion& to, const std::uint8_t* luma, const std::uint8_t* cb, const std::uint8_t* cr,
+                  int shift, int phase, int width, std::uint8_t* out) {
+  std::array<int, kBlock + 2> colour{};
+  const int colours = ((phase + width - 1) >> shift) + 1;
+  std::array<int, kBlock + 2> each;
+  for (int k = 0; k < colours; ++k) each[k] = to.from_cb * (cb[k] - 128) + to.from_cr * (cr[k] - 128) + kFixedOne / 2;
+  if (shift == 1) {
+    for (int k = 0; 2 * k + 1 < kBlock + 2 && k < colours; ++k) colour[2 * k] = colour[2 * k + 1] = each[k];
+  } else {
+    for (int i = 0; i < phase + width; ++i) colour[i] = each[i >> shift];
+  }
+  const auto scale = static_cast<std::int16_t>(to.scale), black = static_cast<std::int16_t>(to.black);
+  for (int i = 0; i < width; ++i) {
+    const auto above_black = static_cast<std::int16_t>(luma[i] - black);
+    const int value = (scale * above_black + colour[i + phase]) >> kFixedBits;
+    out[i] = static_cast<std::uint8_t>(value < 0 ? 0 : value > 255 ? 255 : value);
+  }
+}
+
 void colour_row_of_yuv(const Picture& picture, const Conversion& to, const Region& region, int y, std::uint8_t* out) {
-  const std::uint8_t* luma = plane_row(picture.planes[0], region.x, y);
+  const auto& [luma, cb, cr] = picture.planes;
   const int shift = picture.chroma_shift_x, cy = y >> picture.chroma_shift_y;
-  const int step = picture.planes[0].step;
+  const bool planar = luma.step == 1 && cb.step == 1 && cr.step == 1 && shift <= 1;
+  for (int i = 0; planar && i < region.width; i += kBlock) {
+    const int x = region.x + i, width = std::min(kBlock, region.width - i);
+    colour_block(to, plane_row(luma, x, y), plane_row(cb, x >> shift, cy), plane_row(cr, x >> shift, cy), shift,
+                 x & shift, width, out + i);
+  }
+  if (planar) return;
+  const std::uint8_t* row = plane_row(luma, region.x, y);
   for (int i = 0; i < region.width; ++i) {
-    const int colour = colour_part(to, picture.planes[1], picture.planes[2], (region.x + i) >> shift, cy);
-    out[i] = to_byte((to.scale * (luma[static_cast<std::ptrdiff_t>(i) * step] - to.black) + colour) >> 16);
+    const int colour = colour_part(to, cb, cr, (region.x + i) >> shift, cy);
+    out[i] = to_byte((to.scale * (row[static_cast<std::ptrdiff_t>(i) * luma.step] - to.black) + colour) >> kFixedBits);
   }
 }
 
@@ -111,6 +143,23 @@ ImageView plane_in_place(const Picture& picture, PixelChannel channel) {
   const PicturePlane& plane = picture.planes[luma ? 0 : static_cast<std::size_t>(channel) - 1];
   if (plane.step != 1) return {};
   return {plane.pixels, picture.width, picture.height, plane.stride};
+}
+
+Picture subsampled(const Picture& picture, const Region& area, int step) {
+  Picture out = picture;
+  out.width = (area.width + step - 1) / step;
+  out.height = (area.height + step - 1) / step;
+  for (std::size_t k = 0; k < out.planes.size(); ++k) {
+    PicturePlane& plane = out.planes[k];
+    if (plane.pixels == nullptr) continue;
+    const bool chroma = picture.layout == PictureLayout::kYuv && k > 0;
+    const int across = chroma ? picture.chroma_shift_x : 0, down = chroma ? picture.chroma_shift_y : 0;
+    plane.pixels = plane_row(plane, area.x >> across, area.y >> down);
+    plane.stride *= step >> down;
+    plane.step *= step >> across;
+  }
+  out.chroma_shift_x = out.chroma_shift_y = 0;
+  return out;
 }
 
 void extract_channel(const Picture& picture, PixelChannel channel, const Region& region, std::uint8_t* out) {
