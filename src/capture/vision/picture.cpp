@@ -6,24 +6,30 @@
 namespace wisp {
 namespace {
 
-// Luma to RGB in 16.16 fixed point: value = scale (Y − black) + blue (Cb − 128) + red (Cr − 128).
+// Luma to a colour in 9.6 fixed point, which fits 16-bit lanes: value = (scale (Y − black) + colour) / 64 with
+// colour = from_cb (Cb − 128) + from_cr (Cr − 128). Off by one grey level at most.
 struct Conversion {
-  int black = 0;
-  int scale = 65536;
-  int from_cb = 0;
-  int from_cr = 0;
+  std::int16_t black = 0;
+  std::int16_t scale = kOne;
+  std::int16_t from_cb = 0;
+  std::int16_t from_cr = 0;
+
+  static constexpr int kBits = 6;
+  static constexpr std::int16_t kOne = 1 << kBits;
 };
 
-constexpr int kFixedOne = 1 << 16;
-
-int fixed(double value) { return static_cast<int>(value * kFixedOne + (value < 0 ? -0.5 : 0.5)); }
+std::int16_t fixed(double value) {
+  return static_cast<std::int16_t>(value * Conversion::kOne + (value < 0 ? -0.5 : 0.5));
+}
 
 // ITU-R BT.601 and BT.709, section 3: Kr and Kb; Kg is the rest.
 Conversion conversion(const Picture& picture, PixelChannel channel) {
   const double kr = picture.bt709 ? 0.2126 : 0.299, kb = picture.bt709 ? 0.0722 : 0.114, kg = 1 - kr - kb;
   const double luma = picture.full_range ? 1.0 : 255.0 / 219.0;
   const double chroma = picture.full_range ? 1.0 : 255.0 / 224.0;
-  Conversion out{picture.full_range ? 0 : 16, fixed(luma), 0, 0};
+  Conversion out;
+  out.black = picture.full_range ? 0 : 16;
+  out.scale = fixed(luma);
   if (channel == PixelChannel::kRed) out.from_cr = fixed(2 * (1 - kr) * chroma);
   if (channel == PixelChannel::kBlue) out.from_cb = fixed(2 * (1 - kb) * chroma);
   if (channel == PixelChannel::kGreen) {
@@ -32,8 +38,6 @@ Conversion conversion(const Picture& picture, PixelChannel channel) {
   }
   return out;
 }
-
-std::uint8_t to_byte(int value) { return static_cast<std::uint8_t>(std::clamp(value, 0, 255)); }
 
 const std::uint8_t* plane_row(const PicturePlane& plane, int x, int y) {
   return plane.pixels + y * plane.stride + static_cast<std::ptrdiff_t>(x) * plane.step;
@@ -60,17 +64,68 @@ void luma_row_of_rgb(const Picture& picture, int x, int y, int width, std::uint8
   }
 }
 
-int colour_part(const Conversion& to, const PicturePlane& cb, const PicturePlane& cr, int cx, int cy) {
-  return to.from_cb * (*plane_row(cb, cx, cy) - 128) + to.from_cr * (*plane_row(cr, cx, cy) - 128) + kFixedOne / 2;
+// What the colour planes add to each pixel of a row, 64ths of a grey level.
+void colour_row(const Picture& picture, const Conversion& to, const Region& region, int y, std::int16_t* out) {
+  const int shift = picture.chroma_shift_x, cy = y >> picture.chroma_shift_y;
+  const int first = region.x >> shift, last = (region.right() - 1) >> shift;
+  const std::uint8_t* cb = plane_row(picture.planes[1], 0, cy);
+  const std::uint8_t* cr = plane_row(picture.planes[2], 0, cy);
+  const std::ptrdiff_t step = picture.planes[1].step;
+  const int width = 1 << shift;
+  for (int c = first; c <= last; ++c) {
+    const int colour = to.from_cb * (cb[c * step] - 128) + to.from_cr * (cr[c * step] - 128) + Conversion::kOne / 2;
+    const int begin = std::max(c * width, region.x) - region.x;
+    const int end = std::min((c + 1) * width, region.right()) - region.x;
+    for (int i = begin; i < end; ++i) out[i] = static_cast<std::int16_t>(colour);
+  }
+}
+
+// The same where two pixels share a colour and the row begins with a pair: the shape of nearly every video.
+void colour_row_in_pairs(const Conversion& to, const std::uint8_t* cb, const std::uint8_t* cr, int pairs,
+                         std::int16_t* out) {
+  for (int c = 0; c < pairs; ++c) {
+    const auto blue = static_cast<std::int16_t>(cb[c] - 128), red = static_cast<std::int16_t>(cr[c] - 128);
+    const auto colour = static_cast<std::int16_t>(to.from_cb * blue + to.from_cr * red + Conversion::kOne / 2);
+    out[2 * c] = colour;
+    out[2 * c + 1] = colour;
+  }
+}
+
+// Sums stay within 16 bits: |scale × 255| is below 19,100 and |colour| below 16,600 for every colour matrix, and where
+// their sum leaves the range, so would the grey level: saturation to 32,767 / 64 is clipped to 255 all the same.
+void add_luma(const Conversion& to, const std::uint8_t* luma, const std::int16_t* colour, int width,
+              std::uint8_t* out) {
+  for (int i = 0; i < width; ++i) {
+    const auto scaled = static_cast<std::int16_t>(to.scale * (luma[i] - to.black));
+    const int value = (scaled + colour[i]) >> Conversion::kBits;
+    out[i] = static_cast<std::uint8_t>(value < 0 ? 0 : value > 255 ? 255 : value);
+  }
 }
 
 void colour_row_of_yuv(const Picture& picture, const Conversion& to, const Region& region, int y, std::uint8_t* out) {
-  const std::uint8_t* luma = plane_row(picture.planes[0], region.x, y);
-  const int shift = picture.chroma_shift_x, cy = y >> picture.chroma_shift_y;
-  const int step = picture.planes[0].step;
-  for (int i = 0; i < region.width; ++i) {
-    const int colour = colour_part(to, picture.planes[1], picture.planes[2], (region.x + i) >> shift, cy);
-    out[i] = to_byte((to.scale * (luma[static_cast<std::ptrdiff_t>(i) * step] - to.black) + colour) >> 16);
+  constexpr int kPart = 512;  // pixels at a time, so that what the colours add stays near the processor
+  std::array<std::int16_t, kPart + 2> colour;
+  std::array<std::uint8_t, kPart> luma;
+  const PicturePlane &lumas = picture.planes[0], &cb = picture.planes[1], &cr = picture.planes[2];
+  const bool pairs = picture.chroma_shift_x == 1 && cb.step == 1 && cr.step == 1;
+  for (int x = region.x; x < region.right();) {
+    const int width = std::min(kPart - (x & 1), region.right() - x);
+    if (pairs) {
+      const int cy = y >> picture.chroma_shift_y, skip = x & 1;
+      colour_row_in_pairs(to, plane_row(cb, x >> 1, cy), plane_row(cr, x >> 1, cy), (width + skip + 1) / 2,
+                          colour.data());
+      if (skip != 0) std::copy_n(colour.data() + 1, width, colour.data());
+    } else {
+      colour_row(picture, to, {x, y, width, 1}, y, colour.data());
+    }
+    const std::uint8_t* values = plane_row(lumas, x, y);
+    if (lumas.step != 1) {
+      copy_row(lumas, x, y, width, luma.data());
+      values = luma.data();
+    }
+    add_luma(to, values, colour.data(), width, out);
+    out += width;
+    x += width;
   }
 }
 
@@ -118,6 +173,16 @@ void extract_channel(const Picture& picture, PixelChannel channel, const Region&
   const Conversion to = conversion(picture, channel);
   for (int y = region.y; y < region.bottom(); ++y, out += region.width) {
     extract_row(picture, channel, to, region, y, out);
+  }
+}
+
+void sample_channel(const Picture& picture, PixelChannel channel, const Region& region, int step, std::uint8_t* out) {
+  assert(has_channel(picture, channel));
+  const Conversion to = conversion(picture, channel);
+  for (int y = region.y; y < region.bottom(); y += step) {
+    for (int x = region.x; x < region.right(); x += step) {
+      extract_row(picture, channel, to, {x, y, 1, 1}, y, out++);
+    }
   }
 }
 

@@ -29,15 +29,11 @@ Grid sample(std::span<const Picture> pictures, PixelChannel channel, const Regio
   grid.step = std::max(1, std::max(area.width, area.height) / kGridWidth);
   grid.width = (area.width + grid.step - 1) / grid.step;
   grid.height = (area.height + grid.step - 1) / grid.step;
-  std::vector<std::uint8_t> row(area.width);
   for (const Picture& picture : pictures) {
     std::vector<std::uint8_t> out(grid.size());
-    for (int y = 0; y < grid.height; ++y) {
-      extract_channel(picture, channel, {area.x, area.y + y * grid.step, area.width, 1}, row.data());
-      for (int x = 0; x < grid.width; ++x) {
-        const std::uint8_t value = row[static_cast<std::size_t>(x) * grid.step];
-        out[static_cast<std::size_t>(y) * grid.width + x] = dark ? static_cast<std::uint8_t>(255 - value) : value;
-      }
+    sample_channel(picture, channel, area, grid.step, out.data());
+    if (dark) {
+      for (std::uint8_t& value : out) value = static_cast<std::uint8_t>(255 - value);
     }
     grid.pictures.push_back(std::move(out));
   }

@@ -60,6 +60,11 @@ ImageView plane_in_place(const Picture& picture, PixelChannel channel);
 /// Precondition: region lies inside the picture and `out` holds region.width × region.height bytes.
 void extract_channel(const Picture& picture, PixelChannel channel, const Region& region, std::uint8_t* out);
 
+/// The same for every `step`-th pixel of every `step`-th row, beginning with the region's first.
+///
+/// Precondition: as extract_channel(), and step >= 1; `out` holds the number of pixels taken.
+void sample_channel(const Picture& picture, PixelChannel channel, const Region& region, int step, std::uint8_t* out);
+
 /// A stored value of `channel` as brightness from 0 (black) to 255 (white).
 double brightness(const Picture& picture, PixelChannel channel, double stored);
 
