@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "wisp/capture/media/clip_wind.hpp"
+#include "wisp/model/bspline.hpp"
 
 namespace wisp::cli {
 namespace {
@@ -26,9 +27,9 @@ Result<Region> parse_region(std::string_view text) {
 
 Result<ClipCaptureOptions> options_from(const Arguments& arguments) {
   ClipCaptureOptions options;
-  options.outline.points = arguments.integer("points");
+  if (arguments.has("points")) options.outline.points = arguments.integer("points");
   if (options.outline.points < 4 || options.outline.points > 64) {
-    return Error{"--points is " + arguments.text("points") + ", expected 4 to 64"};
+    return Error{"--points is " + std::to_string(options.outline.points) + ", expected 4 to 64"};
   }
   options.outline.channel = channel_from_name(arguments.text("channel"));
   options.outline.dark = arguments.on("dark");
@@ -79,9 +80,14 @@ std::vector<Flag> capture_flags() {
   };
 }
 
-Result<CapturedClip> capture_clip(const std::filesystem::path& path, const Arguments& arguments, Terminal& terminal) {
-  const auto options = options_from(arguments);
+Result<CapturedClip> capture_clip(const std::filesystem::path& path, const Arguments& arguments, Terminal& terminal,
+                                  std::vector<double> knots) {
+  auto options = options_from(arguments);
   if (!options) return options.error();
+  if (!knots.empty()) {
+    options->outline.points = static_cast<int>(knots.size()) - kSplineDegree - 1;
+    options->outline.knots = std::move(knots);
+  }
   auto captured = wisp::capture_outline(path, *options, [&](std::int64_t done, std::int64_t expected) {
     terminal.progress("capturing", expected > 0 ? static_cast<double>(done) / static_cast<double>(expected) : -1);
     return true;

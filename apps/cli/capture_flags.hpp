@@ -21,8 +21,10 @@ struct CapturedClip {
   std::string wind_note;
 };
 
-/// Captures with the flags that were given, with a progress bar.
+/// Captures with the flags that were given, with a progress bar. `knots`, where not empty, are used instead of knots of
+/// the clip's own, and their number of control points instead of --points: so clips can share a model.
 /// Errors: as wisp::capture_outline, and a flag whose value does not fit.
-Result<CapturedClip> capture_clip(const std::filesystem::path& path, const Arguments& arguments, Terminal& terminal);
+Result<CapturedClip> capture_clip(const std::filesystem::path& path, const Arguments& arguments, Terminal& terminal,
+                                  std::vector<double> knots = {});
 
 }  // namespace wisp::cli

@@ -83,7 +83,7 @@ Result<void> run_steps(const Places& places, const Clips& clips, const Arguments
   const Step learn{learn_flame_command(), {places.at("recording.csv")}, {{"output", model}}};
   if (auto ok = run_step("learn", learn, terminal); !ok) return ok;
 
-  Step validate{validate_command(), {model, clips.validate}, {{"points", points}}};
+  Step validate{validate_command(), {model, clips.validate}, {}};
   if (arguments.has("rate")) validate.flags.push_back({"rate", arguments.text("rate")});
   validate.flags.push_back({"overlay", places.at("overlay.mp4")});
   validate.flags.push_back({"film-strip", places.at("film-strip.png")});

@@ -132,15 +132,21 @@ Result<OutlineOptions> outline_options(const Arguments& arguments, std::string n
 Result<std::vector<Recording>> outline_recordings(const std::vector<std::string>& paths, const Arguments& arguments,
                                                   Terminal& terminal) {
   std::vector<Recording> recordings;
+  std::vector<double> knots;
   for (const std::string& path : paths) {
     auto recording = [&]() -> Result<Recording> {
       if (is_table(path)) return read_table(path, arguments);
-      auto clip = capture_clip(path, arguments, terminal);
+      // Clips that are learned from together need one set of knots: those of the first.
+      auto clip = capture_clip(path, arguments, terminal, knots);
       if (!clip) return clip.error();
       for (const std::string& warning : clip->report.warnings) terminal.warn(path + ": " + warning);
       return std::move(clip->recording);
     }();
     if (recording) {
+      if (knots.empty()) {
+        const auto layout = outline_layout(*recording);
+        if (layout) knots = layout->knots;
+      }
       recordings.push_back(std::move(*recording));
     } else if (arguments.on("skip-bad")) {
       terminal.warn("left out: " + recording.error().message);

@@ -26,7 +26,8 @@ struct Subject {
   std::optional<CaptureReport> report;  // where it was captured just now
 };
 
-Result<Subject> subject_of(const std::string& path, const Arguments& arguments, Terminal& terminal) {
+Result<Subject> subject_of(const std::string& path, const OutlineView& view, const Arguments& arguments,
+                           Terminal& terminal) {
   Subject subject;
   if (is_table(path)) {
     auto recording = read_table(path, arguments);
@@ -34,7 +35,7 @@ Result<Subject> subject_of(const std::string& path, const Arguments& arguments, 
     subject.recording = std::move(*recording);
     if (arguments.has("clip")) subject.clip.path = arguments.text("clip");
   } else {
-    auto clip = capture_clip(path, arguments, terminal);
+    auto clip = capture_clip(path, arguments, terminal, view.knots);
     if (!clip) return clip.error();
     for (const std::string& warning : clip->report.warnings) terminal.warn(warning);
     subject.recording = std::move(clip->recording);
@@ -214,8 +215,9 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   if (!model) return model.error();
   const auto steps = judged_steps(arguments);
   if (!steps) return steps.error();
-  if (!std::holds_alternative<OutlineView>(model->view)) return validate_plain(*model, *steps, arguments, terminal);
-  const auto subject = subject_of(positionals[1], arguments, terminal);
+  const auto* view = std::get_if<OutlineView>(&model->view);
+  if (!view) return validate_plain(*model, *steps, arguments, terminal);
+  const auto subject = subject_of(positionals[1], *view, arguments, terminal);
   if (!subject) return subject.error();
   OutlineValidationOptions options{.steps = *steps,
                                    .own_input_scale = arguments.on("own-gain"),
@@ -247,7 +249,9 @@ Command validate_command() {
       {"outputs", Kind::kNames, "C,D", "", "columns of a plain table that are outputs"},
       {"dt", Kind::kNumber, "S", "", "seconds between samples of a plain table"},
   };
-  for (Flag& flag : capture_flags()) flags.push_back(std::move(flag));
+  for (Flag& flag : capture_flags()) {
+    if (flag.name != "points") flags.push_back(std::move(flag));  // the model says how many
+  }
   return {
       "validate",
       "Holds a model against a recording: prediction, free simulation, likeness, pictures.",

@@ -214,7 +214,8 @@ std::vector<double> OutlineCapture::Stage::decide_shape(Samples& samples) {
       for (int k = 0; k < 3; ++k) options.landmarks[k] += cloud.shares[k] / static_cast<double>(clouds.size());
     }
     for (EdgeCloud& cloud : clouds) place_points(cloud, options);
-    CurveShape shape = choose_shape(clouds, options_.points, options_.place_knots);
+    CurveShape shape = options_.knots.empty() ? choose_shape(clouds, options_.points, options_.place_knots)
+                                              : fit_pace(clouds, options_.knots);
     if (!best.knots.empty() && shape.misfit >= kWorthFollowing * best.misfit) continue;
     best = std::move(shape);
     options.pace = best.pace;

@@ -28,10 +28,11 @@ struct OutlineCaptureOptions {
   Region region;                        ///< where to look, pixels; empty: the whole picture
   std::optional<BaseSide> base;         ///< where the outline is open; nothing: the side that cuts it off, else below
   bool place_knots = true;              ///< put knots where the outline bends, if that fits better than uniform ones
-  double rate_hz = 0;                   ///< frames a second, > 0
-  std::string source;                   ///< where the frames come from, for messages and the recording
-  std::size_t held_bytes = 48u << 20;   ///< frames held back for the first decisions, bytes; at least 8 frames are
-  int held_frames = 40;                 ///< … and frames, 8 to 200
+  std::vector<double> knots;  ///< full knot vector to use, of a model or an earlier capture; empty: chosen here
+  double rate_hz = 0;         ///< frames a second, > 0
+  std::string source;         ///< where the frames come from, for messages and the recording
+  std::size_t held_bytes = 48u << 20;  ///< frames held back for the first decisions, bytes; at least 8 frames are
+  int held_frames = 40;                ///< … and frames, 8 to 200
 };
 
 /// Why a frame has no outline.
