@@ -35,7 +35,7 @@ struct BankOptions {
   int capacity = 1;                  ///< most instances alive at once; 1 to 1 048 576
   std::uint64_t seed = 1;            ///< of all random streams of the bank
   int polyline_points = 32;          ///< points of an outline's polyline; 2 to 4096. 32 is smooth at 500 pixels' height
-  std::span<std::byte> memory = {};  ///< where the bank lives, at least bank_bytes(); empty: it allocates once
+  std::span<std::byte> memory = {};  ///< where it lives, at least bank_bytes(); none: it allocates once
 };
 
 /// Bytes that a bank with these options needs, wherever its memory comes from (`options.memory` is not looked at).

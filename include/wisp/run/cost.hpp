@@ -15,10 +15,11 @@ struct Cost {
   std::int64_t dynamics_operations = 0;  ///< inputs, filters, and noting what was held: + − × ÷ √ on numbers, logic
   std::int64_t noise_operations = 0;     ///< from random words to what is added to the outputs, on numbers
   std::int64_t random_operations = 0;    ///< arithmetic and logic on 32-bit words, for the noise
-  std::int64_t view_operations = 0;      ///< the polyline, on numbers
+  std::int64_t view_operations = 0;      ///< outputs between two steps, in their units, and the polyline; on numbers
 };
 
-/// Counts what one frame of one instance costs, with a polyline of `polyline_points` (0: the view is not read).
+/// Counts what one frame of one instance costs, with an outline read as a polyline of `polyline_points` (0: read as
+/// control points only).
 /// Comparisons, conversions and moves are not arithmetic and are not counted.
 /// Errors: as Bank::create().
 Result<Cost> count_operations(const Model& model, int polyline_points = 32);

@@ -16,35 +16,48 @@ set(variants
   "clang++ -O3 -ffast-math -march=native")
 
 separate_arguments(OPTIONS)
-file(GLOB sources ${SOURCE}/src/run/*.cpp)
-list(FILTER sources EXCLUDE REGEX "/wind_")
-list(APPEND sources ${SOURCE}/tests/run/bits/frames.cpp ${SOURCE}/src/base/hash.cpp ${SOURCE}/src/model/arx.cpp
-  ${SOURCE}/src/model/bspline.cpp ${SOURCE}/src/model/check.cpp ${SOURCE}/src/model/model.cpp)
 
-# Compiles and links one variant into `folder`; what is in `last` has the last word over the layer's options.
-function(build folder compiler flags last)
+# What is compiled anew each time: all that computes on a frame's path, or for it. The rest, once.
+file(GLOB computing ${SOURCE}/src/run/*.cpp)
+list(FILTER computing EXCLUDE REGEX "/(wind_|cost)")
+list(APPEND computing ${SOURCE}/src/model/bspline.cpp ${SOURCE}/tests/run/bits/frames.cpp)
+set(ground ${SOURCE}/src/base/hash.cpp ${SOURCE}/src/model/arx.cpp ${SOURCE}/src/model/check.cpp
+  ${SOURCE}/src/model/model.cpp)
+
+# Compiles sources into `folder` and appends the objects to `objects`.
+function(compile folder compiler flags sources)
   file(MAKE_DIRECTORY ${folder})
-  set(objects)
   foreach(source IN LISTS sources)
     file(RELATIVE_PATH object ${SOURCE} ${source})
     string(MAKE_C_IDENTIFIER ${object} object)
     execute_process(
-      COMMAND ${LAUNCHER} ${compiler} -std=c++20 -DNDEBUG ${flags} ${OPTIONS} ${last} -I${SOURCE}/include
-              -I${SOURCE}/src -I${SOURCE}/tests -c ${source} -o ${folder}/${object}.o
+      COMMAND ${LAUNCHER} ${compiler} -std=c++20 -DNDEBUG ${flags} -I${SOURCE}/include -I${SOURCE}/src
+              -I${SOURCE}/tests -c ${source} -o ${folder}/${object}.o
       RESULT_VARIABLE failed ERROR_VARIABLE errors)
     if(failed)
       message(FATAL_ERROR "${compiler} ${flags}: ${source} does not compile:\n${errors}")
     endif()
     list(APPEND objects ${folder}/${object}.o)
   endforeach()
-  execute_process(COMMAND ${compiler} ${flags} ${objects} -o ${folder}/frames RESULT_VARIABLE failed)
+  set(objects ${objects} PARENT_SCOPE)
+endfunction()
+
+compile(${WORK}/ground c++ -O1 "${ground}")
+set(ground_objects ${objects})
+
+# Builds and runs one variant; what is in `last` has the last word over the layer's options. Sets `hash`.
+function(run_variant name compiler flags last)
+  set(objects ${ground_objects})
+  compile(${WORK}/${name} ${compiler} "${flags};${OPTIONS};${last}" "${computing}")
+  execute_process(COMMAND ${compiler} ${flags} ${objects} -o ${WORK}/${name}/frames RESULT_VARIABLE failed)
   if(failed)
     message(FATAL_ERROR "${compiler} ${flags}: does not link")
   endif()
+  execute_process(COMMAND ${WORK}/${name}/frames OUTPUT_VARIABLE hash OUTPUT_STRIP_TRAILING_WHITESPACE)
+  set(hash "${hash}" PARENT_SCOPE)
 endfunction()
 
 set(wrong 0)
-
 foreach(variant IN LISTS variants)
   separate_arguments(flags UNIX_COMMAND "${variant}")
   list(POP_FRONT flags compiler)
@@ -54,23 +67,19 @@ foreach(variant IN LISTS variants)
     continue()
   endif()
   string(MAKE_C_IDENTIFIER "${variant}" name)
-  build(${WORK}/${name} ${compiler} "${flags}" "")
-  foreach(mode "" flush)
-    execute_process(COMMAND ${WORK}/${name}/frames ${mode} OUTPUT_VARIABLE hash OUTPUT_STRIP_TRAILING_WHITESPACE)
-    if(hash STREQUAL golden)
-      message("same      ${variant} ${mode}")
-    else()
-      message("different ${variant} ${mode}: ${hash}, expected ${golden}")
-      math(EXPR wrong "${wrong} + 1")
-    endif()
-  endforeach()
+  run_variant(${name} ${compiler} "${flags}" "")
+  if(hash STREQUAL golden)
+    message("same      ${variant}")
+  else()
+    message("different ${variant}: ${hash}, expected ${golden}")
+    math(EXPR wrong "${wrong} + 1")
+  endif()
 endforeach()
 
 # That the comparison sees a difference: products and sums fused, as they are without the layer's options.
 file(STRINGS /proc/cpuinfo fuses REGEX "^flags.* fma " LIMIT_COUNT 1)
 if(fuses)
-  build(${WORK}/fused c++ "-O2;-mfma" -ffp-contract=fast)
-  execute_process(COMMAND ${WORK}/fused/frames OUTPUT_VARIABLE hash OUTPUT_STRIP_TRAILING_WHITESPACE)
+  run_variant(fused c++ "-O2;-mfma" -ffp-contract=fast)
   if(hash STREQUAL golden)
     message("same      fused, which must differ: this test sees nothing")
     math(EXPR wrong "${wrong} + 1")
