@@ -37,10 +37,19 @@ Result<void> for_each_row(const ClipFrames& clip, std::size_t last_row,
   }
 }
 
-void draw_row(Image& image, const OutlineRows& rows, std::size_t row) {
+// Lines and letters need room: a small clip is drawn larger.
+constexpr int kLeastOverlayHeight = 480;
+int enlargement(int height) { return std::max(1, (kLeastOverlayHeight + height - 1) / height); }
+
+std::vector<Point> enlarged(std::vector<Point> outline, int times) {
+  for (Point& point : outline) point = {point.x * static_cast<float>(times), point.y * static_cast<float>(times)};
+  return outline;
+}
+
+void draw_row(Image& image, const OutlineRows& rows, std::size_t row, int times) {
   const LineStyle captured{.colour = kCapturedColour}, simulated{.colour = kSimulatedColour, .dashed = true};
-  if (row < rows.captured.size()) draw_outline(image, rows.captured[row], captured);
-  if (row < rows.simulated.size()) draw_outline(image, rows.simulated[row], simulated);
+  if (row < rows.captured.size()) draw_outline(image, enlarged(rows.captured[row], times), captured);
+  if (row < rows.simulated.size()) draw_outline(image, enlarged(rows.simulated[row], times), simulated);
   const LegendEntry legend[] = {{"captured", captured}, {rows.simulated_label, simulated}};
   draw_legend(image, legend);
 }
@@ -61,22 +70,23 @@ std::string seconds_text(double seconds) {
   return text;
 }
 
-Result<void> overlay_on_black(VideoWriter& film, int width, int height, const OutlineRows& rows) {
+Result<void> overlay_on_black(VideoWriter& film, int width, int height, int times, const OutlineRows& rows) {
   for (std::size_t row = 0; row < rows.captured.size(); ++row) {
     Image image(width, height);
-    draw_row(image, rows, row);
+    draw_row(image, rows, row, times);
     if (auto ok = film.write(image); !ok) return ok;
   }
   return film.finish();
 }
 
 Result<void> overlay_on_clip(VideoWriter& film, const ClipFrames& clip, const OutlineRows& rows, double rate_hz,
-                             Terminal& terminal) {
+                             int times, Terminal& terminal) {
   const std::size_t count = rows.captured.size();
   auto drawn =
       for_each_row(clip, count - 1, [&](std::size_t row, const std::function<Image()>& picture) -> Result<void> {
         Image image = picture();
-        draw_row(image, rows, row);
+        if (times > 1) image = resized(image, image.width() * times, image.height() * times);
+        draw_row(image, rows, row, times);
         draw_label(image, seconds_text(static_cast<double>(row) / rate_hz));
         terminal.progress("drawing the overlay", static_cast<double>(row + 1) / static_cast<double>(count));
         return film.write(image);
@@ -181,11 +191,12 @@ Result<void> write_overlay(const std::filesystem::path& out, const ClipFrames& c
   const auto width = attribute_number(recording, "width"), height = attribute_number(recording, "height");
   if (!width) return width.error();
   if (!height) return height.error();
+  const int times = enlargement(*height);
   auto film = VideoWriter::create(
-      out, {.width = *width, .height = *height, .rate_hz = recording.rate_hz, .preset = "veryfast"});
+      out, {.width = *width * times, .height = *height * times, .rate_hz = recording.rate_hz, .preset = "veryfast"});
   if (!film) return film.error();
-  if (clip.path.empty()) return overlay_on_black(*film, *width, *height, rows);
-  return overlay_on_clip(*film, clip, rows, recording.rate_hz, terminal);
+  if (clip.path.empty()) return overlay_on_black(*film, *width * times, *height * times, times, rows);
+  return overlay_on_clip(*film, clip, rows, recording.rate_hz, times, terminal);
 }
 
 Result<void> write_film_strip(const std::filesystem::path& out, const ClipFrames& clip, const StripContent& content) {

@@ -32,6 +32,7 @@ inline const std::map<std::string, Layer>& layers() {
       {"run", {{"base", "model"}, {"immintrin.h"}}},
       {"c", {{"base", "model", "run"}, {}}},
       {"record", {{"base"}, {}}},
+      {"matfile", {{"base", "record"}, {"hdf5.h", "matio.h"}}},
       {"learn", {{"base", "model", "run", "record"}, {"Eigen/"}}},
       {"capture/vision", {{"base", "model", "run", "record"}, {}}},
       {"capture/media", {{"base", "model", "run", "record", "capture/vision"}, ffmpeg}},

@@ -37,7 +37,8 @@ std::set<std::string> looked_for(const std::filesystem::path& root) {
       // All but find_package name a variable first.
       if ((*it)[1] != "find_package") arguments >> word;
       while (arguments >> word && word != "COMPONENTS") {
-        if (!keywords.contains(word) && !std::regex_match(word, version)) names.insert(word);
+        const bool variable = word.starts_with("${");
+        if (!variable && !keywords.contains(word) && !std::regex_match(word, version)) names.insert(word);
         if ((*it)[1] == "find_package") break;
       }
     }

@@ -144,43 +144,35 @@ void settle_corner(std::vector<EdgePoint>& points, bool last, const Outwards& ou
 
 // The tip's place in arc length: the mean of places weighted by how nearly farthest from the base they are, which does
 // not leap from corner to corner of a blunt tip.
-double tip_place(const EdgeCloud& cloud, const std::vector<double>& arc_length, double& height) {
-  const auto distance = [&](const EdgePoint& p) { return std::hypot(p.x - cloud.base_x, p.y - cloud.base_y); };
-  double farthest_point = 0;
-  for (const EdgePoint& p : cloud.points) farthest_point = std::max(farthest_point, distance(p));
-  height = farthest_point;
-  const double blur = std::max(0.02 * height, 0.5);
+double tip_place(const EdgeCloud& cloud) {
+  const double blur = std::max(0.02 * cloud.height, 0.5);
   double weights = 0, places = 0;
   for (std::size_t k = 0; k < cloud.points.size(); ++k) {
-    const double short_by = (height - distance(cloud.points[k])) / blur;
+    const EdgePoint& p = cloud.points[k];
+    const double short_by = (cloud.height - std::hypot(p.x - cloud.base_x, p.y - cloud.base_y)) / blur;
     if (short_by > 4) continue;
     const double weight = (4 - short_by) * (4 - short_by);
     weights += weight;
-    places += weight * arc_length[k];
+    places += weight * cloud.way[k];
   }
   return places / weights;
 }
 
-bool place_along(EdgeCloud& cloud, std::size_t left_corner, std::size_t right_corner, const EdgeCloudOptions& options) {
-  std::vector<double>& s = cloud.s;
-  s.assign(cloud.points.size(), 0.0);
-  for (std::size_t k = 1; k < s.size(); ++k) {
-    const EdgePoint &a = cloud.points[k - 1], &b = cloud.points[k];
-    s[k] = s[k - 1] + std::hypot(b.x - a.x, b.y - a.y);
+// Height, arc lengths and the landmarks' shares of them. Returns whether the tip lies between the corners.
+bool measure_way(EdgeCloud& cloud) {
+  const std::size_t count = cloud.points.size();
+  cloud.way.assign(count, 0.0);
+  cloud.height = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const EdgePoint& b = cloud.points[k];
+    cloud.height = std::max(cloud.height, std::hypot(b.x - cloud.base_x, b.y - cloud.base_y));
+    if (k == 0) continue;
+    const EdgePoint& a = cloud.points[k - 1];
+    cloud.way[k] = cloud.way[k - 1] + std::hypot(b.x - a.x, b.y - a.y);
   }
-  const double whole = s.back();
-  const std::array<double, 5> way{0, s[left_corner], tip_place(cloud, s, cloud.height), s[right_corner], whole};
-  const std::array<double, 5> place{0, options.landmarks[0], options.landmarks[1], options.landmarks[2], 1};
-  if (way[2] <= way[1] || way[2] >= way[3]) return false;
-  for (int k = 0; k < 3; ++k) cloud.shares[k] = way[k + 1] / whole;
-  int leg = 0;
-  for (double& at : s) {
-    while (leg < 3 && at > way[leg + 1]) ++leg;
-    const double length = way[leg + 1] - way[leg];
-    at = length <= 0 ? place[leg + 1] : place[leg] + (place[leg + 1] - place[leg]) * (at - way[leg]) / length;
-    at = at_pace(options.pace, at);
-  }
-  return true;
+  const double whole = cloud.way.back(), tip = tip_place(cloud);
+  cloud.shares = {cloud.way[cloud.left_corner] / whole, tip / whole, cloud.way[cloud.right_corner] / whole};
+  return cloud.shares[0] < cloud.shares[1] && cloud.shares[1] < cloud.shares[2];
 }
 
 // Puts half of the underside's points before the left corner and half behind the right one. Returns how many before.
@@ -205,6 +197,21 @@ double at_pace(std::span<const double> pace, double place) {
   return pace[step] + (at - static_cast<double>(step)) * (pace[step + 1] - pace[step]);
 }
 
+void place_points(EdgeCloud& cloud, const EdgeCloudOptions& options) {
+  const double whole = cloud.way.back();
+  const std::array<double, 5> share{0, cloud.shares[0], cloud.shares[1], cloud.shares[2], 1};
+  const std::array<double, 5> place{0, options.landmarks[0], options.landmarks[1], options.landmarks[2], 1};
+  cloud.s.resize(cloud.way.size());
+  int leg = 0;
+  for (std::size_t k = 0; k < cloud.s.size(); ++k) {
+    const double at = cloud.way[k] / whole;
+    while (leg < 3 && at > share[leg + 1]) ++leg;
+    const double length = share[leg + 1] - share[leg];
+    const double part = length <= 0 ? 1 : std::clamp((at - share[leg]) / length, 0.0, 1.0);
+    cloud.s[k] = at_pace(options.pace, place[leg] + (place[leg + 1] - place[leg]) * part);
+  }
+}
+
 bool make_edge_cloud(const BoundaryWindow& window, std::span<const PixelPosition> boundary,
                      const EdgeCloudOptions& options, EdgeCloud& cloud) {
   if (boundary.size() < kLeastBoundary) return false;
@@ -225,13 +232,16 @@ bool make_edge_cloud(const BoundaryWindow& window, std::span<const PixelPosition
   cloud.base_x = 0.5 * (cloud.points.front().x + cloud.points.back().x);
   cloud.base_y = 0.5 * (cloud.points.front().y + cloud.points.back().y);
   cloud.left_out = options.underside ? 0 : std::abs(enclosed(underside));
-  std::size_t left_corner = 0, right_corner = cloud.points.size() - 1;
+  cloud.left_corner = 0;
+  cloud.right_corner = cloud.points.size() - 1;
   if (options.underside) {
-    left_corner = follow_underside(cloud, underside);
-    right_corner += left_corner;
+    cloud.left_corner = follow_underside(cloud, underside);
+    cloud.right_corner += cloud.left_corner;
   }
   cloud.area = enclosed(cloud.points);
-  return cloud.area > 0 && place_along(cloud, left_corner, right_corner, options);
+  if (cloud.area <= 0 || !measure_way(cloud)) return false;
+  place_points(cloud, options);
+  return true;
 }
 
 }  // namespace wisp

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 
 #include "capture/vision/outline_rows.hpp"
 #include "capture/vision/outline_seeker.hpp"
@@ -15,7 +14,9 @@ namespace {
 
 constexpr std::size_t kLeastTracked = 10;
 constexpr std::size_t kLeastHeld = 8;
-constexpr int kSamplePoints = 160;  // edge points that are enough to decide by
+constexpr int kLeastEdgePoints = 128;
+constexpr int kEdgePointsEach = 12;  // to a control point: more do not make it steadier, as their errors go together
+constexpr int kSamplePoints = 96;    // edge points that are enough to decide by
 
 // Following the underside takes control points away from the sides and makes them move more: it has to pay.
 constexpr double kWorthFollowing = 0.6;
@@ -47,10 +48,13 @@ class OutlineCapture::Stage {
  private:
   Result<void> accept(const Picture& picture);
   Result<void> decide();
-  void choose_channel(std::span<const Survey> surveys, std::span<const Picture> pictures);
-  std::vector<EdgeCloud> sample_clouds(const OutlineSeeker& seeker, std::span<const Picture> pictures,
-                                       const EdgeCloudOptions& options) const;
-  std::vector<double> decide_shape(std::span<const Picture> pictures);
+  struct Samples {
+    std::vector<EdgeCloud> above;   // from corner to corner over the tip
+    std::vector<EdgeCloud> around;  // with the underside
+  };
+  Samples choose_channel(std::span<const Survey> surveys, std::span<const Picture> pictures);
+  Samples take_samples(const OutlineSeeker& seeker, std::span<const Picture> pictures) const;
+  std::vector<double> decide_shape(Samples& samples);
   void look(const Picture& picture);
   void note_lost();
   Error complaint(const std::string& what) const { return Error{options_.source + ": " + what}; }
@@ -127,18 +131,13 @@ Result<void> OutlineCapture::Stage::decide() {
     if (held) pictures.push_back(held->picture());
   }
   cloud_options_.base = options_.base.value_or(BaseSide::kBottom);
+  cloud_options_.most_points = std::max(kLeastEdgePoints, kEdgePointsEach * options_.points);
   std::vector<Picture> seen = pictures;
   for (const OwnedPicture& glimpse : glimpses_) seen.push_back(glimpse.picture());
   const auto surveys = survey_scene(seen, {options_.channel, options_.dark, options_.region, cloud_options_.base});
   if (!surveys) return complaint(surveys.error().message);
-  choose_channel(*surveys, pictures);
-  TrackerOptions to;
-  if (getenv("SLIP")) to.slip = atof(getenv("SLIP"));
-  if (getenv("TW")) to.tangent_widening = atof(getenv("TW"));
-  if (getenv("NW")) to.normal_widening = atof(getenv("NW"));
-  if (getenv("TS")) to.tangent_sd = atof(getenv("TS"));
-  if (getenv("NS")) to.normal_sd = atof(getenv("NS"));
-  tracker_.emplace(decide_shape(pictures), to);
+  Samples samples = choose_channel(*surveys, pictures);
+  tracker_.emplace(decide_shape(samples));
   for (const auto& held : held_) {
     if (held) {
       look(held->picture());
@@ -154,82 +153,79 @@ Result<void> OutlineCapture::Stage::decide() {
 
 // The channel that separates best and in which the outline is simplest: where wax, a stand or only part of a flame is
 // in the region, a spline follows it less well.
-void OutlineCapture::Stage::choose_channel(std::span<const Survey> surveys, std::span<const Picture> pictures) {
+OutlineCapture::Stage::Samples OutlineCapture::Stage::choose_channel(std::span<const Survey> surveys,
+                                                                     std::span<const Picture> pictures) {
   constexpr int kTrialPoints = 8;
   const Region area = options_.region.empty() ? pictures.front().frame() : options_.region;
+  Samples best_samples;
   double best = -1;
   for (const Survey& survey : surveys) {
     const OutlineSeeker seeker(survey, options_.dark, area);
+    Samples samples = take_samples(seeker, pictures);
     double score = 0;
-    if (surveys.size() > 1) {
-      EdgeCloudOptions options = cloud_options_;
-      options.most_points = kSamplePoints;
-      const std::vector<EdgeCloud> clouds = sample_clouds(seeker, pictures, options);
-      const double overlap = clouds.empty() ? 0 : 1 - fit_pace(clouds, uniform_knots(kTrialPoints)).misfit;
+    if (surveys.size() > 1 && !samples.above.empty()) {
+      const double overlap = 1 - fit_pace(samples.above, uniform_knots(kTrialPoints)).misfit;
       score = survey.separation * std::max(overlap, 0.0) * std::abs(overlap);
-      if (getenv("DBG"))
-        fprintf(stderr, "ch %d sep %.4f overlap %.4f level %d\n", (int)survey.channel, survey.separation, overlap,
-                survey.level);
     }
     if (score <= best) continue;
     best = score;
+    best_samples = std::move(samples);
     survey_ = survey;
     seeker_ = seeker;
   }
+  return best_samples;
 }
 
-// The edge points of a few of the pictures, and of the glimpses.
-std::vector<EdgeCloud> OutlineCapture::Stage::sample_clouds(const OutlineSeeker& seeker,
-                                                            std::span<const Picture> pictures,
-                                                            const EdgeCloudOptions& options) const {
+// The edge points of a few of the pictures and of the glimpses, without and with the underside.
+OutlineCapture::Stage::Samples OutlineCapture::Stage::take_samples(const OutlineSeeker& seeker,
+                                                                   std::span<const Picture> pictures) const {
   constexpr std::size_t kSamples = 8;
-  OutlineSeeker following = seeker;
-  std::vector<EdgeCloud> clouds;
+  EdgeCloudOptions above = cloud_options_, around = cloud_options_;
+  above.most_points = around.most_points = kSamplePoints;
+  around.underside = true;
+  Samples samples;
   EdgeCloud cloud;
+  const auto take = [&](OutlineSeeker& looking, const Picture& picture) {
+    if (!looking.seek(picture, above.base)) return;
+    if (looking.edge_points(above, cloud)) samples.above.push_back(cloud);
+    if (looking.edge_points(around, cloud)) samples.around.push_back(cloud);
+  };
+  OutlineSeeker following = seeker;
   const std::size_t stride = std::max<std::size_t>(1, pictures.size() / kSamples);
-  for (std::size_t k = stride / 2; k < pictures.size(); k += stride) {
-    if (following.seek(pictures[k], options, cloud)) clouds.push_back(cloud);
-  }
+  for (std::size_t k = stride / 2; k < pictures.size(); k += stride) take(following, pictures[k]);
   for (const OwnedPicture& glimpse : glimpses_) {
     OutlineSeeker anew = seeker;
-    if (anew.seek(glimpse.picture(), options, cloud)) clouds.push_back(cloud);
+    take(anew, glimpse.picture());
   }
-  return clouds;
+  return samples;
 }
 
-// Decides, from a few of the held frames, whether the underside is followed, where along the curve the landmarks lie,
-// and where the knots. Returns the knots.
-std::vector<double> OutlineCapture::Stage::decide_shape(std::span<const Picture> pictures) {
+// Decides whether the underside is followed, where along the curve the landmarks lie, and where the knots. Returns the
+// knots.
+std::vector<double> OutlineCapture::Stage::decide_shape(Samples& samples) {
   CurveShape best;
   for (const bool underside : {false, true}) {
-    if (getenv("US") && (atoi(getenv("US")) != 0) != underside) continue;
+    std::vector<EdgeCloud>& clouds = underside ? samples.around : samples.above;
+    if (clouds.empty()) continue;
     EdgeCloudOptions options = cloud_options_;
     options.underside = underside;
-    options.most_points = kSamplePoints;
-    options.pace = even_pace();
-    std::vector<EdgeCloud> clouds = sample_clouds(*seeker_, pictures, options);
-    if (clouds.empty()) continue;
     options.landmarks = {0, 0, 0};
     for (const EdgeCloud& cloud : clouds) {
       for (int k = 0; k < 3; ++k) options.landmarks[k] += cloud.shares[k] / static_cast<double>(clouds.size());
     }
-    clouds = sample_clouds(*seeker_, pictures, options);
+    for (EdgeCloud& cloud : clouds) place_points(cloud, options);
     CurveShape shape = choose_shape(clouds, options_.points, options_.place_knots);
-    if (getenv("DBG"))
-      fprintf(stderr, "underside %d misfit %.4f uniform %.4f\n", underside, shape.misfit,
-              choose_shape(clouds, options_.points, false).misfit);
     if (!best.knots.empty() && shape.misfit >= kWorthFollowing * best.misfit) continue;
     best = std::move(shape);
-    cloud_options_.underside = underside;
-    cloud_options_.landmarks = options.landmarks;
-    cloud_options_.pace = best.pace;
+    options.pace = best.pace;
+    cloud_options_ = options;
   }
   return best.knots.empty() ? uniform_knots(options_.points) : best.knots;
 }
 
 void OutlineCapture::Stage::look(const Picture& picture) {
   FrameFinding finding;
-  const bool seen = seeker_->seek(picture, cloud_options_, cloud_);
+  const bool seen = seeker_->seek(picture, cloud_options_.base) && seeker_->edge_points(cloud_options_, cloud_);
   if (seen) {
     const OutlineEstimate& estimate = tracker_->update(cloud_);
     finding.kind = FrameFinding::Kind::kTracked;

@@ -9,9 +9,9 @@
 namespace wisp {
 namespace {
 
-constexpr double kMarginShare =
-    0.06;                        // of the longer side: what it usually moves in a frame; if more, more is looked at
-constexpr int kLeastMargin = 8;  // pixels
+constexpr int kLeastMargin = 8;          // pixels around the place where the thing was
+constexpr double kMarginPace = 1.5;      // … and this many times how far it moved in the last frames
+constexpr double kPaceMemory = 0.8;      // what is remembered of that from frame to frame
 constexpr double kLeastAreaShare = 0.1;  // of its usual area: less is a spark or what is left after it went out
 constexpr int kLeastArea = 24;           // pixels
 
@@ -83,7 +83,7 @@ bool OutlineSeeker::find_in(const Picture& picture, Region place) {
                              (box.right() == place.right() && place.right() < area_.right()) ||
                              (box.bottom() == place.bottom() && place.bottom() < area_.bottom());
     if (!reaches_out) return true;
-    place = grown(enclosing(place, box), std::max(kLeastMargin, std::max(box.width, box.height) / 8));
+    place = grown(enclosing(place, box), std::max(kLeastMargin, std::max(box.width, box.height) / 2));
   }
 }
 
@@ -113,61 +113,76 @@ bool OutlineSeeker::part_from_stand(BaseSide side) {
   return choose(finder_.find(window_.image, level_, kLeastArea), kept);
 }
 
+// Mean difference from the frame before where the thing is and was; every second row is enough.
 void OutlineSeeker::measure_change() {
-  const Region place = window_.place;
+  const Region place = intersection(grown(found_.box, kLeastMargin), window_.place);
   const Region both = intersection(place, before_place_);
-  std::int64_t sum = 0;
-  for (int y = both.y; y < both.bottom(); ++y) {
-    const std::uint8_t* now = window_.image.row(y - place.y) + (both.x - place.x);
+  std::int64_t sum = 0, rows = 0;
+  for (int y = both.y + (both.y & 1); y < both.bottom(); y += 2, ++rows) {
+    const std::uint8_t* now = window_row(y) + both.x;
     const std::uint8_t* then = before_.data() + static_cast<std::size_t>(y - before_place_.y) * before_place_.width +
                                (both.x - before_place_.x);
     int row = 0;
     for (int x = 0; x < both.width; ++x) row += std::abs(now[x] - then[x]);
     sum += row;
   }
-  const double pixels = area_of(both);
-  change_ = pixels == 0 ? 255 : static_cast<double>(sum) / pixels;
+  change_ = rows == 0 ? 255 : static_cast<double>(sum) / (static_cast<double>(rows) * both.width);
   before_.resize(static_cast<std::size_t>(place.width) * place.height);
-  for (int y = 0; y < place.height; ++y) {
-    std::copy_n(window_.image.row(y), place.width, before_.data() + static_cast<std::size_t>(y) * place.width);
+  for (int y = place.y + (place.y & 1); y < place.bottom(); y += 2) {
+    std::copy_n(window_row(y) + place.x, place.width,
+                before_.data() + static_cast<std::size_t>(y - place.y) * place.width);
   }
   before_place_ = place;
 }
 
 void OutlineSeeker::measure_brightness(const Picture& picture) {
-  const Region box = found_.box;
+  const Region box = intersection(found_.box, window_.place);
   std::int64_t sum = 0, count = 0;
-  for (int y = box.y; y < box.bottom(); y += 2) {
-    const std::uint8_t* row = window_.image.row(y - window_.place.y) + (box.x - window_.place.x);
+  for (int y = box.y; y < box.bottom(); y += 4) {
+    const std::uint8_t* row = window_row(y) + box.x;
+    int row_sum = 0, row_count = 0;
     for (int x = 0; x < box.width; ++x) {
-      const bool bright = row[x] > level_;
-      sum += bright ? row[x] : 0;
-      count += bright;
+      const int bright = row[x] > level_ ? 1 : 0;
+      row_sum += bright * row[x];
+      row_count += bright;
     }
+    sum += row_sum;
+    count += row_count;
   }
   const double mean = count == 0 ? 0 : static_cast<double>(sum) / static_cast<double>(count);
   brightness_ = dark_ ? mean : wisp::brightness(picture, channel_, mean);
 }
 
-bool OutlineSeeker::seek(const Picture& picture, const EdgeCloudOptions& options, EdgeCloud& cloud) {
-  bool seen = false;
-  if (following_) {
-    const int longer = std::max(found_.box.width, found_.box.height);
-    seen = find_in(picture, grown(found_.box, std::max(kLeastMargin, static_cast<int>(kMarginShare * longer))));
-  }
+// How far the thing may move from frame to frame. Where it moves farther, it touches the window's border and is looked
+// for again in more.
+int OutlineSeeker::margin() const { return kLeastMargin + static_cast<int>(kMarginPace * pace_); }
+
+bool OutlineSeeker::seek(const Picture& picture, BaseSide base) {
+  const BrightRegion before = found_;
+  bool seen = following_ && find_in(picture, grown(found_.box, margin()));
   if (!seen) {
     following_ = false;
-    seen = find_in(picture, area_);
+    seen = find_in(picture, grown(home_, kLeastMargin)) || find_in(picture, area_);
   }
-  if (!seen || !part_from_stand(options.base)) return false;
+  if (!seen || !part_from_stand(base)) return false;
+  if (following_) {
+    const Region &a = before.box, &b = found_.box;
+    const int moved = std::max(
+        {std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.right() - b.right()), std::abs(a.bottom() - b.bottom())});
+    pace_ = std::max(moved, static_cast<int>(kPaceMemory * pace_));
+  }
   following_ = true;
-  usual_area_ = usual_area_ == 0 ? static_cast<double>(found_.area)
-                                 : 0.95 * usual_area_ + 0.05 * static_cast<double>(found_.area);
+  const double area = static_cast<double>(found_.area);
+  usual_area_ = usual_area_ == 0 ? area : 0.95 * usual_area_ + 0.05 * area;
   measure_change();
   measure_brightness(picture);
   const Region place = window_.place;
   follow_boundary(window_.image, level_, {found_.seed_x - place.x, found_.seed_y - place.y}, boundary_);
-  return make_edge_cloud({window_.image, place, area_, level_}, boundary_, options, cloud);
+  return true;
+}
+
+bool OutlineSeeker::edge_points(const EdgeCloudOptions& options, EdgeCloud& cloud) const {
+  return make_edge_cloud({window_.image, window_.place, area_, level_}, boundary_, options, cloud);
 }
 
 }  // namespace wisp

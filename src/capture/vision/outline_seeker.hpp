@@ -16,8 +16,11 @@ class OutlineSeeker {
   /// `area` is where the thing may be at all.
   OutlineSeeker(const Survey& survey, bool dark, const Region& area);
 
-  /// Looks for the thing in the next frame. Returns whether it is there; then `cloud` holds its edge points.
-  bool seek(const Picture& picture, const EdgeCloudOptions& options, EdgeCloud& cloud);
+  /// Looks for the thing in the next frame; `base` is the side on which it is held. Returns whether it is there.
+  bool seek(const Picture& picture, BaseSide base);
+
+  /// The edge points of the thing as it was found last, while that picture lives. Returns whether there are enough.
+  bool edge_points(const EdgeCloudOptions& options, EdgeCloud& cloud) const;
 
   /// Mean absolute difference between this frame and the one before, in the thing's neighbourhood.
   double change() const { return change_; }
@@ -36,6 +39,9 @@ class OutlineSeeker {
   bool part_from_stand(BaseSide side);
   bool choose(std::span<const BrightRegion> regions, const Region& place);
   bool still(const Region& box) const;
+  int margin() const;
+  /// Row y of the picture in the window, such that column x of the picture is element x.
+  const std::uint8_t* window_row(int y) const { return window_.image.row(y - window_.place.y) - window_.place.x; }
   void measure_change();
   void measure_brightness(const Picture& picture);
 
@@ -49,6 +55,7 @@ class OutlineSeeker {
   double usual_area_ = 0;
   int base_edge_;  // where the thing ended when it last stood alone
   BrightRegion found_;
+  int pace_ = 0;  // how far the box's sides moved in the last frames, pixels a frame
   Window window_;
   std::vector<std::uint8_t> plane_;
   Region before_place_;

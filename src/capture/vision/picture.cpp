@@ -1,32 +1,35 @@
 #include "wisp/capture/vision/picture.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 
 namespace wisp {
 namespace {
 
-// Luma to RGB in fixed point with 13 bits after the point, so that factors and samples are 16 bits wide: products of
-// those are what processors multiply widest. value = scale (Y − black) + blue (Cb − 128) + red (Cr − 128).
+// Luma to a colour in 9.6 fixed point, which fits 16-bit lanes: value = (scale (Y − black) + colour) / 64 with
+// colour = from_cb (Cb − 128) + from_cr (Cr − 128). Off by one grey level at most.
 struct Conversion {
-  int black = 0;
-  int scale = 1 << 13;
-  int from_cb = 0;
-  int from_cr = 0;
+  std::int16_t black = 0;
+  std::int16_t scale = kOne;
+  std::int16_t from_cb = 0;
+  std::int16_t from_cr = 0;
+
+  static constexpr int kBits = 6;
+  static constexpr std::int16_t kOne = 1 << kBits;
 };
 
-constexpr int kFixedBits = 13;
-constexpr int kFixedOne = 1 << kFixedBits;
-
-int fixed(double value) { return static_cast<int>(value * kFixedOne + (value < 0 ? -0.5 : 0.5)); }
+std::int16_t fixed(double value) {
+  return static_cast<std::int16_t>(value * Conversion::kOne + (value < 0 ? -0.5 : 0.5));
+}
 
 // ITU-R BT.601 and BT.709, section 3: Kr and Kb; Kg is the rest.
 Conversion conversion(const Picture& picture, PixelChannel channel) {
   const double kr = picture.bt709 ? 0.2126 : 0.299, kb = picture.bt709 ? 0.0722 : 0.114, kg = 1 - kr - kb;
   const double luma = picture.full_range ? 1.0 : 255.0 / 219.0;
   const double chroma = picture.full_range ? 1.0 : 255.0 / 224.0;
-  Conversion out{picture.full_range ? 0 : 16, fixed(luma), 0, 0};
+  Conversion out;
+  out.black = picture.full_range ? 0 : 16;
+  out.scale = fixed(luma);
   if (channel == PixelChannel::kRed) out.from_cr = fixed(2 * (1 - kr) * chroma);
   if (channel == PixelChannel::kBlue) out.from_cb = fixed(2 * (1 - kb) * chroma);
   if (channel == PixelChannel::kGreen) {
@@ -35,8 +38,6 @@ Conversion conversion(const Picture& picture, PixelChannel channel) {
   }
   return out;
 }
-
-std::uint8_t to_byte(int value) { return static_cast<std::uint8_t>(std::clamp(value, 0, 255)); }
 
 const std::uint8_t* plane_row(const PicturePlane& plane, int x, int y) {
   return plane.pixels + y * plane.stride + static_cast<std::ptrdiff_t>(x) * plane.step;
@@ -63,46 +64,68 @@ void luma_row_of_rgb(const Picture& picture, int x, int y, int width, std::uint8
   }
 }
 
-int colour_part(const Conversion& to, const PicturePlane& cb, const PicturePlane& cr, int cx, int cy) {
-  return to.from_cb * (*plane_row(cb, cx, cy) - 128) + to.from_cr * (*plane_row(cr, cx, cy) - 128) + kFixedOne / 2;
+// What the colour planes add to each pixel of a row, 64ths of a grey level.
+void colour_row(const Picture& picture, const Conversion& to, const Region& region, int y, std::int16_t* out) {
+  const int shift = picture.chroma_shift_x, cy = y >> picture.chroma_shift_y;
+  const int first = region.x >> shift, last = (region.right() - 1) >> shift;
+  const std::uint8_t* cb = plane_row(picture.planes[1], 0, cy);
+  const std::uint8_t* cr = plane_row(picture.planes[2], 0, cy);
+  const std::ptrdiff_t step = picture.planes[1].step;
+  const int width = 1 << shift;
+  for (int c = first; c <= last; ++c) {
+    const int colour = to.from_cb * (cb[c * step] - 128) + to.from_cr * (cr[c * step] - 128) + Conversion::kOne / 2;
+    const int begin = std::max(c * width, region.x) - region.x;
+    const int end = std::min((c + 1) * width, region.right()) - region.x;
+    for (int i = begin; i < end; ++i) out[i] = static_cast<std::int16_t>(colour);
+  }
 }
 
-// Up to kBlock pixels of planar YUV, in loops over whole arrays, which compilers turn into wide instructions.
-constexpr int kBlock = 256;
-
-void colour_block(const Conversion& to, const std::uint8_t* luma, const std::uint8_t* cb, const std::uint8_t* cr,
-                  int shift, int phase, int width, std::uint8_t* out) {
-  std::array<int, kBlock + 2> colour{};
-  const int colours = ((phase + width - 1) >> shift) + 1;
-  std::array<int, kBlock + 2> each;
-  for (int k = 0; k < colours; ++k) each[k] = to.from_cb * (cb[k] - 128) + to.from_cr * (cr[k] - 128) + kFixedOne / 2;
-  if (shift == 1) {
-    for (int k = 0; 2 * k + 1 < kBlock + 2 && k < colours; ++k) colour[2 * k] = colour[2 * k + 1] = each[k];
-  } else {
-    for (int i = 0; i < phase + width; ++i) colour[i] = each[i >> shift];
+// The same where two pixels share a colour and the row begins with a pair: the shape of nearly every video.
+void colour_row_in_pairs(const Conversion& to, const std::uint8_t* cb, const std::uint8_t* cr, int pairs,
+                         std::int16_t* out) {
+  for (int c = 0; c < pairs; ++c) {
+    const auto blue = static_cast<std::int16_t>(cb[c] - 128), red = static_cast<std::int16_t>(cr[c] - 128);
+    const auto colour = static_cast<std::int16_t>(to.from_cb * blue + to.from_cr * red + Conversion::kOne / 2);
+    out[2 * c] = colour;
+    out[2 * c + 1] = colour;
   }
-  const auto scale = static_cast<std::int16_t>(to.scale), black = static_cast<std::int16_t>(to.black);
+}
+
+// Sums stay within 16 bits: |scale × 255| is below 19,100 and |colour| below 16,600 for every colour matrix, and where
+// their sum leaves the range, so would the grey level: saturation to 32,767 / 64 is clipped to 255 all the same.
+void add_luma(const Conversion& to, const std::uint8_t* luma, const std::int16_t* colour, int width,
+              std::uint8_t* out) {
   for (int i = 0; i < width; ++i) {
-    const auto above_black = static_cast<std::int16_t>(luma[i] - black);
-    const int value = (scale * above_black + colour[i + phase]) >> kFixedBits;
+    const auto scaled = static_cast<std::int16_t>(to.scale * (luma[i] - to.black));
+    const int value = (scaled + colour[i]) >> Conversion::kBits;
     out[i] = static_cast<std::uint8_t>(value < 0 ? 0 : value > 255 ? 255 : value);
   }
 }
 
 void colour_row_of_yuv(const Picture& picture, const Conversion& to, const Region& region, int y, std::uint8_t* out) {
-  const auto& [luma, cb, cr] = picture.planes;
-  const int shift = picture.chroma_shift_x, cy = y >> picture.chroma_shift_y;
-  const bool planar = luma.step == 1 && cb.step == 1 && cr.step == 1 && shift <= 1;
-  for (int i = 0; planar && i < region.width; i += kBlock) {
-    const int x = region.x + i, width = std::min(kBlock, region.width - i);
-    colour_block(to, plane_row(luma, x, y), plane_row(cb, x >> shift, cy), plane_row(cr, x >> shift, cy), shift,
-                 x & shift, width, out + i);
-  }
-  if (planar) return;
-  const std::uint8_t* row = plane_row(luma, region.x, y);
-  for (int i = 0; i < region.width; ++i) {
-    const int colour = colour_part(to, cb, cr, (region.x + i) >> shift, cy);
-    out[i] = to_byte((to.scale * (row[static_cast<std::ptrdiff_t>(i) * luma.step] - to.black) + colour) >> kFixedBits);
+  constexpr int kPart = 512;  // pixels at a time, so that what the colours add stays near the processor
+  std::array<std::int16_t, kPart + 2> colour;
+  std::array<std::uint8_t, kPart> luma;
+  const PicturePlane &lumas = picture.planes[0], &cb = picture.planes[1], &cr = picture.planes[2];
+  const bool pairs = picture.chroma_shift_x == 1 && cb.step == 1 && cr.step == 1;
+  for (int x = region.x; x < region.right();) {
+    const int width = std::min(kPart - (x & 1), region.right() - x);
+    if (pairs) {
+      const int cy = y >> picture.chroma_shift_y, skip = x & 1;
+      colour_row_in_pairs(to, plane_row(cb, x >> 1, cy), plane_row(cr, x >> 1, cy), (width + skip + 1) / 2,
+                          colour.data());
+      if (skip != 0) std::copy_n(colour.data() + 1, width, colour.data());
+    } else {
+      colour_row(picture, to, {x, y, width, 1}, y, colour.data());
+    }
+    const std::uint8_t* values = plane_row(lumas, x, y);
+    if (lumas.step != 1) {
+      copy_row(lumas, x, y, width, luma.data());
+      values = luma.data();
+    }
+    add_luma(to, values, colour.data(), width, out);
+    out += width;
+    x += width;
   }
 }
 
@@ -145,28 +168,21 @@ ImageView plane_in_place(const Picture& picture, PixelChannel channel) {
   return {plane.pixels, picture.width, picture.height, plane.stride};
 }
 
-Picture subsampled(const Picture& picture, const Region& area, int step) {
-  Picture out = picture;
-  out.width = (area.width + step - 1) / step;
-  out.height = (area.height + step - 1) / step;
-  for (std::size_t k = 0; k < out.planes.size(); ++k) {
-    PicturePlane& plane = out.planes[k];
-    if (plane.pixels == nullptr) continue;
-    const bool chroma = picture.layout == PictureLayout::kYuv && k > 0;
-    const int across = chroma ? picture.chroma_shift_x : 0, down = chroma ? picture.chroma_shift_y : 0;
-    plane.pixels = plane_row(plane, area.x >> across, area.y >> down);
-    plane.stride *= step >> down;
-    plane.step *= step >> across;
-  }
-  out.chroma_shift_x = out.chroma_shift_y = 0;
-  return out;
-}
-
 void extract_channel(const Picture& picture, PixelChannel channel, const Region& region, std::uint8_t* out) {
   assert(has_channel(picture, channel));
   const Conversion to = conversion(picture, channel);
   for (int y = region.y; y < region.bottom(); ++y, out += region.width) {
     extract_row(picture, channel, to, region, y, out);
+  }
+}
+
+void sample_channel(const Picture& picture, PixelChannel channel, const Region& region, int step, std::uint8_t* out) {
+  assert(has_channel(picture, channel));
+  const Conversion to = conversion(picture, channel);
+  for (int y = region.y; y < region.bottom(); y += step) {
+    for (int x = region.x; x < region.right(); x += step) {
+      extract_row(picture, channel, to, {x, y, 1, 1}, y, out++);
+    }
   }
 }
 

@@ -26,14 +26,12 @@ struct Grid {
 
 Grid sample(std::span<const Picture> pictures, PixelChannel channel, const Region& area, bool dark) {
   Grid grid;
-  // A multiple of 4, so that the grid meets whole pixels of colour planes that are up to 4 times coarser.
   grid.step = std::max(1, std::max(area.width, area.height) / kGridWidth);
-  if (pictures.front().chroma_shift_x > 0 || pictures.front().chroma_shift_y > 0) grid.step = (grid.step + 3) / 4 * 4;
   grid.width = (area.width + grid.step - 1) / grid.step;
   grid.height = (area.height + grid.step - 1) / grid.step;
   for (const Picture& picture : pictures) {
     std::vector<std::uint8_t> out(grid.size());
-    extract_channel(subsampled(picture, area, grid.step), channel, {0, 0, grid.width, grid.height}, out.data());
+    sample_channel(picture, channel, area, grid.step, out.data());
     if (dark) {
       for (std::uint8_t& value : out) value = static_cast<std::uint8_t>(255 - value);
     }

@@ -53,8 +53,11 @@ struct EdgeCloud {
   double height = 0;                        ///< from the base's middle to the tip, pixels
   double base_x = 0;                        ///< the middle between the base's corners
   double base_y = 0;
-  double area = 0;      ///< inside the edge points, closed by a straight line, square pixels
-  double left_out = 0;  ///< area between that line and the underside; 0 where that is followed
+  double area = 0;               ///< inside the edge points, closed by a straight line, square pixels
+  std::vector<double> way;       ///< arc length up to each point, pixels
+  std::size_t left_corner = 0;   ///< point at the base's left corner
+  std::size_t right_corner = 0;  ///< … and at its right one
+  double left_out = 0;           ///< area between that line and the underside; 0 where that is followed
 };
 
 /// The part of a picture that a boundary was followed in.
@@ -72,5 +75,8 @@ struct BoundaryWindow {
 /// Precondition: every boundary pixel lies inside the window and is brighter than the level.
 bool make_edge_cloud(const BoundaryWindow& window, std::span<const PixelPosition> boundary,
                      const EdgeCloudOptions& options, EdgeCloud& cloud);
+
+/// Sets `s` anew for other landmarks or another pace; the cloud must have been made with the same `underside`.
+void place_points(EdgeCloud& cloud, const EdgeCloudOptions& options);
 
 }  // namespace wisp

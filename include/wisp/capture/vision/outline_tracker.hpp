@@ -22,9 +22,9 @@ namespace wisp {
 
 /// How much is believed. Lengths are shares of the outline's height, so that a flame filmed larger is tracked alike.
 struct TrackerOptions {
-  double normal_sd = 0.002;        ///< of one edge point along the normal, 0.0005 to 0.02; never under a quarter pixel
-  double tangent_sd = 0.02;        ///< of one edge point along the curve, 0.005 to 0.5: some twenty times looser
-  double normal_widening = 0.1;    ///< added sd a frame across the curve, 0.01 to 1: a flame crosses its own width
+  double normal_sd = 0.002;         ///< of one edge point along the normal, 0.0005 to 0.02; never under a quarter pixel
+  double tangent_sd = 0.02;         ///< of one edge point along the curve, 0.005 to 0.5: some twenty times looser
+  double normal_widening = 0.1;     ///< added sd a frame across the curve, 0.01 to 1: a flame crosses its own width
   double tangent_widening = 0.005;  ///< added sd a frame along the curve, 0.001 to 1
   double hold = 0.05;  ///< how firmly, against the normal, an edge point is first held along the curve, 0 to 1
   double gate = 6;     ///< an edge point farther off than this many typical residuals is left out, 3 to 20

@@ -53,17 +53,17 @@ bool has_channel(const Picture& picture, PixelChannel channel);
 /// The channel as a plane of the picture itself, without copying; `pixels` is null where it must be computed.
 ImageView plane_in_place(const Picture& picture, PixelChannel channel);
 
-/// Every `step`-th pixel of every `step`-th row of `area`, borrowed like the picture itself.
-///
-/// Precondition: area lies inside the picture; step is a multiple of how much coarser the colour planes are.
-Picture subsampled(const Picture& picture, const Region& area, int step);
-
 /// Computes `channel` over `region` into `out`, row by row, `region.width` bytes a row, as it is stored: luma of a
 /// picture that is not full range keeps its range, red, green and blue are 0 to 255.
 ///
 /// Precondition: has_channel(picture, channel).
 /// Precondition: region lies inside the picture and `out` holds region.width × region.height bytes.
 void extract_channel(const Picture& picture, PixelChannel channel, const Region& region, std::uint8_t* out);
+
+/// The same for every `step`-th pixel of every `step`-th row, beginning with the region's first.
+///
+/// Precondition: as extract_channel(), and step >= 1; `out` holds the number of pixels taken.
+void sample_channel(const Picture& picture, PixelChannel channel, const Region& region, int step, std::uint8_t* out);
 
 /// A stored value of `channel` as brightness from 0 (black) to 255 (white).
 double brightness(const Picture& picture, PixelChannel channel, double stored);

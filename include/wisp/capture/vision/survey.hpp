@@ -36,9 +36,8 @@ struct Survey {
   bool moves = false;         ///< whether anything changed at all
 };
 
-/// Surveys pictures of one size. Returns what was found in each channel that was asked for and in which something stands
-/// out; one at least.
-/// Errors: nothing stands out anywhere (one brightness only).
+/// Surveys pictures of one size. Returns what was found in each channel that was asked for and in which something
+/// stands out; one at least. Errors: nothing stands out anywhere (one brightness only).
 ///
 /// Precondition: pictures is not empty; all have one size and layout; region is empty or inside them.
 Result<std::vector<Survey>> survey_scene(std::span<const Picture> pictures, const SurveyOptions& options);
