@@ -7,6 +7,7 @@
 #include "recordings.hpp"
 #include "wisp/draw/plot.hpp"
 #include "wisp/learn/outline_shape.hpp"
+#include "wisp/learn/residual_tests.hpp"
 #include "wisp/learn/spectrum.hpp"
 
 namespace wisp::cli {
@@ -167,21 +168,11 @@ void report_plain(const std::vector<PredictionFigures>& figures, const ChannelCh
   }
 }
 
-Result<std::vector<double>> whiteness_of(const ArxModel& arx, const Recording& recording,
-                                         const ChannelChoice& channels) {
-  constexpr std::size_t kLags = 20;
-  const auto predicted = predict(arx, recording, channels, {.steps = 1});
-  if (!predicted) return predicted.error();
+std::vector<double> whiteness_of(const ArxModel& arx, const Recording& recording, const ChannelChoice& channels) {
+  const auto tests = test_residuals(arx, {&recording, 1}, channels, {.lags = 20});
+  if (!tests) return std::vector<double>(channels.outputs.size(), 1.0);  // too short: nothing speaks against white
   std::vector<double> p;
-  for (std::size_t k = 0; k < channels.outputs.size(); ++k) {
-    const auto& measured = recording.channels[*find_channel(recording, channels.outputs[k])].samples;
-    std::vector<double> residual;
-    for (std::size_t row = 0; row < measured.size(); ++row) {
-      const double error = measured[row] - (*predicted)[k][row];
-      if (!std::isnan(error)) residual.push_back(error);
-    }
-    p.push_back(ljung_box_p(residual, kLags));
-  }
+  for (const Whiteness& output : tests->whiteness) p.push_back(output.p);
   return p;
 }
 
@@ -229,9 +220,7 @@ Result<void> validate_plain(const Model& model, const std::vector<int>& steps, c
   const auto& arx = std::get<ArxModel>(model.dynamics);
   const auto figures = prediction_figures(arx, {&*recording, 1}, channels, {.steps = steps});
   if (!figures) return figures.error();
-  const auto whiteness = whiteness_of(arx, *recording, channels);
-  if (!whiteness) return whiteness.error();
-  report_plain(*figures, channels, *whiteness, terminal);
+  report_plain(*figures, channels, whiteness_of(arx, *recording, channels), terminal);
   if (!arguments.has("figures")) return {};
   return plot_plain(arguments.text("figures"), model, *recording, channels);
 }

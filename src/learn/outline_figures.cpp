@@ -6,11 +6,12 @@
 #include <numeric>
 
 #include "wisp/learn/outline_shape.hpp"
+#include "wisp/learn/residual_tests.hpp"
 
 namespace wisp {
 namespace {
 
-constexpr std::size_t kWhitenessLags = 20;
+constexpr int kWhitenessLags = 20;
 constexpr std::size_t kMostShapes = 2000;  // neighbouring frames say the same
 
 using Series = std::vector<std::vector<double>>;  // [output][row]
@@ -64,29 +65,6 @@ Result<void> add_shapes(const ArxModel& model, const Recording& recording, const
   return {};
 }
 
-// One-step residuals of every output, episodes after each other, missing rows left out.
-Result<Series> residuals(const ArxModel& model, std::span<const Recording> recordings, const ChannelChoice& channels) {
-  Series out(channels.outputs.size());
-  for (const Recording& recording : recordings) {
-    const auto predicted = predict(model, recording, channels, {.steps = 1});
-    if (!predicted) return predicted.error();
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      const auto& measured = recording.channels[*find_channel(recording, channels.outputs[i])].samples;
-      for (std::size_t row = 0; row < measured.size(); ++row) {
-        const double residual = measured[row] - (*predicted)[i][row];
-        if (!std::isnan(residual)) out[i].push_back(residual);
-      }
-    }
-  }
-  return out;
-}
-
-double upper_tail_chi_square(double value, double freedom) {
-  const double spread = 2 / (9 * freedom);
-  const double z = (std::cbrt(value / freedom) - (1 - spread)) / std::sqrt(spread);
-  return 0.5 * std::erfc(z / std::sqrt(2.0));
-}
-
 }  // namespace
 
 Result<OutlineFigures> outline_figures(const ArxModel& model, std::span<const Recording> recordings,
@@ -114,30 +92,10 @@ Result<OutlineFigures> outline_figures(const ArxModel& model, std::span<const Re
     out.tip_fit_percent.push_back(fit_percent(shapes.tip_measured, shapes.tip_predicted));
     out.overlap.push_back(shapes.overlap / rows);
   }
-  const auto left = residuals(model, recordings, channels);
-  if (!left) return left.error();
-  for (std::size_t i = 0; i < out.channels.size(); ++i) {
-    out.channels[i].whiteness_p = ljung_box_p((*left)[i], kWhitenessLags);
-  }
+  // Too short to test: nothing speaks against white.
+  const auto left = test_residuals(model, recordings, channels, {.lags = kWhitenessLags});
+  for (std::size_t i = 0; left && i < out.channels.size(); ++i) out.channels[i].whiteness_p = left->whiteness[i].p;
   return out;
-}
-
-double ljung_box_p(std::span<const double> residual, std::size_t lags) {
-  assert(lags >= 1);
-  if (residual.size() < lags + 2) return 1;
-  const auto n = static_cast<double>(residual.size());
-  const double mean = std::accumulate(residual.begin(), residual.end(), 0.0) / n;
-  double square = 0;
-  for (double value : residual) square += (value - mean) * (value - mean);
-  if (square == 0) return 1;
-  double statistic = 0;
-  for (std::size_t lag = 1; lag <= lags; ++lag) {
-    double product = 0;
-    for (std::size_t t = lag; t < residual.size(); ++t) product += (residual[t] - mean) * (residual[t - lag] - mean);
-    const double r = product / square;
-    statistic += r * r / (n - static_cast<double>(lag));
-  }
-  return upper_tail_chi_square(n * (n + 2) * statistic, static_cast<double>(lags));
 }
 
 double fit_percent(std::span<const double> measured, std::span<const double> predicted) {

@@ -21,32 +21,6 @@ TEST(OutlineFigures, FitIsTheShareOfTheDeviationThatIsExplained) {
   EXPECT_DOUBLE_EQ(fit_percent(std::vector<double>{3, 3}, std::vector<double>{3, 4}), 0);
 }
 
-// Reference: scipy.stats.chi2.sf(31.410432844230918, 20) is 0.05.
-TEST(OutlineFigures, LjungBoxAgreesWithItsFormula) {
-  // An alternating residual of 100 samples has r(k) = ±(1 − k/100), which makes the statistic enormous.
-  std::vector<double> alternating;
-  for (int t = 0; t < 100; ++t) alternating.push_back(t % 2 == 0 ? 1 : -1);
-  EXPECT_LT(ljung_box_p(alternating, 20), 1e-12);
-  // One lag: Q = n(n+2) r²/(n−1), χ² with one degree of freedom. r(1) of 1, 0, 0, −1 repeated is 0 but for its ends.
-  EXPECT_EQ(ljung_box_p(std::vector<double>(100, 2.0), 20), 1);
-  EXPECT_EQ(ljung_box_p(std::vector<double>{1, 2, 3}, 20), 1);
-}
-
-// Of 200 white series the p-values are uniform: those below 0.05 are binomial with mean 10, outside 2 … 22 with
-// probability below 0.001.
-TEST(OutlineFigures, LjungBoxCallsWhiteWhite) {
-  std::mt19937_64 random(1);
-  std::normal_distribution<double> gauss;
-  int small = 0;
-  for (int k = 0; k < 200; ++k) {
-    std::vector<double> white(300);
-    for (double& value : white) value = gauss(random);
-    small += ljung_box_p(white, 20) < 0.05;
-  }
-  EXPECT_GE(small, 2);
-  EXPECT_LE(small, 22);
-}
-
 TEST(OutlineFigures, AModelThatIsRightLeavesWhiteResidualsAndGoodFits) {
   const std::vector recordings{made::outline_recording({.rows = 3000})};
   const auto fit = learn_outline(recordings, {.order = 2, .holdout = 0.5});

@@ -22,7 +22,8 @@ inline const std::vector<int> kJudgedSteps{1, 5, 15, kFreeRun};
 struct OutlineChannelFigures {
   std::string name;
   std::vector<double> fit_percent;  ///< 100(1 − ‖y − ŷ‖/‖y − ȳ‖), one a number of steps
-  double whiteness_p = 1;  ///< Ljung–Box over 20 lags of the one-step residual: small where something is left to model
+  double whiteness_p = 1;  ///< Ljung–Box over 20 lags of the one-step residual: small where something is left to
+                           ///< model; 1 where there are too few rows to tell
 };
 
 /// Everything one entry a number of steps unless it says otherwise.
@@ -43,13 +44,6 @@ struct OutlineFigures {
 Result<OutlineFigures> outline_figures(const ArxModel& model, std::span<const Recording> recordings,
                                        const ChannelChoice& channels, const OutlineLayout& layout,
                                        const std::vector<int>& steps = kJudgedSteps);
-
-/// The p-value of the Ljung–Box test that `residual` is white over its first `lags` autocorrelations (Ljung & Box,
-/// Biometrika 65, 1978), χ² by Wilson and Hilferty's cube root: within 0.002 of the exact one for 20 lags. 1 for fewer
-/// than lags + 2 samples.
-///
-/// Precondition: lags >= 1.
-double ljung_box_p(std::span<const double> residual, std::size_t lags);
 
 /// 100(1 − ‖y − ŷ‖/‖y − ȳ‖); 0 where y is constant or empty.
 ///
