@@ -146,7 +146,25 @@ Result<std::optional<VideoFrame>> VideoFile::next() {
   return std::optional<VideoFrame>();
 }
 
-// A second reader that decodes key frames only.
+// The key frame at or before a time, alone: it is decoded without what follows, unless it is the one of time `before`.
+// Returns its time.
+std::int64_t VideoFile::decode_key_frame(std::int64_t tick, std::int64_t before) {
+  if (av_seek_frame(format_.get(), track_, tick, AVSEEK_FLAG_BACKWARD) < 0) return before;
+  while (av_read_frame(format_.get(), packet_.get()) >= 0) {
+    const bool wanted = packet_->stream_index == track_ && (packet_->flags & AV_PKT_FLAG_KEY) != 0;
+    const std::int64_t at = packet_->pts;
+    int code = wanted && at != before ? avcodec_send_packet(codec_.get(), packet_.get()) : -1;
+    av_packet_unref(packet_.get());
+    if (!wanted) continue;
+    if (code >= 0) code = avcodec_send_packet(codec_.get(), nullptr);
+    if (code >= 0) code = avcodec_receive_frame(codec_.get(), frame_.get());
+    avcodec_flush_buffers(codec_.get());
+    return code >= 0 ? at : before;
+  }
+  return before;
+}
+
+// Through a second reader, so that this one goes on undisturbed.
 std::vector<OwnedPicture> VideoFile::glimpses(int count) {
   std::vector<OwnedPicture> out;
   auto opened = open(path_, options_);
@@ -157,16 +175,12 @@ std::vector<OwnedPicture> VideoFile::glimpses(int count) {
   const double ticks_per_frame = 1 / (file.seconds_per_tick_ * file.info_.rate_hz);
   const std::int64_t first = options_.frames ? options_.frames->first - 1 : 0;
   const std::int64_t last = options_.frames ? std::min(options_.frames->last, info_.frames) : info_.frames;
-  file.codec_->skip_frame = AVDISCARD_NONKEY;
   std::int64_t before = begin;  // the first frames are seen anyway
   for (int k = 1; k <= count; ++k) {
     const double frame = static_cast<double>(first) + static_cast<double>(last - 1 - first) * k / count;
-    const std::int64_t tick = begin + std::llround(frame * ticks_per_frame);
-    if (av_seek_frame(file.format_.get(), file.track_, tick, AVSEEK_FLAG_BACKWARD) < 0) break;
-    avcodec_flush_buffers(file.codec_.get());
-    file.ended_ = false;
-    if (!file.decode() || file.frame_->best_effort_timestamp == before) continue;
-    before = file.frame_->best_effort_timestamp;
+    const std::int64_t at = file.decode_key_frame(begin + std::llround(frame * ticks_per_frame), before);
+    if (at == before) continue;
+    before = at;
     const auto picture = file.pictures_.view(*file.frame_);
     if (picture && picture->width == info_.width && picture->height == info_.height) out.emplace_back(*picture);
   }

@@ -21,6 +21,7 @@ class VideoFile {
   bool decode();
   bool send_packet();
   std::int64_t place_on_grid();
+  std::int64_t decode_key_frame(std::int64_t tick, std::int64_t before);
 
   std::filesystem::path path_;
   VideoOptions options_;

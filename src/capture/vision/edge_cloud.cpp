@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture/vision/plane_length.hpp"
+
 namespace wisp {
 namespace {
 
@@ -149,7 +151,7 @@ double tip_place(const EdgeCloud& cloud) {
   double weights = 0, places = 0;
   for (std::size_t k = 0; k < cloud.points.size(); ++k) {
     const EdgePoint& p = cloud.points[k];
-    const double short_by = (cloud.height - std::hypot(p.x - cloud.base_x, p.y - cloud.base_y)) / blur;
+    const double short_by = (cloud.height - length(p.x - cloud.base_x, p.y - cloud.base_y)) / blur;
     if (short_by > 4) continue;
     const double weight = (4 - short_by) * (4 - short_by);
     weights += weight;
@@ -165,10 +167,10 @@ bool measure_way(EdgeCloud& cloud) {
   cloud.height = 0;
   for (std::size_t k = 0; k < count; ++k) {
     const EdgePoint& b = cloud.points[k];
-    cloud.height = std::max(cloud.height, std::hypot(b.x - cloud.base_x, b.y - cloud.base_y));
+    cloud.height = std::max(cloud.height, length(b.x - cloud.base_x, b.y - cloud.base_y));
     if (k == 0) continue;
     const EdgePoint& a = cloud.points[k - 1];
-    cloud.way[k] = cloud.way[k - 1] + std::hypot(b.x - a.x, b.y - a.y);
+    cloud.way[k] = cloud.way[k - 1] + length(b.x - a.x, b.y - a.y);
   }
   const double whole = cloud.way.back(), tip = tip_place(cloud);
   cloud.shares = {cloud.way[cloud.left_corner] / whole, tip / whole, cloud.way[cloud.right_corner] / whole};
@@ -206,8 +208,8 @@ void place_points(EdgeCloud& cloud, const EdgeCloudOptions& options) {
   for (std::size_t k = 0; k < cloud.s.size(); ++k) {
     const double at = cloud.way[k] / whole;
     while (leg < 3 && at > share[leg + 1]) ++leg;
-    const double length = share[leg + 1] - share[leg];
-    const double part = length <= 0 ? 1 : std::clamp((at - share[leg]) / length, 0.0, 1.0);
+    const double extent = share[leg + 1] - share[leg];
+    const double part = extent <= 0 ? 1 : std::clamp((at - share[leg]) / extent, 0.0, 1.0);
     cloud.s[k] = at_pace(options.pace, place[leg] + (place[leg + 1] - place[leg]) * part);
   }
 }
@@ -226,7 +228,7 @@ bool make_edge_cloud(const BoundaryWindow& window, std::span<const PixelPosition
   locate_points(window, boundary, over, options.most_points, cloud.points);
   locate_points(window, boundary, under, options.most_points, underside);
   if (cloud.points.size() < kLeastBoundary / 2) return false;
-  const double height = std::hypot(window.place.width, window.place.height);
+  const double height = length(window.place.width, window.place.height);
   settle_corner(cloud.points, false, to_left, 0.5 * height);
   settle_corner(cloud.points, true, to_right, 0.5 * height);
   cloud.base_x = 0.5 * (cloud.points.front().x + cloud.points.back().x);

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "capture/vision/plane_length.hpp"
+
 namespace wisp {
 namespace {
 
@@ -59,7 +61,7 @@ EdgePoint locate_edge(const ImageView& image, int level, PixelPosition pixel) {
   constexpr int kSteps = 3;
   const double target = level + 0.5;
   const Gradient gradient = sobel(image, pixel.x, pixel.y);
-  const double size = std::hypot(gradient.x, gradient.y);
+  const double size = length(gradient.x, gradient.y);
   if (size == 0) return border_edge(image, pixel);
   const double nx = -gradient.x / size, ny = -gradient.y / size;
   double before = image.at(pixel.x, pixel.y);

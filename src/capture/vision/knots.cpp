@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "capture/vision/plane_length.hpp"
 #include "wisp/capture/vision/outline_tracker.hpp"
 
 namespace wisp {
@@ -55,7 +56,7 @@ std::vector<double> spread(const Density& bend, int points, double even, double 
 
 double way_between(const EdgeCloud& cloud, std::size_t k) {
   const EdgePoint &a = cloud.points[k - 1], &b = cloud.points[k];
-  return std::hypot(b.x - a.x, b.y - a.y);
+  return length(b.x - a.x, b.y - a.y);
 }
 
 constexpr int kPaceRounds = 3;

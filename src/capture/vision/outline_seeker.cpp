@@ -71,19 +71,23 @@ bool OutlineSeeker::choose(std::span<const BrightRegion> regions, const Region& 
   return best > 0;
 }
 
-// Looks inside `place`, and in more while the thing reaches out of it.
+// Looks inside `place`, and farther on the sides where the thing reaches out of it.
 bool OutlineSeeker::find_in(const Picture& picture, Region place) {
+  int farther = margin();
   while (true) {
     place = intersection(place, area_);
     if (place.empty()) return false;
     window_ = open(picture, place);
     if (!choose(finder_.find(window_.image, level_, kLeastArea), place)) return false;
     const Region box = found_.box;
-    const bool reaches_out = (box.x == place.x && place.x > area_.x) || (box.y == place.y && place.y > area_.y) ||
-                             (box.right() == place.right() && place.right() < area_.right()) ||
-                             (box.bottom() == place.bottom() && place.bottom() < area_.bottom());
-    if (!reaches_out) return true;
-    place = grown(enclosing(place, box), std::max(kLeastMargin, std::max(box.width, box.height) / 2));
+    Region more = place;
+    if (box.x == place.x && place.x > area_.x) more = enclosing(more, {place.x - farther, place.y, 1, 1});
+    if (box.y == place.y && place.y > area_.y) more = enclosing(more, {place.x, place.y - farther, 1, 1});
+    if (box.right() == place.right()) more.width += std::min(farther, area_.right() - place.right());
+    if (box.bottom() == place.bottom()) more.height += std::min(farther, area_.bottom() - place.bottom());
+    if (more == place) return true;
+    place = more;
+    farther *= 2;
   }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "capture/vision/cholesky.hpp"
+#include "capture/vision/plane_length.hpp"
 
 namespace wisp {
 namespace {
@@ -66,8 +67,8 @@ void OutlineTracker::widen(double height) {
     const auto knots = table_.knots();
     const double s = (knots[k + 1] + knots[k + 2] + knots[k + 3]) / 3;
     const CurvePoint slope = table_.slope(estimate_.mean, s);
-    const double length = std::max(std::hypot(slope.x, slope.y), 1e-9);
-    const double tx = slope.x / length, ty = slope.y / length;
+    const double size = std::max(length(slope.x, slope.y), 1e-9);
+    const double tx = slope.x / size, ty = slope.y / size;
     const double cross = (along * along - across * across) * tx * ty;
     double* block = estimate_.covariance.data() + 2 * k * n + 2 * k;
     block[0] += along * along * tx * tx + across * across * ty * ty;
@@ -106,9 +107,9 @@ void OutlineTracker::measure(const EdgeCloud& cloud, bool along_own_normal) {
     double nx = edge.normal_x, ny = edge.normal_y;
     if (!along_own_normal) {
       const CurvePoint slope = table_.slope(estimate_.mean, places_[k]);
-      const double length = std::max(std::hypot(slope.x, slope.y), 1e-9);
-      nx = slope.y / length;
-      ny = -slope.x / length;
+      const double size = std::max(length(slope.x, slope.y), 1e-9);
+      nx = slope.y / size;
+      ny = -slope.x / size;
     }
     add(places_[k], nx, ny, nx * edge.x + ny * edge.y, normal_precision_);
     const double along = nx * edge.y - ny * edge.x;
@@ -155,7 +156,7 @@ void OutlineTracker::measure_residuals(const EdgeCloud& cloud) {
   residuals_.resize(cloud.points.size());
   for (std::size_t k = 0; k < residuals_.size(); ++k) {
     const CurvePoint at = table_.at(estimate_.mean, places_[k]);
-    residuals_[k] = std::hypot(cloud.points[k].x - at.x, cloud.points[k].y - at.y);
+    residuals_[k] = length(cloud.points[k].x - at.x, cloud.points[k].y - at.y);
   }
 }
 

@@ -12,12 +12,12 @@ constexpr std::uint64_t kAllDark = 0;
 constexpr std::uint64_t kAllBright = 0x0101010101010101ULL;
 
 // The first index at or after `x` whose byte is not `same`, eight bytes at a time while they agree.
-int end_of_stretch(const std::vector<std::uint8_t>& bright, int x, int width, std::uint8_t same) {
+int end_of_stretch(const std::uint8_t* bright, int x, int width, std::uint8_t same) {
   const std::uint64_t eight = same ? kAllBright : kAllDark;
   while (x < width && bright[x] == same) {
     if (x + 8 <= width) {
       std::uint64_t word = 0;
-      std::memcpy(&word, bright.data() + x, sizeof word);
+      std::memcpy(&word, bright + x, sizeof word);
       if (word == eight) {
         x += 8;
         continue;
@@ -55,12 +55,14 @@ int RegionFinder::join(int a, int b) {
 
 void RegionFinder::find_runs(const std::uint8_t* row, int width, int level, std::vector<Run>& runs) {
   const std::uint8_t limit = static_cast<std::uint8_t>(level);
-  for (int x = 0; x < width; ++x) bright_[x] = row[x] > limit;
+  std::uint8_t* bright =
+      bright_.data();  // a local name, or every store might move the vector for all the compiler knows
+  for (int x = 0; x < width; ++x) bright[x] = row[x] > limit;
   runs.clear();
-  for (int x = end_of_stretch(bright_, 0, width, 0); x < width;) {
-    const int end = end_of_stretch(bright_, x, width, 1);
+  for (int x = end_of_stretch(bright, 0, width, 0); x < width;) {
+    const int end = end_of_stretch(bright, x, width, 1);
     runs.push_back({x, end, -1});
-    x = end_of_stretch(bright_, end, width, 0);
+    x = end_of_stretch(bright, end, width, 0);
   }
 }
 
