@@ -176,7 +176,7 @@ Command learn_arx_command() {
   return {
       "learn arx",
       "Estimates an ARX model by least squares: y(t) + A1 y(t-1) + … = B1 u(t-nk) + … + e(t).",
-      {{"REC", "recordings, CSV files", true}},
+      {{"REC", "recordings: CSV files, or MATLAB files whose variables --inputs and --outputs name", true}},
       flags(),
       {
           {"wisp learn arx hairdryer.csv -o dryer.wisp --inputs u1 --outputs y1 --dt 0.08 --na 2 --nb 2 --nk 3 --range "

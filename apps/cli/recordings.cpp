@@ -1,6 +1,7 @@
 #include "recordings.hpp"
 
 #include "wisp/record/csv.hpp"
+#include "wisp/record/mat.hpp"
 
 namespace wisp::cli {
 
@@ -15,7 +16,7 @@ std::vector<Flag> recording_flags() {
 
 bool is_table(const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
-  return extension == ".csv" || extension == ".txt" || extension == ".CSV";
+  return extension == ".csv" || extension == ".txt" || extension == ".mat" || extension == ".CSV";
 }
 
 Result<Recording> read_table(const std::filesystem::path& path, const Arguments& arguments,
@@ -29,6 +30,9 @@ Result<Recording> read_table(const std::filesystem::path& path, const Arguments&
     options.rate_hz = 1 / seconds;
   }
   if (arguments.has("rate")) options.rate_hz = arguments.number("rate");
+  if (path.extension() == ".mat") {
+    return read_mat(path, {.rate_hz = options.rate_hz, .inputs = options.inputs, .outputs = options.outputs});
+  }
   return read_csv(path, options);
 }
 
