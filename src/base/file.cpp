@@ -63,7 +63,8 @@ Result<void> write_file(const fs::path& path, std::span<const std::byte> bytes) 
   if (!pending) return pending.error();
   File file(std::fopen(pending->path().c_str(), "wb"));
   if (!file) return file_error(path, "cannot be written: " + reason());
-  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
+  // An empty span may point nowhere, which fwrite must not be given.
+  const bool written = bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
   const bool flushed = std::fflush(file.get()) == 0;
   const std::string why = reason();
   const bool closed = std::fclose(file.release()) == 0;
