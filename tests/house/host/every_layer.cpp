@@ -1,0 +1,45 @@
+// One call into every layer, so that each must link with all that it stands on. Nothing here exists: bad data are a
+// sentence, and the sentences are counted.
+
+#include <cstdio>
+#include <vector>
+
+#include "wisp/base/file.hpp"
+#include "wisp/capture/media/video.hpp"
+#include "wisp/capture/vision/image.hpp"
+#include "wisp/draw/image.hpp"
+#include "wisp/draw/video_writer.hpp"
+#include "wisp/learn/spectrum.hpp"
+#include "wisp/model/file.hpp"
+#include "wisp/record/csv.hpp"
+#include "wisp/record/mat.hpp"
+#include "wisp/run/random.hpp"
+#include "wisp/simulate/candle_rig.hpp"
+#include "wisp/wisp.h"
+
+namespace {
+
+template <class T>
+int complaints(const wisp::Result<T>& result) {
+  if (result) return 0;
+  std::printf("%s\n", result.error().message.c_str());
+  return 1;
+}
+
+}  // namespace
+
+int main() {
+  int count = complaints(wisp::read_file("nowhere/file"));
+  count += complaints(wisp::read_model("nowhere/model.wisp"));
+  count += complaints(wisp::read_csv("nowhere/recording.csv"));
+  count += complaints(wisp::read_mat("nowhere/recording.mat", {}));
+  count += complaints(wisp::VideoReader::open("nowhere/clip.mp4", {}));
+  count += complaints(wisp::write_png("nowhere/picture.png", wisp::Image(2, 2)));
+  count += complaints(wisp::VideoWriter::create("nowhere/film.mp4", {}));
+
+  const bool spectrum = wisp::welch({}, 60, 64).segments == 0;
+  const bool random = wisp::normal(0) < 0;
+  const bool rig = wisp::candle_rig_options(wisp::CandleGrid{}).pressure_tolerance > 0;
+  const bool vision = !wisp::channel_name(wisp::PixelChannel{}).empty();
+  return count == 7 && spectrum && random && rig && vision && wisp_version() > 0 ? 0 : 1;
+}
