@@ -75,6 +75,19 @@ void fit_one_output(benchmark::State& state) {
 }
 BENCHMARK(fit_one_output)->Unit(benchmark::kMillisecond);
 
+void fit_bank_of_8(benchmark::State& state) {
+  static const Recording all = read_raw("bank8.bin", {"u1", "y1", "y2"}, 8 * 3000);
+  std::vector<Recording> bank;
+  for (std::size_t k = 0; k < 8; ++k) bank.push_back(slice(all, k * 3000, (k + 1) * 3000));
+  ArxOptions options;
+  options.orders = make_orders({.outputs = 2, .inputs = 1, .na = 4, .nb = 4, .nk = 1});
+  options.judge_free_run = false;
+  for (auto _ : state) {
+    for (const Recording& one : bank) benchmark::DoNotOptimize(fit(one, {{"u1"}, {"y1", "y2"}}, options));
+  }
+}
+BENCHMARK(fit_bank_of_8)->Unit(benchmark::kMillisecond);
+
 void prediction_errors_of_20_steps(benchmark::State& state) {
   ArxOptions options;
   options.orders = make_orders({.outputs = 1, .inputs = 1, .na = 4, .nb = 4, .nk = 2});
