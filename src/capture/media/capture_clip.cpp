@@ -3,7 +3,7 @@
 namespace wisp {
 namespace {
 
-constexpr int kGlimpses = 6;
+constexpr int kGlimpses = 4;
 
 }  // namespace
 

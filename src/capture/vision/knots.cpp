@@ -134,7 +134,7 @@ CurveShape choose_shape(std::span<const EdgeCloud> clouds, int points, bool plac
   const double enough = kWorthwhile * best.misfit;
   const Density bend = bending(clouds);
   for (const double power : {0.5, 1.0}) {
-    for (const double even : {0.7, 0.5, 0.35, 0.2, 0.1}) {
+    for (const double even : {0.6, 0.35, 0.15}) {
       CurveShape tried = fit_pace(clouds, spread(bend, points, even, power));
       if (tried.misfit < std::min(best.misfit, enough)) best = std::move(tried);
     }

@@ -15,8 +15,10 @@ namespace {
 constexpr std::size_t kLeastTracked = 10;
 constexpr std::size_t kLeastHeld = 8;
 constexpr int kLeastEdgePoints = 128;
-constexpr int kEdgePointsEach = 12;  // to a control point: more do not make it steadier, as their errors go together
-constexpr int kSamplePoints = 96;    // edge points that are enough to decide by
+constexpr int kEdgePointsEach = 12;    // to a control point: more do not make it steadier, as their errors go together
+constexpr std::size_t kSurveyed = 20;  // held frames that are surveyed
+constexpr std::size_t kSamples = 6;    // … and in which outlines are tried
+constexpr int kSamplePoints = 96;      // edge points that are enough to decide by
 
 // Following the underside takes control points away from the sides and makes them move more: it has to pay.
 constexpr double kWorthFollowing = 0.6;
@@ -31,6 +33,14 @@ std::string full_text(double value) {
   char buffer[32];
   std::snprintf(buffer, sizeof buffer, "%.17g", value);
   return buffer;
+}
+
+// At most `count` of the pictures, evenly spread.
+std::vector<Picture> evenly_from(std::span<const Picture> pictures, std::size_t count) {
+  std::vector<Picture> out;
+  const std::size_t stride = (pictures.size() + count - 1) / count;
+  for (std::size_t k = stride / 2; k < pictures.size(); k += stride) out.push_back(pictures[k]);
+  return out;
 }
 
 }  // namespace
@@ -132,7 +142,7 @@ Result<void> OutlineCapture::Stage::decide() {
   }
   cloud_options_.base = options_.base.value_or(BaseSide::kBottom);
   cloud_options_.most_points = std::max(kLeastEdgePoints, kEdgePointsEach * options_.points);
-  std::vector<Picture> seen = pictures;
+  std::vector<Picture> seen = evenly_from(pictures, kSurveyed);
   for (const OwnedPicture& glimpse : glimpses_) seen.push_back(glimpse.picture());
   const auto surveys = survey_scene(seen, {options_.channel, options_.dark, options_.region, cloud_options_.base});
   if (!surveys) return complaint(surveys.error().message);
@@ -179,7 +189,6 @@ OutlineCapture::Stage::Samples OutlineCapture::Stage::choose_channel(std::span<c
 // The edge points of a few of the pictures and of the glimpses, without and with the underside.
 OutlineCapture::Stage::Samples OutlineCapture::Stage::take_samples(const OutlineSeeker& seeker,
                                                                    std::span<const Picture> pictures) const {
-  constexpr std::size_t kSamples = 8;
   EdgeCloudOptions above = cloud_options_, around = cloud_options_;
   above.most_points = around.most_points = kSamplePoints;
   around.underside = true;
@@ -191,8 +200,7 @@ OutlineCapture::Stage::Samples OutlineCapture::Stage::take_samples(const Outline
     if (looking.edge_points(around, cloud)) samples.around.push_back(cloud);
   };
   OutlineSeeker following = seeker;
-  const std::size_t stride = std::max<std::size_t>(1, pictures.size() / kSamples);
-  for (std::size_t k = stride / 2; k < pictures.size(); k += stride) take(following, pictures[k]);
+  for (const Picture& picture : evenly_from(pictures, kSamples)) take(following, picture);
   for (const OwnedPicture& glimpse : glimpses_) {
     OutlineSeeker anew = seeker;
     take(anew, glimpse.picture());

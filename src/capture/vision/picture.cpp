@@ -130,6 +130,14 @@ void colour_row_of_yuv(const Picture& picture, const Conversion& to, const Regio
   }
 }
 
+std::uint8_t colour_of_yuv(const Picture& picture, const Conversion& to, int x, int y) {
+  const int cx = x >> picture.chroma_shift_x, cy = y >> picture.chroma_shift_y;
+  const int blue = *plane_row(picture.planes[1], cx, cy) - 128, red = *plane_row(picture.planes[2], cx, cy) - 128;
+  const int colour = to.from_cb * blue + to.from_cr * red + Conversion::kOne / 2;
+  const int scaled = to.scale * (*plane_row(picture.planes[0], x, y) - to.black);
+  return static_cast<std::uint8_t>(std::clamp(((scaled >> 1) + (colour >> 1)) >> (Conversion::kBits - 1), 0, 255));
+}
+
 void extract_row(const Picture& picture, PixelChannel channel, const Conversion& to, const Region& region, int y,
                  std::uint8_t* out) {
   if (channel == PixelChannel::kLuma) {
@@ -180,9 +188,14 @@ void extract_channel(const Picture& picture, PixelChannel channel, const Region&
 void sample_channel(const Picture& picture, PixelChannel channel, const Region& region, int step, std::uint8_t* out) {
   assert(has_channel(picture, channel));
   const Conversion to = conversion(picture, channel);
+  const bool computed = picture.layout == PictureLayout::kYuv && channel != PixelChannel::kLuma;
   for (int y = region.y; y < region.bottom(); y += step) {
-    for (int x = region.x; x < region.right(); x += step) {
-      extract_row(picture, channel, to, {x, y, 1, 1}, y, out++);
+    for (int x = region.x; x < region.right(); x += step, ++out) {
+      if (computed) {
+        *out = colour_of_yuv(picture, to, x, y);
+      } else {
+        extract_row(picture, channel, to, {x, y, 1, 1}, y, out);
+      }
     }
   }
 }

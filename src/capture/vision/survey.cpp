@@ -44,19 +44,27 @@ ImageView view(const Grid& grid, const std::vector<std::uint8_t>& picture) {
   return {picture.data(), grid.width, grid.height, grid.width};
 }
 
+// The pictures that count, and their histogram.
+struct LitPictures {
+  std::vector<std::size_t> which;
+  Histogram histogram{};
+};
+
 // Pictures of a fade would pull the level down.
-std::vector<std::size_t> lit_pictures(const Grid& grid) {
+LitPictures lit_pictures(const Grid& grid) {
   std::vector<double> contrast;
-  for (const auto& picture : grid.pictures) {
-    Histogram histogram{};
-    add_to_histogram(histogram, view(grid, picture), 1);
-    const TwoClusters clusters = split_histogram(histogram);
+  std::vector<Histogram> histograms(grid.pictures.size());
+  for (std::size_t k = 0; k < grid.pictures.size(); ++k) {
+    add_to_histogram(histograms[k], view(grid, grid.pictures[k]), 1);
+    const TwoClusters clusters = split_histogram(histograms[k]);
     contrast.push_back(clusters.bright_mean - clusters.dark_mean);
   }
   const double best = *std::max_element(contrast.begin(), contrast.end());
-  std::vector<std::size_t> lit;
+  LitPictures lit;
   for (std::size_t k = 0; k < contrast.size(); ++k) {
-    if (contrast[k] >= kLitShare * best) lit.push_back(k);
+    if (contrast[k] < kLitShare * best) continue;
+    lit.which.push_back(k);
+    for (int v = 0; v < 256; ++v) lit.histogram[v] += histograms[k][v];
   }
   return lit;
 }
@@ -148,8 +156,9 @@ int usual_edge(const Grid& grid, std::span<const std::size_t> lit, const Survey&
 std::optional<Survey> judge(const Grid& grid, PixelChannel channel, const Region& area, BaseSide base) {
   Survey out;
   out.channel = channel;
-  const std::vector<std::size_t> lit = lit_pictures(grid);
-  for (const std::size_t k : lit) add_to_histogram(out.histogram, view(grid, grid.pictures[k]), 1);
+  const LitPictures lit_ones = lit_pictures(grid);
+  const std::span<const std::size_t> lit = lit_ones.which;
+  out.histogram = lit_ones.histogram;
   const TwoClusters clusters = split_histogram(out.histogram);
   const double contrast = clusters.bright_mean - clusters.dark_mean;
   if (contrast < kLeastContrast) return std::nullopt;
