@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kGravity = 9.81F;
 constexpr float kLighterTemperature = 1500.0F;
-constexpr float kLighterFuel = 0.6F;      // share of the fuel rate that a lighter's heat draws from the wick
+constexpr float kLighterFuel = 0.6F;  // share of the fuel rate that a lighter's heat draws from the wick
 constexpr int kMostIterations = 40;
 constexpr Float4 kDiffuses = {1.0F, 1.0F, 1.0F, 0.0F};  // soot particles are too large to
 

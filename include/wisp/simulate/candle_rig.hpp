@@ -39,9 +39,9 @@ struct CandleRigOptions {
   double wick_height_mm = 4;      ///< calibrated
   double wick_damping = 80;       ///< 1/s, calibrated: drag of the wick; without it the flame dies at 0.5 m/s
   double wick_time = 0.15;        ///< s, calibrated: how slowly the fuel follows the wick's heat
-  double wick_cold = 500;     ///< K, calibrated: surroundings of the wick at which it gives off nothing
-  double wick_warm = 900;     ///< K, calibrated: and at which it gives off all it can
-  double fuel_rate = 1.35e-4;      ///< m²/s, calibrated: volume of cold vapour a second per depth of a warm wick
+  double wick_cold = 500;         ///< K, calibrated: surroundings of the wick at which it gives off nothing
+  double wick_warm = 900;         ///< K, calibrated: and at which it gives off all it can
+  double fuel_rate = 1.35e-4;     ///< m²/s, calibrated: volume of cold vapour a second per depth of a warm wick
   double fuel_temperature = 600;  ///< K
 
   // The gas.
