@@ -107,7 +107,7 @@ class Truth {
     note("origin_x", view.origin_x);
     note("origin_y", view.origin_y);
     note("cell_mm", options.rig.cell_mm);
-    note("steps_per_frame", options.rig.steps_per_frame);
+    note("steps_a_second", options.rig.rate_hz * steps_per_frame(options.rig));
     recording_.attributes.push_back({"seed", std::to_string(options.wind.seed)});
   }
 
@@ -235,6 +235,12 @@ Result<void> check(const CandleClipOptions& o) {
 }
 
 }  // namespace
+
+void centre_candle(CandleClipOptions& options) {
+  options.rig.position = 0.5;
+  options.rig.columns = options.rig.columns * 5 / 4 / 16 * 16;
+  options.camera.wick_x = 0.5;
+}
 
 Result<Recording> simulate_candle(const CandleClipOptions& options, const CandleClipOutputs& outputs) {
   if (auto good = check(options); !good) return good.error();

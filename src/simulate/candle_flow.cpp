@@ -20,7 +20,7 @@ constexpr Float4 kDiffuses = {1.0F, 1.0F, 1.0F, 0.0F};  // soot particles are to
 CandleFlow::CandleFlow(const CandleRigOptions& options)
     : options_(options),
       grid_{options.columns, options.rows, static_cast<float>(options.cell_mm * 1e-3)},
-      step_(static_cast<float>(1 / (options.rate_hz * options.steps_per_frame))),
+      step_(static_cast<float>(1 / (options.rate_hz * steps_per_frame(options)))),
       body_(candle_body(grid_, options)),
       combustion_(options, step_),
       pressure_(grid_) {

@@ -21,7 +21,7 @@ Result<void> check_options(const CandleRigOptions& o) {
                                               {"rows", double(o.rows), 16, 1024},
                                               {"cell_mm", o.cell_mm, 0.1, 2},
                                               {"rate_hz", o.rate_hz, 1, 1000},
-                                              {"steps_per_frame", double(o.steps_per_frame), 1, 1000},
+                                              {"steps_a_second", o.steps_a_second, 100, 100000},
                                               {"position", o.position, 0.1, 0.9},
                                               {"candle_width_mm", o.candle_width_mm, 1, 100},
                                               {"candle_height_mm", o.candle_height_mm, 1, 100},
@@ -73,13 +73,17 @@ void copy_light(const flow::FlowGrid& grid, const flow::Plane& from, float facto
 
 }  // namespace
 
+int steps_per_frame(const CandleRigOptions& options) {
+  return std::max(1, static_cast<int>(std::lround(options.steps_a_second / options.rate_hz)));
+}
+
 CandleRigOptions candle_rig_options(CandleGrid grid) {
   CandleRigOptions options;
   if (grid == CandleGrid::kFine) {
     options.columns = 112;
     options.rows = 192;
     options.cell_mm = 1.25 / 3;
-    options.steps_per_frame = 10;
+    options.steps_a_second = 600;
     options.wick_damping = 250;
     options.wick_cold = 450;
     options.wick_warm = 750;
@@ -124,13 +128,13 @@ Result<CandleRig> CandleRig::create(const CandleRigOptions& options) {
 
 void CandleRig::light() {
   const CandleRigOptions& o = parts_->options;
-  parts_->lighter_steps = static_cast<int>(std::ceil(kLighterSeconds * o.rate_hz * o.steps_per_frame));
+  parts_->lighter_steps = static_cast<int>(std::ceil(kLighterSeconds * o.rate_hz * steps_per_frame(o)));
 }
 
 void CandleRig::step_frame(double wind) {
   Parts& p = *parts_;
   const double next = std::isnan(wind) ? 0.0 : std::clamp(wind, -kMostWind, kMostWind);
-  const int steps = p.options.steps_per_frame;
+  const int steps = steps_per_frame(p.options);
   const int closed = steps - std::max(1, static_cast<int>(std::lround(p.options.exposure * steps)));
   p.flow.clear_light();
   double burnt = 0;

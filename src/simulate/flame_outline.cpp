@@ -14,7 +14,7 @@ namespace {
 constexpr int kSamplesPerCell = 3;
 constexpr int kContourPoints = 200;
 constexpr double kTipShare = 0.02;
-constexpr int kRefits = 4;
+constexpr int kRefits = 8;
 
 double distance(PointMm a, PointMm b) { return std::hypot(b.x - a.x, b.y - a.y); }
 

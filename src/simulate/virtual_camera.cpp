@@ -15,14 +15,14 @@ namespace {
 
 // Tones are kept in sixteenths of an 8-bit step until noise has been added.
 constexpr int kToneUnit = 16;
-constexpr int kTones = 4096;
-constexpr float kBrightest = 10.0F;  // exposure that the tone table ends at, where every channel is white
+constexpr int kTones = 8192;
+constexpr float kBrightest = 25.0F;  // exposure that the tables end at, where every channel is white
 constexpr int kNoiseValues = 1 << 14;
 
 // How much each channel sees of glowing soot and of the reaction's own light.
-constexpr std::array<float, 3> kSootColour = {1.0F, 0.66F, 0.27F};
-constexpr std::array<float, 3> kBlueColour = {0.16F, 0.30F, 1.0F};
-constexpr float kBlueGain = 0.011F;  // of exposure, per 1/s of fuel burnt
+constexpr std::array<float, 3> kSootColour = {1.0F, 0.56F, 0.21F};
+constexpr std::array<float, 3> kBlueColour = {0.15F, 0.36F, 1.0F};
+constexpr float kBlueGain = 0.013F;  // of exposure, per 1/s of fuel burnt
 constexpr float kBlueVeil = 5.0F;    // soot outshines it
 constexpr double kBlueFullMm = 4;    // above the rim; a candle's blue is at its base,
 constexpr double kBlueGoneMm = 16;   // farther up the planar rig would show a rim that a camera does not see
@@ -41,6 +41,7 @@ Result<void> check(const VirtualCameraOptions& o) {
                                                                {"wick_x", o.wick_x, 0, 1},
                                                                {"rim_y", o.rim_y, 0, 1},
                                                                {"gain", o.gain, 0.01, 100},
+                                                               {"contrast", o.contrast, 0.5, 4},
                                                                {"glow", o.glow, 0, 1},
                                                                {"noise", o.noise, 0, 50},
                                                            });
@@ -92,6 +93,7 @@ struct VirtualCamera::Parts {
   VirtualCameraOptions options;
   CameraView view;
   std::vector<std::int16_t> tones, noise;
+  std::vector<float> steep;  // exposure by soot, raised to the contrast
   flow::SamplePlaces columns, rows;
   FlameLight seen;  // the grid that the places are for
   std::vector<float> soot, scattered, mixed_soot, mixed_blue;
@@ -106,6 +108,7 @@ VirtualCamera::Parts::Parts(const VirtualCameraOptions& o)
   view = {o.wick_x * o.width - 0.5, (1 - o.rim_y) * o.height - 0.5, o.pixels_per_mm};
   for (int k = 0; k < kTones; ++k) {
     const double exposure = static_cast<double>(kBrightest) * k / (kTones - 1);
+    steep.push_back(static_cast<float>(std::pow(exposure, o.contrast)));
     tones.push_back(static_cast<std::int16_t>(std::lround(255 * kToneUnit * (1 - std::exp(-exposure)))));
   }
   flow::RandomNumbers random(o.seed, 0x6e6f697365U);
@@ -154,7 +157,8 @@ void VirtualCamera::Parts::expose_row(const FlameLight& light, int row) {
     const float body = flow::sample(mixed_soot, columns, x);
     const float veiled = flow::sample(mixed_blue, columns, x) / (1.0F + kBlueVeil * body);
     if (body + veiled < kDark) continue;
-    for (int c = 0; c < 3; ++c) line[3 * x + c] = tone(gain * (kSootColour[c] * body + kBlueColour[c] * veiled));
+    const float glowing = steep[static_cast<int>(std::min(gain * body, kBrightest) * ((kTones - 1) / kBrightest))];
+    for (int c = 0; c < 3; ++c) line[3 * x + c] = tone(kSootColour[c] * glowing + kBlueColour[c] * gain * veiled);
   }
 }
 

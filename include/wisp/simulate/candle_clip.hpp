@@ -31,6 +31,10 @@ struct CandleClipOptions {
                                 ///< the same to the last bit
 };
 
+/// Puts the candle into the middle of picture and grid and widens the grid by a quarter: room for a flame that leans to
+/// both sides, for a wind with `both_sides`.
+void centre_candle(CandleClipOptions& options);
+
 /// A frame on its way out.
 struct CandleFrame {
   std::uint64_t index = 0;

@@ -16,19 +16,20 @@ namespace wisp {
 /// Grids whose parameters have been calibrated together. The tip's height depends on cell and time step, so take one
 /// of these and change what you must.
 enum class CandleGrid {
-  kCoarse,  ///< 64 × 128 cells of 0.667 mm, 20 steps a frame: the demo's
-  kFine,    ///< 112 × 192 cells of 0.417 mm, 10 steps a frame
+  kCoarse,  ///< 64 × 128 cells of 0.667 mm, 1200 steps a second: the demo's
+  kFine,    ///< 112 × 192 cells of 0.417 mm, 600 steps a second
 };
 
 /// The rig. Lengths in millimetres, all else in SI units. "Calibrated" is said where a number was chosen for the
 /// flame to look and lean like a real one, not taken from a property of matter.
 struct CandleRigOptions {
   // The grid and its time.
-  int columns = 64;          ///< 16 … 1024
-  int rows = 128;            ///< 16 … 1024
-  double cell_mm = 2.0 / 3;  ///< 0.1 … 2; a flame is about 6 mm wide
-  double rate_hz = 60;       ///< frames a second, 1 … 1000
-  int steps_per_frame = 20;  ///< 1 … 1000; a step of about 1 ms at most, or the wind outruns the wick
+  int columns = 64;              ///< 16 … 1024
+  int rows = 128;                ///< 16 … 1024
+  double cell_mm = 2.0 / 3;      ///< 0.1 … 2; a flame is about 6 mm wide
+  double rate_hz = 60;           ///< frames a second, 1 … 1000
+  double steps_a_second = 1200;  ///< 100 … 100000, rounded to whole steps a frame: the flame depends on the step, not
+                                 ///< on the camera's rate
 
   // The candle.
   double position = 0.35;       ///< of the candle's axis, as a share of the width, 0.1 … 0.9: room on the lee side
@@ -64,6 +65,9 @@ struct CandleRigOptions {
 
   double pressure_tolerance = 0.5;  ///< 1/s, root mean square of what the flow still diverges too much
 };
+
+/// Steps that a frame is simulated in.
+int steps_per_frame(const CandleRigOptions& options);
 
 /// The options of a calibrated grid.
 CandleRigOptions candle_rig_options(CandleGrid grid);

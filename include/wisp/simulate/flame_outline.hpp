@@ -19,7 +19,7 @@ struct FlameOutlineOptions {
   double level = 0.3;  ///< light of glowing soot at the contour; 0.3 is about half of full brightness in a picture of
                        ///< the default camera, (0, 10]
   int points = 8;      ///< control points of the cubic B-spline, 4 … 32
-  double cut = 0.05;   ///< the base lies this share of the flame's height above its lowest point, [0, 0.5): the round
+  double cut = 0.03;   ///< the base lies this share of the flame's height above its lowest point, [0, 0.5): the round
                        ///< bottom of a contour has no corners that a control point could hold on to
 };
 
