@@ -192,9 +192,12 @@ std::vector<std::string> VideoFile::warnings() const {
   const std::string name = path_.string();
   const bool to_the_end = !options_.frames || last_index_ + 1 < options_.frames->last;
   if (broken_ > 0) out.push_back(name + ": " + std::to_string(broken_) + " broken frames were left out");
-  const std::int64_t stated = format_->streams[track_]->nb_frames;
-  if (to_the_end && (read_error_ || (stated > 0 && decoded_ + broken_ < stated))) {
-    out.push_back(name + ": cut off: found " + std::to_string(decoded_) + " frames of " + std::to_string(stated) +
+  // A duration is not exact to the frame; a count is.
+  const bool counted = format_->streams[track_]->nb_frames > 0;
+  const std::int64_t least = counted ? info_.frames : info_.frames - info_.frames / 20 - 2;
+  const std::int64_t found = counted ? decoded_ + broken_ : last_index_ + 1;
+  if (to_the_end && (read_error_ || found < least)) {
+    out.push_back(name + ": cut off: found " + std::to_string(decoded_) + " frames of " + std::to_string(info_.frames) +
                   " stated; what is there is used");
   }
   if (long_gaps_ > 0) out.push_back(name + ": " + std::to_string(long_gaps_) + " holes in time were shortened");

@@ -63,7 +63,7 @@ class OutlineCapture::Stage {
     std::vector<EdgeCloud> around;  // with the underside
   };
   Samples choose_channel(std::span<const Survey> surveys, std::span<const Picture> pictures);
-  Samples take_samples(const OutlineSeeker& seeker, std::span<const Picture> pictures) const;
+  Samples take_samples(const OutlineSeeker& seeker, BaseSide base, std::span<const Picture> pictures) const;
   std::vector<double> decide_shape(Samples& samples);
   void look(const Picture& picture);
   void note_lost();
@@ -140,11 +140,10 @@ Result<void> OutlineCapture::Stage::decide() {
   for (const auto& held : held_) {
     if (held) pictures.push_back(held->picture());
   }
-  cloud_options_.base = options_.base.value_or(BaseSide::kBottom);
   cloud_options_.most_points = std::max(kLeastEdgePoints, kEdgePointsEach * options_.points);
   std::vector<Picture> seen = evenly_from(pictures, kSurveyed);
   for (const OwnedPicture& glimpse : glimpses_) seen.push_back(glimpse.picture());
-  const auto surveys = survey_scene(seen, {options_.channel, options_.dark, options_.region, cloud_options_.base});
+  const auto surveys = survey_scene(seen, {options_.channel, options_.dark, options_.region});
   if (!surveys) return complaint(surveys.error().message);
   Samples samples = choose_channel(*surveys, pictures);
   tracker_.emplace(decide_shape(samples));
@@ -170,8 +169,9 @@ OutlineCapture::Stage::Samples OutlineCapture::Stage::choose_channel(std::span<c
   Samples best_samples;
   double best = -1;
   for (const Survey& survey : surveys) {
-    const OutlineSeeker seeker(survey, options_.dark, area);
-    Samples samples = take_samples(seeker, pictures);
+    const BaseSide base = options_.base.value_or(base_side(survey, area));
+    const OutlineSeeker seeker(survey, area, base, options_.dark);
+    Samples samples = take_samples(seeker, base, pictures);
     double score = 0;
     if (surveys.size() > 1 && !samples.above.empty()) {
       const double overlap = 1 - fit_pace(samples.above, uniform_knots(kTrialPoints)).misfit;
@@ -182,20 +182,22 @@ OutlineCapture::Stage::Samples OutlineCapture::Stage::choose_channel(std::span<c
     best_samples = std::move(samples);
     survey_ = survey;
     seeker_ = seeker;
+    cloud_options_.base = base;
   }
   return best_samples;
 }
 
 // The edge points of a few of the pictures and of the glimpses, without and with the underside.
-OutlineCapture::Stage::Samples OutlineCapture::Stage::take_samples(const OutlineSeeker& seeker,
+OutlineCapture::Stage::Samples OutlineCapture::Stage::take_samples(const OutlineSeeker& seeker, BaseSide base,
                                                                    std::span<const Picture> pictures) const {
   EdgeCloudOptions above = cloud_options_, around = cloud_options_;
   above.most_points = around.most_points = kSamplePoints;
+  above.base = around.base = base;
   around.underside = true;
   Samples samples;
   EdgeCloud cloud;
   const auto take = [&](OutlineSeeker& looking, const Picture& picture) {
-    if (!looking.seek(picture, above.base)) return;
+    if (!looking.seek(picture)) return;
     if (looking.edge_points(above, cloud)) samples.above.push_back(cloud);
     if (looking.edge_points(around, cloud)) samples.around.push_back(cloud);
   };
@@ -234,7 +236,7 @@ std::vector<double> OutlineCapture::Stage::decide_shape(Samples& samples) {
 
 void OutlineCapture::Stage::look(const Picture& picture) {
   FrameFinding finding;
-  const bool seen = seeker_->seek(picture, cloud_options_.base) && seeker_->edge_points(cloud_options_, cloud_);
+  const bool seen = seeker_->seek(picture) && seeker_->edge_points(cloud_options_, cloud_);
   if (seen) {
     const OutlineEstimate& estimate = tracker_->update(cloud_);
     finding.kind = FrameFinding::Kind::kTracked;

@@ -87,7 +87,7 @@ const char* reason(Fate fate) {
     case Fate::kLost:
       return "lost";
     default:
-      return "no bright region";
+      return "nothing there";
   }
 }
 

@@ -22,14 +22,22 @@ double area_of(const Region& region) { return static_cast<double>(region.width) 
 
 }  // namespace
 
-OutlineSeeker::OutlineSeeker(const Survey& survey, bool dark, const Region& area)
+OutlineSeeker::OutlineSeeker(const Survey& survey, const Region& area, BaseSide base, bool dark)
     : channel_(survey.channel),
       level_(survey.level),
+      base_(base),
       dark_(dark),
       area_(area),
       home_(survey.home),
       still_(survey.still),
-      base_edge_(survey.base_edge) {}
+      base_edge_(wisp::base_edge(survey.home, base)) {
+  // What the thing only now and then runs together with does not count: the middle one of the pictures.
+  std::vector<int> edges;
+  for (const Region& box : survey.seen) edges.push_back(wisp::base_edge(box, base));
+  if (edges.empty()) return;
+  std::nth_element(edges.begin(), edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2), edges.end());
+  base_edge_ = edges[edges.size() / 2];
+}
 
 OutlineSeeker::Window OutlineSeeker::open(const Picture& picture, const Region& place) {
   const ImageView direct = plane_in_place(picture, channel_);
@@ -92,7 +100,8 @@ bool OutlineSeeker::find_in(const Picture& picture, Region place) {
 }
 
 // Cuts off what the thing stands on where both have run together. Returns whether there is still something left.
-bool OutlineSeeker::part_from_stand(BaseSide side) {
+bool OutlineSeeker::part_from_stand() {
+  const BaseSide side = base_;
   const Region box = found_.box;
   const int end = wisp::base_edge(box, side);
   const int length = side == BaseSide::kBottom || side == BaseSide::kTop ? box.height : box.width;
@@ -161,14 +170,14 @@ void OutlineSeeker::measure_brightness(const Picture& picture) {
 // for again in more.
 int OutlineSeeker::margin() const { return kLeastMargin + static_cast<int>(kMarginPace * pace_); }
 
-bool OutlineSeeker::seek(const Picture& picture, BaseSide base) {
+bool OutlineSeeker::seek(const Picture& picture) {
   const BrightRegion before = found_;
   bool seen = following_ && find_in(picture, grown(found_.box, margin()));
   if (!seen) {
     following_ = false;
     seen = find_in(picture, grown(home_, kLeastMargin)) || find_in(picture, area_);
   }
-  if (!seen || !part_from_stand(base)) return false;
+  if (!seen || !part_from_stand()) return false;
   if (following_) {
     const Region &a = before.box, &b = found_.box;
     const int moved = std::max(

@@ -13,11 +13,11 @@ namespace wisp {
 
 class OutlineSeeker {
  public:
-  /// `area` is where the thing may be at all.
-  OutlineSeeker(const Survey& survey, bool dark, const Region& area);
+  /// `area` is where the thing may be at all, `base` the side on which it is held.
+  OutlineSeeker(const Survey& survey, const Region& area, BaseSide base, bool dark);
 
-  /// Looks for the thing in the next frame; `base` is the side on which it is held. Returns whether it is there.
-  bool seek(const Picture& picture, BaseSide base);
+  /// Looks for the thing in the next frame. Returns whether it is there.
+  bool seek(const Picture& picture);
 
   /// The edge points of the thing as it was found last, while that picture lives. Returns whether there are enough.
   bool edge_points(const EdgeCloudOptions& options, EdgeCloud& cloud) const;
@@ -36,7 +36,7 @@ class OutlineSeeker {
   };
   Window open(const Picture& picture, const Region& place);
   bool find_in(const Picture& picture, Region place);
-  bool part_from_stand(BaseSide side);
+  bool part_from_stand();
   bool choose(std::span<const BrightRegion> regions, const Region& place);
   bool still(const Region& box) const;
   int margin() const;
@@ -47,6 +47,7 @@ class OutlineSeeker {
 
   PixelChannel channel_;
   int level_;
+  BaseSide base_;
   bool dark_;
   Region area_;
   Region home_;

@@ -1,16 +1,16 @@
 #include "wisp/capture/vision/survey.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "capture/vision/waist.hpp"
 #include "wisp/capture/vision/region.hpp"
 
 namespace wisp {
 namespace {
 
 constexpr int kGridWidth = 240;        // the coarse grid is about this wide and high: enough to tell regions apart
-constexpr double kLitShare = 0.85;     // a picture counts when its contrast is this share of the best one's
+constexpr double kLitShare = 0.85;       // a picture counts when its contrast is this share of the upper quartile
 constexpr double kChangeShare = 0.25;  // a grid point moves when its range is this share of the clusters' distance
 constexpr double kPersistence = 0.6;   // the thing is there in this share of the pictures
 constexpr double kLeastContrast = 12;  // levels between the clusters, of 255: less is noise of one brightness
@@ -59,10 +59,12 @@ LitPictures lit_pictures(const Grid& grid) {
     const TwoClusters clusters = split_histogram(histograms[k]);
     contrast.push_back(clusters.bright_mean - clusters.dark_mean);
   }
-  const double best = *std::max_element(contrast.begin(), contrast.end());
+  std::vector<double> sorted = contrast;
+  const std::size_t usual = sorted.size() - 1 - sorted.size() / 4;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(usual), sorted.end());
   LitPictures lit;
   for (std::size_t k = 0; k < contrast.size(); ++k) {
-    if (contrast[k] < kLitShare * best) continue;
+    if (contrast[k] < kLitShare * sorted[usual]) continue;
     lit.which.push_back(k);
     for (int v = 0; v < 256; ++v) lit.histogram[v] += histograms[k][v];
   }
@@ -131,29 +133,23 @@ Region to_pixels(const Grid& grid, const Region& box, const Region& area) {
   return intersection(grown(out, grid.step), area);
 }
 
-// The row or column, in pixels, in which the thing ends in the middle one of the lit pictures: what it only now and
-// then runs together with does not count.
-int usual_edge(const Grid& grid, std::span<const std::size_t> lit, const Survey& survey, const Region& area,
-               BaseSide base) {
+// The thing's box in each lit picture: the largest region where its home is.
+std::vector<Region> sightings(const Grid& grid, std::span<const std::size_t> lit, const Survey& survey,
+                              const Region& area) {
   RegionFinder finder;
-  std::vector<int> edges;
+  std::vector<Region> seen;
   for (const std::size_t k : lit) {
-    Region thing;
-    std::int64_t largest = 0;
     for (const BrightRegion& region : finder.find(view(grid, grid.pictures[k]), survey.level, 1)) {
       const Region box = to_pixels(grid, region.box, area);
-      if (region.area <= largest || intersection(box, survey.home).empty()) continue;
-      largest = region.area;
-      thing = box;
+      if (intersection(box, survey.home).empty()) continue;
+      seen.push_back(box);
+      break;
     }
-    if (largest > 0) edges.push_back(base_edge(thing, base));
   }
-  if (edges.empty()) return base_edge(survey.home, base);
-  std::nth_element(edges.begin(), edges.begin() + edges.size() / 2, edges.end());
-  return edges[edges.size() / 2];
+  return seen;
 }
 
-std::optional<Survey> judge(const Grid& grid, PixelChannel channel, const Region& area, BaseSide base) {
+std::optional<Survey> judge(const Grid& grid, PixelChannel channel, const Region& area) {
   Survey out;
   out.channel = channel;
   const LitPictures lit_ones = lit_pictures(grid);
@@ -185,7 +181,7 @@ std::optional<Survey> judge(const Grid& grid, PixelChannel channel, const Region
   out.home = to_pixels(grid, thing->box, area);
   out.moves = best.motion > 0;
   std::erase(out.still, out.home);
-  out.base_edge = usual_edge(grid, lit, out, area, base);
+  out.seen = sightings(grid, lit, out, area);
   return out;
 }
 
@@ -197,7 +193,7 @@ Result<std::vector<Survey>> survey_scene(std::span<const Picture> pictures, cons
   for (const PixelChannel channel :
        {PixelChannel::kLuma, PixelChannel::kRed, PixelChannel::kGreen, PixelChannel::kBlue}) {
     if (options.channel ? channel != *options.channel : !has_channel(pictures.front(), channel)) continue;
-    auto survey = judge(sample(pictures, channel, area, options.dark), channel, area, options.base);
+    auto survey = judge(sample(pictures, channel, area, options.dark), channel, area);
     if (survey) found.push_back(std::move(*survey));
   }
   if (found.empty()) {
@@ -206,6 +202,50 @@ Result<std::vector<Survey>> survey_scene(std::span<const Picture> pictures, cons
                  (options.dark ? "a dark thing on a light ground" : "a bright thing on a dark ground")};
   }
   return found;
+}
+
+namespace {
+
+// Mean distance of values from their mean.
+double spread(std::span<const double> values) {
+  double mean = 0, away = 0;
+  for (const double value : values) mean += value / static_cast<double>(values.size());
+  for (const double value : values) away += std::abs(value - mean) / static_cast<double>(values.size());
+  return away;
+}
+
+// Of a thing that is mostly wider than high, the end that moves less is where it is held.
+BaseSide steady_end(const Survey& survey) {
+  constexpr double kLying = 1.5;
+  std::vector<double> left, right;
+  double width = 0, height = 0;
+  for (const Region& box : survey.seen) {
+    left.push_back(box.x);
+    right.push_back(box.right());
+    width += box.width;
+    height += box.height;
+  }
+  if (width < kLying * height || spread(left) == spread(right)) return BaseSide::kBottom;
+  return spread(left) < spread(right) ? BaseSide::kLeft : BaseSide::kRight;
+}
+
+}  // namespace
+
+BaseSide base_side(const Survey& survey, const Region& area) {
+  constexpr double kMostPictures = 0.5, kNearlyAll = 0.95;
+  std::array<double, 4> cut{};
+  for (const Region& box : survey.seen) {
+    const double share = 1.0 / static_cast<double>(survey.seen.size());
+    if (box.bottom() >= area.bottom()) cut[static_cast<int>(BaseSide::kBottom)] += share;
+    if (box.x <= area.x) cut[static_cast<int>(BaseSide::kLeft)] += share;
+    if (box.y <= area.y) cut[static_cast<int>(BaseSide::kTop)] += share;
+    if (box.right() >= area.right()) cut[static_cast<int>(BaseSide::kRight)] += share;
+  }
+  if (cut[static_cast<int>(BaseSide::kBottom)] >= kMostPictures) return BaseSide::kBottom;
+  for (const BaseSide side : {BaseSide::kLeft, BaseSide::kRight, BaseSide::kTop}) {
+    if (cut[static_cast<int>(side)] >= kNearlyAll) return side;
+  }
+  return steady_end(survey);
 }
 
 }  // namespace wisp

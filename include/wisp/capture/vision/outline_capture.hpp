@@ -38,7 +38,7 @@ struct OutlineCaptureOptions {
 /// Why a frame has no outline.
 struct DroppedFrame {
   std::size_t frame = 0;  ///< 0-based row of the recording
-  std::string reason;     ///< "fade", "no bright region", "duplicate", "lost"
+  std::string reason;     ///< "fade", "nothing there", "duplicate", "lost"
 };
 
 /// What happened, in figures.

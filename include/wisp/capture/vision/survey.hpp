@@ -21,7 +21,6 @@ struct SurveyOptions {
   std::optional<PixelChannel> channel;  ///< nothing: all there are
   bool dark = false;                    ///< the thing is dark on a light ground
   Region region;                        ///< where to look, pixels; empty: the whole picture
-  BaseSide base = BaseSide::kBottom;    ///< where the thing is held
 };
 
 /// What was found.
@@ -31,7 +30,7 @@ struct Survey {
   double separation = 0;      ///< of the two clusters, 0 to 1
   Histogram histogram{};      ///< of the channel as stored (inverted for dark things), over the pictures that count
   Region home;                ///< around all places where the thing was seen
-  int base_edge = 0;          ///< row (or column) in which the thing most often ends on the base's side
+  std::vector<Region> seen;   ///< around the thing in each picture in which it was there
   std::vector<Region> still;  ///< bright regions where next to nothing changes
   bool moves = false;         ///< whether anything changed at all
 };
@@ -41,5 +40,9 @@ struct Survey {
 ///
 /// Precondition: pictures is not empty; all have one size and layout; region is empty or inside them.
 Result<std::vector<Survey>> survey_scene(std::span<const Picture> pictures, const SurveyOptions& options);
+
+/// The side on which the thing is held: below, unless the border on another side cuts it off in nearly all pictures and
+/// the lower one does not, or it lies on its side: then the end that moves less.
+BaseSide base_side(const Survey& survey, const Region& area);
 
 }  // namespace wisp
