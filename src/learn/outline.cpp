@@ -238,7 +238,7 @@ Result<ArxFit> judge(const PreparedOutlines& prepared, const OutlineOptions& opt
 void take_fit(const ArxFit& fitted, OutlineSummary& summary) {
   summary.orders = fitted.model.orders;
   summary.stable = fitted.summary.stable;
-  summary.warnings = fitted.summary.warnings;
+  summary.warnings.insert(summary.warnings.end(), fitted.summary.warnings.begin(), fitted.summary.warnings.end());
   for (double fpe : fitted.summary.row_fpe) {
     summary.fpe += fpe / static_cast<double>(fitted.summary.row_fpe.size());
   }
@@ -292,6 +292,7 @@ Result<OutlineFit> learn_outline(std::span<const Recording> recordings, const Ou
   }
   summary.rate_hz = prepared->recordings.front().rate_hz;
   summary.inputs = prepared->inputs;
+  summary.warnings = prepared->warnings;
   summary.points = prepared->layout.points;
   summary.pixels_per_unit = prepared->pixels_per_unit.front();
   take_fit(*fitted, summary);

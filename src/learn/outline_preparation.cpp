@@ -2,13 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numeric>
+
+#include "wisp/learn/outline_knots.hpp"
+#include "wisp/model/bspline.hpp"
 
 namespace wisp {
 namespace {
 
 // Fewer calm rows than this say little about the calm height; then all rows are taken.
 constexpr double kCalmSeconds = 0.5;
+
+std::string text(double value) {
+  char out[32];
+  std::snprintf(out, sizeof out, "%.2g", value);
+  return out;
+}
 
 std::vector<std::string> input_names(const Recording& recording) {
   std::vector<std::string> names;
@@ -51,6 +61,12 @@ Result<void> add(const Recording& recording, double pixels_per_unit, PreparedOut
   }
   const auto layout = outline_layout(recording);
   if (!layout) return layout.error();
+  if (layout->knots != prepared.layout.knots) {
+    const Reknotted other = with_knots(recording, *layout, prepared.layout.knots);
+    prepared.warnings.push_back(recording.source + ": its knots are not the model's; its outlines were expressed in " +
+                                "those, " + text(other.rms) + " pixels away on average");
+    return add(other.recording, pixels_per_unit, prepared);
+  }
   const auto own = own_scale(recording, *layout, prepared.inputs);
   if (!own) return own.error();
   const double scale = pixels_per_unit > 0 ? pixels_per_unit : *own;
@@ -60,7 +76,10 @@ Result<void> add(const Recording& recording, double pixels_per_unit, PreparedOut
   return {};
 }
 
-OutlineLayout prepared_layout(OutlineLayout layout) {
+// Where the outputs of prepared recordings lie.
+OutlineLayout prepared_layout(const std::vector<double>& knots) {
+  OutlineLayout layout{knots.size() - kSplineDegree - 1, knots, {}};
+  layout.outputs.resize(2 * layout.points);
   std::iota(layout.outputs.begin(), layout.outputs.end(), std::size_t{0});
   return layout;
 }
@@ -101,10 +120,10 @@ std::size_t near_episode_boundary(const Recording& recording, std::size_t cut) {
 }  // namespace
 
 Result<PreparedOutlines> prepare_outlines(std::span<const Recording> recordings, const PreparationOptions& options) {
-  auto layout = common_layout(recordings);
+  const auto layout = common_layout(recordings);
   if (!layout) return layout.error();
   PreparedOutlines prepared;
-  prepared.layout = prepared_layout(*std::move(layout));
+  prepared.layout = prepared_layout(layout->knots);
   for (const std::string& name : options.inputs ? *options.inputs : input_names(recordings.front())) {
     auto input = scaled_input(recordings, name);
     if (!input) return input.error();
@@ -118,10 +137,10 @@ Result<PreparedOutlines> prepare_outlines(std::span<const Recording> recordings,
   return prepared;
 }
 
-Result<PreparedOutlines> prepare_outline(const Recording& recording, const OutlineLayout& layout,
+Result<PreparedOutlines> prepare_outline(const Recording& recording, const std::vector<double>& knots,
                                          std::vector<OutlineInput> inputs, bool split_sign, double pixels_per_unit) {
   PreparedOutlines prepared;
-  prepared.layout = prepared_layout(layout);
+  prepared.layout = prepared_layout(knots);
   prepared.inputs = std::move(inputs);
   prepared.split_sign = split_sign && !prepared.inputs.empty();
   prepared.channels = channel_choice(prepared);

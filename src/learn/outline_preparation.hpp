@@ -19,7 +19,7 @@ struct PreparationOptions {
   double pixels_per_unit = 0;  ///< 0: each recording's own mean calm height is 1
 };
 
-/// Recordings in the model's units, with its regressors as inputs.
+/// Recordings in the model's units and knots, with its regressors as inputs.
 struct PreparedOutlines {
   OutlineLayout layout;  ///< of the prepared recordings: their outputs come first
   std::vector<OutlineInput> inputs;
@@ -27,14 +27,16 @@ struct PreparedOutlines {
   ChannelChoice channels;
   std::vector<double> pixels_per_unit;  ///< one a recording
   std::vector<Recording> recordings;
+  std::vector<std::string> warnings;  ///< of recordings that came with other knots
 };
 
 /// Errors: as common_layout() and scaled_input(); a recording without an outline in any row.
 Result<PreparedOutlines> prepare_outlines(std::span<const Recording> recordings, const PreparationOptions& options);
 
-/// One recording, for inputs whose scale is known.
-/// Errors: an input that it has not; no outline in any row.
-Result<PreparedOutlines> prepare_outline(const Recording& recording, const OutlineLayout& layout,
+/// One recording, for knots that are given and inputs whose scale is known.
+/// Errors: as outline_layout(), another number of points than the knots are for, an input that it has not, no outline
+/// in any row.
+Result<PreparedOutlines> prepare_outline(const Recording& recording, const std::vector<double>& knots,
                                          std::vector<OutlineInput> inputs, bool split_sign, double pixels_per_unit);
 
 /// Rows with all outputs and all regressors.

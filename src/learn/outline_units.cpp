@@ -138,10 +138,6 @@ Result<OutlineLayout> common_layout(std::span<const Recording> recordings) {
                    recordings.front().source + " has " + std::to_string(first->points) +
                    "; capture both with the same --points"};
     }
-    if (layout->knots != first->knots) {
-      return Error{recording.source + ": has other knots than " + recordings.front().source +
-                   "; capture it with that recording's knots"};
-    }
   }
   return first;
 }

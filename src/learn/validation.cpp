@@ -30,22 +30,19 @@ Result<OutlineModel> outline_model(const Model& model) {
   return OutlineModel{model, *arx, *view};
 }
 
-Result<OutlineLayout> matching_layout(const OutlineModel& model, const Recording& recording) {
-  auto layout = outline_layout(recording);
-  if (!layout) return layout;
+Result<void> check_match(const OutlineModel& model, const Recording& recording) {
+  const auto layout = outline_layout(recording);
+  if (!layout) return layout.error();
   const std::size_t points = model.whole.outputs.size() / 2;
   if (layout->points != points) {
     return Error{recording.source + ": has " + std::to_string(layout->points) + " control points, the model " +
                  std::to_string(points) + "; capture it with --points " + std::to_string(points)};
   }
-  if (layout->knots != model.view.knots) {
-    return Error{recording.source + ": has other knots than the model; capture it with the model's knots"};
-  }
   if (std::abs(recording.rate_hz - model.whole.rate_hz) > 1e-9 * model.whole.rate_hz) {
     return Error{recording.source + ": has " + std::to_string(recording.rate_hz) + " samples a second, the model " +
                  std::to_string(model.whole.rate_hz)};
   }
-  return layout;
+  return {};
 }
 
 double trained_scale(const Model& model, const std::string& input) {
@@ -77,7 +74,7 @@ bool splits_signs(const Model& model) {
                      [](const Input& input) { return input.shape == InputShape::kSplitSign; });
 }
 
-// The recording in pixels with its outputs replaced by series in the model's units.
+// The recording in pixels with its outputs replaced by series in the model's units and knots.
 Recording in_pixels(const PreparedOutlines& prepared, const Recording& original,
                     const std::vector<std::vector<double>>& series) {
   Recording units = prepared.recordings.front();
@@ -87,6 +84,7 @@ Recording in_pixels(const PreparedOutlines& prepared, const Recording& original,
   for (const std::string& name : prepared.channels.outputs) {
     out.channels[*find_channel(out, name)].samples = pixels->channels[*find_channel(*pixels, name)].samples;
   }
+  out.attributes = pixels->attributes;
   return out;
 }
 
@@ -200,15 +198,16 @@ Result<OutlineValidation> validate_outline(const Model& model, const Recording& 
                                            const OutlineValidationOptions& options) {
   const auto outline = outline_model(model);
   if (!outline) return outline.error();
-  const auto layout = matching_layout(*outline, recording);
-  if (!layout) return layout.error();
+  if (auto ok = check_match(*outline, recording); !ok) return ok.error();
   auto inputs = inputs_of(model, recording, options.own_input_scale);
   if (!inputs) return inputs.error();
-  const auto prepared = prepare_outline(recording, *layout, *inputs, splits_signs(model), options.pixels_per_unit);
+  const auto prepared =
+      prepare_outline(recording, outline->view.knots, *inputs, splits_signs(model), options.pixels_per_unit);
   if (!prepared) return prepared.error();
   const Recording driving = with_regressors(recording, *inputs, false);
   OutlineValidation out;
   out.pixels_per_unit = prepared->pixels_per_unit.front();
+  out.warnings = prepared->warnings;
   auto figures =
       outline_figures(outline->arx, prepared->recordings, prepared->channels, prepared->layout, options.steps);
   if (!figures) return figures.error();

@@ -7,7 +7,9 @@
 #include <limits>
 
 #include "learn/made_outline.hpp"
+#include "wisp/learn/outline_knots.hpp"
 #include "wisp/learn/outline_synthesis.hpp"
+#include "wisp/model/bspline.hpp"
 #include "wisp/model/file.hpp"
 
 namespace wisp {
@@ -236,6 +238,18 @@ TEST(Outline, OptionsOutOfRangeAreRefused) {
   EXPECT_EQ(refused(recordings, {.delay = -1}), "the delay is -1, expected 0 to 1000 frames");
   EXPECT_EQ(refused(recordings, {.holdout = 0.95}), "the held-out share is 0.95, expected 0 to 0.9");
   EXPECT_EQ(refused(recordings, {.shared_shocks = 0}), "the number of shared shocks is 0, expected 1 to 64");
+}
+
+TEST(Outline, AClipWithItsOwnKnotsIsExpressedInTheFirstOnes) {
+  const Recording first = made::outline_recording({.points = 8, .rows = 600});
+  const Recording second = made::outline_recording({.points = 8, .rows = 600, .seed = 2});
+  const Reknotted own =
+      with_knots(second, *outline_layout(second), clamped_knots(std::vector<double>{0.25, 0.45, 0.55, 0.75}));
+  const auto fit = learn_outline(std::vector{first, own.recording});
+  ASSERT_TRUE(fit) << fit.error().message;
+  EXPECT_EQ(std::get<OutlineView>(fit->model.view).knots, outline_layout(first)->knots);
+  ASSERT_EQ(fit->summary.warnings.size(), 1u);
+  EXPECT_NE(fit->summary.warnings[0].find("made 2: its knots are not the model's"), std::string::npos);
 }
 
 TEST(Outline, RecordingsOfDifferentOutlinesAreRefused) {

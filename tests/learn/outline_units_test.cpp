@@ -85,19 +85,6 @@ TEST(OutlineUnits, AnotherNumberOfPointsNamesBothFiles) {
             "other.csv: has 5 control points, but clip.csv has 4; capture both with the same --points");
 }
 
-TEST(OutlineUnits, OtherKnotsNameBothFiles) {
-  Recording first = captured();
-  Recording other = captured();
-  for (Recording* recording : {&first, &other}) {
-    recording->channels.push_back({"p4.x", "px", Role::kOutput, {1, 2, 3}});
-    recording->channels.push_back({"p4.y", "px", Role::kOutput, {1, 2, 3}});
-  }
-  other.source = "other.csv";
-  other.attributes.push_back({"knots", "0 0 0 0 0.4 1 1 1 1"});
-  EXPECT_EQ(common_layout(std::vector{first, other}).error().message,
-            "other.csv: has other knots than clip.csv; capture it with that recording's knots");
-}
-
 TEST(OutlineUnits, TheModelsOriginIsTheMiddleOfTheBaseAndYPointsUp) {
   const Recording recording = captured();
   const Recording units = to_model_units(recording, *outline_layout(recording), 200);

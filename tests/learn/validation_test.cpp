@@ -9,7 +9,9 @@
 #include "learn/made_outline.hpp"
 #include "wisp/learn/outline.hpp"
 #include "wisp/learn/outline_inputs.hpp"
+#include "wisp/learn/outline_knots.hpp"
 #include "wisp/learn/outline_shape.hpp"
+#include "wisp/model/bspline.hpp"
 
 namespace wisp {
 namespace {
@@ -147,6 +149,17 @@ TEST(Validation, FramesOutOfSightHaveAPlayButNoPrediction) {
   const OutlineValidation out = validated(calm_model(), recording, {.fidelity = false});
   EXPECT_TRUE(std::isnan(samples(out.predicted[0].recording, "p1.x")[120]));
   EXPECT_FALSE(std::isnan(samples(out.played, "p1.x")[120]));
+}
+
+TEST(Validation, ARecordingWithItsOwnKnotsIsExpressedInTheModels) {
+  const Recording recording = unseen(kCalm);
+  const auto other_knots = clamped_knots(std::vector<double>{0.45, 0.55});
+  const Reknotted own = with_knots(recording, *outline_layout(recording), other_knots);
+  const OutlineValidation same = validated(calm_model(), recording, {.fidelity = false});
+  const OutlineValidation other = validated(calm_model(), own.recording, {.fidelity = false});
+  EXPECT_EQ(other.warnings.size(), 1u);
+  EXPECT_NEAR(other.figures.overlap[0], same.figures.overlap[0], 0.02);
+  EXPECT_EQ(outline_layout(other.predicted[0].recording)->knots, outline_layout(recording)->knots);
 }
 
 TEST(Validation, AnotherMicrophonesGainIsTakenFromItsOwnGusts) {

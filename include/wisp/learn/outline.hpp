@@ -91,9 +91,10 @@ struct OutlineFit {
   OutlineSummary summary;
 };
 
-/// Learns a model from recordings of an outline in pixels (outline_units.hpp).
-/// Errors, naming the recording: not an outline, another number of points or other knots than the first, rates that
-/// differ, inputs that it has not, too few rows for the order, options out of range.
+/// Learns a model from recordings of an outline in pixels (outline_units.hpp). The model has the knots of the first;
+/// recordings with others are expressed in those, with a warning.
+/// Errors, naming the recording: not an outline, another number of points than the first, rates that differ, inputs
+/// that it has not, too few rows for the order, options out of range.
 Result<OutlineFit> learn_outline(std::span<const Recording> recordings, const OutlineOptions& options = {});
 
 }  // namespace wisp

@@ -28,8 +28,9 @@ struct OutlineLayout {
 /// numbers, not as many as the points need, or not a valid knot vector.
 Result<OutlineLayout> outline_layout(const Recording& recording);
 
-/// Checks that recordings can be learned from together. Returns their common layout.
-/// Errors: as outline_layout(); another number of points or other knots than the first recording has, naming both.
+/// Checks that recordings can be learned from together: as many control points in all of them. Their knots may differ
+/// (outline_knots.hpp brings them together). Returns the first one's layout.
+/// Errors: as outline_layout(); another number of points than the first recording has, naming both.
 Result<OutlineLayout> common_layout(std::span<const Recording> recordings);
 
 /// The names of an outline's outputs: p0.x, p0.y, p1.x, …

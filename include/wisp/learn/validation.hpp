@@ -30,7 +30,8 @@ struct OutlineValidationOptions {
 /// What a model said a number of steps ahead, frame by frame.
 struct PredictedOutlines {
   int steps = 1;        ///< or kFreeRun: the simulation without noise
-  Recording recording;  ///< like the validated one, its outputs replaced by predictions in pixels; NaN where none
+  Recording recording;  ///< like the validated one, its outputs replaced by predictions in pixels and the model's
+                        ///< knots (attribute `knots`); NaN where none
 };
 
 /// The best that no dynamics can do: tip x = gain · input(t − delay) + constant, fitted to the very recording.
@@ -54,8 +55,9 @@ struct OutlineValidation {
 };
 
 /// Validates an outline model against a recording of an outline in pixels.
+/// A recording with other knots is expressed in the model's, with a warning.
 /// Errors, naming the recording: the model is not an outline or its dynamics are not ARX; another number of control
-/// points or other knots than the model's; another rate; an input that the recording has not; no outline in any row.
+/// points than the model's; another rate; an input that the recording has not; no outline in any row.
 Result<OutlineValidation> validate_outline(const Model& model, const Recording& recording,
                                            const OutlineValidationOptions& options = {});
 
