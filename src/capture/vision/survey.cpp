@@ -10,7 +10,7 @@ namespace wisp {
 namespace {
 
 constexpr int kGridWidth = 240;        // the coarse grid is about this wide and high: enough to tell regions apart
-constexpr double kLitShare = 0.85;       // a picture counts when its contrast is this share of the upper quartile
+constexpr double kLitShare = 0.85;     // a picture counts when its contrast is this share of the upper quartile
 constexpr double kChangeShare = 0.25;  // a grid point moves when its range is this share of the clusters' distance
 constexpr double kPersistence = 0.6;   // the thing is there in this share of the pictures
 constexpr double kLeastContrast = 12;  // levels between the clusters, of 255: less is noise of one brightness

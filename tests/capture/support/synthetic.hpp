@@ -17,8 +17,7 @@ struct Plane {
   int height = 0;
   std::vector<std::uint8_t> pixels;
 
-  Plane(int w, int h, std::uint8_t value = 0)
-      : width(w), height(h), pixels(static_cast<std::size_t>(w) * h, value) {}
+  Plane(int w, int h, std::uint8_t value = 0) : width(w), height(h), pixels(static_cast<std::size_t>(w) * h, value) {}
   std::uint8_t& at(int x, int y) { return pixels[static_cast<std::size_t>(y) * width + x]; }
   ImageView view() const { return {pixels.data(), width, height, width}; }
   void fill(const Region& region, std::uint8_t value) {
@@ -43,7 +42,7 @@ void paint(Plane& plane, double bright, double blur, const Depth& depth) {
 
 /// A flame: half an ellipse below that runs out into a tip above, on a straight base, bent sideways.
 struct Flame {
-  double base_x = 80;      ///< middle of the base
+  double base_x = 80;  ///< middle of the base
   double base_y = 150;
   double height = 110;
   double half_width = 16;  ///< where it is widest, a third up

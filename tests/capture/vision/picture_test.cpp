@@ -47,8 +47,8 @@ struct RandomYuv {
   }
 };
 
-// 6 fractional bits in the factors: at most 255 / 128 grey levels from the luma factor, as much from a colour's, and half
-// a level of rounding.
+// 6 fractional bits in the factors: at most 255 / 128 grey levels from the luma factor, as much from a colour's, and
+// half a level of rounding.
 constexpr double kConversionError = 3.5;
 
 double worst_error(const RandomYuv& yuv, PixelChannel channel, const Region& region) {
