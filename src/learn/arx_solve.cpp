@@ -26,8 +26,14 @@ DependentColumn describe(const Eigen::MatrixXd& reduced, const std::vector<int>&
   return dependent;
 }
 
+// From the eigenvalues of the Gram matrix where these have eight digits, else from singular values, which cost more.
 double condition_number(const Eigen::MatrixXd& matrix) {
   if (matrix.cols() == 0) return 1;
+  const Eigen::MatrixXd gram = matrix.transpose() * matrix;
+  const auto squares = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(gram, Eigen::EigenvaluesOnly).eigenvalues();
+  constexpr double kMostSquare = 1e8;
+  const double square = squares[squares.size() - 1] / squares[0];
+  if (square > 0 && square < kMostSquare) return std::sqrt(square);
   const auto values = Eigen::BDCSVD<Eigen::MatrixXd>(matrix).singularValues();
   return values[0] / values[values.size() - 1];
 }

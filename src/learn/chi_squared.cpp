@@ -1,5 +1,6 @@
 #include "chi_squared.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -42,6 +43,16 @@ double upper_by_fraction(double a, double x) {
   return value * std::exp(log_density(a, x));
 }
 
+// Wilson and Hilferty's cube, with Hastings' rational approximation of the normal quantile.
+double first_guess(double p, double freedom) {
+  const double tail = std::min(p, 1 - p);
+  const double t = std::sqrt(-2 * std::log(tail));
+  const double z =
+      t - (2.515517 + t * (0.802853 + t * 0.010328)) / (1 + t * (1.432788 + t * (0.189269 + t * 0.001308)));
+  const double root = 1 - 2 / (9 * freedom) + (p < 0.5 ? -z : z) * std::sqrt(2 / (9 * freedom));
+  return freedom * root * root * root;
+}
+
 }  // namespace
 
 double chi_squared_tail(double value, double freedom) {
@@ -58,7 +69,8 @@ double chi_squared_quantile(double p, double freedom) {
   double low = 0;
   double high = freedom + 1;
   while (1 - chi_squared_tail(high, freedom) < p) low = high, high *= 2;
-  double value = low + (high - low) / 2;
+  double value = first_guess(p, freedom);
+  if (!(value > low && value < high)) value = low + (high - low) / 2;
   // Newton's steps, and the middle where one would leave the bracket.
   for (int step = 0; step < 200; ++step) {
     const double excess = 1 - chi_squared_tail(value, freedom) - p;
