@@ -93,7 +93,7 @@ Candle prepared(const Flame& flame, const FlameStyle& style, int width, int heig
   candle.mood = stage.mood;
   candle.wick = make_wick(candle.scene, style, width, height);
   if (stage.mood.brightness <= 0) return candle;
-  const float cap = std::max(0.04F, 0.72F * style.wick_gap);
+  const float cap = std::max(0.03F, 0.55F * style.wick_gap);
   candle.shape = flame_shape(flame.outline, candle.scene, stage.scale, cap, width, height);
   // A very small flame burns blue.
   candle.mood.soot *= smooth_step(0.06F, 0.40F, candle.shape.height);

@@ -52,48 +52,69 @@ Bounds bounds_of(std::span<const Point> points) {
   return b;
 }
 
-float dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
+// One side of the flame where its rounded base takes over.
+struct Shoulder {
+  std::ptrdiff_t rest = 0;  // points of the outline's end that the base replaces
+  Point at;
+  Point way;  // how the side runs down there, of length 1
+};
 
-// The way that the outline runs out at one end of its base, in shares across (inwards) and down. It never flares, or a
-// wide base would hang over, and never turns back up.
-Point running_out(Point from, Point end, Point inwards, Point down) {
-  const Point along{end.x - from.x, end.y - from.y};
-  const float across = std::max(0.0F, dot(along, inwards));
-  const float below = std::max({dot(along, down), 0.35F * across, 1e-6F});
-  const float norm = std::hypot(across, below);
-  return {across / norm, below / norm};
+// Follows the outline from one of its ends to where it first rises through `height`. Where that is not near the end (a
+// flame blown flat), the end itself is the shoulder.
+template <class Points>
+Shoulder shoulder_of(const Points& begin, std::ptrdiff_t size, float height) {
+  Shoulder shoulder{0, begin[0], {0, -1}};
+  std::ptrdiff_t above = 0;
+  for (std::ptrdiff_t k = 1; k <= size / 4; ++k) {
+    if (begin[k - 1].y >= height || begin[k].y < height) continue;
+    const float part = (height - begin[k - 1].y) / (begin[k].y - begin[k - 1].y);
+    shoulder.rest = k;
+    shoulder.at = {begin[k - 1].x + part * (begin[k].x - begin[k - 1].x), height};
+    above = k;
+    break;
+  }
+  // The direction over a tenth of the outline: one sample would pass every wobble on.
+  const Point from = begin[std::min(size - 1, above + std::max<std::ptrdiff_t>(1, size / 10))];
+  const Point down{shoulder.at.x - from.x, shoulder.at.y - from.y};
+  const float length = std::hypot(down.x, down.y);
+  if (length > 0) shoulder.way = {down.x / length, down.y / length};
+  return shoulder;
 }
 
-// Closes the base by a Bézier curve that goes on where the sides end: round under a wide base, a drop's point under
-// one that narrows.
-void append_cap(std::vector<Point>& points, float cap) {
-  const Point right = points.back();
-  const Point left = points.front();
-  const Point base{right.x - left.x, right.y - left.y};
-  const float across = std::hypot(base.x, base.y);
-  if (across <= 0 || cap <= 0) return;
-  const float depth = std::min(cap, 0.45F * across);
-  const Point rightwards{base.x / across, base.y / across};
-  const Point leftwards{-rightwards.x, -rightwards.y};
-  const Point down{rightwards.y, -rightwards.x};
-  // The direction over a twelfth of the outline: one sample would pass every wobble on.
-  const std::size_t inner = std::max<std::size_t>(1, points.size() / 12);
-  const auto handle = [&](Point from, Point end, Point inwards) {
-    const Point share = running_out(from, end, inwards, down);
-    const float length = std::min(4.0F / 3 * depth / share.y, 0.45F * across / std::max(share.x, 1e-6F));
-    return Point{end.x + length * (share.x * inwards.x + share.y * down.x),
-                 end.y + length * (share.x * inwards.y + share.y * down.y)};
-  };
-  const Point near_right = handle(points[points.size() - 1 - inner], right, leftwards);
-  const Point near_left = handle(points[inner], left, rightwards);
-  constexpr int kSteps = 20;
-  for (int k = 1; k < kSteps; ++k) {
-    const float s = static_cast<float>(k) / kSteps;
-    const float r = 1 - s;
-    const float a = r * r * r, b = 3 * r * r * s, c = 3 * r * s * s, d = s * s * s;
-    points.push_back({a * right.x + b * near_right.x + c * near_left.x + d * left.x,
-                      a * right.y + b * near_right.y + c * near_left.y + d * left.y});
+void append_curve(std::vector<Point>& points, Point p, Point q, Point r, Point s) {
+  constexpr int kSteps = 14;
+  for (int k = 1; k <= kSteps; ++k) {
+    const float u = static_cast<float>(k) / kSteps;
+    const float v = 1 - u;
+    const float a = v * v * v, b = 3 * v * v * u, c = 3 * v * u * u, d = u * u * u;
+    points.push_back({a * p.x + b * q.x + c * r.x + d * s.x, a * p.y + b * q.y + c * r.y + d * s.y});
   }
+}
+
+// Closes the outline around the wick. What a camera sees of a base is chance: the threshold cuts it off straight, or
+// runs back up along the wick between two corners. So below the shoulders the flame is drawn as a drop whose lowest
+// point is `cap` units under the base's middle.
+void close_base(std::vector<Point>& points, float cap) {
+  float top = 0;
+  for (const Point p : points) top = std::max(top, p.y);
+  const float height = 0.17F * std::min(1.0F, top / 0.8F);
+  const auto size = static_cast<std::ptrdiff_t>(points.size());
+  const Shoulder left = shoulder_of(points.begin(), size, height);
+  const Shoulder right = shoulder_of(points.rbegin(), size, height);
+  points.erase(points.end() - right.rest, points.end());
+  points.erase(points.begin(), points.begin() + left.rest);
+  points.push_back(right.at);
+
+  const Point lowest{0, -cap};
+  const auto handle = [&](const Shoulder& side, float outwards) {
+    const float reach = 0.5F * std::max(0.0F, side.at.y - lowest.y);
+    // Sides that flare much would hang over the wick, and none may turn back up.
+    const float across = outwards * std::min(0.6F, outwards * side.way.x);
+    return Point{side.at.x + reach * across, side.at.y - reach * std::max(0.5F, -side.way.y)};
+  };
+  const float round = 0.28F * std::abs(right.at.x - left.at.x);
+  append_curve(points, right.at, handle(right, 1), {lowest.x + round, lowest.y}, lowest);
+  append_curve(points, lowest, {lowest.x - round, lowest.y}, handle(left, -1), left.at);
 }
 
 // Share of each cell inside the polygon; the grid's origin is (left, top), a cell is `cell` pixels.
@@ -212,7 +233,7 @@ FlameShape flame_shape(std::span<const Point> outline, const FlameScene& scene, 
   constexpr float kLeastArea = 1e-5F;
   if (shape.area < kLeastArea) return shape;
 
-  append_cap(points, cap);
+  close_base(points, cap);
   const float unit = scene.pixels_per_unit;
   shape.reach = unit * shape.height;
   const auto to_pixel = [&](Point p) { return Point{scene.base.x + unit * p.x, scene.base.y - unit * p.y}; };

@@ -30,7 +30,7 @@ struct FlameShape {
 };
 
 /// Lays an outline (model units) over a picture of that size, `scale` times its size about the base. Points that are
-/// not finite are left out; the base is closed by a round cap of at most `cap` units below it.
+/// not finite are left out; the base is drawn as a drop around the wick, down to `cap` units under the base's middle.
 FlameShape flame_shape(std::span<const Point> outline, const FlameScene& scene, float scale, float cap, int width,
                        int height);
 

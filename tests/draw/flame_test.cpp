@@ -218,6 +218,28 @@ TEST(Flame, PicturesOfAnySizeAndFlamesAcrossTheirEdgesWork) {
   }
 }
 
+TEST(Flame, ABaseCapturedAroundTheWickIsDrawnAsADrop) {
+  // From beside the wick down to a corner, up the side, and likewise back: between the corners there is a notch.
+  const std::vector<Point> corners{{-0.01F, 0.08F}, {-0.2F, -0.1F}, {-0.14F, 0.1F}, {-0.12F, 0.4F},
+                                   {-0.09F, 0.8F},  {0, 1},         {0.09F, 0.8F},  {0.12F, 0.4F},
+                                   {0.14F, 0.1F},   {0.2F, -0.1F},  {0.01F, 0.08F}};
+  std::vector<Point> notched;
+  for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
+    for (int part = 0; part < 8; ++part) {
+      const float s = static_cast<float>(part) / 8;
+      notched.push_back({(1 - s) * corners[k].x + s * corners[k + 1].x, (1 - s) * corners[k].y + s * corners[k + 1].y});
+    }
+  }
+  notched.push_back(corners.back());
+  FlameStyle bare;
+  bare.candle = false;
+  bare.glow = 0;
+  const Image image = drawn(notched, scene(), bare);
+  EXPECT_GT(image.at(120, 217).blue, 30);        // in the notch
+  EXPECT_EQ(brightness_at(image, 147, 232), 0);  // at the corner, (0.18, −0.08)
+  EXPECT_EQ(brightness_at(image, 93, 232), 0);
+}
+
 TEST(Flame, OutlinesFarLargerThanThePictureWork) {
   std::vector<Point> huge;
   for (const Point p : drop_outline()) huge.push_back({p.x * 1e20F, p.y * 1e20F});
