@@ -57,8 +57,8 @@ struct FlameScene {
 bool burns(const FlameScene& scene);
 
 /// A candle of a picture with several: its outline is a polyline in model units (origin at the middle of the base,
-/// x right, y up, mean height 1) from the base's left over the tip to the base's right; its base is closed roundly
-/// around the wick.
+/// x right, y up, mean height 1) from the base's left over the tip to the base's right. Its lowest sixth is
+/// drawn as a drop around the wick, since what a camera sees there is chance.
 struct Flame {
   std::span<const Point> outline{};
   FlameScene scene{};
