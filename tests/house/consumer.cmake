@@ -1,4 +1,4 @@
-# Builds the host in tests/house/host and the example in examples/flicker against Wisp and runs them.
+# Builds the host in tests/house/host, the program in README.md and the example in examples/flicker against Wisp.
 #
 #   cmake -DHOW=installed|subproject -DSOURCE=… -DBUILD=… -DSCRATCH=… -DGENERATOR=… -DNM=… -P consumer.cmake
 #
@@ -55,9 +55,16 @@ else()
   set(where -DWISP_SOURCE=${SOURCE})
 endif()
 
+# README's program, with the one function that it leaves to the reader.
+file(READ ${SOURCE}/README.md page)
+if(NOT page MATCHES "```cpp\n(#include[^`]*)```")
+  message(FATAL_ERROR "README.md has no C++ program to compile")
+endif()
+file(WRITE ${SCRATCH}/readme.cpp "static bool frame_of_the_game() { return false; }\n\n${CMAKE_MATCH_1}")
+
 set(model ${SOURCE}/tests/model/golden/v1.wisp)
 run("configuring the host" ${CMAKE_COMMAND} -S ${SOURCE}/tests/house/host -B ${SCRATCH}/host -G ${GENERATOR}
-  -DCMAKE_BUILD_TYPE=Release ${where} -Werror=dev)
+  -DCMAKE_BUILD_TYPE=Release ${where} -DREADME_PROGRAM=${SCRATCH}/readme.cpp -Werror=dev)
 run("building the host" ${CMAKE_COMMAND} --build ${SCRATCH}/host)
 if(HOW STREQUAL "installed")
   run("calling every layer" ${SCRATCH}/host/every_layer)
