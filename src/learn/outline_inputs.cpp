@@ -102,15 +102,33 @@ Recording with_regressors(const Recording& recording, std::span<const OutlineInp
   return out;
 }
 
-Recording mirrored(const Recording& recording, const OutlineLayout& layout, std::span<const OutlineInput> inputs) {
+std::vector<double> mean_shape(const Recording& recording, const OutlineLayout& layout,
+                               std::span<const std::uint8_t> rows, std::size_t least) {
+  std::vector<double> sum(layout.outputs.size(), 0.0);
+  std::size_t count = 0;
+  for (std::size_t row = 0; row < recording.rows(); ++row) {
+    const auto missing = [&](std::size_t c) { return std::isnan(recording.channels[c].samples[row]); };
+    if (rows[row] == 0 || std::any_of(layout.outputs.begin(), layout.outputs.end(), missing)) continue;
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += recording.channels[layout.outputs[k]].samples[row];
+    ++count;
+  }
+  if (count == 0 || count < least) return {};
+  for (double& value : sum) value /= static_cast<double>(count);
+  return sum;
+}
+
+Recording mirrored(const Recording& recording, const OutlineLayout& layout, std::span<const OutlineInput> inputs,
+                   std::span<const double> rest) {
   Recording out = recording;
   out.source += " (mirrored)";
-  for (std::size_t p = 0; p < layout.points; ++p) {
-    const std::size_t other = 2 * (layout.points - 1 - p);
-    auto& x = out.channels[layout.outputs[2 * p]].samples;
-    x = recording.channels[layout.outputs[other]].samples;
-    for (double& value : x) value = -value;
-    out.channels[layout.outputs[2 * p + 1]].samples = recording.channels[layout.outputs[other + 1]].samples;
+  for (std::size_t k = 0; k < 2 * layout.points; ++k) {
+    const bool is_x = k % 2 == 0;
+    const std::size_t other = 2 * (layout.points - 1 - k / 2) + k % 2;
+    const double sign = is_x ? -1 : 1;
+    const double shift = rest.empty() ? 0 : rest[k] - sign * rest[other];
+    auto& samples = out.channels[layout.outputs[k]].samples;
+    samples = recording.channels[layout.outputs[other]].samples;
+    for (double& value : samples) value = shift + sign * value;
   }
   for (const OutlineInput& input : inputs) {
     const auto plus = find_channel(out, input.name + "+");

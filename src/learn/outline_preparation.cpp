@@ -26,14 +26,12 @@ std::vector<std::string> input_names(const Recording& recording) {
   return names;
 }
 
-Result<double> own_scale(const Recording& recording, const OutlineLayout& layout,
-                         std::span<const OutlineInput> inputs) {
+// Rows of calm; all of them where there is not enough calm to tell.
+std::vector<std::uint8_t> resting_rows(const Recording& recording, std::span<const OutlineInput> inputs) {
   auto calm = calm_rows(recording, inputs);
   const auto count = static_cast<double>(std::count(calm.begin(), calm.end(), std::uint8_t{1}));
-  if (count < kCalmSeconds * recording.rate_hz) calm.clear();
-  const double height = mean_height_pixels(recording, layout, calm);
-  if (height > 0) return height;
-  return Error{recording.source + ": has no row with an outline"};
+  if (count < kCalmSeconds * recording.rate_hz) std::fill(calm.begin(), calm.end(), std::uint8_t{1});
+  return calm;
 }
 
 ChannelChoice channel_choice(const PreparedOutlines& prepared) {
@@ -67,11 +65,13 @@ Result<void> add(const Recording& recording, double pixels_per_unit, PreparedOut
                                 "those, " + text(other.rms) + " pixels away on average");
     return add(other.recording, pixels_per_unit, prepared);
   }
-  const auto own = own_scale(recording, *layout, prepared.inputs);
-  if (!own) return own.error();
-  const double scale = pixels_per_unit > 0 ? pixels_per_unit : *own;
+  const double own = mean_height_pixels(recording, *layout, resting_rows(recording, prepared.inputs));
+  if (!(own > 0)) return Error{recording.source + ": has no row with an outline"};
+  const double scale = pixels_per_unit > 0 ? pixels_per_unit : own;
   prepared.pixels_per_unit.push_back(scale);
   Recording units = outputs_first(to_model_units(recording, *layout, scale), *layout);
+  const auto least = static_cast<std::size_t>(kCalmSeconds * recording.rate_hz);
+  prepared.rest.push_back(mean_shape(units, prepared.layout, calm_rows(recording, prepared.inputs), least));
   prepared.recordings.push_back(with_regressors(std::move(units), prepared.inputs, prepared.split_sign));
   return {};
 }
@@ -169,7 +169,9 @@ OutlineParts hold_out(std::span<const Recording> recordings, const ChannelChoice
 
 std::vector<Recording> with_mirror_images(std::span<const Recording> recordings, const PreparedOutlines& prepared) {
   std::vector<Recording> out(recordings.begin(), recordings.end());
-  for (const Recording& recording : recordings) out.push_back(mirrored(recording, prepared.layout, prepared.inputs));
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    out.push_back(mirrored(recordings[r], prepared.layout, prepared.inputs, prepared.rest[r]));
+  }
   return out;
 }
 

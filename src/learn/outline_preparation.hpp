@@ -27,7 +27,8 @@ struct PreparedOutlines {
   ChannelChoice channels;
   std::vector<double> pixels_per_unit;  ///< one a recording
   std::vector<Recording> recordings;
-  std::vector<std::string> warnings;  ///< of recordings that came with other knots
+  std::vector<std::vector<double>> rest;  ///< of each recording its mean calm shape; empty where it is never calm
+  std::vector<std::string> warnings;      ///< of recordings that came with other knots
 };
 
 /// Errors: as common_layout() and scaled_input(); a recording without an outline in any row.
@@ -52,7 +53,9 @@ struct OutlineParts {
 /// tenth of the recording, and otherwise in time. The last rows without an outline do not count.
 OutlineParts hold_out(std::span<const Recording> recordings, const ChannelChoice& channels, double share);
 
-/// The recordings and after them their mirror images.
+/// The recordings and after them their mirror images about their shapes at rest.
+///
+/// Precondition: they are the prepared recordings or parts of them, in their order.
 std::vector<Recording> with_mirror_images(std::span<const Recording> recordings, const PreparedOutlines& prepared);
 
 }  // namespace wisp

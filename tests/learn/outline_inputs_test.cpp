@@ -92,6 +92,29 @@ TEST(OutlineInputs, TheMirrorExchangesSidesAndSigns) {
   EXPECT_EQ(samples(mirror, "wind-"), (std::vector<double>{1, 0}));
 }
 
+TEST(OutlineInputs, WhatStandsAskewAtRestStaysAskew) {
+  Recording split = with_regressors(windy({1, 0}), {}, true);
+  split.channels[*find_channel(split, "p0.x")].samples = {-0.3, -0.2};
+  split.channels[*find_channel(split, "p3.x")].samples = {0.5, 0.4};
+  const OutlineLayout layout = *outline_layout(split);
+  std::vector<double> rest(8, 0.0);
+  rest[0] = -0.2;
+  rest[6] = 0.4;
+  const Recording mirror = mirrored(split, layout, {}, rest);
+  EXPECT_NEAR(samples(mirror, "p0.x")[1], -0.2, 1e-15);
+  EXPECT_NEAR(samples(mirror, "p3.x")[1], 0.4, 1e-15);
+  EXPECT_NEAR(samples(mirror, "p0.x")[0], -0.3, 1e-15);  // p3 went 0.1 to the right
+  EXPECT_NEAR(samples(mirror, "p3.x")[0], 0.5, 1e-15);
+}
+
+TEST(OutlineInputs, TheMeanShapeIsThatOfTheChosenRows) {
+  Recording split = windy({1, 0, 0});
+  split.channels[*find_channel(split, "p1.y")].samples = {9, 1, 3};
+  const OutlineLayout layout = *outline_layout(split);
+  EXPECT_EQ(mean_shape(split, layout, std::vector<std::uint8_t>{0, 1, 1}, 2)[3], 2);
+  EXPECT_TRUE(mean_shape(split, layout, std::vector<std::uint8_t>{0, 1, 1}, 3).empty());
+}
+
 TEST(OutlineInputs, MirroredTwiceIsTheSame) {
   const std::vector input{OutlineInput{"wind", "m/s", 1, 0, 1}};
   Recording split = with_regressors(windy({1, -0.5}), input, true);

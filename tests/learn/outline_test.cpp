@@ -122,6 +122,27 @@ TEST(Outline, ControlPointsAreShakenTogether) {
   EXPECT_NEAR(correlation(samples(apart->recording, "p2.x"), samples(apart->recording, "p3.x")), 0, 0.1);
 }
 
+// A sluggish point beside a quick one: with the residuals' own covariance they drift apart, because what shakes both
+// alike moves them unlike; matched shocks keep the recording's correlation.
+TEST(Outline, PointsOfDifferentDynamicsStayTogether) {
+  Recording real = made::outline_recording({.rows = 3000, .own_share = 0.02});
+  for (const char* name : {"p3.x", "p3.y"}) {
+    auto& sluggish = real.channels[*find_channel(real, name)].samples;
+    for (std::size_t t = 1; t < sluggish.size(); ++t) sluggish[t] = 0.8 * sluggish[t - 1] + 0.2 * sluggish[t];
+  }
+  const Recording units = to_model_units(real, *outline_layout(real), 200);
+  const double wanted = correlation(samples(units, "p2.x"), samples(units, "p3.x"));
+  const auto played = [&](OutlineNoise noise) {
+    const auto fit = learn_outline(std::vector{real}, {.noise = noise, .shared_shocks = 6});
+    const auto play = synthesize(fit->model, {.rows = 20000});
+    return correlation(samples(play->recording, "p2.x"), samples(play->recording, "p3.x"));
+  };
+  const double matched = std::abs(played(OutlineNoise::kMatched) - wanted);
+  const double residual = std::abs(played(OutlineNoise::kResidual) - wanted);
+  EXPECT_LT(matched, 0.05);
+  EXPECT_GT(residual, 2 * matched);
+}
+
 TEST(Outline, TheEndsOfTheBaseStayMirrorImages) {
   const auto play = synthesize(learned({.rows = 600}).model, {.rows = 500});
   for (std::size_t t = 0; t < 500; ++t) {

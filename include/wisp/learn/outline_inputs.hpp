@@ -45,10 +45,17 @@ std::vector<std::string> regressor_names(std::span<const OutlineInput> inputs, b
 /// Precondition: the recording has the inputs.
 Recording with_regressors(const Recording& recording, std::span<const OutlineInput> inputs, bool split_sign);
 
+/// The mean of every output over the chosen rows that are complete, in the layout's order; empty where there are fewer
+/// than `least` of them.
+std::vector<double> mean_shape(const Recording& recording, const OutlineLayout& layout,
+                               std::span<const std::uint8_t> rows, std::size_t least);
+
 /// The mirror image of a recording in model units with split regressors: x negated, control points in reverse order
-/// (the base's left is the base's right then), NAME+ and NAME- exchanged.
+/// (the base's left is the base's right then), NAME+ and NAME- exchanged. With a shape at rest it is the deviations
+/// from it that are mirrored: a wick that stands askew stays askew, and only the answer to wind has two equal sides.
 ///
-/// Precondition: layout is the recording's.
-Recording mirrored(const Recording& recording, const OutlineLayout& layout, std::span<const OutlineInput> inputs);
+/// Precondition: layout is the recording's; `rest` is empty or has one value an output.
+Recording mirrored(const Recording& recording, const OutlineLayout& layout, std::span<const OutlineInput> inputs,
+                   std::span<const double> rest = {});
 
 }  // namespace wisp
