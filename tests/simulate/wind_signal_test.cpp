@@ -1,0 +1,98 @@
+#include "wisp/simulate/wind_signal.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace wisp {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+
+TEST(WindSignal, GustsStayBetweenCalmAndTheirMostAndRest) {
+  const WindSignal wind = *WindSignal::generate({}, 120);
+  EXPECT_EQ(*std::min_element(wind.samples().begin(), wind.samples().end()), 0);
+  const double most = *std::max_element(wind.samples().begin(), wind.samples().end());
+  EXPECT_LE(most, 1);
+  EXPECT_GT(most, 0.9);
+  const auto calm = std::count(wind.samples().begin(), wind.samples().end(), 0.0);
+  const double share = static_cast<double>(calm) / static_cast<double>(wind.samples().size());
+  EXPECT_GT(share, 0.15);
+  EXPECT_LT(share, 0.5);
+}
+
+// Wideband: what changes between two samples 1/12 s apart is about as large as the wind itself.
+TEST(WindSignal, GustsAreWideband) {
+  const WindSignal wind = *WindSignal::generate({.rest_share = 0}, 60);
+  double change = 0;
+  double variance = 0;
+  double mean = 0;
+  int count = 0;
+  for (double t = 0; t < 59; t += 0.05, ++count) mean += wind.at(t);
+  mean /= count;
+  for (double t = 0; t < 59; t += 0.05) {
+    change += std::pow(wind.at(t + 1.0 / 12) - wind.at(t), 2);
+    variance += std::pow(wind.at(t) - mean, 2);
+  }
+  EXPECT_GT(change, variance);
+}
+
+TEST(WindSignal, BlowsFromBothSidesOnlyWhenAsked) {
+  const WindSignal both = *WindSignal::generate({.both_sides = true}, 60);
+  EXPECT_LT(*std::min_element(both.samples().begin(), both.samples().end()), -0.5);
+  EXPECT_GT(*std::max_element(both.samples().begin(), both.samples().end()), 0.5);
+}
+
+TEST(WindSignal, IsTheSameForASeedAndAnotherForAnother) {
+  EXPECT_EQ(WindSignal::generate({.seed = 4}, 10)->samples(), WindSignal::generate({.seed = 4}, 10)->samples());
+  EXPECT_NE(WindSignal::generate({.seed = 4}, 10)->samples(), WindSignal::generate({.seed = 5}, 10)->samples());
+}
+
+TEST(WindSignal, CalmIsCalm) {
+  const WindSignal wind = *WindSignal::generate({.kind = WindKind::kCalm}, 5);
+  EXPECT_EQ(std::count(wind.samples().begin(), wind.samples().end(), 0.0),
+            static_cast<std::ptrdiff_t>(wind.samples().size()));
+}
+
+TEST(WindSignal, BlowsOutWhenAskedAndSaysWhenToLightAgain) {
+  const WindSignal wind = *WindSignal::generate({.blow_out_at = 4, .relight_after = 1.5}, 10);
+  EXPECT_EQ(wind.at(3.8), 0);
+  EXPECT_NEAR(wind.at(4.15), 3, 1e-9);
+  EXPECT_EQ(wind.at(5), 0);
+  EXPECT_DOUBLE_EQ(wind.relight_at(), 5.5);
+  EXPECT_LT(WindSignal::generate({.blow_out_at = 4, .relight_after = -1}, 10)->relight_at(), 0);
+}
+
+TEST(WindSignal, TakesARecordingsChannelAndBridgesItsGaps) {
+  Recording recording;
+  recording.source = "wind.csv";
+  recording.rate_hz = 2;
+  recording.channels = {{"wind", "m/s", Role::kInput, {kMissing, 1, kMissing, 3, kMissing}}};
+  const WindSignal wind = *WindSignal::from_recording(recording);
+  EXPECT_DOUBLE_EQ(wind.at(0), 1);
+  EXPECT_DOUBLE_EQ(wind.at(0.75), 1.5);
+  EXPECT_DOUBLE_EQ(wind.at(1), 2);
+  EXPECT_DOUBLE_EQ(wind.at(99), 3);
+}
+
+TEST(WindSignal, SaysWhatARecordingLacks) {
+  Recording recording;
+  recording.source = "wind.csv";
+  recording.rate_hz = 2;
+  recording.channels = {{"a", "", Role::kInput, {1}}, {"b", "", Role::kInput, {kMissing}}};
+  EXPECT_THAT(WindSignal::from_recording(recording).error().message, HasSubstr("2 input channels"));
+  EXPECT_THAT(WindSignal::from_recording(recording, "c").error().message, HasSubstr("'c'"));
+  EXPECT_THAT(WindSignal::from_recording(recording, "b").error().message, HasSubstr("no samples"));
+}
+
+TEST(WindSignal, SaysWhichOptionIsWrong) {
+  EXPECT_THAT(WindSignal::generate({.rest_share = 1}, 5).error().message, HasSubstr("rest_share"));
+}
+
+}  // namespace
+}  // namespace wisp
