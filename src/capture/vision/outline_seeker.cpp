@@ -163,7 +163,7 @@ void OutlineSeeker::measure_brightness(const Picture& picture) {
     count += row_count;
   }
   const double mean = count == 0 ? 0 : static_cast<double>(sum) / static_cast<double>(count);
-  brightness_ = dark_ ? mean : wisp::brightness(picture, channel_, mean);
+  brightness_ = wisp::brightness(picture, channel_, mean);
 }
 
 // How far the thing may move from frame to frame. Where it moves farther, it touches the window's border and is looked
@@ -188,7 +188,7 @@ bool OutlineSeeker::seek(const Picture& picture) {
   const double area = static_cast<double>(found_.area);
   usual_area_ = usual_area_ == 0 ? area : 0.95 * usual_area_ + 0.05 * area;
   measure_change();
-  measure_brightness(picture);
+  if (!dark_) measure_brightness(picture);  // a dark thing does not fade: its ground does
   const Region place = window_.place;
   follow_boundary(window_.image, level_, {found_.seed_x - place.x, found_.seed_y - place.y}, boundary_);
   return true;

@@ -25,8 +25,8 @@ struct CurveShape {
 /// Precondition: valid_knots(knots); clouds is not empty and was made with an even pace.
 CurveShape fit_pace(std::span<const EdgeCloud> clouds, std::span<const double> knots);
 
-/// The best knots found for `points` control points; uniform ones where nothing beats them by a fiftieth, or where
-/// `place` is false.
+/// The best knots found for `points` control points; uniform ones where nothing beats them by a fiftieth (and a
+/// fifth of a percent of the area), or where `place` is false.
 ///
 /// Precondition: points >= 4; clouds is not empty and was made with an even pace.
 CurveShape choose_shape(std::span<const EdgeCloud> clouds, int points, bool place);

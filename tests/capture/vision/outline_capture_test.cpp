@@ -1,0 +1,313 @@
+#include "wisp/capture/vision/outline_capture.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "capture/support/overlap.hpp"
+#include "capture/support/synthetic.hpp"
+
+namespace wisp {
+namespace {
+
+using support::Flame;
+using support::Plane;
+using testing::HasSubstr;
+
+OutlineCaptureOptions options_for(int points = 8) {
+  OutlineCaptureOptions options;
+  options.points = points;
+  options.rate_hz = 30;
+  options.source = "made.mp4";
+  return options;
+}
+
+// A camera's noise, so that no two frames are the same picture.
+void add_noise(Plane& plane, unsigned seed) {
+  std::mt19937 random(seed);
+  for (auto& pixel : plane.pixels) {
+    pixel = static_cast<std::uint8_t>(std::clamp(pixel + static_cast<int>(random() % 5) - 2, 0, 255));
+  }
+}
+
+Plane noisy_flame(int k) {
+  Plane plane = support::flame_picture(support::swaying(k));
+  add_noise(plane, static_cast<unsigned>(k) + 1);
+  return plane;
+}
+
+Result<CapturedOutline> capture(int frames, const std::function<Plane(int)>& picture,
+                                const OutlineCaptureOptions& options = options_for()) {
+  OutlineCapture capture(options);
+  for (int k = 0; k < frames; ++k) {
+    const Plane plane = picture(k);
+    if (auto fed = capture.feed(grey_picture(plane.view())); !fed) return fed.error();
+  }
+  return capture.finish();
+}
+
+std::vector<double> controls_at(const CapturedOutline& captured, std::size_t row) {
+  std::vector<double> out;
+  for (int i = 0; i < 2 * captured.report.points; ++i) out.push_back(captured.recording.channels[i].samples[row]);
+  return out;
+}
+
+double overlap_at(const CapturedOutline& captured, const Plane& plane, std::size_t row) {
+  const SplineTable table(captured.report.knots);
+  const support::Mask mask = support::region_mask(plane.view(), static_cast<int>(captured.report.threshold));
+  return support::overlap(mask, support::curve_mask(table, controls_at(captured, row), plane.width, plane.height));
+}
+
+bool missing(const CapturedOutline& captured, std::size_t row) {
+  return std::isnan(captured.recording.channels[0].samples[row]);
+}
+
+TEST(OutlineCapture, MakesARecordingOfAllFrames) {
+  const auto captured = capture(60, noisy_flame);
+  ASSERT_TRUE(captured) << captured.error().message;
+  const Recording& recording = captured->recording;
+  EXPECT_EQ(recording.rows(), 60u);
+  EXPECT_EQ(recording.channels.size(), 18u);
+  EXPECT_EQ(recording.channels[0].name, "p0.x");
+  EXPECT_EQ(recording.channels[15].name, "p7.y");
+  EXPECT_EQ(recording.channels[16].name, "base.x");
+  EXPECT_EQ(recording.channels[16].role, Role::kMotion);
+  EXPECT_EQ(recording.flags[0].name, "filled");
+  EXPECT_EQ(find_attribute(recording, "channel"), "luma");
+  EXPECT_EQ(captured->report.tracked, 60u);
+  EXPECT_TRUE(captured->report.dropped.empty());
+  EXPECT_TRUE(check(recording));
+}
+
+TEST(OutlineCapture, CoversTheFlame) {
+  for (const int points : {8, 16}) {
+    const auto captured = capture(60, noisy_flame, options_for(points));
+    ASSERT_TRUE(captured);
+    double sum = 0;
+    for (int k = 0; k < 60; ++k) sum += overlap_at(*captured, noisy_flame(k), k) / 60;
+    EXPECT_GT(sum, points == 8 ? 0.95 : 0.97) << points;
+  }
+}
+
+TEST(OutlineCapture, FollowsTheKnownBoundaryToHalfAPixel) {
+  // 16 control points on this shape leave a root mean square of some 0.2 px; what the sides are off by is checked away
+  // from tip and base, where "depth" is the distance.
+  const auto captured = capture(60, noisy_flame, options_for(16));
+  ASSERT_TRUE(captured);
+  const SplineTable table(captured->report.knots);
+  for (const int k : {5, 25, 45}) {
+    const Flame flame = support::swaying(k);
+    double squares = 0;
+    int count = 0;
+    for (const CurvePoint p : curve_polyline(table, controls_at(*captured, k), 200)) {
+      if (p.y > flame.base_y - 12 || p.y < flame.base_y - 0.8 * flame.height) continue;
+      squares += std::pow(flame.depth(p.x, p.y), 2);
+      ++count;
+    }
+    EXPECT_LT(std::sqrt(squares / count), 0.5) << k;
+  }
+}
+
+TEST(OutlineCapture, ASingleDuplicateIsFilledAndFlagged) {
+  const auto captured = capture(60, [](int k) { return noisy_flame(k == 30 || k == 45 ? k - 1 : k); });
+  ASSERT_TRUE(captured);
+  EXPECT_EQ(captured->report.duplicates, 2u);
+  EXPECT_EQ(captured->report.filled, 2u);
+  EXPECT_EQ(captured->report.tracked, 58u);
+  EXPECT_EQ(captured->recording.flags[0].rows[30], 1);
+  EXPECT_FALSE(missing(*captured, 30));
+  EXPECT_EQ(captured->recording.episode_ids.back(), 0);
+  const double before = controls_at(*captured, 29)[6], after = controls_at(*captured, 31)[6];
+  EXPECT_NEAR(controls_at(*captured, 30)[6], 0.5 * (before + after), 1e-9);
+}
+
+TEST(OutlineCapture, TwoDuplicatesInARowEndTheEpisode) {
+  const auto captured = capture(60, [](int k) { return noisy_flame(k == 30 || k == 31 ? 29 : k); });
+  ASSERT_TRUE(captured);
+  ASSERT_EQ(captured->report.dropped.size(), 2u);
+  EXPECT_EQ(captured->report.dropped[0].frame, 30u);
+  EXPECT_EQ(captured->report.dropped[0].reason, "duplicate");
+  EXPECT_TRUE(missing(*captured, 31));
+  EXPECT_EQ(episodes(captured->recording).size(), 2u);
+}
+
+TEST(OutlineCapture, LostFramesLeaveRowsOfTheirOwn) {
+  OutlineCapture capturing(options_for());
+  for (int k = 0; k < 60; ++k) {
+    if (k == 20) {
+      capturing.lost();
+    } else if (k == 40) {
+      capturing.lost(3);
+      k += 2;
+    } else {
+      const Plane plane = noisy_flame(k);
+      ASSERT_TRUE(capturing.feed(grey_picture(plane.view())));
+    }
+  }
+  const auto captured = capturing.finish();
+  ASSERT_TRUE(captured);
+  EXPECT_EQ(captured->report.frames, 60u);
+  EXPECT_EQ(captured->report.filled, 1u);
+  EXPECT_EQ(captured->recording.flags[0].rows[20], 1);
+  ASSERT_EQ(captured->report.dropped.size(), 3u);
+  EXPECT_EQ(captured->report.dropped[0].reason, "lost");
+  EXPECT_EQ(captured->recording.episode_ids.back(), 1);
+}
+
+TEST(OutlineCapture, FadesAreDroppedAtBothEnds) {
+  const auto captured = capture(80, [](int k) {
+    const int from_end = std::min(k, 79 - k);
+    Plane plane = support::flame_picture(support::swaying(k), 160, 180, from_end < 6 ? 8 + 26 * from_end : 230);
+    add_noise(plane, static_cast<unsigned>(k));
+    return plane;
+  });
+  ASSERT_TRUE(captured);
+  ASSERT_EQ(captured->report.dropped.size(), 12u);
+  for (const DroppedFrame& dropped : captured->report.dropped) {
+    EXPECT_TRUE(dropped.frame < 6 || dropped.frame > 73) << dropped.frame;
+    EXPECT_EQ(dropped.reason, "fade");
+  }
+}
+
+TEST(OutlineCapture, GoesOnAfterAFlamelessStretch) {
+  const auto captured = capture(90, [](int k) {
+    Plane plane = noisy_flame(k);
+    if (k >= 50 && k < 60) plane = Plane(160, 180, 8);
+    return plane;
+  });
+  ASSERT_TRUE(captured);
+  EXPECT_EQ(captured->report.dropped.size(), 10u);
+  EXPECT_EQ(captured->report.dropped[0].reason, "nothing there");
+  EXPECT_EQ(captured->report.tracked, 80u);
+  EXPECT_EQ(episodes(captured->recording).size(), 2u);
+}
+
+TEST(OutlineCapture, ABrighterThingThatStandsStillIsNotTheFlame) {
+  const auto captured = capture(60, [](int k) {
+    Flame flame = support::swaying(k);
+    flame.base_x = 50;
+    Plane plane = support::flame_picture(flame, 220, 180);
+    plane.fill({120, 90, 90, 80}, 240);
+    add_noise(plane, static_cast<unsigned>(k));
+    return plane;
+  });
+  ASSERT_TRUE(captured);
+  for (std::size_t k = 0; k < 60; ++k) EXPECT_LT(controls_at(*captured, k)[14], 100) << k;
+}
+
+TEST(OutlineCapture, AStandThatRunsTogetherWithTheFlameIsCutOff) {
+  const auto captured = capture(60, [](int k) {
+    Flame flame = support::swaying(k);
+    flame.base_y = 130;
+    Plane plane(160, 180, 8);
+    support::paint(plane, 230, 3.0, [&](double x, double y) { return flame.depth(x, y); });
+    plane.fill({40, 142, 80, 30}, 220);
+    if (k % 5 == 4) plane.fill({77, 128, 7, 16}, 220);  // a bridge of light in every fifth frame
+    add_noise(plane, static_cast<unsigned>(k));
+    return plane;
+  });
+  ASSERT_TRUE(captured);
+  EXPECT_EQ(captured->report.tracked, 60u);
+  for (std::size_t k = 0; k < 60; ++k) {
+    EXPECT_LT(captured->recording.channels[17].samples[k], 146) << k;
+    EXPECT_GT(controls_at(*captured, k)[0], 45) << k;
+  }
+}
+
+TEST(OutlineCapture, DarkThingsAreTrackedAlike) {
+  OutlineCaptureOptions options = options_for();
+  options.dark = true;
+  const auto captured = capture(
+      60,
+      [](int k) {
+        Plane plane = noisy_flame(k);
+        for (auto& pixel : plane.pixels) pixel = static_cast<std::uint8_t>(255 - pixel);
+        return plane;
+      },
+      options);
+  ASSERT_TRUE(captured);
+  EXPECT_EQ(captured->report.tracked, 60u);
+  const auto bright = capture(60, noisy_flame);
+  EXPECT_NEAR(captured->report.threshold, 255 - bright->report.threshold, 1);
+  EXPECT_NEAR(controls_at(*captured, 30)[6], controls_at(*bright, 30)[6], 0.2);
+}
+
+TEST(OutlineCapture, AFlameThatLeapsAsideIsFoundAgain) {
+  const auto captured = capture(60, [](int k) {
+    Flame flame = support::swaying(k);
+    flame.base_x = k < 30 ? 60 : 240;
+    Plane plane = support::flame_picture(flame, 320, 180);
+    add_noise(plane, static_cast<unsigned>(k));
+    return plane;
+  });
+  ASSERT_TRUE(captured);
+  EXPECT_EQ(captured->report.tracked, 60u);
+  EXPECT_NEAR(captured->recording.channels[16].samples[59], 240, 1);
+}
+
+TEST(OutlineCapture, ARegionHidesWhatLiesOutside) {
+  OutlineCaptureOptions options = options_for();
+  options.region = {0, 0, 110, 180};
+  const auto captured = capture(
+      60,
+      [](int k) {
+        Plane plane = support::flame_picture(support::swaying(k), 300, 180);
+        Flame other = support::swaying(3 * k);
+        other.base_x = 230;
+        other.half_width = 40;
+        support::paint(plane, 255, 3.0, [&](double x, double y) { return other.depth(x, y); });
+        add_noise(plane, static_cast<unsigned>(k));
+        return plane;
+      },
+      options);
+  ASSERT_TRUE(captured);
+  EXPECT_NEAR(captured->recording.channels[16].samples[10], 80, 1);
+}
+
+TEST(OutlineCapture, ARegionOutsideThePictureIsAnError) {
+  OutlineCaptureOptions options = options_for();
+  options.region = {100, 100, 100, 100};
+  const auto captured = capture(20, noisy_flame, options);
+  ASSERT_FALSE(captured);
+  EXPECT_THAT(captured.error().message, HasSubstr("100,100,100,100"));
+  EXPECT_THAT(captured.error().message, HasSubstr("160 x 180"));
+}
+
+TEST(OutlineCapture, ThreeFramesAreTooFew) {
+  const auto captured = capture(3, noisy_flame);
+  ASSERT_FALSE(captured);
+  EXPECT_THAT(captured.error().message, HasSubstr("found 3 frames"));
+}
+
+TEST(OutlineCapture, ABlackClipIsAnError) {
+  const auto captured = capture(50, [](int) { return Plane(160, 120, 16); });
+  ASSERT_FALSE(captured);
+  EXPECT_THAT(captured.error().message, HasSubstr("nothing bright"));
+}
+
+TEST(OutlineCapture, AFrameOfAnotherSizeIsAnError) {
+  const auto captured = capture(30, [](int k) { return k == 20 ? Plane(100, 100) : noisy_flame(k); });
+  ASSERT_FALSE(captured);
+  EXPECT_THAT(captured.error().message, HasSubstr("frame 20 is 100 x 100"));
+}
+
+TEST(OutlineCapture, AColourChannelOfGreyPicturesIsAnError) {
+  OutlineCaptureOptions options = options_for();
+  options.channel = PixelChannel::kRed;
+  const auto captured = capture(20, noisy_flame, options);
+  ASSERT_FALSE(captured);
+  EXPECT_THAT(captured.error().message, HasSubstr("red"));
+}
+
+TEST(OutlineCapture, TheSameFramesGiveTheSameRecording) {
+  const auto once = capture(60, noisy_flame), again = capture(60, noisy_flame);
+  for (std::size_t k = 0; k < once->recording.channels.size(); ++k) {
+    EXPECT_EQ(once->recording.channels[k].samples, again->recording.channels[k].samples);
+  }
+}
+
+}  // namespace
+}  // namespace wisp

@@ -1,0 +1,105 @@
+#include "wisp/capture/vision/survey.hpp"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+
+#include "capture/support/synthetic.hpp"
+
+namespace wisp {
+namespace {
+
+using support::Flame;
+using support::Plane;
+
+// Pictures that keep their pixels.
+struct Clip {
+  std::deque<Plane> planes;
+  std::vector<Picture> pictures;
+  void add(Plane plane) {
+    planes.push_back(std::move(plane));
+    pictures.push_back(grey_picture(planes.back().view()));
+  }
+};
+
+Flame on_the_left(int k) {
+  Flame flame = support::swaying(k);
+  flame.base_x = 60;
+  return flame;
+}
+
+TEST(Survey, TheThingIsWhatMovesNotTheLargerThingThatStandsStill) {
+  Clip clip;
+  for (int k = 0; k < 20; ++k) {
+    Plane plane = support::flame_picture(on_the_left(k), 240, 180);
+    plane.fill({140, 60, 90, 100}, 200);  // wax, brighter in sum than the flame
+    plane.fill({10, 5, 12, 12}, 255);     // a reflection
+    clip.add(std::move(plane));
+  }
+  const auto surveys = survey_scene(clip.pictures, {});
+  ASSERT_TRUE(surveys);
+  const Survey& survey = surveys->front();
+  EXPECT_LT(survey.home.right(), 130);
+  EXPECT_GT(survey.home.height, 90);
+  EXPECT_EQ(survey.still.size(), 2u);
+  EXPECT_TRUE(survey.moves);
+}
+
+TEST(Survey, TheLevelPartsFlameAndGround) {
+  Clip clip;
+  for (int k = 0; k < 10; ++k) clip.add(support::flame_picture(support::swaying(k)));
+  const Survey survey = survey_scene(clip.pictures, {})->front();
+  EXPECT_GT(survey.level, 60);
+  EXPECT_LT(survey.level, 180);
+  EXPECT_GT(survey.separation, 0.9);
+}
+
+TEST(Survey, PicturesOfAFadeDoNotCount) {
+  Clip bright, faded;
+  for (int k = 0; k < 20; ++k) {
+    bright.add(support::flame_picture(support::swaying(k)));
+    faded.add(support::flame_picture(support::swaying(k), 160, 180, k < 6 ? 30 * k : 230));
+  }
+  EXPECT_NEAR(survey_scene(faded.pictures, {})->front().level, survey_scene(bright.pictures, {})->front().level, 3);
+}
+
+TEST(Survey, DarkThingsAreFoundOnLightGround) {
+  Clip clip;
+  for (int k = 0; k < 10; ++k) {
+    Plane plane = support::flame_picture(support::swaying(k));
+    for (auto& pixel : plane.pixels) pixel = static_cast<std::uint8_t>(255 - pixel);
+    clip.add(std::move(plane));
+  }
+  const auto surveys = survey_scene(clip.pictures, {.dark = true});
+  ASSERT_TRUE(surveys);
+  EXPECT_NEAR(surveys->front().home.height, 120, 12);
+}
+
+TEST(Survey, OneBrightnessHoldsNothing) {
+  Clip clip;
+  for (int k = 0; k < 10; ++k) clip.add(Plane(160, 120, 16));
+  const auto surveys = survey_scene(clip.pictures, {});
+  ASSERT_FALSE(surveys);
+  EXPECT_NE(surveys.error().message.find("one brightness"), std::string::npos);
+}
+
+TEST(BaseSide, IsBelowUnlessAnotherSideCutsTheThingOff) {
+  const Region area{0, 0, 100, 100};
+  Survey survey;
+  survey.seen.assign(10, {40, 0, 20, 60});  // a flame that reaches the upper border now and then
+  survey.seen[3].y = 5;
+  EXPECT_EQ(base_side(survey, area), BaseSide::kBottom);
+  survey.seen.assign(10, {0, 40, 60, 20});
+  EXPECT_EQ(base_side(survey, area), BaseSide::kLeft);
+  survey.seen.assign(10, {0, 40, 60, 60});
+  EXPECT_EQ(base_side(survey, area), BaseSide::kBottom);
+}
+
+TEST(BaseSide, OfAThingThatLiesOnItsSideIsTheEndThatMovesLess) {
+  Survey survey;
+  for (int k = 0; k < 10; ++k) survey.seen.push_back({20 + 3 * (k % 3), 40, 50 - 3 * (k % 3), 10});
+  EXPECT_EQ(base_side(survey, {0, 0, 100, 100}), BaseSide::kRight);
+}
+
+}  // namespace
+}  // namespace wisp
