@@ -1,0 +1,195 @@
+#include "wisp/capture/media/video.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "capture/support/clip_files.hpp"
+
+namespace wisp {
+namespace {
+
+using support::Plane;
+using support::RawVideo;
+using support::ScratchFolder;
+using testing::HasSubstr;
+
+constexpr VideoOptions kThirty{.rate_hz = 30, .frames = std::nullopt, .threads = 1};
+
+std::string error_of(const std::filesystem::path& path, const VideoOptions& options = {}) {
+  auto reader = VideoReader::open(path, options);
+  if (!reader) return reader.error().message;
+  while (true) {
+    auto frame = reader->next();
+    if (!frame) return frame.error().message;
+    if (!frame->has_value()) return "";
+  }
+}
+
+// Places on the grid and a pixel of each frame.
+struct Seen {
+  std::vector<std::int64_t> index;
+  std::vector<int> pixel;
+};
+
+Seen see(VideoReader& reader) {
+  Seen seen;
+  while (true) {
+    auto frame = reader.next();
+    if (!frame || !frame->has_value()) return seen;
+    seen.index.push_back((*frame)->index);
+    seen.pixel.push_back(plane_in_place((*frame)->picture, PixelChannel::kLuma).at(3, 2));
+  }
+}
+
+TEST(ImageFolder, IsReadInTheOrderOfItsNumbers) {
+  ScratchFolder folder("numbers");
+  for (const int number : {2, 10, 1, 9}) {
+    write_pgm(folder / ("flame" + std::to_string(number) + ".pgm"), Plane(16, 12, static_cast<std::uint8_t>(number)));
+  }
+  support::write_pgm(folder / "cover.pgm", Plane(99, 99));  // no number, no frame
+  auto reader = VideoReader::open(folder.path(), kThirty);
+  ASSERT_TRUE(reader);
+  EXPECT_TRUE(reader->info().images);
+  EXPECT_EQ(reader->info().frames, 4);
+  EXPECT_EQ(see(*reader).pixel, (std::vector<int>{1, 2, 9, 10}));
+}
+
+TEST(ImageFolder, MissingNumbersAreLostFrames) {
+  ScratchFolder folder("gaps");
+  for (const int number : {10, 20, 40, 50}) {
+    write_pgm(folder / (std::to_string(number) + ".pgm"), Plane(16, 12));
+  }
+  auto reader = VideoReader::open(folder.path(), kThirty);
+  EXPECT_EQ(see(*reader).index, (std::vector<std::int64_t>{0, 1, 3, 4}));
+}
+
+TEST(ImageFolder, OfAnotherSizeIsNamed) {
+  ScratchFolder folder("sizes");
+  write_pgm(folder / "000.pgm", Plane(16, 12));
+  write_pgm(folder / "001.pgm", Plane(20, 12));
+  const std::string message = error_of(folder.path(), kThirty);
+  EXPECT_THAT(message, HasSubstr("001.pgm"));
+  EXPECT_THAT(message, HasSubstr("20 x 12"));
+  EXPECT_THAT(message, HasSubstr("16 x 12"));
+}
+
+TEST(ImageFolder, NeedsARateAndImages) {
+  ScratchFolder folder("empty");
+  EXPECT_THAT(error_of(folder.path()), HasSubstr("--rate"));
+  EXPECT_THAT(error_of(folder.path(), kThirty), HasSubstr("no numbered images"));
+}
+
+TEST(ImageFolder, ABrokenImageIsNamed) {
+  ScratchFolder folder("broken");
+  write_pgm(folder / "000.pgm", Plane(16, 12));
+  std::ofstream(folder / "001.pgm") << "no image";
+  EXPECT_THAT(error_of(folder.path(), kThirty), HasSubstr("001.pgm"));
+}
+
+TEST(ImageFolder, TwoImagesOfOneNumberAreAnError) {
+  ScratchFolder folder("twice");
+  write_pgm(folder / "a001.pgm", Plane(16, 12));
+  write_pgm(folder / "b001.pgm", Plane(16, 12));
+  EXPECT_THAT(error_of(folder.path(), kThirty), HasSubstr("same number"));
+}
+
+TEST(VideoFile, GivesItsFramesAndSaysWhatTheyAre) {
+  ScratchFolder folder("raw");
+  RawVideo video(folder / "clip.y4m", 32, 24, 25);
+  for (int k = 0; k < 6; ++k) video.add(Plane(32, 24, static_cast<std::uint8_t>(10 * k)));
+  video = RawVideo(folder / "other.y4m", 32, 24, 25);  // closes the first
+  auto reader = VideoReader::open(folder / "clip.y4m");
+  ASSERT_TRUE(reader) << reader.error().message;
+  EXPECT_EQ(reader->info().width, 32);
+  EXPECT_EQ(reader->info().height, 24);
+  EXPECT_DOUBLE_EQ(reader->info().rate_hz, 25);
+  EXPECT_FALSE(reader->info().has_sound);
+  const Seen seen = see(*reader);
+  EXPECT_EQ(seen.pixel, (std::vector<int>{0, 10, 20, 30, 40, 50}));
+  EXPECT_EQ(seen.index, (std::vector<std::int64_t>{0, 1, 2, 3, 4, 5}));
+  EXPECT_TRUE(reader->warnings().empty());
+}
+
+TEST(VideoFile, ARangeOfFramesIsCountedFromOne) {
+  ScratchFolder folder("range");
+  {
+    RawVideo video(folder / "clip.y4m", 32, 24, 25);
+    for (int k = 0; k < 6; ++k) video.add(Plane(32, 24, static_cast<std::uint8_t>(10 * k)));
+  }
+  VideoOptions options;
+  options.frames = FrameRange{2, 4};
+  auto reader = VideoReader::open(folder / "clip.y4m", options);
+  EXPECT_EQ(see(*reader).pixel, (std::vector<int>{10, 20, 30}));
+  options.frames = FrameRange{7, 9};
+  EXPECT_THAT(error_of(folder / "clip.y4m", options), HasSubstr("found 6 frames, expected frame 7"));
+  options.frames = FrameRange{4, 2};
+  EXPECT_THAT(error_of(folder / "clip.y4m", options), HasSubstr("4:2"));
+}
+
+TEST(VideoFile, RgbIsThePictureAsItIsShown) {
+  ScratchFolder folder("rgb");
+  { RawVideo(folder / "clip.y4m", 32, 24, 25).add(Plane(32, 24, 90)); }
+  auto reader = VideoReader::open(folder / "clip.y4m");
+  ASSERT_TRUE(*reader->next());
+  const RgbImage image = reader->rgb();
+  EXPECT_EQ(image.pixels.size(), 3u * 32 * 24);
+  for (const std::uint8_t value : image.pixels) ASSERT_NEAR(value, (90 - 16) * 255.0 / 219, 1);
+}
+
+TEST(VideoFile, WhatIsNoVideoIsAnErrorInOneLine) {
+  ScratchFolder folder("bad");
+  std::ofstream(folder / "text.mp4") << "Dear diary, today I filmed a candle.\n";
+  std::ofstream(folder / "empty.mp4");
+  const std::vector<std::int16_t> silence(800);
+  support::write_wav(folder / "sound.wav", 8000, 1, silence);
+  EXPECT_THAT(error_of(folder / "missing.mp4"), HasSubstr("no such file"));
+  EXPECT_THAT(error_of(folder / "text.mp4"), HasSubstr("cannot be read"));
+  EXPECT_THAT(error_of(folder / "empty.mp4"), HasSubstr("empty.mp4"));
+  EXPECT_THAT(error_of(folder / "sound.wav"), HasSubstr("no video track"));
+  for (const char* name : {"missing.mp4", "text.mp4", "empty.mp4", "sound.wav"}) {
+    EXPECT_EQ(error_of(folder / name).find('\n'), std::string::npos);
+  }
+}
+
+TEST(VideoFile, RealClipsSayTheirRateAndFrames) {
+  const auto path = support::real_data() / "flame/flame_shaken_1080p60.mp4";
+  WISP_NEEDS(path);
+  auto reader = VideoReader::open(path);
+  ASSERT_TRUE(reader);
+  EXPECT_DOUBLE_EQ(reader->info().rate_hz, 60);
+  EXPECT_EQ(reader->info().frames, 266);
+  EXPECT_TRUE(reader->info().has_sound);
+  EXPECT_EQ(see(*reader).index.size(), 266u);
+}
+
+TEST(VideoFile, GlimpsesDoNotDisturbTheFrames) {
+  const auto path = support::real_data() / "flame/red_candle_720p25.mp4";
+  WISP_NEEDS(path);
+  auto reader = VideoReader::open(path), undisturbed = VideoReader::open(path);
+  EXPECT_EQ(reader->glimpses(4).size(), 3u);  // it has key frames at 3, 6 and 9 s
+  for (int k = 0; k < 20; ++k) {
+    const auto a = reader->next(), b = undisturbed->next();
+    ASSERT_EQ((*a)->index, (*b)->index);
+    EXPECT_EQ(plane_in_place((*a)->picture, PixelChannel::kLuma).at(340, 300),
+              plane_in_place((*b)->picture, PixelChannel::kLuma).at(340, 300));
+  }
+}
+
+TEST(VideoFile, CutInHalfIsReadAsFarAsItGoesWithAWarning) {
+  const auto path = support::real_data() / "flame/flame_shaken_1080p60.mp4";
+  WISP_NEEDS(path);
+  ScratchFolder folder("half");
+  std::filesystem::copy_file(path, folder / "half.mp4");
+  std::filesystem::permissions(folder / "half.mp4", std::filesystem::perms::owner_all);
+  std::filesystem::resize_file(folder / "half.mp4", std::filesystem::file_size(path) / 2);
+  auto reader = VideoReader::open(folder / "half.mp4");
+  ASSERT_TRUE(reader) << reader.error().message;
+  const std::size_t frames = see(*reader).index.size();
+  EXPECT_GT(frames, 60u);
+  EXPECT_LT(frames, 200u);
+  ASSERT_FALSE(reader->warnings().empty());
+  EXPECT_THAT(reader->warnings().back(), HasSubstr("cut off"));
+}
+
+}  // namespace
+}  // namespace wisp
