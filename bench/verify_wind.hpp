@@ -22,24 +22,48 @@ inline std::filesystem::path data_folder() {
   return std::filesystem::path(WISP_SOURCE_DIR) / ".." / "shared" / "data";
 }
 
-/// The sound at another rate: a Blackman-windowed sinc over 24 zero crossings each side, cut off at 45 % of the lower
-/// rate.
+/// Half of a Blackman-windowed sinc with 24 zero crossings each side, tabulated finely.
+class SincTable {
+ public:
+  explicit SincTable(double cutoff) : cutoff_(cutoff), reach_(12 / cutoff), values_(kSteps * 12 + 2) {
+    for (std::size_t i = 0; i + 1 < values_.size(); ++i) {
+      const double turns = static_cast<double>(i) / kSteps;  // of the cutoff frequency
+      const double turn = std::numbers::pi * turns / 12;
+      const double window = 0.42 + 0.5 * std::cos(turn) + 0.08 * std::cos(2 * turn);
+      const double angle = 2 * std::numbers::pi * turns;
+      values_[i] = window * 2 * cutoff * (i == 0 ? 1 : std::sin(angle) / angle);
+    }
+  }
+
+  double reach() const { return reach_; }
+
+  double at(double samples) const {
+    const double place = std::abs(samples) * cutoff_ * kSteps;
+    const auto i = std::min(static_cast<std::size_t>(place), values_.size() - 2);
+    const double part = place - static_cast<double>(i);
+    return values_[i] + part * (values_[i + 1] - values_[i]);
+  }
+
+ private:
+  static constexpr std::size_t kSteps = 2048;
+  double cutoff_;
+  double reach_;
+  std::vector<double> values_;
+};
+
+/// The sound at another rate, cut off at 45 % of the lower one.
 inline std::vector<float> resampled(std::span<const float> sound, double from_hz, double to_hz) {
   if (from_hz == to_hz) return {sound.begin(), sound.end()};
-  const double cutoff = 0.45 * std::min(from_hz, to_hz) / from_hz;
-  const double reach = 12 / cutoff;
+  const SincTable sinc(0.45 * std::min(from_hz, to_hz) / from_hz);
   std::vector<float> out(static_cast<std::size_t>(static_cast<double>(sound.size()) * to_hz / from_hz));
   for (std::size_t i = 0; i < out.size(); ++i) {
     const double at = static_cast<double>(i) * from_hz / to_hz;
-    const auto first = static_cast<std::ptrdiff_t>(std::ceil(std::max(0.0, at - reach)));
-    const auto last = std::min(static_cast<std::ptrdiff_t>(sound.size()) - 1, static_cast<std::ptrdiff_t>(at + reach));
+    const auto first = static_cast<std::ptrdiff_t>(std::ceil(std::max(0.0, at - sinc.reach())));
+    const auto last =
+        std::min(static_cast<std::ptrdiff_t>(sound.size()) - 1, static_cast<std::ptrdiff_t>(at + sinc.reach()));
     double sum = 0;
     for (std::ptrdiff_t k = first; k <= last; ++k) {
-      const double x = static_cast<double>(k) - at;
-      const double turn = std::numbers::pi * x / reach;
-      const double window = 0.42 + 0.5 * std::cos(turn) + 0.08 * std::cos(2 * turn);
-      const double sinc = x == 0 ? 2 * cutoff : std::sin(2 * std::numbers::pi * cutoff * x) / (std::numbers::pi * x);
-      sum += window * sinc * static_cast<double>(sound[static_cast<std::size_t>(k)]);
+      sum += sinc.at(static_cast<double>(k) - at) * static_cast<double>(sound[static_cast<std::size_t>(k)]);
     }
     out[i] = static_cast<float>(sum);
   }

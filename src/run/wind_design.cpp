@@ -54,6 +54,9 @@ void set_times(Design& d, const WindOptions& options) {
   const double rate = options.frame_rate_hz;
   d.smoothing = static_cast<float>(approach(1 / rate, options.smoothing_seconds));
   d.power_exponent = static_cast<float>(options.exponent / 2);
+  d.trust_frames = rounded(0.08 * rate);
+  d.bridge_delay_frames = rounded(0.05 * rate) + 1;
+  d.bridge_keep = static_cast<float>(1 - approach(1 / rate, 0.5));
   d.quiet_run_frames = rounded(0.3 * rate);
   d.quiet_span_frames = static_cast<float>(10 * rate);
   d.first_gust_db = decibels(static_cast<float>(options.first_gust_rms * options.first_gust_rms));

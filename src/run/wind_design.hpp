@@ -45,6 +45,10 @@ struct Design {
   float level_gain = 1;         ///< of that power, so that the level band passes 300 Hz as it is
   float power_exponent = 0.25F;
 
+  int trust_frames = 5;         ///< another sound is one after so many frames (80 ms)
+  int bridge_delay_frames = 4;  ///< and begins so many before it is known for one (50 ms)
+  float bridge_keep = 0.97F;    ///< of the wind under another sound, in one frame (0.5 s)
+
   int quiet_run_frames = 18;      ///< quiet must last so long before it counts (0.3 s)
   float quiet_span_frames = 600;  ///< memory of the background (10 s of quiet)
   float first_gust_db = -26;      ///< gust level before anything is heard

@@ -42,7 +42,7 @@ struct Observation {
 /// 0 to 1: whether features are those of blowing.
 template <class T>
 T likeness_of(const Features<T>& f) {
-  const T z = T(6.5F) + T(0.317F) * f.low_db - T(17.0F) * f.voicing - T(0.357F) * f.high_db - T(0.869F) * f.peaked;
+  const T z = T(4.0F) + T(0.317F) * f.low_db - T(17.0F) * f.voicing - T(0.45F) * f.high_db - T(0.869F) * f.peaked;
   return sigmoid(z) * sigmoid((T(0.78F) - f.voicing) * T(25.0F)) * sigmoid((T(0.36F) - f.tone) * T(30.0F));
 }
 

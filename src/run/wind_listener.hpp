@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "run/wind_background.hpp"
+#include "run/wind_bridge.hpp"
 #include "run/wind_design.hpp"
 #include "run/wind_gusts.hpp"
 #include "run/wind_kernel.hpp"
@@ -30,7 +31,9 @@ class Listener {
       const T power = power_over(seen, quiet.band_power());
       if (T(0.0F) < power) gusts_.add(decibels(power), T(d_.gust_keep));
     }
-    return verdict(seen, {quiet.rms(), quiet.band_power(), floor, gusts_.high_db()}, d_.power_exponent);
+    WindFrame frame = verdict(seen, {quiet.rms(), quiet.band_power(), floor, gusts_.high_db()}, d_.power_exponent);
+    frame.wind = plain(bridge_.end_frame(heard_speed(T(frame.speed), seen, floor), seen, floor, d_));
+    return frame;
   }
 
   Background<T>& background() { return background_; }
@@ -45,6 +48,7 @@ class Listener {
   Kernel<T> kernel_;
   Background<T> background_;
   GustLevel<T> gusts_;
+  LiveBridge<T> bridge_;
 };
 
 }  // namespace wisp::wind

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "run/wind_background.hpp"
+#include "run/wind_bridge.hpp"
 #include "run/wind_design.hpp"
 #include "run/wind_kernel.hpp"
 #include "run/wind_verdict.hpp"
@@ -86,6 +87,19 @@ bool find_gusts(const Seen& seen, const wind::Surroundings<float>& around, float
   if (gusts.empty()) return false;
   gust_db = percentile(std::move(gusts), 0.95F);
   return true;
+}
+
+std::vector<WindFrame> frames_of(const Seen& seen, const wind::Surroundings<float>& around, const wind::Design& d) {
+  std::vector<WindFrame> frames;
+  std::vector<float> winds;
+  for (const auto& one : seen) {
+    frames.push_back(wind::verdict(one, around, d.power_exponent));
+    frames.back().index = static_cast<std::int64_t>(frames.size()) - 1;
+    winds.push_back(wind::heard_speed(frames.back().speed, one, around.floor_db));
+  }
+  wind::bridge_recording(seen, around.floor_db, d, winds);
+  for (std::size_t k = 0; k < frames.size(); ++k) frames[k].wind = winds[k];
+  return frames;
 }
 
 std::string decimal(double x) {
@@ -203,15 +217,13 @@ Result<WindTrack> WindTracker::finish() const {
   around.gust_db = state_->design.first_gust_db;
   const bool blows = find_gusts(seen, around, around.gust_db);
 
+  track.frames = frames_of(seen, around, state_->design);
   const float share = 1 / static_cast<float>(seen.size());
   track.silent = true;
-  for (const auto& one : seen) {
-    WindFrame frame = wind::verdict(one, around, state_->design.power_exponent);
-    frame.index = static_cast<std::int64_t>(track.frames.size());
-    track.blowing_share += frame.confidence > 0.5F ? share : 0.0F;
-    track.clipped_share += frame.clipped * share;
-    track.silent = track.silent && one.loudness_db < kSilentDb;
-    track.frames.push_back(frame);
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    track.blowing_share += track.frames[k].confidence > 0.5F ? share : 0.0F;
+    track.clipped_share += track.frames[k].clipped * share;
+    track.silent = track.silent && seen[k].loudness_db < kSilentDb;
   }
   track.quiet_share = static_cast<float>(means.frames) * share;
   track.calibration = {around.rms, std::sqrt(around.band_power), around.floor_db,

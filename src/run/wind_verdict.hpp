@@ -39,15 +39,7 @@ T power_over(const Observation<T>& seen, T background) {
   return background < seen.band_power ? seen.band_power - background : T(0.0F);
 }
 
-/// How much of the speed is let through as wind.
-template <class T>
-T opening(const Observation<T>& seen, T floor_db) {
-  T open = (seen.likeness - T(0.2F)) * T(1 / 0.6F);
-  if (open < T(0.0F)) open = T(0.0F);
-  if (T(1.0F) < open) open = T(1.0F);
-  return open * audible(seen.loudness_db - floor_db, kPassedDb, 1.0F);
-}
-
+/// All of a frame but its wind.
 template <class T>
 WindFrame verdict(const Observation<T>& seen, const Surroundings<T>& around, float power_exponent) {
   using std::sqrt;
@@ -60,7 +52,6 @@ WindFrame verdict(const Observation<T>& seen, const Surroundings<T>& around, flo
   frame.rms_clean = around.rms < seen.rms ? plain(seen.rms - around.rms) : 0.0F;
   frame.level = plain(T(sqrt(power)));
   frame.speed = plain(speed);
-  frame.wind = plain(speed * opening(seen, around.floor_db));
   frame.confidence = plain(confidence_of(seen, around.floor_db));
   frame.background = plain(around.rms);
   frame.clipped = plain(seen.clipped);

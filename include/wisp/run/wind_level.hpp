@@ -49,10 +49,11 @@ struct WindFrame {
   float rms_clean = 0;     ///< rms less the background's, not below 0
   float level = 0;         ///< RMS of the band 100–900 Hz, its spectrum levelled, less the background in power
   float speed = 0;         ///< proportional to wind speed; 1 is the 95th percentile while it blows
-  float wind = 0;  ///< speed while it sounds like blowing and stands out of the background, else 0: a model's input
-  float confidence = 0;  ///< 0 to 1: this is blowing, not talking
-  float background = 0;  ///< the plain RMS of the background as known at this frame
-  float clipped = 0;     ///< share of samples at full scale, 0 to 1
+  float wind = 0;          ///< a model's input: speed where it sounds like blowing, 0 where nothing is heard, and under
+                           ///< another sound no more than the wind before it (in a recording: and after it)
+  float confidence = 0;    ///< 0 to 1: this is blowing, not talking
+  float background = 0;    ///< the plain RMS of the background as known at this frame
+  float clipped = 0;       ///< share of samples at full scale, 0 to 1
 };
 
 /// What a microphone in a room was found to be: kept, it spares the next start the finding.
