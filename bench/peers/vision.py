@@ -7,7 +7,6 @@
 
 import json
 import os
-import resource
 import statistics
 import subprocess
 import sys
@@ -19,11 +18,14 @@ import cv2
 REPEATS = 5
 
 
-def processor_seconds(command):
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    subprocess.run(command, check=True, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+def run_measured(command):
+    """Processor seconds and largest resident megabytes of one run of a program, by itself."""
+    child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    _, status, usage = os.wait4(child.pid, 0)
+    child.returncode = os.waitstatus_to_exitcode(status)
+    if child.returncode != 0:
+        raise subprocess.CalledProcessError(child.returncode, command)
+    return usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
 
 
 def opencv_ms(clip):
@@ -58,13 +60,12 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         capture = [os.path.join(binaries, "wisp"), "capture", "flame", clip, "-o", os.path.join(folder, "rec.csv")]
         decode = ["ffmpeg", "-threads", "1", "-i", clip, "-f", "null", "-"]
-        pairs = [(processor_seconds(capture), processor_seconds(decode)) for _ in range(REPEATS)]
-    ours_ms = 1e3 * statistics.median(a for a, _ in pairs) / frames
-    theirs_ms = 1e3 * statistics.median(b for _, b in pairs) / frames
-    ratio = statistics.median(a / b for a, b in pairs)
+        pairs = [(run_measured(capture), run_measured(decode)) for _ in range(REPEATS)]
+    ours_ms = 1e3 * statistics.median(a[0] for a, _ in pairs) / frames
+    theirs_ms = 1e3 * statistics.median(b[0] for _, b in pairs) / frames
+    ratio = statistics.median(a[0] / b[0] for a, b in pairs)
     print(f"whole capture, processor time: wisp {ours_ms:.3f} ms a frame, ffmpeg decoding alone {theirs_ms:.3f}, ratio {ratio:.2f}")
-    peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
-    print(f"largest memory of any of these programs: {peak:.0f} MB")
+    print(f"largest memory: wisp {max(a[1] for a, _ in pairs):.0f} MB, ffmpeg {max(b[1] for _, b in pairs):.0f} MB")
 
 
 if __name__ == "__main__":
