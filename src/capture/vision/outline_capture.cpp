@@ -166,12 +166,10 @@ OutlineCapture::Stage::Samples OutlineCapture::Stage::choose_channel(std::span<c
                                                                      std::span<const Picture> pictures) {
   constexpr int kTrialPoints = 8;
   const Region area = options_.region.empty() ? pictures.front().frame() : options_.region;
-  Samples best_samples;
   double best = -1;
   for (const Survey& survey : surveys) {
     const BaseSide base = options_.base.value_or(base_side(survey, area));
-    const OutlineSeeker seeker(survey, area, base, options_.dark);
-    Samples samples = take_samples(seeker, base, pictures);
+    Samples samples = take_samples(OutlineSeeker(survey, area, base, options_.dark), base, pictures);
     double score = 0;
     if (surveys.size() > 1 && !samples.above.empty()) {
       const double overlap = 1 - fit_pace(samples.above, uniform_knots(kTrialPoints)).misfit;
@@ -179,12 +177,12 @@ OutlineCapture::Stage::Samples OutlineCapture::Stage::choose_channel(std::span<c
     }
     if (score <= best) continue;
     best = score;
-    best_samples = std::move(samples);
     survey_ = survey;
-    seeker_ = seeker;
     cloud_options_.base = base;
   }
-  return best_samples;
+  survey_->level = survey_->steepest_level;
+  seeker_.emplace(*survey_, area, cloud_options_.base, options_.dark);
+  return take_samples(*seeker_, cloud_options_.base, pictures);
 }
 
 // The edge points of a few of the pictures and of the glimpses, without and with the underside.

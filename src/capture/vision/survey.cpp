@@ -133,6 +133,15 @@ Region to_pixels(const Grid& grid, const Region& box, const Region& area) {
   return intersection(grown(out, grid.step), area);
 }
 
+// Of the thing and what is just around it.
+Histogram histogram_around(const Grid& grid, std::span<const std::size_t> lit, const Region& box) {
+  const Region around =
+      intersection(grown(box, std::max(box.width, box.height) / 4 + 1), {0, 0, grid.width, grid.height});
+  Histogram histogram{};
+  for (const std::size_t k : lit) add_to_histogram(histogram, crop(view(grid, grid.pictures[k]), around), 1);
+  return histogram;
+}
+
 // The thing's box in each lit picture: the largest region where its home is.
 std::vector<Region> sightings(const Grid& grid, std::span<const std::size_t> lit, const Survey& survey,
                               const Region& area) {
@@ -158,7 +167,6 @@ std::optional<Survey> judge(const Grid& grid, PixelChannel channel, const Region
   const TwoClusters clusters = split_histogram(out.histogram);
   const double contrast = clusters.bright_mean - clusters.dark_mean;
   if (contrast < kLeastContrast) return std::nullopt;
-  out.level = clusters.threshold;
   out.separation = clusters.separation;
   const Extent range = extent(grid, lit);
   std::vector<std::uint8_t> moving(grid.size());
@@ -178,6 +186,8 @@ std::optional<Survey> judge(const Grid& grid, PixelChannel channel, const Region
     best = b;
   }
   if (thing == nullptr) return std::nullopt;
+  out.level = clusters.threshold;
+  out.steepest_level = steepest_level(histogram_around(grid, lit, thing->box), clusters);
   out.home = to_pixels(grid, thing->box, area);
   out.moves = best.motion > 0;
   std::erase(out.still, out.home);

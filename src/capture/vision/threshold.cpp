@@ -1,6 +1,8 @@
 #include "wisp/capture/vision/threshold.hpp"
 
+#include <algorithm>
 #include <cassert>
+#include <cstdlib>
 
 namespace wisp {
 
@@ -42,6 +44,29 @@ TwoClusters split_histogram(const Histogram& histogram) {
     if (between <= best_between) continue;
     best_between = between;
     best = {v, between / variance, dark_mean, bright_mean, bright_count / count};
+  }
+  return best;
+}
+
+int steepest_level(const Histogram& histogram, const TwoClusters& clusters) {
+  constexpr int kBlur = 8;          // levels on either side: single levels are noisy
+  constexpr double kReach = 0.4;    // of the way to the clusters' means
+  constexpr double kAsSteep = 1.1;  // as steep as the steepest, within the noise of counting: the nearest one is taken
+  const int otsu = clusters.threshold;
+  const int first = static_cast<int>(otsu - kReach * (otsu - clusters.dark_mean));
+  const int last = static_cast<int>(otsu + kReach * (clusters.bright_mean - otsu));
+  const auto count_near = [&](int level) {
+    std::uint64_t count = 0;
+    for (int v = std::max(level - kBlur, 0); v <= std::min(level + kBlur, 255); ++v) count += histogram[v];
+    return static_cast<double>(count);
+  };
+  double least = count_near(otsu);
+  for (int level = first; level <= last; ++level) least = std::min(least, count_near(level));
+  int best = otsu;
+  for (int level = first, distance = 256; level <= last; ++level) {
+    if (count_near(level) > kAsSteep * least || std::abs(level - otsu) >= distance) continue;
+    best = level;
+    distance = std::abs(level - otsu);
   }
   return best;
 }

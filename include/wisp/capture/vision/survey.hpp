@@ -27,6 +27,7 @@ struct SurveyOptions {
 struct Survey {
   PixelChannel channel = PixelChannel::kLuma;
   int level = 0;              ///< a pixel belongs to the thing when its value (inverted for dark things) is above this
+  int steepest_level = 0;     ///< a level nearby at which the thing's rim is steepest
   double separation = 0;      ///< of the two clusters, 0 to 1
   Histogram histogram{};      ///< of the channel as stored (inverted for dark things), over the pictures that count
   Region home;                ///< around all places where the thing was seen
