@@ -73,6 +73,20 @@ std::vector<std::uint8_t> calm_rows(const Recording& recording, std::span<const 
   return calm;
 }
 
+std::vector<std::uint8_t> resting_rows(const Recording& recording, std::span<const OutlineInput> inputs) {
+  std::vector<std::uint8_t> rows = calm_rows(recording, inputs);
+  if (inputs.empty()) return rows;
+  const auto settle = static_cast<std::size_t>(std::ceil(kSettleSeconds * recording.rate_hz));
+  for (const Episode& episode : episodes(recording)) {
+    std::size_t calm = 0;
+    for (std::size_t row = episode.begin; row < episode.end; ++row) {
+      calm = rows[row] != 0 ? calm + 1 : 0;
+      rows[row] = calm > settle ? 1 : 0;
+    }
+  }
+  return rows;
+}
+
 std::vector<std::string> regressor_names(std::span<const OutlineInput> inputs, bool split_sign) {
   std::vector<std::string> names;
   for (const OutlineInput& input : inputs) {
@@ -103,16 +117,16 @@ Recording with_regressors(const Recording& recording, std::span<const OutlineInp
 }
 
 std::vector<double> mean_shape(const Recording& recording, const OutlineLayout& layout,
-                               std::span<const std::uint8_t> rows, std::size_t least) {
+                               std::span<const std::uint8_t> rows) {
   std::vector<double> sum(layout.outputs.size(), 0.0);
   std::size_t count = 0;
-  for (std::size_t row = 0; row < recording.rows(); ++row) {
+  for (std::size_t row = 0; row < rows.size(); ++row) {
     const auto missing = [&](std::size_t c) { return std::isnan(recording.channels[c].samples[row]); };
     if (rows[row] == 0 || std::any_of(layout.outputs.begin(), layout.outputs.end(), missing)) continue;
     for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += recording.channels[layout.outputs[k]].samples[row];
     ++count;
   }
-  if (count == 0 || count < least) return {};
+  if (count == 0) return {};
   for (double& value : sum) value /= static_cast<double>(count);
   return sum;
 }

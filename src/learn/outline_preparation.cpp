@@ -26,12 +26,13 @@ std::vector<std::string> input_names(const Recording& recording) {
   return names;
 }
 
-// Rows of calm; all of them where there is not enough calm to tell.
-std::vector<std::uint8_t> resting_rows(const Recording& recording, std::span<const OutlineInput> inputs) {
-  auto calm = calm_rows(recording, inputs);
-  const auto count = static_cast<double>(std::count(calm.begin(), calm.end(), std::uint8_t{1}));
-  if (count < kCalmSeconds * recording.rate_hz) std::fill(calm.begin(), calm.end(), std::uint8_t{1});
-  return calm;
+// Rows of rest; of calm where there is not enough rest to tell, and none where there is not enough calm either.
+std::vector<std::uint8_t> undisturbed_rows(const Recording& recording, std::span<const OutlineInput> inputs) {
+  for (auto rows : {resting_rows(recording, inputs), calm_rows(recording, inputs)}) {
+    const auto count = static_cast<double>(std::count(rows.begin(), rows.end(), std::uint8_t{1}));
+    if (count >= kCalmSeconds * recording.rate_hz) return rows;
+  }
+  return {};
 }
 
 ChannelChoice channel_choice(const PreparedOutlines& prepared) {
@@ -65,13 +66,13 @@ Result<void> add(const Recording& recording, double pixels_per_unit, PreparedOut
                                 "those, " + text(other.rms) + " pixels away on average");
     return add(other.recording, pixels_per_unit, prepared);
   }
-  const double own = mean_height_pixels(recording, *layout, resting_rows(recording, prepared.inputs));
+  const auto undisturbed = undisturbed_rows(recording, prepared.inputs);
+  const double own = mean_height_pixels(recording, *layout, undisturbed);
   if (!(own > 0)) return Error{recording.source + ": has no row with an outline"};
   const double scale = pixels_per_unit > 0 ? pixels_per_unit : own;
   prepared.pixels_per_unit.push_back(scale);
   Recording units = outputs_first(to_model_units(recording, *layout, scale), *layout);
-  const auto least = static_cast<std::size_t>(kCalmSeconds * recording.rate_hz);
-  prepared.rest.push_back(mean_shape(units, prepared.layout, calm_rows(recording, prepared.inputs), least));
+  prepared.rest.push_back(mean_shape(units, prepared.layout, undisturbed));
   prepared.recordings.push_back(with_regressors(std::move(units), prepared.inputs, prepared.split_sign));
   return {};
 }

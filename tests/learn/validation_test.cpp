@@ -11,6 +11,7 @@
 #include "wisp/learn/outline_inputs.hpp"
 #include "wisp/learn/outline_knots.hpp"
 #include "wisp/learn/outline_shape.hpp"
+#include "wisp/learn/outline_synthesis.hpp"
 #include "wisp/model/bspline.hpp"
 
 namespace wisp {
@@ -71,14 +72,35 @@ TEST(Validation, AStaticGainDoesLessThanTheDynamics) {
   EXPECT_LT(out.static_gain->fit_percent, out.figures.tip_fit_percent.back());
 }
 
+// The shape that the model settles to without wind and noise.
+std::vector<double> shape_at_rest(const Model& model) {
+  const auto play = synthesize(model, {.rows = 1, .noise = 0});
+  EXPECT_TRUE(play);
+  std::vector<double> rest;
+  for (const Channel& channel : play->recording.channels) rest.push_back(channel.samples.front());
+  return rest;
+}
+
+// Mirrored about the shape at rest, as learning does it: what chance made askew there stays askew.
 TEST(Validation, WindFromTheOtherSideIsAnsweredByTheMirrorImage) {
+  constexpr double kUnit = 200;
   const Recording right = unseen(kWindy);
-  const OutlineLayout layout = *outline_layout(right);
-  Recording left = mirrored(right, layout, {});
-  for (double& wind : left.channels[*find_channel(left, "wind")].samples) wind = -wind;
-  const double of_right = validated(windy_model(), right, {.fidelity = false}).figures.tip_fit_percent.back();
-  const double of_left = validated(windy_model(), left, {.fidelity = false}).figures.tip_fit_percent.back();
-  EXPECT_NEAR(of_left, of_right, 0.1);
+  const Recording units = to_model_units(right, *outline_layout(right), kUnit);
+  const auto left = to_pixels(mirrored(units, *outline_layout(units), {}, shape_at_rest(windy_model())));
+  ASSERT_TRUE(left);
+  Recording from_left = *left;
+  for (double& wind : from_left.channels[*find_channel(from_left, "wind")].samples) wind = -wind;
+  const OutlineValidationOptions options{.pixels_per_unit = kUnit, .fidelity = false};
+  const OutlineFigures of_right = validated(windy_model(), right, options).figures;
+  const OutlineFigures of_left = validated(windy_model(), from_left, options).figures;
+  // Not the tip, which is not linear in the control points: about a shape that chance made a little askew, its mirror
+  // image is not the mirror image's tip. The shape at rest is known in single precision.
+  for (std::size_t p = 0; p < 6; ++p) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      const OutlineChannelFigures& one = of_right.channels[2 * p + k];
+      EXPECT_NEAR(of_left.channels[2 * (5 - p) + k].fit_percent.back(), one.fit_percent.back(), 1e-2) << one.name;
+    }
+  }
 }
 
 TEST(Validation, TheOrderOfColumnsDoesNotMatter) {

@@ -36,6 +36,14 @@ Result<OutlineInput> scaled_input(std::span<const Recording> recordings, const s
 /// One byte a row: 1 where every input is calm (all rows where there are no inputs).
 std::vector<std::uint8_t> calm_rows(const Recording& recording, std::span<const OutlineInput> inputs);
 
+/// How long it must have been calm before what moved by wind counts as being at rest: a flame has come back after a
+/// quarter of a second, larger things later; what is left of their lean would pass for their shape at rest.
+inline constexpr double kSettleSeconds = 0.5;
+
+/// One byte a row: 1 where every input has been calm for kSettleSeconds within its episode (all rows where there are no
+/// inputs).
+std::vector<std::uint8_t> resting_rows(const Recording& recording, std::span<const OutlineInput> inputs);
+
 /// Names of the regressors that inputs make: NAME, or NAME+ and NAME- where sign is split.
 std::vector<std::string> regressor_names(std::span<const OutlineInput> inputs, bool split_sign);
 
@@ -45,10 +53,11 @@ std::vector<std::string> regressor_names(std::span<const OutlineInput> inputs, b
 /// Precondition: the recording has the inputs.
 Recording with_regressors(const Recording& recording, std::span<const OutlineInput> inputs, bool split_sign);
 
-/// The mean of every output over the chosen rows that are complete, in the layout's order; empty where there are fewer
-/// than `least` of them.
+/// The mean of every output over the chosen rows that are complete, in the layout's order; empty where there is none.
+///
+/// Precondition: `rows` is empty or has one entry a row.
 std::vector<double> mean_shape(const Recording& recording, const OutlineLayout& layout,
-                               std::span<const std::uint8_t> rows, std::size_t least);
+                               std::span<const std::uint8_t> rows);
 
 /// The mirror image of a recording in model units with split regressors: x negated, control points in reverse order
 /// (the base's left is the base's right then), NAME+ and NAME- exchanged. With a shape at rest it is the deviations
