@@ -21,6 +21,7 @@ Result<CandleClipOptions> options_from(const Arguments& arguments) {
   options.camera.candle_visible = arguments.on("candle");
   options.wind.both_sides = arguments.on("both-sides");
   if (arguments.has("blow-out")) options.wind.blow_out_at = arguments.number("blow-out");
+  options.wind.puff_every = arguments.number("puffs");
   const std::string& wind = arguments.text("wind");
   if (wind == "calm") {
     options.wind.kind = WindKind::kCalm;
@@ -68,6 +69,8 @@ Command simulate_candle_command() {
           {"wind", Kind::kText, "W", "gusts", "gusts, calm, or a recording whose input is the wind in m/s"},
           {"both-sides", Kind::kSwitch, "", "", "gusts from the right as well"},
           {"blow-out", Kind::kNumber, "T", "", "blow the flame out after T seconds, and light it again"},
+          {"puffs", Kind::kNumber, "S", "0",
+           "every S seconds a puff of 1.2 to 4 m/s that may blow the flame out, which is lit again where it did"},
           {"candle", Kind::kSwitch, "", "", "expose so that wax and wick show"},
           {"seed", Kind::kInteger, "N", "1", "of all chance"},
       },

@@ -72,6 +72,9 @@ Result<void> check(const Model& model) {
   if (auto ok = std::visit([&](const auto& dynamics) { return check_dynamics(model, dynamics); }, model.dynamics); !ok)
     return ok;
   if (auto ok = std::visit([&](const auto& view) { return check_view(model, view); }, model.view); !ok) return ok;
+  if (model.extinction) {
+    if (auto ok = check(*model.extinction, model.inputs.size()); !ok) return ok;
+  }
   for (const Figure& figure : model.provenance.figures) {
     if (!std::isfinite(figure.value)) return Error{"the figure " + figure.name + " is not a finite number"};
   }

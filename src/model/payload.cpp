@@ -67,6 +67,12 @@ fb::Offset<file::Provenance> write_provenance(Builder& builder, const Provenance
   return file::CreateProvenance(builder, program, sources, options_at, figures_at, made.usable.verdict, reason);
 }
 
+fb::Offset<file::Extinction> write_extinction(Builder& builder, const std::optional<Extinction>& rule) {
+  if (!rule) return 0;
+  return file::CreateExtinction(builder, static_cast<std::uint32_t>(rule->input), rule->level, rule->seconds,
+                                rule->haste, rule->recovery, rule->dying, rule->catching);
+}
+
 std::string text(const fb::String* string) { return string ? string->str() : std::string(); }
 
 // The verifier bounds a vector but does not align its elements beyond 4 bytes, so doubles are copied out as bytes.
@@ -199,6 +205,13 @@ Result<void> read_view(const file::Model& stored, Model& model) {
   return {};
 }
 
+std::optional<Extinction> read_extinction(const file::Model& stored) {
+  const auto* rule = stored.extinction();
+  if (!rule) return {};
+  return Extinction{rule->input(),    rule->level(), rule->seconds(), rule->haste(),
+                    rule->recovery(), rule->dying(), rule->catching()};
+}
+
 }  // namespace
 
 std::vector<std::byte> write_payload(const Model& model) {
@@ -223,11 +236,12 @@ std::vector<std::byte> write_payload(const Model& model) {
     view_type = file::View::Outline;
   }
   const auto provenance = write_provenance(builder, model.provenance);
+  const auto extinction = write_extinction(builder, model.extinction);
   const auto name = builder.CreateString(model.name);
   const auto inputs_at = builder.CreateVector(inputs);
   const auto outputs_at = builder.CreateVector(outputs);
   builder.Finish(file::CreateModel(builder, name, model.rate_hz, inputs_at, outputs_at, file::Dynamics::Arx,
-                                   arx.Union(), view_type, view, provenance));
+                                   arx.Union(), view_type, view, provenance, extinction));
   const auto bytes = std::as_bytes(std::span(builder.GetBufferPointer(), builder.GetSize()));
   return {bytes.begin(), bytes.end()};
 }
@@ -247,6 +261,7 @@ Result<Model> read_payload(std::span<const std::byte> payload) {
   if (auto ok = read_dynamics(stored, model); !ok) return ok.error();
   if (auto ok = read_view(stored, model); !ok) return ok.error();
   if (stored.provenance()) model.provenance = read_provenance(*stored.provenance());
+  model.extinction = read_extinction(stored);
   return model;
 }
 

@@ -72,7 +72,8 @@ class Scene {
     const double rate = rig_.options().rate_hz;
     const double begin = static_cast<double>(frame_) / rate;
     const double end = static_cast<double>(++frame_) / rate;
-    if (wind_.relight_at() >= begin && wind_.relight_at() < end) rig_.light();
+    const auto due = [&](double at) { return at >= begin && at < end; };
+    if (std::any_of(wind_.relights().begin(), wind_.relights().end(), due) && !rig_.state().lit) rig_.light();
     Shot shot;
     shot.wind = wind_.at(end);
     rig_.step_frame(shot.wind);

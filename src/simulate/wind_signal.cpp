@@ -20,6 +20,11 @@ constexpr double kBlowOutSeconds = 0.3;
 constexpr double kBlowOutRamp = 0.03;  // s
 constexpr double kQuietBefore = 0.5;   // s of calm before a blow-out, so that it is the puff that kills
 constexpr double kQuietAfter = 1.0;    // s of calm after lighting, so that the flame lives
+constexpr double kWeakestPuff = 1.2;   // m/s: a candle lives through it
+constexpr double kStrongestPuff = 4;
+constexpr double kShortestPuff = 0.05;  // s
+constexpr double kLongestPuff = 0.6;
+constexpr double kClosestPuffs = 2;  // s
 
 Result<void> check(const WindSignalOptions& o, double seconds) {
   return flow::check_ranges("wind", {
@@ -29,6 +34,7 @@ Result<void> check(const WindSignalOptions& o, double seconds) {
                                         {"gust", o.gust, 0, 10},
                                         {"rest_share", o.rest_share, 0, 0.9},
                                         {"blow_out_at", o.blow_out_at, -kLongest, kLongest},
+                                        {"puff_every", o.puff_every, 0, kLongest},
                                         {"relight_after", o.relight_after, -kLongest, kLongest},
                                         {"seconds", seconds, 0, kLongest},
                                     });
@@ -77,13 +83,33 @@ std::vector<double> gusts(const WindSignalOptions& o, std::size_t count) {
   return wind;
 }
 
-void blow_out(const WindSignalOptions& o, std::vector<double>& wind) {
-  const double quiet_until = o.relight_after < 0 ? 1e9 : o.blow_out_at + o.relight_after + kQuietAfter;
+// A puff with calm around it, until some time after the candle is lit again.
+struct Puff {
+  double at = 0;
+  double speed = kBlowOutSpeed;
+  double seconds = kBlowOutSeconds;
+};
+
+void add_puff(const Puff& puff, double relight_after, std::vector<double>& wind) {
+  const double quiet_until = relight_after < 0 ? 1e9 : relight_after + kQuietAfter;
   for (std::size_t k = 0; k < wind.size(); ++k) {
-    const double t = static_cast<double>(k) / kRate - o.blow_out_at;
-    if (t > -kQuietBefore && t + o.blow_out_at < quiet_until)
-      wind[k] = kBlowOutSpeed * plateau(t, kBlowOutSeconds + 2 * kBlowOutRamp, kBlowOutRamp, kBlowOutRamp);
+    const double t = static_cast<double>(k) / kRate - puff.at;
+    if (t > -kQuietBefore && t < quiet_until)
+      wind[k] = puff.speed * plateau(t, puff.seconds + 2 * kBlowOutRamp, kBlowOutRamp, kBlowOutRamp);
   }
+}
+
+std::vector<Puff> puffs(const WindSignalOptions& o, double seconds) {
+  std::vector<Puff> all;
+  if (o.blow_out_at >= 0) all.push_back({o.blow_out_at});
+  if (o.puff_every == 0) return all;
+  flow::RandomNumbers random(o.seed, 3);
+  for (double at = o.puff_every; at < seconds; at += o.puff_every) {
+    const double speed = random.uniform(kWeakestPuff, kStrongestPuff);
+    const double length = kShortestPuff * std::pow(kLongestPuff / kShortestPuff, random.uniform());
+    all.push_back({at, speed, length});
+  }
+  return all;
 }
 
 Result<const Channel*> wind_channel(const Recording& recording, const std::string& name) {
@@ -122,14 +148,17 @@ bool fill_missing(std::vector<double>& samples) {
 
 Result<WindSignal> WindSignal::generate(const WindSignalOptions& options, double seconds) {
   if (auto good = check(options, seconds); !good) return good.error();
+  if (options.puff_every > 0 && options.puff_every < kClosestPuffs)
+    return Error{"wind: puff_every is " + std::to_string(options.puff_every) + ", expected 0, or 2 s and more"};
   WindSignal signal;
   signal.rate_hz_ = kRate;
   const auto count = static_cast<std::size_t>(std::ceil(seconds * kRate)) + 1;
   signal.samples_ = options.kind == WindKind::kCalm ? std::vector<double>(count, 0.0) : gusts(options, count);
-  if (options.blow_out_at >= 0) {
-    blow_out(options, signal.samples_);
-    if (options.relight_after >= 0) signal.relight_at_ = options.blow_out_at + options.relight_after;
+  for (const Puff& puff : puffs(options, seconds)) {
+    add_puff(puff, options.relight_after, signal.samples_);
+    if (options.relight_after >= 0) signal.relights_.push_back(puff.at + options.relight_after);
   }
+  std::sort(signal.relights_.begin(), signal.relights_.end());
   return signal;
 }
 

@@ -16,6 +16,14 @@ namespace {
 using testing::HasSubstr;
 
 const std::string kGolden = WISP_SOURCE_DIR "/tests/model/golden/v1.wisp";
+const std::string kGoldenExtinction = WISP_SOURCE_DIR "/tests/model/golden/v1-extinction.wisp";
+
+// The sample with a rule of extinction of which no number is a default.
+Model mortal_model() {
+  Model model = sample_model();
+  model.extinction = Extinction{0, 1.75, 0.25, 1.5, 0.375, 0.125, 0.5};
+  return model;
+}
 
 std::vector<std::byte> sample_bytes() { return std::move(model_bytes(sample_model())).value(); }
 
@@ -38,6 +46,7 @@ void expect_same(const Model& a, const Model& b) {
   EXPECT_EQ(a.provenance.usable.verdict, b.provenance.usable.verdict);
   EXPECT_EQ(a.provenance.figures.at(0).value, b.provenance.figures.at(0).value);
   EXPECT_EQ(a.provenance.options.at(0).value, b.provenance.options.at(0).value);
+  EXPECT_EQ(a.extinction, b.extinction);
 }
 
 TEST(ModelFile, WhatIsWrittenIsRead) {
@@ -54,6 +63,23 @@ TEST(ModelFile, TheGoldenFileOfVersion1StillMeansTheSame) {
   const auto read = read_model(kGolden);
   ASSERT_TRUE(read) << read.error().message;
   expect_same(*read, sample_model());
+}
+
+TEST(ModelFile, ARuleOfExtinctionIsReadAsItWasWritten) {
+  const auto read = parse_model(*model_bytes(mortal_model()), "mortal.wisp");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->extinction, mortal_model().extinction);
+  EXPECT_FALSE(parse_model(sample_bytes(), "sample.wisp")->extinction);
+}
+
+// Files from before there was a rule load above; this one was written when it came.
+TEST(ModelFile, TheGoldenFileWithARuleOfExtinctionStillMeansTheSame) {
+  if (std::getenv("WISP_WRITE_GOLDEN")) {
+    ASSERT_TRUE(write_model(kGoldenExtinction, mortal_model()));
+  }
+  const auto read = read_model(kGoldenExtinction);
+  ASSERT_TRUE(read) << read.error().message;
+  expect_same(*read, mortal_model());
 }
 
 TEST(ModelFile, EverySingleBitFlipIsAnError) {
@@ -77,7 +103,7 @@ TEST(ModelFile, EveryTruncationIsAnError) {
 // With the hash mended, damage reaches the FlatBuffer's verifier and the checks of meaning: none may crash, and what
 // still loads must be a valid model.
 TEST(ModelFile, DamageBehindAGoodHashNeverGivesAnInvalidModel) {
-  const std::vector<std::byte> good = sample_bytes();
+  const std::vector<std::byte> good = *model_bytes(mortal_model());
   const auto fnv = [](std::span<const std::byte> payload) {
     std::uint64_t hash = 0xcbf29ce484222325u;
     for (std::byte byte : payload) hash = (hash ^ std::to_integer<std::uint64_t>(byte)) * 0x100000001b3u;
@@ -133,9 +159,17 @@ TEST(ModelFile, AModelWithoutMeaningIsNeitherWrittenNorRead) {
          m.view = OutlineView{uniform_knots(5), 0, 0};
        }},
       {"figure", [](Model& m) { m.provenance.figures[0].value = INFINITY; }},
+      {"listens to input 1", [](Model& m) { m.extinction->input = 1; }},
+      {"level", [](Model& m) { m.extinction->level = 0; }},
+      {"level", [](Model& m) { m.extinction->level = NAN; }},
+      {"seconds", [](Model& m) { m.extinction->seconds = -1; }},
+      {"haste", [](Model& m) { m.extinction->haste = INFINITY; }},
+      {"recovery", [](Model& m) { m.extinction->recovery = 0; }},
+      {"dying", [](Model& m) { m.extinction->dying = -0.1; }},
+      {"catching", [](Model& m) { m.extinction->catching = 1e9; }},
   };
   for (const auto& [word, harm] : broken) {
-    Model model = sample_model();
+    Model model = mortal_model();
     harm(model);
     const auto outcome = model_bytes(model);
     ASSERT_FALSE(outcome) << word;

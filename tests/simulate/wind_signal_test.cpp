@@ -64,8 +64,29 @@ TEST(WindSignal, BlowsOutWhenAskedAndSaysWhenToLightAgain) {
   EXPECT_EQ(wind.at(3.8), 0);
   EXPECT_NEAR(wind.at(4.15), 3, 1e-9);
   EXPECT_EQ(wind.at(5), 0);
-  EXPECT_DOUBLE_EQ(wind.relight_at(), 5.5);
-  EXPECT_LT(WindSignal::generate({.blow_out_at = 4, .relight_after = -1}, 10)->relight_at(), 0);
+  EXPECT_EQ(wind.relights(), std::vector<double>{5.5});
+  EXPECT_TRUE(WindSignal::generate({.blow_out_at = 4, .relight_after = -1}, 10)->relights().empty());
+}
+
+TEST(WindSignal, PuffsVaryAndTheCandleIsLitAgainAfterEach) {
+  const WindSignal wind = *WindSignal::generate({.puff_every = 5, .relight_after = 1.5}, 22);
+  EXPECT_EQ(wind.relights(), (std::vector<double>{6.5, 11.5, 16.5, 21.5}));
+  std::vector<double> peaks;
+  for (double at : {5.0, 10.0, 15.0, 20.0}) {
+    EXPECT_EQ(wind.at(at - 0.2), 0);
+    EXPECT_EQ(wind.at(at + 1.6), 0);
+    double peak = 0;
+    for (double t = at; t < at + 0.7; t += 0.005) peak = std::max(peak, wind.at(t));
+    EXPECT_GE(peak, 1.1);
+    EXPECT_LE(peak, 4.0);
+    peaks.push_back(peak);
+  }
+  EXPECT_GT(*std::max_element(peaks.begin(), peaks.end()) - *std::min_element(peaks.begin(), peaks.end()), 0.5);
+}
+
+TEST(WindSignal, PuffsThatFollowTooCloselyAreRefused) {
+  EXPECT_FALSE(WindSignal::generate({.puff_every = 1}, 10));
+  EXPECT_FALSE(WindSignal::generate({.puff_every = -1}, 10));
 }
 
 TEST(WindSignal, TakesARecordingsChannelAndBridgesItsGaps) {

@@ -1,16 +1,18 @@
 #pragma once
 // What a model is: plain values, as learned, as stored, as played.
 //
-// A model is dynamics, a view that says what the outputs mean, and an account of how it was made. Every number is in
-// the model's own units; design notes are in docs/architecture.md.
+// A model is dynamics, a view that says what the outputs mean, sometimes a rule of extinction, and an account of how it
+// was made. Every number is in the model's own units; design notes are in docs/architecture.md.
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "wisp/model/arx.hpp"
+#include "wisp/model/extinction.hpp"
 
 namespace wisp {
 
@@ -88,6 +90,7 @@ struct Model {
   Dynamics dynamics;
   View view;
   Provenance provenance;
+  std::optional<Extinction> extinction;  ///< none: it never goes out
 };
 
 /// Number of regressors that the inputs make: the number of inputs that the dynamics see.

@@ -26,7 +26,9 @@ struct WindSignalOptions {
   double rest_share = 0.25;  ///< of the time that is calm, 0 … 0.9
   bool both_sides = false;   ///< gusts from the right as well (negative); a microphone hears only strength
   double blow_out_at = -1;   ///< seconds: a puff of 3 m/s for 0.3 s that kills the flame; negative: none
-  double relight_after = 2;  ///< seconds from the blow-out until the candle is lit again; negative: never
+  double puff_every = 0;     ///< seconds between puffs of 1.2 to 4 m/s that last 0.05 to 0.6 s, of which some kill and
+                             ///< some do not: what blowing out is learned from; 0: none, else 2 … 86400
+  double relight_after = 2;  ///< seconds from a blow-out or a puff until the candle is lit again; negative: never
   std::uint64_t seed = 1;
 };
 
@@ -48,12 +50,12 @@ class WindSignal {
   double rate_hz() const { return rate_hz_; }
   const std::vector<double>& samples() const { return samples_; }
 
-  /// When the candle is lit again, in seconds; negative: never.
-  double relight_at() const { return relight_at_; }
+  /// When the candle is lit again if it is out then: ascending, in seconds.
+  const std::vector<double>& relights() const { return relights_; }
 
  private:
   double rate_hz_ = 0;
-  double relight_at_ = -1;
+  std::vector<double> relights_;
   std::vector<double> samples_;
 };
 
