@@ -149,8 +149,10 @@ int run_command(const Wired& wired) {
   Terminal terminal({wired.switches.at("json"), wired.switches.at("quiet")});
   const auto outcome = wired.command->run(arguments_of(wired), terminal);
   if (!outcome) {
-    terminal.fail(outcome.error().message);
-    return kBadData;
+    const std::string& message = outcome.error().message;
+    terminal.fail(message);
+    // What a command finds wrong with a flag's value, which its kind could not tell, begins with the flag.
+    return message.starts_with("--") ? kWrongUsage : kBadData;
   }
   terminal.finish();
   return kDone;

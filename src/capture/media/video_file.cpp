@@ -191,7 +191,9 @@ std::vector<std::string> VideoFile::warnings() const {
   std::vector<std::string> out;
   const std::string name = path_.string();
   const bool to_the_end = !options_.frames || last_index_ + 1 < options_.frames->last;
-  if (broken_ > 0) out.push_back(name + ": " + std::to_string(broken_) + " broken frames were left out");
+  if (broken_ > 0)
+    out.push_back(name + ": " + std::to_string(broken_) +
+                  (broken_ == 1 ? " broken frame was left out" : " broken frames were left out"));
   // A duration is not exact to the frame; a count is.
   const bool counted = format_->streams[track_]->nb_frames > 0;
   const std::int64_t least = counted ? info_.frames : info_.frames - info_.frames / 20 - 2;
