@@ -81,6 +81,7 @@ Model model_of(const ArxFit& fit, const ChannelChoice& channels, const Sources& 
     const bool of_parts = arguments.on("merge") && std::string_view(flag) != "offset";  // the parts have their own
     if (arguments.has(flag) && !of_parts) model.provenance.options.push_back({flag, arguments.text(flag)});
   }
+  if (fit.summary.stable.changed) model.provenance.options.push_back({"radius", arguments.text("radius")});
   model.provenance.figures = {{"fpe", fit.summary.fpe},
                               {"samples_used", static_cast<double>(fit.summary.samples_used)}};
   model.provenance.usable = fit.summary.usable;
@@ -181,6 +182,8 @@ ArxOptions fit_options(const Arguments& arguments) {
   options.offset = offset_of(arguments);
   options.ridge = arguments.number("ridge");
   options.covariance = arguments.has("figures");  // for the bands
+  options.stabilise = !arguments.on("keep-unstable");
+  options.stability_margin = 1 - arguments.number("radius");
   return options;
 }
 
@@ -254,6 +257,9 @@ Result<Learned> learn(const Arguments& arguments, Terminal& terminal) {
 
 Result<void> run(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
+  if (const double radius = arguments.number("radius"); !(radius > 0 && radius < 1)) {
+    return Error{"--radius is " + arguments.text("radius") + ", expected a number between 0 and 1"};
+  }
   if (arguments.has("partial")) return write_part(arguments, terminal);
   const auto learned = learn(arguments, terminal);
   if (!learned) return learned.error();
@@ -262,12 +268,17 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   report(fit, learned->channels, terminal);
   if (learned->tests) report_tests(*learned->tests, learned->channels, terminal);
   say_poles(fit.model, learned->sources.rate_hz, terminal);
-  const Model model = model_of(fit, learned->channels, learned->sources, arguments);
-  if (auto ok = write_model(arguments.text("output"), model); !ok) return ok;
+  const bool playable = fit.summary.stable.radius < 1;
+  if (playable) {
+    const Model model = model_of(fit, learned->channels, learned->sources, arguments);
+    if (auto ok = write_model(arguments.text("output"), model); !ok) return ok;
+  } else {
+    terminal.warn(arguments.text("output") + " was not written: an unstable model cannot be played");
+  }
   if (arguments.has("figures")) {
     if (auto ok = draw(*learned, arguments.text("figures")); !ok) return ok;
   }
-  terminal.result()["output"] = arguments.text("output");
+  terminal.result()["output"] = playable ? Json(arguments.text("output")) : Json(nullptr);
   terminal.result()["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return {};
 }
@@ -294,6 +305,10 @@ std::vector<Flag> flags() {
        "the operating point: mean removes means, none, estimate adds a constant term",
        {"mean", "none", "estimate"}},
       {"ridge", Kind::kNumber, "R", "0", "weight of the coefficients' size, as a share of each regressor's energy"},
+      {"radius", Kind::kNumber, "R", "0.999",
+       "an unstable estimate is brought within this spectral radius, between 0 and 1, with the least loss of fit; a "
+       "smaller one may simulate better"},
+      {"keep-unstable", Kind::kSwitch, "", "", "leave an unstable estimate as it is, to compare; it cannot be played"},
       {"common-start", Kind::kSwitch, "", "",
        "judge all candidates of --search on the same rows, those that the longest one can predict"},
   };

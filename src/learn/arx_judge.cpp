@@ -44,6 +44,11 @@ void warn_of_free_run(const std::vector<std::string>& outputs, ArxSummary& summa
                                "; judge this model by simulation, and try other orders or delays");
     failing += (failing.empty() ? "'" : ", '") + outputs[i] + "'";
   }
+  if (!failing.empty() && summary.stable.changed) {
+    summary.warnings.push_back(
+        "a repair with the least loss one step ahead leaves poles at the edge of stability; one that draws them "
+        "farther in (a smaller radius) may simulate better");
+  }
   if (!failing.empty() && summary.usable.verdict) {
     summary.usable.reason += "; for prediction only, since free simulation of " + failing + " fails";
   }

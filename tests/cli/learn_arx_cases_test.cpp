@@ -207,6 +207,51 @@ TEST_F(LearnArxCases, ValidationSaysHowOftenTheModelsOwnIntervalsHold) {
   }
 }
 
+// A random walk with a push, over which least squares finds a pole outside the unit circle.
+Recording growing() {
+  std::mt19937_64 generator(9);
+  std::normal_distribution<double> normal;
+  Recording recording{.rate_hz = 10,
+                      .channels = {{"push", "", Role::kInput, std::vector<double>(200)},
+                                   {"place", "", Role::kOutput, std::vector<double>(200)}}};
+  auto &u = recording.channels[0].samples, &y = recording.channels[1].samples;
+  for (std::size_t t = 0; t < 200; ++t) {
+    u[t] = normal(generator);
+    if (t > 0) y[t] = 1.02 * y[t - 1] + 0.5 * u[t - 1] + 0.1 * normal(generator);
+  }
+  return recording;
+}
+
+TEST_F(LearnArxCases, AnUnstableEstimateIsBroughtWithinTheRadiusAskedForAndSaysAtWhatLoss) {
+  double before = 0;
+  for (const char* radius : {"0.999", "0.95"}) {
+    const Said said =
+        learn(growing(), "--inputs push --na 1 --nb 1 --nk 1 --offset none --radius " + std::string(radius));
+    ASSERT_EQ(said.status, 0) << said.err;
+    const auto stable = said.json()["stable"];
+    EXPECT_TRUE(stable["changed"]);
+    EXPECT_GT(stable["estimated_radius"], 1.01);
+    EXPECT_NEAR(stable["radius"], std::atof(radius), 1e-6);
+    EXPECT_GT(stable["loss_factor"], 1 + before);
+    EXPECT_GT(stable["moved_std_errors"], 1);
+    before = stable["loss_factor"].get<double>() - 1;
+    EXPECT_THAT(said.err,
+                HasSubstr("was made stable (" + std::string(radius) + "); the squared one-step error grew by"));
+  }
+  EXPECT_EQ(learn(growing(), "--inputs push --radius 1").status, 1);
+}
+
+TEST_F(LearnArxCases, AnUnstableEstimateIsShownAsItIsWhereAskedButNotWritten) {
+  const Said said = learn(growing(), "--inputs push --na 1 --nb 1 --nk 1 --offset none --keep-unstable");
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_LT(said.json()["A"][0][0][0], -1.01);
+  EXPECT_FALSE(said.json()["stable"]["changed"]);
+  EXPECT_FALSE(said.json()["usable"]["verdict"]);
+  EXPECT_TRUE(said.json()["output"].is_null());
+  EXPECT_FALSE(std::filesystem::exists(at("m.wisp")));
+  EXPECT_THAT(said.err, HasSubstr("was not written: an unstable model cannot be played"));
+}
+
 class LearnArxData : public LearnArxCases {
  protected:
   void SetUp() override {
