@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 constexpr double kBreak = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSure = 1.959963985;  // standard deviations to either side of 95 %
 constexpr std::size_t kMostOutputs = 4;
-constexpr double kFar = 2;  // a zero farther from 0 would make the unit circle a dot: it is left to the figures
+constexpr double kFar = 1.5;  // a zero farther from 0 would make the unit circle a dot: it is left to the figures
 
 PlotSeries unit_circle() {
   PlotSeries circle{.colour = Colour{150, 150, 150}, .width = 1};
@@ -30,8 +30,8 @@ PlotSeries unit_circle() {
 
 // A pole is a cross, by convention, a zero a ring.
 PlotSeries crosses(const std::vector<std::complex<double>>& places) {
-  constexpr double kArm = 0.03;
-  PlotSeries series{.label = "poles", .width = 1.6};
+  constexpr double kArm = 0.04;
+  PlotSeries series{.label = "poles ×", .width = 1.6};
   for (const auto& place : places) {
     for (double sign : {1.0, -1.0}) {
       for (double end : {-kArm, kArm}) {
@@ -58,28 +58,48 @@ std::string pair_title(const DrawnArx& drawn, std::size_t output, std::size_t in
   return drawn.channels.outputs[output] + " from " + drawn.channels.inputs[input];
 }
 
+// Zeros of one pair that are near enough to be drawn, and how many are not.
+struct NearZeros {
+  std::vector<std::complex<double>> near;
+  std::size_t far = 0;
+};
+
+NearZeros near_zeros(const ArxModel& model, std::size_t output, std::size_t input) {
+  NearZeros found{zeros(model, static_cast<int>(output), static_cast<int>(input))};
+  found.far = std::erase_if(found.near, [](const auto& zero) { return std::abs(zero) > kFar; });
+  return found;
+}
+
+Plot pole_plot(const std::string& title, const std::vector<std::complex<double>>& poles, const NearZeros& zeros) {
+  Plot plot{.title = title, .x = {.label = "real part"}, .y = {.label = "imaginary part"}, .equal_units = true};
+  if (zeros.far > 0) {
+    plot.title += " (" + std::to_string(zeros.far) + (zeros.far == 1 ? " zero" : " zeros") + " beyond |z| = 1.5)";
+  }
+  plot.series = {unit_circle(), crosses(poles)};
+  if (!zeros.near.empty()) plot.series.push_back(rings(zeros.near));
+  return plot;
+}
+
 PlotSheet pole_sheet(const DrawnArx& drawn) {
   const std::size_t outputs = std::min(drawn.channels.outputs.size(), kMostOutputs);
   PlotSheet sheet{.columns = static_cast<int>(std::max<std::size_t>(1, drawn.channels.inputs.size())),
                   .plot_width = 380,
                   .plot_height = 400};
   const auto all_poles = poles(drawn.model);
-  const auto panel = [&](const std::string& title) {
-    Plot plot{.title = title, .x = {.label = "real part"}, .y = {.label = "imaginary part"}, .equal_units = true};
-    plot.series = {unit_circle(), crosses(all_poles)};
-    return plot;
-  };
-  if (drawn.channels.inputs.empty()) sheet.plots.push_back(panel("Poles"));
+  if (drawn.channels.inputs.empty()) sheet.plots.push_back(pole_plot("Poles", all_poles, {}));
+  double reach = 1.1;  // of all panels, so that they can be compared
   for (std::size_t i = 0; i < outputs; ++i) {
     for (std::size_t k = 0; k < drawn.channels.inputs.size(); ++k) {
-      Plot plot = panel(pair_title(drawn, i, k));
-      auto near = zeros(drawn.model, static_cast<int>(i), static_cast<int>(k));
-      const std::size_t found = near.size();
-      std::erase_if(near, [](const auto& zero) { return std::abs(zero) > kFar; });
-      if (near.size() < found) plot.title += " (" + std::to_string(found - near.size()) + " zeros beyond |z| = 2)";
-      plot.series.push_back(rings(near));
-      sheet.plots.push_back(std::move(plot));
+      const NearZeros found = near_zeros(drawn.model, i, k);
+      for (const auto& zero : found.near) {
+        reach = std::max({reach, 1.1 * std::abs(zero.real()), 1.1 * std::abs(zero.imag())});
+      }
+      sheet.plots.push_back(pole_plot(pair_title(drawn, i, k), all_poles, found));
     }
+  }
+  for (Plot& plot : sheet.plots) {
+    plot.x.lowest = plot.y.lowest = -reach;
+    plot.x.highest = plot.y.highest = reach;
   }
   return sheet;
 }
@@ -212,7 +232,13 @@ Plot correlation_plot(const std::string& title, const std::vector<double>& value
   plot.series = {std::move(stems), std::move(heads)};
   plot.y.lowest = -1.1 * most;
   plot.y.highest = 1.1 * most;
-  plot.marks = {{.at = bound, .vertical = false, .label = "95 % by chance"}, {.at = -bound, .vertical = false}};
+  const double last_lag = first_lag + static_cast<double>(values.size()) - 1;
+  const double first = static_cast<double>(first_lag);
+  plot.series.push_back({.label = "95 % lie within by chance",
+                         .x = {first, last_lag, kBreak, first, last_lag},
+                         .y = {bound, bound, kBreak, -bound, -bound},
+                         .colour = Colour{190, 40, 40},
+                         .dash = Dash::kDashed});
   return plot;
 }
 

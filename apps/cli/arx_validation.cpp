@@ -141,7 +141,7 @@ void report(const Subject& subject, const std::vector<PredictionFigures>& figure
 }
 
 // A picture of more rows than it has pixels shows nothing.
-constexpr std::size_t kMostRowsShown = 3000;
+constexpr std::size_t kMostRowsShown = 1000;
 
 std::vector<double> first_rows(const std::vector<double>& values, std::size_t first, std::size_t rows) {
   const auto begin = values.begin() + static_cast<std::ptrdiff_t>(std::min(first, values.size()));
