@@ -216,7 +216,7 @@ Result<ArxOrders> orders_of(const std::vector<Recording>& recordings, const std:
   for (int i = 0; i < orders->outputs(); ++i) {
     for (int k = 0; k < orders->inputs(); ++k) {
       terminal.say("delay of " + channels.inputs[k] + " to " + channels.outputs[i] + ": " +
-                   std::to_string(orders->nk(i, k)) + " samples");
+                   std::to_string(orders->nk(i, k)) + (orders->nk(i, k) == 1 ? " sample" : " samples"));
     }
   }
   return orders;
