@@ -97,6 +97,20 @@ std::string orders_text(const OrderCandidate& candidate) {
          std::to_string(candidate.nk);
 }
 
+// The best candidate of every output's equation on its own.
+void report_rows(const OrderSearch& search, const ChannelChoice& channels, Terminal& terminal) {
+  Json& rows = terminal.result()["best_of_output"] = Json::array();
+  for (std::size_t i = 0; i < channels.outputs.size(); ++i) {
+    const OrderCandidate& best = search.candidates[search.best_of_row[i]];
+    rows.push_back({{"name", channels.outputs[i]},
+                    {"na", best.na},
+                    {"nb", best.nb},
+                    {"nk", best.nk},
+                    {"index", search.best_of_row[i]}});
+    if (channels.outputs.size() > 1) terminal.say("  for " + channels.outputs[i] + " alone: " + orders_text(best));
+  }
+}
+
 }  // namespace
 
 std::vector<Flag> search_flags() {
@@ -110,6 +124,7 @@ std::vector<Flag> search_flags() {
        "what the best candidate is best at",
        {"fpe", "aic", "aicc", "bic", "validation"}},
       {"validate", Kind::kSamples, "A:B", "", "rows to validate on, 1-based and inclusive"},
+      {"per-output", Kind::kSwitch, "", "", "give every output's equation the orders that are best for it alone"},
       {"steps", Kind::kIntegerOrWord, "K", "1", "for validation: steps ahead, or inf for free simulation", {"inf"}},
   };
 }
@@ -136,7 +151,8 @@ Result<ArxOrders> search_arx_orders(const std::vector<Recording>& estimation, co
   terminal.result()["best"]["index"] = search->best;
   terminal.say(std::to_string(search->candidates.size()) + " candidates; best by " + arguments.text("by") + ": " +
                orders_text(best));
-  return best.orders;
+  report_rows(*search, channels, terminal);
+  return arguments.on("per-output") ? search->row_orders : best.orders;
 }
 
 }  // namespace wisp::cli

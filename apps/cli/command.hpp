@@ -36,6 +36,7 @@ struct Flag {
   std::string help;
   std::vector<std::string> words{};
   bool required = false;
+  std::string unless{};  ///< a flag in whose presence this one is not required
 };
 
 /// What stands without dashes.

@@ -23,7 +23,11 @@ Json json_of(std::span<const double> values) {
 }
 
 Json json_of(const ArxStability& stability) {
-  return {{"radius", number(stability.radius)}, {"changed", stability.changed}};
+  return {{"radius", number(stability.radius)},
+          {"changed", stability.changed},
+          {"estimated_radius", number(stability.estimated)},
+          {"loss_factor", number(stability.loss_factor)},
+          {"moved_std_errors", number(stability.moved)}};
 }
 
 Coefficients json_of(const ArxOrders& orders, const std::vector<std::vector<double>>& rows) {

@@ -11,7 +11,7 @@ Json json_of(const OrderMatrix& orders);
 Json json_of(const Usable& usable);
 Json json_of(std::span<const double> values);
 
-/// `stable` {radius, changed}.
+/// `stable` {radius, changed, estimated_radius, loss_factor, moved_std_errors}.
 Json json_of(const ArxStability& stability);
 
 /// A[i][j] and B[i][j] of coefficients laid out as ArxModel::theta.

@@ -1,5 +1,6 @@
 // `wisp info`: what a model file holds.
 
+#include "arx_description.hpp"
 #include "commands.hpp"
 #include "figures_json.hpp"
 #include "terminal.hpp"
@@ -96,11 +97,13 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
                         {"history", arx.orders.history()},
                         {"noise_rank", arx.noise.rank},
                         {"radius", number(spectral_radius(arx))}};
+  describe_arx(arx, result["dynamics"]);
   result["view"] = view_of(*model);
   result["cost"] = *cost;
   result["made"] = made_by(model->provenance);
   result["usable"] = json_of(model->provenance.usable);
   describe(result, terminal);
+  say_poles(arx, model->rate_hz, terminal);
   return {};
 }
 

@@ -1,14 +1,21 @@
 // `wisp learn arx`: an ARX model of any recording.
 
 #include <chrono>
+#include <optional>
 
+#include "arx_description.hpp"
+#include "arx_figures.hpp"
+#include "arx_parts.hpp"
 #include "arx_search.hpp"
+#include "arx_tables.hpp"
 #include "commands.hpp"
 #include "figures_json.hpp"
 #include "order_flags.hpp"
 #include "recordings.hpp"
 #include "terminal.hpp"
 #include "wisp/learn/arx_fit.hpp"
+#include "wisp/learn/order_search.hpp"
+#include "wisp/learn/residual_tests.hpp"
 #include "wisp/model/file.hpp"
 
 namespace wisp::cli {
@@ -19,60 +26,77 @@ ArxOffset offset_of(const Arguments& arguments) {
   return arguments.text("offset") == "estimate" ? ArxOffset::kEstimate : ArxOffset::kMean;
 }
 
-// Lowest and highest of a channel over all recordings.
-template <class Channel>
-void take_range(Channel& channel, const std::vector<Recording>& recordings) {
+// What a model needs to know of the recordings it was learned from.
+struct Sources {
+  double rate_hz = 0;
+  std::vector<ChannelSpan> spans;  // outputs, then inputs
+  std::vector<std::string> files;
+};
+
+// Unit, lowest and highest of a channel over all recordings.
+ChannelSpan span_of(const std::string& name, const std::vector<Recording>& recordings) {
+  ChannelSpan span;
   bool first = true;
   for (const Recording& recording : recordings) {
-    const auto& found = recording.channels[*find_channel(recording, channel.name)];
-    channel.unit = found.unit;
+    const auto& found = recording.channels[*find_channel(recording, name)];
+    span.unit = found.unit;
     for (double sample : found.samples) {
       if (std::isnan(sample)) continue;
-      channel.lowest = first ? sample : std::min(channel.lowest, sample);
-      channel.highest = first ? sample : std::max(channel.highest, sample);
+      span.lowest = first ? sample : std::min(span.lowest, sample);
+      span.highest = first ? sample : std::max(span.highest, sample);
       first = false;
     }
   }
+  return span;
 }
 
-Model model_of(const ArxFit& fit, const ChannelChoice& channels, const std::vector<Recording>& recordings,
-               const Arguments& arguments) {
+Sources sources_of(const std::vector<Recording>& recordings, const ChannelChoice& channels) {
+  Sources sources{recordings.front().rate_hz, {}, {}};
+  for (const auto* names : {&channels.outputs, &channels.inputs}) {
+    for (const std::string& name : *names) sources.spans.push_back(span_of(name, recordings));
+  }
+  for (const Recording& recording : recordings) sources.files.push_back(recording.source);
+  return sources;
+}
+
+Model model_of(const ArxFit& fit, const ChannelChoice& channels, const Sources& sources, const Arguments& arguments) {
   Model model;
   model.name = std::filesystem::path(arguments.text("output")).stem().string();
-  model.rate_hz = recordings.front().rate_hz;
-  for (const std::string& name : channels.inputs) {
-    model.inputs.push_back({.name = name, .unit = "", .lowest = 0, .highest = 0});
-    take_range(model.inputs.back(), recordings);
-  }
+  model.rate_hz = sources.rate_hz;
+  auto span = sources.spans.begin();
   for (const std::string& name : channels.outputs) {
-    model.outputs.push_back({.name = name, .unit = "", .lowest = 0, .highest = 0});
-    take_range(model.outputs.back(), recordings);
+    model.outputs.push_back({.name = name, .unit = span->unit, .lowest = span->lowest, .highest = span->highest});
+    ++span;
+  }
+  for (const std::string& name : channels.inputs) {
+    model.inputs.push_back({.name = name, .unit = span->unit, .lowest = span->lowest, .highest = span->highest});
+    ++span;
   }
   model.dynamics = fit.model;
   model.provenance.program = "wisp " WISP_VERSION;
-  for (const Recording& recording : recordings) {
-    model.provenance.sources.push_back(std::filesystem::path(recording.source).filename().string());
+  for (const std::string& file : sources.files) {
+    model.provenance.sources.push_back(std::filesystem::path(file).filename().string());
   }
   for (const char* flag : {"na", "nb", "nk", "coupling", "offset", "range"}) {
-    if (arguments.has(flag)) model.provenance.options.push_back({flag, arguments.text(flag)});
+    const bool of_parts = arguments.on("merge") && std::string_view(flag) != "offset";  // the parts have their own
+    if (arguments.has(flag) && !of_parts) model.provenance.options.push_back({flag, arguments.text(flag)});
   }
+  if (fit.summary.stable.changed) model.provenance.options.push_back({"radius", arguments.text("radius")});
   model.provenance.figures = {{"fpe", fit.summary.fpe},
                               {"samples_used", static_cast<double>(fit.summary.samples_used)}};
   model.provenance.usable = fit.summary.usable;
   return model;
 }
 
-Result<void> report(const ArxFit& fit, const ChannelChoice& channels, Terminal& terminal) {
+void report(const ArxFit& fit, const ChannelChoice& channels, Terminal& terminal) {
   const ArxSummary& summary = fit.summary;
   Json& result = terminal.result();
-  const auto theta = json_of(fit.model.orders, fit.model.theta);
-  const auto errors = json_of(fit.model.orders, fit.model.std_error);
   result["na"] = json_of(fit.model.orders.na);
   result["nb"] = json_of(fit.model.orders.nb);
   result["nk"] = json_of(fit.model.orders.nk);
-  result["A"] = theta.a;
-  result["B"] = theta.b;
-  result["std_error"] = {{"A", errors.a}, {"B", errors.b}};
+  describe_arx(fit.model, result);
+  result["constant"] = json_of(fit.model.constant);
+  result["operating_point"] = {{"outputs", json_of(fit.model.output_mean)}, {"inputs", json_of(fit.model.input_mean)}};
   result["V"] = json_of(summary.loss);
   const auto ny = channels.outputs.size();
   result["noise_covariance"] = Json::array();
@@ -85,6 +109,7 @@ Result<void> report(const ArxFit& fit, const ChannelChoice& channels, Terminal& 
   result["bic"] = number(summary.bic);
   result["row_fpe"] = json_of(summary.row_fpe);
   result["fit_percent"] = {{"1", json_of(summary.fit_percent)}};
+  if (!summary.free_run_fit_percent.empty()) result["fit_percent"]["inf"] = json_of(summary.free_run_fit_percent);
   result["samples_used"] = summary.samples_used;
   result["first_sample"] = summary.first_sample;
   result["episodes"] = {{"used", summary.episodes_used}, {"skipped", summary.episodes_skipped}};
@@ -92,16 +117,23 @@ Result<void> report(const ArxFit& fit, const ChannelChoice& channels, Terminal& 
   result["condition"] = number(*std::max_element(summary.condition.begin(), summary.condition.end()));
   result["row_condition"] = json_of(summary.condition);
   result["method"] = summary.method;
+  result["undetermined"] = Json::array();
+  for (const RankProblem& problem : summary.rank_problems) {
+    result["undetermined"].push_back(
+        {{"row", problem.row}, {"channel", problem.channel}, {"lag", problem.lag}, {"reason", problem.reason}});
+  }
   result["stable"] = json_of(summary.stable);
   result["usable"] = json_of(summary.usable);
   for (std::size_t i = 0; i < ny; ++i) {
-    terminal.say(channels.outputs[i] + ": one-step fit " + shown(summary.fit_percent[i], 4) + " %, residual variance " +
-                 shown(summary.loss[i], 5));
+    const std::string free_run = summary.free_run_fit_percent.empty()
+                                     ? ""
+                                     : ", free simulation " + shown(summary.free_run_fit_percent[i], 4) + " %";
+    terminal.say(channels.outputs[i] + ": one-step fit " + shown(summary.fit_percent[i], 4) + " %" + free_run +
+                 ", residual variance " + shown(summary.loss[i], 5));
   }
   terminal.say("FPE " + shown(summary.fpe, 6) + ", AIC " + shown(summary.aic, 6) + ", spectral radius " +
                shown(summary.stable.radius, 5) + (summary.stable.changed ? " (made stable)" : ""));
   terminal.say(std::string(summary.usable.verdict ? "usable: " : "not usable: ") + summary.usable.reason);
-  return {};
 }
 
 Result<std::vector<Recording>> ranged(const std::vector<Recording>& whole, const Arguments& arguments) {
@@ -114,39 +146,151 @@ Result<std::vector<Recording>> ranged(const std::vector<Recording>& whole, const
   return parts;
 }
 
-Result<void> run(const Arguments& arguments, Terminal& terminal) {
-  const auto start = std::chrono::steady_clock::now();
+struct Learned {
+  ArxFit fit;
+  ChannelChoice channels;
+  Sources sources;
+  std::optional<ResidualTests> tests{};  ///< where the recordings are in memory and long enough
+};
+
+// What the residuals still know of their own past and of the inputs.
+void report_tests(const ResidualTests& tests, const ChannelChoice& channels, Terminal& terminal) {
+  Json white = Json::array(), independent = Json::array();
+  for (std::size_t i = 0; i < channels.outputs.size(); ++i) {
+    white.push_back(number(tests.whiteness[i].p));
+    Json row = Json::array();
+    for (const Independence& pair : tests.independence[i]) row.push_back(number(pair.p));
+    independent.push_back(std::move(row));
+  }
+  terminal.result()["whiteness_p"] = std::move(white);
+  terminal.result()["independence_p"] = std::move(independent);
+}
+
+Result<void> draw(const Learned& learned, const std::filesystem::path& folder) {
+  std::error_code code;
+  std::filesystem::create_directories(folder, code);
+  if (code) return Error{folder.string() + ": cannot be made: " + code.message()};
+  if (learned.tests) {
+    if (auto ok = write_residual_figure(folder, *learned.tests, learned.channels); !ok) return ok;
+  }
+  return write_response_figures(folder,
+                                {learned.fit.model, learned.channels, learned.sources.rate_hz, learned.fit.covariance});
+}
+
+ArxOptions fit_options(const Arguments& arguments) {
+  ArxOptions options;
+  options.offset = offset_of(arguments);
+  options.ridge = arguments.number("ridge");
+  options.covariance = arguments.has("figures");  // for the bands
+  options.stabilise = !arguments.on("keep-unstable");
+  options.stability_margin = 1 - arguments.number("radius");
+  return options;
+}
+
+// Whether the recordings are to be read a stretch at a time. A search needs them in memory.
+bool too_large(const Arguments& arguments) {
+  constexpr std::uintmax_t kMebibyte = std::uintmax_t{1} << 20;
+  const auto most = static_cast<std::uintmax_t>(arguments.integer("memory")) * kMebibyte;
+  return !arguments.has("search") && bytes_on_disk(arguments.positionals()) > most;
+}
+
+Result<Learned> learn_from_large_tables(const Arguments& arguments, Terminal& terminal) {
+  auto learned = fit_of_tables(arguments, fit_options(arguments), terminal);
+  if (!learned) return learned.error();
+  const TriangularFactor& factor = learned->factor;
+  return Learned{std::move(learned->fit),
+                 factor.options().channels,
+                 {factor.rate_hz(), factor.spans(), std::move(learned->paths)}};
+}
+
+// From the flags: as they are, with delays found in the data, or the best of a search.
+Result<ArxOrders> orders_of(const std::vector<Recording>& recordings, const std::vector<Recording>& whole,
+                            const ChannelChoice& channels, const Arguments& arguments, Terminal& terminal) {
+  if (arguments.has("search")) return search_arx_orders(recordings, whole, channels, arguments, terminal);
+  auto orders =
+      orders_from(arguments, static_cast<int>(channels.outputs.size()), static_cast<int>(channels.inputs.size()));
+  if (!orders || arguments.text("nk") != "auto") return orders;
+  auto delays = estimate_delays(recordings, channels, {.offset = offset_of(arguments)});
+  if (!delays) return delays.error();
+  orders->nk = std::move(*delays);
+  for (int i = 0; i < orders->outputs(); ++i) {
+    for (int k = 0; k < orders->inputs(); ++k) {
+      terminal.say("delay of " + channels.inputs[k] + " to " + channels.outputs[i] + ": " +
+                   std::to_string(orders->nk(i, k)) + (orders->nk(i, k) == 1 ? " sample" : " samples"));
+    }
+  }
+  return orders;
+}
+
+Result<Learned> learn_from_recordings(const Arguments& arguments, Terminal& terminal) {
   const auto whole = read_tables(arguments.positionals(), arguments, terminal);
   if (!whole) return whole.error();
   const auto recordings = ranged(*whole, arguments);
   if (!recordings) return recordings.error();
   const ChannelChoice channels{arguments.names("inputs"), arguments.names("outputs")};
-  auto orders = arguments.has("search") ? search_arx_orders(*recordings, *whole, channels, arguments, terminal)
-                                        : orders_from(arguments, static_cast<int>(channels.outputs.size()),
-                                                      static_cast<int>(channels.inputs.size()));
+  auto orders = orders_of(*recordings, *whole, channels, arguments, terminal);
   if (!orders) return orders.error();
-  ArxOptions options;
+  ArxOptions options = fit_options(arguments);
   options.orders = std::move(*orders);
-  options.offset = offset_of(arguments);
-  options.ridge = arguments.number("ridge");
-  const auto fit = fit_arx(*recordings, channels, options);
+  auto fit = fit_arx(*recordings, channels, options);
   if (!fit) return fit.error();
-  for (const std::string& warning : fit->summary.warnings) terminal.warn(warning);
-  if (auto ok = report(*fit, channels, terminal); !ok) return ok;
-  if (auto ok = write_model(arguments.text("output"), model_of(*fit, channels, *recordings, arguments)); !ok) return ok;
-  terminal.result()["output"] = arguments.text("output");
+  Learned learned{std::move(*fit), channels, sources_of(*recordings, channels)};
+  const auto tests = test_residuals(learned.fit.model, *recordings, channels, {.lags = 20, .learned_from_it = true});
+  if (tests) learned.tests = *tests;
+  return learned;
+}
+
+Result<Learned> learn_from_parts(const Arguments& arguments) {
+  const auto factor = merged_parts(arguments);
+  if (!factor) return factor.error();
+  auto fit = factor->finish(fit_options(arguments));
+  if (!fit) return fit.error();
+  const Sources sources{factor->rate_hz(), factor->spans(), arguments.positionals()};
+  return Learned{std::move(*fit), factor->options().channels, sources};
+}
+
+Result<Learned> learn(const Arguments& arguments, Terminal& terminal) {
+  if (arguments.on("merge")) return learn_from_parts(arguments);
+  if (too_large(arguments)) return learn_from_large_tables(arguments, terminal);
+  return learn_from_recordings(arguments, terminal);
+}
+
+Result<void> run(const Arguments& arguments, Terminal& terminal) {
+  const auto start = std::chrono::steady_clock::now();
+  if (const double radius = arguments.number("radius"); !(radius > 0 && radius < 1)) {
+    return Error{"--radius is " + arguments.text("radius") + ", expected a number between 0 and 1"};
+  }
+  if (arguments.has("partial")) return write_part(arguments, terminal);
+  const auto learned = learn(arguments, terminal);
+  if (!learned) return learned.error();
+  const ArxFit& fit = learned->fit;
+  for (const std::string& warning : fit.summary.warnings) terminal.warn(warning);
+  report(fit, learned->channels, terminal);
+  if (learned->tests) report_tests(*learned->tests, learned->channels, terminal);
+  say_poles(fit.model, learned->sources.rate_hz, terminal);
+  const bool playable = fit.summary.stable.radius < 1;
+  if (playable) {
+    const Model model = model_of(fit, learned->channels, learned->sources, arguments);
+    if (auto ok = write_model(arguments.text("output"), model); !ok) return ok;
+  } else {
+    terminal.warn(arguments.text("output") + " was not written: an unstable model cannot be played");
+  }
+  if (arguments.has("figures")) {
+    if (auto ok = draw(*learned, arguments.text("figures")); !ok) return ok;
+  }
+  terminal.result()["output"] = playable ? Json(arguments.text("output")) : Json(nullptr);
   terminal.result()["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return {};
 }
 
 std::vector<Flag> flags() {
   std::vector<Flag> all = {
-      {"output", Kind::kPath, "M.wisp", "", "where to write the model", {}, true},
+      {"output", Kind::kPath, "M.wisp", "", "where to write the model", {}, true, "partial"},
       {"inputs", Kind::kNames, "A,B", "", "channels that are inputs; none: a model of the outputs alone"},
-      {"outputs", Kind::kNames, "C,D", "", "channels that are outputs", {}, true},
+      {"outputs", Kind::kNames, "C,D", "", "channels that are outputs", {}, true, "merge"},
       {"na", Kind::kText, "N", "4", "order of A: a number, or a matrix row by row such as '4,2;3,4'"},
       {"nb", Kind::kText, "N", "4", "order of B: a number, or a matrix with a row an output and a column an input"},
-      {"nk", Kind::kText, "N", "1", "delay in samples, likewise"},
+      {"nk", Kind::kText, "N", "1", "delay in samples, likewise; auto finds every input's delay to every output"},
       {"coupling",
        Kind::kChoice,
        "C",
@@ -161,10 +305,18 @@ std::vector<Flag> flags() {
        "the operating point: mean removes means, none, estimate adds a constant term",
        {"mean", "none", "estimate"}},
       {"ridge", Kind::kNumber, "R", "0", "weight of the coefficients' size, as a share of each regressor's energy"},
+      {"radius", Kind::kNumber, "R", "0.999",
+       "an unstable estimate is brought within this spectral radius, between 0 and 1, with the least loss of fit; a "
+       "smaller one may simulate better"},
+      {"keep-unstable", Kind::kSwitch, "", "", "leave an unstable estimate as it is, to compare; it cannot be played"},
       {"common-start", Kind::kSwitch, "", "",
        "judge all candidates of --search on the same rows, those that the longest one can predict"},
   };
-  for (auto* more : {&search_flags, &recording_flags}) {
+  all.push_back({"figures", Kind::kPath, "DIR", "",
+                 "draw poles and zeros, step and frequency responses with their 95 % bands, and residual tests there"});
+  all.push_back({"memory", Kind::kInteger, "MIB", "256",
+                 "recordings that are larger than this together are read a stretch at a time (never with --search)"});
+  for (auto* more : {&search_flags, &part_flags, &recording_flags}) {
     for (Flag& flag : (*more)()) all.push_back(std::move(flag));
   }
   return all;
@@ -176,7 +328,9 @@ Command learn_arx_command() {
   return {
       "learn arx",
       "Estimates an ARX model by least squares: y(t) + A1 y(t-1) + … = B1 u(t-nk) + … + e(t).",
-      {{"REC", "recordings: CSV files, or MATLAB files whose variables --inputs and --outputs name", true}},
+      {{"REC",
+        "recordings: CSV files, or MATLAB files whose variables --inputs and --outputs name; with --merge, parts",
+        true}},
       flags(),
       {
           {"wisp learn arx hairdryer.csv -o dryer.wisp --inputs u1 --outputs y1 --dt 0.08 --na 2 --nb 2 --nk 3 --range "
@@ -185,6 +339,10 @@ Command learn_arx_command() {
           {"wisp learn arx hairdryer.csv -o dryer.wisp --inputs u1 --outputs y1 --dt 0.08 --range 1:500 "
            "--search na=1:10,nb=1:10,nk=0:3 --by validation --validate 501:1000",
            "The orders that predict unseen rows best"},
+          {"wisp learn arx long.csv --partial 2.part --part 2/8 --inputs u --outputs y && wisp learn arx --merge "
+           "*.part "
+           "-o long.wisp",
+           "One of eight jobs, each with its share of the rows, and what makes one model of all of them"},
       },
       run,
   };

@@ -86,7 +86,15 @@ void add_flag(Wired& wired, const Flag& flag) {
   auto* option = wired.app->add_option(short_name + "--" + flag.name, wired.values[flag.name], flag.help);
   option->type_name(flag.value)->check(CLI::Validator([flag](std::string& text) { return complaint(flag, text); }, ""));
   if (!flag.fallback.empty()) option->default_str(flag.fallback);
-  if (flag.required) option->required();
+  if (flag.required && flag.unless.empty()) option->required();
+}
+
+// Flags that are required unless another is given.
+void check_required(const Wired& wired) {
+  for (const Flag& flag : wired.command->flags) {
+    if (!flag.required || flag.unless.empty() || wired.app->count("--" + flag.name) > 0) continue;
+    if (wired.app->count("--" + flag.unless) == 0) throw CLI::RequiredError("--" + flag.name);
+  }
 }
 
 void add_positionals(Wired& wired) {
@@ -123,6 +131,7 @@ void wire(CLI::App& root, Wired& wired) {
   add_positionals(wired);
   for (const Flag& flag : wired.command->flags) add_flag(wired, flag);
   for (const Flag& flag : common_flags()) add_flag(wired, flag);
+  wired.app->callback([&wired] { check_required(wired); });
 }
 
 Arguments arguments_of(const Wired& wired) {

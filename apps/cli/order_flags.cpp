@@ -64,7 +64,9 @@ Result<ArxOrders> orders_from(const Arguments& arguments, int outputs, int input
   if (!na) return na.error();
   auto nb = parse_orders(arguments.text("nb"), outputs, inputs, "nb");
   if (!nb) return nb.error();
-  auto nk = parse_orders(arguments.text("nk"), outputs, inputs, "nk");
+  // Delays to be found in the data are 0 until then.
+  const std::string& delay = arguments.text("nk");
+  auto nk = parse_orders(delay == "auto" ? "0" : delay, outputs, inputs, "nk");
   if (!nk) return nk.error();
   const std::string& word = arguments.text("coupling");
   const Coupling coupling = word == "diagonal" ? Coupling::kDiagonal

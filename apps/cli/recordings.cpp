@@ -19,8 +19,7 @@ bool is_table(const std::filesystem::path& path) {
   return extension == ".csv" || extension == ".txt" || extension == ".mat" || extension == ".CSV";
 }
 
-Result<Recording> read_table(const std::filesystem::path& path, const Arguments& arguments,
-                             const ChannelChoice& channels) {
+Result<CsvOptions> csv_options(const Arguments& arguments, const ChannelChoice& channels) {
   CsvOptions options;
   options.inputs = arguments.has("inputs") ? arguments.names("inputs") : channels.inputs;
   options.outputs = arguments.has("outputs") ? arguments.names("outputs") : channels.outputs;
@@ -30,10 +29,24 @@ Result<Recording> read_table(const std::filesystem::path& path, const Arguments&
     options.rate_hz = 1 / seconds;
   }
   if (arguments.has("rate")) options.rate_hz = arguments.number("rate");
+  return options;
+}
+
+Result<Recording> read_table(const std::filesystem::path& path, const Arguments& arguments,
+                             const ChannelChoice& channels) {
+  const auto options = csv_options(arguments, channels);
+  if (!options) return options.error();
   if (path.extension() == ".mat") {
-    return read_mat(path, {.rate_hz = options.rate_hz, .inputs = options.inputs, .outputs = options.outputs});
+    return read_mat(path, {.rate_hz = options->rate_hz, .inputs = options->inputs, .outputs = options->outputs});
   }
-  return read_csv(path, options);
+  return read_csv(path, *options);
+}
+
+bool leave_out(const std::string& path, const Error& error, const Arguments& arguments, Terminal& terminal) {
+  if (!arguments.on("skip-bad")) return false;
+  terminal.warn("left out: " + error.message);
+  terminal.result()["skipped"].push_back({{"file", path}, {"reason", error.message}});
+  return true;
 }
 
 Result<std::vector<Recording>> read_tables(const std::vector<std::string>& paths, const Arguments& arguments,
@@ -43,10 +56,7 @@ Result<std::vector<Recording>> read_tables(const std::vector<std::string>& paths
     auto recording = read_table(path, arguments);
     if (recording) {
       recordings.push_back(std::move(recording).value());
-    } else if (arguments.on("skip-bad")) {
-      terminal.warn("left out: " + recording.error().message);
-      terminal.result()["skipped"].push_back({{"file", path}, {"reason", recording.error().message}});
-    } else {
+    } else if (!leave_out(path, recording.error(), arguments, terminal)) {
       return recording.error();
     }
   }

@@ -8,6 +8,7 @@
 #include "command.hpp"
 #include "terminal.hpp"
 #include "wisp/learn/channel_choice.hpp"
+#include "wisp/record/csv.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp::cli {
@@ -18,9 +19,17 @@ std::vector<Flag> recording_flags();
 /// Whether a name is that of a table (`.csv`, `.txt`) rather than of a clip.
 bool is_table(const std::filesystem::path& path);
 
+/// How --inputs, --outputs, --rate and --dt say a table is to be understood; `channels` where the command has no such
+/// flags. Errors: --dt that is not above 0.
+Result<CsvOptions> csv_options(const Arguments& arguments, const ChannelChoice& channels = {});
+
 /// Reads one table; --inputs and --outputs, where the command has them, name its columns, and else `channels` does.
 Result<Recording> read_table(const std::filesystem::path& path, const Arguments& arguments,
                              const ChannelChoice& channels = {});
+
+/// What becomes of a bad recording: with --skip-bad it is left out, with a warning and an entry of `skipped` in the
+/// result. Returns whether it is left out.
+bool leave_out(const std::string& path, const Error& error, const Arguments& arguments, Terminal& terminal);
 
 /// Reads all of them. A bad one is the error, or, with --skip-bad, a warning and an entry of `skipped` in the result.
 /// Errors: also where none is left.

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "arx_validation.hpp"
 #include "capture_flags.hpp"
 #include "clip_figures.hpp"
 #include "commands.hpp"
@@ -238,6 +239,12 @@ Command validate_command() {
   std::vector<Flag> flags = {
       {"range", Kind::kSamples, "A:B", "", "rows to judge on, 1-based and inclusive"},
       {"steps", Kind::kNames, "K,…", "1,5,15,inf", "steps ahead; inf is free simulation from the input alone"},
+      {"initial",
+       Kind::kChoice,
+       "STATE",
+       "measured",
+       "where free simulation of a plain model starts: from measured samples, from rest (zero), or from what fits best",
+       {"measured", "zero", "estimated"}},
       {"overlay", Kind::kPath, "OUT.mp4", "", "write the clip with captured and simulated outlines drawn over it"},
       {"film-strip", Kind::kPath, "OUT.png", "", "write a film strip: recorded above, synthesized below"},
       {"figures", Kind::kPath, "DIR", "", "write plots there, as PNG and SVG"},

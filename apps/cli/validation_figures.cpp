@@ -4,10 +4,8 @@
 
 #include "clip_figures.hpp"
 #include "outline_learning.hpp"
-#include "recordings.hpp"
 #include "wisp/draw/plot.hpp"
 #include "wisp/learn/outline_shape.hpp"
-#include "wisp/learn/residual_tests.hpp"
 #include "wisp/learn/spectrum.hpp"
 
 namespace wisp::cli {
@@ -119,63 +117,6 @@ PlotSheet spectrum_sheet(const Recording& recording, const Judged& judged) {
   return sheet;
 }
 
-ChannelChoice channels_of(const Model& model) {
-  ChannelChoice channels;
-  for (const Input& input : model.inputs) channels.inputs.push_back(input.name);
-  for (const Output& output : model.outputs) channels.outputs.push_back(output.name);
-  return channels;
-}
-
-Result<void> plot_plain(const fs::path& folder, const Model& model, const Recording& recording,
-                        const ChannelChoice& channels) {
-  if (auto ok = make_folder(folder); !ok) return ok;
-  const auto simulated = predict(std::get<ArxModel>(model.dynamics), recording, channels, {.steps = kFreeRun});
-  if (!simulated) return simulated.error();
-  const auto seconds = seconds_of(recording.rows(), recording.rate_hz);
-  PlotSheet sheet{.columns = 1, .plot_width = 900, .plot_height = 260};
-  for (std::size_t k = 0; k < channels.outputs.size(); ++k) {
-    Plot plot{.title = channels.outputs[k], .x = {.label = "seconds"}, .y = {.label = model.outputs[k].unit}};
-    plot.series = {{.label = "measured",
-                    .x = seconds,
-                    .y = recording.channels[*find_channel(recording, channels.outputs[k])].samples},
-                   {.label = "simulated from the input", .x = seconds, .y = (*simulated)[k], .dash = Dash::kDashed}};
-    sheet.plots.push_back(std::move(plot));
-  }
-  return write_figure(folder, "simulation", sheet);
-}
-
-void report_plain(const std::vector<PredictionFigures>& figures, const ChannelChoice& channels,
-                  const std::vector<double>& whiteness, Terminal& terminal) {
-  std::vector<int> steps;
-  for (const PredictionFigures& figure : figures) steps.push_back(figure.steps);
-  Json& result = terminal.result();
-  result["channels"] = Json::array();
-  for (std::size_t k = 0; k < channels.outputs.size(); ++k) {
-    std::vector<double> fits;
-    for (const PredictionFigures& figure : figures) fits.push_back(figure.fit_percent[k]);
-    result["channels"].push_back(
-        {{"name", channels.outputs[k]}, {"fit_percent", by_steps(steps, fits)}, {"whiteness_p", number(whiteness[k])}});
-  }
-  std::vector<double> j;
-  for (const PredictionFigures& figure : figures) j.push_back(mean_per_step({figure.j}).front());
-  result["J"] = by_steps(steps, j);
-  result["rows"] = figures.front().rows;
-  for (std::size_t s = 0; s < figures.size(); ++s) {
-    std::string line = steps[s] == kFreeRun ? "free simulation:" : std::to_string(steps[s]) + " ahead:";
-    for (std::size_t k = 0; k < channels.outputs.size(); ++k)
-      line += " " + channels.outputs[k] + " " + shown(figures[s].fit_percent[k], 4) + " %";
-    terminal.say(line);
-  }
-}
-
-std::vector<double> whiteness_of(const ArxModel& arx, const Recording& recording, const ChannelChoice& channels) {
-  const auto tests = test_residuals(arx, {&recording, 1}, channels, {.lags = 20});
-  if (!tests) return std::vector<double>(channels.outputs.size(), 1.0);  // too short: nothing speaks against white
-  std::vector<double> p;
-  for (const Whiteness& output : tests->whiteness) p.push_back(output.p);
-  return p;
-}
-
 }  // namespace
 
 const PredictedOutlines& Judged::shown() const {
@@ -202,27 +143,6 @@ Result<void> write_validation_figures(const fs::path& folder, const Model& model
   if (auto ok = write_figure(folder, "residual-noise", residual_sheet(model)); !ok) return ok;
   if (auto ok = write_figure(folder, "tip", time_sheet(recording, judged)); !ok) return ok;
   return write_figure(folder, "flicker", spectrum_sheet(recording, judged));
-}
-
-Result<void> validate_plain(const Model& model, const std::vector<int>& steps, const Arguments& arguments,
-                            Terminal& terminal) {
-  for (const char* flag : {"overlay", "film-strip"}) {
-    if (arguments.has(flag))
-      return Error{arguments.positional() + ": is not a model of an outline, so --" + flag + " has nothing to draw"};
-  }
-  const std::string& path = arguments.positionals()[1];
-  if (!is_table(path)) return Error{path + ": is not a table (.csv), which this model is validated against"};
-  auto whole = read_table(path, arguments, channels_of(model));
-  if (!whole) return whole.error();
-  const auto recording = in_range(std::move(*whole), arguments, "range");
-  if (!recording) return recording.error();
-  const ChannelChoice channels = channels_of(model);
-  const auto& arx = std::get<ArxModel>(model.dynamics);
-  const auto figures = prediction_figures(arx, {&*recording, 1}, channels, {.steps = steps});
-  if (!figures) return figures.error();
-  report_plain(*figures, channels, whiteness_of(arx, *recording, channels), terminal);
-  if (!arguments.has("figures")) return {};
-  return plot_plain(arguments.text("figures"), model, *recording, channels);
 }
 
 }  // namespace wisp::cli

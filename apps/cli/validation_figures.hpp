@@ -1,8 +1,7 @@
 #pragma once
-// The plots of `wisp validate --figures`, and validation of models that are not outlines.
+// The plots of `wisp validate --figures` for outlines.
 
 #include <filesystem>
-#include <vector>
 
 #include "command.hpp"
 #include "terminal.hpp"
@@ -30,11 +29,5 @@ std::string shown_as(const PredictedOutlines& predicted);
 /// Errors: a file cannot be written.
 Result<void> write_validation_figures(const std::filesystem::path& folder, const Model& model,
                                       const Recording& recording, const Judged& judged);
-
-/// Validates a model whose outputs stand for themselves against a table: figures, and with --figures the plots of
-/// measured and simulated outputs.
-/// Errors: the table cannot be read or has not the model's channels; a flag that is only for outlines.
-Result<void> validate_plain(const Model& model, const std::vector<int>& steps, const Arguments& arguments,
-                            Terminal& terminal);
 
 }  // namespace wisp::cli

@@ -15,9 +15,15 @@ std::string number(double value) {
   return text;
 }
 
+std::string short_number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g", value);
+  return text;
+}
+
 std::string percent(double value) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.0f %%", value);
+  std::snprintf(text, sizeof text, "%.1f %%", value);
   return text;
 }
 
@@ -26,6 +32,27 @@ constexpr double kPromise = 80;
 constexpr double kKept = 60;
 
 }  // namespace
+
+void warn_of_free_run(const std::vector<std::string>& outputs, ArxSummary& summary) {
+  std::string failing;
+  for (std::size_t i = 0; i < summary.free_run_fit_percent.size(); ++i) {
+    const double one_step = summary.fit_percent[i];
+    const double free_run = summary.free_run_fit_percent[i];
+    if (one_step < kPromise || free_run >= kKept) continue;
+    summary.warnings.push_back("output '" + outputs[i] + "': one step ahead the fit is " + percent(one_step) +
+                               ", but free simulation from the input fits only " + percent(free_run) +
+                               "; judge this model by simulation, and try other orders or delays");
+    failing += (failing.empty() ? "'" : ", '") + outputs[i] + "'";
+  }
+  if (!failing.empty() && summary.stable.changed) {
+    summary.warnings.push_back(
+        "a repair with the least loss one step ahead leaves poles at the edge of stability; one that draws them "
+        "farther in (a smaller radius) may simulate better");
+  }
+  if (!failing.empty() && summary.usable.verdict) {
+    summary.usable.reason += "; for prediction only, since free simulation of " + failing + " fails";
+  }
+}
 
 void judge_fit(const FitFacts& facts, ArxSummary& summary) {
   summary.usable = {true, "all coefficients are determined by the data and the model is stable"};
@@ -37,15 +64,12 @@ void judge_fit(const FitFacts& facts, ArxSummary& summary) {
   }
   if (summary.stable.changed) {
     warnings.push_back("the estimate was unstable (spectral radius " + number(summary.stable.estimated) +
-                       ") and was made stable (" + number(summary.stable.radius) + "); the squared error grew by " +
-                       percent(100 * (summary.stable.loss_factor - 1)));
+                       ") and was made stable (" + number(summary.stable.radius) +
+                       "); the squared one-step error grew by " + short_number(100 * (summary.stable.loss_factor - 1)) +
+                       " %, no coefficient moved by more than " + short_number(summary.stable.moved) +
+                       " standard errors");
   }
-  for (int i = 0; i < static_cast<int>(summary.free_run_fit_percent.size()); ++i) {
-    if (summary.fit_percent[i] < kPromise || summary.free_run_fit_percent[i] >= kKept) continue;
-    warnings.push_back("output '" + facts.names[i] + "': one step ahead the fit is " + percent(summary.fit_percent[i]) +
-                       ", but free simulation from the input fits only " + percent(summary.free_run_fit_percent[i]) +
-                       "; judge this model by simulation, and try other orders or delays");
-  }
+  warn_of_free_run(facts.names, summary);
   for (int i = 0; i < facts.outputs; ++i) {
     if (facts.scale[i] != 0) continue;
     summary.usable = {false, "output '" + facts.names[i] + "' never changes: there is nothing to learn"};

@@ -245,6 +245,24 @@ void settle_stability(const FitFacts& facts, const std::vector<RowCurvature>& cu
   }
 }
 
+// The largest difference of two models' coefficients in standard errors, all in scaled units.
+double largest_move(const FitFacts& facts, const ArxDesign& design, const ArxEstimate& estimate, const ArxModel& before,
+                    const ArxModel& after) {
+  double largest = 0;
+  for (std::size_t g = 0; g < design.groups.size(); ++g) {
+    const double freedom = static_cast<double>(facts.rows - design.groups[g].columns.size());
+    for (int output : design.groups[g].outputs) {
+      const double variance = estimate.residual_gram(output, output) / freedom;
+      for (std::size_t p = 0; p < before.theta[output].size(); ++p) {
+        const auto index = static_cast<Eigen::Index>(p);
+        const double sd = std::sqrt(variance * estimate.groups[g].inverse(index, index));
+        if (sd > 0) largest = std::max(largest, std::abs(after.theta[output][p] - before.theta[output][p]) / sd);
+      }
+    }
+  }
+  return largest;
+}
+
 double loss_factor(const Eigen::MatrixXd& with, const Eigen::MatrixXd& without) {
   double log = 0;
   for (Eigen::Index i = 0; i < with.rows(); ++i) {
@@ -259,11 +277,13 @@ ArxFit report_fit(const FitFacts& facts, const ArxDesign& design, ArxEstimate es
   ArxFit fit;
   ArxSummary& summary = fit.summary;
   fit.model = scaled_model(facts, design, estimate);
+  const ArxModel estimated = fit.model;
   settle_stability(facts, curvatures(facts, design, estimate), fit.model, summary.stable);
   Eigen::MatrixXd residual_gram = estimate.residual_gram;
   if (summary.stable.changed) {
     residual_gram = estimate.residual_gram_at(thetas_of(facts, design, fit.model));
     summary.stable.loss_factor = loss_factor(residual_gram, estimate.residual_gram);
+    summary.stable.moved = largest_move(facts, design, estimate, estimated, fit.model);
   }
   to_units(facts, design, fit.model);
   write_std_errors(facts, design, estimate, fit.model);

@@ -28,6 +28,11 @@ struct FitFacts {
 /// The model, stable unless the options say otherwise, and its summary; `usable` is judged by judge_fit.
 ArxFit report_fit(const FitFacts& facts, const ArxDesign& design, ArxEstimate estimate);
 
+/// Warns of outputs whose one-step fit hides that free simulation fails. `outputs` are their names.
+///
+/// Precondition: the summary has both fits, or no free_run_fit_percent.
+void warn_of_free_run(const std::vector<std::string>& outputs, ArxSummary& summary);
+
 /// Writes warnings and the verdict, from the summary's figures.
 void judge_fit(const FitFacts& facts, ArxSummary& summary);
 

@@ -1,4 +1,4 @@
-#include <limits>
+#include <algorithm>
 
 #include "arx_check.hpp"
 #include "arx_rows.hpp"
@@ -41,6 +41,18 @@ Result<void> check(const DelayOptions& options) {
   return Error{"delays are looked for with most and na from 0 to 4096 and nb from 1 to 4096"};
 }
 
+// The least squared error; but where the lags of a longer delay, which leave out the first of the best one's, do as
+// well as chance lets them, the first lag is not needed.
+int chosen_delay(const std::vector<double>& squares, double rows, int nb) {
+  constexpr double kByChance = 3.84;  // 95 % of chi-squared with one degree of freedom
+  const auto best = static_cast<int>(std::min_element(squares.begin(), squares.end()) - squares.begin());
+  int chosen = best;
+  for (int nk = best + 1; nk < std::min(best + nb, static_cast<int>(squares.size())); ++nk) {
+    if (squares[nk] <= squares[best] * (1 + kByChance / rows)) chosen = nk;
+  }
+  return chosen;
+}
+
 }  // namespace
 
 Result<OrderMatrix> estimate_delays(std::span<const Recording> recordings, const ChannelChoice& channels,
@@ -54,17 +66,17 @@ Result<OrderMatrix> estimate_delays(std::span<const Recording> recordings, const
     return Error{"too few rows (" + std::to_string(windows.rows(layout.history())) + ") to tell delays up to " +
                  std::to_string(options.most) + " samples; try shorter ones"};
   }
+  const double rows = static_cast<double>(windows.rows(layout.history()));
   OrderMatrix delays(signals->outputs, signals->inputs);
   for (int i = 0; i < signals->outputs; ++i) {
     for (int k = 0; k < signals->inputs; ++k) {
-      double least = std::numeric_limits<double>::infinity();
+      std::vector<double> squares;
       for (int nk = 0; nk <= options.most; ++nk) {
         const CandidateFit fit =
             fit_candidate(windows, layout.history(), layout, {with_delay(layout, options, i, k, nk)});
-        if (fit.residual_gram(i, i) >= least) continue;
-        least = fit.residual_gram(i, i);
-        delays(i, k) = nk;
+        squares.push_back(fit.residual_gram(i, i));
       }
+      delays(i, k) = chosen_delay(squares, rows, options.nb);
     }
   }
   return delays;

@@ -50,7 +50,7 @@ class Reader {
   explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
   bool fine() const { return fine_; }
-  bool at_end() const { return bytes_.empty(); }
+  std::size_t left() const { return bytes_.size(); }
 
   std::uint64_t number() {
     std::uint64_t value = 0;
@@ -115,6 +115,9 @@ void read_channels(Reader& reader, FactorState& state) {
     state.sum[c] = reader.real();
     state.square[c] = reader.real();
     state.samples[c] = reader.number();
+    state.spans[c].unit = reader.text();
+    state.spans[c].lowest = reader.real();
+    state.spans[c].highest = reader.real();
   }
 }
 
@@ -122,6 +125,8 @@ bool meaningful(const FactorState& state) {
   for (std::size_t c = 0; c < state.reference.size(); ++c) {
     if (std::isinf(state.reference[c]) || !std::isfinite(state.sum[c]) || !(state.square[c] >= 0)) return false;
     if (std::isnan(state.reference[c]) && state.samples[c] > 0) return false;
+    if (!(std::isfinite(state.spans[c].lowest) && state.spans[c].lowest <= state.spans[c].highest)) return false;
+    if (!std::isfinite(state.spans[c].highest)) return false;
   }
   return state.triangle.allFinite() && std::isfinite(state.rate_hz) && state.rate_hz >= 0;
 }
@@ -135,6 +140,7 @@ FactorState::FactorState(const FactorOptions& given)
       sum(reference.size()),
       square(reference.size()),
       samples(reference.size()),
+      spans(reference.size()),
       triangle(Eigen::MatrixXd::Zero(design.layout.size(), design.layout.size())) {}
 
 Result<void> check_factor_options(const FactorOptions& options) {
@@ -178,6 +184,9 @@ std::vector<std::byte> factor_bytes(const FactorState& state) {
     payload.real(state.sum[c]);
     payload.real(state.square[c]);
     payload.number(state.samples[c]);
+    payload.text(state.spans[c].unit);
+    payload.real(state.spans[c].lowest);
+    payload.real(state.spans[c].highest);
   }
   for (Eigen::Index q = 0; q < state.triangle.cols(); ++q) {
     for (Eigen::Index p = 0; p <= q; ++p) payload.real(state.triangle(p, q));
@@ -210,6 +219,8 @@ Result<FactorState> factor_from_bytes(std::span<const std::byte> bytes) {
   Reader reader(body);
   const FactorOptions options = read_options(reader);
   if (!reader.fine() || !check_factor_options(options)) return damaged;
+  const auto columns = static_cast<std::uint64_t>(make_design(options.orders, ArxOffset::kMean).layout.size());
+  if (columns * (columns + 1) / 2 * 8 > reader.left()) return damaged;  // before memory is asked for
   FactorState state(options);
   state.rate_hz = reader.real();
   for (std::uint64_t* count : {&state.rows, &state.episodes_used, &state.episodes_skipped, &state.rows_left_out}) {
@@ -219,7 +230,7 @@ Result<FactorState> factor_from_bytes(std::span<const std::byte> bytes) {
   for (Eigen::Index q = 0; q < state.triangle.cols(); ++q) {
     for (Eigen::Index p = 0; p <= q; ++p) state.triangle(p, q) = reader.real();
   }
-  if (!reader.fine() || !reader.at_end() || !meaningful(state)) return damaged;
+  if (!reader.fine() || reader.left() != 0 || !meaningful(state)) return damaged;
   return state;
 }
 

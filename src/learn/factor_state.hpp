@@ -21,7 +21,8 @@ struct FactorState {
   std::vector<double> sum;        ///< per channel, over the samples owned, of sample − reference
   std::vector<double> square;     ///< likewise of its square
   std::vector<std::uint64_t> samples;
-  Eigen::MatrixXd triangle;  ///< of all columns of the design's layout
+  std::vector<ChannelSpan> spans;  ///< per channel
+  Eigen::MatrixXd triangle;        ///< of all columns of the design's layout
   std::uint64_t rows = 0;
   std::uint64_t episodes_used = 0;
   std::uint64_t episodes_skipped = 0;

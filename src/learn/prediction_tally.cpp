@@ -68,24 +68,31 @@ PredictionFigures Tally::figures(int steps) const {
   return out;
 }
 
+FreeRunTally::FreeRunTally(Tally& tally) : tally_(tally) {}
+
+void FreeRunTally::add(const Signals& signals, std::size_t recording, std::size_t first, std::size_t rows,
+                       const double* values) {
+  const auto count = static_cast<Eigen::Index>(rows);
+  const Eigen::Map<const Eigen::MatrixXd> simulated(values, signals.outputs, count);
+  measured_.resize(count, signals.outputs);
+  for (int i = 0; i < signals.outputs; ++i) {
+    const double* samples = signals.samples[recording][i].data() + first;
+    measured_.col(i) = Eigen::Map<const Eigen::VectorXd>(samples, count).array() - signals.offset[i];
+  }
+  errors_ = measured_ - simulated.transpose();
+  const Eigen::Index whole = drop_missing(count, measured_, errors_);
+  tally_.add_errors(errors_.topRows(whole));
+  for (int i = 0; i < signals.outputs; ++i) tally_.add_output(i, measured_.col(i).head(whole));
+}
+
 Tally free_run_tally(const ArxModel& model, const Signals& signals, int group, InitialState initial, int first_sample) {
   Tally tally(signals.outputs, group);
-  Eigen::MatrixXd measured(static_cast<Eigen::Index>(kBlockRows), signals.outputs);
-  Eigen::MatrixXd errors(static_cast<Eigen::Index>(kBlockRows), signals.outputs);
+  FreeRunTally errors(tally);
   for (std::size_t r = 0; r < signals.samples.size(); ++r) {
-    free_run(
-        model, signals, r, {initial, first_sample}, [&](std::size_t first, std::size_t rows, const double* values) {
-          const auto count = static_cast<Eigen::Index>(rows);
-          const Eigen::Map<const Eigen::MatrixXd> simulated(values, signals.outputs, count);
-          for (int i = 0; i < signals.outputs; ++i) {
-            const double* samples = signals.samples[r][i].data() + first;
-            measured.col(i).head(count) = Eigen::Map<const Eigen::VectorXd>(samples, count).array() - signals.offset[i];
-          }
-          errors.topRows(count) = measured.topRows(count) - simulated.transpose();
-          const Eigen::Index whole = drop_missing(count, measured, errors);
-          tally.add_errors(errors.topRows(whole));
-          for (int i = 0; i < signals.outputs; ++i) tally.add_output(i, measured.col(i).head(whole));
-        });
+    free_run(model, signals, r, {initial, first_sample},
+             [&](std::size_t first, std::size_t rows, const double* values) {
+               errors.add(signals, r, first, rows, values);
+             });
   }
   return tally;
 }

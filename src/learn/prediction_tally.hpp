@@ -42,6 +42,22 @@ class Tally {
   std::vector<double> norm_;
 };
 
+/// Takes the errors of simulated rows into a tally.
+class FreeRunTally {
+ public:
+  /// Precondition: `tally` outlives this.
+  explicit FreeRunTally(Tally& tally);
+
+  /// Rows [first, first + rows) of a recording: `values` are the simulated deviations, row after row. Rows where an
+  /// output was not measured do not count.
+  void add(const Signals& signals, std::size_t recording, std::size_t first, std::size_t rows, const double* values);
+
+ private:
+  Tally& tally_;
+  Eigen::MatrixXd measured_;
+  Eigen::MatrixXd errors_;
+};
+
 /// Free simulation over all recordings against what was measured, from row `first_sample` of every episode on.
 ///
 /// Preconditions: the signals' offsets are the model's operating point; first_sample >= the model's history.

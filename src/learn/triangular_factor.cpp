@@ -18,7 +18,12 @@ namespace {
 // What is taken into memory of a table at a time.
 constexpr std::size_t kRowsAtATime = 65536;
 
-// Sums over the samples that a part owns, about its reference.
+void widen(double lowest, double highest, bool first, ChannelSpan& span) {
+  span.lowest = first ? lowest : std::min(span.lowest, lowest);
+  span.highest = first ? highest : std::max(span.highest, highest);
+}
+
+// Sums over the samples that a part owns, about its reference, and their range.
 void add_samples(const Signals& signals, const RowPart& part, FactorState& state) {
   for (int c = 0; c < signals.channels(); ++c) {
     const auto samples = signals.samples[0][c];
@@ -27,6 +32,7 @@ void add_samples(const Signals& signals, const RowPart& part, FactorState& state
       double square = 0;
       for (std::size_t t = begin; t < std::min(part.end, begin + kBlockRows); ++t) {
         if (std::isnan(samples[t])) continue;
+        widen(samples[t], samples[t], state.samples[c] == 0, state.spans[c]);
         const double deviation = samples[t] - state.reference[c];
         sum += deviation;
         square += deviation * deviation;
@@ -126,6 +132,9 @@ Result<void> add_part(const Recording& recording, const RowPart& part, FactorSta
       return Error{"channel '" + signals->names[c] + "' holds an infinite sample"};
     }
     if (std::isnan(state.reference[c])) state.reference[c] = reference_of(samples);
+    if (state.spans[c].unit.empty()) {
+      state.spans[c].unit = recording.channels[*find_channel(recording, signals->names[c])].unit;
+    }
     signals->offset[c] = std::isnan(state.reference[c]) ? 0.0 : state.reference[c];
   }
   add_samples(*signals, part, state);
@@ -145,17 +154,24 @@ Result<void> TriangularFactor::add(const Recording& recording, const PartRows& r
   return add_part(recording, {std::min(rows.begin, end), end, end == recording.rows()}, *state_);
 }
 
-Result<void> TriangularFactor::add(CsvReader& reader) {
+Result<void> TriangularFactor::add(CsvReader& reader, const PartRows& rows, std::size_t table_rows) {
   // One row more than the history, so that an episode that goes on is never taken for one that is too short.
   const auto kept = static_cast<std::size_t>(state_->first_sample()) + 1;
+  const std::size_t end = std::min(rows.end, table_rows);
+  const std::size_t begin = std::min(rows.begin, end);
+  const std::size_t before = std::min(kept, begin);
   Recording window = reader.header();
-  for (;;) {
-    const std::size_t before = window.rows();
-    const auto read = reader.read(window, kRowsAtATime);
+  if (const auto passed = reader.skip(begin - before); !passed) return passed.error();
+  if (const auto history = reader.read(window, before); !history) return history.error();
+  for (std::size_t at = begin;;) {
+    const std::size_t known = window.rows();
+    const auto read = reader.read(window, std::min(kRowsAtATime, end - at));
     if (!read) return read.error();
-    const RowPart part{before, window.rows(), *read == 0};
-    if (auto ok = add_part(window, part, *state_); !ok) return ok;
-    if (*read == 0) return {};
+    at += *read;
+    const bool over = *read == 0;
+    const bool last = over && (at < end || end == table_rows);
+    if (auto ok = add_part(window, {known, window.rows(), last}, *state_); !ok) return ok;
+    if (over) return {};
     window = slice(window, window.rows() - std::min(kept, window.rows()), window.rows());
   }
 }
@@ -170,6 +186,10 @@ Result<void> TriangularFactor::merge(const TriangularFactor& other) {
     const double apart = std::isnan(more.reference[c]) ? 0.0 : more.reference[c] - state.reference[c];
     const double count = static_cast<double>(more.samples[c]);
     shift.push_back(apart);
+    if (more.samples[c] > 0) {
+      widen(more.spans[c].lowest, more.spans[c].highest, state.samples[c] == 0, state.spans[c]);
+    }
+    if (state.spans[c].unit.empty()) state.spans[c].unit = more.spans[c].unit;
     state.square[c] += more.square[c] + 2 * apart * more.sum[c] + apart * apart * count;
     state.sum[c] += more.sum[c] + apart * count;
     state.samples[c] += more.samples[c];
@@ -186,6 +206,12 @@ Result<void> TriangularFactor::merge(const TriangularFactor& other) {
 }
 
 std::size_t TriangularFactor::rows() const { return state_->rows; }
+
+const FactorOptions& TriangularFactor::options() const { return state_->options; }
+
+double TriangularFactor::rate_hz() const { return state_->rate_hz; }
+
+std::vector<ChannelSpan> TriangularFactor::spans() const { return state_->spans; }
 
 std::vector<std::byte> TriangularFactor::bytes() const { return factor_bytes(*state_); }
 
@@ -207,6 +233,13 @@ Result<ArxFit> TriangularFactor::finish(const ArxOptions& options) const {
   plan.rows = state_->rows;
   plan.first_sample = state_->first_sample();
   if (auto ok = check_rows(plan, design); !ok) return ok.error();
+  for (std::size_t c = 0; c < state_->samples.size(); ++c) {
+    if (state_->samples[c] > 0) continue;
+    const ChannelChoice& names = state_->options.channels;
+    const std::size_t outputs = names.outputs.size();
+    return Error{"channel '" + (c < outputs ? names.outputs[c] : names.inputs[c - outputs]) +
+                 "' has no sample that is not missing"};
+  }
   const FitFacts facts = facts_of(*state_, own);
   std::vector<double> shift;
   for (std::size_t c = 0; c < facts.offset.size(); ++c) shift.push_back(state_->reference[c] - facts.offset[c]);

@@ -251,6 +251,17 @@ Result<std::size_t> CsvReader::read(Recording& recording, std::size_t most_rows)
   return count;
 }
 
+Result<std::size_t> CsvReader::skip(std::size_t most_rows) {
+  std::size_t count = 0;
+  while (count < most_rows) {
+    const auto more = next_line();
+    if (!more) return more.error();
+    if (!*more) break;
+    ++count;
+  }
+  return count;
+}
+
 Result<void> CsvReader::add_row(Recording& recording) {
   std::size_t place = 0;
   Result<void> outcome;

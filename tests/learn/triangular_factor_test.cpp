@@ -1,7 +1,9 @@
 #include "wisp/learn/triangular_factor.hpp"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -117,6 +119,109 @@ TEST(TriangularFactor, SurvivesItsBytes) {
   ASSERT_TRUE(again) << again.error().message;
   EXPECT_EQ(again->bytes(), factor.bytes());
   expect_same(*again->finish(options()), *factor.finish(options()));
+}
+
+// A table that is made as it is read, and looks at every refill how much memory is in use.
+class EndlessTable : public std::streambuf {
+ public:
+  explicit EndlessTable(std::size_t rows) : rows_(rows) { take("# wisp-recording 1\n# rate_hz 60\nu:u,y:y1,y:y2\n"); }
+
+  std::size_t most_bytes() const { return most_bytes_; }
+
+ protected:
+  int_type underflow() override {
+    const struct mallinfo2 heap = mallinfo2();
+    most_bytes_ = std::max(most_bytes_, heap.uordblks + heap.hblkhd);
+    if (row_ == rows_) return traits_type::eof();
+    std::string text;
+    for (int k = 0; k < 100 && row_ < rows_; ++k, ++row_) {
+      const auto u = static_cast<double>(random_() % 1000);
+      const double y1 = 0.5 * y1_ - 0.2 * y2_ + u + static_cast<double>(random_() % 100);
+      y2_ = 0.3 * y2_ + 0.1 * y1_ + static_cast<double>(random_() % 100);
+      y1_ = y1;
+      text += std::to_string(u) + "," + std::to_string(y1_) + "," + std::to_string(y2_) + "\n";
+    }
+    take(std::move(text));
+    return traits_type::to_int_type(*gptr());
+  }
+
+ private:
+  void take(std::string text) {
+    text_ = std::move(text);
+    setg(text_.data(), text_.data(), text_.data() + text_.size());
+  }
+
+  std::size_t rows_;
+  std::size_t row_ = 0;
+  double y1_ = 0, y2_ = 0;
+  std::mt19937 random_{4};
+  std::string text_;
+  std::size_t most_bytes_ = 0;
+};
+
+std::size_t most_bytes_while_reading(std::size_t rows) {
+  EndlessTable table(rows);
+  std::istream stream(&table);
+  auto reader = CsvReader::open(stream, "endless");
+  EXPECT_TRUE(reader);
+  TriangularFactor factor = empty();
+  EXPECT_TRUE(factor.add(*reader));
+  EXPECT_EQ(factor.rows(), rows - 3);
+  return table.most_bytes();
+}
+
+TEST(TriangularFactor, MemoryDoesNotGrowWithTheTable) {
+  most_bytes_while_reading(200000);  // whatever is allocated once and kept
+  const std::size_t some = most_bytes_while_reading(200000);
+  const std::size_t many = most_bytes_while_reading(1600000);
+  // The rows between would be 34 MB as numbers.
+  EXPECT_LT(many, some + 100000);
+}
+
+TEST(TriangularFactor, SharesOfATableAreThoseOfTheRecording) {
+  const Recording recording = sample_recording(150000);
+  const std::string text = csv_text(recording);
+  for (std::size_t count : {2u, 3u, 50u}) {
+    TriangularFactor all = empty();
+    for (std::size_t k = 0; k < count; ++k) {
+      std::istringstream stream(text);
+      auto reader = CsvReader::open(stream, "sample");
+      ASSERT_TRUE(reader);
+      TriangularFactor part = empty();
+      const PartRows rows = part_rows(recording.rows(), k, count);
+      ASSERT_TRUE(part.add(*reader, rows, recording.rows()));
+      TriangularFactor want = empty();
+      ASSERT_TRUE(want.add(recording, rows));
+      EXPECT_EQ(part.rows(), want.rows()) << k << " of " << count;
+      ASSERT_TRUE(all.merge(part));
+    }
+    const auto fit = all.finish(options());
+    const auto whole = fit_arx({&recording, 1}, channels(), options());
+    ASSERT_TRUE(fit && whole);
+    expect_same(*fit, *whole);
+  }
+}
+
+TEST(TriangularFactor, KnowsRangesAndRate) {
+  const Recording recording = sample_recording();
+  TriangularFactor first = empty();
+  TriangularFactor second = empty();
+  ASSERT_TRUE(first.add(recording, part_rows(recording.rows(), 0, 2)));
+  ASSERT_TRUE(second.add(recording, part_rows(recording.rows(), 1, 2)));
+  ASSERT_TRUE(second.merge(first));
+  EXPECT_EQ(second.rate_hz(), 60);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto& samples = recording.channels[c == 2 ? 0 : c + 1].samples;
+    double lowest = std::numeric_limits<double>::infinity();
+    double highest = -lowest;
+    for (double sample : samples) {
+      if (std::isnan(sample)) continue;
+      lowest = std::min(lowest, sample);
+      highest = std::max(highest, sample);
+    }
+    EXPECT_EQ(second.spans()[c].lowest, lowest);
+    EXPECT_EQ(second.spans()[c].highest, highest);
+  }
 }
 
 TEST(TriangularFactor, EveryChangedByteAndEveryCutIsNoticed) {

@@ -60,6 +60,18 @@ TEST(Csv, ReadsAPlainTableWhenNamesAndRateAreGiven) {
   EXPECT_EQ(recording->channels[1].samples[1], -450);
 }
 
+TEST(Csv, SkippedRowsAreCountedButNotUnderstood) {
+  std::istringstream stream(kHead + "u:a,y:b\n1,2\n\nno number,at all,here\n3,4\n5,6\n");
+  auto reader = CsvReader::open(stream, "test.csv");
+  ASSERT_TRUE(reader);
+  EXPECT_EQ(*reader->skip(2), 2u);
+  Recording rest = reader->header();
+  EXPECT_EQ(*reader->read(rest, 1), 1u);
+  EXPECT_EQ(rest.channels[1].samples, std::vector<double>{4});
+  EXPECT_EQ(*reader->skip(10), 1u);
+  EXPECT_EQ(*reader->skip(10), 0u);
+}
+
 TEST(Csv, ReadsSemicolonsAndTabs) {
   const CsvOptions options{.rate_hz = 1, .outputs = {"b"}};
   EXPECT_EQ(parse("a;b\n1;2\n", options)->channels[0].samples[0], 2);

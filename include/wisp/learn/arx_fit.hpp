@@ -53,7 +53,8 @@ struct ArxStability {
   double radius = 0;       ///< of the model as returned, rounded to single precision
   bool changed = false;    ///< whether the estimate had to be changed
   double estimated = 0;    ///< radius of the unconstrained estimate
-  double loss_factor = 1;  ///< geometric mean over outputs of loss with the change / loss without
+  double loss_factor = 1;  ///< geometric mean over outputs of one-step loss with the change / loss without
+  double moved = 0;        ///< largest change of a coefficient, in its standard errors
 };
 
 /// How good the fit is, and what happened. Figures are those of the model as returned.

@@ -90,8 +90,8 @@ struct DelayOptions {
 };
 
 /// Delays of every input to every output: nk of outputs × inputs. An input's delay is the one with the least squared
-/// error; the other inputs stand beside it with all lags up to the largest, so that their delays do not matter.
-/// Errors: as fit_arx.
+/// error, or a longer one that leaves out only lags that are not significant (95 %); the other inputs stand beside it
+/// with all lags up to the largest, so that their delays do not matter. Errors: as fit_arx.
 Result<OrderMatrix> estimate_delays(std::span<const Recording> recordings, const ChannelChoice& channels,
                                     const DelayOptions& options = {});
 

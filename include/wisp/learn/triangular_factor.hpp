@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "wisp/base/result.hpp"
@@ -40,6 +41,13 @@ struct PartRows {
 /// Precondition: index < count.
 PartRows part_rows(std::size_t rows, std::size_t index, std::size_t count);
 
+/// What a channel did over the samples of a part.
+struct ChannelSpan {
+  std::string unit;
+  double lowest = 0;  ///< 0 where it has no sample, as the next
+  double highest = 0;
+};
+
 class TriangularFactor {
  public:
   /// An empty part. Errors: orders that do not fit the channels or are out of range.
@@ -55,15 +63,25 @@ class TriangularFactor {
   /// Errors: a channel that the recording has not, another rate than before, infinite samples.
   Result<void> add(const Recording& recording, const PartRows& rows = {});
 
-  /// Takes in all rows of a table as they are read, a stretch at a time.
+  /// Takes in rows of a table as they are read, a stretch at a time. Rows are counted from where the reader stands; the
+  /// table is taken to end after `table_rows` of them, if not before.
   /// Errors: as add and CsvReader.
-  Result<void> add(CsvReader& reader);
+  Result<void> add(CsvReader& reader, const PartRows& rows = {},
+                   std::size_t table_rows = std::numeric_limits<std::size_t>::max());
 
   /// Takes in all that another part knows. Errors: a part of another model.
   Result<void> merge(const TriangularFactor& other);
 
   /// Rows in the regression so far.
   std::size_t rows() const;
+
+  const FactorOptions& options() const;
+
+  /// Samples a second; 0 before anything was taken in.
+  double rate_hz() const;
+
+  /// Unit and range of every channel: outputs, then inputs.
+  std::vector<ChannelSpan> spans() const;
 
   /// As bytes, the same on every machine, with a hash.
   std::vector<std::byte> bytes() const;

@@ -39,6 +39,11 @@ class CsvReader {
   /// Errors: a wrong number of columns, text, NaN or infinity where a number belongs, a line longer than 16 MiB.
   Result<std::size_t> read(Recording& recording, std::size_t most_rows);
 
+  /// Passes over up to `most_rows` rows without looking at their numbers.
+  /// Returns how many; fewer than asked for at the end only.
+  /// Errors: bytes that are not text, a line longer than 16 MiB.
+  Result<std::size_t> skip(std::size_t most_rows);
+
  private:
   struct Column {
     enum class Kind { kSkip, kChannel, kFlag, kEpisode } kind = Kind::kSkip;

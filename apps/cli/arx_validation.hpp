@@ -1,0 +1,18 @@
+#pragma once
+// `wisp validate` for models whose outputs stand for themselves.
+
+#include <vector>
+
+#include "command.hpp"
+#include "terminal.hpp"
+#include "wisp/model/model.hpp"
+
+namespace wisp::cli {
+
+/// Holds a model against a table: fit, J and errors per number of steps, how often the model's own intervals hold, and
+/// residual tests; with --figures the plots of them.
+/// Errors: the table cannot be read or has not the model's channels; a flag that is only for outlines.
+Result<void> validate_plain(const Model& model, const std::vector<int>& steps, const Arguments& arguments,
+                            Terminal& terminal);
+
+}  // namespace wisp::cli
