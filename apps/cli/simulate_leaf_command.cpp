@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "commands.hpp"
+#include "leaf_film.hpp"
 #include "terminal.hpp"
 #include "wisp/record/csv.hpp"
 #include "wisp/simulate/leaf_drops.hpp"
@@ -75,6 +76,13 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   const bool pairs = arguments.on("pairs");
   const auto recording = pairs ? write_pairs(path, options, terminal) : write_drops(path, options);
   if (!recording) return recording.error();
+  if (arguments.has("video")) {
+    LeafFilmOptions film{.from_above = arguments.text("view") == "above"};
+    film.style.length = static_cast<float>(options.drops.leaf.length);
+    film.style.width = static_cast<float>(options.drops.leaf.width);
+    if (auto good = write_leaf_film(arguments.text("video"), *recording, film, terminal); !good) return good;
+    terminal.result()["video"] = arguments.text("video");
+  }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   Json& result = terminal.result();
   result["episodes"] = episodes(*recording).size();
@@ -131,6 +139,8 @@ Command simulate_leaf_command() {
            "fixed steps, or the stiff reference with an error bound",
            {"fixed", "stiff"}},
           {"threads", Kind::kInteger, "N", "0", "0: one a core; the result does not depend on it"},
+          {"video", Kind::kPath, "CLIP.mp4", "", "and film the first few drops, up to 20 s"},
+          {"view", Kind::kChoice, "V", "side", "where from: side, or above", {"side", "above"}},
           {"seed", Kind::kInteger, "N", "1", "of all chance"},
       },
       {{"wisp simulate leaf -o leaf.csv --drops 200 --seconds 20", "What a leaf's chain is learned from"},
