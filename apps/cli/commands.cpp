@@ -15,6 +15,7 @@ const std::vector<Command>& commands() {
       learn_arx_command(),
       validate_command(),
       simulate_candle_command(),
+      simulate_leaf_command(),
       run_command(),
       info_command(),
       demo_command(),

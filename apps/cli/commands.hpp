@@ -12,6 +12,7 @@ Command learn_flame_command();
 Command learn_arx_command();
 Command validate_command();
 Command simulate_candle_command();
+Command simulate_leaf_command();
 Command run_command();
 Command info_command();
 Command demo_command();

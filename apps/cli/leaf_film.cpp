@@ -1,0 +1,190 @@
+#include "leaf_film.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "wisp/draw/video_writer.hpp"
+
+namespace wisp::cli {
+namespace {
+
+constexpr double kMostFramesASecond = 60;
+constexpr double kRestSeconds = 2.2;     // on the floor
+constexpr double kFadeSeconds = 0.6;     // the last of it
+constexpr double kSettleSeconds = 0.12;  // from the pose it landed in to lying flat
+constexpr double kTrailSeconds = 0.9;
+constexpr double kStaggerSeconds = 0.45;  // between the first falls of two leaves
+
+using PoseColumns = std::array<const std::vector<double>*, 7>;
+
+Result<PoseColumns> pose_columns(const Recording& recording) {
+  PoseColumns columns{};
+  std::size_t k = 0;
+  for (const char* name : {"pos.x", "pos.y", "pos.z", "q.w", "q.x", "q.y", "q.z"}) {
+    const auto found = find_channel(recording, name);
+    if (!found)
+      return Error{recording.source + ": has no channel " + name +
+                   ", expected pos.x pos.y pos.z q.w q.x q.y q.z; only poses can be drawn as leaves"};
+    columns[k++] = &recording.channels[*found].samples;
+  }
+  return columns;
+}
+
+LeafPose pose_at(const PoseColumns& columns, std::size_t row) {
+  const auto at = [&](std::size_t k) { return static_cast<float>((*columns[k])[row]); };
+  return {{at(0), at(1), at(2)}, {at(3), at(4), at(5), at(6)}};
+}
+
+// Flat on the floor, on the side that it fell on, its midrib where it pointed.
+LeafPose lying(const LeafPose& landed) {
+  const auto& q = landed.attitude;
+  const bool face_up = 1 - 2 * (q[1] * q[1] + q[2] * q[2]) >= 0;
+  const float heading = std::atan2(2 * (q[1] * q[2] + q[0] * q[3]), 1 - 2 * (q[2] * q[2] + q[3] * q[3])) / 2;
+  LeafPose pose = landed;
+  pose.attitude = {std::cos(heading), 0, 0, std::sin(heading)};
+  if (!face_up) pose.attitude = {0, std::cos(heading), std::sin(heading), 0};
+  return pose;
+}
+
+// From one attitude towards another, by the shorter way.
+LeafPose between(const LeafPose& a, const LeafPose& b, float share) {
+  float along = 0;
+  for (std::size_t k = 0; k < 4; ++k) along += a.attitude[k] * b.attitude[k];
+  LeafPose pose = b;
+  for (std::size_t k = 0; k < 4; ++k)
+    pose.attitude[k] = (1 - share) * a.attitude[k] + (along < 0 ? -share : share) * b.attitude[k];
+  return pose;
+}
+
+// One fall from the top to the floor: rows of an episode, and where it is put in the room.
+struct Fall {
+  std::size_t first = 0, last = 0;  // row of the start, row of the landing (or the episode's last)
+  bool lands = false;
+  double begins = 0;  // seconds of the video
+  std::array<float, 3> shift{};
+};
+
+// Cuts an episode into falls that are centred around a place of the floor.
+std::vector<Fall> falls_of(const PoseColumns& columns, const Episode& episode, double rate, float metres, Point place,
+                           double begins) {
+  std::vector<Fall> falls;
+  for (std::size_t row = episode.begin; row + 1 < episode.end;) {
+    const LeafPose start = pose_at(columns, row);
+    Fall fall{row, row, false, begins, {}};
+    float low_x = start.position[0], high_x = low_x, low_y = start.position[1], high_y = low_y;
+    while (fall.last + 1 < episode.end && !fall.lands) {
+      const LeafPose pose = pose_at(columns, ++fall.last);
+      low_x = std::min(low_x, pose.position[0]), high_x = std::max(high_x, pose.position[0]);
+      low_y = std::min(low_y, pose.position[1]), high_y = std::max(high_y, pose.position[1]);
+      fall.lands = pose.position[2] <= start.position[2] - metres;
+    }
+    fall.shift = {place.x - (low_x + high_x) / 2, place.y - (low_y + high_y) / 2, metres - start.position[2]};
+    falls.push_back(fall);
+    begins += static_cast<double>(fall.last - row) / rate + 0.35;
+    row = fall.last + 1;
+  }
+  return falls;
+}
+
+class Film {
+ public:
+  Film(const Recording& recording, const PoseColumns& columns, const LeafFilmOptions& options)
+      : columns_(columns), options_(options), rate_(recording.rate_hz) {
+    const std::vector<Episode> all = episodes(recording);
+    const std::size_t count = std::min(all.size(), static_cast<std::size_t>(options.most_leaves));
+    for (std::size_t k = 0; k < count; ++k) {
+      const float across = count > 1 ? 2 * static_cast<float>(k) / static_cast<float>(count - 1) - 1 : 0;
+      // Neighbours of the floor do not follow each other in time, and stand at three depths.
+      const Point place{0.72F * options.fall_metres * across,
+                        0.16F * static_cast<float>(static_cast<int>(k * 2 % 3) - 1)};
+      const double begins = kStaggerSeconds * static_cast<double>(k * 3 % count);
+      for (const Fall& fall : falls_of(columns, all[k], rate_, options.fall_metres, place, begins))
+        falls_.push_back(fall);
+    }
+  }
+
+  // The leaves that are in the air or on the floor at a time of the video.
+  std::vector<DrawnLeaf> at(double seconds) {
+    trails_.clear();
+    trails_.reserve(falls_.size());
+    std::vector<DrawnLeaf> leaves;
+    for (const Fall& fall : falls_) {
+      const double since = seconds - fall.begins;
+      const double lasts = static_cast<double>(fall.last - fall.first) / rate_;
+      if (since < 0 || since > lasts + (fall.lands ? kRestSeconds : 0)) continue;
+      leaves.push_back(since < lasts ? flying(fall, since) : resting(fall, since - lasts));
+    }
+    return leaves;
+  }
+
+ private:
+  LeafPose placed(const Fall& fall, std::size_t row) const {
+    LeafPose pose = pose_at(columns_, row);
+    for (std::size_t k = 0; k < 3; ++k) pose.position[k] += fall.shift[k];
+    pose.position[2] = std::max(pose.position[2], 0.004F);
+    return pose;
+  }
+
+  DrawnLeaf flying(const Fall& fall, double since) {
+    const std::size_t row = fall.first + static_cast<std::size_t>(since * rate_);
+    const auto back = static_cast<std::size_t>(kTrailSeconds * rate_);
+    std::vector<LeafPose> trail;
+    for (std::size_t k = std::max(fall.first + back, row) - back; k <= row; ++k) trail.push_back(placed(fall, k));
+    trails_.push_back(std::move(trail));
+    DrawnLeaf leaf{placed(fall, row), options_.style, 1, trails_.back()};
+    // It comes into being rather than appearing.
+    leaf.opacity = static_cast<float>(std::min(1.0, since / 0.2));
+    return leaf;
+  }
+
+  DrawnLeaf resting(const Fall& fall, double since) const {
+    const LeafPose landed = placed(fall, fall.last);
+    const float share = static_cast<float>(std::min(1.0, since / kSettleSeconds));
+    const float left = static_cast<float>(std::clamp((kRestSeconds - since) / kFadeSeconds, 0.0, 1.0));
+    return {between(landed, lying(landed), share), options_.style, left, {}};
+  }
+
+  const PoseColumns& columns_;
+  const LeafFilmOptions& options_;
+  double rate_;
+  std::vector<Fall> falls_;
+  std::vector<std::vector<LeafPose>> trails_;
+};
+
+double longest_episode(const Recording& recording) {
+  std::size_t rows = 0;
+  for (const Episode& episode : episodes(recording)) rows = std::max(rows, episode.size());
+  return static_cast<double>(rows) / recording.rate_hz;
+}
+
+}  // namespace
+
+Result<void> write_leaf_film(const std::filesystem::path& path, const Recording& recording,
+                             const LeafFilmOptions& options, Terminal& terminal) {
+  const auto columns = pose_columns(recording);
+  if (!columns) return columns.error();
+  const double rate = std::min(kMostFramesASecond, recording.rate_hz);
+  auto video = VideoWriter::create(
+      path, {.width = options.width, .height = options.height, .rate_hz = rate, .crf = 18, .preset = "fast"});
+  if (!video) return video.error();
+  LeafRoom room;
+  if (options.from_above) room.grid_metres = 0.25F;
+  const LeafCamera camera =
+      options.from_above ? leaf_camera_from_above({0, 0, 0}, 1.7F) : leaf_camera_from_side(1.1F * options.fall_metres);
+  const Image empty = draw_leaf_room(options.width, options.height, camera, room);
+  Film film(recording, *columns, options);
+  const double seconds = std::min(options.most_seconds, longest_episode(recording));
+  const int frames = std::max(1, static_cast<int>(std::lround(seconds * rate)));
+  for (int frame = 0; frame < frames; ++frame) {
+    Image image = empty;
+    draw_leaves(image, film.at(frame / rate), camera, room);
+    if (auto good = video->write(image); !good) return good;
+    terminal.progress("filming", static_cast<double>(frame + 1) / frames);
+  }
+  return video->finish();
+}
+
+}  // namespace wisp::cli

@@ -1,0 +1,27 @@
+#pragma once
+// A recording of poses as a video of leaves that fall to the floor.
+
+#include <filesystem>
+
+#include "terminal.hpp"
+#include "wisp/draw/leaf.hpp"
+#include "wisp/record/recording.hpp"
+
+namespace wisp::cli {
+
+struct LeafFilmOptions {
+  bool from_above = false;  ///< else from the side
+  int width = 1280;         ///< pixels
+  int height = 720;
+  double most_seconds = 20;   ///< of the video
+  int most_leaves = 7;        ///< episodes that are seen at once
+  float fall_metres = 1.45F;  ///< a fall ends on the floor after so much; the next begins where it would have gone on
+  LeafStyle style{.scale = 1.8F};
+};
+
+/// Draws the recording's episodes, a leaf each, and encodes them; whole or not at all.
+/// Errors: the recording has no outputs `pos.x pos.y pos.z q.w q.x q.y q.z`, or the video cannot be written.
+Result<void> write_leaf_film(const std::filesystem::path& path, const Recording& recording,
+                             const LeafFilmOptions& options, Terminal& terminal);
+
+}  // namespace wisp::cli

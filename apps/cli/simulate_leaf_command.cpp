@@ -1,0 +1,153 @@
+// `wisp simulate leaf`: many falls of one leaf as a recording, or gusts and their calm twins as two.
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+
+#include "commands.hpp"
+#include "leaf_film.hpp"
+#include "terminal.hpp"
+#include "wisp/record/csv.hpp"
+#include "wisp/simulate/leaf_drops.hpp"
+
+namespace wisp::cli {
+namespace {
+
+constexpr double kGramsPerKilogram = 1000;
+
+LeafWindKind wind_kind(const std::string& word) {
+  if (word == "constant") return LeafWindKind::kConstant;
+  if (word == "gusts") return LeafWindKind::kGusts;
+  return word == "turbulence" ? LeafWindKind::kTurbulence : LeafWindKind::kCalm;
+}
+
+LeafPairsOptions options_from(const Arguments& arguments, Terminal& terminal) {
+  LeafPairsOptions options;
+  options.clones = arguments.integer("clones");
+  LeafDropsOptions& drops = options.drops;
+  drops.leaf.length = arguments.number("length");
+  drops.leaf.width = arguments.number("width");
+  drops.leaf.areal_density = arguments.number("density") / kGramsPerKilogram;
+  if (arguments.text("air") == "vertical") drops.leaf.air = leaf_air_vertical();
+  drops.wind.kind = wind_kind(arguments.text("wind"));
+  drops.wind.speed = arguments.number("wind-speed");
+  drops.wind.direction = arguments.number("wind-direction");
+  drops.wind.gust_seconds = arguments.number("gust-seconds");
+  if (arguments.text("method") == "stiff") drops.stepping.method = LeafMethod::kStiff;
+  drops.drops = arguments.integer("drops");
+  drops.seconds = arguments.number("seconds");
+  drops.rate_hz = arguments.number("rate");
+  drops.settle_seconds = arguments.number("settle");
+  drops.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
+  drops.threads = arguments.integer("threads");
+  drops.on_progress = [&terminal](double share) { terminal.progress("falling", share); };
+  return options;
+}
+
+// REC.calm.csv for REC.csv.
+std::filesystem::path calm_path(std::filesystem::path path) { return path.replace_extension(".calm.csv"); }
+
+Result<Recording> write_drops(const std::filesystem::path& path, const LeafPairsOptions& options) {
+  auto recording = simulate_leaf_drops(options.drops);
+  if (!recording) return recording;
+  if (auto good = write_csv(path, *recording); !good) return good.error();
+  return recording;
+}
+
+Result<Recording> write_pairs(const std::filesystem::path& path, const LeafPairsOptions& options, Terminal& terminal) {
+  auto pairs = simulate_leaf_pairs(options);
+  if (!pairs) return pairs.error();
+  if (auto good = write_csv(calm_path(path), pairs->calm); !good) return good.error();
+  if (auto good = write_csv(path, pairs->windy); !good) return good.error();
+  terminal.result()["calm"] = calm_path(path).string();
+  terminal.result()["clones"] = options.clones;
+  return std::move(pairs->windy);
+}
+
+Result<void> run(const Arguments& arguments, Terminal& terminal) {
+  const auto start = std::chrono::steady_clock::now();
+  const LeafPairsOptions options = options_from(arguments, terminal);
+  const std::filesystem::path path = arguments.text("output");
+  if (path.extension() != ".csv")
+    return Error{path.string() + ": cannot be written, expected a name that ends in .csv"};
+  // Found before the falls, not after them.
+  if (const auto folder = path.parent_path(); !folder.empty() && !std::filesystem::is_directory(folder))
+    return Error{path.string() + ": cannot be written, there is no folder " + folder.string()};
+  const bool pairs = arguments.on("pairs");
+  const auto recording = pairs ? write_pairs(path, options, terminal) : write_drops(path, options);
+  if (!recording) return recording.error();
+  if (arguments.has("video")) {
+    LeafFilmOptions film{.from_above = arguments.text("view") == "above"};
+    film.style.length = static_cast<float>(options.drops.leaf.length);
+    film.style.width = static_cast<float>(options.drops.leaf.width);
+    if (auto good = write_leaf_film(arguments.text("video"), *recording, film, terminal); !good) return good;
+    terminal.result()["video"] = arguments.text("video");
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  Json& result = terminal.result();
+  result["episodes"] = episodes(*recording).size();
+  result["rows"] = recording->rows();
+  result["rate_hz"] = number(recording->rate_hz);
+  result["seed"] = options.drops.seed;
+  result["output"] = path.string();
+  result["seconds"] = seconds;
+  terminal.say("wrote " + path.string() + (pairs ? " and " + calm_path(path).string() : "") + ": " +
+               std::to_string(episodes(*recording).size()) + " episodes, " + std::to_string(recording->rows()) +
+               " rows, seed " + std::to_string(options.drops.seed) + ", in " + shown(seconds) + " s");
+  return {};
+}
+
+}  // namespace
+
+Command simulate_leaf_command() {
+  return {
+      "simulate leaf",
+      "Simulates falls of one leaf from random starts: a recording of its pose, one episode a drop.",
+      {},
+      {
+          {"output", Kind::kPath, "REC.csv", "", "where to write the recording", {}, true},
+          {"drops", Kind::kInteger, "N", "200", "falls; with --pairs, gusts"},
+          {"seconds", Kind::kNumber, "S", "20", "recorded of each"},
+          {"rate", Kind::kNumber, "HZ", "60", "rows a second"},
+          {"settle", Kind::kNumber, "S", "2", "seconds of each fall before the recording begins"},
+          {"wind",
+           Kind::kChoice,
+           "W",
+           "calm",
+           "calm, constant, gusts or turbulence",
+           {"calm", "constant", "gusts", "turbulence"}},
+          {"wind-speed", Kind::kNumber, "M/S", "1", "of the steady wind, or of a typical gust"},
+          {"wind-direction", Kind::kNumber, "DEG", "0",
+           "where it blows to, from x towards y; gusts come from all sides"},
+          {"gust-seconds", Kind::kNumber, "S", "0.3", "a typical gust's length"},
+          {"pairs", Kind::kSwitch, "", "",
+           "one gust an episode, each with many clones of a fall, and in REC.calm.csv the same falls without it"},
+          {"clones", Kind::kInteger, "N", "32", "falls a gust with --pairs, alike but for a little"},
+          {"length", Kind::kNumber, "M", "0.073", "the leaf's long axis, metres"},
+          {"width", Kind::kNumber, "M", "0.049", "its short axis"},
+          {"density", Kind::kNumber, "G/M2", "70", "its areal density"},
+          {"air",
+           Kind::kChoice,
+           "SET",
+           "joint",
+           "coefficients: joint, or vertical (fitted to vertical release only)",
+           {"joint", "vertical"}},
+          {"method",
+           Kind::kChoice,
+           "M",
+           "fixed",
+           "fixed steps, or the stiff reference with an error bound",
+           {"fixed", "stiff"}},
+          {"threads", Kind::kInteger, "N", "0", "0: one a core; the result does not depend on it"},
+          {"video", Kind::kPath, "CLIP.mp4", "", "and film the first few drops, up to 20 s"},
+          {"view", Kind::kChoice, "V", "side", "where from: side, or above", {"side", "above"}},
+          {"seed", Kind::kInteger, "N", "1", "of all chance"},
+      },
+      {{"wisp simulate leaf -o leaf.csv --drops 200 --seconds 20", "What a leaf's chain is learned from"},
+       {"wisp simulate leaf -o gusts.csv --pairs --drops 200 --seconds 1.5",
+        "What its answer to wind is learned from"}},
+      run,
+  };
+}
+
+}  // namespace wisp::cli

@@ -1,0 +1,114 @@
+// Wind over place and time.
+
+#include "wisp/simulate/leaf_wind.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace wisp {
+namespace {
+
+using testing::HasSubstr;
+using Triple = std::array<double, 3>;
+
+LeafWind made(LeafWindKind kind, double seconds = 60) {
+  LeafWindOptions options;
+  options.kind = kind;
+  options.seed = 3;
+  return *LeafWind::create(options, seconds);
+}
+
+TEST(LeafWind, ThatIsCalmIsNothingAnywhere) {
+  const LeafWind wind = made(LeafWindKind::kCalm);
+  EXPECT_TRUE(wind.calm());
+  EXPECT_EQ(wind.at({1, 2, 3}, {1, 0, 0}, 5).velocity, (Triple{0, 0, 0}));
+}
+
+TEST(LeafWind, ThatIsSteadyBlowsWhereItIsTold) {
+  LeafWindOptions options;
+  options.kind = LeafWindKind::kConstant;
+  options.speed = 2;
+  options.direction = 90;
+  const WindSample sample = LeafWind::create(options, 1)->at({}, {}, 7);
+  EXPECT_NEAR(sample.velocity[1], 2, 1e-12);
+  EXPECT_NEAR(sample.velocity[0], 0, 1e-12);
+  EXPECT_EQ(sample.change, (Triple{0, 0, 0}));
+}
+
+// What a leaf that moves on a straight line feels, against differences of the wind along that line.
+double worst_slope_error(const LeafWind& wind) {
+  const Triple moving{0.7, -0.4, -0.8};
+  double worst = 0;
+  const double h = 1e-6;
+  for (int k = 0; k < 2000; ++k) {
+    const double t = 0.0131 * k;
+    const auto place = [&](double at) { return Triple{moving[0] * at, 0.3 + moving[1] * at, moving[2] * at}; };
+    const WindSample here = wind.at(place(t), moving, t);
+    const WindSample before = wind.at(place(t - h), moving, t - h), after = wind.at(place(t + h), moving, t + h);
+    for (std::size_t i = 0; i < 3; ++i) {
+      worst = std::max(worst, std::abs((after.velocity[i] - before.velocity[i]) / (2 * h) - here.change[i]));
+    }
+  }
+  return worst;
+}
+
+TEST(LeafWind, KnowsHowItChangesAlongTheLeafsWay) {
+  // Central differences of 1e-6 s leave rounding of 1e-10; a gust's edge has a jump of its slope's slope of about
+  // 1e4 m/s³, which shows as 1e-2 only in the step that meets it.
+  EXPECT_LT(worst_slope_error(made(LeafWindKind::kTurbulence)), 1e-6);
+  EXPECT_LT(worst_slope_error(made(LeafWindKind::kGusts)), 1e-2);
+}
+
+TEST(LeafWind, TravelsInGusts) {
+  const LeafWind wind = LeafWind::of_gusts(
+      {{.start = 1, .seconds = 0.4, .edge = 0.05, .velocity = {1.5, 0, 0}, .slowness = {0.125, 0, 0}}});
+  EXPECT_EQ(wind.at({}, {}, 0.99).velocity[0], 0);
+  EXPECT_EQ(wind.at({}, {}, 1.2).velocity[0], 1.5);
+  EXPECT_EQ(wind.at({}, {}, 1.41).velocity[0], 0);
+  // Four metres on it comes half a second later.
+  EXPECT_EQ(wind.at({4, 0, 0}, {}, 1.2).velocity[0], 0);
+  EXPECT_EQ(wind.at({4, 0, 0}, {}, 1.7).velocity[0], 1.5);
+}
+
+TEST(LeafWind, HasRestsBetweenGusts) {
+  const LeafWind wind = made(LeafWindKind::kGusts, 600);
+  int still = 0;
+  for (int k = 0; k < 60000; ++k) still += wind.at({}, {}, 0.01 * k).velocity == Triple{0, 0, 0};
+  // Gusts of 0.36 s and rests of 1.5 s on average.
+  EXPECT_NEAR(still / 60000.0, 1.5 / 1.86, 0.05);
+}
+
+TEST(LeafWind, HasEddiesOfTheGivenStrengthWithoutSources) {
+  const LeafWind wind = made(LeafWindKind::kTurbulence);
+  double square = 0, divergence = 0;
+  int count = 0;
+  const double h = 1e-5;
+  for (int k = 0; k < 20000; ++k, ++count) {
+    const Triple place{0.37 * k, -0.21 * k, 0.11 * k};
+    const Triple velocity = wind.at(place, {}, 0).velocity;
+    square += (velocity[0] - 1) * (velocity[0] - 1) + velocity[1] * velocity[1] + velocity[2] * velocity[2];
+    double here = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      Triple before = place, after = place;
+      before[i] -= h, after[i] += h;
+      here += (wind.at(after, {}, 0).velocity[i] - wind.at(before, {}, 0).velocity[i]) / (2 * h);
+    }
+    divergence = std::max(divergence, std::abs(here));
+  }
+  EXPECT_NEAR(std::sqrt(square / 3 / count), 0.3, 0.02);
+  EXPECT_LT(divergence, 1e-5);
+}
+
+TEST(LeafWind, ThatCannotBlowIsExplained) {
+  LeafWindOptions options;
+  options.speed = -1;
+  EXPECT_THAT(LeafWind::create(options, 1).error().message, HasSubstr("speed"));
+  options.speed = 1;
+  options.gust_seconds = 0;
+  EXPECT_THAT(LeafWind::create(options, 1).error().message, HasSubstr("gust_seconds"));
+}
+
+}  // namespace
+}  // namespace wisp
