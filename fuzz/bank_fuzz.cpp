@@ -1,6 +1,7 @@
 // A bank under anything that a game could do to it, bytes that claim to be its state included: whatever happens,
-// outputs are numbers inside their range, and a bank that was restored can be saved again.
+// outputs are numbers between their range and 0, and a bank that was restored can be saved again.
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -35,8 +36,11 @@ class Source {
 };
 
 const wisp::Model& model() {
-  static const wisp::Model flame =
-      wisp::flame_model({.points = 4, .wind = wisp::InputShape::kSplitSign, .noise_rank = 1});
+  static const wisp::Model flame = [] {
+    auto made = wisp::flame_model({.points = 4, .wind = wisp::InputShape::kSplitSign, .noise_rank = 1});
+    made.extinction.emplace();
+    return made;
+  }();
   return flame;
 }
 
@@ -47,8 +51,9 @@ void expect_in_range(const wisp::Bank& bank) {
     if (!bank.valid(bank.at(static_cast<int>(i) / bank.output_count()))) continue;
     const wisp::Output& output = model().outputs[i % bank.output_count()];
     const double room = 0.5 * (output.highest - output.lowest);
-    if (!(values[i] >= static_cast<float>(output.lowest - room))) std::abort();
-    if (!(values[i] <= static_cast<float>(output.highest + room))) std::abort();
+    // What goes out shrinks to 0.
+    if (!(values[i] >= std::min(0.0f, static_cast<float>(output.lowest - room)))) std::abort();
+    if (!(values[i] <= std::max(0.0f, static_cast<float>(output.highest + room)))) std::abort();
   }
 }
 
@@ -72,7 +77,7 @@ void act(wisp::Bank& bank, Source& source) {
   const wisp::InstanceId id{source.take<std::uint8_t>() % 12U, source.take<std::uint8_t>()};
   const wisp::InstanceId living = bank.at(static_cast<int>(id.slot));
   const auto input = source.take<float>();
-  switch (source.take<std::uint8_t>() % 9) {
+  switch (source.take<std::uint8_t>() % 11) {
     case 0:
       bank.spawn(source.take<std::uint64_t>());
       break;
@@ -96,6 +101,12 @@ void act(wisp::Bank& bank, Source& source) {
       break;
     case 7:
       restore_damaged(bank, source);
+      break;
+    case 8:
+      bank.relight(living);
+      break;
+    case 9:
+      bank.extinguish(living);
       break;
     default:
       bank.reset(living);

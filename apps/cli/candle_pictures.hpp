@@ -1,5 +1,5 @@
 #pragma once
-// Pictures of a bank of flames: its instances as candles side by side.
+// Pictures of a bank of flames: its instances as candles side by side, smoke and all.
 
 #include <vector>
 
@@ -18,13 +18,23 @@ class CandlePictures {
   int width() const { return width_; }
   int height() const { return height_; }
 
+  /// Notes the wind of one step of the bank, in the model's units: it carries the smoke.
+  void blow(const Bank& bank, float wind);
+
   /// The bank as it is now. The picture is good until the next call.
   const Image& draw(const Bank& bank);
 
  private:
+  // The mean wind since a flame went out: what its smoke has gone through.
+  struct Drift {
+    float sum = 0;
+    float count = 0;
+  };
+
   int width_;
   int height_;
   std::vector<FlameScene> scenes_;
+  std::vector<Drift> drifts_;
   std::vector<float> polylines_;
   std::vector<Point> points_;
   Image image_;

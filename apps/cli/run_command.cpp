@@ -1,5 +1,8 @@
 // `wisp run`: what a model does, as numbers, as a picture, or as a film.
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 
 #include "candle_pictures.hpp"
@@ -21,6 +24,50 @@ struct Play {
   InputTrack input;
   std::size_t frames = 0;
   std::uint64_t seed = 1;
+  std::vector<std::size_t> relit;  // frames before which everything that is out is lit again, ascending
+};
+
+// A bank that is played frame by frame.
+class Player {
+ public:
+  Player(const Play& play, Bank& bank) : play_(play), bank_(bank), burnt_(bank.size(), true) {}
+
+  // One step. Returns the inputs that drove it.
+  std::vector<float> step() {
+    if (std::binary_search(play_.relit.begin(), play_.relit.end(), frame_)) {
+      for (int slot = 0; slot < bank_.slots(); ++slot) bank_.relight(bank_.at(slot));
+    }
+    std::vector<float> inputs = play_.input.at(frame_);
+    bank_.set_common_inputs(inputs);
+    bank_.step();
+    for (int slot = 0; slot < bank_.slots(); ++slot) note(slot);
+    ++frame_;
+    return inputs;
+  }
+
+  bool burns(int slot) const { return burnt_[slot]; }
+
+  // The wind that carries smoke: of the input that blows flames out.
+  float wind(const std::vector<float>& inputs) const {
+    const auto& rule = play_.model.extinction;
+    return rule ? inputs[rule->input] : 0.0F;
+  }
+
+  // When instances went out, for programs.
+  const Json& deaths() const { return deaths_; }
+
+ private:
+  void note(int slot) {
+    const bool lit = bank_.lit_state(bank_.at(slot))->lit;
+    if (burnt_[slot] && !lit) deaths_.push_back({{"instance", slot}, {"frame", frame_}});
+    burnt_[slot] = lit;
+  }
+
+  const Play& play_;
+  Bank& bank_;
+  std::vector<bool> burnt_;
+  Json deaths_ = Json::array();
+  std::size_t frame_ = 0;
 };
 
 Result<Bank> make_bank(const Play& play, const Arguments& arguments) {
@@ -46,49 +93,48 @@ Recording empty_recording(const Play& play, int instances) {
     for (const Output& output : play.model.outputs) {
       recording.channels.push_back({prefix + output.name, output.unit, Role::kOutput, {}});
     }
+    if (play.model.extinction) recording.flags.push_back({prefix + "lit", {}});
   }
   return recording;
 }
 
-Recording record_run(const Play& play, Bank& bank) {
+Recording record_run(const Play& play, const Bank& bank, Player& player) {
   Recording recording = empty_recording(play, bank.size());
   std::vector<float> outputs(static_cast<std::size_t>(bank.slots()) * bank.output_count());
   for (std::size_t frame = 0; frame < play.frames; ++frame) {
-    const auto inputs = play.input.at(frame);
-    bank.set_common_inputs(inputs);
-    bank.step();
+    const auto inputs = player.step();
     bank.outputs(outputs);
     std::size_t channel = 0;
     for (float input : inputs) recording.channels[channel++].samples.push_back(input);
     for (float output : outputs) recording.channels[channel++].samples.push_back(output);
+    for (std::size_t k = 0; k < recording.flags.size(); ++k) {
+      recording.flags[k].rows.push_back(player.burns(static_cast<int>(k)));
+    }
   }
   return recording;
 }
 
-Result<void> write_film(const Play& play, Bank& bank, const std::string& path, Terminal& terminal) {
+Result<void> write_film(const Play& play, const Bank& bank, Player& player, const std::string& path,
+                        Terminal& terminal) {
   CandlePictures pictures(bank);
   auto film = VideoWriter::create(
       path, {.width = pictures.width(), .height = pictures.height(), .rate_hz = play.model.rate_hz});
   if (!film) return film.error();
   for (std::size_t frame = 0; frame < play.frames; ++frame) {
-    bank.set_common_inputs(play.input.at(frame));
-    bank.step();
+    pictures.blow(bank, player.wind(player.step()));
     if (auto ok = film->write(pictures.draw(bank)); !ok) return ok;
     terminal.progress("drawing", static_cast<double>(frame + 1) / static_cast<double>(play.frames));
   }
   return film->finish();
 }
 
-Result<void> write_picture(const Play& play, Bank& bank, const std::string& path) {
+Result<void> write_picture(const Play& play, const Bank& bank, Player& player, const std::string& path) {
   if (std::holds_alternative<OutlineView>(play.model.view)) {
-    for (std::size_t frame = 0; frame < play.frames; ++frame) {
-      bank.set_common_inputs(play.input.at(frame));
-      bank.step();
-    }
     CandlePictures pictures(bank);
+    for (std::size_t frame = 0; frame < play.frames; ++frame) pictures.blow(bank, player.wind(player.step()));
     return write_png(path, pictures.draw(bank));
   }
-  const Recording recording = record_run(play, bank);
+  const Recording recording = record_run(play, bank, player);
   Plot plot{.title = play.model.name, .x = {.label = "seconds"}, .y = {}};
   for (const Channel& channel : recording.channels) {
     PlotSeries series{.label = channel.name, .x = {}, .y = channel.samples};
@@ -99,15 +145,33 @@ Result<void> write_picture(const Play& play, Bank& bank, const std::string& path
   return write_plots(path, {.title = "", .plots = {std::move(plot)}, .plot_width = 800});
 }
 
-Result<void> write_run(const Play& play, Bank& bank, const std::string& path, Terminal& terminal) {
+Result<void> write_run(const Play& play, const Bank& bank, Player& player, const std::string& path,
+                       Terminal& terminal) {
   const std::string extension = std::filesystem::path(path).extension().string();
-  if (extension == ".csv") return write_csv(path, record_run(play, bank));
-  if (extension == ".png") return write_picture(play, bank, path);
+  if (extension == ".csv") return write_csv(path, record_run(play, bank, player));
+  if (extension == ".png") return write_picture(play, bank, player, path);
   if (extension != ".mp4") return Error{path + ": cannot be written, expected a name that ends in .csv, .png or .mp4"};
   if (!std::holds_alternative<OutlineView>(play.model.view)) {
     return Error{path + ": the model's outputs have no picture to film; write a .csv or a .png"};
   }
-  return write_film(play, bank, path, terminal);
+  return write_film(play, bank, player, path, terminal);
+}
+
+// The frames of --relight.
+Result<std::vector<std::size_t>> relit_frames(const Model& model, const Arguments& arguments) {
+  std::vector<std::size_t> frames;
+  if (!arguments.has("relight")) return frames;
+  if (!model.extinction) return Error{"--relight: the model never goes out; learn it with --blow-out"};
+  for (const std::string& word : arguments.names("relight")) {
+    char* end = nullptr;
+    const double seconds = std::strtod(word.c_str(), &end);
+    if (word.empty() || *end != 0 || !(seconds >= 0 && seconds <= 1e6)) {
+      return Error{"--relight: found \"" + word + "\", expected seconds from the start, separated by commas"};
+    }
+    frames.push_back(static_cast<std::size_t>(std::lround(seconds * model.rate_hz)));
+  }
+  std::sort(frames.begin(), frames.end());
+  return frames;
 }
 
 Result<Play> prepare(const Arguments& arguments) {
@@ -115,7 +179,10 @@ Result<Play> prepare(const Arguments& arguments) {
   if (!model) return model.error();
   auto input = InputTrack::from(*model, arguments);
   if (!input) return input.error();
-  Play play{std::move(*model), std::move(*input), 0, static_cast<std::uint64_t>(arguments.integer("seed"))};
+  auto relit = relit_frames(*model, arguments);
+  if (!relit) return relit.error();
+  Play play{std::move(*model), std::move(*input), 0, static_cast<std::uint64_t>(arguments.integer("seed")),
+            std::move(*relit)};
   play.frames = arguments.has("frames") ? static_cast<std::size_t>(arguments.integer("frames")) : play.input.rows();
   if (play.frames == 0) return Error{"nothing to run: give --frames N, at least 1, or --input with a recording"};
   const int instances = arguments.integer("instances");
@@ -130,7 +197,8 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   auto bank = make_bank(*play, arguments);
   if (!bank) return bank.error();
   const std::string& path = arguments.text("output");
-  if (auto ok = write_run(*play, *bank, path, terminal); !ok) return ok;
+  Player player(*play, *bank);
+  if (auto ok = write_run(*play, *bank, player, path, terminal); !ok) return ok;
 
   const auto held = bank->held();
   terminal.result()["frames"] = play->frames;
@@ -138,6 +206,13 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   terminal.result()["seed"] = play->seed;
   terminal.result()["held_share"] = held.steps ? static_cast<double>(held.held) / static_cast<double>(held.steps) : 0.0;
   terminal.result()["output"] = path;
+  if (bank->goes_out()) {
+    terminal.result()["went_out"] = player.deaths();
+    if (!player.deaths().empty()) {
+      terminal.say("went out " + std::to_string(player.deaths().size()) + " times, first in frame " +
+                   player.deaths()[0]["frame"].dump());
+    }
+  }
   terminal.say("wrote " + path + ": " + std::to_string(play->frames) + " frames at " + shown(play->model.rate_hz, 5) +
                " a second, seed " + std::to_string(play->seed));
   return {};
@@ -156,6 +231,7 @@ Command run_command() {
           {"input", Kind::kPath, "REC", "", "a recording, or a WAV of blowing, whose input drives the model"},
           {"wind", Kind::kNumber, "W", "0", "a constant value for every input, where there is no --input"},
           {"noise", Kind::kChoice, "on|off", "on", "the residual noise", {"on", "off"}},
+          {"relight", Kind::kNames, "S,…", "", "light what is out again, that many seconds after the start"},
           {"instances", Kind::kInteger, "K", "1", "how many at once, each with its own chance"},
           {"seed", Kind::kInteger, "N", "1", "of all chance; the same seed gives the same bytes"},
       },
@@ -164,6 +240,8 @@ Command run_command() {
            "Twenty seconds of a flame at 30 frames a second, as a film"},
           {"wisp run flame.wisp --frames 1000 --wind 0.5 --noise off -o steady.csv",
            "The noiseless response to steady wind, as numbers"},
+          {"wisp run flame.wisp --input puff.csv --frames 600 --relight 5 -o out.mp4",
+           "A flame that a puff blows out, its smoke, and how it is lit again after five seconds"},
       },
       run,
   };

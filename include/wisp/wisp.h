@@ -80,6 +80,8 @@ typedef struct wisp_model_facts {
   int64_t step_nanoseconds;
   int64_t multiply_adds_per_frame; /* by the paper's count: coefficients that are not zero */
   int64_t operations_per_frame;    /* all arithmetic, noise and a polyline of 32 points included */
+  double blow_out_level;   /* wind of this strength blows an instance out, in the unit of its input; 0: nothing does, */
+  double blow_out_seconds; /* when it lasts so long; stronger wind takes less */
 } wisp_model_facts;
 
 /* Fills the fields that the caller's `size` has room for. */
@@ -188,7 +190,30 @@ wisp_status wisp_bank_instance_outputs(const wisp_bank* bank, wisp_instance inst
 wisp_status wisp_bank_polylines(const wisp_bank* bank, float* values, size_t count);
 wisp_status wisp_bank_polyline(const wisp_bank* bank, wisp_instance instance, float* values, size_t count);
 
-/* Back to where they were when spawned: one, or all and the bank's time. */
+/* Whether an instance burns. Those of a model with a blow_out_level go out when the wind is too strong for too long,
+ * and stay out whatever the wind does then. Outputs and outlines shrink to 0 by themselves; for smoke and ember there
+ * is the time since, in nanoseconds of what is shown, or WISP_NEVER. */
+#define WISP_NEVER INT64_MAX
+typedef struct wisp_flame_state {
+  uint32_t size;    /* sizeof(wisp_flame_state), set by the caller */
+  uint32_t lit;     /* 1 or 0 */
+  float flame_size; /* 0 to 1: what outputs are already multiplied by */
+  uint32_t reserved;
+  int64_t since_lit; /* since it was last lit again; one that was spawned lit was not */
+  int64_t since_out; /* since it last went out */
+} wisp_flame_state;
+
+wisp_status wisp_bank_get_flame_state(const wisp_bank* bank, wisp_instance instance, wisp_flame_state* state);
+
+/* The flame_size of all: slots. */
+wisp_status wisp_bank_flame_sizes(const wisp_bank* bank, float* values, size_t count);
+
+/* Lights an instance that is out: it starts from rest and grows. Puts one out, whatever the wind; where the model never
+ * goes out nothing happens. Either does nothing to one that is so already. */
+wisp_status wisp_bank_relight(wisp_bank* bank, wisp_instance instance);
+wisp_status wisp_bank_extinguish(wisp_bank* bank, wisp_instance instance);
+
+/* Back to where they were when spawned, lit: one, or all and the bank's time. */
 wisp_status wisp_bank_reset_instance(wisp_bank* bank, wisp_instance instance);
 wisp_status wisp_bank_reset(wisp_bank* bank);
 

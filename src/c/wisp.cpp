@@ -168,6 +168,10 @@ wisp_status wisp_model_get_facts(const wisp_model* model, wisp_model_facts* fact
   filled.step_nanoseconds = wisp::step_time(model->model).count();
   filled.multiply_adds_per_frame = model->cost.multiply_adds_per_frame;
   filled.operations_per_frame = model->cost.operations_per_frame;
+  if (const auto& rule = model->model.extinction) {
+    filled.blow_out_level = rule->level;
+    filled.blow_out_seconds = rule->seconds;
+  }
   hand_out(filled, facts);
   return WISP_OK;
 }
@@ -346,6 +350,40 @@ wisp_status wisp_bank_polyline(const wisp_bank* bank, wisp_instance instance, fl
   const auto expected = static_cast<size_t>(2 * bank->bank.polyline_points());
   if (!buffer_is_right(__func__, values, count, expected)) return WISP_BAD_ARGUMENT;
   return bank->bank.polyline(id_of(instance), {values, count}) ? WISP_OK : not_alive(__func__);
+}
+
+wisp_status wisp_bank_get_flame_state(const wisp_bank* bank, wisp_instance instance, wisp_flame_state* state) {
+  if (!bank || !state) return null_argument(__func__);
+  if (!size_is_right(__func__, state)) return WISP_BAD_ARGUMENT;
+  const auto found = bank->bank.lit_state(id_of(instance));
+  if (!found) return not_alive(__func__);
+  wisp_flame_state filled{};
+  filled.lit = found->lit ? 1 : 0;
+  filled.flame_size = found->size;
+  filled.since_lit = found->since_lit.count();
+  filled.since_out = found->since_out.count();
+  hand_out(filled, state);
+  return WISP_OK;
+}
+
+wisp_status wisp_bank_flame_sizes(const wisp_bank* bank, float* values, size_t count) {
+  if (!bank) return null_argument(__func__);
+  if (!buffer_is_right(__func__, values, count, rows(bank, 1))) return WISP_BAD_ARGUMENT;
+  for (int slot = 0; slot < bank->bank.slots(); ++slot) {
+    const auto found = bank->bank.lit_state(bank->bank.at(slot));
+    values[slot] = found ? found->size : 0.0f;
+  }
+  return WISP_OK;
+}
+
+wisp_status wisp_bank_relight(wisp_bank* bank, wisp_instance instance) {
+  if (!bank) return null_argument(__func__);
+  return bank->bank.relight(id_of(instance)) ? WISP_OK : not_alive(__func__);
+}
+
+wisp_status wisp_bank_extinguish(wisp_bank* bank, wisp_instance instance) {
+  if (!bank) return null_argument(__func__);
+  return bank->bank.extinguish(id_of(instance)) ? WISP_OK : not_alive(__func__);
 }
 
 wisp_status wisp_bank_reset_instance(wisp_bank* bank, wisp_instance instance) {

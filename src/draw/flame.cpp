@@ -50,30 +50,33 @@ FlameScene held(FlameScene scene) {
   scene.brightness = held(scene.brightness, 0, 4);
   scene.seconds_since_lit = held(scene.seconds_since_lit, 0, kLongAgo);
   scene.seconds_since_out = held(scene.seconds_since_out, 0, kLongAgo);
+  if (scene.size) scene.size = held(*scene.size, 0, 1);
   scene.wind = held(scene.wind, -8, 8);
   return scene;
 }
 
-// How far a flame has grown or shrunk: its size against its outline, and its light.
+// How far a flame has grown or shrunk: its outline's scale, and its light.
 struct Stage {
   float scale = 1;
   FlameMood mood;
 };
 
+// Of a flame that grew to the share `grown` since it was lit.
+FlameMood catching(float brightness, float grown) {
+  return {brightness * (0.5F + 0.5F * grown), 0.25F + 0.75F * smooth_step(0.15F, 0.9F, grown)};
+}
+
 Stage stage_of(const FlameScene& scene) {
   Stage stage;
-  stage.mood.brightness = scene.brightness;
   if (burns(scene)) {
-    const float grown = smooth_step(0, kCatching, scene.seconds_since_lit);
-    stage.scale = 0.22F + 0.78F * grown;
-    stage.mood.soot = 0.25F + 0.75F * smooth_step(0.15F, 0.9F, grown);
-    stage.mood.brightness *= 0.5F + 0.5F * grown;
+    const float grown = scene.size.value_or(smooth_step(0, kCatching, scene.seconds_since_lit));
+    stage.mood = catching(scene.brightness, grown);
+    if (!scene.size) stage.scale = 0.22F + 0.78F * grown;
     return stage;
   }
-  const float gone = smooth_step(0, kDying, scene.seconds_since_out);
-  stage.scale = 1 - 0.55F * gone;
-  stage.mood.soot = 1 - gone;
-  stage.mood.brightness *= 1 - gone;
+  const float gone = 1 - scene.size.value_or(1 - smooth_step(0, kDying, scene.seconds_since_out));
+  stage.mood = {scene.brightness * (1 - gone), 1 - gone};
+  if (!scene.size) stage.scale = 1 - 0.55F * gone;
   return stage;
 }
 

@@ -142,6 +142,33 @@ bool Bank::set_inputs(InstanceId id, std::span<const float> values) {
   return true;
 }
 
+bool Bank::goes_out() const { return state_->extinction.present; }
+
+std::optional<LitState> Bank::lit_state(InstanceId id) const {
+  if (!valid(id)) return {};
+  return state_->lit_state(static_cast<int>(id.slot));
+}
+
+void Bank::lit_states(std::span<LitState> states) const {
+  const State& s = *state_;
+  assert(states.size() == static_cast<std::size_t>(s.rows));
+  for (int slot = 0; slot < s.rows; ++slot) {
+    states[slot] = s.alive[slot] ? s.lit_state(slot) : LitState{.lit = false, .size = 0.0f};
+  }
+}
+
+bool Bank::relight(InstanceId id) {
+  if (!valid(id)) return false;
+  state_->relight(static_cast<int>(id.slot));
+  return true;
+}
+
+bool Bank::extinguish(InstanceId id) {
+  if (!valid(id)) return false;
+  state_->extinguish(static_cast<int>(id.slot));
+  return true;
+}
+
 void Bank::set_noise(float scale) {
   const float held = std::min(scale, kMostNoise);
   state_->set_noise(held >= kLeastNoise ? held : 0.0f);

@@ -21,7 +21,26 @@ constexpr std::uint64_t kMostAge = std::uint64_t{1} << 48;
 
 std::size_t record_size(const Bank::State& s) {
   const std::size_t values = std::visit([](const auto& dynamics) { return dynamics.lane_values(); }, s.stepper);
-  return 3 * 8 + 4 * (s.channels.regressors.size() + values);
+  const std::size_t life = s.extinction.present ? 5 * 4 + 2 * 8 : 0;
+  return 3 * 8 + 4 * (s.channels.regressors.size() + values) + life;
+}
+
+std::uint64_t age_of(std::uint64_t then, std::uint64_t now) {
+  return then == kNeverInSteps ? kNeverInSteps : now - then;
+}
+std::uint64_t moment_of(std::uint64_t age, std::uint64_t now) {
+  return age == kNeverInSteps ? kNeverInSteps : now - age;
+}
+
+// Of a model that goes out: the wind, harm, whether it is lit, sizes, and for how long.
+void save_life(const Bank::State& s, int slot, ByteWriter& out) {
+  for (const auto* values : {&s.wind, &s.harm, &s.lit, &s.size, &s.previous_size}) out.put((*values)[slot]);
+  for (const auto* moments : {&s.lit_at, &s.out_at}) out.put(age_of((*moments)[slot], s.steps));
+}
+
+void restore_life(Bank::State& s, int slot, ByteReader& in) {
+  for (auto* values : {&s.wind, &s.harm, &s.lit, &s.size, &s.previous_size}) (*values)[slot] = in.get_float();
+  for (auto* moments : {&s.lit_at, &s.out_at}) (*moments)[slot] = moment_of(in.get64(), s.steps);
 }
 
 void save_slot(Bank::State& s, int slot, ByteWriter& out) {
@@ -33,9 +52,23 @@ void save_slot(Bank::State& s, int slot, ByteWriter& out) {
   for (std::size_t k = 0; k < s.channels.regressors.size(); ++k) out.put(s.regressors_of(block)[k * s.kLanes + lane]);
   std::visit([&](auto& dynamics) { dynamics.visit_lane(block, lane, [&](float& z, float, float) { out.put(z); }); },
              s.stepper);
+  if (s.extinction.present) save_life(s, slot, out);
 }
 
 bool within(float value, float low, float high) { return value >= low && value <= high; }
+
+bool life_is_sound(const Bank::State& s, ByteReader& in) {
+  bool sound = within(in.get_float(), 0, s.extinction.most);
+  sound &= within(in.get_float(), 0, 1);
+  const float lit = in.get_float();
+  sound &= lit == 0 || lit == 1;
+  for (int k = 0; k < 2; ++k) sound &= within(in.get_float(), 0, 1);
+  for (int k = 0; k < 2; ++k) {
+    const std::uint64_t age = in.get64();
+    sound &= age == kNeverInSteps || age < kMostAge;
+  }
+  return sound;
+}
 
 // Whether a slot's record could have been written by save().
 bool slot_is_sound(Bank::State& s, ByteReader& in) {
@@ -48,6 +81,7 @@ bool slot_is_sound(Bank::State& s, ByteReader& in) {
   }
   const auto check = [&](float&, float low, float high) { sound &= within(in.get_float(), low, high); };
   std::visit([&](auto& dynamics) { dynamics.visit_lane(0, 0, check); }, s.stepper);
+  if (s.extinction.present) sound &= life_is_sound(s, in);
   return sound;
 }
 
@@ -62,6 +96,7 @@ void restore_slot(Bank::State& s, int slot, ByteReader& in) {
   }
   const auto take = [&](float& z, float, float) { z = in.get_float(); };
   std::visit([&](auto& dynamics) { dynamics.visit_lane(block, lane, take); }, s.stepper);
+  if (s.extinction.present) restore_life(s, slot, in);
   if (!s.alive[slot]) return;
   ++s.living;
   s.rows = slot + 1;

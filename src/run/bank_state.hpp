@@ -1,12 +1,15 @@
 #pragma once
 // What a bank consists of; everything lies in the bank's one piece of memory, this struct included.
 
+#include "run/extinction_lanes.hpp"
 #include "run/outline_lanes.hpp"
 #include "run/stepper.hpp"
 #include "wisp/run/bank.hpp"
 
 namespace wisp {
 
+// No age leads there: moments before a bank was restored lie just below 0, and so near the largest number.
+inline constexpr std::uint64_t kNeverInSteps = std::uint64_t{1} << 63;
 inline constexpr float kMostNoise = 10.0f;
 inline constexpr float kLeastNoise = 1e-6f;  // what is less is none
 
@@ -23,12 +26,21 @@ struct Bank::State {
   float* regressors_of(int block) { return regressors.data() + block * channels.regressors.size() * kLanes; }
   float* shown_of(int block) { return shown.data() + block * channels.outputs.size() * kLanes; }
   const float* shown_of(int block) const { return const_cast<State*>(this)->shown_of(block); }
+  LifeLanes<float> life_of(int block) {
+    const int first = block * kLanes;
+    return {wind.data() + first, harm.data() + first, lit.data() + first, size.data() + first};
+  }
+  bool burns(int slot) const { return !extinction.present || lit[slot] != 0.0f; }
 
   void start(int slot);
+  void relight(int slot);
+  void extinguish(int slot);
+  LitState lit_state(int slot) const;
   void set_inputs(int block, const float* values, int count);
   void set_common_inputs(int block, const float* values);
   void set_lane_inputs(int slot, const float* values);  // null: zeros
   void step_all();
+  void live_block(int block);
   void show();
   void show_block(int block);
   void set_noise(float scale);
@@ -43,6 +55,7 @@ struct Bank::State {
   Channels channels;
   Stepper stepper;
   std::span<PolylinePoint> polyline;
+  ExtinctionProgram extinction;
 
   std::span<std::uint32_t> generation;  // per slot, as are the next three
   std::span<std::uint8_t> alive;
@@ -50,6 +63,15 @@ struct Bank::State {
   std::span<std::uint64_t> born;  // value of `steps` when it was spawned or reset
   std::span<float> regressors;    // [block][regressor][lane]: what acts now
   std::span<float> shown;         // [block][output][lane]: what is read
+
+  // Per slot, and empty where nothing goes out.
+  std::span<float> wind;  // strength of what acts now
+  std::span<float> harm;
+  std::span<float> lit;  // 1 or 0
+  std::span<float> size;
+  std::span<float> previous_size;   // before the last step
+  std::span<std::uint64_t> lit_at;  // value of `steps` when it was last lit again, kNeverInSteps before,
+  std::span<std::uint64_t> out_at;  // and when it last went out
 
   int living = 0;
   int rows = 0;         // one more than the highest slot in use

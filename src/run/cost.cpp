@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "run/counting.hpp"
+#include "run/extinction_lanes.hpp"
 #include "run/outline_lanes.hpp"
 #include "run/stepper.hpp"
 #include "wisp/run/bank.hpp"
@@ -49,6 +50,20 @@ OperationCount count_view(const Channels& channels, const Stepper& stepper, std:
   });
 }
 
+// Taking in the wind, a step, and shrinking what is shown.
+OperationCount count_extinction(const Model& model) {
+  const ExtinctionProgram rule = make_extinction_program(model);
+  if (!rule.present) return {};
+  CountingReal wind, harm, lit(1.0f), size(1.0f);
+  std::vector<CountingReal> shown(model.outputs.size());
+  return count([&] {
+    blowing<CountingNumbers>(rule, {});
+    live<CountingNumbers>(rule, {&wind, &harm, &lit, &size});
+    const auto now = load<Reals<CountingNumbers>>(&size);
+    shrink<CountingNumbers>(size_between<CountingNumbers>(now, now, 0.5f), shown.size(), shown.data());
+  });
+}
+
 template <class Stepper, class Kind>
 Cost count_frame(const Model& model, const Kind& dynamics, const Channels& channels,
                  std::span<const PolylinePoint> polyline) {
@@ -64,8 +79,9 @@ Cost count_frame(const Model& model, const Kind& dynamics, const Channels& chann
   cost.noise_operations = noisy.numbers - quiet.numbers;
   cost.random_operations = noisy.words - quiet.words;
   cost.view_operations = count_view(channels, stepper, polyline).numbers;
-  cost.operations_per_frame =
-      cost.dynamics_operations + cost.noise_operations + cost.random_operations + cost.view_operations;
+  cost.extinction_operations = count_extinction(model).numbers;
+  cost.operations_per_frame = cost.dynamics_operations + cost.noise_operations + cost.random_operations +
+                              cost.view_operations + cost.extinction_operations;
   return cost;
 }
 

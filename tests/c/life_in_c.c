@@ -259,3 +259,55 @@ const char* structs_of_other_sizes(const void* bytes, size_t size) {
   wisp_model_free(model);
   return NULL;
 }
+
+const char* death_in_c(const void* bytes, size_t size) {
+  wisp_model* model = NULL;
+  wisp_bank* bank = NULL;
+  wisp_instance flame = WISP_NO_INSTANCE;
+  wisp_model_facts facts;
+  wisp_flame_state state;
+  float wind = 4, still = 0, outputs[16], flame_size = -1;
+  int step;
+
+  EXPECT(wisp_model_load(bytes, size, &model) == WISP_OK);
+  facts.size = sizeof facts;
+  EXPECT(wisp_model_get_facts(model, &facts) == WISP_OK);
+  EXPECT(facts.blow_out_level == 2 && facts.blow_out_seconds == 0.2);
+  EXPECT(wisp_bank_create(model, NULL, &bank) == WISP_OK);
+  EXPECT(wisp_bank_spawn(bank, &flame) == WISP_OK);
+  memset(&state, 0, sizeof state);
+  state.size = sizeof state;
+  EXPECT(wisp_bank_get_flame_state(bank, flame, &state) == WISP_OK);
+  EXPECT(state.lit == 1 && state.flame_size == 1 && state.since_lit == WISP_NEVER && state.since_out == WISP_NEVER);
+
+  EXPECT(wisp_bank_set_common_inputs(bank, &wind, 1) == WISP_OK);
+  for (step = 0; step < 30; ++step) EXPECT(wisp_bank_step(bank) == WISP_OK);
+  EXPECT(wisp_bank_set_common_inputs(bank, &still, 1) == WISP_OK);
+  for (step = 0; step < 30; ++step) EXPECT(wisp_bank_step(bank) == WISP_OK);
+  EXPECT(wisp_bank_get_flame_state(bank, flame, &state) == WISP_OK);
+  EXPECT(state.lit == 0 && state.flame_size == 0 && state.since_out > 1000000000);
+  EXPECT(wisp_bank_instance_outputs(bank, flame, outputs, 16) == WISP_OK && outputs[9] == 0);
+  EXPECT(wisp_bank_flame_sizes(bank, &flame_size, 1) == WISP_OK && flame_size == 0);
+
+  EXPECT(wisp_bank_relight(bank, flame) == WISP_OK);
+  for (step = 0; step < 30; ++step) EXPECT(wisp_bank_step(bank) == WISP_OK);
+  EXPECT(wisp_bank_get_flame_state(bank, flame, &state) == WISP_OK);
+  EXPECT(state.lit == 1 && state.flame_size == 1 && state.since_lit < 1100000000);
+  EXPECT(wisp_bank_instance_outputs(bank, flame, outputs, 16) == WISP_OK && outputs[9] > 0.5f);
+  EXPECT(wisp_bank_extinguish(bank, flame) == WISP_OK);
+  state.size = 2 * sizeof(uint32_t); /* a caller that knows no more than whether it burns */
+  state.since_out = 7;
+  EXPECT(wisp_bank_get_flame_state(bank, flame, &state) == WISP_OK && state.lit == 0 && state.since_out == 7);
+
+  state.size = sizeof state;
+  EXPECT(wisp_bank_get_flame_state(NULL, flame, &state) == WISP_BAD_ARGUMENT);
+  EXPECT(wisp_bank_get_flame_state(bank, flame, NULL) == WISP_BAD_ARGUMENT);
+  EXPECT(wisp_bank_get_flame_state(bank, WISP_NO_INSTANCE, &state) == WISP_NOT_ALIVE);
+  EXPECT(wisp_bank_flame_sizes(bank, &flame_size, 2) == WISP_BAD_ARGUMENT);
+  EXPECT(wisp_bank_relight(bank, WISP_NO_INSTANCE) == WISP_NOT_ALIVE);
+  EXPECT(wisp_bank_extinguish(bank, WISP_NO_INSTANCE) == WISP_NOT_ALIVE);
+  EXPECT(wisp_bank_relight(NULL, flame) == WISP_BAD_ARGUMENT);
+  wisp_bank_free(bank);
+  wisp_model_free(model);
+  return NULL;
+}

@@ -45,6 +45,13 @@ TEST(C, StructsOfOlderAndNewerCallersWork) {
   EXPECT_EQ(text(structs_of_other_sizes(bytes.data(), bytes.size())), "");
 }
 
+TEST(C, AFlameGoesOutStaysOutAndIsLitAgain) {
+  Model mortal = flame_model();
+  mortal.extinction.emplace();
+  const std::vector<std::byte> bytes = *model_bytes(mortal);
+  EXPECT_EQ(text(death_in_c(bytes.data(), bytes.size())), "");
+}
+
 TEST(C, EachThreadHasItsOwnLastError) {
   wisp_model* model = nullptr;
   ASSERT_EQ(wisp_model_load("x", 1, &model), WISP_BAD_DATA);

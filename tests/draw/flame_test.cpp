@@ -337,6 +337,32 @@ TEST(Flame, RelitItGrowsBackToFullSize) {
   EXPECT_LT(brightness_at(drawn(drop_outline(), at), 120, 140), 30);
 }
 
+TEST(Flame, AnOutlineThatShrinksByItselfIsDrawnAsItIs) {
+  FlameScene at = scene();
+  at.seconds_since_out = 0.05F;
+  std::vector<Point> half = drop_outline();
+  for (Point& p : half) p = {0.5F * p.x, 0.5F * p.y};
+  at.size = 0.5F;
+  FlameStyle bare;
+  bare.glow = 0;
+  const Image dying = drawn(half, at, bare);
+  const auto reaches = [](const Image& image) {  // the highest row that is bright on the axis
+    int y = 0;
+    while (y < kHeight && brightness_at(image, 120, y) <= 20) ++y;
+    return y;
+  };
+  FlameScene full = scene();
+  EXPECT_NEAR(reaches(dying), reaches(drawn(half, full, bare)), 12);
+  at.size.reset();
+  EXPECT_GT(reaches(drawn(half, at, bare)), reaches(dying) + 3);
+  at.seconds_since_out = 0.2F;
+  at.size = 0.0F;
+  EXPECT_TRUE(drawn(std::vector<Point>(32), at) == drawn({}, at));
+  at.seconds_since_out = kLongAgo;
+  at.size = 1.0F;
+  EXPECT_TRUE(drawn(drop_outline(), at) == drawn(drop_outline(), scene()));
+}
+
 TEST(Flame, BrightnessScalesItsLight) {
   FlameScene at = scene();
   double last = 0;

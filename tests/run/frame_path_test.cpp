@@ -83,6 +83,7 @@ struct Stage {
     for (int k = 0; k < kCapacity; ++k) bank->spawn();
     wind.assign(kCapacity, 0.4f);
     outputs.resize(kCapacity * 16);
+    states.resize(kCapacity);
     polylines.resize(kCapacity * 2 * bank->polyline_points());
     saved.resize(bank->save_bytes());
   }
@@ -105,6 +106,9 @@ struct Stage {
     b.outputs(next, std::span(outputs).first(16));
     b.polylines(polylines);
     b.polyline(next, std::span(polylines).first(2 * b.polyline_points()));
+    b.extinguish(next);
+    b.lit_states(states);
+    b.relight(next);
     b.save(saved);
     if (!b.restore(saved)) std::abort();
     b.reset(next);
@@ -114,9 +118,16 @@ struct Stage {
     frame([] {});
   }
 
-  Model model = flame_model({.wind = InputShape::kSplitSign, .noise_rank = 1});
+  static Model mortal_flame() {
+    Model flame = flame_model({.wind = InputShape::kSplitSign, .noise_rank = 1});
+    flame.extinction.emplace();
+    return flame;
+  }
+
+  Model model = mortal_flame();
   std::vector<std::byte> memory;
   std::optional<Bank> bank;
+  std::vector<LitState> states;
   std::vector<float> wind, outputs, polylines;
   std::vector<std::byte> saved;
 };

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "wisp/draw/image.hpp"
@@ -41,14 +42,17 @@ inline constexpr float kLongAgo = std::numeric_limits<float>::infinity();
 /// Where a candle stands in the picture and what happens to it.
 ///
 /// It burns unless it went out more recently than it was lit. A flame that catches or dies is drawn over a few tenths
-/// of a second (go on giving its outline for that long); smoke rises from the wick between going out and being lit
-/// again, and drifts on afterwards.
+/// of a second (go on giving its outline for that long), or as its `size` says; smoke rises from the wick between going
+/// out and being lit again, and drifts on afterwards.
 struct FlameScene {
   Point base{};                 ///< pixel of the outline's origin, the middle of the flame's base; y down
   float pixels_per_unit = 200;  ///< pixels of the mean flame height, 1 … 10000
   float brightness = 1;         ///< of this flame against the style's, 0 … 4
   float seconds_since_lit = kLongAgo;
   float seconds_since_out = kLongAgo;
+  std::optional<float> size{};  ///< of a flame whose outline shrinks and grows by itself, as a bank's does
+                                ///< (LitState::size), 0 … 1; unset: the outline is that of the full flame, and is
+                                ///< shrunk here by the times above
   float wind = 0;  ///< carries the smoke, all of it alike (a slow mean): units a second, to the right, −8 … 8
   std::uint64_t seed = 1;  ///< chooses the smoke's curls and the wick's bend
 };

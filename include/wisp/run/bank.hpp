@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "wisp/base/result.hpp"
@@ -44,6 +45,18 @@ Result<std::size_t> bank_bytes(const Model& model, const BankOptions& options);
 
 /// The time of one step of a model, as banks keep it: whole nanoseconds.
 std::chrono::nanoseconds step_time(const Model& model);
+
+/// The age of what never happened.
+inline constexpr std::chrono::nanoseconds kNever = std::chrono::nanoseconds::max();
+
+/// Whether an instance burns, and how that shows. Ages are of what is shown, in time that passed through steps; a
+/// drawing makes smoke and ember of them.
+struct LitState {
+  bool lit = true;
+  float size = 1;  ///< of what is seen, 0 … 1; outputs and polylines are already multiplied by it
+  std::chrono::nanoseconds since_lit = kNever;  ///< since it was last lit again; one that was spawned lit was not
+  std::chrono::nanoseconds since_out = kNever;  ///< since it last went out
+};
 
 /// A longer pause than this is cut to it by Bank::advance(): nobody has watched it.
 inline constexpr std::chrono::nanoseconds kLongestAdvance = std::chrono::seconds(10);
@@ -115,7 +128,8 @@ class Bank {
   /// number of steps made.
   int advance(std::chrono::nanoseconds time);
 
-  /// Reads all outputs: slots() × output_count(), in the outputs' units, held to the seen range and kRangeMargin.
+  /// Reads all outputs: slots() × output_count(), in the outputs' units, held to the seen range and kRangeMargin (those
+  /// of an instance that is out, or about to be, lie between there and 0).
   void outputs(std::span<float> values) const;
 
   /// Reads the outputs of one instance: output_count() values. Returns false when `id` is not valid.
@@ -130,13 +144,33 @@ class Bank {
   /// Reads the outline of one instance: polyline_points() × (x, y). Returns false when `id` is not valid.
   bool polyline(InstanceId id, std::span<float> values) const;
 
-  /// Puts one instance, or all that live and the bank's time, back to where they were when spawned; streams and inputs
-  /// stay. Returns false when `id` is not valid.
+  /// Whether the model has a rule of extinction (wisp/model/extinction.hpp). Where it has one, instances whose wind the
+  /// rule finds too strong go out in a step and stay out, whatever the wind does then; their outputs shrink to 0 and
+  /// are 0 until they are lit again. Their random streams go on. Where it has none, everything burns for ever.
+  bool goes_out() const;
+
+  /// Whether an instance burns; nothing when `id` is not valid.
+  std::optional<LitState> lit_state(InstanceId id) const;
+
+  /// The same of all: slots() values; what is in an empty slot does not burn and never did.
+  void lit_states(std::span<LitState> states) const;
+
+  /// Lights an instance that is out: it starts at the model's operating point, unharmed, and grows from the size that
+  /// is left of it. One that burns goes on. Returns false when `id` is not valid.
+  bool relight(InstanceId id);
+
+  /// Puts an instance out, whatever the wind. One that is out stays so; without a rule of extinction nothing happens.
+  /// Returns false when `id` is not valid.
+  bool extinguish(InstanceId id);
+
+  /// Puts one instance, or all that live and the bank's time, back to where they were when spawned, lit; streams and
+  /// inputs stay. Returns false when `id` is not valid.
   bool reset(InstanceId id);
   void reset();
 
   /// How many instance-steps there were since the bank was made or restored, and in how many of them at least one
-  /// output was held at its range. More than 1 in 1000 on ordinary input says that the model is not usable.
+  /// output of an instance that burns was held at its range. More than 1 in 1000 on ordinary input says that the model
+  /// is not usable.
   struct Held {
     std::uint64_t held = 0;
     std::uint64_t steps = 0;

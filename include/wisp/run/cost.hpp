@@ -11,11 +11,13 @@ namespace wisp {
 /// Work of one instance in one frame (one step, one reading of the view).
 struct Cost {
   std::int64_t multiply_adds_per_frame = 0;  ///< by the paper's count: coefficients of A and B that are not zero
-  std::int64_t operations_per_frame = 0;     ///< all arithmetic: the sum of the four below
+  std::int64_t operations_per_frame = 0;     ///< all arithmetic: the sum of the five below
   std::int64_t dynamics_operations = 0;  ///< inputs, filters, and noting what was held: + − × ÷ √ on numbers, logic
   std::int64_t noise_operations = 0;     ///< from random words to what is added to the outputs, on numbers
   std::int64_t random_operations = 0;    ///< arithmetic and logic on 32-bit words, for the noise
   std::int64_t view_operations = 0;      ///< outputs between two steps, in their units, and the polyline; on numbers
+  std::int64_t extinction_operations = 0;  ///< of the rule of extinction, where there is one, and of showing what it
+                                           ///< does; on numbers
 };
 
 /// Counts what one frame of one instance costs, with an outline read as a polyline of `polyline_points` (0: read as

@@ -69,6 +69,28 @@ void time_frames(std::uint64_t& hash, const Model& model, int capacity, int fram
   }
 }
 
+// Flames that go out now and then, and are lit again.
+void mortal_frames(std::uint64_t& hash, int capacity, int frames) {
+  Model model = flame_model({.wind = InputShape::kSplitSign});
+  model.extinction = Extinction{.level = 1.3, .seconds = 0.15, .haste = 1.7, .recovery = 0.35, .catching = 0.3};
+  Bank bank = full_bank(model, capacity, 8);
+  std::vector<float> wind(capacity);
+  std::vector<float> points(static_cast<std::size_t>(capacity) * bank.polyline_points() * 2), sizes(capacity);
+  for (int frame = 0; frame < frames; ++frame) {
+    for (int k = 0; k < capacity; ++k) wind[k] = wind_at(frame, k);
+    bank.set_inputs(wind);
+    bank.advance(std::chrono::nanoseconds(16'666'667));
+    for (int k = 0; k < capacity; ++k) {
+      const LitState state = *bank.lit_state(bank.at(k));
+      sizes[k] = state.size;
+      if (!state.lit && state.since_out > std::chrono::milliseconds(200)) bank.relight(bank.at(k));
+    }
+    bank.polylines(points);
+    add(hash, points);
+    add(hash, sizes);
+  }
+}
+
 // A flame that dies away to nothing, over and over: states pass through all that is small.
 void fading_frames(std::uint64_t& hash, int frames) {
   Model model = flame_model();
@@ -97,6 +119,7 @@ int main() {
   step_frames(hash, flame_model({.wind = InputShape::kSplitSign, .noise_rank = 2}), 1, 30'000);
   step_frames(hash, sample_model(), 13, 2'000);
   time_frames(hash, flame_model(), 37, 1'000);
+  mortal_frames(hash, 11, 2'000);
   std::uint64_t flushed = hash;
   fading_frames(hash, 5'000);
 #ifdef __SSE2__

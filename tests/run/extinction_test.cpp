@@ -1,0 +1,433 @@
+// When instances go out, how that shows, and how they come back.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "run/flame_model.hpp"
+#include "wisp/base/hash.hpp"
+#include "wisp/run/bank.hpp"
+#include "wisp/run/cost.hpp"
+
+namespace wisp {
+namespace {
+
+using std::chrono::nanoseconds;
+
+// A flame at 100 steps a second that a wind of 2 blows out in 20 steps, of 4 in 20 / 3, and that recovers in 40.
+Model mortal_flame(double haste = 2) {
+  Model model = flame_model({.wind = InputShape::kSplitSign, .noise_rank = 1});
+  model.rate_hz = 100;
+  model.extinction = Extinction{
+      .input = 0, .level = 2, .seconds = 0.2, .haste = haste, .recovery = 0.4, .dying = 0.1, .catching = 0.4};
+  return model;
+}
+
+Bank bank_of(const Model& model, int capacity = 1) {
+  auto bank = Bank::create(model, {.capacity = capacity, .seed = 3});
+  EXPECT_TRUE(bank) << bank.error().message;
+  return std::move(bank).value();
+}
+
+void blow(Bank& bank, float wind, int steps) {
+  bank.set_common_inputs(std::span(&wind, 1));
+  for (int k = 0; k < steps; ++k) bank.step();
+}
+
+// Steps until the instance in slot 0 goes out, at most `most`.
+int steps_to_death(Bank& bank, float wind, int most = 1000) {
+  bank.set_common_inputs(std::span(&wind, 1));
+  for (int k = 1; k <= most; ++k) {
+    bank.step();
+    if (!bank.lit_state(bank.at(0))->lit) return k;
+  }
+  return most + 1;
+}
+
+std::vector<float> outputs_of(const Bank& bank) {
+  std::vector<float> values(static_cast<std::size_t>(bank.slots()) * bank.output_count());
+  bank.outputs(values);
+  return values;
+}
+
+bool all_zero(const std::vector<float>& values) {
+  for (float value : values) {
+    if (value != 0 || std::signbit(value)) return false;
+  }
+  return true;
+}
+
+TEST(Extinction, AWindOfTheLevelKillsInItsSecondsAndAStrongerOneSooner) {
+  for (const auto& [wind, steps] : {std::pair{2.0f, 20}, {-2.0f, 20}, {3.0f, 10}, {4.0f, 7}, {6.0f, 4}}) {
+    Bank bank = bank_of(mortal_flame());
+    bank.spawn();
+    EXPECT_NEAR(steps_to_death(bank, wind), steps, 1) << wind;
+  }
+}
+
+TEST(Extinction, WithoutHasteAnyWindAboveTheLevelTakesItsSeconds) {
+  for (float wind : {2.0f, 3.0f, 1e9f}) {
+    Bank bank = bank_of(mortal_flame(0));
+    bank.spawn();
+    EXPECT_NEAR(steps_to_death(bank, wind), 20, 1) << wind;
+  }
+}
+
+TEST(Extinction, AWindBelowTheLevelNeverKills) {
+  Bank bank = bank_of(mortal_flame());
+  bank.spawn();
+  EXPECT_EQ(steps_to_death(bank, 1.99f, 10000), 10001);
+}
+
+TEST(Extinction, AShortGustIsSurvivedAndForgotten) {
+  Bank bank = bank_of(mortal_flame());
+  const InstanceId id = bank.spawn();
+  for (int round = 0; round < 50; ++round) {
+    blow(bank, 2, 18);
+    blow(bank, 0, 40);
+    ASSERT_TRUE(bank.lit_state(id)->lit) << round;
+  }
+}
+
+TEST(Extinction, GustsThatFollowCloselyAddUp) {
+  Bank bank = bank_of(mortal_flame());
+  const InstanceId id = bank.spawn();
+  int rounds = 0;
+  for (; bank.lit_state(id)->lit && rounds < 20; ++rounds) {
+    blow(bank, 2, 11);
+    blow(bank, 0, 8);
+  }
+  EXPECT_EQ(rounds, 3);  // harm is 0.55, then 0.35 + 0.55, then 0.7 + 0.55
+}
+
+TEST(Extinction, AFlameThatIsOutStaysOutWhenTheWindStops) {
+  Bank bank = bank_of(mortal_flame());
+  const InstanceId id = bank.spawn();
+  blow(bank, 3, 50);
+  blow(bank, 0, 1000);
+  EXPECT_FALSE(bank.lit_state(id)->lit);
+  EXPECT_TRUE(all_zero(outputs_of(bank)));
+  std::vector<float> points(2 * bank.polyline_points());
+  bank.polylines(points);
+  EXPECT_TRUE(all_zero(points));
+}
+
+TEST(Extinction, WhatIsSeenShrinksAwayRatherThanVanishing) {
+  Bank bank = bank_of(mortal_flame());
+  const InstanceId id = bank.spawn();
+  bank.set_noise(0);
+  steps_to_death(bank, 3);
+  float before = bank.lit_state(id)->size;
+  EXPECT_NEAR(before, 0.9f, 1e-5f);
+  std::vector<float> tip{outputs_of(bank)[9]};
+  for (int k = 0; k < 10; ++k) {
+    bank.step();
+    const float size = bank.lit_state(id)->size;
+    EXPECT_NEAR(size, std::max(before - 0.1f, 0.0f), 1e-5f);
+    before = size;
+    tip.push_back(outputs_of(bank)[9]);
+    EXPECT_LE(tip[k + 1], tip[k]);
+  }
+  EXPECT_GT(tip[4], 0);
+  EXPECT_EQ(tip.back(), 0);
+}
+
+TEST(Extinction, OnlyRelightingBringsItBackFromRestAndSmall) {
+  Bank bank = bank_of(mortal_flame()), calm = bank_of(mortal_flame());
+  const InstanceId id = bank.spawn();
+  calm.spawn();
+  for (Bank* each : {&bank, &calm}) each->set_noise(0);
+  blow(bank, 6, 100);
+  blow(bank, 0, 1);
+  ASSERT_TRUE(bank.relight(id));
+  EXPECT_TRUE(bank.lit_state(id)->lit);
+  EXPECT_EQ(bank.lit_state(id)->size, 0);
+  blow(bank, 0, 20);
+  blow(calm, 0, 20);
+  EXPECT_NEAR(bank.lit_state(id)->size, 0.5f, 1e-5f);
+  EXPECT_NEAR(outputs_of(bank)[9], 0.5f * outputs_of(calm)[9], 1e-5f);
+  blow(bank, 0, 20);
+  blow(calm, 0, 20);
+  EXPECT_NEAR(bank.lit_state(id)->size, 1, 1e-5f);
+  blow(bank, 0, 1);
+  blow(calm, 0, 1);
+  EXPECT_EQ(outputs_of(bank), outputs_of(calm));
+}
+
+TEST(Extinction, ARelitFlameIsUnharmedAndGoesOutAgain) {
+  Bank bank = bank_of(mortal_flame());
+  const InstanceId id = bank.spawn();
+  const int first = steps_to_death(bank, 3);
+  bank.relight(id);
+  EXPECT_EQ(steps_to_death(bank, 3), first);
+}
+
+TEST(Extinction, ARelitFlamesFlickerIsNotTheOneItWasBornWith) {
+  Bank bank = bank_of(mortal_flame());
+  const InstanceId id = bank.spawn();
+  std::vector<float> born, relit;
+  blow(bank, 0, 60);
+  born = outputs_of(bank);
+  bank.extinguish(id);
+  blow(bank, 0, 60);
+  bank.relight(id);
+  blow(bank, 0, 60);
+  relit = outputs_of(bank);
+  ASSERT_EQ(bank.lit_state(id)->size, 1);
+  EXPECT_NE(born, relit);
+}
+
+TEST(Extinction, ItCanBePutOutWithoutWind) {
+  Bank bank = bank_of(mortal_flame(), 2);
+  const InstanceId id = bank.spawn(), other = bank.spawn();
+  ASSERT_TRUE(bank.extinguish(id));
+  blow(bank, 0, 30);
+  EXPECT_FALSE(bank.lit_state(id)->lit);
+  EXPECT_TRUE(bank.lit_state(other)->lit);
+  EXPECT_EQ(bank.lit_state(id)->since_out, nanoseconds(300'000'000));
+}
+
+TEST(Extinction, AgesAreOfWhatIsShown) {
+  Bank bank = bank_of(mortal_flame());
+  const InstanceId id = bank.spawn();
+  EXPECT_EQ(bank.lit_state(id)->since_lit, kNever);
+  EXPECT_EQ(bank.lit_state(id)->since_out, kNever);
+  bank.extinguish(id);
+  bank.advance(nanoseconds(125'000'000));
+  EXPECT_EQ(bank.lit_state(id)->since_out, nanoseconds(115'000'000));  // one step late
+  bank.relight(id);
+  bank.advance(nanoseconds(40'000'000));
+  EXPECT_EQ(bank.lit_state(id)->since_out, nanoseconds(155'000'000));
+  EXPECT_EQ(bank.lit_state(id)->since_lit, nanoseconds(35'000'000));
+  blow(bank, 0, 1);
+  EXPECT_EQ(bank.lit_state(id)->since_lit, nanoseconds(50'000'000));
+}
+
+TEST(Extinction, SizesBetweenStepsLieBetween) {
+  Bank bank = bank_of(mortal_flame());
+  const InstanceId id = bank.spawn();
+  bank.set_noise(0);
+  bank.extinguish(id);
+  bank.advance(nanoseconds(25'000'000));
+  EXPECT_NEAR(bank.lit_state(id)->size, 0.85f, 1e-5f);
+}
+
+TEST(Extinction, WhatIsNotANumberIsCalmAndWhatIsAbsurdDoesNotKillAtOnce) {
+  Bank bank = bank_of(mortal_flame());
+  const InstanceId id = bank.spawn();
+  blow(bank, std::numeric_limits<float>::quiet_NaN(), 1000);
+  EXPECT_TRUE(bank.lit_state(id)->lit);
+  for (int round = 0; round < 10; ++round) {
+    blow(bank, round % 2 ? std::numeric_limits<float>::infinity() : -1e30f, 1);
+    blow(bank, 0, 20);
+    ASSERT_TRUE(bank.lit_state(id)->lit) << round;
+  }
+}
+
+TEST(Extinction, ResettingOrSpawningAnewLightsIt) {
+  Bank bank = bank_of(mortal_flame());
+  InstanceId id = bank.spawn();
+  blow(bank, 6, 30);
+  bank.reset(id);
+  EXPECT_TRUE(bank.lit_state(id)->lit);
+  EXPECT_EQ(bank.lit_state(id)->size, 1);
+  EXPECT_EQ(bank.lit_state(id)->since_out, kNever);
+  blow(bank, 6, 30);
+  bank.end(id);
+  EXPECT_FALSE(bank.lit_state(id));
+  EXPECT_FALSE(bank.relight(id));
+  EXPECT_FALSE(bank.extinguish(id));
+  id = bank.spawn();
+  EXPECT_TRUE(bank.lit_state(id)->lit);
+  EXPECT_FALSE(all_zero(outputs_of(bank)));
+}
+
+TEST(Extinction, StepsOfAFlameThatIsOutAreNotCountedAsHeld) {
+  Bank bank = bank_of(mortal_flame());
+  bank.spawn();
+  bank.set_noise(0);
+  steps_to_death(bank, 6);
+  const auto held = bank.held().held;
+  blow(bank, 6, 500);
+  EXPECT_EQ(bank.held().held, held);
+}
+
+// Wind of one frame for one of many instances: gusts of all strengths that now and then kill.
+float gust(std::uint64_t instance, int frame) {
+  const std::uint64_t word = (instance * 2654435761U + static_cast<std::uint64_t>(frame / 9) * 40503U) % 1000;
+  return static_cast<float>(word) / 250.0f - 1.0f;
+}
+
+// Outputs and sizes of 300 frames of the instance of `stream`, among others; lit again whenever it has been out a
+// while.
+std::vector<float> life(Bank& bank, InstanceId id, std::uint64_t stream) {
+  std::vector<float> all, wind(bank.slots()), row(bank.output_count());
+  for (int frame = 0; frame < 300; ++frame) {
+    for (std::size_t k = 0; k < wind.size(); ++k) wind[k] = gust(k + 50, frame);
+    wind[id.slot] = gust(stream, frame);
+    bank.set_inputs(wind);
+    bank.advance(nanoseconds(13'000'000));
+    EXPECT_TRUE(bank.outputs(id, row));
+    all.insert(all.end(), row.begin(), row.end());
+    const LitState state = *bank.lit_state(id);
+    all.push_back(state.size);
+    if (!state.lit && state.since_out > nanoseconds(300'000'000)) bank.relight(id);
+  }
+  return all;
+}
+
+TEST(Extinction, AnInstanceLivesAndDiesTheSameInABankOfAnySize) {
+  Bank alone = bank_of(mortal_flame());
+  const std::vector<float> expected = life(alone, alone.spawn(5), 5);
+  int zeros = 0;
+  for (std::size_t k = 16; k < expected.size(); k += 17) zeros += expected[k] == 0;
+  ASSERT_GT(zeros, 20);
+  ASSERT_LT(zeros, 280);
+  for (int capacity : {2, 8, 9, 31}) {
+    Bank bank = bank_of(mortal_flame(), capacity);
+    InstanceId watched;
+    for (int k = 0; k < capacity; ++k) {
+      const InstanceId id = bank.spawn(k == capacity / 2 ? 5 : 100 + k);
+      if (k == capacity / 2) watched = id;
+    }
+    const std::vector<float> found = life(bank, watched, 5);
+    EXPECT_EQ(std::memcmp(found.data(), expected.data(), expected.size() * sizeof(float)), 0) << capacity;
+  }
+}
+
+// The rule as its definition says it, one number after the other.
+TEST(Extinction, TheBanksRuleIsTheDefinition) {
+  const Model model = mortal_flame();
+  const Extinction& rule = *model.extinction;
+  Bank bank = bank_of(model, 40);
+  for (int k = 0; k < 40; ++k) bank.spawn();
+  std::vector<double> harm(40, 0.0), wind(40);
+  std::vector<bool> lit(40, true);
+  std::vector<float> inputs(40);
+  int deaths = 0;
+  for (int frame = 0; frame < 2000; ++frame) {
+    for (int k = 0; k < 40; ++k) inputs[k] = gust(k, frame);
+    bank.set_inputs(inputs);
+    bank.step();
+    for (int k = 0; k < 40; ++k) {
+      const double w = std::min<double>(std::abs(inputs[k]), Extinction::kMostWind * rule.level);
+      const double rate = w >= rule.level ? (1 + rule.haste * (w / rule.level - 1)) / rule.seconds : -1 / rule.recovery;
+      harm[k] = std::clamp(harm[k] + rate / model.rate_hz, 0.0, 1.0);
+      const bool dies = lit[k] && harm[k] >= 1;
+      if (std::abs(harm[k] - 1) < 1e-5 && harm[k] < 1) continue;  // rounding may decide
+      if (dies) lit[k] = false;
+      deaths += dies;
+      ASSERT_EQ(bank.lit_state(bank.at(k))->lit, lit[k]) << k << " " << frame;
+    }
+  }
+  EXPECT_GT(deaths, 10);
+}
+
+std::vector<std::byte> saved(const Bank& bank) {
+  std::vector<std::byte> bytes(bank.save_bytes());
+  bank.save(bytes);
+  return bytes;
+}
+
+// Some harmed, some dying, some out, some catching.
+Bank lived_in_bank() {
+  Bank bank = bank_of(mortal_flame(), 12);
+  for (int k = 0; k < 9; ++k) {
+    const InstanceId id = bank.spawn();
+    const float wind = 0.6f * static_cast<float>(k);
+    bank.set_inputs(id, std::span(&wind, 1));
+    bank.advance(nanoseconds(17'000'000));
+  }
+  bank.advance(nanoseconds(33'000'000));
+  for (int slot : {7, 8}) bank.relight(bank.at(slot));
+  bank.advance(nanoseconds(8'000'000));
+  return bank;
+}
+
+TEST(Extinction, ASavedBankGoesOnDyingWithTheSameBits) {
+  Bank bank = lived_in_bank();
+  Bank other = bank_of(mortal_flame(), 12);
+  ASSERT_TRUE(other.restore(saved(bank)));
+  EXPECT_EQ(saved(other), saved(bank));
+  for (int frame = 0; frame < 100; ++frame) {
+    ASSERT_EQ(outputs_of(other), outputs_of(bank)) << frame;
+    for (int slot = 0; slot < bank.slots(); ++slot) {
+      const LitState a = *bank.lit_state(bank.at(slot)), b = *other.lit_state(other.at(slot));
+      ASSERT_EQ(a.lit, b.lit);
+      ASSERT_EQ(a.size, b.size);
+      ASSERT_EQ(a.since_lit, b.since_lit);
+      ASSERT_EQ(a.since_out, b.since_out);
+    }
+    if (frame == 40) {
+      bank.relight(bank.at(5));
+      other.relight(other.at(5));
+    }
+    bank.advance(nanoseconds(17'000'000));
+    other.advance(nanoseconds(17'000'000));
+  }
+}
+
+TEST(Extinction, ABankIsNotRestoredFromOneWithAnotherRule) {
+  const std::vector<std::byte> bytes = saved(lived_in_bank());
+  Model other = mortal_flame();
+  other.extinction->level = 2.5;
+  Bank bank = bank_of(other, 12);
+  EXPECT_FALSE(bank.restore(bytes));
+  other.extinction.reset();
+  Bank immortal = bank_of(other, 12);
+  EXPECT_FALSE(immortal.restore(bytes));
+}
+
+TEST(Extinction, LivesThatCannotBeAreRefused) {
+  Bank bank = bank_of(mortal_flame());
+  bank.spawn();
+  blow(bank, 3, 4);
+  const std::vector<std::byte> good = saved(bank);
+  const std::size_t life = good.size() - 36;  // wind, harm, lit, two sizes, two ages
+  const float wrong[] = {7.0f, -0.5f, 0.5f, 1.5f, std::numeric_limits<float>::quiet_NaN()};
+  for (std::size_t field = 0; field < 5; ++field) {
+    std::vector<std::byte> bytes = good;
+    std::memcpy(&bytes[life + 4 * field], &wrong[field], 4);
+    const std::uint64_t hash = hash_bytes(std::span(bytes).subspan(32));
+    for (int k = 0; k < 8; ++k) bytes[24 + k] = static_cast<std::byte>(hash >> (8 * k));
+    EXPECT_FALSE(bank.restore(bytes)) << field;
+  }
+  EXPECT_TRUE(bank.restore(good));
+}
+
+TEST(Extinction, WithoutARuleEverythingBurnsForEver) {
+  Bank bank = bank_of(flame_model());
+  const InstanceId id = bank.spawn();
+  EXPECT_FALSE(bank.goes_out());
+  bank.extinguish(id);
+  blow(bank, 1e9f, 100);
+  EXPECT_TRUE(bank.lit_state(id)->lit);
+  EXPECT_EQ(bank.lit_state(id)->since_out, kNever);
+}
+
+TEST(Extinction, AllStatesAreReadAtOnce) {
+  Bank bank = lived_in_bank();
+  bank.end(bank.at(2));
+  std::vector<LitState> states(bank.slots());
+  bank.lit_states(states);
+  for (int slot = 0; slot < bank.slots(); ++slot) {
+    const auto one = bank.lit_state(bank.at(slot));
+    EXPECT_EQ(states[slot].lit, one && one->lit) << slot;
+    EXPECT_EQ(states[slot].size, one ? one->size : 0) << slot;
+  }
+}
+
+TEST(Extinction, ItsCostIsCountedAndSmall) {
+  const auto cost = count_operations(mortal_flame());
+  const auto without = count_operations(flame_model({.wind = InputShape::kSplitSign, .noise_rank = 1}));
+  EXPECT_EQ(without->extinction_operations, 0);
+  EXPECT_EQ(cost->extinction_operations, 1 + 6 + 3 + 16);
+  EXPECT_EQ(cost->operations_per_frame - without->operations_per_frame, cost->extinction_operations);
+  EXPECT_EQ(cost->multiply_adds_per_frame, without->multiply_adds_per_frame);
+}
+
+}  // namespace
+}  // namespace wisp
