@@ -46,7 +46,12 @@ Result<ClipCaptureOptions> options_from(const Arguments& arguments) {
   return options;
 }
 
-void add_wind(const ClipWind& wind, CapturedClip& clip) {
+WindMeasure wind_measure(const Arguments& arguments) {
+  const std::string& word = arguments.text("wind-measure");
+  return word == "rms" ? WindMeasure::kRms : word == "heard" ? WindMeasure::kHeard : WindMeasure::kSpeed;
+}
+
+void add_wind(const ClipWind& wind, WindMeasure measure, CapturedClip& clip) {
   clip.wind_heard = !wind.frames.empty();
   clip.wind_background = wind.background;
   clip.wind_note = wind.note;
@@ -57,8 +62,8 @@ void add_wind(const ClipWind& wind, CapturedClip& clip) {
   if (wind.clipped_share > 0.01)
     clip.report.warnings.push_back("the sound is clipped; record it more quietly for a truer wind");
   if (!clip.wind_heard) return;
-  Channel channel{.name = "wind", .unit = "1", .role = Role::kInput, .samples = {}};
-  for (const WindFrame& frame : wind.frames) channel.samples.push_back(frame.speed);
+  Channel channel{.name = wind_channel_name(measure), .unit = "1", .role = Role::kInput, .samples = {}};
+  for (const WindFrame& frame : wind.frames) channel.samples.push_back(wind_value(frame, measure));
   clip.recording.channels.insert(clip.recording.channels.begin(), std::move(channel));
 }
 
@@ -77,6 +82,12 @@ std::vector<Flag> capture_flags() {
       {"region", Kind::kText, "X,Y,W,H", "", "look only here, in pixels from the top left"},
       {"frames", Kind::kSamples, "A:B", "", "only these frames, 1-based and inclusive"},
       {"rate", Kind::kNumber, "HZ", "", "frames a second of a folder of images; overrides a video's own"},
+      {"wind-measure",
+       Kind::kChoice,
+       "M",
+       "speed",
+       "what is made of the sound: speed (of what sounds like wind), heard (speed, other sounds too), rms (plain)",
+       {"speed", "heard", "rms"}},
   };
 }
 
@@ -109,7 +120,7 @@ Result<CapturedClip> capture_clip(const std::filesystem::path& path, const Argum
   if (!wind) return wind.error();
   if (!wind->frames.empty())
     wind->frames.erase(wind->frames.begin(), wind->frames.begin() + static_cast<std::ptrdiff_t>(skipped));
-  add_wind(*wind, clip);
+  add_wind(*wind, wind_measure(arguments), clip);
   return clip;
 }
 

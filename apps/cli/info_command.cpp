@@ -16,7 +16,8 @@ Json channels_of(const Model& model) {
     inputs.push_back({{"name", input.name},
                       {"unit", input.unit},
                       {"range", {number(input.lowest), number(input.highest)}},
-                      {"shape", input.shape == InputShape::kSplitSign ? "split sign" : "linear"}});
+                      {"shape", std::string(splits_sign(input.shape) ? "split sign" : "linear") +
+                                    (has_squares(input.shape) ? " with squares" : "")}});
   }
   for (const Output& output : model.outputs) {
     outputs.push_back(

@@ -1,7 +1,9 @@
 #include "outline_learning.hpp"
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
+#include <optional>
 
 #include "capture_flags.hpp"
 #include "figures_json.hpp"
@@ -31,6 +33,39 @@ Json channels_json(const OutlineFit& fit) {
   return channels;
 }
 
+std::optional<int> number_unless_auto(const Arguments& arguments, std::string_view flag) {
+  if (arguments.text(flag) == "auto") return std::nullopt;
+  return arguments.integer(flag);
+}
+
+const char* criterion_name(OutlineCriterion by) {
+  switch (by) {
+    case OutlineCriterion::kGiven:
+      return "given";
+    case OutlineCriterion::kFpe:
+      return "fpe";
+    case OutlineCriterion::kHeldOutStep:
+      return "held_out_step";
+    case OutlineCriterion::kHeldOutFreeRun:
+      return "held_out_free_run";
+  }
+  return "";
+}
+
+Json choice_json(const OutlineChoice& choice) {
+  Json json = {{"order", choice.taken().order},
+               {"delay", choice.taken().delay},
+               {"by", criterion_name(choice.by)},
+               {"reason", choice.reason},
+               {"candidates", Json::array()}};
+  if (choice.by == OutlineCriterion::kGiven) return json;
+  for (const OutlineCandidate& one : choice.candidates) {
+    json["candidates"].push_back(
+        {{"order", one.order}, {"delay", one.delay}, {"fpe", number(one.fpe)}, {"error", number(one.error)}});
+  }
+  return json;
+}
+
 Json j_json(const OutlineFigures& figures) {
   Json j = Json::object();
   for (std::size_t k = 0; k < figures.steps.size(); ++k) {
@@ -49,6 +84,8 @@ void describe(const OutlineFit& fit, Terminal& terminal) {
                " frames a second, inputs: " + (inputs.empty() ? "none (a flicker model)" : inputs));
   terminal.say("learned from " + std::to_string(summary.rows_learned) + " frames, " +
                std::to_string(summary.rows_held_out) + " held out");
+  if (summary.choice.by != OutlineCriterion::kGiven) terminal.say(summary.choice.reason);
+  for (const InputAlignment& one : summary.alignment) terminal.say(one.note());
   terminal.say(std::string(summary.held_out ? "held out" : "learned") + ", one step ahead: tip fit " +
                shown(at_steps(judged, judged.tip_fit_percent, 1)) + " %, outline overlap " +
                shown(at_steps(judged, judged.overlap, 1)) +
@@ -58,6 +95,7 @@ void describe(const OutlineFit& fit, Terminal& terminal) {
                  shown(at_steps(judged, judged.tip_fit_percent, kFreeRun)) + " %, outline overlap " +
                  shown(at_steps(judged, judged.overlap, kFreeRun)));
   }
+  if (!summary.noise_growth.per_input.empty()) terminal.say(summary.noise_growth.reason);
   terminal.say("spectral radius " + shown(summary.stable.radius, 4) + (summary.stable.changed ? " (made stable)" : "") +
                ", held at its range in " + shown(100 * summary.held_share, 2) + " % of steps");
   terminal.say("cost " + std::to_string(summary.cost.multiply_adds_per_frame) + " multiply-adds a frame; " +
@@ -94,10 +132,33 @@ double at_steps(const OutlineFigures& figures, const std::vector<double>& values
 
 std::vector<Flag> outline_flags() {
   return {
-      {"order", Kind::kInteger, "N", "4", "lags of outputs and inputs in every equation"},
-      {"delay", Kind::kInteger, "N", "0", "frames until an input acts"},
+      {"order",
+       Kind::kIntegerOrWord,
+       "N|auto",
+       "4",
+       "lags of outputs and inputs in every equation; auto searches 1 to 32 on what is held out",
+       {"auto"}},
+      {"delay",
+       Kind::kIntegerOrWord,
+       "N|auto",
+       "0",
+       "frames until an input acts; auto searches up to a quarter of a second",
+       {"auto"}},
+      {"align",
+       Kind::kChoice,
+       "A",
+       "auto",
+       "auto: an input that comes after the motion that it causes is moved; off: as recorded",
+       {"auto", "off"}},
       {"coupling", Kind::kChoice, "C", "point", "which control points feed each other", {"point", "band", "full"}},
       {"one-sided", Kind::kSwitch, "", "", "inputs as they are: no sign, no mirror image"},
+      {"square", Kind::kSwitch, "", "", "every input's square beside it, so that the answer to it may bend"},
+      {"noise-growth",
+       Kind::kChoice,
+       "G",
+       "auto",
+       "auto: the noise grows with the inputs where held-out data say so; off: the same in any wind",
+       {"auto", "off"}},
       {"holdout", Kind::kNumber, "SHARE", "0.3", "the last part of each recording, kept for judging"},
       {"noise",
        Kind::kChoice,
@@ -110,10 +171,26 @@ std::vector<Flag> outline_flags() {
   };
 }
 
+Json alignment_json(const std::vector<InputAlignment>& alignment) {
+  Json json = Json::array();
+  for (const InputAlignment& one : alignment) {
+    json.push_back({{"recording", one.source},
+                    {"input", one.input},
+                    {"motion", one.motion},
+                    {"offset_seconds", number(one.found.offset_seconds)},
+                    {"offset_ci95", {number(one.found.low_seconds), number(one.found.high_seconds)}},
+                    {"usable", one.found.usable},
+                    {"reason", one.found.reason},
+                    {"frames_moved", one.frames_moved}});
+  }
+  return json;
+}
+
 Result<OutlineOptions> outline_options(const Arguments& arguments, std::string name) {
   OutlineOptions options;
-  options.order = arguments.integer("order");
-  options.delay = arguments.integer("delay");
+  options.order = number_unless_auto(arguments, "order");
+  options.delay = number_unless_auto(arguments, "delay");
+  options.align = arguments.text("align") == "auto";
   const std::string& coupling = arguments.text("coupling");
   options.coupling = coupling == "full"   ? OutlineCoupling::kFull
                      : coupling == "band" ? OutlineCoupling::kBand
@@ -123,6 +200,8 @@ Result<OutlineOptions> outline_options(const Arguments& arguments, std::string n
                   : noise == "residual"  ? OutlineNoise::kResidual
                                          : OutlineNoise::kMatched;
   options.one_sided = arguments.on("one-sided");
+  options.square = arguments.on("square");
+  options.growing_noise = arguments.text("noise-growth") == "auto";
   options.holdout = arguments.number("holdout");
   options.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
   options.name = std::move(name);
@@ -140,6 +219,9 @@ Result<std::vector<Recording>> outline_recordings(const std::vector<std::string>
       auto clip = capture_clip(path, arguments, terminal, knots);
       if (!clip) return clip.error();
       for (const std::string& warning : clip->report.warnings) terminal.warn(path + ": " + warning);
+      if (!clip->wind_heard && !std::filesystem::is_directory(path)) {
+        terminal.warn(path + ": wind " + clip->wind_note + "; without it only flicker can be learned");
+      }
       return std::move(clip->recording);
     }();
     if (recording) {
@@ -172,6 +254,14 @@ void report_outline(const OutlineFit& fit, Terminal& terminal) {
   result["na"] = json_of(summary.orders.na);
   result["nb"] = json_of(summary.orders.nb);
   result["nk"] = json_of(summary.orders.nk);
+  result["order_and_delay"] = choice_json(summary.choice);
+  result["alignment"] = alignment_json(summary.alignment);
+  const OutlineNoiseGrowth& growth = summary.noise_growth;
+  result["noise_growth"] = {{"kept", growth.kept},
+                            {"per_input", json_of(growth.per_input)},
+                            {"held_out_gain_nats", number(growth.gain)},
+                            {"gain_se", number(growth.gain_error)},
+                            {"reason", growth.reason}};
   result["samples"] = {{"learned", summary.rows_learned}, {"held_out", summary.rows_held_out}};
   result["channels"] = channels_json(fit);
   result["J"] = by_steps(judged.steps, mean_per_step(judged.j));

@@ -24,6 +24,9 @@ Result<std::vector<Recording>> outline_recordings(const std::vector<std::string>
 /// The fit's figures, for people and programs.
 void report_outline(const OutlineFit& fit, Terminal& terminal);
 
+/// What was found of sound against picture.
+Json alignment_json(const std::vector<InputAlignment>& alignment);
+
 /// `J` {k: …}, by number of steps.
 Json by_steps(const std::vector<int>& steps, const std::vector<double>& values);
 

@@ -1,5 +1,6 @@
 // `wisp validate`: a model held against a recording or a clip.
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -169,6 +170,24 @@ Json fidelity_json(const Fidelity& fidelity) {
   return json;
 }
 
+// What dynamics add, and what the sensor takes away.
+void report_bounds(const OutlineValidation& found, Terminal& terminal) {
+  Json& result = terminal.result();
+  if (found.static_gain) {
+    const StaticGain& gain = *found.static_gain;
+    result["static_gain"] = {{"tip_fit_percent", number(gain.fit_percent)},
+                             {"delay_seconds", number(gain.delay_seconds)}};
+    terminal.say("  a static gain with the best delay (" + shown(1000 * gain.delay_seconds) + " ms): tip fit " +
+                 shown(gain.fit_percent) + " %");
+  }
+  if (found.true_input) {
+    const TrueInputFigures& truth = *found.true_input;
+    result["true_input"] = {{"tip_fit_percent", number(truth.tip_fit_percent)}, {"overlap", number(truth.overlap)}};
+    terminal.say("  free simulation from the input as it truly was: tip fit " + shown(truth.tip_fit_percent) +
+                 " %, outline overlap " + shown(truth.overlap));
+  }
+}
+
 void report(const OutlineValidation& found, Terminal& terminal) {
   Json& result = terminal.result();
   const OutlineFigures& figures = found.figures;
@@ -179,6 +198,17 @@ void report(const OutlineValidation& found, Terminal& terminal) {
                                   {"fit_percent", by_steps(figures.steps, channel.fit_percent)},
                                   {"whiteness_p", number(channel.whiteness_p)}});
   }
+  result["points"] = Json::array();
+  for (std::size_t p = 0; !figures.j.empty() && p < figures.j.front().size(); ++p) {
+    Json point = {{"fit_percent", Json::object()}, {"J", Json::object()}};
+    for (std::size_t k = 0; k < figures.steps.size(); ++k) {
+      const std::string ahead = figures.steps[k] == kFreeRun ? "inf" : std::to_string(figures.steps[k]);
+      point["fit_percent"][ahead] = number(figures.point_fit_percent[k][p]);
+      point["J"][ahead] = number(figures.j[k][p]);
+    }
+    result["points"].push_back(std::move(point));
+  }
+  result["alignment"] = alignment_json(found.alignment);
   result["J"] = by_steps(figures.steps, mean_per_step(figures.j));
   result["tip"] = {{"fit_percent", by_steps(figures.steps, figures.tip_fit_percent)}};
   result["overlap"] = number(at_steps(figures, figures.overlap, kFreeRun));
@@ -186,6 +216,7 @@ void report(const OutlineValidation& found, Terminal& terminal) {
   result["fidelity"] = found.fidelity ? fidelity_json(*found.fidelity) : Json(nullptr);
   result["held_share"] = number(found.held_share);
   result["crossed_share"] = number(found.crossed_share);
+  for (const InputAlignment& one : found.alignment) terminal.say(one.note());
   terminal.say(std::to_string(figures.rows) + " frames judged");
   for (std::size_t k = 0; k < figures.steps.size(); ++k) {
     const std::string ahead =
@@ -193,13 +224,7 @@ void report(const OutlineValidation& found, Terminal& terminal) {
     terminal.say("  " + ahead + ": tip fit " + shown(figures.tip_fit_percent[k]) + " %, outline overlap " +
                  shown(figures.overlap[k]));
   }
-  if (found.static_gain) {
-    const StaticGain& gain = *found.static_gain;
-    result["static_gain"] = {{"tip_fit_percent", number(gain.fit_percent)},
-                             {"delay_seconds", number(gain.delay_seconds)}};
-    terminal.say("  a static gain with the best delay (" + shown(1000 * gain.delay_seconds) + " ms): tip fit " +
-                 shown(gain.fit_percent) + " %");
-  }
+  report_bounds(found, terminal);
   if (!found.fidelity) return;
   const Bounded& spectrum = found.fidelity->log_spectral_distance;
   const Bounded& energy = found.fidelity->energy_distance;
@@ -208,6 +233,15 @@ void report(const OutlineValidation& found, Terminal& terminal) {
                ", shuffled frames: " + shown(spectrum.ceiling) + ")");
   terminal.say("  normalised energy distance " + shown(energy.value) + " (halves " + shown(energy.floor) +
                ", shuffled " + shown(energy.ceiling) + ")");
+}
+
+// The rows of --truth that are the subject's.
+Result<std::optional<Recording>> truth_for(const Subject& subject, const Arguments& arguments) {
+  if (!arguments.has("truth")) return std::optional<Recording>();
+  const auto truth = read_table(arguments.text("truth"), arguments);
+  if (!truth) return truth.error();
+  const std::size_t first = std::min(subject.clip.first_frame, truth->rows());
+  return std::optional(slice(*truth, first, std::min(truth->rows(), first + subject.recording.rows())));
 }
 
 Result<void> run(const Arguments& arguments, Terminal& terminal) {
@@ -220,8 +254,12 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   if (!view) return validate_plain(*model, *steps, arguments, terminal);
   const auto subject = subject_of(positionals[1], *view, arguments, terminal);
   if (!subject) return subject.error();
+  const auto truth = truth_for(*subject, arguments);
+  if (!truth) return truth.error();
   OutlineValidationOptions options{.steps = *steps,
                                    .own_input_scale = arguments.on("own-gain"),
+                                   .align = arguments.text("align") == "auto",
+                                   .truth = *truth ? &**truth : nullptr,
                                    .seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
   auto found = validate_outline(*model, subject->recording, options);
   if (!found) return found.error();
@@ -251,6 +289,13 @@ Command validate_command() {
       {"clip", Kind::kPath, "CLIP", "", "the clip that the recording was captured from, for the pictures"},
       {"own-gain", Kind::kSwitch, "", "",
        "input 1 is this recording's own 95th percentile: another microphone, another gain"},
+      {"align",
+       Kind::kChoice,
+       "A",
+       "auto",
+       "auto: an input that comes after the motion that it causes is moved; off: as recorded",
+       {"auto", "off"}},
+      {"truth", Kind::kPath, "REC.csv", "", "the inputs as they truly were: simulates from those too, to compare"},
       {"seed", Kind::kInteger, "N", "1", "of the synthesized life"},
       {"inputs", Kind::kNames, "A,B", "", "columns of a plain table that are inputs"},
       {"outputs", Kind::kNames, "C,D", "", "columns of a plain table that are outputs"},

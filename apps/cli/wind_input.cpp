@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "recordings.hpp"
+#include "wisp/capture/media/clip_wind.hpp"
+#include "wisp/learn/validation.hpp"
 #include "wisp/record/wav.hpp"
 #include "wisp/run/wind_track.hpp"
 
@@ -27,6 +29,18 @@ std::vector<float> at_rate(const std::vector<double>& samples, double from_hz, d
   return out;
 }
 
+namespace {
+
+// What of the sound drives an input: by its name, as captures call it; an input of another name is a wind like any.
+WindMeasure measure_of(const Input& input) {
+  for (const WindMeasure measure : {WindMeasure::kHeard, WindMeasure::kRms}) {
+    if (input.name == wind_channel_name(measure)) return measure;
+  }
+  return WindMeasure::kSpeed;
+}
+
+}  // namespace
+
 Result<InputTrack> InputTrack::heard(const Model& model, const std::string& path) {
   auto reader = WavReader::open(path);
   if (!reader) return reader.error();
@@ -44,10 +58,14 @@ Result<InputTrack> InputTrack::heard(const Model& model, const std::string& path
   if (!wind) return Error{path + ": " + wind.error().message};
   if (wind->silent) return Error{path + ": is silent; expected the sound of blowing"};
   InputTrack track;
-  std::vector<float> samples;
-  for (const WindFrame& frame : wind->frames) samples.push_back(frame.speed);
-  track.rows_ = samples.size();
-  track.tracks_.assign(model.inputs.size(), samples);
+  track.rows_ = wind->frames.size();
+  for (const Input& input : model.inputs) {
+    const WindMeasure measure = measure_of(input);
+    const double scale = measure == WindMeasure::kRms ? trained_scale(model, input.name) : 1;
+    std::vector<float>& samples = track.tracks_.emplace_back();
+    for (const WindFrame& frame : wind->frames)
+      samples.push_back(static_cast<float>(wind_value(frame, measure) / scale));
+  }
   return track;
 }
 

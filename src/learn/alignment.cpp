@@ -200,8 +200,12 @@ void judge(Alignment& found, double most_seconds) {
     found.reason = "the offset is only known to " + milliseconds(width);
   } else {
     found.usable = true;
-    found.reason = "the motion comes " + milliseconds(found.offset_seconds) + " after the sound (" +
-                   milliseconds(found.low_seconds) + " to " + milliseconds(found.high_seconds) + ")";
+    const bool before = found.offset_seconds < 0;
+    const double from = before ? -found.high_seconds : found.low_seconds;
+    const double to = before ? -found.low_seconds : found.high_seconds;
+    found.reason = "the motion comes " + milliseconds(std::abs(found.offset_seconds)) +
+                   (before ? " before" : " after") + " the sound (" + milliseconds(from) + " to " + milliseconds(to) +
+                   ")";
   }
 }
 

@@ -5,10 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "outline_growth.hpp"
 #include "outline_noise.hpp"
+#include "outline_orders.hpp"
 #include "outline_preparation.hpp"
 #include "outline_verdict.hpp"
-#include "wisp/learn/arx_orders.hpp"
 #include "wisp/learn/fidelity_marginal.hpp"
 #include "wisp/learn/outline_synthesis.hpp"
 
@@ -29,8 +30,9 @@ Result<void> check_options(const OutlineOptions& options) {
   const auto refuse = [](const std::string& what, double value, const std::string& range) {
     return Error{what + " is " + text(value) + ", expected " + range};
   };
-  if (options.order < 1 || options.order > 64) return refuse("the order", options.order, "1 to 64");
-  if (options.delay < 0 || options.delay > 1000) return refuse("the delay", options.delay, "0 to 1000 frames");
+  const int order = options.order.value_or(1), delay = options.delay.value_or(0);
+  if (order < 1 || order > 64) return refuse("the order", order, "1 to 64");
+  if (delay < 0 || delay > 1000) return refuse("the delay", delay, "0 to 1000 frames");
   if (!(options.holdout >= 0 && options.holdout <= 0.9))
     return refuse("the held-out share", options.holdout, "0 to 0.9");
   if (options.shared_shocks < 1 || options.shared_shocks > 64) {
@@ -42,43 +44,21 @@ Result<void> check_options(const OutlineOptions& options) {
   return {};
 }
 
-ArxOrders outline_orders(const OutlineOptions& options, const PreparedOutlines& prepared) {
-  UniformOrders uniform;
-  uniform.outputs = static_cast<int>(prepared.channels.outputs.size());
-  uniform.inputs = static_cast<int>(prepared.channels.inputs.size());
-  uniform.na = uniform.nb = options.order;
-  uniform.nk = options.delay;
-  uniform.group = 2;
-  switch (options.coupling) {
-    case OutlineCoupling::kPoint:
-      uniform.coupling = Coupling::kDiagonal;
-      break;
-    case OutlineCoupling::kBand:
-      uniform.coupling = Coupling::kBand;
-      break;
-    case OutlineCoupling::kFull:
-      uniform.coupling = Coupling::kFull;
-      break;
-  }
-  ArxOrders orders = make_orders(uniform);
-  if (options.coupling != OutlineCoupling::kFull) return orders;
-  // The last point is the first one mirrored about the base: together they would be a regressor twice.
-  for (int i = 0; i < uniform.outputs; ++i) {
-    for (int j = uniform.outputs - 2; j < uniform.outputs; ++j) orders.na(i, j) = 0;
-  }
-  return orders;
-}
-
 bool mirror_wanted(const OutlineOptions& options, const PreparedOutlines& prepared) {
-  return options.mirror.value_or(prepared.split_sign);
+  return options.mirror.value_or(prepared.shape.split_sign);
 }
 
-// Fits rows and, where wanted, their mirror images.
+// Recordings and, where wanted, their mirror images.
+std::vector<Recording> to_learn_from(std::span<const Recording> recordings, const PreparedOutlines& prepared,
+                                     const OutlineOptions& options) {
+  if (mirror_wanted(options, prepared)) return with_mirror_images(recordings, prepared);
+  return {recordings.begin(), recordings.end()};
+}
+
 Result<ArxFit> fit(std::span<const Recording> recordings, const PreparedOutlines& prepared,
-                   const OutlineOptions& options) {
-  const ArxOptions arx{.orders = outline_orders(options, prepared)};
-  if (!mirror_wanted(options, prepared)) return fit_arx(recordings, prepared.channels, arx);
-  return fit_arx(with_mirror_images(recordings, prepared), prepared.channels, arx);
+                   const OutlineOptions& options, const OutlineCandidate& chosen) {
+  const ArxOptions arx{.orders = outline_orders(chosen.order, chosen.delay, options.coupling, prepared)};
+  return fit_arx(to_learn_from(recordings, prepared, options), prepared.channels, arx);
 }
 
 // The covariance of what the inputs alone leave unexplained: the outline's flicker.
@@ -134,9 +114,9 @@ double carried(const Covariance& shocks, const Eigen::MatrixXd& factor) {
 }
 
 // Gives the model the noise that was asked for.
-Result<void> set_noise(const ArxFit& fitted, std::span<const Recording> recordings, const ChannelChoice& channels,
+Result<void> set_noise(const ArxFit& fitted, std::span<const Recording> recordings, const PreparedOutlines& prepared,
                        const OutlineOptions& options, ArxModel& model, OutlineSummary& summary) {
-  const auto wanted = flicker_covariance(model, recordings, channels);
+  const auto wanted = flicker_covariance(model, recordings, prepared.channels);
   if (!wanted) return wanted.error();
   summary.shared_variance = 1;
   Eigen::MatrixXd factor;
@@ -149,6 +129,9 @@ Result<void> set_noise(const ArxFit& fitted, std::span<const Recording> recordin
     summary.shared_variance = carried(shocks, factor);
   }
   if (options.match_variance) summary.variance_matched = scale_to_variance(model, *wanted, factor);
+  // What was matched is the mean over all winds: at calm a noise that grows is smaller.
+  model.noise.growth = growth_of_regressors(summary.noise_growth, prepared);
+  factor /= std::sqrt(mean_square_growth(summary.noise_growth, recordings, prepared));
   if (options.noise != OutlineNoise::kIndependent) {
     set_shared(factor, model.noise);
     return {};
@@ -184,20 +167,24 @@ Output output_of(const std::string& name, std::span<const Recording> recordings)
   return out;
 }
 
-Input input_of(const OutlineInput& input, bool split_sign) {
+InputShape input_shape(RegressorShape shape) {
+  if (shape.split_sign) return shape.square ? InputShape::kSplitSignSquare : InputShape::kSplitSign;
+  return shape.square ? InputShape::kLinearSquare : InputShape::kLinear;
+}
+
+Input input_of(const OutlineInput& input, RegressorShape shape) {
   const double strongest = std::max(std::abs(input.lowest), std::abs(input.highest));
   return {input.name, text(input.scale) + (input.unit.empty() ? "" : " " + input.unit),
-          split_sign ? -strongest : input.lowest, split_sign ? strongest : input.highest,
-          split_sign ? InputShape::kSplitSign : InputShape::kLinear};
+          shape.split_sign ? -strongest : input.lowest, shape.split_sign ? strongest : input.highest,
+          input_shape(shape)};
 }
 
 Model model_of(const ArxModel& arx, const PreparedOutlines& prepared, const OutlineOptions& options) {
   Model model;
   model.name = options.name;
   model.rate_hz = prepared.recordings.front().rate_hz;
-  for (const OutlineInput& input : prepared.inputs) model.inputs.push_back(input_of(input, prepared.split_sign));
-  const auto seen =
-      mirror_wanted(options, prepared) ? with_mirror_images(prepared.recordings, prepared) : prepared.recordings;
+  for (const OutlineInput& input : prepared.inputs) model.inputs.push_back(input_of(input, prepared.shape));
+  const auto seen = to_learn_from(prepared.recordings, prepared, options);
   for (const std::string& name : prepared.channels.outputs) model.outputs.push_back(output_of(name, seen));
   model.dynamics = arx;
   model.view = OutlineView{prepared.layout.knots, 0, prepared.pixels_per_unit.front()};
@@ -206,7 +193,8 @@ Model model_of(const ArxModel& arx, const PreparedOutlines& prepared, const Outl
 
 // Fewer rows than coefficients and their history leave nothing to judge.
 Result<void> check_rows(const PreparedOutlines& prepared, const OutlineOptions& options) {
-  const ArxOrders orders = outline_orders(options, prepared);
+  const ArxOrders orders =
+      outline_orders(options.order.value_or(1), options.delay.value_or(0), options.coupling, prepared);
   int coefficients = 0;
   for (int i = 0; i < orders.outputs(); ++i) coefficients = std::max(coefficients, orders.row_size(i));
   std::size_t rows = 0;
@@ -218,13 +206,42 @@ Result<void> check_rows(const PreparedOutlines& prepared, const OutlineOptions& 
                "; record longer or lower the order"};
 }
 
+// Inputs that come too late are moved; which ones, and by how much, is noted.
+Result<std::vector<Recording>> aligned(std::span<const Recording> recordings, const OutlineOptions& options,
+                                       OutlineSummary& summary) {
+  std::vector<Recording> out;
+  for (const Recording& recording : recordings) {
+    std::vector<std::string> inputs;
+    if (options.inputs) inputs = *options.inputs;
+    for (std::size_t c : channels_with_role(recording, Role::kInput)) {
+      if (!options.inputs) inputs.push_back(recording.channels[c].name);
+    }
+    auto one = align_outline(recording, inputs);
+    if (!one) return one.error();
+    for (InputAlignment& found : one->inputs) {
+      if (found.frames_moved > 0) summary.warnings.push_back(recording.source + ": " + found.note());
+      summary.alignment.push_back(std::move(found));
+    }
+    out.push_back(std::move(one->recording));
+  }
+  return out;
+}
+
 // Judges a model that has seen only the first part of every recording.
 Result<ArxFit> judge(const PreparedOutlines& prepared, const OutlineOptions& options, OutlineSummary& summary) {
   const OutlineParts parts = hold_out(prepared.recordings, prepared.channels, options.holdout);
   for (const Recording& part : parts.learned) summary.rows_learned += complete_rows(part, prepared.channels);
   for (const Recording& part : parts.held_out) summary.rows_held_out += complete_rows(part, prepared.channels);
-  auto fitted = fit(parts.learned, prepared, options);
+  auto choice = choose_orders(to_learn_from(parts.learned, prepared, options), parts.held_out, prepared, options);
+  if (!choice) return choice.error();
+  summary.choice = *std::move(choice);
+  auto fitted = fit(parts.learned, prepared, options, summary.choice.taken());
   if (!fitted) return fitted;
+  if (options.growing_noise) {
+    auto growth = learn_noise_growth(fitted->model, parts.learned, parts.held_out, prepared);
+    if (!growth) return growth.error();
+    summary.noise_growth = *std::move(growth);
+  }
   auto learned = outline_figures(fitted->model, parts.learned, prepared.channels, prepared.layout);
   if (!learned) return learned.error();
   summary.learned = *std::move(learned);
@@ -263,7 +280,7 @@ Result<void> try_out(const Model& model, const OutlineOptions& options, const Pr
   const auto cost = count_operations(model);
   if (!cost) return cost.error();
   summary.cost = *cost;
-  const Recording driving = with_regressors(first, summary.inputs, false);
+  const Recording driving = with_regressors(first, summary.inputs, {});
   const auto play = play_freely(model, kTrialSteps, {.seed = options.seed, .input = &driving});
   if (!play) return play.error();
   summary.held_share = play->held_share;
@@ -278,28 +295,36 @@ Result<void> try_out(const Model& model, const OutlineOptions& options, const Pr
 
 Result<OutlineFit> learn_outline(std::span<const Recording> recordings, const OutlineOptions& options) {
   if (auto ok = check_options(options); !ok) return ok.error();
-  auto prepared = prepare_outlines(recordings, {options.inputs, !options.one_sided, options.pixels_per_unit});
-  if (!prepared) return prepared.error();
-  if (auto ok = check_rows(*prepared, options); !ok) return ok.error();
   OutlineFit out;
   OutlineSummary& summary = out.summary;
+  std::vector<Recording> in_step;
+  if (options.align) {
+    auto moved = aligned(recordings, options, summary);
+    if (!moved) return moved.error();
+    in_step = *std::move(moved);
+    recordings = in_step;
+  }
+  const RegressorShape shape{.split_sign = !options.one_sided, .square = options.square};
+  auto prepared = prepare_outlines(recordings, {options.inputs, shape, options.pixels_per_unit});
+  if (!prepared) return prepared.error();
+  if (auto ok = check_rows(*prepared, options); !ok) return ok.error();
   auto fitted = judge(*prepared, options, summary);
   if (!fitted) return fitted.error();
   if (options.refit && summary.rows_held_out > 0) {
-    fitted = fit(prepared->recordings, *prepared, options);
+    fitted = fit(prepared->recordings, *prepared, options, summary.choice.taken());
     if (!fitted) return fitted.error();
     summary.refitted = true;
   }
   summary.rate_hz = prepared->recordings.front().rate_hz;
   summary.inputs = prepared->inputs;
-  summary.warnings = prepared->warnings;
+  summary.warnings.insert(summary.warnings.end(), prepared->warnings.begin(), prepared->warnings.end());
   summary.points = prepared->layout.points;
   summary.pixels_per_unit = prepared->pixels_per_unit.front();
   take_fit(*fitted, summary);
   ArxModel arx = fitted->model;
   const auto seen = hold_out(prepared->recordings, prepared->channels, summary.refitted ? 0 : options.holdout).learned;
-  const auto shaken = mirror_wanted(options, *prepared) ? with_mirror_images(seen, *prepared) : seen;
-  if (auto ok = set_noise(*fitted, shaken, prepared->channels, options, arx, summary); !ok) return ok.error();
+  const auto shaken = to_learn_from(seen, *prepared, options);
+  if (auto ok = set_noise(*fitted, shaken, *prepared, options, arx, summary); !ok) return ok.error();
   out.model = model_of(arx, *prepared, options);
   if (auto ok = try_out(out.model, options, *prepared, recordings.front(), summary); !ok) return ok.error();
   summary.usable = outline_verdict(fitted->summary, summary);

@@ -65,6 +65,24 @@ Result<void> add_shapes(const ArxModel& model, const Recording& recording, const
   return {};
 }
 
+// Fits of x and y to that of the point: errors and spreads add up. A fit of 0 is that of a still channel too, whose
+// spread is then taken for its error: it says nothing either way.
+std::vector<double> point_fits(const PredictionFigures& figures) {
+  std::vector<double> fits;
+  for (std::size_t i = 0; i + 1 < figures.fit_percent.size(); i += 2) {
+    double error = 0;
+    double spread = 0;
+    for (std::size_t channel : {i, i + 1}) {
+      const double left = 1 - figures.fit_percent[channel] / 100;
+      if (!(left > 0)) continue;
+      error += figures.mean_square[channel];
+      spread += figures.mean_square[channel] / (left * left);
+    }
+    fits.push_back(spread > 0 ? 100 * (1 - std::sqrt(error / spread)) : 0);
+  }
+  return fits;
+}
+
 }  // namespace
 
 Result<OutlineFigures> outline_figures(const ArxModel& model, std::span<const Recording> recordings,
@@ -78,6 +96,7 @@ Result<OutlineFigures> outline_figures(const ArxModel& model, std::span<const Re
   for (const PredictionFigures& fit : *fits) {
     out.rows = std::max(out.rows, fit.rows);
     out.j.push_back(fit.j);
+    out.point_fit_percent.push_back(point_fits(fit));
     for (std::size_t i = 0; i < out.channels.size(); ++i) out.channels[i].fit_percent.push_back(fit.fit_percent[i]);
   }
   std::size_t all_rows = 0;

@@ -42,6 +42,33 @@ Result<Strengths> strengths(std::span<const Recording> recordings, const std::st
 // largest hundredth for the same threshold.
 double calm_below(const OutlineInput& input) { return kCalmShare * input.scale; }
 
+// NaN stays NaN in all of them.
+double whole(double u) { return u; }
+double positive(double u) { return u < 0 ? 0 : u; }
+double negative(double u) { return u > 0 ? 0 : -u; }
+
+struct RegressorValue {
+  std::size_t index;
+  double (*part)(double);
+  bool square;
+
+  double of(double u) const { return square ? part(u) * part(u) : part(u); }
+};
+
+std::vector<RegressorValue> values_of(RegressorShape shape) {
+  std::vector<RegressorValue> values;
+  for (const bool square : {false, true}) {
+    if (square && !shape.square) continue;
+    if (shape.split_sign) {
+      values.push_back({values.size(), positive, square});
+      values.push_back({values.size(), negative, square});
+    } else {
+      values.push_back({values.size(), whole, square});
+    }
+  }
+  return values;
+}
+
 }  // namespace
 
 Result<OutlineInput> scaled_input(std::span<const Recording> recordings, const std::string& name) {
@@ -87,31 +114,30 @@ std::vector<std::uint8_t> resting_rows(const Recording& recording, std::span<con
   return rows;
 }
 
-std::vector<std::string> regressor_names(std::span<const OutlineInput> inputs, bool split_sign) {
+std::vector<std::string> regressor_names(std::span<const OutlineInput> inputs, RegressorShape shape) {
   std::vector<std::string> names;
   for (const OutlineInput& input : inputs) {
-    names.push_back(split_sign ? input.name + "+" : input.name);
-    if (split_sign) names.push_back(input.name + "-");
+    std::vector<std::string> parts{input.name};
+    if (shape.split_sign) parts = {input.name + "+", input.name + "-"};
+    names.insert(names.end(), parts.begin(), parts.end());
+    for (const std::string& part : parts) {
+      if (shape.square) names.push_back(part + "^2");
+    }
   }
   return names;
 }
 
-Recording with_regressors(const Recording& recording, std::span<const OutlineInput> inputs, bool split_sign) {
+Recording with_regressors(const Recording& recording, std::span<const OutlineInput> inputs, RegressorShape shape) {
   Recording out = recording;
   std::erase_if(out.channels, [](const Channel& channel) { return channel.role == Role::kInput; });
   for (const OutlineInput& input : inputs) {
-    std::vector<double> samples = recording.channels[*find_channel(recording, input.name)].samples;
-    for (double& value : samples) value /= input.scale;
-    if (!split_sign) {
-      out.channels.push_back({input.name, "", Role::kInput, std::move(samples)});
-      continue;
+    const std::vector<double>& samples = recording.channels[*find_channel(recording, input.name)].samples;
+    const std::vector<std::string> names = regressor_names({&input, 1}, shape);
+    for (const RegressorValue& value : values_of(shape)) {
+      Channel channel{names[value.index], "", Role::kInput, {}};
+      for (double u : samples) channel.samples.push_back(value.of(u / input.scale));
+      out.channels.push_back(std::move(channel));
     }
-    Channel plus{input.name + "+", "", Role::kInput, samples};
-    Channel minus{input.name + "-", "", Role::kInput, std::move(samples)};
-    for (double& value : plus.samples) value = value < 0 ? 0 : value;
-    for (double& value : minus.samples) value = value > 0 ? 0 : -value;
-    out.channels.push_back(std::move(plus));
-    out.channels.push_back(std::move(minus));
   }
   return out;
 }
@@ -145,9 +171,11 @@ Recording mirrored(const Recording& recording, const OutlineLayout& layout, std:
     for (double& value : samples) value = shift + sign * value;
   }
   for (const OutlineInput& input : inputs) {
-    const auto plus = find_channel(out, input.name + "+");
-    const auto minus = find_channel(out, input.name + "-");
-    if (plus && minus) std::swap(out.channels[*plus].samples, out.channels[*minus].samples);
+    for (const char* power : {"", "^2"}) {
+      const auto plus = find_channel(out, input.name + "+" + power);
+      const auto minus = find_channel(out, input.name + "-" + power);
+      if (plus && minus) std::swap(out.channels[*plus].samples, out.channels[*minus].samples);
+    }
   }
   return out;
 }

@@ -36,7 +36,7 @@ std::vector<std::uint8_t> undisturbed_rows(const Recording& recording, std::span
 }
 
 ChannelChoice channel_choice(const PreparedOutlines& prepared) {
-  return {regressor_names(prepared.inputs, prepared.split_sign), outline_outputs(prepared.layout.points)};
+  return {regressor_names(prepared.inputs, prepared.shape), outline_outputs(prepared.layout.points)};
 }
 
 // The outputs before all other channels, in the layout's order: one layout then fits all prepared recordings, whatever
@@ -73,7 +73,7 @@ Result<void> add(const Recording& recording, double pixels_per_unit, PreparedOut
   prepared.pixels_per_unit.push_back(scale);
   Recording units = outputs_first(to_model_units(recording, *layout, scale), *layout);
   prepared.rest.push_back(mean_shape(units, prepared.layout, undisturbed));
-  prepared.recordings.push_back(with_regressors(std::move(units), prepared.inputs, prepared.split_sign));
+  prepared.recordings.push_back(with_regressors(std::move(units), prepared.inputs, prepared.shape));
   return {};
 }
 
@@ -130,7 +130,7 @@ Result<PreparedOutlines> prepare_outlines(std::span<const Recording> recordings,
     if (!input) return input.error();
     prepared.inputs.push_back(*std::move(input));
   }
-  prepared.split_sign = options.split_sign && !prepared.inputs.empty();
+  if (!prepared.inputs.empty()) prepared.shape = options.shape;
   prepared.channels = channel_choice(prepared);
   for (const Recording& recording : recordings) {
     if (auto ok = add(recording, options.pixels_per_unit, prepared); !ok) return ok.error();
@@ -139,11 +139,12 @@ Result<PreparedOutlines> prepare_outlines(std::span<const Recording> recordings,
 }
 
 Result<PreparedOutlines> prepare_outline(const Recording& recording, const std::vector<double>& knots,
-                                         std::vector<OutlineInput> inputs, bool split_sign, double pixels_per_unit) {
+                                         std::vector<OutlineInput> inputs, RegressorShape shape,
+                                         double pixels_per_unit) {
   PreparedOutlines prepared;
   prepared.layout = prepared_layout(knots);
   prepared.inputs = std::move(inputs);
-  prepared.split_sign = split_sign && !prepared.inputs.empty();
+  if (!prepared.inputs.empty()) prepared.shape = shape;
   prepared.channels = channel_choice(prepared);
   if (auto ok = add(recording, pixels_per_unit, prepared); !ok) return ok.error();
   return prepared;

@@ -15,7 +15,7 @@ namespace wisp {
 /// What decides how a recording is prepared.
 struct PreparationOptions {
   std::optional<std::vector<std::string>> inputs;  ///< unset: all inputs of the first recording
-  bool split_sign = true;
+  RegressorShape shape{.split_sign = true};
   double pixels_per_unit = 0;  ///< 0: each recording's own mean calm height is 1
 };
 
@@ -23,7 +23,7 @@ struct PreparationOptions {
 struct PreparedOutlines {
   OutlineLayout layout;  ///< of the prepared recordings: their outputs come first
   std::vector<OutlineInput> inputs;
-  bool split_sign = false;  ///< false where there are no inputs
+  RegressorShape shape;  ///< of nothing where there are no inputs
   ChannelChoice channels;
   std::vector<double> pixels_per_unit;  ///< one a recording
   std::vector<Recording> recordings;
@@ -38,7 +38,8 @@ Result<PreparedOutlines> prepare_outlines(std::span<const Recording> recordings,
 /// Errors: as outline_layout(), another number of points than the knots are for, an input that it has not, no outline
 /// in any row.
 Result<PreparedOutlines> prepare_outline(const Recording& recording, const std::vector<double>& knots,
-                                         std::vector<OutlineInput> inputs, bool split_sign, double pixels_per_unit);
+                                         std::vector<OutlineInput> inputs, RegressorShape shape,
+                                         double pixels_per_unit);
 
 /// Rows with all outputs and all regressors.
 std::size_t complete_rows(const Recording& recording, const ChannelChoice& channels);

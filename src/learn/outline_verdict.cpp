@@ -70,10 +70,12 @@ const char* noise_name(OutlineNoise noise) {
   return "";
 }
 
-std::vector<Note> notes(const OutlineOptions& options) {
-  return {{"order", std::to_string(options.order)},
-          {"delay", std::to_string(options.delay)},
+std::vector<Note> notes(const OutlineOptions& options, const OutlineChoice& choice) {
+  return {{"order", std::to_string(choice.taken().order)},
+          {"delay", std::to_string(choice.taken().delay)},
+          {"order_and_delay", choice.reason},
           {"coupling", coupling_name(options.coupling)},
+          {"square", options.square ? "yes" : "no"},
           {"one_sided", options.one_sided ? "yes" : "no"},
           {"holdout", rounded(options.holdout, 3)},
           {"refit", options.refit ? "yes" : "no"},
@@ -135,7 +137,7 @@ Provenance outline_provenance(std::span<const Recording> recordings, const Outli
                               const OutlineSummary& summary) {
   Provenance out;
   for (const Recording& recording : recordings) out.sources.push_back(recording.source);
-  out.options = notes(options);
+  out.options = notes(options, summary.choice);
   const OutlineFigures& judged = summary.held_out ? *summary.held_out : summary.learned;
   out.figures = {{"fpe", summary.fpe},
                  {"radius", summary.stable.radius},

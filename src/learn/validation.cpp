@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <string>
 
@@ -45,13 +46,6 @@ Result<void> check_match(const OutlineModel& model, const Recording& recording) 
   return {};
 }
 
-double trained_scale(const Model& model, const std::string& input) {
-  for (const Figure& figure : model.provenance.figures) {
-    if (figure.name == input_scale_figure(input) && figure.value > 0) return figure.value;
-  }
-  return 1;
-}
-
 Result<std::vector<OutlineInput>> inputs_of(const Model& model, const Recording& recording, bool own_scale) {
   std::vector<OutlineInput> inputs;
   for (const Input& input : model.inputs) {
@@ -69,9 +63,19 @@ Result<std::vector<OutlineInput>> inputs_of(const Model& model, const Recording&
   return inputs;
 }
 
-bool splits_signs(const Model& model) {
-  return std::any_of(model.inputs.begin(), model.inputs.end(),
-                     [](const Input& input) { return input.shape == InputShape::kSplitSign; });
+std::vector<std::string> input_names(const Model& model) {
+  std::vector<std::string> names;
+  for (const Input& input : model.inputs) names.push_back(input.name);
+  return names;
+}
+
+RegressorShape shape_of(const Model& model) {
+  RegressorShape shape;
+  for (const Input& input : model.inputs) {
+    shape.split_sign |= splits_sign(input.shape);
+    shape.square |= has_squares(input.shape);
+  }
+  return shape;
 }
 
 // The recording in pixels with its outputs replaced by series in the model's units and knots.
@@ -173,6 +177,67 @@ double crossed_share(const Recording& recording, const OutlineLayout& layout) {
   return recording.rows() == 0 ? 0 : static_cast<double>(crossed) / static_cast<double>(recording.rows());
 }
 
+// Where the truth of an input is: under its name, or the only input that there is (a sensor's measure has a name of its
+// own).
+std::optional<std::size_t> true_channel(const Recording& truth, const std::string& input) {
+  if (const auto named = find_channel(truth, input)) return named;
+  const auto inputs = channels_with_role(truth, Role::kInput);
+  if (inputs.size() == 1) return inputs.front();
+  return std::nullopt;
+}
+
+// The recording with its inputs as they truly were.
+Result<Recording> with_truth(const OutlineModel& model, const Recording& recording, const Recording& truth) {
+  if (truth.rows() < recording.rows()) {
+    return Error{truth.source + ": has " + std::to_string(truth.rows()) + " rows, the recording " +
+                 std::to_string(recording.rows())};
+  }
+  if (std::abs(truth.rate_hz - recording.rate_hz) > 1e-9 * recording.rate_hz) {
+    return Error{truth.source + ": has " + std::to_string(truth.rate_hz) + " samples a second, the recording " +
+                 std::to_string(recording.rate_hz)};
+  }
+  Recording out = recording;
+  for (const Input& input : model.whole.inputs) {
+    const auto from = true_channel(truth, input.name);
+    if (!from) return Error{truth.source + ": there is no input " + input.name + ", which the model is driven by"};
+    auto& samples = out.channels[*find_channel(out, input.name)].samples;
+    std::copy_n(truth.channels[*from].samples.begin(), samples.size(), samples.begin());
+  }
+  return out;
+}
+
+Result<TrueInputFigures> true_input_figures(const OutlineModel& model, const Recording& recording,
+                                            const OutlineValidationOptions& options) {
+  const auto driven = with_truth(model, recording, *options.truth);
+  if (!driven) return driven.error();
+  auto inputs = inputs_of(model.whole, *driven, true);
+  if (!inputs) return inputs.error();
+  const auto prepared =
+      prepare_outline(*driven, model.view.knots, *inputs, shape_of(model.whole), options.pixels_per_unit);
+  if (!prepared) return prepared.error();
+  const auto figures =
+      outline_figures(model.arx, prepared->recordings, prepared->channels, prepared->layout, {kFreeRun});
+  if (!figures) return figures.error();
+  return TrueInputFigures{figures->tip_fit_percent.front(), figures->overlap.front()};
+}
+
+// A control point that is followed no better than by its mean is worth a word.
+void warn_of_lost_points(OutlineValidation& out) {
+  const auto& steps = out.figures.steps;
+  const auto at = std::find(steps.begin(), steps.end(), kFreeRun) - steps.begin();
+  if (static_cast<std::size_t>(at) == steps.size()) return;
+  const auto& fits = out.figures.point_fit_percent[at];
+  for (std::size_t p = 0; p < fits.size(); ++p) {
+    if (fits[p] > 0) continue;
+    char text[160];
+    std::snprintf(
+        text, sizeof text,
+        "simulated from its inputs alone, control point %zu is followed no better than by its mean (fit %.1f %%)", p,
+        fits[p]);
+    out.warnings.push_back(text);
+  }
+}
+
 // Plays freely with noise and compares with the recording in the model's units.
 Result<void> add_fidelity(const OutlineModel& model, const PreparedOutlines& prepared, const Recording& driving,
                           const OutlineValidationOptions& options, OutlineValidation& out) {
@@ -194,18 +259,29 @@ Result<void> add_fidelity(const OutlineModel& model, const PreparedOutlines& pre
 
 }  // namespace
 
-Result<OutlineValidation> validate_outline(const Model& model, const Recording& recording,
+double trained_scale(const Model& model, const std::string& input) {
+  for (const Figure& figure : model.provenance.figures) {
+    if (figure.name == input_scale_figure(input) && figure.value > 0) return figure.value;
+  }
+  return 1;
+}
+
+Result<OutlineValidation> validate_outline(const Model& model, const Recording& given,
                                            const OutlineValidationOptions& options) {
   const auto outline = outline_model(model);
   if (!outline) return outline.error();
-  if (auto ok = check_match(*outline, recording); !ok) return ok.error();
+  if (auto ok = check_match(*outline, given); !ok) return ok.error();
+  auto in_step = align_outline(given, options.align ? input_names(model) : std::vector<std::string>());
+  if (!in_step) return in_step.error();
+  const Recording& recording = in_step->recording;
   auto inputs = inputs_of(model, recording, options.own_input_scale);
   if (!inputs) return inputs.error();
   const auto prepared =
-      prepare_outline(recording, outline->view.knots, *inputs, splits_signs(model), options.pixels_per_unit);
+      prepare_outline(recording, outline->view.knots, *inputs, shape_of(model), options.pixels_per_unit);
   if (!prepared) return prepared.error();
-  const Recording driving = with_regressors(recording, *inputs, false);
+  const Recording driving = with_regressors(recording, *inputs, {});
   OutlineValidation out;
+  out.alignment = std::move(in_step->inputs);
   out.pixels_per_unit = prepared->pixels_per_unit.front();
   out.warnings = prepared->warnings;
   auto figures =
@@ -221,6 +297,12 @@ Result<OutlineValidation> validate_outline(const Model& model, const Recording& 
   if (!inputs->empty()) {
     const auto& first = driving.channels[*find_channel(driving, inputs->front().name)].samples;
     out.static_gain = static_gain(tips(prepared->recordings.front(), prepared->layout), first, recording.rate_hz);
+    warn_of_lost_points(out);
+  }
+  if (!inputs->empty() && options.truth != nullptr) {
+    auto found = true_input_figures(*outline, recording, options);
+    if (!found) return found.error();
+    out.true_input = *found;
   }
   if (!options.fidelity) return out;
   if (auto ok = add_fidelity(*outline, *prepared, driving, options, out); !ok) return ok.error();

@@ -48,6 +48,18 @@ Result<void> check_finite(std::span<const double> values, std::size_t expected, 
   return {};
 }
 
+Result<void> check_growth(const std::vector<double>& growth, std::size_t nu) {
+  constexpr double kMostGrowth = 1e6;
+  if (growth.empty()) return {};
+  if (auto ok = check_finite(growth, nu, "the noise's growth"); !ok) return ok;
+  for (double one : growth) {
+    if (one < 0 || one > kMostGrowth) {
+      return Error{"the noise's growth is " + std::to_string(one) + ", expected 0 to 1000000"};
+    }
+  }
+  return {};
+}
+
 Result<void> check_noise(const ResidualNoise& noise, std::size_t ny) {
   if (auto ok = check_finite(noise.sd, ny, "the residual's standard deviation"); !ok) return ok;
   for (double sd : noise.sd) {
@@ -189,6 +201,7 @@ Result<void> check(const ArxModel& model) {
   if (auto ok = check_finite(model.constant, ny, "the constant term"); !ok) return ok;
   if (auto ok = check_finite(model.output_mean, ny, "the outputs' mean"); !ok) return ok;
   if (auto ok = check_finite(model.input_mean, model.orders.inputs(), "the inputs' mean"); !ok) return ok;
+  if (auto ok = check_growth(model.noise.growth, model.orders.inputs()); !ok) return ok;
   return check_noise(model.noise, ny);
 }
 

@@ -4,8 +4,16 @@ namespace wisp {
 
 std::size_t regressor_count(const std::vector<Input>& inputs) {
   std::size_t count = 0;
-  for (const Input& input : inputs) count += input.shape == InputShape::kSplitSign ? 2 : 1;
+  for (const Input& input : inputs) count += static_cast<std::size_t>(regressor_count(input.shape));
   return count;
+}
+
+int regressor_count(InputShape shape) { return (splits_sign(shape) ? 2 : 1) * (has_squares(shape) ? 2 : 1); }
+
+bool splits_sign(InputShape shape) { return shape == InputShape::kSplitSign || shape == InputShape::kSplitSignSquare; }
+
+bool has_squares(InputShape shape) {
+  return shape == InputShape::kLinearSquare || shape == InputShape::kSplitSignSquare;
 }
 
 }  // namespace wisp

@@ -48,8 +48,9 @@ fb::Offset<file::Arx> write_arx(Builder& builder, const ArxModel& arx) {
   const auto sd = builder.CreateVector(arx.noise.sd);
   const auto ci = optional_vector(builder, joined(arx.noise.sd_ci95));
   const auto mixing = optional_vector(builder, arx.noise.mixing);
+  const auto growth = optional_vector(builder, arx.noise.growth);
   return file::CreateArx(builder, na, nb, nk, theta, std_error, constant, output_mean, input_mean, sd, ci,
-                         static_cast<std::uint16_t>(arx.noise.rank), mixing);
+                         static_cast<std::uint16_t>(arx.noise.rank), mixing, growth);
 }
 
 fb::Offset<file::Provenance> write_provenance(Builder& builder, const Provenance& made) {
@@ -117,6 +118,7 @@ Result<void> read_noise(const file::Arx& stored, ResidualNoise& noise) {
   noise.sd = numbers(stored.noise_sd());
   noise.rank = stored.noise_rank();
   noise.mixing = numbers(stored.noise_mixing());
+  noise.growth = numbers(stored.noise_growth());
   const std::vector<double> ci = numbers(stored.noise_sd_ci95());
   if (!ci.empty() && ci.size() != 2 * noise.sd.size())
     return wrong_size("noise_sd_ci95", ci.size(), 2 * noise.sd.size());
@@ -170,8 +172,26 @@ Result<InputShape> read_shape(file::InputShape shape) {
       return InputShape::kLinear;
     case file::InputShape::SplitSign:
       return InputShape::kSplitSign;
+    case file::InputShape::LinearSquare:
+      return InputShape::kLinearSquare;
+    case file::InputShape::SplitSignSquare:
+      return InputShape::kSplitSignSquare;
   }
   return Error{"has an input shape that this program does not know; update Wisp"};
+}
+
+file::InputShape stored_shape(InputShape shape) {
+  switch (shape) {
+    case InputShape::kLinear:
+      return file::InputShape::Linear;
+    case InputShape::kSplitSign:
+      return file::InputShape::SplitSign;
+    case InputShape::kLinearSquare:
+      return file::InputShape::LinearSquare;
+    case InputShape::kSplitSignSquare:
+      return file::InputShape::SplitSignSquare;
+  }
+  return file::InputShape::Linear;
 }
 
 Result<void> read_channels(const file::Model& stored, Model& model) {
@@ -218,9 +238,8 @@ std::vector<std::byte> write_payload(const Model& model) {
   Builder builder;
   std::vector<fb::Offset<file::Input>> inputs;
   for (const Input& input : model.inputs) {
-    const auto shape = input.shape == InputShape::kSplitSign ? file::InputShape::SplitSign : file::InputShape::Linear;
-    inputs.push_back(
-        file::CreateInputDirect(builder, input.name.c_str(), input.unit.c_str(), input.lowest, input.highest, shape));
+    inputs.push_back(file::CreateInputDirect(builder, input.name.c_str(), input.unit.c_str(), input.lowest,
+                                             input.highest, stored_shape(input.shape)));
   }
   std::vector<fb::Offset<file::Output>> outputs;
   for (const Output& output : model.outputs) {

@@ -17,19 +17,16 @@ double output_scale(const Model& model, int i) {
   return channel_scale(model.outputs[i].lowest, model.outputs[i].highest);
 }
 
-// The input that a regressor is made of.
-const Input& input_of(const Model& model, int regressor) {
-  int next = 0;
+// Of the input that a regressor is made of.
+double regressor_scale(const Model& model, int regressor) {
+  int first = 0;
   for (const Input& input : model.inputs) {
-    next += input.shape == InputShape::kSplitSign ? 2 : 1;
-    if (regressor < next) return input;
+    const auto parts = regressor_parts(input.shape);
+    const auto place = static_cast<std::size_t>(regressor - first);
+    if (place < parts.size()) return regressor_scale(input, parts[place]);
+    first += static_cast<int>(parts.size());
   }
-  return model.inputs.back();
-}
-
-double regressor_scale(const Model& model, int k) {
-  const Input& input = input_of(model, k);
-  return channel_scale(input.lowest, input.highest);
+  return 1;
 }
 
 // Calls tap(row, channel, lag, coefficient) for every coefficient that is not zero, in the order of adding.
@@ -102,6 +99,29 @@ void fill_taps(const Model& model, const ArxModel& arx, ArxProgram& program) {
   }
 }
 
+void fill_growth(const Model& model, const ArxModel& arx, ArxProgram& program) {
+  double size = 1;
+  for (std::size_t k = 0; k < arx.noise.growth.size(); ++k) {
+    program.growth[k] = kept(arx.noise.growth[k] * regressor_scale(model, static_cast<int>(k)));
+    size += arx.noise.growth[k] * arx.input_mean[k];
+  }
+  program.calm_size = static_cast<float>(size);
+}
+
+// The largest that the noise's size can become.
+double most_size(const Model& model, const ArxModel& arx) {
+  double size = 1;
+  std::size_t next = 0;
+  for (const Input& input : model.inputs) {
+    const double largest = std::max(std::abs(input.lowest), std::abs(input.highest)) + input.highest - input.lowest;
+    for (RegressorPart part : regressor_parts(input.shape)) {
+      const double growth = next < arx.noise.growth.size() ? arx.noise.growth[next++] : 0;
+      size += growth * (is_square(part) ? largest * largest : largest);
+    }
+  }
+  return size;
+}
+
 }  // namespace
 
 ArxProgram make_arx_program(const Model& model, const ArxModel& arx, Arena& arena) {
@@ -118,6 +138,7 @@ ArxProgram make_arx_program(const Model& model, const ArxModel& arx, Arena& aren
   program.constant = arena.take<float>(ny);
   program.sd = arena.take<float>(ny);
   program.mixing = arena.take<float>(ny * program.rank);
+  program.growth = arena.take<float>(arx.noise.growth.size());
   if (arena.measures()) return program;
   fill_taps(model, arx, program);
   for (int i = 0; i < program.outputs; ++i) {
@@ -128,6 +149,7 @@ ArxProgram make_arx_program(const Model& model, const ArxModel& arx, Arena& aren
       program.mixing[i * program.rank + r] = kept(arx.noise.mixing[i * program.rank + r] / unit);
     }
   }
+  fill_growth(model, arx, program);
   return program;
 }
 
@@ -140,17 +162,20 @@ std::uint64_t hash_of(const ArxProgram& program, std::uint64_t before) {
   for (const auto numbers : {program.coefficients, program.constant, program.sd, program.mixing}) {
     hash = hash_floats(numbers, hash);
   }
-  return hash;
+  if (program.growth.empty()) return hash;
+  const float calm[] = {program.calm_size};
+  return hash_floats(program.growth, hash_floats(calm, hash));
 }
 
 Result<void> check_arx_program(const Model& model, const ArxModel& arx) {
   double sum = 0;
+  const double size = most_size(model, arx);
   for_each_tap(model, arx, [&](int, int, std::uint32_t, float coefficient) { sum += std::abs(coefficient); });
   for (int i = 0; i < arx.orders.outputs(); ++i) {
     const double unit = output_scale(model, i);
-    sum += std::abs(arx.constant[i]) / unit + arx.noise.sd[i] / unit;
+    sum += std::abs(arx.constant[i]) / unit + size * arx.noise.sd[i] / unit;
   }
-  for (double share : arx.noise.mixing) sum += std::abs(share);
+  for (double share : arx.noise.mixing) sum += size * std::abs(share);
   if (sum < kMostSum) return {};
   return Error{"the ARX coefficients add up to " + std::to_string(sum) +
                " in units of the channels' ranges, expected less than 1e30: learn the model again"};

@@ -30,6 +30,8 @@ struct ArxProgram {
   std::span<float> constant;
   std::span<float> sd;
   std::span<float> mixing;  ///< outputs × rank
+  std::span<float> growth;  ///< per regressor, of its deviation in channel units; empty: the noise's size is 1
+  float calm_size = 1;      ///< the noise's size where all regressors are at their means
 };
 
 /// Lays the program out and, unless the arena measures, fills it.

@@ -66,6 +66,7 @@ class ArxStepper {
   /// Makes the newest sample of a block.
   void step(int block, const Moment<N>& moment) {
     if (noisy_) draw(moment);
+    if (noisy_ && !program_.growth.empty()) grow(block);
     Real* newest = sample(block, 0);
     auto held = all<Words<N>>(0U);
     std::uint32_t run = 0;
@@ -150,6 +151,23 @@ class ArxStepper {
     for (int channel = 0; channel < channels; ++channel) {
       if (channel % 4 == 0) random_group<N>(*moment.keys, counters, static_cast<std::uint32_t>(channel / 4), words);
       store(normal_lanes<N>(words[channel % 4]), shocks_.data() + channel * kLanes);
+    }
+  }
+
+  // Scales the shocks that are used by the noise's size in the wind of this step.
+  void grow(int block) {
+    const Real* regressor = sample(block, 0) + program_.outputs * kLanes;
+    auto size = all<Reals<N>>(program_.calm_size);
+    for (const float growth : program_.growth) {
+      if (growth != 0) size = size + all<Reals<N>>(growth) * load<Reals<N>>(regressor);
+      regressor += kLanes;
+    }
+    size = larger(size, all<Reals<N>>(0.0f));
+    const int channels = program_.outputs + program_.rank;
+    for (int channel = 0; channel < channels; ++channel) {
+      if (channel < program_.outputs && sd_[channel] == 0) continue;
+      Real* shock = shocks_.data() + channel * kLanes;
+      store(size * load<Reals<N>>(shock), shock);
     }
   }
 

@@ -49,7 +49,7 @@ RegressorChannel make_regressor(const Input& input, int index, RegressorPart par
   channel.low = static_cast<float>(input.lowest - room);
   channel.high = static_cast<float>(input.highest + room);
   channel.mean = static_cast<float>(mean);
-  channel.inverse_scale = static_cast<float>(1.0 / channel_scale(input.lowest, input.highest));
+  channel.inverse_scale = static_cast<float>(1.0 / regressor_scale(input, part));
   // A newborn's history is z = 0, whatever the range is.
   const float ends[] = {regress(channel, channel.low), regress(channel, channel.high), regress(channel, 0.0f), 0.0f};
   channel.least = *std::min_element(std::begin(ends), std::end(ends));
@@ -78,11 +78,26 @@ double channel_scale(double lowest, double highest) {
   return std::ldexp(1.0, exponent - 1);
 }
 
+std::span<const RegressorPart> regressor_parts(InputShape shape) {
+  using enum RegressorPart;
+  static constexpr RegressorPart kLinear[] = {kWhole, kWholeSquare};
+  static constexpr RegressorPart kSplit[] = {kPositive, kNegative, kPositiveSquare, kNegativeSquare};
+  const std::span<const RegressorPart> all = splits_sign(shape) ? std::span<const RegressorPart>(kSplit) : kLinear;
+  return all.first(static_cast<std::size_t>(regressor_count(shape)));
+}
+
+double regressor_scale(const Input& input, RegressorPart part) {
+  const double scale = channel_scale(input.lowest, input.highest);
+  return is_square(part) ? scale * scale : scale;
+}
+
 std::uint64_t hash_of(const Channels& channels, std::uint64_t before) {
   std::uint64_t hash = before;
   for (const OutputChannel& c : channels.outputs) hash = hash_floats({c.mean, c.scale, c.low, c.high}, hash);
   for (const RegressorChannel& c : channels.regressors) {
-    const auto place = static_cast<float>(c.input * 3 + static_cast<int>(c.part));
+    // Squares came later: a half more, so that models without them keep their hash.
+    const int part = static_cast<int>(c.part) % 3;
+    const float place = static_cast<float>(c.input * 3 + part) + (is_square(c.part) ? 0.5f : 0.0f);
     hash = hash_floats({place, c.low, c.high, c.mean, c.inverse_scale}, hash);
   }
   return hash;
@@ -102,12 +117,7 @@ Channels make_channels(const Model& model, const OperatingPoint& point, Arena& a
       channels.regressors[next] = make_regressor(input, static_cast<int>(k), part, point.regressors[next]);
       ++next;
     };
-    if (input.shape == InputShape::kSplitSign) {
-      add(RegressorPart::kPositive);
-      add(RegressorPart::kNegative);
-    } else {
-      add(RegressorPart::kWhole);
-    }
+    for (RegressorPart part : regressor_parts(input.shape)) add(part);
   }
   return channels;
 }
@@ -122,7 +132,7 @@ Result<void> check_channels(const Model& model, const OperatingPoint& point) {
   for (const Input& input : model.inputs) {
     const double mean = point.regressors[next];
     if (auto ok = check_channel("input " + input.name, input.lowest, input.highest, mean); !ok) return ok;
-    next += input.shape == InputShape::kSplitSign ? 2 : 1;
+    next += static_cast<std::size_t>(regressor_count(input.shape));
   }
   return {};
 }

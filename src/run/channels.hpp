@@ -24,9 +24,22 @@ struct OutputChannel {
 };
 
 /// How a regressor is made from its input.
-enum class RegressorPart : std::uint8_t { kWhole, kPositive, kNegative };
+enum class RegressorPart : std::uint8_t {
+  kWhole,
+  kPositive,
+  kNegative,
+  kWholeSquare,
+  kPositiveSquare,
+  kNegativeSquare,
+};
 
-/// A regressor: z = (part(u) − mean) · inverse_scale, u held to [low, high].
+/// The regressors that an input of that shape makes, in their order.
+std::span<const RegressorPart> regressor_parts(InputShape shape);
+
+/// Whether a regressor is a square.
+inline bool is_square(RegressorPart part) { return part >= RegressorPart::kWholeSquare; }
+
+/// A regressor: z = (part(u) − mean) · inverse_scale, u held to [low, high] first.
 struct RegressorChannel {
   std::int32_t input;
   RegressorPart part;
@@ -45,6 +58,9 @@ struct Channels {
 
 /// The power of two that a channel's deviations are measured in; 1 for a channel that does not move.
 double channel_scale(double lowest, double highest);
+
+/// The power of two that a regressor's deviations are measured in.
+double regressor_scale(const Input& input, RegressorPart part);
 
 /// The operating point of each channel, as the dynamics know it.
 struct OperatingPoint {
@@ -67,8 +83,13 @@ inline Reals<N> regress(const RegressorChannel& channel, const Reals<N>& inputs)
   const auto zero = all<Reals<N>>(0.0f);
   const auto held = hold(number_or(inputs, zero), all<Reals<N>>(channel.low), all<Reals<N>>(channel.high));
   auto part = held;
-  if (channel.part == RegressorPart::kPositive) part = larger(held, zero);
-  if (channel.part == RegressorPart::kNegative) part = zero - smaller(held, zero);
+  if (channel.part == RegressorPart::kPositive || channel.part == RegressorPart::kPositiveSquare) {
+    part = larger(held, zero);
+  }
+  if (channel.part == RegressorPart::kNegative || channel.part == RegressorPart::kNegativeSquare) {
+    part = zero - smaller(held, zero);
+  }
+  if (is_square(channel.part)) part = part * part;
   return settle((part - all<Reals<N>>(channel.mean)) * all<Reals<N>>(channel.inverse_scale));
 }
 

@@ -20,9 +20,10 @@ struct OutlineRecipe {
   double rate_hz = 30;
   double lag1 = 1.5;  ///< x(t) = lag1 x(t−1) + lag2 x(t−2) + drive + shock
   double lag2 = -0.7;
-  double shock = 0.01;     ///< standard deviation, in heights
-  double own_share = 0.3;  ///< of a point's shock that no other has
-  bool wind = false;       ///< gusts with rests, from both sides where `both_sides`
+  double shock = 0.01;      ///< standard deviation, in heights
+  double shock_growth = 0;  ///< at wind 1 a shock is 1 + this times that of calm
+  double own_share = 0.3;   ///< of a point's shock that no other has
+  bool wind = false;        ///< gusts with rests, from both sides where `both_sides`
   bool both_sides = false;
   double lean = 0.02;    ///< of the tip, heights a frame at wind 1
   double wind_unit = 3;  ///< what the sensor says at wind 1
@@ -82,8 +83,9 @@ inline Recording outline_recording(const OutlineRecipe& recipe) {
         // The base is held by the wick: it moves little, as a whole not at all.
         const double reach = (p == 0 || p + 1 == recipe.points) ? 0.1 : 0.3 + height;
         const double shock = std::sqrt(1 - recipe.own_share) * together[k] + std::sqrt(recipe.own_share) * own;
+        const double size = recipe.shock * (1 + recipe.shock_growth * std::abs(u));
         const double drive = k == 0 ? recipe.lean * u : -0.3 * recipe.lean * std::abs(u);
-        now[c] = recipe.lag1 * last[c] + recipe.lag2 * before[c] + reach * recipe.shock * shock + height * drive;
+        now[c] = recipe.lag1 * last[c] + recipe.lag2 * before[c] + reach * size * shock + height * drive;
       }
     }
     const std::size_t end = 2 * (recipe.points - 1);

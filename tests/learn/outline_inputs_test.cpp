@@ -64,8 +64,8 @@ TEST(OutlineInputs, CalmRowsAreThoseBelowATenth) {
 TEST(OutlineInputs, SignIsSplitIntoTwoNonNegativeRegressors) {
   const std::vector input{OutlineInput{"wind", "m/s", 2, -1, 1}};
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const Recording split = with_regressors(windy({1, -4, nan}), input, true);
-  EXPECT_EQ(regressor_names(input, true), (std::vector<std::string>{"wind+", "wind-"}));
+  const Recording split = with_regressors(windy({1, -4, nan}), input, {.split_sign = true});
+  EXPECT_EQ(regressor_names(input, {.split_sign = true}), (std::vector<std::string>{"wind+", "wind-"}));
   EXPECT_FALSE(find_channel(split, "wind"));
   EXPECT_EQ(samples(split, "wind+")[0], 0.5);
   EXPECT_EQ(samples(split, "wind-")[0], 0);
@@ -77,12 +77,12 @@ TEST(OutlineInputs, SignIsSplitIntoTwoNonNegativeRegressors) {
 
 TEST(OutlineInputs, OneSidedInputsAreOnlyScaled) {
   const std::vector input{OutlineInput{"wind", "m/s", 2, 0, 1}};
-  EXPECT_EQ(samples(with_regressors(windy({1, 4}), input, false), "wind"), (std::vector<double>{0.5, 2}));
+  EXPECT_EQ(samples(with_regressors(windy({1, 4}), input, {}), "wind"), (std::vector<double>{0.5, 2}));
 }
 
 TEST(OutlineInputs, TheMirrorExchangesSidesAndSigns) {
   const std::vector input{OutlineInput{"wind", "m/s", 1, 0, 1}};
-  Recording split = with_regressors(windy({1, 0}), input, true);
+  Recording split = with_regressors(windy({1, 0}), input, {.split_sign = true});
   split.channels[*find_channel(split, "p0.x")].samples = {-0.3, -0.2};
   split.channels[*find_channel(split, "p3.y")].samples = {0.7, 0.8};
   const Recording mirror = mirrored(split, *outline_layout(split), input);
@@ -93,7 +93,7 @@ TEST(OutlineInputs, TheMirrorExchangesSidesAndSigns) {
 }
 
 TEST(OutlineInputs, WhatStandsAskewAtRestStaysAskew) {
-  Recording split = with_regressors(windy({1, 0}), {}, true);
+  Recording split = with_regressors(windy({1, 0}), {}, {.split_sign = true});
   split.channels[*find_channel(split, "p0.x")].samples = {-0.3, -0.2};
   split.channels[*find_channel(split, "p3.x")].samples = {0.5, 0.4};
   const OutlineLayout layout = *outline_layout(split);
@@ -131,9 +131,23 @@ TEST(OutlineInputs, TheMeanShapeIsThatOfTheChosenRows) {
   EXPECT_TRUE(mean_shape(split, layout, std::vector<std::uint8_t>{0, 0, 0}).empty());
 }
 
+TEST(OutlineInputs, SquaresStandBesideWhatTheyAreSquaresOf) {
+  const std::vector input{OutlineInput{"wind", "m/s", 2, 0, 1}};
+  const Recording whole = with_regressors(windy({-4, 1}), input, {.square = true});
+  EXPECT_EQ(samples(whole, "wind"), (std::vector<double>{-2, 0.5}));
+  EXPECT_EQ(samples(whole, "wind^2"), (std::vector<double>{4, 0.25}));
+  const RegressorShape both{.split_sign = true, .square = true};
+  EXPECT_EQ(regressor_names(input, both), (std::vector<std::string>{"wind+", "wind-", "wind+^2", "wind-^2"}));
+  const Recording split = with_regressors(windy({-4, 1}), input, both);
+  EXPECT_EQ(samples(split, "wind+^2"), (std::vector<double>{0, 0.25}));
+  EXPECT_EQ(samples(split, "wind-^2"), (std::vector<double>{4, 0}));
+  const Recording mirror = mirrored(split, *outline_layout(split), input);
+  EXPECT_EQ(samples(mirror, "wind+^2"), (std::vector<double>{4, 0}));
+}
+
 TEST(OutlineInputs, MirroredTwiceIsTheSame) {
   const std::vector input{OutlineInput{"wind", "m/s", 1, 0, 1}};
-  Recording split = with_regressors(windy({1, -0.5}), input, true);
+  Recording split = with_regressors(windy({1, -0.5}), input, {.split_sign = true});
   split.channels[*find_channel(split, "p1.x")].samples = {-0.3, -0.2};
   const auto layout = *outline_layout(split);
   const Recording twice = mirrored(mirrored(split, layout, input), layout, input);

@@ -55,6 +55,32 @@ TEST(ModelFile, WhatIsWrittenIsRead) {
   expect_same(*read, sample_model());
 }
 
+TEST(ModelFile, NoiseThatGrowsWithItsInputsIsKept) {
+  Model model = sample_model();
+  std::get<ArxModel>(model.dynamics).noise.growth = {0.5, 0.25};
+  const auto read = parse_model(*model_bytes(model), "growing.wisp");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(std::get<ArxModel>(read->dynamics).noise.growth, (std::vector<double>{0.5, 0.25}));
+}
+
+TEST(ModelFile, EveryShapeOfInputIsKept) {
+  for (const InputShape shape :
+       {InputShape::kLinear, InputShape::kSplitSign, InputShape::kLinearSquare, InputShape::kSplitSignSquare}) {
+    Model model = sample_model();
+    model.inputs[0].shape = shape;
+    auto& arx = std::get<ArxModel>(model.dynamics);
+    const int inputs = regressor_count(shape);
+    arx.orders.nb = OrderMatrix(8, inputs, 0);
+    arx.orders.nk = OrderMatrix(8, inputs, 0);
+    for (int i = 0; i < 8; ++i) arx.theta[i].resize(3);
+    arx.std_error.clear();
+    arx.input_mean.assign(inputs, 0.25);
+    const auto read = parse_model(*model_bytes(model), "shape.wisp");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->inputs[0].shape, shape);
+  }
+}
+
 // The golden file was written by the first release; it must load, and mean the same, for ever.
 TEST(ModelFile, TheGoldenFileOfVersion1StillMeansTheSame) {
   if (std::getenv("WISP_WRITE_GOLDEN")) {
@@ -149,6 +175,19 @@ TEST(ModelFile, AModelWithoutMeaningIsNeitherWrittenNorRead) {
       {"finite", [&](Model& m) { arx(m).theta[0][0] = NAN; }},
       {"coefficients", [&](Model& m) { arx(m).theta[3].pop_back(); }},
       {"negative", [&](Model& m) { arx(m).noise.sd[0] = -1; }},
+      {"growth has 1 values", [&](Model& m) { arx(m).noise.growth = {1}; }},
+      {"growth is -1",
+       [&](Model& m) {
+         arx(m).noise.growth = {0, -1};
+       }},
+      {"growth holds",
+       [&](Model& m) {
+         arx(m).noise.growth = {0, NAN};
+       }},
+      {"growth is 2000000",
+       [&](Model& m) {
+         arx(m).noise.growth = {2e6, 0};
+       }},
       {"unstable",
        [&](Model& m) {
          arx(m).theta[0] = {-2.0, 0.5, 0.01, 0.3, -0.3};

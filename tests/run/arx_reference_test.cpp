@@ -15,6 +15,16 @@
 namespace wisp {
 namespace {
 
+// What an input is made into, as model/model.hpp says.
+std::vector<double> regressors_of(const Model& model, double input) {
+  const InputShape shape = model.inputs[0].shape;
+  std::vector<double> parts{input};
+  if (splits_sign(shape)) parts = {std::max(input, 0.0), std::max(-input, 0.0)};
+  const std::size_t values = parts.size();
+  for (std::size_t k = 0; has_squares(shape) && k < values; ++k) parts.push_back(parts[k] * parts[k]);
+  return parts;
+}
+
 // y(t) + Σ A y(t−k) = Σ B u(t−k) + c + e(t) on deviations, history at the operating point.
 class PlainArx {
  public:
@@ -44,8 +54,7 @@ class PlainArx {
   }
 
   std::vector<double> deviation(double input) const {
-    std::vector<double> parts{input};
-    if (model_.inputs[0].shape == InputShape::kSplitSign) parts = {std::max(input, 0.0), std::max(-input, 0.0)};
+    std::vector<double> parts = regressors_of(model_, input);
     for (std::size_t k = 0; k < parts.size(); ++k) parts[k] -= arx_.input_mean[k];
     return parts;
   }
@@ -81,7 +90,11 @@ class PlainArx {
 };
 
 // e(t) of an instance of stream 0 in a bank of seed 1.
-std::vector<double> noise_of(const ArxModel& arx, std::uint64_t step) {
+std::vector<double> noise_of(const Model& model, double input, std::uint64_t step) {
+  const auto& arx = std::get<ArxModel>(model.dynamics);
+  const std::vector<double> regressors = regressors_of(model, input);
+  double size = 1;
+  for (std::size_t k = 0; k < arx.noise.growth.size(); ++k) size += arx.noise.growth[k] * regressors[k];
   const int ny = arx.orders.outputs(), rank = arx.noise.rank;
   std::vector<double> shocks(ny + rank + 3);
   for (int channel = 0; channel < ny + rank; channel += 4) {
@@ -93,6 +106,7 @@ std::vector<double> noise_of(const ArxModel& arx, std::uint64_t step) {
   for (int i = 0; i < ny; ++i) {
     noise[i] = arx.noise.sd[i] * shocks[i];
     for (int r = 0; r < rank; ++r) noise[i] += arx.noise.mixing[i * rank + r] * shocks[ny + r];
+    noise[i] *= std::max(size, 0.0);
   }
   return noise;
 }
@@ -142,7 +156,6 @@ void expect_agreement(const Model& model) {
   ASSERT_TRUE(bank) << bank.error().message;
   const InstanceId id = bank->spawn();
   PlainArx plain(model);
-  const auto& arx = std::get<ArxModel>(model.dynamics);
   double difference = 0, largest_noise = 0, largest_output = 0;
   std::vector<float> values(bank->output_count());
   for (std::uint64_t step = 0; step < 5000; ++step) {
@@ -151,7 +164,7 @@ void expect_agreement(const Model& model) {
     ASSERT_TRUE(bank->set_inputs(id, std::span(&input, 1)));
     bank->step();
     ASSERT_TRUE(bank->outputs(id, values));
-    const std::vector<double> noise = noise_of(arx, step), expected = plain.step(input, noise);
+    const std::vector<double> noise = noise_of(model, input, step), expected = plain.step(input, noise);
     for (std::size_t i = 0; i < values.size(); ++i) {
       difference = std::max(difference, std::abs(values[i] - expected[i]));
       largest_noise = std::max(largest_noise, std::abs(noise[i]));
@@ -169,6 +182,16 @@ TEST(ArxReference, AFlameAgreesWithDoublePrecision) { expect_agreement(flame_mod
 
 TEST(ArxReference, SoDoesOneWithSignedWindAndSharedNoise) {
   expect_agreement(flame_model({.wind = InputShape::kSplitSign, .noise_rank = 3}));
+}
+
+TEST(ArxReference, SoDoesOneWithTheWindsSquareBesideIt) {
+  expect_agreement(flame_model({.wind = InputShape::kLinearSquare}));
+  expect_agreement(flame_model({.wind = InputShape::kSplitSignSquare}));
+}
+
+TEST(ArxReference, SoDoesOneWhoseNoiseGrowsWithTheWind) {
+  expect_agreement(flame_model({.noise_growth = 1.5}));
+  expect_agreement(flame_model({.wind = InputShape::kSplitSign, .noise_rank = 3, .noise_growth = 0.7}));
 }
 
 TEST(ArxReference, SoDoesAModelWithDelaysConstantsAndMixedOrders) { expect_agreement(sample_model()); }

@@ -13,19 +13,20 @@ struct FlameOptions {
   int points = 8;
   InputShape wind = InputShape::kLinear;
   int noise_rank = 0;
+  double noise_growth = 0;  ///< with the wind of either sign; 0: the noise is the same in any wind
 };
 
 /// A stable flame: every channel has the poles 0.75 ± 0.37i, 0.5 and −0.3, a little of its point's other coordinate,
 /// and four taps of wind (of either sign of it).
 inline Model flame_model(const FlameOptions& options = {}) {
   const int outputs = 2 * options.points;
-  const int regressors = options.wind == InputShape::kSplitSign ? 2 : 1;
+  const int regressors = regressor_count(options.wind);
   ArxModel arx;
   arx.orders = {OrderMatrix(outputs, outputs), OrderMatrix(outputs, regressors, 4), OrderMatrix(outputs, regressors)};
   Model model;
   model.name = "made-up flame";
   model.rate_hz = 30;
-  model.inputs = {{"wind", "", regressors == 2 ? -1.0 : 0.0, 1.0, options.wind}};
+  model.inputs = {{"wind", "", splits_sign(options.wind) ? -1.0 : 0.0, 1.0, options.wind}};
   for (int i = 0; i < outputs; ++i) {
     const bool x_row = i % 2 == 0;
     const double along = static_cast<double>(i / 2) / (options.points - 1);
@@ -36,7 +37,9 @@ inline Model flame_model(const FlameOptions& options = {}) {
     std::vector<double> row = x_row ? own : other;
     row.insert(row.end(), (x_row ? other : own).begin(), (x_row ? other : own).end());
     for (int k = 0; k < regressors; ++k) {
-      const double sign = x_row && k == 1 ? -1 : 1;
+      const bool left = splits_sign(options.wind) && k % 2 == 1;
+      const bool square = has_squares(options.wind) && k >= regressors / 2;
+      const double sign = (x_row && left ? -1 : 1) * (square ? -0.2 : 1);
       for (double b : {0.02, 0.015, -0.004, 0.002}) row.push_back((x_row ? sign : -0.3) * b * (1 + along));
     }
     arx.theta.push_back(row);
@@ -47,6 +50,7 @@ inline Model flame_model(const FlameOptions& options = {}) {
   }
   arx.input_mean.assign(regressors, 0.1);
   arx.noise.rank = options.noise_rank;
+  if (options.noise_growth > 0) arx.noise.growth.assign(regressors, options.noise_growth);
   model.dynamics = arx;
   model.view = OutlineView{uniform_knots(options.points), 0.03, 0};
   return model;

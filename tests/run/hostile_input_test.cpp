@@ -50,6 +50,13 @@ TEST(HostileInput, NeitherDoStepsWithSignedWindAndTheLoudestNoise) {
   live_through(sample_model(), 10, 100'000);
 }
 
+TEST(HostileInput, NorStepsWhoseNoiseGrowsWithTheWindOrWhoseWindIsSquared) {
+  live_through(flame_model({.wind = InputShape::kSplitSign, .noise_rank = 2, .noise_growth = 1000}), 10, 100'000);
+  live_through(flame_model({.noise_growth = 3}), 1, 100'000);
+  live_through(flame_model({.wind = InputShape::kSplitSignSquare, .noise_rank = 2}), 1, 100'000);
+  live_through(flame_model({.wind = InputShape::kLinearSquare}), 1, 100'000);
+}
+
 TEST(HostileInput, EachKindHeldForLongEndsInTheRange) {
   for (float input : kHostile) {
     auto bank = Bank::create(flame_model({.wind = InputShape::kSplitSign}), {.capacity = 1});

@@ -14,6 +14,7 @@
 
 #include "wisp/base/result.hpp"
 #include "wisp/learn/arx_fit.hpp"
+#include "wisp/learn/outline_alignment.hpp"
 #include "wisp/learn/outline_figures.hpp"
 #include "wisp/learn/outline_inputs.hpp"
 #include "wisp/model/model.hpp"
@@ -39,16 +40,21 @@ enum class OutlineNoise {
 
 /// How to learn.
 struct OutlineOptions {
-  int order = 4;  ///< lags of outputs and of inputs, 1 to 64; 4 is the paper's, two damped resonances a coordinate
-  int delay = 0;  ///< frames until an input acts, 0 to 1000; 0: in the same frame, the paper's
+  std::optional<int> order = 4;  ///< lags of outputs and of inputs, 1 to 64; 4 is the paper's, two damped resonances a
+                                 ///< coordinate; unset: searched, up to 32
+  std::optional<int> delay = 0;  ///< frames until an input acts, 0 to 1000; 0: in the same frame, the paper's; unset:
+                                 ///< searched, up to a quarter of a second
+  bool align = true;             ///< move inputs that come after the motion that they cause (outline_alignment.hpp)
   OutlineCoupling coupling = OutlineCoupling::kPoint;  ///< more costs more and did not look better (docs/fidelity.md)
   std::optional<std::vector<std::string>> inputs;  ///< names; unset: all inputs of the recordings; empty: none, flicker
+  bool square = false;                             ///< every input's square beside it: what it does may bend
   bool one_sided = false;      ///< inputs as they are, no sign and no mirror image: the paper's 192 multiply-adds
   std::optional<bool> mirror;  ///< learn from the mirror image too; unset: where inputs have signs
   double holdout = 0.3;        ///< 0 to 0.9: the last part of each recording, kept for judging
   bool refit = true;           ///< after judging, learn the model that is returned from everything
   OutlineNoise noise = OutlineNoise::kMatched;
   int shared_shocks = 4;         ///< 1 to 64: normal numbers a frame; more changed no figure (docs/fidelity.md)
+  bool growing_noise = true;     ///< let the noise grow with the inputs where held-out data say that it does
   bool match_variance = true;    ///< scale the noise until every channel at rest has the recording's variance
   double pixels_per_unit = 0;    ///< 0: each recording's own mean calm height is 1
   std::uint64_t seed = 1;        ///< of the trial runs
@@ -61,12 +67,49 @@ struct OutlineResidual {
   std::array<double, 2> sd_ci95{};  ///< χ² interval
 };
 
+/// What orders and delays are compared by.
+enum class OutlineCriterion {
+  kGiven,           ///< nothing was compared
+  kFpe,             ///< Akaike's final prediction error: where too little is held out
+  kHeldOutStep,     ///< the error one step ahead on what is held out: where no input drives the outline
+  kHeldOutFreeRun,  ///< the error of free simulation on what is held out
+};
+
+/// An order and a delay that were compared.
+struct OutlineCandidate {
+  int order = 0;
+  int delay = 0;
+  double fpe = 0;
+  double error = 0;  ///< by the criterion: root mean square in the model's units, geometric mean over channels
+};
+
+/// Which order and delay, and why.
+struct OutlineChoice {
+  OutlineCriterion by = OutlineCriterion::kGiven;
+  std::vector<OutlineCandidate> candidates;
+  std::size_t chosen = 0;  ///< of the candidates: the lowest order within 2 % of the best's error, at its best delay
+  std::string reason;
+
+  const OutlineCandidate& taken() const { return candidates[chosen]; }
+};
+
+/// Whether the noise grows with the inputs, and how that was found.
+struct OutlineNoiseGrowth {
+  std::vector<double> per_input;  ///< of maximum likelihood: at input 1 the noise is 1 + this times that of calm
+  double gain = 0;                ///< of the held-out residuals' log-likelihood, nats a frame
+  double gain_error = 0;          ///< its standard error over blocks of a second; 0 where nothing could be held against
+  bool kept = false;              ///< the model has it: the gain is more than two standard errors
+  std::string reason;
+};
+
 /// How good the model is.
 struct OutlineSummary {
   double rate_hz = 0;
   std::vector<OutlineInput> inputs;
   std::size_t points = 0;
   ArxOrders orders;
+  OutlineChoice choice;
+  std::vector<InputAlignment> alignment;   ///< of every recording's inputs
   std::size_t rows_learned = 0;            ///< complete rows before the cut, which the judged model was learned from
   std::size_t rows_held_out = 0;           ///< and after it
   bool refitted = false;                   ///< whether the returned model was learned from both
@@ -78,7 +121,8 @@ struct OutlineSummary {
   Cost cost;
   double held_share = 0;         ///< of steps in which an output is held at its range, playing freely with noise
   std::vector<double> sd_ratio;  ///< of every channel: playing freely over recorded; 1 where nothing moves
-  double shared_variance = 0;    ///< share of the wanted shocks' variance that the shared ones carry, 0 to 1
+  OutlineNoiseGrowth noise_growth;
+  double shared_variance = 0;  ///< share of the wanted shocks' variance that the shared ones carry, 0 to 1
   bool variance_matched = false;
   double pixels_per_unit = 0;  ///< of the first recording
   std::vector<std::string> warnings;

@@ -31,9 +31,11 @@ struct OutlineFigures {
   std::vector<int> steps;
   std::size_t rows = 0;  ///< that were judged
   std::vector<OutlineChannelFigures> channels;
-  std::vector<std::vector<double>> j;   ///< J_k: mean norm of the error, per control point
-  std::vector<double> tip_fit_percent;  ///< of the tip's x
-  std::vector<double> overlap;          ///< mean intersection over union of predicted and captured filled outlines
+  std::vector<std::vector<double>> j;                  ///< J_k: mean norm of the error, per control point
+  std::vector<std::vector<double>> point_fit_percent;  ///< of x and y together, per control point: above 0, the point
+                                                       ///< is followed better than by its mean
+  std::vector<double> tip_fit_percent;                 ///< of the tip's x
+  std::vector<double> overlap;  ///< mean intersection over union of predicted and captured filled outlines
 };
 
 /// Judges a model on recordings in its own units, with its regressors as inputs (outline_units.hpp,

@@ -44,14 +44,20 @@ inline constexpr double kSettleSeconds = 0.5;
 /// inputs).
 std::vector<std::uint8_t> resting_rows(const Recording& recording, std::span<const OutlineInput> inputs);
 
-/// Names of the regressors that inputs make: NAME, or NAME+ and NAME- where sign is split.
-std::vector<std::string> regressor_names(std::span<const OutlineInput> inputs, bool split_sign);
+/// Which regressors inputs make.
+struct RegressorShape {
+  bool split_sign = false;  ///< NAME+ and NAME- instead of NAME
+  bool square = false;      ///< then NAME^2, or NAME+^2 and NAME-^2
+};
+
+/// Names of the regressors that inputs make, in the model's order (regressor_count(InputShape)).
+std::vector<std::string> regressor_names(std::span<const OutlineInput> inputs, RegressorShape shape);
 
 /// A recording with an input channel for every regressor, in the model's units, in the place of its inputs; missing
 /// samples stay missing.
 ///
 /// Precondition: the recording has the inputs.
-Recording with_regressors(const Recording& recording, std::span<const OutlineInput> inputs, bool split_sign);
+Recording with_regressors(const Recording& recording, std::span<const OutlineInput> inputs, RegressorShape shape);
 
 /// The mean of every output over the chosen rows that are complete, in the layout's order; empty where there is none.
 ///
@@ -60,8 +66,9 @@ std::vector<double> mean_shape(const Recording& recording, const OutlineLayout& 
                                std::span<const std::uint8_t> rows);
 
 /// The mirror image of a recording in model units with split regressors: x negated, control points in reverse order
-/// (the base's left is the base's right then), NAME+ and NAME- exchanged. With a shape at rest it is the deviations
-/// from it that are mirrored: a wick that stands askew stays askew, and only the answer to wind has two equal sides.
+/// (the base's left is the base's right then), NAME+ and NAME- exchanged, and so their squares. With a shape at rest it
+/// is the deviations from it that are mirrored: a wick that stands askew stays askew, and only the answer to wind has
+/// two equal sides.
 ///
 /// Precondition: layout is the recording's; `rest` is empty or has one value an output.
 Recording mirrored(const Recording& recording, const OutlineLayout& layout, std::span<const OutlineInput> inputs,

@@ -21,6 +21,8 @@ enum class InputShape {
   kLinear,     ///< as it is: one regressor
   kSplitSign,  ///< as two non-negative regressors, max(u, 0) and max(−u, 0): a gust from the right is not a negative
                ///< one
+  kLinearSquare,     ///< as u and u²: what it does may bend
+  kSplitSignSquare,  ///< as the two of kSplitSign, then their squares
 };
 
 /// An input as the world gives it.
@@ -95,5 +97,14 @@ struct Model {
 
 /// Number of regressors that the inputs make: the number of inputs that the dynamics see.
 std::size_t regressor_count(const std::vector<Input>& inputs);
+
+/// Regressors that one input of that shape makes: 1, 2 or 4.
+int regressor_count(InputShape shape);
+
+/// Whether the sign is carried by regressors of their own.
+bool splits_sign(InputShape shape);
+
+/// Whether squares stand beside the values.
+bool has_squares(InputShape shape);
 
 }  // namespace wisp

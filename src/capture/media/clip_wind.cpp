@@ -64,6 +64,30 @@ WindFrame missing_frame(std::size_t index) {
 
 }  // namespace
 
+std::string wind_channel_name(WindMeasure measure) {
+  switch (measure) {
+    case WindMeasure::kSpeed:
+      return "wind";
+    case WindMeasure::kHeard:
+      return "wind.heard";
+    case WindMeasure::kRms:
+      return "wind.rms";
+  }
+  return "";
+}
+
+double wind_value(const WindFrame& frame, WindMeasure measure) {
+  switch (measure) {
+    case WindMeasure::kSpeed:
+      return frame.wind;
+    case WindMeasure::kHeard:
+      return frame.speed;
+    case WindMeasure::kRms:
+      return frame.rms_clean;
+  }
+  return 0;
+}
+
 Result<ClipWind> hear_wind(const std::filesystem::path& path, double rate_hz, std::size_t frames) {
   std::optional<SoundInfo> info;
   auto tracker = follow_sound(path, rate_hz, info);

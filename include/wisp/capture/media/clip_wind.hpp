@@ -11,6 +11,20 @@
 
 namespace wisp {
 
+/// What is made of the sound, and the name of the channel that holds it. Names differ, so that a model that was
+/// learned from one is never driven by another.
+enum class WindMeasure {
+  kSpeed,  ///< "wind": proportional to wind speed, 0 where nothing is heard, held back under other sounds
+  kHeard,  ///< "wind.heard": proportional to wind speed, other sounds included
+  kRms,    ///< "wind.rms": the paper's plain root mean square, less the background's; full scale 1
+};
+
+/// The channel's name.
+std::string wind_channel_name(WindMeasure measure);
+
+/// A frame's value.
+double wind_value(const WindFrame& frame, WindMeasure measure);
+
 /// What was heard in a clip.
 struct ClipWind {
   std::vector<WindFrame> frames;  ///< one a frame of the picture; empty where nothing can be heard

@@ -1,0 +1,77 @@
+// Physics against the model that was learned from it, in one run: what a frame costs either way.
+//
+// Both on one thread, by this thread's processor time. The rig simulates, the model steps with noise and gives its
+// outline as 33 points, which is what a game would draw.
+
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+
+#include "verify_flame.hpp"
+#include "wisp/learn/outline.hpp"
+#include "wisp/run/bank.hpp"
+#include "wisp/simulate/candle_clip.hpp"
+
+namespace {
+
+using namespace wisp;
+
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// A wind that swings between calm and 1 m/s, so that nothing is left to rest.
+double swinging(int frame) { return 0.5 + 0.5 * ((frame / 15) % 2 == 0 ? 1 : -1) * ((frame % 15) / 15.0); }
+
+double rig_seconds_a_frame(CandleGrid grid) {
+  constexpr int kFrames = 180;
+  CandleRig rig = *CandleRig::create(candle_rig_options(grid));
+  for (int frame = 0; frame < 60; ++frame) rig.step_frame(0);
+  const double start = processor_seconds();
+  for (int frame = 0; frame < kFrames; ++frame) rig.step_frame(swinging(frame));
+  return (processor_seconds() - start) / kFrames;
+}
+
+double model_seconds_a_frame(const Model& model, int instances) {
+  constexpr int kPoints = 33;
+  const int frames = 2000000 / (instances + 20);
+  auto bank = Bank::create(model, {.capacity = instances, .polyline_points = kPoints});
+  if (!bank) std::abort();
+  for (int k = 0; k < instances; ++k) bank->spawn();
+  std::vector<float> points(static_cast<std::size_t>(instances) * 2 * kPoints);
+  const double start = processor_seconds();
+  for (int frame = 0; frame < frames; ++frame) {
+    const float wind = static_cast<float>(swinging(frame));
+    bank->set_common_inputs({&wind, 1});
+    bank->step();
+    bank->polylines(points);
+  }
+  return (processor_seconds() - start) / (static_cast<double>(frames) * instances);
+}
+
+}  // namespace
+
+int main() {
+  const auto clip = verify::make_flame_clip(20, 1);
+  const auto fit = learn_outline(std::vector{verify::driven_by_sound(clip, WindMeasure::kSpeed)});
+  if (!fit) {
+    std::fprintf(stderr, "%s\n", fit.error().message.c_str());
+    return 1;
+  }
+  std::printf("model: %lld multiply-adds a frame, %lld operations with noise\n",
+              static_cast<long long>(fit->summary.cost.multiply_adds_per_frame),
+              static_cast<long long>(fit->summary.cost.operations_per_frame));
+  const double coarse = rig_seconds_a_frame(CandleGrid::kCoarse);
+  const double fine = rig_seconds_a_frame(CandleGrid::kFine);
+  std::printf("a frame of the rig:   coarse grid %8.2f ms, fine grid %8.2f ms\n", 1e3 * coarse, 1e3 * fine);
+  for (int instances : {1, 64, 4096}) {
+    const double model = model_seconds_a_frame(fit->model, instances);
+    std::printf(
+        "a frame of the model: %8.3f µs each in a bank of %4d: %.3g times faster than the coarse grid, %.3g times than "
+        "the fine\n",
+        1e6 * model, instances, coarse / model, fine / model);
+  }
+  return 0;
+}

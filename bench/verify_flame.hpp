@@ -1,0 +1,31 @@
+#pragma once
+// Simulated clips for the flame's long check: filmed, listened to and captured in one process, nothing encoded.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "wisp/capture/media/clip_wind.hpp"
+#include "wisp/record/recording.hpp"
+#include "wisp/run/wind_track.hpp"
+
+namespace wisp::verify {
+
+/// A clip of a simulated candle as a camera and a microphone have it, and the truth.
+struct FlameClip {
+  Recording outline;            ///< captured control points, pixels, without an input
+  std::vector<WindFrame> wind;  ///< heard, one a frame
+  Recording truth;              ///< u:wind[m/s] and the outline as it was
+  double simulation_seconds = 0;
+};
+
+/// Simulates, films, listens and captures. `knots`: those to express the outline in; empty: its own.
+FlameClip make_flame_clip(double seconds, std::uint64_t seed, const std::vector<double>& knots = {});
+
+/// The outline with one input, always called `wind`: heard, by that measure.
+Recording driven_by_sound(const FlameClip& clip, WindMeasure measure);
+
+/// The same with the wind as it truly was.
+Recording driven_by_truth(const FlameClip& clip);
+
+}  // namespace wisp::verify

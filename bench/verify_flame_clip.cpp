@@ -1,0 +1,66 @@
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+
+#include "verify_flame.hpp"
+#include "wisp/capture/vision/outline_capture.hpp"
+#include "wisp/simulate/candle_clip.hpp"
+
+namespace wisp::verify {
+namespace {
+
+template <class T>
+T value_or_abort(Result<T> result) {
+  if (!result) {
+    std::fprintf(stderr, "%s\n", result.error().message.c_str());
+    std::abort();
+  }
+  return *std::move(result);
+}
+
+Picture picture_of(const CandleFrame& frame) {
+  return rgb_picture({frame.picture.data(), frame.width, frame.height, 3 * frame.width}, 3);
+}
+
+Recording with_wind(const Recording& outline, const std::string& unit, std::vector<double> samples) {
+  Recording out = outline;
+  samples.resize(outline.rows(), std::numeric_limits<double>::quiet_NaN());
+  out.channels.push_back({"wind", unit, Role::kInput, std::move(samples)});
+  return out;
+}
+
+}  // namespace
+
+FlameClip make_flame_clip(double seconds, std::uint64_t seed, const std::vector<double>& knots) {
+  CandleClipOptions options;
+  options.seconds = seconds;
+  options.wind.seed = options.camera.seed = options.microphone.seed = seed;
+  OutlineCapture capture({.knots = knots, .rate_hz = options.rig.rate_hz, .source = "seed " + std::to_string(seed)});
+  WindTracker tracker =
+      value_or_abort(WindTracker::create({options.microphone.rate_hz, 1}, {.frame_rate_hz = options.rig.rate_hz}));
+  CandleClipOutputs outputs;
+  outputs.on_frame = [&](const CandleFrame& frame) { return capture.feed(picture_of(frame)); };
+  outputs.on_sound = [&](std::span<const float> sound) -> Result<void> {
+    tracker.feed(sound);
+    return {};
+  };
+  const auto start = std::chrono::steady_clock::now();
+  FlameClip clip;
+  clip.truth = value_or_abort(simulate_candle(options, outputs));
+  clip.simulation_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  clip.outline = value_or_abort(capture.finish()).recording;
+  clip.wind = value_or_abort(tracker.finish()).frames;
+  return clip;
+}
+
+Recording driven_by_sound(const FlameClip& clip, WindMeasure measure) {
+  std::vector<double> samples;
+  for (const WindFrame& frame : clip.wind) samples.push_back(wind_value(frame, measure));
+  return with_wind(clip.outline, "1", std::move(samples));
+}
+
+Recording driven_by_truth(const FlameClip& clip) {
+  return with_wind(clip.outline, "m/s", clip.truth.channels[*find_channel(clip.truth, "wind")].samples);
+}
+
+}  // namespace wisp::verify

@@ -1,0 +1,217 @@
+// A clip's sound as phones and cameras leave it: learning from it works, or says in one clause what is missing.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "cli/program.hpp"
+#include "wisp/draw/flame.hpp"
+#include "wisp/draw/video_writer.hpp"
+#include "wisp/record/csv.hpp"
+
+namespace wisp {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+constexpr int kWidth = 160, kHeight = 200, kFrames = 600;
+constexpr double kRate = 30, kSeconds = kFrames / kRate;
+
+// Gusts of different strength and length, with rests.
+double wind_at(double seconds) {
+  const double beat = 1.7 * seconds + 0.9 * std::sin(0.6 * seconds);
+  const double gust = std::sin(std::numbers::pi * beat);
+  return gust > 0 && std::fmod(beat, 4) < 3 ? gust * (0.6 + 0.4 * std::sin(2.3 * seconds)) : 0;
+}
+
+// A drop-shaped flame that leans with the wind of a twentieth of a second ago and trembles a little.
+Image flame_frame(int frame) {
+  static std::mt19937 random(3);
+  std::normal_distribution<double> tremble(0, 0.01);
+  const double lean = 0.5 * wind_at(frame / kRate - 0.05) + tremble(random);
+  std::vector<Point> outline;
+  for (int k = 0; k <= 60; ++k) {
+    const double t = k / 60.0, side = t < 0.5 ? -1 : 1, up = 1 - std::abs(2 * t - 1);
+    const double half_width = 0.16 * std::sqrt(1 - up) * (0.6 + 1.4 * up);
+    outline.push_back({static_cast<float>(side * half_width + lean * up * up), static_cast<float>(up)});
+  }
+  Image image(kWidth, kHeight);
+  draw_flame(image, outline, {.base = {60, 180}, .pixels_per_unit = 120}, {.glow = 0, .candle = false});
+  return image;
+}
+
+// How the wind sounds.
+struct Microphone {
+  int rate_hz = 44100;
+  double gain = 0.3;
+  double hiss = 1e-4;
+  double seconds = kSeconds;
+};
+
+// Noise below about 300 Hz whose amplitude goes with the square of the wind's speed.
+std::vector<float> heard_by(const Microphone& microphone) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal;
+  const double share = 1 - std::exp(-2 * std::numbers::pi * 300 / microphone.rate_hz);
+  const double level = microphone.gain / std::sqrt(share / 2);
+  std::vector<float> out;
+  double low = 0;
+  for (int k = 0; k < microphone.seconds * microphone.rate_hz; ++k) {
+    const double wind = wind_at(k / static_cast<double>(microphone.rate_hz));
+    low += share * (normal(random) - low);
+    out.push_back(static_cast<float>(level * wind * wind * low + microphone.hiss * normal(random)));
+  }
+  return out;
+}
+
+class ClipSound : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write_clip(const std::string& name, const Microphone& microphone) {
+    auto film = VideoWriter::create(at(name), {.width = kWidth,
+                                               .height = kHeight,
+                                               .rate_hz = kRate,
+                                               .preset = "ultrafast",
+                                               .sound_rate_hz = microphone.rate_hz});
+    ASSERT_TRUE(film) << film.error().message;
+    for (int k = 0; k < kFrames; ++k) ASSERT_TRUE(film->write(flame_frame(k)));
+    if (microphone.rate_hz > 0) ASSERT_TRUE(film->write_sound(heard_by(microphone)));
+    ASSERT_TRUE(film->finish());
+  }
+
+  // What learning from the clip says; it must succeed.
+  nlohmann::json learned(const std::string& name, const std::string& flags = "") {
+    const Said said = wisp("learn flame " + at(name) + " -o " + at("m.wisp") + " --json " + flags);
+    EXPECT_EQ(said.status, 0) << said.err;
+    return said.status == 0 ? said.json() : nlohmann::json();
+  }
+
+  // From its sound alone the flame is followed.
+  void expect_followed(const nlohmann::json& learning) {
+    ASSERT_EQ(learning["inputs"].size(), 1u);
+    EXPECT_EQ(learning["inputs"][0]["name"], "wind");
+    EXPECT_GT(learning["tip"]["held_out_fit_percent"]["inf"].get<double>(), 40);
+    const nlohmann::json& alignment = learning["alignment"][0];
+    EXPECT_TRUE(alignment["usable"].get<bool>()) << alignment["reason"];
+    EXPECT_NEAR(alignment["offset_seconds"].get<double>(), 0.05, 0.05);
+  }
+
+  Said wisp(const std::string& arguments) { return run_wisp(arguments, folder_); }
+  std::string at(const std::string& name) const { return (folder_ / name).string(); }
+  fs::path folder_;
+};
+
+TEST_F(ClipSound, IsHeardAndInStepAtEveryRate) {
+  for (const int rate_hz : {8000, 44100, 96000}) {
+    write_clip("clip.mp4", {.rate_hz = rate_hz});
+    SCOPED_TRACE(rate_hz);
+    expect_followed(learned("clip.mp4"));
+  }
+}
+
+TEST_F(ClipSound, ThatIsClippedIsUsedWithAWarning) {
+  write_clip("clip.mp4", {.gain = 6});
+  const nlohmann::json learning = learned("clip.mp4");
+  EXPECT_THAT(learning["warnings"].dump(), HasSubstr("clipped"));
+  ASSERT_EQ(learning["inputs"].size(), 1u);
+  EXPECT_GT(learning["tip"]["held_out_fit_percent"]["inf"].get<double>(), 20);
+}
+
+TEST_F(ClipSound, ThatEndsBeforeThePictureIsUsedAsFarAsItGoes) {
+  write_clip("clip.mp4", {.seconds = 14});
+  const nlohmann::json learning = learned("clip.mp4");
+  EXPECT_THAT(learning["warnings"].dump(), HasSubstr("frames before the picture"));
+  expect_followed(learning);
+  const int used = learning["samples"]["learned"].get<int>() + learning["samples"]["held_out"].get<int>();
+  EXPECT_NEAR(used, 14 * kRate, 15);
+}
+
+TEST_F(ClipSound, ThatIsMissingLeavesAFlickerAndSaysSo) {
+  write_clip("clip.mp4", {.rate_hz = 0});
+  const Said captured = wisp("capture flame " + at("clip.mp4") + " -o " + at("rec.csv") + " --json");
+  ASSERT_EQ(captured.status, 0) << captured.err;
+  EXPECT_FALSE(captured.json()["wind"]["heard"].get<bool>());
+  EXPECT_THAT(captured.json()["wind"]["reason"].get<std::string>(), HasSubstr("no sound track"));
+  const nlohmann::json learning = learned("clip.mp4");
+  EXPECT_EQ(learning["inputs"].size(), 0u);
+  EXPECT_THAT(learning["warnings"].dump(), HasSubstr("no sound track"));
+}
+
+TEST_F(ClipSound, ThatIsSilentLeavesAFlickerAndSaysSo) {
+  write_clip("clip.mp4", {.gain = 0, .hiss = 0});
+  const nlohmann::json learning = learned("clip.mp4");
+  EXPECT_EQ(learning["inputs"].size(), 0u);
+  EXPECT_THAT(learning["warnings"].dump(), HasSubstr("silent"));
+}
+
+// A wind-driven model needs wind: a clip without any is refused in one line.
+TEST_F(ClipSound, AModelOfWindIsNotHeldAgainstAClipWithout) {
+  write_clip("windy.mp4", {});
+  write_clip("mute.mp4", {.rate_hz = 0});
+  learned("windy.mp4");
+  const Said said = wisp("validate " + at("m.wisp") + " " + at("mute.mp4"));
+  EXPECT_EQ(said.status, 1);
+  EXPECT_THAT(said.err, HasSubstr("there is no input wind"));
+}
+
+TEST_F(ClipSound, ACameraThatDropsFramesStaysInStep) {
+  if (std::system("ffmpeg -version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no ffmpeg program to drop frames with";
+  write_clip("clip.mp4", {});
+  const std::string drop = "ffmpeg -v error -y -i " + at("clip.mp4") +
+                           " -vf \"select='not(eq(mod(n\\,7)\\,3))'\" -fps_mode vfr -preset ultrafast -c:a copy " +
+                           at("uneven.mp4");
+  ASSERT_EQ(std::system(drop.c_str()), 0);
+  const Said captured = wisp("capture flame " + at("uneven.mp4") + " -o " + at("rec.csv") + " --json");
+  ASSERT_EQ(captured.status, 0) << captured.err;
+  EXPECT_NEAR(captured.json()["rate_hz"].get<double>(), kRate, 0.01);
+  EXPECT_NEAR(captured.json()["frames"].get<int>(), kFrames, 3);
+  expect_followed(learned("uneven.mp4"));
+}
+
+TEST_F(ClipSound, EveryMeasureHasANameOfItsOwn) {
+  write_clip("clip.mp4", {});
+  for (const auto& [measure, name] : {std::pair{"speed", "wind"}, {"heard", "wind.heard"}, {"rms", "wind.rms"}}) {
+    const nlohmann::json learning = learned("clip.mp4", std::string("--wind-measure ") + measure);
+    ASSERT_EQ(learning["inputs"].size(), 1u);
+    EXPECT_EQ(learning["inputs"][0]["name"], name);
+  }
+  // The last model is of plain RMS: speed does not drive it.
+  const Said said = wisp("validate " + at("m.wisp") + " " + at("clip.mp4"));
+  EXPECT_EQ(said.status, 1);
+  EXPECT_THAT(said.err, HasSubstr("there is no input wind.rms"));
+  EXPECT_EQ(wisp("validate " + at("m.wisp") + " " + at("clip.mp4") + " --wind-measure rms").status, 0);
+}
+
+TEST_F(ClipSound, OrderAndDelayAreSearchedAndTheTruthIsComparedWith) {
+  write_clip("clip.mp4", {});
+  const nlohmann::json learning = learned("clip.mp4", "--order auto --delay auto --square");
+  EXPECT_EQ(learning["order_and_delay"]["by"], "held_out_free_run");
+  EXPECT_GT(learning["order_and_delay"]["candidates"].size(), 20u);
+  EXPECT_EQ(learning["nk"][4][0], learning["order_and_delay"]["delay"]);
+  EXPECT_EQ(learning["nk"][4].size(), 4u);
+  Recording truth;
+  truth.rate_hz = kRate;
+  truth.channels.push_back({"wind", "m/s", Role::kInput, {}});
+  for (int k = 0; k < kFrames; ++k) truth.channels[0].samples.push_back(wind_at(k / kRate));
+  ASSERT_TRUE(write_csv(at("truth.csv"), truth));
+  const Said validated =
+      wisp("validate " + at("m.wisp") + " " + at("clip.mp4") + " --truth " + at("truth.csv") + " --json");
+  ASSERT_EQ(validated.status, 0) << validated.err;
+  EXPECT_GT(validated.json()["true_input"]["tip_fit_percent"].get<double>(), 60);
+  EXPECT_EQ(validated.json()["points"].size(), 8u);
+  EXPECT_TRUE(validated.json()["points"][3]["fit_percent"].contains("inf"));
+  EXPECT_GT(validated.json()["static_gain"]["tip_fit_percent"].get<double>(), 0);
+}
+
+}  // namespace
+}  // namespace wisp
