@@ -85,7 +85,9 @@ class ClipSound : public testing::Test {
                                                .sound_rate_hz = microphone.rate_hz});
     ASSERT_TRUE(film) << film.error().message;
     for (int k = 0; k < kFrames; ++k) ASSERT_TRUE(film->write(flame_frame(k)));
-    if (microphone.rate_hz > 0) ASSERT_TRUE(film->write_sound(heard_by(microphone)));
+    if (microphone.rate_hz > 0) {
+      ASSERT_TRUE(film->write_sound(heard_by(microphone)));
+    }
     ASSERT_TRUE(film->finish());
   }
 

@@ -87,7 +87,7 @@ TEST_F(LearnArx, TheModelIsDescribedAndRun) {
 TEST_F(LearnArx, AMatrixOfTheWrongShapeIsExplained) {
   const Said said =
       wisp("learn arx " + at("system.csv") + " -o " + at("m.wisp") + " --inputs push --outputs place --na '2,2;2,2'");
-  EXPECT_EQ(said.status, 1);
+  EXPECT_EQ(said.status, 2);
   EXPECT_THAT(said.err, HasSubstr("expected 1 × 1"));
   EXPECT_FALSE(std::filesystem::exists(at("m.wisp")));
 }
