@@ -23,7 +23,8 @@ const char* misuse(const void* bytes, size_t size);
 /* Structs of callers that know fewer fields, or more, than the library. */
 const char* structs_of_other_sizes(const void* bytes, size_t size);
 
-/* A flame of 30 steps a second with the default rule of extinction is blown out, stays out, is lit again and put out. */
+/* A flame of 30 steps a second with the default rule of extinction is blown out, stays out, is lit again and put out.
+ */
 const char* death_in_c(const void* bytes, size_t size);
 
 #ifdef __cplusplus
