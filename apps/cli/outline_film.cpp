@@ -46,12 +46,27 @@ std::vector<Point> enlarged(std::vector<Point> outline, int times) {
   return outline;
 }
 
-void draw_row(Image& image, const OutlineRows& rows, std::size_t row, int times) {
+// How an overlay is laid out.
+struct Layout {
+  int times = 1;  // what the clip is enlarged by
+  Corner legend = Corner::kTopLeft;
+};
+
+// The upper corner that the outlines are farther from on the whole.
+Corner roomier_corner(const OutlineRows& rows, int width) {
+  double across = 0;
+  for (const auto& outline : rows.captured) {
+    for (const Point& point : outline) across += point.x - 0.5 * width;
+  }
+  return across < 0 ? Corner::kTopRight : Corner::kTopLeft;
+}
+
+void draw_row(Image& image, const OutlineRows& rows, std::size_t row, const Layout& layout) {
   const LineStyle captured{.colour = kCapturedColour}, simulated{.colour = kSimulatedColour, .dashed = true};
-  if (row < rows.captured.size()) draw_outline(image, enlarged(rows.captured[row], times), captured);
-  if (row < rows.simulated.size()) draw_outline(image, enlarged(rows.simulated[row], times), simulated);
+  if (row < rows.captured.size()) draw_outline(image, enlarged(rows.captured[row], layout.times), captured);
+  if (row < rows.simulated.size()) draw_outline(image, enlarged(rows.simulated[row], layout.times), simulated);
   const LegendEntry legend[] = {{"captured", captured}, {rows.simulated_label, simulated}};
-  draw_legend(image, legend);
+  draw_legend(image, legend, layout.legend);
 }
 
 Result<int> attribute_number(const Recording& recording, const char* name) {
@@ -70,23 +85,23 @@ std::string seconds_text(double seconds) {
   return text;
 }
 
-Result<void> overlay_on_black(VideoWriter& film, int width, int height, int times, const OutlineRows& rows) {
+Result<void> overlay_on_black(VideoWriter& film, int width, int height, const Layout& layout, const OutlineRows& rows) {
   for (std::size_t row = 0; row < rows.captured.size(); ++row) {
     Image image(width, height);
-    draw_row(image, rows, row, times);
+    draw_row(image, rows, row, layout);
     if (auto ok = film.write(image); !ok) return ok;
   }
   return film.finish();
 }
 
 Result<void> overlay_on_clip(VideoWriter& film, const ClipFrames& clip, const OutlineRows& rows, double rate_hz,
-                             int times, Terminal& terminal) {
+                             const Layout& layout, Terminal& terminal) {
   const std::size_t count = rows.captured.size();
   auto drawn =
       for_each_row(clip, count - 1, [&](std::size_t row, const std::function<Image()>& picture) -> Result<void> {
         Image image = picture();
-        if (times > 1) image = resized(image, image.width() * times, image.height() * times);
-        draw_row(image, rows, row, times);
+        if (layout.times > 1) image = resized(image, image.width() * layout.times, image.height() * layout.times);
+        draw_row(image, rows, row, layout);
         draw_label(image, seconds_text(static_cast<double>(row) / rate_hz));
         terminal.progress("drawing the overlay", static_cast<double>(row + 1) / static_cast<double>(count));
         return film.write(image);
@@ -191,12 +206,13 @@ Result<void> write_overlay(const std::filesystem::path& out, const ClipFrames& c
   const auto width = attribute_number(recording, "width"), height = attribute_number(recording, "height");
   if (!width) return width.error();
   if (!height) return height.error();
-  const int times = enlargement(*height);
+  const Layout layout{.times = enlargement(*height), .legend = roomier_corner(rows, *width)};
+  const int film_width = *width * layout.times, film_height = *height * layout.times;
   auto film = VideoWriter::create(
-      out, {.width = *width * times, .height = *height * times, .rate_hz = recording.rate_hz, .preset = "veryfast"});
+      out, {.width = film_width, .height = film_height, .rate_hz = recording.rate_hz, .preset = "veryfast"});
   if (!film) return film.error();
-  if (clip.path.empty()) return overlay_on_black(*film, *width * times, *height * times, times, rows);
-  return overlay_on_clip(*film, clip, rows, recording.rate_hz, times, terminal);
+  if (clip.path.empty()) return overlay_on_black(*film, film_width, film_height, layout, rows);
+  return overlay_on_clip(*film, clip, rows, recording.rate_hz, layout, terminal);
 }
 
 Result<void> write_film_strip(const std::filesystem::path& out, const ClipFrames& clip, const StripContent& content) {
