@@ -175,7 +175,7 @@ TEST_F(LearnArxParts, WhatIsMissingOnTheCommandLineIsNamed) {
   EXPECT_THAT(wisp("learn arx " + at("system.csv") + " --partial " + at("p.part")).err, HasSubstr("--outputs"));
   for (const char* share : {"0/2", "3/2", "1", "1/0", "a/b", "1/2/3"}) {
     const Said said = wisp("learn arx " + whole() + " --partial " + at("p.part") + " --part " + share);
-    EXPECT_EQ(said.status, 1) << share;
+    EXPECT_EQ(said.status, 2) << share;
     EXPECT_THAT(said.err, HasSubstr("expected K/N")) << share;
   }
   EXPECT_FALSE(std::filesystem::exists(at("p.part")));
