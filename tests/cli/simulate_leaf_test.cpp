@@ -1,0 +1,85 @@
+// `wisp simulate leaf`.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/program.hpp"
+#include "wisp/record/csv.hpp"
+
+namespace wisp {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+class SimulateLeaf : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  Said wisp(const std::string& arguments) { return run_wisp("simulate leaf " + arguments, folder_); }
+  std::string at(const std::string& name) const { return (folder_ / name).string(); }
+  fs::path folder_;
+};
+
+TEST_F(SimulateLeaf, DropsAreEpisodesOfARecording) {
+  const Said said = wisp("-o " + at("rec.csv") + " --drops 3 --seconds 2 --rate 30 --json");
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_EQ(said.json()["episodes"], 3);
+  const auto recording = read_csv(at("rec.csv"));
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_EQ(episodes(*recording).size(), 3u);
+  EXPECT_EQ(recording->rows(), 180u);
+  EXPECT_EQ(channels_with_role(*recording, Role::kOutput).size(), 7u);
+}
+
+TEST_F(SimulateLeaf, TheSameSeedGivesTheSameFileOnAnyNumberOfThreads) {
+  ASSERT_EQ(wisp("-o " + at("a.csv") + " --drops 4 --seconds 1 --wind gusts --seed 7 --threads 1").status, 0);
+  ASSERT_EQ(wisp("-o " + at("b.csv") + " --drops 4 --seconds 1 --wind gusts --seed 7 --threads 3").status, 0);
+  ASSERT_EQ(wisp("-o " + at("c.csv") + " --drops 4 --seconds 1 --wind gusts --seed 8").status, 0);
+  EXPECT_EQ(file_text(at("a.csv")), file_text(at("b.csv")));
+  EXPECT_NE(file_text(at("a.csv")), file_text(at("c.csv")));
+}
+
+TEST_F(SimulateLeaf, PairsAreTwoRecordingsThatDifferInTheirWind) {
+  const Said said = wisp("-o " + at("rec.csv") + " --pairs --drops 2 --clones 3 --seconds 1 --json");
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_EQ(said.json()["calm"], at("rec.calm.csv"));
+  const auto windy = read_csv(at("rec.csv")), calm = read_csv(at("rec.calm.csv"));
+  ASSERT_TRUE(windy && calm);
+  EXPECT_EQ(episodes(*windy).size(), 6u);
+  EXPECT_EQ(find_attribute(*windy, "pair"), find_attribute(*calm, "pair"));
+  EXPECT_TRUE(find_attribute(*windy, "pair"));
+}
+
+TEST_F(SimulateLeaf, TheFirstDropsAreFilmed) {
+  const Said said =
+      wisp("-o " + at("rec.csv") + " --drops 2 --seconds 0.2 --video " + at("clip.mp4") + " --view above");
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_GT(fs::file_size(at("clip.mp4")), 1000u);
+}
+
+TEST_F(SimulateLeaf, WhatCannotBeSimulatedIsExplained) {
+  const auto refused = [&](const std::string& arguments, const std::string& word) {
+    const Said said = wisp("-o " + at("rec.csv") + " " + arguments);
+    EXPECT_EQ(said.status, 1) << arguments;
+    EXPECT_THAT(said.err, HasSubstr(word));
+  };
+  refused("--drops 0", "drops");
+  refused("--seconds -2", "seconds");
+  refused("--density 1e9", "areal density");
+  refused("--density 0", "areal density");
+  refused("--width 0.2", "width");
+  refused("--rate 0", "rate_hz");
+  refused("--wind gusts --wind-speed 1000", "speed");
+  refused("--pairs --clones 0", "clones");
+  refused("--drops 1 --seconds 0.2 --video " + at("nowhere/clip.mp4"), "nowhere");
+  EXPECT_EQ(wisp("-o " + at("nowhere/rec.csv")).status, 1);
+  EXPECT_EQ(wisp("-o " + at("rec.txt")).status, 1);
+  EXPECT_EQ(wisp("-o " + at("rec.csv") + " --wind hurricane").status, 2);
+}
+
+}  // namespace
+}  // namespace wisp
