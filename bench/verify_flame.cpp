@@ -220,11 +220,12 @@ Clips simulate_all() {
     // All clips in the first one's knots, as `wisp learn` captures them.
     if (knots.empty()) knots = value_or_abort(outline_layout(to.front().outline)).knots;
     simulated += seconds;
-    taken += to.back().simulation_seconds;
+    taken += to.back().processor_seconds;
   };
   for (std::uint64_t seed : kLearnSeeds) add(clips.learn, kLearnSeconds, seed);
   for (std::uint64_t seed : kValidateSeeds) add(clips.validate, kValidateSeconds, seed);
-  std::printf("== The learned flame on simulated candles (%.0f s simulated in %.0f s)\n", simulated, taken);
+  std::printf("== The learned flame on simulated candles (%.0f s of film in %.0f s of one processor)\n", simulated,
+              taken);
   return clips;
 }
 
@@ -234,6 +235,7 @@ Clips simulate_all() {
 int main(int count, char** arguments) {
   using namespace wisp;
   using namespace wisp::verify;
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a table's row appears when it is known
   const Clips clips = simulate_all();
   header();
   const auto sound = try_way({.name = "as it is: speed, order 4", .fidelity = true}, clips);

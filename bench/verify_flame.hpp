@@ -13,10 +13,10 @@ namespace wisp::verify {
 
 /// A clip of a simulated candle as a camera and a microphone have it, and the truth.
 struct FlameClip {
-  Recording outline;            ///< captured control points, pixels, without an input
-  std::vector<WindFrame> wind;  ///< heard, one a frame
-  Recording truth;              ///< u:wind[m/s] and the outline as it was
-  double simulation_seconds = 0;
+  Recording outline;             ///< captured control points, pixels, without an input
+  std::vector<WindFrame> wind;   ///< heard, one a frame
+  Recording truth;               ///< u:wind[m/s] and the outline as it was
+  double processor_seconds = 0;  ///< that simulating, filming, listening and capturing took
 };
 
 /// Simulates, films, listens and captures. `knots`: those to express the outline in; empty: its own.

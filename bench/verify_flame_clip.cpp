@@ -1,6 +1,7 @@
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
+#include <limits>
 
 #include "verify_flame.hpp"
 #include "wisp/capture/vision/outline_capture.hpp"
@@ -44,10 +45,10 @@ FlameClip make_flame_clip(double seconds, std::uint64_t seed, const std::vector<
     tracker.feed(sound);
     return {};
   };
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   FlameClip clip;
   clip.truth = value_or_abort(simulate_candle(options, outputs));
-  clip.simulation_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  clip.processor_seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   clip.outline = value_or_abort(capture.finish()).recording;
   clip.wind = value_or_abort(tracker.finish()).frames;
   return clip;

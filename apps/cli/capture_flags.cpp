@@ -63,6 +63,7 @@ void add_wind(const ClipWind& wind, WindMeasure measure, CapturedClip& clip) {
     clip.report.warnings.push_back("the sound is clipped; record it more quietly for a truer wind");
   if (!clip.wind_heard) return;
   Channel channel{.name = wind_channel_name(measure), .unit = "1", .role = Role::kInput, .samples = {}};
+  if (measure == WindMeasure::kRms) channel.unit = "full scale";
   for (const WindFrame& frame : wind.frames) channel.samples.push_back(wind_value(frame, measure));
   clip.recording.channels.insert(clip.recording.channels.begin(), std::move(channel));
 }

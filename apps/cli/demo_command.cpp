@@ -58,10 +58,11 @@ struct Places {
 struct Clips {
   std::string learn;
   std::string validate;
+  std::string truth{};  // of the clip to validate, where it is simulated
 };
 
 Result<Clips> simulate_clips(const Places& places, const Arguments& arguments, Terminal& terminal) {
-  const Clips clips{places.at("training.mp4"), places.at("validation.mp4")};
+  const Clips clips{places.at("training.mp4"), places.at("validation.mp4"), places.at("validation.truth.csv")};
   const auto seed = arguments.integer("seed");
   const auto simulate = [&](const std::string& name, const std::string& path, const char* seconds, int clip_seed) {
     return run_step(
@@ -85,6 +86,7 @@ Result<void> run_steps(const Places& places, const Clips& clips, const Arguments
 
   Step validate{validate_command(), {model, clips.validate}, {}};
   if (arguments.has("rate")) validate.flags.push_back({"rate", arguments.text("rate")});
+  if (!clips.truth.empty()) validate.flags.push_back({"truth", clips.truth});
   validate.flags.push_back({"overlay", places.at("overlay.mp4")});
   validate.flags.push_back({"film-strip", places.at("film-strip.png")});
   validate.flags.push_back({"figures", places.at("figures")});

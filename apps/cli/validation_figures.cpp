@@ -26,13 +26,24 @@ std::vector<double> seconds_of(std::size_t rows, double rate_hz) {
   return seconds;
 }
 
+// What the fit left of a channel, which the file tells since its noise may be shared; the middle of the interval where
+// it does not.
+double residual_sd(const Model& model, std::size_t channel) {
+  for (const Figure& figure : model.provenance.figures) {
+    if (figure.name == "residual_sd." + model.outputs[channel].name) return figure.value;
+  }
+  const auto& interval = std::get<ArxModel>(model.dynamics).noise.sd_ci95[channel];
+  return (interval[0] + interval[1]) / 2;
+}
+
 // One coordinate's residual standard deviation over the control points, with its interval.
-PlotSeries residual_series(const ArxModel& arx, std::size_t coordinate, const std::string& label, Dash dash) {
+PlotSeries residual_series(const Model& model, std::size_t coordinate, const std::string& label, Dash dash) {
+  const auto& intervals = std::get<ArxModel>(model.dynamics).noise.sd_ci95;
   PlotSeries series{.label = label, .dash = dash, .marker = Marker::kDot};
-  for (std::size_t point = 0; 2 * point < arx.noise.sd_ci95.size(); ++point) {
-    const auto& interval = arx.noise.sd_ci95[2 * point + coordinate];
+  for (std::size_t point = 0; 2 * point < intervals.size(); ++point) {
+    const auto& interval = intervals[2 * point + coordinate];
     series.x.push_back(static_cast<double>(point));
-    series.y.push_back((interval[0] + interval[1]) / 2);
+    series.y.push_back(residual_sd(model, 2 * point + coordinate));
     series.low.push_back(interval[0]);
     series.high.push_back(interval[1]);
   }
@@ -40,12 +51,11 @@ PlotSeries residual_series(const ArxModel& arx, std::size_t coordinate, const st
 }
 
 PlotSheet residual_sheet(const Model& model) {
-  const auto& arx = std::get<ArxModel>(model.dynamics);
   Plot plot{.title = "Residual noise, with 95 % intervals",
             .x = {.label = "control point", .whole_numbers = true},
             .y = {.label = "standard deviation, flame heights", .lowest = 0.0}};
-  plot.series = {residual_series(arx, 1, "vertical", Dash::kSolid),
-                 residual_series(arx, 0, "horizontal", Dash::kDashed)};
+  plot.series = {residual_series(model, 1, "vertical", Dash::kSolid),
+                 residual_series(model, 0, "horizontal", Dash::kDashed)};
   return {.plots = {std::move(plot)}};
 }
 
@@ -77,7 +87,9 @@ PlotSheet time_sheet(const Recording& recording, const Judged& judged) {
   PlotSheet sheet{.plots = {std::move(tip)}, .columns = 1, .plot_width = 900, .plot_height = 260};
   for (std::size_t channel : channels_with_role(recording, Role::kInput)) {
     const Channel& input = recording.channels[channel];
-    Plot plot{.title = input.name, .x = {.label = "seconds"}, .y = {.label = input.unit}};
+    // A unit of 1 is no unit: what of a sound is made into a wind is told as shares of a strong gust.
+    const std::string unit = input.unit == "1" ? "1: a strong gust" : input.unit;
+    Plot plot{.title = input.name, .x = {.label = "seconds"}, .y = {.label = unit}};
     plot.series = {{.x = seconds, .y = input.samples}};
     sheet.plots.push_back(std::move(plot));
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "chi_squared.hpp"
 #include "outline_growth.hpp"
 #include "outline_noise.hpp"
 #include "outline_orders.hpp"
@@ -55,10 +56,27 @@ std::vector<Recording> to_learn_from(std::span<const Recording> recordings, cons
   return {recordings.begin(), recordings.end()};
 }
 
+// A frame and its mirror image are one observation: what is known of coefficients and noise is known from half as many
+// rows as were fitted.
+void count_frames_once(ArxFit& fitted) {
+  for (auto& row : fitted.model.std_error) {
+    for (double& error : row) error *= std::sqrt(2.0);
+  }
+  for (std::size_t i = 0; i < fitted.model.noise.sd.size(); ++i) {
+    const double rows = static_cast<double>(fitted.summary.samples_used) / 2;
+    const double freedom = std::max(1.0, rows - fitted.model.orders.row_size(static_cast<int>(i)));
+    const double sd = fitted.model.noise.sd[i];
+    fitted.model.noise.sd_ci95[i] = {sd * std::sqrt(freedom / chi_squared_quantile(0.975, freedom)),
+                                     sd * std::sqrt(freedom / chi_squared_quantile(0.025, freedom))};
+  }
+}
+
 Result<ArxFit> fit(std::span<const Recording> recordings, const PreparedOutlines& prepared,
                    const OutlineOptions& options, const OutlineCandidate& chosen) {
   const ArxOptions arx{.orders = outline_orders(chosen.order, chosen.delay, options.coupling, prepared)};
-  return fit_arx(to_learn_from(recordings, prepared, options), prepared.channels, arx);
+  auto fitted = fit_arx(to_learn_from(recordings, prepared, options), prepared.channels, arx);
+  if (fitted && mirror_wanted(options, prepared)) count_frames_once(*fitted);
+  return fitted;
 }
 
 // The covariance of what the inputs alone leave unexplained: the outline's flicker.

@@ -163,13 +163,13 @@ void judge(const std::vector<Sample>& learned, const std::vector<Sample>& held_o
 }
 
 std::string reason_for(const OutlineNoiseGrowth& growth) {
-  char text[200];
   if (growth.gain_error == 0) return "too little is held out to tell whether the noise grows with the wind";
-  std::snprintf(text, sizeof text,
-                "%s: at wind 1 it is %.2f times that of calm, held-out residuals are %.3f ± %.3f nats a frame %s",
-                growth.kept ? "the noise grows with the wind" : "the noise is taken as the same in any wind",
+  char text[200];
+  std::snprintf(text, sizeof text, "%s %.2f times that of calm: held-out residuals are %.2f ± %.2f nats a frame %s",
+                growth.kept ? "the noise grows with the wind, at wind 1 it is"
+                            : "the noise is the same in any wind, although at wind 1 it might be",
                 1 + growth.per_input.front(), std::abs(growth.gain), growth.gain_error,
-                growth.gain >= 0 ? "likelier by it" : "less likely by it");
+                growth.gain >= 0 ? "likelier by that" : "less likely by that");
   return text;
 }
 

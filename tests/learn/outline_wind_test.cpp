@@ -66,6 +66,16 @@ TEST(OutlineWind, AGustFromTheOtherSideIsTheMirrorImage) {
   EXPECT_NEAR(moved(-0.8, "p2.y"), moved(0.8, "p3.y"), 1e-4);
 }
 
+// The mirror image tells nothing that its frame does not: intervals are as wide as without it.
+TEST(OutlineWind, AFrameAndItsMirrorImageAreOneObservation) {
+  const std::vector recordings{made::outline_recording(kWindy)};
+  const auto width = [&](bool mirror) {
+    const OutlineResidual residual = learn_outline(recordings, {.mirror = mirror})->summary.residuals[4];
+    return (residual.sd_ci95[1] - residual.sd_ci95[0]) / residual.sd;
+  };
+  EXPECT_NEAR(width(true), width(false), 0.02 * width(false));
+}
+
 // A wick that stands askew: the learned flame stands askew when it is calm, and leans from there to both sides.
 TEST(OutlineWind, WhatStandsAskewStaysAskew) {
   Recording recording = made::outline_recording(kWindy);

@@ -118,6 +118,8 @@ int main() {
   std::uint64_t hash = 0;
   step_frames(hash, flame_model({.wind = InputShape::kSplitSign, .noise_rank = 2}), 1, 30'000);
   step_frames(hash, sample_model(), 13, 2'000);
+  step_frames(hash, flame_model({.wind = InputShape::kSplitSignSquare, .noise_rank = 2, .noise_growth = 0.5}), 3,
+              5'000);
   time_frames(hash, flame_model(), 37, 1'000);
   mortal_frames(hash, 11, 2'000);
   std::uint64_t flushed = hash;
