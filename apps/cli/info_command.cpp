@@ -1,6 +1,7 @@
 // `wisp info`: what a model file holds.
 
 #include "arx_description.hpp"
+#include "blow_out_learning.hpp"
 #include "commands.hpp"
 #include "figures_json.hpp"
 #include "terminal.hpp"
@@ -100,11 +101,13 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
                         {"radius", number(spectral_radius(arx))}};
   describe_arx(arx, result["dynamics"]);
   result["view"] = view_of(*model);
+  result["extinction"] = json_of(model->extinction, *model);
   result["cost"] = *cost;
   result["made"] = made_by(model->provenance);
   result["usable"] = json_of(model->provenance.usable);
   describe(result, terminal);
   say_poles(arx, model->rate_hz, terminal);
+  if (model->extinction) terminal.say("blow-out  " + sentence_of(*model->extinction));
   return {};
 }
 

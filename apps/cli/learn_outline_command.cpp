@@ -3,6 +3,7 @@
 #include <chrono>
 #include <filesystem>
 
+#include "blow_out_learning.hpp"
 #include "capture_flags.hpp"
 #include "commands.hpp"
 #include "outline_learning.hpp"
@@ -14,15 +15,20 @@ namespace {
 
 Result<void> run(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
-  const auto recordings = outline_recordings(arguments.positionals(), arguments, terminal);
+  const auto wish = blow_out_wish(arguments);
+  if (!wish) return wish.error();
+  auto recordings = outline_recordings(arguments.positionals(), arguments, terminal);
   if (!recordings) return recordings.error();
+  const auto blow_outs = BlowOuts::find(*std::move(recordings), *wish);
+  if (!blow_outs) return blow_outs.error();
   const std::string& path = arguments.text("output");
   const auto options = outline_options(arguments, std::filesystem::path(path).stem().string());
   if (!options) return options.error();
-  auto fit = learn_outline(*recordings, *options);
+  auto fit = learn_outline(blow_outs->burning(), *options);
   if (!fit) return fit.error();
   fit->model.provenance.program = "wisp " WISP_VERSION;
   for (const std::string& warning : fit->summary.warnings) terminal.warn(warning);
+  if (auto ok = blow_outs->complete(*fit, *wish, terminal); !ok) return ok;
   if (auto ok = write_model(path, fit->model); !ok) return ok;
   report_outline(*fit, terminal);
   terminal.say("wrote " + path);
@@ -31,8 +37,9 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   return {};
 }
 
-Command learn(std::string name, std::string summary, std::vector<Example> examples) {
-  std::vector<Flag> flags = {{"output", Kind::kPath, "M.wisp", "", "where to write the model", {}, true}};
+Command learn(std::string name, std::string summary, const char* blow_out, std::vector<Example> examples) {
+  std::vector<Flag> flags = {{"output", Kind::kPath, "M.wisp", "", "where to write the model", {}, true},
+                             blow_out_flag(blow_out)};
   for (auto* more : {&outline_flags, &capture_flags}) {
     for (Flag& flag : (*more)()) flags.push_back(std::move(flag));
   }
@@ -44,15 +51,17 @@ Command learn(std::string name, std::string summary, std::vector<Example> exampl
 }  // namespace
 
 Command learn_outline_command() {
-  return learn("learn outline", "Learns how an outline moves, by itself and driven by its inputs.",
+  return learn("learn outline", "Learns how an outline moves, by itself and driven by its inputs.", "off",
                {{"wisp learn outline flag.mp4 --dark --points 12 -o flag.wisp", "Straight from a clip"}});
 }
 
 Command learn_flame_command() {
   return learn(
-      "learn flame", "Learns a flame: `learn outline` with a flame's settings.",
+      "learn flame", "Learns a flame: `learn outline` with a flame's settings.", "auto",
       {{"wisp learn flame candle.csv -o flame.wisp", "From a captured recording"},
-       {"wisp learn flame candle.mp4 --points 16 -o flame.wisp", "Straight from a clip, sixteen control points"}});
+       {"wisp learn flame candle.mp4 --points 16 -o flame.wisp", "Straight from a clip, sixteen control points"},
+       {"wisp learn flame candle.csv --blow-out 1.5,0.3 -o flame.wisp",
+        "A flame that wind of one and a half times the training's blows out in 0.3 seconds"}});
 }
 
 }  // namespace wisp::cli

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "arx_validation.hpp"
+#include "blow_out_learning.hpp"
 #include "capture_flags.hpp"
 #include "clip_figures.hpp"
 #include "commands.hpp"
@@ -244,6 +245,17 @@ Result<std::optional<Recording>> truth_for(const Subject& subject, const Argumen
   return std::optional(slice(*truth, first, std::min(truth->rows(), first + subject.recording.rows())));
 }
 
+// Whether flames die by the rule where they died, and live where they lived.
+Result<void> report_blow_outs(const Model& model, const Recording& recording, bool own_scale, Terminal& terminal) {
+  auto judged = judged_extinction(model, recording, own_scale);
+  if (!judged) return judged.error();
+  const Json& found = terminal.result()["extinction"] = *std::move(judged);
+  if (found.is_null()) return {};
+  terminal.say("blow-out: " + found["died"].dump() + " of " + found["deaths"].dump() + " deaths, " +
+               found["spared"].dump() + " of " + found["gusts"].dump() + " gusts survived by the model's rule too");
+  return {};
+}
+
 Result<void> run(const Arguments& arguments, Terminal& terminal) {
   const auto& positionals = arguments.positionals();
   const auto model = read_model(positionals[0]);
@@ -261,13 +273,16 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
                                    .align = arguments.text("align") == "auto",
                                    .truth = *truth ? &**truth : nullptr,
                                    .seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
-  auto found = validate_outline(*model, subject->recording, options);
+  const auto burning = burning_part(*model, subject->recording);
+  if (!burning) return burning.error();
+  auto found = validate_outline(*model, *burning, options);
   if (!found) return found.error();
   for (const std::string& warning : found->warnings) terminal.warn(warning);
   const auto layout = outline_layout(subject->recording);
   if (!layout) return layout.error();
   const Judged judged{*layout, std::move(*found)};
   report(judged.found, terminal);
+  if (auto ok = report_blow_outs(*model, subject->recording, options.own_input_scale, terminal); !ok) return ok;
   return draw(judged, *model, *subject, arguments, terminal);
 }
 

@@ -28,6 +28,12 @@ Result<std::vector<std::vector<float>>> input_rows(const Model& model, const Rec
   return rows;
 }
 
+// What is synthesized is how the thing moves while it burns; when it goes out is judged apart.
+Model burning(Model model) {
+  model.extinction.reset();
+  return model;
+}
+
 std::size_t warm_up_steps(const Model& model, const SynthesisOptions& options) {
   return static_cast<std::size_t>(std::ceil(options.warm_up_seconds * model.rate_hz));
 }
@@ -107,7 +113,7 @@ double share(const Bank::Held& before, const Bank::Held& after) {
 Result<Synthesis> synthesize(const Model& model, const SynthesisOptions& options) {
   const auto inputs = input_rows(model, options.input);
   if (!inputs) return inputs.error();
-  auto bank = Bank::create(model, {.capacity = 1, .seed = options.seed});
+  auto bank = Bank::create(burning(model), {.capacity = 1, .seed = options.seed});
   if (!bank) return bank.error();
   bank->set_noise(options.noise);
   const InstanceId id = bank->spawn();
@@ -130,7 +136,7 @@ Result<Synthesis> synthesize(const Model& model, const SynthesisOptions& options
 Result<FreePlay> play_freely(const Model& model, std::size_t steps, const SynthesisOptions& options) {
   const auto inputs = input_rows(model, options.input);
   if (!inputs) return inputs.error();
-  auto bank = Bank::create(model, {.capacity = kCrowd, .seed = options.seed});
+  auto bank = Bank::create(burning(model), {.capacity = kCrowd, .seed = options.seed});
   if (!bank) return bank.error();
   bank->set_noise(options.noise);
   for (int k = 0; k < kCrowd; ++k) (void)bank->spawn();

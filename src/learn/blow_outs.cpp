@@ -1,0 +1,136 @@
+#include "wisp/learn/blow_outs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "wisp/learn/outline_units.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr double kUsual = 0.95;          // share of the wind that is lived in
+constexpr double kLeastPresence = 0.15;  // seconds: a shorter sight of something between two absences is an ember's
+
+Result<void> check(const BlowOutOptions& options, const std::string& source) {
+  const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
+  if (within(options.least_gone, 0.05, 60) && within(options.looked_back, 0.1, 10) &&
+      within(options.least_blown, 0.02, 1) && within(options.settling, 0, 10)) {
+    return {};
+  }
+  return Error{source + ": what counts as going out is out of its range"};
+}
+
+std::size_t rows_of(double seconds, double rate_hz) {
+  return static_cast<std::size_t>(std::max(1L, std::lround(seconds * rate_hz)));
+}
+
+struct Run {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+// Rows without an outline, glimpses of next to nothing between them included.
+std::vector<Run> absences(const Recording& recording, const OutlineLayout& layout) {
+  std::vector<Run> runs;
+  const std::size_t least = rows_of(kLeastPresence, recording.rate_hz);
+  for (std::size_t row = 0; row < recording.rows(); ++row) {
+    const bool seen = std::none_of(layout.outputs.begin(), layout.outputs.end(),
+                                   [&](std::size_t c) { return std::isnan(recording.channels[c].samples[row]); });
+    if (seen) continue;
+    if (!runs.empty() && row < runs.back().end + least) {
+      runs.back().end = row + 1;
+    } else {
+      runs.push_back({row, row + 1});
+    }
+  }
+  return runs;
+}
+
+// Strength of an input, averaged over the `window` rows up to each; missing samples are calm.
+std::vector<double> averaged(const std::vector<double>& samples, std::size_t window) {
+  std::vector<double> out;
+  double sum = 0;
+  const auto strength = [&](std::size_t row) { return std::isnan(samples[row]) ? 0.0 : std::abs(samples[row]); };
+  for (std::size_t row = 0; row < samples.size(); ++row) {
+    sum += strength(row);
+    if (row >= window) sum -= strength(row - window);
+    out.push_back(std::max(0.0, sum) / static_cast<double>(window));
+  }
+  return out;
+}
+
+// What the flame lives in: the wind where it is there and not about to go.
+double usual_wind(const std::vector<double>& wind, const std::vector<Run>& gone, std::size_t looked_back) {
+  std::vector<double> lived;
+  std::size_t next = 0;
+  for (std::size_t row = 0; row < wind.size(); ++row) {
+    while (next < gone.size() && row >= gone[next].end) ++next;
+    if (next == gone.size() || row + looked_back < gone[next].begin) lived.push_back(wind[row]);
+  }
+  if (lived.empty()) return 0;
+  const auto at = lived.begin() + static_cast<std::ptrdiff_t>(kUsual * static_cast<double>(lived.size() - 1));
+  std::nth_element(lived.begin(), at, lived.end());
+  return *at;
+}
+
+// The row where the wind that blew the flame out began: when it last was half as strong as at its strongest.
+std::size_t onset(const Recording& recording, const BlowOut& blow_out, const BlowOutOptions& options) {
+  const std::size_t back = std::min(blow_out.gone, rows_of(options.looked_back, recording.rate_hz));
+  std::size_t first = blow_out.gone;
+  for (std::size_t channel : channels_with_role(recording, Role::kInput)) {
+    const auto& samples = recording.channels[channel].samples;
+    std::size_t row = blow_out.gone;
+    while (row > blow_out.gone - back && !(std::abs(samples[row - 1]) > 0.5 * blow_out.wind)) --row;
+    while (row > blow_out.gone - back && !(std::abs(samples[row - 1]) < 0.5 * blow_out.wind)) --row;
+    first = std::min(first, row);
+  }
+  return first;
+}
+
+}  // namespace
+
+Result<std::vector<BlowOut>> find_blow_outs(const Recording& recording, const std::string& input,
+                                            const BlowOutOptions& options) {
+  if (auto ok = check(options, recording.source); !ok) return ok.error();
+  const auto layout = outline_layout(recording);
+  if (!layout) return layout.error();
+  const auto channel = find_channel(recording, input);
+  if (!channel) return Error{recording.source + ": there is no input " + input + " to find blow-outs by"};
+  std::vector<Run> gone = absences(recording, *layout);
+  const std::size_t least = rows_of(options.least_gone, recording.rate_hz);
+  std::erase_if(gone, [&](const Run& run) { return run.end - run.begin < least; });
+  const std::size_t looked_back = rows_of(options.looked_back, recording.rate_hz);
+  const std::size_t window = rows_of(options.least_blown, recording.rate_hz);
+  const auto wind = averaged(recording.channels[*channel].samples, window);
+  const double usual = usual_wind(wind, gone, looked_back);
+  std::vector<BlowOut> out;
+  for (const Run& run : gone) {
+    if (run.begin == 0) continue;
+    // A strong puff makes a flame invisible within a few frames, and lasts longer.
+    const std::size_t first = run.begin - std::min(run.begin, looked_back);
+    const std::size_t last = std::min(run.end, run.begin + window);
+    const double strongest = *std::max_element(wind.begin() + static_cast<std::ptrdiff_t>(first),
+                                               wind.begin() + static_cast<std::ptrdiff_t>(last));
+    out.push_back({run.begin, run.end, strongest, strongest > usual});
+  }
+  return out;
+}
+
+Recording without_blow_outs(const Recording& recording, std::span<const BlowOut> blow_outs,
+                            const BlowOutOptions& options) {
+  Recording out = recording;
+  const auto settling = static_cast<std::size_t>(std::lround(options.settling * recording.rate_hz));
+  for (const BlowOut& blow_out : blow_outs) {
+    if (!blow_out.blown) continue;
+    const std::size_t first = onset(recording, blow_out, options);
+    const std::size_t last = std::min(out.rows(), blow_out.back + settling);
+    for (Channel& channel : out.channels) {
+      std::fill(channel.samples.begin() + static_cast<std::ptrdiff_t>(first),
+                channel.samples.begin() + static_cast<std::ptrdiff_t>(last), std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+  return out;
+}
+
+}  // namespace wisp
