@@ -8,16 +8,9 @@ namespace wisp::cli {
 
 const std::vector<Command>& commands() {
   static const std::vector<Command> all = {
-      capture_outline_command(),
-      capture_flame_command(),
-      learn_outline_command(),
-      learn_flame_command(),
-      learn_arx_command(),
-      validate_command(),
-      simulate_candle_command(),
-      run_command(),
-      info_command(),
-      demo_command(),
+      capture_outline_command(), capture_flame_command(), learn_outline_command(), learn_flame_command(),
+      learn_arx_command(),       learn_chain_command(),   learn_leaf_command(),    validate_command(),
+      simulate_candle_command(), run_command(),           info_command(),          demo_command(),
       manual_command(),
   };
   return all;

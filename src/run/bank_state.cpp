@@ -57,7 +57,8 @@ Bank::State::State(const Model& model, const BankOptions& options, Arena& arena)
 void Bank::State::start(int slot) {
   const int block = slot / kLanes, lane = slot % kLanes;
   born[slot] = steps;
-  std::visit([&](auto& dynamics) { dynamics.start(block, lane); }, stepper);
+  std::uint32_t flags[kLanes];
+  std::visit([&](auto& dynamics) { dynamics.start(block, lane, moment(block, flags)); }, stepper);
   show_block(block);
 }
 
@@ -101,17 +102,22 @@ void Bank::State::set_noise(float scale) {
   std::visit([&](auto& dynamics) { dynamics.set_noise(scale); }, stepper);
 }
 
+Moment<LiveNumbers> Bank::State::moment(int block, std::uint32_t* flags) const {
+  const std::size_t first = static_cast<std::size_t>(block) * kLanes;
+  return {&keys, {stream.data() + first, born.data() + first, steps}, flags};
+}
+
 void Bank::State::step_all() {
   std::visit(
       [&](auto& dynamics) {
         dynamics.turn();
         const std::size_t size = channels.regressors.size() * kLanes;
         for (int block = 0; block < blocks(); ++block) {
-          std::copy_n(regressors_of(block), size, dynamics.regressors(block));
-          const std::size_t first = static_cast<std::size_t>(block) * kLanes;
+          if (size > 0) std::copy_n(regressors_of(block), size, dynamics.regressors(block));
           std::uint32_t flags[kLanes];
-          dynamics.step(block, {&keys, {stream.data() + first, born.data() + first, steps}, flags});
-          for (int lane = 0; lane < kLanes; ++lane) held.held += (flags[lane] & 1) & alive[first + lane];
+          dynamics.step(block, moment(block, flags));
+          const std::uint8_t* living_lanes = alive.data() + static_cast<std::size_t>(block) * kLanes;
+          for (int lane = 0; lane < kLanes; ++lane) held.held += (flags[lane] & 1) & living_lanes[lane];
         }
       },
       stepper);
@@ -128,9 +134,9 @@ void Bank::State::show_block(int block) {
       [&](const auto& dynamics) {
         if (between) {
           const float share = static_cast<float>(passed) / static_cast<float>(step_time);
-          show_between<LiveNumbers>(channels, dynamics.previous(block), dynamics.newest(block), share, shown_of(block));
+          dynamics.show_between(block, share, shown_of(block));
         } else {
-          show_newest<LiveNumbers>(channels, dynamics.newest(block), shown_of(block));
+          dynamics.show(block, shown_of(block));
         }
       },
       stepper);

@@ -24,6 +24,7 @@ struct Bank::State {
   float* shown_of(int block) { return shown.data() + block * channels.outputs.size() * kLanes; }
   const float* shown_of(int block) const { return const_cast<State*>(this)->shown_of(block); }
 
+  Moment<LiveNumbers> moment(int block, std::uint32_t* flags) const;
   void start(int slot);
   void set_inputs(int block, const float* values, int count);
   void set_common_inputs(int block, const float* values);

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "wisp/base/result.hpp"
@@ -28,6 +29,12 @@ struct InstanceId {
   std::uint32_t generation = 0;  ///< 0 names no instance
 
   friend bool operator==(const InstanceId&, const InstanceId&) = default;
+};
+
+/// Where an instance of a segment chain is.
+struct ChainPlace {
+  std::uint32_t segment = 0;  ///< index into ChainModel::segments
+  std::uint32_t step = 0;     ///< of that segment; at 0 it was joined to the one before
 };
 
 /// How a bank is made.
@@ -129,6 +136,9 @@ class Bank {
 
   /// Reads the outline of one instance: polyline_points() × (x, y). Returns false when `id` is not valid.
   bool polyline(InstanceId id, std::span<float> values) const;
+
+  /// Where in its chain an instance is; nothing where the dynamics are not a chain or `id` is not valid.
+  std::optional<ChainPlace> chain_place(InstanceId id) const;
 
   /// Puts one instance, or all that live and the bank's time, back to where they were when spawned; streams and inputs
   /// stay. Returns false when `id` is not valid.

@@ -21,7 +21,8 @@ separate_arguments(OPTIONS)
 file(GLOB computing ${SOURCE}/src/run/*.cpp)
 list(FILTER computing EXCLUDE REGEX "/(wind_|cost)")
 list(APPEND computing ${SOURCE}/src/model/bspline.cpp ${SOURCE}/tests/run/bits/frames.cpp)
-set(ground ${SOURCE}/src/base/hash.cpp ${SOURCE}/src/model/arx.cpp ${SOURCE}/src/model/check.cpp
+set(ground ${SOURCE}/src/base/hash.cpp ${SOURCE}/src/model/arx.cpp ${SOURCE}/src/model/chain.cpp
+  ${SOURCE}/src/model/check.cpp
   ${SOURCE}/src/model/model.cpp)
 
 # Compiles sources into `folder` and appends the objects to `objects`.
