@@ -13,6 +13,8 @@ const std::vector<Command>& commands() {
       learn_outline_command(),
       learn_flame_command(),
       learn_arx_command(),
+      learn_chain_command(),
+      learn_leaf_command(),
       validate_command(),
       simulate_candle_command(),
       simulate_leaf_command(),

@@ -10,6 +10,8 @@ Command capture_flame_command();
 Command learn_outline_command();
 Command learn_flame_command();
 Command learn_arx_command();
+Command learn_chain_command();
+Command learn_leaf_command();
 Command validate_command();
 Command simulate_candle_command();
 Command simulate_leaf_command();

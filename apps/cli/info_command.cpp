@@ -2,6 +2,7 @@
 
 #include "arx_description.hpp"
 #include "blow_out_learning.hpp"
+#include "chain_json.hpp"
 #include "commands.hpp"
 #include "figures_json.hpp"
 #include "terminal.hpp"
@@ -28,6 +29,12 @@ Json channels_of(const Model& model) {
 }
 
 Json view_of(const Model& model) {
+  if (const auto* pose = std::get_if<PoseView>(&model.view)) {
+    return {{"kind", "pose"}, {"half_width", number(pose->half_width)}, {"half_length", number(pose->half_length)}};
+  }
+  if (const auto* position = std::get_if<PositionView>(&model.view)) {
+    return {{"kind", "position"}, {"half_width", number(position->half_width)}};
+  }
   const auto* outline = std::get_if<OutlineView>(&model.view);
   if (!outline) return {{"kind", "plain"}};
   return {{"kind", "outline"},
@@ -35,6 +42,41 @@ Json view_of(const Model& model) {
           {"knots", json_of(outline->knots)},
           {"metres_per_unit", number(outline->metres_per_unit)},
           {"pixels_per_unit", number(outline->pixels_per_unit)}};
+}
+
+Json dynamics_of(const ArxModel& arx) {
+  Json out = {{"kind", "arx"},
+              {"na", json_of(arx.orders.na)},
+              {"nb", json_of(arx.orders.nb)},
+              {"nk", json_of(arx.orders.nk)},
+              {"history", arx.orders.history()},
+              {"noise_rank", arx.noise.rank},
+              {"radius", number(spectral_radius(arx))}};
+  describe_arx(arx, out);
+  return out;
+}
+
+Json dynamics_of(const ChainModel& chain) {
+  return {{"kind", "chain"},
+          {"segments", chain.segments.size()},
+          {"modes", chain.modes},
+          {"history", chain.history()},
+          {"histories", chain.contexts.size()},
+          {"heading_free", chain.heading_free},
+          {"best_of", chain.segments.breadth},
+          {"blend_share", number(chain.blend.share)},
+          {"initial", json_of(chain.initial)},
+          {"transitions", matrix_json(chain.transitions(), chain.modes)}};
+}
+
+// One line for people.
+std::string line_of(const Json& dynamics) {
+  if (dynamics["kind"] == "chain") {
+    return "chain of " + dynamics["segments"].dump() + " segments in " + dynamics["modes"].dump() +
+           " modes, histories of up to " + dynamics["history"].dump();
+  }
+  return "arx, history of " + dynamics["history"].dump() + " samples, spectral radius " +
+         shown(dynamics["radius"].get<double>(), 5);
 }
 
 Json made_by(const Provenance& provenance) {
@@ -59,14 +101,12 @@ std::string listed(const Json& object) {
 }
 
 void describe(const Json& result, Terminal& terminal) {
-  const Json& dynamics = result["dynamics"];
   terminal.say(result["name"].get<std::string>() + ": " + result["view"]["kind"].get<std::string>() + " model at " +
                shown(result["rate_hz"].get<double>(), 5) + " steps a second, " +
                std::to_string(result["bytes"].get<std::size_t>()) + " bytes");
   terminal.say("inputs    " + names_of(result["inputs"]));
   terminal.say("outputs   " + names_of(result["outputs"]));
-  terminal.say("dynamics  " + dynamics["kind"].get<std::string>() + ", history of " + dynamics["history"].dump() +
-               " samples, spectral radius " + shown(dynamics["radius"].get<double>(), 5));
+  terminal.say("dynamics  " + line_of(result["dynamics"]));
   terminal.say("cost      " + result["cost"]["multiply_adds_per_frame"].dump() + " multiply-adds a frame, " +
                result["cost"]["operations_per_frame"].dump() + " operations with noise and view");
   terminal.say("made by   " + result["made"]["program"].get<std::string>() + " from " +
@@ -86,27 +126,19 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   if (!cost) return cost.error();
 
   Json& result = terminal.result();
-  const auto& arx = std::get<ArxModel>(model->dynamics);
   result["name"] = model->name;
   result["format_version"] = kModelFormatVersion;
   result["bytes"] = bytes->size();
   result["rate_hz"] = model->rate_hz;
   result.update(channels_of(*model));
-  result["dynamics"] = {{"kind", "arx"},
-                        {"na", json_of(arx.orders.na)},
-                        {"nb", json_of(arx.orders.nb)},
-                        {"nk", json_of(arx.orders.nk)},
-                        {"history", arx.orders.history()},
-                        {"noise_rank", arx.noise.rank},
-                        {"radius", number(spectral_radius(arx))}};
-  describe_arx(arx, result["dynamics"]);
+  result["dynamics"] = std::visit([](const auto& kind) { return dynamics_of(kind); }, model->dynamics);
   result["view"] = view_of(*model);
   result["extinction"] = json_of(model->extinction, *model);
   result["cost"] = *cost;
   result["made"] = made_by(model->provenance);
   result["usable"] = json_of(model->provenance.usable);
   describe(result, terminal);
-  say_poles(arx, model->rate_hz, terminal);
+  if (const auto* arx = std::get_if<ArxModel>(&model->dynamics)) say_poles(*arx, model->rate_hz, terminal);
   if (model->extinction) terminal.say("blow-out  " + sentence_of(*model->extinction));
   return {};
 }

@@ -14,6 +14,7 @@
 #include "outline_film.hpp"
 #include "outline_learning.hpp"
 #include "recordings.hpp"
+#include "validate_chain.hpp"
 #include "validation_figures.hpp"
 #include "wisp/learn/outline_shape.hpp"
 #include "wisp/learn/validation.hpp"
@@ -262,6 +263,7 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   if (!model) return model.error();
   const auto steps = judged_steps(arguments);
   if (!steps) return steps.error();
+  if (std::holds_alternative<ChainModel>(model->dynamics)) return validate_chain(*model, arguments, terminal);
   const auto* view = std::get_if<OutlineView>(&model->view);
   if (!view) return validate_plain(*model, *steps, arguments, terminal);
   const auto subject = subject_of(positionals[1], *view, arguments, terminal);

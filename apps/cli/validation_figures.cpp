@@ -88,8 +88,8 @@ PlotSheet time_sheet(const Recording& recording, const Judged& judged) {
   for (std::size_t channel : channels_with_role(recording, Role::kInput)) {
     const Channel& input = recording.channels[channel];
     // A unit of 1 is no unit: what of a sound is made into a wind is told as shares of a strong gust.
-    const std::string unit = input.unit == "1" ? "1: a strong gust" : input.unit;
-    Plot plot{.title = input.name, .x = {.label = "seconds"}, .y = {.label = unit}};
+    const std::string of_wind = input.unit == "1" ? "1: a strong gust" : input.unit;
+    Plot plot{.title = input.name, .x = {.label = "seconds"}, .y = {.label = of_wind}};
     plot.series = {{.x = seconds, .y = input.samples}};
     sheet.plots.push_back(std::move(plot));
   }

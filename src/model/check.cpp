@@ -1,6 +1,7 @@
 // The meaning of a model: what every reader of a file, and every bank, relies on.
 
 #include <cmath>
+#include <initializer_list>
 #include <set>
 #include <string>
 
@@ -44,6 +45,17 @@ Result<void> check_dynamics(const Model& model, const ArxModel& arx) {
   return {};
 }
 
+Result<void> check_dynamics(const Model& model, const ChainModel& chain) {
+  if (auto ok = check(chain); !ok) return ok;
+  const auto channels = static_cast<std::size_t>(channel_count(chain.motion));
+  if (model.outputs.size() != channels) {
+    return Error{"the chain moves " + std::to_string(channels) + " outputs, the model names " +
+                 std::to_string(model.outputs.size())};
+  }
+  if (!model.inputs.empty()) return Error{"a chain has no use for the model's inputs"};
+  return {};
+}
+
 Result<void> check_view(const Model& model, const OutlineView& outline) {
   if (!valid_knots(outline.knots))
     return Error{"the outline's knots are not a clamped, ascending cubic knot vector over 0 to 1"};
@@ -59,6 +71,27 @@ Result<void> check_view(const Model& model, const OutlineView& outline) {
 }
 
 Result<void> check_view(const Model&, const PlainView&) { return {}; }
+
+Result<void> check_body(const Model& model, std::size_t outputs, const std::string& what,
+                        std::initializer_list<double> sizes) {
+  if (model.outputs.size() != outputs) {
+    return Error{"a " + what + " needs " + std::to_string(outputs) + " outputs, the model names " +
+                 std::to_string(model.outputs.size())};
+  }
+  for (double size : sizes) {
+    if (!std::isfinite(size) || size < 0)
+      return Error{"the size of the body in the " + what + " is not a positive number"};
+  }
+  return {};
+}
+
+Result<void> check_view(const Model& model, const PoseView& pose) {
+  return check_body(model, 7, "pose", {pose.half_width, pose.half_length});
+}
+
+Result<void> check_view(const Model& model, const PositionView& position) {
+  return check_body(model, 3, "position", {position.half_width});
+}
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <string>
 
+#include "model/chain_payload.hpp"
 #include "wisp_generated.h"
 
 namespace wisp {
@@ -209,6 +210,12 @@ Result<void> read_channels(const file::Model& stored, Model& model) {
 }
 
 Result<void> read_dynamics(const file::Model& stored, Model& model) {
+  if (const auto* chain = stored.dynamics_as_Chain()) {
+    auto read = read_chain(*chain);
+    if (!read) return read.error();
+    model.dynamics = std::move(*read);
+    return {};
+  }
   const auto* arx = stored.dynamics_as_Arx();
   if (!arx) return Error{"has a kind of dynamics that this program does not know; update Wisp"};
   auto read = read_arx(*arx, static_cast<int>(model.outputs.size()), static_cast<int>(regressor_count(model.inputs)));
@@ -219,6 +226,14 @@ Result<void> read_dynamics(const file::Model& stored, Model& model) {
 
 Result<void> read_view(const file::Model& stored, Model& model) {
   if (stored.view_type() == file::View::NONE) return {};
+  if (const auto* pose = stored.view_as_Pose()) {
+    model.view = PoseView{pose->half_width(), pose->half_length()};
+    return {};
+  }
+  if (const auto* position = stored.view_as_Position()) {
+    model.view = PositionView{position->half_width()};
+    return {};
+  }
   const auto* outline = stored.view_as_Outline();
   if (!outline) return Error{"has a view that this program does not know; update Wisp"};
   model.view = OutlineView{numbers(outline->knots()), outline->metres_per_unit(), outline->pixels_per_unit()};
@@ -230,6 +245,36 @@ std::optional<Extinction> read_extinction(const file::Model& stored) {
   if (!rule) return {};
   return Extinction{rule->input(),    rule->level(), rule->seconds(), rule->haste(),
                     rule->recovery(), rule->dying(), rule->catching()};
+}
+
+// A member of a union: which, and where.
+template <class Kind>
+struct Member {
+  Kind kind = Kind::NONE;
+  fb::Offset<void> at;
+};
+
+Member<file::Dynamics> write_dynamics(Builder& builder, const ArxModel& arx) {
+  return {file::Dynamics::Arx, write_arx(builder, arx).Union()};
+}
+
+Member<file::Dynamics> write_dynamics(Builder& builder, const ChainModel& chain) {
+  return {file::Dynamics::Chain, write_chain(builder, chain).Union()};
+}
+
+Member<file::View> write_view(Builder&, const PlainView&) { return {}; }
+
+Member<file::View> write_view(Builder& builder, const OutlineView& outline) {
+  const auto at = file::CreateOutlineDirect(builder, &outline.knots, outline.metres_per_unit, outline.pixels_per_unit);
+  return {file::View::Outline, at.Union()};
+}
+
+Member<file::View> write_view(Builder& builder, const PoseView& pose) {
+  return {file::View::Pose, file::CreatePose(builder, pose.half_width, pose.half_length).Union()};
+}
+
+Member<file::View> write_view(Builder& builder, const PositionView& position) {
+  return {file::View::Position, file::CreatePosition(builder, position.half_width).Union()};
 }
 
 }  // namespace
@@ -246,21 +291,15 @@ std::vector<std::byte> write_payload(const Model& model) {
     outputs.push_back(
         file::CreateOutputDirect(builder, output.name.c_str(), output.unit.c_str(), output.lowest, output.highest));
   }
-  const auto arx = write_arx(builder, std::get<ArxModel>(model.dynamics));
-  fb::Offset<void> view;
-  file::View view_type = file::View::NONE;
-  if (const auto* outline = std::get_if<OutlineView>(&model.view)) {
-    view =
-        file::CreateOutlineDirect(builder, &outline->knots, outline->metres_per_unit, outline->pixels_per_unit).Union();
-    view_type = file::View::Outline;
-  }
+  const auto dynamics = std::visit([&](const auto& kind) { return write_dynamics(builder, kind); }, model.dynamics);
+  const auto view = std::visit([&](const auto& kind) { return write_view(builder, kind); }, model.view);
   const auto provenance = write_provenance(builder, model.provenance);
   const auto extinction = write_extinction(builder, model.extinction);
   const auto name = builder.CreateString(model.name);
   const auto inputs_at = builder.CreateVector(inputs);
   const auto outputs_at = builder.CreateVector(outputs);
-  builder.Finish(file::CreateModel(builder, name, model.rate_hz, inputs_at, outputs_at, file::Dynamics::Arx,
-                                   arx.Union(), view_type, view, provenance, extinction));
+  builder.Finish(file::CreateModel(builder, name, model.rate_hz, inputs_at, outputs_at, dynamics.kind, dynamics.at,
+                                   view.kind, view.at, provenance, extinction));
   const auto bytes = std::as_bytes(std::span(builder.GetBufferPointer(), builder.GetSize()));
   return {bytes.begin(), bytes.end()};
 }

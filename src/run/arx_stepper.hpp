@@ -5,26 +5,22 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "run/arx_program.hpp"
-#include "run/random_lanes.hpp"
+#include "run/moment.hpp"
+#include "wisp/run/bank.hpp"
 
 namespace wisp {
-
-/// What a step needs to know of the moment, beside the state: the same for every kind of dynamics.
-template <class N>
-struct Moment {
-  const RandomKeys* keys = nullptr;
-  LaneCounters counters{};        ///< of the block
-  std::uint32_t* held = nullptr;  ///< per lane: not 0 afterwards where an output was held
-};
 
 template <class N>
 class ArxStepper {
  public:
   using Real = typename N::Real;
   static constexpr int kLanes = N::kLanes;
+  /// Frames over which a cost is averaged: every frame costs the same.
+  static constexpr int kCountedFrames = 1;
 
   /// Where the model's deviations are measured from.
   static OperatingPoint operating_point(const ArxModel& arx) { return {arx.output_mean, arx.input_mean}; }
@@ -86,14 +82,26 @@ class ArxStepper {
   const Real* newest(int block) const { return sample(block, 0); }
   const Real* previous(int block) const { return sample(block, 1); }
 
+  /// What is read of a block: the newest sample, or a `share` of the way to it from the one before.
+  void show(int block, Real* out) const { show_newest<N>(channels_, newest(block), out); }
+  void show_between(int block, float share, Real* out) const {
+    wisp::show_between<N>(channels_, previous(block), newest(block), share, out);
+  }
+
+  /// What a frame reads: games have rates of their own.
+  void show_frame(int block, Real* out) const { show_between(block, 0.5f, out); }
+
   /// Puts one lane to the operating point.
-  void start(int block, int lane) {
+  void start(int block, int lane, const Moment<N>&) {
     for (int lag = 0; lag < program_.depth; ++lag) {
       Real* row = sample(block, lag);
       for (int i = 0; i < program_.outputs; ++i) row[i * kLanes + lane] = Real(channels_.outputs[i].start);
       for (int k = 0; k < program_.regressors; ++k) row[(program_.outputs + k) * kLanes + lane] = Real(0);
     }
   }
+
+  /// An ARX model is not a chain.
+  static std::optional<ChainPlace> chain_place(int, int) { return {}; }
 
   /// Coefficients of A and B that a step multiplies by.
   std::int64_t multiply_adds() const { return static_cast<std::int64_t>(program_.coefficients.size()); }

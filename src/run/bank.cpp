@@ -246,6 +246,12 @@ bool Bank::polyline(InstanceId id, std::span<float> values) const {
   return true;
 }
 
+std::optional<ChainPlace> Bank::chain_place(InstanceId id) const {
+  if (!valid(id)) return {};
+  const int block = static_cast<int>(id.slot) / State::kLanes, lane = static_cast<int>(id.slot) % State::kLanes;
+  return std::visit([&](const auto& dynamics) { return dynamics.chain_place(block, lane); }, state_->stepper);
+}
+
 bool Bank::reset(InstanceId id) {
   if (!valid(id)) return false;
   state_->start(static_cast<int>(id.slot));

@@ -65,7 +65,8 @@ Bank::State::State(const Model& model, const BankOptions& options, Arena& arena)
 void Bank::State::start(int slot) {
   const int block = slot / kLanes, lane = slot % kLanes;
   born[slot] = steps;
-  std::visit([&](auto& dynamics) { dynamics.start(block, lane); }, stepper);
+  std::uint32_t flags[kLanes];
+  std::visit([&](auto& dynamics) { dynamics.start(block, lane, moment(block, flags)); }, stepper);
   if (extinction.present) {
     harm[slot] = 0.0f;
     lit[slot] = size[slot] = previous_size[slot] = 1.0f;
@@ -78,7 +79,8 @@ void Bank::State::start(int slot) {
 void Bank::State::relight(int slot) {
   if (burns(slot)) return;
   const int block = slot / kLanes, lane = slot % kLanes;
-  std::visit([&](auto& dynamics) { dynamics.start(block, lane); }, stepper);
+  std::uint32_t flags[kLanes];
+  std::visit([&](auto& dynamics) { dynamics.start(block, lane, moment(block, flags)); }, stepper);
   harm[slot] = 0.0f;
   lit[slot] = 1.0f;
   lit_at[slot] = steps;
@@ -157,16 +159,21 @@ void Bank::State::set_noise(float scale) {
   std::visit([&](auto& dynamics) { dynamics.set_noise(scale); }, stepper);
 }
 
+Moment<LiveNumbers> Bank::State::moment(int block, std::uint32_t* flags) const {
+  const std::size_t first = static_cast<std::size_t>(block) * kLanes;
+  return {&keys, {stream.data() + first, born.data() + first, steps}, flags};
+}
+
 void Bank::State::step_all() {
   std::visit(
       [&](auto& dynamics) {
         dynamics.turn();
         const std::size_t count = channels.regressors.size() * kLanes;
         for (int block = 0; block < blocks(); ++block) {
-          std::copy_n(regressors_of(block), count, dynamics.regressors(block));
+          if (count > 0) std::copy_n(regressors_of(block), count, dynamics.regressors(block));
           const std::size_t first = static_cast<std::size_t>(block) * kLanes;
           std::uint32_t flags[kLanes];
-          dynamics.step(block, {&keys, {stream.data() + first, born.data() + first, steps}, flags});
+          dynamics.step(block, moment(block, flags));
           if (extinction.present) live_block(block);
           for (int lane = 0; lane < kLanes; ++lane) {
             held.held += (flags[lane] & 1) & alive[first + lane] & std::uint32_t{burns(static_cast<int>(first) + lane)};
@@ -198,9 +205,9 @@ void Bank::State::show_block(int block) {
   std::visit(
       [&](const auto& dynamics) {
         if (between) {
-          show_between<LiveNumbers>(channels, dynamics.previous(block), dynamics.newest(block), share, shown_of(block));
+          dynamics.show_between(block, share, shown_of(block));
         } else {
-          show_newest<LiveNumbers>(channels, dynamics.newest(block), shown_of(block));
+          dynamics.show(block, shown_of(block));
         }
       },
       stepper);

@@ -32,6 +32,7 @@ struct Bank::State {
   }
   bool burns(int slot) const { return !extinction.present || lit[slot] != 0.0f; }
 
+  Moment<LiveNumbers> moment(int block, std::uint32_t* flags) const;
   void start(int slot);
   void relight(int slot);
   void extinguish(int slot);

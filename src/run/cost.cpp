@@ -27,23 +27,29 @@ OperationCount count_inputs(const Channels& channels) {
   });
 }
 
+// Of one step; the mean over as many as it takes, rounded up.
 template <class Stepper>
 OperationCount count_step(Stepper& stepper, float noise) {
+  constexpr int kFrames = Stepper::kCountedFrames;
   const RandomKeys keys = random_keys(1);
   const std::uint64_t stream = 0, born = 0;
   std::uint32_t held = 0;
   stepper.set_noise(noise);
-  return count([&] {
-    stepper.turn();
-    stepper.step(0, {&keys, {&stream, &born, 0}, &held});
+  stepper.start(0, 0, {&keys, {&stream, &born, 0}, &held});
+  const OperationCount all = count([&] {
+    for (std::uint64_t step = 0; step < kFrames; ++step) {
+      stepper.turn();
+      stepper.step(0, {&keys, {&stream, &born, step}, &held});
+    }
   });
+  return {(all.numbers + kFrames - 1) / kFrames, (all.words + kFrames - 1) / kFrames};
 }
 
 template <class Stepper>
 OperationCount count_view(const Channels& channels, const Stepper& stepper, std::span<const PolylinePoint> polyline) {
   std::vector<CountingReal> shown(channels.outputs.size());
   return count([&] {
-    show_between<CountingNumbers>(channels, stepper.previous(0), stepper.newest(0), 0.5f, shown.data());
+    stepper.show_frame(0, shown.data());
     for (const PolylinePoint& point : polyline) {
       for (int coordinate : {0, 1}) polyline_lanes<CountingNumbers>(point, coordinate, shown.data());
     }

@@ -29,10 +29,14 @@ inline CountingReal counted(float value) {
 inline CountingReal operator+(CountingReal a, CountingReal b) { return counted(a.value + b.value); }
 inline CountingReal operator-(CountingReal a, CountingReal b) { return counted(a.value - b.value); }
 inline CountingReal operator*(CountingReal a, CountingReal b) { return counted(a.value * b.value); }
+inline CountingReal operator/(CountingReal a, CountingReal b) { return counted(a.value / b.value); }
 inline CountingReal operator-(CountingReal a) { return counted(-a.value); }
 inline bool operator<(CountingReal a, CountingReal b) { return a.value < b.value; }
 inline bool operator>(CountingReal a, CountingReal b) { return a.value > b.value; }
 inline bool operator==(CountingReal a, CountingReal b) { return a.value == b.value; }
+
+inline CountingReal square_root(CountingReal a) { return counted(__builtin_sqrtf(a.value)); }
+inline float value_of(CountingReal a) { return a.value; }
 
 struct CountingWord {
   std::uint32_t value = 0;
@@ -66,6 +70,8 @@ inline WideProduct<CountingWord> wide_product_part(CountingWord a, std::uint32_t
   const std::uint64_t product = static_cast<std::uint64_t>(a.value) * b;
   return {counted(static_cast<std::uint32_t>(product >> 32)), {static_cast<std::uint32_t>(product)}};
 }
+
+inline std::uint32_t value_of(CountingWord word) { return word.value; }
 
 /// One lane of them.
 struct CountingNumbers {

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "run/arx_stepper.hpp"
+#include "run/chain_stepper.hpp"
 
 namespace wisp {
 
@@ -18,7 +19,12 @@ struct StepperOf<ArxModel, N> {
   using Type = ArxStepper<N>;
 };
 
-using Stepper = std::variant<ArxStepper<LiveNumbers>>;
+template <class N>
+struct StepperOf<ChainModel, N> {
+  using Type = ChainStepper<N>;
+};
+
+using Stepper = std::variant<ArxStepper<LiveNumbers>, ChainStepper<LiveNumbers>>;
 
 /// Calls use(dynamics, stepper kind) with the model's dynamics and a std::type_identity of what steps them.
 template <class N, class Use>

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "wisp/model/arx.hpp"
+#include "wisp/model/chain.hpp"
 #include "wisp/model/extinction.hpp"
 
 namespace wisp {
@@ -53,8 +54,20 @@ struct OutlineView {
 /// The outputs stand for nothing but themselves.
 struct PlainView {};
 
-using Dynamics = std::variant<ArxModel>;
-using View = std::variant<PlainView, OutlineView>;
+/// The outputs are a body's position pos.x, pos.y, pos.z in metres, z up, and its orientation, the unit quaternion q.w,
+/// q.x, q.y, q.z from the body's axes to the world's. The body is flat; its normal is its third axis.
+struct PoseView {
+  double half_width = 0;   ///< metres along the body's first axis; 0 where it is not known
+  double half_length = 0;  ///< metres along its second axis
+};
+
+/// The outputs are a thing's position pos.x, pos.y, pos.z in metres, z up.
+struct PositionView {
+  double half_width = 0;  ///< metres; 0 where it is not known
+};
+
+using Dynamics = std::variant<ArxModel, ChainModel>;
+using View = std::variant<PlainView, OutlineView, PoseView, PositionView>;
 
 /// Whether a model may be used, and why not (or why so).
 struct Usable {

@@ -31,6 +31,12 @@ struct InstanceId {
   friend bool operator==(const InstanceId&, const InstanceId&) = default;
 };
 
+/// Where an instance of a segment chain is.
+struct ChainPlace {
+  std::uint32_t segment = 0;  ///< index into ChainModel::segments
+  std::uint32_t step = 0;     ///< of that segment; at 0 it was joined to the one before
+};
+
 /// How a bank is made.
 struct BankOptions {
   int capacity = 1;                  ///< most instances alive at once; 1 to 1 048 576
@@ -143,6 +149,9 @@ class Bank {
 
   /// Reads the outline of one instance: polyline_points() × (x, y). Returns false when `id` is not valid.
   bool polyline(InstanceId id, std::span<float> values) const;
+
+  /// Where in its chain an instance is; nothing where the dynamics are not a chain or `id` is not valid.
+  std::optional<ChainPlace> chain_place(InstanceId id) const;
 
   /// Whether the model has a rule of extinction (wisp/model/extinction.hpp). Where it has one, instances whose wind the
   /// rule finds too strong go out in a step and stay out, whatever the wind does then; their outputs shrink to 0 and

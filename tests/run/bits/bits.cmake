@@ -22,7 +22,7 @@ file(GLOB computing ${SOURCE}/src/run/*.cpp)
 list(FILTER computing EXCLUDE REGEX "/(wind_|cost)")
 list(APPEND computing ${SOURCE}/src/model/bspline.cpp ${SOURCE}/tests/run/bits/frames.cpp)
 file(GLOB ground ${SOURCE}/src/model/*.cpp)
-list(FILTER ground EXCLUDE REGEX "/(bspline|file|payload)\\.cpp$")  # on the path; not needed
+list(FILTER ground EXCLUDE REGEX "/(bspline|file|.*payload)\\.cpp$")  # on the path; not needed
 list(APPEND ground ${SOURCE}/src/base/hash.cpp)
 
 # Compiles sources into `folder` and appends the objects to `objects`.

@@ -1,0 +1,207 @@
+// `wisp learn chain` and its preset `wisp learn leaf`: a segment chain from recordings of something that moves.
+
+#include <chrono>
+#include <filesystem>
+
+#include "chain_json.hpp"
+#include "commands.hpp"
+#include "figures_json.hpp"
+#include "recordings.hpp"
+#include "terminal.hpp"
+#include "wisp/learn/chain.hpp"
+#include "wisp/model/file.hpp"
+
+namespace wisp::cli {
+namespace {
+
+int number_or_auto(const Arguments& arguments, std::string_view flag) {
+  return arguments.text(flag) == "auto" ? 0 : arguments.integer(flag);
+}
+
+Result<ChainOptions> options_from(const Arguments& arguments) {
+  ChainOptions options;
+  options.name = std::filesystem::path(arguments.text("output")).stem().string();
+  auto event = parse_event(arguments.text("event"));
+  if (!event) return Error{"--event: " + event.error().message};
+  auto features = parse_features(arguments.text("features"));
+  if (!features) return Error{"--features: " + features.error().message};
+  options.segmentation = {.event = std::move(*event),
+                          .least_seconds = arguments.number("shortest"),
+                          .debounce = arguments.number("debounce")};
+  options.features = *features;
+  options.features.heading_free = arguments.text("frame") == "heading";
+  options.modes = number_or_auto(arguments, "modes");
+  options.history = number_or_auto(arguments, "history");
+  options.store.breadth = arguments.integer("best-of");
+  options.store.most_bytes = static_cast<std::size_t>(arguments.integer("most-bytes"));
+  options.blend_share = arguments.number("blend");
+  options.holdout = arguments.number("holdout");
+  options.restarts = arguments.integer("restarts");
+  options.smooth_rows = arguments.integer("smooth");
+  options.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
+  for (const char* flag : {"modes", "history"}) {
+    if (arguments.text(flag) != "auto" && arguments.integer(flag) < 1) {
+      return Error{"--" + std::string(flag) + " is " + arguments.text(flag) + ", expected at least 1, or auto"};
+    }
+  }
+  return options;
+}
+
+// Full axes of the leaf, where its maker has said them.
+void take_size(const std::vector<Recording>& recordings, ChainOptions& options) {
+  const auto size = numbers_attribute(recordings.front(), "leaf_length_width_density");
+  if (!size || !*size || (*size)->size() < 2) return;
+  options.half_width = (**size)[0] / 2;
+  options.half_length = (**size)[1] / 2;
+}
+
+void report(const ChainFit& fit, Terminal& terminal) {
+  const ChainSummary& summary = fit.summary;
+  Json& result = terminal.result();
+  result["segments"] = summary.segments;
+  result["stored"] = summary.stored;
+  result["stretches"] = {{"learned", summary.stretches_learned}, {"held_out", summary.stretches_held_out}};
+  result["modes"] = summary.modes;
+  result["mode_sizes"] = summary.mode_sizes;
+  result["history"] = summary.history;
+  result["initial"] = json_of(summary.initial);
+  result["transitions"] = matrix_json(summary.transitions, summary.modes);
+  result["mean_segment_seconds"] = number(summary.mean_segment_seconds);
+  result["silhouette"] = number(summary.silhouette);
+  result["log_likelihood"] = {{"chosen", number(summary.log_likelihood)},
+                              {"0", number(summary.log_likelihood_0)},
+                              {"1", number(summary.log_likelihood_1)},
+                              {"2", number(summary.log_likelihood_2)}};
+  terminal.say(std::to_string(summary.segments) + " segments of " + shown(summary.mean_segment_seconds) + " s in " +
+               std::to_string(summary.modes) + " modes, " + std::to_string(summary.stored) +
+               " of them stored; histories of up to " + std::to_string(summary.history));
+  terminal.say("held-out log-likelihood a segment: " + shown(summary.log_likelihood, 4) + "; without history " +
+               shown(summary.log_likelihood_0, 4) + ", order 1 " + shown(summary.log_likelihood_1, 4) + ", order 2 " +
+               shown(summary.log_likelihood_2, 4));
+  for (int from = 0; from < summary.modes; ++from) {
+    std::string row = "  from " + std::to_string(from) + ":";
+    for (int to = 0; to < summary.modes; ++to) {
+      char cell[16];
+      std::snprintf(cell, sizeof cell, " %6.3f",
+                    summary.transitions[static_cast<std::size_t>(from * summary.modes + to)]);
+      row += cell;
+    }
+    terminal.say(row);
+  }
+}
+
+// How like the stretches that were held out, or, where none were, those that were learned from.
+void judge(ChainFit& fit, const ChainOptions& options, Terminal& terminal) {
+  ChainFidelityOptions judging{
+      .segmentation = options.segmentation, .smooth_rows = options.smooth_rows, .seed = options.seed};
+  const auto& real = fit.held_out.empty() ? fit.learned : fit.held_out;
+  const auto fidelity = chain_fidelity(fit.model, real, judging);
+  if (!fidelity) {
+    terminal.warn("likeness was not measured: " + fidelity.error().message);
+    terminal.result()["fidelity"] = nullptr;
+    return;
+  }
+  const double verbatim = longest_verbatim_seconds(fit.model, fit.origin, 20000, options.seed);
+  terminal.result()["fidelity"] = fidelity_json(*fidelity);
+  terminal.result()["fidelity"]["verbatim_seconds"] = number(verbatim);
+  terminal.result()["join_defect"] = join_defect_json(fidelity->join_defect);
+  say_fidelity(*fidelity, terminal);
+  terminal.say("longest stretch copied from one recording: " + shown(verbatim) + " s");
+  add_figures(*fidelity, fit.model.provenance);
+  fit.model.provenance.figures.push_back({"verbatim_seconds", verbatim});
+}
+
+Result<void> run(const Arguments& arguments, Terminal& terminal) {
+  const auto start = std::chrono::steady_clock::now();
+  auto options = options_from(arguments);
+  if (!options) return options.error();
+  const auto recordings = read_tables(arguments.positionals(), arguments, terminal);
+  if (!recordings) return recordings.error();
+  take_size(*recordings, *options);
+  auto fit = learn_chain(*recordings, *options);
+  if (!fit) return fit.error();
+  fit->model.provenance.program = "wisp " WISP_VERSION;
+  for (const std::string& warning : fit->summary.warnings) terminal.warn(warning);
+  report(*fit, terminal);
+  judge(*fit, *options, terminal);
+  const auto cost = cost_of(fit->model);
+  if (!cost) return cost.error();
+  terminal.result()["cost"] = *cost;
+  terminal.result()["usable"] = json_of(fit->model.provenance.usable);
+  terminal.result()["seed"] = options->seed;
+  if (auto ok = write_model(arguments.text("output"), fit->model); !ok) return ok;
+  terminal.result()["output"] = arguments.text("output");
+  terminal.result()["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const Usable& usable = fit->model.provenance.usable;
+  terminal.say(std::string(usable.verdict ? "usable: " : "not usable: ") + usable.reason);
+  return {};
+}
+
+std::vector<Flag> flags(const std::string& event, const std::string& features) {
+  std::vector<Flag> all = {
+      {"output", Kind::kPath, "M.wisp", "", "where to write the model", {}, true},
+      {"event", Kind::kText, "SPEC", event,
+       "where motion is cut: zero:, min: or max: of a channel, or of speed, horizontal_speed, forward_speed"},
+      {"features", Kind::kNames, "LIST", features,
+       "what tells segments apart: velocity, length, direction, spin, tilt, duration"},
+      {"frame",
+       Kind::kChoice,
+       "world|heading",
+       "heading",
+       "whether directions are the world's, or a segment's own, so that the chain does not learn which way was north",
+       {"world", "heading"}},
+      {"modes", Kind::kIntegerOrWord, "K|auto", "6", "how many kinds of segment", {"auto"}},
+      {"history",
+       Kind::kIntegerOrWord,
+       "H|auto",
+       "auto",
+       "how many modes back the next one depends on; auto: as many as unseen recordings profit from",
+       {"auto"}},
+      {"best-of", Kind::kInteger, "N", "8",
+       "a segment is followed by one of its N best-joining ones of the mode; 0: by any of the mode"},
+      {"blend", Kind::kNumber, "SHARE", "0.5", "most of a segment that a join fades over, 0 to 0.5; 0: not at all"},
+      {"shortest", Kind::kNumber, "S", "0.04", "seconds; events nearer to the one before do not count"},
+      {"debounce", Kind::kNumber, "D", "0.1",
+       "standard deviations that the signal must move beyond an event on both sides"},
+      {"smooth", Kind::kInteger, "ROWS", "0", "rows that velocities are taken over, where positions are noisy"},
+      {"most-bytes", Kind::kInteger, "N", "900000", "of stored segments; what is more is left out at random"},
+      {"holdout", Kind::kNumber, "SHARE", "0.2", "share of the stretches kept for judging"},
+      {"restarts", Kind::kInteger, "N", "10", "starts of the clustering; the best is taken"},
+      {"seed", Kind::kInteger, "N", "1", "of all chance"},
+      {"inputs", Kind::kNames, "A,B", "", "columns of a plain table that are inputs"},
+      {"outputs", Kind::kNames, "C,D", "", "columns of a plain table that are outputs"},
+  };
+  for (Flag& flag : recording_flags()) all.push_back(std::move(flag));
+  return all;
+}
+
+constexpr const char* kRecordings =
+    "recordings with pos.x, pos.y, pos.z (metres, z up) and, where known, q.w, q.x, q.y, q.z";
+
+}  // namespace
+
+Command learn_chain_command() {
+  return {
+      "learn chain",
+      "Learns a chain of segments from recordings of something that moves: cut at events, sorted into modes, counted.",
+      {{"REC", kRecordings, true}},
+      flags("min:horizontal_speed", "velocity,length,direction"),
+      {{"wisp learn chain falls.csv -o disc.wisp --event min:horizontal_speed --smooth 7",
+        "Tracks of falling paper: positions only"}},
+      run,
+  };
+}
+
+Command learn_leaf_command() {
+  return {
+      "learn leaf",
+      "Learns how a leaf falls: `learn chain`, cut where the leaf stalls.",
+      {{"REC", kRecordings, true}},
+      flags("zero:forward_speed", "velocity,length,direction"),
+      {{"wisp learn leaf drops.csv -o leaf.wisp", "From `wisp simulate leaf`"},
+       {"wisp learn leaf drops.csv -o paper.wisp --history 1 --best-of 0 --blend 0", "The paper's own chain"}},
+      run,
+  };
+}
+
+}  // namespace wisp::cli

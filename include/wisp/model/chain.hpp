@@ -1,0 +1,88 @@
+#pragma once
+// A segment chain, as a value: pieces of recorded motion between critical events, sorted into modes; a Markov chain of
+// variable order over the modes; and how one piece joins the next.
+//
+// Segments are stored compactly, 16 bits a number and one scale for all positions, each in a frame of its own: its
+// position begins at the origin and, in a chain that is free of heading, what "ahead" means is the segment's own
+// business.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "wisp/base/result.hpp"
+
+namespace wisp {
+
+/// What the channels of a chain are, and so how a segment is placed where the one before it ended.
+enum class ChainMotion : std::uint8_t {
+  kPosition,  ///< x, y, z: placed by moving it
+  kPose,      ///< x, y, z, then the quaternion w, x, y, z (unit, body to world)
+};
+
+/// Channels of a motion: 3 or 7.
+int channel_count(ChainMotion motion);
+
+/// Scales of its rows, and of its rates: 1 or 2.
+int scale_count(ChainMotion motion);
+
+/// Numbers of the rates at a segment's end: velocity x, y, z and, for poses, angular velocity x, y, z. 3 or 6.
+int rate_count(ChainMotion motion);
+
+inline constexpr std::size_t kMostSegments = 65535;
+inline constexpr std::size_t kMostModes = 256;
+inline constexpr std::size_t kMostSegmentSteps = 65535;
+
+/// All segments, those of one mode together and modes in ascending order.
+struct ChainSegments {
+  std::vector<std::uint16_t> mode;   ///< per segment
+  std::vector<std::uint16_t> steps;  ///< per segment, ≥ 1: steps of the model's clock from its event to the next one
+  std::vector<std::int16_t> rows;    ///< per segment (steps + 1) rows of all channels; the last is where the next joins
+  std::vector<double> row_scale;     ///< of positions and, for poses, of quaternions: value = scale · row; > 0
+  std::vector<std::int16_t> rates;   ///< per segment the rates at its start, then at its end, a second
+  std::vector<double> rate_scale;    ///< of velocities and, for poses, of angular velocities; > 0
+  std::vector<std::uint16_t> follow;  ///< segments × modes × breadth: the segments of that mode that join it best, best
+                                      ///< first; empty where breadth is 0
+  int breadth = 0;  ///< 0: any segment of the mode follows
+
+  std::size_t size() const { return mode.size(); }
+};
+
+/// What may come after a history of modes.
+struct ChainContext {
+  std::vector<std::uint16_t> history;  ///< the last modes, oldest first; not empty
+  std::vector<double> probability;     ///< per mode; sums to 1
+};
+
+/// How a join is smoothed: position, orientation and their rates go over to the new segment by inertialization.
+struct ChainBlend {
+  double share = 0.5;         ///< most of the new segment that is blended, in [0, 0.5]; 0 leaves joins as they are
+  double longest_steps = 30;  ///< and most steps
+};
+
+struct ChainModel {
+  ChainMotion motion = ChainMotion::kPose;
+  bool heading_free = true;  ///< segments are turned about z to join; otherwise only moved
+  int modes = 0;
+  ChainSegments segments;
+  std::vector<double> initial;         ///< per mode: how a recording begins; sums to 1
+  std::vector<ChainContext> contexts;  ///< every single mode, and longer histories that say more
+  ChainBlend blend;
+
+  /// Order of the longest history.
+  int history() const;
+
+  /// Probabilities after exactly one mode, modes × modes, row-major.
+  std::vector<double> transitions() const;
+};
+
+/// Index of the first row of each segment, and one past the last: rows, not numbers.
+std::vector<std::uint32_t> segment_rows(const ChainSegments& segments);
+
+/// Checks shapes, ranges of indices, order of the modes, that probabilities sum to 1, scales and finiteness. Errors say
+/// which of them and what was expected.
+Result<void> check(const ChainModel& model);
+
+}  // namespace wisp

@@ -1,0 +1,22 @@
+#pragma once
+// Which segments join which with the least to smooth over.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "wisp/learn/motion.hpp"
+#include "wisp/learn/segmentation.hpp"
+
+namespace wisp {
+
+/// For each segment and mode the `breadth` segments of that mode whose beginning is nearest to its end, nearest first
+/// (a mode with fewer repeats them): by attitude, velocity and angular velocity, in the body's own axes where the chain
+/// is free of heading, each over its standard deviation. A segment does not follow itself where its mode has others.
+///
+/// Precondition: every mode below `modes` has a segment; breadth > 0.
+std::vector<std::uint16_t> best_followers(const Motion& motion, std::span<const Segment> segments,
+                                          std::span<const std::uint16_t> mode, int modes, bool heading_free,
+                                          int breadth);
+
+}  // namespace wisp

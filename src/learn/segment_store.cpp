@@ -1,0 +1,144 @@
+#include "wisp/learn/segment_store.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "learn/fidelity_shuffle.hpp"
+#include "learn/segment_joins.hpp"
+#include "wisp/learn/segment_features.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr double kMostStored = 32767;
+
+// What a segment consists of, in its own frame, before it is rounded.
+struct Piece {
+  std::vector<Triple> position;
+  std::vector<Quad> orientation;
+  std::array<Triple, 2> velocity;
+  std::array<Triple, 2> spin;
+};
+
+Piece piece_of(const Motion& motion, const Segment& segment, bool heading_free) {
+  const MotionPiece& from = motion.pieces[segment.piece];
+  const double heading = heading_free ? heading_of(motion, segment) : 0;
+  const double rows = segment.end - segment.begin, stretch = rows / segment.steps;
+  const Triple origin = at_row(from.position, segment.begin);
+  Piece piece;
+  for (int step = 0; step <= segment.steps; ++step) {
+    const double row = segment.begin + stretch * step;
+    const Triple at = at_row(from.position, row);
+    piece.position.push_back(turned_about_z(Triple{at[0] - origin[0], at[1] - origin[1], at[2] - origin[2]}, -heading));
+    if (motion.has_orientation) piece.orientation.push_back(turned_about_z(at_row(from.orientation, row), -heading));
+  }
+  for (std::size_t end : {0U, 1U}) {
+    const double row = end ? segment.end : segment.begin;
+    piece.velocity[end] = turned_about_z(at_row(from.velocity, row), -heading);
+    if (motion.has_orientation) piece.spin[end] = turned_about_z(at_row(from.spin, row), -heading);
+    for (double& x : piece.velocity[end]) x *= stretch;
+    for (double& x : piece.spin[end]) x *= stretch;
+  }
+  return piece;
+}
+
+double largest(double so_far, const Triple& vector) {
+  for (double x : vector) so_far = std::max(so_far, std::abs(x));
+  return so_far;
+}
+
+double scale_for(double most) { return most > 0 ? most / kMostStored : 1.0 / kMostStored; }
+
+template <std::size_t kSize>
+void put(const std::array<double, kSize>& values, double scale, std::vector<std::int16_t>& out) {
+  for (double x : values) {
+    out.push_back(static_cast<std::int16_t>(std::lround(std::clamp(x / scale, -kMostStored, kMostStored))));
+  }
+}
+
+std::size_t bytes_of(const Segment& segment, bool pose, std::size_t followers) {
+  const std::size_t channels = pose ? 7 : 3, rates = pose ? 12 : 6;
+  return 2 * (static_cast<std::size_t>(segment.steps + 1) * channels + rates + 2 + followers);
+}
+
+// Most segments a mode may keep so that all fit: modes that have fewer leave their room to the others.
+std::size_t cap_of(const std::vector<std::vector<std::size_t>>& members, std::size_t most) {
+  std::size_t low = 1, high = most;
+  while (low < high) {
+    const std::size_t cap = (low + high + 1) / 2;
+    std::size_t kept = 0;
+    for (const auto& mode : members) kept += std::min(mode.size(), cap);
+    (kept <= most ? low : high) = kept <= most ? cap : cap - 1;
+  }
+  return low;
+}
+
+// Segments that stay, by mode, and within a mode in the order of the recording.
+std::vector<std::size_t> kept_segments(std::span<const Segment> segments, std::span<const std::uint16_t> cluster,
+                                       int modes, bool pose, const SegmentStoreOptions& options) {
+  std::vector<std::vector<std::size_t>> members(static_cast<std::size_t>(modes));
+  std::size_t bytes = 0;
+  const auto followers = static_cast<std::size_t>(options.breadth) * static_cast<std::size_t>(modes);
+  for (std::size_t k = 0; k < segments.size(); ++k) {
+    members[cluster[k]].push_back(k);
+    bytes += bytes_of(segments[k], pose, followers);
+  }
+  const double share = std::min(1.0, static_cast<double>(options.most_bytes) / static_cast<double>(bytes));
+  const auto room = static_cast<std::size_t>(share * static_cast<double>(segments.size()));
+  const std::size_t cap = cap_of(members, std::clamp<std::size_t>(room, 1, kMostSegments - members.size()));
+  std::mt19937_64 random(options.seed);
+  std::vector<std::size_t> kept;
+  for (auto& mode : members) {
+    shuffle(std::span(mode), random);
+    mode.resize(std::min(mode.size(), cap));
+    std::sort(mode.begin(), mode.end());
+    kept.insert(kept.end(), mode.begin(), mode.end());
+  }
+  return kept;
+}
+
+}  // namespace
+
+SegmentStore store_segments(const Motion& motion, std::span<const Segment> segments,
+                            std::span<const std::uint16_t> cluster, int modes, const SegmentStoreOptions& options) {
+  SegmentStore store;
+  store.source = kept_segments(segments, cluster, modes, motion.has_orientation, options);
+  std::vector<Piece> pieces;
+  double farthest = 0, fastest = 0, quickest = 0;
+  for (std::size_t source : store.source) {
+    pieces.push_back(piece_of(motion, segments[source], options.heading_free));
+    for (const Triple& at : pieces.back().position) farthest = largest(farthest, at);
+    for (const Triple& velocity : pieces.back().velocity) fastest = largest(fastest, velocity);
+    for (const Triple& spin : pieces.back().spin) quickest = largest(quickest, spin);
+  }
+  ChainSegments& out = store.segments;
+  out.row_scale = {scale_for(farthest)};
+  out.rate_scale = {scale_for(fastest)};
+  if (motion.has_orientation) {
+    out.row_scale.push_back(1 / kMostStored);
+    out.rate_scale.push_back(scale_for(quickest));
+  }
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    out.mode.push_back(cluster[store.source[k]]);
+    out.steps.push_back(static_cast<std::uint16_t>(segments[store.source[k]].steps));
+    for (std::size_t row = 0; row < pieces[k].position.size(); ++row) {
+      put(pieces[k].position[row], out.row_scale[0], out.rows);
+      if (motion.has_orientation) put(pieces[k].orientation[row], out.row_scale[1], out.rows);
+    }
+    for (std::size_t end : {0U, 1U}) {
+      put(pieces[k].velocity[end], out.rate_scale[0], out.rates);
+      if (motion.has_orientation) put(pieces[k].spin[end], out.rate_scale[1], out.rates);
+    }
+  }
+  out.breadth = options.breadth;
+  if (options.breadth > 0) {
+    std::vector<Segment> kept;
+    for (std::size_t source : store.source) kept.push_back(segments[source]);
+    out.follow = best_followers(motion, kept, out.mode, modes, options.heading_free, options.breadth);
+  }
+  return store;
+}
+
+}  // namespace wisp

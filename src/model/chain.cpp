@@ -1,0 +1,181 @@
+#include "wisp/model/chain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <set>
+#include <string>
+
+namespace wisp {
+namespace {
+
+constexpr double kMostRounding = 1e-6;  // of a sum of probabilities that were written with at least seven digits
+constexpr std::size_t kMostContexts = 65535;
+constexpr std::size_t kMostHistory = 64;
+constexpr double kLargestScale = 1e9;
+
+std::string found(std::size_t value, const std::string& expected) {
+  return std::to_string(value) + ", expected " + expected;
+}
+
+Result<void> check_size(std::size_t size, std::size_t expected, const std::string& what) {
+  if (size == expected) return {};
+  return Error{"the chain's " + what + " hold " + found(size, std::to_string(expected)) + " values"};
+}
+
+Result<void> check_probabilities(const std::vector<double>& row, int modes, const std::string& what) {
+  if (auto ok = check_size(row.size(), static_cast<std::size_t>(modes), what); !ok) return ok;
+  double sum = 0;
+  for (double p : row) {
+    if (!(p >= 0 && p <= 1)) return Error{"the chain's " + what + " hold a number that is not a probability"};
+    sum += p;
+  }
+  if (std::abs(sum - 1) > kMostRounding) {
+    return Error{"the chain's " + what + " sum to " + std::to_string(sum) + ", expected 1"};
+  }
+  return {};
+}
+
+Result<void> check_scales(const std::vector<double>& scales, int expected, const std::string& what) {
+  if (auto ok = check_size(scales.size(), static_cast<std::size_t>(expected), what); !ok) return ok;
+  for (double scale : scales) {
+    if (!(scale > 0 && scale <= kLargestScale)) return Error{"the chain's " + what + " hold one that is not above 0"};
+  }
+  return {};
+}
+
+Result<void> check_modes(const ChainModel& model) {
+  const ChainSegments& segments = model.segments;
+  std::vector<std::size_t> members(static_cast<std::size_t>(model.modes));
+  for (std::size_t k = 0; k < segments.size(); ++k) {
+    const std::uint16_t mode = segments.mode[k];
+    if (mode >= model.modes) {
+      return Error{"segment " + std::to_string(k) + " has mode " + found(mode, "below " + std::to_string(model.modes))};
+    }
+    if (k > 0 && mode < segments.mode[k - 1]) return Error{"the chain's segments are not in the order of their modes"};
+    if (segments.steps[k] == 0) return Error{"segment " + std::to_string(k) + " has no steps, expected at least 1"};
+    ++members[mode];
+  }
+  for (std::size_t mode = 0; mode < members.size(); ++mode) {
+    if (members[mode] == 0) return Error{"mode " + std::to_string(mode) + " of the chain has no segment"};
+  }
+  return {};
+}
+
+Result<void> check_follow(const ChainModel& model) {
+  const ChainSegments& segments = model.segments;
+  if (segments.breadth < 0 || segments.breadth > 256) {
+    return Error{"the chain's breadth is " + std::to_string(segments.breadth) + ", expected 0 to 256"};
+  }
+  const auto breadth = static_cast<std::size_t>(segments.breadth), modes = static_cast<std::size_t>(model.modes);
+  if (auto ok = check_size(segments.follow.size(), segments.size() * modes * breadth, "followers"); !ok) return ok;
+  for (std::size_t k = 0; k < segments.follow.size(); ++k) {
+    const std::size_t mode = k / breadth % modes, follower = segments.follow[k];
+    if (follower >= segments.size() || segments.mode[follower] != mode) {
+      return Error{"follower " + std::to_string(k) + " of the chain is segment " +
+                   found(follower, "one of mode " + std::to_string(mode))};
+    }
+  }
+  return {};
+}
+
+Result<void> check_segments(const ChainModel& model) {
+  const ChainSegments& segments = model.segments;
+  if (segments.size() == 0 || segments.size() > kMostSegments) {
+    return Error{"a chain has " + std::to_string(segments.size()) + " segments, expected 1 to 65535"};
+  }
+  if (auto ok = check_size(segments.steps.size(), segments.size(), "lengths"); !ok) return ok;
+  if (auto ok = check_modes(model); !ok) return ok;
+  const auto channels = static_cast<std::size_t>(channel_count(model.motion));
+  const auto rates = static_cast<std::size_t>(rate_count(model.motion));
+  if (auto ok = check_size(segments.rows.size(), segment_rows(segments).back() * channels, "rows"); !ok) return ok;
+  if (auto ok = check_size(segments.rates.size(), segments.size() * 2 * rates, "rates"); !ok) return ok;
+  if (auto ok = check_scales(segments.row_scale, scale_count(model.motion), "row scales"); !ok) return ok;
+  if (auto ok = check_scales(segments.rate_scale, scale_count(model.motion), "rate scales"); !ok) return ok;
+  return check_follow(model);
+}
+
+std::string name_of(const std::vector<std::uint16_t>& history) {
+  std::string name = "probabilities after";
+  for (std::uint16_t mode : history) name += " " + std::to_string(mode);
+  return name;
+}
+
+Result<void> check_contexts(const ChainModel& model) {
+  if (model.contexts.size() > kMostContexts) {
+    return Error{"a chain has " + std::to_string(model.contexts.size()) + " histories, expected at most 65535"};
+  }
+  std::set<std::vector<std::uint16_t>> seen;
+  for (const ChainContext& context : model.contexts) {
+    const std::size_t length = context.history.size();
+    if (length == 0 || length > kMostHistory) {
+      return Error{"a history of the chain has " + std::to_string(length) + " modes, expected 1 to 64"};
+    }
+    for (std::uint16_t mode : context.history) {
+      if (mode >= model.modes) {
+        return Error{"a history of the chain has mode " + found(mode, "below " + std::to_string(model.modes))};
+      }
+    }
+    const std::string name = name_of(context.history);
+    if (!seen.insert(context.history).second) return Error{"the chain holds its " + name + " twice"};
+    if (auto ok = check_probabilities(context.probability, model.modes, name); !ok) return ok;
+  }
+  for (int mode = 0; mode < model.modes; ++mode) {
+    if (!seen.count({static_cast<std::uint16_t>(mode)})) {
+      return Error{"the chain does not say what follows mode " + std::to_string(mode)};
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+int channel_count(ChainMotion motion) { return motion == ChainMotion::kPose ? 7 : 3; }
+
+int rate_count(ChainMotion motion) { return motion == ChainMotion::kPose ? 6 : 3; }
+
+int scale_count(ChainMotion motion) { return motion == ChainMotion::kPose ? 2 : 1; }
+
+int ChainModel::history() const {
+  std::size_t longest = 0;
+  for (const ChainContext& context : contexts) longest = std::max(longest, context.history.size());
+  return static_cast<int>(longest);
+}
+
+std::vector<double> ChainModel::transitions() const {
+  const auto count = static_cast<std::size_t>(modes);
+  std::vector<double> matrix(count * count);
+  for (const ChainContext& context : contexts) {
+    if (context.history.size() == 1) {
+      std::copy_n(context.probability.begin(), count, matrix.begin() + static_cast<long>(context.history[0] * count));
+    }
+  }
+  return matrix;
+}
+
+std::vector<std::uint32_t> segment_rows(const ChainSegments& segments) {
+  std::vector<std::uint32_t> first = {0};
+  for (std::uint16_t steps : segments.steps) first.push_back(first.back() + steps + 1U);
+  return first;
+}
+
+Result<void> check(const ChainModel& model) {
+  if (model.motion != ChainMotion::kPosition && model.motion != ChainMotion::kPose) {
+    return Error{"a chain has a kind of motion that this program does not know"};
+  }
+  if (model.modes < 1 || static_cast<std::size_t>(model.modes) > kMostModes) {
+    return Error{"a chain has " + std::to_string(model.modes) + " modes, expected 1 to 256"};
+  }
+  if (auto ok = check_segments(model); !ok) return ok;
+  if (auto ok = check_probabilities(model.initial, model.modes, "initial probabilities"); !ok) return ok;
+  if (auto ok = check_contexts(model); !ok) return ok;
+  if (!(model.blend.share >= 0 && model.blend.share <= 0.5)) {
+    return Error{"a chain blends a share of " + std::to_string(model.blend.share) + " of a segment, expected 0 to 0.5"};
+  }
+  if (!(model.blend.longest_steps >= 0 && model.blend.longest_steps <= 1e6)) {
+    return Error{"a chain blends " + std::to_string(model.blend.longest_steps) + " steps, expected 0 to 1000000"};
+  }
+  return {};
+}
+
+}  // namespace wisp

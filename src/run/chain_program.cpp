@@ -1,0 +1,147 @@
+#include "run/chain_program.hpp"
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include "run/model_hash.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr double kWords = 4294967296.0;  // 2^32
+constexpr double kLeastScale = 1e-12;
+constexpr double kMostScale = 1e6;
+constexpr float kLeastUnit = 1e-6f;
+
+void fill_thresholds(const std::vector<double>& probability, std::span<std::uint32_t> out) {
+  double sum = 0;
+  std::size_t last = 0;
+  for (std::size_t mode = 0; mode < out.size(); ++mode) {
+    sum += probability[mode];
+    out[mode] = static_cast<std::uint32_t>(std::min(sum * kWords, kWords - 1));
+    if (probability[mode] > 0) last = mode;
+  }
+  // The highest words belong to the last mode that can come, however the sum was rounded.
+  for (std::size_t mode = last; mode < out.size(); ++mode) out[mode] = 0xffffffffU;
+}
+
+using Histories = std::map<std::vector<std::uint16_t>, std::uint16_t>;
+
+// The state of the longest known end of a history.
+std::uint16_t state_after(const Histories& states, std::vector<std::uint16_t> history) {
+  for (;;) {
+    const auto found = states.find(history);
+    if (found != states.end()) return found->second;
+    history.erase(history.begin());
+  }
+}
+
+void fill_automaton(const ChainModel& chain, ChainProgram& program) {
+  Histories states;
+  for (std::size_t k = 0; k < chain.contexts.size(); ++k) {
+    states[chain.contexts[k].history] = static_cast<std::uint16_t>(k + 1);
+  }
+  const auto modes = static_cast<std::size_t>(chain.modes);
+  fill_thresholds(chain.initial, program.threshold.first(modes));
+  for (std::size_t mode = 0; mode < modes; ++mode) {
+    program.next[mode] = state_after(states, {static_cast<std::uint16_t>(mode)});
+  }
+  for (std::size_t k = 0; k < chain.contexts.size(); ++k) {
+    const std::size_t row = (k + 1) * modes;
+    fill_thresholds(chain.contexts[k].probability, program.threshold.subspan(row, modes));
+    for (std::size_t mode = 0; mode < modes; ++mode) {
+      std::vector<std::uint16_t> history = chain.contexts[k].history;
+      history.push_back(static_cast<std::uint16_t>(mode));
+      program.next[row + mode] = state_after(states, std::move(history));
+    }
+  }
+}
+
+// Root-mean-square length of the vectors that begin at `offset` of each group of rates.
+float unit_of(const ChainProgram& program, std::size_t offset, float scale) {
+  const auto stride = static_cast<std::size_t>(program.rate_count);
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t k = offset; k + 3 <= program.rates.size(); k += stride, ++count) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      sum += static_cast<double>(program.rates[k + axis]) * program.rates[k + axis];
+  }
+  const auto unit =
+      static_cast<float>(__builtin_sqrt(sum / static_cast<double>(std::max<std::size_t>(1, count)))) * scale;
+  return std::max(unit, kLeastUnit);
+}
+
+template <class Value>
+std::span<Value> copy_of(const std::vector<Value>& values, Arena& arena) {
+  const auto out = arena.take<Value>(values.size());
+  if (!arena.measures()) std::copy(values.begin(), values.end(), out.begin());
+  return out;
+}
+
+}  // namespace
+
+ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, Arena& arena) {
+  const auto modes = static_cast<std::size_t>(chain.modes);
+  const std::size_t states = chain.contexts.size() + 1;
+  const ChainSegments& segments = chain.segments;
+  const bool pose = chain.motion == ChainMotion::kPose;
+  ChainProgram program;
+  program.channels = channel_count(chain.motion);
+  program.rate_count = rate_count(chain.motion);
+  program.modes = chain.modes;
+  program.breadth = segments.breadth;
+  program.heading_free = chain.heading_free;
+  program.position_scale = static_cast<float>(segments.row_scale[0]);
+  program.velocity_scale = static_cast<float>(segments.rate_scale[0]);
+  program.orientation_scale = pose ? static_cast<float>(segments.row_scale[1]) : 0.0f;
+  program.spin_scale = pose ? static_cast<float>(segments.rate_scale[1]) : 0.0f;
+  program.blend_share = static_cast<float>(chain.blend.share);
+  program.blend_longest = static_cast<float>(chain.blend.longest_steps);
+  program.step_seconds = static_cast<float>(1.0 / rate_hz);
+  program.rows = copy_of(segments.rows, arena);
+  program.rates = copy_of(segments.rates, arena);
+  program.first_row = copy_of(segment_rows(segments), arena);
+  program.mode = copy_of(segments.mode, arena);
+  program.follow = copy_of(segments.follow, arena);
+  program.first_of_mode = arena.take<std::uint32_t>(modes + 1);
+  program.threshold = arena.take<std::uint32_t>(states * modes);
+  program.next = arena.take<std::uint16_t>(states * modes);
+  if (arena.measures()) return program;
+  for (std::uint16_t mode : segments.mode) ++program.first_of_mode[mode + 1U];
+  for (std::size_t mode = 0; mode < modes; ++mode) program.first_of_mode[mode + 1] += program.first_of_mode[mode];
+  fill_automaton(chain, program);
+  program.speed_unit = unit_of(program, 0, program.velocity_scale);
+  if (pose) program.spin_unit = unit_of(program, 3, program.spin_scale);
+  return program;
+}
+
+std::uint64_t hash_of(const ChainProgram& program, std::uint64_t before) {
+  const auto flag = program.heading_free ? 1.0f : 0.0f;
+  std::uint64_t hash = hash_floats({static_cast<float>(program.channels), static_cast<float>(program.breadth), flag,
+                                    program.position_scale, program.orientation_scale, program.velocity_scale,
+                                    program.spin_scale, program.blend_share, program.blend_longest},
+                                   before);
+  for (std::int16_t number : program.rows)
+    hash = hash_number(static_cast<std::uint32_t>(static_cast<std::uint16_t>(number)), hash);
+  for (std::int16_t number : program.rates)
+    hash = hash_number(static_cast<std::uint32_t>(static_cast<std::uint16_t>(number)), hash);
+  for (std::uint16_t number : program.follow) hash = hash_number(std::uint32_t{number}, hash);
+  for (std::uint32_t number : program.threshold) hash = hash_number(std::uint32_t{number}, hash);
+  for (std::uint16_t number : program.next) hash = hash_number(std::uint32_t{number}, hash);
+  return hash;
+}
+
+Result<void> check_chain_program(const ChainModel& chain) {
+  for (const auto* scales : {&chain.segments.row_scale, &chain.segments.rate_scale}) {
+    for (double scale : *scales) {
+      if (scale < kLeastScale || scale > kMostScale) {
+        return Error{"a scale of the chain's segments is " + std::to_string(scale) +
+                     ", expected 1e-12 to 1e6: learn it in another unit"};
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace wisp

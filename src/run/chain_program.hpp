@@ -1,0 +1,52 @@
+#pragma once
+// A segment chain compiled for stepping: probabilities as thresholds of 32-bit words, histories as the states of an
+// automaton, scales in single precision.
+
+#include <cstdint>
+#include <span>
+
+#include "run/arena.hpp"
+#include "wisp/base/result.hpp"
+#include "wisp/model/chain.hpp"
+
+namespace wisp {
+
+struct ChainProgram {
+  int channels = 0;  ///< 3 or 7
+  int rate_count = 0;
+  int modes = 0;
+  int breadth = 0;
+  bool heading_free = true;
+  float position_scale = 1;
+  float orientation_scale = 1;
+  float velocity_scale = 1;
+  float spin_scale = 1;
+  float blend_share = 0;
+  float blend_longest = 0;
+  float step_seconds = 0;
+  float speed_unit = 1;  ///< root-mean-square of the speeds at joins: what differences of speed are measured in
+  float spin_unit = 1;   ///< the same of angular speeds
+  std::span<std::int16_t> rows;
+  std::span<std::int16_t> rates;
+  std::span<std::uint32_t> first_row;  ///< per segment, and one past the last
+  std::span<std::uint16_t> mode;       ///< per segment
+  std::span<std::uint16_t> follow;
+  std::span<std::uint32_t> first_of_mode;  ///< per mode its first segment, and one past the last
+  std::span<std::uint32_t> threshold;      ///< states × modes: the first mode whose threshold a word is below is drawn
+  std::span<std::uint16_t> next;           ///< states × modes: the state after that mode
+
+  std::uint32_t segments() const { return static_cast<std::uint32_t>(mode.size()); }
+  std::uint32_t states() const { return static_cast<std::uint32_t>(next.size()) / static_cast<std::uint32_t>(modes); }
+  std::uint32_t steps(std::uint32_t segment) const { return first_row[segment + 1] - first_row[segment] - 1; }
+};
+
+/// State 0 is the beginning; state k + 1 is the model's history k.
+ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, Arena& arena);
+
+/// A hash of the program, over a hash of what came before.
+std::uint64_t hash_of(const ChainProgram& program, std::uint64_t before);
+
+/// Errors: scales so small or large that single precision can't hold what they make.
+Result<void> check_chain_program(const ChainModel& chain);
+
+}  // namespace wisp

@@ -1,0 +1,200 @@
+#pragma once
+// Steps blocks of instances of a segment chain. Source: section 4.3 of the paper (the walk over the modes, each
+// realised by one of its segments); section 2.2 for histories longer than one. Lanes of a block are in different places
+// of different segments, so each is moved by itself.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "run/chain_lane.hpp"
+#include "run/channels.hpp"
+#include "run/moment.hpp"
+#include "wisp/run/bank.hpp"
+#include "wisp/run/random.hpp"
+
+namespace wisp {
+
+template <class N>
+class ChainStepper {
+ public:
+  using Real = typename N::Real;
+  using Lane = ChainLane<Real>;
+  using Body = BodyState<Real>;
+  static constexpr int kLanes = N::kLanes;
+  /// Frames over which a cost is averaged: joins come now and then.
+  static constexpr int kCountedFrames = 8192;
+
+  /// A chain has no operating point: its outputs are in their own units.
+  static OperatingPoint operating_point(const ChainModel& chain) {
+    static constexpr std::array<double, 7> kOrigin{};
+    return {std::span(kOrigin).first(static_cast<std::size_t>(channel_count(chain.motion))), {}};
+  }
+
+  /// Errors: what single precision can't step.
+  static Result<void> check(const Model&, const ChainModel& chain) { return check_chain_program(chain); }
+
+  ChainStepper(const Model& model, const ChainModel& chain, const Channels&, int blocks, Arena& arena)
+      : program_(make_chain_program(chain, model.rate_hz, arena)) {
+    const auto lanes = static_cast<std::size_t>(blocks) * kLanes;
+    lanes_ = arena.take<Lane>(lanes);
+    newest_ = arena.take<Real>(lanes * static_cast<std::size_t>(program_.channels));
+    previous_ = arena.take<Real>(lanes * static_cast<std::size_t>(program_.channels));
+    regressor_row_ = regressor_count(model.inputs) * kLanes;
+    regressors_ = arena.take<Real>(static_cast<std::size_t>(blocks) * regressor_row_);
+  }
+
+  /// A chain has no residual noise; its chance is in the walk.
+  void set_noise(float) {}
+
+  void turn() {}
+
+  /// Where the regressors of the step belong: [regressor][lane].
+  Real* regressors(int block) { return regressors_.data() + static_cast<std::size_t>(block) * regressor_row_; }
+
+  /// Makes the newest sample of a block.
+  void step(int block, const Moment<N>& moment) {
+    const ChainMover<Real> mover(program_);
+    std::copy_n(newest(block), sample_size(), previous_of(block));
+    std::uint32_t words[4][kLanes];
+    bool drawn = false;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      Lane& life = lane_of(block, lane);
+      const bool ends = mover.advance(life);
+      mover.show(life, newest_of(block) + lane, kLanes);
+      moment.held[lane] = 0;
+      if (!ends) continue;
+      if (!drawn) draw(moment, 0, words);
+      drawn = true;
+      follow(mover, life, words[0][lane], words[1][lane], newest_of(block) + lane);
+    }
+  }
+
+  /// Outputs of the last step, and of the one before: [output][lane].
+  const Real* newest(int block) const { return newest_.data() + block * sample_size(); }
+  const Real* previous(int block) const { return previous_.data() + block * sample_size(); }
+
+  /// What is read of a block: the newest sample.
+  void show(int block, Real* out) const { std::copy_n(newest(block), sample_size(), out); }
+
+  /// What is read of it a `share` of the way from the sample before: positions in proportion, orientations by
+  /// normalised linear interpolation.
+  void show_between(int block, float share, Real* out) const {
+    const Real *from = previous(block), *to = newest(block);
+    for (std::size_t k = 0; k < sample_size(); ++k) out[k] = from[k] + Real(share) * (to[k] - from[k]);
+    if (program_.channels < 7) return;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      Quaternion<Real> q;
+      for (int k = 0; k < 4; ++k) q[static_cast<std::size_t>(k)] = out[(3 + k) * kLanes + lane];
+      q = unit(q);
+      for (int k = 0; k < 4; ++k) out[(3 + k) * kLanes + lane] = q[static_cast<std::size_t>(k)];
+    }
+  }
+
+  /// What a frame of the model's own rate reads.
+  void show_frame(int block, Real* out) const { show(block, out); }
+
+  /// Starts one lane at the origin with a segment that begins a recording, its heading drawn by chance.
+  void start(int block, int lane, const Moment<N>& moment) {
+    std::uint32_t words[4][kLanes];
+    draw(moment, 1, words);
+    const ChainMover<Real> mover(program_);
+    Lane& life = lane_of(block, lane);
+    life = {};
+    const std::uint32_t segment = mover.draw(life, words[0][lane], words[1][lane], true);
+    const HalfTurn<Real> turn = random_turn(words[2][lane], words[3][lane]);
+    mover.place(life, segment, {}, turn.cos, turn.sin);
+    mover.show(life, newest_of(block) + lane, kLanes);
+    for (int k = 0; k < program_.channels; ++k) {
+      previous_of(block)[k * kLanes + lane] = newest_of(block)[k * kLanes + lane];
+    }
+  }
+
+  /// Where a lane is in the chain.
+  std::optional<ChainPlace> chain_place(int block, int lane) const {
+    const Lane& life = const_cast<ChainStepper*>(this)->lane_of(block, lane);
+    const std::uint32_t segment = Mover::index(life.segment, program_.segments());
+    return ChainPlace{segment, Mover::index(life.row, program_.steps(segment))};
+  }
+
+  /// A chain multiplies by no coefficients of A and B.
+  std::int64_t multiply_adds() const { return 0; }
+
+  std::size_t lane_values() const { return kLaneNumbers + 2 * static_cast<std::size_t>(program_.channels); }
+
+  /// Calls visit(value, low, high) for each number of one lane's state.
+  template <class Visit>
+  void visit_lane(int block, int lane, Visit visit) {
+    Lane& life = lane_of(block, lane);
+    const auto segments = static_cast<float>(program_.segments() - 1);
+    visit(life.segment, 0.0f, segments);
+    visit(life.row, 0.0f, 65535.0f);
+    visit(life.state, 0.0f, static_cast<float>(program_.states() - 1));
+    for (Real& x : life.base) visit(x, -2 * kFarthest, 2 * kFarthest);
+    for (Real* x : {&life.half_cos, &life.half_sin}) visit(*x, -1.01f, 1.01f);
+    const float turn = 1.01f * (program_.position_scale + program_.orientation_scale);
+    for (Real* x : {&life.cos_scale, &life.sin_scale, &life.half_cos_scale, &life.half_sin_scale})
+      visit(*x, -turn, turn);
+    visit(life.passed, 0.0f, 2.0f);
+    visit(life.share, 0.0f, 1.0f);
+    for (auto* vector : {&life.slip, &life.lean, &life.lean_slip}) {
+      for (Real& x : *vector) visit(x, -kMostSlip, kMostSlip);
+    }
+    for (Real* sample : {newest_of(block), previous_of(block)}) {
+      for (int k = 0; k < program_.channels; ++k) visit(sample[k * kLanes + lane], -kFarthest, kFarthest);
+    }
+  }
+
+  /// Goes into the hash that tells models apart.
+  std::uint64_t hash(std::uint64_t before) const { return hash_of(program_, before); }
+
+ private:
+  using Mover = ChainMover<Real>;
+  static constexpr std::size_t kLaneNumbers = 3 + 3 + 2 + 4 + 2 + 9;
+  static constexpr float kMostSlip = 1e12f;
+
+  std::size_t sample_size() const { return static_cast<std::size_t>(program_.channels) * kLanes; }
+  Lane& lane_of(int block, int lane) { return lanes_[static_cast<std::size_t>(block) * kLanes + lane]; }
+  Real* newest_of(int block) { return newest_.data() + block * sample_size(); }
+  Real* previous_of(int block) { return previous_.data() + block * sample_size(); }
+
+  static void draw(const Moment<N>& moment, std::uint32_t group, std::uint32_t (&out)[4][kLanes]) {
+    Words<N> counters[4], words[4];
+    random_counters<N>(moment.counters, counters);
+    random_group<N>(*moment.keys, counters, group, words);
+    for (int k = 0; k < 4; ++k) store(words[k], out[k]);
+  }
+
+  // Joins the next segment to the end of the lane's own, which is what is shown: a join fades over half a segment at
+  // most, so that nothing is left of the one before.
+  void follow(const Mover& mover, Lane& life, std::uint32_t mode_word, std::uint32_t segment_word, const Real* shown) {
+    const std::uint32_t before = Mover::index(life.segment, program_.segments());
+    const std::uint32_t next = mover.draw(life, mode_word, segment_word, false);
+    Body end;
+    for (std::size_t k = 0; k < 3; ++k) end.position[k] = shown[k * kLanes];
+    if (program_.channels >= 7) {
+      for (std::size_t k = 0; k < 4; ++k) end.orientation[k] = shown[(3 + k) * kLanes];
+    }
+    if (program_.channels < 7 || mover.fades(next)) end.rates = mover.rates_of(life, before, true);
+    mover.join(life, next, end);
+  }
+
+  // A direction without preference: two normal deviates, made a unit; the identity where the heading is to be kept.
+  HalfTurn<Real> random_turn(std::uint32_t a, std::uint32_t b) const {
+    if (!program_.heading_free) return {Real(1.0f), Real(0.0f), Real(1.0f)};
+    const Real x(normal(a)), y(normal(b));
+    const Real size = square_root(x * x + y * y);
+    if (!(size > Real(1e-6f))) return {Real(1.0f), Real(0.0f), Real(1.0f)};
+    return {x / size, y / size, Real(1.0f)};
+  }
+
+  ChainProgram program_;
+  std::span<Lane> lanes_;
+  std::span<Real> newest_;
+  std::span<Real> previous_;
+  std::span<Real> regressors_;
+  std::size_t regressor_row_ = 0;
+};
+
+}  // namespace wisp

@@ -1,0 +1,295 @@
+// Banks of segment chains: walks, placement, joins, and the promises that every kind of dynamics keeps.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "model/sample_chain.hpp"
+#include "run/chain_lane.hpp"
+#include "run/counting.hpp"
+#include "wisp/run/bank.hpp"
+#include "wisp/run/cost.hpp"
+
+namespace wisp {
+namespace {
+
+using Pose = std::array<float, 7>;
+
+Bank bank_of(const Model& model, int capacity = 1, std::uint64_t seed = 1) {
+  auto bank = Bank::create(model, {.capacity = capacity, .seed = seed});
+  EXPECT_TRUE(bank) << bank.error().message;
+  for (int k = 0; k < capacity; ++k) bank->spawn();
+  return std::move(bank).value();
+}
+
+Pose pose_of(const Bank& bank, int slot = 0) {
+  Pose pose{};
+  EXPECT_TRUE(bank.outputs(bank.at(slot), std::span(pose).first(bank.output_count())));
+  return pose;
+}
+
+double distance(const Pose& a, const Pose& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+
+// Cosine of half the angle between two orientations.
+double agreement(const Pose& a, const Pose& b) {
+  return std::abs(a[3] * b[3] + a[4] * b[4] + a[5] * b[5] + a[6] * b[6]);
+}
+
+Model unblended() {
+  Model model = sample_chain();
+  std::get<ChainModel>(model.dynamics).blend.share = 0;
+  return model;
+}
+
+TEST(ChainBank, PlaysEachSegmentStepByStep) {
+  Bank bank = bank_of(unblended());
+  for (int step = 0; step < 200; ++step) {
+    const ChainPlace before = *bank.chain_place(bank.at(0));
+    bank.step();
+    const ChainPlace after = *bank.chain_place(bank.at(0));
+    if (after.step == 0) continue;
+    EXPECT_EQ(after.segment, before.segment);
+    EXPECT_EQ(after.step, before.step + 1);
+  }
+}
+
+TEST(ChainBank, ModesFollowEachOtherAsTheChainSays) {
+  const Model model = unblended();
+  const auto& chain = std::get<ChainModel>(model.dynamics);
+  Bank bank = bank_of(model);
+  double seen[2][2] = {};
+  double after_one_zero[2] = {};
+  std::vector<int> modes = {chain.segments.mode[bank.chain_place(bank.at(0))->segment]};
+  while (modes.size() < 20000) {
+    bank.step();
+    const ChainPlace place = *bank.chain_place(bank.at(0));
+    if (place.step == 0) modes.push_back(chain.segments.mode[place.segment]);
+  }
+  for (std::size_t k = 2; k < modes.size(); ++k) {
+    if (modes[k - 2] == 1 && modes[k - 1] == 0) {
+      ++after_one_zero[modes[k]];
+    } else {
+      ++seen[modes[k - 1]][modes[k]];
+    }
+  }
+  // Six standard deviations of a share of about 5000.
+  EXPECT_NEAR(after_one_zero[0] / (after_one_zero[0] + after_one_zero[1]), 0.125, 0.03);
+  EXPECT_NEAR(seen[0][0] / (seen[0][0] + seen[0][1]), 0.25, 0.04);
+  EXPECT_NEAR(seen[1][0] / (seen[1][0] + seen[1][1]), 0.5, 0.04);
+}
+
+TEST(ChainBank, FollowersAreThoseOfTheTable) {
+  const Model model = unblended();
+  const auto& segments = std::get<ChainModel>(model.dynamics).segments;
+  Bank bank = bank_of(model);
+  std::uint32_t before = bank.chain_place(bank.at(0))->segment;
+  for (int step = 0; step < 5000; ++step) {
+    bank.step();
+    const ChainPlace place = *bank.chain_place(bank.at(0));
+    if (place.step != 0) continue;
+    const std::size_t row = (before * 2 + segments.mode[place.segment]) * 2;
+    EXPECT_TRUE(segments.follow[row] == place.segment || segments.follow[row + 1] == place.segment);
+    before = place.segment;
+  }
+}
+
+TEST(ChainBank, PositionNeverJumps) {
+  for (const Model& model : {sample_chain(), unblended(), sample_chain(ChainMotion::kPosition)}) {
+    Bank bank = bank_of(model);
+    Pose before = pose_of(bank);
+    for (int step = 0; step < 2000; ++step) {
+      bank.step();
+      const Pose now = pose_of(bank);
+      // A step of the sample is 16 to 17 mm; while a join fades, the difference of rates is added.
+      EXPECT_LT(distance(before, now), 0.025) << step;
+      before = now;
+    }
+  }
+}
+
+TEST(ChainBank, HeadingIsCarriedOverJoins) {
+  // Two segments that turn on and on: the turn over a long walk is what all its segments turned.
+  Bank bank = bank_of(sample_chain());
+  const auto heading = [](const Pose& pose) { return 2 * std::atan2(pose[6], pose[3]); };
+  double turned = 0, expected = 0;
+  double before = heading(pose_of(bank));
+  for (int step = 0; step < 3000; ++step) {
+    const std::uint32_t segment = bank.chain_place(bank.at(0))->segment;
+    bank.step();
+    const double now = heading(pose_of(bank));
+    turned += std::remainder(now - before, 2 * std::acos(-1.0));
+    expected += sample_turn(segment);
+    before = now;
+  }
+  EXPECT_NEAR(turned, expected, 0.02 * expected);
+}
+
+TEST(ChainBank, AWorldFramedChainKeepsItsHeading) {
+  Model model = unblended();
+  std::get<ChainModel>(model.dynamics).heading_free = false;
+  Bank bank = bank_of(model);
+  for (int step = 0; step < 300; ++step) {
+    const Pose before = pose_of(bank);
+    bank.step();
+    // Every step of every segment of the sample goes 10 mm along x.
+    EXPECT_NEAR(pose_of(bank)[0] - before[0], 0.01, 1e-4);
+  }
+}
+
+TEST(ChainBank, BlendedOrientationDoesNotJumpAndAnUnblendedOneDoes) {
+  const auto least_agreement = [](const Model& model) {
+    Bank bank = bank_of(model);
+    Pose before = pose_of(bank);
+    double least = 1;
+    for (int step = 0; step < 3000; ++step) {
+      bank.step();
+      const Pose now = pose_of(bank);
+      least = std::min(least, agreement(before, now));
+      before = now;
+    }
+    return least;
+  };
+  EXPECT_LT(least_agreement(unblended()), std::cos(0.09));
+  EXPECT_GT(least_agreement(sample_chain()), std::cos(0.09));
+}
+
+TEST(ChainBank, AJoinFadesWithinHalfASegment) {
+  const Model blended = sample_chain(), plain = unblended();
+  Bank a = bank_of(blended), b = bank_of(plain);
+  for (int step = 0; step < 2000; ++step) {
+    a.step();
+    b.step();
+    const ChainPlace place = *a.chain_place(a.at(0));
+    ASSERT_EQ(place.segment, b.chain_place(b.at(0))->segment);
+    const int steps = std::get<ChainModel>(plain.dynamics).segments.steps[place.segment];
+    // Positions agree; orientations were turned to fit another pose at the join, so tilt is compared.
+    if (2 * place.step < static_cast<std::uint32_t>(steps)) continue;
+    const Pose p = pose_of(a), q = pose_of(b);
+    EXPECT_NEAR(1 - 2 * (p[4] * p[4] + p[5] * p[5]), 1 - 2 * (q[4] * q[4] + q[5] * q[5]), 1e-4);
+  }
+}
+
+TEST(ChainBank, QuaternionsStayUnitAndTheirSignNeverFlips) {
+  Bank bank = bank_of(sample_chain());
+  Pose before = pose_of(bank);
+  for (int step = 0; step < 100'000; ++step) {
+    bank.step();
+    const Pose q = pose_of(bank);
+    const double square = q[3] * q[3] + q[4] * q[4] + q[5] * q[5] + q[6] * q[6];
+    // Sixteen bits a component, and single precision.
+    ASSERT_NEAR(square, 1, 2e-4) << step;
+    ASSERT_GT(before[3] * q[3] + before[4] * q[4] + before[5] * q[5] + before[6] * q[6], 0) << step;
+    before = q;
+  }
+}
+
+TEST(ChainBank, EveryInstanceLivesTheSameLifeInABankOfAnySize) {
+  const Model model = sample_chain();
+  Bank many = bank_of(model, 19, 5);
+  for (int slot : {0, 7, 18}) {
+    auto one = Bank::create(model, {.seed = 5});
+    ASSERT_TRUE(one);
+    one->spawn(static_cast<std::uint64_t>(slot));
+    Bank again = bank_of(model, 19, 5);
+    for (int step = 0; step < 100; ++step) {
+      one->step();
+      again.step();
+      EXPECT_EQ(pose_of(*one), pose_of(again, slot));
+    }
+  }
+  EXPECT_NE(pose_of(many, 0), pose_of(many, 1));
+}
+
+TEST(ChainBank, ARestoredBankGoesOnWithTheSameBits) {
+  const Model model = sample_chain();
+  Bank bank = bank_of(model, 5);
+  for (int step = 0; step < 37; ++step) bank.step();
+  std::vector<std::byte> saved(bank.save_bytes());
+  bank.save(saved);
+  Bank other = bank_of(model, 5, 99);
+  const auto restored = other.restore(saved);
+  ASSERT_TRUE(restored) << restored.error().message;
+  for (int step = 0; step < 200; ++step) {
+    bank.step();
+    other.step();
+    for (int slot = 0; slot < 5; ++slot) EXPECT_EQ(pose_of(bank, slot), pose_of(other, slot));
+  }
+  Bank longer = bank_of(sample_chain(ChainMotion::kPosition), 5);
+  EXPECT_FALSE(longer.restore(saved));
+}
+
+TEST(ChainBank, TimeBetweenStepsIsInterpolatedAndQuaternionsStayUnit) {
+  const Model model = sample_chain();
+  Bank raw = bank_of(model), timed = bank_of(model);
+  raw.step();
+  const Pose first = pose_of(raw);
+  raw.step();
+  const Pose second = pose_of(raw);
+  timed.advance(timed.step_time() * 2 + timed.step_time() / 4);
+  const Pose between = pose_of(timed);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(between[axis], first[axis] + 0.25f * (second[axis] - first[axis]), 1e-6);
+  }
+  double square = 0;
+  for (std::size_t k = 3; k < 7; ++k) square += between[k] * between[k];
+  EXPECT_NEAR(square, 1, 1e-6);
+}
+
+TEST(ChainBank, EndedAndRebornInstancesBeginAtTheOrigin) {
+  Bank bank = bank_of(sample_chain(), 3);
+  for (int step = 0; step < 50; ++step) bank.step();
+  const InstanceId id = bank.at(1);
+  EXPECT_TRUE(bank.reset(id));
+  const Pose pose = pose_of(bank, 1);
+  EXPECT_EQ((std::array{pose[0], pose[1], pose[2]}), (std::array{0.0f, 0.0f, 0.0f}));
+}
+
+TEST(ChainBank, NewbornsHeadEverywhere) {
+  Bank bank = bank_of(sample_chain(), 400);
+  std::array<int, 4> quadrant{};
+  for (int slot = 0; slot < 400; ++slot) {
+    const Pose pose = pose_of(bank, slot);
+    const double heading = 2 * std::atan2(pose[6], pose[3]) + 8 * std::acos(-1.0);
+    ++quadrant[static_cast<std::size_t>(heading / std::acos(0.0)) % 4];
+  }
+  // Each expects 100 ± 8.7; five deviations.
+  for (int count : quadrant) EXPECT_NEAR(count, 100, 44);
+}
+
+TEST(ChainCost, PlacementAsThePaperJoinsTakesAtMost31OperationsAFrame) {
+  Model model = unblended();
+  // Segments as long as a leaf's at 60 frames a second.
+  const auto cost = count_operations(model);
+  ASSERT_TRUE(cost);
+  EXPECT_LE(cost->operations_per_frame, 31);
+  EXPECT_GE(cost->operations_per_frame, 22);
+}
+
+TEST(ChainCost, AFadingJoinTakesAtMost120OperationsAFrame) {
+  const auto blended = count_operations(sample_chain());
+  ASSERT_TRUE(blended);
+  EXPECT_LE(blended->operations_per_frame, 120);
+  // A single frame in which a join fades, the join itself made before.
+  std::vector<std::byte> memory(1 << 20);
+  Arena arena(memory);
+  const Model model = sample_chain();
+  const ChainProgram program = make_chain_program(std::get<ChainModel>(model.dynamics), model.rate_hz, arena);
+  const ChainMover<CountingReal> mover(program);
+  ChainLane<CountingReal> lane;
+  BodyState<CountingReal> body;
+  body.orientation = {CountingReal(0.9f), CountingReal(0.1f), CountingReal(0.2f), CountingReal(0.3f)};
+  mover.join(lane, 2, body);
+  std::array<CountingReal, 7> shown;
+  operation_count = {};
+  mover.advance(lane);
+  mover.show(lane, shown.data(), 1);
+  EXPECT_LE(operation_count.numbers, 120);
+  EXPECT_GT(operation_count.numbers, 60);
+}
+
+}  // namespace
+}  // namespace wisp
