@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "clip_figures.hpp"
+#include "figures_json.hpp"
 #include "wisp/draw/plot.hpp"
 #include "wisp/learn/response.hpp"
 
@@ -216,6 +217,22 @@ PlotSheet frequency_sheet(const DrawnArx& drawn, std::size_t output) {
   return sheet;
 }
 
+Json or_null(const std::vector<double>& values) { return values.empty() ? Json(nullptr) : json_of(values); }
+
+Json step_json(const StepResponse& step) { return {{"value", json_of(step.value)}, {"sd", or_null(step.sd)}}; }
+
+Json frequency_json(const FrequencyResponse& response) {
+  Json amplitude = Json::array(), phase = Json::array();
+  for (const auto& value : response.value) {
+    amplitude.push_back(number(std::abs(value)));
+    phase.push_back(number(std::arg(value)));
+  }
+  return {{"amplitude", std::move(amplitude)},
+          {"amplitude_sd", or_null(response.amplitude_sd)},
+          {"phase", std::move(phase)},
+          {"phase_sd", or_null(response.phase_sd)}};
+}
+
 Plot correlation_plot(const std::string& title, const std::vector<double>& values, int first_lag, double bound) {
   Plot plot{.title = title, .x = {.label = "lag, samples", .whole_numbers = true}, .y = {.label = "correlation"}};
   PlotSeries stems{.width = 2}, heads{.shape = SeriesShape::kPoints, .marker = Marker::kDot, .marker_size = 4};
@@ -259,6 +276,27 @@ Result<void> write_response_figures(const fs::path& folder, const DrawnArx& draw
     if (auto ok = write_figure(folder, "frequency" + of, frequency_sheet(drawn, i)); !ok) return ok;
   }
   return {};
+}
+
+Json responses_json(const DrawnArx& drawn) {
+  const int samples = settling_samples(drawn.model);
+  const std::vector<double> omega = angular_frequencies();
+  Json seconds = Json::array(), hertz = Json::array(), steps = Json::array(), frequencies = Json::array();
+  for (int t = 0; t < samples; ++t) seconds.push_back(t / drawn.rate_hz);
+  for (double w : omega) hertz.push_back(w * drawn.rate_hz / (2 * std::numbers::pi));
+  for (int i = 0; i < drawn.model.orders.outputs(); ++i) {
+    Json step_row = Json::array(), frequency_row = Json::array();
+    for (int k = 0; k < drawn.model.orders.inputs(); ++k) {
+      step_row.push_back(step_json(step_response(drawn.model, i, k, samples, drawn.covariance)));
+      frequency_row.push_back(frequency_json(frequency_response(drawn.model, i, k, omega, drawn.covariance)));
+    }
+    steps.push_back(std::move(step_row));
+    frequencies.push_back(std::move(frequency_row));
+  }
+  return {{"seconds", std::move(seconds)},
+          {"step", std::move(steps)},
+          {"hz", std::move(hertz)},
+          {"frequency", std::move(frequencies)}};
 }
 
 Result<void> write_residual_figure(const fs::path& folder, const ResidualTests& tests, const ChannelChoice& channels) {

@@ -24,6 +24,11 @@ struct DrawnArx {
 /// Errors: a file cannot be written.
 Result<void> write_response_figures(const std::filesystem::path& folder, const DrawnArx& drawn);
 
+/// The numbers of these plots, for all outputs: `seconds` and `step` [output][input] {`value`, `sd`}; `hz` and
+/// `frequency` [output][input] {`amplitude`, `amplitude_sd`, `phase`, `phase_sd`}, phases in radians. Standard
+/// deviations are null without a covariance.
+Json responses_json(const DrawnArx& drawn);
+
 /// Writes `residuals`: autocorrelation and correlation with every input, with what chance allows.
 /// Errors: a file cannot be written.
 Result<void> write_residual_figure(const std::filesystem::path& folder, const ResidualTests& tests,

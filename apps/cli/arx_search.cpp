@@ -1,5 +1,6 @@
 #include "arx_search.hpp"
 
+#include <algorithm>
 #include <charconv>
 
 #include "figures_json.hpp"
@@ -33,8 +34,15 @@ Result<OrderRange> parse_range(std::string_view text, std::string_view whole) {
 Result<SearchOptions> parse_grid(const Arguments& arguments) {
   SearchOptions options;
   const std::string& whole = arguments.text("search");
-  options.na = options.nb = {0, 0};
-  options.nk = {1, 1};
+  // What the grid leaves out has one value, that of the flag.
+  for (const auto& [flag, range] : {std::pair{"na", &options.na}, {"nb", &options.nb}, {"nk", &options.nk}}) {
+    const auto alone = parse_range(arguments.text(flag), whole);
+    if (!alone && whole.find(std::string(flag) + "=") == std::string::npos) {
+      return Error{"--search leaves " + std::string(flag) + " to --" + flag + ", which is \"" + arguments.text(flag) +
+                   "\", expected a number; or give it a range in --search"};
+    }
+    if (alone) *range = *alone;
+  }
   for (const std::string& part : arguments.names("search")) {
     const std::string_view text(part);
     const std::string_view name = text.substr(0, 3);
@@ -71,6 +79,7 @@ Result<SearchOptions> options_from(const Arguments& arguments) {
   options->coupling = coupling_of(arguments.text("coupling"));
   options->offset = offset_of(arguments.text("offset"));
   options->common_start = arguments.on("common-start");
+  if (arguments.text("steps") == "0") return Error{"--steps: found \"0\", expected a number from 1, or inf"};
   if (options->by == OrderCriterion::kValidation && !arguments.has("validate")) {
     return Error{"--by validation needs --validate A:B, the rows to judge on"};
   }
@@ -116,7 +125,9 @@ void report_rows(const OrderSearch& search, const ChannelChoice& channels, Termi
 std::vector<Flag> search_flags() {
   return {
       {"search", Kind::kNames, "GRID", "",
-       "try a grid of orders and delays and keep the best, such as na=1:10,nb=1:10,nk=0:3"},
+       "try a grid of orders and delays and keep the best, such as na=1:10,nb=1:10,nk=0:3; what it leaves out is that "
+       "of "
+       "--na, --nb, --nk"},
       {"by",
        Kind::kChoice,
        "C",
@@ -129,8 +140,8 @@ std::vector<Flag> search_flags() {
   };
 }
 
-Result<ArxOrders> search_arx_orders(const std::vector<Recording>& estimation, const std::vector<Recording>& whole,
-                                    const ChannelChoice& channels, const Arguments& arguments, Terminal& terminal) {
+Result<ChosenOrders> search_arx_orders(const std::vector<Recording>& estimation, const std::vector<Recording>& whole,
+                                       const ChannelChoice& channels, const Arguments& arguments, Terminal& terminal) {
   const auto options = options_from(arguments);
   if (!options) return options.error();
   std::vector<Recording> validation;
@@ -152,7 +163,13 @@ Result<ArxOrders> search_arx_orders(const std::vector<Recording>& estimation, co
   terminal.say(std::to_string(search->candidates.size()) + " candidates; best by " + arguments.text("by") + ": " +
                orders_text(best));
   report_rows(*search, channels, terminal);
-  return arguments.on("per-output") ? search->row_orders : best.orders;
+  ChosenOrders chosen{arguments.on("per-output") ? search->row_orders : best.orders};
+  if (options->common_start) {
+    int latest = 0;
+    for (const OrderCandidate& candidate : search->candidates) latest = std::max(latest, candidate.orders.history());
+    chosen.first_sample = latest;
+  }
+  return chosen;
 }
 
 }  // namespace wisp::cli

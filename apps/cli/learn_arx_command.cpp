@@ -1,65 +1,23 @@
 // `wisp learn arx`: an ARX model of any recording.
 
 #include <chrono>
-#include <optional>
 
 #include "arx_description.hpp"
 #include "arx_figures.hpp"
+#include "arx_learning.hpp"
 #include "arx_parts.hpp"
 #include "arx_search.hpp"
-#include "arx_tables.hpp"
 #include "commands.hpp"
 #include "figures_json.hpp"
-#include "order_flags.hpp"
 #include "recordings.hpp"
 #include "terminal.hpp"
-#include "wisp/learn/arx_fit.hpp"
-#include "wisp/learn/order_search.hpp"
-#include "wisp/learn/residual_tests.hpp"
 #include "wisp/model/file.hpp"
 
 namespace wisp::cli {
 namespace {
 
-ArxOffset offset_of(const Arguments& arguments) {
-  if (arguments.text("offset") == "none") return ArxOffset::kNone;
-  return arguments.text("offset") == "estimate" ? ArxOffset::kEstimate : ArxOffset::kMean;
-}
-
-// What a model needs to know of the recordings it was learned from.
-struct Sources {
-  double rate_hz = 0;
-  std::vector<ChannelSpan> spans;  // outputs, then inputs
-  std::vector<std::string> files;
-};
-
-// Unit, lowest and highest of a channel over all recordings.
-ChannelSpan span_of(const std::string& name, const std::vector<Recording>& recordings) {
-  ChannelSpan span;
-  bool first = true;
-  for (const Recording& recording : recordings) {
-    const auto& found = recording.channels[*find_channel(recording, name)];
-    span.unit = found.unit;
-    for (double sample : found.samples) {
-      if (std::isnan(sample)) continue;
-      span.lowest = first ? sample : std::min(span.lowest, sample);
-      span.highest = first ? sample : std::max(span.highest, sample);
-      first = false;
-    }
-  }
-  return span;
-}
-
-Sources sources_of(const std::vector<Recording>& recordings, const ChannelChoice& channels) {
-  Sources sources{recordings.front().rate_hz, {}, {}};
-  for (const auto* names : {&channels.outputs, &channels.inputs}) {
-    for (const std::string& name : *names) sources.spans.push_back(span_of(name, recordings));
-  }
-  for (const Recording& recording : recordings) sources.files.push_back(recording.source);
-  return sources;
-}
-
-Model model_of(const ArxFit& fit, const ChannelChoice& channels, const Sources& sources, const Arguments& arguments) {
+Model model_of(const ArxFit& fit, const ChannelChoice& channels, const ArxSources& sources,
+               const Arguments& arguments) {
   Model model;
   model.name = std::filesystem::path(arguments.text("output")).stem().string();
   model.rate_hz = sources.rate_hz;
@@ -136,23 +94,6 @@ void report(const ArxFit& fit, const ChannelChoice& channels, Terminal& terminal
   terminal.say(std::string(summary.usable.verdict ? "usable: " : "not usable: ") + summary.usable.reason);
 }
 
-Result<std::vector<Recording>> ranged(const std::vector<Recording>& whole, const Arguments& arguments) {
-  std::vector<Recording> parts;
-  for (const Recording& recording : whole) {
-    auto part = in_range(recording, arguments, "range");
-    if (!part) return part.error();
-    parts.push_back(std::move(*part));
-  }
-  return parts;
-}
-
-struct Learned {
-  ArxFit fit;
-  ChannelChoice channels;
-  Sources sources;
-  std::optional<ResidualTests> tests{};  ///< where the recordings are in memory and long enough
-};
-
 // What the residuals still know of their own past and of the inputs.
 void report_tests(const ResidualTests& tests, const ChannelChoice& channels, Terminal& terminal) {
   Json white = Json::array(), independent = Json::array();
@@ -166,93 +107,16 @@ void report_tests(const ResidualTests& tests, const ChannelChoice& channels, Ter
   terminal.result()["independence_p"] = std::move(independent);
 }
 
-Result<void> draw(const Learned& learned, const std::filesystem::path& folder) {
+Result<void> draw(const LearnedArx& learned, const std::filesystem::path& folder, Terminal& terminal) {
   std::error_code code;
   std::filesystem::create_directories(folder, code);
   if (code) return Error{folder.string() + ": cannot be made: " + code.message()};
   if (learned.tests) {
     if (auto ok = write_residual_figure(folder, *learned.tests, learned.channels); !ok) return ok;
   }
-  return write_response_figures(folder,
-                                {learned.fit.model, learned.channels, learned.sources.rate_hz, learned.fit.covariance});
-}
-
-ArxOptions fit_options(const Arguments& arguments) {
-  ArxOptions options;
-  options.offset = offset_of(arguments);
-  options.ridge = arguments.number("ridge");
-  options.covariance = arguments.has("figures");  // for the bands
-  options.stabilise = !arguments.on("keep-unstable");
-  options.stability_margin = 1 - arguments.number("radius");
-  return options;
-}
-
-// Whether the recordings are to be read a stretch at a time. A search needs them in memory.
-bool too_large(const Arguments& arguments) {
-  constexpr std::uintmax_t kMebibyte = std::uintmax_t{1} << 20;
-  const auto most = static_cast<std::uintmax_t>(arguments.integer("memory")) * kMebibyte;
-  return !arguments.has("search") && bytes_on_disk(arguments.positionals()) > most;
-}
-
-Result<Learned> learn_from_large_tables(const Arguments& arguments, Terminal& terminal) {
-  auto learned = fit_of_tables(arguments, fit_options(arguments), terminal);
-  if (!learned) return learned.error();
-  const TriangularFactor& factor = learned->factor;
-  return Learned{std::move(learned->fit),
-                 factor.options().channels,
-                 {factor.rate_hz(), factor.spans(), std::move(learned->paths)}};
-}
-
-// From the flags: as they are, with delays found in the data, or the best of a search.
-Result<ArxOrders> orders_of(const std::vector<Recording>& recordings, const std::vector<Recording>& whole,
-                            const ChannelChoice& channels, const Arguments& arguments, Terminal& terminal) {
-  if (arguments.has("search")) return search_arx_orders(recordings, whole, channels, arguments, terminal);
-  auto orders =
-      orders_from(arguments, static_cast<int>(channels.outputs.size()), static_cast<int>(channels.inputs.size()));
-  if (!orders || arguments.text("nk") != "auto") return orders;
-  auto delays = estimate_delays(recordings, channels, {.offset = offset_of(arguments)});
-  if (!delays) return delays.error();
-  orders->nk = std::move(*delays);
-  for (int i = 0; i < orders->outputs(); ++i) {
-    for (int k = 0; k < orders->inputs(); ++k) {
-      terminal.say("delay of " + channels.inputs[k] + " to " + channels.outputs[i] + ": " +
-                   std::to_string(orders->nk(i, k)) + (orders->nk(i, k) == 1 ? " sample" : " samples"));
-    }
-  }
-  return orders;
-}
-
-Result<Learned> learn_from_recordings(const Arguments& arguments, Terminal& terminal) {
-  const auto whole = read_tables(arguments.positionals(), arguments, terminal);
-  if (!whole) return whole.error();
-  const auto recordings = ranged(*whole, arguments);
-  if (!recordings) return recordings.error();
-  const ChannelChoice channels{arguments.names("inputs"), arguments.names("outputs")};
-  auto orders = orders_of(*recordings, *whole, channels, arguments, terminal);
-  if (!orders) return orders.error();
-  ArxOptions options = fit_options(arguments);
-  options.orders = std::move(*orders);
-  auto fit = fit_arx(*recordings, channels, options);
-  if (!fit) return fit.error();
-  Learned learned{std::move(*fit), channels, sources_of(*recordings, channels)};
-  const auto tests = test_residuals(learned.fit.model, *recordings, channels, {.lags = 20, .learned_from_it = true});
-  if (tests) learned.tests = *tests;
-  return learned;
-}
-
-Result<Learned> learn_from_parts(const Arguments& arguments) {
-  const auto factor = merged_parts(arguments);
-  if (!factor) return factor.error();
-  auto fit = factor->finish(fit_options(arguments));
-  if (!fit) return fit.error();
-  const Sources sources{factor->rate_hz(), factor->spans(), arguments.positionals()};
-  return Learned{std::move(*fit), factor->options().channels, sources};
-}
-
-Result<Learned> learn(const Arguments& arguments, Terminal& terminal) {
-  if (arguments.on("merge")) return learn_from_parts(arguments);
-  if (too_large(arguments)) return learn_from_large_tables(arguments, terminal);
-  return learn_from_recordings(arguments, terminal);
+  const DrawnArx drawn{learned.fit.model, learned.channels, learned.sources.rate_hz, learned.fit.covariance};
+  terminal.result()["responses"] = responses_json(drawn);
+  return write_response_figures(folder, drawn);
 }
 
 Result<void> run(const Arguments& arguments, Terminal& terminal) {
@@ -261,7 +125,7 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
     return Error{"--radius is " + arguments.text("radius") + ", expected a number between 0 and 1"};
   }
   if (arguments.has("partial")) return write_part(arguments, terminal);
-  const auto learned = learn(arguments, terminal);
+  const auto learned = learn_arx(arguments, terminal);
   if (!learned) return learned.error();
   const ArxFit& fit = learned->fit;
   for (const std::string& warning : fit.summary.warnings) terminal.warn(warning);
@@ -276,7 +140,7 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
     terminal.warn(arguments.text("output") + " was not written: an unstable model cannot be played");
   }
   if (arguments.has("figures")) {
-    if (auto ok = draw(*learned, arguments.text("figures")); !ok) return ok;
+    if (auto ok = draw(*learned, arguments.text("figures"), terminal); !ok) return ok;
   }
   terminal.result()["output"] = playable ? Json(arguments.text("output")) : Json(nullptr);
   terminal.result()["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -310,10 +174,12 @@ std::vector<Flag> flags() {
        "smaller one may simulate better"},
       {"keep-unstable", Kind::kSwitch, "", "", "leave an unstable estimate as it is, to compare; it cannot be played"},
       {"common-start", Kind::kSwitch, "", "",
-       "judge all candidates of --search on the same rows, those that the longest one can predict"},
+       "judge all candidates of --search, and fit the best, on the same rows: those that the longest one can predict"},
   };
-  all.push_back({"figures", Kind::kPath, "DIR", "",
-                 "draw poles and zeros, step and frequency responses with their 95 % bands, and residual tests there"});
+  all.push_back(
+      {"figures", Kind::kPath, "DIR", "",
+       "draw poles and zeros, step and frequency responses with their 95 % bands, and residual tests there; --json "
+       "has their numbers as responses"});
   all.push_back({"memory", Kind::kInteger, "MIB", "256",
                  "recordings that are larger than this together are read a stretch at a time (never with --search)"});
   for (auto* more : {&search_flags, &part_flags, &recording_flags}) {

@@ -71,6 +71,8 @@ class Reader {
     return value;
   }
   OrderMatrix matrix(int rows, int columns) {
+    if (static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns) * 8 > left()) fine_ = false;
+    if (!fine_) return {};  // before memory is asked for
     OrderMatrix matrix(rows, columns);
     for (int r = 0; r < rows; ++r) {
       for (int c = 0; c < columns; ++c) matrix(r, c) = static_cast<int>(bounded(kMostChannels));

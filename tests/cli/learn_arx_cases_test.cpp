@@ -164,6 +164,31 @@ TEST_F(LearnArxCases, DelaysAreFoundWhereAsked) {
   EXPECT_NEAR(said.json()["B"][0][0][0], 1, 0.02);
 }
 
+TEST_F(LearnArxCases, TheBestOfASearchIsFittedOnTheRowsThatItWasJudgedOn) {
+  const std::string search = "--inputs push --search na=1:3,nb=2,nk=1 --by bic ";
+  for (const auto& [flags, first] : {std::pair{search, 2}, {search + "--common-start", 3}}) {
+    const Said said = learn(system(1000), flags);
+    ASSERT_EQ(said.status, 0) << said.err;
+    const auto json = said.json();
+    EXPECT_EQ(json["best"]["na"], 2);
+    EXPECT_EQ(json["candidates"].size(), 3u);
+    EXPECT_EQ(json["first_sample"], first);
+    EXPECT_NEAR(json["V"][0].get<double>() / json["best"]["V"][0].get<double>(), 1, 1e-11);
+    EXPECT_NEAR(json["aicc"].get<double>(), json["best"]["aicc"].get<double>(), 1e-7);
+  }
+}
+
+TEST_F(LearnArxCases, WhatAGridLeavesOutIsThatOfTheFlags) {
+  const Said said = learn(system(1000), "--inputs push --search na=1:3 --nb 2 --by bic");
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_EQ(said.json()["best"]["na"], 2);
+  EXPECT_EQ(said.json()["best"]["nb"], 2);
+  EXPECT_EQ(said.json()["best"]["nk"], 1);
+  EXPECT_THAT(learn(system(100), "--inputs push --search na=1:3 --nk auto").err, HasSubstr("which is \"auto\""));
+  EXPECT_THAT(learn(system(100), "--inputs push --search na=1:x").err, HasSubstr("--search: found \"na=1:x\""));
+  EXPECT_THAT(learn(system(100), "--inputs push --search na=1:3 --steps 0").err, HasSubstr("--steps: found \"0\""));
+}
+
 TEST_F(LearnArxCases, AnExpertFindsPolesZerosGainAndTests) {
   const Said said = learn(system(4000), "--inputs push --na 2 --nb 2 --nk 1 --figures " + at("figures"));
   ASSERT_EQ(said.status, 0) << said.err;
@@ -175,6 +200,13 @@ TEST_F(LearnArxCases, AnExpertFindsPolesZerosGainAndTests) {
   ASSERT_EQ(json["zeros"][0][0].size(), 1u);
   EXPECT_NEAR(json["zeros"][0][0][0][0], -0.5, 0.02);
   EXPECT_NEAR(json["static_gain"][0][0], 7.5, 0.1);
+  const auto step = json["responses"]["step"][0][0], frequency = json["responses"]["frequency"][0][0];
+  EXPECT_NEAR(step["value"].back(), 7.5, 0.2);
+  EXPECT_GT(step["sd"].back(), 0);
+  EXPECT_EQ(json["responses"]["seconds"][1], 0.1);
+  EXPECT_NEAR(frequency["amplitude"][0], 7.5, 0.1);
+  EXPECT_NEAR(json["responses"]["hz"].back(), 5, 1e-9);
+  EXPECT_GT(frequency["phase_sd"][0], 0);
   EXPECT_GT(json["whiteness_p"][0], 0.001);  // false alarm: 1 seed in 1000
   EXPECT_GT(json["independence_p"][0][0], 0.001);
   EXPECT_GT(json["fit_percent"]["inf"][0], 80);
