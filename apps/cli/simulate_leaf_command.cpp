@@ -15,6 +15,39 @@ namespace {
 
 constexpr double kGramsPerKilogram = 1000;
 
+// What each number may be, in the flag's own unit.
+struct FlagRange {
+  const char* flag;
+  double lowest, highest;
+};
+
+Result<void> check_flags(const Arguments& arguments) {
+  static constexpr FlagRange kRanges[] = {
+      {"drops", 1, 100000},
+      {"seconds", 0.1, 3600},
+      {"rate", 1, 10000},
+      {"settle", 0, 60},
+      {"wind-speed", 0, 30},
+      {"gust-seconds", 0.02, 60},
+      {"wind-direction", -360, 360},
+      {"clones", 1, 10000},
+      {"length", 0.001, 1},
+      {"width", 0.001, 1},
+      {"density", 1, 10000},
+      {"threads", 0, 256},
+  };
+  for (const FlagRange& range : kRanges) {
+    const double value = arguments.number(range.flag);
+    if (value >= range.lowest && value <= range.highest) continue;
+    return Error{std::string("--") + range.flag + " is " + arguments.text(range.flag) + ", expected " +
+                 shown(range.lowest) + " to " + shown(range.highest, 6)};
+  }
+  if (arguments.number("width") > arguments.number("length"))
+    return Error{"--width is " + arguments.text("width") + ", expected at most the leaf's length of " +
+                 arguments.text("length") + "; the midrib runs along the long axis"};
+  return {};
+}
+
 LeafWindKind wind_kind(const std::string& word) {
   if (word == "constant") return LeafWindKind::kConstant;
   if (word == "gusts") return LeafWindKind::kGusts;
@@ -66,6 +99,7 @@ Result<Recording> write_pairs(const std::filesystem::path& path, const LeafPairs
 
 Result<void> run(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
+  if (auto good = check_flags(arguments); !good) return good;
   const LeafPairsOptions options = options_from(arguments, terminal);
   const std::filesystem::path path = arguments.text("output");
   if (path.extension() != ".csv")

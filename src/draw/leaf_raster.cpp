@@ -6,8 +6,14 @@
 namespace wisp::drawing {
 namespace {
 
-constexpr int kSide = 4;  // samples of a pixel along each side
 constexpr int kLargestPatch = 4096;
+
+// Samples of a pixel along each side: fewer where a leaf fills the picture, whose edge is then a small part of it and
+// whose samples would fill the memory.
+int samples_a_side(const LeafPatch& patch) {
+  const long long pixels = static_cast<long long>(patch.width) * patch.height;
+  return pixels <= 400'000 ? 4 : pixels <= 2'500'000 ? 2 : 1;
+}
 
 // A corner of a triangle in samples of the patch.
 struct Corner {
@@ -17,7 +23,8 @@ struct Corner {
 
 // Samples of a patch, nearest surface first.
 struct Samples {
-  Samples(int columns, int rows) : width(columns), height(rows) {
+  Samples(const LeafPatch& patch, int samples_side)
+      : side(samples_side), width(patch.width * side), height(patch.height * side) {
     const auto count = static_cast<std::size_t>(width) * height;
     depth.assign(count, std::numeric_limits<float>::infinity());
     u.resize(count);
@@ -25,6 +32,7 @@ struct Samples {
     normal.resize(count);
   }
 
+  int side;  // samples of a pixel along each side
   int width, height;
   std::vector<float> depth, u, v;
   std::vector<Vec3> normal;
@@ -37,10 +45,14 @@ float edge(const Corner& a, const Corner& b, float x, float y) {
 void fill(Samples& samples, const Corner& a, const Corner& b, const Corner& c) {
   const float area = edge(a, b, c.x, c.y);
   if (!(std::abs(area) > 1e-9F)) return;
-  const auto lowest = [](float p, float q, float r) { return static_cast<int>(std::floor(std::min({p, q, r}))); };
-  const auto highest = [](float p, float q, float r) { return static_cast<int>(std::ceil(std::max({p, q, r}))); };
-  const int left = std::max(0, lowest(a.x, b.x, c.x)), right = std::min(samples.width - 1, highest(a.x, b.x, c.x));
-  const int top = std::max(0, lowest(a.y, b.y, c.y)), bottom = std::min(samples.height - 1, highest(a.y, b.y, c.y));
+  // Held to the patch before they are whole numbers: a corner near the camera may be millions of samples away.
+  const auto held = [](float at, int most) {
+    return static_cast<int>(std::clamp(at, -1.0F, static_cast<float>(most)));
+  };
+  const int left = std::max(0, held(std::floor(std::min({a.x, b.x, c.x})), samples.width));
+  const int right = std::min(samples.width - 1, held(std::ceil(std::max({a.x, b.x, c.x})), samples.width));
+  const int top = std::max(0, held(std::floor(std::min({a.y, b.y, c.y})), samples.height));
+  const int bottom = std::min(samples.height - 1, held(std::ceil(std::max({a.y, b.y, c.y})), samples.height));
   for (int y = top; y <= bottom; ++y) {
     for (int x = left; x <= right; ++x) {
       const float px = static_cast<float>(x) + 0.5F, py = static_cast<float>(y) + 0.5F;
@@ -90,10 +102,11 @@ Footprint footprint(const LeafMesh& mesh, const LeafView& view, int width, int h
 }
 
 Samples sampled(const LeafMesh& mesh, const Footprint& print) {
-  Samples samples(print.patch.width * kSide, print.patch.height * kSide);
+  Samples samples(print.patch, samples_a_side(print.patch));
+  const auto side = static_cast<float>(samples.side);
   const auto corner = [&](int k) {
     const Projected& p = print.corners[static_cast<std::size_t>(k)];
-    return Corner{(p.x - static_cast<float>(print.patch.x)) * kSide, (p.y - static_cast<float>(print.patch.y)) * kSide,
+    return Corner{(p.x - static_cast<float>(print.patch.x)) * side, (p.y - static_cast<float>(print.patch.y)) * side,
                   p.depth, &mesh.vertices[static_cast<std::size_t>(k)]};
   };
   for (const auto& t : mesh.triangles) fill(samples, corner(t[0]), corner(t[1]), corner(t[2]));
@@ -107,7 +120,7 @@ void for_covered(const Samples& samples, const LeafPatch& patch, Add add) {
     for (int x = 0; x < samples.width; ++x) {
       const std::size_t at = static_cast<std::size_t>(y) * samples.width + x;
       if (std::isinf(samples.depth[at])) continue;
-      add(static_cast<std::size_t>(y / kSide) * patch.width + x / kSide, at);
+      add(static_cast<std::size_t>(y / samples.side) * patch.width + x / samples.side, at);
     }
   }
 }
@@ -125,11 +138,11 @@ LeafPatch leaf_patch(const LeafMesh& mesh, const PlacedLeaf& leaf, const LeafSur
   patch.light.resize(pixels);
   patch.cover.resize(pixels);
   const Vec3 to_eye = unit(view.eye() - leaf.position);
-  constexpr float kShare = 1.0F / (kSide * kSide);
+  const float share = 1.0F / static_cast<float>(samples.side * samples.side);
   for_covered(samples, patch, [&](std::size_t pixel, std::size_t at) {
     const Vec3 normal = unit(leaf.turn(samples.normal[at]));
-    patch.light[pixel] = patch.light[pixel] + kShare * surface.seen(samples.u[at], samples.v[at], normal, to_eye);
-    patch.cover[pixel] += kShare;
+    patch.light[pixel] = patch.light[pixel] + share * surface.seen(samples.u[at], samples.v[at], normal, to_eye);
+    patch.cover[pixel] += share;
   });
   return std::move(patch);
 }
@@ -143,8 +156,9 @@ LeafPatch shadow_patch(const LeafMesh& mesh, const PlacedLeaf& leaf, Vec3 toward
   LeafPatch& patch = print.patch;
   if (patch.empty()) return {};
   const Samples samples = sampled(mesh, print);
+  const float share = 1.0F / static_cast<float>(samples.side * samples.side);
   patch.cover.resize(static_cast<std::size_t>(patch.width) * patch.height);
-  for_covered(samples, patch, [&](std::size_t pixel, std::size_t) { patch.cover[pixel] += 1.0F / (kSide * kSide); });
+  for_covered(samples, patch, [&](std::size_t pixel, std::size_t) { patch.cover[pixel] += share; });
   return std::move(patch);
 }
 

@@ -50,11 +50,11 @@ struct LeafFlight::Course {
       case LeafMethod::kMidpoint:
         inside = leaf::midpoint_step(inside, h, slope);
         break;
-      case LeafMethod::kClassical:
-        inside = leaf::classical_step(inside, h, slope);
+      case LeafMethod::kRalston:
+        inside = leaf::ralston_step(inside, h, slope);
         break;
       default:
-        inside = leaf::ralston_step(inside, h, slope);
+        inside = leaf::classical_step(inside, h, slope);
         break;
     }
     const double after = inside.velocity.y;

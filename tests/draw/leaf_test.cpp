@@ -145,6 +145,12 @@ TEST(DrawLeaf, LeavesOutWhatHasNoPlace) {
   EXPECT_EQ(drawn(nowhere), empty_room());
 }
 
+TEST(DrawLeaf, FillsThePictureFromNearBy) {
+  const DrawnLeaf leaf = leaf_at(0, 0, 0.1F);
+  const LeafCamera near_by{{0.01F, 0, 0.2F}, {0.01F, 0, 0.1F}, 0.02F};
+  EXPECT_EQ(leaf_in(drawn({&leaf, 1}, near_by)).pixels, kWidth * kHeight);
+}
+
 TEST(DrawLeaf, HoldsAbsurdStylesAndCameras) {
   DrawnLeaf leaf = leaf_at(0, 0, 0.1F);
   leaf.style.length = 1e9F, leaf.style.scale = -4, leaf.style.curl = 1e6F, leaf.opacity = 50;

@@ -45,8 +45,10 @@ TEST(LeafDrops, AreOneEpisodeEachOfPositionAttitudeAndWind) {
 }
 
 TEST(LeafDrops, HaveUnitQuaternionsWhoseSignNeverJumps) {
+  // At five rows a second a leaf that tumbles turns far enough between two rows for the nearer sign to be the other.
   LeafDropsOptions options = few_drops();
-  options.seconds = 10;
+  options.seconds = 20;
+  options.rate_hz = 5;
   const auto recording = simulate_leaf_drops(options);
   ASSERT_TRUE(recording);
   for (const Episode& episode : episodes(*recording)) {
@@ -59,7 +61,7 @@ TEST(LeafDrops, HaveUnitQuaternionsWhoseSignNeverJumps) {
       }
       ASSERT_NEAR(std::sqrt(square), 1, 1e-9);
       if (row > episode.begin) {
-        ASSERT_GT(along, 0) << row;
+        ASSERT_GE(along, 0) << row;
       }
     }
   }

@@ -100,11 +100,11 @@ TEST(LeafFlight, FollowsAWindAlikeByBothMethods) {
   EXPECT_GT(distance(after(0.25, {}, wind), after(0.25, {})), 0.01);
 }
 
-TEST(LeafFlight, EvaluatesThreeTimesAStep) {
+TEST(LeafFlight, EvaluatesFourTimesAStep) {
   const LeafWind calm;
   auto flight = LeafFlight::begin({}, calm, tilted());
   ASSERT_TRUE(flight->advance(1));
-  EXPECT_EQ(flight->evaluations(), 180);
+  EXPECT_EQ(flight->evaluations(), 240);
   EXPECT_NEAR(flight->seconds(), 1, 1e-12);
 }
 
