@@ -51,7 +51,10 @@ Result<void> check_finite(std::span<const double> values, std::size_t expected, 
 Result<void> check_growth(const std::vector<double>& growth, std::size_t nu) {
   constexpr double kMostGrowth = 1e6;
   if (growth.empty()) return {};
-  if (auto ok = check_finite(growth, nu, "the noise's growth"); !ok) return ok;
+  const std::size_t steps = nu == 0 ? 0 : growth.size() / nu;
+  if (steps > kMostOrder) return Error{"the noise's growth reaches back more than 4096 steps"};
+  // As many values as there are inputs, or a multiple of it: every input has as many lags.
+  if (auto ok = check_finite(growth, nu * std::max<std::size_t>(1, steps), "the noise's growth"); !ok) return ok;
   for (double one : growth) {
     if (one < 0 || one > kMostGrowth) {
       return Error{"the noise's growth is " + std::to_string(one) + ", expected 0 to 1000000"};

@@ -101,22 +101,24 @@ void fill_taps(const Model& model, const ArxModel& arx, ArxProgram& program) {
 
 void fill_growth(const Model& model, const ArxModel& arx, ArxProgram& program) {
   double size = 1;
-  for (std::size_t k = 0; k < arx.noise.growth.size(); ++k) {
-    program.growth[k] = kept(arx.noise.growth[k] * regressor_scale(model, static_cast<int>(k)));
-    size += arx.noise.growth[k] * arx.input_mean[k];
+  for (std::size_t tap = 0; tap < arx.noise.growth.size(); ++tap) {
+    const auto regressor = static_cast<int>(tap) / program.growth_steps;
+    program.growth[tap] = kept(arx.noise.growth[tap] * regressor_scale(model, regressor));
+    size += arx.noise.growth[tap] * arx.input_mean[regressor];
   }
   program.calm_size = static_cast<float>(size);
 }
 
-// The largest that the noise's size can become.
+// The largest that the noise's size can become: nothing is held to more than a range beyond its own.
 double most_size(const Model& model, const ArxModel& arx) {
+  const auto& growth = arx.noise.growth;
+  const std::size_t steps = growth.empty() ? 0 : growth.size() / static_cast<std::size_t>(arx.orders.inputs());
   double size = 1;
-  std::size_t next = 0;
+  auto tap = growth.begin();
   for (const Input& input : model.inputs) {
     const double largest = std::max(std::abs(input.lowest), std::abs(input.highest)) + input.highest - input.lowest;
     for (RegressorPart part : regressor_parts(input.shape)) {
-      const double growth = next < arx.noise.growth.size() ? arx.noise.growth[next++] : 0;
-      size += growth * (is_square(part) ? largest * largest : largest);
+      for (std::size_t step = 0; step < steps; ++step) size += *tap++ * (is_square(part) ? largest * largest : largest);
     }
   }
   return size;
@@ -128,7 +130,8 @@ ArxProgram make_arx_program(const Model& model, const ArxModel& arx, Arena& aren
   ArxProgram program;
   program.outputs = arx.orders.outputs();
   program.regressors = arx.orders.inputs();
-  program.depth = std::max(arx.orders.history() + 1, 2);
+  if (program.regressors > 0) program.growth_steps = static_cast<int>(arx.noise.growth.size()) / program.regressors;
+  program.depth = std::max({arx.orders.history() + 1, program.growth_steps, 2});
   program.rank = arx.noise.rank;
   const TapCount count = count_taps(model, arx);
   const auto ny = static_cast<std::size_t>(program.outputs);

@@ -162,13 +162,16 @@ class ArxStepper {
     }
   }
 
-  // Scales the shocks that are used by the noise's size in the wind of this step.
+  // Scales the shocks that are used by the noise's size in the wind of this step and of those just before.
   void grow(int block) {
-    const Real* regressor = sample(block, 0) + program_.outputs * kLanes;
     auto size = all<Reals<N>>(program_.calm_size);
-    for (const float growth : program_.growth) {
-      if (growth != 0) size = size + all<Reals<N>>(growth) * load<Reals<N>>(regressor);
-      regressor += kLanes;
+    const float* growth = program_.growth.data();
+    for (int k = 0; k < program_.regressors; ++k) {
+      for (int lag = 0; lag < program_.growth_steps; ++lag, ++growth) {
+        if (*growth == 0) continue;
+        const Real* regressor = sample(block, lag) + (program_.outputs + k) * kLanes;
+        size = size + all<Reals<N>>(*growth) * load<Reals<N>>(regressor);
+      }
     }
     size = larger(size, all<Reals<N>>(0.0f));
     const int channels = program_.outputs + program_.rank;

@@ -175,7 +175,10 @@ TEST(ModelFile, AModelWithoutMeaningIsNeitherWrittenNorRead) {
       {"finite", [&](Model& m) { arx(m).theta[0][0] = NAN; }},
       {"coefficients", [&](Model& m) { arx(m).theta[3].pop_back(); }},
       {"negative", [&](Model& m) { arx(m).noise.sd[0] = -1; }},
-      {"growth has 1 values", [&](Model& m) { arx(m).noise.growth = {1}; }},
+      {"growth has 3 values",
+       [&](Model& m) {
+         arx(m).noise.growth = {1, 1, 1};
+       }},
       {"growth is -1",
        [&](Model& m) {
          arx(m).noise.growth = {0, -1};

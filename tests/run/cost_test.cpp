@@ -79,6 +79,8 @@ TEST(Cost, NoiseThatGrowsWithTheWindTakesAFewOperationsMore) {
   EXPECT_EQ(growing.dynamics_operations, plain.dynamics_operations);
   EXPECT_EQ(growing.random_operations, plain.random_operations);
   EXPECT_EQ(growing.noise_operations, plain.noise_operations + 2 * 2 + 16);
+  const Model longer = flame_model({.wind = InputShape::kSplitSign, .noise_growth = 1, .growth_steps = 15});
+  EXPECT_EQ(cost_of(longer).noise_operations, plain.noise_operations + 15 * 2 * 2 + 16);
 }
 
 TEST(Cost, TheWindsSquareCostsItsTapsAndOneProductAnInput) {

@@ -14,6 +14,7 @@ struct FlameOptions {
   InputShape wind = InputShape::kLinear;
   int noise_rank = 0;
   double noise_growth = 0;  ///< with the wind of either sign; 0: the noise is the same in any wind
+  int growth_steps = 1;     ///< over which the wind's mean is taken for that
 };
 
 /// A stable flame: every channel has the poles 0.75 ± 0.37i, 0.5 and −0.3, a little of its point's other coordinate,
@@ -50,7 +51,9 @@ inline Model flame_model(const FlameOptions& options = {}) {
   }
   arx.input_mean.assign(regressors, 0.1);
   arx.noise.rank = options.noise_rank;
-  if (options.noise_growth > 0) arx.noise.growth.assign(regressors, options.noise_growth);
+  if (options.noise_growth > 0) {
+    arx.noise.growth.assign(regressors * options.growth_steps, options.noise_growth / options.growth_steps);
+  }
   model.dynamics = arx;
   model.view = OutlineView{uniform_knots(options.points), 0.03, 0};
   return model;

@@ -51,7 +51,8 @@ TEST(HostileInput, NeitherDoStepsWithSignedWindAndTheLoudestNoise) {
 }
 
 TEST(HostileInput, NorStepsWhoseNoiseGrowsWithTheWindOrWhoseWindIsSquared) {
-  live_through(flame_model({.wind = InputShape::kSplitSign, .noise_rank = 2, .noise_growth = 1000}), 10, 100'000);
+  live_through(flame_model({.wind = InputShape::kSplitSign, .noise_rank = 2, .noise_growth = 1000, .growth_steps = 9}),
+               10, 100'000);
   live_through(flame_model({.noise_growth = 3}), 1, 100'000);
   live_through(flame_model({.wind = InputShape::kSplitSignSquare, .noise_rank = 2}), 1, 100'000);
   live_through(flame_model({.wind = InputShape::kLinearSquare}), 1, 100'000);

@@ -56,13 +56,13 @@ struct ArxOrders {
 };
 
 /// Residual noise e(t) = s(t) (diag(sd) w(t) + mixing v(t)), w and v independent standard normal, and the size
-/// s(t) = max(0, 1 + Σ growth u(t)) over the regressor inputs of the same step, as they are and not as deviations.
+/// s(t) = max(0, 1 + Σ growth_k,l u_k(t − l)) over the regressor inputs, as they are and not as deviations.
 struct ResidualNoise {
   std::vector<double> sd;                      ///< per output, in the output's unit
   std::vector<std::array<double, 2>> sd_ci95;  ///< 95 % interval of the residual's standard deviation, per output
   int rank = 0;                                ///< columns of `mixing`: shocks that outputs share
   std::vector<double> mixing;                  ///< ny × rank, row-major
-  std::vector<double> growth;                  ///< per regressor input, 0 to 1e6; empty: the size is 1
+  std::vector<double> growth;                  ///< nu × lags from 0 on, row-major, 0 to 1e6; empty: the size is 1
 };
 
 /// Coefficients of output row i lie together: for each output j its na(i,j) lags of A in the equation's own sign and
