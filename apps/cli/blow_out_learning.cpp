@@ -116,7 +116,7 @@ Result<void> BlowOuts::complete(OutlineFit& fit, const BlowOutWish& wish, Termin
   terminal.result()["extinction"] = nullptr;
   const std::size_t index = index_of(fit.model, input_);
   if (wish.source == BlowOutSource::kGiven && index == fit.model.inputs.size()) {
-    return Error{"--blow-out: the recordings have no input that could blow it out"};
+    return Error{"the recordings have no input that could blow it out; leave --blow-out away"};
   }
   if (wish.source == BlowOutSource::kOff || index == fit.model.inputs.size()) return {};
   const auto seen = evidence(scale_of(fit.summary, input_));

@@ -122,7 +122,9 @@ void add_ember(LightField& field, const Candle& candle) {
   const FlameScene& scene = candle.scene;
   if (candle.wick.empty() || (burns(scene) && candle.shape.empty())) return;
   const float out = scene.seconds_since_out;
-  const float heat = burns(scene) ? 0.16F : 0.75F * std::exp(-out / 0.7F) + 0.25F * std::exp(-out / 2.6F);
+  // It shows as the flame lets go of it.
+  const float bare = 1 - 0.8F * scene.size.value_or(0.0F);
+  const float heat = burns(scene) ? 0.16F : bare * (0.75F * std::exp(-out / 0.7F) + 0.25F * std::exp(-out / 2.6F));
   if (heat < 0.004F) return;
   const Light glow = heat * Light{2.6F, 0.62F * (0.25F + 0.75F * heat), 0.10F * heat};
   const float radius = 0.62F * candle.wick.width + 0.5F;

@@ -140,7 +140,8 @@ Extinction rule_of(const Trial& trial) {
 // Harm of the next row by a whole rule.
 double harmed(const Extinction& rule, double harm, double wind, double step) {
   const Shape shape{rule.level, rule.haste, rule.seconds / rule.recovery};
-  return shape.next(harm * rule.seconds, wind, step) / rule.seconds;
+  constexpr double kMostHarm = 0.5;  // of a step, as a bank has it
+  return std::min(shape.next(harm * rule.seconds, wind, step) / rule.seconds, harm + kMostHarm);
 }
 
 void follow(const Extinction& rule, const FlameLife& life, ExtinctionAgreement& out) {

@@ -1,6 +1,7 @@
 // A bank's state as bytes. Little-endian: 8 bytes magic, 4 version, 4 zero, 8 size of what follows the header, 8 its
 // hash; then the bank's own fields, then one record of the same size for every slot.
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cstring>
@@ -21,7 +22,7 @@ constexpr std::uint64_t kMostAge = std::uint64_t{1} << 48;
 
 std::size_t record_size(const Bank::State& s) {
   const std::size_t values = std::visit([](const auto& dynamics) { return dynamics.lane_values(); }, s.stepper);
-  const std::size_t life = s.extinction.present ? 5 * 4 + 2 * 8 : 0;
+  const std::size_t life = s.extinction.present ? 5 * 4 + 2 * 8 + 4 * s.channels.outputs.size() : 0;
   return 3 * 8 + 4 * (s.channels.regressors.size() + values) + life;
 }
 
@@ -32,15 +33,19 @@ std::uint64_t moment_of(std::uint64_t age, std::uint64_t now) {
   return age == kNeverInSteps ? kNeverInSteps : now - age;
 }
 
-// Of a model that goes out: the wind, harm, whether it is lit, sizes, and for how long.
-void save_life(const Bank::State& s, int slot, ByteWriter& out) {
+// Of a model that goes out: the wind, harm, whether it is lit, sizes, for how long, and its last shape.
+void save_life(Bank::State& s, int slot, ByteWriter& out) {
   for (const auto* values : {&s.wind, &s.harm, &s.lit, &s.size, &s.previous_size}) out.put((*values)[slot]);
   for (const auto* moments : {&s.lit_at, &s.out_at}) out.put(age_of((*moments)[slot], s.steps));
+  const float* shape = s.last_shape_of(slot / s.kLanes) + slot % s.kLanes;
+  for (std::size_t i = 0; i < s.channels.outputs.size(); ++i) out.put(shape[i * s.kLanes]);
 }
 
 void restore_life(Bank::State& s, int slot, ByteReader& in) {
   for (auto* values : {&s.wind, &s.harm, &s.lit, &s.size, &s.previous_size}) (*values)[slot] = in.get_float();
   for (auto* moments : {&s.lit_at, &s.out_at}) (*moments)[slot] = moment_of(in.get64(), s.steps);
+  float* shape = s.last_shape_of(slot / s.kLanes) + slot % s.kLanes;
+  for (std::size_t i = 0; i < s.channels.outputs.size(); ++i) shape[i * s.kLanes] = in.get_float();
 }
 
 void save_slot(Bank::State& s, int slot, ByteWriter& out) {
@@ -66,6 +71,9 @@ bool life_is_sound(const Bank::State& s, ByteReader& in) {
   for (int k = 0; k < 2; ++k) {
     const std::uint64_t age = in.get64();
     sound &= age == kNeverInSteps || age < kMostAge;
+  }
+  for (const OutputChannel& channel : s.channels.outputs) {
+    sound &= within(in.get_float(), std::min(channel.lowest, 0.0f), std::max(channel.highest, 0.0f));
   }
   return sound;
 }

@@ -55,6 +55,7 @@ Bank::State::State(const Model& model, const BankOptions& options, Arena& arena)
   shown = arena.take<float>(lanes * model.outputs.size());
   if (extinction.present) {
     for (auto* values : {&wind, &harm, &lit, &size, &previous_size}) *values = arena.take<float>(lanes);
+    last_shape = arena.take<float>(lanes * model.outputs.size());
     lit_at = arena.take<std::uint64_t>(lanes);
     out_at = arena.take<std::uint64_t>(lanes);
   }
@@ -71,6 +72,7 @@ void Bank::State::start(int slot) {
     harm[slot] = 0.0f;
     lit[slot] = size[slot] = previous_size[slot] = 1.0f;
     lit_at[slot] = out_at[slot] = kNeverInSteps;
+    for (std::size_t i = 0; i < channels.outputs.size(); ++i) last_shape_of(block)[i * kLanes + lane] = 0.0f;
   }
   show_block(block);
 }
@@ -91,7 +93,19 @@ void Bank::State::extinguish(int slot) {
   if (!extinction.present || !burns(slot)) return;
   harm[slot] = 1.0f;
   lit[slot] = 0.0f;
-  out_at[slot] = steps;
+  go_out(slot, steps);
+}
+
+// What is seen of a flame that is out shrinks as it was: a wind that kills is beyond what the dynamics have learned.
+void Bank::State::go_out(int slot, std::uint64_t moment) {
+  const int block = slot / kLanes, lane = slot % kLanes;
+  out_at[slot] = moment;
+  const float* newest = std::visit([&](const auto& dynamics) { return dynamics.newest(block); }, stepper);
+  for (std::size_t i = 0; i < channels.outputs.size(); ++i) {
+    float values[kLanes];
+    store(present<LiveNumbers>(channels.outputs[i], load<Reals<LiveNumbers>>(newest + i * kLanes)), values);
+    last_shape_of(block)[i * kLanes + lane] = values[lane];
+  }
 }
 
 LitState Bank::State::lit_state(int slot) const {
@@ -192,7 +206,7 @@ void Bank::State::live_block(int block) {
   std::copy_n(life.size, kLanes, previous_size.data() + block * kLanes);
   live<LiveNumbers>(extinction, life);
   for (int lane = 0; lane < kLanes; ++lane) {
-    if (before[lane] != life.lit[lane]) out_at[block * kLanes + lane] = steps + 1;
+    if (before[lane] != life.lit[lane]) go_out(block * kLanes + lane, steps + 1);
   }
 }
 
@@ -211,7 +225,16 @@ void Bank::State::show_block(int block) {
         }
       },
       stepper);
-  if (!extinction.present) return;
+  if (extinction.present) show_life(block, share);
+}
+
+void Bank::State::show_life(int block, float share) {
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (lit[block * kLanes + lane] != 0.0f) continue;
+    for (std::size_t k = lane; k < channels.outputs.size() * kLanes; k += kLanes) {
+      shown_of(block)[k] = last_shape_of(block)[k];
+    }
+  }
   auto seen = load<Reals<LiveNumbers>>(size.data() + block * kLanes);
   if (between) {
     seen = size_between<LiveNumbers>(load<Reals<LiveNumbers>>(previous_size.data() + block * kLanes), seen, share);

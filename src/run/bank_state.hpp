@@ -42,8 +42,11 @@ struct Bank::State {
   void set_lane_inputs(int slot, const float* values);  // null: zeros
   void step_all();
   void live_block(int block);
+  void go_out(int slot, std::uint64_t moment);
+  float* last_shape_of(int block) { return last_shape.data() + block * channels.outputs.size() * kLanes; }
   void show();
   void show_block(int block);
+  void show_life(int block, float share);
   void set_noise(float scale);
   void read_outputs(int slot, float* values) const;
 
@@ -71,6 +74,7 @@ struct Bank::State {
   std::span<float> lit;  // 1 or 0
   std::span<float> size;
   std::span<float> previous_size;   // before the last step
+  std::span<float> last_shape;      // [block][output][lane]: outputs of what is out as they were when it went
   std::span<std::uint64_t> lit_at;  // value of `steps` when it was last lit again, kNeverInSteps before,
   std::span<std::uint64_t> out_at;  // and when it last went out
 

@@ -15,6 +15,8 @@ float share_of_step(double step, double seconds) {
 
 float kept(double value) { return std::abs(value) < kLeastCoefficient ? 0.0f : static_cast<float>(value); }
 
+constexpr double kMostHarm = 0.5;  // of a step: no single sample blows a flame out
+
 }  // namespace
 
 ExtinctionProgram make_extinction_program(const Model& model) {
@@ -24,10 +26,12 @@ ExtinctionProgram make_extinction_program(const Model& model) {
   const double step = 1.0 / model.rate_hz;
   program.present = true;
   program.input = static_cast<std::int32_t>(rule.input);
+  const double harm = std::min(step / rule.seconds, kMostHarm);  // of a step at the level
+  const double most = std::min(Extinction::kMostWind, 1 + (kMostHarm / harm - 1) / rule.haste);
   program.level = static_cast<float>(rule.level);
-  program.most = static_cast<float>(Extinction::kMostWind * rule.level);
-  program.base = kept(step / rule.seconds * (1 - rule.haste));
-  program.slope = kept(step / rule.seconds * rule.haste / rule.level);
+  program.most = static_cast<float>((rule.haste > 0 ? most : Extinction::kMostWind) * rule.level);
+  program.base = kept(harm * (1 - rule.haste));
+  program.slope = kept(harm * rule.haste / rule.level);
   program.recovery = kept(step / rule.recovery);
   program.dying = share_of_step(step, rule.dying);
   program.catching = share_of_step(step, rule.catching);

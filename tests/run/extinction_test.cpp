@@ -135,6 +135,20 @@ TEST(Extinction, WhatIsSeenShrinksAwayRatherThanVanishing) {
   EXPECT_EQ(tip.back(), 0);
 }
 
+TEST(Extinction, WhatShrinksIsTheShapeThatItHadWhenItWentOut) {
+  Bank bank = bank_of(mortal_flame());
+  const InstanceId id = bank.spawn();
+  steps_to_death(bank, 3);
+  const std::vector<float> last = outputs_of(bank);
+  const float size = bank.lit_state(id)->size;
+  for (int k = 0; k < 5; ++k) {
+    bank.step();
+    const float share = bank.lit_state(id)->size / size;
+    const std::vector<float> now = outputs_of(bank);
+    for (std::size_t i = 0; i < now.size(); ++i) EXPECT_NEAR(now[i], share * last[i], 1e-5f) << k << " " << i;
+  }
+}
+
 TEST(Extinction, OnlyRelightingBringsItBackFromRestAndSmall) {
   Bank bank = bank_of(mortal_flame()), calm = bank_of(mortal_flame());
   const InstanceId id = bank.spawn();
@@ -224,6 +238,18 @@ TEST(Extinction, WhatIsNotANumberIsCalmAndWhatIsAbsurdDoesNotKillAtOnce) {
     blow(bank, round % 2 ? std::numeric_limits<float>::infinity() : -1e30f, 1);
     blow(bank, 0, 20);
     ASSERT_TRUE(bank.lit_state(id)->lit) << round;
+  }
+}
+
+TEST(Extinction, NoSingleStepKillsHoweverHastyTheRule) {
+  Model model = mortal_flame(100);
+  for (double seconds : {0.001, 0.02, 0.3}) {
+    model.extinction->seconds = seconds;
+    Bank bank = bank_of(model);
+    bank.spawn();
+    const int steps = steps_to_death(bank, 1e30f);
+    EXPECT_GE(steps, 2) << seconds;
+    EXPECT_LE(steps, 3) << seconds;  // twice a half, rounded, may be less than one
   }
 }
 
@@ -386,7 +412,7 @@ TEST(Extinction, LivesThatCannotBeAreRefused) {
   bank.spawn();
   blow(bank, 3, 4);
   const std::vector<std::byte> good = saved(bank);
-  const std::size_t life = good.size() - 36;  // wind, harm, lit, two sizes, two ages
+  const std::size_t life = good.size() - 36 - 16 * 4;  // wind, harm, lit, two sizes, two ages, a shape
   const float wrong[] = {7.0f, -0.5f, 0.5f, 1.5f, std::numeric_limits<float>::quiet_NaN()};
   for (std::size_t field = 0; field < 5; ++field) {
     std::vector<std::byte> bytes = good;
@@ -396,6 +422,17 @@ TEST(Extinction, LivesThatCannotBeAreRefused) {
     EXPECT_FALSE(bank.restore(bytes)) << field;
   }
   EXPECT_TRUE(bank.restore(good));
+}
+
+TEST(Extinction, AShapeThatNoFlameHasIsRefused) {
+  Bank bank = bank_of(mortal_flame());
+  bank.spawn();
+  std::vector<std::byte> bytes = saved(bank);
+  const float far = 1e6f;
+  std::memcpy(&bytes[bytes.size() - 4], &far, 4);
+  const std::uint64_t hash = hash_bytes(std::span(bytes).subspan(32));
+  for (int k = 0; k < 8; ++k) bytes[24 + k] = static_cast<std::byte>(hash >> (8 * k));
+  EXPECT_FALSE(bank.restore(bytes));
 }
 
 TEST(Extinction, WithoutARuleEverythingBurnsForEver) {
