@@ -14,6 +14,7 @@ namespace {
 constexpr int kMostCapacity = 1 << 20;
 constexpr int kMostPolylinePoints = 4096;
 constexpr float kLeastOrientation = 1e-6f;  // of its squared length
+constexpr float kMostOrientation = 1e30f;
 
 Result<void> check_options(const BankOptions& options) {
   if (options.capacity < 1 || options.capacity > kMostCapacity) {
@@ -262,7 +263,7 @@ bool Bank::place(InstanceId id, const BodyMoment& body) {
     }
   }
   for (float x : body.orientation) size += x * x;
-  if (!(size > kLeastOrientation && size < kFarthest)) return false;
+  if (!(size > kLeastOrientation && size < kMostOrientation)) return false;
   const int block = static_cast<int>(id.slot) / State::kLanes, lane = static_cast<int>(id.slot) % State::kLanes;
   const BodyState<float> state{body.position, unit(body.orientation), {body.velocity, body.spin}};
   if (!std::visit([&](auto& dynamics) { return dynamics.place(block, lane, state); }, state_->stepper)) return false;
