@@ -9,6 +9,7 @@
 #include "recordings.hpp"
 #include "terminal.hpp"
 #include "wisp/learn/chain.hpp"
+#include "wisp/learn/gust_response.hpp"
 #include "wisp/model/file.hpp"
 
 namespace wisp::cli {
@@ -53,6 +54,58 @@ void take_size(const std::vector<Recording>& recordings, ChainOptions& options) 
   if (!size || !*size || (*size)->size() < 2) return;
   options.half_width = (**size)[0] / 2;
   options.half_length = (**size)[1] / 2;
+}
+
+// Recordings that differ only in their wind, by the value of `pair` that they share.
+struct Sorted {
+  std::vector<Recording> falls;
+  std::vector<Recording> paired;
+};
+
+Sorted sorted(std::vector<Recording> recordings) {
+  Sorted out;
+  for (Recording& recording : recordings) {
+    (find_attribute(recording, "pair") ? out.paired : out.falls).push_back(std::move(recording));
+  }
+  return out;
+}
+
+bool is_calm(const Recording& recording) {
+  for (std::size_t channel : channels_with_role(recording, Role::kInput)) {
+    for (double sample : recording.channels[channel].samples) {
+      if (sample != 0) return false;
+    }
+  }
+  return true;
+}
+
+// The response to gusts, from a windy recording and its calm twin.
+Result<void> take_gusts(const std::vector<Recording>& paired, ChainFit& fit, Terminal& terminal) {
+  if (paired.empty()) return {};
+  if (paired.size() != 2 || *find_attribute(paired[0], "pair") != *find_attribute(paired[1], "pair") ||
+      is_calm(paired[0]) == is_calm(paired[1])) {
+    return Error{paired.front().source + ": is one of " + std::to_string(paired.size()) +
+                 " recordings with the attribute pair, expected two of one pair, one of them calm: give both, "
+                 "or neither"};
+  }
+  const bool first_calm = is_calm(paired[0]);
+  auto gusts = learn_gusts(paired[first_calm ? 1 : 0], paired[first_calm ? 0 : 1], {});
+  if (!gusts) return gusts.error();
+  std::get<ChainModel>(fit.model.dynamics).gust = std::move(gusts->response);
+  fit.model.inputs = std::move(gusts->inputs);
+  const GustFigures& figures = gusts->figures;
+  terminal.result()["gusts"] = {{"learned", figures.gusts_learned},
+                                {"judged", figures.gusts_judged},
+                                {"fit_percent", number(figures.fit_percent)},
+                                {"velocity_fit_percent", number(figures.velocity_fit_percent)},
+                                {"direction_degrees", number(figures.direction_degrees)},
+                                {"direction_degrees_mean", number(figures.direction_degrees_mean)}};
+  fit.model.provenance.figures.push_back({"gust_fit_percent", figures.fit_percent});
+  fit.model.provenance.figures.push_back({"gust_direction_degrees", figures.direction_degrees});
+  terminal.say("gusts: the mean displacement of " + std::to_string(figures.gusts_judged) + " held-out gusts fits by " +
+               shown(figures.fit_percent) + " %, direction within " + shown(figures.direction_degrees) +
+               " degrees (median)");
+  return {};
 }
 
 void report(const ChainFit& fit, Terminal& terminal) {
@@ -115,15 +168,21 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
   auto options = options_from(arguments);
   if (!options) return options.error();
-  const auto recordings = read_tables(arguments.positionals(), arguments, terminal);
+  auto recordings = read_tables(arguments.positionals(), arguments, terminal);
   if (!recordings) return recordings.error();
-  take_size(*recordings, *options);
-  auto fit = learn_chain(*recordings, *options);
+  const Sorted data = sorted(std::move(*recordings));
+  if (data.falls.empty()) {
+    return Error{data.paired.front().source + ": is one of a pair, which only tells what wind does; expected " +
+                 "recordings of calm falls beside it"};
+  }
+  take_size(data.falls, *options);
+  auto fit = learn_chain(data.falls, *options);
   if (!fit) return fit.error();
   fit->model.provenance.program = "wisp " WISP_VERSION;
   for (const std::string& warning : fit->summary.warnings) terminal.warn(warning);
   report(*fit, terminal);
   judge(*fit, *options, terminal);
+  if (auto ok = take_gusts(data.paired, *fit, terminal); !ok) return ok;
   const auto cost = cost_of(fit->model);
   if (!cost) return cost.error();
   terminal.result()["cost"] = *cost;
@@ -176,7 +235,8 @@ std::vector<Flag> flags(const std::string& event, const std::string& features) {
 }
 
 constexpr const char* kRecordings =
-    "recordings with pos.x, pos.y, pos.z (metres, z up) and, where known, q.w, q.x, q.y, q.z";
+    "recordings with pos.x, pos.y, pos.z (metres, z up) and, where known, q.w, q.x, q.y, q.z; two that share the "
+    "attribute pair, one windy and one calm, teach the response to gusts";
 
 }  // namespace
 
@@ -199,6 +259,8 @@ Command learn_leaf_command() {
       {{"REC", kRecordings, true}},
       flags("zero:forward_speed", "velocity,length,direction"),
       {{"wisp learn leaf drops.csv -o leaf.wisp", "From `wisp simulate leaf`"},
+       {"wisp learn leaf drops.csv gusts.csv gusts.calm.csv -o leaf.wisp",
+        "The same with its response to gusts, from `wisp simulate leaf --pairs`"},
        {"wisp learn leaf drops.csv -o paper.wisp --history 1 --best-of 0 --blend 0", "The paper's own chain"}},
       run,
   };

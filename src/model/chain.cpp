@@ -128,6 +128,44 @@ Result<void> check_contexts(const ChainModel& model) {
   return {};
 }
 
+// Whether an autoregression y(t) = Σ c_k y(t−k) dies away: all its poles inside the unit circle, by Schur and Cohn's
+// recursion of reflection coefficients.
+bool dies_away(std::vector<double> change) {
+  while (!change.empty()) {
+    const double last = change.back();
+    if (!(std::abs(last) < 1)) return false;
+    std::vector<double> shorter(change.size() - 1);
+    for (std::size_t k = 0; k < shorter.size(); ++k) {
+      shorter[k] = (change[k] + last * change[change.size() - 2 - k]) / (1 - last * last);
+    }
+    change = std::move(shorter);
+  }
+  return true;
+}
+
+Result<void> check_gust(const GustResponse& gust) {
+  const auto order = static_cast<std::size_t>(gust.order());
+  if (order < 1 || order > static_cast<std::size_t>(kMostGustOrder)) {
+    return Error{"the response to gusts has order " + std::to_string(order) + ", expected 1 to 4"};
+  }
+  for (const GustResponse::Axis* axis : {&gust.ground, &gust.vertical}) {
+    for (const auto* lags : {&axis->change, &axis->wind, &axis->press}) {
+      if (auto ok = check_size(lags->size(), order, "responses to gusts"); !ok) return ok;
+      for (double coefficient : *lags) {
+        if (!(std::abs(coefficient) <= 1e3)) {
+          return Error{"the response to gusts holds a coefficient that is not a number below 1000"};
+        }
+      }
+    }
+    std::vector<double> rounded;
+    for (double coefficient : axis->change) rounded.push_back(static_cast<float>(coefficient));
+    if (!dies_away(std::move(rounded))) {
+      return Error{"the response to gusts never dies away: it is unstable in single precision; learn it again"};
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 int channel_count(ChainMotion motion) { return motion == ChainMotion::kPose ? 7 : 3; }
@@ -171,6 +209,9 @@ Result<void> check(const ChainModel& model) {
   if (auto ok = check_contexts(model); !ok) return ok;
   if (!(model.blend.share >= 0 && model.blend.share <= 0.5)) {
     return Error{"a chain blends a share of " + std::to_string(model.blend.share) + " of a segment, expected 0 to 0.5"};
+  }
+  if (model.gust) {
+    if (auto ok = check_gust(*model.gust); !ok) return ok;
   }
   if (!(model.blend.longest_steps >= 0 && model.blend.longest_steps <= 1e6)) {
     return Error{"a chain blends " + std::to_string(model.blend.longest_steps) + " steps, expected 0 to 1000000"};

@@ -50,6 +50,32 @@ Result<std::vector<ChainContext>> contexts_of(const FlatContexts& stored, std::s
   return contexts;
 }
 
+std::vector<double> joined(const std::vector<double>& ground, const std::vector<double>& vertical) {
+  std::vector<double> both = ground;
+  both.insert(both.end(), vertical.begin(), vertical.end());
+  return both;
+}
+
+fb::Offset<file::GustResponse> write_gust(fb::FlatBufferBuilder& builder, const GustResponse& gust) {
+  const auto change = builder.CreateVector(joined(gust.ground.change, gust.vertical.change));
+  const auto wind = builder.CreateVector(joined(gust.ground.wind, gust.vertical.wind));
+  const auto press = builder.CreateVector(joined(gust.ground.press, gust.vertical.press));
+  return file::CreateGustResponse(builder, change, wind, press);
+}
+
+GustResponse read_gust(const file::GustResponse& stored) {
+  GustResponse gust;
+  const auto split = [](const std::vector<double>& both, std::vector<double>& ground, std::vector<double>& vertical) {
+    const auto middle = both.begin() + static_cast<long>(both.size() / 2);
+    ground.assign(both.begin(), middle);
+    vertical.assign(middle, both.end());
+  };
+  split(copied(stored.change()), gust.ground.change, gust.vertical.change);
+  split(copied(stored.wind()), gust.ground.wind, gust.vertical.wind);
+  split(copied(stored.press()), gust.ground.press, gust.vertical.press);
+  return gust;
+}
+
 }  // namespace
 
 fb::Offset<file::Chain> write_chain(fb::FlatBufferBuilder& builder, const ChainModel& chain) {
@@ -66,6 +92,7 @@ fb::Offset<file::Chain> write_chain(fb::FlatBufferBuilder& builder, const ChainM
   const auto lengths = builder.CreateVector(contexts.lengths);
   const auto histories = builder.CreateVector(contexts.modes);
   const auto probabilities = builder.CreateVector(contexts.probabilities);
+  const auto gust = chain.gust ? write_gust(builder, *chain.gust) : fb::Offset<file::GustResponse>();
   file::ChainBuilder table(builder);
   table.add_motion(chain.motion == ChainMotion::kPose ? file::ChainMotion::Pose : file::ChainMotion::Position);
   table.add_heading_free(chain.heading_free);
@@ -84,6 +111,7 @@ fb::Offset<file::Chain> write_chain(fb::FlatBufferBuilder& builder, const ChainM
   table.add_probabilities(probabilities);
   table.add_blend_share(chain.blend.share);
   table.add_blend_longest_steps(chain.blend.longest_steps);
+  if (chain.gust) table.add_gust(gust);
   return table.Finish();
 }
 
@@ -105,6 +133,7 @@ Result<ChainModel> read_chain(const file::Chain& stored) {
   if (!contexts) return contexts.error();
   chain.contexts = std::move(*contexts);
   chain.blend = {stored.blend_share(), stored.blend_longest_steps()};
+  if (stored.gust()) chain.gust = read_gust(*stored.gust());
   return chain;
 }
 

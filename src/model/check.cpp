@@ -52,7 +52,11 @@ Result<void> check_dynamics(const Model& model, const ChainModel& chain) {
     return Error{"the chain moves " + std::to_string(channels) + " outputs, the model names " +
                  std::to_string(model.outputs.size())};
   }
-  if (!model.inputs.empty()) return Error{"a chain has no use for the model's inputs"};
+  const std::size_t inputs = chain.gust ? 3 : 0;
+  if (model.inputs.size() != inputs || regressor_count(model.inputs) != inputs) {
+    return Error{"the chain takes " + std::to_string(inputs) + " inputs, the wind's x, y and z for its response to " +
+                 "gusts and else none; the model names " + std::to_string(model.inputs.size())};
+  }
   return {};
 }
 

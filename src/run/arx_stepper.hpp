@@ -9,6 +9,7 @@
 #include <span>
 
 #include "run/arx_program.hpp"
+#include "run/chain_lane.hpp"
 #include "run/moment.hpp"
 #include "wisp/run/bank.hpp"
 
@@ -99,6 +100,10 @@ class ArxStepper {
       for (int k = 0; k < program_.regressors; ++k) row[(program_.outputs + k) * kLanes + lane] = Real(0);
     }
   }
+
+  /// An ARX model moves no body.
+  static void set_ground(float) {}
+  static bool place(int, int, const BodyState<Real>&) { return false; }
 
   /// An ARX model is not a chain.
   static std::optional<ChainPlace> chain_place(int, int) { return {}; }

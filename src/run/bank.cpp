@@ -13,6 +13,8 @@ namespace {
 
 constexpr int kMostCapacity = 1 << 20;
 constexpr int kMostPolylinePoints = 4096;
+constexpr float kLeastOrientation = 1e-6f;  // of its squared length
+constexpr float kMostOrientation = 1e30f;
 
 Result<void> check_options(const BankOptions& options) {
   if (options.capacity < 1 || options.capacity > kMostCapacity) {
@@ -250,6 +252,28 @@ std::optional<ChainPlace> Bank::chain_place(InstanceId id) const {
   if (!valid(id)) return {};
   const int block = static_cast<int>(id.slot) / State::kLanes, lane = static_cast<int>(id.slot) % State::kLanes;
   return std::visit([&](const auto& dynamics) { return dynamics.chain_place(block, lane); }, state_->stepper);
+}
+
+bool Bank::place(InstanceId id, const BodyMoment& body) {
+  if (!valid(id)) return false;
+  float size = 0;
+  for (const auto* vector : {&body.position, &body.velocity, &body.spin}) {
+    for (float x : *vector) {
+      if (!(x > -kFarthest && x < kFarthest)) return false;
+    }
+  }
+  for (float x : body.orientation) size += x * x;
+  if (!(size > kLeastOrientation && size < kMostOrientation)) return false;
+  const int block = static_cast<int>(id.slot) / State::kLanes, lane = static_cast<int>(id.slot) % State::kLanes;
+  const BodyState<float> state{body.position, unit(body.orientation), {body.velocity, body.spin}};
+  if (!std::visit([&](auto& dynamics) { return dynamics.place(block, lane, state); }, state_->stepper)) return false;
+  state_->show_block(block);
+  return true;
+}
+
+void Bank::set_ground(std::optional<float> height) {
+  const float at = height && *height > -kFarthest && *height < kFarthest ? *height : kNoGround;
+  std::visit([&](auto& dynamics) { dynamics.set_ground(at); }, state_->stepper);
 }
 
 bool Bank::reset(InstanceId id) {

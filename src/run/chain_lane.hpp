@@ -50,6 +50,9 @@ struct ChainLane {
   Vector3<Real> slip{};
   Vector3<Real> lean{};
   Vector3<Real> lean_slip{};
+  // The ground: how much of coming to rest has passed, in [0, 1]; below 0: it falls. The pose in which it touched.
+  Real settled{-1.0f};
+  Quaternion<Real> touched{};
 };
 
 /// What moves lanes of one program.

@@ -72,6 +72,20 @@ float unit_of(const ChainProgram& program, std::size_t offset, float scale) {
   return std::max(unit, kLeastUnit);
 }
 
+GustProgram gust_program(const GustResponse& gust, double wind_unit) {
+  GustProgram program;
+  program.order = gust.order();
+  const auto fill = [&](const GustResponse::Axis& from, auto& to) {
+    for (std::size_t k = 0; k < from.change.size(); ++k) {
+      to[k] = {static_cast<float>(from.change[k]), static_cast<float>(from.wind[k] * wind_unit),
+               static_cast<float>(from.press[k] * wind_unit)};
+    }
+  };
+  fill(gust.ground, program.ground);
+  fill(gust.vertical, program.vertical);
+  return program;
+}
+
 template <class Value>
 std::span<Value> copy_of(const std::vector<Value>& values, Arena& arena) {
   const auto out = arena.take<Value>(values.size());
@@ -81,7 +95,7 @@ std::span<Value> copy_of(const std::vector<Value>& values, Arena& arena) {
 
 }  // namespace
 
-ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, Arena& arena) {
+ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double wind_unit, Arena& arena) {
   const auto modes = static_cast<std::size_t>(chain.modes);
   const std::size_t states = chain.contexts.size() + 1;
   const ChainSegments& segments = chain.segments;
@@ -99,6 +113,7 @@ ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, Arena& 
   program.blend_share = static_cast<float>(chain.blend.share);
   program.blend_longest = static_cast<float>(chain.blend.longest_steps);
   program.step_seconds = static_cast<float>(1.0 / rate_hz);
+  if (chain.gust) program.gust = gust_program(*chain.gust, wind_unit);
   program.rows = copy_of(segments.rows, arena);
   program.rates = copy_of(segments.rates, arena);
   program.first_row = copy_of(segment_rows(segments), arena);
@@ -122,6 +137,9 @@ std::uint64_t hash_of(const ChainProgram& program, std::uint64_t before) {
                                     program.position_scale, program.orientation_scale, program.velocity_scale,
                                     program.spin_scale, program.blend_share, program.blend_longest},
                                    before);
+  for (const auto* axis : {&program.gust.ground, &program.gust.vertical}) {
+    for (const auto& lag : *axis) hash = hash_floats(lag, hash);
+  }
   for (std::int16_t number : program.rows)
     hash = hash_number(static_cast<std::uint32_t>(static_cast<std::uint16_t>(number)), hash);
   for (std::int16_t number : program.rates)

@@ -2,6 +2,7 @@
 // A segment chain compiled for stepping: probabilities as thresholds of 32-bit words, histories as the states of an
 // automaton, scales in single precision.
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -10,6 +11,13 @@
 #include "wisp/model/chain.hpp"
 
 namespace wisp {
+
+/// A response to gusts: one lag after the other of the change of velocity, the wind, and its press on the body.
+struct GustProgram {
+  int order = 0;  ///< 0: none
+  std::array<std::array<float, 3>, kMostGustOrder> ground{};
+  std::array<std::array<float, 3>, kMostGustOrder> vertical{};
+};
 
 struct ChainProgram {
   int channels = 0;  ///< 3 or 7
@@ -26,6 +34,7 @@ struct ChainProgram {
   float step_seconds = 0;
   float speed_unit = 1;  ///< root-mean-square of the speeds at joins: what differences of speed are measured in
   float spin_unit = 1;   ///< the same of angular speeds
+  GustProgram gust{};
   std::span<std::int16_t> rows;
   std::span<std::int16_t> rates;
   std::span<std::uint32_t> first_row;  ///< per segment, and one past the last
@@ -41,7 +50,8 @@ struct ChainProgram {
 };
 
 /// State 0 is the beginning; state k + 1 is the model's history k.
-ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, Arena& arena);
+/// `wind_unit` is what the wind of the regressors is measured in.
+ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double wind_unit, Arena& arena);
 
 /// A hash of the program, over a hash of what came before.
 std::uint64_t hash_of(const ChainProgram& program, std::uint64_t before);

@@ -10,11 +10,16 @@
 
 #include "run/chain_lane.hpp"
 #include "run/channels.hpp"
+#include "run/ground_lane.hpp"
+#include "run/gust_lane.hpp"
 #include "run/moment.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/random.hpp"
 
 namespace wisp {
+
+/// Lower than anything falls.
+inline constexpr float kNoGround = -4.0f * kFarthest;
 
 template <class N>
 class ChainStepper {
@@ -29,16 +34,18 @@ class ChainStepper {
   /// A chain has no operating point: its outputs are in their own units.
   static OperatingPoint operating_point(const ChainModel& chain) {
     static constexpr std::array<double, 7> kOrigin{};
-    return {std::span(kOrigin).first(static_cast<std::size_t>(channel_count(chain.motion))), {}};
+    return {std::span(kOrigin).first(static_cast<std::size_t>(channel_count(chain.motion))),
+            std::span(kOrigin).first(chain.gust ? 3 : 0)};
   }
 
   /// Errors: what single precision can't step.
   static Result<void> check(const Model&, const ChainModel& chain) { return check_chain_program(chain); }
 
   ChainStepper(const Model& model, const ChainModel& chain, const Channels&, int blocks, Arena& arena)
-      : program_(make_chain_program(chain, model.rate_hz, arena)) {
+      : program_(make_chain_program(chain, model.rate_hz, wind_unit(model), arena)) {
     const auto lanes = static_cast<std::size_t>(blocks) * kLanes;
     lanes_ = arena.take<Lane>(lanes);
+    if (program_.gust.order > 0) gusts_ = arena.take<GustLane<Real>>(lanes);
     newest_ = arena.take<Real>(lanes * static_cast<std::size_t>(program_.channels));
     previous_ = arena.take<Real>(lanes * static_cast<std::size_t>(program_.channels));
     regressor_row_ = regressor_count(model.inputs) * kLanes;
@@ -61,9 +68,18 @@ class ChainStepper {
     bool drawn = false;
     for (int lane = 0; lane < kLanes; ++lane) {
       Lane& life = lane_of(block, lane);
+      moment.held[lane] = 0;
+      if (!(life.settled < Real(0.0f))) {
+        settle_step(life, program_.step_seconds, program_.channels >= 7, newest_of(block) + lane, kLanes);
+        continue;
+      }
+      if (program_.gust.order > 0) drift(block, lane);
       const bool ends = mover.advance(life);
       mover.show(life, newest_of(block) + lane, kLanes);
-      moment.held[lane] = 0;
+      if (newest_of(block)[2 * kLanes + lane] < Real(ground_)) {
+        land(block, lane);
+        continue;
+      }
       if (!ends) continue;
       if (!drawn) draw(moment, 0, words);
       drawn = true;
@@ -102,6 +118,7 @@ class ChainStepper {
     const ChainMover<Real> mover(program_);
     Lane& life = lane_of(block, lane);
     life = {};
+    if (program_.gust.order > 0) gust_of(block, lane) = {};
     const std::uint32_t segment = mover.draw(life, words[0][lane], words[1][lane], true);
     const HalfTurn<Real> turn = random_turn(words[2][lane], words[3][lane]);
     mover.place(life, segment, {}, turn.cos, turn.sin);
@@ -118,10 +135,39 @@ class ChainStepper {
     return ChainPlace{segment, Mover::index(life.row, program_.steps(segment))};
   }
 
+  /// The height of the ground; below all heights: none.
+  void set_ground(float height) { ground_ = height; }
+
+  /// Puts a lane where a body is, on whichever segment begins most as the body moves.
+  bool place(int block, int lane, const Body& body) {
+    const Mover mover(program_);
+    std::uint32_t best = 0;
+    Real least(0.0f);
+    for (std::uint32_t segment = 0; segment < program_.segments(); ++segment) {
+      const Real misfit = mover.misfit(segment, body);
+      if (segment > 0 && !(misfit < least)) continue;
+      best = segment;
+      least = misfit;
+    }
+    Lane& life = lane_of(block, lane);
+    life = {};
+    mover.join(life, best, body);
+    life.state = Real(static_cast<float>(program_.next[program_.mode[best]]));
+    if (program_.gust.order > 0) gust_of(block, lane) = {};
+    mover.show(life, newest_of(block) + lane, kLanes);
+    for (int k = 0; k < program_.channels; ++k) {
+      previous_of(block)[k * kLanes + lane] = newest_of(block)[k * kLanes + lane];
+    }
+    return true;
+  }
+
   /// A chain multiplies by no coefficients of A and B.
   std::int64_t multiply_adds() const { return 0; }
 
-  std::size_t lane_values() const { return kLaneNumbers + 2 * static_cast<std::size_t>(program_.channels); }
+  std::size_t lane_values() const {
+    return kLaneNumbers + 2 * static_cast<std::size_t>(program_.channels) +
+           9 * static_cast<std::size_t>(program_.gust.order);
+  }
 
   /// Calls visit(value, low, high) for each number of one lane's state.
   template <class Visit>
@@ -141,6 +187,14 @@ class ChainStepper {
     for (auto* vector : {&life.slip, &life.lean, &life.lean_slip}) {
       for (Real& x : *vector) visit(x, -kMostSlip, kMostSlip);
     }
+    visit(life.settled, -1.0f, 2.0f);
+    for (Real& x : life.touched) visit(x, -2.0f, 2.0f);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(program_.gust.order); ++k) {
+      GustLane<Real>& gust = gust_of(block, lane);
+      for (auto* vector : {&gust.change[k], &gust.wind[k], &gust.press[k]}) {
+        for (Real& x : *vector) visit(x, -kMostSlip, kMostSlip);
+      }
+    }
     for (Real* sample : {newest_of(block), previous_of(block)}) {
       for (int k = 0; k < program_.channels; ++k) visit(sample[k * kLanes + lane], -kFarthest, kFarthest);
     }
@@ -151,13 +205,62 @@ class ChainStepper {
 
  private:
   using Mover = ChainMover<Real>;
-  static constexpr std::size_t kLaneNumbers = 3 + 3 + 2 + 4 + 2 + 9;
+  static constexpr std::size_t kLaneNumbers = 3 + 3 + 2 + 4 + 2 + 9 + 5;
   static constexpr float kMostSlip = 1e12f;
 
   std::size_t sample_size() const { return static_cast<std::size_t>(program_.channels) * kLanes; }
   Lane& lane_of(int block, int lane) { return lanes_[static_cast<std::size_t>(block) * kLanes + lane]; }
   Real* newest_of(int block) { return newest_.data() + block * sample_size(); }
   Real* previous_of(int block) { return previous_.data() + block * sample_size(); }
+
+  GustLane<Real>& gust_of(int block, int lane) { return gusts_[static_cast<std::size_t>(block) * kLanes + lane]; }
+
+  // What the channels measure the wind in: the same for x, y and z, which have one range.
+  static double wind_unit(const Model& model) {
+    if (model.inputs.empty()) return 1;
+    double lowest = 0, highest = 0;
+    for (const Input& input : model.inputs) {
+      lowest = input.lowest < lowest ? input.lowest : lowest;
+      highest = input.highest > highest ? input.highest : highest;
+    }
+    return channel_scale(lowest, highest);
+  }
+
+  // Moves a lane's segment by what the wind has done to its velocity.
+  void drift(int block, int lane) {
+    const Real* at = regressors(block) + lane;
+    const Vector3<Real> wind{at[0], at[kLanes], at[2 * kLanes]};
+    GustLane<Real>& gust = gust_of(block, lane);
+    if (!gust_lasts(program_.gust, gust, wind)) {
+      gust = {};
+      return;
+    }
+    Vector3<Real> press{};
+    if (program_.channels >= 7) press = press_of(shown_orientation(block, lane), wind);
+    const auto change = blow(program_.gust, gust, wind, press);
+    Lane& life = lane_of(block, lane);
+    life.base = added(life.base, scaled(change, Real(program_.step_seconds)));
+  }
+
+  Quaternion<Real> shown_orientation(int block, int lane) const {
+    Quaternion<Real> q;
+    for (std::size_t k = 0; k < 4; ++k) q[k] = newest(block)[(3 + k) * kLanes + static_cast<std::size_t>(lane)];
+    return q;
+  }
+
+  // What is shown has come to the ground.
+  void land(int block, int lane) {
+    Lane& life = lane_of(block, lane);
+    Body body;
+    for (std::size_t k = 0; k < 3; ++k) body.position[k] = newest(block)[k * kLanes + static_cast<std::size_t>(lane)];
+    if (program_.channels >= 7) body.orientation = shown_orientation(block, lane);
+    const Real rate = Real(1.0f / program_.step_seconds);
+    for (std::size_t k = 0; k < 3; ++k) {
+      body.rates.velocity[k] = (body.position[k] - previous(block)[k * kLanes + static_cast<std::size_t>(lane)]) * rate;
+    }
+    touch(life, body, ground_);
+    newest_of(block)[2 * kLanes + lane] = Real(ground_);
+  }
 
   static void draw(const Moment<N>& moment, std::uint32_t group, std::uint32_t (&out)[4][kLanes]) {
     Words<N> counters[4], words[4];
@@ -191,10 +294,12 @@ class ChainStepper {
 
   ChainProgram program_;
   std::span<Lane> lanes_;
+  std::span<GustLane<Real>> gusts_;
   std::span<Real> newest_;
   std::span<Real> previous_;
   std::span<Real> regressors_;
   std::size_t regressor_row_ = 0;
+  float ground_ = kNoGround;
 };
 
 }  // namespace wisp

@@ -277,7 +277,7 @@ TEST(ChainCost, AFadingJoinTakesAtMost120OperationsAFrame) {
   std::vector<std::byte> memory(1 << 20);
   Arena arena(memory);
   const Model model = sample_chain();
-  const ChainProgram program = make_chain_program(std::get<ChainModel>(model.dynamics), model.rate_hz, arena);
+  const ChainProgram program = make_chain_program(std::get<ChainModel>(model.dynamics), model.rate_hz, 1, arena);
   const ChainMover<CountingReal> mover(program);
   ChainLane<CountingReal> lane;
   BodyState<CountingReal> body;

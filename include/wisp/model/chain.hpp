@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -62,6 +63,24 @@ struct ChainBlend {
   double longest_steps = 30;  ///< and most steps
 };
 
+/// How wind changes the velocity of what the chain moves: v_windy − v_calm = F(wind, attitude), an autoregression with
+/// exogenous inputs. Lags 1 … n of the change itself, lags 0 … n−1 of the wind and of its press, the part of it that is
+/// square to the body, n (n·w) for a normal n. All directions over ground are alike, so that one set of coefficients
+/// stands for x and y and the response turns with the heading; z has its own.
+struct GustResponse {
+  struct Axis {
+    std::vector<double> change;
+    std::vector<double> wind;
+    std::vector<double> press;  ///< zeros for a chain without orientation
+  };
+  Axis ground;    ///< of x and of y
+  Axis vertical;  ///< of z
+
+  int order() const { return static_cast<int>(ground.change.size()); }
+};
+
+inline constexpr int kMostGustOrder = 4;
+
 struct ChainModel {
   ChainMotion motion = ChainMotion::kPose;
   bool heading_free = true;  ///< segments are turned about z to join; otherwise only moved
@@ -70,6 +89,8 @@ struct ChainModel {
   std::vector<double> initial;         ///< per mode: how a recording begins; sums to 1
   std::vector<ChainContext> contexts;  ///< every single mode, and longer histories that say more
   ChainBlend blend;
+  std::optional<GustResponse>
+      gust;  ///< where there is one, the model's inputs are the wind's x, y and z, metres a second
 
   /// Order of the longest history.
   int history() const;

@@ -10,6 +10,7 @@
 //
 // A bank is used by one thread at a time; different banks are independent.
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -35,6 +36,14 @@ struct InstanceId {
 struct ChainPlace {
   std::uint32_t segment = 0;  ///< index into ChainModel::segments
   std::uint32_t step = 0;     ///< of that segment; at 0 it was joined to the one before
+};
+
+/// A body at one moment, in the world: metres, seconds, radians, z up.
+struct BodyMoment {
+  std::array<float, 3> position{};
+  std::array<float, 4> orientation{1, 0, 0, 0};  ///< body to world, w first; its length does not matter
+  std::array<float, 3> velocity{};
+  std::array<float, 3> spin{};  ///< angular velocity, world axes
 };
 
 /// How a bank is made.
@@ -152,6 +161,16 @@ class Bank {
 
   /// Where in its chain an instance is; nothing where the dynamics are not a chain or `id` is not valid.
   std::optional<ChainPlace> chain_place(InstanceId id) const;
+
+  /// Sets an instance of a chain where a body is, as after a collision or a kick: it goes on with the segment that
+  /// begins most as the body moves, the rest fading as at any join. Where the chain is not free of heading, or has no
+  /// orientation, that part of the body is not taken over. Looks at every segment once: not for every frame.
+  /// Returns false, and does nothing, when `id` is not valid, a number is not finite, or the dynamics are not a chain.
+  bool place(InstanceId id, const BodyMoment& body);
+
+  /// The height of level ground, on which instances of a chain come to rest until they are placed or reset; nothing:
+  /// they fall for ever, as at first. It is not part of what save() saves.
+  void set_ground(std::optional<float> height);
 
   /// Whether the model has a rule of extinction (wisp/model/extinction.hpp). Where it has one, instances whose wind the
   /// rule finds too strong go out in a step and stay out, whatever the wind does then; their outputs shrink to 0 and

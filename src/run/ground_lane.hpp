@@ -1,0 +1,47 @@
+#pragma once
+// How an instance of a segment chain comes to rest on the ground, a level plane: it slides on a little and lies down on
+// the side that is nearer, and rests.
+
+#include "run/chain_lane.hpp"
+
+namespace wisp {
+
+/// What coming to rest takes: less than the eye follows, more than a jump.
+inline constexpr float kSettleSeconds = 0.35f;
+
+/// Lets a lane whose body has come to the ground settle there. Its rates are those of what it played.
+template <class Real>
+inline void touch(ChainLane<Real>& lane, BodyState<Real> body, float ground) {
+  lane.settled = Real(0.0f);
+  lane.base = {body.position[0], body.position[1], Real(ground)};
+  lane.slip = scaled(body.rates.velocity, Real(kSettleSeconds));
+  lane.slip[2] = Real(0.0f);
+  lane.touched = body.orientation;
+  const Quaternion<Real>& q = body.orientation;
+  const Real two(2.0f);
+  const Vector3<Real> normal{two * (q[1] * q[3] + q[0] * q[2]), two * (q[2] * q[3] - q[0] * q[1]),
+                             Real(1.0f) - two * (q[1] * q[1] + q[2] * q[2])};
+  // The rotation from the normal to straight up, or down: its Gibbs vector is n × z / (1 + n·z).
+  const Real side = normal[2] < Real(0.0f) ? Real(-1.0f) : Real(1.0f);
+  const Vector3<Real> up{Real(0.0f), Real(0.0f), side};
+  lane.lean = scaled(cross(normal, up), Real(1.0f) / (Real(1.0f) + dot(normal, up)));
+}
+
+/// Moves a settling lane on by a step and shows it; `out` has a stride.
+template <class Real>
+inline void settle_step(ChainLane<Real>& lane, float step_seconds, bool turns, Real* out, int stride) {
+  if (lane.settled < Real(1.0f)) lane.settled = lane.settled + Real(step_seconds / kSettleSeconds);
+  const bool rests = !(lane.settled < Real(1.0f));
+  const Real passed = rests ? Real(1.0f) : lane.settled;
+  const Real rest = Real(1.0f) - passed;
+  // It slides to where a speed that fades to nothing, (1 − s)², takes it: a third of the way that it had gone.
+  const Real way = (Real(1.0f) - rest * rest * rest) * Real(1.0f / 3.0f);
+  const Real lean = passed * passed * (Real(3.0f) - (passed + passed));
+  const auto position = added(lane.base, scaled(lane.slip, way));
+  for (int axis = 0; axis < 3; ++axis) out[axis * stride] = position[static_cast<std::size_t>(axis)];
+  if (!turns) return;
+  const auto q = rotated(scaled(lane.lean, lean), lane.touched);
+  for (int k = 0; k < 4; ++k) out[(3 + k) * stride] = q[static_cast<std::size_t>(k)];
+}
+
+}  // namespace wisp

@@ -1,0 +1,193 @@
+// Chains among other things: wind, ground, and hands that put them somewhere else.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "model/sample_chain.hpp"
+#include "wisp/run/bank.hpp"
+
+namespace wisp {
+namespace {
+
+using Pose = std::array<float, 7>;
+
+// The sample, carried along by the wind within a few steps.
+Model windy_chain() {
+  Model model = sample_chain();
+  GustResponse gust;
+  gust.ground = {{0.75, 0.0}, {0.25, 0.0}, {0.0, 0.0}};
+  gust.vertical = {{0.5, 0.25}, {0.125, 0.125}, {0.0, 0.0}};
+  std::get<ChainModel>(model.dynamics).gust = gust;
+  for (const char* name : {"wind.x", "wind.y", "wind.z"}) model.inputs.push_back({name, "m/s", -3, 3});
+  return model;
+}
+
+Bank bank_of(const Model& model, int capacity = 1) {
+  auto bank = Bank::create(model, {.capacity = capacity});
+  EXPECT_TRUE(bank) << bank.error().message;
+  for (int k = 0; k < capacity; ++k) bank->spawn();
+  return std::move(bank).value();
+}
+
+Pose pose_of(const Bank& bank, int slot = 0) {
+  Pose pose{};
+  EXPECT_TRUE(bank.outputs(bank.at(slot), pose));
+  return pose;
+}
+
+TEST(ChainWind, CarriesAFallAlongAndLetsItGo) {
+  Bank blown = bank_of(windy_chain()), calm = bank_of(windy_chain());
+  const auto drift = [&] {
+    const Pose a = pose_of(blown), b = pose_of(calm);
+    return std::array{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+  };
+  const std::array<float, 3> wind = {2, -1, 0.5}, none = {};
+  blown.set_common_inputs(wind);
+  for (int step = 0; step < 60; ++step) {
+    blown.step();
+    calm.step();
+  }
+  // A step's change is the wind's share of what is missing: after the wind's rise, 3 steps less than a second of it.
+  const auto after = drift();
+  EXPECT_NEAR(after[0], 2 * (60 - 3) / 60.0, 0.01);
+  EXPECT_NEAR(after[1], -(60 - 3) / 60.0, 0.01);
+  EXPECT_GT(after[2], 0.3);
+  blown.set_common_inputs(none);
+  for (int step = 0; step < 120; ++step) {
+    blown.step();
+    calm.step();
+  }
+  const auto rested = drift();
+  EXPECT_NEAR(rested[0], 2, 0.01);
+  for (int step = 0; step < 60; ++step) {
+    blown.step();
+    calm.step();
+  }
+  // The gust is over to the last bit of the velocity; single precision is left.
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(drift()[k], rested[k], 1e-5);
+}
+
+TEST(ChainWind, AbsurdWindIsHeldAndNothingIsNotANumber) {
+  Bank bank = bank_of(windy_chain());
+  for (float absurd : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -1e30f}) {
+    const std::array<float, 3> wind = {absurd, absurd, absurd};
+    bank.set_common_inputs(wind);
+    for (int step = 0; step < 600; ++step) bank.step();
+    for (float x : pose_of(bank)) ASSERT_TRUE(std::isfinite(x));
+  }
+  // Ten seconds at six metres a second to either side.
+  EXPECT_LT(std::abs(pose_of(bank)[0]), 130);
+}
+
+TEST(ChainWind, IsSavedAndRestoredInMidGust) {
+  Bank bank = bank_of(windy_chain(), 3);
+  const std::array<float, 3> wind = {2, 0, 0};
+  bank.set_common_inputs(wind);
+  for (int step = 0; step < 5; ++step) bank.step();
+  std::vector<std::byte> saved(bank.save_bytes());
+  bank.save(saved);
+  Bank other = bank_of(windy_chain(), 3);
+  ASSERT_TRUE(other.restore(saved));
+  for (int step = 0; step < 50; ++step) {
+    bank.step();
+    other.step();
+    EXPECT_EQ(pose_of(bank, 2), pose_of(other, 2));
+  }
+}
+
+TEST(ChainGround, ALeafComesToRestFlatOnIt) {
+  Bank bank = bank_of(sample_chain(), 9);
+  bank.set_ground(-2.0f);
+  for (int step = 0; step < 600; ++step) bank.step();
+  for (int slot = 0; slot < 9; ++slot) {
+    const Pose rest = pose_of(bank, slot);
+    EXPECT_EQ(rest[2], -2.0f);
+    // The normal's height is that of lying flat.
+    EXPECT_NEAR(std::abs(1 - 2 * (rest[4] * rest[4] + rest[5] * rest[5])), 1, 1e-5);
+    bank.step();
+    EXPECT_EQ(pose_of(bank, slot), rest);
+  }
+}
+
+TEST(ChainGround, NothingJumpsWhereItTouches) {
+  Bank bank = bank_of(sample_chain());
+  bank.set_ground(-1.0f);
+  Pose before = pose_of(bank);
+  for (int step = 0; step < 300; ++step) {
+    bank.step();
+    const Pose now = pose_of(bank);
+    EXPECT_LT(std::hypot(now[0] - before[0], now[1] - before[1], now[2] - before[2]), 0.025);
+    EXPECT_GT(before[3] * now[3] + before[4] * now[4] + before[5] * now[5] + before[6] * now[6], std::cos(0.1));
+    before = now;
+  }
+}
+
+TEST(ChainGround, WhoeverIsPlacedFallsAgain) {
+  Bank bank = bank_of(sample_chain());
+  bank.set_ground(-0.5f);
+  for (int step = 0; step < 200; ++step) bank.step();
+  EXPECT_TRUE(bank.place(bank.at(0), {.position = {1, 2, 3}}));
+  bank.step();
+  EXPECT_GT(pose_of(bank)[2], 2.9f);
+  bank.set_ground({});
+  for (int step = 0; step < 600; ++step) bank.step();
+  EXPECT_LT(pose_of(bank)[2], -0.6f);
+}
+
+TEST(ChainPlace, GoesOnFromThePoseAndFadesIntoTheChain) {
+  Bank bank = bank_of(sample_chain());
+  const BodyMoment body{.position = {5, -3, 10},
+                        .orientation = {0.8f, 0.2f, -0.1f, 0.55f},
+                        .velocity = {0.5f, 0.3f, -0.6f},
+                        .spin = {0, 0, 2}};
+  ASSERT_TRUE(bank.place(bank.at(0), body));
+  Pose before = pose_of(bank);
+  float size = 0;
+  for (float x : body.orientation) size += x * x;
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(before[k], body.position[k]);
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(before[3 + k], body.orientation[k] / std::sqrt(size), 1e-3);
+  bank.step();
+  Pose now = pose_of(bank);
+  // The first step goes on with the body's own velocity, the fading bends it a little.
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR((now[k] - before[k]) * 60, body.velocity[k], 0.25);
+  for (int step = 0; step < 100; ++step) {
+    before = pose_of(bank);
+    bank.step();
+    now = pose_of(bank);
+    EXPECT_LT(std::hypot(now[0] - before[0], now[1] - before[1], now[2] - before[2]), 0.03);
+  }
+}
+
+TEST(ChainPlace, ChoosesTheSegmentThatBeginsSo) {
+  Bank bank = bank_of(sample_chain());
+  const Model model = sample_chain();
+  const auto& segments = std::get<ChainModel>(model.dynamics).segments;
+  for (std::uint32_t segment = 0; segment < 3; ++segment) {
+    BodyMoment body;
+    const auto row = segment_rows(segments)[segment];
+    for (std::size_t k = 0; k < 4; ++k) body.orientation[k] = segments.rows[row * 7 + 3 + k];
+    for (std::size_t k = 0; k < 3; ++k) {
+      body.velocity[k] = static_cast<float>(segments.rates[segment * 12 + k] * segments.rate_scale[0]);
+      body.spin[k] = static_cast<float>(segments.rates[segment * 12 + 3 + k] * segments.rate_scale[1]);
+    }
+    ASSERT_TRUE(bank.place(bank.at(0), body));
+    EXPECT_EQ(bank.chain_place(bank.at(0))->segment, segment);
+  }
+}
+
+TEST(ChainPlace, RefusesWhatIsNoBody) {
+  Bank bank = bank_of(sample_chain());
+  const InstanceId id = bank.at(0);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(bank.place({}, {}));
+  EXPECT_FALSE(bank.place(id, {.position = {nan, 0, 0}}));
+  EXPECT_FALSE(bank.place(id, {.orientation = {0, 0, 0, 0}}));
+  EXPECT_FALSE(bank.place(id, {.velocity = {0, 1e30f, 0}}));
+  EXPECT_TRUE(bank.place(id, {}));
+}
+
+}  // namespace
+}  // namespace wisp
