@@ -161,7 +161,8 @@ Result<void> write_run(const Play& play, const Bank& bank, Player& player, const
 Result<std::vector<std::size_t>> relit_frames(const Model& model, const Arguments& arguments) {
   std::vector<std::size_t> frames;
   if (!arguments.has("relight")) return frames;
-  if (!model.extinction) return Error{"the model never goes out, there is nothing to relight; learn it with --blow-out"};
+  if (!model.extinction)
+    return Error{"the model never goes out, there is nothing to relight; learn it with --blow-out"};
   for (const std::string& word : arguments.names("relight")) {
     char* end = nullptr;
     const double seconds = std::strtod(word.c_str(), &end);
