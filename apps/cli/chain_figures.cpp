@@ -57,6 +57,7 @@ void share_axes(Plot& a, Plot& b) {
     for (const Plot* plot : {&a, &b}) {
       for (const PlotSeries& series : plot->series) {
         for (double value : series.*coordinate) {
+          if (!std::isfinite(value)) continue;
           low = std::min(low, value);
           high = std::max(high, value);
         }
@@ -172,6 +173,7 @@ Result<void> write_chain_figures(const std::filesystem::path& folder, const Mode
   if (auto ok = write_figure(folder, "falls-above", side_by_side(*seen, *made, true)); !ok) return ok;
   Plot a = marked_real(*seen, *cut);
   Plot b = marked_made(*walked, *walk, std::get<ChainModel>(model.dynamics).modes);
+  share_axes(a, b);
   return write_figure(folder, "segments",
                       {.title = "One fall, cut at its events", .plots = {std::move(a), std::move(b)}});
 }

@@ -223,7 +223,7 @@ std::vector<Flag> flags(const std::string& event, const std::string& features) {
       {"debounce", Kind::kNumber, "D", "0.1",
        "standard deviations that the signal must move beyond an event on both sides"},
       {"smooth", Kind::kInteger, "ROWS", "0", "rows that velocities are taken over, where positions are noisy"},
-      {"most-bytes", Kind::kInteger, "N", "900000", "of stored segments; what is more is left out at random"},
+      {"most-bytes", Kind::kInteger, "N", "850000", "of stored segments; what is more is left out at random"},
       {"holdout", Kind::kNumber, "SHARE", "0.2", "share of the stretches kept for judging"},
       {"restarts", Kind::kInteger, "N", "10", "starts of the clustering; the best is taken"},
       {"seed", Kind::kInteger, "N", "1", "of all chance"},

@@ -15,7 +15,7 @@ namespace wisp {
 
 struct SegmentStoreOptions {
   bool heading_free = true;
-  std::size_t most_bytes = 900'000;  ///< > 0, of all segments: what is over it is left out, as many of each mode as
+  std::size_t most_bytes = 850'000;  ///< > 0, of all segments: what is over it is left out, as many of each mode as
                                      ///< the rarer ones allow; a leaf for the web is at most 1 MB
   int breadth = 8;  ///< 0 … 256: best followers kept for each segment and mode; 0: any segment of the mode follows (the
                     ///< paper's). Fewer join better, but favour segments that are near to many, and those are longer
