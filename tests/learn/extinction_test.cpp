@@ -148,7 +148,7 @@ TEST(ExtinctionAgreement, CountsDeathsAndGustsAndHowLateTheRuleIs) {
   Extinction always = recipe.rule;
   always.level = 0.3;
   always.seconds = 0.02;
-  EXPECT_EQ(agreement(always, seen).spared, 0U);
+  EXPECT_LE(agreement(always, seen).spared, 1U);  // a gust of one frame: no rule kills in less than two
 }
 
 }  // namespace

@@ -41,8 +41,9 @@ Recording sample_recording(std::size_t rows = 3000) {
   }
   for (double& sample : y1) sample += 100;
   for (double& sample : u) sample -= 30;
-  y1[1500] = kMissing;
-  u[0] = u[2500] = kMissing;
+  u[0] = kMissing;
+  if (rows > 1500) y1[1500] = kMissing;
+  if (rows > 2500) u[2500] = kMissing;
   return recording;
 }
 
