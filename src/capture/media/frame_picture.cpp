@@ -58,6 +58,20 @@ void turn_plane(const PicturePlane& in, int width, int height, int quarters, std
   }
 }
 
+// A frame of that format for a picture of the same size, kept from call to call. Returns false without memory.
+bool take_frame(FrameOwner& kept, const AVFrame& like, AVPixelFormat format) {
+  if (!kept) kept.reset(av_frame_alloc());
+  if (!kept) return false;
+  if (kept->width == like.width && kept->height == like.height && kept->format == format) return true;
+  av_frame_unref(kept.get());
+  kept->width = like.width;
+  kept->height = like.height;
+  kept->format = format;
+  if (av_frame_get_buffer(kept.get(), 0) >= 0) return true;
+  av_frame_unref(kept.get());
+  return false;
+}
+
 }  // namespace
 
 Result<const AVFrame*> FramePictures::plain(const AVFrame& frame) {
@@ -67,14 +81,7 @@ Result<const AVFrame*> FramePictures::plain(const AVFrame& frame) {
   const AVPixelFormat target = format.nb_components < 3 && !rgb ? AV_PIX_FMT_GRAY8
                                : rgb                            ? AV_PIX_FMT_RGB24
                                                                 : AV_PIX_FMT_YUV444P;
-  if (!plain_) plain_.reset(av_frame_alloc());
-  if (plain_->width != frame.width || plain_->height != frame.height || plain_->format != target) {
-    av_frame_unref(plain_.get());
-    plain_->width = frame.width;
-    plain_->height = frame.height;
-    plain_->format = target;
-    if (av_frame_get_buffer(plain_.get(), 0) < 0) return Error{"not enough memory for a frame"};
-  }
+  if (!take_frame(plain_, frame, target)) return Error{"not enough memory for a frame"};
   to_plain_.reset(sws_getCachedContext(to_plain_.release(), frame.width, frame.height,
                                        static_cast<AVPixelFormat>(frame.format), frame.width, frame.height, target,
                                        SWS_POINT, nullptr, nullptr, nullptr));
@@ -115,26 +122,31 @@ Result<Picture> FramePictures::view(const AVFrame& frame) {
 
 RgbImage FramePictures::rgb(const AVFrame& frame) {
   RgbImage out{frame.width, frame.height, {}};
-  out.pixels.resize(3 * static_cast<std::size_t>(frame.width) * frame.height);
+  const std::size_t row_bytes = 3 * static_cast<std::size_t>(frame.width);
+  out.pixels.resize(row_bytes * frame.height);
   to_rgb_.reset(sws_getCachedContext(to_rgb_.release(), frame.width, frame.height,
                                      static_cast<AVPixelFormat>(frame.format), frame.width, frame.height,
                                      AV_PIX_FMT_RGB24, SWS_BILINEAR, nullptr, nullptr, nullptr));
-  if (!to_rgb_) return out;
+  if (!to_rgb_ || !take_frame(rgb_, frame, AV_PIX_FMT_RGB24)) return out;
   if (frame.colorspace == AVCOL_SPC_BT709) {
     const int* matrix = sws_getCoefficients(SWS_CS_ITU709);
     sws_setColorspaceDetails(to_rgb_.get(), matrix, frame.color_range == AVCOL_RANGE_JPEG, matrix, 1, 0, 1 << 16,
                              1 << 16);
   }
-  std::uint8_t* planes[4] = {out.pixels.data(), nullptr, nullptr, nullptr};
-  int strides[4] = {3 * frame.width, 0, 0, 0};
-  sws_scale(to_rgb_.get(), frame.data, frame.linesize, 0, frame.height, planes, strides);
+  // The scaler writes whole vectors, past a row's end: into a frame that has room there, and from that row by row.
+  sws_scale(to_rgb_.get(), frame.data, frame.linesize, 0, frame.height, rgb_->data, rgb_->linesize);
+  for (int y = 0; y < frame.height; ++y) {
+    std::copy_n(rgb_->data[0] + static_cast<std::ptrdiff_t>(y) * rgb_->linesize[0], row_bytes,
+                out.pixels.data() + static_cast<std::size_t>(y) * row_bytes);
+  }
   if (quarter_turns_ == 0) return out;
   RgbImage shown{
       quarter_turns_ % 2 == 0 ? out.width : out.height, quarter_turns_ % 2 == 0 ? out.height : out.width, {}};
   shown.pixels.resize(out.pixels.size());
   std::vector<std::uint8_t> plane(out.pixels.size() / 3);
   for (int k = 0; k < 3; ++k) {
-    turn_plane({out.pixels.data() + k, strides[0], 3}, out.width, out.height, quarter_turns_, plane.data());
+    turn_plane({out.pixels.data() + k, static_cast<std::ptrdiff_t>(row_bytes), 3}, out.width, out.height,
+               quarter_turns_, plane.data());
     for (std::size_t i = 0; i < plane.size(); ++i) shown.pixels[3 * i + k] = plane[i];
   }
   return shown;

@@ -31,6 +31,7 @@ class FramePictures {
   ScalerOwner to_plain_;
   ScalerOwner to_rgb_;
   FrameOwner plain_;
+  FrameOwner rgb_;
   std::vector<std::uint8_t> turned_;
 };
 
