@@ -48,6 +48,17 @@ TwoClusters split_histogram(const Histogram& histogram) {
   return best;
 }
 
+namespace {
+
+// Pixels of the levels from first to last.
+double count_between(const Histogram& histogram, int first, int last) {
+  std::uint64_t count = 0;
+  for (int v = std::max(first, 0); v <= std::min(last, 255); ++v) count += histogram[v];
+  return static_cast<double>(count);
+}
+
+}  // namespace
+
 int steepest_level(const Histogram& histogram, const TwoClusters& clusters) {
   constexpr int kBlur = 8;          // levels on either side: single levels are noisy
   constexpr double kReach = 0.4;    // of the way to the clusters' means
@@ -55,16 +66,16 @@ int steepest_level(const Histogram& histogram, const TwoClusters& clusters) {
   const int otsu = clusters.threshold;
   const int first = static_cast<int>(otsu - kReach * (otsu - clusters.dark_mean));
   const int last = static_cast<int>(otsu + kReach * (clusters.bright_mean - otsu));
-  const auto count_near = [&](int level) {
-    std::uint64_t count = 0;
-    for (int v = std::max(level - kBlur, 0); v <= std::min(level + kBlur, 255); ++v) count += histogram[v];
-    return static_cast<double>(count);
+  // Pixels near the level for each one above it: in what is thin or faint, nearly all is rim at every level.
+  const auto slope = [&](int level) {
+    return count_between(histogram, level - kBlur, level + kBlur) /
+           std::max(count_between(histogram, level + 1, 255), 1.0);
   };
-  double least = count_near(otsu);
-  for (int level = first; level <= last; ++level) least = std::min(least, count_near(level));
-  int best = otsu;
-  for (int level = first, distance = 256; level <= last; ++level) {
-    if (count_near(level) > kAsSteep * least || std::abs(level - otsu) >= distance) continue;
+  double least = slope(otsu);
+  for (int level = first; level <= last; ++level) least = std::min(least, slope(level));
+  int best = otsu, distance = 256;
+  for (int level = first; level <= last; ++level) {
+    if (slope(level) > kAsSteep * least || std::abs(level - otsu) >= distance) continue;
     best = level;
     distance = std::abs(level - otsu);
   }
