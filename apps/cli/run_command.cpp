@@ -7,6 +7,7 @@
 
 #include "candle_pictures.hpp"
 #include "commands.hpp"
+#include "leaf_film.hpp"
 #include "recordings.hpp"
 #include "terminal.hpp"
 #include "wind_input.hpp"
@@ -145,12 +146,40 @@ Result<void> write_picture(const Play& play, const Bank& bank, Player& player, c
   return write_plots(path, {.title = "", .plots = {std::move(plot)}, .plot_width = 800});
 }
 
+// Falls as they are recorded: one after the other, each instance an episode.
+Recording falls(const Play& play, const Bank& bank, Player& player) {
+  const Recording side_by_side = record_run(play, bank, player);
+  const std::size_t inputs = play.model.inputs.size(), outputs = play.model.outputs.size();
+  Recording recording = empty_recording(play, 1);
+  recording.flags.clear();
+  for (int k = 0; k < bank.size(); ++k) {
+    for (std::size_t c = 0; c < recording.channels.size(); ++c) {
+      const std::size_t from = c < inputs ? c : c + static_cast<std::size_t>(k) * outputs;
+      const std::vector<double>& samples = side_by_side.channels[from].samples;
+      recording.channels[c].samples.insert(recording.channels[c].samples.end(), samples.begin(), samples.end());
+    }
+    recording.episode_ids.insert(recording.episode_ids.end(), play.frames, k);
+  }
+  return recording;
+}
+
+Result<void> write_falls(const Play& play, const Bank& bank, Player& player, const std::string& path,
+                         Terminal& terminal) {
+  const auto& pose = std::get<PoseView>(play.model.view);
+  LeafFilmOptions film{.most_seconds = static_cast<double>(play.frames) / play.model.rate_hz};
+  // A leaf's long axis is the body's x, across which the pose has its half width.
+  if (pose.half_width > 0) film.style.length = static_cast<float>(2 * pose.half_width);
+  if (pose.half_length > 0) film.style.width = static_cast<float>(2 * pose.half_length);
+  return write_leaf_film(path, falls(play, bank, player), film, terminal);
+}
+
 Result<void> write_run(const Play& play, const Bank& bank, Player& player, const std::string& path,
                        Terminal& terminal) {
   const std::string extension = std::filesystem::path(path).extension().string();
   if (extension == ".csv") return write_csv(path, record_run(play, bank, player));
   if (extension == ".png") return write_picture(play, bank, player, path);
   if (extension != ".mp4") return Error{path + ": cannot be written, expected a name that ends in .csv, .png or .mp4"};
+  if (std::holds_alternative<PoseView>(play.model.view)) return write_falls(play, bank, player, path, terminal);
   if (!std::holds_alternative<OutlineView>(play.model.view)) {
     return Error{path + ": the model's outputs have no picture to film; write a .csv or a .png"};
   }
@@ -241,6 +270,7 @@ Command run_command() {
            "Twenty seconds of a flame at 30 frames a second, as a film"},
           {"wisp run flame.wisp --frames 1000 --wind 0.5 --noise off -o steady.csv",
            "The noiseless response to steady wind, as numbers"},
+          {"wisp run leaf.wisp --frames 1200 --instances 5 -o falls.mp4", "Five leaves that fall for ever, for 20 s"},
           {"wisp run flame.wisp --input puff.csv --frames 600 --relight 5 -o out.mp4",
            "A flame that a puff blows out, its smoke, and how it is lit again after five seconds"},
       },

@@ -61,6 +61,22 @@ TEST_F(SimulateLeaf, TheFirstDropsAreFilmed) {
   EXPECT_GT(fs::file_size(at("clip.mp4")), 1000u);
 }
 
+TEST_F(SimulateLeaf, ItsFallsTeachAChainWhoseOwnFallsAreFilmed) {
+  ASSERT_EQ(wisp("-o " + at("rec.csv") + " --drops 12 --seconds 6").status, 0);
+  const Said learned = run_wisp("learn leaf " + at("rec.csv") + " -o " + at("leaf.wisp") + " --json", folder_);
+  ASSERT_EQ(learned.status, 0) << learned.err;
+  EXPECT_EQ(learned.json()["modes"], 6);
+  EXPECT_GT(learned.json()["segments"], 100);
+  const std::string run = "run " + at("leaf.wisp") + " --frames 40 --instances 2 -o ";
+  ASSERT_EQ(run_wisp(run + at("falls.csv"), folder_).status, 0);
+  const auto falls = read_csv(at("falls.csv"));
+  ASSERT_TRUE(falls) << falls.error().message;
+  EXPECT_EQ(channels_with_role(*falls, Role::kOutput).size(), 14u);
+  const Said filmed = run_wisp(run + at("falls.mp4"), folder_);
+  ASSERT_EQ(filmed.status, 0) << filmed.err;
+  EXPECT_GT(fs::file_size(at("falls.mp4")), 1000u);
+}
+
 TEST_F(SimulateLeaf, WhatCannotBeSimulatedIsExplained) {
   const auto refused = [&](const std::string& arguments, const std::string& words, int status) {
     const Said said = wisp("-o " + at("rec.csv") + " " + arguments);
