@@ -63,6 +63,52 @@ Result<void> check_growth(const std::vector<double>& growth, std::size_t nu) {
   return {};
 }
 
+Result<void> check_ends(const DrawnResiduals& drawn) {
+  std::uint32_t before = 0;
+  for (std::uint32_t end : drawn.ends) {
+    if (end <= before) return Error{"a stretch of the drawn residuals ends before it begins"};
+    before = end;
+  }
+  if (drawn.row_count() <= kMostDrawnRows) return {};
+  return Error{"the drawn residuals have " + std::to_string(drawn.row_count()) + " rows, expected at most 4194304"};
+}
+
+Result<void> check_mirror(const DrawnResiduals& drawn, std::size_t ny) {
+  if (drawn.mirror.empty()) return {};
+  if (drawn.mirror.size() != ny) return Error{"the drawn residuals' mirror image is not one entry an output"};
+  for (int from : drawn.mirror) {
+    if (from == 0 || std::abs(from) > static_cast<int>(ny))
+      return Error{"the drawn residuals' mirror image takes an output that is not there"};
+  }
+  return {};
+}
+
+Result<void> check_drawn(const DrawnResiduals& drawn, std::size_t ny, int nu) {
+  if (drawn.empty()) {
+    return drawn.ends.empty() ? Result<void>() : Error{"the drawn residuals have stretches without rows"};
+  }
+  if (auto ok = check_ends(drawn); !ok) return ok;
+  if (drawn.rows.size() != drawn.row_count() * ny) return Error{"the drawn residuals are not one number an output"};
+  if (auto ok = check_finite(drawn.scale, ny, "the drawn residuals' scale"); !ok) return ok;
+  const bool negative = std::any_of(drawn.scale.begin(), drawn.scale.end(), [](double scale) { return scale < 0; });
+  if (negative) return Error{"a scale of the drawn residuals is negative"};
+  const bool driven = drawn.toward >= 0;
+  if (drawn.toward < -1 || drawn.toward >= nu || drawn.against < -1 || drawn.against >= nu ||
+      (!driven && drawn.against >= 0)) {
+    return Error{"the drawn residuals hang on an input that is not there"};
+  }
+  if (drawn.winds.size() != (driven ? 2 * drawn.row_count() : 0))
+    return Error{"the drawn residuals have not two numbers of wind a row"};
+  if (auto ok = check_finite(std::array{drawn.wind_scale, drawn.tolerance}, 2, "the drawn residuals' wind"); !ok)
+    return ok;
+  if (drawn.wind_scale < 0 || drawn.tolerance < 0) return Error{"the drawn residuals' wind has a negative scale"};
+  if (drawn.trend_steps < 1 || drawn.trend_steps > kMostOrder || drawn.shortest < 1 || drawn.longest < drawn.shortest ||
+      drawn.longest > 1000000) {
+    return Error{"the drawn residuals' numbers of steps are out of range"};
+  }
+  return check_mirror(drawn, ny);
+}
+
 Result<void> check_noise(const ResidualNoise& noise, std::size_t ny) {
   if (auto ok = check_finite(noise.sd, ny, "the residual's standard deviation"); !ok) return ok;
   for (double sd : noise.sd) {
@@ -205,6 +251,7 @@ Result<void> check(const ArxModel& model) {
   if (auto ok = check_finite(model.output_mean, ny, "the outputs' mean"); !ok) return ok;
   if (auto ok = check_finite(model.input_mean, model.orders.inputs(), "the inputs' mean"); !ok) return ok;
   if (auto ok = check_growth(model.noise.growth, model.orders.inputs()); !ok) return ok;
+  if (auto ok = check_drawn(model.noise.drawn, ny, model.orders.inputs()); !ok) return ok;
   return check_noise(model.noise, ny);
 }
 

@@ -166,6 +166,28 @@ Result<void> check_gust(const GustResponse& gust) {
   return {};
 }
 
+Result<void> check_drift(const ChainModel& model) {
+  const ChainDrift& drift = *model.drift;
+  if (auto ok = check_size(drift.lead.size(), 3 * model.segments.size(), "leads"); !ok) return ok;
+  bool sound = drift.memory_seconds >= 0 && drift.memory_seconds <= 1e6;
+  for (double scale : {drift.lead_scale, drift.spread_ground, drift.spread_height}) {
+    sound &= scale >= 1e-12 && scale <= kLargestScale;
+  }
+  for (double speed : drift.drift) sound &= std::abs(speed) <= kLargestScale;
+  if (!sound) return Error{"what the chain is steered by holds a number out of its range"};
+  return {};
+}
+
+Result<void> check_systems(const ChainModel& model) {
+  if (model.motion != ChainMotion::kPose) return Error{"a chain without orientation has systems, which need one"};
+  if (model.segments.size() != static_cast<std::size_t>(model.modes)) {
+    return Error{"a chain whose modes are systems has " + found(model.segments.size(), "one for each mode") +
+                 " segments"};
+  }
+  if (model.drift) return Error{"a chain whose modes are systems says how it is steered, which it can't be"};
+  return check(*model.systems, model.modes);
+}
+
 }  // namespace
 
 int channel_count(ChainMotion motion) { return motion == ChainMotion::kPose ? 7 : 3; }
@@ -212,6 +234,12 @@ Result<void> check(const ChainModel& model) {
   }
   if (model.gust) {
     if (auto ok = check_gust(*model.gust); !ok) return ok;
+  }
+  if (model.systems) {
+    if (auto ok = check_systems(model); !ok) return ok;
+  }
+  if (model.drift) {
+    if (auto ok = check_drift(model); !ok) return ok;
   }
   if (!(model.blend.longest_steps >= 0 && model.blend.longest_steps <= 1e6)) {
     return Error{"a chain blends " + std::to_string(model.blend.longest_steps) + " steps, expected 0 to 1000000"};

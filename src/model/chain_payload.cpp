@@ -76,6 +76,60 @@ GustResponse read_gust(const file::GustResponse& stored) {
   return gust;
 }
 
+fb::Offset<file::ChainDrift> write_drift(fb::FlatBufferBuilder& builder, const ChainDrift& drift) {
+  const auto lead = builder.CreateVector(drift.lead);
+  const auto velocity = builder.CreateVector(std::vector<double>(drift.drift.begin(), drift.drift.end()));
+  return file::CreateChainDrift(builder, lead, drift.lead_scale, velocity, drift.spread_ground, drift.spread_height,
+                                drift.memory_seconds);
+}
+
+Result<ChainDrift> read_drift(const file::ChainDrift& stored) {
+  const auto velocity = copied(stored.drift());
+  if (velocity.size() != 3) return Error{"is damaged: its chain's drift has not three axes"};
+  return ChainDrift{copied(stored.lead()),  stored.lead_scale(),    {velocity[0], velocity[1], velocity[2]},
+                    stored.spread_ground(), stored.spread_height(), stored.memory_seconds()};
+}
+
+fb::Offset<file::ModeSystems> write_systems(fb::FlatBufferBuilder& builder, const ModeSystems& systems) {
+  std::vector<double> coefficients, noise, ranges;
+  std::vector<std::uint16_t> steps;
+  for (const ModeSystem& mode : systems.modes) {
+    coefficients.insert(coefficients.end(), mode.coefficient.begin(), mode.coefficient.end());
+    noise.insert(noise.end(), mode.noise.begin(), mode.noise.end());
+    ranges.insert(ranges.end(), mode.lowest.begin(), mode.lowest.end());
+    ranges.insert(ranges.end(), mode.highest.begin(), mode.highest.end());
+    steps.insert(steps.end(), mode.steps.begin(), mode.steps.end());
+  }
+  const auto all = builder.CreateVector(coefficients), shocks = builder.CreateVector(noise);
+  const auto held = builder.CreateVector(ranges);
+  return file::CreateModeSystems(builder, static_cast<std::uint8_t>(systems.degree), all, shocks, held,
+                                 builder.CreateVector(steps));
+}
+
+Result<ModeSystems> read_systems(const file::ModeSystems& stored, std::size_t modes) {
+  ModeSystems systems{stored.degree(), {}};
+  const std::size_t terms = kSystemStates * system_terms(systems.degree);
+  const auto coefficients = copied(stored.coefficients()), noise = copied(stored.noise());
+  const auto ranges = copied(stored.ranges());
+  const auto steps = copied(stored.steps());
+  const std::size_t shocks = noise.empty() ? 0 : kSystemStates * kSystemStates;
+  if (coefficients.size() != modes * terms || noise.size() != modes * shocks ||
+      ranges.size() != modes * 2 * kSystemStates || steps.size() != modes * kSystemDurations) {
+    return Error{"is damaged: the systems of its chain's modes do not fit each other"};
+  }
+  for (std::size_t k = 0; k < modes; ++k) {
+    ModeSystem mode;
+    const auto part = [k](const auto& all, std::size_t size) { return all.begin() + static_cast<long>(k * size); };
+    mode.coefficient.assign(part(coefficients, terms), part(coefficients, terms) + static_cast<long>(terms));
+    mode.noise.assign(part(noise, shocks), part(noise, shocks) + static_cast<long>(shocks));
+    std::copy_n(part(ranges, 2 * kSystemStates), kSystemStates, mode.lowest.begin());
+    std::copy_n(part(ranges, 2 * kSystemStates) + kSystemStates, kSystemStates, mode.highest.begin());
+    std::copy_n(part(steps, kSystemDurations), kSystemDurations, mode.steps.begin());
+    systems.modes.push_back(std::move(mode));
+  }
+  return systems;
+}
+
 }  // namespace
 
 fb::Offset<file::Chain> write_chain(fb::FlatBufferBuilder& builder, const ChainModel& chain) {
@@ -93,6 +147,8 @@ fb::Offset<file::Chain> write_chain(fb::FlatBufferBuilder& builder, const ChainM
   const auto histories = builder.CreateVector(contexts.modes);
   const auto probabilities = builder.CreateVector(contexts.probabilities);
   const auto gust = chain.gust ? write_gust(builder, *chain.gust) : fb::Offset<file::GustResponse>();
+  const auto drift = chain.drift ? write_drift(builder, *chain.drift) : fb::Offset<file::ChainDrift>();
+  const auto systems = chain.systems ? write_systems(builder, *chain.systems) : fb::Offset<file::ModeSystems>();
   file::ChainBuilder table(builder);
   table.add_motion(chain.motion == ChainMotion::kPose ? file::ChainMotion::Pose : file::ChainMotion::Position);
   table.add_heading_free(chain.heading_free);
@@ -112,6 +168,8 @@ fb::Offset<file::Chain> write_chain(fb::FlatBufferBuilder& builder, const ChainM
   table.add_blend_share(chain.blend.share);
   table.add_blend_longest_steps(chain.blend.longest_steps);
   if (chain.gust) table.add_gust(gust);
+  if (chain.drift) table.add_drift(drift);
+  if (chain.systems) table.add_systems(systems);
   return table.Finish();
 }
 
@@ -134,6 +192,16 @@ Result<ChainModel> read_chain(const file::Chain& stored) {
   chain.contexts = std::move(*contexts);
   chain.blend = {stored.blend_share(), stored.blend_longest_steps()};
   if (stored.gust()) chain.gust = read_gust(*stored.gust());
+  if (stored.systems()) {
+    auto systems = read_systems(*stored.systems(), stored.modes());
+    if (!systems) return systems.error();
+    chain.systems = std::move(*systems);
+  }
+  if (stored.drift()) {
+    auto drift = read_drift(*stored.drift());
+    if (!drift) return drift.error();
+    chain.drift = std::move(*drift);
+  }
   return chain;
 }
 

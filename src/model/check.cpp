@@ -26,21 +26,38 @@ Result<void> check_channels(const std::vector<Channel>& channels, const std::str
   return {};
 }
 
-Result<void> check_dynamics(const Model& model, const ArxModel& arx) {
-  if (auto ok = check(arx); !ok) return ok;
-  if (static_cast<std::size_t>(arx.orders.outputs()) != model.outputs.size()) {
-    return Error{"the dynamics have " + std::to_string(arx.orders.outputs()) + " outputs, the model names " +
+Result<void> check_channels_of(const Model& model, const ArxOrders& orders) {
+  if (static_cast<std::size_t>(orders.outputs()) != model.outputs.size()) {
+    return Error{"the dynamics have " + std::to_string(orders.outputs()) + " outputs, the model names " +
                  std::to_string(model.outputs.size())};
   }
   const std::size_t seen = regressor_count(model.inputs);
-  if (static_cast<std::size_t>(arx.orders.inputs()) != seen) {
-    return Error{"the dynamics have " + std::to_string(arx.orders.inputs()) + " inputs, the model's inputs make " +
+  if (static_cast<std::size_t>(orders.inputs()) != seen) {
+    return Error{"the dynamics have " + std::to_string(orders.inputs()) + " inputs, the model's inputs make " +
                  std::to_string(seen)};
   }
+  return {};
+}
+
+Result<void> check_dynamics(const Model& model, const ArxModel& arx) {
+  if (auto ok = check(arx); !ok) return ok;
+  if (auto ok = check_channels_of(model, arx.orders); !ok) return ok;
   const double radius = spectral_radius(arx);
   if (!(radius < 1.0)) {
     return Error{"the dynamics are unstable in single precision: spectral radius " + std::to_string(radius) +
                  ", expected below 1; learn it again with stabilisation on"};
+  }
+  return {};
+}
+
+Result<void> check_dynamics(const Model& model, const SwitchedArxModel& switched) {
+  if (auto ok = check(switched); !ok) return ok;
+  if (auto ok = check_channels_of(model, switched.orders); !ok) return ok;
+  for (std::size_t k = 0; k < switched.modes.size(); ++k) {
+    const double radius = spectral_radius(mode_model(switched, k));
+    if (radius < 1.0) continue;
+    return Error{"mode " + std::to_string(k) + " is unstable in single precision: spectral radius " +
+                 std::to_string(radius) + ", expected below 1; learn it again"};
   }
   return {};
 }

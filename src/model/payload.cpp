@@ -1,5 +1,6 @@
 #include "model/payload.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -37,6 +38,20 @@ fb::Offset<fb::Vector<double>> optional_vector(Builder& builder, const std::vect
   return values.empty() ? 0 : builder.CreateVector(values);
 }
 
+fb::Offset<file::DrawnResiduals> write_drawn(Builder& builder, const DrawnResiduals& drawn) {
+  if (drawn.empty()) return 0;
+  const auto scale = builder.CreateVector(drawn.scale);
+  const auto rows = builder.CreateVector(drawn.rows);
+  const auto ends = builder.CreateVector(drawn.ends);
+  const auto winds = drawn.winds.empty() ? 0 : builder.CreateVector(drawn.winds);
+  const std::vector<std::int16_t> sources(drawn.mirror.begin(), drawn.mirror.end());
+  const auto mirror = sources.empty() ? 0 : builder.CreateVector(sources);
+  return file::CreateDrawnResiduals(
+      builder, scale, rows, ends, drawn.wind_scale, winds, static_cast<std::int16_t>(drawn.toward),
+      static_cast<std::int16_t>(drawn.against), static_cast<std::uint16_t>(drawn.trend_steps), drawn.tolerance,
+      static_cast<std::uint32_t>(drawn.shortest), static_cast<std::uint32_t>(drawn.longest), mirror);
+}
+
 fb::Offset<file::Arx> write_arx(Builder& builder, const ArxModel& arx) {
   const auto na = builder.CreateVector(flat(arx.orders.na));
   const auto nb = builder.CreateVector(flat(arx.orders.nb));
@@ -50,8 +65,38 @@ fb::Offset<file::Arx> write_arx(Builder& builder, const ArxModel& arx) {
   const auto ci = optional_vector(builder, joined(arx.noise.sd_ci95));
   const auto mixing = optional_vector(builder, arx.noise.mixing);
   const auto growth = optional_vector(builder, arx.noise.growth);
+  const auto drawn = write_drawn(builder, arx.noise.drawn);
   return file::CreateArx(builder, na, nb, nk, theta, std_error, constant, output_mean, input_mean, sd, ci,
-                         static_cast<std::uint16_t>(arx.noise.rank), mixing, growth);
+                         static_cast<std::uint16_t>(arx.noise.rank), mixing, growth, drawn);
+}
+
+fb::Offset<file::ArxMode> write_mode(Builder& builder, const ArxMode& mode) {
+  const auto theta = builder.CreateVector(joined(mode.theta));
+  const auto std_error = optional_vector(builder, joined(mode.std_error));
+  const auto constant = builder.CreateVector(mode.constant);
+  const auto shock = builder.CreateVector(mode.shock);
+  return file::CreateArxMode(builder, theta, std_error, constant, shock);
+}
+
+fb::Offset<file::SwitchedArx> write_switched(Builder& builder, const SwitchedArxModel& model) {
+  std::vector<fb::Offset<file::ArxMode>> modes;
+  for (const ArxMode& mode : model.modes) modes.push_back(write_mode(builder, mode));
+  std::vector<fb::Offset<file::Lyapunov>> blocks;
+  for (const auto& block : model.lyapunov) blocks.push_back(file::CreateLyapunovDirect(builder, &block));
+  const auto na = builder.CreateVector(flat(model.orders.na));
+  const auto nb = builder.CreateVector(flat(model.orders.nb));
+  const auto nk = builder.CreateVector(flat(model.orders.nk));
+  const auto output_mean = builder.CreateVector(model.output_mean);
+  const auto input_mean = builder.CreateVector(model.input_mean);
+  const auto modes_at = builder.CreateVector(modes);
+  const auto regions = optional_vector(builder, model.regions);
+  const auto initial = optional_vector(builder, model.initial);
+  const auto transitions = optional_vector(builder, model.transitions);
+  const auto lyapunov =
+      blocks.empty() ? fb::Offset<fb::Vector<fb::Offset<file::Lyapunov>>>() : builder.CreateVector(blocks);
+  const auto switching = model.switching == Switching::kMarkov ? file::Switching::Markov : file::Switching::Regions;
+  return file::CreateSwitchedArx(builder, na, nb, nk, output_mean, input_mean, modes_at, switching, regions, initial,
+                                 transitions, lyapunov);
 }
 
 fb::Offset<file::Provenance> write_provenance(Builder& builder, const Provenance& made) {
@@ -115,11 +160,35 @@ Result<std::vector<std::vector<double>>> read_rows(const fb::Vector<double>& sto
   return rows;
 }
 
+template <class T>
+std::vector<T> integers(const fb::Vector<T>* stored) {
+  return stored ? std::vector<T>(stored->begin(), stored->end()) : std::vector<T>();
+}
+
+DrawnResiduals read_drawn(const file::DrawnResiduals& stored) {
+  constexpr std::uint32_t kLargest = 1U << 30;  // out of every range, and still an int
+  DrawnResiduals drawn;
+  drawn.scale = numbers(stored.scale());
+  drawn.rows = integers(stored.rows());
+  drawn.ends = integers(stored.ends());
+  drawn.wind_scale = stored.wind_scale();
+  drawn.winds = integers(stored.winds());
+  drawn.toward = stored.toward();
+  drawn.against = stored.against();
+  drawn.trend_steps = stored.trend_steps();
+  drawn.tolerance = stored.tolerance();
+  drawn.shortest = static_cast<int>(std::min(stored.shortest(), kLargest));
+  drawn.longest = static_cast<int>(std::min(stored.longest(), kLargest));
+  for (std::int16_t from : integers(stored.mirror())) drawn.mirror.push_back(from);
+  return drawn;
+}
+
 Result<void> read_noise(const file::Arx& stored, ResidualNoise& noise) {
   noise.sd = numbers(stored.noise_sd());
   noise.rank = stored.noise_rank();
   noise.mixing = numbers(stored.noise_mixing());
   noise.growth = numbers(stored.noise_growth());
+  if (stored.noise_drawn()) noise.drawn = read_drawn(*stored.noise_drawn());
   const std::vector<double> ci = numbers(stored.noise_sd_ci95());
   if (!ci.empty() && ci.size() != 2 * noise.sd.size())
     return wrong_size("noise_sd_ci95", ci.size(), 2 * noise.sd.size());
@@ -127,15 +196,22 @@ Result<void> read_noise(const file::Arx& stored, ResidualNoise& noise) {
   return {};
 }
 
-Result<ArxModel> read_arx(const file::Arx& stored, int ny, int nu) {
-  ArxModel arx;
+template <class Stored>
+Result<ArxOrders> read_all_orders(const Stored& stored, int ny, int nu) {
   auto na = read_orders(*stored.na(), ny, ny, "na");
   if (!na) return na.error();
   auto nb = read_orders(*stored.nb(), ny, nu, "nb");
   if (!nb) return nb.error();
   auto nk = read_orders(*stored.nk(), ny, nu, "nk");
   if (!nk) return nk.error();
-  arx.orders = {std::move(*na), std::move(*nb), std::move(*nk)};
+  return ArxOrders{std::move(*na), std::move(*nb), std::move(*nk)};
+}
+
+Result<ArxModel> read_arx(const file::Arx& stored, int ny, int nu) {
+  ArxModel arx;
+  auto orders = read_all_orders(stored, ny, nu);
+  if (!orders) return orders.error();
+  arx.orders = std::move(*orders);
   auto theta = read_rows(*stored.theta(), arx.orders, "theta");
   if (!theta) return theta.error();
   arx.theta = std::move(*theta);
@@ -149,6 +225,46 @@ Result<ArxModel> read_arx(const file::Arx& stored, int ny, int nu) {
   arx.input_mean = numbers(stored.input_mean());
   if (auto ok = read_noise(stored, arx.noise); !ok) return ok.error();
   return arx;
+}
+
+Result<ArxMode> read_mode(const file::ArxMode& stored, const ArxOrders& orders) {
+  ArxMode mode;
+  auto theta = read_rows(*stored.theta(), orders, "a mode's theta");
+  if (!theta) return theta.error();
+  mode.theta = std::move(*theta);
+  if (stored.std_error()) {
+    auto std_error = read_rows(*stored.std_error(), orders, "a mode's std_error");
+    if (!std_error) return std_error.error();
+    mode.std_error = std::move(*std_error);
+  }
+  mode.constant = numbers(stored.constant());
+  mode.shock = numbers(stored.shock());
+  return mode;
+}
+
+Result<SwitchedArxModel> read_switched(const file::SwitchedArx& stored, int ny, int nu) {
+  SwitchedArxModel model;
+  auto orders = read_all_orders(stored, ny, nu);
+  if (!orders) return orders.error();
+  model.orders = std::move(*orders);
+  if (stored.switching() != file::Switching::Regions && stored.switching() != file::Switching::Markov) {
+    return Error{"switches in a way that this program does not know; update Wisp"};
+  }
+  model.switching = stored.switching() == file::Switching::Markov ? Switching::kMarkov : Switching::kRegions;
+  for (const auto* stored_mode : *stored.modes()) {
+    auto mode = read_mode(*stored_mode, model.orders);
+    if (!mode) return mode.error();
+    model.modes.push_back(std::move(*mode));
+  }
+  model.output_mean = numbers(stored.output_mean());
+  model.input_mean = numbers(stored.input_mean());
+  model.regions = numbers(stored.regions());
+  model.initial = numbers(stored.initial());
+  model.transitions = numbers(stored.transitions());
+  if (stored.lyapunov()) {
+    for (const auto* block : *stored.lyapunov()) model.lyapunov.push_back(numbers(block->matrix()));
+  }
+  return model;
 }
 
 Provenance read_provenance(const file::Provenance& stored) {
@@ -216,9 +332,16 @@ Result<void> read_dynamics(const file::Model& stored, Model& model) {
     model.dynamics = std::move(*read);
     return {};
   }
+  const int ny = static_cast<int>(model.outputs.size()), nu = static_cast<int>(regressor_count(model.inputs));
+  if (const auto* switched = stored.dynamics_as_SwitchedArx()) {
+    auto read = read_switched(*switched, ny, nu);
+    if (!read) return read.error();
+    model.dynamics = std::move(*read);
+    return {};
+  }
   const auto* arx = stored.dynamics_as_Arx();
   if (!arx) return Error{"has a kind of dynamics that this program does not know; update Wisp"};
-  auto read = read_arx(*arx, static_cast<int>(model.outputs.size()), static_cast<int>(regressor_count(model.inputs)));
+  auto read = read_arx(*arx, ny, nu);
   if (!read) return read.error();
   model.dynamics = std::move(*read);
   return {};
@@ -256,6 +379,10 @@ struct Member {
 
 Member<file::Dynamics> write_dynamics(Builder& builder, const ArxModel& arx) {
   return {file::Dynamics::Arx, write_arx(builder, arx).Union()};
+}
+
+Member<file::Dynamics> write_dynamics(Builder& builder, const SwitchedArxModel& switched) {
+  return {file::Dynamics::SwitchedArx, write_switched(builder, switched).Union()};
 }
 
 Member<file::Dynamics> write_dynamics(Builder& builder, const ChainModel& chain) {

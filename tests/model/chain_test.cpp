@@ -41,11 +41,17 @@ void expect_same(const Model& a, const Model& b) {
   }
   EXPECT_EQ(x.blend.share, y.blend.share);
   EXPECT_EQ(x.blend.longest_steps, y.blend.longest_steps);
+  ASSERT_EQ(x.drift.has_value(), y.drift.has_value());
+  if (x.drift) {
+    EXPECT_EQ(x.drift->lead, y.drift->lead);
+    EXPECT_EQ(x.drift->drift, y.drift->drift);
+    EXPECT_EQ(x.drift->memory_seconds, y.drift->memory_seconds);
+  }
 }
 
 TEST(ChainModel, WhatIsWrittenIsRead) {
-  for (ChainMotion motion : {ChainMotion::kPose, ChainMotion::kPosition}) {
-    const Model model = sample_chain(motion);
+  for (const Model& model :
+       {sample_chain(), sample_chain(ChainMotion::kPosition), windy_chain(), system_chain(1), system_chain(2)}) {
     const auto bytes = model_bytes(model);
     ASSERT_TRUE(bytes) << bytes.error().message;
     const auto read = parse_model(*bytes, "chain.wisp");
@@ -116,11 +122,33 @@ TEST(ChainModel, WhatIsNotAChainIsRefusedWithAReason) {
          m = sample_chain(ChainMotion::kPosition);
          m.view = PoseView{};
        }},
+      {"leads hold", [](Model& m) { chain(m).drift->lead.pop_back(); }},
+      {"steered by", [](Model& m) { chain(m).drift->spread_ground = 0; }},
+      {"steered by", [&](Model& m) { chain(m).drift->drift[1] = nan; }},
       {"size of the body", [](Model& m) { std::get<PoseView>(m.view).half_width = -1; }},
   };
   for (const auto& [word, harm] : broken) {
-    Model model = sample_chain();
+    Model model = steered_chain();
     harm(model);
+    const auto outcome = model_bytes(model);
+    ASSERT_FALSE(outcome) << word;
+    EXPECT_THAT(outcome.error().message, HasSubstr(word));
+  }
+}
+
+TEST(ChainModel, SystemsThatAreNoneAreRefusedWithAReason) {
+  const std::vector<std::pair<std::string, std::function<void(ChainModel&)>>> broken = {
+      {"degree 3", [](ChainModel& c) { c.systems->degree = 3; }},
+      {"systems for 1", [](ChainModel& c) { c.systems->modes.pop_back(); }},
+      {"coefficients", [](ChainModel& c) { c.systems->modes[1].coefficient.pop_back(); }},
+      {"out of range", [](ChainModel& c) { c.systems->modes[1].noise[0] = std::numeric_limits<double>::quiet_NaN(); }},
+      {"not one", [](ChainModel& c) { c.systems->modes[0].lowest[2] = 100; }},
+      {"no step", [](ChainModel& c) { c.systems->modes[0].steps[3] = 0; }},
+      {"can't be", [](ChainModel& c) { c.drift = std::get<ChainModel>(steered_chain().dynamics).drift; }},
+  };
+  for (const auto& [word, harm] : broken) {
+    Model model = system_chain();
+    harm(chain(model));
     const auto outcome = model_bytes(model);
     ASSERT_FALSE(outcome) << word;
     EXPECT_THAT(outcome.error().message, HasSubstr(word));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <tuple>
 
 #include "model/sample_model.hpp"
 #include "wisp/base/file.hpp"
@@ -16,6 +17,7 @@ namespace {
 using testing::HasSubstr;
 
 const std::string kGolden = WISP_SOURCE_DIR "/tests/model/golden/v1.wisp";
+const std::string kGoldenDrawn = WISP_SOURCE_DIR "/tests/model/golden/v1-drawn.wisp";
 const std::string kGoldenExtinction = WISP_SOURCE_DIR "/tests/model/golden/v1-extinction.wisp";
 
 // The sample with a rule of extinction of which no number is a default.
@@ -61,6 +63,85 @@ TEST(ModelFile, NoiseThatGrowsWithItsInputsIsKept) {
   const auto read = parse_model(*model_bytes(model), "growing.wisp");
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(std::get<ArxModel>(read->dynamics).noise.growth, (std::vector<double>{0.5, 0.25}));
+}
+
+// Two stretches of residuals to be played again, mirrored in a wind from the other side.
+Model drawn_model() {
+  Model model = sample_model();
+  DrawnResiduals& drawn = std::get<ArxModel>(model.dynamics).noise.drawn;
+  for (int i = 0; i < 8; ++i) {
+    drawn.scale.push_back(1e-5 * (1 + i));
+    drawn.mirror.push_back(i % 2 == 0 ? -(7 - i) : 9 - i);
+  }
+  for (int k = 0; k < 5 * 8; ++k) drawn.rows.push_back(static_cast<std::int16_t>(800 * k - 16000));
+  drawn.ends = {2, 5};
+  drawn.wind_scale = 1e-4;
+  drawn.winds = {0, 0, 100, 100, -7, 3, 9000, 12, 32767, -32768};
+  drawn.toward = 1;
+  drawn.against = 0;
+  drawn.trend_steps = 3;
+  drawn.tolerance = 0.15;
+  drawn.shortest = 2;
+  drawn.longest = 90;
+  return model;
+}
+
+void expect_same_drawn(const Model& read) {
+  const Model made = drawn_model();
+  const DrawnResiduals& x = std::get<ArxModel>(read.dynamics).noise.drawn;
+  const DrawnResiduals& y = std::get<ArxModel>(made.dynamics).noise.drawn;
+  EXPECT_EQ(std::tie(x.scale, x.rows, x.ends, x.winds, x.mirror), std::tie(y.scale, y.rows, y.ends, y.winds, y.mirror));
+  EXPECT_EQ(std::tie(x.wind_scale, x.toward, x.against, x.trend_steps, x.tolerance, x.shortest, x.longest),
+            std::tie(y.wind_scale, y.toward, y.against, y.trend_steps, y.tolerance, y.shortest, y.longest));
+}
+
+TEST(ModelFile, DrawnResidualsAreReadAsTheyWereWritten) {
+  const auto read = parse_model(*model_bytes(drawn_model()), "drawn.wisp");
+  ASSERT_TRUE(read) << read.error().message;
+  expect_same_drawn(*read);
+}
+
+// Written when residuals came to be drawn.
+TEST(ModelFile, TheGoldenFileWithDrawnResidualsStillMeansTheSame) {
+  if (std::getenv("WISP_WRITE_GOLDEN")) {
+    ASSERT_TRUE(write_model(kGoldenDrawn, drawn_model()));
+  }
+  const auto read = read_model(kGoldenDrawn);
+  ASSERT_TRUE(read) << read.error().message;
+  expect_same(*read, drawn_model());
+  expect_same_drawn(*read);
+}
+
+TEST(ModelFile, DrawnResidualsThatMeanNothingAreRefused) {
+  struct Case {
+    const char* word;
+    void (*spoil)(DrawnResiduals&);
+  };
+  const Case cases[] = {
+      {"one number an output", [](DrawnResiduals& d) { d.rows.pop_back(); }},
+      {"ends before it begins",
+       [](DrawnResiduals& d) {
+         d.ends = {5, 5};
+       }},
+      {"without rows", [](DrawnResiduals& d) { d.rows.clear(); }},
+      {"scale", [](DrawnResiduals& d) { d.scale[2] = -1; }},
+      {"two numbers of wind", [](DrawnResiduals& d) { d.winds.pop_back(); }},
+      {"input that is not there", [](DrawnResiduals& d) { d.toward = 2; }},
+      {"input that is not there", [](DrawnResiduals& d) { d.against = -2; }},
+      {"wind", [](DrawnResiduals& d) { d.tolerance = NAN; }},
+      {"steps", [](DrawnResiduals& d) { d.longest = 1; }},
+      {"steps", [](DrawnResiduals& d) { d.trend_steps = 0; }},
+      {"mirror", [](DrawnResiduals& d) { d.mirror[0] = 0; }},
+      {"mirror", [](DrawnResiduals& d) { d.mirror[0] = 9; }},
+      {"mirror", [](DrawnResiduals& d) { d.mirror.pop_back(); }},
+  };
+  for (const Case& one : cases) {
+    Model model = drawn_model();
+    one.spoil(std::get<ArxModel>(model.dynamics).noise.drawn);
+    const auto ok = check(model);
+    ASSERT_FALSE(ok) << one.word;
+    EXPECT_THAT(ok.error().message, HasSubstr(one.word));
+  }
 }
 
 TEST(ModelFile, EveryShapeOfInputIsKept) {

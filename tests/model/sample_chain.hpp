@@ -64,4 +64,59 @@ inline Model sample_chain(ChainMotion motion = ChainMotion::kPose) {
   return model;
 }
 
+/// The sample, which can be steered.
+inline Model steered_chain() {
+  Model model = sample_chain();
+  std::get<ChainModel>(model.dynamics).drift = ChainDrift{.lead = {0, 0, 0, 200, 10, 0, -150, 40, 0},
+                                                          .lead_scale = 1e-3,
+                                                          .drift = {0, 0, -0.75},
+                                                          .spread_ground = 0.05,
+                                                          .spread_height = 0.01,
+                                                          .memory_seconds = 0.4};
+  return model;
+}
+
+/// Two modes that are systems: one sinks steadily, the other swings and tumbles with noise.
+inline Model system_chain(int degree = 1) {
+  Model model = sample_chain();
+  auto& chain = std::get<ChainModel>(model.dynamics);
+  ChainSegments& segments = chain.segments;
+  segments.mode = {0, 1};
+  segments.steps = {8, 5};
+  segments.rows.resize((9 + 6) * 7);
+  segments.rates.resize(2 * 12);
+  segments.breadth = 0;
+  segments.follow.clear();
+  const std::size_t terms = system_terms(degree);
+  ModeSystems systems{degree, std::vector<ModeSystem>(2)};
+  for (ModeSystem& mode : systems.modes) {
+    mode.coefficient.assign(kSystemStates * terms, 0.0);
+    mode.noise.assign(kSystemStates * kSystemStates, 0.0);
+    for (std::size_t k = 0; k < kSystemStates; ++k) {
+      mode.coefficient[k * terms + 1 + k] = 0.9;
+      mode.lowest[k] = k < 3 ? -1.5 : -8;
+      mode.highest[k] = -mode.lowest[k];
+    }
+    mode.steps = {4, 5, 5, 6, 6, 6, 7, 7, 8, 8, 9, 9, 10, 11, 12, 15};
+    // Falls along what is down for it.
+    for (std::size_t k = 0; k < 3; ++k) mode.coefficient[k * terms + 7 + k] = -0.08;
+  }
+  for (std::size_t k = 0; k < kSystemStates; ++k) systems.modes[1].noise[k * 7] = k < 3 ? 0.05 : 0.6;
+  systems.modes[1].noise[6] = -0.02;
+  if (degree == 2) systems.modes[1].coefficient[3 * terms + 20] = 0.4;
+  chain.systems = systems;
+  return model;
+}
+
+/// The sample that can be steered, carried along by the wind within a few steps.
+inline Model windy_chain() {
+  Model model = steered_chain();
+  GustResponse gust;
+  gust.ground = {{0.75, 0.0}, {0.25, 0.0}, {0.0, 0.0}};
+  gust.vertical = {{0.5, 0.25}, {0.125, 0.125}, {0.0, 0.0}};
+  std::get<ChainModel>(model.dynamics).gust = gust;
+  for (const char* name : {"wind.x", "wind.y", "wind.z"}) model.inputs.push_back({name, "m/s", -3, 3});
+  return model;
+}
+
 }  // namespace wisp

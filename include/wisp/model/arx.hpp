@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -55,6 +56,32 @@ struct ArxOrders {
   friend bool operator==(const ArxOrders&, const ArxOrders&) = default;
 };
 
+/// Residuals as they were, to be played again instead of Gaussian shocks: rows in the order of time, all outputs of a
+/// row together, so that what they share, their memory and their tails stay. An instance plays row after row while the
+/// input is as it was then, and jumps to another row where the input was alike when it is not; by what is stored,
+/// `run/` is told when. A jump moves no output: the dynamics lie between.
+struct DrawnResiduals {
+  std::vector<double> scale;        ///< per output: a stored 1, in the output's unit, >= 0
+  std::vector<std::int16_t> rows;   ///< rows × outputs, row-major
+  std::vector<std::uint32_t> ends;  ///< one past the last row of every stretch, ascending; the last is the row count
+  double wind_scale = 0;            ///< a stored 1 of `winds`, in the regressor's unit
+  std::vector<std::int16_t> winds;  ///< rows × 2: the input in that row, and what it rose by in `trend_steps`
+  int toward = -1;                  ///< the regressor that the input is; -1: none, and jumps go anywhere
+  int against = -1;                 ///< another one that is subtracted from it: wind from the other side; -1: none
+  int trend_steps = 1;              ///< 1 to 4096
+  double tolerance = 0;             ///< by which input and trend may differ from the row's, in the regressor's unit
+  int shortest = 1;                 ///< steps from one jump to the next where a stretch has as many, 1 to longest
+  int longest = 1;                  ///< steps, at most 1 000 000
+  std::vector<int> mirror;          ///< per output ±(1 + the output whose residual it takes in an input from the other
+                                    ///< side); empty: that side is no mirror image
+
+  bool empty() const { return rows.empty(); }
+  std::size_t row_count() const { return ends.empty() ? 0 : ends.back(); }
+};
+
+/// Most rows that residuals are drawn from.
+inline constexpr std::size_t kMostDrawnRows = std::size_t{1} << 22;
+
 /// Residual noise e(t) = s(t) (diag(sd) w(t) + mixing v(t)), w and v independent standard normal, and the size
 /// s(t) = max(0, 1 + Σ growth_k,l u_k(t − l)) over the regressor inputs, as they are and not as deviations.
 struct ResidualNoise {
@@ -63,6 +90,7 @@ struct ResidualNoise {
   int rank = 0;                                ///< columns of `mixing`: shocks that outputs share
   std::vector<double> mixing;                  ///< ny × rank, row-major
   std::vector<double> growth;                  ///< nu × lags from 0 on, row-major, 0 to 1e6; empty: the size is 1
+  DrawnResiduals drawn;                        ///< where it has rows they are e(t), and the rest only tells their size
 };
 
 /// Coefficients of output row i lie together: for each output j its na(i,j) lags of A in the equation's own sign and

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "wisp/base/result.hpp"
+#include "wisp/model/mode_systems.hpp"
 
 namespace wisp {
 
@@ -81,6 +82,18 @@ struct GustResponse {
 
 inline constexpr int kMostGustOrder = 4;
 
+/// Where a walk will be, as far as its present segment tells: what steering weighs the next segment by. A time τ after
+/// the end of segment s the body is, on average, `drift` · τ plus τ / (τ + memory) of s's lead (turned as s is) from
+/// there, with variances that grow by `spread` a second.
+struct ChainDrift {
+  std::vector<std::int16_t> lead;  ///< segments × 3, in the frame of each
+  double lead_scale = 0;           ///< metres = scale · lead; > 0
+  std::array<double, 3> drift{};   ///< mean velocity, metres a second; 0 over ground where heading is free
+  double spread_ground = 0;        ///< along each direction over ground, m² a second; > 0
+  double spread_height = 0;        ///< > 0
+  double memory_seconds = 0;       ///< ≥ 0
+};
+
 struct ChainModel {
   ChainMotion motion = ChainMotion::kPose;
   bool heading_free = true;  ///< segments are turned about z to join; otherwise only moved
@@ -91,6 +104,9 @@ struct ChainModel {
   ChainBlend blend;
   std::optional<GustResponse>
       gust;  ///< where there is one, the model's inputs are the wind's x, y and z, metres a second
+  std::optional<ChainDrift> drift;  ///< none: it can't be steered
+  /// Where there are some, modes are played as systems; the segments, one for each mode, only say how a life begins.
+  std::optional<ModeSystems> systems;
 
   /// Order of the longest history.
   int history() const;

@@ -14,6 +14,7 @@
 #include "wisp/model/arx.hpp"
 #include "wisp/model/chain.hpp"
 #include "wisp/model/extinction.hpp"
+#include "wisp/model/switched.hpp"
 
 namespace wisp {
 
@@ -66,7 +67,7 @@ struct PositionView {
   double half_width = 0;  ///< metres; 0 where it is not known
 };
 
-using Dynamics = std::variant<ArxModel, ChainModel>;
+using Dynamics = std::variant<ArxModel, ChainModel, SwitchedArxModel>;
 using View = std::variant<PlainView, OutlineView, PoseView, PositionView>;
 
 /// Whether a model may be used, and why not (or why so).

@@ -1,0 +1,40 @@
+#pragma once
+// Small switched models for tests: two outputs that feed each other, one input, three modes.
+
+#include "wisp/model/model.hpp"
+
+namespace wisp {
+
+inline Model sample_switched(Switching switching = Switching::kRegions) {
+  SwitchedArxModel switched;
+  switched.orders = {OrderMatrix(2, 2, 1), OrderMatrix(2, 1, 2), OrderMatrix(2, 1)};
+  switched.orders.na(0, 0) = 2;
+  switched.orders.nk(1, 0) = 1;
+  switched.output_mean = {0.25, -0.5};
+  switched.input_mean = {0.125};
+  switched.switching = switching;
+  const double own[] = {-0.5, 0.25, 0.7};
+  for (double a : own) {
+    switched.modes.push_back({{{a, 0.1, 0.05, 0.3, a}, {0.05, -a, 0.2, -0.1}},
+                              {{0.01, 0.02, 0.03, 0.01, 0.02}, {0.01, 0.02, 0.01, 0.02}},
+                              {0.1 * a, -0.2},
+                              {0.05, 0, 0.01 * a, 0.04}});
+  }
+  if (switching == Switching::kRegions) {
+    // Looked at are y1 at lags 1 and 2, y2 at lag 1, u at lags 0, 1 and 2.
+    switched.regions = {0.1, 1, 0, 0, 0.5, 0, 0, 0, 0, 0, 1, 0, 0, 0, -0.1, -1, 0.2, 0, 0, 0, 0.25};
+  } else {
+    switched.initial = {0, 0.5, 0.5};
+    switched.transitions = {0.9, 0.1, 0, 0, 0.8, 0.2, 0.125, 0, 0.875};
+  }
+  Model model;
+  model.name = "sample switched";
+  model.rate_hz = 20;
+  model.inputs = {{"u", "m/s", -1, 2, InputShape::kLinear}};
+  model.outputs = {{"y1", "m", -2, 3}, {"y2", "", -1, 0.5}};
+  model.dynamics = std::move(switched);
+  model.provenance = {"wisp 0.1.0", {"tank.csv"}, {{"modes", "3"}}, {{"held_out", 1.5}}, {true, "made up"}};
+  return model;
+}
+
+}  // namespace wisp
