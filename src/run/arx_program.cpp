@@ -17,18 +17,6 @@ double output_scale(const Model& model, int i) {
   return channel_scale(model.outputs[i].lowest, model.outputs[i].highest);
 }
 
-// Of the input that a regressor is made of.
-double regressor_scale(const Model& model, int regressor) {
-  int first = 0;
-  for (const Input& input : model.inputs) {
-    const auto parts = regressor_parts(input.shape);
-    const auto place = static_cast<std::size_t>(regressor - first);
-    if (place < parts.size()) return regressor_scale(input, parts[place]);
-    first += static_cast<int>(parts.size());
-  }
-  return 1;
-}
-
 // Calls tap(row, channel, lag, coefficient) for every coefficient that is not zero, in the order of adding.
 template <class Tap>
 void for_each_tap(const Model& model, const ArxModel& arx, Tap tap) {
@@ -131,7 +119,9 @@ ArxProgram make_arx_program(const Model& model, const ArxModel& arx, Arena& aren
   program.outputs = arx.orders.outputs();
   program.regressors = arx.orders.inputs();
   if (program.regressors > 0) program.growth_steps = static_cast<int>(arx.noise.growth.size()) / program.regressors;
+  program.drawn = make_drawn_program(model, arx, arena);
   program.depth = std::max({arx.orders.history() + 1, program.growth_steps, 2});
+  if (program.drawn.driven()) program.depth = std::max(program.depth, program.drawn.trend_steps + 1);
   program.rank = arx.noise.rank;
   const TapCount count = count_taps(model, arx);
   const auto ny = static_cast<std::size_t>(program.outputs);
@@ -165,6 +155,7 @@ std::uint64_t hash_of(const ArxProgram& program, std::uint64_t before) {
   for (const auto numbers : {program.coefficients, program.constant, program.sd, program.mixing}) {
     hash = hash_floats(numbers, hash);
   }
+  hash = hash_of(program.drawn, hash);
   if (program.growth.empty()) return hash;
   const float calm[] = {program.calm_size};
   return hash_floats(program.growth, hash_floats(calm, hash));

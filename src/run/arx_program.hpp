@@ -7,6 +7,7 @@
 
 #include "run/arena.hpp"
 #include "run/channels.hpp"
+#include "run/drawn_program.hpp"
 #include "wisp/model/arx.hpp"
 
 namespace wisp {
@@ -33,6 +34,7 @@ struct ArxProgram {
   std::span<float> growth;  ///< regressors × growth_steps, of deviations in channel units; empty: the noise's size is 1
   int growth_steps = 0;     ///< lags of a regressor from 0 on that the noise's size hangs on
   float calm_size = 1;      ///< the noise's size where all regressors are at their means
+  DrawnProgram drawn;       ///< residuals to play instead; empty: Gaussian shocks
 };
 
 /// Lays the program out and, unless the arena measures, fills it.

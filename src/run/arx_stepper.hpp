@@ -10,6 +10,7 @@
 
 #include "run/arx_program.hpp"
 #include "run/chain_lane.hpp"
+#include "run/drawn_lanes.hpp"
 #include "run/moment.hpp"
 #include "wisp/run/bank.hpp"
 
@@ -20,8 +21,8 @@ class ArxStepper {
  public:
   using Real = typename N::Real;
   static constexpr int kLanes = N::kLanes;
-  /// Frames over which a cost is averaged: every frame costs the same.
-  static constexpr int kCountedFrames = 1;
+  /// Frames over which a cost is averaged: drawn residuals jump in some of them.
+  static constexpr int kCountedFrames = 60;
 
   /// Where the model's deviations are measured from.
   static OperatingPoint operating_point(const ArxModel& arx) { return {arx.output_mean, arx.input_mean}; }
@@ -30,11 +31,12 @@ class ArxStepper {
   static Result<void> check(const Model& model, const ArxModel& arx) { return check_arx_program(model, arx); }
 
   ArxStepper(const Model& model, const ArxModel& arx, const Channels& channels, int blocks, Arena& arena)
-      : program_(make_arx_program(model, arx, arena)), channels_(channels) {
+      : program_(make_arx_program(model, arx, arena)), channels_(channels), drawn_(program_.drawn, blocks, arena) {
     const auto depth = static_cast<std::size_t>(program_.depth);
     row_ = static_cast<std::size_t>(program_.outputs + program_.regressors) * kLanes;
     ring_ = arena.take<Real>(static_cast<std::size_t>(blocks) * depth * row_);
     lag_row_ = arena.take<std::uint32_t>(2 * depth);
+    quiet_ = arena.take<int>(static_cast<std::size_t>(blocks) * program_.regressors);
     shocks_ = arena.take<Real>(static_cast<std::size_t>(program_.outputs + program_.rank) * kLanes);
     sd_ = arena.take<float>(program_.outputs);
     mixing_ = arena.take<float>(static_cast<std::size_t>(program_.outputs) * program_.rank);
@@ -45,7 +47,8 @@ class ArxStepper {
 
   /// Sets the scale of the residual noise.
   void set_noise(float scale) {
-    noisy_ = false;
+    noisy_ = drawn_.set_noise(scale);
+    if (!drawn_.empty()) return;
     const auto scaled = [&](float size) {
       noisy_ |= scale * size != 0;
       return scale * size;
@@ -62,14 +65,16 @@ class ArxStepper {
 
   /// Makes the newest sample of a block.
   void step(int block, const Moment<N>& moment) {
-    if (noisy_) draw(moment);
-    if (noisy_ && !program_.growth.empty()) grow(block);
+    count_quiet(block);
+    if (noisy_) make_shocks(block, moment);
     Real* newest = sample(block, 0);
     auto held = all<Words<N>>(0U);
     std::uint32_t run = 0;
     for (int i = 0; i < program_.outputs; ++i) {
       auto sum = all<Reals<N>>(program_.constant[i]);
-      for (; run < program_.row_end[i]; ++run) sum = add_run(block, program_.runs[run], sum);
+      for (; run < program_.row_end[i]; ++run) {
+        if (!is_quiet(block, program_.runs[run].channel)) sum = add_run(block, program_.runs[run], sum);
+      }
       if (noisy_) sum = add_noise(i, sum);
       const OutputChannel& channel = channels_.outputs[i];
       const auto value = hold(sum, all<Reals<N>>(channel.low), all<Reals<N>>(channel.high));
@@ -94,6 +99,7 @@ class ArxStepper {
 
   /// Puts one lane to the operating point.
   void start(int block, int lane, const Moment<N>&) {
+    if (!drawn_.empty()) drawn_.start(block, lane);
     for (int lag = 0; lag < program_.depth; ++lag) {
       Real* row = sample(block, lag);
       for (int i = 0; i < program_.outputs; ++i) row[i * kLanes + lane] = Real(channels_.outputs[i].start);
@@ -102,8 +108,9 @@ class ArxStepper {
   }
 
   /// An ARX model moves no body.
-  static void set_ground(float) {}
+  static void set_chain(const ChainSettings&) {}
   static bool place(int, int, const BodyState<Real>&) { return false; }
+  static bool steer(int, int, const Vector3<Real>&, float, float) { return false; }
 
   /// An ARX model is not a chain.
   static std::optional<ChainPlace> chain_place(int, int) { return {}; }
@@ -113,13 +120,15 @@ class ArxStepper {
 
   /// Numbers of state that one lane holds.
   std::size_t lane_values() const {
-    return static_cast<std::size_t>(program_.depth) * (program_.outputs + program_.regressors);
+    return static_cast<std::size_t>(program_.depth) * (program_.outputs + program_.regressors) + drawn_.lane_values();
   }
 
   /// Calls visit(value, low, high) for each number of one lane's state, in an order that does not depend on where in
   /// the ring it lies: the way to save, check and restore it.
   template <class Visit>
   void visit_lane(int block, int lane, Visit visit) {
+    std::fill_n(quiet_.begin() + block * program_.regressors, program_.regressors, 0);  // it may be restored
+    drawn_.visit_lane(block, lane, visit);
     for (int lag = 0; lag < program_.depth; ++lag) {
       Real* row = sample(block, lag) + lane;
       for (const OutputChannel& channel : channels_.outputs) {
@@ -156,13 +165,63 @@ class ArxStepper {
     return sum;
   }
 
-  // Standard normal deviates for every output and every shared shock.
+  // A regressor that has been 0 in all lanes for as long as anything looks back adds nothing: a wind from the one side
+  // while it blows from the other. Whether its zeros are added or not changes no bit (settle() makes −0 to 0).
+  void count_quiet(int block) {
+    int* quiet = quiet_.data() + block * program_.regressors;
+    const Real* newest = regressors(block);
+    for (int k = 0; k < program_.regressors; ++k, ++quiet) {
+      bool zero = true;
+      for (int lane = 0; lane < kLanes; ++lane) zero &= value_of(*newest++) == 0.0f;
+      *quiet = zero ? std::min(*quiet + 1, program_.depth) : 0;
+    }
+  }
+
+  bool is_quiet(int block, std::uint32_t channel) const {
+    const int regressor = static_cast<int>(channel) - program_.outputs;
+    return regressor >= 0 && quiet_[block * program_.regressors + regressor] >= program_.depth;
+  }
+
+  void make_shocks(int block, const Moment<N>& moment) {
+    if (!drawn_.empty()) {
+      DrawnWind<Real> winds[kLanes];
+      if (drawn_.driven()) measure_winds(block, winds);
+      drawn_.step(block, winds, moment, shocks_.data());
+      return;
+    }
+    draw(moment);
+    if (!program_.growth.empty()) grow(block);
+  }
+
+  Reals<N> wind_at(int block, int lag) const {
+    const Real* row = sample(block, lag) + program_.outputs * kLanes;
+    const auto toward = load<Reals<N>>(row + program_.drawn.toward * kLanes);
+    if (program_.drawn.against < 0) return toward;
+    return toward - load<Reals<N>>(row + program_.drawn.against * kLanes);
+  }
+
+  void measure_winds(int block, DrawnWind<Real> (&winds)[kLanes]) const {
+    Real wind[kLanes], trend[kLanes];
+    const auto now = wind_at(block, 0);
+    store(now, wind);
+    store(now - wind_at(block, program_.drawn.trend_steps), trend);
+    for (int lane = 0; lane < kLanes; ++lane) winds[lane] = {wind[lane], trend[lane]};
+  }
+
+  bool is_shaken(int channel) const { return channel >= program_.outputs || sd_[channel] != 0; }
+
+  // Standard normal deviates for every output that has noise of its own, and for every shared shock.
   void draw(const Moment<N>& moment) {
     Words<N> counters[4], words[4];
     random_counters<N>(moment.counters, counters);
     const int channels = program_.outputs + program_.rank;
+    int group = -1;
     for (int channel = 0; channel < channels; ++channel) {
-      if (channel % 4 == 0) random_group<N>(*moment.keys, counters, static_cast<std::uint32_t>(channel / 4), words);
+      if (!is_shaken(channel)) continue;
+      if (channel / 4 != group) {
+        group = channel / 4;
+        random_group<N>(*moment.keys, counters, static_cast<std::uint32_t>(group), words);
+      }
       store(normal_lanes<N>(words[channel % 4]), shocks_.data() + channel * kLanes);
     }
   }
@@ -181,14 +240,15 @@ class ArxStepper {
     size = larger(size, all<Reals<N>>(0.0f));
     const int channels = program_.outputs + program_.rank;
     for (int channel = 0; channel < channels; ++channel) {
-      if (channel < program_.outputs && sd_[channel] == 0) continue;
+      if (!is_shaken(channel)) continue;
       Real* shock = shocks_.data() + channel * kLanes;
       store(size * load<Reals<N>>(shock), shock);
     }
   }
 
   Reals<N> add_noise(int i, Reals<N> sum) const {
-    sum = add_shock(i, sd_[i], sum);
+    if (!drawn_.empty()) return sum + load<Reals<N>>(shocks_.data() + i * kLanes);
+    if (is_shaken(i)) sum = add_shock(i, sd_[i], sum);
     for (int r = 0; r < program_.rank; ++r) sum = add_shock(program_.outputs + r, mixing_[i * program_.rank + r], sum);
     return sum;
   }
@@ -199,10 +259,12 @@ class ArxStepper {
 
   ArxProgram program_;
   Channels channels_;
+  DrawnLanes<N> drawn_;
   std::span<Real> ring_;
   std::span<std::uint32_t> lag_row_;
   std::span<Real> shocks_;
-  std::span<float> sd_;  // those of the program, scaled, as is the next
+  std::span<int> quiet_;  // [block][regressor]: steps for which it has been 0 in all lanes, up to the depth
+  std::span<float> sd_;   // those of the program, scaled, as is the next
   std::span<float> mixing_;
   std::size_t row_ = 0;
   int place_ = 0;

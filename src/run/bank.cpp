@@ -13,6 +13,9 @@ namespace {
 
 constexpr int kMostCapacity = 1 << 20;
 constexpr int kMostPolylinePoints = 4096;
+constexpr float kNearest = 0.001f;  // metres
+constexpr float kLeastNear = 1000.0f;
+constexpr std::chrono::nanoseconds kLongestSteering = std::chrono::seconds(10'000);
 constexpr float kLeastOrientation = 1e-6f;  // of its squared length
 constexpr float kMostOrientation = 1e30f;
 
@@ -254,6 +257,12 @@ std::optional<ChainPlace> Bank::chain_place(InstanceId id) const {
   return std::visit([&](const auto& dynamics) { return dynamics.chain_place(block, lane); }, state_->stepper);
 }
 
+std::optional<int> Bank::arx_mode(InstanceId id) const {
+  const auto* switched = std::get_if<SwitchedStepper<LiveNumbers>>(&state_->stepper);
+  if (!switched || !valid(id)) return {};
+  return switched->mode(static_cast<int>(id.slot) / State::kLanes, static_cast<int>(id.slot) % State::kLanes);
+}
+
 bool Bank::place(InstanceId id, const BodyMoment& body) {
   if (!valid(id)) return false;
   float size = 0;
@@ -271,9 +280,54 @@ bool Bank::place(InstanceId id, const BodyMoment& body) {
   return true;
 }
 
+bool Bank::steer(InstanceId id, const SteerTarget& target) {
+  if (!valid(id)) return false;
+  for (float x : target.position) {
+    if (!(x > -kFarthest && x < kFarthest)) return false;
+  }
+  if (!(target.near >= kNearest && target.near <= kLeastNear)) return false;
+  if (target.in <= std::chrono::nanoseconds::zero() || target.in > kLongestSteering) return false;
+  const auto steps = static_cast<float>((target.in.count() + state_->step_time - 1) / state_->step_time);
+  const int block = static_cast<int>(id.slot) / State::kLanes, lane = static_cast<int>(id.slot) % State::kLanes;
+  return std::visit([&](auto& dynamics) { return dynamics.steer(block, lane, target.position, steps, target.near); },
+                    state_->stepper);
+}
+
+bool Bank::release(InstanceId id) {
+  if (!valid(id)) return false;
+  const int block = static_cast<int>(id.slot) / State::kLanes, lane = static_cast<int>(id.slot) % State::kLanes;
+  std::visit([&](auto& dynamics) { dynamics.steer(block, lane, {}, 0.0f, kNearest); }, state_->stepper);
+  return true;
+}
+
 void Bank::set_ground(std::optional<float> height) {
-  const float at = height && *height > -kFarthest && *height < kFarthest ? *height : kNoGround;
-  std::visit([&](auto& dynamics) { dynamics.set_ground(at); }, state_->stepper);
+  ChainSettings settings = state_->chain;
+  settings.ground = height && *height > -kFarthest && *height < kFarthest ? *height : kNoGround;
+  state_->set_chain(settings);
+}
+
+std::optional<float> Bank::ground() const {
+  if (state_->chain.ground == kNoGround) return {};
+  return state_->chain.ground;
+}
+
+void Bank::set_history(int longest) {
+  ChainSettings settings = state_->chain;
+  settings.history = std::max(longest, 0);
+  state_->set_chain(settings);
+}
+
+int Bank::history() const { return state_->chain.history; }
+
+void Bank::set_temperature(std::optional<float> temperature) {
+  ChainSettings settings = state_->chain;
+  settings.temperature = !temperature ? kAsLearned : *temperature > 0 ? std::min(*temperature, kHottest) : 0.0f;
+  state_->set_chain(settings);
+}
+
+std::optional<float> Bank::temperature() const {
+  if (state_->chain.temperature == kAsLearned) return {};
+  return state_->chain.temperature;
 }
 
 bool Bank::reset(InstanceId id) {

@@ -15,10 +15,13 @@ namespace wisp {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'\x89', 'W', 'I', 'S', 'P', 'B', 'N', 'K'};
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kFirstVersion = 1;  // without what is set of a chain
 constexpr std::size_t kHeaderSize = 32;
-constexpr std::size_t kFieldsSize = 10 * 8;
+constexpr std::size_t kChainFields = 4;
 constexpr std::uint64_t kMostAge = std::uint64_t{1} << 48;
+
+std::size_t fields_size(std::uint32_t version) { return 8 * (10 + (version == kFirstVersion ? 0 : kChainFields)); }
 
 std::size_t record_size(const Bank::State& s) {
   const std::size_t values = std::visit([](const auto& dynamics) { return dynamics.lane_values(); }, s.stepper);
@@ -112,29 +115,52 @@ void restore_slot(Bank::State& s, int slot, ByteReader& in) {
 
 struct Fields {
   std::uint64_t model, capacity, seed, spawned, passed, between, noise, held, steps, reserved;
+  std::uint64_t ground, history, temperature, reserved_too;
 };
 
-Fields read_fields(ByteReader& in) {
-  return {in.get64(), in.get64(), in.get64(), in.get64(), in.get64(),
-          in.get64(), in.get64(), in.get64(), in.get64(), in.get64()};
+std::uint64_t bits_of(float number) { return std::bit_cast<std::uint32_t>(number); }
+float float_of(std::uint64_t bits) { return std::bit_cast<float>(static_cast<std::uint32_t>(bits)); }
+
+Fields read_fields(ByteReader& in, std::uint32_t version) {
+  Fields fields{in.get64(), in.get64(), in.get64(), in.get64(), in.get64(), in.get64(), in.get64(),
+                in.get64(), in.get64(), in.get64(), 0,          0,          0,          0};
+  const ChainSettings none;
+  fields.ground = bits_of(none.ground);
+  fields.temperature = bits_of(none.temperature);
+  if (version == kFirstVersion) return fields;
+  for (auto* field : {&fields.ground, &fields.history, &fields.temperature, &fields.reserved_too}) *field = in.get64();
+  return fields;
+}
+
+ChainSettings chain_settings(const Fields& fields) {
+  return {float_of(fields.ground), static_cast<std::int32_t>(fields.history), float_of(fields.temperature)};
+}
+
+bool chain_is_sound(const Fields& fields) {
+  const ChainSettings chain = chain_settings(fields);
+  return (fields.ground | fields.temperature) >> 32 == 0 && fields.history <= 0x7fffffff && fields.reserved_too == 0 &&
+         (chain.ground == kNoGround || within(chain.ground, -kFarthest, kFarthest)) &&
+         (chain.temperature == kAsLearned || within(chain.temperature, 0, kHottest));
 }
 
 bool fields_are_sound(const Bank::State& s, const Fields& fields) {
-  const float noise = std::bit_cast<float>(static_cast<std::uint32_t>(fields.noise));
-  return fields.noise >> 32 == 0 && (noise == 0 || within(noise, kLeastNoise, kMostNoise)) && fields.between <= 1 &&
-         fields.passed < static_cast<std::uint64_t>(s.step_time) && fields.reserved == 0;
+  const float noise = float_of(fields.noise);
+  return chain_is_sound(fields) && fields.noise >> 32 == 0 && (noise == 0 || within(noise, kLeastNoise, kMostNoise)) &&
+         fields.between <= 1 && fields.passed < static_cast<std::uint64_t>(s.step_time) && fields.reserved == 0;
 }
 
 Error damaged(const std::string& what) { return {"a saved bank is damaged: " + what + "; save it again"}; }
 
-Result<void> check_header(const Bank::State& s, std::span<const std::byte> bytes, std::size_t expected) {
+// Returns the version.
+Result<std::uint32_t> check_header(const Bank::State& s, std::span<const std::byte> bytes) {
   if (bytes.size() < kHeaderSize || std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0) {
     return Error{"these " + std::to_string(bytes.size()) + " bytes are not a saved bank: they have not its signature"};
   }
   ByteReader in(bytes.data() + kMagic.size());
   const std::uint32_t version = in.get32();
-  if (version != kVersion) {
-    return Error{"a saved bank has version " + std::to_string(version) + ", this build reads version 1: update Wisp"};
+  if (version < kFirstVersion || version > kVersion) {
+    return Error{"a saved bank has version " + std::to_string(version) +
+                 ", this build reads versions 1 and 2: update Wisp"};
   }
   const std::uint32_t reserved = in.get32();
   const std::uint64_t size = in.get64(), hash = in.get64();
@@ -145,7 +171,7 @@ Result<void> check_header(const Bank::State& s, std::span<const std::byte> bytes
                    std::to_string(size));
   }
   if (hash != hash_bytes(payload)) return damaged("its contents have not the hash that its header says");
-  if (payload.size() < kFieldsSize) return damaged("it is too short to hold a bank");
+  if (payload.size() < fields_size(version)) return damaged("it is too short to hold a bank");
   ByteReader fields(payload.data());
   if (fields.get64() != s.model_hash) {
     return Error{"a saved bank is of another model: make the bank that is restored from the model that was saved"};
@@ -154,16 +180,18 @@ Result<void> check_header(const Bank::State& s, std::span<const std::byte> bytes
     return Error{"a saved bank has capacity " + std::to_string(capacity) + ", the bank to restore has " +
                  std::to_string(s.capacity) + ": make it with the same"};
   }
+  const std::size_t expected =
+      kHeaderSize + fields_size(version) + static_cast<std::size_t>(s.capacity) * record_size(s);
   if (bytes.size() != expected) {
     return damaged("it has " + std::to_string(bytes.size()) + " bytes, expected " + std::to_string(expected));
   }
-  return {};
+  return version;
 }
 
 }  // namespace
 
 std::size_t Bank::save_bytes() const {
-  return kHeaderSize + kFieldsSize + static_cast<std::size_t>(state_->capacity) * record_size(*state_);
+  return kHeaderSize + fields_size(kVersion) + static_cast<std::size_t>(state_->capacity) * record_size(*state_);
 }
 
 void Bank::save(std::span<std::byte> bytes) const {
@@ -173,7 +201,8 @@ void Bank::save(std::span<std::byte> bytes) const {
   ByteWriter out(payload.data());
   for (std::uint64_t field :
        {s.model_hash, static_cast<std::uint64_t>(s.capacity), s.seed, s.spawned, static_cast<std::uint64_t>(s.passed),
-        std::uint64_t{s.between}, std::uint64_t{std::bit_cast<std::uint32_t>(s.noise)}, s.held.held, s.held.steps,
+        std::uint64_t{s.between}, bits_of(s.noise), s.held.held, s.held.steps, std::uint64_t{0},
+        bits_of(s.chain.ground), static_cast<std::uint64_t>(s.chain.history), bits_of(s.chain.temperature),
         std::uint64_t{0}}) {
     out.put(field);
   }
@@ -188,10 +217,11 @@ void Bank::save(std::span<std::byte> bytes) const {
 
 Result<void> Bank::restore(std::span<const std::byte> bytes) {
   State& s = *state_;
-  if (auto ok = check_header(s, bytes, save_bytes()); !ok) return ok;
-  const std::byte* first = bytes.data() + kHeaderSize;
-  ByteReader fields_in(first), sound_in(first + kFieldsSize), in(first + kFieldsSize);
-  const Fields fields = read_fields(fields_in);
+  const auto version = check_header(s, bytes);
+  if (!version) return version.error();
+  const std::byte *first = bytes.data() + kHeaderSize, *records = first + fields_size(*version);
+  ByteReader fields_in(first), sound_in(records), in(records);
+  const Fields fields = read_fields(fields_in, *version);
   if (!fields_are_sound(s, fields)) return damaged("its time or noise is out of range");
   for (int slot = 0; slot < s.capacity; ++slot) {
     if (!slot_is_sound(s, sound_in)) return damaged("slot " + std::to_string(slot) + " holds what no bank can");
@@ -201,7 +231,8 @@ Result<void> Bank::restore(std::span<const std::byte> bytes) {
   s.spawned = fields.spawned;
   s.passed = static_cast<std::int64_t>(fields.passed);
   s.between = fields.between != 0;
-  s.set_noise(std::bit_cast<float>(static_cast<std::uint32_t>(fields.noise)));
+  s.set_noise(float_of(fields.noise));
+  s.set_chain(chain_settings(fields));
   s.held = {fields.held, fields.steps};
   s.living = s.rows = s.lowest_free = 0;
   for (int slot = 0; slot < s.capacity; ++slot) restore_slot(s, slot, in);

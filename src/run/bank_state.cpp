@@ -173,6 +173,11 @@ void Bank::State::set_noise(float scale) {
   std::visit([&](auto& dynamics) { dynamics.set_noise(scale); }, stepper);
 }
 
+void Bank::State::set_chain(const ChainSettings& settings) {
+  chain = settings;
+  std::visit([&](auto& dynamics) { dynamics.set_chain(settings); }, stepper);
+}
+
 Moment<LiveNumbers> Bank::State::moment(int block, std::uint32_t* flags) const {
   const std::size_t first = static_cast<std::size_t>(block) * kLanes;
   return {&keys, {stream.data() + first, born.data() + first, steps}, flags};

@@ -48,6 +48,7 @@ struct Bank::State {
   void show_block(int block);
   void show_life(int block, float share);
   void set_noise(float scale);
+  void set_chain(const ChainSettings& settings);
   void read_outputs(int slot, float* values) const;
 
   int capacity;
@@ -86,6 +87,7 @@ struct Bank::State {
   std::int64_t passed = 0;  // nanoseconds since the last step
   bool between = false;     // what is shown lies between the last two steps, by `passed`
   float noise = 0.0f;
+  ChainSettings chain;
   Held held;
 };
 

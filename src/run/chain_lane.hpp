@@ -6,13 +6,12 @@
 // is held at the join and fades along a cubic. D. Bollo, Inertialization: high-performance animation transitions in
 // Gears of War, GDC 2018, has the idea (with a quintic; half a segment of a leaf is four frames, too short for one).
 
+#include "run/chain_choice.hpp"
 #include "run/chain_program.hpp"
+#include "run/chain_settings.hpp"
 #include "run/rigid.hpp"
 
 namespace wisp {
-
-/// Positions are held to this many metres from the origin: single precision can't place a body beyond it.
-inline constexpr float kFarthest = 1e6f;
 
 /// How fast a body moves and turns, in the world.
 template <class Real>
@@ -53,6 +52,10 @@ struct ChainLane {
   // The ground: how much of coming to rest has passed, in [0, 1]; below 0: it falls. The pose in which it touched.
   Real settled{-1.0f};
   Quaternion<Real> touched{};
+  // Steering: steps left until it should be there, 0: it is not steered; where; and how near, metres.
+  Real left{};
+  Vector3<Real> target{};
+  Real near{};
 };
 
 /// What moves lanes of one program.
@@ -65,22 +68,13 @@ class ChainMover {
 
   explicit ChainMover(const ChainProgram& program) : program_(program) {}
 
-  /// Draws the segment that follows the lane's, by two random words, and moves its history on.
-  std::uint32_t draw(Lane& lane, std::uint32_t mode_word, std::uint32_t segment_word, bool begins) const {
-    const auto modes = static_cast<std::uint32_t>(program_.modes);
+  /// Draws the segment that begins, or that follows the lane's, and moves its history on.
+  std::uint32_t draw(Lane& lane, const ChainChoice& choice, const ChainWords& words, bool begins) const {
     const std::uint32_t state = begins ? 0 : index(lane.state, program_.states());
-    const std::uint32_t* threshold = program_.threshold.data() + state * modes;
-    std::uint32_t mode = 0;
-    while (mode + 1 < modes && !(mode_word < threshold[mode])) ++mode;
+    const std::uint32_t mode = choice.mode(program_, state, words);
     const std::uint32_t before = index(lane.segment, program_.segments());
-    lane.state = Real(static_cast<float>(program_.next[state * modes + mode]));
-    if (program_.breadth > 0 && !begins) {
-      const auto breadth = static_cast<std::uint32_t>(program_.breadth);
-      const std::size_t row = (static_cast<std::size_t>(before) * modes + mode) * breadth;
-      return program_.follow[row + share_of(segment_word, breadth)];
-    }
-    const std::uint32_t first = program_.first_of_mode[mode];
-    return first + share_of(segment_word, program_.first_of_mode[mode + 1] - first);
+    lane.state = Real(static_cast<float>(program_.next[state * static_cast<std::uint32_t>(program_.modes) + mode]));
+    return begins ? choice.beginning(program_, mode, words) : choice.follower(program_, before, mode, words);
   }
 
   /// Whether joining a segment leaves something to fade: what must be known of the rates then.
@@ -127,6 +121,7 @@ class ChainMover {
     const std::uint32_t segment = index(lane.segment, program_.segments());
     const std::uint32_t row = index(lane.row, program_.steps(segment)) + 1;
     lane.row = Real(static_cast<float>(row));
+    if (lane.left > Real(0.0f)) lane.left = lane.left - Real(1.0f);
     if (lane.passed < Real(1.0f)) lane.passed = lane.passed + lane.share;
     return row >= program_.steps(segment);
   }
@@ -177,6 +172,25 @@ class ChainMover {
     return sum + dot(twist, twist) * spin_unit * spin_unit + Real(8.0f) * (Real(1.0f) - nearness);
   }
 
+  /// The turn about z with which a segment is placed where a body is.
+  HalfTurn<Real> turn_to(std::uint32_t segment, const Body& body) const {
+    if (!program_.heading_free) return {Real(1.0f), Real(0.0f), Real(1.0f)};
+    if (program_.channels < 7) {
+      const std::int16_t* rate = program_.rates.data() + std::size_t{2} * segment * program_.rate_count;
+      return turn_between(vector(rate), body.rates.velocity);
+    }
+    // As it is stored: its scale is no matter of direction.
+    Quaternion<Real> start;
+    const std::int16_t* row = row_of(segment, 0);
+    for (std::size_t k = 0; k < 4; ++k) start[k] = Real(static_cast<float>(row[3 + k]));
+    return turn_between(start, body.orientation);
+  }
+
+  /// Where a segment leads from its beginning to its end, as it is stored but in metres.
+  Vector3<Real> way_of(std::uint32_t segment) const {
+    return scaled(vector(row_of(segment, program_.steps(segment))), Real(program_.position_scale));
+  }
+
   /// A whole number that is stored as a real one, below a bound.
   static std::uint32_t index(Real number, std::uint32_t bound) {
     const auto whole = static_cast<std::uint32_t>(value_of(number));
@@ -184,10 +198,6 @@ class ChainMover {
   }
 
  private:
-  static std::uint32_t share_of(std::uint32_t word, std::uint32_t count) {
-    return static_cast<std::uint32_t>(static_cast<std::uint64_t>(word) * count >> 32);
-  }
-
   static Vector3<Real> vector(const std::int16_t* from) {
     return {Real(static_cast<float>(from[0])), Real(static_cast<float>(from[1])), Real(static_cast<float>(from[2]))};
   }
@@ -204,19 +214,6 @@ class ChainMover {
     const Real rest_squared = rest * rest;
     slip = passed * rest_squared;
     weight = rest_squared + (slip + slip);
-  }
-
-  HalfTurn<Real> turn_to(std::uint32_t segment, const Body& body) const {
-    if (!program_.heading_free) return {Real(1.0f), Real(0.0f), Real(1.0f)};
-    if (program_.channels < 7) {
-      const std::int16_t* rate = program_.rates.data() + std::size_t{2} * segment * program_.rate_count;
-      return turn_between(vector(rate), body.rates.velocity);
-    }
-    // As it is stored: its scale is no matter of direction.
-    Quaternion<Real> start;
-    const std::int16_t* row = row_of(segment, 0);
-    for (std::size_t k = 0; k < 4; ++k) start[k] = Real(static_cast<float>(row[3 + k]));
-    return turn_between(start, body.orientation);
   }
 
   float fading_steps(std::uint32_t segment) const {

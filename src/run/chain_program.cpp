@@ -28,12 +28,17 @@ void fill_thresholds(const std::vector<double>& probability, std::span<std::uint
 
 using Histories = std::map<std::vector<std::uint16_t>, std::uint16_t>;
 
+std::vector<std::uint16_t> shortened(std::vector<std::uint16_t> history) {
+  history.erase(history.begin());
+  return history;
+}
+
 // The state of the longest known end of a history.
 std::uint16_t state_after(const Histories& states, std::vector<std::uint16_t> history) {
   for (;;) {
     const auto found = states.find(history);
     if (found != states.end()) return found->second;
-    history.erase(history.begin());
+    history = shortened(std::move(history));
   }
 }
 
@@ -48,7 +53,9 @@ void fill_automaton(const ChainModel& chain, ChainProgram& program) {
     program.next[mode] = state_after(states, {static_cast<std::uint16_t>(mode)});
   }
   for (std::size_t k = 0; k < chain.contexts.size(); ++k) {
-    const std::size_t row = (k + 1) * modes;
+    const std::size_t row = (k + 1) * modes, length = chain.contexts[k].history.size();
+    program.length[k + 1] = static_cast<std::uint8_t>(length);
+    program.shorter[k + 1] = length > 1 ? state_after(states, shortened(chain.contexts[k].history)) : 0;
     fill_thresholds(chain.contexts[k].probability, program.threshold.subspan(row, modes));
     for (std::size_t mode = 0; mode < modes; ++mode) {
       std::vector<std::uint16_t> history = chain.contexts[k].history;
@@ -86,6 +93,14 @@ GustProgram gust_program(const GustResponse& gust, double wind_unit) {
   return program;
 }
 
+void take_drift(const ChainDrift& drift, ChainProgram& program) {
+  program.lead_scale = static_cast<float>(drift.lead_scale);
+  for (std::size_t axis = 0; axis < 3; ++axis) program.drift[axis] = static_cast<float>(drift.drift[axis]);
+  program.spread_ground = static_cast<float>(drift.spread_ground);
+  program.spread_height = static_cast<float>(drift.spread_height);
+  program.memory = static_cast<float>(drift.memory_seconds);
+}
+
 template <class Value>
 std::span<Value> copy_of(const std::vector<Value>& values, Arena& arena) {
   const auto out = arena.take<Value>(values.size());
@@ -119,9 +134,18 @@ ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double 
   program.first_row = copy_of(segment_rows(segments), arena);
   program.mode = copy_of(segments.mode, arena);
   program.follow = copy_of(segments.follow, arena);
+  if (chain.systems) program.systems = make_systems_program(*chain.systems, arena);
+  if (chain.drift) {
+    take_drift(*chain.drift, program);
+    program.lead = copy_of(chain.drift->lead, arena);
+    const auto count = static_cast<float>(segments.size());
+    program.mean_steps = static_cast<float>(segment_rows(segments).back()) / count - 1.0f;
+  }
   program.first_of_mode = arena.take<std::uint32_t>(modes + 1);
   program.threshold = arena.take<std::uint32_t>(states * modes);
   program.next = arena.take<std::uint16_t>(states * modes);
+  program.length = arena.take<std::uint8_t>(states);
+  program.shorter = arena.take<std::uint16_t>(states);
   if (arena.measures()) return program;
   for (std::uint16_t mode : segments.mode) ++program.first_of_mode[mode + 1U];
   for (std::size_t mode = 0; mode < modes; ++mode) program.first_of_mode[mode + 1] += program.first_of_mode[mode];
@@ -131,12 +155,20 @@ ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double 
   return program;
 }
 
+void take_size(const View& view, ChainProgram& program) {
+  const auto* pose = std::get_if<PoseView>(&view);
+  if (!pose) return;
+  program.half_width = static_cast<float>(pose->half_width);
+  program.half_length = static_cast<float>(pose->half_length);
+}
+
 std::uint64_t hash_of(const ChainProgram& program, std::uint64_t before) {
   const auto flag = program.heading_free ? 1.0f : 0.0f;
-  std::uint64_t hash = hash_floats({static_cast<float>(program.channels), static_cast<float>(program.breadth), flag,
-                                    program.position_scale, program.orientation_scale, program.velocity_scale,
-                                    program.spin_scale, program.blend_share, program.blend_longest},
-                                   before);
+  std::uint64_t hash =
+      hash_floats({static_cast<float>(program.channels), static_cast<float>(program.breadth), flag,
+                   program.position_scale, program.orientation_scale, program.velocity_scale, program.spin_scale,
+                   program.blend_share, program.blend_longest, program.half_width, program.half_length},
+                  before);
   for (const auto* axis : {&program.gust.ground, &program.gust.vertical}) {
     for (const auto& lag : *axis) hash = hash_floats(lag, hash);
   }
@@ -144,6 +176,12 @@ std::uint64_t hash_of(const ChainProgram& program, std::uint64_t before) {
     hash = hash_number(static_cast<std::uint32_t>(static_cast<std::uint16_t>(number)), hash);
   for (std::int16_t number : program.rates)
     hash = hash_number(static_cast<std::uint32_t>(static_cast<std::uint16_t>(number)), hash);
+  if (program.systems.used()) hash = hash_of(program.systems, hash);
+  for (std::int16_t number : program.lead)
+    hash = hash_number(static_cast<std::uint32_t>(static_cast<std::uint16_t>(number)), hash);
+  hash = hash_floats({program.lead_scale, program.drift[0], program.drift[1], program.drift[2], program.spread_ground,
+                      program.spread_height, program.memory},
+                     hash);
   for (std::uint16_t number : program.follow) hash = hash_number(std::uint32_t{number}, hash);
   for (std::uint32_t number : program.threshold) hash = hash_number(std::uint32_t{number}, hash);
   for (std::uint16_t number : program.next) hash = hash_number(std::uint32_t{number}, hash);

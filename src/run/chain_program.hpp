@@ -7,8 +7,9 @@
 #include <span>
 
 #include "run/arena.hpp"
+#include "run/systems_program.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/model/chain.hpp"
+#include "wisp/model/model.hpp"
 
 namespace wisp {
 
@@ -43,6 +44,18 @@ struct ChainProgram {
   std::span<std::uint32_t> first_of_mode;  ///< per mode its first segment, and one past the last
   std::span<std::uint32_t> threshold;      ///< states × modes: the first mode whose threshold a word is below is drawn
   std::span<std::uint16_t> next;           ///< states × modes: the state after that mode
+  std::span<std::uint8_t> length;          ///< per state how many modes it remembers
+  std::span<std::uint16_t> shorter;        ///< per state the one that remembers the longest known part of that
+  std::span<std::int16_t> lead;            ///< segments × 3; empty: it can't be steered
+  float lead_scale = 0;
+  std::array<float, 3> drift{};  ///< metres a second
+  float spread_ground = 0;       ///< m² a second
+  float spread_height = 0;
+  float mean_steps = 0;      ///< of the segments
+  float memory = 0;          ///< seconds
+  SystemsProgram systems{};  ///< used where modes are systems
+  float half_width = 0;      ///< of the body, along its first axis, metres; 0: a point
+  float half_length = 0;     ///< and along its second
 
   std::uint32_t segments() const { return static_cast<std::uint32_t>(mode.size()); }
   std::uint32_t states() const { return static_cast<std::uint32_t>(next.size()) / static_cast<std::uint32_t>(modes); }
@@ -52,6 +65,9 @@ struct ChainProgram {
 /// State 0 is the beginning; state k + 1 is the model's history k.
 /// `wind_unit` is what the wind of the regressors is measured in.
 ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double wind_unit, Arena& arena);
+
+/// Gives the program the size of the body that it moves, where the view knows it.
+void take_size(const View& view, ChainProgram& program);
 
 /// A hash of the program, over a hash of what came before.
 std::uint64_t hash_of(const ChainProgram& program, std::uint64_t before);

@@ -9,17 +9,16 @@
 #include <span>
 
 #include "run/chain_lane.hpp"
+#include "run/chain_steering.hpp"
 #include "run/channels.hpp"
 #include "run/ground_lane.hpp"
 #include "run/gust_lane.hpp"
 #include "run/moment.hpp"
+#include "run/system_lane.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/random.hpp"
 
 namespace wisp {
-
-/// Lower than anything falls.
-inline constexpr float kNoGround = -4.0f * kFarthest;
 
 template <class N>
 class ChainStepper {
@@ -42,18 +41,33 @@ class ChainStepper {
   static Result<void> check(const Model&, const ChainModel& chain) { return check_chain_program(chain); }
 
   ChainStepper(const Model& model, const ChainModel& chain, const Channels&, int blocks, Arena& arena)
-      : program_(make_chain_program(chain, model.rate_hz, wind_unit(model), arena)) {
+      : program_(make_chain_program(chain, model.rate_hz, wind_unit(model), arena)),
+        choice_(program_, arena),
+        steering_(program_, chain.drift.has_value(), arena) {
+    take_size(model.view, program_);
     const auto lanes = static_cast<std::size_t>(blocks) * kLanes;
     lanes_ = arena.take<Lane>(lanes);
     if (program_.gust.order > 0) gusts_ = arena.take<GustLane<Real>>(lanes);
+    if (chain.systems) {
+      systems_ = arena.take<SystemLane<Real>>(lanes);
+      shocks_ = arena.take<Real>(8 * kLanes);
+    }
     newest_ = arena.take<Real>(lanes * static_cast<std::size_t>(program_.channels));
     previous_ = arena.take<Real>(lanes * static_cast<std::size_t>(program_.channels));
     regressor_row_ = regressor_count(model.inputs) * kLanes;
     regressors_ = arena.take<Real>(static_cast<std::size_t>(blocks) * regressor_row_);
   }
 
-  /// A chain has no residual noise; its chance is in the walk.
-  void set_noise(float) {}
+  /// A chain has no residual noise; its chance is in the walk, and there or not.
+  void set_noise(float scale) {
+    choice_.set_chance(scale > 0);
+    noisy_ = scale > 0 && !program_.systems.noise.empty();
+  }
+
+  void set_chain(const ChainSettings& settings) {
+    choice_.set(settings, program_);
+    ground_ = settings.ground;
+  }
 
   void turn() {}
 
@@ -66,24 +80,27 @@ class ChainStepper {
     std::copy_n(newest(block), sample_size(), previous_of(block));
     std::uint32_t words[4][kLanes];
     bool drawn = false;
+    if (noisy_) draw_shocks(moment);
     for (int lane = 0; lane < kLanes; ++lane) {
       Lane& life = lane_of(block, lane);
       moment.held[lane] = 0;
       if (!(life.settled < Real(0.0f))) {
-        settle_step(life, program_.step_seconds, program_.channels >= 7, newest_of(block) + lane, kLanes);
+        settle_step(life, program_, newest_of(block) + lane, kLanes);
         continue;
       }
       if (program_.gust.order > 0) drift(block, lane);
-      const bool ends = mover.advance(life);
-      mover.show(life, newest_of(block) + lane, kLanes);
-      if (newest_of(block)[2 * kLanes + lane] < Real(ground_)) {
+      const bool ends = program_.systems.used() ? move_system(block, lane) : mover.advance(life);
+      if (!program_.systems.used()) mover.show(life, newest_of(block) + lane, kLanes);
+      moment.held[lane] = is_far(newest_of(block) + lane) ? 1 : 0;
+      if (touches(program_, newest_of(block) + lane, kLanes, ground_)) {
         land(block, lane);
         continue;
       }
       if (!ends) continue;
       if (!drawn) draw(moment, 0, words);
       drawn = true;
-      follow(mover, life, words[0][lane], words[1][lane], newest_of(block) + lane);
+      follow(mover, life, {words[0][lane], words[1][lane], words[2][lane]}, newest_of(block) + lane);
+      if (program_.systems.used()) last(block, lane, words[1][lane]);
     }
   }
 
@@ -119,10 +136,14 @@ class ChainStepper {
     Lane& life = lane_of(block, lane);
     life = {};
     if (program_.gust.order > 0) gust_of(block, lane) = {};
-    const std::uint32_t segment = mover.draw(life, words[0][lane], words[1][lane], true);
+    const std::uint32_t segment = mover.draw(life, choice_, {words[0][lane], words[1][lane], 0}, true);
     const HalfTurn<Real> turn = random_turn(words[2][lane], words[3][lane]);
     mover.place(life, segment, {}, turn.cos, turn.sin);
     mover.show(life, newest_of(block) + lane, kLanes);
+    if (program_.systems.used()) {
+      take_rates(system_of(block, lane), shown_orientation(block, lane), mover.rates_of(life, segment, false));
+      system_of(block, lane).length = Real(duration_of(program_.systems, program_.mode[segment], words[1][lane]));
+    }
     for (int k = 0; k < program_.channels; ++k) {
       previous_of(block)[k * kLanes + lane] = newest_of(block)[k * kLanes + lane];
     }
@@ -132,11 +153,18 @@ class ChainStepper {
   std::optional<ChainPlace> chain_place(int block, int lane) const {
     const Lane& life = const_cast<ChainStepper*>(this)->lane_of(block, lane);
     const std::uint32_t segment = Mover::index(life.segment, program_.segments());
-    return ChainPlace{segment, Mover::index(life.row, program_.steps(segment))};
+    return ChainPlace{segment, Mover::index(life.row, program_.systems.used() ? 65536 : program_.steps(segment))};
   }
 
-  /// The height of the ground; below all heights: none.
-  void set_ground(float height) { ground_ = height; }
+  /// Steers a lane to a place that it is to be near in so many steps; none: no longer.
+  bool steer(int block, int lane, const Vector3<Real>& target, float steps, float near) {
+    if (program_.lead.empty()) return false;
+    Lane& life = lane_of(block, lane);
+    life.target = target;
+    life.left = Real(steps);
+    life.near = Real(near);
+    return true;
+  }
 
   /// Puts a lane where a body is, on whichever segment begins most as the body moves.
   bool place(int block, int lane, const Body& body) {
@@ -155,6 +183,13 @@ class ChainStepper {
     life.state = Real(static_cast<float>(program_.next[program_.mode[best]]));
     if (program_.gust.order > 0) gust_of(block, lane) = {};
     mover.show(life, newest_of(block) + lane, kLanes);
+    if (program_.systems.used()) {
+      life.passed = Real(1.0f);
+      for (int k = 0; k < 4; ++k)
+        newest_of(block)[(3 + k) * kLanes + lane] = body.orientation[static_cast<std::size_t>(k)];
+      take_rates(system_of(block, lane), body.orientation, body.rates);
+      system_of(block, lane).length = Real(duration_of(program_.systems, program_.mode[best], 0x80000000U));
+    }
     for (int k = 0; k < program_.channels; ++k) {
       previous_of(block)[k * kLanes + lane] = newest_of(block)[k * kLanes + lane];
     }
@@ -166,7 +201,7 @@ class ChainStepper {
 
   std::size_t lane_values() const {
     return kLaneNumbers + 2 * static_cast<std::size_t>(program_.channels) +
-           9 * static_cast<std::size_t>(program_.gust.order);
+           9 * static_cast<std::size_t>(program_.gust.order) + (program_.systems.used() ? kSystemStates + 1 : 0);
   }
 
   /// Calls visit(value, low, high) for each number of one lane's state.
@@ -188,12 +223,19 @@ class ChainStepper {
       for (Real& x : *vector) visit(x, -kMostSlip, kMostSlip);
     }
     visit(life.settled, -1.0f, 2.0f);
+    visit(life.left, 0.0f, kMostSlip);
+    for (Real& x : life.target) visit(x, -kFarthest, kFarthest);
+    visit(life.near, 0.0f, kFarthest);
     for (Real& x : life.touched) visit(x, -2.0f, 2.0f);
     for (std::size_t k = 0; k < static_cast<std::size_t>(program_.gust.order); ++k) {
       GustLane<Real>& gust = gust_of(block, lane);
       for (auto* vector : {&gust.change[k], &gust.wind[k], &gust.press[k]}) {
         for (Real& x : *vector) visit(x, -kMostSlip, kMostSlip);
       }
+    }
+    if (program_.systems.used()) {
+      for (Real& x : system_of(block, lane).rates) visit(x, -kMostSlip, kMostSlip);
+      visit(system_of(block, lane).length, 1.0f, 65535.0f);
     }
     for (Real* sample : {newest_of(block), previous_of(block)}) {
       for (int k = 0; k < program_.channels; ++k) visit(sample[k * kLanes + lane], -kFarthest, kFarthest);
@@ -205,13 +247,15 @@ class ChainStepper {
 
  private:
   using Mover = ChainMover<Real>;
-  static constexpr std::size_t kLaneNumbers = 3 + 3 + 2 + 4 + 2 + 9 + 5;
+  static constexpr std::size_t kLaneNumbers = 3 + 3 + 2 + 4 + 2 + 9 + 5 + 5;
   static constexpr float kMostSlip = 1e12f;
 
   std::size_t sample_size() const { return static_cast<std::size_t>(program_.channels) * kLanes; }
   Lane& lane_of(int block, int lane) { return lanes_[static_cast<std::size_t>(block) * kLanes + lane]; }
   Real* newest_of(int block) { return newest_.data() + block * sample_size(); }
   Real* previous_of(int block) { return previous_.data() + block * sample_size(); }
+
+  SystemLane<Real>& system_of(int block, int lane) { return systems_[static_cast<std::size_t>(block) * kLanes + lane]; }
 
   GustLane<Real>& gust_of(int block, int lane) { return gusts_[static_cast<std::size_t>(block) * kLanes + lane]; }
 
@@ -238,8 +282,39 @@ class ChainStepper {
     Vector3<Real> press{};
     if (program_.channels >= 7) press = press_of(shown_orientation(block, lane), wind);
     const auto change = blow(program_.gust, gust, wind, press);
+    const auto way = scaled(change, Real(program_.step_seconds));
+    if (program_.systems.used()) {
+      for (int k = 0; k < 3; ++k) {
+        Real& coordinate = newest_of(block)[k * kLanes + lane];
+        coordinate = coordinate + way[static_cast<std::size_t>(k)];
+      }
+      return;
+    }
     Lane& life = lane_of(block, lane);
-    life.base = added(life.base, scaled(change, Real(program_.step_seconds)));
+    life.base = added(life.base, way);
+  }
+
+  // Six normal deviates a lane.
+  void draw_shocks(const Moment<N>& moment) {
+    Words<N> counters[4], words[4];
+    random_counters<N>(moment.counters, counters);
+    for (std::uint32_t group : {0U, 1U}) {
+      random_group<N>(*moment.keys, counters, 2 + group, words);
+      for (std::uint32_t k = 0; k < (group == 0 ? 4U : 2U); ++k) {
+        store(normal_lanes<N>(words[k]), shocks_.data() + (4 * group + k) * kLanes);
+      }
+    }
+  }
+
+  // One step of a lane whose mode is a system. Returns whether the mode has come to its end.
+  bool move_system(int block, int lane) {
+    Lane& life = lane_of(block, lane);
+    SystemLane<Real>& system = system_of(block, lane);
+    const std::uint32_t mode = program_.mode[Mover::index(life.segment, program_.segments())];
+    system_step(program_.systems, mode, program_.step_seconds, noisy_ ? shocks_.data() + lane : nullptr, system,
+                newest_of(block) + lane, kLanes);
+    life.row = Real(value_of(life.row) + 1.0f);
+    return !(life.row < system.length);
   }
 
   Quaternion<Real> shown_orientation(int block, int lane) const {
@@ -259,7 +334,16 @@ class ChainStepper {
       body.rates.velocity[k] = (body.position[k] - previous(block)[k * kLanes + static_cast<std::size_t>(lane)]) * rate;
     }
     touch(life, body, ground_);
-    newest_of(block)[2 * kLanes + lane] = Real(ground_);
+    newest_of(block)[2 * kLanes + lane] = Real(ground_) + reach_of(program_, body.orientation);
+  }
+
+  // Whether a position was held.
+  static bool is_far(const Real* shown) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const Real& at = shown[axis * kLanes];
+      if (!(at < Real(kFarthest)) || !(at > Real(-kFarthest))) return true;
+    }
+    return false;
   }
 
   static void draw(const Moment<N>& moment, std::uint32_t group, std::uint32_t (&out)[4][kLanes]) {
@@ -269,17 +353,33 @@ class ChainStepper {
     for (int k = 0; k < 4; ++k) store(words[k], out[k]);
   }
 
+  // How long the mode that has just begun lasts.
+  void last(int block, int lane, std::uint32_t word) {
+    const std::uint32_t mode = program_.mode[Mover::index(lane_of(block, lane).segment, program_.segments())];
+    system_of(block, lane).length =
+        Real(duration_of(program_.systems, mode, choice_.has_chance() ? word : 0x80000000U));
+  }
+
   // Joins the next segment to the end of the lane's own, which is what is shown: a join fades over half a segment at
   // most, so that nothing is left of the one before.
-  void follow(const Mover& mover, Lane& life, std::uint32_t mode_word, std::uint32_t segment_word, const Real* shown) {
+  void follow(const Mover& mover, Lane& life, const ChainWords& words, const Real* shown) {
     const std::uint32_t before = Mover::index(life.segment, program_.segments());
-    const std::uint32_t next = mover.draw(life, mode_word, segment_word, false);
+    if (program_.systems.used()) {
+      const std::uint32_t next = mover.draw(life, choice_, words, false);
+      life.segment = Real(static_cast<float>(next));
+      life.row = Real(0.0f);
+      return;
+    }
     Body end;
     for (std::size_t k = 0; k < 3; ++k) end.position[k] = shown[k * kLanes];
     if (program_.channels >= 7) {
       for (std::size_t k = 0; k < 4; ++k) end.orientation[k] = shown[(3 + k) * kLanes];
     }
-    if (program_.channels < 7 || mover.fades(next)) end.rates = mover.rates_of(life, before, true);
+    if (program_.channels < 7) end.rates = mover.rates_of(life, before, true);
+    const bool steered = life.left > Real(0.0f) && !program_.lead.empty();
+    const std::uint32_t next =
+        steered ? steering_.draw(mover, program_, choice_, life, end, words) : mover.draw(life, choice_, words, false);
+    if (program_.channels >= 7 && mover.fades(next)) end.rates = mover.rates_of(life, before, true);
     mover.join(life, next, end);
   }
 
@@ -293,8 +393,13 @@ class ChainStepper {
   }
 
   ChainProgram program_;
+  ChainChoice choice_;
+  ChainSteering<Real> steering_;
   std::span<Lane> lanes_;
   std::span<GustLane<Real>> gusts_;
+  std::span<SystemLane<Real>> systems_;
+  std::span<Real> shocks_;  // of one step of one block
+  bool noisy_ = false;
   std::span<Real> newest_;
   std::span<Real> previous_;
   std::span<Real> regressors_;

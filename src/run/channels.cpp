@@ -91,6 +91,17 @@ double regressor_scale(const Input& input, RegressorPart part) {
   return is_square(part) ? scale * scale : scale;
 }
 
+double regressor_scale(const Model& model, int regressor) {
+  int first = 0;
+  for (const Input& input : model.inputs) {
+    const auto parts = regressor_parts(input.shape);
+    const auto place = static_cast<std::size_t>(regressor - first);
+    if (place < parts.size()) return regressor_scale(input, parts[place]);
+    first += static_cast<int>(parts.size());
+  }
+  return 1;
+}
+
 std::uint64_t hash_of(const Channels& channels, std::uint64_t before) {
   std::uint64_t hash = before;
   for (const OutputChannel& c : channels.outputs) hash = hash_floats({c.mean, c.scale, c.low, c.high}, hash);

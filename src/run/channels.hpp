@@ -62,6 +62,9 @@ double channel_scale(double lowest, double highest);
 /// The power of two that a regressor's deviations are measured in.
 double regressor_scale(const Input& input, RegressorPart part);
 
+/// The same of a regressor by its place among all of a model's.
+double regressor_scale(const Model& model, int regressor);
+
 /// The operating point of each channel, as the dynamics know it.
 struct OperatingPoint {
   std::span<const double> outputs;

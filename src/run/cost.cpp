@@ -1,5 +1,6 @@
 #include "wisp/run/cost.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "run/counting.hpp"
@@ -27,22 +28,46 @@ OperationCount count_inputs(const Channels& channels) {
   });
 }
 
-// Of one step; the mean over as many as it takes, rounded up.
+// Regressors while every input is at its highest: wind that blows from one side.
+std::vector<CountingReal> blowing_regressors(const Model& model, const Channels& channels) {
+  std::vector<CountingReal> values(channels.regressors.size());
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const RegressorChannel& channel = channels.regressors[k];
+    const auto highest = static_cast<float>(model.inputs[channel.input].highest);
+    store(regress<CountingNumbers>(channel, all<Reals<CountingNumbers>>(highest)), &values[k]);
+  }
+  return values;
+}
+
+// Of one step: the mean over as many as it takes, rounded up, and the most.
+struct StepCount {
+  OperationCount mean;
+  std::int64_t most = 0;
+};
+
 template <class Stepper>
-OperationCount count_step(Stepper& stepper, float noise) {
+StepCount count_step(Stepper& stepper, std::span<const CountingReal> regressors, float noise) {
   constexpr int kFrames = Stepper::kCountedFrames;
   const RandomKeys keys = random_keys(1);
   const std::uint64_t stream = 0, born = 0;
   std::uint32_t held = 0;
   stepper.set_noise(noise);
   stepper.start(0, 0, {&keys, {&stream, &born, 0}, &held});
-  const OperationCount all = count([&] {
-    for (std::uint64_t step = 0; step < kFrames; ++step) {
-      stepper.turn();
-      stepper.step(0, {&keys, {&stream, &born, step}, &held});
-    }
-  });
-  return {(all.numbers + kFrames - 1) / kFrames, (all.words + kFrames - 1) / kFrames};
+  const auto play = [&](std::uint64_t step) {
+    stepper.turn();
+    std::copy(regressors.begin(), regressors.end(), stepper.regressors(0));
+    stepper.step(0, {&keys, {&stream, &born, step}, &held});
+  };
+  for (std::uint64_t step = 0; step < kFrames; ++step) play(step);  // what was before them is not counted
+  OperationCount all;
+  std::int64_t most = 0;
+  for (std::uint64_t step = kFrames; step < 2 * kFrames; ++step) {
+    const OperationCount one = count([&] { play(step); });
+    all.numbers += one.numbers;
+    all.words += one.words;
+    most = std::max(most, one.numbers + one.words);
+  }
+  return {{(all.numbers + kFrames - 1) / kFrames, (all.words + kFrames - 1) / kFrames}, most};
 }
 
 template <class Stepper>
@@ -54,6 +79,15 @@ OperationCount count_view(const Channels& channels, const Stepper& stepper, std:
       for (int coordinate : {0, 1}) polyline_lanes<CountingNumbers>(point, coordinate, shown.data());
     }
   });
+}
+
+// Showing what lies between two steps.
+template <class Stepper>
+std::int64_t count_between(const Channels& channels, const Stepper& stepper) {
+  std::vector<CountingReal> shown(channels.outputs.size());
+  const OperationCount between = count([&] { stepper.show_between(0, 0.5f, shown.data()); });
+  const OperationCount newest = count([&] { stepper.show(0, shown.data()); });
+  return between.numbers - newest.numbers;
 }
 
 // Taking in the wind, a step, and shrinking what is shown.
@@ -78,7 +112,9 @@ Cost count_frame(const Model& model, const Kind& dynamics, const Channels& chann
   std::vector<std::byte> memory = room_for(measured);
   Arena arena(memory);
   Stepper stepper(model, dynamics, channels, 1, arena);
-  const OperationCount quiet = count_step(stepper, 0), noisy = count_step(stepper, 1);
+  const auto blowing = blowing_regressors(model, channels);
+  const OperationCount quiet = count_step(stepper, blowing, 0).mean;
+  const auto [noisy, most] = count_step(stepper, blowing, 1);
   Cost cost;
   cost.multiply_adds_per_frame = stepper.multiply_adds();
   cost.dynamics_operations = count_inputs(channels).numbers + quiet.numbers + quiet.words;
@@ -88,6 +124,8 @@ Cost count_frame(const Model& model, const Kind& dynamics, const Channels& chann
   cost.extinction_operations = count_extinction(model).numbers;
   cost.operations_per_frame = cost.dynamics_operations + cost.noise_operations + cost.random_operations +
                               cost.view_operations + cost.extinction_operations;
+  cost.worst_operations = cost.operations_per_frame - (noisy.numbers + noisy.words) + most;
+  cost.between_operations = count_between(channels, stepper);
   return cost;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// How an instance of a segment chain comes to rest on the ground, a level plane: it slides on a little and lies down on
-// the side that is nearer, and rests.
+// How an instance of a segment chain comes to rest on the ground, a level plane: it touches with its lowest corner,
+// slides on a little, lies down on the side that is nearer, and rests.
 
 #include "run/chain_lane.hpp"
 
@@ -8,6 +8,27 @@ namespace wisp {
 
 /// What coming to rest takes: less than the eye follows, more than a jump.
 inline constexpr float kSettleSeconds = 0.35f;
+
+/// How far below its middle a body reaches: the lowest corner of a flat rectangle of its size.
+template <class Real>
+inline Real reach_of(const ChainProgram& program, const Quaternion<Real>& q) {
+  if (program.channels < 7 || !(program.half_width > 0.0f || program.half_length > 0.0f)) return Real(0.0f);
+  const Real two(2.0f), zero(0.0f);
+  Real across = two * (q[1] * q[3] - q[0] * q[2]), along = two * (q[2] * q[3] + q[0] * q[1]);
+  if (across < zero) across = zero - across;
+  if (along < zero) along = zero - along;
+  return across * Real(program.half_width) + along * Real(program.half_length);
+}
+
+/// Whether what is shown has come to the ground; far above it that costs nothing.
+template <class Real>
+inline bool touches(const ChainProgram& program, const Real* shown, int stride, float ground) {
+  const Real& height = shown[2 * stride];
+  if (!(height < Real(ground + (program.half_width + program.half_length)))) return false;
+  if (program.channels < 7) return height < Real(ground);
+  const Quaternion<Real> q{shown[3 * stride], shown[4 * stride], shown[5 * stride], shown[6 * stride]};
+  return height < Real(ground) + reach_of(program, q);
+}
 
 /// Lets a lane whose body has come to the ground settle there. Its rates are those of what it played.
 template <class Real>
@@ -29,8 +50,8 @@ inline void touch(ChainLane<Real>& lane, BodyState<Real> body, float ground) {
 
 /// Moves a settling lane on by a step and shows it; `out` has a stride.
 template <class Real>
-inline void settle_step(ChainLane<Real>& lane, float step_seconds, bool turns, Real* out, int stride) {
-  if (lane.settled < Real(1.0f)) lane.settled = lane.settled + Real(step_seconds / kSettleSeconds);
+inline void settle_step(ChainLane<Real>& lane, const ChainProgram& program, Real* out, int stride) {
+  if (lane.settled < Real(1.0f)) lane.settled = lane.settled + Real(program.step_seconds / kSettleSeconds);
   const bool rests = !(lane.settled < Real(1.0f));
   const Real passed = rests ? Real(1.0f) : lane.settled;
   const Real rest = Real(1.0f) - passed;
@@ -39,8 +60,10 @@ inline void settle_step(ChainLane<Real>& lane, float step_seconds, bool turns, R
   const Real lean = passed * passed * (Real(3.0f) - (passed + passed));
   const auto position = added(lane.base, scaled(lane.slip, way));
   for (int axis = 0; axis < 3; ++axis) out[axis * stride] = position[static_cast<std::size_t>(axis)];
-  if (!turns) return;
+  if (program.channels < 7) return;
   const auto q = rotated(scaled(lane.lean, lean), lane.touched);
+  // At rest it lies flat but for rounding.
+  if (!rests) out[2 * stride] = out[2 * stride] + reach_of(program, q);
   for (int k = 0; k < 4; ++k) out[(3 + k) * stride] = q[static_cast<std::size_t>(k)];
 }
 

@@ -7,6 +7,7 @@
 
 #include "run/arx_stepper.hpp"
 #include "run/chain_stepper.hpp"
+#include "run/switched_stepper.hpp"
 
 namespace wisp {
 
@@ -24,7 +25,17 @@ struct StepperOf<ChainModel, N> {
   using Type = ChainStepper<N>;
 };
 
-using Stepper = std::variant<ArxStepper<LiveNumbers>, ChainStepper<LiveNumbers>>;
+template <class N>
+struct StepperOf<SwitchedArxModel, N> {
+  using Type = SwitchedStepper<N>;
+};
+
+using Stepper = std::variant<ArxStepper<LiveNumbers>, ChainStepper<LiveNumbers>, SwitchedStepper<LiveNumbers>>;
+
+// Each kind is compiled in a file of its own, so that a build may choose for each whether to be fast or small.
+extern template class ArxStepper<LiveNumbers>;
+extern template class ChainStepper<LiveNumbers>;
+extern template class SwitchedStepper<LiveNumbers>;
 
 /// Calls use(dynamics, stepper kind) with the model's dynamics and a std::type_identity of what steps them.
 template <class N, class Use>

@@ -5,13 +5,15 @@
 
 #include <array>
 #include <cmath>
-#include <set>
+#include <limits>
 #include <vector>
 
 #include "model/sample_chain.hpp"
+#include "model/sample_model.hpp"
 #include "run/chain_lane.hpp"
 #include "run/counting.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/chain_loop.hpp"
 #include "wisp/run/cost.hpp"
 
 namespace wisp {
@@ -80,6 +82,110 @@ TEST(ChainBank, ModesFollowEachOtherAsTheChainSays) {
   EXPECT_NEAR(after_one_zero[0] / (after_one_zero[0] + after_one_zero[1]), 0.125, 0.03);
   EXPECT_NEAR(seen[0][0] / (seen[0][0] + seen[0][1]), 0.25, 0.04);
   EXPECT_NEAR(seen[1][0] / (seen[1][0] + seen[1][1]), 0.5, 0.04);
+}
+
+// Modes of a walk of 20000 segments.
+std::vector<int> walked(Bank& bank, const Model& model) {
+  const auto& mode = std::get<ChainModel>(model.dynamics).segments.mode;
+  std::vector<int> modes = {mode[bank.chain_place(bank.at(0))->segment]};
+  while (modes.size() < 20000) {
+    bank.step();
+    const ChainPlace place = *bank.chain_place(bank.at(0));
+    if (place.step == 0) modes.push_back(mode[place.segment]);
+  }
+  return modes;
+}
+
+TEST(ChainBank, AShorterHistoryLooksNoFurtherBack) {
+  const Model model = unblended();
+  Bank bank = bank_of(model);
+  bank.set_history(1);
+  const std::vector<int> modes = walked(bank, model);
+  double after[2] = {};
+  for (std::size_t k = 2; k < modes.size(); ++k) {
+    if (modes[k - 2] == 1 && modes[k - 1] == 0) ++after[modes[k]];
+  }
+  // As after any 0, though the chain knows better (0.125).
+  EXPECT_NEAR(after[0] / (after[0] + after[1]), 0.25, 0.03);
+}
+
+TEST(ChainBank, AsLongAHistoryAsLearnedChangesNothing) {
+  Bank bank = bank_of(sample_chain()), limited = bank_of(sample_chain());
+  limited.set_history(2);
+  for (int step = 0; step < 500; ++step) {
+    bank.step();
+    limited.step();
+    ASSERT_EQ(pose_of(bank), pose_of(limited));
+  }
+  limited.set_history(-3);
+  EXPECT_EQ(limited.history(), 0);
+}
+
+// How often the sample's second-best follower of segment 0 in mode 0, which is segment 0 itself, followed it.
+double second_best_share(std::optional<float> temperature) {
+  Bank bank = bank_of(unblended());
+  bank.set_temperature(temperature);
+  double seconds = 0, all = 0;
+  std::uint32_t before = bank.chain_place(bank.at(0))->segment;
+  for (int step = 0; step < 100'000; ++step) {
+    bank.step();
+    const ChainPlace place = *bank.chain_place(bank.at(0));
+    if (place.step != 0) continue;
+    if (before == 0 && place.segment < 2) {
+      ++all;
+      seconds += place.segment == 0 ? 1 : 0;
+    }
+    before = place.segment;
+  }
+  return seconds / all;
+}
+
+TEST(ChainBank, TemperatureSaysHowOftenWhatJoinsWorseIsTaken) {
+  EXPECT_EQ(second_best_share(0.0f), 0);
+  EXPECT_EQ(second_best_share(-1.0f), 0);
+  EXPECT_EQ(second_best_share(std::numeric_limits<float>::quiet_NaN()), 0);
+  // A third of what is best; six standard deviations of some 700.
+  EXPECT_NEAR(second_best_share(0.5f), 0.25, 0.1);
+  EXPECT_NEAR(second_best_share(std::numeric_limits<float>::infinity()), 0.5, 0.12);
+  EXPECT_NEAR(second_best_share({}), 0.5, 0.12);
+}
+
+TEST(ChainBank, WithoutChanceEveryInstanceLivesTheSameLifeInALoopThatIsKnown) {
+  const Model model = sample_chain();
+  const auto& segments = std::get<ChainModel>(model.dynamics).segments;
+  const auto loop = chain_loop(model);
+  ASSERT_TRUE(loop);
+  auto bank = Bank::create(model, {.capacity = 2, .seed = 9});
+  ASSERT_TRUE(bank);
+  bank->set_noise(0);
+  bank->spawn(3);
+  bank->spawn(77);
+  std::vector<std::uint32_t> walk = {bank->chain_place(bank->at(0))->segment};
+  while (walk.size() < 60) {
+    bank->step();
+    ASSERT_EQ(pose_of(*bank, 0)[2], pose_of(*bank, 1)[2]);
+    const ChainPlace place = *bank->chain_place(bank->at(0)), other = *bank->chain_place(bank->at(1));
+    ASSERT_TRUE(place.segment == other.segment && place.step == other.step);
+    if (place.step == 0) walk.push_back(place.segment);
+  }
+  // The likeliest beginning is mode 0; the sample's likeliest modes are 1 after 0 and, of two alike, 0 after 1.
+  EXPECT_EQ(segments.mode[walk[0]], 0);
+  double seconds = 0;
+  for (std::size_t k = 0; k < loop->segments; ++k) seconds += segments.steps[walk[loop->lead + k]] / 60.0;
+  EXPECT_NEAR(loop->seconds, seconds, 1e-9);
+  for (std::size_t k = loop->lead; k + loop->segments < walk.size(); ++k) {
+    EXPECT_EQ(walk[k], walk[k + loop->segments]);
+  }
+  EXPECT_FALSE(chain_loop(sample_model()));
+}
+
+TEST(ChainBank, WhatIsHeldFarFromTheOriginIsCounted) {
+  Bank bank = bank_of(sample_chain());
+  for (int step = 0; step < 100; ++step) bank.step();
+  EXPECT_EQ(bank.held().held, 0U);
+  bank.place(bank.at(0), {.position = {999'999.9f, 0, 0}, .velocity = {1, 0, 0}});
+  for (int step = 0; step < 100; ++step) bank.step();
+  EXPECT_GT(bank.held().held, 20U);
 }
 
 TEST(ChainBank, FollowersAreThoseOfTheTable) {
@@ -267,6 +373,16 @@ TEST(ChainCost, PlacementAsThePaperJoinsTakesAtMost31OperationsAFrame) {
   ASSERT_TRUE(cost);
   EXPECT_LE(cost->operations_per_frame, 31);
   EXPECT_GE(cost->operations_per_frame, 22);
+}
+
+TEST(ChainCost, TheFrameThatJoinsIsCountedAndSoIsWhatLiesBetweenSteps) {
+  const auto cost = count_operations(sample_chain());
+  ASSERT_TRUE(cost);
+  EXPECT_GT(cost->worst_operations, 2 * cost->operations_per_frame);
+  // A segment is chosen by table, and placed: however many there are.
+  EXPECT_LE(cost->worst_operations, 450);
+  // Seven numbers in proportion, − × + each, and a quaternion made unit again: 4 ×, 3 +, √, ÷ and 4 ×.
+  EXPECT_EQ(cost->between_operations, 7 * 3 + 13);
 }
 
 TEST(ChainCost, AFadingJoinTakesAtMost120OperationsAFrame) {

@@ -14,17 +14,6 @@ namespace {
 
 using Pose = std::array<float, 7>;
 
-// The sample, carried along by the wind within a few steps.
-Model windy_chain() {
-  Model model = sample_chain();
-  GustResponse gust;
-  gust.ground = {{0.75, 0.0}, {0.25, 0.0}, {0.0, 0.0}};
-  gust.vertical = {{0.5, 0.25}, {0.125, 0.125}, {0.0, 0.0}};
-  std::get<ChainModel>(model.dynamics).gust = gust;
-  for (const char* name : {"wind.x", "wind.y", "wind.z"}) model.inputs.push_back({name, "m/s", -3, 3});
-  return model;
-}
-
 Bank bank_of(const Model& model, int capacity = 1) {
   auto bank = Bank::create(model, {.capacity = capacity});
   EXPECT_TRUE(bank) << bank.error().message;
@@ -112,6 +101,46 @@ TEST(ChainGround, ALeafComesToRestFlatOnIt) {
   }
 }
 
+// The height of the lowest corner of the sample's body.
+double lowest_corner(const Pose& pose) {
+  const double across = 2 * (pose[4] * pose[6] - pose[3] * pose[5]),
+               along = 2 * (pose[5] * pose[6] + pose[3] * pose[4]);
+  return pose[2] - std::abs(across) * 0.0365 - std::abs(along) * 0.0245;
+}
+
+TEST(ChainGround, NoCornerSinksInWhileABodyLiesDown) {
+  const BodyMoment on_edge{.position = {0, 0, 0.5}, .orientation = {0.7f, 0.7f, 0.1f, 0.05f}, .velocity = {0, 0, -1}};
+  Bank bank = bank_of(sample_chain());
+  bank.set_ground(0.0f);
+  bank.place(bank.at(0), on_edge);
+  double least = 1;
+  for (int step = 0; step < 300; ++step) {
+    bank.step();
+    least = std::min(least, lowest_corner(pose_of(bank)));
+  }
+  EXPECT_GT(least, -1e-6);
+  EXPECT_EQ(pose_of(bank)[2], 0.0f);
+}
+
+TEST(ChainGround, IsSavedAndRestored) {
+  Bank bank = bank_of(sample_chain(), 2), other = bank_of(sample_chain(), 2);
+  bank.set_ground(-0.5f);
+  bank.set_history(1);
+  bank.set_temperature(0.5f);
+  std::vector<std::byte> saved(bank.save_bytes());
+  bank.save(saved);
+  ASSERT_TRUE(other.restore(saved));
+  EXPECT_EQ(other.ground(), -0.5f);
+  EXPECT_EQ(other.history(), 1);
+  EXPECT_EQ(other.temperature(), 0.5f);
+  for (int step = 0; step < 200; ++step) {
+    bank.step();
+    other.step();
+  }
+  EXPECT_EQ(pose_of(other), pose_of(bank));
+  EXPECT_EQ(pose_of(other)[2], -0.5f);
+}
+
 TEST(ChainGround, NothingJumpsWhereItTouches) {
   Bank bank = bank_of(sample_chain());
   bank.set_ground(-1.0f);
@@ -176,6 +205,85 @@ TEST(ChainPlace, ChoosesTheSegmentThatBeginsSo) {
     ASSERT_TRUE(bank.place(bank.at(0), body));
     EXPECT_EQ(bank.chain_place(bank.at(0))->segment, segment);
   }
+}
+
+// Share of segments of mode 1, which the sample's drift says lead back, while steered ahead or back along x.
+double share_of_mode_one(float target, bool steered = true) {
+  Bank bank = bank_of(steered_chain());
+  double ones = 0, all = 0;
+  for (int fall = 0; fall < 300; ++fall) {
+    // Ahead is along x: headings are drawn.
+    bank.place(bank.at(0), {.velocity = {0.6f, 0, -0.7f}});
+    if (steered) bank.steer(bank.at(0), {.position = {target, 0, -0.4f}, .in = std::chrono::milliseconds(600)});
+    for (int step = 0; step < 30; ++step) {
+      bank.step();
+      const ChainPlace place = *bank.chain_place(bank.at(0));
+      if (place.step != 0) continue;
+      ++all;
+      ones += place.segment == 2 ? 1 : 0;
+    }
+  }
+  return ones / all;
+}
+
+TEST(ChainSteering, PrefersWhatLeadsToTheTarget) {
+  const double free = share_of_mode_one(0, false), ahead = share_of_mode_one(2), back = share_of_mode_one(-2);
+  EXPECT_LT(ahead, free - 0.1);
+  EXPECT_GT(back, free + 0.1);
+}
+
+TEST(ChainSteering, EndsWithItsTimeWithReleaseAndWithAPlace) {
+  const SteerTarget target{.position = {-2, 0, -1}, .in = std::chrono::milliseconds(300)};
+  for (int end : {0, 1, 2}) {
+    Bank steered = bank_of(steered_chain()), free = bank_of(steered_chain());
+    const BodyMoment start{.velocity = {0.6f, 0, -0.7f}};
+    ASSERT_TRUE(steered.steer(steered.at(0), target));
+    for (int step = 0; step < 100; ++step) {
+      steered.step();
+      free.step();
+      if (end == 0 && step == 40) {
+        steered.place(steered.at(0), start);
+        free.place(free.at(0), start);
+      }
+      if (end == 1 && step == 0) {
+        EXPECT_TRUE(steered.release(steered.at(0)));
+      }
+      if (end == 2 && step == 0) {
+        steered.place(steered.at(0), start);
+        free.place(free.at(0), start);
+      }
+    }
+    EXPECT_EQ(pose_of(steered), pose_of(free)) << end;
+  }
+}
+
+TEST(ChainSteering, IsSavedAndRestored) {
+  Bank bank = bank_of(steered_chain(), 2), other = bank_of(steered_chain(), 2);
+  bank.steer(bank.at(1), {.position = {-2, 1, -1}, .in = std::chrono::seconds(4)});
+  for (int step = 0; step < 30; ++step) bank.step();
+  std::vector<std::byte> saved(bank.save_bytes());
+  bank.save(saved);
+  ASSERT_TRUE(other.restore(saved));
+  for (int step = 0; step < 200; ++step) {
+    bank.step();
+    other.step();
+    ASSERT_EQ(pose_of(bank, 1), pose_of(other, 1));
+  }
+}
+
+TEST(ChainSteering, RefusesWhatIsNoTargetAndChainsThatCannotBeSteered) {
+  Bank bank = bank_of(steered_chain());
+  const InstanceId id = bank.at(0);
+  const auto second = std::chrono::seconds(1);
+  EXPECT_FALSE(bank.steer({}, {.in = second}));
+  EXPECT_FALSE(bank.steer(id, {}));
+  EXPECT_FALSE(bank.steer(id, {.position = {std::numeric_limits<float>::quiet_NaN(), 0, 0}, .in = second}));
+  EXPECT_FALSE(bank.steer(id, {.in = second, .near = 0}));
+  EXPECT_FALSE(bank.steer(id, {.in = std::chrono::seconds(10'001)}));
+  EXPECT_TRUE(bank.steer(id, {.in = second}));
+  EXPECT_FALSE(bank.release({}));
+  Bank other = bank_of(sample_chain());
+  EXPECT_FALSE(other.steer(other.at(0), {.in = second}));
 }
 
 TEST(ChainPlace, RefusesWhatIsNoBody) {

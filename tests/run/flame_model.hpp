@@ -1,6 +1,7 @@
 #pragma once
 // A made-up flame for tests and benchmarks: eight control points, each a system of two outputs of order 4, one wind.
 
+#include <cstdint>
 #include <string>
 
 #include "wisp/model/bspline.hpp"
@@ -15,7 +16,32 @@ struct FlameOptions {
   int noise_rank = 0;
   double noise_growth = 0;  ///< with the wind of either sign; 0: the noise is the same in any wind
   int growth_steps = 1;     ///< over which the wind's mean is taken for that
+  int drawn_rows = 0;       ///< of residuals to play instead, in two stretches; 0: the noise is Gaussian
 };
+
+/// Made-up residuals of 16-bit noise, beside a wind that swings from 0 to 1 once in 20 rows; a wind from the other side
+/// plays their mirror image.
+inline DrawnResiduals drawn_flame_residuals(int outputs, int rows, bool both_sides) {
+  DrawnResiduals drawn;
+  drawn.scale.assign(outputs, 1e-6);
+  for (int k = 0; k < rows * outputs; ++k) drawn.rows.push_back(static_cast<std::int16_t>(k * 7919 % 20011 - 10005));
+  drawn.ends = {static_cast<std::uint32_t>(rows / 3), static_cast<std::uint32_t>(rows)};
+  drawn.wind_scale = 1e-4;
+  for (int row = 0; row < rows; ++row) {
+    const auto wind = [](int at) { return at % 20 < 10 ? 1000 * (at % 20) : 1000 * (20 - at % 20); };
+    drawn.winds.push_back(static_cast<std::int16_t>(wind(row)));
+    drawn.winds.push_back(static_cast<std::int16_t>(wind(row) - wind(row + 18)));
+  }
+  drawn.toward = 0;
+  drawn.trend_steps = 2;
+  drawn.tolerance = 0.15;
+  drawn.shortest = 2;
+  drawn.longest = 40;
+  if (!both_sides) return drawn;
+  drawn.against = 1;
+  for (int p = outputs / 2 - 1; p >= 0; --p) drawn.mirror.insert(drawn.mirror.end(), {-(2 * p + 1), 2 * p + 2});
+  return drawn;
+}
 
 /// A stable flame: every channel has the poles 0.75 ± 0.37i, 0.5 and −0.3, a little of its point's other coordinate,
 /// and four taps of wind (of either sign of it).
@@ -53,6 +79,9 @@ inline Model flame_model(const FlameOptions& options = {}) {
   arx.noise.rank = options.noise_rank;
   if (options.noise_growth > 0) {
     arx.noise.growth.assign(regressors * options.growth_steps, options.noise_growth / options.growth_steps);
+  }
+  if (options.drawn_rows > 0) {
+    arx.noise.drawn = drawn_flame_residuals(outputs, options.drawn_rows, splits_sign(options.wind));
   }
   model.dynamics = arx;
   model.view = OutlineView{uniform_knots(options.points), 0.03, 0};

@@ -46,6 +46,13 @@ struct BodyMoment {
   std::array<float, 3> spin{};  ///< angular velocity, world axes
 };
 
+/// Where a body is to be, and when.
+struct SteerTarget {
+  std::array<float, 3> position{};  ///< in the world, metres
+  std::chrono::nanoseconds in{};    ///< from now; above 0, at most 10 000 s
+  float near = 0.1f;  ///< metres, 0.001 to 1000: how near is near enough. The nearer, the more the fall is bent to it
+};
+
 /// How a bank is made.
 struct BankOptions {
   int capacity = 1;                  ///< most instances alive at once; 1 to 1 048 576
@@ -132,8 +139,26 @@ class Bank {
   bool set_inputs(InstanceId id, std::span<const float> values);
 
   /// Scale of the residual noise: 1 as learned, 0 none; held to [0, 10]. At 0 a step costs less.
+  /// A segment chain has no residual noise, its chance is in its walk: at 0 the likeliest mode follows, as the segment
+  /// that joins best. Instances that are spawned then differ by their first heading alone, and their lives sooner or
+  /// later repeat themselves (chain_loop() in wisp/run/chain_loop.hpp tells when). Any other scale leaves a chain as it
+  /// is.
   void set_noise(float scale);
   float noise() const;
+
+  /// Limits how many modes back a segment chain looks when it chooses the next one; 0: as many as it has learned to, as
+  /// at first. Counts below 0 are 0. It acts from the next join on, may change at any time, and changes nothing where
+  /// the dynamics are not a chain.
+  void set_history(int longest);
+  int history() const;
+
+  /// How a segment chain chooses among the segments of a mode: each is T / (1 + T) times as likely as the one that
+  /// joins next best, so that the one of rank T, counted from 0, is about the usual one. 0: always the best; infinity:
+  /// any segment of the mode alike. Nothing, as at first: as learned, one of the best few. What is below 0 or not a
+  /// number counts as 0. A chain that was learned without best-joining segments has nothing to choose by, and is left
+  /// as it is.
+  void set_temperature(std::optional<float> temperature);
+  std::optional<float> temperature() const;
 
   /// One step of the model, for all instances. Outputs read afterwards are those of that step.
   void step();
@@ -144,7 +169,7 @@ class Bank {
   int advance(std::chrono::nanoseconds time);
 
   /// Reads all outputs: slots() × output_count(), in the outputs' units, held to the seen range and kRangeMargin (those
-  /// of an instance that is out, or about to be, lie between there and 0).
+  /// of an instance that is out, or about to be, lie between there and 0). A chain's positions go as far as they go.
   void outputs(std::span<float> values) const;
 
   /// Reads the outputs of one instance: output_count() values. Returns false when `id` is not valid.
@@ -162,15 +187,31 @@ class Bank {
   /// Where in its chain an instance is; nothing where the dynamics are not a chain or `id` is not valid.
   std::optional<ChainPlace> chain_place(InstanceId id) const;
 
+  /// The mode of a switched ARX model that made an instance's newest sample; nothing for other models, before the first
+  /// step, and for ids that are not valid.
+  std::optional<int> arx_mode(InstanceId id) const;
+
   /// Sets an instance of a chain where a body is, as after a collision or a kick: it goes on with the segment that
   /// begins most as the body moves, the rest fading as at any join. Where the chain is not free of heading, or has no
   /// orientation, that part of the body is not taken over. Looks at every segment once: not for every frame.
   /// Returns false, and does nothing, when `id` is not valid, a number is not finite, or the dynamics are not a chain.
   bool place(InstanceId id, const BodyMoment& body);
 
+  /// Steers an instance of a chain: at joins it prefers what leads to the target, weighed against how likely that is,
+  /// until the time has come; then it falls on as before. What lies beyond its reach is not reached. A new target takes
+  /// the place of the one before; placing and resetting end it. A join costs more meanwhile; docs/chains.md has
+  /// figures. Returns false, and does nothing, when `id` is not valid, a number is out of its range, or the model can't
+  /// be steered: not a chain, or one that was learned before chains could be.
+  bool steer(InstanceId id, const SteerTarget& target);
+
+  /// Lets an instance fall as it will. Returns false when `id` is not valid.
+  bool release(InstanceId id);
+
   /// The height of level ground, on which instances of a chain come to rest until they are placed or reset; nothing:
-  /// they fall for ever, as at first. It is not part of what save() saves.
+  /// they fall for ever, as at first. A body whose size the view knows touches with its lowest corner, and no corner
+  /// sinks in while it lies down.
   void set_ground(std::optional<float> height);
+  std::optional<float> ground() const;
 
   /// Whether the model has a rule of extinction (wisp/model/extinction.hpp). Where it has one, instances whose wind the
   /// rule finds too strong go out in a step and stay out, whatever the wind does then; their outputs shrink to 0 and
@@ -198,7 +239,7 @@ class Bank {
 
   /// How many instance-steps there were since the bank was made or restored, and in how many of them at least one
   /// output of an instance that burns was held at its range. More than 1 in 1000 on ordinary input says that the model
-  /// is not usable.
+  /// is not usable. A chain's positions have no range: they are held at 1000 km from the origin.
   struct Held {
     std::uint64_t held = 0;
     std::uint64_t steps = 0;
@@ -208,14 +249,15 @@ class Bank {
   /// Bytes that save() writes for a bank with this model and capacity.
   std::size_t save_bytes() const;
 
-  /// Writes the whole state of the bank, so that a bank restored from it goes on with the same bits.
+  /// Writes the whole state of the bank, all that was set included, so that a bank restored from it goes on with the
+  /// same bits.
   ///
   /// Precondition: `bytes` has save_bytes() bytes.
   void save(std::span<std::byte> bytes) const;
 
   /// Takes over a state written by save() of a bank with the same model and capacity (the seed comes with it).
-  /// Errors: too short or too long, not a bank's state, another version, another model or capacity, damaged. The bank
-  /// stays as it was then.
+  /// Errors: too short or too long, not a bank's state, a version that this build does not read, another model or
+  /// capacity, damaged. The bank stays as it was then.
   Result<void> restore(std::span<const std::byte> bytes);
 
  private:

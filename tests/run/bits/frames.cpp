@@ -10,7 +10,9 @@
 #include <immintrin.h>
 #endif
 
+#include "model/sample_chain.hpp"
 #include "model/sample_model.hpp"
+#include "model/sample_switched.hpp"
 #include "run/flame_model.hpp"
 #include "wisp/base/hash.hpp"
 #include "wisp/run/bank.hpp"
@@ -110,6 +112,38 @@ void fading_frames(std::uint64_t& hash, int frames) {
   }
 }
 
+// Falls in the wind, which come to the ground and are placed anew.
+void falling_frames(std::uint64_t& hash, Model model, int capacity, int frames) {
+  auto& gust = std::get<ChainModel>(model.dynamics).gust;
+  if (gust) gust->ground.press = gust->vertical.press = {0.2, -0.05};
+  Bank bank = full_bank(model, capacity, 9);
+  bank.set_ground(-3.0f);
+  const auto inputs = static_cast<std::size_t>(bank.input_count());
+  std::vector<float> wind(capacity * inputs), poses(static_cast<std::size_t>(capacity) * bank.output_count());
+  for (int frame = 0; frame < frames; ++frame) {
+    for (std::size_t k = 0; k < wind.size(); ++k) wind[k] = wind_at(frame, static_cast<int>(k));
+    bank.set_inputs(wind);
+    bank.set_history(frame / 500 % 3);
+    if (frame % 400 == 0) bank.set_temperature(0.5f * static_cast<float>(frame % 5));
+    if (frame % 400 == 200) bank.set_temperature({});
+    bank.set_noise(frame % 600 < 550 ? 1.0f : 0.0f);
+    frame % 3 == 0 ? bank.step() : void(bank.advance(std::chrono::nanoseconds(13'333'333)));
+    const int placed = frame % 97;
+    if (placed < capacity) {
+      const float x = wind_at(frame + 1, 0) > 0 ? 0.3f : -0.6f;
+      bank.place(bank.at(placed), {.position = {x, 2, 1},
+                                   .orientation = {0.8f, x, 0.2f, -0.1f},
+                                   .velocity = {x, 0.1f, -0.7f},
+                                   .spin = {0, 3 * x, 1}});
+    }
+    if (placed < capacity && frame % 2 == 0) {
+      bank.steer(bank.at(placed), {.position = {1, 2.5f, -2}, .in = std::chrono::seconds(3)});
+    }
+    bank.outputs(poses);
+    add(hash, poses);
+  }
+}
+
 }  // namespace
 }  // namespace wisp
 
@@ -118,10 +152,16 @@ int main() {
   std::uint64_t hash = 0;
   step_frames(hash, flame_model({.wind = InputShape::kSplitSign, .noise_rank = 2}), 1, 30'000);
   step_frames(hash, sample_model(), 13, 2'000);
+  step_frames(hash, flame_model({.wind = InputShape::kSplitSign, .drawn_rows = 600}), 11, 2'000);
   step_frames(hash, flame_model({.wind = InputShape::kSplitSignSquare, .noise_rank = 2, .noise_growth = 0.5}), 3,
               5'000);
   time_frames(hash, flame_model(), 37, 1'000);
   mortal_frames(hash, 11, 2'000);
+  for (int capacity : {1, 13}) falling_frames(hash, windy_chain(), capacity, 4'000);
+  falling_frames(hash, sample_chain(ChainMotion::kPosition), 5, 2'000);
+  for (int degree : {1, 2}) falling_frames(hash, system_chain(degree), 9, 2'000);
+  step_frames(hash, sample_switched(), 11, 2'000);
+  step_frames(hash, sample_switched(Switching::kMarkov), 3, 4'000);
   std::uint64_t flushed = hash;
   fading_frames(hash, 5'000);
 #ifdef __SSE2__

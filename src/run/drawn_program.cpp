@@ -1,0 +1,109 @@
+#include "run/drawn_program.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+
+#include "run/channels.hpp"
+#include "run/model_hash.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr double kMostUnits = 1e9;  // of a residual or a wind, in ranges: no sum overflows
+
+float bounded(double value) {
+  if (std::abs(value) < kLeastCoefficient) return 0.0f;
+  return static_cast<float>(std::clamp(value, -kMostUnits, kMostUnits));
+}
+
+void fill_left(const DrawnResiduals& drawn, DrawnProgram& program) {
+  std::uint32_t begin = 0;
+  for (std::uint32_t end : drawn.ends) {
+    for (std::uint32_t row = begin; row < end; ++row) program.left[row] = end - 1 - row;
+    begin = end;
+  }
+}
+
+// In the regressor's channel units, as deviations from its mean where the channel is one.
+void fill_winds(const Model& model, const ArxModel& arx, const DrawnResiduals& drawn, DrawnProgram& program) {
+  const double unit = drawn.wind_scale / regressor_scale(model, drawn.toward);
+  const double mean = (arx.input_mean[drawn.toward] - (drawn.against < 0 ? 0 : arx.input_mean[drawn.against])) /
+                      regressor_scale(model, drawn.toward);
+  for (std::size_t row = 0; row < program.wind.size(); ++row) {
+    program.wind[row] = bounded(drawn.winds[2 * row] * unit - mean);
+    program.trend[row] = bounded(drawn.winds[2 * row + 1] * unit);
+  }
+  program.tolerance = bounded(drawn.tolerance / regressor_scale(model, drawn.toward));
+  std::iota(program.order.begin(), program.order.end(), 0U);
+  const auto key = [&](std::uint32_t row) {
+    return program.mirrors() ? std::abs(program.wind[row]) : program.wind[row];
+  };
+  std::stable_sort(program.order.begin(), program.order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+}
+
+void fill_sides(const Model& model, const DrawnResiduals& drawn, DrawnProgram& program) {
+  const auto ny = static_cast<std::size_t>(program.outputs);
+  const auto put = [&](std::size_t place, std::size_t output, std::size_t from, double sign) {
+    const Output& out = model.outputs[output];
+    program.from[place] = static_cast<std::uint16_t>(from);
+    program.scale[place] = bounded(sign * drawn.scale[from] / channel_scale(out.lowest, out.highest));
+  };
+  for (std::size_t i = 0; i < ny; ++i) put(i, i, i, 1);
+  for (std::size_t i = 0; i < drawn.mirror.size(); ++i) {
+    const int from = drawn.mirror[i];
+    put(ny + i, i, static_cast<std::size_t>(std::abs(from) - 1), from < 0 ? -1 : 1);
+  }
+}
+
+}  // namespace
+
+DrawnProgram make_drawn_program(const Model& model, const ArxModel& arx, Arena& arena) {
+  const DrawnResiduals& drawn = arx.noise.drawn;
+  DrawnProgram program;
+  if (drawn.empty()) return program;
+  program.outputs = arx.orders.outputs();
+  program.toward = drawn.toward;
+  program.against = drawn.against;
+  program.trend_steps = drawn.trend_steps;
+  program.shortest = static_cast<std::uint32_t>(drawn.shortest);
+  program.longest = static_cast<std::uint32_t>(drawn.longest);
+  const std::size_t rows = drawn.row_count();
+  const std::size_t winds = program.driven() ? rows : 0;
+  program.sides = drawn.mirror.empty() ? 1 : 2;
+  program.rows = arena.take<std::int16_t>(drawn.rows.size());
+  program.left = arena.take<std::uint32_t>(rows);
+  program.wind = arena.take<float>(winds);
+  program.trend = arena.take<float>(winds);
+  program.order = arena.take<std::uint32_t>(winds);
+  program.from = arena.take<std::uint16_t>(static_cast<std::size_t>(program.sides) * program.outputs);
+  program.scale = arena.take<float>(static_cast<std::size_t>(program.sides) * program.outputs);
+  if (arena.measures()) return program;
+  std::copy(drawn.rows.begin(), drawn.rows.end(), program.rows.begin());
+  fill_left(drawn, program);
+  fill_sides(model, drawn, program);
+  if (program.driven()) fill_winds(model, arx, drawn, program);
+  return program;
+}
+
+std::uint64_t hash_of(const DrawnProgram& program, std::uint64_t before) {
+  if (program.empty()) return before;
+  std::uint64_t hash = before;
+  for (int number : {program.toward, program.against, program.trend_steps}) {
+    hash = hash_number(static_cast<std::uint32_t>(number), hash);
+  }
+  for (std::uint32_t number : {program.shortest, program.longest}) hash = hash_number(number, hash);
+  for (std::int16_t value : program.rows) hash = hash_number(static_cast<std::uint32_t>(value), hash);
+  for (std::uint32_t left : program.left) hash = hash_number(left, hash);
+  for (std::uint16_t from : program.from) hash = hash_number(std::uint32_t{from}, hash);
+  const float tolerance[] = {program.tolerance};
+  for (const auto numbers : {std::span<const float>(tolerance), std::span<const float>(program.wind),
+                             std::span<const float>(program.trend), std::span<const float>(program.scale)}) {
+    hash = hash_floats(numbers, hash);
+  }
+  return hash;
+}
+
+}  // namespace wisp

@@ -1,0 +1,197 @@
+// Residuals that are played again: which rows an instance plays, and when it jumps.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "run/flame_model.hpp"
+#include "wisp/run/bank.hpp"
+#include "wisp/run/cost.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr int kRows = 400;
+
+// Two outputs that are nothing but their residuals: what is read is the row that is played. The x of a row is its
+// number, the y of all rows is 1; wind from the other side turns x about and leaves y.
+Model bare_model(InputShape shape = InputShape::kSplitSign) {
+  const int regressors = regressor_count(shape);
+  Model model;
+  model.name = "bare";
+  model.rate_hz = 60;
+  model.inputs = {{"wind", "", splits_sign(shape) ? -2.0 : 0.0, 2.0, shape}};
+  ArxModel arx;
+  arx.orders = {OrderMatrix(2, 2), OrderMatrix(2, regressors), OrderMatrix(2, regressors)};
+  arx.theta.resize(2);
+  arx.constant = arx.output_mean = {0, 0};
+  arx.noise.sd = {1, 1};
+  arx.input_mean.assign(regressors, 0.0);
+  DrawnResiduals& drawn = arx.noise.drawn;
+  drawn = drawn_flame_residuals(2, kRows, splits_sign(shape));
+  drawn.scale = {1, 1};
+  for (int row = 0; row < kRows; ++row) {
+    drawn.rows[2 * row] = static_cast<std::int16_t>(row + 1);
+    drawn.rows[2 * row + 1] = 1;
+  }
+  if (splits_sign(shape)) drawn.mirror = {-1, 2};
+  for (const char* name : {"x", "y"}) model.outputs.push_back({name, "", -500, 500});
+  model.dynamics = arx;
+  return model;
+}
+
+DrawnResiduals& drawn_of(Model& model) { return std::get<ArxModel>(model.dynamics).noise.drawn; }
+
+// The swinging wind that the residuals were recorded in.
+float swing(int frame) { return 0.1f * static_cast<float>(frame % 20 < 10 ? frame % 20 : 20 - frame % 20); }
+
+// x of every step along a wind.
+template <class Wind>
+std::vector<int> rows_played(const Model& model, int frames, Wind wind, std::uint64_t seed = 1) {
+  auto bank = Bank::create(model, {.seed = seed});
+  EXPECT_TRUE(bank) << bank.error().message;
+  const InstanceId id = bank->spawn();
+  std::vector<int> rows;
+  for (int frame = 0; frame < frames; ++frame) {
+    const float now = wind(frame);
+    bank->set_common_inputs({&now, 1});
+    bank->step();
+    float values[2];
+    bank->outputs(id, values);
+    EXPECT_EQ(values[1], 1.0f);
+    rows.push_back(static_cast<int>(std::lround(values[0])));
+  }
+  return rows;
+}
+
+TEST(DrawnResiduals, GoOnWhileTheWindIsAsItWasThen) {
+  const auto rows = rows_played(bare_model(), 400, swing);
+  int jumps = 0, longest = 0, since = 0;
+  for (int frame = 30; frame < 400; ++frame) {
+    const bool next = rows[frame] == rows[frame - 1] + 1;
+    jumps += next ? 0 : 1;
+    since = next ? since + 1 : 0;
+    longest = std::max(longest, since);
+    // Where it goes, the wind and its rise are as they were there.
+    EXPECT_NEAR(swing(rows[frame] - 1), swing(frame), 0.15 + 1e-3) << frame;
+  }
+  EXPECT_LE(longest, 40);  // it jumps even so, lest it repeat what was recorded
+  EXPECT_GE(longest, 30);
+  EXPECT_LT(jumps, 30);
+}
+
+TEST(DrawnResiduals, JumpWhereTheWindWasAlikeWhenItIsNot) {
+  const auto steady = [](int) { return 0.5f; };
+  const auto rows = rows_played(bare_model(), 400, steady);
+  std::set<int> seen;
+  for (int frame = 1; frame < 400; ++frame) {
+    seen.insert(rows[frame]);
+    if (rows[frame] == rows[frame - 1] + 1) continue;
+    EXPECT_NEAR(swing(rows[frame] - 1), 0.5, 0.11) << frame;  // the nearest 64 of 400 lie in three levels
+  }
+  EXPECT_GT(seen.size(), 60u);  // by chance, not the same each time
+}
+
+TEST(DrawnResiduals, NeverCrossTheEndOfAStretch) {
+  Model model = bare_model();
+  DrawnResiduals& drawn = drawn_of(model);
+  drawn.tolerance = 10;
+  drawn.longest = 1000;
+  const auto rows = rows_played(model, 20000, swing);
+  int ends = 0, crossed = 0;
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    ends += rows[k - 1] == kRows / 3 ? 1 : 0;
+    crossed += rows[k - 1] == kRows / 3 && rows[k] == kRows / 3 + 1 ? 1 : 0;
+  }
+  EXPECT_GT(ends, 20);
+  EXPECT_LT(crossed, ends / 5);  // by chance one in 64, the number of rows that are alike
+}
+
+TEST(DrawnResiduals, WindFromTheOtherSidePlaysMirrorImages) {
+  const auto rows = rows_played(bare_model(), 300, [](int frame) { return -swing(frame); });
+  for (int frame = 40; frame < 300; ++frame) {
+    if (swing(frame) < 0.35f) continue;  // calm has no side
+    EXPECT_LT(rows[frame], 0) << frame;
+    EXPECT_NEAR(swing(-rows[frame] - 1), swing(frame), 0.15 + 1e-3) << frame;
+  }
+}
+
+TEST(DrawnResiduals, WithoutAnInputAnyRowMayFollow) {
+  Model model = bare_model(InputShape::kLinear);
+  DrawnResiduals& drawn = drawn_of(model);
+  drawn.toward = -1;
+  drawn.winds.clear();
+  drawn.longest = 10;
+  const auto rows = rows_played(model, 2000, swing);
+  std::set<int> seen(rows.begin(), rows.end());
+  EXPECT_GT(seen.size(), 350u);
+  int since = 0;
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    since = rows[k] == rows[k - 1] + 1 ? since + 1 : 0;
+    EXPECT_LT(since, 25) << k;  // twice in a row by chance to the very next one: less than once in a thousand runs
+  }
+}
+
+TEST(DrawnResiduals, AnotherSeedPlaysOtherRows) {
+  const auto steady = [](int) { return 0.5f; };
+  EXPECT_NE(rows_played(bare_model(), 100, steady, 1), rows_played(bare_model(), 100, steady, 2));
+  EXPECT_EQ(rows_played(bare_model(), 100, steady, 1), rows_played(bare_model(), 100, steady, 1));
+}
+
+TEST(DrawnResiduals, AreScaledByTheNoise) {
+  auto bank = Bank::create(bare_model(), {});
+  ASSERT_TRUE(bank);
+  const InstanceId id = bank->spawn();
+  float values[2];
+  for (float noise : {0.5f, 0.0f}) {
+    bank->set_noise(noise);
+    bank->step();
+    bank->outputs(id, values);
+    EXPECT_EQ(values[1], noise);
+  }
+}
+
+TEST(DrawnResiduals, AnInstanceLivesTheSameLifeInABankOfAnySizeAndAfterARestore) {
+  const Model model = flame_model({.wind = InputShape::kSplitSign, .drawn_rows = 300});
+  const auto lived = [&](int capacity, bool restored) {
+    auto bank = Bank::create(model, {.capacity = capacity});
+    EXPECT_TRUE(bank);
+    for (int k = 1; k < capacity; ++k) bank->spawn();
+    const InstanceId id = bank->spawn(77);
+    std::vector<float> all;
+    for (int frame = 0; frame < 200; ++frame) {
+      std::vector<float> winds(bank->slots());
+      for (int k = 0; k < bank->slots(); ++k) winds[k] = k == static_cast<int>(id.slot) ? -swing(frame) : swing(k * 3);
+      bank->set_inputs(winds);
+      bank->step();
+      if (restored && frame == 100) {
+        std::vector<std::byte> bytes(bank->save_bytes());
+        bank->save(bytes);
+        auto other = Bank::create(model, {.capacity = capacity});
+        EXPECT_TRUE(other->restore(bytes));
+        *bank = *std::move(other);
+      }
+      std::vector<float> values(bank->output_count());
+      bank->outputs(id, values);
+      all.insert(all.end(), values.begin(), values.end());
+    }
+    return all;
+  };
+  const auto alone = lived(1, false);
+  EXPECT_EQ(lived(13, false), alone);
+  EXPECT_EQ(lived(1, true), alone);
+  EXPECT_EQ(lived(13, true), alone);
+}
+
+TEST(DrawnResiduals, CostAProductAndASumAnOutputAndNowAndThenAJump) {
+  const Cost gaussian = *count_operations(flame_model({.wind = InputShape::kSplitSign, .noise_rank = 4}));
+  const Cost drawn = *count_operations(flame_model({.wind = InputShape::kSplitSign, .drawn_rows = 600}));
+  EXPECT_LT(drawn.noise_operations, 16 * 2 + 25);
+  EXPECT_LT(drawn.random_operations, 25);
+  EXPECT_EQ(drawn.dynamics_operations, gaussian.dynamics_operations);
+}
+
+}  // namespace
+}  // namespace wisp

@@ -1,0 +1,196 @@
+// Banks of switched ARX models: the equations in double precision, the chain's frequencies, and run's promises.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "model/sample_switched.hpp"
+#include "wisp/run/bank.hpp"
+#include "wisp/run/cost.hpp"
+
+namespace wisp {
+namespace {
+
+const SwitchedArxModel& switched(const Model& model) { return std::get<SwitchedArxModel>(model.dynamics); }
+
+Bank bank_of(const Model& model, int instances) {
+  auto bank = Bank::create(model, {.capacity = instances, .seed = 3});
+  EXPECT_TRUE(bank) << bank.error().message;
+  for (int k = 0; k < instances; ++k) bank->spawn();
+  return std::move(bank).value();
+}
+
+float input_at(int step, int instance) { return static_cast<float>(2.2 * std::sin(0.3 * step + instance)) + 0.5f; }
+
+// y, u as deviations, newest last.
+double sample_of(const RegionSample& sample, const std::vector<std::vector<double>>& y, const std::vector<double>& u) {
+  const auto& channel = sample.input ? u : y[static_cast<std::size_t>(sample.channel)];
+  // The inputs of the step are there already, its outputs are not.
+  const std::size_t back = static_cast<std::size_t>(sample.lag) + (sample.input ? 1 : 0);
+  return back <= channel.size() ? channel[channel.size() - back] : 0.0;
+}
+
+int region_of(const SwitchedArxModel& model, const std::vector<std::vector<double>>& y, const std::vector<double>& u) {
+  const auto samples = region_samples(model.orders);
+  std::vector<double> scores;
+  for (std::size_t k = 0; k < model.modes.size(); ++k) {
+    const double* row = model.regions.data() + k * (1 + samples.size());
+    double score = row[0];
+    for (std::size_t s = 0; s < samples.size(); ++s) score += row[1 + s] * sample_of(samples[s], y, u);
+    scores.push_back(score);
+  }
+  return static_cast<int>(std::max_element(scores.begin(), scores.end()) - scores.begin());
+}
+
+double next_of(const SwitchedArxModel& model, int mode, int i, const std::vector<std::vector<double>>& y,
+               const std::vector<double>& u) {
+  const ArxModel arx = mode_model(model, static_cast<std::size_t>(mode));
+  double sum = arx.constant[i];
+  for (int j = 0; j < 2; ++j) {
+    const auto a = arx.a(i, j);
+    for (int l = 0; l < static_cast<int>(a.size()); ++l) sum -= a[l] * sample_of({false, j, l + 1}, y, u);
+  }
+  const auto b = arx.b(i, 0);
+  for (int l = 0; l < static_cast<int>(b.size()); ++l)
+    sum += b[l] * sample_of({true, 0, arx.orders.nk(i, 0) + l}, y, u);
+  return sum;
+}
+
+TEST(SwitchedBank, RegionsDecideAsTheEquationsSay) {
+  const Model model = sample_switched();
+  const SwitchedArxModel& dynamics = switched(model);
+  Bank bank = bank_of(model, 1);
+  bank.set_noise(0);
+  std::vector<std::vector<double>> y(2);
+  std::vector<double> u;
+  std::vector<int> seen(3, 0);
+  for (int step = 0; step < 300; ++step) {
+    const float input = input_at(step, 0);
+    bank.set_inputs(bank.at(0), std::span(&input, 1));
+    bank.step();
+    u.push_back(input - dynamics.input_mean[0]);
+    const int mode = region_of(dynamics, y, u);
+    ++seen[mode];
+    ASSERT_EQ(bank.arx_mode(bank.at(0)), mode) << step;
+    const double next[] = {next_of(dynamics, mode, 0, y, u), next_of(dynamics, mode, 1, y, u)};
+    float shown[2];
+    bank.outputs(bank.at(0), shown);
+    for (int i = 0; i < 2; ++i) {
+      y[i].push_back(next[i]);
+      ASSERT_NEAR(shown[i], dynamics.output_mean[i] + next[i], 1e-5) << step;
+    }
+  }
+  EXPECT_GT(*std::min_element(seen.begin(), seen.end()), 2);  // all of them were tried
+}
+
+TEST(SwitchedBank, AMarkovChainVisitsModesAsOftenAsItsProbabilitiesSay) {
+  const Model model = sample_switched(Switching::kMarkov);
+  constexpr int kInstances = 40, kSteps = 2000;
+  Bank bank = bank_of(model, kInstances);
+  std::vector<int> first(3, 0), from(3, 0), counts(9, 0);
+  std::vector<int> before(kInstances, -1);
+  for (int step = 0; step < kSteps; ++step) {
+    bank.step();
+    for (int k = 0; k < kInstances; ++k) {
+      const int mode = *bank.arx_mode(bank.at(k));
+      before[k] < 0 ? ++first[mode] : (++from[before[k]], ++counts[before[k] * 3 + mode]);
+      before[k] = mode;
+    }
+  }
+  EXPECT_EQ(first[0], 0);  // its probability is 0
+  EXPECT_GT(first[1], 8);
+  EXPECT_GT(first[2], 8);
+  const auto& expected = switched(model).transitions;
+  for (int k = 0; k < 9; ++k) {
+    const double share = static_cast<double>(counts[k]) / from[k / 3];
+    const double sd = std::sqrt(expected[k] * (1 - expected[k]) / from[k / 3]);
+    EXPECT_NEAR(share, expected[k], 4 * sd) << k;
+  }
+}
+
+TEST(SwitchedBank, WithoutNoiseAMarkovChainTakesTheLikeliestStep) {
+  Bank bank = bank_of(sample_switched(Switching::kMarkov), 2);
+  bank.set_noise(0);
+  EXPECT_FALSE(bank.arx_mode(bank.at(0)));
+  for (int step = 0; step < 50; ++step) {
+    bank.step();
+    ASSERT_EQ(bank.arx_mode(bank.at(0)), 1);
+  }
+}
+
+TEST(SwitchedBank, ResidualsHaveTheCovarianceOfTheirMode) {
+  Model model = sample_switched(Switching::kMarkov);
+  auto& dynamics = std::get<SwitchedArxModel>(model.dynamics);
+  dynamics.orders.na = OrderMatrix(2, 2);
+  for (ArxMode& mode : dynamics.modes) {
+    mode.theta = {{0, 0}, {0, 0}};
+    mode.std_error.clear();
+    mode.constant = {0, 0};
+  }
+  dynamics.modes[2].shock = {0.2, 0, -0.1, 0.05};
+  Bank bank = bank_of(model, 1);
+  double rows = 0, xx = 0, xy = 0, yy = 0;
+  for (int step = 0; step < 20'000; ++step) {
+    bank.step();
+    if (bank.arx_mode(bank.at(0)) != 2) continue;
+    float y[2];
+    bank.outputs(bank.at(0), y);
+    const double e[] = {y[0] - 0.25, y[1] + 0.5};
+    ++rows, xx += e[0] * e[0], xy += e[0] * e[1], yy += e[1] * e[1];
+  }
+  EXPECT_NEAR(xx / rows, 0.04, 0.002);
+  EXPECT_NEAR(xy / rows, -0.02, 0.001);
+  EXPECT_NEAR(yy / rows, 0.0125, 0.0006);
+}
+
+TEST(SwitchedBank, AnInstancePlaysTheSameAloneAndAmongOthersAndAfterBeingRestored) {
+  for (Switching switching : {Switching::kRegions, Switching::kMarkov}) {
+    const Model model = sample_switched(switching);
+    Bank alone = bank_of(model, 0 + 1), many = bank_of(model, 13);
+    std::vector<std::byte> saved(many.save_bytes());
+    alone.end(alone.at(0));
+    const InstanceId one = alone.spawn(11);  // the twelfth's random stream
+    for (int step = 0; step < 200; ++step) {
+      for (int k = 0; k < 13; ++k) {
+        const float input = input_at(step, k);
+        many.set_inputs(many.at(k), std::span(&input, 1));
+        if (k == 11) alone.set_inputs(one, std::span(&input, 1));
+      }
+      alone.step();
+      many.step();
+      if (step % 50 == 20) {
+        many.save(saved);
+        many.step();
+        ASSERT_TRUE(many.restore(saved));
+      }
+      float a[2], b[2];
+      alone.outputs(one, a);
+      many.outputs(many.at(11), b);
+      ASSERT_EQ(a[0], b[0]) << step;
+      ASSERT_EQ(a[1], b[1]) << step;
+      ASSERT_EQ(alone.arx_mode(one), many.arx_mode(many.at(11)));
+    }
+  }
+}
+
+// Five and four coefficients of one mode, and the weights of the three regions that are not zero for some mode, which
+// make five columns of three.
+TEST(SwitchedBank, CostsOneModeAndTheRegions) {
+  const auto regions = count_operations(sample_switched(), 0),
+             markov = count_operations(sample_switched(Switching::kMarkov), 0);
+  ASSERT_TRUE(regions && markov);
+  EXPECT_EQ(markov->multiply_adds_per_frame, 9);
+  EXPECT_EQ(regions->multiply_adds_per_frame, 9 + 5 * 3);
+  // The input: − ×; coefficients: × +; whether each output was held: or. Regions: × +.
+  EXPECT_EQ(markov->dynamics_operations, 2 + 9 * 2 + 2);
+  EXPECT_EQ(regions->dynamics_operations, markov->dynamics_operations + 15 * 2);
+  // A deviate for each output, and three shocks of them: × +.
+  EXPECT_EQ(regions->noise_operations, 2 * 5 + 3 * 2);
+  EXPECT_EQ(regions->random_operations, 1 + 7 * 6 + 2 * 6);
+  EXPECT_EQ(markov->random_operations, regions->random_operations + 1 + 7 * 6);  // a word for the chain
+}
+
+}  // namespace
+}  // namespace wisp
