@@ -6,8 +6,11 @@
 #include <filesystem>
 #include <limits>
 
+#include "learn/chain_drift.hpp"
+#include "learn/mode_parts.hpp"
 #include "wisp/learn/clustering.hpp"
 #include "wisp/learn/mode_chain.hpp"
+#include "wisp/learn/mode_systems.hpp"
 #include "wisp/learn/motion.hpp"
 #include "wisp/model/file.hpp"
 
@@ -16,6 +19,7 @@ namespace {
 
 constexpr int kMostAutoModes = 12;
 constexpr int kMostHistory = 6;
+constexpr int kMostPartHistory = 2;         // of halves: a longer one has thousands of rows
 constexpr std::size_t kLeastSegments = 30;  // with fewer, transitions are anecdotes
 
 Result<void> check_options(const ChainOptions& options) {
@@ -227,6 +231,7 @@ Provenance provenance_of(std::span<const Recording> recordings, const ChainOptio
                   {"frame", options.features.heading_free ? "heading" : "world"},
                   {"modes", options.modes > 0 ? std::to_string(options.modes) : "auto"},
                   {"history", options.history > 0 ? std::to_string(options.history) : "auto"},
+                  {"realise", std::string(word_of(options.realisation))},
                   {"shortest", text_of(options.segmentation.least_seconds)},
                   {"debounce", text_of(options.segmentation.debounce)},
                   {"smooth", std::to_string(options.smooth_rows)}};
@@ -240,6 +245,83 @@ Provenance provenance_of(std::span<const Recording> recordings, const ChainOptio
                   ? std::to_string(summary.segments) + " segments in " + std::to_string(summary.modes) + " modes"
                   : "only " + std::to_string(summary.segments) + " segments, expected at least 30: record for longer"};
   return made;
+}
+
+// Segments in their modes, and how those follow each other.
+struct Walked {
+  const Motion& motion;
+  std::span<const Segment> segments;
+  std::span<const std::uint16_t> cluster;
+  int modes;
+  const ModeChain& chain;
+};
+
+// A chain as it is played, and where its segments are from.
+struct Realised {
+  ChainModel dynamics;
+  std::vector<std::uint64_t> origin;
+};
+
+std::vector<double> first_order(const ModeChain& chain, int modes) {
+  ChainModel model;
+  model.modes = modes;
+  model.contexts = chain.contexts;
+  return model.transitions();
+}
+
+Realised stored_chain(const Walked& walked, const ChainOptions& options) {
+  SegmentStoreOptions storing = options.store;
+  storing.heading_free = options.features.heading_free;
+  storing.seed = options.seed;
+  storing.blend.share = options.blend_share;
+  const auto store = store_segments(walked.motion, walked.segments, walked.cluster, walked.modes, storing);
+  Realised out;
+  ChainModel& dynamics = out.dynamics;
+  dynamics.motion = walked.motion.has_orientation ? ChainMotion::kPose : ChainMotion::kPosition;
+  dynamics.heading_free = options.features.heading_free;
+  dynamics.modes = walked.modes;
+  dynamics.segments = store.segments;
+  dynamics.initial = walked.chain.initial;
+  dynamics.contexts = walked.chain.contexts;
+  dynamics.blend.share = options.blend_share;
+  for (std::size_t source : store.source) out.origin.push_back(source + walked.segments[source].piece);
+  return out;
+}
+
+Result<Realised> chain_of_systems(const Walked& walked, const ChainOptions& options) {
+  const bool linear = options.realisation == Realisation::kLinear;
+  auto systems = fit_mode_systems(walked.motion, walked.segments, walked.cluster, walked.modes,
+                                  {.degree = linear ? 1 : 2, .noisy = linear});
+  if (!systems) return systems.error();
+  ChainOptions few = options;
+  few.store.most_bytes = 1;  // one for each mode, with which lives begin
+  few.store.breadth = 0;
+  Realised out = stored_chain(walked, few);
+  out.dynamics.systems = std::move(*systems);
+  return out;
+}
+
+Result<Realised> realised_chain(const Walked& walked, const ChainOptions& options) {
+  if (options.realisation == Realisation::kLinear || options.realisation == Realisation::kOde) {
+    return chain_of_systems(walked, options);
+  }
+  Realised out;
+  if (options.realisation == Realisation::kChain) {
+    const auto parts =
+        mode_parts(walked.motion, walked.segments, walked.cluster, walked.modes, options.features, options.seed);
+    if (!parts) return parts.error();
+    const auto told = sequences_of(parts->segments, parts->cluster);
+    // Four times as many kinds: tables of what joins what are as large with a quarter of the followers.
+    const int history = options.history > 0 ? options.history : kMostPartHistory;
+    const ModeChain chain = estimate_chain(told, parts->modes, {.history = history, .back_off = options.history == 0});
+    ChainOptions fewer = options;
+    fewer.store.breadth = (options.store.breadth + 3) / 4;
+    out = stored_chain({walked.motion, parts->segments, parts->cluster, parts->modes, chain}, fewer);
+  } else {
+    out = stored_chain(walked, options);
+  }
+  out.dynamics.drift = drift_of(out.dynamics, walked.motion.rate_hz);
+  return out;
 }
 
 }  // namespace
@@ -275,29 +357,21 @@ Result<ChainFit> learn_chain(std::span<const Recording> recordings, const ChainO
   if (judged.empty()) judged = told;
   const ModeChainOptions order = order_of(told, summary.modes, options.history);
   const ModeChain chain = estimate_chain(told, summary.modes, order);
-  SegmentStoreOptions storing = options.store;
-  storing.heading_free = options.features.heading_free;
-  storing.seed = options.seed;
-  const auto store = store_segments(data->motion, segments.first(learned), std::span(modes->cluster).first(learned),
-                                    summary.modes, storing);
-
-  ChainModel dynamics;
-  dynamics.motion = data->motion.has_orientation ? ChainMotion::kPose : ChainMotion::kPosition;
-  dynamics.heading_free = options.features.heading_free;
-  dynamics.modes = summary.modes;
-  dynamics.segments = store.segments;
-  dynamics.initial = chain.initial;
-  dynamics.contexts = chain.contexts;
-  dynamics.blend.share = options.blend_share;
+  const Walked walked{data->motion, segments.first(learned), std::span(modes->cluster).first(learned), summary.modes,
+                      chain};
+  auto realised = realised_chain(walked, options);
+  if (!realised) return realised.error();
+  ChainModel& dynamics = realised->dynamics;
 
   summary.segments = learned;
-  summary.stored = store.source.size();
+  summary.kinds = dynamics.modes;
+  summary.stored = dynamics.segments.size();
   summary.stretches_learned = told_pieces;
   summary.stretches_held_out = pieces - told_pieces;
   summary.mode_sizes = modes->found.sizes;
   summary.history = dynamics.history();
   summary.initial = chain.initial;
-  summary.transitions = dynamics.transitions();
+  summary.transitions = first_order(chain, summary.modes);
   summary.counts = chain.counts;
   for (const Segment& one : segments.first(learned)) summary.mean_segment_seconds += one.end - one.begin;
   summary.mean_segment_seconds /= static_cast<double>(learned) * data->motion.rate_hz;
@@ -308,7 +382,7 @@ Result<ChainFit> learn_chain(std::span<const Recording> recordings, const ChainO
   summary.warnings.insert(summary.warnings.end(), data->segmentation.warnings.begin(),
                           data->segmentation.warnings.end());
 
-  for (std::size_t source : store.source) fit.origin.push_back(source + segments[source].piece);
+  fit.origin = std::move(realised->origin);
   for (std::size_t k = 0; k < pieces; ++k) {
     const MotionPiece& piece = data->motion.pieces[k];
     auto part = slice(recordings[piece.recording], piece.first_row, piece.first_row + piece.rows());

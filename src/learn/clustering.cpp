@@ -74,6 +74,17 @@ KMeans one_start(const Rows& rows, const KMeansOptions& options, double variance
   return search.result(round);
 }
 
+// From where a start stopped to where no row changes sides any more: only the best start is worth it.
+KMeans to_the_end(const Rows& rows, const KMeansOptions& options, const KMeans& found) {
+  NearestMiddles search(rows, found.middles);
+  int round = found.rounds;
+  while (round < options.most_rounds) {
+    ++round;
+    if (search.round() <= 0) break;
+  }
+  return search.result(round);
+}
+
 // Mean variance of the columns: what movements of the middles are measured against.
 double mean_variance(const Rows& rows) {
   double sum = 0;
@@ -126,7 +137,7 @@ Result<KMeans> k_means(std::span<const double> values, std::size_t columns, cons
   work();
   for (std::thread& thread : threads) thread.join();
   const auto less = [](const KMeans& a, const KMeans& b) { return a.inertia < b.inertia; };
-  return std::move(*std::min_element(found.begin(), found.end(), less));
+  return to_the_end(rows, options, *std::min_element(found.begin(), found.end(), less));
 }
 
 double silhouette(std::span<const double> values, std::size_t columns, const KMeans& found, std::size_t most) {

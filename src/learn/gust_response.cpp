@@ -6,94 +6,16 @@
 #include <span>
 #include <string>
 
+#include "learn/gust_ensembles.hpp"
 #include "learn/normal_equations.hpp"
-#include "wisp/learn/motion.hpp"
 
 namespace wisp {
 namespace {
 
-constexpr double kStill = 1e-3;  // m/s: wind below it is none
 constexpr int kRefinements = 12;
-constexpr const char* kWinds[] = {"wind.x", "wind.y", "wind.z"};
-
-// Means over the clones of one gust, from its onset on.
-struct Ensemble {
-  std::vector<Triple> change;        // of velocity
-  std::vector<Triple> displacement;  // since the onset
-  std::vector<Triple> wind;
-  std::vector<Triple> press;
-};
 
 using Axis = GustResponse::Axis;
-
-struct Pairs {
-  const Motion& windy;
-  const Motion& calm;
-  std::array<const std::vector<double>*, 3> wind;
-  double rate_hz;
-};
-
-Triple wind_at(const Pairs& pairs, std::size_t piece, std::size_t row) {
-  const std::size_t at = pairs.windy.pieces[piece].first_row + row;
-  return {(*pairs.wind[0])[at], (*pairs.wind[1])[at], (*pairs.wind[2])[at]};
-}
-
-double size_of(const Triple& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
-
-void add(Triple& sum, const Triple& value, double factor) {
-  for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += factor * value[axis];
-}
-
-// The wind's part that is square to a flat body.
-Triple press_of(const Quad& q, const Triple& wind) {
-  const Triple normal = in_world_axes(q, {0, 0, 1});
-  const double part = normal[0] * wind[0] + normal[1] * wind[1] + normal[2] * wind[2];
-  return {normal[0] * part, normal[1] * part, normal[2] * part};
-}
-
-// Rows [onset, end) of a gust: from the first wind of any clone to the last, and a while after.
-std::pair<std::size_t, std::size_t> span_of(const Pairs& pairs, std::size_t first, std::size_t clones, double after) {
-  std::size_t rows = pairs.windy.pieces[first].rows();
-  for (std::size_t k = first; k < first + clones; ++k) {
-    rows = std::min({rows, pairs.windy.pieces[k].rows(), pairs.calm.pieces[k].rows()});
-  }
-  std::size_t onset = rows, last = 0;
-  for (std::size_t k = first; k < first + clones; ++k) {
-    for (std::size_t row = 0; row < rows; ++row) {
-      if (size_of(wind_at(pairs, k, row)) < kStill) continue;
-      onset = std::min(onset, row);
-      last = std::max(last, row);
-    }
-  }
-  const auto end = last + 1 + static_cast<std::size_t>(std::lround(after * pairs.rate_hz));
-  return {onset, std::min(rows, end)};
-}
-
-Ensemble ensemble_of(const Pairs& pairs, std::size_t first, std::size_t clones, double after) {
-  const auto [onset, end] = span_of(pairs, first, clones, after);
-  Ensemble mean;
-  const double share = 1.0 / static_cast<double>(clones);
-  for (std::size_t row = onset; row < end; ++row) {
-    Triple change{}, displacement{}, wind{}, press{};
-    for (std::size_t k = first; k < first + clones; ++k) {
-      const MotionPiece &blown = pairs.windy.pieces[k], &still = pairs.calm.pieces[k];
-      add(change, blown.velocity[row], share);
-      add(change, still.velocity[row], -share);
-      add(displacement, blown.position[row], share);
-      add(displacement, still.position[row], -share);
-      add(displacement, blown.position[onset], -share);
-      add(displacement, still.position[onset], share);
-      const Triple now = wind_at(pairs, k, row);
-      add(wind, now, share);
-      if (pairs.calm.has_orientation) add(press, press_of(still.orientation[row], now), share);
-    }
-    mean.change.push_back(change);
-    mean.displacement.push_back(displacement);
-    mean.wind.push_back(wind);
-    mean.press.push_back(press);
-  }
-  return mean;
-}
+using Ensemble = GustEnsemble;
 
 double lagged(const std::vector<Triple>& values, std::size_t row, std::size_t lag, std::size_t axis) {
   return lag > row ? 0.0 : values[row - lag][axis];
@@ -209,45 +131,29 @@ Axis fit_axis(std::span<const Ensemble> gusts, std::span<const std::size_t> axes
   return axis_of(theta);
 }
 
-struct Sums {
-  double error = 0;
-  double size = 0;
-  double fit() const { return 100 * (1 - std::sqrt(error / size)); }
+struct Judgement {
+  FitSums velocity, displacement;
+  std::vector<double> angles;
 };
 
-void judge(const Ensemble& gust, const GustResponse& response, double rate_hz, Sums& velocity, Sums& displacement,
-           std::vector<double>& angles, GustFigures& figures) {
+void judge(const Ensemble& gust, const GustResponse& response, double rate_hz, Judgement& out, GustFigures& figures) {
   std::array<std::vector<double>, 3> change;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     change[axis] = simulated(gust, axis, axis < 2 ? response.ground : response.vertical);
   }
   Triple place{};
   for (std::size_t t = 0; t < gust.change.size(); ++t) {
+    Triple now{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
+      now[axis] = change[axis][t];
       // As the bank does it: a step's change of velocity moves the step after it.
-      if (t > 0) place[axis] += change[axis][t] / rate_hz;
-      velocity.error += std::pow(change[axis][t] - gust.change[t][axis], 2);
-      velocity.size += std::pow(gust.change[t][axis], 2);
-      displacement.error += std::pow(place[axis] - gust.displacement[t][axis], 2);
-      displacement.size += std::pow(gust.displacement[t][axis], 2);
-      figures.largest_change = std::max(figures.largest_change, std::abs(change[axis][t]));
+      if (t > 0) place[axis] += now[axis] / rate_hz;
+      figures.largest_change = std::max(figures.largest_change, std::abs(now[axis]));
     }
+    out.velocity.add(now, gust.change[t]);
+    out.displacement.add(place, gust.displacement[t]);
   }
-  const Triple& end = gust.displacement.back();
-  const double across = end[0] * place[1] - end[1] * place[0], along = end[0] * place[0] + end[1] * place[1];
-  angles.push_back(std::abs(std::atan2(across, along)) * 180 / std::acos(-1.0));
-}
-
-Result<std::array<const std::vector<double>*, 3>> wind_channels(const Recording& windy) {
-  std::array<const std::vector<double>*, 3> wind{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto channel = find_channel(windy, kWinds[axis]);
-    if (!channel) {
-      return Error{windy.source + ": has no channel " + kWinds[axis] + ", expected the wind where the leaf is"};
-    }
-    wind[axis] = &windy.channels[*channel].samples;
-  }
-  return wind;
+  out.angles.push_back(degrees_between(gust.displacement.back(), place));
 }
 
 std::vector<Input> inputs_of(const std::array<const std::vector<double>*, 3>& wind) {
@@ -257,7 +163,8 @@ std::vector<Input> inputs_of(const std::array<const std::vector<double>*, 3>& wi
   }
   std::vector<Input> inputs;
   // What blows along x could have blown along y.
-  for (const char* name : kWinds) inputs.push_back({name, "m/s", -most, most, InputShape::kLinear});
+  for (const char* name : {"wind.x", "wind.y", "wind.z"})
+    inputs.push_back({name, "m/s", -most, most, InputShape::kLinear});
   return inputs;
 }
 
@@ -267,25 +174,12 @@ Result<GustFit> learn_gusts(const Recording& windy, const Recording& calm, const
   if (options.order < 1 || options.order > kMostGustOrder) {
     return Error{"the order of the response to gusts is " + std::to_string(options.order) + ", expected 1 to 4"};
   }
-  const auto wind = wind_channels(windy);
-  if (!wind) return wind.error();
-  const auto blown = motion_of(std::span(&windy, 1)), still = motion_of(std::span(&calm, 1));
-  if (!blown) return blown.error();
-  if (!still) return still.error();
-  const auto stated = numbers_attribute(windy, "clones");
-  if (!stated) return stated.error();
-  const auto clones = *stated && !(*stated)->empty() ? static_cast<std::size_t>(std::max(1.0, (*stated)->front())) : 1;
-  const std::size_t gusts = blown->pieces.size() / clones;
-  if (blown->pieces.size() != still->pieces.size() || blown->pieces.size() % clones != 0 || gusts < 4) {
-    return Error{windy.source + " and " + calm.source + ": have " + std::to_string(blown->pieces.size()) + " and " +
-                 std::to_string(still->pieces.size()) + " episodes, expected as many of each, " +
-                 std::to_string(clones) + " for each of at least 4 gusts"};
-  }
-  const Pairs pairs{*blown, *still, *wind, blown->rate_hz};
+  const auto pairs = gust_pairs(windy, calm);
+  if (!pairs) return pairs.error();
   std::vector<Ensemble> ensembles;
-  for (std::size_t k = 0; k < gusts; ++k) {
-    Ensemble ensemble = ensemble_of(pairs, k * clones, clones, options.after_seconds);
-    if (ensemble.change.size() > 2) ensembles.push_back(std::move(ensemble));
+  for (std::size_t k = 0; k < pairs->gusts(); ++k) {
+    const GustSpan span = span_of(*pairs, k, options.after_seconds);
+    if (span.rows() > 2) ensembles.push_back(ensemble_of(*pairs, k, span));
   }
   if (ensembles.size() < 4) return Error{windy.source + ": has fewer than 4 gusts of wind, expected more"};
   const auto learned = std::clamp<std::size_t>(
@@ -297,19 +191,18 @@ Result<GustFit> learn_gusts(const Recording& windy, const Recording& calm, const
   GustFit fit;
   constexpr std::size_t kGround[] = {0, 1}, kVertical[] = {2};
   fit.response = {fit_axis(told, kGround, options.order), fit_axis(told, kVertical, options.order)};
-  fit.inputs = inputs_of(*wind);
+  fit.inputs = inputs_of(pairs->wind);
   fit.figures.gusts_learned = told.size();
   fit.figures.gusts_judged = judged.size();
-  Sums velocity, displacement;
-  std::vector<double> angles;
-  for (const Ensemble& gust : judged) {
-    judge(gust, fit.response, pairs.rate_hz, velocity, displacement, angles, fit.figures);
+  Judgement found;
+  for (const Ensemble& gust : judged) judge(gust, fit.response, pairs->windy.rate_hz, found, fit.figures);
+  fit.figures.fit_percent = found.displacement.fit_percent();
+  fit.figures.velocity_fit_percent = found.velocity.fit_percent();
+  std::sort(found.angles.begin(), found.angles.end());
+  fit.figures.direction_degrees = found.angles[found.angles.size() / 2];
+  for (double angle : found.angles) {
+    fit.figures.direction_degrees_mean += angle / static_cast<double>(found.angles.size());
   }
-  fit.figures.fit_percent = displacement.fit();
-  fit.figures.velocity_fit_percent = velocity.fit();
-  std::sort(angles.begin(), angles.end());
-  fit.figures.direction_degrees = angles[angles.size() / 2];
-  for (double angle : angles) fit.figures.direction_degrees_mean += angle / static_cast<double>(angles.size());
   return fit;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "chi_squared.hpp"
+#include "outline_drawn.hpp"
 #include "outline_growth.hpp"
 #include "outline_noise.hpp"
 #include "outline_orders.hpp"
@@ -32,7 +33,7 @@ Result<void> check_options(const OutlineOptions& options) {
     return Error{what + " is " + text(value) + ", expected " + range};
   };
   const int order = options.order.value_or(1), delay = options.delay.value_or(0);
-  if (order < 1 || order > 64) return refuse("the order", order, "1 to 64");
+  if (order < 0 || order > 64) return refuse("the order", order, "0 (as fits the noise) to 64");
   if (delay < 0 || delay > 1000) return refuse("the delay", delay, "0 to 1000 frames");
   if (!(options.holdout >= 0 && options.holdout <= 0.9))
     return refuse("the held-out share", options.holdout, "0 to 0.9");
@@ -43,6 +44,24 @@ Result<void> check_options(const OutlineOptions& options) {
     return refuse("the scale", options.pixels_per_unit, "0 or more pixels per unit");
   }
   return {};
+}
+
+// What is left open, decided.
+OutlineOptions decided(OutlineOptions options, const PreparedOutlines& prepared) {
+  constexpr double kLeastDrawnSeconds = 10;
+  double seconds = 0;
+  for (const Recording& recording : prepared.recordings) {
+    seconds += static_cast<double>(complete_rows(recording, prepared.channels)) / recording.rate_hz;
+  }
+  if (!options.noise) {
+    const bool draw = !prepared.inputs.empty() && seconds >= kLeastDrawnSeconds;
+    options.noise = draw ? OutlineNoise::kDrawn : OutlineNoise::kMatched;
+  }
+  const bool drawn = options.noise == OutlineNoise::kDrawn;
+  if (!options.coupling) options.coupling = drawn ? OutlineCoupling::kCoordinate : OutlineCoupling::kPoint;
+  if (options.order == 0) options.order = drawn ? 3 : 4;
+  options.growing_noise = options.growing_noise && !drawn;
+  return options;
 }
 
 bool mirror_wanted(const OutlineOptions& options, const PreparedOutlines& prepared) {
@@ -73,7 +92,7 @@ void count_frames_once(ArxFit& fitted) {
 
 Result<ArxFit> fit(std::span<const Recording> recordings, const PreparedOutlines& prepared,
                    const OutlineOptions& options, const OutlineCandidate& chosen) {
-  const ArxOptions arx{.orders = outline_orders(chosen.order, chosen.delay, options.coupling, prepared)};
+  const ArxOptions arx{.orders = outline_orders(chosen.order, chosen.delay, *options.coupling, prepared)};
   auto fitted = fit_arx(to_learn_from(recordings, prepared, options), prepared.channels, arx);
   if (fitted && mirror_wanted(options, prepared)) count_frames_once(*fitted);
   return fitted;
@@ -131,7 +150,17 @@ double carried(const Covariance& shocks, const Eigen::MatrixXd& factor) {
   return channels > 0 ? share / channels : 1;
 }
 
-// Gives the model the noise that was asked for.
+// Gives the model its own residuals to play.
+Result<void> set_drawn(std::span<const Recording> recordings, const PreparedOutlines& prepared,
+                       const OutlineOptions& options, ArxModel& model) {
+  auto drawn = drawn_residuals(model, recordings, prepared,
+                               {.most_bytes = options.drawn_bytes, .mirror = mirror_wanted(options, prepared)});
+  if (!drawn) return drawn.error();
+  model.noise.drawn = *std::move(drawn);
+  return {};
+}
+
+// Gives the model the Gaussian noise that was asked for.
 Result<void> set_noise(const ArxFit& fitted, std::span<const Recording> recordings, const PreparedOutlines& prepared,
                        const OutlineOptions& options, ArxModel& model, OutlineSummary& summary) {
   const auto wanted = flicker_covariance(model, recordings, prepared.channels);
@@ -141,7 +170,8 @@ Result<void> set_noise(const ArxFit& fitted, std::span<const Recording> recordin
   if (options.noise == OutlineNoise::kIndependent) {
     factor = Eigen::Map<const Eigen::VectorXd>(model.noise.sd.data(), wanted->rows()).asDiagonal();
   } else {
-    const bool matched = options.noise == OutlineNoise::kMatched && options.coupling == OutlineCoupling::kPoint;
+    const bool apart = options.coupling == OutlineCoupling::kPoint || options.coupling == OutlineCoupling::kCoordinate;
+    const bool matched = options.noise == OutlineNoise::kMatched && apart;
     const Covariance shocks = matched ? shocks_for(model, *wanted) : residual_covariance(fitted);
     factor = shared_factor(shocks, options.shared_shocks);
     summary.shared_variance = carried(shocks, factor);
@@ -212,7 +242,7 @@ Model model_of(const ArxModel& arx, const PreparedOutlines& prepared, const Outl
 // Fewer rows than coefficients and their history leave nothing to judge.
 Result<void> check_rows(const PreparedOutlines& prepared, const OutlineOptions& options) {
   const ArxOrders orders =
-      outline_orders(options.order.value_or(1), options.delay.value_or(0), options.coupling, prepared);
+      outline_orders(options.order.value_or(1), options.delay.value_or(0), *options.coupling, prepared);
   int coefficients = 0;
   for (int i = 0; i < orders.outputs(); ++i) coefficients = std::max(coefficients, orders.row_size(i));
   std::size_t rows = 0;
@@ -311,20 +341,21 @@ Result<void> try_out(const Model& model, const OutlineOptions& options, const Pr
 
 }  // namespace
 
-Result<OutlineFit> learn_outline(std::span<const Recording> recordings, const OutlineOptions& options) {
-  if (auto ok = check_options(options); !ok) return ok.error();
+Result<OutlineFit> learn_outline(std::span<const Recording> recordings, const OutlineOptions& wanted) {
+  if (auto ok = check_options(wanted); !ok) return ok.error();
   OutlineFit out;
   OutlineSummary& summary = out.summary;
   std::vector<Recording> in_step;
-  if (options.align) {
-    auto moved = aligned(recordings, options, summary);
+  if (wanted.align) {
+    auto moved = aligned(recordings, wanted, summary);
     if (!moved) return moved.error();
     in_step = *std::move(moved);
     recordings = in_step;
   }
-  const RegressorShape shape{.split_sign = !options.one_sided, .square = options.square};
-  auto prepared = prepare_outlines(recordings, {options.inputs, shape, options.pixels_per_unit});
+  const RegressorShape shape{.split_sign = !wanted.one_sided, .square = wanted.square};
+  auto prepared = prepare_outlines(recordings, {wanted.inputs, shape, wanted.pixels_per_unit});
   if (!prepared) return prepared.error();
+  const OutlineOptions options = decided(wanted, *prepared);
   if (auto ok = check_rows(*prepared, options); !ok) return ok.error();
   auto fitted = judge(*prepared, options, summary);
   if (!fitted) return fitted.error();
@@ -341,8 +372,14 @@ Result<OutlineFit> learn_outline(std::span<const Recording> recordings, const Ou
   take_fit(*fitted, summary);
   ArxModel arx = fitted->model;
   const auto seen = hold_out(prepared->recordings, prepared->channels, summary.refitted ? 0 : options.holdout).learned;
-  const auto shaken = to_learn_from(seen, *prepared, options);
-  if (auto ok = set_noise(*fitted, shaken, *prepared, options, arx, summary); !ok) return ok.error();
+  if (!prepared->inputs.empty()) centre_on_calm(arx);
+  if (options.noise == OutlineNoise::kDrawn) {
+    if (auto ok = set_drawn(seen, *prepared, options, arx); !ok) return ok.error();
+  }
+  if (arx.noise.drawn.empty()) {
+    const auto shaken = to_learn_from(seen, *prepared, options);
+    if (auto ok = set_noise(*fitted, shaken, *prepared, options, arx, summary); !ok) return ok.error();
+  }
   out.model = model_of(arx, *prepared, options);
   if (auto ok = try_out(out.model, options, *prepared, recordings.front(), summary); !ok) return ok.error();
   summary.usable = outline_verdict(fitted->summary, summary);

@@ -97,7 +97,7 @@ Candidates candidates_for(std::size_t rows, const PreparedOutlines& prepared, co
   const int last = search_delay ? std::max(1, static_cast<int>(std::lround(kLongestDelay * rate_hz))) : first;
   Candidates out;
   const auto add = [&](int order, int delay) {
-    ArxOrders orders = reduced(outline_orders(order, delay, options.coupling, prepared), moving);
+    ArxOrders orders = reduced(outline_orders(order, delay, *options.coupling, prepared), moving);
     const auto wanted = static_cast<std::size_t>(kLeastRowsACoefficient * most_coefficients(orders));
     if (!out.list.empty() && rows < wanted + static_cast<std::size_t>(orders.history())) return;
     out.list.push_back({order, delay, 0, 0});
@@ -181,6 +181,10 @@ ArxOrders outline_orders(int order, int delay, OutlineCoupling coupling, const P
   uniform.nk = delay;
   uniform.group = 2;
   switch (coupling) {
+    case OutlineCoupling::kCoordinate:
+      uniform.group = 1;
+      uniform.coupling = Coupling::kDiagonal;
+      break;
     case OutlineCoupling::kPoint:
       uniform.coupling = Coupling::kDiagonal;
       break;

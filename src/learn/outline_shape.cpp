@@ -126,6 +126,26 @@ std::vector<OutlinePoint> OutlineCurve::polyline(std::span<const double> control
   return out;
 }
 
+std::vector<OutlinePoint> at_equal_lengths(std::span<const OutlinePoint> polyline, std::size_t count) {
+  assert(!polyline.empty() && count >= 2);
+  std::vector<double> along(polyline.size(), 0.0);
+  for (std::size_t k = 1; k < polyline.size(); ++k) {
+    along[k] = along[k - 1] + std::hypot(polyline[k][0] - polyline[k - 1][0], polyline[k][1] - polyline[k - 1][1]);
+  }
+  std::vector<OutlinePoint> out(count, polyline.front());
+  std::size_t next = 1;
+  for (std::size_t k = 1; k < count && along.back() > 0; ++k) {
+    const double wanted = along.back() * static_cast<double>(k) / static_cast<double>(count - 1);
+    while (next + 1 < along.size() && along[next] < wanted) ++next;
+    const double step = along[next] - along[next - 1];
+    const double share = step > 0 ? std::clamp((wanted - along[next - 1]) / step, 0.0, 1.0) : 1.0;
+    for (std::size_t c : {0, 1}) {
+      out[k][c] = polyline[next - 1][c] + share * (polyline[next][c] - polyline[next - 1][c]);
+    }
+  }
+  return out;
+}
+
 OutlinePoint tip_of(std::span<const OutlinePoint> polyline) {
   assert(!polyline.empty());
   const OutlinePoint base = base_of(polyline);

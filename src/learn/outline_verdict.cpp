@@ -48,6 +48,8 @@ int most_coefficients(const ArxOrders& orders) {
 
 const char* coupling_name(OutlineCoupling coupling) {
   switch (coupling) {
+    case OutlineCoupling::kCoordinate:
+      return "coordinate";
     case OutlineCoupling::kPoint:
       return "point";
     case OutlineCoupling::kBand:
@@ -66,6 +68,8 @@ const char* noise_name(OutlineNoise noise) {
       return "residual";
     case OutlineNoise::kMatched:
       return "matched";
+    case OutlineNoise::kDrawn:
+      return "drawn";
   }
   return "";
 }
@@ -74,12 +78,12 @@ std::vector<Note> notes(const OutlineOptions& options, const OutlineChoice& choi
   return {{"order", std::to_string(choice.taken().order)},
           {"delay", std::to_string(choice.taken().delay)},
           {"order_and_delay", choice.reason},
-          {"coupling", coupling_name(options.coupling)},
+          {"coupling", coupling_name(*options.coupling)},
           {"square", options.square ? "yes" : "no"},
           {"one_sided", options.one_sided ? "yes" : "no"},
           {"holdout", rounded(options.holdout, 3)},
           {"refit", options.refit ? "yes" : "no"},
-          {"noise", noise_name(options.noise)},
+          {"noise", noise_name(*options.noise)},
           {"shared_shocks", std::to_string(options.shared_shocks)},
           {"match_variance", options.match_variance ? "yes" : "no"}};
 }

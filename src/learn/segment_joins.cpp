@@ -4,11 +4,19 @@
 #include <cmath>
 #include <utility>
 
+#include "learn/follower_balance.hpp"
+#include "learn/join_jumps.hpp"
+
 namespace wisp {
 namespace {
 
 // Attitude counts as much as velocity and spin together: a jump of attitude is what the eye sees first.
 constexpr double kAttitudeWeight = 1.5;
+
+constexpr std::size_t kLookedAt = 64;  // nearest ones of which the jumps are foreseen
+// Jumps that come near the recording's 99th percentile count against a follower, and soon more than all else.
+constexpr double kSmooth = 0.8;
+constexpr double kJumpWeight = 15;
 
 // What must agree at a join, as numbers of one length.
 std::vector<double> moment_of(const Motion& motion, std::size_t piece, double row, bool heading_free) {
@@ -54,11 +62,43 @@ std::vector<double> weights_of(const std::vector<std::vector<double>>& moments, 
   return weight;
 }
 
+Followers candidates_of(const std::vector<std::vector<double>>& starts, const std::vector<std::vector<double>>& ends,
+                        std::span<const std::uint16_t> mode, int modes, const std::vector<double>& weight,
+                        const JoinForesight& foresight) {
+  std::vector<std::vector<std::uint16_t>> members(static_cast<std::size_t>(modes));
+  for (std::size_t k = 0; k < mode.size(); ++k) members[mode[k]].push_back(static_cast<std::uint16_t>(k));
+  Followers candidates;
+  for (std::size_t from = 0; from < mode.size(); ++from) {
+    for (const auto& all : members) {
+      std::vector<Follower> near;
+      for (std::uint16_t to : all) {
+        if (to == from && all.size() > 1) continue;
+        double distance = 0;
+        for (std::size_t k = 0; k < weight.size(); ++k) {
+          const double away = ends[from][k] - starts[to][k];
+          distance += away * away;
+        }
+        near.push_back({distance, to});
+      }
+      const std::size_t looked_at = std::min(near.size(), kLookedAt);
+      std::partial_sort(near.begin(), near.begin() + static_cast<long>(looked_at), near.end());
+      near.resize(looked_at);
+      for (Follower& one : near) {
+        const double beyond = std::max(0.0, foresight.jump(from, one.segment) - kSmooth);
+        one.misfit += kJumpWeight * beyond * beyond;
+      }
+      candidates.push_back(std::move(near));
+    }
+  }
+  return candidates;
+}
+
 }  // namespace
 
 std::vector<std::uint16_t> best_followers(const Motion& motion, std::span<const Segment> segments,
                                           std::span<const std::uint16_t> mode, int modes, bool heading_free,
-                                          int breadth) {
+                                          int breadth, const ChainBlend& blend, std::span<const double> transitions) {
+  const JoinForesight foresight(motion, segments, heading_free, blend);
   std::vector<std::vector<double>> starts, ends;
   for (const Segment& segment : segments) {
     starts.push_back(moment_of(motion, segment.piece, segment.begin, heading_free));
@@ -70,28 +110,8 @@ std::vector<std::uint16_t> best_followers(const Motion& motion, std::span<const 
       for (std::size_t k = 0; k < weight.size(); ++k) moment[k] *= weight[k];
     }
   }
-  std::vector<std::vector<std::uint16_t>> members(static_cast<std::size_t>(modes));
-  for (std::size_t k = 0; k < segments.size(); ++k) members[mode[k]].push_back(static_cast<std::uint16_t>(k));
-  std::vector<std::uint16_t> follow;
-  std::vector<std::pair<double, std::uint16_t>> near;
-  for (std::size_t from = 0; from < segments.size(); ++from) {
-    for (const auto& candidates : members) {
-      near.clear();
-      for (std::uint16_t to : candidates) {
-        if (to == from && candidates.size() > 1) continue;
-        double distance = 0;
-        for (std::size_t k = 0; k < weight.size(); ++k) {
-          const double away = ends[from][k] - starts[to][k];
-          distance += away * away;
-        }
-        near.emplace_back(distance, to);
-      }
-      const auto count = std::min(near.size(), static_cast<std::size_t>(breadth));
-      std::partial_sort(near.begin(), near.begin() + static_cast<long>(count), near.end());
-      for (std::size_t k = 0; k < static_cast<std::size_t>(breadth); ++k) follow.push_back(near[k % count].second);
-    }
-  }
-  return follow;
+  const auto candidates = candidates_of(starts, ends, mode, modes, weight, foresight);
+  return balanced_followers(candidates, mode, transitions, modes, breadth);
 }
 
 }  // namespace wisp

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "learn/fidelity_shuffle.hpp"
+#include "learn/join_jumps.hpp"
 #include "learn/segment_joins.hpp"
 #include "wisp/learn/segment_features.hpp"
 
@@ -13,6 +14,8 @@ namespace wisp {
 namespace {
 
 constexpr double kMostStored = 32767;
+constexpr double kUsualShare = 0.99;
+constexpr double kCalm = 0.95;
 
 // What a segment consists of, in its own frame, before it is rounded.
 struct Piece {
@@ -75,9 +78,32 @@ std::size_t cap_of(const std::vector<std::vector<std::size_t>>& members, std::si
   return low;
 }
 
-// Segments that stay, by mode, and within a mode in the order of the recording.
-std::vector<std::size_t> kept_segments(std::span<const Segment> segments, std::span<const std::uint16_t> cluster,
-                                       int modes, bool pose, const SegmentStoreOptions& options) {
+// The segments from row to row of their recording. To play them from event to event their time would have to be
+// stretched to whole steps, by a quarter where they have but a few, and what is stretched moves at another speed than
+// what it joins.
+std::vector<Segment> on_rows(const Motion& motion, std::span<const Segment> segments) {
+  std::vector<Segment> out(segments.begin(), segments.end());
+  for (Segment& one : out) {
+    const auto last = static_cast<double>(motion.pieces[one.piece].rows() - 1);
+    one.begin = std::min(std::round(one.begin), last - one.steps);
+    one.end = one.begin + one.steps;
+  }
+  return out;
+}
+
+// Whether a segment's last row jumps no more than rows do but for the hundredth that jump most.
+bool ends_calmly(const Motion& motion, const Segment& segment, const Jump& usual) {
+  const auto end = static_cast<std::size_t>(segment.end);
+  if (end < 2) return true;
+  const Jump jump = jump_at(motion.pieces[segment.piece], end);
+  return jump.position <= kCalm * usual.position && jump.rotation <= kCalm * usual.rotation;
+}
+
+// Segments that stay, by mode, and within a mode in the order of the recording. Where not all can, those go first that
+// end with a jump: it would show at every join.
+std::vector<std::size_t> kept_segments(const Motion& motion, std::span<const Segment> segments,
+                                       std::span<const std::uint16_t> cluster, int modes, bool pose,
+                                       const SegmentStoreOptions& options) {
   std::vector<std::vector<std::size_t>> members(static_cast<std::size_t>(modes));
   std::size_t bytes = 0;
   const auto followers = static_cast<std::size_t>(options.breadth) * static_cast<std::size_t>(modes);
@@ -89,9 +115,12 @@ std::vector<std::size_t> kept_segments(std::span<const Segment> segments, std::s
   const auto room = static_cast<std::size_t>(share * static_cast<double>(segments.size()));
   const std::size_t cap = cap_of(members, std::clamp<std::size_t>(room, 1, kMostSegments - members.size()));
   std::mt19937_64 random(options.seed);
+  const Jump usual = usual_jump(motion, kUsualShare);
   std::vector<std::size_t> kept;
   for (auto& mode : members) {
     shuffle(std::span(mode), random);
+    std::stable_partition(mode.begin(), mode.end(),
+                          [&](std::size_t k) { return ends_calmly(motion, segments[k], usual); });
     mode.resize(std::min(mode.size(), cap));
     std::sort(mode.begin(), mode.end());
     kept.insert(kept.end(), mode.begin(), mode.end());
@@ -99,12 +128,30 @@ std::vector<std::size_t> kept_segments(std::span<const Segment> segments, std::s
   return kept;
 }
 
+// Shares of the modes that follow each mode, modes × modes.
+std::vector<double> transitions_of(std::span<const Segment> segments, std::span<const std::uint16_t> cluster,
+                                   int modes) {
+  const auto count = static_cast<std::size_t>(modes);
+  std::vector<double> share(count * count);
+  for (std::size_t k = 1; k < segments.size(); ++k) {
+    if (segments[k].piece == segments[k - 1].piece) ++share[cluster[k - 1] * count + cluster[k]];
+  }
+  for (std::size_t from = 0; from < count; ++from) {
+    const auto row = std::span(share).subspan(from * count, count);
+    const double all = std::accumulate(row.begin(), row.end(), 0.0);
+    // One that was only ever the last is followed by any.
+    for (double& one : row) one = all > 0 ? one / all : 1.0 / modes;
+  }
+  return share;
+}
+
 }  // namespace
 
-SegmentStore store_segments(const Motion& motion, std::span<const Segment> segments,
+SegmentStore store_segments(const Motion& motion, std::span<const Segment> found,
                             std::span<const std::uint16_t> cluster, int modes, const SegmentStoreOptions& options) {
+  const std::vector<Segment> segments = on_rows(motion, found);
   SegmentStore store;
-  store.source = kept_segments(segments, cluster, modes, motion.has_orientation, options);
+  store.source = kept_segments(motion, segments, cluster, modes, motion.has_orientation, options);
   std::vector<Piece> pieces;
   double farthest = 0, fastest = 0, quickest = 0;
   for (std::size_t source : store.source) {
@@ -136,7 +183,8 @@ SegmentStore store_segments(const Motion& motion, std::span<const Segment> segme
   if (options.breadth > 0) {
     std::vector<Segment> kept;
     for (std::size_t source : store.source) kept.push_back(segments[source]);
-    out.follow = best_followers(motion, kept, out.mode, modes, options.heading_free, options.breadth);
+    out.follow = best_followers(motion, kept, out.mode, modes, options.heading_free, options.breadth, options.blend,
+                                transitions_of(segments, cluster, modes));
   }
   return store;
 }

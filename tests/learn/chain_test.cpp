@@ -72,13 +72,77 @@ TEST(LearnChain, StoredSegmentsPlayWhatWasRecorded) {
   for (std::size_t k = 0; k < segments.size(); ++k) {
     const Segment& one = cut->segments[k];
     const MotionPiece& piece = motion->pieces[one.piece];
-    const Triple from = at_row(piece.position, one.begin), to = at_row(piece.position, one.end);
+    const auto row = static_cast<std::size_t>(std::lround(one.begin));
+    const Triple from = piece.position[row], to = piece.position[row + static_cast<std::size_t>(one.steps)];
     const std::int16_t* end = &segments.rows[(first[k + 1] - 1) * 7];
     const double scale = segments.row_scale[0];
     // Half a unit of sixteen bits on each axis.
     EXPECT_NEAR(scale * std::hypot(end[0], end[1]), std::hypot(to[0] - from[0], to[1] - from[1]), scale);
     EXPECT_NEAR(scale * end[2], to[2] - from[2], scale);
   }
+}
+
+TEST(LearnChain, JoinsJumpNoMoreThanRowsOfTheRecordingDo) {
+  const auto fit = learned(made_falls({.falls = 60}), {.modes = 4, .holdout = 0.5});
+  ASSERT_TRUE(fit);
+  const auto fidelity = chain_fidelity(fit->model, fit->held_out, {.permutations = 1});
+  ASSERT_TRUE(fidelity);
+  EXPECT_LE(fidelity->join_defect.position.percentile_99, 1);
+  EXPECT_LE(fidelity->join_defect.rotation.percentile_99, 1);
+}
+
+// How far 40 falls are, on average, from a height of 2.9 m below where they began after three seconds: made falls keep
+// their heading, and can only be hastened.
+double mean_miss(const Model& model, bool steered) {
+  constexpr int kFalls = 40;
+  auto bank = Bank::create(model, {.capacity = kFalls});
+  std::vector<float> poses(7 * kFalls);
+  for (int k = 0; k < kFalls; ++k) {
+    const InstanceId id = bank->spawn();
+    if (steered) {
+      EXPECT_TRUE(bank->steer(id, {.position = {0, 0, -2.9f}, .in = std::chrono::seconds(3)}));
+    }
+  }
+  for (int step = 0; step < 180; ++step) bank->step();
+  bank->outputs(poses);
+  double sum = 0;
+  for (std::size_t k = 0; k < kFalls; ++k) sum += std::abs(poses[7 * k + 2] + 2.9);
+  return sum / kFalls;
+}
+
+TEST(LearnChain, WhatIsSteeredComesNearerToItsTarget) {
+  const auto fit = learned(made_falls({.falls = 60}), {.modes = 4, .holdout = 0});
+  ASSERT_TRUE(fit);
+  // Made falls leave little to choose; leaves come four times nearer.
+  EXPECT_LT(mean_miss(fit->model, true), 0.9 * mean_miss(fit->model, false));
+}
+
+TEST(LearnChain, ModesAreRealisedInOtherWaysToo) {
+  const Recording recording = made_falls({.falls = 40});
+  for (Realisation realisation : {Realisation::kLinear, Realisation::kOde, Realisation::kChain}) {
+    const auto fit = learned(recording, {.modes = 3, .realisation = realisation});
+    ASSERT_TRUE(fit) << fit.error().message;
+    const auto fidelity = chain_fidelity(fit->model, fit->held_out, {.permutations = 1});
+    ASSERT_TRUE(fidelity) << fidelity.error().message;
+    EXPECT_NEAR(fidelity->synthesized.descent_speed, fidelity->real.descent_speed, 0.3 * fidelity->real.descent_speed)
+        << word_of(realisation);
+    const bool systems = std::get<ChainModel>(fit->model.dynamics).systems.has_value();
+    EXPECT_EQ(systems, realisation != Realisation::kChain);
+    EXPECT_EQ(fit->summary.modes, 3);
+  }
+}
+
+TEST(LearnChain, WhatModesCannotBeRealisedByIsAnError) {
+  EXPECT_THAT(parse_realisation("fourier").error().message, HasSubstr("\"fourier\""));
+  ChainOptions options{.modes = 2, .realisation = Realisation::kOde};
+  options.segmentation.event = {EventKind::kMinimum, "horizontal_speed"};
+  EXPECT_THAT(learned(made_falls({.falls = 10, .orientation = false}), options).error().message,
+              HasSubstr("no orientation"));
+  EXPECT_THAT(
+      learned(made_falls({.falls = 1, .seconds = 3}), {.modes = 2, .realisation = Realisation::kOde, .holdout = 0})
+          .error()
+          .message,
+      HasSubstr("rows, expected at least"));
 }
 
 TEST(LearnChain, AStoreIsAsSmallAsAskedFor) {

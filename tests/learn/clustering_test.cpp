@@ -68,6 +68,13 @@ TEST(KMeans, BoundsLeaveNothingBetterUnmeasured) {
   EXPECT_NEAR(plain_inertia(rows, found->middles), found->inertia, 1e-9 * found->inertia);
 }
 
+TEST(KMeans, TheBestStartIsRunUntilNothingChangesSides) {
+  const auto rows = corners(200, 1.6);
+  const auto found = k_means(rows, 3, {.clusters = 6, .restarts = 3, .tolerance = 0.1});
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(plain_inertia(rows, found->middles), found->inertia, 1e-9 * found->inertia);
+}
+
 TEST(KMeans, TheSameOnAnyNumberOfThreads) {
   const auto rows = corners(100, 1.2);
   const auto one = k_means(rows, 3, {.clusters = 5, .threads = 1});

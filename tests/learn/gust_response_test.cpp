@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "learn/made_falls.hpp"
+#include "wisp/learn/chain.hpp"
+#include "wisp/learn/gust_play.hpp"
 
 namespace wisp {
 namespace {
@@ -70,6 +72,56 @@ TEST(GustResponse, PairsThatDoNotMatchAreErrors) {
   EXPECT_THAT(learn_gusts(pairs.calm, pairs.calm, {}).error().message, HasSubstr("fewer than 4 gusts"));
   EXPECT_THAT(learn_gusts(made_falls(), pairs.calm, {}).error().message, HasSubstr("wind.x"));
   EXPECT_FALSE(learn_gusts(pairs.windy, pairs.calm, {.order = 5}));
+}
+
+// A chain of the calm falls with the response that was learned of the windy ones.
+Model blown_model(const MadePairs& pairs) {
+  auto chain = learn_chain(std::span(&pairs.calm, 1), {.modes = 3, .holdout = 0, .restarts = 2});
+  auto gusts = learn_gusts(pairs.windy, pairs.calm, {.holdout = 0});
+  std::get<ChainModel>(chain->model.dynamics).gust = gusts->response;
+  chain->model.inputs = gusts->inputs;
+  return chain->model;
+}
+
+TEST(GustPlay, ABankThatIsBlownAtGoesWhereTheWindTookWhatWasRecorded) {
+  const MadePairs pairs = made_pairs(0.85, 0.12);
+  const auto play = play_gusts(blown_model(pairs), pairs.windy, pairs.calm);
+  ASSERT_TRUE(play) << play.error().message;
+  EXPECT_EQ(play->figures.gusts, 24U);
+  EXPECT_GT(play->figures.fit_percent, 85);
+  EXPECT_LT(play->figures.direction.mean, 5);
+  EXPECT_FALSE(play->figures.diverges);
+  EXPECT_LT(play->figures.left_after, 0.01);
+  ASSERT_EQ(play->scenes.size(), 2U);
+  EXPECT_EQ(play->scenes[0].recorded.size(), 1U);
+  EXPECT_EQ(play->scenes[0].recorded[0].size(), play->scenes[0].blows.size());
+}
+
+TEST(GustPlay, AResponseThatBlowsTheOtherWayIsSeen) {
+  const MadePairs pairs = made_pairs(0.85, 0.12);
+  Model model = blown_model(pairs);
+  for (double& gain : std::get<ChainModel>(model.dynamics).gust->ground.wind) gain = -gain;
+  const auto play = play_gusts(model, pairs.windy, pairs.calm);
+  ASSERT_TRUE(play);
+  EXPECT_LT(play->figures.fit_percent, 0);
+  EXPECT_GT(play->figures.direction.median, 170);
+}
+
+TEST(GustPlay, WhatKeepsGoingDiverges) {
+  const MadePairs pairs = made_pairs(0.85, 0.12);
+  Model model = blown_model(pairs);
+  std::get<ChainModel>(model.dynamics).gust->ground.change = {0.9995};
+  const auto play = play_gusts(model, pairs.windy, pairs.calm);
+  ASSERT_TRUE(play);
+  EXPECT_TRUE(play->figures.diverges);
+}
+
+TEST(GustPlay, AModelWithoutAResponseIsAnError) {
+  const MadePairs pairs = made_pairs(0.85, 0.12, 6);
+  Model model = blown_model(pairs);
+  std::get<ChainModel>(model.dynamics).gust.reset();
+  model.inputs.clear();
+  EXPECT_THAT(play_gusts(model, pairs.windy, pairs.calm).error().message, HasSubstr("no response"));
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ using testing::HasSubstr;
 constexpr made::OutlineRecipe kSteady{.rows = 2400, .shock = 0.004, .wind = true};
 constexpr made::OutlineRecipe kGusty{.rows = 2400, .shock = 0.004, .shock_growth = 2, .wind = true};
 
-OutlineFit learned(const made::OutlineRecipe& recipe, const OutlineOptions& options = {}) {
+OutlineFit learned(const made::OutlineRecipe& recipe, OutlineOptions options = {}) {
+  options.noise = OutlineNoise::kMatched;  // drawn residuals are as large as they were
   auto fit = learn_outline(std::vector{made::outline_recording(recipe)}, options);
   EXPECT_TRUE(fit);
   return *std::move(fit);

@@ -50,7 +50,7 @@ TEST(OutlineOrders, ALowOrderIsFoundToDo) {
 
 TEST(OutlineOrders, TheDelayOfTheWindIsFound) {
   const Recording early = heard_early(made::outline_recording(kWindy), 7);
-  const OutlineSummary summary = learned(early, {.delay = {}});
+  const OutlineSummary summary = learned(early, {.order = 4, .delay = {}});
   EXPECT_EQ(summary.choice.taken().order, 4);
   EXPECT_NEAR(summary.choice.taken().delay, 7, 1);
   EXPECT_EQ(summary.orders.nk(0, 0), summary.choice.taken().delay);

@@ -35,6 +35,22 @@ TEST(OutlineShape, CurveRunsFromTheFirstControlPointToTheLast) {
   EXPECT_NEAR(points[24][0] + points[25][0], 0, 1e-12);
 }
 
+TEST(OutlineShape, PointsAtEqualLengthsForgetTheParameter) {
+  // The same corner, walked in even and in uneven steps.
+  const Polygon even = {{0, 0}, {0, 1}, {0, 2}, {1, 2}, {2, 2}};
+  const Polygon uneven = {{0, 0}, {0, 0.1}, {0, 2}, {0, 2}, {0.3, 2}, {2, 2}};
+  const auto a = at_equal_lengths(even, 9);
+  const auto b = at_equal_lengths(uneven, 9);
+  ASSERT_EQ(a.size(), 9u);
+  EXPECT_EQ(a.front(), (OutlinePoint{0, 0}));
+  EXPECT_EQ(a.back(), (OutlinePoint{2, 2}));
+  EXPECT_NEAR(a[2][1], 1, 1e-12);
+  for (std::size_t k = 0; k < 9; ++k) {
+    EXPECT_NEAR(a[k][0], b[k][0], 1e-12) << k;
+    EXPECT_NEAR(a[k][1], b[k][1], 1e-12) << k;
+  }
+}
+
 TEST(OutlineShape, TheTipIsFarthestFromTheBaseWhereverItPoints) {
   // A spike to the right, its base at the left end.
   Polygon spike;

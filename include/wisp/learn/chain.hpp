@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "wisp/base/result.hpp"
+#include "wisp/learn/realisation.hpp"
 #include "wisp/learn/segment_features.hpp"
 #include "wisp/learn/segment_store.hpp"
 #include "wisp/learn/segmentation.hpp"
@@ -26,6 +27,7 @@ struct ChainOptions {
   FeatureChoice features{};
   int modes = 6;    ///< ≥ 1; 0: as many as tell unseen recordings best, 2 … 12
   int history = 0;  ///< of the chain; 0: variable order with back-off, as long as unseen recordings profit
+  Realisation realisation = Realisation::kSegments;
   SegmentStoreOptions store{};
   double blend_share = 0.5;  ///< of a segment that a join may fade over, 0 … 0.5; 0 leaves joins as they are
   double holdout = 0.2;      ///< share of the stretches, the last ones, kept from learning; 0 … 0.9
@@ -42,6 +44,7 @@ struct ChainSummary {
   std::size_t stretches_learned = 0;
   std::size_t stretches_held_out = 0;
   int modes = 0;
+  int kinds = 0;  ///< of segment that the chain walks over: the modes, or what they are split into
   std::vector<std::size_t> mode_sizes;
   int history = 0;
   std::vector<double> initial;

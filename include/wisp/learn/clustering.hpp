@@ -19,7 +19,8 @@ struct KMeansOptions {
   int restarts = 10;        ///< ≥ 1; the best of them is taken
   int most_rounds = 300;    ///< ≥ 1, of each
   double tolerance = 1e-4;  ///< ≥ 0: a round that moves the middles by less than this share of the variance is the last
-  int threads = 0;          ///< 0: as many as the machine has; the result is the same for any number
+                            ///< of a start; the best of them is then run on until no row changes sides
+  int threads = 0;  ///< 0: as many as the machine has; the result is the same for any number
   std::uint64_t seed = 1;
 };
 

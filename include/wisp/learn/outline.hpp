@@ -25,9 +25,10 @@ namespace wisp {
 
 /// Which control points feed each other.
 enum class OutlineCoupling {
-  kPoint,  ///< every point its own system, as in the paper
-  kBand,   ///< every point hears its neighbours too
-  kFull,   ///< every point hears all others but the last, which mirrors the first about the base
+  kCoordinate,  ///< none: every coordinate its own system
+  kPoint,       ///< every point its own system, as in the paper
+  kBand,        ///< every point hears its neighbours too
+  kFull,        ///< every point hears all others but the last, which mirrors the first about the base
 };
 
 /// What shakes the outline.
@@ -36,29 +37,34 @@ enum class OutlineNoise {
   kResidual,     ///< shared shocks with the residuals' covariance
   kMatched,      ///< shared shocks under which the whole outline at rest has the recording's covariance; where points
                  ///< feed each other, as kResidual: the coupling itself holds the shape
+  kDrawn,        ///< the residuals themselves, played again where the input is as it was then (docs/fidelity.md)
 };
 
 /// How to learn.
 struct OutlineOptions {
-  std::optional<int> order = 4;  ///< lags of outputs and of inputs, 1 to 64; 4 is the paper's, two damped resonances a
-                                 ///< coordinate; unset: searched, up to 32
+  std::optional<int> order = 0;  ///< lags of outputs and of inputs, 1 to 64; unset: searched, up to 32; 0: 3 where
+                                 ///< residuals are drawn, which hold the rest, and else 4, the paper's, two damped
+                                 ///< resonances a coordinate
   std::optional<int> delay = 0;  ///< frames until an input acts, 0 to 1000; 0: in the same frame, the paper's; unset:
                                  ///< searched, up to a quarter of a second
   bool align = true;             ///< move inputs that come after the motion that they cause (outline_alignment.hpp)
-  OutlineCoupling coupling = OutlineCoupling::kPoint;  ///< more costs more and did not look better (docs/fidelity.md)
+  std::optional<OutlineCoupling> coupling;  ///< unset: kCoordinate where residuals are drawn, else kPoint; more costs
+                                            ///< more and did not look better (docs/fidelity.md)
   std::optional<std::vector<std::string>> inputs;  ///< names; unset: all inputs of the recordings; empty: none, flicker
   bool square = false;                             ///< every input's square beside it: what it does may bend
   bool one_sided = false;      ///< inputs as they are, no sign and no mirror image: the paper's 192 multiply-adds
   std::optional<bool> mirror;  ///< learn from the mirror image too; unset: where inputs have signs
   double holdout = 0.3;        ///< 0 to 0.9: the last part of each recording, kept for judging
   bool refit = true;           ///< after judging, learn the model that is returned from everything
-  OutlineNoise noise = OutlineNoise::kMatched;
-  int shared_shocks = 4;         ///< 1 to 64: normal numbers a frame; more changed no figure (docs/fidelity.md)
-  bool growing_noise = true;     ///< let the noise grow with the inputs where held-out data say that it does
-  bool match_variance = true;    ///< scale the noise until every channel at rest has the recording's variance
-  double pixels_per_unit = 0;    ///< 0: each recording's own mean calm height is 1
-  std::uint64_t seed = 1;        ///< of the trial runs
-  std::string name = "outline";  ///< of the model
+  std::optional<OutlineNoise> noise;     ///< unset: kDrawn where an input drives the outline and there are 10 s of it,
+                                         ///< else kMatched: what is short would be seen to repeat
+  std::size_t drawn_bytes = 256 * 1024;  ///< most that drawn residuals take, two a channel and frame
+  int shared_shocks = 4;                 ///< 1 to 64: normal numbers a frame; more changed no figure (docs/fidelity.md)
+  bool growing_noise = true;             ///< let the noise grow with the inputs where held-out data say that it does
+  bool match_variance = true;            ///< scale the noise until every channel at rest has the recording's variance
+  double pixels_per_unit = 0;            ///< 0: each recording's own mean calm height is 1
+  std::uint64_t seed = 1;                ///< of the trial runs
+  std::string name = "outline";          ///< of the model
 };
 
 /// One channel's residual noise, one step ahead, in the model's units.

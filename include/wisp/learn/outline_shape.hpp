@@ -34,6 +34,12 @@ class OutlineCurve {
   std::vector<Sample> samples_;
 };
 
+/// Points at equal steps of a polyline's own length, both ends among them: the outline as an eye has it, whatever the
+/// parameter that its control points gave it. Where the polyline has no length all are its first point.
+///
+/// Precondition: the polyline has points; count >= 2.
+std::vector<OutlinePoint> at_equal_lengths(std::span<const OutlinePoint> polyline, std::size_t count);
+
 /// The tip of an outline: the mean of the fiftieth part of its points that is farthest from the middle of its base (its
 /// two ends). A mean, because the farthest single point jumps on a blunt tip.
 ///

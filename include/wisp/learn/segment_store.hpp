@@ -19,6 +19,7 @@ struct SegmentStoreOptions {
                                      ///< the rarer ones allow; a leaf for the web is at most 1 MB
   int breadth = 8;  ///< 0 … 256: best followers kept for each segment and mode; 0: any segment of the mode follows (the
                     ///< paper's). Fewer join better, but favour segments that are near to many, and those are longer
+  ChainBlend blend{};      ///< how joins will fade: followers are chosen for what is seen then
   std::uint64_t seed = 1;  ///< of which segments stay
 };
 
