@@ -21,34 +21,6 @@ Plane luminance_of(const LightField& field) {
   return plane;
 }
 
-// Half the size in both directions, rounded up, by the kernel 1-3-3-1 over 8: it keeps the middle of what it halves in
-// place, so that the halo of a flame that sways follows it smoothly and not from cell to cell. What lies outside is
-// dark.
-Plane halved(const Plane& fine) {
-  Plane across((fine.width + 1) / 2, fine.height);
-  std::vector<float> padded(2 * across.width + 2);
-  for (int y = 0; y < fine.height; ++y) {
-    std::copy_n(fine.row(y), fine.width, padded.begin() + 1);
-    float* out = across.row(y);
-    for (int x = 0; x < across.width; ++x) {
-      const float* from = padded.data() + 2 * x;
-      out[x] = 0.125F * (from[0] + from[3]) + 0.375F * (from[1] + from[2]);
-    }
-  }
-  Plane coarse(across.width, (fine.height + 1) / 2);
-  for (int y = 0; y < coarse.height; ++y) {
-    float* out = coarse.row(y);
-    for (int k = 0; k < 4; ++k) {
-      const int from = 2 * y + k - 1;
-      if (from < 0 || from >= across.height) continue;
-      const float weight = k == 0 || k == 3 ? 0.125F : 0.375F;
-      const float* row = across.row(from);
-      for (int x = 0; x < across.width; ++x) out[x] += weight * row[x];
-    }
-  }
-  return coarse;
-}
-
 // Twice the size, bilinear: the inverse placement of halved(). Added to `fine`, scaled.
 void add_doubled(const Plane& coarse, Plane& fine) {
   std::vector<float> blend(coarse.width + 2);
@@ -120,18 +92,54 @@ int level_of(const HaloRing& ring) {
   return std::clamp(static_cast<int>(std::floor(std::log2(cells))), 0, kMostLevels);
 }
 
-// What 1/(1 + x + x²/2 + x³/6 + x⁴/24) leaves of the light behind: within 1 % of full scale of e^(−x), and quick.
+}  // namespace
+
+// By the kernel 1-3-3-1 over 8: it keeps the middle of what it halves in place, so that the halo of a flame that sways
+// follows it smoothly and not from cell to cell.
+Plane halved(const Plane& fine) {
+  Plane across((fine.width + 1) / 2, fine.height);
+  std::vector<float> padded(2 * across.width + 2);
+  for (int y = 0; y < fine.height; ++y) {
+    std::copy_n(fine.row(y), fine.width, padded.begin() + 1);
+    float* out = across.row(y);
+    for (int x = 0; x < across.width; ++x) {
+      const float* from = padded.data() + 2 * x;
+      out[x] = 0.125F * (from[0] + from[3]) + 0.375F * (from[1] + from[2]);
+    }
+  }
+  Plane coarse(across.width, (fine.height + 1) / 2);
+  for (int y = 0; y < coarse.height; ++y) {
+    float* out = coarse.row(y);
+    for (int k = 0; k < 4; ++k) {
+      const int from = 2 * y + k - 1;
+      if (from < 0 || from >= across.height) continue;
+      const float weight = k == 0 || k == 3 ? 0.125F : 0.375F;
+      const float* row = across.row(from);
+      for (int x = 0; x < across.width; ++x) out[x] += weight * row[x];
+    }
+  }
+  return coarse;
+}
+
+// 1/(1 + x + x²/2 + x³/6 + x⁴/24): within 1 % of full scale of e^(−x), and quick.
 float transmitted(float light) {
   const float x = light;
   return 1 / (1 + x * (1 + x * (1.0F / 2 + x * (1.0F / 6 + x * (1.0F / 24)))));
 }
 
-}  // namespace
+int finest_level(std::span<const HaloRing> rings) {
+  int finest = kMostLevels;
+  for (const HaloRing& ring : rings) finest = std::min(finest, level_of(ring));
+  return finest;
+}
 
-void add_halo(LightField& field, std::span<const HaloRing> rings) {
+void add_halo(LightField& field, std::span<const HaloRing> rings) { add_halo(luminance_of(field), rings, field); }
+
+void add_halo(Plane luminance, std::span<const HaloRing> rings, LightField& field) {
   int top = 0;
   for (const HaloRing& ring : rings) top = std::max(top, level_of(ring));
-  std::vector<Plane> levels{luminance_of(field)};
+  std::vector<Plane> levels;
+  levels.push_back(std::move(luminance));
   while (static_cast<int>(levels.size()) <= top) levels.push_back(halved(levels.back()));
 
   // From the coarsest grid down, each level's rings are added to what came from above.

@@ -48,6 +48,20 @@ struct HaloRing {
 /// Adds the field's own luminance, blurred by each ring's Gaussian and tinted, to the field.
 void add_halo(LightField& field, std::span<const HaloRing> rings);
 
+/// The same from a luminance that is already there, added to `field`, which may be coarser than a picture.
+///
+/// Precondition: luminance and field have one size.
+void add_halo(Plane luminance, std::span<const HaloRing> rings, LightField& field);
+
+/// The finest grid that the rings need, as halvings of the picture's: they are as smooth on it as on the picture's own.
+int finest_level(std::span<const HaloRing> rings);
+
+/// Half the size in both directions, rounded up; its middle stays in place. What lies outside is dark.
+Plane halved(const Plane& fine);
+
+/// What light of that strength leaves of what is behind it: e^(−light) or nearly so.
+float transmitted(float light);
+
 /// Shows the light on the picture: what is there already is seen through the film's curve, 1 − (1 − there)·e^(−light)
 /// or nearly so. Pixels that get no light keep their bytes.
 ///

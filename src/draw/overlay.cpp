@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "draw/cairo.hpp"
@@ -159,6 +161,36 @@ void draw_label(Image& image, std::string_view text, Corner corner, float text_h
   const Plate plate =
       draw_plate(context.get(), image, corner, text_width(context.get(), text, {size}), size * 1.1, size * 0.5);
   show_text(context.get(), text, plate.x, plate.y + size * 0.91, {size}, kText);
+}
+
+void draw_note(Image& image, std::span<const std::string> lines, Corner corner, float text_height, float opacity) {
+  if (image.empty() || lines.empty() || !(opacity > 0)) return;
+  const CairoContext context = context_of(image);
+  const double size = text_size(image, text_height);
+  double first = 0, rest = 0;
+  const auto halves = [](const std::string& line) {
+    const std::size_t tab = line.find('\t');
+    if (tab == std::string::npos) return std::pair<std::string, std::string>{"", line};
+    return std::pair{line.substr(0, tab), line.substr(tab + 1)};
+  };
+  for (const std::string& line : lines) {
+    const auto [before, after] = halves(line);
+    if (!before.empty()) first = std::max(first, text_width(context.get(), before, {size, true}) + size);
+    rest = std::max(rest, text_width(context.get(), after, {size}));
+  }
+  cairo_push_group(context.get());
+  const double line_height = size * 1.5;
+  const Plate plate = draw_plate(context.get(), image, corner, first + rest,
+                                 line_height * static_cast<double>(lines.size()) - 0.4 * size, size * 0.7);
+  double y = plate.y + size * 0.91;
+  for (const std::string& line : lines) {
+    const auto [before, after] = halves(line);
+    show_text(context.get(), before, plate.x, y, {size, true}, kText);
+    show_text(context.get(), after, plate.x + (before.empty() ? 0 : first), y, {size}, kText);
+    y += line_height;
+  }
+  cairo_pop_group_to_source(context.get());
+  cairo_paint_with_alpha(context.get(), std::min(1.0, static_cast<double>(opacity)));
 }
 
 }  // namespace wisp

@@ -18,6 +18,7 @@ namespace {
 using flow::RandomNumbers;
 
 constexpr double kMostRows = 2147483648.0;
+constexpr double kMostWind = 30;  // m/s
 
 // What a random stream is for.
 enum Purpose : std::uint64_t { kStart = 31, kDifference = 32, kGust = 33, kWindSeed = 34 };
@@ -36,6 +37,12 @@ Result<void> check(const LeafDropsOptions& o, double episodes) {
     return Error{"leaf drops: " + std::to_string(rows) +
                  " rows are too many, expected at most 2147483648; take fewer "
                  "drops, fewer seconds or a lower rate"};
+  if (!o.track.rows.empty() && !(o.track.rate_hz > 0)) return Error{"leaf drops: the wind's rate is not above 0"};
+  for (const auto& row : o.track.rows) {
+    for (double speed : row) {
+      if (!(std::abs(speed) <= kMostWind)) return Error{"leaf drops: the wind is not within 30 m/s"};
+    }
+  }
   return wisp::check(o.leaf);
 }
 
@@ -139,10 +146,19 @@ Result<LeafFlight> settled(const LeafDropsOptions& o, const LeafWind& wind, std:
   return flight;
 }
 
-Result<void> fall(const LeafDropsOptions& o, std::size_t drop, Recording& recording) {
+Result<LeafWind> wind_of(const LeafDropsOptions& o, std::size_t drop) {
+  if (!o.track.rows.empty()) {
+    WindTrack track = o.track;
+    track.begins += o.settle_seconds;
+    return LeafWind::of_track(std::move(track));
+  }
   LeafWindOptions options = o.wind;
   options.seed = flow::random_word(o.seed + o.wind.seed, kWindSeed, drop);
-  const auto wind = LeafWind::create(options, o.settle_seconds + o.seconds);
+  return LeafWind::create(options, o.settle_seconds + o.seconds);
+}
+
+Result<void> fall(const LeafDropsOptions& o, std::size_t drop, Recording& recording) {
+  const auto wind = wind_of(o, drop);
   if (!wind) return wind.error();
   auto flight = settled(o, *wind, drop);
   if (!flight) return flight.error();

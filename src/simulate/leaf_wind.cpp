@@ -45,6 +45,36 @@ Vec random_direction(flow::RandomNumbers& random) {
   return {across * std::cos(angle), across * std::sin(angle), z};
 }
 
+// Through four rows that follow each other, from the second (0) to the third (1): Catmull and Rom's cubic, whose slope
+// has no jumps.
+struct Cubic {
+  double value;
+  double slope;  // a row
+};
+
+Cubic cubic_through(double a, double b, double c, double d, double t) {
+  const double one = (c - a) / 2, two = a - 2.5 * b + 2 * c - d / 2, three = (d - a) / 2 + 1.5 * (b - c);
+  return {b + t * (one + t * (two + t * three)), one + t * (2 * two + t * 3 * three)};
+}
+
+WindSample sample_of(const WindTrack& track, double seconds) {
+  const auto last = static_cast<long>(track.rows.size()) - 1;
+  const double row = std::clamp((seconds - track.begins) * track.rate_hz, 0.0, static_cast<double>(last));
+  const long first = std::min(static_cast<long>(row), std::max(0L, last - 1));
+  const auto at = [&](long k, std::size_t axis) {
+    return track.rows[static_cast<std::size_t>(std::clamp(k, 0L, last))][axis];
+  };
+  const bool holds = row <= 0 || row >= static_cast<double>(last);
+  WindSample sample;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Cubic found = cubic_through(at(first - 1, axis), at(first, axis), at(first + 1, axis), at(first + 2, axis),
+                                      row - static_cast<double>(first));
+    sample.velocity[axis] = found.value;
+    sample.change[axis] = holds ? 0 : found.slope * track.rate_hz;
+  }
+  return sample;
+}
+
 Result<void> check(const LeafWindOptions& o) {
   return flow::check_ranges("wind", {
                                         {"speed", o.speed, 0, 30},
@@ -76,6 +106,12 @@ Result<LeafWind> LeafWind::create(const LeafWindOptions& options, double seconds
 LeafWind LeafWind::of_gusts(std::vector<Gust> gusts) {
   LeafWind wind;
   wind.gusts_ = std::move(gusts);
+  return wind;
+}
+
+LeafWind LeafWind::of_track(WindTrack track) {
+  LeafWind wind;
+  wind.track_ = std::move(track);
   return wind;
 }
 
@@ -124,6 +160,11 @@ WindSample LeafWind::at(const std::array<double, 3>& place, const std::array<dou
     const double phase = leaf::dot(wave, x) + eddy.pulsation * seconds + eddy.phase;
     velocity = velocity + std::cos(phase) * vec_of(eddy.amplitude);
     change = change - std::sin(phase) * (eddy.pulsation + leaf::dot(wave, v)) * vec_of(eddy.amplitude);
+  }
+  if (!track_.rows.empty()) {
+    const WindSample measured = sample_of(track_, seconds);
+    velocity = velocity + vec_of(measured.velocity);
+    change = change + vec_of(measured.change);
   }
   return {array_of(velocity), array_of(change)};
 }

@@ -54,9 +54,23 @@ double worst_slope_error(const LeafWind& wind) {
   return worst;
 }
 
+TEST(LeafWind, ThatWasMeasuredPassesThroughItsRowsAndHoldsBeyondThem) {
+  const LeafWind wind = LeafWind::of_track({.rows = {{1, 0, 0}, {2, 0, 0}, {0, -1, 0}}, .rate_hz = 10, .begins = 5});
+  EXPECT_FALSE(wind.calm());
+  EXPECT_NEAR(wind.at({3, 0, 1}, {}, 5.1).velocity[0], 2, 1e-12);
+  EXPECT_NEAR(wind.at({}, {}, 5.2).velocity[1], -1, 1e-12);
+  EXPECT_EQ(wind.at({}, {}, 4).velocity, (Triple{1, 0, 0}));
+  EXPECT_EQ(wind.at({}, {}, 9).velocity, (Triple{0, -1, 0}));
+  EXPECT_EQ(wind.at({}, {}, 9).change, (Triple{0, 0, 0}));
+}
+
 TEST(LeafWind, KnowsHowItChangesAlongTheLeafsWay) {
   // Central differences of 1e-6 s leave rounding of 1e-10; a gust's edge has a jump of its slope's slope of about
   // 1e4 m/s³, which shows as 1e-2 only in the step that meets it.
+  std::vector<Triple> rows;
+  for (int k = 0; k < 1000; ++k) rows.push_back({std::sin(0.3 * k), std::cos(0.2 * k), 0.1 * (k % 7)});
+  // The slope of a cubic's slope jumps by about 1e3 m/s³ at a row, which shows as 1e-3 in the step that meets it.
+  EXPECT_LT(worst_slope_error(LeafWind::of_track({.rows = rows, .rate_hz = 30, .begins = 0.01})), 1e-2);
   EXPECT_LT(worst_slope_error(made(LeafWindKind::kTurbulence)), 1e-6);
   EXPECT_LT(worst_slope_error(made(LeafWindKind::kGusts)), 1e-2);
 }

@@ -44,4 +44,9 @@ void draw_legend(Image& image, std::span<const LegendEntry> entries, Corner corn
 /// Draws a line of text on a translucent dark plate (frame number, time).
 void draw_label(Image& image, std::string_view text, Corner corner = Corner::kBottomLeft, float text_height = 0);
 
+/// Draws lines of text under each other on a translucent dark plate; what stands before a tab in a line is a column of
+/// its own. `opacity` of all of it, 0 … 1.
+void draw_note(Image& image, std::span<const std::string> lines, Corner corner = Corner::kTopLeft,
+               float text_height = 0, float opacity = 1);
+
 }  // namespace wisp

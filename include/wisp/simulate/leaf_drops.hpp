@@ -15,6 +15,7 @@ namespace wisp {
 struct LeafDropsOptions {
   Leaf leaf{};
   LeafWindOptions wind{};  ///< each drop has gusts and eddies of its own
+  WindTrack track{};       ///< where it has rows, this is the wind of every drop, from where the recording begins
   LeafStepping stepping{};
   int drops = 200;            ///< episodes, 1 … 100000
   double seconds = 20;        ///< recorded of each, 0.1 … 3600
@@ -34,8 +35,9 @@ Result<Recording> simulate_leaf_drops(const LeafDropsOptions& options);
 /// Gusts that hit a leaf in many states, each many times over. Falls are chaotic, and only the mean over clones that
 /// differ a little tells what the wind did and what chance.
 struct LeafPairsOptions {
-  LeafDropsOptions drops{};   ///< `drops` is the number of gusts; `wind` says how they blow, its kind is ignored
-  int clones = 32;            ///< of each, 1 … 10000
+  LeafDropsOptions
+      drops{};      ///< `drops` is the number of gusts; `wind` says how they blow, its kind and `track` are ignored
+  int clones = 32;  ///< of each, 1 … 10000
   double difference = 0.05;   ///< between clones when the recording begins, 0 … 1: radians, m/s, tenths of a rad/s
   double lead_seconds = 0.5;  ///< from there to the gust's onset, give or take a fifth, 0 … 60
 };

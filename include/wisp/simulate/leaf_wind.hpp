@@ -47,6 +47,14 @@ struct Gust {
   std::array<double, 3> slowness{};  ///< s/m: along its way, 1 / travel speed
 };
 
+/// A wind that was measured: the same everywhere, between its rows along a smooth curve through them, before the first
+/// and after the last as there.
+struct WindTrack {
+  std::vector<std::array<double, 3>> rows;  ///< m/s, world's axes; none: there is no such wind
+  double rate_hz = 60;                      ///< > 0
+  double begins = 0;                        ///< seconds: when the first row is
+};
+
 /// The wind at any place and time.
 class LeafWind {
  public:
@@ -62,11 +70,16 @@ class LeafWind {
   /// Precondition: seconds > 0 and 0 < edge <= seconds / 2 for each.
   static LeafWind of_gusts(std::vector<Gust> gusts);
 
+  /// What was measured.
+  ///
+  /// Precondition: rate_hz > 0, all rows finite.
+  static LeafWind of_track(WindTrack track);
+
   /// The wind where a leaf is, and how fast it changes for a leaf that moves so (world's axes).
   WindSample at(const std::array<double, 3>& place, const std::array<double, 3>& moving, double seconds) const;
 
   /// Nothing blows anywhere, ever.
-  bool calm() const { return !steady_ && gusts_.empty() && eddies_.empty(); }
+  bool calm() const { return !steady_ && gusts_.empty() && eddies_.empty() && track_.rows.empty(); }
 
   const std::vector<Gust>& gusts() const { return gusts_; }
 
@@ -84,6 +97,7 @@ class LeafWind {
   std::array<double, 3> mean_{};
   std::vector<Gust> gusts_;  // by their start
   std::vector<Eddy> eddies_;
+  WindTrack track_;
 };
 
 }  // namespace wisp

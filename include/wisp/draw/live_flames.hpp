@@ -1,0 +1,34 @@
+#pragma once
+// Candles in a dark room, drawn again and again: the picture of draw_night() and draw_flames(), for a window.
+//
+// What glows softly is computed on a grid of a quarter of the picture's size and brought up to it, already as codes of
+// the screen, where nothing but the dark room is behind; memory and room are kept. At 1280 × 800 that takes a seventh
+// of the time, and no pixel differs by more than a few codes.
+
+#include <memory>
+#include <span>
+
+#include "wisp/draw/flame.hpp"
+
+namespace wisp {
+
+/// Draws candles in pictures of one size.
+class LiveFlames {
+ public:
+  /// Precondition: 1 <= width, height <= kLargestImageSide.
+  LiveFlames(int width, int height, const FlameStyle& style = {});
+
+  LiveFlames(LiveFlames&&) noexcept;
+  LiveFlames& operator=(LiveFlames&&) noexcept;
+  ~LiveFlames();
+
+  /// Draws the dark room and the candles in it over all of the picture, the first candle farthest; flames as for
+  /// draw_flames(). A picture of another size is made anew.
+  void draw(Image& image, std::span<const Flame> flames);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace wisp
