@@ -68,6 +68,21 @@ wisp_status wisp_model_load(const void* bytes, size_t size, wisp_model** model);
 /* Frees a model; banks made from it live on. NULL is fine. */
 void wisp_model_free(wisp_model* model);
 
+/* What moves the outputs. */
+enum {
+  WISP_DYNAMICS_ARX = 1,     /* autoregression with exogenous inputs */
+  WISP_DYNAMICS_CHAIN = 2,   /* pieces of recorded motion, one after another by chance */
+  WISP_DYNAMICS_SWITCHED = 3 /* several ARX models, one of which acts at a time */
+};
+
+/* What the outputs mean. */
+enum {
+  WISP_VIEW_PLAIN = 0,   /* nothing but themselves */
+  WISP_VIEW_OUTLINE = 1, /* control points x, y of a closed outline: x right, y up, mean height 1 */
+  WISP_VIEW_POSE = 2,    /* position x, y, z in metres, z up; unit quaternion w, x, y, z, body to world */
+  WISP_VIEW_POSITION = 3 /* position x, y, z in metres, z up */
+};
+
 typedef struct wisp_model_facts {
   uint32_t size;           /* sizeof(wisp_model_facts), set by the caller */
   uint32_t inputs;         /* external inputs, before signs are split */
@@ -79,9 +94,18 @@ typedef struct wisp_model_facts {
   double metres_per_unit; /* of an outline; 0 where it is not known */
   int64_t step_nanoseconds;
   int64_t multiply_adds_per_frame; /* by the paper's count: coefficients that are not zero */
-  int64_t operations_per_frame;    /* all arithmetic, noise and a polyline of 32 points included */
+  int64_t operations_per_frame;    /* all arithmetic, noise and a polyline of 32 points included. WebAssembly does not
+                                      count: it says of both what the learner wrote into the file, 0 if nothing */
   double blow_out_level;   /* wind of this strength blows an instance out, in the unit of its input; 0: nothing does, */
   double blow_out_seconds; /* when it lasts so long; stronger wind takes less */
+  uint32_t dynamics;       /* one of WISP_DYNAMICS_* */
+  uint32_t view;           /* WISP_VIEW_PLAIN, WISP_VIEW_OUTLINE, WISP_VIEW_POSE or WISP_VIEW_POSITION */
+  double half_width;       /* metres, of a body with pose or position; 0 where it is not known */
+  double half_length;      /* metres, of a body with pose; 0 where it is not known */
+  double blow_out_haste;   /* at twice the level it lasts blow_out_seconds / (1 + blow_out_haste) */
+  double blow_out_recovery_seconds; /* below the level, after which it is as if the wind had never blown */
+  uint32_t blow_out_input;          /* which input blows it out */
+  uint32_t reserved_2;
 } wisp_model_facts;
 
 /* Fills the fields that the caller's `size` has room for. */
@@ -94,6 +118,8 @@ typedef struct wisp_channel {
   const char* unit;
   double lowest; /* the trained or seen range; held to it and half of it more */
   double highest;
+  uint32_t splits_sign; /* of inputs: 1 when the dynamics see what is positive and what is negative apart */
+  uint32_t has_squares; /* of inputs: 1 when they see squares too */
 } wisp_channel;
 
 /* What input or output number `index`, from 0, is. */
@@ -102,6 +128,83 @@ wisp_status wisp_model_get_output(const wisp_model* model, uint32_t index, wisp_
 
 /* The model's name; lives as long as the model. "" for NULL. */
 const char* wisp_model_name(const wisp_model* model);
+
+/* ---- What a model says of itself. Texts live as long as the model. ---- */
+
+typedef struct wisp_provenance {
+  uint32_t size;    /* sizeof(wisp_provenance), set by the caller */
+  uint32_t sources; /* how many there are of each */
+  uint32_t options;
+  uint32_t figures;
+  uint32_t usable; /* 1 when learning found the model fit for use */
+  uint32_t reserved;
+  const char* program; /* name and version of what wrote it */
+  const char* reason;  /* why it is fit for use, or why not */
+} wisp_provenance;
+
+/* A named fact: an option as given to the learner. */
+typedef struct wisp_note {
+  uint32_t size; /* sizeof(wisp_note), set by the caller */
+  uint32_t reserved;
+  const char* name;
+  const char* value;
+} wisp_note;
+
+/* A named figure of how good the model is. */
+typedef struct wisp_figure {
+  uint32_t size; /* sizeof(wisp_figure), set by the caller */
+  uint32_t reserved;
+  const char* name;
+  double value;
+} wisp_figure;
+
+wisp_status wisp_model_get_provenance(const wisp_model* model, wisp_provenance* provenance);
+
+/* Number `index`, from 0, of each. Sets *name to the file name of a recording that the model was learned from. */
+wisp_status wisp_model_get_source(const wisp_model* model, uint32_t index, const char** name);
+wisp_status wisp_model_get_option(const wisp_model* model, uint32_t index, wisp_note* option);
+wisp_status wisp_model_get_figure(const wisp_model* model, uint32_t index, wisp_figure* figure);
+
+/* Of models whose dynamics are WISP_DYNAMICS_ARX; others are a WISP_BAD_ARGUMENT. */
+typedef struct wisp_arx_facts {
+  uint32_t size;        /* sizeof(wisp_arx_facts), set by the caller */
+  uint32_t outputs;     /* rows of the matrices of orders */
+  uint32_t regressors;  /* inputs as the dynamics see them, signs and squares split */
+  uint32_t history;     /* steps that the longest lag reaches back */
+  uint32_t shocks;      /* sources of noise that outputs share */
+  uint32_t noise_grows; /* 1 when the noise is larger in wind */
+} wisp_arx_facts;
+
+wisp_status wisp_model_get_arx(const wisp_model* model, wisp_arx_facts* facts);
+
+/* Matrices of orders, row by row: na (outputs * outputs), nb and nk (outputs * regressors). */
+wisp_status wisp_model_arx_na(const wisp_model* model, int32_t* values, size_t count);
+wisp_status wisp_model_arx_nb(const wisp_model* model, int32_t* values, size_t count);
+wisp_status wisp_model_arx_nk(const wisp_model* model, int32_t* values, size_t count);
+
+/* Standard deviation of each output's own noise, in its unit: outputs. */
+wisp_status wisp_model_arx_noise(const wisp_model* model, double* values, size_t count);
+
+/* Of models whose dynamics are WISP_DYNAMICS_CHAIN; others are a WISP_BAD_ARGUMENT. */
+typedef struct wisp_chain_facts {
+  uint32_t size;         /* sizeof(wisp_chain_facts), set by the caller */
+  uint32_t modes;        /* kinds of motion */
+  uint32_t segments;     /* pieces of recorded motion */
+  uint32_t contexts;     /* histories of modes that say what may follow */
+  uint32_t history;      /* modes of the longest of them */
+  uint32_t gust_order;   /* of the response to wind; 0: wind does nothing */
+  uint32_t heading_free; /* 1 when segments are turned about the vertical to join */
+  uint32_t reserved;
+} wisp_chain_facts;
+
+wisp_status wisp_model_get_chain(const wisp_model* model, wisp_chain_facts* facts);
+
+/* Probabilities of how a recording begins (modes), and of what follows one mode (modes * modes, a row for each). */
+wisp_status wisp_model_chain_initial(const wisp_model* model, double* values, size_t count);
+wisp_status wisp_model_chain_transitions(const wisp_model* model, double* values, size_t count);
+
+/* Mode and steps of each segment: segments. Either may be NULL. */
+wisp_status wisp_model_chain_segments(const wisp_model* model, uint32_t* modes, uint32_t* steps, size_t count);
 
 /* ---- Banks: living instances of one model, stepped together ---- */
 
@@ -171,8 +274,12 @@ wisp_status wisp_bank_set_inputs(wisp_bank* bank, const float* values, size_t co
 wisp_status wisp_bank_set_common_inputs(wisp_bank* bank, const float* values, size_t count);
 wisp_status wisp_bank_set_instance_inputs(wisp_bank* bank, wisp_instance instance, const float* values, size_t count);
 
-/* Scale of the residual noise: 1 as learned, 0 none; held to 0 to 10. */
+/* Scale of the residual noise: 1 as learned, 0 none; held to 0 to 10. A chain has its chance in its walk: at 0 the
+ * likeliest mode follows as the segment that joins best, any other scale leaves it as it is. */
 wisp_status wisp_bank_set_noise(wisp_bank* bank, float scale);
+
+/* The scale as it is. */
+wisp_status wisp_bank_get_noise(const wisp_bank* bank, float* scale);
 
 /* One step of the model, whatever the time. */
 wisp_status wisp_bank_step(wisp_bank* bank);
@@ -213,6 +320,59 @@ wisp_status wisp_bank_flame_sizes(const wisp_bank* bank, float* values, size_t c
 wisp_status wisp_bank_relight(wisp_bank* bank, wisp_instance instance);
 wisp_status wisp_bank_extinguish(wisp_bank* bank, wisp_instance instance);
 
+/* ---- Instances of a chain: things that fall, drift or fly ---- */
+
+/* Where in its chain an instance is. */
+typedef struct wisp_chain_place {
+  uint32_t size;    /* sizeof(wisp_chain_place), set by the caller */
+  uint32_t segment; /* that is played; */
+  uint32_t step;    /* how far: at 0 it was joined to the one before */
+  uint32_t mode;    /* of the segment */
+} wisp_chain_place;
+
+/* WISP_BAD_ARGUMENT where the dynamics are not a chain. */
+wisp_status wisp_bank_get_chain_place(const wisp_bank* bank, wisp_instance instance, wisp_chain_place* place);
+
+/* A body at one moment, in the world: metres, seconds, radians, z up. */
+typedef struct wisp_body {
+  uint32_t size; /* sizeof(wisp_body), set by the caller */
+  float position[3];
+  float orientation[4]; /* body to world, w first; its length does not matter */
+  float velocity[3];
+  float spin[3]; /* angular velocity, world axes */
+} wisp_body;
+
+/* Sets an instance of a chain where a body is, as after a throw, a collision or a kick: it goes on with the segment
+ * that begins most as the body moves, the rest fading away. Looks at every segment once: not for every frame.
+ * WISP_BAD_ARGUMENT where the dynamics are not a chain or a number is not finite. */
+wisp_status wisp_bank_place(wisp_bank* bank, wisp_instance instance, const wisp_body* body);
+
+/* Level ground at that height, on which instances of a chain come to rest until they are placed or reset; or none, as
+ * at first: they fall for ever. WISP_BAD_ARGUMENT for a height that is not finite. */
+wisp_status wisp_bank_set_ground(wisp_bank* bank, float height);
+wisp_status wisp_bank_clear_ground(wisp_bank* bank);
+
+/* How many modes back a chain looks when it chooses the next one, from the next join on; 0, as at first: as many as it
+ * has learned to. Below 0 is 0. */
+wisp_status wisp_bank_set_history(wisp_bank* bank, int32_t longest);
+
+/* How a chain chooses among the segments of a mode: 0: always the one that joins best, infinity: any alike; or, as at
+ * first, as learned. Below 0 and what is not a number are 0. */
+wisp_status wisp_bank_set_temperature(wisp_bank* bank, float temperature);
+wisp_status wisp_bank_clear_temperature(wisp_bank* bank);
+
+typedef struct wisp_chain_settings {
+  uint32_t size;            /* sizeof(wisp_chain_settings), set by the caller */
+  int32_t history;          /* 0: as learned */
+  uint32_t has_temperature; /* 0: as learned */
+  float temperature;
+  uint32_t has_ground; /* 0: none */
+  float ground;
+} wisp_chain_settings;
+
+/* What was set; where the dynamics are not a chain, it does nothing. */
+wisp_status wisp_bank_get_chain_settings(const wisp_bank* bank, wisp_chain_settings* settings);
+
 /* Back to where they were when spawned, lit: one, or all and the bank's time. */
 wisp_status wisp_bank_reset_instance(wisp_bank* bank, wisp_instance instance);
 wisp_status wisp_bank_reset(wisp_bank* bank);
@@ -222,6 +382,84 @@ wisp_status wisp_bank_reset(wisp_bank* bank);
 wisp_status wisp_bank_save_bytes(const wisp_bank* bank, size_t* bytes);
 wisp_status wisp_bank_save(const wisp_bank* bank, void* bytes, size_t size);
 wisp_status wisp_bank_restore(wisp_bank* bank, const void* bytes, size_t size);
+
+/* ---- Wind heard by a microphone ---- */
+
+typedef struct wisp_wind wisp_wind;
+
+typedef struct wisp_wind_options {
+  uint32_t size;                   /* sizeof(wisp_wind_options), set by the caller */
+  uint32_t channels;               /* interleaved channels of the sound, 1 to 8; 0: 1 */
+  double rate_hz;                  /* samples a second of each channel, 8000 to 192000 */
+  double frame_rate_hz;            /* frames of wind a second, 1 to 1000: the model's rate serves it best */
+  double exponent;                 /* wind speed goes as the sound's RMS to this power, 0.1 to 2 */
+  double smoothing_seconds;        /* mean of the level over this time, 0 to 1 */
+  double floor_rise_db_per_second; /* how fast the background is believed to grow, 0 to 60 */
+  double first_gust_rms;           /* wind 1 before any blowing was heard, full scale 1, 1e-6 to 8 */
+} wisp_wind_options;
+
+/* Options with every default: one channel of 44100 Hz, 60 frames a second; docs/wind.md has the reasons. */
+wisp_wind_options wisp_wind_default_options(void);
+
+/* Makes an estimator at the start of a stream of sound. `options` may be NULL for the defaults. Sets *wind.
+ * WISP_BAD_ARGUMENT names the option that is out of its range. */
+wisp_status wisp_wind_create(const wisp_wind_options* options, wisp_wind** wind);
+
+/* Frees an estimator. NULL is fine. */
+void wisp_wind_free(wisp_wind* wind);
+
+/* The wind during one frame. It comes in arrays, so it stays as it is: fields will not be added. Amplitudes are root
+ * mean squares with full scale 1. */
+typedef struct wisp_wind_frame {
+  int64_t index;    /* frame k covers the sound from k / frame rate to (k + 1) / frame rate */
+  float rms;        /* of all samples in the frame */
+  float rms_clean;  /* less the background's, not below 0 */
+  float level;      /* of the band in which wind is heard, less the background in power */
+  float speed;      /* proportional to wind speed; 1 is the 95th percentile while it blows */
+  float wind;       /* a model's input: speed where it sounds like blowing, 0 where nothing is heard */
+  float confidence; /* 0 to 1: this is blowing, not talking */
+  float background; /* RMS of the background as known at this frame */
+  float clipped;    /* share of samples at full scale, 0 to 1 */
+} wisp_wind_frame;
+
+/* From here to wisp_wind_latency() is the frame path of sound: it may be called by the thread that plays or records.
+ *
+ * Takes interleaved samples, full scale +-1 or 16 bits, until they are used up or there is no room for a frame; feed
+ * the rest again then. What is not a number counts as 0. Frames do not depend on how the sound was cut into blocks.
+ * Sets *taken to the samples taken, all channels counted, and *made to the frames written; either may be NULL. `frames`
+ * may be NULL where `room` is 0: nothing is taken then that would make a frame. WISP_BAD_ARGUMENT when `count` is not a
+ * multiple of the channels. */
+wisp_status wisp_wind_feed(wisp_wind* wind, const float* samples, size_t count, wisp_wind_frame* frames, size_t room,
+                           size_t* taken, size_t* made);
+wisp_status wisp_wind_feed_int16(wisp_wind* wind, const int16_t* samples, size_t count, wisp_wind_frame* frames,
+                                 size_t room, size_t* taken, size_t* made);
+
+/* The latest frame made; all zero before the first. */
+wisp_status wisp_wind_latest(const wisp_wind* wind, wisp_wind_frame* frame);
+
+/* Takes the coming seconds of sound (0.5 to 30 used) as the room without wind. */
+wisp_status wisp_wind_calibrate(wisp_wind* wind, double seconds);
+
+/* 1 while that time is still running, else 0. */
+int32_t wisp_wind_calibrating(const wisp_wind* wind);
+
+/* What a microphone in a room was found to be: kept, it spares the next start the finding. */
+typedef struct wisp_wind_calibration {
+  uint32_t size;          /* sizeof(wisp_wind_calibration), set by the caller */
+  float background_rms;   /* RMS without wind */
+  float background_level; /* RMS of the band in which wind is heard, without wind */
+  float floor_db;         /* loudness without wind, dB of full scale */
+  float gust_rms;         /* RMS of the band at wind 1; 0: not known yet */
+} wisp_wind_calibration;
+
+wisp_status wisp_wind_get_calibration(const wisp_wind* wind, wisp_wind_calibration* calibration);
+wisp_status wisp_wind_set_calibration(wisp_wind* wind, const wisp_wind_calibration* calibration);
+
+/* Forgets everything but the options. */
+wisp_status wisp_wind_reset(wisp_wind* wind);
+
+/* Seconds between wind and the frame that tells of it, beyond the frame itself. 0 for NULL. */
+double wisp_wind_latency(const wisp_wind* wind);
 
 #ifdef __cplusplus
 }

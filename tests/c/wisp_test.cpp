@@ -2,11 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <map>
 #include <thread>
 #include <vector>
 
+#include "c/frames_in_c.h"
 #include "c/life_in_c.h"
+#include "c/live_in_c.h"
 #include "run/flame_model.hpp"
+#include "wisp/base/file.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/run/bank.hpp"
 
@@ -77,6 +82,71 @@ TEST(C, AModelWithoutAnOutlineSaysSo) {
   EXPECT_STREQ(wisp_last_error(), "wisp_bank_polyline: the model's outputs are not an outline");
   wisp_bank_free(bank);
   wisp_model_free(model);
+}
+
+std::vector<std::byte> bytes_of(const std::string& name) {
+  return *read_file(WISP_SOURCE_DIR "/tests/c/models/" + name + ".wisp");
+}
+
+TEST(C, AModelGivesAnAccountOfItself) {
+  const std::vector<std::byte> flame = bytes_of("flame"), leaf = bytes_of("leaf");
+  EXPECT_EQ(text(account_of_a_flame(flame.data(), flame.size())), "");
+  EXPECT_EQ(text(account_of_a_leaf(leaf.data(), leaf.size())), "");
+}
+
+TEST(C, ALeafIsThrownIntoTheWorldAndBlownAlong) {
+  const std::vector<std::byte> leaf = bytes_of("leaf");
+  EXPECT_EQ(text(leaf_in_the_world(leaf.data(), leaf.size())), "");
+}
+
+TEST(C, AMicrophoneHearsTheWind) { EXPECT_EQ(text(wind_in_c()), ""); }
+
+TEST(C, EveryMisuseOfTheWindHasItsStatusAndItsSentence) { EXPECT_EQ(text(misuse_of_wind()), ""); }
+
+TEST(C, AModelCutAtAnyLengthIsBadData) {
+  for (const char* name : {"flame", "leaf"}) {
+    const std::vector<std::byte> bytes = bytes_of(name);
+    EXPECT_EQ(text(cut_at_each_length(bytes.data(), bytes.size())), "");
+  }
+}
+
+// What the hashes must be: name, count (of frames, or of seconds) and the hash, as WebAssembly is held to it too.
+struct Golden {
+  std::uint32_t count = 0;
+  std::uint32_t hash[2] = {};
+};
+
+std::map<std::string, Golden> golden_hashes() {
+  std::map<std::string, Golden> all;
+  std::ifstream file(WISP_SOURCE_DIR "/tests/c/models/bits.txt");
+  std::string name;
+  Golden one;
+  while (file >> name >> std::dec >> one.count >> std::hex >> one.hash[0] >> one.hash[1]) all[name] = one;
+  return all;
+}
+
+std::string hex(const std::uint32_t hash[2]) {
+  char text[18];
+  std::snprintf(text, sizeof text, "%08x %08x", hash[0], hash[1]);
+  return text;
+}
+
+TEST(C, ALifeOf100000FramesHasTheBitsThatItHasEverywhere) {
+  const auto golden = golden_hashes();
+  for (const std::string name : {"flame", "leaf"}) {
+    const std::vector<std::byte> bytes = bytes_of(name);
+    std::uint32_t hash[2];
+    ASSERT_EQ(text(hash_of_life(bytes.data(), bytes.size(), golden.at(name).count, hash)), "");
+    EXPECT_EQ(golden.at(name).count, 100000U);
+    EXPECT_EQ(hex(hash), hex(golden.at(name).hash)) << name;
+  }
+}
+
+TEST(C, TheWindOfASoundHasTheBitsThatItHasEverywhere) {
+  const Golden golden = golden_hashes().at("wind");
+  std::uint32_t hash[2];
+  ASSERT_EQ(text(hash_of_wind(golden.count, hash)), "");
+  EXPECT_EQ(hex(hash), hex(golden.hash));
 }
 
 }  // namespace

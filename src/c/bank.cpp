@@ -1,97 +1,17 @@
-#include "wisp/wisp.h"
+// Banks: living instances of one model, stepped together.
 
 #include <algorithm>
-#include <cstdio>
-#include <cstring>
-#include <new>
+#include <cmath>
 #include <optional>
-#include <string>
+#include <utility>
 
-#include "wisp/model/file.hpp"
-#include "wisp/run/bank.hpp"
-#include "wisp/run/cost.hpp"
-
-struct wisp_model {
-  wisp::Model model;
-  wisp::Cost cost;
-};
-
-struct wisp_bank {
-  wisp::Bank bank;
-};
+#include "c/boundary.hpp"
+#include "c/handles.hpp"
 
 namespace {
 
+using namespace wisp::c;
 using wisp::InstanceId;
-
-// Fixed room, so that even a failure on the frame path allocates nothing.
-thread_local char last_error[512] = "";
-
-wisp_status fail(wisp_status status, const char* message) {
-  std::snprintf(last_error, sizeof last_error, "%s", message);
-  return status;
-}
-
-wisp_status fail(wisp_status status, const wisp::Error& error) { return fail(status, error.message.c_str()); }
-
-wisp_status null_argument(const char* function) {
-  std::snprintf(last_error, sizeof last_error, "%s was given a null pointer", function);
-  return WISP_BAD_ARGUMENT;
-}
-
-wisp_status not_alive(const char* function) {
-  std::snprintf(last_error, sizeof last_error, "%s was given an instance that is not alive", function);
-  return WISP_NOT_ALIVE;
-}
-
-// Whether a buffer is there and has the stated number of values; says what is wrong otherwise.
-bool buffer_is_right(const char* function, const void* values, std::size_t found, std::size_t expected) {
-  if (!values && expected > 0) {
-    null_argument(function);
-    return false;
-  }
-  if (found == expected) return true;
-  std::snprintf(last_error, sizeof last_error, "%s was given room for %zu, expected %zu", function, found, expected);
-  return false;
-}
-
-// Runs what may throw; nothing but the want of memory can.
-template <class Work>
-wisp_status guarded(const char* function, Work work) {
-  try {
-    return work();
-  } catch (const std::bad_alloc&) {
-    std::snprintf(last_error, sizeof last_error, "%s found no memory", function);
-    return WISP_NO_MEMORY;
-  } catch (...) {
-    std::snprintf(last_error, sizeof last_error, "%s failed unexpectedly", function);
-    return WISP_BAD_DATA;
-  }
-}
-
-// A struct whose caller may know fewer fields, or more, than this build.
-template <class Struct>
-bool size_is_right(const char* function, const Struct* given) {
-  if (given->size >= 2 * sizeof(std::uint32_t)) return true;
-  std::snprintf(last_error, sizeof last_error, "%s was given a struct whose size field is %u: set it to sizeof",
-                function, given->size);
-  return false;
-}
-
-template <class Struct>
-void hand_out(Struct filled, Struct* out) {
-  filled.size = out->size;
-  std::memcpy(out, &filled, std::min<std::size_t>(out->size, sizeof(Struct)));
-}
-
-InstanceId id_of(wisp_instance instance) {
-  return {static_cast<std::uint32_t>(instance), static_cast<std::uint32_t>(instance >> 32)};
-}
-
-wisp_instance instance_of(InstanceId id) {
-  if (id.generation == 0) return WISP_NO_INSTANCE;
-  return static_cast<wisp_instance>(id.generation) << 32 | id.slot;
-}
 
 std::size_t rows(const wisp_bank* bank, int columns) {
   return static_cast<std::size_t>(bank->bank.slots()) * static_cast<std::size_t>(columns);
@@ -101,8 +21,8 @@ std::size_t rows(const wisp_bank* bank, int columns) {
 std::optional<wisp::BankOptions> options_of(const char* function, const wisp_bank_options* given) {
   wisp_bank_options known = wisp_bank_default_options();
   if (given) {
-    if (!size_is_right(function, given)) return {};
-    std::memcpy(&known, given, std::min<std::size_t>(given->size, sizeof known));
+    if (!size_is_right(function, given->size)) return {};
+    take_in(given, known);
   }
   wisp::BankOptions options;
   options.capacity = static_cast<int>(std::min<std::uint32_t>(known.capacity, 0x7fffffff));
@@ -114,79 +34,21 @@ std::optional<wisp::BankOptions> options_of(const char* function, const wisp_ban
   return options;
 }
 
-template <class Channels>
-wisp_status hand_out_channel(const char* function, const Channels& channels, std::uint32_t index, wisp_channel* out) {
-  if (!size_is_right(function, out)) return WISP_BAD_ARGUMENT;
-  if (index >= channels.size()) {
-    std::snprintf(last_error, sizeof last_error, "%s was given index %u, expected less than %zu", function, index,
-                  channels.size());
-    return WISP_BAD_ARGUMENT;
-  }
-  const auto& channel = channels[index];
-  wisp_channel filled{};
-  filled.name = channel.name.c_str();
-  filled.unit = channel.unit.c_str();
-  filled.lowest = channel.lowest;
-  filled.highest = channel.highest;
-  hand_out(filled, out);
+wisp_status handed_out(const char* function, InstanceId id, wisp_instance* instance) {
+  if (id.generation == 0) return fail(WISP_NO_INSTANCE_LEFT, "%s: the bank is full", function);
+  *instance = instance_of(id);
   return WISP_OK;
+}
+
+bool has_outline(const char* function, const wisp_bank* bank) {
+  if (bank->bank.polyline_points() > 0) return true;
+  fail(WISP_BAD_ARGUMENT, "%s: the model's outputs are not an outline", function);
+  return false;
 }
 
 }  // namespace
 
 extern "C" {
-
-int32_t wisp_version(void) { return WISP_VERSION_MAJOR * 1000000 + WISP_VERSION_MINOR * 1000 + WISP_VERSION_PATCH; }
-
-const char* wisp_last_error(void) { return last_error; }
-
-wisp_status wisp_model_load(const void* bytes, size_t size, wisp_model** model) {
-  if (!bytes || !model) return null_argument(__func__);
-  return guarded(__func__, [&]() -> wisp_status {
-    auto parsed = wisp::parse_model({static_cast<const std::byte*>(bytes), size}, "the model");
-    if (!parsed) return fail(WISP_BAD_DATA, parsed.error());
-    const auto cost = wisp::count_operations(*parsed);
-    if (!cost) return fail(WISP_BAD_DATA, cost.error());
-    *model = new wisp_model{std::move(parsed).value(), *cost};
-    return WISP_OK;
-  });
-}
-
-void wisp_model_free(wisp_model* model) { delete model; }
-
-wisp_status wisp_model_get_facts(const wisp_model* model, wisp_model_facts* facts) {
-  if (!model || !facts) return null_argument(__func__);
-  if (!size_is_right(__func__, facts)) return WISP_BAD_ARGUMENT;
-  const auto* outline = std::get_if<wisp::OutlineView>(&model->model.view);
-  wisp_model_facts filled{};
-  filled.inputs = static_cast<uint32_t>(model->model.inputs.size());
-  filled.outputs = static_cast<uint32_t>(model->model.outputs.size());
-  filled.control_points = outline ? filled.outputs / 2 : 0;
-  filled.usable = model->model.provenance.usable.verdict ? 1 : 0;
-  filled.rate_hz = model->model.rate_hz;
-  filled.metres_per_unit = outline ? outline->metres_per_unit : 0;
-  filled.step_nanoseconds = wisp::step_time(model->model).count();
-  filled.multiply_adds_per_frame = model->cost.multiply_adds_per_frame;
-  filled.operations_per_frame = model->cost.operations_per_frame;
-  if (const auto& rule = model->model.extinction) {
-    filled.blow_out_level = rule->level;
-    filled.blow_out_seconds = rule->seconds;
-  }
-  hand_out(filled, facts);
-  return WISP_OK;
-}
-
-wisp_status wisp_model_get_input(const wisp_model* model, uint32_t index, wisp_channel* channel) {
-  if (!model || !channel) return null_argument(__func__);
-  return hand_out_channel(__func__, model->model.inputs, index, channel);
-}
-
-wisp_status wisp_model_get_output(const wisp_model* model, uint32_t index, wisp_channel* channel) {
-  if (!model || !channel) return null_argument(__func__);
-  return hand_out_channel(__func__, model->model.outputs, index, channel);
-}
-
-const char* wisp_model_name(const wisp_model* model) { return model ? model->model.name.c_str() : ""; }
 
 wisp_bank_options wisp_bank_default_options(void) {
   const wisp::BankOptions defaults;
@@ -217,7 +79,9 @@ wisp_status wisp_bank_create(const wisp_model* model, const wisp_bank_options* o
   return guarded(__func__, [&]() -> wisp_status {
     auto made = wisp::Bank::create(model->model, *known);
     if (!made) return fail(WISP_BAD_ARGUMENT, made.error());
-    *bank = new wisp_bank{std::move(made).value()};
+    std::vector<std::uint16_t> segment_modes;
+    if (const auto* chain = std::get_if<wisp::ChainModel>(&model->model.dynamics)) segment_modes = chain->segments.mode;
+    *bank = new wisp_bank{std::move(made).value(), std::move(segment_modes)};
     return WISP_OK;
   });
 }
@@ -226,7 +90,7 @@ void wisp_bank_free(wisp_bank* bank) { delete bank; }
 
 wisp_status wisp_bank_get_facts(const wisp_bank* bank, wisp_bank_facts* facts) {
   if (!bank || !facts) return null_argument(__func__);
-  if (!size_is_right(__func__, facts)) return WISP_BAD_ARGUMENT;
+  if (!size_is_right(__func__, facts->size)) return WISP_BAD_ARGUMENT;
   const wisp::Bank& b = bank->bank;
   wisp_bank_facts filled{};
   filled.capacity = static_cast<uint32_t>(b.capacity());
@@ -238,15 +102,6 @@ wisp_status wisp_bank_get_facts(const wisp_bank* bank, wisp_bank_facts* facts) {
   filled.held = b.held().held;
   filled.steps = b.held().steps;
   hand_out(filled, facts);
-  return WISP_OK;
-}
-
-static wisp_status handed_out(const char* function, InstanceId id, wisp_instance* instance) {
-  if (id.generation == 0) {
-    std::snprintf(last_error, sizeof last_error, "%s: the bank is full", function);
-    return WISP_NO_INSTANCE_LEFT;
-  }
-  *instance = instance_of(id);
   return WISP_OK;
 }
 
@@ -302,6 +157,12 @@ wisp_status wisp_bank_set_noise(wisp_bank* bank, float scale) {
   return WISP_OK;
 }
 
+wisp_status wisp_bank_get_noise(const wisp_bank* bank, float* scale) {
+  if (!bank || !scale) return null_argument(__func__);
+  *scale = bank->bank.noise();
+  return WISP_OK;
+}
+
 wisp_status wisp_bank_step(wisp_bank* bank) {
   if (!bank) return null_argument(__func__);
   bank->bank.step();
@@ -329,12 +190,6 @@ wisp_status wisp_bank_instance_outputs(const wisp_bank* bank, wisp_instance inst
   return bank->bank.outputs(id_of(instance), {values, count}) ? WISP_OK : not_alive(__func__);
 }
 
-static bool has_outline(const char* function, const wisp_bank* bank) {
-  if (bank->bank.polyline_points() > 0) return true;
-  std::snprintf(last_error, sizeof last_error, "%s: the model's outputs are not an outline", function);
-  return false;
-}
-
 wisp_status wisp_bank_polylines(const wisp_bank* bank, float* values, size_t count) {
   if (!bank) return null_argument(__func__);
   if (!has_outline(__func__, bank)) return WISP_BAD_ARGUMENT;
@@ -354,7 +209,7 @@ wisp_status wisp_bank_polyline(const wisp_bank* bank, wisp_instance instance, fl
 
 wisp_status wisp_bank_get_flame_state(const wisp_bank* bank, wisp_instance instance, wisp_flame_state* state) {
   if (!bank || !state) return null_argument(__func__);
-  if (!size_is_right(__func__, state)) return WISP_BAD_ARGUMENT;
+  if (!size_is_right(__func__, state->size)) return WISP_BAD_ARGUMENT;
   const auto found = bank->bank.lit_state(id_of(instance));
   if (!found) return not_alive(__func__);
   wisp_flame_state filled{};

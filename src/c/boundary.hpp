@@ -1,0 +1,71 @@
+#pragma once
+// What every function of the C ABI does at its door: words for what was wrong, structs of other sizes, no exceptions.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <new>
+
+#include "wisp/base/result.hpp"
+#include "wisp/wisp.h"
+
+namespace wisp::c {
+
+/// Keeps a sentence as this thread's last error. Returns `status`. Allocates nothing.
+wisp_status fail(wisp_status status, const char* format, ...) __attribute__((format(printf, 2, 3)));
+wisp_status fail(wisp_status status, const Error& error);
+
+wisp_status null_argument(const char* function);
+wisp_status not_alive(const char* function);
+
+/// Whether a buffer is there and has the stated number of values; says what is wrong otherwise.
+bool buffer_is_right(const char* function, const void* values, std::size_t found, std::size_t expected);
+
+/// Whether an index is below a count; says so otherwise.
+bool index_is_right(const char* function, std::uint32_t index, std::size_t count);
+
+/// Whether the size field of a struct can be one; says so otherwise.
+bool size_is_right(const char* function, std::uint32_t size);
+
+/// Runs what may throw; nothing but the want of memory can. Where exceptions are switched off, want of memory ends the
+/// program.
+template <class Work>
+wisp_status guarded(const char* function, Work work) {
+#ifdef __cpp_exceptions
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    return fail(WISP_NO_MEMORY, "%s found no memory", function);
+  } catch (...) {
+    return fail(WISP_BAD_DATA, "%s failed unexpectedly", function);
+  }
+#else
+  static_cast<void>(function);
+  return work();
+#endif
+}
+
+/// Fills a struct of a caller that may know fewer fields, or more, than this build.
+template <class Struct>
+void hand_out(Struct filled, Struct* out) {
+  filled.size = out->size;
+  std::memcpy(out, &filled, std::min<std::size_t>(out->size, sizeof(Struct)));
+}
+
+/// Takes over into `known`, which holds the defaults, the fields that the caller of `given` knows.
+template <class Struct>
+void take_in(const Struct* given, Struct& known) {
+  std::memcpy(&known, given, std::min<std::size_t>(given->size, sizeof known));
+}
+
+/// Fills an array whose count must be right.
+template <class Values, class Value>
+wisp_status hand_out_values(const char* function, const Values& from, Value* values, std::size_t count) {
+  if (!buffer_is_right(function, values, count, from.size())) return WISP_BAD_ARGUMENT;
+  std::size_t k = 0;
+  for (const auto& value : from) values[k++] = static_cast<Value>(value);
+  return WISP_OK;
+}
+
+}  // namespace wisp::c

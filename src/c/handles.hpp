@@ -1,0 +1,33 @@
+#pragma once
+// What the opaque handles of the C ABI are.
+
+#include <cstdint>
+#include <vector>
+
+#include "wisp/model/model.hpp"
+#include "wisp/run/bank.hpp"
+#include "wisp/run/cost.hpp"
+#include "wisp/wisp.h"
+
+struct wisp_model {
+  wisp::Model model;
+  wisp::Cost cost;
+};
+
+struct wisp_bank {
+  wisp::Bank bank;
+  std::vector<std::uint16_t> segment_modes;  // of a chain; a bank outlives its model
+};
+
+namespace wisp::c {
+
+inline InstanceId id_of(wisp_instance instance) {
+  return {static_cast<std::uint32_t>(instance), static_cast<std::uint32_t>(instance >> 32)};
+}
+
+inline wisp_instance instance_of(InstanceId id) {
+  if (id.generation == 0) return WISP_NO_INSTANCE;
+  return static_cast<wisp_instance>(id.generation) << 32 | id.slot;
+}
+
+}  // namespace wisp::c

@@ -1,0 +1,264 @@
+// Models: from the bytes of a file, and what they say of themselves.
+
+#include <utility>
+
+#include "c/boundary.hpp"
+#include "c/handles.hpp"
+#include "wisp/model/file.hpp"
+
+namespace {
+
+using namespace wisp::c;
+
+template <class Channels>
+wisp_status hand_out_channel(const char* function, const Channels& channels, std::uint32_t index, wisp_channel* out) {
+  if (!size_is_right(function, out->size) || !index_is_right(function, index, channels.size())) {
+    return WISP_BAD_ARGUMENT;
+  }
+  const auto& channel = channels[index];
+  wisp_channel filled{};
+  filled.name = channel.name.c_str();
+  filled.unit = channel.unit.c_str();
+  filled.lowest = channel.lowest;
+  filled.highest = channel.highest;
+  if constexpr (requires { channel.shape; }) {
+    filled.splits_sign = wisp::splits_sign(channel.shape) ? 1 : 0;
+    filled.has_squares = wisp::has_squares(channel.shape) ? 1 : 0;
+  }
+  hand_out(filled, out);
+  return WISP_OK;
+}
+
+void describe(const wisp::PlainView&, wisp_model_facts& facts) { facts.view = WISP_VIEW_PLAIN; }
+
+void describe(const wisp::OutlineView& outline, wisp_model_facts& facts) {
+  facts.view = WISP_VIEW_OUTLINE;
+  facts.control_points = facts.outputs / 2;
+  facts.metres_per_unit = outline.metres_per_unit;
+}
+
+void describe(const wisp::PoseView& pose, wisp_model_facts& facts) {
+  facts.view = WISP_VIEW_POSE;
+  facts.half_width = pose.half_width;
+  facts.half_length = pose.half_length;
+}
+
+void describe(const wisp::PositionView& position, wisp_model_facts& facts) {
+  facts.view = WISP_VIEW_POSITION;
+  facts.half_width = position.half_width;
+}
+
+void describe(const wisp::Extinction& rule, wisp_model_facts& facts) {
+  facts.blow_out_level = rule.level;
+  facts.blow_out_seconds = rule.seconds;
+  facts.blow_out_haste = rule.haste;
+  facts.blow_out_recovery_seconds = rule.recovery;
+  facts.blow_out_input = static_cast<std::uint32_t>(rule.input);
+}
+
+std::uint32_t kind_of(const wisp::ArxModel&) { return WISP_DYNAMICS_ARX; }
+std::uint32_t kind_of(const wisp::ChainModel&) { return WISP_DYNAMICS_CHAIN; }
+std::uint32_t kind_of(const wisp::SwitchedArxModel&) { return WISP_DYNAMICS_SWITCHED; }
+
+const wisp::ArxModel* arx_of(const char* function, const wisp_model* model) {
+  const auto* arx = std::get_if<wisp::ArxModel>(&model->model.dynamics);
+  if (!arx) fail(WISP_BAD_ARGUMENT, "%s: the model's dynamics are not ARX", function);
+  return arx;
+}
+
+const wisp::ChainModel* chain_of(const char* function, const wisp_model* model) {
+  const auto* chain = std::get_if<wisp::ChainModel>(&model->model.dynamics);
+  if (!chain) fail(WISP_BAD_ARGUMENT, "%s: the model's dynamics are not a chain", function);
+  return chain;
+}
+
+wisp_status hand_out_orders(const char* function, const wisp_model* model, wisp::OrderMatrix wisp::ArxOrders::*which,
+                            std::int32_t* values, std::size_t count) {
+  if (!model) return null_argument(function);
+  const wisp::ArxModel* arx = arx_of(function, model);
+  if (!arx) return WISP_BAD_ARGUMENT;
+  return hand_out_values(function, (arx->orders.*which).values(), values, count);
+}
+
+#ifdef WISP_COST_AS_LEARNED
+// Counting takes every kernel a second time, a fifth of a module that travels: this one says what the learner counted.
+wisp::Result<wisp::Cost> cost_of(const wisp::Model& model) {
+  wisp::Cost cost;
+  for (const wisp::Figure& figure : model.provenance.figures) {
+    if (!(figure.value >= 0 && figure.value < 1e15)) continue;
+    if (figure.name == "multiply_adds_per_frame") cost.multiply_adds_per_frame = static_cast<int64_t>(figure.value);
+    if (figure.name == "operations_per_frame") cost.operations_per_frame = static_cast<int64_t>(figure.value);
+  }
+  return cost;
+}
+#else
+wisp::Result<wisp::Cost> cost_of(const wisp::Model& model) { return wisp::count_operations(model); }
+#endif
+
+}  // namespace
+
+extern "C" {
+
+wisp_status wisp_model_load(const void* bytes, size_t size, wisp_model** model) {
+  if (!bytes || !model) return null_argument(__func__);
+  return guarded(__func__, [&]() -> wisp_status {
+    auto parsed = wisp::parse_model({static_cast<const std::byte*>(bytes), size}, "the model");
+    if (!parsed) return fail(WISP_BAD_DATA, parsed.error());
+    const auto cost = cost_of(*parsed);
+    if (!cost) return fail(WISP_BAD_DATA, cost.error());
+    *model = new wisp_model{std::move(parsed).value(), *cost};
+    return WISP_OK;
+  });
+}
+
+void wisp_model_free(wisp_model* model) { delete model; }
+
+wisp_status wisp_model_get_facts(const wisp_model* model, wisp_model_facts* facts) {
+  if (!model || !facts) return null_argument(__func__);
+  if (!size_is_right(__func__, facts->size)) return WISP_BAD_ARGUMENT;
+  wisp_model_facts filled{};
+  filled.inputs = static_cast<uint32_t>(model->model.inputs.size());
+  filled.outputs = static_cast<uint32_t>(model->model.outputs.size());
+  filled.usable = model->model.provenance.usable.verdict ? 1 : 0;
+  filled.rate_hz = model->model.rate_hz;
+  filled.step_nanoseconds = wisp::step_time(model->model).count();
+  filled.multiply_adds_per_frame = model->cost.multiply_adds_per_frame;
+  filled.operations_per_frame = model->cost.operations_per_frame;
+  filled.dynamics = std::visit([](const auto& dynamics) { return kind_of(dynamics); }, model->model.dynamics);
+  std::visit([&](const auto& view) { describe(view, filled); }, model->model.view);
+  if (model->model.extinction) describe(*model->model.extinction, filled);
+  hand_out(filled, facts);
+  return WISP_OK;
+}
+
+wisp_status wisp_model_get_input(const wisp_model* model, uint32_t index, wisp_channel* channel) {
+  if (!model || !channel) return null_argument(__func__);
+  return hand_out_channel(__func__, model->model.inputs, index, channel);
+}
+
+wisp_status wisp_model_get_output(const wisp_model* model, uint32_t index, wisp_channel* channel) {
+  if (!model || !channel) return null_argument(__func__);
+  return hand_out_channel(__func__, model->model.outputs, index, channel);
+}
+
+const char* wisp_model_name(const wisp_model* model) { return model ? model->model.name.c_str() : ""; }
+
+wisp_status wisp_model_get_provenance(const wisp_model* model, wisp_provenance* provenance) {
+  if (!model || !provenance) return null_argument(__func__);
+  if (!size_is_right(__func__, provenance->size)) return WISP_BAD_ARGUMENT;
+  const wisp::Provenance& made = model->model.provenance;
+  wisp_provenance filled{};
+  filled.sources = static_cast<uint32_t>(made.sources.size());
+  filled.options = static_cast<uint32_t>(made.options.size());
+  filled.figures = static_cast<uint32_t>(made.figures.size());
+  filled.usable = made.usable.verdict ? 1 : 0;
+  filled.program = made.program.c_str();
+  filled.reason = made.usable.reason.c_str();
+  hand_out(filled, provenance);
+  return WISP_OK;
+}
+
+wisp_status wisp_model_get_source(const wisp_model* model, uint32_t index, const char** name) {
+  if (!model || !name) return null_argument(__func__);
+  const auto& sources = model->model.provenance.sources;
+  if (!index_is_right(__func__, index, sources.size())) return WISP_BAD_ARGUMENT;
+  *name = sources[index].c_str();
+  return WISP_OK;
+}
+
+wisp_status wisp_model_get_option(const wisp_model* model, uint32_t index, wisp_note* option) {
+  if (!model || !option) return null_argument(__func__);
+  const auto& options = model->model.provenance.options;
+  if (!size_is_right(__func__, option->size)) return WISP_BAD_ARGUMENT;
+  if (!index_is_right(__func__, index, options.size())) return WISP_BAD_ARGUMENT;
+  wisp_note filled{};
+  filled.name = options[index].name.c_str();
+  filled.value = options[index].value.c_str();
+  hand_out(filled, option);
+  return WISP_OK;
+}
+
+wisp_status wisp_model_get_figure(const wisp_model* model, uint32_t index, wisp_figure* figure) {
+  if (!model || !figure) return null_argument(__func__);
+  const auto& figures = model->model.provenance.figures;
+  if (!size_is_right(__func__, figure->size)) return WISP_BAD_ARGUMENT;
+  if (!index_is_right(__func__, index, figures.size())) return WISP_BAD_ARGUMENT;
+  wisp_figure filled{};
+  filled.name = figures[index].name.c_str();
+  filled.value = figures[index].value;
+  hand_out(filled, figure);
+  return WISP_OK;
+}
+
+wisp_status wisp_model_get_arx(const wisp_model* model, wisp_arx_facts* facts) {
+  if (!model || !facts) return null_argument(__func__);
+  if (!size_is_right(__func__, facts->size)) return WISP_BAD_ARGUMENT;
+  const wisp::ArxModel* arx = arx_of(__func__, model);
+  if (!arx) return WISP_BAD_ARGUMENT;
+  wisp_arx_facts filled{};
+  filled.outputs = static_cast<uint32_t>(arx->orders.outputs());
+  filled.regressors = static_cast<uint32_t>(arx->orders.inputs());
+  filled.history = static_cast<uint32_t>(arx->orders.history());
+  filled.shocks = static_cast<uint32_t>(arx->noise.rank);
+  filled.noise_grows = arx->noise.growth.empty() ? 0 : 1;
+  hand_out(filled, facts);
+  return WISP_OK;
+}
+
+wisp_status wisp_model_arx_na(const wisp_model* model, int32_t* values, size_t count) {
+  return hand_out_orders(__func__, model, &wisp::ArxOrders::na, values, count);
+}
+
+wisp_status wisp_model_arx_nb(const wisp_model* model, int32_t* values, size_t count) {
+  return hand_out_orders(__func__, model, &wisp::ArxOrders::nb, values, count);
+}
+
+wisp_status wisp_model_arx_nk(const wisp_model* model, int32_t* values, size_t count) {
+  return hand_out_orders(__func__, model, &wisp::ArxOrders::nk, values, count);
+}
+
+wisp_status wisp_model_arx_noise(const wisp_model* model, double* values, size_t count) {
+  if (!model) return null_argument(__func__);
+  const wisp::ArxModel* arx = arx_of(__func__, model);
+  return arx ? hand_out_values(__func__, arx->noise.sd, values, count) : WISP_BAD_ARGUMENT;
+}
+
+wisp_status wisp_model_get_chain(const wisp_model* model, wisp_chain_facts* facts) {
+  if (!model || !facts) return null_argument(__func__);
+  if (!size_is_right(__func__, facts->size)) return WISP_BAD_ARGUMENT;
+  const wisp::ChainModel* chain = chain_of(__func__, model);
+  if (!chain) return WISP_BAD_ARGUMENT;
+  wisp_chain_facts filled{};
+  filled.modes = static_cast<uint32_t>(chain->modes);
+  filled.segments = static_cast<uint32_t>(chain->segments.size());
+  filled.contexts = static_cast<uint32_t>(chain->contexts.size());
+  filled.history = static_cast<uint32_t>(chain->history());
+  filled.gust_order = chain->gust ? static_cast<uint32_t>(chain->gust->order()) : 0;
+  filled.heading_free = chain->heading_free ? 1 : 0;
+  hand_out(filled, facts);
+  return WISP_OK;
+}
+
+wisp_status wisp_model_chain_initial(const wisp_model* model, double* values, size_t count) {
+  if (!model) return null_argument(__func__);
+  const wisp::ChainModel* chain = chain_of(__func__, model);
+  return chain ? hand_out_values(__func__, chain->initial, values, count) : WISP_BAD_ARGUMENT;
+}
+
+wisp_status wisp_model_chain_transitions(const wisp_model* model, double* values, size_t count) {
+  if (!model) return null_argument(__func__);
+  const wisp::ChainModel* chain = chain_of(__func__, model);
+  if (!chain) return WISP_BAD_ARGUMENT;
+  return guarded(__func__, [&] { return hand_out_values(__func__, chain->transitions(), values, count); });
+}
+
+wisp_status wisp_model_chain_segments(const wisp_model* model, uint32_t* modes, uint32_t* steps, size_t count) {
+  if (!model) return null_argument(__func__);
+  const wisp::ChainModel* chain = chain_of(__func__, model);
+  if (!chain) return WISP_BAD_ARGUMENT;
+  if (!buffer_is_right(__func__, chain, count, chain->segments.size())) return WISP_BAD_ARGUMENT;
+  if (modes) hand_out_values(__func__, chain->segments.mode, modes, count);
+  if (steps) hand_out_values(__func__, chain->segments.steps, steps, count);
+  return WISP_OK;
+}
+}
