@@ -6,6 +6,7 @@
 #include "arx_parts.hpp"
 #include "arx_search.hpp"
 #include "arx_tables.hpp"
+#include "coloured_learning.hpp"
 #include "order_flags.hpp"
 #include "recordings.hpp"
 #include "wisp/learn/order_search.hpp"
@@ -111,7 +112,11 @@ Result<LearnedArx> learn_from_recordings(const Arguments& arguments, Terminal& t
   ArxOptions options = fit_options(arguments);
   options.orders = std::move(chosen->orders);
   options.first_sample = chosen->first_sample;
-  auto fit = fit_arx(*recordings, channels, options);
+  const auto noise = parse_noise_model(arguments.text("noise-model"));
+  if (!noise) return noise.error();
+  auto fit = noise->colour == NoiseColour::kWhite
+                 ? fit_arx(*recordings, channels, options)
+                 : fit_coloured(*recordings, channels, {.orders = options.orders, .noise = *noise}, terminal);
   if (!fit) return fit.error();
   LearnedArx learned{std::move(*fit), channels, sources_of(*recordings, channels)};
   const auto tests = test_residuals(learned.fit.model, *recordings, channels, {.lags = 20, .learned_from_it = true});

@@ -13,6 +13,7 @@ const std::vector<Command>& commands() {
       learn_outline_command(),
       learn_flame_command(),
       learn_arx_command(),
+      learn_switched_command(),
       learn_chain_command(),
       learn_leaf_command(),
       validate_command(),
@@ -20,6 +21,7 @@ const std::vector<Command>& commands() {
       simulate_leaf_command(),
       run_command(),
       info_command(),
+      play_command(),
       demo_command(),
       manual_command(),
   };

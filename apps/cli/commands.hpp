@@ -10,6 +10,7 @@ Command capture_flame_command();
 Command learn_outline_command();
 Command learn_flame_command();
 Command learn_arx_command();
+Command learn_switched_command();
 Command learn_chain_command();
 Command learn_leaf_command();
 Command validate_command();
@@ -17,6 +18,7 @@ Command simulate_candle_command();
 Command simulate_leaf_command();
 Command run_command();
 Command info_command();
+Command play_command();
 Command demo_command();
 Command manual_command();
 

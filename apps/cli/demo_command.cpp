@@ -111,6 +111,8 @@ void say_what_next(const Places& places, Terminal& terminal) {
   terminal.say("  wisp demo YOUR_CLIP.mp4 --points 16                 a clip of your own, finer");
   terminal.say("  wisp run " + places.at("flame.wisp") + " --frames 600 --instances 5 -o cake.mp4   five candles");
   terminal.say("  wisp info " + places.at("flame.wisp") + "             what the file holds and what a frame costs");
+  terminal.say("  wisp play " + places.at("flame.wisp") + "             blow on it, live, in a window");
+  terminal.say("  script/web serve                      the same in a browser; drop flame.wisp onto the page");
 }
 
 Result<void> run(const Arguments& arguments, Terminal& terminal) {
@@ -129,7 +131,8 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   if (auto ok = run_steps(places, clips, arguments, terminal); !ok) return ok;
   if (auto ok = write_file(places.at("summary.json"), terminal.result().dump(1) + "\n"); !ok) return ok;
   say_what_next(places, terminal);
-  return {};
+  if (!arguments.on("window")) return {};
+  return run_step("play", {play_command(), {places.at("flame.wisp")}, {}}, terminal);
 }
 
 }  // namespace
@@ -143,6 +146,7 @@ Command demo_command() {
           {"output", Kind::kPath, "DIR", "out/demo", "the folder for all that is made"},
           {"points", Kind::kInteger, "N", "8", "control points of the outline"},
           {"rate", Kind::kNumber, "HZ", "", "frames a second of a folder of images"},
+          {"window", Kind::kSwitch, "", "", "opens the window with the model at the end, as wisp play does"},
           {"seed", Kind::kInteger, "N", "1", "of all chance"},
       },
       {{"wisp demo candle.mp4", "A film of a candle to a living model, in out/demo"},

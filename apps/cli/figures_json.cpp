@@ -52,7 +52,9 @@ Result<Json> cost_of(const Model& model) {
   const auto cost = count_operations(model);
   if (!cost) return cost.error();
   return Json{{"multiply_adds_per_frame", cost->multiply_adds_per_frame},
-              {"operations_per_frame", cost->operations_per_frame}};
+              {"operations_per_frame", cost->operations_per_frame},
+              {"worst_operations_per_frame", cost->worst_operations},
+              {"operations_between_steps", cost->between_operations}};
 }
 
 }  // namespace wisp::cli

@@ -5,6 +5,7 @@
 #include "chain_json.hpp"
 #include "commands.hpp"
 #include "figures_json.hpp"
+#include "switched_description.hpp"
 #include "terminal.hpp"
 #include "wisp/base/file.hpp"
 #include "wisp/model/file.hpp"
@@ -69,11 +70,27 @@ Json dynamics_of(const ChainModel& chain) {
           {"transitions", matrix_json(chain.transitions(), chain.modes)}};
 }
 
+Json dynamics_of(const SwitchedArxModel& switched) {
+  Json out = {{"kind", "switched arx"},
+              {"switching", switched.switching == Switching::kMarkov ? "markov" : "regions"},
+              {"na", json_of(switched.orders.na)},
+              {"nb", json_of(switched.orders.nb)},
+              {"nk", json_of(switched.orders.nk)},
+              {"history", switched.orders.history()}};
+  describe_switched(switched, out);
+  return out;
+}
+
 // One line for people.
 std::string line_of(const Json& dynamics) {
   if (dynamics["kind"] == "chain") {
     return "chain of " + dynamics["segments"].dump() + " segments in " + dynamics["modes"].dump() +
            " modes, histories of up to " + dynamics["history"].dump();
+  }
+  if (dynamics["kind"] == "switched arx") {
+    return "arx of " + std::to_string(dynamics["modes"].size()) + " modes switched by " +
+           (dynamics["switching"] == "markov" ? "a Markov chain" : "regions") + ", history of " +
+           dynamics["history"].dump() + " samples; " + dynamics["bounded_by"].get<std::string>();
   }
   return "arx, history of " + dynamics["history"].dump() + " samples, spectral radius " +
          shown(dynamics["radius"].get<double>(), 5);

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "wisp/draw/overlay.hpp"
 #include "wisp/draw/video_writer.hpp"
 
 namespace wisp::cli {
@@ -89,6 +91,14 @@ std::vector<Fall> falls_of(const PoseColumns& columns, const Episode& episode, d
   return falls;
 }
 
+constexpr float kSideways = 0.38F;  // metres: most falls stay within it
+
+// How far from the middle leaves begin: so that most stay in the picture.
+float reach_of(const LeafFilmOptions& options) {
+  const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
+  return std::max(0.0F, 0.55F * options.fall_metres * aspect - kSideways);
+}
+
 class Film {
  public:
   Film(const Recording& recording, const PoseColumns& columns, const LeafFilmOptions& options)
@@ -98,8 +108,7 @@ class Film {
     for (std::size_t k = 0; k < count; ++k) {
       const float across = count > 1 ? 2 * static_cast<float>(k) / static_cast<float>(count - 1) - 1 : 0;
       // Neighbours of the floor do not follow each other in time, and stand at three depths.
-      const Point place{0.72F * options.fall_metres * across,
-                        0.16F * static_cast<float>(static_cast<int>(k * 2 % 3) - 1)};
+      const Point place{reach_of(options) * across, 0.16F * static_cast<float>(static_cast<int>(k * 2 % 3) - 1)};
       const double begins = kStaggerSeconds * static_cast<double>(k * 3 % count);
       for (const Fall& fall : falls_of(columns, all[k], rate_, options.fall_metres, place, begins))
         falls_.push_back(fall);
@@ -160,27 +169,82 @@ double longest_episode(const Recording& recording) {
   return static_cast<double>(rows) / recording.rate_hz;
 }
 
+// One side of a film: the room as this camera sees it, and the leaves in it.
+class Side {
+ public:
+  Side(const LeafPanel& panel, const PoseColumns& columns, const LeafFilmOptions& options)
+      : options_(options),
+        columns_(columns),
+        caption_(panel.caption),
+        camera_(options.from_above ? leaf_camera_from_above({0, 0, 0}, 1.7F)
+                                   : leaf_camera_from_side(1.1F * options.fall_metres)),
+        film_(*panel.recording, columns_, options_) {
+    if (options.from_above) room_.grid_metres = 0.25F;
+    empty_ = draw_leaf_room(options.width, options.height, camera_, room_);
+  }
+  Side(const Side&) = delete;
+  Side& operator=(const Side&) = delete;
+
+  void draw(double seconds, Image& frame, int left) {
+    Image image = empty_;
+    draw_leaves(image, film_.at(seconds), camera_, room_);
+    if (!caption_.empty()) draw_label(image, caption_, Corner::kTopLeft);
+    for (int y = 0; y < image.height(); ++y) std::ranges::copy(image.row(y), frame.row(y).begin() + left);
+  }
+
+ private:
+  LeafFilmOptions options_;
+  PoseColumns columns_;
+  std::string caption_;
+  LeafCamera camera_;
+  LeafRoom room_;
+  Image empty_;
+  Film film_;  // keeps references to the two first
+};
+
+// A line between two sides.
+void divide(Image& image, int x) {
+  for (int y = 0; y < image.height(); ++y) std::fill_n(image.row(y).begin() + x - 1, 2, 0xFFFFFFFFU);
+}
+
 }  // namespace
 
 Result<void> write_leaf_film(const std::filesystem::path& path, const Recording& recording,
                              const LeafFilmOptions& options, Terminal& terminal) {
-  const auto columns = pose_columns(recording);
-  if (!columns) return columns.error();
-  const double rate = std::min(kMostFramesASecond, recording.rate_hz);
+  const LeafPanel panel{&recording, {}};
+  return write_leaf_films(path, std::span(&panel, 1), options, terminal);
+}
+
+Result<void> write_leaf_films(const std::filesystem::path& path, std::span<const LeafPanel> panels,
+                              const LeafFilmOptions& options, Terminal& terminal) {
+  const double own_rate = panels.front().recording->rate_hz;
+  LeafFilmOptions narrow = options;
+  narrow.width = options.width / static_cast<int>(panels.size());
+  if (panels.size() > 1) narrow.most_leaves = std::max(1, options.most_leaves * 3 / 5);
+  std::vector<std::unique_ptr<Side>> sides;
+  double longest = 0;
+  for (const LeafPanel& panel : panels) {
+    const auto columns = pose_columns(*panel.recording);
+    if (!columns) return columns.error();
+    if (panel.recording->rate_hz != own_rate) {
+      return Error{panel.recording->source + ": has another rate than " + panels.front().recording->source +
+                   ", expected the same to film both side by side"};
+    }
+    longest = std::max(longest, longest_episode(*panel.recording));
+    sides.push_back(std::make_unique<Side>(panel, *columns, narrow));
+  }
+  const double rate = std::min(kMostFramesASecond, own_rate);
+  const int width = narrow.width * static_cast<int>(panels.size());
   auto video = VideoWriter::create(
-      path, {.width = options.width, .height = options.height, .rate_hz = rate, .crf = 18, .preset = "fast"});
+      path, {.width = width, .height = options.height, .rate_hz = rate, .crf = 18, .preset = "fast"});
   if (!video) return video.error();
-  LeafRoom room;
-  if (options.from_above) room.grid_metres = 0.25F;
-  const LeafCamera camera =
-      options.from_above ? leaf_camera_from_above({0, 0, 0}, 1.7F) : leaf_camera_from_side(1.1F * options.fall_metres);
-  const Image empty = draw_leaf_room(options.width, options.height, camera, room);
-  Film film(recording, *columns, options);
-  const double seconds = std::min(options.most_seconds, longest_episode(recording));
-  const int frames = std::max(1, static_cast<int>(std::lround(seconds * rate)));
+  const int frames = std::max(1, static_cast<int>(std::lround(std::min(options.most_seconds, longest) * rate)));
+  Image image(width, options.height);
   for (int frame = 0; frame < frames; ++frame) {
-    Image image = empty;
-    draw_leaves(image, film.at(frame / rate), camera, room);
+    for (std::size_t k = 0; k < sides.size(); ++k) {
+      sides[k]->draw(frame / rate, image, narrow.width * static_cast<int>(k));
+      if (k > 0) divide(image, narrow.width * static_cast<int>(k));
+    }
     if (auto good = video->write(image); !good) return good;
     terminal.progress("filming", static_cast<double>(frame + 1) / frames);
   }

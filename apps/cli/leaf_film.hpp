@@ -2,6 +2,8 @@
 // A recording of poses as a video of leaves that fall to the floor.
 
 #include <filesystem>
+#include <span>
+#include <string>
 
 #include "terminal.hpp"
 #include "wisp/draw/leaf.hpp"
@@ -23,5 +25,18 @@ struct LeafFilmOptions {
 /// Errors: the recording has no outputs `pos.x pos.y pos.z q.w q.x q.y q.z`, or the video cannot be written.
 Result<void> write_leaf_film(const std::filesystem::path& path, const Recording& recording,
                              const LeafFilmOptions& options, Terminal& terminal);
+
+/// What one side of a film shows.
+struct LeafPanel {
+  const Recording* recording = nullptr;
+  std::string caption{};  ///< empty: none
+};
+
+/// The same with several recordings side by side, each in its share of the width and as many of its leaves as have
+/// room. Errors: as write_leaf_film(); rates that differ.
+///
+/// Precondition: !panels.empty().
+Result<void> write_leaf_films(const std::filesystem::path& path, std::span<const LeafPanel> panels,
+                              const LeafFilmOptions& options, Terminal& terminal);
 
 }  // namespace wisp::cli

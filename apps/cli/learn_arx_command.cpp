@@ -9,9 +9,9 @@
 #include "arx_search.hpp"
 #include "commands.hpp"
 #include "figures_json.hpp"
+#include "learned_model.hpp"
 #include "recordings.hpp"
 #include "terminal.hpp"
-#include "wisp/model/file.hpp"
 
 namespace wisp::cli {
 namespace {
@@ -135,7 +135,7 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   const bool playable = fit.summary.stable.radius < 1;
   if (playable) {
     const Model model = model_of(fit, learned->channels, learned->sources, arguments);
-    if (auto ok = write_model(arguments.text("output"), model); !ok) return ok;
+    if (auto ok = write_learned(arguments.text("output"), model); !ok) return ok;
   } else {
     terminal.warn(arguments.text("output") + " was not written: an unstable model cannot be played");
   }
@@ -168,6 +168,9 @@ std::vector<Flag> flags() {
        "mean",
        "the operating point: mean removes means, none, estimate adds a constant term",
        {"mean", "none", "estimate"}},
+      {"noise-model", Kind::kText, "M", "white",
+       "what colours the residual: white; ar:N (ARARX, v = e/D) or ma:N (ARMAX, v = C e), by prediction errors; the "
+       "model that is written has a white residual and the more lags. Needs the recordings in memory"},
       {"ridge", Kind::kNumber, "R", "0", "weight of the coefficients' size, as a share of each regressor's energy"},
       {"radius", Kind::kNumber, "R", "0.999",
        "an unstable estimate is brought within this spectral radius, between 0 and 1, with the least loss of fit; a "

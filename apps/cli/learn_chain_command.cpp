@@ -6,11 +6,11 @@
 #include "chain_json.hpp"
 #include "commands.hpp"
 #include "figures_json.hpp"
+#include "learned_model.hpp"
 #include "recordings.hpp"
 #include "terminal.hpp"
 #include "wisp/learn/chain.hpp"
 #include "wisp/learn/gust_response.hpp"
-#include "wisp/model/file.hpp"
 
 namespace wisp::cli {
 namespace {
@@ -33,6 +33,9 @@ Result<ChainOptions> options_from(const Arguments& arguments) {
   options.features.heading_free = arguments.text("frame") == "heading";
   options.modes = number_or_auto(arguments, "modes");
   options.history = number_or_auto(arguments, "history");
+  auto realisation = parse_realisation(arguments.text("realise"));
+  if (!realisation) return Error{"--realise: " + realisation.error().message};
+  options.realisation = *realisation;
   options.store.breadth = arguments.integer("best-of");
   options.store.most_bytes = static_cast<std::size_t>(arguments.integer("most-bytes"));
   options.blend_share = arguments.number("blend");
@@ -68,15 +71,6 @@ Sorted sorted(std::vector<Recording> recordings) {
     (find_attribute(recording, "pair") ? out.paired : out.falls).push_back(std::move(recording));
   }
   return out;
-}
-
-bool is_calm(const Recording& recording) {
-  for (std::size_t channel : channels_with_role(recording, Role::kInput)) {
-    for (double sample : recording.channels[channel].samples) {
-      if (sample != 0) return false;
-    }
-  }
-  return true;
 }
 
 // The response to gusts, from a windy recording and its calm twin.
@@ -188,7 +182,7 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   terminal.result()["cost"] = *cost;
   terminal.result()["usable"] = json_of(fit->model.provenance.usable);
   terminal.result()["seed"] = options->seed;
-  if (auto ok = write_model(arguments.text("output"), fit->model); !ok) return ok;
+  if (auto ok = write_learned(arguments.text("output"), fit->model); !ok) return ok;
   terminal.result()["output"] = arguments.text("output");
   terminal.result()["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const Usable& usable = fit->model.provenance.usable;
@@ -216,6 +210,13 @@ std::vector<Flag> flags(const std::string& event, const std::string& features) {
        "auto",
        "how many modes back the next one depends on; auto: as many as unseen recordings profit from",
        {"auto"}},
+      {"realise",
+       Kind::kChoice,
+       "HOW",
+       "segments",
+       "how a mode is played: by its segments; as a linear system with noise, or a differential equation (ode), of its "
+       "velocities; or as a chain of its own",
+       {"segments", "linear", "ode", "chain"}},
       {"best-of", Kind::kInteger, "N", "8",
        "a segment is followed by one of its N best-joining ones of the mode; 0: by any of the mode"},
       {"blend", Kind::kNumber, "SHARE", "0.5", "most of a segment that a join fades over, 0 to 0.5; 0: not at all"},

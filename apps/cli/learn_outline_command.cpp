@@ -6,9 +6,9 @@
 #include "blow_out_learning.hpp"
 #include "capture_flags.hpp"
 #include "commands.hpp"
+#include "learned_model.hpp"
 #include "outline_learning.hpp"
 #include "terminal.hpp"
-#include "wisp/model/file.hpp"
 
 namespace wisp::cli {
 namespace {
@@ -29,7 +29,7 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   fit->model.provenance.program = "wisp " WISP_VERSION;
   for (const std::string& warning : fit->summary.warnings) terminal.warn(warning);
   if (auto ok = blow_outs->complete(*fit, *wish, terminal); !ok) return ok;
-  if (auto ok = write_model(path, fit->model); !ok) return ok;
+  if (auto ok = write_learned(path, fit->model); !ok) return ok;
   report_outline(*fit, terminal);
   terminal.say("wrote " + path);
   terminal.result()["output"] = path;

@@ -135,8 +135,9 @@ std::vector<Flag> outline_flags() {
       {"order",
        Kind::kIntegerOrWord,
        "N|auto",
-       "4",
-       "lags of outputs and inputs in every equation; auto searches 1 to 32 on what is held out",
+       "0",
+       "lags of outputs and inputs in every equation; 0: 3 where residuals are drawn, else 4; auto searches 1 to 32 on "
+       "what is held out",
        {"auto"}},
       {"delay",
        Kind::kIntegerOrWord,
@@ -150,7 +151,13 @@ std::vector<Flag> outline_flags() {
        "auto",
        "auto: an input that comes after the motion that it causes is moved; off: as recorded",
        {"auto", "off"}},
-      {"coupling", Kind::kChoice, "C", "point", "which control points feed each other", {"point", "band", "full"}},
+      {"coupling",
+       Kind::kChoice,
+       "C",
+       "auto",
+       "what feeds each other: nothing (coordinate), a point's two coordinates, neighbouring points, all points; auto: "
+       "coordinate where residuals are drawn, else point",
+       {"auto", "coordinate", "point", "band", "full"}},
       {"one-sided", Kind::kSwitch, "", "", "inputs as they are: no sign, no mirror image"},
       {"square", Kind::kSwitch, "", "", "every input's square beside it, so that the answer to it may bend"},
       {"noise-growth",
@@ -163,9 +170,11 @@ std::vector<Flag> outline_flags() {
       {"noise",
        Kind::kChoice,
        "N",
+       "auto",
+       "what shakes the outline: independent (each channel by itself), residual or matched (shared shocks), drawn (the "
+       "residuals themselves, played again where the input is as it was); auto: drawn from 10 s on with an input, else "
        "matched",
-       "what shakes the outline: independent (each channel by itself), residual or matched (shared shocks)",
-       {"independent", "residual", "matched"}},
+       {"auto", "independent", "residual", "matched", "drawn"}},
       {"seed", Kind::kInteger, "N", "1", "of the trial runs"},
       {"skip-bad", Kind::kSwitch, "", "", "leave bad recordings out, listing them, instead of stopping at the first"},
   };
@@ -192,13 +201,15 @@ Result<OutlineOptions> outline_options(const Arguments& arguments, std::string n
   options.delay = number_unless_auto(arguments, "delay");
   options.align = arguments.text("align") == "auto";
   const std::string& coupling = arguments.text("coupling");
-  options.coupling = coupling == "full"   ? OutlineCoupling::kFull
-                     : coupling == "band" ? OutlineCoupling::kBand
-                                          : OutlineCoupling::kPoint;
+  if (coupling == "coordinate") options.coupling = OutlineCoupling::kCoordinate;
+  if (coupling == "point") options.coupling = OutlineCoupling::kPoint;
+  if (coupling == "band") options.coupling = OutlineCoupling::kBand;
+  if (coupling == "full") options.coupling = OutlineCoupling::kFull;
   const std::string& noise = arguments.text("noise");
-  options.noise = noise == "independent" ? OutlineNoise::kIndependent
-                  : noise == "residual"  ? OutlineNoise::kResidual
-                                         : OutlineNoise::kMatched;
+  if (noise == "independent") options.noise = OutlineNoise::kIndependent;
+  if (noise == "residual") options.noise = OutlineNoise::kResidual;
+  if (noise == "matched") options.noise = OutlineNoise::kMatched;
+  if (noise == "drawn") options.noise = OutlineNoise::kDrawn;
   options.one_sided = arguments.on("one-sided");
   options.square = arguments.on("square");
   options.growing_noise = arguments.text("noise-growth") == "auto";

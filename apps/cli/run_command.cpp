@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "candle_pictures.hpp"
+#include "chain_walk.hpp"
 #include "commands.hpp"
 #include "leaf_film.hpp"
 #include "recordings.hpp"
@@ -71,12 +72,14 @@ class Player {
   std::size_t frame_ = 0;
 };
 
-Result<Bank> make_bank(const Play& play, const Arguments& arguments) {
+Result<Bank> make_bank(const Play& play, const ChainWalk& walk, const Arguments& arguments) {
   const int instances = arguments.integer("instances");
   auto bank = Bank::create(play.model, {.capacity = instances, .seed = play.seed, .polyline_points = 96});
   if (!bank) return bank;
   bank->set_noise(arguments.text("noise") == "on" ? 1.0F : 0.0F);
+  set_walk(walk, *bank);
   for (int k = 0; k < instances; ++k) bank->spawn();
+  steer_all(walk, *bank);
   return bank;
 }
 
@@ -224,12 +227,15 @@ Result<Play> prepare(const Arguments& arguments) {
 Result<void> run(const Arguments& arguments, Terminal& terminal) {
   const auto play = prepare(arguments);
   if (!play) return play.error();
-  auto bank = make_bank(*play, arguments);
+  const auto walk = chain_walk_from(play->model, arguments);
+  if (!walk) return walk.error();
+  auto bank = make_bank(*play, *walk, arguments);
   if (!bank) return bank.error();
   const std::string& path = arguments.text("output");
   Player player(*play, *bank);
   if (auto ok = write_run(*play, *bank, player, path, terminal); !ok) return ok;
 
+  if (bank->noise() == 0) say_chain_loop(play->model, *walk, terminal);
   const auto held = bank->held();
   terminal.result()["frames"] = play->frames;
   terminal.result()["instances"] = bank->size();
@@ -248,6 +254,27 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   return {};
 }
 
+std::vector<Flag> all_flags() {
+  std::vector<Flag> all = {
+      {"output", Kind::kPath, "OUT", "", "what to write: OUT.csv, OUT.png or OUT.mp4", {}, true},
+      {"frames", Kind::kInteger, "N", "", "frames at the model's rate; default: as many as --input has"},
+      {"input", Kind::kPath, "REC", "", "a recording, or a WAV of blowing, whose input drives the model"},
+      {"wind", Kind::kNumber, "W", "0", "a constant value for every input, where there is no --input"},
+      {"noise",
+       Kind::kChoice,
+       "on|off",
+       "on",
+       "the residual noise; off, a chain goes on with what is likeliest and joins best, and says how it repeats "
+       "itself",
+       {"on", "off"}},
+      {"relight", Kind::kNames, "S,…", "", "light what is out again, that many seconds after the start"},
+      {"instances", Kind::kInteger, "K", "1", "how many at once, each with its own chance"},
+      {"seed", Kind::kInteger, "N", "1", "of all chance; the same seed gives the same bytes"},
+  };
+  for (Flag& flag : chain_walk_flags()) all.push_back(std::move(flag));
+  return all;
+}
+
 }  // namespace
 
 Command run_command() {
@@ -255,16 +282,7 @@ Command run_command() {
       "run",
       "Plays a model and writes what it does: numbers (.csv), a picture (.png) or a film (.mp4).",
       {{"MODEL", "the model, a .wisp file"}},
-      {
-          {"output", Kind::kPath, "OUT", "", "what to write: OUT.csv, OUT.png or OUT.mp4", {}, true},
-          {"frames", Kind::kInteger, "N", "", "frames at the model's rate; default: as many as --input has"},
-          {"input", Kind::kPath, "REC", "", "a recording, or a WAV of blowing, whose input drives the model"},
-          {"wind", Kind::kNumber, "W", "0", "a constant value for every input, where there is no --input"},
-          {"noise", Kind::kChoice, "on|off", "on", "the residual noise", {"on", "off"}},
-          {"relight", Kind::kNames, "S,…", "", "light what is out again, that many seconds after the start"},
-          {"instances", Kind::kInteger, "K", "1", "how many at once, each with its own chance"},
-          {"seed", Kind::kInteger, "N", "1", "of all chance; the same seed gives the same bytes"},
-      },
+      all_flags(),
       {
           {"wisp run flame.wisp --frames 600 -o flame.mp4",
            "Twenty seconds of a flame at 30 frames a second, as a film"},

@@ -17,7 +17,9 @@ Result<CandleClipOptions> options_from(const Arguments& arguments) {
   options.seconds = arguments.number("seconds");
   options.rig.rate_hz = arguments.number("rate");
   const auto seed = static_cast<std::uint64_t>(arguments.integer("seed"));
-  options.wind.seed = options.microphone.seed = options.camera.seed = seed;
+  const auto chance = static_cast<std::uint64_t>(arguments.integer(arguments.has("chance") ? "chance" : "seed"));
+  options.wind.seed = seed;
+  options.microphone.seed = options.camera.seed = chance;
   options.camera.candle_visible = arguments.on("candle");
   options.wind.both_sides = arguments.on("both-sides");
   if (arguments.has("blow-out")) options.wind.blow_out_at = arguments.number("blow-out");
@@ -72,7 +74,9 @@ Command simulate_candle_command() {
           {"puffs", Kind::kNumber, "S", "0",
            "every S seconds a puff of 1.2 to 4 m/s that may blow the flame out, which is lit again where it did"},
           {"candle", Kind::kSwitch, "", "", "expose so that wax and wick show"},
-          {"seed", Kind::kInteger, "N", "1", "of all chance"},
+          {"seed", Kind::kInteger, "N", "1", "of the wind, and of all other chance"},
+          {"chance", Kind::kInteger, "N", "",
+           "of the camera's and the microphone's noise, if it is not to be the seed: another take in the same wind"},
       },
       {{"wisp simulate candle -o clip.mp4 --seconds 60 --wind gusts", "A minute of a candle in gusts"}},
       run,

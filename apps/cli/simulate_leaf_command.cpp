@@ -1,7 +1,9 @@
 // `wisp simulate leaf`: many falls of one leaf as a recording, or gusts and their calm twins as two.
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 
 #include "commands.hpp"
@@ -54,7 +56,63 @@ LeafWindKind wind_kind(const std::string& word) {
   return word == "turbulence" ? LeafWindKind::kTurbulence : LeafWindKind::kCalm;
 }
 
-LeafPairsOptions options_from(const Arguments& arguments, Terminal& terminal) {
+bool is_kind(const std::string& word) {
+  return word == "calm" || word == "constant" || word == "gusts" || word == "turbulence";
+}
+
+// A recording's wind.x, wind.y and wind.z (what it has of them), or its only input, which blows where it is told.
+Result<WindTrack> track_from(const std::string& path, const Arguments& arguments) {
+  const auto recording = read_csv(path, {});
+  if (!recording) return recording.error();
+  WindTrack track{.rows = std::vector<std::array<double, 3>>(recording->rows()), .rate_hz = recording->rate_hz};
+  const auto take = [&](std::size_t channel, std::size_t axis, double factor) -> Result<void> {
+    const auto& samples = recording->channels[channel].samples;
+    for (std::size_t row = 0; row < samples.size(); ++row) {
+      const double speed = factor * samples[row];
+      if (!(std::abs(speed) <= 30)) {
+        return Error{path + ": " + recording->channels[channel].name + " in row " + std::to_string(row + 1) + " is " +
+                     shown(samples[row]) + ", expected a wind within 30 m/s and no sample missing"};
+      }
+      track.rows[row][axis] = speed;
+    }
+    return {};
+  };
+  bool found = false;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto channel = find_channel(*recording, std::array{"wind.x", "wind.y", "wind.z"}[axis]);
+    if (!channel) continue;
+    found = true;
+    if (auto good = take(*channel, axis, 1); !good) return good.error();
+  }
+  if (found) return track;
+  const auto inputs = channels_with_role(*recording, Role::kInput);
+  if (inputs.size() != 1) {
+    return Error{path + ": has " + std::to_string(inputs.size()) +
+                 " inputs and no wind.x, wind.y or wind.z, expected one of these or a single input, in m/s"};
+  }
+  const double direction = arguments.number("wind-direction") * std::acos(-1.0) / 180;
+  if (auto good = take(inputs.front(), 0, std::cos(direction)); !good) return good.error();
+  if (auto good = take(inputs.front(), 1, std::sin(direction)); !good) return good.error();
+  return track;
+}
+
+Result<void> take_wind(const Arguments& arguments, LeafDropsOptions& drops) {
+  const std::string& word = arguments.text("wind");
+  if (is_kind(word)) {
+    drops.wind.kind = wind_kind(word);
+    return {};
+  }
+  if (std::filesystem::path(word).extension() != ".csv") {
+    return Error{"--wind is " + word + ", expected calm, constant, gusts, turbulence or a recording, FILE.csv"};
+  }
+  if (arguments.on("pairs")) return Error{"--wind " + word + ": --pairs makes gusts of its own, give one of the two"};
+  auto track = track_from(word, arguments);
+  if (!track) return track.error();
+  drops.track = std::move(*track);
+  return {};
+}
+
+Result<LeafPairsOptions> options_from(const Arguments& arguments, Terminal& terminal) {
   LeafPairsOptions options;
   options.clones = arguments.integer("clones");
   LeafDropsOptions& drops = options.drops;
@@ -62,7 +120,7 @@ LeafPairsOptions options_from(const Arguments& arguments, Terminal& terminal) {
   drops.leaf.width = arguments.number("width");
   drops.leaf.areal_density = arguments.number("density") / kGramsPerKilogram;
   if (arguments.text("air") == "vertical") drops.leaf.air = leaf_air_vertical();
-  drops.wind.kind = wind_kind(arguments.text("wind"));
+  if (auto good = take_wind(arguments, drops); !good) return good.error();
   drops.wind.speed = arguments.number("wind-speed");
   drops.wind.direction = arguments.number("wind-direction");
   drops.wind.gust_seconds = arguments.number("gust-seconds");
@@ -100,7 +158,9 @@ Result<Recording> write_pairs(const std::filesystem::path& path, const LeafPairs
 Result<void> run(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
   if (auto good = check_flags(arguments); !good) return good;
-  const LeafPairsOptions options = options_from(arguments, terminal);
+  const auto found = options_from(arguments, terminal);
+  if (!found) return found.error();
+  const LeafPairsOptions& options = *found;
   const std::filesystem::path path = arguments.text("output");
   if (path.extension() != ".csv")
     return Error{path.string() + ": cannot be written, expected a name that ends in .csv"};
@@ -144,12 +204,9 @@ Command simulate_leaf_command() {
           {"seconds", Kind::kNumber, "S", "20", "recorded of each"},
           {"rate", Kind::kNumber, "HZ", "60", "rows a second"},
           {"settle", Kind::kNumber, "S", "2", "seconds of each fall before the recording begins"},
-          {"wind",
-           Kind::kChoice,
-           "W",
-           "calm",
-           "calm, constant, gusts or turbulence",
-           {"calm", "constant", "gusts", "turbulence"}},
+          {"wind", Kind::kText, "W", "calm",
+           "calm, constant, gusts, turbulence, or a recording FILE.csv of wind.x, wind.y, wind.z or a single input, "
+           "m/s"},
           {"wind-speed", Kind::kNumber, "M/S", "1", "of the steady wind, or of a typical gust"},
           {"wind-direction", Kind::kNumber, "DEG", "0",
            "where it blows to, from x towards y; gusts come from all sides"},

@@ -14,6 +14,7 @@
 #include "outline_film.hpp"
 #include "outline_learning.hpp"
 #include "recordings.hpp"
+#include "switched_validation.hpp"
 #include "validate_chain.hpp"
 #include "validation_figures.hpp"
 #include "wisp/learn/outline_shape.hpp"
@@ -264,6 +265,9 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   const auto steps = judged_steps(arguments);
   if (!steps) return steps.error();
   if (std::holds_alternative<ChainModel>(model->dynamics)) return validate_chain(*model, arguments, terminal);
+  if (positionals.size() > 2) return Error{positionals[2] + ": is one file too many, only segment chains take a twin"};
+  if (std::holds_alternative<SwitchedArxModel>(model->dynamics))
+    return validate_switched(*model, *steps, arguments, terminal);
   const auto* view = std::get_if<OutlineView>(&model->view);
   if (!view) return validate_plain(*model, *steps, arguments, terminal);
   const auto subject = subject_of(positionals[1], *view, arguments, terminal);
@@ -302,6 +306,8 @@ Command validate_command() {
        {"measured", "zero", "estimated"}},
       {"overlay", Kind::kPath, "OUT.mp4", "", "write the clip with captured and simulated outlines drawn over it"},
       {"film-strip", Kind::kPath, "OUT.png", "", "write a film strip: recorded above, synthesized below"},
+      {"film", Kind::kPath, "OUT.mp4", "",
+       "film recorded and synthesized falls side by side (segment chains of poses)"},
       {"figures", Kind::kPath, "DIR", "", "write plots there, as PNG and SVG"},
       {"clip", Kind::kPath, "CLIP", "", "the clip that the recording was captured from, for the pictures"},
       {"own-gain", Kind::kSwitch, "", "",
@@ -324,10 +330,19 @@ Command validate_command() {
   return {
       "validate",
       "Holds a model against a recording: prediction, free simulation, likeness, pictures.",
-      {{"MODEL", "the model, a .wisp file"}, {"REC_OR_CLIP", "a recording (.csv), or a clip"}},
+      {{"MODEL", "the model, a .wisp file"},
+       {"REC_OR_CLIP", "a recording (.csv), or a clip"},
+       {"TWIN",
+        "where the recording is one of a pair that differs only in its wind: the other one; REC.calm.csv beside "
+        "REC.csv "
+        "is found by itself",
+        false, true}},
       std::move(flags),
       {{"wisp validate flame.wisp other.mp4 --overlay overlay.mp4 --film-strip strip.png",
         "On a clip that it has not seen"},
+       {"wisp validate leaf.wisp others.csv --figures figures --film falls.mp4", "A leaf's falls on unseen ones"},
+       {"wisp validate leaf.wisp gusts.csv gusts.calm.csv --figures figures",
+        "What gusts do to it, from `wisp simulate leaf --pairs`"},
        {"wisp validate dryer.wisp hairdryer.csv --dt 0.08 --range 501:1000 --steps 1,10,inf",
         "An ARX model on unseen rows"}},
       run,

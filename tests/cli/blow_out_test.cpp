@@ -17,16 +17,8 @@ using nlohmann::json;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-class BlowOutProgram : public testing::Test {
+class BlowOutProgram : public InFolder {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  Said wisp(const std::string& arguments) { return run_wisp(arguments, folder_); }
-  std::string at(const std::string& name) const { return (folder_ / name).string(); }
-
   void write_recording(const std::string& name, const made::BlowOutRecipe& recipe) {
     ASSERT_TRUE(write_csv(at(name), made::blow_out_recording(recipe).recording));
   }
@@ -46,8 +38,6 @@ class BlowOutProgram : public testing::Test {
     EXPECT_EQ(recording->flags.size(), 1U);
     return recording->flags.at(0).rows;
   }
-
-  fs::path folder_;
 };
 
 TEST_F(BlowOutProgram, TheRuleIsLearnedWhereTheRecordingHasIt) {

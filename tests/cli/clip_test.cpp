@@ -35,14 +35,8 @@ Image flame_frame(int frame) {
   return image;
 }
 
-class Clip : public testing::Test {
+class Clip : public InFolder {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   void write_clip(const std::string& name, int frames, bool black = false) {
     auto film =
         VideoWriter::create(at(name), {.width = kWidth, .height = kHeight, .rate_hz = 30, .preset = "ultrafast"});
@@ -59,10 +53,6 @@ class Clip : public testing::Test {
     EXPECT_EQ(std::count(said.err.begin(), said.err.end(), '\n'), 1) << said.err;
     EXPECT_FALSE(fs::exists(at("out.csv"))) << arguments;
   }
-
-  Said wisp(const std::string& arguments) { return run_wisp(arguments, folder_); }
-  std::string at(const std::string& name) const { return (folder_ / name).string(); }
-  fs::path folder_;
 };
 
 TEST_F(Clip, BecomesARecordingAModelAndPictures) {

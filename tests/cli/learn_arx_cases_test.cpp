@@ -19,14 +19,8 @@ using testing::HasSubstr;
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
-class LearnArxCases : public testing::Test {
+class LearnArxCases : public InFolder {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   // y(t) = 1.5 y(t−1) − 0.7 y(t−2) + u(t−1) + 0.5 u(t−2) + e(t), with a second input that does nothing.
   static Recording system(std::size_t rows) {
     std::mt19937_64 generator(8);
@@ -49,9 +43,6 @@ class LearnArxCases : public testing::Test {
     EXPECT_TRUE(write_csv(folder_ / "r.csv", recording));
     return run_wisp("learn arx " + at("r.csv") + " -o " + at("m.wisp") + " --outputs place --json " + flags, folder_);
   }
-  std::string at(const std::string& name) const { return (folder_ / name).string(); }
-
-  std::filesystem::path folder_;
 };
 
 TEST_F(LearnArxCases, AConstantInputIsNamedAsNotExciting) {

@@ -17,14 +17,9 @@ bool installed(const std::string& program) {
   return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
 }
 
-class LearnArxParts : public testing::Test {
+class LearnArxParts : public InFolder {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::create_directories(folder_);
-    write_system();
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
+  void SetUp() override { write_system(); }
 
   // Two outputs, an input, two episodes and one too short, one missing sample.
   void write_system() {
@@ -46,8 +41,6 @@ class LearnArxParts : public testing::Test {
     ASSERT_TRUE(write_csv(folder_ / "system.csv", recording));
   }
 
-  Said wisp(const std::string& arguments) { return run_wisp(arguments, folder_); }
-  std::string at(const std::string& name) const { return (folder_ / name).string(); }
   std::string whole() const { return at("system.csv") + " --inputs push --outputs here,there --na 3 --nb 2 --nk 1"; }
 
   std::string write_parts(int count, const std::string& more = "") {
@@ -83,8 +76,6 @@ class LearnArxParts : public testing::Test {
     EXPECT_EQ(said.status, 0) << said.err;
     return said.json();
   }
-
-  std::filesystem::path folder_;
 };
 
 TEST_F(LearnArxParts, HoweverTheRowsAreCutTheModelIsTheSame) {

@@ -14,14 +14,9 @@ namespace {
 
 using testing::HasSubstr;
 
-class LearnArx : public testing::Test {
+class LearnArx : public InFolder {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::create_directories(folder_);
-    write_system();
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
+  void SetUp() override { write_system(); }
 
   // y(t) = 1.5 y(t−1) − 0.7 y(t−2) + 0.5 u(t−1) + 0.25 u(t−2), without noise.
   void write_system() {
@@ -36,14 +31,10 @@ class LearnArx : public testing::Test {
     ASSERT_TRUE(write_csv(folder_ / "system.csv", recording));
   }
 
-  Said wisp(const std::string& arguments) { return run_wisp(arguments, folder_); }
-  std::string at(const std::string& name) const { return (folder_ / name).string(); }
   std::string learn(const std::string& more) const {
     return "learn arx " + at("system.csv") + " -o " + at("m.wisp") +
            " --inputs push --outputs place --offset none --json " + more;
   }
-
-  std::filesystem::path folder_;
 };
 
 TEST_F(LearnArx, FindsTheCoefficientsThatMadeTheData) {
@@ -115,6 +106,21 @@ TEST_F(LearnArx, ADamagedModelIsRefusedByEveryCommand) {
     EXPECT_EQ(said.status, 1) << command;
     EXPECT_THAT(said.err, HasSubstr("is damaged")) << command;
   }
+}
+
+TEST_F(LearnArx, ModesThatSwitchAreLearnedRunAndExplained) {
+  const std::string learn =
+      "learn switched " + at("system.csv") + " -o " + at("m.wisp") + " --inputs push --outputs place";
+  const Said learned = wisp(learn + " --na 2 --nb 2 --nk 1 --modes 2 --json");
+  ASSERT_EQ(learned.status, 0) << learned.err;
+  EXPECT_EQ(learned.json()["mode_rows"].size(), 2u);
+  EXPECT_EQ(learned.json()["seed"], 1);
+  const Said judged = wisp("validate " + at("m.wisp") + " " + at("system.csv") + " --json");
+  ASSERT_EQ(judged.status, 0) << judged.err;
+  EXPECT_GT(judged.json()["channels"][0]["fit_percent"]["1"], 90);
+  EXPECT_EQ(wisp("run " + at("m.wisp") + " --frames 20 -o " + at("a.csv")).status, 0);
+  EXPECT_THAT(wisp("info " + at("m.wisp")).out, HasSubstr("2 modes"));
+  EXPECT_EQ(wisp(learn + " --modes 0").status, 2);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 // Runs the program `wisp` as a user does, and keeps what it said.
 
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <cstdio>
@@ -36,6 +37,22 @@ inline Said run_wisp(const std::string& arguments, const std::filesystem::path& 
   const int status = std::system(line.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, file_text(out), file_text(err)};
 }
+
+/// A test in a folder of its own, which goes with it.
+class InFolder : public testing::Test {
+ protected:
+  InFolder() {
+    const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = std::filesystem::path(testing::TempDir()) / (std::string(test.test_suite_name()) + "." + test.name());
+    std::filesystem::create_directories(folder_);
+  }
+  ~InFolder() override { std::filesystem::remove_all(folder_); }
+
+  Said wisp(const std::string& arguments) { return run_wisp(arguments, folder_); }
+  std::string at(const std::string& name) const { return (folder_ / name).string(); }
+
+  std::filesystem::path folder_;
+};
 
 /// Where the recordings of real things are; empty where they are not.
 inline std::string data_folder() {

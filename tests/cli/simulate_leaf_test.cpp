@@ -12,16 +12,9 @@ namespace {
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-class SimulateLeaf : public testing::Test {
+class SimulateLeaf : public InFolder {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  Said wisp(const std::string& arguments) { return run_wisp("simulate leaf " + arguments, folder_); }
-  std::string at(const std::string& name) const { return (folder_ / name).string(); }
-  fs::path folder_;
+  Said wisp(const std::string& arguments) { return InFolder::wisp("simulate leaf " + arguments); }
 };
 
 TEST_F(SimulateLeaf, DropsAreEpisodesOfARecording) {
@@ -54,6 +47,20 @@ TEST_F(SimulateLeaf, PairsAreTwoRecordingsThatDifferInTheirWind) {
   EXPECT_TRUE(find_attribute(*windy, "pair"));
 }
 
+TEST_F(SimulateLeaf, AWindFromAFileBlowsAsItWasRecorded) {
+  std::ofstream(at("wind.csv")) << "# rate_hz 60\nu:wind.x[m/s],u:wind.y[m/s]\n0,0\n0.5,-1\n0.25,0\n0,0\n";
+  const std::string fall = "-o " + at("rec.csv") + " --drops 2 --seconds 0.5 --wind ";
+  ASSERT_EQ(wisp(fall + at("wind.csv")).status, 0);
+  const auto recording = read_csv(at("rec.csv"));
+  ASSERT_TRUE(recording);
+  EXPECT_NEAR(recording->channels[*find_channel(*recording, "wind.x")].samples[1], 0.5, 1e-9);
+  EXPECT_NEAR(recording->channels[*find_channel(*recording, "wind.y")].samples[31], -1, 1e-9);
+  std::ofstream(at("bad.csv")) << "# rate_hz 60\nu:wind.x[m/s]\n0\n\n99\n";
+  EXPECT_THAT(wisp(fall + at("bad.csv")).err, HasSubstr("wind.x in row"));
+  EXPECT_THAT(wisp(fall + "breeze").err, HasSubstr("expected calm, constant"));
+  EXPECT_THAT(wisp(fall + at("wind.csv") + " --pairs").err, HasSubstr("--pairs makes gusts of its own"));
+}
+
 TEST_F(SimulateLeaf, TheFirstDropsAreFilmed) {
   const Said said =
       wisp("-o " + at("rec.csv") + " --drops 2 --seconds 0.2 --video " + at("clip.mp4") + " --view above");
@@ -63,16 +70,16 @@ TEST_F(SimulateLeaf, TheFirstDropsAreFilmed) {
 
 TEST_F(SimulateLeaf, ItsFallsTeachAChainWhoseOwnFallsAreFilmed) {
   ASSERT_EQ(wisp("-o " + at("rec.csv") + " --drops 12 --seconds 6").status, 0);
-  const Said learned = run_wisp("learn leaf " + at("rec.csv") + " -o " + at("leaf.wisp") + " --json", folder_);
+  const Said learned = InFolder::wisp("learn leaf " + at("rec.csv") + " -o " + at("leaf.wisp") + " --json");
   ASSERT_EQ(learned.status, 0) << learned.err;
   EXPECT_EQ(learned.json()["modes"], 6);
   EXPECT_GT(learned.json()["segments"], 100);
   const std::string run = "run " + at("leaf.wisp") + " --frames 40 --instances 2 -o ";
-  ASSERT_EQ(run_wisp(run + at("falls.csv"), folder_).status, 0);
+  ASSERT_EQ(InFolder::wisp(run + at("falls.csv")).status, 0);
   const auto falls = read_csv(at("falls.csv"));
   ASSERT_TRUE(falls) << falls.error().message;
   EXPECT_EQ(channels_with_role(*falls, Role::kOutput).size(), 14u);
-  const Said filmed = run_wisp(run + at("falls.mp4"), folder_);
+  const Said filmed = InFolder::wisp(run + at("falls.mp4"));
   ASSERT_EQ(filmed.status, 0) << filmed.err;
   EXPECT_GT(fs::file_size(at("falls.mp4")), 1000u);
 }

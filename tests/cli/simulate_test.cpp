@@ -12,17 +12,7 @@ namespace {
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-class Simulate : public testing::Test {
- protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-  Said wisp(const std::string& arguments) { return run_wisp(arguments, folder_); }
-  std::string at(const std::string& name) const { return (folder_ / name).string(); }
-  fs::path folder_;
-};
+class Simulate : public InFolder {};
 
 TEST_F(Simulate, AClipComesWithSoundAndItsTruth) {
   const Said said = wisp("simulate candle -o " + at("clip.mp4") + " --seconds 3 --seed 4 --json");

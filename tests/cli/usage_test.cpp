@@ -10,16 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-class Usage : public testing::Test {
- protected:
-  Said wisp(const std::string& arguments) { return run_wisp(arguments, folder_); }
-  void SetUp() override {
-    folder_ = std::filesystem::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::filesystem::path folder_;
-};
+class Usage : public InFolder {};
 
 TEST_F(Usage, HelpIsStatus0AndWrongUsageIsStatus2) {
   EXPECT_EQ(wisp("--help").status, 0);
@@ -54,8 +45,9 @@ TEST_F(Usage, WithJsonAFailureIsADocumentToo) {
 }
 
 TEST_F(Usage, EveryCommandHasHelpWithAnExample) {
-  for (const char* command : {"capture outline", "capture flame", "learn outline", "learn flame", "learn arx",
-                              "validate", "run", "info", "demo"}) {
+  for (const char* command :
+       {"capture outline", "capture flame", "learn outline", "learn flame", "learn arx", "learn switched",
+        "learn chain", "learn leaf", "simulate candle", "simulate leaf", "validate", "run", "info", "demo"}) {
     const Said said = wisp(std::string(command) + " --help");
     EXPECT_EQ(said.status, 0) << command;
     EXPECT_THAT(said.out, HasSubstr("Examples:")) << command;

@@ -1,0 +1,16 @@
+#include "learned_model.hpp"
+
+#include "wisp/model/file.hpp"
+#include "wisp/run/cost.hpp"
+
+namespace wisp::cli {
+
+Result<void> write_learned(const std::string& path, Model model) {
+  if (const auto cost = count_operations(model)) {
+    model.provenance.figures.push_back({"multiply_adds_per_frame", static_cast<double>(cost->multiply_adds_per_frame)});
+    model.provenance.figures.push_back({"operations_per_frame", static_cast<double>(cost->operations_per_frame)});
+  }
+  return write_model(path, model);
+}
+
+}  // namespace wisp::cli

@@ -1,0 +1,15 @@
+#pragma once
+// How the commands hand over what they learned.
+
+#include <string>
+
+#include "wisp/base/result.hpp"
+#include "wisp/model/model.hpp"
+
+namespace wisp::cli {
+
+/// Writes a model file that says what a frame of it costs, since players that travel light do not count it themselves.
+/// A model in units that no player takes is written without. Errors: as write_model().
+Result<void> write_learned(const std::string& path, Model model);
+
+}  // namespace wisp::cli

@@ -1,0 +1,70 @@
+// `wisp run` of a segment chain: how it is to walk, and where to.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/program.hpp"
+#include "model/sample_chain.hpp"
+#include "model/sample_model.hpp"
+#include "wisp/model/file.hpp"
+
+namespace wisp {
+namespace {
+
+using testing::HasSubstr;
+
+class RunChain : public InFolder {
+ protected:
+  RunChain() {
+    EXPECT_TRUE(write_model(at("leaf.wisp"), steered_chain()));
+    EXPECT_TRUE(write_model(at("old.wisp"), sample_chain()));
+    EXPECT_TRUE(write_model(at("flame.wisp"), sample_model()));
+  }
+
+  Said run(const std::string& flags, const std::string& model = "leaf.wisp") {
+    return wisp("run " + at(model) + " --frames 300 -o " + at("out.csv") + " --json " + flags);
+  }
+
+  // What is said of flags that are bad, or bad for that model.
+  std::string refused(const std::string& flags, const std::string& model = "leaf.wisp", int status = 2) {
+    const Said said = run(flags, model);
+    EXPECT_EQ(said.status, status) << flags;
+    EXPECT_FALSE(std::filesystem::exists(at("out.csv"))) << flags;
+    return said.err;
+  }
+};
+
+TEST_F(RunChain, WalksAsItIsTold) {
+  ASSERT_EQ(run("").status, 0);
+  const std::string plain = file_text(at("out.csv"));
+  EXPECT_EQ(run("--history none").status, 0);
+  EXPECT_EQ(file_text(at("out.csv")), plain);
+  EXPECT_EQ(run("--history 1 --temperature 0 --steer 1,-0.5,-0.4@0.5 --near 0.05").status, 0);
+  EXPECT_NE(file_text(at("out.csv")), plain);
+}
+
+TEST_F(RunChain, WithoutNoiseItSaysHowItRepeatsItself) {
+  const Said said = run("--noise off");
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_GT(said.json()["loop"]["seconds"], 0);
+}
+
+TEST_F(RunChain, RefusesWhatItCannotDo) {
+  EXPECT_THAT(refused("--history 0"), HasSubstr("--history is 0, expected at least 1"));
+  EXPECT_THAT(refused("--temperature=-1"), HasSubstr("--temperature is -1, expected 0 or more"));
+  for (const char* target : {"1,2@3", "1,2,3", "1,2,3@0", "1,2,3@-4", "a,b,c@d", "1,2,3@4x", "1e9,2,3@4"}) {
+    EXPECT_THAT(refused("--steer " + std::string(target)), HasSubstr("expected X,Y,Z@S")) << target;
+  }
+  EXPECT_THAT(refused("--steer 1,2,3@4 --near 0"), HasSubstr("--near is 0"));
+  EXPECT_THAT(refused("--steer 1,2,3@4", "old.wisp", 1), HasSubstr("can't be steered"));
+  for (const char* flag : {"--history 1", "--temperature 1", "--steer 1,2,3@4"}) {
+    EXPECT_THAT(refused(flag, "flame.wisp"), HasSubstr("is for segment chains"));
+  }
+}
+
+TEST_F(RunChain, AWayToRealiseModesThatIsNoneIsAnError) {
+  EXPECT_EQ(wisp("learn leaf drops.csv -o " + at("m.wisp") + " --realise fourier").status, 2);
+}
+
+}  // namespace
+}  // namespace wisp
