@@ -1,0 +1,99 @@
+// Where the fields of the C ABI's structs lie in the memory of WebAssembly, in bytes. wasm/layout.cpp holds the
+// compiler to the same numbers.
+
+export const modelFacts = {
+  size: 128,
+  inputs: 4,
+  outputs: 8,
+  controlPoints: 12,
+  usable: 16,
+  rateHz: 24,
+  metresPerUnit: 32,
+  stepNanoseconds: 40,
+  multiplyAddsPerFrame: 48,
+  operationsPerFrame: 56,
+  blowOutLevel: 64,
+  blowOutSeconds: 72,
+  dynamics: 80,
+  view: 84,
+  halfWidth: 88,
+  halfLength: 96,
+  blowOutHaste: 104,
+  blowOutRecoverySeconds: 112,
+  blowOutInput: 120,
+} as const;
+
+export const channel = { size: 40, name: 8, unit: 12, lowest: 16, highest: 24, splitsSign: 32, hasSquares: 36 } as const;
+
+export const provenance = { size: 32, sources: 4, options: 8, figures: 12, usable: 16, program: 24, reason: 28 } as const;
+
+export const note = { size: 16, name: 8, value: 12 } as const;
+
+export const figure = { size: 24, name: 8, value: 16 } as const;
+
+export const arxFacts = { size: 24, outputs: 4, regressors: 8, history: 12, shocks: 16, noiseGrows: 20 } as const;
+
+export const chainFacts = {
+  size: 32,
+  modes: 4,
+  segments: 8,
+  contexts: 12,
+  history: 16,
+  gustOrder: 20,
+  headingFree: 24,
+} as const;
+
+export const bankOptions = { size: 32, capacity: 4, polylinePoints: 8, seed: 16 } as const;
+
+export const bankFacts = {
+  size: 48,
+  capacity: 4,
+  alive: 8,
+  slots: 12,
+  inputs: 16,
+  outputs: 20,
+  polylinePoints: 24,
+  held: 32,
+  steps: 40,
+} as const;
+
+export const flameState = { size: 32, lit: 4, flameSize: 8, sinceLit: 16, sinceOut: 24 } as const;
+
+export const chainPlace = { size: 16, segment: 4, step: 8, mode: 12 } as const;
+
+export const chainSettings = {
+  size: 24,
+  history: 4,
+  hasTemperature: 8,
+  temperature: 12,
+  hasGround: 16,
+  ground: 20,
+} as const;
+
+export const body = { size: 56, position: 4, orientation: 16, velocity: 32, spin: 44 } as const;
+
+export const windOptions = {
+  size: 56,
+  channels: 4,
+  rateHz: 8,
+  frameRateHz: 16,
+  exponent: 24,
+  smoothingSeconds: 32,
+  floorRiseDbPerSecond: 40,
+  firstGustRms: 48,
+} as const;
+
+export const windFrame = {
+  size: 40,
+  index: 0,
+  rms: 8,
+  rmsClean: 12,
+  level: 16,
+  speed: 20,
+  wind: 24,
+  confidence: 28,
+  background: 32,
+  clipped: 36,
+} as const;
+
+export const windCalibration = { size: 20, backgroundRms: 4, backgroundLevel: 8, floorDb: 12, gustRms: 16 } as const;

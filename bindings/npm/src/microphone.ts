@@ -1,0 +1,242 @@
+// Opens a microphone as a source of wind. Nothing is asked of anyone before `openMicrophone()` is called, and no sound
+// leaves the audio thread: what comes out is wind.
+
+import type { Wisp } from './index.js';
+import type { WindCalibration } from './wind.js';
+import type { WindCommand, WindMessage, WindProcessorOptions } from './worklet.js';
+
+/** A frame of wind, as the worklet tells it. */
+export type Wind = Extract<WindMessage, { type: 'wind' }>;
+
+/**
+ * Why there is no wind from a microphone.
+ * 'unsupported': no microphones or no AudioWorklet here (a page needs HTTPS, or localhost). 'denied': the user or the
+ * page's policy said no. 'none': no microphone is plugged in. 'busy': another program has it. 'lost': it was unplugged
+ * or taken away. 'failed': something else.
+ */
+export type MicrophoneTrouble = 'unsupported' | 'denied' | 'none' | 'busy' | 'lost' | 'failed';
+
+export class MicrophoneError extends Error {
+  constructor(
+    readonly trouble: MicrophoneTrouble,
+    message: string,
+    options?: ErrorOptions,
+  ) {
+    super(message, options);
+    this.name = 'MicrophoneError';
+  }
+}
+
+export interface MicrophoneOptions {
+  /** Frames of wind a second; the model's own rate serves it best. Default 60. */
+  frameRate?: number;
+  /** Called with each frame. */
+  onWind?: (wind: Wind) => void;
+  /** Called once when the microphone goes away by itself, or the estimator fails; it is closed then. */
+  onLost?: (error: MicrophoneError) => void;
+  /** Called when a calibration has ended. */
+  onCalibrated?: (calibration: WindCalibration) => void;
+  /** Seconds of the room to listen to at the start; default 3, 0: none. */
+  calibrate?: number;
+  /** What was known of this microphone and room before. */
+  calibration?: WindCalibration;
+  /** An audio context of yours; it is not closed by `stop()`. */
+  context?: AudioContext;
+  /** Which microphone, as from `navigator.mediaDevices.enumerateDevices()`. */
+  deviceId?: string;
+  /** Where the worklet's script is, if not beside this one. */
+  workletUrl?: URL | string;
+}
+
+/** What was asked for, and what the browser made of it: null where it does not say. */
+export interface MicrophoneSettings {
+  echoCancellation: boolean | null;
+  noiseSuppression: boolean | null;
+  autoGainControl: boolean | null;
+  sampleRate: number;
+  label: string;
+  deviceId: string;
+}
+
+/** A microphone that is open. */
+export interface Microphone {
+  readonly settings: MicrophoneSettings;
+  /** Whether the sound is as the microphone gave it: nothing of what browsers do to speech is known to be on. */
+  readonly raw: boolean;
+  /** Whether the room is being listened to. */
+  readonly calibrating: boolean;
+  /** The latest frame; null before the first. */
+  readonly latest: Wind | null;
+  /** Listens to the room, 0.5 to 30 s; `onCalibrated` tells when it is known. */
+  calibrate(seconds?: number): void;
+  /** What is known of microphone and room by now. */
+  calibration(): Promise<WindCalibration>;
+  /** Forgets what was heard. */
+  reset(): void;
+  /** Switches it off; the browser's indicator goes out. Twice is fine. */
+  stop(): void;
+}
+
+const troubleOf: Record<string, [MicrophoneTrouble, string]> = {
+  NotAllowedError: ['denied', 'The microphone was not allowed. Allow it in the settings of this page to blow.'],
+  SecurityError: ['denied', 'This page may not use a microphone.'],
+  NotFoundError: ['none', 'No microphone was found. Plug one in to blow.'],
+  OverconstrainedError: ['none', 'That microphone is not there.'],
+  NotReadableError: ['busy', 'The microphone cannot be read; another program may be using it.'],
+  AbortError: ['busy', 'The microphone could not be started.'],
+};
+
+function refusal(error: unknown): MicrophoneError {
+  const name = error instanceof Error || error instanceof DOMException ? error.name : '';
+  const [trouble, message] = troubleOf[name] ?? ['failed', `The microphone could not be opened: ${String(error)}`];
+  return new MicrophoneError(trouble, message, { cause: error });
+}
+
+async function askForSound(deviceId: string | undefined): Promise<MediaStream> {
+  if (!globalThis.navigator?.mediaDevices?.getUserMedia || typeof AudioWorkletNode === 'undefined') {
+    throw new MicrophoneError('unsupported', 'There is no microphone here: a page needs HTTPS or localhost for it.');
+  }
+  // Each of these three is made to let speech through and to take noise away, and wind is noise.
+  const audio: MediaTrackConstraints = {
+    echoCancellation: false,
+    noiseSuppression: false,
+    autoGainControl: false,
+    channelCount: 1,
+  };
+  if (deviceId) audio.deviceId = { exact: deviceId };
+  try {
+    return await navigator.mediaDevices.getUserMedia({ audio, video: false });
+  } catch (error) {
+    throw refusal(error);
+  }
+}
+
+function settingsOf(track: MediaStreamTrack, context: AudioContext): MicrophoneSettings {
+  const found = track.getSettings();
+  return {
+    echoCancellation: typeof found.echoCancellation === 'boolean' ? found.echoCancellation : null,
+    noiseSuppression: found.noiseSuppression ?? null,
+    autoGainControl: found.autoGainControl ?? null,
+    sampleRate: context.sampleRate,
+    label: track.label,
+    deviceId: found.deviceId ?? '',
+  };
+}
+
+class OpenMicrophone implements Microphone {
+  readonly settings: MicrophoneSettings;
+  calibrating: boolean;
+  latest: Wind | null = null;
+  private readonly node: AudioWorkletNode;
+  private readonly source: MediaStreamAudioSourceNode;
+  private readonly track: MediaStreamTrack;
+  private readonly asked: ((known: WindCalibration) => void)[] = [];
+  private open = true;
+
+  constructor(
+    wisp: Wisp,
+    private readonly stream: MediaStream,
+    private readonly context: AudioContext,
+    private readonly options: MicrophoneOptions,
+  ) {
+    this.track = stream.getAudioTracks()[0]!;
+    this.settings = settingsOf(this.track, context);
+    const processorOptions: WindProcessorOptions = { module: wisp.module, frameRate: options.frameRate ?? 60 };
+    if (options.calibration) processorOptions.calibration = options.calibration;
+    this.node = new AudioWorkletNode(context, 'wisp-wind', { numberOfInputs: 1, numberOfOutputs: 0, processorOptions });
+    this.node.port.onmessage = (event: MessageEvent<WindMessage>) => this.hear(event.data);
+    this.node.onprocessorerror = () => this.lose('failed', 'The wind could not be worked out from the sound.');
+    this.source = context.createMediaStreamSource(stream);
+    this.source.connect(this.node);
+    this.track.addEventListener('ended', this.ended);
+    navigator.mediaDevices.addEventListener('devicechange', this.devicesChanged);
+    const seconds = options.calibrate ?? 3;
+    this.calibrating = seconds > 0;
+    if (seconds > 0) this.tell({ type: 'calibrate', seconds });
+  }
+
+  get raw(): boolean {
+    const { echoCancellation, noiseSuppression, autoGainControl } = this.settings;
+    return !echoCancellation && !noiseSuppression && !autoGainControl;
+  }
+
+  calibrate(seconds = 3): void {
+    this.calibrating = true;
+    this.tell({ type: 'calibrate', seconds });
+  }
+
+  calibration(): Promise<WindCalibration> {
+    return new Promise((resolve) => {
+      this.asked.push(resolve);
+      this.tell({ type: 'tell calibration' });
+    });
+  }
+
+  reset(): void {
+    this.tell({ type: 'reset' });
+  }
+
+  stop(): void {
+    if (!this.open) return;
+    this.open = false;
+    this.track.removeEventListener('ended', this.ended);
+    navigator.mediaDevices.removeEventListener('devicechange', this.devicesChanged);
+    this.tell({ type: 'stop' });
+    this.node.port.onmessage = null;
+    this.source.disconnect();
+    for (const track of this.stream.getTracks()) track.stop();
+    if (this.options.context === undefined) void this.context.close();
+  }
+
+  private hear(message: WindMessage): void {
+    if (message.type === 'failed') return this.lose('failed', message.message);
+    if (message.type === 'wind') {
+      this.latest = message;
+      this.calibrating = message.calibrating;
+      this.options.onWind?.(message);
+      return;
+    }
+    if (message.type === 'calibrated') this.options.onCalibrated?.(message.known);
+    else this.asked.shift()?.(message.known);
+  }
+
+  private readonly ended = (): void => this.lose('lost', 'The microphone was unplugged or taken away.');
+
+  // Some browsers leave the track of an unplugged microphone alive; a device that is no longer listed is gone.
+  private readonly devicesChanged = async (): Promise<void> => {
+    const { deviceId } = this.settings;
+    if (deviceId === '') return;
+    const devices = await navigator.mediaDevices.enumerateDevices();
+    const isThere = devices.some((device) => device.kind === 'audioinput' && device.deviceId === deviceId);
+    if (!isThere) this.ended();
+  };
+
+  private lose(trouble: MicrophoneTrouble, message: string): void {
+    if (!this.open) return;
+    this.stop();
+    this.options.onLost?.(new MicrophoneError(trouble, message));
+  }
+
+  private tell(command: WindCommand): void {
+    this.node.port.postMessage(command);
+  }
+}
+
+/**
+ * Asks for a microphone and listens to its wind. Call it from a click or a key, where browsers let sound begin.
+ * Throws a MicrophoneError that says why there is none.
+ */
+export async function openMicrophone(wisp: Wisp, options: MicrophoneOptions = {}): Promise<Microphone> {
+  const stream = await askForSound(options.deviceId);
+  const context = options.context ?? new AudioContext({ latencyHint: 'interactive' });
+  try {
+    await context.audioWorklet.addModule(options.workletUrl ?? new URL('./worklet.js', import.meta.url));
+    // Not waited for: without a click or key a browser lets it hang, and starts the sound at the next one.
+    context.resume().catch(() => {});
+    return new OpenMicrophone(wisp, stream, context, options);
+  } catch (error) {
+    for (const track of stream.getTracks()) track.stop();
+    if (options.context === undefined) void context.close();
+    throw refusal(error);
+  }
+}

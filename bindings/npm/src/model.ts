@@ -1,0 +1,320 @@
+// A model: what a thing is like, read from the bytes of a `.wisp` file.
+
+import { Bank, type BankOptions } from './bank.js';
+import * as at from './layout.js';
+import { Native } from './native.js';
+
+/** An input or an output. */
+export interface Channel {
+  name: string;
+  /** The unit of 1; '' where it has none. */
+  unit: string;
+  /** The trained or seen range; the bank holds to it and half of it more. */
+  lowest: number;
+  highest: number;
+  /** Of inputs: the dynamics see what is positive and what is negative apart. */
+  splitsSign: boolean;
+  /** Of inputs: they see squares too. */
+  hasSquares: boolean;
+}
+
+/** 'arx': autoregression with exogenous inputs. 'chain': pieces of recorded motion, one after another by chance. */
+export type Dynamics = 'arx' | 'chain';
+
+/** What the outputs mean. 'outline': control points x, y. 'pose': position and quaternion w, x, y, z. */
+export type View = 'plain' | 'outline' | 'pose' | 'position';
+
+/** When wind blows it out. */
+export interface BlowOut {
+  /** Index of the input that blows. */
+  input: number;
+  /** The least wind that does it, in the input's unit, when it lasts `seconds`. */
+  level: number;
+  seconds: number;
+  /** At twice the level it takes seconds / (1 + haste). */
+  haste: number;
+  /** Seconds below the level after which it is as if the wind had never blown. */
+  recoverySeconds: number;
+}
+
+export interface ModelFacts {
+  /** Its own steps a second, and the time of one. */
+  rateHz: number;
+  stepNanoseconds: number;
+  /** Of an outline; 0 otherwise. */
+  controlPoints: number;
+  /** Metres per unit of an outline; 0 where it is not known. */
+  metresPerUnit: number;
+  /** Metres, of a body with pose or position; 0 where they are not known. */
+  halfWidth: number;
+  halfLength: number;
+  /** By the paper's count: coefficients that are not zero; as its file says, 0 where that does not. */
+  multiplyAddsPerFrame: number;
+  /** All arithmetic of a frame; likewise. */
+  operationsPerFrame: number;
+  /** null: nothing blows it out. */
+  blowOut: BlowOut | null;
+}
+
+/** Orders of an ARX model: a row for each output. */
+export interface ArxFacts {
+  na: number[][];
+  nb: number[][];
+  nk: number[][];
+  /** Inputs as the dynamics see them. */
+  regressors: number;
+  /** Steps that the longest lag reaches back. */
+  history: number;
+  /** Sources of noise that outputs share. */
+  shocks: number;
+  /** Whether the noise is larger in wind. */
+  noiseGrows: boolean;
+  /** Standard deviation of each output's own noise. */
+  noise: number[];
+}
+
+/** What a chain is made of. */
+export interface ChainFacts {
+  modes: number;
+  segments: { mode: number; steps: number }[];
+  /** Histories of modes that say what may follow, and the length of the longest. */
+  contexts: number;
+  history: number;
+  /** Order of the response to wind; 0: wind does nothing. */
+  gustOrder: number;
+  headingFree: boolean;
+  /** Probability of each mode to begin with, and of each mode after each: a row for the mode before. */
+  initial: number[];
+  transitions: number[][];
+}
+
+/** How the model was made. */
+export interface Provenance {
+  program: string;
+  sources: string[];
+  options: { name: string; value: string }[];
+  figures: { name: string; value: number }[];
+  usable: boolean;
+  reason: string;
+}
+
+const dynamicsNames: Dynamics[] = ['arx', 'arx', 'chain'];
+const viewNames: View[] = ['plain', 'outline', 'pose', 'position'];
+
+// The signature of a model's file.
+const magic = [0x89, 0x57, 0x49, 0x53, 0x50, 0x0d, 0x0a, 0x1a];
+
+function rows<T>(values: ArrayLike<T>, columns: number): T[][] {
+  const flat = Array.from(values);
+  return Array.from({ length: columns ? flat.length / columns : 0 }, (_, row) =>
+    flat.slice(row * columns, (row + 1) * columns),
+  );
+}
+
+/** Made by `Wisp.model()`. Free it when it is no longer needed; banks made from it live on. */
+export class Model {
+  readonly name: string;
+  readonly kind: Dynamics;
+  readonly view: View;
+  readonly facts: Readonly<ModelFacts>;
+  readonly inputs: readonly Channel[];
+  readonly outputs: readonly Channel[];
+  private pointer: number;
+
+  /** @internal */
+  constructor(
+    private readonly native: Native,
+    bytes: Uint8Array,
+  ) {
+    this.pointer = native.allocating(() => Model.read(native, bytes));
+    this.name = native.text(native.functions.wisp_model_name!(this.pointer));
+    const { facts, kind, view, inputs, outputs } = this.readFacts();
+    this.facts = facts;
+    this.kind = kind;
+    this.view = view;
+    this.inputs = Array.from({ length: inputs }, (_, k) => this.readChannel('wisp_model_get_input', k));
+    this.outputs = Array.from({ length: outputs }, (_, k) => this.readChannel('wisp_model_get_output', k));
+  }
+
+  /** Makes an empty bank of instances. */
+  bank(options: BankOptions = {}): Bank {
+    return new Bank(this.native, this.pointer, options, this.kind === 'chain');
+  }
+
+  /** How the model was made and how good it is. */
+  get provenance(): Provenance {
+    const { native, pointer } = this;
+    const made = this.read(at.provenance.size, 'wisp_model_get_provenance', (data, p) => ({
+      sources: data.getUint32(p + at.provenance.sources, true),
+      options: data.getUint32(p + at.provenance.options, true),
+      figures: data.getUint32(p + at.provenance.figures, true),
+      usable: data.getUint32(p + at.provenance.usable, true) === 1,
+      program: native.text(data.getUint32(p + at.provenance.program, true)),
+      reason: native.text(data.getUint32(p + at.provenance.reason, true)),
+    }));
+    return {
+      ...made,
+      sources: Array.from({ length: made.sources }, (_, k) =>
+        native.withRoom(4, (p) => {
+          native.check(native.functions.wisp_model_get_source!(pointer, k, p));
+          return native.text(native.data.getUint32(p, true));
+        }),
+      ),
+      options: Array.from({ length: made.options }, (_, k) =>
+        this.read(at.note.size, 'wisp_model_get_option', (data, p) => ({
+          name: native.text(data.getUint32(p + at.note.name, true)),
+          value: native.text(data.getUint32(p + at.note.value, true)),
+        }), k),
+      ),
+      figures: Array.from({ length: made.figures }, (_, k) =>
+        this.read(at.figure.size, 'wisp_model_get_figure', (data, p) => ({
+          name: native.text(data.getUint32(p + at.figure.name, true)),
+          value: data.getFloat64(p + at.figure.value, true),
+        }), k),
+      ),
+    };
+  }
+
+  /** Orders and noise; null where the dynamics are a chain. */
+  get arx(): ArxFacts | null {
+    if (this.kind !== 'arx') return null;
+    const facts = this.read(at.arxFacts.size, 'wisp_model_get_arx', (data, p) => ({
+      regressors: data.getUint32(p + at.arxFacts.regressors, true),
+      history: data.getUint32(p + at.arxFacts.history, true),
+      shocks: data.getUint32(p + at.arxFacts.shocks, true),
+      noiseGrows: data.getUint32(p + at.arxFacts.noiseGrows, true) === 1,
+    }));
+    const outputs = this.outputs.length;
+    const orders = (name: string, columns: number) => rows(this.integers(name, outputs * columns), columns);
+    return {
+      ...facts,
+      na: orders('wisp_model_arx_na', outputs),
+      nb: orders('wisp_model_arx_nb', facts.regressors),
+      nk: orders('wisp_model_arx_nk', facts.regressors),
+      noise: this.doubles('wisp_model_arx_noise', outputs),
+    };
+  }
+
+  /** Modes, segments and probabilities; null where the dynamics are not a chain. */
+  get chain(): ChainFacts | null {
+    if (this.kind !== 'chain') return null;
+    const facts = this.read(at.chainFacts.size, 'wisp_model_get_chain', (data, p) => ({
+      modes: data.getUint32(p + at.chainFacts.modes, true),
+      segments: data.getUint32(p + at.chainFacts.segments, true),
+      contexts: data.getUint32(p + at.chainFacts.contexts, true),
+      history: data.getUint32(p + at.chainFacts.history, true),
+      gustOrder: data.getUint32(p + at.chainFacts.gustOrder, true),
+      headingFree: data.getUint32(p + at.chainFacts.headingFree, true) === 1,
+    }));
+    return {
+      ...facts,
+      segments: this.segments(facts.segments),
+      initial: this.doubles('wisp_model_chain_initial', facts.modes),
+      transitions: rows(this.doubles('wisp_model_chain_transitions', facts.modes * facts.modes), facts.modes),
+    };
+  }
+
+  /** Gives the model's memory back. Facts that were read stay; twice is fine. */
+  free(): void {
+    this.native.functions.wisp_model_free!(this.pointer);
+    this.pointer = 0;
+  }
+
+  private static read(native: Native, bytes: Uint8Array): number {
+    // What does not even begin as a model is not copied: a dropped film of many megabytes would stay in memory.
+    const promising = bytes.length >= 32 && magic.every((byte, k) => bytes[k] === byte);
+    const given = promising ? bytes : bytes.subarray(0, 64);
+    return native.withRoom(given.length + 4, (room) => {
+      const copied = room + 4;
+      native.bytes.set(given, copied);
+      native.check(native.functions.wisp_model_load!(copied, given.length, room));
+      return native.data.getUint32(room, true);
+    });
+  }
+
+  private readFacts() {
+    return this.read(at.modelFacts.size, 'wisp_model_get_facts', (data, p) => {
+      const number = (field: number) => data.getFloat64(p + field, true);
+      const count = (field: number) => data.getUint32(p + field, true);
+      const long = (field: number) => Number(data.getBigInt64(p + field, true));
+      const f = at.modelFacts;
+      const level = number(f.blowOutLevel);
+      const facts: ModelFacts = {
+        rateHz: number(f.rateHz),
+        stepNanoseconds: long(f.stepNanoseconds),
+        controlPoints: count(f.controlPoints),
+        metresPerUnit: number(f.metresPerUnit),
+        halfWidth: number(f.halfWidth),
+        halfLength: number(f.halfLength),
+        multiplyAddsPerFrame: long(f.multiplyAddsPerFrame),
+        operationsPerFrame: long(f.operationsPerFrame),
+        blowOut:
+          level > 0
+            ? {
+                input: count(f.blowOutInput),
+                level,
+                seconds: number(f.blowOutSeconds),
+                haste: number(f.blowOutHaste),
+                recoverySeconds: number(f.blowOutRecoverySeconds),
+              }
+            : null,
+      };
+      return {
+        facts,
+        kind: dynamicsNames[count(f.dynamics)]!,
+        view: viewNames[count(f.view)]!,
+        inputs: count(f.inputs),
+        outputs: count(f.outputs),
+      };
+    });
+  }
+
+  private readChannel(name: string, index: number): Channel {
+    const { native } = this;
+    return this.read(at.channel.size, name, (data, p) => ({
+      name: native.text(data.getUint32(p + at.channel.name, true)),
+      unit: native.text(data.getUint32(p + at.channel.unit, true)),
+      lowest: data.getFloat64(p + at.channel.lowest, true),
+      highest: data.getFloat64(p + at.channel.highest, true),
+      splitsSign: data.getUint32(p + at.channel.splitsSign, true) === 1,
+      hasSquares: data.getUint32(p + at.channel.hasSquares, true) === 1,
+    }), index);
+  }
+
+  // Has a struct filled, and takes out of it what is wanted.
+  private read<T>(size: number, name: string, take: (data: DataView, pointer: number) => T, ...index: number[]): T {
+    const { native } = this;
+    return native.withRoom(size, (p) => {
+      native.data.setUint32(p, size, true);
+      native.check(native.functions[name]!(this.pointer, ...index, p));
+      return take(native.data, p);
+    });
+  }
+
+  private integers(name: string, count: number): number[] {
+    const { native } = this;
+    return native.withRoom(count * 4, (p) => {
+      native.check(native.functions[name]!(this.pointer, p, count));
+      return Array.from({ length: count }, (_, k) => native.data.getInt32(p + 4 * k, true));
+    });
+  }
+
+  private doubles(name: string, count: number): number[] {
+    const { native } = this;
+    return native.withRoom(count * 8, (p) => {
+      native.check(native.functions[name]!(this.pointer, p, count));
+      return Array.from(native.doubles(p, count));
+    });
+  }
+
+  private segments(count: number): { mode: number; steps: number }[] {
+    const { native } = this;
+    return native.withRoom(count * 8, (p) => {
+      native.check(native.functions.wisp_model_chain_segments!(this.pointer, p, p + 4 * count, count));
+      return Array.from({ length: count }, (_, k) => ({
+        mode: native.data.getUint32(p + 4 * k, true),
+        steps: native.data.getUint32(p + 4 * (count + k), true),
+      }));
+    });
+  }
+}

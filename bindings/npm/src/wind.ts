@@ -1,0 +1,204 @@
+// The wind that a microphone hears, from samples.
+
+import * as at from './layout.js';
+import { Native } from './native.js';
+
+export interface WindOptions {
+  /** Samples a second of each channel, 8000 to 192000. */
+  sampleRate: number;
+  /** Interleaved channels, 1 to 8; default 1. */
+  channels?: number;
+  /** Frames of wind a second, 1 to 1000; default 60. */
+  frameRate?: number;
+  /** Wind speed goes as the sound's RMS to this power, 0.1 to 2; default 0.5. */
+  exponent?: number;
+  /** Mean of the level over this time, 0 to 1 s; default 0. */
+  smoothingSeconds?: number;
+  /** How fast the background is believed to grow, 0 to 60; default 1. */
+  floorRiseDbPerSecond?: number;
+  /** Wind 1 before any blowing was heard, full scale 1; default 0.05. */
+  firstGustRms?: number;
+}
+
+/** The wind during one frame. Amplitudes are root mean squares with full scale 1. */
+export interface WindFrame {
+  index: number;
+  rms: number;
+  rmsClean: number;
+  level: number;
+  /** Proportional to wind speed; 1 is the 95th percentile while it blows. */
+  speed: number;
+  /** A model's input: speed where it sounds like blowing, 0 where nothing is heard. */
+  wind: number;
+  /** 0 to 1: this is blowing, not talking. */
+  confidence: number;
+  background: number;
+  /** Share of samples at full scale. */
+  clipped: number;
+}
+
+/** What a microphone in a room was found to be: kept, it spares the next start the finding. */
+export interface WindCalibration {
+  backgroundRms: number;
+  backgroundLevel: number;
+  floorDb: number;
+  /** 0: not known yet. */
+  gustRms: number;
+}
+
+const samplesAtOnce = 4096;
+const framesAtOnce = 64;
+
+/** Made by `Wisp.windLevel()`. Frames do not depend on how the sound is cut into blocks. */
+export class WindLevel {
+  private pointer: number;
+  private readonly samples: number;
+  private readonly frames: number;
+  private readonly counts: number;
+
+  /** @internal */
+  constructor(
+    private readonly native: Native,
+    options: WindOptions,
+  ) {
+    this.pointer = native.allocating(() => WindLevel.create(native, options));
+    this.samples = native.allocate(samplesAtOnce * 4);
+    this.frames = native.allocate(framesAtOnce * at.windFrame.size);
+    this.counts = native.allocate(64);
+  }
+
+  private static create(native: Native, options: WindOptions): number {
+    return native.withRoom(at.windOptions.size + 8, (p) => {
+      native.functions.wisp_wind_default_options!(p);
+      const data = native.data;
+      const put = (field: number, value: number | undefined) => {
+        if (value !== undefined) data.setFloat64(p + field, value, true);
+      };
+      if (options.channels !== undefined) data.setUint32(p + at.windOptions.channels, options.channels, true);
+      put(at.windOptions.rateHz, options.sampleRate);
+      put(at.windOptions.frameRateHz, options.frameRate);
+      put(at.windOptions.exponent, options.exponent);
+      put(at.windOptions.smoothingSeconds, options.smoothingSeconds);
+      put(at.windOptions.floorRiseDbPerSecond, options.floorRiseDbPerSecond);
+      put(at.windOptions.firstGustRms, options.firstGustRms);
+      const made = p + at.windOptions.size;
+      native.check(native.functions.wisp_wind_create!(p, made));
+      return native.data.getUint32(made, true);
+    });
+  }
+
+  /**
+   * Takes interleaved samples, ±1 or 16 bits. Returns the frames that they complete.
+   * Throws when their count is not a multiple of the channels.
+   */
+  feed(samples: Float32Array | Int16Array): WindFrame[] {
+    this.living();
+    const frames: WindFrame[] = [];
+    // 840 is a multiple of 1 to 8: whole rows of channels, unless the caller's own count is not.
+    const most = Math.floor(samplesAtOnce / 840) * 840;
+    for (let from = 0; from < samples.length; from += most) this.feedPiece(samples.subarray(from, from + most), frames);
+    return frames;
+  }
+
+  private feedPiece(samples: Float32Array | Int16Array, frames: WindFrame[]): void {
+    const { native } = this;
+    const wide = samples instanceof Float32Array;
+    if (wide) native.floats(this.samples, samples.length).set(samples);
+    else new Int16Array(native.bytes.buffer, this.samples, samples.length).set(samples);
+    const feed = native.functions[wide ? 'wisp_wind_feed' : 'wisp_wind_feed_int16']!;
+    const bytes = wide ? 4 : 2;
+    for (let taken = 0; taken < samples.length; ) {
+      const from = this.samples + taken * bytes;
+      const left = samples.length - taken;
+      this.check(feed(this.pointer, from, left, this.frames, framesAtOnce, this.counts, this.counts + 4));
+      taken += native.data.getUint32(this.counts, true);
+      const made = native.data.getUint32(this.counts + 4, true);
+      for (let k = 0; k < made; ++k) frames.push(this.frameAt(this.frames + k * at.windFrame.size));
+    }
+  }
+
+  /** The latest frame made; all zero before the first. */
+  get latest(): WindFrame {
+    this.living();
+    this.check(this.native.functions.wisp_wind_latest!(this.pointer, this.frames));
+    return this.frameAt(this.frames);
+  }
+
+  /** Takes the coming seconds of sound, 0.5 to 30, as the room without wind. */
+  calibrate(seconds = 3): void {
+    this.check(this.native.functions.wisp_wind_calibrate!(this.pointer, seconds));
+  }
+
+  /** Whether that time is still running. */
+  get calibrating(): boolean {
+    return this.native.functions.wisp_wind_calibrating!(this.pointer) === 1;
+  }
+
+  get calibration(): WindCalibration {
+    this.living();
+    const { native, counts: p } = this;
+    native.data.setUint32(p, at.windCalibration.size, true);
+    this.check(native.functions.wisp_wind_get_calibration!(this.pointer, p));
+    const number = (field: number) => native.data.getFloat32(p + field, true);
+    return {
+      backgroundRms: number(at.windCalibration.backgroundRms),
+      backgroundLevel: number(at.windCalibration.backgroundLevel),
+      floorDb: number(at.windCalibration.floorDb),
+      gustRms: number(at.windCalibration.gustRms),
+    };
+  }
+
+  set calibration(known: WindCalibration) {
+    this.living();
+    const { native, counts: p } = this;
+    native.data.setUint32(p, at.windCalibration.size, true);
+    native.data.setFloat32(p + at.windCalibration.backgroundRms, known.backgroundRms, true);
+    native.data.setFloat32(p + at.windCalibration.backgroundLevel, known.backgroundLevel, true);
+    native.data.setFloat32(p + at.windCalibration.floorDb, known.floorDb, true);
+    native.data.setFloat32(p + at.windCalibration.gustRms, known.gustRms, true);
+    this.check(native.functions.wisp_wind_set_calibration!(this.pointer, p));
+  }
+
+  /** Seconds between wind and the frame that tells of it, beyond the frame itself. */
+  get latencySeconds(): number {
+    return this.native.functions.wisp_wind_latency!(this.pointer);
+  }
+
+  /** Forgets everything but the options. */
+  reset(): void {
+    this.check(this.native.functions.wisp_wind_reset!(this.pointer));
+  }
+
+  /** Gives its memory back; twice is fine. */
+  free(): void {
+    if (this.pointer === 0) return;
+    this.native.functions.wisp_wind_free!(this.pointer);
+    this.pointer = 0;
+    for (const room of [this.samples, this.frames, this.counts]) this.native.free(room);
+  }
+
+  private check(status: number): void {
+    this.native.check(status);
+  }
+
+  // A freed estimator has no room to write into either.
+  private living(): void {
+    if (this.pointer === 0) this.check(this.native.functions.wisp_wind_reset!(0));
+  }
+
+  private frameAt(p: number): WindFrame {
+    const { data } = this.native;
+    const number = (field: number) => data.getFloat32(p + field, true);
+    return {
+      index: Number(data.getBigInt64(p + at.windFrame.index, true)),
+      rms: number(at.windFrame.rms),
+      rmsClean: number(at.windFrame.rmsClean),
+      level: number(at.windFrame.level),
+      speed: number(at.windFrame.speed),
+      wind: number(at.windFrame.wind),
+      confidence: number(at.windFrame.confidence),
+      background: number(at.windFrame.background),
+      clipped: number(at.windFrame.clipped),
+    };
+  }
+}

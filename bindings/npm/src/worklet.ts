@@ -1,0 +1,221 @@
+// The wind estimator off the main thread: an AudioWorklet processor with a copy of the WebAssembly module of its own.
+//
+// One file without imports: bundlers copy what AudioWorklet.addModule() loads as it is. The numbers are those of
+// layout.ts, which a compile-time check holds to the C ABI; a test holds these to layout.ts.
+
+/** What the processor is made with (`processorOptions`). */
+export interface WindProcessorOptions {
+  /** As from `Wisp.module`. */
+  module: WebAssembly.Module;
+  /** Frames of wind a second. */
+  frameRate: number;
+  /** What was known of this microphone and room before. */
+  calibration?: { backgroundRms: number; backgroundLevel: number; floorDb: number; gustRms: number };
+}
+
+/** What it says: a frame of wind, a calibration that has ended, the one that was asked for, or why it does not work. */
+export type WindMessage =
+  | {
+      type: 'wind';
+      index: number;
+      wind: number;
+      speed: number;
+      level: number;
+      confidence: number;
+      rms: number;
+      background: number;
+      clipped: number;
+      /** Whether the room is being listened to. */
+      calibrating: boolean;
+      /** The audio clock at the end of the block that completed the frame, seconds. */
+      time: number;
+    }
+  | { type: 'calibrated' | 'calibration'; known: NonNullable<WindProcessorOptions['calibration']> }
+  | { type: 'failed'; message: string };
+
+/** What it can be told. */
+export type WindCommand =
+  | { type: 'calibrate'; seconds: number }
+  | { type: 'tell calibration' }
+  | { type: 'reset' }
+  | { type: 'stop' };
+
+declare const sampleRate: number;
+declare const currentTime: number;
+declare class AudioWorkletProcessor {
+  readonly port: MessagePort;
+}
+declare function registerProcessor(name: string, processor: new (options: AudioWorkletNodeOptions) => object): void;
+
+type Functions = Record<string, (...values: number[]) => number>;
+
+// A block of 128 samples is all that comes today; engines may let it grow.
+const mostSamples = 4096;
+const mostFrames = 16;
+const frameBytes = 40;
+
+class Ears {
+  private readonly functions: Functions;
+  private readonly memory: WebAssembly.Memory;
+  private readonly wind: number;
+  private readonly samples: number;
+  private readonly frames: number;
+  private readonly scratch: number;
+
+  constructor(options: WindProcessorOptions) {
+    const instance = new WebAssembly.Instance(options.module, {
+      env: { emscripten_notify_memory_growth: () => {} },
+      wasi_snapshot_preview1: { proc_exit: () => {} },
+    });
+    this.functions = instance.exports as unknown as Functions;
+    this.memory = instance.exports.memory as WebAssembly.Memory;
+    this.functions._initialize?.();
+    this.samples = this.functions.malloc!(mostSamples * 4);
+    this.frames = this.functions.malloc!(mostFrames * frameBytes);
+    this.scratch = this.functions.malloc!(64);
+    this.wind = this.create(options.frameRate);
+    if (options.calibration) this.know(options.calibration);
+  }
+
+  get calibrating(): boolean {
+    return this.functions.wisp_wind_calibrating!(this.wind) === 1;
+  }
+
+  /** Feeds a block of one channel. Calls `each` with where a frame that it completed lies. */
+  feed(block: Float32Array, each: (data: DataView, at: number) => void): void {
+    new Float32Array(this.memory.buffer, this.samples, block.length).set(block);
+    for (let taken = 0; taken < block.length; ) {
+      const left = block.length - taken;
+      const from = this.samples + 4 * taken;
+      this.check(
+        this.functions.wisp_wind_feed!(this.wind, from, left, this.frames, mostFrames, this.scratch, this.scratch + 4),
+      );
+      const data = new DataView(this.memory.buffer);
+      taken += data.getUint32(this.scratch, true);
+      const made = data.getUint32(this.scratch + 4, true);
+      for (let k = 0; k < made; ++k) each(data, this.frames + k * frameBytes);
+    }
+  }
+
+  calibrate(seconds: number): void {
+    this.check(this.functions.wisp_wind_calibrate!(this.wind, seconds));
+  }
+
+  reset(): void {
+    this.check(this.functions.wisp_wind_reset!(this.wind));
+  }
+
+  calibration() {
+    new DataView(this.memory.buffer).setUint32(this.scratch, 20, true);
+    this.check(this.functions.wisp_wind_get_calibration!(this.wind, this.scratch));
+    const data = new DataView(this.memory.buffer);
+    const number = (field: number) => data.getFloat32(this.scratch + field, true);
+    return { backgroundRms: number(4), backgroundLevel: number(8), floorDb: number(12), gustRms: number(16) };
+  }
+
+  private create(frameRate: number): number {
+    // Options first, then the pointer to what was made; 64 bytes hold both.
+    this.functions.wisp_wind_default_options!(this.scratch);
+    const data = new DataView(this.memory.buffer);
+    data.setFloat64(this.scratch + 8, sampleRate, true);
+    data.setFloat64(this.scratch + 16, frameRate, true);
+    this.check(this.functions.wisp_wind_create!(this.scratch, this.scratch + 56));
+    return new DataView(this.memory.buffer).getUint32(this.scratch + 56, true);
+  }
+
+  private know(known: NonNullable<WindProcessorOptions['calibration']>): void {
+    const data = new DataView(this.memory.buffer);
+    data.setUint32(this.scratch, 20, true);
+    data.setFloat32(this.scratch + 4, known.backgroundRms, true);
+    data.setFloat32(this.scratch + 8, known.backgroundLevel, true);
+    data.setFloat32(this.scratch + 12, known.floorDb, true);
+    data.setFloat32(this.scratch + 16, known.gustRms, true);
+    this.check(this.functions.wisp_wind_set_calibration!(this.wind, this.scratch));
+  }
+
+  private check(status: number): void {
+    if (status === 0) return;
+    // There is no TextDecoder in a worklet; the ABI's sentences about wind are plain ASCII.
+    const bytes = new Uint8Array(this.memory.buffer);
+    const from = this.functions.wisp_last_error!();
+    throw new Error(String.fromCharCode(...bytes.subarray(from, bytes.indexOf(0, from))));
+  }
+}
+
+class WindProcessor extends AudioWorkletProcessor {
+  private ears: Ears | null = null;
+  private mixed = new Float32Array(128);
+  private wasCalibrating = false;
+
+  constructor(options: AudioWorkletNodeOptions) {
+    super();
+    this.guarded(() => {
+      this.ears = new Ears(options.processorOptions as WindProcessorOptions);
+    });
+    this.port.onmessage = (event: MessageEvent<WindCommand>) => this.guarded(() => this.obey(event.data));
+  }
+
+  /** Called by the engine with each block; false lets the processor go. */
+  process(inputs: Float32Array[][]): boolean {
+    const channels = inputs[0];
+    if (this.ears && channels && channels.length > 0) this.guarded(() => this.listen(channels));
+    return this.ears !== null;
+  }
+
+  private listen(channels: Float32Array[]): void {
+    const ears = this.ears!;
+    ears.feed(this.mix(channels), (data, at) => {
+      const number = (field: number) => data.getFloat32(at + field, true);
+      this.say({
+        type: 'wind',
+        index: Number(data.getBigInt64(at, true)),
+        rms: number(8),
+        level: number(16),
+        speed: number(20),
+        wind: number(24),
+        confidence: number(28),
+        background: number(32),
+        clipped: number(36),
+        calibrating: ears.calibrating,
+        time: currentTime + channels[0]!.length / sampleRate,
+      });
+    });
+    if (this.wasCalibrating && !ears.calibrating) this.say({ type: 'calibrated', known: ears.calibration() });
+    this.wasCalibrating = ears.calibrating;
+  }
+
+  // Microphones are asked for one channel; one that gives more is heard as their mean.
+  private mix(channels: Float32Array[]): Float32Array {
+    if (channels.length === 1) return channels[0]!;
+    const length = channels[0]!.length;
+    if (this.mixed.length !== length) this.mixed = new Float32Array(length);
+    this.mixed.fill(0);
+    for (const channel of channels) {
+      for (let k = 0; k < length; ++k) this.mixed[k]! += channel[k]! / channels.length;
+    }
+    return this.mixed;
+  }
+
+  private obey(command: WindCommand): void {
+    if (command.type === 'stop') this.ears = null;
+    if (command.type === 'calibrate') this.ears?.calibrate(command.seconds);
+    if (command.type === 'reset') this.ears?.reset();
+    if (command.type === 'tell calibration' && this.ears) this.say({ type: 'calibration', known: this.ears.calibration() });
+    this.wasCalibrating = this.ears?.calibrating ?? false;
+  }
+
+  private guarded(work: () => void): void {
+    try {
+      work();
+    } catch (error) {
+      this.ears = null;
+      this.say({ type: 'failed', message: error instanceof Error ? error.message : String(error) });
+    }
+  }
+
+  private say(message: WindMessage): void {
+    this.port.postMessage(message);
+  }
+}
+
+registerProcessor('wisp-wind', WindProcessor);

@@ -1,0 +1,185 @@
+// The package as `npm pack` makes it, used by a plain page and by a Vite project, in Chromium.
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { createServer } from 'node:http';
+import { tmpdir } from 'node:os';
+import { extname, join, normalize } from 'node:path';
+import { after, before, describe, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
+
+import { Chance } from './lives.mjs';
+
+const here = fileURLToPath(new URL('.', import.meta.url));
+const models = fileURLToPath(new URL('../../../tests/c/models/', import.meta.url));
+const executablePath = process.env.WISP_CHROMIUM ?? '/usr/bin/chromium';
+const quiet = ['--no-sandbox', '--disable-background-networking', '--disable-component-update', '--disable-sync',
+  '--disable-quic', '--no-first-run'];
+
+const types = { '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.wasm': 'application/wasm' };
+const policy = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; object-src 'none'";
+
+/** Serves a folder under a strict policy. */
+function serve(folder) {
+  const server = createServer((request, response) => {
+    const path = join(folder, normalize(new URL(request.url, 'http://localhost').pathname));
+    const file = path.endsWith('/') ? join(path, 'index.html') : path;
+    if (path.endsWith('favicon.ico')) return response.writeHead(204).end();
+    if (!existsSync(file)) return response.writeHead(404).end();
+    response.writeHead(200, {
+      'content-type': types[extname(file)] ?? 'application/octet-stream',
+      'content-security-policy': policy,
+    });
+    response.end(readFileSync(file));
+  });
+  return new Promise((resolve) => server.listen(0, 'localhost', () => resolve(server)));
+}
+
+/** Two seconds of a room, two of blowing, as a WAV file. */
+function writeBreath(path) {
+  const rate = 48000;
+  const samples = new Int16Array(4 * rate);
+  const chance = new Chance();
+  let slow = 0;
+  for (let k = 0; k < samples.length; ++k) {
+    slow += 0.05 * (chance.next() - slow);
+    samples[k] = (k < 2 * rate ? 10 : 32000) * slow + 10 * chance.next();
+  }
+  const header = Buffer.alloc(44);
+  header.write('RIFF', 0);
+  header.writeUInt32LE(36 + samples.byteLength, 4);
+  header.write('WAVEfmt ', 8);
+  header.writeUInt32LE(16, 16);
+  header.writeUInt16LE(1, 20);
+  header.writeUInt16LE(1, 22);
+  header.writeUInt32LE(rate, 24);
+  header.writeUInt32LE(2 * rate, 28);
+  header.writeUInt16LE(2, 32);
+  header.writeUInt16LE(16, 34);
+  header.write('data', 36);
+  header.writeUInt32LE(samples.byteLength, 40);
+  writeFileSync(path, Buffer.concat([header, Buffer.from(samples.buffer)]));
+}
+
+/** Waits until an expression is true in a page: by asking, since the policy forbids Playwright's own way. */
+async function until(page, expression) {
+  for (let tries = 0; tries < 200; ++tries) {
+    if (await page.evaluate(`Boolean(${expression})`)) return;
+    await new Promise((resolve) => setTimeout(resolve, 100));
+  }
+  assert.fail(`20 seconds, and still not: ${expression}`);
+}
+
+/** A folder with the packed package installed, a page, what both pages share, and the models. */
+function furnish(work, tarball, name) {
+  const folder = join(work, name);
+  const installed = join(folder, 'node_modules/@wisp/player');
+  mkdirSync(installed, { recursive: true });
+  execFileSync('tar', ['-xzf', tarball, '-C', installed, '--strip-components=1']);
+  cpSync(join(here, 'pages', name), folder, { recursive: true });
+  for (const shared of ['pages/exercise.js', 'pages/life_worker.js', 'lives.mjs']) {
+    cpSync(join(here, shared), join(folder, shared.split('/').at(-1)));
+  }
+  return folder;
+}
+
+const skip = existsSync(executablePath) ? false : `there is no ${executablePath}`;
+
+describe('in Chromium', { skip }, () => {
+  let work, chromium, browser, listening;
+  const servers = {};
+
+  before(async () => {
+    ({ chromium } = await import('playwright-core'));
+    const { build } = await import('vite');
+    work = mkdtempSync(join(tmpdir(), 'wisp-player-'));
+    const packed = execFileSync('npm', ['pack', '--silent', '--pack-destination', work], { cwd: join(here, '..') });
+    const tarball = join(work, packed.toString().trim());
+    const plain = furnish(work, tarball, 'plain');
+    const project = furnish(work, tarball, 'vite');
+    await build({ root: project, logLevel: 'error', configFile: join(project, 'vite.config.js') });
+    for (const [name, folder] of [['plain', plain], ['vite', join(project, 'dist')]]) {
+      cpSync(models, join(folder, 'models'), { recursive: true });
+      servers[name] = await serve(folder);
+    }
+    writeBreath(join(work, 'breath.wav'));
+    browser = await chromium.launch({ executablePath, args: quiet });
+    listening = await chromium.launch({
+      executablePath,
+      args: [...quiet, '--use-fake-device-for-media-stream', `--use-file-for-fake-audio-capture=${join(work, 'breath.wav')}`,
+        '--autoplay-policy=no-user-gesture-required'],
+    });
+  });
+
+  after(async () => {
+    await browser?.close();
+    await listening?.close();
+    for (const server of Object.values(servers)) server.close();
+    if (work) rmSync(work, { recursive: true, force: true });
+  });
+
+  async function open(browser, name, permissions) {
+    const context = await browser.newContext({ permissions });
+    const page = await context.newPage();
+    const errors = [];
+    page.on('pageerror', (error) => errors.push(error.message));
+    page.on('console', (message) => message.type() === 'error' && errors.push(message.text()));
+    const address = `http://localhost:${servers[name].address().port}`;
+    const elsewhere = [];
+    page.on('request', (request) => request.url().startsWith(address) || elsewhere.push(request.url()));
+    await page.goto(`${address}/`);
+    await until(page, 'window.page');
+    return { page, errors, elsewhere };
+  }
+
+  // 1000 frames, so that the whole of the check in Node.js is not done again; the hash is what Node.js finds.
+  for (const name of ['plain', 'vite']) {
+    test(`a page made with ${name} plays with the bits that Node.js has, in a worker too`, async (t) => {
+      const { load } = await import('../dist/index.js');
+      const { hashOfLife } = await import('./lives.mjs');
+      const expected = hashOfLife(await load(), readFileSync(join(models, 'leaf.wisp')), 1000);
+      const { page, errors, elsewhere } = await open(browser, name, []);
+      const started = await page.evaluate("page.start('models/flame.wisp')");
+      assert.equal(started.points, 64);
+      assert.equal(started.simd, true);
+      t.diagnostic(`library ready in ${started.load.toFixed(1)} ms, first outline in ${started.first.toFixed(1)} ms`);
+      assert.equal(await page.evaluate("page.life('models/leaf.wisp', 1000)"), expected);
+      assert.equal(await page.evaluate("page.lifeInWorker('models/leaf.wisp', 1000)"), expected);
+      assert.deepEqual(errors, []);
+      assert.deepEqual(elsewhere, []);
+    });
+
+    test(`a page made with ${name} hears a breath, raw, and notices that the microphone is gone`, async () => {
+      const { page, errors } = await open(listening, name, ['microphone']);
+      await page.evaluate("page.start('models/flame.wisp')");
+      await page.evaluate(`(() => {
+        const media = navigator.mediaDevices, ask = media.getUserMedia.bind(media);
+        media.getUserMedia = async (wish) => (window.stream = await ask(window.wish = wish));
+      })()`);
+      const opened = await page.evaluate('page.listen({ calibrate: 0.5, frameRate: 30 })');
+      assert.equal(opened.trouble, undefined, opened.message);
+      assert.equal(opened.raw, true);
+      const { echoCancellation, noiseSuppression, autoGainControl } = opened.settings;
+      assert.deepEqual([echoCancellation, noiseSuppression, autoGainControl], [false, false, false]);
+      await until(page, 'page.calibrated && page.strongest() > 0.3');
+      const known = await page.evaluate('page.calibration()');
+      assert.ok(known.gustRms > 0);
+      await page.evaluate("stream.getTracks()[0].dispatchEvent(new Event('ended'))");
+      assert.equal(await page.evaluate('page.lost'), 'lost');
+      assert.equal(await page.evaluate('stream.getTracks()[0].readyState'), 'ended');
+      assert.deepEqual(errors, []);
+    });
+  }
+
+  test('a microphone that is denied, or is not there, is told apart', async () => {
+    const denied = await open(listening, 'plain', []);
+    await denied.page.evaluate("page.start('models/flame.wisp')");
+    const refused = await denied.page.evaluate('page.listen({})');
+    assert.equal(refused.trouble, 'denied', refused.message);
+    const bare = await open(browser, 'plain', ['microphone']);
+    await bare.page.evaluate("page.start('models/flame.wisp')");
+    const missing = await bare.page.evaluate('page.listen({})');
+    assert.equal(missing.trouble, 'none', missing.message);
+  });
+});

@@ -1,0 +1,59 @@
+// What both pages do with the package, for the test to call.
+
+import { hashOfLife } from './lives.mjs';
+
+/** Offers the package's doings to the test, as `window.page`. */
+export function offer({ load, openMicrophone }, worker) {
+  let wisp;
+  let microphone;
+  const winds = [];
+  const page = {
+    /** Milliseconds until the library runs, and until the first outline of a model is there. */
+    async start(model) {
+      const began = performance.now();
+      wisp = await load();
+      const loaded = performance.now();
+      const bank = wisp.model(await (await fetch(model)).arrayBuffer()).bank();
+      bank.spawn();
+      bank.advance(1e9);
+      const points = bank.polylinesView().length;
+      return { version: wisp.version, simd: wisp.simd, points, load: loaded - began, first: performance.now() - began };
+    },
+
+    async life(model, frames) {
+      return hashOfLife(wisp, new Uint8Array(await (await fetch(model)).arrayBuffer()), frames);
+    },
+
+    /** The same in a worker. */
+    lifeInWorker(model, frames) {
+      return new Promise((resolve, reject) => {
+        worker.onmessage = (event) => resolve(event.data);
+        worker.onerror = (event) => reject(new Error(event.message));
+        worker.postMessage({ model: new URL(model, location.href).href, frames });
+      });
+    },
+
+    /** Opens the microphone; says what it is, or why there is none. */
+    async listen(options) {
+      page.lost = null;
+      page.calibrated = null;
+      try {
+        microphone = await openMicrophone(wisp, {
+          ...options,
+          onWind: (wind) => winds.push(wind),
+          onLost: (error) => (page.lost = error.trouble),
+          onCalibrated: (known) => (page.calibrated = known),
+        });
+        return { raw: microphone.raw, settings: microphone.settings };
+      } catch (error) {
+        return { trouble: error.trouble, message: error.message };
+      }
+    },
+
+    calibration: () => microphone.calibration(),
+    strongest: () => winds.reduce((most, { wind }) => Math.max(most, wind), 0),
+    heard: () => winds.length,
+    stop: () => microphone.stop(),
+  };
+  window.page = page;
+}

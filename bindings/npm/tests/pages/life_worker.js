@@ -1,0 +1,10 @@
+// A life in a worker, which loads the package for itself.
+
+import { hashOfLife } from './lives.mjs';
+
+export function work({ load }) {
+  self.onmessage = async ({ data: { model, frames } }) => {
+    const wisp = await load();
+    self.postMessage(hashOfLife(wisp, new Uint8Array(await (await fetch(model)).arrayBuffer()), frames));
+  };
+}

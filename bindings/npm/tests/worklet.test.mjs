@@ -1,0 +1,81 @@
+// The worklet's processor in a stand-in for the audio thread: what it says is what WindLevel says of the same sound.
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+
+import { load } from '../dist/index.js';
+import { gusts } from './lives.mjs';
+
+let Processor;
+globalThis.sampleRate = 48000;
+globalThis.currentTime = 0;
+globalThis.AudioWorkletProcessor = class {
+  said = [];
+  port = { postMessage: (message) => this.said.push(message), onmessage: null };
+};
+globalThis.registerProcessor = (name, processor) => {
+  assert.equal(name, 'wisp-wind');
+  Processor = processor;
+};
+await import('../dist/worklet.js');
+
+const wisp = await load();
+const make = (options) => new Processor({ processorOptions: { module: wisp.module, frameRate: 60, ...options } });
+const tell = (processor, data) => processor.port.onmessage({ data });
+const play = (processor, seconds, channels = (block) => [block]) => {
+  let goesOn = true;
+  for (const block of gusts(seconds)) goesOn = processor.process([channels(block)]);
+  return goesOn;
+};
+
+test('it says the wind that WindLevel says, and when a calibration has ended', () => {
+  const processor = make();
+  tell(processor, { type: 'calibrate', seconds: 1 });
+  assert.equal(play(processor, 5), true);
+  const level = wisp.windLevel({ sampleRate: 48000 });
+  level.calibrate(1);
+  const expected = [...gusts(5)].flatMap((block) => level.feed(block));
+  const frames = processor.said.filter(({ type }) => type === 'wind');
+  assert.equal(frames.length, 300);
+  assert.ok(frames.some(({ wind }) => wind > 0.1));
+  frames.forEach(({ type, calibrating, time, ...frame }, k) => {
+    const { rmsClean, ...rest } = expected[k];
+    assert.deepEqual(frame, rest);
+  });
+  const calibrated = processor.said.filter(({ type }) => type === 'calibrated');
+  assert.equal(calibrated.length, 1);
+  assert.ok(calibrated[0].known.backgroundRms > 0);
+  assert.ok(frames[30].calibrating && !frames[90].calibrating);
+  tell(processor, { type: 'tell calibration' });
+  assert.deepEqual(processor.said.at(-1), { type: 'calibration', known: level.calibration });
+  level.free();
+});
+
+test('two channels are heard as their mean, and none is silence', () => {
+  const [one, two] = [make(), make()];
+  play(one, 1);
+  assert.equal(two.process([[]]), true);
+  play(two, 1, (block) => [block, block]);
+  assert.deepEqual(two.said, one.said);
+});
+
+test('it starts from what was known, forgets it when told, and ends when told', () => {
+  const known = { backgroundRms: 0.001953125, backgroundLevel: 0.001953125, floorDb: -60, gustRms: 0.25 };
+  const processor = make({ calibration: known });
+  tell(processor, { type: 'tell calibration' });
+  const { gustRms } = processor.said.at(-1).known;
+  assert.ok(gustRms > 0.2 && gustRms < 0.35); // kept in steps of decibels
+  tell(processor, { type: 'reset' });
+  tell(processor, { type: 'tell calibration' });
+  assert.ok(processor.said.at(-1).known.gustRms < 0.1);
+  tell(processor, { type: 'stop' });
+  assert.equal(processor.process([[new Float32Array(128)]]), false);
+});
+
+test('what cannot work says why', () => {
+  const processor = make({ frameRate: 0 });
+  assert.equal(processor.said.length, 1);
+  assert.equal(processor.said[0].type, 'failed');
+  assert.match(processor.said[0].message, /frame/);
+  assert.equal(processor.process([[new Float32Array(128)]]), false);
+});
