@@ -1,0 +1,126 @@
+// What is drawn of a flame, from its model's outline: a closed shape with a rounded base, and what it amounts to.
+
+/** Most points of an outline that are drawn. */
+export const MOST_POINTS = 64;
+
+/** Area of a calm flame in square flame units; its light is 1. */
+const CALM_AREA = 0.17;
+
+/** Height, as a share of the flame's, below which the outline is chance and the drop around the wick takes over. */
+const SHOULDER = 0.2;
+
+export class FlameShape {
+  /** x, y and height along the outline (0 base, 1 tip), three numbers a point */
+  readonly points = new Float32Array(3 * MOST_POINTS);
+  count = 0;
+  /** in flame units; empty when left > right */
+  left = 1;
+  right = -1;
+  bottom = 0;
+  top = 0;
+  tipX = 0;
+  tipY = 0;
+  /** the middle of its area */
+  middleX = 0;
+  middleY = 0;
+  /** 1 for a calm flame */
+  light = 0;
+  /** mean width of its body */
+  width = 0.25;
+  private readonly along = new Float32Array(MOST_POINTS);
+
+  get empty(): boolean {
+    return this.count < 3 || this.top - this.bottom < 0.01;
+  }
+
+  /**
+   * Takes over an outline: x, y in turn, from the base's left over the tip to the base's right. `size` is how much of
+   * the flame is seen, 0 to 1; its light goes with it.
+   */
+  update(outline: Float32Array, size: number): void {
+    this.count = Math.min(MOST_POINTS, outline.length >> 1);
+    let height = 0;
+    for (let k = 0; k < this.count; ++k) height = Math.max(height, outline[2 * k + 1] as number);
+    this.roundBase(outline, height);
+    this.measure();
+    this.climb();
+    const burning = Math.min(2.4, Math.abs(this.area()) / CALM_AREA);
+    this.light = size > 0 && !this.empty ? Math.pow(burning, 0.7) * (0.3 + 0.7 * size) : 0;
+  }
+
+  private roundBase(outline: Float32Array, height: number): void {
+    const shoulder = SHOULDER * height;
+    const drop = 0.05 * Math.min(1, height);
+    const middle = 0.5 * ((outline[0] as number) + (outline[2 * this.count - 2] as number));
+    for (let k = 0; k < this.count; ++k) {
+      let x = outline[2 * k] as number;
+      let y = outline[2 * k + 1] as number;
+      if (y < shoulder && shoulder > 0) {
+        const down = Math.min(1, (shoulder - y) / shoulder);
+        x = middle + (x - middle) * Math.sqrt(Math.max(0, 1 - down * down));
+        y -= drop * down * down;
+      }
+      this.points[3 * k] = x;
+      this.points[3 * k + 1] = y;
+    }
+  }
+
+  private measure(): void {
+    this.left = this.bottom = Infinity;
+    this.right = this.top = -Infinity;
+    let farthest = -1;
+    let sumX = 0;
+    let sumY = 0;
+    for (let k = 0; k < this.count; ++k) {
+      const x = this.points[3 * k] as number;
+      const y = this.points[3 * k + 1] as number;
+      this.left = Math.min(this.left, x);
+      this.right = Math.max(this.right, x);
+      this.bottom = Math.min(this.bottom, y);
+      this.top = Math.max(this.top, y);
+      const far = x * x + y * y;
+      if (far > farthest) [farthest, this.tipX, this.tipY] = [far, x, y];
+      sumX += x;
+      sumY += y;
+    }
+    this.middleX = sumX / Math.max(1, this.count);
+    this.middleY = sumY / Math.max(1, this.count);
+    const reach = Math.sqrt(Math.max(1e-6, farthest));
+    this.width = Math.max(0.02, (0.95 * Math.abs(this.area())) / reach);
+  }
+
+  /** How high up the flame each point of the outline is: by its length, on either side of the tip. */
+  private climb(): void {
+    const { points, count } = this;
+    let tip = 0;
+    let length = 0;
+    const at = this.along;
+    for (let k = 0; k < count; ++k) {
+      if (points[3 * k] === this.tipX && points[3 * k + 1] === this.tipY) tip = k;
+      if (k > 0) {
+        const dx = (points[3 * k] as number) - (points[3 * k - 3] as number);
+        const dy = (points[3 * k + 1] as number) - (points[3 * k - 2] as number);
+        length += Math.hypot(dx, dy);
+      }
+      at[k] = length;
+    }
+    const left = Math.max(1e-6, at[tip] ?? 0);
+    const right = Math.max(1e-6, length - left);
+    for (let k = 0; k < count; ++k) {
+      const along = at[k] as number;
+      points[3 * k + 2] = k <= tip ? along / left : (length - along) / right;
+    }
+  }
+
+  private area(): number {
+    const { points, count } = this;
+    let twice = 0;
+    for (let k = 0; k < count; ++k) {
+      const next = (k + 1) % count;
+      twice +=
+        (points[3 * k] as number) * (points[3 * next + 1] as number) -
+        (points[3 * next] as number) * (points[3 * k + 1] as number);
+    }
+    return twice / 2;
+  }
+}

@@ -1,0 +1,67 @@
+// Where the leaves are seen from: metres, z up; the eye looks along +y.
+
+const EYE = [0, -2.75, 1.12] as const;
+const TARGET_HEIGHT = 0.93;
+const HALF_VIEW = Math.tan((0.5 * 46 * Math.PI) / 180);
+const NEAR = 0.2;
+const FAR = 30;
+
+export class LeafCamera {
+  readonly eye = EYE;
+  /** world to clip, column by column */
+  readonly matrix = new Float32Array(16);
+  /** sine and cosine of how far the eye looks down */
+  private readonly sine: number;
+  private readonly cosine: number;
+  aspect = 1;
+  width = 1;
+  height = 1;
+
+  constructor() {
+    const down = Math.atan2(EYE[2] - TARGET_HEIGHT, -EYE[1]);
+    this.sine = Math.sin(down);
+    this.cosine = Math.cos(down);
+  }
+
+  /** Half of what is seen at a metre's distance: across, and up. */
+  get half(): readonly [number, number] {
+    return [HALF_VIEW * this.aspect, HALF_VIEW];
+  }
+
+  get looksDown(): readonly [number, number] {
+    return [this.sine, this.cosine];
+  }
+
+  frame(width: number, height: number): void {
+    this.width = width;
+    this.height = height;
+    this.aspect = width / Math.max(1, height);
+    const { sine: s, cosine: c } = this;
+    // Rows: right is x; up is (0, s, c); ahead is (0, c, −s).
+    const fx = 1 / (HALF_VIEW * this.aspect);
+    const fy = 1 / HALF_VIEW;
+    const depth = (FAR + NEAR) / (FAR - NEAR);
+    const [ex, ey, ez] = EYE;
+    const up = s * ey + c * ez;
+    const ahead = c * ey - s * ez;
+    this.matrix.set([fx, 0, 0, 0]);
+    this.matrix.set([0, fy * s, depth * c, c], 4);
+    this.matrix.set([0, fy * c, -depth * s, -s], 8);
+    this.matrix.set([-fx * ex, -fy * up, -depth * ahead - (2 * FAR * NEAR) / (FAR - NEAR), -ahead], 12);
+  }
+
+  /** Half of the width in view at that depth y, at the ground. */
+  halfWidth(y: number): number {
+    return (y - EYE[1]) * this.cosine * HALF_VIEW * this.aspect;
+  }
+
+  /** The place at depth y that a pixel shows: x and z. */
+  at(pixelX: number, pixelY: number, y: number): [number, number] {
+    const across = ((2 * pixelX) / this.width - 1) * HALF_VIEW * this.aspect;
+    const up = ((2 * pixelY) / this.height - 1) * HALF_VIEW;
+    const wayY = this.cosine + up * this.sine;
+    const wayZ = -this.sine + up * this.cosine;
+    const far = (y - EYE[1]) / wayY;
+    return [EYE[0] + across * far, EYE[2] + wayZ * far];
+  }
+}

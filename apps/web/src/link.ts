@@ -1,0 +1,71 @@
+// What a link carries after its #: scene, seed and settings. Nothing of it is kept anywhere else.
+
+export type SceneName = 'candle' | 'leaves';
+
+export interface Settings {
+  scene: SceneName;
+  /** of all chance */
+  seed: number;
+  /** scale of the learned noise, 0 to 2 */
+  noise: number;
+  candles: number;
+  leaves: number;
+  /** order of the flame's model, one of those that are shipped */
+  order: number;
+  /** longest history of the leaf's chain; 0: as learned */
+  history: number;
+  /** pixels drawn for each of the screen's, 0.25 to 2; 0: as many as keep it smooth */
+  detail: number;
+}
+
+export const MOST_LEAVES = 10_000;
+export const ORDERS: readonly number[] = [2, 4, 6];
+
+export const DEFAULTS: Readonly<Settings> = {
+  scene: 'candle',
+  seed: 1,
+  noise: 1,
+  candles: 1,
+  leaves: 400,
+  order: 4,
+  history: 0,
+  detail: 0,
+};
+
+const RANGES: Readonly<Record<Exclude<keyof Settings, 'scene'>, readonly [number, number, boolean]>> = {
+  seed: [0, 2 ** 32 - 1, true],
+  noise: [0, 2, false],
+  candles: [1, 12, true],
+  leaves: [1, MOST_LEAVES, true],
+  order: [2, 6, true],
+  history: [0, 8, true],
+  detail: [0, 2, false],
+};
+
+/** Reads what follows a link's #. What is missing, unknown or out of range is as it is in `otherwise`. */
+export function settingsFromLink(hash: string, otherwise: Readonly<Settings> = DEFAULTS): Settings {
+  const given = new URLSearchParams(hash.replace(/^#/, ''));
+  const settings: Settings = { ...otherwise };
+  const scene = given.get('scene');
+  if (scene === 'candle' || scene === 'leaves') settings.scene = scene;
+  for (const [name, [low, high, whole]] of Object.entries(RANGES)) {
+    const text = given.get(name);
+    const value = text === null || text.trim() === '' ? NaN : Number(text);
+    if (!(value >= low && value <= high) || (whole && !Number.isInteger(value))) continue;
+    settings[name as keyof typeof RANGES] = value;
+  }
+  if (!ORDERS.includes(settings.order)) settings.order = otherwise.order;
+  return settings;
+}
+
+/** The shortest link that carries these settings, from its # on. */
+export function linkOf(settings: Readonly<Settings>): string {
+  const given = new URLSearchParams();
+  for (const [name, value] of Object.entries(settings)) {
+    if (value !== DEFAULTS[name as keyof Settings]) given.set(name, String(value));
+  }
+  // Scene and seed are always told: a link is there to say them.
+  given.set('scene', settings.scene);
+  given.set('seed', String(settings.seed));
+  return `#${given.toString()}`;
+}

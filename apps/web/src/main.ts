@@ -1,0 +1,37 @@
+// Where the page begins.
+
+import { load } from '@wisp/player';
+import { App } from './app.js';
+import { DEFAULTS, settingsFromLink, type Settings } from './link.js';
+
+/** For people who asked their system for less motion: a calmer flame, fewer leaves. */
+function startingSettings(): Settings {
+  const calm = window.matchMedia('(prefers-reduced-motion: reduce)').matches;
+  return settingsFromLink(location.hash, calm ? { ...DEFAULTS, noise: 0.3, leaves: 25 } : DEFAULTS);
+}
+
+/** The page's own files are kept by the browser, so that it opens without a network. */
+function keepForOffline(): void {
+  if (!import.meta.env.PROD || !('serviceWorker' in navigator)) return;
+  // Refused where pages are not kept, as in private windows: the page only needs its network then.
+  navigator.serviceWorker.register('./sw.js').catch(() => undefined);
+}
+
+function say(words: string): void {
+  const place = document.getElementById('absent');
+  if (place === null) return;
+  place.textContent = words;
+  place.hidden = false;
+}
+
+async function start(): Promise<void> {
+  if (typeof WebAssembly === 'undefined') {
+    say('This browser runs no WebAssembly, which the flame is computed with.');
+    return;
+  }
+  const app = new App(await load(), startingSettings());
+  await app.start();
+  keepForOffline();
+}
+
+start().catch((error: unknown) => say(`The page could not start: ${error instanceof Error ? error.message : String(error)}`));

@@ -1,0 +1,106 @@
+// The controls over the picture: scenes, how many, blow, the scene's own action.
+
+import { MOST_LEAVES, type SceneName, type Settings } from '../link.js';
+import { byId, element } from './element.js';
+
+/** Scenes that have a tab. Another scene is a line here and one in player.ts. */
+const SCENES: readonly { name: SceneName; title: string }[] = [
+  { name: 'candle', title: 'Candle' },
+  { name: 'leaves', title: 'Leaves' },
+];
+
+const MOST_CANDLES = 12;
+
+/** What the microphone is doing. */
+export type Hearing = 'off' | 'asking' | 'calibrating' | 'listening';
+
+export interface ControlEvents {
+  change(change: Partial<Settings>): void;
+  blow(): void;
+  act(): void;
+}
+
+export class Controls {
+  private readonly tabs = new Map<SceneName, HTMLButtonElement>();
+  private readonly count = byId('count', HTMLInputElement);
+  private readonly countName = byId('count-name', HTMLSpanElement);
+  private readonly countShown = byId('count-shown', HTMLOutputElement);
+  private readonly blow = byId('blow', HTMLButtonElement);
+  private readonly blowWord = byId('blow-word', HTMLSpanElement);
+  private readonly ring = document.getElementById('blow-ring');
+  private readonly act = byId('act', HTMLButtonElement);
+  private tab: SceneName | null = 'candle';
+  private word = '';
+  private shownLevel = -1;
+
+  constructor(private readonly events: ControlEvents) {
+    const place = byId('scenes', HTMLElement);
+    for (const { name, title } of SCENES) {
+      const button = element('button', { type: 'button', 'data-scene': name }, title);
+      button.addEventListener('click', () => events.change({ scene: name }));
+      this.tabs.set(name, button);
+      place.append(button);
+    }
+    this.count.addEventListener('input', () => events.change(this.counted(this.count.valueAsNumber)));
+    this.blow.addEventListener('click', () => events.blow());
+    this.act.addEventListener('click', () => events.act());
+  }
+
+  /** Shows the tab that is on, and how many of what. */
+  show(tab: SceneName | null, settings: Readonly<Settings>): void {
+    this.tab = tab;
+    for (const [name, button] of this.tabs) button.setAttribute('aria-current', String(name === tab));
+    const leaves = tab === 'leaves';
+    (this.count.closest('label') as HTMLElement).hidden = tab === null;
+    this.countName.textContent = leaves ? 'Leaves' : 'Candles';
+    this.act.textContent = leaves ? 'Kick' : tab === null ? 'Start again' : 'Light';
+    const many = leaves ? settings.leaves : settings.candles;
+    this.countShown.value = many.toLocaleString('en');
+    if (document.activeElement !== this.count) {
+      this.count.value = String(leaves ? Math.log(many) / Math.log(MOST_LEAVES) : (many - 1) / (MOST_CANDLES - 1));
+    }
+    this.count.setAttribute('aria-valuetext', this.countShown.value);
+  }
+
+  /** Fewer or more, as a key asks. */
+  step(way: 1 | -1, settings: Readonly<Settings>): void {
+    if (this.tab === 'leaves') {
+      const leaves = Math.round(way > 0 ? settings.leaves * 1.5 + 1 : settings.leaves / 1.5 - 1);
+      this.events.change({ leaves: Math.max(1, Math.min(MOST_LEAVES, leaves)) });
+    } else if (this.tab === 'candle') {
+      this.events.change({ candles: Math.max(1, Math.min(MOST_CANDLES, settings.candles + way)) });
+    }
+  }
+
+  /** Whether there is anything to do for the scene's own action. */
+  setActive(able: boolean): void {
+    if (this.act.disabled === able) this.act.disabled = !able;
+  }
+
+  /** What the microphone does. `level`, 0 to 1: how far calibration is, or how strong the breath is. */
+  hear(state: Hearing, level: number): void {
+    const words: Readonly<Record<Hearing, string>> = {
+      off: 'Blow',
+      asking: 'May I listen?',
+      calibrating: 'Hush…',
+      listening: 'Listening',
+    };
+    if (this.word !== state) {
+      this.word = state;
+      this.blowWord.textContent = words[state];
+      this.blow.setAttribute('aria-pressed', String(state === 'calibrating' || state === 'listening'));
+      this.blow.setAttribute('aria-label', state === 'off' ? 'Blow: microphone on' : `${words[state]}: microphone off`);
+      this.blow.classList.toggle('live', state === 'calibrating' || state === 'listening');
+      this.blow.classList.toggle('small-word', state !== 'off');
+    }
+    const shown = Math.round(100 * Math.max(0, Math.min(1, level)));
+    if (shown === this.shownLevel) return;
+    this.shownLevel = shown;
+    this.ring?.setAttribute('stroke-dasharray', `${shown} 100`);
+  }
+
+  private counted(share: number): Partial<Settings> {
+    if (this.tab === 'leaves') return { leaves: Math.round(MOST_LEAVES ** share) };
+    return { candles: 1 + Math.round(share * (MOST_CANDLES - 1)) };
+  }
+}

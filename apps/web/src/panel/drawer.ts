@@ -1,0 +1,187 @@
+// The drawer: what was learned. Live plots, knobs that mean something, the model's own facts, its file.
+
+import type { Model } from '@wisp/player';
+import { ORDERS, type Settings } from '../link.js';
+import type { FrameCost } from '../stage/stage.js';
+import type { Reading } from '../stage/scene.js';
+import { element } from './element.js';
+import { factsOf } from './facts.js';
+import { Plot } from './plot.js';
+
+/** What the drawer shows of. */
+export interface Shown {
+  model: Model;
+  bytes: Uint8Array;
+  file: string;
+  /** false: it was dropped here, and has no sisters of other orders */
+  shipped: boolean;
+  answerName: string;
+}
+
+export interface DrawerEvents {
+  change(change: Partial<Settings>): void;
+  open(file: File): void;
+  closed(): void;
+  link(): Promise<string>;
+}
+
+/** Frames between drawings of the plots. */
+const PLOT_EVERY = 2;
+
+export class Drawer {
+  private plots: Record<'wind' | 'answer' | 'cost', Plot> | null = null;
+  private outputs: Partial<Record<'wind' | 'answer' | 'cost', HTMLOutputElement>> = {};
+  private frames = 0;
+  private address: string | null = null;
+
+  constructor(
+    private readonly place: HTMLElement,
+    private readonly events: DrawerEvents,
+  ) {
+    place.addEventListener('keydown', (event) => {
+      if (event.key === 'Escape') events.closed();
+    });
+  }
+
+  get open(): boolean {
+    return !this.place.hidden;
+  }
+
+  /** Whether somebody is at one of its knobs. */
+  get holdsFocus(): boolean {
+    return this.place.contains(document.activeElement);
+  }
+
+  show(open: boolean): void {
+    this.place.hidden = !open;
+    if (open) this.place.querySelector<HTMLElement>('button')?.focus();
+  }
+
+  /** Fills it for a model and settings. */
+  fill(shown: Shown, settings: Readonly<Settings>): void {
+    const close = element('button', { type: 'button', class: 'tool round', 'aria-label': 'Close' }, '×');
+    close.addEventListener('click', () => this.events.closed());
+    this.place.replaceChildren(
+      element('header', {}, element('h2', {}, 'What was learned'), close),
+      element('p', {}, this.introduction(shown)),
+      this.livePlots(shown),
+      this.knobs(shown, settings),
+      factsOf(shown.model, shown.bytes.length),
+      this.files(shown),
+    );
+  }
+
+  /** Takes in one frame. */
+  frame(reading: Reading, cost: Readonly<FrameCost>): void {
+    if (this.plots === null) return;
+    const values = { wind: reading.wind, answer: reading.answer, cost: cost.update + cost.draw };
+    for (const name of ['wind', 'answer', 'cost'] as const) this.plots[name].push(values[name]);
+    this.frames += 1;
+    if (!this.open || this.frames % PLOT_EVERY !== 0) return;
+    for (const name of ['wind', 'answer', 'cost'] as const) {
+      this.plots[name].draw();
+      const mean = this.plots[name].mean(name === 'cost' ? 60 : 4);
+      const output = this.outputs[name];
+      if (output !== undefined) output.value = name === 'cost' ? `${mean.toFixed(2)} ms` : mean.toFixed(2);
+    }
+  }
+
+  private introduction({ model }: Shown): string {
+    if (model.view === 'outline') {
+      return 'Nothing here is animated by hand. Each point of the outline follows equations that were fitted to a film of a flame and the sound of the wind beside it.';
+    }
+    if (model.kind === 'chain') {
+      return 'Nothing here is animated by hand. Pieces of recorded falls follow each other by chance, as they were seen to, and the wind changes them as it was seen to.';
+    }
+    return 'What the model does, number by number.';
+  }
+
+  private livePlots(shown: Shown): HTMLElement {
+    const section = element('section', {}, element('h3', {}, 'Live'));
+    const add = (name: 'wind' | 'answer' | 'cost', words: string, colour: string, least: readonly [number, number]): Plot => {
+      const canvas = element('canvas', { class: 'plot', 'aria-hidden': 'true' });
+      const output = element('output');
+      this.outputs[name] = output;
+      section.append(element('div', { class: 'plot-line' }, element('span', {}, words), output), canvas);
+      return new Plot(canvas, colour, least);
+    };
+    this.plots = {
+      wind: add('wind', 'Wind in', '#7fc4ff', [-0.2, 1]),
+      answer: add('answer', `Out: ${shown.answerName}`, '#ffb35c', [-0.3, 0.3]),
+      cost: add('cost', 'Our time a frame', '#9fd8a4', [0, 4]),
+    };
+    return section;
+  }
+
+  private knobs({ model, shipped }: Shown, settings: Readonly<Settings>): HTMLElement {
+    const section = element('section', {}, element('h3', {}, 'Change it'));
+    section.append(this.slider('Learned noise', 'noise', settings.noise, 0, 2, 0.05, (value) => `${Math.round(100 * value)} %`));
+    if (model.view === 'outline' && shipped) section.append(this.orders(settings.order));
+    if (model.chain !== null && model.chain.history > 1) section.append(this.history(model.chain.history, settings.history));
+    const again = element('button', { type: 'button', class: 'tool' }, 'Other chance');
+    again.addEventListener('click', () => this.events.change({ seed: 1 + Math.floor(Math.random() * 1e6) }));
+    section.append(element('div', { class: 'actions' }, again));
+    return section;
+  }
+
+  private slider(
+    words: string,
+    name: 'noise' | 'history',
+    value: number,
+    low: number,
+    high: number,
+    step: number,
+    shown: (value: number) => string,
+  ): HTMLElement {
+    const id = `knob-${name}`;
+    const input = element('input', { type: 'range', id, min: low, max: high, step, value, 'data-knob': name });
+    const output = element('output', {}, shown(value));
+    input.addEventListener('input', () => {
+      output.value = shown(input.valueAsNumber);
+      this.events.change({ [name]: input.valueAsNumber });
+    });
+    return element('label', { class: 'knob', for: id }, element('span', {}, words), output, input);
+  }
+
+  private history(longest: number, now: number): HTMLElement {
+    const words = (value: number): string => (value === 1 ? '1 piece' : `${value} pieces`);
+    return this.slider('Remembers at most', 'history', now === 0 ? longest : Math.min(longest, now), 1, longest, 1, words);
+  }
+
+  private orders(now: number): HTMLElement {
+    const choice = element('div', { class: 'choice', role: 'group', 'aria-label': 'Order' }, 'Order');
+    for (const order of ORDERS) {
+      const button = element('button', { type: 'button', 'aria-pressed': String(order === now), 'data-order': order }, String(order));
+      button.addEventListener('click', () => this.events.change({ order }));
+      choice.append(button);
+    }
+    return choice;
+  }
+
+  private files(shown: Shown): HTMLElement {
+    if (this.address !== null) URL.revokeObjectURL(this.address);
+    this.address = URL.createObjectURL(new Blob([shown.bytes.slice()], { type: 'application/octet-stream' }));
+    const save = element('a', { class: 'tool', href: this.address, download: shown.file, 'data-file': 'save' }, 'Save this model');
+    const chosen = element('input', { type: 'file', accept: '.wisp', hidden: true, 'data-file': 'open' });
+    const open = element('button', { type: 'button', class: 'tool' }, 'Open a model…');
+    open.addEventListener('click', () => chosen.click());
+    chosen.addEventListener('change', () => {
+      const file = chosen.files?.[0];
+      if (file !== undefined) this.events.open(file);
+      chosen.value = '';
+    });
+    const link = element('button', { type: 'button', class: 'tool', 'data-file': 'link' }, 'Copy a link');
+    link.addEventListener('click', () => {
+      void this.events.link().then((said) => {
+        link.textContent = said;
+      });
+    });
+    return element(
+      'section',
+      {},
+      element('h3', {}, 'The file'),
+      element('p', {}, 'A .wisp file can be dropped anywhere on this page to play it.'),
+      element('div', { class: 'actions' }, save, open, link, chosen),
+    );
+  }
+}

@@ -1,0 +1,52 @@
+// The help: every gesture and key.
+
+import { element } from './element.js';
+
+const GESTURES: readonly (readonly [string, string])[] = [
+  ['Blow', 'press the round button, then blow at the microphone; press it again to switch it off'],
+  ['Move past', 'a pointer or a finger that passes quickly makes wind'],
+  ['Drag', 'the candle, the cake or the match'],
+  ['Tap', 'a candle that is out, to light it; the ground, to kick leaves up'],
+  ['Drop', 'a .wisp file anywhere, to play it'],
+];
+
+const KEYS: readonly (readonly [string[], string])[] = [
+  [['←', '→'], 'blow from the right, from the left'],
+  [['↑'], 'a gentle breath'],
+  [['Space'], 'blow hard'],
+  [['L'], 'carry the match to a candle; kick leaves up'],
+  [['B'], 'microphone on and off'],
+  [['−', '+'], 'fewer, more'],
+  [['1', '2'], 'candle, leaves'],
+  [['I'], 'what was learned'],
+  [['N'], 'learned noise on and off'],
+  [['P'], 'pause'],
+  [['F'], 'full screen'],
+  [['?'], 'this help'],
+];
+
+/** Fills the dialog. */
+export function fillHelp(dialog: HTMLDialogElement): void {
+  const rows = GESTURES.map(([what, how]) => element('tr', {}, element('th', { scope: 'row' }, what), element('td', {}, how)));
+  for (const [keys, how] of KEYS) {
+    const cell = element('th', { scope: 'row' });
+    keys.forEach((key, k) => cell.append(...(k > 0 ? [' '] : []), element('kbd', {}, key)));
+    rows.push(element('tr', {}, cell, element('td', {}, how)));
+  }
+  const close = element('button', { type: 'button', class: 'tool round', 'aria-label': 'Close', autofocus: true }, '×');
+  close.addEventListener('click', () => dialog.close());
+  dialog.replaceChildren(
+    element('header', {}, element('h2', {}, 'Blow on it'), close),
+    element('table', {}, ...rows),
+    element(
+      'p',
+      {},
+      'Sound is turned into wind inside this page and then forgotten. Nothing is recorded, nothing leaves this device, ' +
+        'and nothing is stored but the page itself, so that it works without a network.',
+    ),
+  );
+  // A press beside it closes it.
+  dialog.addEventListener('click', (event) => {
+    if (event.target === dialog) dialog.close();
+  });
+}

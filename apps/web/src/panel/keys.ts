@@ -1,0 +1,35 @@
+// Keys of the page. Those that blow are held; the others act once.
+
+import { KeyBreath } from '../wind/keys.js';
+
+/** What each key (KeyboardEvent.key, in lower case) does. */
+export type KeyActions = Readonly<Record<string, () => void>>;
+
+/** Whether what has the focus wants that key for itself. */
+function keeps(target: EventTarget | null, event: KeyboardEvent): boolean {
+  if (!(target instanceof HTMLElement)) return false;
+  if (target.closest('dialog') !== null) return true;
+  if (target instanceof HTMLInputElement || target instanceof HTMLSelectElement) {
+    return event.code.startsWith('Arrow') || event.key.length === 1;
+  }
+  return (target instanceof HTMLButtonElement || target instanceof HTMLAnchorElement) && event.code === 'Space';
+}
+
+/** Listens to the keyboard for as long as the page lives. */
+export function listenToKeys(breath: KeyBreath, actions: KeyActions, touched: () => void): void {
+  window.addEventListener('keydown', (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || keeps(event.target, event)) return;
+    if (KeyBreath.blows(event.code)) {
+      event.preventDefault();
+      breath.press(event.code);
+      touched();
+      return;
+    }
+    const action = actions[event.key.toLowerCase()];
+    if (action === undefined || event.repeat) return;
+    event.preventDefault();
+    action();
+  });
+  window.addEventListener('keyup', (event) => breath.release(event.code));
+  window.addEventListener('blur', () => breath.releaseAll());
+}

@@ -1,0 +1,43 @@
+// Messages that come, are read out, and go.
+
+import { element } from './element.js';
+
+const STAYS = 9000;
+const MOST = 3;
+
+export class Notices {
+  constructor(private readonly place: HTMLElement) {}
+
+  /** Shows a sentence or two for a while; the same one again only stays longer. */
+  say(text: string): void {
+    for (const shown of this.place.querySelectorAll('.notice')) {
+      if (shown.querySelector('p')?.textContent === text) shown.remove();
+    }
+    const close = element('button', { type: 'button', 'aria-label': 'Dismiss' }, '×');
+    const notice = element('div', { class: 'notice' }, element('p', {}, text), close);
+    close.addEventListener('click', () => notice.remove());
+    this.place.append(notice);
+    while (this.place.children.length > MOST) this.place.firstElementChild?.remove();
+    setTimeout(() => notice.remove(), STAYS);
+  }
+}
+
+/** One line near the lower edge that says what can be done, until it has been done. */
+export class Hint {
+  private timer = 0;
+
+  constructor(private readonly place: HTMLElement) {}
+
+  /** Shows it for so many seconds; 0: until the next one or hide(). */
+  show(text: string, seconds = 0): void {
+    clearTimeout(this.timer);
+    if (this.place.textContent !== text) this.place.textContent = text;
+    this.place.classList.add('shown');
+    if (seconds > 0) this.timer = window.setTimeout(() => this.hide(), 1000 * seconds);
+  }
+
+  hide(): void {
+    clearTimeout(this.timer);
+    this.place.classList.remove('shown');
+  }
+}

@@ -1,0 +1,95 @@
+// What plays: which model, in which scene, with which settings.
+
+import type { Model, Wisp } from '@wisp/player';
+import { CandleScene } from './candle/scene.js';
+import { readDropped, refusalOf } from './files.js';
+import type { SceneName, Settings } from './link.js';
+import type { Shown } from './panel/drawer.js';
+import { fetchShipped, SHIPPED_LEAF, shippedFlame } from './shipped.js';
+import type { Scene, SceneSettings } from './stage/scene.js';
+import type { Stage } from './stage/stage.js';
+
+/** What is on: the scene, and what is to be said of its model. */
+export interface Playing extends Shown {
+  scene: Scene;
+  /** the tab that it belongs to; null: to none */
+  tab: SceneName | null;
+}
+
+export class Player {
+  playing: Playing | null = null;
+  /** counts openings: one that was overtaken by the next is dropped */
+  private opening = 0;
+
+  constructor(
+    private readonly wisp: Wisp,
+    private readonly stage: Stage,
+    readonly settings: Settings,
+    private readonly changed: (playing: Playing) => void,
+  ) {}
+
+  /** Plays the shipped model of the scene in the settings. Throws where it cannot be fetched. */
+  async playShipped(): Promise<void> {
+    const shipped = this.settings.scene === 'leaves' ? SHIPPED_LEAF : shippedFlame(this.settings.order);
+    const turn = ++this.opening;
+    const bytes = await fetchShipped(shipped);
+    if (turn === this.opening) await this.play(bytes, shipped.file, true, turn);
+  }
+
+  /** Plays a file that somebody gave. Throws Refused, and what played plays on. */
+  async playFile(file: File): Promise<void> {
+    const turn = ++this.opening;
+    const bytes = await readDropped(file);
+    if (turn === this.opening) await this.play(bytes, file.name, false, turn);
+  }
+
+  /** Takes over changed settings; true where another model has to be fetched for them. */
+  apply(change: Partial<Settings>): boolean {
+    const before = { ...this.settings };
+    Object.assign(this.settings, change);
+    const { playing } = this;
+    if (playing === null) return false;
+    const { scene, order } = this.settings;
+    if (change.scene !== undefined && (scene !== before.scene || !playing.shipped)) return true;
+    if (playing.shipped && playing.tab === 'candle' && order !== before.order) return true;
+    playing.scene.apply(this.sceneSettings(playing.tab));
+    return false;
+  }
+
+  private sceneSettings(tab: SceneName | null): SceneSettings {
+    const { seed, noise, history, candles, leaves } = this.settings;
+    return { seed, noise, history, count: tab === 'leaves' ? leaves : candles };
+  }
+
+  private async play(bytes: Uint8Array, file: string, shipped: boolean, turn: number): Promise<void> {
+    let model: Model;
+    try {
+      model = this.wisp.model(bytes);
+    } catch (error) {
+      throw refusalOf(file, error);
+    }
+    const { scene, tab } = await this.sceneOf(model);
+    if (turn !== this.opening) {
+      scene.dispose();
+      model.free();
+      return;
+    }
+    const before = this.playing?.model;
+    this.stage.show(scene);
+    before?.free();
+    this.playing = { scene, tab, model, bytes, file, shipped, answerName: scene.answerName };
+    this.changed(this.playing);
+  }
+
+  private async sceneOf(model: Model): Promise<{ scene: Scene; tab: SceneName | null }> {
+    if (model.view === 'outline') {
+      return { scene: new CandleScene(model, this.sceneSettings('candle')), tab: 'candle' };
+    }
+    if (model.view === 'pose' || model.view === 'position') {
+      const { LeavesScene } = await import('./leaves/scene.js');
+      return { scene: new LeavesScene(model, this.sceneSettings('leaves')), tab: 'leaves' };
+    }
+    const { PlainScene } = await import('./plain/scene.js');
+    return { scene: new PlainScene(model, this.sceneSettings(null)), tab: null };
+  }
+}

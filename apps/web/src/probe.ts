@@ -1,0 +1,58 @@
+// Figures for measurements from outside (docs/web.md): tests, the bench, whoever is curious in the console.
+
+import type { SoundPath } from './wind/breath.js';
+import type { FrameCost } from './stage/stage.js';
+
+const KEPT = 600;
+
+export interface Probe {
+  /** frames drawn so far */
+  frames: number;
+  /** milliseconds of our own time in the last frames, newest last */
+  costs(): { update: number; draw: number }[];
+  /** milliseconds from the start of the page to the first picture of a scene */
+  firstPicture: number;
+  /** in the model's unit, of the last frame */
+  wind: number;
+  answer: number;
+  /** candles that burn, of how many; null in other scenes */
+  burning: { lit: number; of: number } | null;
+  /** puffs of smoke in the air */
+  smoking: boolean;
+  /** where things are that can be pressed, CSS pixels from the top left; null in other scenes */
+  places(): { wick: [number, number]; match: [number, number] } | null;
+  /** leaves in the air and on the ground; null in other scenes */
+  leaves: { count: number; lying: number } | null;
+  /** where the first candle stands, room units from the middle */
+  candleX: number;
+  hearing: string;
+  sound: SoundPath;
+  /** bytes of the library's memory */
+  memory: number;
+}
+
+declare global {
+  interface Window {
+    wisp?: Probe;
+  }
+}
+
+export class Costs {
+  private readonly update = new Float32Array(KEPT);
+  private readonly draw = new Float32Array(KEPT);
+  private count = 0;
+
+  push(cost: Readonly<FrameCost>): void {
+    this.update[this.count % KEPT] = cost.update;
+    this.draw[this.count % KEPT] = cost.draw;
+    this.count += 1;
+  }
+
+  list(): { update: number; draw: number }[] {
+    const length = Math.min(KEPT, this.count);
+    return Array.from({ length }, (_, k) => {
+      const at = (this.count - length + k) % KEPT;
+      return { update: this.update[at] as number, draw: this.draw[at] as number };
+    });
+  }
+}

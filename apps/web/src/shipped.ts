@@ -1,0 +1,21 @@
+// Models that come with the page. script/models makes them, from the candle rig and the leaf simulator.
+
+export interface Shipped {
+  url: string;
+  /** how the file is called when it is saved */
+  file: string;
+}
+
+/** The flame of that order. */
+export function shippedFlame(order: number): Shipped {
+  return { url: `./models/flame-${order}.wisp`, file: `flame-${order}.wisp` };
+}
+
+export const SHIPPED_LEAF: Shipped = { url: './models/leaf.wisp', file: 'leaf.wisp' };
+
+/** Fetches a shipped model's bytes. Throws an Error that says so when they are not there. */
+export async function fetchShipped({ url, file }: Shipped): Promise<Uint8Array> {
+  const answer = await fetch(url);
+  if (!answer.ok) throw new Error(`${file} could not be fetched (${answer.status}).`);
+  return new Uint8Array(await answer.arrayBuffer());
+}

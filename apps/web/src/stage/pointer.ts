@@ -1,0 +1,97 @@
+// Mouse, finger or pen over the canvas, as one pointer with a speed.
+
+import type { Pointer } from './scene.js';
+
+/** Speeds are means over about this long, seconds. */
+const MEAN = 0.035;
+/** A press that ends within so many CSS pixels of where it began is a tap. */
+const TAP = 8;
+
+export interface PointerEvents {
+  press(x: number, y: number): void;
+  release(x: number, y: number, tap: boolean): void;
+  hover(x: number, y: number): 'none' | 'grab';
+  /** anything at all happened */
+  touched(): void;
+}
+
+export class PointerReader {
+  readonly now: Pointer = { x: 0, y: 0, fromX: 0, fromY: 0, speedX: 0, speedY: 0, present: false };
+  private lastX = 0;
+  private lastY = 0;
+  private fresh = true;
+  private pressed: { id: number; x: number; y: number; tap: boolean } | null = null;
+
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly events: PointerEvents,
+  ) {
+    canvas.addEventListener('pointerdown', (event) => this.press(event));
+    canvas.addEventListener('pointermove', (event) => this.move(event));
+    canvas.addEventListener('pointerup', (event) => this.release(event, true));
+    canvas.addEventListener('pointercancel', (event) => this.release(event, false));
+    canvas.addEventListener('pointerleave', () => this.leave());
+    canvas.addEventListener('contextmenu', (event) => event.preventDefault());
+  }
+
+  /** Makes the speed of this frame from where the pointer is now. Call once a frame, before it is used. */
+  update(seconds: number): void {
+    const { now } = this;
+    if (seconds <= 0) return;
+    const share = 1 - Math.exp(-seconds / MEAN);
+    const speedX = now.present && !this.fresh ? (now.x - this.lastX) / seconds : 0;
+    const speedY = now.present && !this.fresh ? (now.y - this.lastY) / seconds : 0;
+    now.speedX += (speedX - now.speedX) * share;
+    now.speedY += (speedY - now.speedY) * share;
+    now.fromX = this.fresh ? now.x : this.lastX;
+    now.fromY = this.fresh ? now.y : this.lastY;
+    this.lastX = now.x;
+    this.lastY = now.y;
+    this.fresh = !now.present;
+  }
+
+  private place(event: PointerEvent): void {
+    const box = this.canvas.getBoundingClientRect();
+    this.now.x = ((event.clientX - box.left) / Math.max(1, box.width)) * this.canvas.width;
+    this.now.y = (1 - (event.clientY - box.top) / Math.max(1, box.height)) * this.canvas.height;
+    this.now.present = true;
+  }
+
+  private press(event: PointerEvent): void {
+    this.events.touched();
+    if (this.pressed !== null || event.button !== 0) return;
+    this.place(event);
+    this.fresh = true;
+    this.pressed = { id: event.pointerId, x: event.clientX, y: event.clientY, tap: true };
+    // A made-up event has no pointer to capture.
+    if (event.isTrusted) this.canvas.setPointerCapture(event.pointerId);
+    this.events.press(this.now.x, this.now.y);
+    this.canvas.classList.toggle('grabbing', this.events.hover(this.now.x, this.now.y) === 'grab');
+  }
+
+  private move(event: PointerEvent): void {
+    if (this.pressed !== null && event.pointerId !== this.pressed.id) return;
+    this.place(event);
+    const { pressed } = this;
+    if (pressed === null) {
+      this.canvas.classList.toggle('grab', this.events.hover(this.now.x, this.now.y) === 'grab');
+    } else if (Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) > TAP) {
+      pressed.tap = false;
+    }
+  }
+
+  private release(event: PointerEvent, whole: boolean): void {
+    if (this.pressed?.id !== event.pointerId) return;
+    this.place(event);
+    const { tap } = this.pressed;
+    this.pressed = null;
+    this.canvas.classList.remove('grabbing');
+    this.events.release(this.now.x, this.now.y, whole && tap);
+    // A finger that was lifted is nowhere.
+    if (event.pointerType === 'touch') this.now.present = false;
+  }
+
+  private leave(): void {
+    if (this.pressed === null) this.now.present = false;
+  }
+}

@@ -1,0 +1,48 @@
+// Breath from keys: held longer it grows, let go it dies down; and it is never quite steady, as breath is not.
+
+/** What each held key blows: strength, signed towards the right, and seconds in which it gets there. */
+const BREATHS: Readonly<Record<string, readonly [number, number]>> = {
+  ArrowRight: [0.85, 0.22],
+  ArrowLeft: [-0.85, 0.22],
+  ArrowUp: [0.4, 0.3],
+  Space: [3, 0.12],
+};
+
+export class KeyBreath {
+  private readonly held = new Set<string>();
+  private strength = 0;
+  private clock = 0;
+
+  /** Whether that key (KeyboardEvent.code) blows. */
+  static blows(code: string): boolean {
+    return code in BREATHS;
+  }
+
+  press(code: string): void {
+    this.held.add(code);
+  }
+
+  release(code: string): void {
+    this.held.delete(code);
+  }
+
+  /** As when the window loses the keyboard. */
+  releaseAll(): void {
+    this.held.clear();
+  }
+
+  /** The breath after that time, signed; 1 is strong. */
+  update(seconds: number): number {
+    this.clock += seconds;
+    let goal = 0;
+    let within = 0.1;
+    for (const code of this.held) {
+      const [strength, time] = BREATHS[code] as readonly [number, number];
+      if (Math.abs(strength) >= Math.abs(goal)) [goal, within] = [strength, time];
+    }
+    this.strength += (goal - this.strength) * (1 - Math.exp(-seconds / within));
+    if (Math.abs(this.strength) < 1e-3) this.strength = 0;
+    const unsteady = 0.1 * Math.sin(this.clock * 13.1) + 0.07 * Math.sin(this.clock * 31.7 + 1);
+    return this.strength * (1 + unsteady);
+  }
+}

@@ -1,0 +1,133 @@
+// The microphone, in Chromium: a sound file plays in its place, once.
+
+import assert from 'node:assert/strict';
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, describe, it } from 'node:test';
+import { chromiumPath, openBrowser, until } from './browser.js';
+import { breath, rate, room, speech, writeSound } from './sound.js';
+
+// When what is heard, seconds of sound. Calibration takes the first three.
+const soft = { from: 5, to: 7 };
+const talk = { from: 9, to: 13 };
+const strong = { from: 15, to: 16.5 };
+const end = 19;
+// The sound begins a little before or after the page knows that it does.
+const unsure = 0.5;
+
+describe('a candle that hears', { skip: chromiumPath === undefined && 'there is no Chromium here' }, () => {
+  const folder = mkdtempSync(join(tmpdir(), 'wisp-sound-'));
+  const spoken = speech(talk.to - talk.from, 0.08);
+  let opened;
+  let page;
+  let course;
+
+  before(async () => {
+    const file = join(folder, 'sound.wav');
+    const talked = spoken ?? new Float32Array(0);
+    writeSound(file, [
+      room(soft.from),
+      breath(soft.to - soft.from, 0.03),
+      room(talk.from - soft.to),
+      talked,
+      room(Math.max(0, strong.from - talk.from - talked.length / rate)),
+      breath(strong.to - strong.from, 0.45),
+      room(40 - strong.to),
+    ]);
+    opened = await openBrowser([
+      '--use-fake-ui-for-media-stream',
+      '--use-fake-device-for-media-stream',
+      `--use-file-for-fake-audio-capture=${file}%noloop`,
+    ]);
+    page = await opened.page('#scene=candle&seed=1&noise=0.5&detail=0.5', { viewport: { width: 320, height: 280 } });
+    await page.evaluate(record);
+    await page.click('#blow');
+    await until(page, 'the strong breath is over', (seconds) => window.course?.at(-1)?.time > seconds, end, 60_000);
+    course = await page.evaluate(() => window.course);
+  });
+
+  after(async () => {
+    await opened?.close();
+    rmSync(folder, { recursive: true });
+  });
+
+  // In the page: what it showed, thirty times a second, timed by the sound.
+  function record() {
+    window.course = [];
+    let began = 0;
+    setInterval(() => {
+      const { hearing, wind, answer, burning, smoking, sound, frames } = window.wisp;
+      if (began === 0 && hearing === 'calibrating') began = performance.now();
+      if (began === 0) return;
+      const time = (performance.now() - began) / 1000;
+      window.course.push({ time, hearing, wind, answer, lit: burning.lit, smoking, frames, ...sound });
+    }, 33);
+  }
+
+  const between = (from, to) => course.filter(({ time }) => time >= from && time < to);
+  const mean = (list, value) => list.reduce((sum, one) => sum + value(one), 0) / list.length;
+  const tip = ({ answer }) => answer;
+
+  it('learns the room for three seconds, and blows nothing meanwhile', () => {
+    assert.ok(between(0.2, 2).every(({ hearing, wind }) => hearing === 'calibrating' && wind === 0));
+    assert.ok(between(3 + unsure + 0.5, soft.from - unsure).every(({ hearing }) => hearing === 'listening'));
+  });
+
+  it('keeps its tip near rest in silence', () => {
+    assert.ok(Math.abs(mean(between(3, soft.from - unsure), tip)) < 0.12);
+  });
+
+  it('leans on a breath, and burns on', () => {
+    const leaning = between(soft.from + unsure + 0.3, soft.to - unsure);
+    const still = mean(between(3, soft.from - unsure), tip);
+    assert.ok(mean(leaning, tip) > still + 0.1, `leant by ${mean(leaning, tip) - still}`);
+    assert.ok(leaning.every(({ lit }) => lit === 1));
+  });
+
+  it('stays lit through speech, and hardly leans', { skip: spoken === null && 'nothing here can speak' }, () => {
+    const talking = between(talk.from, talk.to + unsure);
+    assert.ok(talking.every(({ lit }) => lit === 1));
+    assert.ok(mean(talking, ({ wind }) => wind) < 0.25, `wind ${mean(talking, ({ wind }) => wind)} in speech`);
+  });
+
+  it('goes out on a strong breath, and smokes', () => {
+    assert.equal(between(strong.from - 1, strong.from - unsure).at(-1).lit, 1);
+    const later = between(strong.to + unsure, end);
+    assert.ok(later.every(({ lit }) => lit === 0));
+    assert.ok(later.some(({ smoking }) => smoking));
+  });
+
+  it('shows each block of sound in the first frame after it came', () => {
+    // Counted, not timed: the frame that used a block is the one that was next when it came. The estimator's own frame
+    // and one step of the model come on top.
+    const heard = course.filter(({ heardAtFrame }) => heardAtFrame > 0);
+    assert.ok(heard.length > 50);
+    for (const { heardAtFrame, usedAtFrame, frames } of heard) {
+      if (usedAtFrame >= heardAtFrame) assert.ok(usedAtFrame - heardAtFrame <= 1);
+      else assert.ok(frames - heardAtFrame <= 1);
+    }
+  });
+
+  it('is lit again by a click', async () => {
+    const { wick } = await page.evaluate(() => window.wisp.places());
+    await page.mouse.click(...wick);
+    await until(page, 'the candle burns', () => window.wisp.burning.lit === 1);
+  });
+
+  it('shows that it listens, and stops when it is told to', async () => {
+    assert.match(await page.textContent('#blow-word'), /Listening/);
+    assert.equal(await page.getAttribute('#blow', 'aria-pressed'), 'true');
+    await page.click('#blow');
+    await until(page, 'the microphone is off', () => window.wisp.hearing === 'off');
+    const heard = await page.evaluate(() => window.wisp.sound.heard);
+    await page.waitForTimeout(300);
+    assert.equal(await page.evaluate(() => window.wisp.sound.heard), heard);
+    assert.equal(await page.getAttribute('#blow', 'aria-pressed'), 'false');
+  });
+
+  it('did all that without an error, and without asking another host', () => {
+    assert.deepEqual(page.errors, []);
+    assert.deepEqual(page.strangers, []);
+  });
+});

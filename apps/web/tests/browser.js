@@ -1,0 +1,89 @@
+// A browser with the built page in it, for tests and measurements.
+
+import { existsSync } from 'node:fs';
+import { readFile } from 'node:fs/promises';
+import { createServer } from 'node:http';
+import { fileURLToPath } from 'node:url';
+import { chromium } from 'playwright-core';
+
+const dist = fileURLToPath(new URL('../dist/', import.meta.url));
+
+const types = {
+  html: 'text/html',
+  js: 'text/javascript',
+  css: 'text/css',
+  wasm: 'application/wasm',
+  svg: 'image/svg+xml',
+  webmanifest: 'application/manifest+json',
+};
+
+/** Chromium, or undefined where there is none: tests skip then. */
+export const chromiumPath = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find(existsSync);
+
+const quiet = [
+  '--headless=new',
+  '--no-sandbox',
+  '--disable-background-networking',
+  '--disable-component-update',
+  '--disable-sync',
+  '--disable-quic',
+  '--no-first-run',
+  '--use-angle=swiftshader',
+  '--enable-unsafe-swiftshader',
+];
+
+/** Serves apps/web/dist on localhost. */
+export async function serve() {
+  const server = createServer(async (request, response) => {
+    const path = new URL(request.url, 'http://localhost').pathname.replace(/\/$/, '/index.html').slice(1);
+    try {
+      const body = await readFile(dist + path);
+      response.setHeader('content-type', types[path.split('.').pop()] ?? 'application/octet-stream');
+      response.end(body);
+    } catch {
+      response.statusCode = 404;
+      response.end();
+    }
+  });
+  await new Promise((resolve) => server.listen(0, 'localhost', resolve));
+  return { address: `http://localhost:${server.address().port}/`, close: () => server.close() };
+}
+
+/** A server, a browser, and pages in it. `close()` ends all of it. */
+export async function openBrowser(flags = []) {
+  const server = await serve();
+  const browser = await chromium.launch({ executablePath: chromiumPath, args: [...quiet, ...flags], headless: true });
+  return {
+    browser,
+    address: server.address,
+    /** The page, playing; its errors are in `page.errors`, what it asked of other hosts in `page.strangers`. */
+    async page(hash = '', options = {}) {
+      const page = await browser.newPage({ viewport: { width: 360, height: 360 }, serviceWorkers: 'block', ...options });
+      page.errors = [];
+      page.strangers = [];
+      page.on('pageerror', (error) => page.errors.push(error.message));
+      page.on('console', (message) => {
+        if (message.type() === 'error') page.errors.push(message.text());
+      });
+      page.on('request', (request) => {
+        const { protocol, href } = new URL(request.url());
+        if (protocol !== 'blob:' && !href.startsWith(server.address)) page.strangers.push(href);
+      });
+      if (options.before) await page.addInitScript(options.before);
+      await page.goto(`${server.address}${hash}`);
+      await page.waitForFunction(() => window.wisp?.frames > 2, null, { timeout: 60_000 });
+      return page;
+    },
+    async close() {
+      await browser.close();
+      server.close();
+    },
+  };
+}
+
+/** Waits until something holds in the page; `what` says so when it does not. */
+export async function until(page, what, holds, argument = null, timeout = 30_000) {
+  await page.waitForFunction(holds, argument, { timeout }).catch((error) => {
+    throw new Error(`not seen: ${what}`, { cause: error });
+  });
+}

@@ -1,0 +1,347 @@
+// Every control of the page, by pointer and by key, in Chromium.
+
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { fileURLToPath } from 'node:url';
+import { after, before, describe, it } from 'node:test';
+import { chromiumPath, openBrowser, until } from './browser.js';
+
+const model = (name) => fileURLToPath(new URL(`../public/models/${name}`, import.meta.url));
+
+const skip = chromiumPath === undefined && 'there is no Chromium here';
+let opened;
+
+before(async () => {
+  if (!skip) opened = await openBrowser();
+});
+after(() => opened?.close());
+
+const allLit = () => window.wisp.burning?.lit === window.wisp.burning?.of;
+const noneLit = () => window.wisp.burning?.lit === 0;
+
+describe('the candle', { skip }, () => {
+  let page;
+  before(async () => {
+    page = await opened.page('#scene=candle&seed=3&noise=0&detail=0.5');
+  });
+  after(() => page?.close());
+
+  const tipWhile = async (code, holds) => {
+    await page.keyboard.down(code);
+    await until(page, `the tip moves on ${code}`, holds);
+    await page.keyboard.up(code);
+    await until(page, 'the tip comes back', () => Math.abs(window.wisp.wind) < 0.05);
+  };
+
+  it('leans to the side that arrow keys blow to', async () => {
+    await tipWhile('ArrowRight', () => window.wisp.answer > 0.15);
+    await tipWhile('ArrowLeft', () => window.wisp.answer < -0.15);
+    await tipWhile('ArrowUp', () => window.wisp.wind > 0.2);
+    assert.equal(await page.evaluate(allLit), true);
+  });
+
+  it('goes out while the space bar blows, smokes, and L brings a match', async () => {
+    await page.keyboard.down('Space');
+    await until(page, 'it is out', noneLit);
+    await page.keyboard.up('Space');
+    await until(page, 'it smokes', () => window.wisp.smoking);
+    assert.match(await page.textContent('#hint'), /light it again/);
+    assert.match(await page.getAttribute('#stage', 'aria-label'), /out/);
+    await page.keyboard.press('l');
+    await until(page, 'it burns again', allLit);
+  });
+
+  it('goes out in a quick stroke past it, and is lit by a tap', { skip: 'a stroke blows harder where frames are slow' }, async () => {
+    const [x, y] = (await page.evaluate(() => window.wisp.places())).wick;
+    for (let way = 1; await page.evaluate(() => window.wisp.burning.lit === 1); way = -way) {
+      await page.mouse.move(x + 120 * way, y - 20);
+      await page.evaluate(() => new Promise(requestAnimationFrame));
+    }
+    await page.mouse.click(x, y);
+    await until(page, 'it burns again', allLit);
+  });
+
+  it('lags behind when it is dragged', async () => {
+    const [x, y] = (await page.evaluate(() => window.wisp.places())).wick;
+    await page.mouse.move(x, y + 40);
+    await page.mouse.down();
+    await page.mouse.move(x + 60, y + 40, { steps: 4 });
+    await until(page, 'the flame feels wind from ahead', () => window.wisp.candleX > 0.1 && window.wisp.wind < -0.02);
+    await page.mouse.move(x, y + 40, { steps: 2 });
+    await until(page, 'it is back', () => Math.abs(window.wisp.candleX) < 0.1);
+    await page.mouse.up();
+  });
+
+  it('is lit by the match that somebody carries to it', async () => {
+    await page.keyboard.down('Space');
+    await until(page, 'it is out', noneLit);
+    await page.keyboard.up('Space');
+    const { match, wick } = await page.evaluate(() => window.wisp.places());
+    await page.mouse.move(match[0] + 2, match[1] + 5);
+    await page.mouse.down();
+    await page.mouse.move(wick[0], wick[1] + 4, { steps: 6 });
+    await until(page, 'it burns again', allLit);
+    await page.mouse.up();
+  });
+
+  it('becomes a cake: by slider and by keys', async () => {
+    await page.keyboard.press('+');
+    await until(page, 'two candles', () => window.wisp.burning.of === 2);
+    await page.keyboard.press('-');
+    await until(page, 'one candle', () => window.wisp.burning.of === 1);
+    await page.focus('#count');
+    await page.keyboard.press('End');
+    await until(page, 'twelve candles', () => window.wisp.burning.of === 12);
+    assert.equal(await page.textContent('#count-shown'), '12');
+    assert.equal(await page.evaluate(() => new URLSearchParams(location.hash.slice(1)).get('candles')), '12');
+  });
+
+  it('is a cake on which the near side of a breath goes out first', async () => {
+    await page.focus('#stage');
+    await page.keyboard.down('Space');
+    await until(page, 'some are out and some burn', () => window.wisp.burning.lit > 0 && window.wisp.burning.lit < 12);
+    await until(page, 'all are out', noneLit);
+    await page.keyboard.up('Space');
+    await page.click('#act');
+    await until(page, 'the match goes from wick to wick', () => window.wisp.burning.lit >= 2);
+  });
+
+  it('made no error and asked no other host', () => {
+    assert.deepEqual([page.errors, page.strangers], [[], []]);
+  });
+});
+
+describe('the drawer', { skip }, () => {
+  let page;
+  before(async () => {
+    page = await opened.page('#scene=candle&seed=3&detail=0.5');
+  });
+  after(() => page?.close());
+
+  it('opens by its button and by I, closes by Escape, its cross and I', async () => {
+    const hidden = () => page.evaluate(() => document.getElementById('drawer').hidden);
+    await page.click('#open-drawer');
+    assert.equal(await hidden(), false);
+    assert.equal(await page.getAttribute('#open-drawer', 'aria-expanded'), 'true');
+    await page.keyboard.press('Escape');
+    assert.equal(await hidden(), true);
+    await page.keyboard.press('i');
+    assert.equal(await hidden(), false);
+    await page.click('#drawer header button');
+    assert.equal(await hidden(), true);
+    await page.keyboard.press('i');
+    await page.keyboard.press('i');
+    assert.equal(await hidden(), true);
+  });
+
+  it('says what the model is, and plots what it does', async () => {
+    await page.keyboard.press('i');
+    const text = await page.textContent('#drawer');
+    for (const words of ['Control points', '8', 'steps a second', 'operations', 'Goes out at wind', 'Fit for use']) {
+      assert.ok(text.includes(words), words);
+    }
+    await until(page, 'the plots are drawn', () =>
+      [...document.querySelectorAll('canvas.plot')].every((plot) =>
+        plot.getContext('2d').getImageData(0, 0, plot.width, plot.height).data.some((value) => value > 0),
+      ),
+    );
+  });
+
+  it('turns the learned noise down and up: by its slider and by N', async () => {
+    const noise = () => page.evaluate(() => new URLSearchParams(location.hash.slice(1)).get('noise') ?? '1');
+    await page.focus('[data-knob=noise]');
+    await page.keyboard.press('Home');
+    assert.equal(await noise(), '0');
+    await page.focus('#stage');
+    await page.keyboard.press('n');
+    assert.equal(await noise(), '1');
+    assert.equal(await page.inputValue('[data-knob=noise]'), '1');
+  });
+
+  it('switches among the learned orders', async () => {
+    for (const order of [2, 6, 4]) {
+      await page.click(`[data-order="${order}"]`);
+      await until(page, `order ${order}`, (wanted) => document.querySelector(`[data-order="${wanted}"]`)?.ariaPressed === 'true', order);
+      assert.match(await page.textContent('#drawer'), new RegExp(`Looks back${order} steps`));
+    }
+  });
+
+  it('gives other chance, and the link carries it', async () => {
+    await page.click('text=Other chance');
+    const seed = await page.evaluate(() => new URLSearchParams(location.hash.slice(1)).get('seed'));
+    assert.notEqual(seed, '3');
+    await page.click('[data-file=link]');
+    await until(page, 'it says where the link is', () => /Copied|address/.test(document.querySelector('[data-file=link]').textContent));
+    assert.ok(page.url().includes(`seed=${seed}`));
+  });
+
+  it('saves the model as it is', async () => {
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=save]')]);
+    assert.equal(download.suggestedFilename(), 'flame-4.wisp');
+    assert.deepEqual(readFileSync(await download.path()), readFileSync(model('flame-4.wisp')));
+  });
+
+  it('opens a model that is chosen', async () => {
+    await page.setInputFiles('[data-file=open]', model('leaf.wisp'));
+    await until(page, 'leaves fall', () => window.wisp.leaves?.count > 0);
+    assert.match(await page.textContent('#notices'), /Playing leaf.wisp/);
+  });
+
+  it('made no error and asked no other host', () => {
+    assert.deepEqual([page.errors, page.strangers], [[], []]);
+  });
+});
+
+describe('the leaves', { skip }, () => {
+  let page;
+  before(async () => {
+    page = await opened.page('#scene=candle&seed=3&leaves=60&detail=0.25');
+  });
+  after(() => page?.close());
+
+  it('come by their tab and by 2, the candle by 1', async () => {
+    await page.click('[data-scene=leaves]');
+    await until(page, 'leaves', () => window.wisp.leaves !== null && window.wisp.leaves.count === 60);
+    assert.equal(await page.getAttribute('[data-scene=leaves]', 'aria-current'), 'true');
+    await page.keyboard.press('1');
+    await until(page, 'a candle', () => window.wisp.burning !== null);
+    await page.keyboard.press('2');
+    await until(page, 'leaves', () => window.wisp.leaves?.count === 60);
+  });
+
+  it('settle on the ground, and a kick sends them up', async () => {
+    await until(page, 'half of them lie', () => window.wisp.leaves.lying > 30);
+    const before = await page.evaluate(() => window.wisp.leaves.lying);
+    await page.click('#act');
+    await until(page, 'fewer lie', (many) => window.wisp.leaves.lying < many - 5, before);
+  });
+
+  it('are blown by keys', async () => {
+    await page.focus('#stage');
+    await page.keyboard.down('ArrowRight');
+    await until(page, 'wind', () => window.wisp.wind > 0.5);
+    await page.keyboard.up('ArrowRight');
+  });
+
+  it('are as many as the slider and the keys say', async () => {
+    await page.keyboard.press('+');
+    await until(page, 'more', () => window.wisp.leaves.count > 80);
+    await page.keyboard.press('-');
+    await until(page, 'fewer', () => window.wisp.leaves.count < 65);
+    await page.focus('#count');
+    await page.keyboard.press('Home');
+    await until(page, 'one leaf', () => window.wisp.leaves.count === 1);
+  });
+
+  it('tell of their modes, and remember as much as they are told to', async () => {
+    await page.focus('#stage');
+    await page.keyboard.press('i');
+    assert.match(await page.textContent('#drawer'), /Kinds of motion6/);
+    assert.equal(await page.locator('.matrix i').count(), 36);
+    await page.focus('[data-knob=history]');
+    await page.keyboard.press('Home');
+    assert.equal(await page.evaluate(() => new URLSearchParams(location.hash.slice(1)).get('history')), '1');
+  });
+
+  it('made no error and asked no other host', () => {
+    assert.deepEqual([page.errors, page.strangers], [[], []]);
+  });
+});
+
+describe('the page', { skip }, () => {
+  let page;
+  before(async () => {
+    page = await opened.page('#scene=candle&seed=3&candles=3&noise=0.5&detail=0.5');
+  });
+  after(() => page?.close());
+
+  it('is as its link says', async () => {
+    assert.equal((await page.evaluate(() => window.wisp.burning)).of, 3);
+    await page.evaluate(() => (location.hash = '#scene=candle&seed=4&candles=2'));
+    await until(page, 'two candles', () => window.wisp.burning.of === 2);
+  });
+
+  it('has its help by button and key', async () => {
+    const open = () => page.evaluate(() => document.getElementById('help').open);
+    await page.click('#open-help');
+    assert.equal(await open(), true);
+    await page.keyboard.press('Escape');
+    assert.equal(await open(), false);
+    await page.keyboard.press('?');
+    assert.match(await page.textContent('#help'), /Space/);
+    await page.click('#help button');
+    assert.equal(await open(), false);
+  });
+
+  it('pauses and goes on by P', async () => {
+    await page.keyboard.press('p');
+    assert.match(await page.textContent('#hint'), /Paused/);
+    const tip = await page.evaluate(() => window.wisp.answer);
+    const frames = await page.evaluate(() => window.wisp.frames);
+    await until(page, 'some frames', (many) => window.wisp.frames > many + 5, frames);
+    assert.equal(await page.evaluate(() => window.wisp.answer), tip);
+    await page.keyboard.press('p');
+    await until(page, 'it moves', (still) => window.wisp.answer !== still, tip);
+  });
+
+  it('fills the screen by F', async () => {
+    await page.keyboard.press('f');
+    await until(page, 'full screen', () => document.fullscreenElement !== null);
+    await page.keyboard.press('f');
+    await until(page, 'its frame again', () => document.fullscreenElement === null);
+  });
+
+  it('can be walked through by Tab, and each stop has a name', async () => {
+    await page.focus('#stage');
+    const names = [];
+    for (let k = 0; k < 8; ++k) {
+      names.push(await page.evaluate(() => {
+        const at = document.activeElement;
+        return at.ariaLabel || at.labels?.[0]?.textContent.trim() || at.textContent.trim();
+      }));
+      await page.keyboard.press('Tab');
+    }
+    assert.ok(names.every((name) => name !== ''), names.join(' | '));
+    for (const name of ['Candle', 'Leaves', 'What was learned']) assert.ok(names.some((found) => found.startsWith(name)), name);
+  });
+
+  it('keeps its words readable', async () => {
+    // The darkest and the lightest ink, on the glass over the lightest picture that there is.
+    const ratio = await page.evaluate(() => {
+      const style = getComputedStyle(document.documentElement);
+      const numbers = (text) => text.match(/[\d.]+/g).map(Number);
+      const parsed = (text) => {
+        const probe = document.createElement('i');
+        probe.style.color = text;
+        document.body.append(probe);
+        const made = numbers(getComputedStyle(probe).color);
+        probe.remove();
+        return made;
+      };
+      const light = ([r, g, b]) => {
+        const part = (value) => (value <= 10.31 ? value / 255 / 12.92 : ((value / 255 + 0.055) / 1.055) ** 2.4);
+        return 0.2126 * part(r) + 0.7152 * part(g) + 0.0722 * part(b);
+      };
+      const glass = parsed(style.getPropertyValue('--glass'));
+      const behind = [0, 1, 2].map((k) => glass[k] * glass[3] + 255 * 0.85 * (1 - glass[3]));
+      const quiet = parsed(style.getPropertyValue('--quiet'));
+      return (light(quiet) + 0.05) / (light(behind) + 0.05);
+    });
+    assert.ok(ratio >= 4.5, `contrast ${ratio}`);
+  });
+
+  it('stores nothing', async () => {
+    assert.equal(await page.evaluate(() => localStorage.length + sessionStorage.length + document.cookie.length), 0);
+  });
+
+  it('is calmer for who asked for less motion', async () => {
+    const calm = await opened.page('#scene=candle&seed=3&detail=0.5', { reducedMotion: 'reduce' });
+    await calm.keyboard.press('i');
+    assert.equal(await calm.inputValue('[data-knob=noise]'), '0.3');
+    await calm.close();
+  });
+
+  it('made no error and asked no other host', () => {
+    assert.deepEqual([page.errors, page.strangers], [[], []]);
+  });
+});

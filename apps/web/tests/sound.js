@@ -1,0 +1,130 @@
+// Sound for the fake microphone: a room, a breath, speech, a strong breath, as 16-bit mono at 44.1 kHz.
+
+import { execFileSync } from 'node:child_process';
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+export const rate = 44_100;
+
+const data = process.env.WISP_DATA ?? fileURLToPath(new URL('../../../../shared/data/', import.meta.url));
+
+// The same numbers every time.
+function noise(seed) {
+  let word = seed >>> 0;
+  return () => {
+    word = (Math.imul(word, 1664525) + 1013904223) >>> 0;
+    return word / 2 ** 31 - 1;
+  };
+}
+
+function rms(samples) {
+  let sum = 0;
+  for (const value of samples) sum += value * value;
+  return Math.sqrt(sum / samples.length);
+}
+
+/** Made as loud as that, with soft ends. */
+function loud(samples, level, fade = 0.15) {
+  const gain = level / Math.max(1e-9, rms(samples));
+  const ends = Math.round(fade * rate);
+  return samples.map((value, k) => value * gain * Math.min(1, k / ends, (samples.length - 1 - k) / ends));
+}
+
+/** A quiet room. */
+export function room(seconds, level = 0.0008) {
+  const next = noise(7);
+  let low = 0;
+  const samples = Float32Array.from({ length: seconds * rate }, () => {
+    low += 0.02 * (next() - low);
+    return low + 0.1 * next();
+  });
+  return loud(samples, level, 0);
+}
+
+// Air on a membrane: deep noise that swells and falls.
+function madeBreath(seconds) {
+  const next = noise(23);
+  let deep = 0;
+  let deeper = 0;
+  return Float32Array.from({ length: seconds * rate }, (_, k) => {
+    deep += 0.05 * (next() - deep);
+    deeper += 0.012 * (next() - deeper);
+    return (deep + 2 * deeper) * (1 + 0.3 * Math.sin((k / rate) * 9));
+  });
+}
+
+function samplesOf(path) {
+  const bytes = readFileSync(path);
+  let at = 12;
+  while (bytes.toString('latin1', at, at + 4) !== 'data') at += 8 + bytes.readUInt32LE(at + 4);
+  const from = at + 8;
+  const count = Math.min(bytes.readUInt32LE(at + 4), bytes.length - from) >> 1;
+  return Float32Array.from({ length: count }, (_, k) => bytes.readInt16LE(from + 2 * k) / 32768);
+}
+
+/** The loudest stretch of that length. */
+function loudest(samples, seconds) {
+  const length = Math.round(seconds * rate);
+  let best = 0;
+  let most = -1;
+  for (let from = 0; from + length <= samples.length; from += rate >> 3) {
+    const level = rms(samples.subarray(from, from + length));
+    if (level > most) [most, best] = [level, from];
+  }
+  return samples.slice(best, best + length);
+}
+
+/** Somebody's breath on a microphone where there is a recording, else made of noise. */
+export function breath(seconds, level) {
+  const recorded = join(data, 'sound/breath_normal.wav');
+  return loud(existsSync(recorded) ? loudest(samplesOf(recorded), seconds) : madeBreath(seconds), level);
+}
+
+/** A sentence, or null where nothing here can speak. */
+export function speech(seconds, level) {
+  const folder = mkdtempSync(join(tmpdir(), 'wisp-speech-'));
+  const path = join(folder, 'speech.wav');
+  const words = 'This candle listens to everything I say, but talking to it politely does not put it out at all.';
+  try {
+    execFileSync('espeak-ng', ['-w', path, '-s', '150', words], { stdio: 'ignore' });
+  } catch {
+    return null;
+  }
+  const slow = samplesOf(path);
+  rmSync(folder, { recursive: true });
+  // espeak-ng speaks at 22.05 kHz: twice as many samples, each half way between.
+  const spoken = Float32Array.from({ length: Math.min(2 * slow.length, seconds * rate) }, (_, k) =>
+    k % 2 === 0 ? slow[k >> 1] : 0.5 * (slow[k >> 1] + (slow[(k >> 1) + 1] ?? 0)),
+  );
+  return loud(spoken, level, 0.02);
+}
+
+/** Writes pieces one after another, over the room's noise. */
+export function writeSound(path, pieces) {
+  const length = pieces.reduce((sum, piece) => sum + piece.length, 0);
+  const background = room(Math.ceil(length / rate) + 1);
+  const bytes = Buffer.alloc(44 + 2 * length);
+  bytes.write('RIFF', 0, 'latin1');
+  bytes.writeUInt32LE(36 + 2 * length, 4);
+  bytes.write('WAVEfmt ', 8, 'latin1');
+  bytes.writeUInt32LE(16, 16);
+  bytes.writeUInt16LE(1, 20);
+  bytes.writeUInt16LE(1, 22);
+  bytes.writeUInt32LE(rate, 24);
+  bytes.writeUInt32LE(2 * rate, 28);
+  bytes.writeUInt16LE(2, 32);
+  bytes.writeUInt16LE(16, 34);
+  bytes.write('data', 36, 'latin1');
+  bytes.writeUInt32LE(2 * length, 40);
+  let at = 0;
+  for (const piece of pieces) {
+    for (const value of piece) {
+      const sample = Math.round(32767 * Math.max(-1, Math.min(1, value + background[at])));
+      bytes.writeInt16LE(sample, 44 + 2 * at);
+      at += 1;
+    }
+  }
+  writeFileSync(path, bytes);
+}

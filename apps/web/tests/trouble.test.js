@@ -1,0 +1,150 @@
+// What goes wrong outside: each gets a sentence that helps, and the scene goes on.
+
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { after, before, describe, it } from 'node:test';
+import { chromiumPath, openBrowser, until } from './browser.js';
+
+const skip = chromiumPath === undefined && 'there is no Chromium here';
+const flame = readFileSync(new URL('../public/models/flame-4.wisp', import.meta.url));
+
+describe('trouble', { skip }, () => {
+  let opened;
+  let page;
+
+  // In the page: microphones that are not as they should be.
+  function stubMicrophone() {
+    const real = navigator.mediaDevices.getUserMedia.bind(navigator.mediaDevices);
+    window.microphone = 'real';
+    navigator.mediaDevices.getUserMedia = async (wanted) => {
+      window.asked = wanted;
+      if (window.microphone === 'real') return real(wanted);
+      if (window.microphone === 'none') throw new DOMException('no device', 'NotFoundError');
+      const context = new AudioContext();
+      window.stream = context.createMediaStreamDestination().stream;
+      return window.stream;
+    };
+  }
+
+  before(async () => {
+    opened = await openBrowser(['--use-fake-device-for-media-stream', '--use-fake-ui-for-media-stream=deny', '--autoplay-policy=no-user-gesture-required']);
+    page = await opened.page('#scene=candle&seed=3&detail=0.5', { before: stubMicrophone });
+  });
+  after(() => opened?.close());
+
+  const said = async (words) => {
+    await until(page, `it says ${words}`, (source) => new RegExp(source, 'i').test(document.getElementById('notices').textContent), words);
+    const frames = await page.evaluate(() => window.wisp.frames);
+    await until(page, 'the scene goes on', (many) => window.wisp.frames > many + 2 && window.wisp.burning.lit === 1, frames);
+    await page.evaluate(() => document.getElementById('notices').replaceChildren());
+  };
+
+  const drop = (name, size, bytes = []) =>
+    page.evaluate(
+      ([called, length, values]) => {
+        const content = new Uint8Array(length);
+        content.set(values.slice(0, length));
+        const carried = new DataTransfer();
+        carried.items.add(new File([content], called));
+        for (const type of ['dragenter', 'dragover', 'drop']) {
+          window.dispatchEvent(new DragEvent(type, { dataTransfer: carried, bubbles: true, cancelable: true }));
+        }
+      },
+      [name, size, bytes],
+    );
+
+  it('says that a microphone was not allowed, having asked for raw sound and only then', async () => {
+    assert.equal(await page.evaluate(() => window.asked), undefined);
+    await page.click('#blow');
+    await said('not allowed');
+    const { audio } = await page.evaluate(() => window.asked);
+    assert.deepEqual([audio.echoCancellation, audio.noiseSuppression, audio.autoGainControl], [false, false, false]);
+    assert.equal(await page.textContent('#blow-word'), 'Blow');
+  });
+
+  it('says that there is no microphone', async () => {
+    await page.evaluate(() => (window.microphone = 'none'));
+    await page.keyboard.press('b');
+    await said('no microphone was found');
+  });
+
+  it('says that the microphone is gone when it is unplugged', async () => {
+    await page.evaluate(() => (window.microphone = 'made'));
+    await page.keyboard.press('b');
+    await until(page, 'it listens to the room', () => window.wisp.hearing === 'calibrating');
+    await page.evaluate(() => window.stream.getAudioTracks()[0].dispatchEvent(new Event('ended')));
+    await said('microphone is gone');
+    assert.equal(await page.evaluate(() => window.wisp.hearing), 'off');
+  });
+
+  it('says that a file is empty', async () => {
+    await drop('empty.wisp', 0);
+    await said('empty.wisp is empty');
+  });
+
+  it('says that a file of 50 MB is no model, without reading it', async () => {
+    await drop('film.mp4', 50_000_000);
+    await said('film.mp4 is 50 MB');
+  });
+
+  it('says what is wrong with a broken model', async () => {
+    await drop('broken.wisp', flame.length, [...flame.subarray(0, 400), ...flame.subarray(400).map((value) => value ^ 1)]);
+    await said('broken.wisp is not a model that can be played');
+    await drop('short.wisp', 100, [...flame.subarray(0, 100)]);
+    await said('short.wisp is not a model that can be played');
+    await drop('letter.txt', 600, [...Buffer.from('Dear Sir or Madam')]);
+    await said('letter.txt is not a model that can be played');
+  });
+
+  it('plays a sound model that is dropped', async () => {
+    await drop('mine.wisp', flame.length, [...flame]);
+    await said('Playing mine.wisp');
+  });
+
+  it('says that the picture is gone, and goes on when it is back', async () => {
+    await page.evaluate(() => {
+      window.card = document.getElementById('stage').getContext('webgl2').getExtension('WEBGL_lose_context');
+      window.card.loseContext();
+    });
+    await until(page, 'it says so', () => /graphics card/.test(document.getElementById('absent').textContent));
+    await page.evaluate(() => window.card.restoreContext());
+    await until(page, 'the picture is back', () => document.getElementById('absent').hidden);
+    const frames = await page.evaluate(() => window.wisp.frames);
+    await until(page, 'frames', (many) => window.wisp.frames > many + 2, frames);
+  });
+
+  it('made no error, and asked no other host', () => {
+    assert.deepEqual([page.errors, page.strangers], [[], []]);
+  });
+
+  it('says that there is no WebGL', async () => {
+    const bare = await opened.page('#detail=0.5', {
+      before: () => {
+        const real = HTMLCanvasElement.prototype.getContext;
+        HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
+          return kind === 'webgl2' ? null : real.call(this, kind, ...more);
+        };
+      },
+    });
+    assert.match(await bare.textContent('#absent'), /WebGL 2/);
+    assert.equal(await bare.isVisible('#absent'), true);
+    await bare.close();
+  });
+
+  it('works without a network once it was loaded', async () => {
+    const context = await opened.browser.newContext({ viewport: { width: 200, height: 200 } });
+    const kept = await context.newPage();
+    await kept.goto(`${opened.address}#detail=0.25`);
+    await kept.evaluate(async () => {
+      const registration = await navigator.serviceWorker.ready;
+      if (registration.active.state !== 'activated') {
+        await new Promise((resolve) => registration.active.addEventListener('statechange', resolve, { once: true }));
+      }
+    });
+    await context.setOffline(true);
+    await kept.goto(`${opened.address}#detail=0.25&scene=leaves&leaves=5`);
+    await kept.reload();
+    await until(kept, 'leaves fall', () => window.wisp?.leaves?.count === 5);
+    await context.close();
+  });
+});

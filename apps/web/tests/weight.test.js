@@ -1,0 +1,44 @@
+// What the first scene weighs on its way, and what the page may ask for.
+
+import assert from 'node:assert/strict';
+import { readdirSync, readFileSync } from 'node:fs';
+import { describe, it } from 'node:test';
+import { gzipSync } from 'node:zlib';
+
+const dist = new URL('../dist/', import.meta.url);
+const packed = (name) => gzipSync(readFileSync(new URL(name, dist)), { level: 9 }).length;
+
+describe('the built page', () => {
+  const html = readFileSync(new URL('index.html', dist), 'utf8');
+  const assets = readdirSync(new URL('assets/', dist));
+
+  it('weighs at most 150 kB until its first scene is complete', () => {
+    const named = [...html.matchAll(/(?:src|href)="\.\/([^"]+\.(?:js|css|svg|webmanifest))"/g)].map(([, name]) => name);
+    assert.ok(named.some((name) => name.endsWith('.js')) && named.some((name) => name.endsWith('.css')));
+    // One of the two modules is fetched: the larger counts.
+    const modules = assets.filter((name) => name.endsWith('.wasm')).map((name) => packed(`assets/${name}`));
+    assert.equal(modules.length, 2);
+    const parts = ['index.html', ...named, 'models/flame-4.wisp'].map(packed);
+    const total = parts.reduce((sum, part) => sum + part, 0) + Math.max(...modules);
+    assert.ok(total <= 150_000, `${total} bytes`);
+  });
+
+  it('ships flames of a few kilobytes and a leaf of less than a megabyte', () => {
+    const size = (name) => readFileSync(new URL(`models/${name}`, dist)).length;
+    for (const order of [2, 4, 6]) assert.ok(size(`flame-${order}.wisp`) < 20_000);
+    assert.ok(size('leaf.wisp') < 1_000_000);
+  });
+
+  it('forbids itself every other host', () => {
+    const policy = /Content-Security-Policy" content="([^"]+)"/.exec(html)?.[1].replaceAll('&#39;', "'") ?? '';
+    assert.match(policy, /default-src 'none'/);
+    assert.doesNotMatch(policy, /https?:|\*|unsafe-inline|'unsafe-eval'/);
+    assert.doesNotMatch(html, /(?:src|href)="(?:https?:)?\/\//);
+  });
+
+  it('keeps all of its files for when there is no network', () => {
+    const worker = readFileSync(new URL('sw.js', dist), 'utf8');
+    for (const name of assets) assert.ok(worker.includes(`assets/${name}`), name);
+    assert.ok(worker.includes('models/leaf.wisp'));
+  });
+});

@@ -1,0 +1,84 @@
+// How the page is built: static files with relative addresses, so that they can lie in any folder of any server.
+
+import { createHash } from 'node:crypto';
+import { readFileSync, readdirSync } from 'node:fs';
+import { join, relative } from 'node:path';
+import { defineConfig, type Plugin } from 'vite';
+
+const here = import.meta.dirname;
+
+/** No other host, no script but the page's own. WebAssembly has to be allowed by name; a model is saved from a blob. */
+const POLICY = [
+  "default-src 'none'",
+  "script-src 'self' 'wasm-unsafe-eval'",
+  "style-src 'self'",
+  "img-src 'self'",
+  "connect-src 'self'",
+  "worker-src 'self'",
+  "manifest-src 'self'",
+  "base-uri 'none'",
+  "form-action 'none'",
+].join('; ');
+
+function policy(): Plugin {
+  return {
+    name: 'wisp-policy',
+    apply: 'build',
+    transformIndexHtml: () => [
+      { tag: 'meta', attrs: { 'http-equiv': 'Content-Security-Policy', content: POLICY }, injectTo: 'head-prepend' },
+    ],
+  };
+}
+
+function filesUnder(folder: string): string[] {
+  return readdirSync(folder, { recursive: true, withFileTypes: true })
+    .filter((entry) => entry.isFile())
+    .map((entry) => join(entry.parentPath, entry.name));
+}
+
+/** Tells the service worker which files to keep, under a name that changes with any of them. */
+function serviceWorker(): Plugin {
+  return {
+    name: 'wisp-service-worker',
+    apply: 'build',
+    generateBundle(_options, bundle) {
+      const hash = createHash('sha256');
+      const publicFolder = join(here, 'public');
+      const files = Object.keys(bundle);
+      for (const name of files) hash.update(name);
+      for (const path of filesUnder(publicFolder)) {
+        files.push(relative(publicFolder, path).replaceAll('\\', '/'));
+        hash.update(readFileSync(path));
+      }
+      hash.update(readFileSync(join(here, 'index.html')));
+      const source = readFileSync(join(here, 'service-worker.js'), 'utf8')
+        .replace("'VERSION'", JSON.stringify(hash.digest('hex').slice(0, 12)))
+        .replace("['FILES']", JSON.stringify(['./', ...files.filter((name) => !name.endsWith('.html')).sort()]));
+      this.emitFile({ type: 'asset', fileName: 'sw.js', source });
+    },
+  };
+}
+
+/** Shaders lose their comments and their indentation. */
+function shorterShaders(): Plugin {
+  return {
+    name: 'wisp-shorter-shaders',
+    apply: 'build',
+    enforce: 'pre',
+    load(id) {
+      const match = /^(.*\.(?:glsl|vert|frag))\?raw$/.exec(id);
+      if (match === null) return null;
+      const source = readFileSync(match[1] as string, 'utf8')
+        .replace(/\/\/.*$/gm, '')
+        .replace(/^\s+/gm, '')
+        .replace(/\s*([=+*,;(){}<>?:])\s*(?![^\n]*#)/g, '$1');
+      return `export default ${JSON.stringify(source)};`;
+    },
+  };
+}
+
+export default defineConfig({
+  base: './',
+  plugins: [policy(), serviceWorker(), shorterShaders()],
+  build: { target: 'es2022', assetsInlineLimit: 0, modulePreload: { polyfill: false }, reportCompressedSize: false },
+});
