@@ -1,0 +1,99 @@
+#pragma once
+// Candles in a dark room: one, or many on a cake. Wind from the left reaches the leftmost first; a candle that is
+// carried leaves its flame behind; what is out smokes, and is lit by a click.
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "gusts.hpp"
+#include "wisp/draw/live_flames.hpp"
+#include "wisp/run/bank.hpp"
+
+namespace wisp::window {
+
+class CandleScene {
+ public:
+  /// Errors: as Bank::create(). Precondition: the model's view is an outline; 1 <= candles <= kMostCandles.
+  static Result<CandleScene> create(const Model& model, int candles, std::uint64_t seed);
+
+  static constexpr int kMostCandles = 12;
+
+  /// The picture's size from now on.
+  void resize(int width, int height);
+
+  /// Wind over the whole scene from now on, 1 a strong gust to the right.
+  void blow(float wind) { wind_ = wind; }
+
+  /// A wind that puts a candle of this model out.
+  float strong() const;
+
+  void pointer_moved(Point pixel);
+  void pointer_pressed(Point pixel);
+  void pointer_released(Point pixel);
+  void relight_all();
+  void reset();
+  void set_noise(bool on) { bank_.set_noise(on ? 1.0F : 0.0F); }
+
+  /// Lets time pass.
+  void advance(std::chrono::nanoseconds time);
+
+  void draw(Image& image);
+
+  int candles() const { return static_cast<int>(candles_.size()); }
+  int burning() const;
+
+  /// Whether the model has a wind at all, and whether it can go out.
+  bool feels_wind() const { return bank_.input_count() > 0; }
+  bool goes_out() const { return bank_.goes_out(); }
+
+  /// The x of the first candle's tip over its base, in flame heights; 0 where it is out.
+  float tip() const;
+
+  /// Outputs were held this often, of all.
+  Bank::Held held() const { return bank_.held(); }
+
+ private:
+  struct Candle {
+    InstanceId id;
+    Point home{};   // pixel of the flame's base, unless carried
+    Point place{};  // where it is
+    FlameScene scene{};
+    // Where the base was, newest first, one entry each kTrackStep: hot gas goes on from where it left the wick.
+    std::vector<Point> track;
+    float drift_sum = 0;  // wind since it went out: what its smoke went through
+    float drift_count = 0;
+    float wind = 0;
+  };
+
+  CandleScene(Bank bank, const Model& model, int candles);
+  void arrange();
+  void remember_wind(float seconds);
+  float heard_wind(const Candle& candle) const;
+  float felt_wind(const Candle& candle) const;
+  void carry(float seconds);
+  void drift_smoke(Candle& candle) const;
+  std::vector<Point> outline_of(const Candle& candle);
+  int nearest(Point pixel) const;
+
+  Bank bank_;
+  std::size_t wind_input_ = 0;
+  float level_ = 2;
+  std::vector<Candle> candles_;
+  int width_ = 1280, height_ = 800;
+  float unit_ = 300;
+  float wind_ = 0;
+  std::vector<float> winds_;  // of the scene, newest first, one each kTrackStep
+  float passed_ = 0;          // of the current kTrackStep
+  PointerWake wake_;
+  Point pointer_{};
+  Point pressed_{};
+  std::optional<int> carried_;
+  Point grip_{};  // from the pointer to the base of what is carried
+  bool moved_ = false;
+  std::unique_ptr<LiveFlames> painter_;
+  std::vector<float> polyline_;
+};
+
+}  // namespace wisp::window

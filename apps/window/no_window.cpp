@@ -1,0 +1,15 @@
+// In place of the window where SDL2 was not found.
+
+#include "play.hpp"
+
+namespace wisp::window {
+
+bool has_window() { return false; }
+
+Result<PlayReport> play_in_window(const PlayOptions&) {
+  return Error{
+      "this build has no window: SDL2 was not found when it was made (package libsdl2-dev); --headless-frames N --png "
+      "DIR draws without one"};
+}
+
+}  // namespace wisp::window

@@ -1,0 +1,351 @@
+// What the window shows, without a window: scenes, sound, events and files, looked at as pictures.
+
+#include "window/player.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+
+#include "run/wind_sounds.hpp"
+#include "window/course.hpp"
+
+namespace wisp::window {
+namespace {
+
+using std::chrono::nanoseconds;
+using testing::HasSubstr;
+
+constexpr double kRate = 48000;
+constexpr nanoseconds kFrame = nanoseconds(std::chrono::seconds(1)) / kFrameRate;
+const std::string kModels = WISP_SOURCE_DIR "/apps/web/public/models/";
+
+std::filesystem::path scratch(const std::string& name) {
+  const auto folder = std::filesystem::path(testing::TempDir()) / "wisp-player";
+  std::filesystem::create_directories(folder);
+  return folder / name;
+}
+
+// A small picture, so that a frame is quick.
+Player player_of(const std::string& model, std::optional<SceneKind> scene = {}, std::uint64_t seed = 1,
+                 int height = 200) {
+  auto player = Player::create({.models = {kModels + model},
+                                .scene = scene,
+                                .width = height * 8 / 5,
+                                .height = height,
+                                .seed = seed,
+                                .hints = false});
+  if (!player) throw std::runtime_error(player.error().message);
+  return std::move(*player);
+}
+
+void press(Player& player, Key key) {
+  player.handle(KeyTurned{key, true});
+  player.handle(KeyTurned{key, false});
+}
+
+void play(Player& player, double seconds) {
+  const int frames = static_cast<int>(seconds * kFrameRate + 0.5);
+  for (int k = 0; k < frames; ++k) player.advance(kFrame);
+}
+
+// A sound that comes in a microphone's blocks.
+class Speaker {
+ public:
+  Speaker(Player& player, const sounds::Samples& samples) : player_(player), samples_(samples) {
+    const auto ok = player.ear().open({.rate_hz = kRate});
+    EXPECT_TRUE(ok);
+  }
+
+  // Plays on until that time since the start.
+  void play_until(double seconds) {
+    while (time_ + kFrame <= nanoseconds(static_cast<std::int64_t>(seconds * 1e9))) frame();
+  }
+
+  // One frame: the blocks that are whole by its time, then the step.
+  void frame() {
+    time_ += kFrame;
+    const double blocks = static_cast<double>(time_.count()) * 1e-9 * kRate / kSoundBlock;
+    const auto end = std::min(samples_.size(), static_cast<std::size_t>(blocks) * kSoundBlock);
+    if (end > heard_) player_.ear().hear(std::span(samples_).subspan(heard_, end - heard_));
+    heard_ = std::max(heard_, end);
+    player_.advance(kFrame);
+  }
+
+  double seconds() const { return static_cast<double>(time_.count()) * 1e-9; }
+
+ private:
+  Player& player_;
+  const sounds::Samples& samples_;
+  std::size_t heard_ = 0;
+  nanoseconds time_{0};
+};
+
+struct Seen {
+  int bright = 0;      // pixels of a flame
+  double x = 0;        // their middle, in pixels
+  double upper_x = 0;  // middle of the upper third of them
+  int gray = 0;        // pixels that are lighter than the night and have no colour: smoke
+};
+
+Seen look(const Image& image) {
+  Seen seen;
+  std::vector<Point> flame;
+  // Below the microphone's indicator.
+  for (int y = image.height() / 5; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      const Colour c = image.at(x, y);
+      if (c.red > 200 && y < 0.75 * image.height()) flame.push_back({static_cast<float>(x), static_cast<float>(y)});
+      const bool colourless = std::abs(c.red - c.blue) < 26;
+      if (c.red > 45 && colourless && y < 0.6 * image.height()) ++seen.gray;
+    }
+  }
+  seen.bright = static_cast<int>(flame.size());
+  for (const Point p : flame) seen.x += static_cast<double>(p.x) / seen.bright;
+  std::sort(flame.begin(), flame.end(), [](Point a, Point b) { return a.y < b.y; });
+  const std::size_t third = flame.size() / 3;
+  for (std::size_t k = 0; k < third; ++k) seen.upper_x += static_cast<double>(flame[k].x) / static_cast<double>(third);
+  return seen;
+}
+
+// Three seconds of room for the calibration, two more of it, then a breath and a strong one.
+sounds::Samples room_breath_strong() {
+  sounds::Samples all = sounds::room(9, kRate, 0.001);
+  sounds::add(all,
+              sounds::blowing(1.2, kRate, 0.06,
+                              [](double t) {
+                                return std::min({1.0, t / 0.2, (1.2 - t) / 0.2}) * 0.8;
+                              }),
+              5, kRate);
+  sounds::add(all,
+              sounds::blowing(1.5, kRate, 0.5,
+                              [](double t) {
+                                return std::min({1.0, t / 0.1, (1.5 - t) / 0.1}) * 1.3;
+                              }),
+              7, kRate);
+  return all;
+}
+
+TEST(CandleInTheWindow, RestsInSilenceLeansInABreathGoesOutInAStrongOneAndIsRelitByAClick) {
+  Player player = player_of("flame-4.wisp");
+  const sounds::Samples sound = room_breath_strong();
+  Speaker speaker(player, sound);
+  speaker.play_until(4.9);
+  const Seen calm = look(player.draw());
+  ASSERT_GT(calm.bright, 200);
+  EXPECT_NEAR(calm.upper_x, 160, 8);
+  speaker.play_until(5.9);
+  const Seen blown = look(player.draw());
+  EXPECT_GT(blown.upper_x, calm.upper_x + 8);
+  EXPECT_EQ(player.figures().went_out, 0);
+  speaker.play_until(8.2);
+  EXPECT_EQ(player.figures().went_out, 1);
+  const Seen smoking = look(player.draw());
+  EXPECT_EQ(smoking.bright, 0);
+  EXPECT_GT(smoking.gray, 30);
+  player.handle(PointerTurned{{0.5F, 0.5F}, true});
+  player.handle(PointerTurned{{0.5F, 0.5F}, false});
+  speaker.play_until(9.5);
+  EXPECT_GT(look(player.draw()).bright, 200);
+  EXPECT_EQ(player.figures().relit, 1);
+}
+
+TEST(CandleInTheWindow, StaysLitWhenSomebodyTalks) {
+  Player player = player_of("flame-4.wisp");
+  sounds::Samples sound = sounds::room(8, kRate, 0.001);
+  sounds::add(sound, sounds::voice(4, kRate, 120, 0.08), 3.5, kRate);
+  Speaker speaker(player, sound);
+  speaker.play_until(8);
+  EXPECT_EQ(player.figures().went_out, 0);
+}
+
+TEST(CandleInTheWindow, KeysBlowAndLight) {
+  Player player = player_of("flame-4.wisp");
+  play(player, 0.5);
+  const double calm = look(player.draw()).upper_x;
+  player.handle(KeyTurned{Key::kLeft, true});
+  play(player, 0.7);
+  EXPECT_LT(look(player.draw()).upper_x, calm - 8);
+  player.handle(KeyTurned{Key::kLeft, false});
+  play(player, 0.7);
+  press(player, Key::kSpace);
+  play(player, 1);
+  EXPECT_EQ(player.figures().went_out, 1);
+  press(player, Key::kEnter);
+  play(player, 1);
+  EXPECT_GT(look(player.draw()).bright, 200);
+}
+
+TEST(CandleInTheWindow, LeavesItsFlameBehindWhenItIsCarried) {
+  Player player = player_of("flame-4.wisp");
+  press(player, Key::kN);  // no flicker: what leans, leans behind the candle
+  play(player, 1);
+  player.handle(PointerTurned{{0.5F, 0.9F}, true});
+  for (int k = 1; k <= 12; ++k) {
+    player.handle(PointerMoved{{0.5F + 0.015F * static_cast<float>(k), 0.9F}});
+    player.advance(kFrame);
+  }
+  const Seen moving = look(player.draw());
+  EXPECT_GT(moving.x, 165);                 // it came along
+  EXPECT_LT(moving.upper_x, moving.x - 3);  // and its tip is behind
+  player.handle(PointerTurned{{0.68F, 0.9F}, false});
+  EXPECT_EQ(player.figures().went_out, 0);
+}
+
+TEST(CandleInTheWindow, FeelsThePointerGoBy) {
+  Player player = player_of("flame-4.wisp");
+  play(player, 0.5);
+  const double calm = look(player.draw()).upper_x;
+  for (int k = 0; k < 14; ++k) {
+    player.handle(PointerMoved{{0.3F + 0.03F * static_cast<float>(k), 0.6F}});
+    player.advance(kFrame);
+  }
+  EXPECT_GT(look(player.draw()).upper_x, calm + 4);
+}
+
+TEST(Cake, IsBlownOutFromTheSideThatTheWindComesFrom) {
+  Player player = player_of("flame-4.wisp", SceneKind::kCake);
+  play(player, 0.3);
+  press(player, Key::kSpace);
+  int frames = 0;
+  while (player.figures().went_out < 3 && ++frames < 120) play(player, 1.0 / kFrameRate);
+  const Image& image = player.draw();
+  int left = 0, right = 0;
+  for (int y = 0; y < 120; ++y) {
+    for (int x = 0; x < 320; ++x) (x < 160 ? left : right) += image.at(x, y).red > 200 ? 1 : 0;
+  }
+  EXPECT_LT(left, right);
+  play(player, 1.5);
+  EXPECT_EQ(player.figures().went_out, 7);
+}
+
+TEST(LeavesInTheWindow, LandAndAreKickedUp) {
+  Player player = player_of("leaf.wisp");
+  const auto resting = [&] {
+    const std::string state = player.state();
+    return std::stoi(state.substr(state.rfind(' ') + 1));
+  };
+  press(player, Key::kG);  // without ground nothing lies
+  play(player, 3);
+  EXPECT_EQ(resting(), 0);
+  press(player, Key::kG);
+  play(player, 5);
+  const int before = resting();
+  EXPECT_GT(before, 10);
+  player.handle(KeyTurned{Key::kRight, true});
+  play(player, 0.6);
+  EXPECT_LT(resting(), before / 2);
+}
+
+TEST(LeavesInTheWindow, AreMoreOrFewer) {
+  Player player = player_of("leaf.wisp");
+  press(player, Key::kPlus);
+  EXPECT_THAT(player.state(), HasSubstr("leaves 90 "));
+  for (int k = 0; k < 20; ++k) press(player, Key::kPlus);
+  EXPECT_THAT(player.state(), HasSubstr("leaves 1000 "));
+  for (int k = 0; k < 40; ++k) press(player, Key::kMinus);
+  EXPECT_THAT(player.state(), HasSubstr("leaves 1 "));
+  play(player, 0.1);
+}
+
+TEST(DroppedFiles, ThatAreNoModelsAreNamedAndTheSceneGoesOn) {
+  Player player = player_of("flame-4.wisp");
+  std::ofstream(scratch("empty.wisp")).close();
+  std::ofstream(scratch("text.wisp")) << "a cake recipe\n";
+  std::ofstream(scratch("large.wisp")).close();
+  std::filesystem::resize_file(scratch("large.wisp"), 50'000'000);
+  for (const char* name : {"empty.wisp", "text.wisp", "large.wisp", "absent.wisp"}) {
+    player.handle(FileDropped{scratch(name).string()});
+    EXPECT_THAT(player.said(), HasSubstr("cannot play " + std::string(name))) << name;
+    play(player, 0.1);
+    EXPECT_EQ(player.state().substr(0, 19), "candles 1 burning 1") << name;
+    EXPECT_GT(look(player.draw()).bright, 200) << name;
+  }
+  std::filesystem::remove(scratch("large.wisp"));
+}
+
+TEST(DroppedFiles, ThatAreModelsArePlayed) {
+  Player player = player_of("flame-4.wisp");
+  player.handle(FileDropped{kModels + "leaf.wisp"});
+  EXPECT_THAT(player.state(), HasSubstr("leaves"));
+  play(player, 0.1);
+  player.draw();
+}
+
+TEST(Scenes, ThatAModelCannotShowAreRefused) {
+  const auto player = Player::create({.models = {kModels + "flame-4.wisp"}, .scene = SceneKind::kLeaves});
+  ASSERT_FALSE(player);
+  EXPECT_THAT(player.error().message, HasSubstr("--scene: the model is no leaf"));
+}
+
+TEST(Microphones, ThatAreLostAreSaidAndTheSceneGoesOn) {
+  Player player = player_of("flame-4.wisp");
+  ASSERT_TRUE(player.ear().open({.rate_hz = kRate}));
+  player.handle(MicrophoneLost{});
+  EXPECT_EQ(player.ear().state(), EarState::kMissing);
+  EXPECT_THAT(player.said(), HasSubstr("the microphone is gone"));
+  play(player, 0.2);
+  EXPECT_GT(look(player.draw()).bright, 200);
+}
+
+TEST(Players, ShowTheSamePicturesForTheSameSeed) {
+  const auto picture = [](std::uint64_t seed) {
+    Player player = player_of("flame-4.wisp", {}, seed);
+    play(player, 1);
+    return player.draw();
+  };
+  EXPECT_EQ(picture(1), picture(1));
+  EXPECT_FALSE(picture(1) == picture(2));
+}
+
+// From the first sample of blowing to the first picture that differs from one of silence, with sound in blocks as from
+// a microphone, at twelve places of the onset within block and frame.
+TEST(Latency, IsAtMostAFrameABlockAndAModelStep) {
+  const double frame = 1.0 / kFrameRate, block = kSoundBlock / kRate, step = 1.0 / 60;
+  double longest = 0;
+  for (int place = 0; place < 12; ++place) {
+    const double onset = 3.5 + place * 0.0031;
+    const sounds::Samples silence = sounds::room(4, kRate, 0.001);
+    sounds::Samples breath = silence;
+    sounds::add(breath, sounds::steady_blowing(0.4, kRate, 0.2), onset, kRate);
+    // As large as a window is: a smaller picture shows the first hundredths of a lean a frame later.
+    Player calm = player_of("flame-4.wisp", {}, 1, 800), blown = player_of("flame-4.wisp", {}, 1, 800);
+    Speaker quiet(calm, silence), loud(blown, breath);
+    quiet.play_until(onset), loud.play_until(onset);
+    ASSERT_EQ(calm.draw(), blown.draw());
+    do {
+      quiet.frame(), loud.frame();
+    } while (loud.seconds() < 3.95 && calm.draw() == blown.draw());
+    longest = std::max(longest, loud.seconds() - onset);
+  }
+  std::printf("from sound to a changed picture: at most %.1f ms; frame, block and step are %.1f ms\n", 1000 * longest,
+              1000 * (frame + block + step));
+  EXPECT_LE(longest, frame + block + step);
+}
+
+TEST(Scripts, AreEventsInTheOrderOfTheirTimes) {
+  std::ofstream(scratch("good.txt"))
+      << "# a comment\n2 click 0.5 0.25\n\n0.5 key space # puff\n1 drop a b.wisp\n3 picture end\n";
+  const auto events = read_script(scratch("good.txt"));
+  ASSERT_TRUE(events) << events.error().message;
+  ASSERT_EQ(events->size(), 6U);
+  EXPECT_EQ(std::get<KeyTurned>(std::get<Event>((*events)[0].what)).key, Key::kSpace);
+  EXPECT_EQ(std::get<FileDropped>(std::get<Event>((*events)[2].what)).path, "a b.wisp");
+  EXPECT_EQ(std::get<PointerTurned>(std::get<Event>((*events)[3].what)).at.y, 0.25F);
+  EXPECT_EQ(std::get<PictureTaken>((*events)[5].what).name, "end");
+}
+
+TEST(Scripts, ThatAreWrongAreNamedByTheirLine) {
+  for (const char* line : {"soon key space", "1 key spade", "1 click 0.5", "1 dance", "-1 close", "1 picture ../a"}) {
+    std::ofstream(scratch("bad.txt")) << "0 close\n" << line << "\n";
+    const auto events = read_script(scratch("bad.txt"));
+    ASSERT_FALSE(events) << line;
+    EXPECT_THAT(events.error().message, HasSubstr("bad.txt:2: found \"" + std::string(line))) << line;
+  }
+  EXPECT_FALSE(read_script(scratch("absent.txt")));
+}
+
+}  // namespace
+}  // namespace wisp::window
