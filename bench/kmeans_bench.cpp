@@ -48,6 +48,6 @@ void k_means_of_100000(benchmark::State& state) {
   }
   state.counters["inertia"] = inertia;
 }
-BENCHMARK(k_means_of_100000)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(k_means_of_100000)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 
 }  // namespace

@@ -2,7 +2,7 @@
 // not, and which of the choices that there are is better. Prints tables; exit status 1 where a bound is missed.
 //
 //   wisp_verify_flame            the tables
-//   wisp_verify_flame DIR        and writes feature windows of recorded and synthesized flames into DIR, for a
+//   wisp_verify_flame DIR        no tables; writes feature windows of recorded and synthesized flames into DIR, for a
 //                                classifier to tell apart (bench/peers/likeness.py)
 
 #include "verify_flame.hpp"
@@ -12,7 +12,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 
 #include "verify_bounds.hpp"
 #include "wisp/learn/fidelity_energy.hpp"
@@ -174,42 +173,6 @@ void bound(const std::vector<Score>& sound, const std::vector<Score>& truth, Bou
               mean(all(sound, &Score::ceiling)));
 }
 
-/// Windows of half a second, at most 500 a side, one line each: side, clip, features.
-void write_side(std::ofstream& out, const char* side, std::size_t clip, const Recording& recording,
-                const std::vector<std::string>& channels) {
-  constexpr double kWindowSeconds = 0.5;
-  constexpr std::size_t kMost = 500;
-  const auto stretches = value_or_abort(stretches_of(recording, channels));
-  const auto rows = static_cast<std::size_t>(std::lround(kWindowSeconds * recording.rate_hz));
-  const std::size_t hop = std::max<std::size_t>(1, total_rows(stretches) / kMost);
-  const FeatureWindows windows = thinned(motion_windows(stretches, rows, hop), kMost);
-  for (std::size_t k = 0; k < windows.size(); ++k) {
-    out << side << ',' << clip << ',' << windows.blocks[k];
-    for (double value : windows.window(k)) out << ',' << value;
-    out << '\n';
-  }
-}
-
-void write_windows(const Clips& clips, const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder);
-  std::ofstream out(folder / "windows.csv");
-  const auto fit =
-      value_or_abort(learn_outline(std::vector{driven_by_sound(clips.learn.front(), WindMeasure::kSpeed)}));
-  const auto names = outline_outputs(fit.summary.points);
-  for (std::size_t clip = 0; clip < clips.validate.size(); ++clip) {
-    const Recording unseen = driven_by_sound(clips.validate[clip], WindMeasure::kSpeed);
-    const auto layout = value_or_abort(outline_layout(unseen));
-    const double unit = value_or_abort(validate_outline(fit.model, unseen, {.fidelity = false})).pixels_per_unit;
-    write_side(out, "recorded", clip, to_model_units(unseen, layout, unit), names);
-    Recording driving = unseen;
-    auto& wind = driving.channels[*find_channel(driving, "wind")].samples;
-    for (double& value : wind) value /= fit.summary.inputs.front().scale;
-    const auto play = value_or_abort(synthesize(fit.model, {.seed = clip + 1, .input = &driving}));
-    write_side(out, "synthesized", clip, play.recording, names);
-  }
-  std::printf("\nwrote %s\n", (folder / "windows.csv").string().c_str());
-}
-
 Clips simulate_all() {
   Clips clips;
   double simulated = 0;
@@ -236,6 +199,12 @@ int main(int count, char** arguments) {
   using namespace wisp;
   using namespace wisp::verify;
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a table's row appears when it is known
+  if (count > 1) {
+    const std::filesystem::path folder = arguments[1];
+    std::filesystem::create_directories(folder);
+    write_likeness_windows(make_likeness_clips(), folder / "windows.csv");
+    return 0;
+  }
   const Clips clips = simulate_all();
   header();
   const auto sound = try_way({.name = "as it is: speed, order 4", .fidelity = true}, clips);
@@ -269,7 +238,6 @@ int main(int count, char** arguments) {
   print_choices(clips);
   Bounds bounds;
   bound(sound, truth, bounds);
-  if (count > 1) write_windows(clips, arguments[1]);
   std::printf("\n%s\n", bounds.missed() == 0 ? "all bounds held" : "bounds were missed");
   return bounds.missed() == 0 ? 0 : 1;
 }

@@ -33,10 +33,16 @@ Recording with_wind(const Recording& outline, const std::string& unit, std::vect
 }  // namespace
 
 FlameClip make_flame_clip(double seconds, std::uint64_t seed, const std::vector<double>& knots) {
+  return make_flame_clip({seconds, seed, seed, knots});
+}
+
+FlameClip make_flame_clip(const FlameClipChoice& choice) {
   CandleClipOptions options;
-  options.seconds = seconds;
-  options.wind.seed = options.camera.seed = options.microphone.seed = seed;
-  OutlineCapture capture({.knots = knots, .rate_hz = options.rig.rate_hz, .source = "seed " + std::to_string(seed)});
+  options.seconds = choice.seconds;
+  options.wind.seed = choice.wind_seed;
+  options.camera.seed = options.microphone.seed = choice.chance_seed;
+  OutlineCapture capture(
+      {.knots = choice.knots, .rate_hz = options.rig.rate_hz, .source = "seed " + std::to_string(choice.wind_seed)});
   WindTracker tracker =
       value_or_abort(WindTracker::create({options.microphone.rate_hz, 1}, {.frame_rate_hz = options.rig.rate_hz}));
   CandleClipOutputs outputs;

@@ -1,0 +1,32 @@
+#pragma once
+// What the parts of the long check of learned falls share.
+
+#include <filesystem>
+#include <span>
+
+#include "verify_bounds.hpp"
+#include "wisp/learn/chain.hpp"
+
+namespace wisp::verify {
+
+/// The default leaf's falls, and a chain of six modes learned from 156 of them.
+struct LearnedLeaf {
+  ChainFit fit;
+  SegmentationOptions segmentation;
+};
+
+/// Learned once, then kept.
+const LearnedLeaf& learned_leaf();
+
+/// The parts of the check.
+void gusts(Bounds& bounds);
+void paper(Bounds& bounds);
+void spread(Bounds& bounds);
+
+/// Writes windows of recorded and synthesized falls for bench/peers/likeness_leaf.py.
+Result<void> write_windows(const std::filesystem::path& file);
+
+/// Says what is wrong and ends the program.
+[[noreturn]] void give_up(const Error& error);
+
+}  // namespace wisp::verify
