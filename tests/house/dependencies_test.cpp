@@ -23,7 +23,8 @@ std::set<std::string> words_of(const std::string& text) {
 /// What the project's own CMake files look for by find_package, find_program, find_path or pkg_check_modules.
 std::set<std::string> looked_for(const std::filesystem::path& root) {
   static const std::regex call(R"((find_package|find_program|find_path|find_library|pkg_check_modules)\s*\(([^)]*)\))");
-  static const std::set<std::string> keywords{"REQUIRED", "QUIET", "IMPORTED_TARGET", "GLOBAL", "NO_MODULE", "CONFIG"};
+  static const std::set<std::string> keywords{"REQUIRED",  "QUIET",  "IMPORTED_TARGET",        "GLOBAL",
+                                              "NO_MODULE", "CONFIG", "NO_CMAKE_FIND_ROOT_PATH"};
   static const std::regex version("[0-9.]+");
   std::set<std::string> names;
   for (const std::string& file : project_files(root)) {
@@ -36,7 +37,7 @@ std::set<std::string> looked_for(const std::filesystem::path& root) {
       std::string word;
       // All but find_package name a variable first.
       if ((*it)[1] != "find_package") arguments >> word;
-      while (arguments >> word && word != "COMPONENTS") {
+      while (arguments >> word && word != "COMPONENTS" && word != "PATHS") {
         const bool variable = word.starts_with("${");
         if (!variable && !keywords.contains(word) && !std::regex_match(word, version)) names.insert(word);
         if ((*it)[1] == "find_package") break;
