@@ -12,6 +12,8 @@
 namespace wisp {
 namespace {
 
+constexpr double kFreedom = 5;           // of Student's distribution
+constexpr int kReweightings = 8;         // each halves what is left to go, or better
 constexpr double kSureBy = 2;            // standard errors of the held-out gain
 constexpr double kBlockSeconds = 1;      // neighbouring rows may not be independent
 constexpr std::size_t kFewestRows = 20;  // of a block, where a second has fewer
@@ -26,8 +28,44 @@ std::vector<Recording> bent(std::span<const Recording> recordings, const CurveFi
   return out;
 }
 
-double log_density(double error, double variance) {
-  return -0.5 * (std::log(2 * std::numbers::pi * variance) + error * error / variance);
+// Student's weight of an error in units of its squared scale.
+double weight_of(double square) { return (kFreedom + 1) / (kFreedom + square); }
+
+double log_density(double error, double scale) {
+  const double constant = std::lgamma((kFreedom + 1) / 2) - std::lgamma(kFreedom / 2);
+  return constant - 0.5 * std::log(kFreedom * std::numbers::pi * scale) -
+         0.5 * (kFreedom + 1) * std::log1p(error * error / (kFreedom * scale));
+}
+
+// One step ahead, of all recordings one after the other: [output][row], NaN where there is no prediction.
+Result<std::vector<std::vector<double>>> errors_of(const ArxModel& model, std::span<const Recording> recordings,
+                                                   const ChannelChoice& channels) {
+  std::vector<std::vector<double>> out(channels.outputs.size());
+  for (const Recording& recording : recordings) {
+    const auto predicted = predict(model, recording, channels);
+    if (!predicted) return predicted.error();
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const auto& measured = recording.channels[*find_channel(recording, channels.outputs[i])].samples;
+      for (std::size_t t = 0; t < measured.size(); ++t) out[i].push_back(measured[t] - (*predicted)[i][t]);
+    }
+  }
+  return out;
+}
+
+// The squared scale of greatest likelihood, by reweighting; 0 where nothing is left over.
+double scale_of(const std::vector<double>& errors) {
+  double scale = 0;
+  for (int pass = 0; pass <= kReweightings; ++pass) {
+    double sum = 0, rows = 0;
+    for (double error : errors) {
+      if (!std::isfinite(error)) continue;
+      const double square = error * error;
+      sum += scale > 0 ? square * weight_of(square / scale) : square;
+      ++rows;
+    }
+    scale = rows > 0 ? sum / rows : 0;
+  }
+  return scale > std::numeric_limits<double>::min() ? scale : 0;
 }
 
 std::vector<InputCurve> curves_of(const CurveFit& fit) {
@@ -87,23 +125,18 @@ Result<std::vector<double>> held_out_log_likelihood(std::span<const Recording> l
                                                     std::span<const Recording> held_out, const ChannelChoice& channels,
                                                     const CurveFitOptions& options,
                                                     std::span<const InputCurve> curves) {
-  const auto fit =
-      fit_arx(bent(learned, options, curves), channels, {.orders = options.orders, .judge_free_run = false});
+  const auto seen = bent(learned, options, curves);
+  const auto fit = fit_arx(seen, channels, {.orders = options.orders, .judge_free_run = false});
   if (!fit) return fit.error();
-  std::vector<double> out;
-  for (const Recording& recording : bent(held_out, options, curves)) {
-    const auto predicted = predict(fit->model, recording, channels);
-    if (!predicted) return predicted.error();
-    std::vector<double> rows(recording.rows(), 0.0);
-    for (std::size_t i = 0; i < channels.outputs.size(); ++i) {
-      const auto& measured = recording.channels[*find_channel(recording, channels.outputs[i])].samples;
-      // An output that never moves says nothing.
-      if (!(fit->summary.loss[i] > std::numeric_limits<double>::min())) continue;
-      for (std::size_t t = 0; t < rows.size(); ++t) {
-        rows[t] += log_density(measured[t] - (*predicted)[i][t], fit->summary.loss[i]);
-      }
-    }
-    out.insert(out.end(), rows.begin(), rows.end());
+  const auto own = errors_of(fit->model, seen, channels);
+  if (!own) return own.error();
+  const auto errors = errors_of(fit->model, bent(held_out, options, curves), channels);
+  if (!errors) return errors.error();
+  std::vector<double> out(errors->front().size(), 0.0);
+  for (std::size_t i = 0; i < errors->size(); ++i) {
+    const double scale = scale_of((*own)[i]);
+    if (!(scale > 0)) continue;  // an output that never moves says nothing
+    for (std::size_t t = 0; t < out.size(); ++t) out[t] += log_density((*errors)[i][t], scale);
   }
   return out;
 }
