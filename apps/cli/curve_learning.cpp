@@ -37,12 +37,12 @@ Result<CurveChoice> choice_of(std::span<const Recording> recordings, const Chann
 
 }  // namespace
 
-Flag curve_flag(const std::string& help) {
+Flag curve_flag(const std::string& unless_said, const std::string& help) {
   return {
       "input-curve",
       Kind::kIntegerOrWord,
       "N|auto",
-      "0",
+      unless_said,
       "a monotone curve of N knots, 3 to 16, that bends every input before the linear model sees it; 0: none; auto: "
       "3 to 6 knots or none, as held-out rows say" +
           help,

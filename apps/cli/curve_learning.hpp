@@ -12,8 +12,8 @@
 
 namespace wisp::cli {
 
-/// The flag; `help` ends what it says.
-Flag curve_flag(const std::string& help);
+/// The flag, and what it is where nothing is said; `help` ends its help.
+Flag curve_flag(const std::string& unless_said, const std::string& help);
 
 /// Knots as the flag says: 0 none, unset where held-out rows are to say.
 std::optional<int> curve_knots_of(const Arguments& arguments);

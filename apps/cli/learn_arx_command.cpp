@@ -187,7 +187,7 @@ std::vector<Flag> flags() {
       {"common-start", Kind::kSwitch, "", "",
        "judge all candidates of --search, and fit the best, on the same rows: those that the longest one can predict"},
   };
-  all.push_back(curve_flag("; needs the recordings in memory"));
+  all.push_back(curve_flag("0", "; needs the recordings in memory"));
   all.push_back(
       {"figures", Kind::kPath, "DIR", "",
        "draw poles and zeros, step and frequency responses with their 95 % bands, and residual tests there; --json "

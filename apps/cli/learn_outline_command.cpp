@@ -6,6 +6,7 @@
 #include "blow_out_learning.hpp"
 #include "capture_flags.hpp"
 #include "commands.hpp"
+#include "curve_learning.hpp"
 #include "learned_model.hpp"
 #include "outline_learning.hpp"
 #include "terminal.hpp"
@@ -37,9 +38,16 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   return {};
 }
 
-Command learn(std::string name, std::string summary, const char* blow_out, std::vector<Example> examples) {
+// What differs between the presets.
+struct Preset {
+  const char* blow_out;
+  const char* input_curve;
+};
+
+Command learn(std::string name, std::string summary, const Preset& preset, std::vector<Example> examples) {
   std::vector<Flag> flags = {{"output", Kind::kPath, "M.wisp", "", "where to write the model", {}, true},
-                             blow_out_flag(blow_out)};
+                             blow_out_flag(preset.blow_out),
+                             curve_flag(preset.input_curve, "")};
   for (auto* more : {&outline_flags, &capture_flags}) {
     for (Flag& flag : (*more)()) flags.push_back(std::move(flag));
   }
@@ -51,13 +59,13 @@ Command learn(std::string name, std::string summary, const char* blow_out, std::
 }  // namespace
 
 Command learn_outline_command() {
-  return learn("learn outline", "Learns how an outline moves, by itself and driven by its inputs.", "off",
+  return learn("learn outline", "Learns how an outline moves, by itself and driven by its inputs.", {"off", "0"},
                {{"wisp learn outline flag.mp4 --dark --points 12 -o flag.wisp", "Straight from a clip"}});
 }
 
 Command learn_flame_command() {
   return learn(
-      "learn flame", "Learns a flame: `learn outline` with a flame's settings.", "auto",
+      "learn flame", "Learns a flame: `learn outline` with a flame's settings.", {"auto", "auto"},
       {{"wisp learn flame candle.csv -o flame.wisp", "From a captured recording"},
        {"wisp learn flame candle.mp4 --points 16 -o flame.wisp", "Straight from a clip, sixteen control points"},
        {"wisp learn flame candle.csv --blow-out 1.5,0.3 -o flame.wisp",

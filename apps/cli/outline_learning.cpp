@@ -165,7 +165,6 @@ std::vector<Flag> outline_flags() {
        {"auto", "coordinate", "point", "band", "full"}},
       {"one-sided", Kind::kSwitch, "", "", "inputs as they are: no sign, no mirror image"},
       {"square", Kind::kSwitch, "", "", "every input's square beside it, so that the answer to it may bend"},
-      curve_flag(""),
       {"noise-growth",
        Kind::kChoice,
        "G",

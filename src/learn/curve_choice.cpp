@@ -157,11 +157,16 @@ Result<CurveChoice> choose_input_curves(std::span<const Recording> learned, std:
     CurveFitOptions tried = options;
     tried.knots = count;
     const auto fit = fit_input_curves(learned, channels, tried);
+    if (!fit && !knots) break;  // too few rows for as many pieces
     if (!fit) return fit.error();
     const auto with = held_out_log_likelihood(learned, held_out, channels, tried, curves_of(*fit));
     if (!with) return with.error();
     out.candidates.push_back({count});
     judge(*with, *without, block, out.candidates.back());
+  }
+  if (out.candidates.empty()) {
+    out.reason = "too little is recorded to tell a curve from a line";
+    return out;
   }
   const auto best = std::max_element(out.candidates.begin(), out.candidates.end(),
                                      [](const auto& a, const auto& b) { return a.gain < b.gain; });

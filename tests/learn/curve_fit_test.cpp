@@ -206,6 +206,12 @@ TEST(CurveChoice, AGivenNumberIsTaken) {
   ASSERT_EQ(choice.candidates.size(), 1U);
 }
 
+TEST(CurveChoice, TooShortARecordingHasNone) {
+  const CurveChoice choice = chosen(made(true_curve(), 20, 1));
+  EXPECT_EQ(choice.knots, 0);
+  EXPECT_THAT(choice.reason, HasSubstr("too little"));
+}
+
 TEST(CurveChoice, AnInputOfTwoValuesHasNone) {
   Recording recording = made({}, 3010, 1);
   for (double& u : recording.channels[0].samples) u = u < 0.5 ? -1 : 2;

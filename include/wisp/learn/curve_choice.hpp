@@ -33,7 +33,8 @@ struct CurveChoice {
 
 /// Learns with and without curves and judges both one step ahead on what is held out, outputs taken as independent.
 /// `knots` unset: 3 to 6 are tried; else that number is taken whatever its gain.
-/// Errors: as fit_input_curves(), but inputs that take too few values have no curve where the number is open.
+/// Errors: as fit_input_curves(), but where the number is open, inputs that take too few values and recordings that are
+/// too short have no curve.
 Result<CurveChoice> choose_input_curves(std::span<const Recording> learned, std::span<const Recording> held_out,
                                         const ChannelChoice& channels, const CurveFitOptions& options,
                                         std::optional<int> knots);
