@@ -5,6 +5,7 @@
 #include "chain_json.hpp"
 #include "commands.hpp"
 #include "figures_json.hpp"
+#include "flame_modes.hpp"
 #include "switched_description.hpp"
 #include "terminal.hpp"
 #include "wisp/base/file.hpp"
@@ -156,7 +157,10 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   result["usable"] = json_of(model->provenance.usable);
   describe(result, terminal);
   if (const auto* arx = std::get_if<ArxModel>(&model->dynamics)) say_poles(*arx, model->rate_hz, terminal);
-  if (model->extinction) terminal.say("blow-out  " + sentence_of(*model->extinction));
+  if (model->extinction) {
+    terminal.say("blow-out  " + sentence_of(*model->extinction));
+    for (const std::string& line : mode_lines(*model)) terminal.say("mode      " + line);
+  }
   return {};
 }
 
