@@ -7,6 +7,7 @@
 #include "arx_search.hpp"
 #include "arx_tables.hpp"
 #include "coloured_learning.hpp"
+#include "curve_learning.hpp"
 #include "order_flags.hpp"
 #include "recordings.hpp"
 #include "wisp/learn/order_search.hpp"
@@ -65,11 +66,11 @@ ArxOptions fit_options(const Arguments& arguments) {
   return options;
 }
 
-// Whether the recordings are to be read a stretch at a time. A search needs them in memory.
+// Whether the recordings are to be read a stretch at a time. A search needs them in memory, and so do curves.
 bool too_large(const Arguments& arguments) {
   constexpr std::uintmax_t kMebibyte = std::uintmax_t{1} << 20;
   const auto most = static_cast<std::uintmax_t>(arguments.integer("memory")) * kMebibyte;
-  return !arguments.has("search") && bytes_on_disk(arguments.positionals()) > most;
+  return !arguments.has("search") && curve_knots_of(arguments) == 0 && bytes_on_disk(arguments.positionals()) > most;
 }
 
 Result<LearnedArx> learn_from_large_tables(const Arguments& arguments, Terminal& terminal) {
@@ -114,12 +115,16 @@ Result<LearnedArx> learn_from_recordings(const Arguments& arguments, Terminal& t
   options.first_sample = chosen->first_sample;
   const auto noise = parse_noise_model(arguments.text("noise-model"));
   if (!noise) return noise.error();
+  auto curves = learn_arx_curves(*recordings, channels, options.orders, arguments, terminal);
+  if (!curves) return curves.error();
+  const auto bent = bent_recordings(*recordings, channels.inputs, *curves);
   auto fit = noise->colour == NoiseColour::kWhite
-                 ? fit_arx(*recordings, channels, options)
-                 : fit_coloured(*recordings, channels, {.orders = options.orders, .noise = *noise}, terminal);
+                 ? fit_arx(bent, channels, options)
+                 : fit_coloured(bent, channels, {.orders = options.orders, .noise = *noise}, terminal);
   if (!fit) return fit.error();
   LearnedArx learned{std::move(*fit), channels, sources_of(*recordings, channels)};
-  const auto tests = test_residuals(learned.fit.model, *recordings, channels, {.lags = 20, .learned_from_it = true});
+  learned.sources.curves = std::move(*curves);
+  const auto tests = test_residuals(learned.fit.model, bent, channels, {.lags = 20, .learned_from_it = true});
   if (tests) learned.tests = *tests;
   return learned;
 }

@@ -10,6 +10,7 @@
 #include "wisp/learn/arx_fit.hpp"
 #include "wisp/learn/residual_tests.hpp"
 #include "wisp/learn/triangular_factor.hpp"
+#include "wisp/model/input_curve.hpp"
 
 namespace wisp::cli {
 
@@ -18,6 +19,7 @@ struct ArxSources {
   double rate_hz = 0;
   std::vector<ChannelSpan> spans;  ///< outputs, then inputs
   std::vector<std::string> files;
+  std::vector<InputCurve> curves{};  ///< one an input, or none
 };
 
 struct LearnedArx {

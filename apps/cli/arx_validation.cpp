@@ -6,6 +6,7 @@
 
 #include "arx_figures.hpp"
 #include "clip_figures.hpp"
+#include "curve_learning.hpp"
 #include "figures_json.hpp"
 #include "outline_learning.hpp"
 #include "recordings.hpp"
@@ -25,6 +26,13 @@ ChannelChoice channels_of(const Model& model) {
   for (const Input& input : model.inputs) channels.inputs.push_back(input.name);
   for (const Output& output : model.outputs) channels.outputs.push_back(output.name);
   return channels;
+}
+
+// With the inputs as the linear half of the model sees them.
+Recording bent(const Recording& recording, const Model& model) {
+  std::vector<InputCurve> curves;
+  for (const Input& input : model.inputs) curves.push_back(input.curve);
+  return bent_recordings({&recording, 1}, channels_of(model).inputs, curves).front();
 }
 
 InitialState initial_of(const Arguments& arguments) {
@@ -283,16 +291,16 @@ Result<void> validate_plain(const Model& model, const std::vector<int>& steps, c
   const ChannelChoice channels = channels_of(model);
   auto whole = read_table(path, arguments, channels);
   if (!whole) return whole.error();
-  const auto recording = in_range(std::move(*whole), arguments, "range");
-  if (!recording) return recording.error();
+  const auto ranged = in_range(std::move(*whole), arguments, "range");
+  if (!ranged) return ranged.error();
+  const Recording recording = bent(*ranged, model);
   const auto& arx = std::get<ArxModel>(model.dynamics);
-  const Subject subject{model, arx, channels, *recording, steps, initial_of(arguments), error_sd(arx, steps)};
-  const auto figures =
-      prediction_figures(arx, {&*recording, 1}, channels, {.steps = steps, .initial = subject.initial});
+  const Subject subject{model, arx, channels, recording, steps, initial_of(arguments), error_sd(arx, steps)};
+  const auto figures = prediction_figures(arx, {&recording, 1}, channels, {.steps = steps, .initial = subject.initial});
   if (!figures) return figures.error();
   const auto predictions = all_predictions(subject);
   if (!predictions) return predictions.error();
-  const auto tested = test_residuals(arx, {&*recording, 1}, channels, {.lags = 20});
+  const auto tested = test_residuals(arx, {&recording, 1}, channels, {.lags = 20});
   const auto tests = tested ? std::optional(*tested) : std::nullopt;  // too short: nothing can be said
   report(subject, *figures, *predictions, tests, terminal);
   if (!arguments.has("figures")) return {};

@@ -50,26 +50,6 @@ Plot tracks(const Motion& motion, const std::string& title, bool above) {
   return plot;
 }
 
-// The same ends of both axes, so that the eye compares sizes.
-void share_axes(Plot& a, Plot& b) {
-  for (auto [coordinate, axis] : {std::pair{&PlotSeries::x, &Plot::x}, {&PlotSeries::y, &Plot::y}}) {
-    double low = 0, high = 0;
-    for (const Plot* plot : {&a, &b}) {
-      for (const PlotSeries& series : plot->series) {
-        for (double value : series.*coordinate) {
-          if (!std::isfinite(value)) continue;
-          low = std::min(low, value);
-          high = std::max(high, value);
-        }
-      }
-    }
-    for (Plot* plot : {&a, &b}) {
-      (plot->*axis).lowest = low;
-      (plot->*axis).highest = high;
-    }
-  }
-}
-
 PlotSheet side_by_side(const Motion& real, const Motion& made, bool above) {
   Plot a = tracks(real, "recorded", above), b = tracks(made, "synthesized", above);
   share_axes(a, b);

@@ -71,26 +71,6 @@ std::string name_of(const GustScene& scene) {
          std::to_string(std::lround(degrees)) + "°";
 }
 
-// The same ends of the axes of both, so that the eye compares sizes.
-void share_axes(Plot& a, Plot& b) {
-  for (auto [values, axis] : {std::pair{&PlotSeries::x, &Plot::x}, {&PlotSeries::y, &Plot::y}}) {
-    double low = 0, high = 0;
-    for (const Plot* plot : {&a, &b}) {
-      for (const PlotSeries& series : plot->series) {
-        for (double value : series.*values) {
-          if (!std::isfinite(value)) continue;
-          low = std::min(low, value);
-          high = std::max(high, value);
-        }
-      }
-    }
-    for (Plot* plot : {&a, &b}) {
-      (plot->*axis).lowest = low;
-      (plot->*axis).highest = high;
-    }
-  }
-}
-
 }  // namespace
 
 Result<void> write_gust_figure(const std::filesystem::path& folder, std::span<const GustScene> scenes) {

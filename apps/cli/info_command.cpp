@@ -4,6 +4,7 @@
 #include "blow_out_learning.hpp"
 #include "chain_json.hpp"
 #include "commands.hpp"
+#include "curve_learning.hpp"
 #include "figures_json.hpp"
 #include "switched_description.hpp"
 #include "terminal.hpp"
@@ -20,7 +21,11 @@ Json channels_of(const Model& model) {
                       {"unit", input.unit},
                       {"range", {number(input.lowest), number(input.highest)}},
                       {"shape", std::string(splits_sign(input.shape) ? "split sign" : "linear") +
-                                    (has_squares(input.shape) ? " with squares" : "")}});
+                                    (has_squares(input.shape) ? " with squares" : "") +
+                                    (has_curve(input.shape) ? " bent by a curve" : "")}});
+    if (has_curve(input.shape)) {
+      inputs.back()["curve"] = {{"at", json_of(input.curve.at)}, {"value", json_of(input.curve.value)}};
+    }
   }
   for (const Output& output : model.outputs) {
     outputs.push_back(
@@ -156,6 +161,9 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   result["usable"] = json_of(model->provenance.usable);
   describe(result, terminal);
   if (const auto* arx = std::get_if<ArxModel>(&model->dynamics)) say_poles(*arx, model->rate_hz, terminal);
+  for (const Input& input : model->inputs) {
+    if (has_curve(input.shape)) terminal.say("curve     " + input.name + ": " + curve_text(input.curve));
+  }
   if (model->extinction) terminal.say("blow-out  " + sentence_of(*model->extinction));
   return {};
 }

@@ -8,6 +8,7 @@
 #include "arx_parts.hpp"
 #include "arx_search.hpp"
 #include "commands.hpp"
+#include "curve_learning.hpp"
 #include "figures_json.hpp"
 #include "learned_model.hpp"
 #include "recordings.hpp"
@@ -30,12 +31,16 @@ Model model_of(const ArxFit& fit, const ChannelChoice& channels, const ArxSource
     model.inputs.push_back({.name = name, .unit = span->unit, .lowest = span->lowest, .highest = span->highest});
     ++span;
   }
+  for (std::size_t k = 0; k < sources.curves.size(); ++k) {
+    model.inputs[k].shape = InputShape::kCurve;
+    model.inputs[k].curve = sources.curves[k];
+  }
   model.dynamics = fit.model;
   model.provenance.program = "wisp " WISP_VERSION;
   for (const std::string& file : sources.files) {
     model.provenance.sources.push_back(std::filesystem::path(file).filename().string());
   }
-  for (const char* flag : {"na", "nb", "nk", "coupling", "offset", "range"}) {
+  for (const char* flag : {"na", "nb", "nk", "coupling", "offset", "range", "input-curve"}) {
     const bool of_parts = arguments.on("merge") && std::string_view(flag) != "offset";  // the parts have their own
     if (arguments.has(flag) && !of_parts) model.provenance.options.push_back({flag, arguments.text(flag)});
   }
@@ -124,6 +129,9 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   if (const double radius = arguments.number("radius"); !(radius > 0 && radius < 1)) {
     return Error{"--radius is " + arguments.text("radius") + ", expected a number between 0 and 1"};
   }
+  if (curve_knots_of(arguments) != 0 && (arguments.has("partial") || arguments.on("merge"))) {
+    return Error{"--input-curve needs the recordings in one place: learn without --partial and --merge"};
+  }
   if (arguments.has("partial")) return write_part(arguments, terminal);
   const auto learned = learn_arx(arguments, terminal);
   if (!learned) return learned.error();
@@ -179,6 +187,7 @@ std::vector<Flag> flags() {
       {"common-start", Kind::kSwitch, "", "",
        "judge all candidates of --search, and fit the best, on the same rows: those that the longest one can predict"},
   };
+  all.push_back(curve_flag("; needs the recordings in memory"));
   all.push_back(
       {"figures", Kind::kPath, "DIR", "",
        "draw poles and zeros, step and frequency responses with their 95 % bands, and residual tests there; --json "

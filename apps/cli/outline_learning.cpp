@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "capture_flags.hpp"
+#include "curve_learning.hpp"
 #include "figures_json.hpp"
 #include "recordings.hpp"
 
@@ -95,6 +96,10 @@ void describe(const OutlineFit& fit, Terminal& terminal) {
                  shown(at_steps(judged, judged.tip_fit_percent, kFreeRun)) + " %, outline overlap " +
                  shown(at_steps(judged, judged.overlap, kFreeRun)));
   }
+  if (!summary.curve_choice.reason.empty()) terminal.say(summary.curve_choice.reason);
+  for (std::size_t k = 0; k < summary.curves.size(); ++k) {
+    terminal.say("curve of " + summary.inputs[k].name + ": " + curve_text(summary.curves[k].curve));
+  }
   if (!summary.noise_growth.per_input.empty()) terminal.say(summary.noise_growth.reason);
   terminal.say("spectral radius " + shown(summary.stable.radius, 4) + (summary.stable.changed ? " (made stable)" : "") +
                ", held at its range in " + shown(100 * summary.held_share, 2) + " % of steps");
@@ -160,6 +165,7 @@ std::vector<Flag> outline_flags() {
        {"auto", "coordinate", "point", "band", "full"}},
       {"one-sided", Kind::kSwitch, "", "", "inputs as they are: no sign, no mirror image"},
       {"square", Kind::kSwitch, "", "", "every input's square beside it, so that the answer to it may bend"},
+      curve_flag(""),
       {"noise-growth",
        Kind::kChoice,
        "G",
@@ -212,6 +218,7 @@ Result<OutlineOptions> outline_options(const Arguments& arguments, std::string n
   if (noise == "drawn") options.noise = OutlineNoise::kDrawn;
   options.one_sided = arguments.on("one-sided");
   options.square = arguments.on("square");
+  options.input_curve = curve_knots_of(arguments);
   options.growing_noise = arguments.text("noise-growth") == "auto";
   options.holdout = arguments.number("holdout");
   options.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
@@ -267,6 +274,9 @@ void report_outline(const OutlineFit& fit, Terminal& terminal) {
   result["nk"] = json_of(summary.orders.nk);
   result["order_and_delay"] = choice_json(summary.choice);
   result["alignment"] = alignment_json(summary.alignment);
+  std::vector<std::string> names;
+  for (const OutlineInput& input : summary.inputs) names.push_back(input.name);
+  result["input_curve"] = curve_json(summary.curve_choice, names, summary.curves);
   const OutlineNoiseGrowth& growth = summary.noise_growth;
   result["noise_growth"] = {{"kept", growth.kept},
                             {"per_input", json_of(growth.per_input)},

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
@@ -32,14 +33,16 @@ fs::path pending_name(const fs::path& path) {
 
 }  // namespace
 
-Result<std::vector<std::byte>> read_file(const fs::path& path, std::size_t most_bytes) {
+Result<std::vector<std::byte>> read_file(const fs::path& path, std::uint64_t most_bytes) {
   std::error_code code;
   if (fs::is_directory(path, code)) return file_error(path, "is a folder, expected a file");
   File file(std::fopen(path.c_str(), "rb"));
   if (!file) return file_error(path, "cannot be opened: " + reason());
 
   std::vector<std::byte> bytes;
-  const auto size = fs::file_size(path, code);
+  // Where addresses have 32 bits, less can be held than files may have.
+  most_bytes = std::min<std::uint64_t>(most_bytes, bytes.max_size() / 2);
+  const std::uintmax_t size = fs::file_size(path, code);
   if (!code) {
     if (size > most_bytes) return file_error(path, "is too large: " + std::to_string(size) + " bytes");
     bytes.reserve(static_cast<std::size_t>(size) + 1);
@@ -103,6 +106,10 @@ Result<PendingFile> PendingFile::create(const fs::path& path) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (path.filename().empty()) return file_error(path, "names no file to write");
   if (fs::is_directory(path, code)) return file_error(path, "is a folder, expected a file name to write to");
+  // A rename would put a plain file in the place of a device or a pipe.
+  if (fs::exists(path, code) && !fs::is_regular_file(path, code)) {
+    return file_error(path, "is no plain file but a device or a pipe, expected the name of a file");
+  }
   if (!fs::is_directory(folder, code)) {
     return file_error(path, "cannot be written: the folder " + folder.string() + " does not exist; make it first");
   }

@@ -149,7 +149,29 @@ Result<void> write_svg(const std::filesystem::path& path, const PlotSheet& sheet
   return write_file(path, with_own_numbers(with_own_numbers(text, "surface"), "image"));
 }
 
+void widen(Plot& a, Plot& b, std::vector<double> PlotSeries::*values, PlotAxis Plot::*axis) {
+  double low = 0, high = 0;
+  for (const Plot* plot : {&a, &b}) {
+    for (const PlotSeries& series : plot->series) {
+      for (double value : series.*values) {
+        if (!std::isfinite(value)) continue;
+        low = std::min(low, value);
+        high = std::max(high, value);
+      }
+    }
+  }
+  for (Plot* plot : {&a, &b}) {
+    (plot->*axis).lowest = low;
+    (plot->*axis).highest = high;
+  }
+}
+
 }  // namespace
+
+void share_axes(Plot& a, Plot& b) {
+  widen(a, b, &PlotSeries::x, &Plot::x);
+  widen(a, b, &PlotSeries::y, &Plot::y);
+}
 
 Image draw_plots(const PlotSheet& sheet) {
   assert(!sheet.plots.empty());

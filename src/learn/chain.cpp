@@ -311,11 +311,11 @@ Result<Realised> realised_chain(const Walked& walked, const ChainOptions& option
         mode_parts(walked.motion, walked.segments, walked.cluster, walked.modes, options.features, options.seed);
     if (!parts) return parts.error();
     const auto told = sequences_of(parts->segments, parts->cluster);
-    // Four times as many kinds: tables of what joins what are as large with a quarter of the followers.
+    // Twice as many kinds: tables of what joins what are as large with half of the followers.
     const int history = options.history > 0 ? options.history : kMostPartHistory;
     const ModeChain chain = estimate_chain(told, parts->modes, {.history = history, .back_off = options.history == 0});
     ChainOptions fewer = options;
-    fewer.store.breadth = (options.store.breadth + 3) / 4;
+    fewer.store.breadth = (options.store.breadth + 1) / 2;
     out = stored_chain({walked.motion, parts->segments, parts->cluster, parts->modes, chain}, fewer);
   } else {
     out = stored_chain(walked, options);

@@ -154,13 +154,15 @@ void follow(const Extinction& rule, const FlameLife& life, ExtinctionAgreement& 
     harm = harmed(rule, harm, life.rows.wind[row], step);
     while (gust < killed.size() && row >= life.gusts[gust].end) ++gust;
     if (harm < 1) continue;
-    harm = 0;
     died = life.died && row >= life.watched;
     if (died) {
       const double now = static_cast<double>(row) + 1;  // a death shows one row after the harm is done
       out.late_seconds.push_back((now - static_cast<double>(life.rows.end)) * step);
     } else if (gust < killed.size() && row >= life.gusts[gust].begin) {
       killed[gust] = true;
+      harm = 0;
+    } else {
+      harm = 1;  // what the rise of a gust has put out doesn't live through the gust
     }
   }
   out.died += died ? 1 : 0;

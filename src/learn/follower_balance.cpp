@@ -41,13 +41,12 @@ std::vector<std::uint16_t> chosen(const Followers& followers, const std::vector<
 
 // Where a walk that is likely to be at each segment as told is after one more.
 std::vector<double> walked(const std::vector<double>& likely, std::span<const std::uint16_t> follow,
-                           std::span<const std::uint16_t> mode, std::span<const double> transitions, int modes,
-                           int breadth) {
+                           std::span<const double> chances, int modes, int breadth) {
   std::vector<double> next(likely.size());
   const auto count = static_cast<std::size_t>(modes), wide = static_cast<std::size_t>(breadth);
   for (std::size_t from = 0; from < likely.size(); ++from) {
     for (std::size_t to = 0; to < count; ++to) {
-      const double share = likely[from] * transitions[mode[from] * count + to] / breadth;
+      const double share = likely[from] * chances[from * count + to] / breadth;
       if (share == 0) continue;
       for (std::size_t k = 0; k < wide; ++k) next[follow[(from * count + to) * wide + k]] += share;
     }
@@ -72,13 +71,13 @@ std::vector<double> overuse(const std::vector<double>& likely, std::span<const s
 }  // namespace
 
 std::vector<std::uint16_t> balanced_followers(const Followers& followers, std::span<const std::uint16_t> mode,
-                                              std::span<const double> transitions, int modes, int breadth) {
+                                              std::span<const double> chances, int modes, int breadth) {
   const double usual = usual_misfit(followers, breadth);
   std::vector<double> price(mode.size()), likely(mode.size(), 1.0 / static_cast<double>(mode.size()));
   auto follow = chosen(followers, price, breadth);
   for (int round = 0; round < kRounds; ++round) {
     for (int step = 0; step < kWalkSteps; ++step) {
-      likely = walked(likely, follow, mode, transitions, modes, breadth);
+      likely = walked(likely, follow, chances, modes, breadth);
     }
     const auto over = overuse(likely, mode, modes);
     for (std::size_t k = 0; k < price.size(); ++k) {

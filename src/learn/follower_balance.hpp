@@ -25,8 +25,8 @@ using Followers = std::vector<std::vector<Follower>>;
 
 /// Chooses `breadth` of each, the best first, the same again where there are fewer. Segments that a long walk plays
 /// oftener than their mode's mean are made dearer, until those that remain too often join much better than the rest.
-/// `transitions`: modes × modes, of the recording.
+/// `chances`: segments × modes, how likely each mode is after each segment.
 std::vector<std::uint16_t> balanced_followers(const Followers& followers, std::span<const std::uint16_t> mode,
-                                              std::span<const double> transitions, int modes, int breadth);
+                                              std::span<const double> chances, int modes, int breadth);
 
 }  // namespace wisp

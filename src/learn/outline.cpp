@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "chi_squared.hpp"
+#include "outline_curve.hpp"
 #include "outline_drawn.hpp"
 #include "outline_growth.hpp"
 #include "outline_noise.hpp"
@@ -37,6 +38,12 @@ Result<void> check_options(const OutlineOptions& options) {
   if (delay < 0 || delay > 1000) return refuse("the delay", delay, "0 to 1000 frames");
   if (!(options.holdout >= 0 && options.holdout <= 0.9))
     return refuse("the held-out share", options.holdout, "0 to 0.9");
+  if (const int knots = options.input_curve.value_or(0); knots != 0 && (knots < 3 || knots > 16)) {
+    return refuse("the number of knots of the inputs' curve", knots, "0 (no curve) or 3 to 16");
+  }
+  if (options.square && options.input_curve != 0) {
+    return Error{"the inputs' squares and a curve on them were both asked for; choose one"};
+  }
   if (options.shared_shocks < 1 || options.shared_shocks > 64) {
     return refuse("the number of shared shocks", options.shared_shocks, "1 to 64");
   }
@@ -216,15 +223,19 @@ Output output_of(const std::string& name, std::span<const Recording> recordings)
 }
 
 InputShape input_shape(RegressorShape shape) {
+  if (shape.curve) return shape.split_sign ? InputShape::kSplitSignCurve : InputShape::kCurve;
   if (shape.split_sign) return shape.square ? InputShape::kSplitSignSquare : InputShape::kSplitSign;
   return shape.square ? InputShape::kLinearSquare : InputShape::kLinear;
 }
 
 Input input_of(const OutlineInput& input, RegressorShape shape) {
   const double strongest = std::max(std::abs(input.lowest), std::abs(input.highest));
-  return {input.name, text(input.scale) + (input.unit.empty() ? "" : " " + input.unit),
-          shape.split_sign ? -strongest : input.lowest, shape.split_sign ? strongest : input.highest,
-          input_shape(shape)};
+  return {input.name,
+          text(input.scale) + (input.unit.empty() ? "" : " " + input.unit),
+          shape.split_sign ? -strongest : input.lowest,
+          shape.split_sign ? strongest : input.highest,
+          input_shape(shape),
+          input.curve};
 }
 
 Model model_of(const ArxModel& arx, const PreparedOutlines& prepared, const OutlineOptions& options) {
@@ -275,14 +286,50 @@ Result<std::vector<Recording>> aligned(std::span<const Recording> recordings, co
   return out;
 }
 
+ArxOrders chosen_orders(const PreparedOutlines& prepared, const OutlineOptions& options, const OutlineChoice& choice) {
+  return outline_orders(choice.taken().order, choice.taken().delay, *options.coupling, prepared);
+}
+
+// Learns the inputs' curves, where there are to be any.
+Result<void> learn_curves(std::span<const Recording> recordings, const PreparedOutlines& prepared,
+                          const OutlineOptions& options, OutlineSummary& summary) {
+  if (summary.curve_choice.knots == 0) return {};
+  const auto from = to_learn_from(recordings, prepared, options);
+  auto curves =
+      outline_curves(from, prepared, chosen_orders(prepared, options, summary.choice), summary.curve_choice.knots);
+  if (!curves) return curves.error();
+  summary.curves = *std::move(curves);
+  if (!mirror_wanted(options, prepared)) return {};
+  for (CurveEstimate& one : summary.curves) {
+    for (double& error : one.std_error) error *= std::sqrt(2.0);  // a frame and its mirror image are one observation
+  }
+  return {};
+}
+
+// Decides by both parts whether the inputs are bent, and bends them by what the first says.
+Result<void> bend(OutlineParts& parts, const PreparedOutlines& prepared, const OutlineOptions& options,
+                  OutlineSummary& summary) {
+  if (options.input_curve == 0 || prepared.inputs.empty()) return {};
+  auto choice = choose_outline_curves(to_learn_from(parts.learned, prepared, options), parts.held_out, prepared,
+                                      chosen_orders(prepared, options, summary.choice), options.input_curve);
+  if (!choice) return choice.error();
+  summary.curve_choice = *std::move(choice);
+  if (auto ok = learn_curves(parts.learned, prepared, options, summary); !ok) return ok;
+  if (summary.curves.empty()) return {};
+  parts.learned = bent_outlines(parts.learned, prepared, summary.curves);
+  parts.held_out = bent_outlines(parts.held_out, prepared, summary.curves);
+  return {};
+}
+
 // Judges a model that has seen only the first part of every recording.
 Result<ArxFit> judge(const PreparedOutlines& prepared, const OutlineOptions& options, OutlineSummary& summary) {
-  const OutlineParts parts = hold_out(prepared.recordings, prepared.channels, options.holdout);
+  OutlineParts parts = hold_out(prepared.recordings, prepared.channels, options.holdout);
   for (const Recording& part : parts.learned) summary.rows_learned += complete_rows(part, prepared.channels);
   for (const Recording& part : parts.held_out) summary.rows_held_out += complete_rows(part, prepared.channels);
   auto choice = choose_orders(to_learn_from(parts.learned, prepared, options), parts.held_out, prepared, options);
   if (!choice) return choice.error();
   summary.choice = *std::move(choice);
+  if (auto ok = bend(parts, prepared, options, summary); !ok) return ok.error();
   auto fitted = fit(parts.learned, prepared, options, summary.choice.taken());
   if (!fitted) return fitted;
   if (options.growing_noise) {
@@ -359,7 +406,12 @@ Result<OutlineFit> learn_outline(std::span<const Recording> recordings, const Ou
   if (auto ok = check_rows(*prepared, options); !ok) return ok.error();
   auto fitted = judge(*prepared, options, summary);
   if (!fitted) return fitted.error();
-  if (options.refit && summary.rows_held_out > 0) {
+  const bool refit = options.refit && summary.rows_held_out > 0;
+  if (refit) {
+    if (auto ok = learn_curves(prepared->recordings, *prepared, options, summary); !ok) return ok.error();
+  }
+  if (!summary.curves.empty()) prepared = bent_preparation(*std::move(prepared), summary.curves);
+  if (refit) {
     fitted = fit(prepared->recordings, *prepared, options, summary.choice.taken());
     if (!fitted) return fitted.error();
     summary.refitted = true;

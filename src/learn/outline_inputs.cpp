@@ -135,7 +135,10 @@ Recording with_regressors(const Recording& recording, std::span<const OutlineInp
     const std::vector<std::string> names = regressor_names({&input, 1}, shape);
     for (const RegressorValue& value : values_of(shape)) {
       Channel channel{names[value.index], "", Role::kInput, {}};
-      for (double u : samples) channel.samples.push_back(value.of(u / input.scale));
+      for (double u : samples) {
+        const double plain = value.of(u / input.scale);
+        channel.samples.push_back(shape.curve ? value_at(input.curve, plain) : plain);
+      }
       out.channels.push_back(std::move(channel));
     }
   }

@@ -74,12 +74,13 @@ const char* noise_name(OutlineNoise noise) {
   return "";
 }
 
-std::vector<Note> notes(const OutlineOptions& options, const OutlineChoice& choice) {
+std::vector<Note> notes(const OutlineOptions& options, const OutlineChoice& choice, int knots) {
   return {{"order", std::to_string(choice.taken().order)},
           {"delay", std::to_string(choice.taken().delay)},
           {"order_and_delay", choice.reason},
           {"coupling", coupling_name(*options.coupling)},
           {"square", options.square ? "yes" : "no"},
+          {"input_curve", std::to_string(knots)},
           {"one_sided", options.one_sided ? "yes" : "no"},
           {"holdout", rounded(options.holdout, 3)},
           {"refit", options.refit ? "yes" : "no"},
@@ -141,7 +142,7 @@ Provenance outline_provenance(std::span<const Recording> recordings, const Outli
                               const OutlineSummary& summary) {
   Provenance out;
   for (const Recording& recording : recordings) out.sources.push_back(recording.source);
-  out.options = notes(options, summary.choice);
+  out.options = notes(options, summary.choice, summary.curve_choice.knots);
   const OutlineFigures& judged = summary.held_out ? *summary.held_out : summary.learned;
   out.figures = {{"fpe", summary.fpe},
                  {"radius", summary.stable.radius},

@@ -5,21 +5,27 @@
 #include <span>
 #include <vector>
 
+#include "learn/segment_moments.hpp"
 #include "wisp/learn/motion.hpp"
 #include "wisp/learn/segmentation.hpp"
 #include "wisp/model/chain.hpp"
 
 namespace wisp {
 
+struct FollowerOptions {
+  bool heading_free = true;
+  int breadth = 4;  ///< > 0: followers for each segment and mode
+  ChainBlend blend{};
+};
+
 /// For each segment and mode the `breadth` segments of that mode whose beginning is nearest to its end, nearest first
-/// (a mode with fewer repeats them): by attitude, velocity and angular velocity, in the body's own axes where the chain
-/// is free of heading, each over its standard deviation. A segment does not follow itself where its mode has others.
-/// Those that a walk with these transitions (modes × modes) would play too often give way to others, as in
-/// balanced_followers().
+/// (a mode with fewer repeats them). A segment does not follow itself where its mode has others. Those that a walk
+/// would play too often give way to others, as in balanced_followers(); `chances`, segments × modes, say how likely it
+/// is to go on with each mode.
 ///
-/// Precondition: every mode below `modes` has a segment; breadth > 0.
+/// Precondition: every mode below `modes` has a segment.
 std::vector<std::uint16_t> best_followers(const Motion& motion, std::span<const Segment> segments,
-                                          std::span<const std::uint16_t> mode, int modes, bool heading_free,
-                                          int breadth, const ChainBlend& blend, std::span<const double> transitions);
+                                          const SegmentMoments& moments, std::span<const std::uint16_t> mode, int modes,
+                                          const FollowerOptions& options, std::span<const double> chances);
 
 }  // namespace wisp

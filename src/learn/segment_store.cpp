@@ -7,7 +7,9 @@
 
 #include "learn/fidelity_shuffle.hpp"
 #include "learn/join_jumps.hpp"
+#include "learn/onward_modes.hpp"
 #include "learn/segment_joins.hpp"
+#include "learn/segment_moments.hpp"
 #include "wisp/learn/segment_features.hpp"
 
 namespace wisp {
@@ -106,7 +108,8 @@ std::vector<std::size_t> kept_segments(const Motion& motion, std::span<const Seg
                                        const SegmentStoreOptions& options) {
   std::vector<std::vector<std::size_t>> members(static_cast<std::size_t>(modes));
   std::size_t bytes = 0;
-  const auto followers = static_cast<std::size_t>(options.breadth) * static_cast<std::size_t>(modes);
+  const auto followers = static_cast<std::size_t>(options.breadth > 0 ? options.breadth + 1 : 0) *
+                         static_cast<std::size_t>(modes);  // and how likely each mode is
   for (std::size_t k = 0; k < segments.size(); ++k) {
     members[cluster[k]].push_back(k);
     bytes += bytes_of(segments[k], pose, followers);
@@ -145,6 +148,24 @@ std::vector<double> transitions_of(std::span<const Segment> segments, std::span<
   return share;
 }
 
+// What follows each stored segment: which modes, and of each which segments.
+void join_up(const Motion& motion, std::span<const Segment> segments, std::span<const std::uint16_t> cluster, int modes,
+             const SegmentStoreOptions& options, SegmentStore& store) {
+  const SegmentMoments moments = segment_moments(motion, segments, options.heading_free);
+  OnwardModes onward = onward_modes(moments, cluster, store.source, transitions_of(segments, cluster, modes), modes);
+  std::vector<Segment> kept;
+  SegmentMoments own;
+  for (std::size_t source : store.source) {
+    kept.push_back(segments[source]);
+    own.starts.push_back(moments.starts[source]);
+    own.ends.push_back(moments.ends[source]);
+  }
+  const FollowerOptions joining{options.heading_free, options.breadth, options.blend};
+  ChainSegments& out = store.segments;
+  out.follow = best_followers(motion, kept, own, out.mode, modes, joining, onward.chances);
+  if (modes > 1) out.onward = std::move(onward.share);
+}
+
 }  // namespace
 
 SegmentStore store_segments(const Motion& motion, std::span<const Segment> found,
@@ -180,12 +201,7 @@ SegmentStore store_segments(const Motion& motion, std::span<const Segment> found
     }
   }
   out.breadth = options.breadth;
-  if (options.breadth > 0) {
-    std::vector<Segment> kept;
-    for (std::size_t source : store.source) kept.push_back(segments[source]);
-    out.follow = best_followers(motion, kept, out.mode, modes, options.heading_free, options.breadth, options.blend,
-                                transitions_of(segments, cluster, modes));
-  }
+  if (options.breadth > 0) join_up(motion, segments, cluster, modes, options, store);
   return store;
 }
 

@@ -58,6 +58,7 @@ Result<std::vector<OutlineInput>> inputs_of(const Model& model, const Recording&
       if (!own) return own.error();
       scaled = *std::move(own);
     }
+    scaled.curve = input.curve;
     inputs.push_back(std::move(scaled));
   }
   return inputs;
@@ -74,6 +75,7 @@ RegressorShape shape_of(const Model& model) {
   for (const Input& input : model.inputs) {
     shape.split_sign |= splits_sign(input.shape);
     shape.square |= has_squares(input.shape);
+    shape.curve |= has_curve(input.shape);
   }
   return shape;
 }

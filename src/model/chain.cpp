@@ -79,6 +79,17 @@ Result<void> check_follow(const ChainModel& model) {
   return {};
 }
 
+Result<void> check_onward(const ChainModel& model) {
+  const ChainSegments& segments = model.segments;
+  if (segments.onward.empty()) return {};
+  const std::size_t expected = segments.size() * static_cast<std::size_t>(model.modes);
+  if (auto ok = check_size(segments.onward.size(), expected, "shares of what follows a segment"); !ok) return ok;
+  for (std::uint16_t share : segments.onward) {
+    if (share == 0) return Error{"a share of what follows a segment of the chain is 0, expected 1 to 65535"};
+  }
+  return {};
+}
+
 Result<void> check_segments(const ChainModel& model) {
   const ChainSegments& segments = model.segments;
   if (segments.size() == 0 || segments.size() > kMostSegments) {
@@ -92,6 +103,7 @@ Result<void> check_segments(const ChainModel& model) {
   if (auto ok = check_size(segments.rates.size(), segments.size() * 2 * rates, "rates"); !ok) return ok;
   if (auto ok = check_scales(segments.row_scale, scale_count(model.motion), "row scales"); !ok) return ok;
   if (auto ok = check_scales(segments.rate_scale, scale_count(model.motion), "rate scales"); !ok) return ok;
+  if (auto ok = check_onward(model); !ok) return ok;
   return check_follow(model);
 }
 

@@ -142,6 +142,8 @@ fb::Offset<file::Chain> write_chain(fb::FlatBufferBuilder& builder, const ChainM
   const auto rates = builder.CreateVector(segments.rates);
   const auto rate_scale = builder.CreateVector(segments.rate_scale);
   const auto follow = builder.CreateVector(segments.follow);
+  const bool leads_on = !segments.onward.empty();
+  const auto onward = leads_on ? builder.CreateVector(segments.onward) : 0;
   const auto initial = builder.CreateVector(chain.initial);
   const auto lengths = builder.CreateVector(contexts.lengths);
   const auto histories = builder.CreateVector(contexts.modes);
@@ -170,6 +172,7 @@ fb::Offset<file::Chain> write_chain(fb::FlatBufferBuilder& builder, const ChainM
   if (chain.gust) table.add_gust(gust);
   if (chain.drift) table.add_drift(drift);
   if (chain.systems) table.add_systems(systems);
+  if (leads_on) table.add_onward(onward);
   return table.Finish();
 }
 
@@ -184,7 +187,8 @@ Result<ChainModel> read_chain(const file::Chain& stored) {
   chain.segments = {copied(stored.segment_mode()), copied(stored.segment_steps()),
                     copied(stored.rows()),         copied(stored.row_scale()),
                     copied(stored.rates()),        copied(stored.rate_scale()),
-                    copied(stored.follow()),       stored.breadth()};
+                    copied(stored.follow()),       stored.breadth(),
+                    copied(stored.onward())};
   chain.initial = copied(stored.initial());
   auto contexts = contexts_of(
       {copied(stored.history_lengths()), copied(stored.histories()), copied(stored.probabilities())}, stored.modes());

@@ -293,6 +293,10 @@ Result<InputShape> read_shape(file::InputShape shape) {
       return InputShape::kLinearSquare;
     case file::InputShape::SplitSignSquare:
       return InputShape::kSplitSignSquare;
+    case file::InputShape::Curve:
+      return InputShape::kCurve;
+    case file::InputShape::SplitSignCurve:
+      return InputShape::kSplitSignCurve;
   }
   return Error{"has an input shape that this program does not know; update Wisp"};
 }
@@ -307,6 +311,10 @@ file::InputShape stored_shape(InputShape shape) {
       return file::InputShape::LinearSquare;
     case InputShape::kSplitSignSquare:
       return file::InputShape::SplitSignSquare;
+    case InputShape::kCurve:
+      return file::InputShape::Curve;
+    case InputShape::kSplitSignCurve:
+      return file::InputShape::SplitSignCurve;
   }
   return file::InputShape::Linear;
 }
@@ -316,7 +324,12 @@ Result<void> read_channels(const file::Model& stored, Model& model) {
     for (const auto* input : *stored.inputs()) {
       const auto shape = read_shape(input->shape());
       if (!shape) return shape.error();
-      model.inputs.push_back({input->name()->str(), text(input->unit()), input->lowest(), input->highest(), *shape});
+      model.inputs.push_back({input->name()->str(),
+                              text(input->unit()),
+                              input->lowest(),
+                              input->highest(),
+                              *shape,
+                              {numbers(input->curve_at()), numbers(input->curve_value())}});
     }
   }
   for (const auto* output : *stored.outputs()) {
@@ -370,6 +383,14 @@ std::optional<Extinction> read_extinction(const file::Model& stored) {
                     rule->recovery(), rule->dying(), rule->catching()};
 }
 
+fb::Offset<file::Input> write_input(Builder& builder, const Input& input) {
+  const auto name = builder.CreateString(input.name);
+  const auto unit = builder.CreateString(input.unit);
+  const auto at = optional_vector(builder, input.curve.at);
+  const auto value = optional_vector(builder, input.curve.value);
+  return file::CreateInput(builder, name, unit, input.lowest, input.highest, stored_shape(input.shape), at, value);
+}
+
 // A member of a union: which, and where.
 template <class Kind>
 struct Member {
@@ -410,8 +431,7 @@ std::vector<std::byte> write_payload(const Model& model) {
   Builder builder;
   std::vector<fb::Offset<file::Input>> inputs;
   for (const Input& input : model.inputs) {
-    inputs.push_back(file::CreateInputDirect(builder, input.name.c_str(), input.unit.c_str(), input.lowest,
-                                             input.highest, stored_shape(input.shape)));
+    inputs.push_back(write_input(builder, input));
   }
   std::vector<fb::Offset<file::Output>> outputs;
   for (const Output& output : model.outputs) {

@@ -54,6 +54,31 @@ class ChainChoice {
     return mode;
   }
 
+  /// The same after a segment: what the history says, times what the place where that segment ends says.
+  std::uint32_t mode_after(const ChainProgram& program, std::uint32_t state, std::uint32_t before,
+                           const ChainWords& words) const {
+    if (program.onward.empty()) return mode(program, state, words);
+    const auto modes = static_cast<std::uint32_t>(program.modes);
+    std::uint64_t total = 0, most = 0;
+    std::uint32_t best = 0;
+    for (std::uint32_t mode = 0; mode < modes; ++mode) {
+      const std::uint64_t weight = weight_of(program, state, before, mode);
+      total += weight;
+      if (weight <= most) continue;
+      most = weight;
+      best = mode;
+    }
+    if (!chance_) return best;
+    std::uint64_t rest = words.mode * total >> 32;
+    std::uint32_t mode = 0;
+    for (; mode + 1 < modes; ++mode) {
+      const std::uint64_t weight = weight_of(program, state, before, mode);
+      if (rest < weight) break;
+      rest -= weight;
+    }
+    return mode;
+  }
+
   /// A segment of a mode with which a life begins.
   std::uint32_t beginning(const ChainProgram& program, std::uint32_t mode, const ChainWords& words) const {
     return any(program, mode, words.segment);
@@ -76,12 +101,12 @@ class ChainChoice {
 
   bool has_chance() const { return chance_; }
 
-  /// How likely a mode is, of 1.
-  float chance_of(const ChainProgram& program, std::uint32_t state, std::uint32_t mode) const {
-    const std::uint32_t* threshold =
-        program.threshold.data() + seen(program, state) * static_cast<std::uint32_t>(program.modes);
-    const std::uint32_t below = mode > 0 ? threshold[mode - 1] : 0;
-    return static_cast<float>(threshold[mode] - below) * (1.0f / 4294967296.0f);
+  /// How likely a mode is after a segment, beside the others.
+  float chance_of(const ChainProgram& program, std::uint32_t state, std::uint32_t before, std::uint32_t mode) const {
+    const float chance = static_cast<float>(width_of(program, state, mode)) * (1.0f / 4294967296.0f);
+    if (program.onward.empty()) return chance;
+    const std::size_t at = std::size_t{before} * static_cast<std::uint32_t>(program.modes) + mode;
+    return chance * static_cast<float>(program.onward[at]) * (1.0f / 65535.0f);
   }
 
   struct Candidate {
@@ -104,6 +129,20 @@ class ChainChoice {
   }
 
  private:
+  /// How many words the history gives a mode.
+  std::uint32_t width_of(const ChainProgram& program, std::uint32_t state, std::uint32_t mode) const {
+    const std::uint32_t* threshold =
+        program.threshold.data() + seen(program, state) * static_cast<std::uint32_t>(program.modes);
+    return threshold[mode] - (mode > 0 ? threshold[mode - 1] : 0);
+  }
+
+  // Below 2^32 in sum, so that a word times the sum fits: of the history's words the upper half counts.
+  std::uint64_t weight_of(const ChainProgram& program, std::uint32_t state, std::uint32_t before,
+                          std::uint32_t mode) const {
+    const std::size_t at = std::size_t{before} * static_cast<std::uint32_t>(program.modes) + mode;
+    return std::uint64_t{width_of(program, state, mode) >> 16} * program.onward[at];
+  }
+
   std::uint32_t any(const ChainProgram& program, std::uint32_t mode, std::uint32_t word) const {
     const std::uint32_t first = program.first_of_mode[mode];
     return chance_ ? first + share_of(word, program.first_of_mode[mode + 1] - first) : first;

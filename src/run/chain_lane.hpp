@@ -71,8 +71,9 @@ class ChainMover {
   /// Draws the segment that begins, or that follows the lane's, and moves its history on.
   std::uint32_t draw(Lane& lane, const ChainChoice& choice, const ChainWords& words, bool begins) const {
     const std::uint32_t state = begins ? 0 : index(lane.state, program_.states());
-    const std::uint32_t mode = choice.mode(program_, state, words);
     const std::uint32_t before = index(lane.segment, program_.segments());
+    const std::uint32_t mode =
+        begins ? choice.mode(program_, state, words) : choice.mode_after(program_, state, before, words);
     lane.state = Real(static_cast<float>(program_.next[state * static_cast<std::uint32_t>(program_.modes) + mode]));
     return begins ? choice.beginning(program_, mode, words) : choice.follower(program_, before, mode, words);
   }

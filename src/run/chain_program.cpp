@@ -134,6 +134,7 @@ ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double 
   program.first_row = copy_of(segment_rows(segments), arena);
   program.mode = copy_of(segments.mode, arena);
   program.follow = copy_of(segments.follow, arena);
+  program.onward = copy_of(segments.onward, arena);
   if (chain.systems) program.systems = make_systems_program(*chain.systems, arena);
   if (chain.drift) {
     take_drift(*chain.drift, program);
@@ -183,6 +184,7 @@ std::uint64_t hash_of(const ChainProgram& program, std::uint64_t before) {
                       program.spread_height, program.memory},
                      hash);
   for (std::uint16_t number : program.follow) hash = hash_number(std::uint32_t{number}, hash);
+  for (std::uint16_t number : program.onward) hash = hash_number(std::uint32_t{number}, hash);
   for (std::uint32_t number : program.threshold) hash = hash_number(std::uint32_t{number}, hash);
   for (std::uint16_t number : program.next) hash = hash_number(std::uint32_t{number}, hash);
   return hash;

@@ -41,6 +41,7 @@ struct ChainProgram {
   std::span<std::uint32_t> first_row;  ///< per segment, and one past the last
   std::span<std::uint16_t> mode;       ///< per segment
   std::span<std::uint16_t> follow;
+  std::span<std::uint16_t> onward;         ///< segments × modes; empty: the history alone says what follows
   std::span<std::uint32_t> first_of_mode;  ///< per mode its first segment, and one past the last
   std::span<std::uint32_t> threshold;      ///< states × modes: the first mode whose threshold a word is below is drawn
   std::span<std::uint16_t> next;           ///< states × modes: the state after that mode

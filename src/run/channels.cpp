@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <string>
 
 #include "run/model_hash.hpp"
@@ -41,7 +42,26 @@ OutputChannel make_output(const Output& output, double mean) {
   return channel;
 }
 
-RegressorChannel make_regressor(const Input& input, int index, RegressorPart part, double mean) {
+std::size_t piece_count(const Model& model) {
+  std::size_t count = 0;
+  for (const Input& input : model.inputs) count += input.curve.at.size();
+  return count;
+}
+
+// One piece a knot: that of the last knot has no end, and the slope of 1 that the curve has beyond it.
+std::span<const CurvePiece> fill_pieces(const InputCurve& curve, std::span<CurvePiece> pieces) {
+  const std::size_t last = curve.at.size() - 1;
+  for (std::size_t k = 0; k < last; ++k) {
+    const double width = curve.at[k + 1] - curve.at[k];
+    const double slope = (curve.value[k + 1] - curve.value[k]) / width;
+    pieces[k] = {static_cast<float>(curve.at[k]), static_cast<float>(width), static_cast<float>(slope)};
+  }
+  pieces[last] = {static_cast<float>(curve.at[last]), std::numeric_limits<float>::max(), 1.0f};
+  return pieces.first(last + 1);
+}
+
+RegressorChannel make_regressor(const Input& input, int index, RegressorPart part, double mean,
+                                std::span<const CurvePiece> curve) {
   const double room = margin(input.lowest, input.highest);
   RegressorChannel channel{};
   channel.input = index;
@@ -50,6 +70,7 @@ RegressorChannel make_regressor(const Input& input, int index, RegressorPart par
   channel.high = static_cast<float>(input.highest + room);
   channel.mean = static_cast<float>(mean);
   channel.inverse_scale = static_cast<float>(1.0 / regressor_scale(input, part));
+  channel.curve = curve;
   // A newborn's history is z = 0, whatever the range is.
   const float ends[] = {regress(channel, channel.low), regress(channel, channel.high), regress(channel, 0.0f), 0.0f};
   channel.least = *std::min_element(std::begin(ends), std::end(ends));
@@ -110,6 +131,7 @@ std::uint64_t hash_of(const Channels& channels, std::uint64_t before) {
     const int part = static_cast<int>(c.part) % 3;
     const float place = static_cast<float>(c.input * 3 + part) + (is_square(c.part) ? 0.5f : 0.0f);
     hash = hash_floats({place, c.low, c.high, c.mean, c.inverse_scale}, hash);
+    for (const CurvePiece& piece : c.curve) hash = hash_floats({piece.from, piece.width, piece.slope}, hash);
   }
   return hash;
 }
@@ -117,6 +139,7 @@ std::uint64_t hash_of(const Channels& channels, std::uint64_t before) {
 Channels make_channels(const Model& model, const OperatingPoint& point, Arena& arena) {
   Channels channels{arena.take<OutputChannel>(model.outputs.size()),
                     arena.take<RegressorChannel>(regressor_count(model.inputs))};
+  auto pieces = arena.take<CurvePiece>(piece_count(model));
   if (arena.measures()) return channels;
   for (std::size_t i = 0; i < model.outputs.size(); ++i) {
     channels.outputs[i] = make_output(model.outputs[i], point.outputs[i]);
@@ -124,8 +147,13 @@ Channels make_channels(const Model& model, const OperatingPoint& point, Arena& a
   std::size_t next = 0;
   for (std::size_t k = 0; k < model.inputs.size(); ++k) {
     const Input& input = model.inputs[k];
+    std::span<const CurvePiece> curve;
+    if (!input.curve.empty()) {
+      curve = fill_pieces(input.curve, pieces);
+      pieces = pieces.subspan(curve.size());
+    }
     const auto add = [&](RegressorPart part) {
-      channels.regressors[next] = make_regressor(input, static_cast<int>(k), part, point.regressors[next]);
+      channels.regressors[next] = make_regressor(input, static_cast<int>(k), part, point.regressors[next], curve);
       ++next;
     };
     for (RegressorPart part : regressor_parts(input.shape)) add(part);

@@ -39,7 +39,15 @@ std::span<const RegressorPart> regressor_parts(InputShape shape);
 /// Whether a regressor is a square.
 inline bool is_square(RegressorPart part) { return part >= RegressorPart::kWholeSquare; }
 
-/// A regressor: z = (part(u) − mean) · inverse_scale, u held to [low, high] first.
+/// A piece of an input's curve: what it climbs from a knot to the next.
+struct CurvePiece {
+  float from;
+  float width;
+  float slope;
+};
+
+/// A regressor: z = (part(u) − mean) · inverse_scale, u held to [low, high] first. Where there is a curve it bends the
+/// part.
 struct RegressorChannel {
   std::int32_t input;
   RegressorPart part;
@@ -47,8 +55,9 @@ struct RegressorChannel {
   float high;
   float mean;
   float inverse_scale;
-  float least;  ///< z is never below this,
-  float most;   ///< nor above that
+  float least;                        ///< z is never below this,
+  float most;                         ///< nor above that
+  std::span<const CurvePiece> curve;  ///< the last goes on without end; empty: none
 };
 
 struct Channels {
@@ -80,6 +89,17 @@ Result<void> check_channels(const Model& model, const OperatingPoint& point);
 /// A hash of the channels, over a hash of what came before.
 std::uint64_t hash_of(const Channels& channels, std::uint64_t before);
 
+/// A curve at inputs: the input itself up to the first knot, then what it climbs in each piece.
+template <class N>
+inline Reals<N> bend(std::span<const CurvePiece> curve, const Reals<N>& inputs) {
+  auto value = smaller(inputs, all<Reals<N>>(curve.front().from));
+  for (const CurvePiece& piece : curve) {
+    const auto within = hold(inputs - all<Reals<N>>(piece.from), all<Reals<N>>(0.0f), all<Reals<N>>(piece.width));
+    value = value + all<Reals<N>>(piece.slope) * within;
+  }
+  return value;
+}
+
 /// The values of a regressor for its inputs; what is not a number counts as 0.
 template <class N>
 inline Reals<N> regress(const RegressorChannel& channel, const Reals<N>& inputs) {
@@ -93,6 +113,7 @@ inline Reals<N> regress(const RegressorChannel& channel, const Reals<N>& inputs)
     part = zero - smaller(held, zero);
   }
   if (is_square(channel.part)) part = part * part;
+  if (!channel.curve.empty()) part = bend<N>(channel.curve, part);
   return settle((part - all<Reals<N>>(channel.mean)) * all<Reals<N>>(channel.inverse_scale));
 }
 

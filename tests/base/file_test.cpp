@@ -1,6 +1,7 @@
 #include "wisp/base/file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 
@@ -74,6 +75,16 @@ TEST_F(FileTest, WritingIntoAMissingFolderSaysSo) {
   const auto outcome = write_file(folder_ / "none" / "a.txt", "text");
   ASSERT_FALSE(outcome);
   EXPECT_NE(outcome.error().message.find("does not exist"), std::string::npos);
+}
+
+TEST_F(FileTest, APipeIsNotReplacedByAFile) {
+  const fs::path pipe = folder_ / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const auto outcome = write_file(pipe, "text");
+  ASSERT_FALSE(outcome);
+  EXPECT_NE(outcome.error().message.find("is no plain file"), std::string::npos);
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  EXPECT_EQ(files(), 1u);
 }
 
 }  // namespace

@@ -227,6 +227,18 @@ TEST(Plot, WritesPngAndSvgByTheName) {
   EXPECT_FALSE(std::filesystem::exists(folder / "b.png"));
 }
 
+TEST(Plot, TwoPlotsShareTheirAxes) {
+  Plot a{.series = {{.x = {-2, 1}, .y = {1, std::nan("")}}}};
+  Plot b{.series = {{.x = {3}, .y = {-5}}}};
+  share_axes(a, b);
+  for (const Plot& plot : {a, b}) {
+    EXPECT_EQ(plot.x.lowest, -2);
+    EXPECT_EQ(plot.x.highest, 3);
+    EXPECT_EQ(plot.y.lowest, -5);
+    EXPECT_EQ(plot.y.highest, 1);
+  }
+}
+
 TEST(Plot, DrawsTheSameTwice) {
   const TestFolder folder("plot-twice");
   Plot plot;

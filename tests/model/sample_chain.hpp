@@ -64,6 +64,16 @@ inline Model sample_chain(ChainMotion motion = ChainMotion::kPose) {
   return model;
 }
 
+/// The sample without long histories, whose segments say what follows them: after the first, mode 0 is five times as
+/// likely as its history has it; after the second there is mode 1.
+inline Model onward_chain() {
+  Model model = sample_chain();
+  auto& chain = std::get<ChainModel>(model.dynamics);
+  chain.contexts.pop_back();
+  chain.segments.onward = {65535, 13107, 1, 65535, 65535, 65535};
+  return model;
+}
+
 /// The sample, which can be steered.
 inline Model steered_chain() {
   Model model = sample_chain();

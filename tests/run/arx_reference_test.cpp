@@ -20,6 +20,7 @@ std::vector<double> regressors_of(const Model& model, double input) {
   const InputShape shape = model.inputs[0].shape;
   std::vector<double> parts{input};
   if (splits_sign(shape)) parts = {std::max(input, 0.0), std::max(-input, 0.0)};
+  for (double& part : parts) part = value_at(model.inputs[0].curve, part);
   const std::size_t values = parts.size();
   for (std::size_t k = 0; has_squares(shape) && k < values; ++k) parts.push_back(parts[k] * parts[k]);
   return parts;
@@ -142,13 +143,16 @@ double error_growth(const Model& model) {
 // The largest difference that rounding may make. A row of n terms, each a rounded coefficient times a rounded state,
 // summed one by one, errs by at most (n + 3) u Σ|terms| with u = 2^-24 (Higham, Accuracy and Stability, section 3.1:
 // n − 1 sums, a product and a coefficient; the noise adds a product and its deviate). Errors of all steps add up to at
-// most error_growth times that. Reading rounds the mean, a product and a sum: 3 u of the largest output.
+// most error_growth times that. A curve of k knots adds k terms that are never negative, each a product of a difference
+// and a slope that were rounded: k + 3 u of what it says. Reading rounds the mean, a product and a sum: 3 u of the
+// largest output.
 double rounding_bound(const Model& model, const PlainArx& plain, double largest_noise, double largest_output) {
   constexpr double kUnit = 0x1p-24;
   const auto& arx = std::get<ArxModel>(model.dynamics);
   double worst = 0;
   for (int i = 0; i < arx.orders.outputs(); ++i) {
-    const int terms = arx.orders.row_size(i) + 2 + arx.noise.rank;
+    const int curve = static_cast<int>(model.inputs[0].curve.at.size());
+    const int terms = arx.orders.row_size(i) + 2 + arx.noise.rank + (curve > 0 ? curve + 3 : 0);
     worst = std::max(worst, (terms + 3) * kUnit * (plain.sum_of_sizes(i) + largest_noise));
   }
   return error_growth(model) * worst + 3 * kUnit * largest_output;
@@ -194,6 +198,11 @@ TEST(ArxReference, SoDoesOneWithSignedWindAndSharedNoise) {
 TEST(ArxReference, SoDoesOneWithTheWindsSquareBesideIt) {
   expect_agreement(flame_model({.wind = InputShape::kLinearSquare}));
   expect_agreement(flame_model({.wind = InputShape::kSplitSignSquare}));
+}
+
+TEST(ArxReference, SoDoesOneWhoseWindIsBentByACurve) {
+  expect_agreement(flame_model({.wind = InputShape::kCurve}));
+  expect_agreement(flame_model({.wind = InputShape::kSplitSignCurve, .noise_rank = 1}));
 }
 
 TEST(ArxReference, SoDoesOneWhoseNoiseGrowsWithTheWind) {

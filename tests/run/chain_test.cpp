@@ -96,6 +96,35 @@ std::vector<int> walked(Bank& bank, const Model& model) {
   return modes;
 }
 
+TEST(ChainBank, ASegmentSaysTooWhichModeFollowsIt) {
+  const Model model = onward_chain();
+  const auto& chain = std::get<ChainModel>(model.dynamics);
+  Bank bank = bank_of(model);
+  double seen[3][2] = {};
+  std::uint32_t before = bank.chain_place(bank.at(0))->segment;
+  for (int joins = 0; joins < 20000;) {
+    bank.step();
+    const ChainPlace place = *bank.chain_place(bank.at(0));
+    if (place.step != 0) continue;
+    ++seen[before][chain.segments.mode[place.segment]];
+    before = place.segment;
+    ++joins;
+  }
+  // Five deviations of a share of some thousand.
+  const auto share = [&](int segment) { return seen[segment][1] / (seen[segment][0] + seen[segment][1]); };
+  EXPECT_NEAR(share(0), 0.75 / (0.75 + 5 * 0.25), 0.04);
+  EXPECT_GT(share(1), 0.999);
+  EXPECT_NEAR(share(2), 0.5, 0.04);
+}
+
+TEST(ChainBank, WithoutChanceTheLikeliestModeAfterASegmentFollows) {
+  Bank bank = bank_of(onward_chain());
+  bank.set_noise(0);
+  while (bank.chain_place(bank.at(0))->segment != 0) bank.step();
+  while (bank.chain_place(bank.at(0))->segment == 0) bank.step();
+  EXPECT_EQ(bank.chain_place(bank.at(0))->segment, 1U);  // of mode 0, where the history alone says mode 1
+}
+
 TEST(ChainBank, AShorterHistoryLooksNoFurtherBack) {
   const Model model = unblended();
   Bank bank = bank_of(model);

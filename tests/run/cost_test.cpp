@@ -90,6 +90,16 @@ TEST(Cost, TheWindsSquareCostsItsTapsAndOneProductAnInput) {
   EXPECT_EQ(square.dynamics_operations, plain.dynamics_operations + 2 * 16 * 4 + 3);
 }
 
+// For every knot a difference, a product and a sum; the wind's bounds cost nothing.
+TEST(Cost, ACurveCostsThreeOperationsAKnotAndRegressor) {
+  const Cost plain = cost_of(flame_model()), bent = cost_of(flame_model({.wind = InputShape::kCurve}));
+  EXPECT_EQ(bent.multiply_adds_per_frame, plain.multiply_adds_per_frame);
+  EXPECT_EQ(bent.dynamics_operations, plain.dynamics_operations + 3 * 5);
+  const Cost split = cost_of(flame_model({.wind = InputShape::kSplitSign}));
+  const Cost both = cost_of(flame_model({.wind = InputShape::kSplitSignCurve}));
+  EXPECT_EQ(both.dynamics_operations, split.dynamics_operations + 2 * 3 * 5);
+}
+
 TEST(Cost, ABadModelHasNone) {
   Model model = flame_model();
   model.rate_hz = -1;

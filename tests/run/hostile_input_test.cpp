@@ -56,6 +56,8 @@ TEST(HostileInput, NorStepsWhoseNoiseGrowsWithTheWindOrWhoseWindIsSquared) {
   live_through(flame_model({.noise_growth = 3}), 1, 100'000);
   live_through(flame_model({.wind = InputShape::kSplitSignSquare, .noise_rank = 2}), 1, 100'000);
   live_through(flame_model({.wind = InputShape::kLinearSquare}), 1, 100'000);
+  live_through(flame_model({.wind = InputShape::kSplitSignCurve}), 1, 100'000);
+  live_through(flame_model({.wind = InputShape::kCurve}), 1, 100'000);
 }
 
 TEST(HostileInput, EachKindHeldForLongEndsInTheRange) {

@@ -35,6 +35,12 @@ TEST(Plate, TumblesWithTheKnownHalfTurns) {
   }
 }
 
+// 1.219146, by integrators of scipy with errors bound to 1e-12 (bench/verify_leaf_plate.py).
+TEST(Plate, GoesOverFromTheInertiaOnThatAnIndependentIntegrationFinds) {
+  EXPECT_EQ(watch_plate(1.21912, 200, 300)->regime, PlateRegime::kFlutter);
+  EXPECT_EQ(watch_plate(1.21917, 200, 300)->regime, PlateRegime::kTumble);
+}
+
 TEST(Plate, DoesBothWhereItIsHeavierAndFluttersAgainWhereItIsHeavierStill) {
   EXPECT_EQ(watch_plate(1.8, 200, 600)->regime, PlateRegime::kMixed);
   EXPECT_EQ(watch_plate(2.9, 200, 400)->regime, PlateRegime::kFlutter);

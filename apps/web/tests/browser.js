@@ -71,7 +71,7 @@ export async function openBrowser(flags = []) {
       });
       if (options.before) await page.addInitScript(options.before);
       await page.goto(`${server.address}${hash}`);
-      await page.waitForFunction(() => window.wisp?.frames > 2, null, { timeout: 60_000 });
+      await until(page, 'the page plays', () => window.wisp?.frames > 2, null, 60_000);
       return page;
     },
     async close() {
@@ -81,9 +81,13 @@ export async function openBrowser(flags = []) {
   };
 }
 
-/** Waits until something holds in the page; `what` says so when it does not. */
+/**
+ * Waits until something holds in the page; `what` says so when it does not. Asks from here, again and again: the page's
+ * policy lets no script be made inside it.
+ */
 export async function until(page, what, holds, argument = null, timeout = 30_000) {
-  await page.waitForFunction(holds, argument, { timeout }).catch((error) => {
-    throw new Error(`not seen: ${what}`, { cause: error });
-  });
+  for (const end = Date.now() + timeout; !(await page.evaluate(holds, argument)); ) {
+    if (Date.now() > end) throw new Error(`not seen: ${what}`);
+    await page.waitForTimeout(15);
+  }
 }

@@ -2,6 +2,7 @@
 // Whole files in and out: output appears whole or not at all.
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -14,13 +15,14 @@ namespace wisp {
 
 /// Reads a whole file. Returns its bytes.
 /// Errors: the file cannot be opened (missing, a folder, no permission), cannot be read to its end, or is larger than
-/// `most_bytes`.
+/// `most_bytes`, or than memory can hold.
 Result<std::vector<std::byte>> read_file(const std::filesystem::path& path,
-                                         std::size_t most_bytes = std::size_t{1} << 32);
+                                         std::uint64_t most_bytes = std::uint64_t{1} << 32);
 
 /// Writes a whole file: beside its place first (`.NAME.part-PID`), then renamed over it, so that a reader sees the old
 /// file or the new one and never a half.
-/// Errors: the folder is missing or not writable, the disk is full; nothing is left behind then.
+/// Errors: the folder is missing or not writable, the name is a device's or a pipe's, the disk is full; nothing is left
+/// behind then.
 Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 Result<void> write_file(const std::filesystem::path& path, std::string_view text);
 
@@ -28,7 +30,7 @@ Result<void> write_file(const std::filesystem::path& path, std::string_view text
 /// `commit()` is called. Destroyed without commit, nothing is left behind.
 class PendingFile {
  public:
-  /// `path` is the final name. Errors: the folder is missing, or `path` is a folder.
+  /// `path` is the final name. Errors: the folder is missing, or `path` is a folder, a device or a pipe.
   static Result<PendingFile> create(const std::filesystem::path& path);
 
   PendingFile(PendingFile&& other) noexcept;

@@ -71,6 +71,9 @@ struct Plot {
   Image picture{};           ///< where not empty, it fills the panel instead of axes
 };
 
+/// Gives both plots the ends that hold the data of both, 0 included, so that the eye compares sizes.
+void share_axes(Plot& a, Plot& b);
+
 /// Plots side by side.
 struct PlotSheet {
   std::string title{};        ///< above all of them; empty: none

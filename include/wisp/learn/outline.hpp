@@ -14,6 +14,7 @@
 
 #include "wisp/base/result.hpp"
 #include "wisp/learn/arx_fit.hpp"
+#include "wisp/learn/curve_choice.hpp"
 #include "wisp/learn/outline_alignment.hpp"
 #include "wisp/learn/outline_figures.hpp"
 #include "wisp/learn/outline_inputs.hpp"
@@ -52,6 +53,8 @@ struct OutlineOptions {
                                             ///< more and did not look better (docs/fidelity.md)
   std::optional<std::vector<std::string>> inputs;  ///< names; unset: all inputs of the recordings; empty: none, flicker
   bool square = false;                             ///< every input's square beside it: what it does may bend
+  std::optional<int> input_curve = 0;  ///< knots of a monotone curve that bends every input, 3 to 16; 0: none; unset: 3
+                                       ///< to 6 or none, as held-out data say. Not beside squares
   bool one_sided = false;      ///< inputs as they are, no sign and no mirror image: the paper's 192 multiply-adds
   std::optional<bool> mirror;  ///< learn from the mirror image too; unset: where inputs have signs
   double holdout = 0.3;        ///< 0 to 0.9: the last part of each recording, kept for judging
@@ -115,6 +118,8 @@ struct OutlineSummary {
   std::size_t points = 0;
   ArxOrders orders;
   OutlineChoice choice;
+  CurveChoice curve_choice;                ///< what bends the inputs, and why; without candidates where none was tried
+  std::vector<CurveEstimate> curves;       ///< one an input, of the returned model; empty: none
   std::vector<InputAlignment> alignment;   ///< of every recording's inputs
   std::size_t rows_learned = 0;            ///< complete rows before the cut, which the judged model was learned from
   std::size_t rows_held_out = 0;           ///< and after it

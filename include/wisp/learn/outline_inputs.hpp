@@ -12,6 +12,7 @@
 
 #include "wisp/base/result.hpp"
 #include "wisp/learn/outline_units.hpp"
+#include "wisp/model/input_curve.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {
@@ -26,6 +27,7 @@ struct OutlineInput {
   double scale = 1;    ///< the recording's value that is 1 in the model, > 0
   double lowest = 0;   ///< seen, in the model's units
   double highest = 0;  ///< seen, in the model's units
+  InputCurve curve{};  ///< in the model's units; empty: it is not bent
 };
 
 /// The 95th percentile of |input| over all rows of all recordings where it is above kCalmShare of its 99th percentile.
@@ -48,6 +50,7 @@ std::vector<std::uint8_t> resting_rows(const Recording& recording, std::span<con
 struct RegressorShape {
   bool split_sign = false;  ///< NAME+ and NAME- instead of NAME
   bool square = false;      ///< then NAME^2, or NAME+^2 and NAME-^2
+  bool curve = false;       ///< each bent by its input's curve; names stay the same. Not beside squares
 };
 
 /// Names of the regressors that inputs make, in the model's order (regressor_count(InputShape)).

@@ -17,8 +17,8 @@ struct SegmentStoreOptions {
   bool heading_free = true;
   std::size_t most_bytes = 850'000;  ///< > 0, of all segments: what is over it is left out, as many of each mode as
                                      ///< the rarer ones allow; a leaf for the web is at most 1 MB
-  int breadth = 8;  ///< 0 … 256: best followers kept for each segment and mode; 0: any segment of the mode follows (the
-                    ///< paper's). Fewer join better, but favour segments that are near to many, and those are longer
+  int breadth = 4;  ///< 0 … 256: best followers kept for each segment and mode; 0: any segment of the mode follows (the
+                    ///< paper's). Fewer join better and leave room for more segments, but repeat themselves sooner
   ChainBlend blend{};      ///< how joins will fade: followers are chosen for what is seen then
   std::uint64_t seed = 1;  ///< of which segments stay
 };

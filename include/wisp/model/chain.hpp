@@ -47,7 +47,10 @@ struct ChainSegments {
   std::vector<double> rate_scale;    ///< of velocities and, for poses, of angular velocities; > 0
   std::vector<std::uint16_t> follow;  ///< segments × modes × breadth: the segments of that mode that join it best, best
                                       ///< first; empty where breadth is 0
-  int breadth = 0;  ///< 0: any segment of the mode follows
+  int breadth = 0;                    ///< 0: any segment of the mode follows
+  std::vector<std::uint16_t> onward;  ///< segments × modes: how likely each mode is after where this segment ends, over
+                                      ///< how likely after its mode as a whole; 65535 for the most of them, ≥ 1. It is
+                                      ///< multiplied by what the history says. Empty: the history alone counts
 
   std::size_t size() const { return mode.size(); }
 };

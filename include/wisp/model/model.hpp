@@ -14,6 +14,7 @@
 #include "wisp/model/arx.hpp"
 #include "wisp/model/chain.hpp"
 #include "wisp/model/extinction.hpp"
+#include "wisp/model/input_curve.hpp"
 #include "wisp/model/switched.hpp"
 
 namespace wisp {
@@ -25,6 +26,8 @@ enum class InputShape {
                ///< one
   kLinearSquare,     ///< as u and u²: what it does may bend
   kSplitSignSquare,  ///< as the two of kSplitSign, then their squares
+  kCurve,            ///< bent by the input's own curve: one regressor
+  kSplitSignCurve,   ///< as the two of kSplitSign, each bent by the input's curve
 };
 
 /// An input as the world gives it.
@@ -34,6 +37,7 @@ struct Input {
   double lowest = 0;  ///< the trained range; input beyond it and a margin is held to it
   double highest = 0;
   InputShape shape = InputShape::kLinear;
+  InputCurve curve{};  ///< where the shape has one, and else empty
 };
 
 /// An output as the dynamics make it.
@@ -120,5 +124,8 @@ bool splits_sign(InputShape shape);
 
 /// Whether squares stand beside the values.
 bool has_squares(InputShape shape);
+
+/// Whether a curve bends the values.
+bool has_curve(InputShape shape);
 
 }  // namespace wisp

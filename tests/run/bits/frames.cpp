@@ -155,6 +155,8 @@ int main() {
   step_frames(hash, flame_model({.wind = InputShape::kSplitSign, .drawn_rows = 600}), 11, 2'000);
   step_frames(hash, flame_model({.wind = InputShape::kSplitSignSquare, .noise_rank = 2, .noise_growth = 0.5}), 3,
               5'000);
+  step_frames(hash, flame_model({.wind = InputShape::kSplitSignCurve}), 5, 3'000);
+  step_frames(hash, flame_model({.wind = InputShape::kCurve}), 9, 1'000);
   time_frames(hash, flame_model(), 37, 1'000);
   mortal_frames(hash, 11, 2'000);
   for (int capacity : {1, 13}) falling_frames(hash, windy_chain(), capacity, 4'000);

@@ -2,6 +2,7 @@
 
 import type { DrawnCandle } from './renderer.js';
 import { FlameShape } from './flame_shape.js';
+import { Stroke } from '../wind/stroke.js';
 import { WICK_GAP, type Stand } from './room.js';
 import { Smoke } from './smoke.js';
 
@@ -17,8 +18,8 @@ export class Candle implements DrawnCandle {
   ember = 0;
   /** seconds since it went out; Infinity while it burns */
   sinceOut = Infinity;
-  /** what the pointer's strokes have stirred up around it, signed */
-  stirred = 0;
+  /** what the pointer's strokes have stirred up around it */
+  readonly stroke = new Stroke();
   /** wind of the last frame, all sources together, signed */
   wind = 0;
   /** seconds for which a hand shelters it from strokes, since that hand has just lit it */

@@ -6,7 +6,6 @@ import { Candle } from './candle.js';
 import { Match } from './match.js';
 import { CandleRenderer } from './renderer.js';
 import { MOST_CANDLES, RoomView, settingFor, type Setting } from './room.js';
-import { Stroke } from '../wind/stroke.js';
 import { WindDelay } from '../wind/delay.js';
 
 /** Points of a flame's outline; smooth at 500 pixels' height. */
@@ -19,7 +18,6 @@ export class CandleScene implements Scene {
   private readonly view = new RoomView();
   private readonly match = new Match();
   private readonly delay = new WindDelay();
-  private readonly stroke = new Stroke();
   private setting: Setting = settingFor(1);
   private candles: Candle[] = [];
   private renderer: CandleRenderer | null = null;
@@ -185,8 +183,8 @@ export class CandleScene implements Scene {
     const near = this.view.scale * this.view.nearness(stand.z) * stand.unit;
     const flameX = this.view.pixelX(stand.x, stand.z);
     const flameY = this.view.pixelY(candle.foot + 0.4 * stand.unit, stand.z);
-    candle.stirred = this.stroke.stir(candle.stirred, acting, busy, flameX, flameY, near);
-    candle.wind = breath + candle.stirred + candle.motionWind(acting.seconds);
+    candle.stroke.update(acting, busy, flameX, flameY, near);
+    candle.wind = breath + candle.stroke.wind + candle.motionWind(acting.seconds);
     this.setWind(candle.id, candle.wind);
   }
 
@@ -244,7 +242,7 @@ export class CandleScene implements Scene {
 
   private relight(candle: Candle): void {
     this.bank.relight(candle.id);
-    candle.stirred = 0;
+    candle.stroke.settle();
     candle.sheltered = 0.6;
   }
 
