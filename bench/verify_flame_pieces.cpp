@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 
 #include "flame_coloured.hpp"
 #include "flame_corpus.hpp"
@@ -31,6 +32,7 @@ std::vector<Piece> pieces() {
       {"drawn order 4 points", {.order = 4, .coupling = OutlineCoupling::kPoint, .noise = OutlineNoise::kDrawn}},
       {"drawn (the default)", {}},
       {"drawn with square", {.square = true}},
+      {"drawn with curve", {.input_curve = std::nullopt}},
   };
 }
 

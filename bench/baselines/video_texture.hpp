@@ -19,10 +19,12 @@ namespace wisp::baselines {
 
 /// How to learn.
 struct VideoTextureOptions {
-  int jumps = 20;           ///< kept a frame, >= 1, the natural follower among them
-  double looseness = 0.05;  ///< sigma over the mean distance between frames, > 0: higher jumps more, and less smoothly
-  double future = 0.99;     ///< alpha, what a later jump's cost counts for, 0 to below 1
-  double steering = 0;      ///< cost of wind 1 away from the wind now, in sigma, >= 0; 0: the wind is not looked at
+  int jumps = 5;  ///< kept a frame, >= 1, the natural follower among them
+  double looseness =
+      0.001;             ///< sigma over the mean distance between frames, > 0: higher jumps more, and less smoothly;
+                         ///< where a thing is often at rest, 0.05 never leaves it: all frames of rest are alike
+  double future = 0.99;  ///< alpha, what a later jump's cost counts for, 0 to below 1
+  double steering = 0;   ///< cost of wind 1 away from the wind now, in sigma, >= 0; 0: the wind is not looked at
 };
 
 /// A place to go on at.

@@ -13,7 +13,7 @@ namespace {
 constexpr int kTurn = 40;  // frames a turn
 
 // So strict that a jump by one frame too many has a probability of e^-25.
-constexpr VideoTextureOptions kStrict{.looseness = 0.005};
+constexpr VideoTextureOptions kStrict{.jumps = 20, .looseness = 0.005};
 
 // A point that goes around a circle with the wind's sense of turning, so that every place is passed in two directions.
 Frames turning(int frames, int sense, double wind) {
@@ -71,7 +71,7 @@ TEST(VideoTexture, NeverReachesADeadEnd) {
 TEST(VideoTexture, SteeredGoesWhereTheWindIsAsItIsNow) {
   // The same motion in two winds.
   const std::vector<Frames> frames{turning(200, 1, 0), turning(200, 1, 1)};
-  const VideoTexture texture = learn_video_texture(frames, {.steering = 20});
+  const VideoTexture texture = learn_video_texture(frames, {.looseness = 0.05, .steering = 20});
   VideoTexturePlayer player(texture, 1, false);
   for (double wind : {1.0, 0.0, 1.0}) {
     for (int step = 0; step < kTurn; ++step) (void)player.step(wind);
