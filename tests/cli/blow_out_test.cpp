@@ -56,10 +56,12 @@ TEST_F(BlowOutProgram, TheRuleIsLearnedWhereTheRecordingHasIt) {
   const json modes = wisp("info " + at("m.wisp") + " --json").json()["extinction"]["modes"];
   ASSERT_EQ(modes.size(), 4U);
   EXPECT_EQ(modes[0]["name"], "burning");
-  for (int mode : {1, 3}) {  // it vanishes and is back from one row to the next
+  // It vanishes and is back from one row to the next; sizes of 5 % less than the median, by its flicker, make that a
+  // twentieth of a row longer.
+  for (int mode : {1, 3}) {
     EXPECT_EQ(modes[mode]["source"], "learned");
     EXPECT_EQ(modes[mode]["events"], found["agreement"]["deaths"]);
-    EXPECT_NEAR(modes[mode]["seconds"].get<double>(), 1.0 / 60, 1e-6);
+    EXPECT_NEAR(modes[mode]["seconds"].get<double>(), 1.0 / 60, 0.1 / 60);
   }
   EXPECT_THAT(wisp("info " + at("m.wisp")).out, HasSubstr("dying: shrinks to nothing in 0.017 s (learned from"));
 
