@@ -189,8 +189,8 @@ TEST_F(BadChainInput, FlagsOutsideTheirRangeAreWrongUsage) {
   }
 }
 
-TEST_F(BadChainInput, WhatCannotBeWrittenIsFoundBeforeAnythingIsLearned) {
-  const auto path = record("falls.csv", Falls{});
+TEST_F(BadChainInput, WhatCannotBeWrittenIsFoundBeforeAnythingIsRead) {
+  const auto path = at("missing.csv");
   for (const std::string& output : {at("nowhere/m.wisp"), at(""), std::string("/proc/m.wisp")}) {
     EXPECT_THAT(refused("learn leaf " + path + " --quiet -o " + output), StartsWith("wisp: " + output)) << output;
   }
