@@ -29,9 +29,23 @@ std::uint64_t hash_of(const Recording& recording, const Episode& episode) {
   return hash;
 }
 
+// A channel of the pose that is only a name.
+Result<void> check_filled(const Recording& recording) {
+  for (const char* name : {"pos.x", "pos.y", "pos.z", "q.w", "q.x", "q.y", "q.z"}) {
+    const auto channel = find_channel(recording, name);
+    if (!channel) continue;
+    const auto& samples = recording.channels[*channel].samples;
+    if (std::any_of(samples.begin(), samples.end(), [](double x) { return !std::isnan(x); })) continue;
+    return Error{recording.source + ": " + name + " has no sample in any of its " + std::to_string(samples.size()) +
+                 " rows, expected a number in each: fill it in, or leave its column out"};
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> check_motion(const Recording& recording) {
+  if (auto ok = check_filled(recording); !ok) return ok;
   if (const auto motion = motion_of(std::span(&recording, 1)); !motion) return motion.error();
   for (const char* name : {"pos.x", "pos.y", "pos.z"}) {
     const auto& samples = recording.channels[*find_channel(recording, name)].samples;
