@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <set>
 #include <span>
 
 #include "recordings.hpp"
+#include "wisp/base/hash.hpp"
 #include "wisp/learn/motion.hpp"
 
 namespace wisp::cli {
@@ -18,22 +20,32 @@ std::string place(const Recording& recording, std::size_t row) {
   return recording.source + ": row " + std::to_string(row + 1);
 }
 
-// The samples of all outputs and of the wind over an episode.
-std::vector<double> numbers_of(const Recording& recording, const Episode& episode) {
-  std::vector<double> numbers;
+// Of all samples of an episode. Two episodes that differ have the same one once in 10^19.
+std::uint64_t hash_of(const Recording& recording, const Episode& episode) {
+  std::uint64_t hash = hash_bytes({});
   for (const Channel& channel : recording.channels) {
-    const auto first = channel.samples.begin() + static_cast<long>(episode.begin);
-    numbers.insert(numbers.end(), first, first + static_cast<long>(episode.size()));
+    hash = hash_bytes(std::as_bytes(std::span(channel.samples).subspan(episode.begin, episode.size())), hash);
   }
-  // Missing samples are equal here, and order needs numbers.
-  std::replace_if(
-      numbers.begin(), numbers.end(), [](double x) { return std::isnan(x); }, HUGE_VAL);
-  return numbers;
+  return hash;
+}
+
+// A channel of the pose that is only a name.
+Result<void> check_filled(const Recording& recording) {
+  for (const char* name : {"pos.x", "pos.y", "pos.z", "q.w", "q.x", "q.y", "q.z"}) {
+    const auto channel = find_channel(recording, name);
+    if (!channel) continue;
+    const auto& samples = recording.channels[*channel].samples;
+    if (std::any_of(samples.begin(), samples.end(), [](double x) { return !std::isnan(x); })) continue;
+    return Error{recording.source + ": " + name + " has no sample in any of its " + std::to_string(samples.size()) +
+                 " rows, expected a number in each: fill it in, or leave its column out"};
+  }
+  return {};
 }
 
 }  // namespace
 
 Result<void> check_motion(const Recording& recording) {
+  if (auto ok = check_filled(recording); !ok) return ok;
   if (const auto motion = motion_of(std::span(&recording, 1)); !motion) return motion.error();
   for (const char* name : {"pos.x", "pos.y", "pos.z"}) {
     const auto& samples = recording.channels[*find_channel(recording, name)].samples;
@@ -86,11 +98,11 @@ Result<std::vector<Recording>> read_motions(const std::vector<std::string>& path
 
 Repeats repeats_in(const std::vector<Recording>& recordings) {
   Repeats repeats;
-  std::set<std::vector<double>> seen;
+  std::set<std::uint64_t> seen;
   for (const Recording& recording : recordings) {
     for (const Episode& episode : episodes(recording)) {
       ++repeats.episodes;
-      if (!seen.insert(numbers_of(recording, episode)).second) ++repeats.repeated;
+      if (!seen.insert(hash_of(recording, episode)).second) ++repeats.repeated;
     }
   }
   return repeats;

@@ -123,7 +123,10 @@ TEST_F(BadChainInput, ARecordingCutInHalfIsAnErrorAtItsLastLine) {
 
 TEST_F(BadChainInput, SamplesThatAreNoneAreNamed) {
   const auto gone = [](int, int, const std::string& text) { return text.substr(0, text.rfind(',') + 1); };
-  EXPECT_THAT(not_learned(record("gone.csv", Falls{.line = gone})), HasSubstr("has no stretch of 8 complete rows"));
+  EXPECT_THAT(not_learned(record("gone.csv", Falls{.line = gone})),
+              HasSubstr("gone.csv: q.z has no sample in any of its 720 rows"));
+  const auto gaps = [&](int fall, int row, const std::string& text) { return row % 5 ? text : gone(fall, row, text); };
+  EXPECT_THAT(not_learned(record("gaps.csv", Falls{.line = gaps})), HasSubstr("has no stretch of 8 complete rows"));
   const auto word = [](int fall, int row, const std::string& text) {
     return fall == 0 && row == 2 ? text.substr(0, text.rfind(',') + 1) + "nan" : text;
   };
@@ -189,8 +192,8 @@ TEST_F(BadChainInput, FlagsOutsideTheirRangeAreWrongUsage) {
   }
 }
 
-TEST_F(BadChainInput, WhatCannotBeWrittenIsFoundBeforeAnythingIsLearned) {
-  const auto path = record("falls.csv", Falls{});
+TEST_F(BadChainInput, WhatCannotBeWrittenIsFoundBeforeAnythingIsRead) {
+  const auto path = at("missing.csv");
   for (const std::string& output : {at("nowhere/m.wisp"), at(""), std::string("/proc/m.wisp")}) {
     EXPECT_THAT(refused("learn leaf " + path + " --quiet -o " + output), StartsWith("wisp: " + output)) << output;
   }
