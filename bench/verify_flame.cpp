@@ -2,8 +2,9 @@
 // not, and which of the choices that there are is better. Prints tables; exit status 1 where a bound is missed.
 //
 //   wisp_verify_flame            the tables
-//   wisp_verify_flame DIR        no tables; writes feature windows of recorded and synthesized flames into DIR, for a
-//                                classifier to tell apart (bench/peers/likeness.py)
+//   wisp_verify_flame DIR        what each piece of a model is worth, on other clips, kept in DIR (flame_corpus.hpp);
+//                                bench/peers/likeness.py DIR/pieces makes the table
+//   wisp_verify_flame DIR REC…   the same for the flicker of captured flames, in DIR/flicker
 
 #include "verify_flame.hpp"
 
@@ -11,9 +12,11 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
+#include <span>
 
+#include "value_or_abort.hpp"
 #include "verify_bounds.hpp"
+#include "verify_flame_pieces.hpp"
 #include "wisp/learn/fidelity_energy.hpp"
 #include "wisp/learn/outline.hpp"
 #include "wisp/learn/outline_synthesis.hpp"
@@ -55,15 +58,6 @@ struct Score {
   double static_gain = 0;
   std::int64_t multiply_adds = 0;
 };
-
-template <class T>
-T value_or_abort(Result<T> result) {
-  if (!result) {
-    std::fprintf(stderr, "%s\n", result.error().message.c_str());
-    std::abort();
-  }
-  return *std::move(result);
-}
 
 Recording driven(const FlameClip& clip, const Way& way) {
   return way.truth ? driven_by_truth(clip) : driven_by_sound(clip, way.measure);
@@ -200,9 +194,8 @@ int main(int count, char** arguments) {
   using namespace wisp::verify;
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a table's row appears when it is known
   if (count > 1) {
-    const std::filesystem::path folder = arguments[1];
-    std::filesystem::create_directories(folder);
-    write_likeness_windows(make_likeness_clips(), folder / "windows.csv");
+    if (count == 2) judge_flame_pieces(arguments[1]);
+    judge_flicker_pieces(arguments[1], std::span(arguments, static_cast<std::size_t>(count)).subspan(2));
     return 0;
   }
   const Clips clips = simulate_all();

@@ -2,7 +2,6 @@
 // Simulated clips for the flame's long check: filmed, listened to and captured in one process, nothing encoded.
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -20,12 +19,20 @@ struct FlameClip {
   double processor_seconds = 0;  ///< that simulating, filming, listening and capturing took
 };
 
+/// What blows.
+enum class FlameWind {
+  kCalm,
+  kGusts,
+  kPuffs,  ///< every five seconds, of which some kill; where it went out the candle is lit again
+};
+
 /// What a clip is made of.
 struct FlameClipChoice {
   double seconds = 20;
   std::uint64_t wind_seed = 1;
   std::uint64_t chance_seed = 1;  ///< of the camera's and the microphone's noise: what differs in another take
   std::vector<double> knots{};    ///< to express the outline in; empty: its own
+  FlameWind wind = FlameWind::kGusts;
 };
 
 /// Simulates, films, listens and captures.
@@ -39,21 +46,5 @@ Recording driven_by_sound(const FlameClip& clip, WindMeasure measure);
 
 /// The same with the wind as it truly was.
 Recording driven_by_truth(const FlameClip& clip);
-
-/// Recordings for a classifier to tell from what models play along their wind.
-struct LikenessClips {
-  std::vector<Recording> learn;  ///< outline in pixels and the heard `wind`
-  std::vector<Recording> seen;   ///< the same, of clips that learning has not seen
-  std::vector<Recording> again;  ///< another take of each: the same wind, other chance
-};
-
-/// Simulates them.
-LikenessClips make_likeness_clips();
-
-/// Writes feature windows of half a second of the unseen clips, of their other takes, and of what models play that were
-/// learned with each kind of noise: one line each, side, clip, block, features. The features are 8 points at equal
-/// steps along the outline, and their differences: what an eye sees, and not where along it the control points lie.
-/// Prints what the models cost, and the longest verbatim run.
-void write_likeness_windows(const LikenessClips& clips, const std::filesystem::path& file);
 
 }  // namespace wisp::verify

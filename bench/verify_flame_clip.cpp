@@ -3,6 +3,7 @@
 #include <ctime>
 #include <limits>
 
+#include "value_or_abort.hpp"
 #include "verify_flame.hpp"
 #include "wisp/capture/vision/outline_capture.hpp"
 #include "wisp/simulate/candle_clip.hpp"
@@ -10,14 +11,7 @@
 namespace wisp::verify {
 namespace {
 
-template <class T>
-T value_or_abort(Result<T> result) {
-  if (!result) {
-    std::fprintf(stderr, "%s\n", result.error().message.c_str());
-    std::abort();
-  }
-  return *std::move(result);
-}
+constexpr double kPuffSeconds = 5;
 
 Picture picture_of(const CandleFrame& frame) {
   return rgb_picture({frame.picture.data(), frame.width, frame.height, 3 * frame.width}, 3);
@@ -30,6 +24,13 @@ Recording with_wind(const Recording& outline, const std::string& unit, std::vect
   return out;
 }
 
+WindSignalOptions wind_of(const FlameClipChoice& choice) {
+  WindSignalOptions wind{.seed = choice.wind_seed};
+  if (choice.wind == FlameWind::kCalm) wind.kind = WindKind::kCalm;
+  if (choice.wind == FlameWind::kPuffs) wind.puff_every = kPuffSeconds;
+  return wind;
+}
+
 }  // namespace
 
 FlameClip make_flame_clip(double seconds, std::uint64_t seed, const std::vector<double>& knots) {
@@ -39,7 +40,7 @@ FlameClip make_flame_clip(double seconds, std::uint64_t seed, const std::vector<
 FlameClip make_flame_clip(const FlameClipChoice& choice) {
   CandleClipOptions options;
   options.seconds = choice.seconds;
-  options.wind.seed = choice.wind_seed;
+  options.wind = wind_of(choice);
   options.camera.seed = options.microphone.seed = choice.chance_seed;
   OutlineCapture capture(
       {.knots = choice.knots, .rate_hz = options.rig.rate_hz, .source = "seed " + std::to_string(choice.wind_seed)});

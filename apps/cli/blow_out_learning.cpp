@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "figures_json.hpp"
+#include "flame_modes.hpp"
 #include "wisp/learn/validation.hpp"
 #include "wisp/run/cost.hpp"
 
@@ -106,9 +107,11 @@ Result<BlowOuts> BlowOuts::find(std::vector<Recording> recordings, const BlowOut
   return out;
 }
 
-std::vector<ExtinctionEvidence> BlowOuts::evidence(double scale) const {
+std::vector<ExtinctionEvidence> BlowOuts::evidence(double scale, double dying) const {
   std::vector<ExtinctionEvidence> out;
-  for (std::size_t k = 0; k < recordings_.size(); ++k) out.push_back({&recordings_[k], input_, scale, found_[k]});
+  for (std::size_t k = 0; k < recordings_.size(); ++k) {
+    out.push_back({&recordings_[k], input_, scale, found_[k], dying});
+  }
   return out;
 }
 
@@ -119,11 +122,15 @@ Result<void> BlowOuts::complete(OutlineFit& fit, const BlowOutWish& wish, Termin
     return Error{"the recordings have no input that could blow it out; leave --blow-out away"};
   }
   if (wish.source == BlowOutSource::kOff || index == fit.model.inputs.size()) return {};
-  const auto seen = evidence(scale_of(fit.summary, input_));
+  const double scale = scale_of(fit.summary, input_);
+  const auto ramps = learn_ramps(evidence(scale, 0));
+  if (!ramps) return ramps.error();
+  const auto seen = evidence(scale, ramps->dying ? ramps->dying->seconds : 0);
   Chosen chosen = choose(wish, seen, terminal);
   chosen.rule.input = index;
   fit.model.extinction = chosen.rule;
   fit.model.provenance.options.push_back({"blow_out", chosen.source});
+  set_ramps(*ramps, fit.model);
   const ExtinctionAgreement found = agreement(chosen.rule, seen);
   for (const auto& [name, count] : {std::pair{"blow_out.deaths", found.deaths},
                                     {"blow_out.died", found.died},
@@ -146,6 +153,7 @@ Result<void> BlowOuts::complete(OutlineFit& fit, const BlowOutWish& wish, Termin
   terminal.result()["extinction"] = std::move(json);
   terminal.say("blow-out (" + chosen.source + "): " + cli::sentence_of(chosen.rule) + "; it gets " +
                sentence_of(found));
+  for (const std::string& line : mode_lines(fit.model)) terminal.say("mode " + line);
   return {};
 }
 
@@ -168,19 +176,20 @@ Result<Json> judged_extinction(const Model& model, const Recording& recording, b
     if (!own) return own.error();
     scale = own->scale;
   }
-  const ExtinctionEvidence evidence{&recording, input, scale, *std::move(blow_outs)};
+  const ExtinctionEvidence evidence{&recording, input, scale, *std::move(blow_outs), model.extinction->dying};
   Json json = json_of(agreement(*model.extinction, std::span(&evidence, 1)));
+  const auto ramps = judged_ramps(*model.extinction, evidence);
+  if (!ramps) return ramps.error();
+  json.update(*ramps);
   json["unexplained"] = unexplained({evidence});
   return json;
 }
 
 Json json_of(const std::optional<Extinction>& rule, const Model& model) {
   if (!rule) return nullptr;
-  return {{"input", model.inputs[rule->input].name},
-          {"level", number(rule->level)},
-          {"seconds", number(rule->seconds)},
-          {"haste", number(rule->haste)},
-          {"recovery", number(rule->recovery)}};
+  return {{"input", model.inputs[rule->input].name}, {"level", number(rule->level)},
+          {"seconds", number(rule->seconds)},        {"haste", number(rule->haste)},
+          {"recovery", number(rule->recovery)},      {"modes", modes_of(model)}};
 }
 
 std::string sentence_of(const Extinction& rule) {

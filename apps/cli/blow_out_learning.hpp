@@ -43,7 +43,7 @@ class BlowOuts {
   Result<void> complete(OutlineFit& fit, const BlowOutWish& wish, Terminal& terminal) const;
 
  private:
-  std::vector<ExtinctionEvidence> evidence(double scale) const;
+  std::vector<ExtinctionEvidence> evidence(double scale, double dying) const;
 
   std::string input_;  // empty: there is none
   std::vector<Recording> recordings_;

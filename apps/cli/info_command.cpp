@@ -6,6 +6,7 @@
 #include "commands.hpp"
 #include "curve_learning.hpp"
 #include "figures_json.hpp"
+#include "flame_modes.hpp"
 #include "switched_description.hpp"
 #include "terminal.hpp"
 #include "wisp/base/file.hpp"
@@ -164,7 +165,10 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   for (const Input& input : model->inputs) {
     if (has_curve(input.shape)) terminal.say("curve     " + input.name + ": " + curve_text(input.curve));
   }
-  if (model->extinction) terminal.say("blow-out  " + sentence_of(*model->extinction));
+  if (model->extinction) {
+    terminal.say("blow-out  " + sentence_of(*model->extinction));
+    for (const std::string& line : mode_lines(*model)) terminal.say("mode      " + line);
+  }
   return {};
 }
 

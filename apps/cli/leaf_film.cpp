@@ -1,5 +1,7 @@
 #include "leaf_film.hpp"
 
+#include "learned_model.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -208,6 +210,13 @@ void divide(Image& image, int x) {
 }
 
 }  // namespace
+
+Result<void> check_film_name(const std::string& path) {
+  if (std::filesystem::path(path).extension() != ".mp4") {
+    return Error{path + ": cannot be written, expected a name that ends in .mp4"};
+  }
+  return check_writable(path);
+}
 
 Result<void> write_leaf_film(const std::filesystem::path& path, const Recording& recording,
                              const LeafFilmOptions& options, Terminal& terminal) {

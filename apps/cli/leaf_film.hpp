@@ -21,6 +21,10 @@ struct LeafFilmOptions {
   LeafStyle style{.scale = 1.8F};
 };
 
+/// Whether a film of that name can be written: asked before work that takes long.
+/// Errors: the name does not end in .mp4, or its folder is missing or not writable.
+Result<void> check_film_name(const std::string& path);
+
 /// Draws the recording's episodes, a leaf each, and encodes them; whole or not at all.
 /// Errors: the recording has no outputs `pos.x pos.y pos.z q.w q.x q.y q.z`, or the video cannot be written.
 Result<void> write_leaf_film(const std::filesystem::path& path, const Recording& recording,

@@ -11,6 +11,7 @@
 #include "curve_learning.hpp"
 #include "figures_json.hpp"
 #include "learned_model.hpp"
+#include "order_flags.hpp"
 #include "recordings.hpp"
 #include "terminal.hpp"
 
@@ -160,33 +161,34 @@ std::vector<Flag> flags() {
       {"output", Kind::kPath, "M.wisp", "", "where to write the model", {}, true, "partial"},
       {"inputs", Kind::kNames, "A,B", "", "channels that are inputs; none: a model of the outputs alone"},
       {"outputs", Kind::kNames, "C,D", "", "channels that are outputs", {}, true, "merge"},
-      {"na", Kind::kText, "N", "4", "order of A: a number, or a matrix row by row such as '4,2;3,4'"},
-      {"nb", Kind::kText, "N", "4", "order of B: a number, or a matrix with a row an output and a column an input"},
-      {"nk", Kind::kText, "N", "1", "delay in samples, likewise; auto finds every input's delay to every output"},
-      {"coupling",
-       Kind::kChoice,
-       "C",
-       "full",
-       "which outputs appear in an output's equation: full, diagonal, band",
-       {"full", "diagonal", "band"}},
-      {"range", Kind::kSamples, "A:B", "", "rows to learn from, 1-based and inclusive"},
-      {"offset",
-       Kind::kChoice,
-       "O",
-       "mean",
-       "the operating point: mean removes means, none, estimate adds a constant term",
-       {"mean", "none", "estimate"}},
-      {"noise-model", Kind::kText, "M", "white",
-       "what colours the residual: white; ar:N (ARARX, v = e/D) or ma:N (ARMAX, v = C e), by prediction errors; the "
-       "model that is written has a white residual and the more lags. Needs the recordings in memory"},
-      {"ridge", Kind::kNumber, "R", "0", "weight of the coefficients' size, as a share of each regressor's energy"},
-      {"radius", Kind::kNumber, "R", "0.999",
-       "an unstable estimate is brought within this spectral radius, between 0 and 1, with the least loss of fit; a "
-       "smaller one may simulate better"},
-      {"keep-unstable", Kind::kSwitch, "", "", "leave an unstable estimate as it is, to compare; it cannot be played"},
-      {"common-start", Kind::kSwitch, "", "",
-       "judge all candidates of --search, and fit the best, on the same rows: those that the longest one can predict"},
   };
+  for (Flag& flag : order_flags({"4", "", "; auto finds every input's delay to every output"}))
+    all.push_back(std::move(flag));
+  all.insert(
+      all.end(),
+      {
+          {"range", Kind::kSamples, "A:B", "", "rows to learn from, 1-based and inclusive"},
+          {"offset",
+           Kind::kChoice,
+           "O",
+           "mean",
+           "the operating point: mean removes means, none, estimate adds a constant term",
+           {"mean", "none", "estimate"}},
+          {"noise-model", Kind::kText, "M", "white",
+           "what colours the residual: white; ar:N (ARARX, v = e/D) or ma:N (ARMAX, v = C e), by prediction errors; "
+           "the "
+           "model that is written has a white residual and the more lags. Needs the recordings in memory"},
+          {"ridge", Kind::kNumber, "R", "0", "weight of the coefficients' size, as a share of each regressor's energy"},
+          {"radius", Kind::kNumber, "R", "0.999",
+           "an unstable estimate is brought within this spectral radius, between 0 and 1, with the least loss of fit; "
+           "a "
+           "smaller one may simulate better"},
+          {"keep-unstable", Kind::kSwitch, "", "",
+           "leave an unstable estimate as it is, to compare; it cannot be played"},
+          {"common-start", Kind::kSwitch, "", "",
+           "judge all candidates of --search, and fit the best, on the same rows: those that the longest one can "
+           "predict"},
+      });
   all.push_back(curve_flag("0", "; needs the recordings in memory"));
   all.push_back(
       {"figures", Kind::kPath, "DIR", "",

@@ -1,16 +1,21 @@
 // `wisp learn chain` and its preset `wisp learn leaf`: a segment chain from recordings of something that moves.
 
+#include <array>
 #include <chrono>
 #include <filesystem>
 
 #include "chain_json.hpp"
+#include "chain_recordings.hpp"
 #include "commands.hpp"
 #include "figures_json.hpp"
+#include "flag_ranges.hpp"
 #include "learned_model.hpp"
 #include "recordings.hpp"
 #include "terminal.hpp"
 #include "wisp/learn/chain.hpp"
 #include "wisp/learn/gust_response.hpp"
+#include "wisp/learn/motion.hpp"
+#include "wisp/model/file.hpp"
 
 namespace wisp::cli {
 namespace {
@@ -19,7 +24,18 @@ int number_or_auto(const Arguments& arguments, std::string_view flag) {
   return arguments.text(flag) == "auto" ? 0 : arguments.integer(flag);
 }
 
+Result<void> check_flags(const Arguments& arguments) {
+  static constexpr std::array kRanges = {
+      FlagRange{"modes", 1, 256},      FlagRange{"history", 1, 16},  FlagRange{"best-of", 0, 256},
+      FlagRange{"blend", 0, 0.5},      FlagRange{"shortest", 0, 60}, FlagRange{"debounce", 0, 100},
+      FlagRange{"smooth", 0, 10001},   FlagRange{"holdout", 0, 0.9}, FlagRange{"restarts", 1, 10000},
+      FlagRange{"most-bytes", 1, 1e9},
+  };
+  return check_ranges(arguments, kRanges);
+}
+
 Result<ChainOptions> options_from(const Arguments& arguments) {
+  if (auto ok = check_flags(arguments); !ok) return ok.error();
   ChainOptions options;
   options.name = std::filesystem::path(arguments.text("output")).stem().string();
   auto event = parse_event(arguments.text("event"));
@@ -43,20 +59,48 @@ Result<ChainOptions> options_from(const Arguments& arguments) {
   options.restarts = arguments.integer("restarts");
   options.smooth_rows = arguments.integer("smooth");
   options.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
-  for (const char* flag : {"modes", "history"}) {
-    if (arguments.text(flag) != "auto" && arguments.integer(flag) < 1) {
-      return Error{"--" + std::string(flag) + " is " + arguments.text(flag) + ", expected at least 1, or auto"};
-    }
-  }
   return options;
 }
 
 // Full axes of the leaf, where its maker has said them.
-void take_size(const std::vector<Recording>& recordings, ChainOptions& options) {
+Result<void> take_size(const std::vector<Recording>& recordings, ChainOptions& options) {
   const auto size = numbers_attribute(recordings.front(), "leaf_length_width_density");
-  if (!size || !*size || (*size)->size() < 2) return;
+  if (!size) return size.error();
+  if (!*size || (*size)->size() < 2) return {};
   options.half_width = (**size)[0] / 2;
   options.half_length = (**size)[1] / 2;
+  if (options.half_width > 0 && options.half_length > 0) return {};
+  return Error{recordings.front().source + ": \"# leaf_length_width_density\" begins with " + shown((**size)[0]) + " " +
+               shown((**size)[1]) + ", expected a length and a width above 0, in metres"};
+}
+
+// What learning says is wrong, with the file that it is about.
+Error about(const std::vector<Recording>& recordings, const ChainOptions& options, const Error& error) {
+  const std::string& first = recordings.front().source;
+  for (const Recording& recording : recordings) {
+    if (error.message.starts_with(recording.source)) return error;
+  }
+  const auto motion = motion_of(recordings, options.smooth_rows);
+  const auto cut = motion ? segment(*motion, recordings, options.segmentation) : Result<Segmentation>(motion.error());
+  if (cut && static_cast<double>(cut->segments.size()) * (1 - options.holdout) < options.modes) {
+    return {first + ": has " + std::to_string(cut->segments.size()) +
+            " segments in all, expected at least as many as " + "--modes " + std::to_string(options.modes) +
+            " when a share of " + shown(options.holdout) + " is held out: record for longer, or ask for fewer modes"};
+  }
+  return {first + ": " + error.message};
+}
+
+// Falls that repeat each other judge nothing.
+void warn_of_repeats(const std::vector<Recording>& falls, ChainFit& fit, Terminal& terminal) {
+  const Repeats repeats = repeats_in(falls);
+  if (repeats.repeated == 0) return;
+  terminal.result()["repeated_episodes"] = repeats.repeated;
+  terminal.warn(falls.front().source + ": " + std::to_string(repeats.repeated) + " of " +
+                std::to_string(repeats.episodes) +
+                " episodes repeat another row by row, expected each once: likeness to what was held out says little");
+  if (repeats.episodes - repeats.repeated > 1) return;
+  fit.model.provenance.usable = {
+      false, "all " + std::to_string(repeats.episodes) + " episodes are the same: record falls that differ"};
 }
 
 // Recordings that differ only in their wind, by the value of `pair` that they share.
@@ -87,6 +131,10 @@ Result<void> take_gusts(const std::vector<Recording>& paired, ChainFit& fit, Ter
   if (!gusts) return gusts.error();
   std::get<ChainModel>(fit.model.dynamics).gust = std::move(gusts->response);
   fit.model.inputs = std::move(gusts->inputs);
+  if (const auto sound = check(fit.model); !sound) {
+    return Error{paired[first_calm ? 1 : 0].source + ": " + sound.error().message + " from more gusts than its " +
+                 std::to_string(gusts->figures.gusts_learned)};
+  }
   const GustFigures& figures = gusts->figures;
   terminal.result()["gusts"] = {{"learned", figures.gusts_learned},
                                 {"judged", figures.gusts_judged},
@@ -162,18 +210,20 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
   auto options = options_from(arguments);
   if (!options) return options.error();
-  auto recordings = read_tables(arguments.positionals(), arguments, terminal);
+  if (auto ok = check_writable(arguments.text("output")); !ok) return ok;
+  auto recordings = read_motions(arguments.positionals(), arguments, terminal);
   if (!recordings) return recordings.error();
   const Sorted data = sorted(std::move(*recordings));
   if (data.falls.empty()) {
     return Error{data.paired.front().source + ": is one of a pair, which only tells what wind does; expected " +
                  "recordings of calm falls beside it"};
   }
-  take_size(data.falls, *options);
+  if (auto ok = take_size(data.falls, *options); !ok) return ok;
   auto fit = learn_chain(data.falls, *options);
-  if (!fit) return fit.error();
+  if (!fit) return about(data.falls, *options, fit.error());
   fit->model.provenance.program = "wisp " WISP_VERSION;
   for (const std::string& warning : fit->summary.warnings) terminal.warn(warning);
+  warn_of_repeats(data.falls, *fit, terminal);
   report(*fit, terminal);
   judge(*fit, *options, terminal);
   if (auto ok = take_gusts(data.paired, *fit, terminal); !ok) return ok;

@@ -68,6 +68,24 @@ Model model_of(const SwitchedFit& fit, const ChannelChoice& channels, const std:
   return model;
 }
 
+void report_differences(const std::vector<ModeDifference>& differences, Terminal& terminal) {
+  Json& all = terminal.result()["mode_differences"] = Json::array();
+  for (const ModeDifference& pair : differences) {
+    all.push_back({{"modes", {pair.first, pair.second}},
+                   {"coefficients", pair.coefficients},
+                   {"compared", pair.compared},
+                   {"most_std_errors", number(pair.most_std_errors)},
+                   {"noise_ratio", number(pair.noise_ratio)}});
+    const std::string times = ", noise " + shown(pair.noise_ratio, 2) + " times as large";
+    terminal.say("modes " + std::to_string(pair.first) + " and " + std::to_string(pair.second) +
+                 (pair.same_coefficients()
+                      ? " differ in the size of their noise alone: no coefficient by more than 3 standard errors"
+                      : " differ in " + std::to_string(pair.coefficients) + " of " + std::to_string(pair.compared) +
+                            " coefficients by more than 3 standard errors") +
+                 times);
+  }
+}
+
 void report(const SwitchedFit& fit, const ChannelChoice& channels, Terminal& terminal) {
   const SwitchedSummary& summary = fit.summary;
   Json& result = terminal.result();
@@ -95,6 +113,7 @@ void report(const SwitchedFit& fit, const ChannelChoice& channels, Terminal& ter
     terminal.say("mode " + std::to_string(k) + ": acts in " + std::to_string(summary.mode_rows[k]) +
                  " rows, spectral radius " + shown(summary.mode_radius[k], 5));
   }
+  report_differences(summary.differences, terminal);
   for (std::size_t i = 0; i < channels.outputs.size(); ++i) {
     const std::string free_run = summary.free_run_fit_percent.empty()
                                      ? ""
@@ -153,38 +172,34 @@ std::vector<Flag> flags() {
       {"output", Kind::kPath, "M.wisp", "", "where to write the model", {}, true},
       {"inputs", Kind::kNames, "A,B", "", "channels that are inputs; none: a model of the outputs alone"},
       {"outputs", Kind::kNames, "C,D", "", "channels that are outputs", {}, true},
-      {"na", Kind::kText, "N", "2", "order of A in every mode: a number, or a matrix row by row such as '4,2;3,4'"},
-      {"nb", Kind::kText, "N", "2", "order of B: a number, or a matrix with a row an output and a column an input"},
-      {"nk", Kind::kText, "N", "1", "delay in samples, likewise"},
-      {"coupling",
-       Kind::kChoice,
-       "C",
-       "full",
-       "which outputs appear in an output's equation: full, diagonal, band",
-       {"full", "diagonal", "band"}},
-      {"switching",
-       Kind::kChoice,
-       "S",
-       "regions",
-       "what decides which mode acts: regions of the regressors, or a Markov chain",
-       {"regions", "markov"}},
-      {"modes",
-       Kind::kIntegerOrWord,
-       "K",
-       "auto",
-       "how many, or auto: as many as predict rows held out surely better",
-       {"auto"}},
-      {"most-modes", Kind::kInteger, "K", "6", "the largest number that auto tries"},
-      {"holdout", Kind::kNumber, "P", "0.3", "share of each stretch, its end, that judges the number of modes"},
-      {"range", Kind::kSamples, "A:B", "", "rows to learn from, 1-based and inclusive"},
-      {"offset",
-       Kind::kChoice,
-       "O",
-       "mean",
-       "the operating point: mean removes means, none does not; every mode has a constant either way",
-       {"mean", "none"}},
-      {"seed", Kind::kInteger, "N", "1", "of the starts that are tried"},
   };
+  for (Flag& flag : order_flags({"2", " in every mode"})) all.push_back(std::move(flag));
+  all.insert(
+      all.end(),
+      {
+          {"switching",
+           Kind::kChoice,
+           "S",
+           "regions",
+           "what decides which mode acts: regions of the regressors, or a Markov chain",
+           {"regions", "markov"}},
+          {"modes",
+           Kind::kIntegerOrWord,
+           "K",
+           "auto",
+           "how many, or auto: as many as predict rows held out surely better",
+           {"auto"}},
+          {"most-modes", Kind::kInteger, "K", "6", "the largest number that auto tries"},
+          {"holdout", Kind::kNumber, "P", "0.3", "share of each stretch, its end, that judges the number of modes"},
+          {"range", Kind::kSamples, "A:B", "", "rows to learn from, 1-based and inclusive"},
+          {"offset",
+           Kind::kChoice,
+           "O",
+           "mean",
+           "the operating point: mean removes means, none does not; every mode has a constant either way",
+           {"mean", "none"}},
+          {"seed", Kind::kInteger, "N", "1", "of the starts that are tried"},
+      });
   for (Flag& flag : recording_flags()) all.push_back(std::move(flag));
   return all;
 }

@@ -31,6 +31,22 @@ Result<int> parse_order(std::string_view text, const std::string& flag) {
 
 }  // namespace
 
+std::vector<Flag> order_flags(const OrderHelp& help) {
+  const std::string a = "order of A" + std::string(help.of_a);
+  return {
+      {"na", Kind::kText, "N", help.fallback, a + ": a number, or a matrix row by row such as '4,2;3,4'"},
+      {"nb", Kind::kText, "N", help.fallback,
+       "order of B: a number, or a matrix with a row an output and a column an input"},
+      {"nk", Kind::kText, "N", "1", "delay in samples, likewise" + std::string(help.delay)},
+      {"coupling",
+       Kind::kChoice,
+       "C",
+       "full",
+       "which outputs appear in an output's equation: full, diagonal, band",
+       {"full", "diagonal", "band"}},
+  };
+}
+
 Result<OrderMatrix> parse_orders(const std::string& text, int rows, int columns, const std::string& flag) {
   const auto row_texts = split(text, ';');
   if (row_texts.size() == 1 && text.find(',') == std::string::npos) {

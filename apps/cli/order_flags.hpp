@@ -6,6 +6,16 @@
 
 namespace wisp::cli {
 
+/// What their help says besides.
+struct OrderHelp {
+  const char* fallback;    ///< of --na and --nb
+  const char* of_a = "";   ///< what A belongs to
+  const char* delay = "";  ///< what --nk may be besides
+};
+
+/// The flags.
+std::vector<Flag> order_flags(const OrderHelp& help);
+
 /// Errors: a matrix that cannot be understood or has not the shape of the channels, with what was found and expected.
 Result<ArxOrders> orders_from(const Arguments& arguments, int outputs, int inputs);
 

@@ -21,6 +21,8 @@
 namespace wisp::cli {
 namespace {
 
+constexpr double kMostNumbers = 5e8;  // 4 GB while they are held
+
 struct Play {
   Model model;
   InputTrack input;
@@ -207,9 +209,32 @@ Result<std::vector<std::size_t>> relit_frames(const Model& model, const Argument
   return frames;
 }
 
+// A model without inputs is driven by nothing.
+Result<void> check_drive(const Model& model, const Arguments& arguments) {
+  if (!model.inputs.empty()) return {};
+  for (const char* flag : {"input", "wind"}) {
+    if (!arguments.has(flag) || arguments.text(flag) == "0") continue;
+    return Error{
+        "--" + std::string(flag) + " drives a model's inputs, and " + arguments.positional() +
+        " has none: learn it from recordings with an input (a leaf's: from a windy recording and its calm twin)"};
+  }
+  return {};
+}
+
+// What a run holds until it is written.
+Result<void> check_size(const Play& play, int instances) {
+  const double columns =
+      static_cast<double>(play.model.inputs.size()) + static_cast<double>(play.model.outputs.size()) * instances;
+  if (static_cast<double>(play.frames) * columns <= kMostNumbers) return {};
+  return Error{"--frames " + std::to_string(play.frames) + " of " + std::to_string(instances) + " instances are " +
+               shown(static_cast<double>(play.frames) * columns) + " numbers, expected at most " + shown(kMostNumbers) +
+               ": run it in parts with other seeds"};
+}
+
 Result<Play> prepare(const Arguments& arguments) {
   auto model = read_model(arguments.positional());
   if (!model) return model.error();
+  if (auto ok = check_drive(*model, arguments); !ok) return ok.error();
   auto input = InputTrack::from(*model, arguments);
   if (!input) return input.error();
   auto relit = relit_frames(*model, arguments);
@@ -217,10 +242,12 @@ Result<Play> prepare(const Arguments& arguments) {
   Play play{std::move(*model), std::move(*input), 0, static_cast<std::uint64_t>(arguments.integer("seed")),
             std::move(*relit)};
   play.frames = arguments.has("frames") ? static_cast<std::size_t>(arguments.integer("frames")) : play.input.rows();
-  if (play.frames == 0) return Error{"nothing to run: give --frames N, at least 1, or --input with a recording"};
+  if (play.frames == 0)
+    return Error{"--frames is 0 or not given: give at least 1, or --input with a recording that says how many"};
   const int instances = arguments.integer("instances");
   if (instances < 1 || instances > 10000)
     return Error{"--instances is " + arguments.text("instances") + ", expected 1 to 10000"};
+  if (auto ok = check_size(play, instances); !ok) return ok.error();
   return play;
 }
 

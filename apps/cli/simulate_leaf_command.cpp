@@ -7,7 +7,9 @@
 #include <filesystem>
 
 #include "commands.hpp"
+#include "flag_ranges.hpp"
 #include "leaf_film.hpp"
+#include "learned_model.hpp"
 #include "terminal.hpp"
 #include "wisp/record/csv.hpp"
 #include "wisp/simulate/leaf_drops.hpp"
@@ -16,12 +18,8 @@ namespace wisp::cli {
 namespace {
 
 constexpr double kGramsPerKilogram = 1000;
-
-// What each number may be, in the flag's own unit.
-struct FlagRange {
-  const char* flag;
-  double lowest, highest;
-};
+constexpr double kLeastPairSeconds = 0.7;  // half a second to the onset, give or take a fifth, and some of the gust
+constexpr double kMostJitter = 0.01;       // of a step of a wind's time
 
 Result<void> check_flags(const Arguments& arguments) {
   static constexpr FlagRange kRanges[] = {
@@ -38,12 +36,7 @@ Result<void> check_flags(const Arguments& arguments) {
       {"density", 1, 10000},
       {"threads", 0, 256},
   };
-  for (const FlagRange& range : kRanges) {
-    const double value = arguments.number(range.flag);
-    if (value >= range.lowest && value <= range.highest) continue;
-    return Error{std::string("--") + range.flag + " is " + arguments.text(range.flag) + ", expected " +
-                 shown(range.lowest) + " to " + shown(range.highest, 6)};
-  }
+  if (auto good = check_ranges(arguments, kRanges); !good) return good;
   if (arguments.number("width") > arguments.number("length"))
     return Error{"--width is " + arguments.text("width") + ", expected at most the leaf's length of " +
                  arguments.text("length") + "; the midrib runs along the long axis"};
@@ -60,10 +53,29 @@ bool is_kind(const std::string& word) {
   return word == "calm" || word == "constant" || word == "gusts" || word == "turbulence";
 }
 
+// A wind's column of time, where there is one, must go on evenly: rows are taken at the recording's rate.
+Result<void> check_time(const Recording& recording) {
+  const double step = 1 / recording.rate_hz;
+  for (const char* name : {"t", "t_s", "time"}) {
+    const auto channel = find_channel(recording, name);
+    if (!channel) continue;
+    const auto& time = recording.channels[*channel].samples;
+    for (std::size_t row = 1; row < time.size(); ++row) {
+      const double found = time[row] - time[row - 1];
+      if (std::abs(found - step) <= kMostJitter * step) continue;
+      return Error{recording.source + ": " + name + " goes on by " + shown(found) + " s in row " +
+                   std::to_string(row + 1) + ", expected " + shown(step) +
+                   " everywhere, as rate_hz says: sort and resample the wind"};
+    }
+  }
+  return {};
+}
+
 // A recording's wind.x, wind.y and wind.z (what it has of them), or its only input, which blows where it is told.
 Result<WindTrack> track_from(const std::string& path, const Arguments& arguments) {
   const auto recording = read_csv(path, {});
   if (!recording) return recording.error();
+  if (auto good = check_time(*recording); !good) return good.error();
   WindTrack track{.rows = std::vector<std::array<double, 3>>(recording->rows()), .rate_hz = recording->rate_hz};
   const auto take = [&](std::size_t channel, std::size_t axis, double factor) -> Result<void> {
     const auto& samples = recording->channels[channel].samples;
@@ -71,7 +83,8 @@ Result<WindTrack> track_from(const std::string& path, const Arguments& arguments
       const double speed = factor * samples[row];
       if (!(std::abs(speed) <= 30)) {
         return Error{path + ": " + recording->channels[channel].name + " in row " + std::to_string(row + 1) + " is " +
-                     shown(samples[row]) + ", expected a wind within 30 m/s and no sample missing"};
+                     (std::isnan(speed) ? "missing" : shown(samples[row])) +
+                     ", expected a wind within 30 m/s and no sample missing"};
       }
       track.rows[row][axis] = speed;
     }
@@ -94,6 +107,13 @@ Result<WindTrack> track_from(const std::string& path, const Arguments& arguments
   if (auto good = take(inputs.front(), 0, std::cos(direction)); !good) return good.error();
   if (auto good = take(inputs.front(), 1, std::sin(direction)); !good) return good.error();
   return track;
+}
+
+// A gust has to have begun before the recording ends.
+Result<void> check_pairs(const Arguments& arguments) {
+  if (!arguments.on("pairs") || arguments.number("seconds") >= kLeastPairSeconds) return {};
+  return Error{"--seconds is " + arguments.text("seconds") + ", expected at least " + shown(kLeastPairSeconds) +
+               " with --pairs: gusts begin half a second after the recording"};
 }
 
 Result<void> take_wind(const Arguments& arguments, LeafDropsOptions& drops) {
@@ -121,6 +141,7 @@ Result<LeafPairsOptions> options_from(const Arguments& arguments, Terminal& term
   drops.leaf.areal_density = arguments.number("density") / kGramsPerKilogram;
   if (arguments.text("air") == "vertical") drops.leaf.air = leaf_air_vertical();
   if (auto good = take_wind(arguments, drops); !good) return good.error();
+  if (auto good = check_pairs(arguments); !good) return good.error();
   drops.wind.speed = arguments.number("wind-speed");
   drops.wind.direction = arguments.number("wind-direction");
   drops.wind.gust_seconds = arguments.number("gust-seconds");
@@ -165,8 +186,9 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   if (path.extension() != ".csv")
     return Error{path.string() + ": cannot be written, expected a name that ends in .csv"};
   // Found before the falls, not after them.
-  if (const auto folder = path.parent_path(); !folder.empty() && !std::filesystem::is_directory(folder))
-    return Error{path.string() + ": cannot be written, there is no folder " + folder.string()};
+  if (auto good = check_writable(path.string()); !good) return good;
+  if (arguments.has("video"))
+    if (auto good = check_film_name(arguments.text("video")); !good) return good;
   const bool pairs = arguments.on("pairs");
   const auto recording = pairs ? write_pairs(path, options, terminal) : write_drops(path, options);
   if (!recording) return recording.error();

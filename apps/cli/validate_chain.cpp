@@ -1,9 +1,11 @@
 #include "validate_chain.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "chain_figures.hpp"
 #include "chain_json.hpp"
+#include "chain_recordings.hpp"
 #include "leaf_film.hpp"
 #include "recordings.hpp"
 #include "validate_gusts.hpp"
@@ -84,10 +86,14 @@ Result<void> validate_chain(const Model& model, const Arguments& arguments, Term
   if (!whole) return whole.error();
   auto recording = in_range(std::move(*whole), arguments, "range");
   if (!recording) return recording.error();
+  if (arguments.has("film")) {
+    if (auto ok = check_film_name(arguments.text("film")); !ok) return ok;
+  }
   if (find_attribute(*recording, "pair")) return validate_gusts(model, std::move(*recording), arguments, terminal);
   if (arguments.positionals().size() > 2) {
     return Error{recording->source + ": is not one of a pair (it has no attribute pair), expected no twin beside it"};
   }
+  if (auto ok = check_motion(*recording); !ok) return ok;
   auto segmentation = segmentation_of(model);
   if (!segmentation) return segmentation.error();
   const ChainFidelityOptions options{.segmentation = std::move(*segmentation),
@@ -96,6 +102,10 @@ Result<void> validate_chain(const Model& model, const Arguments& arguments, Term
   const std::vector<Recording> real = {std::move(*recording)};
   const auto fidelity = chain_fidelity(model, real, options);
   if (!fidelity) return fidelity.error();
+  if (std::isnan(fidelity->energy_distance.value)) {
+    terminal.warn(real.front().source + ": its stretches are shorter than " + shown(fidelity->window_seconds) +
+                  " s, expected longer ones: how like the falls are was not measured");
+  }
   terminal.result()["rows"] = real.front().rows();
   terminal.result()["channels"] = Json::array();
   terminal.result()["fidelity"] = fidelity_json(*fidelity);

@@ -255,6 +255,13 @@ Result<void> report_blow_outs(const Model& model, const Recording& recording, bo
   if (found.is_null()) return {};
   terminal.say("blow-out: " + found["died"].dump() + " of " + found["deaths"].dump() + " deaths, " +
                found["spared"].dump() + " of " + found["gusts"].dump() + " gusts survived by the model's rule too");
+  for (const char* mode : {"dying", "catching"}) {
+    const Json& judged_mode = found[mode];
+    if (judged_mode["events"] == 0) continue;
+    terminal.say(std::string(mode) + ": its size is " + shown(judged_mode["error"].get<double>(), 2) + " off in " +
+                 judged_mode["events"].dump() + " of them, " + shown(judged_mode["default_error"].get<double>(), 2) +
+                 " by the default's duration");
+  }
   return {};
 }
 

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "chain_recordings.hpp"
 #include "gust_figures.hpp"
 #include "recordings.hpp"
 #include "wisp/learn/gust_play.hpp"
@@ -61,6 +62,9 @@ void say(const GustPlayFigures& found, Terminal& terminal) {
 Result<void> validate_gusts(const Model& model, Recording recording, const Arguments& arguments, Terminal& terminal) {
   auto twin = twin_of(recording, arguments);
   if (!twin) return twin.error();
+  for (const Recording* one : {&recording, &*twin}) {
+    if (auto ok = check_paired(*one); !ok) return ok;
+  }
   const auto pair = find_attribute(recording, "pair"), twins = find_attribute(*twin, "pair");
   if (pair != twins || is_calm(recording) == is_calm(*twin)) {
     return Error{twin->source + ": is no twin of " + recording.source +

@@ -1,22 +1,26 @@
-"""Can a classifier tell recorded flames from synthesized ones?
+"""How like recorded flames are synthesized ones? One table for every wind.
 
-usage: likeness.py WINDOWS.csv [SPLITS]      (wisp_verify_flame FOLDER writes the windows)
+usage: likeness.py FOLDER [--splits 20] [--few 4] [--surely NAME]…
 
-Every line: side, clip, block, features of a window of half a second. The sides are `recorded`; `again`, other takes in
-the same wind, where only chance differs; and one for every kind of noise that a model may have. Gradient-boosted trees,
-five folds over whole blocks (windows that overlap are alike for that reason alone), repeated over 20 splits. 0.5 is
-indistinguishable; recorded against `again` is the floor, recorded against the same windows with their frames in random
-order the ceiling.
+FOLDER/WIND/figures.csv and windows.csv are what wisp_verify_flame or wisp_verify_baselines left there. A line of figures:
+name, energy distance, log-spectral distance, speeds, fit of the tip, operations, bytes. A line of windows: side, clip,
+block, features of half a second; the sides are `recorded`; `again`, other takes in the same wind, where only chance
+differs; and one for everything that plays.
+
+What is added here is whether a classifier can tell a side from the recorded one: gradient-boosted trees, five folds over
+whole blocks (windows that overlap are alike for that reason alone), repeated over some splits: FEW, and SPLITS for the
+floor and whatever is named with --surely. 0.5 is indistinguishable; recorded against `again` is the floor,
+recorded against the same windows with their frames in random order the ceiling.
 """
 
+import argparse
 import csv
-import sys
+import pathlib
 
 import numpy as np
 import sklearn
 from sklearn.ensemble import HistGradientBoostingClassifier
 
-SPLITS = int(sys.argv[2]) if len(sys.argv) > 2 else 20
 FOLDS = 5
 CHANNELS = 16
 
@@ -29,8 +33,8 @@ def read(path):
             sides.append(side)
             clips.append(int(clip))
             blocks.append(int(block))
-            features.append([float(value) for value in values])
-    return np.array(sides), np.array(clips), np.array(blocks), np.array(features, dtype=np.float32)
+            features.append(np.array(values, dtype=np.float32))
+    return np.array(sides), np.array(clips), np.array(blocks), np.array(features)
 
 
 def thinned(where, most=500):
@@ -41,11 +45,11 @@ def thinned(where, most=500):
     return chosen[np.linspace(0, len(chosen) - 1, most).astype(int)]
 
 
-def accuracies(x, y, groups):
+def accuracies(x, y, groups, splits):
     """Held-out balanced accuracy of every split: no group is on both sides of a fold."""
     names = np.unique(groups)
     found = []
-    for split in range(SPLITS):
+    for split in range(splits):
         random = np.random.default_rng(split)
         fold_of = dict(zip(random.permutation(names), np.arange(len(names)) % FOLDS))
         folds = np.array([fold_of[group] for group in groups])
@@ -62,11 +66,6 @@ def accuracies(x, y, groups):
     return np.array(found)
 
 
-def report(name, x, y, groups):
-    found = accuracies(x, y, groups)
-    print(f"  {name:42s} {found.mean():.3f} ± {found.std():.3f}   ({len(y)} windows)", flush=True)
-
-
 def shuffled(x, random):
     """Windows with their frames in random order, and the differences that those frames then have."""
     frames = x.shape[1] // (2 * CHANNELS)
@@ -78,26 +77,55 @@ def shuffled(x, random):
     return out
 
 
+class Windows:
+    """The windows of one wind."""
+
+    def __init__(self, path):
+        self.sides, clips, blocks, self.features = read(path)
+        # A recorded block and that of the same time on another side have the same wind: they stay on one side of a fold.
+        self.groups = clips * 100000 + blocks
+        self.real = thinned(self.sides == "recorded")
+
+    def told(self, side, splits):
+        made = thinned(self.sides == side)
+        both = np.concatenate([self.real, made])
+        return accuracies(self.features[both], self.sides[both] == "recorded", self.groups[both], splits)
+
+    def told_shuffled(self, splits):
+        x = self.features[self.real]
+        both = np.concatenate([x, shuffled(x, np.random.default_rng(1))])
+        labels = np.repeat([True, False], len(x))
+        return accuracies(both, labels, np.tile(self.groups[self.real], 2), splits)
+
+
+def print_table(folder, arguments):
+    windows = Windows(folder / "windows.csv")
+    print(f"\n{folder.name} ({len(windows.real)} recorded windows)\n\n"
+          "| what plays | energy distance | log-spectral, dB | speeds, sd | told apart | tip's fit, % | operations | bytes |"
+          "\n| --- | --- | --- | --- | --- | --- | --- | --- |")
+    with open(folder / "figures.csv") as lines:
+        for name, *figures in csv.reader(lines):
+            sure = name in ("floor", *arguments.surely)
+            splits = arguments.splits if sure else arguments.few
+            if name == "ceiling":
+                found = windows.told_shuffled(arguments.few)
+            else:
+                found = windows.told("again" if name == "floor" else name, splits)
+            figures.insert(3, f"{found.mean():.3f} ± {found.std():.3f}")
+            print(f"| {name} | " + " | ".join(figures) + " |", flush=True)
+
+
 def main():
-    sides, clips, blocks, features = read(sys.argv[1])
-    print(f"== Told apart by gradient-boosted trees (scikit-learn {sklearn.__version__}): balanced accuracy, "
-          f"{FOLDS} folds over blocks, {SPLITS} splits")
-    # A recorded block and that of the same time on another side have the same wind: they stay on one side of a fold.
-    group = clips * 100000 + blocks
-    real = thinned(sides == "recorded")
-
-    def against(name, side):
-        made = thinned(sides == side)
-        both = np.concatenate([real, made])
-        report(name, features[both], sides[both] == "recorded", group[both])
-
-    against("floor: recorded, another take", "again")
-    for side in dict.fromkeys(sides):
-        if side not in ("recorded", "again"):
-            against(f"recorded against {side}", side)
-    mixed = shuffled(features[real], np.random.default_rng(1))
-    report("ceiling: recorded against shuffled frames", np.concatenate([features[real], mixed]),
-           np.repeat([True, False], len(real)), np.concatenate([group[real], group[real]]))
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--splits", type=int, default=20)
+    parser.add_argument("--few", type=int, default=4)
+    parser.add_argument("--surely", action="append", default=[])
+    arguments = parser.parse_args()
+    print(f"== Told apart by gradient-boosted trees (scikit-learn {sklearn.__version__}): balanced accuracy, {FOLDS} folds "
+          f"over blocks; {arguments.splits} splits for the floor and what must be sure, {arguments.few} for the rest")
+    for folder in sorted(path.parent for path in arguments.folder.glob("*/figures.csv")):
+        print_table(folder, arguments)
 
 
 if __name__ == "__main__":

@@ -16,6 +16,12 @@ std::size_t rows_of(double seconds, double rate_hz) {
   return static_cast<std::size_t>(std::max(1L, std::lround(seconds * rate_hz)));
 }
 
+// Rows in which a flame that has gone out is still seen, as a bank shows it: its first step of dying is a row.
+std::size_t vanishing_rows(double seconds, double rate_hz) {
+  constexpr double kRounding = 1e-9;
+  return static_cast<std::size_t>(std::max(0.0, std::ceil(seconds * rate_hz - kRounding) - 1));
+}
+
 std::vector<double> strengths(const ExtinctionEvidence& evidence) {
   std::vector<double> out;
   for (double value : evidence.recording->channels[*find_channel(*evidence.recording, evidence.input)].samples) {
@@ -61,9 +67,11 @@ void FlameLives::add_lives(const ExtinctionEvidence& evidence, const std::vector
     const std::size_t watched = died ? std::max(begin, end - std::min(end, before)) : end;
     lives_.push_back({{wind.data(), begin, end}, rate_hz, died, watched, until});
   };
+  const std::size_t vanishing = vanishing_rows(evidence.dying, rate_hz);
   for (const BlowOut& blow_out : evidence.blow_outs) {
+    const std::size_t went_out = std::max(begin, blow_out.gone - std::min(blow_out.gone, vanishing));
     const std::size_t after = std::min(blow_out.back, blow_out.gone + rows_of(kWatchedAfter, rate_hz));
-    add(blow_out.gone, blow_out.blown ? after : blow_out.gone, blow_out.blown);
+    add(blow_out.blown ? went_out : blow_out.gone, blow_out.blown ? after : blow_out.gone, blow_out.blown);
     begin = blow_out.back;
   }
   if (begin < wind.size()) add(wind.size(), wind.size(), false);

@@ -177,6 +177,7 @@ Judged judge(const SwitchedRows& rows, const SwitchedOptions& options) {
 // Standard errors, and curvature for what makes a mode stable, in the model's own units.
 struct ModeErrors {
   std::vector<std::vector<double>> std_error;
+  std::vector<double> constant;  // standard errors, per output
   std::vector<RowCurvature> curvature;
 };
 
@@ -194,7 +195,12 @@ ModeErrors errors_of(const SwitchedRows& rows, const MatrixXd& theta, const Vect
     std::vector<double>& errors = out.std_error.emplace_back();
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const double scale = coefficient_scale(rows, i, columns[c]);
-      if (c + 1 < columns.size()) errors.push_back(std::abs(scale) * std::sqrt(variance * inverse(c, c)));
+      const double error = std::abs(scale) * std::sqrt(variance * inverse(c, c));
+      if (c + 1 < columns.size()) {
+        errors.push_back(error);
+      } else {
+        out.constant.push_back(error);
+      }
       inverse.row(static_cast<Index>(c)) *= scale;
       inverse.col(static_cast<Index>(c)) *= scale;
     }
@@ -211,6 +217,7 @@ void finish_modes(const SwitchedRows& rows, const SwitchedOptions& options, cons
     ModeErrors errors = errors_of(rows, found.modes.theta[k], weights);
     ArxMode& mode = fit.model.modes[k];
     mode.std_error = std::move(errors.std_error);
+    fit.summary.constant_std_error.push_back(std::move(errors.constant));
     ArxModel arx = mode_model(fit.model, k);
     const bool unstable = spectral_radius(arx) >= 1;
     if (unstable) {
@@ -256,6 +263,7 @@ std::vector<double> fit_percent(const SwitchedArxModel& model, std::span<const R
 
 Usable verdict_of(const SwitchedFit& fit, const Judged& judged) {
   const auto& modes = fit.summary.mode_rows;
+  const auto& differences = fit.summary.differences;
   const double few = 1.5 * fit.model.orders.row_size(0) + 3;
   for (std::size_t k = 0; k < modes.size(); ++k) {
     if (static_cast<double>(modes[k]) < few) {
@@ -270,6 +278,11 @@ Usable verdict_of(const SwitchedFit& fit, const Judged& judged) {
   }
   for (double percent : fit.summary.fit_percent) {
     if (percent < kUsableFit) return {false, "an output is hardly predicted one step ahead; try other orders"};
+  }
+  if (std::all_of(differences.begin(), differences.end(), [](const auto& pair) { return pair.same_coefficients(); })) {
+    return {true,
+            "makes rows held out likelier than a single ARX model does, by the size of its noise alone: its modes "
+            "have the same coefficients, and an ARX model moves alike"};
   }
   return {true, "predicts rows held out better than a single ARX model does"};
 }
@@ -309,6 +322,7 @@ Result<SwitchedFit> fit_switched(std::span<const Recording> recordings, const Ch
   for (std::size_t k = 0; k < fit.summary.mode_changed.size(); ++k) {
     if (fit.summary.mode_changed[k]) fit.summary.warnings.push_back("mode " + std::to_string(k) + " was made stable");
   }
+  fit.summary.differences = mode_differences(fit.model, fit.summary.constant_std_error);
   fit.summary.usable = verdict_of(fit, judged);
   return fit;
 }

@@ -200,6 +200,14 @@ Result<void> check_systems(const ChainModel& model) {
   return check(*model.systems, model.modes);
 }
 
+Result<void> check_splines(const ChainModel& model) {
+  const int channels = channel_count(model.motion);
+  if (model.systems) return Error{"a chain's modes are systems and splines, expected one of them"};
+  if (auto ok = check(*model.splines, model.segments, model.modes, channels); !ok) return ok;
+  if (rows_of(*model.splines, model.segments, channels) == model.segments.rows) return {};
+  return Error{"the rows of a chain's segments are not those that the splines of its modes make"};
+}
+
 }  // namespace
 
 int channel_count(ChainMotion motion) { return motion == ChainMotion::kPose ? 7 : 3; }
@@ -249,6 +257,9 @@ Result<void> check(const ChainModel& model) {
   }
   if (model.systems) {
     if (auto ok = check_systems(model); !ok) return ok;
+  }
+  if (model.splines) {
+    if (auto ok = check_splines(model); !ok) return ok;
   }
   if (model.drift) {
     if (auto ok = check_drift(model); !ok) return ok;

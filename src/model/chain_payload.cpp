@@ -130,6 +130,25 @@ Result<ModeSystems> read_systems(const file::ModeSystems& stored, std::size_t mo
   return systems;
 }
 
+fb::Offset<file::ModeSplines> write_splines(fb::FlatBufferBuilder& builder, const ModeSplines& splines) {
+  const auto mean = builder.CreateVector(splines.mean), component = builder.CreateVector(splines.component);
+  return file::CreateModeSplines(builder, static_cast<std::uint8_t>(splines.control_points),
+                                 static_cast<std::uint8_t>(splines.components), mean, component,
+                                 builder.CreateVector(splines.score));
+}
+
+// Takes the splines and makes the rows of them.
+Result<void> read_splines(const file::ModeSplines& stored, ChainModel& chain) {
+  ChainSegments& segments = chain.segments;
+  chain.splines = ModeSplines{stored.control_points(), stored.components(), copied(stored.mean()),
+                              copied(stored.component()), copied(stored.score())};
+  if (!segments.rows.empty()) return Error{"is damaged: its chain holds rows as well as splines that make them"};
+  const int channels = channel_count(chain.motion);
+  if (auto ok = check(*chain.splines, segments, chain.modes, channels); !ok) return ok;
+  segments.rows = rows_of(*chain.splines, segments, channels);
+  return {};
+}
+
 }  // namespace
 
 fb::Offset<file::Chain> write_chain(fb::FlatBufferBuilder& builder, const ChainModel& chain) {
@@ -137,7 +156,7 @@ fb::Offset<file::Chain> write_chain(fb::FlatBufferBuilder& builder, const ChainM
   const ChainSegments& segments = chain.segments;
   const auto mode = builder.CreateVector(segments.mode);
   const auto steps = builder.CreateVector(segments.steps);
-  const auto rows = builder.CreateVector(segments.rows);
+  const auto rows = builder.CreateVector(chain.splines ? std::vector<std::int16_t>() : segments.rows);
   const auto row_scale = builder.CreateVector(segments.row_scale);
   const auto rates = builder.CreateVector(segments.rates);
   const auto rate_scale = builder.CreateVector(segments.rate_scale);
@@ -151,6 +170,7 @@ fb::Offset<file::Chain> write_chain(fb::FlatBufferBuilder& builder, const ChainM
   const auto gust = chain.gust ? write_gust(builder, *chain.gust) : fb::Offset<file::GustResponse>();
   const auto drift = chain.drift ? write_drift(builder, *chain.drift) : fb::Offset<file::ChainDrift>();
   const auto systems = chain.systems ? write_systems(builder, *chain.systems) : fb::Offset<file::ModeSystems>();
+  const auto splines = chain.splines ? write_splines(builder, *chain.splines) : fb::Offset<file::ModeSplines>();
   file::ChainBuilder table(builder);
   table.add_motion(chain.motion == ChainMotion::kPose ? file::ChainMotion::Pose : file::ChainMotion::Position);
   table.add_heading_free(chain.heading_free);
@@ -173,6 +193,7 @@ fb::Offset<file::Chain> write_chain(fb::FlatBufferBuilder& builder, const ChainM
   if (chain.drift) table.add_drift(drift);
   if (chain.systems) table.add_systems(systems);
   if (leads_on) table.add_onward(onward);
+  if (chain.splines) table.add_splines(splines);
   return table.Finish();
 }
 
@@ -200,6 +221,9 @@ Result<ChainModel> read_chain(const file::Chain& stored) {
     auto systems = read_systems(*stored.systems(), stored.modes());
     if (!systems) return systems.error();
     chain.systems = std::move(*systems);
+  }
+  if (stored.splines()) {
+    if (auto ok = read_splines(*stored.splines(), chain); !ok) return ok.error();
   }
   if (stored.drift()) {
     auto drift = read_drift(*stored.drift());

@@ -16,10 +16,14 @@ namespace {
 
 constexpr std::array<char, 8> kMagic = {'\x89', 'W', 'I', 'S', 'P', 'B', 'N', 'K'};
 constexpr std::uint32_t kVersion = 2;
-constexpr std::uint32_t kFirstVersion = 1;  // without what is set of a chain
+constexpr std::uint32_t kChainVersion = 3;  // of chains, which prepare their joins
+constexpr std::uint32_t kFirstVersion = 1;       // without what is set of a chain
 constexpr std::size_t kHeaderSize = 32;
 constexpr std::size_t kChainFields = 4;
 constexpr std::uint64_t kMostAge = std::uint64_t{1} << 48;
+
+bool is_chain(const Bank::State& s) { return std::holds_alternative<ChainStepper<LiveNumbers>>(s.stepper); }
+std::uint32_t version_of(const Bank::State& s) { return is_chain(s) ? kChainVersion : kVersion; }
 
 std::size_t fields_size(std::uint32_t version) { return 8 * (10 + (version == kFirstVersion ? 0 : kChainFields)); }
 
@@ -158,9 +162,13 @@ Result<std::uint32_t> check_header(const Bank::State& s, std::span<const std::by
   }
   ByteReader in(bytes.data() + kMagic.size());
   const std::uint32_t version = in.get32();
-  if (version < kFirstVersion || version > kVersion) {
+  if (is_chain(s) && version < kChainVersion) {
     return Error{"a saved bank has version " + std::to_string(version) +
-                 ", this build reads versions 1 and 2: update Wisp"};
+                 ", those of chains are read from version 3 on: save it again with this version of Wisp"};
+  }
+  if (version < kFirstVersion || version > version_of(s)) {
+    return Error{"a saved bank has version " + std::to_string(version) + ", this build reads versions " +
+                 (is_chain(s) ? "3" : "1 and 2") + ": update Wisp"};
   }
   const std::uint32_t reserved = in.get32();
   const std::uint64_t size = in.get64(), hash = in.get64();
@@ -191,7 +199,7 @@ Result<std::uint32_t> check_header(const Bank::State& s, std::span<const std::by
 }  // namespace
 
 std::size_t Bank::save_bytes() const {
-  return kHeaderSize + fields_size(kVersion) + static_cast<std::size_t>(state_->capacity) * record_size(*state_);
+  return kHeaderSize + fields_size(version_of(*state_)) + static_cast<std::size_t>(state_->capacity) * record_size(*state_);
 }
 
 void Bank::save(std::span<std::byte> bytes) const {
@@ -209,7 +217,7 @@ void Bank::save(std::span<std::byte> bytes) const {
   for (int slot = 0; slot < s.capacity; ++slot) save_slot(s, slot, out);
   std::memcpy(bytes.data(), kMagic.data(), kMagic.size());
   ByteWriter header(bytes.data() + kMagic.size());
-  header.put(kVersion);
+  header.put(version_of(s));
   header.put(std::uint32_t{0});
   header.put(std::uint64_t{payload.size()});
   header.put(hash_bytes(payload));

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "run/model_hash.hpp"
+#include "run/rigid.hpp"
 
 namespace wisp {
 namespace {
@@ -79,6 +80,34 @@ float unit_of(const ChainProgram& program, std::size_t offset, float scale) {
   return std::max(unit, kLeastUnit);
 }
 
+// How long the join to each segment fades: over a share of it, and so many steps at most.
+void fill_fades(const ChainBlend& blend, ChainProgram& program) {
+  const auto share = static_cast<float>(blend.share), longest = static_cast<float>(blend.longest_steps);
+  for (std::uint32_t segment = 0; segment < program.segments(); ++segment) {
+    const float length = std::min(share * static_cast<float>(program.steps(segment)), longest);
+    if (!(length > 1.0f)) continue;
+    const float seconds = length * program.step_seconds;
+    program.fade[segment] = {1.0f / length, seconds, seconds * (program.velocity_scale / program.position_scale)};
+  }
+}
+
+// How fast stored quaternions change at both ends of each segment.
+void fill_changes(ChainProgram& program) {
+  float* out = program.changes.data();
+  for (std::uint32_t segment = 0; segment < program.segments(); ++segment) {
+    for (std::uint32_t end : {0U, 1U}) {
+      const std::uint32_t at = program.first_row[segment] + end * program.steps(segment);
+      const std::int16_t* q = program.rows.data() + std::size_t{7} * at + 3;
+      const std::int16_t* rate = program.rates.data() + std::size_t{6} * (std::size_t{2} * segment + end) + 3;
+      Vector3<float> spin;
+      for (std::size_t k = 0; k < 3; ++k) spin[k] = static_cast<float>(rate[k]) * program.spin_scale;
+      Quaternion<float> orientation;
+      for (std::size_t k = 0; k < 4; ++k) orientation[k] = static_cast<float>(q[k]);
+      out = std::ranges::copy(quaternion_rate(spin, orientation), out).out;
+    }
+  }
+}
+
 GustProgram gust_program(const GustResponse& gust, double wind_unit) {
   GustProgram program;
   program.order = gust.order();
@@ -125,8 +154,6 @@ ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double 
   program.velocity_scale = static_cast<float>(segments.rate_scale[0]);
   program.orientation_scale = pose ? static_cast<float>(segments.row_scale[1]) : 0.0f;
   program.spin_scale = pose ? static_cast<float>(segments.rate_scale[1]) : 0.0f;
-  program.blend_share = static_cast<float>(chain.blend.share);
-  program.blend_longest = static_cast<float>(chain.blend.longest_steps);
   program.step_seconds = static_cast<float>(1.0 / rate_hz);
   if (chain.gust) program.gust = gust_program(*chain.gust, wind_unit);
   program.rows = copy_of(segments.rows, arena);
@@ -147,7 +174,11 @@ ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double 
   program.next = arena.take<std::uint16_t>(states * modes);
   program.length = arena.take<std::uint8_t>(states);
   program.shorter = arena.take<std::uint16_t>(states);
+  program.fade = arena.take<ChainFade>(segments.size());
+  if (pose) program.changes = arena.take<float>(8 * segments.size());
   if (arena.measures()) return program;
+  fill_fades(chain.blend, program);
+  if (pose) fill_changes(program);
   for (std::uint16_t mode : segments.mode) ++program.first_of_mode[mode + 1U];
   for (std::size_t mode = 0; mode < modes; ++mode) program.first_of_mode[mode + 1] += program.first_of_mode[mode];
   fill_automaton(chain, program);
@@ -165,11 +196,11 @@ void take_size(const View& view, ChainProgram& program) {
 
 std::uint64_t hash_of(const ChainProgram& program, std::uint64_t before) {
   const auto flag = program.heading_free ? 1.0f : 0.0f;
-  std::uint64_t hash =
-      hash_floats({static_cast<float>(program.channels), static_cast<float>(program.breadth), flag,
-                   program.position_scale, program.orientation_scale, program.velocity_scale, program.spin_scale,
-                   program.blend_share, program.blend_longest, program.half_width, program.half_length},
-                  before);
+  std::uint64_t hash = hash_floats(
+      {static_cast<float>(program.channels), static_cast<float>(program.breadth), flag, program.position_scale,
+       program.orientation_scale, program.velocity_scale, program.spin_scale, program.half_width, program.half_length},
+      before);
+  for (const ChainFade& fade : program.fade) hash = hash_floats({fade.share, fade.seconds, fade.slip}, hash);
   for (const auto* axis : {&program.gust.ground, &program.gust.vertical}) {
     for (const auto& lag : *axis) hash = hash_floats(lag, hash);
   }

@@ -20,6 +20,13 @@ struct GustProgram {
   std::array<std::array<float, 3>, kMostGustOrder> vertical{};
 };
 
+/// How the join to a segment fades.
+struct ChainFade {
+  float share = 0;    ///< that passes in a step; 0: it does not fade
+  float seconds = 0;  ///< that it takes
+  float slip = 0;     ///< the same times what velocities are stored in, over what positions are
+};
+
 struct ChainProgram {
   int channels = 0;  ///< 3 or 7
   int rate_count = 0;
@@ -30,14 +37,15 @@ struct ChainProgram {
   float orientation_scale = 1;
   float velocity_scale = 1;
   float spin_scale = 1;
-  float blend_share = 0;
-  float blend_longest = 0;
   float step_seconds = 0;
   float speed_unit = 1;  ///< root-mean-square of the speeds at joins: what differences of speed are measured in
   float spin_unit = 1;   ///< the same of angular speeds
   GustProgram gust{};
   std::span<std::int16_t> rows;
   std::span<std::int16_t> rates;
+  std::span<float> changes;            ///< of poses: per segment, at its start and its end, of the stored quaternion a
+                                       ///< second
+  std::span<ChainFade> fade;           ///< per segment
   std::span<std::uint32_t> first_row;  ///< per segment, and one past the last
   std::span<std::uint16_t> mode;       ///< per segment
   std::span<std::uint16_t> follow;

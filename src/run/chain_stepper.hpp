@@ -92,15 +92,16 @@ class ChainStepper {
       const bool ends = program_.systems.used() ? move_system(block, lane) : mover.advance(life);
       if (!program_.systems.used()) mover.show(life, newest_of(block) + lane, kLanes);
       moment.held[lane] = is_far(newest_of(block) + lane) ? 1 : 0;
-      if (touches(program_, newest_of(block) + lane, kLanes, ground_)) {
-        land(block, lane);
+      if (const auto reach = reach_touching(program_, newest_of(block) + lane, kLanes, ground_)) {
+        land(block, lane, *reach);
         continue;
       }
-      if (!ends) continue;
-      if (!drawn) draw(moment, 0, words);
-      drawn = true;
-      follow(mover, life, {words[0][lane], words[1][lane], words[2][lane]}, newest_of(block) + lane);
-      if (program_.systems.used()) last(block, lane, words[1][lane]);
+      const auto chance = [&]() -> ChainWords {
+        if (!drawn) draw(moment, 0, words);
+        drawn = true;
+        return {words[0][lane], words[1][lane], words[2][lane]};
+      };
+      go_on(mover, block, lane, ends, chance);
     }
   }
 
@@ -143,6 +144,9 @@ class ChainStepper {
     if (program_.systems.used()) {
       take_rates(system_of(block, lane), shown_orientation(block, lane), mover.rates_of(life, segment, false));
       system_of(block, lane).length = Real(duration_of(program_.systems, program_.mode[segment], words[1][lane]));
+    } else if (mover.steps_left(life) == 1) {
+      draw(moment, 2, words);
+      prepare(mover, life, {words[0][lane], words[1][lane], words[2][lane]});
     }
     for (int k = 0; k < program_.channels; ++k) {
       previous_of(block)[k * kLanes + lane] = newest_of(block)[k * kLanes + lane];
@@ -163,6 +167,7 @@ class ChainStepper {
     life.target = target;
     life.left = Real(steps);
     life.near = Real(near);
+    life.next = Real(0.0f);  // what was drawn a step before the join, knew of no target
     return true;
   }
 
@@ -179,7 +184,9 @@ class ChainStepper {
     }
     Lane& life = lane_of(block, lane);
     life = {};
-    mover.join(life, best, body);
+    const auto end = mover.end_of(body);
+    mover.prepare(life, best, end);
+    mover.join(life, body.position, end);
     life.state = Real(static_cast<float>(program_.next[program_.mode[best]]));
     if (program_.gust.order > 0) gust_of(block, lane) = {};
     mover.show(life, newest_of(block) + lane, kLanes);
@@ -217,10 +224,13 @@ class ChainStepper {
     const float turn = 1.01f * (program_.position_scale + program_.orientation_scale);
     for (Real* x : {&life.cos_scale, &life.sin_scale, &life.half_cos_scale, &life.half_sin_scale})
       visit(*x, -turn, turn);
+    visit(life.next, 0.0f, static_cast<float>(program_.segments()));
+    for (Real* x : {&life.turn_cos, &life.turn_sin}) visit(*x, -kLongestTurn, kLongestTurn);
     visit(life.passed, 0.0f, 2.0f);
     visit(life.share, 0.0f, 1.0f);
-    for (auto* vector : {&life.slip, &life.lean, &life.lean_slip}) {
-      for (Real& x : *vector) visit(x, -kMostSlip, kMostSlip);
+    for (Real& x : life.slip) visit(x, -kMostDifference, kMostDifference);
+    for (auto* quaternion : {&life.lean, &life.lean_slip}) {
+      for (Real& x : *quaternion) visit(x, -kMostDifference, kMostDifference);
     }
     visit(life.settled, -1.0f, 2.0f);
     visit(life.left, 0.0f, kMostSlip);
@@ -247,8 +257,9 @@ class ChainStepper {
 
  private:
   using Mover = ChainMover<Real>;
-  static constexpr std::size_t kLaneNumbers = 3 + 3 + 2 + 4 + 2 + 9 + 5 + 5;
+  static constexpr std::size_t kLaneNumbers = 3 + 3 + 2 + 4 + 3 + 2 + 11 + 5 + 5;
   static constexpr float kMostSlip = 1e12f;
+  static constexpr float kLongestTurn = 1e18f;
 
   std::size_t sample_size() const { return static_cast<std::size_t>(program_.channels) * kLanes; }
   Lane& lane_of(int block, int lane) { return lanes_[static_cast<std::size_t>(block) * kLanes + lane]; }
@@ -323,8 +334,8 @@ class ChainStepper {
     return q;
   }
 
-  // What is shown has come to the ground.
-  void land(int block, int lane) {
+  // What is shown has come to the ground, and reaches so far below its middle.
+  void land(int block, int lane, Real reach) {
     Lane& life = lane_of(block, lane);
     Body body;
     for (std::size_t k = 0; k < 3; ++k) body.position[k] = newest(block)[k * kLanes + static_cast<std::size_t>(lane)];
@@ -333,8 +344,8 @@ class ChainStepper {
     for (std::size_t k = 0; k < 3; ++k) {
       body.rates.velocity[k] = (body.position[k] - previous(block)[k * kLanes + static_cast<std::size_t>(lane)]) * rate;
     }
+    newest_of(block)[2 * kLanes + lane] = Real(ground_) + reach;
     touch(life, body, ground_);
-    newest_of(block)[2 * kLanes + lane] = Real(ground_) + reach_of(program_, body.orientation);
   }
 
   // Whether a position was held.
@@ -353,34 +364,57 @@ class ChainStepper {
     for (int k = 0; k < 4; ++k) store(words[k], out[k]);
   }
 
-  // How long the mode that has just begun lasts.
-  void last(int block, int lane, std::uint32_t word) {
-    const std::uint32_t mode = program_.mode[Mover::index(lane_of(block, lane).segment, program_.segments())];
-    system_of(block, lane).length =
-        Real(duration_of(program_.systems, mode, choice_.has_chance() ? word : 0x80000000U));
+  // What comes after what a step has shown.
+  template <class Chance>
+  void go_on(const Mover& mover, int block, int lane, bool ends, Chance chance) {
+    if (!program_.systems.used()) return follow(mover, lane_of(block, lane), ends, chance, newest_of(block) + lane);
+    if (ends) change_system(mover, block, lane, chance());
   }
 
-  // Joins the next segment to the end of the lane's own, which is what is shown: a join fades over half a segment at
-  // most, so that nothing is left of the one before.
-  void follow(const Mover& mover, Lane& life, const ChainWords& words, const Real* shown) {
+  // Lets the next mode of a lane begin, whose modes are systems.
+  void change_system(const Mover& mover, int block, int lane, const ChainWords& words) {
+    Lane& life = lane_of(block, lane);
+    const std::uint32_t next = mover.draw(life, choice_, words, false);
+    life.segment = Real(static_cast<float>(next));
+    life.row = Real(0.0f);
+    const std::uint32_t word = choice_.has_chance() ? words.segment : 0x80000000U;
+    system_of(block, lane).length = Real(duration_of(program_.systems, program_.mode[next], word));
+  }
+
+  // Joins the next segment where the lane's own ends, and prepares that a step before; a segment of one step prepares
+  // what follows it when it is joined. A join fades over half a segment at most, so that at its end nothing is left of
+  // the one before.
+  template <class Chance>
+  void follow(const Mover& mover, Lane& life, bool ends, Chance chance, const Real* shown) {
+    if (ends) {
+      if (!mover.is_prepared(life)) prepare(mover, life, chance());
+      const std::uint32_t before = Mover::index(life.segment, program_.segments());
+      mover.join(life, {shown[0], shown[kLanes], shown[2 * kLanes]}, mover.end_of(before));
+    }
+    if (mover.steps_left(life) == 1 && !mover.is_prepared(life)) prepare(mover, life, chance());
+  }
+
+  // Draws what follows a lane's segment.
+  void prepare(const Mover& mover, Lane& life, const ChainWords& words) {
     const std::uint32_t before = Mover::index(life.segment, program_.segments());
-    if (program_.systems.used()) {
-      const std::uint32_t next = mover.draw(life, choice_, words, false);
-      life.segment = Real(static_cast<float>(next));
-      life.row = Real(0.0f);
-      return;
-    }
-    Body end;
-    for (std::size_t k = 0; k < 3; ++k) end.position[k] = shown[k * kLanes];
-    if (program_.channels >= 7) {
-      for (std::size_t k = 0; k < 4; ++k) end.orientation[k] = shown[(3 + k) * kLanes];
-    }
-    if (program_.channels < 7) end.rates = mover.rates_of(life, before, true);
-    const bool steered = life.left > Real(0.0f) && !program_.lead.empty();
-    const std::uint32_t next =
-        steered ? steering_.draw(mover, program_, choice_, life, end, words) : mover.draw(life, choice_, words, false);
-    if (program_.channels >= 7 && mover.fades(next)) end.rates = mover.rates_of(life, before, true);
-    mover.join(life, next, end);
+    const bool steered = life.left > Real(static_cast<float>(mover.steps_left(life))) && !program_.lead.empty();
+    const std::uint32_t next = steered ? draw_steered(mover, life, words) : mover.draw(life, choice_, words, false);
+    mover.prepare(life, next, mover.end_of(before));
+  }
+
+  // The same towards a target: from where the segment will have ended.
+  std::uint32_t draw_steered(const Mover& mover, Lane& life, const ChainWords& words) {
+    Lane end = life;
+    for (std::uint32_t left = mover.steps_left(life); left > 0; --left) mover.advance(end);
+    std::array<Real, 7> shown;
+    mover.show(end, shown.data(), 1);
+    Body body;
+    std::copy_n(shown.begin(), 3, body.position.begin());
+    if (program_.channels >= 7) std::copy_n(shown.begin() + 3, 4, body.orientation.begin());
+    if (program_.channels < 7) body.rates = mover.rates_of(end, Mover::index(end.segment, program_.segments()), true);
+    const std::uint32_t next = steering_.draw(mover, program_, choice_, end, body, words);
+    life.state = end.state;
+    return next;
   }
 
   // A direction without preference: two normal deviates, made a unit; the identity where the heading is to be kept.

@@ -2,6 +2,8 @@
 // How an instance of a segment chain comes to rest on the ground, a level plane: it touches with its lowest corner,
 // slides on a little, lies down on the side that is nearer, and rests.
 
+#include <optional>
+
 #include "run/chain_lane.hpp"
 
 namespace wisp {
@@ -20,37 +22,46 @@ inline Real reach_of(const ChainProgram& program, const Quaternion<Real>& q) {
   return across * Real(program.half_width) + along * Real(program.half_length);
 }
 
-/// Whether what is shown has come to the ground; far above it that costs nothing.
+/// How far below its middle what is shown reaches, where it has come to the ground; far above it that costs nothing.
 template <class Real>
-inline bool touches(const ChainProgram& program, const Real* shown, int stride, float ground) {
+inline std::optional<Real> reach_touching(const ChainProgram& program, const Real* shown, int stride, float ground) {
   const Real& height = shown[2 * stride];
-  if (!(height < Real(ground + (program.half_width + program.half_length)))) return false;
-  if (program.channels < 7) return height < Real(ground);
-  const Quaternion<Real> q{shown[3 * stride], shown[4 * stride], shown[5 * stride], shown[6 * stride]};
-  return height < Real(ground) + reach_of(program, q);
+  if (!(height < Real(ground + (program.half_width + program.half_length)))) return {};
+  Real reach(0.0f);
+  if (program.channels >= 7) {
+    reach = reach_of<Real>(program, {shown[3 * stride], shown[4 * stride], shown[5 * stride], shown[6 * stride]});
+  }
+  if (!(height < Real(ground) + reach)) return {};
+  return reach;
 }
 
 /// Lets a lane whose body has come to the ground settle there. Its rates are those of what it played.
 template <class Real>
-inline void touch(ChainLane<Real>& lane, BodyState<Real> body, float ground) {
+inline void touch(ChainLane<Real>& lane, const BodyState<Real>& body, float ground) {
   lane.settled = Real(0.0f);
   lane.base = {body.position[0], body.position[1], Real(ground)};
-  lane.slip = scaled(body.rates.velocity, Real(kSettleSeconds));
-  lane.slip[2] = Real(0.0f);
+  const auto slip = ChainMover<Real>::bounded(scaled(body.rates.velocity, Real(kSettleSeconds)));
+  lane.slip = {slip[0], slip[1], Real(0.0f)};
   lane.touched = body.orientation;
-  const Quaternion<Real>& q = body.orientation;
+}
+
+/// The rotation that lays a body flat on the side that is nearer, as a quaternion without its first number.
+template <class Real>
+inline Quaternion<Real> lean_to_ground(const Quaternion<Real>& q) {
   const Real two(2.0f);
   const Vector3<Real> normal{two * (q[1] * q[3] + q[0] * q[2]), two * (q[2] * q[3] - q[0] * q[1]),
                              Real(1.0f) - two * (q[1] * q[1] + q[2] * q[2])};
-  // The rotation from the normal to straight up, or down: its Gibbs vector is n × z / (1 + n·z).
+  // From the normal to straight up, or down: its Gibbs vector is n × z / (1 + n·z).
   const Real side = normal[2] < Real(0.0f) ? Real(-1.0f) : Real(1.0f);
-  const Vector3<Real> up{Real(0.0f), Real(0.0f), side};
-  lane.lean = scaled(cross(normal, up), Real(1.0f) / (Real(1.0f) + dot(normal, up)));
+  const Real factor = side / (Real(1.0f) + normal[2] * side);
+  return {Real(0.0f), normal[1] * factor, Real(0.0f) - normal[0] * factor, Real(0.0f)};
 }
 
 /// Moves a settling lane on by a step and shows it; `out` has a stride.
 template <class Real>
 inline void settle_step(ChainLane<Real>& lane, const ChainProgram& program, Real* out, int stride) {
+  // Made here, since the step that touches has enough to do.
+  if (!(lane.settled > Real(0.0f)) && program.channels >= 7) lane.lean = lean_to_ground(lane.touched);
   if (lane.settled < Real(1.0f)) lane.settled = lane.settled + Real(program.step_seconds / kSettleSeconds);
   const bool rests = !(lane.settled < Real(1.0f));
   const Real passed = rests ? Real(1.0f) : lane.settled;
@@ -61,7 +72,8 @@ inline void settle_step(ChainLane<Real>& lane, const ChainProgram& program, Real
   const auto position = added(lane.base, scaled(lane.slip, way));
   for (int axis = 0; axis < 3; ++axis) out[axis * stride] = position[static_cast<std::size_t>(axis)];
   if (program.channels < 7) return;
-  const auto q = rotated(scaled(lane.lean, lean), lane.touched);
+  const Vector3<Real> axis{lane.lean[1], lane.lean[2], lane.lean[3]};
+  const auto q = rotated(scaled(axis, lean), lane.touched);
   // At rest it lies flat but for rounding.
   if (!rests) out[2 * stride] = out[2 * stride] + reach_of(program, q);
   for (int k = 0; k < 4; ++k) out[(3 + k) * stride] = q[static_cast<std::size_t>(k)];

@@ -37,15 +37,32 @@ inline Real dot(const Vector3<Real>& a, const Vector3<Real>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 template <class Real>
+inline Quaternion<Real> added(const Quaternion<Real>& a, const Quaternion<Real>& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]};
+}
+template <class Real>
+inline Quaternion<Real> taken(const Quaternion<Real>& a, const Quaternion<Real>& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]};
+}
+template <class Real>
+inline Quaternion<Real> scaled(const Quaternion<Real>& a, Real factor) {
+  return {a[0] * factor, a[1] * factor, a[2] * factor, a[3] * factor};
+}
+template <class Real>
+inline Real dot(const Quaternion<Real>& a, const Quaternion<Real>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+}
+template <class Real>
 inline Vector3<Real> cross(const Vector3<Real>& a, const Vector3<Real>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// The same orientation with length 1. Precondition: longer than 1e-15.
+/// The same orientation with length 1; what has no length is left as it is.
 template <class Real>
 inline Quaternion<Real> unit(const Quaternion<Real>& q) {
-  const Real inverse = Real(1.0f) / square_root(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  return {q[0] * inverse, q[1] * inverse, q[2] * inverse, q[3] * inverse};
+  const Real square = dot(q, q);
+  if (!(square > Real(1e-30f))) return q;
+  return scaled(q, Real(1.0f) / square_root(square));
 }
 
 /// A turn about z, by the cosine and sine of half its angle, before an orientation.
@@ -55,10 +72,45 @@ inline Quaternion<Real> turned(Real half_cos, Real half_sin, const Quaternion<Re
           half_cos * q[3] + half_sin * q[0]};
 }
 
+/// The same turn the other way.
+template <class Real>
+inline Quaternion<Real> turned_back(Real half_cos, Real half_sin, const Quaternion<Real>& q) {
+  return {half_cos * q[0] + half_sin * q[3], half_cos * q[1] + half_sin * q[2], half_cos * q[2] - half_sin * q[1],
+          half_cos * q[3] - half_sin * q[0]};
+}
+
+/// How fast an orientation's components change under an angular velocity on the world's side.
+template <class Real>
+inline Quaternion<Real> quaternion_rate(const Vector3<Real>& spin, const Quaternion<Real>& q) {
+  const Vector3<Real> axis{q[1], q[2], q[3]};
+  const auto v = added(scaled(spin, q[0]), cross(spin, axis));
+  return scaled(Quaternion<Real>{Real(0.0f) - dot(spin, axis), v[0], v[1], v[2]}, Real(0.5f));
+}
+
 /// A turn about z, by cosine and sine of its angle, of a vector.
 template <class Real>
 inline Vector3<Real> turned(Real cos, Real sin, const Vector3<Real>& v) {
   return {cos * v[0] - sin * v[1], sin * v[0] + cos * v[1], v[2]};
+}
+
+/// The same turn the other way.
+template <class Real>
+inline Vector3<Real> turned_back(Real cos, Real sin, const Vector3<Real>& v) {
+  return {cos * v[0] + sin * v[1], cos * v[1] - sin * v[0], v[2]};
+}
+
+/// Cosine and sine of half a turn about z, both times the same.
+template <class Real>
+struct LongTurn {
+  Real cos;
+  Real sin;
+};
+
+/// The half turn about z that brings `from` nearest to `to`, times how near.
+template <class Real>
+inline LongTurn<Real> long_turn_between(const Quaternion<Real>& from, const Quaternion<Real>& to) {
+  return {to[0] * from[0] + to[1] * from[1] + to[2] * from[2] + to[3] * from[3],
+          to[3] * from[0] - to[0] * from[3] + to[2] * from[1] - to[1] * from[2]};
 }
 
 /// The half turn about z that brings `from` nearest to `to`: cosine and sine of half the angle, and how near: 1 where
@@ -72,8 +124,7 @@ struct HalfTurn {
 
 template <class Real>
 inline HalfTurn<Real> turn_between(const Quaternion<Real>& from, const Quaternion<Real>& to) {
-  const Real w = to[0] * from[0] + to[1] * from[1] + to[2] * from[2] + to[3] * from[3];
-  const Real z = to[3] * from[0] - to[0] * from[3] + to[2] * from[1] - to[1] * from[2];
+  const auto [w, z] = long_turn_between(from, to);
   const Real size = square_root(w * w + z * z);
   if (!(size > Real(1e-6f))) return {Real(1.0f), Real(0.0f), Real(0.0f)};
   const Real inverse = Real(1.0f) / size;
@@ -97,41 +148,12 @@ inline HalfTurn<Real> turn_between(const Vector3<Real>& from, const Vector3<Real
   return {Real(0.5f) * sin / half, half, size};
 }
 
-/// Least cosine of half the angle that a Gibbs vector is made for: beyond 157° it is held there.
-inline constexpr float kLeastHalfCos = 0.2f;
-
-/// The rotation, on the world's side, from one orientation to another, as a Gibbs vector.
-template <class Real>
-inline Vector3<Real> gibbs_between(const Quaternion<Real>& from, const Quaternion<Real>& to) {
-  Real w = to[0] * from[0] + to[1] * from[1] + to[2] * from[2] + to[3] * from[3];
-  const Vector3<Real> from_axis{from[1], from[2], from[3]}, to_axis{to[1], to[2], to[3]};
-  const auto v = taken(taken(scaled(to_axis, from[0]), scaled(from_axis, to[0])), cross(to_axis, from_axis));
-  const Real sign = w < Real(0.0f) ? Real(-1.0f) : Real(1.0f);
-  w = w * sign;
-  const Real divisor = w > Real(kLeastHalfCos) ? w : Real(kLeastHalfCos);
-  return scaled(v, sign / divisor);
-}
-
 /// An orientation turned by a Gibbs vector on the world's side.
 template <class Real>
 inline Quaternion<Real> rotated(const Vector3<Real>& g, const Quaternion<Real>& q) {
   const Vector3<Real> axis{q[1], q[2], q[3]};
   const auto v = added(added(axis, scaled(g, q[0])), cross(g, axis));
   return unit<Real>({q[0] - dot(g, axis), v[0], v[1], v[2]});
-}
-
-/// A vector turned by a Gibbs vector.
-template <class Real>
-inline Vector3<Real> rotated(const Vector3<Real>& g, const Vector3<Real>& v) {
-  const auto once = cross(g, v);
-  const Real factor = Real(2.0f) / (Real(1.0f) + dot(g, g));
-  return added(v, scaled(added(once, cross(g, once)), factor));
-}
-
-/// How fast a Gibbs vector changes under an angular velocity, both on the world's side.
-template <class Real>
-inline Vector3<Real> gibbs_rate(const Vector3<Real>& g, const Vector3<Real>& spin) {
-  return scaled(added(added(spin, cross(spin, g)), scaled(g, dot(g, spin))), Real(0.5f));
 }
 
 /// A vector of the world in the body's axes.

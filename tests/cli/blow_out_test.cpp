@@ -53,12 +53,26 @@ TEST_F(BlowOutProgram, TheRuleIsLearnedWhereTheRecordingHasIt) {
   EXPECT_LE(found["level_range"][0].get<double>(), found["level"].get<double>());
   EXPECT_EQ(wisp("info " + at("m.wisp") + " --json").json()["extinction"]["level"], found["level"]);
   EXPECT_THAT(wisp("info " + at("m.wisp")).out, HasSubstr("blow-out"));
+  const json modes = wisp("info " + at("m.wisp") + " --json").json()["extinction"]["modes"];
+  ASSERT_EQ(modes.size(), 4U);
+  EXPECT_EQ(modes[0]["name"], "burning");
+  for (int mode : {1, 3}) {  // it vanishes and is back from one row to the next
+    EXPECT_EQ(modes[mode]["source"], "learned");
+    EXPECT_EQ(modes[mode]["events"], found["agreement"]["deaths"]);
+    EXPECT_NEAR(modes[mode]["seconds"].get<double>(), 1.0 / 60, 1e-6);
+  }
+  EXPECT_THAT(wisp("info " + at("m.wisp")).out, HasSubstr("dying: shrinks to nothing in 0.017 s (learned from"));
 
   const Said validated = wisp("validate " + at("m.wisp") + " " + at("unseen.csv") + " --json");
   ASSERT_EQ(validated.status, 0) << validated.err;
   const json judged = validated.json()["extinction"];
   EXPECT_GT(judged["deaths"].get<int>(), 4);
   EXPECT_GE(judged["died"].get<int>() + 1, judged["deaths"].get<int>());
+  for (const char* mode : {"dying", "catching"}) {
+    EXPECT_EQ(judged[mode]["events"], judged["deaths"]);
+    EXPECT_LT(judged[mode]["error"].get<double>(), 0.1);
+    EXPECT_GT(judged[mode]["default_error"].get<double>(), 2 * judged[mode]["error"].get<double>());
+  }
 }
 
 TEST_F(BlowOutProgram, TheRuleIsWhatIsGiven) {
@@ -82,6 +96,8 @@ TEST_F(BlowOutProgram, WithoutADeathThereIsADefaultAndItCanBeTurnedOff) {
   const Said learned = wisp("learn flame " + at("rec.csv") + " -o " + at("m.wisp") + " --json");
   ASSERT_EQ(learned.status, 0) << learned.err;
   EXPECT_EQ(learned.json()["extinction"]["source"], "default");
+  EXPECT_EQ(learned.json()["extinction"]["modes"][3]["source"], "default");
+  EXPECT_EQ(learned.json()["extinction"]["modes"][3]["seconds"], Extinction{}.catching);
   EXPECT_GE(learned.json()["extinction"]["level"].get<double>(), 2);
   for (const std::string command : {"learn flame --blow-out off ", "learn outline "}) {
     const Said off = wisp(command + at("rec.csv") + " -o " + at("off.wisp") + " --json");

@@ -101,8 +101,39 @@ TEST_F(SimulateLeaf, WhatCannotBeSimulatedIsExplained) {
   refused("--wind hurricane", "--wind", 2);
   refused("--drops 100000 --seconds 3600", "too many", 1);
   refused("--drops 1 --seconds 0.2 --video " + at("nowhere/clip.mp4"), "nowhere", 1);
+  refused("--drops 1 --seconds 0.2 --video " + at("clip.gif"), "expected a name that ends in .mp4", 1);
+  refused("--pairs --drops 2 --clones 2 --seconds 0.3", "--seconds is 0.3, expected at least 0.7 with --pairs", 2);
+  EXPECT_FALSE(fs::exists(at("rec.csv")));
   EXPECT_EQ(wisp("-o " + at("nowhere/rec.csv")).status, 1);
+  EXPECT_EQ(wisp("-o /proc/rec.csv").status, 1);
   EXPECT_EQ(wisp("-o " + at("rec.txt")).status, 1);
+}
+
+TEST_F(SimulateLeaf, AWindFileThatIsNoneIsExplained) {
+  const struct {
+    const char* text;
+    const char* words;
+  } files[] = {
+      {"", "is empty, expected a header line"},
+      {"# rate_hz 60\nu:wind.x\n", "has a header but no rows"},
+      {"u:wind.x\n1\n", "states no rate"},
+      {"# rate_hz 0\nu:wind.x\n1\n", "row 1: rate_hz is \"0\""},
+      {"# rate_hz 60\nu:wind.x\n1\ngale\n", "row 4: found \"gale\", column 1, expected a number"},
+      {"# rate_hz 60\nu:wind.x,u:wind.y\n1,2\n3\n", "row 4: has 1 columns, the header has 2"},
+      {"# rate_hz 60\nu:wind.x,u:wind.y\n1,2\n,3\n", "wind.x in row 2 is missing"},
+      {"# rate_hz 60\nu:wind.x\n1\n31\n", "wind.x in row 2 is 31, expected a wind within 30 m/s"},
+      {"# rate_hz 60\ny:pos.x\n1\n", "has 0 inputs and no wind.x, wind.y or wind.z"},
+      {"# rate_hz 60\nu:left,u:right\n1,2\n", "has 2 inputs and no wind.x, wind.y or wind.z"},
+      {"# rate_hz 10\nm:t,u:wind.x\n0,1\n0.1,2\n0.05,3\n", "t goes on by -0.05 s in row 3, expected 0.1"},
+  };
+  for (const auto& file : files) {
+    std::ofstream(at("wind.csv")) << file.text;
+    const Said said = wisp("-o " + at("rec.csv") + " --drops 1 --seconds 0.2 --wind " + at("wind.csv"));
+    EXPECT_EQ(said.status, 1) << file.text;
+    EXPECT_THAT(said.err, HasSubstr(at("wind.csv"))) << file.text;
+    EXPECT_THAT(said.err, HasSubstr(file.words)) << file.text;
+    EXPECT_FALSE(fs::exists(at("rec.csv"))) << file.text;
+  }
 }
 
 }  // namespace

@@ -90,6 +90,22 @@ TEST(LearnedExtinction, SurvivalsBoundItFromBelow) {
   EXPECT_GT(after->rule.level, 2.5);
 }
 
+// Rows that go missing at once, 0.2 s after the rule killed: so long its flame takes to vanish.
+TEST(LearnedExtinction, AFlameThatVanishesSlowlyWentOutThatMuchBefore) {
+  const BlowOutRecipe recipe{.rows = 7200, .hiss = 0, .seed = 12};
+  auto made = blow_out_recording(recipe);
+  for (Channel& channel : made.recording.channels) {
+    if (channel.role != Role::kInput) continue;
+    std::rotate(channel.samples.begin(), channel.samples.begin() + 11, channel.samples.end());
+  }
+  ExtinctionEvidence seen = evidence_of(made.recording);
+  for (double late : agreement(recipe.rule, std::span(&seen, 1)).late_seconds) EXPECT_NEAR(late, -11.0 / 60, 1e-9);
+  seen.dying = 0.2;  // the first of its twelve steps is the row in which it went out
+  const ExtinctionAgreement found = agreement(recipe.rule, std::span(&seen, 1));
+  EXPECT_EQ(found.died, found.deaths);
+  for (double late : found.late_seconds) EXPECT_NEAR(late, 0, 1e-9);
+}
+
 TEST(LearnedExtinction, WithoutADeathThereIsNothingToLearn) {
   const auto made = blow_out_recording({.every = 0});
   const auto fit = learn_extinction(std::vector{evidence_of(made.recording)});

@@ -7,7 +7,9 @@
 #include <functional>
 #include <limits>
 
+#include "model/damaged_bytes.hpp"
 #include "model/sample_chain.hpp"
+#include "wisp/base/hash.hpp"
 #include "wisp/model/file.hpp"
 
 namespace wisp {
@@ -16,6 +18,7 @@ namespace {
 using testing::HasSubstr;
 
 const std::string kGolden = WISP_SOURCE_DIR "/tests/model/golden/v1_chain.wisp";
+const std::string kGoldenSpline = WISP_SOURCE_DIR "/tests/model/golden/v1_chain_spline.wisp";
 
 ChainModel& chain(Model& model) { return std::get<ChainModel>(model.dynamics); }
 
@@ -52,7 +55,7 @@ void expect_same(const Model& a, const Model& b) {
 
 TEST(ChainModel, WhatIsWrittenIsRead) {
   for (const Model& model : {sample_chain(), sample_chain(ChainMotion::kPosition), onward_chain(), windy_chain(),
-                             system_chain(1), system_chain(2)}) {
+                             system_chain(1), system_chain(2), spline_chain()}) {
     const auto bytes = model_bytes(model);
     ASSERT_TRUE(bytes) << bytes.error().message;
     const auto read = parse_model(*bytes, "chain.wisp");
@@ -73,16 +76,32 @@ TEST(ChainModel, TheGoldenFileStillMeansTheSame) {
   EXPECT_EQ(std::get<PoseView>(read->view).half_width, 0.0365);
 }
 
-TEST(ChainModel, EveryTruncationAndEveryBitFlipIsAnError) {
-  std::vector<std::byte> bytes = *model_bytes(sample_chain());
-  for (std::size_t size = 0; size < bytes.size(); ++size) {
-    ASSERT_FALSE(parse_model(std::span(bytes).first(size), "cut.wisp")) << size;
+// Written when modes could be splines first.
+TEST(ChainModel, TheGoldenFileOfSplinesStillMeansTheSame) {
+  if (std::getenv("WISP_WRITE_GOLDEN")) {
+    ASSERT_TRUE(write_model(kGoldenSpline, spline_chain()));
   }
-  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
-    bytes[bit / 8] ^= std::byte{1} << (bit % 8);
-    ASSERT_FALSE(parse_model(bytes, "flipped.wisp")) << bit;
-    bytes[bit / 8] ^= std::byte{1} << (bit % 8);
-  }
+  const auto read = read_model(kGoldenSpline);
+  ASSERT_TRUE(read) << read.error().message;
+  expect_same(*read, spline_chain());
+}
+
+TEST(ChainModel, SplinesAreStoredInThePlaceOfRows) {
+  Model stored = spline_chain();
+  chain(stored).splines.reset();
+  const std::size_t rows = 2 * chain(stored).segments.rows.size();
+  const std::size_t splines = 4 * (56 + 112) + 2 * 6;
+  // But for what FlatBuffers takes for a table and its alignment.
+  EXPECT_NEAR(static_cast<double>(model_bytes(spline_chain())->size()) + static_cast<double>(rows),
+              static_cast<double>(model_bytes(stored)->size() + splines), 80);
+}
+
+class ChainBytes : public testing::TestWithParam<Model (*)()> {};
+INSTANTIATE_TEST_SUITE_P(Kinds, ChainBytes,
+                         testing::Values([] { return sample_chain(); }, [] { return spline_chain(); }));
+
+TEST_P(ChainBytes, EveryTruncationAndEveryBitFlipIsAnError) {
+  expect_damage_noticed(*model_bytes(GetParam()()));
 }
 
 TEST(ChainModel, WhatIsNotAChainIsRefusedWithAReason) {
@@ -158,6 +177,82 @@ TEST(ChainModel, SystemsThatAreNoneAreRefusedWithAReason) {
     const auto outcome = model_bytes(model);
     ASSERT_FALSE(outcome) << word;
     EXPECT_THAT(outcome.error().message, HasSubstr(word));
+  }
+}
+
+// A file that was made to harm has a hash that fits.
+std::vector<std::byte> mended(std::vector<std::byte> bytes) {
+  const std::uint64_t hash = hash_bytes(std::span(bytes).subspan(32));
+  for (std::size_t k = 0; k < 8; ++k) bytes[24 + k] = static_cast<std::byte>(hash >> (8 * k));
+  return bytes;
+}
+
+TEST(ChainModel, SplinesThatWereMadeToHarmAreReadWholeOrNotAtAll) {
+  const std::vector<std::byte> sound = *model_bytes(spline_chain());
+  std::size_t read = 0;
+  for (std::size_t at = 32; at < sound.size(); ++at) {
+    for (std::byte harm : {std::byte{0x00}, std::byte{0x7f}, std::byte{0xff}}) {
+      std::vector<std::byte> bytes = sound;
+      bytes[at] = harm;
+      const auto model = parse_model(mended(std::move(bytes)), "harm.wisp");
+      if (!model) continue;
+      ++read;
+      ASSERT_TRUE(model_bytes(*model)) << at;
+    }
+  }
+  EXPECT_GT(read, 100U);
+}
+
+TEST(ChainModel, SplinesThatAreNoneAreRefusedWithAReason) {
+  const std::vector<std::pair<std::string, std::function<void(ChainModel&)>>> broken = {
+      {"beyond 4 to 32", [](ChainModel& c) { c.splines->control_points = 3; }},
+      {"beyond 4 to 32", [](ChainModel& c) { c.splines->components = 65; }},
+      {"do not fit", [](ChainModel& c) { c.splines->mean.pop_back(); }},
+      {"do not fit", [](ChainModel& c) { c.splines->component.push_back(0); }},
+      {"do not fit", [](ChainModel& c) { c.splines->score.pop_back(); }},
+      {"out of range", [](ChainModel& c) { c.splines->mean[3] = std::numeric_limits<float>::quiet_NaN(); }},
+      {"out of range", [](ChainModel& c) { c.splines->component[7] = 1e7f; }},
+      {"are not those", [](ChainModel& c) { ++c.segments.rows[9]; }},
+      {"are not those", [](ChainModel& c) { c.splines->score[2] = 9000; }},
+  };
+  for (const auto& [word, harm] : broken) {
+    Model model = spline_chain();
+    harm(chain(model));
+    const auto outcome = model_bytes(model);
+    ASSERT_FALSE(outcome) << word;
+    EXPECT_THAT(outcome.error().message, HasSubstr(word));
+  }
+}
+
+TEST(ChainModel, ModesAreNotSystemsAndSplinesAtOnce) {
+  Model model = system_chain();
+  chain(model).splines = ModeSplines{4, 0, std::vector<float>(2 * 4 * 7), {}, {}};
+  const auto outcome = model_bytes(model);
+  ASSERT_FALSE(outcome);
+  EXPECT_THAT(outcome.error().message, HasSubstr("systems and splines"));
+}
+
+TEST(ChainModel, SplinesThatAskForTooManyRowsAreRefused) {
+  ChainSegments segments{
+      .mode = std::vector<std::uint16_t>(16, 0), .steps = std::vector<std::uint16_t>(16, 65535), .row_scale = {1.0}};
+  const ModeSplines splines{4, 0, std::vector<float>(12), {}, {}};
+  EXPECT_THAT(check(splines, segments, 1, 3).error().message, HasSubstr("too many rows, expected at most 1000000"));
+  segments.steps[0] = 0;
+  EXPECT_THAT(check(splines, segments, 1, 3).error().message, HasSubstr("do not fit"));
+}
+
+TEST(ChainModel, RowsOfSplinesAreTheirCurves) {
+  const Model model = spline_chain();
+  const ChainModel& c = std::get<ChainModel>(model.dynamics);
+  // Segment 1, of 5 steps, of mode 0; control points in line at equal distances are a line.
+  const std::vector<std::int16_t>& rows = c.segments.rows;
+  for (std::size_t row = 0; row <= 5; ++row) {
+    const std::int16_t* at = rows.data() + 7 * (9 + row);
+    EXPECT_NEAR(at[0], 3 * (2700 - 0.25 * 500) * static_cast<double>(row) / 5, 1);
+    double square = 0;
+    for (std::size_t k = 3; k < 7; ++k) square += static_cast<double>(at[k]) * at[k];
+    EXPECT_NEAR(square, 32767.0 * 32767.0, 1e5);
+    EXPECT_NEAR(at[4] / static_cast<double>(at[3]), (1500 + 1.5 * 3000) / 30000, 1e-3);
   }
 }
 

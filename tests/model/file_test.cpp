@@ -8,6 +8,7 @@
 #include <functional>
 #include <tuple>
 
+#include "model/same_regression.hpp"
 #include "model/sample_model.hpp"
 #include "wisp/base/file.hpp"
 
@@ -41,12 +42,8 @@ std::vector<std::byte> sample_bytes() { return std::move(model_bytes(sample_mode
 void expect_same(const Model& a, const Model& b) {
   EXPECT_EQ(*model_bytes(a), *model_bytes(b));
   const auto &x = std::get<ArxModel>(a.dynamics), &y = std::get<ArxModel>(b.dynamics);
-  EXPECT_EQ(x.orders, y.orders);
-  EXPECT_EQ(x.theta, y.theta);
-  EXPECT_EQ(x.std_error, y.std_error);
-  EXPECT_EQ(x.constant, y.constant);
-  EXPECT_EQ(x.output_mean, y.output_mean);
-  EXPECT_EQ(x.input_mean, y.input_mean);
+  expect_same_frame(x, y);
+  expect_same_coefficients(x, y);
   EXPECT_EQ(x.noise.sd, y.noise.sd);
   EXPECT_EQ(x.noise.sd_ci95, y.noise.sd_ci95);
   EXPECT_EQ(x.noise.mixing, y.noise.mixing);

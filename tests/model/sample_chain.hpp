@@ -118,6 +118,30 @@ inline Model system_chain(int degree = 1) {
   return model;
 }
 
+/// The sample that can be steered, its modes splines: each segment glides its own way, tilted its own way.
+inline Model spline_chain() {
+  Model model = steered_chain();
+  auto& chain = std::get<ChainModel>(model.dynamics);
+  ModeSplines splines{4, 2, {}, {}, {1000, -2000, -500, 3000, 0, 700}};
+  for (int mode = 0; mode < 2; ++mode) {
+    for (int k = 0; k < 4; ++k) {
+      const auto at = static_cast<float>(k), side = static_cast<float>(mode + 1);
+      for (float x : {2700 * at, 200 * side * at, -3300 * at, 30'000.0f, 1500 * side, 0.0f, 900 * at})
+        splines.mean.push_back(x);
+    }
+    for (int component = 0; component < 2; ++component) {
+      for (int k = 0; k < 4; ++k) {
+        const float glide = component == 0 ? 0.25f * static_cast<float>(k) : 0.0f;
+        const float tilt = component == 1 ? 1.5f : 0.0f;
+        for (float x : {glide, 0.0f, -0.5f * glide, 0.0f, tilt, 0.5f * tilt, 0.0f}) splines.component.push_back(x);
+      }
+    }
+  }
+  chain.segments.rows = rows_of(splines, chain.segments, 7);
+  chain.splines = splines;
+  return model;
+}
+
 /// The sample that can be steered, carried along by the wind within a few steps.
 inline Model windy_chain() {
   Model model = steered_chain();

@@ -19,6 +19,7 @@
 
 #include "wisp/base/result.hpp"
 #include "wisp/learn/channel_choice.hpp"
+#include "wisp/learn/mode_difference.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/model/switched.hpp"
 #include "wisp/record/recording.hpp"
@@ -51,12 +52,14 @@ struct SwitchedCandidate {
 struct SwitchedSummary {
   std::size_t samples_used = 0;  ///< by the model that is returned, which is learned from all rows
   std::size_t held_out = 0;
-  std::vector<SwitchedCandidate> candidates;  ///< 1 mode, a single ARX model, and those that were tried
-  std::vector<std::size_t> mode_rows;         ///< rows in which each mode acted
-  std::vector<double> mode_radius;            ///< spectral radii
-  std::vector<bool> mode_changed;             ///< whether a mode was made stable
-  std::vector<double> fit_percent;            ///< one step ahead, per output
-  std::vector<double> free_run_fit_percent;   ///< from the input alone
+  std::vector<SwitchedCandidate> candidates;            ///< 1 mode, a single ARX model, and those that were tried
+  std::vector<std::size_t> mode_rows;                   ///< rows in which each mode acted
+  std::vector<double> mode_radius;                      ///< spectral radii
+  std::vector<bool> mode_changed;                       ///< whether a mode was made stable
+  std::vector<std::vector<double>> constant_std_error;  ///< per mode and output
+  std::vector<ModeDifference> differences;              ///< of every pair of modes
+  std::vector<double> fit_percent;                      ///< one step ahead, per output
+  std::vector<double> free_run_fit_percent;             ///< from the input alone
   std::vector<std::string> warnings;
   Usable usable;
 };

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "wisp/base/result.hpp"
+#include "wisp/model/mode_splines.hpp"
 #include "wisp/model/mode_systems.hpp"
 
 namespace wisp {
@@ -110,6 +111,8 @@ struct ChainModel {
   std::optional<ChainDrift> drift;  ///< none: it can't be steered
   /// Where there are some, modes are played as systems; the segments, one for each mode, only say how a life begins.
   std::optional<ModeSystems> systems;
+  /// Where there are some, the rows of the segments are those that they make, and are not stored.
+  std::optional<ModeSplines> splines;
 
   /// Order of the longest history.
   int history() const;

@@ -147,8 +147,8 @@ class Bank {
   float noise() const;
 
   /// Limits how many modes back a segment chain looks when it chooses the next one; 0: as many as it has learned to, as
-  /// at first. Counts below 0 are 0. It acts from the next join on, may change at any time, and changes nothing where
-  /// the dynamics are not a chain.
+  /// at first. Counts below 0 are 0. It acts from the next draw on, a step before a join; may change at any time; and
+  /// changes nothing where the dynamics are not a chain.
   void set_history(int longest);
   int history() const;
 

@@ -161,6 +161,7 @@ int main() {
   mortal_frames(hash, 11, 2'000);
   for (int capacity : {1, 13}) falling_frames(hash, windy_chain(), capacity, 4'000);
   falling_frames(hash, sample_chain(ChainMotion::kPosition), 5, 2'000);
+  falling_frames(hash, spline_chain(), 9, 2'000);
   for (int degree : {1, 2}) falling_frames(hash, system_chain(degree), 9, 2'000);
   step_frames(hash, sample_switched(), 11, 2'000);
   step_frames(hash, sample_switched(Switching::kMarkov), 3, 4'000);

@@ -1,0 +1,53 @@
+#pragma once
+// The clips of the rig that flames are learned from and judged on, told apart by what blows.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "verify_flame.hpp"
+#include "wisp/record/recording.hpp"
+
+namespace wisp::verify {
+
+/// Clips in one kind of wind that no learner sees.
+struct UnseenFlames {
+  std::string wind;              ///< what blows
+  std::vector<Recording> clips;  ///< outline in pixels and the heard `wind`
+  std::vector<Recording> again;  ///< another take of each: the same wind, other chance
+};
+
+/// The clips, all in the knots of the first. They are kept in a folder; what is not there yet is simulated when it is
+/// asked for, which takes as long as the film. No seed of them was used when defaults were chosen.
+class FlameCorpus {
+ public:
+  explicit FlameCorpus(std::filesystem::path folder);
+
+  /// To learn from: three clips of 40 s in gusts.
+  std::vector<Recording> gusts();
+  /// The same and 40 s of puffs, without what is dying, out or catching.
+  std::vector<Recording> with_puffs();
+
+  UnseenFlames unseen_gusts();
+  UnseenFlames unseen_calm();
+  /// Puffs of which some kill: flames die, are lit again and catch.
+  UnseenFlames unseen_blow_outs();
+  /// The same clips without that.
+  UnseenFlames unseen_between_blow_outs();
+
+ private:
+  struct Takes {
+    std::string name;
+    FlameClipChoice choice;
+    std::vector<std::uint64_t> seeds;
+  };
+  Recording get(const std::string& name, FlameClipChoice choice);
+  std::vector<Recording> get(const Takes& takes, bool again);
+  UnseenFlames unseen(const Takes& takes);
+
+  std::filesystem::path folder_;
+  std::vector<double> knots_;
+};
+
+}  // namespace wisp::verify
