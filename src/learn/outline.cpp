@@ -41,7 +41,7 @@ Result<void> check_options(const OutlineOptions& options) {
   if (const int knots = options.input_curve.value_or(0); knots != 0 && (knots < 3 || knots > 16)) {
     return refuse("the number of knots of the inputs' curve", knots, "0 (no curve) or 3 to 16");
   }
-  if (options.square && options.input_curve != 0) {
+  if (options.square && options.input_curve.value_or(0) != 0) {
     return Error{"the inputs' squares and a curve on them were both asked for; choose one"};
   }
   if (options.shared_shocks < 1 || options.shared_shocks > 64) {
@@ -309,7 +309,7 @@ Result<void> learn_curves(std::span<const Recording> recordings, const PreparedO
 // Decides by both parts whether the inputs are bent, and bends them by what the first says.
 Result<void> bend(OutlineParts& parts, const PreparedOutlines& prepared, const OutlineOptions& options,
                   OutlineSummary& summary) {
-  if (options.input_curve == 0 || prepared.inputs.empty()) return {};
+  if (options.input_curve == 0 || options.square || prepared.inputs.empty()) return {};
   auto choice = choose_outline_curves(to_learn_from(parts.learned, prepared, options), parts.held_out, prepared,
                                       chosen_orders(prepared, options, summary.choice), options.input_curve);
   if (!choice) return choice.error();

@@ -74,6 +74,10 @@ TEST(OutlineCurve, OptionsOutOfRangeAreRefused) {
   options.input_curve = 4;
   options.square = true;
   EXPECT_THAT(learn_outline({&recording, 1}, options).error().message, HasSubstr("choose one"));
+  options.input_curve = std::nullopt;  // an open choice yields to what was asked for
+  const auto squares = learn_outline({&recording, 1}, options);
+  ASSERT_TRUE(squares) << squares.error().message;
+  EXPECT_EQ(squares->model.inputs[0].shape, InputShape::kSplitSignSquare);
 }
 
 }  // namespace

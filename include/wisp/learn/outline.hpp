@@ -54,7 +54,7 @@ struct OutlineOptions {
   std::optional<std::vector<std::string>> inputs;  ///< names; unset: all inputs of the recordings; empty: none, flicker
   bool square = false;                             ///< every input's square beside it: what it does may bend
   std::optional<int> input_curve = 0;  ///< knots of a monotone curve that bends every input, 3 to 16; 0: none; unset: 3
-                                       ///< to 6 or none, as held-out data say. Not beside squares
+                                       ///< to 6 or none, as held-out data say, none beside squares
   bool one_sided = false;      ///< inputs as they are, no sign and no mirror image: the paper's 192 multiply-adds
   std::optional<bool> mirror;  ///< learn from the mirror image too; unset: where inputs have signs
   double holdout = 0.3;        ///< 0 to 0.9: the last part of each recording, kept for judging
