@@ -101,12 +101,10 @@ class ChainChoice {
 
   bool has_chance() const { return chance_; }
 
-  /// How likely a mode is after a segment, beside the others.
-  float chance_of(const ChainProgram& program, std::uint32_t state, std::uint32_t before, std::uint32_t mode) const {
-    const float chance = static_cast<float>(width_of(program, state, mode)) * (1.0f / 4294967296.0f);
-    if (program.onward.empty()) return chance;
-    const std::size_t at = std::size_t{before} * static_cast<std::uint32_t>(program.modes) + mode;
-    return chance * static_cast<float>(program.onward[at]) * (1.0f / 65535.0f);
+  /// How likely the history makes a mode, of 1. Where a segment ends does not count here: what is steered must have
+  /// more to choose from than what would follow by itself.
+  float chance_of(const ChainProgram& program, std::uint32_t state, std::uint32_t mode) const {
+    return static_cast<float>(width_of(program, state, mode)) * (1.0f / 4294967296.0f);
   }
 
   struct Candidate {
@@ -129,7 +127,7 @@ class ChainChoice {
   }
 
  private:
-  /// How many words the history gives a mode.
+  // How many words the history gives a mode.
   std::uint32_t width_of(const ChainProgram& program, std::uint32_t state, std::uint32_t mode) const {
     const std::uint32_t* threshold =
         program.threshold.data() + seen(program, state) * static_cast<std::uint32_t>(program.modes);

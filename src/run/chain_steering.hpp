@@ -46,7 +46,7 @@ class ChainSteering {
     Real least(0.0f);
     const Bell bell = bell_of(program, lane);
     for (std::uint32_t mode = 0; mode < modes; ++mode) {
-      const float chance = choice.chance_of(program, state, before, mode);
+      const float chance = choice.chance_of(program, state, mode);
       if (!(chance > 0.0f)) continue;
       for (std::uint32_t k = 0; k < per_mode_; ++k) {
         const auto [segment, share] = choice.candidate(program, before, mode, k, words);

@@ -51,7 +51,8 @@ struct ChainSegments {
   int breadth = 0;                    ///< 0: any segment of the mode follows
   std::vector<std::uint16_t> onward;  ///< segments × modes: how likely each mode is after where this segment ends, over
                                       ///< how likely after its mode as a whole; 65535 for the most of them, ≥ 1. It is
-                                      ///< multiplied by what the history says. Empty: the history alone counts
+                                      ///< multiplied by what the history says, unless a walk is steered. Empty: the
+                                      ///< history alone counts
 
   std::size_t size() const { return mode.size(); }
 };
