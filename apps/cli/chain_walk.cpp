@@ -29,6 +29,14 @@ std::vector<Flag> chain_walk_flags() {
 
 namespace {
 
+// Why a chain can't be steered.
+Error unsteered(const ChainModel& chain) {
+  if (!chain.systems) return {"the model can't be steered: an older Wisp learned it; learn it again"};
+  return {
+      "the model can't be steered: its modes are systems, which go on from where they are and leave nothing to choose; "
+      "learn it with --realise segments, spline or chain"};
+}
+
 // X,Y,Z@S.
 Result<SteerTarget> target_from(const std::string& text) {
   SteerTarget target;
@@ -69,8 +77,7 @@ Result<ChainWalk> chain_walk_from(const Model& model, const Arguments& arguments
     if (!(target->near >= 0.001F && target->near <= 1000)) {
       return Error{"--near is " + arguments.text("near") + ", expected 0.001 to 1000"};
     }
-    if (!chain->drift)
-      return Error{"the model can't be steered: its modes are systems, or an older Wisp learned it; learn it again"};
+    if (!chain->drift) return unsteered(*chain);
     walk.target = *target;
   }
   if (!arguments.has("temperature")) return walk;

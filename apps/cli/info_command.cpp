@@ -63,8 +63,14 @@ Json dynamics_of(const ArxModel& arx) {
   return out;
 }
 
+std::string played_as(const ChainModel& chain) {
+  if (chain.splines) return "splines";
+  return chain.systems ? "systems" : "segments";
+}
+
 Json dynamics_of(const ChainModel& chain) {
   return {{"kind", "chain"},
+          {"played_as", played_as(chain)},
           {"segments", chain.segments.size()},
           {"modes", chain.modes},
           {"history", chain.history()},

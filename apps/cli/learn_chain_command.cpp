@@ -264,9 +264,9 @@ std::vector<Flag> flags(const std::string& event, const std::string& features) {
        Kind::kChoice,
        "HOW",
        "segments",
-       "how a mode is played: by its segments; as a linear system with noise, or a differential equation (ode), of its "
-       "velocities; or as a chain of its own",
-       {"segments", "linear", "ode", "chain"}},
+       "how a mode is played: by its segments; as a spline that varies as they do; as a linear system with noise, or a "
+       "differential equation (ode), of its velocities; or as a chain of its own",
+       {"segments", "spline", "linear", "ode", "chain"}},
       {"best-of", Kind::kInteger, "N", "4",
        "a segment is followed by one of its N best-joining ones of the mode; 0: by any of the mode"},
       {"blend", Kind::kNumber, "SHARE", "0.5", "most of a segment that a join fades over, 0 to 0.5; 0: not at all"},

@@ -10,6 +10,7 @@
 #include "learn/mode_parts.hpp"
 #include "wisp/learn/clustering.hpp"
 #include "wisp/learn/mode_chain.hpp"
+#include "wisp/learn/mode_splines.hpp"
 #include "wisp/learn/mode_systems.hpp"
 #include "wisp/learn/motion.hpp"
 #include "wisp/model/file.hpp"
@@ -320,6 +321,7 @@ Result<Realised> realised_chain(const Walked& walked, const ChainOptions& option
   } else {
     out = stored_chain(walked, options);
   }
+  if (options.realisation == Realisation::kSpline) realise_as_splines(out.dynamics);
   out.dynamics.drift = drift_of(out.dynamics, walked.motion.rate_hz);
   return out;
 }

@@ -17,7 +17,7 @@ namespace {
 constexpr std::array<char, 8> kMagic = {'\x89', 'W', 'I', 'S', 'P', 'B', 'N', 'K'};
 constexpr std::uint32_t kVersion = 2;
 constexpr std::uint32_t kChainVersion = 3;  // of chains, which prepare their joins
-constexpr std::uint32_t kFirstVersion = 1;       // without what is set of a chain
+constexpr std::uint32_t kFirstVersion = 1;  // without what is set of a chain
 constexpr std::size_t kHeaderSize = 32;
 constexpr std::size_t kChainFields = 4;
 constexpr std::uint64_t kMostAge = std::uint64_t{1} << 48;
@@ -199,7 +199,8 @@ Result<std::uint32_t> check_header(const Bank::State& s, std::span<const std::by
 }  // namespace
 
 std::size_t Bank::save_bytes() const {
-  return kHeaderSize + fields_size(version_of(*state_)) + static_cast<std::size_t>(state_->capacity) * record_size(*state_);
+  return kHeaderSize + fields_size(version_of(*state_)) +
+         static_cast<std::size_t>(state_->capacity) * record_size(*state_);
 }
 
 void Bank::save(std::span<std::byte> bytes) const {

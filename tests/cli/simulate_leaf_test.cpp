@@ -84,6 +84,17 @@ TEST_F(SimulateLeaf, ItsFallsTeachAChainWhoseOwnFallsAreFilmed) {
   EXPECT_GT(fs::file_size(at("falls.mp4")), 1000u);
 }
 
+TEST_F(SimulateLeaf, ItsFallsTeachSplinesThatTakeLessRoom) {
+  ASSERT_EQ(wisp("-o " + at("rec.csv") + " --drops 12 --seconds 3").status, 0);
+  const std::string learn = "learn leaf " + at("rec.csv") + " --restarts 1 --modes 3 -o ";
+  ASSERT_EQ(InFolder::wisp(learn + at("segments.wisp")).status, 0);
+  const Said learned = InFolder::wisp(learn + at("spline.wisp") + " --realise spline");
+  ASSERT_EQ(learned.status, 0) << learned.err;
+  EXPECT_LT(fs::file_size(at("spline.wisp")), fs::file_size(at("segments.wisp")));
+  EXPECT_EQ(InFolder::wisp("run " + at("spline.wisp") + " --frames 40 --steer 0,0,-0.5@1 -o " + at("fall.csv")).status,
+            0);
+}
+
 TEST_F(SimulateLeaf, WhatCannotBeSimulatedIsExplained) {
   const auto refused = [&](const std::string& arguments, const std::string& words, int status) {
     const Said said = wisp("-o " + at("rec.csv") + " " + arguments);

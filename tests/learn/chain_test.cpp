@@ -119,15 +119,18 @@ TEST(LearnChain, WhatIsSteeredComesNearerToItsTarget) {
 
 TEST(LearnChain, ModesAreRealisedInOtherWaysToo) {
   const Recording recording = made_falls({.falls = 40});
-  for (Realisation realisation : {Realisation::kLinear, Realisation::kOde, Realisation::kChain}) {
+  for (Realisation realisation : {Realisation::kLinear, Realisation::kOde, Realisation::kChain, Realisation::kSpline}) {
     const auto fit = learned(recording, {.modes = 3, .realisation = realisation});
     ASSERT_TRUE(fit) << fit.error().message;
     const auto fidelity = chain_fidelity(fit->model, fit->held_out, {.permutations = 1});
     ASSERT_TRUE(fidelity) << fidelity.error().message;
     EXPECT_NEAR(fidelity->synthesized.descent_speed, fidelity->real.descent_speed, 0.3 * fidelity->real.descent_speed)
         << word_of(realisation);
-    const bool systems = std::get<ChainModel>(fit->model.dynamics).systems.has_value();
-    EXPECT_EQ(systems, realisation != Realisation::kChain);
+    const auto& chain = std::get<ChainModel>(fit->model.dynamics);
+    EXPECT_EQ(chain.systems.has_value(), realisation == Realisation::kLinear || realisation == Realisation::kOde);
+    EXPECT_EQ(chain.splines.has_value(), realisation == Realisation::kSpline);
+    // Systems have no segments to choose among.
+    EXPECT_EQ(chain.drift.has_value(), !chain.systems.has_value());
     EXPECT_EQ(fit->summary.modes, 3);
   }
 }

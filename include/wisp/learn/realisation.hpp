@@ -1,6 +1,6 @@
 #pragma once
 // How a mode of a chain is realised once it is its turn. Source: section 2.2 of the paper, which names segments,
-// systems, differential equations and chains of their own.
+// splines, systems, differential equations and chains of their own.
 
 #include <string_view>
 
@@ -13,9 +13,10 @@ enum class Realisation {
   kLinear,    ///< by a linear system with noise, from where the mode before ended
   kOde,       ///< by a differential equation with products of velocities, likewise
   kChain,     ///< by a chain of its own, of parts of segments
+  kSpline,    ///< by one spline, that varies as its segments do
 };
 
-/// `segments`, `linear`, `ode` or `chain`.
+/// `segments`, `linear`, `ode`, `chain` or `spline`.
 /// Errors: another word.
 Result<Realisation> parse_realisation(std::string_view text);
 
