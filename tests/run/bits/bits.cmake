@@ -19,7 +19,7 @@ separate_arguments(OPTIONS)
 
 # What is compiled anew each time: all that computes on a frame's path, or for it. The rest, once.
 file(GLOB computing ${SOURCE}/src/run/*.cpp)
-list(FILTER computing EXCLUDE REGEX "/(wind_|cost|chain_loop)")
+list(FILTER computing EXCLUDE REGEX "/(wind_|cost|chain_loop)[^/]*$")
 list(APPEND computing ${SOURCE}/src/model/bspline.cpp ${SOURCE}/tests/run/bits/frames.cpp)
 file(GLOB ground ${SOURCE}/src/model/*.cpp)
 list(FILTER ground EXCLUDE REGEX "/(bspline|file|.*payload)\\.cpp$")  # on the path; not needed
