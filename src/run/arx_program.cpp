@@ -112,6 +112,41 @@ double most_size(const Model& model, const ArxModel& arx) {
   return size;
 }
 
+std::span<const TapRun> runs_of(const ArxProgram& program, int row) {
+  const std::uint32_t begin = row == 0 ? 0 : program.row_end[row - 1];
+  return program.runs.subspan(begin, program.row_end[row] - begin);
+}
+
+// Whether output b looks back at nothing but itself and the regressors, as a does at itself and at their opposites.
+bool taps_mirror(const ArxProgram& program, int a, int b) {
+  const auto ours = runs_of(program, a), theirs = runs_of(program, b);
+  const auto mirrors = [&](const TapRun& x, const TapRun& y) {
+    const bool own = x.channel == static_cast<std::uint32_t>(a) && y.channel == static_cast<std::uint32_t>(b);
+    const bool common = x.channel == y.channel && x.channel >= static_cast<std::uint32_t>(program.outputs);
+    if (!(own || common) || x.first_lag != y.first_lag || x.count != y.count) return false;
+    for (std::uint32_t k = 0; k < x.count; ++k) {
+      const float opposite = program.coefficients[y.coefficient + k];
+      if (program.coefficients[x.coefficient + k] != (own ? opposite : -opposite)) return false;
+    }
+    return true;
+  };
+  return std::equal(ours.begin(), ours.end(), theirs.begin(), theirs.end(), mirrors);
+}
+
+bool noise_mirrors(const ArxProgram& program, int a, int b) {
+  if (!program.drawn.empty()) return residuals_mirror(program.drawn, a, b);
+  bool opposite = program.sd[a] == 0 && program.sd[b] == 0;
+  for (int r = 0; r < program.rank; ++r) {
+    opposite &= program.mixing[a * program.rank + r] == -program.mixing[b * program.rank + r];
+  }
+  return opposite;
+}
+
+bool ranges_mirror(const OutputChannel& a, const OutputChannel& b) {
+  return a.scale == b.scale && a.mean == -b.mean && a.low == -b.high && a.high == -b.low && a.lowest == -b.highest &&
+         a.highest == -b.lowest && a.start == -b.start;
+}
+
 }  // namespace
 
 ArxProgram make_arx_program(const Model& model, const ArxModel& arx, Arena& arena) {
@@ -144,6 +179,17 @@ ArxProgram make_arx_program(const Model& model, const ArxModel& arx, Arena& aren
   }
   fill_growth(model, arx, program);
   return program;
+}
+
+void mark_mirrored(const ArxProgram& program, std::span<OutputChannel> outputs) {
+  for (int b = 0; b < program.outputs; ++b) {
+    for (int a = 0; a < b && outputs[b].mirrors < 0; ++a) {
+      const bool opposite = outputs[a].mirrors < 0 && ranges_mirror(outputs[a], outputs[b]) &&
+                            program.constant[a] == -program.constant[b] && taps_mirror(program, a, b) &&
+                            noise_mirrors(program, a, b);
+      if (opposite) outputs[b].mirrors = a;
+    }
+  }
 }
 
 std::uint64_t hash_of(const ArxProgram& program, std::uint64_t before) {

@@ -1,7 +1,7 @@
 #pragma once
 // Steps blocks of instances of an ARX model. Source: section 3.5 of the paper (one multiplication by the matrix of
-// coefficients, histories in circular buffers); here the buffer's place is shared by the whole bank, so that a tap
-// costs no modulo, and what is zero costs nothing.
+// coefficients, histories in circular buffers); here the bank shares one place in the buffers, and what is zero costs
+// nothing.
 
 #include <algorithm>
 #include <cstdint>
@@ -10,6 +10,7 @@
 
 #include "run/arx_program.hpp"
 #include "run/chain_lane.hpp"
+#include "run/channel_history.hpp"
 #include "run/drawn_lanes.hpp"
 #include "run/moment.hpp"
 #include "wisp/run/bank.hpp"
@@ -31,18 +32,15 @@ class ArxStepper {
   static Result<void> check(const Model& model, const ArxModel& arx) { return check_arx_program(model, arx); }
 
   ArxStepper(const Model& model, const ArxModel& arx, const Channels& channels, int blocks, Arena& arena)
-      : program_(make_arx_program(model, arx, arena)), channels_(channels), drawn_(program_.drawn, blocks, arena) {
-    const auto depth = static_cast<std::size_t>(program_.depth);
-    row_ = static_cast<std::size_t>(program_.outputs + program_.regressors) * kLanes;
-    ring_ = arena.take<Real>(static_cast<std::size_t>(blocks) * depth * row_);
-    lag_row_ = arena.take<std::uint32_t>(2 * depth);
+      : program_(make_arx_program(model, arx, arena)),
+        channels_(channels),
+        drawn_(program_.drawn, blocks, arena),
+        ring_(blocks, program_.depth, program_.outputs + program_.regressors, arena) {
     quiet_ = arena.take<int>(static_cast<std::size_t>(blocks) * program_.regressors);
     shocks_ = arena.take<Real>(static_cast<std::size_t>(program_.outputs + program_.rank) * kLanes);
     sd_ = arena.take<float>(program_.outputs);
     mixing_ = arena.take<float>(static_cast<std::size_t>(program_.outputs) * program_.rank);
-    if (arena.measures()) return;
-    for (std::size_t k = 0; k < 2 * depth; ++k)
-      lag_row_[k] = static_cast<std::uint32_t>((2 * depth - k) % depth * row_);
+    if (!arena.measures()) mark_mirrored(program_, channels_.outputs);
   }
 
   /// Sets the scale of the residual noise.
@@ -58,25 +56,29 @@ class ArxStepper {
   }
 
   /// Moves every block's history by one sample; the newest is now to be made.
-  void turn() { place_ = place_ + 1 == program_.depth ? 0 : place_ + 1; }
+  void turn() { ring_.turn(); }
 
   /// Where the regressors of the step belong: [regressor][lane].
-  Real* regressors(int block) { return sample(block, 0) + program_.outputs * kLanes; }
+  Real* regressors(int block) { return ring_.sample(block, 0) + program_.outputs * kLanes; }
 
   /// Makes the newest sample of a block.
   void step(int block, const Moment<N>& moment) {
     count_quiet(block);
     if (noisy_) make_shocks(block, moment);
-    Real* newest = sample(block, 0);
+    Real* newest = ring_.sample(block, 0);
     auto held = all<Words<N>>(0U);
     std::uint32_t run = 0;
     for (int i = 0; i < program_.outputs; ++i) {
-      auto sum = all<Reals<N>>(program_.constant[i]);
+      const OutputChannel& channel = channels_.outputs[i];
+      if (channel.mirrors >= 0) {
+        store(negative(load<Reals<N>>(newest + channel.mirrors * kLanes)), newest + i * kLanes);
+        run = program_.row_end[i];
+        continue;
+      }
+      auto sum = noisy_ ? start_shaken(i) : all<Reals<N>>(program_.constant[i]);
       for (; run < program_.row_end[i]; ++run) {
         if (!is_quiet(block, program_.runs[run].channel)) sum = add_run(block, program_.runs[run], sum);
       }
-      if (noisy_) sum = add_noise(i, sum);
-      const OutputChannel& channel = channels_.outputs[i];
       const auto value = hold(sum, all<Reals<N>>(channel.low), all<Reals<N>>(channel.high));
       held = held | differ(value, sum);
       store(settle(value), newest + i * kLanes);
@@ -85,8 +87,8 @@ class ArxStepper {
   }
 
   /// Outputs of the last step, and of the one before: [output][lane].
-  const Real* newest(int block) const { return sample(block, 0); }
-  const Real* previous(int block) const { return sample(block, 1); }
+  const Real* newest(int block) const { return ring_.sample(block, 0); }
+  const Real* previous(int block) const { return ring_.sample(block, 1); }
 
   /// What is read of a block: the newest sample, or a `share` of the way to it from the one before.
   void show(int block, Real* out) const { show_newest<N>(channels_, newest(block), out); }
@@ -100,11 +102,7 @@ class ArxStepper {
   /// Puts one lane to the operating point.
   void start(int block, int lane, const Moment<N>&) {
     if (!drawn_.empty()) drawn_.start(block, lane);
-    for (int lag = 0; lag < program_.depth; ++lag) {
-      Real* row = sample(block, lag);
-      for (int i = 0; i < program_.outputs; ++i) row[i * kLanes + lane] = Real(channels_.outputs[i].start);
-      for (int k = 0; k < program_.regressors; ++k) row[(program_.outputs + k) * kLanes + lane] = Real(0);
-    }
+    start_history(ring_, channels_, block, lane);
   }
 
   /// An ARX model moves no body.
@@ -115,7 +113,7 @@ class ArxStepper {
   /// An ARX model is not a chain.
   static std::optional<ChainPlace> chain_place(int, int) { return {}; }
 
-  /// Coefficients of A and B that a step multiplies by.
+  /// Coefficients of A and B that are not zero.
   std::int64_t multiply_adds() const { return static_cast<std::int64_t>(program_.coefficients.size()); }
 
   /// Numbers of state that one lane holds.
@@ -129,38 +127,19 @@ class ArxStepper {
   void visit_lane(int block, int lane, Visit visit) {
     std::fill_n(quiet_.begin() + block * program_.regressors, program_.regressors, 0);  // it may be restored
     drawn_.visit_lane(block, lane, visit);
-    for (int lag = 0; lag < program_.depth; ++lag) {
-      Real* row = sample(block, lag) + lane;
-      for (const OutputChannel& channel : channels_.outputs) {
-        visit(*row, channel.low, channel.high);
-        row += kLanes;
-      }
-      for (const RegressorChannel& channel : channels_.regressors) {
-        visit(*row, channel.least, channel.most);
-        row += kLanes;
-      }
-    }
+    visit_history(ring_, channels_, block, lane, visit);
   }
 
   /// Goes into the hash that tells models apart.
   std::uint64_t hash(std::uint64_t before) const { return hash_of(program_, before); }
 
  private:
-  // The sample `lag` steps ago of a block: outputs, then regressors. The table holds every distance twice, so that the
-  // place in the ring and the lag add up without a modulo.
-  const Real* sample(int block, int lag) const {
-    const Real* ring = ring_.data() + static_cast<std::size_t>(block) * program_.depth * row_;
-    return ring + lag_row_[program_.depth - place_ + lag];
-  }
-  Real* sample(int block, int lag) { return const_cast<Real*>(std::as_const(*this).sample(block, lag)); }
-
   // The run's products are added in the order of its lags, each to what was there before.
   Reals<N> add_run(int block, const TapRun& run, Reals<N> sum) const {
-    const Real* ring = ring_.data() + static_cast<std::size_t>(block) * program_.depth * row_ + run.channel * kLanes;
-    const std::uint32_t* row = lag_row_.data() + (program_.depth - place_) + run.first_lag;
     const float* coefficient = program_.coefficients.data() + run.coefficient;
     for (std::uint32_t k = 0; k < run.count; ++k) {
-      sum = sum + all<Reals<N>>(coefficient[k]) * load<Reals<N>>(ring + row[k]);
+      const Real* past = ring_.sample(block, run.first_lag + k) + run.channel * kLanes;
+      sum = sum + all<Reals<N>>(coefficient[k]) * load<Reals<N>>(past);
     }
     return sum;
   }
@@ -193,8 +172,8 @@ class ArxStepper {
     if (!program_.growth.empty()) grow(block);
   }
 
-  Reals<N> wind_at(int block, int lag) const {
-    const Real* row = sample(block, lag) + program_.outputs * kLanes;
+  Reals<N> wind_at(int block, std::uint32_t lag) const {
+    const Real* row = ring_.sample(block, lag) + program_.outputs * kLanes;
     const auto toward = load<Reals<N>>(row + program_.drawn.toward * kLanes);
     if (program_.drawn.against < 0) return toward;
     return toward - load<Reals<N>>(row + program_.drawn.against * kLanes);
@@ -204,7 +183,7 @@ class ArxStepper {
     Real wind[kLanes], trend[kLanes];
     const auto now = wind_at(block, 0);
     store(now, wind);
-    store(now - wind_at(block, program_.drawn.trend_steps), trend);
+    store(now - wind_at(block, static_cast<std::uint32_t>(program_.drawn.trend_steps)), trend);
     for (int lane = 0; lane < kLanes; ++lane) winds[lane] = {wind[lane], trend[lane]};
   }
 
@@ -233,7 +212,7 @@ class ArxStepper {
     for (int k = 0; k < program_.regressors; ++k) {
       for (int lag = 0; lag < program_.growth_steps; ++lag, ++growth) {
         if (*growth == 0) continue;
-        const Real* regressor = sample(block, lag) + (program_.outputs + k) * kLanes;
+        const Real* regressor = ring_.sample(block, static_cast<std::uint32_t>(lag)) + (program_.outputs + k) * kLanes;
         size = size + all<Reals<N>>(*growth) * load<Reals<N>>(regressor);
       }
     }
@@ -246,8 +225,13 @@ class ArxStepper {
     }
   }
 
-  Reals<N> add_noise(int i, Reals<N> sum) const {
-    if (!drawn_.empty()) return sum + load<Reals<N>>(shocks_.data() + i * kLanes);
+  // What a sum starts from: the constant and the noise.
+  Reals<N> start_shaken(int i) const {
+    auto sum = all<Reals<N>>(program_.constant[i]);
+    if (!drawn_.empty()) {
+      const auto shock = load<Reals<N>>(shocks_.data() + i * kLanes);
+      return program_.constant[i] == 0 ? shock : sum + shock;
+    }
     if (is_shaken(i)) sum = add_shock(i, sd_[i], sum);
     for (int r = 0; r < program_.rank; ++r) sum = add_shock(program_.outputs + r, mixing_[i * program_.rank + r], sum);
     return sum;
@@ -260,14 +244,11 @@ class ArxStepper {
   ArxProgram program_;
   Channels channels_;
   DrawnLanes<N> drawn_;
-  std::span<Real> ring_;
-  std::span<std::uint32_t> lag_row_;
+  SampleRing<N> ring_;  // outputs, then regressors
   std::span<Real> shocks_;
   std::span<int> quiet_;  // [block][regressor]: steps for which it has been 0 in all lanes, up to the depth
   std::span<float> sd_;   // those of the program, scaled, as is the next
   std::span<float> mixing_;
-  std::size_t row_ = 0;
-  int place_ = 0;
   bool noisy_ = false;
 };
 

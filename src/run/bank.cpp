@@ -83,7 +83,7 @@ int Bank::size() const { return state_->living; }
 int Bank::slots() const { return state_->rows; }
 int Bank::input_count() const { return state_->inputs; }
 int Bank::output_count() const { return static_cast<int>(state_->channels.outputs.size()); }
-int Bank::polyline_points() const { return static_cast<int>(state_->polyline.size()); }
+int Bank::polyline_points() const { return state_->polyline.points; }
 std::chrono::nanoseconds Bank::step_time() const { return std::chrono::nanoseconds(state_->step_time); }
 bool Bank::valid(InstanceId id) const { return state_->valid(id); }
 Bank::Held Bank::held() const { return state_->held; }
@@ -223,17 +223,17 @@ bool Bank::outputs(InstanceId id, std::span<float> values) const {
 
 void Bank::polylines(std::span<float> values) const {
   const State& s = *state_;
-  assert(!s.polyline.empty() && values.size() == s.rows * s.polyline.size() * 2);
-  const std::size_t row = s.polyline.size() * 2;
+  const std::size_t row = static_cast<std::size_t>(s.polyline.points) * 2;
+  assert(row > 0 && values.size() == s.rows * row);
   for (int block = 0; block < s.blocks(); ++block) {
     const int first = block * State::kLanes;
     const int lanes = std::min(State::kLanes, s.rows - first);
-    for (std::size_t k = 0; k < row; ++k) {
-      float coordinate[State::kLanes];
-      store(polyline_lanes<LiveNumbers>(s.polyline[k / 2], static_cast<int>(k % 2), s.shown_of(block)), coordinate);
-      for (int lane = 0; lane < lanes; ++lane) {
-        values[(first + lane) * row + k] = s.alive[first + lane] ? coordinate[lane] : 0.0f;
-      }
+    float* out = values.data() + first * row;
+    s.polyline_of(block, [&](int number, const float* lane_values) {
+      for (int lane = 0; lane < lanes; ++lane) out[lane * row + number] = lane_values[lane];
+    });
+    for (int lane = 0; lane < lanes; ++lane) {
+      if (!s.alive[first + lane]) std::fill_n(out + lane * row, row, 0.0f);
     }
   }
 }
@@ -241,13 +241,9 @@ void Bank::polylines(std::span<float> values) const {
 bool Bank::polyline(InstanceId id, std::span<float> values) const {
   const State& s = *state_;
   if (!s.valid(id)) return false;
-  assert(!s.polyline.empty() && values.size() == s.polyline.size() * 2);
+  assert(s.polyline.points > 0 && values.size() == static_cast<std::size_t>(s.polyline.points) * 2);
   const int block = static_cast<int>(id.slot) / State::kLanes, lane = static_cast<int>(id.slot) % State::kLanes;
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    float coordinate[State::kLanes];
-    store(polyline_lanes<LiveNumbers>(s.polyline[k / 2], static_cast<int>(k % 2), s.shown_of(block)), coordinate);
-    values[k] = coordinate[lane];
-  }
+  s.polyline_of(block, [&](int number, const float* lane_values) { values[number] = lane_values[lane]; });
   return true;
 }
 

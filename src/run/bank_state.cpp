@@ -22,9 +22,9 @@ Stepper make_stepper(const Model& model, const Channels& channels, int blocks, A
   return visit_dynamics<LiveNumbers>(model, of_kind);
 }
 
-std::span<PolylinePoint> make_view(const Model& model, int points, Arena& arena) {
+PolylineProgram make_view(const Model& model, int points, Arena& arena) {
   const auto* outline = std::get_if<OutlineView>(&model.view);
-  return outline ? make_polyline(*outline, points, arena) : std::span<PolylinePoint>();
+  return outline ? make_polyline(*outline, points, arena) : PolylineProgram();
 }
 
 }  // namespace
@@ -233,7 +233,17 @@ void Bank::State::show_block(int block) {
   if (extinction.present) show_life(block, share);
 }
 
+// Whether all of a block burns at full size. To shrink it to that would not change a bit.
+bool Bank::State::is_whole(int block) const {
+  bool whole = true;
+  for (const auto& values : {lit, size, previous_size}) {
+    for (int lane = 0; lane < kLanes; ++lane) whole &= values[block * kLanes + lane] == 1.0f;
+  }
+  return whole;
+}
+
 void Bank::State::show_life(int block, float share) {
+  if (is_whole(block)) return;
   for (int lane = 0; lane < kLanes; ++lane) {
     if (lit[block * kLanes + lane] != 0.0f) continue;
     for (std::size_t k = lane; k < channels.outputs.size() * kLanes; k += kLanes) {

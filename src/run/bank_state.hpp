@@ -46,10 +46,21 @@ struct Bank::State {
   float* last_shape_of(int block) { return last_shape.data() + block * channels.outputs.size() * kLanes; }
   void show();
   void show_block(int block);
+  bool is_whole(int block) const;
   void show_life(int block, float share);
   void set_noise(float scale);
   void set_chain(const ChainSettings& settings);
   void read_outputs(int slot, float* values) const;
+  template <class Show>
+  void polyline_of(int block, const Show& show) const {  // show(2 · point + coordinate, [lane])
+    for (int coordinate : {0, 1}) {
+      polyline_lanes<LiveNumbers>(polyline, coordinate, shown_of(block), [&](int point, const auto& values) {
+        float lanes[kLanes];
+        store(values, lanes);
+        show(2 * point + coordinate, lanes);
+      });
+    }
+  }
 
   int capacity;
   int inputs;
@@ -59,7 +70,7 @@ struct Bank::State {
   std::uint64_t model_hash;
   Channels channels;
   Stepper stepper;
-  std::span<PolylinePoint> polyline;
+  PolylineProgram polyline;
   ExtinctionProgram extinction;
 
   std::span<std::uint32_t> generation;  // per slot, as are the next three

@@ -93,7 +93,8 @@ Result<void> check_channel(const std::string& what, double lowest, double highes
 }  // namespace
 
 double channel_scale(double lowest, double highest) {
-  if (!(highest > lowest)) return 1.0;
+  constexpr double kPlain = 128;  // a unit that is not further off than this costs no product and no accuracy
+  if (!(highest - lowest < 1 / kPlain || highest - lowest > kPlain) || !(highest > lowest)) return 1.0;
   int exponent = 0;
   std::frexp(highest - lowest, &exponent);
   return std::ldexp(1.0, exponent - 1);

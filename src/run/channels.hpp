@@ -1,6 +1,7 @@
 #pragma once
-// A model's inputs and outputs as the kernels see them: deviations from the operating point in units of a power of two
-// near the channel's range, so that scaling is exact and "too small to matter" means the same for every model.
+// A model's inputs and outputs as the kernels see them: deviations from the operating point in units near the channel's
+// range, so that "too small to matter" means the same for every model: in the channel's own unit where its range is no
+// smaller or larger than some hundred, else in a power of two, so that scaling is exact.
 
 #include <cstdint>
 #include <span>
@@ -20,7 +21,8 @@ struct OutputChannel {
   float high;
   float lowest;
   float highest;
-  float start;  ///< z of a newborn instance: the operating point
+  float start;                ///< z of a newborn instance: the operating point
+  std::int32_t mirrors = -1;  ///< an earlier output that this is always the negative of, or −1
 };
 
 /// How a regressor is made from its input.
@@ -65,7 +67,7 @@ struct Channels {
   std::span<RegressorChannel> regressors;
 };
 
-/// The power of two that a channel's deviations are measured in; 1 for a channel that does not move.
+/// The power of two that a channel's deviations are measured in; 1 where its range is 1/128 to 128, or nothing.
 double channel_scale(double lowest, double highest);
 
 /// The power of two that a regressor's deviations are measured in.
@@ -114,23 +116,34 @@ inline Reals<N> regress(const RegressorChannel& channel, const Reals<N>& inputs)
   }
   if (is_square(channel.part)) part = part * part;
   if (!channel.curve.empty()) part = bend<N>(channel.curve, part);
-  return settle((part - all<Reals<N>>(channel.mean)) * all<Reals<N>>(channel.inverse_scale));
+  if (channel.mean != 0) part = part - all<Reals<N>>(channel.mean);
+  if (channel.inverse_scale != 1) part = part * all<Reals<N>>(channel.inverse_scale);
+  return settle(part);
 }
 
 /// An output's values in its own unit.
 template <class N>
 inline Reals<N> present(const OutputChannel& channel, const Reals<N>& z) {
-  const auto y = all<Reals<N>>(channel.mean) + all<Reals<N>>(channel.scale) * z;
+  const auto deviation = channel.scale == 1 ? z : all<Reals<N>>(channel.scale) * z;
+  const auto y = all<Reals<N>>(channel.mean) + deviation;
   return hold(y, all<Reals<N>>(channel.lowest), all<Reals<N>>(channel.highest));
+}
+
+/// Numbers with their sign turned; 0 stays +0.
+template <class Part, int kParts>
+inline auto negative(const Pack<Part, kParts>& values) {
+  return all<Pack<Part, kParts>>(0.0f) - values;
 }
 
 /// What is read of a block, [output][lane], when the newest sample is shown.
 template <class N>
 inline void show_newest(const Channels& channels, const typename N::Real* newest, typename N::Real* out) {
-  for (const OutputChannel& channel : channels.outputs) {
-    store(present<N>(channel, load<Reals<N>>(newest)), out);
-    newest += N::kLanes;
-    out += N::kLanes;
+  for (std::size_t i = 0; i < channels.outputs.size(); ++i) {
+    const OutputChannel& channel = channels.outputs[i];
+    const std::size_t at = i * N::kLanes;
+    const auto shown = channel.mirrors < 0 ? present<N>(channel, load<Reals<N>>(newest + at))
+                                           : negative(load<Reals<N>>(out + channel.mirrors * N::kLanes));
+    store(shown, out + at);
   }
 }
 
@@ -138,12 +151,15 @@ inline void show_newest(const Channels& channels, const typename N::Real* newest
 template <class N>
 inline void show_between(const Channels& channels, const typename N::Real* previous, const typename N::Real* newest,
                          float share, typename N::Real* out) {
-  for (const OutputChannel& channel : channels.outputs) {
-    const auto from = load<Reals<N>>(previous), to = load<Reals<N>>(newest);
-    store(present<N>(channel, from + all<Reals<N>>(share) * (to - from)), out);
-    previous += N::kLanes;
-    newest += N::kLanes;
-    out += N::kLanes;
+  for (std::size_t i = 0; i < channels.outputs.size(); ++i) {
+    const OutputChannel& channel = channels.outputs[i];
+    const std::size_t at = i * N::kLanes;
+    if (channel.mirrors >= 0) {
+      store(negative(load<Reals<N>>(out + channel.mirrors * N::kLanes)), out + at);
+      continue;
+    }
+    const auto from = load<Reals<N>>(previous + at), to = load<Reals<N>>(newest + at);
+    store(present<N>(channel, from + all<Reals<N>>(share) * (to - from)), out + at);
   }
 }
 

@@ -71,12 +71,13 @@ StepCount count_step(Stepper& stepper, std::span<const CountingReal> regressors,
 }
 
 template <class Stepper>
-OperationCount count_view(const Channels& channels, const Stepper& stepper, std::span<const PolylinePoint> polyline) {
+OperationCount count_view(const Channels& channels, const Stepper& stepper, const PolylineProgram& polyline) {
   std::vector<CountingReal> shown(channels.outputs.size());
   return count([&] {
     stepper.show_frame(0, shown.data());
-    for (const PolylinePoint& point : polyline) {
-      for (int coordinate : {0, 1}) polyline_lanes<CountingNumbers>(point, coordinate, shown.data());
+    if (polyline.points == 0) return;
+    for (int coordinate : {0, 1}) {
+      polyline_lanes<CountingNumbers>(polyline, coordinate, shown.data(), [](int, const auto&) {});
     }
   });
 }
@@ -90,23 +91,29 @@ std::int64_t count_between(const Channels& channels, const Stepper& stepper) {
   return between.numbers - newest.numbers;
 }
 
-// Taking in the wind, a step, and shrinking what is shown.
-OperationCount count_extinction(const Model& model) {
+struct ExtinctionCount {
+  std::int64_t burning = 0;    // taking in the wind, and a step
+  std::int64_t shrinking = 0;  // besides, what is shown of an instance that goes out or catches
+};
+
+ExtinctionCount count_extinction(const Model& model) {
   const ExtinctionProgram rule = make_extinction_program(model);
   if (!rule.present) return {};
   CountingReal wind, harm, lit(1.0f), size(1.0f);
   std::vector<CountingReal> shown(model.outputs.size());
-  return count([&] {
+  const OperationCount burning = count([&] {
     blowing<CountingNumbers>(rule, {});
     live<CountingNumbers>(rule, {&wind, &harm, &lit, &size});
+  });
+  const OperationCount shrinking = count([&] {
     const auto now = load<Reals<CountingNumbers>>(&size);
     shrink<CountingNumbers>(size_between<CountingNumbers>(now, now, 0.5f), shown.size(), shown.data());
   });
+  return {burning.numbers, shrinking.numbers};
 }
 
 template <class Stepper, class Kind>
-Cost count_frame(const Model& model, const Kind& dynamics, const Channels& channels,
-                 std::span<const PolylinePoint> polyline) {
+Cost count_frame(const Model& model, const Kind& dynamics, const Channels& channels, const PolylineProgram& polyline) {
   Arena measured;
   Stepper(model, dynamics, channels, 1, measured);
   std::vector<std::byte> memory = room_for(measured);
@@ -121,10 +128,11 @@ Cost count_frame(const Model& model, const Kind& dynamics, const Channels& chann
   cost.noise_operations = noisy.numbers - quiet.numbers;
   cost.random_operations = noisy.words - quiet.words;
   cost.view_operations = count_view(channels, stepper, polyline).numbers;
-  cost.extinction_operations = count_extinction(model).numbers;
+  const ExtinctionCount extinction = count_extinction(model);
+  cost.extinction_operations = extinction.burning;
   cost.operations_per_frame = cost.dynamics_operations + cost.noise_operations + cost.random_operations +
                               cost.view_operations + cost.extinction_operations;
-  cost.worst_operations = cost.operations_per_frame - (noisy.numbers + noisy.words) + most;
+  cost.worst_operations = cost.operations_per_frame - (noisy.numbers + noisy.words) + most + extinction.shrinking;
   cost.between_operations = count_between(channels, stepper);
   return cost;
 }
@@ -137,7 +145,7 @@ struct Surroundings {
   }
 
   Channels channels;
-  std::span<PolylinePoint> polyline;
+  PolylineProgram polyline;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 // Plays residuals as they were (DrawnResiduals), lane by lane. An instance's state is the row that it is at and how
 // long ago it jumped there; jumps are decided by comparisons and taken by counted random words.
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -27,7 +28,7 @@ class DrawnLanes {
   DrawnLanes(const DrawnProgram& program, int blocks, Arena& arena) : program_(program) {
     if (program.empty()) return;
     state_ = arena.take<Real>(static_cast<std::size_t>(blocks) * 2 * kLanes);
-    scale_ = arena.take<float>(static_cast<std::size_t>(program.sides) * program.outputs);
+    factor_ = arena.take<float>(static_cast<std::size_t>(program.sides) * program.outputs);
   }
 
   bool empty() const { return program_.empty(); }
@@ -35,12 +36,9 @@ class DrawnLanes {
 
   /// Sets the scale of the noise. Returns whether there is any.
   bool set_noise(float scale) {
-    bool any = false;
-    for (std::size_t k = 0; k < scale_.size(); ++k) {
-      scale_[k] = scale * program_.scale[k];
-      any |= scale_[k] != 0;
-    }
-    return any;
+    std::transform(program_.factor.begin(), program_.factor.end(), factor_.begin(),
+                   [scale](float factor) { return scale * factor; });
+    return !empty() && scale != 0;
   }
 
   /// A newborn jumps in its first step.
@@ -156,8 +154,10 @@ class DrawnLanes {
       const bool mirrored = program_.mirrors() && from_right != (program_.wind[row] < 0);
       const Real row_wind(program_.wind[row]), row_trend(program_.trend[row]);
       const Real strange = mirrored ? row_wind + now.wind : row_wind - now.wind;
+      const Real apart = strange * strange;
+      if (k > 0 && !(value_of(apart) < least)) continue;
       const Real turned = mirrored ? row_trend + now.trend : row_trend - now.trend;
-      const float away = value_of(strange * strange + turned * turned);
+      const float away = value_of(apart + turned * turned);
       if (k > 0 && !(away < least)) continue;
       least = away;
       best = 2 * row + (mirrored ? 1 : 0);
@@ -173,15 +173,17 @@ class DrawnLanes {
   void play(std::uint32_t at, Real* shock) const {
     const auto ny = static_cast<std::size_t>(program_.outputs);
     const std::size_t side = at % 2 != 0 ? ny : 0;
-    const std::int16_t* row = program_.rows.data() + (at / 2) * ny;
+    const float* row = program_.rows.data() + (at / 2) * ny;
     for (std::size_t i = 0; i < ny; ++i) {
-      shock[i * kLanes] = Real(scale_[side + i]) * Real(static_cast<float>(row[program_.from[side + i]]));
+      const Real value(row[program_.from[side + i]]);
+      const float factor = factor_[side + i];
+      shock[i * kLanes] = factor == 1 ? value : Real(factor) * value;
     }
   }
 
   DrawnProgram program_;
   std::span<Real> state_;
-  std::span<float> scale_;  // the program's, times the scale of the noise
+  std::span<float> factor_;  // the program's, times the scale of the noise
 };
 
 }  // namespace wisp

@@ -44,17 +44,25 @@ void fill_winds(const Model& model, const ArxModel& arx, const DrawnResiduals& d
                    [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
 }
 
+void fill_rows(const Model& model, const DrawnResiduals& drawn, DrawnProgram& program) {
+  for (std::size_t k = 0; k < program.rows.size(); ++k) {
+    const std::size_t i = k % drawn.scale.size();
+    const Output& out = model.outputs[i];
+    program.rows[k] = bounded(drawn.rows[k] * (drawn.scale[i] / channel_scale(out.lowest, out.highest)));
+  }
+}
+
 void fill_sides(const Model& model, const DrawnResiduals& drawn, DrawnProgram& program) {
   const auto ny = static_cast<std::size_t>(program.outputs);
-  const auto put = [&](std::size_t place, std::size_t output, std::size_t from, double sign) {
-    const Output& out = model.outputs[output];
-    program.from[place] = static_cast<std::uint16_t>(from);
-    program.scale[place] = bounded(sign * drawn.scale[from] / channel_scale(out.lowest, out.highest));
-  };
-  for (std::size_t i = 0; i < ny; ++i) put(i, i, i, 1);
+  const auto unit = [&](std::size_t i) { return channel_scale(model.outputs[i].lowest, model.outputs[i].highest); };
+  for (std::size_t i = 0; i < ny; ++i) {
+    program.from[i] = static_cast<std::uint16_t>(i);
+    program.factor[i] = 1.0f;
+  }
   for (std::size_t i = 0; i < drawn.mirror.size(); ++i) {
-    const int from = drawn.mirror[i];
-    put(ny + i, i, static_cast<std::size_t>(std::abs(from) - 1), from < 0 ? -1 : 1);
+    const auto from = static_cast<std::size_t>(std::abs(drawn.mirror[i]) - 1);
+    program.from[ny + i] = static_cast<std::uint16_t>(from);
+    program.factor[ny + i] = bounded((drawn.mirror[i] < 0 ? -1 : 1) * unit(from) / unit(i));
   }
 }
 
@@ -73,19 +81,33 @@ DrawnProgram make_drawn_program(const Model& model, const ArxModel& arx, Arena& 
   const std::size_t rows = drawn.row_count();
   const std::size_t winds = program.driven() ? rows : 0;
   program.sides = drawn.mirror.empty() ? 1 : 2;
-  program.rows = arena.take<std::int16_t>(drawn.rows.size());
+  program.rows = arena.take<float>(drawn.rows.size());
   program.left = arena.take<std::uint32_t>(rows);
   program.wind = arena.take<float>(winds);
   program.trend = arena.take<float>(winds);
   program.order = arena.take<std::uint32_t>(winds);
   program.from = arena.take<std::uint16_t>(static_cast<std::size_t>(program.sides) * program.outputs);
-  program.scale = arena.take<float>(static_cast<std::size_t>(program.sides) * program.outputs);
+  program.factor = arena.take<float>(static_cast<std::size_t>(program.sides) * program.outputs);
   if (arena.measures()) return program;
-  std::copy(drawn.rows.begin(), drawn.rows.end(), program.rows.begin());
+  fill_rows(model, drawn, program);
   fill_left(drawn, program);
   fill_sides(model, drawn, program);
   if (program.driven()) fill_winds(model, arx, drawn, program);
   return program;
+}
+
+bool residuals_mirror(const DrawnProgram& program, int a, int b) {
+  const auto ny = static_cast<std::size_t>(program.outputs);
+  for (std::size_t row = 0; row < program.rows.size(); row += ny) {
+    for (std::size_t side = 0; side < program.from.size(); side += ny) {
+      const auto taken = [&](int output) {
+        const std::size_t place = side + static_cast<std::size_t>(output);
+        return program.factor[place] * program.rows[row + program.from[place]];
+      };
+      if (taken(a) != -taken(b)) return false;
+    }
+  }
+  return true;
 }
 
 std::uint64_t hash_of(const DrawnProgram& program, std::uint64_t before) {
@@ -95,12 +117,12 @@ std::uint64_t hash_of(const DrawnProgram& program, std::uint64_t before) {
     hash = hash_number(static_cast<std::uint32_t>(number), hash);
   }
   for (std::uint32_t number : {program.shortest, program.longest}) hash = hash_number(number, hash);
-  for (std::int16_t value : program.rows) hash = hash_number(static_cast<std::uint32_t>(value), hash);
   for (std::uint32_t left : program.left) hash = hash_number(left, hash);
   for (std::uint16_t from : program.from) hash = hash_number(std::uint32_t{from}, hash);
   const float tolerance[] = {program.tolerance};
-  for (const auto numbers : {std::span<const float>(tolerance), std::span<const float>(program.wind),
-                             std::span<const float>(program.trend), std::span<const float>(program.scale)}) {
+  for (const auto numbers :
+       {std::span<const float>(tolerance), std::span<const float>(program.rows), std::span<const float>(program.wind),
+        std::span<const float>(program.trend), std::span<const float>(program.factor)}) {
     hash = hash_floats(numbers, hash);
   }
   return hash;

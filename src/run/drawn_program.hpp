@@ -23,13 +23,13 @@ struct DrawnProgram {
   float tolerance = 0;
   std::uint32_t shortest = 1;
   std::uint32_t longest = 1;
-  std::span<std::int16_t> rows;    ///< rows × outputs
+  std::span<float> rows;           ///< rows × outputs, in the outputs' channel units
   std::span<std::uint32_t> left;   ///< per row, how many follow it in its stretch
   std::span<float> wind;           ///< per row; empty where nothing drives it
   std::span<float> trend;          ///< per row
   std::span<std::uint32_t> order;  ///< rows by rising strength of the wind, or by rising wind where there is no mirror
   std::span<std::uint16_t> from;   ///< side × outputs: whose residual an output takes
-  std::span<float> scale;          ///< side × outputs; of the mirrored side with its sign
+  std::span<float> factor;         ///< side × outputs, of what is taken: 1, on the mirrored side −1 where it negates
 
   bool empty() const { return outputs == 0; }
   bool driven() const { return toward >= 0; }
@@ -40,6 +40,9 @@ struct DrawnProgram {
 ///
 /// Precondition: the model has passed check().
 DrawnProgram make_drawn_program(const Model& model, const ArxModel& arx, Arena& arena);
+
+/// Whether output b always gets the negative of what output a gets.
+bool residuals_mirror(const DrawnProgram& program, int a, int b);
 
 /// A hash of the program, over a hash of what came before: the latter itself where nothing is drawn.
 std::uint64_t hash_of(const DrawnProgram& program, std::uint64_t before);

@@ -1,8 +1,8 @@
 #pragma once
 // Whether instances burn: the rule of extinction (wisp/model/extinction.hpp), block by block.
 //
-// An instance has harm, 0 … 1; whether it is lit, 1 or 0; and the size at which it is seen, 0 … 1. Seven operations a
-// step, three to take in the wind, and one for each output that is shown.
+// An instance has harm, 0 … 1; whether it is lit, 1 or 0; and the size at which it is seen, 0 … 1. Six operations a
+// step, one to take in the wind, and while it shrinks or grows three, and one for each output that is shown.
 
 #include <cstdint>
 

@@ -9,9 +9,9 @@
 #include <span>
 
 #include "run/chain_lane.hpp"
+#include "run/channel_history.hpp"
 #include "run/moment.hpp"
 #include "run/rigid.hpp"
-#include "run/sample_ring.hpp"
 #include "run/switched_program.hpp"
 #include "wisp/run/bank.hpp"
 
@@ -105,11 +105,7 @@ class SwitchedStepper {
 
   /// Puts one lane to the operating point, before its first mode.
   void start(int block, int lane, const Moment<N>&) {
-    for (int lag = 0; lag < program_.depth; ++lag) {
-      Real* row = ring_.sample(block, static_cast<std::uint32_t>(lag));
-      for (int i = 0; i < program_.outputs; ++i) row[i * kLanes + lane] = Real(channels_.outputs[i].start);
-      for (int k = 0; k < program_.regressors; ++k) row[(program_.outputs + k) * kLanes + lane] = Real(0);
-    }
+    start_history(ring_, channels_, block, lane);
     modes_[block * kLanes + lane] = Real(kNoMode);
   }
 
@@ -141,17 +137,7 @@ class SwitchedStepper {
   template <class Visit>
   void visit_lane(int block, int lane, Visit visit) {
     visit(modes_[block * kLanes + lane], kNoMode, static_cast<float>(program_.modes - 1));
-    for (int lag = 0; lag < program_.depth; ++lag) {
-      Real* row = ring_.sample(block, static_cast<std::uint32_t>(lag)) + lane;
-      for (const OutputChannel& channel : channels_.outputs) {
-        visit(*row, channel.low, channel.high);
-        row += kLanes;
-      }
-      for (const RegressorChannel& channel : channels_.regressors) {
-        visit(*row, channel.least, channel.most);
-        row += kLanes;
-      }
-    }
+    visit_history(ring_, channels_, block, lane, visit);
   }
 
   /// Goes into the hash that tells models apart.

@@ -49,19 +49,53 @@ Model smallest_model() {
 TEST(Cost, IsWhatOneCountsByHand) {
   const Cost cost = cost_of(smallest_model());
   EXPECT_EQ(cost.multiply_adds_per_frame, 2);
-  EXPECT_EQ(cost.dynamics_operations, 2 + 2 * 2 + 1);  // input: − ×; each coefficient: × +; held or not: or
-  EXPECT_EQ(cost.noise_operations, 5 + 2);             // a deviate: + of ½, × + × + of the quadratic; its use: × +
+  EXPECT_EQ(cost.dynamics_operations, 2 * 2 + 1);  // each coefficient: × +; held or not: or
+  EXPECT_EQ(cost.noise_operations, 5 + 2);         // a deviate: + of ½, × + × + of the quadratic; its use: × +
   // Four words are made at a time: the counter's group, seven rounds of two products and four exclusive ors. The word
   // that is used: shift, xor, shift, and, and, xor.
   EXPECT_EQ(cost.random_operations, 1 + 7 * 6 + 6);
-  EXPECT_EQ(cost.view_operations, 3 + 2);  // between two steps: − × +; to the output's unit: × +
+  EXPECT_EQ(cost.view_operations, 3 + 1);  // between two steps: − × +; from the mean: +
   EXPECT_EQ(cost.operations_per_frame,
             cost.dynamics_operations + cost.noise_operations + cost.random_operations + cost.view_operations);
 }
 
-TEST(Cost, APolylinePointTakesFourteenOperations) {
+TEST(Cost, ChannelsFarFromTheirUnitTakeAProductMore) {
+  Model model = smallest_model();
+  model.outputs[0].lowest = model.inputs[0].lowest = -1000;
+  std::get<ArxModel>(model.dynamics).input_mean = {0.5};
+  EXPECT_EQ(cost_of(model).view_operations, 3 + 2);
+  EXPECT_EQ(cost_of(model).dynamics_operations, 2 + 2 * 2 + 1);  // input: − ×
+}
+
+// Of 32 points two are ends of the outline. The 7, 6, 6, 6 and 5 others in its five knot spans: the first of each but
+// of the first span takes 6 operations, and each after it an addition; differences begin with 4 and 2 and go on by
+// additions.
+TEST(Cost, APolylineTakesFewerThanFiveOperationsACoordinate) {
   const Model model = flame_model();
-  EXPECT_EQ(cost_of(model, 33).view_operations, cost_of(model).view_operations + 33 * 14);
+  const int derivatives = 7 * 2 + 6 * 2 + 5 * 2;
+  const int first = 6 + (4 + 5) + (2 + 4), other = 6 + 5 + (4 + 4) + (2 + 3);
+  EXPECT_EQ(cost_of(model, 32).view_operations, cost_of(model).view_operations + 2 * (derivatives + first + 4 * other));
+}
+
+TEST(Cost, TheDefaultFlameWithEverythingOnTakesFewerThan600Operations) {
+  const Cost cost = cost_of(default_flame_model(), 32);
+  EXPECT_EQ(cost.multiply_adds_per_frame, 144 - 4);  // the ends have no last tap of either wind
+  for (std::int64_t part : {cost.dynamics_operations, cost.noise_operations, cost.random_operations,
+                            cost.view_operations, cost.extinction_operations}) {
+    EXPECT_GT(part, 0);
+  }
+  EXPECT_LT(cost.operations_per_frame, 600);
+}
+
+// Each of the two would take three lags of its own and three of the wind that blows (the x only two), products and sums,
+// and whether it was held.
+TEST(Cost, AnOutputThatMirrorsAnotherTakesOneOperationAStepAndOneToBeShown) {
+  const Cost cost = cost_of(default_flame_model());
+  Model model = default_flame_model();
+  for (int i : {14, 15}) std::get<ArxModel>(model.dynamics).theta[i][8] += 0.001;
+  const Cost other = cost_of(model);
+  EXPECT_EQ(other.dynamics_operations - cost.dynamics_operations, (5 + 6) * 2 + 2 * (1 - 1));
+  EXPECT_EQ(other.view_operations - cost.view_operations, 2 * (4 - 1));
 }
 
 TEST(Cost, AModelWithoutNoiseDrawsNoRandomNumbers) {
@@ -87,7 +121,7 @@ TEST(Cost, TheWindsSquareCostsItsTapsAndOneProductAnInput) {
   const Cost plain = cost_of(flame_model());
   const Cost square = cost_of(flame_model({.wind = InputShape::kLinearSquare}));
   EXPECT_EQ(square.multiply_adds_per_frame, plain.multiply_adds_per_frame + 16 * 4);
-  EXPECT_EQ(square.dynamics_operations, plain.dynamics_operations + 2 * 16 * 4 + 3);
+  EXPECT_EQ(square.dynamics_operations, plain.dynamics_operations + 2 * 16 * 4 + 2);
 }
 
 // For every knot a difference, a product and a sum; the wind's bounds cost nothing.

@@ -89,4 +89,29 @@ inline Model flame_model(const FlameOptions& options = {}) {
   return model;
 }
 
+/// A flame as `wisp learn flame` makes them: three lags of every coordinate alone and of a wind from either side, the
+/// outline's last point the first one mirrored about the base's middle, residuals that are drawn, a rule of extinction.
+inline Model default_flame_model() {
+  constexpr int kOutputs = 16, kLags = 3;
+  Model model = flame_model({.wind = InputShape::kSplitSign, .drawn_rows = 600});
+  auto& arx = std::get<ArxModel>(model.dynamics);
+  arx.orders = {OrderMatrix(kOutputs, kOutputs), OrderMatrix(kOutputs, 2, kLags), OrderMatrix(kOutputs, 2)};
+  for (int i = 0; i < kOutputs; ++i) {
+    arx.orders.na(i, i) = kLags;
+    const double wind = i % 2 == 0 ? 0.02 : -0.006;
+    arx.theta[i] = {-1.2, 0.6, -0.1, wind, 0.5 * wind, 0.001 * i, i % 2 == 0 ? -wind : wind, 0.004, 0.0001 * i};
+  }
+  arx.input_mean = {0, 0};
+  auto& rows = arx.noise.drawn.rows;
+  for (int i : {0, 1}) {
+    const int other = kOutputs - 2 + i;
+    for (int k = 0; k < 3 * kLags; ++k) arx.theta[other][k] = (k < kLags ? 1 : -1) * arx.theta[i][k];
+    for (std::size_t row = 0; row < rows.size(); row += kOutputs) {
+      rows[row + other] = static_cast<std::int16_t>(-rows[row + i]);
+    }
+  }
+  model.extinction = Extinction{};
+  return model;
+}
+
 }  // namespace wisp

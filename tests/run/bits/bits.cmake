@@ -4,7 +4,7 @@
 #   cmake -DSOURCE=… -DWORK=… -DOPTIONS="the layer's options" [-DLAUNCHER=ccache] -P bits.cmake
 #
 # A change of this hash is a change of what every game sees: CHANGES.md says so on a line of its own.
-set(golden 0380511a58259244)
+set(golden 53757e88fa9a5eea)
 
 set(variants
   "g++ -O0"
@@ -19,7 +19,7 @@ separate_arguments(OPTIONS)
 
 # What is compiled anew each time: all that computes on a frame's path, or for it. The rest, once.
 file(GLOB computing ${SOURCE}/src/run/*.cpp)
-list(FILTER computing EXCLUDE REGEX "/(wind_|cost|chain_loop)")
+list(FILTER computing EXCLUDE REGEX "/(wind_|cost|chain_loop)[^/]*$")
 list(APPEND computing ${SOURCE}/src/model/bspline.cpp ${SOURCE}/src/model/mode_splines.cpp
   ${SOURCE}/tests/run/bits/frames.cpp)
 file(GLOB ground ${SOURCE}/src/model/*.cpp)

@@ -72,8 +72,7 @@ void time_frames(std::uint64_t& hash, const Model& model, int capacity, int fram
 }
 
 // Flames that go out now and then, and are lit again.
-void mortal_frames(std::uint64_t& hash, int capacity, int frames) {
-  Model model = flame_model({.wind = InputShape::kSplitSign});
+void mortal_frames(std::uint64_t& hash, Model model, int capacity, int frames) {
   model.extinction = Extinction{.level = 1.3, .seconds = 0.15, .haste = 1.7, .recovery = 0.35, .catching = 0.3};
   Bank bank = full_bank(model, capacity, 8);
   std::vector<float> wind(capacity);
@@ -102,13 +101,15 @@ void fading_frames(std::uint64_t& hash, int frames) {
   for (Output& output : model.outputs) output.lowest = -(output.highest = 0.5);
   Bank bank = full_bank(model, 3, 7);
   bank.set_noise(0);
-  std::vector<float> outputs(48);
+  std::vector<float> outputs(48), points(static_cast<std::size_t>(3) * bank.polyline_points() * 2);
   for (int frame = 0; frame < frames; ++frame) {
     const float wind = frame % 700 < 3 ? 1e-3f : 0.0f;
     bank.set_common_inputs(std::span(&wind, 1));
     bank.step();
     bank.outputs(outputs);
     add(hash, outputs);
+    bank.polylines(points);
+    add(hash, points);
   }
 }
 
@@ -158,7 +159,8 @@ int main() {
   step_frames(hash, flame_model({.wind = InputShape::kSplitSignCurve}), 5, 3'000);
   step_frames(hash, flame_model({.wind = InputShape::kCurve}), 9, 1'000);
   time_frames(hash, flame_model(), 37, 1'000);
-  mortal_frames(hash, 11, 2'000);
+  mortal_frames(hash, flame_model({.wind = InputShape::kSplitSign}), 11, 2'000);
+  mortal_frames(hash, default_flame_model(), 5, 2'000);
   for (int capacity : {1, 13}) falling_frames(hash, windy_chain(), capacity, 4'000);
   falling_frames(hash, sample_chain(ChainMotion::kPosition), 5, 2'000);
   falling_frames(hash, spline_chain(), 9, 2'000);

@@ -1,0 +1,42 @@
+// Counts anew what models cost a frame and writes it into their files, where that has changed: `wisp_recount_costs
+// MODEL.wisp …`. The page reads it there (WISP_COST_AS_LEARNED); all else in the files stays as it was learned.
+
+#include <cstdio>
+
+#include "wisp/model/file.hpp"
+#include "wisp/run/cost.hpp"
+
+namespace {
+
+using namespace wisp;
+
+Result<void> recount(const char* path) {
+  auto model = read_model(path);
+  if (!model) return model.error();
+  const auto cost = count_operations(*model);
+  if (!cost) return cost.error();
+  bool changed = false;
+  for (Figure& figure : model->provenance.figures) {
+    const auto set = [&](const char* name, std::int64_t value) {
+      if (figure.name != name || figure.value == static_cast<double>(value)) return;
+      std::printf("%s: %s %.0f, was %.0f\n", path, name, static_cast<double>(value), figure.value);
+      figure.value = static_cast<double>(value);
+      changed = true;
+    };
+    set("multiply_adds_per_frame", cost->multiply_adds_per_frame);
+    set("operations_per_frame", cost->operations_per_frame);
+  }
+  return changed ? write_model(path, *model) : Result<void>();
+}
+
+}  // namespace
+
+int main(int count, char** paths) {
+  for (int k = 1; k < count; ++k) {
+    if (const auto ok = recount(paths[k]); !ok) {
+      std::fprintf(stderr, "%s\n", ok.error().message.c_str());
+      return 1;
+    }
+  }
+  return 0;
+}
