@@ -64,20 +64,20 @@ std::vector<Recording> FlameCorpus::get(const Takes& takes, bool again) {
 
 UnseenFlames FlameCorpus::unseen(const Takes& takes) { return {takes.name, get(takes, false), get(takes, true)}; }
 
-std::vector<Recording> FlameCorpus::gusts() { return get({"learn", {.seconds = 40}, {11, 12, 13}}, false); }
+std::vector<Recording> FlameCorpus::gusts() { return get({"learn", {11, 12, 13}, {.seconds = 40}}, false); }
 
 std::vector<Recording> FlameCorpus::with_puffs() {
   auto out = gusts();
-  out.push_back(burning(get({"learn-puffs", {.seconds = 40, .wind = FlameWind::kPuffs}, {14}}, false)).front());
+  out.push_back(burning(get({"learn-puffs", {14}, {.seconds = 40, .wind = FlameWind::kPuffs}}, false)).front());
   return out;
 }
 
-UnseenFlames FlameCorpus::unseen_gusts() { return unseen({"gusts", {.seconds = 20}, {21, 22, 23}}); }
+UnseenFlames FlameCorpus::unseen_gusts() { return unseen({"gusts", {21, 22, 23}, {.seconds = 20}}); }
 
-UnseenFlames FlameCorpus::unseen_calm() { return unseen({"calm", {.seconds = 20, .wind = FlameWind::kCalm}, {31}}); }
+UnseenFlames FlameCorpus::unseen_calm() { return unseen({"calm", {31}, {.seconds = 20, .wind = FlameWind::kCalm}}); }
 
 UnseenFlames FlameCorpus::unseen_blow_outs() {
-  return unseen({"blow-out", {.seconds = 20, .wind = FlameWind::kPuffs}, {41, 42}});
+  return unseen({"blow-out", {41, 42}, {.seconds = 20, .wind = FlameWind::kPuffs}});
 }
 
 UnseenFlames FlameCorpus::unseen_between_blow_outs() {

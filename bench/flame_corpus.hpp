@@ -39,8 +39,8 @@ class FlameCorpus {
  private:
   struct Takes {
     std::string name;
-    FlameClipChoice choice;
     std::vector<std::uint64_t> seeds;
+    FlameClipChoice choice;
   };
   Recording get(const std::string& name, FlameClipChoice choice);
   std::vector<Recording> get(const Takes& takes, bool again);
