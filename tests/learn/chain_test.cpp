@@ -91,10 +91,10 @@ TEST(LearnChain, JoinsJumpNoMoreThanRowsOfTheRecordingDo) {
   EXPECT_LE(fidelity->join_defect.rotation.percentile_99, 1);
 }
 
-// How far 40 falls are, on average, from a height of 2.9 m below where they began after three seconds: made falls keep
+// How far 400 falls are, on average, from a height of 2.9 m below where they began after three seconds: made falls keep
 // their heading, and can only be hastened.
 double mean_miss(const Model& model, bool steered) {
-  constexpr int kFalls = 40;
+  constexpr int kFalls = 400;
   auto bank = Bank::create(model, {.capacity = kFalls});
   std::vector<float> poses(7 * kFalls);
   for (int k = 0; k < kFalls; ++k) {
