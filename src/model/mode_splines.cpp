@@ -36,7 +36,7 @@ void make_unit(std::span<double> q, double scale) {
   double square = 0;
   for (double x : q) square += x * x;
   if (!(square > 1)) {
-    std::ranges::fill(q, 0.0);
+    std::fill(q.begin(), q.end(), 0.0);
     q[0] = square = 1;
   }
   const double length = 1 / (scale * __builtin_sqrt(square));
@@ -44,7 +44,7 @@ void make_unit(std::span<double> q, double scale) {
 }
 
 bool in_range(const std::vector<float>& numbers) {
-  return std::ranges::all_of(numbers, [](float x) { return x >= -kMostNumber && x <= kMostNumber; });
+  return std::all_of(numbers.begin(), numbers.end(), [](float x) { return x >= -kMostNumber && x <= kMostNumber; });
 }
 
 // Whether segments are so far sound that rows can be made of them.
@@ -52,8 +52,8 @@ bool are_sound(const ChainSegments& segments, int modes, int channels) {
   const auto known = [&](std::uint16_t mode) { return mode < modes; };
   const auto lasts = [](std::uint16_t steps) { return steps > 0; };
   const auto measures = [](double scale) { return scale >= 1e-12 && scale <= kMostNumber; };
-  return std::ranges::all_of(segments.mode, known) && std::ranges::all_of(segments.steps, lasts) &&
-         std::ranges::all_of(segments.row_scale, measures) && segments.steps.size() == segments.size() &&
+  return std::all_of(segments.mode.begin(), segments.mode.end(), known) && std::all_of(segments.steps.begin(), segments.steps.end(), lasts) &&
+         std::all_of(segments.row_scale.begin(), segments.row_scale.end(), measures) && segments.steps.size() == segments.size() &&
          segments.row_scale.size() == (channels == 7 ? 2U : 1U);
 }
 
@@ -70,7 +70,7 @@ std::vector<std::int16_t> rows_of(const ModeSplines& splines, const ChainSegment
     const int steps = segments.steps[segment];
     for (int step = 0; step <= steps; ++step) {
       const BasisWeights weights = basis(knots, static_cast<double>(step) / steps);
-      std::ranges::fill(row, 0.0);
+      std::fill(row.begin(), row.end(), 0.0);
       for (std::size_t k = 0; k < 4; ++k) {
         const double* point = points.data() + (static_cast<std::size_t>(weights.first) + k) * width;
         for (std::size_t channel = 0; channel < width; ++channel) row[channel] += weights.weight[k] * point[channel];

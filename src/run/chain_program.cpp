@@ -103,7 +103,8 @@ void fill_changes(ChainProgram& program) {
       for (std::size_t k = 0; k < 3; ++k) spin[k] = static_cast<float>(rate[k]) * program.spin_scale;
       Quaternion<float> orientation;
       for (std::size_t k = 0; k < 4; ++k) orientation[k] = static_cast<float>(q[k]);
-      out = std::ranges::copy(quaternion_rate(spin, orientation), out).out;
+      const Quaternion<float> change = quaternion_rate(spin, orientation);
+      out = std::copy(change.begin(), change.end(), out);
     }
   }
 }

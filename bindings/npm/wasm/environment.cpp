@@ -1,0 +1,11 @@
+// The C library asks for environment variables when it starts. There are none here, and a host need not have a place to ask.
+
+#include <cstddef>
+#include <cstdint>
+
+extern "C" std::uint16_t __wasi_environ_sizes_get(std::size_t* count, std::size_t* bytes) {
+  *count = *bytes = 0;
+  return 0;
+}
+
+extern "C" std::uint16_t __wasi_environ_get(std::uint8_t**, std::uint8_t*) { return 0; }
