@@ -52,9 +52,10 @@ bool are_sound(const ChainSegments& segments, int modes, int channels) {
   const auto known = [&](std::uint16_t mode) { return mode < modes; };
   const auto lasts = [](std::uint16_t steps) { return steps > 0; };
   const auto measures = [](double scale) { return scale >= 1e-12 && scale <= kMostNumber; };
-  return std::all_of(segments.mode.begin(), segments.mode.end(), known) && std::all_of(segments.steps.begin(), segments.steps.end(), lasts) &&
-         std::all_of(segments.row_scale.begin(), segments.row_scale.end(), measures) && segments.steps.size() == segments.size() &&
-         segments.row_scale.size() == (channels == 7 ? 2U : 1U);
+  return std::all_of(segments.mode.begin(), segments.mode.end(), known) &&
+         std::all_of(segments.steps.begin(), segments.steps.end(), lasts) &&
+         std::all_of(segments.row_scale.begin(), segments.row_scale.end(), measures) &&
+         segments.steps.size() == segments.size() && segments.row_scale.size() == (channels == 7 ? 2U : 1U);
 }
 
 }  // namespace

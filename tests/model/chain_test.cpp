@@ -100,9 +100,7 @@ class ChainBytes : public testing::TestWithParam<Model (*)()> {};
 INSTANTIATE_TEST_SUITE_P(Kinds, ChainBytes,
                          testing::Values([] { return sample_chain(); }, [] { return spline_chain(); }));
 
-TEST_P(ChainBytes, EveryTruncationAndEveryBitFlipIsAnError) {
-  expect_damage_noticed(*model_bytes(GetParam()()));
-}
+TEST_P(ChainBytes, EveryTruncationAndEveryBitFlipIsAnError) { expect_damage_noticed(*model_bytes(GetParam()())); }
 
 TEST(ChainModel, WhatIsNotAChainIsRefusedWithAReason) {
   const double nan = std::numeric_limits<double>::quiet_NaN();

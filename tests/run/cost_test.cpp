@@ -87,8 +87,8 @@ TEST(Cost, TheDefaultFlameWithEverythingOnTakesFewerThan600Operations) {
   EXPECT_LT(cost.operations_per_frame, 600);
 }
 
-// Each of the two would take three lags of its own and three of the wind that blows (the x only two), products and sums,
-// and whether it was held.
+// Each of the two would take three lags of its own and three of the wind that blows (the x only two), products and
+// sums, and whether it was held.
 TEST(Cost, AnOutputThatMirrorsAnotherTakesOneOperationAStepAndOneToBeShown) {
   const Cost cost = cost_of(default_flame_model());
   Model model = default_flame_model();

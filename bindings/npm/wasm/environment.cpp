@@ -1,4 +1,5 @@
-// The C library asks for environment variables when it starts. There are none here, and a host need not have a place to ask.
+// The C library asks for environment variables when it starts. There are none here, and a host need not have a place to
+// ask.
 
 #include <cstddef>
 #include <cstdint>
