@@ -35,7 +35,8 @@ struct Counts {
 };
 thread_local Counts counts;
 
-void* counted_allocation(std::size_t size, std::size_t alignment) {
+// Not inlined: g++ would see malloc() meet delete, and warn of it.
+[[gnu::noinline]] void* counted_allocation(std::size_t size, std::size_t alignment) {
   ++counts.allocations;
   const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
   void* memory = alignment <= alignof(std::max_align_t) ? std::malloc(size) : std::aligned_alloc(alignment, rounded);
