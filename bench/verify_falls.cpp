@@ -93,18 +93,6 @@ int main(int count, char** names) {
     if (const auto ok = write_windows(names[2]); !ok) give_up(ok.error());
     return 0;
   }
-  struct Check {
-    const char* name;
-    void (*run)(Bounds&);
-  };
   constexpr std::array kChecks = {Check{"gusts", gusts}, Check{"paper", paper}, Check{"spread", spread}};
-  Bounds bounds;
-  for (const Check& check : kChecks) {
-    const auto wanted = [&](const char* name) { return std::string(name) == check.name; };
-    if (count > 1 && std::none_of(names + 1, names + count, wanted)) continue;
-    check.run(bounds);
-    std::fflush(stdout);
-  }
-  std::printf("\n%d bounds missed\n", bounds.missed());
-  return bounds.missed() == 0 ? 0 : 1;
+  return run_checks(kChecks, std::span(names, static_cast<std::size_t>(count)).subspan(1));
 }

@@ -62,20 +62,8 @@ void plate(Bounds& bounds) {
 
 int main(int count, char** names) {
   using namespace wisp::verify;
-  struct Check {
-    const char* name;
-    void (*run)(Bounds&);
-  };
   constexpr std::array kChecks = {Check{"plate", plate},   Check{"integrators", integrators},
                                   Check{"energy", energy}, Check{"regimes", regimes},
                                   Check{"discs", discs},   Check{"gusts", gusts}};
-  Bounds bounds;
-  for (const Check& check : kChecks) {
-    const auto wanted = [&](const char* name) { return std::string(name) == check.name; };
-    if (count > 1 && std::none_of(names + 1, names + count, wanted)) continue;
-    check.run(bounds);
-    std::fflush(stdout);
-  }
-  std::printf("\n%d bounds missed\n", bounds.missed());
-  return bounds.missed() == 0 ? 0 : 1;
+  return run_checks(kChecks, std::span(names, static_cast<std::size_t>(count)).subspan(1));
 }
