@@ -2,19 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 #include "arx_triangle.hpp"
+#include "wisp/base/number_text.hpp"
 
 namespace wisp {
 namespace {
-
-std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g", value);
-  return text;
-}
 
 SharedProblem problem_of(const SharedRows& rows, const std::vector<double>& scale, const ArxDesign& design,
                          double ridge) {
@@ -102,7 +96,7 @@ std::optional<ArxEstimate> try_gram(const Signals& signals, const RowPlan& plan,
     estimate.target_square[i] = gram(target, target) - gram(0, target) * gram(0, target) / gram(0, 0);
   }
   estimate.method = "normal equations from the lag structure, refined with residuals from the data (condition " +
-                    short_number(condition) + ")";
+                    number_text(condition, 2) + ")";
   if (options.joint) estimate.gram = std::move(gram);
   estimate.residual_gram_at = [&](const GroupThetas& theta) {
     return residual_products(signals, plan, design, theta).gram;
@@ -142,7 +136,7 @@ ArxEstimate estimate_from_triangle(const Eigen::MatrixXd& triangle, const std::v
     estimate.target_square[i] = target.squaredNorm() - sum * sum / rows;
   }
   if (options.joint) estimate.gram = triangle.transpose() * triangle;
-  estimate.method = "Householder QR by blocks of rows (condition " + short_number(condition) + ")";
+  estimate.method = "Householder QR by blocks of rows (condition " + number_text(condition, 2) + ")";
   estimate.residual_gram_at = [triangle, &design](const GroupThetas& theta) {
     const Eigen::MatrixXd at = residuals_of(triangle, design, theta);
     return Eigen::MatrixXd(at.transpose() * at);

@@ -5,21 +5,10 @@
 #include <cstdio>
 
 #include "arx_report.hpp"
+#include "wisp/base/number_text.hpp"
 
 namespace wisp {
 namespace {
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
-
-std::string short_number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g", value);
-  return text;
-}
 
 std::string percent(double value) {
   char text[32];
@@ -63,11 +52,11 @@ void judge_fit(const FitFacts& facts, ArxSummary& summary) {
     }
   }
   if (summary.stable.changed) {
-    warnings.push_back("the estimate was unstable (spectral radius " + number(summary.stable.estimated) +
-                       ") and was made stable (" + number(summary.stable.radius) +
-                       "); the squared one-step error grew by " + short_number(100 * (summary.stable.loss_factor - 1)) +
-                       " %, no coefficient moved by more than " + short_number(summary.stable.moved) +
-                       " standard errors");
+    warnings.push_back(
+        "the estimate was unstable (spectral radius " + number_text(summary.stable.estimated, 4) +
+        ") and was made stable (" + number_text(summary.stable.radius, 4) + "); the squared one-step error grew by " +
+        number_text(100 * (summary.stable.loss_factor - 1), 2) + " %, no coefficient moved by more than " +
+        number_text(summary.stable.moved, 2) + " standard errors");
   }
   warn_of_free_run(facts.names, summary);
   for (int i = 0; i < facts.outputs; ++i) {
@@ -78,7 +67,7 @@ void judge_fit(const FitFacts& facts, ArxSummary& summary) {
   if (!summary.rank_problems.empty()) {
     summary.usable = {false, "the data cannot tell all coefficients: " + summary.rank_problems.front().reason};
   } else if (!(summary.stable.radius < 1)) {
-    summary.usable = {false, "the model is unstable: spectral radius " + number(summary.stable.radius)};
+    summary.usable = {false, "the model is unstable: spectral radius " + number_text(summary.stable.radius, 4)};
   }
 }
 

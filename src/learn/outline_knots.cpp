@@ -1,9 +1,7 @@
 #include "wisp/learn/outline_knots.hpp"
 
 #include <Eigen/Dense>
-#include <charconv>
 #include <cmath>
-#include <string>
 
 #include "wisp/model/bspline.hpp"
 
@@ -39,26 +37,6 @@ Matrix change(const Matrix& from, const Matrix& to) {
   return out;
 }
 
-std::string knots_text(std::span<const double> knots) {
-  std::string text;
-  for (double knot : knots) {
-    char digits[32];
-    const auto [end, error] = std::to_chars(digits, digits + sizeof digits, knot);
-    text += (text.empty() ? "" : " ") + std::string(digits, end);
-  }
-  return text;
-}
-
-void set_knots(Recording& recording, const std::string& text) {
-  for (Attribute& attribute : recording.attributes) {
-    if (attribute.name == "knots") {
-      attribute.value = text;
-      return;
-    }
-  }
-  recording.attributes.push_back({"knots", text});
-}
-
 }  // namespace
 
 Reknotted with_knots(const Recording& recording, const OutlineLayout& layout, std::span<const double> knots) {
@@ -66,7 +44,7 @@ Reknotted with_knots(const Recording& recording, const OutlineLayout& layout, st
   const Matrix to = basis_table(knots);
   const Matrix matrix = change(from, to);
   Reknotted out{recording, 0};
-  set_knots(out.recording, knots_text(knots));
+  set_numbers_attribute(out.recording, "knots", knots);
   const auto points = static_cast<Eigen::Index>(layout.points);
   double square = 0;
   double rows = 0;

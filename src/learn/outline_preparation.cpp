@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
+#include "wisp/base/number_text.hpp"
 #include "wisp/learn/outline_knots.hpp"
 #include "wisp/model/bspline.hpp"
 
@@ -13,12 +13,6 @@ namespace {
 
 // Fewer calm rows than this say little about the calm height; then all rows are taken.
 constexpr double kCalmSeconds = 0.5;
-
-std::string text(double value) {
-  char out[32];
-  std::snprintf(out, sizeof out, "%.2g", value);
-  return out;
-}
 
 std::vector<std::string> input_names(const Recording& recording) {
   std::vector<std::string> names;
@@ -63,7 +57,7 @@ Result<void> add(const Recording& recording, double pixels_per_unit, PreparedOut
   if (layout->knots != prepared.layout.knots) {
     const Reknotted other = with_knots(recording, *layout, prepared.layout.knots);
     prepared.warnings.push_back(recording.source + ": its knots are not the model's; its outlines were expressed in " +
-                                "those, " + text(other.rms) + " pixels away on average");
+                                "those, " + number_text(other.rms, 2) + " pixels away on average");
     return add(other.recording, pixels_per_unit, prepared);
   }
   const auto undisturbed = undisturbed_rows(recording, prepared.inputs);

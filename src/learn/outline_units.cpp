@@ -1,7 +1,6 @@
 #include "wisp/learn/outline_units.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
@@ -14,41 +13,19 @@ namespace {
 constexpr std::size_t kLeastPoints = kSplineDegree + 1;
 constexpr std::string_view kUnitAttribute = "pixels_per_unit";
 
-std::optional<double> number(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-Result<std::vector<double>> parse_knots(std::string_view text, const std::string& source) {
-  std::vector<double> knots;
-  std::size_t at = 0;
-  while ((at = text.find_first_not_of(" \t,", at)) != std::string_view::npos) {
-    const std::size_t end = std::min(text.find_first_of(" \t,", at), text.size());
-    const auto knot = number(text.substr(at, end - at));
-    if (!knot) {
-      return Error{source + ": '" + std::string(text.substr(at, end - at)) + "' in its knots is not a number"};
-    }
-    knots.push_back(*knot);
-    at = end;
-  }
-  return knots;
-}
-
 Result<std::vector<double>> knots_of(const Recording& recording, std::size_t points) {
-  const auto text = find_attribute(recording, "knots");
-  if (!text) return uniform_knots(static_cast<int>(points));
-  auto knots = parse_knots(*text, recording.source);
-  if (!knots) return knots;
-  if (knots->size() != points + kLeastPoints) {
-    return Error{recording.source + ": has " + std::to_string(knots->size()) + " knots, expected " +
+  auto found = numbers_attribute(recording, "knots");
+  if (!found) return found.error();
+  if (!*found) return uniform_knots(static_cast<int>(points));
+  std::vector<double>& knots = **found;
+  if (knots.size() != points + kLeastPoints) {
+    return Error{recording.source + ": has " + std::to_string(knots.size()) + " knots, expected " +
                  std::to_string(points + kLeastPoints) + " for " + std::to_string(points) + " control points"};
   }
-  if (!valid_knots(*knots)) {
+  if (!valid_knots(knots)) {
     return Error{recording.source + ": its knots are not ascending from 0 to 1 with multiplicity 4 at both ends"};
   }
-  return knots;
+  return std::move(knots);
 }
 
 // The frame of one row: the middle between the first and the last control point. NaN where one is missing.
@@ -77,22 +54,6 @@ std::vector<double>& motion(Recording& recording, const std::string& name) {
   if (const auto index = find_channel(recording, name)) return recording.channels[*index].samples;
   recording.channels.push_back({name, "px", Role::kMotion, std::vector<double>(recording.rows())});
   return recording.channels.back().samples;
-}
-
-void set_attribute(Recording& recording, std::string_view name, const std::string& value) {
-  for (Attribute& attribute : recording.attributes) {
-    if (attribute.name == name) {
-      attribute.value = value;
-      return;
-    }
-  }
-  recording.attributes.push_back({std::string(name), value});
-}
-
-std::string shortest_text(double value) {
-  char text[32];
-  const auto [end, error] = std::to_chars(text, text + sizeof text, value);
-  return {text, end};
 }
 
 }  // namespace
@@ -187,7 +148,7 @@ Recording to_model_units(const Recording& recording, const OutlineLayout& layout
     set_row(out, layout, row, to_model_units(row_of(recording, layout, row), frame));
   }
   for (std::size_t c : layout.outputs) out.channels[c].unit.clear();
-  set_attribute(out, kUnitAttribute, shortest_text(pixels_per_unit));
+  set_numbers_attribute(out, kUnitAttribute, {&pixels_per_unit, 1});
   return out;
 }
 
@@ -196,14 +157,15 @@ Result<Recording> to_pixels(const Recording& recording) {
   if (!layout) return layout.error();
   const auto base_x = find_channel(recording, "base.x");
   const auto base_y = find_channel(recording, "base.y");
-  const auto unit_text = find_attribute(recording, kUnitAttribute);
-  const auto unit = unit_text ? number(*unit_text) : std::nullopt;
-  if (!base_x || !base_y || !unit) {
+  const auto unit = numbers_attribute(recording, kUnitAttribute);
+  if (!unit) return unit.error();
+  if (!base_x || !base_y || !*unit || (*unit)->size() != 1) {
     return Error{recording.source + ": has no base.x, base.y and pixels_per_unit to go back to pixels by"};
   }
   Recording out = recording;
   for (std::size_t row = 0; row < out.rows(); ++row) {
-    const OutlineFrame frame{recording.channels[*base_x].samples[row], recording.channels[*base_y].samples[row], *unit};
+    const OutlineFrame frame{recording.channels[*base_x].samples[row], recording.channels[*base_y].samples[row],
+                             (*unit)->front()};
     set_row(out, *layout, row, to_pixels(row_of(recording, *layout, row), frame));
   }
   for (std::size_t c : layout->outputs) out.channels[c].unit = "px";

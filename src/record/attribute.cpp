@@ -2,6 +2,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "wisp/base/number_text.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {
@@ -39,11 +40,7 @@ Result<std::optional<std::vector<double>>> numbers_attribute(const Recording& re
 
 void set_numbers_attribute(Recording& recording, std::string_view name, std::span<const double> values) {
   std::string text;
-  for (double value : values) {
-    char digits[32];
-    const auto [end, code] = std::to_chars(digits, digits + sizeof digits, value);
-    text += (text.empty() ? "" : " ") + std::string(digits, end);
-  }
+  for (double value : values) text += (text.empty() ? "" : " ") + number_text(value);
   for (Attribute& attribute : recording.attributes) {
     if (attribute.name == name) {
       attribute.value = std::move(text);

@@ -135,7 +135,7 @@ class Truth {
   void add(std::string name, const char* unit, Role role) {
     recording_.channels.push_back({std::move(name), unit, role, {}});
   }
-  void note(const char* name, double value) { recording_.attributes.push_back({name, std::to_string(value)}); }
+  void note(const char* name, double value) { set_numbers_attribute(recording_, name, {&value, 1}); }
 
   CameraView view_;
   int points_;

@@ -57,7 +57,8 @@ TEST(OutlineUnits, ABadKnotVectorIsAClearError) {
   recording.attributes.push_back({"knots", "0 0 0 0 1 1 1"});
   EXPECT_EQ(outline_layout(recording).error().message, "clip.csv: has 7 knots, expected 8 for 4 control points");
   recording.attributes.back().value = "0 0 0 x 1 1 1 1";
-  EXPECT_EQ(outline_layout(recording).error().message, "clip.csv: 'x' in its knots is not a number");
+  EXPECT_EQ(outline_layout(recording).error().message,
+            "clip.csv: \"# knots\" holds \"x\", expected numbers separated by blanks");
   recording.attributes.back().value = "0 0 0 0.5 1 1 1 1";
   EXPECT_EQ(outline_layout(recording).error().message,
             "clip.csv: its knots are not ascending from 0 to 1 with multiplicity 4 at both ends");

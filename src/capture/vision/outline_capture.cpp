@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdio>
 
 #include "capture/vision/outline_rows.hpp"
 #include "capture/vision/outline_seeker.hpp"
+#include "wisp/base/number_text.hpp"
 #include "wisp/capture/vision/knots.hpp"
 
 namespace wisp {
@@ -22,18 +22,6 @@ constexpr int kSamplePoints = 96;      // edge points that are enough to decide 
 
 // Following the underside takes control points away from the sides and makes them move more: it has to pay.
 constexpr double kWorthFollowing = 0.6;
-
-std::string text(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.6g", value);
-  return buffer;
-}
-
-std::string full_text(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.17g", value);
-  return buffer;
-}
 
 // At most `count` of the pictures, evenly spread.
 std::vector<Picture> evenly_from(std::span<const Picture> pictures, std::size_t count) {
@@ -270,16 +258,12 @@ void OutlineCapture::Stage::describe(CapturedOutline& out) const {
   Recording& recording = out.recording;
   recording.source = options_.source;
   recording.rate_hz = options_.rate_hz;
-  if (report.knots_placed) {
-    std::string line;
-    for (const double knot : knots) line += (line.empty() ? "" : " ") + full_text(knot);
-    recording.attributes.push_back({"knots", line});
-  }
+  if (report.knots_placed) set_numbers_attribute(recording, "knots", knots);
   recording.attributes.push_back({"source", options_.source});
   recording.attributes.push_back({"width", std::to_string(width_)});
   recording.attributes.push_back({"height", std::to_string(height_)});
   recording.attributes.push_back({"channel", std::string(channel_name(survey_->channel))});
-  recording.attributes.push_back({"threshold", text(report.threshold)});
+  recording.attributes.push_back({"threshold", number_text(report.threshold, 6)});
 }
 
 Result<CapturedOutline> OutlineCapture::Stage::finish() {
