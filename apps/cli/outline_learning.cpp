@@ -135,6 +135,15 @@ double at_steps(const OutlineFigures& figures, const std::vector<double>& values
   return std::numeric_limits<double>::quiet_NaN();
 }
 
+Flag align_flag() {
+  return {"align",
+          Kind::kChoice,
+          "A",
+          "auto",
+          "auto: an input that comes after the motion that it causes is moved; off: as recorded",
+          {"auto", "off"}};
+}
+
 std::vector<Flag> outline_flags() {
   return {
       {"order",
@@ -150,12 +159,7 @@ std::vector<Flag> outline_flags() {
        "0",
        "frames until an input acts; auto searches up to a quarter of a second",
        {"auto"}},
-      {"align",
-       Kind::kChoice,
-       "A",
-       "auto",
-       "auto: an input that comes after the motion that it causes is moved; off: as recorded",
-       {"auto", "off"}},
+      align_flag(),
       {"coupling",
        Kind::kChoice,
        "C",

@@ -13,6 +13,9 @@ namespace wisp::cli {
 /// Flags of learning an outline, beside those of capturing it.
 std::vector<Flag> outline_flags();
 
+/// --align, which learning and validating share.
+Flag align_flag();
+
 /// Errors: a value out of its range.
 Result<OutlineOptions> outline_options(const Arguments& arguments, std::string name);
 
