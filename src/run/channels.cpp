@@ -51,12 +51,14 @@ std::size_t piece_count(const Model& model) {
 // One piece a knot: that of the last knot has no end, and the slope of 1 that the curve has beyond it.
 std::span<const CurvePiece> fill_pieces(const InputCurve& curve, std::span<CurvePiece> pieces) {
   const std::size_t last = curve.at.size() - 1;
+  auto value = static_cast<float>(curve.at[0]);
   for (std::size_t k = 0; k < last; ++k) {
     const double width = curve.at[k + 1] - curve.at[k];
     const double slope = (curve.value[k + 1] - curve.value[k]) / width;
-    pieces[k] = {static_cast<float>(curve.at[k]), static_cast<float>(width), static_cast<float>(slope)};
+    pieces[k] = {static_cast<float>(curve.at[k]), static_cast<float>(width), static_cast<float>(slope), value};
+    value = value + pieces[k].slope * pieces[k].width;  // as a piece ends, so that the next goes on from there
   }
-  pieces[last] = {static_cast<float>(curve.at[last]), std::numeric_limits<float>::max(), 1.0f};
+  pieces[last] = {static_cast<float>(curve.at[last]), std::numeric_limits<float>::max(), 1.0f, value};
   return pieces.first(last + 1);
 }
 

@@ -41,11 +41,12 @@ std::span<const RegressorPart> regressor_parts(InputShape shape);
 /// Whether a regressor is a square.
 inline bool is_square(RegressorPart part) { return part >= RegressorPart::kWholeSquare; }
 
-/// A piece of an input's curve: what it climbs from a knot to the next.
+/// A piece of an input's curve: what it is at a knot, and what it climbs from there to the next.
 struct CurvePiece {
   float from;
   float width;
   float slope;
+  float value;
 };
 
 /// A regressor: z = (part(u) − mean) · inverse_scale, u held to [low, high] first. Where there is a curve it bends the
@@ -91,15 +92,18 @@ Result<void> check_channels(const Model& model, const OperatingPoint& point);
 /// A hash of the channels, over a hash of what came before.
 std::uint64_t hash_of(const Channels& channels, std::uint64_t before);
 
-/// A curve at inputs: the input itself up to the first knot, then what it climbs in each piece.
-template <class N>
-inline Reals<N> bend(std::span<const CurvePiece> curve, const Reals<N>& inputs) {
-  auto value = smaller(inputs, all<Reals<N>>(curve.front().from));
-  for (const CurvePiece& piece : curve) {
-    const auto within = hold(inputs - all<Reals<N>>(piece.from), all<Reals<N>>(0.0f), all<Reals<N>>(piece.width));
-    value = value + all<Reals<N>>(piece.slope) * within;
+/// A curve at an input: up to the first knot the input itself, then what it is at the knot before and what it climbs
+/// from there. Which knot that is takes comparisons alone, so that more knots take no more arithmetic.
+template <class Real>
+inline Real bend(std::span<const CurvePiece> curve, Real input) {
+  if (!(input > Real(curve.front().from))) return input;
+  const CurvePiece* piece = curve.data();
+  for (const CurvePiece& next : curve) {
+    if (!(input < Real(next.from))) piece = &next;
   }
-  return value;
+  Real climbed = input - Real(piece->from);
+  if (climbed > Real(piece->width)) climbed = Real(piece->width);  // by rounding: it is short of the next knot
+  return Real(piece->value) + Real(piece->slope) * climbed;
 }
 
 /// The values of a regressor for its inputs; what is not a number counts as 0.
@@ -115,7 +119,12 @@ inline Reals<N> regress(const RegressorChannel& channel, const Reals<N>& inputs)
     part = zero - smaller(held, zero);
   }
   if (is_square(channel.part)) part = part * part;
-  if (!channel.curve.empty()) part = bend<N>(channel.curve, part);
+  if (!channel.curve.empty()) {
+    typename N::Real bent[N::kLanes];
+    store(part, bent);
+    for (auto& lane : bent) lane = bend(channel.curve, lane);
+    part = load<Reals<N>>(bent);
+  }
   if (channel.mean != 0) part = part - all<Reals<N>>(channel.mean);
   if (channel.inverse_scale != 1) part = part * all<Reals<N>>(channel.inverse_scale);
   return settle(part);

@@ -22,12 +22,6 @@ OperationCount count(Work work) {
   return operation_count;
 }
 
-OperationCount count_inputs(const Channels& channels) {
-  return count([&] {
-    for (const RegressorChannel& channel : channels.regressors) regress<CountingNumbers>(channel, {});
-  });
-}
-
 // Regressors while every input is at its highest: wind that blows from one side.
 std::vector<CountingReal> blowing_regressors(const Model& model, const Channels& channels) {
   std::vector<CountingReal> values(channels.regressors.size());
@@ -119,12 +113,13 @@ Cost count_frame(const Model& model, const Kind& dynamics, const Channels& chann
   std::vector<std::byte> memory = room_for(measured);
   Arena arena(memory);
   Stepper stepper(model, dynamics, channels, 1, arena);
-  const auto blowing = blowing_regressors(model, channels);
+  std::vector<CountingReal> blowing;
+  const OperationCount inputs = count([&] { blowing = blowing_regressors(model, channels); });
   const OperationCount quiet = count_step(stepper, blowing, 0).mean;
   const auto [noisy, most] = count_step(stepper, blowing, 1);
   Cost cost;
   cost.multiply_adds_per_frame = stepper.multiply_adds();
-  cost.dynamics_operations = count_inputs(channels).numbers + quiet.numbers + quiet.words;
+  cost.dynamics_operations = inputs.numbers + quiet.numbers + quiet.words;
   cost.noise_operations = noisy.numbers - quiet.numbers;
   cost.random_operations = noisy.words - quiet.words;
   cost.view_operations = count_view(channels, stepper, polyline).numbers;

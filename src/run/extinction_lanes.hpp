@@ -1,8 +1,8 @@
 #pragma once
 // Whether instances burn: the rule of extinction (wisp/model/extinction.hpp), block by block.
 //
-// An instance has harm, 0 … 1; whether it is lit, 1 or 0; and the size at which it is seen, 0 … 1. Six operations a
-// step, one to take in the wind, and while it shrinks or grows three, and one for each output that is shown.
+// An instance has harm, 0 … 1; whether it is lit, 1 or 0; and the size at which it is seen, 0 … 1. Four operations
+// a step, one to take in the wind, and while it shrinks or grows three, and one for each output that is shown.
 
 #include <cstdint>
 
@@ -51,16 +51,15 @@ template <class N>
 inline void live(const ExtinctionProgram& rule, const LifeLanes<typename N::Real>& life) {
   const auto zero = all<Reals<N>>(0.0f), one = all<Reals<N>>(1.0f);
   const auto wind = load<Reals<N>>(life.wind), harm = load<Reals<N>>(life.harm);
-  const auto blown = harm + (all<Reals<N>>(rule.base) + all<Reals<N>>(rule.slope) * wind);
-  const auto spared = harm - all<Reals<N>>(rule.recovery);
   const auto pick = [](const auto& a, const auto& b, const auto& x, const auto& y) { return a < b ? x : y; };
-  const auto next = hold(each(pick, wind, all<Reals<N>>(rule.level), spared, blown), zero, one);
+  const auto blown = all<Reals<N>>(rule.base) + all<Reals<N>>(rule.slope) * wind;
+  const auto done = each(pick, wind, all<Reals<N>>(rule.level), all<Reals<N>>(-rule.recovery), blown);
+  const auto next = hold(harm + done, zero, one);
   const auto lit = each(pick, next, one, load<Reals<N>>(life.lit), zero);
-  const auto size = load<Reals<N>>(life.size);
-  const auto shrunk = size - all<Reals<N>>(rule.dying), grown = size + all<Reals<N>>(rule.catching);
+  const auto grown = each(pick, zero, lit, all<Reals<N>>(rule.catching), all<Reals<N>>(-rule.dying));
   store(next, life.harm);
   store(lit, life.lit);
-  store(hold(each(pick, zero, lit, grown, shrunk), zero, one), life.size);
+  store(hold(load<Reals<N>>(life.size) + grown, zero, one), life.size);
 }
 
 /// Shrinks shown outputs, [output][lane], to the sizes of their instances. Where there is nothing left they are 0.

@@ -143,9 +143,9 @@ double error_growth(const Model& model) {
 // The largest difference that rounding may make. A row of n terms, each a rounded coefficient times a rounded state,
 // summed one by one, errs by at most (n + 3) u Σ|terms| with u = 2^-24 (Higham, Accuracy and Stability, section 3.1:
 // n − 1 sums, a product and a coefficient; the noise adds a product and its deviate). Errors of all steps add up to at
-// most error_growth times that. A curve of k knots adds k terms that are never negative, each a product of a difference
-// and a slope that were rounded: k + 3 u of what it says. Reading rounds the mean, a product and a sum: 3 u of the
-// largest output.
+// most error_growth times that. A curve says what it is at a knot, a sum of as many products of a slope and a width
+// that were rounded as knots lie before it, and a last product more, none of them negative: of k knots k + 3 u of it.
+// Reading rounds the mean, a product and a sum: 3 u of the largest output.
 double rounding_bound(const Model& model, const PlainArx& plain, double largest_noise, double largest_output) {
   constexpr double kUnit = 0x1p-24;
   const auto& arx = std::get<ArxModel>(model.dynamics);

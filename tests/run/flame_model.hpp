@@ -91,15 +91,15 @@ inline Model flame_model(const FlameOptions& options = {}) {
 
 /// A flame as `wisp learn flame` makes them: three lags of every coordinate alone and of a wind from either side, the
 /// outline's last point the first one mirrored about the base's middle, residuals that are drawn, a rule of extinction.
-inline Model default_flame_model() {
+inline Model default_flame_model(InputShape wind = InputShape::kSplitSign) {
   constexpr int kOutputs = 16, kLags = 3;
-  Model model = flame_model({.wind = InputShape::kSplitSign, .drawn_rows = 600});
+  Model model = flame_model({.wind = wind, .drawn_rows = 600});
   auto& arx = std::get<ArxModel>(model.dynamics);
   arx.orders = {OrderMatrix(kOutputs, kOutputs), OrderMatrix(kOutputs, 2, kLags), OrderMatrix(kOutputs, 2)};
   for (int i = 0; i < kOutputs; ++i) {
     arx.orders.na(i, i) = kLags;
-    const double wind = i % 2 == 0 ? 0.02 : -0.006;
-    arx.theta[i] = {-1.2, 0.6, -0.1, wind, 0.5 * wind, 0.001 * i, i % 2 == 0 ? -wind : wind, 0.004, 0.0001 * i};
+    const double gain = i % 2 == 0 ? 0.02 : -0.006;
+    arx.theta[i] = {-1.2, 0.6, -0.1, gain, 0.5 * gain, 0.001 * i, i % 2 == 0 ? -gain : gain, 0.004, 0.0001 * i};
   }
   arx.input_mean = {0, 0};
   auto& rows = arx.noise.drawn.rows;
