@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "baselines/dynamic_texture.hpp"
 #include "baselines/emulator.hpp"
@@ -106,7 +107,8 @@ FlamePlayer emulator(const std::vector<Frames>& frames, double jitter, const Set
 }
 
 std::vector<FlamePlayer> players_of(const std::vector<Recording>& clips, const FlameUnits& units) {
-  const Model wisp = value_or_abort(learn_outline(clips)).model;
+  // As `wisp learn flame` does: a curve on the wind where held-out rows say so.
+  const Model wisp = value_or_abort(learn_outline(clips, {.input_curve = std::nullopt})).model;
   const Setting setting{outline_outputs(units.knots.size() - 4), view_operations(wisp)};
   const auto frames = frames_in(clips, units, setting);
   return {player_of("Wisp", wisp),

@@ -16,6 +16,7 @@
 #include <limits>
 
 #include "learn/shared_files.hpp"
+#include "value_or_abort.hpp"
 #include "verify_bounds.hpp"
 #include "wisp/learn/arx_fit.hpp"
 #include "wisp/learn/curve_choice.hpp"
@@ -29,15 +30,6 @@ namespace {
 const ChannelChoice kChannels{{"u1"}, {"y1"}};
 constexpr double kHeldOut = 0.3;  // of what is learned from: the number of knots is chosen by it
 constexpr int kModes = 4;
-
-template <class T>
-T value_or_abort(Result<T> result) {
-  if (!result) {
-    std::fprintf(stderr, "%s\n", result.error().message.c_str());
-    std::abort();
-  }
-  return *std::move(result);
-}
 
 struct Tanks {
   Recording learn;

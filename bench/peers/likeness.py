@@ -18,11 +18,12 @@ import csv
 import pathlib
 
 import numpy as np
-import sklearn
-from sklearn.ensemble import HistGradientBoostingClassifier
 
-FOLDS = 5
+import told_apart
+from told_apart import accuracies, thinned
+
 CHANNELS = 16
+SETTINGS = {"max_iter": 60, "max_bins": 63}
 
 
 def read(path):
@@ -35,35 +36,6 @@ def read(path):
             blocks.append(int(block))
             features.append(np.array(values, dtype=np.float32))
     return np.array(sides), np.array(clips), np.array(blocks), np.array(features)
-
-
-def thinned(where, most=500):
-    """At most so many of the chosen windows, evenly spread."""
-    chosen = np.flatnonzero(where)
-    if len(chosen) <= most:
-        return chosen
-    return chosen[np.linspace(0, len(chosen) - 1, most).astype(int)]
-
-
-def accuracies(x, y, groups, splits):
-    """Held-out balanced accuracy of every split: no group is on both sides of a fold."""
-    names = np.unique(groups)
-    found = []
-    for split in range(splits):
-        random = np.random.default_rng(split)
-        fold_of = dict(zip(random.permutation(names), np.arange(len(names)) % FOLDS))
-        folds = np.array([fold_of[group] for group in groups])
-        right = np.zeros(len(y), dtype=bool)
-        for fold in range(FOLDS):
-            train, test = folds != fold, folds == fold
-            if not test.any() or len(np.unique(y[train])) < 2:
-                continue
-            trees = HistGradientBoostingClassifier(
-                max_iter=60, max_leaf_nodes=8, min_samples_leaf=10, max_bins=63, random_state=split)
-            trees.fit(x[train], y[train])
-            right[test] = trees.predict(x[test]) == y[test]
-        found.append(np.mean([right[y == label].mean() for label in np.unique(y)]))
-    return np.array(found)
 
 
 def shuffled(x, random):
@@ -89,13 +61,13 @@ class Windows:
     def told(self, side, splits):
         made = thinned(self.sides == side)
         both = np.concatenate([self.real, made])
-        return accuracies(self.features[both], self.sides[both] == "recorded", self.groups[both], splits)
+        return accuracies(self.features[both], self.sides[both] == "recorded", self.groups[both], splits, **SETTINGS)
 
     def told_shuffled(self, splits):
         x = self.features[self.real]
         both = np.concatenate([x, shuffled(x, np.random.default_rng(1))])
         labels = np.repeat([True, False], len(x))
-        return accuracies(both, labels, np.tile(self.groups[self.real], 2), splits)
+        return accuracies(both, labels, np.tile(self.groups[self.real], 2), splits, **SETTINGS)
 
 
 def print_table(folder, arguments):
@@ -122,8 +94,8 @@ def main():
     parser.add_argument("--few", type=int, default=4)
     parser.add_argument("--surely", action="append", default=[])
     arguments = parser.parse_args()
-    print(f"== Told apart by gradient-boosted trees (scikit-learn {sklearn.__version__}): balanced accuracy, {FOLDS} folds "
-          f"over blocks; {arguments.splits} splits for the floor and what must be sure, {arguments.few} for the rest")
+    print(f"== Told apart by {told_apart.TREES}: balanced accuracy, {told_apart.FOLDS} folds over blocks; "
+          f"{arguments.splits} splits for the floor and what must be sure, {arguments.few} for the rest")
     for folder in sorted(path.parent for path in arguments.folder.glob("*/figures.csv")):
         print_table(folder, arguments)
 

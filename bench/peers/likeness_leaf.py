@@ -13,12 +13,11 @@ how sure the trees are with one signal alone, and without it.
 import sys
 
 import numpy as np
-import sklearn
-from sklearn.ensemble import HistGradientBoostingClassifier
+
+import told_apart
+from told_apart import accuracies, thinned
 
 SPLITS = int(sys.argv[2]) if len(sys.argv) > 2 else 20
-FOLDS = 5
-WINDOWS = 500
 MOST = 0.60
 
 
@@ -31,42 +30,15 @@ def read(path):
     return names, sides, falls, np.array([cell[2:] for cell in cells], dtype=float)
 
 
-def thinned(where):
-    """At most WINDOWS of the chosen rows, evenly spread."""
-    chosen = np.flatnonzero(where)
-    if len(chosen) <= WINDOWS:
-        return chosen
-    return chosen[np.linspace(0, len(chosen) - 1, WINDOWS).astype(int)]
-
-
-def accuracies(x, y, groups, splits=SPLITS):
-    """Held-out balanced accuracy of every split: no fall is on both sides of a fold."""
-    names = np.unique(groups)
-    found = []
-    for split in range(splits):
-        random = np.random.default_rng(split)
-        fold_of = dict(zip(random.permutation(names), np.arange(len(names)) % FOLDS))
-        folds = np.array([fold_of[group] for group in groups])
-        right = np.zeros(len(y), dtype=bool)
-        for fold in range(FOLDS):
-            train, test = folds != fold, folds == fold
-            trees = HistGradientBoostingClassifier(
-                max_iter=100, max_leaf_nodes=8, min_samples_leaf=10, learning_rate=0.1, random_state=split)
-            trees.fit(x[train], y[train])
-            right[test] = trees.predict(x[test]) == y[test]
-        found.append(np.mean([right[y == label].mean() for label in (False, True)]))
-    return np.array(found)
-
-
 def main():
     names, sides, falls, features = read(sys.argv[1])
-    print(f"== Told apart by gradient-boosted trees (scikit-learn {sklearn.__version__}): balanced accuracy, "
-          f"{WINDOWS} windows a side, {FOLDS} folds over falls, {SPLITS} splits")
+    print(f"== Told apart by {told_apart.TREES}: balanced accuracy, {told_apart.MOST_WINDOWS} windows a side, "
+          f"{told_apart.FOLDS} folds over falls, {SPLITS} splits")
 
     def told(first, second, columns=slice(None), splits=SPLITS):
         rows = np.concatenate([thinned(first), thinned(second)])
         labels = np.repeat([False, True], [len(thinned(first)), len(thinned(second))])
-        return accuracies(features[rows][:, columns], labels, falls[rows], splits)
+        return accuracies(features[rows][:, columns], labels, falls[rows], splits, max_iter=100)
 
     def say(what, found):
         print(f"  {what:46s} {found.mean():.3f} ± {found.std(ddof=1):.3f}", flush=True)

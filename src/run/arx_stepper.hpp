@@ -18,10 +18,10 @@
 namespace wisp {
 
 template <class N>
-class ArxStepper {
+class ArxStepper : public ChannelHistory<N> {
  public:
-  using Real = typename N::Real;
-  static constexpr int kLanes = N::kLanes;
+  using typename ChannelHistory<N>::Real;
+  using ChannelHistory<N>::kLanes;
   /// Frames over which a cost is averaged: drawn residuals jump in some of them.
   static constexpr int kCountedFrames = 60;
 
@@ -32,16 +32,7 @@ class ArxStepper {
   static Result<void> check(const Model& model, const ArxModel& arx) { return check_arx_program(model, arx); }
 
   ArxStepper(const Model& model, const ArxModel& arx, const Channels& channels, int blocks, Arena& arena)
-      : program_(make_arx_program(model, arx, arena)),
-        channels_(channels),
-        drawn_(program_.drawn, blocks, arena),
-        ring_(blocks, program_.depth, program_.outputs + program_.regressors, arena) {
-    quiet_ = arena.take<int>(static_cast<std::size_t>(blocks) * program_.regressors);
-    shocks_ = arena.take<Real>(static_cast<std::size_t>(program_.outputs + program_.rank) * kLanes);
-    sd_ = arena.take<float>(program_.outputs);
-    mixing_ = arena.take<float>(static_cast<std::size_t>(program_.outputs) * program_.rank);
-    if (!arena.measures()) mark_mirrored(program_, channels_.outputs);
-  }
+      : ArxStepper(make_arx_program(model, arx, arena), channels, blocks, arena) {}
 
   /// Sets the scale of the residual noise.
   void set_noise(float scale) {
@@ -54,12 +45,6 @@ class ArxStepper {
     std::transform(program_.sd.begin(), program_.sd.end(), sd_.begin(), scaled);
     std::transform(program_.mixing.begin(), program_.mixing.end(), mixing_.begin(), scaled);
   }
-
-  /// Moves every block's history by one sample; the newest is now to be made.
-  void turn() { ring_.turn(); }
-
-  /// Where the regressors of the step belong: [regressor][lane].
-  Real* regressors(int block) { return ring_.sample(block, 0) + program_.outputs * kLanes; }
 
   /// Makes the newest sample of a block.
   void step(int block, const Moment<N>& moment) {
@@ -86,40 +71,17 @@ class ArxStepper {
     store(held, moment.held);
   }
 
-  /// Outputs of the last step, and of the one before: [output][lane].
-  const Real* newest(int block) const { return ring_.sample(block, 0); }
-  const Real* previous(int block) const { return ring_.sample(block, 1); }
-
-  /// What is read of a block: the newest sample, or a `share` of the way to it from the one before.
-  void show(int block, Real* out) const { show_newest<N>(channels_, newest(block), out); }
-  void show_between(int block, float share, Real* out) const {
-    wisp::show_between<N>(channels_, previous(block), newest(block), share, out);
-  }
-
-  /// What a frame reads: games have rates of their own.
-  void show_frame(int block, Real* out) const { show_between(block, 0.5f, out); }
-
   /// Puts one lane to the operating point.
   void start(int block, int lane, const Moment<N>&) {
     if (!drawn_.empty()) drawn_.start(block, lane);
-    start_history(ring_, channels_, block, lane);
+    this->start_history(block, lane);
   }
-
-  /// An ARX model moves no body.
-  static void set_chain(const ChainSettings&) {}
-  static bool place(int, int, const BodyState<Real>&) { return false; }
-  static bool steer(int, int, const Vector3<Real>&, float, float) { return false; }
-
-  /// An ARX model is not a chain.
-  static std::optional<ChainPlace> chain_place(int, int) { return {}; }
 
   /// Coefficients of A and B that are not zero.
   std::int64_t multiply_adds() const { return static_cast<std::int64_t>(program_.coefficients.size()); }
 
   /// Numbers of state that one lane holds.
-  std::size_t lane_values() const {
-    return static_cast<std::size_t>(program_.depth) * (program_.outputs + program_.regressors) + drawn_.lane_values();
-  }
+  std::size_t lane_values() const { return this->history_values() + drawn_.lane_values(); }
 
   /// Calls visit(value, low, high) for each number of one lane's state, in an order that does not depend on where in
   /// the ring it lies: the way to save, check and restore it.
@@ -127,13 +89,27 @@ class ArxStepper {
   void visit_lane(int block, int lane, Visit visit) {
     std::fill_n(quiet_.begin() + block * program_.regressors, program_.regressors, 0);  // it may be restored
     drawn_.visit_lane(block, lane, visit);
-    visit_history(ring_, channels_, block, lane, visit);
+    this->visit_history(block, lane, visit);
   }
 
   /// Goes into the hash that tells models apart.
   std::uint64_t hash(std::uint64_t before) const { return hash_of(program_, before); }
 
  private:
+  using ChannelHistory<N>::channels_;
+  using ChannelHistory<N>::ring_;
+
+  ArxStepper(const ArxProgram& program, const Channels& channels, int blocks, Arena& arena)
+      : ChannelHistory<N>(program, channels, blocks, arena),
+        program_(program),
+        drawn_(program.drawn, blocks, arena),
+        shocks_(arena.take<Real>(static_cast<std::size_t>(program.outputs + program.rank) * kLanes)),
+        quiet_(arena.take<int>(static_cast<std::size_t>(blocks) * program.regressors)),
+        sd_(arena.take<float>(program.outputs)),
+        mixing_(arena.take<float>(static_cast<std::size_t>(program.outputs) * program.rank)) {
+    if (!arena.measures()) mark_mirrored(program_, channels_.outputs);
+  }
+
   // The run's products are added in the order of its lags, each to what was there before.
   Reals<N> add_run(int block, const TapRun& run, Reals<N> sum) const {
     const float* coefficient = program_.coefficients.data() + run.coefficient;
@@ -148,7 +124,7 @@ class ArxStepper {
   // while it blows from the other. Whether its zeros are added or not changes no bit (settle() makes −0 to 0).
   void count_quiet(int block) {
     int* quiet = quiet_.data() + block * program_.regressors;
-    const Real* newest = regressors(block);
+    const Real* newest = this->regressors(block);
     for (int k = 0; k < program_.regressors; ++k, ++quiet) {
       bool zero = true;
       for (int lane = 0; lane < kLanes; ++lane) zero &= value_of(*newest++) == 0.0f;
@@ -242,9 +218,7 @@ class ArxStepper {
   }
 
   ArxProgram program_;
-  Channels channels_;
   DrawnLanes<N> drawn_;
-  SampleRing<N> ring_;  // outputs, then regressors
   std::span<Real> shocks_;
   std::span<int> quiet_;  // [block][regressor]: steps for which it has been 0 in all lanes, up to the depth
   std::span<float> sd_;   // those of the program, scaled, as is the next

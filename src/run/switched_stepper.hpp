@@ -18,10 +18,10 @@
 namespace wisp {
 
 template <class N>
-class SwitchedStepper {
+class SwitchedStepper : public ChannelHistory<N> {
  public:
-  using Real = typename N::Real;
-  static constexpr int kLanes = N::kLanes;
+  using typename ChannelHistory<N>::Real;
+  using ChannelHistory<N>::kLanes;
   /// Frames over which a cost is averaged: every frame costs the same.
   static constexpr int kCountedFrames = 1;
 
@@ -35,12 +35,7 @@ class SwitchedStepper {
 
   SwitchedStepper(const Model& model, const SwitchedArxModel& switched, const Channels& channels, int blocks,
                   Arena& arena)
-      : program_(make_switched_program(model, switched, arena)),
-        channels_(channels),
-        ring_(blocks, program_.depth, program_.outputs + program_.regressors, arena),
-        modes_(arena.take<Real>(static_cast<std::size_t>(blocks) * kLanes)),
-        shocks_(arena.take<Real>(static_cast<std::size_t>(program_.outputs) * kLanes)),
-        shock_size_(arena.take<float>(program_.shocks * static_cast<std::size_t>(program_.modes))) {}
+      : SwitchedStepper(make_switched_program(model, switched, arena), channels, blocks, arena) {}
 
   /// Sets the scale of the residual noise. At 0 there is no chance in the modes either: a Markov chain takes the
   /// likeliest step.
@@ -52,12 +47,6 @@ class SwitchedStepper {
       return scale * size;
     });
   }
-
-  /// Moves every block's history by one sample; the newest is now to be made.
-  void turn() { ring_.turn(); }
-
-  /// Where the regressors of the step belong: [regressor][lane].
-  Real* regressors(int block) { return ring_.sample(block, 0) + program_.outputs * kLanes; }
 
   /// Makes the newest sample of a block.
   void step(int block, const Moment<N>& moment) {
@@ -90,22 +79,9 @@ class SwitchedStepper {
     store(held, moment.held);
   }
 
-  /// Outputs of the last step, and of the one before: [output][lane].
-  const Real* newest(int block) const { return ring_.sample(block, 0); }
-  const Real* previous(int block) const { return ring_.sample(block, 1); }
-
-  /// What is read of a block: the newest sample, or a `share` of the way to it from the one before.
-  void show(int block, Real* out) const { show_newest<N>(channels_, newest(block), out); }
-  void show_between(int block, float share, Real* out) const {
-    wisp::show_between<N>(channels_, previous(block), newest(block), share, out);
-  }
-
-  /// What a frame reads: games have rates of their own.
-  void show_frame(int block, Real* out) const { show_between(block, 0.5f, out); }
-
   /// Puts one lane to the operating point, before its first mode.
   void start(int block, int lane, const Moment<N>&) {
-    start_history(ring_, channels_, block, lane);
+    this->start_history(block, lane);
     modes_[block * kLanes + lane] = Real(kNoMode);
   }
 
@@ -116,35 +92,36 @@ class SwitchedStepper {
     return mode;
   }
 
-  /// An ARX model moves no body, and is not a chain of segments.
-  static void set_chain(const ChainSettings&) {}
-  static bool place(int, int, const BodyState<Real>&) { return false; }
-  static bool steer(int, int, const Vector3<Real>&, float, float) { return false; }
-  static std::optional<ChainPlace> chain_place(int, int) { return {}; }
-
   /// Coefficients that a step multiplies by: those of one mode, and of the regions of all.
   std::int64_t multiply_adds() const {
     return static_cast<std::int64_t>(program_.taps.size() + program_.region_weights.size());
   }
 
   /// Numbers of state that one lane holds.
-  std::size_t lane_values() const {
-    return 1 + static_cast<std::size_t>(program_.depth) * (program_.outputs + program_.regressors);
-  }
+  std::size_t lane_values() const { return 1 + this->history_values(); }
 
   /// Calls visit(value, low, high) for each number of one lane's state, in an order that does not depend on where in
   /// the ring it lies: the way to save, check and restore it.
   template <class Visit>
   void visit_lane(int block, int lane, Visit visit) {
     visit(modes_[block * kLanes + lane], kNoMode, static_cast<float>(program_.modes - 1));
-    visit_history(ring_, channels_, block, lane, visit);
+    this->visit_history(block, lane, visit);
   }
 
   /// Goes into the hash that tells models apart.
   std::uint64_t hash(std::uint64_t before) const { return hash_of(program_, before); }
 
  private:
+  using ChannelHistory<N>::channels_;
+  using ChannelHistory<N>::ring_;
   static constexpr float kNoMode = -1.0f;
+
+  SwitchedStepper(const SwitchedProgram& program, const Channels& channels, int blocks, Arena& arena)
+      : ChannelHistory<N>(program, channels, blocks, arena),
+        program_(program),
+        modes_(arena.take<Real>(static_cast<std::size_t>(blocks) * kLanes)),
+        shocks_(arena.take<Real>(static_cast<std::size_t>(program.outputs) * kLanes)),
+        shock_size_(arena.take<float>(program.shocks * static_cast<std::size_t>(program.modes))) {}
 
   // Every lane's number of its own mode.
   Reals<N> pick(const float* of_mode, const std::uint32_t (&mode)[kLanes]) const {
@@ -216,8 +193,6 @@ class SwitchedStepper {
   }
 
   SwitchedProgram program_;
-  Channels channels_;
-  SampleRing<N> ring_;
   std::span<Real> modes_;  // [block][lane]: what made the newest sample, or kNoMode
   std::span<Real> shocks_;
   std::span<float> shock_size_;  // the program's, scaled

@@ -6,14 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "c/expect_in_c.h"
 #include "wisp/wisp.h"
-
-#define TEXT_OF(x) #x
-#define TEXT(x) TEXT_OF(x)
-#define EXPECT(condition)                                            \
-  do {                                                               \
-    if (!(condition)) return "line " TEXT(__LINE__) ": " #condition; \
-  } while (0)
 
 const char* whole_life(const void* bytes, size_t size, float outputs[16]) {
   wisp_model* model = NULL;
@@ -117,13 +111,6 @@ const char* life_in_given_memory(const void* bytes, size_t size) {
   free(options.memory);
   return NULL;
 }
-
-/* A failure must have the status, a sentence of its own, and the words in it. */
-#define EXPECT_FAILURE(call, status, words)             \
-  do {                                                  \
-    EXPECT((call) == (status));                         \
-    EXPECT(strstr(wisp_last_error(), (words)) != NULL); \
-  } while (0)
 
 static const char* misuse_of_models(const void* bytes, size_t size) {
   wisp_model* model = NULL;

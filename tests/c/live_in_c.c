@@ -6,19 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "c/expect_in_c.h"
 #include "wisp/wisp.h"
-
-#define TEXT_OF(x) #x
-#define TEXT(x) TEXT_OF(x)
-#define EXPECT(condition)                                            \
-  do {                                                               \
-    if (!(condition)) return "line " TEXT(__LINE__) ": " #condition; \
-  } while (0)
-#define EXPECT_FAILURE(call, status, words)             \
-  do {                                                  \
-    EXPECT((call) == (status));                         \
-    EXPECT(strstr(wisp_last_error(), (words)) != NULL); \
-  } while (0)
 
 static const char* account_of_how_it_was_made(const wisp_model* model) {
   wisp_provenance made;
