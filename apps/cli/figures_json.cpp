@@ -54,6 +54,7 @@ Result<Json> cost_of(const Model& model) {
   return Json{{"multiply_adds_per_frame", cost->multiply_adds_per_frame},
               {"operations_per_frame", cost->operations_per_frame},
               {"worst_operations_per_frame", cost->worst_operations},
+              {"steered_operations_per_frame", cost->steered_operations},
               {"operations_between_steps", cost->between_operations}};
 }
 

@@ -180,7 +180,7 @@ void Bank::State::set_chain(const ChainSettings& settings) {
 
 Moment<LiveNumbers> Bank::State::moment(int block, std::uint32_t* flags) const {
   const std::size_t first = static_cast<std::size_t>(block) * kLanes;
-  return {&keys, {stream.data() + first, born.data() + first, steps}, flags};
+  return {&keys, {stream.data() + first, born.data() + first, steps}, flags, std::min(kLanes, rows - block * kLanes)};
 }
 
 void Bank::State::step_all() {

@@ -159,9 +159,8 @@ class ChainMover {
     lane.half_cos = half_cos;
     lane.half_sin = half_sin;
     const Real scale(program_.position_scale), quaternion_scale(program_.orientation_scale);
-    const Real product = half_cos * half_sin;
     lane.cos_scale = (half_cos * half_cos - half_sin * half_sin) * scale;
-    lane.sin_scale = (product + product) * scale;
+    lane.sin_scale = half_cos * half_sin * Real(2.0f * program_.position_scale);
     lane.half_cos_scale = half_cos * quaternion_scale;
     lane.half_sin_scale = half_sin * quaternion_scale;
     lane.passed = Real(1.0f);

@@ -115,7 +115,7 @@ GustProgram gust_program(const GustResponse& gust, double wind_unit) {
   const auto fill = [&](const GustResponse::Axis& from, auto& to) {
     for (std::size_t k = 0; k < from.change.size(); ++k) {
       to[k] = {static_cast<float>(from.change[k]), static_cast<float>(from.wind[k] * wind_unit),
-               static_cast<float>(from.press[k] * wind_unit)};
+               static_cast<float>(4 * from.press[k] * wind_unit)};
     }
   };
   fill(gust.ground, program.ground);
@@ -203,7 +203,7 @@ std::uint64_t hash_of(const ChainProgram& program, std::uint64_t before) {
       before);
   for (const ChainFade& fade : program.fade) hash = hash_floats({fade.share, fade.seconds, fade.slip}, hash);
   for (const auto* axis : {&program.gust.ground, &program.gust.vertical}) {
-    for (const auto& lag : *axis) hash = hash_floats(lag, hash);
+    for (const auto& lag : *axis) hash = hash_floats({lag[0], lag[1], 0.25f * lag[2]}, hash);
   }
   for (std::int16_t number : program.rows)
     hash = hash_number(static_cast<std::uint32_t>(static_cast<std::uint16_t>(number)), hash);

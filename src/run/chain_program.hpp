@@ -16,6 +16,7 @@ namespace wisp {
 /// A response to gusts: one lag after the other of the change of velocity, the wind, and its press on the body.
 struct GustProgram {
   int order = 0;  ///< 0: none
+  // Per lag the coefficients of the change, of the wind, and of a quarter of its press.
   std::array<std::array<float, 3>, kMostGustOrder> ground{};
   std::array<std::array<float, 3>, kMostGustOrder> vertical{};
 };

@@ -82,8 +82,9 @@ class ChainStepper {
     bool drawn = false;
     if (noisy_) draw_shocks(moment);
     for (int lane = 0; lane < kLanes; ++lane) {
-      Lane& life = lane_of(block, lane);
       moment.held[lane] = 0;
+      if (lane >= moment.lanes) continue;
+      Lane& life = lane_of(block, lane);
       if (!(life.settled < Real(0.0f))) {
         settle_step(life, program_, newest_of(block) + lane, kLanes);
         continue;
@@ -175,10 +176,12 @@ class ChainStepper {
   bool place(int block, int lane, const Body& body) {
     const Mover mover(program_);
     std::uint32_t best = 0;
-    Real least(0.0f);
+    Real least(3e38f);
     for (std::uint32_t segment = 0; segment < program_.segments(); ++segment) {
+      // A segment of one step has no time for what differs to fade, and none for what follows it to be drawn.
+      if (program_.steps(segment) == 1 && !program_.systems.used()) continue;
       const Real misfit = mover.misfit(segment, body);
-      if (segment > 0 && !(misfit < least)) continue;
+      if (!(misfit < least)) continue;
       best = segment;
       least = misfit;
     }
@@ -239,9 +242,11 @@ class ChainStepper {
     for (Real& x : life.touched) visit(x, -2.0f, 2.0f);
     for (std::size_t k = 0; k < static_cast<std::size_t>(program_.gust.order); ++k) {
       GustLane<Real>& gust = gust_of(block, lane);
+      gust.press[k] = scaled(gust.press[k], Real(4.0f));  // it is saved whole
       for (auto* vector : {&gust.change[k], &gust.wind[k], &gust.press[k]}) {
         for (Real& x : *vector) visit(x, -kMostSlip, kMostSlip);
       }
+      gust.press[k] = scaled(gust.press[k], Real(0.25f));
     }
     if (program_.systems.used()) {
       for (Real& x : system_of(block, lane).rates) visit(x, -kMostSlip, kMostSlip);
@@ -291,7 +296,7 @@ class ChainStepper {
       return;
     }
     Vector3<Real> press{};
-    if (program_.channels >= 7) press = press_of(shown_orientation(block, lane), wind);
+    if (program_.channels >= 7) press = quarter_press(shown_orientation(block, lane), wind);
     const auto change = blow(program_.gust, gust, wind, press);
     const auto way = scaled(change, Real(program_.step_seconds));
     if (program_.systems.used()) {

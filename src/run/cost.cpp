@@ -40,13 +40,14 @@ struct StepCount {
 };
 
 template <class Stepper>
-StepCount count_step(Stepper& stepper, std::span<const CountingReal> regressors, float noise) {
+StepCount count_step(Stepper& stepper, std::span<const CountingReal> regressors, float noise, bool steered = false) {
   constexpr int kFrames = Stepper::kCountedFrames;
   const RandomKeys keys = random_keys(1);
   const std::uint64_t stream = 0, born = 0;
   std::uint32_t held = 0;
   stepper.set_noise(noise);
   stepper.start(0, 0, {&keys, {&stream, &born, 0}, &held});
+  if (steered && !stepper.steer(0, 0, {}, 3.0f * kFrames, 0.1f)) return {};
   const auto play = [&](std::uint64_t step) {
     stepper.turn();
     std::copy(regressors.begin(), regressors.end(), stepper.regressors(0));
@@ -128,6 +129,8 @@ Cost count_frame(const Model& model, const Kind& dynamics, const Channels& chann
   cost.operations_per_frame = cost.dynamics_operations + cost.noise_operations + cost.random_operations +
                               cost.view_operations + cost.extinction_operations;
   cost.worst_operations = cost.operations_per_frame - (noisy.numbers + noisy.words) + most + extinction.shrinking;
+  const std::int64_t steered = count_step(stepper, blowing, 1, true).most;
+  if (steered > 0) cost.steered_operations = cost.worst_operations - most + steered;
   cost.between_operations = count_between(channels, stepper);
   return cost;
 }

@@ -19,7 +19,7 @@ struct GustLane {
   // The newest first.
   std::array<Vector3<Real>, kMostGustOrder> change{};
   std::array<Vector3<Real>, kMostGustOrder> wind{};
-  std::array<Vector3<Real>, kMostGustOrder> press{};
+  std::array<Vector3<Real>, kMostGustOrder> press{};  ///< a quarter of it
 };
 
 template <class Real>
@@ -30,13 +30,12 @@ inline bool stirs(const Vector3<Real>& v) {
   return false;
 }
 
-/// The part of the wind that is square to a flat body.
+/// A quarter of the wind's part that is square to a flat body: half a normal is cheaper than a whole one.
 template <class Real>
-inline Vector3<Real> press_of(const Quaternion<Real>& q, const Vector3<Real>& wind) {
-  const Real two(2.0f);
-  const Vector3<Real> normal{two * (q[1] * q[3] + q[0] * q[2]), two * (q[2] * q[3] - q[0] * q[1]),
-                             Real(1.0f) - two * (q[1] * q[1] + q[2] * q[2])};
-  return scaled(normal, dot(normal, wind));
+inline Vector3<Real> quarter_press(const Quaternion<Real>& q, const Vector3<Real>& wind) {
+  const Vector3<Real> half_normal{q[1] * q[3] + q[0] * q[2], q[2] * q[3] - q[0] * q[1],
+                                  Real(0.5f) - (q[1] * q[1] + q[2] * q[2])};
+  return scaled(half_normal, dot(half_normal, wind));
 }
 
 /// One step. Returns the change of velocity; `idle` lanes without wind cost nothing.
@@ -49,11 +48,12 @@ inline Vector3<Real> blow(const GustProgram& program, GustLane<Real>& lane, cons
   }
   lane.wind[0] = wind;
   lane.press[0] = press;
-  Vector3<Real> change{Real(0.0f), Real(0.0f), Real(0.0f)};
+  Vector3<Real> change;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto& lags = axis < 2 ? program.ground : program.vertical;
     for (std::size_t k = 0; k < static_cast<std::size_t>(program.order); ++k) {
-      change[axis] = change[axis] + Real(lags[k][0]) * lane.change[k][axis];
+      const Real kept = Real(lags[k][0]) * lane.change[k][axis];
+      change[axis] = k == 0 ? kept : change[axis] + kept;
       change[axis] = change[axis] + Real(lags[k][1]) * lane.wind[k][axis];
       change[axis] = change[axis] + Real(lags[k][2]) * lane.press[k][axis];
     }

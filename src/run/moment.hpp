@@ -10,6 +10,7 @@ struct Moment {
   const RandomKeys* keys = nullptr;
   LaneCounters counters{};        ///< of the block
   std::uint32_t* held = nullptr;  ///< per lane: not 0 afterwards where an output was held
+  int lanes = N::kLanes;          ///< of the block in use: what moves lanes one by one leaves out the rest
 };
 
 }  // namespace wisp

@@ -466,18 +466,24 @@ TEST(ChainCost, WhatLiesBetweenStepsIsCounted) {
 // One instance whose arithmetic is counted.
 class CountedChain {
  public:
-  explicit CountedChain(const Model& model, float ground = kNoGround) : stepper_(made(model)) {
+  explicit CountedChain(const Model& model, float ground = kNoGround)
+      : inputs_(model.inputs.size()), stepper_(made(model)) {
     stepper_.set_noise(1);
     stepper_.set_chain({.ground = ground});
     stepper_.start(0, 0, moment(0));
   }
 
-  /// Operations of one step.
-  std::int64_t step() {
+  /// Operations of one step, in a wind where the model knows one.
+  std::int64_t step(Vector3<float> wind = {}) {
+    for (std::size_t k = 0; k < inputs_; ++k) stepper_.regressors(0)[k] = CountingReal(wind[k]);
     operation_count = {};
     stepper_.step(0, moment(++steps_));
     return operation_count.numbers + operation_count.words;
   }
+
+  void place(const BodyState<CountingReal>& body) { stepper_.place(0, 0, body); }
+  bool steer(const Vector3<CountingReal>& target) { return stepper_.steer(0, 0, target, 1e6f, 0.1f); }
+  std::uint32_t segment() const { return stepper_.chain_place(0, 0)->segment; }
 
   /// Operations of showing what lies between the last two steps.
   std::int64_t show_between() {
@@ -497,6 +503,7 @@ class CountedChain {
 
   Moment<CountingNumbers> moment(std::uint64_t step) { return {&keys_, {&none_, &none_, step}, &held_}; }
 
+  std::size_t inputs_;
   std::vector<std::byte> memory_ = std::vector<std::byte>(1 << 20);
   RandomKeys keys_ = random_keys(1);
   std::uint64_t none_ = 0, steps_ = 0;
@@ -543,6 +550,75 @@ TEST(ChainCost, ShortSegmentsTakeNoMore) {
   EXPECT_LE(dearest_frame(hasty_chain({2, 3, 4}), 60), 83);
   // With segments of one step, something is drawn, turned, and placed in every frame.
   EXPECT_LE(dearest_frame(hasty_chain({1, 1, 12}), 60), 120);
+}
+
+TEST(ChainBank, LanesThatNobodyLivesInAreNotMoved) {
+  const Model model = sample_chain();
+  std::vector<std::byte> memory(1 << 20);
+  Arena arena(memory);
+  ChainStepper<LiveNumbers> stepper(model, std::get<ChainModel>(model.dynamics), Channels{}, 1, arena);
+  const RandomKeys keys = random_keys(1);
+  const std::array<std::uint64_t, LiveNumbers::kLanes> streams{}, born{};
+  std::array<std::uint32_t, LiveNumbers::kLanes> held;
+  Moment<LiveNumbers> moment{&keys, {streams.data(), born.data(), 0}, held.data()};
+  for (int lane = 0; lane < LiveNumbers::kLanes; ++lane) stepper.start(0, lane, moment);
+  moment.lanes = 3;
+  std::array<float, 7 * LiveNumbers::kLanes> before, after;
+  stepper.show(0, before.data());
+  stepper.step(0, moment);
+  stepper.show(0, after.data());
+  for (std::size_t lane = 0; lane < LiveNumbers::kLanes; ++lane) {
+    EXPECT_EQ(before[lane] == after[lane], lane >= 3) << lane;
+    EXPECT_EQ(held[lane], 0U);
+  }
+}
+
+// As gusts are learned: of order 1, with a press.
+Model gusty_chain() {
+  Model model = windy_chain();
+  std::get<ChainModel>(model.dynamics).gust = GustResponse{{{0.75}, {0.25}, {0.125}}, {{0.5}, {0.125}, {0.25}}};
+  return model;
+}
+
+TEST(ChainCost, AGustTakesAtMost120OperationsAFrame) {
+  const Model model = gusty_chain();
+  CountedChain chain(model), calm(model);
+  std::int64_t most = 0, most_calm = 0;
+  for (int step = 0; step < 100'000; ++step) {
+    most = std::max(most, chain.step({1, -2, 0.5f}));
+    most_calm = std::max(most_calm, calm.step());
+  }
+  EXPECT_LE(most, 120);
+  // Half a normal 10, a quarter of the press 8, three numbers 5 each, and 6 to move.
+  EXPECT_EQ(most - most_calm, 10 + 8 + 15 + 6);
+}
+
+TEST(ChainCost, ABodyThatIsPlacedTakesAtMost120OperationsAFrame) {
+  CountedChain chain(hasty_chain({1, 1, 12}));
+  BodyState<CountingReal> body;
+  for (int k = 0; k < 200; ++k) {
+    const float x = static_cast<float>(k % 20) * 0.1f - 1, y = static_cast<float>(k / 20) * 0.2f - 1;
+    body.orientation = unit<CountingReal>({CountingReal(1.0f), CountingReal(x), CountingReal(y), CountingReal(0.3f)});
+    body.rates.velocity = {CountingReal(x), CountingReal(y), CountingReal(-0.7f)};
+    chain.place(body);
+    EXPECT_EQ(chain.segment(), 2U);  // the one in which it can fade
+    for (int step = 0; step < 30; ++step) ASSERT_LE(chain.step(), 120) << k << ' ' << step;
+  }
+}
+
+// A steered join weighs every segment that may follow, in one frame.
+TEST(ChainCost, ASteeredJoinTakesSoManyOperationsACandidate) {
+  const Model model = steered_chain();
+  const auto& chain = std::get<ChainModel>(model.dynamics);
+  const auto cost = count_operations(model);
+  ASSERT_TRUE(cost);
+  const std::int64_t candidates = chain.segments.breadth * chain.modes;
+  EXPECT_GT(cost->steered_operations, 120);
+  EXPECT_LE(cost->steered_operations, 200 + 85 * candidates);
+  EXPECT_EQ(count_operations(sample_chain())->steered_operations, 0);
+  CountedChain steered(model);
+  ASSERT_TRUE(steered.steer({CountingReal(1.0f), CountingReal(2.0f), CountingReal(-3.0f)}));
+  for (int step = 0; step < 20'000; ++step) ASSERT_LE(steered.step(), cost->steered_operations);
 }
 
 TEST(ChainCost, ComingToRestTakesAtMost120OperationsAFrame) {
