@@ -7,7 +7,8 @@
 namespace wisp {
 namespace {
 
-constexpr double kMostWeight = 4;  // what hardly any recording was long enough to show, would else stand for many
+constexpr double kMostWeight = 4;    // what hardly any recording was long enough to show, would else stand for many
+constexpr double kFewCutOff = 0.05;  // of all that began: their lengths are as they were seen, but for chance
 
 // A segment that began: how long it was seen, and which one it is where it was seen whole.
 struct Seen {
@@ -37,6 +38,8 @@ std::vector<Seen> all_that_began(const Motion& motion, std::span<const Segment> 
 std::vector<double> segment_weights(const Motion& motion, std::span<const Segment> segments) {
   const std::vector<Seen> all = all_that_began(motion, segments);
   std::vector<double> weight(segments.size(), 1);
+  const auto cut_off = static_cast<double>(all.size() - segments.size());
+  if (cut_off < kFewCutOff * static_cast<double>(all.size())) return weight;
   double going_on = 1;  // how likely a recording goes on for as long after a segment's beginning
   for (std::size_t k = 0; k < all.size(); ++k) {
     const auto at_risk = static_cast<double>(all.size() - k);

@@ -14,7 +14,7 @@
 
 namespace wisp {
 
-/// Weights of whole segments, 1 in the mean: nearly 1 each where recordings last much longer than segments do.
+/// Weights of whole segments, 1 in the mean; 1 each where fewer than one in twenty that began was cut off.
 ///
 /// Precondition: segments in order, those of one piece one after the other.
 std::vector<double> segment_weights(const Motion& motion, std::span<const Segment> segments);
