@@ -8,6 +8,7 @@
 
 #include "learn/chain_drift.hpp"
 #include "learn/mode_parts.hpp"
+#include "learn/segment_weights.hpp"
 #include "wisp/learn/clustering.hpp"
 #include "wisp/learn/mode_chain.hpp"
 #include "wisp/learn/mode_splines.hpp"
@@ -51,6 +52,17 @@ ModeSequences sequences_of(std::span<const Segment> segments, std::span<const st
     sequences.back().push_back(cluster[k]);
   }
   return sequences;
+}
+
+// What they stand for, in the same sequences.
+ModeWeights weights_of(const Motion& motion, std::span<const Segment> segments) {
+  const std::vector<double> weight = segment_weights(motion, segments);
+  ModeWeights weights;
+  for (std::size_t k = 0; k < segments.size(); ++k) {
+    if (k == 0 || segments[k].piece != segments[k - 1].piece) weights.emplace_back();
+    weights.back().push_back(weight[k]);
+  }
+  return weights;
 }
 
 // A part of the data, cut and described.
@@ -314,7 +326,8 @@ Result<Realised> realised_chain(const Walked& walked, const ChainOptions& option
     const auto told = sequences_of(parts->segments, parts->cluster);
     // Twice as many kinds: tables of what joins what are as large with half of the followers.
     const int history = options.history > 0 ? options.history : kMostPartHistory;
-    const ModeChain chain = estimate_chain(told, parts->modes, {.history = history, .back_off = options.history == 0});
+    const ModeChain chain = estimate_chain(told, parts->modes, {.history = history, .back_off = options.history == 0},
+                                           weights_of(walked.motion, parts->segments));
     ChainOptions fewer = options;
     fewer.store.breadth = (options.store.breadth + 1) / 2;
     out = stored_chain({walked.motion, parts->segments, parts->cluster, parts->modes, chain}, fewer);
@@ -358,7 +371,7 @@ Result<ChainFit> learn_chain(std::span<const Recording> recordings, const ChainO
   auto judged = sequences_of(segments.subspan(learned), std::span(modes->cluster).subspan(learned));
   if (judged.empty()) judged = told;
   const ModeChainOptions order = order_of(told, summary.modes, options.history);
-  const ModeChain chain = estimate_chain(told, summary.modes, order);
+  const ModeChain chain = estimate_chain(told, summary.modes, order, weights_of(data->motion, segments.first(learned)));
   const Walked walked{data->motion, segments.first(learned), std::span(modes->cluster).first(learned), summary.modes,
                       chain};
   auto realised = realised_chain(walked, options);

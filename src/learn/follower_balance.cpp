@@ -54,16 +54,17 @@ std::vector<double> walked(const std::vector<double>& likely, std::span<const st
   return next;
 }
 
-// How much oftener than its mode's mean each segment is played.
-std::vector<double> overuse(const std::vector<double>& likely, std::span<const std::uint16_t> mode, int modes) {
+// How much oftener each segment is played than as one that stands for so many of its mode.
+std::vector<double> overuse(const std::vector<double>& likely, std::span<const std::uint16_t> mode,
+                            std::span<const double> weight, int modes) {
   std::vector<double> sum(static_cast<std::size_t>(modes)), size(static_cast<std::size_t>(modes));
   for (std::size_t k = 0; k < likely.size(); ++k) {
     sum[mode[k]] += likely[k];
-    ++size[mode[k]];
+    size[mode[k]] += weight[k];
   }
   std::vector<double> over(likely.size(), 1.0);
   for (std::size_t k = 0; k < likely.size(); ++k) {
-    if (sum[mode[k]] > 0) over[k] = likely[k] * size[mode[k]] / sum[mode[k]];
+    if (sum[mode[k]] > 0) over[k] = likely[k] * size[mode[k]] / (sum[mode[k]] * weight[k]);
   }
   return over;
 }
@@ -71,7 +72,8 @@ std::vector<double> overuse(const std::vector<double>& likely, std::span<const s
 }  // namespace
 
 std::vector<std::uint16_t> balanced_followers(const Followers& followers, std::span<const std::uint16_t> mode,
-                                              std::span<const double> chances, int modes, int breadth) {
+                                              std::span<const double> weight, std::span<const double> chances,
+                                              int modes, int breadth) {
   const double usual = usual_misfit(followers, breadth);
   std::vector<double> price(mode.size()), likely(mode.size(), 1.0 / static_cast<double>(mode.size()));
   auto follow = chosen(followers, price, breadth);
@@ -79,7 +81,7 @@ std::vector<std::uint16_t> balanced_followers(const Followers& followers, std::s
     for (int step = 0; step < kWalkSteps; ++step) {
       likely = walked(likely, follow, chances, modes, breadth);
     }
-    const auto over = overuse(likely, mode, modes);
+    const auto over = overuse(likely, mode, weight, modes);
     for (std::size_t k = 0; k < price.size(); ++k) {
       const double dearer = kStep * usual * std::log(std::max(over[k], 0.05));
       price[k] = std::clamp(price[k] + dearer, 0.0, kMostPrice * usual);

@@ -24,9 +24,11 @@ struct Follower {
 using Followers = std::vector<std::vector<Follower>>;
 
 /// Chooses `breadth` of each, the best first, the same again where there are fewer. Segments that a long walk plays
-/// oftener than their mode's mean are made dearer, until those that remain too often join much better than the rest.
-/// `chances`: segments × modes, how likely each mode is after each segment.
+/// oftener, among those of their mode, than as one that stands for `weight` of them are made dearer, until those that
+/// remain too often join much better than the rest. `chances`: segments × modes, how likely each mode is after each
+/// segment.
 std::vector<std::uint16_t> balanced_followers(const Followers& followers, std::span<const std::uint16_t> mode,
-                                              std::span<const double> chances, int modes, int breadth);
+                                              std::span<const double> weight, std::span<const double> chances,
+                                              int modes, int breadth);
 
 }  // namespace wisp

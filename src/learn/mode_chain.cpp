@@ -9,35 +9,49 @@ namespace wisp {
 namespace {
 
 using History = std::vector<std::uint16_t>;
-using Counts = std::map<History, std::vector<std::size_t>>;
+
+// What followed a history: how often each mode, and what that is worth.
+struct Followed {
+  std::vector<std::size_t> seen;
+  std::vector<double> worth;
+};
+using Counts = std::map<History, Followed>;
 
 constexpr double kLeastProbability = 1e-6;
 constexpr double kGain = 0.002;  // nats a segment: a longer history must be worth as much
 constexpr int kParts = 5;
 
-Counts count_followers(const ModeSequences& sequences, int modes, int longest) {
+double worth_of(const ModeWeights& weights, std::size_t sequence, std::size_t at) {
+  return weights.empty() ? 1.0 : weights[sequence][at];
+}
+
+Counts count_followers(const ModeSequences& sequences, const ModeWeights& weights, int modes, int longest) {
   Counts counts;
-  for (const auto& sequence : sequences) {
+  for (std::size_t k = 0; k < sequences.size(); ++k) {
+    const auto& sequence = sequences[k];
     for (std::size_t at = 0; at < sequence.size(); ++at) {
       const auto most = std::min(at, static_cast<std::size_t>(longest));
       for (std::size_t length = at == 0 ? 0 : 1; length <= most; ++length) {
         const auto end = sequence.begin() + static_cast<long>(at);
         auto& row = counts[History(end - static_cast<long>(length), end)];
-        row.resize(static_cast<std::size_t>(modes));
-        ++row[sequence[at]];
+        row.seen.resize(static_cast<std::size_t>(modes));
+        row.worth.resize(static_cast<std::size_t>(modes));
+        ++row.seen[sequence[at]];
+        row.worth[sequence[at]] += worth_of(weights, k, at);
       }
     }
   }
   return counts;
 }
 
-std::vector<double> frequencies(const ModeSequences& sequences, int modes) {
+std::vector<double> frequencies(const ModeSequences& sequences, const ModeWeights& weights, int modes) {
   std::vector<double> share(static_cast<std::size_t>(modes), 0.0);
   double total = 0;
-  for (const auto& sequence : sequences) {
-    for (std::uint16_t mode : sequence) {
-      ++share[mode];
-      ++total;
+  for (std::size_t k = 0; k < sequences.size(); ++k) {
+    for (std::size_t at = 0; at < sequences[k].size(); ++at) {
+      const double worth = worth_of(weights, k, at);
+      share[sequences[k][at]] += worth;
+      total += worth;
     }
   }
   for (double& p : share) p /= total;
@@ -45,17 +59,17 @@ std::vector<double> frequencies(const ModeSequences& sequences, int modes) {
 }
 
 // Counts as probabilities over those of the shorter history.
-std::vector<double> mixed(const std::vector<std::size_t>& counts, const std::vector<double>& shorter, bool back_off) {
+std::vector<double> mixed(const std::vector<double>& counts, const std::vector<double>& shorter, bool back_off) {
   double total = 0, kinds = 0;
-  for (std::size_t count : counts) {
-    total += static_cast<double>(count);
+  for (double count : counts) {
+    total += count;
     kinds += count > 0 ? 1 : 0;
   }
   if (total == 0) return shorter;
   if (!back_off) kinds = 0;
   std::vector<double> out;
   for (std::size_t mode = 0; mode < counts.size(); ++mode) {
-    out.push_back((static_cast<double>(counts[mode]) + kinds * shorter[mode]) / (total + kinds));
+    out.push_back((counts[mode] + kinds * shorter[mode]) / (total + kinds));
   }
   return out;
 }
@@ -105,13 +119,14 @@ double held_out_likelihood(const ModeSequences& sequences, int modes, const Mode
 
 }  // namespace
 
-ModeChain estimate_chain(const ModeSequences& sequences, int modes, const ModeChainOptions& options) {
-  const Counts counts = count_followers(sequences, modes, options.history);
-  const std::vector<double> overall = frequencies(sequences, modes);
+ModeChain estimate_chain(const ModeSequences& sequences, int modes, const ModeChainOptions& options,
+                         const ModeWeights& weights) {
+  const Counts counts = count_followers(sequences, weights, modes, options.history);
+  const std::vector<double> overall = frequencies(sequences, weights, modes);
   ModeChain chain;
   const auto size = static_cast<std::size_t>(modes);
   const auto begins = counts.find({});
-  chain.initial = begins == counts.end() ? overall : mixed(begins->second, overall, options.back_off);
+  chain.initial = begins == counts.end() ? overall : mixed(begins->second.worth, overall, options.back_off);
   chain.counts.assign(size * size, 0);
   std::map<History, std::vector<double>> known;
   const auto add = [&](const History& history, std::vector<double> probability) {
@@ -120,14 +135,15 @@ ModeChain estimate_chain(const ModeSequences& sequences, int modes, const ModeCh
   };
   for (std::uint16_t mode = 0; mode < modes; ++mode) {
     const auto found = counts.find({mode});
-    const std::vector<std::size_t> row = found == counts.end() ? std::vector<std::size_t>(size) : found->second;
-    std::copy(row.begin(), row.end(), chain.counts.begin() + static_cast<long>(mode * size));
-    add({mode}, mixed(row, overall, options.back_off));
+    const Followed row =
+        found == counts.end() ? Followed{std::vector<std::size_t>(size), std::vector<double>(size)} : found->second;
+    std::copy(row.seen.begin(), row.seen.end(), chain.counts.begin() + static_cast<long>(mode * size));
+    add({mode}, mixed(row.worth, overall, options.back_off));
   }
   for (std::size_t length = 2; length <= static_cast<std::size_t>(options.history); ++length) {
     for (const auto& [history, row] : counts) {
-      if (history.size() != length || total_of(row) < options.least_count) continue;
-      add(history, mixed(row, shorter_of(known, history, overall), options.back_off));
+      if (history.size() != length || total_of(row.seen) < options.least_count) continue;
+      add(history, mixed(row.worth, shorter_of(known, history, overall), options.back_off));
     }
   }
   return chain;

@@ -15,26 +15,32 @@ constexpr double kMostShare = 65535;
 
 using Near = std::pair<double, std::size_t>;
 
-// Shares of the modes among the recorded segments that begin nearest to a moment.
+// Shares of the modes among what the recorded segments stand for that begin nearest to a moment.
 std::vector<double> nearby(const JoinMoment& moment, const std::vector<JoinMoment>& starts,
-                           std::span<const std::uint16_t> mode, std::size_t modes) {
+                           std::span<const std::uint16_t> mode, std::span<const double> weight, std::size_t modes) {
   std::vector<Near> near;
   for (std::size_t k = 0; k < starts.size(); ++k) near.emplace_back(distance_of(moment, starts[k]), k);
   const std::size_t count = std::min(near.size(), kNear);
   std::nth_element(near.begin(), near.begin() + static_cast<long>(count) - 1, near.end());
   std::vector<double> share(modes);
-  for (std::size_t k = 0; k < count; ++k) share[mode[near[k].second]] += 1.0 / static_cast<double>(count);
+  double all = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    share[mode[near[k].second]] += weight[near[k].second];
+    all += weight[near[k].second];
+  }
+  for (double& one : share) one /= all;
   return share;
 }
 
 }  // namespace
 
 OnwardModes onward_modes(const SegmentMoments& recorded, std::span<const std::uint16_t> mode,
-                         std::span<const std::size_t> kept, std::span<const double> transitions, int modes) {
+                         std::span<const double> weight, std::span<const std::size_t> kept,
+                         std::span<const double> transitions, int modes) {
   const auto count = static_cast<std::size_t>(modes);
   OnwardModes out;
   for (std::size_t segment : kept) {
-    const auto share = nearby(recorded.ends[segment], recorded.starts, mode, count);
+    const auto share = nearby(recorded.ends[segment], recorded.starts, mode, weight, count);
     std::vector<double> ratio(count), chance(count);
     for (std::size_t k = 0; k < count; ++k) {
       const double usual = transitions[mode[segment] * count + k];

@@ -15,9 +15,11 @@ struct OnwardModes {
   std::vector<double> chances;       ///< segments × modes: how likely a walk of order one goes on with each mode
 };
 
-/// For the `kept` ones of all recorded segments, each of which has a mode: of the recorded segments that begin most as
-/// a kept one ends, how many are of each mode. `transitions`: modes × modes, of the recording.
+/// For the `kept` ones of all recorded segments, each of which has a mode and stands for `weight` of them: of the
+/// recorded segments that begin most as a kept one ends, how many are of each mode. `transitions`: modes × modes, of
+/// the recording.
 OnwardModes onward_modes(const SegmentMoments& recorded, std::span<const std::uint16_t> mode,
-                         std::span<const std::size_t> kept, std::span<const double> transitions, int modes);
+                         std::span<const double> weight, std::span<const std::size_t> kept,
+                         std::span<const double> transitions, int modes);
 
 }  // namespace wisp

@@ -14,8 +14,8 @@ constexpr std::size_t kLookedAt = 64;  // nearest ones of which the jumps are fo
 constexpr double kSmooth = 0.8;
 constexpr double kJumpWeight = 15;
 
-Followers candidates_of(const SegmentMoments& moments, std::span<const std::uint16_t> mode, int modes,
-                        const JoinForesight& foresight) {
+Followers candidates_of(const SegmentMoments& moments, std::span<const std::uint16_t> mode,
+                        std::span<const double> weight, int modes, const JoinForesight& foresight) {
   std::vector<std::vector<std::uint16_t>> members(static_cast<std::size_t>(modes));
   for (std::size_t k = 0; k < mode.size(); ++k) members[mode[k]].push_back(static_cast<std::uint16_t>(k));
   Followers candidates;
@@ -32,6 +32,8 @@ Followers candidates_of(const SegmentMoments& moments, std::span<const std::uint
       for (Follower& one : near) {
         const double beyond = std::max(0.0, foresight.jump(from, one.segment) - kSmooth);
         one.misfit += kJumpWeight * beyond * beyond;
+        // Of two that stood beside each other in a plane of moments, the nearer one would be as much nearer.
+        one.misfit /= weight[one.segment];
       }
       candidates.push_back(std::move(near));
     }
@@ -43,9 +45,11 @@ Followers candidates_of(const SegmentMoments& moments, std::span<const std::uint
 
 std::vector<std::uint16_t> best_followers(const Motion& motion, std::span<const Segment> segments,
                                           const SegmentMoments& moments, std::span<const std::uint16_t> mode, int modes,
-                                          const FollowerOptions& options, std::span<const double> chances) {
+                                          const FollowerOptions& options, std::span<const double> weight,
+                                          std::span<const double> chances) {
   const JoinForesight foresight(motion, segments, options.heading_free, options.blend);
-  return balanced_followers(candidates_of(moments, mode, modes, foresight), mode, chances, modes, options.breadth);
+  return balanced_followers(candidates_of(moments, mode, weight, modes, foresight), mode, weight, chances, modes,
+                            options.breadth);
 }
 
 }  // namespace wisp

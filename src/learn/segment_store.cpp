@@ -10,6 +10,7 @@
 #include "learn/onward_modes.hpp"
 #include "learn/segment_joins.hpp"
 #include "learn/segment_moments.hpp"
+#include "learn/segment_weights.hpp"
 #include "wisp/learn/segment_features.hpp"
 
 namespace wisp {
@@ -133,11 +134,11 @@ std::vector<std::size_t> kept_segments(const Motion& motion, std::span<const Seg
 
 // Shares of the modes that follow each mode, modes × modes.
 std::vector<double> transitions_of(std::span<const Segment> segments, std::span<const std::uint16_t> cluster,
-                                   int modes) {
+                                   std::span<const double> weight, int modes) {
   const auto count = static_cast<std::size_t>(modes);
   std::vector<double> share(count * count);
   for (std::size_t k = 1; k < segments.size(); ++k) {
-    if (segments[k].piece == segments[k - 1].piece) ++share[cluster[k - 1] * count + cluster[k]];
+    if (segments[k].piece == segments[k - 1].piece) share[cluster[k - 1] * count + cluster[k]] += weight[k];
   }
   for (std::size_t from = 0; from < count; ++from) {
     const auto row = std::span(share).subspan(from * count, count);
@@ -152,17 +153,21 @@ std::vector<double> transitions_of(std::span<const Segment> segments, std::span<
 void join_up(const Motion& motion, std::span<const Segment> segments, std::span<const std::uint16_t> cluster, int modes,
              const SegmentStoreOptions& options, SegmentStore& store) {
   const SegmentMoments moments = segment_moments(motion, segments, options.heading_free);
-  OnwardModes onward = onward_modes(moments, cluster, store.source, transitions_of(segments, cluster, modes), modes);
+  const std::vector<double> weight = segment_weights(motion, segments);
+  OnwardModes onward =
+      onward_modes(moments, cluster, weight, store.source, transitions_of(segments, cluster, weight, modes), modes);
   std::vector<Segment> kept;
   SegmentMoments own;
+  std::vector<double> own_weight;
   for (std::size_t source : store.source) {
     kept.push_back(segments[source]);
     own.starts.push_back(moments.starts[source]);
     own.ends.push_back(moments.ends[source]);
+    own_weight.push_back(weight[source]);
   }
   const FollowerOptions joining{options.heading_free, options.breadth, options.blend};
   ChainSegments& out = store.segments;
-  out.follow = best_followers(motion, kept, own, out.mode, modes, joining, onward.chances);
+  out.follow = best_followers(motion, kept, own, out.mode, modes, joining, own_weight, onward.chances);
   if (modes > 1) out.onward = std::move(onward.share);
 }
 

@@ -25,14 +25,25 @@ long times_followed(const std::vector<std::uint16_t>& follow, std::uint16_t segm
 
 TEST(FollowerBalance, WhatJoinsALittleBetterEverywhereGivesWayToOthers) {
   const std::vector<std::uint16_t> mode(12, 0);
+  const std::vector<double> weight(12, 1.0);
   const std::vector<double> chances(12, 1.0);
-  const auto follow = balanced_followers(one_that_all_like(), mode, chances, 1, 3);
+  const auto follow = balanced_followers(one_that_all_like(), mode, weight, chances, 1, 3);
   ASSERT_EQ(follow.size(), 36U);
   EXPECT_LE(times_followed(follow, 0), 5);  // three each were even; eleven without prices
 }
 
+TEST(FollowerBalance, WhatStandsForManyIsPlayedOftener) {
+  const std::vector<std::uint16_t> mode(12, 0);
+  std::vector<double> weight(12, 1.0);
+  const std::vector<double> chances(12, 1.0);
+  weight[0] = 3;
+  const auto follow = balanced_followers(one_that_all_like(), mode, weight, chances, 1, 3);
+  EXPECT_GE(times_followed(follow, 0), 7);
+}
+
 TEST(FollowerBalance, WhatJoinsFarBetterStays) {
   const std::vector<std::uint16_t> mode(12, 0);
+  const std::vector<double> weight(12, 1.0);
   const std::vector<double> chances(12, 1.0);
   Followers followers = one_that_all_like();
   for (auto& all : followers) {
@@ -40,14 +51,15 @@ TEST(FollowerBalance, WhatJoinsFarBetterStays) {
       if (one.segment == 0) one.misfit = 0;
     }
   }
-  EXPECT_EQ(times_followed(balanced_followers(followers, mode, chances, 1, 3), 0), 11);
+  EXPECT_EQ(times_followed(balanced_followers(followers, mode, weight, chances, 1, 3), 0), 11);
 }
 
 TEST(FollowerBalance, FewerThanAskedForAreRepeated) {
   const std::vector<std::uint16_t> mode{0, 0};
+  const double weight[] = {1, 1};
   const double chances[] = {1, 1};
   const Followers followers{{{0.5, 1}}, {{0.5, 0}}};
-  EXPECT_EQ(balanced_followers(followers, mode, chances, 1, 2), (std::vector<std::uint16_t>{1, 1, 0, 0}));
+  EXPECT_EQ(balanced_followers(followers, mode, weight, chances, 1, 2), (std::vector<std::uint16_t>{1, 1, 0, 0}));
 }
 
 }  // namespace

@@ -57,6 +57,12 @@ TEST(ModeChain, WittenAndBellLeaveRoomForWhatWasNotSeen) {
               ElementsAre(testing::DoubleEq(1.0 / 6), testing::DoubleEq(3.75 / 6), testing::DoubleEq(1.25 / 6)));
 }
 
+TEST(ModeChain, WhatStandsForManyCountsAsMany) {
+  const ModeChain chain = estimate_chain({{0, 1}, {0, 2}}, 3, {.history = 1}, {{1, 1}, {1, 3}});
+  EXPECT_THAT(after(chain, {0}).probability, ElementsAre(0.0, 0.25, 0.75));
+  EXPECT_THAT(chain.counts, ElementsAre(0U, 1U, 1U, 0U, 0U, 0U, 0U, 0U, 0U));
+}
+
 TEST(ModeChain, AModeThatOnlyEndsRecordingsGoesOnAsModesDo) {
   for (bool back_off : {false, true}) {
     const ModeChain chain = estimate_chain({{0, 1, 0, 2}}, 3, {.history = 1, .back_off = back_off});

@@ -23,11 +23,13 @@ Recorded two_places() {
   return out;
 }
 
+std::vector<double> one_each() { return std::vector<double>(40, 1.0); }
+
 TEST(OnwardModes, AModeThatBeginsWhereASegmentEndsIsFarLikelier) {
   const Recorded recorded = two_places();
   const std::size_t kept[] = {0, 1};
   const double transitions[] = {0.5, 0.5, 0.5, 0.5};
-  const OnwardModes onward = onward_modes(recorded.moments, recorded.mode, kept, transitions, 2);
+  const OnwardModes onward = onward_modes(recorded.moments, recorded.mode, one_each(), kept, transitions, 2);
   ASSERT_EQ(onward.share.size(), 4U);
   EXPECT_EQ(onward.share[0], 65535);
   EXPECT_LT(onward.share[1], 65535 / 20);
@@ -41,9 +43,21 @@ TEST(OnwardModes, WhatTheHistoryFindsRareIsRaisedByWhatIsNearby) {
   const Recorded recorded = two_places();
   const std::size_t kept[] = {1};
   const double transitions[] = {0.5, 0.5, 0.95, 0.05};
-  const OnwardModes onward = onward_modes(recorded.moments, recorded.mode, kept, transitions, 2);
+  const OnwardModes onward = onward_modes(recorded.moments, recorded.mode, one_each(), kept, transitions, 2);
   EXPECT_EQ(onward.share[1], 65535);
   EXPECT_GT(onward.chances[1], 0.5);
+}
+
+TEST(OnwardModes, WhatStandsForManyCountsAsMany) {
+  const Recorded recorded = two_places();
+  const std::size_t kept[] = {2};  // of the eight nearest, four are of each mode
+  const double transitions[] = {0.5, 0.5, 0.5, 0.5};
+  std::vector<double> weight = one_each();
+  for (std::size_t k = 1; k < weight.size(); k += 2) weight[k] = 3;
+  const OnwardModes even = onward_modes(recorded.moments, recorded.mode, one_each(), kept, transitions, 2);
+  const OnwardModes onward = onward_modes(recorded.moments, recorded.mode, weight, kept, transitions, 2);
+  EXPECT_NEAR(even.chances[1], 0.5, 1e-12);
+  EXPECT_NEAR(onward.chances[1], 0.75, 0.01);
 }
 
 }  // namespace

@@ -17,6 +17,9 @@ namespace wisp {
 /// Sequences of modes, one a stretch of segments that follow each other.
 using ModeSequences = std::vector<std::vector<std::uint16_t>>;
 
+/// For each mode of the sequences, how many it stands for (> 0); empty: one each.
+using ModeWeights = std::vector<std::vector<double>>;
+
 struct ModeChainOptions {
   int history = 1;              ///< longest history, 1 … 16
   bool back_off = false;        ///< Witten–Bell; otherwise counts as they are wherever the history was seen
@@ -26,14 +29,15 @@ struct ModeChainOptions {
 struct ModeChain {
   std::vector<double> initial;         ///< per mode
   std::vector<ChainContext> contexts;  ///< every single mode, then longer histories
-  std::vector<std::size_t> counts;     ///< modes × modes: transitions that were seen
+  std::vector<std::size_t> counts;     ///< modes × modes: transitions that were seen, unweighted
 };
 
 /// A mode that nothing followed (it only ends recordings) goes on as modes do on the whole, so that no walk is
 /// stranded.
 ///
-/// Precondition: all modes are below `modes`, and there is at least one.
-ModeChain estimate_chain(const ModeSequences& sequences, int modes, const ModeChainOptions& options);
+/// Precondition: all modes are below `modes`, and there is at least one; weights of the sequences' shape, or none.
+ModeChain estimate_chain(const ModeSequences& sequences, int modes, const ModeChainOptions& options,
+                         const ModeWeights& weights = {});
 
 /// Mean natural logarithm of the probability that the chain gives each mode of the sequences that has one before it:
 /// −ln(modes) for a chain that knows nothing. A probability of 0 counts as 1e-6. NaN where there is no transition.
