@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <limits>
 
 #include "learn/chain_drift.hpp"
 #include "learn/mode_parts.hpp"
 #include "learn/segment_weights.hpp"
+#include "wisp/base/number_text.hpp"
 #include "wisp/learn/clustering.hpp"
 #include "wisp/learn/mode_chain.hpp"
 #include "wisp/learn/mode_splines.hpp"
@@ -226,12 +226,6 @@ std::string words_of(const EventSpec& event) {
   return kind + event.signal;
 }
 
-std::string text_of(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
-}
-
 Provenance provenance_of(std::span<const Recording> recordings, const ChainOptions& options,
                          const ChainSummary& summary) {
   Provenance made;
@@ -245,8 +239,8 @@ Provenance provenance_of(std::span<const Recording> recordings, const ChainOptio
                   {"modes", options.modes > 0 ? std::to_string(options.modes) : "auto"},
                   {"history", options.history > 0 ? std::to_string(options.history) : "auto"},
                   {"realise", std::string(word_of(options.realisation))},
-                  {"shortest", text_of(options.segmentation.least_seconds)},
-                  {"debounce", text_of(options.segmentation.debounce)},
+                  {"shortest", number_text(options.segmentation.least_seconds)},
+                  {"debounce", number_text(options.segmentation.debounce)},
                   {"smooth", std::to_string(options.smooth_rows)}};
   made.figures = {{"segments", static_cast<double>(summary.segments)},
                   {"silhouette", summary.silhouette},
