@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "arx_triangle.hpp"
-#include "wisp/base/number_text.hpp"
+#include "wisp/record/number_text.hpp"
 
 namespace wisp {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "arx_report.hpp"
-#include "wisp/base/number_text.hpp"
+#include "wisp/record/number_text.hpp"
 
 namespace wisp {
 namespace {

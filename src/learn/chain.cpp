@@ -8,13 +8,13 @@
 #include "learn/chain_drift.hpp"
 #include "learn/mode_parts.hpp"
 #include "learn/segment_weights.hpp"
-#include "wisp/base/number_text.hpp"
 #include "wisp/learn/clustering.hpp"
 #include "wisp/learn/mode_chain.hpp"
 #include "wisp/learn/mode_splines.hpp"
 #include "wisp/learn/mode_systems.hpp"
 #include "wisp/learn/motion.hpp"
 #include "wisp/model/file.hpp"
+#include "wisp/record/number_text.hpp"
 
 namespace wisp {
 namespace {

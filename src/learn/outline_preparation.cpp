@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "wisp/base/number_text.hpp"
 #include "wisp/learn/outline_knots.hpp"
 #include "wisp/model/bspline.hpp"
+#include "wisp/record/number_text.hpp"
 
 namespace wisp {
 namespace {

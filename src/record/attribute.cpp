@@ -2,7 +2,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "wisp/base/number_text.hpp"
+#include "wisp/record/number_text.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {

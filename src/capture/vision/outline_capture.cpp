@@ -6,8 +6,8 @@
 
 #include "capture/vision/outline_rows.hpp"
 #include "capture/vision/outline_seeker.hpp"
-#include "wisp/base/number_text.hpp"
 #include "wisp/capture/vision/knots.hpp"
+#include "wisp/record/number_text.hpp"
 
 namespace wisp {
 namespace {

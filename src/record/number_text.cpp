@@ -1,4 +1,4 @@
-#include "wisp/base/number_text.hpp"
+#include "wisp/record/number_text.hpp"
 
 #include <charconv>
 
