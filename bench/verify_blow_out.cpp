@@ -5,7 +5,8 @@
 //   wisp_verify_blow_out LEARNED.csv… -- UNSEEN.csv…
 //
 // The files are captures of clips such as `wisp simulate candle --puffs 5` makes. Prints a table of deaths and gusts
-// that each model gets right on the unseen clips, and of how far its sizes are off while a flame dies and catches.
+// that each model gets right on the unseen clips, and of how far its sizes are off while a flame dies and catches; exit
+// status 1 where the rule misses a bound.
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "verify_bounds.hpp"
 #include "wisp/learn/arx_orders.hpp"
 #include "wisp/learn/extinction.hpp"
 #include "wisp/learn/flame_sizes.hpp"
@@ -272,5 +274,18 @@ int main(int count, char** words) {
     judge_switched(name + ": and harm", {{"wind", "tap", "harm"}, {"size"}}, modes, to_learn, unseen, to_judge, judged);
     std::fflush(stdout);
   }
-  return 0;
+  std::printf("\n");
+  verify::Bounds bounds;
+  const auto share = [](std::size_t right, std::size_t of) {
+    return static_cast<double>(right) / static_cast<double>(of);
+  };
+  bounds.at_least("share of unseen deaths that the rule gets right", share(judged.died, judged.deaths), 0.9);
+  bounds.at_least("share of unseen gusts that it lets the flame come through", share(judged.spared, judged.gusts),
+                  0.95);
+  bounds.at_most("how far off in time its deaths are, median, s", judged.median_off(), 0.05);
+  bounds.at_most("how far a dying flame's size is off", ramp_error(SizeChange::kDying, dying->seconds, dying_unseen),
+                 0.1);
+  bounds.at_most("how far a catching flame's size is off",
+                 ramp_error(SizeChange::kCatching, catching->seconds, catching_unseen), 0.1);
+  return bounds.missed() == 0 ? 0 : 1;
 }
