@@ -165,7 +165,7 @@ class ArxStepper {
     if (!drawn_.empty()) {
       DrawnWind<Real> winds[kLanes];
       if (drawn_.driven()) measure_winds(block, winds);
-      drawn_.step(block, winds, moment, shocks_.data());
+      drawn_.step(block, winds, previous(block), moment, shocks_.data());
       return;
     }
     draw(moment);

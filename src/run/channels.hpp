@@ -91,11 +91,22 @@ Result<void> check_channels(const Model& model, const OperatingPoint& point);
 /// A hash of the channels, over a hash of what came before.
 std::uint64_t hash_of(const Channels& channels, std::uint64_t before);
 
+/// Whether a number is above a limit in any lane.
+template <class N>
+inline bool any_above(const Reals<N>& numbers, float limit) {
+  typename N::Real lanes[N::kLanes];
+  store(numbers, lanes);
+  bool above = false;
+  for (const auto& one : lanes) above |= one > typename N::Real(limit);
+  return above;
+}
+
 /// A curve at inputs: the input itself up to the first knot, then what it climbs in each piece.
 template <class N>
 inline Reals<N> bend(std::span<const CurvePiece> curve, const Reals<N>& inputs) {
   auto value = smaller(inputs, all<Reals<N>>(curve.front().from));
   for (const CurvePiece& piece : curve) {
+    if (!any_above<N>(inputs, piece.from)) break;  // neither it nor what follows climbs
     const auto within = hold(inputs - all<Reals<N>>(piece.from), all<Reals<N>>(0.0f), all<Reals<N>>(piece.width));
     value = value + all<Reals<N>>(piece.slope) * within;
   }

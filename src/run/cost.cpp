@@ -22,12 +22,6 @@ OperationCount count(Work work) {
   return operation_count;
 }
 
-OperationCount count_inputs(const Channels& channels) {
-  return count([&] {
-    for (const RegressorChannel& channel : channels.regressors) regress<CountingNumbers>(channel, {});
-  });
-}
-
 // Regressors while every input is at its highest: wind that blows from one side.
 std::vector<CountingReal> blowing_regressors(const Model& model, const Channels& channels) {
   std::vector<CountingReal> values(channels.regressors.size());
@@ -37,6 +31,10 @@ std::vector<CountingReal> blowing_regressors(const Model& model, const Channels&
     store(regress<CountingNumbers>(channel, all<Reals<CountingNumbers>>(highest)), &values[k]);
   }
   return values;
+}
+
+OperationCount count_inputs(const Model& model, const Channels& channels) {
+  return count([&] { blowing_regressors(model, channels); });
 }
 
 // Of one step: the mean over as many as it takes, rounded up, and the most.
@@ -124,7 +122,7 @@ Cost count_frame(const Model& model, const Kind& dynamics, const Channels& chann
   const auto [noisy, most] = count_step(stepper, blowing, 1);
   Cost cost;
   cost.multiply_adds_per_frame = stepper.multiply_adds();
-  cost.dynamics_operations = count_inputs(channels).numbers + quiet.numbers + quiet.words;
+  cost.dynamics_operations = count_inputs(model, channels).numbers + quiet.numbers + quiet.words;
   cost.noise_operations = noisy.numbers - quiet.numbers;
   cost.random_operations = noisy.words - quiet.words;
   cost.view_operations = count_view(channels, stepper, polyline).numbers;

@@ -124,14 +124,15 @@ TEST(Cost, TheWindsSquareCostsItsTapsAndOneProductAnInput) {
   EXPECT_EQ(square.dynamics_operations, plain.dynamics_operations + 2 * 16 * 4 + 2);
 }
 
-// For every knot a difference, a product and a sum; the wind's bounds cost nothing.
-TEST(Cost, ACurveCostsThreeOperationsAKnotAndRegressor) {
+// From each knot to the next a difference, a product and a sum; the wind's bounds cost nothing, nor does the side from
+// which it does not blow.
+TEST(Cost, ACurveCostsThreeOperationsAPieceWhereItBlows) {
   const Cost plain = cost_of(flame_model()), bent = cost_of(flame_model({.wind = InputShape::kCurve}));
   EXPECT_EQ(bent.multiply_adds_per_frame, plain.multiply_adds_per_frame);
-  EXPECT_EQ(bent.dynamics_operations, plain.dynamics_operations + 3 * 5);
+  EXPECT_EQ(bent.dynamics_operations, plain.dynamics_operations + 3 * 4);
   const Cost split = cost_of(flame_model({.wind = InputShape::kSplitSign}));
   const Cost both = cost_of(flame_model({.wind = InputShape::kSplitSignCurve}));
-  EXPECT_EQ(both.dynamics_operations, split.dynamics_operations + 2 * 3 * 5);
+  EXPECT_EQ(both.dynamics_operations, split.dynamics_operations + 3 * 4);
 }
 
 TEST(Cost, ABadModelHasNone) {
