@@ -31,7 +31,8 @@ std::vector<Recording> burning(const std::vector<Recording>& clips) {
 
 }  // namespace
 
-FlameCorpus::FlameCorpus(std::filesystem::path folder) : folder_(std::move(folder)) {
+FlameCorpus::FlameCorpus(std::filesystem::path folder, FlameSeeds seeds)
+    : folder_(std::move(folder)), offset_(static_cast<std::uint64_t>(seeds)) {
   std::filesystem::create_directories(folder_);
   (void)gusts();  // the first of them has the knots
 }
@@ -53,7 +54,8 @@ Recording FlameCorpus::get(const std::string& name, FlameClipChoice choice) {
 
 std::vector<Recording> FlameCorpus::get(const Takes& takes, bool again) {
   std::vector<Recording> out;
-  for (std::uint64_t seed : takes.seeds) {
+  for (std::uint64_t number : takes.seeds) {
+    const std::uint64_t seed = number + offset_;
     FlameClipChoice choice = takes.choice;
     choice.wind_seed = seed;
     choice.chance_seed = again ? seed + kOtherChance : seed;

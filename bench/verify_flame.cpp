@@ -1,10 +1,13 @@
 // The learned flame on simulated clips that learning has not seen, over several seeds: what follows the wind, what does
 // not, and which of the choices that there are is better. Prints tables; exit status 1 where a bound is missed.
 //
-//   wisp_verify_flame            the tables
-//   wisp_verify_flame DIR        what each piece of a model is worth, on other clips, kept in DIR (flame_corpus.hpp);
-//                                bench/peers/likeness.py DIR/pieces makes the table
-//   wisp_verify_flame DIR REC…   the same for the flicker of captured flames, in DIR/flicker
+//   wisp_verify_flame                the tables
+//   wisp_verify_flame DIR [ASKED…]   what each piece of a model is worth, on other clips, kept in DIR
+//                                    (flame_corpus.hpp); bench/peers/likeness.py DIR/pieces makes the table
+//   wisp_verify_flame DIR REC…       the same for the flicker of captured flames, in DIR/flicker
+//
+// ASKED: --gusts, without calm and blow-outs; --only NAME, of pieces; --clips NAME, one of fresh (the default),
+// other-fresh, tuning, second-tuning, third-tuning, each in a folder of its own.
 
 #include "verify_flame.hpp"
 
@@ -12,7 +15,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <span>
+#include <filesystem>
+#include <string>
+#include <vector>
 
 #include "value_or_abort.hpp"
 #include "verify_bounds.hpp"
@@ -186,6 +191,44 @@ Clips simulate_all() {
   return clips;
 }
 
+FlameSeeds seeds_called(const std::string& name) {
+  if (name == "fresh") return FlameSeeds::kFresh;
+  if (name == "other-fresh") return FlameSeeds::kOtherFresh;
+  if (name == "tuning") return FlameSeeds::kTuning;
+  if (name == "second-tuning") return FlameSeeds::kSecondTuning;
+  if (name == "third-tuning") return FlameSeeds::kThirdTuning;
+  std::fprintf(stderr, "there are no clips called %s\n", name.c_str());
+  std::exit(2);
+}
+
+/// Takes what is asked out of the arguments; recordings stay.
+PieceQuestion taken_question(std::vector<char*>& arguments) {
+  PieceQuestion question;
+  std::vector<char*> rest;
+  for (auto at = arguments.begin(); at != arguments.end(); ++at) {
+    const std::string word = *at;
+    if (word == "--gusts") {
+      question.gusts_alone = true;
+    } else if (word == "--only" && at + 1 != arguments.end()) {
+      question.names.emplace_back(*++at);
+    } else if (word == "--clips" && at + 1 != arguments.end()) {
+      question.seeds = seeds_called(*++at);
+    } else {
+      rest.push_back(*at);
+    }
+  }
+  arguments = rest;
+  return question;
+}
+
+void judge_pieces(std::vector<char*> arguments) {
+  const std::filesystem::path folder = arguments.front();
+  arguments.erase(arguments.begin());
+  const PieceQuestion question = taken_question(arguments);
+  if (arguments.empty()) judge_flame_pieces(folder, question);
+  judge_flicker_pieces(folder, arguments);
+}
+
 }  // namespace
 }  // namespace wisp::verify
 
@@ -194,8 +237,7 @@ int main(int count, char** arguments) {
   using namespace wisp::verify;
   std::setvbuf(stdout, nullptr, _IOLBF, 0);  // a table's row appears when it is known
   if (count > 1) {
-    if (count == 2) judge_flame_pieces(arguments[1]);
-    judge_flicker_pieces(arguments[1], std::span(arguments, static_cast<std::size_t>(count)).subspan(2));
+    judge_pieces({arguments + 1, arguments + count});
     return 0;
   }
   const Clips clips = simulate_all();

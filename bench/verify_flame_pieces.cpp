@@ -20,6 +20,8 @@ struct Piece {
   OutlineOptions options;
 };
 
+constexpr const char* kDefaultPiece = "drawn with curve (the default)";  // of `wisp learn flame`
+
 /// One after the other, each beside the one before.
 std::vector<Piece> pieces() {
   return {
@@ -30,20 +32,26 @@ std::vector<Piece> pieces() {
       {"matched", {.noise = OutlineNoise::kMatched, .growing_noise = false}},
       {"matched growing", {.noise = OutlineNoise::kMatched}},
       {"drawn order 4 points", {.order = 4, .coupling = OutlineCoupling::kPoint, .noise = OutlineNoise::kDrawn}},
-      {"drawn (the default)", {}},
+      {"drawn", {}},
       {"drawn with square", {.square = true}},
-      {"drawn with curve", {.input_curve = std::nullopt}},
+      {kDefaultPiece, {.input_curve = std::nullopt}},
   };
 }
 
+bool is_asked(const PieceQuestion& question, const std::string& name) {
+  return question.names.empty() ||
+         std::find(question.names.begin(), question.names.end(), name) != question.names.end();
+}
+
 /// Coloured residuals, beside the same order with white ones. Nothing where it is not stable: it can't be played.
-std::vector<FlamePlayer> coloured_players(const std::vector<Recording>& clips) {
+std::vector<FlamePlayer> coloured_players(const std::vector<Recording>& clips, const PieceQuestion& question) {
   std::vector<FlamePlayer> out;
   for (const NoiseModel& noise :
        {NoiseModel{}, NoiseModel{NoiseColour::kAutoregressive, 2}, NoiseModel{NoiseColour::kMovingAverage, 2}}) {
     const char* name = noise.colour == NoiseColour::kWhite            ? "white"
                        : noise.colour == NoiseColour::kAutoregressive ? "ARARX of order 2"
                                                                       : "ARMAX of order 2";
+    if (!is_asked(question, name)) continue;
     const auto learned = learn_coloured_flame(clips, noise);
     if (!learned) {
       std::printf("%s residuals: %s\n", name, learned.error().message.c_str());
@@ -78,15 +86,17 @@ std::vector<FlamePlayer> learned(const std::vector<Recording>& clips, const std:
   return out;
 }
 
-std::vector<FlamePlayer> players_of(const std::vector<Recording>& clips) {
-  std::vector<FlamePlayer> out = learned(clips, pieces());
-  for (FlamePlayer& player : coloured_players(clips)) out.push_back(std::move(player));
+std::vector<FlamePlayer> players_of(const std::vector<Recording>& clips, const PieceQuestion& question) {
+  std::vector<Piece> asked = pieces();
+  std::erase_if(asked, [&](const Piece& piece) { return !is_asked(question, piece.name); });
+  std::vector<FlamePlayer> out = learned(clips, asked);
+  for (FlamePlayer& player : coloured_players(clips, question)) out.push_back(std::move(player));
   return out;
 }
 
 /// The longest stretch that a play along a learned clip's own wind repeats of that clip: the most tempting case.
 void print_longest_copy(const std::vector<Recording>& clips) {
-  const auto fit = value_or_abort(learn_outline(clips));
+  const auto fit = value_or_abort(learn_outline(clips, {.input_curve = std::nullopt}));
   double seconds = 0;
   for (const Recording& clip : clips) {
     const auto found = value_or_abort(validate_outline(fit.model, clip));
@@ -97,16 +107,17 @@ void print_longest_copy(const std::vector<Recording>& clips) {
 
 }  // namespace
 
-void judge_flame_pieces(const std::filesystem::path& folder) {
-  FlameCorpus corpus(folder);
+void judge_flame_pieces(const std::filesystem::path& folder, const PieceQuestion& question) {
+  FlameCorpus corpus(folder, question.seeds);
   const auto gusts = corpus.gusts();
-  const auto players = players_of(gusts);
+  const auto players = players_of(gusts, question);
   judge_players(corpus.unseen_gusts(), flame_units(gusts), players, folder / "pieces");
   print_longest_copy(gusts);
+  if (question.gusts_alone) return;
   judge_players(corpus.unseen_calm(), flame_units(gusts), players, folder / "pieces");
   // Where it is blown out, models have seen puffs too.
   const auto puffs = corpus.with_puffs();
-  const auto puffed = players_of(puffs);
+  const auto puffed = players_of(puffs, question);
   judge_players(corpus.unseen_between_blow_outs(), flame_units(puffs), puffed, folder / "pieces");
   judge_players(corpus.unseen_blow_outs(), flame_units(puffs), puffed, folder / "pieces");
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -12,15 +13,17 @@ namespace {
 
 constexpr double kTrendSeconds = 1.0 / 15;     // by which a gust's rise is told from its fall
 constexpr double kShortestSeconds = 1.0 / 20;  // between jumps
-constexpr double kLongestSeconds = 2;          // in a wind that stays; longer would repeat what was recorded
+constexpr double kLongestSeconds = 1.5;        // in a wind that stays; longer would repeat what was recorded
 constexpr double kLongestAloneSeconds = 0.5;   // where no input says when to go elsewhere
-constexpr double kTolerance = 0.15;            // of wind 1
+constexpr double kTolerance = 0.25;            // of wind 1
+constexpr double kLeanWeight = 0.45;           // of wind 1, of a standard deviation of how it leans or rises
 constexpr double kLeastSeconds = 1;
 constexpr double kLargestStored = 32767;
 
-// One row's residuals and its wind, NaN where one is missing.
+// One row's residuals, the lean before it and its wind, NaN where one is missing.
 struct Row {
   std::vector<double> residual;
+  std::array<double, 2> lean{};
   double wind = 0;
   double trend = 0;
 
@@ -47,17 +50,29 @@ std::vector<double> signed_input(const Recording& recording, const PreparedOutli
   return out;
 }
 
+// The two control points about the tip: their x, which change places and signs in a mirror image, and their y.
+std::vector<int> tip_outputs(std::size_t points) {
+  const auto left = static_cast<int>((points - 1) / 2), right = static_cast<int>(points / 2);
+  return {2 * left, 2 * right, 2 * left + 1, 2 * right + 1};
+}
+
 // Complete rows in stretches.
 Result<std::vector<std::vector<Row>>> stretches_left(const ArxModel& model, const Recording& recording,
                                                      const PreparedOutlines& prepared, std::size_t trend_steps) {
   const auto predicted = predict(model, recording, prepared.channels, {.steps = 1});
   if (!predicted) return predicted.error();
   const std::vector<double> wind = signed_input(recording, prepared);
+  const std::vector<int> tip = tip_outputs(prepared.layout.points);
   std::vector<std::vector<Row>> out;
   for (const Episode& episode : episodes(recording)) {
     out.emplace_back();
     for (std::size_t row = episode.begin + trend_steps; row < episode.end; ++row) {
-      Row one{{}, wind[row], wind[row] - wind[row - trend_steps]};
+      Row one{{}, {}, wind[row], wind[row] - wind[row - trend_steps]};
+      for (std::size_t k = 0; k < tip.size(); ++k) {
+        const auto output = static_cast<std::size_t>(tip[k]);
+        const double value = samples(recording, prepared.channels.outputs[output])[row - 1];
+        one.lean[k / 2] += value - model.output_mean[output];
+      }
       for (std::size_t i = 0; i < prepared.channels.outputs.size(); ++i) {
         one.residual.push_back(samples(recording, prepared.channels.outputs[i])[row] - (*predicted)[i][row]);
       }
@@ -116,6 +131,34 @@ void store_rows(const std::vector<std::vector<Row>>& stretches, DrawnResiduals& 
   }
 }
 
+// How the outline leaned and rose before every row: what a gust does hangs on where it finds the flame. Both weigh by
+// the larger of their standard deviations.
+void store_leans(const std::vector<std::vector<Row>>& stretches, std::size_t points, DrawnResiduals& out) {
+  double largest = 0;
+  std::array<double, 2> sum{}, square{};
+  for (const auto& stretch : stretches) {
+    for (const Row& row : stretch) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        largest = std::max(largest, std::abs(row.lean[k]));
+        sum[k] += row.lean[k];
+        square[k] += row.lean[k] * row.lean[k];
+      }
+    }
+  }
+  const auto rows = static_cast<double>(row_count(stretches));
+  double variance = 0;
+  for (std::size_t k = 0; k < 2; ++k) variance = std::max(variance, square[k] / rows - sum[k] * sum[k] / rows / rows);
+  if (!(variance > 0)) return;
+  out.lean_of = tip_outputs(points);
+  out.lean_weight = kLeanWeight / std::sqrt(variance);
+  out.lean_scale = largest / kLargestStored;
+  for (const auto& stretch : stretches) {
+    for (const Row& row : stretch) {
+      for (double lean : row.lean) out.leans.push_back(stored(lean, out.lean_scale));
+    }
+  }
+}
+
 // x of the point opposite negated, y as it is.
 std::vector<int> mirror_image(std::size_t points) {
   std::vector<int> out;
@@ -151,6 +194,7 @@ Result<DrawnResiduals> drawn_residuals(const ArxModel& model, std::span<const Re
   out.shortest = steps_of(kShortestSeconds, rate);
   out.longest = std::max(out.shortest, steps_of(driven ? kLongestSeconds : kLongestAloneSeconds, rate));
   store_rows(stretches, out);
+  if (driven) store_leans(stretches, prepared.layout.points, out);
   return out;
 }
 

@@ -83,6 +83,19 @@ Result<void> check_mirror(const DrawnResiduals& drawn, std::size_t ny) {
   return {};
 }
 
+Result<void> check_leans(const DrawnResiduals& drawn, std::size_t ny) {
+  const std::array weights{drawn.lean_weight, drawn.lean_scale};
+  if (auto ok = check_finite(weights, weights.size(), "the drawn residuals' lean"); !ok) return ok;
+  const bool present = !drawn.lean_of.empty();
+  if (drawn.leans.size() != (present ? 2 * drawn.row_count() : 0)) {
+    return Error{"the drawn residuals have not two numbers of lean a row"};
+  }
+  const bool there = std::all_of(drawn.lean_of.begin(), drawn.lean_of.end(),
+                                 [ny](int of) { return of >= 0 && static_cast<std::size_t>(of) < ny; });
+  if (!present || (drawn.lean_of.size() == 4 && drawn.toward >= 0 && there)) return {};
+  return Error{"the drawn residuals' lean is not that of four outputs in an input"};
+}
+
 Result<void> check_drawn(const DrawnResiduals& drawn, std::size_t ny, int nu) {
   if (drawn.empty()) {
     return drawn.ends.empty() ? Result<void>() : Error{"the drawn residuals have stretches without rows"};
@@ -102,6 +115,7 @@ Result<void> check_drawn(const DrawnResiduals& drawn, std::size_t ny, int nu) {
   if (auto ok = check_finite(std::array{drawn.wind_scale, drawn.tolerance}, 2, "the drawn residuals' wind"); !ok)
     return ok;
   if (drawn.wind_scale < 0 || drawn.tolerance < 0) return Error{"the drawn residuals' wind has a negative scale"};
+  if (auto ok = check_leans(drawn, ny); !ok) return ok;
   if (drawn.trend_steps < 1 || drawn.trend_steps > kMostOrder || drawn.shortest < 1 || drawn.longest < drawn.shortest ||
       drawn.longest > 1000000) {
     return Error{"the drawn residuals' numbers of steps are out of range"};

@@ -141,7 +141,7 @@ class ArxStepper : public ChannelHistory<N> {
     if (!drawn_.empty()) {
       DrawnWind<Real> winds[kLanes];
       if (drawn_.driven()) measure_winds(block, winds);
-      drawn_.step(block, winds, moment, shocks_.data());
+      drawn_.step(block, winds, this->previous(block), moment, shocks_.data());
       return;
     }
     draw(moment);

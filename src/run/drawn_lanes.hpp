@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "run/drawn_program.hpp"
@@ -47,8 +48,10 @@ class DrawnLanes {
     age(block)[lane] = Real(static_cast<float>(program_.longest));
   }
 
-  /// Moves every lane of a block on and puts what is added to the outputs into `shocks`, [output][lane].
-  void step(int block, const DrawnWind<Real> (&winds)[kLanes], const Moment<N>& moment, Real* shocks) {
+  /// Moves every lane of a block on and puts what is added to the outputs into `shocks`, [output][lane]; `before` is
+  /// what the outputs were in the last step.
+  void step(int block, const DrawnWind<Real> (&winds)[kLanes], const Real* before, const Moment<N>& moment,
+            Real* shocks) {
     std::uint32_t words[4][kLanes];
     bool drawn = false;
     for (int lane = 0; lane < kLanes; ++lane) {
@@ -61,7 +64,7 @@ class DrawnLanes {
         if (!drawn) draw(moment, words);
         drawn = true;
         const std::uint32_t own[4] = {words[0][lane], words[1][lane], words[2][lane], words[3][lane]};
-        next = jump(own, winds[lane]);
+        next = jump(own, winds[lane], before + lane);
         age(block)[lane] = Real(1.0f);
       }
       place(block)[lane] = Real(static_cast<float>(next));
@@ -141,25 +144,39 @@ class DrawnLanes {
             middle + half < rows ? (end > middle + half ? end : middle + half) : rows};
   }
 
-  std::uint32_t jump(const std::uint32_t (&words)[4], const DrawnWind<Real>& now) const {
+  // Half of an instance's lean, as it weighs.
+  Real lean(std::size_t half, const Real* before) const {
+    const auto part = [&](std::size_t k) { return Real(program_.lean[k]) * before[program_.lean_of[k] * kLanes]; };
+    return part(2 * half) + part(2 * half + 1);
+  }
+
+  std::uint32_t jump(const std::uint32_t (&words)[4], const DrawnWind<Real>& now, const Real* before) const {
     if (!program_.driven()) return 2 * scaled(words[0], static_cast<std::uint32_t>(program_.left.size()));
     const float wind = value_of(now.wind);
     const bool from_right = wind < 0 && program_.mirrors();
     const Near around = near(from_right ? -wind : wind);
+    const bool leans = !program_.leans.empty();
+    const Real sway = leans ? lean(0, before) : Real(0.0f), rise = leans ? lean(1, before) : Real(0.0f);
     std::uint32_t best = 0;
-    float least = 0;
+    float least = std::numeric_limits<float>::max();
     for (int k = 0; k < kCandidates; ++k) {
       const std::uint32_t half = k % 2 == 0 ? words[k / 2] << 16 : words[k / 2] & 0xffff0000U;
       const std::uint32_t row = program_.order[around.begin + scaled(half, around.end - around.begin)];
       const bool mirrored = program_.mirrors() && from_right != (program_.wind[row] < 0);
       const Real row_wind(program_.wind[row]), row_trend(program_.trend[row]);
       const Real strange = mirrored ? row_wind + now.wind : row_wind - now.wind;
-      const Real apart = strange * strange;
-      if (k > 0 && !(value_of(apart) < least)) continue;
+      Real apart = strange * strange;
+      if (!(value_of(apart) < least)) continue;
       const Real turned = mirrored ? row_trend + now.trend : row_trend - now.trend;
-      const float away = value_of(apart + turned * turned);
-      if (k > 0 && !(away < least)) continue;
-      least = away;
+      apart = apart + turned * turned;
+      if (!(value_of(apart) < least)) continue;
+      if (leans) {
+        const Real row_sway(program_.leans[2 * row]), row_rise(program_.leans[2 * row + 1]);
+        const Real bent = mirrored ? row_sway + sway : row_sway - sway, grown = row_rise - rise;
+        apart = apart + bent * bent + grown * grown;
+        if (!(value_of(apart) < least)) continue;
+      }
+      least = value_of(apart);
       best = 2 * row + (mirrored ? 1 : 0);
     }
     return best;

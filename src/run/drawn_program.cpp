@@ -35,6 +35,15 @@ void fill_winds(const Model& model, const ArxModel& arx, const DrawnResiduals& d
     program.wind[row] = bounded(drawn.winds[2 * row] * unit - mean);
     program.trend[row] = bounded(drawn.winds[2 * row + 1] * unit);
   }
+  const double weight = drawn.lean_weight / regressor_scale(model, drawn.toward);
+  for (std::size_t k = 0; k < drawn.leans.size(); ++k) {
+    program.leans[k] = bounded(drawn.leans[k] * drawn.lean_scale * weight);
+  }
+  for (std::size_t k = 0; k < drawn.lean_of.size(); ++k) {
+    const Output& out = model.outputs[drawn.lean_of[k]];
+    program.lean_of[k] = drawn.lean_of[k];
+    program.lean[k] = bounded(channel_scale(out.lowest, out.highest) * weight);
+  }
   program.tolerance = bounded(drawn.tolerance / regressor_scale(model, drawn.toward));
   std::iota(program.order.begin(), program.order.end(), 0U);
   const auto key = [&](std::uint32_t row) {
@@ -85,6 +94,7 @@ DrawnProgram make_drawn_program(const Model& model, const ArxModel& arx, Arena& 
   program.left = arena.take<std::uint32_t>(rows);
   program.wind = arena.take<float>(winds);
   program.trend = arena.take<float>(winds);
+  program.leans = arena.take<float>(drawn.leans.size());
   program.order = arena.take<std::uint32_t>(winds);
   program.from = arena.take<std::uint16_t>(static_cast<std::size_t>(program.sides) * program.outputs);
   program.factor = arena.take<float>(static_cast<std::size_t>(program.sides) * program.outputs);
@@ -120,12 +130,14 @@ std::uint64_t hash_of(const DrawnProgram& program, std::uint64_t before) {
   for (std::uint32_t left : program.left) hash = hash_number(left, hash);
   for (std::uint16_t from : program.from) hash = hash_number(std::uint32_t{from}, hash);
   const float tolerance[] = {program.tolerance};
-  for (const auto numbers :
-       {std::span<const float>(tolerance), std::span<const float>(program.rows), std::span<const float>(program.wind),
-        std::span<const float>(program.trend), std::span<const float>(program.factor)}) {
+  for (const auto numbers : {std::span<const float>(tolerance), std::span<const float>(program.rows),
+                             std::span<const float>(program.wind), std::span<const float>(program.trend),
+                             std::span<const float>(program.factor), std::span<const float>(program.leans)}) {
     hash = hash_floats(numbers, hash);
   }
-  return hash;
+  if (program.leans.empty()) return hash;
+  for (int of : program.lean_of) hash = hash_number(static_cast<std::uint32_t>(of), hash);
+  return hash_floats(program.lean, hash);
 }
 
 }  // namespace wisp

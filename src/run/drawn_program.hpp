@@ -1,6 +1,7 @@
 #pragma once
 // Drawn residuals compiled for stepping: in channel units, with an index of rows by the strength of the input.
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -27,6 +28,9 @@ struct DrawnProgram {
   std::span<std::uint32_t> left;   ///< per row, how many follow it in its stretch
   std::span<float> wind;           ///< per row; empty where nothing drives it
   std::span<float> trend;          ///< per row
+  std::array<int, 4> lean_of{};    ///< outputs whose sums, two by two, are an instance's lean
+  std::array<float, 4> lean{};     ///< their factors
+  std::span<float> leans;          ///< rows × 2, or empty
   std::span<std::uint32_t> order;  ///< rows by rising strength of the wind, or by rising wind where there is no mirror
   std::span<std::uint16_t> from;   ///< side × outputs: whose residual an output takes
   std::span<float> factor;         ///< side × outputs, of what is taken: 1, on the mirrored side −1 where it negates

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "made_outline.hpp"
@@ -50,6 +51,30 @@ TEST(OutlineDrawn, KeepsResidualsToTheirSixteenBits) {
     // The model is learned from mirror images too, and its standard deviations are about both.
     EXPECT_NEAR(sd, arx.noise.sd[i], 0.15 * arx.noise.sd[i]) << i;
   }
+}
+
+TEST(OutlineDrawn, RemembersHowTheTipLeanedBeforeEveryRow) {
+  const OutlineFit fit = learned(kWindy);
+  const DrawnResiduals& drawn = dynamics_of(fit).noise.drawn;
+  ASSERT_EQ(drawn.leans.size(), 2 * drawn.row_count());
+  const auto points = static_cast<int>(drawn.scale.size() / 2);
+  const int left = (points - 1) / 2, right = points / 2;
+  EXPECT_EQ(drawn.lean_of, (std::vector<int>{2 * left, 2 * right, 2 * left + 1, 2 * right + 1}));
+  std::array<double, 2> sum{}, square{};
+  double with_wind = 0, wind = 0;
+  const auto rows = static_cast<double>(drawn.row_count());
+  for (std::size_t row = 0; row < drawn.row_count(); ++row) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double lean = drawn.leans[2 * row + k] * drawn.lean_scale;
+      sum[k] += lean / rows;
+      square[k] += lean * lean / rows;
+    }
+    with_wind += drawn.leans[2 * row] * drawn.lean_scale * drawn.winds[2 * row] * drawn.wind_scale / rows;
+    wind += drawn.winds[2 * row] * drawn.wind_scale / rows;
+  }
+  const double sway = std::sqrt(square[0] - sum[0] * sum[0]), rise = std::sqrt(square[1] - sum[1] * sum[1]);
+  EXPECT_NEAR(std::max(sway, rise) * drawn.lean_weight, 0.45, 0.005);
+  EXPECT_GT(with_wind - wind * sum[0], 0);  // it leans with the wind
 }
 
 TEST(OutlineDrawn, TakesNoMoreBytesThanItMay) {

@@ -92,19 +92,34 @@ Model drawn_model() {
   return model;
 }
 
-void expect_same_drawn(const Model& read) {
-  const Model made = drawn_model();
+// The same whose jumps look at the lean too.
+Model leaning_model() {
+  Model model = drawn_model();
+  DrawnResiduals& drawn = std::get<ArxModel>(model.dynamics).noise.drawn;
+  drawn.lean_of = {2, 4, 3, 5};
+  drawn.lean_weight = 2.5;
+  drawn.lean_scale = 1e-3;
+  drawn.leans = {1, -1, 2, -2, 3, 32767, -32768, 4, 5, 0};
+  return model;
+}
+
+void expect_same_drawn(const Model& read, const Model& made = drawn_model()) {
   const DrawnResiduals& x = std::get<ArxModel>(read.dynamics).noise.drawn;
   const DrawnResiduals& y = std::get<ArxModel>(made.dynamics).noise.drawn;
   EXPECT_EQ(std::tie(x.scale, x.rows, x.ends, x.winds, x.mirror), std::tie(y.scale, y.rows, y.ends, y.winds, y.mirror));
   EXPECT_EQ(std::tie(x.wind_scale, x.toward, x.against, x.trend_steps, x.tolerance, x.shortest, x.longest),
             std::tie(y.wind_scale, y.toward, y.against, y.trend_steps, y.tolerance, y.shortest, y.longest));
+  EXPECT_EQ(std::tie(x.lean_of, x.lean_weight, x.lean_scale, x.leans),
+            std::tie(y.lean_of, y.lean_weight, y.lean_scale, y.leans));
 }
 
 TEST(ModelFile, DrawnResidualsAreReadAsTheyWereWritten) {
   const auto read = parse_model(*model_bytes(drawn_model()), "drawn.wisp");
   ASSERT_TRUE(read) << read.error().message;
   expect_same_drawn(*read);
+  const auto leaning = parse_model(*model_bytes(leaning_model()), "leaning.wisp");
+  ASSERT_TRUE(leaning) << leaning.error().message;
+  expect_same_drawn(*leaning, leaning_model());
 }
 
 // Written when residuals came to be drawn.
@@ -140,9 +155,14 @@ TEST(ModelFile, DrawnResidualsThatMeanNothingAreRefused) {
       {"mirror", [](DrawnResiduals& d) { d.mirror[0] = 0; }},
       {"mirror", [](DrawnResiduals& d) { d.mirror[0] = 9; }},
       {"mirror", [](DrawnResiduals& d) { d.mirror.pop_back(); }},
+      {"two numbers of lean", [](DrawnResiduals& d) { d.leans.pop_back(); }},
+      {"two numbers of lean", [](DrawnResiduals& d) { d.lean_of.clear(); }},
+      {"four outputs", [](DrawnResiduals& d) { d.lean_of.pop_back(); }},
+      {"four outputs", [](DrawnResiduals& d) { d.lean_of[3] = 8; }},
+      {"lean", [](DrawnResiduals& d) { d.lean_weight = INFINITY; }},
   };
   for (const Case& one : cases) {
-    Model model = drawn_model();
+    Model model = leaning_model();
     one.spoil(std::get<ArxModel>(model.dynamics).noise.drawn);
     const auto ok = check(model);
     ASSERT_FALSE(ok) << one.word;

@@ -140,6 +140,33 @@ TEST(DrawnResiduals, AnotherSeedPlaysOtherRows) {
   EXPECT_EQ(rows_played(bare_model(), 100, steady, 1), rows_played(bare_model(), 100, steady, 1));
 }
 
+// How far from the next row jumps lead, on average, where all rows but `leans` are alike.
+double mean_jump(Model model, double lean_weight, float wind) {
+  DrawnResiduals& drawn = drawn_of(model);
+  drawn.lean_of = {0, 0, 1, 1};
+  drawn.lean_weight = lean_weight;
+  drawn.lean_scale = 1;
+  for (int row = 0; row < kRows; ++row) {
+    drawn.leans.insert(drawn.leans.end(), {static_cast<std::int16_t>(2 * row), 2});  // before it x was its number
+  }
+  const auto rows = rows_played(model, 2000, [wind](int) { return wind; });
+  double sum = 0, jumps = 0;
+  for (std::size_t k = 2; k < rows.size(); ++k) {
+    const int away = std::abs(std::abs(rows[k]) - std::abs(rows[k - 1]) - 1);
+    sum += away;
+    jumps += away > 0 ? 1 : 0;
+  }
+  return sum / jumps;
+}
+
+TEST(DrawnResiduals, JumpWhereTheOutlineLeanedAsItDoesNow) {
+  for (const float wind : {0.5f, -0.5f}) {
+    const double blind = mean_jump(bare_model(), 0, wind), seeing = mean_jump(bare_model(), 0.1, wind);
+    EXPECT_GT(blind, 100) << wind;  // any of the nearest in wind: a third of 400 on average
+    EXPECT_LT(seeing, 50) << wind;  // the best of eight of them
+  }
+}
+
 TEST(DrawnResiduals, AreScaledByTheNoise) {
   auto bank = Bank::create(bare_model(), {});
   ASSERT_TRUE(bank);

@@ -74,6 +74,11 @@ struct DrawnResiduals {
   int longest = 1;                  ///< steps, at most 1 000 000
   std::vector<int> mirror;          ///< per output ±(1 + the output whose residual it takes in an input from the other
                                     ///< side); empty: that side is no mirror image
+  std::vector<int> lean_of;  ///< four outputs: jumps also look at the sum of the first two, which changes its sign
+                             ///< in a mirror image, and at that of the others; empty: at the input alone
+  double lean_weight = 0;    ///< what those sums weigh beside the input, in the regressor's unit for 1 of theirs
+  double lean_scale = 0;     ///< a stored 1 of `leans`, in the outputs' unit
+  std::vector<std::int16_t> leans;  ///< rows × 2: those sums before the row, as deviations from the outputs' means
 
   bool empty() const { return rows.empty(); }
   std::size_t row_count() const { return ends.empty() ? 0 : ends.back(); }
