@@ -59,7 +59,7 @@ function serviceWorker(): Plugin {
   };
 }
 
-/** Shaders lose their comments and their indentation. */
+/** Shaders lose their comments, their blanks, and the zeros of their numbers. */
 function shorterShaders(): Plugin {
   return {
     name: 'wisp-shorter-shaders',
@@ -71,7 +71,10 @@ function shorterShaders(): Plugin {
       const source = readFileSync(match[1] as string, 'utf8')
         .replace(/\/\/.*$/gm, '')
         .replace(/^\s+/gm, '')
-        .replace(/\s*([=+*,;(){}<>?:])\s*(?![^\n]*#)/g, '$1');
+        .replace(/\s*([=+*,;(){}<>?:])\s*(?![^\n]*#)/g, '$1')
+        .replace(/ ([-/]) (?=[\w(.])/g, '$1')
+        .replace(/\b0(\.\d)/g, '$1')
+        .replace(/(\d\.)0\b/g, '$1');
       return `export default ${JSON.stringify(source)};`;
     },
   };

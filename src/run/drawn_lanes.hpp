@@ -172,8 +172,11 @@ class DrawnLanes {
       if (!(value_of(apart) < least)) continue;
       if (leans) {
         const Real row_sway(program_.leans[2 * row]), row_rise(program_.leans[2 * row + 1]);
-        const Real bent = mirrored ? row_sway + sway : row_sway - sway, grown = row_rise - rise;
-        apart = apart + bent * bent + grown * grown;
+        const Real bent = mirrored ? row_sway + sway : row_sway - sway;
+        apart = apart + bent * bent;
+        if (!(value_of(apart) < least)) continue;
+        const Real grown = row_rise - rise;
+        apart = apart + grown * grown;
         if (!(value_of(apart) < least)) continue;
       }
       least = value_of(apart);
