@@ -29,6 +29,11 @@ std::vector<Recording> burning(const std::vector<Recording>& clips) {
   return out;
 }
 
+std::vector<Recording> joined(std::vector<Recording> clips, const std::vector<Recording>& more) {
+  clips.insert(clips.end(), more.begin(), more.end());
+  return clips;
+}
+
 }  // namespace
 
 FlameCorpus::FlameCorpus(std::filesystem::path folder, FlameSeeds seeds)
@@ -68,10 +73,13 @@ UnseenFlames FlameCorpus::unseen(const Takes& takes) { return {takes.name, get(t
 
 std::vector<Recording> FlameCorpus::gusts() { return get({"learn", {11, 12, 13}, {.seconds = 40}}, false); }
 
-std::vector<Recording> FlameCorpus::with_puffs() {
-  auto out = gusts();
-  out.push_back(burning(get({"learn-puffs", {14}, {.seconds = 40, .wind = FlameWind::kPuffs}}, false)).front());
-  return out;
+std::vector<Recording> FlameCorpus::gusts_and_calm() {
+  return joined(gusts(), get({"learn-calm", {17}, {.seconds = 40, .wind = FlameWind::kCalm}}, false));
+}
+
+std::vector<Recording> FlameCorpus::gusts_and_puffs() {
+  const Takes puffs{"learn-puffs", {14, 15, 16}, {.seconds = 40, .wind = FlameWind::kPuffs}};
+  return joined(gusts(), burning(get(puffs, false)));
 }
 
 UnseenFlames FlameCorpus::unseen_gusts() { return unseen({"gusts", {21, 22, 23}, {.seconds = 20}}); }

@@ -35,8 +35,10 @@ class FlameCorpus {
 
   /// To learn from: three clips of 40 s in gusts.
   std::vector<Recording> gusts();
-  /// The same and 40 s of puffs, without what is dying, out or catching.
-  std::vector<Recording> with_puffs();
+  /// The same, and one of 40 s in calm.
+  std::vector<Recording> gusts_and_calm();
+  /// Gusts, and three clips of 40 s in puffs without what is dying, out or catching.
+  std::vector<Recording> gusts_and_puffs();
 
   UnseenFlames unseen_gusts();
   UnseenFlames unseen_calm();

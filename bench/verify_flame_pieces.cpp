@@ -109,17 +109,16 @@ void print_longest_copy(const std::vector<Recording>& clips) {
 
 void judge_flame_pieces(const std::filesystem::path& folder, const PieceQuestion& question) {
   FlameCorpus corpus(folder, question.seeds);
-  const auto gusts = corpus.gusts();
-  const auto players = players_of(gusts, question);
-  judge_players(corpus.unseen_gusts(), flame_units(gusts), players, folder / "pieces");
-  print_longest_copy(gusts);
+  const auto judge = [&](const std::vector<Recording>& clips, std::initializer_list<UnseenFlames> unseen) {
+    const auto players = players_of(clips, question);
+    for (const UnseenFlames& flames : unseen) judge_players(flames, flame_units(clips), players, folder / "pieces");
+  };
+  judge(corpus.gusts(), {corpus.unseen_gusts()});
+  print_longest_copy(corpus.gusts());
   if (question.gusts_alone) return;
-  judge_players(corpus.unseen_calm(), flame_units(gusts), players, folder / "pieces");
-  // Where it is blown out, models have seen puffs too.
-  const auto puffs = corpus.with_puffs();
-  const auto puffed = players_of(puffs, question);
-  judge_players(corpus.unseen_between_blow_outs(), flame_units(puffs), puffed, folder / "pieces");
-  judge_players(corpus.unseen_blow_outs(), flame_units(puffs), puffed, folder / "pieces");
+  // Models have seen what they are to play: calm, or puffs.
+  judge(corpus.gusts_and_calm(), {corpus.unseen_calm()});
+  judge(corpus.gusts_and_puffs(), {corpus.unseen_between_blow_outs(), corpus.unseen_blow_outs()});
 }
 
 void judge_flicker_pieces(const std::filesystem::path& folder, std::span<char* const> recordings) {
