@@ -1,8 +1,8 @@
 // Learned falls against those that they were learned from: gusts in the model's own play, real paper, the spread over
-// seeds, and windows for a classifier. Prints tables; exit status 1 where a bound is missed.
+// seeds, steering, and windows for a classifier. Prints tables; exit status 1 where a bound is missed.
 //
-//   wisp_verify_falls [gusts] [paper] [spread]     default all
-//   wisp_verify_falls windows FILE.csv             for bench/peers/likeness_leaf.py
+//   wisp_verify_falls [gusts] [paper] [spread] [steering]     default all
+//   wisp_verify_falls windows FILE.csv                        for bench/peers/likeness_leaf.py
 
 #include "verify_falls.hpp"
 
@@ -93,6 +93,7 @@ int main(int count, char** names) {
     if (const auto ok = write_windows(names[2]); !ok) give_up(ok.error());
     return 0;
   }
-  constexpr std::array kChecks = {Check{"gusts", gusts}, Check{"paper", paper}, Check{"spread", spread}};
+  constexpr std::array kChecks = {Check{"gusts", gusts}, Check{"paper", paper}, Check{"spread", spread},
+                                  Check{"steering", steering}};
   return run_checks(kChecks, std::span(names, static_cast<std::size_t>(count)).subspan(1));
 }

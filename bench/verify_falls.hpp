@@ -22,6 +22,7 @@ const LearnedLeaf& learned_leaf();
 void gusts(Bounds& bounds);
 void paper(Bounds& bounds);
 void spread(Bounds& bounds);
+void steering(Bounds& bounds);
 
 /// Writes windows of recorded and synthesized falls for bench/peers/likeness_leaf.py.
 Result<void> write_windows(const std::filesystem::path& file);
