@@ -84,7 +84,8 @@ inline Model flame_model(const FlameOptions& options = {}) {
     arx.noise.growth.assign(regressors * options.growth_steps, options.noise_growth / options.growth_steps);
   }
   if (options.drawn_rows > 0) {
-    arx.noise.drawn = drawn_flame_residuals(outputs, options.drawn_rows, options.drawn_swing, splits_sign(options.wind));
+    arx.noise.drawn =
+        drawn_flame_residuals(outputs, options.drawn_rows, options.drawn_swing, splits_sign(options.wind));
   }
   model.dynamics = arx;
   model.view = OutlineView{uniform_knots(options.points), 0.03, 0};
@@ -92,8 +93,8 @@ inline Model flame_model(const FlameOptions& options = {}) {
 }
 
 /// A flame as `wisp learn flame` makes them: three lags of every coordinate alone and of a wind from either side, the
-/// outline's last point the first one mirrored about the base's middle, residuals that are drawn by wind and lean, a rule
-/// of extinction.
+/// outline's last point the first one mirrored about the base's middle, residuals that are drawn by wind and lean, a
+/// rule of extinction.
 inline Model default_flame_model(InputShape wind = InputShape::kSplitSign) {
   constexpr int kOutputs = 16, kLags = 3;
   Model model = flame_model({.wind = wind, .drawn_rows = 600, .drawn_swing = 40});
