@@ -15,7 +15,6 @@
 #include <string>
 
 #include "wisp/learn/chain_fidelity.hpp"
-#include "wisp/learn/chain_windows.hpp"
 #include "wisp/simulate/leaf_drops.hpp"
 
 namespace wisp::verify {
@@ -33,14 +32,6 @@ LearnedLeaf learn() {
   auto fit = learn_chain(std::span(&*drops, 1), options);
   if (!fit) give_up(fit.error());
   return {std::move(*fit), options.segmentation};
-}
-
-std::vector<MotionSeries> series_of(std::span<const Recording> falls, const SegmentationOptions& segmentation) {
-  const auto motion = motion_of(falls);
-  if (!motion) give_up(motion.error());
-  const auto cut = segment(*motion, falls, segmentation);
-  if (!cut) give_up(cut.error());
-  return motion_series(*motion, cut->segments);
 }
 
 void write(std::ofstream& out, const char* side, const FeatureWindows& windows, std::size_t first_fall) {
@@ -63,14 +54,26 @@ const LearnedLeaf& learned_leaf() {
   return leaf;
 }
 
+std::vector<MotionSeries> series_of(std::span<const Recording> falls, const LearnedLeaf& leaf) {
+  const auto motion = motion_of(falls);
+  if (!motion) give_up(motion.error());
+  const auto cut = segment(*motion, falls, leaf.segmentation);
+  if (!cut) give_up(cut.error());
+  return motion_series(*motion, cut->segments);
+}
+
+std::size_t window_rows(const LearnedLeaf& leaf) {
+  return static_cast<std::size_t>(
+      std::lround(kWindowSegments * leaf.fit.summary.mean_segment_seconds * leaf.fit.model.rate_hz));
+}
+
 Result<void> write_windows(const std::filesystem::path& file) {
   const LearnedLeaf& leaf = learned_leaf();
   const auto& real = leaf.fit.held_out;
   const auto made = synthesize_falls(leaf.fit.model, static_cast<int>(real.size()), real.front().rows(), 1);
   if (!made) return made.error();
-  const auto seen = series_of(real, leaf.segmentation), played = series_of(*made, leaf.segmentation);
-  const double rows = kWindowSegments * leaf.fit.summary.mean_segment_seconds * leaf.fit.model.rate_hz;
-  const auto length = static_cast<std::size_t>(std::lround(rows));
+  const auto seen = series_of(real, leaf), played = series_of(*made, leaf);
+  const std::size_t length = window_rows(leaf);
   std::ofstream out(file);
   out.precision(8);
   out << "side,fall";

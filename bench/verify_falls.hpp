@@ -3,9 +3,11 @@
 
 #include <filesystem>
 #include <span>
+#include <vector>
 
 #include "verify_bounds.hpp"
 #include "wisp/learn/chain.hpp"
+#include "wisp/learn/chain_windows.hpp"
 
 namespace wisp::verify {
 
@@ -17,6 +19,10 @@ struct LearnedLeaf {
 
 /// Learned once, then kept.
 const LearnedLeaf& learned_leaf();
+
+/// What an eye follows of falls, and in windows of how many rows.
+std::vector<MotionSeries> series_of(std::span<const Recording> falls, const LearnedLeaf& leaf);
+std::size_t window_rows(const LearnedLeaf& leaf);
 
 /// The parts of the check.
 void gusts(Bounds& bounds);

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "verify_falls.hpp"
-#include "wisp/learn/chain_windows.hpp"
 #include "wisp/run/bank.hpp"
 
 namespace wisp::verify {
@@ -53,13 +52,7 @@ std::array<float, 3> end_of(const Recording& fall) {
 }
 
 FeatureWindows windows_of(std::span<const Recording> falls, const LearnedLeaf& leaf) {
-  const auto motion = motion_of(falls);
-  if (!motion) give_up(motion.error());
-  const auto cut = segment(*motion, falls, leaf.segmentation);
-  if (!cut) give_up(cut.error());
-  const double rows = 2.5 * leaf.fit.summary.mean_segment_seconds * leaf.fit.model.rate_hz;
-  const auto series = motion_series(*motion, cut->segments);
-  return thinned(series_windows(series, static_cast<std::size_t>(std::lround(rows))), kMostWindows);
+  return thinned(series_windows(series_of(falls, leaf), window_rows(leaf)), kMostWindows);
 }
 
 double energy_distance(std::span<const Recording> falls, const LearnedLeaf& leaf) {

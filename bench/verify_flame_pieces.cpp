@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <optional>
 
 #include "flame_coloured.hpp"
@@ -91,6 +92,10 @@ std::vector<FlamePlayer> players_of(const std::vector<Recording>& clips, const P
   std::erase_if(asked, [&](const Piece& piece) { return !is_asked(question, piece.name); });
   std::vector<FlamePlayer> out = learned(clips, asked);
   for (FlamePlayer& player : coloured_players(clips, question)) out.push_back(std::move(player));
+  if (out.empty()) {
+    std::fprintf(stderr, "there is no piece called %s\n", question.names.front().c_str());
+    std::exit(2);
+  }
   return out;
 }
 

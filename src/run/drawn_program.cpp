@@ -35,6 +35,17 @@ void fill_winds(const Model& model, const ArxModel& arx, const DrawnResiduals& d
     program.wind[row] = bounded(drawn.winds[2 * row] * unit - mean);
     program.trend[row] = bounded(drawn.winds[2 * row + 1] * unit);
   }
+  program.tolerance = bounded(drawn.tolerance / regressor_scale(model, drawn.toward));
+  std::iota(program.order.begin(), program.order.end(), 0U);
+  const auto key = [&](std::uint32_t row) {
+    return program.mirrors() ? std::abs(program.wind[row]) : program.wind[row];
+  };
+  std::stable_sort(program.order.begin(), program.order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+}
+
+// In the regressor's channel units too, so that they can be added to what the wind is apart by.
+void fill_leans(const Model& model, const DrawnResiduals& drawn, DrawnProgram& program) {
   const double weight = drawn.lean_weight / regressor_scale(model, drawn.toward);
   for (std::size_t k = 0; k < drawn.leans.size(); ++k) {
     program.leans[k] = bounded(drawn.leans[k] * drawn.lean_scale * weight);
@@ -44,13 +55,6 @@ void fill_winds(const Model& model, const ArxModel& arx, const DrawnResiduals& d
     program.lean_of[k] = drawn.lean_of[k];
     program.lean[k] = bounded(channel_scale(out.lowest, out.highest) * weight);
   }
-  program.tolerance = bounded(drawn.tolerance / regressor_scale(model, drawn.toward));
-  std::iota(program.order.begin(), program.order.end(), 0U);
-  const auto key = [&](std::uint32_t row) {
-    return program.mirrors() ? std::abs(program.wind[row]) : program.wind[row];
-  };
-  std::stable_sort(program.order.begin(), program.order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
 }
 
 void fill_rows(const Model& model, const DrawnResiduals& drawn, DrawnProgram& program) {
@@ -102,7 +106,10 @@ DrawnProgram make_drawn_program(const Model& model, const ArxModel& arx, Arena& 
   fill_rows(model, drawn, program);
   fill_left(drawn, program);
   fill_sides(model, drawn, program);
-  if (program.driven()) fill_winds(model, arx, drawn, program);
+  if (program.driven()) {
+    fill_winds(model, arx, drawn, program);
+    fill_leans(model, drawn, program);
+  }
   return program;
 }
 

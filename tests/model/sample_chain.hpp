@@ -142,6 +142,13 @@ inline Model spline_chain() {
   return model;
 }
 
+/// The sample whose joins are left as they are.
+inline Model unblended() {
+  Model model = sample_chain();
+  std::get<ChainModel>(model.dynamics).blend.share = 0;
+  return model;
+}
+
 /// The sample that can be steered, carried along by the wind within a few steps.
 inline Model windy_chain() {
   Model model = steered_chain();

@@ -30,7 +30,7 @@ Model bare_model(InputShape shape = InputShape::kSplitSign) {
   arx.noise.sd = {1, 1};
   arx.input_mean.assign(regressors, 0.0);
   DrawnResiduals& drawn = arx.noise.drawn;
-  drawn = drawn_flame_residuals(2, kRows, 20, splits_sign(shape));
+  drawn = drawn_flame_residuals(2, kRows, splits_sign(shape));
   drawn.scale = {1, 1};
   for (int row = 0; row < kRows; ++row) {
     drawn.rows[2 * row] = static_cast<std::int16_t>(row + 1);
