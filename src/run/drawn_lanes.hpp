@@ -150,6 +150,12 @@ class DrawnLanes {
     return part(2 * half) + part(2 * half + 1);
   }
 
+  // How far a row is apart is the sum of its differences' sizes: as good a choice as their squares make, for half the
+  // operations. The rise is looked at first, since it tells most rows apart.
+  static Real farther(const Real& apart, const Real& difference) {
+    return value_of(difference) < 0 ? apart - difference : apart + difference;
+  }
+
   std::uint32_t jump(const std::uint32_t (&words)[4], const DrawnWind<Real>& now, const Real* before) const {
     if (!program_.driven()) return 2 * scaled(words[0], static_cast<std::uint32_t>(program_.left.size()));
     const float wind = value_of(now.wind);
@@ -164,19 +170,16 @@ class DrawnLanes {
       const std::uint32_t row = program_.order[around.begin + scaled(half, around.end - around.begin)];
       const bool mirrored = program_.mirrors() && from_right != (program_.wind[row] < 0);
       const Real row_wind(program_.wind[row]), row_trend(program_.trend[row]);
-      const Real strange = mirrored ? row_wind + now.wind : row_wind - now.wind;
-      Real apart = strange * strange;
-      if (!(value_of(apart) < least)) continue;
       const Real turned = mirrored ? row_trend + now.trend : row_trend - now.trend;
-      apart = apart + turned * turned;
+      Real apart = value_of(turned) < 0 ? -turned : turned;
+      if (!(value_of(apart) < least)) continue;
+      apart = farther(apart, mirrored ? row_wind + now.wind : row_wind - now.wind);
       if (!(value_of(apart) < least)) continue;
       if (leans) {
         const Real row_sway(program_.leans[2 * row]), row_rise(program_.leans[2 * row + 1]);
-        const Real bent = mirrored ? row_sway + sway : row_sway - sway;
-        apart = apart + bent * bent;
+        apart = farther(apart, mirrored ? row_sway + sway : row_sway - sway);
         if (!(value_of(apart) < least)) continue;
-        const Real grown = row_rise - rise;
-        apart = apart + grown * grown;
+        apart = farther(apart, row_rise - rise);
         if (!(value_of(apart) < least)) continue;
       }
       least = value_of(apart);
