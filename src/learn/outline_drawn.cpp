@@ -13,9 +13,10 @@ namespace {
 
 constexpr double kTrendSeconds = 1.0 / 15;     // by which a gust's rise is told from its fall
 constexpr double kShortestSeconds = 1.0 / 20;  // between jumps
-constexpr double kLongestSeconds = 1.5;        // in a wind that stays; longer would repeat what was recorded
+constexpr double kLongestSeconds = 4;          // in a wind that stays; longer would repeat what was recorded
 constexpr double kLongestAloneSeconds = 0.5;   // where no input says when to go elsewhere
 constexpr double kTolerance = 0.25;            // of wind 1
+constexpr double kCalm = 0.04;                 // of wind 1: less than this does not move what stands still
 constexpr double kLeanWeight = 0.45;           // of wind 1, of a standard deviation of how it leans or rises
 constexpr double kLeastSeconds = 1;
 constexpr double kLargestStored = 32767;
@@ -56,6 +57,12 @@ std::vector<int> tip_outputs(std::size_t points) {
   return {2 * left, 2 * right, 2 * left + 1, 2 * right + 1};
 }
 
+// Where it begins to blow after calm. What was recorded in calm ends there: a thing that stands still in a wind that
+// stays away is not to be moved by a gust that it does not feel, however little of that gust is within the tolerance.
+bool begins_to_blow(const Row& before, const Row& now) {
+  return std::abs(before.wind) <= kCalm && std::abs(now.wind) > kCalm;
+}
+
 // Complete rows in stretches.
 Result<std::vector<std::vector<Row>>> stretches_left(const ArxModel& model, const Recording& recording,
                                                      const PreparedOutlines& prepared, std::size_t trend_steps) {
@@ -76,6 +83,7 @@ Result<std::vector<std::vector<Row>>> stretches_left(const ArxModel& model, cons
       for (std::size_t i = 0; i < prepared.channels.outputs.size(); ++i) {
         one.residual.push_back(samples(recording, prepared.channels.outputs[i])[row] - (*predicted)[i][row]);
       }
+      if (!out.back().empty() && begins_to_blow(out.back().back(), one)) out.emplace_back();
       if (one.complete()) {
         out.back().push_back(std::move(one));
       } else if (!out.back().empty()) {

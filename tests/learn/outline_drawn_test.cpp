@@ -77,6 +77,25 @@ TEST(OutlineDrawn, RemembersHowTheTipLeanedBeforeEveryRow) {
   EXPECT_GT(with_wind - wind * sum[0], 0);  // it leans with the wind
 }
 
+// The first gust of a stretch begins it: what stands still in calm is not taken into a gust that it does not feel.
+TEST(OutlineDrawn, WhatWasRecordedInCalmEndsWhereItBeginsToBlow) {
+  const OutlineFit fit = learned(kWindy);
+  const DrawnResiduals& drawn = dynamics_of(fit).noise.drawn;
+  const auto wind = [&](std::size_t row) { return std::abs(drawn.winds[2 * row] * drawn.wind_scale); };
+  std::size_t begin = 0, calm = 0, abated = 0;
+  for (const std::size_t end : drawn.ends) {
+    for (std::size_t row = begin + 1; row < end; ++row) {
+      calm += wind(row) <= 0.039 ? 1 : 0;
+      abated += wind(row - 1) > 0.041 && wind(row) <= 0.039 ? 1 : 0;
+      EXPECT_FALSE(wind(row - 1) <= 0.039 && wind(row) > 0.041) << row;
+    }
+    begin = end;
+  }
+  EXPECT_GT(calm, 100u);
+  EXPECT_GT(abated, 2u);
+  EXPECT_GT(drawn.ends.size(), 5u);
+}
+
 TEST(OutlineDrawn, TakesNoMoreBytesThanItMay) {
   const OutlineFit fit = learned(kWindy, {.drawn_bytes = 6400});
   EXPECT_LE(dynamics_of(fit).noise.drawn.rows.size() * 2, 6400u);
