@@ -138,9 +138,9 @@ Recording FlameUnits::operator()(const Recording& clip) const {
   const auto layout = value_or_abort(outline_layout(clip));
   const std::span<const OutlineInput> inputs(wind ? &*wind : nullptr, wind ? 1 : 0);
   const Recording burning = burning_part(clip, inputs);
-  const double unit = mean_height_pixels(burning, layout, resting_rows(burning, inputs));
+  const double unit = resting_height_pixels(burning, layout, inputs);
   if (!(unit > 0)) {
-    std::fprintf(stderr, "%s: is never at rest\n", clip.source.c_str());
+    std::fprintf(stderr, "%s: has no outline\n", clip.source.c_str());
     std::abort();
   }
   Recording out = to_model_units(clip, layout, unit);

@@ -9,6 +9,9 @@ namespace {
 constexpr double kWindOne = 0.95;
 constexpr double kLargest = 0.99;
 
+// Fewer calm rows than this say little about the calm height; then all rows are taken.
+constexpr double kCalmSeconds = 0.5;
+
 double percentile(std::vector<double>& values, double share) {
   const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
@@ -112,6 +115,22 @@ std::vector<std::uint8_t> resting_rows(const Recording& recording, std::span<con
     }
   }
   return rows;
+}
+
+std::vector<std::uint8_t> undisturbed_rows(const Recording& recording, std::span<const OutlineInput> inputs) {
+  for (auto rows : {resting_rows(recording, inputs), calm_rows(recording, inputs)}) {
+    const auto count = static_cast<double>(std::count(rows.begin(), rows.end(), std::uint8_t{1}));
+    if (count >= kCalmSeconds * recording.rate_hz) return rows;
+  }
+  return {};
+}
+
+double resting_height_pixels(const Recording& recording, const OutlineLayout& layout,
+                             std::span<const OutlineInput> inputs) {
+  const auto rows = undisturbed_rows(recording, inputs);
+  if (inputs.empty() || rows.empty()) return mean_height_pixels(recording, layout, rows);
+  std::vector<double> heights = heights_pixels(recording, layout, rows);
+  return heights.empty() ? 0 : percentile(heights, 0.5);
 }
 
 std::vector<std::string> regressor_names(std::span<const OutlineInput> inputs, RegressorShape shape) {

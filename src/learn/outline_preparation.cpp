@@ -11,22 +11,10 @@
 namespace wisp {
 namespace {
 
-// Fewer calm rows than this say little about the calm height; then all rows are taken.
-constexpr double kCalmSeconds = 0.5;
-
 std::vector<std::string> input_names(const Recording& recording) {
   std::vector<std::string> names;
   for (std::size_t c : channels_with_role(recording, Role::kInput)) names.push_back(recording.channels[c].name);
   return names;
-}
-
-// Rows of rest; of calm where there is not enough rest to tell, and none where there is not enough calm either.
-std::vector<std::uint8_t> undisturbed_rows(const Recording& recording, std::span<const OutlineInput> inputs) {
-  for (auto rows : {resting_rows(recording, inputs), calm_rows(recording, inputs)}) {
-    const auto count = static_cast<double>(std::count(rows.begin(), rows.end(), std::uint8_t{1}));
-    if (count >= kCalmSeconds * recording.rate_hz) return rows;
-  }
-  return {};
 }
 
 ChannelChoice channel_choice(const PreparedOutlines& prepared) {
@@ -61,7 +49,7 @@ Result<void> add(const Recording& recording, double pixels_per_unit, PreparedOut
     return add(other.recording, pixels_per_unit, prepared);
   }
   const auto undisturbed = undisturbed_rows(recording, prepared.inputs);
-  const double own = mean_height_pixels(recording, *layout, undisturbed);
+  const double own = resting_height_pixels(recording, *layout, prepared.inputs);
   if (!(own > 0)) return Error{recording.source + ": has no row with an outline"};
   const double scale = pixels_per_unit > 0 ? pixels_per_unit : own;
   prepared.pixels_per_unit.push_back(scale);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "wisp/learn/outline_shape.hpp"
@@ -121,18 +122,22 @@ std::vector<double> to_pixels(std::span<const double> units, const OutlineFrame&
   return pixels;
 }
 
-double mean_height_pixels(const Recording& recording, const OutlineLayout& layout, std::span<const std::uint8_t> rows) {
+std::vector<double> heights_pixels(const Recording& recording, const OutlineLayout& layout,
+                                   std::span<const std::uint8_t> rows) {
   const OutlineCurve curve(layout.knots);
-  double sum = 0;
-  std::size_t count = 0;
+  std::vector<double> out;
   for (std::size_t row = 0; row < recording.rows(); ++row) {
     if (!rows.empty() && rows[row] == 0) continue;
     const std::vector<double> control = row_of(recording, layout, row);
-    if (!complete(control)) continue;
-    sum += height_of(curve.polyline(control));
-    ++count;
+    if (complete(control)) out.push_back(height_of(curve.polyline(control)));
   }
-  return count == 0 ? 0 : sum / static_cast<double>(count);
+  return out;
+}
+
+double mean_height_pixels(const Recording& recording, const OutlineLayout& layout, std::span<const std::uint8_t> rows) {
+  const std::vector<double> heights = heights_pixels(recording, layout, rows);
+  const double sum = std::accumulate(heights.begin(), heights.end(), 0.0);
+  return heights.empty() ? 0 : sum / static_cast<double>(heights.size());
 }
 
 Recording to_model_units(const Recording& recording, const OutlineLayout& layout, double pixels_per_unit) {

@@ -46,6 +46,15 @@ inline constexpr double kSettleSeconds = 0.5;
 /// inputs).
 std::vector<std::uint8_t> resting_rows(const Recording& recording, std::span<const OutlineInput> inputs);
 
+/// Rows of rest; of calm where half a second of rest is not seen, and none where half a second of calm is not either.
+std::vector<std::uint8_t> undisturbed_rows(const Recording& recording, std::span<const OutlineInput> inputs);
+
+/// The height in pixels that is 1 in the model: with inputs the median over undisturbed rows, some of which still lean,
+/// since an input may be felt before it is heard; without, or where no row is undisturbed, the mean over all of them.
+/// 0 where no row has an outline.
+double resting_height_pixels(const Recording& recording, const OutlineLayout& layout,
+                             std::span<const OutlineInput> inputs);
+
 /// Which regressors inputs make.
 struct RegressorShape {
   bool split_sign = false;  ///< NAME+ and NAME- instead of NAME

@@ -47,8 +47,12 @@ struct OutlineFrame {
 std::vector<double> to_model_units(std::span<const double> pixels, const OutlineFrame& frame);
 std::vector<double> to_pixels(std::span<const double> units, const OutlineFrame& frame);
 
-/// The mean distance in pixels from the middle of the base to the tip, over the rows in which `rows` is not 0 (empty:
-/// all) and no control point is missing. 0 where there is no such row.
+/// The distance in pixels from the middle of the base to the tip, of every row in which `rows` is not 0 (empty: all)
+/// and no control point is missing.
+std::vector<double> heights_pixels(const Recording& recording, const OutlineLayout& layout,
+                                   std::span<const std::uint8_t> rows);
+
+/// Their mean; 0 where there is no such row.
 double mean_height_pixels(const Recording& recording, const OutlineLayout& layout, std::span<const std::uint8_t> rows);
 
 /// A whole recording in the model's units: its outputs are changed; base.x and base.y (motion, pixels) say where the
