@@ -4,6 +4,7 @@
 
 #include "wisp/capture/media/clip_wind.hpp"
 #include "wisp/model/bspline.hpp"
+#include "wisp/record/loudness.hpp"
 
 namespace wisp::cli {
 namespace {
@@ -65,6 +66,7 @@ void add_wind(const ClipWind& wind, WindMeasure measure, CapturedClip& clip) {
   Channel channel{.name = wind_channel_name(measure), .unit = "1", .role = Role::kInput, .samples = {}};
   if (measure == WindMeasure::kRms) channel.unit = "full scale";
   for (const WindFrame& frame : wind.frames) channel.samples.push_back(wind_value(frame, measure));
+  if (measure != WindMeasure::kRms && wind.one_rms > 0) set_one_rms(clip.recording, channel.name, wind.one_rms);
   clip.recording.channels.insert(clip.recording.channels.begin(), std::move(channel));
 }
 

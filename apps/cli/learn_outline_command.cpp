@@ -14,17 +14,31 @@
 namespace wisp::cli {
 namespace {
 
+// What is learned from: all recordings on one scale, or each on its own, as asked for or as held-out data say.
+Result<BlowOuts> heard_blow_outs(std::vector<Recording> recordings, const BlowOutWish& wish,
+                                 const OutlineOptions& options, const Arguments& arguments, Terminal& terminal) {
+  auto own = BlowOuts::find(recordings, wish);
+  if (!own) return own.error();
+  const auto gain = choose_wind_gain(own->burning(), options, wanted_gain(arguments));
+  if (!gain) return gain.error();
+  report_gain(*gain, terminal);
+  if (!gain->one) return own;
+  auto together = at_one_gain(std::move(recordings));
+  if (!together) return together.error();
+  return BlowOuts::find(*std::move(together), wish);
+}
+
 Result<void> run(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
   const auto wish = blow_out_wish(arguments);
   if (!wish) return wish.error();
-  auto recordings = outline_recordings(arguments.positionals(), arguments, terminal);
-  if (!recordings) return recordings.error();
-  const auto blow_outs = BlowOuts::find(*std::move(recordings), *wish);
-  if (!blow_outs) return blow_outs.error();
   const std::string& path = arguments.text("output");
   const auto options = outline_options(arguments, std::filesystem::path(path).stem().string());
   if (!options) return options.error();
+  auto recordings = outline_recordings(arguments.positionals(), arguments, terminal);
+  if (!recordings) return recordings.error();
+  const auto blow_outs = heard_blow_outs(*std::move(recordings), *wish, *options, arguments, terminal);
+  if (!blow_outs) return blow_outs.error();
   auto fit = learn_outline(blow_outs->burning(), *options);
   if (!fit) return fit.error();
   fit->model.provenance.program = "wisp " WISP_VERSION;

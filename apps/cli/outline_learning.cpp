@@ -160,6 +160,13 @@ std::vector<Flag> outline_flags() {
        "frames until an input acts; auto searches up to a quarter of a second",
        {"auto"}},
       align_flag(),
+      {"gain",
+       Kind::kChoice,
+       "G",
+       "auto",
+       "the winds of several recordings on one scale, as one microphone hears them (one), each on its own (own), or as "
+       "held-out data say (auto)",
+       {"auto", "one", "own"}},
       {"coupling",
        Kind::kChoice,
        "C",
@@ -187,6 +194,21 @@ std::vector<Flag> outline_flags() {
       {"seed", Kind::kInteger, "N", "1", "of the trial runs"},
       {"skip-bad", Kind::kSwitch, "", "", "leave bad recordings out, listing them, instead of stopping at the first"},
   };
+}
+
+std::optional<bool> wanted_gain(const Arguments& arguments) {
+  if (arguments.text("gain") == "auto") return std::nullopt;
+  return arguments.text("gain") == "one";
+}
+
+void report_gain(const WindGain& gain, Terminal& terminal) {
+  terminal.result()["gain"] = nullptr;
+  if (gain.factors.empty()) return;
+  terminal.result()["gain"] = {{"one", gain.one},
+                               {"factors", gain.factors},
+                               {"held_out_error", {{"one", number(gain.one_error)}, {"own", number(gain.own_error)}}},
+                               {"reason", gain.reason}};
+  terminal.say(gain.reason);
 }
 
 Json alignment_json(const std::vector<InputAlignment>& alignment) {

@@ -1,12 +1,14 @@
 #pragma once
 // Learning an outline as commands do it: recordings in, flags to options, figures out.
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "command.hpp"
 #include "terminal.hpp"
 #include "wisp/learn/outline.hpp"
+#include "wisp/learn/wind_gain.hpp"
 
 namespace wisp::cli {
 
@@ -15,6 +17,9 @@ std::vector<Flag> outline_flags();
 
 /// --align, which learning and validating share.
 Flag align_flag();
+
+/// Whether --gain asks for one scale of all recordings' inputs; nothing where held-out data are to say.
+std::optional<bool> wanted_gain(const Arguments& arguments);
 
 /// Errors: a value out of its range.
 Result<OutlineOptions> outline_options(const Arguments& arguments, std::string name);
@@ -26,6 +31,9 @@ Result<std::vector<Recording>> outline_recordings(const std::vector<std::string>
 
 /// The fit's figures, for people and programs.
 void report_outline(const OutlineFit& fit, Terminal& terminal);
+
+/// What scale the recordings' inputs are on: `gain`.
+void report_gain(const WindGain& gain, Terminal& terminal);
 
 /// What was found of sound against picture.
 Json alignment_json(const std::vector<InputAlignment>& alignment);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "wisp/record/loudness.hpp"
+
 namespace wisp {
 namespace {
 
@@ -95,6 +97,17 @@ void add_channel_figures(const OutlineFigures& judged, const OutlineSummary& sum
   }
 }
 
+// How loud it was at 1 in all of the recordings; 0 where they differ, or one does not say.
+double common_one_rms(std::span<const Recording> recordings, const std::string& input) {
+  double common = 0;
+  for (const Recording& recording : recordings) {
+    const auto rms = one_rms(recording, input);
+    if (!rms || !*rms || (common > 0 && **rms != common)) return 0;
+    common = **rms;
+  }
+  return common;
+}
+
 }  // namespace
 
 Usable outline_verdict(const ArxSummary& fit, const OutlineSummary& summary) {
@@ -151,7 +164,12 @@ Provenance outline_provenance(std::span<const Recording> recordings, const Outli
                  {"held_share", summary.held_share},
                  {"sd_ratio", median(summary.sd_ratio)},
                  {"pixels_per_unit", summary.pixels_per_unit}};
-  for (const OutlineInput& input : summary.inputs) out.figures.push_back({input_scale_figure(input.name), input.scale});
+  for (const OutlineInput& input : summary.inputs) {
+    out.figures.push_back({input_scale_figure(input.name), input.scale});
+    if (const double rms = common_one_rms(recordings, input.name); rms > 0) {
+      out.figures.push_back({one_rms_figure(input.name), rms});
+    }
+  }
   for (std::size_t k = 0; k < judged.steps.size(); ++k) {
     const std::string steps = judged.steps[k] == kFreeRun ? "inf" : std::to_string(judged.steps[k]);
     out.figures.push_back({"fit." + steps, typical_fit(judged, judged.steps[k])});
@@ -164,5 +182,14 @@ Provenance outline_provenance(std::span<const Recording> recordings, const Outli
 }
 
 std::string input_scale_figure(const std::string& input) { return "input_scale." + input; }
+
+std::string one_rms_figure(const std::string& input) { return "one_rms." + input; }
+
+double positive_figure(const Model& model, const std::string& name) {
+  for (const Figure& figure : model.provenance.figures) {
+    if (figure.name == name) return std::max(figure.value, 0.0);
+  }
+  return 0;
+}
 
 }  // namespace wisp

@@ -17,4 +17,10 @@ Provenance outline_provenance(std::span<const Recording> recordings, const Outli
 /// The name under which an input's scale stands among the figures: the recording's value that is 1 in the model.
 std::string input_scale_figure(const std::string& input);
 
+/// The name of the figure that says how loud it was where an input was the recording's 1 (wisp/record/loudness.hpp).
+std::string one_rms_figure(const std::string& input);
+
+/// A figure of the model's provenance, 0 where it has none of that name or a negative one.
+double positive_figure(const Model& model, const std::string& name);
+
 }  // namespace wisp

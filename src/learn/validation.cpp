@@ -10,6 +10,7 @@
 #include "outline_verdict.hpp"
 #include "wisp/learn/outline_shape.hpp"
 #include "wisp/learn/outline_synthesis.hpp"
+#include "wisp/learn/wind_gain.hpp"
 
 namespace wisp {
 namespace {
@@ -262,10 +263,8 @@ Result<void> add_fidelity(const OutlineModel& model, const PreparedOutlines& pre
 }  // namespace
 
 double trained_scale(const Model& model, const std::string& input) {
-  for (const Figure& figure : model.provenance.figures) {
-    if (figure.name == input_scale_figure(input) && figure.value > 0) return figure.value;
-  }
-  return 1;
+  const double scale = positive_figure(model, input_scale_figure(input));
+  return scale > 0 ? scale : 1;
 }
 
 Result<OutlineValidation> validate_outline(const Model& model, const Recording& given,
@@ -273,7 +272,9 @@ Result<OutlineValidation> validate_outline(const Model& model, const Recording& 
   const auto outline = outline_model(model);
   if (!outline) return outline.error();
   if (auto ok = check_match(*outline, given); !ok) return ok.error();
-  auto in_step = align_outline(given, options.align ? input_names(model) : std::vector<std::string>());
+  auto heard = options.own_input_scale ? Result<Recording>(given) : at_trained_gain(model, given);
+  if (!heard) return heard.error();
+  auto in_step = align_outline(*heard, options.align ? input_names(model) : std::vector<std::string>());
   if (!in_step) return in_step.error();
   const Recording& recording = in_step->recording;
   auto inputs = inputs_of(model, recording, options.own_input_scale);

@@ -217,6 +217,7 @@ Result<WindTrack> WindTracker::finish() const {
   around.gust_db = state_->design.first_gust_db;
   const bool blows = find_gusts(seen, around, around.gust_db);
 
+  track.one_rms = std::sqrt(wind::from_decibels(around.gust_db));
   track.frames = frames_of(seen, around, state_->design);
   const float share = 1 / static_cast<float>(seen.size());
   track.silent = true;

@@ -13,6 +13,7 @@
 #include "wisp/draw/flame.hpp"
 #include "wisp/draw/video_writer.hpp"
 #include "wisp/record/csv.hpp"
+#include "wisp/record/loudness.hpp"
 
 namespace wisp {
 namespace {
@@ -121,6 +122,20 @@ TEST_F(ClipSound, IsHeardAndInStepAtEveryRate) {
     SCOPED_TRACE(rate_hz);
     expect_followed(learned("clip.mp4"));
   }
+}
+
+// Wind 1 is whatever blew hard in a clip. How loud that was goes with the recording, so that clips can be held
+// together.
+TEST_F(ClipSound, SaysHowLoudItWasAtWindOne) {
+  write_clip("clip.mp4", {});
+  write_clip("softer.mp4", {.gain = 0.075});
+  for (const char* name : {"clip", "softer"}) {
+    const Said said = wisp("capture flame " + at(name) + ".mp4 -o " + at(name) + ".csv");
+    ASSERT_EQ(said.status, 0) << said.err;
+  }
+  const auto clip = one_rms(*read_csv(at("clip.csv")), "wind"), softer = one_rms(*read_csv(at("softer.csv")), "wind");
+  ASSERT_TRUE(clip && *clip && softer && *softer);
+  EXPECT_NEAR(**clip / **softer, 4, 0.2);
 }
 
 TEST_F(ClipSound, ThatIsClippedIsUsedWithAWarning) {

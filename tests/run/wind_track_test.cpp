@@ -55,6 +55,8 @@ TEST(WindTrack, TheFirstGustIsHeardThoughTheRoomComesAfterIt) {
 
 TEST(WindTrack, WindOneIsThe95thPercentileWhileItBlows) {
   const WindTrack track = track_of(blow_rest_blow());
+  EXPECT_GT(track.one_rms, 0.0F);
+  EXPECT_EQ(track.one_rms, track.calibration.gust_rms);
   std::vector<float> blowing;
   for (const WindFrame& frame : track.frames) {
     if (frame.confidence > 0.8F) blowing.push_back(frame.speed);
@@ -112,6 +114,7 @@ TEST(WindTrack, ARoomWithoutWindHasNone) {
   EXPECT_TRUE(track.background_found);
   EXPECT_GT(track.quiet_share, 0.95F);
   EXPECT_EQ(track.calibration.gust_rms, 0.0F);
+  EXPECT_NEAR(track.one_rms, WindOptions{}.first_gust_rms, 1e-6);
   EXPECT_LT(mean_of(track, &WindFrame::wind, 0, 300), 1e-3);
 }
 

@@ -17,6 +17,7 @@ namespace wisp {
 struct WindTrack {
   std::vector<WindFrame> frames;  ///< one a video frame that the sound covers; a last part frame is dropped
   WindCalibration calibration;    ///< background and gust level of the whole
+  float one_rms = 0;              ///< RMS of the band at speed 1: the gust level, or the option's where nothing blows
   double seconds = 0;             ///< length of the sound
   float quiet_share = 0;          ///< share of frames taken as background
   float blowing_share = 0;        ///< share of frames with confidence above 0.5

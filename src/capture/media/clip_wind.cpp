@@ -105,6 +105,7 @@ Result<ClipWind> hear_wind(const std::filesystem::path& path, double rate_hz, st
   if (!track) return Error{path.string() + ": its sound cannot be used: " + track.error().message};
   wind.frames = std::move(track->frames);
   wind.background = track->calibration.background_rms;
+  wind.one_rms = track->one_rms;
   wind.clipped_share = track->clipped_share;
   wind.uncovered = frames - std::min(frames, wind.frames.size());
   wind.frames.resize(frames);

@@ -1,0 +1,75 @@
+// Several recordings, heard by one microphone or by two: learned, asked for, validated, by the program.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/program.hpp"
+#include "learn/made_outline.hpp"
+#include "wisp/record/csv.hpp"
+#include "wisp/record/loudness.hpp"
+
+namespace wisp {
+namespace {
+
+using testing::HasSubstr;
+
+class WindGainProgram : public InFolder {
+ protected:
+  // A recording whose tracker called 1 what is `gusts` times as strong as in the others.
+  void write_heard(const std::string& name, std::uint64_t seed, double gusts) {
+    Recording out = made::outline_recording({.rows = 900, .shock = 0.003, .wind = true, .seed = seed});
+    for (double& value : out.channels[*find_channel(out, "wind")].samples) value /= gusts;
+    set_one_rms(out, "wind", 0.04 * gusts * gusts);
+    ASSERT_TRUE(write_csv(at(name), out));
+  }
+
+  Said learned(const std::string& flags = "") {
+    return wisp("learn flame " + at("soft.csv") + " " + at("loud.csv") + " -o " + at("m.wisp") + " --json " + flags);
+  }
+
+  double tip_fit(const std::string& name, const std::string& flags = "") {
+    const Said said = wisp("validate " + at("m.wisp") + " " + at(name) + " --json " + flags);
+    EXPECT_EQ(said.status, 0) << said.err;
+    return said.json()["tip"]["fit_percent"]["inf"].get<double>();
+  }
+};
+
+TEST_F(WindGainProgram, OneMicrophoneIsFoundOutAndKept) {
+  write_heard("soft.csv", 1, 1);
+  write_heard("loud.csv", 2, 2.5);
+  write_heard("later.csv", 3, 1.6);
+  const Said said = learned();
+  ASSERT_EQ(said.status, 0) << said.err;
+  const auto gain = said.json()["gain"];
+  EXPECT_TRUE(gain["one"].get<bool>());
+  EXPECT_NEAR(gain["factors"][0].get<double>(), 0.4, 1e-9);
+  EXPECT_LT(gain["held_out_error"]["one"].get<double>(), gain["held_out_error"]["own"].get<double>());
+  const double one = tip_fit("later.csv");
+  ASSERT_EQ(learned("--gain own").status, 0);
+  EXPECT_GT(one, tip_fit("later.csv") + 3);
+}
+
+TEST_F(WindGainProgram, IsAsItIsAskedFor) {
+  write_heard("soft.csv", 1, 1);
+  write_heard("loud.csv", 2, 2.5);
+  EXPECT_TRUE(learned("--gain one").json()["gain"]["one"].get<bool>());
+  const auto own = learned("--gain own").json()["gain"];
+  EXPECT_FALSE(own["one"].get<bool>());
+  EXPECT_THAT(own["reason"].get<std::string>(), HasSubstr("as asked for"));
+  EXPECT_EQ(learned("--gain loud").status, 2);
+}
+
+TEST_F(WindGainProgram, ABadLoudnessStopsBeforeAnythingIsWritten) {
+  write_heard("soft.csv", 1, 1);
+  Recording bad = *read_csv(at("soft.csv"));
+  set_one_rms(bad, "wind", 0);
+  ASSERT_TRUE(write_csv(at("loud.csv"), bad));
+  const Said said = learned();
+  EXPECT_EQ(said.status, 1);
+  EXPECT_THAT(said.err, HasSubstr("loud.csv"));
+  EXPECT_THAT(said.err, HasSubstr("wind.one_rms"));
+  EXPECT_FALSE(std::filesystem::exists(at("m.wisp")));
+}
+
+}  // namespace
+}  // namespace wisp
