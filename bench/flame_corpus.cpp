@@ -8,6 +8,7 @@
 #include "wisp/learn/blow_outs.hpp"
 #include "wisp/learn/outline_units.hpp"
 #include "wisp/record/csv.hpp"
+#include "wisp/record/loudness.hpp"
 
 namespace wisp::verify {
 namespace {
@@ -53,8 +54,11 @@ Recording FlameCorpus::get(const std::string& name, FlameClipChoice choice) {
   }
   // Read back even if just made, so that the first run and the next have the same numbers.
   Recording clip = value_or_abort(read_csv(file));
-  if (knots_.empty()) knots_ = value_or_abort(outline_layout(clip)).knots;
-  return clip;
+  if (knots_.empty()) {
+    knots_ = value_or_abort(outline_layout(clip)).knots;
+    one_rms_ = value_or_abort(one_rms(clip, "wind")).value();
+  }
+  return value_or_abort(heard_at(std::move(clip), "wind", one_rms_));
 }
 
 std::vector<Recording> FlameCorpus::get(const Takes& takes, bool again) {
@@ -84,10 +88,12 @@ std::vector<Recording> FlameCorpus::gusts_and_puffs() {
 
 UnseenFlames FlameCorpus::unseen_gusts() { return unseen({"gusts", {21, 22, 23}, {.seconds = 20}}); }
 
-UnseenFlames FlameCorpus::unseen_calm() { return unseen({"calm", {31}, {.seconds = 20, .wind = FlameWind::kCalm}}); }
+UnseenFlames FlameCorpus::unseen_calm() {
+  return unseen({"calm", {31, 32, 33}, {.seconds = 20, .wind = FlameWind::kCalm}});
+}
 
 UnseenFlames FlameCorpus::unseen_blow_outs() {
-  return unseen({"blow-out", {41, 42}, {.seconds = 20, .wind = FlameWind::kPuffs}});
+  return unseen({"blow-out", {41, 42, 44}, {.seconds = 20, .wind = FlameWind::kPuffs}});
 }
 
 UnseenFlames FlameCorpus::unseen_between_blow_outs() {

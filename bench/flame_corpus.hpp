@@ -27,8 +27,8 @@ enum class FlameSeeds : std::uint64_t {
   kThirdTuning = 400,
 };
 
-/// The clips, all in the knots of the first. They are kept in a folder; what is not there yet is simulated when it is
-/// asked for, which takes as long as the film.
+/// The clips, all in the knots of the first and heard by one microphone. They are kept in a folder; what is not there
+/// yet is simulated when it is asked for, which takes as long as the film.
 class FlameCorpus {
  public:
   explicit FlameCorpus(std::filesystem::path folder, FlameSeeds seeds = FlameSeeds::kFresh);
@@ -60,6 +60,7 @@ class FlameCorpus {
   std::filesystem::path folder_;
   std::uint64_t offset_;
   std::vector<double> knots_;
+  double one_rms_ = 0;
 };
 
 }  // namespace wisp::verify

@@ -15,6 +15,7 @@ namespace wisp::verify {
 struct FlameClip {
   Recording outline;             ///< captured control points, pixels, without an input
   std::vector<WindFrame> wind;   ///< heard, one a frame
+  double one_rms = 0;            ///< of the sound, where the wind is 1
   Recording truth;               ///< u:wind[m/s] and the outline as it was
   double processor_seconds = 0;  ///< that simulating, filming, listening and capturing took
 };

@@ -6,6 +6,7 @@
 #include "value_or_abort.hpp"
 #include "verify_flame.hpp"
 #include "wisp/capture/vision/outline_capture.hpp"
+#include "wisp/record/loudness.hpp"
 #include "wisp/simulate/candle_clip.hpp"
 
 namespace wisp::verify {
@@ -57,14 +58,18 @@ FlameClip make_flame_clip(const FlameClipChoice& choice) {
   clip.truth = value_or_abort(simulate_candle(options, outputs));
   clip.processor_seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   clip.outline = value_or_abort(capture.finish()).recording;
-  clip.wind = value_or_abort(tracker.finish()).frames;
+  WindTrack track = value_or_abort(tracker.finish());
+  clip.wind = std::move(track.frames);
+  clip.one_rms = track.one_rms;
   return clip;
 }
 
 Recording driven_by_sound(const FlameClip& clip, WindMeasure measure) {
   std::vector<double> samples;
   for (const WindFrame& frame : clip.wind) samples.push_back(wind_value(frame, measure));
-  return with_wind(clip.outline, "1", std::move(samples));
+  Recording out = with_wind(clip.outline, "1", std::move(samples));
+  if (measure != WindMeasure::kRms) set_one_rms(out, "wind", clip.one_rms);
+  return out;
 }
 
 Recording driven_by_truth(const FlameClip& clip) {
