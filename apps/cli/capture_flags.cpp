@@ -95,12 +95,13 @@ std::vector<Flag> capture_flags() {
 }
 
 Result<CapturedClip> capture_clip(const std::filesystem::path& path, const Arguments& arguments, Terminal& terminal,
-                                  std::vector<double> knots) {
+                                  SharedCurve curve) {
   auto options = options_from(arguments);
   if (!options) return options.error();
-  if (!knots.empty()) {
-    options->outline.points = static_cast<int>(knots.size()) - kSplineDegree - 1;
-    options->outline.knots = std::move(knots);
+  if (!curve.knots.empty()) {
+    options->outline.points = static_cast<int>(curve.knots.size()) - kSplineDegree - 1;
+    options->outline.knots = std::move(curve.knots);
+    options->outline.underside = curve.underside;
   }
   auto captured = wisp::capture_outline(path, *options, [&](std::int64_t done, std::int64_t expected) {
     terminal.progress("capturing", expected > 0 ? static_cast<double>(done) / static_cast<double>(expected) : -1);

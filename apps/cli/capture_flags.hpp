@@ -2,6 +2,8 @@
 // How commands turn a clip into a recording: the flags, and the work.
 
 #include <filesystem>
+#include <optional>
+#include <vector>
 
 #include "command.hpp"
 #include "terminal.hpp"
@@ -21,10 +23,16 @@ struct CapturedClip {
   std::string wind_note;
 };
 
-/// Captures with the flags that were given, with a progress bar. `knots`, where not empty, are used instead of knots of
-/// the clip's own, and their number of control points instead of --points: so clips can share a model.
+/// How another clip's outlines run, for clips to share a model: knots, in the place of the clip's own and of --points,
+/// and whether the underside is followed, where that is known.
+struct SharedCurve {
+  std::vector<double> knots{};  ///< empty: there is no other clip
+  std::optional<bool> underside{};
+};
+
+/// Captures with the flags that were given, with a progress bar.
 /// Errors: as wisp::capture_outline, and a flag whose value does not fit.
 Result<CapturedClip> capture_clip(const std::filesystem::path& path, const Arguments& arguments, Terminal& terminal,
-                                  std::vector<double> knots = {});
+                                  SharedCurve curve = {});
 
 }  // namespace wisp::cli

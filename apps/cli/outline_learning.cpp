@@ -254,12 +254,12 @@ Result<OutlineOptions> outline_options(const Arguments& arguments, std::string n
 Result<std::vector<Recording>> outline_recordings(const std::vector<std::string>& paths, const Arguments& arguments,
                                                   Terminal& terminal) {
   std::vector<Recording> recordings;
-  std::vector<double> knots;
+  SharedCurve curve;
   for (const std::string& path : paths) {
     auto recording = [&]() -> Result<Recording> {
       if (is_table(path)) return read_table(path, arguments);
-      // Clips that are learned from together need one set of knots: those of the first.
-      auto clip = capture_clip(path, arguments, terminal, knots);
+      // Clips that are learned from together need one kind of curve: that of the first.
+      auto clip = capture_clip(path, arguments, terminal, curve);
       if (!clip) return clip.error();
       for (const std::string& warning : clip->report.warnings) terminal.warn(path + ": " + warning);
       if (!clip->wind_heard && !std::filesystem::is_directory(path)) {
@@ -268,9 +268,9 @@ Result<std::vector<Recording>> outline_recordings(const std::vector<std::string>
       return std::move(clip->recording);
     }();
     if (recording) {
-      if (knots.empty()) {
+      if (curve.knots.empty()) {
         const auto layout = outline_layout(*recording);
-        if (layout) knots = layout->knots;
+        if (layout) curve = {layout->knots, follows_underside(*recording)};
       }
       recordings.push_back(std::move(*recording));
     } else if (arguments.on("skip-bad")) {

@@ -31,7 +31,7 @@ struct Subject {
   std::optional<CaptureReport> report;  // where it was captured just now
 };
 
-Result<Subject> subject_of(const std::string& path, const OutlineView& view, const Arguments& arguments,
+Result<Subject> subject_of(const std::string& path, const Model& model, const Arguments& arguments,
                            Terminal& terminal) {
   Subject subject;
   if (is_table(path)) {
@@ -40,7 +40,8 @@ Result<Subject> subject_of(const std::string& path, const OutlineView& view, con
     subject.recording = std::move(*recording);
     if (arguments.has("clip")) subject.clip.path = arguments.text("clip");
   } else {
-    auto clip = capture_clip(path, arguments, terminal, view.knots);
+    auto clip =
+        capture_clip(path, arguments, terminal, {std::get<OutlineView>(model.view).knots, follows_underside(model)});
     if (!clip) return clip.error();
     for (const std::string& warning : clip->report.warnings) terminal.warn(warning);
     subject.recording = std::move(clip->recording);
@@ -275,9 +276,8 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   if (positionals.size() > 2) return Error{positionals[2] + ": is one file too many, only segment chains take a twin"};
   if (std::holds_alternative<SwitchedArxModel>(model->dynamics))
     return validate_switched(*model, *steps, arguments, terminal);
-  const auto* view = std::get_if<OutlineView>(&model->view);
-  if (!view) return validate_plain(*model, *steps, arguments, terminal);
-  const auto subject = subject_of(positionals[1], *view, arguments, terminal);
+  if (!std::holds_alternative<OutlineView>(model->view)) return validate_plain(*model, *steps, arguments, terminal);
+  const auto subject = subject_of(positionals[1], *model, arguments, terminal);
   if (!subject) return subject.error();
   const auto truth = truth_for(*subject, arguments);
   if (!truth) return truth.error();

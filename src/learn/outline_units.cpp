@@ -122,6 +122,12 @@ std::vector<double> to_pixels(std::span<const double> units, const OutlineFrame&
   return pixels;
 }
 
+std::optional<bool> follows_underside(const Recording& recording) {
+  const auto text = find_attribute(recording, "underside");
+  if (!text || (*text != "0" && *text != "1")) return std::nullopt;
+  return *text == "1";
+}
+
 std::vector<double> heights_pixels(const Recording& recording, const OutlineLayout& layout,
                                    std::span<const std::uint8_t> rows) {
   const OutlineCurve curve(layout.knots);

@@ -108,6 +108,13 @@ double common_one_rms(std::span<const Recording> recordings, const std::string& 
   return common;
 }
 
+std::optional<bool> common_underside(std::span<const Recording> recordings) {
+  const auto first = follows_underside(recordings.front());
+  const bool all = std::all_of(recordings.begin(), recordings.end(),
+                               [&](const Recording& one) { return follows_underside(one) == first; });
+  return all ? first : std::nullopt;
+}
+
 }  // namespace
 
 Usable outline_verdict(const ArxSummary& fit, const OutlineSummary& summary) {
@@ -169,6 +176,9 @@ Provenance outline_provenance(std::span<const Recording> recordings, const Outli
     if (const double rms = common_one_rms(recordings, input.name); rms > 0) {
       out.figures.push_back({one_rms_figure(input.name), rms});
     }
+  }
+  if (const auto underside = common_underside(recordings)) {
+    out.figures.push_back({std::string(kUndersideFigure), *underside ? 1.0 : 0.0});
   }
   for (std::size_t k = 0; k < judged.steps.size(); ++k) {
     const std::string steps = judged.steps[k] == kFreeRun ? "inf" : std::to_string(judged.steps[k]);

@@ -2,6 +2,7 @@
 // What a learned outline says of itself: whether to use it, and how it was made.
 
 #include <span>
+#include <string_view>
 
 #include "wisp/learn/outline.hpp"
 
@@ -19,6 +20,9 @@ std::string input_scale_figure(const std::string& input);
 
 /// The name of the figure that says how loud it was where an input was the recording's 1 (wisp/record/loudness.hpp).
 std::string one_rms_figure(const std::string& input);
+
+/// The name of the figure that says whether all outlines ran on along their underside, 1 or 0.
+inline constexpr std::string_view kUndersideFigure = "underside";
 
 /// A figure of the model's provenance, 0 where it has none of that name or a negative one.
 double positive_figure(const Model& model, const std::string& name);

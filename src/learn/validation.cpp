@@ -267,6 +267,13 @@ double trained_scale(const Model& model, const std::string& input) {
   return scale > 0 ? scale : 1;
 }
 
+std::optional<bool> follows_underside(const Model& model) {
+  for (const Figure& figure : model.provenance.figures) {
+    if (figure.name == kUndersideFigure) return figure.value != 0;
+  }
+  return std::nullopt;
+}
+
 Result<OutlineValidation> validate_outline(const Model& model, const Recording& given,
                                            const OutlineValidationOptions& options) {
   const auto outline = outline_model(model);

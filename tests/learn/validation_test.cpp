@@ -184,6 +184,22 @@ TEST(Validation, ARecordingWithItsOwnKnotsIsExpressedInTheModels) {
   EXPECT_EQ(outline_layout(other.predicted[0].recording)->knots, outline_layout(recording)->knots);
 }
 
+TEST(Validation, AModelSaysWhetherItsOutlinesFollowedTheirUnderside) {
+  const auto saying = [](const std::vector<std::string>& words) {
+    std::vector<Recording> recordings;
+    for (const std::string& word : words) {
+      recordings.push_back(made::outline_recording({.rows = 400, .seed = recordings.size() + 1}));
+      if (!word.empty()) recordings.back().attributes.push_back({"underside", word});
+    }
+    return follows_underside(learn_outline(recordings)->model);
+  };
+  EXPECT_EQ(saying({"1", "1"}), true);
+  EXPECT_EQ(saying({"0"}), false);
+  EXPECT_EQ(saying({"0", "1"}), std::nullopt);
+  EXPECT_EQ(saying({"1", ""}), std::nullopt);
+  EXPECT_EQ(saying({"perhaps"}), std::nullopt);
+}
+
 TEST(Validation, AnotherMicrophonesGainIsTakenFromItsOwnGusts) {
   Recording quiet = unseen(kWindy);
   for (double& wind : quiet.channels[*find_channel(quiet, "wind")].samples) wind *= 0.1;

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -46,6 +47,10 @@ struct OutlineFrame {
 /// Control points x0, y0, x1, y1, … of one frame from pixels to the model's units, and back.
 std::vector<double> to_model_units(std::span<const double> pixels, const OutlineFrame& frame);
 std::vector<double> to_pixels(std::span<const double> units, const OutlineFrame& frame);
+
+/// Whether an outline runs on along its underside until both ends meet (attribute `underside`, 1 or 0); nothing where
+/// the recording does not say.
+std::optional<bool> follows_underside(const Recording& recording);
 
 /// The distance in pixels from the middle of the base to the tip, of every row in which `rows` is not 0 (empty: all)
 /// and no control point is missing.

@@ -201,6 +201,7 @@ OutlineCapture::Stage::Samples OutlineCapture::Stage::take_samples(const Outline
 std::vector<double> OutlineCapture::Stage::decide_shape(Samples& samples) {
   CurveShape best;
   for (const bool underside : {false, true}) {
+    if (options_.underside.value_or(underside) != underside) continue;
     std::vector<EdgeCloud>& clouds = underside ? samples.around : samples.above;
     if (clouds.empty()) continue;
     EdgeCloudOptions options = cloud_options_;
@@ -255,6 +256,7 @@ void OutlineCapture::Stage::describe(CapturedOutline& out) const {
   const auto knots = tracker_->table().knots();
   report.knots.assign(knots.begin(), knots.end());
   report.knots_placed = report.knots != uniform_knots(options_.points);
+  report.underside = cloud_options_.underside;
   Recording& recording = out.recording;
   recording.source = options_.source;
   recording.rate_hz = options_.rate_hz;
@@ -264,6 +266,7 @@ void OutlineCapture::Stage::describe(CapturedOutline& out) const {
   recording.attributes.push_back({"height", std::to_string(height_)});
   recording.attributes.push_back({"channel", std::string(channel_name(survey_->channel))});
   recording.attributes.push_back({"threshold", number_text(report.threshold, 6)});
+  recording.attributes.push_back({"underside", report.underside ? "1" : "0"});
 }
 
 Result<CapturedOutline> OutlineCapture::Stage::finish() {

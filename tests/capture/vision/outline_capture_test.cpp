@@ -65,6 +65,21 @@ bool missing(const CapturedOutline& captured, std::size_t row) {
   return std::isnan(captured.recording.channels[0].samples[row]);
 }
 
+// Clips that share a model follow their underside all, or none: where its ends are is what the base means.
+TEST(OutlineCapture, FollowsTheUndersideWhereItIsAskedTo) {
+  for (const bool asked : {false, true}) {
+    OutlineCaptureOptions options = options_for();
+    options.underside = asked;
+    const auto captured = capture(40, noisy_flame, options);
+    ASSERT_TRUE(captured) << captured.error().message;
+    EXPECT_EQ(captured->report.underside, asked);
+    EXPECT_EQ(find_attribute(captured->recording, "underside"), asked ? "1" : "0");
+    const std::vector<double> ends = controls_at(*captured, 20);
+    const double base = std::hypot(ends[0] - ends[14], ends[1] - ends[15]);
+    EXPECT_EQ(base < 1, asked) << base;
+  }
+}
+
 TEST(OutlineCapture, MakesARecordingOfAllFrames) {
   const auto captured = capture(60, noisy_flame);
   ASSERT_TRUE(captured) << captured.error().message;

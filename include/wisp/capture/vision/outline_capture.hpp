@@ -28,9 +28,10 @@ struct OutlineCaptureOptions {
   Region region;                        ///< where to look, pixels; empty: the whole picture
   std::optional<BaseSide> base;         ///< where the outline is open; nothing: the side that cuts it off, else below
   bool place_knots = true;              ///< put knots where the outline bends, if that fits better than uniform ones
-  std::vector<double> knots;  ///< full knot vector to use, of a model or an earlier capture; empty: chosen here
-  double rate_hz = 0;         ///< frames a second, > 0
-  std::string source;         ///< where the frames come from, for messages and the recording
+  std::vector<double> knots;      ///< full knot vector to use, of a model or an earlier capture; empty: chosen here
+  std::optional<bool> underside;  ///< whether the underside is followed, as in that capture; nothing: where it pays
+  double rate_hz = 0;             ///< frames a second, > 0
+  std::string source;             ///< where the frames come from, for messages and the recording
   std::size_t held_bytes = 48u << 20;  ///< frames held back for the first decisions, bytes; at least 8 frames are
   int held_frames = 40;                ///< … and frames, 8 to 200
 };
@@ -59,6 +60,7 @@ struct CaptureReport {
   double residual = 0;                ///< mean root-mean-square distance of edge points from the curve, pixels
   bool knots_placed = false;          ///< knots are not uniform
   std::vector<double> knots;          ///< the full knot vector
+  bool underside = false;             ///< the underside is followed (attribute `underside`)
   std::vector<std::string> warnings;  ///< what the maker should know, one sentence each
 };
 
