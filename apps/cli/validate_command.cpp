@@ -19,6 +19,7 @@
 #include "validation_figures.hpp"
 #include "wisp/learn/outline_shape.hpp"
 #include "wisp/learn/validation.hpp"
+#include "wisp/learn/wind_gain.hpp"
 #include "wisp/model/file.hpp"
 
 namespace wisp::cli {
@@ -248,6 +249,17 @@ Result<std::optional<Recording>> truth_for(const Subject& subject, const Argumen
   return std::optional(slice(*truth, first, std::min(truth->rows(), first + subject.recording.rows())));
 }
 
+// On whose scale the wind is: what the same wind is called elsewhere is easily overlooked.
+Result<void> report_gain(const Model& model, const Recording& recording, bool own_scale, Terminal& terminal) {
+  const auto factor = own_scale ? Result<double>(1.0) : factor_to_trained_gain(model, recording);
+  if (!factor) return factor.error();
+  terminal.result()["gain"] = number(*factor);
+  if (std::abs(*factor - 1) < 0.02) return {};
+  terminal.say("its wind is taken times " + shown(*factor, 3) +
+               ", as the training's microphone would call it; --own-gain where another one heard it");
+  return {};
+}
+
 // Whether flames die by the rule where they died, and live where they lived.
 Result<void> report_blow_outs(const Model& model, const Recording& recording, bool own_scale, Terminal& terminal) {
   auto judged = judged_extinction(model, recording, own_scale);
@@ -286,6 +298,7 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
                                    .align = arguments.text("align") == "auto",
                                    .truth = *truth ? &**truth : nullptr,
                                    .seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
+  if (auto ok = report_gain(*model, subject->recording, options.own_input_scale, terminal); !ok) return ok;
   const auto burning = burning_part(*model, subject->recording);
   if (!burning) return burning.error();
   auto found = validate_outline(*model, *burning, options);

@@ -119,6 +119,16 @@ Result<WindGain> choose_wind_gain(std::span<const Recording> recordings, const O
   return gain;
 }
 
+Result<double> factor_to_trained_gain(const Model& model, const Recording& recording) {
+  for (const Input& input : model.inputs) {
+    const auto own = one_rms(recording, input.name);
+    if (!own) return own.error();
+    const double trained = positive_figure(model, one_rms_figure(input.name));
+    if (*own && trained > 0) return std::sqrt(**own / trained);
+  }
+  return 1.0;
+}
+
 Result<Recording> at_trained_gain(const Model& model, Recording recording) {
   for (const Input& input : model.inputs) {
     const double trained = positive_figure(model, one_rms_figure(input.name));

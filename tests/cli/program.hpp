@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -43,7 +44,9 @@ class InFolder : public testing::Test {
  protected:
   InFolder() {
     const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(testing::TempDir()) / (std::string(test.test_suite_name()) + "." + test.name());
+    // By process, so that two runs at once do not meet.
+    folder_ = std::filesystem::path(testing::TempDir()) /
+              (std::string(test.test_suite_name()) + "." + test.name() + "." + std::to_string(getpid()));
     std::filesystem::create_directories(folder_);
   }
   ~InFolder() override { std::filesystem::remove_all(folder_); }

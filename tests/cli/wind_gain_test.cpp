@@ -45,6 +45,9 @@ TEST_F(WindGainProgram, OneMicrophoneIsFoundOutAndKept) {
   EXPECT_NEAR(gain["factors"][0].get<double>(), 0.4, 1e-9);
   EXPECT_LT(gain["held_out_error"]["one"].get<double>(), gain["held_out_error"]["own"].get<double>());
   const double one = tip_fit("later.csv");
+  const Said told = wisp("validate " + at("m.wisp") + " " + at("later.csv"));
+  EXPECT_THAT(told.out + told.err, HasSubstr("times 0.64"));
+  EXPECT_THAT(told.out + told.err, HasSubstr("--own-gain"));
   ASSERT_EQ(learned("--gain own").status, 0);
   EXPECT_GT(one, tip_fit("later.csv") + 3);
 }

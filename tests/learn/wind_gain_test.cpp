@@ -89,12 +89,14 @@ TEST(WindGain, ABadLoudnessIsAnError) {
 TEST(WindGain, ARecordingIsValidatedAsLoudAsTheTraining) {
   const auto fit = *learn_outline(std::vector{heard(1, 1, 1)}, kQuick);
   const Recording later = heard(3, 2.5, 1);
+  EXPECT_NEAR(*factor_to_trained_gain(fit.model, later), 2.5, 1e-12);
   EXPECT_NEAR(wind_at(*at_trained_gain(fit.model, later), 40), 2.5 * wind_at(later, 40), 1e-9);
   const auto found = *validate_outline(fit.model, later, {.fidelity = false});
   const auto same = *validate_outline(fit.model, heard(3, 1, 1), {.fidelity = false});
   EXPECT_NEAR(found.figures.tip_fit_percent.back(), same.figures.tip_fit_percent.back(), 1e-6);
   Recording silent = later;
   silent.attributes.clear();
+  EXPECT_EQ(*factor_to_trained_gain(fit.model, silent), 1);
   EXPECT_EQ(wind_at(*at_trained_gain(fit.model, silent), 40), wind_at(later, 40));
 }
 

@@ -32,6 +32,10 @@ Result<std::vector<Recording>> at_one_gain(std::vector<Recording> recordings);
 Result<WindGain> choose_wind_gain(std::span<const Recording> recordings, const OutlineOptions& options,
                                   std::optional<bool> wanted = std::nullopt);
 
+/// What a recording's first heard input is multiplied by to be as loud at 1 as in what the model was learned from; 1
+/// where either does not say. Errors: as one_rms().
+Result<double> factor_to_trained_gain(const Model& model, const Recording& recording);
+
 /// The recording with its inputs as loud at 1 as in those that the model was learned from; as it is where either does
 /// not say. Errors: as one_rms().
 Result<Recording> at_trained_gain(const Model& model, Recording recording);
