@@ -1,6 +1,6 @@
 """How like recorded flames are synthesized ones? One table for every wind.
 
-usage: likeness.py FOLDER [--splits 20] [--few 4] [--surely NAME]…
+usage: likeness.py FOLDER [--splits 20] [--few 4] [--surely NAME]… [--at-most ACCURACY]
 
 FOLDER/WIND/figures.csv and windows.csv are what wisp_verify_flame or wisp_verify_baselines left there. A line of figures:
 name, energy distance, log-spectral distance, speeds, fit of the tip, operations, bytes. A line of windows: side, clip,
@@ -10,12 +10,13 @@ differs; and one for everything that plays.
 What is added here is whether a classifier can tell a side from the recorded one: gradient-boosted trees, five folds over
 whole blocks (windows that overlap are alike for that reason alone), repeated over some splits: FEW, and SPLITS for the
 floor and whatever is named with --surely. 0.5 is indistinguishable; recorded against `again` is the floor,
-recorded against the same windows with their frames in random order the ceiling.
+recorded against the same windows with their frames in random order the ceiling. With --at-most the exit status is 1 where what is named with --surely is told apart more surely than that.
 """
 
 import argparse
 import csv
 import pathlib
+import sys
 
 import numpy as np
 
@@ -71,6 +72,8 @@ class Windows:
 
 
 def print_table(folder, arguments):
+    """Prints a wind's table. Returns the largest accuracy among what must be sure."""
+    largest = 0.0
     windows = Windows(folder / "windows.csv")
     print(f"\n{folder.name} ({len(windows.real)} recorded windows)\n\n"
           "| what plays | energy distance | log-spectral, dB | speeds, sd | told apart | tip's fit, % | operations | bytes |"
@@ -83,8 +86,11 @@ def print_table(folder, arguments):
                 found = windows.told_shuffled(arguments.few)
             else:
                 found = windows.told("again" if name == "floor" else name, splits)
+            if name in arguments.surely:
+                largest = max(largest, found.mean())
             figures.insert(3, f"{found.mean():.3f} ± {found.std():.3f}")
             print(f"| {name} | " + " | ".join(figures) + " |", flush=True)
+    return largest
 
 
 def main():
@@ -93,11 +99,18 @@ def main():
     parser.add_argument("--splits", type=int, default=20)
     parser.add_argument("--few", type=int, default=4)
     parser.add_argument("--surely", action="append", default=[])
+    parser.add_argument("--at-most", type=float, default=1.0)
     arguments = parser.parse_args()
     print(f"== Told apart by {told_apart.TREES}: balanced accuracy, {told_apart.FOLDS} folds over blocks; "
           f"{arguments.splits} splits for the floor and what must be sure, {arguments.few} for the rest")
-    for folder in sorted(path.parent for path in arguments.folder.glob("*/figures.csv")):
-        print_table(folder, arguments)
+    folders = sorted(path.parent for path in arguments.folder.glob("*/figures.csv"))
+    if not folders:
+        sys.exit(f"{arguments.folder} has no WIND/figures.csv; wisp_verify_flame or wisp_verify_baselines makes them")
+    largest = max(print_table(folder, arguments) for folder in folders)
+    if arguments.surely and largest == 0:
+        sys.exit(f"nothing is called {' or '.join(arguments.surely)}")
+    if largest > arguments.at_most:
+        sys.exit(f"told apart at {largest:.3f}, expected at most {arguments.at_most}")
 
 
 if __name__ == "__main__":
