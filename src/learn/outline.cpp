@@ -359,28 +359,39 @@ void take_fit(const ArxFit& fitted, OutlineSummary& summary) {
   }
 }
 
-double recorded_sd(const std::string& name, std::span<const Recording> recordings) {
+double recorded_sd(const std::string& name, const Recording& recording) {
   std::vector<double> samples;
-  for (const Recording& recording : recordings) {
-    for (double value : recording.channels[*find_channel(recording, name)].samples) {
-      if (!std::isnan(value)) samples.push_back(value);
-    }
+  for (double value : recording.channels[*find_channel(recording, name)].samples) {
+    if (!std::isnan(value)) samples.push_back(value);
   }
   return standard_deviation(samples);
 }
 
-// What it costs, and what it does when it plays along the first recording's inputs.
+// The recording in which most moves: one of calm among others tells nothing of what the inputs do.
+std::size_t liveliest(const PreparedOutlines& prepared) {
+  std::size_t best = 0;
+  double most = -1;
+  for (std::size_t r = 0; r < prepared.recordings.size(); ++r) {
+    double sum = 0;
+    for (const std::string& name : prepared.channels.outputs) sum += recorded_sd(name, prepared.recordings[r]);
+    if (sum > most) best = r, most = sum;
+  }
+  return best;
+}
+
+// What it costs, and what it does when it plays along the inputs of the liveliest recording.
 Result<void> try_out(const Model& model, const OutlineOptions& options, const PreparedOutlines& prepared,
-                     const Recording& first, OutlineSummary& summary) {
+                     std::span<const Recording> recordings, OutlineSummary& summary) {
   const auto cost = count_operations(model);
   if (!cost) return cost.error();
   summary.cost = *cost;
-  const Recording driving = with_regressors(first, summary.inputs, {});
+  const std::size_t lively = liveliest(prepared);
+  const Recording driving = with_regressors(recordings[lively], summary.inputs, {});
   const auto play = play_freely(model, kTrialSteps, {.seed = options.seed, .input = &driving});
   if (!play) return play.error();
   summary.held_share = play->held_share;
   for (std::size_t i = 0; i < play->sd.size(); ++i) {
-    const double recorded = recorded_sd(prepared.channels.outputs[i], prepared.recordings);
+    const double recorded = recorded_sd(prepared.channels.outputs[i], prepared.recordings[lively]);
     summary.sd_ratio.push_back(recorded > 0 ? play->sd[i] / recorded : 1);
   }
   return {};
@@ -433,7 +444,7 @@ Result<OutlineFit> learn_outline(std::span<const Recording> recordings, const Ou
     if (auto ok = set_noise(*fitted, shaken, *prepared, options, arx, summary); !ok) return ok.error();
   }
   out.model = model_of(arx, *prepared, options);
-  if (auto ok = try_out(out.model, options, *prepared, recordings.front(), summary); !ok) return ok.error();
+  if (auto ok = try_out(out.model, options, *prepared, recordings, summary); !ok) return ok.error();
   summary.usable = outline_verdict(fitted->summary, summary);
   out.model.provenance = outline_provenance(recordings, options, summary);
   return out;

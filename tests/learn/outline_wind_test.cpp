@@ -143,6 +143,20 @@ TEST(OutlineWind, NoiseIsOnlyWhatTheWindLeaves) {
   EXPECT_NEAR(flicker->sd[4] * scale / alone->sd[4], 1, 0.15);
 }
 
+// Whether it moves as much as the recording is asked where something moves, whichever recording comes first.
+TEST(OutlineWind, ACalmRecordingBeforeTheOthersIsNoReasonAgainstTheModel) {
+  Recording calm = made::outline_recording({.points = 6, .rows = 1200, .shock = 0.0002, .wind = true, .lean = 0});
+  auto& wind = calm.channels[*find_channel(calm, "wind")].samples;
+  std::fill(wind.begin(), wind.end(), 0.0);
+  const Recording windy = made::outline_recording(kWindy);
+  for (const auto& recordings : {std::vector{calm, windy}, std::vector{windy, calm}}) {
+    const auto fit = learn_outline(recordings);
+    ASSERT_TRUE(fit) << fit.error().message;
+    EXPECT_TRUE(fit->summary.usable.verdict) << fit->summary.usable.reason;
+    for (double ratio : fit->summary.sd_ratio) EXPECT_NEAR(ratio, 1, 0.4);
+  }
+}
+
 TEST(OutlineWind, TheCalmHeightIsTheUnitHoweverHardItBlows) {
   made::OutlineRecipe hard = kWindy;
   hard.lean = 0.08;

@@ -131,7 +131,8 @@ struct OutlineSummary {
   ArxStability stable;
   Cost cost;
   double held_share = 0;         ///< of steps in which an output is held at its range, playing freely with noise
-  std::vector<double> sd_ratio;  ///< of every channel: playing freely over recorded; 1 where nothing moves
+  std::vector<double> sd_ratio;  ///< of every channel: playing freely along the liveliest recording over
+                                 ///< what that has; 1 where nothing moves
   OutlineNoiseGrowth noise_growth;
   double shared_variance = 0;  ///< share of the wanted shocks' variance that the shared ones carry, 0 to 1
   bool variance_matched = false;
