@@ -5,7 +5,6 @@
 #include "figures_json.hpp"
 #include "flame_modes.hpp"
 #include "wisp/learn/validation.hpp"
-#include "wisp/learn/wind_gain.hpp"
 #include "wisp/run/cost.hpp"
 
 namespace wisp::cli {
@@ -165,12 +164,9 @@ Result<Recording> burning_part(const Model& model, const Recording& recording) {
   return without_blow_outs(recording, *found);
 }
 
-Result<Json> judged_extinction(const Model& model, const Recording& given, bool own_scale) {
+Result<Json> judged_extinction(const Model& model, const Recording& recording, bool own_scale) {
   if (!model.extinction) return Json(nullptr);
   const std::string& input = model.inputs[model.extinction->input].name;
-  const auto heard = own_scale ? Result<Recording>(given) : at_trained_gain(model, given);
-  if (!heard) return heard.error();
-  const Recording& recording = *heard;
   auto blow_outs = find_blow_outs(recording, input);
   if (!blow_outs) return blow_outs.error();
   double scale = trained_scale(model, input);

@@ -249,11 +249,16 @@ Result<std::optional<Recording>> truth_for(const Subject& subject, const Argumen
   return std::optional(slice(*truth, first, std::min(truth->rows(), first + subject.recording.rows())));
 }
 
-// On whose scale the wind is: what the same wind is called elsewhere is easily overlooked.
-Result<void> report_gain(const Model& model, const Recording& recording, bool own_scale, Terminal& terminal) {
-  const auto factor = own_scale ? Result<double>(1.0) : factor_to_trained_gain(model, recording);
+// Puts what the training's microphone heard on the model's scale, and says so: what the same wind is called elsewhere
+// is easily overlooked.
+Result<void> take_gain(const Model& model, bool own_scale, Subject& subject, Terminal& terminal) {
+  const auto factor = own_scale ? Result<double>(1.0) : factor_to_trained_gain(model, subject.recording);
   if (!factor) return factor.error();
   terminal.result()["gain"] = number(*factor);
+  if (own_scale) return {};
+  auto heard = at_trained_gain(model, std::move(subject.recording));
+  if (!heard) return heard.error();
+  subject.recording = *std::move(heard);
   if (std::abs(*factor - 1) < 0.02) return {};
   terminal.say("its wind is taken times " + shown(*factor, 3) +
                ", as the training's microphone would call it; --own-gain where another one heard it");
@@ -289,7 +294,7 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   if (std::holds_alternative<SwitchedArxModel>(model->dynamics))
     return validate_switched(*model, *steps, arguments, terminal);
   if (!std::holds_alternative<OutlineView>(model->view)) return validate_plain(*model, *steps, arguments, terminal);
-  const auto subject = subject_of(positionals[1], *model, arguments, terminal);
+  auto subject = subject_of(positionals[1], *model, arguments, terminal);
   if (!subject) return subject.error();
   const auto truth = truth_for(*subject, arguments);
   if (!truth) return truth.error();
@@ -298,7 +303,7 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
                                    .align = arguments.text("align") == "auto",
                                    .truth = *truth ? &**truth : nullptr,
                                    .seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
-  if (auto ok = report_gain(*model, subject->recording, options.own_input_scale, terminal); !ok) return ok;
+  if (auto ok = take_gain(*model, options.own_input_scale, *subject, terminal); !ok) return ok;
   const auto burning = burning_part(*model, subject->recording);
   if (!burning) return burning.error();
   auto found = validate_outline(*model, *burning, options);

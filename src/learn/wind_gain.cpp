@@ -1,7 +1,6 @@
 #include "wisp/learn/wind_gain.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -40,7 +39,7 @@ Result<std::vector<Loudest>> loudest_inputs(std::span<const Recording> recording
 std::vector<double> factors_of(std::span<const Recording> recordings, const Loudest& loudest) {
   std::vector<double> out;
   for (const Recording& recording : recordings) {
-    out.push_back(std::sqrt(one_rms(recording, loudest.input)->value() / loudest.rms));
+    out.push_back(*factor_at(recording, loudest.input, loudest.rms));  // says how loud it was: loudest_inputs()
   }
   return out;
 }
@@ -121,10 +120,8 @@ Result<WindGain> choose_wind_gain(std::span<const Recording> recordings, const O
 
 Result<double> factor_to_trained_gain(const Model& model, const Recording& recording) {
   for (const Input& input : model.inputs) {
-    const auto own = one_rms(recording, input.name);
-    if (!own) return own.error();
     const double trained = positive_figure(model, one_rms_figure(input.name));
-    if (*own && trained > 0) return std::sqrt(**own / trained);
+    if (trained > 0) return factor_at(recording, input.name, trained);
   }
   return 1.0;
 }

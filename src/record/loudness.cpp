@@ -25,13 +25,18 @@ void set_one_rms(Recording& recording, const std::string& input, double rms) {
   set_numbers_attribute(recording, attribute_name(input), {&rms, 1});
 }
 
-Result<Recording> heard_at(Recording recording, const std::string& input, double rms) {
+Result<double> factor_at(const Recording& recording, const std::string& input, double rms) {
   const auto own = one_rms(recording, input);
   if (!own) return own.error();
+  return *own ? std::sqrt(**own / rms) : 1.0;
+}
+
+Result<Recording> heard_at(Recording recording, const std::string& input, double rms) {
+  const auto factor = factor_at(recording, input, rms);
+  if (!factor) return factor.error();
   const auto channel = find_channel(recording, input);
-  if (!*own || !channel || **own == rms) return recording;
-  const double factor = std::sqrt(**own / rms);
-  for (double& value : recording.channels[*channel].samples) value *= factor;
+  if (!channel || *factor == 1) return recording;
+  for (double& value : recording.channels[*channel].samples) value *= *factor;
   set_one_rms(recording, input, rms);
   return recording;
 }

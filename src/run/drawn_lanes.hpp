@@ -151,7 +151,7 @@ class DrawnLanes {
   }
 
   // How far a row is apart is the sum of its differences' sizes: as good a choice as their squares make, for half the
-  // operations. The rise is looked at first, since it tells most rows apart.
+  // operations. The wind's rise is looked at first, since it tells most rows apart.
   static Real farther(const Real& apart, const Real& difference) {
     return value_of(difference) < 0 ? apart - difference : apart + difference;
   }

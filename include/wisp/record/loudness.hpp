@@ -23,6 +23,12 @@ Result<std::optional<double>> one_rms(const Recording& recording, const std::str
 /// Precondition: rms > 0.
 void set_one_rms(Recording& recording, const std::string& input, double rms);
 
+/// What an input is multiplied by for its 1 to be as loud as `rms`; 1 where the recording does not say how loud it was.
+/// Errors: as one_rms().
+///
+/// Precondition: rms > 0.
+Result<double> factor_at(const Recording& recording, const std::string& input, double rms);
+
 /// The recording with an input whose 1 is as loud as `rms`; as it is where it has no such input, or does not say how
 /// loud that was. Errors: as one_rms().
 ///
