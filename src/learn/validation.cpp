@@ -241,14 +241,26 @@ void warn_of_lost_points(OutlineValidation& out) {
   }
 }
 
+// A driven play goes along the recording again and again: what is not seen there is not judged.
+void hide_unseen(const Recording& recorded, const std::vector<std::string>& outputs, Recording& play) {
+  for (const std::string& name : outputs) {
+    const auto& seen = recorded.channels[*find_channel(recorded, name)].samples;
+    auto& samples = play.channels[*find_channel(play, name)].samples;
+    for (std::size_t row = 0; row < samples.size(); ++row) {
+      if (std::isnan(seen[row % seen.size()])) samples[row] = kNothing;
+    }
+  }
+}
+
 // Plays freely with noise and compares with the recording in the model's units.
 Result<void> add_fidelity(const OutlineModel& model, const PreparedOutlines& prepared, const Recording& driving,
                           const OutlineValidationOptions& options, OutlineValidation& out) {
   const auto rows = static_cast<std::size_t>(std::ceil(options.play_seconds * model.whole.rate_hz));
-  const auto play = synthesize(model.whole, {.rows = rows, .seed = options.seed, .input = &driving});
+  auto play = synthesize(model.whole, {.rows = rows, .seed = options.seed, .input = &driving});
   if (!play) return play.error();
   out.held_share = play->held_share;
   out.crossed_share = crossed_share(play->recording, prepared.layout);
+  if (!model.whole.inputs.empty()) hide_unseen(prepared.recordings.front(), prepared.channels.outputs, play->recording);
   FidelityOptions how = options.fidelity_options;
   how.channels = prepared.channels.outputs;
   auto found = fidelity(prepared.recordings, {&play->recording, 1}, how);
