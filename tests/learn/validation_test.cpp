@@ -184,6 +184,25 @@ TEST(Validation, ARecordingWithItsOwnKnotsIsExpressedInTheModels) {
   EXPECT_EQ(outline_layout(other.predicted[0].recording)->knots, outline_layout(recording)->knots);
 }
 
+// A flame that is out is not seen; a play that goes on there is not held against it.
+TEST(Validation, WhatIsNotSeenIsNotJudged) {
+  Recording gone = unseen(kWindy);
+  const std::vector<double> wind = gone.channels[*find_channel(gone, "wind")].samples;
+  for (Channel& channel : gone.channels) {
+    for (std::size_t row = 0; channel.name != "wind" && row < wind.size(); ++row) {
+      if (row % 600 > 300) channel.samples[row] = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  auto& blown = gone.channels[*find_channel(gone, "wind")].samples;
+  for (std::size_t row = 0; row < blown.size(); ++row) {
+    if (row % 600 > 300) blown[row] = 0;
+  }
+  const OutlineValidation whole = validated(windy_model(), unseen(kWindy));
+  const OutlineValidation part = validated(windy_model(), gone);
+  ASSERT_TRUE(whole.fidelity && part.fidelity);
+  EXPECT_LT(part.fidelity->energy_distance.value, whole.fidelity->energy_distance.value + 0.02);
+}
+
 TEST(Validation, AModelSaysWhetherItsOutlinesFollowedTheirUnderside) {
   const auto saying = [](const std::vector<std::string>& words) {
     std::vector<Recording> recordings;
