@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <ctime>
 
-#include "verify_flame.hpp"
+#include "studies/flame/verify_flame.hpp"
 #include "wisp/learn/outline.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/simulate/candle_clip.hpp"

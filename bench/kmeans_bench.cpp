@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "wisp/learn/clustering.hpp"
+#include "learn/numeric/clustering.hpp"
 
 namespace {
 

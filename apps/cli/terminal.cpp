@@ -5,6 +5,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include "wisp/describe/json.hpp"
+#include "wisp/describe/text.hpp"
+
 namespace wisp::cli {
 
 Terminal::Terminal(Options options) : options_(options), terminal_(::isatty(STDERR_FILENO) == 1) {
@@ -27,6 +30,25 @@ void Terminal::progress(std::string_view what, double done) {
     std::fprintf(stderr, "\r\033[K%.*s %s %3d %%", static_cast<int>(what.size()), what.data(), bar.c_str(), percent);
   }
   std::fflush(stderr);
+}
+
+Progress Terminal::progress() {
+  return [this](std::string_view stage, double share) {
+    progress(stage, share);
+    return true;
+  };
+}
+
+void Terminal::show(const Report& report) {
+  Report told = report;
+  for (const std::string& warning : report.warnings) warn(warning);
+  told.warnings.clear();
+  if (options_.json) {
+    result_.update(Json::parse(to_json(told)), true);
+    return;
+  }
+  clear_bar();
+  std::fputs(to_text(told).c_str(), stdout);
 }
 
 void Terminal::clear_bar() {

@@ -5,6 +5,9 @@
 #include <string>
 #include <string_view>
 
+#include "wisp/base/progress.hpp"
+#include "wisp/base/report.hpp"
+
 namespace wisp::cli {
 
 using Json = nlohmann::ordered_json;
@@ -20,6 +23,13 @@ class Terminal {
   /// A bar on standard error while something long runs: `done` in [0, 1], or negative where the length is not known.
   /// Only drawn on a terminal.
   void progress(std::string_view what, double done);
+
+  /// The same, as the library takes it.
+  Progress progress();
+
+  /// A report as the command's result: as text at once, or as part of the JSON document at the end. Its warnings go to
+  /// standard error too.
+  void show(const Report& report);
 
   /// Something the user should know though the command goes on; one line on standard error.
   void warn(std::string_view text);

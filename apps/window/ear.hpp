@@ -8,7 +8,7 @@
 
 #include "wisp/base/result.hpp"
 #include "wisp/record/wav.hpp"
-#include "wisp/run/wind_level.hpp"
+#include "wisp/sound/wind_level.hpp"
 
 namespace wisp::window {
 

@@ -84,11 +84,8 @@ wisp_status hand_out_orders(const char* function, const wisp_model* model, wisp:
 // Counting takes every kernel a second time, a fifth of a module that travels: this one says what the learner counted.
 wisp::Result<wisp::Cost> cost_of(const wisp::Model& model) {
   wisp::Cost cost;
-  for (const wisp::Figure& figure : model.provenance.figures) {
-    if (!(figure.value >= 0 && figure.value < 1e15)) continue;
-    if (figure.name == "multiply_adds_per_frame") cost.multiply_adds_per_frame = static_cast<int64_t>(figure.value);
-    if (figure.name == "operations_per_frame") cost.operations_per_frame = static_cast<int64_t>(figure.value);
-  }
+  cost.multiply_adds_per_frame = model.training.multiply_adds_per_frame;
+  cost.operations_per_frame = model.training.operations_per_frame;
   return cost;
 }
 #else
@@ -119,7 +116,7 @@ wisp_status wisp_model_get_facts(const wisp_model* model, wisp_model_facts* fact
   wisp_model_facts filled{};
   filled.inputs = static_cast<uint32_t>(model->model.inputs.size());
   filled.outputs = static_cast<uint32_t>(model->model.outputs.size());
-  filled.usable = model->model.provenance.usable.verdict ? 1 : 0;
+  filled.usable = model->model.training.usable.verdict ? 1 : 0;
   filled.rate_hz = model->model.rate_hz;
   filled.step_nanoseconds = wisp::step_time(model->model).count();
   filled.multiply_adds_per_frame = model->cost.multiply_adds_per_frame;
@@ -146,10 +143,10 @@ const char* wisp_model_name(const wisp_model* model) { return model ? model->mod
 wisp_status wisp_model_get_provenance(const wisp_model* model, wisp_provenance* provenance) {
   if (!model || !provenance) return null_argument(__func__);
   if (!size_is_right(__func__, provenance->size)) return WISP_BAD_ARGUMENT;
-  const wisp::Provenance& made = model->model.provenance;
+  const wisp::Training& made = model->model.training;
   wisp_provenance filled{};
   filled.sources = static_cast<uint32_t>(made.sources.size());
-  filled.options = static_cast<uint32_t>(made.options.size());
+  filled.options = static_cast<uint32_t>(made.recipe.size());
   filled.figures = static_cast<uint32_t>(made.figures.size());
   filled.usable = made.usable.verdict ? 1 : 0;
   filled.program = made.program.c_str();
@@ -160,7 +157,7 @@ wisp_status wisp_model_get_provenance(const wisp_model* model, wisp_provenance* 
 
 wisp_status wisp_model_get_source(const wisp_model* model, uint32_t index, const char** name) {
   if (!model || !name) return null_argument(__func__);
-  const auto& sources = model->model.provenance.sources;
+  const auto& sources = model->model.training.sources;
   if (!index_is_right(__func__, index, sources.size())) return WISP_BAD_ARGUMENT;
   *name = sources[index].c_str();
   return WISP_OK;
@@ -168,7 +165,7 @@ wisp_status wisp_model_get_source(const wisp_model* model, uint32_t index, const
 
 wisp_status wisp_model_get_option(const wisp_model* model, uint32_t index, wisp_note* option) {
   if (!model || !option) return null_argument(__func__);
-  const auto& options = model->model.provenance.options;
+  const auto& options = model->model.training.recipe;
   if (!size_is_right(__func__, option->size)) return WISP_BAD_ARGUMENT;
   if (!index_is_right(__func__, index, options.size())) return WISP_BAD_ARGUMENT;
   wisp_note filled{};
@@ -180,7 +177,7 @@ wisp_status wisp_model_get_option(const wisp_model* model, uint32_t index, wisp_
 
 wisp_status wisp_model_get_figure(const wisp_model* model, uint32_t index, wisp_figure* figure) {
   if (!model || !figure) return null_argument(__func__);
-  const auto& figures = model->model.provenance.figures;
+  const auto& figures = model->model.training.figures;
   if (!size_is_right(__func__, figure->size)) return WISP_BAD_ARGUMENT;
   if (!index_is_right(__func__, index, figures.size())) return WISP_BAD_ARGUMENT;
   wisp_figure filled{};

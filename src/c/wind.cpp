@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "c/boundary.hpp"
-#include "wisp/run/wind_level.hpp"
+#include "wisp/sound/wind_level.hpp"
 
 struct wisp_wind {
   wisp::WindLevel level;

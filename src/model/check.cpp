@@ -138,6 +138,43 @@ Result<void> check_view(const Model& model, const PositionView& position) {
   return check_body(model, 3, "position", {position.half_width});
 }
 
+Result<void> check_inputs_training(const Model& model) {
+  const auto& inputs = model.training.inputs;
+  if (inputs.empty()) return {};
+  if (inputs.size() != model.inputs.size()) {
+    return Error{"the training says the scales of " + std::to_string(inputs.size()) + " inputs, the model has " +
+                 std::to_string(model.inputs.size())};
+  }
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    if (std::isfinite(inputs[k].scale) && inputs[k].scale > 0 && std::isfinite(inputs[k].one_rms) &&
+        inputs[k].one_rms >= 0)
+      continue;
+    return Error{"the training scale of the input " + model.inputs[k].name + " is not a positive number"};
+  }
+  return {};
+}
+
+Result<void> check_training(const Model& model) {
+  const Training& made = model.training;
+  for (const Figure& figure : made.figures) {
+    if (!std::isfinite(figure.value)) return Error{"the figure " + figure.name + " is not a finite number"};
+  }
+  if (!made.residual_sd.empty() && made.residual_sd.size() != model.outputs.size()) {
+    return Error{"the training has " + std::to_string(made.residual_sd.size()) + " residual deviations, the model " +
+                 std::to_string(model.outputs.size()) + " outputs"};
+  }
+  for (double sd : made.residual_sd) {
+    if (!std::isfinite(sd) || sd < 0) return Error{"a residual deviation of the training is not a number from 0"};
+  }
+  if (made.motion && !(made.motion->min_seconds >= 0 && made.motion->debounce >= 0)) {
+    return Error{"the training's segmentation is not of numbers from 0"};
+  }
+  if (made.multiply_adds_per_frame < 0 || made.operations_per_frame < 0) {
+    return Error{"the training says a cost below 0"};
+  }
+  return check_inputs_training(model);
+}
+
 }  // namespace
 
 Result<void> check(const Model& model) {
@@ -154,10 +191,7 @@ Result<void> check(const Model& model) {
   if (model.extinction) {
     if (auto ok = check(*model.extinction, model.inputs.size()); !ok) return ok;
   }
-  for (const Figure& figure : model.provenance.figures) {
-    if (!std::isfinite(figure.value)) return Error{"the figure " + figure.name + " is not a finite number"};
-  }
-  return {};
+  return check_training(model);
 }
 
 }  // namespace wisp

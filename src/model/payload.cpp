@@ -103,19 +103,53 @@ fb::Offset<file::SwitchedArx> write_switched(Builder& builder, const SwitchedArx
                                  transitions, lyapunov);
 }
 
-fb::Offset<file::Provenance> write_provenance(Builder& builder, const Provenance& made) {
-  std::vector<fb::Offset<file::Note>> options;
-  for (const Note& note : made.options)
-    options.push_back(file::CreateNoteDirect(builder, note.name.c_str(), note.value.c_str()));
+fb::Offset<file::RampTraining> write_ramp(Builder& builder, const RampTraining& ramp) {
+  return file::CreateRampTraining(builder, static_cast<file::Origin>(ramp.origin), ramp.events, ramp.seconds_ci95[0],
+                                  ramp.seconds_ci95[1], ramp.error);
+}
+
+fb::Offset<file::ExtinctionTraining> write_extinction_training(Builder& builder,
+                                                               const std::optional<ExtinctionTraining>& made) {
+  if (!made) return 0;
+  const auto dying = write_ramp(builder, made->dying);
+  const auto catching = write_ramp(builder, made->catching);
+  return file::CreateExtinctionTraining(builder, static_cast<file::Origin>(made->origin), made->deaths, made->died,
+                                        made->gusts, made->spared, dying, catching);
+}
+
+fb::Offset<file::MotionTraining> write_motion(Builder& builder, const std::optional<MotionTraining>& motion) {
+  if (!motion) return 0;
+  return file::CreateMotionTrainingDirect(builder, motion->event.c_str(), motion->min_seconds, motion->debounce,
+                                          static_cast<std::uint32_t>(motion->smooth_rows));
+}
+
+file::Underside write_underside(std::optional<bool> underside) {
+  if (!underside) return file::Underside::Unknown;
+  return *underside ? file::Underside::Yes : file::Underside::No;
+}
+
+fb::Offset<file::Training> write_training(Builder& builder, const Training& made) {
+  std::vector<fb::Offset<file::Note>> recipe;
+  for (const Note& note : made.recipe)
+    recipe.push_back(file::CreateNoteDirect(builder, note.name.c_str(), note.value.c_str()));
   std::vector<fb::Offset<file::Figure>> figures;
   for (const Figure& figure : made.figures)
     figures.push_back(file::CreateFigureDirect(builder, figure.name.c_str(), figure.value));
+  std::vector<fb::Offset<file::InputTraining>> inputs;
+  for (const InputTraining& input : made.inputs)
+    inputs.push_back(file::CreateInputTraining(builder, input.scale, input.one_rms));
   const auto program = builder.CreateString(made.program);
   const auto sources = builder.CreateVectorOfStrings(made.sources);
-  const auto options_at = builder.CreateVector(options);
+  const auto recipe_at = builder.CreateVector(recipe);
   const auto figures_at = builder.CreateVector(figures);
   const auto reason = builder.CreateString(made.usable.reason);
-  return file::CreateProvenance(builder, program, sources, options_at, figures_at, made.usable.verdict, reason);
+  const auto inputs_at = builder.CreateVector(inputs);
+  const auto residual_sd = optional_vector(builder, made.residual_sd);
+  const auto motion = write_motion(builder, made.motion);
+  const auto extinction = write_extinction_training(builder, made.extinction);
+  return file::CreateTraining(builder, program, sources, recipe_at, figures_at, made.usable.verdict, reason, inputs_at,
+                              residual_sd, write_underside(made.underside), motion, extinction,
+                              made.multiply_adds_per_frame, made.operations_per_frame);
 }
 
 fb::Offset<file::Extinction> write_extinction(Builder& builder, const std::optional<Extinction>& rule) {
@@ -275,19 +309,57 @@ Result<SwitchedArxModel> read_switched(const file::SwitchedArx& stored, int ny, 
   return model;
 }
 
-Provenance read_provenance(const file::Provenance& stored) {
-  Provenance made;
+// What this program does not know says the least.
+Origin read_origin(file::Origin origin) {
+  return origin == file::Origin::Learned ? Origin::kLearned
+         : origin == file::Origin::Given ? Origin::kGiven
+                                         : Origin::kDefault;
+}
+
+RampTraining read_ramp(const file::RampTraining* stored) {
+  if (!stored) return {};
+  return {read_origin(stored->origin()), stored->events(), {stored->shortest(), stored->longest()}, stored->error()};
+}
+
+std::optional<ExtinctionTraining> read_extinction_training(const file::ExtinctionTraining* stored) {
+  if (!stored) return std::nullopt;
+  return ExtinctionTraining{read_origin(stored->origin()),
+                            stored->deaths(),
+                            stored->died(),
+                            stored->gusts(),
+                            stored->spared(),
+                            read_ramp(stored->dying()),
+                            read_ramp(stored->catching())};
+}
+
+std::optional<MotionTraining> read_motion(const file::MotionTraining* stored) {
+  if (!stored) return std::nullopt;
+  return MotionTraining{stored->event()->str(), stored->min_seconds(), stored->debounce(),
+                        static_cast<std::int32_t>(std::min<std::uint32_t>(stored->smooth_rows(), 1U << 30))};
+}
+
+Training read_training(const file::Training& stored) {
+  Training made;
   made.program = text(stored.program());
   if (stored.sources()) {
     for (const auto* source : *stored.sources()) made.sources.push_back(source->str());
   }
-  if (stored.options()) {
-    for (const auto* note : *stored.options()) made.options.push_back({note->name()->str(), text(note->value())});
+  if (stored.recipe()) {
+    for (const auto* note : *stored.recipe()) made.recipe.push_back({note->name()->str(), text(note->value())});
   }
   if (stored.figures()) {
     for (const auto* figure : *stored.figures()) made.figures.push_back({figure->name()->str(), figure->value()});
   }
   made.usable = {stored.usable(), text(stored.usable_reason())};
+  if (stored.inputs()) {
+    for (const auto* input : *stored.inputs()) made.inputs.push_back({input->scale(), input->one_rms()});
+  }
+  made.residual_sd = numbers(stored.residual_sd());
+  if (stored.underside() != file::Underside::Unknown) made.underside = stored.underside() == file::Underside::Yes;
+  made.motion = read_motion(stored.motion());
+  made.extinction = read_extinction_training(stored.extinction());
+  made.multiply_adds_per_frame = stored.multiply_adds_per_frame();
+  made.operations_per_frame = stored.operations_per_frame();
   return made;
 }
 
@@ -448,13 +520,13 @@ std::vector<std::byte> write_payload(const Model& model) {
   }
   const auto dynamics = std::visit([&](const auto& kind) { return write_dynamics(builder, kind); }, model.dynamics);
   const auto view = std::visit([&](const auto& kind) { return write_view(builder, kind); }, model.view);
-  const auto provenance = write_provenance(builder, model.provenance);
+  const auto training = write_training(builder, model.training);
   const auto extinction = write_extinction(builder, model.extinction);
   const auto name = builder.CreateString(model.name);
   const auto inputs_at = builder.CreateVector(inputs);
   const auto outputs_at = builder.CreateVector(outputs);
   builder.Finish(file::CreateModel(builder, name, model.rate_hz, inputs_at, outputs_at, dynamics.kind, dynamics.at,
-                                   view.kind, view.at, provenance, extinction));
+                                   view.kind, view.at, training, extinction));
   const auto bytes = std::as_bytes(std::span(builder.GetBufferPointer(), builder.GetSize()));
   return {bytes.begin(), bytes.end()};
 }
@@ -473,7 +545,7 @@ Result<Model> read_payload(std::span<const std::byte> payload) {
   if (auto ok = read_channels(stored, model); !ok) return ok.error();
   if (auto ok = read_dynamics(stored, model); !ok) return ok.error();
   if (auto ok = read_view(stored, model); !ok) return ok.error();
-  if (stored.provenance()) model.provenance = read_provenance(*stored.provenance());
+  model.training = read_training(*stored.training());
   model.extinction = read_extinction(stored);
   return model;
 }

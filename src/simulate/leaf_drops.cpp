@@ -148,7 +148,7 @@ Result<LeafFlight> settled(const LeafDropsOptions& o, const LeafWind& wind, std:
 
 Result<LeafWind> wind_of(const LeafDropsOptions& o, std::size_t drop) {
   if (!o.track.rows.empty()) {
-    WindTrack track = o.track;
+    MeasuredWind track = o.track;
     track.begins += o.settle_seconds;
     return LeafWind::of_track(std::move(track));
   }

@@ -57,7 +57,7 @@ Cubic cubic_through(double a, double b, double c, double d, double t) {
   return {b + t * (one + t * (two + t * three)), one + t * (2 * two + t * 3 * three)};
 }
 
-WindSample sample_of(const WindTrack& track, double seconds) {
+WindSample sample_of(const MeasuredWind& track, double seconds) {
   const auto last = static_cast<long>(track.rows.size()) - 1;
   const double row = std::clamp((seconds - track.begins) * track.rate_hz, 0.0, static_cast<double>(last));
   const long first = std::min(static_cast<long>(row), std::max(0L, last - 1));
@@ -109,7 +109,7 @@ LeafWind LeafWind::of_gusts(std::vector<Gust> gusts) {
   return wind;
 }
 
-LeafWind LeafWind::of_track(WindTrack track) {
+LeafWind LeafWind::of_track(MeasuredWind track) {
   LeafWind wind;
   wind.track_ = std::move(track);
   return wind;

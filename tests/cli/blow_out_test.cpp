@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "cli/program.hpp"
-#include "learn/made_blow_outs.hpp"
+#include "learn/flame/made_blow_outs.hpp"
 #include "wisp/record/csv.hpp"
 
 namespace wisp {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/program.hpp"
-#include "learn/made_outline.hpp"
+#include "learn/outline/made_outline.hpp"
 #include "wisp/record/csv.hpp"
 #include "wisp/record/loudness.hpp"
 

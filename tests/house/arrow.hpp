@@ -30,12 +30,14 @@ inline const std::map<std::string, Layer>& layers() {
       {"model", {{"base"}, {"flatbuffers/", "wisp_generated.h"}}},
       // The compiler's own header of the processor's vector instructions.
       {"run", {{"base", "model"}, {"immintrin.h"}}},
-      {"c", {{"base", "model", "run"}, {}}},
+      {"sound", {{"base"}, {}}},
+      {"c", {{"base", "model", "run", "sound"}, {}}},
       {"record", {{"base"}, {}}},
       {"matfile", {{"base", "record"}, {"hdf5.h", "matio.h"}}},
-      {"learn", {{"base", "model", "run", "record"}, {"Eigen/"}}},
-      {"capture/vision", {{"base", "model", "run", "record"}, {}}},
-      {"capture/media", {{"base", "model", "run", "record", "capture/vision"}, ffmpeg}},
+      {"describe", {{"base"}, {"nlohmann/"}}},
+      {"learn", {{"base", "model", "run", "sound", "record"}, {"Eigen/"}}},
+      {"capture/vision", {{"base", "model", "record"}, {}}},
+      {"capture/media", {{"base", "model", "sound", "record", "capture/vision"}, ffmpeg}},
       {"simulate", {{"base", "model", "record"}, {"cvode/", "nvector/", "sundials/", "sunlinsol/", "sunmatrix/"}}},
       {"draw", {{"base", "model", "run", "record"}, draws}},
   };

@@ -51,9 +51,7 @@ void expect_same(const Model& a, const Model& b) {
   EXPECT_EQ(a.inputs.at(0).shape, b.inputs.at(0).shape);
   EXPECT_EQ(a.outputs.at(3).name, b.outputs.at(3).name);
   EXPECT_EQ(std::get<OutlineView>(a.view).knots, std::get<OutlineView>(b.view).knots);
-  EXPECT_EQ(a.provenance.usable.verdict, b.provenance.usable.verdict);
-  EXPECT_EQ(a.provenance.figures.at(0).value, b.provenance.figures.at(0).value);
-  EXPECT_EQ(a.provenance.options.at(0).value, b.provenance.options.at(0).value);
+  EXPECT_EQ(a.training, b.training);
   EXPECT_EQ(a.extinction, b.extinction);
 }
 
@@ -322,7 +320,14 @@ TEST(ModelFile, AModelWithoutMeaningIsNeitherWrittenNorRead) {
        [](Model& m) {
          m.view = OutlineView{uniform_knots(5), 0, 0};
        }},
-      {"figure", [](Model& m) { m.provenance.figures[0].value = INFINITY; }},
+      {"figure", [](Model& m) { m.training.figures[0].value = INFINITY; }},
+      {"scales of 2 inputs", [](Model& m) { m.training.inputs.resize(2); }},
+      {"scale of the input wind", [](Model& m) { m.training.inputs[0].scale = 0; }},
+      {"scale of the input wind", [](Model& m) { m.training.inputs[0].one_rms = NAN; }},
+      {"residual deviations", [](Model& m) { m.training.residual_sd.pop_back(); }},
+      {"residual deviation", [](Model& m) { m.training.residual_sd[0] = -1; }},
+      {"segmentation", [](Model& m) { m.training.motion->debounce = NAN; }},
+      {"cost below 0", [](Model& m) { m.training.operations_per_frame = -1; }},
       {"listens to input 1", [](Model& m) { m.extinction->input = 1; }},
       {"level", [](Model& m) { m.extinction->level = 0; }},
       {"level", [](Model& m) { m.extinction->level = NAN; }},

@@ -60,7 +60,7 @@ inline Model sample_chain(ChainMotion motion = ChainMotion::kPose) {
     model.view = PositionView{0.02};
   }
   model.dynamics = chain;
-  model.provenance = {"wisp 0.1.0", {"drops.csv"}, {{"event", "zero:forward_speed"}}, {{"segments", 3}}, {true, "yes"}};
+  model.training = {"wisp 0.1.0", {"drops.csv"}, {{"event", "zero:forward_speed"}}, {{"segments", 3}}, {true, "yes"}};
   return model;
 }
 

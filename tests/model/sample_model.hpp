@@ -33,8 +33,16 @@ inline Model sample_model() {
   arx.noise.mixing.assign(kOutputs, 0.002);
   model.dynamics = arx;
   model.view = OutlineView{uniform_knots(4), 0.03, 200};
-  model.provenance = {
+  model.training = {
       "wisp 0.1.0", {"clip.mp4"}, {{"order", "2"}}, {{"fit_percent", 61.5}}, {true, "fits held-out data"}};
+  model.training.inputs = {{.scale = 2.5, .one_rms = 0.125}};
+  model.training.residual_sd.assign(kOutputs, 0.25);
+  model.training.underside = false;
+  model.training.motion = MotionTraining{"zero:speed", 0.04, 0.1, 9};
+  model.training.extinction =
+      ExtinctionTraining{Origin::kLearned, 9, 8, 70, 69, {Origin::kGiven, 2, {0.1, 0.2}, 0.05}, {}};
+  model.training.multiply_adds_per_frame = 192;
+  model.training.operations_per_frame = 575;
   return model;
 }
 

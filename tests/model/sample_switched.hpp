@@ -33,7 +33,7 @@ inline Model sample_switched(Switching switching = Switching::kRegions) {
   model.inputs = {{"u", "m/s", -1, 2, InputShape::kLinear}};
   model.outputs = {{"y1", "m", -2, 3}, {"y2", "", -1, 0.5}};
   model.dynamics = std::move(switched);
-  model.provenance = {"wisp 0.1.0", {"tank.csv"}, {{"modes", "3"}}, {{"held_out", 1.5}}, {true, "made up"}};
+  model.training = {"wisp 0.1.0", {"tank.csv"}, {{"modes", "3"}}, {{"held_out", 1.5}}, {true, "made up"}};
   return model;
 }
 

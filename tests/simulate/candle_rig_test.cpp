@@ -8,7 +8,7 @@
 
 #include "wisp/simulate/flame_outline.hpp"
 
-// What takes minutes (both grids, all winds, long runs, resolution) is in bench/verify_rig.cpp.
+// What takes minutes (both grids, all winds, long runs, resolution) is in studies/rig/verify_rig.cpp.
 
 namespace wisp {
 namespace {

@@ -35,7 +35,7 @@ TEST(Plate, TumblesWithTheKnownHalfTurns) {
   }
 }
 
-// 1.219146, by integrators of scipy with errors bound to 1e-12 (bench/verify_leaf_plate.py).
+// 1.219146, by integrators of scipy with errors bound to 1e-12 (studies/leaf/verify_leaf_plate.py).
 TEST(Plate, GoesOverFromTheInertiaOnThatAnIndependentIntegrationFinds) {
   EXPECT_EQ(watch_plate(1.21912, 200, 300)->regime, PlateRegime::kFlutter);
   EXPECT_EQ(watch_plate(1.21917, 200, 300)->regime, PlateRegime::kTumble);

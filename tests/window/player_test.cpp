@@ -9,7 +9,7 @@
 #include <array>
 #include <fstream>
 
-#include "run/wind_sounds.hpp"
+#include "sound/wind_sounds.hpp"
 #include "window/course.hpp"
 
 namespace wisp::window {

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "cli/program.hpp"
-#include "run/wind_sounds.hpp"
+#include "sound/wind_sounds.hpp"
 #include "window/play.hpp"
 #include "wisp/record/wav.hpp"
 

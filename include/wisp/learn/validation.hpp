@@ -65,12 +65,9 @@ struct OutlineValidation {
   std::vector<std::string> warnings;
 };
 
-/// What of a recording's input was 1 when the model was learned; 1 where the model does not say.
-double trained_scale(const Model& model, const std::string& input);
-
-/// Whether outlines that the model was learned from ran on along their underside; nothing where it does not say, or
-/// they did not agree.
-std::optional<bool> follows_underside(const Model& model);
+/// What of a recording's input was 1 when the model was learned.
+/// Errors: the model has no input of that name, or was not learned from recordings.
+Result<double> trained_scale(const Model& model, const std::string& input);
 
 /// Validates an outline model against a recording of an outline in pixels.
 /// A recording with other knots is expressed in the model's, with a warning.

@@ -16,6 +16,7 @@
 #include "wisp/model/extinction.hpp"
 #include "wisp/model/input_curve.hpp"
 #include "wisp/model/switched.hpp"
+#include "wisp/model/training.hpp"
 
 namespace wisp {
 
@@ -74,33 +75,6 @@ struct PositionView {
 using Dynamics = std::variant<ArxModel, ChainModel, SwitchedArxModel>;
 using View = std::variant<PlainView, OutlineView, PoseView, PositionView>;
 
-/// Whether a model may be used, and why not (or why so).
-struct Usable {
-  bool verdict = false;
-  std::string reason;
-};
-
-/// A named fact about how the model was made.
-struct Note {
-  std::string name;
-  std::string value;
-};
-
-/// A named figure of how good it is.
-struct Figure {
-  std::string name;
-  double value = 0;
-};
-
-/// How the model was made.
-struct Provenance {
-  std::string program;               ///< name and version of what wrote it
-  std::vector<std::string> sources;  ///< file names of the recordings
-  std::vector<Note> options;         ///< as given to the learner
-  std::vector<Figure> figures;       ///< figures of fit
-  Usable usable;
-};
-
 /// A model of how a thing behaves.
 struct Model {
   std::string name;
@@ -109,7 +83,7 @@ struct Model {
   std::vector<Output> outputs;
   Dynamics dynamics;
   View view;
-  Provenance provenance;
+  Training training;
   std::optional<Extinction> extinction;  ///< none: it never goes out
 };
 

@@ -2,7 +2,7 @@
 // How loud the sound was where an input that was heard is 1: by it, what one microphone heard in several recordings can
 // be put on one scale.
 //
-// A tracker calls 1 whatever blew hard in its own recording (wisp/run/wind_track.hpp), so that a phone and a laptop
+// A tracker calls 1 whatever blew hard in its own recording (wisp/sound/wind_track.hpp), so that a phone and a laptop
 // hear alike. In recordings of one microphone the same wind is another number then, wherever something else blew hard.
 
 #include <optional>

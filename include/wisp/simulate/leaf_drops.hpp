@@ -15,7 +15,7 @@ namespace wisp {
 struct LeafDropsOptions {
   Leaf leaf{};
   LeafWindOptions wind{};  ///< each drop has gusts and eddies of its own
-  WindTrack track{};       ///< where it has rows, this is the wind of every drop, from where the recording begins
+  MeasuredWind track{};    ///< where it has rows, this is the wind of every drop, from where the recording begins
   LeafStepping stepping{};
   int drops = 200;            ///< episodes, 1 … 100000
   double seconds = 20;        ///< recorded of each, 0.1 … 3600

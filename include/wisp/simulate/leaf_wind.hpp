@@ -49,7 +49,7 @@ struct Gust {
 
 /// A wind that was measured: the same everywhere, between its rows along a smooth curve through them, before the first
 /// and after the last as there.
-struct WindTrack {
+struct MeasuredWind {
   std::vector<std::array<double, 3>> rows;  ///< m/s, world's axes; none: there is no such wind
   double rate_hz = 60;                      ///< > 0
   double begins = 0;                        ///< seconds: when the first row is
@@ -73,7 +73,7 @@ class LeafWind {
   /// What was measured.
   ///
   /// Precondition: rate_hz > 0, all rows finite.
-  static LeafWind of_track(WindTrack track);
+  static LeafWind of_track(MeasuredWind track);
 
   /// The wind where a leaf is, and how fast it changes for a leaf that moves so (world's axes).
   WindSample at(const std::array<double, 3>& place, const std::array<double, 3>& moving, double seconds) const;
@@ -97,7 +97,7 @@ class LeafWind {
   std::array<double, 3> mean_{};
   std::vector<Gust> gusts_;  // by their start
   std::vector<Eddy> eddies_;
-  WindTrack track_;
+  MeasuredWind track_;
 };
 
 }  // namespace wisp

@@ -4,9 +4,9 @@
 #include <cassert>
 #include <cmath>
 
+#include "capture/vision/knots.hpp"
 #include "capture/vision/outline_rows.hpp"
 #include "capture/vision/outline_seeker.hpp"
-#include "wisp/capture/vision/knots.hpp"
 #include "wisp/record/number_text.hpp"
 
 namespace wisp {

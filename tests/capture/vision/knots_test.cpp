@@ -1,4 +1,4 @@
-#include "wisp/capture/vision/knots.hpp"
+#include "capture/vision/knots.hpp"
 
 #include <gtest/gtest.h>
 

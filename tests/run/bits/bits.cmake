@@ -18,8 +18,8 @@ set(variants
 separate_arguments(OPTIONS)
 
 # What is compiled anew each time: all that computes on a frame's path, or for it. The rest, once.
-file(GLOB computing ${SOURCE}/src/run/*.cpp)
-list(FILTER computing EXCLUDE REGEX "/(wind_|cost|chain_loop)[^/]*$")
+file(GLOB_RECURSE computing ${SOURCE}/src/run/*.cpp)
+list(FILTER computing EXCLUDE REGEX "/(cost|chain_loop)[^/]*$")
 list(APPEND computing ${SOURCE}/src/model/bspline.cpp ${SOURCE}/src/model/mode_splines.cpp
   ${SOURCE}/tests/run/bits/frames.cpp)
 file(GLOB ground ${SOURCE}/src/model/*.cpp)

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "wisp/base/result.hpp"
-#include "wisp/run/wind_track.hpp"
+#include "wisp/sound/wind_track.hpp"
 
 namespace wisp {
 

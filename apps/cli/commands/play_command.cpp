@@ -1,0 +1,169 @@
+// `wisp play`: a model, live, in a window.
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+
+#include "commands/commands.hpp"
+#include "shipped_models.hpp"
+#include "terminal.hpp"
+#include "wisp/model/file.hpp"
+#ifdef WISP_HAS_PLAYER
+#include "window/play.hpp"
+#endif
+
+namespace wisp::cli {
+namespace {
+
+#ifdef WISP_HAS_PLAYER
+
+using window::PlayOptions;
+using window::PlayReport;
+using window::SceneKind;
+
+// Asked to end by a signal: the frame is finished first, so that no picture is left half written.
+volatile int interrupted = 0;
+
+void interrupt(int) { interrupted = 1; }
+
+Result<void> set_size(const std::string& text, window::PlayerOptions& player) {
+  int width = 0, height = 0;
+  char end = 0;
+  if (std::sscanf(text.c_str(), "%5dx%5d%c", &width, &height, &end) != 2 || width < 64 || height < 64 || width > 8192 ||
+      height > 8192) {
+    return Error{"--size: found \"" + text + "\", expected WIDTHxHEIGHT in pixels, each 64 to 8192, such as 1280x800"};
+  }
+  player.width = width;
+  player.height = height;
+  return {};
+}
+
+std::optional<SceneKind> scene_of(const Arguments& arguments) {
+  if (!arguments.has("scene")) return {};
+  const std::string& word = arguments.text("scene");
+  return word == "candle" ? SceneKind::kCandle : word == "cake" ? SceneKind::kCake : SceneKind::kLeaves;
+}
+
+// Models that come with Wisp, beginning with the first that the scene can show.
+Result<std::vector<std::filesystem::path>> models_of_our_own(std::optional<SceneKind> scene) {
+  auto models = shipped_models();
+  if (models.empty()) {
+    std::string looked;
+    for (const auto& folder : model_folders()) looked += (looked.empty() ? "" : ", ") + folder.string();
+    return Error{"no model was given and none is in " + looked +
+                 "; name one, wisp play MODEL.wisp, or make one with wisp demo"};
+  }
+  if (!scene) return models;
+  const auto fits = [&](const std::filesystem::path& path) {
+    const auto model = read_model(path);
+    const bool flame = model && std::holds_alternative<OutlineView>(model->view);
+    const bool plain = model && std::holds_alternative<PlainView>(model->view);
+    return *scene == SceneKind::kLeaves ? model && !flame && !plain : flame;
+  };
+  std::stable_partition(models.begin(), models.end(), fits);
+  return models;
+}
+
+Result<PlayOptions> options_of(const Arguments& arguments) {
+  PlayOptions options;
+  options.player.scene = scene_of(arguments);
+  options.player.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
+  if (auto ok = set_size(arguments.text("size"), options.player); !ok) return ok.error();
+  if (arguments.has("sound")) options.sound = arguments.text("sound");
+  if (arguments.has("script")) options.script = arguments.text("script");
+  if (arguments.has("png")) options.pictures = arguments.text("png");
+  options.microphone = !arguments.on("no-microphone");
+  options.interrupted = &interrupted;
+  options.player.hints = !options.script && !arguments.has("headless-frames");
+  if (arguments.has("headless-frames")) {
+    options.frames = arguments.integer("headless-frames");
+    if (options.frames < 1) return Error{"--headless-frames: found \"0\", expected at least 1"};
+  } else if (options.pictures && !options.script) {
+    return Error{"--png: pictures are taken by --headless-frames N, or by a --script that says when"};
+  }
+  if (!arguments.positionals().empty()) {
+    options.player.models = {arguments.positional()};
+  } else {
+    auto models = models_of_our_own(options.player.scene);
+    if (!models) return models.error();
+    options.player.models = std::move(*models);
+  }
+  return options;
+}
+
+void tell(const PlayReport& report, const PlayOptions& options, Terminal& terminal) {
+  Json& result = terminal.result();
+  result["model"] = options.player.models.front().string();
+  result["seed"] = options.player.seed;
+  result["frames"] = report.figures.frames;
+  result["went_out"] = report.figures.went_out;
+  result["relit"] = report.figures.relit;
+  result["held_share"] =
+      report.figures.steps ? static_cast<double>(report.figures.held) / static_cast<double>(report.figures.steps) : 0.0;
+  result["frame_ms"] = {{"mean", number(report.draw_ms)}, {"worst", number(report.worst_draw_ms)}};
+  if (!report.renderer.empty()) result["renderer"] = report.renderer;
+  result["state"] = report.state;
+  result["said"] = report.said;
+  result["pictures"] = Json::array();
+  for (const auto& picture : report.pictures)
+    result["pictures"].push_back({{"name", picture.name}, {"frame", picture.frame}, {"state", picture.state}});
+  terminal.say(std::to_string(report.figures.frames) + " frames, " + shown(report.draw_ms) +
+               " ms of the processor each; seed " + std::to_string(options.player.seed));
+  if (!report.pictures.empty())
+    terminal.say("wrote " + std::to_string(report.pictures.size()) + " pictures to " + options.pictures->string());
+}
+
+Result<void> run(const Arguments& arguments, Terminal& terminal) {
+  const auto options = options_of(arguments);
+  if (!options) return options.error();
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
+  const auto report = options->frames > 0 ? window::play_without_display(*options) : window::play_in_window(*options);
+  if (!report) return report.error();
+  for (const std::string& line : report->said) terminal.warn(line);
+  tell(*report, *options, terminal);
+  return {};
+}
+
+#else
+
+Result<void> run(const Arguments&, Terminal&) {
+  return Error{"this build has no window: it was made with -DWISP_BUILD_WINDOW=OFF"};
+}
+
+#endif
+
+}  // namespace
+
+Command play_command() {
+  return {
+      "play",
+      "A model, live, in a window: blow into the microphone, move the pointer, press H for help.",
+      {{"MODEL", "the model, a .wisp file; default: those that come with Wisp, Tab goes from one to the next", false,
+        true}},
+      {
+          {"scene",
+           Kind::kChoice,
+           "WORD",
+           "",
+           "candle, cake or leaves; default: what the model is",
+           {"candle", "cake", "leaves"}},
+          {"size", Kind::kText, "WxH", "1280x800", "of the window, or of pictures without one"},
+          {"sound", Kind::kPath, "FILE.wav", "", "a sound file in place of the microphone"},
+          {"no-microphone", Kind::kSwitch, "", "", "begin with the microphone off; M turns it on"},
+          {"headless-frames", Kind::kInteger, "N", "", "no window: N frames of 1/60 s, the same for the same seed"},
+          {"png", Kind::kPath, "DIR", "", "the folder for pictures: every frame, or those that --script takes"},
+          {"script", Kind::kPath, "FILE", "", "events with times, as docs/play.md describes, in place of a person"},
+          {"seed", Kind::kInteger, "N", "1", "of all chance"},
+      },
+      {
+          {"wisp play", "A candle that you blow out; Tab: leaves"},
+          {"wisp play out/demo/flame.wisp --scene cake", "A cake, its flames learned from your clip"},
+          {"wisp play flame.wisp --sound breath.wav --headless-frames 300 --png frames",
+           "What a recorded breath does to it, as 300 pictures, without a window"},
+      },
+      run,
+  };
+}
+
+}  // namespace wisp::cli

@@ -1,0 +1,326 @@
+// `wisp run`: what a model does, as numbers, as a picture, or as a film.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "commands/commands.hpp"
+#include "films/candle_pictures.hpp"
+#include "films/leaf_film.hpp"
+#include "flags/recordings.hpp"
+#include "flags/wind_input.hpp"
+#include "reports/chain_walk.hpp"
+#include "terminal.hpp"
+#include "wisp/draw/plot.hpp"
+#include "wisp/draw/video_writer.hpp"
+#include "wisp/model/file.hpp"
+#include "wisp/record/csv.hpp"
+#include "wisp/run/bank.hpp"
+
+namespace wisp::cli {
+namespace {
+
+constexpr double kMostNumbers = 5e8;  // 4 GB while they are held
+
+struct Play {
+  Model model;
+  InputTrack input;
+  std::size_t frames = 0;
+  std::uint64_t seed = 1;
+  std::vector<std::size_t> relit;  // frames before which everything that is out is lit again, ascending
+};
+
+// A bank that is played frame by frame.
+class Player {
+ public:
+  Player(const Play& play, Bank& bank) : play_(play), bank_(bank), burnt_(bank.size(), true) {}
+
+  // One step. Returns the inputs that drove it.
+  std::vector<float> step() {
+    if (std::binary_search(play_.relit.begin(), play_.relit.end(), frame_)) {
+      for (int slot = 0; slot < bank_.slots(); ++slot) bank_.relight(bank_.at(slot));
+    }
+    std::vector<float> inputs = play_.input.at(frame_);
+    bank_.set_common_inputs(inputs);
+    bank_.step();
+    for (int slot = 0; slot < bank_.slots(); ++slot) note(slot);
+    ++frame_;
+    return inputs;
+  }
+
+  bool burns(int slot) const { return burnt_[slot]; }
+
+  // The wind that carries smoke: of the input that blows flames out.
+  float wind(const std::vector<float>& inputs) const {
+    const auto& rule = play_.model.extinction;
+    return rule ? inputs[rule->input] : 0.0F;
+  }
+
+  // When instances went out, for programs.
+  const Json& deaths() const { return deaths_; }
+
+ private:
+  void note(int slot) {
+    const bool lit = bank_.lit_state(bank_.at(slot))->lit;
+    if (burnt_[slot] && !lit) deaths_.push_back({{"instance", slot}, {"frame", frame_}});
+    burnt_[slot] = lit;
+  }
+
+  const Play& play_;
+  Bank& bank_;
+  std::vector<bool> burnt_;
+  Json deaths_ = Json::array();
+  std::size_t frame_ = 0;
+};
+
+Result<Bank> make_bank(const Play& play, const ChainWalk& walk, const Arguments& arguments) {
+  const int instances = arguments.integer("instances");
+  auto bank = Bank::create(play.model, {.capacity = instances, .seed = play.seed, .polyline_points = 96});
+  if (!bank) return bank;
+  bank->set_noise(arguments.text("noise") == "on" ? 1.0F : 0.0F);
+  set_walk(walk, *bank);
+  for (int k = 0; k < instances; ++k) bank->spawn();
+  steer_all(walk, *bank);
+  return bank;
+}
+
+// The recording that the run will become: its channels, empty.
+Recording empty_recording(const Play& play, int instances) {
+  Recording recording;
+  recording.rate_hz = play.model.rate_hz;
+  recording.attributes = {{"model", play.model.name}, {"seed", std::to_string(play.seed)}};
+  if (const auto* outline = std::get_if<OutlineView>(&play.model.view)) {
+    set_numbers_attribute(recording, "knots", outline->knots);
+  }
+  for (const Input& input : play.model.inputs) recording.channels.push_back({input.name, input.unit, Role::kInput, {}});
+  for (int k = 0; k < instances; ++k) {
+    const std::string prefix = instances == 1 ? "" : "i" + std::to_string(k) + ".";
+    for (const Output& output : play.model.outputs) {
+      recording.channels.push_back({prefix + output.name, output.unit, Role::kOutput, {}});
+    }
+    if (play.model.extinction) recording.flags.push_back({prefix + "lit", {}});
+  }
+  return recording;
+}
+
+Recording record_run(const Play& play, const Bank& bank, Player& player) {
+  Recording recording = empty_recording(play, bank.size());
+  std::vector<float> outputs(static_cast<std::size_t>(bank.slots()) * bank.output_count());
+  for (std::size_t frame = 0; frame < play.frames; ++frame) {
+    const auto inputs = player.step();
+    bank.outputs(outputs);
+    std::size_t channel = 0;
+    for (float input : inputs) recording.channels[channel++].samples.push_back(input);
+    for (float output : outputs) recording.channels[channel++].samples.push_back(output);
+    for (std::size_t k = 0; k < recording.flags.size(); ++k) {
+      recording.flags[k].rows.push_back(player.burns(static_cast<int>(k)));
+    }
+  }
+  return recording;
+}
+
+Result<void> write_film(const Play& play, const Bank& bank, Player& player, const std::string& path,
+                        Terminal& terminal) {
+  CandlePictures pictures(bank);
+  auto film = VideoWriter::create(
+      path, {.width = pictures.width(), .height = pictures.height(), .rate_hz = play.model.rate_hz});
+  if (!film) return film.error();
+  for (std::size_t frame = 0; frame < play.frames; ++frame) {
+    pictures.blow(bank, player.wind(player.step()));
+    if (auto ok = film->write(pictures.draw(bank)); !ok) return ok;
+    terminal.progress("drawing", static_cast<double>(frame + 1) / static_cast<double>(play.frames));
+  }
+  return film->finish();
+}
+
+Result<void> write_picture(const Play& play, const Bank& bank, Player& player, const std::string& path) {
+  if (std::holds_alternative<OutlineView>(play.model.view)) {
+    CandlePictures pictures(bank);
+    for (std::size_t frame = 0; frame < play.frames; ++frame) pictures.blow(bank, player.wind(player.step()));
+    return write_png(path, pictures.draw(bank));
+  }
+  const Recording recording = record_run(play, bank, player);
+  Plot plot{.title = play.model.name, .x = {.label = "seconds"}, .y = {}};
+  for (const Channel& channel : recording.channels) {
+    PlotSeries series{.label = channel.name, .x = {}, .y = channel.samples};
+    for (std::size_t row = 0; row < channel.samples.size(); ++row)
+      series.x.push_back(static_cast<double>(row) / recording.rate_hz);
+    plot.series.push_back(std::move(series));
+  }
+  return write_plots(path, {.title = "", .plots = {std::move(plot)}, .plot_width = 800});
+}
+
+// Falls as they are recorded: one after the other, each instance an episode.
+Recording falls(const Play& play, const Bank& bank, Player& player) {
+  const Recording side_by_side = record_run(play, bank, player);
+  const std::size_t inputs = play.model.inputs.size(), outputs = play.model.outputs.size();
+  Recording recording = empty_recording(play, 1);
+  recording.flags.clear();
+  for (int k = 0; k < bank.size(); ++k) {
+    for (std::size_t c = 0; c < recording.channels.size(); ++c) {
+      const std::size_t from = c < inputs ? c : c + static_cast<std::size_t>(k) * outputs;
+      const std::vector<double>& samples = side_by_side.channels[from].samples;
+      recording.channels[c].samples.insert(recording.channels[c].samples.end(), samples.begin(), samples.end());
+    }
+    recording.episode_ids.insert(recording.episode_ids.end(), play.frames, k);
+  }
+  return recording;
+}
+
+Result<void> write_falls(const Play& play, const Bank& bank, Player& player, const std::string& path,
+                         Terminal& terminal) {
+  const auto& pose = std::get<PoseView>(play.model.view);
+  LeafFilmOptions film{.most_seconds = static_cast<double>(play.frames) / play.model.rate_hz};
+  // A leaf's long axis is the body's x, across which the pose has its half width.
+  if (pose.half_width > 0) film.style.length = static_cast<float>(2 * pose.half_width);
+  if (pose.half_length > 0) film.style.width = static_cast<float>(2 * pose.half_length);
+  return write_leaf_film(path, falls(play, bank, player), film, terminal);
+}
+
+Result<void> write_run(const Play& play, const Bank& bank, Player& player, const std::string& path,
+                       Terminal& terminal) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension == ".csv") return write_csv(path, record_run(play, bank, player));
+  if (extension == ".png") return write_picture(play, bank, player, path);
+  if (extension != ".mp4") return Error{path + ": cannot be written, expected a name that ends in .csv, .png or .mp4"};
+  if (std::holds_alternative<PoseView>(play.model.view)) return write_falls(play, bank, player, path, terminal);
+  if (!std::holds_alternative<OutlineView>(play.model.view)) {
+    return Error{path + ": the model's outputs have no picture to film; write a .csv or a .png"};
+  }
+  return write_film(play, bank, player, path, terminal);
+}
+
+// The frames of --relight.
+Result<std::vector<std::size_t>> relit_frames(const Model& model, const Arguments& arguments) {
+  std::vector<std::size_t> frames;
+  if (!arguments.has("relight")) return frames;
+  if (!model.extinction)
+    return Error{"the model never goes out, there is nothing to relight; learn it with --blow-out"};
+  for (const std::string& word : arguments.names("relight")) {
+    char* end = nullptr;
+    const double seconds = std::strtod(word.c_str(), &end);
+    if (word.empty() || *end != 0 || !(seconds >= 0 && seconds <= 1e6)) {
+      return Error{"--relight: found \"" + word + "\", expected seconds from the start, separated by commas"};
+    }
+    frames.push_back(static_cast<std::size_t>(std::lround(seconds * model.rate_hz)));
+  }
+  std::sort(frames.begin(), frames.end());
+  return frames;
+}
+
+// A model without inputs is driven by nothing.
+Result<void> check_drive(const Model& model, const Arguments& arguments) {
+  if (!model.inputs.empty()) return {};
+  for (const char* flag : {"input", "wind"}) {
+    if (!arguments.has(flag) || arguments.text(flag) == "0") continue;
+    return Error{
+        "--" + std::string(flag) + " drives a model's inputs, and " + arguments.positional() +
+        " has none: learn it from recordings with an input (a leaf's: from a windy recording and its calm twin)"};
+  }
+  return {};
+}
+
+// What a run holds until it is written.
+Result<void> check_size(const Play& play, int instances) {
+  const double columns =
+      static_cast<double>(play.model.inputs.size()) + static_cast<double>(play.model.outputs.size()) * instances;
+  if (static_cast<double>(play.frames) * columns <= kMostNumbers) return {};
+  return Error{"--frames " + std::to_string(play.frames) + " of " + std::to_string(instances) + " instances are " +
+               shown(static_cast<double>(play.frames) * columns) + " numbers, expected at most " + shown(kMostNumbers) +
+               ": run it in parts with other seeds"};
+}
+
+Result<Play> prepare(const Arguments& arguments) {
+  auto model = read_model(arguments.positional());
+  if (!model) return model.error();
+  if (auto ok = check_drive(*model, arguments); !ok) return ok.error();
+  auto input = InputTrack::from(*model, arguments);
+  if (!input) return input.error();
+  auto relit = relit_frames(*model, arguments);
+  if (!relit) return relit.error();
+  Play play{std::move(*model), std::move(*input), 0, static_cast<std::uint64_t>(arguments.integer("seed")),
+            std::move(*relit)};
+  play.frames = arguments.has("frames") ? static_cast<std::size_t>(arguments.integer("frames")) : play.input.rows();
+  if (play.frames == 0)
+    return Error{"--frames is 0 or not given: give at least 1, or --input with a recording that says how many"};
+  const int instances = arguments.integer("instances");
+  if (instances < 1 || instances > 10000)
+    return Error{"--instances is " + arguments.text("instances") + ", expected 1 to 10000"};
+  if (auto ok = check_size(play, instances); !ok) return ok.error();
+  return play;
+}
+
+Result<void> run(const Arguments& arguments, Terminal& terminal) {
+  const auto play = prepare(arguments);
+  if (!play) return play.error();
+  const auto walk = chain_walk_from(play->model, arguments);
+  if (!walk) return walk.error();
+  auto bank = make_bank(*play, *walk, arguments);
+  if (!bank) return bank.error();
+  const std::string& path = arguments.text("output");
+  Player player(*play, *bank);
+  if (auto ok = write_run(*play, *bank, player, path, terminal); !ok) return ok;
+
+  if (bank->noise() == 0) say_chain_loop(play->model, *walk, terminal);
+  const auto held = bank->held();
+  terminal.result()["frames"] = play->frames;
+  terminal.result()["instances"] = bank->size();
+  terminal.result()["seed"] = play->seed;
+  terminal.result()["held_share"] = held.steps ? static_cast<double>(held.held) / static_cast<double>(held.steps) : 0.0;
+  terminal.result()["output"] = path;
+  if (bank->goes_out()) {
+    terminal.result()["went_out"] = player.deaths();
+    if (!player.deaths().empty()) {
+      terminal.say("went out " + std::to_string(player.deaths().size()) + " times, first in frame " +
+                   player.deaths()[0]["frame"].dump());
+    }
+  }
+  terminal.say("wrote " + path + ": " + std::to_string(play->frames) + " frames at " + shown(play->model.rate_hz, 5) +
+               " a second, seed " + std::to_string(play->seed));
+  return {};
+}
+
+std::vector<Flag> all_flags() {
+  std::vector<Flag> all = {
+      {"output", Kind::kPath, "OUT", "", "what to write: OUT.csv, OUT.png or OUT.mp4", {}, true},
+      {"frames", Kind::kInteger, "N", "", "frames at the model's rate; default: as many as --input has"},
+      {"input", Kind::kPath, "REC", "", "a recording, or a WAV of blowing, whose input drives the model"},
+      {"wind", Kind::kNumber, "W", "0", "a constant value for every input, where there is no --input"},
+      {"noise",
+       Kind::kChoice,
+       "on|off",
+       "on",
+       "the residual noise; off, a chain goes on with what is likeliest and joins best, and says how it repeats "
+       "itself",
+       {"on", "off"}},
+      {"relight", Kind::kNames, "S,…", "", "light what is out again, that many seconds after the start"},
+      {"instances", Kind::kInteger, "K", "1", "how many at once, each with its own chance"},
+      {"seed", Kind::kInteger, "N", "1", "of all chance; the same seed gives the same bytes"},
+  };
+  for (Flag& flag : chain_walk_flags()) all.push_back(std::move(flag));
+  return all;
+}
+
+}  // namespace
+
+Command run_command() {
+  return {
+      "run",
+      "Plays a model and writes what it does: numbers (.csv), a picture (.png) or a film (.mp4).",
+      {{"MODEL", "the model, a .wisp file"}},
+      all_flags(),
+      {
+          {"wisp run flame.wisp --frames 600 -o flame.mp4",
+           "Twenty seconds of a flame at 30 frames a second, as a film"},
+          {"wisp run flame.wisp --frames 1000 --wind 0.5 --noise off -o steady.csv",
+           "The noiseless response to steady wind, as numbers"},
+          {"wisp run leaf.wisp --frames 1200 --instances 5 -o falls.mp4", "Five leaves that fall for ever, for 20 s"},
+          {"wisp run flame.wisp --input puff.csv --frames 600 --relight 5 -o out.mp4",
+           "A flame that a puff blows out, its smoke, and how it is lit again after five seconds"},
+      },
+      run,
+  };
+}
+
+}  // namespace wisp::cli

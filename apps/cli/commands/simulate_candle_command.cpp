@@ -1,0 +1,86 @@
+// `wisp simulate candle`: a clip with sound from physics, and the truth beside it.
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+
+#include "commands/commands.hpp"
+#include "films/simulated_clip.hpp"
+#include "flags/recordings.hpp"
+#include "terminal.hpp"
+
+namespace wisp::cli {
+namespace {
+
+Result<CandleClipOptions> options_from(const Arguments& arguments) {
+  CandleClipOptions options;
+  options.seconds = arguments.number("seconds");
+  options.rig.rate_hz = arguments.number("rate");
+  const auto seed = static_cast<std::uint64_t>(arguments.integer("seed"));
+  const auto chance = static_cast<std::uint64_t>(arguments.integer(arguments.has("chance") ? "chance" : "seed"));
+  options.wind.seed = seed;
+  options.microphone.seed = options.camera.seed = chance;
+  options.camera.candle_visible = arguments.on("candle");
+  options.wind.both_sides = arguments.on("both-sides");
+  if (arguments.has("blow-out")) options.wind.blow_out_at = arguments.number("blow-out");
+  options.wind.puff_every = arguments.number("puffs");
+  const std::string& wind = arguments.text("wind");
+  if (wind == "calm") {
+    options.wind.kind = WindKind::kCalm;
+  } else if (wind != "gusts") {
+    auto recording = read_table(wind, arguments);
+    if (!recording) return recording.error();
+    options.wind_recording = std::move(*recording);
+  }
+  return options;
+}
+
+Result<void> run(const Arguments& arguments, Terminal& terminal) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto options = options_from(arguments);
+  if (!options) return options.error();
+  const std::filesystem::path path = arguments.text("output");
+  if (path.extension() != ".mp4")
+    return Error{path.string() + ": cannot be written, expected a name that ends in .mp4"};
+  const auto truth = write_simulated_clip(path, *options, terminal);
+  if (!truth) return truth.error();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  Json& result = terminal.result();
+  result["frames"] = truth->rows();
+  result["rate_hz"] = number(truth->rate_hz);
+  result["seed"] = options->wind.seed;
+  result["output"] = path.string();
+  result["truth"] = truth_path(path).string();
+  result["seconds"] = seconds;
+  terminal.say("wrote " + path.string() + " and " + truth_path(path).string() + ": " + std::to_string(truth->rows()) +
+               " frames, seed " + std::to_string(options->wind.seed) + ", in " + shown(seconds) + " s");
+  return {};
+}
+
+}  // namespace
+
+Command simulate_candle_command() {
+  return {
+      "simulate candle",
+      "Simulates a candle in wind, films it and listens to it: a clip with sound, and CLIP.truth.csv beside it.",
+      {},
+      {
+          {"output", Kind::kPath, "CLIP.mp4", "", "where to write the clip", {}, true},
+          {"seconds", Kind::kNumber, "S", "60", "its length"},
+          {"rate", Kind::kNumber, "HZ", "60", "frames a second"},
+          {"wind", Kind::kText, "W", "gusts", "gusts, calm, or a recording whose input is the wind in m/s"},
+          {"both-sides", Kind::kSwitch, "", "", "gusts from the right as well"},
+          {"blow-out", Kind::kNumber, "T", "", "blow the flame out after T seconds, and light it again"},
+          {"puffs", Kind::kNumber, "S", "0",
+           "every S seconds a puff of 1.2 to 4 m/s that may blow the flame out, which is lit again where it did"},
+          {"candle", Kind::kSwitch, "", "", "expose so that wax and wick show"},
+          {"seed", Kind::kInteger, "N", "1", "of the wind, and of all other chance"},
+          {"chance", Kind::kInteger, "N", "",
+           "of the camera's and the microphone's noise, if it is not to be the seed: another take in the same wind"},
+      },
+      {{"wisp simulate candle -o clip.mp4 --seconds 60 --wind gusts", "A minute of a candle in gusts"}},
+      run,
+  };
+}
+
+}  // namespace wisp::cli

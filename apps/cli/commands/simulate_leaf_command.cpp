@@ -1,0 +1,266 @@
+// `wisp simulate leaf`: many falls of one leaf as a recording, or gusts and their calm twins as two.
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+
+#include "commands/commands.hpp"
+#include "films/leaf_film.hpp"
+#include "flags/flag_ranges.hpp"
+#include "reports/learned_model.hpp"
+#include "terminal.hpp"
+#include "wisp/record/csv.hpp"
+#include "wisp/simulate/leaf_drops.hpp"
+
+namespace wisp::cli {
+namespace {
+
+constexpr double kGramsPerKilogram = 1000;
+constexpr double kLeastPairSeconds = 0.7;  // half a second to the onset, give or take a fifth, and some of the gust
+constexpr double kMostJitter = 0.01;       // of a step of a wind's time
+
+Result<void> check_flags(const Arguments& arguments) {
+  static constexpr FlagRange kRanges[] = {
+      {"drops", 1, 100000},
+      {"seconds", 0.1, 3600},
+      {"rate", 1, 10000},
+      {"settle", 0, 60},
+      {"wind-speed", 0, 30},
+      {"gust-seconds", 0.02, 60},
+      {"wind-direction", -360, 360},
+      {"clones", 1, 10000},
+      {"length", 0.001, 1},
+      {"width", 0.001, 1},
+      {"density", 1, 10000},
+      {"threads", 0, 256},
+  };
+  if (auto good = check_ranges(arguments, kRanges); !good) return good;
+  if (arguments.number("width") > arguments.number("length"))
+    return Error{"--width is " + arguments.text("width") + ", expected at most the leaf's length of " +
+                 arguments.text("length") + "; the midrib runs along the long axis"};
+  return {};
+}
+
+LeafWindKind wind_kind(const std::string& word) {
+  if (word == "constant") return LeafWindKind::kConstant;
+  if (word == "gusts") return LeafWindKind::kGusts;
+  return word == "turbulence" ? LeafWindKind::kTurbulence : LeafWindKind::kCalm;
+}
+
+bool is_kind(const std::string& word) {
+  return word == "calm" || word == "constant" || word == "gusts" || word == "turbulence";
+}
+
+// A wind's column of time, where there is one, must go on evenly: rows are taken at the recording's rate.
+Result<void> check_time(const Recording& recording) {
+  const double step = 1 / recording.rate_hz;
+  for (const char* name : {"t", "t_s", "time"}) {
+    const auto channel = find_channel(recording, name);
+    if (!channel) continue;
+    const auto& time = recording.channels[*channel].samples;
+    for (std::size_t row = 1; row < time.size(); ++row) {
+      const double found = time[row] - time[row - 1];
+      if (std::abs(found - step) <= kMostJitter * step) continue;
+      return Error{recording.source + ": " + name + " goes on by " + shown(found) + " s in row " +
+                   std::to_string(row + 1) + ", expected " + shown(step) +
+                   " everywhere, as rate_hz says: sort and resample the wind"};
+    }
+  }
+  return {};
+}
+
+// A recording's wind.x, wind.y and wind.z (what it has of them), or its only input, which blows where it is told.
+Result<MeasuredWind> track_from(const std::string& path, const Arguments& arguments) {
+  const auto recording = read_csv(path, {});
+  if (!recording) return recording.error();
+  if (auto good = check_time(*recording); !good) return good.error();
+  MeasuredWind track{.rows = std::vector<std::array<double, 3>>(recording->rows()), .rate_hz = recording->rate_hz};
+  const auto take = [&](std::size_t channel, std::size_t axis, double factor) -> Result<void> {
+    const auto& samples = recording->channels[channel].samples;
+    for (std::size_t row = 0; row < samples.size(); ++row) {
+      const double speed = factor * samples[row];
+      if (!(std::abs(speed) <= 30)) {
+        return Error{path + ": " + recording->channels[channel].name + " in row " + std::to_string(row + 1) + " is " +
+                     (std::isnan(speed) ? "missing" : shown(samples[row])) +
+                     ", expected a wind within 30 m/s and no sample missing"};
+      }
+      track.rows[row][axis] = speed;
+    }
+    return {};
+  };
+  bool found = false;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto channel = find_channel(*recording, std::array{"wind.x", "wind.y", "wind.z"}[axis]);
+    if (!channel) continue;
+    found = true;
+    if (auto good = take(*channel, axis, 1); !good) return good.error();
+  }
+  if (found) return track;
+  const auto inputs = channels_with_role(*recording, Role::kInput);
+  if (inputs.size() != 1) {
+    return Error{path + ": has " + std::to_string(inputs.size()) +
+                 " inputs and no wind.x, wind.y or wind.z, expected one of these or a single input, in m/s"};
+  }
+  const double direction = arguments.number("wind-direction") * std::acos(-1.0) / 180;
+  if (auto good = take(inputs.front(), 0, std::cos(direction)); !good) return good.error();
+  if (auto good = take(inputs.front(), 1, std::sin(direction)); !good) return good.error();
+  return track;
+}
+
+// A gust has to have begun before the recording ends.
+Result<void> check_pairs(const Arguments& arguments) {
+  if (!arguments.on("pairs") || arguments.number("seconds") >= kLeastPairSeconds) return {};
+  return Error{"--seconds is " + arguments.text("seconds") + ", expected at least " + shown(kLeastPairSeconds) +
+               " with --pairs: gusts begin half a second after the recording"};
+}
+
+Result<void> take_wind(const Arguments& arguments, LeafDropsOptions& drops) {
+  const std::string& word = arguments.text("wind");
+  if (is_kind(word)) {
+    drops.wind.kind = wind_kind(word);
+    return {};
+  }
+  if (std::filesystem::path(word).extension() != ".csv") {
+    return Error{"--wind is " + word + ", expected calm, constant, gusts, turbulence or a recording, FILE.csv"};
+  }
+  if (arguments.on("pairs")) return Error{"--wind " + word + ": --pairs makes gusts of its own, give one of the two"};
+  auto track = track_from(word, arguments);
+  if (!track) return track.error();
+  drops.track = std::move(*track);
+  return {};
+}
+
+Result<LeafPairsOptions> options_from(const Arguments& arguments, Terminal& terminal) {
+  LeafPairsOptions options;
+  options.clones = arguments.integer("clones");
+  LeafDropsOptions& drops = options.drops;
+  drops.leaf.length = arguments.number("length");
+  drops.leaf.width = arguments.number("width");
+  drops.leaf.areal_density = arguments.number("density") / kGramsPerKilogram;
+  if (arguments.text("air") == "vertical") drops.leaf.air = leaf_air_vertical();
+  if (auto good = take_wind(arguments, drops); !good) return good.error();
+  if (auto good = check_pairs(arguments); !good) return good.error();
+  drops.wind.speed = arguments.number("wind-speed");
+  drops.wind.direction = arguments.number("wind-direction");
+  drops.wind.gust_seconds = arguments.number("gust-seconds");
+  if (arguments.text("method") == "stiff") drops.stepping.method = LeafMethod::kStiff;
+  drops.drops = arguments.integer("drops");
+  drops.seconds = arguments.number("seconds");
+  drops.rate_hz = arguments.number("rate");
+  drops.settle_seconds = arguments.number("settle");
+  drops.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
+  drops.threads = arguments.integer("threads");
+  drops.on_progress = [&terminal](double share) { terminal.progress("falling", share); };
+  return options;
+}
+
+// REC.calm.csv for REC.csv.
+std::filesystem::path calm_path(std::filesystem::path path) { return path.replace_extension(".calm.csv"); }
+
+Result<Recording> write_drops(const std::filesystem::path& path, const LeafPairsOptions& options) {
+  auto recording = simulate_leaf_drops(options.drops);
+  if (!recording) return recording;
+  if (auto good = write_csv(path, *recording); !good) return good.error();
+  return recording;
+}
+
+Result<Recording> write_pairs(const std::filesystem::path& path, const LeafPairsOptions& options, Terminal& terminal) {
+  auto pairs = simulate_leaf_pairs(options);
+  if (!pairs) return pairs.error();
+  if (auto good = write_csv(calm_path(path), pairs->calm); !good) return good.error();
+  if (auto good = write_csv(path, pairs->windy); !good) return good.error();
+  terminal.result()["calm"] = calm_path(path).string();
+  terminal.result()["clones"] = options.clones;
+  return std::move(pairs->windy);
+}
+
+Result<void> run(const Arguments& arguments, Terminal& terminal) {
+  const auto start = std::chrono::steady_clock::now();
+  if (auto good = check_flags(arguments); !good) return good;
+  const auto found = options_from(arguments, terminal);
+  if (!found) return found.error();
+  const LeafPairsOptions& options = *found;
+  const std::filesystem::path path = arguments.text("output");
+  if (path.extension() != ".csv")
+    return Error{path.string() + ": cannot be written, expected a name that ends in .csv"};
+  // Found before the falls, not after them.
+  if (auto good = check_writable(path.string()); !good) return good;
+  if (arguments.has("video"))
+    if (auto good = check_film_name(arguments.text("video")); !good) return good;
+  const bool pairs = arguments.on("pairs");
+  const auto recording = pairs ? write_pairs(path, options, terminal) : write_drops(path, options);
+  if (!recording) return recording.error();
+  if (arguments.has("video")) {
+    LeafFilmOptions film{.from_above = arguments.text("view") == "above"};
+    film.style.length = static_cast<float>(options.drops.leaf.length);
+    film.style.width = static_cast<float>(options.drops.leaf.width);
+    if (auto good = write_leaf_film(arguments.text("video"), *recording, film, terminal); !good) return good;
+    terminal.result()["video"] = arguments.text("video");
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  Json& result = terminal.result();
+  result["episodes"] = episodes(*recording).size();
+  result["rows"] = recording->rows();
+  result["rate_hz"] = number(recording->rate_hz);
+  result["seed"] = options.drops.seed;
+  result["output"] = path.string();
+  result["seconds"] = seconds;
+  terminal.say("wrote " + path.string() + (pairs ? " and " + calm_path(path).string() : "") + ": " +
+               std::to_string(episodes(*recording).size()) + " episodes, " + std::to_string(recording->rows()) +
+               " rows, seed " + std::to_string(options.drops.seed) + ", in " + shown(seconds) + " s");
+  return {};
+}
+
+}  // namespace
+
+Command simulate_leaf_command() {
+  return {
+      "simulate leaf",
+      "Simulates falls of one leaf from random starts: a recording of its pose, one episode a drop.",
+      {},
+      {
+          {"output", Kind::kPath, "REC.csv", "", "where to write the recording", {}, true},
+          {"drops", Kind::kInteger, "N", "200", "falls; with --pairs, gusts"},
+          {"seconds", Kind::kNumber, "S", "20", "recorded of each"},
+          {"rate", Kind::kNumber, "HZ", "60", "rows a second"},
+          {"settle", Kind::kNumber, "S", "2", "seconds of each fall before the recording begins"},
+          {"wind", Kind::kText, "W", "calm",
+           "calm, constant, gusts, turbulence, or a recording FILE.csv of wind.x, wind.y, wind.z or a single input, "
+           "m/s"},
+          {"wind-speed", Kind::kNumber, "M/S", "1", "of the steady wind, or of a typical gust"},
+          {"wind-direction", Kind::kNumber, "DEG", "0",
+           "where it blows to, from x towards y; gusts come from all sides"},
+          {"gust-seconds", Kind::kNumber, "S", "0.3", "a typical gust's length"},
+          {"pairs", Kind::kSwitch, "", "",
+           "one gust an episode, each with many clones of a fall, and in REC.calm.csv the same falls without it"},
+          {"clones", Kind::kInteger, "N", "32", "falls a gust with --pairs, alike but for a little"},
+          {"length", Kind::kNumber, "M", "0.073", "the leaf's long axis, metres"},
+          {"width", Kind::kNumber, "M", "0.049", "its short axis"},
+          {"density", Kind::kNumber, "G/M2", "70", "its areal density"},
+          {"air",
+           Kind::kChoice,
+           "SET",
+           "joint",
+           "coefficients: joint, or vertical (fitted to vertical release only)",
+           {"joint", "vertical"}},
+          {"method",
+           Kind::kChoice,
+           "M",
+           "fixed",
+           "fixed steps, or the stiff reference with an error bound",
+           {"fixed", "stiff"}},
+          {"threads", Kind::kInteger, "N", "0", "0: one a core; the result does not depend on it"},
+          {"video", Kind::kPath, "CLIP.mp4", "", "and film the first few drops, up to 20 s"},
+          {"view", Kind::kChoice, "V", "side", "where from: side, or above", {"side", "above"}},
+          {"seed", Kind::kInteger, "N", "1", "of all chance"},
+      },
+      {{"wisp simulate leaf -o leaf.csv --drops 200 --seconds 20", "What a leaf's chain is learned from"},
+       {"wisp simulate leaf -o gusts.csv --pairs --drops 200 --seconds 1.5",
+        "What its answer to wind is learned from"}},
+      run,
+  };
+}
+
+}  // namespace wisp::cli

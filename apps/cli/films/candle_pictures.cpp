@@ -1,0 +1,69 @@
+#include "films/candle_pictures.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace wisp::cli {
+namespace {
+
+constexpr int kHeight = 720;
+constexpr int kLoneWidth = 640;  // room for one flame to lean either way
+constexpr int kWidest = 1920;
+
+// How far a wind of 1 carries smoke, in flame heights a second. Real smoke would be gone at once.
+constexpr float kSmokeCarried = 1.5F;
+
+float seconds(std::chrono::nanoseconds age) {
+  return age == kNever ? kLongAgo : std::chrono::duration<float>(age).count();
+}
+
+}  // namespace
+
+CandlePictures::CandlePictures(const Bank& bank)
+    : width_(std::min(kLoneWidth + 220 * (bank.size() - 1), kWidest)), height_(kHeight) {
+  const int count = bank.size();
+  for (int k = 0; k < count; ++k) {
+    FlameScene scene = framed(width_, height_);
+    const double spacing = static_cast<double>(width_) / (count + 1);
+    scene.base.x = static_cast<float>(spacing * (k + 1));
+    if (count > 1) scene.pixels_per_unit = std::min(scene.pixels_per_unit, static_cast<float>(spacing));
+    scene.seed = static_cast<std::uint64_t>(k) + 1;
+    scenes_.push_back(scene);
+  }
+  drifts_.resize(scenes_.size());
+  const auto slots = static_cast<std::size_t>(bank.slots());
+  polylines_.resize(slots * bank.polyline_points() * 2);
+  points_.resize(slots * bank.polyline_points());
+  image_ = Image(width_, height_);
+}
+
+void CandlePictures::blow(const Bank& bank, float wind) {
+  for (std::size_t k = 0; k < drifts_.size(); ++k) {
+    const auto state = bank.lit_state(bank.at(static_cast<int>(k)));
+    if (!state || state->since_out == kNever) continue;
+    if (state->since_out <= bank.step_time()) drifts_[k] = {};
+    drifts_[k].sum += wind;
+    drifts_[k].count += 1;
+    scenes_[k].wind = kSmokeCarried * drifts_[k].sum / drifts_[k].count;
+  }
+}
+
+const Image& CandlePictures::draw(const Bank& bank) {
+  bank.polylines(polylines_);
+  for (std::size_t k = 0; k < points_.size(); ++k) points_[k] = {polylines_[2 * k], polylines_[2 * k + 1]};
+  const auto each = static_cast<std::size_t>(bank.polyline_points());
+  std::vector<Flame> flames;
+  for (std::size_t k = 0; k < scenes_.size(); ++k) {
+    const LitState state = bank.lit_state(bank.at(static_cast<int>(k))).value_or(LitState{});
+    scenes_[k].seconds_since_lit = seconds(state.since_lit);
+    scenes_[k].seconds_since_out = seconds(state.since_out);
+    scenes_[k].size = state.size;
+    flames.push_back({std::span(points_).subspan(k * each, each), scenes_[k]});
+  }
+  draw_night(image_);
+  draw_flames(image_, flames);
+  return image_;
+}
+
+}  // namespace wisp::cli

@@ -1,0 +1,99 @@
+#include "flags/wind_input.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "flags/recordings.hpp"
+#include "wisp/capture/media/clip_wind.hpp"
+#include "wisp/learn/validation.hpp"
+#include "wisp/record/wav.hpp"
+#include "wisp/sound/wind_track.hpp"
+
+namespace wisp::cli {
+
+std::vector<float> at_rate(const std::vector<double>& samples, double from_hz, double to_hz) {
+  std::vector<double> held(samples.size());
+  double last = 0;
+  for (std::size_t k = 0; k < samples.size(); ++k) held[k] = last = std::isnan(samples[k]) ? last : samples[k];
+  if (held.empty()) return {};
+  std::vector<float> out;
+  const auto count =
+      static_cast<std::size_t>(std::floor(static_cast<double>(held.size() - 1) * to_hz / from_hz + 1e-9)) + 1;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double place = static_cast<double>(k) * from_hz / to_hz;
+    const auto before = std::min(static_cast<std::size_t>(place), held.size() - 1);
+    const auto after = std::min(before + 1, held.size() - 1);
+    const double share = place - static_cast<double>(before);
+    out.push_back(static_cast<float>(held[before] + share * (held[after] - held[before])));
+  }
+  return out;
+}
+
+namespace {
+
+// What of the sound drives an input: by its name, as captures call it; an input of another name is a wind like any.
+WindMeasure measure_of(const Input& input) {
+  for (const WindMeasure measure : {WindMeasure::kHeard, WindMeasure::kRms}) {
+    if (input.name == wind_channel_name(measure)) return measure;
+  }
+  return WindMeasure::kSpeed;
+}
+
+}  // namespace
+
+Result<InputTrack> InputTrack::heard(const Model& model, const std::string& path) {
+  auto reader = WavReader::open(path);
+  if (!reader) return reader.error();
+  auto tracker = WindTracker::create({.rate_hz = reader->format().rate_hz, .channels = reader->format().channels},
+                                     {.frame_rate_hz = model.rate_hz});
+  if (!tracker) return Error{path + ": " + tracker.error().message};
+  std::vector<float> block(static_cast<std::size_t>(reader->format().channels) * 4096);
+  for (;;) {
+    const auto got = reader->read(block);
+    if (!got) return got.error();
+    if (*got == 0) break;
+    tracker->feed(std::span(block).first(*got));
+  }
+  const auto wind = tracker->finish();
+  if (!wind) return Error{path + ": " + wind.error().message};
+  if (wind->silent) return Error{path + ": is silent; expected the sound of blowing"};
+  InputTrack track;
+  track.rows_ = wind->frames.size();
+  for (const Input& input : model.inputs) {
+    const WindMeasure measure = measure_of(input);
+    const auto scale = measure == WindMeasure::kRms ? trained_scale(model, input.name) : Result<double>(1.0);
+    if (!scale) return scale.error();
+    std::vector<float>& samples = track.tracks_.emplace_back();
+    for (const WindFrame& frame : wind->frames)
+      samples.push_back(static_cast<float>(wind_value(frame, measure) / *scale));
+  }
+  return track;
+}
+
+Result<InputTrack> InputTrack::from(const Model& model, const Arguments& arguments) {
+  InputTrack track;
+  if (!arguments.has("input")) {
+    track.tracks_.assign(model.inputs.size(), {static_cast<float>(arguments.number("wind"))});
+    return track;
+  }
+  const std::string& path = arguments.text("input");
+  if (std::filesystem::path(path).extension() == ".wav") return heard(model, path);
+  const auto recording = read_table(path, arguments);
+  if (!recording) return recording.error();
+  for (const Input& input : model.inputs) {
+    const auto channel = find_channel(*recording, input.name);
+    if (!channel) return Error{path + ": has no channel " + input.name + ", which the model takes as input"};
+    track.tracks_.push_back(at_rate(recording->channels[*channel].samples, recording->rate_hz, model.rate_hz));
+    track.rows_ = std::max(track.rows_, track.tracks_.back().size());
+  }
+  return track;
+}
+
+std::vector<float> InputTrack::at(std::size_t frame) const {
+  std::vector<float> values;
+  for (const auto& samples : tracks_)
+    values.push_back(samples.empty() ? 0.0F : samples[std::min(frame, samples.size() - 1)]);
+  return values;
+}
+
+}  // namespace wisp::cli

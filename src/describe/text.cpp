@@ -1,0 +1,100 @@
+#include "wisp/describe/text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ostream>
+
+namespace wisp {
+namespace {
+
+// Characters as a terminal counts them: bytes that begin a UTF-8 sequence.
+std::size_t width(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(
+      text.begin(), text.end(), [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0) != 0x80; }));
+}
+
+std::string padded(std::string text, std::size_t to) {
+  const std::size_t has = width(text);
+  if (has < to) text.append(to - has, ' ');
+  return text;
+}
+
+std::string with_unit(std::string text, const std::string& unit) { return unit.empty() ? text : text + " " + unit; }
+
+std::string line_of(const ReportEntry& entry, std::size_t label_width) {
+  std::string line = "  " + padded(entry.label, label_width) + "  " + with_unit(shown(entry.value), entry.unit);
+  if (entry.interval) line += " (95 %: " + shown((*entry.interval)[0]) + " to " + shown((*entry.interval)[1]) + ")";
+  if (!entry.meaning.empty()) line += "   " + entry.meaning;
+  return line + "\n";
+}
+
+std::string text_of(const ReportTable& table) {
+  std::vector<std::size_t> kept, widths;
+  for (std::size_t k = 0; k < table.columns.size(); ++k) {
+    if (table.columns[k].label.empty()) continue;
+    kept.push_back(k);
+    widths.push_back(width(with_unit(table.columns[k].label, table.columns[k].unit)));
+  }
+  for (const auto& row : table.rows) {
+    for (std::size_t c = 0; c < kept.size(); ++c) widths[c] = std::max(widths[c], width(shown(row[kept[c]])));
+  }
+  const auto line = [&](const auto& cell) {
+    std::string text = " ";
+    for (std::size_t c = 0; c < kept.size(); ++c) text += " " + padded(cell(kept[c]), widths[c] + 1);
+    return text.substr(0, text.find_last_not_of(' ') + 1) + "\n";
+  };
+  std::string out = "  " + table.label + "\n";
+  out += line([&](std::size_t k) { return with_unit(table.columns[k].label, table.columns[k].unit); });
+  for (const auto& row : table.rows) out += line([&](std::size_t k) { return shown(row[k]); });
+  return out;
+}
+
+std::string text_of(const ReportSection& section) {
+  std::size_t label_width = 0;
+  for (const ReportEntry& entry : section.entries) label_width = std::max(label_width, width(entry.label));
+  std::string body;
+  for (const ReportEntry& entry : section.entries) {
+    if (!entry.label.empty()) body += line_of(entry, label_width);
+  }
+  for (const ReportTable& table : section.tables) {
+    if (!table.label.empty()) body += text_of(table);
+  }
+  return body.empty() || section.title.empty() ? body : section.title + "\n" + body;
+}
+
+}  // namespace
+
+std::string shown(const ReportValue& value, int digits) {
+  struct Words {
+    int digits;
+    std::string operator()(std::monostate) const { return "none"; }
+    std::string operator()(bool truth) const { return truth ? "yes" : "no"; }
+    std::string operator()(std::int64_t number) const { return std::to_string(number); }
+    std::string operator()(const std::string& text) const { return text; }
+    std::string operator()(double number) const {
+      if (!std::isfinite(number)) return "none";
+      char out[64];
+      std::snprintf(out, sizeof out, "%.*g", digits, number);
+      return out;
+    }
+    std::string operator()(const ReportList& list) const {
+      std::string out;
+      for (const ReportValue& each : list) out += (out.empty() ? "" : ", ") + shown(each, digits);
+      return out;
+    }
+  };
+  return std::visit(Words{digits}, static_cast<const ReportValue::Base&>(value));
+}
+
+std::string to_text(const Report& report) {
+  std::string out;
+  if (report.verdict) out += (report.verdict->usable ? "usable: " : "not usable: ") + report.verdict->reason + "\n";
+  for (const std::string& warning : report.warnings) out += "warning: " + warning + "\n";
+  for (const ReportSection& section : report.sections) out += text_of(section);
+  return out;
+}
+
+std::ostream& operator<<(std::ostream& out, const Report& report) { return out << to_text(report); }
+
+}  // namespace wisp

@@ -1,0 +1,147 @@
+#include "learn/arx/fit/arx_estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "learn/arx/rows/arx_triangle.hpp"
+#include "wisp/record/number_text.hpp"
+
+namespace wisp {
+namespace {
+
+SharedProblem problem_of(const SharedRows& rows, const std::vector<double>& scale, const ArxDesign& design,
+                         double ridge) {
+  SharedProblem problem{rows.columns, {}, Eigen::VectorXd(static_cast<Eigen::Index>(rows.columns.size())), ridge};
+  for (int output : rows.outputs) problem.targets.push_back(design.layout.target(output));
+  for (std::size_t p = 0; p < rows.columns.size(); ++p) {
+    const int channel = design.layout[rows.columns[p]].channel;
+    const double factor = channel == kConstantChannel ? 1.0 : scale[channel];
+    problem.unit[static_cast<Eigen::Index>(p)] = factor == 0 ? 0.0 : 1.0 / factor;
+  }
+  return problem;
+}
+
+// Residuals in the triangle's space: the triangle times [−θ; 1], one column an output.
+Eigen::MatrixXd residuals_of(const Eigen::MatrixXd& triangle, const ArxDesign& design, const GroupThetas& theta) {
+  Eigen::MatrixXd residuals(triangle.rows(), design.layout.outputs());
+  for (std::size_t g = 0; g < design.groups.size(); ++g) {
+    const SharedRows& rows = design.groups[g];
+    for (std::size_t k = 0; k < rows.outputs.size(); ++k) {
+      auto residual = residuals.col(rows.outputs[k]);
+      residual = triangle.col(design.layout.target(rows.outputs[k]));
+      for (std::size_t p = 0; p < rows.columns.size(); ++p) {
+        residual -=
+            theta[g](static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(k)) * triangle.col(rows.columns[p]);
+      }
+    }
+  }
+  return residuals;
+}
+
+// Adds the refinement step to the coefficients. Returns its size relative to them.
+double refine(const ArxDesign& design, const Eigen::MatrixXd& gram, double ridge, ResidualProducts& products,
+              ArxEstimate& estimate) {
+  double largest = 0;
+  for (std::size_t g = 0; g < design.groups.size(); ++g) {
+    SharedSolution& solution = estimate.groups[g];
+    Eigen::MatrixXd slope = products.gradient[g];
+    if (ridge > 0) {
+      const Eigen::VectorXd energy = gram.diagonal()(design.groups[g].columns);
+      slope -= ridge * energy.asDiagonal() * solution.theta;
+    }
+    const Eigen::MatrixXd step = solution.inverse * slope;
+    // (r − Xδ)ᵀ(r − Xδ) = rᵀr − δᵀXᵀr − rᵀXδ + δᵀXᵀXδ; without ridge XᵀXδ = Xᵀr, and one of the three terms remains.
+    const Eigen::MatrixXd change = step.transpose() * products.gradient[g];
+    const std::vector<int>& outputs = design.groups[g].outputs;
+    products.gram(outputs, outputs) -= ridge > 0 ? Eigen::MatrixXd(change + change.transpose()) : change;
+    solution.theta += step;
+    if (step.size() > 0) {
+      largest = std::max(largest, step.cwiseAbs().maxCoeff() / std::max(solution.theta.cwiseAbs().maxCoeff(), 1e-300));
+    }
+  }
+  return largest;
+}
+
+ChannelPairs pairs_for(const ArxDesign& design, bool joint) {
+  const int channels = design.layout.channels();
+  return joint ? ChannelPairs::Constant(channels, channels, true).eval() : wanted_pairs(design);
+}
+
+std::optional<ArxEstimate> try_gram(const Signals& signals, const RowPlan& plan, const ArxDesign& design,
+                                    const EstimateOptions& options) {
+  const double ridge = options.ridge;
+  Eigen::MatrixXd gram = lag_gram(signals, plan, design.layout, pairs_for(design, options.joint));
+  ArxEstimate estimate;
+  double condition = 1;
+  for (const SharedRows& rows : design.groups) {
+    auto solution = solve_with_gram(gram, problem_of(rows, signals.scale, design, ridge), kMostConditionForGram);
+    if (!solution) return std::nullopt;
+    condition = std::max(condition, solution->scaled_condition);
+    estimate.groups.push_back(std::move(*solution));
+  }
+  // One step leaves condition⁴ · 1e-32 of the coefficients' error; rows of different groups share no formula for what
+  // the step does to the products of their residuals, so these are computed again unless the step hardly changed them.
+  constexpr double kNegligible = 1e-13;
+  ResidualProducts products;
+  for (int pass = 0; pass < 3; ++pass) {
+    products = residual_products(signals, plan, design, estimate.thetas());
+    const double step = refine(design, gram, ridge, products, estimate);
+    if (step < kNegligible || design.groups.size() == 1) break;
+  }
+  estimate.residual_gram = products.gram;
+  estimate.target_square.resize(signals.outputs);
+  for (int i = 0; i < signals.outputs; ++i) {
+    const int target = design.layout.target(i);
+    estimate.target_square[i] = gram(target, target) - gram(0, target) * gram(0, target) / gram(0, 0);
+  }
+  estimate.method = "normal equations from the lag structure, refined with residuals from the data (condition " +
+                    number_text(condition, 2) + ")";
+  if (options.joint) estimate.gram = std::move(gram);
+  estimate.residual_gram_at = [&](const GroupThetas& theta) {
+    return residual_products(signals, plan, design, theta).gram;
+  };
+  return estimate;
+}
+
+}  // namespace
+
+GroupThetas ArxEstimate::thetas() const {
+  GroupThetas all;
+  for (const SharedSolution& solution : groups) all.push_back(solution.theta);
+  return all;
+}
+
+ArxEstimate estimate_from_data(const Signals& signals, const RowPlan& plan, const ArxDesign& design,
+                               const EstimateOptions& options) {
+  if (auto estimate = try_gram(signals, plan, design, options)) return std::move(*estimate);
+  return estimate_from_triangle(triangle_by_qr(signals, plan, design.layout), signals.scale, design, options);
+}
+
+ArxEstimate estimate_from_triangle(const Eigen::MatrixXd& triangle, const std::vector<double>& scale,
+                                   const ArxDesign& design, const EstimateOptions& options) {
+  ArxEstimate estimate;
+  double condition = 1;
+  for (const SharedRows& rows : design.groups) {
+    estimate.groups.push_back(solve_with_triangle(triangle, problem_of(rows, scale, design, options.ridge)));
+    condition = std::max(condition, estimate.groups.back().scaled_condition);
+  }
+  const Eigen::MatrixXd residuals = residuals_of(triangle, design, estimate.thetas());
+  estimate.residual_gram = residuals.transpose() * residuals;
+  estimate.target_square.resize(design.layout.outputs());
+  const double rows = triangle.col(0).squaredNorm();
+  for (int i = 0; i < design.layout.outputs(); ++i) {
+    const auto target = triangle.col(design.layout.target(i));
+    const double sum = triangle.col(0).dot(target);
+    estimate.target_square[i] = target.squaredNorm() - sum * sum / rows;
+  }
+  if (options.joint) estimate.gram = triangle.transpose() * triangle;
+  estimate.method = "Householder QR by blocks of rows (condition " + number_text(condition, 2) + ")";
+  estimate.residual_gram_at = [triangle, &design](const GroupThetas& theta) {
+    const Eigen::MatrixXd at = residuals_of(triangle, design, theta);
+    return Eigen::MatrixXd(at.transpose() * at);
+  };
+  return estimate;
+}
+
+}  // namespace wisp

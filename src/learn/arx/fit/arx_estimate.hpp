@@ -1,0 +1,54 @@
+#pragma once
+// Least squares for a whole design: which factorisation, and what comes out of it.
+//
+// The Gram matrix of lagged channels costs least by far (lag_gram.hpp). Its rounding errors enter the coefficients
+// multiplied by the condition squared; one step of refinement with residuals from the data takes that back to what QR
+// has, while the inverse (standard errors) keeps it. So the Gram matrix is used up to kMostConditionForGram and
+// Householder QR beyond, whichever the measured condition says.
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "learn/arx/fit/arx_solve.hpp"
+#include "learn/arx/judge/residual_pass.hpp"
+#include "learn/arx/rows/arx_design.hpp"
+#include "learn/arx/rows/arx_rows.hpp"
+
+namespace wisp {
+
+/// Nine digits in standard errors: condition² · 2.2e-16 = 1e-9.
+inline constexpr double kMostConditionForGram = 2e3;
+
+struct ArxEstimate {
+  std::vector<SharedSolution> groups;  ///< as the design's, in scaled units
+  Eigen::MatrixXd residual_gram;       ///< ny × ny: Σ r_i r_j
+  Eigen::VectorXd target_square;       ///< Σ (y − ȳ)² per output
+  std::string method;                  ///< which factorisation and why
+
+  Eigen::MatrixXd gram;  ///< of all columns of the layout; empty unless `joint` was asked for
+
+  /// Σ r_i r_j for other coefficients than the estimate's.
+  std::function<Eigen::MatrixXd(const GroupThetas&)> residual_gram_at;
+
+  GroupThetas thetas() const;
+};
+
+/// What to compute.
+struct EstimateOptions {
+  double ridge = 0;
+  bool joint = false;  ///< also the products that tie rows of different groups together
+};
+
+/// From the data. The estimate keeps references to its arguments.
+///
+/// Precondition: plan.rows > 0.
+ArxEstimate estimate_from_data(const Signals& signals, const RowPlan& plan, const ArxDesign& design,
+                               const EstimateOptions& options);
+
+/// From the triangle of all columns of the design's layout; `scale` per channel as in Signals.
+ArxEstimate estimate_from_triangle(const Eigen::MatrixXd& triangle, const std::vector<double>& scale,
+                                   const ArxDesign& design, const EstimateOptions& options);
+
+}  // namespace wisp

@@ -1,0 +1,39 @@
+#pragma once
+// From an estimate in scaled units to a model in the data's units and a summary of how good it is.
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "learn/arx/fit/arx_estimate.hpp"
+#include "learn/arx/rows/arx_design.hpp"
+#include "wisp/learn/arx_fit.hpp"
+
+namespace wisp {
+
+/// Everything about a fit but its estimate.
+struct FitFacts {
+  ArxOptions options;
+  int outputs = 0;
+  std::vector<std::string> names;  ///< outputs, then inputs
+  std::vector<double> offset;      ///< per channel
+  std::vector<double> scale;       ///< per channel
+  std::size_t rows = 0;
+  int first_sample = 0;
+  std::size_t episodes_used = 0;
+  std::size_t episodes_skipped = 0;
+  std::size_t rows_left_out = 0;
+};
+
+/// The model, stable unless the options say otherwise, and its summary; `usable` is judged by judge_fit.
+ArxFit report_fit(const FitFacts& facts, const ArxDesign& design, ArxEstimate estimate);
+
+/// Warns of outputs whose one-step fit hides that free simulation fails. `outputs` are their names.
+///
+/// Precondition: the summary has both fits, or no free_run_fit_percent.
+void warn_of_free_run(const std::vector<std::string>& outputs, ArxSummary& summary);
+
+/// Writes warnings and the verdict, from the summary's figures.
+void judge_fit(const FitFacts& facts, ArxSummary& summary);
+
+}  // namespace wisp

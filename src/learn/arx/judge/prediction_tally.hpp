@@ -1,0 +1,70 @@
+#pragma once
+// Sums of prediction errors, and the figures that are made of them.
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "learn/arx/rows/arx_rows.hpp"
+#include "wisp/learn/prediction.hpp"
+
+namespace wisp {
+
+/// Sums over the rows for one number of steps.
+class Tally {
+ public:
+  /// `group`: consecutive outputs whose error is one vector.
+  Tally(int outputs, int group)
+      : group_(group), square_(outputs), y_(outputs), y_square_(outputs), norm_(outputs / group) {}
+
+  std::size_t rows() const { return rows_; }
+
+  /// One column an output, one row a time; none may be NaN.
+  void add_errors(const Eigen::Ref<const Eigen::MatrixXd>& errors);
+
+  /// Adds measured deviations of output i.
+  void add_output(int i, const Eigen::Ref<const Eigen::VectorXd>& deviations);
+
+  /// Takes one away again.
+  void take_output(int i, double deviation);
+
+  /// Adds what another tally knows of output i's deviations.
+  void add_output_of(const Tally& other, int i);
+
+  PredictionFigures figures(int steps) const;
+
+ private:
+  int group_;
+  std::size_t rows_ = 0;
+  std::vector<double> square_;
+  std::vector<double> y_;
+  std::vector<double> y_square_;
+  std::vector<double> norm_;
+};
+
+/// Takes the errors of simulated rows into a tally.
+class FreeRunTally {
+ public:
+  /// Precondition: `tally` outlives this.
+  explicit FreeRunTally(Tally& tally);
+
+  /// Rows [first, first + rows) of a recording: `values` are the simulated deviations, row after row. Rows where an
+  /// output was not measured do not count.
+  void add(const Signals& signals, std::size_t recording, std::size_t first, std::size_t rows, const double* values);
+
+ private:
+  Tally& tally_;
+  Eigen::MatrixXd measured_;
+  Eigen::MatrixXd errors_;
+};
+
+/// Free simulation over all recordings against what was measured, from row `first_sample` of every episode on.
+///
+/// Preconditions: the signals' offsets are the model's operating point; first_sample >= the model's history.
+Tally free_run_tally(const ArxModel& model, const Signals& signals, int group, InitialState initial, int first_sample);
+
+/// What prediction_figures computes.
+Result<std::vector<PredictionFigures>> figures_of(const ArxModel& model, const Signals& signals,
+                                                  const FigureOptions& options);
+
+}  // namespace wisp

@@ -1,0 +1,35 @@
+#pragma once
+// The regression that orders ask for: columns of all rows together, and which of them each output row has.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "learn/numeric/lag_gram.hpp"
+#include "learn/numeric/lag_layout.hpp"
+#include "wisp/learn/arx_fit.hpp"
+
+namespace wisp {
+
+/// Output rows that have the same regressors, and so share a factorisation.
+struct SharedRows {
+  std::vector<int> columns;  ///< positions in the layout, in theta's order; the constant, where estimated, comes last
+  std::vector<int> outputs;
+};
+
+struct ArxDesign {
+  LagLayout layout;
+  std::vector<SharedRows> groups;
+
+  /// Number of coefficients of an output row, the constant among them.
+  std::size_t row_size(int output) const;
+};
+
+/// Regressors of one output row in theta's order; the constant, where it is estimated, comes last.
+std::vector<LaggedChannel> row_regressors(const ArxOrders& orders, int output, ArxOffset offset);
+
+ArxDesign make_design(const ArxOrders& orders, ArxOffset offset);
+
+/// Channels whose products the design's rows need.
+ChannelPairs wanted_pairs(const ArxDesign& design);
+
+}  // namespace wisp

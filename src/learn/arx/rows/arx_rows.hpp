@@ -1,0 +1,128 @@
+#pragma once
+// The rows of a regression on lagged channels: which samples of which recordings may be predicted from which history.
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "learn/numeric/lag_layout.hpp"
+#include "wisp/base/result.hpp"
+#include "wisp/learn/arx_fit.hpp"
+
+namespace wisp {
+
+/// The chosen channels of all recordings. The regression works on (sample − offset)·scale; scales are powers of two
+/// near 1/RMS, so that they cost no rounding, and 0 for a channel that never moves.
+struct Signals {
+  int outputs = 0;
+  int inputs = 0;
+  std::vector<std::string> names;                             ///< outputs, then inputs
+  std::vector<std::vector<std::span<const double>>> samples;  ///< [recording][channel]
+  std::vector<std::vector<Episode>> episodes;                 ///< [recording]
+  std::vector<double> offset;
+  std::vector<double> scale;
+  bool missing = true;  ///< whether any sample may be
+
+  int channels() const { return outputs + inputs; }
+};
+
+/// Sums over the samples of a channel that are there, of sample − reference.
+struct ChannelSums {
+  double sum = 0;
+  double square = 0;
+  std::size_t count = 0;
+};
+
+/// What is taken off a channel's samples, and what they are multiplied with then.
+struct ChannelPoint {
+  double offset = 0;
+  double scale = 0;
+};
+
+/// Precondition: sums.count > 0.
+ChannelPoint operating_point(const ChannelSums& sums, double reference, ArxOffset offset);
+
+/// Target rows [begin, end) of one recording, all of them usable.
+struct RowRun {
+  std::size_t recording = 0;
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+/// All target rows.
+struct RowPlan {
+  std::vector<RowRun> runs;
+  std::size_t rows = 0;
+  int first_sample = 0;
+  std::size_t episodes_used = 0;
+  std::size_t episodes_skipped = 0;
+  std::size_t rows_left_out = 0;
+};
+
+/// Finds the channels, with offsets 0 and scales 1. Errors: as fit_arx, for recordings and channels.
+Result<Signals> find_signals(std::span<const Recording> recordings, const ChannelChoice& channels);
+
+/// Finds the channels and their offsets and scales. Errors: as find_signals, and where a channel has no sample.
+Result<Signals> gather_signals(std::span<const Recording> recordings, const ChannelChoice& channels, ArxOffset offset);
+
+/// The rows whose columns are all there, from row `first_sample` of every episode on.
+///
+/// Precondition: first_sample >= layout.history().
+RowPlan plan_rows(const Signals& signals, const LagLayout& layout, int first_sample);
+
+/// Rows [begin, end) of the first recording, and whether it ends there.
+struct RowPart {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  bool last = true;
+};
+
+/// The same for one part. An episode counts for the part that has its first target row or, where it is too short to
+/// have one, the row after its end.
+RowPlan plan_part(const Signals& signals, const LagLayout& layout, int first_sample, const RowPart& part);
+
+/// The rows whose inputs are all there, whatever the outputs are.
+RowPlan plan_input_rows(const Signals& signals, const LagLayout& layout, int first_sample);
+
+/// Samples of all channels over a block of rows and the history before it, offset and scaled.
+class ScaledBlock {
+ public:
+  /// Preconditions: `signals` outlives the block; history >= 0.
+  ScaledBlock(const Signals& signals, int history) : signals_(signals), history_(history) {}
+
+  /// Takes in the rows, and `history` rows before them.
+  ///
+  /// Precondition: rows.begin >= history.
+  void load(const RowRun& rows);
+
+  std::size_t rows() const { return rows_; }
+
+  /// The channel at t − lag over the block's rows.
+  const double* series(LaggedChannel column) const {
+    return samples_.data() + static_cast<std::size_t>(column.channel) * stride_ +
+           static_cast<std::size_t>(history_ - column.lag);
+  }
+
+ private:
+  const Signals& signals_;
+  int history_;
+  std::size_t rows_ = 0;
+  std::size_t stride_ = 0;
+  std::vector<double> samples_;
+};
+
+/// Rows that are worked on together: their samples fit into the first-level cache for a few channels.
+inline constexpr std::size_t kBlockRows = 1024;
+
+/// Calls visit(RowRun) for all rows of the plan, in blocks of at most kBlockRows.
+template <class Visit>
+void for_each_block(const RowPlan& plan, Visit visit) {
+  for (const RowRun& run : plan.runs) {
+    for (std::size_t begin = run.begin; begin < run.end; begin += kBlockRows) {
+      visit(RowRun{run.recording, begin, begin + kBlockRows < run.end ? begin + kBlockRows : run.end});
+    }
+  }
+}
+
+}  // namespace wisp

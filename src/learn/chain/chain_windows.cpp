@@ -1,0 +1,101 @@
+#include "learn/chain/chain_windows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "learn/likeness/fidelity_shuffle.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr double kLeastSpeed = 0.05;  // m/s: slower than this, a thing has no heading to change
+
+void add_row(const Motion& motion, const MotionPiece& piece, std::size_t row, double segment_seconds,
+             std::vector<double>& out) {
+  const Triple& v = piece.velocity[row];
+  out.push_back(-v[2]);
+  out.push_back(std::hypot(v[0], v[1]));
+  if (motion.has_orientation) {
+    out.push_back(std::abs(piece.spin[row][2]));
+    const Triple normal = in_world_axes(piece.orientation[row], {0, 0, 1});
+    out.push_back(std::acos(std::clamp(normal[2], -1.0, 1.0)));
+    const Triple& spin = piece.spin[row];
+    out.push_back(std::sqrt(spin[0] * spin[0] + spin[1] * spin[1] + spin[2] * spin[2]));
+  } else {
+    const Triple& next = piece.velocity[std::min(row + 1, piece.rows() - 1)];
+    const double speed = v[0] * v[0] + v[1] * v[1];
+    const double across = v[0] * next[1] - v[1] * next[0];
+    out.push_back(std::abs(across) * motion.rate_hz / std::max(speed, kLeastSpeed * kLeastSpeed));
+  }
+  out.push_back(segment_seconds);
+}
+
+// Mean, standard deviation, least and most of one column over some rows.
+void add_figures(const MotionSeries& series, std::size_t first, std::size_t rows, std::size_t column,
+                 std::vector<double>& out) {
+  double sum = 0, square = 0, least = 0, most = 0;
+  for (std::size_t row = first; row < first + rows; ++row) {
+    const double x = series.values[row * series.columns + column];
+    sum += x;
+    square += x * x;
+    least = row == first ? x : std::min(least, x);
+    most = row == first ? x : std::max(most, x);
+  }
+  const double mean = sum / static_cast<double>(rows);
+  const double variance = std::max(0.0, square / static_cast<double>(rows) - mean * mean);
+  out.insert(out.end(), {mean, std::sqrt(variance), least, most});
+}
+
+}  // namespace
+
+std::vector<MotionSeries> motion_series(const Motion& motion, std::span<const Segment> segments) {
+  std::vector<MotionSeries> series(motion.pieces.size());
+  for (const Segment& segment : segments) {
+    MotionSeries& own = series[segment.piece];
+    own.columns = motion.has_orientation ? 6 : 4;
+    const double seconds = (segment.end - segment.begin) / motion.rate_hz;
+    const auto end = static_cast<std::size_t>(std::ceil(segment.end));
+    for (auto row = static_cast<std::size_t>(std::ceil(segment.begin)); row < end; ++row) {
+      add_row(motion, motion.pieces[segment.piece], row, seconds, own.values);
+    }
+  }
+  return series;
+}
+
+FeatureWindows series_windows(std::span<const MotionSeries> series, std::size_t rows) {
+  FeatureWindows windows;
+  std::size_t block = 0;
+  for (const MotionSeries& own : series) {
+    if (own.rows() < rows) continue;
+    for (std::size_t first = 0; first + rows <= own.rows(); first += rows) {
+      for (std::size_t column = 0; column < own.columns; ++column) {
+        add_figures(own, first, rows, column, windows.values);
+      }
+      windows.features = 4 * own.columns;
+      windows.blocks.push_back(block);
+    }
+    ++block;
+  }
+  return windows;
+}
+
+std::vector<MotionSeries> shuffled(std::span<const MotionSeries> series, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<MotionSeries> out;
+  for (const MotionSeries& own : series) {
+    std::vector<std::size_t> order(own.rows());
+    std::iota(order.begin(), order.end(), 0U);
+    shuffle(std::span(order), random);
+    MotionSeries mixed{own.columns, {}};
+    for (std::size_t row : order) {
+      const auto first = own.values.begin() + static_cast<long>(row * own.columns);
+      mixed.values.insert(mixed.values.end(), first, first + static_cast<long>(own.columns));
+    }
+    out.push_back(std::move(mixed));
+  }
+  return out;
+}
+
+}  // namespace wisp

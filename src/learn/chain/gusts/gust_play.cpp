@@ -1,0 +1,271 @@
+#include "wisp/learn/gust_play.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+#include "learn/chain/gusts/gust_ensembles.hpp"
+#include "wisp/run/bank.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr double kLaterSeconds = 2;  // after the gust: nothing should be left
+constexpr double kMostLeft = 0.1;    // m/s
+
+// Two banks that live the same life but for the wind.
+struct Twins {
+  Bank windy;
+  Bank calm;
+};
+
+Result<Bank> full_bank(const Model& model, std::size_t clones, std::uint64_t seed) {
+  auto bank = Bank::create(model, {.capacity = static_cast<int>(clones), .seed = seed});
+  if (!bank) return bank;
+  for (std::size_t k = 0; k < clones; ++k) bank->spawn();
+  return bank;
+}
+
+BodyMoment moment_of(const MotionPiece& piece, std::size_t row) {
+  BodyMoment body;
+  for (std::size_t k = 0; k < 3; ++k) {
+    body.position[k] = static_cast<float>(piece.position[row][k]);
+    body.velocity[k] = static_cast<float>(piece.velocity[row][k]);
+    if (!piece.spin.empty()) body.spin[k] = static_cast<float>(piece.spin[row][k]);
+  }
+  for (std::size_t k = 0; k < piece.orientation.size() && k < 4; ++k) {
+    body.orientation[k] = static_cast<float>(piece.orientation[row][k]);
+  }
+  return body;
+}
+
+// Where every clone is, a row of its way.
+void take_places(const Bank& bank, std::vector<std::vector<Triple>>& ways) {
+  const auto count = static_cast<std::size_t>(bank.output_count());
+  std::vector<float> outputs(ways.size() * count);
+  bank.outputs(outputs);
+  for (std::size_t k = 0; k < ways.size(); ++k) {
+    ways[k].push_back({outputs[k * count], outputs[k * count + 1], outputs[k * count + 2]});
+  }
+}
+
+struct Ways {
+  std::vector<std::vector<Triple>> windy;
+  std::vector<std::vector<Triple>> calm;
+  double left = 0;  // m/s, the most that a clone's two lives still differ by later
+};
+
+// A gust on the clones of one fall, from its onset to the span's end, and a while without wind.
+Ways played(Twins& twins, const GustPairs& pairs, std::size_t gust, const GustSpan& span) {
+  Ways ways{std::vector<std::vector<Triple>>(pairs.clones), std::vector<std::vector<Triple>>(pairs.clones)};
+  const std::size_t first = gust * pairs.clones;
+  for (std::size_t k = 0; k < pairs.clones; ++k) {
+    const BodyMoment body = moment_of(pairs.calm.pieces[first + k], span.onset);
+    for (Bank* bank : {&twins.windy, &twins.calm}) bank->place(bank->at(static_cast<int>(k)), body);
+  }
+  take_places(twins.windy, ways.windy);
+  take_places(twins.calm, ways.calm);
+  std::vector<float> wind(3 * pairs.clones);
+  const auto later = static_cast<std::size_t>(std::lround(kLaterSeconds * pairs.windy.rate_hz));
+  for (std::size_t row = span.onset + 1; row < span.end + later; ++row) {
+    for (std::size_t k = 0; k < pairs.clones; ++k) {
+      const Triple now = row < span.end ? pairs.wind_at(first + k, row) : Triple{};
+      for (std::size_t axis = 0; axis < 3; ++axis) wind[3 * k + axis] = static_cast<float>(now[axis]);
+    }
+    twins.windy.set_inputs(wind);
+    twins.windy.step();
+    twins.calm.step();
+    take_places(twins.windy, ways.windy);
+    take_places(twins.calm, ways.calm);
+  }
+  for (std::size_t k = 0; k < pairs.clones; ++k) {
+    const std::size_t last = ways.windy[k].size() - 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto apart = [&](std::size_t row) { return ways.windy[k][row][axis] - ways.calm[k][row][axis]; };
+      ways.left = std::max(ways.left, std::abs(apart(last) - apart(last - 1)) * pairs.windy.rate_hz);
+    }
+    ways.windy[k].resize(span.rows());
+    ways.calm[k].resize(span.rows());
+  }
+  return ways;
+}
+
+Triple mean_at(const std::vector<std::vector<Triple>>& ways, std::size_t row) {
+  Triple mean{};
+  for (const auto& way : ways) {
+    for (std::size_t axis = 0; axis < 3; ++axis) mean[axis] += way[row][axis] / static_cast<double>(ways.size());
+  }
+  return mean;
+}
+
+// What the wind did to the mean of a play, since the onset.
+std::vector<Triple> displacements(const Ways& ways) {
+  std::vector<Triple> out(ways.windy.front().size());
+  for (std::size_t row = 0; row < out.size(); ++row) {
+    const Triple windy = mean_at(ways.windy, row), calm = mean_at(ways.calm, row);
+    for (std::size_t axis = 0; axis < 3; ++axis) out[row][axis] = windy[axis] - calm[axis];
+  }
+  return out;
+}
+
+double length_over_ground(const Triple& v) { return std::hypot(v[0], v[1]); }
+
+struct Angles {
+  std::vector<double> all;
+  std::vector<double> clear;
+
+  GustDirection direction() const {
+    GustDirection out;
+    if (all.empty()) return out;
+    std::vector<double> sorted = all;
+    std::sort(sorted.begin(), sorted.end());
+    out.median = sorted[sorted.size() / 2];
+    for (double angle : all) out.mean += angle / static_cast<double>(all.size());
+    for (double angle : clear) out.mean_clear += angle / static_cast<double>(clear.size());
+    return out;
+  }
+};
+
+// Everything that is summed over gusts.
+struct Tally {
+  FitSums displacement, velocity, halves;
+  Angles angles, half_angles;
+};
+
+void judge(const GustEnsemble& recorded, const std::vector<Triple>& place, double rate_hz, bool clear, Tally& tally) {
+  for (std::size_t row = 0; row < place.size(); ++row) {
+    tally.displacement.add(place[row], recorded.displacement[row]);
+    if (row == 0) continue;
+    Triple change{};
+    for (std::size_t axis = 0; axis < 3; ++axis) change[axis] = (place[row][axis] - place[row - 1][axis]) * rate_hz;
+    tally.velocity.add(change, recorded.change[row]);
+  }
+  const double angle = degrees_between(recorded.displacement.back(), place.back());
+  tally.angles.all.push_back(angle);
+  if (clear) tally.angles.clear.push_back(angle);
+}
+
+void judge_halves(const GustPairs& pairs, std::size_t gust, const GustSpan& span, bool clear, Tally& tally) {
+  const GustEnsemble a = ensemble_of(pairs, gust, span, 0, 2), b = ensemble_of(pairs, gust, span, 1, 2);
+  for (std::size_t row = 0; row < a.displacement.size(); ++row)
+    tally.halves.add(a.displacement[row], b.displacement[row]);
+  const double angle = degrees_between(a.displacement.back(), b.displacement.back());
+  tally.half_angles.all.push_back(angle);
+  if (clear) tally.half_angles.clear.push_back(angle);
+}
+
+GustScene scene_of(const GustPairs& pairs, std::size_t gust, const GustSpan& span, Ways ways) {
+  GustScene scene{.gust = gust};
+  std::vector<std::vector<Triple>> calm;
+  for (std::size_t k = gust * pairs.clones; k < (gust + 1) * pairs.clones; ++k) {
+    const auto part = [&](const MotionPiece& piece) {
+      const auto begin = piece.position.begin();
+      return std::vector<Triple>(begin + static_cast<long>(span.onset), begin + static_cast<long>(span.end));
+    };
+    scene.recorded.push_back(part(pairs.windy.pieces[k]));
+    calm.push_back(part(pairs.calm.pieces[k]));
+  }
+  for (std::size_t row = 0; row < span.rows(); ++row) {
+    scene.recorded_calm.push_back(mean_at(calm, row));
+    scene.played_calm.push_back(mean_at(ways.calm, row));
+    const Triple wind = pairs.wind_at(gust * pairs.clones, span.onset + row);
+    const Triple& most = scene.strongest;
+    const double speed = std::hypot(wind[0], wind[1], wind[2]);
+    scene.blows.push_back(speed > 1e-3);
+    if (speed > std::hypot(most[0], most[1], most[2])) scene.strongest = wind;
+  }
+  scene.played = std::move(ways.windy);
+  return scene;
+}
+
+GustEnd end_of(const GustPairs& pairs, std::size_t gust, const GustSpan& span, const GustEnsemble& recorded) {
+  GustEnd end{.recorded = recorded.displacement.back()};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const Triple& wind : recorded.wind) end.wind[axis] += wind[axis] / static_cast<double>(span.rows());
+    for (std::size_t k = gust * pairs.clones; k < (gust + 1) * pairs.clones; ++k) {
+      const auto& position = pairs.calm.pieces[k].position;
+      end.recorded_calm[axis] +=
+          (position[span.end - 1][axis] - position[span.onset][axis]) / static_cast<double>(pairs.clones);
+    }
+  }
+  return end;
+}
+
+// At even shares of all gusts by how far they carry.
+std::vector<GustScene> chosen(std::vector<std::pair<double, GustScene>>& scenes, std::size_t count) {
+  std::stable_sort(scenes.begin(), scenes.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<GustScene> out;
+  for (std::size_t k = 0; k < std::min(count, scenes.size()); ++k) {
+    out.push_back(std::move(scenes[(2 * k + 1) * scenes.size() / (2 * count)].second));
+  }
+  return out;
+}
+
+GustPlayFigures figures_of(const Tally& tally, GustPlayFigures figures) {
+  figures.fit_percent = tally.displacement.fit_percent();
+  figures.velocity_fit_percent = tally.velocity.fit_percent();
+  figures.direction = tally.angles.direction();
+  figures.clear_gusts = tally.angles.clear.size();
+  const bool halves = figures.clones >= 4;
+  figures.halves_fit_percent = halves ? tally.halves.fit_percent() : std::numeric_limits<double>::quiet_NaN();
+  figures.halves_direction = tally.half_angles.direction();
+  figures.diverges = !std::isfinite(figures.largest_displacement) || !std::isfinite(figures.left_after) ||
+                     figures.left_after > kMostLeft;
+  return figures;
+}
+
+Result<void> check(const Model& model, const GustPairs& pairs, const std::string& source) {
+  const auto* chain = std::get_if<ChainModel>(&model.dynamics);
+  if (!chain || !chain->gust) {
+    return Error{source +
+                 ": has gusts, but the model has no response to them; learn it with a windy recording and its "
+                 "calm twin"};
+  }
+  if (std::abs(pairs.windy.rate_hz - model.rate_hz) > 1e-6 * model.rate_hz) {
+    return Error{source + ": has " + std::to_string(pairs.windy.rate_hz) + " rows a second, the model " +
+                 std::to_string(model.rate_hz) + ": resample the recording"};
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<GustPlay> play_gusts(const Model& model, const Recording& windy, const Recording& calm,
+                            const GustPlayOptions& options) {
+  const auto pairs = gust_pairs(windy, calm);
+  if (!pairs) return pairs.error();
+  if (auto ok = check(model, *pairs, windy.source); !ok) return ok.error();
+  auto blown = full_bank(model, pairs->clones, options.seed), still = full_bank(model, pairs->clones, options.seed);
+  if (!blown) return blown.error();
+  if (!still) return still.error();
+  Twins twins{std::move(*blown), std::move(*still)};
+  Tally tally;
+  GustPlayFigures figures{.clones = pairs->clones};
+  std::vector<std::pair<double, GustScene>> scenes;
+  std::vector<GustEnd> ends;
+  for (std::size_t gust = 0; gust < pairs->gusts(); ++gust) {
+    const GustSpan span = span_of(*pairs, gust, options.after_seconds);
+    if (span.rows() < 3) continue;
+    const GustEnsemble recorded = ensemble_of(*pairs, gust, span);
+    Ways ways = played(twins, *pairs, gust, span);
+    const auto place = displacements(ways);
+    const double carried = length_over_ground(recorded.displacement.back());
+    const bool clear = carried > options.clear_errors * recorded.displacement_error;
+    judge(recorded, place, pairs->windy.rate_hz, clear, tally);
+    ends.push_back(end_of(*pairs, gust, span, recorded));
+    ends.back().played = place.back();
+    ends.back().clear = clear;
+    if (pairs->clones >= 4) judge_halves(*pairs, gust, span, clear, tally);
+    ++figures.gusts;
+    figures.left_after = std::max(figures.left_after, ways.left);
+    figures.largest_displacement = std::max(figures.largest_displacement, length_over_ground(place.back()));
+    figures.largest_recorded_displacement = std::max(figures.largest_recorded_displacement, carried);
+    if (options.scenes > 0) scenes.emplace_back(carried, scene_of(*pairs, gust, span, std::move(ways)));
+  }
+  if (figures.gusts == 0) return Error{windy.source + ": no wind blows in it, expected gusts"};
+  return GustPlay{figures_of(tally, figures), std::move(ends), chosen(scenes, options.scenes)};
+}
+
+}  // namespace wisp

@@ -1,0 +1,237 @@
+#include "wisp/learn/extinction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "learn/flame/flame_lives.hpp"
+
+namespace wisp {
+namespace {
+
+// The grid. Levels and durations in steps of 6 and 12 %: finer than any recording tells.
+constexpr int kLevels = 40;
+constexpr int kDurations = 40;
+constexpr double kShortest = 0.02;  // seconds
+constexpr double kLongest = 4;
+constexpr double kHastes[] = {0, 0.5, 1, 2, 3, 5, 8};
+constexpr double kRecoveries[] = {0.25, 0.5, 0.7, 1, 2};  // harm taken back a second, as a share of what the level does
+
+// What an error costs. A gust that is judged wrongly costs 1; a death that comes early or late by 0.1 s, 0.3.
+constexpr double kOff = 0.1;
+constexpr double kOffCost = 0.3;
+// Rules that cost so little more than the best do as well: nearly nothing, and an error more for every fifty that could
+// be made, since the grid does not hold the true rule and no sensor hears the true wind.
+constexpr double kAsWell = 0.25;
+constexpr double kAsWellEach = 0.02;
+
+// A rule without its duration: harm in seconds at the level.
+struct Shape {
+  double level = 1;
+  double haste = 0;
+  double recovery = 1;
+
+  double next(double harm, double wind, double step) const {
+    if (wind < level) return std::max(0.0, harm - recovery * step);
+    return harm + step * (1 + haste * (std::min(wind, Extinction::kMostWind * level) / level - 1));
+  }
+};
+
+// What a shape does in the recordings, before a duration is chosen.
+struct Harms {
+  std::vector<double> gusts;                // most harm in each that was survived
+  std::vector<std::vector<double>> deaths;  // harm from where each is watched, row by row
+  std::vector<double> first;                // seconds from a death's first watched row to where it was gone
+  std::vector<double> step;                 // seconds of a row
+};
+
+Harms harms_of(const Shape& shape, const FlameLives& lives) {
+  Harms out;
+  for (const FlameLife& life : lives.lives()) {
+    const double step = 1 / life.rate_hz;
+    double harm = 0;
+    std::size_t gust = 0;
+    std::vector<double> watched;
+    const std::size_t end = life.died ? life.until : life.rows.end;
+    std::vector<double> most(life.gusts.size(), 0.0);
+    for (std::size_t row = life.rows.begin; row < end; ++row) {
+      harm = shape.next(harm, life.rows.wind[row], step);
+      while (gust < most.size() && row >= life.gusts[gust].end) ++gust;
+      if (gust < most.size() && row >= life.gusts[gust].begin) most[gust] = std::max(most[gust], harm);
+      if (life.died && row >= life.watched) watched.push_back(harm);
+    }
+    out.gusts.insert(out.gusts.end(), most.begin(), most.end());
+    if (!life.died) continue;
+    out.deaths.push_back(std::move(watched));
+    out.first.push_back(static_cast<double>(life.rows.end - life.watched) * step);
+    out.step.push_back(step);
+  }
+  std::sort(out.gusts.begin(), out.gusts.end());
+  return out;
+}
+
+double cost_of(const Harms& harms, double seconds) {
+  const auto killed = harms.gusts.end() - std::lower_bound(harms.gusts.begin(), harms.gusts.end(), seconds);
+  double cost = static_cast<double>(killed);
+  for (std::size_t k = 0; k < harms.deaths.size(); ++k) {
+    const auto& harm = harms.deaths[k];
+    const auto dies = std::find_if(harm.begin(), harm.end(), [&](double value) { return value >= seconds; });
+    if (dies == harm.end()) {
+      cost += 1;
+      continue;
+    }
+    // A death shows one row after the harm is done.
+    const double late = static_cast<double>(dies - harm.begin() + 1) * harms.step[k] - harms.first[k];
+    cost += std::min(1.0, kOffCost * (late / kOff) * (late / kOff));
+  }
+  return cost;
+}
+
+// What speaks against a rule before anything was seen: far less than one error.
+double remarkable(const Shape& shape, double middle) {
+  const Extinction usual;
+  const auto square = [](double x) { return x * x; };
+  return 0.03 * square(std::log((1 + shape.haste) / (1 + usual.haste))) +
+         0.03 * square(std::log(shape.recovery * usual.recovery / usual.seconds)) +
+         0.05 * square(std::log(shape.level / middle));
+}
+
+struct Trial {
+  Shape shape;
+  double seconds = 0;
+  double cost = 0;  // of errors
+  double remarkable = 0;
+};
+
+std::vector<double> steps_between(double low, double high, int count) {
+  std::vector<double> out;
+  for (int k = 0; k < count; ++k) out.push_back(low * std::pow(high / low, static_cast<double>(k) / (count - 1)));
+  return out;
+}
+
+std::vector<Trial> trials_of(const FlameLives& lives) {
+  const double weakest = lives.weakest_death();
+  const double survived = std::clamp(lives.strongest_survived(), 0.25 * weakest, weakest);
+  const double middle = std::sqrt(survived * weakest);
+  const auto durations = steps_between(kShortest, kLongest, kDurations);
+  std::vector<Trial> trials;
+  for (double level : steps_between(0.25 * weakest, 1.5 * weakest, kLevels)) {
+    for (double haste : kHastes) {
+      for (double recovery : kRecoveries) {
+        const Shape shape{level, haste, recovery};
+        const Harms harms = harms_of(shape, lives);
+        const double against = remarkable(shape, middle);
+        for (double seconds : durations) trials.push_back({shape, seconds, cost_of(harms, seconds), against});
+      }
+    }
+  }
+  return trials;
+}
+
+Extinction rule_of(const Trial& trial) {
+  Extinction rule;
+  rule.level = trial.shape.level;
+  rule.seconds = trial.seconds;
+  rule.haste = trial.shape.haste;
+  rule.recovery = trial.seconds / trial.shape.recovery;
+  return rule;
+}
+
+// Harm of the next row by a whole rule.
+double harmed(const Extinction& rule, double harm, double wind, double step) {
+  const Shape shape{rule.level, rule.haste, rule.seconds / rule.recovery};
+  constexpr double kMostHarm = 0.5;  // of a step, as a bank has it
+  return std::min(shape.next(harm * rule.seconds, wind, step) / rule.seconds, harm + kMostHarm);
+}
+
+void follow(const Extinction& rule, const FlameLife& life, ExtinctionAgreement& out) {
+  const double step = 1 / life.rate_hz;
+  std::vector<bool> killed(life.gusts.size(), false);
+  std::size_t gust = 0;
+  bool died = false;
+  double harm = 0;
+  for (std::size_t row = life.rows.begin; row < (life.died ? life.until : life.rows.end) && !died; ++row) {
+    harm = harmed(rule, harm, life.rows.wind[row], step);
+    while (gust < killed.size() && row >= life.gusts[gust].end) ++gust;
+    if (harm < 1) continue;
+    died = life.died && row >= life.watched;
+    if (died) {
+      const double now = static_cast<double>(row) + 1;  // a death shows one row after the harm is done
+      out.late_seconds.push_back((now - static_cast<double>(life.rows.end)) * step);
+    } else if (gust < killed.size() && row >= life.gusts[gust].begin) {
+      killed[gust] = true;
+      harm = 0;
+    } else {
+      harm = 1;  // what the rise of a gust has put out doesn't live through the gust
+    }
+  }
+  out.died += died ? 1 : 0;
+  out.spared += static_cast<std::size_t>(std::count(killed.begin(), killed.end(), false));
+}
+
+}  // namespace
+
+double ExtinctionAgreement::median_off() const {
+  if (late_seconds.empty()) return 0;
+  std::vector<double> off;
+  for (double late : late_seconds) off.push_back(std::abs(late));
+  const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
+  std::nth_element(off.begin(), middle, off.end());
+  return *middle;
+}
+
+ExtinctionAgreement agreement(const Extinction& rule, std::span<const ExtinctionEvidence> evidence) {
+  const FlameLives lives(evidence);
+  ExtinctionAgreement out;
+  out.deaths = lives.deaths();
+  out.gusts = lives.gusts();
+  out.strongest_survived = lives.strongest_survived();
+  for (const FlameLife& life : lives.lives()) follow(rule, life, out);
+  return out;
+}
+
+Result<ExtinctionFit> learn_extinction(std::span<const ExtinctionEvidence> evidence) {
+  const FlameLives lives(evidence);
+  if (lives.deaths() == 0) return Error{"no flame was blown out in the recordings; give the level and the seconds"};
+  const std::vector<Trial> trials = trials_of(lives);
+  const Trial& best = *std::min_element(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) {
+    return a.cost + a.remarkable < b.cost + b.remarkable;
+  });
+  ExtinctionFit fit;
+  fit.rule = rule_of(best);
+  fit.level_range = fit.seconds_range = {std::numeric_limits<double>::infinity(), 0};
+  const double as_well = best.cost + kAsWell + kAsWellEach * static_cast<double>(lives.deaths() + lives.gusts());
+  for (const Trial& trial : trials) {
+    if (trial.cost > as_well) continue;
+    fit.level_range = {std::min(fit.level_range[0], trial.shape.level),
+                       std::max(fit.level_range[1], trial.shape.level)};
+    fit.seconds_range = {std::min(fit.seconds_range[0], trial.seconds), std::max(fit.seconds_range[1], trial.seconds)};
+  }
+  fit.agreement = agreement(fit.rule, evidence);
+  if (2 * fit.agreement.died <= fit.agreement.deaths) {
+    return Error{"wind does not tell when the flame went out: the best rule finds " +
+                 std::to_string(fit.agreement.died) + " of " + std::to_string(fit.agreement.deaths) +
+                 " deaths; give the level and the seconds"};
+  }
+  return fit;
+}
+
+Extinction extinction_beyond(std::span<const ExtinctionEvidence> evidence) {
+  constexpr double kRaised = 1.05;
+  constexpr double kToSpare = 1.25;
+  constexpr int kMostSteps = 200;  // a level 17 000 times the default
+  Extinction rule;
+  const FlameLives lives(evidence);
+  for (int k = 0; k < kMostSteps; ++k) {
+    ExtinctionAgreement found;
+    for (const FlameLife& life : lives.lives()) follow(rule, life, found);
+    if (found.spared == lives.gusts()) {
+      if (k > 0) rule.level *= kToSpare;
+      break;
+    }
+    rule.level *= kRaised;
+  }
+  return rule;
+}
+
+}  // namespace wisp

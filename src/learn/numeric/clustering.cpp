@@ -1,0 +1,169 @@
+#include "learn/numeric/clustering.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <thread>
+
+#include "learn/numeric/nearest_middles.hpp"
+
+namespace wisp {
+namespace {
+
+double unit_interval(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
+
+// The first row of which the running sum of weights exceeds a share of all.
+std::size_t drawn_row(const std::vector<double>& weights, double total, std::mt19937_64& random) {
+  double left = unit_interval(random) * total;
+  for (std::size_t row = 0; row < weights.size(); ++row) {
+    left -= weights[row];
+    if (left < 0) return row;
+  }
+  return weights.size() - 1;
+}
+
+// Squared distances of all rows to one row, none above what it was before; their sum.
+double nearer(const Rows& rows, std::size_t to, const std::vector<double>& before, std::vector<double>& out) {
+  double sum = 0;
+  for (std::size_t row = 0; row < rows.count; ++row) {
+    out[row] = std::min(before[row], squared_distance(rows.at(row), rows.at(to), rows.columns));
+    sum += out[row];
+  }
+  return sum;
+}
+
+// Greedy k-means++: of a few rows drawn in proportion to their squared distance, the one that helps most.
+std::vector<double> start_middles(const Rows& rows, int clusters, std::mt19937_64& random) {
+  const int trials = 2 + static_cast<int>(std::log(static_cast<double>(clusters)));
+  std::vector<double> middles, distance(rows.count, std::numeric_limits<double>::max());
+  std::vector<double> tried(rows.count), best(rows.count);
+  const auto take = [&](std::size_t row) { middles.insert(middles.end(), rows.at(row), rows.at(row) + rows.columns); };
+  const std::size_t first = random() % rows.count;
+  take(first);
+  double total = nearer(rows, first, distance, best);
+  distance.swap(best);
+  for (int k = 1; k < clusters; ++k) {
+    double least = std::numeric_limits<double>::max();
+    std::size_t chosen = 0;
+    for (int trial = 0; trial < trials; ++trial) {
+      const std::size_t row = drawn_row(distance, total, random);
+      const double sum = nearer(rows, row, distance, tried);
+      if (sum >= least) continue;
+      least = sum;
+      chosen = row;
+      best.swap(tried);
+    }
+    take(chosen);
+    total = least;
+    distance.swap(best);
+  }
+  return middles;
+}
+
+KMeans one_start(const Rows& rows, const KMeansOptions& options, double variance, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  NearestMiddles search(rows, start_middles(rows, options.clusters, random));
+  int round = 0;
+  while (round < options.most_rounds) {
+    ++round;
+    if (search.round() <= options.tolerance * variance) break;
+  }
+  return search.result(round);
+}
+
+// From where a start stopped to where no row changes sides any more: only the best start is worth it.
+KMeans to_the_end(const Rows& rows, const KMeansOptions& options, const KMeans& found) {
+  NearestMiddles search(rows, found.middles);
+  int round = found.rounds;
+  while (round < options.most_rounds) {
+    ++round;
+    if (search.round() <= 0) break;
+  }
+  return search.result(round);
+}
+
+// Mean variance of the columns: what movements of the middles are measured against.
+double mean_variance(const Rows& rows) {
+  double sum = 0;
+  for (std::size_t column = 0; column < rows.columns; ++column) {
+    double mean = 0, square = 0;
+    for (std::size_t row = 0; row < rows.count; ++row) mean += rows.at(row)[column];
+    mean /= static_cast<double>(rows.count);
+    for (std::size_t row = 0; row < rows.count; ++row) {
+      const double away = rows.at(row)[column] - mean;
+      square += away * away;
+    }
+    sum += square / static_cast<double>(rows.count);
+  }
+  return sum / static_cast<double>(rows.columns);
+}
+
+Result<void> check_options(std::size_t rows, const KMeansOptions& options) {
+  if (rows == 0) return Error{"there is nothing to sort into clusters"};
+  if (options.clusters < 1 || options.clusters > 65535) {
+    return Error{"the number of clusters is " + std::to_string(options.clusters) + ", expected 1 to 65535"};
+  }
+  if (static_cast<std::size_t>(options.clusters) > rows) {
+    return Error{"there are " + std::to_string(rows) + " rows for " + std::to_string(options.clusters) +
+                 " clusters, expected at least as many rows: ask for fewer clusters"};
+  }
+  if (options.restarts < 1 || options.most_rounds < 1 || options.threads < 0 || !(options.tolerance >= 0)) {
+    return Error{"restarts, rounds, threads or tolerance of k-means are out of range"};
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<KMeans> k_means(std::span<const double> values, std::size_t columns, const KMeansOptions& options) {
+  const Rows rows{values.data(), values.size() / columns, columns};
+  if (auto ok = check_options(rows.count, options); !ok) return ok.error();
+  // Each start has its own chance and its own place for the outcome, so threads can't change either.
+  std::vector<KMeans> found(static_cast<std::size_t>(options.restarts));
+  const double variance = mean_variance(rows);
+  std::atomic<int> next = 0;
+  const auto work = [&] {
+    for (int start = next++; start < options.restarts; start = next++) {
+      const std::uint64_t seed = options.seed * 0x9E3779B97F4A7C15U + static_cast<std::uint64_t>(start);
+      found[static_cast<std::size_t>(start)] = one_start(rows, options, variance, seed);
+    }
+  };
+  const int most = options.threads > 0 ? options.threads : static_cast<int>(std::thread::hardware_concurrency());
+  std::vector<std::thread> threads;
+  for (int k = 1; k < std::min(most, options.restarts); ++k) threads.emplace_back(work);
+  work();
+  for (std::thread& thread : threads) thread.join();
+  const auto less = [](const KMeans& a, const KMeans& b) { return a.inertia < b.inertia; };
+  return to_the_end(rows, options, *std::min_element(found.begin(), found.end(), less));
+}
+
+double silhouette(std::span<const double> values, std::size_t columns, const KMeans& found, std::size_t most) {
+  const std::size_t count = values.size() / columns, clusters = found.sizes.size();
+  if (clusters < 2 || count == 0) return 0;
+  const std::size_t used = std::min(count, most);
+  std::vector<std::size_t> chosen;
+  for (std::size_t k = 0; k < used; ++k) chosen.push_back(k * count / used);
+  double sum = 0;
+  for (std::size_t i : chosen) {
+    std::vector<double> away(clusters), members(clusters);
+    for (std::size_t j : chosen) {
+      if (i == j) continue;
+      away[found.cluster[j]] += std::sqrt(squared_distance(&values[i * columns], &values[j * columns], columns));
+      ++members[found.cluster[j]];
+    }
+    const std::size_t own = found.cluster[i];
+    if (members[own] == 0) continue;
+    double other = std::numeric_limits<double>::max();
+    for (std::size_t k = 0; k < clusters; ++k) {
+      if (k != own && members[k] > 0) other = std::min(other, away[k] / members[k]);
+    }
+    const double inside = away[own] / members[own];
+    if (other < std::numeric_limits<double>::max()) sum += (other - inside) / std::max(other, inside);
+  }
+  return sum / static_cast<double>(used);
+}
+
+}  // namespace wisp

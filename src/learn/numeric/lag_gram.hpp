@@ -1,0 +1,27 @@
+#pragma once
+// The Gram matrix of lagged channels, from few long products.
+//
+// Neighbouring rows of a regression on lags share nearly all numbers: the product of channel c at lag l with channel c′
+// at lag l′ differs from that at lags l−1, l′−1 only at the two ends of the rows. So only products with a channel's
+// first lag are taken over all rows, channels² × lags of them instead of (channels × lags)²; the rest follows along the
+// diagonals by end corrections. The structure is that of L. Ljung, System Identification (2nd ed.), section 10.1
+// (covariance and autocorrelation method); nothing is left out at the ends here, so the result is the exact Gram matrix
+// but for rounding.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "learn/arx/rows/arx_rows.hpp"
+#include "learn/numeric/lag_layout.hpp"
+
+namespace wisp {
+
+/// Which pairs of channels are wanted: `wanted(c, c′)` symmetric.
+using ChannelPairs = Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>;
+
+/// The symmetric matrix of products of all columns of the layout over all rows of the plan, in scaled units. Products
+/// of channels that are not wanted are not meaningful.
+Eigen::MatrixXd lag_gram(const Signals& signals, const RowPlan& plan, const LagLayout& layout,
+                         const ChannelPairs& wanted);
+
+}  // namespace wisp

@@ -1,0 +1,32 @@
+#pragma once
+// Curves on the inputs of an outline: which are kept, and recordings that are bent by them.
+
+#include <span>
+#include <vector>
+
+#include "learn/outline/outline_preparation.hpp"
+#include "wisp/base/result.hpp"
+#include "wisp/learn/outline.hpp"
+
+namespace wisp {
+
+/// Whether the inputs are bent, and by curves of how many knots: as given, or as what is held out says.
+/// `learned` has its mirror images where the model learns from them.
+/// Errors: as choose_input_curves().
+Result<CurveChoice> choose_outline_curves(std::span<const Recording> learned, std::span<const Recording> held_out,
+                                          const PreparedOutlines& prepared, const ArxOrders& orders,
+                                          std::optional<int> knots);
+
+/// The curves of prepared recordings, one an input.
+/// Errors: as fit_input_curves().
+Result<std::vector<CurveEstimate>> outline_curves(std::span<const Recording> recordings,
+                                                  const PreparedOutlines& prepared, const ArxOrders& orders, int knots);
+
+/// Prepared recordings, or parts of them, with their inputs bent.
+std::vector<Recording> bent_outlines(std::span<const Recording> recordings, const PreparedOutlines& prepared,
+                                     std::span<const CurveEstimate> curves);
+
+/// The same of all that was prepared; its inputs have the curves then.
+PreparedOutlines bent_preparation(PreparedOutlines prepared, std::span<const CurveEstimate> curves);
+
+}  // namespace wisp

@@ -1,0 +1,162 @@
+#include "learn/outline/outline_preparation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "learn/outline/outline_knots.hpp"
+#include "wisp/model/bspline.hpp"
+#include "wisp/record/number_text.hpp"
+
+namespace wisp {
+namespace {
+
+std::vector<std::string> input_names(const Recording& recording) {
+  std::vector<std::string> names;
+  for (std::size_t c : channels_with_role(recording, Role::kInput)) names.push_back(recording.channels[c].name);
+  return names;
+}
+
+ChannelChoice channel_choice(const PreparedOutlines& prepared) {
+  return {regressor_names(prepared.inputs, prepared.shape), outline_outputs(prepared.layout.points)};
+}
+
+// The outputs before all other channels, in the layout's order: one layout then fits all prepared recordings, whatever
+// columns they came with.
+Recording outputs_first(Recording recording, const OutlineLayout& layout) {
+  std::vector<Channel> ordered;
+  for (std::size_t c : layout.outputs) ordered.push_back(std::move(recording.channels[c]));
+  for (std::size_t c = 0; c < recording.channels.size(); ++c) {
+    if (std::find(layout.outputs.begin(), layout.outputs.end(), c) != layout.outputs.end()) continue;
+    ordered.push_back(std::move(recording.channels[c]));
+  }
+  recording.channels = std::move(ordered);
+  return recording;
+}
+
+Result<void> add(const Recording& recording, double pixels_per_unit, PreparedOutlines& prepared) {
+  for (const OutlineInput& input : prepared.inputs) {
+    if (!find_channel(recording, input.name)) {
+      return Error{recording.source + ": there is no input " + input.name + ", which the model is driven by"};
+    }
+  }
+  const auto layout = outline_layout(recording);
+  if (!layout) return layout.error();
+  if (layout->knots != prepared.layout.knots) {
+    const Reknotted other = with_knots(recording, *layout, prepared.layout.knots);
+    prepared.warnings.push_back(recording.source + ": its knots are not the model's; its outlines were expressed in " +
+                                "those, " + number_text(other.rms, 2) + " pixels away on average");
+    return add(other.recording, pixels_per_unit, prepared);
+  }
+  const auto undisturbed = undisturbed_rows(recording, prepared.inputs);
+  const double own = resting_height_pixels(recording, *layout, prepared.inputs);
+  if (!(own > 0)) return Error{recording.source + ": has no row with an outline"};
+  const double scale = pixels_per_unit > 0 ? pixels_per_unit : own;
+  prepared.pixels_per_unit.push_back(scale);
+  Recording units = outputs_first(to_model_units(recording, *layout, scale), *layout);
+  prepared.rest.push_back(mean_shape(units, prepared.layout, undisturbed));
+  prepared.recordings.push_back(with_regressors(std::move(units), prepared.inputs, prepared.shape));
+  return {};
+}
+
+// Where the outputs of prepared recordings lie.
+OutlineLayout prepared_layout(const std::vector<double>& knots) {
+  OutlineLayout layout{knots.size() - kSplineDegree - 1, knots, {}};
+  layout.outputs.resize(2 * layout.points);
+  std::iota(layout.outputs.begin(), layout.outputs.end(), std::size_t{0});
+  return layout;
+}
+
+std::vector<const std::vector<double>*> samples_of(const Recording& recording, const ChannelChoice& channels) {
+  std::vector<const std::vector<double>*> out;
+  for (const auto* names : {&channels.outputs, &channels.inputs}) {
+    for (const std::string& name : *names) out.push_back(&recording.channels[*find_channel(recording, name)].samples);
+  }
+  return out;
+}
+
+bool complete(const std::vector<const std::vector<double>*>& samples, std::size_t row) {
+  return std::none_of(samples.begin(), samples.end(), [&](const auto* channel) { return std::isnan((*channel)[row]); });
+}
+
+// The row before which `count` complete rows lie.
+std::size_t row_after(const Recording& recording, const ChannelChoice& channels, std::size_t count) {
+  const auto samples = samples_of(recording, channels);
+  std::size_t row = 0;
+  for (; row < recording.rows() && count > 0; ++row) count -= complete(samples, row) ? 1 : 0;
+  return row;
+}
+
+std::size_t near_episode_boundary(const Recording& recording, std::size_t cut) {
+  std::size_t best = cut;
+  std::size_t nearest = recording.rows() / 10 + 1;
+  for (const Episode& episode : episodes(recording)) {
+    if (episode.begin == 0) continue;
+    const std::size_t away = episode.begin > cut ? episode.begin - cut : cut - episode.begin;
+    if (away >= nearest) continue;
+    nearest = away;
+    best = episode.begin;
+  }
+  return best;
+}
+
+}  // namespace
+
+Result<PreparedOutlines> prepare_outlines(std::span<const Recording> recordings, const PreparationOptions& options) {
+  const auto layout = common_layout(recordings);
+  if (!layout) return layout.error();
+  PreparedOutlines prepared;
+  prepared.layout = prepared_layout(layout->knots);
+  for (const std::string& name : options.inputs ? *options.inputs : input_names(recordings.front())) {
+    auto input = scaled_input(recordings, name);
+    if (!input) return input.error();
+    prepared.inputs.push_back(*std::move(input));
+  }
+  if (!prepared.inputs.empty()) prepared.shape = options.shape;
+  prepared.channels = channel_choice(prepared);
+  for (const Recording& recording : recordings) {
+    if (auto ok = add(recording, options.pixels_per_unit, prepared); !ok) return ok.error();
+  }
+  return prepared;
+}
+
+Result<PreparedOutlines> prepare_outline(const Recording& recording, const std::vector<double>& knots,
+                                         std::vector<OutlineInput> inputs, RegressorShape shape,
+                                         double pixels_per_unit) {
+  PreparedOutlines prepared;
+  prepared.layout = prepared_layout(knots);
+  prepared.inputs = std::move(inputs);
+  if (!prepared.inputs.empty()) prepared.shape = shape;
+  prepared.channels = channel_choice(prepared);
+  if (auto ok = add(recording, pixels_per_unit, prepared); !ok) return ok.error();
+  return prepared;
+}
+
+std::size_t complete_rows(const Recording& recording, const ChannelChoice& channels) {
+  const auto samples = samples_of(recording, channels);
+  std::size_t count = 0;
+  for (std::size_t row = 0; row < recording.rows(); ++row) count += complete(samples, row) ? 1 : 0;
+  return count;
+}
+
+OutlineParts hold_out(std::span<const Recording> recordings, const ChannelChoice& channels, double share) {
+  OutlineParts parts;
+  for (const Recording& recording : recordings) {
+    const auto kept = (1 - share) * static_cast<double>(complete_rows(recording, channels));
+    const std::size_t in_time = row_after(recording, channels, static_cast<std::size_t>(std::lround(kept)));
+    const std::size_t cut = share > 0 ? near_episode_boundary(recording, in_time) : recording.rows();
+    parts.learned.push_back(slice(recording, 0, cut));
+    if (cut < recording.rows()) parts.held_out.push_back(slice(recording, cut, recording.rows()));
+  }
+  return parts;
+}
+
+std::vector<Recording> with_mirror_images(std::span<const Recording> recordings, const PreparedOutlines& prepared) {
+  std::vector<Recording> out(recordings.begin(), recordings.end());
+  for (std::size_t r = 0; r < recordings.size(); ++r) {
+    out.push_back(mirrored(recordings[r], prepared.layout, prepared.inputs, prepared.rest[r]));
+  }
+  return out;
+}
+
+}  // namespace wisp

@@ -1,0 +1,157 @@
+#include "learn/outline/outline_synthesis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "wisp/run/bank.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr int kCrowd = 100;
+
+// The inputs' samples, one row after the other; empty where the model is driven by nothing.
+Result<std::vector<std::vector<float>>> input_rows(const Model& model, const Recording* input) {
+  std::vector<std::vector<float>> rows;
+  if (input == nullptr || model.inputs.empty()) return rows;
+  rows.assign(input->rows(), std::vector<float>(model.inputs.size()));
+  for (std::size_t k = 0; k < model.inputs.size(); ++k) {
+    const auto channel = find_channel(*input, model.inputs[k].name);
+    if (!channel) return Error{input->source + ": there is no input " + model.inputs[k].name};
+    const auto& samples = input->channels[*channel].samples;
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      // A missing sample is taken as calm: what is synthesized must have some input everywhere.
+      rows[row][k] = std::isnan(samples[row]) ? 0.0F : static_cast<float>(samples[row]);
+    }
+  }
+  return rows;
+}
+
+// What is synthesized is how the thing moves while it burns; when it goes out is judged apart.
+Model burning(Model model) {
+  model.extinction.reset();
+  return model;
+}
+
+std::size_t warm_up_steps(const Model& model, const SynthesisOptions& options) {
+  return static_cast<std::size_t>(std::ceil(options.warm_up_seconds * model.rate_hz));
+}
+
+// Steps a bank along the inputs. Row 0 acts on the first step after the warm-up.
+class Player {
+ public:
+  Player(Bank& bank, const std::vector<std::vector<float>>& rows, std::size_t warm_up)
+      : bank_(bank), rows_(rows), at_(rows.empty() ? 0 : (rows.size() - warm_up % rows.size()) % rows.size()) {}
+
+  void step() {
+    if (!rows_.empty()) {
+      bank_.set_common_inputs(rows_[at_]);
+      at_ = (at_ + 1) % rows_.size();
+    }
+    bank_.step();
+  }
+
+ private:
+  Bank& bank_;
+  const std::vector<std::vector<float>>& rows_;
+  std::size_t at_;
+};
+
+Recording empty_recording(const Model& model, std::size_t rows) {
+  Recording out;
+  out.source = model.name + " (synthesized)";
+  out.rate_hz = model.rate_hz;
+  for (const Output& output : model.outputs) {
+    out.channels.push_back({output.name, output.unit, Role::kOutput, {}});
+    out.channels.back().samples.reserve(rows);
+  }
+  return out;
+}
+
+// Standard deviations of a bank's outputs about a middle that keeps the sums small.
+class Spread {
+ public:
+  explicit Spread(const Model& model) : sum_(model.outputs.size(), 0.0), square_(model.outputs.size(), 0.0) {
+    for (const Output& output : model.outputs) middle_.push_back((output.lowest + output.highest) / 2);
+  }
+
+  void add(std::span<const float> values) {
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const std::size_t output = k % middle_.size();
+      const double deviation = values[k] - middle_[output];
+      sum_[output] += deviation;
+      square_[output] += deviation * deviation;
+    }
+    count_ += values.size() / middle_.size();
+  }
+
+  std::vector<double> sd() const {
+    std::vector<double> out;
+    const auto n = static_cast<double>(count_);
+    for (std::size_t k = 0; k < middle_.size(); ++k) {
+      const double mean = sum_[k] / n;
+      out.push_back(std::sqrt(std::max(0.0, square_[k] / n - mean * mean)));
+    }
+    return out;
+  }
+
+ private:
+  std::vector<double> middle_;
+  std::vector<double> sum_;
+  std::vector<double> square_;
+  std::size_t count_ = 0;
+};
+
+double share(const Bank::Held& before, const Bank::Held& after) {
+  const std::uint64_t steps = after.steps - before.steps;
+  return steps == 0 ? 0 : static_cast<double>(after.held - before.held) / static_cast<double>(steps);
+}
+
+}  // namespace
+
+Result<Synthesis> synthesize(const Model& model, const SynthesisOptions& options) {
+  const auto inputs = input_rows(model, options.input);
+  if (!inputs) return inputs.error();
+  auto bank = Bank::create(burning(model), {.capacity = 1, .seed = options.seed});
+  if (!bank) return bank.error();
+  bank->set_noise(options.noise);
+  const InstanceId id = bank->spawn();
+  const std::size_t warm_up = warm_up_steps(model, options);
+  Player player(*bank, *inputs, warm_up);
+  for (std::size_t t = 0; t < warm_up; ++t) player.step();
+  const Bank::Held before = bank->held();
+  const std::size_t rows = options.rows > 0 ? options.rows : inputs->size();
+  Synthesis out{empty_recording(model, rows), 0};
+  std::vector<float> values(model.outputs.size());
+  for (std::size_t t = 0; t < rows; ++t) {
+    player.step();
+    bank->outputs(id, values);
+    for (std::size_t k = 0; k < values.size(); ++k) out.recording.channels[k].samples.push_back(values[k]);
+  }
+  out.held_share = share(before, bank->held());
+  return out;
+}
+
+Result<FreePlay> play_freely(const Model& model, std::size_t steps, const SynthesisOptions& options) {
+  const auto inputs = input_rows(model, options.input);
+  if (!inputs) return inputs.error();
+  auto bank = Bank::create(burning(model), {.capacity = kCrowd, .seed = options.seed});
+  if (!bank) return bank.error();
+  bank->set_noise(options.noise);
+  for (int k = 0; k < kCrowd; ++k) (void)bank->spawn();
+  const std::size_t warm_up = warm_up_steps(model, options);
+  Player player(*bank, *inputs, warm_up);
+  for (std::size_t t = 0; t < warm_up; ++t) player.step();
+  const Bank::Held before = bank->held();
+  Spread spread(model);
+  std::vector<float> values(kCrowd * model.outputs.size());
+  for (std::size_t t = 0; t < steps / kCrowd; ++t) {
+    player.step();
+    bank->outputs(values);
+    spread.add(values);
+  }
+  return FreePlay{share(before, bank->held()), spread.sd()};
+}
+
+}  // namespace wisp

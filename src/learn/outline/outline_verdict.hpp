@@ -1,0 +1,18 @@
+#pragma once
+// What a learned outline says of itself: whether to use it, and how it was made.
+
+#include <span>
+#include <string_view>
+
+#include "wisp/learn/outline.hpp"
+
+namespace wisp {
+
+/// Whether the model may be used, with the first reason against it or a sentence in its favour.
+Usable outline_verdict(const ArxSummary& fit, const OutlineSummary& summary);
+
+/// What the model's file says of how it was made, but for a rule of extinction and the cost.
+Training outline_training(std::span<const Recording> recordings, const OutlineOptions& options,
+                          const OutlineSummary& summary);
+
+}  // namespace wisp

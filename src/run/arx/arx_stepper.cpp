@@ -1,0 +1,7 @@
+#include "run/arx/arx_stepper.hpp"
+
+namespace wisp {
+
+template class ArxStepper<LiveNumbers>;
+
+}  // namespace wisp

@@ -1,7 +1,0 @@
-#include "arx_stepper.hpp"
-
-namespace wisp {
-
-template class ArxStepper<LiveNumbers>;
-
-}  // namespace wisp

@@ -1,0 +1,342 @@
+#include "wisp/run/bank.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <new>
+#include <string>
+
+#include "run/bank/bank_state.hpp"
+#include "wisp/model/file.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr int kMostCapacity = 1 << 20;
+constexpr int kMostPolylinePoints = 4096;
+constexpr float kNearest = 0.001f;  // metres
+constexpr float kLeastNear = 1000.0f;
+constexpr std::chrono::nanoseconds kLongestSteering = std::chrono::seconds(10'000);
+constexpr float kLeastOrientation = 1e-6f;  // of its squared length
+constexpr float kMostOrientation = 1e30f;
+
+Result<void> check_options(const BankOptions& options) {
+  if (options.capacity < 1 || options.capacity > kMostCapacity) {
+    return Error{"a bank's capacity is " + std::to_string(options.capacity) + ", expected 1 to 1048576"};
+  }
+  if (options.polyline_points < 2 || options.polyline_points > kMostPolylinePoints) {
+    return Error{"a bank's polyline has " + std::to_string(options.polyline_points) + " points, expected 2 to 4096"};
+  }
+  return {};
+}
+
+Result<void> check_all(const Model& model, const BankOptions& options) {
+  if (auto ok = check_options(options); !ok) return ok;
+  if (auto ok = check(model); !ok) return ok;
+  const auto check_kind = [&]<class Type>(const auto& dynamics, std::type_identity<Type>) -> Result<void> {
+    if (auto ok = check_channels(model, Type::operating_point(dynamics)); !ok) return ok;
+    return Type::check(model, dynamics);
+  };
+  return visit_dynamics<LiveNumbers>(model, check_kind);
+}
+
+}  // namespace
+
+void Bank::Release::operator()(State* state) const {
+  std::destroy_at(state);
+  if (owned) ::operator delete(static_cast<void*>(state), std::align_val_t(kArenaAlignment));
+}
+
+Bank::Bank(std::unique_ptr<State, Release> state) : state_(std::move(state)) {}
+Bank::Bank(Bank&&) noexcept = default;
+Bank& Bank::operator=(Bank&&) noexcept = default;
+Bank::~Bank() = default;
+
+Result<std::size_t> bank_bytes(const Model& model, const BankOptions& options) {
+  if (auto ok = check_all(model, options); !ok) return ok.error();
+  Arena arena;
+  arena.take<std::byte>(sizeof(Bank::State));
+  const Bank::State measured(model, options, arena);
+  return arena.bytes();
+}
+
+Result<Bank> Bank::create(const Model& model, const BankOptions& options) {
+  const auto bytes = bank_bytes(model, options);
+  if (!bytes) return bytes.error();
+  std::span<std::byte> memory = options.memory;
+  const bool owned = memory.data() == nullptr;
+  if (!owned && memory.size() < *bytes) {
+    return Error{"a bank was given " + std::to_string(memory.size()) + " bytes, expected at least " +
+                 std::to_string(*bytes) + ": ask bank_bytes()"};
+  }
+  if (owned) {
+    void* fresh = ::operator new(*bytes, std::align_val_t(kArenaAlignment), std::nothrow);
+    if (!fresh) return Error{"no memory for a bank of " + std::to_string(*bytes) + " bytes: choose a smaller capacity"};
+    memory = {static_cast<std::byte*>(fresh), *bytes};
+  }
+  Arena arena(memory);
+  void* place = arena.take<std::byte>(sizeof(State)).data();
+  return Bank(std::unique_ptr<State, Release>(new (place) State(model, options, arena), Release{owned}));
+}
+
+int Bank::capacity() const { return state_->capacity; }
+int Bank::size() const { return state_->living; }
+int Bank::slots() const { return state_->rows; }
+int Bank::input_count() const { return state_->inputs; }
+int Bank::output_count() const { return static_cast<int>(state_->channels.outputs.size()); }
+int Bank::polyline_points() const { return state_->polyline.points; }
+std::chrono::nanoseconds Bank::step_time() const { return std::chrono::nanoseconds(state_->step_time); }
+bool Bank::valid(InstanceId id) const { return state_->valid(id); }
+Bank::Held Bank::held() const { return state_->held; }
+float Bank::noise() const { return state_->noise; }
+
+InstanceId Bank::at(int slot) const {
+  if (slot < 0 || slot >= state_->rows || !state_->alive[slot]) return {};
+  return {static_cast<std::uint32_t>(slot), state_->generation[slot]};
+}
+
+InstanceId Bank::spawn() { return spawn(state_->spawned); }
+
+InstanceId Bank::spawn(std::uint64_t stream) {
+  State& s = *state_;
+  if (s.living == s.capacity) return {};
+  int slot = s.lowest_free;
+  while (s.alive[slot]) ++slot;
+  s.lowest_free = slot + 1;
+  s.alive[slot] = 1;
+  s.generation[slot] = std::max(s.generation[slot] + 1, 1U);
+  s.stream[slot] = stream;
+  s.rows = std::max(s.rows, slot + 1);
+  ++s.living;
+  ++s.spawned;
+  s.set_lane_inputs(slot, nullptr);
+  s.start(slot);
+  return at(slot);
+}
+
+bool Bank::end(InstanceId id) {
+  State& s = *state_;
+  if (!s.valid(id)) return false;
+  const int slot = static_cast<int>(id.slot);
+  s.alive[slot] = 0;
+  --s.living;
+  s.lowest_free = std::min(s.lowest_free, slot);
+  while (s.rows > 0 && !s.alive[s.rows - 1]) --s.rows;
+  return true;
+}
+
+void Bank::set_inputs(std::span<const float> values) {
+  State& s = *state_;
+  assert(values.size() == static_cast<std::size_t>(s.rows) * s.inputs);
+  for (int block = 0; block < s.blocks(); ++block) {
+    const int first = block * State::kLanes;
+    s.set_inputs(block, values.data() + static_cast<std::size_t>(first) * s.inputs,
+                 std::min(State::kLanes, s.rows - first));
+  }
+}
+
+void Bank::set_common_inputs(std::span<const float> values) {
+  State& s = *state_;
+  assert(values.size() == static_cast<std::size_t>(s.inputs));
+  for (int block = 0; block < s.blocks(); ++block) s.set_common_inputs(block, values.data());
+}
+
+bool Bank::set_inputs(InstanceId id, std::span<const float> values) {
+  if (!valid(id)) return false;
+  assert(values.size() == static_cast<std::size_t>(state_->inputs));
+  state_->set_lane_inputs(static_cast<int>(id.slot), values.data());
+  return true;
+}
+
+bool Bank::goes_out() const { return state_->extinction.present; }
+
+std::optional<LitState> Bank::lit_state(InstanceId id) const {
+  if (!valid(id)) return {};
+  return state_->lit_state(static_cast<int>(id.slot));
+}
+
+void Bank::lit_states(std::span<LitState> states) const {
+  const State& s = *state_;
+  assert(states.size() == static_cast<std::size_t>(s.rows));
+  for (int slot = 0; slot < s.rows; ++slot) {
+    states[slot] = s.alive[slot] ? s.lit_state(slot) : LitState{.lit = false, .size = 0.0f};
+  }
+}
+
+bool Bank::relight(InstanceId id) {
+  if (!valid(id)) return false;
+  state_->relight(static_cast<int>(id.slot));
+  return true;
+}
+
+bool Bank::extinguish(InstanceId id) {
+  if (!valid(id)) return false;
+  state_->extinguish(static_cast<int>(id.slot));
+  return true;
+}
+
+void Bank::set_noise(float scale) {
+  const float held = std::min(scale, kMostNoise);
+  state_->set_noise(held >= kLeastNoise ? held : 0.0f);
+}
+
+void Bank::step() {
+  state_->step_all();
+  state_->passed = 0;
+  state_->between = false;
+  state_->show();
+}
+
+int Bank::advance(std::chrono::nanoseconds time) {
+  State& s = *state_;
+  const auto most = static_cast<std::int64_t>(kLongestAdvance.count());
+  s.passed += std::clamp<std::int64_t>(time.count(), 0, most);
+  int steps = 0;
+  for (; s.passed >= s.step_time; ++steps) {
+    s.step_all();
+    s.passed -= s.step_time;
+  }
+  s.between = true;
+  s.show();
+  return steps;
+}
+
+void Bank::outputs(std::span<float> values) const {
+  const State& s = *state_;
+  const std::size_t count = s.channels.outputs.size();
+  assert(values.size() == s.rows * count);
+  for (int slot = 0; slot < s.rows; ++slot) {
+    float* row = values.data() + slot * count;
+    if (s.alive[slot]) {
+      s.read_outputs(slot, row);
+    } else {
+      std::fill_n(row, count, 0.0f);
+    }
+  }
+}
+
+bool Bank::outputs(InstanceId id, std::span<float> values) const {
+  if (!valid(id)) return false;
+  assert(values.size() == state_->channels.outputs.size());
+  state_->read_outputs(static_cast<int>(id.slot), values.data());
+  return true;
+}
+
+void Bank::polylines(std::span<float> values) const {
+  const State& s = *state_;
+  const std::size_t row = static_cast<std::size_t>(s.polyline.points) * 2;
+  assert(row > 0 && values.size() == s.rows * row);
+  for (int block = 0; block < s.blocks(); ++block) {
+    const int first = block * State::kLanes;
+    const int lanes = std::min(State::kLanes, s.rows - first);
+    float* out = values.data() + first * row;
+    s.polyline_of(block, [&](int number, const float* lane_values) {
+      for (int lane = 0; lane < lanes; ++lane) out[lane * row + number] = lane_values[lane];
+    });
+    for (int lane = 0; lane < lanes; ++lane) {
+      if (!s.alive[first + lane]) std::fill_n(out + lane * row, row, 0.0f);
+    }
+  }
+}
+
+bool Bank::polyline(InstanceId id, std::span<float> values) const {
+  const State& s = *state_;
+  if (!s.valid(id)) return false;
+  assert(s.polyline.points > 0 && values.size() == static_cast<std::size_t>(s.polyline.points) * 2);
+  const int block = static_cast<int>(id.slot) / State::kLanes, lane = static_cast<int>(id.slot) % State::kLanes;
+  s.polyline_of(block, [&](int number, const float* lane_values) { values[number] = lane_values[lane]; });
+  return true;
+}
+
+std::optional<ChainPlace> Bank::chain_place(InstanceId id) const {
+  if (!valid(id)) return {};
+  const int block = static_cast<int>(id.slot) / State::kLanes, lane = static_cast<int>(id.slot) % State::kLanes;
+  return std::visit([&](const auto& dynamics) { return dynamics.chain_place(block, lane); }, state_->stepper);
+}
+
+std::optional<int> Bank::arx_mode(InstanceId id) const {
+  const auto* switched = std::get_if<SwitchedStepper<LiveNumbers>>(&state_->stepper);
+  if (!switched || !valid(id)) return {};
+  return switched->mode(static_cast<int>(id.slot) / State::kLanes, static_cast<int>(id.slot) % State::kLanes);
+}
+
+bool Bank::place(InstanceId id, const BodyMoment& body) {
+  if (!valid(id)) return false;
+  float size = 0;
+  for (const auto* vector : {&body.position, &body.velocity, &body.spin}) {
+    for (float x : *vector) {
+      if (!(x > -kFarthest && x < kFarthest)) return false;
+    }
+  }
+  for (float x : body.orientation) size += x * x;
+  if (!(size > kLeastOrientation && size < kMostOrientation)) return false;
+  const int block = static_cast<int>(id.slot) / State::kLanes, lane = static_cast<int>(id.slot) % State::kLanes;
+  const BodyState<float> state{body.position, unit(body.orientation), {body.velocity, body.spin}};
+  if (!std::visit([&](auto& dynamics) { return dynamics.place(block, lane, state); }, state_->stepper)) return false;
+  state_->show_block(block);
+  return true;
+}
+
+bool Bank::steer(InstanceId id, const SteerTarget& target) {
+  if (!valid(id)) return false;
+  for (float x : target.position) {
+    if (!(x > -kFarthest && x < kFarthest)) return false;
+  }
+  if (!(target.near >= kNearest && target.near <= kLeastNear)) return false;
+  if (target.in <= std::chrono::nanoseconds::zero() || target.in > kLongestSteering) return false;
+  const auto steps = static_cast<float>((target.in.count() + state_->step_time - 1) / state_->step_time);
+  const int block = static_cast<int>(id.slot) / State::kLanes, lane = static_cast<int>(id.slot) % State::kLanes;
+  return std::visit([&](auto& dynamics) { return dynamics.steer(block, lane, target.position, steps, target.near); },
+                    state_->stepper);
+}
+
+bool Bank::release(InstanceId id) {
+  if (!valid(id)) return false;
+  const int block = static_cast<int>(id.slot) / State::kLanes, lane = static_cast<int>(id.slot) % State::kLanes;
+  std::visit([&](auto& dynamics) { dynamics.steer(block, lane, {}, 0.0f, kNearest); }, state_->stepper);
+  return true;
+}
+
+void Bank::set_ground(std::optional<float> height) {
+  ChainSettings settings = state_->chain;
+  settings.ground = height && *height > -kFarthest && *height < kFarthest ? *height : kNoGround;
+  state_->set_chain(settings);
+}
+
+std::optional<float> Bank::ground() const {
+  if (state_->chain.ground == kNoGround) return {};
+  return state_->chain.ground;
+}
+
+void Bank::set_history(int longest) {
+  ChainSettings settings = state_->chain;
+  settings.history = std::max(longest, 0);
+  state_->set_chain(settings);
+}
+
+int Bank::history() const { return state_->chain.history; }
+
+void Bank::set_temperature(std::optional<float> temperature) {
+  ChainSettings settings = state_->chain;
+  settings.temperature = !temperature ? kAsLearned : *temperature > 0 ? std::min(*temperature, kHottest) : 0.0f;
+  state_->set_chain(settings);
+}
+
+std::optional<float> Bank::temperature() const {
+  if (state_->chain.temperature == kAsLearned) return {};
+  return state_->chain.temperature;
+}
+
+bool Bank::reset(InstanceId id) {
+  if (!valid(id)) return false;
+  state_->start(static_cast<int>(id.slot));
+  return true;
+}
+
+void Bank::reset() {
+  for (int slot = 0; slot < state_->rows; ++slot) {
+    if (state_->alive[slot]) state_->start(slot);
+  }
+  state_->passed = 0;
+}
+
+}  // namespace wisp

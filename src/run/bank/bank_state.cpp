@@ -1,0 +1,265 @@
+#include "run/bank/bank_state.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace wisp {
+namespace {
+
+constexpr double kNanosecondsPerSecond = 1e9;
+
+OperatingPoint operating_point(const Model& model) {
+  const auto of_kind = []<class Type>(const auto& dynamics, std::type_identity<Type>) {
+    return Type::operating_point(dynamics);
+  };
+  return visit_dynamics<LiveNumbers>(model, of_kind);
+}
+
+Stepper make_stepper(const Model& model, const Channels& channels, int blocks, Arena& arena) {
+  const auto of_kind = [&]<class Type>(const auto& dynamics, std::type_identity<Type>) -> Stepper {
+    return Type(model, dynamics, channels, blocks, arena);
+  };
+  return visit_dynamics<LiveNumbers>(model, of_kind);
+}
+
+PolylineProgram make_view(const Model& model, int points, Arena& arena) {
+  const auto* outline = std::get_if<OutlineView>(&model.view);
+  return outline ? make_polyline(*outline, points, arena) : PolylineProgram();
+}
+
+}  // namespace
+
+std::chrono::nanoseconds step_time(const Model& model) {
+  return std::chrono::nanoseconds(static_cast<std::int64_t>(kNanosecondsPerSecond / model.rate_hz + 0.5));
+}
+
+Bank::State::State(const Model& model, const BankOptions& options, Arena& arena)
+    : capacity(options.capacity),
+      inputs(static_cast<int>(model.inputs.size())),
+      seed(options.seed),
+      keys(random_keys(options.seed)),
+      step_time(wisp::step_time(model).count()),
+      channels(make_channels(model, operating_point(model), arena)),
+      stepper(make_stepper(model, channels, (capacity + kLanes - 1) / kLanes, arena)),
+      polyline(make_view(model, options.polyline_points, arena)),
+      extinction(make_extinction_program(model)) {
+  const std::size_t lanes = static_cast<std::size_t>((capacity + kLanes - 1) / kLanes) * kLanes;
+  model_hash = std::visit([&](const auto& dynamics) { return dynamics.hash(hash_of(channels, step_time)); }, stepper);
+  model_hash = hash_of(extinction, model_hash);
+  set_noise(1.0f);
+  generation = arena.take<std::uint32_t>(lanes);
+  alive = arena.take<std::uint8_t>(lanes);
+  stream = arena.take<std::uint64_t>(lanes);
+  born = arena.take<std::uint64_t>(lanes);
+  regressors = arena.take<float>(lanes * regressor_count(model.inputs));
+  shown = arena.take<float>(lanes * model.outputs.size());
+  if (extinction.present) {
+    for (auto* values : {&wind, &harm, &lit, &size, &previous_size}) *values = arena.take<float>(lanes);
+    last_shape = arena.take<float>(lanes * model.outputs.size());
+    lit_at = arena.take<std::uint64_t>(lanes);
+    out_at = arena.take<std::uint64_t>(lanes);
+  }
+  if (arena.measures()) return;
+  for (std::size_t slot = 0; slot < lanes; ++slot) start(static_cast<int>(slot));
+}
+
+void Bank::State::start(int slot) {
+  const int block = slot / kLanes, lane = slot % kLanes;
+  born[slot] = steps;
+  std::uint32_t flags[kLanes];
+  std::visit([&](auto& dynamics) { dynamics.start(block, lane, moment(block, flags)); }, stepper);
+  if (extinction.present) {
+    harm[slot] = 0.0f;
+    lit[slot] = size[slot] = previous_size[slot] = 1.0f;
+    lit_at[slot] = out_at[slot] = kNeverInSteps;
+    for (std::size_t i = 0; i < channels.outputs.size(); ++i) last_shape_of(block)[i * kLanes + lane] = 0.0f;
+  }
+  show_block(block);
+}
+
+// From rest, as a newborn; the random stream goes on, so that it does not repeat its first flicker.
+void Bank::State::relight(int slot) {
+  if (burns(slot)) return;
+  const int block = slot / kLanes, lane = slot % kLanes;
+  std::uint32_t flags[kLanes];
+  std::visit([&](auto& dynamics) { dynamics.start(block, lane, moment(block, flags)); }, stepper);
+  harm[slot] = 0.0f;
+  lit[slot] = 1.0f;
+  lit_at[slot] = steps;
+  show_block(block);
+}
+
+void Bank::State::extinguish(int slot) {
+  if (!extinction.present || !burns(slot)) return;
+  harm[slot] = 1.0f;
+  lit[slot] = 0.0f;
+  go_out(slot, steps);
+}
+
+// What is seen of a flame that is out shrinks as it was: a wind that kills is beyond what the dynamics have learned.
+void Bank::State::go_out(int slot, std::uint64_t moment) {
+  const int block = slot / kLanes, lane = slot % kLanes;
+  out_at[slot] = moment;
+  const float* newest = std::visit([&](const auto& dynamics) { return dynamics.newest(block); }, stepper);
+  for (std::size_t i = 0; i < channels.outputs.size(); ++i) {
+    float values[kLanes];
+    store(present<LiveNumbers>(channels.outputs[i], load<Reals<LiveNumbers>>(newest + i * kLanes)), values);
+    last_shape_of(block)[i * kLanes + lane] = values[lane];
+  }
+}
+
+LitState Bank::State::lit_state(int slot) const {
+  if (!extinction.present) return {};
+  const std::int64_t shown_late = between ? step_time - passed : 0;
+  const auto since = [&](std::uint64_t then) {
+    constexpr auto kLongest = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+    if (then == kNeverInSteps || steps - then > kLongest / static_cast<std::uint64_t>(step_time)) return kNever;
+    const auto ago = static_cast<std::int64_t>(steps - then) * step_time - shown_late;
+    return std::chrono::nanoseconds(std::max<std::int64_t>(ago, 0));
+  };
+  LitState state{lit[slot] != 0.0f, size[slot], since(lit_at[slot]), since(out_at[slot])};
+  if (between) {
+    const float share = static_cast<float>(passed) / static_cast<float>(step_time);
+    state.size = previous_size[slot] + share * (size[slot] - previous_size[slot]);
+  }
+  return state;
+}
+
+// Rows of the first `count` lanes of a block; what the others get is cleared when an instance is spawned there.
+void Bank::State::set_inputs(int block, const float* values, int count) {
+  const auto lanes_of = [&](int input) {
+    if (inputs == 1 && count == kLanes) return load<Reals<LiveNumbers>>(values);  // they lie as lanes do
+    float lanes[kLanes] = {};
+    for (int lane = 0; lane < count; ++lane) lanes[lane] = values[lane * inputs + input];
+    return load<Reals<LiveNumbers>>(lanes);
+  };
+  float* out = regressors_of(block);
+  for (const RegressorChannel& channel : channels.regressors) {
+    store(regress<LiveNumbers>(channel, lanes_of(channel.input)), out);
+    out += kLanes;
+  }
+  if (!extinction.present) return;
+  store(blowing<LiveNumbers>(extinction, lanes_of(extinction.input)), wind.data() + block * kLanes);
+}
+
+void Bank::State::set_common_inputs(int block, const float* values) {
+  float* out = regressors_of(block);
+  for (const RegressorChannel& channel : channels.regressors) {
+    store(regress<LiveNumbers>(channel, all<Reals<LiveNumbers>>(values[channel.input])), out);
+    out += kLanes;
+  }
+  if (!extinction.present) return;
+  const auto input = all<Reals<LiveNumbers>>(values[extinction.input]);
+  store(blowing<LiveNumbers>(extinction, input), wind.data() + block * kLanes);
+}
+
+void Bank::State::set_lane_inputs(int slot, const float* values) {
+  float lanes[kLanes];
+  float* out = regressors_of(slot / kLanes) + slot % kLanes;
+  for (const RegressorChannel& channel : channels.regressors) {
+    const float input = values ? values[channel.input] : 0.0f;
+    store(regress<LiveNumbers>(channel, all<Reals<LiveNumbers>>(input)), lanes);
+    *out = lanes[0];
+    out += kLanes;
+  }
+  if (!extinction.present) return;
+  const float input = values ? values[extinction.input] : 0.0f;
+  store(blowing<LiveNumbers>(extinction, all<Reals<LiveNumbers>>(input)), lanes);
+  wind[slot] = lanes[0];
+}
+
+void Bank::State::set_noise(float scale) {
+  noise = scale;
+  std::visit([&](auto& dynamics) { dynamics.set_noise(scale); }, stepper);
+}
+
+void Bank::State::set_chain(const ChainSettings& settings) {
+  chain = settings;
+  std::visit([&](auto& dynamics) { dynamics.set_chain(settings); }, stepper);
+}
+
+Moment<LiveNumbers> Bank::State::moment(int block, std::uint32_t* flags) const {
+  const std::size_t first = static_cast<std::size_t>(block) * kLanes;
+  return {&keys, {stream.data() + first, born.data() + first, steps}, flags, std::min(kLanes, rows - block * kLanes)};
+}
+
+void Bank::State::step_all() {
+  std::visit(
+      [&](auto& dynamics) {
+        dynamics.turn();
+        const std::size_t count = channels.regressors.size() * kLanes;
+        for (int block = 0; block < blocks(); ++block) {
+          if (count > 0) std::copy_n(regressors_of(block), count, dynamics.regressors(block));
+          const std::size_t first = static_cast<std::size_t>(block) * kLanes;
+          std::uint32_t flags[kLanes];
+          dynamics.step(block, moment(block, flags));
+          if (extinction.present) live_block(block);
+          for (int lane = 0; lane < kLanes; ++lane) {
+            held.held += (flags[lane] & 1) & alive[first + lane] & std::uint32_t{burns(static_cast<int>(first) + lane)};
+          }
+        }
+      },
+      stepper);
+  ++steps;
+  held.steps += static_cast<std::uint64_t>(living);
+}
+
+void Bank::State::live_block(int block) {
+  float before[kLanes];
+  const LifeLanes<float> life = life_of(block);
+  std::copy_n(life.lit, kLanes, before);
+  std::copy_n(life.size, kLanes, previous_size.data() + block * kLanes);
+  live<LiveNumbers>(extinction, life);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (before[lane] != life.lit[lane]) go_out(block * kLanes + lane, steps + 1);
+  }
+}
+
+void Bank::State::show() {
+  for (int block = 0; block < blocks(); ++block) show_block(block);
+}
+
+void Bank::State::show_block(int block) {
+  const float share = static_cast<float>(passed) / static_cast<float>(step_time);
+  std::visit(
+      [&](const auto& dynamics) {
+        if (between) {
+          dynamics.show_between(block, share, shown_of(block));
+        } else {
+          dynamics.show(block, shown_of(block));
+        }
+      },
+      stepper);
+  if (extinction.present) show_life(block, share);
+}
+
+// Whether all of a block burns at full size. To shrink it to that would not change a bit.
+bool Bank::State::is_whole(int block) const {
+  bool whole = true;
+  for (const auto& values : {lit, size, previous_size}) {
+    for (int lane = 0; lane < kLanes; ++lane) whole &= values[block * kLanes + lane] == 1.0f;
+  }
+  return whole;
+}
+
+void Bank::State::show_life(int block, float share) {
+  if (is_whole(block)) return;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (lit[block * kLanes + lane] != 0.0f) continue;
+    for (std::size_t k = lane; k < channels.outputs.size() * kLanes; k += kLanes) {
+      shown_of(block)[k] = last_shape_of(block)[k];
+    }
+  }
+  auto seen = load<Reals<LiveNumbers>>(size.data() + block * kLanes);
+  if (between) {
+    seen = size_between<LiveNumbers>(load<Reals<LiveNumbers>>(previous_size.data() + block * kLanes), seen, share);
+  }
+  shrink<LiveNumbers>(seen, channels.outputs.size(), shown_of(block));
+}
+
+void Bank::State::read_outputs(int slot, float* values) const {
+  const float* row = shown_of(slot / kLanes) + slot % kLanes;
+  for (std::size_t i = 0; i < channels.outputs.size(); ++i) values[i] = row[i * kLanes];
+}
+
+}  // namespace wisp

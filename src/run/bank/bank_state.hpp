@@ -1,0 +1,105 @@
+#pragma once
+// What a bank consists of; everything lies in the bank's one piece of memory, this struct included.
+
+#include "run/bank/extinction_lanes.hpp"
+#include "run/bank/outline_lanes.hpp"
+#include "run/bank/stepper.hpp"
+#include "wisp/run/bank.hpp"
+
+namespace wisp {
+
+// No age leads there: moments before a bank was restored lie just below 0, and so near the largest number.
+inline constexpr std::uint64_t kNeverInSteps = std::uint64_t{1} << 63;
+inline constexpr float kMostNoise = 10.0f;
+inline constexpr float kLeastNoise = 1e-6f;  // what is less is none
+
+struct Bank::State {
+  static constexpr int kLanes = LiveNumbers::kLanes;
+
+  State(const Model& model, const BankOptions& options, Arena& arena);
+
+  int blocks() const { return (rows + kLanes - 1) / kLanes; }
+  bool valid(InstanceId id) const {
+    return id.generation != 0 && id.slot < static_cast<std::uint32_t>(capacity) && alive[id.slot] &&
+           generation[id.slot] == id.generation;
+  }
+  float* regressors_of(int block) { return regressors.data() + block * channels.regressors.size() * kLanes; }
+  float* shown_of(int block) { return shown.data() + block * channels.outputs.size() * kLanes; }
+  const float* shown_of(int block) const { return const_cast<State*>(this)->shown_of(block); }
+  LifeLanes<float> life_of(int block) {
+    const int first = block * kLanes;
+    return {wind.data() + first, harm.data() + first, lit.data() + first, size.data() + first};
+  }
+  bool burns(int slot) const { return !extinction.present || lit[slot] != 0.0f; }
+
+  Moment<LiveNumbers> moment(int block, std::uint32_t* flags) const;
+  void start(int slot);
+  void relight(int slot);
+  void extinguish(int slot);
+  LitState lit_state(int slot) const;
+  void set_inputs(int block, const float* values, int count);
+  void set_common_inputs(int block, const float* values);
+  void set_lane_inputs(int slot, const float* values);  // null: zeros
+  void step_all();
+  void live_block(int block);
+  void go_out(int slot, std::uint64_t moment);
+  float* last_shape_of(int block) { return last_shape.data() + block * channels.outputs.size() * kLanes; }
+  void show();
+  void show_block(int block);
+  bool is_whole(int block) const;
+  void show_life(int block, float share);
+  void set_noise(float scale);
+  void set_chain(const ChainSettings& settings);
+  void read_outputs(int slot, float* values) const;
+  template <class Show>
+  void polyline_of(int block, const Show& show) const {  // show(2 · point + coordinate, [lane])
+    for (int coordinate : {0, 1}) {
+      polyline_lanes<LiveNumbers>(polyline, coordinate, shown_of(block), [&](int point, const auto& values) {
+        float lanes[kLanes];
+        store(values, lanes);
+        show(2 * point + coordinate, lanes);
+      });
+    }
+  }
+
+  int capacity;
+  int inputs;
+  std::uint64_t seed;
+  RandomKeys keys;
+  std::int64_t step_time;  // nanoseconds
+  std::uint64_t model_hash;
+  Channels channels;
+  Stepper stepper;
+  PolylineProgram polyline;
+  ExtinctionProgram extinction;
+
+  std::span<std::uint32_t> generation;  // per slot, as are the next three
+  std::span<std::uint8_t> alive;
+  std::span<std::uint64_t> stream;
+  std::span<std::uint64_t> born;  // value of `steps` when it was spawned or reset
+  std::span<float> regressors;    // [block][regressor][lane]: what acts now
+  std::span<float> shown;         // [block][output][lane]: what is read
+
+  // Per slot, and empty where nothing goes out.
+  std::span<float> wind;  // strength of what acts now
+  std::span<float> harm;
+  std::span<float> lit;  // 1 or 0
+  std::span<float> size;
+  std::span<float> previous_size;   // before the last step
+  std::span<float> last_shape;      // [block][output][lane]: outputs of what is out as they were when it went
+  std::span<std::uint64_t> lit_at;  // value of `steps` when it was last lit again, kNeverInSteps before,
+  std::span<std::uint64_t> out_at;  // and when it last went out
+
+  int living = 0;
+  int rows = 0;         // one more than the highest slot in use
+  int lowest_free = 0;  // no slot below it is free
+  std::uint64_t spawned = 0;
+  std::uint64_t steps = 0;  // of the bank
+  std::int64_t passed = 0;  // nanoseconds since the last step
+  bool between = false;     // what is shown lies between the last two steps, by `passed`
+  float noise = 0.0f;
+  ChainSettings chain;
+  Held held;
+};
+
+}  // namespace wisp

@@ -1,0 +1,92 @@
+#pragma once
+// What steppers of ARX kinds have in common: histories whose samples are a model's channels, outputs, then regressors,
+// and how they are read.
+
+#include <cstdint>
+#include <optional>
+
+#include "run/bank/channels.hpp"
+#include "run/bank/sample_ring.hpp"
+#include "run/chain/chain_lane.hpp"
+#include "run/chain/rigid.hpp"
+#include "wisp/run/bank.hpp"
+
+namespace wisp {
+
+/// A stepper without what makes the newest sample.
+template <class N>
+class ChannelHistory {
+ public:
+  using Real = typename N::Real;
+  static constexpr int kLanes = N::kLanes;
+
+  /// The program says how deep, and how many channels there are: while the arena measures, they are empty.
+  template <class Program>
+  ChannelHistory(const Program& program, const Channels& channels, int blocks, Arena& arena)
+      : channels_(channels), ring_(blocks, program.depth, program.outputs + program.regressors, arena) {}
+
+  /// Moves every block's history by one sample; the newest is now to be made.
+  void turn() { ring_.turn(); }
+
+  /// Where the regressors of the step belong: [regressor][lane].
+  Real* regressors(int block) { return ring_.sample(block, 0) + channels_.outputs.size() * kLanes; }
+
+  /// Outputs of the last step, and of the one before: [output][lane].
+  const Real* newest(int block) const { return ring_.sample(block, 0); }
+  const Real* previous(int block) const { return ring_.sample(block, 1); }
+
+  /// What is read of a block: the newest sample, or a `share` of the way to it from the one before.
+  void show(int block, Real* out) const { show_newest<N>(channels_, newest(block), out); }
+  void show_between(int block, float share, Real* out) const {
+    wisp::show_between<N>(channels_, previous(block), newest(block), share, out);
+  }
+
+  /// What a frame reads: games have rates of their own.
+  void show_frame(int block, Real* out) const { show_between(block, 0.5f, out); }
+
+  /// There is no body that could be moved, and no chain of segments.
+  static void set_chain(const ChainSettings&) {}
+  static bool place(int, int, const BodyState<Real>&) { return false; }
+  static bool steer(int, int, const Vector3<Real>&, float, float) { return false; }
+  static std::optional<ChainPlace> chain_place(int, int) { return {}; }
+
+ protected:
+  /// Puts one lane's history to the operating point.
+  void start_history(int block, int lane) {
+    for (int lag = 0; lag < ring_.depth(); ++lag) {
+      Real* value = ring_.sample(block, static_cast<std::uint32_t>(lag)) + lane;
+      for (const OutputChannel& channel : channels_.outputs) {
+        *value = Real(channel.start);
+        value += kLanes;
+      }
+      for (std::size_t k = 0; k < channels_.regressors.size(); ++k) value[k * kLanes] = Real(0);
+    }
+  }
+
+  /// Numbers of one lane's history.
+  std::size_t history_values() const {
+    return static_cast<std::size_t>(ring_.depth()) * (channels_.outputs.size() + channels_.regressors.size());
+  }
+
+  /// Calls visit(value, low, high) for each of them, newest first, in an order that does not depend on where in the
+  /// ring it lies.
+  template <class Visit>
+  void visit_history(int block, int lane, Visit visit) {
+    for (int lag = 0; lag < ring_.depth(); ++lag) {
+      Real* value = ring_.sample(block, static_cast<std::uint32_t>(lag)) + lane;
+      for (const OutputChannel& channel : channels_.outputs) {
+        visit(*value, channel.low, channel.high);
+        value += kLanes;
+      }
+      for (const RegressorChannel& channel : channels_.regressors) {
+        visit(*value, channel.least, channel.most);
+        value += kLanes;
+      }
+    }
+  }
+
+  Channels channels_;
+  SampleRing<N> ring_;
+};
+
+}  // namespace wisp

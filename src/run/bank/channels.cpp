@@ -1,0 +1,182 @@
+#include "run/bank/channels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <string>
+
+#include "run/bank/model_hash.hpp"
+#include "wisp/run/bank.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr double kLargest = 1e12;    // of a range or mean, in the model's units
+constexpr double kSmallest = 1e-12;  // of a range that is not zero
+
+double margin(double lowest, double highest) { return kRangeMargin * (highest - lowest); }
+
+float first_lane(const Reals<LiveNumbers>& reals) {
+  float lanes[LiveNumbers::kLanes];
+  store(reals, lanes);
+  return lanes[0];
+}
+
+float regress(const RegressorChannel& channel, float input) {
+  return first_lane(wisp::regress<LiveNumbers>(channel, all<Reals<LiveNumbers>>(input)));
+}
+
+OutputChannel make_output(const Output& output, double mean) {
+  const double scale = channel_scale(output.lowest, output.highest);
+  const double room = margin(output.lowest, output.highest);
+  const double lowest = output.lowest - room, highest = output.highest + room;
+  OutputChannel channel{};
+  channel.mean = static_cast<float>(mean);
+  channel.scale = static_cast<float>(scale);
+  channel.low = static_cast<float>((lowest - mean) / scale);
+  channel.high = static_cast<float>((highest - mean) / scale);
+  channel.lowest = static_cast<float>(lowest);
+  channel.highest = static_cast<float>(highest);
+  channel.start = first_lane(settle(all<Reals<LiveNumbers>>(std::clamp(0.0f, channel.low, channel.high))));
+  return channel;
+}
+
+std::size_t piece_count(const Model& model) {
+  std::size_t count = 0;
+  for (const Input& input : model.inputs) count += input.curve.at.size();
+  return count;
+}
+
+// One piece a knot: that of the last knot has no end, and the slope of 1 that the curve has beyond it.
+std::span<const CurvePiece> fill_pieces(const InputCurve& curve, std::span<CurvePiece> pieces) {
+  const std::size_t last = curve.at.size() - 1;
+  auto value = static_cast<float>(curve.at[0]);
+  for (std::size_t k = 0; k < last; ++k) {
+    const double width = curve.at[k + 1] - curve.at[k];
+    const double slope = (curve.value[k + 1] - curve.value[k]) / width;
+    pieces[k] = {static_cast<float>(curve.at[k]), static_cast<float>(width), static_cast<float>(slope), value};
+    value = value + pieces[k].slope * pieces[k].width;  // as a piece ends, so that the next goes on from there
+  }
+  pieces[last] = {static_cast<float>(curve.at[last]), std::numeric_limits<float>::max(), 1.0f, value};
+  return pieces.first(last + 1);
+}
+
+RegressorChannel make_regressor(const Input& input, int index, RegressorPart part, double mean,
+                                std::span<const CurvePiece> curve) {
+  const double room = margin(input.lowest, input.highest);
+  RegressorChannel channel{};
+  channel.input = index;
+  channel.part = part;
+  channel.low = static_cast<float>(input.lowest - room);
+  channel.high = static_cast<float>(input.highest + room);
+  channel.mean = static_cast<float>(mean);
+  channel.inverse_scale = static_cast<float>(1.0 / regressor_scale(input, part));
+  channel.curve = curve;
+  // A newborn's history is z = 0, whatever the range is.
+  const float ends[] = {regress(channel, channel.low), regress(channel, channel.high), regress(channel, 0.0f), 0.0f};
+  channel.least = *std::min_element(std::begin(ends), std::end(ends));
+  channel.most = *std::max_element(std::begin(ends), std::end(ends));
+  return channel;
+}
+
+Result<void> check_channel(const std::string& what, double lowest, double highest, double mean) {
+  const double size = std::max({std::abs(lowest), std::abs(highest), std::abs(mean)});
+  if (!(size <= kLargest)) {
+    return Error{what + " reaches " + std::to_string(size) + ", expected at most 1e12: choose a larger unit"};
+  }
+  if (!(highest >= lowest)) return Error{what + " has a range that ends before it begins"};
+  if (highest > lowest && highest - lowest < kSmallest) {
+    return Error{what + " has a range narrower than 1e-12: choose a smaller unit"};
+  }
+  return {};
+}
+
+}  // namespace
+
+double channel_scale(double lowest, double highest) {
+  constexpr double kPlain = 128;  // a unit that is not further off than this costs no product and no accuracy
+  if (!(highest - lowest < 1 / kPlain || highest - lowest > kPlain) || !(highest > lowest)) return 1.0;
+  int exponent = 0;
+  std::frexp(highest - lowest, &exponent);
+  return std::ldexp(1.0, exponent - 1);
+}
+
+std::span<const RegressorPart> regressor_parts(InputShape shape) {
+  using enum RegressorPart;
+  static constexpr RegressorPart kLinear[] = {kWhole, kWholeSquare};
+  static constexpr RegressorPart kSplit[] = {kPositive, kNegative, kPositiveSquare, kNegativeSquare};
+  const std::span<const RegressorPart> all = splits_sign(shape) ? std::span<const RegressorPart>(kSplit) : kLinear;
+  return all.first(static_cast<std::size_t>(regressor_count(shape)));
+}
+
+double regressor_scale(const Input& input, RegressorPart part) {
+  const double scale = channel_scale(input.lowest, input.highest);
+  return is_square(part) ? scale * scale : scale;
+}
+
+double regressor_scale(const Model& model, int regressor) {
+  int first = 0;
+  for (const Input& input : model.inputs) {
+    const auto parts = regressor_parts(input.shape);
+    const auto place = static_cast<std::size_t>(regressor - first);
+    if (place < parts.size()) return regressor_scale(input, parts[place]);
+    first += static_cast<int>(parts.size());
+  }
+  return 1;
+}
+
+std::uint64_t hash_of(const Channels& channels, std::uint64_t before) {
+  std::uint64_t hash = before;
+  for (const OutputChannel& c : channels.outputs) hash = hash_floats({c.mean, c.scale, c.low, c.high}, hash);
+  for (const RegressorChannel& c : channels.regressors) {
+    // Squares came later: a half more, so that models without them keep their hash.
+    const int part = static_cast<int>(c.part) % 3;
+    const float place = static_cast<float>(c.input * 3 + part) + (is_square(c.part) ? 0.5f : 0.0f);
+    hash = hash_floats({place, c.low, c.high, c.mean, c.inverse_scale}, hash);
+    for (const CurvePiece& piece : c.curve) hash = hash_floats({piece.from, piece.width, piece.slope}, hash);
+  }
+  return hash;
+}
+
+Channels make_channels(const Model& model, const OperatingPoint& point, Arena& arena) {
+  Channels channels{arena.take<OutputChannel>(model.outputs.size()),
+                    arena.take<RegressorChannel>(regressor_count(model.inputs))};
+  auto pieces = arena.take<CurvePiece>(piece_count(model));
+  if (arena.measures()) return channels;
+  for (std::size_t i = 0; i < model.outputs.size(); ++i) {
+    channels.outputs[i] = make_output(model.outputs[i], point.outputs[i]);
+  }
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < model.inputs.size(); ++k) {
+    const Input& input = model.inputs[k];
+    std::span<const CurvePiece> curve;
+    if (!input.curve.empty()) {
+      curve = fill_pieces(input.curve, pieces);
+      pieces = pieces.subspan(curve.size());
+    }
+    const auto add = [&](RegressorPart part) {
+      channels.regressors[next] = make_regressor(input, static_cast<int>(k), part, point.regressors[next], curve);
+      ++next;
+    };
+    for (RegressorPart part : regressor_parts(input.shape)) add(part);
+  }
+  return channels;
+}
+
+Result<void> check_channels(const Model& model, const OperatingPoint& point) {
+  for (std::size_t i = 0; i < model.outputs.size(); ++i) {
+    const Output& output = model.outputs[i];
+    if (auto ok = check_channel("output " + output.name, output.lowest, output.highest, point.outputs[i]); !ok)
+      return ok;
+  }
+  std::size_t next = 0;
+  for (const Input& input : model.inputs) {
+    const double mean = point.regressors[next];
+    if (auto ok = check_channel("input " + input.name, input.lowest, input.highest, mean); !ok) return ok;
+    next += static_cast<std::size_t>(regressor_count(input.shape));
+  }
+  return {};
+}
+
+}  // namespace wisp

@@ -1,0 +1,168 @@
+#include "wisp/run/cost.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "run/bank/extinction_lanes.hpp"
+#include "run/bank/outline_lanes.hpp"
+#include "run/bank/stepper.hpp"
+#include "run/lanes/counting.hpp"
+#include "wisp/run/bank.hpp"
+
+namespace wisp {
+namespace {
+
+std::vector<std::byte> room_for(const Arena& measured) { return std::vector<std::byte>(measured.bytes()); }
+
+// Operations of `work`.
+template <class Work>
+OperationCount count(Work work) {
+  operation_count = {};
+  work();
+  return operation_count;
+}
+
+// Regressors while every input is at its highest: wind that blows from one side.
+std::vector<CountingReal> blowing_regressors(const Model& model, const Channels& channels) {
+  std::vector<CountingReal> values(channels.regressors.size());
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const RegressorChannel& channel = channels.regressors[k];
+    const auto highest = static_cast<float>(model.inputs[channel.input].highest);
+    store(regress<CountingNumbers>(channel, all<Reals<CountingNumbers>>(highest)), &values[k]);
+  }
+  return values;
+}
+
+// Of one step: the mean over as many as it takes, rounded up, and the most.
+struct StepCount {
+  OperationCount mean;
+  std::int64_t most = 0;
+};
+
+template <class Stepper>
+StepCount count_step(Stepper& stepper, std::span<const CountingReal> regressors, float noise, bool steered = false) {
+  constexpr int kFrames = Stepper::kCountedFrames;
+  const RandomKeys keys = random_keys(1);
+  const std::uint64_t stream = 0, born = 0;
+  std::uint32_t held = 0;
+  stepper.set_noise(noise);
+  stepper.start(0, 0, {&keys, {&stream, &born, 0}, &held});
+  if (steered && !stepper.steer(0, 0, {}, 3.0f * kFrames, 0.1f)) return {};
+  const auto play = [&](std::uint64_t step) {
+    stepper.turn();
+    std::copy(regressors.begin(), regressors.end(), stepper.regressors(0));
+    stepper.step(0, {&keys, {&stream, &born, step}, &held});
+  };
+  for (std::uint64_t step = 0; step < kFrames; ++step) play(step);  // what was before them is not counted
+  OperationCount all;
+  std::int64_t most = 0;
+  for (std::uint64_t step = kFrames; step < 2 * kFrames; ++step) {
+    const OperationCount one = count([&] { play(step); });
+    all.numbers += one.numbers;
+    all.words += one.words;
+    most = std::max(most, one.numbers + one.words);
+  }
+  return {{(all.numbers + kFrames - 1) / kFrames, (all.words + kFrames - 1) / kFrames}, most};
+}
+
+template <class Stepper>
+OperationCount count_view(const Channels& channels, const Stepper& stepper, const PolylineProgram& polyline) {
+  std::vector<CountingReal> shown(channels.outputs.size());
+  return count([&] {
+    stepper.show_frame(0, shown.data());
+    if (polyline.points == 0) return;
+    for (int coordinate : {0, 1}) {
+      polyline_lanes<CountingNumbers>(polyline, coordinate, shown.data(), [](int, const auto&) {});
+    }
+  });
+}
+
+// Showing what lies between two steps.
+template <class Stepper>
+std::int64_t count_between(const Channels& channels, const Stepper& stepper) {
+  std::vector<CountingReal> shown(channels.outputs.size());
+  const OperationCount between = count([&] { stepper.show_between(0, 0.5f, shown.data()); });
+  const OperationCount newest = count([&] { stepper.show(0, shown.data()); });
+  return between.numbers - newest.numbers;
+}
+
+struct ExtinctionCount {
+  std::int64_t burning = 0;    // taking in the wind, and a step
+  std::int64_t shrinking = 0;  // besides, what is shown of an instance that goes out or catches
+};
+
+ExtinctionCount count_extinction(const Model& model) {
+  const ExtinctionProgram rule = make_extinction_program(model);
+  if (!rule.present) return {};
+  CountingReal wind, harm, lit(1.0f), size(1.0f);
+  std::vector<CountingReal> shown(model.outputs.size());
+  const OperationCount burning = count([&] {
+    blowing<CountingNumbers>(rule, {});
+    live<CountingNumbers>(rule, {&wind, &harm, &lit, &size});
+  });
+  const OperationCount shrinking = count([&] {
+    const auto now = load<Reals<CountingNumbers>>(&size);
+    shrink<CountingNumbers>(size_between<CountingNumbers>(now, now, 0.5f), shown.size(), shown.data());
+  });
+  return {burning.numbers, shrinking.numbers};
+}
+
+template <class Stepper, class Kind>
+Cost count_frame(const Model& model, const Kind& dynamics, const Channels& channels, const PolylineProgram& polyline) {
+  Arena measured;
+  Stepper(model, dynamics, channels, 1, measured);
+  std::vector<std::byte> memory = room_for(measured);
+  Arena arena(memory);
+  Stepper stepper(model, dynamics, channels, 1, arena);
+  std::vector<CountingReal> blowing;
+  const OperationCount inputs = count([&] { blowing = blowing_regressors(model, channels); });
+  const OperationCount quiet = count_step(stepper, blowing, 0).mean;
+  const auto [noisy, most] = count_step(stepper, blowing, 1);
+  Cost cost;
+  cost.multiply_adds_per_frame = stepper.multiply_adds();
+  cost.dynamics_operations = inputs.numbers + quiet.numbers + quiet.words;
+  cost.noise_operations = noisy.numbers - quiet.numbers;
+  cost.random_operations = noisy.words - quiet.words;
+  cost.view_operations = count_view(channels, stepper, polyline).numbers;
+  const ExtinctionCount extinction = count_extinction(model);
+  cost.extinction_operations = extinction.burning;
+  cost.operations_per_frame = cost.dynamics_operations + cost.noise_operations + cost.random_operations +
+                              cost.view_operations + cost.extinction_operations;
+  cost.worst_operations = cost.operations_per_frame - (noisy.numbers + noisy.words) + most + extinction.shrinking;
+  const std::int64_t steered = count_step(stepper, blowing, 1, true).most;
+  if (steered > 0) cost.steered_operations = cost.worst_operations - most + steered;
+  cost.between_operations = count_between(channels, stepper);
+  return cost;
+}
+
+// What the stepper stands on, laid out and filled: its channels, and the polyline of `points` (0: none).
+struct Surroundings {
+  Surroundings(const Model& model, const OperatingPoint& point, int points, Arena& arena)
+      : channels(make_channels(model, point, arena)) {
+    if (points > 0) polyline = make_polyline(std::get<OutlineView>(model.view), points, arena);
+  }
+
+  Channels channels;
+  PolylineProgram polyline;
+};
+
+}  // namespace
+
+Result<Cost> count_operations(const Model& model, int polyline_points) {
+  if (const auto bytes = bank_bytes(model, {.polyline_points = polyline_points ? polyline_points : 2}); !bytes) {
+    return bytes.error();
+  }
+  const int points = std::holds_alternative<OutlineView>(model.view) ? polyline_points : 0;
+  const auto count_kind = [&]<class Type>(const auto& dynamics, std::type_identity<Type>) -> Result<Cost> {
+    const OperatingPoint point = Type::operating_point(dynamics);
+    Arena measured;
+    Surroundings(model, point, points, measured);
+    std::vector<std::byte> memory = room_for(measured);
+    Arena arena(memory);
+    const Surroundings around(model, point, points, arena);
+    return count_frame<Type>(model, dynamics, around.channels, around.polyline);
+  };
+  return visit_dynamics<CountingNumbers>(model, count_kind);
+}
+
+}  // namespace wisp

@@ -1,0 +1,81 @@
+#pragma once
+// Whether instances burn: the rule of extinction (wisp/model/extinction.hpp), block by block.
+//
+// An instance has harm, 0 … 1; whether it is lit, 1 or 0; and the size at which it is seen, 0 … 1. Four operations
+// a step, one to take in the wind, and while it shrinks or grows three, and one for each output that is shown.
+
+#include <cstdint>
+
+#include "run/lanes/lanes.hpp"
+#include "wisp/model/model.hpp"
+
+namespace wisp {
+
+/// A rule compiled for stepping.
+struct ExtinctionProgram {
+  bool present = false;  ///< false: nothing ever goes out, and nothing below is used
+  std::int32_t input = 0;
+  float level = 0;
+  float most = 0;      ///< wind counts up to this
+  float base = 0;      ///< harm of a step at or above the level is base + slope · wind,
+  float slope = 0;     ///< of the two
+  float recovery = 0;  ///< harm that a step below the level takes back
+  float dying = 0;     ///< of size, a step
+  float catching = 0;
+};
+
+ExtinctionProgram make_extinction_program(const Model& model);
+
+/// A hash of the program, over a hash of what came before: the latter itself where there is no rule.
+std::uint64_t hash_of(const ExtinctionProgram& program, std::uint64_t before);
+
+/// What the rule hears of an input: its strength; what is not a number counts as calm.
+template <class N>
+inline Reals<N> blowing(const ExtinctionProgram& rule, const Reals<N>& input) {
+  const auto zero = all<Reals<N>>(0.0f);
+  const auto wind = number_or(input, zero);
+  return smaller(larger(wind, zero - wind), all<Reals<N>>(rule.most));
+}
+
+/// The state of a block's instances, [lane].
+template <class Real>
+struct LifeLanes {
+  Real* wind;  ///< what acts now
+  Real* harm;
+  Real* lit;
+  Real* size;
+};
+
+/// One step of a block.
+template <class N>
+inline void live(const ExtinctionProgram& rule, const LifeLanes<typename N::Real>& life) {
+  const auto zero = all<Reals<N>>(0.0f), one = all<Reals<N>>(1.0f);
+  const auto wind = load<Reals<N>>(life.wind), harm = load<Reals<N>>(life.harm);
+  const auto pick = [](const auto& a, const auto& b, const auto& x, const auto& y) { return a < b ? x : y; };
+  const auto blown = all<Reals<N>>(rule.base) + all<Reals<N>>(rule.slope) * wind;
+  const auto done = each(pick, wind, all<Reals<N>>(rule.level), all<Reals<N>>(-rule.recovery), blown);
+  const auto next = hold(harm + done, zero, one);
+  const auto lit = each(pick, next, one, load<Reals<N>>(life.lit), zero);
+  const auto grown = each(pick, zero, lit, all<Reals<N>>(rule.catching), all<Reals<N>>(-rule.dying));
+  store(next, life.harm);
+  store(lit, life.lit);
+  store(hold(load<Reals<N>>(life.size) + grown, zero, one), life.size);
+}
+
+/// Shrinks shown outputs, [output][lane], to the sizes of their instances. Where there is nothing left they are 0.
+template <class N>
+inline void shrink(const Reals<N>& size, std::size_t outputs, typename N::Real* shown) {
+  const auto zero = all<Reals<N>>(0.0f);
+  const auto pick = [](const auto& a, const auto& b, const auto& x, const auto& y) { return a < b ? x : y; };
+  for (std::size_t i = 0; i < outputs; ++i, shown += N::kLanes) {
+    store(each(pick, zero, size, size * load<Reals<N>>(shown), zero), shown);
+  }
+}
+
+/// The size between two steps.
+template <class N>
+inline Reals<N> size_between(const Reals<N>& from, const Reals<N>& to, float share) {
+  return from + all<Reals<N>>(share) * (to - from);
+}
+
+}  // namespace wisp

@@ -1,0 +1,30 @@
+#pragma once
+// Hashes of what a compiled model consists of, the same on every machine: they tell whether a saved bank is of this
+// model.
+
+#include <cstdint>
+#include <initializer_list>
+#include <span>
+
+#include "run/bank/little_endian.hpp"
+#include "wisp/base/hash.hpp"
+
+namespace wisp {
+
+template <class Number>
+inline std::uint64_t hash_number(Number number, std::uint64_t before) {
+  std::byte bytes[sizeof(Number)];
+  ByteWriter(bytes).put(number);
+  return hash_bytes(bytes, before);
+}
+
+inline std::uint64_t hash_floats(std::span<const float> numbers, std::uint64_t before) {
+  std::uint64_t hash = before;
+  for (float number : numbers) hash = hash_number(number, hash);
+  return hash;
+}
+inline std::uint64_t hash_floats(std::initializer_list<float> numbers, std::uint64_t before) {
+  return hash_floats(std::span(numbers.begin(), numbers.size()), before);
+}
+
+}  // namespace wisp

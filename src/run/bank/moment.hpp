@@ -1,0 +1,16 @@
+#pragma once
+// What a step needs to know of the moment, beside the state: the same for every kind of dynamics.
+
+#include "run/lanes/random_lanes.hpp"
+
+namespace wisp {
+
+template <class N>
+struct Moment {
+  const RandomKeys* keys = nullptr;
+  LaneCounters counters{};        ///< of the block
+  std::uint32_t* held = nullptr;  ///< per lane: not 0 afterwards where an output was held
+  int lanes = N::kLanes;          ///< of the block in use: what moves lanes one by one leaves out the rest
+};
+
+}  // namespace wisp

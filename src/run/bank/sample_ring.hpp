@@ -1,0 +1,54 @@
+#pragma once
+// The last samples of every instance, in a ring whose place is shared by the whole bank, so that looking back costs no
+// modulo.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+
+#include "run/bank/arena.hpp"
+
+namespace wisp {
+
+template <class N>
+class SampleRing {
+ public:
+  using Real = typename N::Real;
+
+  SampleRing() = default;
+
+  /// `depth` samples of `channels` numbers for each lane of each block. Precondition: depth > 0.
+  SampleRing(int blocks, int depth, int channels, Arena& arena)
+      : depth_(depth), row_(static_cast<std::size_t>(channels) * N::kLanes) {
+    const auto samples = static_cast<std::size_t>(depth);
+    values_ = arena.take<Real>(static_cast<std::size_t>(blocks) * samples * row_);
+    lag_row_ = arena.take<std::uint32_t>(2 * samples);
+    if (arena.measures()) return;
+    for (std::size_t k = 0; k < 2 * samples; ++k) {
+      lag_row_[k] = static_cast<std::uint32_t>((2 * samples - k) % samples * row_);
+    }
+  }
+
+  int depth() const { return depth_; }
+
+  /// Moves every block by one sample; the newest is now to be made.
+  void turn() { place_ = place_ + 1 == depth_ ? 0 : place_ + 1; }
+
+  /// The sample `lag` steps ago, [channel][lane]. The table holds every distance twice, so that the place in the ring
+  /// and the lag add up without a modulo. Precondition: lag < depth().
+  const Real* sample(int block, std::uint32_t lag) const {
+    const Real* ring = values_.data() + static_cast<std::size_t>(block) * static_cast<std::size_t>(depth_) * row_;
+    return ring + lag_row_[static_cast<std::uint32_t>(depth_ - place_) + lag];
+  }
+  Real* sample(int block, std::uint32_t lag) { return const_cast<Real*>(std::as_const(*this).sample(block, lag)); }
+
+ private:
+  std::span<Real> values_;
+  std::span<std::uint32_t> lag_row_;
+  int depth_ = 1;
+  std::size_t row_ = 0;
+  int place_ = 0;
+};
+
+}  // namespace wisp

@@ -1,0 +1,50 @@
+#pragma once
+// The kinds of dynamics that can be stepped. A new kind is a file with its stepper, which has the public functions of
+// ArxStepper, and its lines here.
+
+#include <type_traits>
+#include <variant>
+
+#include "run/arx/arx_stepper.hpp"
+#include "run/arx/switched_stepper.hpp"
+#include "run/chain/chain_stepper.hpp"
+
+namespace wisp {
+
+/// What steps dynamics of one kind, on numbers N.
+template <class Kind, class N>
+struct StepperOf;
+
+template <class N>
+struct StepperOf<ArxModel, N> {
+  using Type = ArxStepper<N>;
+};
+
+template <class N>
+struct StepperOf<ChainModel, N> {
+  using Type = ChainStepper<N>;
+};
+
+template <class N>
+struct StepperOf<SwitchedArxModel, N> {
+  using Type = SwitchedStepper<N>;
+};
+
+using Stepper = std::variant<ArxStepper<LiveNumbers>, ChainStepper<LiveNumbers>, SwitchedStepper<LiveNumbers>>;
+
+// Each kind is compiled in a file of its own, so that a build may choose for each whether to be fast or small.
+extern template class ArxStepper<LiveNumbers>;
+extern template class ChainStepper<LiveNumbers>;
+extern template class SwitchedStepper<LiveNumbers>;
+
+/// Calls use(dynamics, stepper kind) with the model's dynamics and a std::type_identity of what steps them.
+template <class N, class Use>
+auto visit_dynamics(const Model& model, Use use) {
+  return std::visit(
+      [&]<class Kind>(const Kind& dynamics) {
+        return use(dynamics, std::type_identity<typename StepperOf<Kind, N>::Type>());
+      },
+      model.dynamics);
+}
+
+}  // namespace wisp

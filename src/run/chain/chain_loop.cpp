@@ -1,0 +1,41 @@
+#include "wisp/run/chain_loop.hpp"
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "run/chain/chain_lane.hpp"
+#include "wisp/model/file.hpp"
+
+namespace wisp {
+
+std::optional<ChainLoop> chain_loop(const Model& model, int history) {
+  const auto* chain = std::get_if<ChainModel>(&model.dynamics);
+  if (!chain || chain->systems || !check(model)) return {};
+  Arena measured;
+  ChainChoice(make_chain_program(*chain, model.rate_hz, 1, measured), measured);
+  std::vector<std::byte> memory(measured.bytes());
+  Arena arena(memory);
+  const ChainProgram program = make_chain_program(*chain, model.rate_hz, 1, arena);
+  ChainChoice choice(program, arena);
+  choice.set_chance(false);
+  choice.set({.history = history}, program);
+  const ChainMover<float> mover(program);
+  ChainLane<float> lane;
+  std::map<std::pair<float, std::uint32_t>, std::size_t> seen;  // by what it remembers and plays
+  std::vector<double> began;                                    // seconds, per segment
+  double now = 0;
+  for (bool begins = true;; begins = false) {
+    const std::uint32_t segment = mover.draw(lane, choice, {}, begins);
+    lane.segment = static_cast<float>(segment);
+    const auto [before, fresh] = seen.try_emplace({lane.state, segment}, began.size());
+    if (!fresh) {
+      const std::size_t lead = before->second;
+      return ChainLoop{lead, began.size() - lead, began[lead], now - began[lead]};
+    }
+    began.push_back(now);
+    now += program.steps(segment) / model.rate_hz;
+  }
+}
+
+}  // namespace wisp

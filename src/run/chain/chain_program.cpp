@@ -1,0 +1,237 @@
+#include "run/chain/chain_program.hpp"
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include "run/bank/model_hash.hpp"
+#include "run/chain/rigid.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr double kWords = 4294967296.0;  // 2^32
+constexpr double kLeastScale = 1e-12;
+constexpr double kMostScale = 1e6;
+constexpr float kLeastUnit = 1e-6f;
+
+void fill_thresholds(const std::vector<double>& probability, std::span<std::uint32_t> out) {
+  double sum = 0;
+  std::size_t last = 0;
+  for (std::size_t mode = 0; mode < out.size(); ++mode) {
+    sum += probability[mode];
+    out[mode] = static_cast<std::uint32_t>(std::min(sum * kWords, kWords - 1));
+    if (probability[mode] > 0) last = mode;
+  }
+  // The highest words belong to the last mode that can come, however the sum was rounded.
+  for (std::size_t mode = last; mode < out.size(); ++mode) out[mode] = 0xffffffffU;
+}
+
+using Histories = std::map<std::vector<std::uint16_t>, std::uint16_t>;
+
+std::vector<std::uint16_t> shortened(std::vector<std::uint16_t> history) {
+  history.erase(history.begin());
+  return history;
+}
+
+// The state of the longest known end of a history.
+std::uint16_t state_after(const Histories& states, std::vector<std::uint16_t> history) {
+  for (;;) {
+    const auto found = states.find(history);
+    if (found != states.end()) return found->second;
+    history = shortened(std::move(history));
+  }
+}
+
+void fill_automaton(const ChainModel& chain, ChainProgram& program) {
+  Histories states;
+  for (std::size_t k = 0; k < chain.contexts.size(); ++k) {
+    states[chain.contexts[k].history] = static_cast<std::uint16_t>(k + 1);
+  }
+  const auto modes = static_cast<std::size_t>(chain.modes);
+  fill_thresholds(chain.initial, program.threshold.first(modes));
+  for (std::size_t mode = 0; mode < modes; ++mode) {
+    program.next[mode] = state_after(states, {static_cast<std::uint16_t>(mode)});
+  }
+  for (std::size_t k = 0; k < chain.contexts.size(); ++k) {
+    const std::size_t row = (k + 1) * modes, length = chain.contexts[k].history.size();
+    program.length[k + 1] = static_cast<std::uint8_t>(length);
+    program.shorter[k + 1] = length > 1 ? state_after(states, shortened(chain.contexts[k].history)) : 0;
+    fill_thresholds(chain.contexts[k].probability, program.threshold.subspan(row, modes));
+    for (std::size_t mode = 0; mode < modes; ++mode) {
+      std::vector<std::uint16_t> history = chain.contexts[k].history;
+      history.push_back(static_cast<std::uint16_t>(mode));
+      program.next[row + mode] = state_after(states, std::move(history));
+    }
+  }
+}
+
+// Root-mean-square length of the vectors that begin at `offset` of each group of rates.
+float unit_of(const ChainProgram& program, std::size_t offset, float scale) {
+  const auto stride = static_cast<std::size_t>(program.rate_count);
+  double sum = 0;
+  std::size_t count = 0;
+  for (std::size_t k = offset; k + 3 <= program.rates.size(); k += stride, ++count) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      sum += static_cast<double>(program.rates[k + axis]) * program.rates[k + axis];
+  }
+  const auto unit =
+      static_cast<float>(__builtin_sqrt(sum / static_cast<double>(std::max<std::size_t>(1, count)))) * scale;
+  return std::max(unit, kLeastUnit);
+}
+
+// How long the join to each segment fades: over a share of it, and so many steps at most.
+void fill_fades(const ChainBlend& blend, ChainProgram& program) {
+  const auto share = static_cast<float>(blend.share), longest = static_cast<float>(blend.longest_steps);
+  for (std::uint32_t segment = 0; segment < program.segments(); ++segment) {
+    const float length = std::min(share * static_cast<float>(program.steps(segment)), longest);
+    if (!(length > 1.0f)) continue;
+    const float seconds = length * program.step_seconds;
+    program.fade[segment] = {1.0f / length, seconds, seconds * (program.velocity_scale / program.position_scale)};
+  }
+}
+
+// How fast stored quaternions change at both ends of each segment.
+void fill_changes(ChainProgram& program) {
+  float* out = program.changes.data();
+  for (std::uint32_t segment = 0; segment < program.segments(); ++segment) {
+    for (std::uint32_t end : {0U, 1U}) {
+      const std::uint32_t at = program.first_row[segment] + end * program.steps(segment);
+      const std::int16_t* q = program.rows.data() + std::size_t{7} * at + 3;
+      const std::int16_t* rate = program.rates.data() + std::size_t{6} * (std::size_t{2} * segment + end) + 3;
+      Vector3<float> spin;
+      for (std::size_t k = 0; k < 3; ++k) spin[k] = static_cast<float>(rate[k]) * program.spin_scale;
+      Quaternion<float> orientation;
+      for (std::size_t k = 0; k < 4; ++k) orientation[k] = static_cast<float>(q[k]);
+      const Quaternion<float> change = quaternion_rate(spin, orientation);
+      out = std::copy(change.begin(), change.end(), out);
+    }
+  }
+}
+
+GustProgram gust_program(const GustResponse& gust, double wind_unit) {
+  GustProgram program;
+  program.order = gust.order();
+  const auto fill = [&](const GustResponse::Axis& from, auto& to) {
+    for (std::size_t k = 0; k < from.change.size(); ++k) {
+      to[k] = {static_cast<float>(from.change[k]), static_cast<float>(from.wind[k] * wind_unit),
+               static_cast<float>(4 * from.press[k] * wind_unit)};
+    }
+  };
+  fill(gust.ground, program.ground);
+  fill(gust.vertical, program.vertical);
+  return program;
+}
+
+void take_drift(const ChainDrift& drift, ChainProgram& program) {
+  program.lead_scale = static_cast<float>(drift.lead_scale);
+  for (std::size_t axis = 0; axis < 3; ++axis) program.drift[axis] = static_cast<float>(drift.drift[axis]);
+  program.spread_ground = static_cast<float>(drift.spread_ground);
+  program.spread_height = static_cast<float>(drift.spread_height);
+  program.memory = static_cast<float>(drift.memory_seconds);
+}
+
+template <class Value>
+std::span<Value> copy_of(const std::vector<Value>& values, Arena& arena) {
+  const auto out = arena.take<Value>(values.size());
+  if (!arena.measures()) std::copy(values.begin(), values.end(), out.begin());
+  return out;
+}
+
+}  // namespace
+
+ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double wind_unit, Arena& arena) {
+  const auto modes = static_cast<std::size_t>(chain.modes);
+  const std::size_t states = chain.contexts.size() + 1;
+  const ChainSegments& segments = chain.segments;
+  const bool pose = chain.motion == ChainMotion::kPose;
+  ChainProgram program;
+  program.channels = channel_count(chain.motion);
+  program.rate_count = rate_count(chain.motion);
+  program.modes = chain.modes;
+  program.breadth = segments.breadth;
+  program.heading_free = chain.heading_free;
+  program.position_scale = static_cast<float>(segments.row_scale[0]);
+  program.velocity_scale = static_cast<float>(segments.rate_scale[0]);
+  program.orientation_scale = pose ? static_cast<float>(segments.row_scale[1]) : 0.0f;
+  program.spin_scale = pose ? static_cast<float>(segments.rate_scale[1]) : 0.0f;
+  program.step_seconds = static_cast<float>(1.0 / rate_hz);
+  if (chain.gust) program.gust = gust_program(*chain.gust, wind_unit);
+  program.rows = copy_of(segments.rows, arena);
+  program.rates = copy_of(segments.rates, arena);
+  program.first_row = copy_of(segment_rows(segments), arena);
+  program.mode = copy_of(segments.mode, arena);
+  program.follow = copy_of(segments.follow, arena);
+  program.onward = copy_of(segments.onward, arena);
+  if (chain.systems) program.systems = make_systems_program(*chain.systems, arena);
+  if (chain.drift) {
+    take_drift(*chain.drift, program);
+    program.lead = copy_of(chain.drift->lead, arena);
+    const auto count = static_cast<float>(segments.size());
+    program.mean_steps = static_cast<float>(segment_rows(segments).back()) / count - 1.0f;
+  }
+  program.first_of_mode = arena.take<std::uint32_t>(modes + 1);
+  program.threshold = arena.take<std::uint32_t>(states * modes);
+  program.next = arena.take<std::uint16_t>(states * modes);
+  program.length = arena.take<std::uint8_t>(states);
+  program.shorter = arena.take<std::uint16_t>(states);
+  program.fade = arena.take<ChainFade>(segments.size());
+  if (pose) program.changes = arena.take<float>(8 * segments.size());
+  if (arena.measures()) return program;
+  fill_fades(chain.blend, program);
+  if (pose) fill_changes(program);
+  for (std::uint16_t mode : segments.mode) ++program.first_of_mode[mode + 1U];
+  for (std::size_t mode = 0; mode < modes; ++mode) program.first_of_mode[mode + 1] += program.first_of_mode[mode];
+  fill_automaton(chain, program);
+  program.speed_unit = unit_of(program, 0, program.velocity_scale);
+  if (pose) program.spin_unit = unit_of(program, 3, program.spin_scale);
+  return program;
+}
+
+void take_size(const View& view, ChainProgram& program) {
+  const auto* pose = std::get_if<PoseView>(&view);
+  if (!pose) return;
+  program.half_width = static_cast<float>(pose->half_width);
+  program.half_length = static_cast<float>(pose->half_length);
+}
+
+std::uint64_t hash_of(const ChainProgram& program, std::uint64_t before) {
+  const auto flag = program.heading_free ? 1.0f : 0.0f;
+  std::uint64_t hash = hash_floats(
+      {static_cast<float>(program.channels), static_cast<float>(program.breadth), flag, program.position_scale,
+       program.orientation_scale, program.velocity_scale, program.spin_scale, program.half_width, program.half_length},
+      before);
+  for (const ChainFade& fade : program.fade) hash = hash_floats({fade.share, fade.seconds, fade.slip}, hash);
+  for (const auto* axis : {&program.gust.ground, &program.gust.vertical}) {
+    for (const auto& lag : *axis) hash = hash_floats({lag[0], lag[1], 0.25f * lag[2]}, hash);
+  }
+  for (std::int16_t number : program.rows)
+    hash = hash_number(static_cast<std::uint32_t>(static_cast<std::uint16_t>(number)), hash);
+  for (std::int16_t number : program.rates)
+    hash = hash_number(static_cast<std::uint32_t>(static_cast<std::uint16_t>(number)), hash);
+  if (program.systems.used()) hash = hash_of(program.systems, hash);
+  for (std::int16_t number : program.lead)
+    hash = hash_number(static_cast<std::uint32_t>(static_cast<std::uint16_t>(number)), hash);
+  hash = hash_floats({program.lead_scale, program.drift[0], program.drift[1], program.drift[2], program.spread_ground,
+                      program.spread_height, program.memory},
+                     hash);
+  for (std::uint16_t number : program.follow) hash = hash_number(std::uint32_t{number}, hash);
+  for (std::uint16_t number : program.onward) hash = hash_number(std::uint32_t{number}, hash);
+  for (std::uint32_t number : program.threshold) hash = hash_number(std::uint32_t{number}, hash);
+  for (std::uint16_t number : program.next) hash = hash_number(std::uint32_t{number}, hash);
+  return hash;
+}
+
+Result<void> check_chain_program(const ChainModel& chain) {
+  for (const auto* scales : {&chain.segments.row_scale, &chain.segments.rate_scale}) {
+    for (double scale : *scales) {
+      if (scale < kLeastScale || scale > kMostScale) {
+        return Error{"a scale of the chain's segments is " + std::to_string(scale) +
+                     ", expected 1e-12 to 1e6: learn it in another unit"};
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace wisp

@@ -1,0 +1,88 @@
+#pragma once
+// A segment chain compiled for stepping: probabilities as thresholds of 32-bit words, histories as the states of an
+// automaton, scales in single precision.
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "run/bank/arena.hpp"
+#include "run/chain/systems_program.hpp"
+#include "wisp/base/result.hpp"
+#include "wisp/model/model.hpp"
+
+namespace wisp {
+
+/// A response to gusts: one lag after the other of the change of velocity, the wind, and its press on the body.
+struct GustProgram {
+  int order = 0;  ///< 0: none
+  // Per lag the coefficients of the change, of the wind, and of a quarter of its press.
+  std::array<std::array<float, 3>, kMostGustOrder> ground{};
+  std::array<std::array<float, 3>, kMostGustOrder> vertical{};
+};
+
+/// How the join to a segment fades.
+struct ChainFade {
+  float share = 0;    ///< that passes in a step; 0: it does not fade
+  float seconds = 0;  ///< that it takes
+  float slip = 0;     ///< the same times what velocities are stored in, over what positions are
+};
+
+struct ChainProgram {
+  int channels = 0;  ///< 3 or 7
+  int rate_count = 0;
+  int modes = 0;
+  int breadth = 0;
+  bool heading_free = true;
+  float position_scale = 1;
+  float orientation_scale = 1;
+  float velocity_scale = 1;
+  float spin_scale = 1;
+  float step_seconds = 0;
+  float speed_unit = 1;  ///< root-mean-square of the speeds at joins: what differences of speed are measured in
+  float spin_unit = 1;   ///< the same of angular speeds
+  GustProgram gust{};
+  std::span<std::int16_t> rows;
+  std::span<std::int16_t> rates;
+  std::span<float> changes;            ///< of poses: per segment, at its start and its end, of the stored quaternion a
+                                       ///< second
+  std::span<ChainFade> fade;           ///< per segment
+  std::span<std::uint32_t> first_row;  ///< per segment, and one past the last
+  std::span<std::uint16_t> mode;       ///< per segment
+  std::span<std::uint16_t> follow;
+  std::span<std::uint16_t> onward;         ///< segments × modes; empty: the history alone says what follows
+  std::span<std::uint32_t> first_of_mode;  ///< per mode its first segment, and one past the last
+  std::span<std::uint32_t> threshold;      ///< states × modes: the first mode whose threshold a word is below is drawn
+  std::span<std::uint16_t> next;           ///< states × modes: the state after that mode
+  std::span<std::uint8_t> length;          ///< per state how many modes it remembers
+  std::span<std::uint16_t> shorter;        ///< per state the one that remembers the longest known part of that
+  std::span<std::int16_t> lead;            ///< segments × 3; empty: it can't be steered
+  float lead_scale = 0;
+  std::array<float, 3> drift{};  ///< metres a second
+  float spread_ground = 0;       ///< m² a second
+  float spread_height = 0;
+  float mean_steps = 0;      ///< of the segments
+  float memory = 0;          ///< seconds
+  SystemsProgram systems{};  ///< used where modes are systems
+  float half_width = 0;      ///< of the body, along its first axis, metres; 0: a point
+  float half_length = 0;     ///< and along its second
+
+  std::uint32_t segments() const { return static_cast<std::uint32_t>(mode.size()); }
+  std::uint32_t states() const { return static_cast<std::uint32_t>(next.size()) / static_cast<std::uint32_t>(modes); }
+  std::uint32_t steps(std::uint32_t segment) const { return first_row[segment + 1] - first_row[segment] - 1; }
+};
+
+/// State 0 is the beginning; state k + 1 is the model's history k.
+/// `wind_unit` is what the wind of the regressors is measured in.
+ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double wind_unit, Arena& arena);
+
+/// Gives the program the size of the body that it moves, where the view knows it.
+void take_size(const View& view, ChainProgram& program);
+
+/// A hash of the program, over a hash of what came before.
+std::uint64_t hash_of(const ChainProgram& program, std::uint64_t before);
+
+/// Errors: scales so small or large that single precision can't hold what they make.
+Result<void> check_chain_program(const ChainModel& chain);
+
+}  // namespace wisp

@@ -1,0 +1,136 @@
+#pragma once
+// Brings a falling body near a place at a time, by what is drawn at joins: a segment is as likely as the chain says,
+// times how probable it makes the target (J. L. Doob's h-transform, 1957). How probable that is, is taken as a normal
+// distribution around where the walk leads on average, wider the longer there is to go: ChainDrift in
+// wisp/model/chain.hpp.
+
+#include <algorithm>
+#include <span>
+
+#include "run/chain/chain_lane.hpp"
+
+namespace wisp {
+
+/// Candidates of each mode where any of its segments may follow.
+inline constexpr std::uint32_t kAnyOf = 8;
+
+/// e^−x but for heavier tails: (1 + x/256)^−256. Precondition: x >= 0.
+template <class Real>
+inline Real falling_off(Real x) {
+  Real power = Real(1.0f) / (Real(1.0f) + x * Real(1.0f / 256.0f));
+  for (int k = 0; k < 8; ++k) power = power * power;
+  return power;
+}
+
+template <class Real>
+class ChainSteering {
+ public:
+  using Mover = ChainMover<Real>;
+  using Lane = ChainLane<Real>;
+  using Body = BodyState<Real>;
+
+  /// Takes the room for the candidates of one join.
+  ChainSteering(const ChainProgram& program, bool steers, Arena& arena) {
+    if (!steers) return;
+    per_mode_ = program.breadth > 0 ? static_cast<std::uint32_t>(program.breadth) : kAnyOf;
+    candidates_ = arena.take<Candidate>(static_cast<std::size_t>(program.modes) * per_mode_);
+  }
+
+  /// The segment that follows the lane's where `body` is; moves its history on.
+  std::uint32_t draw(const Mover& mover, const ChainProgram& program, const ChainChoice& choice, Lane& lane,
+                     const Body& body, const ChainWords& words) {
+    const auto modes = static_cast<std::uint32_t>(program.modes);
+    const std::uint32_t state = Mover::index(lane.state, program.states());
+    const std::uint32_t before = Mover::index(lane.segment, program.segments());
+    std::size_t count = 0;
+    Real least(0.0f);
+    const Bell bell = bell_of(program, lane);
+    for (std::uint32_t mode = 0; mode < modes; ++mode) {
+      const float chance = choice.chance_of(program, state, mode);
+      if (!(chance > 0.0f)) continue;
+      for (std::uint32_t k = 0; k < per_mode_; ++k) {
+        const auto [segment, share] = choice.candidate(program, before, mode, k, words);
+        if (!(share > 0.0f)) continue;
+        Candidate& one = candidates_[count];
+        one = aim(mover, program, lane, body, segment, bell);
+        one.mode = mode;
+        one.weight = Real(chance * share);
+        if (count == 0 || one.miss < least) least = one.miss;
+        ++count;
+      }
+    }
+    const Candidate& drawn = candidates_[pick(choice, count, least, words)];
+    lane.state = Real(static_cast<float>(program.next[state * modes + drawn.mode]));
+    return drawn.segment;
+  }
+
+ private:
+  struct Candidate {
+    std::uint32_t segment = 0;
+    std::uint32_t mode = 0;
+    Real weight{};
+    Real miss{};  // half the squared distance from the target, in standard deviations
+  };
+
+  // How far from where it is expected a walk may be when the time has come: one over twice the variance. The same for
+  // all candidates of a join, or far targets would favour short segments.
+  struct Bell {
+    Real ground{};
+    Real height{};
+  };
+
+  static Bell bell_of(const ChainProgram& program, const Lane& lane) {
+    const Real beyond = lane.left - Real(program.mean_steps);
+    const Real left = beyond > Real(0.0f) ? beyond * Real(program.step_seconds) : Real(0.0f);
+    const Real near = lane.near * lane.near;
+    return {Real(0.5f) / (near + Real(program.spread_ground) * left),
+            Real(0.5f) / (near + Real(program.spread_height) * left)};
+  }
+
+  // How likely a candidate makes the target.
+  static Candidate aim(const Mover& mover, const ChainProgram& program, const Lane& lane, const Body& body,
+                       std::uint32_t segment, const Bell& bell) {
+    const Real zero(0.0f), one(1.0f);
+    const HalfTurn<Real> half = mover.turn_to(segment, body);
+    const Real cos = half.cos * half.cos - half.sin * half.sin, product = half.cos * half.sin;
+    const Real own = Real(static_cast<float>(program.steps(segment)));
+    const Real beyond = lane.left - own;
+    const Real left = beyond > zero ? beyond * Real(program.step_seconds) : zero;
+    // Of a segment in which the time runs out, the part that is played until then.
+    const Real played = beyond > zero ? one : lane.left / own;
+    const Real kept = left / (left + Real(program.memory) + Real(program.step_seconds));
+    const std::int16_t* lead = program.lead.data() + std::size_t{3} * segment;
+    const Real scale = kept * Real(program.lead_scale);
+    auto way = scaled(mover.way_of(segment), played);
+    for (std::size_t axis = 0; axis < 3; ++axis) way[axis] = way[axis] + scale * Real(static_cast<float>(lead[axis]));
+    auto miss = taken(lane.target, added(body.position, turned<Real>(cos, product + product, way)));
+    for (std::size_t axis = 0; axis < 3; ++axis) miss[axis] = miss[axis] - Real(program.drift[axis]) * left;
+    Candidate out;
+    out.segment = segment;
+    out.miss = (miss[0] * miss[0] + miss[1] * miss[1]) * bell.ground + miss[2] * miss[2] * bell.height;
+    return out;
+  }
+
+  std::size_t pick(const ChainChoice& choice, std::size_t count, Real least, const ChainWords& words) {
+    Real total(0.0f);
+    std::size_t best = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      Candidate& one = candidates_[k];
+      one.weight = one.weight * falling_off(one.miss - least);
+      total = total + one.weight;
+      if (one.weight > candidates_[best].weight) best = k;
+    }
+    if (!choice.has_chance()) return best;
+    Real word = Real(static_cast<float>(words.mode >> 8) * (1.0f / 16777216.0f)) * total;
+    for (std::size_t k = 0; k < count; ++k) {
+      if (word < candidates_[k].weight) return k;
+      word = word - candidates_[k].weight;
+    }
+    return best;
+  }
+
+  std::span<Candidate> candidates_;
+  std::uint32_t per_mode_ = 0;
+};
+
+}  // namespace wisp

@@ -1,0 +1,449 @@
+#pragma once
+// Steps blocks of instances of a segment chain. Source: section 4.3 of the paper (the walk over the modes, each
+// realised by one of its segments); section 2.2 for histories longer than one. Lanes of a block are in different places
+// of different segments, so each is moved by itself.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "run/bank/channels.hpp"
+#include "run/bank/moment.hpp"
+#include "run/chain/chain_lane.hpp"
+#include "run/chain/chain_steering.hpp"
+#include "run/chain/ground_lane.hpp"
+#include "run/chain/gust_lane.hpp"
+#include "run/chain/system_lane.hpp"
+#include "wisp/run/bank.hpp"
+#include "wisp/run/random.hpp"
+
+namespace wisp {
+
+template <class N>
+class ChainStepper {
+ public:
+  using Real = typename N::Real;
+  using Lane = ChainLane<Real>;
+  using Body = BodyState<Real>;
+  static constexpr int kLanes = N::kLanes;
+  /// Frames over which a cost is averaged: joins come now and then.
+  static constexpr int kCountedFrames = 8192;
+
+  /// A chain has no operating point: its outputs are in their own units.
+  static OperatingPoint operating_point(const ChainModel& chain) {
+    static constexpr std::array<double, 7> kOrigin{};
+    return {std::span(kOrigin).first(static_cast<std::size_t>(channel_count(chain.motion))),
+            std::span(kOrigin).first(chain.gust ? 3 : 0)};
+  }
+
+  /// Errors: what single precision can't step.
+  static Result<void> check(const Model&, const ChainModel& chain) { return check_chain_program(chain); }
+
+  ChainStepper(const Model& model, const ChainModel& chain, const Channels&, int blocks, Arena& arena)
+      : program_(make_chain_program(chain, model.rate_hz, wind_unit(model), arena)),
+        choice_(program_, arena),
+        steering_(program_, chain.drift.has_value(), arena) {
+    take_size(model.view, program_);
+    const auto lanes = static_cast<std::size_t>(blocks) * kLanes;
+    lanes_ = arena.take<Lane>(lanes);
+    if (program_.gust.order > 0) gusts_ = arena.take<GustLane<Real>>(lanes);
+    if (chain.systems) {
+      systems_ = arena.take<SystemLane<Real>>(lanes);
+      shocks_ = arena.take<Real>(8 * kLanes);
+    }
+    newest_ = arena.take<Real>(lanes * static_cast<std::size_t>(program_.channels));
+    previous_ = arena.take<Real>(lanes * static_cast<std::size_t>(program_.channels));
+    regressor_row_ = regressor_count(model.inputs) * kLanes;
+    regressors_ = arena.take<Real>(static_cast<std::size_t>(blocks) * regressor_row_);
+  }
+
+  /// A chain has no residual noise; its chance is in the walk, and there or not.
+  void set_noise(float scale) {
+    choice_.set_chance(scale > 0);
+    noisy_ = scale > 0 && !program_.systems.noise.empty();
+  }
+
+  void set_chain(const ChainSettings& settings) {
+    choice_.set(settings, program_);
+    ground_ = settings.ground;
+  }
+
+  void turn() {}
+
+  /// Where the regressors of the step belong: [regressor][lane].
+  Real* regressors(int block) { return regressors_.data() + static_cast<std::size_t>(block) * regressor_row_; }
+
+  /// Makes the newest sample of a block.
+  void step(int block, const Moment<N>& moment) {
+    const ChainMover<Real> mover(program_);
+    std::copy_n(newest(block), sample_size(), previous_of(block));
+    std::uint32_t words[4][kLanes];
+    bool drawn = false;
+    if (noisy_) draw_shocks(moment);
+    for (int lane = 0; lane < kLanes; ++lane) {
+      moment.held[lane] = 0;
+      if (lane >= moment.lanes) continue;
+      Lane& life = lane_of(block, lane);
+      if (!(life.settled < Real(0.0f))) {
+        settle_step(life, program_, newest_of(block) + lane, kLanes);
+        continue;
+      }
+      if (program_.gust.order > 0) drift(block, lane);
+      const bool ends = program_.systems.used() ? move_system(block, lane) : mover.advance(life);
+      if (!program_.systems.used()) mover.show(life, newest_of(block) + lane, kLanes);
+      moment.held[lane] = is_far(newest_of(block) + lane) ? 1 : 0;
+      if (const auto reach = reach_touching(program_, newest_of(block) + lane, kLanes, ground_)) {
+        land(block, lane, *reach);
+        continue;
+      }
+      const auto chance = [&]() -> ChainWords {
+        if (!drawn) draw(moment, 0, words);
+        drawn = true;
+        return {words[0][lane], words[1][lane], words[2][lane]};
+      };
+      go_on(mover, block, lane, ends, chance);
+    }
+  }
+
+  /// Outputs of the last step, and of the one before: [output][lane].
+  const Real* newest(int block) const { return newest_.data() + block * sample_size(); }
+  const Real* previous(int block) const { return previous_.data() + block * sample_size(); }
+
+  /// What is read of a block: the newest sample.
+  void show(int block, Real* out) const { std::copy_n(newest(block), sample_size(), out); }
+
+  /// What is read of it a `share` of the way from the sample before: positions in proportion, orientations by
+  /// normalised linear interpolation.
+  void show_between(int block, float share, Real* out) const {
+    const Real *from = previous(block), *to = newest(block);
+    for (std::size_t k = 0; k < sample_size(); ++k) out[k] = from[k] + Real(share) * (to[k] - from[k]);
+    if (program_.channels < 7) return;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      Quaternion<Real> q;
+      for (int k = 0; k < 4; ++k) q[static_cast<std::size_t>(k)] = out[(3 + k) * kLanes + lane];
+      q = unit(q);
+      for (int k = 0; k < 4; ++k) out[(3 + k) * kLanes + lane] = q[static_cast<std::size_t>(k)];
+    }
+  }
+
+  /// What a frame of the model's own rate reads.
+  void show_frame(int block, Real* out) const { show(block, out); }
+
+  /// Starts one lane at the origin with a segment that begins a recording, its heading drawn by chance.
+  void start(int block, int lane, const Moment<N>& moment) {
+    std::uint32_t words[4][kLanes];
+    draw(moment, 1, words);
+    const ChainMover<Real> mover(program_);
+    Lane& life = lane_of(block, lane);
+    life = {};
+    if (program_.gust.order > 0) gust_of(block, lane) = {};
+    const std::uint32_t segment = mover.draw(life, choice_, {words[0][lane], words[1][lane], 0}, true);
+    const HalfTurn<Real> turn = random_turn(words[2][lane], words[3][lane]);
+    mover.place(life, segment, {}, turn.cos, turn.sin);
+    mover.show(life, newest_of(block) + lane, kLanes);
+    if (program_.systems.used()) {
+      take_rates(system_of(block, lane), shown_orientation(block, lane), mover.rates_of(life, segment, false));
+      system_of(block, lane).length = Real(duration_of(program_.systems, program_.mode[segment], words[1][lane]));
+    } else if (mover.steps_left(life) == 1) {
+      draw(moment, 2, words);
+      prepare(mover, life, {words[0][lane], words[1][lane], words[2][lane]});
+    }
+    for (int k = 0; k < program_.channels; ++k) {
+      previous_of(block)[k * kLanes + lane] = newest_of(block)[k * kLanes + lane];
+    }
+  }
+
+  /// Where a lane is in the chain.
+  std::optional<ChainPlace> chain_place(int block, int lane) const {
+    const Lane& life = const_cast<ChainStepper*>(this)->lane_of(block, lane);
+    const std::uint32_t segment = Mover::index(life.segment, program_.segments());
+    return ChainPlace{segment, Mover::index(life.row, program_.systems.used() ? 65536 : program_.steps(segment))};
+  }
+
+  /// Steers a lane to a place that it is to be near in so many steps; none: no longer.
+  bool steer(int block, int lane, const Vector3<Real>& target, float steps, float near) {
+    if (program_.lead.empty()) return false;
+    Lane& life = lane_of(block, lane);
+    life.target = target;
+    life.left = Real(steps);
+    life.near = Real(near);
+    life.next = Real(0.0f);  // what was drawn a step before the join, knew of no target
+    return true;
+  }
+
+  /// Puts a lane where a body is, on whichever segment begins most as the body moves.
+  bool place(int block, int lane, const Body& body) {
+    const Mover mover(program_);
+    std::uint32_t best = 0;
+    Real least(3e38f);
+    for (std::uint32_t segment = 0; segment < program_.segments(); ++segment) {
+      // A segment of one step has no time for what differs to fade, and none for what follows it to be drawn.
+      if (program_.steps(segment) == 1 && !program_.systems.used()) continue;
+      const Real misfit = mover.misfit(segment, body);
+      if (!(misfit < least)) continue;
+      best = segment;
+      least = misfit;
+    }
+    Lane& life = lane_of(block, lane);
+    life = {};
+    const auto end = mover.end_of(body);
+    mover.prepare(life, best, end);
+    mover.join(life, body.position, end);
+    life.state = Real(static_cast<float>(program_.next[program_.mode[best]]));
+    if (program_.gust.order > 0) gust_of(block, lane) = {};
+    mover.show(life, newest_of(block) + lane, kLanes);
+    if (program_.systems.used()) {
+      life.passed = Real(1.0f);
+      for (int k = 0; k < 4; ++k)
+        newest_of(block)[(3 + k) * kLanes + lane] = body.orientation[static_cast<std::size_t>(k)];
+      take_rates(system_of(block, lane), body.orientation, body.rates);
+      system_of(block, lane).length = Real(duration_of(program_.systems, program_.mode[best], 0x80000000U));
+    }
+    for (int k = 0; k < program_.channels; ++k) {
+      previous_of(block)[k * kLanes + lane] = newest_of(block)[k * kLanes + lane];
+    }
+    return true;
+  }
+
+  /// A chain multiplies by no coefficients of A and B.
+  std::int64_t multiply_adds() const { return 0; }
+
+  std::size_t lane_values() const {
+    return kLaneNumbers + 2 * static_cast<std::size_t>(program_.channels) +
+           9 * static_cast<std::size_t>(program_.gust.order) + (program_.systems.used() ? kSystemStates + 1 : 0);
+  }
+
+  /// Calls visit(value, low, high) for each number of one lane's state.
+  template <class Visit>
+  void visit_lane(int block, int lane, Visit visit) {
+    Lane& life = lane_of(block, lane);
+    const auto segments = static_cast<float>(program_.segments() - 1);
+    visit(life.segment, 0.0f, segments);
+    visit(life.row, 0.0f, 65535.0f);
+    visit(life.state, 0.0f, static_cast<float>(program_.states() - 1));
+    for (Real& x : life.base) visit(x, -2 * kFarthest, 2 * kFarthest);
+    for (Real* x : {&life.half_cos, &life.half_sin}) visit(*x, -1.01f, 1.01f);
+    const float turn = 1.01f * (program_.position_scale + program_.orientation_scale);
+    for (Real* x : {&life.cos_scale, &life.sin_scale, &life.half_cos_scale, &life.half_sin_scale})
+      visit(*x, -turn, turn);
+    visit(life.next, 0.0f, static_cast<float>(program_.segments()));
+    for (Real* x : {&life.turn_cos, &life.turn_sin}) visit(*x, -kLongestTurn, kLongestTurn);
+    visit(life.passed, 0.0f, 2.0f);
+    visit(life.share, 0.0f, 1.0f);
+    for (Real& x : life.slip) visit(x, -kMostDifference, kMostDifference);
+    for (auto* quaternion : {&life.lean, &life.lean_slip}) {
+      for (Real& x : *quaternion) visit(x, -kMostDifference, kMostDifference);
+    }
+    visit(life.settled, -1.0f, 2.0f);
+    visit(life.left, 0.0f, kMostSlip);
+    for (Real& x : life.target) visit(x, -kFarthest, kFarthest);
+    visit(life.near, 0.0f, kFarthest);
+    for (Real& x : life.touched) visit(x, -2.0f, 2.0f);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(program_.gust.order); ++k) {
+      GustLane<Real>& gust = gust_of(block, lane);
+      gust.press[k] = scaled(gust.press[k], Real(4.0f));  // it is saved whole
+      for (auto* vector : {&gust.change[k], &gust.wind[k], &gust.press[k]}) {
+        for (Real& x : *vector) visit(x, -kMostSlip, kMostSlip);
+      }
+      gust.press[k] = scaled(gust.press[k], Real(0.25f));
+    }
+    if (program_.systems.used()) {
+      for (Real& x : system_of(block, lane).rates) visit(x, -kMostSlip, kMostSlip);
+      visit(system_of(block, lane).length, 1.0f, 65535.0f);
+    }
+    for (Real* sample : {newest_of(block), previous_of(block)}) {
+      for (int k = 0; k < program_.channels; ++k) visit(sample[k * kLanes + lane], -kFarthest, kFarthest);
+    }
+  }
+
+  /// Goes into the hash that tells models apart.
+  std::uint64_t hash(std::uint64_t before) const { return hash_of(program_, before); }
+
+ private:
+  using Mover = ChainMover<Real>;
+  static constexpr std::size_t kLaneNumbers = 3 + 3 + 2 + 4 + 3 + 2 + 11 + 5 + 5;
+  static constexpr float kMostSlip = 1e12f;
+  static constexpr float kLongestTurn = 1e18f;
+
+  std::size_t sample_size() const { return static_cast<std::size_t>(program_.channels) * kLanes; }
+  Lane& lane_of(int block, int lane) { return lanes_[static_cast<std::size_t>(block) * kLanes + lane]; }
+  Real* newest_of(int block) { return newest_.data() + block * sample_size(); }
+  Real* previous_of(int block) { return previous_.data() + block * sample_size(); }
+
+  SystemLane<Real>& system_of(int block, int lane) { return systems_[static_cast<std::size_t>(block) * kLanes + lane]; }
+
+  GustLane<Real>& gust_of(int block, int lane) { return gusts_[static_cast<std::size_t>(block) * kLanes + lane]; }
+
+  // What the channels measure the wind in: the same for x, y and z, which have one range.
+  static double wind_unit(const Model& model) {
+    if (model.inputs.empty()) return 1;
+    double lowest = 0, highest = 0;
+    for (const Input& input : model.inputs) {
+      lowest = input.lowest < lowest ? input.lowest : lowest;
+      highest = input.highest > highest ? input.highest : highest;
+    }
+    return channel_scale(lowest, highest);
+  }
+
+  // Moves a lane's segment by what the wind has done to its velocity.
+  void drift(int block, int lane) {
+    const Real* at = regressors(block) + lane;
+    const Vector3<Real> wind{at[0], at[kLanes], at[2 * kLanes]};
+    GustLane<Real>& gust = gust_of(block, lane);
+    if (!gust_lasts(program_.gust, gust, wind)) {
+      gust = {};
+      return;
+    }
+    Vector3<Real> press{};
+    if (program_.channels >= 7) press = quarter_press(shown_orientation(block, lane), wind);
+    const auto change = blow(program_.gust, gust, wind, press);
+    const auto way = scaled(change, Real(program_.step_seconds));
+    if (program_.systems.used()) {
+      for (int k = 0; k < 3; ++k) {
+        Real& coordinate = newest_of(block)[k * kLanes + lane];
+        coordinate = coordinate + way[static_cast<std::size_t>(k)];
+      }
+      return;
+    }
+    Lane& life = lane_of(block, lane);
+    life.base = added(life.base, way);
+  }
+
+  // Six normal deviates a lane.
+  void draw_shocks(const Moment<N>& moment) {
+    Words<N> counters[4], words[4];
+    random_counters<N>(moment.counters, counters);
+    for (std::uint32_t group : {0U, 1U}) {
+      random_group<N>(*moment.keys, counters, 2 + group, words);
+      for (std::uint32_t k = 0; k < (group == 0 ? 4U : 2U); ++k) {
+        store(normal_lanes<N>(words[k]), shocks_.data() + (4 * group + k) * kLanes);
+      }
+    }
+  }
+
+  // One step of a lane whose mode is a system. Returns whether the mode has come to its end.
+  bool move_system(int block, int lane) {
+    Lane& life = lane_of(block, lane);
+    SystemLane<Real>& system = system_of(block, lane);
+    const std::uint32_t mode = program_.mode[Mover::index(life.segment, program_.segments())];
+    system_step(program_.systems, mode, program_.step_seconds, noisy_ ? shocks_.data() + lane : nullptr, system,
+                newest_of(block) + lane, kLanes);
+    life.row = Real(value_of(life.row) + 1.0f);
+    return !(life.row < system.length);
+  }
+
+  Quaternion<Real> shown_orientation(int block, int lane) const {
+    Quaternion<Real> q;
+    for (std::size_t k = 0; k < 4; ++k) q[k] = newest(block)[(3 + k) * kLanes + static_cast<std::size_t>(lane)];
+    return q;
+  }
+
+  // What is shown has come to the ground, and reaches so far below its middle.
+  void land(int block, int lane, Real reach) {
+    Lane& life = lane_of(block, lane);
+    Body body;
+    for (std::size_t k = 0; k < 3; ++k) body.position[k] = newest(block)[k * kLanes + static_cast<std::size_t>(lane)];
+    if (program_.channels >= 7) body.orientation = shown_orientation(block, lane);
+    const Real rate = Real(1.0f / program_.step_seconds);
+    for (std::size_t k = 0; k < 3; ++k) {
+      body.rates.velocity[k] = (body.position[k] - previous(block)[k * kLanes + static_cast<std::size_t>(lane)]) * rate;
+    }
+    newest_of(block)[2 * kLanes + lane] = Real(ground_) + reach;
+    touch(life, body, ground_);
+  }
+
+  // Whether a position was held.
+  static bool is_far(const Real* shown) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const Real& at = shown[axis * kLanes];
+      if (!(at < Real(kFarthest)) || !(at > Real(-kFarthest))) return true;
+    }
+    return false;
+  }
+
+  static void draw(const Moment<N>& moment, std::uint32_t group, std::uint32_t (&out)[4][kLanes]) {
+    Words<N> counters[4], words[4];
+    random_counters<N>(moment.counters, counters);
+    random_group<N>(*moment.keys, counters, group, words);
+    for (int k = 0; k < 4; ++k) store(words[k], out[k]);
+  }
+
+  // What comes after what a step has shown.
+  template <class Chance>
+  void go_on(const Mover& mover, int block, int lane, bool ends, Chance chance) {
+    if (!program_.systems.used()) return follow(mover, lane_of(block, lane), ends, chance, newest_of(block) + lane);
+    if (ends) change_system(mover, block, lane, chance());
+  }
+
+  // Lets the next mode of a lane begin, whose modes are systems.
+  void change_system(const Mover& mover, int block, int lane, const ChainWords& words) {
+    Lane& life = lane_of(block, lane);
+    const std::uint32_t next = mover.draw(life, choice_, words, false);
+    life.segment = Real(static_cast<float>(next));
+    life.row = Real(0.0f);
+    const std::uint32_t word = choice_.has_chance() ? words.segment : 0x80000000U;
+    system_of(block, lane).length = Real(duration_of(program_.systems, program_.mode[next], word));
+  }
+
+  // Joins the next segment where the lane's own ends, and prepares that a step before; a segment of one step prepares
+  // what follows it when it is joined. A join fades over half a segment at most, so that at its end nothing is left of
+  // the one before.
+  template <class Chance>
+  void follow(const Mover& mover, Lane& life, bool ends, Chance chance, const Real* shown) {
+    if (ends) {
+      if (!mover.is_prepared(life)) prepare(mover, life, chance());
+      const std::uint32_t before = Mover::index(life.segment, program_.segments());
+      mover.join(life, {shown[0], shown[kLanes], shown[2 * kLanes]}, mover.end_of(before));
+    }
+    if (mover.steps_left(life) == 1 && !mover.is_prepared(life)) prepare(mover, life, chance());
+  }
+
+  // Draws what follows a lane's segment.
+  void prepare(const Mover& mover, Lane& life, const ChainWords& words) {
+    const std::uint32_t before = Mover::index(life.segment, program_.segments());
+    const bool steered = life.left > Real(static_cast<float>(mover.steps_left(life))) && !program_.lead.empty();
+    const std::uint32_t next = steered ? draw_steered(mover, life, words) : mover.draw(life, choice_, words, false);
+    mover.prepare(life, next, mover.end_of(before));
+  }
+
+  // The same towards a target: from where the segment will have ended.
+  std::uint32_t draw_steered(const Mover& mover, Lane& life, const ChainWords& words) {
+    Lane end = life;
+    for (std::uint32_t left = mover.steps_left(life); left > 0; --left) mover.advance(end);
+    std::array<Real, 7> shown;
+    mover.show(end, shown.data(), 1);
+    Body body;
+    std::copy_n(shown.begin(), 3, body.position.begin());
+    if (program_.channels >= 7) std::copy_n(shown.begin() + 3, 4, body.orientation.begin());
+    if (program_.channels < 7) body.rates = mover.rates_of(end, Mover::index(end.segment, program_.segments()), true);
+    const std::uint32_t next = steering_.draw(mover, program_, choice_, end, body, words);
+    life.state = end.state;
+    return next;
+  }
+
+  // A direction without preference: two normal deviates, made a unit; the identity where the heading is to be kept.
+  HalfTurn<Real> random_turn(std::uint32_t a, std::uint32_t b) const {
+    if (!program_.heading_free) return {Real(1.0f), Real(0.0f), Real(1.0f)};
+    const Real x(normal(a)), y(normal(b));
+    const Real size = square_root(x * x + y * y);
+    if (!(size > Real(1e-6f))) return {Real(1.0f), Real(0.0f), Real(1.0f)};
+    return {x / size, y / size, Real(1.0f)};
+  }
+
+  ChainProgram program_;
+  ChainChoice choice_;
+  ChainSteering<Real> steering_;
+  std::span<Lane> lanes_;
+  std::span<GustLane<Real>> gusts_;
+  std::span<SystemLane<Real>> systems_;
+  std::span<Real> shocks_;  // of one step of one block
+  bool noisy_ = false;
+  std::span<Real> newest_;
+  std::span<Real> previous_;
+  std::span<Real> regressors_;
+  std::size_t regressor_row_ = 0;
+  float ground_ = kNoGround;
+};
+
+}  // namespace wisp

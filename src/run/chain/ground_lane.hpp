@@ -1,0 +1,82 @@
+#pragma once
+// How an instance of a segment chain comes to rest on the ground, a level plane: it touches with its lowest corner,
+// slides on a little, lies down on the side that is nearer, and rests.
+
+#include <optional>
+
+#include "run/chain/chain_lane.hpp"
+
+namespace wisp {
+
+/// What coming to rest takes: less than the eye follows, more than a jump.
+inline constexpr float kSettleSeconds = 0.35f;
+
+/// How far below its middle a body reaches: the lowest corner of a flat rectangle of its size.
+template <class Real>
+inline Real reach_of(const ChainProgram& program, const Quaternion<Real>& q) {
+  if (program.channels < 7 || !(program.half_width > 0.0f || program.half_length > 0.0f)) return Real(0.0f);
+  const Real two(2.0f), zero(0.0f);
+  Real across = two * (q[1] * q[3] - q[0] * q[2]), along = two * (q[2] * q[3] + q[0] * q[1]);
+  if (across < zero) across = zero - across;
+  if (along < zero) along = zero - along;
+  return across * Real(program.half_width) + along * Real(program.half_length);
+}
+
+/// How far below its middle what is shown reaches, where it has come to the ground; far above it that costs nothing.
+template <class Real>
+inline std::optional<Real> reach_touching(const ChainProgram& program, const Real* shown, int stride, float ground) {
+  const Real& height = shown[2 * stride];
+  if (!(height < Real(ground + (program.half_width + program.half_length)))) return {};
+  Real reach(0.0f);
+  if (program.channels >= 7) {
+    reach = reach_of<Real>(program, {shown[3 * stride], shown[4 * stride], shown[5 * stride], shown[6 * stride]});
+  }
+  if (!(height < Real(ground) + reach)) return {};
+  return reach;
+}
+
+/// Lets a lane whose body has come to the ground settle there. Its rates are those of what it played.
+template <class Real>
+inline void touch(ChainLane<Real>& lane, const BodyState<Real>& body, float ground) {
+  lane.settled = Real(0.0f);
+  lane.base = {body.position[0], body.position[1], Real(ground)};
+  const auto slip = ChainMover<Real>::bounded(scaled(body.rates.velocity, Real(kSettleSeconds)));
+  lane.slip = {slip[0], slip[1], Real(0.0f)};
+  lane.touched = body.orientation;
+}
+
+/// The rotation that lays a body flat on the side that is nearer, as a quaternion without its first number.
+template <class Real>
+inline Quaternion<Real> lean_to_ground(const Quaternion<Real>& q) {
+  const Real two(2.0f);
+  const Vector3<Real> normal{two * (q[1] * q[3] + q[0] * q[2]), two * (q[2] * q[3] - q[0] * q[1]),
+                             Real(1.0f) - two * (q[1] * q[1] + q[2] * q[2])};
+  // From the normal to straight up, or down: its Gibbs vector is n × z / (1 + n·z).
+  const Real side = normal[2] < Real(0.0f) ? Real(-1.0f) : Real(1.0f);
+  const Real factor = side / (Real(1.0f) + normal[2] * side);
+  return {Real(0.0f), normal[1] * factor, Real(0.0f) - normal[0] * factor, Real(0.0f)};
+}
+
+/// Moves a settling lane on by a step and shows it; `out` has a stride.
+template <class Real>
+inline void settle_step(ChainLane<Real>& lane, const ChainProgram& program, Real* out, int stride) {
+  // Made here, since the step that touches has enough to do.
+  if (!(lane.settled > Real(0.0f)) && program.channels >= 7) lane.lean = lean_to_ground(lane.touched);
+  if (lane.settled < Real(1.0f)) lane.settled = lane.settled + Real(program.step_seconds / kSettleSeconds);
+  const bool rests = !(lane.settled < Real(1.0f));
+  const Real passed = rests ? Real(1.0f) : lane.settled;
+  const Real rest = Real(1.0f) - passed;
+  // It slides to where a speed that fades to nothing, (1 − s)², takes it: a third of the way that it had gone.
+  const Real way = (Real(1.0f) - rest * rest * rest) * Real(1.0f / 3.0f);
+  const Real lean = passed * passed * (Real(3.0f) - (passed + passed));
+  const auto position = added(lane.base, scaled(lane.slip, way));
+  for (int axis = 0; axis < 3; ++axis) out[axis * stride] = position[static_cast<std::size_t>(axis)];
+  if (program.channels < 7) return;
+  const Vector3<Real> axis{lane.lean[1], lane.lean[2], lane.lean[3]};
+  const auto q = rotated(scaled(axis, lean), lane.touched);
+  // At rest it lies flat but for rounding.
+  if (!rests) out[2 * stride] = out[2 * stride] + reach_of(program, q);
+  for (int k = 0; k < 4; ++k) out[(3 + k) * stride] = q[static_cast<std::size_t>(k)];
+}
+
+}  // namespace wisp

@@ -1,0 +1,167 @@
+#pragma once
+// Places and turns of rigid bodies, on one number of any kind. Only + − × ÷ and square root, in the order written.
+//
+// Quaternions are w, x, y, z and turn a body's axes to the world's. A rotation away from another is held as its Gibbs
+// vector, the rotation's axis times the tangent of half its angle: adding up parts of it needs no trigonometry.
+
+#include <array>
+#include <cstdint>
+
+#include "run/lanes/lanes.hpp"
+
+namespace wisp {
+
+inline float square_root(float a) { return __builtin_sqrtf(a); }
+inline float value_of(float a) { return a; }
+inline std::uint32_t value_of(std::uint32_t a) { return a; }
+
+template <class Real>
+using Vector3 = std::array<Real, 3>;
+template <class Real>
+using Quaternion = std::array<Real, 4>;
+
+template <class Real>
+inline Vector3<Real> added(const Vector3<Real>& a, const Vector3<Real>& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+template <class Real>
+inline Vector3<Real> taken(const Vector3<Real>& a, const Vector3<Real>& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+template <class Real>
+inline Vector3<Real> scaled(const Vector3<Real>& a, Real factor) {
+  return {a[0] * factor, a[1] * factor, a[2] * factor};
+}
+template <class Real>
+inline Real dot(const Vector3<Real>& a, const Vector3<Real>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+template <class Real>
+inline Quaternion<Real> added(const Quaternion<Real>& a, const Quaternion<Real>& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]};
+}
+template <class Real>
+inline Quaternion<Real> taken(const Quaternion<Real>& a, const Quaternion<Real>& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]};
+}
+template <class Real>
+inline Quaternion<Real> scaled(const Quaternion<Real>& a, Real factor) {
+  return {a[0] * factor, a[1] * factor, a[2] * factor, a[3] * factor};
+}
+template <class Real>
+inline Real dot(const Quaternion<Real>& a, const Quaternion<Real>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+}
+template <class Real>
+inline Vector3<Real> cross(const Vector3<Real>& a, const Vector3<Real>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// The same orientation with length 1; what has no length is left as it is.
+template <class Real>
+inline Quaternion<Real> unit(const Quaternion<Real>& q) {
+  const Real square = dot(q, q);
+  if (!(square > Real(1e-30f))) return q;
+  return scaled(q, Real(1.0f) / square_root(square));
+}
+
+/// A turn about z, by the cosine and sine of half its angle, before an orientation.
+template <class Real>
+inline Quaternion<Real> turned(Real half_cos, Real half_sin, const Quaternion<Real>& q) {
+  return {half_cos * q[0] - half_sin * q[3], half_cos * q[1] - half_sin * q[2], half_cos * q[2] + half_sin * q[1],
+          half_cos * q[3] + half_sin * q[0]};
+}
+
+/// The same turn the other way.
+template <class Real>
+inline Quaternion<Real> turned_back(Real half_cos, Real half_sin, const Quaternion<Real>& q) {
+  return {half_cos * q[0] + half_sin * q[3], half_cos * q[1] + half_sin * q[2], half_cos * q[2] - half_sin * q[1],
+          half_cos * q[3] - half_sin * q[0]};
+}
+
+/// How fast an orientation's components change under an angular velocity on the world's side.
+template <class Real>
+inline Quaternion<Real> quaternion_rate(const Vector3<Real>& spin, const Quaternion<Real>& q) {
+  const Vector3<Real> axis{q[1], q[2], q[3]};
+  const auto v = added(scaled(spin, q[0]), cross(spin, axis));
+  return scaled(Quaternion<Real>{Real(0.0f) - dot(spin, axis), v[0], v[1], v[2]}, Real(0.5f));
+}
+
+/// A turn about z, by cosine and sine of its angle, of a vector.
+template <class Real>
+inline Vector3<Real> turned(Real cos, Real sin, const Vector3<Real>& v) {
+  return {cos * v[0] - sin * v[1], sin * v[0] + cos * v[1], v[2]};
+}
+
+/// The same turn the other way.
+template <class Real>
+inline Vector3<Real> turned_back(Real cos, Real sin, const Vector3<Real>& v) {
+  return {cos * v[0] + sin * v[1], cos * v[1] - sin * v[0], v[2]};
+}
+
+/// Cosine and sine of half a turn about z, both times the same.
+template <class Real>
+struct LongTurn {
+  Real cos;
+  Real sin;
+};
+
+/// The half turn about z that brings `from` nearest to `to`, times how near.
+template <class Real>
+inline LongTurn<Real> long_turn_between(const Quaternion<Real>& from, const Quaternion<Real>& to) {
+  return {to[0] * from[0] + to[1] * from[1] + to[2] * from[2] + to[3] * from[3],
+          to[3] * from[0] - to[0] * from[3] + to[2] * from[1] - to[1] * from[2]};
+}
+
+/// The half turn about z that brings `from` nearest to `to`: cosine and sine of half the angle, and how near: 1 where
+/// they then agree, 0 where no turn about z helps.
+template <class Real>
+struct HalfTurn {
+  Real cos;
+  Real sin;
+  Real nearness;
+};
+
+template <class Real>
+inline HalfTurn<Real> turn_between(const Quaternion<Real>& from, const Quaternion<Real>& to) {
+  const auto [w, z] = long_turn_between(from, to);
+  const Real size = square_root(w * w + z * z);
+  if (!(size > Real(1e-6f))) return {Real(1.0f), Real(0.0f), Real(0.0f)};
+  const Real inverse = Real(1.0f) / size;
+  return {w * inverse, z * inverse, size};
+}
+
+/// The half turn about z that brings the horizontal part of `from` to the direction of that of `to`.
+template <class Real>
+inline HalfTurn<Real> turn_between(const Vector3<Real>& from, const Vector3<Real>& to) {
+  const Real along = to[0] * from[0] + to[1] * from[1];
+  const Real across = to[1] * from[0] - to[0] * from[1];
+  const Real size = square_root(along * along + across * across);
+  if (!(size > Real(1e-12f))) return {Real(1.0f), Real(0.0f), Real(0.0f)};
+  // Half of an angle: cos² = (1 + cos 2φ)/2, whichever of the two is larger first.
+  const Real cos = along / size, sin = across / size;
+  if (cos > Real(0.0f)) {
+    const Real half = square_root(Real(0.5f) + Real(0.5f) * cos);
+    return {half, Real(0.5f) * sin / half, size};
+  }
+  const Real half = square_root(Real(0.5f) - Real(0.5f) * cos);
+  return {Real(0.5f) * sin / half, half, size};
+}
+
+/// An orientation turned by a Gibbs vector on the world's side.
+template <class Real>
+inline Quaternion<Real> rotated(const Vector3<Real>& g, const Quaternion<Real>& q) {
+  const Vector3<Real> axis{q[1], q[2], q[3]};
+  const auto v = added(added(axis, scaled(g, q[0])), cross(g, axis));
+  return unit<Real>({q[0] - dot(g, axis), v[0], v[1], v[2]});
+}
+
+/// A vector of the world in the body's axes.
+template <class Real>
+inline Vector3<Real> in_body(const Quaternion<Real>& q, const Vector3<Real>& v) {
+  const Vector3<Real> axis{q[1], q[2], q[3]};
+  const auto once = scaled(cross(v, axis), Real(2.0f));
+  return added(added(v, scaled(once, q[0])), cross(once, axis));
+}
+
+}  // namespace wisp

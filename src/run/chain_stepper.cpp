@@ -1,7 +1,0 @@
-#include "chain_stepper.hpp"
-
-namespace wisp {
-
-template class ChainStepper<LiveNumbers>;
-
-}  // namespace wisp

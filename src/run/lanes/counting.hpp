@@ -1,0 +1,86 @@
+#pragma once
+// Numbers and words that count the arithmetic that is done with them: the kernels are instantiated with these to find
+// what they cost.
+
+#include <cstdint>
+
+#include "run/lanes/lanes.hpp"
+
+namespace wisp {
+
+/// Operations so far, on this thread.
+struct OperationCount {
+  std::int64_t numbers = 0;  ///< + − × ÷ √ and the change of sign
+  std::int64_t words = 0;    ///< arithmetic, logic and shifts
+};
+inline thread_local OperationCount operation_count;
+
+struct CountingReal {
+  float value = 0;
+
+  CountingReal() = default;
+  explicit CountingReal(float number) : value(number) {}
+};
+
+inline CountingReal counted(float value) {
+  ++operation_count.numbers;
+  return CountingReal(value);
+}
+inline CountingReal operator+(CountingReal a, CountingReal b) { return counted(a.value + b.value); }
+inline CountingReal operator-(CountingReal a, CountingReal b) { return counted(a.value - b.value); }
+inline CountingReal operator*(CountingReal a, CountingReal b) { return counted(a.value * b.value); }
+inline CountingReal operator/(CountingReal a, CountingReal b) { return counted(a.value / b.value); }
+inline CountingReal operator-(CountingReal a) { return counted(-a.value); }
+inline bool operator<(CountingReal a, CountingReal b) { return a.value < b.value; }
+inline bool operator>(CountingReal a, CountingReal b) { return a.value > b.value; }
+inline bool operator==(CountingReal a, CountingReal b) { return a.value == b.value; }
+
+inline CountingReal square_root(CountingReal a) { return counted(__builtin_sqrtf(a.value)); }
+inline float value_of(CountingReal a) { return a.value; }
+
+struct CountingWord {
+  std::uint32_t value = 0;
+
+  CountingWord() = default;
+  CountingWord(std::uint32_t word) : value(word) {}
+};
+
+inline CountingWord counted(std::uint32_t value) {
+  ++operation_count.words;
+  return {value};
+}
+inline CountingWord operator^(CountingWord a, CountingWord b) { return counted(a.value ^ b.value); }
+inline CountingWord operator&(CountingWord a, CountingWord b) { return counted(a.value & b.value); }
+inline CountingWord operator|(CountingWord a, CountingWord b) { return counted(a.value | b.value); }
+inline CountingWord operator>>(CountingWord a, int bits) { return counted(a.value >> bits); }
+
+// Conversions and comparisons, as lanes.hpp has them for live numbers. They are not arithmetic, but a sign is spread by
+// a shift, and a wide product is one multiplication.
+
+inline CountingReal real_of_part(CountingWord word) {
+  return CountingReal(static_cast<float>(static_cast<std::int32_t>(word.value)));
+}
+inline CountingWord bits_of_part(CountingReal real) { return {std::bit_cast<std::uint32_t>(real.value)}; }
+inline CountingReal real_of_bits_part(CountingWord bits) { return CountingReal(std::bit_cast<float>(bits.value)); }
+inline CountingWord spread_sign_part(CountingWord word) { return counted(word.value >> 31 ? 0xffffffffU : 0U); }
+inline CountingWord differ_part(CountingReal a, CountingReal b) { return {a == b ? 0U : 0xffffffffU}; }
+inline void spread_part(float value, CountingReal& part) { part = CountingReal(value); }
+inline void spread_part(std::uint32_t value, CountingWord& part) { part = {value}; }
+inline WideProduct<CountingWord> wide_product_part(CountingWord a, std::uint32_t b) {
+  const std::uint64_t product = static_cast<std::uint64_t>(a.value) * b;
+  return {counted(static_cast<std::uint32_t>(product >> 32)), {static_cast<std::uint32_t>(product)}};
+}
+
+inline std::uint32_t value_of(CountingWord word) { return word.value; }
+
+/// One lane of them.
+struct CountingNumbers {
+  using Real = CountingReal;
+  using Word = CountingWord;
+  using RealPart = CountingReal;
+  using WordPart = CountingWord;
+  static constexpr int kLanes = 1;
+  static constexpr int kParts = 1;
+};
+
+}  // namespace wisp

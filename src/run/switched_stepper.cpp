@@ -1,7 +1,0 @@
-#include "switched_stepper.hpp"
-
-namespace wisp {
-
-template class SwitchedStepper<LiveNumbers>;
-
-}  // namespace wisp

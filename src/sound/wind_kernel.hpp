@@ -1,0 +1,253 @@
+#pragma once
+// The estimator's arithmetic, over any number type: from samples to what was observed in a frame.
+//
+// Features and weights follow the approach of C. M. Nelke et al. (wind noise told from speech by its low band and by
+// the lack of harmonics), refitted on breath, speech, knocks and music; docs/wind.md has figures.
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "sound/wind_bands.hpp"
+#include "sound/wind_decimator.hpp"
+#include "sound/wind_design.hpp"
+#include "sound/wind_math.hpp"
+#include "sound/wind_voicing.hpp"
+
+namespace wisp::wind {
+
+/// What the last 50 ms sound like.
+template <class T>
+struct Features {
+  T low_db = T(0.0F);          ///< power near 126 Hz over all above 80 Hz
+  T high_db = T(0.0F);         ///< power near 2.6 kHz over all above 80 Hz
+  T voicing = T(0.0F);         ///< periodicity, 0 to 1, its peak held
+  T tone = T(0.0F);            ///< steadiness of the same, 0 to 1
+  T peaked = T(0.0F);          ///< log of the kurtosis of the voice band over a Gaussian's, −1 to 3
+  T loudness_db = T(-120.0F);  ///< power of the voice band (100–900 Hz)
+};
+
+/// What one frame's sound says by itself, before it is set against a background.
+template <class T>
+struct Observation {
+  T rms = T(0.0F);             ///< of all samples
+  T band_power = T(0.0F);      ///< mean square of the level band
+  T clipped = T(0.0F);         ///< share of samples at full scale
+  T loudness_db = T(-120.0F);  ///< as in Features, at the frame's end
+  T likeness = T(0.0F);        ///< 0 to 1: sounds like blowing, not talking, whatever its strength
+};
+
+/// 0 to 1: whether features are those of blowing.
+template <class T>
+T likeness_of(const Features<T>& f) {
+  const T z = T(4.0F) + T(0.317F) * f.low_db - T(17.0F) * f.voicing - T(0.45F) * f.high_db - T(0.869F) * f.peaked;
+  return sigmoid(z) * sigmoid((T(0.78F) - f.voicing) * T(25.0F)) * sigmoid((T(0.36F) - f.tone) * T(30.0F));
+}
+
+/// A gust that dies away does so in a few soft puffs that by themselves sound like anything. For half a second after
+/// sure blowing (50 ms of it) its likeness is kept while the sound only gets softer; whoever starts to talk gets
+/// louder.
+template <class T>
+class Tail {
+ public:
+  T end_hop(T likeness, T loudness_db) {
+    if (T(0.8F) < likeness) {
+      sure_hops_ = sure_hops_ < kSureHops ? sure_hops_ + 1 : kSureHops;
+      softest_db_ = loudness_db;
+      kept_ = likeness;
+      left_hops_ = sure_hops_ == kSureHops ? kTailHops : left_hops_;
+      return likeness;
+    }
+    sure_hops_ = 0;
+    if (left_hops_ == 0) return likeness;
+    if (softest_db_ + T(kRiseDb) < loudness_db) {
+      left_hops_ = 0;
+      return likeness;
+    }
+    if (loudness_db < softest_db_) softest_db_ = loudness_db;
+    --left_hops_;
+    return likeness < kept_ ? kept_ : likeness;
+  }
+
+ private:
+  static constexpr int kSureHops = 5;
+  static constexpr int kTailHops = 50;
+  static constexpr float kRiseDb = 3;
+
+  int sure_hops_ = 0;
+  int left_hops_ = 0;
+  T softest_db_ = T(0.0F);
+  T kept_ = T(0.0F);
+};
+
+template <class T>
+class Kernel {
+ public:
+  explicit Kernel(const Design& design) : d_(design), voicing_(design) {
+    for (int c = 0; c < d_.channels; ++c) channels_.emplace_back(d_);
+    per_channel_ = T(1.0F / static_cast<float>(d_.channels));
+    per_hop_ = T(1.0F / static_cast<float>(d_.channels * d_.hop));
+  }
+
+  /// Takes one sample of every channel. Returns whether a hop has ended, so that features() are new.
+  bool push(const float* samples) {
+    bool due = false;
+    for (std::size_t c = 0; c < channels_.size(); ++c) due = take(channels_[c], T(held(samples[c])));
+    ++samples_;
+    return due && analyse();
+  }
+
+  /// What the samples since the last frame say; starts the next frame.
+  Observation<T> end_frame() {
+    gather();
+    Observation<T> seen;
+    if (samples_ > 0) {
+      const T share = per_channel_ / T(static_cast<float>(samples_));
+      seen.rms = root(audible_power(power_ * share));
+      seen.clipped = T(static_cast<float>(clipped_)) * share;
+    }
+    if (analysed_ > 0) {
+      const T power = frame_band_ * (T(d_.level_gain) * per_channel_ / T(static_cast<float>(analysed_)));
+      band_power_ = audible_power(band_power_ + T(d_.smoothing) * (power - band_power_));
+    }
+    seen.band_power = band_power_;
+    seen.loudness_db = features_.loudness_db;
+    seen.likeness = likeness_;
+    samples_ = clipped_ = analysed_ = 0;
+    power_ = frame_band_ = T(0.0F);
+    return seen;
+  }
+
+  const Features<T>& features() const { return features_; }
+  T likeness() const { return likeness_; }
+
+ private:
+  struct Channel {
+    explicit Channel(const Design& d) : decimator(d), bands(d), history(d) {}
+    Decimator<T> decimator;
+    Bands<T> bands;
+    VoiceHistory<T> history;
+    T before = T(0.0F);  ///< the voice band's last sample
+  };
+
+  static float held(float x) {
+    if (!(x >= -8.0F)) return x < -8.0F ? -8.0F : 0.0F;  // NaN becomes 0
+    return x > 8.0F ? 8.0F : x;
+  }
+
+  // Powers below this (−240 dB) are none: some machines flush such small numbers and some do not.
+  static T audible_power(T power) { return power < T(1e-24F) ? T(0.0F) : power; }
+
+  static T root(T x) {
+    using std::sqrt;
+    return sqrt(x);
+  }
+
+  bool take(Channel& channel, T x) {
+    group_power_ = group_power_ + x * x;
+    const float at = plain(x);
+    if (at >= kFullScale || at <= -kFullScale) ++clipped_;
+    return channel.decimator.push(x);
+  }
+
+  // Sums of a few samples first, then their sum: a second of 192 kHz keeps its digits in single precision.
+  void gather() {
+    power_ = power_ + group_power_;
+    group_power_ = T(0.0F);
+  }
+
+  bool analyse() {
+    gather();
+    for (auto& channel : channels_) {
+      const T voice = channel.bands.push(channel.decimator.value());
+      channel.history.push(voice);
+      // The level's band is the voice band with its falling spectrum levelled by a difference: more of the band then
+      // counts, and a frame's level scatters less.
+      const T levelled = voice - channel.before;
+      channel.before = voice;
+      frame_band_ = frame_band_ + levelled * levelled;
+    }
+    ++analysed_;
+    if (++in_hop_ < d_.hop) return false;
+    in_hop_ = 0;
+    end_hop();
+    return true;
+  }
+
+  void end_hop() {
+    BandSums<T> sums;
+    std::size_t loudest = 0;
+    for (std::size_t c = 0; c < channels_.size(); ++c) {
+      if (channels_[loudest].bands.sums().voice < channels_[c].bands.sums().voice) loudest = c;
+      sums.add(channels_[c].bands.sums());
+    }
+    smooth(sums);
+    voicing_.end_hop(channels_[loudest].history.hop(), fresh(sums.voice));
+    features_.voicing = voicing_.voicing();
+    features_.tone = voicing_.tone();
+    for (auto& channel : channels_) {
+      channel.bands.end_hop();
+      channel.history.end_hop();
+    }
+    describe();
+    const T now = judged(sums.voice) ? likeness_of(features_) : T(0.0F);
+    likeness_ = tail_.end_hop(now, features_.loudness_db);
+  }
+
+  /// Whether there is a sound to judge, and one older than two hops: a voice needs as long to show its period.
+  bool judged(T voice_sum) const {
+    const T newest = T(d_.power_approach) * voice_sum * per_hop_;
+    return T(kLeastJudged) < mean_.voice * T(d_.voice_gain) && newest < T(0.5F) * mean_.voice;
+  }
+
+  /// A hop's power over the 50 ms mean that it is part of, at most 1.
+  T fresh(T voice_sum) const {
+    const T power = voice_sum * per_hop_;
+    return power < mean_.voice ? power / mean_.voice : T(1.0F);
+  }
+
+  void smooth(const BandSums<T>& sums) {
+    const auto follow = [this](T& mean, T sum) {
+      mean = audible_power(mean + T(d_.power_approach) * (sum * per_hop_ - mean));
+    };
+    follow(mean_.total, sums.total);
+    follow(mean_.low, sums.low);
+    follow(mean_.high, sums.high);
+    follow(mean_.voice, sums.voice);
+    follow(mean_.voice_fourth, sums.voice_fourth);
+  }
+
+  void describe() {
+    const auto db = [](T power, float gain) { return decibels(power * T(gain)); };
+    const T total = db(mean_.total, d_.total_gain);
+    features_.low_db = db(mean_.low, d_.low_gain) - total;
+    features_.high_db = db(mean_.high, d_.high_gain) - total;
+    features_.loudness_db = db(mean_.voice, d_.voice_gain);
+    const T gaussian = T(3.0F) * mean_.voice * mean_.voice;
+    T peaked = T(-1.0F);
+    if (T(1e-24F) < gaussian) peaked = T(0.6931471806F) * log2_of(T(1e-6F) + mean_.voice_fourth / gaussian);
+    if (peaked < T(-1.0F)) peaked = T(-1.0F);
+    if (T(3.0F) < peaked) peaked = T(3.0F);
+    features_.peaked = peaked;
+  }
+
+  static constexpr float kLeastJudged = 1e-11F;  // −110 dB: nothing is heard
+  static constexpr float kFullScale = 0.999F;    // 16-bit clipping leaves 32767 or, after an encoder, a little less
+
+  Design d_;
+  std::vector<Channel> channels_;
+  Voicing<T> voicing_;
+  T per_channel_ = T(1.0F);
+  T per_hop_ = T(1.0F);
+  int in_hop_ = 0;
+  std::int64_t samples_ = 0, clipped_ = 0, analysed_ = 0;
+  T group_power_ = T(0.0F), power_ = T(0.0F), frame_band_ = T(0.0F), band_power_ = T(0.0F);
+  BandSums<T> mean_;
+  Features<T> features_;
+  Tail<T> tail_;
+  T likeness_ = T(0.0F);
+};
+
+}  // namespace wisp::wind

@@ -1,0 +1,243 @@
+#include "wisp/sound/wind_track.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "sound/wind_background.hpp"
+#include "sound/wind_bridge.hpp"
+#include "sound/wind_design.hpp"
+#include "sound/wind_kernel.hpp"
+#include "sound/wind_verdict.hpp"
+
+namespace wisp {
+namespace {
+
+using Seen = std::vector<wind::Observation<float>>;
+
+constexpr float kFloorShare = 0.05F;    // softest frames that tell the floor
+constexpr float kQuietSeconds = 0.25F;  // a stretch without wind lasts at least so long
+constexpr float kSilentDb = -80;        // loudness of a track on which nothing is heard
+constexpr float kBlowingConfidence = 0.8F;
+
+float percentile(std::vector<float> values, float share) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<float>(values.size() - 1) + 0.5F);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/// Loudness of the softest frames in which there is any sound.
+float find_floor(const Seen& seen) {
+  std::vector<float> loudness;
+  for (const auto& one : seen) {
+    if (one.loudness_db >= wind::kNothingDb) loudness.push_back(one.loudness_db);
+  }
+  if (loudness.empty()) return wind::kLeastFloorDb;
+  return std::max(percentile(std::move(loudness), kFloorShare), wind::kLeastFloorDb);
+}
+
+bool is_quiet(const wind::Observation<float>& one, float floor_db) {
+  return one.loudness_db >= wind::kNothingDb && one.loudness_db < floor_db + wind::kQuietDb;
+}
+
+/// Marks frames of quiet stretches of at least `least` frames.
+std::vector<bool> quiet_stretches(const Seen& seen, float floor_db, std::size_t least) {
+  std::vector<bool> marks(seen.size(), false);
+  for (std::size_t begin = 0; begin < seen.size();) {
+    std::size_t end = begin;
+    while (end < seen.size() && is_quiet(seen[end], floor_db)) ++end;
+    if (end - begin >= least)
+      std::fill(marks.begin() + static_cast<std::ptrdiff_t>(begin), marks.begin() + static_cast<std::ptrdiff_t>(end),
+                true);
+    begin = end + 1;
+  }
+  return marks;
+}
+
+struct Means {
+  double rms = 0;
+  double band_power = 0;
+  std::size_t frames = 0;
+};
+
+template <class Choose>
+Means means_of(const Seen& seen, Choose choose) {
+  Means means;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (!choose(i)) continue;
+    means.rms += static_cast<double>(seen[i].rms);
+    means.band_power += static_cast<double>(seen[i].band_power);
+    ++means.frames;
+  }
+  if (means.frames == 0) return means;
+  means.rms /= static_cast<double>(means.frames);
+  means.band_power /= static_cast<double>(means.frames);
+  return means;
+}
+
+/// 95th percentile of the band power while it blows, dB; nothing (−∞ is never returned) where it never does.
+bool find_gusts(const Seen& seen, const wind::Surroundings<float>& around, float& gust_db) {
+  std::vector<float> gusts;
+  for (const auto& one : seen) {
+    const float power = wind::power_over(one, around.band_power);
+    if (power > 0 && wind::confidence_of(one, around.floor_db) > kBlowingConfidence)
+      gusts.push_back(wind::decibels(power));
+  }
+  if (gusts.empty()) return false;
+  gust_db = percentile(std::move(gusts), 0.95F);
+  return true;
+}
+
+std::vector<WindFrame> frames_of(const Seen& seen, const wind::Surroundings<float>& around, const wind::Design& d) {
+  std::vector<WindFrame> frames;
+  std::vector<float> winds;
+  for (const auto& one : seen) {
+    frames.push_back(wind::verdict(one, around, d.power_exponent));
+    frames.back().index = static_cast<std::int64_t>(frames.size()) - 1;
+    winds.push_back(wind::heard_speed(frames.back().speed, one, around.floor_db));
+  }
+  wind::bridge_recording(seen, around.floor_db, d, winds);
+  for (std::size_t k = 0; k < frames.size(); ++k) frames[k].wind = winds[k];
+  return frames;
+}
+
+std::string decimal(double x) {
+  std::string text = std::to_string(x);
+  while (text.size() > 1 && text.back() == '0') text.pop_back();
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+Result<void> check_times(std::span<const double> times) {
+  if (times.size() < 2)
+    return Error{"wind track: " + std::to_string(times.size()) + " frame times, expected at least 2"};
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const bool fine = std::isfinite(times[i]) && times[i] >= 0 && (i == 0 || times[i] > times[i - 1]);
+    if (fine) continue;
+    return Error{"wind track: frame time " + std::to_string(i) + " is " + decimal(times[i]) +
+                 " s, expected finite, not negative and later than the one before"};
+  }
+  return {};
+}
+
+}  // namespace
+
+struct WindTracker::State {
+  State(const SoundFormat& sound, const WindOptions& given, std::span<const double> frame_times)
+      : format(sound),
+        options(given),
+        design(wind::design(sound, given)),
+        kernel(design),
+        times(frame_times.begin(), frame_times.end()) {
+    skip = times.empty() ? 0 : sample_at(times.front());
+    next_frame_at = sample_at(end_seconds());
+  }
+
+  std::int64_t sample_at(double seconds) const { return static_cast<std::int64_t>(seconds * format.rate_hz + 0.5); }
+
+  /// When the frame that is being heard ends.
+  double end_seconds() const {
+    return times.empty() ? static_cast<double>(seen.size() + 1) / options.frame_rate_hz : times[seen.size() + 1];
+  }
+
+  bool wants_more() const { return times.empty() || seen.size() + 1 < times.size(); }
+
+  template <class Sample, class Load>
+  void feed(std::span<const Sample> samples, Load load) {
+    const std::size_t channels = static_cast<std::size_t>(format.channels);
+    float one[wind::kMostChannels];
+    for (std::size_t i = 0; i + channels <= samples.size(); i += channels) {
+      for (std::size_t c = 0; c < channels; ++c) one[c] = load(samples[i + c]);
+      hear(one);
+    }
+  }
+
+  void hear(const float* one) {
+    kernel.push(one);
+    ++position;
+    if (position == skip) (void)kernel.end_frame();
+    if (!wants_more() || position < next_frame_at) return;
+    seen.push_back(kernel.end_frame());
+    if (wants_more()) next_frame_at = sample_at(end_seconds());
+  }
+
+  SoundFormat format;
+  WindOptions options;
+  wind::Design design;
+  wind::Kernel<float> kernel;
+  std::vector<double> times;
+  Seen seen;
+  std::int64_t position = 0;
+  std::int64_t skip = 0;  ///< samples before the first frame
+  std::int64_t next_frame_at = 0;
+};
+
+WindTracker::WindTracker(std::unique_ptr<State> state) : state_(std::move(state)) {}
+WindTracker::WindTracker(WindTracker&&) noexcept = default;
+WindTracker& WindTracker::operator=(WindTracker&&) noexcept = default;
+WindTracker::~WindTracker() = default;
+
+Result<WindTracker> WindTracker::create(const SoundFormat& format, const WindOptions& options) {
+  if (auto ok = wind::check(format, options); !ok) return ok.error();
+  return WindTracker(std::make_unique<State>(format, options, std::span<const double>()));
+}
+
+Result<WindTracker> WindTracker::create(const SoundFormat& format, std::span<const double> frame_seconds,
+                                        const WindOptions& options) {
+  if (auto ok = wind::check(format, options); !ok) return ok.error();
+  if (auto ok = check_times(frame_seconds); !ok) return ok.error();
+  return WindTracker(std::make_unique<State>(format, options, frame_seconds));
+}
+
+void WindTracker::feed(std::span<const float> samples) {
+  state_->feed(samples, [](float x) { return x; });
+}
+
+void WindTracker::feed(std::span<const std::int16_t> samples) { state_->feed(samples, wind::from_pcm16); }
+
+Result<WindTrack> WindTracker::finish() const {
+  const Seen& seen = state_->seen;
+  WindTrack track;
+  track.seconds = static_cast<double>(state_->position) / state_->format.rate_hz;
+  if (seen.empty()) {
+    return Error{"wind track: the sound lasts " + decimal(track.seconds) + " s, expected at least one video frame (" +
+                 decimal(state_->end_seconds()) + " s)"};
+  }
+  wind::Surroundings<float> around;
+  around.floor_db = find_floor(seen);
+  const std::size_t least = static_cast<std::size_t>(kQuietSeconds * state_->options.frame_rate_hz) + 1;
+  const std::vector<bool> stretches = quiet_stretches(seen, around.floor_db, least);
+  Means means = means_of(seen, [&](std::size_t i) { return stretches[i]; });
+  track.background_found = means.frames > 0;
+  if (!track.background_found)
+    means = means_of(seen, [&](std::size_t i) { return is_quiet(seen[i], around.floor_db); });
+  around.rms = static_cast<float>(means.rms);
+  around.band_power = static_cast<float>(means.band_power);
+  around.gust_db = state_->design.first_gust_db;
+  const bool blows = find_gusts(seen, around, around.gust_db);
+
+  track.one_rms = std::sqrt(wind::from_decibels(around.gust_db));
+  track.frames = frames_of(seen, around, state_->design);
+  const float share = 1 / static_cast<float>(seen.size());
+  track.silent = true;
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    track.blowing_share += track.frames[k].confidence > 0.5F ? share : 0.0F;
+    track.clipped_share += track.frames[k].clipped * share;
+    track.silent = track.silent && seen[k].loudness_db < kSilentDb;
+  }
+  track.quiet_share = static_cast<float>(means.frames) * share;
+  track.calibration = {around.rms, std::sqrt(around.band_power), around.floor_db,
+                       blows ? std::sqrt(wind::from_decibels(around.gust_db)) : 0.0F};
+  return track;
+}
+
+Result<WindTrack> wind_from_sound(std::span<const float> interleaved, const SoundFormat& format,
+                                  const WindOptions& options) {
+  auto tracker = WindTracker::create(format, options);
+  if (!tracker) return tracker.error();
+  tracker->feed(interleaved);
+  return tracker->finish();
+}
+
+}  // namespace wisp

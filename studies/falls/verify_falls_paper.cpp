@@ -1,0 +1,269 @@
+// Real discs of paper: half of the drops are learned from, positions only, and the falls that the chain makes are held
+// against the other half, in fall time, end place aside and stall rate. What two halves of the real drops differ by is
+// the measure.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <numeric>
+#include <random>
+#include <sstream>
+
+#include "studies/falls/verify_falls.hpp"
+#include "wisp/learn/chain_fidelity.hpp"
+
+namespace wisp::verify {
+namespace {
+
+constexpr double kCameraRate = 98;
+constexpr int kSmoothRows = 9;  // the tracks' noise is a millimetre
+constexpr double kLeastRows = 20;
+constexpr int kSplits = 20;
+constexpr int kHalvings = 2000;
+constexpr double kLongestFall = 4;  // seconds: a synthesized fall that has not come down by then is cut there
+
+std::filesystem::path tracks_path() {
+  const char* set = std::getenv("WISP_DATA");
+  const auto folder =
+      set ? std::filesystem::path(set) : std::filesystem::path(WISP_SOURCE_DIR) / ".." / "shared" / "data";
+  return folder / "falling" / "falling_paper_circle.csv";
+}
+
+SegmentationOptions stalls() { return {.event = {EventKind::kMinimum, "horizontal_speed"}}; }
+
+Recording empty_track(const std::string& source) {
+  Recording track;
+  track.source = source;
+  track.rate_hz = kCameraRate;
+  for (const char* name : {"pos.x", "pos.y", "pos.z"}) track.channels.push_back({name, "m", Role::kOutput, {}});
+  return track;
+}
+
+std::vector<Recording> real_tracks(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  std::map<int, Recording> tracks;
+  while (std::getline(file, line)) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream cells(line);
+    int drop = 0;
+    double frame = 0, seconds = 0, place[3] = {};
+    cells >> drop >> frame >> seconds >> place[0] >> place[1] >> place[2];
+    Recording& track = tracks.try_emplace(drop, empty_track("drop " + std::to_string(drop))).first->second;
+    for (std::size_t axis = 0; axis < 3; ++axis) track.channels[axis].samples.push_back(place[axis]);
+  }
+  std::vector<Recording> out;
+  for (auto& [drop, track] : tracks) out.push_back(std::move(track));
+  return out;
+}
+
+/// A fall from a stall to the floor.
+struct Fall {
+  double height = 0;
+  double seconds = 0;
+  double aside = 0;
+  double stalls = 0;  ///< a second
+};
+
+/// The stalls of every piece, in rows.
+std::vector<std::vector<double>> stalls_of(const Motion& motion, std::span<const Recording> recordings) {
+  const auto cut = segment(motion, recordings, stalls());
+  if (!cut) give_up(cut.error());
+  std::vector<std::vector<double>> events(motion.pieces.size());
+  for (const Segment& one : cut->segments) {
+    if (events[one.piece].empty()) events[one.piece].push_back(one.begin);
+    events[one.piece].push_back(one.end);
+  }
+  return events;
+}
+
+Motion moved(std::span<const Recording> recordings) {
+  auto motion = motion_of(recordings, kSmoothRows);
+  if (!motion) give_up(motion.error());
+  return std::move(*motion);
+}
+
+/// Rows [from, to] of a recording, where it has fallen by a height.
+Recording fallen(const Recording& track, std::size_t from, double height) {
+  const auto& z = track.channels[2].samples;
+  std::size_t row = from;
+  while (row + 1 < z.size() && z[from] - z[row] < height) ++row;
+  return slice(track, from, row + 1);
+}
+
+/// Recordings that begin at a stall and end on the floor. Real ones and synthesized ones are cut first and looked at
+/// then: a stall that nothing follows is not seen in either.
+std::vector<Fall> falls_of(std::span<const Recording> cut) {
+  const Motion motion = moved(cut);
+  const auto events = stalls_of(motion, cut);
+  std::vector<Fall> falls;
+  for (std::size_t k = 0; k < motion.pieces.size(); ++k) {
+    const Triple &start = motion.pieces[k].position.front(), &end = motion.pieces[k].position.back();
+    const double seconds = static_cast<double>(motion.pieces[k].rows() - 1) / kCameraRate;
+    falls.push_back({start[2] - end[2], seconds, std::hypot(end[0] - start[0], end[1] - start[1]),
+                     static_cast<double>(events[k].size()) / seconds});
+  }
+  return falls;
+}
+
+/// Real drops that have two stalls: only those can be learned from, and only from the first one on are they compared.
+struct RealDrop {
+  Recording track;
+  Fall fall;
+};
+
+std::vector<RealDrop> real_drops(const std::vector<Recording>& tracks) {
+  const Motion motion = moved(tracks);
+  const auto events = stalls_of(motion, tracks);
+  std::vector<Recording> whole, cut;
+  for (std::size_t k = 0; k < motion.pieces.size(); ++k) {
+    // What is left of a drop must be long enough to be looked at.
+    if (events[k].empty() || events[k].front() + kLeastRows > static_cast<double>(motion.pieces[k].rows())) continue;
+    whole.push_back(tracks[motion.pieces[k].recording]);
+    cut.push_back(fallen(whole.back(), static_cast<std::size_t>(std::lround(events[k].front())), 1e9));
+  }
+  const auto falls = falls_of(cut);
+  std::vector<RealDrop> drops;
+  for (std::size_t k = 0; k < falls.size(); ++k) drops.push_back({std::move(whole[k]), falls[k]});
+  return drops;
+}
+
+std::vector<Fall> synthesized(const Model& model, std::span<const Fall> like, std::uint64_t seed) {
+  const auto rows = static_cast<std::size_t>(kLongestFall * kCameraRate);
+  auto falls = synthesize_falls(model, static_cast<int>(like.size()), rows, seed);
+  if (!falls) give_up(falls.error());
+  for (std::size_t k = 0; k < like.size(); ++k) (*falls)[k] = fallen((*falls)[k], 0, like[k].height);
+  return falls_of(*falls);
+}
+
+struct Figure {
+  const char* name;
+  double Fall::*value;
+};
+constexpr Figure kFigures[] = {
+    {"fall time, s", &Fall::seconds}, {"aside, m", &Fall::aside}, {"stalls a second", &Fall::stalls}};
+
+std::vector<double> values_of(std::span<const Fall> falls, const Figure& figure) {
+  std::vector<double> out;
+  for (const Fall& fall : falls) out.push_back(fall.*figure.value);
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+// Wasserstein-1 of two sorted samples.
+double distance(const std::vector<double>& a, const std::vector<double>& b) {
+  constexpr int kSteps = 200;
+  double sum = 0;
+  for (int k = 0; k < kSteps; ++k) {
+    const double share = (k + 0.5) / kSteps;
+    const auto at = [&](const std::vector<double>& values) {
+      return values[static_cast<std::size_t>(share * static_cast<double>(values.size()))];
+    };
+    sum += std::abs(at(a) - at(b)) / kSteps;
+  }
+  return sum;
+}
+
+/// How far two samples are apart, in their means and in all of their values.
+struct Apart {
+  double means = 0;
+  double values = 0;
+};
+
+Apart apart(std::span<const Fall> a, std::span<const Fall> b, const Figure& figure) {
+  const auto x = values_of(a, figure), y = values_of(b, figure);
+  return {std::abs(mean_of(x) - mean_of(y)), distance(x, y)};
+}
+
+// What two random halves of the real drops differ by, but for one time in twenty.
+Apart real_to_real(std::vector<Fall> falls, const Figure& figure, std::mt19937_64& random) {
+  std::vector<double> means, values;
+  const auto half = falls.size() / 2;
+  for (int k = 0; k < kHalvings; ++k) {
+    std::shuffle(falls.begin(), falls.end(), random);
+    const Apart found = apart(std::span(falls).first(half), std::span(falls).subspan(half), figure);
+    means.push_back(found.means);
+    values.push_back(found.values);
+  }
+  const auto most = static_cast<std::size_t>(0.95 * kHalvings);
+  std::sort(means.begin(), means.end());
+  std::sort(values.begin(), values.end());
+  return {means[most], values[most]};
+}
+
+/// One split: what was held out, and what a chain of the others plays.
+struct Trial {
+  std::vector<Fall> held_out;
+  std::vector<Fall> played;
+};
+
+Trial trial_of(std::vector<RealDrop> drops, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::shuffle(drops.begin(), drops.end(), random);
+  const std::size_t half = drops.size() / 2;
+  std::vector<Recording> told;
+  Trial trial;
+  for (std::size_t k = 0; k < drops.size(); ++k) {
+    if (k < half)
+      told.push_back(std::move(drops[k].track));
+    else
+      trial.held_out.push_back(drops[k].fall);
+  }
+  ChainOptions options{.segmentation = stalls(), .modes = 4, .holdout = 0, .smooth_rows = kSmoothRows};
+  const auto fit = learn_chain(told, options);
+  if (!fit) give_up(fit.error());
+  trial.played = synthesized(fit->model, trial.held_out, seed);
+  return trial;
+}
+
+}  // namespace
+
+void paper(Bounds& bounds) {
+  const auto path = tracks_path();
+  if (!std::filesystem::exists(path)) {
+    std::printf("\nskipped: real drops, there is no %s\n", path.string().c_str());
+    return;
+  }
+  const auto drops = real_drops(real_tracks(path));
+  std::vector<Fall> real;
+  for (const RealDrop& drop : drops) real.push_back(drop.fall);
+  std::vector<Trial> trials;
+  for (int k = 1; k <= kSplits; ++k) trials.push_back(trial_of(drops, static_cast<std::uint64_t>(k)));
+  std::printf("\n%zu real drops with two stalls, from the first one on; %d times half of them learned, half held out\n",
+              drops.size(), kSplits);
+  std::mt19937_64 random(1);
+  for (const Figure& figure : kFigures) {
+    const Apart chance = real_to_real(real, figure, random);
+    Apart mean;
+    std::vector<double> held, played;
+    int within = 0, within_values = 0;
+    for (const Trial& trial : trials) {
+      const Apart found = apart(trial.played, trial.held_out, figure);
+      mean.means += found.means / kSplits;
+      mean.values += found.values / kSplits;
+      within += found.means <= chance.means ? 1 : 0;
+      within_values += found.values <= chance.values ? 1 : 0;
+      held.push_back(mean_of(values_of(trial.held_out, figure)));
+      played.push_back(mean_of(values_of(trial.played, figure)));
+    }
+    std::printf(
+        "  %-16s real %.3f, synthesized %.3f; means apart by %.3f (halves of the real ones: %.3f in 95 %%), "
+        "within in %d of %d; values by %.3f (%.3f), within in %d\n",
+        figure.name, mean_of(held), mean_of(played), mean.means, chance.means, within, kSplits, mean.values,
+        chance.values, within_values);
+    bounds.at_most(std::string(figure.name) + ": means apart, over what real halves differ by",
+                   mean.means / chance.means, 1);
+    bounds.at_most(std::string(figure.name) + ": values apart, over what real halves differ by",
+                   mean.values / chance.values, 1);
+  }
+}
+
+}  // namespace wisp::verify

@@ -1,0 +1,140 @@
+#include "studies/flame/verify_flame_pieces.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+
+#include "studies/flame/flame_coloured.hpp"
+#include "studies/flame/flame_corpus.hpp"
+#include "studies/flame/flame_judge.hpp"
+#include "studies/value_or_abort.hpp"
+#include "wisp/learn/outline.hpp"
+#include "wisp/learn/validation.hpp"
+#include "wisp/record/csv.hpp"
+
+namespace wisp::verify {
+namespace {
+
+struct Piece {
+  const char* name;
+  OutlineOptions options;
+};
+
+constexpr const char* kDefaultPiece = "drawn with curve (the default)";  // of `wisp learn flame`
+
+/// One after the other, each beside the one before.
+std::vector<Piece> pieces() {
+  return {
+      {"independent (the paper)",
+       {.noise = OutlineNoise::kIndependent, .growing_noise = false, .match_variance = false}},
+      {"independent scaled", {.noise = OutlineNoise::kIndependent, .growing_noise = false}},
+      {"residual covariance", {.noise = OutlineNoise::kResidual, .growing_noise = false}},
+      {"matched", {.noise = OutlineNoise::kMatched, .growing_noise = false}},
+      {"matched growing", {.noise = OutlineNoise::kMatched}},
+      {"drawn order 4 points", {.order = 4, .coupling = OutlineCoupling::kPoint, .noise = OutlineNoise::kDrawn}},
+      {"drawn", {}},
+      {"drawn with square", {.square = true}},
+      {kDefaultPiece, {.input_curve = std::nullopt}},
+  };
+}
+
+bool is_asked(const PieceQuestion& question, const std::string& name) {
+  return question.names.empty() ||
+         std::find(question.names.begin(), question.names.end(), name) != question.names.end();
+}
+
+/// Coloured residuals, beside the same order with white ones. Nothing where it is not stable: it can't be played.
+std::vector<FlamePlayer> coloured_players(const std::vector<Recording>& clips, const PieceQuestion& question) {
+  std::vector<FlamePlayer> out;
+  for (const NoiseModel& noise :
+       {NoiseModel{}, NoiseModel{NoiseColour::kAutoregressive, 2}, NoiseModel{NoiseColour::kMovingAverage, 2}}) {
+    const char* name = noise.colour == NoiseColour::kWhite            ? "white"
+                       : noise.colour == NoiseColour::kAutoregressive ? "ARARX of order 2"
+                                                                      : "ARMAX of order 2";
+    if (!is_asked(question, name)) continue;
+    const auto learned = learn_coloured_flame(clips, noise);
+    if (!learned) {
+      std::printf("%s residuals: %s\n", name, learned.error().message.c_str());
+      continue;
+    }
+    const double radius = spectral_radius(std::get<ArxModel>(learned->model.dynamics));
+    std::printf("%s residuals: held-out log-likelihood %.2f nats a frame, farthest pole %.4f\n", name,
+                learned->log_likelihood, radius);
+    if (radius < 1 && noise.colour != NoiseColour::kWhite) out.push_back(player_of(name, learned->model));
+  }
+  return out;
+}
+
+/// What there is without an input.
+std::vector<Piece> flicker_pieces() {
+  std::vector<Piece> out{
+      {"independent (the paper)", {.noise = OutlineNoise::kIndependent, .match_variance = false}},
+      {"independent scaled", {.noise = OutlineNoise::kIndependent}},
+      {"residual covariance", {.noise = OutlineNoise::kResidual}},
+      {"matched (the default)", {}},
+      {"drawn", {.order = 4, .coupling = OutlineCoupling::kPoint, .noise = OutlineNoise::kDrawn}},
+  };
+  for (Piece& piece : out) piece.options.inputs.emplace();
+  return out;
+}
+
+std::vector<FlamePlayer> learned(const std::vector<Recording>& clips, const std::vector<Piece>& pieces) {
+  std::vector<FlamePlayer> out;
+  for (const Piece& piece : pieces) {
+    out.push_back(player_of(piece.name, value_or_abort(learn_outline(clips, piece.options)).model));
+  }
+  return out;
+}
+
+std::vector<FlamePlayer> players_of(const std::vector<Recording>& clips, const PieceQuestion& question) {
+  std::vector<Piece> asked = pieces();
+  std::erase_if(asked, [&](const Piece& piece) { return !is_asked(question, piece.name); });
+  std::vector<FlamePlayer> out = learned(clips, asked);
+  for (FlamePlayer& player : coloured_players(clips, question)) out.push_back(std::move(player));
+  if (out.empty()) {
+    std::fprintf(stderr, "there is no piece called %s\n", question.names.front().c_str());
+    std::exit(2);
+  }
+  return out;
+}
+
+/// The longest stretch that a play along a learned clip's own wind repeats of that clip: the most tempting case.
+void print_longest_copy(const std::vector<Recording>& clips) {
+  const auto fit = value_or_abort(learn_outline(clips, {.input_curve = std::nullopt}));
+  double seconds = 0;
+  for (const Recording& clip : clips) {
+    const auto found = value_or_abort(validate_outline(fit.model, clip));
+    if (found.fidelity) seconds = std::max(seconds, found.fidelity->verbatim_seconds);
+  }
+  std::printf("\nthe default's longest verbatim run along a learned clip's own wind: %.2f s\n", seconds);
+}
+
+}  // namespace
+
+void judge_flame_pieces(const std::filesystem::path& folder, const PieceQuestion& question) {
+  FlameCorpus corpus(folder, question.seeds);
+  const auto judge = [&](const std::vector<Recording>& clips, std::initializer_list<UnseenFlames> unseen) {
+    const auto players = players_of(clips, question);
+    for (const UnseenFlames& flames : unseen) judge_players(flames, flame_units(clips), players, folder / "pieces");
+  };
+  judge(corpus.gusts(), {corpus.unseen_gusts()});
+  print_longest_copy(corpus.gusts());
+  if (question.gusts_alone) return;
+  // Models have seen what they are to play: calm, or puffs.
+  judge(corpus.gusts_and_calm(), {corpus.unseen_calm()});
+  judge(corpus.gusts_and_puffs(), {corpus.unseen_between_blow_outs(), corpus.unseen_blow_outs()});
+}
+
+void judge_flicker_pieces(const std::filesystem::path& folder, std::span<char* const> recordings) {
+  for (const std::filesystem::path file : recordings) {
+    const Recording whole = value_or_abort(read_csv(file));
+    const std::vector first{slice(whole, 0, whole.rows() / 2)};
+    const std::vector second{slice(whole, whole.rows() / 2, whole.rows())};
+    FlameUnits units = flame_units(first);
+    units.wind.reset();
+    judge_players({file.stem().string(), second, first}, units, learned(first, flicker_pieces()), folder / "flicker");
+  }
+}
+
+}  // namespace wisp::verify

@@ -1,0 +1,147 @@
+#include "wisp/learn/gust_response.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "learn/chain/made_falls.hpp"
+#include "wisp/learn/chain.hpp"
+#include "wisp/learn/gust_play.hpp"
+
+namespace wisp {
+namespace {
+
+using testing::HasSubstr;
+
+// Falls with a gust each, that carries them along as an autoregression of order 1 does.
+struct MadePairs {
+  Recording windy;
+  Recording calm;
+};
+
+MadePairs made_pairs(double keeps, double takes, int falls = 24) {
+  MadePairs pairs{made_falls({.falls = falls, .seconds = 2}), {}};
+  pairs.calm = pairs.windy;
+  for (Recording* recording : {&pairs.windy, &pairs.calm}) {
+    recording->attributes.push_back({"pair", "made"});
+    for (const char* name : {"wind.x", "wind.y", "wind.z"}) {
+      recording->channels.push_back({name, "m/s", Role::kInput, std::vector<double>(recording->rows(), 0.0)});
+    }
+  }
+  for (int fall = 0; fall < falls; ++fall) {
+    const double direction = fall, speed = 0.5 + 0.05 * fall;
+    double change[2] = {}, place[2] = {};
+    for (std::size_t row = 0; row < 120; ++row) {
+      const std::size_t at = static_cast<std::size_t>(fall) * 120 + row;
+      const bool blows = row >= 30 && row < 60;
+      const double wind[2] = {blows ? speed * std::cos(direction) : 0, blows ? speed * std::sin(direction) : 0};
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        change[axis] = keeps * change[axis] + takes * wind[axis];
+        pairs.windy.channels[7 + axis].samples[at] = wind[axis];
+        place[axis] += change[axis] / 60;
+        pairs.windy.channels[axis].samples[at] += place[axis];
+      }
+    }
+  }
+  return pairs;
+}
+
+TEST(GustResponse, AnAutoregressionIsFoundAgain) {
+  const MadePairs pairs = made_pairs(0.85, 0.12);
+  const auto fit = learn_gusts(pairs.windy, pairs.calm, {});
+  ASSERT_TRUE(fit) << fit.error().message;
+  // Velocities are differences over two rows to either side, which rounds the gust's edges.
+  EXPECT_NEAR(fit->response.ground.change[0], 0.85, 0.02);
+  EXPECT_NEAR(fit->response.ground.wind[0] / (1 - fit->response.ground.change[0]), 0.8, 0.03);
+  EXPECT_GT(fit->figures.fit_percent, 90);
+  EXPECT_LT(fit->figures.direction_degrees, 3);
+  EXPECT_EQ(fit->inputs.size(), 3U);
+}
+
+TEST(GustResponse, WhatTheWindDoesNotMoveHasNoResponse) {
+  const MadePairs pairs = made_pairs(0, 0);
+  const auto fit = learn_gusts(pairs.windy, pairs.calm, {});
+  ASSERT_TRUE(fit);
+  EXPECT_LT(fit->figures.largest_change, 1e-6);
+}
+
+TEST(GustResponse, PairsThatDoNotMatchAreErrors) {
+  const MadePairs pairs = made_pairs(0.8, 0.2);
+  EXPECT_THAT(learn_gusts(pairs.windy, slice(pairs.calm, 0, 120 * 5), {}).error().message, HasSubstr("24 and 5"));
+  EXPECT_THAT(learn_gusts(pairs.calm, pairs.calm, {}).error().message, HasSubstr("fewer than 4 gusts"));
+  EXPECT_THAT(learn_gusts(made_falls(), pairs.calm, {}).error().message, HasSubstr("wind.x"));
+  EXPECT_FALSE(learn_gusts(pairs.windy, pairs.calm, {.order = 5}));
+}
+
+// A chain of the calm falls with the response that was learned of the windy ones.
+Model blown_model(const MadePairs& pairs) {
+  auto chain = learn_chain(std::span(&pairs.calm, 1), {.modes = 3, .holdout = 0, .restarts = 2});
+  auto gusts = learn_gusts(pairs.windy, pairs.calm, {.holdout = 0});
+  std::get<ChainModel>(chain->model.dynamics).gust = gusts->response;
+  chain->model.inputs = gusts->inputs;
+  return chain->model;
+}
+
+TEST(GustPlay, ABankThatIsBlownAtGoesWhereTheWindTookWhatWasRecorded) {
+  const MadePairs pairs = made_pairs(0.85, 0.12);
+  const auto play = play_gusts(blown_model(pairs), pairs.windy, pairs.calm);
+  ASSERT_TRUE(play) << play.error().message;
+  EXPECT_EQ(play->figures.gusts, 24U);
+  EXPECT_GT(play->figures.fit_percent, 85);
+  EXPECT_LT(play->figures.direction.mean, 5);
+  EXPECT_FALSE(play->figures.diverges);
+  EXPECT_LT(play->figures.left_after, 0.01);
+  ASSERT_EQ(play->scenes.size(), 2U);
+  EXPECT_EQ(play->scenes[0].recorded.size(), 1U);
+  EXPECT_EQ(play->scenes[0].recorded[0].size(), play->scenes[0].blows.size());
+}
+
+TEST(GustPlay, EveryGustsEndIsGivenWithItsWindAndTheCalmFallsWay) {
+  const MadePairs pairs = made_pairs(0.85, 0.12);
+  const auto play = play_gusts(blown_model(pairs), pairs.windy, pairs.calm, {.after_seconds = 0.1});
+  ASSERT_TRUE(play);
+  ASSERT_EQ(play->ends.size(), 24U);
+  for (std::size_t fall = 0; fall < 24; ++fall) {
+    const GustEnd& end = play->ends[fall];
+    // The wind blows in 30 of the 36 rows from 30 to 65.
+    const double speed = 0.5 + 0.05 * static_cast<double>(fall), direction = static_cast<double>(fall);
+    EXPECT_NEAR(end.wind[0], speed * 30 / 36 * std::cos(direction), 1e-9);
+    EXPECT_NEAR(end.recorded[1] / end.recorded[0], std::tan(direction), 1e-6 * std::abs(std::tan(direction)));
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto& samples = pairs.calm.channels[axis].samples;
+      EXPECT_NEAR(end.recorded_calm[axis], samples[fall * 120 + 65] - samples[fall * 120 + 30], 1e-9);
+    }
+    EXPECT_NEAR(end.played[0], end.recorded[0], 0.15 * std::hypot(end.recorded[0], end.recorded[1]));
+  }
+}
+
+TEST(GustPlay, AResponseThatBlowsTheOtherWayIsSeen) {
+  const MadePairs pairs = made_pairs(0.85, 0.12);
+  Model model = blown_model(pairs);
+  for (double& gain : std::get<ChainModel>(model.dynamics).gust->ground.wind) gain = -gain;
+  const auto play = play_gusts(model, pairs.windy, pairs.calm);
+  ASSERT_TRUE(play);
+  EXPECT_LT(play->figures.fit_percent, 0);
+  EXPECT_GT(play->figures.direction.median, 170);
+}
+
+TEST(GustPlay, WhatKeepsGoingDiverges) {
+  const MadePairs pairs = made_pairs(0.85, 0.12);
+  Model model = blown_model(pairs);
+  std::get<ChainModel>(model.dynamics).gust->ground.change = {0.9995};
+  const auto play = play_gusts(model, pairs.windy, pairs.calm);
+  ASSERT_TRUE(play);
+  EXPECT_TRUE(play->figures.diverges);
+}
+
+TEST(GustPlay, AModelWithoutAResponseIsAnError) {
+  const MadePairs pairs = made_pairs(0.85, 0.12, 6);
+  Model model = blown_model(pairs);
+  std::get<ChainModel>(model.dynamics).gust.reset();
+  model.inputs.clear();
+  EXPECT_THAT(play_gusts(model, pairs.windy, pairs.calm).error().message, HasSubstr("no response"));
+}
+
+}  // namespace
+}  // namespace wisp

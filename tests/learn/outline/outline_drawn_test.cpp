@@ -1,0 +1,130 @@
+// What of a recording's residuals is kept to be played again, and about which point.
+
+#include "learn/outline/outline_drawn.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "learn/outline/made_outline.hpp"
+#include "wisp/learn/outline.hpp"
+#include "wisp/learn/prediction.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr made::OutlineRecipe kWindy{.rows = 900, .wind = true};
+
+OutlineFit learned(const made::OutlineRecipe& recipe, const OutlineOptions& options = {}) {
+  auto fit = learn_outline(std::vector{made::outline_recording(recipe)}, options);
+  EXPECT_TRUE(fit);
+  return *std::move(fit);
+}
+
+const ArxModel& dynamics_of(const OutlineFit& fit) { return std::get<ArxModel>(fit.model.dynamics); }
+
+TEST(OutlineDrawn, IsTheDefaultWhereAnInputDrivesAtLeastTenSeconds) {
+  const OutlineFit fit = learned(kWindy);
+  const DrawnResiduals& drawn = dynamics_of(fit).noise.drawn;
+  EXPECT_GT(drawn.row_count(), 850u);
+  EXPECT_EQ(drawn.toward, 0);
+  EXPECT_EQ(drawn.against, 1);
+  EXPECT_EQ(drawn.mirror.size(), drawn.scale.size());
+  made::OutlineRecipe brief = kWindy;
+  brief.rows = 200;
+  EXPECT_TRUE(dynamics_of(learned(brief)).noise.drawn.empty());
+  EXPECT_TRUE(dynamics_of(learned({.rows = 900})).noise.drawn.empty());
+  EXPECT_TRUE(dynamics_of(learned(kWindy, {.noise = OutlineNoise::kMatched})).noise.drawn.empty());
+}
+
+TEST(OutlineDrawn, KeepsResidualsToTheirSixteenBits) {
+  const OutlineFit fit = learned(kWindy);
+  const ArxModel& arx = dynamics_of(fit);
+  const DrawnResiduals& drawn = arx.noise.drawn;
+  const std::size_t ny = drawn.scale.size();
+  for (std::size_t i = 0; i < ny; ++i) {
+    double square = 0;
+    for (std::size_t row = 0; row < drawn.row_count(); ++row)
+      square += std::pow(drawn.rows[row * ny + i] * drawn.scale[i], 2);
+    const double sd = std::sqrt(square / static_cast<double>(drawn.row_count()));
+    // The model is learned from mirror images too, and its standard deviations are about both.
+    EXPECT_NEAR(sd, arx.noise.sd[i], 0.15 * arx.noise.sd[i]) << i;
+  }
+}
+
+TEST(OutlineDrawn, RemembersHowTheTipLeanedBeforeEveryRow) {
+  const OutlineFit fit = learned(kWindy);
+  const DrawnResiduals& drawn = dynamics_of(fit).noise.drawn;
+  ASSERT_EQ(drawn.leans.size(), 2 * drawn.row_count());
+  const auto points = static_cast<int>(drawn.scale.size() / 2);
+  const int left = (points - 1) / 2, right = points / 2;
+  EXPECT_EQ(drawn.lean_of, (std::vector<int>{2 * left, 2 * right, 2 * left + 1, 2 * right + 1}));
+  std::array<double, 2> sum{}, square{};
+  double with_wind = 0, wind = 0;
+  const auto rows = static_cast<double>(drawn.row_count());
+  for (std::size_t row = 0; row < drawn.row_count(); ++row) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double lean = drawn.leans[2 * row + k] * drawn.lean_scale;
+      sum[k] += lean / rows;
+      square[k] += lean * lean / rows;
+    }
+    with_wind += drawn.leans[2 * row] * drawn.lean_scale * drawn.winds[2 * row] * drawn.wind_scale / rows;
+    wind += drawn.winds[2 * row] * drawn.wind_scale / rows;
+  }
+  const double sway = std::sqrt(square[0] - sum[0] * sum[0]), rise = std::sqrt(square[1] - sum[1] * sum[1]);
+  EXPECT_NEAR(std::max(sway, rise) * drawn.lean_weight, 0.45, 0.005);
+  EXPECT_GT(with_wind - wind * sum[0], 0);  // it leans with the wind
+}
+
+// The first gust of a stretch begins it: what stands still in calm is not taken into a gust that it does not feel.
+TEST(OutlineDrawn, WhatWasRecordedInCalmEndsWhereItBeginsToBlow) {
+  const OutlineFit fit = learned(kWindy);
+  const DrawnResiduals& drawn = dynamics_of(fit).noise.drawn;
+  const auto wind = [&](std::size_t row) { return std::abs(drawn.winds[2 * row] * drawn.wind_scale); };
+  std::size_t begin = 0, calm = 0, abated = 0;
+  for (const std::size_t end : drawn.ends) {
+    for (std::size_t row = begin + 1; row < end; ++row) {
+      calm += wind(row) <= 0.039 ? 1 : 0;
+      abated += wind(row - 1) > 0.041 && wind(row) <= 0.039 ? 1 : 0;
+      EXPECT_FALSE(wind(row - 1) <= 0.039 && wind(row) > 0.041) << row;
+    }
+    begin = end;
+  }
+  EXPECT_GT(calm, 100u);
+  EXPECT_GT(abated, 2u);
+  EXPECT_GT(drawn.ends.size(), 5u);
+}
+
+TEST(OutlineDrawn, TakesNoMoreBytesThanItMay) {
+  const OutlineFit fit = learned(kWindy, {.drawn_bytes = 6400});
+  EXPECT_LE(dynamics_of(fit).noise.drawn.rows.size() * 2, 6400u);
+  EXPECT_GT(dynamics_of(fit).noise.drawn.rows.size() * 2, 6000u);
+}
+
+TEST(OutlineDrawn, AModelAboutItsCalmIsTheSameModel) {
+  ArxModel model;
+  model.orders = {OrderMatrix(1, 1, 2), OrderMatrix(1, 1, 2), OrderMatrix(1, 1, 1)};
+  model.theta = {{-0.9, 0.2, 0.5, 0.1}};
+  model.constant = {0.3};
+  model.output_mean = {4};
+  model.input_mean = {0.7};
+  model.noise.sd = {1};
+  ArxModel calm = model;
+  centre_on_calm(calm);
+  EXPECT_EQ(calm.input_mean[0], 0);
+  EXPECT_EQ(calm.constant[0], 0);
+  Recording data{.source = "made", .rate_hz = 1};
+  data.channels = {{"u", "", Role::kInput, {}}, {"y", "", Role::kOutput, {}}};
+  for (int t = 0; t < 50; ++t) {
+    data.channels[0].samples.push_back(std::sin(t));
+    data.channels[1].samples.push_back(std::cos(3 * t));
+  }
+  const ChannelChoice channels{{"u"}, {"y"}};
+  const auto a = predict(model, data, channels), b = predict(calm, data, channels);
+  ASSERT_TRUE(a && b);
+  for (int t = 5; t < 50; ++t) EXPECT_NEAR((*a)[0][t], (*b)[0][t], 1e-12) << t;
+}
+
+}  // namespace
+}  // namespace wisp

@@ -1,0 +1,55 @@
+#include "wisp/learn/outline_figures.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "learn/outline/made_outline.hpp"
+#include "wisp/learn/outline.hpp"
+
+namespace wisp {
+namespace {
+
+TEST(OutlineFigures, FitIsTheShareOfTheDeviationThatIsExplained) {
+  const std::vector<double> y{1, 2, 3, 4};
+  EXPECT_DOUBLE_EQ(fit_percent(y, y), 100);
+  EXPECT_DOUBLE_EQ(fit_percent(y, std::vector<double>{2.5, 2.5, 2.5, 2.5}), 0);
+  // Errors of 1 in all four against deviations 1.5, 0.5, 0.5, 1.5.
+  EXPECT_NEAR(fit_percent(y, std::vector<double>{2, 3, 4, 5}), 100 * (1 - 2 / std::sqrt(5.0)), 1e-12);
+  EXPECT_DOUBLE_EQ(fit_percent(std::vector<double>{3, 3}, std::vector<double>{3, 4}), 0);
+}
+
+TEST(OutlineFigures, AModelThatIsRightLeavesWhiteResidualsAndGoodFits) {
+  const std::vector recordings{made::outline_recording({.rows = 3000})};
+  const auto fit = learn_outline(recordings, {.order = 2, .holdout = 0.5});
+  ASSERT_TRUE(fit);
+  const OutlineFigures& figures = *fit->summary.held_out;
+  ASSERT_EQ(figures.steps, (std::vector<int>{1, 5, 15, kFreeRun}));
+  EXPECT_GT(figures.tip_fit_percent[0], 60);
+  EXPECT_GT(figures.tip_fit_percent[0], figures.tip_fit_percent[1]);
+  EXPECT_GT(figures.overlap[0], figures.overlap[2]);
+  EXPECT_GT(figures.overlap[0], 0.9);
+  EXPECT_LT(figures.j[0][2], figures.j[2][2]);
+  EXPECT_EQ(figures.j[0].size(), 6u);
+  const auto white = std::count_if(figures.channels.begin(), figures.channels.end(),
+                                   [](const OutlineChannelFigures& channel) { return channel.whiteness_p > 0.001; });
+  EXPECT_EQ(white, 12);
+}
+
+TEST(OutlineFigures, TooLowAnOrderLeavesColouredResiduals) {
+  const std::vector recordings{made::outline_recording({.rows = 3000})};
+  const auto fit = learn_outline(recordings, {.order = 1});
+  ASSERT_TRUE(fit);
+  EXPECT_LT(fit->summary.learned.channels[4].whiteness_p, 1e-6);
+}
+
+TEST(OutlineFigures, AFreeRunWithoutInputIsTheMeanShape) {
+  const std::vector recordings{made::outline_recording({.rows = 3000})};
+  const auto fit = learn_outline(recordings);
+  EXPECT_NEAR(fit->summary.learned.tip_fit_percent.back(), 0, 2);
+}
+
+}  // namespace
+}  // namespace wisp

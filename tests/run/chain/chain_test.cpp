@@ -1,0 +1,464 @@
+// Banks of segment chains: walks, placement, joins, and the promises that every kind of dynamics keeps.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "model/sample_chain.hpp"
+#include "model/sample_model.hpp"
+#include "run/chain/chain_stepper.hpp"
+#include "wisp/run/bank.hpp"
+#include "wisp/run/chain_loop.hpp"
+
+namespace wisp {
+namespace {
+
+using Pose = std::array<float, 7>;
+
+Bank bank_of(const Model& model, int capacity = 1, std::uint64_t seed = 1) {
+  auto bank = Bank::create(model, {.capacity = capacity, .seed = seed});
+  EXPECT_TRUE(bank) << bank.error().message;
+  for (int k = 0; k < capacity; ++k) bank->spawn();
+  return std::move(bank).value();
+}
+
+Pose pose_of(const Bank& bank, int slot = 0) {
+  Pose pose{};
+  EXPECT_TRUE(bank.outputs(bank.at(slot), std::span(pose).first(bank.output_count())));
+  return pose;
+}
+
+double distance(const Pose& a, const Pose& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+
+// Cosine of half the angle between two orientations.
+double agreement(const Pose& a, const Pose& b) {
+  return std::abs(a[3] * b[3] + a[4] * b[4] + a[5] * b[5] + a[6] * b[6]);
+}
+
+TEST(ChainBank, PlaysEachSegmentStepByStep) {
+  Bank bank = bank_of(unblended());
+  for (int step = 0; step < 200; ++step) {
+    const ChainPlace before = *bank.chain_place(bank.at(0));
+    bank.step();
+    const ChainPlace after = *bank.chain_place(bank.at(0));
+    if (after.step == 0) continue;
+    EXPECT_EQ(after.segment, before.segment);
+    EXPECT_EQ(after.step, before.step + 1);
+  }
+}
+
+TEST(ChainBank, ModesFollowEachOtherAsTheChainSays) {
+  const Model model = unblended();
+  const auto& chain = std::get<ChainModel>(model.dynamics);
+  Bank bank = bank_of(model);
+  double seen[2][2] = {};
+  double after_one_zero[2] = {};
+  std::vector<int> modes = {chain.segments.mode[bank.chain_place(bank.at(0))->segment]};
+  while (modes.size() < 20000) {
+    bank.step();
+    const ChainPlace place = *bank.chain_place(bank.at(0));
+    if (place.step == 0) modes.push_back(chain.segments.mode[place.segment]);
+  }
+  for (std::size_t k = 2; k < modes.size(); ++k) {
+    if (modes[k - 2] == 1 && modes[k - 1] == 0) {
+      ++after_one_zero[modes[k]];
+    } else {
+      ++seen[modes[k - 1]][modes[k]];
+    }
+  }
+  // Six standard deviations of a share of about 5000.
+  EXPECT_NEAR(after_one_zero[0] / (after_one_zero[0] + after_one_zero[1]), 0.125, 0.03);
+  EXPECT_NEAR(seen[0][0] / (seen[0][0] + seen[0][1]), 0.25, 0.04);
+  EXPECT_NEAR(seen[1][0] / (seen[1][0] + seen[1][1]), 0.5, 0.04);
+}
+
+// Modes of a walk of 20000 segments.
+std::vector<int> walked(Bank& bank, const Model& model) {
+  const auto& mode = std::get<ChainModel>(model.dynamics).segments.mode;
+  std::vector<int> modes = {mode[bank.chain_place(bank.at(0))->segment]};
+  while (modes.size() < 20000) {
+    bank.step();
+    const ChainPlace place = *bank.chain_place(bank.at(0));
+    if (place.step == 0) modes.push_back(mode[place.segment]);
+  }
+  return modes;
+}
+
+TEST(ChainBank, ASegmentSaysTooWhichModeFollowsIt) {
+  const Model model = onward_chain();
+  const auto& chain = std::get<ChainModel>(model.dynamics);
+  Bank bank = bank_of(model);
+  double seen[3][2] = {};
+  std::uint32_t before = bank.chain_place(bank.at(0))->segment;
+  for (int joins = 0; joins < 20000;) {
+    bank.step();
+    const ChainPlace place = *bank.chain_place(bank.at(0));
+    if (place.step != 0) continue;
+    ++seen[before][chain.segments.mode[place.segment]];
+    before = place.segment;
+    ++joins;
+  }
+  // Five deviations of a share of some thousand.
+  const auto share = [&](int segment) { return seen[segment][1] / (seen[segment][0] + seen[segment][1]); };
+  EXPECT_NEAR(share(0), 0.75 / (0.75 + 5 * 0.25), 0.04);
+  EXPECT_GT(share(1), 0.999);
+  EXPECT_NEAR(share(2), 0.5, 0.04);
+}
+
+TEST(ChainBank, WithoutChanceTheLikeliestModeAfterASegmentFollows) {
+  Bank bank = bank_of(onward_chain());
+  bank.set_noise(0);
+  while (bank.chain_place(bank.at(0))->segment != 0) bank.step();
+  while (bank.chain_place(bank.at(0))->segment == 0) bank.step();
+  EXPECT_EQ(bank.chain_place(bank.at(0))->segment, 1U);  // of mode 0, where the history alone says mode 1
+}
+
+TEST(ChainBank, AShorterHistoryLooksNoFurtherBack) {
+  const Model model = unblended();
+  Bank bank = bank_of(model);
+  bank.set_history(1);
+  const std::vector<int> modes = walked(bank, model);
+  double after[2] = {};
+  for (std::size_t k = 2; k < modes.size(); ++k) {
+    if (modes[k - 2] == 1 && modes[k - 1] == 0) ++after[modes[k]];
+  }
+  // As after any 0, though the chain knows better (0.125).
+  EXPECT_NEAR(after[0] / (after[0] + after[1]), 0.25, 0.03);
+}
+
+TEST(ChainBank, AsLongAHistoryAsLearnedChangesNothing) {
+  Bank bank = bank_of(sample_chain()), limited = bank_of(sample_chain());
+  limited.set_history(2);
+  for (int step = 0; step < 500; ++step) {
+    bank.step();
+    limited.step();
+    ASSERT_EQ(pose_of(bank), pose_of(limited));
+  }
+  limited.set_history(-3);
+  EXPECT_EQ(limited.history(), 0);
+}
+
+// How often the sample's second-best follower of segment 0 in mode 0, which is segment 0 itself, followed it.
+double second_best_share(std::optional<float> temperature) {
+  Bank bank = bank_of(unblended());
+  bank.set_temperature(temperature);
+  double seconds = 0, all = 0;
+  std::uint32_t before = bank.chain_place(bank.at(0))->segment;
+  for (int step = 0; step < 100'000; ++step) {
+    bank.step();
+    const ChainPlace place = *bank.chain_place(bank.at(0));
+    if (place.step != 0) continue;
+    if (before == 0 && place.segment < 2) {
+      ++all;
+      seconds += place.segment == 0 ? 1 : 0;
+    }
+    before = place.segment;
+  }
+  return seconds / all;
+}
+
+TEST(ChainBank, TemperatureSaysHowOftenWhatJoinsWorseIsTaken) {
+  EXPECT_EQ(second_best_share(0.0f), 0);
+  EXPECT_EQ(second_best_share(-1.0f), 0);
+  EXPECT_EQ(second_best_share(std::numeric_limits<float>::quiet_NaN()), 0);
+  // A third of what is best; six standard deviations of some 700.
+  EXPECT_NEAR(second_best_share(0.5f), 0.25, 0.1);
+  EXPECT_NEAR(second_best_share(std::numeric_limits<float>::infinity()), 0.5, 0.12);
+  EXPECT_NEAR(second_best_share({}), 0.5, 0.12);
+}
+
+TEST(ChainBank, WithoutChanceEveryInstanceLivesTheSameLifeInALoopThatIsKnown) {
+  const Model model = sample_chain();
+  const auto& segments = std::get<ChainModel>(model.dynamics).segments;
+  const auto loop = chain_loop(model);
+  ASSERT_TRUE(loop);
+  auto bank = Bank::create(model, {.capacity = 2, .seed = 9});
+  ASSERT_TRUE(bank);
+  bank->set_noise(0);
+  bank->spawn(3);
+  bank->spawn(77);
+  std::vector<std::uint32_t> walk = {bank->chain_place(bank->at(0))->segment};
+  while (walk.size() < 60) {
+    bank->step();
+    ASSERT_EQ(pose_of(*bank, 0)[2], pose_of(*bank, 1)[2]);
+    const ChainPlace place = *bank->chain_place(bank->at(0)), other = *bank->chain_place(bank->at(1));
+    ASSERT_TRUE(place.segment == other.segment && place.step == other.step);
+    if (place.step == 0) walk.push_back(place.segment);
+  }
+  // The likeliest beginning is mode 0; the sample's likeliest modes are 1 after 0 and, of two alike, 0 after 1.
+  EXPECT_EQ(segments.mode[walk[0]], 0);
+  double seconds = 0;
+  for (std::size_t k = 0; k < loop->segments; ++k) seconds += segments.steps[walk[loop->lead + k]] / 60.0;
+  EXPECT_NEAR(loop->seconds, seconds, 1e-9);
+  for (std::size_t k = loop->lead; k + loop->segments < walk.size(); ++k) {
+    EXPECT_EQ(walk[k], walk[k + loop->segments]);
+  }
+  EXPECT_FALSE(chain_loop(sample_model()));
+}
+
+TEST(ChainBank, WhatIsHeldFarFromTheOriginIsCounted) {
+  Bank bank = bank_of(sample_chain());
+  for (int step = 0; step < 100; ++step) bank.step();
+  EXPECT_EQ(bank.held().held, 0U);
+  bank.place(bank.at(0), {.position = {999'999.9f, 0, 0}, .velocity = {1, 0, 0}});
+  for (int step = 0; step < 100; ++step) bank.step();
+  EXPECT_GT(bank.held().held, 20U);
+}
+
+TEST(ChainBank, FollowersAreThoseOfTheTable) {
+  const Model model = unblended();
+  const auto& segments = std::get<ChainModel>(model.dynamics).segments;
+  Bank bank = bank_of(model);
+  std::uint32_t before = bank.chain_place(bank.at(0))->segment;
+  for (int step = 0; step < 5000; ++step) {
+    bank.step();
+    const ChainPlace place = *bank.chain_place(bank.at(0));
+    if (place.step != 0) continue;
+    const std::size_t row = (before * 2 + segments.mode[place.segment]) * 2;
+    EXPECT_TRUE(segments.follow[row] == place.segment || segments.follow[row + 1] == place.segment);
+    before = place.segment;
+  }
+}
+
+TEST(ChainBank, PositionNeverJumps) {
+  for (const Model& model : {sample_chain(), unblended(), sample_chain(ChainMotion::kPosition)}) {
+    Bank bank = bank_of(model);
+    Pose before = pose_of(bank);
+    for (int step = 0; step < 2000; ++step) {
+      bank.step();
+      const Pose now = pose_of(bank);
+      // A step of the sample is 16 to 17 mm; while a join fades, the difference of rates is added.
+      EXPECT_LT(distance(before, now), 0.025) << step;
+      before = now;
+    }
+  }
+}
+
+TEST(ChainBank, HeadingIsCarriedOverJoins) {
+  // Two segments that turn on and on: the turn over a long walk is what all its segments turned.
+  Bank bank = bank_of(sample_chain());
+  const auto heading = [](const Pose& pose) { return 2 * std::atan2(pose[6], pose[3]); };
+  double turned = 0, expected = 0;
+  double before = heading(pose_of(bank));
+  for (int step = 0; step < 3000; ++step) {
+    const std::uint32_t segment = bank.chain_place(bank.at(0))->segment;
+    bank.step();
+    const double now = heading(pose_of(bank));
+    turned += std::remainder(now - before, 2 * std::acos(-1.0));
+    expected += sample_turn(segment);
+    before = now;
+  }
+  EXPECT_NEAR(turned, expected, 0.02 * expected);
+}
+
+TEST(ChainBank, AWorldFramedChainKeepsItsHeading) {
+  Model model = unblended();
+  std::get<ChainModel>(model.dynamics).heading_free = false;
+  Bank bank = bank_of(model);
+  for (int step = 0; step < 300; ++step) {
+    const Pose before = pose_of(bank);
+    bank.step();
+    // Every step of every segment of the sample goes 10 mm along x.
+    EXPECT_NEAR(pose_of(bank)[0] - before[0], 0.01, 1e-4);
+  }
+}
+
+TEST(ChainBank, BlendedOrientationDoesNotJumpAndAnUnblendedOneDoes) {
+  const auto least_agreement = [](const Model& model) {
+    Bank bank = bank_of(model);
+    Pose before = pose_of(bank);
+    double least = 1;
+    for (int step = 0; step < 3000; ++step) {
+      bank.step();
+      const Pose now = pose_of(bank);
+      least = std::min(least, agreement(before, now));
+      before = now;
+    }
+    return least;
+  };
+  EXPECT_LT(least_agreement(unblended()), std::cos(0.09));
+  EXPECT_GT(least_agreement(sample_chain()), std::cos(0.09));
+}
+
+TEST(ChainBank, AJoinFadesWithinHalfASegment) {
+  const Model blended = sample_chain(), plain = unblended();
+  Bank a = bank_of(blended), b = bank_of(plain);
+  for (int step = 0; step < 2000; ++step) {
+    a.step();
+    b.step();
+    const ChainPlace place = *a.chain_place(a.at(0));
+    ASSERT_EQ(place.segment, b.chain_place(b.at(0))->segment);
+    const int steps = std::get<ChainModel>(plain.dynamics).segments.steps[place.segment];
+    // Positions agree; orientations were turned to fit another pose at the join, so tilt is compared.
+    if (2 * place.step < static_cast<std::uint32_t>(steps)) continue;
+    const Pose p = pose_of(a), q = pose_of(b);
+    EXPECT_NEAR(1 - 2 * (p[4] * p[4] + p[5] * p[5]), 1 - 2 * (q[4] * q[4] + q[5] * q[5]), 1e-4);
+  }
+}
+
+TEST(ChainBank, QuaternionsStayUnitAndTheirSignNeverFlips) {
+  Bank bank = bank_of(sample_chain());
+  Pose before = pose_of(bank);
+  for (int step = 0; step < 100'000; ++step) {
+    bank.step();
+    const Pose q = pose_of(bank);
+    const double square = q[3] * q[3] + q[4] * q[4] + q[5] * q[5] + q[6] * q[6];
+    // Sixteen bits a component, and single precision.
+    ASSERT_NEAR(square, 1, 2e-4) << step;
+    ASSERT_GT(before[3] * q[3] + before[4] * q[4] + before[5] * q[5] + before[6] * q[6], 0) << step;
+    before = q;
+  }
+}
+
+TEST(ChainBank, EveryInstanceLivesTheSameLifeInABankOfAnySize) {
+  const Model model = sample_chain();
+  Bank many = bank_of(model, 19, 5);
+  for (int slot : {0, 7, 18}) {
+    auto one = Bank::create(model, {.seed = 5});
+    ASSERT_TRUE(one);
+    one->spawn(static_cast<std::uint64_t>(slot));
+    Bank again = bank_of(model, 19, 5);
+    for (int step = 0; step < 100; ++step) {
+      one->step();
+      again.step();
+      EXPECT_EQ(pose_of(*one), pose_of(again, slot));
+    }
+  }
+  EXPECT_NE(pose_of(many, 0), pose_of(many, 1));
+}
+
+TEST(ChainBank, ARestoredBankGoesOnWithTheSameBits) {
+  const Model model = sample_chain();
+  Bank bank = bank_of(model, 5);
+  for (int step = 0; step < 37; ++step) bank.step();
+  std::vector<std::byte> saved(bank.save_bytes());
+  bank.save(saved);
+  Bank other = bank_of(model, 5, 99);
+  const auto restored = other.restore(saved);
+  ASSERT_TRUE(restored) << restored.error().message;
+  for (int step = 0; step < 200; ++step) {
+    bank.step();
+    other.step();
+    for (int slot = 0; slot < 5; ++slot) EXPECT_EQ(pose_of(bank, slot), pose_of(other, slot));
+  }
+  Bank longer = bank_of(sample_chain(ChainMotion::kPosition), 5);
+  EXPECT_FALSE(longer.restore(saved));
+}
+
+TEST(ChainBank, IsRestoredInTheMidstOfAJoin) {
+  const Model model = sample_chain();
+  Bank bank = bank_of(model, 3);
+  std::vector<std::byte> saved(bank.save_bytes());
+  // A segment of the sample takes five steps at least: what is drawn, joined, and begins to fade is all seen.
+  for (int step = 0; step < 40; ++step) {
+    bank.step();
+    bank.save(saved);
+    Bank other = bank_of(model, 3, 99);
+    ASSERT_TRUE(other.restore(saved));
+    Bank same = bank_of(model, 3, 98);
+    ASSERT_TRUE(same.restore(saved));
+    for (int more = 0; more < 15; ++more) {
+      other.step();
+      // Saved and restored once more on the way.
+      std::vector<std::byte> again(same.save_bytes());
+      same.save(again);
+      ASSERT_TRUE(same.restore(again));
+      same.step();
+      for (int slot = 0; slot < 3; ++slot) ASSERT_EQ(pose_of(other, slot), pose_of(same, slot)) << step << ' ' << more;
+    }
+  }
+}
+
+TEST(ChainBank, WhatAnOlderWispSavedOfAChainIsRefusedWithAReason) {
+  Bank bank = bank_of(sample_chain());
+  std::vector<std::byte> saved(bank.save_bytes());
+  bank.save(saved);
+  saved[8] = std::byte{2};
+  const auto restored = bank.restore(saved);
+  ASSERT_FALSE(restored);
+  EXPECT_THAT(restored.error().message, testing::HasSubstr("those of chains are read from version 3 on"));
+}
+
+TEST(ChainBank, AWorldFramedQuaternionsSignNeverFlips) {
+  Model model = sample_chain();
+  auto& chain = std::get<ChainModel>(model.dynamics);
+  chain.heading_free = false;
+  // Segment 1 says the same with the other sign.
+  for (std::size_t row = 9; row < 9 + 6; ++row) {
+    for (std::size_t k = 3; k < 7; ++k) chain.segments.rows[7 * row + k] *= -1;
+  }
+  Bank bank = bank_of(model);
+  Pose before = pose_of(bank);
+  for (int step = 0; step < 2000; ++step) {
+    bank.step();
+    const Pose q = pose_of(bank);
+    ASSERT_GT(before[3] * q[3] + before[4] * q[4] + before[5] * q[5] + before[6] * q[6], 0.9) << step;
+    before = q;
+  }
+}
+
+TEST(ChainBank, TimeBetweenStepsIsInterpolatedAndQuaternionsStayUnit) {
+  const Model model = sample_chain();
+  Bank raw = bank_of(model), timed = bank_of(model);
+  raw.step();
+  const Pose first = pose_of(raw);
+  raw.step();
+  const Pose second = pose_of(raw);
+  timed.advance(timed.step_time() * 2 + timed.step_time() / 4);
+  const Pose between = pose_of(timed);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(between[axis], first[axis] + 0.25f * (second[axis] - first[axis]), 1e-6);
+  }
+  double square = 0;
+  for (std::size_t k = 3; k < 7; ++k) square += between[k] * between[k];
+  EXPECT_NEAR(square, 1, 1e-6);
+}
+
+TEST(ChainBank, EndedAndRebornInstancesBeginAtTheOrigin) {
+  Bank bank = bank_of(sample_chain(), 3);
+  for (int step = 0; step < 50; ++step) bank.step();
+  const InstanceId id = bank.at(1);
+  EXPECT_TRUE(bank.reset(id));
+  const Pose pose = pose_of(bank, 1);
+  EXPECT_EQ((std::array{pose[0], pose[1], pose[2]}), (std::array{0.0f, 0.0f, 0.0f}));
+}
+
+TEST(ChainBank, NewbornsHeadEverywhere) {
+  Bank bank = bank_of(sample_chain(), 400);
+  std::array<int, 4> quadrant{};
+  for (int slot = 0; slot < 400; ++slot) {
+    const Pose pose = pose_of(bank, slot);
+    const double heading = 2 * std::atan2(pose[6], pose[3]) + 8 * std::acos(-1.0);
+    ++quadrant[static_cast<std::size_t>(heading / std::acos(0.0)) % 4];
+  }
+  // Each expects 100 ± 8.7; five deviations.
+  for (int count : quadrant) EXPECT_NEAR(count, 100, 44);
+}
+
+TEST(ChainBank, LanesThatNobodyLivesInAreNotMoved) {
+  const Model model = sample_chain();
+  std::vector<std::byte> memory(1 << 20);
+  Arena arena(memory);
+  ChainStepper<LiveNumbers> stepper(model, std::get<ChainModel>(model.dynamics), Channels{}, 1, arena);
+  const RandomKeys keys = random_keys(1);
+  const std::array<std::uint64_t, LiveNumbers::kLanes> streams{}, born{};
+  std::array<std::uint32_t, LiveNumbers::kLanes> held;
+  Moment<LiveNumbers> moment{&keys, {streams.data(), born.data(), 0}, held.data()};
+  for (int lane = 0; lane < LiveNumbers::kLanes; ++lane) stepper.start(0, lane, moment);
+  moment.lanes = 3;
+  std::array<float, 7 * LiveNumbers::kLanes> before, after;
+  stepper.show(0, before.data());
+  stepper.step(0, moment);
+  stepper.show(0, after.data());
+  for (std::size_t lane = 0; lane < LiveNumbers::kLanes; ++lane) {
+    EXPECT_EQ(before[lane] == after[lane], lane >= 3) << lane;
+    EXPECT_EQ(held[lane], 0U);
+  }
+}
+
+}  // namespace
+}  // namespace wisp

@@ -1,0 +1,156 @@
+#include "wisp/sound/wind_track.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "sound/wind_sounds.hpp"
+
+namespace wisp {
+namespace {
+
+using sounds::Samples;
+using ::testing::HasSubstr;
+
+WindTrack track_of(const Samples& sound, double rate_hz = 44100, const WindOptions& options = {}) {
+  auto track = wind_from_sound(sound, {rate_hz, 1}, options);
+  EXPECT_TRUE(track) << track.error().message;
+  return std::move(track).value();
+}
+
+/// Wind from the start, then rest, then wind.
+Samples blow_rest_blow(double room_rms = 1e-3) {
+  Samples sound = sounds::room(9, 44100, room_rms);
+  sounds::add(sound, sounds::steady_blowing(3, 44100, 0.1), 0, 44100);
+  sounds::add(sound, sounds::steady_blowing(3, 44100, 0.1, 8), 6, 44100);
+  return sound;
+}
+
+double mean_of(const WindTrack& track, float WindFrame::*field, std::size_t from, std::size_t to) {
+  double sum = 0;
+  for (std::size_t k = from; k < to; ++k) sum += static_cast<double>(track.frames[k].*field);
+  return sum / static_cast<double>(to - from);
+}
+
+TEST(WindTrack, BackgroundIsTheMeanOfTheStretchesWithoutWind) {
+  const WindTrack track = track_of(blow_rest_blow());
+  EXPECT_TRUE(track.background_found);
+  EXPECT_NEAR(track.calibration.background_rms, 1e-3, 2e-5);
+  // The 50 ms mean takes half a second to fall by the 40 dB between gust and room.
+  EXPECT_NEAR(track.quiet_share, 1.0 / 3, 0.07);
+  EXPECT_NEAR(track.blowing_share, 2.0 / 3, 0.06);
+  for (const WindFrame& frame : track.frames) {
+    EXPECT_EQ(frame.background, track.calibration.background_rms);
+    EXPECT_EQ(frame.rms_clean, std::max(frame.rms - frame.background, 0.0F));
+  }
+}
+
+TEST(WindTrack, TheFirstGustIsHeardThoughTheRoomComesAfterIt) {
+  const WindTrack track = track_of(blow_rest_blow());
+  EXPECT_GT(mean_of(track, &WindFrame::confidence, 6, 180), 0.9);
+}
+
+TEST(WindTrack, WindOneIsThe95thPercentileWhileItBlows) {
+  const WindTrack track = track_of(blow_rest_blow());
+  EXPECT_GT(track.one_rms, 0.0F);
+  EXPECT_EQ(track.one_rms, track.calibration.gust_rms);
+  std::vector<float> blowing;
+  for (const WindFrame& frame : track.frames) {
+    if (frame.confidence > 0.8F) blowing.push_back(frame.speed);
+  }
+  std::sort(blowing.begin(), blowing.end());
+  EXPECT_NEAR(blowing[blowing.size() * 95 / 100], 1, 0.01);
+}
+
+TEST(WindTrack, BlocksOfAnySizeGiveTheSameTrack) {
+  const Samples sound = blow_rest_blow();
+  const WindTrack whole = track_of(sound);
+  auto tracker = WindTracker::create({44100, 1});
+  ASSERT_TRUE(tracker);
+  for (std::size_t i = 0; i < sound.size(); i += 777) {
+    tracker->feed(std::span(sound).subspan(i, std::min<std::size_t>(777, sound.size() - i)));
+  }
+  const auto track = tracker->finish();
+  ASSERT_TRUE(track);
+  ASSERT_EQ(track->frames.size(), whole.frames.size());
+  for (std::size_t k = 0; k < whole.frames.size(); ++k) EXPECT_EQ(track->frames[k].speed, whole.frames[k].speed);
+}
+
+TEST(WindTrack, UnevenFramesAreHeardWhereTheyAre) {
+  const Samples sound = blow_rest_blow();
+  // The rest from 3 to 6 s, as three frames between one before and one after.
+  const std::vector<double> times{0.5, 2.9, 3.3, 5.0, 5.9, 9.0};
+  auto tracker = WindTracker::create({44100, 1}, times);
+  ASSERT_TRUE(tracker);
+  tracker->feed(sound);
+  const auto track = tracker->finish();
+  ASSERT_TRUE(track);
+  ASSERT_EQ(track->frames.size(), 5U);
+  const double exact = sounds::rms_of(std::span(sound).subspan(22050, static_cast<std::size_t>(2.4 * 44100)));
+  EXPECT_NEAR(track->frames[0].rms, exact, 1e-4 * exact);
+  EXPECT_NEAR(track->frames[2].rms, 1e-3, 2e-5);
+  EXPECT_NEAR(track->frames[3].rms, 1e-3, 2e-5);
+  EXPECT_GT(track->frames[4].rms, 0.09F);
+}
+
+TEST(WindTrack, SoundShorterThanTheVideoGivesFewerFrames) {
+  EXPECT_EQ(track_of(sounds::room(1.99, 44100, 1e-3)).frames.size(), 119U);
+}
+
+TEST(WindTrack, ASilentTrackSaysSo) {
+  const WindTrack track = track_of(Samples(44100, 0.0F));
+  EXPECT_TRUE(track.silent);
+  EXPECT_EQ(track.blowing_share, 0.0F);
+  EXPECT_EQ(track.calibration.gust_rms, 0.0F);
+  for (const WindFrame& frame : track.frames) EXPECT_EQ(frame.wind, 0.0F);
+  EXPECT_FALSE(track_of(sounds::room(1, 44100, 1e-3)).silent);
+}
+
+TEST(WindTrack, ARoomWithoutWindHasNone) {
+  const WindTrack track = track_of(sounds::room(5, 44100, 1e-3));
+  EXPECT_TRUE(track.background_found);
+  EXPECT_GT(track.quiet_share, 0.95F);
+  EXPECT_EQ(track.calibration.gust_rms, 0.0F);
+  EXPECT_NEAR(track.one_rms, WindOptions{}.first_gust_rms, 1e-6);
+  EXPECT_LT(mean_of(track, &WindFrame::wind, 0, 300), 1e-3);
+}
+
+TEST(WindTrack, SaysWhenNoStretchWasWithoutWind) {
+  // Wind that swings without a rest: it passes the softest level again and again and never stays there.
+  const auto swing = [](double t) { return 0.6 + 0.4 * std::sin(2 * std::numbers::pi * 2 * t); };
+  EXPECT_FALSE(track_of(sounds::blowing(10, 44100, 0.1, swing)).background_found);
+}
+
+TEST(WindTrack, SilenceBeforeTheSoundBeginsIsNoRoom) {
+  Samples sound(44100, 0.0F);
+  sounds::add(sound, blow_rest_blow(), 1, 44100);
+  EXPECT_NEAR(track_of(sound).calibration.background_rms, 1e-3, 2e-5);
+}
+
+TEST(WindTrack, ClippedSoundIsTakenAndToldOf) {
+  Samples sound = blow_rest_blow();
+  for (float& x : sound) x = std::clamp(20 * x, -1.0F, 1.0F);
+  const WindTrack track = track_of(sound);
+  EXPECT_GT(track.clipped_share, 0.3F);
+  EXPECT_GT(mean_of(track, &WindFrame::confidence, 6, 180), 0.8);
+  EXPECT_GT(mean_of(track, &WindFrame::wind, 6, 180), 0.7);
+}
+
+TEST(WindTrack, SaysWhatItCannotDo) {
+  EXPECT_THAT(wind_from_sound(Samples(100), {4000, 1}).error().message, HasSubstr("the sound's rate is 4000 Hz"));
+  EXPECT_THAT(wind_from_sound(Samples(100), {44100, 1}).error().message,
+              HasSubstr("the sound lasts 0.002268 s, expected at least one video frame (0.016667 s)"));
+  const auto message = [](const std::vector<double>& times) {
+    return WindTracker::create({44100, 1}, times).error().message;
+  };
+  EXPECT_THAT(message({1}), HasSubstr("1 frame times, expected at least 2"));
+  EXPECT_THAT(message({0, 1, 1}), HasSubstr("frame time 2 is 1 s, expected finite, not negative and later"));
+  EXPECT_THAT(message({-1, 1}), HasSubstr("frame time 0 is -1 s"));
+  EXPECT_THAT(message({0, std::numeric_limits<double>::infinity()}), HasSubstr("frame time 1"));
+}
+
+}  // namespace
+}  // namespace wisp
