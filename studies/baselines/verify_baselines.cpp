@@ -16,8 +16,8 @@
 #include "studies/flame/flame_corpus.hpp"
 #include "studies/flame/flame_judge.hpp"
 #include "studies/value_or_abort.hpp"
-#include "wisp/learn/outline.hpp"
-#include "wisp/learn/outline_units.hpp"
+#include "learn/outline/outline_fit.hpp"
+#include "learn/outline/outline_units.hpp"
 
 namespace wisp::verify {
 namespace {
@@ -108,7 +108,7 @@ FlamePlayer emulator(const std::vector<Frames>& frames, double jitter, const Set
 
 std::vector<FlamePlayer> players_of(const std::vector<Recording>& clips, const FlameUnits& units) {
   // As `wisp learn flame` does: a curve on the wind where held-out rows say so.
-  const Model wisp = value_or_abort(learn_outline(clips, {.input_curve = std::nullopt})).model;
+  const Model wisp = value_or_abort(fit_outline(clips, {.input_curve = std::nullopt})).model;
   const Setting setting{outline_outputs(units.knots.size() - 4), view_operations(wisp)};
   const auto frames = frames_in(clips, units, setting);
   return {player_of("Wisp", wisp),

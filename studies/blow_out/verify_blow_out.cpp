@@ -16,9 +16,9 @@
 
 #include "studies/verify_bounds.hpp"
 #include "wisp/learn/arx_orders.hpp"
-#include "wisp/learn/extinction.hpp"
-#include "wisp/learn/flame_sizes.hpp"
-#include "wisp/learn/outline_inputs.hpp"
+#include "learn/flame/extinction.hpp"
+#include "learn/flame/flame_sizes.hpp"
+#include "learn/outline/outline_inputs.hpp"
 #include "wisp/learn/switched_fit.hpp"
 #include "wisp/learn/switched_prediction.hpp"
 #include "wisp/record/csv.hpp"

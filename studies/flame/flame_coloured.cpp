@@ -1,7 +1,7 @@
 #include "studies/flame/flame_coloured.hpp"
 
 #include "learn/outline/outline_preparation.hpp"
-#include "wisp/learn/outline.hpp"
+#include "learn/outline/outline_fit.hpp"
 
 namespace wisp::verify {
 namespace {
@@ -18,7 +18,7 @@ Result<ColouredArxFit> fit(const std::vector<Recording>& recordings, const Prepa
 
 Result<ColouredFlame> learn_coloured_flame(std::span<const Recording> clips, const NoiseModel& noise) {
   auto white =
-      learn_outline(clips, {.noise = OutlineNoise::kIndependent, .growing_noise = false, .match_variance = false});
+      fit_outline(clips, {.noise = OutlineNoise::kIndependent, .growing_noise = false, .match_variance = false});
   if (!white) return white.error();
   const auto prepared = prepare_outlines(clips, {});
   if (!prepared) return prepared.error();

@@ -16,9 +16,9 @@ struct ColouredFlame {
   double log_likelihood = 0;  ///< of a held-out row, all channels together, nats
 };
 
-/// Learns what learn_outline() learns at order 4 with points coupled and independent noise, but with a noise filter a
+/// Learns what fit_outline() learns at order 4 with points coupled and independent noise, but with a noise filter a
 /// channel, from the first 70 % of every clip for the likelihood and from everything for the model.
-/// Errors: as learn_outline() and fit_coloured_arx().
+/// Errors: as fit_outline() and fit_coloured_arx().
 Result<ColouredFlame> learn_coloured_flame(std::span<const Recording> clips, const NoiseModel& noise);
 
 }  // namespace wisp::verify

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "studies/value_or_abort.hpp"
-#include "wisp/learn/blow_outs.hpp"
-#include "wisp/learn/outline_units.hpp"
+#include "learn/flame/blow_outs.hpp"
+#include "learn/outline/outline_units.hpp"
 #include "wisp/record/csv.hpp"
 #include "wisp/record/loudness.hpp"
 

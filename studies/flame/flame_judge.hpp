@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "studies/flame/flame_corpus.hpp"
-#include "wisp/learn/outline_inputs.hpp"
+#include "learn/outline/outline_inputs.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"
 

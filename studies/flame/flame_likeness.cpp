@@ -5,8 +5,8 @@
 
 #include "learn/likeness/fidelity_energy.hpp"
 #include "studies/value_or_abort.hpp"
-#include "wisp/learn/outline_shape.hpp"
-#include "wisp/learn/outline_units.hpp"
+#include "learn/outline/outline_shape.hpp"
+#include "learn/outline/outline_units.hpp"
 
 namespace wisp::verify {
 namespace {

@@ -24,9 +24,9 @@
 #include "studies/flame/verify_flame_pieces.hpp"
 #include "studies/value_or_abort.hpp"
 #include "studies/verify_bounds.hpp"
-#include "wisp/learn/outline.hpp"
-#include "wisp/learn/outline_units.hpp"
-#include "wisp/learn/validation.hpp"
+#include "learn/outline/outline_fit.hpp"
+#include "learn/outline/outline_units.hpp"
+#include "learn/outline/outline_judgement.hpp"
 
 namespace wisp::verify {
 namespace {
@@ -46,7 +46,7 @@ struct Way {
   const char* name;
   bool truth = false;
   WindMeasure measure = WindMeasure::kSpeed;
-  OutlineOptions options{};
+  OutlineRecipe options{};
   bool fidelity = false;
 };
 
@@ -82,7 +82,7 @@ double spread(const std::vector<double>& values) {
 }
 
 Score score_of(const OutlineFit& fit, const Recording& unseen, bool fidelity) {
-  const auto found = value_or_abort(validate_outline(fit.model, unseen, {.fidelity = fidelity}));
+  const auto found = value_or_abort(judge_outline(fit.model, unseen, {.fidelity = fidelity}));
   const OutlineFigures& figures = found.figures;
   Score score;
   score.tip = figures.tip_fit_percent.back();
@@ -113,7 +113,7 @@ double most(const std::vector<double>& values) { return *std::max_element(values
 std::vector<Score> try_way(const Way& way, const Clips& clips) {
   std::vector<Score> scores;
   for (const FlameClip& seen : clips.learn) {
-    const auto fit = value_or_abort(learn_outline(std::vector{driven(seen, way)}, way.options));
+    const auto fit = value_or_abort(fit_outline(std::vector{driven(seen, way)}, way.options));
     for (const FlameClip& unseen : clips.validate) {
       scores.push_back(score_of(fit, driven(unseen, way), way.fidelity));
     }
@@ -149,7 +149,7 @@ void print_choices(const Clips& clips) {
   std::printf("\nWhat was found on the way, clip by clip\n");
   for (const FlameClip& clip : clips.learn) {
     const auto fit = value_or_abort(
-        learn_outline(std::vector{driven_by_sound(clip, WindMeasure::kSpeed)}, {.order = {}, .delay = {}}));
+        fit_outline(std::vector{driven_by_sound(clip, WindMeasure::kSpeed)}, {.order = {}, .delay = {}}));
     std::printf("  %s: %s\n", clip.outline.source.c_str(), fit.summary.choice.reason.c_str());
     for (const InputAlignment& one : fit.summary.alignment) std::printf("    %s\n", one.note().c_str());
     std::printf("    %s\n", fit.summary.noise_growth.reason.c_str());

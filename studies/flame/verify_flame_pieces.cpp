@@ -9,8 +9,8 @@
 #include "studies/flame/flame_corpus.hpp"
 #include "studies/flame/flame_judge.hpp"
 #include "studies/value_or_abort.hpp"
-#include "wisp/learn/outline.hpp"
-#include "wisp/learn/validation.hpp"
+#include "learn/outline/outline_fit.hpp"
+#include "learn/outline/outline_judgement.hpp"
 #include "wisp/record/csv.hpp"
 
 namespace wisp::verify {
@@ -18,7 +18,7 @@ namespace {
 
 struct Piece {
   const char* name;
-  OutlineOptions options;
+  OutlineRecipe options;
 };
 
 constexpr const char* kDefaultPiece = "drawn with curve (the default)";  // of `wisp learn flame`
@@ -82,7 +82,7 @@ std::vector<Piece> flicker_pieces() {
 std::vector<FlamePlayer> learned(const std::vector<Recording>& clips, const std::vector<Piece>& pieces) {
   std::vector<FlamePlayer> out;
   for (const Piece& piece : pieces) {
-    out.push_back(player_of(piece.name, value_or_abort(learn_outline(clips, piece.options)).model));
+    out.push_back(player_of(piece.name, value_or_abort(fit_outline(clips, piece.options)).model));
   }
   return out;
 }
@@ -101,10 +101,10 @@ std::vector<FlamePlayer> players_of(const std::vector<Recording>& clips, const P
 
 /// The longest stretch that a play along a learned clip's own wind repeats of that clip: the most tempting case.
 void print_longest_copy(const std::vector<Recording>& clips) {
-  const auto fit = value_or_abort(learn_outline(clips, {.input_curve = std::nullopt}));
+  const auto fit = value_or_abort(fit_outline(clips, {.input_curve = std::nullopt}));
   double seconds = 0;
   for (const Recording& clip : clips) {
-    const auto found = value_or_abort(validate_outline(fit.model, clip));
+    const auto found = value_or_abort(judge_outline(fit.model, clip));
     if (found.fidelity) seconds = std::max(seconds, found.fidelity->verbatim_seconds);
   }
   std::printf("\nthe default's longest verbatim run along a learned clip's own wind: %.2f s\n", seconds);

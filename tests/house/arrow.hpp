@@ -38,6 +38,7 @@ inline const std::map<std::string, Layer>& layers() {
       {"learn", {{"base", "model", "run", "sound", "record"}, {"Eigen/"}}},
       {"capture/vision", {{"base", "model", "record"}, {}}},
       {"capture/media", {{"base", "model", "sound", "record", "capture/vision"}, ffmpeg}},
+      {"capture", {{"base", "model", "sound", "record", "capture/vision", "capture/media"}, {}}},
       {"simulate", {{"base", "model", "record"}, {"cvode/", "nvector/", "sundials/", "sunlinsol/", "sunmatrix/"}}},
       {"draw", {{"base", "model", "run", "record"}, draws}},
   };

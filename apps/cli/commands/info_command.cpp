@@ -2,14 +2,13 @@
 
 #include "commands/commands.hpp"
 #include "reports/arx_description.hpp"
-#include "reports/blow_out_learning.hpp"
 #include "reports/chain_json.hpp"
 #include "reports/curve_learning.hpp"
 #include "reports/figures_json.hpp"
-#include "reports/flame_modes.hpp"
 #include "reports/switched_description.hpp"
 #include "terminal.hpp"
 #include "wisp/base/file.hpp"
+#include "wisp/learn/extinction_report.hpp"
 #include "wisp/model/file.hpp"
 
 namespace wisp::cli {
@@ -162,7 +161,6 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   result.update(channels_of(*model));
   result["dynamics"] = std::visit([](const auto& kind) { return dynamics_of(kind); }, model->dynamics);
   result["view"] = view_of(*model);
-  result["extinction"] = json_of(model->extinction, *model);
   result["cost"] = *cost;
   result["made"] = made_by(model->training);
   result["usable"] = json_of(model->training.usable);
@@ -171,10 +169,7 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   for (const Input& input : model->inputs) {
     if (has_curve(input.shape)) terminal.say("curve     " + input.name + ": " + curve_text(input.curve));
   }
-  if (model->extinction) {
-    terminal.say("blow-out  " + sentence_of(*model->extinction));
-    for (const std::string& line : mode_lines(*model)) terminal.say("mode      " + line);
-  }
+  terminal.show({.sections = {extinction_section(*model)}});
   return {};
 }
 

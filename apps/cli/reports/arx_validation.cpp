@@ -9,7 +9,6 @@
 #include "reports/clip_figures.hpp"
 #include "reports/curve_learning.hpp"
 #include "reports/figures_json.hpp"
-#include "reports/outline_learning.hpp"
 #include "wisp/draw/plot.hpp"
 #include "wisp/learn/prediction.hpp"
 

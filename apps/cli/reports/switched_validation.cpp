@@ -4,7 +4,6 @@
 
 #include "flags/recordings.hpp"
 #include "reports/figures_json.hpp"
-#include "reports/outline_learning.hpp"
 #include "wisp/learn/switched_prediction.hpp"
 
 namespace wisp::cli {

@@ -1,12 +1,12 @@
-#include "wisp/learn/outline_alignment.hpp"
+#include "learn/outline/outline_alignment.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 
-#include "wisp/learn/outline_shape.hpp"
-#include "wisp/learn/outline_units.hpp"
+#include "learn/outline/outline_shape.hpp"
+#include "learn/outline/outline_units.hpp"
 
 namespace wisp {
 namespace {

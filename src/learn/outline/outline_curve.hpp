@@ -6,7 +6,7 @@
 
 #include "learn/outline/outline_preparation.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/outline.hpp"
+#include "learn/outline/outline_fit.hpp"
 
 namespace wisp {
 

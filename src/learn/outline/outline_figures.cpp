@@ -1,11 +1,11 @@
-#include "wisp/learn/outline_figures.hpp"
+#include "learn/outline/outline_figures.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numeric>
 
-#include "wisp/learn/outline_shape.hpp"
+#include "learn/outline/outline_shape.hpp"
 #include "wisp/learn/residual_tests.hpp"
 
 namespace wisp {

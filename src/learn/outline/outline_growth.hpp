@@ -15,7 +15,7 @@
 
 #include "learn/outline/outline_preparation.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/outline.hpp"
+#include "learn/outline/outline_fit.hpp"
 #include "wisp/model/arx.hpp"
 
 namespace wisp {

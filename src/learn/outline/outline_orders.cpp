@@ -90,7 +90,7 @@ struct Candidates {
 };
 
 Candidates candidates_for(std::size_t rows, const PreparedOutlines& prepared, const Moving& moving,
-                          const OutlineOptions& options) {
+                          const OutlineRecipe& options) {
   const double rate_hz = prepared.recordings.front().rate_hz;
   const int first = options.delay.value_or(0);
   const bool search_delay = !options.delay && !moving.inputs.empty();
@@ -205,7 +205,7 @@ ArxOrders outline_orders(int order, int delay, OutlineCoupling coupling, const P
 }
 
 Result<OutlineChoice> choose_orders(std::span<const Recording> learned, std::span<const Recording> held_out,
-                                    const PreparedOutlines& prepared, const OutlineOptions& options) {
+                                    const PreparedOutlines& prepared, const OutlineRecipe& options) {
   OutlineChoice choice;
   if (options.order && (options.delay || prepared.inputs.empty())) {
     choice.candidates = {{*options.order, options.delay.value_or(0), 0, 0}};

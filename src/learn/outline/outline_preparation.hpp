@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "wisp/learn/channel_choice.hpp"
-#include "wisp/learn/outline_inputs.hpp"
-#include "wisp/learn/outline_units.hpp"
+#include "learn/outline/outline_inputs.hpp"
+#include "learn/outline/outline_units.hpp"
 
 namespace wisp {
 

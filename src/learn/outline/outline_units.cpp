@@ -1,11 +1,11 @@
-#include "wisp/learn/outline_units.hpp"
+#include "learn/outline/outline_units.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
 
-#include "wisp/learn/outline_shape.hpp"
+#include "learn/outline/outline_shape.hpp"
 #include "wisp/model/bspline.hpp"
 
 namespace wisp {

@@ -76,7 +76,7 @@ const char* noise_name(OutlineNoise noise) {
   return "";
 }
 
-std::vector<Note> notes(const OutlineOptions& options, const OutlineChoice& choice, int knots) {
+std::vector<Note> notes(const OutlineRecipe& options, const OutlineChoice& choice, int knots) {
   return {{"order", std::to_string(choice.taken().order)},
           {"delay", std::to_string(choice.taken().delay)},
           {"order_and_delay", choice.reason},
@@ -152,7 +152,7 @@ Usable outline_verdict(const ArxSummary& fit, const OutlineSummary& summary) {
   return {true, reason};
 }
 
-Training outline_training(std::span<const Recording> recordings, const OutlineOptions& options,
+Training outline_training(std::span<const Recording> recordings, const OutlineRecipe& options,
                           const OutlineSummary& summary) {
   Training out;
   for (const Recording& recording : recordings) out.sources.push_back(recording.source);

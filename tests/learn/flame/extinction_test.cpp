@@ -1,4 +1,4 @@
-#include "wisp/learn/extinction.hpp"
+#include "learn/flame/extinction.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

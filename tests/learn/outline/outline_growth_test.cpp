@@ -8,7 +8,7 @@
 #include "learn/likeness/fidelity_marginal.hpp"
 #include "learn/outline/made_outline.hpp"
 #include "learn/outline/outline_synthesis.hpp"
-#include "wisp/learn/outline.hpp"
+#include "learn/outline/outline_fit.hpp"
 
 namespace wisp {
 namespace {
@@ -19,9 +19,9 @@ using testing::HasSubstr;
 constexpr made::OutlineRecipe kSteady{.rows = 2400, .shock = 0.004, .wind = true};
 constexpr made::OutlineRecipe kGusty{.rows = 2400, .shock = 0.004, .shock_growth = 2, .wind = true};
 
-OutlineFit learned(const made::OutlineRecipe& recipe, OutlineOptions options = {}) {
+OutlineFit learned(const made::OutlineRecipe& recipe, OutlineRecipe options = {}) {
   options.noise = OutlineNoise::kMatched;  // drawn residuals are as large as they were
-  auto fit = learn_outline(std::vector{made::outline_recording(recipe)}, options);
+  auto fit = fit_outline(std::vector{made::outline_recording(recipe)}, options);
   EXPECT_TRUE(fit);
   return *std::move(fit);
 }

@@ -8,7 +8,7 @@
 
 #include "wisp/base/result.hpp"
 #include "wisp/learn/channel_choice.hpp"
-#include "wisp/learn/outline_units.hpp"
+#include "learn/outline/outline_units.hpp"
 #include "wisp/learn/prediction.hpp"
 #include "wisp/model/arx.hpp"
 #include "wisp/record/recording.hpp"

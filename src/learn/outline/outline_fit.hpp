@@ -6,69 +6,25 @@
 // none, shocks that the control points share (docs/fidelity.md says why), a part held out for judging.
 
 #include <array>
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "wisp/base/result.hpp"
+#include "wisp/base/progress.hpp"
 #include "wisp/learn/arx_fit.hpp"
 #include "wisp/learn/curve_choice.hpp"
-#include "wisp/learn/outline_alignment.hpp"
-#include "wisp/learn/outline_figures.hpp"
-#include "wisp/learn/outline_inputs.hpp"
+#include "wisp/learn/outline_recipe.hpp"
+#include "learn/outline/outline_alignment.hpp"
+#include "learn/outline/outline_figures.hpp"
+#include "learn/outline/outline_inputs.hpp"
+#include "learn/outline/outline_ridge.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"
 #include "wisp/run/cost.hpp"
 
 namespace wisp {
-
-/// Which control points feed each other.
-enum class OutlineCoupling {
-  kCoordinate,  ///< none: every coordinate its own system
-  kPoint,       ///< every point its own system, as in the paper
-  kBand,        ///< every point hears its neighbours too
-  kFull,        ///< every point hears all others but the last, which mirrors the first about the base
-};
-
-/// What shakes the outline.
-enum class OutlineNoise {
-  kIndependent,  ///< every channel by itself, with its residual's standard deviation: the paper's
-  kResidual,     ///< shared shocks with the residuals' covariance
-  kMatched,      ///< shared shocks under which the whole outline at rest has the recording's covariance; where points
-                 ///< feed each other, as kResidual: the coupling itself holds the shape
-  kDrawn,        ///< the residuals themselves, played again where the input is as it was then (docs/fidelity.md)
-};
-
-/// How to learn.
-struct OutlineOptions {
-  std::optional<int> order = 0;  ///< lags of outputs and of inputs, 1 to 64; unset: searched, up to 32; 0: 3 where
-                                 ///< residuals are drawn, which hold the rest, and else 4, the paper's, two damped
-                                 ///< resonances a coordinate
-  std::optional<int> delay = 0;  ///< frames until an input acts, 0 to 1000; 0: in the same frame, the paper's; unset:
-                                 ///< searched, up to a quarter of a second
-  bool align = true;             ///< move inputs that come after the motion that they cause (outline_alignment.hpp)
-  std::optional<OutlineCoupling> coupling;  ///< unset: kCoordinate where residuals are drawn, else kPoint; more costs
-                                            ///< more and did not look better (docs/fidelity.md)
-  std::optional<std::vector<std::string>> inputs;  ///< names; unset: all inputs of the recordings; empty: none, flicker
-  bool square = false;                             ///< every input's square beside it: what it does may bend
-  std::optional<int> input_curve = 0;  ///< knots of a monotone curve that bends every input, 3 to 16; 0: none; unset: 3
-                                       ///< to 6 or none, as held-out data say, none beside squares
-  bool one_sided = false;      ///< inputs as they are, no sign and no mirror image: the paper's 192 multiply-adds
-  std::optional<bool> mirror;  ///< learn from the mirror image too; unset: where inputs have signs
-  double holdout = 0.3;        ///< 0 to 0.9: the last part of each recording, kept for judging
-  bool refit = true;           ///< after judging, learn the model that is returned from everything
-  std::optional<OutlineNoise> noise;     ///< unset: kDrawn where an input drives the outline and there are 10 s of it,
-                                         ///< else kMatched: what is short would be seen to repeat
-  std::size_t drawn_bytes = 256 * 1024;  ///< most that drawn residuals take, two a channel and frame
-  int shared_shocks = 4;                 ///< 1 to 64: normal numbers a frame; more changed no figure (docs/fidelity.md)
-  bool growing_noise = true;             ///< let the noise grow with the inputs where held-out data say that it does
-  bool match_variance = true;            ///< scale the noise until every channel at rest has the recording's variance
-  double pixels_per_unit = 0;            ///< 0: each recording's own mean calm height is 1
-  std::uint64_t seed = 1;                ///< of the trial runs
-  std::string name = "outline";          ///< of the model
-};
 
 /// One channel's residual noise, one step ahead, in the model's units.
 struct OutlineResidual {
@@ -120,6 +76,7 @@ struct OutlineSummary {
   OutlineChoice choice;
   CurveChoice curve_choice;                ///< what bends the inputs, and why; without candidates where none was tried
   std::vector<CurveEstimate> curves;       ///< one an input, of the returned model; empty: none
+  RidgeChoice ridge;                       ///< where control points hear each other
   std::vector<InputAlignment> alignment;   ///< of every recording's inputs
   std::size_t rows_learned = 0;            ///< complete rows before the cut, which the judged model was learned from
   std::size_t rows_held_out = 0;           ///< and after it
@@ -147,10 +104,12 @@ struct OutlineFit {
   OutlineSummary summary;
 };
 
-/// Learns a model from recordings of an outline in pixels (outline_units.hpp). The model has the knots of the first;
-/// recordings with others are expressed in those, with a warning.
+/// Learns a model from recordings of an outline in pixels (outline_units.hpp), without a rule of extinction and with
+/// every recording's inputs on the scale that it has. The model has the knots of the first recording; recordings with
+/// others are expressed in those, with a warning.
 /// Errors, naming the recording: not an outline, another number of points than the first, rates that differ, inputs
-/// that it has not, too few rows for the order, options out of range.
-Result<OutlineFit> learn_outline(std::span<const Recording> recordings, const OutlineOptions& options = {});
+/// that it has not, too few rows for the order, a recipe out of range; kStopped.
+Result<OutlineFit> fit_outline(std::span<const Recording> recordings, const OutlineRecipe& recipe = {},
+                               const Progress& progress = {});
 
 }  // namespace wisp

@@ -1,4 +1,4 @@
-#include "wisp/learn/outline.hpp"
+#include "learn/outline/outline_fit.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -13,6 +13,7 @@
 #include "learn/outline/outline_noise.hpp"
 #include "learn/outline/outline_orders.hpp"
 #include "learn/outline/outline_preparation.hpp"
+#include "learn/outline/outline_ridge.hpp"
 #include "learn/outline/outline_synthesis.hpp"
 #include "learn/outline/outline_verdict.hpp"
 
@@ -29,7 +30,7 @@ std::string text(double value) {
   return out;
 }
 
-Result<void> check_options(const OutlineOptions& options) {
+Result<void> check_options(const OutlineRecipe& options) {
   const auto refuse = [](const std::string& what, double value, const std::string& range) {
     return Error{what + " is " + text(value) + ", expected " + range};
   };
@@ -54,7 +55,7 @@ Result<void> check_options(const OutlineOptions& options) {
 }
 
 // What is left open, decided.
-OutlineOptions decided(OutlineOptions options, const PreparedOutlines& prepared) {
+OutlineRecipe decided(OutlineRecipe options, const PreparedOutlines& prepared) {
   constexpr double kLeastDrawnSeconds = 10;
   double seconds = 0;
   for (const Recording& recording : prepared.recordings) {
@@ -71,13 +72,13 @@ OutlineOptions decided(OutlineOptions options, const PreparedOutlines& prepared)
   return options;
 }
 
-bool mirror_wanted(const OutlineOptions& options, const PreparedOutlines& prepared) {
+bool mirror_wanted(const OutlineRecipe& options, const PreparedOutlines& prepared) {
   return options.mirror.value_or(prepared.shape.split_sign);
 }
 
 // Recordings and, where wanted, their mirror images.
 std::vector<Recording> to_learn_from(std::span<const Recording> recordings, const PreparedOutlines& prepared,
-                                     const OutlineOptions& options) {
+                                     const OutlineRecipe& options) {
   if (mirror_wanted(options, prepared)) return with_mirror_images(recordings, prepared);
   return {recordings.begin(), recordings.end()};
 }
@@ -98,8 +99,10 @@ void count_frames_once(ArxFit& fitted) {
 }
 
 Result<ArxFit> fit(std::span<const Recording> recordings, const PreparedOutlines& prepared,
-                   const OutlineOptions& options, const OutlineCandidate& chosen) {
-  const ArxOptions arx{.orders = outline_orders(chosen.order, chosen.delay, *options.coupling, prepared)};
+                   const OutlineRecipe& options, const OutlineSummary& summary) {
+  const OutlineCandidate& chosen = summary.choice.taken();
+  const ArxOptions arx{.orders = outline_orders(chosen.order, chosen.delay, *options.coupling, prepared),
+                       .ridge = summary.ridge.ridge};
   auto fitted = fit_arx(to_learn_from(recordings, prepared, options), prepared.channels, arx);
   if (fitted && mirror_wanted(options, prepared)) count_frames_once(*fitted);
   return fitted;
@@ -159,7 +162,7 @@ double carried(const Covariance& shocks, const Eigen::MatrixXd& factor) {
 
 // Gives the model its own residuals to play.
 Result<void> set_drawn(std::span<const Recording> recordings, const PreparedOutlines& prepared,
-                       const OutlineOptions& options, ArxModel& model) {
+                       const OutlineRecipe& options, ArxModel& model) {
   auto drawn = drawn_residuals(model, recordings, prepared,
                                {.most_bytes = options.drawn_bytes, .mirror = mirror_wanted(options, prepared)});
   if (!drawn) return drawn.error();
@@ -169,7 +172,7 @@ Result<void> set_drawn(std::span<const Recording> recordings, const PreparedOutl
 
 // Gives the model the Gaussian noise that was asked for.
 Result<void> set_noise(const ArxFit& fitted, std::span<const Recording> recordings, const PreparedOutlines& prepared,
-                       const OutlineOptions& options, ArxModel& model, OutlineSummary& summary) {
+                       const OutlineRecipe& options, ArxModel& model, OutlineSummary& summary) {
   const auto wanted = flicker_covariance(model, recordings, prepared.channels);
   if (!wanted) return wanted.error();
   summary.shared_variance = 1;
@@ -238,7 +241,7 @@ Input input_of(const OutlineInput& input, RegressorShape shape) {
           input.curve};
 }
 
-Model model_of(const ArxModel& arx, const PreparedOutlines& prepared, const OutlineOptions& options) {
+Model model_of(const ArxModel& arx, const PreparedOutlines& prepared, const OutlineRecipe& options) {
   Model model;
   model.name = options.name;
   model.rate_hz = prepared.recordings.front().rate_hz;
@@ -251,7 +254,7 @@ Model model_of(const ArxModel& arx, const PreparedOutlines& prepared, const Outl
 }
 
 // Fewer rows than coefficients and their history leave nothing to judge.
-Result<void> check_rows(const PreparedOutlines& prepared, const OutlineOptions& options) {
+Result<void> check_rows(const PreparedOutlines& prepared, const OutlineRecipe& options) {
   const ArxOrders orders =
       outline_orders(options.order.value_or(1), options.delay.value_or(0), *options.coupling, prepared);
   int coefficients = 0;
@@ -266,7 +269,7 @@ Result<void> check_rows(const PreparedOutlines& prepared, const OutlineOptions& 
 }
 
 // Inputs that come too late are moved; which ones, and by how much, is noted.
-Result<std::vector<Recording>> aligned(std::span<const Recording> recordings, const OutlineOptions& options,
+Result<std::vector<Recording>> aligned(std::span<const Recording> recordings, const OutlineRecipe& options,
                                        OutlineSummary& summary) {
   std::vector<Recording> out;
   for (const Recording& recording : recordings) {
@@ -286,13 +289,13 @@ Result<std::vector<Recording>> aligned(std::span<const Recording> recordings, co
   return out;
 }
 
-ArxOrders chosen_orders(const PreparedOutlines& prepared, const OutlineOptions& options, const OutlineChoice& choice) {
+ArxOrders chosen_orders(const PreparedOutlines& prepared, const OutlineRecipe& options, const OutlineChoice& choice) {
   return outline_orders(choice.taken().order, choice.taken().delay, *options.coupling, prepared);
 }
 
 // Learns the inputs' curves, where there are to be any.
 Result<void> learn_curves(std::span<const Recording> recordings, const PreparedOutlines& prepared,
-                          const OutlineOptions& options, OutlineSummary& summary) {
+                          const OutlineRecipe& options, OutlineSummary& summary) {
   if (summary.curve_choice.knots == 0) return {};
   const auto from = to_learn_from(recordings, prepared, options);
   auto curves =
@@ -306,8 +309,12 @@ Result<void> learn_curves(std::span<const Recording> recordings, const PreparedO
   return {};
 }
 
+bool hear_each_other(const OutlineRecipe& options) {
+  return options.coupling == OutlineCoupling::kBand || options.coupling == OutlineCoupling::kFull;
+}
+
 // Decides by both parts whether the inputs are bent, and bends them by what the first says.
-Result<void> bend(OutlineParts& parts, const PreparedOutlines& prepared, const OutlineOptions& options,
+Result<void> bend(OutlineParts& parts, const PreparedOutlines& prepared, const OutlineRecipe& options,
                   OutlineSummary& summary) {
   if (options.input_curve == 0 || options.square || prepared.inputs.empty()) return {};
   auto choice = choose_outline_curves(to_learn_from(parts.learned, prepared, options), parts.held_out, prepared,
@@ -322,7 +329,7 @@ Result<void> bend(OutlineParts& parts, const PreparedOutlines& prepared, const O
 }
 
 // Judges a model that has seen only the first part of every recording.
-Result<ArxFit> judge(const PreparedOutlines& prepared, const OutlineOptions& options, OutlineSummary& summary) {
+Result<ArxFit> judge(const PreparedOutlines& prepared, const OutlineRecipe& options, OutlineSummary& summary) {
   OutlineParts parts = hold_out(prepared.recordings, prepared.channels, options.holdout);
   for (const Recording& part : parts.learned) summary.rows_learned += complete_rows(part, prepared.channels);
   for (const Recording& part : parts.held_out) summary.rows_held_out += complete_rows(part, prepared.channels);
@@ -330,7 +337,13 @@ Result<ArxFit> judge(const PreparedOutlines& prepared, const OutlineOptions& opt
   if (!choice) return choice.error();
   summary.choice = *std::move(choice);
   if (auto ok = bend(parts, prepared, options, summary); !ok) return ok.error();
-  auto fitted = fit(parts.learned, prepared, options, summary.choice.taken());
+  if (hear_each_other(options)) {
+    auto ridge = choose_ridge(to_learn_from(parts.learned, prepared, options), parts.held_out, prepared,
+                              chosen_orders(prepared, options, summary.choice));
+    if (!ridge) return ridge.error();
+    summary.ridge = *std::move(ridge);
+  }
+  auto fitted = fit(parts.learned, prepared, options, summary);
   if (!fitted) return fitted;
   if (options.growing_noise) {
     auto growth = learn_noise_growth(fitted->model, parts.learned, parts.held_out, prepared);
@@ -380,7 +393,7 @@ std::size_t liveliest(const PreparedOutlines& prepared) {
 }
 
 // What it costs, and what it does when it plays along the inputs of the liveliest recording.
-Result<void> try_out(const Model& model, const OutlineOptions& options, const PreparedOutlines& prepared,
+Result<void> try_out(const Model& model, const OutlineRecipe& options, const PreparedOutlines& prepared,
                      std::span<const Recording> recordings, OutlineSummary& summary) {
   const auto cost = count_operations(model);
   if (!cost) return cost.error();
@@ -399,7 +412,9 @@ Result<void> try_out(const Model& model, const OutlineOptions& options, const Pr
 
 }  // namespace
 
-Result<OutlineFit> learn_outline(std::span<const Recording> recordings, const OutlineOptions& wanted) {
+Result<OutlineFit> fit_outline(std::span<const Recording> recordings, const OutlineRecipe& wanted,
+                               const Progress& progress) {
+  constexpr const char* kStage = "learning";
   if (auto ok = check_options(wanted); !ok) return ok.error();
   OutlineFit out;
   OutlineSummary& summary = out.summary;
@@ -413,17 +428,19 @@ Result<OutlineFit> learn_outline(std::span<const Recording> recordings, const Ou
   const RegressorShape shape{.split_sign = !wanted.one_sided, .square = wanted.square};
   auto prepared = prepare_outlines(recordings, {wanted.inputs, shape, wanted.pixels_per_unit});
   if (!prepared) return prepared.error();
-  const OutlineOptions options = decided(wanted, *prepared);
+  if (!go_on(progress, kStage, 0.1)) return Error{std::string(kStopped)};
+  const OutlineRecipe options = decided(wanted, *prepared);
   if (auto ok = check_rows(*prepared, options); !ok) return ok.error();
   auto fitted = judge(*prepared, options, summary);
   if (!fitted) return fitted.error();
+  if (!go_on(progress, kStage, 0.6)) return Error{std::string(kStopped)};
   const bool refit = options.refit && summary.rows_held_out > 0;
   if (refit) {
     if (auto ok = learn_curves(prepared->recordings, *prepared, options, summary); !ok) return ok.error();
   }
   if (!summary.curves.empty()) prepared = bent_preparation(*std::move(prepared), summary.curves);
   if (refit) {
-    fitted = fit(prepared->recordings, *prepared, options, summary.choice.taken());
+    fitted = fit(prepared->recordings, *prepared, options, summary);
     if (!fitted) return fitted.error();
     summary.refitted = true;
   }
@@ -444,6 +461,7 @@ Result<OutlineFit> learn_outline(std::span<const Recording> recordings, const Ou
     if (auto ok = set_noise(*fitted, shaken, *prepared, options, arx, summary); !ok) return ok.error();
   }
   out.model = model_of(arx, *prepared, options);
+  if (!go_on(progress, kStage, 0.8)) return Error{std::string(kStopped)};
   if (auto ok = try_out(out.model, options, *prepared, recordings, summary); !ok) return ok.error();
   summary.usable = outline_verdict(fitted->summary, summary);
   out.model.training = outline_training(recordings, options, summary);

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "wisp/base/result.hpp"
-#include "wisp/learn/blow_outs.hpp"
+#include "learn/flame/blow_outs.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {

@@ -1,4 +1,4 @@
-#include "wisp/capture/media/capture_clip.hpp"
+#include "capture/capture_clip.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -124,14 +124,14 @@ TEST(CaptureClip, ReadsAFolderOfImagesAndSaysWhereItCameFrom) {
   }
   ClipCaptureOptions options = with_points(8);
   options.video.rate_hz = 50;
-  std::int64_t told = 0;
-  const auto captured = capture_outline(folder.path(), options, [&](std::int64_t done, std::int64_t expected) {
-    told = done;
-    EXPECT_EQ(expected, 39);
+  std::vector<double> shares;
+  const auto captured = capture_outline(folder.path(), options, [&](std::string_view, double share) {
+    shares.push_back(share);
     return true;
   });
   ASSERT_TRUE(captured) << captured.error().message;
-  EXPECT_EQ(told, 39);
+  EXPECT_EQ(shares.size(), 39u);
+  EXPECT_EQ(shares.back(), 1);
   EXPECT_EQ(captured->report.frames, 40u);
   EXPECT_EQ(captured->report.filled, 1u);
   EXPECT_DOUBLE_EQ(captured->recording.rate_hz, 50);
@@ -146,9 +146,9 @@ TEST(CaptureClip, CanBeStopped) {
   ClipCaptureOptions options = with_points(8);
   options.video.rate_hz = 50;
   const auto captured =
-      capture_outline(folder.path(), options, [](std::int64_t done, std::int64_t) { return done < 5; });
+      capture_outline(folder.path(), options, [](std::string_view, double share) { return share < 0.2; });
   ASSERT_FALSE(captured);
-  EXPECT_THAT(captured.error().message, HasSubstr("stopped"));
+  EXPECT_EQ(captured.error().message, kStopped);
 }
 
 TEST(CaptureClip, HalfAClipIsUsedWithAWarning) {

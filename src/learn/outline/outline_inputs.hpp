@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "wisp/base/result.hpp"
-#include "wisp/learn/outline_units.hpp"
+#include "learn/outline/outline_units.hpp"
 #include "wisp/model/input_curve.hpp"
 #include "wisp/record/recording.hpp"
 

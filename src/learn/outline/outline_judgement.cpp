@@ -1,4 +1,4 @@
-#include "wisp/learn/validation.hpp"
+#include "learn/outline/outline_judgement.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 
 #include "learn/outline/outline_preparation.hpp"
 #include "learn/outline/outline_synthesis.hpp"
-#include "learn/outline/outline_verdict.hpp"
-#include "wisp/learn/outline_shape.hpp"
-#include "wisp/learn/wind_gain.hpp"
+#include "learn/outline/trained_scale.hpp"
+#include "learn/outline/outline_shape.hpp"
+#include "learn/flame/wind_gain.hpp"
 
 namespace wisp {
 namespace {
@@ -227,7 +227,7 @@ Result<TrueInputFigures> true_input_figures(const OutlineModel& model, const Rec
 }
 
 // A control point that is followed no better than by its mean is worth a word.
-void warn_of_lost_points(OutlineValidation& out) {
+void warn_of_lost_points(OutlineJudgement& out) {
   const auto& steps = out.figures.steps;
   const auto at = std::find(steps.begin(), steps.end(), kFreeRun) - steps.begin();
   if (static_cast<std::size_t>(at) == steps.size()) return;
@@ -256,15 +256,14 @@ void hide_unseen(const Recording& recorded, const std::vector<std::string>& outp
 
 // Plays freely with noise and compares with the recording in the model's units.
 Result<void> add_fidelity(const OutlineModel& model, const PreparedOutlines& prepared, const Recording& driving,
-                          const OutlineValidationOptions& options, OutlineValidation& out) {
+                          const OutlineValidationOptions& options, OutlineJudgement& out) {
   const auto rows = static_cast<std::size_t>(std::ceil(options.play_seconds * model.whole.rate_hz));
   auto play = synthesize(model.whole, {.rows = rows, .seed = options.seed, .input = &driving});
   if (!play) return play.error();
   out.held_share = play->held_share;
   out.crossed_share = crossed_share(play->recording, prepared.layout);
   if (!model.whole.inputs.empty()) hide_unseen(prepared.recordings.front(), prepared.channels.outputs, play->recording);
-  FidelityOptions how = options.fidelity_options;
-  how.channels = prepared.channels.outputs;
+  const FidelityOptions how{.channels = prepared.channels.outputs};
   auto found = fidelity(prepared.recordings, {&play->recording, 1}, how);
   if (found) {
     out.fidelity = *std::move(found);
@@ -276,16 +275,9 @@ Result<void> add_fidelity(const OutlineModel& model, const PreparedOutlines& pre
 
 }  // namespace
 
-Result<double> trained_scale(const Model& model, const std::string& input) {
-  for (std::size_t k = 0; k < model.training.inputs.size(); ++k) {
-    if (model.inputs[k].name == input) return model.training.inputs[k].scale;
-  }
-  return Error{model.name + ": does not say what its input " + input + " was in recordings, expected a model that " +
-               "was learned from some; learn it with this program"};
-}
-
-Result<OutlineValidation> validate_outline(const Model& model, const Recording& given,
-                                           const OutlineValidationOptions& options) {
+Result<OutlineJudgement> judge_outline(const Model& model, const Recording& given,
+                                       const OutlineValidationOptions& options, const Progress& progress) {
+  constexpr const char* kStage = "validating";
   const auto outline = outline_model(model);
   if (!outline) return outline.error();
   if (auto ok = check_match(*outline, given); !ok) return ok.error();
@@ -300,7 +292,8 @@ Result<OutlineValidation> validate_outline(const Model& model, const Recording& 
       prepare_outline(recording, outline->view.knots, *inputs, shape_of(model), options.pixels_per_unit);
   if (!prepared) return prepared.error();
   const Recording driving = with_regressors(recording, *inputs, {});
-  OutlineValidation out;
+  if (!go_on(progress, kStage, 0)) return Error{std::string(kStopped)};
+  OutlineJudgement out;
   out.alignment = std::move(in_step->inputs);
   out.pixels_per_unit = prepared->pixels_per_unit.front();
   out.warnings = prepared->warnings;
@@ -308,6 +301,7 @@ Result<OutlineValidation> validate_outline(const Model& model, const Recording& 
       outline_figures(outline->arx, prepared->recordings, prepared->channels, prepared->layout, options.steps);
   if (!figures) return figures.error();
   out.figures = *std::move(figures);
+  if (!go_on(progress, kStage, 0.4)) return Error{std::string(kStopped)};
   auto predicted = predictions(*outline, *prepared, recording, options.steps);
   if (!predicted) return predicted.error();
   out.predicted = *std::move(predicted);
@@ -325,6 +319,7 @@ Result<OutlineValidation> validate_outline(const Model& model, const Recording& 
     out.true_input = *found;
   }
   if (!options.fidelity) return out;
+  if (!go_on(progress, kStage, 0.6)) return Error{std::string(kStopped)};
   if (auto ok = add_fidelity(*outline, *prepared, driving, options, out); !ok) return ok.error();
   return out;
 }

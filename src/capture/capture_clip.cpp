@@ -1,4 +1,4 @@
-#include "wisp/capture/media/capture_clip.hpp"
+#include "capture/capture_clip.hpp"
 
 namespace wisp {
 namespace {
@@ -8,7 +8,7 @@ constexpr int kGlimpses = 4;
 }  // namespace
 
 Result<CapturedOutline> capture_outline(const std::filesystem::path& path, const ClipCaptureOptions& options,
-                                        const CaptureProgress& progress) {
+                                        const Progress& progress) {
   auto reader = VideoReader::open(path, options.video);
   if (!reader) return reader.error();
   OutlineCaptureOptions outline = options.outline;
@@ -25,7 +25,9 @@ Result<CapturedOutline> capture_outline(const std::filesystem::path& path, const
     if (expected_index >= 0) capture.lost(static_cast<int>(now.index - expected_index));
     expected_index = now.index + 1;
     if (auto fed = capture.feed(now.picture); !fed) return fed.error();
-    if (progress && !progress(++done, reader->info().frames)) return Error{path.string() + ": stopped"};
+    const std::int64_t expected = reader->info().frames;
+    const double share = expected > 0 ? static_cast<double>(++done) / static_cast<double>(expected) : -1;
+    if (!go_on(progress, "capturing", share)) return Error{std::string(kStopped)};
   }
   auto captured = capture.finish();
   if (!captured) return captured;

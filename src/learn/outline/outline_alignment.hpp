@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "wisp/base/result.hpp"
-#include "wisp/learn/alignment.hpp"
+#include "learn/outline/alignment.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {
