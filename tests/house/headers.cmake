@@ -1,14 +1,16 @@
 # Every public header compiles alone, as C++ and, where it is C's, as C: one source a header, which includes it twice
-# and nothing else.
+# and nothing else. And all of them compile together: no two give one name to two things.
 #
-#   wisp_headers_alone(TARGET INCLUDE_FOLDER)    makes TARGET an object library of those sources
-function(wisp_headers_alone target folder)
+#   wisp_headers(TARGET INCLUDE_FOLDER)    makes TARGET an object library of those sources
+function(wisp_headers target folder)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${folder} ${folder}/*.hpp ${folder}/*.h)
   if(NOT headers)
-    message(FATAL_ERROR "${folder} holds no header: there is nothing to compile alone")
+    message(FATAL_ERROR "${folder} holds no header: there is nothing to compile")
   endif()
   set(sources)
+  set(together "")
   foreach(header IN LISTS headers)
+    string(APPEND together "#include \"${header}\"\n")
     string(MAKE_C_IDENTIFIER ${header} name)
     set(languages cpp)
     if(header MATCHES "\\.h$")
@@ -20,7 +22,8 @@ function(wisp_headers_alone target folder)
       list(APPEND sources ${source})
     endforeach()
   endforeach()
-  add_library(${target} OBJECT ${sources})
+  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${target}/all_together.cpp CONTENT "${together}")
+  add_library(${target} OBJECT ${sources} ${CMAKE_CURRENT_BINARY_DIR}/${target}/all_together.cpp)
   target_include_directories(${target} PRIVATE ${folder})
   target_compile_features(${target} PRIVATE cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF UNITY_BUILD OFF)
