@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <ctime>
 
-#include "studies/flame/verify_flame.hpp"
 #include "learn/outline/outline_fit.hpp"
+#include "studies/flame/verify_flame.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/simulate/candle_clip.hpp"
 

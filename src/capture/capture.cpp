@@ -102,8 +102,11 @@ ReportSection outline_section(const CaptureReport& picture) {
       {"separation", picture.separation, "separation", "", {}, "of thing and ground, 0 to 1"},
       {"residual_px", picture.residual, "distance of edge from curve", "px", {}, "root mean square"},
       {"knots_placed", picture.knots_placed, "", ""}};
-  ReportSeries brightness{"brightness", "Brightness of the " + std::string(channel_name(picture.channel)) + " channel",
-                          "brightness", "pixels", std::vector<double>(picture.histogram.size()),
+  ReportSeries brightness{"brightness",
+                          "Brightness of the " + std::string(channel_name(picture.channel)) + " channel",
+                          "brightness",
+                          "pixels",
+                          std::vector<double>(picture.histogram.size()),
                           {picture.histogram.begin(), picture.histogram.end()}};
   std::iota(brightness.x.begin(), brightness.x.end(), 0.0);
   section.series.push_back(std::move(brightness));
@@ -136,7 +139,8 @@ std::optional<SharedCurve> curve_of(const Recording& recording) {
 
 Result<SharedCurve> curve_of(const Model& model) {
   const auto* outline = std::get_if<OutlineView>(&model.view);
-  if (outline == nullptr) return Error{model.name + ": is not a model of an outline, so no clip can be captured for it"};
+  if (outline == nullptr)
+    return Error{model.name + ": is not a model of an outline, so no clip can be captured for it"};
   return SharedCurve{outline->knots, model.training.underside};
 }
 

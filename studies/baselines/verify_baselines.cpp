@@ -9,6 +9,8 @@
 #include <memory>
 #include <optional>
 
+#include "learn/outline/outline_fit.hpp"
+#include "learn/outline/outline_units.hpp"
 #include "studies/baselines/dynamic_texture.hpp"
 #include "studies/baselines/emulator.hpp"
 #include "studies/baselines/frames.hpp"
@@ -16,8 +18,6 @@
 #include "studies/flame/flame_corpus.hpp"
 #include "studies/flame/flame_judge.hpp"
 #include "studies/value_or_abort.hpp"
-#include "learn/outline/outline_fit.hpp"
-#include "learn/outline/outline_units.hpp"
 
 namespace wisp::verify {
 namespace {

@@ -14,11 +14,11 @@
 #include <string>
 #include <vector>
 
-#include "studies/verify_bounds.hpp"
-#include "wisp/learn/arx_orders.hpp"
 #include "learn/flame/extinction.hpp"
 #include "learn/flame/flame_sizes.hpp"
 #include "learn/outline/outline_inputs.hpp"
+#include "studies/verify_bounds.hpp"
+#include "wisp/learn/arx_orders.hpp"
 #include "wisp/learn/switched_fit.hpp"
 #include "wisp/learn/switched_prediction.hpp"
 #include "wisp/record/csv.hpp"

@@ -1,7 +1,7 @@
 #include "studies/flame/flame_coloured.hpp"
 
-#include "learn/outline/outline_preparation.hpp"
 #include "learn/outline/outline_fit.hpp"
+#include "learn/outline/outline_preparation.hpp"
 
 namespace wisp::verify {
 namespace {
@@ -17,8 +17,7 @@ Result<ColouredArxFit> fit(const std::vector<Recording>& recordings, const Prepa
 }  // namespace
 
 Result<ColouredFlame> learn_coloured_flame(std::span<const Recording> clips, const NoiseModel& noise) {
-  auto white =
-      fit_outline(clips, {.noise = OutlineNoise::kIndependent, .growing_noise = false, .match_variance = false});
+  auto white = fit_outline(clips, {.noise = OutlineNoise::kIndependent, .match_variance = false});
   if (!white) return white.error();
   const auto prepared = prepare_outlines(clips, {});
   if (!prepared) return prepared.error();

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "learn/likeness/fidelity_energy.hpp"
-#include "studies/value_or_abort.hpp"
 #include "learn/outline/outline_shape.hpp"
 #include "learn/outline/outline_units.hpp"
+#include "studies/value_or_abort.hpp"
 
 namespace wisp::verify {
 namespace {

@@ -5,12 +5,12 @@
 #include <cstdlib>
 #include <optional>
 
+#include "learn/outline/outline_fit.hpp"
+#include "learn/outline/outline_judgement.hpp"
 #include "studies/flame/flame_coloured.hpp"
 #include "studies/flame/flame_corpus.hpp"
 #include "studies/flame/flame_judge.hpp"
 #include "studies/value_or_abort.hpp"
-#include "learn/outline/outline_fit.hpp"
-#include "learn/outline/outline_judgement.hpp"
 #include "wisp/record/csv.hpp"
 
 namespace wisp::verify {
@@ -26,15 +26,12 @@ constexpr const char* kDefaultPiece = "drawn with curve (the default)";  // of `
 /// One after the other, each beside the one before.
 std::vector<Piece> pieces() {
   return {
-      {"independent (the paper)",
-       {.noise = OutlineNoise::kIndependent, .growing_noise = false, .match_variance = false}},
-      {"independent scaled", {.noise = OutlineNoise::kIndependent, .growing_noise = false}},
-      {"residual covariance", {.noise = OutlineNoise::kResidual, .growing_noise = false}},
-      {"matched", {.noise = OutlineNoise::kMatched, .growing_noise = false}},
-      {"matched growing", {.noise = OutlineNoise::kMatched}},
+      {"independent (the paper)", {.noise = OutlineNoise::kIndependent, .match_variance = false}},
+      {"independent scaled", {.noise = OutlineNoise::kIndependent}},
+      {"residual covariance", {.noise = OutlineNoise::kResidual}},
+      {"matched", {.noise = OutlineNoise::kMatched}},
       {"drawn order 4 points", {.order = 4, .coupling = OutlineCoupling::kPoint, .noise = OutlineNoise::kDrawn}},
       {"drawn", {}},
-      {"drawn with square", {.square = true}},
       {kDefaultPiece, {.input_curve = std::nullopt}},
   };
 }

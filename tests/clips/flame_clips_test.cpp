@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <string>
 
-#include "learn/outline/outline_synthesis.hpp"
 #include "capture/capture_clip.hpp"
-#include "wisp/learn/fidelity.hpp"
 #include "learn/outline/outline_fit.hpp"
 #include "learn/outline/outline_shape.hpp"
+#include "learn/outline/outline_synthesis.hpp"
+#include "wisp/learn/fidelity.hpp"
 
 namespace wisp {
 namespace {

@@ -36,9 +36,9 @@ Command capturing(std::string name, std::string summary, std::vector<Example> ex
 
 Command capture_outline_command() {
   return capturing("capture outline",
-                 "Finds the outline of a moving thing in a clip, frame by frame, and writes it as a recording.",
-                 {{"wisp capture outline flag.mp4 --dark --points 12 -o flag.csv", "A dark flag on a light ground"},
-                  {"wisp capture outline frames/ --rate 30 -o flame.csv", "A folder of numbered images"}});
+                   "Finds the outline of a moving thing in a clip, frame by frame, and writes it as a recording.",
+                   {{"wisp capture outline flag.mp4 --dark --points 12 -o flag.csv", "A dark flag on a light ground"},
+                    {"wisp capture outline frames/ --rate 30 -o flame.csv", "A folder of numbered images"}});
 }
 
 Command capture_flame_command() {

@@ -56,8 +56,8 @@ Result<void> simulate(const std::string& path, double seconds, std::uint64_t see
 Result<Clips> simulate_clips(const Places& places, std::uint64_t seed, Terminal& terminal) {
   const Clips clips{places.at("training.mp4"), places.at("validation.mp4"), places.at("validation.truth.csv")};
   const auto one = [&](const std::string& name, const std::string& path, int seconds, std::uint64_t clip_seed) {
-    const std::string line = "simulate candle -o " + path + " --seconds " + std::to_string(seconds) + " --seed " +
-                             std::to_string(clip_seed);
+    const std::string line =
+        "simulate candle -o " + path + " --seconds " + std::to_string(seconds) + " --seed " + std::to_string(clip_seed);
     return step(name, line, terminal, [&] { return simulate(path, seconds, clip_seed, terminal); });
   };
   if (auto ok = one("simulate_training", clips.learn, 40, seed); !ok) return ok.error();
@@ -113,12 +113,12 @@ Result<void> validate(const Places& places, const Clips& clips, const Model& mod
     if (!read) return read.error();
     truth = *std::move(read);
   }
-  const auto found = validate_outline(
-      model, captured->recording, {.truth = clips.truth.empty() ? nullptr : &truth}, terminal.progress());
+  const auto found = validate_outline(model, captured->recording, {.truth = clips.truth.empty() ? nullptr : &truth},
+                                      terminal.progress());
   if (!found) return found.error();
   terminal.show(found->report);
-  const ValidationSubject subject{std::move(captured->recording), {clips.validate, options.rate_hz},
-                                  std::move(captured->report)};
+  const ValidationSubject subject{
+      std::move(captured->recording), {clips.validate, options.rate_hz}, std::move(captured->report)};
   return draw_validation(*found, model, subject,
                          {places.at("overlay.mp4"), places.at("film-strip.png"), places.at("figures")}, terminal);
 }

@@ -17,7 +17,7 @@ namespace wisp::cli {
 namespace {
 
 Result<ValidationSubject> subject_of(const std::string& path, const Model& model, const Arguments& arguments,
-                           Terminal& terminal) {
+                                     Terminal& terminal) {
   ValidationSubject subject;
   if (is_table(path)) {
     auto recording = read_table(path, arguments);

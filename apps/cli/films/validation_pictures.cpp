@@ -39,8 +39,7 @@ Result<void> draw_validation(const ValidatedOutline& found, const Model& model, 
                              const ValidationPictures& pictures, Terminal& terminal) {
   if (!pictures.overlay.empty()) {
     const OverlayContent content{found.captured, found.simulated, found.simulated_label};
-    if (auto ok = write_overlay(pictures.overlay, subject.clip, subject.recording, content, terminal); !ok)
-      return ok;
+    if (auto ok = write_overlay(pictures.overlay, subject.clip, subject.recording, content, terminal); !ok) return ok;
     terminal.say("wrote " + pictures.overlay);
   }
   if (!pictures.film_strip.empty()) {

@@ -84,13 +84,6 @@ std::vector<Flag> outline_flags() {
        "coordinate where residuals are drawn, else point",
        {"auto", "coordinate", "point", "band", "full"}},
       {"one-sided", Kind::kSwitch, "", "", "inputs as they are: no sign, no mirror image"},
-      {"square", Kind::kSwitch, "", "", "every input's square beside it, so that the answer to it may bend"},
-      {"noise-growth",
-       Kind::kChoice,
-       "G",
-       "auto",
-       "auto: the noise grows with the inputs where held-out data say so; off: the same in any wind",
-       {"auto", "off"}},
       {"holdout", Kind::kNumber, "SHARE", "0.3", "the last part of each recording, kept for judging"},
       {"noise",
        Kind::kChoice,
@@ -125,9 +118,7 @@ Result<OutlineRecipe> outline_recipe(const Arguments& arguments, std::string nam
   if (noise == "matched") recipe.noise = OutlineNoise::kMatched;
   if (noise == "drawn") recipe.noise = OutlineNoise::kDrawn;
   recipe.one_sided = arguments.on("one-sided");
-  recipe.square = arguments.on("square");
   recipe.input_curve = curve_knots_of(arguments);
-  recipe.growing_noise = arguments.text("noise-growth") == "auto";
   recipe.holdout = arguments.number("holdout");
   recipe.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
   recipe.name = std::move(name);

@@ -8,9 +8,9 @@
 
 namespace wisp::cli {
 
-/// Writes what capture() reported of a clip: the brightness histogram with the threshold, and, where the clip has sound, the sound as it is beside its
-/// root mean square frame by frame, into a folder that exists.
-/// Errors: the clip's sound cannot be read, a file cannot be written.
+/// Writes what capture() reported of a clip: the brightness histogram with the threshold, and, where the clip has
+/// sound, the sound as it is beside its root mean square frame by frame, into a folder that exists. Errors: the clip's
+/// sound cannot be read, a file cannot be written.
 Result<void> write_clip_figures(const std::filesystem::path& folder, const std::filesystem::path& clip,
                                 const Report& captured);
 

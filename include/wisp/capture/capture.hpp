@@ -19,7 +19,7 @@ namespace wisp {
 
 /// How a clip's outlines are parametrised, so that another clip's can be alike.
 struct SharedCurve {
-  std::vector<double> knots{};       ///< the full knot vector
+  std::vector<double> knots{};      ///< the full knot vector
   std::optional<bool> underside{};  ///< whether the outline runs on along the underside; none: unknown
 };
 
@@ -32,12 +32,12 @@ Result<SharedCurve> curve_of(const Model& model);
 
 /// How a clip is captured.
 struct ClipCapture {
-  int points = 8;                         ///< control points, 4 to 64; 8 as in the paper
-  std::optional<PixelChannel> channel{};  ///< none: the one that separates best
-  bool dark = false;                      ///< the thing is dark on a light ground
-  Region region{};                        ///< where to look, pixels; empty: the whole picture
-  std::optional<FrameRange> frames{};     ///< 1-based and inclusive; none: all. The sound is heard from the beginning
-  double rate_hz = 0;                     ///< frames a second: needed for a folder of images, overrides a video's own
+  int points = 8;                          ///< control points, 4 to 64; 8 as in the paper
+  std::optional<PixelChannel> channel{};   ///< none: the one that separates best
+  bool dark = false;                       ///< the thing is dark on a light ground
+  Region region{};                         ///< where to look, pixels; empty: the whole picture
+  std::optional<FrameRange> frames{};      ///< 1-based and inclusive; none: all. The sound is heard from the beginning
+  double rate_hz = 0;                      ///< frames a second: needed for a folder of images, overrides a video's own
   WindMeasure wind = WindMeasure::kSpeed;  ///< what is made of the sound
   std::optional<SharedCurve> curve{};      ///< of another clip; overrides `points`
 };
@@ -49,8 +49,8 @@ struct FlameCapture : ClipCapture {};
 struct Captured {
   Recording recording;  ///< outputs p0.x, p0.y, …, motion base.x, base.y, and, where the clip has sound, an input
                         ///< named by the wind's measure; one row a frame, missing rows empty
-  Report report;        ///< frames, tracked, duplicates, filled, dropped, rate_hz, points, threshold, channel, wind {…},
-                        ///< and the series `brightness`: the histogram
+  Report report;  ///< frames, tracked, duplicates, filled, dropped, rate_hz, points, threshold, channel, wind {…},
+                  ///< and the series `brightness`: the histogram
 };
 
 /// Captures the outline in a video file or a folder of numbered images, and the wind in the video's sound.

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "wisp/base/result.hpp"
 #include "learn/flame/blow_outs.hpp"
+#include "wisp/base/result.hpp"
 #include "wisp/model/extinction.hpp"
 #include "wisp/record/recording.hpp"
 
@@ -55,7 +55,7 @@ struct ExtinctionFit {
 };
 
 /// Learns a rule from recordings with at least one death.
-/// Errors: no death in any of them, or a rule that can't tell deaths from survivals (more wrong than right).
+/// Errors: no death in any of them, or no rule that reproduces more than half of the deaths.
 Result<ExtinctionFit> learn_extinction(std::span<const ExtinctionEvidence> evidence);
 
 /// The rule for a flame of which no death was recorded: the default, its level raised until all that was survived is

@@ -76,11 +76,11 @@ void add_agreement(const ExtinctionAgreement& found, const std::string& id, Repo
 
 void add_ramp(const RampAgreement& found, const std::string& id, const std::string& name, ReportSection& section) {
   const bool seen = found.events > 0;
-  section.entries.insert(section.entries.end(),
-                         {{id + ".events", found.events, "", ""},
-                          {id + ".error", found.error, seen ? name + ", error of the size" : "", ""},
-                          {id + ".default_error", found.default_error,
-                           seen ? name + ", error with the default duration" : "", ""}});
+  section.entries.insert(
+      section.entries.end(),
+      {{id + ".events", found.events, "", ""},
+       {id + ".error", found.error, seen ? name + ", error of the size" : "", ""},
+       {id + ".default_error", found.default_error, seen ? name + ", error with the default duration" : "", ""}});
 }
 
 }  // namespace

@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
-#include "wisp/base/result.hpp"
 #include "learn/flame/blow_outs.hpp"
+#include "wisp/base/result.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "wisp/base/result.hpp"
 #include "learn/outline/outline_fit.hpp"
+#include "wisp/base/result.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {
@@ -24,8 +24,8 @@ struct WindGain {
 /// as it is. Errors: as one_rms().
 Result<std::vector<Recording>> at_common_gain(std::vector<Recording> recordings);
 
-/// Chooses as the recipe's gain says. Where that is open, learns with a common scale and with every recording's own, and
-/// takes what follows the input better where it is held out; the common scale where too little is held out to tell.
+/// Chooses as the recipe's gain says. Where that is open, learns with a common scale and with every recording's own,
+/// and takes what follows the input better where it is held out; the common scale where too little is held out to tell.
 /// There is nothing to choose where not every recording says how loud it was, or where that is within 2 % the same.
 /// Errors: as fit_outline() and one_rms().
 Result<WindGain> choose_wind_gain(std::span<const Recording> recordings, const OutlineRecipe& recipe,

@@ -1,5 +1,5 @@
 #pragma once
-// Sound against picture: by how much one is late, found from what both tell of the same wind.
+// The delay between sound and picture, from what both say of the same wind.
 
 #include <cstdint>
 #include <span>

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "wisp/base/result.hpp"
 #include "learn/outline/alignment.hpp"
+#include "wisp/base/result.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {

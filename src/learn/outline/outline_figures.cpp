@@ -12,7 +12,7 @@ namespace wisp {
 namespace {
 
 constexpr int kWhitenessLags = 20;
-constexpr std::size_t kMostShapes = 2000;  // neighbouring frames say the same
+constexpr std::size_t kMaxShapes = 2000;  // neighbouring frames say the same
 
 using Series = std::vector<std::vector<double>>;  // [output][row]
 
@@ -101,7 +101,7 @@ Result<OutlineFigures> outline_figures(const ArxModel& model, std::span<const Re
   }
   std::size_t all_rows = 0;
   for (const Recording& recording : recordings) all_rows += recording.rows();
-  const std::size_t stride = 1 + all_rows / kMostShapes;
+  const std::size_t stride = 1 + all_rows / kMaxShapes;
   for (int k : steps) {
     Shapes shapes;
     for (const Recording& recording : recordings) {

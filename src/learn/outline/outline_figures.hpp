@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "learn/outline/outline_units.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/channel_choice.hpp"
-#include "learn/outline/outline_units.hpp"
 #include "wisp/learn/prediction.hpp"
 #include "wisp/model/arx.hpp"
 #include "wisp/record/recording.hpp"

@@ -9,7 +9,6 @@
 #include "learn/numeric/chi_squared.hpp"
 #include "learn/outline/outline_curve.hpp"
 #include "learn/outline/outline_drawn.hpp"
-#include "learn/outline/outline_growth.hpp"
 #include "learn/outline/outline_noise.hpp"
 #include "learn/outline/outline_orders.hpp"
 #include "learn/outline/outline_preparation.hpp"
@@ -21,7 +20,7 @@ namespace wisp {
 namespace {
 
 constexpr std::size_t kTrialSteps = 100000;  // the verdict is about 1 in 1000: 100 of them
-constexpr std::size_t kLeastHeldOut = 10;    // rows, beside a history, that figures can be made from
+constexpr std::size_t kMinHeldOut = 10;      // rows, beside a history, that figures can be made from
 
 std::string text(double value) {
   std::string out = std::to_string(value);
@@ -42,9 +41,6 @@ Result<void> check_options(const OutlineRecipe& options) {
   if (const int knots = options.input_curve.value_or(0); knots != 0 && (knots < 3 || knots > 16)) {
     return refuse("the number of knots of the inputs' curve", knots, "0 (no curve) or 3 to 16");
   }
-  if (options.square && options.input_curve.value_or(0) != 0) {
-    return Error{"the inputs' squares and a curve on them were both asked for; choose one"};
-  }
   if (options.shared_shocks < 1 || options.shared_shocks > 64) {
     return refuse("the number of shared shocks", options.shared_shocks, "1 to 64");
   }
@@ -56,19 +52,18 @@ Result<void> check_options(const OutlineRecipe& options) {
 
 // What is left open, decided.
 OutlineRecipe decided(OutlineRecipe options, const PreparedOutlines& prepared) {
-  constexpr double kLeastDrawnSeconds = 10;
+  constexpr double kMinDrawnSeconds = 10;
   double seconds = 0;
   for (const Recording& recording : prepared.recordings) {
     seconds += static_cast<double>(complete_rows(recording, prepared.channels)) / recording.rate_hz;
   }
   if (!options.noise) {
-    const bool draw = !prepared.inputs.empty() && seconds >= kLeastDrawnSeconds;
+    const bool draw = !prepared.inputs.empty() && seconds >= kMinDrawnSeconds;
     options.noise = draw ? OutlineNoise::kDrawn : OutlineNoise::kMatched;
   }
   const bool drawn = options.noise == OutlineNoise::kDrawn;
   if (!options.coupling) options.coupling = drawn ? OutlineCoupling::kCoordinate : OutlineCoupling::kPoint;
   if (options.order == 0) options.order = drawn ? 3 : 4;
-  options.growing_noise = options.growing_noise && !drawn;
   return options;
 }
 
@@ -170,7 +165,7 @@ Result<void> set_drawn(std::span<const Recording> recordings, const PreparedOutl
   return {};
 }
 
-// Gives the model the Gaussian noise that was asked for.
+// Gives the model its Gaussian noise.
 Result<void> set_noise(const ArxFit& fitted, std::span<const Recording> recordings, const PreparedOutlines& prepared,
                        const OutlineRecipe& options, ArxModel& model, OutlineSummary& summary) {
   const auto wanted = flicker_covariance(model, recordings, prepared.channels);
@@ -187,9 +182,6 @@ Result<void> set_noise(const ArxFit& fitted, std::span<const Recording> recordin
     summary.shared_variance = carried(shocks, factor);
   }
   if (options.match_variance) summary.variance_matched = scale_to_variance(model, *wanted, factor);
-  // What was matched is the mean over all winds: at calm a noise that grows is smaller.
-  model.noise.growth = growth_of_regressors(summary.noise_growth, prepared);
-  factor /= std::sqrt(mean_square_growth(summary.noise_growth, recordings, prepared));
   if (options.noise != OutlineNoise::kIndependent) {
     set_shared(factor, model.noise);
     return {};
@@ -227,8 +219,7 @@ Output output_of(const std::string& name, std::span<const Recording> recordings)
 
 InputShape input_shape(RegressorShape shape) {
   if (shape.curve) return shape.split_sign ? InputShape::kSplitSignCurve : InputShape::kCurve;
-  if (shape.split_sign) return shape.square ? InputShape::kSplitSignSquare : InputShape::kSplitSign;
-  return shape.square ? InputShape::kLinearSquare : InputShape::kLinear;
+  return shape.split_sign ? InputShape::kSplitSign : InputShape::kLinear;
 }
 
 Input input_of(const OutlineInput& input, RegressorShape shape) {
@@ -313,10 +304,10 @@ bool hear_each_other(const OutlineRecipe& options) {
   return options.coupling == OutlineCoupling::kBand || options.coupling == OutlineCoupling::kFull;
 }
 
-// Decides by both parts whether the inputs are bent, and bends them by what the first says.
+// Decides by both parts whether the inputs pass a nonlinearity, which is estimated from the first.
 Result<void> bend(OutlineParts& parts, const PreparedOutlines& prepared, const OutlineRecipe& options,
                   OutlineSummary& summary) {
-  if (options.input_curve == 0 || options.square || prepared.inputs.empty()) return {};
+  if (options.input_curve == 0 || prepared.inputs.empty()) return {};
   auto choice = choose_outline_curves(to_learn_from(parts.learned, prepared, options), parts.held_out, prepared,
                                       chosen_orders(prepared, options, summary.choice), options.input_curve);
   if (!choice) return choice.error();
@@ -345,16 +336,11 @@ Result<ArxFit> judge(const PreparedOutlines& prepared, const OutlineRecipe& opti
   }
   auto fitted = fit(parts.learned, prepared, options, summary);
   if (!fitted) return fitted;
-  if (options.growing_noise) {
-    auto growth = learn_noise_growth(fitted->model, parts.learned, parts.held_out, prepared);
-    if (!growth) return growth.error();
-    summary.noise_growth = *std::move(growth);
-  }
   auto learned = outline_figures(fitted->model, parts.learned, prepared.channels, prepared.layout);
   if (!learned) return learned.error();
   summary.learned = *std::move(learned);
   const auto history = static_cast<std::size_t>(fitted->model.orders.history());
-  if (summary.rows_held_out < kLeastHeldOut + history) return fitted;
+  if (summary.rows_held_out < kMinHeldOut + history) return fitted;
   auto held_out = outline_figures(fitted->model, parts.held_out, prepared.channels, prepared.layout);
   if (held_out) summary.held_out = *std::move(held_out);
   return fitted;
@@ -425,7 +411,7 @@ Result<OutlineFit> fit_outline(std::span<const Recording> recordings, const Outl
     in_step = *std::move(moved);
     recordings = in_step;
   }
-  const RegressorShape shape{.split_sign = !wanted.one_sided, .square = wanted.square};
+  const RegressorShape shape{.split_sign = !wanted.one_sided};
   auto prepared = prepare_outlines(recordings, {wanted.inputs, shape, wanted.pixels_per_unit});
   if (!prepared) return prepared.error();
   if (!go_on(progress, kStage, 0.1)) return Error{std::string(kStopped)};

@@ -11,15 +11,15 @@
 #include <string>
 #include <vector>
 
-#include "wisp/base/result.hpp"
-#include "wisp/base/progress.hpp"
-#include "wisp/learn/arx_fit.hpp"
-#include "wisp/learn/curve_choice.hpp"
-#include "wisp/learn/outline_recipe.hpp"
 #include "learn/outline/outline_alignment.hpp"
 #include "learn/outline/outline_figures.hpp"
 #include "learn/outline/outline_inputs.hpp"
 #include "learn/outline/outline_ridge.hpp"
+#include "wisp/base/progress.hpp"
+#include "wisp/base/result.hpp"
+#include "wisp/learn/arx_fit.hpp"
+#include "wisp/learn/curve_choice.hpp"
+#include "wisp/learn/outline_recipe.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"
 #include "wisp/run/cost.hpp"
@@ -58,15 +58,6 @@ struct OutlineChoice {
   const OutlineCandidate& taken() const { return candidates[chosen]; }
 };
 
-/// Whether the noise grows with the inputs, and how that was found.
-struct OutlineNoiseGrowth {
-  std::vector<double> per_input;  ///< of maximum likelihood: at input 1 the noise is 1 + this times that of calm
-  double gain = 0;                ///< of the held-out residuals' log-likelihood, nats a frame
-  double gain_error = 0;          ///< its standard error over blocks of a second; 0 where nothing could be held against
-  bool kept = false;              ///< the model has it: the gain is more than two standard errors
-  std::string reason;
-};
-
 /// How good the model is.
 struct OutlineSummary {
   double rate_hz = 0;
@@ -87,11 +78,10 @@ struct OutlineSummary {
   double fpe = 0;                          ///< of the returned model, mean over rows of V·(1 + d/n)/(1 − d/n)
   ArxStability stable;
   Cost cost;
-  double held_share = 0;         ///< of steps in which an output is held at its range, playing freely with noise
+  double held_share = 0;         ///< of steps in which an output is clamped to its range, playing freely with noise
   std::vector<double> sd_ratio;  ///< of every channel: playing freely along the liveliest recording over
                                  ///< what that has; 1 where nothing moves
-  OutlineNoiseGrowth noise_growth;
-  double shared_variance = 0;  ///< share of the wanted shocks' variance that the shared ones carry, 0 to 1
+  double shared_variance = 0;    ///< share of the wanted shocks' variance that the shared ones carry, 0 to 1
   bool variance_matched = false;
   double pixels_per_unit = 0;  ///< of the first recording
   std::vector<std::string> warnings;

@@ -160,17 +160,22 @@ ReportSection fit_section(const OutlineFit& fit) {
 
 ReportSection model_section(const OutlineSummary& summary) {
   const ArxStability& stable = summary.stable;
-  return {"Model",
-          {{"fpe", summary.fpe, "final prediction error", ""},
-           {"stable.radius", stable.radius, "spectral radius", "", {}, stable.changed ? "made stable" : ""},
-           {"stable.changed", stable.changed, "", ""},
-           {"stable.estimated_radius", stable.estimated, "", ""},
-           {"stable.loss_factor", stable.loss_factor, "", ""},
-           {"stable.moved_std_errors", stable.moved, "", ""},
-           {"held_share", summary.held_share, "share of steps clamped", "", {}, "playing freely; at most 0.001 is good"},
-           {"cost.multiply_adds_per_frame", summary.cost.multiply_adds_per_frame, "multiply-adds a frame", ""},
-           {"cost.operations_per_frame", summary.cost.operations_per_frame, "operations a frame", "", {},
-            "noise and outline included"}}};
+  return {
+      "Model",
+      {{"fpe", summary.fpe, "final prediction error", ""},
+       {"stable.radius", stable.radius, "spectral radius", "", {}, stable.changed ? "made stable" : ""},
+       {"stable.changed", stable.changed, "", ""},
+       {"stable.estimated_radius", stable.estimated, "", ""},
+       {"stable.loss_factor", stable.loss_factor, "", ""},
+       {"stable.moved_std_errors", stable.moved, "", ""},
+       {"held_share", summary.held_share, "share of steps clamped", "", {}, "playing freely; at most 0.001 is good"},
+       {"cost.multiply_adds_per_frame", summary.cost.multiply_adds_per_frame, "multiply-adds a frame", ""},
+       {"cost.operations_per_frame",
+        summary.cost.operations_per_frame,
+        "operations a frame",
+        "",
+        {},
+        "noise and outline included"}}};
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "wisp/base/result.hpp"
 #include "learn/outline/outline_units.hpp"
+#include "wisp/base/result.hpp"
 #include "wisp/model/input_curve.hpp"
 #include "wisp/record/recording.hpp"
 
@@ -27,7 +27,7 @@ struct OutlineInput {
   double scale = 1;    ///< the recording's value that is 1 in the model, > 0
   double lowest = 0;   ///< seen, in the model's units
   double highest = 0;  ///< seen, in the model's units
-  InputCurve curve{};  ///< in the model's units; empty: it is not bent
+  InputCurve curve{};  ///< in the model's units; empty: linear
 };
 
 /// The 95th percentile of |input| over all rows of all recordings where it is above kCalmShare of its 99th percentile.
@@ -58,8 +58,7 @@ double resting_height_pixels(const Recording& recording, const OutlineLayout& la
 /// Which regressors inputs make.
 struct RegressorShape {
   bool split_sign = false;  ///< NAME+ and NAME- instead of NAME
-  bool square = false;      ///< then NAME^2, or NAME+^2 and NAME-^2
-  bool curve = false;       ///< each bent by its input's curve; names stay the same. Not beside squares
+  bool curve = false;       ///< each passed through its input's curve; names stay the same
 };
 
 /// Names of the regressors that inputs make, in the model's order (regressor_count(InputShape)).
@@ -78,7 +77,7 @@ std::vector<double> mean_shape(const Recording& recording, const OutlineLayout& 
                                std::span<const std::uint8_t> rows);
 
 /// The mirror image of a recording in model units with split regressors: x negated, control points in reverse order
-/// (the base's left is the base's right then), NAME+ and NAME- exchanged, and so their squares. With a shape at rest it
+/// (the base's left is the base's right then), NAME+ and NAME- exchanged. With a shape at rest it
 /// is the deviations from it that are mirrored: a wick that stands askew stays askew, and only the answer to wind has
 /// two equal sides.
 ///

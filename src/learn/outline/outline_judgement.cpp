@@ -6,11 +6,11 @@
 #include <limits>
 #include <string>
 
+#include "learn/flame/wind_gain.hpp"
 #include "learn/outline/outline_preparation.hpp"
+#include "learn/outline/outline_shape.hpp"
 #include "learn/outline/outline_synthesis.hpp"
 #include "learn/outline/trained_scale.hpp"
-#include "learn/outline/outline_shape.hpp"
-#include "learn/flame/wind_gain.hpp"
 
 namespace wisp {
 namespace {
@@ -77,7 +77,6 @@ RegressorShape shape_of(const Model& model) {
   RegressorShape shape;
   for (const Input& input : model.inputs) {
     shape.split_sign |= splits_sign(input.shape);
-    shape.square |= has_squares(input.shape);
     shape.curve |= has_curve(input.shape);
   }
   return shape;

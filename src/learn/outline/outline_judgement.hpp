@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "learn/outline/outline_alignment.hpp"
+#include "learn/outline/outline_figures.hpp"
 #include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/fidelity.hpp"
 #include "wisp/learn/validate_outline.hpp"
-#include "learn/outline/outline_alignment.hpp"
-#include "learn/outline/outline_figures.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"
 

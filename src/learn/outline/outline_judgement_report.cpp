@@ -39,10 +39,13 @@ ReportSection fit_section(const OutlineJudgement& found) {
   section.entries.push_back({"overlap", at_steps(figures.steps, figures.overlap, kFreeRun), "", ""});
   add_by_steps("overlap_by_steps", figures.steps, figures.overlap, "outline overlap", "", section);
   if (found.static_gain) {
-    section.entries.push_back({"static_gain.tip_fit_percent", found.static_gain->fit_percent, "tip fit of a static gain",
-                               "%", {}, "fitted to this very recording: what dynamics have to beat"});
-    section.entries.push_back(
-        {"static_gain.delay_seconds", found.static_gain->delay_seconds, "with a delay of", "s"});
+    section.entries.push_back({"static_gain.tip_fit_percent",
+                               found.static_gain->fit_percent,
+                               "tip fit of a static gain",
+                               "%",
+                               {},
+                               "fitted to this very recording: what dynamics have to beat"});
+    section.entries.push_back({"static_gain.delay_seconds", found.static_gain->delay_seconds, "with a delay of", "s"});
   }
   if (found.true_input) {
     section.entries.push_back({"true_input.tip_fit_percent", found.true_input->tip_fit_percent,
@@ -71,7 +74,8 @@ ReportSection fidelity_section(const OutlineJudgement& found) {
     section.entries.push_back({"fidelity", {}, "", ""});
   } else {
     const Fidelity& figures = *found.fidelity;
-    add_bounded("fidelity.log_spectral_distance", figures.log_spectral_distance, "log-spectral distance", "dB", section);
+    add_bounded("fidelity.log_spectral_distance", figures.log_spectral_distance, "log-spectral distance", "dB",
+                section);
     add_bounded("fidelity.autocorrelation_distance", figures.autocorrelation_distance, "", "", section);
     add_bounded("fidelity.wasserstein_value", figures.wasserstein_value, "", "", section);
     add_bounded("fidelity.wasserstein_speed", figures.wasserstein_speed, "", "", section);
@@ -80,7 +84,8 @@ ReportSection fidelity_section(const OutlineJudgement& found) {
     section.entries.push_back({"fidelity.verbatim_seconds", figures.verbatim_seconds, "", ""});
     const char* bounded = "log_spectral_distance";
     ReportTable channels{"fidelity.channels", "", {{"name", ""}, {"sd_real", ""}, {"sd_synthesized", ""}}, {}};
-    for (const char* bound : {".value", ".floor", ".ceiling"}) channels.columns.push_back({std::string(bounded) + bound, ""});
+    for (const char* bound : {".value", ".floor", ".ceiling"})
+      channels.columns.push_back({std::string(bounded) + bound, ""});
     for (const ChannelFidelity& one : figures.channels) {
       const Bounded& distance = one.log_spectral_distance;
       channels.rows.push_back(

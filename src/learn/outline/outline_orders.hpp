@@ -1,9 +1,9 @@
 #pragma once
 // Orders of an outline's equations: from options, or searched.
 
+#include "learn/outline/outline_fit.hpp"
 #include "learn/outline/outline_preparation.hpp"
 #include "wisp/base/result.hpp"
-#include "learn/outline/outline_fit.hpp"
 #include "wisp/model/arx.hpp"
 
 namespace wisp {

@@ -21,8 +21,8 @@ std::string step_id(int steps) { return steps == kFreeRun ? "inf" : std::to_stri
 void add_by_steps(const std::string& id, const std::vector<int>& steps, const std::vector<double>& values,
                   const std::string& label, const std::string& unit, ReportSection& section) {
   for (std::size_t k = 0; k < steps.size() && k < values.size(); ++k) {
-    section.entries.push_back({id + "." + step_id(steps[k]), values[k],
-                               label.empty() ? label : label + ", " + horizon(steps[k]), unit});
+    section.entries.push_back(
+        {id + "." + step_id(steps[k]), values[k], label.empty() ? label : label + ", " + horizon(steps[k]), unit});
   }
 }
 

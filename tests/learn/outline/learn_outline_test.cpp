@@ -45,9 +45,9 @@ T figure(const Report& report, const std::string& id) {
 
 TEST(LearnOutline, TheReportHasEveryPromisedField) {
   const Fit fit = learned({windy()}, {});
-  EXPECT_THAT(fields(fit.report),
-              IsSupersetOf({"rate_hz", "inputs", "points", "na", "nb", "nk", "samples", "channels", "J", "tip", "overlap",
-                            "fpe", "stable", "cost", "gain", "extinction", "alignment", "order_and_delay", "input_curve"}));
+  EXPECT_THAT(fields(fit.report), IsSupersetOf({"rate_hz", "inputs", "points", "na", "nb", "nk", "samples", "channels",
+                                                "J", "tip", "overlap", "fpe", "stable", "cost", "gain", "extinction",
+                                                "alignment", "order_and_delay", "input_curve"}));
   EXPECT_EQ(figure<std::int64_t>(fit.report, "points"), 6);
   EXPECT_GT(figure<double>(fit.report, "tip.held_out_fit_percent.inf"), 50);
   ASSERT_TRUE(fit.report.verdict);

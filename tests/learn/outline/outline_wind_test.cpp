@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "learn/outline/made_outline.hpp"
-#include "learn/outline/outline_synthesis.hpp"
 #include "learn/outline/outline_fit.hpp"
+#include "learn/outline/outline_synthesis.hpp"
 
 namespace wisp {
 namespace {

@@ -7,11 +7,11 @@
 #include <limits>
 
 #include "learn/outline/made_outline.hpp"
-#include "learn/outline/outline_knots.hpp"
-#include "learn/outline/outline_synthesis.hpp"
 #include "learn/outline/outline_fit.hpp"
 #include "learn/outline/outline_inputs.hpp"
+#include "learn/outline/outline_knots.hpp"
 #include "learn/outline/outline_shape.hpp"
+#include "learn/outline/outline_synthesis.hpp"
 #include "wisp/model/bspline.hpp"
 
 namespace wisp {
@@ -210,7 +210,7 @@ TEST(Validation, AModelSaysWhetherItsOutlinesFollowedTheirUnderside) {
       recordings.push_back(made::outline_recording({.rows = 400, .seed = recordings.size() + 1}));
       if (!word.empty()) recordings.back().attributes.push_back({"underside", word});
     }
-    return follows_underside(fit_outline(recordings)->model);
+    return fit_outline(recordings)->model.training.underside;
   };
   EXPECT_EQ(saying({"1", "1"}), true);
   EXPECT_EQ(saying({"0"}), false);
