@@ -119,7 +119,7 @@ typedef struct wisp_channel {
   double lowest; /* the trained or seen range; held to it and half of it more */
   double highest;
   uint32_t splits_sign; /* of inputs: 1 when the dynamics see what is positive and what is negative apart */
-  uint32_t has_squares; /* of inputs: 1 when they see squares too */
+  uint32_t has_curve;   /* of inputs: 1 when a curve bends what the dynamics see of them */
 } wisp_channel;
 
 /* What input or output number `index`, from 0, is. */
@@ -167,12 +167,12 @@ wisp_status wisp_model_get_figure(const wisp_model* model, uint32_t index, wisp_
 
 /* Of models whose dynamics are WISP_DYNAMICS_ARX; others are a WISP_BAD_ARGUMENT. */
 typedef struct wisp_arx_facts {
-  uint32_t size;        /* sizeof(wisp_arx_facts), set by the caller */
-  uint32_t outputs;     /* rows of the matrices of orders */
-  uint32_t regressors;  /* inputs as the dynamics see them, signs and squares split */
-  uint32_t history;     /* steps that the longest lag reaches back */
-  uint32_t shocks;      /* sources of noise that outputs share */
-  uint32_t noise_grows; /* 1 when the noise is larger in wind */
+  uint32_t size;       /* sizeof(wisp_arx_facts), set by the caller */
+  uint32_t outputs;    /* rows of the matrices of orders */
+  uint32_t regressors; /* inputs as the dynamics see them, signs split */
+  uint32_t history;    /* steps that the longest lag reaches back */
+  uint32_t shocks;     /* sources of noise that outputs share */
+  uint32_t resamples;  /* 1 when recorded residuals are played again, 0 when the noise is Gaussian */
 } wisp_arx_facts;
 
 wisp_status wisp_model_get_arx(const wisp_model* model, wisp_arx_facts* facts);

@@ -17,8 +17,7 @@ Result<ColouredArxFit> fit(const std::vector<Recording>& recordings, const Prepa
 }  // namespace
 
 Result<ColouredFlame> learn_coloured_flame(std::span<const Recording> clips, const NoiseModel& noise) {
-  auto white =
-      learn_outline(clips, {.noise = OutlineNoise::kIndependent, .growing_noise = false, .match_variance = false});
+  auto white = learn_outline(clips, {.noise = OutlineNoise::kIndependent, .match_variance = false});
   if (!white) return white.error();
   const auto prepared = prepare_outlines(clips, {});
   if (!prepared) return prepared.error();

@@ -152,7 +152,6 @@ void print_choices(const Clips& clips) {
         learn_outline(std::vector{driven_by_sound(clip, WindMeasure::kSpeed)}, {.order = {}, .delay = {}}));
     std::printf("  %s: %s\n", clip.outline.source.c_str(), fit.summary.choice.reason.c_str());
     for (const InputAlignment& one : fit.summary.alignment) std::printf("    %s\n", one.note().c_str());
-    std::printf("    %s\n", fit.summary.noise_growth.reason.c_str());
   }
 }
 
@@ -248,28 +247,17 @@ int main(int count, char** arguments) {
   try_way({.name = "order and delay searched", .options = {.order = {}, .delay = {}}}, clips);
   const auto heard = try_way({.name = "speed, other sounds too", .measure = WindMeasure::kHeard}, clips);
   const auto rms = try_way({.name = "plain RMS", .measure = WindMeasure::kRms}, clips);
-  const auto square = try_way({.name = "speed and its square", .options = {.square = true}}, clips);
-  const auto rms_square =
-      try_way({.name = "plain RMS and its square", .measure = WindMeasure::kRms, .options = {.square = true}}, clips);
-  try_way({.name = "true wind and its square", .truth = true, .options = {.square = true}}, clips);
   const auto one_sided = try_way({.name = "one-sided", .options = {.one_sided = true}}, clips);
   try_way({.name = "one-sided, plain RMS: the paper", .measure = WindMeasure::kRms, .options = {.one_sided = true}},
           clips);
-  try_way({.name = "one-sided, with square", .options = {.square = true, .one_sided = true}}, clips);
   try_way({.name = "band coupling", .options = {.coupling = OutlineCoupling::kBand}}, clips);
-  const auto steady =
-      try_way({.name = "noise the same in any wind", .options = {.growing_noise = false}, .fidelity = true}, clips);
 
   std::printf("\nPair by pair (least to most)\n");
   differ("order 25 over order 4", high, sound);
   differ("speed over plain RMS", sound, rms);
   differ("speed over speed with other sounds", sound, heard);
-  differ("the square beside speed over speed alone", square, sound);
-  differ("the square beside RMS over RMS alone", rms_square, rms);
   differ("one-sided over signed", one_sided, sound);
   differ("the true wind over sound", truth, sound);
-  std::printf("  noise that grows or not: energy distance %.4f where it may grow, %.4f where it may not\n",
-              mean(all(sound, &Score::energy)), mean(all(steady, &Score::energy)));
   print_choices(clips);
   Bounds bounds;
   bound(sound, truth, bounds);

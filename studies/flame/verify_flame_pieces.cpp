@@ -26,15 +26,12 @@ constexpr const char* kDefaultPiece = "drawn with curve (the default)";  // of `
 /// One after the other, each beside the one before.
 std::vector<Piece> pieces() {
   return {
-      {"independent (the paper)",
-       {.noise = OutlineNoise::kIndependent, .growing_noise = false, .match_variance = false}},
-      {"independent scaled", {.noise = OutlineNoise::kIndependent, .growing_noise = false}},
-      {"residual covariance", {.noise = OutlineNoise::kResidual, .growing_noise = false}},
-      {"matched", {.noise = OutlineNoise::kMatched, .growing_noise = false}},
-      {"matched growing", {.noise = OutlineNoise::kMatched}},
+      {"independent (the paper)", {.noise = OutlineNoise::kIndependent, .match_variance = false}},
+      {"independent scaled", {.noise = OutlineNoise::kIndependent}},
+      {"residual covariance", {.noise = OutlineNoise::kResidual}},
+      {"matched", {.noise = OutlineNoise::kMatched}},
       {"drawn order 4 points", {.order = 4, .coupling = OutlineCoupling::kPoint, .noise = OutlineNoise::kDrawn}},
       {"drawn", {}},
-      {"drawn with square", {.square = true}},
       {kDefaultPiece, {.input_curve = std::nullopt}},
   };
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <thread>
@@ -10,6 +11,7 @@
 #include "c/frames_in_c.h"
 #include "c/life_in_c.h"
 #include "c/live_in_c.h"
+#include "model/sample_chain.hpp"
 #include "run/flame_model.hpp"
 #include "wisp/base/file.hpp"
 #include "wisp/model/file.hpp"
@@ -84,8 +86,36 @@ TEST(C, AModelWithoutAnOutlineSaysSo) {
   wisp_model_free(model);
 }
 
-std::vector<std::byte> bytes_of(const std::string& name) {
-  return *read_file(WISP_SOURCE_DIR "/tests/c/models/" + name + ".wisp");
+Model made_up_flame() {
+  Model model = flame_model({.wind = InputShape::kSplitSign, .noise_rank = 2});
+  model.extinction = Extinction{.level = 1.3, .seconds = 0.15, .haste = 2, .recovery = 0.3};
+  model.training = {"wisp 0.1.0", {"clip.mp4"}, {{"order", "4"}}, {{"fit", 61.5}}, {true, "made up"}};
+  return model;
+}
+
+Model made_up_leaf() {
+  Model model = sample_chain();
+  GustResponse gust;
+  gust.ground = {{0.75, 0.0}, {0.25, 0.0}, {0.125, 0.0}};
+  gust.vertical = {{0.5, 0.25}, {0.125, 0.125}, {0.25, 0.0}};
+  std::get<ChainModel>(model.dynamics).gust = gust;
+  for (const char* name : {"wind.x", "wind.y", "wind.z"}) model.inputs.push_back({name, "m/s", -2, 2});
+  model.name = "made-up leaf";
+  return model;
+}
+
+std::string path_of(const std::string& name) { return WISP_SOURCE_DIR "/tests/c/models/" + name + ".wisp"; }
+
+std::vector<std::byte> bytes_of(const std::string& name) { return *read_file(path_of(name)); }
+
+// C, WebAssembly and the browsers play these files.
+TEST(C, TheModelsOfTheseTestsAreTheMadeUpOnes) {
+  if (std::getenv("WISP_WRITE_GOLDEN")) {
+    ASSERT_TRUE(write_model(path_of("flame"), made_up_flame()));
+    ASSERT_TRUE(write_model(path_of("leaf"), made_up_leaf()));
+  }
+  EXPECT_EQ(bytes_of("flame"), *model_bytes(made_up_flame()));
+  EXPECT_EQ(bytes_of("leaf"), *model_bytes(made_up_leaf()));
 }
 
 TEST(C, AModelGivesAnAccountOfItself) {

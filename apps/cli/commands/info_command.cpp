@@ -22,7 +22,6 @@ Json channels_of(const Model& model) {
                       {"unit", input.unit},
                       {"range", {number(input.lowest), number(input.highest)}},
                       {"shape", std::string(splits_sign(input.shape) ? "split sign" : "linear") +
-                                    (has_squares(input.shape) ? " with squares" : "") +
                                     (has_curve(input.shape) ? " bent by a curve" : "")}});
     if (has_curve(input.shape)) {
       inputs.back()["curve"] = {{"at", json_of(input.curve.at)}, {"value", json_of(input.curve.value)}};

@@ -100,7 +100,6 @@ void describe(const OutlineFit& fit, Terminal& terminal) {
   for (std::size_t k = 0; k < summary.curves.size(); ++k) {
     terminal.say("curve of " + summary.inputs[k].name + ": " + curve_text(summary.curves[k].curve));
   }
-  if (!summary.noise_growth.per_input.empty()) terminal.say(summary.noise_growth.reason);
   terminal.say("spectral radius " + shown(summary.stable.radius, 4) + (summary.stable.changed ? " (made stable)" : "") +
                ", held at its range in " + shown(100 * summary.held_share, 2) + " % of steps");
   terminal.say("cost " + std::to_string(summary.cost.multiply_adds_per_frame) + " multiply-adds a frame; " +
@@ -175,13 +174,6 @@ std::vector<Flag> outline_flags() {
        "coordinate where residuals are drawn, else point",
        {"auto", "coordinate", "point", "band", "full"}},
       {"one-sided", Kind::kSwitch, "", "", "inputs as they are: no sign, no mirror image"},
-      {"square", Kind::kSwitch, "", "", "every input's square beside it, so that the answer to it may bend"},
-      {"noise-growth",
-       Kind::kChoice,
-       "G",
-       "auto",
-       "auto: the noise grows with the inputs where held-out data say so; off: the same in any wind",
-       {"auto", "off"}},
       {"holdout", Kind::kNumber, "SHARE", "0.3", "the last part of each recording, kept for judging"},
       {"noise",
        Kind::kChoice,
@@ -242,9 +234,7 @@ Result<OutlineOptions> outline_options(const Arguments& arguments, std::string n
   if (noise == "matched") options.noise = OutlineNoise::kMatched;
   if (noise == "drawn") options.noise = OutlineNoise::kDrawn;
   options.one_sided = arguments.on("one-sided");
-  options.square = arguments.on("square");
   options.input_curve = curve_knots_of(arguments);
-  options.growing_noise = arguments.text("noise-growth") == "auto";
   options.holdout = arguments.number("holdout");
   options.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
   options.name = std::move(name);
@@ -302,12 +292,6 @@ void report_outline(const OutlineFit& fit, Terminal& terminal) {
   std::vector<std::string> names;
   for (const OutlineInput& input : summary.inputs) names.push_back(input.name);
   result["input_curve"] = curve_json(summary.curve_choice, names, summary.curves);
-  const OutlineNoiseGrowth& growth = summary.noise_growth;
-  result["noise_growth"] = {{"kept", growth.kept},
-                            {"per_input", json_of(growth.per_input)},
-                            {"held_out_gain_nats", number(growth.gain)},
-                            {"gain_se", number(growth.gain_error)},
-                            {"reason", growth.reason}};
   result["samples"] = {{"learned", summary.rows_learned}, {"held_out", summary.rows_held_out}};
   result["channels"] = channels_json(fit);
   result["J"] = by_steps(judged.steps, mean_per_step(judged.j));

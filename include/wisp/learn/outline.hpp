@@ -52,9 +52,8 @@ struct OutlineOptions {
   std::optional<OutlineCoupling> coupling;  ///< unset: kCoordinate where residuals are drawn, else kPoint; more costs
                                             ///< more and did not look better (docs/fidelity.md)
   std::optional<std::vector<std::string>> inputs;  ///< names; unset: all inputs of the recordings; empty: none, flicker
-  bool square = false;                             ///< every input's square beside it: what it does may bend
   std::optional<int> input_curve = 0;  ///< knots of a monotone curve that bends every input, 3 to 16; 0: none; unset: 3
-                                       ///< to 6 or none, as held-out data say, none beside squares
+                                       ///< to 6 or none, as held-out data say
   bool one_sided = false;      ///< inputs as they are, no sign and no mirror image: the paper's 192 multiply-adds
   std::optional<bool> mirror;  ///< learn from the mirror image too; unset: where inputs have signs
   double holdout = 0.3;        ///< 0 to 0.9: the last part of each recording, kept for judging
@@ -63,7 +62,6 @@ struct OutlineOptions {
                                          ///< else kMatched: what is short would be seen to repeat
   std::size_t drawn_bytes = 256 * 1024;  ///< most that drawn residuals take, two a channel and frame
   int shared_shocks = 4;                 ///< 1 to 64: normal numbers a frame; more changed no figure (docs/fidelity.md)
-  bool growing_noise = true;             ///< let the noise grow with the inputs where held-out data say that it does
   bool match_variance = true;            ///< scale the noise until every channel at rest has the recording's variance
   double pixels_per_unit = 0;            ///< 0: each recording's own mean calm height is 1
   std::uint64_t seed = 1;                ///< of the trial runs
@@ -102,15 +100,6 @@ struct OutlineChoice {
   const OutlineCandidate& taken() const { return candidates[chosen]; }
 };
 
-/// Whether the noise grows with the inputs, and how that was found.
-struct OutlineNoiseGrowth {
-  std::vector<double> per_input;  ///< of maximum likelihood: at input 1 the noise is 1 + this times that of calm
-  double gain = 0;                ///< of the held-out residuals' log-likelihood, nats a frame
-  double gain_error = 0;          ///< its standard error over blocks of a second; 0 where nothing could be held against
-  bool kept = false;              ///< the model has it: the gain is more than two standard errors
-  std::string reason;
-};
-
 /// How good the model is.
 struct OutlineSummary {
   double rate_hz = 0;
@@ -133,8 +122,7 @@ struct OutlineSummary {
   double held_share = 0;         ///< of steps in which an output is held at its range, playing freely with noise
   std::vector<double> sd_ratio;  ///< of every channel: playing freely along the liveliest recording over
                                  ///< what that has; 1 where nothing moves
-  OutlineNoiseGrowth noise_growth;
-  double shared_variance = 0;  ///< share of the wanted shocks' variance that the shared ones carry, 0 to 1
+  double shared_variance = 0;    ///< share of the wanted shocks' variance that the shared ones carry, 0 to 1
   bool variance_matched = false;
   double pixels_per_unit = 0;  ///< of the first recording
   std::vector<std::string> warnings;

@@ -58,8 +58,7 @@ double resting_height_pixels(const Recording& recording, const OutlineLayout& la
 /// Which regressors inputs make.
 struct RegressorShape {
   bool split_sign = false;  ///< NAME+ and NAME- instead of NAME
-  bool square = false;      ///< then NAME^2, or NAME+^2 and NAME-^2
-  bool curve = false;       ///< each bent by its input's curve; names stay the same. Not beside squares
+  bool curve = false;       ///< each bent by its input's curve; names stay the same
 };
 
 /// Names of the regressors that inputs make, in the model's order (regressor_count(InputShape)).
@@ -78,7 +77,7 @@ std::vector<double> mean_shape(const Recording& recording, const OutlineLayout& 
                                std::span<const std::uint8_t> rows);
 
 /// The mirror image of a recording in model units with split regressors: x negated, control points in reverse order
-/// (the base's left is the base's right then), NAME+ and NAME- exchanged, and so their squares. With a shape at rest it
+/// (the base's left is the base's right then), NAME+ and NAME- exchanged. With a shape at rest it
 /// is the deviations from it that are mirrored: a wick that stands askew stays askew, and only the answer to wind has
 /// two equal sides.
 ///

@@ -9,7 +9,6 @@
 #include "learn/numeric/chi_squared.hpp"
 #include "learn/outline/outline_curve.hpp"
 #include "learn/outline/outline_drawn.hpp"
-#include "learn/outline/outline_growth.hpp"
 #include "learn/outline/outline_noise.hpp"
 #include "learn/outline/outline_orders.hpp"
 #include "learn/outline/outline_preparation.hpp"
@@ -41,9 +40,6 @@ Result<void> check_options(const OutlineOptions& options) {
   if (const int knots = options.input_curve.value_or(0); knots != 0 && (knots < 3 || knots > 16)) {
     return refuse("the number of knots of the inputs' curve", knots, "0 (no curve) or 3 to 16");
   }
-  if (options.square && options.input_curve.value_or(0) != 0) {
-    return Error{"the inputs' squares and a curve on them were both asked for; choose one"};
-  }
   if (options.shared_shocks < 1 || options.shared_shocks > 64) {
     return refuse("the number of shared shocks", options.shared_shocks, "1 to 64");
   }
@@ -67,7 +63,6 @@ OutlineOptions decided(OutlineOptions options, const PreparedOutlines& prepared)
   const bool drawn = options.noise == OutlineNoise::kDrawn;
   if (!options.coupling) options.coupling = drawn ? OutlineCoupling::kCoordinate : OutlineCoupling::kPoint;
   if (options.order == 0) options.order = drawn ? 3 : 4;
-  options.growing_noise = options.growing_noise && !drawn;
   return options;
 }
 
@@ -184,9 +179,6 @@ Result<void> set_noise(const ArxFit& fitted, std::span<const Recording> recordin
     summary.shared_variance = carried(shocks, factor);
   }
   if (options.match_variance) summary.variance_matched = scale_to_variance(model, *wanted, factor);
-  // What was matched is the mean over all winds: at calm a noise that grows is smaller.
-  model.noise.growth = growth_of_regressors(summary.noise_growth, prepared);
-  factor /= std::sqrt(mean_square_growth(summary.noise_growth, recordings, prepared));
   if (options.noise != OutlineNoise::kIndependent) {
     set_shared(factor, model.noise);
     return {};
@@ -224,8 +216,7 @@ Output output_of(const std::string& name, std::span<const Recording> recordings)
 
 InputShape input_shape(RegressorShape shape) {
   if (shape.curve) return shape.split_sign ? InputShape::kSplitSignCurve : InputShape::kCurve;
-  if (shape.split_sign) return shape.square ? InputShape::kSplitSignSquare : InputShape::kSplitSign;
-  return shape.square ? InputShape::kLinearSquare : InputShape::kLinear;
+  return shape.split_sign ? InputShape::kSplitSign : InputShape::kLinear;
 }
 
 Input input_of(const OutlineInput& input, RegressorShape shape) {
@@ -309,7 +300,7 @@ Result<void> learn_curves(std::span<const Recording> recordings, const PreparedO
 // Decides by both parts whether the inputs are bent, and bends them by what the first says.
 Result<void> bend(OutlineParts& parts, const PreparedOutlines& prepared, const OutlineOptions& options,
                   OutlineSummary& summary) {
-  if (options.input_curve == 0 || options.square || prepared.inputs.empty()) return {};
+  if (options.input_curve == 0 || prepared.inputs.empty()) return {};
   auto choice = choose_outline_curves(to_learn_from(parts.learned, prepared, options), parts.held_out, prepared,
                                       chosen_orders(prepared, options, summary.choice), options.input_curve);
   if (!choice) return choice.error();
@@ -332,11 +323,6 @@ Result<ArxFit> judge(const PreparedOutlines& prepared, const OutlineOptions& opt
   if (auto ok = bend(parts, prepared, options, summary); !ok) return ok.error();
   auto fitted = fit(parts.learned, prepared, options, summary.choice.taken());
   if (!fitted) return fitted;
-  if (options.growing_noise) {
-    auto growth = learn_noise_growth(fitted->model, parts.learned, parts.held_out, prepared);
-    if (!growth) return growth.error();
-    summary.noise_growth = *std::move(growth);
-  }
   auto learned = outline_figures(fitted->model, parts.learned, prepared.channels, prepared.layout);
   if (!learned) return learned.error();
   summary.learned = *std::move(learned);
@@ -410,7 +396,7 @@ Result<OutlineFit> learn_outline(std::span<const Recording> recordings, const Ou
     in_step = *std::move(moved);
     recordings = in_step;
   }
-  const RegressorShape shape{.split_sign = !wanted.one_sided, .square = wanted.square};
+  const RegressorShape shape{.split_sign = !wanted.one_sided};
   auto prepared = prepare_outlines(recordings, {wanted.inputs, shape, wanted.pixels_per_unit});
   if (!prepared) return prepared.error();
   const OutlineOptions options = decided(wanted, *prepared);

@@ -81,7 +81,6 @@ std::vector<Note> notes(const OutlineOptions& options, const OutlineChoice& choi
           {"delay", std::to_string(choice.taken().delay)},
           {"order_and_delay", choice.reason},
           {"coupling", coupling_name(*options.coupling)},
-          {"square", options.square ? "yes" : "no"},
           {"input_curve", std::to_string(knots)},
           {"one_sided", options.one_sided ? "yes" : "no"},
           {"holdout", rounded(options.holdout, 3)},

@@ -77,7 +77,6 @@ RegressorShape shape_of(const Model& model) {
   RegressorShape shape;
   for (const Input& input : model.inputs) {
     shape.split_sign |= splits_sign(input.shape);
-    shape.square |= has_squares(input.shape);
     shape.curve |= has_curve(input.shape);
   }
   return shape;

@@ -71,13 +71,6 @@ TEST(OutlineCurve, OptionsOutOfRangeAreRefused) {
   options.input_curve = 2;
   EXPECT_THAT(learn_outline({&recording, 1}, options).error().message,
               HasSubstr("is 2, expected 0 (no curve) or 3 to 16"));
-  options.input_curve = 4;
-  options.square = true;
-  EXPECT_THAT(learn_outline({&recording, 1}, options).error().message, HasSubstr("choose one"));
-  options.input_curve = std::nullopt;  // an open choice yields to what was asked for
-  const auto squares = learn_outline({&recording, 1}, options);
-  ASSERT_TRUE(squares) << squares.error().message;
-  EXPECT_EQ(squares->model.inputs[0].shape, InputShape::kSplitSignSquare);
 }
 
 }  // namespace
