@@ -1,5 +1,5 @@
 #pragma once
-// The leaf's equations of motion, over the number type. docs/leaf.md writes them out.
+// The leaf's equations of motion, over the number type. docs/explanation/leaf.md writes them out.
 
 #include <cmath>
 
