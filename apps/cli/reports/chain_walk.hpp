@@ -9,6 +9,7 @@
 #include "wisp/base/result.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/chain_facet.hpp"
 
 namespace wisp::cli {
 
