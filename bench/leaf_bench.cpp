@@ -10,10 +10,10 @@
 #include <span>
 #include <vector>
 
+#include "simulate/leaf/leaf_cost.hpp"
 #include "wisp/learn/chain.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/cost.hpp"
-#include "wisp/simulate/leaf_cost.hpp"
 #include "wisp/simulate/leaf_drops.hpp"
 
 namespace wisp {

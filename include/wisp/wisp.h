@@ -397,7 +397,7 @@ typedef struct wisp_wind_options {
   double first_gust_rms;           /* wind 1 before any blowing was heard, full scale 1, 1e-6 to 8 */
 } wisp_wind_options;
 
-/* Options with every default: one channel of 44100 Hz, 60 frames a second; docs/wind.md has the reasons. */
+/* Options with every default: one channel of 44100 Hz, 60 frames a second; docs/explanation/wind.md has the reasons. */
 wisp_wind_options wisp_wind_default_options(void);
 
 /* Makes an estimator at the start of a stream of sound. `options` may be NULL for the defaults. Sets *wind.

@@ -26,7 +26,7 @@ inline const std::map<std::string, Layer>& layers() {
                                               "libavutil/", "libswscale/", "libswresample/"};
   static const std::map<std::string, Layer> table{
       // The one place that speaks to the operating system about files.
-      {"base", {{}, {"unistd.h"}}},
+      {"base", {{}, {"fcntl.h", "unistd.h"}}},
       {"model", {{"base"}, {"flatbuffers/", "wisp_generated.h"}}},
       // The compiler's own header of the processor's vector instructions.
       {"run", {{"base", "model"}, {"immintrin.h"}}},

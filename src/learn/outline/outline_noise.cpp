@@ -1,10 +1,12 @@
 #include "learn/outline/outline_noise.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <vector>
+
+#include "learn/numeric/decompositions.hpp"
 
 namespace wisp {
 namespace {
@@ -181,13 +183,13 @@ Eigen::MatrixXd shared_factor(const Covariance& shocks, int rank) {
   const Eigen::VectorXd scale = shocks.diagonal().cwiseAbs().cwiseSqrt();
   const Eigen::VectorXd inverse = scale.unaryExpr([](double s) { return s > 0 ? 1 / s : 0.0; });
   const Matrix correlation = inverse.asDiagonal() * shocks * inverse.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(correlation);
+  const auto [values, vectors] = symmetric_eigensystem(correlation);
   // Ascending eigenvalues: the last ones are the largest.
   const Eigen::Index most = std::min<Eigen::Index>(rank, shocks.rows());
   Matrix factor(shocks.rows(), most);
   for (Eigen::Index k = 0; k < most; ++k) {
     const Eigen::Index at = shocks.rows() - 1 - k;
-    factor.col(k) = std::sqrt(std::max(0.0, solver.eigenvalues()[at])) * solver.eigenvectors().col(at);
+    factor.col(k) = std::sqrt(std::max(0.0, values[at])) * vectors.col(at);
   }
   return scale.asDiagonal() * factor;
 }

@@ -210,7 +210,7 @@ TEST(Validation, AModelSaysWhetherItsOutlinesFollowedTheirUnderside) {
       recordings.push_back(made::outline_recording({.rows = 400, .seed = recordings.size() + 1}));
       if (!word.empty()) recordings.back().attributes.push_back({"underside", word});
     }
-    return follows_underside(learn_outline(recordings)->model);
+    return learn_outline(recordings)->model.training.underside;
   };
   EXPECT_EQ(saying({"1", "1"}), true);
   EXPECT_EQ(saying({"0"}), false);

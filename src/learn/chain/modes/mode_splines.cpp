@@ -1,10 +1,11 @@
 #include "learn/chain/modes/mode_splines.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "learn/numeric/decompositions.hpp"
 #include "wisp/model/bspline.hpp"
 
 namespace wisp {
@@ -59,7 +60,7 @@ VectorXd usual_orientation(const ChainModel& chain, const std::vector<std::uint3
     const Eigen::Vector4d q(row[0], row[1], row[2], row[3]);
     moment += q * q.transpose();
   }
-  return Eigen::SelfAdjointEigenSolver<MatrixXd>(moment).eigenvectors().col(3);
+  return symmetric_eigensystem(moment).vectors.col(3);
 }
 
 // Control points of all segments of one mode, one a row.
@@ -86,11 +87,11 @@ MatrixXd controls_of(const ChainModel& chain, const std::vector<std::uint32_t>& 
 void add_mode(MatrixXd controls, ModeSplines& out) {
   const VectorXd mean = controls.colwise().mean();
   controls.rowwise() -= mean.transpose();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> axes(controls.transpose() * controls);
+  const MatrixXd axes = symmetric_eigensystem(controls.transpose() * controls).vectors;
   for (double x : mean) out.mean.push_back(static_cast<float>(x));
   std::vector<VectorXd> scores;
   for (long k = 0; k < out.components; ++k) {
-    const VectorXd axis = axes.eigenvectors().col(axes.eigenvectors().cols() - 1 - k);
+    const VectorXd axis = axes.col(axes.cols() - 1 - k);
     VectorXd score = controls * axis;
     const double most = std::max(score.cwiseAbs().maxCoeff(), 1e-6);
     for (double x : axis) out.component.push_back(static_cast<float>(x * most / kMostStored));
