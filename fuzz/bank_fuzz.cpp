@@ -104,10 +104,10 @@ void act(wisp::Bank& bank, Source& source) {
       restore_damaged(bank, source);
       break;
     case 8:
-      if (ExtinctionFacet* extinction = bank.extinction()) extinction->relight(living);
+      if (auto* extinction = bank.extinction()) extinction->relight(living);
       break;
     case 9:
-      if (ExtinctionFacet* extinction = bank.extinction()) extinction->extinguish(living);
+      if (auto* extinction = bank.extinction()) extinction->extinguish(living);
       break;
     default:
       bank.reset(living);

@@ -14,8 +14,8 @@
 namespace wisp::cli {
 
 struct ChainWalk {
-  int history = 0;                   ///< as Bank::set_history()
-  std::optional<float> temperature;  ///< as Bank::set_temperature()
+  int history = 0;                   ///< as ChainFacet::set_history()
+  std::optional<float> temperature;  ///< as ChainFacet::set_temperature()
   std::optional<SteerTarget> target;
 };
 
