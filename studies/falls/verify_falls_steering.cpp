@@ -10,6 +10,7 @@
 
 #include "studies/falls/verify_falls.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/chain_facet.hpp"
 
 namespace wisp::verify {
 namespace {
@@ -100,7 +101,7 @@ void steer_for(int seconds, Bounds& bounds) {
   print("not steered", by_themselves, energy_distance(free, leaf));
   for (const float near : {0.2f, 0.1f, 0.02f}) {
     Bank bank = spawned(model, kSteeredSeed);
-    for (int k = 0; k < kFalls; ++k) bank.steer(bank.at(k), {targets[k], std::chrono::seconds(seconds), near});
+    for (int k = 0; k < kFalls; ++k) bank.chain()->steer(bank.at(k), {targets[k], std::chrono::seconds(seconds), near});
     const Falls falls = played(std::move(bank), model, rows);
     const Misses misses = misses_of(falls, targets);
     const double energy = energy_distance(falls, leaf);

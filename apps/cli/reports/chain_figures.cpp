@@ -8,6 +8,7 @@
 #include "wisp/draw/plot.hpp"
 #include "wisp/learn/motion.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/chain_facet.hpp"
 
 namespace wisp::cli {
 namespace {
@@ -67,7 +68,6 @@ Result<Walk> walk_of(const Model& model, std::size_t rows, std::uint64_t seed) {
   auto bank = Bank::create(model, {.capacity = 1, .seed = seed});
   if (!bank) return bank.error();
   const InstanceId id = bank->spawn();
-  const auto& segments = std::get<ChainModel>(model.dynamics).segments;
   Walk walk;
   walk.fall.source = "synthesized";
   walk.fall.rate_hz = model.rate_hz;
@@ -78,8 +78,8 @@ Result<Walk> walk_of(const Model& model, std::size_t rows, std::uint64_t seed) {
     if (row > 0) bank->step();
     bank->outputs(id, values);
     for (std::size_t k = 0; k < values.size(); ++k) walk.fall.channels[k].samples.push_back(values[k]);
-    const ChainPlace place = *bank->chain_place(id);
-    walk.mode.push_back(segments.mode[place.segment]);
+    const ChainPlace place = *bank->chain()->place_of(id);
+    walk.mode.push_back(static_cast<std::uint16_t>(place.mode));
     if (place.step == 0) walk.joins.push_back(row);
   }
   return walk;

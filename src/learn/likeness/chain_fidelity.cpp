@@ -7,6 +7,7 @@
 #include "learn/chain/chain_windows.hpp"
 #include "wisp/learn/motion.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/chain_facet.hpp"
 
 namespace wisp {
 namespace {
@@ -36,6 +37,7 @@ Result<Made> make_falls(const Model& model, int falls, std::size_t rows, std::ui
             std::vector<std::vector<std::size_t>>(static_cast<std::size_t>(falls))};
   const std::size_t count = model.outputs.size();
   std::vector<float> outputs(static_cast<std::size_t>(falls) * count);
+  const ChainFacet* chain = bank->chain();
   for (std::size_t row = 0; row < rows; ++row) {
     if (row > 0) bank->step();
     bank->outputs(outputs);
@@ -43,8 +45,7 @@ Result<Made> make_falls(const Model& model, int falls, std::size_t rows, std::ui
       for (std::size_t i = 0; i < count; ++i) {
         made.falls[k].channels[i].samples.push_back(outputs[k * count + i]);
       }
-      const auto place = bank->chain_place(bank->at(static_cast<int>(k)));
-      if (row > 0 && place && place->step == 0) made.joins[k].push_back(row);
+      if (row > 0 && chain && chain->place_of(bank->at(static_cast<int>(k)))->step == 0) made.joins[k].push_back(row);
     }
   }
   return made;
@@ -214,12 +215,13 @@ double longest_verbatim_seconds(const Model& model, std::span<const std::uint64_
   if (!bank) return 0;
   const InstanceId id = bank->spawn();
   std::size_t steps = 0, run = 0, longest = 0, joined = 0;
-  std::uint64_t before = origin[bank->chain_place(id)->segment];
+  const ChainFacet& chain = *bank->chain();
+  std::uint64_t before = origin[chain.place_of(id)->segment];
   while (joined < segments) {
     bank->step();
     ++steps;
     ++run;
-    const auto place = *bank->chain_place(id);
+    const auto place = *chain.place_of(id);
     if (place.step != 0) continue;
     ++joined;
     const std::uint64_t now = origin[place.segment];

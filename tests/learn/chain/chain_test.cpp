@@ -9,6 +9,7 @@
 #include "wisp/learn/chain_fidelity.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/chain_facet.hpp"
 
 namespace wisp {
 namespace {
@@ -100,7 +101,7 @@ double mean_miss(const Model& model, bool steered) {
   for (int k = 0; k < kFalls; ++k) {
     const InstanceId id = bank->spawn();
     if (steered) {
-      EXPECT_TRUE(bank->steer(id, {.position = {0, 0, -2.9f}, .in = std::chrono::seconds(3)}));
+      EXPECT_TRUE(bank->chain()->steer(id, {.position = {0, 0, -2.9f}, .in = std::chrono::seconds(3)}));
     }
   }
   for (int step = 0; step < 180; ++step) bank->step();

@@ -8,6 +8,7 @@
 
 #include "learn/chain/gusts/gust_ensembles.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/chain_facet.hpp"
 
 namespace wisp {
 namespace {
@@ -63,7 +64,7 @@ Ways played(Twins& twins, const GustPairs& pairs, std::size_t gust, const GustSp
   const std::size_t first = gust * pairs.clones;
   for (std::size_t k = 0; k < pairs.clones; ++k) {
     const BodyMoment body = moment_of(pairs.calm.pieces[first + k], span.onset);
-    for (Bank* bank : {&twins.windy, &twins.calm}) bank->place(bank->at(static_cast<int>(k)), body);
+    for (Bank* bank : {&twins.windy, &twins.calm}) bank->chain()->place(bank->at(static_cast<int>(k)), body);
   }
   take_places(twins.windy, ways.windy);
   take_places(twins.calm, ways.calm);
