@@ -1,10 +1,10 @@
-#include "wisp/learn/mode_difference.hpp"
+#include "learn/switched/mode_difference.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "learn/switched/made_switched.hpp"
-#include "wisp/learn/switched_fit.hpp"
+#include "learn/switched/switched_fit.hpp"
 
 namespace wisp {
 namespace {
@@ -24,9 +24,9 @@ SwitchedFit fit_of_turns(const MadeMode& quiet, const MadeMode& loud, double lou
     const double shock = first[t] - (mode.a * first[t - 1] + mode.b * u[t - 1] + mode.c);
     y[t] = mode.a * y[t - 1] + mode.b * u[t - 1] + mode.c + (made.modes[t] == 1 ? louder : 1) * shock;
   }
-  const auto fit = fit_switched(
-      {&made.recording, 1}, {{"u"}, {"y"}},
-      {.orders = first_order(), .switching = Switching::kMarkov, .modes = 2, .most_modes = 2, .starts = 4});
+  const auto fit =
+      fit_switched({&made.recording, 1}, {{"u"}, {"y"}},
+                   {.orders = first_order(), .switching = Switching::kMarkov, .modes = 2, .max_modes = 2, .starts = 4});
   EXPECT_TRUE(fit) << fit.error().message;
   return *fit;
 }

@@ -46,11 +46,4 @@ struct FrequencyResponse {
 FrequencyResponse frequency_response(const ArxModel& model, int output, int input, std::span<const double> omega,
                                      std::span<const double> covariance = {});
 
-/// Power spectrum of an output's noise part per radian a sample, Φ(ω) = (A⁻¹ Λ A⁻*)_oo / 2π. `noise_covariance` as
-/// ArxSummary's.
-///
-/// Precondition: noise_covariance is ny × ny.
-std::vector<double> noise_spectrum(const ArxModel& model, int output, std::span<const double> omega,
-                                   std::span<const double> noise_covariance);
-
 }  // namespace wisp

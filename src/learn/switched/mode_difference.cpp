@@ -1,4 +1,4 @@
-#include "wisp/learn/mode_difference.hpp"
+#include "learn/switched/mode_difference.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,16 +1,10 @@
 #pragma once
 // Order matrices from a few numbers: who listens to whom.
 
+#include "wisp/learn/arx_recipe.hpp"
 #include "wisp/model/arx.hpp"
 
 namespace wisp {
-
-/// Which outputs appear in an output's regression. Inputs appear in every one.
-enum class Coupling {
-  kFull,      ///< all of them
-  kDiagonal,  ///< those of its own group
-  kBand,      ///< those of its own group and of `reach` groups to either side along the chain of groups
-};
 
 /// The same orders in all entries that the coupling leaves.
 struct UniformOrders {

@@ -10,29 +10,15 @@
 #include <string>
 #include <vector>
 
+#include "learn/arx/rows/arx_orders.hpp"
+#include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/arx_fit.hpp"
-#include "wisp/learn/arx_orders.hpp"
 #include "wisp/learn/channel_choice.hpp"
 #include "wisp/model/arx.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {
-
-/// What the best candidate is best at.
-enum class OrderCriterion {
-  kFpe,
-  kAic,
-  kAicc,
-  kBic,
-  kValidation,  ///< mean squared error on the validation recordings
-};
-
-/// Orders first … last, both included, 0 to 4096.
-struct OrderRange {
-  int first = 1;
-  int last = 1;
-};
 
 /// Which candidates, and how they are judged.
 struct SearchOptions {
@@ -77,9 +63,10 @@ struct OrderSearch {
 /// Memory grows with the longest lag, not with the number of candidates.
 /// `validation` may be empty unless the criterion is kValidation.
 /// Errors: as fit_arx; no candidates, or more than a million; ranges or steps out of bounds; too few rows for a
-/// candidate.
+/// candidate; kStopped.
 Result<OrderSearch> search_orders(std::span<const Recording> estimation, std::span<const Recording> validation,
-                                  const ChannelChoice& channels, const SearchOptions& options = {});
+                                  const ChannelChoice& channels, const SearchOptions& options = {},
+                                  const Progress& progress = {});
 
 /// How to look for delays.
 struct DelayOptions {

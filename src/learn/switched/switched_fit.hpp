@@ -17,9 +17,10 @@
 #include <string>
 #include <vector>
 
+#include "learn/switched/mode_difference.hpp"
+#include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/channel_choice.hpp"
-#include "wisp/learn/mode_difference.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/model/switched.hpp"
 #include "wisp/record/recording.hpp"
@@ -29,12 +30,12 @@ namespace wisp {
 struct SwitchedOptions {
   ArxOrders orders;  ///< of every mode; see make_orders
   Switching switching = Switching::kRegions;
-  int modes = 0;               ///< 1 … most_modes; 0: the number that does best on rows held out
-  int most_modes = 6;          ///< 1 … kMostArxModes: the largest number that is tried
+  int modes = 0;               ///< 1 … max_modes; 0: the number that does best on rows held out
+  int max_modes = 6;           ///< 1 … kMostArxModes: the largest number that is tried
   bool subtract_means = true;  ///< the operating point is each channel's mean, else 0. Modes have constants either way
   double holdout = 0.3;        ///< in (0, 0.9]: share of every stretch, its end, that judges the number of modes
   int starts = 12;             ///< ≥ 1
-  int most_rounds = 300;       ///< ≥ 1, of the best start
+  int max_iterations = 300;    ///< ≥ 1, of the best start
   int neighbours = 0;          ///< rows of a local model; 0: three times its coefficients
   double stability_margin = 1e-3;  ///< in (0, 1): a repaired mode's spectral radius is at most 1 − this
   std::uint64_t seed = 1;
@@ -73,8 +74,8 @@ struct SwitchedFit {
 /// Fits a switched model to all episodes of all recordings together. Modes are ordered by how often they act, most
 /// often first. A fit that cannot be trusted, or that a single ARX model equals, is returned with `usable.verdict`
 /// false and the reason. Errors: no recordings, a channel that a recording has not, orders of the wrong shape, rates
-/// that differ, infinite samples, options out of range, too few rows for the modes.
+/// that differ, infinite samples, options out of range, too few rows for the modes; kStopped.
 Result<SwitchedFit> fit_switched(std::span<const Recording> recordings, const ChannelChoice& channels,
-                                 const SwitchedOptions& options);
+                                 const SwitchedOptions& options, const Progress& progress = {});
 
 }  // namespace wisp
