@@ -74,13 +74,4 @@ Result<Recording> in_range(Recording recording, const Arguments& arguments, std:
   return slice(recording, range.first - 1, range.last);
 }
 
-bool is_calm(const Recording& recording) {
-  for (std::size_t channel : channels_with_role(recording, Role::kInput)) {
-    for (double sample : recording.channels[channel].samples) {
-      if (sample != 0) return false;
-    }
-  }
-  return true;
-}
-
 }  // namespace wisp::cli

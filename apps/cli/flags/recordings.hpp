@@ -40,7 +40,4 @@ Result<std::vector<Recording>> read_tables(const std::vector<std::string>& paths
 /// Errors: the range reaches beyond the recording.
 Result<Recording> in_range(Recording recording, const Arguments& arguments, std::string_view flag);
 
-/// Whether all inputs of a recording are 0 throughout.
-bool is_calm(const Recording& recording);
-
 }  // namespace wisp::cli

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "learn/likeness/fidelity_marginal.hpp"
+#include "learn/fidelity/fidelity_marginal.hpp"
 #include "learn/outline/made_outline.hpp"
 #include "learn/outline/outline_synthesis.hpp"
 #include "wisp/learn/outline.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "learn/likeness/fidelity_marginal.hpp"
+#include "learn/fidelity/fidelity_marginal.hpp"
 #include "wisp/learn/arx_orders.hpp"
 
 namespace wisp {
