@@ -63,6 +63,14 @@ std::string played_as(const ChainModel& chain) {
   return chain.systems ? "systems" : "segments";
 }
 
+Json rows_of(const std::vector<double>& matrix, int columns) {
+  Json rows = Json::array();
+  for (std::size_t k = 0; k < matrix.size(); k += static_cast<std::size_t>(columns)) {
+    rows.push_back(json_of(std::span(matrix).subspan(k, static_cast<std::size_t>(columns))));
+  }
+  return rows;
+}
+
 Json dynamics_of(const ChainModel& chain) {
   return {{"kind", "chain"},
           {"played_as", played_as(chain)},
@@ -74,7 +82,7 @@ Json dynamics_of(const ChainModel& chain) {
           {"best_of", chain.segments.breadth},
           {"blend_share", number(chain.blend.share)},
           {"initial", json_of(chain.initial)},
-          {"transitions", matrix_json(chain.transitions(), chain.modes)}};
+          {"transitions", rows_of(chain.transitions(), chain.modes)}};
 }
 
 Json dynamics_of(const SwitchedArxModel& switched) {

@@ -83,13 +83,4 @@ Result<std::vector<Recording>> in_range(std::vector<Recording> recordings, const
   return recordings;
 }
 
-bool is_calm(const Recording& recording) {
-  for (std::size_t channel : channels_with_role(recording, Role::kInput)) {
-    for (double sample : recording.channels[channel].samples) {
-      if (sample != 0) return false;
-    }
-  }
-  return true;
-}
-
 }  // namespace wisp::cli

@@ -41,7 +41,4 @@ Result<std::vector<Recording>> read_tables(const std::vector<std::string>& paths
 Result<Recording> in_range(Recording recording, const Arguments& arguments, std::string_view flag);
 Result<std::vector<Recording>> in_range(std::vector<Recording> recordings, const Arguments& arguments);
 
-/// Whether all inputs of a recording are 0 throughout.
-bool is_calm(const Recording& recording);
-
 }  // namespace wisp::cli

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "learn/arx/rows/arx_orders.hpp"
-#include "learn/likeness/fidelity_marginal.hpp"
+#include "learn/fidelity/fidelity_marginal.hpp"
 
 namespace wisp {
 namespace {
