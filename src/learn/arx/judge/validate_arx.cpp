@@ -30,7 +30,7 @@ struct Subject {
   const ArxModel& arx;
   const ChannelChoice& channels;
   const Recording& recording;
-  const ArxValidation& options;
+  const ValidationOptions& options;
   std::vector<std::vector<double>> sd;  // of prediction errors, per output, then per step
 
   const std::vector<double>& measured(std::size_t output) const {
@@ -226,7 +226,7 @@ Report report_of(const Subject& subject, const Judged& judged) {
 }  // namespace
 }  // namespace arx
 
-Result<Report> validate_arx(const Model& model, const Recording& recording, const ArxValidation& options,
+Result<Report> validate_arx(const Model& model, const Recording& recording, const ValidationOptions& options,
                             const Progress& progress) {
   if (auto ok = arx::check_steps(options.steps); !ok) return ok.error();
   const ChannelChoice channels = arx::channels_of(model);
