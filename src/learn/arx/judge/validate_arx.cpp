@@ -12,6 +12,7 @@
 #include "learn/arx/report/report_values.hpp"
 #include "learn/arx/report/response_report.hpp"
 #include "wisp/learn/prediction.hpp"
+#include "wisp/record/number_text.hpp"
 
 namespace wisp {
 namespace arx {
@@ -156,7 +157,8 @@ void add_plots(const Subject& subject, const Judged& judged, ReportSection& sect
     plot("measured" + place, "measured", subject.measured(i));
     for (std::size_t s = 0; s < steps.size(); ++s) {
       const std::vector<double>& predicted = judged.predictions[s][i];
-      if (steps[s] == kFreeRun) plot("simulated" + place, "simulated from the input", predicted);
+      const std::string fit = " (fit " + number_text(judged.figures[s].fit_percent[i], 3) + " %)";
+      if (steps[s] == kFreeRun) plot("simulated" + place, "simulated from the input" + fit, predicted);
       if (steps[s] != ahead || ahead == 0) continue;
       std::vector<double> low = predicted, high = predicted;
       for (double& y : low) y -= kSure * subject.sd_of(i, ahead);
