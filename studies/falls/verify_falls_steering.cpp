@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kFalls = 200;
 constexpr std::uint64_t kTargetSeed = 1, kSteeredSeed = 2;
-constexpr std::size_t kMostWindows = 500;
+constexpr std::size_t kMaxWindows = 500;
 
 /// Falls of one bank, row by row, as recordings.
 using Falls = std::vector<Recording>;
@@ -53,7 +53,7 @@ std::array<float, 3> end_of(const Recording& fall) {
 }
 
 FeatureWindows windows_of(std::span<const Recording> falls, const LearnedLeaf& leaf) {
-  return thinned(series_windows(series_of(falls, leaf), window_rows(leaf)), kMostWindows);
+  return thinned(series_windows(series_of(falls, leaf), window_rows(leaf)), kMaxWindows);
 }
 
 double energy_distance(std::span<const Recording> falls, const LearnedLeaf& leaf) {

@@ -34,10 +34,14 @@ inline const std::map<std::string, Layer>& layers() {
       {"c", {{"base", "model", "run", "sound"}, {}}},
       {"record", {{"base"}, {}}},
       {"matfile", {{"base", "record"}, {"hdf5.h", "matio.h"}}},
+      {"umbrella",
+       {{"base", "model", "run", "sound", "record", "learn", "capture", "capture/vision", "capture/media", "describe"},
+        {}}},
       {"describe", {{"base"}, {"nlohmann/"}}},
       {"learn", {{"base", "model", "run", "sound", "record"}, {"Eigen/"}}},
       {"capture/vision", {{"base", "model", "record"}, {}}},
       {"capture/media", {{"base", "model", "sound", "record", "capture/vision"}, ffmpeg}},
+      {"capture", {{"base", "model", "sound", "record", "capture/vision", "capture/media"}, {}}},
       {"simulate", {{"base", "model", "record"}, {"cvode/", "nvector/", "sundials/", "sunlinsol/", "sunmatrix/"}}},
       {"draw", {{"base", "model", "run", "record"}, draws}},
   };
@@ -47,6 +51,7 @@ inline const std::map<std::string, Layer>& layers() {
 /// The layer of a path below include/wisp/ or src/ (or of an include): the longest matching folder.
 inline std::optional<std::string> layer_of(const std::string& path) {
   if (path == "wisp.h") return "c";
+  if (path == "learn.hpp" || path == "play.hpp") return "umbrella";
   std::optional<std::string> best;
   for (const auto& [name, layer] : layers()) {
     if (path.starts_with(name + "/") && (!best || name.size() > best->size())) best = name;
@@ -118,8 +123,8 @@ inline std::optional<std::string> application_objection(const Include& include) 
   if (include.quoted && include.name.starts_with("wisp/")) return {};
   if (layer_of(include.name)) return "includes \"" + include.name + "\", a private header";
   for (const auto& [name, layer] : layers()) {
-    // What the operating system and the compiler offer is no layer's own.
-    if (name != "base" && name != "run" && starts_with_any(include.name, layer.outside_private)) {
+    // What the operating system and the compiler offer is no layer's own, and a program may speak JSON.
+    if (name != "base" && name != "run" && name != "describe" && starts_with_any(include.name, layer.outside_private)) {
       return "includes <" + include.name + ">, which belongs to " + name;
     }
   }

@@ -34,7 +34,7 @@ Error unsteered(const ChainModel& chain) {
   if (!chain.systems) return {"the model can't be steered: an older Wisp learned it; learn it again"};
   return {
       "the model can't be steered: its modes are systems, which go on from where they are and leave nothing to choose; "
-      "learn it with --realise segments, spline or chain"};
+      "learn it with --realisation segments, spline or chain"};
 }
 
 // X,Y,Z@S.

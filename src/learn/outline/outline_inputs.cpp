@@ -1,4 +1,4 @@
-#include "wisp/learn/outline_inputs.hpp"
+#include "learn/outline/outline_inputs.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -206,7 +206,7 @@ double quarter_width(const std::vector<PointMm>& line, PointMm base, PointMm tip
 
 }  // namespace
 
-FlameOutline flame_outline(const FlameLight& light, const FlameOutlineOptions& options) {
+FlameOutline flame_outline(const FlameLight& light, const FlameOutlineRecipe& options) {
   FlameOutline outline;
   double sum = 0;
   for (const float value : light.soot) sum += static_cast<double>(value);

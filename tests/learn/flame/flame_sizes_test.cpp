@@ -1,4 +1,4 @@
-#include "wisp/learn/flame_sizes.hpp"
+#include "learn/flame/flame_sizes.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "wisp/learn/outline_units.hpp"
+#include "learn/outline/outline_units.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp::made {

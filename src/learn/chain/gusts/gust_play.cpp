@@ -1,4 +1,4 @@
-#include "wisp/learn/gust_play.hpp"
+#include "learn/chain/gusts/gust_play.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,11 +10,11 @@
 #include "wisp/run/bank.hpp"
 #include "wisp/run/chain_facet.hpp"
 
-namespace wisp {
+namespace wisp::chain {
 namespace {
 
 constexpr double kLaterSeconds = 2;  // after the gust: nothing should be left
-constexpr double kMostLeft = 0.1;    // m/s
+constexpr double kMaxLeft = 0.1;     // m/s
 
 // Two banks that live the same life but for the wind.
 struct Twins {
@@ -213,7 +213,7 @@ GustPlayFigures figures_of(const Tally& tally, GustPlayFigures figures) {
   figures.halves_fit_percent = halves ? tally.halves.fit_percent() : std::numeric_limits<double>::quiet_NaN();
   figures.halves_direction = tally.half_angles.direction();
   figures.diverges = !std::isfinite(figures.largest_displacement) || !std::isfinite(figures.left_after) ||
-                     figures.left_after > kMostLeft;
+                     figures.left_after > kMaxLeft;
   return figures;
 }
 
@@ -269,4 +269,4 @@ Result<GustPlay> play_gusts(const Model& model, const Recording& windy, const Re
   return GustPlay{figures_of(tally, figures), std::move(ends), chosen(scenes, options.scenes)};
 }
 
-}  // namespace wisp
+}  // namespace wisp::chain
