@@ -315,12 +315,12 @@ wisp_status wisp_bank_get_flame_state(const wisp_bank* bank, wisp_instance insta
 /* The flame_size of all: slots. */
 wisp_status wisp_bank_flame_sizes(const wisp_bank* bank, float* values, size_t count);
 
-/* Lights an instance that is out: it starts from rest and grows. Puts one out, whatever the wind; where the model never
- * goes out nothing happens. Either does nothing to one that is so already. */
+/* Lights an instance that is out: it starts from rest and grows. Puts one out, whatever the wind. Either does nothing
+ * to one that is so already. WISP_BAD_ARGUMENT where the model has no blow_out_level: it never goes out. */
 wisp_status wisp_bank_relight(wisp_bank* bank, wisp_instance instance);
 wisp_status wisp_bank_extinguish(wisp_bank* bank, wisp_instance instance);
 
-/* ---- Instances of a chain: things that fall, drift or fly ---- */
+/* ---- Instances of a chain: things that fall, drift or fly. WISP_BAD_ARGUMENT where the dynamics are no chain ---- */
 
 /* Where in its chain an instance is. */
 typedef struct wisp_chain_place {
@@ -330,7 +330,6 @@ typedef struct wisp_chain_place {
   uint32_t mode;    /* of the segment */
 } wisp_chain_place;
 
-/* WISP_BAD_ARGUMENT where the dynamics are not a chain. */
 wisp_status wisp_bank_get_chain_place(const wisp_bank* bank, wisp_instance instance, wisp_chain_place* place);
 
 /* A body at one moment, in the world: metres, seconds, radians, z up. */
@@ -344,7 +343,7 @@ typedef struct wisp_body {
 
 /* Sets an instance of a chain where a body is, as after a throw, a collision or a kick: it goes on with the segment
  * that begins most as the body moves, the rest fading away. Looks at every segment once: not for every frame.
- * WISP_BAD_ARGUMENT where the dynamics are not a chain or a number is not finite. */
+ * WISP_BAD_ARGUMENT where a number is not finite. */
 wisp_status wisp_bank_place(wisp_bank* bank, wisp_instance instance, const wisp_body* body);
 
 /* Level ground at that height, on which instances of a chain come to rest until they are placed or reset; or none, as
@@ -370,7 +369,7 @@ typedef struct wisp_chain_settings {
   float ground;
 } wisp_chain_settings;
 
-/* What was set; where the dynamics are not a chain, it does nothing. */
+/* What was set. */
 wisp_status wisp_bank_get_chain_settings(const wisp_bank* bank, wisp_chain_settings* settings);
 
 /* Back to where they were when spawned, lit: one, or all and the bank's time. */

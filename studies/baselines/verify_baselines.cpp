@@ -1,7 +1,7 @@
 // Wisp's learned flame beside three other ways of learning one, on the same clips.
 //
 //   wisp_verify_baselines DIR      the corpus is in DIR, or is made there (flame_corpus.hpp); figures and windows for a
-//                                  classifier go to DIR/baselines (flame_judge.hpp), studies/likeness/likeness.py makes
+//                                  classifier go to DIR/baselines (flame_judge.hpp), studies/fidelity/fidelity.py makes
 //                                  the table of them
 
 #include <cstdio>

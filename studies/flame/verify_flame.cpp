@@ -3,7 +3,7 @@
 //
 //   wisp_verify_flame                the tables
 //   wisp_verify_flame DIR [ASKED…]   what each piece of a model is worth, on other clips, kept in DIR
-//                                    (flame_corpus.hpp); studies/likeness/likeness.py DIR/pieces makes the table
+//                                    (flame_corpus.hpp); studies/fidelity/fidelity.py DIR/pieces makes the table
 //   wisp_verify_flame DIR REC…       the same for the flicker of captured flames, in DIR/flicker
 //
 // ASKED: --gusts, without calm and blow-outs; --only NAME, of pieces; --clips NAME, one of fresh (the default),
@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "learn/likeness/fidelity_energy.hpp"
+#include "learn/fidelity/fidelity_energy.hpp"
 #include "learn/outline/outline_fit.hpp"
 #include "learn/outline/outline_judgement.hpp"
 #include "learn/outline/outline_synthesis.hpp"

@@ -7,7 +7,6 @@
 
 #include "learn/outline/outline_fit.hpp"
 #include "learn/outline/outline_judgement.hpp"
-#include "studies/flame/flame_coloured.hpp"
 #include "studies/flame/flame_corpus.hpp"
 #include "studies/flame/flame_judge.hpp"
 #include "studies/value_or_abort.hpp"
@@ -41,28 +40,6 @@ bool is_asked(const PieceQuestion& question, const std::string& name) {
          std::find(question.names.begin(), question.names.end(), name) != question.names.end();
 }
 
-/// Coloured residuals, beside the same order with white ones. Nothing where it is not stable: it can't be played.
-std::vector<FlamePlayer> coloured_players(const std::vector<Recording>& clips, const PieceQuestion& question) {
-  std::vector<FlamePlayer> out;
-  for (const NoiseModel& noise :
-       {NoiseModel{}, NoiseModel{NoiseColour::kAutoregressive, 2}, NoiseModel{NoiseColour::kMovingAverage, 2}}) {
-    const char* name = noise.colour == NoiseColour::kWhite            ? "white"
-                       : noise.colour == NoiseColour::kAutoregressive ? "ARARX of order 2"
-                                                                      : "ARMAX of order 2";
-    if (!is_asked(question, name)) continue;
-    const auto learned = learn_coloured_flame(clips, noise);
-    if (!learned) {
-      std::printf("%s residuals: %s\n", name, learned.error().message.c_str());
-      continue;
-    }
-    const double radius = spectral_radius(std::get<ArxModel>(learned->model.dynamics));
-    std::printf("%s residuals: held-out log-likelihood %.2f nats a frame, farthest pole %.4f\n", name,
-                learned->log_likelihood, radius);
-    if (radius < 1 && noise.colour != NoiseColour::kWhite) out.push_back(player_of(name, learned->model));
-  }
-  return out;
-}
-
 /// What there is without an input.
 std::vector<Piece> flicker_pieces() {
   std::vector<Piece> out{
@@ -88,7 +65,6 @@ std::vector<FlamePlayer> players_of(const std::vector<Recording>& clips, const P
   std::vector<Piece> asked = pieces();
   std::erase_if(asked, [&](const Piece& piece) { return !is_asked(question, piece.name); });
   std::vector<FlamePlayer> out = learned(clips, asked);
-  for (FlamePlayer& player : coloured_players(clips, question)) out.push_back(std::move(player));
   if (out.empty()) {
     std::fprintf(stderr, "there is no piece called %s\n", question.names.front().c_str());
     std::exit(2);

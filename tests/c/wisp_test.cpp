@@ -86,6 +86,35 @@ TEST(C, AModelWithoutAnOutlineSaysSo) {
   wisp_model_free(model);
 }
 
+// A flame that never goes out is no chain either.
+TEST(C, WhatAModelDoesNotHaveIsABadArgument) {
+  const std::vector<std::byte> bytes = flame_bytes();
+  wisp_model* model = nullptr;
+  wisp_bank* bank = nullptr;
+  ASSERT_EQ(wisp_model_load(bytes.data(), bytes.size(), &model), WISP_OK);
+  ASSERT_EQ(wisp_bank_create(model, nullptr, &bank), WISP_OK);
+  wisp_instance instance = WISP_NO_INSTANCE;
+  ASSERT_EQ(wisp_bank_spawn(bank, &instance), WISP_OK);
+  EXPECT_EQ(wisp_bank_extinguish(bank, instance), WISP_BAD_ARGUMENT);
+  EXPECT_STREQ(wisp_last_error(), "wisp_bank_extinguish: the model has no rule of extinction");
+  EXPECT_EQ(wisp_bank_relight(bank, instance), WISP_BAD_ARGUMENT);
+  EXPECT_EQ(wisp_bank_set_ground(bank, 0), WISP_BAD_ARGUMENT);
+  EXPECT_STREQ(wisp_last_error(), "wisp_bank_set_ground: the model's dynamics are not a chain");
+  EXPECT_EQ(wisp_bank_clear_ground(bank), WISP_BAD_ARGUMENT);
+  EXPECT_EQ(wisp_bank_set_history(bank, 1), WISP_BAD_ARGUMENT);
+  EXPECT_EQ(wisp_bank_set_temperature(bank, 1), WISP_BAD_ARGUMENT);
+  EXPECT_EQ(wisp_bank_clear_temperature(bank), WISP_BAD_ARGUMENT);
+  wisp_chain_settings settings{};
+  settings.size = sizeof settings;
+  EXPECT_EQ(wisp_bank_get_chain_settings(bank, &settings), WISP_BAD_ARGUMENT);
+  wisp_flame_state state{};
+  state.size = sizeof state;
+  EXPECT_EQ(wisp_bank_get_flame_state(bank, instance, &state), WISP_OK);
+  EXPECT_EQ(state.lit, 1U);
+  wisp_bank_free(bank);
+  wisp_model_free(model);
+}
+
 Model made_up_flame() {
   Model model = flame_model({.wind = InputShape::kSplitSign, .noise_rank = 2});
   model.extinction = Extinction{.level = 1.3, .seconds = 0.15, .haste = 2, .recovery = 0.3};

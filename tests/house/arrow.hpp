@@ -104,6 +104,19 @@ inline std::optional<std::string> objection(const std::string& layer, bool publi
   return {};
 }
 
+/// Whether a file is an umbrella header, which gathers the public headers of one job: include/wisp/play.hpp.
+inline bool is_umbrella(const std::string& file) {
+  const std::filesystem::path path(file);
+  return path.parent_path() == "include/wisp" && path.extension() == ".hpp";
+}
+
+/// Why an umbrella header may not include this: it gathers public headers, and no library includes it.
+inline std::optional<std::string> umbrella_objection(const Include& include) {
+  if (standard_headers().contains(include.name)) return {};
+  if (include.quoted && include.name.starts_with("wisp/") && layer_of(include.name.substr(5))) return {};
+  return "gathers public headers and includes \"" + include.name + "\", which is none";
+}
+
 /// Whether an application's source may include this: public headers and its own files, any outside library but those
 /// that belong to a layer.
 inline std::optional<std::string> application_objection(const Include& include) {
@@ -139,8 +152,9 @@ inline std::vector<std::string> arrow_violations(const std::filesystem::path& ro
     const bool public_header = file.starts_with("include/wisp/");
     const bool library = public_header || file.starts_with("src/");
     if (!library && !file.starts_with("apps/")) continue;
+    const bool umbrella = is_umbrella(file);
     std::optional<std::string> layer;
-    if (library) {
+    if (library && !umbrella) {
       layer = layer_of(file.substr(public_header ? std::string("include/wisp/").size() : std::string("src/").size()));
       if (!layer) {
         violations.push_back(file + ": belongs to no layer of docs/architecture.md");
@@ -149,7 +163,9 @@ inline std::vector<std::string> arrow_violations(const std::filesystem::path& ro
     }
     for (const Include& written : includes_of(read_text(root / file))) {
       const Include include = in_full(root, file, written);
-      const auto why = layer ? objection(*layer, public_header, include) : application_objection(include);
+      const auto why = umbrella ? umbrella_objection(include)
+                       : layer  ? objection(*layer, public_header, include)
+                                : application_objection(include);
       if (why) violations.push_back(file + ":" + std::to_string(written.line) + ": " + *why);
     }
   }

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "learn/arx/judge/residual_tests.hpp"
 #include "learn/outline/outline_shape.hpp"
-#include "wisp/learn/residual_tests.hpp"
 
 namespace wisp {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "learn/likeness/fidelity_marginal.hpp"
+#include "learn/fidelity/fidelity_marginal.hpp"
 #include "learn/numeric/chi_squared.hpp"
 #include "learn/outline/outline_curve.hpp"
 #include "learn/outline/outline_drawn.hpp"

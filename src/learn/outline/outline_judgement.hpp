@@ -57,6 +57,6 @@ struct OutlineJudgement {
 /// Errors, naming the recording: the model is not an outline or its dynamics are not ARX; another number of control
 /// points than the model's; another rate; an input that the recording has not; no outline in any row.
 Result<OutlineJudgement> judge_outline(const Model& model, const Recording& recording,
-                                       const OutlineValidationOptions& options = {}, const Progress& progress = {});
+                                       const ValidationOptions& options = {}, const Progress& progress = {});
 
 }  // namespace wisp

@@ -10,8 +10,8 @@
 #include <limits>
 #include <optional>
 
-#include "wisp/learn/arx_orders.hpp"
-#include "wisp/learn/order_search.hpp"
+#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/search/order_search.hpp"
 
 namespace wisp {
 namespace {

@@ -20,6 +20,13 @@ bool finite(const LeafState& s) {
   return std::isfinite(sum);
 }
 
+// Beyond what a step may change; falls in calm stay below half of it.
+constexpr double kSpeedMargin = 2;   // m/s
+constexpr double kSpinMargin = 100;  // rad/s
+constexpr int kMaxHalvings = 12;     // of a step
+
+double length_of(const leaf::Vec<double>& v) { return std::sqrt(leaf::dot(v, v)); }
+
 double squared_length(const std::array<double, 4>& q) { return q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]; }
 
 }  // namespace
@@ -43,21 +50,38 @@ struct LeafFlight::Course {
     return leaf::rate_of(constants, s, leaf::air_of(sample));
   }
 
-  void step(double h) {
+  leaf::State<double> stepped(double h) {
     const auto slope = [this, h](const leaf::State<double>& s, double share) { return rate(s, seconds + share * h); };
-    const double before = inside.velocity.y;
     switch (stepping.method) {
       case LeafMethod::kMidpoint:
-        inside = leaf::midpoint_step(inside, h, slope);
-        break;
+        return leaf::midpoint_step(inside, h, slope);
       case LeafMethod::kRalston:
-        inside = leaf::ralston_step(inside, h, slope);
-        break;
+        return leaf::ralston_step(inside, h, slope);
       default:
-        inside = leaf::classical_step(inside, h, slope);
-        break;
+        return leaf::classical_step(inside, h, slope);
     }
-    const double after = inside.velocity.y;
+  }
+
+  // Whether a step went where no leaf goes: drag decays at a rate that grows with the speed of the air, and a step that
+  // is too long for it overshoots.
+  bool overshot(const leaf::State<double>& to) const {
+    if (wind->calm()) return false;
+    const leaf::Vec<double> moving = leaf::rotation_of(inside.attitude)(inside.velocity);
+    const WindSample sample = wind->at(leaf::array_of(inside.position), leaf::array_of(moving), seconds);
+    const double speed = length_of(inside.velocity) + length_of(leaf::vec_of(sample.velocity));
+    return !(length_of(to.velocity) <= 2 * speed + kSpeedMargin) ||
+           !(length_of(to.spin) <= 2 * length_of(inside.spin) + kSpinMargin);
+  }
+
+  void step(double h, int halvings = kMaxHalvings) {
+    const leaf::State<double> next = stepped(h);
+    if (halvings > 0 && overshot(next)) {
+      step(h / 2, halvings - 1);
+      step(h / 2, halvings - 1);
+      return;
+    }
+    const double before = inside.velocity.y, after = next.velocity.y;
+    inside = next;
     if (before * after < 0) stalls.push_back(seconds + h * before / (before - after));
     seconds += h;
   }

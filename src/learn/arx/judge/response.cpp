@@ -1,4 +1,4 @@
-#include "wisp/learn/response.hpp"
+#include "learn/arx/judge/response.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -261,17 +261,6 @@ FrequencyResponse frequency_response(const ArxModel& model, int output, int inpu
     response.phase_sd.push_back(std::sqrt(std::max(0.0, across.dot(matrix * across))));
   }
   return response;
-}
-
-std::vector<double> noise_spectrum(const ArxModel& model, int output, std::span<const double> omega,
-                                   std::span<const double> noise_covariance) {
-  const auto covariance = as_matrix(noise_covariance, model.orders.outputs());
-  std::vector<double> spectrum;
-  for (double w : omega) {
-    const Eigen::RowVectorXcd row = complex_inverse(a_at(model, std::polar(1.0, -w))).row(output);
-    spectrum.push_back((row * covariance.cast<Complex>() * row.adjoint())(0).real() / (2 * std::numbers::pi));
-  }
-  return spectrum;
 }
 
 }  // namespace wisp

@@ -8,13 +8,13 @@
 #include "learn/numeric/decompositions.hpp"
 #include "wisp/model/bspline.hpp"
 
-namespace wisp {
+namespace wisp::chain {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kMostStored = 32767;
+constexpr double kMaxStored = 32767;
 
 // From the rows of a segment of so many steps to the control points: control points × rows. Ends go through the first
 // and the last row, where segments join.
@@ -94,20 +94,19 @@ void add_mode(MatrixXd controls, ModeSplines& out) {
     const VectorXd axis = axes.col(axes.cols() - 1 - k);
     VectorXd score = controls * axis;
     const double most = std::max(score.cwiseAbs().maxCoeff(), 1e-6);
-    for (double x : axis) out.component.push_back(static_cast<float>(x * most / kMostStored));
-    scores.push_back(score * (kMostStored / most));
+    for (double x : axis) out.component.push_back(static_cast<float>(x * most / kMaxStored));
+    scores.push_back(score * (kMaxStored / most));
   }
   for (long segment = 0; segment < controls.rows(); ++segment) {
     for (const VectorXd& score : scores) {
-      out.score.push_back(
-          static_cast<std::int16_t>(std::lround(std::clamp(score(segment), -kMostStored, kMostStored))));
+      out.score.push_back(static_cast<std::int16_t>(std::lround(std::clamp(score(segment), -kMaxStored, kMaxStored))));
     }
   }
 }
 
 }  // namespace
 
-void realise_as_splines(ChainModel& chain, const ModeSplineOptions& options) {
+void as_splines(ChainModel& chain, const ModeSplineOptions& options) {
   const auto first = segment_rows(chain.segments);
   const int channels = channel_count(chain.motion);
   ModeSplines splines;
@@ -123,4 +122,4 @@ void realise_as_splines(ChainModel& chain, const ModeSplineOptions& options) {
   chain.splines = std::move(splines);
 }
 
-}  // namespace wisp
+}  // namespace wisp::chain
