@@ -8,7 +8,7 @@
 #include "flags/search_flags.hpp"
 #include "reports/arx_figures.hpp"
 #include "reports/arx_parts.hpp"
-#include "reports/curve_learning.hpp"
+#include "flags/curve_flag.hpp"
 #include "reports/learned_model.hpp"
 #include "terminal.hpp"
 #include "wisp/learn/learn.hpp"

@@ -6,7 +6,7 @@
 #include "commands/commands.hpp"
 #include "flags/capture_flags.hpp"
 #include "flags/outline_flags.hpp"
-#include "reports/curve_learning.hpp"
+#include "flags/curve_flag.hpp"
 #include "reports/learned_model.hpp"
 #include "terminal.hpp"
 #include "wisp/learn/learn.hpp"

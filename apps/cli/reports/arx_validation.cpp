@@ -2,7 +2,7 @@
 
 #include "flags/recordings.hpp"
 #include "reports/arx_figures.hpp"
-#include "wisp/learn/learn.hpp"
+#include "wisp/learn/validate.hpp"
 
 namespace wisp::cli {
 

@@ -10,7 +10,7 @@
 #include "learn/outline/outline_figures.hpp"
 #include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/fidelity.hpp"
+#include "learn/fidelity/fidelity.hpp"
 #include "wisp/learn/validate_outline.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"

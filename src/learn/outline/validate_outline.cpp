@@ -7,7 +7,7 @@
 #include "learn/flame/wind_gain.hpp"
 #include "learn/outline/outline_report.hpp"
 #include "learn/outline/outline_shape.hpp"
-#include "wisp/learn/spectrum.hpp"
+#include "learn/numeric/spectrum.hpp"
 
 namespace wisp {
 namespace {

@@ -71,7 +71,8 @@ std::vector<std::vector<double>> error_sd(const ArxModel& arx, const std::vector
 }
 
 Result<Judged> judge(const Subject& subject, const Progress& progress) {
-  const auto& [steps, initial, responses] = subject.options;
+  const std::vector<int>& steps = subject.options.steps;
+  const InitialState initial = subject.options.initial;
   auto figures =
       prediction_figures(subject.arx, {&subject.recording, 1}, subject.channels, {.steps = steps, .initial = initial});
   if (!figures) return figures.error();
