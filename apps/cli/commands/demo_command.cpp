@@ -11,6 +11,7 @@
 #include "wisp/base/file.hpp"
 #include "wisp/capture/capture.hpp"
 #include "wisp/learn/learn.hpp"
+#include "wisp/model/file.hpp"
 #include "wisp/record/csv.hpp"
 
 namespace wisp::cli {
