@@ -60,7 +60,9 @@ struct Falls {
 class BadChainInput : public InFolder {
  protected:
   BadChainInput() {
-    EXPECT_TRUE(write_model(at("leaf.wisp"), steered_chain()));
+    Model leaf = steered_chain();
+    leaf.training.motion = MotionTraining{"zero:forward_speed", 0.04, 0.1, 0};
+    EXPECT_TRUE(write_model(at("leaf.wisp"), leaf));
     EXPECT_TRUE(write_model(at("flame.wisp"), sample_model()));
   }
 

@@ -22,7 +22,7 @@ enum class LeafMethod {
 };
 
 struct LeafStepping {
-  LeafMethod method = LeafMethod::kClassical;
+  LeafMethod method = LeafMethod::kClassical;  ///< in wind above 2.5 m/s always kStiff: fixed steps overshoot there
   double longest_step = 1.0 / 60;  ///< seconds, 1e-6 … 0.05: of the fixed steps; the fastest decay is about 100/s
   double tolerance = 1e-8;         ///< relative, 1e-12 … 1e-3: of the stiff method
 };

@@ -81,6 +81,9 @@ class LeafWind {
   /// Nothing blows anywhere, ever.
   bool calm() const { return !steady_ && gusts_.empty() && eddies_.empty() && track_.rows.empty(); }
 
+  /// The greatest speed of the steady wind, the gusts or the rows that were measured, m/s; eddies apart.
+  double fastest() const;
+
   const std::vector<Gust>& gusts() const { return gusts_; }
 
  private:

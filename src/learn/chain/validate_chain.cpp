@@ -1,5 +1,6 @@
 // A chain against recordings that it has not seen: falls, or gusts and their calm twins.
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -72,12 +73,17 @@ Result<Report> validate_chain(const Model& model, std::span<const Recording> rec
   if (recordings.empty()) return Error{"there are no recordings to judge a chain on"};
   if (!std::holds_alternative<ChainModel>(model.dynamics)) return Error{model.name + ": is not a segment chain"};
   if (!go_on(progress, "judging falls", 0)) return Error{std::string(kStopped)};
+  const auto unpaired = std::find_if(recordings.begin(), recordings.end(),
+                                     [](const Recording& one) { return !find_attribute(one, "pair"); });
+  if (unpaired != recordings.end() && std::any_of(recordings.begin(), recordings.end(), [](const Recording& one) {
+        return find_attribute(one, "pair").has_value();
+      })) {
+    return Error{unpaired->source + ": is not one of a pair (it has no attribute pair), expected no pair beside it"};
+  }
   const auto data = chain::sorted_recordings(recordings);
   if (!data) return data.error();
   if (data->paired.empty()) return chain::validate_falls(model, data->falls, seed, progress);
-  if (data->falls.empty()) return chain::validate_gusts(model, data->paired[0], data->paired[1], seed);
-  return Error{data->falls.front().source +
-               ": is not one of a pair (it has no attribute pair), expected no pair beside it"};
+  return chain::validate_gusts(model, data->paired[0], data->paired[1], seed);
 }
 
 }  // namespace wisp

@@ -146,6 +146,14 @@ void LeafWind::add_eddies(const LeafWindOptions& o) {
   }
 }
 
+double LeafWind::fastest() const {
+  const auto speed = [](const std::array<double, 3>& v) { return std::hypot(v[0], v[1], v[2]); };
+  double most = 0;
+  for (const Gust& gust : gusts_) most = std::max(most, speed(gust.velocity));
+  for (const auto& row : track_.rows) most = std::max(most, speed(row));
+  return most + speed(mean_);
+}
+
 WindSample LeafWind::at(const std::array<double, 3>& place, const std::array<double, 3>& moving, double seconds) const {
   Vec velocity = vec_of(mean_), change{};
   const Vec x = vec_of(place), v = vec_of(moving);
