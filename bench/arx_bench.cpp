@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/search/order_search.hpp"
 #include "wisp/learn/arx_fit.hpp"
-#include "wisp/learn/arx_orders.hpp"
-#include "wisp/learn/order_search.hpp"
 #include "wisp/learn/prediction.hpp"
 
 namespace wisp {

@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <ctime>
 
+#include "learn/outline/outline_fit.hpp"
 #include "studies/flame/verify_flame.hpp"
-#include "wisp/learn/outline.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/simulate/candle_clip.hpp"
 
@@ -55,7 +55,7 @@ double model_seconds_a_frame(const Model& model, int instances) {
 
 int main() {
   const auto clip = verify::make_flame_clip(20, 1);
-  const auto fit = learn_outline(std::vector{verify::driven_by_sound(clip, WindMeasure::kSpeed)});
+  const auto fit = fit_outline(std::vector{verify::driven_by_sound(clip, WindMeasure::kSpeed)});
   if (!fit) {
     std::fprintf(stderr, "%s\n", fit.error().message.c_str());
     return 1;

@@ -28,12 +28,12 @@ class Words {
 // Nine clouds that overlap: no clusters that any start would find.
 std::vector<double> clouds() {
   Words words;
-  std::vector<double> middles(kClouds * kColumns), rows;
-  for (double& x : middles) x = 3 * words.next();
+  std::vector<double> centroids(kClouds * kColumns), rows;
+  for (double& x : centroids) x = 3 * words.next();
   for (std::size_t row = 0; row < kRows; ++row) {
     for (std::size_t column = 0; column < kColumns; ++column) {
       const double noise = words.next() + words.next() + words.next() - 1.5;
-      rows.push_back(middles[row % kClouds * kColumns + column] + 1.5 * noise);
+      rows.push_back(centroids[row % kClouds * kColumns + column] + 1.5 * noise);
     }
   }
   return rows;

@@ -10,10 +10,10 @@
 #include <span>
 #include <vector>
 
+#include "simulate/leaf/leaf_cost.hpp"
 #include "wisp/learn/chain.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/cost.hpp"
-#include "wisp/simulate/leaf_cost.hpp"
 #include "wisp/simulate/leaf_drops.hpp"
 
 namespace wisp {
@@ -44,10 +44,10 @@ double time_of(double frames, const std::function<void()>& work) {
 
 Model learned(double blend_share) {
   const Recording drops = must(simulate_leaf_drops({.drops = 60}));
-  ChainOptions options{.blend_share = blend_share};
-  options.segmentation.event = {EventKind::kZero, "forward_speed"};
-  options.restarts = 3;
-  return must(learn_chain(std::span(&drops, 1), options)).model;
+  LeafRecipe recipe;
+  recipe.blend = blend_share;
+  recipe.restarts = 3;
+  return must(learn_chain(std::span(&drops, 1), recipe)).model;
 }
 
 double time_played(const Model& model, int leaves) {

@@ -10,6 +10,7 @@
 #include "../tests/run/flame_model.hpp"
 #include "wisp/base/hash.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/extinction_facet.hpp"
 
 namespace {
 
@@ -103,10 +104,10 @@ void act(wisp::Bank& bank, Source& source) {
       restore_damaged(bank, source);
       break;
     case 8:
-      bank.relight(living);
+      if (auto* extinction = bank.extinction()) extinction->relight(living);
       break;
     case 9:
-      bank.extinguish(living);
+      if (auto* extinction = bank.extinction()) extinction->extinguish(living);
       break;
     default:
       bank.reset(living);

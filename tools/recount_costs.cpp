@@ -15,18 +15,15 @@ Result<void> recount(const char* path) {
   if (!model) return model.error();
   const auto cost = count_operations(*model);
   if (!cost) return cost.error();
-  bool changed = false;
-  for (Figure& figure : model->provenance.figures) {
-    const auto set = [&](const char* name, std::int64_t value) {
-      if (figure.name != name || figure.value == static_cast<double>(value)) return;
-      std::printf("%s: %s %.0f, was %.0f\n", path, name, static_cast<double>(value), figure.value);
-      figure.value = static_cast<double>(value);
-      changed = true;
-    };
-    set("multiply_adds_per_frame", cost->multiply_adds_per_frame);
-    set("operations_per_frame", cost->operations_per_frame);
-  }
-  return changed ? write_model(path, *model) : Result<void>();
+  Training& made = model->training;
+  if (made.multiply_adds_per_frame == cost->multiply_adds_per_frame &&
+      made.operations_per_frame == cost->operations_per_frame)
+    return {};
+  std::printf("%s: %lld operations, was %lld\n", path, static_cast<long long>(cost->operations_per_frame),
+              static_cast<long long>(made.operations_per_frame));
+  made.multiply_adds_per_frame = cost->multiply_adds_per_frame;
+  made.operations_per_frame = cost->operations_per_frame;
+  return write_model(path, *model);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// What a command of the program is: one entry of the table from which parser, help and docs/cli.md are made.
+// What a command of the program is: one entry of the table from which parser, help and docs/reference/cli.md are made.
 
 #include <functional>
 #include <map>
@@ -95,7 +95,7 @@ const std::vector<Command>& commands();
 /// Flags that every command has.
 const std::vector<Flag>& common_flags();
 
-/// docs/cli.md, made from the table.
+/// docs/reference/cli.md, made from the table.
 std::string manual();
 
 }  // namespace wisp::cli

@@ -9,6 +9,7 @@
 
 #include "command.hpp"
 #include "terminal.hpp"
+#include "wisp/base/file.hpp"
 
 namespace wisp::cli {
 namespace {
@@ -164,7 +165,9 @@ int run_command(const Wired& wired) {
     return message.starts_with("--") ? kWrongUsage : kBadData;
   }
   terminal.finish();
-  return kDone;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return kDone;
+  std::fputs("wisp: standard output cannot be written; the result is lost\n", stderr);
+  return kBadData;
 }
 
 int run_program(int argc, char** argv) {
@@ -193,6 +196,7 @@ int run_program(int argc, char** argv) {
 }  // namespace wisp::cli
 
 int main(int argc, char** argv) {
+  wisp::remove_pending_files_when_interrupted();
   try {
     return wisp::cli::run_program(argc, argv);
   } catch (const std::bad_alloc&) {

@@ -1,4 +1,4 @@
-// docs/cli.md from the table of commands.
+// docs/reference/cli.md from the table of commands.
 
 #include "command.hpp"
 

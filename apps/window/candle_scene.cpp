@@ -130,13 +130,22 @@ void CandleScene::pointer_released(Point pixel) {
   pointer_ = pixel;
   if (!moved_) {
     const Candle& candle = candles_[static_cast<std::size_t>(nearest(pixel))];
-    bank_.relight(candle.id);
+    relight(candle);
   }
   carried_.reset();
 }
 
 void CandleScene::relight_all() {
-  for (const Candle& candle : candles_) bank_.relight(candle.id);
+  for (const Candle& candle : candles_) relight(candle);
+}
+
+void CandleScene::relight(const Candle& candle) {
+  if (ExtinctionFacet* extinction = bank_.extinction()) extinction->relight(candle.id);
+}
+
+LitState CandleScene::state_of(const Candle& candle) const {
+  const ExtinctionFacet* extinction = bank_.extinction();
+  return extinction ? *extinction->state_of(candle.id) : LitState{};
 }
 
 void CandleScene::reset() {
@@ -148,7 +157,7 @@ void CandleScene::reset() {
 
 int CandleScene::burning() const {
   return static_cast<int>(
-      std::count_if(candles_.begin(), candles_.end(), [&](const auto& c) { return bank_.lit_state(c.id)->lit; }));
+      std::count_if(candles_.begin(), candles_.end(), [&](const auto& c) { return state_of(c).lit; }));
 }
 
 // The wind as it comes along the row: later and weaker the farther it has come.
@@ -198,7 +207,7 @@ void CandleScene::remember_wind(float seconds) {
 }
 
 void CandleScene::drift_smoke(Candle& candle) const {
-  const LitState state = *bank_.lit_state(candle.id);
+  const LitState state = state_of(candle);
   if (state.since_out == kNever) return;
   if (state.since_out <= bank_.step_time()) candle.drift_sum = candle.drift_count = 0;
   candle.drift_sum += candle.wind;
@@ -249,7 +258,7 @@ void CandleScene::draw(Image& image) {
   std::vector<Flame> flames;
   for (int k : order) {
     Candle& candle = candles_[static_cast<std::size_t>(k)];
-    const LitState state = *bank_.lit_state(candle.id);
+    const LitState state = state_of(candle);
     candle.scene.base = candle.place;
     candle.scene.seconds_since_lit = seconds_of(state.since_lit);
     candle.scene.seconds_since_out = seconds_of(state.since_out);
@@ -262,7 +271,7 @@ void CandleScene::draw(Image& image) {
 
 float CandleScene::tip() const {
   const Candle& candle = candles_.front();
-  if (!bank_.lit_state(candle.id)->lit) return 0;
+  if (!state_of(candle).lit) return 0;
   std::vector<float> points(2 * kPolylinePoints);
   bank_.polyline(candle.id, points);
   std::size_t top = 0;

@@ -10,6 +10,7 @@
 #include "gusts.hpp"
 #include "wisp/draw/live_flames.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/extinction_facet.hpp"
 
 namespace wisp::window {
 
@@ -46,7 +47,7 @@ class CandleScene {
 
   /// Whether the model has a wind at all, and whether it can go out.
   bool feels_wind() const { return bank_.input_count() > 0; }
-  bool goes_out() const { return bank_.goes_out(); }
+  bool goes_out() const { return bank_.extinction() != nullptr; }
 
   /// The x of the first candle's tip over its base, in flame heights; 0 where it is out.
   float tip() const;
@@ -76,6 +77,8 @@ class CandleScene {
   void drift_smoke(Candle& candle) const;
   std::vector<Point> outline_of(const Candle& candle);
   int nearest(Point pixel) const;
+  void relight(const Candle& candle);
+  LitState state_of(const Candle& candle) const;
 
   Bank bank_;
   std::size_t wind_input_ = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "wisp/run/chain_facet.hpp"
 #include "wisp/run/random.hpp"
 
 namespace wisp::window {
@@ -27,6 +28,10 @@ constexpr float kFade = 0.6F;    // seconds of going before it begins again
 constexpr float kCatch = 0.25F;  // and of appearing
 
 float room_width(int width, int height) { return kViewHeight * static_cast<float>(width) / static_cast<float>(height); }
+
+void put(Bank& bank, int slot, const BodyMoment& body) {
+  if (ChainFacet* chain = bank.chain()) chain->place(bank.at(slot), body);
+}
 
 }  // namespace
 
@@ -72,7 +77,7 @@ void LeafScene::begin(int slot, bool anywhere) {
   const float turn = 6.2831853F * chance(), tilt = 0.6F * (chance() - 0.5F);
   body.orientation = {std::cos(turn / 2), tilt, 0, std::sin(turn / 2)};
   body.velocity = {0.3F * (chance() - 0.5F), 0.3F * (chance() - 0.5F), -0.5F};
-  bank_.place(bank_.at(slot), body);
+  put(bank_, slot, body);
   Life& life = lives_[static_cast<std::size_t>(slot)];
   life = {body.position, body.orientation, 0, kLeastRest + kMoreRest * chance(), 0, life.look, life.size};
 }
@@ -94,7 +99,7 @@ void LeafScene::set_leaves(int count) {
 
 void LeafScene::set_ground(bool there) {
   ground_ = there;
-  bank_.set_ground(there ? std::optional<float>(kLift) : std::nullopt);
+  if (ChainFacet* chain = bank_.chain()) chain->set_ground(there ? std::optional<float>(kLift) : std::nullopt);
 }
 
 void LeafScene::reset() {
@@ -152,7 +157,7 @@ void LeafScene::kick(int slot, const std::array<float, 3>& wind) {
   body.velocity = {(0.5F + 0.3F * chance()) * wind[0], wind[1] + 0.5F * (chance() - 0.5F) * strength,
                    (0.55F + 0.7F * chance()) * strength};
   body.spin = {6 * (chance() - 0.5F), 6 * (chance() - 0.5F), 5 * (chance() - 0.5F)};
-  bank_.place(bank_.at(slot), body);
+  put(bank_, slot, body);
   life.rested = 0;
   life.patience = kLeastRest + kMoreRest * chance();
 }

@@ -1,6 +1,6 @@
 #pragma once
-// A script of events: what a person would do at the window, with times, for tests and demonstrations. docs/play.md
-// describes the file.
+// A script of events: what a person would do at the window, with times, for tests and demonstrations.
+// docs/reference/window.md describes the file.
 
 #include <filesystem>
 #include <string>

@@ -119,7 +119,7 @@ typedef struct wisp_channel {
   double lowest; /* the trained or seen range; held to it and half of it more */
   double highest;
   uint32_t splits_sign; /* of inputs: 1 when the dynamics see what is positive and what is negative apart */
-  uint32_t has_squares; /* of inputs: 1 when they see squares too */
+  uint32_t has_curve;   /* of inputs: 1 when a curve bends what the dynamics see of them */
 } wisp_channel;
 
 /* What input or output number `index`, from 0, is. */
@@ -167,12 +167,12 @@ wisp_status wisp_model_get_figure(const wisp_model* model, uint32_t index, wisp_
 
 /* Of models whose dynamics are WISP_DYNAMICS_ARX; others are a WISP_BAD_ARGUMENT. */
 typedef struct wisp_arx_facts {
-  uint32_t size;        /* sizeof(wisp_arx_facts), set by the caller */
-  uint32_t outputs;     /* rows of the matrices of orders */
-  uint32_t regressors;  /* inputs as the dynamics see them, signs and squares split */
-  uint32_t history;     /* steps that the longest lag reaches back */
-  uint32_t shocks;      /* sources of noise that outputs share */
-  uint32_t noise_grows; /* 1 when the noise is larger in wind */
+  uint32_t size;       /* sizeof(wisp_arx_facts), set by the caller */
+  uint32_t outputs;    /* rows of the matrices of orders */
+  uint32_t regressors; /* inputs as the dynamics see them, signs split */
+  uint32_t history;    /* steps that the longest lag reaches back */
+  uint32_t shocks;     /* sources of noise that outputs share */
+  uint32_t resamples;  /* 1 when recorded residuals are played again, 0 when the noise is Gaussian */
 } wisp_arx_facts;
 
 wisp_status wisp_model_get_arx(const wisp_model* model, wisp_arx_facts* facts);
@@ -315,12 +315,12 @@ wisp_status wisp_bank_get_flame_state(const wisp_bank* bank, wisp_instance insta
 /* The flame_size of all: slots. */
 wisp_status wisp_bank_flame_sizes(const wisp_bank* bank, float* values, size_t count);
 
-/* Lights an instance that is out: it starts from rest and grows. Puts one out, whatever the wind; where the model never
- * goes out nothing happens. Either does nothing to one that is so already. */
+/* Lights an instance that is out: it starts from rest and grows. Puts one out, whatever the wind. Either does nothing
+ * to one that is so already. WISP_BAD_ARGUMENT where the model has no blow_out_level: it never goes out. */
 wisp_status wisp_bank_relight(wisp_bank* bank, wisp_instance instance);
 wisp_status wisp_bank_extinguish(wisp_bank* bank, wisp_instance instance);
 
-/* ---- Instances of a chain: things that fall, drift or fly ---- */
+/* ---- Instances of a chain: things that fall, drift or fly. WISP_BAD_ARGUMENT where the dynamics are no chain ---- */
 
 /* Where in its chain an instance is. */
 typedef struct wisp_chain_place {
@@ -330,7 +330,6 @@ typedef struct wisp_chain_place {
   uint32_t mode;    /* of the segment */
 } wisp_chain_place;
 
-/* WISP_BAD_ARGUMENT where the dynamics are not a chain. */
 wisp_status wisp_bank_get_chain_place(const wisp_bank* bank, wisp_instance instance, wisp_chain_place* place);
 
 /* A body at one moment, in the world: metres, seconds, radians, z up. */
@@ -344,7 +343,7 @@ typedef struct wisp_body {
 
 /* Sets an instance of a chain where a body is, as after a throw, a collision or a kick: it goes on with the segment
  * that begins most as the body moves, the rest fading away. Looks at every segment once: not for every frame.
- * WISP_BAD_ARGUMENT where the dynamics are not a chain or a number is not finite. */
+ * WISP_BAD_ARGUMENT where a number is not finite. */
 wisp_status wisp_bank_place(wisp_bank* bank, wisp_instance instance, const wisp_body* body);
 
 /* Level ground at that height, on which instances of a chain come to rest until they are placed or reset; or none, as
@@ -370,7 +369,7 @@ typedef struct wisp_chain_settings {
   float ground;
 } wisp_chain_settings;
 
-/* What was set; where the dynamics are not a chain, it does nothing. */
+/* What was set. */
 wisp_status wisp_bank_get_chain_settings(const wisp_bank* bank, wisp_chain_settings* settings);
 
 /* Back to where they were when spawned, lit: one, or all and the bank's time. */
@@ -398,7 +397,7 @@ typedef struct wisp_wind_options {
   double first_gust_rms;           /* wind 1 before any blowing was heard, full scale 1, 1e-6 to 8 */
 } wisp_wind_options;
 
-/* Options with every default: one channel of 44100 Hz, 60 frames a second; docs/wind.md has the reasons. */
+/* Options with every default: one channel of 44100 Hz, 60 frames a second; docs/explanation/wind.md has the reasons. */
 wisp_wind_options wisp_wind_default_options(void);
 
 /* Makes an estimator at the start of a stream of sound. `options` may be NULL for the defaults. Sets *wind.

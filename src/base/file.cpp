@@ -1,10 +1,13 @@
 #include "wisp/base/file.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <memory>
@@ -29,6 +32,49 @@ fs::path pending_name(const fs::path& path) {
   std::string name = "." + path.stem().string() + ".part-" + std::to_string(::getpid()) + "-" +
                      std::to_string(counter.fetch_add(1)) + path.extension().string();
   return path.parent_path() / name;
+}
+
+// Names of pending files as a signal handler may read them: it can neither lock nor allocate. More files at once than
+// there are places are left behind by an interruption, and by nothing else.
+constexpr std::size_t kMaxListed = 32, kMaxName = 4096;
+struct Listed {
+  std::atomic<int> state{0};  // 0 free, 1 being written, 2 a name
+  std::array<char, kMaxName> name{};
+};
+std::array<Listed, kMaxListed> listed_files;
+
+int list(const fs::path& path) {
+  const std::string name = path.string();
+  if (name.size() >= kMaxName) return -1;
+  for (std::size_t k = 0; k < kMaxListed; ++k) {
+    int free = 0;
+    if (!listed_files[k].state.compare_exchange_strong(free, 1)) continue;
+    std::memcpy(listed_files[k].name.data(), name.c_str(), name.size() + 1);
+    listed_files[k].state = 2;
+    return static_cast<int>(k);
+  }
+  return -1;
+}
+
+void unlist(int place) {
+  if (place >= 0) listed_files[static_cast<std::size_t>(place)].state = 0;
+}
+
+extern "C" void remove_pending_files(int signal) {
+  for (Listed& file : listed_files) {
+    if (file.state == 2) ::unlink(file.name.data());
+  }
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+// Without this a power failure could leave an empty file under the final name.
+bool on_disk(const fs::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool done = ::fsync(file) == 0 || errno == EINVAL || errno == EROFS;  // not every file system can
+  ::close(file);
+  return done;
 }
 
 }  // namespace
@@ -80,16 +126,19 @@ Result<void> write_file(const fs::path& path, std::string_view text) {
 }
 
 PendingFile::PendingFile(fs::path pending, fs::path final_path)
-    : pending_(std::move(pending)), final_(std::move(final_path)) {}
+    : pending_(std::move(pending)), final_(std::move(final_path)), listed_(list(pending_)) {}
 
 PendingFile::PendingFile(PendingFile&& other) noexcept
-    : pending_(std::exchange(other.pending_, {})), final_(std::exchange(other.final_, {})) {}
+    : pending_(std::exchange(other.pending_, {})),
+      final_(std::exchange(other.final_, {})),
+      listed_(std::exchange(other.listed_, -1)) {}
 
 PendingFile& PendingFile::operator=(PendingFile&& other) noexcept {
   if (this == &other) return *this;
   discard();
   pending_ = std::exchange(other.pending_, {});
   final_ = std::exchange(other.final_, {});
+  listed_ = std::exchange(other.listed_, -1);
   return *this;
 }
 
@@ -99,10 +148,14 @@ void PendingFile::discard() {
   if (pending_.empty()) return;
   std::error_code ignored;
   fs::remove(pending_, ignored);
+  unlist(std::exchange(listed_, -1));
 }
 
-Result<PendingFile> PendingFile::create(const fs::path& path) {
+Result<PendingFile> PendingFile::create(const fs::path& given) {
   std::error_code code;
+  // A link stays a link: what it points to is written.
+  const fs::path target = fs::is_symlink(given, code) ? fs::weakly_canonical(given, code) : given;
+  const fs::path& path = code ? given : target;
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (path.filename().empty()) return file_error(path, "names no file to write");
   if (fs::is_directory(path, code)) return file_error(path, "is a folder, expected a file name to write to");
@@ -119,10 +172,20 @@ Result<PendingFile> PendingFile::create(const fs::path& path) {
 
 Result<void> PendingFile::commit() {
   std::error_code code;
+  const fs::file_status old = fs::status(final_, code);
+  if (fs::is_regular_file(old)) fs::permissions(pending_, old.permissions(), code);
+  if (!on_disk(pending_)) return file_error(final_, "cannot be written whole: " + reason());
   fs::rename(pending_, final_, code);
   if (code) return file_error(final_, "cannot be put in place: " + code.message());
   pending_.clear();
+  unlist(std::exchange(listed_, -1));
   return {};
+}
+
+void remove_pending_files_when_interrupted() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    if (std::signal(signal, remove_pending_files) == SIG_IGN) std::signal(signal, SIG_IGN);  // nohup stays nohup
+  }
 }
 
 }  // namespace wisp

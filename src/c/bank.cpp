@@ -7,6 +7,7 @@
 
 #include "c/boundary.hpp"
 #include "c/handles.hpp"
+#include "wisp/run/extinction_facet.hpp"
 
 namespace {
 
@@ -46,6 +47,19 @@ bool has_outline(const char* function, const wisp_bank* bank) {
   return false;
 }
 
+// What goes out, or the reason why nothing does.
+wisp::ExtinctionFacet* extinction_of(const char* function, wisp_bank* bank) {
+  wisp::ExtinctionFacet* extinction = bank->bank.extinction();
+  if (!extinction) fail(WISP_BAD_ARGUMENT, "%s: the model has no rule of extinction", function);
+  return extinction;
+}
+
+// What never goes out burns.
+std::optional<wisp::LitState> state_of(const wisp_bank* bank, InstanceId id) {
+  if (const wisp::ExtinctionFacet* extinction = bank->bank.extinction()) return extinction->state_of(id);
+  return bank->bank.valid(id) ? std::optional<wisp::LitState>(wisp::LitState{}) : std::nullopt;
+}
+
 }  // namespace
 
 extern "C" {
@@ -79,9 +93,7 @@ wisp_status wisp_bank_create(const wisp_model* model, const wisp_bank_options* o
   return guarded(__func__, [&]() -> wisp_status {
     auto made = wisp::Bank::create(model->model, *known);
     if (!made) return fail(WISP_BAD_ARGUMENT, made.error());
-    std::vector<std::uint16_t> segment_modes;
-    if (const auto* chain = std::get_if<wisp::ChainModel>(&model->model.dynamics)) segment_modes = chain->segments.mode;
-    *bank = new wisp_bank{std::move(made).value(), std::move(segment_modes)};
+    *bank = new wisp_bank{std::move(made).value()};
     return WISP_OK;
   });
 }
@@ -210,7 +222,7 @@ wisp_status wisp_bank_polyline(const wisp_bank* bank, wisp_instance instance, fl
 wisp_status wisp_bank_get_flame_state(const wisp_bank* bank, wisp_instance instance, wisp_flame_state* state) {
   if (!bank || !state) return null_argument(__func__);
   if (!size_is_right(__func__, state->size)) return WISP_BAD_ARGUMENT;
-  const auto found = bank->bank.lit_state(id_of(instance));
+  const auto found = state_of(bank, id_of(instance));
   if (!found) return not_alive(__func__);
   wisp_flame_state filled{};
   filled.lit = found->lit ? 1 : 0;
@@ -225,7 +237,7 @@ wisp_status wisp_bank_flame_sizes(const wisp_bank* bank, float* values, size_t c
   if (!bank) return null_argument(__func__);
   if (!buffer_is_right(__func__, values, count, rows(bank, 1))) return WISP_BAD_ARGUMENT;
   for (int slot = 0; slot < bank->bank.slots(); ++slot) {
-    const auto found = bank->bank.lit_state(bank->bank.at(slot));
+    const auto found = state_of(bank, bank->bank.at(slot));
     values[slot] = found ? found->size : 0.0f;
   }
   return WISP_OK;
@@ -233,12 +245,16 @@ wisp_status wisp_bank_flame_sizes(const wisp_bank* bank, float* values, size_t c
 
 wisp_status wisp_bank_relight(wisp_bank* bank, wisp_instance instance) {
   if (!bank) return null_argument(__func__);
-  return bank->bank.relight(id_of(instance)) ? WISP_OK : not_alive(__func__);
+  wisp::ExtinctionFacet* extinction = extinction_of(__func__, bank);
+  if (!extinction) return WISP_BAD_ARGUMENT;
+  return extinction->relight(id_of(instance)) ? WISP_OK : not_alive(__func__);
 }
 
 wisp_status wisp_bank_extinguish(wisp_bank* bank, wisp_instance instance) {
   if (!bank) return null_argument(__func__);
-  return bank->bank.extinguish(id_of(instance)) ? WISP_OK : not_alive(__func__);
+  wisp::ExtinctionFacet* extinction = extinction_of(__func__, bank);
+  if (!extinction) return WISP_BAD_ARGUMENT;
+  return extinction->extinguish(id_of(instance)) ? WISP_OK : not_alive(__func__);
 }
 
 wisp_status wisp_bank_reset_instance(wisp_bank* bank, wisp_instance instance) {

@@ -5,15 +5,18 @@
 
 #include "c/boundary.hpp"
 #include "c/handles.hpp"
+#include "wisp/run/chain_facet.hpp"
 
 namespace {
 
 using namespace wisp::c;
 
-bool is_chain(const char* function, const wisp_bank* bank) {
-  if (!bank->segment_modes.empty()) return true;
-  fail(WISP_BAD_ARGUMENT, "%s: the model's dynamics are not a chain", function);
-  return false;
+// The bank's chain, const where the bank is, or the reason why there is none.
+template <class Handle>
+auto* chain_of(const char* function, Handle* bank) {
+  auto* chain = bank->bank.chain();
+  if (!chain) fail(WISP_BAD_ARGUMENT, "%s: the model's dynamics are not a chain", function);
+  return chain;
 }
 
 bool is_finite(std::span<const float> values) {
@@ -27,13 +30,14 @@ extern "C" {
 wisp_status wisp_bank_get_chain_place(const wisp_bank* bank, wisp_instance instance, wisp_chain_place* place) {
   if (!bank || !place) return null_argument(__func__);
   if (!size_is_right(__func__, place->size)) return WISP_BAD_ARGUMENT;
-  if (!is_chain(__func__, bank)) return WISP_BAD_ARGUMENT;
-  const auto found = bank->bank.chain_place(id_of(instance));
+  const wisp::ChainFacet* chain = chain_of(__func__, bank);
+  if (!chain) return WISP_BAD_ARGUMENT;
+  const auto found = chain->place_of(id_of(instance));
   if (!found) return not_alive(__func__);
   wisp_chain_place filled{};
   filled.segment = found->segment;
   filled.step = found->step;
-  filled.mode = bank->segment_modes[found->segment];
+  filled.mode = found->mode;
   hand_out(filled, place);
   return WISP_OK;
 }
@@ -41,7 +45,8 @@ wisp_status wisp_bank_get_chain_place(const wisp_bank* bank, wisp_instance insta
 wisp_status wisp_bank_place(wisp_bank* bank, wisp_instance instance, const wisp_body* body) {
   if (!bank || !body) return null_argument(__func__);
   if (!size_is_right(__func__, body->size)) return WISP_BAD_ARGUMENT;
-  if (!is_chain(__func__, bank)) return WISP_BAD_ARGUMENT;
+  wisp::ChainFacet* chain = chain_of(__func__, bank);
+  if (!chain) return WISP_BAD_ARGUMENT;
   if (!bank->bank.valid(id_of(instance))) return not_alive(__func__);
   wisp_body known{};
   known.orientation[0] = 1;
@@ -55,47 +60,59 @@ wisp_status wisp_bank_place(wisp_bank* bank, wisp_instance instance, const wisp_
   std::copy_n(known.orientation, 4, moment.orientation.begin());
   std::copy_n(known.velocity, 3, moment.velocity.begin());
   std::copy_n(known.spin, 3, moment.spin.begin());
-  if (bank->bank.place(id_of(instance), moment)) return WISP_OK;
+  if (chain->place(id_of(instance), moment)) return WISP_OK;
   return fail(WISP_BAD_ARGUMENT, "%s: the body cannot be placed", __func__);
 }
 
 wisp_status wisp_bank_set_ground(wisp_bank* bank, float height) {
   if (!bank) return null_argument(__func__);
   if (!std::isfinite(height)) return fail(WISP_BAD_ARGUMENT, "%s was given a height that is not finite", __func__);
-  bank->bank.set_ground(height);
+  wisp::ChainFacet* chain = chain_of(__func__, bank);
+  if (!chain) return WISP_BAD_ARGUMENT;
+  chain->set_ground(height);
   return WISP_OK;
 }
 
 wisp_status wisp_bank_clear_ground(wisp_bank* bank) {
   if (!bank) return null_argument(__func__);
-  bank->bank.set_ground({});
+  wisp::ChainFacet* chain = chain_of(__func__, bank);
+  if (!chain) return WISP_BAD_ARGUMENT;
+  chain->set_ground({});
   return WISP_OK;
 }
 
 wisp_status wisp_bank_set_history(wisp_bank* bank, int32_t longest) {
   if (!bank) return null_argument(__func__);
-  bank->bank.set_history(longest);
+  wisp::ChainFacet* chain = chain_of(__func__, bank);
+  if (!chain) return WISP_BAD_ARGUMENT;
+  chain->set_history(longest);
   return WISP_OK;
 }
 
 wisp_status wisp_bank_set_temperature(wisp_bank* bank, float temperature) {
   if (!bank) return null_argument(__func__);
-  bank->bank.set_temperature(temperature);
+  wisp::ChainFacet* chain = chain_of(__func__, bank);
+  if (!chain) return WISP_BAD_ARGUMENT;
+  chain->set_temperature(temperature);
   return WISP_OK;
 }
 
 wisp_status wisp_bank_clear_temperature(wisp_bank* bank) {
   if (!bank) return null_argument(__func__);
-  bank->bank.set_temperature({});
+  wisp::ChainFacet* chain = chain_of(__func__, bank);
+  if (!chain) return WISP_BAD_ARGUMENT;
+  chain->set_temperature({});
   return WISP_OK;
 }
 
 wisp_status wisp_bank_get_chain_settings(const wisp_bank* bank, wisp_chain_settings* settings) {
   if (!bank || !settings) return null_argument(__func__);
   if (!size_is_right(__func__, settings->size)) return WISP_BAD_ARGUMENT;
-  const auto temperature = bank->bank.temperature(), ground = bank->bank.ground();
+  const wisp::ChainFacet* chain = chain_of(__func__, bank);
+  if (!chain) return WISP_BAD_ARGUMENT;
+  const auto temperature = chain->temperature(), ground = chain->ground();
   wisp_chain_settings filled{};
-  filled.history = bank->bank.history();
+  filled.history = chain->history();
   filled.has_temperature = temperature ? 1 : 0;
   filled.temperature = temperature.value_or(0.0f);
   filled.has_ground = ground ? 1 : 0;

@@ -2,7 +2,6 @@
 // What the opaque handles of the C ABI are.
 
 #include <cstdint>
-#include <vector>
 
 #include "wisp/model/model.hpp"
 #include "wisp/run/bank.hpp"
@@ -16,7 +15,6 @@ struct wisp_model {
 
 struct wisp_bank {
   wisp::Bank bank;
-  std::vector<std::uint16_t> segment_modes;  // of a chain; a bank outlives its model
 };
 
 namespace wisp::c {

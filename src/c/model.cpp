@@ -23,7 +23,7 @@ wisp_status hand_out_channel(const char* function, const Channels& channels, std
   filled.highest = channel.highest;
   if constexpr (requires { channel.shape; }) {
     filled.splits_sign = wisp::splits_sign(channel.shape) ? 1 : 0;
-    filled.has_squares = wisp::has_squares(channel.shape) ? 1 : 0;
+    filled.has_curve = wisp::has_curve(channel.shape) ? 1 : 0;
   }
   hand_out(filled, out);
   return WISP_OK;
@@ -197,7 +197,7 @@ wisp_status wisp_model_get_arx(const wisp_model* model, wisp_arx_facts* facts) {
   filled.regressors = static_cast<uint32_t>(arx->orders.inputs());
   filled.history = static_cast<uint32_t>(arx->orders.history());
   filled.shocks = static_cast<uint32_t>(arx->noise.rank);
-  filled.noise_grows = arx->noise.growth.empty() ? 0 : 1;
+  filled.resamples = arx->noise.drawn.empty() ? 0 : 1;
   hand_out(filled, facts);
   return WISP_OK;
 }

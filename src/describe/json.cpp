@@ -32,15 +32,33 @@ Json json_of(const ReportValue& value) {
       static_cast<const ReportValue::Base&>(value));
 }
 
-// The field that a dotted id names, made on the way.
+// The field that an id names, made on the way: a.b is a field of a field, a[2] an element, and a backslash takes the
+// next character as it is.
 Json& field(Json& object, std::string_view id) {
   Json* at = &object;
-  for (;;) {
-    const auto dot = id.find('.');
-    at = &(*at)[std::string(id.substr(0, dot))];
-    if (dot == std::string_view::npos) return *at;
-    id.remove_prefix(dot + 1);
+  std::string name;
+  bool element = false;  // what was read last: its place is found already
+  const auto step = [&] {
+    if (!element) at = &(*at)[name];
+    name.clear();
+    element = false;
+  };
+  for (std::size_t k = 0; k < id.size(); ++k) {
+    if (id[k] == '.') {
+      step();
+    } else if (id[k] == '[') {
+      step();
+      std::size_t index = 0;
+      for (++k; k < id.size() && id[k] != ']'; ++k) index = 10 * index + static_cast<std::size_t>(id[k] - '0');
+      at = &(*at)[index];
+      element = true;
+    } else {
+      if (id[k] == '\\' && k + 1 < id.size()) ++k;
+      name += id[k];
+    }
   }
+  step();
+  return *at;
 }
 
 Json json_of(const ReportTable& table) {

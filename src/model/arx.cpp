@@ -48,21 +48,6 @@ Result<void> check_finite(std::span<const double> values, std::size_t expected, 
   return {};
 }
 
-Result<void> check_growth(const std::vector<double>& growth, std::size_t nu) {
-  constexpr double kMostGrowth = 1e6;
-  if (growth.empty()) return {};
-  const std::size_t steps = nu == 0 ? 0 : growth.size() / nu;
-  if (steps > kMostOrder) return Error{"the noise's growth reaches back more than 4096 steps"};
-  // As many values as there are inputs, or a multiple of it: every input has as many lags.
-  if (auto ok = check_finite(growth, nu * std::max<std::size_t>(1, steps), "the noise's growth"); !ok) return ok;
-  for (double one : growth) {
-    if (one < 0 || one > kMostGrowth) {
-      return Error{"the noise's growth is " + std::to_string(one) + ", expected 0 to 1000000"};
-    }
-  }
-  return {};
-}
-
 Result<void> check_ends(const DrawnResiduals& drawn) {
   std::uint32_t before = 0;
   for (std::uint32_t end : drawn.ends) {
@@ -264,7 +249,6 @@ Result<void> check(const ArxModel& model) {
   if (auto ok = check_finite(model.constant, ny, "the constant term"); !ok) return ok;
   if (auto ok = check_finite(model.output_mean, ny, "the outputs' mean"); !ok) return ok;
   if (auto ok = check_finite(model.input_mean, model.orders.inputs(), "the inputs' mean"); !ok) return ok;
-  if (auto ok = check_growth(model.noise.growth, model.orders.inputs()); !ok) return ok;
   if (auto ok = check_drawn(model.noise.drawn, ny, model.orders.inputs()); !ok) return ok;
   return check_noise(model.noise, ny);
 }

@@ -8,16 +8,9 @@ std::size_t regressor_count(const std::vector<Input>& inputs) {
   return count;
 }
 
-int regressor_count(InputShape shape) { return (splits_sign(shape) ? 2 : 1) * (has_squares(shape) ? 2 : 1); }
+int regressor_count(InputShape shape) { return splits_sign(shape) ? 2 : 1; }
 
-bool splits_sign(InputShape shape) {
-  return shape == InputShape::kSplitSign || shape == InputShape::kSplitSignSquare ||
-         shape == InputShape::kSplitSignCurve;
-}
-
-bool has_squares(InputShape shape) {
-  return shape == InputShape::kLinearSquare || shape == InputShape::kSplitSignSquare;
-}
+bool splits_sign(InputShape shape) { return shape == InputShape::kSplitSign || shape == InputShape::kSplitSignCurve; }
 
 bool has_curve(InputShape shape) { return shape == InputShape::kCurve || shape == InputShape::kSplitSignCurve; }
 

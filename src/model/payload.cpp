@@ -68,10 +68,9 @@ fb::Offset<file::Arx> write_arx(Builder& builder, const ArxModel& arx) {
   const auto sd = builder.CreateVector(arx.noise.sd);
   const auto ci = optional_vector(builder, joined(arx.noise.sd_ci95));
   const auto mixing = optional_vector(builder, arx.noise.mixing);
-  const auto growth = optional_vector(builder, arx.noise.growth);
   const auto drawn = write_drawn(builder, arx.noise.drawn);
   return file::CreateArx(builder, na, nb, nk, theta, std_error, constant, output_mean, input_mean, sd, ci,
-                         static_cast<std::uint16_t>(arx.noise.rank), mixing, growth, drawn);
+                         static_cast<std::uint16_t>(arx.noise.rank), mixing, drawn);
 }
 
 fb::Offset<file::ArxMode> write_mode(Builder& builder, const ArxMode& mode) {
@@ -229,7 +228,6 @@ Result<void> read_noise(const file::Arx& stored, ResidualNoise& noise) {
   noise.sd = numbers(stored.noise_sd());
   noise.rank = stored.noise_rank();
   noise.mixing = numbers(stored.noise_mixing());
-  noise.growth = numbers(stored.noise_growth());
   if (stored.noise_drawn()) noise.drawn = read_drawn(*stored.noise_drawn());
   const std::vector<double> ci = numbers(stored.noise_sd_ci95());
   if (!ci.empty() && ci.size() != 2 * noise.sd.size())
@@ -369,10 +367,6 @@ Result<InputShape> read_shape(file::InputShape shape) {
       return InputShape::kLinear;
     case file::InputShape::SplitSign:
       return InputShape::kSplitSign;
-    case file::InputShape::LinearSquare:
-      return InputShape::kLinearSquare;
-    case file::InputShape::SplitSignSquare:
-      return InputShape::kSplitSignSquare;
     case file::InputShape::Curve:
       return InputShape::kCurve;
     case file::InputShape::SplitSignCurve:
@@ -387,10 +381,6 @@ file::InputShape stored_shape(InputShape shape) {
       return file::InputShape::Linear;
     case InputShape::kSplitSign:
       return file::InputShape::SplitSign;
-    case InputShape::kLinearSquare:
-      return file::InputShape::LinearSquare;
-    case InputShape::kSplitSignSquare:
-      return file::InputShape::SplitSignSquare;
     case InputShape::kCurve:
       return file::InputShape::Curve;
     case InputShape::kSplitSignCurve:

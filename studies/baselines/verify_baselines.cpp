@@ -1,7 +1,7 @@
 // Wisp's learned flame beside three other ways of learning one, on the same clips.
 //
 //   wisp_verify_baselines DIR      the corpus is in DIR, or is made there (flame_corpus.hpp); figures and windows for a
-//                                  classifier go to DIR/baselines (flame_judge.hpp), studies/likeness/likeness.py makes
+//                                  classifier go to DIR/baselines (flame_judge.hpp), studies/fidelity/fidelity.py makes
 //                                  the table of them
 
 #include <cstdio>
@@ -9,6 +9,8 @@
 #include <memory>
 #include <optional>
 
+#include "learn/outline/outline_fit.hpp"
+#include "learn/outline/outline_units.hpp"
 #include "studies/baselines/dynamic_texture.hpp"
 #include "studies/baselines/emulator.hpp"
 #include "studies/baselines/frames.hpp"
@@ -16,8 +18,6 @@
 #include "studies/flame/flame_corpus.hpp"
 #include "studies/flame/flame_judge.hpp"
 #include "studies/value_or_abort.hpp"
-#include "wisp/learn/outline.hpp"
-#include "wisp/learn/outline_units.hpp"
 
 namespace wisp::verify {
 namespace {
@@ -108,7 +108,7 @@ FlamePlayer emulator(const std::vector<Frames>& frames, double jitter, const Set
 
 std::vector<FlamePlayer> players_of(const std::vector<Recording>& clips, const FlameUnits& units) {
   // As `wisp learn flame` does: a curve on the wind where held-out rows say so.
-  const Model wisp = value_or_abort(learn_outline(clips, {.input_curve = std::nullopt})).model;
+  const Model wisp = value_or_abort(fit_outline(clips, {.input_curve = std::nullopt})).model;
   const Setting setting{outline_outputs(units.knots.size() - 4), view_operations(wisp)};
   const auto frames = frames_in(clips, units, setting);
   return {player_of("Wisp", wisp),

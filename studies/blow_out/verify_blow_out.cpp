@@ -14,13 +14,13 @@
 #include <string>
 #include <vector>
 
+#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/flame/extinction.hpp"
+#include "learn/flame/flame_sizes.hpp"
+#include "learn/outline/outline_inputs.hpp"
+#include "learn/switched/switched_fit.hpp"
+#include "learn/switched/switched_prediction.hpp"
 #include "studies/verify_bounds.hpp"
-#include "wisp/learn/arx_orders.hpp"
-#include "wisp/learn/extinction.hpp"
-#include "wisp/learn/flame_sizes.hpp"
-#include "wisp/learn/outline_inputs.hpp"
-#include "wisp/learn/switched_fit.hpp"
-#include "wisp/learn/switched_prediction.hpp"
 #include "wisp/record/csv.hpp"
 
 namespace {
@@ -198,7 +198,7 @@ void judge_switched(const std::string& name, const ChannelChoice& channels, int 
   const int inputs = static_cast<int>(channels.inputs.size());
   const ArxOrders orders{OrderMatrix(1, 1, 1), OrderMatrix(1, inputs, 2), OrderMatrix(1, inputs, 0)};
   const auto fit = fit_switched(
-      seen, channels, {.orders = orders, .modes = modes, .subtract_means = false, .starts = 6, .most_rounds = 100});
+      seen, channels, {.orders = orders, .modes = modes, .subtract_means = false, .starts = 6, .max_iterations = 100});
   if (!fit) {
     std::printf("%-34s %s\n", name.c_str(), fit.error().message.c_str());
     return;

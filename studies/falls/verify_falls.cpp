@@ -2,7 +2,7 @@
 // seeds, steering, and windows for a classifier. Prints tables; exit status 1 where a bound is missed.
 //
 //   wisp_verify_falls [gusts] [paper] [spread] [steering]     default all
-//   wisp_verify_falls windows FILE.csv                        for studies/likeness/likeness_leaf.py
+//   wisp_verify_falls windows FILE.csv                        for studies/fidelity/fidelity_leaf.py
 
 #include "studies/falls/verify_falls.hpp"
 
@@ -14,7 +14,7 @@
 #include <fstream>
 #include <string>
 
-#include "wisp/learn/chain_fidelity.hpp"
+#include "learn/chain/chain_fidelity.hpp"
 #include "wisp/simulate/leaf_drops.hpp"
 
 namespace wisp::verify {
@@ -27,11 +27,11 @@ constexpr double kWindowSegments = 2.5;
 LearnedLeaf learn() {
   const auto drops = simulate_leaf_drops({.drops = 260});
   if (!drops) give_up(drops.error());
-  ChainOptions options{.holdout = 0.4};
-  options.segmentation.event = {EventKind::kZero, "forward_speed"};
-  auto fit = learn_chain(std::span(&*drops, 1), options);
+  LeafRecipe recipe;
+  recipe.holdout = 0.4;
+  auto fit = fit_chain(std::span(&*drops, 1), recipe);
   if (!fit) give_up(fit.error());
-  return {std::move(*fit), options.segmentation};
+  return {std::move(*fit), segmentation_of(recipe)};
 }
 
 void write(std::ofstream& out, const char* side, const FeatureWindows& windows, std::size_t first_fall) {

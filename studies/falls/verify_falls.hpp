@@ -5,11 +5,13 @@
 #include <span>
 #include <vector>
 
+#include "learn/chain/chain_fit.hpp"
 #include "learn/chain/chain_windows.hpp"
 #include "studies/verify_bounds.hpp"
-#include "wisp/learn/chain.hpp"
 
 namespace wisp::verify {
+
+using namespace chain;
 
 /// The default leaf's falls, and a chain of six modes learned from 156 of them.
 struct LearnedLeaf {
@@ -30,7 +32,7 @@ void paper(Bounds& bounds);
 void spread(Bounds& bounds);
 void steering(Bounds& bounds);
 
-/// Writes windows of recorded and synthesized falls for studies/likeness/likeness_leaf.py.
+/// Writes windows of recorded and synthesized falls for studies/fidelity/fidelity_leaf.py.
 Result<void> write_windows(const std::filesystem::path& file);
 
 /// Says what is wrong and ends the program.

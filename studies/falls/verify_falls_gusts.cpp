@@ -6,10 +6,10 @@
 #include <numbers>
 #include <vector>
 
+#include "learn/chain/chain_fidelity.hpp"
+#include "learn/chain/gusts/gust_play.hpp"
+#include "learn/chain/gusts/gust_response.hpp"
 #include "studies/falls/verify_falls.hpp"
-#include "wisp/learn/chain_fidelity.hpp"
-#include "wisp/learn/gust_play.hpp"
-#include "wisp/learn/gust_response.hpp"
 #include "wisp/simulate/leaf_drops.hpp"
 
 namespace wisp::verify {

@@ -12,15 +12,15 @@
 #include <random>
 #include <sstream>
 
+#include "learn/chain/chain_fidelity.hpp"
 #include "studies/falls/verify_falls.hpp"
-#include "wisp/learn/chain_fidelity.hpp"
 
 namespace wisp::verify {
 namespace {
 
 constexpr double kCameraRate = 98;
 constexpr int kSmoothRows = 9;  // the tracks' noise is a millimetre
-constexpr double kLeastRows = 20;
+constexpr double kMinRows = 20;
 constexpr int kSplits = 20;
 constexpr int kHalvings = 2000;
 constexpr double kLongestFall = 4;  // seconds: a synthesized fall that has not come down by then is cut there
@@ -122,7 +122,7 @@ std::vector<RealDrop> real_drops(const std::vector<Recording>& tracks) {
   std::vector<Recording> whole, cut;
   for (std::size_t k = 0; k < motion.pieces.size(); ++k) {
     // What is left of a drop must be long enough to be looked at.
-    if (events[k].empty() || events[k].front() + kLeastRows > static_cast<double>(motion.pieces[k].rows())) continue;
+    if (events[k].empty() || events[k].front() + kMinRows > static_cast<double>(motion.pieces[k].rows())) continue;
     whole.push_back(tracks[motion.pieces[k].recording]);
     cut.push_back(fallen(whole.back(), static_cast<std::size_t>(std::lround(events[k].front())), 1e9));
   }
@@ -217,8 +217,7 @@ Trial trial_of(std::vector<RealDrop> drops, std::uint64_t seed) {
     else
       trial.held_out.push_back(drops[k].fall);
   }
-  ChainOptions options{.segmentation = stalls(), .modes = 4, .holdout = 0, .smooth_rows = kSmoothRows};
-  const auto fit = learn_chain(told, options);
+  const auto fit = fit_chain(told, {.modes = 4, .smooth_rows = kSmoothRows, .holdout = 0});
   if (!fit) give_up(fit.error());
   trial.played = synthesized(fit->model, trial.held_out, seed);
   return trial;

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "learn/chain/chain_fidelity.hpp"
 #include "studies/falls/verify_falls.hpp"
-#include "wisp/learn/chain_fidelity.hpp"
 
 namespace wisp::verify {
 namespace {

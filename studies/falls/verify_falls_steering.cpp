@@ -10,13 +10,14 @@
 
 #include "studies/falls/verify_falls.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/chain_facet.hpp"
 
 namespace wisp::verify {
 namespace {
 
 constexpr int kFalls = 200;
 constexpr std::uint64_t kTargetSeed = 1, kSteeredSeed = 2;
-constexpr std::size_t kMostWindows = 500;
+constexpr std::size_t kMaxWindows = 500;
 
 /// Falls of one bank, row by row, as recordings.
 using Falls = std::vector<Recording>;
@@ -52,7 +53,7 @@ std::array<float, 3> end_of(const Recording& fall) {
 }
 
 FeatureWindows windows_of(std::span<const Recording> falls, const LearnedLeaf& leaf) {
-  return thinned(series_windows(series_of(falls, leaf), window_rows(leaf)), kMostWindows);
+  return thinned(series_windows(series_of(falls, leaf), window_rows(leaf)), kMaxWindows);
 }
 
 double energy_distance(std::span<const Recording> falls, const LearnedLeaf& leaf) {
@@ -100,7 +101,7 @@ void steer_for(int seconds, Bounds& bounds) {
   print("not steered", by_themselves, energy_distance(free, leaf));
   for (const float near : {0.2f, 0.1f, 0.02f}) {
     Bank bank = spawned(model, kSteeredSeed);
-    for (int k = 0; k < kFalls; ++k) bank.steer(bank.at(k), {targets[k], std::chrono::seconds(seconds), near});
+    for (int k = 0; k < kFalls; ++k) bank.chain()->steer(bank.at(k), {targets[k], std::chrono::seconds(seconds), near});
     const Falls falls = played(std::move(bank), model, rows);
     const Misses misses = misses_of(falls, targets);
     const double energy = energy_distance(falls, leaf);

@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <utility>
 
+#include "learn/flame/blow_outs.hpp"
+#include "learn/outline/outline_units.hpp"
 #include "studies/value_or_abort.hpp"
-#include "wisp/learn/blow_outs.hpp"
-#include "wisp/learn/outline_units.hpp"
 #include "wisp/record/csv.hpp"
 #include "wisp/record/loudness.hpp"
 

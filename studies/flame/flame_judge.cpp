@@ -6,15 +6,15 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "learn/flame/blow_outs.hpp"
+#include "learn/outline/outline_figures.hpp"
+#include "learn/outline/outline_inputs.hpp"
+#include "learn/outline/outline_shape.hpp"
 #include "learn/outline/outline_synthesis.hpp"
+#include "learn/outline/outline_units.hpp"
 #include "studies/flame/flame_likeness.hpp"
 #include "studies/value_or_abort.hpp"
-#include "wisp/learn/blow_outs.hpp"
 #include "wisp/learn/fidelity.hpp"
-#include "wisp/learn/outline_figures.hpp"
-#include "wisp/learn/outline_inputs.hpp"
-#include "wisp/learn/outline_shape.hpp"
-#include "wisp/learn/outline_units.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/run/cost.hpp"
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "learn/outline/outline_inputs.hpp"
 #include "studies/flame/flame_corpus.hpp"
-#include "wisp/learn/outline_inputs.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"
 

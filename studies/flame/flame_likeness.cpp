@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "learn/likeness/fidelity_energy.hpp"
+#include "learn/fidelity/fidelity_energy.hpp"
+#include "learn/outline/outline_shape.hpp"
+#include "learn/outline/outline_units.hpp"
 #include "studies/value_or_abort.hpp"
-#include "wisp/learn/outline_shape.hpp"
-#include "wisp/learn/outline_units.hpp"
 
 namespace wisp::verify {
 namespace {

@@ -3,7 +3,7 @@
 //
 //   wisp_verify_flame                the tables
 //   wisp_verify_flame DIR [ASKED…]   what each piece of a model is worth, on other clips, kept in DIR
-//                                    (flame_corpus.hpp); studies/likeness/likeness.py DIR/pieces makes the table
+//                                    (flame_corpus.hpp); studies/fidelity/fidelity.py DIR/pieces makes the table
 //   wisp_verify_flame DIR REC…       the same for the flicker of captured flames, in DIR/flicker
 //
 // ASKED: --gusts, without calm and blow-outs; --only NAME, of pieces; --clips NAME, one of fresh (the default),
@@ -19,14 +19,14 @@
 #include <string>
 #include <vector>
 
-#include "learn/likeness/fidelity_energy.hpp"
+#include "learn/fidelity/fidelity_energy.hpp"
+#include "learn/outline/outline_fit.hpp"
+#include "learn/outline/outline_judgement.hpp"
 #include "learn/outline/outline_synthesis.hpp"
+#include "learn/outline/outline_units.hpp"
 #include "studies/flame/verify_flame_pieces.hpp"
 #include "studies/value_or_abort.hpp"
 #include "studies/verify_bounds.hpp"
-#include "wisp/learn/outline.hpp"
-#include "wisp/learn/outline_units.hpp"
-#include "wisp/learn/validation.hpp"
 
 namespace wisp::verify {
 namespace {
@@ -46,7 +46,7 @@ struct Way {
   const char* name;
   bool truth = false;
   WindMeasure measure = WindMeasure::kSpeed;
-  OutlineOptions options{};
+  OutlineRecipe options{};
   bool fidelity = false;
 };
 
@@ -82,7 +82,7 @@ double spread(const std::vector<double>& values) {
 }
 
 Score score_of(const OutlineFit& fit, const Recording& unseen, bool fidelity) {
-  const auto found = value_or_abort(validate_outline(fit.model, unseen, {.fidelity = fidelity}));
+  const auto found = value_or_abort(judge_outline(fit.model, unseen, {.fidelity = fidelity}));
   const OutlineFigures& figures = found.figures;
   Score score;
   score.tip = figures.tip_fit_percent.back();
@@ -113,7 +113,7 @@ double most(const std::vector<double>& values) { return *std::max_element(values
 std::vector<Score> try_way(const Way& way, const Clips& clips) {
   std::vector<Score> scores;
   for (const FlameClip& seen : clips.learn) {
-    const auto fit = value_or_abort(learn_outline(std::vector{driven(seen, way)}, way.options));
+    const auto fit = value_or_abort(fit_outline(std::vector{driven(seen, way)}, way.options));
     for (const FlameClip& unseen : clips.validate) {
       scores.push_back(score_of(fit, driven(unseen, way), way.fidelity));
     }
@@ -149,10 +149,9 @@ void print_choices(const Clips& clips) {
   std::printf("\nWhat was found on the way, clip by clip\n");
   for (const FlameClip& clip : clips.learn) {
     const auto fit = value_or_abort(
-        learn_outline(std::vector{driven_by_sound(clip, WindMeasure::kSpeed)}, {.order = {}, .delay = {}}));
+        fit_outline(std::vector{driven_by_sound(clip, WindMeasure::kSpeed)}, {.order = {}, .delay = {}}));
     std::printf("  %s: %s\n", clip.outline.source.c_str(), fit.summary.choice.reason.c_str());
     for (const InputAlignment& one : fit.summary.alignment) std::printf("    %s\n", one.note().c_str());
-    std::printf("    %s\n", fit.summary.noise_growth.reason.c_str());
   }
 }
 
@@ -248,28 +247,17 @@ int main(int count, char** arguments) {
   try_way({.name = "order and delay searched", .options = {.order = {}, .delay = {}}}, clips);
   const auto heard = try_way({.name = "speed, other sounds too", .measure = WindMeasure::kHeard}, clips);
   const auto rms = try_way({.name = "plain RMS", .measure = WindMeasure::kRms}, clips);
-  const auto square = try_way({.name = "speed and its square", .options = {.square = true}}, clips);
-  const auto rms_square =
-      try_way({.name = "plain RMS and its square", .measure = WindMeasure::kRms, .options = {.square = true}}, clips);
-  try_way({.name = "true wind and its square", .truth = true, .options = {.square = true}}, clips);
   const auto one_sided = try_way({.name = "one-sided", .options = {.one_sided = true}}, clips);
   try_way({.name = "one-sided, plain RMS: the paper", .measure = WindMeasure::kRms, .options = {.one_sided = true}},
           clips);
-  try_way({.name = "one-sided, with square", .options = {.square = true, .one_sided = true}}, clips);
   try_way({.name = "band coupling", .options = {.coupling = OutlineCoupling::kBand}}, clips);
-  const auto steady =
-      try_way({.name = "noise the same in any wind", .options = {.growing_noise = false}, .fidelity = true}, clips);
 
   std::printf("\nPair by pair (least to most)\n");
   differ("order 25 over order 4", high, sound);
   differ("speed over plain RMS", sound, rms);
   differ("speed over speed with other sounds", sound, heard);
-  differ("the square beside speed over speed alone", square, sound);
-  differ("the square beside RMS over RMS alone", rms_square, rms);
   differ("one-sided over signed", one_sided, sound);
   differ("the true wind over sound", truth, sound);
-  std::printf("  noise that grows or not: energy distance %.4f where it may grow, %.4f where it may not\n",
-              mean(all(sound, &Score::energy)), mean(all(steady, &Score::energy)));
   print_choices(clips);
   Bounds bounds;
   bound(sound, truth, bounds);

@@ -5,12 +5,11 @@
 #include <cstdlib>
 #include <optional>
 
-#include "studies/flame/flame_coloured.hpp"
+#include "learn/outline/outline_fit.hpp"
+#include "learn/outline/outline_judgement.hpp"
 #include "studies/flame/flame_corpus.hpp"
 #include "studies/flame/flame_judge.hpp"
 #include "studies/value_or_abort.hpp"
-#include "wisp/learn/outline.hpp"
-#include "wisp/learn/validation.hpp"
 #include "wisp/record/csv.hpp"
 
 namespace wisp::verify {
@@ -18,7 +17,7 @@ namespace {
 
 struct Piece {
   const char* name;
-  OutlineOptions options;
+  OutlineRecipe options;
 };
 
 constexpr const char* kDefaultPiece = "drawn with curve (the default)";  // of `wisp learn flame`
@@ -26,15 +25,12 @@ constexpr const char* kDefaultPiece = "drawn with curve (the default)";  // of `
 /// One after the other, each beside the one before.
 std::vector<Piece> pieces() {
   return {
-      {"independent (the paper)",
-       {.noise = OutlineNoise::kIndependent, .growing_noise = false, .match_variance = false}},
-      {"independent scaled", {.noise = OutlineNoise::kIndependent, .growing_noise = false}},
-      {"residual covariance", {.noise = OutlineNoise::kResidual, .growing_noise = false}},
-      {"matched", {.noise = OutlineNoise::kMatched, .growing_noise = false}},
-      {"matched growing", {.noise = OutlineNoise::kMatched}},
+      {"independent (the paper)", {.noise = OutlineNoise::kIndependent, .match_variance = false}},
+      {"independent scaled", {.noise = OutlineNoise::kIndependent}},
+      {"residual covariance", {.noise = OutlineNoise::kResidual}},
+      {"matched", {.noise = OutlineNoise::kMatched}},
       {"drawn order 4 points", {.order = 4, .coupling = OutlineCoupling::kPoint, .noise = OutlineNoise::kDrawn}},
       {"drawn", {}},
-      {"drawn with square", {.square = true}},
       {kDefaultPiece, {.input_curve = std::nullopt}},
   };
 }
@@ -42,28 +38,6 @@ std::vector<Piece> pieces() {
 bool is_asked(const PieceQuestion& question, const std::string& name) {
   return question.names.empty() ||
          std::find(question.names.begin(), question.names.end(), name) != question.names.end();
-}
-
-/// Coloured residuals, beside the same order with white ones. Nothing where it is not stable: it can't be played.
-std::vector<FlamePlayer> coloured_players(const std::vector<Recording>& clips, const PieceQuestion& question) {
-  std::vector<FlamePlayer> out;
-  for (const NoiseModel& noise :
-       {NoiseModel{}, NoiseModel{NoiseColour::kAutoregressive, 2}, NoiseModel{NoiseColour::kMovingAverage, 2}}) {
-    const char* name = noise.colour == NoiseColour::kWhite            ? "white"
-                       : noise.colour == NoiseColour::kAutoregressive ? "ARARX of order 2"
-                                                                      : "ARMAX of order 2";
-    if (!is_asked(question, name)) continue;
-    const auto learned = learn_coloured_flame(clips, noise);
-    if (!learned) {
-      std::printf("%s residuals: %s\n", name, learned.error().message.c_str());
-      continue;
-    }
-    const double radius = spectral_radius(std::get<ArxModel>(learned->model.dynamics));
-    std::printf("%s residuals: held-out log-likelihood %.2f nats a frame, farthest pole %.4f\n", name,
-                learned->log_likelihood, radius);
-    if (radius < 1 && noise.colour != NoiseColour::kWhite) out.push_back(player_of(name, learned->model));
-  }
-  return out;
 }
 
 /// What there is without an input.
@@ -82,7 +56,7 @@ std::vector<Piece> flicker_pieces() {
 std::vector<FlamePlayer> learned(const std::vector<Recording>& clips, const std::vector<Piece>& pieces) {
   std::vector<FlamePlayer> out;
   for (const Piece& piece : pieces) {
-    out.push_back(player_of(piece.name, value_or_abort(learn_outline(clips, piece.options)).model));
+    out.push_back(player_of(piece.name, value_or_abort(fit_outline(clips, piece.options)).model));
   }
   return out;
 }
@@ -91,7 +65,6 @@ std::vector<FlamePlayer> players_of(const std::vector<Recording>& clips, const P
   std::vector<Piece> asked = pieces();
   std::erase_if(asked, [&](const Piece& piece) { return !is_asked(question, piece.name); });
   std::vector<FlamePlayer> out = learned(clips, asked);
-  for (FlamePlayer& player : coloured_players(clips, question)) out.push_back(std::move(player));
   if (out.empty()) {
     std::fprintf(stderr, "there is no piece called %s\n", question.names.front().c_str());
     std::exit(2);
@@ -101,10 +74,10 @@ std::vector<FlamePlayer> players_of(const std::vector<Recording>& clips, const P
 
 /// The longest stretch that a play along a learned clip's own wind repeats of that clip: the most tempting case.
 void print_longest_copy(const std::vector<Recording>& clips) {
-  const auto fit = value_or_abort(learn_outline(clips, {.input_curve = std::nullopt}));
+  const auto fit = value_or_abort(fit_outline(clips, {.input_curve = std::nullopt}));
   double seconds = 0;
   for (const Recording& clip : clips) {
-    const auto found = value_or_abort(validate_outline(fit.model, clip));
+    const auto found = value_or_abort(judge_outline(fit.model, clip));
     if (found.fidelity) seconds = std::max(seconds, found.fidelity->verbatim_seconds);
   }
   std::printf("\nthe default's longest verbatim run along a learned clip's own wind: %.2f s\n", seconds);

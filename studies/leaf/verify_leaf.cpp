@@ -1,5 +1,5 @@
 // The falling leaf against its references: regimes of a plate, integrators against each other, energy, real discs of
-// paper, gusts. Prints tables; exit status 1 where a bound of docs/leaf.md is missed.
+// paper, gusts. Prints tables; exit status 1 where a bound of docs/studies/leaf.md is missed.
 //
 //   wisp_verify_leaf [plate] [integrators] [energy] [regimes] [discs] [gusts]     default all
 
@@ -9,8 +9,8 @@
 #include <array>
 #include <cstdio>
 
+#include "simulate/leaf/leaf_plate.hpp"
 #include "simulate/random_numbers.hpp"
-#include "wisp/simulate/leaf_plate.hpp"
 
 namespace wisp::verify {
 

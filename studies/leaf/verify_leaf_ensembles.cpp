@@ -6,8 +6,8 @@
 #include <ctime>
 #include <numbers>
 
+#include "simulate/leaf/leaf_cost.hpp"
 #include "studies/leaf/verify_leaf.hpp"
-#include "wisp/simulate/leaf_cost.hpp"
 
 namespace wisp::verify {
 namespace {

@@ -1,5 +1,5 @@
-// The candle rig against its reference figures: docs/candle-rig.md explains each of them. About a quarter of an hour of
-// one core. Prints tables; exit status 1 where a bound is missed.
+// The candle rig against its reference figures: docs/studies/candle-rig.md explains each of them. About a quarter of an
+// hour of one core. Prints tables; exit status 1 where a bound is missed.
 //
 //   wisp_verify_rig [NAME…]    calm wind step blow-out long-run lives resolution cost; default all
 

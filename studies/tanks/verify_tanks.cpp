@@ -16,13 +16,13 @@
 #include <limits>
 
 #include "learn/shared_files.hpp"
+#include "learn/switched/switched_fit.hpp"
+#include "learn/switched/switched_prediction.hpp"
 #include "studies/value_or_abort.hpp"
 #include "studies/verify_bounds.hpp"
 #include "wisp/learn/arx_fit.hpp"
 #include "wisp/learn/curve_choice.hpp"
 #include "wisp/learn/prediction.hpp"
-#include "wisp/learn/switched_fit.hpp"
-#include "wisp/learn/switched_prediction.hpp"
 
 namespace wisp::verify {
 namespace {

@@ -227,7 +227,7 @@ Samples key_clicks(double rate_hz) {
   return out;
 }
 
-/// No bounds: what fools it, for docs/wind.md.
+/// No bounds: what fools it, for docs/studies/wind.md.
 void others() {
   std::printf("\n== Neither (made here, in a quiet room, 44.1 kHz): share below 0.2, above 0.5, mean wind\n");
   const double rate = 44100;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <csignal>
 #include <fstream>
 
 namespace wisp {
@@ -85,6 +86,53 @@ TEST_F(FileTest, APipeIsNotReplacedByAFile) {
   EXPECT_NE(outcome.error().message.find("is no plain file"), std::string::npos);
   EXPECT_TRUE(fs::is_fifo(pipe));
   EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(FileTest, AReplacedFileKeepsItsPermissions) {
+  ASSERT_TRUE(write_file(folder_ / "secret", "old"));
+  fs::permissions(folder_ / "secret", fs::perms::owner_read | fs::perms::owner_write);
+  ASSERT_TRUE(write_file(folder_ / "secret", "new"));
+  EXPECT_EQ(fs::status(folder_ / "secret").permissions(), fs::perms::owner_read | fs::perms::owner_write);
+  EXPECT_EQ(text_of(*read_file(folder_ / "secret")), "new");
+}
+
+TEST_F(FileTest, ASymbolicLinkStaysOneAndItsTargetIsWritten) {
+  fs::create_directories(folder_ / "there");
+  ASSERT_TRUE(write_file(folder_ / "there" / "a.txt", "old"));
+  fs::create_symlink(folder_ / "there" / "a.txt", folder_ / "link");
+  ASSERT_TRUE(write_file(folder_ / "link", "new"));
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
+  EXPECT_EQ(text_of(*read_file(folder_ / "there" / "a.txt")), "new");
+}
+
+TEST_F(FileTest, AnInterruptedProcessLeavesTheOldFileAndNothingElse) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    ASSERT_TRUE(write_file(folder_ / "a.txt", "old"));
+    const auto interrupted = [&] {
+      remove_pending_files_when_interrupted();
+      auto first = PendingFile::create(folder_ / "a.txt");
+      auto second = PendingFile::create(folder_ / "b.txt");
+      const PendingFile moved = std::move(*first);
+      std::ofstream(moved.path()) << "half";
+      std::ofstream(second->path()) << "half";
+      std::raise(signal);
+    };
+    EXPECT_EXIT(interrupted(), testing::KilledBySignal(signal), "");
+    EXPECT_EQ(files(), 1u);
+    EXPECT_EQ(text_of(*read_file(folder_ / "a.txt")), "old");
+  }
+}
+
+TEST_F(FileTest, PendingFilesBeyondTheListWorkLikeTheOthers) {
+  std::vector<PendingFile> many;
+  for (int k = 0; k < 100; ++k) {
+    auto pending = PendingFile::create(folder_ / std::to_string(k));
+    ASSERT_TRUE(pending);
+    std::ofstream(pending->path()) << k;
+    many.push_back(std::move(*pending));
+  }
+  for (PendingFile& pending : many) EXPECT_TRUE(pending.commit());
+  EXPECT_EQ(files(), 100u);
 }
 
 }  // namespace

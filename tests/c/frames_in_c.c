@@ -85,7 +85,8 @@ const char* hash_of_life(const void* bytes, size_t size, uint32_t frames, uint32
     NEED(wisp_bank_advance(bank, 16666667, NULL));
     NEED(wisp_bank_outputs(bank, outputs, kInstances * facts.outputs));
     fold(hash, outputs, kInstances * facts.outputs);
-    if (frame % 500 == 499) NEED(wisp_bank_relight(bank, instance[frame / 500 % kInstances]));
+    if (frame % 500 == 499 && about.blow_out_level > 0)
+      NEED(wisp_bank_relight(bank, instance[frame / 500 % kInstances]));
     if (frame % 5000 == 4999) wrong = save_and_restore(bank);
     if (!wrong && frame % 700 == 699 && about.dynamics == WISP_DYNAMICS_CHAIN) wrong = throw_again(bank, instance[0]);
   }

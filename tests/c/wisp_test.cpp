@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <thread>
@@ -10,6 +11,7 @@
 #include "c/frames_in_c.h"
 #include "c/life_in_c.h"
 #include "c/live_in_c.h"
+#include "model/sample_chain.hpp"
 #include "run/flame_model.hpp"
 #include "wisp/base/file.hpp"
 #include "wisp/model/file.hpp"
@@ -84,8 +86,65 @@ TEST(C, AModelWithoutAnOutlineSaysSo) {
   wisp_model_free(model);
 }
 
-std::vector<std::byte> bytes_of(const std::string& name) {
-  return *read_file(WISP_SOURCE_DIR "/tests/c/models/" + name + ".wisp");
+// A flame that never goes out is no chain either.
+TEST(C, WhatAModelDoesNotHaveIsABadArgument) {
+  const std::vector<std::byte> bytes = flame_bytes();
+  wisp_model* model = nullptr;
+  wisp_bank* bank = nullptr;
+  ASSERT_EQ(wisp_model_load(bytes.data(), bytes.size(), &model), WISP_OK);
+  ASSERT_EQ(wisp_bank_create(model, nullptr, &bank), WISP_OK);
+  wisp_instance instance = WISP_NO_INSTANCE;
+  ASSERT_EQ(wisp_bank_spawn(bank, &instance), WISP_OK);
+  EXPECT_EQ(wisp_bank_extinguish(bank, instance), WISP_BAD_ARGUMENT);
+  EXPECT_STREQ(wisp_last_error(), "wisp_bank_extinguish: the model has no rule of extinction");
+  EXPECT_EQ(wisp_bank_relight(bank, instance), WISP_BAD_ARGUMENT);
+  EXPECT_EQ(wisp_bank_set_ground(bank, 0), WISP_BAD_ARGUMENT);
+  EXPECT_STREQ(wisp_last_error(), "wisp_bank_set_ground: the model's dynamics are not a chain");
+  EXPECT_EQ(wisp_bank_clear_ground(bank), WISP_BAD_ARGUMENT);
+  EXPECT_EQ(wisp_bank_set_history(bank, 1), WISP_BAD_ARGUMENT);
+  EXPECT_EQ(wisp_bank_set_temperature(bank, 1), WISP_BAD_ARGUMENT);
+  EXPECT_EQ(wisp_bank_clear_temperature(bank), WISP_BAD_ARGUMENT);
+  wisp_chain_settings settings{};
+  settings.size = sizeof settings;
+  EXPECT_EQ(wisp_bank_get_chain_settings(bank, &settings), WISP_BAD_ARGUMENT);
+  wisp_flame_state state{};
+  state.size = sizeof state;
+  EXPECT_EQ(wisp_bank_get_flame_state(bank, instance, &state), WISP_OK);
+  EXPECT_EQ(state.lit, 1U);
+  wisp_bank_free(bank);
+  wisp_model_free(model);
+}
+
+Model made_up_flame() {
+  Model model = flame_model({.wind = InputShape::kSplitSign, .noise_rank = 2});
+  model.extinction = Extinction{.level = 1.3, .seconds = 0.15, .haste = 2, .recovery = 0.3};
+  model.training = {"wisp 0.1.0", {"clip.mp4"}, {{"order", "4"}}, {{"fit", 61.5}}, {true, "made up"}};
+  return model;
+}
+
+Model made_up_leaf() {
+  Model model = sample_chain();
+  GustResponse gust;
+  gust.ground = {{0.75, 0.0}, {0.25, 0.0}, {0.125, 0.0}};
+  gust.vertical = {{0.5, 0.25}, {0.125, 0.125}, {0.25, 0.0}};
+  std::get<ChainModel>(model.dynamics).gust = gust;
+  for (const char* name : {"wind.x", "wind.y", "wind.z"}) model.inputs.push_back({name, "m/s", -2, 2});
+  model.name = "made-up leaf";
+  return model;
+}
+
+std::string path_of(const std::string& name) { return WISP_SOURCE_DIR "/tests/c/models/" + name + ".wisp"; }
+
+std::vector<std::byte> bytes_of(const std::string& name) { return *read_file(path_of(name)); }
+
+// C, WebAssembly and the browsers play these files.
+TEST(C, TheModelsOfTheseTestsAreTheMadeUpOnes) {
+  if (std::getenv("WISP_WRITE_GOLDEN")) {
+    ASSERT_TRUE(write_model(path_of("flame"), made_up_flame()));
+    ASSERT_TRUE(write_model(path_of("leaf"), made_up_leaf()));
+  }
+  EXPECT_EQ(bytes_of("flame"), *model_bytes(made_up_flame()));
+  EXPECT_EQ(bytes_of("leaf"), *model_bytes(made_up_leaf()));
 }
 
 TEST(C, AModelGivesAnAccountOfItself) {

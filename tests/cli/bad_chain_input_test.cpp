@@ -187,7 +187,7 @@ TEST_F(BadChainInput, AnEventThatIsNoneIsExplained) {
 TEST_F(BadChainInput, FlagsOutsideTheirRangeAreWrongUsage) {
   const auto path = record("falls.csv", Falls{});
   for (const char* flag : {"--modes 0", "--modes 257", "--history 17", "--holdout 0.95", "--blend 0.6", "--best-of 257",
-                           "--shortest=-1", "--debounce=-1", "--most-bytes 0", "--restarts 0"}) {
+                           "--shortest=-1", "--debounce=-1", "--max-bytes 0", "--restarts 0"}) {
     EXPECT_THAT(not_learned(path, flag, 2), StartsWith("wisp: --")) << flag;
   }
 }
@@ -254,7 +254,7 @@ TEST_F(BadPair, TwinsThatAreNoneAreRefused) {
   EXPECT_THAT(not_learned(windy + " " + calm()), HasSubstr("expected recordings of calm falls beside it"));
   EXPECT_THAT(not_validated(windy), HasSubstr("expected its twin as a third argument"));
   EXPECT_THAT(not_validated(falls + " " + calm()), HasSubstr("is not one of a pair"));
-  EXPECT_THAT(not_validated(other + " " + calm()), HasSubstr("is no twin of"));
+  EXPECT_THAT(not_validated(other + " " + calm()), HasSubstr("expected two of one pair"));
 }
 
 TEST_F(BadPair, ClonesThatAreNoNumberOfEpisodesAreRefused) {

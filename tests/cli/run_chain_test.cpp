@@ -78,8 +78,8 @@ TEST_F(RunChain, ModesThatAreSplinesPlayAndAreSteered) {
   }
 }
 
-TEST_F(RunChain, AWayToRealiseModesThatIsNoneIsAnError) {
-  EXPECT_EQ(wisp("learn leaf drops.csv -o " + at("m.wisp") + " --realise fourier").status, 2);
+TEST_F(RunChain, ARealisationThatIsNoneIsAnError) {
+  EXPECT_EQ(wisp("learn leaf drops.csv -o " + at("m.wisp") + " --realisation fourier").status, 2);
 }
 
 }  // namespace

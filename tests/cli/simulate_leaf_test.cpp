@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/program.hpp"
+#include "wisp/capture/media/video.hpp"
 #include "wisp/record/csv.hpp"
 
 namespace wisp {
@@ -68,6 +69,35 @@ TEST_F(SimulateLeaf, TheFirstDropsAreFilmed) {
   EXPECT_GT(fs::file_size(at("clip.mp4")), 1000u);
 }
 
+// Pictures of a clip that are the same as the one before, byte for byte.
+int frozen_frames(const std::string& path) {
+  auto clip = VideoReader::open(path);
+  EXPECT_TRUE(clip) << clip.error().message;
+  int frozen = 0;
+  RgbImage before;
+  for (auto frame = clip->next(); frame && *frame; frame = clip->next()) {
+    RgbImage now = clip->rgb();
+    frozen += now.pixels == before.pixels ? 1 : 0;
+    before = std::move(now);
+  }
+  return frozen;
+}
+
+TEST_F(SimulateLeaf, NoFrameOfAFilmRepeatsTheOneBefore) {
+  // Row 123 is at 123 / 60 s, which times 60 is less than 123.
+  ASSERT_EQ(wisp("-o " + at("rec.csv") + " --drops 1 --seconds 4.2 --video " + at("clip.mp4")).status, 0);
+  EXPECT_EQ(frozen_frames(at("clip.mp4")), 0);
+}
+
+TEST_F(SimulateLeaf, AStrongSteadyWindIsSimulated) {
+  const Said said = wisp("-o " + at("rec.csv") + " --drops 4 --seconds 2 --wind constant --wind-speed 3");
+  ASSERT_EQ(said.status, 0) << said.err;
+  const auto recording = read_csv(at("rec.csv"));
+  ASSERT_TRUE(recording);
+  const auto& x = recording->channels[*find_channel(*recording, "pos.x")].samples;
+  EXPECT_NEAR(x[119], 6, 2);
+}
+
 TEST_F(SimulateLeaf, ItsFallsTeachAChainWhoseOwnFallsAreFilmed) {
   ASSERT_EQ(wisp("-o " + at("rec.csv") + " --drops 12 --seconds 6").status, 0);
   const Said learned = InFolder::wisp("learn leaf " + at("rec.csv") + " -o " + at("leaf.wisp") + " --json");
@@ -88,7 +118,7 @@ TEST_F(SimulateLeaf, ItsFallsTeachSplinesThatTakeLessRoom) {
   ASSERT_EQ(wisp("-o " + at("rec.csv") + " --drops 12 --seconds 3").status, 0);
   const std::string learn = "learn leaf " + at("rec.csv") + " --restarts 1 --modes 3 -o ";
   ASSERT_EQ(InFolder::wisp(learn + at("segments.wisp")).status, 0);
-  const Said learned = InFolder::wisp(learn + at("spline.wisp") + " --realise spline");
+  const Said learned = InFolder::wisp(learn + at("spline.wisp") + " --realisation spline");
   ASSERT_EQ(learned.status, 0) << learned.err;
   EXPECT_LT(fs::file_size(at("spline.wisp")), fs::file_size(at("segments.wisp")));
   EXPECT_EQ(InFolder::wisp("run " + at("spline.wisp") + " --frames 40 --steer 0,0,-0.5@1 -o " + at("fall.csv")).status,

@@ -56,8 +56,8 @@ TEST_F(Usage, EveryCommandHasHelpWithAnExample) {
 }
 
 TEST_F(Usage, TheManualInDocsIsTheProgramsOwn) {
-  EXPECT_EQ(wisp("manual").out, file_text(WISP_SOURCE_DIR "/docs/cli.md"))
-      << "make it again: wisp manual > docs/cli.md";
+  EXPECT_EQ(wisp("manual").out, file_text(WISP_SOURCE_DIR "/docs/reference/cli.md"))
+      << "make it again: wisp manual > docs/reference/cli.md";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What learn_outline makes of three real flames: it must flicker as they do.
+// What fit_outline makes of three real flames: it must flicker as they do.
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <string>
 
+#include "capture/capture_clip.hpp"
+#include "learn/outline/outline_fit.hpp"
+#include "learn/outline/outline_shape.hpp"
 #include "learn/outline/outline_synthesis.hpp"
-#include "wisp/capture/media/capture_clip.hpp"
 #include "wisp/learn/fidelity.hpp"
-#include "wisp/learn/outline.hpp"
-#include "wisp/learn/outline_shape.hpp"
 
 namespace wisp {
 namespace {
@@ -39,7 +39,7 @@ class FlameClips : public testing::TestWithParam<Clip> {
     auto captured = capture_outline(path, options);
     ASSERT_TRUE(captured) << captured.error().message;
     recording = captured->recording;
-    auto learned = learn_outline({&recording, 1});
+    auto learned = fit_outline({&recording, 1});
     ASSERT_TRUE(learned) << learned.error().message;
     fit = *std::move(learned);
     layout = *outline_layout(recording);

@@ -37,6 +37,13 @@ TEST(Report, JsonNestsDottedIdsAndKeepsMissingFiguresAsNull) {
             R"("warnings":["the sound is clipped"],"usable":{"verdict":false,"reason":"too few rows"}})");
 }
 
+TEST(Report, AnIdNamesElementsOfListsAndKeepsDotsAfterABackslash) {
+  Report report;
+  report.add("").entries = {
+      {.id = "step[0][1].sd", .value = 2}, {.id = "step[0][0].sd", .value = 1}, {.id = "p.u\\.x\\[1]", .value = 3}};
+  EXPECT_EQ(to_json(report, -1), R"({"step":[[{"sd":1},{"sd":2}]],"p":{"u.x[1]":3}})");
+}
+
 TEST(Report, TextBeginsWithTheVerdictAndAlignsFigures) {
   EXPECT_EQ(to_text(sample()),
             "not usable: too few rows\n"

@@ -26,7 +26,7 @@ inline const std::map<std::string, Layer>& layers() {
                                               "libavutil/", "libswscale/", "libswresample/"};
   static const std::map<std::string, Layer> table{
       // The one place that speaks to the operating system about files.
-      {"base", {{}, {"unistd.h"}}},
+      {"base", {{}, {"fcntl.h", "unistd.h"}}},
       {"model", {{"base"}, {"flatbuffers/", "wisp_generated.h"}}},
       // The compiler's own header of the processor's vector instructions.
       {"run", {{"base", "model"}, {"immintrin.h"}}},
@@ -34,10 +34,14 @@ inline const std::map<std::string, Layer>& layers() {
       {"c", {{"base", "model", "run", "sound"}, {}}},
       {"record", {{"base"}, {}}},
       {"matfile", {{"base", "record"}, {"hdf5.h", "matio.h"}}},
+      {"umbrella",
+       {{"base", "model", "run", "sound", "record", "learn", "capture", "capture/vision", "capture/media", "describe"},
+        {}}},
       {"describe", {{"base"}, {"nlohmann/"}}},
       {"learn", {{"base", "model", "run", "sound", "record"}, {"Eigen/"}}},
       {"capture/vision", {{"base", "model", "record"}, {}}},
       {"capture/media", {{"base", "model", "sound", "record", "capture/vision"}, ffmpeg}},
+      {"capture", {{"base", "model", "sound", "record", "capture/vision", "capture/media"}, {}}},
       {"simulate", {{"base", "model", "record"}, {"cvode/", "nvector/", "sundials/", "sunlinsol/", "sunmatrix/"}}},
       {"draw", {{"base", "model", "run", "record"}, draws}},
   };
@@ -47,6 +51,7 @@ inline const std::map<std::string, Layer>& layers() {
 /// The layer of a path below include/wisp/ or src/ (or of an include): the longest matching folder.
 inline std::optional<std::string> layer_of(const std::string& path) {
   if (path == "wisp.h") return "c";
+  if (path == "learn.hpp" || path == "play.hpp") return "umbrella";
   std::optional<std::string> best;
   for (const auto& [name, layer] : layers()) {
     if (path.starts_with(name + "/") && (!best || name.size() > best->size())) best = name;
@@ -99,14 +104,27 @@ inline std::optional<std::string> objection(const std::string& layer, bool publi
   return {};
 }
 
+/// Whether a file is an umbrella header, which gathers the public headers of one job: include/wisp/play.hpp.
+inline bool is_umbrella(const std::string& file) {
+  const std::filesystem::path path(file);
+  return path.parent_path() == "include/wisp" && path.extension() == ".hpp";
+}
+
+/// Why an umbrella header may not include this: it gathers public headers, and no library includes it.
+inline std::optional<std::string> umbrella_objection(const Include& include) {
+  if (standard_headers().contains(include.name)) return {};
+  if (include.quoted && include.name.starts_with("wisp/") && layer_of(include.name.substr(5))) return {};
+  return "gathers public headers and includes \"" + include.name + "\", which is none";
+}
+
 /// Whether an application's source may include this: public headers and its own files, any outside library but those
 /// that belong to a layer.
 inline std::optional<std::string> application_objection(const Include& include) {
   if (include.quoted && include.name.starts_with("wisp/")) return {};
   if (layer_of(include.name)) return "includes \"" + include.name + "\", a private header";
   for (const auto& [name, layer] : layers()) {
-    // What the operating system and the compiler offer is no layer's own.
-    if (name != "base" && name != "run" && starts_with_any(include.name, layer.outside_private)) {
+    // What the operating system and the compiler offer is no layer's own, and a program may speak JSON.
+    if (name != "base" && name != "run" && name != "describe" && starts_with_any(include.name, layer.outside_private)) {
       return "includes <" + include.name + ">, which belongs to " + name;
     }
   }
@@ -134,8 +152,9 @@ inline std::vector<std::string> arrow_violations(const std::filesystem::path& ro
     const bool public_header = file.starts_with("include/wisp/");
     const bool library = public_header || file.starts_with("src/");
     if (!library && !file.starts_with("apps/")) continue;
+    const bool umbrella = is_umbrella(file);
     std::optional<std::string> layer;
-    if (library) {
+    if (library && !umbrella) {
       layer = layer_of(file.substr(public_header ? std::string("include/wisp/").size() : std::string("src/").size()));
       if (!layer) {
         violations.push_back(file + ": belongs to no layer of docs/architecture.md");
@@ -144,7 +163,9 @@ inline std::vector<std::string> arrow_violations(const std::filesystem::path& ro
     }
     for (const Include& written : includes_of(read_text(root / file))) {
       const Include include = in_full(root, file, written);
-      const auto why = layer ? objection(*layer, public_header, include) : application_objection(include);
+      const auto why = umbrella ? umbrella_objection(include)
+                       : layer  ? objection(*layer, public_header, include)
+                                : application_objection(include);
       if (why) violations.push_back(file + ":" + std::to_string(written.line) + ": " + *why);
     }
   }

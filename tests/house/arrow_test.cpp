@@ -107,6 +107,23 @@ TEST(Arrow, AnApplicationUsesPublicHeadersOnly) {
                           HasSubstr("apps/cli/peek.cpp:2: includes <Eigen/Core>, which belongs to learn")));
 }
 
+TEST(Arrow, AnUmbrellaHeaderGathersPublicHeadersOnly) {
+  ScratchTree tree;
+  tree.add("include/wisp/play.hpp", "#include \"wisp/model/model.hpp\"\n#include \"wisp/run/bank.hpp\"\n");
+  tree.add("include/wisp/learn.hpp", "#include \"learn/outline/rows.hpp\"\n#include <Eigen/Core>\n");
+  EXPECT_THAT(
+      arrow_violations(tree.root()),
+      ElementsAre(HasSubstr("include/wisp/learn.hpp:1: gathers public headers and includes \"learn/outline/rows"),
+                  HasSubstr("include/wisp/learn.hpp:2: gathers public headers and includes \"Eigen/Core")));
+}
+
+TEST(Arrow, NoLayerIncludesAnUmbrellaHeader) {
+  ScratchTree tree;
+  tree.add("src/learn/a.cpp", "#include \"wisp/play.hpp\"\n");
+  tree.add("apps/cli/main.cpp", "#include \"wisp/play.hpp\"\n");
+  EXPECT_THAT(arrow_violations(tree.root()), ElementsAre(HasSubstr("src/learn/a.cpp:1: includes \"wisp/play.hpp\"")));
+}
+
 TEST(Arrow, AFolderThatIsNoLayerIsFound) {
   ScratchTree tree;
   tree.add("src/shared/a.cpp", "");

@@ -1,4 +1,4 @@
-# Builds the host in tests/house/host, the program in README.md and the example in examples/flicker against Wisp.
+# Builds the host in tests/house/host, the program in README.md and the examples against Wisp.
 #
 #   cmake -DHOW=installed|subproject -DSOURCE=… -DBUILD=… -DSCRATCH=… -DGENERATOR=… -DNM=… -P consumer.cmake
 #
@@ -87,10 +87,10 @@ else()
   endif()
 endif()
 
-run("configuring the example" ${CMAKE_COMMAND} -S ${SOURCE}/examples/flicker -B ${SCRATCH}/example -G ${GENERATOR}
+run("configuring the examples" ${CMAKE_COMMAND} -S ${SOURCE}/examples -B ${SCRATCH}/example -G ${GENERATOR}
   -DCMAKE_BUILD_TYPE=Release ${where})
-run("building the example" ${CMAKE_COMMAND} --build ${SCRATCH}/example)
-run("running the example" ${SCRATCH}/example/flicker ${model})
+run("building the examples" ${CMAKE_COMMAND} --build ${SCRATCH}/example)
+run("running the first example" ${SCRATCH}/example/01_play ${model})
 if(NOT output MATCHES "^0\\.000 [-0-9.]+ [0-9.]+\n")
   message(FATAL_ERROR "the example should print one line a frame, and prints:\n${output}")
 endif()

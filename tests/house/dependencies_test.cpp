@@ -1,5 +1,5 @@
-// docs/dependencies.md is complete: all that CMake looks for and all that script/bootstrap installs is on it, and all
-// packages on it are installed.
+// docs/reference/dependencies.md is complete: all that CMake looks for and all that script/bootstrap installs is on it,
+// and all packages on it are installed.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -82,7 +82,7 @@ std::set<std::string> listed_packages(const std::string& page) {
   return names;
 }
 
-std::string page() { return read_text(std::filesystem::path(WISP_SOURCE_DIR) / "docs/dependencies.md"); }
+std::string page() { return read_text(std::filesystem::path(WISP_SOURCE_DIR) / "docs/reference/dependencies.md"); }
 
 TEST(Dependencies, AllThatCMakeLooksForIsListed) {
   const auto names = listed(page());

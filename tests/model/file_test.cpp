@@ -61,14 +61,6 @@ TEST(ModelFile, WhatIsWrittenIsRead) {
   expect_same(*read, sample_model());
 }
 
-TEST(ModelFile, NoiseThatGrowsWithItsInputsIsKept) {
-  Model model = sample_model();
-  std::get<ArxModel>(model.dynamics).noise.growth = {0.5, 0.25};
-  const auto read = parse_model(*model_bytes(model), "growing.wisp");
-  ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(std::get<ArxModel>(read->dynamics).noise.growth, (std::vector<double>{0.5, 0.25}));
-}
-
 // Two stretches of residuals to be played again, mirrored in a wind from the other side.
 Model drawn_model() {
   Model model = sample_model();
@@ -169,8 +161,8 @@ TEST(ModelFile, DrawnResidualsThatMeanNothingAreRefused) {
 }
 
 TEST(ModelFile, EveryShapeOfInputIsKept) {
-  for (const InputShape shape : {InputShape::kLinear, InputShape::kSplitSign, InputShape::kLinearSquare,
-                                 InputShape::kSplitSignSquare, InputShape::kCurve, InputShape::kSplitSignCurve}) {
+  for (const InputShape shape :
+       {InputShape::kLinear, InputShape::kSplitSign, InputShape::kCurve, InputShape::kSplitSignCurve}) {
     Model model = sample_model();
     model.inputs[0].shape = shape;
     if (has_curve(shape)) model.inputs[0].curve = {{0, 0.5, 1.5}, {0, 0.125, 1.5}};
@@ -295,22 +287,6 @@ TEST(ModelFile, AModelWithoutMeaningIsNeitherWrittenNorRead) {
       {"finite", [&](Model& m) { arx(m).theta[0][0] = NAN; }},
       {"coefficients", [&](Model& m) { arx(m).theta[3].pop_back(); }},
       {"negative", [&](Model& m) { arx(m).noise.sd[0] = -1; }},
-      {"growth has 3 values",
-       [&](Model& m) {
-         arx(m).noise.growth = {1, 1, 1};
-       }},
-      {"growth is -1",
-       [&](Model& m) {
-         arx(m).noise.growth = {0, -1};
-       }},
-      {"growth holds",
-       [&](Model& m) {
-         arx(m).noise.growth = {0, NAN};
-       }},
-      {"growth is 2000000",
-       [&](Model& m) {
-         arx(m).noise.growth = {2e6, 0};
-       }},
       {"unstable",
        [&](Model& m) {
          arx(m).theta[0] = {-2.0, 0.5, 0.01, 0.3, -0.3};

@@ -15,9 +15,7 @@ struct FlameOptions {
   int points = 8;
   InputShape wind = InputShape::kLinear;
   int noise_rank = 0;
-  double noise_growth = 0;  ///< with the wind of either sign; 0: the noise is the same in any wind
-  int growth_steps = 1;     ///< over which the wind's mean is taken for that
-  int drawn_rows = 0;       ///< of residuals to play instead, in two stretches; 0: the noise is Gaussian
+  int drawn_rows = 0;  ///< of residuals to play instead, in two stretches; 0: the noise is Gaussian
 };
 
 /// Made-up residuals of 16-bit noise, beside a wind that swings from 0 to 1 once in so many rows; a wind from the other
@@ -67,8 +65,7 @@ inline Model flame_model(const FlameOptions& options = {}) {
     row.insert(row.end(), (x_row ? other : own).begin(), (x_row ? other : own).end());
     for (int k = 0; k < regressors; ++k) {
       const bool left = splits_sign(options.wind) && k % 2 == 1;
-      const bool square = has_squares(options.wind) && k >= regressors / 2;
-      const double sign = (x_row && left ? -1 : 1) * (square ? -0.2 : 1);
+      const double sign = x_row && left ? -1 : 1;
       for (double b : {0.02, 0.015, -0.004, 0.002}) row.push_back((x_row ? sign : -0.3) * b * (1 + along));
     }
     arx.theta.push_back(row);
@@ -79,9 +76,6 @@ inline Model flame_model(const FlameOptions& options = {}) {
   }
   arx.input_mean.assign(regressors, 0.1);
   arx.noise.rank = options.noise_rank;
-  if (options.noise_growth > 0) {
-    arx.noise.growth.assign(regressors * options.growth_steps, options.noise_growth / options.growth_steps);
-  }
   if (options.drawn_rows > 0) {
     arx.noise.drawn = drawn_flame_residuals(outputs, options.drawn_rows, splits_sign(options.wind));
   }

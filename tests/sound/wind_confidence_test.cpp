@@ -1,5 +1,5 @@
 // Blowing, talking and knocking, made here at several rates. Shares are of frames of 1/60 s. The sounds are fixed by
-// their seeds, so nothing is left to chance; the bounds are those that docs/wind.md promises for real sounds.
+// their seeds, so nothing is left to chance; the bounds are those that docs/studies/wind.md promises for real sounds.
 
 #include <gtest/gtest.h>
 

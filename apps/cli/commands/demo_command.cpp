@@ -1,50 +1,32 @@
-// `wisp demo`: the whole job, as the very commands that a user would type.
+// `wisp demo`: the whole job, with the commands that would do it by hand.
 
 #include <filesystem>
-#include <fstream>
+#include <functional>
 
 #include "commands/commands.hpp"
+#include "films/simulated_clip.hpp"
+#include "films/validation_pictures.hpp"
+#include "reports/learned_model.hpp"
 #include "terminal.hpp"
 #include "wisp/base/file.hpp"
+#include "wisp/capture/capture.hpp"
+#include "wisp/learn/learn_outline.hpp"
+#include "wisp/record/csv.hpp"
 
 namespace wisp::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-// One command of the demo: its positionals and the flags that differ from their defaults.
-struct Step {
-  Command command;
-  std::vector<std::string> positionals;
-  std::vector<std::pair<std::string, std::string>> flags;
-};
-
-std::string line_of(const Step& step) {
-  std::string line = "wisp " + step.command.name;
-  for (const std::string& positional : step.positionals) line += " " + positional;
-  for (const auto& [name, value] : step.flags)
-    line += (name == "output" ? " -o" : " --" + name) + (value == "on" ? "" : " " + value);
-  return line;
-}
-
-Arguments arguments_of(const Step& step) {
-  Arguments arguments;
-  for (const Flag& flag : step.command.flags) {
-    if (!flag.fallback.empty()) arguments.set(flag.name, flag.fallback);
-  }
-  for (const auto& [name, value] : step.flags) arguments.set(name, value);
-  arguments.set_positionals(step.positionals);
-  return arguments;
-}
-
-// Runs one step; its figures go into the demo's result under `name`.
-Result<void> run_step(const std::string& name, const Step& step, Terminal& terminal) {
-  terminal.say("\n$ " + line_of(step));
+// Does one step of the demo below the line that would do it by hand; its figures go into the result under `name`.
+Result<void> step(const std::string& name, const std::string& line, Terminal& terminal,
+                  const std::function<Result<void>()>& work) {
+  terminal.say("\n$ wisp " + line);
   Json all = std::move(terminal.result());
   terminal.result() = {{"warnings", Json::array()}};
-  auto outcome = step.command.run(arguments_of(step), terminal);
+  auto outcome = work();
   all[name] = std::move(terminal.result());
-  all[name]["command"] = line_of(step);
+  all[name]["command"] = "wisp " + line;
   terminal.result() = std::move(all);
   return outcome;
 }
@@ -54,49 +36,138 @@ struct Places {
   std::string at(const char* name) const { return (folder / name).string(); }
 };
 
-// What the model is learned from, and what it is held against.
+// What the model is learned from, and what it is validated on.
 struct Clips {
   std::string learn;
   std::string validate;
   std::string truth{};  // of the clip to validate, where it is simulated
 };
 
-Result<Clips> simulate_clips(const Places& places, const Arguments& arguments, Terminal& terminal) {
+Result<void> simulate(const std::string& path, double seconds, std::uint64_t seed, Terminal& terminal) {
+  CandleClipOptions options;
+  options.seconds = seconds;
+  options.wind.seed = options.microphone.seed = options.camera.seed = seed;
+  const auto truth = write_simulated_clip(path, options, terminal);
+  if (!truth) return truth.error();
+  terminal.result()["frames"] = truth->rows();
+  return {};
+}
+
+Result<Clips> simulate_clips(const Places& places, std::uint64_t seed, Terminal& terminal) {
   const Clips clips{places.at("training.mp4"), places.at("validation.mp4"), places.at("validation.truth.csv")};
-  const auto seed = arguments.integer("seed");
-  const auto simulate = [&](const std::string& name, const std::string& path, const char* seconds, int clip_seed) {
-    return run_step(
-        name,
-        {simulate_candle_command(), {}, {{"output", path}, {"seconds", seconds}, {"seed", std::to_string(clip_seed)}}},
-        terminal);
+  const auto one = [&](const std::string& name, const std::string& path, int seconds, std::uint64_t clip_seed) {
+    const std::string line =
+        "simulate candle -o " + path + " --seconds " + std::to_string(seconds) + " --seed " + std::to_string(clip_seed);
+    return step(name, line, terminal, [&] { return simulate(path, seconds, clip_seed, terminal); });
   };
-  if (auto ok = simulate("simulate_training", clips.learn, "40", seed); !ok) return ok.error();
-  if (auto ok = simulate("simulate_validation", clips.validate, "20", seed + 1); !ok) return ok.error();
+  if (auto ok = one("simulate_training", clips.learn, 40, seed); !ok) return ok.error();
+  if (auto ok = one("simulate_validation", clips.validate, 20, seed + 1); !ok) return ok.error();
   return clips;
 }
 
-Result<void> run_steps(const Places& places, const Clips& clips, const Arguments& arguments, Terminal& terminal) {
-  const std::string& points = arguments.text("points");
-  std::vector<std::pair<std::string, std::string>> capture{{"output", places.at("recording.csv")}, {"points", points}};
-  if (arguments.has("rate")) capture.push_back({"rate", arguments.text("rate")});
-  const std::string model = places.at("flame.wisp");
-  if (auto ok = run_step("capture", {capture_flame_command(), {clips.learn}, capture}, terminal); !ok) return ok;
-  const Step learn{learn_flame_command(), {places.at("recording.csv")}, {{"output", model}}};
-  if (auto ok = run_step("learn", learn, terminal); !ok) return ok;
+Result<Recording> capture_step(const Places& places, const std::string& clip, const ClipCapture& options,
+                               const std::string& rate, Terminal& terminal) {
+  const std::string path = places.at("recording.csv");
+  Recording recording;
+  const std::string line =
+      "capture flame " + clip + " -o " + path + " --points " + std::to_string(options.points) + rate;
+  auto ok = step("capture", line, terminal, [&]() -> Result<void> {
+    auto captured = capture(clip, options, terminal.progress());
+    if (!captured) return captured.error();
+    terminal.show(captured->report);
+    recording = std::move(captured->recording);
+    return write_csv(path, recording);
+  });
+  if (!ok) return ok.error();
+  return recording;
+}
 
-  Step validate{validate_command(), {model, clips.validate}, {}};
-  if (arguments.has("rate")) validate.flags.push_back({"rate", arguments.text("rate")});
-  if (!clips.truth.empty()) validate.flags.push_back({"truth", clips.truth});
-  validate.flags.push_back({"overlay", places.at("overlay.mp4")});
-  validate.flags.push_back({"film-strip", places.at("film-strip.png")});
-  validate.flags.push_back({"figures", places.at("figures")});
-  if (auto ok = run_step("validate", validate, terminal); !ok) return ok;
+Result<Model> learn_step(const Places& places, const Recording& recording, Terminal& terminal) {
+  const std::string path = places.at("flame.wisp");
+  Model model;
+  auto ok = step("learn", "learn flame " + places.at("recording.csv") + " -o " + path, terminal, [&]() -> Result<void> {
+    FlameRecipe recipe;
+    recipe.name = "flame";
+    auto fit = learn_outline({&recording, 1}, recipe, terminal.progress());
+    if (!fit) return fit.error();
+    model = std::move(fit->model);
+    model.training.program = "wisp " WISP_VERSION;
+    terminal.show(fit->report);
+    return write_learned(path, model);
+  });
+  if (!ok) return ok.error();
+  return model;
+}
 
-  const std::string frames =
-      std::to_string(std::max(1, static_cast<int>(20 * terminal.result()["learn"]["rate_hz"].get<double>())));
-  Step film{run_command(), {model}, {{"frames", frames}, {"output", places.at("flame.mp4")}}};
-  if (!terminal.result()["learn"]["inputs"].empty()) film.flags.push_back({"input", places.at("recording.csv")});
-  return run_step("run", film, terminal);
+Result<void> validate(const Places& places, const Clips& clips, const Model& model, ClipCapture options,
+                      Terminal& terminal) {
+  const auto curve = curve_of(model);
+  if (!curve) return curve.error();
+  options.curve = *curve;
+  auto captured = capture(clips.validate, options, terminal.progress());
+  if (!captured) return captured.error();
+  for (const std::string& warning : captured->report.warnings) terminal.warn(warning);
+  Recording truth;
+  if (!clips.truth.empty()) {
+    auto read = read_csv(clips.truth);
+    if (!read) return read.error();
+    truth = *std::move(read);
+  }
+  const auto found = validate_outline(model, captured->recording, {.truth = clips.truth.empty() ? nullptr : &truth},
+                                      terminal.progress());
+  if (!found) return found.error();
+  terminal.show(found->report);
+  const ValidationSubject subject{
+      std::move(captured->recording), {clips.validate, options.rate_hz}, std::move(captured->report)};
+  return draw_validation(*found, model, subject,
+                         {places.at("overlay.mp4"), places.at("film-strip.png"), places.at("figures")}, terminal);
+}
+
+Result<void> validate_step(const Places& places, const Clips& clips, const Model& model, const ClipCapture& options,
+                           const std::string& rate, Terminal& terminal) {
+  const std::string line = "validate " + places.at("flame.wisp") + " " + clips.validate + rate +
+                           (clips.truth.empty() ? "" : " --truth " + clips.truth) + " --overlay " +
+                           places.at("overlay.mp4") + " --film-strip " + places.at("film-strip.png") + " --figures " +
+                           places.at("figures");
+  return step("validate", line, terminal, [&] { return validate(places, clips, model, options, terminal); });
+}
+
+// A command with its defaults and these flags.
+Result<void> run_command_with(const Command& command, const std::vector<std::pair<std::string, std::string>>& flags,
+                              const std::string& model, Terminal& terminal) {
+  Arguments arguments;
+  for (const Flag& flag : command.flags) {
+    if (!flag.fallback.empty()) arguments.set(flag.name, flag.fallback);
+  }
+  for (const auto& [name, value] : flags) arguments.set(name, value);
+  arguments.set_positionals({model});
+  return command.run(arguments, terminal);
+}
+
+Result<void> film_step(const Places& places, const Model& model, Terminal& terminal) {
+  const std::string frames = std::to_string(std::max(1, static_cast<int>(20 * model.rate_hz)));
+  std::vector<std::pair<std::string, std::string>> flags{{"frames", frames}, {"output", places.at("flame.mp4")}};
+  if (!model.inputs.empty()) flags.push_back({"input", places.at("recording.csv")});
+  std::string line = "run " + places.at("flame.wisp") + " --frames " + frames;
+  if (!model.inputs.empty()) line += " --input " + places.at("recording.csv");
+  return step("run", line + " -o " + places.at("flame.mp4"), terminal,
+              [&] { return run_command_with(run_command(), flags, places.at("flame.wisp"), terminal); });
+}
+
+Result<void> all_steps(const Places& places, const Clips& clips, const Arguments& arguments, Terminal& terminal) {
+  FlameCapture options;
+  options.points = arguments.integer("points");
+  std::string rate;
+  if (arguments.has("rate")) {
+    options.rate_hz = arguments.number("rate");
+    rate = " --rate " + arguments.text("rate");
+  }
+  const auto recording = capture_step(places, clips.learn, options, rate, terminal);
+  if (!recording) return recording.error();
+  const auto model = learn_step(places, *recording, terminal);
+  if (!model) return model.error();
+  if (auto ok = validate_step(places, clips, *model, options, rate, terminal); !ok) return ok;
+  return film_step(places, *model, terminal);
 }
 
 void say_what_next(const Places& places, Terminal& terminal) {
@@ -122,17 +193,18 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   if (code) return Error{places.folder.string() + ": cannot be made: " + code.message()};
   Clips clips;
   if (arguments.positionals().empty()) {
-    auto simulated = simulate_clips(places, arguments, terminal);
+    auto simulated = simulate_clips(places, static_cast<std::uint64_t>(arguments.integer("seed")), terminal);
     if (!simulated) return simulated.error();
     clips = *simulated;
   } else {
     clips = {arguments.positional(), arguments.positional()};
   }
-  if (auto ok = run_steps(places, clips, arguments, terminal); !ok) return ok;
+  if (auto ok = all_steps(places, clips, arguments, terminal); !ok) return ok;
   if (auto ok = write_file(places.at("summary.json"), terminal.result().dump(1) + "\n"); !ok) return ok;
   say_what_next(places, terminal);
   if (!arguments.on("window")) return {};
-  return run_step("play", {play_command(), {places.at("flame.wisp")}, {}}, terminal);
+  return step("play", "play " + places.at("flame.wisp"), terminal,
+              [&] { return run_command_with(play_command(), {}, places.at("flame.wisp"), terminal); });
 }
 
 }  // namespace

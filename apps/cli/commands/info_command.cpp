@@ -1,15 +1,13 @@
 // `wisp info`: what a model file holds.
 
 #include "commands/commands.hpp"
-#include "reports/arx_description.hpp"
-#include "reports/blow_out_learning.hpp"
 #include "reports/chain_json.hpp"
 #include "reports/curve_learning.hpp"
 #include "reports/figures_json.hpp"
-#include "reports/flame_modes.hpp"
-#include "reports/switched_description.hpp"
 #include "terminal.hpp"
 #include "wisp/base/file.hpp"
+#include "wisp/learn/dynamics_report.hpp"
+#include "wisp/learn/extinction_report.hpp"
 #include "wisp/model/file.hpp"
 
 namespace wisp::cli {
@@ -22,7 +20,6 @@ Json channels_of(const Model& model) {
                       {"unit", input.unit},
                       {"range", {number(input.lowest), number(input.highest)}},
                       {"shape", std::string(splits_sign(input.shape) ? "split sign" : "linear") +
-                                    (has_squares(input.shape) ? " with squares" : "") +
                                     (has_curve(input.shape) ? " bent by a curve" : "")}});
     if (has_curve(input.shape)) {
       inputs.back()["curve"] = {{"at", json_of(input.curve.at)}, {"value", json_of(input.curve.value)}};
@@ -52,20 +49,26 @@ Json view_of(const Model& model) {
 }
 
 Json dynamics_of(const ArxModel& arx) {
-  Json out = {{"kind", "arx"},
-              {"na", json_of(arx.orders.na)},
-              {"nb", json_of(arx.orders.nb)},
-              {"nk", json_of(arx.orders.nk)},
-              {"history", arx.orders.history()},
-              {"noise_rank", arx.noise.rank},
-              {"radius", number(spectral_radius(arx))}};
-  describe_arx(arx, out);
-  return out;
+  return {{"kind", "arx"},
+          {"na", json_of(arx.orders.na)},
+          {"nb", json_of(arx.orders.nb)},
+          {"nk", json_of(arx.orders.nk)},
+          {"history", arx.orders.history()},
+          {"noise_rank", arx.noise.rank},
+          {"radius", number(spectral_radius(arx))}};
 }
 
 std::string played_as(const ChainModel& chain) {
   if (chain.splines) return "splines";
   return chain.systems ? "systems" : "segments";
+}
+
+Json rows_of(const std::vector<double>& matrix, int columns) {
+  Json rows = Json::array();
+  for (std::size_t k = 0; k < matrix.size(); k += static_cast<std::size_t>(columns)) {
+    rows.push_back(json_of(std::span(matrix).subspan(k, static_cast<std::size_t>(columns))));
+  }
+  return rows;
 }
 
 Json dynamics_of(const ChainModel& chain) {
@@ -79,30 +82,28 @@ Json dynamics_of(const ChainModel& chain) {
           {"best_of", chain.segments.breadth},
           {"blend_share", number(chain.blend.share)},
           {"initial", json_of(chain.initial)},
-          {"transitions", matrix_json(chain.transitions(), chain.modes)}};
+          {"transitions", rows_of(chain.transitions(), chain.modes)}};
 }
 
 Json dynamics_of(const SwitchedArxModel& switched) {
-  Json out = {{"kind", "switched arx"},
-              {"switching", switched.switching == Switching::kMarkov ? "markov" : "regions"},
-              {"na", json_of(switched.orders.na)},
-              {"nb", json_of(switched.orders.nb)},
-              {"nk", json_of(switched.orders.nk)},
-              {"history", switched.orders.history()}};
-  describe_switched(switched, out);
-  return out;
+  return {{"kind", "switched arx"},
+          {"switching", switched.switching == Switching::kMarkov ? "markov" : "regions"},
+          {"na", json_of(switched.orders.na)},
+          {"nb", json_of(switched.orders.nb)},
+          {"nk", json_of(switched.orders.nk)},
+          {"history", switched.orders.history()}};
 }
 
 // One line for people.
-std::string line_of(const Json& dynamics) {
+std::string line_of(const Json& dynamics, const Model& model) {
   if (dynamics["kind"] == "chain") {
     return "chain of " + dynamics["segments"].dump() + " segments in " + dynamics["modes"].dump() +
            " modes, histories of up to " + dynamics["history"].dump();
   }
   if (dynamics["kind"] == "switched arx") {
-    return "arx of " + std::to_string(dynamics["modes"].size()) + " modes switched by " +
+    return "arx of " + std::to_string(std::get<SwitchedArxModel>(model.dynamics).modes.size()) + " modes switched by " +
            (dynamics["switching"] == "markov" ? "a Markov chain" : "regions") + ", history of " +
-           dynamics["history"].dump() + " samples; " + dynamics["bounded_by"].get<std::string>();
+           dynamics["history"].dump() + " samples";
   }
   return "arx, history of " + dynamics["history"].dump() + " samples, spectral radius " +
          shown(dynamics["radius"].get<double>(), 5);
@@ -129,13 +130,13 @@ std::string listed(const Json& object) {
   return text;
 }
 
-void describe(const Json& result, Terminal& terminal) {
+void describe(const Json& result, const Model& model, Terminal& terminal) {
   terminal.say(result["name"].get<std::string>() + ": " + result["view"]["kind"].get<std::string>() + " model at " +
                shown(result["rate_hz"].get<double>(), 5) + " steps a second, " +
                std::to_string(result["bytes"].get<std::size_t>()) + " bytes");
   terminal.say("inputs    " + names_of(result["inputs"]));
   terminal.say("outputs   " + names_of(result["outputs"]));
-  terminal.say("dynamics  " + line_of(result["dynamics"]));
+  terminal.say("dynamics  " + line_of(result["dynamics"], model));
   terminal.say("cost      " + result["cost"]["multiply_adds_per_frame"].dump() + " multiply-adds a frame, " +
                result["cost"]["operations_per_frame"].dump() + " operations with noise and view");
   terminal.say("made by   " + result["made"]["program"].get<std::string>() + " from " +
@@ -162,19 +163,15 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   result.update(channels_of(*model));
   result["dynamics"] = std::visit([](const auto& kind) { return dynamics_of(kind); }, model->dynamics);
   result["view"] = view_of(*model);
-  result["extinction"] = json_of(model->extinction, *model);
   result["cost"] = *cost;
   result["made"] = made_by(model->training);
   result["usable"] = json_of(model->training.usable);
-  describe(result, terminal);
-  if (const auto* arx = std::get_if<ArxModel>(&model->dynamics)) say_poles(*arx, model->rate_hz, terminal);
+  describe(result, *model, terminal);
+  terminal.show(dynamics_report(*model, "dynamics."));
   for (const Input& input : model->inputs) {
     if (has_curve(input.shape)) terminal.say("curve     " + input.name + ": " + curve_text(input.curve));
   }
-  if (model->extinction) {
-    terminal.say("blow-out  " + sentence_of(*model->extinction));
-    for (const std::string& line : mode_lines(*model)) terminal.say("mode      " + line);
-  }
+  terminal.show({.sections = {extinction_section(*model)}});
   return {};
 }
 

@@ -5,153 +5,123 @@
 #include "commands/commands.hpp"
 #include "flags/order_flags.hpp"
 #include "flags/recordings.hpp"
-#include "reports/arx_description.hpp"
+#include "flags/search_flags.hpp"
 #include "reports/arx_figures.hpp"
-#include "reports/arx_learning.hpp"
 #include "reports/arx_parts.hpp"
-#include "reports/arx_search.hpp"
 #include "reports/curve_learning.hpp"
-#include "reports/figures_json.hpp"
 #include "reports/learned_model.hpp"
 #include "terminal.hpp"
+#include "wisp/learn/learn.hpp"
 
 namespace wisp::cli {
 namespace {
 
-Model model_of(const ArxFit& fit, const ChannelChoice& channels, const ArxSources& sources,
-               const Arguments& arguments) {
-  Model model;
-  model.name = std::filesystem::path(arguments.text("output")).stem().string();
-  model.rate_hz = sources.rate_hz;
-  auto span = sources.spans.begin();
-  for (const std::string& name : channels.outputs) {
-    model.outputs.push_back({.name = name, .unit = span->unit, .lowest = span->lowest, .highest = span->highest});
-    ++span;
-  }
-  for (const std::string& name : channels.inputs) {
-    model.inputs.push_back({.name = name, .unit = span->unit, .lowest = span->lowest, .highest = span->highest});
-    ++span;
-  }
-  for (std::size_t k = 0; k < sources.curves.size(); ++k) {
-    model.inputs[k].shape = InputShape::kCurve;
-    model.inputs[k].curve = sources.curves[k];
-  }
-  model.dynamics = fit.model;
-  model.training.program = "wisp " WISP_VERSION;
-  for (const std::string& file : sources.files) {
-    model.training.sources.push_back(std::filesystem::path(file).filename().string());
-  }
-  for (const char* flag : {"na", "nb", "nk", "coupling", "offset", "range", "input-curve"}) {
-    const bool of_parts = arguments.on("merge") && std::string_view(flag) != "offset";  // the parts have their own
-    if (arguments.has(flag) && !of_parts) model.training.recipe.push_back({flag, arguments.text(flag)});
-  }
-  if (fit.summary.stable.changed) model.training.recipe.push_back({"radius", arguments.text("radius")});
-  model.training.figures = {{"fpe", fit.summary.fpe}, {"samples_used", static_cast<double>(fit.summary.samples_used)}};
-  model.training.usable = fit.summary.usable;
-  model.training.inputs.assign(model.inputs.size(), {});  // in the recordings' own units
-  return model;
+ArxOffset offset_of(const Arguments& arguments) {
+  if (arguments.text("offset") == "none") return ArxOffset::kNone;
+  return arguments.text("offset") == "estimate" ? ArxOffset::kEstimate : ArxOffset::kMean;
 }
 
-void report(const ArxFit& fit, const ChannelChoice& channels, Terminal& terminal) {
-  const ArxSummary& summary = fit.summary;
-  Json& result = terminal.result();
-  result["na"] = json_of(fit.model.orders.na);
-  result["nb"] = json_of(fit.model.orders.nb);
-  result["nk"] = json_of(fit.model.orders.nk);
-  describe_arx(fit.model, result);
-  result["constant"] = json_of(fit.model.constant);
-  result["operating_point"] = {{"outputs", json_of(fit.model.output_mean)}, {"inputs", json_of(fit.model.input_mean)}};
-  result["V"] = json_of(summary.loss);
-  const auto ny = channels.outputs.size();
-  result["noise_covariance"] = Json::array();
-  for (std::size_t i = 0; i < ny; ++i) {
-    result["noise_covariance"].push_back(json_of(std::span(summary.noise_covariance).subspan(i * ny, ny)));
-  }
-  result["fpe"] = number(summary.fpe);
-  result["aic"] = number(summary.aic);
-  result["aicc"] = number(summary.aicc);
-  result["bic"] = number(summary.bic);
-  result["row_fpe"] = json_of(summary.row_fpe);
-  result["fit_percent"] = {{"1", json_of(summary.fit_percent)}};
-  if (!summary.free_run_fit_percent.empty()) result["fit_percent"]["inf"] = json_of(summary.free_run_fit_percent);
-  result["samples_used"] = summary.samples_used;
-  result["first_sample"] = summary.first_sample;
-  result["episodes"] = {{"used", summary.episodes_used}, {"skipped", summary.episodes_skipped}};
-  result["rows_left_out"] = summary.rows_left_out;
-  result["condition"] = number(*std::max_element(summary.condition.begin(), summary.condition.end()));
-  result["row_condition"] = json_of(summary.condition);
-  result["method"] = summary.method;
-  result["undetermined"] = Json::array();
-  for (const RankProblem& problem : summary.rank_problems) {
-    result["undetermined"].push_back(
-        {{"row", problem.row}, {"channel", problem.channel}, {"lag", problem.lag}, {"reason", problem.reason}});
-  }
-  result["stable"] = json_of(summary.stable);
-  result["usable"] = json_of(summary.usable);
-  for (std::size_t i = 0; i < ny; ++i) {
-    const std::string free_run = summary.free_run_fit_percent.empty()
-                                     ? ""
-                                     : ", free simulation " + shown(summary.free_run_fit_percent[i], 4) + " %";
-    terminal.say(channels.outputs[i] + ": one-step fit " + shown(summary.fit_percent[i], 4) + " %" + free_run +
-                 ", residual variance " + shown(summary.loss[i], 5));
-  }
-  terminal.say("FPE " + shown(summary.fpe, 6) + ", AIC " + shown(summary.aic, 6) + ", spectral radius " +
-               shown(summary.stable.radius, 5) + (summary.stable.changed ? " (made stable)" : ""));
-  terminal.say(std::string(summary.usable.verdict ? "usable: " : "not usable: ") + summary.usable.reason);
+Result<void> take_orders(const Arguments& arguments, ArxRecipe& recipe) {
+  auto na = order_choice(arguments, "na"), nb = order_choice(arguments, "nb");
+  if (!na) return na.error();
+  if (!nb) return nb.error();
+  recipe.na = std::move(*na);
+  recipe.nb = std::move(*nb);
+  recipe.nk.reset();
+  recipe.coupling = coupling_of(arguments);
+  if (arguments.text("nk") == "auto") return {};
+  auto nk = order_choice(arguments, "nk");
+  if (!nk) return nk.error();
+  recipe.nk = std::move(*nk);
+  return {};
 }
 
-// What the residuals still know of their own past and of the inputs.
-void report_tests(const ResidualTests& tests, const ChannelChoice& channels, Terminal& terminal) {
-  Json white = Json::array(), independent = Json::array();
-  for (std::size_t i = 0; i < channels.outputs.size(); ++i) {
-    white.push_back(number(tests.whiteness[i].p));
-    Json row = Json::array();
-    for (const Independence& pair : tests.independence[i]) row.push_back(number(pair.p));
-    independent.push_back(std::move(row));
+// What the flags say but for the search, which needs the recordings.
+Result<ArxRecipe> recipe_of(const Arguments& arguments) {
+  ArxRecipe recipe{.inputs = arguments.names("inputs"),
+                   .outputs = arguments.names("outputs"),
+                   .offset = offset_of(arguments),
+                   .ridge = arguments.number("ridge"),
+                   .radius = arguments.number("radius"),
+                   .keep_unstable = arguments.on("keep-unstable"),
+                   .curve_knots = curve_knots_of(arguments),
+                   .responses = arguments.has("figures")};
+  if (arguments.has("output")) recipe.name = std::filesystem::path(arguments.text("output")).stem().string();
+  if (!(recipe.radius > 0 && recipe.radius < 1)) {
+    return Error{"--radius is " + arguments.text("radius") + ", expected a number between 0 and 1"};
   }
-  terminal.result()["whiteness_p"] = std::move(white);
-  terminal.result()["independence_p"] = std::move(independent);
+  if (recipe.curve_knots != 0 && (arguments.has("partial") || arguments.on("merge"))) {
+    return Error{"--input-curve needs the recordings in one place: learn without --partial and --merge"};
+  }
+  if (recipe.curve_knots != 0 && recipe.offset == ArxOffset::kNone) {
+    return Error{"--input-curve needs --offset mean or estimate: a curve has no level of its own"};
+  }
+  if (arguments.has("partial") && arguments.has("search")) {
+    return Error{"--partial is of one model; --search tries many: search first, then fit the best orders in parts"};
+  }
+  if (arguments.on("merge")) return recipe;
+  if (arguments.has("search")) {
+    recipe.coupling = coupling_of(arguments);
+    return recipe;
+  }
+  if (auto ok = take_orders(arguments, recipe); !ok) return ok.error();
+  if (!recipe.nk && arguments.has("partial")) {
+    return Error{
+        "--nk auto needs the recordings in memory: find the delays in a part of them with --range, then give "
+        "them as numbers"};
+  }
+  return recipe;
 }
 
-Result<void> draw(const LearnedArx& learned, const std::filesystem::path& folder, Terminal& terminal) {
-  std::error_code code;
-  std::filesystem::create_directories(folder, code);
-  if (code) return Error{folder.string() + ": cannot be made: " + code.message()};
-  if (learned.tests) {
-    if (auto ok = write_residual_figure(folder, *learned.tests, learned.channels); !ok) return ok;
+Result<Fit> learned_from_memory(ArxRecipe recipe, const Arguments& arguments, Terminal& terminal) {
+  const auto whole = read_tables(arguments.positionals(), arguments, terminal);
+  if (!whole) return whole.error();
+  if (arguments.has("search")) {
+    auto search = search_of(*whole, arguments);
+    if (!search) return search.error();
+    recipe.search = std::move(*search);
   }
-  const DrawnArx drawn{learned.fit.model, learned.channels, learned.sources.rate_hz, learned.fit.covariance};
-  terminal.result()["responses"] = responses_json(drawn);
-  return write_response_figures(folder, drawn);
+  const auto recordings = in_range(*whole, arguments);
+  if (!recordings) return recordings.error();
+  return learn(*recordings, recipe, terminal.progress());
+}
+
+Result<Fit> learned(const ArxRecipe& recipe, const Arguments& arguments, Terminal& terminal) {
+  if (arguments.on("merge")) {
+    const auto merged = merged_parts(arguments);
+    if (!merged) return merged.error();
+    return merged->part.finish(recipe, merged->sources, terminal.progress());
+  }
+  // A search, curves and open delays need the recordings in memory, however large they are.
+  if (arguments.has("search") || recipe.curve_knots != 0 || !recipe.nk || !too_large(arguments)) {
+    return learned_from_memory(recipe, arguments, terminal);
+  }
+  const auto all = part_of_tables(recipe, arguments, terminal);
+  if (!all) return all.error();
+  return all->part.finish(recipe, all->sources, terminal.progress());
 }
 
 Result<void> run(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
-  if (const double radius = arguments.number("radius"); !(radius > 0 && radius < 1)) {
-    return Error{"--radius is " + arguments.text("radius") + ", expected a number between 0 and 1"};
-  }
-  if (curve_knots_of(arguments) != 0 && (arguments.has("partial") || arguments.on("merge"))) {
-    return Error{"--input-curve needs the recordings in one place: learn without --partial and --merge"};
-  }
-  if (arguments.has("partial")) return write_part(arguments, terminal);
-  const auto learned = learn_arx(arguments, terminal);
-  if (!learned) return learned.error();
-  const ArxFit& fit = learned->fit;
-  for (const std::string& warning : fit.summary.warnings) terminal.warn(warning);
-  report(fit, learned->channels, terminal);
-  if (learned->tests) report_tests(*learned->tests, learned->channels, terminal);
-  say_poles(fit.model, learned->sources.rate_hz, terminal);
-  const bool playable = fit.summary.stable.radius < 1;
+  const auto recipe = recipe_of(arguments);
+  if (!recipe) return recipe.error();
+  if (arguments.has("partial")) return write_part(*recipe, arguments, terminal);
+  auto fit = learned(*recipe, arguments, terminal);
+  if (!fit) return fit.error();
+  terminal.show(fit->report);
+  const std::string& output = arguments.text("output");
+  const bool playable = spectral_radius(std::get<ArxModel>(fit->model.dynamics)) < 1;
   if (playable) {
-    const Model model = model_of(fit, learned->channels, learned->sources, arguments);
-    if (auto ok = write_learned(arguments.text("output"), model); !ok) return ok;
+    fit->model.training.program = "wisp " WISP_VERSION;
+    if (arguments.has("range")) fit->model.training.recipe.push_back({"range", arguments.text("range")});
+    if (auto ok = write_learned(output, fit->model); !ok) return ok;
   } else {
-    terminal.warn(arguments.text("output") + " was not written: an unstable model cannot be played");
+    terminal.warn(output + " was not written: an unstable model cannot be played");
   }
   if (arguments.has("figures")) {
-    if (auto ok = draw(*learned, arguments.text("figures"), terminal); !ok) return ok;
+    if (auto ok = write_arx_figures(arguments.text("figures"), fit->model, fit->report); !ok) return ok;
   }
-  terminal.result()["output"] = playable ? Json(arguments.text("output")) : Json(nullptr);
+  terminal.result()["output"] = playable ? Json(output) : Json(nullptr);
   terminal.result()["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return {};
 }
@@ -174,10 +144,6 @@ std::vector<Flag> flags() {
            "mean",
            "the operating point: mean removes means, none, estimate adds a constant term",
            {"mean", "none", "estimate"}},
-          {"noise-model", Kind::kText, "M", "white",
-           "what colours the residual: white; ar:N (ARARX, v = e/D) or ma:N (ARMAX, v = C e), by prediction errors; "
-           "the "
-           "model that is written has a white residual and the more lags. Needs the recordings in memory"},
           {"ridge", Kind::kNumber, "R", "0", "weight of the coefficients' size, as a share of each regressor's energy"},
           {"radius", Kind::kNumber, "R", "0.999",
            "an unstable estimate is brought within this spectral radius, between 0 and 1, with the least loss of fit; "

@@ -5,47 +5,27 @@
 
 #include "commands/commands.hpp"
 #include "flags/capture_flags.hpp"
-#include "reports/blow_out_learning.hpp"
+#include "flags/outline_flags.hpp"
 #include "reports/curve_learning.hpp"
 #include "reports/learned_model.hpp"
-#include "reports/outline_learning.hpp"
 #include "terminal.hpp"
+#include "wisp/learn/learn_outline.hpp"
 
 namespace wisp::cli {
 namespace {
 
-// What is learned from: all recordings on one scale, or each on its own, as asked for or as held-out data say.
-Result<BlowOuts> heard_blow_outs(std::vector<Recording> recordings, const BlowOutWish& wish,
-                                 const OutlineOptions& options, const Arguments& arguments, Terminal& terminal) {
-  auto own = BlowOuts::find(recordings, wish);
-  if (!own) return own.error();
-  const auto gain = choose_wind_gain(own->burning(), options, wanted_gain(arguments));
-  if (!gain) return gain.error();
-  report_gain(*gain, terminal);
-  if (!gain->one) return own;
-  auto together = at_one_gain(std::move(recordings));
-  if (!together) return together.error();
-  return BlowOuts::find(*std::move(together), wish);
-}
-
 Result<void> run(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
-  const auto wish = blow_out_wish(arguments);
-  if (!wish) return wish.error();
   const std::string& path = arguments.text("output");
-  const auto options = outline_options(arguments, std::filesystem::path(path).stem().string());
-  if (!options) return options.error();
-  auto recordings = outline_recordings(arguments.positionals(), arguments, terminal);
+  const auto recipe = outline_recipe(arguments, std::filesystem::path(path).stem().string());
+  if (!recipe) return recipe.error();
+  const auto recordings = outline_recordings(arguments.positionals(), arguments, terminal);
   if (!recordings) return recordings.error();
-  const auto blow_outs = heard_blow_outs(*std::move(recordings), *wish, *options, arguments, terminal);
-  if (!blow_outs) return blow_outs.error();
-  auto fit = learn_outline(blow_outs->burning(), *options);
+  auto fit = learn_outline(*recordings, *recipe, terminal.progress());
   if (!fit) return fit.error();
   fit->model.training.program = "wisp " WISP_VERSION;
-  for (const std::string& warning : fit->summary.warnings) terminal.warn(warning);
-  if (auto ok = blow_outs->complete(*fit, *wish, terminal); !ok) return ok;
   if (auto ok = write_learned(path, fit->model); !ok) return ok;
-  report_outline(*fit, terminal);
+  terminal.show(fit->report);
   terminal.say("wrote " + path);
   terminal.result()["output"] = path;
   terminal.result()["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -54,13 +34,13 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
 
 // What differs between the presets.
 struct Preset {
-  const char* blow_out;
+  const char* extinction;
   const char* input_curve;
 };
 
 Command learn(std::string name, std::string summary, const Preset& preset, std::vector<Example> examples) {
   std::vector<Flag> flags = {{"output", Kind::kPath, "M.wisp", "", "where to write the model", {}, true},
-                             blow_out_flag(preset.blow_out),
+                             extinction_flag(preset.extinction),
                              curve_flag(preset.input_curve, "")};
   for (auto* more : {&outline_flags, &capture_flags}) {
     for (Flag& flag : (*more)()) flags.push_back(std::move(flag));

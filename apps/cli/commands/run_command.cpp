@@ -17,6 +17,7 @@
 #include "wisp/model/file.hpp"
 #include "wisp/record/csv.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/extinction_facet.hpp"
 
 namespace wisp::cli {
 namespace {
@@ -38,13 +39,14 @@ class Player {
 
   // One step. Returns the inputs that drove it.
   std::vector<float> step() {
-    if (std::binary_search(play_.relit.begin(), play_.relit.end(), frame_)) {
-      for (int slot = 0; slot < bank_.slots(); ++slot) bank_.relight(bank_.at(slot));
+    ExtinctionFacet* extinction = bank_.extinction();
+    if (extinction && std::binary_search(play_.relit.begin(), play_.relit.end(), frame_)) {
+      for (int slot = 0; slot < bank_.slots(); ++slot) extinction->relight(bank_.at(slot));
     }
     std::vector<float> inputs = play_.input.at(frame_);
     bank_.set_common_inputs(inputs);
     bank_.step();
-    for (int slot = 0; slot < bank_.slots(); ++slot) note(slot);
+    for (int slot = 0; extinction && slot < bank_.slots(); ++slot) note(*extinction, slot);
     ++frame_;
     return inputs;
   }
@@ -61,8 +63,8 @@ class Player {
   const Json& deaths() const { return deaths_; }
 
  private:
-  void note(int slot) {
-    const bool lit = bank_.lit_state(bank_.at(slot))->lit;
+  void note(const ExtinctionFacet& extinction, int slot) {
+    const bool lit = extinction.state_of(bank_.at(slot))->lit;
     if (burnt_[slot] && !lit) deaths_.push_back({{"instance", slot}, {"frame", frame_}});
     burnt_[slot] = lit;
   }
@@ -269,7 +271,7 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   terminal.result()["seed"] = play->seed;
   terminal.result()["held_share"] = held.steps ? static_cast<double>(held.held) / static_cast<double>(held.steps) : 0.0;
   terminal.result()["output"] = path;
-  if (bank->goes_out()) {
+  if (bank->extinction()) {
     terminal.result()["went_out"] = player.deaths();
     if (!player.deaths().empty()) {
       terminal.say("went out " + std::to_string(player.deaths().size()) + " times, first in frame " +

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "wisp/run/extinction_facet.hpp"
+
 namespace wisp::cli {
 namespace {
 
@@ -39,8 +41,10 @@ CandlePictures::CandlePictures(const Bank& bank)
 }
 
 void CandlePictures::blow(const Bank& bank, float wind) {
+  const ExtinctionFacet* extinction = bank.extinction();
+  if (!extinction) return;
   for (std::size_t k = 0; k < drifts_.size(); ++k) {
-    const auto state = bank.lit_state(bank.at(static_cast<int>(k)));
+    const auto state = extinction->state_of(bank.at(static_cast<int>(k)));
     if (!state || state->since_out == kNever) continue;
     if (state->since_out <= bank.step_time()) drifts_[k] = {};
     drifts_[k].sum += wind;
@@ -53,9 +57,11 @@ const Image& CandlePictures::draw(const Bank& bank) {
   bank.polylines(polylines_);
   for (std::size_t k = 0; k < points_.size(); ++k) points_[k] = {polylines_[2 * k], polylines_[2 * k + 1]};
   const auto each = static_cast<std::size_t>(bank.polyline_points());
+  const ExtinctionFacet* extinction = bank.extinction();
   std::vector<Flame> flames;
   for (std::size_t k = 0; k < scenes_.size(); ++k) {
-    const LitState state = bank.lit_state(bank.at(static_cast<int>(k))).value_or(LitState{});
+    const LitState state =
+        extinction ? extinction->state_of(bank.at(static_cast<int>(k))).value_or(LitState{}) : LitState{};
     scenes_[k].seconds_since_lit = seconds(state.since_lit);
     scenes_[k].seconds_since_out = seconds(state.since_out);
     scenes_[k].size = state.size;

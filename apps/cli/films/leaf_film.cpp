@@ -20,6 +20,7 @@ constexpr double kRestSeconds = 2.2;     // on the floor
 constexpr double kFadeSeconds = 0.6;     // the last of it
 constexpr double kSettleSeconds = 0.12;  // from the pose it landed in to lying flat
 constexpr double kTrailSeconds = 0.9;
+constexpr double kRounding = 1e-6;        // rows
 constexpr double kStaggerSeconds = 0.45;  // between the first falls of two leaves
 
 using PoseColumns = std::array<const std::vector<double>*, 7>;
@@ -87,7 +88,7 @@ std::vector<Fall> falls_of(const PoseColumns& columns, const Episode& episode, d
     }
     fall.shift = {place.x - (low_x + high_x) / 2, place.y - (low_y + high_y) / 2, metres - start.position[2]};
     falls.push_back(fall);
-    begins += static_cast<double>(fall.last - row) / rate + 0.35;
+    begins += static_cast<double>(fall.last - row) / rate + kSettleSeconds;  // nothing moves from then on
     row = fall.last + 1;
   }
   return falls;
@@ -140,7 +141,8 @@ class Film {
   }
 
   DrawnLeaf flying(const Fall& fall, double since) {
-    const std::size_t row = fall.first + static_cast<std::size_t>(since * rate_);
+    // A time that is a row's but for rounding is that row's: else one row is shown twice and the next one never.
+    const auto row = std::min(fall.last, fall.first + static_cast<std::size_t>(since * rate_ + kRounding));
     const auto back = static_cast<std::size_t>(kTrailSeconds * rate_);
     std::vector<LeafPose> trail;
     for (std::size_t k = std::max(fall.first + back, row) - back; k <= row; ++k) trail.push_back(placed(fall, k));

@@ -1,6 +1,7 @@
 #include "films/outline_film.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -10,7 +11,6 @@
 #include "wisp/draw/flame.hpp"
 #include "wisp/draw/overlay.hpp"
 #include "wisp/draw/video_writer.hpp"
-#include "wisp/learn/outline_shape.hpp"
 
 namespace wisp::cli {
 namespace {
@@ -41,9 +41,15 @@ Result<void> for_each_row(const ClipFrames& clip, std::size_t last_row,
 constexpr int kLeastOverlayHeight = 480;
 int enlargement(int height) { return std::max(1, (kLeastOverlayHeight + height - 1) / height); }
 
-std::vector<Point> enlarged(std::vector<Point> outline, int times) {
-  for (Point& point : outline) point = {point.x * static_cast<float>(times), point.y * static_cast<float>(times)};
-  return outline;
+using Outline = std::vector<std::array<double, 2>>;
+
+// A pixel's centre is at whole numbers for capture and at halves for drawing.
+std::vector<Point> enlarged(const Outline& outline, int times) {
+  std::vector<Point> points;
+  for (const auto& [x, y] : outline) {
+    points.push_back({static_cast<float>((x + 0.5) * times), static_cast<float>((y + 0.5) * times)});
+  }
+  return points;
 }
 
 // How an overlay is laid out.
@@ -53,19 +59,19 @@ struct Layout {
 };
 
 // The upper corner that the outlines are farther from on the whole.
-Corner roomier_corner(const OutlineRows& rows, int width) {
+Corner roomier_corner(const OutlineRows& captured, int width) {
   double across = 0;
-  for (const auto& outline : rows.captured) {
-    for (const Point& point : outline) across += point.x - 0.5 * width;
+  for (const Outline& outline : captured) {
+    for (const auto& point : outline) across += point[0] + 0.5 - 0.5 * width;
   }
   return across < 0 ? Corner::kTopRight : Corner::kTopLeft;
 }
 
-void draw_row(Image& image, const OutlineRows& rows, std::size_t row, const Layout& layout) {
+void draw_row(Image& image, const OverlayContent& content, std::size_t row, const Layout& layout) {
   const LineStyle captured{.colour = kCapturedColour}, simulated{.colour = kSimulatedColour, .dashed = true};
-  if (row < rows.captured.size()) draw_outline(image, enlarged(rows.captured[row], layout.times), captured);
-  if (row < rows.simulated.size()) draw_outline(image, enlarged(rows.simulated[row], layout.times), simulated);
-  const LegendEntry legend[] = {{"captured", captured}, {rows.simulated_label, simulated}};
+  draw_outline(image, enlarged(content.captured[row], layout.times), captured);
+  draw_outline(image, enlarged(content.simulated[row], layout.times), simulated);
+  const LegendEntry legend[] = {{"captured", captured}, {content.simulated_label, simulated}};
   draw_legend(image, legend, layout.legend);
 }
 
@@ -85,23 +91,24 @@ std::string seconds_text(double seconds) {
   return text;
 }
 
-Result<void> overlay_on_black(VideoWriter& film, int width, int height, const Layout& layout, const OutlineRows& rows) {
-  for (std::size_t row = 0; row < rows.captured.size(); ++row) {
+Result<void> overlay_on_black(VideoWriter& film, int width, int height, const Layout& layout,
+                              const OverlayContent& content) {
+  for (std::size_t row = 0; row < content.captured.size(); ++row) {
     Image image(width, height);
-    draw_row(image, rows, row, layout);
+    draw_row(image, content, row, layout);
     if (auto ok = film.write(image); !ok) return ok;
   }
   return film.finish();
 }
 
-Result<void> overlay_on_clip(VideoWriter& film, const ClipFrames& clip, const OutlineRows& rows, double rate_hz,
+Result<void> overlay_on_clip(VideoWriter& film, const ClipFrames& clip, const OverlayContent& content, double rate_hz,
                              const Layout& layout, Terminal& terminal) {
-  const std::size_t count = rows.captured.size();
+  const std::size_t count = content.captured.size();
   auto drawn =
       for_each_row(clip, count - 1, [&](std::size_t row, const std::function<Image()>& picture) -> Result<void> {
         Image image = picture();
         if (layout.times > 1) image = resized(image, image.width() * layout.times, image.height() * layout.times);
-        draw_row(image, rows, row, layout);
+        draw_row(image, content, row, layout);
         draw_label(image, seconds_text(static_cast<double>(row) / rate_hz));
         terminal.progress("drawing the overlay", static_cast<double>(row + 1) / static_cast<double>(count));
         return film.write(image);
@@ -110,20 +117,24 @@ Result<void> overlay_on_clip(VideoWriter& film, const ClipFrames& clip, const Ou
   return film.finish();
 }
 
-// The control points of a row, x0, y0, x1, y1, …; empty where one is missing.
-std::vector<double> control_points(const Recording& recording, const OutlineLayout& layout, std::size_t row) {
-  std::vector<double> values;
-  for (std::size_t channel : layout.outputs) {
-    const double value = recording.channels[channel].samples[row];
-    if (std::isnan(value)) return {};
-    values.push_back(value);
-  }
-  return values;
+// The middle of an outline's base, pixels.
+struct Place {
+  double x = 0;
+  double y = 0;
+};
+
+Place base_of(const Outline& outline) {
+  return {(outline.front()[0] + outline.back()[0]) / 2, (outline.front()[1] + outline.back()[1]) / 2};
 }
 
-OutlineFrame frame_of(const std::vector<double>& control, double pixels_per_unit) {
-  const std::size_t last = control.size() - 2;
-  return {(control[0] + control[last]) / 2, (control[1] + control[last + 1]) / 2, pixels_per_unit};
+// An outline in the model's units: about its base, y up.
+Outline in_units(Outline outline, double pixels_per_unit) {
+  if (outline.empty()) return outline;
+  const Place base = base_of(outline);
+  for (auto& point : outline) {
+    point = {(point[0] - base.x) / pixels_per_unit, (base.y - point[1]) / pixels_per_unit};
+  }
+  return outline;
 }
 
 // A film strip's view of one frame, in the clip's pixels.
@@ -133,23 +144,12 @@ struct Cell {
   double below_base = 0;
 };
 
-// The row in the model's units; empty where it has no outline.
-std::vector<double> row_units(const Recording& recording, const OutlineLayout& layout, std::size_t row,
-                              double pixels_per_unit) {
-  const auto control = control_points(recording, layout, row);
-  if (control.empty()) return {};
-  return to_model_units(control, frame_of(control, pixels_per_unit));
-}
-
 Cell cell_of(const StripContent& content) {
-  const OutlineCurve curve(content.layout.knots);
   const double unit = content.pixels_per_unit;
   double highest = 1, widest = 0.4;
   for (std::size_t row : content.rows) {
-    for (const auto& control : {row_units(*content.recording, content.layout, row, unit),
-                                row_units(*content.synthesized, content.synthesized_layout, row, unit)}) {
-      if (control.empty()) continue;
-      for (const OutlinePoint& point : curve.polyline(control)) {
+    for (const OutlineRows* rows : {&content.captured, &content.synthesized}) {
+      for (const auto& point : in_units((*rows)[row], unit)) {
         highest = std::max(highest, point[1]);
         widest = std::max(widest, std::abs(point[0]));
       }
@@ -158,15 +158,13 @@ Cell cell_of(const StripContent& content) {
   return {2.3 * widest * unit, (highest + 0.55) * unit, 0.35 * unit};
 }
 
-// The cartoon of an outline in model units, as large as a cell.
-Image cartoon(const std::vector<double>& control, const StripContent& content, const Cell& cell) {
+// The cartoon of an outline, as large as a cell.
+Image cartoon(const Outline& pixels, const StripContent& content, const Cell& cell) {
   const double scale = 2.0 * kStripCellHeight / cell.height;
   Image image(static_cast<int>(std::lround(cell.width * scale)), 2 * kStripCellHeight);
   std::vector<Point> outline;
-  if (!control.empty()) {
-    for (const OutlinePoint& point : OutlineCurve(content.layout.knots).polyline(control)) {
-      outline.push_back({static_cast<float>(point[0]), static_cast<float>(point[1])});
-    }
+  for (const auto& [x, y] : in_units(pixels, content.pixels_per_unit)) {
+    outline.push_back({static_cast<float>(x), static_cast<float>(y)});
   }
   FlameScene scene;
   scene.base = {static_cast<float>(image.width() / 2.0), static_cast<float>((cell.height - cell.below_base) * scale)};
@@ -177,13 +175,13 @@ Image cartoon(const std::vector<double>& control, const StripContent& content, c
 }
 
 // The filmed frame around the base; the cartoon of what was captured where there is no film.
-Image filmed(const std::vector<double>& control, const Image& frame, const StripContent& content, const Cell& cell) {
-  if (control.empty()) return {};
-  const OutlineFrame place = frame_of(control, content.pixels_per_unit);
-  if (frame.empty()) return cartoon(to_model_units(control, place), content, cell);
+Image filmed(const Outline& outline, const Image& frame, const StripContent& content, const Cell& cell) {
+  if (outline.empty()) return {};
+  if (frame.empty()) return cartoon(outline, content, cell);
+  const Place base = base_of(outline);
   const int width = static_cast<int>(std::lround(cell.width)), height = static_cast<int>(std::lround(cell.height));
-  const int left = static_cast<int>(std::lround(place.base_x - cell.width / 2));
-  const int top = static_cast<int>(std::lround(place.base_y + cell.below_base - cell.height));
+  const int left = static_cast<int>(std::lround(base.x - cell.width / 2));
+  const int top = static_cast<int>(std::lround(base.y + cell.below_base - cell.height));
   return crop(frame, {left, top, width, height});
 }
 
@@ -202,17 +200,17 @@ Result<std::map<std::size_t, Image>> frames_at(const ClipFrames& clip, const std
 }  // namespace
 
 Result<void> write_overlay(const std::filesystem::path& out, const ClipFrames& clip, const Recording& recording,
-                           const OutlineRows& rows, Terminal& terminal) {
+                           const OverlayContent& content, Terminal& terminal) {
   const auto width = attribute_number(recording, "width"), height = attribute_number(recording, "height");
   if (!width) return width.error();
   if (!height) return height.error();
-  const Layout layout{.times = enlargement(*height), .legend = roomier_corner(rows, *width)};
+  const Layout layout{.times = enlargement(*height), .legend = roomier_corner(content.captured, *width)};
   const int film_width = *width * layout.times, film_height = *height * layout.times;
   auto film = VideoWriter::create(
       out, {.width = film_width, .height = film_height, .rate_hz = recording.rate_hz, .preset = "veryfast"});
   if (!film) return film.error();
-  if (clip.path.empty()) return overlay_on_black(*film, film_width, film_height, layout, rows);
-  return overlay_on_clip(*film, clip, rows, recording.rate_hz, layout, terminal);
+  if (clip.path.empty()) return overlay_on_black(*film, film_width, film_height, layout, content);
+  return overlay_on_clip(*film, clip, content, recording.rate_hz, layout, terminal);
 }
 
 Result<void> write_film_strip(const std::filesystem::path& out, const ClipFrames& clip, const StripContent& content) {
@@ -223,11 +221,10 @@ Result<void> write_film_strip(const std::filesystem::path& out, const ClipFrames
                   .frame_height = kStripCellHeight};
   for (std::size_t row : content.rows) {
     const auto found = frames->find(row);
-    const auto control = control_points(*content.recording, content.layout, row);
-    strip.rows[0].frames.push_back(filmed(control, found == frames->end() ? Image() : found->second, content, cell));
-    const auto synthesized = row_units(*content.synthesized, content.synthesized_layout, row, content.pixels_per_unit);
-    strip.rows[1].frames.push_back(cartoon(synthesized, content, cell));
-    strip.times.push_back(seconds_text(static_cast<double>(row - content.rows.front()) / content.recording->rate_hz));
+    const Image frame = found == frames->end() ? Image() : found->second;
+    strip.rows[0].frames.push_back(filmed(content.captured[row], frame, content, cell));
+    strip.rows[1].frames.push_back(cartoon(content.synthesized[row], content, cell));
+    strip.times.push_back(seconds_text(static_cast<double>(row - content.rows.front()) / content.rate_hz));
   }
   const auto image = draw_film_strip(strip);
   if (!image) return image.error();

@@ -2,9 +2,8 @@
 
 #include <charconv>
 
-#include "wisp/capture/media/clip_wind.hpp"
-#include "wisp/model/bspline.hpp"
-#include "wisp/record/loudness.hpp"
+#include "flags/flag_ranges.hpp"
+#include "flags/recordings.hpp"
 
 namespace wisp::cli {
 namespace {
@@ -26,48 +25,9 @@ Result<Region> parse_region(std::string_view text) {
   return Region{parts[0], parts[1], parts[2], parts[3]};
 }
 
-Result<ClipCaptureOptions> options_from(const Arguments& arguments) {
-  ClipCaptureOptions options;
-  if (arguments.has("points")) options.outline.points = arguments.integer("points");
-  if (options.outline.points < 4 || options.outline.points > 64) {
-    return Error{"--points is " + std::to_string(options.outline.points) + ", expected 4 to 64"};
-  }
-  options.outline.channel = channel_from_name(arguments.text("channel"));
-  options.outline.dark = arguments.on("dark");
-  if (arguments.has("region")) {
-    const auto region = parse_region(arguments.text("region"));
-    if (!region) return region.error();
-    options.outline.region = *region;
-  }
-  if (arguments.has("frames")) {
-    const SampleRange frames = arguments.samples("frames");
-    options.video.frames = FrameRange{static_cast<std::int64_t>(frames.first), static_cast<std::int64_t>(frames.last)};
-  }
-  if (arguments.has("rate")) options.video.rate_hz = arguments.number("rate");
-  return options;
-}
-
 WindMeasure wind_measure(const Arguments& arguments) {
   const std::string& word = arguments.text("wind-measure");
   return word == "rms" ? WindMeasure::kRms : word == "heard" ? WindMeasure::kHeard : WindMeasure::kSpeed;
-}
-
-void add_wind(const ClipWind& wind, WindMeasure measure, CapturedClip& clip) {
-  clip.wind_heard = !wind.frames.empty();
-  clip.wind_background = wind.background;
-  clip.wind_note = wind.note;
-  if (wind.uncovered > 0 && clip.wind_heard) {
-    clip.report.warnings.push_back("the sound ends " + std::to_string(wind.uncovered) +
-                                   " frames before the picture; the wind there is missing");
-  }
-  if (wind.clipped_share > 0.01)
-    clip.report.warnings.push_back("the sound is clipped; record it more quietly for a truer wind");
-  if (!clip.wind_heard) return;
-  Channel channel{.name = wind_channel_name(measure), .unit = "1", .role = Role::kInput, .samples = {}};
-  if (measure == WindMeasure::kRms) channel.unit = "full scale";
-  for (const WindFrame& frame : wind.frames) channel.samples.push_back(wind_value(frame, measure));
-  if (measure != WindMeasure::kRms && wind.one_rms > 0) set_one_rms(clip.recording, channel.name, wind.one_rms);
-  clip.recording.channels.insert(clip.recording.channels.begin(), std::move(channel));
 }
 
 }  // namespace
@@ -94,38 +54,50 @@ std::vector<Flag> capture_flags() {
   };
 }
 
-Result<CapturedClip> capture_clip(const std::filesystem::path& path, const Arguments& arguments, Terminal& terminal,
-                                  SharedCurve curve) {
-  auto options = options_from(arguments);
+Result<ClipCapture> capture_options(const Arguments& arguments) {
+  const FlagRange points{"points", 4, 64};
+  if (auto ok = check_ranges(arguments, {&points, 1}); !ok) return ok.error();
+  ClipCapture options;
+  if (arguments.has("points")) options.points = arguments.integer("points");
+  options.channel = channel_from_name(arguments.text("channel"));
+  options.dark = arguments.on("dark");
+  if (arguments.has("region")) {
+    const auto region = parse_region(arguments.text("region"));
+    if (!region) return region.error();
+    options.region = *region;
+  }
+  if (arguments.has("frames")) {
+    const SampleRange frames = arguments.samples("frames");
+    options.frames = FrameRange{static_cast<std::int64_t>(frames.first), static_cast<std::int64_t>(frames.last)};
+  }
+  if (arguments.has("rate")) options.rate_hz = arguments.number("rate");
+  options.wind = wind_measure(arguments);
+  return options;
+}
+
+Result<std::vector<Recording>> outline_recordings(const std::vector<std::string>& paths, const Arguments& arguments,
+                                                  Terminal& terminal) {
+  auto options = capture_options(arguments);
   if (!options) return options.error();
-  if (!curve.knots.empty()) {
-    options->outline.points = static_cast<int>(curve.knots.size()) - kSplineDegree - 1;
-    options->outline.knots = std::move(curve.knots);
-    options->outline.underside = curve.underside;
+  const auto recording_of = [&](const std::string& path) -> Result<Recording> {
+    if (is_table(path)) return read_table(path, arguments);
+    auto clip = capture(path, *options, terminal.progress());
+    if (!clip) return clip.error();
+    for (const std::string& warning : clip->report.warnings) terminal.warn(path + ": " + warning);
+    return std::move(clip->recording);
+  };
+  std::vector<Recording> recordings;
+  for (const std::string& path : paths) {
+    auto recording = recording_of(path);
+    if (recording) {
+      if (!options->curve) options->curve = curve_of(*recording);
+      recordings.push_back(*std::move(recording));
+    } else if (!leave_out(path, recording.error(), arguments, terminal)) {
+      return recording.error();
+    }
   }
-  auto captured = wisp::capture_outline(path, *options, [&](std::int64_t done, std::int64_t expected) {
-    terminal.progress("capturing", expected > 0 ? static_cast<double>(done) / static_cast<double>(expected) : -1);
-    return true;
-  });
-  if (!captured) return captured.error();
-  if (options->video.frames &&
-      captured->recording.rows() < arguments.samples("frames").last - arguments.samples("frames").first + 1) {
-    return Error{path.string() + ": --frames " + arguments.text("frames") + " reaches beyond its end, frame " +
-                 std::to_string(arguments.samples("frames").first - 1 + captured->recording.rows())};
-  }
-  CapturedClip clip{std::move(captured->recording), std::move(captured->report), false, 0, ""};
-  if (std::filesystem::is_directory(path)) {
-    clip.wind_note = "not heard: images have no sound";
-    return clip;
-  }
-  // The sound is heard from the clip's start, whichever frames were asked for, so that its background is known.
-  const auto skipped = options->video.frames ? static_cast<std::size_t>(options->video.frames->first - 1) : 0;
-  auto wind = hear_wind(path, clip.report.rate_hz, skipped + clip.recording.rows());
-  if (!wind) return wind.error();
-  if (!wind->frames.empty())
-    wind->frames.erase(wind->frames.begin(), wind->frames.begin() + static_cast<std::ptrdiff_t>(skipped));
-  add_wind(*wind, wind_measure(arguments), clip);
-  return clip;
+  if (recordings.empty()) return Error{"none of the recordings can be used"};
+  return recordings;
 }
 
 }  // namespace wisp::cli

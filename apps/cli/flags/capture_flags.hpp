@@ -1,38 +1,25 @@
 #pragma once
-// How commands turn a clip into a recording: the flags, and the work.
+// How commands turn a clip into a recording: flags to options.
 
 #include <filesystem>
-#include <optional>
 #include <vector>
 
 #include "command.hpp"
 #include "terminal.hpp"
-#include "wisp/capture/media/capture_clip.hpp"
+#include "wisp/capture/capture.hpp"
 
 namespace wisp::cli {
 
-/// --points, --channel, --dark, --region, --frames, --rate.
+/// --points, --channel, --dark, --region, --frames, --rate, --wind-measure.
 std::vector<Flag> capture_flags();
 
-/// A clip's outline, with the wind in its sound as input `wind` where there is any.
-struct CapturedClip {
-  Recording recording;
-  CaptureReport report;
-  bool wind_heard = false;
-  double wind_background = 0;
-  std::string wind_note;
-};
+/// What they say.
+/// Errors: a value that does not fit.
+Result<ClipCapture> capture_options(const Arguments& arguments);
 
-/// How another clip's outlines run, for clips to share a model: knots, in the place of the clip's own and of --points,
-/// and whether the underside is followed, where that is known.
-struct SharedCurve {
-  std::vector<double> knots{};  ///< empty: there is no other clip
-  std::optional<bool> underside{};
-};
-
-/// Captures with the flags that were given, with a progress bar.
-/// Errors: as wisp::capture_outline, and a flag whose value does not fit.
-Result<CapturedClip> capture_clip(const std::filesystem::path& path, const Arguments& arguments, Terminal& terminal,
-                                  SharedCurve curve = {});
+/// Recordings of outlines: tables are read, everything else is captured, with the curve of the first. A bad one is the
+/// error, or is left out and listed with --skip-bad.
+Result<std::vector<Recording>> outline_recordings(const std::vector<std::string>& paths, const Arguments& arguments,
+                                                  Terminal& terminal);
 
 }  // namespace wisp::cli

@@ -2,8 +2,6 @@
 
 #include <charconv>
 
-#include "wisp/learn/arx_orders.hpp"
-
 namespace wisp::cli {
 namespace {
 
@@ -47,55 +45,41 @@ std::vector<Flag> order_flags(const OrderHelp& help) {
   };
 }
 
-Result<OrderMatrix> parse_orders(const std::string& text, int rows, int columns, const std::string& flag) {
+Result<OrderChoice> order_choice(const Arguments& arguments, const std::string& flag) {
+  const std::string& text = arguments.text(flag);
   const auto row_texts = split(text, ';');
   if (row_texts.size() == 1 && text.find(',') == std::string::npos) {
     const auto order = parse_order(text, flag);
     if (!order) return order.error();
-    return OrderMatrix(rows, columns, *order);
+    return OrderChoice(*order);
   }
+  const auto count = [&](const char* names) { return arguments.has(names) ? arguments.names(names).size() : 0; };
+  const std::size_t rows = count("outputs"), columns = count(flag == "na" ? "outputs" : "inputs");
   const auto shape = std::to_string(rows) + " × " + std::to_string(columns);
-  if (row_texts.size() != static_cast<std::size_t>(rows)) {
+  if (row_texts.size() != rows) {
     return Error{"--" + flag + " has " + std::to_string(row_texts.size()) + " rows, expected " + shape +
                  " for these outputs and inputs"};
   }
-  OrderMatrix matrix(rows, columns);
-  for (int i = 0; i < rows; ++i) {
-    const auto cells = split(row_texts[i], ',');
-    if (cells.size() != static_cast<std::size_t>(columns)) {
+  OrderMatrix matrix(static_cast<int>(rows), static_cast<int>(columns));
+  for (int i = 0; i < matrix.rows(); ++i) {
+    const auto cells = split(row_texts[static_cast<std::size_t>(i)], ',');
+    if (cells.size() != columns) {
       return Error{"--" + flag + ", row " + std::to_string(i + 1) + ", has " + std::to_string(cells.size()) +
                    " entries, expected " + shape};
     }
-    for (int j = 0; j < columns; ++j) {
-      const auto order = parse_order(cells[j], flag);
+    for (int j = 0; j < matrix.columns(); ++j) {
+      const auto order = parse_order(cells[static_cast<std::size_t>(j)], flag);
       if (!order) return order.error();
       matrix(i, j) = *order;
     }
   }
-  return matrix;
+  return OrderChoice(std::move(matrix));
 }
 
-Result<ArxOrders> orders_from(const Arguments& arguments, int outputs, int inputs) {
-  auto na = parse_orders(arguments.text("na"), outputs, outputs, "na");
-  if (!na) return na.error();
-  auto nb = parse_orders(arguments.text("nb"), outputs, inputs, "nb");
-  if (!nb) return nb.error();
-  // Delays to be found in the data are 0 until then.
-  const std::string& delay = arguments.text("nk");
-  auto nk = parse_orders(delay == "auto" ? "0" : delay, outputs, inputs, "nk");
-  if (!nk) return nk.error();
+Coupling coupling_of(const Arguments& arguments) {
   const std::string& word = arguments.text("coupling");
-  const Coupling coupling = word == "diagonal" ? Coupling::kDiagonal
-                            : word == "band"   ? Coupling::kBand
-                                               : Coupling::kFull;
-  const ArxOrders mask =
-      make_orders({.outputs = outputs, .inputs = inputs, .na = 1, .nb = 1, .nk = 0, .coupling = coupling});
-  for (int i = 0; i < outputs; ++i) {
-    for (int j = 0; j < outputs; ++j) {
-      if (mask.na(i, j) == 0) (*na)(i, j) = 0;
-    }
-  }
-  return ArxOrders{std::move(*na), std::move(*nb), std::move(*nk)};
+  if (word == "diagonal") return Coupling::kDiagonal;
+  return word == "band" ? Coupling::kBand : Coupling::kFull;
 }
 
 }  // namespace wisp::cli

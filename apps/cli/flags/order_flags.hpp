@@ -1,8 +1,8 @@
 #pragma once
-// --na, --nb, --nk and --coupling as order matrices.
+// --na, --nb, --nk and --coupling as recipes have them.
 
 #include "command.hpp"
-#include "wisp/model/arx.hpp"
+#include "wisp/learn/arx_recipe.hpp"
 
 namespace wisp::cli {
 
@@ -16,10 +16,12 @@ struct OrderHelp {
 /// The flags.
 std::vector<Flag> order_flags(const OrderHelp& help);
 
-/// Errors: a matrix that cannot be understood or has not the shape of the channels, with what was found and expected.
-Result<ArxOrders> orders_from(const Arguments& arguments, int outputs, int inputs);
+/// What --na, --nb or --nk says: a number for all pairs of channels, or a matrix, '4,2;3,4' (rows by semicolons), of a
+/// row for each of --outputs and a column for each of --outputs (--na) or --inputs.
+/// Errors: text that cannot be understood or has not that shape, with what was found and expected.
+Result<OrderChoice> order_choice(const Arguments& arguments, const std::string& flag);
 
-/// Parses '4,2;3,4' (rows by semicolons) of the given shape, or one number for all entries; `flag` is for messages.
-Result<OrderMatrix> parse_orders(const std::string& text, int rows, int columns, const std::string& flag);
+/// --coupling.
+Coupling coupling_of(const Arguments& arguments);
 
 }  // namespace wisp::cli

@@ -74,13 +74,13 @@ Result<Recording> in_range(Recording recording, const Arguments& arguments, std:
   return slice(recording, range.first - 1, range.last);
 }
 
-bool is_calm(const Recording& recording) {
-  for (std::size_t channel : channels_with_role(recording, Role::kInput)) {
-    for (double sample : recording.channels[channel].samples) {
-      if (sample != 0) return false;
-    }
+Result<std::vector<Recording>> in_range(std::vector<Recording> recordings, const Arguments& arguments) {
+  for (Recording& recording : recordings) {
+    auto part = in_range(std::move(recording), arguments, "range");
+    if (!part) return part.error();
+    recording = std::move(*part);
   }
-  return true;
+  return recordings;
 }
 
 }  // namespace wisp::cli

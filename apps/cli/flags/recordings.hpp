@@ -39,8 +39,6 @@ Result<std::vector<Recording>> read_tables(const std::vector<std::string>& paths
 /// Rows of --range (1-based, inclusive), or all of them where the flag is not given.
 /// Errors: the range reaches beyond the recording.
 Result<Recording> in_range(Recording recording, const Arguments& arguments, std::string_view flag);
-
-/// Whether all inputs of a recording are 0 throughout.
-bool is_calm(const Recording& recording);
+Result<std::vector<Recording>> in_range(std::vector<Recording> recordings, const Arguments& arguments);
 
 }  // namespace wisp::cli

@@ -5,7 +5,6 @@
 
 #include "flags/recordings.hpp"
 #include "wisp/capture/media/clip_wind.hpp"
-#include "wisp/learn/validation.hpp"
 #include "wisp/record/wav.hpp"
 #include "wisp/sound/wind_track.hpp"
 
@@ -39,6 +38,14 @@ WindMeasure measure_of(const Input& input) {
   return WindMeasure::kSpeed;
 }
 
+// The value of an input's channel that is 1 in the model. Speeds have it from the sound itself.
+Result<double> scale_of(const Model& model, std::size_t input) {
+  if (measure_of(model.inputs[input]) != WindMeasure::kRms) return 1.0;
+  if (input < model.training.inputs.size()) return model.training.inputs[input].scale;
+  return Error{model.name + ": does not say what its input " + model.inputs[input].name +
+               " was in recordings, expected a model that was learned from some; learn it with this program"};
+}
+
 }  // namespace
 
 Result<InputTrack> InputTrack::heard(const Model& model, const std::string& path) {
@@ -59,13 +66,13 @@ Result<InputTrack> InputTrack::heard(const Model& model, const std::string& path
   if (wind->silent) return Error{path + ": is silent; expected the sound of blowing"};
   InputTrack track;
   track.rows_ = wind->frames.size();
-  for (const Input& input : model.inputs) {
-    const WindMeasure measure = measure_of(input);
-    const auto scale = measure == WindMeasure::kRms ? trained_scale(model, input.name) : Result<double>(1.0);
+  for (std::size_t k = 0; k < model.inputs.size(); ++k) {
+    const auto scale = scale_of(model, k);
     if (!scale) return scale.error();
     std::vector<float>& samples = track.tracks_.emplace_back();
-    for (const WindFrame& frame : wind->frames)
-      samples.push_back(static_cast<float>(wind_value(frame, measure) / *scale));
+    for (const WindFrame& frame : wind->frames) {
+      samples.push_back(static_cast<float>(wind_value(frame, measure_of(model.inputs[k])) / *scale));
+    }
   }
   return track;
 }

@@ -6,9 +6,7 @@
 #include <numbers>
 
 #include "reports/clip_figures.hpp"
-#include "reports/figures_json.hpp"
 #include "wisp/draw/plot.hpp"
-#include "wisp/learn/response.hpp"
 
 namespace wisp::cli {
 namespace {
@@ -16,9 +14,44 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kBreak = std::numeric_limits<double>::quiet_NaN();
-constexpr double kSure = 1.959963985;  // standard deviations to either side of 95 %
-constexpr std::size_t kMostOutputs = 4;
-constexpr double kFar = 1.5;  // a zero farther from 0 would make the unit circle a dot: it is left to the figures
+constexpr std::size_t kMaxOutputs = 4;
+constexpr std::size_t kMaxRows = 1000;       // a picture of more rows than it has pixels shows nothing
+constexpr std::size_t kPredictedRows = 200;  // few enough that the interval's width can be seen
+constexpr double kFar = 1.5;  // a zero farther from 0 would make the unit circle a dot: it is left to the numbers
+
+// A report's series by their ids.
+class Figures {
+ public:
+  Figures(const Model& model, const Report& report) : model_(model), report_(report) {}
+
+  const ReportSeries* find(const std::string& id) const {
+    for (const ReportSection& section : report_.sections) {
+      for (const ReportSeries& series : section.series) {
+        if (series.id == id) return &series;
+      }
+    }
+    return nullptr;
+  }
+  const ReportSeries* find(const char* id, std::size_t output) const { return find(id + place(output)); }
+  const ReportSeries* find(const char* id, std::size_t output, std::size_t input) const {
+    return find(id + place(output) + place(input));
+  }
+
+  std::size_t outputs() const { return std::min(model_.outputs.size(), kMaxOutputs); }
+  std::size_t inputs() const { return model_.inputs.size(); }
+
+  // What stands after a figure's name where there is one an output.
+  std::string of_output(std::size_t output) const {
+    return model_.outputs.size() == 1 ? "" : "-" + model_.outputs[output].name;
+  }
+  const std::string& name(std::size_t output) const { return model_.outputs[output].name; }
+
+ private:
+  static std::string place(std::size_t index) { return "." + std::to_string(index); }
+
+  const Model& model_;
+  const Report& report_;
+};
 
 PlotSeries unit_circle() {
   PlotSeries circle{.colour = Colour{150, 150, 150}, .width = 1};
@@ -30,14 +63,14 @@ PlotSeries unit_circle() {
 }
 
 // A pole is a cross, by convention, a zero a ring.
-PlotSeries crosses(const std::vector<std::complex<double>>& places) {
+PlotSeries crosses(const ReportSeries& places) {
   constexpr double kArm = 0.04;
   PlotSeries series{.label = "poles ×", .width = 1.6};
-  for (const auto& place : places) {
+  for (std::size_t p = 0; p < places.x.size(); ++p) {
     for (double sign : {1.0, -1.0}) {
       for (double end : {-kArm, kArm}) {
-        series.x.push_back(place.real() + end);
-        series.y.push_back(place.imag() + sign * end);
+        series.x.push_back(places.x[p] + end);
+        series.y.push_back(places.y[p] + sign * end);
       }
       series.x.push_back(kBreak);
       series.y.push_back(kBreak);
@@ -46,56 +79,35 @@ PlotSeries crosses(const std::vector<std::complex<double>>& places) {
   return series;
 }
 
-PlotSeries rings(const std::vector<std::complex<double>>& places) {
-  PlotSeries series{.label = "zeros", .shape = SeriesShape::kPoints, .marker = Marker::kRing, .marker_size = 8};
-  for (const auto& place : places) {
-    series.x.push_back(place.real());
-    series.y.push_back(place.imag());
-  }
-  return series;
-}
-
-std::string pair_title(const DrawnArx& drawn, std::size_t output, std::size_t input) {
-  return drawn.channels.outputs[output] + " from " + drawn.channels.inputs[input];
-}
-
-// Zeros of one pair that are near enough to be drawn, and how many are not.
-struct NearZeros {
-  std::vector<std::complex<double>> near;
-  std::size_t far = 0;
-};
-
-NearZeros near_zeros(const ArxModel& model, std::size_t output, std::size_t input) {
-  NearZeros found{zeros(model, static_cast<int>(output), static_cast<int>(input))};
-  found.far = std::erase_if(found.near, [](const auto& zero) { return std::abs(zero) > kFar; });
-  return found;
-}
-
-Plot pole_plot(const std::string& title, const std::vector<std::complex<double>>& poles, const NearZeros& zeros) {
+Plot pole_plot(const std::string& title, const ReportSeries& poles, const ReportSeries* zeros) {
   Plot plot{.title = title, .x = {.label = "real part"}, .y = {.label = "imaginary part"}, .equal_units = true};
-  if (zeros.far > 0) {
-    plot.title += " (" + std::to_string(zeros.far) + (zeros.far == 1 ? " zero" : " zeros") + " beyond |z| = 1.5)";
-  }
   plot.series = {unit_circle(), crosses(poles)};
-  if (!zeros.near.empty()) plot.series.push_back(rings(zeros.near));
+  PlotSeries rings{.label = "zeros", .shape = SeriesShape::kPoints, .marker = Marker::kRing, .marker_size = 8};
+  for (std::size_t z = 0; zeros && z < zeros->x.size(); ++z) {
+    if (std::hypot(zeros->x[z], zeros->y[z]) > kFar) continue;
+    rings.x.push_back(zeros->x[z]);
+    rings.y.push_back(zeros->y[z]);
+  }
+  const std::size_t far = zeros ? zeros->x.size() - rings.x.size() : 0;
+  if (far > 0) plot.title += " (" + std::to_string(far) + (far == 1 ? " zero" : " zeros") + " beyond |z| = 1.5)";
+  if (!rings.x.empty()) plot.series.push_back(std::move(rings));
   return plot;
 }
 
-PlotSheet pole_sheet(const DrawnArx& drawn) {
-  const std::size_t outputs = std::min(drawn.channels.outputs.size(), kMostOutputs);
-  PlotSheet sheet{.columns = static_cast<int>(std::max<std::size_t>(1, drawn.channels.inputs.size())),
-                  .plot_width = 380,
-                  .plot_height = 400};
-  const auto all_poles = poles(drawn.model);
-  if (drawn.channels.inputs.empty()) sheet.plots.push_back(pole_plot("Poles", all_poles, {}));
+PlotSheet pole_sheet(const Figures& figures, const ReportSeries& poles) {
+  PlotSheet sheet{
+      .columns = static_cast<int>(std::max<std::size_t>(1, figures.inputs())), .plot_width = 380, .plot_height = 400};
+  if (figures.inputs() == 0) sheet.plots.push_back(pole_plot("Poles", poles, nullptr));
+  for (std::size_t i = 0; i < figures.outputs(); ++i) {
+    for (std::size_t k = 0; k < figures.inputs(); ++k) {
+      const ReportSeries* zeros = figures.find("zeros", i, k);
+      sheet.plots.push_back(pole_plot(zeros ? zeros->label : "Poles", poles, zeros));
+    }
+  }
   double reach = 1.1;  // of all panels, so that they can be compared
-  for (std::size_t i = 0; i < outputs; ++i) {
-    for (std::size_t k = 0; k < drawn.channels.inputs.size(); ++k) {
-      const NearZeros found = near_zeros(drawn.model, i, k);
-      for (const auto& zero : found.near) {
-        reach = std::max({reach, 1.1 * std::abs(zero.real()), 1.1 * std::abs(zero.imag())});
-      }
-      sheet.plots.push_back(pole_plot(pair_title(drawn, i, k), all_poles, found));
+  for (const Plot& plot : sheet.plots) {
+    for (std::size_t z = 0; plot.series.size() > 2 && z < plot.series[2].x.size(); ++z) {
+      reach = std::max({reach, 1.1 * std::abs(plot.series[2].x[z]), 1.1 * std::abs(plot.series[2].y[z])});
     }
   }
   for (Plot& plot : sheet.plots) {
@@ -105,215 +117,176 @@ PlotSheet pole_sheet(const DrawnArx& drawn) {
   return sheet;
 }
 
-// Until what the slowest pole remembers is below a hundredth.
-int settling_samples(const ArxModel& model) {
-  constexpr int kFewest = 20, kMost = 600;
-  const double radius = spectral_radius(model);
-  const double settled = radius > 0 && radius < 1 ? std::log(0.01) / std::log(radius) : kMost;
-  return model.orders.history() + static_cast<int>(std::clamp(settled, double{kFewest}, double{kMost}));
+// A curve, with its band where there is one.
+PlotSeries curve_of(const Figures& figures, const ReportSeries& series, const std::string& band) {
+  PlotSeries curve{.x = series.x, .y = series.y};
+  const ReportSeries* low = figures.find(series.id + ".low");
+  const ReportSeries* high = figures.find(series.id + ".high");
+  if (!low || !high) return curve;
+  curve.label = band;
+  curve.low = low->y;
+  curve.high = high->y;
+  curve.interval = IntervalShape::kBand;
+  return curve;
 }
 
-void add_band(const std::vector<double>& low, const std::vector<double>& high, PlotSeries& series) {
-  series.low = low;
-  series.high = high;
-  series.interval = IntervalShape::kBand;
+Plot plot_of(const Figures& figures, const ReportSeries& series, const std::string& title) {
+  Plot plot{.title = title, .x = {.label = series.x_label}, .y = {.label = series.y_label}};
+  plot.series.push_back(curve_of(figures, series, title.empty() ? "" : "with its 95 % band"));
+  return plot;
 }
 
-PlotSheet step_sheet(const DrawnArx& drawn, std::size_t output) {
-  PlotSheet sheet{.columns = static_cast<int>(std::min<std::size_t>(3, drawn.channels.inputs.size())),
-                  .plot_width = 520};
-  const int samples = settling_samples(drawn.model);
-  for (std::size_t k = 0; k < drawn.channels.inputs.size(); ++k) {
-    const StepResponse step =
-        step_response(drawn.model, static_cast<int>(output), static_cast<int>(k), samples, drawn.covariance);
-    Plot plot{.title = "Step response: " + pair_title(drawn, output, k),
-              .x = {.label = "seconds"},
-              .y = {.label = drawn.channels.outputs[output]}};
-    PlotSeries series{.label = step.sd.empty() ? "" : "with its 95 % band", .y = step.value};
-    std::vector<double> low, high;
-    for (std::size_t t = 0; t < step.value.size(); ++t) {
-      series.x.push_back(static_cast<double>(t) / drawn.rate_hz);
-      if (step.sd.empty()) continue;
-      low.push_back(step.value[t] - kSure * step.sd[t]);
-      high.push_back(step.value[t] + kSure * step.sd[t]);
-    }
-    add_band(low, high, series);
-    plot.series.push_back(std::move(series));
-    sheet.plots.push_back(std::move(plot));
+PlotSheet step_sheet(const Figures& figures, std::size_t output) {
+  PlotSheet sheet{.columns = static_cast<int>(std::min<std::size_t>(3, figures.inputs())), .plot_width = 520};
+  for (std::size_t k = 0; k < figures.inputs(); ++k) {
+    const ReportSeries* step = figures.find("step", output, k);
+    if (step) sheet.plots.push_back(plot_of(figures, *step, "Step response: " + step->label));
   }
   return sheet;
 }
 
-constexpr int kFrequencies = 240;
-
-// From a thousandth of the highest frequency up to it, evenly on a logarithmic axis.
-std::vector<double> angular_frequencies() {
-  std::vector<double> omega;
-  for (int k = 0; k < kFrequencies; ++k) {
-    omega.push_back(std::numbers::pi * std::pow(10.0, 3.0 * (k + 1 - kFrequencies) / (kFrequencies - 1)));
-  }
-  return omega;
-}
-
-// The band of an amplitude is taken in its logarithm, which keeps it above zero.
-PlotSeries amplitude_series(const FrequencyResponse& response, const std::vector<double>& hertz) {
-  PlotSeries series{.label = response.amplitude_sd.empty() ? "" : "with its 95 % band", .x = hertz};
-  std::vector<double> low, high;
-  for (std::size_t f = 0; f < hertz.size(); ++f) {
-    const double amplitude = std::abs(response.value[f]);
-    series.y.push_back(amplitude);
-    if (response.amplitude_sd.empty()) continue;
-    const double ratio = std::exp(kSure * std::min(response.amplitude_sd[f] / amplitude, 2.0));
-    low.push_back(amplitude / ratio);
-    high.push_back(amplitude * ratio);
-  }
-  add_band(low, high, series);
-  return series;
-}
-
-// Degrees, without jumps of a whole turn. A phase less sure than a half turn has no band to draw.
-PlotSeries phase_series(const FrequencyResponse& response, const std::vector<double>& hertz) {
-  constexpr double kDegrees = 180 / std::numbers::pi;
-  PlotSeries series{.x = hertz};
-  std::vector<double> low, high;
-  double turns = 0;
-  for (std::size_t f = 0; f < hertz.size(); ++f) {
-    double degrees = kDegrees * std::arg(response.value[f]) + turns;
-    if (f > 0) {
-      const double jump = 360 * std::round((series.y.back() - degrees) / 360);
-      turns += jump;
-      degrees += jump;
+PlotSheet frequency_sheet(const Figures& figures, std::size_t output) {
+  PlotSheet sheet{.columns = static_cast<int>(figures.inputs()), .plot_width = 460, .plot_height = 260};
+  for (const char* part : {"amplitude", "phase"}) {
+    for (std::size_t k = 0; k < figures.inputs(); ++k) {
+      const ReportSeries* found = figures.find(part, output, k);
+      if (!found) continue;
+      const bool amplitude = part[0] == 'a';
+      Plot plot = plot_of(figures, *found, amplitude ? "Frequency response: " + found->label : "");
+      plot.x.logarithmic = true;
+      plot.y.logarithmic = amplitude;
+      sheet.plots.push_back(std::move(plot));
     }
-    series.y.push_back(degrees);
-    if (response.phase_sd.empty()) continue;
-    const double wide = std::min(kSure * kDegrees * response.phase_sd[f], 180.0);
-    low.push_back(degrees - wide);
-    high.push_back(degrees + wide);
   }
-  add_band(low, high, series);
-  return series;
-}
-
-PlotSheet frequency_sheet(const DrawnArx& drawn, std::size_t output) {
-  const std::size_t inputs = drawn.channels.inputs.size();
-  PlotSheet sheet{.columns = static_cast<int>(inputs), .plot_width = 460, .plot_height = 260};
-  const std::vector<double> omega = angular_frequencies();
-  std::vector<double> hertz;
-  for (double w : omega) hertz.push_back(w * drawn.rate_hz / (2 * std::numbers::pi));
-  std::vector<Plot> phases;
-  for (std::size_t k = 0; k < inputs; ++k) {
-    const FrequencyResponse response =
-        frequency_response(drawn.model, static_cast<int>(output), static_cast<int>(k), omega, drawn.covariance);
-    Plot amplitude{.title = "Frequency response: " + pair_title(drawn, output, k),
-                   .x = {.label = "Hz", .logarithmic = true},
-                   .y = {.label = "amplitude", .logarithmic = true}};
-    amplitude.series.push_back(amplitude_series(response, hertz));
-    sheet.plots.push_back(std::move(amplitude));
-    Plot phase{.x = {.label = "Hz", .logarithmic = true}, .y = {.label = "phase, degrees"}};
-    phase.series.push_back(phase_series(response, hertz));
-    phases.push_back(std::move(phase));
-  }
-  for (Plot& phase : phases) sheet.plots.push_back(std::move(phase));
   return sheet;
 }
 
-Json or_null(const std::vector<double>& values) { return values.empty() ? Json(nullptr) : json_of(values); }
-
-Json step_json(const StepResponse& step) { return {{"value", json_of(step.value)}, {"sd", or_null(step.sd)}}; }
-
-Json frequency_json(const FrequencyResponse& response) {
-  Json amplitude = Json::array(), phase = Json::array();
-  for (const auto& value : response.value) {
-    amplitude.push_back(number(std::abs(value)));
-    phase.push_back(number(std::arg(value)));
-  }
-  return {{"amplitude", std::move(amplitude)},
-          {"amplitude_sd", or_null(response.amplitude_sd)},
-          {"phase", std::move(phase)},
-          {"phase_sd", or_null(response.phase_sd)}};
-}
-
-Plot correlation_plot(const std::string& title, const std::vector<double>& values, int first_lag, double bound) {
-  Plot plot{.title = title, .x = {.label = "lag, samples", .whole_numbers = true}, .y = {.label = "correlation"}};
+Plot correlation_plot(const ReportSeries& correlations, const ReportSeries& bound) {
+  Plot plot{.title = correlations.label,
+            .x = {.label = correlations.x_label, .whole_numbers = true},
+            .y = {.label = correlations.y_label}};
   PlotSeries stems{.width = 2}, heads{.shape = SeriesShape::kPoints, .marker = Marker::kDot, .marker_size = 4};
-  double most = 2 * bound;
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    const double lag = first_lag + static_cast<double>(k);
+  double reach = 2 * bound.y.front();
+  for (std::size_t k = 0; k < correlations.x.size(); ++k) {
+    const double lag = correlations.x[k], value = correlations.y[k];
     stems.x.insert(stems.x.end(), {lag, lag, kBreak});
-    stems.y.insert(stems.y.end(), {0, values[k], kBreak});
+    stems.y.insert(stems.y.end(), {0, value, kBreak});
     heads.x.push_back(lag);
-    heads.y.push_back(values[k]);
-    most = std::max(most, std::abs(values[k]));
+    heads.y.push_back(value);
+    reach = std::max(reach, std::abs(value));
   }
   heads.colour = stems.colour = Colour{31, 90, 166};
   plot.series = {std::move(stems), std::move(heads)};
-  plot.y.lowest = -1.1 * most;
-  plot.y.highest = 1.1 * most;
-  const double last_lag = first_lag + static_cast<double>(values.size()) - 1;
-  const double first = static_cast<double>(first_lag);
-  plot.series.push_back({.label = "95 % lie within by chance",
-                         .x = {first, last_lag, kBreak, first, last_lag},
-                         .y = {bound, bound, kBreak, -bound, -bound},
+  plot.y.lowest = -1.1 * reach;
+  plot.y.highest = 1.1 * reach;
+  const double first = bound.x.front(), last = bound.x.back(), size = bound.y.front();
+  plot.series.push_back({.label = bound.label,
+                         .x = {first, last, kBreak, first, last},
+                         .y = {size, size, kBreak, -size, -size},
                          .colour = Colour{190, 40, 40},
                          .dash = Dash::kDashed});
   return plot;
 }
 
-std::string p_text(double p) {
-  if (p < 0.0001) return "p < 0.0001";
-  return "p " + shown(p, 2);
+PlotSheet residual_sheet(const Figures& figures) {
+  PlotSheet sheet{.columns = static_cast<int>(1 + figures.inputs()), .plot_width = 420, .plot_height = 260};
+  for (std::size_t i = 0; i < figures.outputs(); ++i) {
+    std::vector<std::string> ids{"residual." + std::to_string(i) + ".white"};
+    for (std::size_t k = 0; k < figures.inputs(); ++k) {
+      ids.push_back("residual." + std::to_string(i) + "." + std::to_string(k));
+    }
+    for (const std::string& id : ids) {
+      const ReportSeries* found = figures.find(id);
+      const ReportSeries* bound = figures.find(id + ".bound");
+      if (found && bound) sheet.plots.push_back(correlation_plot(*found, *bound));
+    }
+  }
+  return sheet;
+}
+
+// Rows [first, first + rows) of a curve and its band.
+PlotSeries rows_of(PlotSeries series, std::size_t first, std::size_t rows) {
+  for (auto* values : {&series.x, &series.y, &series.low, &series.high}) {
+    const std::size_t begin = std::min(first, values->size()), end = std::min(begin + rows, values->size());
+    *values = std::vector<double>(values->begin() + static_cast<std::ptrdiff_t>(begin),
+                                  values->begin() + static_cast<std::ptrdiff_t>(end));
+  }
+  return series;
+}
+
+// Measured beside simulated, or beside predicted.
+PlotSheet tracking_sheet(const Figures& figures, const char* id) {
+  PlotSheet sheet{.columns = 1, .plot_width = 900, .plot_height = 260};
+  const bool simulated = std::string_view(id) == "simulated";
+  for (std::size_t i = 0; i < figures.outputs(); ++i) {
+    const ReportSeries* found = figures.find(id, i);
+    const ReportSeries* measured = figures.find("measured", i);
+    if (!found || !measured) continue;
+    const auto is_there = [](double y) { return std::isfinite(y); };
+    const auto first =
+        static_cast<std::size_t>(std::find_if(found->y.begin(), found->y.end(), is_there) - found->y.begin());
+    const std::size_t from = simulated ? 0 : first, rows = simulated ? kMaxRows : kPredictedRows;
+    Plot plot{.title = figures.name(i) + (simulated ? "" : ", " + found->label),
+              .x = {.label = found->x_label},
+              .y = {.label = found->y_label}};
+    if (simulated && rows < found->y.size()) plot.title += ", the first " + std::to_string(rows) + " rows";
+    PlotSeries own = rows_of(curve_of(figures, *found, "predicted, with the model's 95 % interval"), from, rows);
+    PlotSeries truth = rows_of({.label = measured->label, .x = measured->x, .y = measured->y}, from, rows);
+    if (simulated) {
+      own.label = found->label;
+      own.dash = Dash::kDashed;
+      plot.series = {std::move(truth), std::move(own)};
+    } else {
+      truth.shape = SeriesShape::kPoints;
+      truth.marker = Marker::kDot;
+      truth.marker_size = 4;
+      plot.series = {std::move(own), std::move(truth)};
+    }
+    sheet.plots.push_back(std::move(plot));
+  }
+  return sheet;
+}
+
+// The paper's figure of prediction: error against the number of steps, beside what the model itself expects.
+PlotSheet error_sheet(const Figures& figures) {
+  PlotSheet sheet{.columns = static_cast<int>(std::min<std::size_t>(3, figures.outputs()))};
+  for (std::size_t i = 0; i < figures.outputs(); ++i) {
+    const ReportSeries* error = figures.find("error", i);
+    if (!error) continue;
+    Plot plot{.title = "Prediction error of " + figures.name(i),
+              .x = {.label = error->x_label, .whole_numbers = true},
+              .y = {.label = error->y_label, .lowest = 0.0}};
+    plot.series.push_back({.label = error->label, .x = error->x, .y = error->y, .marker = Marker::kDot});
+    for (const auto& [more, dash] : {std::pair{".model", Dash::kDashed}, {".inf", Dash::kDotted}}) {
+      const ReportSeries* found = figures.find(error->id + more);
+      if (found) plot.series.push_back({.label = found->label, .x = found->x, .y = found->y, .dash = dash});
+    }
+    sheet.plots.push_back(std::move(plot));
+  }
+  return sheet;
 }
 
 }  // namespace
 
-Result<void> write_response_figures(const fs::path& folder, const DrawnArx& drawn) {
-  if (auto ok = write_figure(folder, "poles-zeros", pole_sheet(drawn)); !ok) return ok;
-  if (drawn.channels.inputs.empty()) return {};
-  const std::size_t outputs = std::min(drawn.channels.outputs.size(), kMostOutputs);
-  for (std::size_t i = 0; i < outputs; ++i) {
-    const std::string of = drawn.channels.outputs.size() == 1 ? "" : "-" + drawn.channels.outputs[i];
-    if (auto ok = write_figure(folder, "step" + of, step_sheet(drawn, i)); !ok) return ok;
-    if (auto ok = write_figure(folder, "frequency" + of, frequency_sheet(drawn, i)); !ok) return ok;
+Result<void> write_arx_figures(const fs::path& folder, const Model& model, const Report& report) {
+  std::error_code code;
+  fs::create_directories(folder, code);
+  if (code) return Error{folder.string() + ": cannot be made: " + code.message()};
+  const Figures figures(model, report);
+  std::vector<std::pair<std::string, PlotSheet>> sheets{{"simulation", tracking_sheet(figures, "simulated")},
+                                                        {"prediction", tracking_sheet(figures, "predicted")},
+                                                        {"prediction-error", error_sheet(figures)},
+                                                        {"residuals", residual_sheet(figures)}};
+  if (const ReportSeries* poles = figures.find("poles")) sheets.push_back({"poles-zeros", pole_sheet(figures, *poles)});
+  for (std::size_t i = 0; i < figures.outputs(); ++i) {
+    sheets.push_back({"step" + figures.of_output(i), step_sheet(figures, i)});
+    sheets.push_back({"frequency" + figures.of_output(i), frequency_sheet(figures, i)});
+  }
+  for (const auto& [name, sheet] : sheets) {
+    if (sheet.plots.empty()) continue;
+    if (auto ok = write_figure(folder, name, sheet); !ok) return ok;
   }
   return {};
-}
-
-Json responses_json(const DrawnArx& drawn) {
-  const int samples = settling_samples(drawn.model);
-  const std::vector<double> omega = angular_frequencies();
-  Json seconds = Json::array(), hertz = Json::array(), steps = Json::array(), frequencies = Json::array();
-  for (int t = 0; t < samples; ++t) seconds.push_back(t / drawn.rate_hz);
-  for (double w : omega) hertz.push_back(w * drawn.rate_hz / (2 * std::numbers::pi));
-  for (int i = 0; i < drawn.model.orders.outputs(); ++i) {
-    Json step_row = Json::array(), frequency_row = Json::array();
-    for (int k = 0; k < drawn.model.orders.inputs(); ++k) {
-      step_row.push_back(step_json(step_response(drawn.model, i, k, samples, drawn.covariance)));
-      frequency_row.push_back(frequency_json(frequency_response(drawn.model, i, k, omega, drawn.covariance)));
-    }
-    steps.push_back(std::move(step_row));
-    frequencies.push_back(std::move(frequency_row));
-  }
-  return {{"seconds", std::move(seconds)},
-          {"step", std::move(steps)},
-          {"hz", std::move(hertz)},
-          {"frequency", std::move(frequencies)}};
-}
-
-Result<void> write_residual_figure(const fs::path& folder, const ResidualTests& tests, const ChannelChoice& channels) {
-  const std::size_t outputs = std::min(channels.outputs.size(), kMostOutputs);
-  PlotSheet sheet{.columns = static_cast<int>(1 + channels.inputs.size()), .plot_width = 420, .plot_height = 260};
-  for (std::size_t i = 0; i < outputs; ++i) {
-    const Whiteness& white = tests.whiteness[i];
-    sheet.plots.push_back(correlation_plot("Residual of " + channels.outputs[i] + ", white? " + p_text(white.p),
-                                           white.correlation, 1, white.bound));
-    for (std::size_t k = 0; k < channels.inputs.size(); ++k) {
-      const Independence& pair = tests.independence[i][k];
-      sheet.plots.push_back(correlation_plot("… independent of " + channels.inputs[k] + "? " + p_text(pair.p),
-                                             pair.correlation, -static_cast<int>(pair.correlation.size() / 2),
-                                             pair.bound));
-    }
-  }
-  return write_figure(folder, "residuals", sheet);
 }
 
 }  // namespace wisp::cli

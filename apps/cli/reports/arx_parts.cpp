@@ -2,15 +2,16 @@
 
 #include <charconv>
 
-#include "reports/arx_tables.hpp"
+#include "flags/recordings.hpp"
 #include "reports/figures_json.hpp"
 #include "wisp/base/file.hpp"
 
 namespace wisp::cli {
 namespace {
 
-// "2/8": the second of eight.
-Result<TableShare> parse_share(const std::string& text) {
+// --part "2/8", the second of eight, of the rows of --range.
+Result<TableShare> share_of(const Arguments& arguments) {
+  const std::string& text = arguments.text("part");
   const Error bad{"--part: found \"" + text + "\", expected K/N with 1 <= K <= N, such as 2/8"};
   TableShare share;
   const char* const end = text.data() + text.size();
@@ -19,22 +20,30 @@ Result<TableShare> parse_share(const std::string& text) {
   const auto [rest, count_code] = std::from_chars(slash + 1, end, share.count);
   if (count_code != std::errc() || rest != end || share.index < 1 || share.index > share.count) return bad;
   --share.index;
+  if (!arguments.has("range")) return share;
+  const SampleRange range = arguments.samples("range");
+  share.first = range.first - 1;
+  share.rows = range.last - range.first + 1;
   return share;
 }
 
-Result<TriangularFactor> read_part(const std::string& path) {
-  const auto bytes = read_file(path);
-  if (!bytes) return bytes.error();
-  auto part = TriangularFactor::from_bytes(*bytes);
-  if (!part) return Error{path + ": " + part.error().message};
-  return part;
+Result<void> take(const std::string& path, const TableShare& share, const Arguments& arguments, ArxPart& part) {
+  if (std::filesystem::path(path).extension() == ".mat") {
+    const auto whole = read_table(path, arguments);
+    if (!whole) return whole.error();
+    return part.add(*whole, share);
+  }
+  const auto options = csv_options(arguments);
+  if (!options) return options.error();
+  return part.add(std::filesystem::path(path), *options, share);
 }
 
-Result<TriangularFactor> learned_part(const Arguments& arguments, Terminal& terminal) {
-  if (arguments.on("merge")) return merged_parts(arguments);
-  const auto share = parse_share(arguments.text("part"));
-  if (!share) return share.error();
-  return factor_of_tables(arguments, *share, terminal);
+Result<ArxPart> read_part(const std::string& path) {
+  const auto bytes = read_file(path);
+  if (!bytes) return bytes.error();
+  auto part = ArxPart::from_bytes(*bytes);
+  if (!part) return Error{path + ": " + part.error().message};
+  return part;
 }
 
 }  // namespace
@@ -49,37 +58,63 @@ std::vector<Flag> part_flags() {
   };
 }
 
-Result<TriangularFactor> merged_parts(const Arguments& arguments) {
+bool too_large(const Arguments& arguments) {
+  constexpr std::uintmax_t kMebibyte = std::uintmax_t{1} << 20;
+  std::uintmax_t bytes = 0;
+  for (const std::string& path : arguments.positionals()) {
+    std::error_code code;
+    const auto size = std::filesystem::file_size(path, code);
+    if (!code) bytes += size;
+  }
+  return bytes > static_cast<std::uintmax_t>(arguments.integer("memory")) * kMebibyte;
+}
+
+Result<NamedPart> part_of_tables(const ArxRecipe& recipe, const Arguments& arguments, Terminal& terminal) {
+  const auto share = share_of(arguments);
+  if (!share) return share.error();
+  auto part = ArxPart::create(recipe);
+  if (!part) return part.error();
+  NamedPart named{std::move(*part), {}};
+  for (const std::string& path : arguments.positionals()) {
+    if (const auto taken = take(path, *share, arguments, named.part); taken) {
+      named.sources.push_back(path);
+    } else if (!leave_out(path, taken.error(), arguments, terminal)) {
+      return taken.error();
+    }
+  }
+  if (named.sources.empty()) return Error{"none of the recordings can be used"};
+  return named;
+}
+
+Result<NamedPart> merged_parts(const Arguments& arguments) {
   const auto& paths = arguments.positionals();
   auto whole = read_part(paths.front());
-  if (!whole) return whole;
+  if (!whole) return whole.error();
   for (std::size_t k = 1; k < paths.size(); ++k) {
     const auto part = read_part(paths[k]);
-    if (!part) return part;
+    if (!part) return part.error();
     if (auto ok = whole->merge(*part); !ok) {
       return Error{paths[k] + ": cannot be merged with " + paths.front() + ": " + ok.error().message};
     }
   }
-  return whole;
+  return NamedPart{std::move(*whole), paths};
 }
 
-Result<void> write_part(const Arguments& arguments, Terminal& terminal) {
-  if (arguments.has("search")) {
-    return Error{"--partial is of one model; --search tries many: search first, then fit the best orders in parts"};
-  }
-  const auto part = learned_part(arguments, terminal);
-  if (!part) return part.error();
+Result<void> write_part(const ArxRecipe& recipe, const Arguments& arguments, Terminal& terminal) {
+  const auto named = arguments.on("merge") ? merged_parts(arguments) : part_of_tables(recipe, arguments, terminal);
+  if (!named) return named.error();
+  const ArxPart& part = named->part;
   const std::string& path = arguments.text("partial");
-  const auto bytes = part->bytes();
+  const auto bytes = part.bytes();
   if (auto ok = write_file(path, bytes); !ok) return ok;
   Json& result = terminal.result();
   result["partial"] = path;
-  result["rows"] = part->rows();
+  result["rows"] = part.rows();
   result["bytes"] = bytes.size();
-  result["na"] = json_of(part->options().orders.na);
-  result["nb"] = json_of(part->options().orders.nb);
-  result["nk"] = json_of(part->options().orders.nk);
-  terminal.say("wrote " + path + ": " + std::to_string(part->rows()) + " rows in " + std::to_string(bytes.size()) +
+  result["na"] = json_of(part.orders().na);
+  result["nb"] = json_of(part.orders().nb);
+  result["nk"] = json_of(part.orders().nk);
+  terminal.say("wrote " + path + ": " + std::to_string(part.rows()) + " rows in " + std::to_string(bytes.size()) +
                " bytes; wisp learn arx --merge makes a model of all parts");
   return {};
 }

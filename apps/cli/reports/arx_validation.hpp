@@ -6,6 +6,7 @@
 #include "command.hpp"
 #include "terminal.hpp"
 #include "wisp/model/model.hpp"
+#include "wisp/record/recording.hpp"
 
 namespace wisp::cli {
 
@@ -14,5 +15,8 @@ namespace wisp::cli {
 /// Errors: the table cannot be read or has not the model's channels; a flag that is only for outlines.
 Result<void> validate_plain(const Model& model, const std::vector<int>& steps, const Arguments& arguments,
                             Terminal& terminal);
+
+/// The recording that such a model is validated against, its --range. Errors: as read_table() and in_range().
+Result<Recording> table_for(const Model& model, const Arguments& arguments);
 
 }  // namespace wisp::cli

@@ -1,161 +1,91 @@
 #include "reports/chain_figures.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <optional>
+#include <string>
+#include <string_view>
 
 #include "reports/clip_figures.hpp"
 #include "wisp/draw/plot.hpp"
-#include "wisp/learn/motion.hpp"
-#include "wisp/run/bank.hpp"
 
 namespace wisp::cli {
 namespace {
 
-constexpr std::size_t kFalls = 12;    // a side: more would hide each other
-constexpr double kShownSeconds = 6;   // of a side view
-constexpr double kMarkedSeconds = 3;  // of a fall with its events: later ones could not be told apart
 constexpr Colour kModeColours[] = {{31, 119, 180}, {214, 96, 20},  {44, 140, 44},   {190, 40, 40},
                                    {130, 90, 180}, {120, 80, 60},  {210, 100, 170}, {90, 90, 90},
                                    {150, 150, 20}, {20, 160, 170}, {0, 0, 0},       {240, 170, 60}};
+constexpr Colour kStill{40, 60, 110};
+constexpr Colour kBlown{30, 140, 60};
 
-std::size_t rows_of(const MotionPiece& piece, double seconds, double rate_hz) {
-  return std::min(piece.rows(), static_cast<std::size_t>(seconds * rate_hz));
-}
-
-double along(const Triple& at, const Triple& from, bool above, int axis) {
-  return at[static_cast<std::size_t>(axis == 0 ? 0
-                                     : above   ? 1
-                                               : 2)] -
-         from[static_cast<std::size_t>(axis == 0 ? 0
-                                       : above   ? 1
-                                                 : 2)];
-}
-
-PlotSeries track_of(const MotionPiece& piece, bool above, std::size_t rows) {
-  PlotSeries track{.width = 1.0};
-  for (std::size_t row = 0; row < rows; ++row) {
-    track.x.push_back(along(piece.position[row], piece.position.front(), above, 0));
-    track.y.push_back(along(piece.position[row], piece.position.front(), above, 1));
+// How a series is drawn, by the last word of its id.
+void style(std::string_view what, PlotSeries& series) {
+  if (what == "events") {
+    series.shape = SeriesShape::kPoints;
+    series.colour = Colour{0, 0, 0};
+    series.marker = Marker::kRing;
+  } else if (what.starts_with("mode_")) {
+    series.width = 2;
+    series.colour = kModeColours[std::stoul(std::string(what.substr(5))) % std::size(kModeColours)];
+  } else if (what.starts_with("clones")) {
+    series.width = 0.6;
+    series.colour = what == "clones" ? Colour{205, 205, 205} : Colour{190, 222, 190};
+  } else if (what == "calm") {
+    series.width = 1.4;
+    series.colour = kStill;
+    series.dash = Dash::kDashed;
+  } else if (what.starts_with("mean")) {
+    series.width = 3;
+    series.colour = what == "mean" ? kStill : kBlown;
+  } else {
+    series.width = 1;
   }
-  return track;
 }
 
-Plot tracks(const Motion& motion, const std::string& title, bool above) {
-  Plot plot{.title = title, .x = {.label = "x, m"}, .y = {.label = above ? "y, m" : "height, m"}, .equal_units = true};
-  for (std::size_t k = 0; k < std::min(kFalls, motion.pieces.size()); ++k) {
-    const MotionPiece& piece = motion.pieces[k];
-    plot.series.push_back(track_of(piece, above, rows_of(piece, kShownSeconds, motion.rate_hz)));
+// The series of the sections whose id is `panel` or begins with it and a dot.
+Plot plot_of(const Report& report, const std::string& panel, const std::string& title) {
+  Plot plot{.title = title, .equal_units = true};
+  for (const ReportSection& section : report.sections) {
+    for (const ReportSeries& series : section.series) {
+      if (series.id != panel && !series.id.starts_with(panel + ".")) continue;
+      plot.x.label = series.x_label;
+      plot.y.label = series.y_label;
+      plot.series.push_back({.label = series.label, .x = series.x, .y = series.y});
+      style(std::string_view(series.id).substr(std::min(series.id.size(), panel.size() + 1)), plot.series.back());
+    }
   }
   return plot;
 }
 
-PlotSheet side_by_side(const Motion& real, const Motion& made, bool above) {
-  Plot a = tracks(real, "recorded", above), b = tracks(made, "synthesized", above);
+void add_pair(const Report& report, const std::string& figure, const char* second, const std::string& before,
+              PlotSheet& sheet) {
+  Plot a = plot_of(report, figure + ".recorded", before + "recorded");
+  Plot b = plot_of(report, figure + "." + second, second);
   share_axes(a, b);
-  return {.title = above ? "Falls seen from above" : "Falls seen from the side", .plots = {std::move(a), std::move(b)}};
-}
-
-// One fall of the model, and the mode of every row.
-struct Walk {
-  Recording fall;
-  std::vector<std::uint16_t> mode;
-  std::vector<std::size_t> joins;
-};
-
-Result<Walk> walk_of(const Model& model, std::size_t rows, std::uint64_t seed) {
-  auto bank = Bank::create(model, {.capacity = 1, .seed = seed});
-  if (!bank) return bank.error();
-  const InstanceId id = bank->spawn();
-  const auto& segments = std::get<ChainModel>(model.dynamics).segments;
-  Walk walk;
-  walk.fall.source = "synthesized";
-  walk.fall.rate_hz = model.rate_hz;
-  for (const Output& output : model.outputs)
-    walk.fall.channels.push_back({output.name, output.unit, Role::kOutput, {}});
-  std::vector<float> values(model.outputs.size());
-  for (std::size_t row = 0; row < rows; ++row) {
-    if (row > 0) bank->step();
-    bank->outputs(id, values);
-    for (std::size_t k = 0; k < values.size(); ++k) walk.fall.channels[k].samples.push_back(values[k]);
-    const ChainPlace place = *bank->chain_place(id);
-    walk.mode.push_back(segments.mode[place.segment]);
-    if (place.step == 0) walk.joins.push_back(row);
-  }
-  return walk;
-}
-
-PlotSeries marks_of(const MotionPiece& piece, const std::vector<double>& events, const std::string& label) {
-  PlotSeries marks{.label = label, .shape = SeriesShape::kPoints, .colour = Colour{0, 0, 0}, .marker = Marker::kRing};
-  for (double event : events) {
-    const Triple at = at_row(piece.position, event);
-    marks.x.push_back(along(at, piece.position.front(), false, 0));
-    marks.y.push_back(along(at, piece.position.front(), false, 1));
-  }
-  return marks;
-}
-
-Plot marked_real(const Motion& motion, const Segmentation& cut) {
-  const MotionPiece& piece = motion.pieces.front();
-  const std::size_t rows = rows_of(piece, kMarkedSeconds, motion.rate_hz);
-  std::vector<double> events;
-  for (const Segment& one : cut.segments) {
-    if (one.piece == 0 && one.begin < static_cast<double>(rows - 1)) events.push_back(one.begin);
-  }
-  Plot plot{.title = "recorded", .x = {.label = "x, m"}, .y = {.label = "height, m"}, .equal_units = true};
-  plot.series = {track_of(piece, false, rows), marks_of(piece, events, "event")};
-  return plot;
-}
-
-Plot marked_made(const Motion& motion, const Walk& walk, int modes) {
-  const MotionPiece& piece = motion.pieces.front();
-  const std::size_t rows = piece.rows();
-  Plot plot{.title = "synthesized, by mode", .x = {.label = "x, m"}, .y = {.label = "height, m"}, .equal_units = true};
-  PlotSeries track = track_of(piece, false, rows);
-  track.width = 2;
-  for (std::size_t row = 0; row + 1 < rows; ++row) {
-    track.colours.push_back(kModeColours[walk.mode[row] % std::size(kModeColours)]);
-  }
-  plot.series.push_back(std::move(track));
-  const std::vector<double> events(walk.joins.begin(), walk.joins.end());
-  plot.series.push_back(marks_of(piece, events, "join"));
-  for (int mode = 0; mode < std::min(modes, static_cast<int>(std::size(kModeColours))); ++mode) {
-    plot.series.push_back({.label = "mode " + std::to_string(mode),
-                           .x = {0},
-                           .y = {std::nan("")},
-                           .colour = kModeColours[static_cast<std::size_t>(mode)]});
-  }
-  return plot;
+  sheet.plots.push_back(std::move(a));
+  sheet.plots.push_back(std::move(b));
 }
 
 }  // namespace
 
-Result<void> write_chain_figures(const std::filesystem::path& folder, const Model& model,
-                                 const std::vector<Recording>& real, const ChainFidelityOptions& options) {
-  const auto seen = motion_of(real, options.smooth_rows);
-  if (!seen) return seen.error();
-  const auto cut = segment(*seen, real, options.segmentation);
-  if (!cut) return cut.error();
-  const auto falls = synthesize_falls(model, static_cast<int>(kFalls),
-                                      rows_of(seen->pieces.front(), kShownSeconds, seen->rate_hz), options.seed);
-  if (!falls) return falls.error();
-  const auto made = motion_of(*falls, options.smooth_rows);
-  if (!made) return made.error();
-  const auto walk = walk_of(model, rows_of(seen->pieces.front(), kMarkedSeconds, seen->rate_hz), options.seed);
-  if (!walk) return walk.error();
-  const auto walked = motion_of(std::span(&walk->fall, 1), options.smooth_rows);
-  if (!walked) return walked.error();
-
+Result<void> write_chain_figures(const std::filesystem::path& folder, const Report& report) {
   std::error_code code;
   std::filesystem::create_directories(folder, code);
   if (code) return Error{folder.string() + ": cannot be made: " + code.message()};
-  if (auto ok = write_figure(folder, "falls-side", side_by_side(*seen, *made, false)); !ok) return ok;
-  if (auto ok = write_figure(folder, "falls-above", side_by_side(*seen, *made, true)); !ok) return ok;
-  Plot a = marked_real(*seen, *cut);
-  Plot b = marked_made(*walked, *walk, std::get<ChainModel>(model.dynamics).modes);
-  share_axes(a, b);
-  return write_figure(folder, "segments",
-                      {.title = "One fall, cut at its events", .plots = {std::move(a), std::move(b)}});
+  const std::pair<const char*, const char*> figures[] = {{"falls-side", "Falls seen from the side"},
+                                                         {"falls-above", "Falls seen from above"},
+                                                         {"segments", "One fall, cut at its events"}};
+  for (const auto& [name, title] : figures) {
+    PlotSheet sheet{.title = title};
+    add_pair(report, name, "synthesized", "", sheet);
+    if (sheet.plots.front().series.empty()) continue;
+    if (auto ok = write_figure(folder, name, sheet); !ok) return ok;
+  }
+  PlotSheet gusts{
+      .title = "Gusts seen from above, from the onset to 0.3 s after the wind", .columns = 2, .plot_height = 340};
+  for (const ReportSection& section : report.sections) {
+    if (section.series.empty() || !section.series.front().id.starts_with("gusts-above.")) continue;
+    const std::string& id = section.series.front().id;
+    add_pair(report, id.substr(0, id.find('.', id.find('.') + 1)), "played", section.title + ": ", gusts);
+  }
+  return gusts.plots.empty() ? Result<void>() : write_figure(folder, "gusts-above", gusts);
 }
 
 }  // namespace wisp::cli

@@ -34,7 +34,7 @@ Error unsteered(const ChainModel& chain) {
   if (!chain.systems) return {"the model can't be steered: an older Wisp learned it; learn it again"};
   return {
       "the model can't be steered: its modes are systems, which go on from where they are and leave nothing to choose; "
-      "learn it with --realise segments, spline or chain"};
+      "learn it with --realisation segments, spline or chain"};
 }
 
 // X,Y,Z@S.
@@ -101,13 +101,16 @@ void say_chain_loop(const Model& model, const ChainWalk& walk, Terminal& termina
 }
 
 void set_walk(const ChainWalk& walk, Bank& bank) {
-  bank.set_history(walk.history);
-  bank.set_temperature(walk.temperature);
+  ChainFacet* chain = bank.chain();
+  if (!chain) return;
+  chain->set_history(walk.history);
+  chain->set_temperature(walk.temperature);
 }
 
 void steer_all(const ChainWalk& walk, Bank& bank) {
-  if (!walk.target) return;
-  for (int slot = 0; slot < bank.slots(); ++slot) bank.steer(bank.at(slot), *walk.target);
+  ChainFacet* chain = bank.chain();
+  if (!chain || !walk.target) return;
+  for (int slot = 0; slot < bank.slots(); ++slot) chain->steer(bank.at(slot), *walk.target);
 }
 
 }  // namespace wisp::cli

@@ -9,12 +9,13 @@
 #include "wisp/base/result.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/chain_facet.hpp"
 
 namespace wisp::cli {
 
 struct ChainWalk {
-  int history = 0;                   ///< as Bank::set_history()
-  std::optional<float> temperature;  ///< as Bank::set_temperature()
+  int history = 0;                   ///< as ChainFacet::set_history()
+  std::optional<float> temperature;  ///< as ChainFacet::set_temperature()
   std::optional<SteerTarget> target;
 };
 

@@ -10,18 +10,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-PlotSheet histogram_sheet(const CaptureReport& report) {
-  Plot plot{.title = "Brightness of the " + std::string(channel_name(report.channel)) + " channel",
-            .x = {.label = "brightness", .lowest = 0.0, .highest = 255.0},
-            .y = {.label = "pixels", .logarithmic = true}};
-  PlotSeries bars{.shape = SeriesShape::kBars};
-  for (std::size_t level = 0; level < report.histogram.size(); ++level) {
-    bars.x.push_back(static_cast<double>(level));
-    bars.y.push_back(static_cast<double>(report.histogram[level]));
+double figure(const Report& report, std::string_view id) {
+  return std::visit(
+      [](const auto& value) {
+        if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>>) return static_cast<double>(value);
+        return 0.0;
+      },
+      static_cast<const ReportValue::Base&>(report.find(id)->value));
+}
+
+PlotSheet histogram_sheet(const Report& captured) {
+  PlotSheet sheet{.plot_width = 560};
+  for (const ReportSection& section : captured.sections) {
+    for (const ReportSeries& series : section.series) {
+      Plot plot{.title = series.label,
+                .x = {.label = series.x_label, .lowest = 0.0, .highest = 255.0},
+                .y = {.label = series.y_label, .logarithmic = true}};
+      plot.series.push_back({.x = series.x, .y = series.y, .shape = SeriesShape::kBars});
+      plot.marks.push_back({.at = figure(captured, "threshold"), .label = "threshold"});
+      sheet.plots.push_back(std::move(plot));
+    }
   }
-  plot.series.push_back(std::move(bars));
-  plot.marks.push_back({.at = report.threshold, .label = "threshold"});
-  return {.plots = {std::move(plot)}, .plot_width = 560};
+  return sheet;
 }
 
 // Sound as a picture sees it: the lowest and highest sample of every few milliseconds.
@@ -55,7 +65,7 @@ class Envelope {
   std::size_t count_ = 0;
 };
 
-Result<void> write_sound_figure(const fs::path& folder, const fs::path& clip, const CaptureReport& report) {
+Result<void> write_sound_figure(const fs::path& folder, const fs::path& clip, const Report& captured) {
   Envelope envelope;
   const auto heard = stream_sound(clip, [&](const SoundInfo& info, std::span<const float> samples) {
     envelope.feed(info, samples);
@@ -63,7 +73,8 @@ Result<void> write_sound_figure(const fs::path& folder, const fs::path& clip, co
   });
   if (!heard) return heard.error();
   if (!*heard || (*heard)->silent()) return {};
-  const auto wind = hear_wind(clip, report.rate_hz, report.frames);
+  const double rate_hz = figure(captured, "rate_hz");
+  const auto wind = hear_wind(clip, rate_hz, static_cast<std::size_t>(figure(captured, "frames")));
   if (!wind) return wind.error();
   Plot raw{.title = "Sound", .x = {.label = "seconds"}, .y = {.label = "amplitude"}};
   raw.series.push_back(std::move(envelope.series));
@@ -72,7 +83,7 @@ Result<void> write_sound_figure(const fs::path& folder, const fs::path& clip, co
              .y = {.label = "amplitude", .lowest = 0.0}};
   PlotSeries rms;
   for (const WindFrame& frame : wind->frames) {
-    rms.x.push_back(static_cast<double>(frame.index) / report.rate_hz);
+    rms.x.push_back(static_cast<double>(frame.index) / rate_hz);
     rms.y.push_back(frame.rms);
   }
   level.series.push_back(std::move(rms));
@@ -89,10 +100,10 @@ Result<void> write_figure(const fs::path& folder, const std::string& name, const
   return {};
 }
 
-Result<void> write_clip_figures(const fs::path& folder, const fs::path& clip, const CaptureReport& report) {
-  if (auto ok = write_figure(folder, "brightness", histogram_sheet(report)); !ok) return ok;
+Result<void> write_clip_figures(const fs::path& folder, const fs::path& clip, const Report& captured) {
+  if (auto ok = write_figure(folder, "brightness", histogram_sheet(captured)); !ok) return ok;
   if (fs::is_directory(clip)) return {};
-  return write_sound_figure(folder, clip, report);
+  return write_sound_figure(folder, clip, captured);
 }
 
 }  // namespace wisp::cli

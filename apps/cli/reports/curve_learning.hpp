@@ -25,15 +25,4 @@ Json curve_json(const CurveChoice& choice, const std::vector<std::string>& input
 /// A curve as knot → value pairs, for people.
 std::string curve_text(const InputCurve& curve);
 
-/// Curves for `learn arx`: chosen on the last 30 % of every recording where the flag leaves it open, then fitted to all
-/// rows, and reported. Empty where there are none.
-/// Errors: as fit_input_curves(); `--offset none`, which leaves a curve no level of its own.
-Result<std::vector<InputCurve>> learn_arx_curves(std::span<const Recording> recordings, const ChannelChoice& channels,
-                                                 const ArxOrders& orders, const Arguments& arguments,
-                                                 Terminal& terminal);
-
-/// The recordings with each of the named inputs bent by its curve; as they are where there is none.
-std::vector<Recording> bent_recordings(std::span<const Recording> recordings, const std::vector<std::string>& inputs,
-                                       std::span<const InputCurve> curves);
-
 }  // namespace wisp::cli

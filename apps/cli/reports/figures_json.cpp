@@ -1,5 +1,6 @@
 #include "reports/figures_json.hpp"
 
+#include "wisp/learn/prediction.hpp"
 #include "wisp/run/cost.hpp"
 
 namespace wisp::cli {
@@ -46,6 +47,24 @@ Coefficients json_of(const ArxOrders& orders, const std::vector<std::vector<doub
     out.b.push_back(std::move(b));
   }
   return out;
+}
+
+Json by_steps(const std::vector<int>& steps, const std::vector<double>& values) {
+  Json out = Json::object();
+  for (std::size_t k = 0; k < steps.size() && k < values.size(); ++k) {
+    out[steps[k] == kFreeRun ? "inf" : std::to_string(steps[k])] = number(values[k]);
+  }
+  return out;
+}
+
+std::vector<double> mean_per_step(const std::vector<std::vector<double>>& per_step) {
+  std::vector<double> means;
+  for (const auto& values : per_step) {
+    double sum = 0;
+    for (double value : values) sum += value;
+    means.push_back(values.empty() ? 0 : sum / static_cast<double>(values.size()));
+  }
+  return means;
 }
 
 Result<Json> cost_of(const Model& model) {

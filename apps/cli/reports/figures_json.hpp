@@ -21,6 +21,12 @@ struct Coefficients {
 };
 Coefficients json_of(const ArxOrders& orders, const std::vector<std::vector<double>>& rows);
 
+/// {k: …}, by number of steps.
+Json by_steps(const std::vector<int>& steps, const std::vector<double>& values);
+
+/// The mean over control points of figures that are one a number of steps and control point.
+std::vector<double> mean_per_step(const std::vector<std::vector<double>>& per_step);
+
 /// `cost` {multiply_adds_per_frame, operations_per_frame}, counted by running the model.
 /// Errors: the model cannot be run.
 Result<Json> cost_of(const Model& model);

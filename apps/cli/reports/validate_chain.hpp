@@ -7,8 +7,7 @@
 
 namespace wisp::cli {
 
-/// Holds a chain against recorded falls: likeness, jumps at joins, figures. The event is the one that the chain was
-/// learned with.
+/// Shows how a chain's falls compare with recorded ones, or its response with that of a pair, and draws both.
 /// Errors: the recording can't be read or compared, a flag that only outlines have.
 Result<void> validate_chain(const Model& model, const Arguments& arguments, Terminal& terminal);
 

@@ -1,4 +1,4 @@
-// Figures for measurements from outside (docs/web.md): tests, the bench, whoever is curious in the console.
+// Figures for measurements from outside (docs/studies/live.md): tests, the bench, whoever is curious in the console.
 
 import type { SoundPath } from './wind/breath.js';
 import type { FrameCost } from './stage/stage.js';

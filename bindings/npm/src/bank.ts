@@ -248,12 +248,12 @@ export class Bank {
     return this.take('wisp_bank_flame_sizes', this.sizesRoom, this.slots);
   }
 
-  /** Lights one that is out. */
+  /** Lights one that is out. A model whose `facts.blowOut` is null has nothing to light: that throws. */
   relight(instance: Instance): void {
     this.call('wisp_bank_relight', instance);
   }
 
-  /** Puts one out, whatever the wind; where the model never goes out nothing happens. */
+  /** Puts one out, whatever the wind. A model whose `facts.blowOut` is null never goes out: that throws. */
   extinguish(instance: Instance): void {
     this.call('wisp_bank_extinguish', instance);
   }

@@ -1,4 +1,4 @@
-// @wisp/player: plays Wisp models live. See docs/npm.md.
+// @wisp/player: plays Wisp models live. See docs/reference/npm.md.
 
 import { Model } from './model.js';
 import { Native, type LoadOptions } from './native.js';

@@ -23,7 +23,7 @@ export const modelFacts = {
   blowOutInput: 120,
 } as const;
 
-export const channel = { size: 40, name: 8, unit: 12, lowest: 16, highest: 24, splitsSign: 32, hasSquares: 36 } as const;
+export const channel = { size: 40, name: 8, unit: 12, lowest: 16, highest: 24, splitsSign: 32, hasCurve: 36 } as const;
 
 export const provenance = { size: 32, sources: 4, options: 8, figures: 12, usable: 16, program: 24, reason: 28 } as const;
 
@@ -31,7 +31,7 @@ export const note = { size: 16, name: 8, value: 12 } as const;
 
 export const figure = { size: 24, name: 8, value: 16 } as const;
 
-export const arxFacts = { size: 24, outputs: 4, regressors: 8, history: 12, shocks: 16, noiseGrows: 20 } as const;
+export const arxFacts = { size: 24, outputs: 4, regressors: 8, history: 12, shocks: 16, resamples: 20 } as const;
 
 export const chainFacts = {
   size: 32,

@@ -14,8 +14,8 @@ export interface Channel {
   highest: number;
   /** Of inputs: the dynamics see what is positive and what is negative apart. */
   splitsSign: boolean;
-  /** Of inputs: they see squares too. */
-  hasSquares: boolean;
+  /** Of inputs: a curve bends what the dynamics see of them. */
+  hasCurve: boolean;
 }
 
 /** 'arx': autoregression with exogenous inputs. 'chain': pieces of recorded motion, one after another by chance. */
@@ -68,7 +68,7 @@ export interface ArxFacts {
   /** Sources of noise that outputs share. */
   shocks: number;
   /** Whether the noise is larger in wind. */
-  noiseGrows: boolean;
+  resamples: boolean;
   /** Standard deviation of each output's own noise. */
   noise: number[];
 }
@@ -182,7 +182,7 @@ export class Model {
       regressors: data.getUint32(p + at.arxFacts.regressors, true),
       history: data.getUint32(p + at.arxFacts.history, true),
       shocks: data.getUint32(p + at.arxFacts.shocks, true),
-      noiseGrows: data.getUint32(p + at.arxFacts.noiseGrows, true) === 1,
+      resamples: data.getUint32(p + at.arxFacts.resamples, true) === 1,
     }));
     const outputs = this.outputs.length;
     const orders = (name: string, columns: number) => rows(this.integers(name, outputs * columns), columns);
@@ -277,7 +277,7 @@ export class Model {
       lowest: data.getFloat64(p + at.channel.lowest, true),
       highest: data.getFloat64(p + at.channel.highest, true),
       splitsSign: data.getUint32(p + at.channel.splitsSign, true) === 1,
-      hasSquares: data.getUint32(p + at.channel.hasSquares, true) === 1,
+      hasCurve: data.getUint32(p + at.channel.hasCurve, true) === 1,
     }), index);
   }
 

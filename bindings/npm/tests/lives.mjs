@@ -31,6 +31,7 @@ export class Chance {
 export function hashOfLife(wisp, bytes, frames) {
   const model = wisp.model(bytes);
   const isChain = model.kind === 'chain';
+  const goesOut = model.facts.blowOut !== null;
   const bank = model.bank({ capacity: 2, seed: 7 });
   model.free();
   const instances = [bank.spawn(), bank.spawn()];
@@ -44,7 +45,7 @@ export function hashOfLife(wisp, bytes, frames) {
     }
     bank.advance(16666667);
     hash.fold(bank.outputsView());
-    if (frame % 500 === 499) bank.relight(instances[Math.floor(frame / 500) % 2]);
+    if (frame % 500 === 499 && goesOut) bank.relight(instances[Math.floor(frame / 500) % 2]);
     if (frame % 5000 === 4999) bank.restore(bank.save());
     if (frame % 700 === 699 && isChain) {
       bank.place(instances[0], { position: [0, 0, 0], orientation: [0.75, 0.5, 0, 0], velocity: [0.5, 0, -0.25] });

@@ -66,7 +66,7 @@ test('a flame model says what it is', () => {
   assert.equal(model.kind, 'arx');
   assert.equal(model.view, 'outline');
   assert.deepEqual(model.inputs, [
-    { name: 'wind', unit: '', lowest: -1, highest: 1, splitsSign: true, hasSquares: false },
+    { name: 'wind', unit: '', lowest: -1, highest: 1, splitsSign: true, hasCurve: false },
   ]);
   assert.equal(model.outputs.length, 16);
   assert.equal(model.outputs[15].name, 'p7.y');
@@ -83,7 +83,7 @@ test('a flame model says what it is', () => {
   assert.deepEqual(model.arx.na[0].slice(0, 3), [4, 4, 0]);
   assert.deepEqual(model.arx.nb[15], [4, 4]);
   assert.equal(model.arx.shocks, 2);
-  assert.equal(model.arx.noiseGrows, true);
+  assert.equal(model.arx.resamples, false);
   assert.equal(model.arx.noise.length, 16);
   assert.deepEqual(model.provenance, {
     program: 'wisp 0.1.0',

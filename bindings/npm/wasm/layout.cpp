@@ -33,7 +33,7 @@ WISP_FIELD(wisp_channel, unit, 12);
 WISP_FIELD(wisp_channel, lowest, 16);
 WISP_FIELD(wisp_channel, highest, 24);
 WISP_FIELD(wisp_channel, splits_sign, 32);
-WISP_FIELD(wisp_channel, has_squares, 36);
+WISP_FIELD(wisp_channel, has_curve, 36);
 
 WISP_SIZE(wisp_provenance, 32);
 WISP_FIELD(wisp_provenance, sources, 4);
@@ -56,7 +56,7 @@ WISP_FIELD(wisp_arx_facts, outputs, 4);
 WISP_FIELD(wisp_arx_facts, regressors, 8);
 WISP_FIELD(wisp_arx_facts, history, 12);
 WISP_FIELD(wisp_arx_facts, shocks, 16);
-WISP_FIELD(wisp_arx_facts, noise_grows, 20);
+WISP_FIELD(wisp_arx_facts, resamples, 20);
 
 WISP_SIZE(wisp_chain_facts, 32);
 WISP_FIELD(wisp_chain_facts, modes, 4);

@@ -20,7 +20,8 @@ Result<std::vector<std::byte>> read_file(const std::filesystem::path& path,
                                          std::uint64_t most_bytes = std::uint64_t{1} << 32);
 
 /// Writes a whole file: beside its place first (`.NAME.part-PID`), then renamed over it, so that a reader sees the old
-/// file or the new one and never a half.
+/// file or the new one and never a half, after a power failure too. A file that is replaced keeps its permissions, and
+/// what a symbolic link points to is replaced, not the link.
 /// Errors: the folder is missing or not writable, the name is a device's or a pipe's, the disk is full; nothing is left
 /// behind then.
 Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
@@ -42,7 +43,8 @@ class PendingFile {
   /// Where to write until then; beside the final name, with the same extension.
   const std::filesystem::path& path() const { return pending_; }
 
-  /// Renames the pending file to its final name. Errors: nothing was written, or the rename failed.
+  /// Brings the pending file to the disk and renames it to its final name.
+  /// Errors: nothing was written, the disk failed, or the rename failed.
   Result<void> commit();
 
  private:
@@ -51,6 +53,11 @@ class PendingFile {
 
   std::filesystem::path pending_;
   std::filesystem::path final_;
+  int listed_ = -1;  // place in the list of what is removed when the process is interrupted
 };
+
+/// From now on SIGINT, SIGTERM and SIGHUP remove all pending files and then end the process with the signal's own
+/// status; what stood under the final names stays. For main() of a program; a handler that is set later wins.
+void remove_pending_files_when_interrupted();
 
 }  // namespace wisp

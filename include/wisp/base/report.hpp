@@ -34,7 +34,8 @@ struct ReportValue : std::variant<std::monostate, bool, std::int64_t, double, st
 
 /// A named figure or fact.
 struct ReportEntry {
-  std::string id;  ///< its place in the JSON document; dots nest: "stable.radius"
+  std::string id;  ///< its place in the JSON document: dots nest, "stable.radius", brackets are elements, "step[0].sd",
+                   ///< and a backslash takes the next character as it is
   ReportValue value;
   std::string label;                                ///< in words; empty: for programs only
   std::string unit;                                 ///< of the value, "%" among them; empty: none

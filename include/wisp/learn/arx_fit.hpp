@@ -13,19 +13,13 @@
 #include <vector>
 
 #include "wisp/base/result.hpp"
+#include "wisp/learn/arx_recipe.hpp"
 #include "wisp/learn/channel_choice.hpp"
 #include "wisp/model/arx.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {
-
-/// How the operating point is found.
-enum class ArxOffset {
-  kMean,      ///< the mean of every channel over all of its samples is subtracted first (MATLAB: detrend(z, 0))
-  kNone,      ///< data is taken as it is
-  kEstimate,  ///< as kMean, and a constant term is estimated with the other coefficients
-};
 
 /// How to fit.
 struct ArxOptions {

@@ -1,78 +1,35 @@
 #pragma once
-// From recordings of something that moves to a segment chain: cut at events, described, sorted into modes, counted,
-// stored. Source: sections 2.2 and 4 of the paper.
-//
-// Departs from it where data are stored (as many segments as fit, each with those that join it best) and in the
-// chain's order, which may vary.
+// Segment chains: learned from recordings of something that moves, and judged on others.
 
-#include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
-#include <vector>
 
+#include "wisp/base/progress.hpp"
+#include "wisp/base/report.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/realisation.hpp"
-#include "wisp/learn/segment_features.hpp"
-#include "wisp/learn/segment_store.hpp"
-#include "wisp/learn/segmentation.hpp"
-#include "wisp/model/model.hpp"
+#include "wisp/learn/chain_recipe.hpp"
+#include "wisp/learn/fit.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {
 
-struct ChainOptions {
-  std::string name = "chain";
-  SegmentationOptions segmentation{};
-  FeatureChoice features{};
-  int modes = 6;    ///< ≥ 1; 0: as many as tell unseen recordings best, 2 … 12
-  int history = 0;  ///< of the chain; 0: variable order with back-off, as long as unseen recordings profit
-  Realisation realisation = Realisation::kSegments;
-  SegmentStoreOptions store{};
-  double blend_share = 0.5;  ///< of a segment that a join may fade over, 0 … 0.5; 0 leaves joins as they are
-  double holdout = 0.2;      ///< share of the stretches, the last ones, kept from learning; 0 … 0.9
-  int restarts = 10;         ///< of k-means
-  int smooth_rows = 0;       ///< as motion_of()
-  double half_width = 0;     ///< metres of the body along its first axis, for who draws it; 0: not known
-  double half_length = 0;    ///< and along its second
-  std::uint64_t seed = 1;
-};
+/// Whether a recording tells motion. Errors: no position, no stretch that is long enough, no orientation where it
+/// should have one, a position that is not in metres or further than 1000 km away; of one with the attribute `pair`, a
+/// wind that is missing somewhere or an attribute `clones` that is no whole number.
+Result<void> check_motion(const Recording& recording);
 
-struct ChainSummary {
-  std::size_t segments = 0;  ///< found in the data that were learned from
-  std::size_t stored = 0;
-  std::size_t stretches_learned = 0;
-  std::size_t stretches_held_out = 0;
-  int modes = 0;
-  int kinds = 0;  ///< of segment that the chain walks over: the modes, or what they are split into
-  std::vector<std::size_t> mode_sizes;
-  int history = 0;
-  std::vector<double> initial;
-  std::vector<double> transitions;  ///< modes × modes
-  std::vector<std::size_t> counts;  ///< the same, as seen
-  double mean_segment_seconds = 0;
-  double silhouette = 0;
-  double log_likelihood = 0;    ///< nats a segment, of held-out mode sequences (of the learned ones where
-                                ///< nothing was held out)
-  double log_likelihood_1 = 0;  ///< the same of orders 1 and 2 without back-off
-  double log_likelihood_2 = 0;
-  double log_likelihood_0 = 0;  ///< of modes drawn without history
-  std::vector<std::string> warnings;
-};
+/// Learns a chain, with its response to gusts where two of the recordings are a pair, and judges it on the stretches
+/// that were held out (where none are, on those that it was learned from).
+/// Errors, each with the file that it is about: as check_motion(); a pair that is none; no falls beside it; no event,
+/// or fewer segments than modes; a recipe out of range; stopped by `progress`.
+Result<Fit> learn_chain(std::span<const Recording> recordings, const ChainRecipe& recipe,
+                        const Progress& progress = {});
 
-struct ChainFit {
-  Model model;
-  ChainSummary summary;
-  std::vector<Recording> learned;     ///< the stretches that were learned from,
-  std::vector<Recording> held_out;    ///< and those that were not
-  std::vector<std::uint64_t> origin;  ///< per stored segment: its place among all segments, with a gap between
-                                      ///< stretches; two in sequence are each other's continuation
-};
-
-/// Errors: as motion_of(), segment(), segment_features(), k_means(); modes or an option out of range.
-Result<ChainFit> learn_chain(std::span<const Recording> recordings, const ChainOptions& options);
-
-/// The recordings' episodes, each a recording of its own.
-std::vector<Recording> single_episodes(std::span<const Recording> recordings);
+/// Compares falls that the model makes with recorded ones, which it should not have seen; or, given a windy recording
+/// and its calm twin, what gusts do to it. The report's series are the tracks of both.
+/// Errors: as check_motion(); the model is no chain, or does not say how its motion was cut; rates that differ; a pair
+/// that is none; stopped by `progress`.
+Result<Report> validate_chain(const Model& model, std::span<const Recording> recordings, std::uint64_t seed,
+                              const Progress& progress = {});
 
 }  // namespace wisp

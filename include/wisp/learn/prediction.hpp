@@ -12,21 +12,12 @@
 #include <vector>
 
 #include "wisp/base/result.hpp"
+#include "wisp/learn/arx_recipe.hpp"
 #include "wisp/learn/channel_choice.hpp"
 #include "wisp/model/arx.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {
-
-/// In the place of a number of steps: infinitely many, from the input alone (free simulation).
-inline constexpr int kFreeRun = 0;
-
-/// Where a free simulation starts.
-enum class InitialState {
-  kMeasured,   ///< from the measured samples before the first simulated row
-  kZero,       ///< from the operating point: every output was at its mean
-  kEstimated,  ///< from the past outputs that make the simulation fit best, by least squares
-};
 
 /// How to predict.
 struct PredictOptions {

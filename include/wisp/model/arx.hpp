@@ -87,14 +87,12 @@ struct DrawnResiduals {
 /// Most rows that residuals are drawn from.
 inline constexpr std::size_t kMostDrawnRows = std::size_t{1} << 22;
 
-/// Residual noise e(t) = s(t) (diag(sd) w(t) + mixing v(t)), w and v independent standard normal, and the size
-/// s(t) = max(0, 1 + Σ growth_k,l u_k(t − l)) over the regressor inputs, as they are and not as deviations.
+/// Residual noise e(t) = diag(sd) w(t) + mixing v(t), w and v independent standard normal.
 struct ResidualNoise {
   std::vector<double> sd;                      ///< per output, in the output's unit
   std::vector<std::array<double, 2>> sd_ci95;  ///< 95 % interval of the residual's standard deviation, per output
   int rank = 0;                                ///< columns of `mixing`: shocks that outputs share
   std::vector<double> mixing;                  ///< ny × rank, row-major
-  std::vector<double> growth;                  ///< nu × lags from 0 on, row-major, 0 to 1e6; empty: the size is 1
   DrawnResiduals drawn;                        ///< where it has rows they are e(t), and the rest only tells their size
 };
 

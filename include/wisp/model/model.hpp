@@ -25,10 +25,8 @@ enum class InputShape {
   kLinear,     ///< as it is: one regressor
   kSplitSign,  ///< as two non-negative regressors, max(u, 0) and max(−u, 0): a gust from the right is not a negative
                ///< one
-  kLinearSquare,     ///< as u and u²: what it does may bend
-  kSplitSignSquare,  ///< as the two of kSplitSign, then their squares
-  kCurve,            ///< bent by the input's own curve: one regressor
-  kSplitSignCurve,   ///< as the two of kSplitSign, each bent by the input's curve
+  kCurve,      ///< bent by the input's own curve: one regressor
+  kSplitSignCurve,  ///< as the two of kSplitSign, each bent by the input's curve
 };
 
 /// An input as the world gives it.
@@ -90,14 +88,11 @@ struct Model {
 /// Number of regressors that the inputs make: the number of inputs that the dynamics see.
 std::size_t regressor_count(const std::vector<Input>& inputs);
 
-/// Regressors that one input of that shape makes: 1, 2 or 4.
+/// Regressors that one input of that shape makes: 1 or 2.
 int regressor_count(InputShape shape);
 
 /// Whether the sign is carried by regressors of their own.
 bool splits_sign(InputShape shape);
-
-/// Whether squares stand beside the values.
-bool has_squares(InputShape shape);
 
 /// Whether a curve bends the values.
 bool has_curve(InputShape shape);

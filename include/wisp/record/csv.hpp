@@ -1,5 +1,5 @@
 #pragma once
-// Recordings as CSV: Wisp's own form (docs/recordings.md) and plain tables from elsewhere.
+// Recordings as CSV: Wisp's own form (docs/reference/recordings.md) and plain tables from elsewhere.
 
 #include <cstddef>
 #include <filesystem>

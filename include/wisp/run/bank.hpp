@@ -10,18 +10,20 @@
 //
 // A bank is used by one thread at a time; different banks are independent.
 
-#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 
 #include "wisp/base/result.hpp"
 #include "wisp/model/model.hpp"
 
 namespace wisp {
+
+class ChainFacet;
+class ExtinctionFacet;
+class SwitchedFacet;
 
 /// Names one living instance of a bank, by value. The id of an ended instance stays invalid: the next one in its slot
 /// has another generation.
@@ -30,27 +32,6 @@ struct InstanceId {
   std::uint32_t generation = 0;  ///< 0 names no instance
 
   friend bool operator==(const InstanceId&, const InstanceId&) = default;
-};
-
-/// Where an instance of a segment chain is.
-struct ChainPlace {
-  std::uint32_t segment = 0;  ///< index into ChainModel::segments
-  std::uint32_t step = 0;     ///< of that segment; at 0 it was joined to the one before
-};
-
-/// A body at one moment, in the world: metres, seconds, radians, z up.
-struct BodyMoment {
-  std::array<float, 3> position{};
-  std::array<float, 4> orientation{1, 0, 0, 0};  ///< body to world, w first; its length does not matter
-  std::array<float, 3> velocity{};
-  std::array<float, 3> spin{};  ///< angular velocity, world axes
-};
-
-/// Where a body is to be, and when.
-struct SteerTarget {
-  std::array<float, 3> position{};  ///< in the world, metres
-  std::chrono::nanoseconds in{};    ///< from now; above 0, at most 10 000 s
-  float near = 0.1f;  ///< metres, 0.001 to 1000: how near is near enough. The nearer, the more the fall is bent to it
 };
 
 /// How a bank is made.
@@ -67,18 +48,6 @@ Result<std::size_t> bank_bytes(const Model& model, const BankOptions& options);
 
 /// The time of one step of a model, as banks keep it: whole nanoseconds.
 std::chrono::nanoseconds step_time(const Model& model);
-
-/// The age of what never happened.
-inline constexpr std::chrono::nanoseconds kNever = std::chrono::nanoseconds::max();
-
-/// Whether an instance burns, and how that shows. Ages are of what is shown, in time that passed through steps; a
-/// drawing makes smoke and ember of them.
-struct LitState {
-  bool lit = true;
-  float size = 1;  ///< of what is seen, 0 … 1; outputs and polylines are already multiplied by it
-  std::chrono::nanoseconds since_lit = kNever;  ///< since it was last lit again; one that was spawned lit was not
-  std::chrono::nanoseconds since_out = kNever;  ///< since it last went out
-};
 
 /// A longer pause than this is cut to it by Bank::advance(): nobody has watched it.
 inline constexpr std::chrono::nanoseconds kLongestAdvance = std::chrono::seconds(10);
@@ -141,24 +110,10 @@ class Bank {
   /// Scale of the residual noise: 1 as learned, 0 none; held to [0, 10]. At 0 a step costs less.
   /// A segment chain has no residual noise, its chance is in its walk: at 0 the likeliest mode follows, as the segment
   /// that joins best. Instances that are spawned then differ by their first heading alone, and their lives sooner or
-  /// later repeat themselves (chain_loop() in wisp/run/chain_loop.hpp tells when). Any other scale leaves a chain as it
-  /// is.
+  /// later repeat themselves (chain_loop() in wisp/run/chain_loop.hpp computes when). Any other scale leaves a chain as
+  /// it is.
   void set_noise(float scale);
   float noise() const;
-
-  /// Limits how many modes back a segment chain looks when it chooses the next one; 0: as many as it has learned to, as
-  /// at first. Counts below 0 are 0. It acts from the next draw on, a step before a join; may change at any time; and
-  /// changes nothing where the dynamics are not a chain.
-  void set_history(int longest);
-  int history() const;
-
-  /// How a segment chain chooses among the segments of a mode: each is T / (1 + T) times as likely as the one that
-  /// joins next best, so that the one of rank T, counted from 0, is about the usual one. 0: always the best; infinity:
-  /// any segment of the mode alike. Nothing, as at first: as learned, one of the best few. What is below 0 or not a
-  /// number counts as 0. A chain that was learned without best-joining segments has nothing to choose by, and is left
-  /// as it is.
-  void set_temperature(std::optional<float> temperature);
-  std::optional<float> temperature() const;
 
   /// One step of the model, for all instances. Outputs read afterwards are those of that step.
   void step();
@@ -184,53 +139,13 @@ class Bank {
   /// Reads the outline of one instance: polyline_points() × (x, y). Returns false when `id` is not valid.
   bool polyline(InstanceId id, std::span<float> values) const;
 
-  /// Where in its chain an instance is; nothing where the dynamics are not a chain or `id` is not valid.
-  std::optional<ChainPlace> chain_place(InstanceId id) const;
-
-  /// The mode of a switched ARX model that made an instance's newest sample; nothing for other models, before the first
-  /// step, and for ids that are not valid.
-  std::optional<int> arx_mode(InstanceId id) const;
-
-  /// Sets an instance of a chain where a body is, as after a collision or a kick: it goes on with the segment that
-  /// begins most as the body moves, the rest fading as at any join. Where the chain is not free of heading, or has no
-  /// orientation, that part of the body is not taken over. Looks at every segment once: not for every frame.
-  /// Returns false, and does nothing, when `id` is not valid, a number is not finite, or the dynamics are not a chain.
-  bool place(InstanceId id, const BodyMoment& body);
-
-  /// Steers an instance of a chain: at joins it prefers what leads to the target, weighed against how likely that is,
-  /// until the time has come; then it falls on as before. What lies beyond its reach is not reached. A new target takes
-  /// the place of the one before; placing and resetting end it. A join costs more meanwhile; docs/chains.md has
-  /// figures. Returns false, and does nothing, when `id` is not valid, a number is out of its range, or the model can't
-  /// be steered: not a chain, or one that was learned before chains could be.
-  bool steer(InstanceId id, const SteerTarget& target);
-
-  /// Lets an instance fall as it will. Returns false when `id` is not valid.
-  bool release(InstanceId id);
-
-  /// The height of level ground, on which instances of a chain come to rest until they are placed or reset; nothing:
-  /// they fall for ever, as at first. A body whose size the view knows touches with its lowest corner, and no corner
-  /// sinks in while it lies down.
-  void set_ground(std::optional<float> height);
-  std::optional<float> ground() const;
-
-  /// Whether the model has a rule of extinction (wisp/model/extinction.hpp). Where it has one, instances whose wind the
-  /// rule finds too strong go out in a step and stay out, whatever the wind does then; their outputs shrink to 0 and
-  /// are 0 until they are lit again. Their random streams go on. Where it has none, everything burns for ever.
-  bool goes_out() const;
-
-  /// Whether an instance burns; nothing when `id` is not valid.
-  std::optional<LitState> lit_state(InstanceId id) const;
-
-  /// The same of all: slots() values; what is in an empty slot does not burn and never did.
-  void lit_states(std::span<LitState> states) const;
-
-  /// Lights an instance that is out: it starts at the model's operating point, unharmed, and grows from the size that
-  /// is left of it. One that burns goes on. Returns false when `id` is not valid.
-  bool relight(InstanceId id);
-
-  /// Puts an instance out, whatever the wind. One that is out stays so; without a rule of extinction nothing happens.
-  /// Returns false when `id` is not valid.
-  bool extinguish(InstanceId id);
+  /// What only some models have is asked of a facet, which is null where the model has none of it. Facets live as long
+  /// as the bank, move with it, and may be asked for every frame.
+  ChainFacet* chain();  ///< of a segment chain (wisp/run/chain_facet.hpp)
+  const ChainFacet* chain() const;
+  ExtinctionFacet* extinction();  ///< where there is a rule of extinction (wisp/run/extinction_facet.hpp)
+  const ExtinctionFacet* extinction() const;
+  const SwitchedFacet* switched() const;  ///< of a switched ARX model (wisp/run/switched_facet.hpp)
 
   /// Puts one instance, or all that live and the bank's time, back to where they were when spawned, lit; streams and
   /// inputs stay. Returns false when `id` is not valid.

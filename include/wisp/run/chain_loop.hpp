@@ -17,7 +17,7 @@ struct ChainLoop {
 };
 
 /// The loop in which every instance of a chain ends that is spawned after Bank::set_noise(0) has taken its chance away,
-/// `history` as Bank::set_history(). It allocates: not for every frame.
+/// `history` as ChainFacet::set_history(). It allocates: not for every frame.
 /// Returns nothing where the dynamics are not a chain, its modes are systems, or the model is not valid (check()).
 std::optional<ChainLoop> chain_loop(const Model& model, int history = 0);
 

@@ -21,7 +21,7 @@ struct CandleClipOptions {
   CandleRigOptions rig;
   VirtualCameraOptions camera;
   VirtualMicrophoneOptions microphone;
-  FlameOutlineOptions outline;
+  FlameOutlineRecipe outline;
   WindSignalOptions wind;
   std::optional<Recording> wind_recording;  ///< where set, its wind is taken and `wind` is not
   std::string wind_channel;                 ///< of that recording; empty: its only input

@@ -3,8 +3,9 @@
 //
 // A marker-and-cell grid carries mixture fraction, unburnt fuel, temperature and soot; the flow expands where it is
 // heated, rises where it is hot, and is made to obey ∇·u = expansion by a pressure solve. A wick gives off fuel while
-// it is warm, so a flame that is blown away from it goes out, and one that is lit again burns on. docs/candle-rig.md
-// has the equations, says which parameters are physics and which are calibrated, and what was measured.
+// it is warm, so a flame that is blown away from it goes out, and one that is lit again burns on.
+// docs/explanation/candle-rig.md has the equations, says which parameters are physics and which are calibrated, and
+// what was measured.
 
 #include <memory>
 #include <vector>

@@ -15,7 +15,7 @@ struct PointMm {
 };
 
 /// How the outline is taken.
-struct FlameOutlineOptions {
+struct FlameOutlineRecipe {
   double level = 0.3;  ///< light of glowing soot at the contour; 0.3 is about half of full brightness in a picture of
                        ///< the default camera, (0, 10]
   int points = 8;      ///< control points of the cubic B-spline, 4 … 32
@@ -42,7 +42,7 @@ struct FlameOutline {
 /// Takes the outline of a frame's light.
 ///
 /// Precondition: light.soot has columns × rows entries, each of at least 4.
-FlameOutline flame_outline(const FlameLight& light, const FlameOutlineOptions& options = {});
+FlameOutline flame_outline(const FlameLight& light, const FlameOutlineRecipe& options = {});
 
 /// Point of the spline at parameter s in [0, 1].
 ///

@@ -3,8 +3,8 @@
 //
 // Source: the thin plate of A. Andersen, U. Pesavento & Z. J. Wang, Unsteady aerodynamics of fluttering and tumbling
 // plates, J. Fluid Mech. 541 (2005), carried over to three dimensions: added mass and inertia of an ellipsoid (H. Lamb,
-// Hydrodynamics, 1932, § 114), lift by translation and by rotation, drag, and damping of rotation. docs/leaf.md has the
-// equations.
+// Hydrodynamics, 1932, § 114), lift by translation and by rotation, drag, and damping of rotation.
+// docs/explanation/leaf.md has the equations.
 
 #include <array>
 

@@ -1,7 +1,8 @@
 #pragma once
 // One leaf on its way down, by a stiff integrator or by the cheapest fixed step that gives the same statistics.
 //
-// Falls are chaotic: two methods give two paths, and the same statistics. docs/leaf.md has both methods' side by side.
+// Falls are chaotic: two methods give two paths, and the same statistics. docs/studies/leaf.md has both methods' side
+// by side.
 
 #include <cstdint>
 #include <memory>

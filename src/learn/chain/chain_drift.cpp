@@ -1,8 +1,8 @@
 // A segment's lead is the sum of the mean ways of all that may follow it: V(s) = E[D(c) − v T(c) + V(c)] over its
-// followers c, D being way and T duration, solved by iterating (R. Bellman, Dynamic Programming, 1957). What a step of
+// successors c, D being way and T duration, solved by iterating (R. Bellman, Dynamic Programming, 1957). What a step of
 // the walk then adds that could not be foreseen has no memory, and its variance is what the walk spreads by.
 //
-// Transitions of order one and followers alike stand for the chain: steering needs no more.
+// Transitions of order one and successors alike stand for the chain: steering needs no more.
 #include "learn/chain/chain_drift.hpp"
 
 #include <algorithm>
@@ -11,14 +11,14 @@
 #include <numeric>
 #include <span>
 
-namespace wisp {
+namespace wisp::chain {
 namespace {
 
 constexpr int kRounds = 40;          // segments: more than direction is kept for
 constexpr int kSettlingRounds = 60;  // until segments are visited as often as in a long walk
 constexpr std::size_t kAnyOf = 8;    // of a mode whose segments all follow alike
-constexpr double kMostStored = 32767;
-constexpr double kLeastSpread = 1e-9;
+constexpr double kMaxStored = 32767;
+constexpr double kMinSpread = 1e-9;
 
 using Complex = std::complex<double>;
 
@@ -41,7 +41,7 @@ class Walk {
     for (std::size_t s = 0; s < size(); ++s) {
       seconds_.push_back(chain.segments.steps[s] / rate_hz);
       ways_.push_back(way(s));
-      next_.push_back(followers(s, transitions));
+      next_.push_back(successors(s, transitions));
     }
   }
 
@@ -100,7 +100,7 @@ class Walk {
     return chance;
   }
 
-  std::vector<Next> followers(std::size_t s, const std::vector<double>& transitions) const {
+  std::vector<Next> successors(std::size_t s, const std::vector<double>& transitions) const {
     const ChainSegments& segments = chain_.segments;
     const auto modes = static_cast<std::size_t>(chain_.modes), breadth = static_cast<std::size_t>(segments.breadth);
     const auto chance = chances(s, transitions);
@@ -190,9 +190,9 @@ ChainDrift drift_of(const ChainModel& chain, double rate_hz) {
       height += weight * up * up;
     }
   }
-  out.spread_ground = std::max(ground / 2 / seconds, kLeastSpread);
-  out.spread_height = std::max(height / seconds, kLeastSpread);
-  out.lead_scale = most > 0 ? most / kMostStored : 1 / kMostStored;
+  out.spread_ground = std::max(ground / 2 / seconds, kMinSpread);
+  out.spread_height = std::max(height / seconds, kMinSpread);
+  out.lead_scale = most > 0 ? most / kMaxStored : 1 / kMaxStored;
   for (const Way& one : lead) {
     for (double x : {one.ground.real(), one.ground.imag(), one.height}) {
       out.lead.push_back(static_cast<std::int16_t>(std::lround(x / out.lead_scale)));
@@ -201,4 +201,4 @@ ChainDrift drift_of(const ChainModel& chain, double rate_hz) {
   return out;
 }
 
-}  // namespace wisp
+}  // namespace wisp::chain

@@ -3,9 +3,9 @@
 
 #include "wisp/model/chain.hpp"
 
-namespace wisp {
+namespace wisp::chain {
 
 /// Precondition: the chain is valid (check()).
 ChainDrift drift_of(const ChainModel& chain, double rate_hz);
 
-}  // namespace wisp
+}  // namespace wisp::chain

@@ -5,12 +5,12 @@
 #include <numeric>
 #include <random>
 
-#include "learn/likeness/fidelity_shuffle.hpp"
+#include "learn/fidelity/fidelity_shuffle.hpp"
 
-namespace wisp {
+namespace wisp::chain {
 namespace {
 
-constexpr double kLeastSpeed = 0.05;  // m/s: slower than this, a thing has no heading to change
+constexpr double kMinSpeed = 0.05;  // m/s: slower than this, a thing has no heading to change
 
 void add_row(const Motion& motion, const MotionPiece& piece, std::size_t row, double segment_seconds,
              std::vector<double>& out) {
@@ -27,7 +27,7 @@ void add_row(const Motion& motion, const MotionPiece& piece, std::size_t row, do
     const Triple& next = piece.velocity[std::min(row + 1, piece.rows() - 1)];
     const double speed = v[0] * v[0] + v[1] * v[1];
     const double across = v[0] * next[1] - v[1] * next[0];
-    out.push_back(std::abs(across) * motion.rate_hz / std::max(speed, kLeastSpeed * kLeastSpeed));
+    out.push_back(std::abs(across) * motion.rate_hz / std::max(speed, kMinSpeed * kMinSpeed));
   }
   out.push_back(segment_seconds);
 }
@@ -98,4 +98,4 @@ std::vector<MotionSeries> shuffled(std::span<const MotionSeries> series, std::ui
   return out;
 }
 
-}  // namespace wisp
+}  // namespace wisp::chain

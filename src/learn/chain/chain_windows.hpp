@@ -1,5 +1,5 @@
 #pragma once
-// What an eye follows of something that falls, row by row, and windows of it for the measures of likeness.
+// What an eye follows of something that falls, row by row, and windows of it for the measures of fidelity.
 //
 // docs/fidelity.md: a window spans at least two mean segments, so that every window has a join in it.
 
@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "learn/likeness/fidelity_energy.hpp"
-#include "wisp/learn/motion.hpp"
-#include "wisp/learn/segmentation.hpp"
+#include "learn/chain/motion/motion.hpp"
+#include "learn/chain/segments/segmentation.hpp"
+#include "learn/fidelity/fidelity_energy.hpp"
 #include "wisp/record/recording.hpp"
 
-namespace wisp {
+namespace wisp::chain {
 
 /// Descent speed, horizontal speed, heading change and segment length, and for poses tilt and spin: one row a row of
 /// the piece, from its first event to its last.
@@ -35,4 +35,4 @@ FeatureWindows series_windows(std::span<const MotionSeries> series, std::size_t 
 /// The same rows in random order, each piece by itself: the same moments without their order.
 std::vector<MotionSeries> shuffled(std::span<const MotionSeries> series, std::uint64_t seed);
 
-}  // namespace wisp
+}  // namespace wisp::chain

@@ -1,16 +1,16 @@
-#include "wisp/learn/blow_outs.hpp"
+#include "learn/flame/blow_outs.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "wisp/learn/outline_units.hpp"
+#include "learn/outline/outline_units.hpp"
 
 namespace wisp {
 namespace {
 
-constexpr double kUsual = 0.95;          // share of the wind that is lived in
-constexpr double kLeastPresence = 0.15;  // seconds: a shorter sight of something between two absences is an ember's
+constexpr double kUsual = 0.95;        // share of the wind that is lived in
+constexpr double kMinPresence = 0.15;  // seconds: a shorter sight of something between two absences is an ember's
 
 Result<void> check(const BlowOutOptions& options, const std::string& source) {
   const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
@@ -33,7 +33,7 @@ struct Run {
 // Rows without an outline, glimpses of next to nothing between them included.
 std::vector<Run> absences(const Recording& recording, const OutlineLayout& layout) {
   std::vector<Run> runs;
-  const std::size_t least = rows_of(kLeastPresence, recording.rate_hz);
+  const std::size_t least = rows_of(kMinPresence, recording.rate_hz);
   for (std::size_t row = 0; row < recording.rows(); ++row) {
     const bool seen = std::none_of(layout.outputs.begin(), layout.outputs.end(),
                                    [&](std::size_t c) { return std::isnan(recording.channels[c].samples[row]); });

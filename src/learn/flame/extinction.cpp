@@ -1,4 +1,4 @@
-#include "wisp/learn/extinction.hpp"
+#include "learn/flame/extinction.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -209,7 +209,7 @@ Result<ExtinctionFit> learn_extinction(std::span<const ExtinctionEvidence> evide
   }
   fit.agreement = agreement(fit.rule, evidence);
   if (2 * fit.agreement.died <= fit.agreement.deaths) {
-    return Error{"wind does not tell when the flame went out: the best rule finds " +
+    return Error{"wind does not explain when the flame was extinguished: the best rule reproduces " +
                  std::to_string(fit.agreement.died) + " of " + std::to_string(fit.agreement.deaths) +
                  " deaths; give the level and the seconds"};
   }
@@ -219,10 +219,10 @@ Result<ExtinctionFit> learn_extinction(std::span<const ExtinctionEvidence> evide
 Extinction extinction_beyond(std::span<const ExtinctionEvidence> evidence) {
   constexpr double kRaised = 1.05;
   constexpr double kToSpare = 1.25;
-  constexpr int kMostSteps = 200;  // a level 17 000 times the default
+  constexpr int kMaxSteps = 200;  // a level 17 000 times the default
   Extinction rule;
   const FlameLives lives(evidence);
-  for (int k = 0; k < kMostSteps; ++k) {
+  for (int k = 0; k < kMaxSteps; ++k) {
     ExtinctionAgreement found;
     for (const FlameLife& life : lives.lives()) follow(rule, life, found);
     if (found.spared == lives.gusts()) {

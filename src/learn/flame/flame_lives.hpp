@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "wisp/learn/extinction.hpp"
+#include "learn/flame/extinction.hpp"
 
 namespace wisp {
 

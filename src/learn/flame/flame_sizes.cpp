@@ -1,10 +1,10 @@
-#include "wisp/learn/flame_sizes.hpp"
+#include "learn/flame/flame_sizes.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "wisp/learn/outline_units.hpp"
+#include "learn/outline/outline_units.hpp"
 
 namespace wisp {
 namespace {

@@ -1,4 +1,4 @@
-#include "wisp/learn/wind_gain.hpp"
+#include "learn/flame/wind_gain.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -44,46 +44,48 @@ std::vector<double> factors_of(std::span<const Recording> recordings, const Loud
 }
 
 // Mean error of free simulation over the control points on what is held out; nothing where too little is.
-Result<std::optional<double>> held_out_error(std::span<const Recording> recordings, OutlineOptions options) {
-  options.refit = false;
-  options.noise = OutlineNoise::kIndependent;  // is not judged here
-  options.match_variance = false;
-  const auto fit = learn_outline(recordings, options);
+Result<std::optional<double>> held_out_error(std::span<const Recording> recordings, OutlineRecipe recipe,
+                                             const Progress& progress) {
+  recipe.refit = false;
+  recipe.noise = OutlineNoise::kIndependent;  // is not judged here
+  recipe.match_variance = false;
+  const auto fit = fit_outline(recordings, recipe, progress);
   if (!fit) return fit.error();
   if (!fit->summary.held_out) return std::optional<double>();
   const std::vector<double>& free = fit->summary.held_out->j.back();
   return std::optional(std::accumulate(free.begin(), free.end(), 0.0) / static_cast<double>(free.size()));
 }
 
-std::string scale_words(const std::vector<double>& factors, bool one) {
-  const auto [least, most] = std::minmax_element(factors.begin(), factors.end());
-  if (!one) return "every recording's wind on a scale of its own";
-  return "the winds of all recordings on one scale, as one microphone hears them (times " + number_text(*least, 3) +
-         " to " + number_text(*most, 3) + ")";
+std::string scale_words(const std::vector<double>& factors, bool common) {
+  const auto [min, max] = std::minmax_element(factors.begin(), factors.end());
+  if (!common) return "per-recording gain: the wind of every recording on a scale of its own";
+  return "common gain: the winds of all recordings on one scale, as one microphone hears them (times " +
+         number_text(*min, 3) + " to " + number_text(*max, 3) + ")";
 }
 
-Result<void> compare(std::span<const Recording> recordings, const OutlineOptions& options, WindGain& gain) {
-  const auto together = at_one_gain({recordings.begin(), recordings.end()});
+Result<void> compare(std::span<const Recording> recordings, const OutlineRecipe& recipe, const Progress& progress,
+                     WindGain& gain) {
+  const auto together = at_common_gain({recordings.begin(), recordings.end()});
   if (!together) return together.error();
-  const auto one = held_out_error(*together, options);
-  if (!one) return one.error();
-  const auto own = held_out_error(recordings, options);
+  const auto common = held_out_error(*together, recipe, progress);
+  if (!common) return common.error();
+  const auto own = held_out_error(recordings, recipe, progress);
   if (!own) return own.error();
-  if (!*one || !*own) {
-    gain.reason = "; too little is held out to tell whether it was one";
+  if (!*common || !*own) {
+    gain.reason = "; too little is held out to compare it with per-recording gain";
     return {};
   }
-  gain.one_error = **one;
+  gain.common_error = **common;
   gain.own_error = **own;
-  gain.one = gain.one_error <= gain.own_error;
-  gain.reason = ": free simulation of what is held out errs by " + number_text(gain.one_error, 3) + " on one scale, " +
-                number_text(gain.own_error, 3) + " on scales of their own";
+  gain.common = gain.common_error <= gain.own_error;
+  gain.reason = "; free simulation of held-out data errs by " + number_text(gain.common_error, 3) +
+                " with the common gain, by " + number_text(gain.own_error, 3) + " with per-recording gain";
   return {};
 }
 
 }  // namespace
 
-Result<std::vector<Recording>> at_one_gain(std::vector<Recording> recordings) {
+Result<std::vector<Recording>> at_common_gain(std::vector<Recording> recordings) {
   const auto inputs = loudest_inputs(recordings);
   if (!inputs) return inputs.error();
   for (const Loudest& loudest : *inputs) {
@@ -96,24 +98,23 @@ Result<std::vector<Recording>> at_one_gain(std::vector<Recording> recordings) {
   return recordings;
 }
 
-Result<WindGain> choose_wind_gain(std::span<const Recording> recordings, const OutlineOptions& options,
-                                  std::optional<bool> wanted) {
-  WindGain gain{.one = wanted.value_or(true), .factors = {}, .reason = {}};
+Result<WindGain> choose_wind_gain(std::span<const Recording> recordings, const OutlineRecipe& recipe,
+                                  const Progress& progress) {
+  WindGain gain{.common = recipe.gain != InputGain::kPerRecording, .factors = {}, .reason = {}};
   const auto inputs = loudest_inputs(recordings);
   if (!inputs) return inputs.error();
-  if (inputs->empty() || (options.inputs && options.inputs->empty())) return gain;
+  if (inputs->empty() || (recipe.inputs && recipe.inputs->empty())) return gain;
   gain.factors = factors_of(recordings, inputs->front());
-  const double least = *std::min_element(gain.factors.begin(), gain.factors.end());
-  if (least > 1 - kSame) {
+  if (*std::min_element(gain.factors.begin(), gain.factors.end()) > 1 - kSame) {
     gain.factors.clear();
     return gain;
   }
-  if (wanted) {
-    gain.reason = ", as asked for";
-  } else if (auto ok = compare(recordings, options, gain); !ok) {
+  if (recipe.gain != InputGain::kAuto) {
+    gain.reason = ", as given";
+  } else if (auto ok = compare(recordings, recipe, progress, gain); !ok) {
     return ok.error();
   }
-  gain.reason = scale_words(gain.factors, gain.one) + gain.reason;
+  gain.reason = scale_words(gain.factors, gain.common) + gain.reason;
   return gain;
 }
 

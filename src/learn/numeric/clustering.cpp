@@ -8,7 +8,7 @@
 #include <string>
 #include <thread>
 
-#include "learn/numeric/nearest_middles.hpp"
+#include "learn/numeric/nearest_centroids.hpp"
 
 namespace wisp {
 namespace {
@@ -36,11 +36,13 @@ double nearer(const Rows& rows, std::size_t to, const std::vector<double>& befor
 }
 
 // Greedy k-means++: of a few rows drawn in proportion to their squared distance, the one that helps most.
-std::vector<double> start_middles(const Rows& rows, int clusters, std::mt19937_64& random) {
+std::vector<double> start_centroids(const Rows& rows, int clusters, std::mt19937_64& random) {
   const int trials = 2 + static_cast<int>(std::log(static_cast<double>(clusters)));
-  std::vector<double> middles, distance(rows.count, std::numeric_limits<double>::max());
+  std::vector<double> centroids, distance(rows.count, std::numeric_limits<double>::max());
   std::vector<double> tried(rows.count), best(rows.count);
-  const auto take = [&](std::size_t row) { middles.insert(middles.end(), rows.at(row), rows.at(row) + rows.columns); };
+  const auto take = [&](std::size_t row) {
+    centroids.insert(centroids.end(), rows.at(row), rows.at(row) + rows.columns);
+  };
   const std::size_t first = random() % rows.count;
   take(first);
   double total = nearer(rows, first, distance, best);
@@ -60,14 +62,14 @@ std::vector<double> start_middles(const Rows& rows, int clusters, std::mt19937_6
     total = least;
     distance.swap(best);
   }
-  return middles;
+  return centroids;
 }
 
 KMeans one_start(const Rows& rows, const KMeansOptions& options, double variance, std::uint64_t seed) {
   std::mt19937_64 random(seed);
-  NearestMiddles search(rows, start_middles(rows, options.clusters, random));
+  NearestCentroids search(rows, start_centroids(rows, options.clusters, random));
   int round = 0;
-  while (round < options.most_rounds) {
+  while (round < options.max_iterations) {
     ++round;
     if (search.round() <= options.tolerance * variance) break;
   }
@@ -76,16 +78,16 @@ KMeans one_start(const Rows& rows, const KMeansOptions& options, double variance
 
 // From where a start stopped to where no row changes sides any more: only the best start is worth it.
 KMeans to_the_end(const Rows& rows, const KMeansOptions& options, const KMeans& found) {
-  NearestMiddles search(rows, found.middles);
+  NearestCentroids search(rows, found.centroids);
   int round = found.rounds;
-  while (round < options.most_rounds) {
+  while (round < options.max_iterations) {
     ++round;
     if (search.round() <= 0) break;
   }
   return search.result(round);
 }
 
-// Mean variance of the columns: what movements of the middles are measured against.
+// Mean variance of the columns: what movements of the centroids are measured against.
 double mean_variance(const Rows& rows) {
   double sum = 0;
   for (std::size_t column = 0; column < rows.columns; ++column) {
@@ -110,7 +112,7 @@ Result<void> check_options(std::size_t rows, const KMeansOptions& options) {
     return Error{"there are " + std::to_string(rows) + " rows for " + std::to_string(options.clusters) +
                  " clusters, expected at least as many rows: ask for fewer clusters"};
   }
-  if (options.restarts < 1 || options.most_rounds < 1 || options.threads < 0 || !(options.tolerance >= 0)) {
+  if (options.restarts < 1 || options.max_iterations < 1 || options.threads < 0 || !(options.tolerance >= 0)) {
     return Error{"restarts, rounds, threads or tolerance of k-means are out of range"};
   }
   return {};

@@ -1,5 +1,5 @@
 #pragma once
-// K-means: rows of numbers into K clusters of least squared distance to their middle.
+// K-means: rows of numbers into K clusters of least squared distance to their centroid.
 //
 // Sources: S. P. Lloyd (1982) for the alternation; D. Arthur & S. Vassilvitskii, k-means++ (SODA 2007), greedy variant,
 // for the starts; G. Hamerly, Making k-means even faster (SDM 2010), for the bounds by the triangle inequality that
@@ -15,25 +15,25 @@
 namespace wisp {
 
 struct KMeansOptions {
-  int clusters = 6;         ///< 1 … rows
-  int restarts = 10;        ///< ≥ 1; the best of them is taken
-  int most_rounds = 300;    ///< ≥ 1, of each
-  double tolerance = 1e-4;  ///< ≥ 0: a round that moves the middles by less than this share of the variance is the last
-                            ///< of a start; the best of them is then run on until no row changes sides
-  int threads = 0;  ///< 0: as many as the machine has; the result is the same for any number
+  int clusters = 6;          ///< 1 … rows
+  int restarts = 10;         ///< ≥ 1; the best of them is taken
+  int max_iterations = 300;  ///< ≥ 1, of each
+  double tolerance = 1e-4;   ///< ≥ 0: a round that moves the centroids by less than this share of the variance is the
+                             ///< last of a start; the best of them is then run on until no row changes sides
+  int threads = 0;           ///< 0: as many as the machine has; the result is the same for any number
   std::uint64_t seed = 1;
 };
 
 struct KMeans {
   std::size_t columns = 0;
-  std::vector<double> middles;         ///< clusters × columns
+  std::vector<double> centroids;       ///< clusters × columns
   std::vector<std::uint16_t> cluster;  ///< per row
   std::vector<std::size_t> sizes;      ///< per cluster; none is empty unless rows coincide
-  double inertia = 0;                  ///< sum of squared distances to the middles
+  double inertia = 0;                  ///< sum of squared distances to the centroids
   int rounds = 0;                      ///< of the best start
 };
 
-/// Rows lie one after the other. A cluster that loses its last row is given the row farthest from its middle.
+/// Rows lie one after the other. A cluster that loses its last row is given the row farthest from its centroid.
 /// Errors: no rows, more clusters than rows, an option out of range.
 ///
 /// Precondition: rows.size() is a multiple of columns, which is not 0, and all are finite.

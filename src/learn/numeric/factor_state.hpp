@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "learn/arx/rows/arx_design.hpp"
+#include "learn/numeric/triangular_factor.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/triangular_factor.hpp"
 
 namespace wisp {
 

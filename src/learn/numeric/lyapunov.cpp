@@ -2,9 +2,10 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "learn/numeric/decompositions.hpp"
 
 namespace wisp {
 namespace {
@@ -31,8 +32,8 @@ MatrixXd lyapunov_sum(MatrixXd a, MatrixXd q) {
 // Largest λ of AᵀPA v = λPv.
 double rate(const MatrixXd& a, const MatrixXd& p) {
   const MatrixXd m = a.transpose() * p * a;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(0.5 * (m + m.transpose()), p, Eigen::EigenvaluesOnly);
-  return solver.info() == Eigen::Success ? solver.eigenvalues().maxCoeff() : 1e300;
+  const auto values = generalized_eigenvalues(0.5 * (m + m.transpose()), p);
+  return values ? values->maxCoeff() : 1e300;
 }
 
 class Centres {

@@ -1,4 +1,4 @@
-#include "wisp/learn/triangular_factor.hpp"
+#include "learn/numeric/triangular_factor.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "wisp/learn/alignment.hpp"
+#include "learn/outline/alignment.hpp"
 
 #include <algorithm>
 #include <array>

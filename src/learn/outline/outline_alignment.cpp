@@ -1,18 +1,18 @@
-#include "wisp/learn/outline_alignment.hpp"
+#include "learn/outline/outline_alignment.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 
-#include "wisp/learn/outline_shape.hpp"
-#include "wisp/learn/outline_units.hpp"
+#include "learn/outline/outline_shape.hpp"
+#include "learn/outline/outline_units.hpp"
 
 namespace wisp {
 namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-constexpr double kLeastSearch = 0.05;  // seconds either way; align_offset() takes no less
+constexpr double kMinSearch = 0.05;  // seconds either way; align_offset() takes no less
 
 // The tip beside and above the middle of its base, row by row.
 struct TipMotion {
@@ -45,7 +45,7 @@ AlignmentOptions options_for(const Recording& recording, const std::vector<doubl
   double rows = 0;
   for (std::size_t t = 0; t < input.size(); ++t) rows += std::isnan(input[t]) || std::isnan(motion[t]) ? 0 : 1;
   AlignmentOptions options{.rate_hz = recording.rate_hz};
-  options.most_seconds = std::clamp(rows / recording.rate_hz / 5, kLeastSearch, options.most_seconds);
+  options.most_seconds = std::clamp(rows / recording.rate_hz / 5, kMinSearch, options.most_seconds);
   return options;
 }
 

@@ -1,16 +1,16 @@
 #pragma once
-// Curves on the inputs of an outline: which are kept, and recordings that are bent by them.
+// Input nonlinearities of an outline (Hammerstein curves): which are kept, and recordings with them applied.
 
 #include <span>
 #include <vector>
 
+#include "learn/outline/outline_fit.hpp"
 #include "learn/outline/outline_preparation.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/outline.hpp"
 
 namespace wisp {
 
-/// Whether the inputs are bent, and by curves of how many knots: as given, or as what is held out says.
+/// Whether inputs pass a nonlinearity, and of how many knots: as given, or as held-out data say.
 /// `learned` has its mirror images where the model learns from them.
 /// Errors: as choose_input_curves().
 Result<CurveChoice> choose_outline_curves(std::span<const Recording> learned, std::span<const Recording> held_out,
@@ -22,7 +22,7 @@ Result<CurveChoice> choose_outline_curves(std::span<const Recording> learned, st
 Result<std::vector<CurveEstimate>> outline_curves(std::span<const Recording> recordings,
                                                   const PreparedOutlines& prepared, const ArxOrders& orders, int knots);
 
-/// Prepared recordings, or parts of them, with their inputs bent.
+/// Prepared recordings, or parts of them, with their inputs passed through the curves.
 std::vector<Recording> bent_outlines(std::span<const Recording> recordings, const PreparedOutlines& prepared,
                                      std::span<const CurveEstimate> curves);
 

@@ -18,7 +18,7 @@ constexpr double kLongestAloneSeconds = 0.5;   // where no input says when to go
 constexpr double kTolerance = 0.25;            // of wind 1
 constexpr double kCalm = 0.04;                 // of wind 1: less than this does not move what stands still
 constexpr double kLeanWeight = 0.45;           // of wind 1, of a standard deviation of how it leans or rises
-constexpr double kLeastSeconds = 1;
+constexpr double kMinSeconds = 1;
 constexpr double kLargestStored = 32767;
 
 // One row's residuals, the lean before it and its wind, NaN where one is missing.
@@ -193,7 +193,7 @@ Result<DrawnResiduals> drawn_residuals(const ArxModel& model, std::span<const Re
   }
   const std::size_t bytes_a_row = 2 * prepared.channels.outputs.size();
   keep_at_most(stretches, std::min(kMostDrawnRows, options.most_bytes / bytes_a_row));
-  if (static_cast<double>(row_count(stretches)) < kLeastSeconds * rate) return DrawnResiduals{};
+  if (static_cast<double>(row_count(stretches)) < kMinSeconds * rate) return DrawnResiduals{};
   const bool driven = !prepared.inputs.empty();
   if (driven) out.toward = 0;
   if (driven && prepared.shape.split_sign) out.against = 1;

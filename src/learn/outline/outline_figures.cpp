@@ -1,18 +1,18 @@
-#include "wisp/learn/outline_figures.hpp"
+#include "learn/outline/outline_figures.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numeric>
 
-#include "wisp/learn/outline_shape.hpp"
-#include "wisp/learn/residual_tests.hpp"
+#include "learn/arx/judge/residual_tests.hpp"
+#include "learn/outline/outline_shape.hpp"
 
 namespace wisp {
 namespace {
 
 constexpr int kWhitenessLags = 20;
-constexpr std::size_t kMostShapes = 2000;  // neighbouring frames say the same
+constexpr std::size_t kMaxShapes = 2000;  // neighbouring frames say the same
 
 using Series = std::vector<std::vector<double>>;  // [output][row]
 
@@ -101,7 +101,7 @@ Result<OutlineFigures> outline_figures(const ArxModel& model, std::span<const Re
   }
   std::size_t all_rows = 0;
   for (const Recording& recording : recordings) all_rows += recording.rows();
-  const std::size_t stride = 1 + all_rows / kMostShapes;
+  const std::size_t stride = 1 + all_rows / kMaxShapes;
   for (int k : steps) {
     Shapes shapes;
     for (const Recording& recording : recordings) {

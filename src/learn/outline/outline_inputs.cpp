@@ -1,4 +1,4 @@
-#include "wisp/learn/outline_inputs.hpp"
+#include "learn/outline/outline_inputs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -50,26 +50,11 @@ double whole(double u) { return u; }
 double positive(double u) { return u < 0 ? 0 : u; }
 double negative(double u) { return u > 0 ? 0 : -u; }
 
-struct RegressorValue {
-  std::size_t index;
-  double (*part)(double);
-  bool square;
+using Part = double (*)(double);
 
-  double of(double u) const { return square ? part(u) * part(u) : part(u); }
-};
-
-std::vector<RegressorValue> values_of(RegressorShape shape) {
-  std::vector<RegressorValue> values;
-  for (const bool square : {false, true}) {
-    if (square && !shape.square) continue;
-    if (shape.split_sign) {
-      values.push_back({values.size(), positive, square});
-      values.push_back({values.size(), negative, square});
-    } else {
-      values.push_back({values.size(), whole, square});
-    }
-  }
-  return values;
+std::vector<Part> parts_of(RegressorShape shape) {
+  if (shape.split_sign) return {positive, negative};
+  return {whole};
 }
 
 }  // namespace
@@ -139,9 +124,6 @@ std::vector<std::string> regressor_names(std::span<const OutlineInput> inputs, R
     std::vector<std::string> parts{input.name};
     if (shape.split_sign) parts = {input.name + "+", input.name + "-"};
     names.insert(names.end(), parts.begin(), parts.end());
-    for (const std::string& part : parts) {
-      if (shape.square) names.push_back(part + "^2");
-    }
   }
   return names;
 }
@@ -152,10 +134,11 @@ Recording with_regressors(const Recording& recording, std::span<const OutlineInp
   for (const OutlineInput& input : inputs) {
     const std::vector<double>& samples = recording.channels[*find_channel(recording, input.name)].samples;
     const std::vector<std::string> names = regressor_names({&input, 1}, shape);
-    for (const RegressorValue& value : values_of(shape)) {
-      Channel channel{names[value.index], "", Role::kInput, {}};
+    auto name = names.begin();
+    for (const Part part : parts_of(shape)) {
+      Channel channel{*name++, "", Role::kInput, {}};
       for (double u : samples) {
-        const double plain = value.of(u / input.scale);
+        const double plain = part(u / input.scale);
         channel.samples.push_back(shape.curve ? value_at(input.curve, plain) : plain);
       }
       out.channels.push_back(std::move(channel));
@@ -193,11 +176,9 @@ Recording mirrored(const Recording& recording, const OutlineLayout& layout, std:
     for (double& value : samples) value = shift + sign * value;
   }
   for (const OutlineInput& input : inputs) {
-    for (const char* power : {"", "^2"}) {
-      const auto plus = find_channel(out, input.name + "+" + power);
-      const auto minus = find_channel(out, input.name + "-" + power);
-      if (plus && minus) std::swap(out.channels[*plus].samples, out.channels[*minus].samples);
-    }
+    const auto plus = find_channel(out, input.name + "+");
+    const auto minus = find_channel(out, input.name + "-");
+    if (plus && minus) std::swap(out.channels[*plus].samples, out.channels[*minus].samples);
   }
   return out;
 }

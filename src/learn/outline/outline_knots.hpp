@@ -6,7 +6,7 @@
 
 #include <span>
 
-#include "wisp/learn/outline_units.hpp"
+#include "learn/outline/outline_units.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {

@@ -1,19 +1,21 @@
 #include "learn/outline/outline_noise.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <vector>
+
+#include "learn/numeric/decompositions.hpp"
 
 namespace wisp {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
 
-constexpr int kMostDoublings = 40;
+constexpr int kMaxDoublings = 40;
 constexpr double kNothingLeft = 1e-14;  // of what the shocks put in
-constexpr int kMostPasses = 200;
+constexpr int kMaxPasses = 200;
 constexpr double kCloseEnough = 1e-6;
 
 // Outputs that feed each other, and the companion matrix of their dynamics.
@@ -83,7 +85,7 @@ Matrix pair_covariance(const Block& i, const Block& j, const Matrix& shocks) {
   Matrix g = j.companion;
   Matrix sum = Matrix::Zero(f.rows(), g.rows());
   sum.topLeftCorner(i.size(), j.size()) = shocks;
-  for (int doubling = 0; doubling < kMostDoublings; ++doubling) {
+  for (int doubling = 0; doubling < kMaxDoublings; ++doubling) {
     sum += f * sum * g.transpose();
     f = f * f;
     g = g * g;
@@ -131,7 +133,7 @@ std::vector<Matrix> variance_weights(const Block& block) {
   std::vector<Matrix> sums(block.outputs.size(), Matrix::Zero(state, state));
   for (Eigen::Index r = 0; r < block.size(); ++r) sums[r](r, r) = 1;
   Matrix f = block.companion;
-  for (int doubling = 0; doubling < kMostDoublings; ++doubling) {
+  for (int doubling = 0; doubling < kMaxDoublings; ++doubling) {
     for (Matrix& sum : sums) sum += f.transpose() * sum * f;
     f = f * f;
     const double left = f.cwiseAbs().maxCoeff();
@@ -181,13 +183,13 @@ Eigen::MatrixXd shared_factor(const Covariance& shocks, int rank) {
   const Eigen::VectorXd scale = shocks.diagonal().cwiseAbs().cwiseSqrt();
   const Eigen::VectorXd inverse = scale.unaryExpr([](double s) { return s > 0 ? 1 / s : 0.0; });
   const Matrix correlation = inverse.asDiagonal() * shocks * inverse.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(correlation);
+  const auto [values, vectors] = symmetric_eigensystem(correlation);
   // Ascending eigenvalues: the last ones are the largest.
   const Eigen::Index most = std::min<Eigen::Index>(rank, shocks.rows());
   Matrix factor(shocks.rows(), most);
   for (Eigen::Index k = 0; k < most; ++k) {
     const Eigen::Index at = shocks.rows() - 1 - k;
-    factor.col(k) = std::sqrt(std::max(0.0, solver.eigenvalues()[at])) * solver.eigenvectors().col(at);
+    factor.col(k) = std::sqrt(std::max(0.0, values[at])) * vectors.col(at);
   }
   return scale.asDiagonal() * factor;
 }
@@ -197,7 +199,7 @@ bool scale_to_variance(const ArxModel& model, const Covariance& wanted, Eigen::M
   for (const Block& block : blocks_of(model)) {
     const std::vector<Matrix> weights = variance_weights(block);
     double off = 0;
-    for (int pass = 0; pass < kMostPasses; ++pass) {
+    for (int pass = 0; pass < kMaxPasses; ++pass) {
       const Covariance shocks = factor * factor.transpose();
       const Matrix own = part_of(shocks, block, block);
       off = 0;

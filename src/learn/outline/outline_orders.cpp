@@ -10,18 +10,18 @@
 #include <limits>
 #include <optional>
 
-#include "wisp/learn/arx_orders.hpp"
-#include "wisp/learn/order_search.hpp"
+#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/search/order_search.hpp"
 
 namespace wisp {
 namespace {
 
 // Every order where it matters, then wider apart: neighbouring high orders are alike. 25 is the paper's best.
 constexpr int kOrders[] = {1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 25, 32};
-constexpr double kLongestDelay = 0.25;         // seconds: beyond any flame's answer and a camera's lag
-constexpr double kNearlyAsGood = 1.02;         // in root mean square error: what no eye tells apart
-constexpr int kLeastRowsACoefficient = 4;      // as the verdict asks
-constexpr std::size_t kLeastHeldOutRows = 60;  // beside the longest history
+constexpr double kLongestDelay = 0.25;       // seconds: beyond any flame's answer and a camera's lag
+constexpr double kNearlyAsGood = 1.02;       // in root mean square error: what no eye tells apart
+constexpr int kMinRowsACoefficient = 4;      // as the verdict asks
+constexpr std::size_t kMinHeldOutRows = 60;  // beside the longest history
 
 // Channels that move at all: a search has no use for the others.
 struct Moving {
@@ -90,7 +90,7 @@ struct Candidates {
 };
 
 Candidates candidates_for(std::size_t rows, const PreparedOutlines& prepared, const Moving& moving,
-                          const OutlineOptions& options) {
+                          const OutlineRecipe& options) {
   const double rate_hz = prepared.recordings.front().rate_hz;
   const int first = options.delay.value_or(0);
   const bool search_delay = !options.delay && !moving.inputs.empty();
@@ -98,7 +98,7 @@ Candidates candidates_for(std::size_t rows, const PreparedOutlines& prepared, co
   Candidates out;
   const auto add = [&](int order, int delay) {
     ArxOrders orders = reduced(outline_orders(order, delay, *options.coupling, prepared), moving);
-    const auto wanted = static_cast<std::size_t>(kLeastRowsACoefficient * most_coefficients(orders));
+    const auto wanted = static_cast<std::size_t>(kMinRowsACoefficient * most_coefficients(orders));
     if (!out.list.empty() && rows < wanted + static_cast<std::size_t>(orders.history())) return;
     out.list.push_back({order, delay, 0, 0});
     out.orders.push_back(std::move(orders));
@@ -165,7 +165,7 @@ OutlineCriterion criterion_for(std::span<const Recording> held_out, const Moving
                                const Candidates& candidates) {
   int history = 0;
   for (const ArxOrders& orders : candidates.orders) history = std::max(history, orders.history());
-  if (rows_of(held_out, moving.channels) < kLeastHeldOutRows + static_cast<std::size_t>(history)) {
+  if (rows_of(held_out, moving.channels) < kMinHeldOutRows + static_cast<std::size_t>(history)) {
     return OutlineCriterion::kFpe;
   }
   return moving.inputs.empty() ? OutlineCriterion::kHeldOutStep : OutlineCriterion::kHeldOutFreeRun;
@@ -205,7 +205,7 @@ ArxOrders outline_orders(int order, int delay, OutlineCoupling coupling, const P
 }
 
 Result<OutlineChoice> choose_orders(std::span<const Recording> learned, std::span<const Recording> held_out,
-                                    const PreparedOutlines& prepared, const OutlineOptions& options) {
+                                    const PreparedOutlines& prepared, const OutlineRecipe& options) {
   OutlineChoice choice;
   if (options.order && (options.delay || prepared.inputs.empty())) {
     choice.candidates = {{*options.order, options.delay.value_or(0), 0, 0}};

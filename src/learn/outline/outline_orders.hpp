@@ -1,9 +1,9 @@
 #pragma once
 // Orders of an outline's equations: from options, or searched.
 
+#include "learn/outline/outline_fit.hpp"
 #include "learn/outline/outline_preparation.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/outline.hpp"
 #include "wisp/model/arx.hpp"
 
 namespace wisp {
@@ -17,6 +17,6 @@ ArxOrders outline_orders(int order, int delay, OutlineCoupling coupling, const P
 /// `learned` are the recordings to estimate from, mirror images included, `held_out` those to judge on (may be empty).
 /// Errors: too few rows for the lowest order.
 Result<OutlineChoice> choose_orders(std::span<const Recording> learned, std::span<const Recording> held_out,
-                                    const PreparedOutlines& prepared, const OutlineOptions& options);
+                                    const PreparedOutlines& prepared, const OutlineRecipe& options);
 
 }  // namespace wisp

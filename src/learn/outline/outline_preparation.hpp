@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "learn/outline/outline_inputs.hpp"
+#include "learn/outline/outline_units.hpp"
 #include "wisp/learn/channel_choice.hpp"
-#include "wisp/learn/outline_inputs.hpp"
-#include "wisp/learn/outline_units.hpp"
 
 namespace wisp {
 

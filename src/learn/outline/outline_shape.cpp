@@ -1,4 +1,4 @@
-#include "wisp/learn/outline_shape.hpp"
+#include "learn/outline/outline_shape.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -24,7 +24,7 @@ struct SynthesisOptions {
 /// A synthesized recording and how often outputs were held.
 struct Synthesis {
   Recording recording;    ///< one channel an output, in the model's units, one episode
-  double held_share = 0;  ///< of steps in which an output was held at its range, the warm-up not counted
+  double held_share = 0;  ///< of steps in which an output was clamped to its range, the warm-up not counted
 };
 
 /// Plays a model in a bank of one.
@@ -33,7 +33,7 @@ Result<Synthesis> synthesize(const Model& model, const SynthesisOptions& options
 
 /// What a crowd of instances did.
 struct FreePlay {
-  double held_share = 0;   ///< of steps in which an output was held at its range
+  double held_share = 0;   ///< of steps in which an output was clamped to its range
   std::vector<double> sd;  ///< standard deviation of every output, in its unit
 };
 

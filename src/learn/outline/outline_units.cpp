@@ -1,17 +1,17 @@
-#include "wisp/learn/outline_units.hpp"
+#include "learn/outline/outline_units.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
 
-#include "wisp/learn/outline_shape.hpp"
+#include "learn/outline/outline_shape.hpp"
 #include "wisp/model/bspline.hpp"
 
 namespace wisp {
 namespace {
 
-constexpr std::size_t kLeastPoints = kSplineDegree + 1;
+constexpr std::size_t kMinPoints = kSplineDegree + 1;
 constexpr std::string_view kUnitAttribute = "pixels_per_unit";
 
 Result<std::vector<double>> knots_of(const Recording& recording, std::size_t points) {
@@ -19,9 +19,9 @@ Result<std::vector<double>> knots_of(const Recording& recording, std::size_t poi
   if (!found) return found.error();
   if (!*found) return uniform_knots(static_cast<int>(points));
   std::vector<double>& knots = **found;
-  if (knots.size() != points + kLeastPoints) {
+  if (knots.size() != points + kMinPoints) {
     return Error{recording.source + ": has " + std::to_string(knots.size()) + " knots, expected " +
-                 std::to_string(points + kLeastPoints) + " for " + std::to_string(points) + " control points"};
+                 std::to_string(points + kMinPoints) + " for " + std::to_string(points) + " control points"};
   }
   if (!valid_knots(knots)) {
     return Error{recording.source + ": its knots are not ascending from 0 to 1 with multiplicity 4 at both ends"};
@@ -78,7 +78,7 @@ Result<OutlineLayout> outline_layout(const Recording& recording) {
     if (!x || !y) return Error{recording.source + ": control point " + name + " has no " + (x ? "y" : "x")};
     layout.outputs.insert(layout.outputs.end(), {*x, *y});
   }
-  if (layout.points < kLeastPoints) {
+  if (layout.points < kMinPoints) {
     return Error{recording.source + ": has " + std::to_string(layout.points) +
                  " control points (p0.x, p0.y, …), expected at least 4: is it a recording of an outline?"};
   }

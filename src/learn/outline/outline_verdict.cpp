@@ -9,12 +9,12 @@
 namespace wisp {
 namespace {
 
-constexpr std::size_t kLeastRows = 50;
-constexpr int kLeastRowsACoefficient = 4;
-constexpr double kLeastFollowed = 5;  // per cent: a short simulation fits a little by where it starts
-constexpr double kMostHeld = 1e-3;
-constexpr double kMostLossGrown = 1.2;  // of a repaired model, in variance: beyond it is another model
-constexpr double kMostSpread = 2;       // playing freely over recorded, of the typical channel, either way
+constexpr std::size_t kMinRows = 50;
+constexpr int kMinRowsACoefficient = 4;
+constexpr double kMinFollowed = 5;  // per cent: a short simulation fits a little by where it starts
+constexpr double kMaxHeld = 1e-3;
+constexpr double kMaxLossGrown = 1.2;  // of a repaired model, in variance: beyond it is another model
+constexpr double kMaxSpread = 2;       // playing freely over recorded, of the typical channel, either way
 
 std::string rounded(double value, int digits) {
   char out[64];
@@ -76,12 +76,11 @@ const char* noise_name(OutlineNoise noise) {
   return "";
 }
 
-std::vector<Note> notes(const OutlineOptions& options, const OutlineChoice& choice, int knots) {
+std::vector<Note> notes(const OutlineRecipe& options, const OutlineChoice& choice, int knots) {
   return {{"order", std::to_string(choice.taken().order)},
           {"delay", std::to_string(choice.taken().delay)},
           {"order_and_delay", choice.reason},
           {"coupling", coupling_name(*options.coupling)},
-          {"square", options.square ? "yes" : "no"},
           {"input_curve", std::to_string(knots)},
           {"one_sided", options.one_sided ? "yes" : "no"},
           {"holdout", rounded(options.holdout, 3)},
@@ -115,26 +114,26 @@ Usable outline_verdict(const ArxSummary& fit, const OutlineSummary& summary) {
   const std::size_t rows = summary.rows_learned + (summary.refitted ? summary.rows_held_out : 0);
   const OutlineFigures& judged = summary.held_out ? *summary.held_out : summary.learned;
   if (!fit.usable.verdict) return fit.usable;
-  if (rows < kLeastRows) {
-    return {false, "learned from " + std::to_string(rows) + " frames; at least " + std::to_string(kLeastRows) +
+  if (rows < kMinRows) {
+    return {false, "learned from " + std::to_string(rows) + " frames; at least " + std::to_string(kMinRows) +
                        " are needed to tell flicker from chance: record longer"};
   }
-  if (rows < static_cast<std::size_t>(kLeastRowsACoefficient * most_coefficients(summary.orders))) {
+  if (rows < static_cast<std::size_t>(kMinRowsACoefficient * most_coefficients(summary.orders))) {
     return {false, std::to_string(most_coefficients(summary.orders)) + " coefficients an output from " +
-                       std::to_string(rows) + " frames tell more of chance than of the thing; at least " +
-                       std::to_string(kLeastRowsACoefficient) +
+                       std::to_string(rows) + " frames describe chance more than the thing; at least " +
+                       std::to_string(kMinRowsACoefficient) +
                        " frames a coefficient are needed: record longer, or try a lower order or less coupling"};
   }
-  if (fit.stable.changed && fit.stable.loss_factor > kMostLossGrown) {
+  if (fit.stable.changed && fit.stable.loss_factor > kMaxLossGrown) {
     return {false, "the estimate was unstable (radius " + rounded(fit.stable.estimated, 4) +
                        ") and became another model by being made stable: try a lower order or more frames"};
   }
-  if (summary.held_share > kMostHeld) {
-    return {false, "its outputs are held at their range in " + rounded(1000 * summary.held_share, 1) +
+  if (summary.held_share > kMaxHeld) {
+    return {false, "its outputs are clamped to their range in " + rounded(1000 * summary.held_share, 1) +
                        " of 1000 frames, more than 1: record longer or try a lower order"};
   }
   const double spread = median(summary.sd_ratio);
-  if (!(spread < kMostSpread && spread > 1 / kMostSpread)) {
+  if (!(spread < kMaxSpread && spread > 1 / kMaxSpread)) {
     return {false, "playing freely it moves " + rounded(spread, 2) +
                        " times as much as the recording does: try a lower order or less coupling"};
   }
@@ -142,7 +141,7 @@ Usable outline_verdict(const ArxSummary& fit, const OutlineSummary& summary) {
     return {false, "it predicts the next frame no better than the mean does (median fit " +
                        rounded(typical_fit(summary.learned, 1), 1) + " %)"};
   }
-  if (!summary.inputs.empty() && tip_fit(judged, kFreeRun) < kLeastFollowed) {
+  if (!summary.inputs.empty() && tip_fit(judged, kFreeRun) < kMinFollowed) {
     return {false, "simulated from its inputs alone the tip is followed hardly better than by its mean (fit " +
                        rounded(tip_fit(judged, kFreeRun), 1) + " %): learn without inputs, or check their timing"};
   }
@@ -152,7 +151,7 @@ Usable outline_verdict(const ArxSummary& fit, const OutlineSummary& summary) {
   return {true, reason};
 }
 
-Training outline_training(std::span<const Recording> recordings, const OutlineOptions& options,
+Training outline_training(std::span<const Recording> recordings, const OutlineRecipe& options,
                           const OutlineSummary& summary) {
   Training out;
   for (const Recording& recording : recordings) out.sources.push_back(recording.source);

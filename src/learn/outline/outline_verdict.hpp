@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "wisp/learn/outline.hpp"
+#include "learn/outline/outline_fit.hpp"
 
 namespace wisp {
 
@@ -12,7 +12,7 @@ namespace wisp {
 Usable outline_verdict(const ArxSummary& fit, const OutlineSummary& summary);
 
 /// What the model's file says of how it was made, but for a rule of extinction and the cost.
-Training outline_training(std::span<const Recording> recordings, const OutlineOptions& options,
+Training outline_training(std::span<const Recording> recordings, const OutlineRecipe& options,
                           const OutlineSummary& summary);
 
 }  // namespace wisp

@@ -1,4 +1,4 @@
-#include "wisp/learn/switched_fit.hpp"
+#include "learn/switched/switched_fit.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -8,10 +8,10 @@
 
 #include "learn/arx/fit/arx_stability.hpp"
 #include "learn/numeric/lyapunov.hpp"
+#include "learn/switched/switched_prediction.hpp"
 #include "learn/switched/switched_refine.hpp"
 #include "learn/switched/switched_rows.hpp"
 #include "learn/switched/switched_start.hpp"
-#include "wisp/learn/switched_prediction.hpp"
 
 namespace wisp {
 namespace {
@@ -29,14 +29,15 @@ Result<void> check_options(const SwitchedOptions& options) {
     return Error{what + " is " + found + ", expected " + expected};
   };
   const int most = static_cast<int>(kMostArxModes);
-  if (options.most_modes < 1 || options.most_modes > most)
-    return wrong("the largest number of modes", std::to_string(options.most_modes), "1 to 64");
+  if (options.max_modes < 1 || options.max_modes > most)
+    return wrong("the largest number of modes", std::to_string(options.max_modes), "1 to 64");
   if (options.modes < 0 || options.modes > most)
     return wrong("the number of modes", std::to_string(options.modes), "1 to 64, or 0 for the best");
   if (!(options.holdout > 0 && options.holdout <= 0.9))
     return wrong("the share of rows held out", std::to_string(options.holdout), "more than 0 and at most 0.9");
   if (options.starts < 1) return wrong("the number of starts", std::to_string(options.starts), "at least 1");
-  if (options.most_rounds < 1) return wrong("the number of rounds", std::to_string(options.most_rounds), "at least 1");
+  if (options.max_iterations < 1)
+    return wrong("the number of rounds", std::to_string(options.max_iterations), "at least 1");
   if (options.neighbours < 0)
     return wrong("the rows of a local model", std::to_string(options.neighbours), "at least 1, or 0");
   if (!(options.stability_margin > 0 && options.stability_margin < 1))
@@ -88,12 +89,15 @@ void settle(const SwitchedRows& rows, const VectorXd& least, RefinedModes& found
   }
 }
 
-RefinedModes best_of_starts(const SwitchedRows& rows, int modes, const SwitchedOptions& options) {
+Result<RefinedModes> best_of_starts(const SwitchedRows& rows, int modes, const SwitchedOptions& options,
+                                    const Progress& progress) {
   const VectorXd least = least_variance(rows);
   const int near = options.neighbours > 0 ? options.neighbours : 3 * row_size(rows);
   std::optional<RefinedModes> best;
   const int starts = modes == 1 ? 1 : options.starts;
   for (int start = 0; start < starts; ++start) {
+    const std::string stage = "trying " + std::to_string(modes) + (modes == 1 ? " mode" : " modes");
+    if (!go_on(progress, stage, static_cast<double>(start) / starts)) return Error{std::string(kStopped)};
     const std::uint64_t seed = options.seed * 1000 + static_cast<std::uint64_t>(start);
     // Larger neighbourhoods tell modes apart where noise is strong, smaller ones where regions are.
     const auto first = start < std::max(1, starts / 4)
@@ -102,7 +106,7 @@ RefinedModes best_of_starts(const SwitchedRows& rows, int modes, const SwitchedO
     RefinedModes found = refine(rows, options.switching, first, modes, least, kFirstRounds);
     if (!best || found.log_likelihood > best->log_likelihood) best = std::move(found);
   }
-  RefinedModes found = refine_further(rows, *best, least, options.most_rounds);
+  RefinedModes found = refine_further(rows, *best, least, options.max_iterations);
   settle(rows, least, found);
   return found;
 }
@@ -143,19 +147,20 @@ struct Judged {
 
 // Learns every number of modes from the first part of each stretch and judges it by the rest. A number is taken where
 // it gains surely over the last one that was.
-Judged judge(const SwitchedRows& rows, const SwitchedOptions& options) {
-  const SwitchedRows learned = share_of(rows, 0, 1 - options.holdout), held = share_of(rows, 1 - options.holdout, 1);
+Result<Judged> judge(const SwitchedRows& rows, const SwitchedOptions& options, const Progress& progress) {
+  const SwitchedRows learned = share_of(rows, 0, 1 - options.holdout), unseen = share_of(rows, 1 - options.holdout, 1);
   Judged out;
   std::vector<int> counts{1};
   if (options.modes > 1) counts.push_back(options.modes);
-  for (int k = 2; options.modes == 0 && k <= options.most_modes; ++k) counts.push_back(k);
+  for (int k = 2; options.modes == 0 && k <= options.max_modes; ++k) counts.push_back(k);
   std::vector<double> single, last, chosen;
   for (int count : counts) {
     if (static_cast<double>(learned.rows()) < count * least_rows(rows)) break;
-    const RefinedModes found = best_of_starts(learned, count, options);
-    const std::vector<double> row = row_log_likelihoods(found.modes, held);
-    const std::vector<double> share = mode_shares(found.modes, learned);
-    SwitchedCandidate candidate{count, found.log_likelihood / static_cast<double>(learned.rows()), mean_of(row)};
+    const auto found = best_of_starts(learned, count, options, progress);
+    if (!found) return found.error();
+    const std::vector<double> row = row_log_likelihoods(found->modes, unseen);
+    const std::vector<double> share = mode_shares(found->modes, learned);
+    SwitchedCandidate candidate{count, found->log_likelihood / static_cast<double>(learned.rows()), mean_of(row)};
     candidate.log_likelihood += likelihood_offset(rows);
     candidate.held_out_log_likelihood += likelihood_offset(rows);
     candidate.determined = *std::min_element(share.begin(), share.end()) >= least_rows(rows);
@@ -290,7 +295,7 @@ Usable verdict_of(const SwitchedFit& fit, const Judged& judged) {
 }  // namespace
 
 Result<SwitchedFit> fit_switched(std::span<const Recording> recordings, const ChannelChoice& channels,
-                                 const SwitchedOptions& options) {
+                                 const SwitchedOptions& options, const Progress& progress) {
   if (auto ok = check_options(options); !ok) return ok.error();
   if (auto ok = check_switched_data(recordings, channels, options.orders); !ok) return ok.error();
   auto rows =
@@ -301,13 +306,15 @@ Result<SwitchedFit> fit_switched(std::span<const Recording> recordings, const Ch
     return Error{"the recordings have " + std::to_string(rows->rows()) + " usable rows, expected at least " +
                  std::to_string(static_cast<long>(std::ceil(needed))) + ": choose fewer modes or smaller orders"};
   }
-  const Judged judged = judge(*rows, options);
-  const RefinedModes found = best_of_starts(*rows, judged.chosen, options);
-  SwitchedFit fit{model_of(found.modes, *rows), {}, {}};
-  fit.summary.candidates = judged.candidates;
+  const auto judged = judge(*rows, options, progress);
+  if (!judged) return judged.error();
+  const auto found = best_of_starts(*rows, judged->chosen, options, progress);
+  if (!found) return found.error();
+  SwitchedFit fit{model_of(found->modes, *rows), {}, {}};
+  fit.summary.candidates = judged->candidates;
   fit.summary.samples_used = static_cast<std::size_t>(rows->rows());
   fit.summary.held_out = static_cast<std::size_t>(share_of(*rows, 1 - options.holdout, 1).rows());
-  finish_modes(*rows, options, found, fit);
+  finish_modes(*rows, options, *found, fit);
   fit.model.lyapunov = find_common_lyapunov(fit.model);
   const std::vector<int> modes = likeliest_modes(scaled_modes(fit.model, *rows), *rows);
   for (const Recording& recording : recordings) fit.modes.emplace_back(recording.rows(), -1);
@@ -323,7 +330,7 @@ Result<SwitchedFit> fit_switched(std::span<const Recording> recordings, const Ch
     if (fit.summary.mode_changed[k]) fit.summary.warnings.push_back("mode " + std::to_string(k) + " was made stable");
   }
   fit.summary.differences = mode_differences(fit.model, fit.summary.constant_std_error);
-  fit.summary.usable = verdict_of(fit, judged);
+  fit.summary.usable = verdict_of(fit, *judged);
   return fit;
 }
 

@@ -1,4 +1,4 @@
-#include "wisp/learn/switched_prediction.hpp"
+#include "learn/switched/switched_prediction.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,19 +6,17 @@
 #include <string>
 
 #include "learn/arx/fit/arx_check.hpp"
+#include "learn/arx/rows/arx_design.hpp"
+#include "learn/arx/rows/arx_rows.hpp"
 
 namespace wisp {
 namespace {
-
-const std::vector<double>& samples_of(const Recording& recording, const std::string& name) {
-  return recording.channels[*find_channel(recording, name)].samples;
-}
 
 void add_scale(std::span<const Recording> recordings, const std::string& name, bool subtract_mean,
                std::vector<double>& means, std::vector<double>& sizes) {
   double count = 0, mean = 0, square = 0;
   for (const Recording& recording : recordings) {
-    for (double x : samples_of(recording, name)) {
+    for (double x : recording.channels[*find_channel(recording, name)].samples) {
       if (std::isnan(x)) continue;
       ++count;
       const double step = x - mean;
@@ -31,71 +29,33 @@ void add_scale(std::span<const Recording> recordings, const std::string& name, b
   sizes.push_back(sd > 0 && std::isfinite(sd) ? sd : 1);
 }
 
-Result<void> check_recordings(std::span<const Recording> recordings, const ChannelChoice& channels) {
-  if (recordings.empty()) return Error{"there is no recording to learn from"};
-  for (const Recording& recording : recordings) {
-    if (auto ok = check(recording); !ok) return Error{recording.source + ": " + ok.error().message};
-    for (const auto* names : {&channels.outputs, &channels.inputs}) {
-      for (const std::string& name : *names) {
-        if (!find_channel(recording, name)) return Error{recording.source + ": has no channel " + name};
-      }
-    }
-    if (recording.rate_hz != recordings.front().rate_hz) {
-      return Error{recording.source + ": has " + std::to_string(recording.rate_hz) + " samples a second, " +
-                   recordings.front().source + " has " + std::to_string(recordings.front().rate_hz)};
-    }
-  }
-  return {};
-}
-
-int column_of(const std::vector<RegionSample>& samples, const RegionSample& wanted) {
-  return 1 + static_cast<int>(std::find(samples.begin(), samples.end(), wanted) - samples.begin());
+// Where a regressor stands in phi.
+int column_of(const std::vector<RegionSample>& samples, int outputs, const LaggedChannel& wanted) {
+  if (wanted.channel == kConstantChannel) return 0;
+  const bool input = wanted.channel >= outputs;
+  const RegionSample sample{input, input ? wanted.channel - outputs : wanted.channel, wanted.lag};
+  return 1 + static_cast<int>(std::find(samples.begin(), samples.end(), sample) - samples.begin());
 }
 
 std::vector<std::vector<int>> columns_of(const ArxOrders& orders, const std::vector<RegionSample>& samples) {
   std::vector<std::vector<int>> rows;
   for (int i = 0; i < orders.outputs(); ++i) {
     std::vector<int>& row = rows.emplace_back();
-    for (int j = 0; j < orders.outputs(); ++j) {
-      for (int lag = 1; lag <= orders.na(i, j); ++lag) row.push_back(column_of(samples, {false, j, lag}));
+    for (const LaggedChannel& column : row_regressors(orders, i, ArxOffset::kEstimate)) {
+      row.push_back(column_of(samples, orders.outputs(), column));
     }
-    for (int k = 0; k < orders.inputs(); ++k) {
-      for (int l = 0; l < orders.nb(i, k); ++l) row.push_back(column_of(samples, {true, k, orders.nk(i, k) + l}));
-    }
-    row.push_back(0);
   }
   return rows;
 }
 
-// One recording's channels, scaled.
-struct ScaledChannels {
-  std::vector<std::vector<double>> outputs, inputs;
-};
-
-ScaledChannels scaled_channels(const Recording& recording, const ChannelChoice& channels,
-                               const SwitchedScales& scales) {
-  const auto scaled = [&](const std::vector<std::string>& names, const auto& means, const auto& sizes) {
-    std::vector<std::vector<double>> all;
-    for (std::size_t k = 0; k < names.size(); ++k) {
-      all.push_back(samples_of(recording, names[k]));
-      for (double& x : all.back()) x = (x - means[k]) / sizes[k];
-    }
-    return all;
-  };
-  return {scaled(channels.outputs, scales.output_mean, scales.output_size),
-          scaled(channels.inputs, scales.input_mean, scales.input_size)};
-}
-
-// The row's numbers, or false where one is missing.
-bool fill_row(const ScaledChannels& channels, const std::vector<RegionSample>& samples, std::size_t t,
-              std::vector<double>& row) {
-  row.assign(1, 1.0);
-  for (const RegionSample& s : samples) {
-    const auto& channel = (s.input ? channels.inputs : channels.outputs)[static_cast<std::size_t>(s.channel)];
-    row.push_back(channel[t - static_cast<std::size_t>(s.lag)]);
-  }
-  for (const auto& output : channels.outputs) row.push_back(output[t]);
-  return std::none_of(row.begin(), row.end(), [](double x) { return std::isnan(x); });
+// The channels about the operating point.
+Result<Signals> signals_about(std::span<const Recording> recordings, const ChannelChoice& channels,
+                              const SwitchedScales& scales) {
+  auto signals = find_signals(recordings, channels);
+  if (!signals) return signals;
+  signals->offset = scales.output_mean;
+  signals->offset.insert(signals->offset.end(), scales.input_mean.begin(), scales.input_mean.end());
+  return signals;
 }
 
 Eigen::MatrixXd lower_factor(const std::vector<double>& shock, const SwitchedRows& rows) {
@@ -126,38 +86,44 @@ SwitchedScales scales_of(std::span<const Recording> recordings, const ChannelCho
 
 Result<void> check_switched_data(std::span<const Recording> recordings, const ChannelChoice& channels,
                                  const ArxOrders& orders) {
-  if (auto ok = check_recordings(recordings, channels); !ok) return ok;
+  for (const Recording& recording : recordings) {
+    if (auto ok = check(recording); !ok) return Error{recording.source + ": " + ok.error().message};
+  }
+  if (const auto signals = find_signals(recordings, channels); !signals) return signals.error();
   return check_orders(orders, channels);
 }
 
 Result<SwitchedRows> make_switched_rows(std::span<const Recording> recordings, const ChannelChoice& channels,
                                         const ArxOrders& orders, const SwitchedScales& scales) {
+  const auto signals = signals_about(recordings, channels, scales);
+  if (!signals) return signals.error();
   SwitchedRows rows{orders, scales, region_samples(orders), {}, {}, {}, {}, {}};
   rows.columns = columns_of(orders, rows.samples);
-  const auto width = static_cast<Eigen::Index>(1 + rows.samples.size());
-  std::vector<double> all, row;
-  for (std::size_t r = 0; r < recordings.size(); ++r) {
-    const ScaledChannels scaled = scaled_channels(recordings[r], channels, scales);
-    for (const Episode& episode : episodes(recordings[r])) {
-      bool follows = false;
-      for (std::size_t t = episode.begin + static_cast<std::size_t>(orders.history()); t < episode.end; ++t) {
-        const bool whole = fill_row(scaled, rows.samples, t, row);
-        if (whole) {
-          const auto at = static_cast<Eigen::Index>(rows.places.size());
-          if (!follows) rows.runs.push_back({at, at});
-          ++rows.runs.back().end;
-          rows.places.push_back({r, t});
-          all.insert(all.end(), row.begin(), row.end());
-        }
-        follows = whole;
-      }
+  const RowPlan plan = plan_rows(*signals, make_design(orders, ArxOffset::kEstimate).layout, orders.history());
+  if (plan.rows == 0) return Error{"no row of the recordings has all the samples that the orders ask for"};
+  const auto count = static_cast<Eigen::Index>(plan.rows);
+  rows.phi.resize(count, static_cast<Eigen::Index>(1 + rows.samples.size()));
+  rows.phi.col(0).setOnes();
+  rows.y.resize(count, rows.outputs());
+  ScaledBlock block(*signals, orders.history());
+  const auto series = [&](const LaggedChannel& column) {
+    return Eigen::Map<const Eigen::VectorXd>(block.series(column), static_cast<Eigen::Index>(block.rows()));
+  };
+  for (const RowRun& run : plan.runs) {
+    block.load(run);
+    const auto at = static_cast<Eigen::Index>(rows.places.size()), size = static_cast<Eigen::Index>(block.rows());
+    rows.runs.push_back({at, at + size});
+    for (std::size_t t = run.begin; t < run.end; ++t) rows.places.push_back({run.recording, t});
+    for (std::size_t c = 0; c < rows.samples.size(); ++c) {
+      const RegionSample& sample = rows.samples[c];
+      rows.phi.col(static_cast<Eigen::Index>(c) + 1).segment(at, size) =
+          series({sample.input ? rows.outputs() + sample.channel : sample.channel, sample.lag}) /
+          size_of(sample, scales);
+    }
+    for (int i = 0; i < rows.outputs(); ++i) {
+      rows.y.col(i).segment(at, size) = series({i, 0}) / scales.output_size[i];
     }
   }
-  if (rows.places.empty()) return Error{"no row of the recordings has all the samples that the orders ask for"};
-  const auto table = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-      all.data(), static_cast<Eigen::Index>(rows.places.size()), width + rows.outputs());
-  rows.phi = table.leftCols(width);
-  rows.y = table.rightCols(rows.outputs());
   return rows;
 }
 

@@ -87,31 +87,6 @@ void fill_taps(const Model& model, const ArxModel& arx, ArxProgram& program) {
   }
 }
 
-void fill_growth(const Model& model, const ArxModel& arx, ArxProgram& program) {
-  double size = 1;
-  for (std::size_t tap = 0; tap < arx.noise.growth.size(); ++tap) {
-    const auto regressor = static_cast<int>(tap) / program.growth_steps;
-    program.growth[tap] = kept(arx.noise.growth[tap] * regressor_scale(model, regressor));
-    size += arx.noise.growth[tap] * arx.input_mean[regressor];
-  }
-  program.calm_size = static_cast<float>(size);
-}
-
-// The largest that the noise's size can become: nothing is held to more than a range beyond its own.
-double most_size(const Model& model, const ArxModel& arx) {
-  const auto& growth = arx.noise.growth;
-  const std::size_t steps = growth.empty() ? 0 : growth.size() / static_cast<std::size_t>(arx.orders.inputs());
-  double size = 1;
-  auto tap = growth.begin();
-  for (const Input& input : model.inputs) {
-    const double largest = std::max(std::abs(input.lowest), std::abs(input.highest)) + input.highest - input.lowest;
-    for (RegressorPart part : regressor_parts(input.shape)) {
-      for (std::size_t step = 0; step < steps; ++step) size += *tap++ * (is_square(part) ? largest * largest : largest);
-    }
-  }
-  return size;
-}
-
 std::span<const TapRun> runs_of(const ArxProgram& program, int row) {
   const std::uint32_t begin = row == 0 ? 0 : program.row_end[row - 1];
   return program.runs.subspan(begin, program.row_end[row] - begin);
@@ -153,9 +128,8 @@ ArxProgram make_arx_program(const Model& model, const ArxModel& arx, Arena& aren
   ArxProgram program;
   program.outputs = arx.orders.outputs();
   program.regressors = arx.orders.inputs();
-  if (program.regressors > 0) program.growth_steps = static_cast<int>(arx.noise.growth.size()) / program.regressors;
   program.drawn = make_drawn_program(model, arx, arena);
-  program.depth = std::max({arx.orders.history() + 1, program.growth_steps, 2});
+  program.depth = std::max(arx.orders.history() + 1, 2);
   if (program.drawn.driven()) program.depth = std::max(program.depth, program.drawn.trend_steps + 1);
   program.rank = arx.noise.rank;
   const TapCount count = count_taps(model, arx);
@@ -166,7 +140,6 @@ ArxProgram make_arx_program(const Model& model, const ArxModel& arx, Arena& aren
   program.constant = arena.take<float>(ny);
   program.sd = arena.take<float>(ny);
   program.mixing = arena.take<float>(ny * program.rank);
-  program.growth = arena.take<float>(arx.noise.growth.size());
   if (arena.measures()) return program;
   fill_taps(model, arx, program);
   for (int i = 0; i < program.outputs; ++i) {
@@ -177,7 +150,6 @@ ArxProgram make_arx_program(const Model& model, const ArxModel& arx, Arena& aren
       program.mixing[i * program.rank + r] = kept(arx.noise.mixing[i * program.rank + r] / unit);
     }
   }
-  fill_growth(model, arx, program);
   return program;
 }
 
@@ -201,21 +173,17 @@ std::uint64_t hash_of(const ArxProgram& program, std::uint64_t before) {
   for (const auto numbers : {program.coefficients, program.constant, program.sd, program.mixing}) {
     hash = hash_floats(numbers, hash);
   }
-  hash = hash_of(program.drawn, hash);
-  if (program.growth.empty()) return hash;
-  const float calm[] = {program.calm_size};
-  return hash_floats(program.growth, hash_floats(calm, hash));
+  return hash_of(program.drawn, hash);
 }
 
 Result<void> check_arx_program(const Model& model, const ArxModel& arx) {
   double sum = 0;
-  const double size = most_size(model, arx);
   for_each_tap(model, arx, [&](int, int, std::uint32_t, float coefficient) { sum += std::abs(coefficient); });
   for (int i = 0; i < arx.orders.outputs(); ++i) {
     const double unit = output_scale(model, i);
-    sum += std::abs(arx.constant[i]) / unit + size * arx.noise.sd[i] / unit;
+    sum += std::abs(arx.constant[i]) / unit + arx.noise.sd[i] / unit;
   }
-  for (double share : arx.noise.mixing) sum += size * std::abs(share);
+  for (double share : arx.noise.mixing) sum += std::abs(share);
   if (sum < kMostSum) return {};
   return Error{"the ARX coefficients add up to " + std::to_string(sum) +
                " in units of the channels' ranges, expected less than 1e30: learn the model again"};

@@ -31,9 +31,6 @@ struct ArxProgram {
   std::span<float> constant;
   std::span<float> sd;
   std::span<float> mixing;  ///< outputs × rank
-  std::span<float> growth;  ///< regressors × growth_steps, of deviations in channel units; empty: the noise's size is 1
-  int growth_steps = 0;     ///< lags of a regressor from 0 on that the noise's size hangs on
-  float calm_size = 1;      ///< the noise's size where all regressors are at their means
   DrawnProgram drawn;       ///< residuals to play instead; empty: Gaussian shocks
 };
 

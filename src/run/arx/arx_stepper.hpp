@@ -145,7 +145,6 @@ class ArxStepper : public ChannelHistory<N> {
       return;
     }
     draw(moment);
-    if (!program_.growth.empty()) grow(block);
   }
 
   Reals<N> wind_at(int block, std::uint32_t lag) const {
@@ -178,26 +177,6 @@ class ArxStepper : public ChannelHistory<N> {
         random_group<N>(*moment.keys, counters, static_cast<std::uint32_t>(group), words);
       }
       store(normal_lanes<N>(words[channel % 4]), shocks_.data() + channel * kLanes);
-    }
-  }
-
-  // Scales the shocks that are used by the noise's size in the wind of this step and of those just before.
-  void grow(int block) {
-    auto size = all<Reals<N>>(program_.calm_size);
-    const float* growth = program_.growth.data();
-    for (int k = 0; k < program_.regressors; ++k) {
-      for (int lag = 0; lag < program_.growth_steps; ++lag, ++growth) {
-        if (*growth == 0) continue;
-        const Real* regressor = ring_.sample(block, static_cast<std::uint32_t>(lag)) + (program_.outputs + k) * kLanes;
-        size = size + all<Reals<N>>(*growth) * load<Reals<N>>(regressor);
-      }
-    }
-    size = larger(size, all<Reals<N>>(0.0f));
-    const int channels = program_.outputs + program_.rank;
-    for (int channel = 0; channel < channels; ++channel) {
-      if (!is_shaken(channel)) continue;
-      Real* shock = shocks_.data() + channel * kLanes;
-      store(size * load<Reals<N>>(shock), shock);
     }
   }
 

@@ -19,7 +19,7 @@ std::vector<double> channel_units(const Model& model) {
   std::vector<double> units;
   for (const Output& output : model.outputs) units.push_back(channel_scale(output.lowest, output.highest));
   for (const Input& input : model.inputs) {
-    for (RegressorPart part : regressor_parts(input.shape)) units.push_back(regressor_scale(input, part));
+    units.insert(units.end(), regressor_count(input.shape), channel_scale(input.lowest, input.highest));
   }
   return units;
 }

@@ -13,11 +13,6 @@ namespace {
 
 constexpr int kMostCapacity = 1 << 20;
 constexpr int kMostPolylinePoints = 4096;
-constexpr float kNearest = 0.001f;  // metres
-constexpr float kLeastNear = 1000.0f;
-constexpr std::chrono::nanoseconds kLongestSteering = std::chrono::seconds(10'000);
-constexpr float kLeastOrientation = 1e-6f;  // of its squared length
-constexpr float kMostOrientation = 1e30f;
 
 Result<void> check_options(const BankOptions& options) {
   if (options.capacity < 1 || options.capacity > kMostCapacity) {
@@ -89,6 +84,12 @@ bool Bank::valid(InstanceId id) const { return state_->valid(id); }
 Bank::Held Bank::held() const { return state_->held; }
 float Bank::noise() const { return state_->noise; }
 
+ChainFacet* Bank::chain() { return state_->chain_stepper() ? &state_->chain_facet : nullptr; }
+const ChainFacet* Bank::chain() const { return const_cast<Bank*>(this)->chain(); }
+ExtinctionFacet* Bank::extinction() { return state_->extinction.present ? &state_->extinction_facet : nullptr; }
+const ExtinctionFacet* Bank::extinction() const { return const_cast<Bank*>(this)->extinction(); }
+const SwitchedFacet* Bank::switched() const { return state_->switched_stepper() ? &state_->switched_facet : nullptr; }
+
 InstanceId Bank::at(int slot) const {
   if (slot < 0 || slot >= state_->rows || !state_->alive[slot]) return {};
   return {static_cast<std::uint32_t>(slot), state_->generation[slot]};
@@ -144,33 +145,6 @@ bool Bank::set_inputs(InstanceId id, std::span<const float> values) {
   if (!valid(id)) return false;
   assert(values.size() == static_cast<std::size_t>(state_->inputs));
   state_->set_lane_inputs(static_cast<int>(id.slot), values.data());
-  return true;
-}
-
-bool Bank::goes_out() const { return state_->extinction.present; }
-
-std::optional<LitState> Bank::lit_state(InstanceId id) const {
-  if (!valid(id)) return {};
-  return state_->lit_state(static_cast<int>(id.slot));
-}
-
-void Bank::lit_states(std::span<LitState> states) const {
-  const State& s = *state_;
-  assert(states.size() == static_cast<std::size_t>(s.rows));
-  for (int slot = 0; slot < s.rows; ++slot) {
-    states[slot] = s.alive[slot] ? s.lit_state(slot) : LitState{.lit = false, .size = 0.0f};
-  }
-}
-
-bool Bank::relight(InstanceId id) {
-  if (!valid(id)) return false;
-  state_->relight(static_cast<int>(id.slot));
-  return true;
-}
-
-bool Bank::extinguish(InstanceId id) {
-  if (!valid(id)) return false;
-  state_->extinguish(static_cast<int>(id.slot));
   return true;
 }
 
@@ -245,85 +219,6 @@ bool Bank::polyline(InstanceId id, std::span<float> values) const {
   const int block = static_cast<int>(id.slot) / State::kLanes, lane = static_cast<int>(id.slot) % State::kLanes;
   s.polyline_of(block, [&](int number, const float* lane_values) { values[number] = lane_values[lane]; });
   return true;
-}
-
-std::optional<ChainPlace> Bank::chain_place(InstanceId id) const {
-  if (!valid(id)) return {};
-  const int block = static_cast<int>(id.slot) / State::kLanes, lane = static_cast<int>(id.slot) % State::kLanes;
-  return std::visit([&](const auto& dynamics) { return dynamics.chain_place(block, lane); }, state_->stepper);
-}
-
-std::optional<int> Bank::arx_mode(InstanceId id) const {
-  const auto* switched = std::get_if<SwitchedStepper<LiveNumbers>>(&state_->stepper);
-  if (!switched || !valid(id)) return {};
-  return switched->mode(static_cast<int>(id.slot) / State::kLanes, static_cast<int>(id.slot) % State::kLanes);
-}
-
-bool Bank::place(InstanceId id, const BodyMoment& body) {
-  if (!valid(id)) return false;
-  float size = 0;
-  for (const auto* vector : {&body.position, &body.velocity, &body.spin}) {
-    for (float x : *vector) {
-      if (!(x > -kFarthest && x < kFarthest)) return false;
-    }
-  }
-  for (float x : body.orientation) size += x * x;
-  if (!(size > kLeastOrientation && size < kMostOrientation)) return false;
-  const int block = static_cast<int>(id.slot) / State::kLanes, lane = static_cast<int>(id.slot) % State::kLanes;
-  const BodyState<float> state{body.position, unit(body.orientation), {body.velocity, body.spin}};
-  if (!std::visit([&](auto& dynamics) { return dynamics.place(block, lane, state); }, state_->stepper)) return false;
-  state_->show_block(block);
-  return true;
-}
-
-bool Bank::steer(InstanceId id, const SteerTarget& target) {
-  if (!valid(id)) return false;
-  for (float x : target.position) {
-    if (!(x > -kFarthest && x < kFarthest)) return false;
-  }
-  if (!(target.near >= kNearest && target.near <= kLeastNear)) return false;
-  if (target.in <= std::chrono::nanoseconds::zero() || target.in > kLongestSteering) return false;
-  const auto steps = static_cast<float>((target.in.count() + state_->step_time - 1) / state_->step_time);
-  const int block = static_cast<int>(id.slot) / State::kLanes, lane = static_cast<int>(id.slot) % State::kLanes;
-  return std::visit([&](auto& dynamics) { return dynamics.steer(block, lane, target.position, steps, target.near); },
-                    state_->stepper);
-}
-
-bool Bank::release(InstanceId id) {
-  if (!valid(id)) return false;
-  const int block = static_cast<int>(id.slot) / State::kLanes, lane = static_cast<int>(id.slot) % State::kLanes;
-  std::visit([&](auto& dynamics) { dynamics.steer(block, lane, {}, 0.0f, kNearest); }, state_->stepper);
-  return true;
-}
-
-void Bank::set_ground(std::optional<float> height) {
-  ChainSettings settings = state_->chain;
-  settings.ground = height && *height > -kFarthest && *height < kFarthest ? *height : kNoGround;
-  state_->set_chain(settings);
-}
-
-std::optional<float> Bank::ground() const {
-  if (state_->chain.ground == kNoGround) return {};
-  return state_->chain.ground;
-}
-
-void Bank::set_history(int longest) {
-  ChainSettings settings = state_->chain;
-  settings.history = std::max(longest, 0);
-  state_->set_chain(settings);
-}
-
-int Bank::history() const { return state_->chain.history; }
-
-void Bank::set_temperature(std::optional<float> temperature) {
-  ChainSettings settings = state_->chain;
-  settings.temperature = !temperature ? kAsLearned : *temperature > 0 ? std::min(*temperature, kHottest) : 0.0f;
-  state_->set_chain(settings);
-}
-
-std::optional<float> Bank::temperature() const {
-  if (state_->chain.temperature == kAsLearned) return {};
-  return state_->chain.temperature;
 }
 
 bool Bank::reset(InstanceId id) {

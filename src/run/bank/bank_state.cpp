@@ -90,7 +90,7 @@ void Bank::State::relight(int slot) {
 }
 
 void Bank::State::extinguish(int slot) {
-  if (!extinction.present || !burns(slot)) return;
+  if (!burns(slot)) return;
   harm[slot] = 1.0f;
   lit[slot] = 0.0f;
   go_out(slot, steps);
@@ -109,7 +109,6 @@ void Bank::State::go_out(int slot, std::uint64_t moment) {
 }
 
 LitState Bank::State::lit_state(int slot) const {
-  if (!extinction.present) return {};
   const std::int64_t shown_late = between ? step_time - passed : 0;
   const auto since = [&](std::uint64_t then) {
     constexpr auto kLongest = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
@@ -175,7 +174,7 @@ void Bank::State::set_noise(float scale) {
 
 void Bank::State::set_chain(const ChainSettings& settings) {
   chain = settings;
-  std::visit([&](auto& dynamics) { dynamics.set_chain(settings); }, stepper);
+  if (auto* stepped = chain_stepper()) stepped->set_chain(settings);
 }
 
 Moment<LiveNumbers> Bank::State::moment(int block, std::uint32_t* flags) const {

@@ -5,6 +5,9 @@
 #include "run/bank/outline_lanes.hpp"
 #include "run/bank/stepper.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/chain_facet.hpp"
+#include "wisp/run/extinction_facet.hpp"
+#include "wisp/run/switched_facet.hpp"
 
 namespace wisp {
 
@@ -22,6 +25,11 @@ struct Bank::State {
   bool valid(InstanceId id) const {
     return id.generation != 0 && id.slot < static_cast<std::uint32_t>(capacity) && alive[id.slot] &&
            generation[id.slot] == id.generation;
+  }
+  ChainStepper<LiveNumbers>* chain_stepper() { return std::get_if<ChainStepper<LiveNumbers>>(&stepper); }
+  const ChainStepper<LiveNumbers>* chain_stepper() const { return std::get_if<ChainStepper<LiveNumbers>>(&stepper); }
+  const SwitchedStepper<LiveNumbers>* switched_stepper() const {
+    return std::get_if<SwitchedStepper<LiveNumbers>>(&stepper);
   }
   float* regressors_of(int block) { return regressors.data() + block * channels.regressors.size() * kLanes; }
   float* shown_of(int block) { return shown.data() + block * channels.outputs.size() * kLanes; }
@@ -49,7 +57,7 @@ struct Bank::State {
   bool is_whole(int block) const;
   void show_life(int block, float share);
   void set_noise(float scale);
-  void set_chain(const ChainSettings& settings);
+  void set_chain(const ChainSettings& settings);  // where it is a chain
   void read_outputs(int slot, float* values) const;
   template <class Show>
   void polyline_of(int block, const Show& show) const {  // show(2 · point + coordinate, [lane])
@@ -100,6 +108,9 @@ struct Bank::State {
   float noise = 0.0f;
   ChainSettings chain;
   Held held;
+  ChainFacet chain_facet{*this};
+  ExtinctionFacet extinction_facet{*this};
+  SwitchedFacet switched_facet{*this};
 };
 
 }  // namespace wisp

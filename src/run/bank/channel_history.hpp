@@ -3,13 +3,9 @@
 // and how they are read.
 
 #include <cstdint>
-#include <optional>
 
 #include "run/bank/channels.hpp"
 #include "run/bank/sample_ring.hpp"
-#include "run/chain/chain_lane.hpp"
-#include "run/chain/rigid.hpp"
-#include "wisp/run/bank.hpp"
 
 namespace wisp {
 
@@ -43,12 +39,6 @@ class ChannelHistory {
 
   /// What a frame reads: games have rates of their own.
   void show_frame(int block, Real* out) const { show_between(block, 0.5f, out); }
-
-  /// There is no body that could be moved, and no chain of segments.
-  static void set_chain(const ChainSettings&) {}
-  static bool place(int, int, const BodyState<Real>&) { return false; }
-  static bool steer(int, int, const Vector3<Real>&, float, float) { return false; }
-  static std::optional<ChainPlace> chain_place(int, int) { return {}; }
 
  protected:
   /// Puts one lane's history to the operating point.

@@ -71,7 +71,7 @@ RegressorChannel make_regressor(const Input& input, int index, RegressorPart par
   channel.low = static_cast<float>(input.lowest - room);
   channel.high = static_cast<float>(input.highest + room);
   channel.mean = static_cast<float>(mean);
-  channel.inverse_scale = static_cast<float>(1.0 / regressor_scale(input, part));
+  channel.inverse_scale = static_cast<float>(1.0 / channel_scale(input.lowest, input.highest));
   channel.curve = curve;
   // A newborn's history is z = 0, whatever the range is.
   const float ends[] = {regress(channel, channel.low), regress(channel, channel.high), regress(channel, 0.0f), 0.0f};
@@ -104,24 +104,17 @@ double channel_scale(double lowest, double highest) {
 
 std::span<const RegressorPart> regressor_parts(InputShape shape) {
   using enum RegressorPart;
-  static constexpr RegressorPart kLinear[] = {kWhole, kWholeSquare};
-  static constexpr RegressorPart kSplit[] = {kPositive, kNegative, kPositiveSquare, kNegativeSquare};
-  const std::span<const RegressorPart> all = splits_sign(shape) ? std::span<const RegressorPart>(kSplit) : kLinear;
-  return all.first(static_cast<std::size_t>(regressor_count(shape)));
-}
-
-double regressor_scale(const Input& input, RegressorPart part) {
-  const double scale = channel_scale(input.lowest, input.highest);
-  return is_square(part) ? scale * scale : scale;
+  static constexpr RegressorPart kLinear[] = {kWhole};
+  static constexpr RegressorPart kSplit[] = {kPositive, kNegative};
+  if (splits_sign(shape)) return kSplit;
+  return kLinear;
 }
 
 double regressor_scale(const Model& model, int regressor) {
   int first = 0;
   for (const Input& input : model.inputs) {
-    const auto parts = regressor_parts(input.shape);
-    const auto place = static_cast<std::size_t>(regressor - first);
-    if (place < parts.size()) return regressor_scale(input, parts[place]);
-    first += static_cast<int>(parts.size());
+    first += regressor_count(input.shape);
+    if (regressor < first) return channel_scale(input.lowest, input.highest);
   }
   return 1;
 }
@@ -130,9 +123,7 @@ std::uint64_t hash_of(const Channels& channels, std::uint64_t before) {
   std::uint64_t hash = before;
   for (const OutputChannel& c : channels.outputs) hash = hash_floats({c.mean, c.scale, c.low, c.high}, hash);
   for (const RegressorChannel& c : channels.regressors) {
-    // Squares came later: a half more, so that models without them keep their hash.
-    const int part = static_cast<int>(c.part) % 3;
-    const float place = static_cast<float>(c.input * 3 + part) + (is_square(c.part) ? 0.5f : 0.0f);
+    const auto place = static_cast<float>(c.input * 3 + static_cast<int>(c.part));
     hash = hash_floats({place, c.low, c.high, c.mean, c.inverse_scale}, hash);
     for (const CurvePiece& piece : c.curve) hash = hash_floats({piece.from, piece.width, piece.slope}, hash);
   }

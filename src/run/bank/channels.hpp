@@ -26,20 +26,10 @@ struct OutputChannel {
 };
 
 /// How a regressor is made from its input.
-enum class RegressorPart : std::uint8_t {
-  kWhole,
-  kPositive,
-  kNegative,
-  kWholeSquare,
-  kPositiveSquare,
-  kNegativeSquare,
-};
+enum class RegressorPart : std::uint8_t { kWhole, kPositive, kNegative };
 
 /// The regressors that an input of that shape makes, in their order.
 std::span<const RegressorPart> regressor_parts(InputShape shape);
-
-/// Whether a regressor is a square.
-inline bool is_square(RegressorPart part) { return part >= RegressorPart::kWholeSquare; }
 
 /// A piece of an input's curve: what it is at a knot, and what it climbs from there to the next.
 struct CurvePiece {
@@ -71,10 +61,7 @@ struct Channels {
 /// The power of two that a channel's deviations are measured in; 1 where its range is 1/128 to 128, or nothing.
 double channel_scale(double lowest, double highest);
 
-/// The power of two that a regressor's deviations are measured in.
-double regressor_scale(const Input& input, RegressorPart part);
-
-/// The same of a regressor by its place among all of a model's.
+/// The power of two that the deviations of a regressor, by its place among all of a model's, are measured in.
 double regressor_scale(const Model& model, int regressor);
 
 /// The operating point of each channel, as the dynamics know it.
@@ -112,13 +99,8 @@ inline Reals<N> regress(const RegressorChannel& channel, const Reals<N>& inputs)
   const auto zero = all<Reals<N>>(0.0f);
   const auto held = hold(number_or(inputs, zero), all<Reals<N>>(channel.low), all<Reals<N>>(channel.high));
   auto part = held;
-  if (channel.part == RegressorPart::kPositive || channel.part == RegressorPart::kPositiveSquare) {
-    part = larger(held, zero);
-  }
-  if (channel.part == RegressorPart::kNegative || channel.part == RegressorPart::kNegativeSquare) {
-    part = zero - smaller(held, zero);
-  }
-  if (is_square(channel.part)) part = part * part;
+  if (channel.part == RegressorPart::kPositive) part = larger(held, zero);
+  if (channel.part == RegressorPart::kNegative) part = zero - smaller(held, zero);
   if (!channel.curve.empty()) {
     typename N::Real bent[N::kLanes];
     store(part, bent);

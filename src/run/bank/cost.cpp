@@ -47,7 +47,9 @@ StepCount count_step(Stepper& stepper, std::span<const CountingReal> regressors,
   std::uint32_t held = 0;
   stepper.set_noise(noise);
   stepper.start(0, 0, {&keys, {&stream, &born, 0}, &held});
-  if (steered && !stepper.steer(0, 0, {}, 3.0f * kFrames, 0.1f)) return {};
+  if constexpr (requires { stepper.can_steer(); }) {
+    if (steered) stepper.steer(0, 0, {}, 3.0f * kFrames, 0.1f);
+  }
   const auto play = [&](std::uint64_t step) {
     stepper.turn();
     std::copy(regressors.begin(), regressors.end(), stepper.regressors(0));
@@ -129,8 +131,10 @@ Cost count_frame(const Model& model, const Kind& dynamics, const Channels& chann
   cost.operations_per_frame = cost.dynamics_operations + cost.noise_operations + cost.random_operations +
                               cost.view_operations + cost.extinction_operations;
   cost.worst_operations = cost.operations_per_frame - (noisy.numbers + noisy.words) + most + extinction.shrinking;
-  const std::int64_t steered = count_step(stepper, blowing, 1, true).most;
-  if (steered > 0) cost.steered_operations = cost.worst_operations - most + steered;
+  if constexpr (requires { stepper.can_steer(); }) {
+    const std::int64_t steered = stepper.can_steer() ? count_step(stepper, blowing, 1, true).most : 0;
+    if (steered > 0) cost.steered_operations = cost.worst_operations - most + steered;
+  }
   cost.between_operations = count_between(channels, stepper);
   return cost;
 }

@@ -21,7 +21,7 @@ inline constexpr float kHottest = 1e9f;
 struct ChainSettings {
   float ground = kNoGround;
   std::int32_t history = 0;        ///< most modes to look back; 0: as learned
-  float temperature = kAsLearned;  ///< as Bank::set_temperature()
+  float temperature = kAsLearned;  ///< as ChainFacet::set_temperature()
 };
 
 }  // namespace wisp

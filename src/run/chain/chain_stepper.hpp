@@ -15,7 +15,7 @@
 #include "run/chain/ground_lane.hpp"
 #include "run/chain/gust_lane.hpp"
 #include "run/chain/system_lane.hpp"
-#include "wisp/run/bank.hpp"
+#include "wisp/run/chain_facet.hpp"
 #include "wisp/run/random.hpp"
 
 namespace wisp {
@@ -155,25 +155,28 @@ class ChainStepper {
   }
 
   /// Where a lane is in the chain.
-  std::optional<ChainPlace> chain_place(int block, int lane) const {
+  ChainPlace place_of(int block, int lane) const {
     const Lane& life = const_cast<ChainStepper*>(this)->lane_of(block, lane);
     const std::uint32_t segment = Mover::index(life.segment, program_.segments());
-    return ChainPlace{segment, Mover::index(life.row, program_.systems.used() ? 65536 : program_.steps(segment))};
+    const std::uint32_t row = Mover::index(life.row, program_.systems.used() ? 65536 : program_.steps(segment));
+    return {segment, row, program_.mode[segment]};
   }
 
+  bool can_steer() const { return !program_.lead.empty(); }
+
   /// Steers a lane to a place that it is to be near in so many steps; none: no longer.
-  bool steer(int block, int lane, const Vector3<Real>& target, float steps, float near) {
-    if (program_.lead.empty()) return false;
+  ///
+  /// Precondition: can_steer().
+  void steer(int block, int lane, const Vector3<Real>& target, float steps, float near) {
     Lane& life = lane_of(block, lane);
     life.target = target;
     life.left = Real(steps);
     life.near = Real(near);
     life.next = Real(0.0f);  // what was drawn a step before the join, knew of no target
-    return true;
   }
 
   /// Puts a lane where a body is, on whichever segment begins most as the body moves.
-  bool place(int block, int lane, const Body& body) {
+  void place(int block, int lane, const Body& body) {
     const Mover mover(program_);
     std::uint32_t best = 0;
     Real least(3e38f);
@@ -203,7 +206,6 @@ class ChainStepper {
     for (int k = 0; k < program_.channels; ++k) {
       previous_of(block)[k * kLanes + lane] = newest_of(block)[k * kLanes + lane];
     }
-    return true;
   }
 
   /// A chain multiplies by no coefficients of A and B.

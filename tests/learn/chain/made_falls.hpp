@@ -7,7 +7,7 @@
 
 #include "wisp/record/recording.hpp"
 
-namespace wisp {
+namespace wisp::chain {
 
 struct MadeFallOptions {
   int falls = 10;
@@ -58,4 +58,4 @@ inline Recording made_falls(const MadeFallOptions& options = {}) {
   return recording;
 }
 
-}  // namespace wisp
+}  // namespace wisp::chain

@@ -1,4 +1,4 @@
-#include "wisp/learn/blow_outs.hpp"
+#include "learn/flame/blow_outs.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "learn/flame/made_blow_outs.hpp"
-#include "wisp/learn/outline.hpp"
+#include "learn/outline/outline_fit.hpp"
 
 namespace wisp {
 namespace {
@@ -100,7 +100,7 @@ TEST(BlowOuts, AModelIsLearnedFromBothSidesOfThem) {
   const auto made = made::blow_out_recording({.weakest = 3, .shortest = 0.5});
   const auto found = *find_blow_outs(made.recording, "wind");
   const Recording burning = without_blow_outs(made.recording, found);
-  const auto whole = learn_outline(std::span(&made.recording, 1)), fit = learn_outline(std::span(&burning, 1));
+  const auto whole = fit_outline(std::span(&made.recording, 1)), fit = fit_outline(std::span(&burning, 1));
   ASSERT_TRUE(whole) << whole.error().message;
   ASSERT_TRUE(fit) << fit.error().message;
   EXPECT_TRUE(fit->summary.usable.verdict) << fit->summary.usable.reason;

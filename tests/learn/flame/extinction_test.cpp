@@ -1,4 +1,4 @@
-#include "wisp/learn/extinction.hpp"
+#include "learn/flame/extinction.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -145,7 +145,7 @@ TEST(LearnedExtinction, DeathsThatWindDoesNotExplainAreRefused) {
   for (BlowOut& blow_out : seen.blow_outs) blow_out.blown = true;
   const auto fit = learn_extinction(std::span(&seen, 1));
   ASSERT_FALSE(fit);
-  EXPECT_THAT(fit.error().message, HasSubstr("wind does not tell when the flame went out"));
+  EXPECT_THAT(fit.error().message, HasSubstr("wind does not explain when the flame was extinguished"));
 }
 
 TEST(ExtinctionAgreement, CountsDeathsAndGustsAndHowLateTheRuleIs) {

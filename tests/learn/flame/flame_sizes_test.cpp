@@ -1,4 +1,4 @@
-#include "wisp/learn/flame_sizes.hpp"
+#include "learn/flame/flame_sizes.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,6 +9,7 @@
 #include "learn/flame/made_blow_outs.hpp"
 #include "run/flame_model.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/extinction_facet.hpp"
 
 namespace wisp {
 namespace {
@@ -88,17 +89,19 @@ TEST(FlameSizes, ARampIsWhatABankShows) {
     model.extinction = Extinction{.dying = seconds, .catching = seconds};
     Bank bank = *Bank::create(model, {});
     const InstanceId id = bank.spawn();
-    bank.extinguish(id);
+    bank.extinction()->extinguish(id);
     std::vector<double> dying;
-    for (bank.step(); bank.lit_state(id)->size > 1e-6; bank.step()) dying.push_back(bank.lit_state(id)->size);
+    for (bank.step(); bank.extinction()->state_of(id)->size > 1e-6; bank.step())
+      dying.push_back(bank.extinction()->state_of(id)->size);
     for (std::size_t row = 0; row < dying.size(); ++row) {
       EXPECT_NEAR(ramp_size(SizeChange::kDying, seconds, 100, row), dying[dying.size() - 1 - row], 1e-5) << seconds;
     }
     EXPECT_DOUBLE_EQ(ramp_size(SizeChange::kDying, seconds, 100, dying.size()), 1);
-    bank.relight(id);
+    bank.extinction()->relight(id);
     for (std::size_t row = 0; row < 50; ++row) {
       bank.step();
-      EXPECT_NEAR(ramp_size(SizeChange::kCatching, seconds, 100, row), bank.lit_state(id)->size, 1e-5) << seconds;
+      EXPECT_NEAR(ramp_size(SizeChange::kCatching, seconds, 100, row), bank.extinction()->state_of(id)->size, 1e-5)
+          << seconds;
     }
   }
 }

@@ -1,13 +1,13 @@
 // One scale for all recordings, or each its own: what one microphone heard, and what two did.
 
-#include "wisp/learn/wind_gain.hpp"
+#include "learn/flame/wind_gain.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "learn/outline/made_outline.hpp"
-#include "wisp/learn/validation.hpp"
+#include "learn/outline/outline_judgement.hpp"
 #include "wisp/record/loudness.hpp"
 
 namespace wisp {
@@ -26,37 +26,39 @@ double wind_at(const Recording& recording, std::size_t row) {
   return recording.channels[*find_channel(recording, "wind")].samples[row];
 }
 
-const OutlineOptions kQuick{.noise = OutlineNoise::kMatched};
+const OutlineRecipe kQuick{.noise = OutlineNoise::kMatched};
 
-TEST(WindGain, OneScaleIsThatOfTheLoudest) {
+TEST(WindGain, CommonGainIsThatOfTheLoudest) {
   const std::vector recordings{heard(1, 1, 1), heard(2, 2, 1)};
-  const auto together = *at_one_gain(recordings);
+  const auto together = *at_common_gain(recordings);
   EXPECT_NEAR(wind_at(together[0], 40), wind_at(recordings[0], 40) / 2, 1e-12);
   EXPECT_EQ(wind_at(together[1], 40), wind_at(recordings[1], 40));
   EXPECT_EQ(*one_rms(together[0], "wind"), *one_rms(together[1], "wind"));
 }
 
-TEST(WindGain, WhatOneMicrophoneHeardIsPutOnOneScale) {
+TEST(WindGain, OneMicrophoneIsGivenTheCommonGain) {
   const auto gain = *choose_wind_gain(std::vector{heard(1, 1, 1), heard(2, 2.5, 1)}, kQuick);
-  EXPECT_TRUE(gain.one);
-  EXPECT_LT(gain.one_error, 0.8 * gain.own_error);
+  EXPECT_TRUE(gain.common);
+  EXPECT_LT(gain.common_error, 0.8 * gain.own_error);
   EXPECT_NEAR(gain.factors[0], 0.4, 1e-12);
   EXPECT_NEAR(gain.factors[1], 1, 1e-12);
-  EXPECT_NE(gain.reason.find("on one scale"), std::string::npos);
+  EXPECT_NE(gain.reason.find("common gain"), std::string::npos);
 }
 
-TEST(WindGain, WhatTwoMicrophonesHeardKeepsTheirScales) {
+TEST(WindGain, TwoMicrophonesKeepPerRecordingGain) {
   const auto gain = *choose_wind_gain(std::vector{heard(1, 1, 1), heard(2, 1, 9)}, kQuick);
-  EXPECT_FALSE(gain.one);
-  EXPECT_LT(gain.own_error, 0.8 * gain.one_error);
+  EXPECT_FALSE(gain.common);
+  EXPECT_LT(gain.own_error, 0.8 * gain.common_error);
 }
 
-TEST(WindGain, IsTakenAsItIsAskedFor) {
+TEST(WindGain, AGivenGainIsTakenUntried) {
   const std::vector recordings{heard(1, 1, 1), heard(2, 2, 1)};
-  for (const bool wanted : {false, true}) {
-    const auto gain = *choose_wind_gain(recordings, kQuick, wanted);
-    EXPECT_EQ(gain.one, wanted);
-    EXPECT_EQ(gain.one_error, 0);
+  for (const InputGain given : {InputGain::kPerRecording, InputGain::kCommon}) {
+    OutlineRecipe recipe = kQuick;
+    recipe.gain = given;
+    const auto gain = *choose_wind_gain(recordings, recipe);
+    EXPECT_EQ(gain.common, given == InputGain::kCommon);
+    EXPECT_EQ(gain.common_error, 0);
   }
 }
 
@@ -64,17 +66,17 @@ TEST(WindGain, ThereIsNothingToChooseWhereOneIsSilentAboutIt) {
   std::vector recordings{heard(1, 1, 1), heard(2, 2, 1)};
   recordings[1].attributes.clear();
   EXPECT_TRUE(choose_wind_gain(recordings, kQuick)->factors.empty());
-  EXPECT_EQ(wind_at(at_one_gain(recordings)->front(), 40), wind_at(recordings[0], 40));
+  EXPECT_EQ(wind_at(at_common_gain(recordings)->front(), 40), wind_at(recordings[0], 40));
   const std::vector alike{heard(1, 1, 1), heard(2, 1.01, 1)};
   EXPECT_TRUE(choose_wind_gain(alike, kQuick)->factors.empty());
   EXPECT_TRUE(choose_wind_gain(std::vector{heard(1, 1, 1)}, kQuick)->factors.empty());
 }
 
-TEST(WindGain, TooLittleHeldOutLeavesOneScale) {
-  OutlineOptions options = kQuick;
+TEST(WindGain, TooLittleHeldOutLeavesTheCommonGain) {
+  OutlineRecipe options = kQuick;
   options.holdout = 0;
   const auto gain = *choose_wind_gain(std::vector{heard(1, 1, 1), heard(2, 2, 1)}, options);
-  EXPECT_TRUE(gain.one);
+  EXPECT_TRUE(gain.common);
   EXPECT_NE(gain.reason.find("too little is held out"), std::string::npos);
 }
 
@@ -82,17 +84,17 @@ TEST(WindGain, ABadLoudnessIsAnError) {
   std::vector recordings{heard(1, 1, 1), heard(2, 2, 1)};
   recordings[1].attributes = {{"wind.one_rms", "-2"}};
   EXPECT_FALSE(choose_wind_gain(recordings, kQuick));
-  EXPECT_FALSE(at_one_gain(recordings));
+  EXPECT_FALSE(at_common_gain(recordings));
 }
 
 // A model knows how loud it was: what the same microphone hears later is as strong as it was then.
 TEST(WindGain, ARecordingIsValidatedAsLoudAsTheTraining) {
-  const auto fit = *learn_outline(std::vector{heard(1, 1, 1)}, kQuick);
+  const auto fit = *fit_outline(std::vector{heard(1, 1, 1)}, kQuick);
   const Recording later = heard(3, 2.5, 1);
   EXPECT_NEAR(*factor_to_trained_gain(fit.model, later), 2.5, 1e-12);
   EXPECT_NEAR(wind_at(*at_trained_gain(fit.model, later), 40), 2.5 * wind_at(later, 40), 1e-9);
-  const auto found = *validate_outline(fit.model, later, {.fidelity = false});
-  const auto same = *validate_outline(fit.model, heard(3, 1, 1), {.fidelity = false});
+  const auto found = *judge_outline(fit.model, later, {.fidelity = false});
+  const auto same = *judge_outline(fit.model, heard(3, 1, 1), {.fidelity = false});
   EXPECT_NEAR(found.figures.tip_fit_percent.back(), same.figures.tip_fit_percent.back(), 1e-6);
   Recording silent = later;
   silent.attributes.clear();
@@ -101,7 +103,7 @@ TEST(WindGain, ARecordingIsValidatedAsLoudAsTheTraining) {
 }
 
 TEST(WindGain, AModelOfScalesOfTheirOwnKnowsNoLoudness) {
-  const auto fit = *learn_outline(std::vector{heard(1, 1, 1), heard(2, 2, 1)}, kQuick);
+  const auto fit = *fit_outline(std::vector{heard(1, 1, 1), heard(2, 2, 1)}, kQuick);
   const Recording later = heard(3, 2.5, 1);
   EXPECT_EQ(wind_at(*at_trained_gain(fit.model, later), 40), wind_at(later, 40));
 }

@@ -22,12 +22,12 @@ std::vector<double> corners(std::size_t each, double spread) {
   return rows;
 }
 
-// Lloyd's rounds without any bound, from given middles.
-double plain_inertia(const std::vector<double>& rows, std::vector<double> middles) {
-  const std::size_t count = rows.size() / 3, clusters = middles.size() / 3;
+// Lloyd's rounds without any bound, from given centroids.
+double plain_inertia(const std::vector<double>& rows, std::vector<double> centroids) {
+  const std::size_t count = rows.size() / 3, clusters = centroids.size() / 3;
   double inertia = 0;
   for (int round = 0; round < 100; ++round) {
-    std::vector<double> sums(middles.size()), sizes(clusters);
+    std::vector<double> sums(centroids.size()), sizes(clusters);
     inertia = 0;
     for (std::size_t row = 0; row < count; ++row) {
       double least = std::numeric_limits<double>::max();
@@ -35,7 +35,7 @@ double plain_inertia(const std::vector<double>& rows, std::vector<double> middle
       for (std::size_t k = 0; k < clusters; ++k) {
         double distance = 0;
         for (std::size_t i = 0; i < 3; ++i) {
-          distance += (rows[3 * row + i] - middles[3 * k + i]) * (rows[3 * row + i] - middles[3 * k + i]);
+          distance += (rows[3 * row + i] - centroids[3 * k + i]) * (rows[3 * row + i] - centroids[3 * k + i]);
         }
         if (distance < least) {
           least = distance;
@@ -46,7 +46,7 @@ double plain_inertia(const std::vector<double>& rows, std::vector<double> middle
       ++sizes[best];
       for (std::size_t i = 0; i < 3; ++i) sums[3 * best + i] += rows[3 * row + i];
     }
-    for (std::size_t k = 0; k < middles.size(); ++k) middles[k] = sums[k] / sizes[k / 3];
+    for (std::size_t k = 0; k < centroids.size(); ++k) centroids[k] = sums[k] / sizes[k / 3];
   }
   return inertia;
 }
@@ -65,14 +65,14 @@ TEST(KMeans, BoundsLeaveNothingBetterUnmeasured) {
   const auto rows = corners(200, 1.6);
   const auto found = k_means(rows, 3, {.clusters = 6, .restarts = 1, .tolerance = 0});
   ASSERT_TRUE(found);
-  EXPECT_NEAR(plain_inertia(rows, found->middles), found->inertia, 1e-9 * found->inertia);
+  EXPECT_NEAR(plain_inertia(rows, found->centroids), found->inertia, 1e-9 * found->inertia);
 }
 
 TEST(KMeans, TheBestStartIsRunUntilNothingChangesSides) {
   const auto rows = corners(200, 1.6);
   const auto found = k_means(rows, 3, {.clusters = 6, .restarts = 3, .tolerance = 0.1});
   ASSERT_TRUE(found);
-  EXPECT_NEAR(plain_inertia(rows, found->middles), found->inertia, 1e-9 * found->inertia);
+  EXPECT_NEAR(plain_inertia(rows, found->centroids), found->inertia, 1e-9 * found->inertia);
 }
 
 TEST(KMeans, TheSameOnAnyNumberOfThreads) {
@@ -81,7 +81,7 @@ TEST(KMeans, TheSameOnAnyNumberOfThreads) {
   for (int threads : {2, 3, 16}) {
     const auto many = k_means(rows, 3, {.clusters = 5, .threads = threads});
     ASSERT_TRUE(one && many);
-    EXPECT_EQ(one->middles, many->middles);
+    EXPECT_EQ(one->centroids, many->centroids);
     EXPECT_EQ(one->cluster, many->cluster);
     EXPECT_EQ(one->inertia, many->inertia);
   }

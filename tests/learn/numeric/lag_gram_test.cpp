@@ -7,8 +7,8 @@
 #include <random>
 
 #include "learn/arx/rows/arx_design.hpp"
+#include "learn/arx/rows/arx_orders.hpp"
 #include "learn/arx/rows/arx_triangle.hpp"
-#include "wisp/learn/arx_orders.hpp"
 
 namespace wisp {
 namespace {

@@ -1,4 +1,4 @@
-#include "wisp/learn/triangular_factor.hpp"
+#include "learn/numeric/triangular_factor.hpp"
 
 #include <gtest/gtest.h>
 #include <malloc.h>
@@ -9,7 +9,7 @@
 #include <random>
 #include <sstream>
 
-#include "wisp/learn/arx_orders.hpp"
+#include "learn/arx/rows/arx_orders.hpp"
 
 namespace wisp {
 namespace {

@@ -1,4 +1,4 @@
-#include "wisp/learn/alignment.hpp"
+#include "learn/outline/alignment.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

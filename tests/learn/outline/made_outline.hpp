@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "wisp/learn/outline_units.hpp"
+#include "learn/outline/outline_units.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp::made {
@@ -20,9 +20,7 @@ struct OutlineRecipe {
   double rate_hz = 30;
   double lag1 = 1.5;  ///< x(t) = lag1 x(t−1) + lag2 x(t−2) + drive + shock
   double lag2 = -0.7;
-  double shock = 0.01;  ///< standard deviation, in heights
-  double shock_growth =
-      0;  ///< when it has blown with 1 for a quarter of a second a shock is 1 + this times that of calm
+  double shock = 0.01;     ///< standard deviation, in heights
   double own_share = 0.3;  ///< of a point's shock that no other has
   bool wind = false;       ///< gusts with rests, from both sides where `both_sides`
   bool both_sides = false;
@@ -75,11 +73,6 @@ inline Recording outline_recording(const OutlineRecipe& recipe) {
   for (std::size_t t = 0; t < recipe.rows + kWarmUp; ++t) {
     const double together[] = {gauss(random), gauss(random)};  // a lean and a stretch
     const double u = t < kWarmUp || !recipe.wind ? 0 : wind[t - kWarmUp];
-    double recent = 0;
-    const auto steps = static_cast<std::size_t>(std::lround(0.25 * recipe.rate_hz));
-    for (std::size_t back = 0; back < steps && recipe.wind && t >= kWarmUp + back; ++back) {
-      recent += std::abs(wind[t - kWarmUp - back]) / static_cast<double>(steps);
-    }
     std::vector<double> now(last.size());
     for (std::size_t p = 0; p < recipe.points; ++p) {
       const double height = resting_y(p, recipe.points);
@@ -89,9 +82,8 @@ inline Recording outline_recording(const OutlineRecipe& recipe) {
         // The base is held by the wick: it moves little, as a whole not at all.
         const double reach = (p == 0 || p + 1 == recipe.points) ? 0.1 : 0.3 + height;
         const double shock = std::sqrt(1 - recipe.own_share) * together[k] + std::sqrt(recipe.own_share) * own;
-        const double size = recipe.shock * (1 + recipe.shock_growth * recent);
         const double drive = k == 0 ? recipe.lean * u : -0.3 * recipe.lean * std::abs(u);
-        now[c] = recipe.lag1 * last[c] + recipe.lag2 * before[c] + reach * size * shock + height * drive;
+        now[c] = recipe.lag1 * last[c] + recipe.lag2 * before[c] + reach * recipe.shock * shock + height * drive;
       }
     }
     const std::size_t end = 2 * (recipe.points - 1);

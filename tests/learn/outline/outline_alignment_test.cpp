@@ -1,4 +1,4 @@
-#include "wisp/learn/outline_alignment.hpp"
+#include "learn/outline/outline_alignment.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "learn/outline/made_outline.hpp"
-#include "wisp/learn/outline.hpp"
-#include "wisp/learn/validation.hpp"
+#include "learn/outline/outline_fit.hpp"
+#include "learn/outline/outline_judgement.hpp"
 
 namespace wisp {
 namespace {
@@ -95,9 +95,9 @@ TEST(OutlineAlignment, LearningAndValidatingBringSoundIntoStep) {
   const Recording in_step = made::outline_recording(kWindy);
   const Recording late = heard_late(in_step, 9);
   const auto tip = [](const OutlineFit& fit) { return fit.summary.held_out->tip_fit_percent.back(); };
-  const auto good = learn_outline(std::vector{in_step});
-  const auto mended = learn_outline(std::vector{late});
-  const auto lost = learn_outline(std::vector{late}, {.align = false});
+  const auto good = fit_outline(std::vector{in_step});
+  const auto mended = fit_outline(std::vector{late});
+  const auto lost = fit_outline(std::vector{late}, {.align = false});
   EXPECT_GT(tip(*mended), tip(*good) - 5);
   EXPECT_LT(tip(*lost), tip(*good) - 15);
   EXPECT_EQ(mended->summary.alignment.size(), 1u);
@@ -107,8 +107,8 @@ TEST(OutlineAlignment, LearningAndValidatingBringSoundIntoStep) {
   unseen.seed = 7;
   unseen.rows = 600;
   const Recording other = heard_late(made::outline_recording(unseen), 7);
-  const auto validated = validate_outline(good->model, other, {.fidelity = false});
-  const auto as_recorded = validate_outline(good->model, other, {.align = false, .fidelity = false});
+  const auto validated = judge_outline(good->model, other, {.fidelity = false});
+  const auto as_recorded = judge_outline(good->model, other, {.align = false, .fidelity = false});
   EXPECT_GT(validated->figures.tip_fit_percent.back(), as_recorded->figures.tip_fit_percent.back() + 15);
   EXPECT_GT(validated->alignment.front().frames_moved, 0);
 }

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "learn/outline/made_outline.hpp"
-#include "wisp/learn/outline.hpp"
-#include "wisp/learn/validation.hpp"
+#include "learn/outline/outline_fit.hpp"
+#include "learn/outline/outline_judgement.hpp"
 
 namespace wisp {
 namespace {
@@ -27,15 +27,15 @@ Recording heard_by_its_root(made::OutlineRecipe recipe, std::uint64_t seed) {
 }
 
 OutlineFit learned(const Recording& recording, std::optional<int> knots) {
-  OutlineOptions options;
+  OutlineRecipe options;
   options.input_curve = knots;
-  auto fit = learn_outline({&recording, 1}, options);
+  auto fit = fit_outline({&recording, 1}, options);
   EXPECT_TRUE(fit) << fit.error().message;
   return *std::move(fit);
 }
 
 double simulated_tip(const OutlineFit& fit, const Recording& unseen) {
-  const auto found = validate_outline(fit.model, unseen, {.fidelity = false});
+  const auto found = judge_outline(fit.model, unseen, {.fidelity = false});
   EXPECT_TRUE(found) << found.error().message;
   return found->figures.tip_fit_percent.back();
 }
@@ -67,17 +67,10 @@ TEST(OutlineCurve, IsNotKeptWhereItIsProportional) {
 
 TEST(OutlineCurve, OptionsOutOfRangeAreRefused) {
   const Recording recording = made::outline_recording(kWindy);
-  OutlineOptions options;
+  OutlineRecipe options;
   options.input_curve = 2;
-  EXPECT_THAT(learn_outline({&recording, 1}, options).error().message,
+  EXPECT_THAT(fit_outline({&recording, 1}, options).error().message,
               HasSubstr("is 2, expected 0 (no curve) or 3 to 16"));
-  options.input_curve = 4;
-  options.square = true;
-  EXPECT_THAT(learn_outline({&recording, 1}, options).error().message, HasSubstr("choose one"));
-  options.input_curve = std::nullopt;  // an open choice yields to what was asked for
-  const auto squares = learn_outline({&recording, 1}, options);
-  ASSERT_TRUE(squares) << squares.error().message;
-  EXPECT_EQ(squares->model.inputs[0].shape, InputShape::kSplitSignSquare);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "learn/outline/made_outline.hpp"
-#include "wisp/learn/outline.hpp"
+#include "learn/outline/outline_fit.hpp"
 #include "wisp/learn/prediction.hpp"
 
 namespace wisp {
@@ -16,8 +16,8 @@ namespace {
 
 constexpr made::OutlineRecipe kWindy{.rows = 900, .wind = true};
 
-OutlineFit learned(const made::OutlineRecipe& recipe, const OutlineOptions& options = {}) {
-  auto fit = learn_outline(std::vector{made::outline_recording(recipe)}, options);
+OutlineFit learned(const made::OutlineRecipe& recipe, const OutlineRecipe& options = {}) {
+  auto fit = fit_outline(std::vector{made::outline_recording(recipe)}, options);
   EXPECT_TRUE(fit);
   return *std::move(fit);
 }

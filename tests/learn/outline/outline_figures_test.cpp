@@ -1,4 +1,4 @@
-#include "wisp/learn/outline_figures.hpp"
+#include "learn/outline/outline_figures.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 
 #include "learn/outline/made_outline.hpp"
-#include "wisp/learn/outline.hpp"
+#include "learn/outline/outline_fit.hpp"
 
 namespace wisp {
 namespace {
@@ -23,7 +23,7 @@ TEST(OutlineFigures, FitIsTheShareOfTheDeviationThatIsExplained) {
 
 TEST(OutlineFigures, AModelThatIsRightLeavesWhiteResidualsAndGoodFits) {
   const std::vector recordings{made::outline_recording({.rows = 3000})};
-  const auto fit = learn_outline(recordings, {.order = 2, .holdout = 0.5});
+  const auto fit = fit_outline(recordings, {.order = 2, .holdout = 0.5});
   ASSERT_TRUE(fit);
   const OutlineFigures& figures = *fit->summary.held_out;
   ASSERT_EQ(figures.steps, (std::vector<int>{1, 5, 15, kFreeRun}));
@@ -40,14 +40,14 @@ TEST(OutlineFigures, AModelThatIsRightLeavesWhiteResidualsAndGoodFits) {
 
 TEST(OutlineFigures, TooLowAnOrderLeavesColouredResiduals) {
   const std::vector recordings{made::outline_recording({.rows = 3000})};
-  const auto fit = learn_outline(recordings, {.order = 1});
+  const auto fit = fit_outline(recordings, {.order = 1});
   ASSERT_TRUE(fit);
   EXPECT_LT(fit->summary.learned.channels[4].whiteness_p, 1e-6);
 }
 
 TEST(OutlineFigures, AFreeRunWithoutInputIsTheMeanShape) {
   const std::vector recordings{made::outline_recording({.rows = 3000})};
-  const auto fit = learn_outline(recordings);
+  const auto fit = fit_outline(recordings);
   EXPECT_NEAR(fit->summary.learned.tip_fit_percent.back(), 0, 2);
 }
 

@@ -1,4 +1,4 @@
-#include "wisp/learn/outline_inputs.hpp"
+#include "learn/outline/outline_inputs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -129,20 +129,6 @@ TEST(OutlineInputs, TheMeanShapeIsThatOfTheChosenRows) {
   const OutlineLayout layout = *outline_layout(split);
   EXPECT_EQ(mean_shape(split, layout, std::vector<std::uint8_t>{0, 1, 1})[3], 2);
   EXPECT_TRUE(mean_shape(split, layout, std::vector<std::uint8_t>{0, 0, 0}).empty());
-}
-
-TEST(OutlineInputs, SquaresStandBesideWhatTheyAreSquaresOf) {
-  const std::vector input{OutlineInput{"wind", "m/s", 2, 0, 1}};
-  const Recording whole = with_regressors(windy({-4, 1}), input, {.square = true});
-  EXPECT_EQ(samples(whole, "wind"), (std::vector<double>{-2, 0.5}));
-  EXPECT_EQ(samples(whole, "wind^2"), (std::vector<double>{4, 0.25}));
-  const RegressorShape both{.split_sign = true, .square = true};
-  EXPECT_EQ(regressor_names(input, both), (std::vector<std::string>{"wind+", "wind-", "wind+^2", "wind-^2"}));
-  const Recording split = with_regressors(windy({-4, 1}), input, both);
-  EXPECT_EQ(samples(split, "wind+^2"), (std::vector<double>{0, 0.25}));
-  EXPECT_EQ(samples(split, "wind-^2"), (std::vector<double>{4, 0}));
-  const Recording mirror = mirrored(split, *outline_layout(split), input);
-  EXPECT_EQ(samples(mirror, "wind+^2"), (std::vector<double>{4, 0}));
 }
 
 TEST(OutlineInputs, MirroredTwiceIsTheSame) {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "learn/outline/made_outline.hpp"
-#include "wisp/learn/outline_shape.hpp"
+#include "learn/outline/outline_shape.hpp"
 #include "wisp/model/bspline.hpp"
 
 namespace wisp {

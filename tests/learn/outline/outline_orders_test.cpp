@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "learn/outline/made_outline.hpp"
-#include "wisp/learn/outline.hpp"
+#include "learn/outline/outline_fit.hpp"
 
 namespace wisp {
 namespace {
@@ -13,8 +13,8 @@ using testing::HasSubstr;
 
 constexpr made::OutlineRecipe kWindy{.rows = 1500, .shock = 0.003, .wind = true};
 
-OutlineSummary learned(const Recording& recording, const OutlineOptions& options) {
-  auto fit = learn_outline(std::vector{recording}, options);
+OutlineSummary learned(const Recording& recording, const OutlineRecipe& options) {
+  auto fit = fit_outline(std::vector{recording}, options);
   EXPECT_TRUE(fit) << (fit ? "" : fit.error().message);
   return fit ? fit->summary : OutlineSummary{};
 }

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "learn/likeness/fidelity_marginal.hpp"
-#include "wisp/learn/arx_orders.hpp"
+#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/fidelity/fidelity_marginal.hpp"
 
 namespace wisp {
 namespace {

@@ -1,4 +1,4 @@
-#include "wisp/learn/outline.hpp"
+#include "learn/outline/outline_fit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,15 +15,15 @@
 namespace wisp {
 namespace {
 
-OutlineFit learned(const made::OutlineRecipe& recipe, const OutlineOptions& options = {}) {
+OutlineFit learned(const made::OutlineRecipe& recipe, const OutlineRecipe& options = {}) {
   const std::vector recordings{made::outline_recording(recipe)};
-  auto fit = learn_outline(recordings, options);
+  auto fit = fit_outline(recordings, options);
   EXPECT_TRUE(fit) << (fit ? "" : fit.error().message);
   return *std::move(fit);
 }
 
-std::string refused(const std::vector<Recording>& recordings, const OutlineOptions& options = {}) {
-  const auto fit = learn_outline(recordings, options);
+std::string refused(const std::vector<Recording>& recordings, const OutlineRecipe& options = {}) {
+  const auto fit = fit_outline(recordings, options);
   EXPECT_FALSE(fit);
   return fit ? "" : fit.error().message;
 }
@@ -133,7 +133,7 @@ TEST(Outline, PointsOfDifferentDynamicsStayTogether) {
   const Recording units = to_model_units(real, *outline_layout(real), 200);
   const double wanted = correlation(samples(units, "p2.x"), samples(units, "p3.x"));
   const auto played = [&](OutlineNoise noise) {
-    const auto fit = learn_outline(std::vector{real}, {.noise = noise, .shared_shocks = 6});
+    const auto fit = fit_outline(std::vector{real}, {.noise = noise, .shared_shocks = 6});
     const auto play = synthesize(fit->model, {.rows = 20000});
     return correlation(samples(play->recording, "p2.x"), samples(play->recording, "p3.x"));
   };
@@ -167,7 +167,7 @@ TEST(Outline, AStillBaseIsNoObstacle) {
   for (const char* name : {"p0.y", "p5.y"}) {
     for (double& y : recording.channels[*find_channel(recording, name)].samples) y = 400;
   }
-  const auto fit = learn_outline(std::vector{recording});
+  const auto fit = fit_outline(std::vector{recording});
   ASSERT_TRUE(fit) << fit.error().message;
   const auto play = synthesize(fit->model, {.rows = 100});
   for (double y : samples(play->recording, "p0.y")) EXPECT_NEAR(y, 0, 1e-6);
@@ -190,9 +190,9 @@ TEST(Outline, WithoutRefittingTheHeldOutPartIsNotLearned) {
   for (Channel& channel : changed.channels) {
     for (std::size_t row = 700; row < 1000; ++row) channel.samples[row] += 3 * std::sin(0.7 * static_cast<double>(row));
   }
-  const OutlineOptions options{.refit = false, .pixels_per_unit = 200};
-  const auto one = learn_outline(std::vector{recording}, options);
-  const auto other = learn_outline(std::vector{changed}, options);
+  const OutlineRecipe options{.refit = false, .pixels_per_unit = 200};
+  const auto one = fit_outline(std::vector{recording}, options);
+  const auto other = fit_outline(std::vector{changed}, options);
   EXPECT_EQ(arx(*one).theta, arx(*other).theta);
   EXPECT_EQ(arx(*one).noise.mixing, arx(*other).noise.mixing);
 }
@@ -200,7 +200,7 @@ TEST(Outline, WithoutRefittingTheHeldOutPartIsNotLearned) {
 TEST(Outline, TheCutFallsOnAnEpisodesBoundaryWhereOneIsNear) {
   Recording recording = made::outline_recording({.rows = 1000});
   for (std::size_t row = 0; row < 1000; ++row) recording.episode_ids.push_back(row < 660 ? 0 : 1);
-  const auto fit = learn_outline(std::vector{recording});
+  const auto fit = fit_outline(std::vector{recording});
   EXPECT_EQ(fit->summary.rows_learned, 660u);
 }
 
@@ -209,7 +209,7 @@ TEST(Outline, MissingRowsAreLeftOut) {
   for (Channel& channel : recording.channels) {
     for (std::size_t row = 400; row < 450; ++row) channel.samples[row] = std::numeric_limits<double>::quiet_NaN();
   }
-  const auto fit = learn_outline(std::vector{recording});
+  const auto fit = fit_outline(std::vector{recording});
   ASSERT_TRUE(fit);
   EXPECT_EQ(fit->summary.rows_learned + fit->summary.rows_held_out, 950u);
 }
@@ -269,7 +269,7 @@ TEST(Outline, AClipWithItsOwnKnotsIsExpressedInTheFirstOnes) {
   const Recording second = made::outline_recording({.points = 8, .rows = 600, .seed = 2});
   const Reknotted own =
       with_knots(second, *outline_layout(second), clamped_knots(std::vector<double>{0.25, 0.45, 0.55, 0.75}));
-  const auto fit = learn_outline(std::vector{first, own.recording});
+  const auto fit = fit_outline(std::vector{first, own.recording});
   ASSERT_TRUE(fit) << fit.error().message;
   EXPECT_EQ(std::get<OutlineView>(fit->model.view).knots, outline_layout(first)->knots);
   ASSERT_EQ(fit->summary.warnings.size(), 1u);

@@ -1,4 +1,4 @@
-#include "wisp/learn/outline_units.hpp"
+#include "learn/outline/outline_units.hpp"
 
 #include <gtest/gtest.h>
 

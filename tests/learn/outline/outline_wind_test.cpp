@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "learn/outline/made_outline.hpp"
+#include "learn/outline/outline_fit.hpp"
 #include "learn/outline/outline_synthesis.hpp"
-#include "wisp/learn/outline.hpp"
 
 namespace wisp {
 namespace {
@@ -16,9 +16,9 @@ constexpr made::OutlineRecipe kWindy{.points = 6, .rows = 2400, .shock = 0.003, 
 constexpr made::OutlineRecipe kFromBothSides{
     .points = 6, .rows = 2400, .shock = 0.003, .wind = true, .both_sides = true};
 
-OutlineFit learned(const made::OutlineRecipe& recipe, const OutlineOptions& options = {}) {
+OutlineFit learned(const made::OutlineRecipe& recipe, const OutlineRecipe& options = {}) {
   const std::vector recordings{made::outline_recording(recipe)};
-  auto fit = learn_outline(recordings, options);
+  auto fit = fit_outline(recordings, options);
   EXPECT_TRUE(fit) << (fit ? "" : fit.error().message);
   return *std::move(fit);
 }
@@ -70,7 +70,7 @@ TEST(OutlineWind, AGustFromTheOtherSideIsTheMirrorImage) {
 TEST(OutlineWind, AFrameAndItsMirrorImageAreOneObservation) {
   const std::vector recordings{made::outline_recording(kWindy)};
   const auto width = [&](bool mirror) {
-    const OutlineResidual residual = learn_outline(recordings, {.mirror = mirror})->summary.residuals[4];
+    const OutlineResidual residual = fit_outline(recordings, {.mirror = mirror})->summary.residuals[4];
     return (residual.sd_ci95[1] - residual.sd_ci95[0]) / residual.sd;
   };
   EXPECT_NEAR(width(true), width(false), 0.02 * width(false));
@@ -82,7 +82,7 @@ TEST(OutlineWind, WhatStandsAskewStaysAskew) {
   for (const char* name : {"p2.x", "p3.x"}) {
     for (double& x : recording.channels[*find_channel(recording, name)].samples) x += 20;
   }
-  const auto fit = learn_outline(std::vector{recording});
+  const auto fit = fit_outline(std::vector{recording});
   ASSERT_TRUE(fit) << fit.error().message;
   const double middle = (resting(fit->model, 0, "p2.x") + resting(fit->model, 0, "p3.x")) / 2;
   EXPECT_NEAR(middle, 20 / fit->summary.pixels_per_unit, 0.01);
@@ -118,14 +118,14 @@ TEST(OutlineWind, InputsCanBeLeftOut) {
 
 TEST(OutlineWind, AnInputThatIsNotThereIsRefused) {
   const std::vector recordings{made::outline_recording(kWindy)};
-  const auto fit = learn_outline(recordings, {.inputs = std::vector<std::string>{"rain"}});
+  const auto fit = fit_outline(recordings, {.inputs = std::vector<std::string>{"rain"}});
   ASSERT_FALSE(fit);
   EXPECT_EQ(fit.error().message, "made 1: there is no input rain, which the others have");
 }
 
 TEST(OutlineWind, WindThatExplainsNothingMakesTheModelUnusable) {
   Recording recording = made::outline_recording({.rows = 1500, .wind = true, .lean = 0});
-  const auto fit = learn_outline(std::vector{recording});
+  const auto fit = fit_outline(std::vector{recording});
   ASSERT_TRUE(fit);
   EXPECT_FALSE(fit->summary.usable.verdict);
   EXPECT_NE(fit->summary.usable.reason.find("from its inputs alone"), std::string::npos) << fit->summary.usable.reason;
@@ -150,7 +150,7 @@ TEST(OutlineWind, ACalmRecordingBeforeTheOthersIsNoReasonAgainstTheModel) {
   std::fill(wind.begin(), wind.end(), 0.0);
   const Recording windy = made::outline_recording(kWindy);
   for (const auto& recordings : {std::vector{calm, windy}, std::vector{windy, calm}}) {
-    const auto fit = learn_outline(recordings);
+    const auto fit = fit_outline(recordings);
     ASSERT_TRUE(fit) << fit.error().message;
     EXPECT_TRUE(fit->summary.usable.verdict) << fit->summary.usable.reason;
     for (double ratio : fit->summary.sd_ratio) EXPECT_NEAR(ratio, 1, 0.4);

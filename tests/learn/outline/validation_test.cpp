@@ -1,4 +1,4 @@
-#include "wisp/learn/validation.hpp"
+#include "learn/outline/outline_judgement.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <limits>
 
 #include "learn/outline/made_outline.hpp"
+#include "learn/outline/outline_fit.hpp"
+#include "learn/outline/outline_inputs.hpp"
 #include "learn/outline/outline_knots.hpp"
+#include "learn/outline/outline_shape.hpp"
 #include "learn/outline/outline_synthesis.hpp"
-#include "wisp/learn/outline.hpp"
-#include "wisp/learn/outline_inputs.hpp"
-#include "wisp/learn/outline_shape.hpp"
 #include "wisp/model/bspline.hpp"
 
 namespace wisp {
@@ -22,7 +22,7 @@ constexpr made::OutlineRecipe kCalm{.rows = 1200};
 
 Model learned(const made::OutlineRecipe& recipe) {
   const std::vector recordings{made::outline_recording(recipe)};
-  auto fit = learn_outline(recordings);
+  auto fit = fit_outline(recordings);
   EXPECT_TRUE(fit);
   return fit->model;
 }
@@ -44,9 +44,9 @@ Recording unseen(made::OutlineRecipe recipe) {
   return made::outline_recording(recipe);
 }
 
-OutlineValidation validated(const Model& model, const Recording& recording, OutlineValidationOptions options = {}) {
+OutlineJudgement validated(const Model& model, const Recording& recording, OutlineValidationOptions options = {}) {
   options.play_seconds = 20;
-  auto result = validate_outline(model, recording, options);
+  auto result = judge_outline(model, recording, options);
   EXPECT_TRUE(result) << (result ? "" : result.error().message);
   return *std::move(result);
 }
@@ -56,7 +56,7 @@ const std::vector<double>& samples(const Recording& recording, const char* name)
 }
 
 TEST(Validation, ARecordingThatLearningHasNotSeenIsFollowedFromItsWind) {
-  const OutlineValidation out = validated(windy_model(), unseen(kWindy), {.fidelity = false});
+  const OutlineJudgement out = validated(windy_model(), unseen(kWindy), {.fidelity = false});
   EXPECT_GT(out.figures.tip_fit_percent.back(), 60);
   EXPECT_GT(out.figures.overlap.back(), 0.75);
   for (const OutlineChannelFigures& channel : out.figures.channels) {
@@ -65,7 +65,7 @@ TEST(Validation, ARecordingThatLearningHasNotSeenIsFollowedFromItsWind) {
 }
 
 TEST(Validation, AStaticGainDoesLessThanTheDynamics) {
-  const OutlineValidation out = validated(windy_model(), unseen(kWindy), {.fidelity = false});
+  const OutlineJudgement out = validated(windy_model(), unseen(kWindy), {.fidelity = false});
   ASSERT_TRUE(out.static_gain);
   EXPECT_GT(out.static_gain->fit_percent, 0);
   EXPECT_GT(out.static_gain->delay_seconds, 0);
@@ -108,18 +108,18 @@ TEST(Validation, TheOrderOfColumnsDoesNotMatter) {
   std::rotate(wind_first.channels.begin(), wind_first.channels.end() - 1, wind_first.channels.end());
   std::swap(wind_first.channels[3], wind_first.channels[8]);
   ASSERT_EQ(wind_first.channels[0].name, "wind");
-  const OutlineValidation one = validated(windy_model(), unseen(kWindy), {.fidelity = false});
-  const OutlineValidation two = validated(windy_model(), wind_first, {.fidelity = false});
+  const OutlineJudgement one = validated(windy_model(), unseen(kWindy), {.fidelity = false});
+  const OutlineJudgement two = validated(windy_model(), wind_first, {.fidelity = false});
   EXPECT_EQ(one.figures.tip_fit_percent, two.figures.tip_fit_percent);
   EXPECT_EQ(samples(one.played, "p2.x"), samples(two.played, "p2.x"));
-  const auto again = learn_outline(std::vector{wind_first});
-  const auto first = learn_outline(std::vector{unseen(kWindy)});
+  const auto again = fit_outline(std::vector{wind_first});
+  const auto first = fit_outline(std::vector{unseen(kWindy)});
   EXPECT_EQ(std::get<ArxModel>(again->model.dynamics).theta, std::get<ArxModel>(first->model.dynamics).theta);
 }
 
 TEST(Validation, PredictionsAreInPixelsFrameByFrame) {
   const Recording recording = unseen(kCalm);
-  const OutlineValidation out = validated(calm_model(), recording, {.fidelity = false});
+  const OutlineJudgement out = validated(calm_model(), recording, {.fidelity = false});
   ASSERT_EQ(out.predicted.size(), 4u);
   EXPECT_EQ(out.predicted[0].steps, 1);
   const Recording& next = out.predicted[0].recording;
@@ -135,7 +135,7 @@ TEST(Validation, PredictionsAreInPixelsFrameByFrame) {
 }
 
 TEST(Validation, AFreeRunWithoutInputIsTheMeanShapeAndPlayIsNot) {
-  const OutlineValidation out = validated(calm_model(), unseen(kCalm), {.fidelity = false});
+  const OutlineJudgement out = validated(calm_model(), unseen(kCalm), {.fidelity = false});
   const auto spread = [](const Recording& recording) {
     std::vector<double> heights;
     for (std::size_t row = 300; row < recording.rows(); ++row) {
@@ -148,14 +148,14 @@ TEST(Validation, AFreeRunWithoutInputIsTheMeanShapeAndPlayIsNot) {
   const Recording units = to_model_units(with_base, *outline_layout(with_base), 200);
   for (const char* name : {"base.x", "base.y"})
     with_base.channels.push_back(units.channels[*find_channel(units, name)]);
-  const OutlineValidation based = validated(calm_model(), with_base, {.fidelity = false});
+  const OutlineJudgement based = validated(calm_model(), with_base, {.fidelity = false});
   EXPECT_LT(spread(based.predicted[3].recording), 1e-3);
   EXPECT_GT(spread(based.played), 10);
   EXPECT_EQ(out.figures.steps.back(), kFreeRun);
 }
 
 TEST(Validation, PlayingFreelyIsLikeTheRealThing) {
-  const OutlineValidation out = validated(calm_model(), unseen(kCalm));
+  const OutlineJudgement out = validated(calm_model(), unseen(kCalm));
   ASSERT_TRUE(out.fidelity);
   EXPECT_LT(out.fidelity->log_spectral_distance.floor_ratio(), 2);
   EXPECT_LT(out.fidelity->energy_distance.value, 0.05);
@@ -168,7 +168,7 @@ TEST(Validation, FramesOutOfSightHaveAPlayButNoPrediction) {
   for (Channel& channel : recording.channels) {
     for (std::size_t row = 100; row < 150; ++row) channel.samples[row] = std::numeric_limits<double>::quiet_NaN();
   }
-  const OutlineValidation out = validated(calm_model(), recording, {.fidelity = false});
+  const OutlineJudgement out = validated(calm_model(), recording, {.fidelity = false});
   EXPECT_TRUE(std::isnan(samples(out.predicted[0].recording, "p1.x")[120]));
   EXPECT_FALSE(std::isnan(samples(out.played, "p1.x")[120]));
 }
@@ -177,8 +177,8 @@ TEST(Validation, ARecordingWithItsOwnKnotsIsExpressedInTheModels) {
   const Recording recording = unseen(kCalm);
   const auto other_knots = clamped_knots(std::vector<double>{0.45, 0.55});
   const Reknotted own = with_knots(recording, *outline_layout(recording), other_knots);
-  const OutlineValidation same = validated(calm_model(), recording, {.fidelity = false});
-  const OutlineValidation other = validated(calm_model(), own.recording, {.fidelity = false});
+  const OutlineJudgement same = validated(calm_model(), recording, {.fidelity = false});
+  const OutlineJudgement other = validated(calm_model(), own.recording, {.fidelity = false});
   EXPECT_EQ(other.warnings.size(), 1u);
   EXPECT_NEAR(other.figures.overlap[0], same.figures.overlap[0], 0.02);
   EXPECT_EQ(outline_layout(other.predicted[0].recording)->knots, outline_layout(recording)->knots);
@@ -197,8 +197,8 @@ TEST(Validation, WhatIsNotSeenIsNotJudged) {
   for (std::size_t row = 0; row < blown.size(); ++row) {
     if (row % 600 > 300) blown[row] = 0;
   }
-  const OutlineValidation whole = validated(windy_model(), unseen(kWindy));
-  const OutlineValidation part = validated(windy_model(), gone);
+  const OutlineJudgement whole = validated(windy_model(), unseen(kWindy));
+  const OutlineJudgement part = validated(windy_model(), gone);
   ASSERT_TRUE(whole.fidelity && part.fidelity);
   EXPECT_LT(part.fidelity->energy_distance.value, whole.fidelity->energy_distance.value + 0.02);
 }
@@ -210,7 +210,7 @@ TEST(Validation, AModelSaysWhetherItsOutlinesFollowedTheirUnderside) {
       recordings.push_back(made::outline_recording({.rows = 400, .seed = recordings.size() + 1}));
       if (!word.empty()) recordings.back().attributes.push_back({"underside", word});
     }
-    return follows_underside(learn_outline(recordings)->model);
+    return fit_outline(recordings)->model.training.underside;
   };
   EXPECT_EQ(saying({"1", "1"}), true);
   EXPECT_EQ(saying({"0"}), false);
@@ -229,7 +229,7 @@ TEST(Validation, AnotherMicrophonesGainIsTakenFromItsOwnGusts) {
 }
 
 TEST(Validation, AShortRecordingHasNoFidelityAndSaysSo) {
-  const OutlineValidation out = validated(calm_model(), slice(unseen(kCalm), 0, 30));
+  const OutlineJudgement out = validated(calm_model(), slice(unseen(kCalm), 0, 30));
   EXPECT_FALSE(out.fidelity);
   ASSERT_EQ(out.warnings.size(), 1u);
   EXPECT_NE(out.warnings[0].find("no fidelity figures"), std::string::npos);
@@ -237,17 +237,17 @@ TEST(Validation, AShortRecordingHasNoFidelityAndSaysSo) {
 
 TEST(Validation, WhatDoesNotFitTheModelIsRefused) {
   Recording other = unseen(kCalm);
-  EXPECT_EQ(validate_outline(windy_model(), other).error().message,
+  EXPECT_EQ(judge_outline(windy_model(), other).error().message,
             "made 7: there is no input wind, which the model is driven by");
   other.rate_hz = 25;
-  EXPECT_NE(validate_outline(calm_model(), other).error().message.find("samples a second"), std::string::npos);
+  EXPECT_NE(judge_outline(calm_model(), other).error().message.find("samples a second"), std::string::npos);
   made::OutlineRecipe eight = kCalm;
   eight.points = 8;
-  EXPECT_EQ(validate_outline(calm_model(), unseen(eight)).error().message,
+  EXPECT_EQ(judge_outline(calm_model(), unseen(eight)).error().message,
             "made 7: has 8 control points, the model 6; capture it with --points 6");
   Model plain = calm_model();
   plain.view = PlainView{};
-  EXPECT_NE(validate_outline(plain, unseen(kCalm)).error().message.find("not an outline model"), std::string::npos);
+  EXPECT_NE(judge_outline(plain, unseen(kCalm)).error().message.find("not an outline model"), std::string::npos);
 }
 
 }  // namespace

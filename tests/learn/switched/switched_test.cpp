@@ -1,4 +1,4 @@
-#include "wisp/learn/switched_fit.hpp"
+#include "learn/switched/switched_fit.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 
 #include "learn/numeric/lyapunov.hpp"
 #include "learn/switched/made_switched.hpp"
+#include "learn/switched/switched_prediction.hpp"
 #include "wisp/learn/arx_fit.hpp"
-#include "wisp/learn/switched_prediction.hpp"
 
 namespace wisp {
 namespace {
@@ -19,7 +19,7 @@ using testing::HasSubstr;
 const ChannelChoice kChannels{{"u"}, {"y"}};
 
 SwitchedOptions options_of(Switching switching, int modes = 3) {
-  return {.orders = first_order(), .switching = switching, .modes = modes, .most_modes = 4, .starts = 6};
+  return {.orders = first_order(), .switching = switching, .modes = modes, .max_modes = 4, .starts = 6};
 }
 
 SwitchedFit fit_of(const Recording& recording, const SwitchedOptions& options) {
@@ -153,7 +153,7 @@ TEST(SwitchedFit, RefusesWhatItCannotFitByName) {
   };
   EXPECT_THAT(error(options_of(Switching::kRegions, 65)), HasSubstr("the number of modes is 65, expected 1 to 64"));
   EXPECT_THAT(error(options_of(Switching::kRegions, 20)), HasSubstr("59 usable rows, expected at least"));
-  EXPECT_THAT(error(options_of(Switching::kRegions), {{"wind"}, {"y"}}), HasSubstr("has no channel wind"));
+  EXPECT_THAT(error(options_of(Switching::kRegions), {{"wind"}, {"y"}}), HasSubstr("has no channel 'wind'"));
   auto options = options_of(Switching::kRegions);
   options.holdout = 1;
   EXPECT_THAT(error(options), HasSubstr("held out"));

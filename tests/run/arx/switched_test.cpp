@@ -9,6 +9,7 @@
 #include "model/sample_switched.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/cost.hpp"
+#include "wisp/run/switched_facet.hpp"
 
 namespace wisp {
 namespace {
@@ -73,7 +74,7 @@ TEST(SwitchedBank, RegionsDecideAsTheEquationsSay) {
     u.push_back(input - dynamics.input_mean[0]);
     const int mode = region_of(dynamics, y, u);
     ++seen[mode];
-    ASSERT_EQ(bank.arx_mode(bank.at(0)), mode) << step;
+    ASSERT_EQ(bank.switched()->mode_of(bank.at(0)), mode) << step;
     const double next[] = {next_of(dynamics, mode, 0, y, u), next_of(dynamics, mode, 1, y, u)};
     float shown[2];
     bank.outputs(bank.at(0), shown);
@@ -94,7 +95,7 @@ TEST(SwitchedBank, AMarkovChainVisitsModesAsOftenAsItsProbabilitiesSay) {
   for (int step = 0; step < kSteps; ++step) {
     bank.step();
     for (int k = 0; k < kInstances; ++k) {
-      const int mode = *bank.arx_mode(bank.at(k));
+      const int mode = *bank.switched()->mode_of(bank.at(k));
       before[k] < 0 ? ++first[mode] : (++from[before[k]], ++counts[before[k] * 3 + mode]);
       before[k] = mode;
     }
@@ -113,10 +114,10 @@ TEST(SwitchedBank, AMarkovChainVisitsModesAsOftenAsItsProbabilitiesSay) {
 TEST(SwitchedBank, WithoutNoiseAMarkovChainTakesTheLikeliestStep) {
   Bank bank = bank_of(sample_switched(Switching::kMarkov), 2);
   bank.set_noise(0);
-  EXPECT_FALSE(bank.arx_mode(bank.at(0)));
+  EXPECT_FALSE(bank.switched()->mode_of(bank.at(0)));
   for (int step = 0; step < 50; ++step) {
     bank.step();
-    ASSERT_EQ(bank.arx_mode(bank.at(0)), 1);
+    ASSERT_EQ(bank.switched()->mode_of(bank.at(0)), 1);
   }
 }
 
@@ -134,7 +135,7 @@ TEST(SwitchedBank, ResidualsHaveTheCovarianceOfTheirMode) {
   double rows = 0, xx = 0, xy = 0, yy = 0;
   for (int step = 0; step < 20'000; ++step) {
     bank.step();
-    if (bank.arx_mode(bank.at(0)) != 2) continue;
+    if (bank.switched()->mode_of(bank.at(0)) != 2) continue;
     float y[2];
     bank.outputs(bank.at(0), y);
     const double e[] = {y[0] - 0.25, y[1] + 0.5};
@@ -170,7 +171,7 @@ TEST(SwitchedBank, AnInstancePlaysTheSameAloneAndAmongOthersAndAfterBeingRestore
       many.outputs(many.at(11), b);
       ASSERT_EQ(a[0], b[0]) << step;
       ASSERT_EQ(a[1], b[1]) << step;
-      ASSERT_EQ(alone.arx_mode(one), many.arx_mode(many.at(11)));
+      ASSERT_EQ(alone.switched()->mode_of(one), many.switched()->mode_of(many.at(11)));
     }
   }
 }

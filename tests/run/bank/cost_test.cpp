@@ -120,25 +120,6 @@ TEST(Cost, AModelWithoutNoiseDrawsNoRandomNumbers) {
   EXPECT_EQ(cost_of(model).noise_operations, 0);
 }
 
-// For each regressor a product and a sum, and a product for every shock that is used.
-TEST(Cost, NoiseThatGrowsWithTheWindTakesAFewOperationsMore) {
-  const Cost plain = cost_of(flame_model({.wind = InputShape::kSplitSign}));
-  const Cost growing = cost_of(flame_model({.wind = InputShape::kSplitSign, .noise_growth = 1}));
-  EXPECT_EQ(growing.multiply_adds_per_frame, plain.multiply_adds_per_frame);
-  EXPECT_EQ(growing.dynamics_operations, plain.dynamics_operations);
-  EXPECT_EQ(growing.random_operations, plain.random_operations);
-  EXPECT_EQ(growing.noise_operations, plain.noise_operations + 2 * 2 + 16);
-  const Model longer = flame_model({.wind = InputShape::kSplitSign, .noise_growth = 1, .growth_steps = 15});
-  EXPECT_EQ(cost_of(longer).noise_operations, plain.noise_operations + 15 * 2 * 2 + 16);
-}
-
-TEST(Cost, TheWindsSquareCostsItsTapsAndOneProductAnInput) {
-  const Cost plain = cost_of(flame_model());
-  const Cost square = cost_of(flame_model({.wind = InputShape::kLinearSquare}));
-  EXPECT_EQ(square.multiply_adds_per_frame, plain.multiply_adds_per_frame + 16 * 4);
-  EXPECT_EQ(square.dynamics_operations, plain.dynamics_operations + 2 * 16 * 4 + 2);
-}
-
 // A difference, a product and a sum; which knots an input lies between, and the wind's bounds, cost nothing. Of a wind
 // that is split, the side from which nothing blows is not bent.
 TEST(Cost, ACurveCostsThreeOperationsAnInputWhateverItsKnots) {

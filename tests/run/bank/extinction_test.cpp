@@ -11,6 +11,7 @@
 #include "wisp/base/hash.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/cost.hpp"
+#include "wisp/run/extinction_facet.hpp"
 
 namespace wisp {
 namespace {
@@ -42,7 +43,7 @@ int steps_to_death(Bank& bank, float wind, int most = 1000) {
   bank.set_common_inputs(std::span(&wind, 1));
   for (int k = 1; k <= most; ++k) {
     bank.step();
-    if (!bank.lit_state(bank.at(0))->lit) return k;
+    if (!bank.extinction()->state_of(bank.at(0))->lit) return k;
   }
   return most + 1;
 }
@@ -88,7 +89,7 @@ TEST(Extinction, AShortGustIsSurvivedAndForgotten) {
   for (int round = 0; round < 50; ++round) {
     blow(bank, 2, 18);
     blow(bank, 0, 40);
-    ASSERT_TRUE(bank.lit_state(id)->lit) << round;
+    ASSERT_TRUE(bank.extinction()->state_of(id)->lit) << round;
   }
 }
 
@@ -96,7 +97,7 @@ TEST(Extinction, GustsThatFollowCloselyAddUp) {
   Bank bank = bank_of(mortal_flame());
   const InstanceId id = bank.spawn();
   int rounds = 0;
-  for (; bank.lit_state(id)->lit && rounds < 20; ++rounds) {
+  for (; bank.extinction()->state_of(id)->lit && rounds < 20; ++rounds) {
     blow(bank, 2, 11);
     blow(bank, 0, 8);
   }
@@ -108,7 +109,7 @@ TEST(Extinction, AFlameThatIsOutStaysOutWhenTheWindStops) {
   const InstanceId id = bank.spawn();
   blow(bank, 3, 50);
   blow(bank, 0, 1000);
-  EXPECT_FALSE(bank.lit_state(id)->lit);
+  EXPECT_FALSE(bank.extinction()->state_of(id)->lit);
   EXPECT_TRUE(all_zero(outputs_of(bank)));
   std::vector<float> points(2 * bank.polyline_points());
   bank.polylines(points);
@@ -120,12 +121,12 @@ TEST(Extinction, WhatIsSeenShrinksAwayRatherThanVanishing) {
   const InstanceId id = bank.spawn();
   bank.set_noise(0);
   steps_to_death(bank, 3);
-  float before = bank.lit_state(id)->size;
+  float before = bank.extinction()->state_of(id)->size;
   EXPECT_NEAR(before, 0.9f, 1e-5f);
   std::vector<float> tip{outputs_of(bank)[9]};
   for (int k = 0; k < 10; ++k) {
     bank.step();
-    const float size = bank.lit_state(id)->size;
+    const float size = bank.extinction()->state_of(id)->size;
     EXPECT_NEAR(size, std::max(before - 0.1f, 0.0f), 1e-5f);
     before = size;
     tip.push_back(outputs_of(bank)[9]);
@@ -140,10 +141,10 @@ TEST(Extinction, WhatShrinksIsTheShapeThatItHadWhenItWentOut) {
   const InstanceId id = bank.spawn();
   steps_to_death(bank, 3);
   const std::vector<float> last = outputs_of(bank);
-  const float size = bank.lit_state(id)->size;
+  const float size = bank.extinction()->state_of(id)->size;
   for (int k = 0; k < 5; ++k) {
     bank.step();
-    const float share = bank.lit_state(id)->size / size;
+    const float share = bank.extinction()->state_of(id)->size / size;
     const std::vector<float> now = outputs_of(bank);
     for (std::size_t i = 0; i < now.size(); ++i) EXPECT_NEAR(now[i], share * last[i], 1e-5f) << k << " " << i;
   }
@@ -156,16 +157,16 @@ TEST(Extinction, OnlyRelightingBringsItBackFromRestAndSmall) {
   for (Bank* each : {&bank, &calm}) each->set_noise(0);
   blow(bank, 6, 100);
   blow(bank, 0, 1);
-  ASSERT_TRUE(bank.relight(id));
-  EXPECT_TRUE(bank.lit_state(id)->lit);
-  EXPECT_EQ(bank.lit_state(id)->size, 0);
+  ASSERT_TRUE(bank.extinction()->relight(id));
+  EXPECT_TRUE(bank.extinction()->state_of(id)->lit);
+  EXPECT_EQ(bank.extinction()->state_of(id)->size, 0);
   blow(bank, 0, 20);
   blow(calm, 0, 20);
-  EXPECT_NEAR(bank.lit_state(id)->size, 0.5f, 1e-5f);
+  EXPECT_NEAR(bank.extinction()->state_of(id)->size, 0.5f, 1e-5f);
   EXPECT_NEAR(outputs_of(bank)[9], 0.5f * outputs_of(calm)[9], 1e-5f);
   blow(bank, 0, 20);
   blow(calm, 0, 20);
-  EXPECT_NEAR(bank.lit_state(id)->size, 1, 1e-5f);
+  EXPECT_NEAR(bank.extinction()->state_of(id)->size, 1, 1e-5f);
   blow(bank, 0, 1);
   blow(calm, 0, 1);
   EXPECT_EQ(outputs_of(bank), outputs_of(calm));
@@ -175,7 +176,7 @@ TEST(Extinction, ARelitFlameIsUnharmedAndGoesOutAgain) {
   Bank bank = bank_of(mortal_flame());
   const InstanceId id = bank.spawn();
   const int first = steps_to_death(bank, 3);
-  bank.relight(id);
+  bank.extinction()->relight(id);
   EXPECT_EQ(steps_to_death(bank, 3), first);
 }
 
@@ -185,59 +186,59 @@ TEST(Extinction, ARelitFlamesFlickerIsNotTheOneItWasBornWith) {
   std::vector<float> born, relit;
   blow(bank, 0, 60);
   born = outputs_of(bank);
-  bank.extinguish(id);
+  bank.extinction()->extinguish(id);
   blow(bank, 0, 60);
-  bank.relight(id);
+  bank.extinction()->relight(id);
   blow(bank, 0, 60);
   relit = outputs_of(bank);
-  ASSERT_EQ(bank.lit_state(id)->size, 1);
+  ASSERT_EQ(bank.extinction()->state_of(id)->size, 1);
   EXPECT_NE(born, relit);
 }
 
 TEST(Extinction, ItCanBePutOutWithoutWind) {
   Bank bank = bank_of(mortal_flame(), 2);
   const InstanceId id = bank.spawn(), other = bank.spawn();
-  ASSERT_TRUE(bank.extinguish(id));
+  ASSERT_TRUE(bank.extinction()->extinguish(id));
   blow(bank, 0, 30);
-  EXPECT_FALSE(bank.lit_state(id)->lit);
-  EXPECT_TRUE(bank.lit_state(other)->lit);
-  EXPECT_EQ(bank.lit_state(id)->since_out, nanoseconds(300'000'000));
+  EXPECT_FALSE(bank.extinction()->state_of(id)->lit);
+  EXPECT_TRUE(bank.extinction()->state_of(other)->lit);
+  EXPECT_EQ(bank.extinction()->state_of(id)->since_out, nanoseconds(300'000'000));
 }
 
 TEST(Extinction, AgesAreOfWhatIsShown) {
   Bank bank = bank_of(mortal_flame());
   const InstanceId id = bank.spawn();
-  EXPECT_EQ(bank.lit_state(id)->since_lit, kNever);
-  EXPECT_EQ(bank.lit_state(id)->since_out, kNever);
-  bank.extinguish(id);
+  EXPECT_EQ(bank.extinction()->state_of(id)->since_lit, kNever);
+  EXPECT_EQ(bank.extinction()->state_of(id)->since_out, kNever);
+  bank.extinction()->extinguish(id);
   bank.advance(nanoseconds(125'000'000));
-  EXPECT_EQ(bank.lit_state(id)->since_out, nanoseconds(115'000'000));  // one step late
-  bank.relight(id);
+  EXPECT_EQ(bank.extinction()->state_of(id)->since_out, nanoseconds(115'000'000));  // one step late
+  bank.extinction()->relight(id);
   bank.advance(nanoseconds(40'000'000));
-  EXPECT_EQ(bank.lit_state(id)->since_out, nanoseconds(155'000'000));
-  EXPECT_EQ(bank.lit_state(id)->since_lit, nanoseconds(35'000'000));
+  EXPECT_EQ(bank.extinction()->state_of(id)->since_out, nanoseconds(155'000'000));
+  EXPECT_EQ(bank.extinction()->state_of(id)->since_lit, nanoseconds(35'000'000));
   blow(bank, 0, 1);
-  EXPECT_EQ(bank.lit_state(id)->since_lit, nanoseconds(50'000'000));
+  EXPECT_EQ(bank.extinction()->state_of(id)->since_lit, nanoseconds(50'000'000));
 }
 
 TEST(Extinction, SizesBetweenStepsLieBetween) {
   Bank bank = bank_of(mortal_flame());
   const InstanceId id = bank.spawn();
   bank.set_noise(0);
-  bank.extinguish(id);
+  bank.extinction()->extinguish(id);
   bank.advance(nanoseconds(25'000'000));
-  EXPECT_NEAR(bank.lit_state(id)->size, 0.85f, 1e-5f);
+  EXPECT_NEAR(bank.extinction()->state_of(id)->size, 0.85f, 1e-5f);
 }
 
 TEST(Extinction, WhatIsNotANumberIsCalmAndWhatIsAbsurdDoesNotKillAtOnce) {
   Bank bank = bank_of(mortal_flame());
   const InstanceId id = bank.spawn();
   blow(bank, std::numeric_limits<float>::quiet_NaN(), 1000);
-  EXPECT_TRUE(bank.lit_state(id)->lit);
+  EXPECT_TRUE(bank.extinction()->state_of(id)->lit);
   for (int round = 0; round < 10; ++round) {
     blow(bank, round % 2 ? std::numeric_limits<float>::infinity() : -1e30f, 1);
     blow(bank, 0, 20);
-    ASSERT_TRUE(bank.lit_state(id)->lit) << round;
+    ASSERT_TRUE(bank.extinction()->state_of(id)->lit) << round;
   }
 }
 
@@ -258,16 +259,16 @@ TEST(Extinction, ResettingOrSpawningAnewLightsIt) {
   InstanceId id = bank.spawn();
   blow(bank, 6, 30);
   bank.reset(id);
-  EXPECT_TRUE(bank.lit_state(id)->lit);
-  EXPECT_EQ(bank.lit_state(id)->size, 1);
-  EXPECT_EQ(bank.lit_state(id)->since_out, kNever);
+  EXPECT_TRUE(bank.extinction()->state_of(id)->lit);
+  EXPECT_EQ(bank.extinction()->state_of(id)->size, 1);
+  EXPECT_EQ(bank.extinction()->state_of(id)->since_out, kNever);
   blow(bank, 6, 30);
   bank.end(id);
-  EXPECT_FALSE(bank.lit_state(id));
-  EXPECT_FALSE(bank.relight(id));
-  EXPECT_FALSE(bank.extinguish(id));
+  EXPECT_FALSE(bank.extinction()->state_of(id));
+  EXPECT_FALSE(bank.extinction()->relight(id));
+  EXPECT_FALSE(bank.extinction()->extinguish(id));
   id = bank.spawn();
-  EXPECT_TRUE(bank.lit_state(id)->lit);
+  EXPECT_TRUE(bank.extinction()->state_of(id)->lit);
   EXPECT_FALSE(all_zero(outputs_of(bank)));
 }
 
@@ -298,9 +299,9 @@ std::vector<float> life(Bank& bank, InstanceId id, std::uint64_t stream) {
     bank.advance(nanoseconds(13'000'000));
     EXPECT_TRUE(bank.outputs(id, row));
     all.insert(all.end(), row.begin(), row.end());
-    const LitState state = *bank.lit_state(id);
+    const LitState state = *bank.extinction()->state_of(id);
     all.push_back(state.size);
-    if (!state.lit && state.since_out > nanoseconds(300'000'000)) bank.relight(id);
+    if (!state.lit && state.since_out > nanoseconds(300'000'000)) bank.extinction()->relight(id);
   }
   return all;
 }
@@ -346,7 +347,7 @@ TEST(Extinction, TheBanksRuleIsTheDefinition) {
       if (std::abs(harm[k] - 1) < 1e-5 && harm[k] < 1) continue;  // rounding may decide
       if (dies) lit[k] = false;
       deaths += dies;
-      ASSERT_EQ(bank.lit_state(bank.at(k))->lit, lit[k]) << k << " " << frame;
+      ASSERT_EQ(bank.extinction()->state_of(bank.at(k))->lit, lit[k]) << k << " " << frame;
     }
   }
   EXPECT_GT(deaths, 10);
@@ -368,7 +369,7 @@ Bank lived_in_bank() {
     bank.advance(nanoseconds(17'000'000));
   }
   bank.advance(nanoseconds(33'000'000));
-  for (int slot : {7, 8}) bank.relight(bank.at(slot));
+  for (int slot : {7, 8}) bank.extinction()->relight(bank.at(slot));
   bank.advance(nanoseconds(8'000'000));
   return bank;
 }
@@ -381,15 +382,15 @@ TEST(Extinction, ASavedBankGoesOnDyingWithTheSameBits) {
   for (int frame = 0; frame < 100; ++frame) {
     ASSERT_EQ(outputs_of(other), outputs_of(bank)) << frame;
     for (int slot = 0; slot < bank.slots(); ++slot) {
-      const LitState a = *bank.lit_state(bank.at(slot)), b = *other.lit_state(other.at(slot));
+      const LitState a = *bank.extinction()->state_of(bank.at(slot)), b = *other.extinction()->state_of(other.at(slot));
       ASSERT_EQ(a.lit, b.lit);
       ASSERT_EQ(a.size, b.size);
       ASSERT_EQ(a.since_lit, b.since_lit);
       ASSERT_EQ(a.since_out, b.since_out);
     }
     if (frame == 40) {
-      bank.relight(bank.at(5));
-      other.relight(other.at(5));
+      bank.extinction()->relight(bank.at(5));
+      other.extinction()->relight(other.at(5));
     }
     bank.advance(nanoseconds(17'000'000));
     other.advance(nanoseconds(17'000'000));
@@ -437,21 +438,19 @@ TEST(Extinction, AShapeThatNoFlameHasIsRefused) {
 
 TEST(Extinction, WithoutARuleEverythingBurnsForEver) {
   Bank bank = bank_of(flame_model());
-  const InstanceId id = bank.spawn();
-  EXPECT_FALSE(bank.goes_out());
-  bank.extinguish(id);
+  bank.spawn();
+  EXPECT_EQ(bank.extinction(), nullptr);
   blow(bank, 1e9f, 100);
-  EXPECT_TRUE(bank.lit_state(id)->lit);
-  EXPECT_EQ(bank.lit_state(id)->since_out, kNever);
+  EXPECT_FALSE(all_zero(outputs_of(bank)));
 }
 
 TEST(Extinction, AllStatesAreReadAtOnce) {
   Bank bank = lived_in_bank();
   bank.end(bank.at(2));
   std::vector<LitState> states(bank.slots());
-  bank.lit_states(states);
+  bank.extinction()->states(states);
   for (int slot = 0; slot < bank.slots(); ++slot) {
-    const auto one = bank.lit_state(bank.at(slot));
+    const auto one = bank.extinction()->state_of(bank.at(slot));
     EXPECT_EQ(states[slot].lit, one && one->lit) << slot;
     EXPECT_EQ(states[slot].size, one ? one->size : 0) << slot;
   }

@@ -18,6 +18,9 @@
 #include "model/sample_switched.hpp"
 #include "run/flame_model.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/chain_facet.hpp"
+#include "wisp/run/extinction_facet.hpp"
+#include "wisp/run/switched_facet.hpp"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define WISP_SANITIZED 1
@@ -104,9 +107,11 @@ struct Stage {
     b.set_common_inputs(std::span(wind).first(model.inputs.size()));
     b.set_inputs(next, std::span(wind).first(model.inputs.size()));
     b.set_noise(0.9f);
-    b.set_history(1);
-    b.set_temperature(0.5f);
-    b.set_ground(-0.1f);
+    if (ChainFacet* chain = b.chain()) {
+      chain->set_history(1);
+      chain->set_temperature(0.5f);
+      chain->set_ground(-0.1f);
+    }
     b.step();
     own();
     b.advance(std::chrono::nanoseconds(70'000'000));
@@ -116,14 +121,18 @@ struct Stage {
       b.polylines(polylines);
       b.polyline(next, std::span(polylines).first(2 * b.polyline_points()));
     }
-    b.place(next, {.position = {0, 0, 0.02f}, .velocity = {0, 0.2f, -1}});
-    b.chain_place(next);
-    b.steer(b.at(0), {.position = {1, 0, -1}, .in = std::chrono::seconds(2)});
-    b.release(b.at(1));
-    b.arx_mode(next);
-    b.extinguish(next);
-    b.lit_states(states);
-    b.relight(next);
+    if (ChainFacet* chain = b.chain()) {
+      chain->place(next, {.position = {0, 0, 0.02f}, .velocity = {0, 0.2f, -1}});
+      chain->place_of(next);
+      chain->steer(b.at(0), {.position = {1, 0, -1}, .in = std::chrono::seconds(2)});
+      chain->release(b.at(1));
+    }
+    if (const SwitchedFacet* switched = b.switched()) switched->mode_of(next);
+    if (ExtinctionFacet* extinction = b.extinction()) {
+      extinction->extinguish(next);
+      extinction->states(states);
+      extinction->relight(next);
+    }
     b.save(saved);
     if (!b.restore(saved)) std::abort();
     b.reset(next);

@@ -16,6 +16,8 @@
 #include "run/flame_model.hpp"
 #include "wisp/base/hash.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/chain_facet.hpp"
+#include "wisp/run/extinction_facet.hpp"
 #include "wisp/run/random.hpp"
 
 namespace wisp {
@@ -82,9 +84,9 @@ void mortal_frames(std::uint64_t& hash, Model model, int capacity, int frames) {
     bank.set_inputs(wind);
     bank.advance(std::chrono::nanoseconds(16'666'667));
     for (int k = 0; k < capacity; ++k) {
-      const LitState state = *bank.lit_state(bank.at(k));
+      const LitState state = *bank.extinction()->state_of(bank.at(k));
       sizes[k] = state.size;
-      if (!state.lit && state.since_out > std::chrono::milliseconds(200)) bank.relight(bank.at(k));
+      if (!state.lit && state.since_out > std::chrono::milliseconds(200)) bank.extinction()->relight(bank.at(k));
     }
     bank.polylines(points);
     add(hash, points);
@@ -118,27 +120,27 @@ void falling_frames(std::uint64_t& hash, Model model, int capacity, int frames) 
   auto& gust = std::get<ChainModel>(model.dynamics).gust;
   if (gust) gust->ground.press = gust->vertical.press = {0.2, -0.05};
   Bank bank = full_bank(model, capacity, 9);
-  bank.set_ground(-3.0f);
+  bank.chain()->set_ground(-3.0f);
   const auto inputs = static_cast<std::size_t>(bank.input_count());
   std::vector<float> wind(capacity * inputs), poses(static_cast<std::size_t>(capacity) * bank.output_count());
   for (int frame = 0; frame < frames; ++frame) {
     for (std::size_t k = 0; k < wind.size(); ++k) wind[k] = wind_at(frame, static_cast<int>(k));
     bank.set_inputs(wind);
-    bank.set_history(frame / 500 % 3);
-    if (frame % 400 == 0) bank.set_temperature(0.5f * static_cast<float>(frame % 5));
-    if (frame % 400 == 200) bank.set_temperature({});
+    bank.chain()->set_history(frame / 500 % 3);
+    if (frame % 400 == 0) bank.chain()->set_temperature(0.5f * static_cast<float>(frame % 5));
+    if (frame % 400 == 200) bank.chain()->set_temperature({});
     bank.set_noise(frame % 600 < 550 ? 1.0f : 0.0f);
     frame % 3 == 0 ? bank.step() : void(bank.advance(std::chrono::nanoseconds(13'333'333)));
     const int placed = frame % 97;
     if (placed < capacity) {
       const float x = wind_at(frame + 1, 0) > 0 ? 0.3f : -0.6f;
-      bank.place(bank.at(placed), {.position = {x, 2, 1},
-                                   .orientation = {0.8f, x, 0.2f, -0.1f},
-                                   .velocity = {x, 0.1f, -0.7f},
-                                   .spin = {0, 3 * x, 1}});
+      bank.chain()->place(bank.at(placed), {.position = {x, 2, 1},
+                                            .orientation = {0.8f, x, 0.2f, -0.1f},
+                                            .velocity = {x, 0.1f, -0.7f},
+                                            .spin = {0, 3 * x, 1}});
     }
     if (placed < capacity && frame % 2 == 0) {
-      bank.steer(bank.at(placed), {.position = {1, 2.5f, -2}, .in = std::chrono::seconds(3)});
+      bank.chain()->steer(bank.at(placed), {.position = {1, 2.5f, -2}, .in = std::chrono::seconds(3)});
     }
     bank.outputs(poses);
     add(hash, poses);
@@ -154,8 +156,6 @@ int main() {
   step_frames(hash, flame_model({.wind = InputShape::kSplitSign, .noise_rank = 2}), 1, 30'000);
   step_frames(hash, sample_model(), 13, 2'000);
   step_frames(hash, flame_model({.wind = InputShape::kSplitSign, .drawn_rows = 600}), 11, 2'000);
-  step_frames(hash, flame_model({.wind = InputShape::kSplitSignSquare, .noise_rank = 2, .noise_growth = 0.5}), 3,
-              5'000);
   step_frames(hash, flame_model({.wind = InputShape::kSplitSignCurve}), 5, 3'000);
   step_frames(hash, flame_model({.wind = InputShape::kCurve}), 9, 1'000);
   time_frames(hash, flame_model(), 37, 1'000);

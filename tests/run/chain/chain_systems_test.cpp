@@ -8,6 +8,7 @@
 
 #include "model/sample_chain.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/chain_facet.hpp"
 #include "wisp/run/chain_loop.hpp"
 #include "wisp/run/cost.hpp"
 
@@ -87,11 +88,11 @@ TEST(ChainSystems, LiveTheSameLifeInABankOfAnySizeAndAfterRestoring) {
 
 TEST(ChainSystems, GoOnFromWhereTheyArePlacedAndComeToRest) {
   Bank bank = bank_of(system_chain());
-  ASSERT_TRUE(bank.place(bank.at(0), {.position = {1, 2, 3}, .velocity = {0.5f, 0, -0.5f}}));
+  ASSERT_TRUE(bank.chain()->place(bank.at(0), {.position = {1, 2, 3}, .velocity = {0.5f, 0, -0.5f}}));
   const Pose placed = pose_of(bank);
   bank.step();
   EXPECT_NEAR((pose_of(bank)[0] - placed[0]) * 60, 0.5, 0.15);
-  bank.set_ground(0.0f);
+  bank.chain()->set_ground(0.0f);
   for (int step = 0; step < 900; ++step) bank.step();
   EXPECT_EQ(pose_of(bank)[2], 0.0f);
 }

@@ -12,6 +12,7 @@
 #include "model/sample_model.hpp"
 #include "run/chain/chain_stepper.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/chain_facet.hpp"
 #include "wisp/run/chain_loop.hpp"
 
 namespace wisp {
@@ -42,9 +43,9 @@ double agreement(const Pose& a, const Pose& b) {
 TEST(ChainBank, PlaysEachSegmentStepByStep) {
   Bank bank = bank_of(unblended());
   for (int step = 0; step < 200; ++step) {
-    const ChainPlace before = *bank.chain_place(bank.at(0));
+    const ChainPlace before = *bank.chain()->place_of(bank.at(0));
     bank.step();
-    const ChainPlace after = *bank.chain_place(bank.at(0));
+    const ChainPlace after = *bank.chain()->place_of(bank.at(0));
     if (after.step == 0) continue;
     EXPECT_EQ(after.segment, before.segment);
     EXPECT_EQ(after.step, before.step + 1);
@@ -57,10 +58,10 @@ TEST(ChainBank, ModesFollowEachOtherAsTheChainSays) {
   Bank bank = bank_of(model);
   double seen[2][2] = {};
   double after_one_zero[2] = {};
-  std::vector<int> modes = {chain.segments.mode[bank.chain_place(bank.at(0))->segment]};
+  std::vector<int> modes = {chain.segments.mode[bank.chain()->place_of(bank.at(0))->segment]};
   while (modes.size() < 20000) {
     bank.step();
-    const ChainPlace place = *bank.chain_place(bank.at(0));
+    const ChainPlace place = *bank.chain()->place_of(bank.at(0));
     if (place.step == 0) modes.push_back(chain.segments.mode[place.segment]);
   }
   for (std::size_t k = 2; k < modes.size(); ++k) {
@@ -79,10 +80,10 @@ TEST(ChainBank, ModesFollowEachOtherAsTheChainSays) {
 // Modes of a walk of 20000 segments.
 std::vector<int> walked(Bank& bank, const Model& model) {
   const auto& mode = std::get<ChainModel>(model.dynamics).segments.mode;
-  std::vector<int> modes = {mode[bank.chain_place(bank.at(0))->segment]};
+  std::vector<int> modes = {mode[bank.chain()->place_of(bank.at(0))->segment]};
   while (modes.size() < 20000) {
     bank.step();
-    const ChainPlace place = *bank.chain_place(bank.at(0));
+    const ChainPlace place = *bank.chain()->place_of(bank.at(0));
     if (place.step == 0) modes.push_back(mode[place.segment]);
   }
   return modes;
@@ -93,10 +94,10 @@ TEST(ChainBank, ASegmentSaysTooWhichModeFollowsIt) {
   const auto& chain = std::get<ChainModel>(model.dynamics);
   Bank bank = bank_of(model);
   double seen[3][2] = {};
-  std::uint32_t before = bank.chain_place(bank.at(0))->segment;
+  std::uint32_t before = bank.chain()->place_of(bank.at(0))->segment;
   for (int joins = 0; joins < 20000;) {
     bank.step();
-    const ChainPlace place = *bank.chain_place(bank.at(0));
+    const ChainPlace place = *bank.chain()->place_of(bank.at(0));
     if (place.step != 0) continue;
     ++seen[before][chain.segments.mode[place.segment]];
     before = place.segment;
@@ -112,15 +113,15 @@ TEST(ChainBank, ASegmentSaysTooWhichModeFollowsIt) {
 TEST(ChainBank, WithoutChanceTheLikeliestModeAfterASegmentFollows) {
   Bank bank = bank_of(onward_chain());
   bank.set_noise(0);
-  while (bank.chain_place(bank.at(0))->segment != 0) bank.step();
-  while (bank.chain_place(bank.at(0))->segment == 0) bank.step();
-  EXPECT_EQ(bank.chain_place(bank.at(0))->segment, 1U);  // of mode 0, where the history alone says mode 1
+  while (bank.chain()->place_of(bank.at(0))->segment != 0) bank.step();
+  while (bank.chain()->place_of(bank.at(0))->segment == 0) bank.step();
+  EXPECT_EQ(bank.chain()->place_of(bank.at(0))->segment, 1U);  // of mode 0, where the history alone says mode 1
 }
 
 TEST(ChainBank, AShorterHistoryLooksNoFurtherBack) {
   const Model model = unblended();
   Bank bank = bank_of(model);
-  bank.set_history(1);
+  bank.chain()->set_history(1);
   const std::vector<int> modes = walked(bank, model);
   double after[2] = {};
   for (std::size_t k = 2; k < modes.size(); ++k) {
@@ -132,25 +133,25 @@ TEST(ChainBank, AShorterHistoryLooksNoFurtherBack) {
 
 TEST(ChainBank, AsLongAHistoryAsLearnedChangesNothing) {
   Bank bank = bank_of(sample_chain()), limited = bank_of(sample_chain());
-  limited.set_history(2);
+  limited.chain()->set_history(2);
   for (int step = 0; step < 500; ++step) {
     bank.step();
     limited.step();
     ASSERT_EQ(pose_of(bank), pose_of(limited));
   }
-  limited.set_history(-3);
-  EXPECT_EQ(limited.history(), 0);
+  limited.chain()->set_history(-3);
+  EXPECT_EQ(limited.chain()->history(), 0);
 }
 
 // How often the sample's second-best follower of segment 0 in mode 0, which is segment 0 itself, followed it.
 double second_best_share(std::optional<float> temperature) {
   Bank bank = bank_of(unblended());
-  bank.set_temperature(temperature);
+  bank.chain()->set_temperature(temperature);
   double seconds = 0, all = 0;
-  std::uint32_t before = bank.chain_place(bank.at(0))->segment;
+  std::uint32_t before = bank.chain()->place_of(bank.at(0))->segment;
   for (int step = 0; step < 100'000; ++step) {
     bank.step();
-    const ChainPlace place = *bank.chain_place(bank.at(0));
+    const ChainPlace place = *bank.chain()->place_of(bank.at(0));
     if (place.step != 0) continue;
     if (before == 0 && place.segment < 2) {
       ++all;
@@ -181,11 +182,11 @@ TEST(ChainBank, WithoutChanceEveryInstanceLivesTheSameLifeInALoopThatIsKnown) {
   bank->set_noise(0);
   bank->spawn(3);
   bank->spawn(77);
-  std::vector<std::uint32_t> walk = {bank->chain_place(bank->at(0))->segment};
+  std::vector<std::uint32_t> walk = {bank->chain()->place_of(bank->at(0))->segment};
   while (walk.size() < 60) {
     bank->step();
     ASSERT_EQ(pose_of(*bank, 0)[2], pose_of(*bank, 1)[2]);
-    const ChainPlace place = *bank->chain_place(bank->at(0)), other = *bank->chain_place(bank->at(1));
+    const ChainPlace place = *bank->chain()->place_of(bank->at(0)), other = *bank->chain()->place_of(bank->at(1));
     ASSERT_TRUE(place.segment == other.segment && place.step == other.step);
     if (place.step == 0) walk.push_back(place.segment);
   }
@@ -204,7 +205,7 @@ TEST(ChainBank, WhatIsHeldFarFromTheOriginIsCounted) {
   Bank bank = bank_of(sample_chain());
   for (int step = 0; step < 100; ++step) bank.step();
   EXPECT_EQ(bank.held().held, 0U);
-  bank.place(bank.at(0), {.position = {999'999.9f, 0, 0}, .velocity = {1, 0, 0}});
+  bank.chain()->place(bank.at(0), {.position = {999'999.9f, 0, 0}, .velocity = {1, 0, 0}});
   for (int step = 0; step < 100; ++step) bank.step();
   EXPECT_GT(bank.held().held, 20U);
 }
@@ -213,10 +214,10 @@ TEST(ChainBank, FollowersAreThoseOfTheTable) {
   const Model model = unblended();
   const auto& segments = std::get<ChainModel>(model.dynamics).segments;
   Bank bank = bank_of(model);
-  std::uint32_t before = bank.chain_place(bank.at(0))->segment;
+  std::uint32_t before = bank.chain()->place_of(bank.at(0))->segment;
   for (int step = 0; step < 5000; ++step) {
     bank.step();
-    const ChainPlace place = *bank.chain_place(bank.at(0));
+    const ChainPlace place = *bank.chain()->place_of(bank.at(0));
     if (place.step != 0) continue;
     const std::size_t row = (before * 2 + segments.mode[place.segment]) * 2;
     EXPECT_TRUE(segments.follow[row] == place.segment || segments.follow[row + 1] == place.segment);
@@ -245,7 +246,7 @@ TEST(ChainBank, HeadingIsCarriedOverJoins) {
   double turned = 0, expected = 0;
   double before = heading(pose_of(bank));
   for (int step = 0; step < 3000; ++step) {
-    const std::uint32_t segment = bank.chain_place(bank.at(0))->segment;
+    const std::uint32_t segment = bank.chain()->place_of(bank.at(0))->segment;
     bank.step();
     const double now = heading(pose_of(bank));
     turned += std::remainder(now - before, 2 * std::acos(-1.0));
@@ -290,8 +291,8 @@ TEST(ChainBank, AJoinFadesWithinHalfASegment) {
   for (int step = 0; step < 2000; ++step) {
     a.step();
     b.step();
-    const ChainPlace place = *a.chain_place(a.at(0));
-    ASSERT_EQ(place.segment, b.chain_place(b.at(0))->segment);
+    const ChainPlace place = *a.chain()->place_of(a.at(0));
+    ASSERT_EQ(place.segment, b.chain()->place_of(b.at(0))->segment);
     const int steps = std::get<ChainModel>(plain.dynamics).segments.steps[place.segment];
     // Positions agree; orientations were turned to fit another pose at the join, so tilt is compared.
     if (2 * place.step < static_cast<std::uint32_t>(steps)) continue;

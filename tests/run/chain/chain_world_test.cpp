@@ -8,6 +8,7 @@
 
 #include "model/sample_chain.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/chain_facet.hpp"
 
 namespace wisp {
 namespace {
@@ -89,7 +90,7 @@ TEST(ChainWind, IsSavedAndRestoredInMidGust) {
 
 TEST(ChainGround, ALeafComesToRestFlatOnIt) {
   Bank bank = bank_of(sample_chain(), 9);
-  bank.set_ground(-2.0f);
+  bank.chain()->set_ground(-2.0f);
   for (int step = 0; step < 600; ++step) bank.step();
   for (int slot = 0; slot < 9; ++slot) {
     const Pose rest = pose_of(bank, slot);
@@ -111,8 +112,8 @@ double lowest_corner(const Pose& pose) {
 TEST(ChainGround, NoCornerSinksInWhileABodyLiesDown) {
   const BodyMoment on_edge{.position = {0, 0, 0.5}, .orientation = {0.7f, 0.7f, 0.1f, 0.05f}, .velocity = {0, 0, -1}};
   Bank bank = bank_of(sample_chain());
-  bank.set_ground(0.0f);
-  bank.place(bank.at(0), on_edge);
+  bank.chain()->set_ground(0.0f);
+  bank.chain()->place(bank.at(0), on_edge);
   double least = 1;
   for (int step = 0; step < 300; ++step) {
     bank.step();
@@ -124,15 +125,15 @@ TEST(ChainGround, NoCornerSinksInWhileABodyLiesDown) {
 
 TEST(ChainGround, IsSavedAndRestored) {
   Bank bank = bank_of(sample_chain(), 2), other = bank_of(sample_chain(), 2);
-  bank.set_ground(-0.5f);
-  bank.set_history(1);
-  bank.set_temperature(0.5f);
+  bank.chain()->set_ground(-0.5f);
+  bank.chain()->set_history(1);
+  bank.chain()->set_temperature(0.5f);
   std::vector<std::byte> saved(bank.save_bytes());
   bank.save(saved);
   ASSERT_TRUE(other.restore(saved));
-  EXPECT_EQ(other.ground(), -0.5f);
-  EXPECT_EQ(other.history(), 1);
-  EXPECT_EQ(other.temperature(), 0.5f);
+  EXPECT_EQ(other.chain()->ground(), -0.5f);
+  EXPECT_EQ(other.chain()->history(), 1);
+  EXPECT_EQ(other.chain()->temperature(), 0.5f);
   for (int step = 0; step < 200; ++step) {
     bank.step();
     other.step();
@@ -143,7 +144,7 @@ TEST(ChainGround, IsSavedAndRestored) {
 
 TEST(ChainGround, NothingJumpsWhereItTouches) {
   Bank bank = bank_of(sample_chain());
-  bank.set_ground(-1.0f);
+  bank.chain()->set_ground(-1.0f);
   Pose before = pose_of(bank);
   for (int step = 0; step < 300; ++step) {
     bank.step();
@@ -156,12 +157,12 @@ TEST(ChainGround, NothingJumpsWhereItTouches) {
 
 TEST(ChainGround, WhoeverIsPlacedFallsAgain) {
   Bank bank = bank_of(sample_chain());
-  bank.set_ground(-0.5f);
+  bank.chain()->set_ground(-0.5f);
   for (int step = 0; step < 200; ++step) bank.step();
-  EXPECT_TRUE(bank.place(bank.at(0), {.position = {1, 2, 3}}));
+  EXPECT_TRUE(bank.chain()->place(bank.at(0), {.position = {1, 2, 3}}));
   bank.step();
   EXPECT_GT(pose_of(bank)[2], 2.9f);
-  bank.set_ground({});
+  bank.chain()->set_ground({});
   for (int step = 0; step < 600; ++step) bank.step();
   EXPECT_LT(pose_of(bank)[2], -0.6f);
 }
@@ -172,7 +173,7 @@ TEST(ChainPlace, GoesOnFromThePoseAndFadesIntoTheChain) {
                         .orientation = {0.8f, 0.2f, -0.1f, 0.55f},
                         .velocity = {0.5f, 0.3f, -0.6f},
                         .spin = {0, 0, 2}};
-  ASSERT_TRUE(bank.place(bank.at(0), body));
+  ASSERT_TRUE(bank.chain()->place(bank.at(0), body));
   Pose before = pose_of(bank);
   float size = 0;
   for (float x : body.orientation) size += x * x;
@@ -202,8 +203,8 @@ TEST(ChainPlace, ChoosesTheSegmentThatBeginsSo) {
       body.velocity[k] = static_cast<float>(segments.rates[segment * 12 + k] * segments.rate_scale[0]);
       body.spin[k] = static_cast<float>(segments.rates[segment * 12 + 3 + k] * segments.rate_scale[1]);
     }
-    ASSERT_TRUE(bank.place(bank.at(0), body));
-    EXPECT_EQ(bank.chain_place(bank.at(0))->segment, segment);
+    ASSERT_TRUE(bank.chain()->place(bank.at(0), body));
+    EXPECT_EQ(bank.chain()->place_of(bank.at(0))->segment, segment);
   }
 }
 
@@ -213,11 +214,12 @@ double share_of_mode_one(float target, bool steered = true) {
   double ones = 0, all = 0;
   for (int fall = 0; fall < 300; ++fall) {
     // Ahead is along x: headings are drawn.
-    bank.place(bank.at(0), {.velocity = {0.6f, 0, -0.7f}});
-    if (steered) bank.steer(bank.at(0), {.position = {target, 0, -0.4f}, .in = std::chrono::milliseconds(600)});
+    bank.chain()->place(bank.at(0), {.velocity = {0.6f, 0, -0.7f}});
+    if (steered)
+      bank.chain()->steer(bank.at(0), {.position = {target, 0, -0.4f}, .in = std::chrono::milliseconds(600)});
     for (int step = 0; step < 30; ++step) {
       bank.step();
-      const ChainPlace place = *bank.chain_place(bank.at(0));
+      const ChainPlace place = *bank.chain()->place_of(bank.at(0));
       if (place.step != 0) continue;
       ++all;
       ones += place.segment == 2 ? 1 : 0;
@@ -237,20 +239,20 @@ TEST(ChainSteering, EndsWithItsTimeWithReleaseAndWithAPlace) {
   for (int end : {0, 1, 2}) {
     Bank steered = bank_of(steered_chain()), free = bank_of(steered_chain());
     const BodyMoment start{.velocity = {0.6f, 0, -0.7f}};
-    ASSERT_TRUE(steered.steer(steered.at(0), target));
+    ASSERT_TRUE(steered.chain()->steer(steered.at(0), target));
     for (int step = 0; step < 100; ++step) {
       steered.step();
       free.step();
       if (end == 0 && step == 40) {
-        steered.place(steered.at(0), start);
-        free.place(free.at(0), start);
+        steered.chain()->place(steered.at(0), start);
+        free.chain()->place(free.at(0), start);
       }
       if (end == 1 && step == 0) {
-        EXPECT_TRUE(steered.release(steered.at(0)));
+        EXPECT_TRUE(steered.chain()->release(steered.at(0)));
       }
       if (end == 2 && step == 0) {
-        steered.place(steered.at(0), start);
-        free.place(free.at(0), start);
+        steered.chain()->place(steered.at(0), start);
+        free.chain()->place(free.at(0), start);
       }
     }
     EXPECT_EQ(pose_of(steered), pose_of(free)) << end;
@@ -259,7 +261,7 @@ TEST(ChainSteering, EndsWithItsTimeWithReleaseAndWithAPlace) {
 
 TEST(ChainSteering, IsSavedAndRestored) {
   Bank bank = bank_of(steered_chain(), 2), other = bank_of(steered_chain(), 2);
-  bank.steer(bank.at(1), {.position = {-2, 1, -1}, .in = std::chrono::seconds(4)});
+  bank.chain()->steer(bank.at(1), {.position = {-2, 1, -1}, .in = std::chrono::seconds(4)});
   for (int step = 0; step < 30; ++step) bank.step();
   std::vector<std::byte> saved(bank.save_bytes());
   bank.save(saved);
@@ -275,26 +277,26 @@ TEST(ChainSteering, RefusesWhatIsNoTargetAndChainsThatCannotBeSteered) {
   Bank bank = bank_of(steered_chain());
   const InstanceId id = bank.at(0);
   const auto second = std::chrono::seconds(1);
-  EXPECT_FALSE(bank.steer({}, {.in = second}));
-  EXPECT_FALSE(bank.steer(id, {}));
-  EXPECT_FALSE(bank.steer(id, {.position = {std::numeric_limits<float>::quiet_NaN(), 0, 0}, .in = second}));
-  EXPECT_FALSE(bank.steer(id, {.in = second, .near = 0}));
-  EXPECT_FALSE(bank.steer(id, {.in = std::chrono::seconds(10'001)}));
-  EXPECT_TRUE(bank.steer(id, {.in = second}));
-  EXPECT_FALSE(bank.release({}));
+  EXPECT_FALSE(bank.chain()->steer({}, {.in = second}));
+  EXPECT_FALSE(bank.chain()->steer(id, {}));
+  EXPECT_FALSE(bank.chain()->steer(id, {.position = {std::numeric_limits<float>::quiet_NaN(), 0, 0}, .in = second}));
+  EXPECT_FALSE(bank.chain()->steer(id, {.in = second, .near = 0}));
+  EXPECT_FALSE(bank.chain()->steer(id, {.in = std::chrono::seconds(10'001)}));
+  EXPECT_TRUE(bank.chain()->steer(id, {.in = second}));
+  EXPECT_FALSE(bank.chain()->release({}));
   Bank other = bank_of(sample_chain());
-  EXPECT_FALSE(other.steer(other.at(0), {.in = second}));
+  EXPECT_FALSE(other.chain()->steer(other.at(0), {.in = second}));
 }
 
 TEST(ChainPlace, RefusesWhatIsNoBody) {
   Bank bank = bank_of(sample_chain());
   const InstanceId id = bank.at(0);
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_FALSE(bank.place({}, {}));
-  EXPECT_FALSE(bank.place(id, {.position = {nan, 0, 0}}));
-  EXPECT_FALSE(bank.place(id, {.orientation = {0, 0, 0, 0}}));
-  EXPECT_FALSE(bank.place(id, {.velocity = {0, 1e30f, 0}}));
-  EXPECT_TRUE(bank.place(id, {}));
+  EXPECT_FALSE(bank.chain()->place({}, {}));
+  EXPECT_FALSE(bank.chain()->place(id, {.position = {nan, 0, 0}}));
+  EXPECT_FALSE(bank.chain()->place(id, {.orientation = {0, 0, 0, 0}}));
+  EXPECT_FALSE(bank.chain()->place(id, {.velocity = {0, 1e30f, 0}}));
+  EXPECT_TRUE(bank.chain()->place(id, {}));
 }
 
 }  // namespace

@@ -198,8 +198,10 @@ export class CandleScene implements Scene {
     const { match } = this;
     if (match.wanted && match.id === null) {
       match.id = this.bank.spawn(BigInt(1000));
-      this.bank.extinguish(match.id);
-      this.bank.relight(match.id);
+      if (this.model.facts.blowOut !== null) {
+        this.bank.extinguish(match.id);
+        this.bank.relight(match.id);
+      }
     }
     if (!match.wanted && match.burning) {
       match.burning = false;

@@ -1,7 +1,10 @@
 #include "learn/arx/fit/arx_solve.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <cmath>
+
+#include "learn/numeric/decompositions.hpp"
 
 namespace wisp {
 namespace {
@@ -30,11 +33,11 @@ DependentColumn describe(const Eigen::MatrixXd& reduced, const std::vector<int>&
 double condition_number(const Eigen::MatrixXd& matrix) {
   if (matrix.cols() == 0) return 1;
   const Eigen::MatrixXd gram = matrix.transpose() * matrix;
-  const auto squares = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(gram, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::VectorXd squares = symmetric_eigenvalues(gram);
   constexpr double kMostSquare = 1e8;
   const double square = squares[squares.size() - 1] / squares[0];
   if (square > 0 && square < kMostSquare) return std::sqrt(square);
-  const auto values = Eigen::BDCSVD<Eigen::MatrixXd>(matrix).singularValues();
+  const Eigen::VectorXd values = singular_values(matrix);
   return values[0] / values[values.size() - 1];
 }
 

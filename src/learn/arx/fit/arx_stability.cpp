@@ -9,13 +9,14 @@
 #include "learn/arx/fit/arx_stability.hpp"
 
 #include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
 #include <numeric>
 #include <optional>
+
+#include "learn/numeric/decompositions.hpp"
 
 namespace wisp {
 namespace {
@@ -56,7 +57,7 @@ class Block {
       for (int c = 0; c < model.orders.outputs(); ++c) own += model.orders.na(output, c);
       const MatrixXd inverse = curvature[output].inverse.topLeftCorner(own, own) / curvature[output].weight;
       give_.block(at, at, own, own) = inverse;
-      stiffness_.block(at, at, own, own) = inverse.completeOrthogonalDecomposition().pseudoInverse();
+      stiffness_.block(at, at, own, own) = pseudo_inverse(inverse);
       at += own;
     }
   }
@@ -68,7 +69,7 @@ class Block {
 
   double radius(const VectorXd& a) const {
     if (start_.size() == 0) return 0;
-    return companion(a).eigenvalues().cwiseAbs().maxCoeff();
+    return eigenvalues(companion(a)).cwiseAbs().maxCoeff();
   }
 
   VectorXd scaled(VectorXd a, double factor) const {
@@ -102,10 +103,7 @@ class Block {
   /// The coefficients of least loss for which every pole, taken to move linearly from where it is at `a`, stays within
   /// `most`.
   VectorXd linearised_best(const VectorXd& a, double most) const {
-    const Eigen::EigenSolver<MatrixXd> solver(companion(a));
-    const Eigen::VectorXcd values = solver.eigenvalues();
-    const Eigen::MatrixXcd vectors = solver.eigenvectors();
-    const Eigen::MatrixXcd left = vectors.fullPivLu().inverse();
+    const auto [values, vectors, left] = eigensystem(companion(a));
     MatrixXd slope(0, a.size());
     VectorXd bound(0);
     for (Index p = 0; p < values.size(); ++p) {
@@ -271,7 +269,7 @@ void write_block(const Block& block, const VectorXd& a, const std::vector<RowCur
     for (int c = 0; c < model.orders.outputs(); ++c) own += model.orders.na(output, c);
     const MatrixXd& inverse = curvature[output].inverse;
     const VectorXd moved = a.segment(at, own) - block.start().segment(at, own);
-    const VectorXd push = inverse.topLeftCorner(own, own).completeOrthogonalDecomposition().solve(moved);
+    const VectorXd push = shortest_solution(inverse.topLeftCorner(own, own), moved);
     const VectorXd follow = inverse.bottomLeftCorner(inverse.rows() - own, own) * push;
     std::vector<double>& theta = model.theta[output];
     for (Index k = 0; k < own; ++k) theta[k] = a[at + k];

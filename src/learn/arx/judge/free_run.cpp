@@ -1,11 +1,12 @@
 #include "learn/arx/judge/free_run.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "learn/arx/fit/arx_errors.hpp"
+#include "learn/numeric/decompositions.hpp"
 
 namespace wisp {
 namespace {
@@ -106,7 +107,7 @@ class Runner {
         response.row(r).setZero();
       }
     }
-    const Eigen::VectorXd past = response.completeOrthogonalDecomposition().solve(rest);
+    const Eigen::VectorXd past = shortest_solution(response, rest);
     return {past.begin(), past.end()};
   }
 

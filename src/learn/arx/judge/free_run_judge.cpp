@@ -1,4 +1,4 @@
-#include "wisp/learn/free_run_judge.hpp"
+#include "learn/arx/judge/free_run_judge.hpp"
 
 #include <algorithm>
 #include <cmath>

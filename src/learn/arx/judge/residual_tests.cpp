@@ -1,4 +1,4 @@
-#include "wisp/learn/residual_tests.hpp"
+#include "learn/arx/judge/residual_tests.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,12 +1,13 @@
-#include "wisp/learn/response.hpp"
+#include "learn/arx/judge/response.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numbers>
 
 #include "learn/arx/fit/arx_errors.hpp"
+#include "learn/numeric/decompositions.hpp"
 
 namespace wisp {
 namespace {
@@ -209,7 +210,7 @@ std::vector<std::complex<double>> poles(const ArxModel& model) {
     }
   }
   for (Index r = ny; r < companion.rows(); ++r) companion(r, r - ny) = 1;
-  auto all = sorted(companion.eigenvalues());
+  auto all = sorted(eigenvalues(companion));
   all.resize(std::min<std::size_t>(all.size(), static_cast<std::size_t>(degree_of_a(model))));
   return all;
 }
@@ -223,7 +224,7 @@ std::vector<std::complex<double>> zeros(const ArxModel& model, int output, int i
   MatrixXd companion = MatrixXd::Zero(degree, degree);
   for (Index k = 0; k < degree; ++k) companion(0, k) = -polynomial[k + 1] / polynomial[0];
   for (Index r = 1; r < degree; ++r) companion(r, r - 1) = 1;
-  return sorted(companion.eigenvalues());
+  return sorted(eigenvalues(companion));
 }
 
 StepResponse step_response(const ArxModel& model, int output, int input, int samples,
@@ -247,7 +248,7 @@ FrequencyResponse frequency_response(const ArxModel& model, int output, int inpu
   FrequencyResponse response;
   for (double w : omega) {
     const Complex x = std::polar(1.0, -w);
-    const MatrixXcd inverse = a_at(model, x).inverse();
+    const MatrixXcd inverse = complex_inverse(a_at(model, x));
     const VectorXcd g = inverse * b_at(model, input, x);
     response.value.push_back(g[output]);
     if (covariance.empty()) continue;
@@ -260,17 +261,6 @@ FrequencyResponse frequency_response(const ArxModel& model, int output, int inpu
     response.phase_sd.push_back(std::sqrt(std::max(0.0, across.dot(matrix * across))));
   }
   return response;
-}
-
-std::vector<double> noise_spectrum(const ArxModel& model, int output, std::span<const double> omega,
-                                   std::span<const double> noise_covariance) {
-  const auto covariance = as_matrix(noise_covariance, model.orders.outputs());
-  std::vector<double> spectrum;
-  for (double w : omega) {
-    const Eigen::RowVectorXcd row = a_at(model, std::polar(1.0, -w)).inverse().row(output);
-    spectrum.push_back((row * covariance.cast<Complex>() * row.adjoint())(0).real() / (2 * std::numbers::pi));
-  }
-  return spectrum;
 }
 
 }  // namespace wisp

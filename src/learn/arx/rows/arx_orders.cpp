@@ -1,4 +1,4 @@
-#include "wisp/learn/arx_orders.hpp"
+#include "learn/arx/rows/arx_orders.hpp"
 
 #include <cassert>
 #include <cstdlib>

@@ -2,9 +2,9 @@
 
 #include "learn/arx/fit/arx_check.hpp"
 #include "learn/arx/rows/arx_rows.hpp"
+#include "learn/arx/search/order_search.hpp"
 #include "learn/arx/search/search_fit.hpp"
 #include "learn/arx/search/search_windows.hpp"
-#include "wisp/learn/order_search.hpp"
 
 namespace wisp {
 namespace {

@@ -1,4 +1,4 @@
-#include "wisp/learn/order_search.hpp"
+#include "learn/arx/search/order_search.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -304,7 +304,8 @@ Result<Signals> validation_signals(std::span<const Recording> recordings, const 
 }  // namespace
 
 Result<OrderSearch> search_orders(std::span<const Recording> estimation, std::span<const Recording> validation,
-                                  const ChannelChoice& channels, const SearchOptions& options) {
+                                  const ChannelChoice& channels, const SearchOptions& options,
+                                  const Progress& progress) {
   if (options.by == OrderCriterion::kValidation && validation.empty()) {
     return Error{"the best candidate by validation was asked for without validation recordings"};
   }
@@ -325,8 +326,10 @@ Result<OrderSearch> search_orders(std::span<const Recording> estimation, std::sp
     other = std::move(*gathered);
   }
   Search judge(*signals, other ? &*other : nullptr, options, *candidates);
-  for (OrderCandidate& candidate : *candidates) {
-    if (auto ok = judge.judge(candidate); !ok) return ok.error();
+  for (std::size_t c = 0; c < candidates->size(); ++c) {
+    const double share = static_cast<double>(c) / static_cast<double>(candidates->size());
+    if (!go_on(progress, "searching orders", share)) return Error{std::string(kStopped)};
+    if (auto ok = judge.judge((*candidates)[c]); !ok) return ok.error();
   }
   OrderSearch search;
   search.candidates = std::move(*candidates);

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-namespace wisp {
+namespace wisp::chain {
 namespace {
 
 constexpr double kStill = 1e-3;  // m/s: wind below it is none
@@ -140,4 +140,4 @@ double degrees_between(const Triple& a, const Triple& b) {
   return std::abs(std::atan2(across, along)) * 180 / std::acos(-1.0);
 }
 
-}  // namespace wisp
+}  // namespace wisp::chain

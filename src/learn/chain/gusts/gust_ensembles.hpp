@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "wisp/learn/motion.hpp"
+#include "learn/chain/motion/motion.hpp"
 
-namespace wisp {
+namespace wisp::chain {
 
 /// A windy recording and its calm twin: piece k of both began alike, and each gust has `clones` pieces in a row.
 struct GustPairs {
@@ -57,4 +57,4 @@ struct FitSums {
 /// The angle over ground between two displacements, degrees.
 double degrees_between(const Triple& a, const Triple& b);
 
-}  // namespace wisp
+}  // namespace wisp::chain

@@ -1,4 +1,4 @@
-#include "wisp/learn/gust_play.hpp"
+#include "learn/chain/gusts/gust_play.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +8,13 @@
 
 #include "learn/chain/gusts/gust_ensembles.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/chain_facet.hpp"
 
-namespace wisp {
+namespace wisp::chain {
 namespace {
 
 constexpr double kLaterSeconds = 2;  // after the gust: nothing should be left
-constexpr double kMostLeft = 0.1;    // m/s
+constexpr double kMaxLeft = 0.1;     // m/s
 
 // Two banks that live the same life but for the wind.
 struct Twins {
@@ -63,7 +64,7 @@ Ways played(Twins& twins, const GustPairs& pairs, std::size_t gust, const GustSp
   const std::size_t first = gust * pairs.clones;
   for (std::size_t k = 0; k < pairs.clones; ++k) {
     const BodyMoment body = moment_of(pairs.calm.pieces[first + k], span.onset);
-    for (Bank* bank : {&twins.windy, &twins.calm}) bank->place(bank->at(static_cast<int>(k)), body);
+    for (Bank* bank : {&twins.windy, &twins.calm}) bank->chain()->place(bank->at(static_cast<int>(k)), body);
   }
   take_places(twins.windy, ways.windy);
   take_places(twins.calm, ways.calm);
@@ -212,7 +213,7 @@ GustPlayFigures figures_of(const Tally& tally, GustPlayFigures figures) {
   figures.halves_fit_percent = halves ? tally.halves.fit_percent() : std::numeric_limits<double>::quiet_NaN();
   figures.halves_direction = tally.half_angles.direction();
   figures.diverges = !std::isfinite(figures.largest_displacement) || !std::isfinite(figures.left_after) ||
-                     figures.left_after > kMostLeft;
+                     figures.left_after > kMaxLeft;
   return figures;
 }
 
@@ -268,4 +269,4 @@ Result<GustPlay> play_gusts(const Model& model, const Recording& windy, const Re
   return GustPlay{figures_of(tally, figures), std::move(ends), chosen(scenes, options.scenes)};
 }
 
-}  // namespace wisp
+}  // namespace wisp::chain

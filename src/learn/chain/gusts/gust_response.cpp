@@ -1,4 +1,4 @@
-#include "wisp/learn/gust_response.hpp"
+#include "learn/chain/gusts/gust_response.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include "learn/chain/gusts/gust_ensembles.hpp"
 #include "learn/numeric/normal_equations.hpp"
 
-namespace wisp {
+namespace wisp::chain {
 namespace {
 
 constexpr int kRefinements = 12;
@@ -206,4 +206,4 @@ Result<GustFit> learn_gusts(const Recording& windy, const Recording& calm, const
   return fit;
 }
 
-}  // namespace wisp
+}  // namespace wisp::chain

@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-namespace wisp {
+namespace wisp::chain {
 namespace {
 
 using History = std::vector<std::uint16_t>;
@@ -17,7 +17,7 @@ struct Followed {
 };
 using Counts = std::map<History, Followed>;
 
-constexpr double kLeastProbability = 1e-6;
+constexpr double kMinProbability = 1e-6;
 constexpr double kGain = 0.002;  // nats a segment: a longer history must be worth as much
 constexpr int kParts = 5;
 
@@ -142,7 +142,7 @@ ModeChain estimate_chain(const ModeSequences& sequences, int modes, const ModeCh
   }
   for (std::size_t length = 2; length <= static_cast<std::size_t>(options.history); ++length) {
     for (const auto& [history, row] : counts) {
-      if (history.size() != length || total_of(row.seen) < options.least_count) continue;
+      if (history.size() != length || total_of(row.seen) < options.min_count) continue;
       add(history, mixed(row.worth, shorter_of(known, history, overall), options.back_off));
     }
   }
@@ -160,7 +160,7 @@ double log_likelihood(const ModeChain& chain, const ModeSequences& sequences) {
   for (const auto& sequence : sequences) {
     for (std::size_t at = 1; at < sequence.size(); ++at) {
       const ChainContext* context = context_of(known, std::span(sequence).first(at), longest);
-      sum += std::log(std::max(kLeastProbability, context->probability[sequence[at]]));
+      sum += std::log(std::max(kMinProbability, context->probability[sequence[at]]));
       ++count;
     }
   }
@@ -180,4 +180,4 @@ ModeChainOptions best_history(const ModeSequences& sequences, int modes, int mos
   return best;
 }
 
-}  // namespace wisp
+}  // namespace wisp::chain

@@ -12,7 +12,7 @@
 
 #include "wisp/model/chain.hpp"
 
-namespace wisp {
+namespace wisp::chain {
 
 /// Sequences of modes, one a stretch of segments that follow each other.
 using ModeSequences = std::vector<std::vector<std::uint16_t>>;
@@ -21,9 +21,9 @@ using ModeSequences = std::vector<std::vector<std::uint16_t>>;
 using ModeWeights = std::vector<std::vector<double>>;
 
 struct ModeChainOptions {
-  int history = 1;              ///< longest history, 1 … 16
-  bool back_off = false;        ///< Witten–Bell; otherwise counts as they are wherever the history was seen
-  std::size_t least_count = 5;  ///< histories longer than one mode need as many followers, or say too little
+  int history = 1;            ///< longest history, 1 … 16
+  bool back_off = false;      ///< Witten–Bell; otherwise counts as they are wherever the history was seen
+  std::size_t min_count = 5;  ///< histories longer than one mode need as many successors, or say too little
 };
 
 struct ModeChain {
@@ -47,4 +47,4 @@ double log_likelihood(const ModeChain& chain, const ModeSequences& sequences);
 /// `most` with back-off; by fifths of the sequences.
 ModeChainOptions best_history(const ModeSequences& sequences, int modes, int most);
 
-}  // namespace wisp
+}  // namespace wisp::chain

@@ -7,7 +7,7 @@
 #include "learn/numeric/clustering.hpp"
 #include "wisp/model/chain.hpp"
 
-namespace wisp {
+namespace wisp::chain {
 namespace {
 
 constexpr std::size_t kKinds = 2;  // of each half
@@ -77,4 +77,4 @@ Result<ModeParts> mode_parts(const Motion& motion, std::span<const Segment> segm
   return parts;
 }
 
-}  // namespace wisp
+}  // namespace wisp::chain

@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
+#include "learn/chain/motion/motion.hpp"
+#include "learn/chain/segments/segment_features.hpp"
+#include "learn/chain/segments/segmentation.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/motion.hpp"
-#include "wisp/learn/segment_features.hpp"
-#include "wisp/learn/segmentation.hpp"
 
-namespace wisp {
+namespace wisp::chain {
 
 struct ModeParts {
   std::vector<Segment> segments;       ///< halves, in order
@@ -25,4 +25,4 @@ Result<ModeParts> mode_parts(const Motion& motion, std::span<const Segment> segm
                              std::span<const std::uint16_t> cluster, int modes, const FeatureChoice& features,
                              std::uint64_t seed);
 
-}  // namespace wisp
+}  // namespace wisp::chain

@@ -1,19 +1,20 @@
 #include "learn/chain/modes/mode_splines.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "learn/numeric/decompositions.hpp"
 #include "wisp/model/bspline.hpp"
 
-namespace wisp {
+namespace wisp::chain {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kMostStored = 32767;
+constexpr double kMaxStored = 32767;
 
 // From the rows of a segment of so many steps to the control points: control points × rows. Ends go through the first
 // and the last row, where segments join.
@@ -59,7 +60,7 @@ VectorXd usual_orientation(const ChainModel& chain, const std::vector<std::uint3
     const Eigen::Vector4d q(row[0], row[1], row[2], row[3]);
     moment += q * q.transpose();
   }
-  return Eigen::SelfAdjointEigenSolver<MatrixXd>(moment).eigenvectors().col(3);
+  return symmetric_eigensystem(moment).vectors.col(3);
 }
 
 // Control points of all segments of one mode, one a row.
@@ -86,27 +87,26 @@ MatrixXd controls_of(const ChainModel& chain, const std::vector<std::uint32_t>& 
 void add_mode(MatrixXd controls, ModeSplines& out) {
   const VectorXd mean = controls.colwise().mean();
   controls.rowwise() -= mean.transpose();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> axes(controls.transpose() * controls);
+  const MatrixXd axes = symmetric_eigensystem(controls.transpose() * controls).vectors;
   for (double x : mean) out.mean.push_back(static_cast<float>(x));
   std::vector<VectorXd> scores;
   for (long k = 0; k < out.components; ++k) {
-    const VectorXd axis = axes.eigenvectors().col(axes.eigenvectors().cols() - 1 - k);
+    const VectorXd axis = axes.col(axes.cols() - 1 - k);
     VectorXd score = controls * axis;
     const double most = std::max(score.cwiseAbs().maxCoeff(), 1e-6);
-    for (double x : axis) out.component.push_back(static_cast<float>(x * most / kMostStored));
-    scores.push_back(score * (kMostStored / most));
+    for (double x : axis) out.component.push_back(static_cast<float>(x * most / kMaxStored));
+    scores.push_back(score * (kMaxStored / most));
   }
   for (long segment = 0; segment < controls.rows(); ++segment) {
     for (const VectorXd& score : scores) {
-      out.score.push_back(
-          static_cast<std::int16_t>(std::lround(std::clamp(score(segment), -kMostStored, kMostStored))));
+      out.score.push_back(static_cast<std::int16_t>(std::lround(std::clamp(score(segment), -kMaxStored, kMaxStored))));
     }
   }
 }
 
 }  // namespace
 
-void realise_as_splines(ChainModel& chain, const ModeSplineOptions& options) {
+void as_splines(ChainModel& chain, const ModeSplineOptions& options) {
   const auto first = segment_rows(chain.segments);
   const int channels = channel_count(chain.motion);
   ModeSplines splines;
@@ -122,4 +122,4 @@ void realise_as_splines(ChainModel& chain, const ModeSplineOptions& options) {
   chain.splines = std::move(splines);
 }
 
-}  // namespace wisp
+}  // namespace wisp::chain

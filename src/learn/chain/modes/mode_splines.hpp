@@ -7,7 +7,7 @@
 
 #include "wisp/model/chain.hpp"
 
-namespace wisp {
+namespace wisp::chain {
 
 struct ModeSplineOptions {
   int control_points = 8;   ///< 4 … 32, over the whole of a segment
@@ -19,6 +19,6 @@ struct ModeSplineOptions {
 /// it had in the recording, and as long as it was.
 ///
 /// Precondition: the chain is sound, its modes are neither systems nor splines.
-void realise_as_splines(ChainModel& chain, const ModeSplineOptions& options = {});
+void as_splines(ChainModel& chain, const ModeSplineOptions& options = {});
 
-}  // namespace wisp
+}  // namespace wisp::chain

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-namespace wisp {
+namespace wisp::chain {
 namespace {
 
-constexpr double kRidge = 1e-6;        // of the mean square of a term: terms may depend on each other
-constexpr double kLeastRidge = 1e-9;   // of that of all terms: some are never anything but 0
-constexpr double kMostOutside = 1e-3;  // share of rows beyond the range that velocities are held to, on either side
+constexpr double kRidge = 1e-6;       // of the mean square of a term: terms may depend on each other
+constexpr double kMinRidge = 1e-9;    // of that of all terms: some are never anything but 0
+constexpr double kMaxOutside = 1e-3;  // share of rows beyond the range that velocities are held to, on either side
 constexpr std::size_t kStates = kSystemStates;
 
 using State = std::array<double, kStates>;
@@ -59,7 +59,7 @@ std::vector<Rows> rows_of(const Motion& motion, std::span<const Segment> segment
 }
 
 void take_range(std::vector<State>& states, ModeSystem& system) {
-  const auto beyond = static_cast<std::size_t>(kMostOutside * static_cast<double>(states.size()));
+  const auto beyond = static_cast<std::size_t>(kMaxOutside * static_cast<double>(states.size()));
   for (std::size_t k = 0; k < kStates; ++k) {
     std::sort(states.begin(), states.end(), [&](const State& a, const State& b) { return a[k] < b[k]; });
     system.lowest[k] = states[beyond][k];
@@ -86,7 +86,7 @@ ModeSystem fit(const Motion& motion, const Rows& rows, const ModeSystemOptions& 
     states.push_back(next);
   }
   const double usual = gram.trace() / static_cast<double>(terms);
-  gram.diagonal() = (1 + kRidge) * gram.diagonal().array() + kLeastRidge * usual;
+  gram.diagonal() = (1 + kRidge) * gram.diagonal().array() + kMinRidge * usual;
   const Eigen::MatrixXd found = gram.ldlt().solve(cross);
   ModeSystem system;
   for (Eigen::Index k = 0; k < found.cols(); ++k) {
@@ -134,4 +134,4 @@ Result<ModeSystems> fit_mode_systems(const Motion& motion, std::span<const Segme
   return systems;
 }
 
-}  // namespace wisp
+}  // namespace wisp::chain

@@ -8,12 +8,12 @@
 
 #include <span>
 
+#include "learn/chain/motion/motion.hpp"
+#include "learn/chain/segments/segmentation.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/motion.hpp"
-#include "wisp/learn/segmentation.hpp"
 #include "wisp/model/mode_systems.hpp"
 
-namespace wisp {
+namespace wisp::chain {
 
 struct ModeSystemOptions {
   int degree = 1;     ///< 1 or 2
@@ -26,4 +26,4 @@ Result<ModeSystems> fit_mode_systems(const Motion& motion, std::span<const Segme
                                      std::span<const std::uint16_t> cluster, int modes,
                                      const ModeSystemOptions& options);
 
-}  // namespace wisp
+}  // namespace wisp::chain

@@ -1,17 +1,17 @@
-#include "wisp/learn/motion.hpp"
+#include "learn/chain/motion/motion.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <optional>
 
-namespace wisp {
+namespace wisp::chain {
 namespace {
 
-constexpr std::size_t kLeastRows = 8;
-constexpr double kRounding = 2e-4;    // of a unit quaternion that was written with four digits
-constexpr double kMostWrong = 0.01;   // beyond it, it is something else than a unit quaternion
-constexpr double kMostJitter = 0.01;  // of a step of time
+constexpr std::size_t kMinRows = 8;
+constexpr double kRounding = 2e-4;   // of a unit quaternion that was written with four digits
+constexpr double kMaxWrong = 0.01;   // beyond it, it is something else than a unit quaternion
+constexpr double kMaxJitter = 0.01;  // of a step of time
 
 constexpr const char* kPositions[] = {"pos.x", "pos.y", "pos.z"};
 constexpr const char* kQuaternion[] = {"q.w", "q.x", "q.y", "q.z"};
@@ -63,7 +63,7 @@ Result<void> check_time(const Recording& recording) {
     for (const Episode& episode : episodes(recording)) {
       for (std::size_t row = episode.begin + 1; row < episode.end; ++row) {
         const double found = time[row] - time[row - 1];
-        if (std::abs(found - step) <= kMostJitter * step) continue;
+        if (std::abs(found - step) <= kMaxJitter * step) continue;
         return Error{place(recording, row) + ": time goes on by " + std::to_string(found) + " s, expected " +
                      std::to_string(step) + " everywhere: resample the recording to one rate"};
       }
@@ -82,7 +82,7 @@ Result<Quad> unit_quaternion(const Recording& recording, const std::array<std::s
     square += q[k] * q[k];
   }
   const double length = std::sqrt(square), wrong = std::abs(length - 1);
-  if (!(wrong <= kMostWrong)) {
+  if (!(wrong <= kMaxWrong)) {
     return Error{place(recording, row) + ": the quaternion q has length " + std::to_string(length) +
                  ", expected 1 within 1 %: w comes first; what is no orientation can't be learned"};
   }
@@ -190,7 +190,7 @@ Result<void> add_recording(const Recording& recording, std::size_t index, const 
                            Motion& motion) {
   double worst = 0;
   const auto finish = [&](MotionPiece& piece) {
-    if (piece.rows() >= kLeastRows) {
+    if (piece.rows() >= kMinRows) {
       add_rates(piece, recording.rate_hz, smooth_rows);
       motion.pieces.push_back(std::move(piece));
     }
@@ -314,4 +314,4 @@ Triple turned_about_z(const Triple& v, double angle) {
   return {c * v[0] - s * v[1], s * v[0] + c * v[1], v[2]};
 }
 
-}  // namespace wisp
+}  // namespace wisp::chain

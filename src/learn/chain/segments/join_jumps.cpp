@@ -4,13 +4,13 @@
 #include <array>
 #include <cmath>
 
-namespace wisp {
+namespace wisp::chain {
 namespace {
 
 constexpr double kUsualShare = 0.99;
-constexpr int kRows = 3;               // a mismatch of rates shows in the first, its fading in the next ones
-constexpr double kLeastHalfCos = 0.2;  // as the bank holds rotations
-constexpr double kLeastSpeed = 1e-12;
+constexpr int kRows = 3;             // a mismatch of rates shows in the first, its fading in the next ones
+constexpr double kMinHalfCos = 0.2;  // as the bank holds rotations
+constexpr double kMinSpeed = 1e-12;
 
 Triple plus(const Triple& a, const Triple& b, double factor = 1) {
   return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
@@ -29,7 +29,7 @@ double turn_between(const Quad& from, const Quad& to) {
 }
 double turn_between(const Triple& from, const Triple& to) {
   const double along = to[0] * from[0] + to[1] * from[1], across = to[1] * from[0] - to[0] * from[1];
-  return std::hypot(along, across) > kLeastSpeed ? std::atan2(across, along) : 0;
+  return std::hypot(along, across) > kMinSpeed ? std::atan2(across, along) : 0;
 }
 
 // Rotations away from an orientation as Gibbs vectors, on the world's side.
@@ -37,7 +37,7 @@ Triple gibbs_between(const Quad& from, const Quad& to) {
   const Triple from_axis{from[1], from[2], from[3]}, to_axis{to[1], to[2], to[3]};
   const double w = to[0] * from[0] + dot(to_axis, from_axis);
   const Triple v = plus(plus(times(to_axis, from[0]), from_axis, -to[0]), cross(to_axis, from_axis), -1);
-  return times(v, (w < 0 ? -1 : 1) / std::max(std::abs(w), kLeastHalfCos));
+  return times(v, (w < 0 ? -1 : 1) / std::max(std::abs(w), kMinHalfCos));
 }
 Quad rotated(const Triple& g, const Quad& q) {
   const Triple axis{q[1], q[2], q[3]};
@@ -150,4 +150,4 @@ double JoinForesight::jump(std::size_t from, std::size_t to) const {
   return greatest;
 }
 
-}  // namespace wisp
+}  // namespace wisp::chain

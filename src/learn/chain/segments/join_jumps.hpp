@@ -4,11 +4,11 @@
 #include <span>
 #include <vector>
 
-#include "wisp/learn/motion.hpp"
-#include "wisp/learn/segmentation.hpp"
+#include "learn/chain/motion/motion.hpp"
+#include "learn/chain/segments/segmentation.hpp"
 #include "wisp/model/chain.hpp"
 
-namespace wisp {
+namespace wisp::chain {
 
 /// A row's jump: how far it is from where the two before it, going on as they did, would lead.
 struct Jump {
@@ -38,4 +38,4 @@ class JoinForesight {
   Jump usual_;
 };
 
-}  // namespace wisp
+}  // namespace wisp::chain

@@ -1,9 +1,9 @@
-#include "wisp/learn/segment_features.hpp"
+#include "learn/chain/segments/segment_features.hpp"
 
 #include <cmath>
 #include <string>
 
-namespace wisp {
+namespace wisp::chain {
 namespace {
 
 constexpr double kNoLength = 1e-9;  // metres: a line shorter than this has no direction
@@ -67,33 +67,6 @@ void standardise(FeatureTable& table) {
 
 }  // namespace
 
-Result<FeatureChoice> parse_features(std::string_view text) {
-  FeatureChoice choice{.velocity = false, .length = false, .direction = false};
-  while (!text.empty()) {
-    const std::size_t comma = text.find(',');
-    const std::string_view word = text.substr(0, comma);
-    if (word == "velocity") {
-      choice.velocity = true;
-    } else if (word == "length") {
-      choice.length = true;
-    } else if (word == "direction") {
-      choice.direction = true;
-    } else if (word == "spin") {
-      choice.spin = true;
-    } else if (word == "tilt") {
-      choice.tilt = true;
-    } else if (word == "duration") {
-      choice.duration = true;
-    } else {
-      return Error{"a feature is \"" + std::string(word) +
-                   "\", expected velocity, length, direction, spin, tilt or duration, separated by commas"};
-    }
-    if (comma == std::string_view::npos) break;
-    text.remove_prefix(comma + 1);
-  }
-  return choice;
-}
-
 double heading_of(const Motion& motion, const Segment& segment) {
   const Triple line = line_of(motion.pieces[segment.piece], segment);
   return std::hypot(line[0], line[1]) > kNoLength ? std::atan2(line[1], line[0]) : 0.0;
@@ -116,4 +89,4 @@ Result<FeatureTable> segment_features(const Motion& motion, std::span<const Segm
   return table;
 }
 
-}  // namespace wisp
+}  // namespace wisp::chain

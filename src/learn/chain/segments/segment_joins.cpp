@@ -3,25 +3,25 @@
 #include <algorithm>
 #include <utility>
 
-#include "learn/chain/modes/follower_balance.hpp"
+#include "learn/chain/modes/successor_balance.hpp"
 #include "learn/chain/segments/join_jumps.hpp"
 
-namespace wisp {
+namespace wisp::chain {
 namespace {
 
 constexpr std::size_t kLookedAt = 64;  // nearest ones of which the jumps are foreseen
-// Jumps that come near the recording's 99th percentile count against a follower, and soon more than all else.
+// Jumps that come near the recording's 99th percentile count against a successor, and soon more than all else.
 constexpr double kSmooth = 0.8;
 constexpr double kJumpWeight = 15;
 
-Followers candidates_of(const SegmentMoments& moments, std::span<const std::uint16_t> mode,
-                        std::span<const double> weight, int modes, const JoinForesight& foresight) {
+Successors candidates_of(const SegmentMoments& moments, std::span<const std::uint16_t> mode,
+                         std::span<const double> weight, int modes, const JoinForesight& foresight) {
   std::vector<std::vector<std::uint16_t>> members(static_cast<std::size_t>(modes));
   for (std::size_t k = 0; k < mode.size(); ++k) members[mode[k]].push_back(static_cast<std::uint16_t>(k));
-  Followers candidates;
+  Successors candidates;
   for (std::size_t from = 0; from < mode.size(); ++from) {
     for (const auto& all : members) {
-      std::vector<Follower> near;
+      std::vector<Successor> near;
       for (std::uint16_t to : all) {
         if (to == from && all.size() > 1) continue;
         near.push_back({distance_of(moments.ends[from], moments.starts[to]), to});
@@ -29,7 +29,7 @@ Followers candidates_of(const SegmentMoments& moments, std::span<const std::uint
       const std::size_t looked_at = std::min(near.size(), kLookedAt);
       std::partial_sort(near.begin(), near.begin() + static_cast<long>(looked_at), near.end());
       near.resize(looked_at);
-      for (Follower& one : near) {
+      for (Successor& one : near) {
         const double beyond = std::max(0.0, foresight.jump(from, one.segment) - kSmooth);
         one.misfit += kJumpWeight * beyond * beyond;
         // Of two that stood beside each other in a plane of moments, the nearer one would be as much nearer.
@@ -43,13 +43,13 @@ Followers candidates_of(const SegmentMoments& moments, std::span<const std::uint
 
 }  // namespace
 
-std::vector<std::uint16_t> best_followers(const Motion& motion, std::span<const Segment> segments,
-                                          const SegmentMoments& moments, std::span<const std::uint16_t> mode, int modes,
-                                          const FollowerOptions& options, std::span<const double> weight,
-                                          std::span<const double> chances) {
+std::vector<std::uint16_t> best_successors(const Motion& motion, std::span<const Segment> segments,
+                                           const SegmentMoments& moments, std::span<const std::uint16_t> mode,
+                                           int modes, const SuccessorOptions& options, std::span<const double> weight,
+                                           std::span<const double> chances) {
   const JoinForesight foresight(motion, segments, options.heading_free, options.blend);
-  return balanced_followers(candidates_of(moments, mode, weight, modes, foresight), mode, weight, chances, modes,
-                            options.breadth);
+  return balanced_successors(candidates_of(moments, mode, weight, modes, foresight), mode, weight, chances, modes,
+                             options.breadth);
 }
 
-}  // namespace wisp
+}  // namespace wisp::chain

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace wisp {
+namespace wisp::chain {
 namespace {
 
 // Attitude counts as much as velocity and spin together: a jump of attitude is what the eye sees first.
@@ -76,4 +76,4 @@ double distance_of(const JoinMoment& a, const JoinMoment& b) {
   return distance;
 }
 
-}  // namespace wisp
+}  // namespace wisp::chain

@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "wisp/learn/motion.hpp"
-#include "wisp/learn/segmentation.hpp"
+#include "learn/chain/motion/motion.hpp"
+#include "learn/chain/segments/segmentation.hpp"
 
-namespace wisp {
+namespace wisp::chain {
 
 /// Attitude, velocity and angular velocity, in the body's own axes where heading does not count, each over its standard
 /// deviation.
@@ -26,4 +26,4 @@ SegmentMoments segment_moments(const Motion& motion, std::span<const Segment> se
 /// The squared distance of two moments.
 double distance_of(const JoinMoment& a, const JoinMoment& b);
 
-}  // namespace wisp
+}  // namespace wisp::chain

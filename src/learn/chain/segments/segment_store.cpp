@@ -1,22 +1,22 @@
-#include "wisp/learn/segment_store.hpp"
+#include "learn/chain/segments/segment_store.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
 
-#include "learn/chain/modes/onward_modes.hpp"
+#include "learn/chain/modes/successor_modes.hpp"
 #include "learn/chain/segments/join_jumps.hpp"
+#include "learn/chain/segments/segment_features.hpp"
 #include "learn/chain/segments/segment_joins.hpp"
 #include "learn/chain/segments/segment_moments.hpp"
 #include "learn/chain/segments/segment_weights.hpp"
-#include "learn/likeness/fidelity_shuffle.hpp"
-#include "wisp/learn/segment_features.hpp"
+#include "learn/fidelity/fidelity_shuffle.hpp"
 
-namespace wisp {
+namespace wisp::chain {
 namespace {
 
-constexpr double kMostStored = 32767;
+constexpr double kMaxStored = 32767;
 constexpr double kUsualShare = 0.99;
 constexpr double kCalm = 0.95;
 
@@ -55,18 +55,18 @@ double largest(double so_far, const Triple& vector) {
   return so_far;
 }
 
-double scale_for(double most) { return most > 0 ? most / kMostStored : 1.0 / kMostStored; }
+double scale_for(double most) { return most > 0 ? most / kMaxStored : 1.0 / kMaxStored; }
 
 template <std::size_t kSize>
 void put(const std::array<double, kSize>& values, double scale, std::vector<std::int16_t>& out) {
   for (double x : values) {
-    out.push_back(static_cast<std::int16_t>(std::lround(std::clamp(x / scale, -kMostStored, kMostStored))));
+    out.push_back(static_cast<std::int16_t>(std::lround(std::clamp(x / scale, -kMaxStored, kMaxStored))));
   }
 }
 
-std::size_t bytes_of(const Segment& segment, bool pose, std::size_t followers) {
+std::size_t bytes_of(const Segment& segment, bool pose, std::size_t successors) {
   const std::size_t channels = pose ? 7 : 3, rates = pose ? 12 : 6;
-  return 2 * (static_cast<std::size_t>(segment.steps + 1) * channels + rates + 2 + followers);
+  return 2 * (static_cast<std::size_t>(segment.steps + 1) * channels + rates + 2 + successors);
 }
 
 // Most segments a mode may keep so that all fit: modes that have fewer leave their room to the others.
@@ -109,13 +109,13 @@ std::vector<std::size_t> kept_segments(const Motion& motion, std::span<const Seg
                                        const SegmentStoreOptions& options) {
   std::vector<std::vector<std::size_t>> members(static_cast<std::size_t>(modes));
   std::size_t bytes = 0;
-  const auto followers = static_cast<std::size_t>(options.breadth > 0 ? options.breadth + 1 : 0) *
-                         static_cast<std::size_t>(modes);  // and how likely each mode is
+  const auto successors = static_cast<std::size_t>(options.breadth > 0 ? options.breadth + 1 : 0) *
+                          static_cast<std::size_t>(modes);  // and how likely each mode is
   for (std::size_t k = 0; k < segments.size(); ++k) {
     members[cluster[k]].push_back(k);
-    bytes += bytes_of(segments[k], pose, followers);
+    bytes += bytes_of(segments[k], pose, successors);
   }
-  const double share = std::min(1.0, static_cast<double>(options.most_bytes) / static_cast<double>(bytes));
+  const double share = std::min(1.0, static_cast<double>(options.max_bytes) / static_cast<double>(bytes));
   const auto room = static_cast<std::size_t>(share * static_cast<double>(segments.size()));
   const std::size_t cap = cap_of(members, std::clamp<std::size_t>(room, 1, kMostSegments - members.size()));
   std::mt19937_64 random(options.seed);
@@ -154,8 +154,8 @@ void join_up(const Motion& motion, std::span<const Segment> segments, std::span<
              const SegmentStoreOptions& options, SegmentStore& store) {
   const SegmentMoments moments = segment_moments(motion, segments, options.heading_free);
   const std::vector<double> weight = segment_weights(motion, segments);
-  OnwardModes onward =
-      onward_modes(moments, cluster, weight, store.source, transitions_of(segments, cluster, weight, modes), modes);
+  SuccessorModes onward =
+      successor_modes(moments, cluster, weight, store.source, transitions_of(segments, cluster, weight, modes), modes);
   std::vector<Segment> kept;
   SegmentMoments own;
   std::vector<double> own_weight;
@@ -165,9 +165,9 @@ void join_up(const Motion& motion, std::span<const Segment> segments, std::span<
     own.ends.push_back(moments.ends[source]);
     own_weight.push_back(weight[source]);
   }
-  const FollowerOptions joining{options.heading_free, options.breadth, options.blend};
+  const SuccessorOptions joining{options.heading_free, options.breadth, options.blend};
   ChainSegments& out = store.segments;
-  out.follow = best_followers(motion, kept, own, out.mode, modes, joining, own_weight, onward.chances);
+  out.follow = best_successors(motion, kept, own, out.mode, modes, joining, own_weight, onward.chances);
   if (modes > 1) out.onward = std::move(onward.share);
 }
 
@@ -190,7 +190,7 @@ SegmentStore store_segments(const Motion& motion, std::span<const Segment> found
   out.row_scale = {scale_for(farthest)};
   out.rate_scale = {scale_for(fastest)};
   if (motion.has_orientation) {
-    out.row_scale.push_back(1 / kMostStored);
+    out.row_scale.push_back(1 / kMaxStored);
     out.rate_scale.push_back(scale_for(quickest));
   }
   for (std::size_t k = 0; k < pieces.size(); ++k) {
@@ -210,4 +210,4 @@ SegmentStore store_segments(const Motion& motion, std::span<const Segment> found
   return store;
 }
 
-}  // namespace wisp
+}  // namespace wisp::chain

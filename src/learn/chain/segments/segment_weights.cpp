@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <numeric>
 
-namespace wisp {
+namespace wisp::chain {
 namespace {
 
-constexpr double kMostWeight = 4;    // what hardly any recording was long enough to show, would else stand for many
+constexpr double kMaxWeight = 4;     // what hardly any recording was long enough to show, would else stand for many
 constexpr double kFewCutOff = 0.05;  // of all that began: their lengths are as they were seen, but for chance
 
 // A segment that began: how long it was seen, and which one it is where it was seen whole.
@@ -46,11 +46,11 @@ std::vector<double> segment_weights(const Motion& motion, std::span<const Segmen
     if (all[k].segment == kCutOff)
       going_on *= 1 - 1 / at_risk;
     else
-      weight[all[k].segment] = std::min(kMostWeight, 1 / going_on);
+      weight[all[k].segment] = std::min(kMaxWeight, 1 / going_on);
   }
   const double mean = std::accumulate(weight.begin(), weight.end(), 0.0) / static_cast<double>(weight.size());
   for (double& one : weight) one /= mean;
   return weight;
 }
 
-}  // namespace wisp
+}  // namespace wisp::chain

@@ -9,14 +9,14 @@
 #include <span>
 #include <vector>
 
-#include "wisp/learn/motion.hpp"
-#include "wisp/learn/segmentation.hpp"
+#include "learn/chain/motion/motion.hpp"
+#include "learn/chain/segments/segmentation.hpp"
 
-namespace wisp {
+namespace wisp::chain {
 
 /// Weights of whole segments, 1 in the mean; 1 each where fewer than one in twenty that began was cut off.
 ///
 /// Precondition: segments in order, those of one piece one after the other.
 std::vector<double> segment_weights(const Motion& motion, std::span<const Segment> segments);
 
-}  // namespace wisp
+}  // namespace wisp::chain

@@ -1,9 +1,9 @@
-#include "wisp/learn/segmentation.hpp"
+#include "learn/chain/segments/segmentation.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace wisp {
+namespace wisp::chain {
 namespace {
 
 double length(const Triple& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
@@ -114,19 +114,6 @@ void add_segments(std::size_t piece, const std::vector<double>& events, std::vec
 
 }  // namespace
 
-Result<EventSpec> parse_event(std::string_view text) {
-  const std::size_t colon = text.find(':');
-  const std::string_view kind = text.substr(0, colon);
-  if (colon != std::string_view::npos && colon + 1 < text.size()) {
-    const std::string signal(text.substr(colon + 1));
-    if (kind == "zero") return EventSpec{EventKind::kZero, signal};
-    if (kind == "min") return EventSpec{EventKind::kMinimum, signal};
-    if (kind == "max") return EventSpec{EventKind::kMaximum, signal};
-  }
-  return Error{"the event is \"" + std::string(text) +
-               "\", expected zero:SIGNAL, min:SIGNAL or max:SIGNAL, such as min:horizontal_speed"};
-}
-
 std::vector<double> event_rows(std::span<const double> signal, double rate_hz, double deviation,
                                const SegmentationOptions& options) {
   if (signal.size() < 3) return {};
@@ -138,14 +125,14 @@ std::vector<double> event_rows(std::span<const double> signal, double rate_hz, d
   const auto all = options.event.kind == EventKind::kZero ? zeros_of(turned, margin) : minima_of(turned, margin);
   std::vector<double> kept;
   for (double row : all) {
-    if (kept.empty() || row - kept.back() >= options.least_seconds * rate_hz) kept.push_back(row);
+    if (kept.empty() || row - kept.back() >= options.min_seconds * rate_hz) kept.push_back(row);
   }
   return kept;
 }
 
 Result<Segmentation> segment(const Motion& motion, std::span<const Recording> recordings,
                              const SegmentationOptions& options) {
-  if (!(options.least_seconds >= 0) || !(options.debounce >= 0)) {
+  if (!(options.min_seconds >= 0) || !(options.debounce >= 0)) {
     return Error{"the shortest segment and the debouncing of events are expected not to be negative"};
   }
   std::vector<std::vector<double>> signals;
@@ -172,4 +159,4 @@ Result<Segmentation> segment(const Motion& motion, std::span<const Recording> re
   return out;
 }
 
-}  // namespace wisp
+}  // namespace wisp::chain

@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "learn/arx/rows/arx_orders.hpp"
 #include "wisp/learn/arx_fit.hpp"
-#include "wisp/learn/arx_orders.hpp"
 
 namespace wisp {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "wisp/learn/arx_orders.hpp"
+#include "learn/arx/rows/arx_orders.hpp"
 
 namespace wisp {
 namespace {

@@ -9,10 +9,10 @@
 #include <fstream>
 #include <sstream>
 
+#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/search/order_search.hpp"
 #include "learn/shared_files.hpp"
 #include "wisp/learn/arx_fit.hpp"
-#include "wisp/learn/arx_orders.hpp"
-#include "wisp/learn/order_search.hpp"
 #include "wisp/learn/prediction.hpp"
 
 namespace wisp {

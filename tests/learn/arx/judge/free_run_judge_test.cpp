@@ -1,4 +1,4 @@
-#include "wisp/learn/free_run_judge.hpp"
+#include "learn/arx/judge/free_run_judge.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <sstream>
 
-#include "wisp/learn/arx_orders.hpp"
+#include "learn/arx/rows/arx_orders.hpp"
 
 namespace wisp {
 namespace {

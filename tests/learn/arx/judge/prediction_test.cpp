@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "learn/arx/made_system.hpp"
-#include "wisp/learn/arx_orders.hpp"
+#include "learn/arx/rows/arx_orders.hpp"
 
 namespace wisp {
 namespace {

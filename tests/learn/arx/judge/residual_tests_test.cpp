@@ -1,12 +1,12 @@
-#include "wisp/learn/residual_tests.hpp"
+#include "learn/arx/judge/residual_tests.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
+#include "learn/arx/rows/arx_orders.hpp"
 #include "wisp/learn/arx_fit.hpp"
-#include "wisp/learn/arx_orders.hpp"
 
 namespace wisp {
 namespace {

@@ -1,4 +1,4 @@
-#include "wisp/learn/response.hpp"
+#include "learn/arx/judge/response.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "wisp/learn/arx_orders.hpp"
+#include "learn/arx/rows/arx_orders.hpp"
 
 namespace wisp {
 namespace {
@@ -141,17 +141,6 @@ TEST(FrequencyResponse, DeviationsAreThoseOfTheLinearisedResponse) {
     EXPECT_NEAR(got.phase_sd[0],
                 sd_by_differences(model, covariance, [&](const ArxModel& other) { return std::arg(at(other)); }), 1e-7);
   }
-}
-
-TEST(NoiseSpectrum, IntegratesToTheVarianceOfTheNoisePart) {
-  const ArxModel model = first_order();
-  std::vector<double> omega;
-  const int count = 4096;
-  for (int k = 0; k < count; ++k) omega.push_back(2 * std::numbers::pi * k / count);
-  const std::vector<double> covariance{0.3};
-  double sum = 0;
-  for (double value : noise_spectrum(model, 0, omega, covariance)) sum += value * 2 * std::numbers::pi / count;
-  EXPECT_NEAR(sum, 0.3 / (1 - 0.64), 1e-10);
 }
 
 }  // namespace

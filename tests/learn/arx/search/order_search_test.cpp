@@ -1,4 +1,4 @@
-#include "wisp/learn/order_search.hpp"
+#include "learn/arx/search/order_search.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

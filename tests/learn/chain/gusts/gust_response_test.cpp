@@ -1,15 +1,17 @@
-#include "wisp/learn/gust_response.hpp"
+#include "learn/chain/gusts/gust_response.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
+#include "learn/chain/chain_fit.hpp"
+#include "learn/chain/gusts/gust_play.hpp"
 #include "learn/chain/made_falls.hpp"
 #include "wisp/learn/chain.hpp"
-#include "wisp/learn/gust_play.hpp"
 
-namespace wisp {
+namespace wisp::chain {
 namespace {
 
 using testing::HasSubstr;
@@ -59,6 +61,26 @@ TEST(GustResponse, AnAutoregressionIsFoundAgain) {
   EXPECT_EQ(fit->inputs.size(), 3U);
 }
 
+TEST(GustResponse, IsLearnedBesideAChainFromAPairInAnyOrder) {
+  MadePairs pairs = made_pairs(0.85, 0.12);
+  pairs.windy.source = "windy.csv";
+  pairs.calm.source = "calm.csv";
+  const Recording falls = made_falls({.falls = 20});
+  LeafRecipe recipe;
+  recipe.modes = 2;
+  const Recording all[] = {pairs.calm, falls, pairs.windy};
+  const auto fit = learn_chain(all, recipe);
+  ASSERT_TRUE(fit) << fit.error().message;
+  EXPECT_TRUE(std::get<ChainModel>(fit->model.dynamics).gust);
+  EXPECT_EQ(fit->model.training.sources, (std::vector<std::string>{"made.csv", "windy.csv", "calm.csv"}));
+  EXPECT_GT(std::get<double>(fit->report.find("gusts.fit_percent")->value), 80);
+  const auto report = validate_chain(fit->model, std::array{pairs.windy, pairs.calm}, 1);
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_TRUE(report->find("gusts.halves.direction_degrees.mean_clear"));
+  EXPECT_THAT(learn_chain(std::span(all).first(2), recipe).error().message, HasSubstr("is one of 1 recordings"));
+  EXPECT_THAT(validate_chain(fit->model, all, 1).error().message, HasSubstr("made.csv: is not one of a pair"));
+}
+
 TEST(GustResponse, WhatTheWindDoesNotMoveHasNoResponse) {
   const MadePairs pairs = made_pairs(0, 0);
   const auto fit = learn_gusts(pairs.windy, pairs.calm, {});
@@ -76,7 +98,7 @@ TEST(GustResponse, PairsThatDoNotMatchAreErrors) {
 
 // A chain of the calm falls with the response that was learned of the windy ones.
 Model blown_model(const MadePairs& pairs) {
-  auto chain = learn_chain(std::span(&pairs.calm, 1), {.modes = 3, .holdout = 0, .restarts = 2});
+  auto chain = fit_chain(std::span(&pairs.calm, 1), {.event = {}, .modes = 3, .holdout = 0, .restarts = 2});
   auto gusts = learn_gusts(pairs.windy, pairs.calm, {.holdout = 0});
   std::get<ChainModel>(chain->model.dynamics).gust = gusts->response;
   chain->model.inputs = gusts->inputs;
@@ -144,4 +166,4 @@ TEST(GustPlay, AModelWithoutAResponseIsAnError) {
 }
 
 }  // namespace
-}  // namespace wisp
+}  // namespace wisp::chain

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace wisp {
+namespace wisp::chain {
 namespace {
 
 using testing::ElementsAre;
@@ -44,7 +44,7 @@ TEST(ModeChain, CountsBecomeProbabilities) {
 }
 
 TEST(ModeChain, NothingCrossesFromOneRecordingToTheNext) {
-  const ModeChain chain = estimate_chain({{0, 0}, {1, 1}}, 2, {.history = 2, .least_count = 1});
+  const ModeChain chain = estimate_chain({{0, 0}, {1, 1}}, 2, {.history = 2, .min_count = 1});
   EXPECT_THAT(after(chain, {0}).probability, ElementsAre(1.0, 0.0));
   for (const ChainContext& context : chain.contexts) EXPECT_NE(context.history, (std::vector<std::uint16_t>{0, 1}));
 }
@@ -103,4 +103,4 @@ TEST(ModeChain, LikelihoodIsThatOfTheTransitions) {
 }
 
 }  // namespace
-}  // namespace wisp
+}  // namespace wisp::chain

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <span>
 
+#include "learn/chain/chain_fit.hpp"
 #include "learn/chain/made_falls.hpp"
 #include "model/sample_chain.hpp"
-#include "wisp/learn/chain.hpp"
 #include "wisp/model/file.hpp"
 
-namespace wisp {
+namespace wisp::chain {
 namespace {
 
 ChainModel& chain(Model& model) { return std::get<ChainModel>(model.dynamics); }
@@ -60,18 +60,18 @@ double misfit(const ChainModel& a, const ChainModel& b) {
 TEST(ModeSplines, SegmentsThatDifferInTwoWaysAreMadeOfTwoComponents) {
   const ChainModel before = cubics();
   ChainModel after = before;
-  realise_as_splines(after, {.components = 2, .stiffness = 1e-9});
+  as_splines(after, {.components = 2, .stiffness = 1e-9});
   ASSERT_TRUE(check(after));
   // Rounding to whole numbers, twice.
   EXPECT_LT(misfit(before, after), 0.6);
   ChainModel mean = before;
-  realise_as_splines(mean, {.components = 0});
+  as_splines(mean, {.components = 0});
   EXPECT_GT(misfit(before, mean), 50);
 }
 
 TEST(ModeSplines, WithoutComponentsASegmentIsItsModesMean) {
   ChainModel after = cubics();
-  realise_as_splines(after, {.components = 0});
+  as_splines(after, {.components = 0});
   const auto first = segment_rows(after.segments);
   // Segments 0 and 12 have six steps.
   for (std::size_t k = 0; k < 7 * 3; ++k) {
@@ -82,14 +82,14 @@ TEST(ModeSplines, WithoutComponentsASegmentIsItsModesMean) {
 
 TEST(ModeSplines, OfFallsTakeLessRoomAndFitBetterTheMoreComponentsThereAre) {
   const Recording recording = made_falls({.falls = 40});
-  const auto fit = learn_chain(std::span(&recording, 1), {.modes = 3, .restarts = 1});
+  const auto fit = fit_chain(std::span(&recording, 1), {.event = {}, .modes = 3, .restarts = 1});
   ASSERT_TRUE(fit) << fit.error().message;
   Model model = fit->model;
   const ChainModel before = chain(model);
   double last = 1e9;
   for (int components : {0, 3, 12}) {
     chain(model) = before;
-    realise_as_splines(chain(model), {.components = components});
+    as_splines(chain(model), {.components = components});
     ASSERT_TRUE(check(chain(model)));
     const double now = misfit(before, chain(model));
     EXPECT_LT(now, 0.7 * last) << components;
@@ -101,4 +101,4 @@ TEST(ModeSplines, OfFallsTakeLessRoomAndFitBetterTheMoreComponentsThereAre) {
 }
 
 }  // namespace
-}  // namespace wisp
+}  // namespace wisp::chain

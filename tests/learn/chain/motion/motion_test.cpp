@@ -1,4 +1,4 @@
-#include "wisp/learn/motion.hpp"
+#include "learn/chain/motion/motion.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 
 #include "learn/chain/made_falls.hpp"
 
-namespace wisp {
+namespace wisp::chain {
 namespace {
 
 using testing::HasSubstr;
@@ -134,4 +134,4 @@ TEST(Motion, TurnsAndTheirInversesAgree) {
 }
 
 }  // namespace
-}  // namespace wisp
+}  // namespace wisp::chain

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <random>
 
-namespace wisp {
+namespace wisp::chain {
 namespace {
 
 struct Watched {
@@ -71,4 +71,4 @@ TEST(SegmentWeights, InLongRecordingsEachStandsForItself) {
 }
 
 }  // namespace
-}  // namespace wisp
+}  // namespace wisp::chain

@@ -1,4 +1,4 @@
-#include "wisp/learn/segmentation.hpp"
+#include "learn/chain/segments/segmentation.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,14 +7,14 @@
 
 #include "learn/chain/made_falls.hpp"
 
-namespace wisp {
+namespace wisp::chain {
 namespace {
 
 using testing::DoubleNear;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-constexpr SegmentationOptions kZeros{.event = {EventKind::kZero, {}}, .least_seconds = 0, .debounce = 0.1};
+constexpr SegmentationOptions kZeros{.event = {EventKind::kZero, {}}, .min_seconds = 0, .debounce = 0.1};
 
 std::vector<double> wave(double period, int rows, double phase) {
   std::vector<double> signal;
@@ -49,7 +49,7 @@ TEST(Segmentation, TremblingAroundZeroIsOneEvent) {
 
 TEST(Segmentation, EventsTooNearToTheOneBeforeAreLeftOut) {
   SegmentationOptions options = kZeros;
-  options.least_seconds = 12;
+  options.min_seconds = 12;
   EXPECT_THAT(event_rows(wave(20, 35, 2.3), 1, 0.7, options),
               ElementsAre(DoubleNear(2.3, 0.02), DoubleNear(22.3, 0.02)));
 }
@@ -107,4 +107,4 @@ TEST(Segmentation, EventsAreWrittenAsKindAndSignal) {
 }
 
 }  // namespace
-}  // namespace wisp
+}  // namespace wisp::chain

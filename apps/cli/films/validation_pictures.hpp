@@ -1,0 +1,34 @@
+#pragma once
+// All pictures of an outline's validation.
+
+#include <optional>
+#include <string>
+
+#include "films/outline_film.hpp"
+#include "terminal.hpp"
+#include "wisp/base/report.hpp"
+#include "wisp/learn/validate_outline.hpp"
+#include "wisp/model/model.hpp"
+#include "wisp/record/recording.hpp"
+
+namespace wisp::cli {
+
+/// A recording and, where there is one, the clip whose frames its rows are.
+struct ValidationSubject {
+  Recording recording{};
+  ClipFrames clip{};
+  std::optional<Report> captured{};  ///< of capture(), where it was captured just now
+};
+
+/// Where to write what; empty: not wanted.
+struct ValidationPictures {
+  std::string overlay;
+  std::string film_strip;
+  std::string figures;  ///< a folder
+};
+
+/// Errors: a clip cannot be read, a file cannot be written.
+Result<void> draw_validation(const ValidatedOutline& found, const Model& model, const ValidationSubject& subject,
+                             const ValidationPictures& pictures, Terminal& terminal);
+
+}  // namespace wisp::cli

@@ -1,0 +1,118 @@
+#pragma once
+// What is asked for when one ARX model, or several that take turns, is learned. What a recipe leaves open
+// (std::nullopt) the recordings decide, and the report says what they decided.
+//
+// Orders and signs: docs/identification.md.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "wisp/model/arx.hpp"
+#include "wisp/model/switched.hpp"
+#include "wisp/record/recording.hpp"
+
+namespace wisp {
+
+/// How the operating point is found.
+enum class ArxOffset {
+  kMean,      ///< the mean of every channel over all of its samples is subtracted first (MATLAB: detrend(z, 0))
+  kNone,      ///< data is taken as it is
+  kEstimate,  ///< as kMean, and a constant term is estimated with the other coefficients
+};
+
+/// Which outputs appear in an output's regression. Inputs appear in every one.
+enum class Coupling {
+  kFull,      ///< all of them
+  kDiagonal,  ///< those of its own group
+  kBand,      ///< those of its own group and of its neighbours along the chain of groups
+};
+
+/// In the place of a number of steps: infinitely many, from the input alone (free simulation).
+inline constexpr int kFreeRun = 0;
+
+/// Where a free simulation starts.
+enum class InitialState {
+  kMeasured,   ///< from the measured samples before the first simulated row
+  kZero,       ///< from the operating point: every output was at its mean
+  kEstimated,  ///< from the past outputs that make the simulation fit best, by least squares
+};
+
+/// One order or delay for all pairs of channels, or a matrix: outputs × outputs for na, outputs × inputs for nb and nk.
+/// 0 to 4096.
+using OrderChoice = std::variant<int, OrderMatrix>;
+
+/// Orders first … last, both included, 0 to 4096.
+struct OrderRange {
+  int first = 1;
+  int last = 1;
+};
+
+/// What the best candidate is best at.
+enum class OrderCriterion {
+  kFpe,
+  kAic,
+  kAicc,
+  kBic,
+  kValidation,  ///< mean squared error on the validation recordings
+};
+
+/// A grid of orders and delays, the same for all pairs of channels, of which the best is taken.
+struct ArxSearch {
+  OrderRange na{1, 10};  ///< ten lags are what identification people try first; a candidate costs next to nothing
+  OrderRange nb{1, 10};
+  OrderRange nk{0, 3};
+  OrderCriterion by = OrderCriterion::kFpe;
+  int steps = 1;                        ///< for validation: steps ahead, 1 to 100000, or kFreeRun
+  bool per_output = false;              ///< give every output's equation the orders that are best for it alone
+  bool common_start = false;            ///< judge all candidates on the same rows, and fit the best on them
+  std::vector<Recording> validation{};  ///< for kValidation, which needs them; others are judged on them too
+};
+
+/// One ARX model: y(t) + A₁ y(t−1) + … = B₁ u(t−nk) + … + e(t).
+struct ArxRecipe {
+  std::string name{};                  ///< of the model
+  std::vector<std::string> inputs{};   ///< channels; none: a model of the outputs alone
+  std::vector<std::string> outputs{};  ///< channels, at least one
+  OrderChoice na = 4;                  ///< lags of outputs; 4 is two damped resonances an output, the paper's choice
+  OrderChoice nb = 4;                  ///< lags of inputs
+  std::optional<OrderChoice> nk = 1;   ///< delays in samples; unset: every input's delay to every output is found
+  Coupling coupling = Coupling::kFull;
+  ArxOffset offset = ArxOffset::kMean;  ///< a linear model describes deviations from an operating point
+  double ridge = 0;       ///< ≥ 0, no unit: weight of a coefficient's size, as a share of its regressor's own energy
+  double radius = 0.999;  ///< in (0, 1): an unstable estimate is brought within it; a smaller one may simulate better
+  bool keep_unstable = false;          ///< leave an unstable estimate as it is, to compare: it cannot be played
+  std::optional<int> curve_knots = 0;  ///< of a monotone curve on every input, 3 to 16; 0: none; unset: 3 to 6 or none,
+                                       ///< as the last 30 % of every recording say
+  std::optional<ArxSearch> search{};   ///< in the place of na, nb and nk
+  bool responses = false;  ///< report step and frequency responses with 95 % bands, which cost d_total² memory
+};
+
+/// Several ARX models of the same orders, each with a constant of its own, and what decides which of them acts.
+struct SwitchedRecipe {
+  std::string name{};
+  std::vector<std::string> inputs{};
+  std::vector<std::string> outputs{};
+  OrderChoice na = 2;  ///< lower than a single model's: every mode has its own coefficients
+  OrderChoice nb = 2;
+  OrderChoice nk = 1;
+  Coupling coupling = Coupling::kFull;
+  Switching switching = Switching::kRegions;
+  std::optional<int> modes{};  ///< 1 to 64; unset: as many as predict held-out rows surely better
+  int max_modes = 6;           ///< 1 to 64: the largest number that is tried where it is open
+  double holdout = 0.3;        ///< in (0, 0.9]: share of every stretch, its end, that judges the number of modes
+  bool subtract_means = true;  ///< about each channel's mean, else about 0; every mode has a constant either way
+  std::uint64_t seed = 1;      ///< of the starts that are tried
+};
+
+/// How an ARX model, or a switched one, is judged on a recording.
+struct ArxValidation {
+  std::vector<int> steps{1, 5, 15, kFreeRun};  ///< 1 to 100000, or kFreeRun
+  InitialState initial =
+      InitialState::kMeasured;  ///< of free simulation; a switched model starts from measured samples
+  bool responses = false;       ///< also series of poles, zeros, responses, and errors by steps
+};
+
+}  // namespace wisp

@@ -1,0 +1,95 @@
+#pragma once
+// What a segment chain is learned by. Sources: sections 2.2 and 4 of the paper.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "wisp/base/result.hpp"
+
+namespace wisp {
+
+enum class EventKind { kZero, kMinimum, kMaximum };
+
+/// The event at which motion is cut: a zero or an extremum of a signal.
+struct EventSpec {
+  EventKind kind = EventKind::kZero;
+  std::string signal = "forward_speed";  ///< a channel, or speed, horizontal_speed, or forward_speed (along the body's
+                                         ///< second axis)
+};
+
+/// `zero:SIGNAL`, `min:SIGNAL` or `max:SIGNAL`.
+/// Errors: another form.
+Result<EventSpec> parse_event(std::string_view text);
+
+/// The numbers by which segments are sorted into modes.
+struct FeatureChoice {
+  bool velocity = true;      ///< at both ends: 6 numbers
+  bool length = true;        ///< of the line between the ends: 1
+  bool direction = true;     ///< of that line, a unit vector: 3
+  bool spin = false;         ///< angular velocity at both ends: 6; needs orientation
+  bool tilt = false;         ///< the body's normal at both ends: 6; needs orientation
+  bool duration = false;     ///< 1
+  bool heading_free = true;  ///< vectors as seen along the segment's own direction over ground; otherwise the world's
+};
+
+/// `velocity,length,direction,spin,tilt,duration` or some of them.
+/// Errors: another word.
+Result<FeatureChoice> parse_features(std::string_view text);
+
+/// The realisation of a mode.
+enum class Realisation {
+  kSegments,  ///< one of its recorded segments
+  kLinear,    ///< a linear system with noise, from where the mode before ended
+  kOde,       ///< a differential equation with products of velocities, likewise
+  kChain,     ///< a chain of its own, of parts of segments
+  kSpline,    ///< one spline that varies as its segments do
+};
+
+/// `segments`, `linear`, `ode`, `chain` or `spline`.
+/// Errors: another word.
+Result<Realisation> parse_realisation(std::string_view text);
+
+/// The words that the parsers read.
+std::string word_of(const EventSpec& event);
+std::string word_of(const FeatureChoice& features);
+std::string_view word_of(Realisation realisation);
+
+/// How a chain is learned from recordings of something that moves: outputs pos.x, pos.y, pos.z in metres, z up, and,
+/// where known, q.w, q.x, q.y, q.z. Two recordings that share the attribute `pair`, one of them calm, teach its
+/// response to gusts.
+struct ChainRecipe {
+  std::string name = "chain";  ///< of the model
+  EventSpec event{EventKind::kMinimum, "horizontal_speed"};
+  FeatureChoice features{};
+  int modes = 6;    ///< 1 … 256; 0: as many as make held-out segments likeliest, 2 … 12
+  int history = 0;  ///< modes that the next one depends on, 1 … 16; 0: variable order with back-off, as long as
+                    ///< held-out segments profit
+  Realisation realisation = Realisation::kSegments;
+  int best_of = 4;  ///< 0 … 256: best-joining successors kept for each segment and mode; 0: any segment of the mode
+                    ///< follows (the paper's). Fewer join better, but repeat themselves sooner
+  double blend = 0.5;         ///< share of a segment that a join may fade over, 0 … 0.5; 0: joins stay as they are
+  double min_seconds = 0.04;  ///< ≥ 0, shortest segment: events nearer to the one before are left out
+  double debounce = 0.1;  ///< ≥ 0: how far, in standard deviations of the signal, it must go beyond a zero on both
+                          ///< sides, or away from an extremum, before that counts
+  int smooth_rows = 0;    ///< odd: rows that velocities are taken over, where positions are noisy; 0: none
+  std::size_t max_bytes = 850'000;  ///< > 0, of stored segments; what is over it is left out at random, as many of each
+                                    ///< mode as the rarer ones allow. A leaf for the web is at most 1 MB
+  double holdout = 0.2;    ///< 0 … 0.9: share of the stretches, the last ones, kept from learning and judged on
+  int restarts = 10;       ///< ≥ 1, of k-means
+  double half_width = 0;   ///< metres of the body along its first axis, for who draws it; 0: as the first recording's
+  double half_length = 0;  ///< attribute leaf_length_width_density says. And along its second
+  std::uint64_t seed = 1;
+};
+
+/// A leaf: a chain that is cut where the leaf stalls, where its forward speed in its own plane is zero (section 4.1.1
+/// of the paper).
+struct LeafRecipe : ChainRecipe {
+  LeafRecipe() {
+    name = "leaf";
+    event = {EventKind::kZero, "forward_speed"};
+  }
+};
+
+}  // namespace wisp

@@ -1,0 +1,161 @@
+#include "draw/flame/flame_layers.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "draw/flame/smoke.hpp"
+
+namespace wisp::drawing {
+namespace {
+
+// A flame catches within this time of being lit, and dies within the other of going out, in seconds.
+constexpr float kCatching = 0.40F;
+constexpr float kDying = 0.16F;
+
+// The area of a calm flame in square model units: a quarter as wide as high, tapering. Its light is 1.
+constexpr float kCalmArea = 0.15F;
+
+float held(float value, float low, float high) { return std::isnan(value) ? low : std::clamp(value, low, high); }
+
+FlameScene held(FlameScene scene) {
+  scene.base.x = held(scene.base.x, -1e5F, 1e5F);
+  scene.base.y = held(scene.base.y, -1e5F, 1e5F);
+  scene.pixels_per_unit = held(scene.pixels_per_unit, 1, 10000);
+  scene.brightness = held(scene.brightness, 0, 4);
+  scene.seconds_since_lit = held(scene.seconds_since_lit, 0, kLongAgo);
+  scene.seconds_since_out = held(scene.seconds_since_out, 0, kLongAgo);
+  if (scene.size) scene.size = held(*scene.size, 0, 1);
+  scene.wind = held(scene.wind, -8, 8);
+  return scene;
+}
+
+// How far a flame has grown or shrunk: its outline's scale, and its light.
+struct Stage {
+  float scale = 1;
+  FlameMood mood;
+};
+
+// Of a flame that grew to the share `grown` since it was lit.
+FlameMood catching(float brightness, float grown) {
+  return {brightness * (0.5F + 0.5F * grown), 0.25F + 0.75F * smooth_step(0.15F, 0.9F, grown)};
+}
+
+Stage stage_of(const FlameScene& scene) {
+  Stage stage;
+  if (burns(scene)) {
+    const float grown = scene.size.value_or(smooth_step(0, kCatching, scene.seconds_since_lit));
+    stage.mood = catching(scene.brightness, grown);
+    if (!scene.size) stage.scale = 0.22F + 0.78F * grown;
+    return stage;
+  }
+  const float gone = 1 - scene.size.value_or(1 - smooth_step(0, kDying, scene.seconds_since_out));
+  stage.mood = {scene.brightness * (1 - gone), 1 - gone};
+  if (!scene.size) stage.scale = 1 - 0.55F * gone;
+  return stage;
+}
+
+// The wick hides what burns behind it, and most of what burns before it is thin there.
+Plane wick_shade(const Candle& candle) {
+  constexpr float kHides = 0.82F;
+  const PixelBox& box = candle.shape.box;
+  Plane shade(box.width, box.height);
+  for (int y = 0; y < box.height; ++y) {
+    for (int x = 0; x < box.width; ++x) shade.row(y)[x] = kHides * wick_at(candle.wick, box.x + x, box.y + y);
+  }
+  return shade;
+}
+
+// The glowing end of the wick: hidden in the flame's light while it burns, fading for seconds when it is out.
+void add_ember(LightField& field, const Candle& candle) {
+  const FlameScene& scene = candle.scene;
+  if (candle.wick.empty() || (burns(scene) && candle.shape.empty())) return;
+  const float out = scene.seconds_since_out;
+  // It shows as the flame lets go of it.
+  const float bare = 1 - 0.8F * scene.size.value_or(0.0F);
+  const float heat = burns(scene) ? 0.16F : bare * (0.75F * std::exp(-out / 0.7F) + 0.25F * std::exp(-out / 2.6F));
+  if (heat < 0.004F) return;
+  const Light glow = heat * Light{2.6F, 0.62F * (0.25F + 0.75F * heat), 0.10F * heat};
+  const float radius = 0.62F * candle.wick.width + 0.5F;
+  const int reach = static_cast<int>(std::ceil(2.2F * radius));
+  const int middle_x = static_cast<int>(candle.wick.end.x);
+  const int middle_y = static_cast<int>(candle.wick.end.y + 0.5F * radius);
+  for (int y = std::max(0, middle_y - reach); y <= std::min(field.height() - 1, middle_y + reach); ++y) {
+    for (int x = std::max(0, middle_x - reach); x <= std::min(field.width() - 1, middle_x + reach); ++x) {
+      const float dx = static_cast<float>(x) + 0.5F - candle.wick.end.x;
+      const float dy = static_cast<float>(y) + 0.5F - candle.wick.end.y - 0.5F * radius;
+      const float near = std::exp(-1.6F * (dx * dx + dy * dy) / (radius * radius));
+      field.add(x, y, near * (0.25F + 0.75F * wick_at(candle.wick, x, y)) * glow);
+    }
+  }
+}
+
+std::vector<Lamp> lamps_but(std::span<const Candle> candles, std::size_t own) {
+  std::vector<Lamp> lamps;
+  for (std::size_t k = 0; k < candles.size(); ++k) {
+    if (k != own) lamps.push_back(candles[k].lamp);
+  }
+  return lamps;
+}
+
+}  // namespace
+
+FlameStyle held(FlameStyle style) {
+  style.exposure = held(style.exposure, 0, 8);
+  style.glow = held(style.glow, 0, 4);
+  style.glow_reach = held(style.glow_reach, 0.25F, 4);
+  style.candle_width = held(style.candle_width, 0.05F, 4);
+  style.candle_height = held(style.candle_height, 0.05F, 20);
+  style.wick_gap = held(style.wick_gap, 0, 1);
+  style.wick_height = held(style.wick_height, 0, 1);
+  style.ambient = held(style.ambient, 0, 1);
+  return style;
+}
+
+Candle prepared(const Flame& flame, const FlameStyle& style, int width, int height) {
+  Candle candle;
+  candle.scene = held(flame.scene);
+  const Stage stage = stage_of(candle.scene);
+  candle.mood = stage.mood;
+  candle.wick = make_wick(candle.scene, style, width, height);
+  if (stage.mood.brightness <= 0) return candle;
+  const float cap = std::max(0.03F, 0.55F * style.wick_gap);
+  candle.shape = flame_shape(flame.outline, candle.scene, stage.scale, cap, width, height);
+  // A very small flame burns blue.
+  candle.mood.soot *= smooth_step(0.06F, 0.40F, candle.shape.height);
+  const float area = std::min(3.0F, candle.shape.area / kCalmArea);
+  const float glowing = candle.mood.brightness * (0.06F + 0.94F * candle.mood.soot);
+  candle.lamp = {candle.shape.middle, glowing * std::pow(area, 0.7F)};
+  return candle;
+}
+
+std::array<HaloRing, 4> glow_rings(const FlameStyle& style, float unit) {
+  const Light halo = Tone::get().linear(style.halo);
+  const Light rim = Tone::get().linear(style.rim);
+  const float reach = unit * style.glow_reach;
+  return {{{0.022F * reach, 0.24F * style.glow * halo},
+           {0.085F * reach, 0.17F * style.glow * halo},
+           {0.28F * reach, 0.15F * style.glow * halo},
+           {0.80F * reach, 0.17F * style.glow * (0.8F * halo + 0.2F * rim)}}};
+}
+
+float largest_unit(std::span<const Candle> candles) {
+  float unit = 1;
+  for (const Candle& candle : candles) unit = std::max(unit, candle.scene.pixels_per_unit);
+  return unit;
+}
+
+void draw_behind(Image& image, std::span<const Candle> candles, const FlameStyle& style) {
+  for (std::size_t k = 0; k < candles.size(); ++k) {
+    const Candle& candle = candles[k];
+    if (style.candle) draw_candle(image, candle.scene, style, candle.wick, candle.lamp, lamps_but(candles, k));
+  }
+  const std::vector<Lamp> lamps = lamps_but(candles, candles.size());
+  for (const Candle& candle : candles) draw_smoke(image, candle.scene, candle.wick.end, lamps);
+}
+
+void add_own_light(LightField& field, const Candle& candle, const FlameStyle& style) {
+  add_flame_light(field, candle.shape, candle.mood, style, style.candle ? wick_shade(candle) : Plane());
+  if (style.candle) add_ember(field, candle);
+}
+
+}  // namespace wisp::drawing

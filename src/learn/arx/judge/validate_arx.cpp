@@ -1,0 +1,244 @@
+// What a plain ARX model is worth on a recording.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "learn/arx/curve/arx_curves.hpp"
+#include "learn/arx/judge/residual_tests.hpp"
+#include "learn/arx/learn_arx.hpp"
+#include "learn/arx/report/fit_report.hpp"
+#include "learn/arx/report/report_values.hpp"
+#include "learn/arx/report/response_report.hpp"
+#include "wisp/learn/prediction.hpp"
+
+namespace wisp {
+namespace arx {
+namespace {
+
+constexpr double kSure = 1.959963985;  // standard deviations to either side of 95 %
+constexpr int kSettled = 2000;         // steps after which the noise of free simulation has its full size
+constexpr int kTestLags = 20;
+constexpr int kMaxPlottedSteps = 15;  // a prediction much longer than that is a simulation
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr int kErrorSteps = 20;  // of the plot of errors by steps
+
+// All that is judged with.
+struct Subject {
+  const Model& model;
+  const ArxModel& arx;
+  const ChannelChoice& channels;
+  const Recording& recording;
+  const ArxValidation& options;
+  std::vector<std::vector<double>> sd;  // of prediction errors, per output, then per step
+
+  const std::vector<double>& measured(std::size_t output) const {
+    return recording.channels[*find_channel(recording, channels.outputs[output])].samples;
+  }
+  double sd_of(std::size_t output, int step) const {
+    return step == kFreeRun ? sd[output].back() : sd[output][static_cast<std::size_t>(step) - 1];
+  }
+  std::vector<double> seconds() const {
+    std::vector<double> out;
+    for (std::size_t t = 0; t < recording.rows(); ++t) out.push_back(static_cast<double>(t) / recording.rate_hz);
+    return out;
+  }
+};
+
+// Predictions of every number of steps: [step][output][row], and how good they are.
+struct Judged {
+  std::vector<PredictionFigures> figures;
+  std::vector<std::vector<std::vector<double>>> predictions;
+  std::optional<ResidualTests> tests{};  // none: too short, nothing can be said
+};
+
+Result<void> check_steps(const std::vector<int>& steps) {
+  if (steps.empty()) return Error{"no number of steps was asked for"};
+  for (int step : steps) {
+    if (step >= 0 && step <= 100'000) continue;
+    return Error{"predictions were asked for " + std::to_string(step) + " steps ahead, expected 1 to 100000, or free"};
+  }
+  return {};
+}
+
+// Standard deviations as far as the longest prediction, or until they settle.
+std::vector<std::vector<double>> error_sd(const ArxModel& arx, const std::vector<int>& steps) {
+  int longest = *std::max_element(steps.begin(), steps.end());
+  if (std::find(steps.begin(), steps.end(), kFreeRun) != steps.end()) longest = std::max(longest, kSettled);
+  return prediction_sd(arx, {}, longest);
+}
+
+Result<Judged> judge(const Subject& subject, const Progress& progress) {
+  const auto& [steps, initial, responses] = subject.options;
+  auto figures =
+      prediction_figures(subject.arx, {&subject.recording, 1}, subject.channels, {.steps = steps, .initial = initial});
+  if (!figures) return figures.error();
+  Judged judged{std::move(*figures), {}};
+  for (std::size_t s = 0; s < steps.size(); ++s) {
+    const double share = static_cast<double>(s) / static_cast<double>(steps.size());
+    if (auto ok = check_progress(progress, "predicting", share); !ok) return ok.error();
+    auto predicted = predict(subject.arx, subject.recording, subject.channels, {steps[s], initial});
+    if (!predicted) return predicted.error();
+    judged.predictions.push_back(std::move(*predicted));
+  }
+  const auto tests = test_residuals(subject.arx, {&subject.recording, 1}, subject.channels, {.lags = kTestLags});
+  if (tests) judged.tests = *tests;
+  return judged;
+}
+
+// The share of measured rows within the model's own 95 % interval.
+double share_inside(const std::vector<double>& measured, const std::vector<double>& predicted, double sd) {
+  std::size_t rows = 0, inside = 0;
+  for (std::size_t t = 0; t < measured.size(); ++t) {
+    const double error = measured[t] - predicted[t];
+    if (!std::isfinite(error)) continue;
+    ++rows;
+    inside += std::abs(error) <= kSure * sd;
+  }
+  return rows > 0 ? static_cast<double>(inside) / static_cast<double>(rows) : 0;
+}
+
+std::string steps_label(int steps) { return steps == kFreeRun ? "free" : std::to_string(steps) + " ahead"; }
+
+std::vector<ReportColumn> channel_columns(const Subject& subject, bool tested) {
+  std::vector<ReportColumn> columns{{"name", "output"}};
+  for (int step : subject.options.steps) {
+    columns.push_back({"fit_percent." + steps_id(step), "fit " + steps_label(step), "%"});
+  }
+  columns.push_back({"whiteness_p", "residual white, p"});
+  if (!tested) columns.push_back({"independence_p", ""});
+  for (const std::string& input : subject.channels.inputs) {
+    if (tested) columns.push_back({"independence_p." + as_id(input), "independent of " + input + ", p"});
+  }
+  for (int step : subject.options.steps) {
+    columns.push_back({"rms_error." + steps_id(step), ""});
+    columns.push_back({"predicted_sd." + steps_id(step), ""});
+    columns.push_back({"inside_95_percent_interval." + steps_id(step), ""});
+  }
+  return columns;
+}
+
+ReportTable channel_table(const Subject& subject, const Judged& judged) {
+  ReportTable table{"channels", "every output", channel_columns(subject, judged.tests.has_value()), {}};
+  for (std::size_t i = 0; i < subject.channels.outputs.size(); ++i) {
+    auto& row = table.rows.emplace_back();
+    row.emplace_back(subject.channels.outputs[i]);
+    for (const PredictionFigures& figure : judged.figures) row.emplace_back(figure.fit_percent[i]);
+    row.emplace_back(judged.tests ? judged.tests->whiteness[i].p : kNone);
+    if (!judged.tests) row.emplace_back(kNone);
+    for (std::size_t k = 0; judged.tests && k < subject.channels.inputs.size(); ++k) {
+      row.emplace_back(judged.tests->independence[i][k].p);
+    }
+    for (std::size_t s = 0; s < judged.figures.size(); ++s) {
+      const double sd = subject.sd_of(i, subject.options.steps[s]);
+      row.emplace_back(std::sqrt(judged.figures[s].mean_square[i]));
+      row.emplace_back(sd);
+      row.emplace_back(share_inside(subject.measured(i), judged.predictions[s][i], sd));
+    }
+  }
+  return table;
+}
+
+// Measured, simulated and predicted: of the predictions the longest that is still one.
+void add_plots(const Subject& subject, const Judged& judged, ReportSection& section) {
+  const std::vector<double> seconds = subject.seconds();
+  const auto& steps = subject.options.steps;
+  int ahead = 0;
+  for (int step : steps) {
+    if (step <= kMaxPlottedSteps) ahead = std::max(ahead, step);
+  }
+  for (std::size_t i = 0; i < subject.channels.outputs.size(); ++i) {
+    const std::string place = "." + std::to_string(i), unit = subject.model.outputs[i].unit;
+    const auto plot = [&](const std::string& id, const std::string& label, std::vector<double> y) {
+      section.series.push_back({id, label, "seconds", unit, seconds, std::move(y)});
+    };
+    plot("measured" + place, "measured", subject.measured(i));
+    for (std::size_t s = 0; s < steps.size(); ++s) {
+      const std::vector<double>& predicted = judged.predictions[s][i];
+      if (steps[s] == kFreeRun) plot("simulated" + place, "simulated from the input", predicted);
+      if (steps[s] != ahead || ahead == 0) continue;
+      std::vector<double> low = predicted, high = predicted;
+      for (double& y : low) y -= kSure * subject.sd_of(i, ahead);
+      for (double& y : high) y += kSure * subject.sd_of(i, ahead);
+      const std::string samples = std::to_string(ahead) + (ahead == 1 ? " sample ahead" : " samples ahead");
+      plot("predicted" + place, samples, predicted);
+      plot("predicted" + place + ".low", samples, std::move(low));
+      plot("predicted" + place + ".high", samples, std::move(high));
+    }
+  }
+}
+
+// The paper's figure of prediction: error against the number of steps, beside what the model itself expects. Nothing
+// where the recording is shorter than twenty steps.
+void add_error_growth(const Subject& subject, ReportSection& section) {
+  FigureOptions options;
+  options.steps.clear();
+  options.initial = subject.options.initial;
+  for (int k = 1; k <= kErrorSteps; ++k) options.steps.push_back(k);
+  if (!subject.channels.inputs.empty()) options.steps.push_back(kFreeRun);
+  const auto figures = prediction_figures(subject.arx, {&subject.recording, 1}, subject.channels, options);
+  if (!figures) return;
+  const auto expected = prediction_sd(subject.arx, {}, kErrorSteps);
+  for (std::size_t i = 0; i < subject.channels.outputs.size(); ++i) {
+    const std::string id = "error." + std::to_string(i);
+    const auto series = [&](const std::string& place, const std::string& label) {
+      return ReportSeries{id + place, label, "samples ahead", "root mean square", {}, {}};
+    };
+    ReportSeries measured = series("", "measured"), own = series(".model", "expected by the model"),
+                 free_run = series(".inf", "free simulation");
+    for (const PredictionFigures& figure : *figures) {
+      const double rms = std::sqrt(figure.mean_square[i]);
+      if (figure.steps == kFreeRun) {
+        free_run.x = {1, kErrorSteps};
+        free_run.y = {rms, rms};
+      } else {
+        measured.x.push_back(figure.steps);
+        measured.y.push_back(rms);
+      }
+    }
+    own.x = measured.x;
+    own.y = expected[i];
+    section.series.push_back(std::move(measured));
+    section.series.push_back(std::move(own));
+    if (!free_run.x.empty()) section.series.push_back(std::move(free_run));
+  }
+}
+
+Report report_of(const Subject& subject, const Judged& judged) {
+  Report report;
+  ReportSection& section = report.add("Prediction and free simulation");
+  for (const PredictionFigures& figure : judged.figures) {
+    double sum = 0;
+    for (double one : figure.j) sum += one;
+    add(section, "J." + steps_id(figure.steps), sum / static_cast<double>(figure.j.size()));
+  }
+  add(section, "rows", judged.figures.front().rows, "rows judged");
+  section.tables.push_back(channel_table(subject, judged));
+  add_plots(subject, judged, section);
+  if (judged.tests) add_test_series(*judged.tests, subject.channels, section);
+  if (!subject.options.responses) return report;
+  add_error_growth(subject, section);
+  add_responses({subject.arx, subject.channels, subject.recording.rate_hz}, false, report);
+  return report;
+}
+
+}  // namespace
+}  // namespace arx
+
+Result<Report> validate_arx(const Model& model, const Recording& recording, const ArxValidation& options,
+                            const Progress& progress) {
+  if (auto ok = arx::check_steps(options.steps); !ok) return ok.error();
+  const ChannelChoice channels = arx::channels_of(model);
+  if (const auto found = arx::sources_of({&recording, 1}, channels); !found) return found.error();
+  std::vector<InputCurve> curves;
+  for (const Input& input : model.inputs) curves.push_back(input.curve);
+  const Recording seen = arx::with_curves({&recording, 1}, channels.inputs, curves).front();
+  const auto& dynamics = std::get<ArxModel>(model.dynamics);
+  const arx::Subject subject{model, dynamics, channels, seen, options, arx::error_sd(dynamics, options.steps)};
+  const auto judged = arx::judge(subject, progress);
+  if (!judged) return judged.error();
+  return arx::report_of(subject, *judged);
+}
+
+}  // namespace wisp

@@ -1,0 +1,121 @@
+#include "learn/arx/plain_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "learn/arx/fit/arx_check.hpp"
+#include "learn/arx/rows/arx_orders.hpp"
+#include "learn/arx/rows/arx_rows.hpp"
+
+namespace wisp::arx {
+namespace {
+
+ChannelSpan span_of(const std::string& name, std::span<const Recording> recordings) {
+  ChannelSpan span;
+  bool first = true;
+  for (const Recording& recording : recordings) {
+    const Channel& found = recording.channels[*find_channel(recording, name)];
+    span.unit = found.unit;
+    for (double sample : found.samples) {
+      if (std::isnan(sample)) continue;
+      span.lowest = first ? sample : std::min(span.lowest, sample);
+      span.highest = first ? sample : std::max(span.highest, sample);
+      first = false;
+    }
+  }
+  return span;
+}
+
+OrderMatrix matrix_of(const OrderChoice& choice, std::size_t rows, std::size_t columns) {
+  if (const auto* matrix = std::get_if<OrderMatrix>(&choice)) return *matrix;
+  return OrderMatrix(static_cast<int>(rows), static_cast<int>(columns), std::get<int>(choice));
+}
+
+// One number where all are the same, else row by row: "4,2;3,4".
+std::string text_of(const OrderMatrix& orders) {
+  const auto values = orders.values();
+  if (std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) == values.end()) {
+    return values.empty() ? "0" : std::to_string(values.front());
+  }
+  std::string text;
+  for (int i = 0; i < orders.rows(); ++i) {
+    for (int j = 0; j < orders.columns(); ++j) {
+      text += (j > 0 ? "," : i > 0 ? ";" : "") + std::to_string(orders(i, j));
+    }
+  }
+  return text;
+}
+
+std::string word_of(Coupling coupling) {
+  if (coupling == Coupling::kDiagonal) return "diagonal";
+  return coupling == Coupling::kBand ? "band" : "full";
+}
+
+}  // namespace
+
+Result<Sources> sources_of(std::span<const Recording> recordings, const ChannelChoice& channels) {
+  if (const auto found = find_signals(recordings, channels); !found) return found.error();
+  Sources sources{.rate_hz = recordings.front().rate_hz};
+  for (const auto* names : {&channels.outputs, &channels.inputs}) {
+    for (const std::string& name : *names) sources.spans.push_back(span_of(name, recordings));
+  }
+  for (const Recording& recording : recordings) sources.files.push_back(recording.source);
+  return sources;
+}
+
+Model plain_model(const std::string& name, const ChannelChoice& channels, const Sources& sources) {
+  Model model;
+  model.name = name;
+  model.rate_hz = sources.rate_hz;
+  auto span = sources.spans.begin();
+  for (const std::string& output : channels.outputs) {
+    model.outputs.push_back({.name = output, .unit = span->unit, .lowest = span->lowest, .highest = span->highest});
+    ++span;
+  }
+  for (const std::string& input : channels.inputs) {
+    model.inputs.push_back({.name = input, .unit = span->unit, .lowest = span->lowest, .highest = span->highest});
+    ++span;
+  }
+  for (std::size_t k = 0; k < sources.curves.size(); ++k) {
+    model.inputs[k].shape = InputShape::kCurve;
+    model.inputs[k].curve = sources.curves[k];
+  }
+  for (const std::string& file : sources.files) {
+    model.training.sources.push_back(std::filesystem::path(file).filename().string());
+  }
+  model.training.inputs.assign(model.inputs.size(), {});
+  return model;
+}
+
+ChannelChoice channels_of(const Model& model) {
+  ChannelChoice channels;
+  for (const Input& input : model.inputs) channels.inputs.push_back(input.name);
+  for (const Output& output : model.outputs) channels.outputs.push_back(output.name);
+  return channels;
+}
+
+Result<ArxOrders> orders_of(const OrderChoice& na, const OrderChoice& nb, const OrderChoice& nk, Coupling coupling,
+                            const ChannelChoice& channels) {
+  const std::size_t ny = channels.outputs.size(), nu = channels.inputs.size();
+  if (ny == 0) return Error{"no output channel was named"};
+  ArxOrders orders{matrix_of(na, ny, ny), matrix_of(nb, ny, nu), matrix_of(nk, ny, nu)};
+  if (auto ok = check_orders(orders, channels); !ok) return ok.error();
+  const ArxOrders mask =
+      make_orders({.outputs = static_cast<int>(ny), .inputs = 0, .na = 1, .nb = 0, .nk = 0, .coupling = coupling});
+  for (int i = 0; i < orders.outputs(); ++i) {
+    for (int j = 0; j < orders.outputs(); ++j) {
+      if (mask.na(i, j) == 0) orders.na(i, j) = 0;
+    }
+  }
+  return orders;
+}
+
+std::vector<Note> order_notes(const ArxOrders& orders, Coupling coupling) {
+  return {{"na", text_of(orders.na)},
+          {"nb", text_of(orders.nb)},
+          {"nk", text_of(orders.nk)},
+          {"coupling", word_of(coupling)}};
+}
+
+}  // namespace wisp::arx

@@ -1,0 +1,42 @@
+#pragma once
+// A model whose outputs stand for themselves, around dynamics that were just learned.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "learn/numeric/triangular_factor.hpp"
+#include "wisp/base/result.hpp"
+#include "wisp/learn/arx_recipe.hpp"
+#include "wisp/learn/channel_choice.hpp"
+#include "wisp/model/input_curve.hpp"
+#include "wisp/model/model.hpp"
+#include "wisp/record/recording.hpp"
+
+namespace wisp::arx {
+
+/// What a model needs to know of what it was learned from.
+struct Sources {
+  double rate_hz = 0;
+  std::vector<ChannelSpan> spans{};  ///< outputs, then inputs
+  std::vector<std::string> files{};
+  std::vector<InputCurve> curves{};  ///< one an input, or none
+};
+
+/// Of recordings in memory. Errors: there is none, or one has not a channel.
+Result<Sources> sources_of(std::span<const Recording> recordings, const ChannelChoice& channels);
+
+/// Name, rate, channels with their units and ranges, and sources; in the recordings' own units.
+Model plain_model(const std::string& name, const ChannelChoice& channels, const Sources& sources);
+
+/// The channels that a model was learned from.
+ChannelChoice channels_of(const Model& model);
+
+/// Order matrices as a recipe says them. Errors: a matrix of another shape, an order out of range, each by name.
+Result<ArxOrders> orders_of(const OrderChoice& na, const OrderChoice& nb, const OrderChoice& nk, Coupling coupling,
+                            const ChannelChoice& channels);
+
+/// Settings of the recipe as notes: na, nb, nk and coupling, as they were decided.
+std::vector<Note> order_notes(const ArxOrders& orders, Coupling coupling);
+
+}  // namespace wisp::arx

@@ -1,0 +1,210 @@
+#include "learn/arx/report/fit_report.hpp"
+
+#include <algorithm>
+
+#include "learn/arx/report/arx_description.hpp"
+#include "learn/arx/report/report_values.hpp"
+#include "wisp/record/number_text.hpp"
+
+namespace wisp::arx {
+namespace {
+
+void add_orders(const ArxOrders& orders, ReportSection& section) {
+  add(section, "na", list_of(orders.na));
+  add(section, "nb", list_of(orders.nb));
+  add(section, "nk", list_of(orders.nk));
+}
+
+void add_quality(const ArxSummary& summary, std::size_t outputs, ReportSection& section) {
+  add(section, "fit_percent.1", summary.fit_percent, "fit one step ahead", "%", "100 is perfect, 0 is the mean");
+  if (!summary.free_run_fit_percent.empty()) {
+    add(section, "fit_percent.inf", summary.free_run_fit_percent, "fit of free simulation", "%",
+        "from the input alone: how it will play");
+  }
+  add(section, "V", summary.loss, "residual variance V");
+  add(section, "noise_covariance", matrix_of(summary.noise_covariance, outputs));
+  add(section, "fpe", summary.fpe, "FPE", "",
+      "expected on unseen rows; compare models of the same data, less is better");
+  add(section, "aic", summary.aic, "AIC");
+  add(section, "aicc", summary.aicc);
+  add(section, "bic", summary.bic, "BIC");
+  add(section, "row_fpe", summary.row_fpe);
+}
+
+void add_data(const ArxSummary& summary, ReportSection& section) {
+  add(section, "samples_used", summary.samples_used, "rows learned from");
+  add(section, "first_sample", summary.first_sample);
+  add(section, "episodes.used", summary.episodes_used);
+  add(section, "episodes.skipped", summary.episodes_skipped);
+  add(section, "rows_left_out", summary.rows_left_out);
+  add(section, "condition", *std::max_element(summary.condition.begin(), summary.condition.end()), "condition", "",
+      "of the regressors; standard errors lose digits above 1e6");
+  add(section, "row_condition", summary.condition);
+  add(section, "method", summary.method);
+}
+
+void add_stability(const ArxStability& stable, ReportSection& section) {
+  add(section, "stable.radius", stable.radius, "spectral radius", "", stable.changed ? "made stable" : "");
+  add(section, "stable.changed", stable.changed);
+  add(section, "stable.estimated_radius", stable.estimated);
+  add(section, "stable.loss_factor", stable.loss_factor);
+  add(section, "stable.moved_std_errors", stable.moved);
+}
+
+ReportTable rank_problems(const std::vector<RankProblem>& problems) {
+  ReportTable table{"undetermined", "", {{"row", ""}, {"channel", ""}, {"lag", ""}, {"reason", ""}}, {}};
+  for (const RankProblem& problem : problems) {
+    table.rows.push_back({problem.row, problem.channel, problem.lag, problem.reason});
+  }
+  return table;
+}
+
+ReportValue list_or_none(const std::vector<double>& values) {
+  return values.empty() ? ReportValue() : ReportValue(values);
+}
+
+const std::vector<ReportColumn>& candidate_columns() {
+  static const std::vector<ReportColumn> columns{{"na", "na"},
+                                                 {"nb", "nb"},
+                                                 {"nk", "nk"},
+                                                 {"V", "V"},
+                                                 {"fpe", "FPE"},
+                                                 {"aic", "AIC"},
+                                                 {"aicc", ""},
+                                                 {"bic", "BIC"},
+                                                 {"samples_used", "rows"},
+                                                 {"determined", ""},
+                                                 {"V_validation", "V on validation rows"}};
+  return columns;
+}
+
+std::vector<ReportValue> candidate_row(const OrderCandidate& one) {
+  return {one.na,
+          one.nb,
+          one.nk,
+          ReportValue(one.loss),
+          one.fpe,
+          one.aic,
+          one.aicc,
+          one.bic,
+          one.rows,
+          one.determined,
+          list_or_none(one.loss_validation)};
+}
+
+std::string orders_text(const OrderCandidate& candidate) {
+  return "na " + std::to_string(candidate.na) + ", nb " + std::to_string(candidate.nb) + ", nk " +
+         std::to_string(candidate.nk);
+}
+
+std::string p_text(double p) { return p < 0.0001 ? "p < 0.0001" : "p " + number_text(p, 2); }
+
+// One series of correlations and what chance allows.
+void add_correlations(const std::string& id, const std::string& label, const std::vector<double>& values, int first_lag,
+                      double bound, ReportSection& section) {
+  ReportSeries series{id, label, "lag, samples", "correlation", {}, values};
+  for (std::size_t k = 0; k < values.size(); ++k) series.x.push_back(first_lag + static_cast<double>(k));
+  const double last_lag = first_lag + static_cast<double>(values.size()) - 1;
+  section.series.push_back(std::move(series));
+  section.series.push_back({id + ".bound",
+                            "95 % lie within by chance",
+                            "lag, samples",
+                            "correlation",
+                            {static_cast<double>(first_lag), last_lag},
+                            {bound, bound}});
+}
+
+}  // namespace
+
+void add_fit(const ArxFit& fit, const Model& model, Report& report) {
+  const ArxSummary& summary = fit.summary;
+  report.verdict = ReportVerdict{summary.usable.verdict, summary.usable.reason};
+  report.warnings.insert(report.warnings.end(), summary.warnings.begin(), summary.warnings.end());
+  tell(fit.model, model, report);
+  ReportSection& section = report.add("Fit");
+  add_orders(fit.model.orders, section);
+  describe(fit.model, "", section);
+  add(section, "constant", fit.model.constant);
+  add(section, "operating_point.outputs", fit.model.output_mean);
+  add(section, "operating_point.inputs", fit.model.input_mean);
+  add_quality(summary, model.outputs.size(), section);
+  add_data(summary, section);
+  add_stability(summary.stable, section);
+  section.tables.push_back(rank_problems(summary.rank_problems));
+}
+
+void add_search(const OrderSearch& search, const std::vector<std::string>& outputs, Report& report) {
+  // More candidates than fit a screen are for programs.
+  constexpr std::size_t kMaxTold = 30;
+  ReportSection& section = report.add("Orders");
+  const OrderCandidate& best = search.candidates[search.best];
+  add_line(section, "best of " + std::to_string(search.candidates.size()), orders_text(best));
+  const auto columns = candidate_columns();
+  const auto row = candidate_row(best);
+  for (std::size_t k = 0; k < columns.size(); ++k) add(section, "best." + columns[k].id, row[k]);
+  add(section, "best.index", search.best);
+  ReportTable all{"candidates", search.candidates.size() <= kMaxTold ? "candidates" : "", columns, {}};
+  for (const OrderCandidate& one : search.candidates) all.rows.push_back(candidate_row(one));
+  section.tables.push_back(std::move(all));
+  ReportTable rows{"best_of_output",
+                   outputs.size() > 1 ? "best for every output alone" : "",
+                   {{"name", "output"}, {"na", "na"}, {"nb", "nb"}, {"nk", "nk"}, {"index", ""}},
+                   {}};
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const OrderCandidate& own = search.candidates[search.best_of_row[i]];
+    rows.rows.push_back({outputs[i], own.na, own.nb, own.nk, search.best_of_row[i]});
+  }
+  section.tables.push_back(std::move(rows));
+}
+
+void add_curves(const CurveChoice& choice, const std::vector<std::string>& inputs,
+                std::span<const CurveEstimate> curves, Report& report) {
+  ReportSection& section = report.add("Input nonlinearity");
+  add(section, "input_curve.knots", choice.knots, "knots of every curve");
+  add(section, "input_curve.reason", choice.reason, "why");
+  ReportTable tried{"input_curve.candidates",
+                    "",
+                    {{"knots", "knots"}, {"held_out_gain_nats", "gain", "nats a row"}, {"gain_se", "± standard error"}},
+                    {}};
+  for (const CurveCandidate& one : choice.candidates) tried.rows.push_back({one.knots, one.gain, one.gain_error});
+  ReportTable found{"input_curve.curves",
+                    curves.empty() ? "" : "curves",
+                    {{"input", "input"}, {"at", "at"}, {"value", "value"}, {"std_error", "± standard error"}},
+                    {}};
+  for (std::size_t k = 0; k < curves.size(); ++k) {
+    found.rows.push_back({inputs[k], curves[k].curve.at, curves[k].curve.value, curves[k].std_error});
+  }
+  section.tables.push_back(std::move(tried));
+  section.tables.push_back(std::move(found));
+}
+
+void add_test_series(const ResidualTests& tests, const ChannelChoice& channels, ReportSection& section) {
+  for (std::size_t i = 0; i < channels.outputs.size(); ++i) {
+    const std::string id = "residual." + std::to_string(i) + ".";
+    const Whiteness& white = tests.whiteness[i];
+    add_correlations(id + "white", "Residual of " + channels.outputs[i] + ", white? " + p_text(white.p),
+                     white.correlation, 1, white.bound, section);
+    for (std::size_t k = 0; k < channels.inputs.size(); ++k) {
+      const Independence& pair = tests.independence[i][k];
+      add_correlations(id + std::to_string(k), "… independent of " + channels.inputs[k] + "? " + p_text(pair.p),
+                       pair.correlation, -static_cast<int>(pair.correlation.size() / 2), pair.bound, section);
+    }
+  }
+}
+
+void add_tests(const ResidualTests& tests, const ChannelChoice& channels, Report& report) {
+  ReportSection& section = report.add("Residuals");
+  ReportList white, independent;
+  for (std::size_t i = 0; i < channels.outputs.size(); ++i) {
+    white.emplace_back(tests.whiteness[i].p);
+    ReportList row;
+    for (const Independence& pair : tests.independence[i]) row.emplace_back(pair.p);
+    independent.push_back(std::move(row));
+  }
+  add(section, "whiteness_p", std::move(white), "white, p", "", "below 0.05: the model leaves something to learn");
+  add(section, "independence_p", std::move(independent), channels.inputs.empty() ? "" : "independent of the inputs, p",
+      "", "below 0.05: the inputs do more than the model says");
+  add_test_series(tests, channels, section);
+}
+
+}  // namespace wisp::arx

@@ -1,0 +1,34 @@
+#pragma once
+// How good a fit is, what a search found and how curves were chosen, as reports.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "learn/arx/judge/residual_tests.hpp"
+#include "learn/arx/search/order_search.hpp"
+#include "wisp/base/report.hpp"
+#include "wisp/learn/arx_fit.hpp"
+#include "wisp/learn/curve_choice.hpp"
+
+namespace wisp::arx {
+
+/// Coefficients with standard errors first, then every figure of the summary, warnings and verdict. `model` is the
+/// fit's, with the names of its channels.
+void add_fit(const ArxFit& fit, const Model& model, Report& report);
+
+/// All candidates, the best, and the best of every output on its own.
+void add_search(const OrderSearch& search, const std::vector<std::string>& outputs, Report& report);
+
+/// How curves were chosen, and those of the inputs that are named.
+void add_curves(const CurveChoice& choice, const std::vector<std::string>& inputs,
+                std::span<const CurveEstimate> curves, Report& report);
+
+/// `whiteness_p` and `independence_p` of all outputs, with their series.
+void add_tests(const ResidualTests& tests, const ChannelChoice& channels, Report& report);
+
+/// Correlations of residuals over lags, with what chance allows: series `residual.I.white` and `residual.I.K`, their
+/// bounds the same with `.bound` after it.
+void add_test_series(const ResidualTests& tests, const ChannelChoice& channels, ReportSection& section);
+
+}  // namespace wisp::arx

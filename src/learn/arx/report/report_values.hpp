@@ -1,0 +1,49 @@
+#pragma once
+// What reports of ARX models are put together from.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "wisp/base/report.hpp"
+#include "wisp/model/arx.hpp"
+
+namespace wisp::arx {
+
+/// Adds a figure; without a label it is for programs only, without an id for people only.
+void add(ReportSection& section, std::string id, ReportValue value, std::string label = {}, std::string unit = {},
+         std::string meaning = {});
+
+/// A sentence for people.
+void add_line(ReportSection& section, std::string label, ReportValue value, std::string meaning = {});
+
+/// Row by row.
+ReportList list_of(const OrderMatrix& orders);
+ReportList matrix_of(std::span<const double> values, std::size_t rows);
+
+/// A[i][j] and B[i][k] of coefficients laid out as ArxModel::theta.
+struct CoefficientLists {
+  ReportList a;
+  ReportList b;
+};
+CoefficientLists lists_of(const ArxOrders& orders, const std::vector<std::vector<double>>& rows);
+
+/// "5", or "inf" for free simulation.
+std::string steps_id(int steps);
+
+/// A channel's name as one step of an id: its dots do not nest.
+std::string as_id(const std::string& name);
+
+/// `values[output][input]` of a model.
+template <class Value>
+ReportList per_pair(const ArxOrders& orders, Value value) {
+  ReportList rows;
+  for (int i = 0; i < orders.outputs(); ++i) {
+    ReportList row;
+    for (int k = 0; k < orders.inputs(); ++k) row.push_back(value(i, k));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+}  // namespace wisp::arx

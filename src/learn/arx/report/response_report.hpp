@@ -1,0 +1,27 @@
+#pragma once
+// Poles, zeros, step and frequency responses as series to plot and as lists.
+
+#include <span>
+
+#include "wisp/base/report.hpp"
+#include "wisp/learn/channel_choice.hpp"
+#include "wisp/model/arx.hpp"
+
+namespace wisp::arx {
+
+/// A model whose responses are computed. `covariance` is ArxFit's, or empty: then there are no bands.
+struct Responding {
+  const ArxModel& model;
+  const ChannelChoice& channels;
+  double rate_hz = 1;
+  std::span<const double> covariance{};
+};
+
+/// Series, I an output and K an input: `poles` and `zeros.I.K` (x the real part, y the imaginary one), `step.I.K` over
+/// seconds, `amplitude.I.K` and `phase.I.K` (degrees) over Hz; with a covariance the ends of their 95 % bands, the same
+/// id with `.low` and `.high` after it.
+/// Where `listed`, also the lists of `responses`: `seconds` and `step` [output][input] {`value`, `sd`}; `hz` and
+/// `frequency` [output][input] {`amplitude`, `amplitude_sd`, `phase`, `phase_sd`}, phases in radians.
+void add_responses(const Responding& responding, bool listed, Report& report);
+
+}  // namespace wisp::arx

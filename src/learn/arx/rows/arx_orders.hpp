@@ -1,0 +1,26 @@
+#pragma once
+// Order matrices from a few numbers: who listens to whom.
+
+#include "wisp/learn/arx_recipe.hpp"
+#include "wisp/model/arx.hpp"
+
+namespace wisp {
+
+/// The same orders in all entries that the coupling leaves.
+struct UniformOrders {
+  int outputs = 1;
+  int inputs = 0;
+  int na = 4;  ///< lags of outputs, 0 to 4096; 4 is two damped resonances an output, the paper's choice
+  int nb = 4;  ///< lags of inputs, 0 to 4096
+  int nk = 1;  ///< delay of inputs in samples, 0 to 4096; 1: an input acts on the next sample
+  Coupling coupling = Coupling::kFull;
+  int group = 1;  ///< consecutive outputs that belong together, ≥ 1: 2 where outputs are x, y of points
+  int reach = 1;  ///< for kBand, ≥ 0
+};
+
+/// Returns na (outputs × outputs), nb and nk (outputs × inputs).
+///
+/// Precondition: the fields are in the ranges beside them.
+ArxOrders make_orders(const UniformOrders& uniform);
+
+}  // namespace wisp

@@ -1,0 +1,85 @@
+#pragma once
+// Which orders and delays: every candidate of a grid fitted and judged, from one set of products.
+//
+// Source: L. Ljung, System Identification (2nd ed.), sections 16.4 (criteria, cross-validation) and 10.1 (all
+// candidates from one covariance matrix). A candidate costs a small Cholesky factorisation, however long the recordings
+// are.
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "learn/arx/rows/arx_orders.hpp"
+#include "wisp/base/progress.hpp"
+#include "wisp/base/result.hpp"
+#include "wisp/learn/arx_fit.hpp"
+#include "wisp/learn/channel_choice.hpp"
+#include "wisp/model/arx.hpp"
+#include "wisp/record/recording.hpp"
+
+namespace wisp {
+
+/// Which candidates, and how they are judged.
+struct SearchOptions {
+  OrderRange na{1, 10};
+  OrderRange nb{1, 10};
+  OrderRange nk{0, 3};
+  Coupling coupling = Coupling::kFull;  ///< as in UniformOrders, with `group` and `reach`
+  int group = 1;
+  int reach = 1;
+  std::vector<ArxOrders> candidates;  ///< in the place of the grid, where it is not empty: any order matrices
+  OrderCriterion by = OrderCriterion::kFpe;
+  int steps = 1;              ///< for validation: steps ahead, or kFreeRun for free simulation
+  bool common_start = false;  ///< judge all candidates on the same rows, those that the longest one can predict
+  ArxOffset offset = ArxOffset::kMean;  ///< kMean subtracts each set's own means
+};
+
+/// One candidate and its figures. Fits are as estimated, whether stable or not.
+struct OrderCandidate {
+  ArxOrders orders;
+  int na = 0;  ///< of the grid; the largest entry of other order matrices
+  int nb = 0;
+  int nk = 0;
+  std::size_t rows = 0;      ///< that it was estimated from
+  std::vector<double> loss;  ///< V per output, its unit²
+  double fpe = 0;            ///< as ArxSummary's, and so are the next three
+  double aic = 0;
+  double aicc = 0;
+  double bic = 0;
+  std::vector<double> loss_validation;  ///< mean squared error per output; empty without validation recordings
+  bool determined = true;               ///< false: the data cannot tell all of its coefficients
+};
+
+/// All candidates, in the grid's order (nk outermost, then na, then nb), and the best.
+struct OrderSearch {
+  std::vector<OrderCandidate> candidates;
+  std::size_t best = 0;                  ///< by the criterion over all outputs together
+  std::vector<std::size_t> best_of_row;  ///< by the criterion for each output row on its own
+  ArxOrders row_orders;                  ///< every row with the orders of its own best candidate
+};
+
+/// Fits and judges all candidates. A row where a sample of the longest history is missing is left out for all of them.
+/// Memory grows with the longest lag, not with the number of candidates.
+/// `validation` may be empty unless the criterion is kValidation.
+/// Errors: as fit_arx; no candidates, or more than a million; ranges or steps out of bounds; too few rows for a
+/// candidate; kStopped.
+Result<OrderSearch> search_orders(std::span<const Recording> estimation, std::span<const Recording> validation,
+                                  const ChannelChoice& channels, const SearchOptions& options = {},
+                                  const Progress& progress = {});
+
+/// How to look for delays.
+struct DelayOptions {
+  int most = 20;  ///< largest delay tried, in samples, 0 to 4096
+  int na = 2;     ///< lags of outputs beside it
+  int nb = 2;     ///< lags of the input from the delay on
+  ArxOffset offset = ArxOffset::kMean;
+};
+
+/// Delays of every input to every output: nk of outputs × inputs. An input's delay is the one with the least squared
+/// error, or a longer one that leaves out only lags that are not significant (95 %); the other inputs stand beside it
+/// with all lags up to the largest, so that their delays do not matter. Errors: as fit_arx.
+Result<OrderMatrix> estimate_delays(std::span<const Recording> recordings, const ChannelChoice& channels,
+                                    const DelayOptions& options = {});
+
+}  // namespace wisp

@@ -1,0 +1,61 @@
+#pragma once
+// How like the recorded falls are those that a chain makes? docs/fidelity.md says what is measured and why.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "learn/chain/join_defect.hpp"
+#include "learn/chain/segments/segmentation.hpp"
+#include "wisp/base/result.hpp"
+#include "wisp/learn/fidelity.hpp"
+#include "wisp/model/model.hpp"
+#include "wisp/record/recording.hpp"
+
+namespace wisp::chain {
+
+struct ChainFidelityOptions {
+  SegmentationOptions segmentation{};
+  double window_segments = 2.5;    ///< ≥ 2: length of a window in mean segments
+  std::size_t max_windows = 500;   ///< ≥ 2, a side
+  std::size_t permutations = 199;  ///< for the p-value
+  int smooth_rows = 0;             ///< as motion_of()
+  int synthesized_per_real = 2;    ///< ≥ 1: synthesized falls for each recorded one
+  std::uint64_t seed = 1;
+};
+
+/// What is told of a set of falls in a word each.
+struct FallFigures {
+  double descent_speed = 0;     ///< metres a second
+  double lateral_spread = 0;    ///< metres: root-mean-square distance over ground between start and end of a fall
+  double event_seconds = 0;     ///< mean time between events
+  double flips_per_second = 0;  ///< how often another side of the body comes to lie up; 0 without orientation
+};
+
+struct ChainFidelity {
+  FallFigures real;
+  FallFigures synthesized;
+  Bounded energy_distance;
+  double energy_p_value = 0;
+  JoinDefect join_defect;
+  std::size_t windows = 0;  ///< a side
+  double window_seconds = 0;
+};
+
+/// Falls made by a model: as many as asked for, each of `rows` rows, as recordings of its rate.
+/// Errors: as Bank::create().
+Result<std::vector<Recording>> synthesize_falls(const Model& model, int falls, std::size_t rows, std::uint64_t seed);
+
+/// Compares falls that the model makes with recorded ones, which it should not have seen.
+/// Errors: as motion_of() and segment(); the model's view is not a pose or a position; rates that differ; too little
+/// for two windows a side.
+Result<ChainFidelity> chain_fidelity(const Model& model, std::span<const Recording> real,
+                                     const ChainFidelityOptions& options);
+
+/// The longest stretch in seconds over which a model's falls follow one recorded stretch segment by segment. `origin`
+/// as ChainFit's.
+double longest_verbatim_seconds(const Model& model, std::span<const std::uint64_t> origin, std::size_t segments,
+                                std::uint64_t seed);
+
+}  // namespace wisp::chain

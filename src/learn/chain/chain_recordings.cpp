@@ -1,0 +1,142 @@
+#include "learn/chain/chain_recordings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <set>
+#include <string>
+
+#include "learn/chain/motion/motion.hpp"
+#include "wisp/base/hash.hpp"
+#include "wisp/learn/chain.hpp"
+#include "wisp/record/number_text.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr double kFarthest = 1e6;     // metres: players hold positions no further
+constexpr double kMaxClones = 10000;  // as `simulate leaf --clones`
+constexpr const char* kPositions[] = {"pos.x", "pos.y", "pos.z"};
+
+std::string place(const Recording& recording, std::size_t row) {
+  return recording.source + ": row " + std::to_string(row + 1);
+}
+
+// A channel of the pose that is only a name.
+Result<void> check_filled(const Recording& recording) {
+  for (const char* name : {"pos.x", "pos.y", "pos.z", "q.w", "q.x", "q.y", "q.z"}) {
+    const auto channel = find_channel(recording, name);
+    if (!channel) continue;
+    const auto& samples = recording.channels[*channel].samples;
+    if (std::any_of(samples.begin(), samples.end(), [](double x) { return !std::isnan(x); })) continue;
+    return Error{recording.source + ": " + name + " has no sample in any of its " + std::to_string(samples.size()) +
+                 " rows, expected a number in each: fill it in, or leave its column out"};
+  }
+  return {};
+}
+
+Result<void> check_metres(const Recording& recording) {
+  for (const char* name : kPositions) {
+    const Channel& channel = recording.channels[*find_channel(recording, name)];
+    if (!channel.unit.empty() && channel.unit != "m") {
+      return Error{recording.source + ": " + name + " is in " + channel.unit + ", expected metres: convert it"};
+    }
+    const auto& samples = channel.samples;
+    const auto far = std::find_if(samples.begin(), samples.end(), [](double x) { return std::abs(x) > kFarthest; });
+    if (far == samples.end()) continue;
+    return Error{place(recording, static_cast<std::size_t>(far - samples.begin())) + ": " + name + " is " +
+                 number_text(*far, 3) +
+                 ", expected metres, within 1000 km: give positions in metres from where it starts"};
+  }
+  return {};
+}
+
+Result<void> check_paired(const Recording& recording) {
+  for (std::size_t channel : channels_with_role(recording, Role::kInput)) {
+    const auto& samples = recording.channels[channel].samples;
+    const auto missing = std::find_if(samples.begin(), samples.end(), [](double x) { return std::isnan(x); });
+    if (missing == samples.end()) continue;
+    return Error{place(recording, static_cast<std::size_t>(missing - samples.begin())) + ": has no " +
+                 recording.channels[channel].name + ", expected the wind in every row of a pair: fill it in"};
+  }
+  const auto clones = numbers_attribute(recording, "clones");
+  if (!clones) return clones.error();
+  if (!*clones || (*clones)->empty()) return {};
+  const double count = (*clones)->front();
+  if (count >= 1 && count <= kMaxClones && count == std::floor(count)) return {};
+  return Error{recording.source + ": \"# clones\" is " + number_text(count, 3) +
+               ", expected a whole number from 1 to " + number_text(kMaxClones, 6) +
+               ": how many episodes in a row belong to one gust"};
+}
+
+// Of all samples of an episode. Two episodes that differ have the same one once in 10^19.
+std::uint64_t hash_of(const Recording& recording, const Episode& episode) {
+  std::uint64_t hash = hash_bytes({});
+  for (const Channel& channel : recording.channels) {
+    hash = hash_bytes(std::as_bytes(std::span(channel.samples).subspan(episode.begin, episode.size())), hash);
+  }
+  return hash;
+}
+
+}  // namespace
+
+Result<void> check_motion(const Recording& recording) {
+  if (auto ok = check_filled(recording); !ok) return ok;
+  if (const auto motion = chain::motion_of(std::span(&recording, 1)); !motion) return motion.error();
+  if (auto ok = check_metres(recording); !ok) return ok;
+  return find_attribute(recording, "pair") ? check_paired(recording) : Result<void>();
+}
+
+namespace chain {
+
+bool is_calm(const Recording& recording) {
+  for (std::size_t channel : channels_with_role(recording, Role::kInput)) {
+    const auto& samples = recording.channels[channel].samples;
+    if (std::any_of(samples.begin(), samples.end(), [](double x) { return x != 0; })) return false;
+  }
+  return true;
+}
+
+Result<SortedRecordings> sorted_recordings(std::span<const Recording> recordings) {
+  SortedRecordings sorted;
+  for (const Recording& recording : recordings) {
+    if (auto ok = check_motion(recording); !ok) return ok.error();
+    (find_attribute(recording, "pair") ? sorted.paired : sorted.falls).push_back(recording);
+  }
+  auto& paired = sorted.paired;
+  if (paired.empty()) return sorted;
+  if (paired.size() != 2 || *find_attribute(paired[0], "pair") != *find_attribute(paired[1], "pair") ||
+      is_calm(paired[0]) == is_calm(paired[1])) {
+    return Error{paired.front().source + ": is one of " + std::to_string(paired.size()) +
+                 " recordings with the attribute pair, expected two of one pair, one of them calm: give both, "
+                 "or neither"};
+  }
+  if (is_calm(paired[0])) std::swap(paired[0], paired[1]);
+  return sorted;
+}
+
+Repeats repeats_in(std::span<const Recording> recordings) {
+  Repeats repeats;
+  std::set<std::uint64_t> seen;
+  for (const Recording& recording : recordings) {
+    for (const Episode& episode : episodes(recording)) {
+      ++repeats.episodes;
+      if (!seen.insert(hash_of(recording, episode)).second) ++repeats.repeated;
+    }
+  }
+  return repeats;
+}
+
+double mean_speed(std::span<const Recording> recordings) {
+  const auto motion = motion_of(recordings);
+  if (!motion) return 0;
+  double sum = 0, rows = 0;
+  for (const MotionPiece& piece : motion->pieces) {
+    for (const Triple& v : piece.velocity) sum += std::hypot(v[0], v[1], v[2]);
+    rows += static_cast<double>(piece.rows());
+  }
+  return sum / rows;
+}
+
+}  // namespace chain
+}  // namespace wisp

@@ -1,0 +1,111 @@
+#include "learn/chain/chain_report.hpp"
+
+#include <cmath>
+#include <string>
+
+namespace wisp::chain {
+namespace {
+
+// Entries with a value, a label (empty: for programs only), a unit and a meaning.
+class Entries {
+ public:
+  explicit Entries(ReportSection& section) : section_(section) {}
+  void add(std::string id, double value, std::string label, std::string unit = "", std::string meaning = "") {
+    section_.entries.push_back({std::move(id), value, std::move(label), std::move(unit), {}, std::move(meaning)});
+  }
+
+ private:
+  ReportSection& section_;
+};
+
+void add_falls(const std::string& which, const FallFigures& falls, const std::string& label, bool has_orientation,
+               Entries& entries) {
+  const std::string id = "fidelity." + which + ".";
+  entries.add(id + "descent_speed", falls.descent_speed, label + "descent", "m/s");
+  entries.add(id + "lateral_spread", falls.lateral_spread, label + "lateral spread", "m",
+              "root-mean-square distance over ground between start and end");
+  entries.add(id + "event_seconds", falls.event_seconds, label + "time between events", "s");
+  entries.add(id + "flips_per_second", falls.flips_per_second, has_orientation ? label + "flips" : "", "1/s");
+}
+
+void add_jumps(const std::string& id, const std::string& what, const JoinJumps& jumps, const JoinJumps& floor,
+               Entries& entries) {
+  const std::string label = what.empty() ? "" : "joins that jump in " + what;
+  entries.add(id + ".percentile_99", jumps.percentile_99, "");
+  entries.add(id + ".median", jumps.median, "");
+  entries.add(id + ".share_above", jumps.share_above, label, "",
+              "share above the recording's 99th percentile; 0.01 where joins are like any row");
+  entries.add(id + ".floor.percentile_99", floor.percentile_99, "");
+  entries.add(id + ".floor.median", floor.median, "");
+  entries.add(id + ".floor.share_above", floor.share_above, label.empty() ? "" : "  the recording's own events", "",
+              "which nobody joined");
+}
+
+ReportList row_of(const std::vector<double>& values, std::size_t row, std::size_t columns) {
+  const auto first = values.begin() + static_cast<long>(row * columns);
+  return {first, first + static_cast<long>(columns)};
+}
+
+}  // namespace
+
+ReportSection segments_section(const ChainSummary& summary) {
+  ReportSection section{"Segments"};
+  auto& entries = section.entries;
+  const auto modes = static_cast<std::size_t>(summary.modes);
+  ReportList transitions;
+  for (std::size_t from = 0; from < modes; ++from) transitions.push_back(row_of(summary.transitions, from, modes));
+  entries = {
+      {"segments", summary.segments, "segments", "", {}, "of the stretches that were learned from"},
+      {"stored", summary.stored, "stored", ""},
+      {"mean_segment_seconds", summary.mean_segment_seconds, "mean duration", "s"},
+      {"stretches.learned", summary.stretches_learned, "stretches learned from", ""},
+      {"stretches.held_out", summary.stretches_held_out, "stretches held out", ""},
+      {"modes", summary.modes, "modes", ""},
+      {"mode_sizes", ReportList(summary.mode_sizes.begin(), summary.mode_sizes.end()), "segments of each mode", ""},
+      {"history", summary.history, "history", "modes", {}, "the longest"},
+      {"initial", summary.initial, "", ""},
+      {"transitions", transitions, "", ""},
+      {"silhouette", summary.silhouette, "silhouette", "", {}, "-1 to 1; high where modes are tight and apart"},
+      {"log_likelihood.chosen", summary.log_likelihood, "log-likelihood", "nats a segment", {}, "of held-out modes"},
+      {"log_likelihood.0", summary.log_likelihood_0, "  without history", "nats a segment"},
+      {"log_likelihood.1", summary.log_likelihood_1, "  of order 1", "nats a segment"},
+      {"log_likelihood.2", summary.log_likelihood_2, "  of order 2", "nats a segment"},
+  };
+  for (std::size_t from = 0; from < modes; ++from) {
+    entries.push_back({"", transitions[from], "probabilities after mode " + std::to_string(from), ""});
+  }
+  return section;
+}
+
+ReportSection fidelity_section(const ChainFidelity& fidelity, bool has_orientation) {
+  ReportSection section{"Fidelity: synthesized falls against recorded ones"};
+  Entries entries(section);
+  const Bounded& energy = fidelity.energy_distance;
+  entries.add("fidelity.energy_distance.value", energy.value, "energy distance", "", "0: one distribution, to 1");
+  entries.add("fidelity.energy_distance.floor", energy.floor, "  floor", "", "two halves of the recorded falls");
+  entries.add("fidelity.energy_distance.ceiling", energy.ceiling, "  ceiling", "", "recorded rows in random order");
+  entries.add("fidelity.energy_p_value", fidelity.energy_p_value, "  p-value", "", "that chance alone is as far apart");
+  section.entries.push_back({"fidelity.windows", fidelity.windows, "windows", "", {}, "a side"});
+  entries.add("fidelity.window_seconds", fidelity.window_seconds, "length of a window", "s");
+  add_falls("real", fidelity.real, "recorded ", has_orientation, entries);
+  add_falls("synthesized", fidelity.synthesized, "synthesized ", has_orientation, entries);
+  const JoinDefect& defect = fidelity.join_defect;
+  add_jumps("join_defect.position", "position", defect.position, defect.position_floor, entries);
+  add_jumps("join_defect.rotation", has_orientation ? "orientation" : "", defect.rotation, defect.rotation_floor,
+            entries);
+  return section;
+}
+
+void add_figures(const ChainFidelity& fidelity, Training& training) {
+  const std::pair<const char*, double> figures[] = {
+      {"energy_distance", fidelity.energy_distance.value},
+      {"energy_distance_floor", fidelity.energy_distance.floor},
+      {"descent_speed", fidelity.synthesized.descent_speed},
+      {"descent_speed_recorded", fidelity.real.descent_speed},
+  };
+  for (const auto& [name, value] : figures) {
+    if (std::isfinite(value)) training.figures.push_back({name, value});
+  }
+}
+
+}  // namespace wisp::chain

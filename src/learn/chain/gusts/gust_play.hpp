@@ -1,0 +1,80 @@
+#pragma once
+// How a chain with a response to gusts plays them, against gusts that were simulated or recorded: the bank itself is
+// placed where each calm fall is at the gust's onset, and blown at.
+//
+// Source: section 4.4 of the paper. It shows one response (its figure 8); here many are judged, on means over clones.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "learn/chain/motion/motion.hpp"
+#include "wisp/base/result.hpp"
+#include "wisp/model/model.hpp"
+#include "wisp/record/recording.hpp"
+
+namespace wisp::chain {
+
+struct GustPlayOptions {
+  double after_seconds = 0.3;  ///< ≥ 0: judged over the gust and so long after it
+  double clear_errors = 4;     ///< ≥ 0: a mean displacement this many of its own standard errors long has a direction
+  std::size_t scenes = 2;      ///< gusts kept for a figure: at even shares of them all by how far they carry
+  std::uint64_t seed = 1;
+};
+
+/// Angles over ground between mean displacements at the end, degrees.
+struct GustDirection {
+  double median = 0;
+  double mean = 0;        ///< of all gusts: small displacements have any direction
+  double mean_clear = 0;  ///< of those whose displacement stands out of chance
+};
+
+struct GustPlayFigures {
+  std::size_t gusts = 0;
+  std::size_t clear_gusts = 0;  ///< whose recorded displacement stands out of chance
+  std::size_t clones = 0;
+  double fit_percent = 0;  ///< of the mean displacement over the gust and after it
+  double velocity_fit_percent = 0;
+  GustDirection direction;
+  double halves_fit_percent = 0;    ///< the recording itself, one half of the clones against the other; NaN with fewer
+                                    ///< than 4 clones
+  GustDirection halves_direction;   ///< likewise
+  double largest_displacement = 0;  ///< metres, of the play's means
+  double largest_recorded_displacement = 0;  ///< and of the recording's
+  double left_after = 0;                     ///< metres a second that a play still differs by two seconds later
+  bool diverges = false;                     ///< something is not finite, or more than a tenth of a metre a second is
+                                             ///< left
+};
+
+/// One gust seen clone by clone: ways from the onset on, and the rows in which the wind blows.
+struct GustScene {
+  std::size_t gust = 0;
+  std::vector<std::vector<Triple>> recorded;  ///< per clone
+  std::vector<std::vector<Triple>> played;
+  std::vector<Triple> recorded_calm;  ///< means without the gust
+  std::vector<Triple> played_calm;
+  std::vector<bool> blows;  ///< a row each
+  Triple strongest{};       ///< the wind at its height, m/s
+};
+
+/// One gust as means over its clones, from the onset to the end.
+struct GustEnd {
+  Triple wind{};           ///< of all rows, m/s
+  Triple recorded{};       ///< displacement by the wind, metres
+  Triple recorded_calm{};  ///< the way of the calm fall, metres
+  Triple played{};         ///< displacement by the wind, metres
+  bool clear = false;      ///< what was recorded stands out of chance
+};
+
+struct GustPlay {
+  GustPlayFigures figures;
+  std::vector<GustEnd> ends;  ///< of every gust, in their order
+  std::vector<GustScene> scenes;
+};
+
+/// Plays every gust of a windy recording on the model, clone by clone, with and without its wind.
+/// Errors: the model is not a chain with a response to gusts; as learn_gusts(); rates that differ.
+Result<GustPlay> play_gusts(const Model& model, const Recording& windy, const Recording& calm,
+                            const GustPlayOptions& options = {});
+
+}  // namespace wisp::chain

@@ -1,0 +1,150 @@
+// From recordings to a judged chain: sorting of recordings, fit, fidelity, gusts, verdict.
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include "learn/chain/chain_fidelity.hpp"
+#include "learn/chain/chain_fit.hpp"
+#include "learn/chain/chain_recordings.hpp"
+#include "learn/chain/chain_report.hpp"
+#include "learn/chain/gusts/gust_report.hpp"
+#include "wisp/learn/chain.hpp"
+#include "wisp/model/file.hpp"
+#include "wisp/record/number_text.hpp"
+
+namespace wisp {
+namespace chain {
+namespace {
+
+constexpr double kMaxShareOfCeiling = 0.5;  // a distance above it is nearer to rows in random order than to falls
+constexpr double kMaxSpeed = 100;           // m/s: nothing falls as fast; millimetres read as metres do
+constexpr std::size_t kVerbatimSegments = 20000;
+
+// Full axes of the leaf, where its maker has said them.
+Result<void> take_size(const Recording& first, ChainRecipe& recipe) {
+  if (recipe.half_width > 0 || recipe.half_length > 0) return {};
+  const auto size = numbers_attribute(first, "leaf_length_width_density");
+  if (!size) return size.error();
+  if (!*size || (*size)->size() < 2) return {};
+  recipe.half_width = (**size)[0] / 2;
+  recipe.half_length = (**size)[1] / 2;
+  if (recipe.half_width > 0 && recipe.half_length > 0) return {};
+  return Error{first.source + ": \"# leaf_length_width_density\" begins with " + number_text((**size)[0], 3) + " " +
+               number_text((**size)[1], 3) + ", expected a length and a width above 0, in metres"};
+}
+
+// What learning says is wrong, with the file that it is about.
+Error about(std::span<const Recording> recordings, const Error& error) {
+  if (error.message == kStopped) return error;
+  for (const Recording& recording : recordings) {
+    if (error.message.starts_with(recording.source)) return error;
+  }
+  return {recordings.front().source + ": " + error.message};
+}
+
+// Falls that repeat each other judge nothing.
+void take_repeats(std::span<const Recording> falls, Fit& fit) {
+  const Repeats repeats = repeats_in(falls);
+  if (repeats.repeated == 0) return;
+  fit.report.sections.front().entries.push_back(
+      {"repeated_episodes", repeats.repeated, "episodes that repeat another", ""});
+  fit.report.warnings.push_back(falls.front().source + ": " + std::to_string(repeats.repeated) + " of " +
+                                std::to_string(repeats.episodes) +
+                                " episodes repeat another row by row, expected each once: fidelity to what was held "
+                                "out says little");
+  if (repeats.episodes - repeats.repeated > 1) return;
+  fit.model.training.usable = {
+      false, "all " + std::to_string(repeats.episodes) + " episodes are the same: record falls that differ"};
+}
+
+void judge_speed(std::span<const Recording> falls, Usable& usable) {
+  const double speed = mean_speed(falls);
+  if (!usable.verdict || speed <= kMaxSpeed) return;
+  usable = {false, falls.front().source + " moves at " + number_text(speed, 3) +
+                       " m/s on average: give positions in metres, not in millimetres"};
+}
+
+void judge_fidelity(const Bounded& energy, Usable& usable) {
+  if (!usable.verdict || !(energy.value > kMaxShareOfCeiling * energy.ceiling)) return;
+  usable = {false, "its falls are not like the recorded ones (energy distance " + number_text(energy.value, 3) +
+                       "; rows in random order have " + number_text(energy.ceiling, 3) +
+                       "): record more, or choose another event, realisation or number of modes"};
+}
+
+// How like the stretches that were held out, or, where none were, those that were learned from.
+void judge(const ChainFit& found, const ChainRecipe& recipe, Fit& fit) {
+  const ChainFidelityOptions judging{
+      .segmentation = segmentation_of(recipe), .smooth_rows = recipe.smooth_rows, .seed = recipe.seed};
+  const auto fidelity = chain_fidelity(fit.model, found.held_out.empty() ? found.learned : found.held_out, judging);
+  if (!fidelity) {
+    fit.report.warnings.push_back("fidelity was not measured: " + fidelity.error().message);
+    fit.report.add("").entries.push_back({"fidelity", {}, "", ""});
+    return;
+  }
+  const double verbatim = longest_verbatim_seconds(fit.model, found.origin, kVerbatimSegments, recipe.seed);
+  const bool has_orientation = std::holds_alternative<PoseView>(fit.model.view);
+  fit.report.sections.push_back(fidelity_section(*fidelity, has_orientation));
+  fit.report.sections.back().entries.push_back(
+      {"fidelity.verbatim_seconds", verbatim, "longest stretch copied from one recording", "s"});
+  add_figures(*fidelity, fit.model.training);
+  fit.model.training.figures.push_back({"verbatim_seconds", verbatim});
+  judge_fidelity(fidelity->energy_distance, fit.model.training.usable);
+}
+
+// The response to gusts, from a windy recording and its calm twin.
+Result<void> take_gusts(std::span<const Recording> paired, Fit& fit) {
+  if (paired.empty()) return {};
+  const Recording &windy = paired[0], &calm = paired[1];
+  auto gusts = learn_gusts(windy, calm, {});
+  if (!gusts) return gusts.error();
+  std::get<ChainModel>(fit.model.dynamics).gust = std::move(gusts->response);
+  fit.model.inputs = std::move(gusts->inputs);
+  Training& training = fit.model.training;
+  training.inputs.assign(fit.model.inputs.size(), {});  // metres a second
+  for (const Recording& one : paired) {
+    training.sources.push_back(std::filesystem::path(one.source).filename().string());
+  }
+  const GustFigures& figures = gusts->figures;
+  if (const auto sound = check(fit.model); !sound) {
+    return Error{windy.source + ": " + sound.error().message + " from more gusts than its " +
+                 std::to_string(figures.gusts_learned)};
+  }
+  fit.report.sections.push_back(gusts_section(figures));
+  training.figures.push_back({"gust_fit_percent", figures.fit_percent});
+  training.figures.push_back({"gust_direction_degrees", figures.direction_degrees});
+  return {};
+}
+
+}  // namespace
+}  // namespace chain
+
+Result<Fit> learn_chain(std::span<const Recording> recordings, const ChainRecipe& recipe, const Progress& progress) {
+  if (recordings.empty()) return Error{"there are no recordings to learn a chain from"};
+  const auto data = chain::sorted_recordings(recordings);
+  if (!data) return data.error();
+  if (data->falls.empty()) {
+    return Error{data->paired.front().source + ": is one of a pair, which only tells what wind does; expected " +
+                 "recordings of calm falls beside it"};
+  }
+  ChainRecipe sized = recipe;
+  if (auto ok = chain::take_size(data->falls.front(), sized); !ok) return ok.error();
+  auto found = chain::fit_chain(data->falls, sized, progress);
+  if (!found) return chain::about(data->falls, found.error());
+  Fit fit{std::move(found->model), {}};
+  fit.report.warnings = found->summary.warnings;
+  fit.report.sections.push_back(chain::segments_section(found->summary));
+  fit.report.sections.front().entries.push_back({"seed", recipe.seed, "", ""});
+  chain::take_repeats(data->falls, fit);
+  chain::judge_speed(data->falls, fit.model.training.usable);
+  if (!go_on(progress, "judging falls", 0)) return Error{std::string(kStopped)};
+  chain::judge(*found, sized, fit);
+  if (!go_on(progress, "learning gusts", 0)) return Error{std::string(kStopped)};
+  if (auto ok = chain::take_gusts(data->paired, fit); !ok) return ok.error();
+  const Usable& usable = fit.model.training.usable;
+  fit.report.verdict = {usable.verdict, usable.reason};
+  return fit;
+}
+
+}  // namespace wisp

@@ -1,0 +1,37 @@
+#pragma once
+// Segments as a chain stores them: each in its own frame, resampled to whole steps, as scaled 16-bit numbers; and which
+// segments join which.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "learn/chain/motion/motion.hpp"
+#include "learn/chain/segments/segmentation.hpp"
+#include "wisp/model/chain.hpp"
+
+namespace wisp::chain {
+
+struct SegmentStoreOptions {
+  bool heading_free = true;
+  std::size_t max_bytes = 850'000;  ///< > 0, of all segments: what is over it is left out, as many of each mode as
+                                    ///< the rarer ones allow; a leaf for the web is at most 1 MB
+  int breadth = 4;  ///< 0 … 256: best successors kept for each segment and mode; 0: any segment of the mode follows
+                    ///< (the paper's). Fewer join better and leave room for more segments, but repeat themselves sooner
+  ChainBlend blend{};      ///< how joins will fade: successors are chosen for what is seen then
+  std::uint64_t seed = 1;  ///< of which segments stay
+};
+
+struct SegmentStore {
+  ChainSegments segments;
+  std::vector<std::size_t> source;  ///< per stored segment: its index among those given
+};
+
+/// `cluster` gives each segment's mode.
+///
+/// Precondition: as many clusters as segments, all below `modes`, each mode with a segment.
+SegmentStore store_segments(const Motion& motion, std::span<const Segment> segments,
+                            std::span<const std::uint16_t> cluster, int modes, const SegmentStoreOptions& options);
+
+}  // namespace wisp::chain

@@ -1,0 +1,81 @@
+// A chain against recordings that it has not seen: falls, or gusts and their calm twins.
+
+#include <cmath>
+#include <string>
+
+#include "learn/chain/chain_fidelity.hpp"
+#include "learn/chain/chain_recordings.hpp"
+#include "learn/chain/chain_report.hpp"
+#include "learn/chain/fall_tracks.hpp"
+#include "learn/chain/gusts/gust_report.hpp"
+#include "wisp/learn/chain.hpp"
+#include "wisp/record/number_text.hpp"
+
+namespace wisp {
+namespace chain {
+namespace {
+
+// How the model's motion was cut when it was learned.
+Result<ChainFidelityOptions> judging_of(const Model& model, std::uint64_t seed) {
+  if (!model.training.motion) return Error{model.name + ": does not say how its motion was cut; learn it again"};
+  const MotionTraining& motion = *model.training.motion;
+  auto event = parse_event(motion.event);
+  if (!event) return event.error();
+  return ChainFidelityOptions{.segmentation = {std::move(*event), motion.min_seconds, motion.debounce},
+                              .smooth_rows = motion.smooth_rows,
+                              .seed = seed};
+}
+
+ReportSection counts_of(std::size_t rows) { return {"", {{"rows", rows, "rows", ""}, {"channels", ReportList{}, "", ""}}}; }
+
+Result<Report> validate_falls(const Model& model, std::span<const Recording> falls, std::uint64_t seed,
+                              const Progress& progress) {
+  const auto options = judging_of(model, seed);
+  if (!options) return options.error();
+  const auto fidelity = chain_fidelity(model, falls, *options);
+  if (!fidelity) return fidelity.error();
+  if (!go_on(progress, "playing falls", 0.5)) return Error{std::string(kStopped)};
+  auto tracks = fall_tracks(model, falls, *options);
+  if (!tracks) return tracks.error();
+  Report report;
+  if (std::isnan(fidelity->energy_distance.value)) {
+    report.warnings.push_back(falls.front().source + ": its stretches are shorter than " +
+                              number_text(fidelity->window_seconds, 3) +
+                              " s, expected longer ones: how like the falls are was not measured");
+  }
+  std::size_t rows = 0;
+  for (const Recording& fall : falls) rows += fall.rows();
+  report.sections = {counts_of(rows), fidelity_section(*fidelity, std::holds_alternative<PoseView>(model.view)),
+                     std::move(*tracks)};
+  return report;
+}
+
+Result<Report> validate_gusts(const Model& model, const Recording& windy, const Recording& calm, std::uint64_t seed) {
+  const auto play = play_gusts(model, windy, calm, {.seed = seed});
+  if (!play) return play.error();
+  Report report;
+  report.sections = {counts_of(windy.rows()), gusts_section(play->figures)};
+  report.sections.front().entries.push_back({"fidelity", {}, "", ""});  // clones are no falls of their own
+  for (std::size_t k = 0; k < play->scenes.size(); ++k) {
+    report.sections.push_back(scene_section(play->scenes[k], k));
+  }
+  return report;
+}
+
+}  // namespace
+}  // namespace chain
+
+Result<Report> validate_chain(const Model& model, std::span<const Recording> recordings, std::uint64_t seed,
+                              const Progress& progress) {
+  if (recordings.empty()) return Error{"there are no recordings to judge a chain on"};
+  if (!std::holds_alternative<ChainModel>(model.dynamics)) return Error{model.name + ": is not a segment chain"};
+  if (!go_on(progress, "judging falls", 0)) return Error{std::string(kStopped)};
+  const auto data = chain::sorted_recordings(recordings);
+  if (!data) return data.error();
+  if (data->paired.empty()) return chain::validate_falls(model, data->falls, seed, progress);
+  if (data->falls.empty()) return chain::validate_gusts(model, data->paired[0], data->paired[1], seed);
+  return Error{data->falls.front().source +
+               ": is not one of a pair (it has no attribute pair), expected no pair beside it"};
+}
+
+}  // namespace wisp

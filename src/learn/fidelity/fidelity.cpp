@@ -1,0 +1,262 @@
+#include "wisp/learn/fidelity.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "learn/fidelity/fidelity_energy.hpp"
+#include "learn/fidelity/fidelity_marginal.hpp"
+#include "learn/fidelity/fidelity_stretch.hpp"
+#include "learn/fidelity/fidelity_verbatim.hpp"
+#include "wisp/learn/spectrum.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr std::size_t kMinRows = 16;
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
+using Stretches = std::vector<Stretch>;
+
+// Lengths that one comparison and its two bounds share, so that they can be read side by side.
+struct Lengths {
+  double rate_hz = 0;
+  std::size_t welch = 0;
+  std::size_t lags = 0;
+  std::size_t window = 0;
+};
+
+struct ChannelDistances {
+  double log_spectral = 0;
+  double autocorrelation = 0;
+  double value = 0;
+  double speed = 0;
+};
+
+struct Distances {
+  std::vector<ChannelDistances> channels;
+  EnergyTest energy{kNothing, kNothing};
+  std::size_t windows_a = 0;
+  std::size_t windows_b = 0;
+};
+
+std::size_t longest(const Stretches& stretches) {
+  std::size_t rows = 0;
+  for (const Stretch& stretch : stretches) rows = std::max(rows, stretch.rows());
+  return rows;
+}
+
+std::vector<std::vector<double>> channel_of(const Stretches& stretches, std::size_t channel) {
+  std::vector<std::vector<double>> out;
+  for (const Stretch& stretch : stretches) out.push_back(stretch.channel(channel));
+  return out;
+}
+
+std::vector<double> joined(const std::vector<std::vector<double>>& stretches) {
+  std::vector<double> out;
+  for (const auto& stretch : stretches) out.insert(out.end(), stretch.begin(), stretch.end());
+  return out;
+}
+
+std::vector<double> speeds(const std::vector<std::vector<double>>& stretches) {
+  std::vector<double> out;
+  for (const auto& stretch : stretches) {
+    for (std::size_t t = 1; t < stretch.size(); ++t) out.push_back(std::abs(stretch[t] - stretch[t - 1]));
+  }
+  return out;
+}
+
+// Over the standard deviation of the first; a channel that never changes there is compared as it is.
+double marginal_distance(const std::vector<double>& a, const std::vector<double>& b) {
+  if (a.empty() || b.empty()) return kNothing;
+  const double scale = standard_deviation(a);
+  return wasserstein1(a, b) / (scale > 0 ? scale : 1);
+}
+
+ChannelDistances channel_distances(const Stretches& a, const Stretches& b, std::size_t channel,
+                                   const Lengths& lengths) {
+  const auto x = channel_of(a, channel);
+  const auto y = channel_of(b, channel);
+  ChannelDistances out;
+  out.log_spectral =
+      log_spectral_distance(welch(x, lengths.rate_hz, lengths.welch), welch(y, lengths.rate_hz, lengths.welch));
+  out.autocorrelation = autocorrelation_distance(autocorrelation(x, lengths.lags), autocorrelation(y, lengths.lags));
+  out.value = marginal_distance(joined(x), joined(y));
+  out.speed = marginal_distance(speeds(x), speeds(y));
+  return out;
+}
+
+FeatureWindows windows_of(const Stretches& stretches, const Lengths& lengths, std::size_t most) {
+  // Twice as many as are wanted, then evenly thinned: most of the spread without holding every window.
+  const std::size_t hop = std::max<std::size_t>(1, total_rows(stretches) / (2 * most));
+  return thinned(motion_windows(stretches, lengths.window, hop), most);
+}
+
+Distances compare(const Stretches& a, const Stretches& b, const Lengths& lengths, const FidelityOptions& options,
+                  std::size_t permutations) {
+  Distances out;
+  for (std::size_t c = 0; c < a.front().channels; ++c) out.channels.push_back(channel_distances(a, b, c, lengths));
+  FeatureWindows x = windows_of(a, lengths, options.max_windows);
+  FeatureWindows y = windows_of(b, lengths, options.max_windows);
+  out.windows_a = x.size();
+  out.windows_b = y.size();
+  if (x.size() == 0 || y.size() == 0) return out;
+  standardise(x, y);
+  out.energy = energy_test(x, y, permutations, options.seed);
+  return out;
+}
+
+struct Sides {
+  std::vector<std::string> names;
+  double rate_hz = 0;
+  Stretches real;
+  Halves halves;
+  Stretches synthesized;
+};
+
+Result<Stretches> all_stretches(std::span<const Recording> recordings, const std::vector<std::string>& names,
+                                double rate_hz) {
+  Stretches all;
+  for (const Recording& recording : recordings) {
+    if (recording.rate_hz != rate_hz) {
+      return Error{recording.source + ": has " + std::to_string(recording.rate_hz) + " samples a second, the others " +
+                   std::to_string(rate_hz) + "; compare recordings of one rate"};
+    }
+    auto stretches = stretches_of(recording, names);
+    if (!stretches) return stretches;
+    all.insert(all.end(), std::make_move_iterator(stretches->begin()), std::make_move_iterator(stretches->end()));
+  }
+  return all;
+}
+
+// Several recordings are split by recording, every other one to a side; a single one in time.
+Result<Halves> split(std::span<const Recording> real, const std::vector<std::string>& names, const Stretches& all) {
+  if (real.size() == 1) return halves_of(all);
+  Halves halves;
+  for (std::size_t r = 0; r < real.size(); ++r) {
+    auto stretches = stretches_of(real[r], names);
+    if (!stretches) return stretches.error();
+    Stretches& side = r % 2 == 0 ? halves.first : halves.second;
+    side.insert(side.end(), stretches->begin(), stretches->end());
+  }
+  return halves;
+}
+
+std::vector<std::string> output_names(const Recording& recording) {
+  std::vector<std::string> names;
+  for (std::size_t c : channels_with_role(recording, Role::kOutput)) names.push_back(recording.channels[c].name);
+  return names;
+}
+
+Result<void> check_length(const Stretches& stretches, const std::string& what) {
+  const std::size_t rows = longest(stretches);
+  if (rows >= kMinRows) return {};
+  return Error{what + " has " + std::to_string(rows) + " consecutive complete rows at most; fidelity needs at least " +
+               std::to_string(kMinRows)};
+}
+
+Result<Sides> sides_of(std::span<const Recording> real, std::span<const Recording> synthesized,
+                       const FidelityOptions& options) {
+  if (real.empty() || synthesized.empty()) return Error{"fidelity needs real and synthesized recordings"};
+  Sides sides;
+  sides.rate_hz = real.front().rate_hz;
+  sides.names = options.channels.empty() ? output_names(real.front()) : options.channels;
+  if (sides.names.empty()) return Error{real.front().source + ": has no output channel to compare"};
+  auto all = all_stretches(real, sides.names, sides.rate_hz);
+  if (!all) return all.error();
+  sides.real = *std::move(all);
+  auto halves = split(real, sides.names, sides.real);
+  if (!halves) return halves.error();
+  sides.halves = *std::move(halves);
+  auto made = all_stretches(synthesized, sides.names, sides.rate_hz);
+  if (!made) return made.error();
+  sides.synthesized = *std::move(made);
+  if (auto ok = check_length(sides.halves.first, real.front().source + ": its first half"); !ok) return ok.error();
+  if (auto ok = check_length(sides.halves.second, real.back().source + ": its second half"); !ok) return ok.error();
+  if (auto ok = check_length(sides.synthesized, synthesized.front().source); !ok) return ok.error();
+  return sides;
+}
+
+Lengths lengths_for(const Sides& sides, const FidelityOptions& options) {
+  const std::size_t shortest =
+      std::min({longest(sides.halves.first), longest(sides.halves.second), longest(sides.synthesized)});
+  Lengths lengths;
+  lengths.rate_hz = sides.rate_hz;
+  lengths.welch = std::min(options.welch_samples, shortest) / 2 * 2;
+  const auto memory = static_cast<std::size_t>(std::lround(options.memory_seconds * sides.rate_hz));
+  lengths.lags = std::clamp<std::size_t>(memory + 1, 2, shortest / 2);
+  lengths.window = std::max<std::size_t>(1, std::lround(options.window_seconds * sides.rate_hz));
+  return lengths;
+}
+
+Bounded bounded(const Distances& value, const Distances& floor, const Distances& ceiling, std::size_t channel,
+                double ChannelDistances::*measure) {
+  return {value.channels[channel].*measure, floor.channels[channel].*measure, ceiling.channels[channel].*measure};
+}
+
+Bounded mean_over(const std::vector<ChannelFidelity>& channels, Bounded ChannelFidelity::*measure) {
+  Bounded mean;
+  const auto n = static_cast<double>(channels.size());
+  for (const ChannelFidelity& channel : channels) {
+    mean.value += (channel.*measure).value / n;
+    mean.floor += (channel.*measure).floor / n;
+    mean.ceiling += (channel.*measure).ceiling / n;
+  }
+  return mean;
+}
+
+void take_channels(const Sides& sides, const Distances& value, const Distances& floor, const Distances& ceiling,
+                   Fidelity& out) {
+  for (std::size_t c = 0; c < sides.names.size(); ++c) {
+    ChannelFidelity& channel = out.channels.emplace_back();
+    channel.name = sides.names[c];
+    channel.sd_real = standard_deviation(joined(channel_of(sides.real, c)));
+    channel.sd_synthesized = standard_deviation(joined(channel_of(sides.synthesized, c)));
+    channel.log_spectral_distance = bounded(value, floor, ceiling, c, &ChannelDistances::log_spectral);
+    channel.autocorrelation_distance = bounded(value, floor, ceiling, c, &ChannelDistances::autocorrelation);
+    channel.wasserstein_value = bounded(value, floor, ceiling, c, &ChannelDistances::value);
+    channel.wasserstein_speed = bounded(value, floor, ceiling, c, &ChannelDistances::speed);
+  }
+  out.log_spectral_distance = mean_over(out.channels, &ChannelFidelity::log_spectral_distance);
+  out.autocorrelation_distance = mean_over(out.channels, &ChannelFidelity::autocorrelation_distance);
+  out.wasserstein_value = mean_over(out.channels, &ChannelFidelity::wasserstein_value);
+  out.wasserstein_speed = mean_over(out.channels, &ChannelFidelity::wasserstein_speed);
+}
+
+void take_verbatim(const Sides& sides, double tolerance, Fidelity& out) {
+  const auto seconds = [&](std::size_t rows) { return static_cast<double>(rows) / sides.rate_hz; };
+  out.verbatim_seconds = seconds(longest_verbatim_run(sides.real, sides.synthesized, tolerance));
+  out.verbatim_floor_seconds = seconds(longest_verbatim_run(sides.halves.first, sides.halves.second, tolerance));
+  out.verbatim_ceiling_seconds = seconds(longest(sides.real));
+}
+
+}  // namespace
+
+double Bounded::floor_ratio() const {
+  if (floor > 0) return value / floor;
+  return value > 0 ? std::numeric_limits<double>::infinity() : 1;
+}
+
+Result<Fidelity> fidelity(std::span<const Recording> real, std::span<const Recording> synthesized,
+                          const FidelityOptions& options) {
+  auto sides = sides_of(real, synthesized, options);
+  if (!sides) return sides.error();
+  const Lengths lengths = lengths_for(*sides, options);
+  const Stretches pieces = cut_to(sides->synthesized, longest(sides->real));
+  const Distances value = compare(sides->real, pieces, lengths, options, options.permutations);
+  const Distances floor = compare(sides->halves.first, sides->halves.second, lengths, options, 0);
+  const Distances ceiling = compare(sides->real, shuffled(sides->real, options.seed), lengths, options, 0);
+  Fidelity out;
+  take_channels(*sides, value, floor, ceiling, out);
+  out.energy_distance = {value.energy.distance, floor.energy.distance, ceiling.energy.distance};
+  if (options.permutations > 0) out.energy_p_value = value.energy.p_value;
+  take_verbatim(*sides, options.verbatim_tolerance, out);
+  out.real_rows = total_rows(sides->real);
+  out.synthesized_rows = total_rows(sides->synthesized);
+  out.welch_samples = lengths.welch;
+  out.memory_seconds = static_cast<double>(lengths.lags - 1) / lengths.rate_hz;
+  out.windows_real = value.windows_a;
+  out.windows_synthesized = value.windows_b;
+  return out;
+}
+
+}  // namespace wisp

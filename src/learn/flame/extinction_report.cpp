@@ -1,0 +1,127 @@
+#include "learn/flame/extinction_report.hpp"
+
+#include <cstdio>
+
+#include "wisp/learn/extinction_report.hpp"
+
+namespace wisp {
+namespace {
+
+std::string rounded(double value, int digits = 3) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  return text;
+}
+
+const char* word_of(Origin origin) {
+  return origin == Origin::kLearned ? "learned" : origin == Origin::kGiven ? "given" : "default";
+}
+
+std::string sentence_of(const Extinction& rule) {
+  const double twice = rule.seconds / (1 + rule.haste);
+  return "wind of " + rounded(rule.level) + " puts it out in " + rounded(rule.seconds, 2) + " s" +
+         (rule.haste > 0 ? ", of twice that in " + rounded(twice, 2) + " s" : "");
+}
+
+// The fields of a mode whose size is a ramp: seconds, events, seconds_ci95, error.
+std::vector<ReportValue> ramp_cells(double seconds, const RampTraining& made) {
+  if (made.origin != Origin::kLearned) return {seconds, {}, {}, {}};
+  return {seconds, made.events, ReportList{made.seconds_ci95[0], made.seconds_ci95[1]}, made.error};
+}
+
+std::vector<ReportValue> mode_row(const char* name, const char* moves, ReportValue source,
+                                  const std::vector<ReportValue>& ramp, const char* starts, std::string ends) {
+  std::vector<ReportValue> row{name, moves, std::move(source)};
+  row.insert(row.end(), ramp.begin(), ramp.end());
+  row.insert(row.end(), {starts, std::move(ends)});
+  return row;
+}
+
+ReportTable modes_of(const Model& model) {
+  const Extinction& rule = *model.extinction;
+  const ExtinctionTraining made = model.training.extinction.value_or(ExtinctionTraining{});
+  const std::vector<ReportValue> none(4);
+  ReportTable table{"extinction.modes",
+                    "modes",
+                    {{"name", "mode"},
+                     {"moves", "what moves"},
+                     {"source", "source"},
+                     {"seconds", "takes", "s"},
+                     {"events", "events"},
+                     {"seconds_ci95", "95 %", "s"},
+                     {"error", ""},
+                     {"starts", "starts"},
+                     {"ends", "ends"}},
+                    {}};
+  table.rows = {
+      mode_row("burning", "the dynamics", word_of(made.origin), none, "in full size", sentence_of(rule)),
+      mode_row("dying", "its size, in a straight line to nothing", word_of(made.dying.origin),
+               ramp_cells(rule.dying, made.dying), "in the shape of its last step", "with nothing left"),
+      mode_row("out", "nothing", {}, none, "with nothing left", "when it is lit"),
+      mode_row("catching", "the dynamics, its size in a straight line to all of it", word_of(made.catching.origin),
+               ramp_cells(rule.catching, made.catching), "from rest and unharmed", "in full size")};
+  return table;
+}
+
+void add_agreement(const ExtinctionAgreement& found, const std::string& id, ReportSection& section) {
+  section.entries.insert(
+      section.entries.end(),
+      {{id + ".deaths", found.deaths, "extinctions recorded", ""},
+       {id + ".died", found.died, "extinctions reproduced", "", {}, "of those recorded, within half a second"},
+       {id + ".gusts", found.gusts, "gusts survived in the recording", ""},
+       {id + ".spared", found.spared, "gusts survived by the rule too", ""},
+       {id + ".median_off_ms", 1000 * found.median_off(), found.died > 0 ? "median timing error" : "", "ms"},
+       {id + ".strongest_survived", found.strongest_survived, "strongest wind survived", "", {}, "mean over 0.15 s"}});
+}
+
+void add_ramp(const RampAgreement& found, const std::string& id, const std::string& name, ReportSection& section) {
+  const bool seen = found.events > 0;
+  section.entries.insert(
+      section.entries.end(),
+      {{id + ".events", found.events, "", ""},
+       {id + ".error", found.error, seen ? name + ", error of the size" : "", ""},
+       {id + ".default_error", found.default_error, seen ? name + ", error with the default duration" : "", ""}});
+}
+
+}  // namespace
+
+ReportSection extinction_section(const Model& model) {
+  if (!model.extinction) return {"", {{"extinction", {}, "", ""}}};
+  const Extinction& rule = *model.extinction;
+  return {"Extinction",
+          {{"", sentence_of(rule), "rule", ""},
+           {"extinction.input", model.inputs[rule.input].name, "", ""},
+           {"extinction.level", rule.level, "", ""},
+           {"extinction.seconds", rule.seconds, "", ""},
+           {"extinction.haste", rule.haste, "", ""},
+           {"extinction.recovery", rule.recovery, "", ""}},
+          {modes_of(model)}};
+}
+
+ReportSection extinction_section(const Model& model, const std::optional<LearnedExtinction>& learned) {
+  ReportSection section = extinction_section(model);
+  if (!learned) return section;
+  section.entries.push_back({"extinction.source", word_of(learned->origin), "source of the rule", ""});
+  add_agreement(learned->agreement, "extinction.agreement", section);
+  section.entries.push_back({"extinction.unexplained", learned->unexplained, "", ""});
+  if (learned->fit) {
+    const auto& level = learned->fit->level_range;
+    const auto& seconds = learned->fit->seconds_range;
+    section.entries.push_back({"extinction.level_range", ReportList{level[0], level[1]}, "levels that do as well", ""});
+    section.entries.push_back(
+        {"extinction.seconds_range", ReportList{seconds[0], seconds[1]}, "durations that do as well", "s"});
+  }
+  return section;
+}
+
+ReportSection extinction_section(const std::optional<JudgedExtinction>& judged) {
+  if (!judged) return {"", {{"extinction", {}, "", ""}}};
+  ReportSection section{"Extinction"};
+  add_agreement(judged->agreement, "extinction", section);
+  add_ramp(judged->decay, "extinction.dying", "decay", section);
+  add_ramp(judged->re_ignition, "extinction.catching", "re-ignition", section);
+  section.entries.push_back({"extinction.unexplained", judged->unexplained, "", ""});
+  return section;
+}
+
+}  // namespace wisp

@@ -1,0 +1,18 @@
+#pragma once
+// Figures of extinction in the reports of learning and validating.
+
+#include <optional>
+
+#include "learn/flame/extinction_learning.hpp"
+#include "wisp/base/report.hpp"
+
+namespace wisp {
+
+/// extinction_section() of a model that was just learned, with `source`, `agreement` {…}, `unexplained`, `level_range`
+/// and `seconds_range`.
+ReportSection extinction_section(const Model& model, const std::optional<LearnedExtinction>& learned);
+
+/// `extinction` {deaths, died, gusts, spared, …, dying {…}, catching {…}}; none where the model has no rule.
+ReportSection extinction_section(const std::optional<JudgedExtinction>& judged);
+
+}  // namespace wisp

@@ -1,0 +1,44 @@
+#pragma once
+// Those of Eigen's decompositions that take long to compile, compiled once: each costs a source that uses it five to
+// twenty seconds.
+
+#include <Eigen/Core>
+#include <optional>
+
+namespace wisp {
+
+/// The largest first.
+Eigen::VectorXd singular_values(const Eigen::MatrixXd& matrix);
+
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
+
+struct Eigensystem {
+  Eigen::VectorXcd values;
+  Eigen::MatrixXcd right;  ///< eigenvectors, a column each
+  Eigen::MatrixXcd left;   ///< their inverse: left eigenvectors, a row each
+};
+
+Eigensystem eigensystem(const Eigen::MatrixXd& matrix);
+
+/// Of a symmetric matrix: the smallest first.
+Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& matrix);
+
+struct SymmetricEigensystem {
+  Eigen::VectorXd values;   ///< the smallest first
+  Eigen::MatrixXd vectors;  ///< a column each
+};
+
+SymmetricEigensystem symmetric_eigensystem(const Eigen::MatrixXd& matrix);
+
+/// The λ of `matrix` v = λ `metric` v, the smallest first, for two symmetric matrices of which the second is positive
+/// definite; nothing where it is not.
+std::optional<Eigen::VectorXd> generalized_eigenvalues(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& metric);
+
+Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix);
+
+/// Of all x with the least |`matrix` x − `right`| the shortest.
+Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
+
+Eigen::MatrixXcd complex_inverse(const Eigen::MatrixXcd& matrix);
+
+}  // namespace wisp

@@ -1,0 +1,326 @@
+#include "learn/outline/outline_judgement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+#include "learn/flame/wind_gain.hpp"
+#include "learn/outline/outline_preparation.hpp"
+#include "learn/outline/outline_shape.hpp"
+#include "learn/outline/outline_synthesis.hpp"
+#include "learn/outline/trained_scale.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr double kLongestDelay = 0.5;  // seconds that a static gain may lag
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
+// What validation needs of a model, after it was found to be an outline.
+struct OutlineModel {
+  const Model& whole;
+  const ArxModel& arx;
+  const OutlineView& view;
+};
+
+Result<OutlineModel> outline_model(const Model& model) {
+  const auto* arx = std::get_if<ArxModel>(&model.dynamics);
+  const auto* view = std::get_if<OutlineView>(&model.view);
+  if (arx == nullptr || view == nullptr) return Error{model.name + ": is not an outline model"};
+  return OutlineModel{model, *arx, *view};
+}
+
+Result<void> check_match(const OutlineModel& model, const Recording& recording) {
+  const auto layout = outline_layout(recording);
+  if (!layout) return layout.error();
+  const std::size_t points = model.whole.outputs.size() / 2;
+  if (layout->points != points) {
+    return Error{recording.source + ": has " + std::to_string(layout->points) + " control points, the model " +
+                 std::to_string(points) + "; capture it with --points " + std::to_string(points)};
+  }
+  if (std::abs(recording.rate_hz - model.whole.rate_hz) > 1e-9 * model.whole.rate_hz) {
+    return Error{recording.source + ": has " + std::to_string(recording.rate_hz) + " samples a second, the model " +
+                 std::to_string(model.whole.rate_hz)};
+  }
+  return {};
+}
+
+Result<std::vector<OutlineInput>> inputs_of(const Model& model, const Recording& recording, bool own_scale) {
+  std::vector<OutlineInput> inputs;
+  for (const Input& input : model.inputs) {
+    if (!find_channel(recording, input.name)) {
+      return Error{recording.source + ": there is no input " + input.name + ", which the model is driven by"};
+    }
+    const auto trained = trained_scale(model, input.name);
+    if (!trained) return trained.error();
+    OutlineInput scaled{input.name, "", *trained, input.lowest, input.highest};
+    if (own_scale) {
+      auto own = scaled_input({&recording, 1}, input.name);
+      if (!own) return own.error();
+      scaled = *std::move(own);
+    }
+    scaled.curve = input.curve;
+    inputs.push_back(std::move(scaled));
+  }
+  return inputs;
+}
+
+std::vector<std::string> input_names(const Model& model) {
+  std::vector<std::string> names;
+  for (const Input& input : model.inputs) names.push_back(input.name);
+  return names;
+}
+
+RegressorShape shape_of(const Model& model) {
+  RegressorShape shape;
+  for (const Input& input : model.inputs) {
+    shape.split_sign |= splits_sign(input.shape);
+    shape.curve |= has_curve(input.shape);
+  }
+  return shape;
+}
+
+// The recording in pixels with its outputs replaced by series in the model's units and knots.
+Recording in_pixels(const PreparedOutlines& prepared, const Recording& original,
+                    const std::vector<std::vector<double>>& series) {
+  Recording units = prepared.recordings.front();
+  for (std::size_t k = 0; k < series.size(); ++k) units.channels[prepared.layout.outputs[k]].samples = series[k];
+  const auto pixels = to_pixels(units);
+  Recording out = original;
+  for (const std::string& name : prepared.channels.outputs) {
+    out.channels[*find_channel(out, name)].samples = pixels->channels[*find_channel(*pixels, name)].samples;
+  }
+  out.attributes = pixels->attributes;
+  return out;
+}
+
+Result<std::vector<PredictedOutlines>> predictions(const OutlineModel& model, const PreparedOutlines& prepared,
+                                                   const Recording& original, const std::vector<int>& steps) {
+  std::vector<PredictedOutlines> out;
+  for (int k : steps) {
+    const auto series = predict(model.arx, prepared.recordings.front(), prepared.channels, {.steps = k});
+    if (!series) return series.error();
+    out.push_back({k, in_pixels(prepared, original, *series)});
+  }
+  return out;
+}
+
+// Where the outline stood while it was out of sight: its last place, so that playing has a place there too.
+void hold_base(Recording& recording) {
+  for (const char* name : {"base.x", "base.y"}) {
+    auto& samples = recording.channels[*find_channel(recording, name)].samples;
+    const auto first = std::find_if(samples.begin(), samples.end(), [](double value) { return !std::isnan(value); });
+    double last = first == samples.end() ? 0 : *first;
+    for (double& value : samples) last = value = std::isnan(value) ? last : value;
+  }
+}
+
+Result<Recording> played_along(const OutlineModel& model, const PreparedOutlines& prepared, const Recording& original,
+                               const Recording& driving, std::uint64_t seed) {
+  const auto play = synthesize(model.whole, {.rows = original.rows(), .seed = seed, .input = &driving});
+  if (!play) return play.error();
+  PreparedOutlines placed = prepared;
+  hold_base(placed.recordings.front());
+  std::vector<std::vector<double>> series;
+  for (const Channel& channel : play->recording.channels) series.push_back(channel.samples);
+  return in_pixels(placed, original, series);
+}
+
+std::vector<double> tips(const Recording& recording, const OutlineLayout& layout) {
+  const OutlineCurve curve(layout.knots);
+  std::vector<double> out;
+  for (std::size_t row = 0; row < recording.rows(); ++row) {
+    std::vector<double> control;
+    for (std::size_t c : layout.outputs) control.push_back(recording.channels[c].samples[row]);
+    const bool missing = std::any_of(control.begin(), control.end(), [](double value) { return std::isnan(value); });
+    out.push_back(missing ? kNothing : tip_of(curve.polyline(control))[0]);
+  }
+  return out;
+}
+
+// Fit of y = gain · u(t − delay) + constant by least squares: of the rows where both are known, the share of the
+// standard deviation that is explained.
+double gain_fit(const std::vector<double>& y, const std::vector<double>& u, std::size_t delay) {
+  double n = 0, sy = 0, su = 0, syy = 0, suu = 0, suy = 0;
+  for (std::size_t t = delay; t < y.size(); ++t) {
+    if (std::isnan(y[t]) || std::isnan(u[t - delay])) continue;
+    n += 1;
+    sy += y[t];
+    su += u[t - delay];
+    syy += y[t] * y[t];
+    suu += u[t - delay] * u[t - delay];
+    suy += u[t - delay] * y[t];
+  }
+  const double spread = syy - sy * sy / n;
+  const double drive = suu - su * su / n;
+  if (!(n > 2 && spread > 0 && drive > 0)) return 0;
+  const double shared = suy - su * sy / n;
+  return 100 * (1 - std::sqrt(std::max(0.0, 1 - shared * shared / (spread * drive))));
+}
+
+StaticGain static_gain(const std::vector<double>& tip, const std::vector<double>& input, double rate_hz) {
+  StaticGain best;
+  const auto longest = static_cast<std::size_t>(kLongestDelay * rate_hz);
+  for (std::size_t delay = 0; delay <= longest; ++delay) {
+    const double fit = gain_fit(tip, input, delay);
+    if (fit > best.fit_percent) best = {static_cast<double>(delay) / rate_hz, fit};
+  }
+  return best;
+}
+
+double crossed_share(const Recording& recording, const OutlineLayout& layout) {
+  const OutlineCurve curve(layout.knots, 100);
+  std::size_t crossed = 0;
+  for (std::size_t row = 0; row < recording.rows(); ++row) {
+    std::vector<double> control;
+    for (const Channel& channel : recording.channels) control.push_back(channel.samples[row]);
+    crossed += crosses_itself(curve.polyline(control)) ? 1 : 0;
+  }
+  return recording.rows() == 0 ? 0 : static_cast<double>(crossed) / static_cast<double>(recording.rows());
+}
+
+// Where the truth of an input is: under its name, or the only input that there is (a sensor's measure has a name of its
+// own).
+std::optional<std::size_t> true_channel(const Recording& truth, const std::string& input) {
+  if (const auto named = find_channel(truth, input)) return named;
+  const auto inputs = channels_with_role(truth, Role::kInput);
+  if (inputs.size() == 1) return inputs.front();
+  return std::nullopt;
+}
+
+// The recording with its inputs as they truly were.
+Result<Recording> with_truth(const OutlineModel& model, const Recording& recording, const Recording& truth) {
+  if (truth.rows() < recording.rows()) {
+    return Error{truth.source + ": has " + std::to_string(truth.rows()) + " rows, the recording " +
+                 std::to_string(recording.rows())};
+  }
+  if (std::abs(truth.rate_hz - recording.rate_hz) > 1e-9 * recording.rate_hz) {
+    return Error{truth.source + ": has " + std::to_string(truth.rate_hz) + " samples a second, the recording " +
+                 std::to_string(recording.rate_hz)};
+  }
+  Recording out = recording;
+  for (const Input& input : model.whole.inputs) {
+    const auto from = true_channel(truth, input.name);
+    if (!from) return Error{truth.source + ": there is no input " + input.name + ", which the model is driven by"};
+    auto& samples = out.channels[*find_channel(out, input.name)].samples;
+    std::copy_n(truth.channels[*from].samples.begin(), samples.size(), samples.begin());
+  }
+  return out;
+}
+
+Result<TrueInputFigures> true_input_figures(const OutlineModel& model, const Recording& recording,
+                                            const OutlineValidationOptions& options) {
+  const auto driven = with_truth(model, recording, *options.truth);
+  if (!driven) return driven.error();
+  auto inputs = inputs_of(model.whole, *driven, true);
+  if (!inputs) return inputs.error();
+  const auto prepared =
+      prepare_outline(*driven, model.view.knots, *inputs, shape_of(model.whole), options.pixels_per_unit);
+  if (!prepared) return prepared.error();
+  const auto figures =
+      outline_figures(model.arx, prepared->recordings, prepared->channels, prepared->layout, {kFreeRun});
+  if (!figures) return figures.error();
+  return TrueInputFigures{figures->tip_fit_percent.front(), figures->overlap.front()};
+}
+
+// A control point that is followed no better than by its mean is worth a word.
+void warn_of_lost_points(OutlineJudgement& out) {
+  const auto& steps = out.figures.steps;
+  const auto at = std::find(steps.begin(), steps.end(), kFreeRun) - steps.begin();
+  if (static_cast<std::size_t>(at) == steps.size()) return;
+  const auto& fits = out.figures.point_fit_percent[at];
+  for (std::size_t p = 0; p < fits.size(); ++p) {
+    if (fits[p] > 0) continue;
+    char text[160];
+    std::snprintf(
+        text, sizeof text,
+        "simulated from its inputs alone, control point %zu is followed no better than by its mean (fit %.1f %%)", p,
+        fits[p]);
+    out.warnings.push_back(text);
+  }
+}
+
+// A driven play goes along the recording again and again: what is not seen there is not judged.
+void hide_unseen(const Recording& recorded, const std::vector<std::string>& outputs, Recording& play) {
+  for (const std::string& name : outputs) {
+    const auto& seen = recorded.channels[*find_channel(recorded, name)].samples;
+    auto& samples = play.channels[*find_channel(play, name)].samples;
+    for (std::size_t row = 0; row < samples.size(); ++row) {
+      if (std::isnan(seen[row % seen.size()])) samples[row] = kNothing;
+    }
+  }
+}
+
+// Plays freely with noise and compares with the recording in the model's units.
+Result<void> add_fidelity(const OutlineModel& model, const PreparedOutlines& prepared, const Recording& driving,
+                          const OutlineValidationOptions& options, OutlineJudgement& out) {
+  const auto rows = static_cast<std::size_t>(std::ceil(options.play_seconds * model.whole.rate_hz));
+  auto play = synthesize(model.whole, {.rows = rows, .seed = options.seed, .input = &driving});
+  if (!play) return play.error();
+  out.held_share = play->held_share;
+  out.crossed_share = crossed_share(play->recording, prepared.layout);
+  if (!model.whole.inputs.empty()) hide_unseen(prepared.recordings.front(), prepared.channels.outputs, play->recording);
+  const FidelityOptions how{.channels = prepared.channels.outputs};
+  auto found = fidelity(prepared.recordings, {&play->recording, 1}, how);
+  if (found) {
+    out.fidelity = *std::move(found);
+  } else {
+    out.warnings.push_back("no fidelity figures: " + found.error().message);
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<OutlineJudgement> judge_outline(const Model& model, const Recording& given,
+                                       const OutlineValidationOptions& options, const Progress& progress) {
+  constexpr const char* kStage = "validating";
+  const auto outline = outline_model(model);
+  if (!outline) return outline.error();
+  if (auto ok = check_match(*outline, given); !ok) return ok.error();
+  auto heard = options.own_input_scale ? Result<Recording>(given) : at_trained_gain(model, given);
+  if (!heard) return heard.error();
+  auto in_step = align_outline(*heard, options.align ? input_names(model) : std::vector<std::string>());
+  if (!in_step) return in_step.error();
+  const Recording& recording = in_step->recording;
+  auto inputs = inputs_of(model, recording, options.own_input_scale);
+  if (!inputs) return inputs.error();
+  const auto prepared =
+      prepare_outline(recording, outline->view.knots, *inputs, shape_of(model), options.pixels_per_unit);
+  if (!prepared) return prepared.error();
+  const Recording driving = with_regressors(recording, *inputs, {});
+  if (!go_on(progress, kStage, 0)) return Error{std::string(kStopped)};
+  OutlineJudgement out;
+  out.alignment = std::move(in_step->inputs);
+  out.pixels_per_unit = prepared->pixels_per_unit.front();
+  out.warnings = prepared->warnings;
+  auto figures =
+      outline_figures(outline->arx, prepared->recordings, prepared->channels, prepared->layout, options.steps);
+  if (!figures) return figures.error();
+  out.figures = *std::move(figures);
+  if (!go_on(progress, kStage, 0.4)) return Error{std::string(kStopped)};
+  auto predicted = predictions(*outline, *prepared, recording, options.steps);
+  if (!predicted) return predicted.error();
+  out.predicted = *std::move(predicted);
+  auto played = played_along(*outline, *prepared, recording, driving, options.seed);
+  if (!played) return played.error();
+  out.played = *std::move(played);
+  if (!inputs->empty()) {
+    const auto& first = driving.channels[*find_channel(driving, inputs->front().name)].samples;
+    out.static_gain = static_gain(tips(prepared->recordings.front(), prepared->layout), first, recording.rate_hz);
+    warn_of_lost_points(out);
+  }
+  if (!inputs->empty() && options.truth != nullptr) {
+    auto found = true_input_figures(*outline, recording, options);
+    if (!found) return found.error();
+    out.true_input = *found;
+  }
+  if (!options.fidelity) return out;
+  if (!go_on(progress, kStage, 0.6)) return Error{std::string(kStopped)};
+  if (auto ok = add_fidelity(*outline, *prepared, driving, options, out); !ok) return ok.error();
+  return out;
+}
+
+}  // namespace wisp

@@ -1,0 +1,107 @@
+#include "learn/outline/outline_report.hpp"
+#include "learn/outline/outline_report_parts.hpp"
+
+namespace wisp {
+namespace {
+
+ReportTable channels_table(const OutlineFigures& figures) {
+  ReportTable table{"channels", "", {{"name", ""}}, {}};
+  add_step_columns("fit_percent", figures.steps, table);
+  table.columns.push_back({"whiteness_p", ""});
+  for (const OutlineChannelFigures& channel : figures.channels) {
+    std::vector<ReportValue> row{channel.name};
+    for (double value : channel.fit_percent) row.push_back(value);
+    row.push_back(channel.whiteness_p);
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+ReportTable points_table(const OutlineFigures& figures) {
+  ReportTable table{"points", "", {}, {}};
+  add_step_columns("fit_percent", figures.steps, table);
+  add_step_columns("J", figures.steps, table);
+  for (std::size_t p = 0; !figures.j.empty() && p < figures.j.front().size(); ++p) {
+    std::vector<ReportValue> row;
+    for (const auto& fits : figures.point_fit_percent) row.push_back(fits[p]);
+    for (const auto& errors : figures.j) row.push_back(errors[p]);
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+ReportSection fit_section(const OutlineJudgement& found) {
+  const OutlineFigures& figures = found.figures;
+  ReportSection section{"Prediction and simulation", {{"rows", figures.rows, "frames judged", ""}}};
+  add_alignment(found.alignment, section);
+  add_by_steps("J", figures.steps, mean_per_step(figures.j), "", "", section);
+  add_by_steps("tip.fit_percent", figures.steps, figures.tip_fit_percent, "tip fit", "%", section);
+  section.entries.push_back({"overlap", at_steps(figures.steps, figures.overlap, kFreeRun), "", ""});
+  add_by_steps("overlap_by_steps", figures.steps, figures.overlap, "outline overlap", "", section);
+  if (found.static_gain) {
+    section.entries.push_back({"static_gain.tip_fit_percent",
+                               found.static_gain->fit_percent,
+                               "tip fit of a static gain",
+                               "%",
+                               {},
+                               "fitted to this very recording: what dynamics have to beat"});
+    section.entries.push_back({"static_gain.delay_seconds", found.static_gain->delay_seconds, "with a delay of", "s"});
+  }
+  if (found.true_input) {
+    section.entries.push_back({"true_input.tip_fit_percent", found.true_input->tip_fit_percent,
+                               "tip fit, simulated from the true input", "%"});
+    section.entries.push_back(
+        {"true_input.overlap", found.true_input->overlap, "outline overlap, simulated from the true input", ""});
+  }
+  section.tables.push_back(channels_table(figures));
+  section.tables.push_back(points_table(figures));
+  return section;
+}
+
+void add_bounded(const std::string& id, const Bounded& measure, const std::string& label, const std::string& unit,
+                 ReportSection& section) {
+  char meaning[128];
+  std::snprintf(meaning, sizeof meaning, "two halves of the recording: %.3g, shuffled frames: %.3g", measure.floor,
+                measure.ceiling);
+  section.entries.push_back({id + ".value", measure.value, label, unit, {}, meaning});
+  section.entries.push_back({id + ".floor", measure.floor, "", ""});
+  section.entries.push_back({id + ".ceiling", measure.ceiling, "", ""});
+}
+
+ReportSection fidelity_section(const OutlineJudgement& found) {
+  ReportSection section{"Fidelity of free play"};
+  if (!found.fidelity) {
+    section.entries.push_back({"fidelity", {}, "", ""});
+  } else {
+    const Fidelity& figures = *found.fidelity;
+    add_bounded("fidelity.log_spectral_distance", figures.log_spectral_distance, "log-spectral distance", "dB",
+                section);
+    add_bounded("fidelity.autocorrelation_distance", figures.autocorrelation_distance, "", "", section);
+    add_bounded("fidelity.wasserstein_value", figures.wasserstein_value, "", "", section);
+    add_bounded("fidelity.wasserstein_speed", figures.wasserstein_speed, "", "", section);
+    add_bounded("fidelity.energy_distance", figures.energy_distance, "normalised energy distance", "", section);
+    section.entries.push_back({"fidelity.energy_p_value", figures.energy_p_value, "", ""});
+    section.entries.push_back({"fidelity.verbatim_seconds", figures.verbatim_seconds, "", ""});
+    const char* bounded = "log_spectral_distance";
+    ReportTable channels{"fidelity.channels", "", {{"name", ""}, {"sd_real", ""}, {"sd_synthesized", ""}}, {}};
+    for (const char* bound : {".value", ".floor", ".ceiling"})
+      channels.columns.push_back({std::string(bounded) + bound, ""});
+    for (const ChannelFidelity& one : figures.channels) {
+      const Bounded& distance = one.log_spectral_distance;
+      channels.rows.push_back(
+          {one.name, one.sd_real, one.sd_synthesized, distance.value, distance.floor, distance.ceiling});
+    }
+    section.tables.push_back(std::move(channels));
+  }
+  section.entries.push_back({"held_share", found.held_share, "share of steps clamped", ""});
+  section.entries.push_back({"crossed_share", found.crossed_share, "self-intersection rate", ""});
+  return section;
+}
+
+}  // namespace
+
+std::vector<ReportSection> report_sections(const OutlineJudgement& found) {
+  return {fit_section(found), fidelity_section(found)};
+}
+
+}  // namespace wisp

@@ -1,0 +1,19 @@
+#pragma once
+// What was found in learning and validating an outline, as reports.
+
+#include <string>
+#include <vector>
+
+#include "learn/outline/outline_fit.hpp"
+#include "learn/outline/outline_judgement.hpp"
+#include "wisp/base/report.hpp"
+
+namespace wisp {
+
+/// The figures of a fit, without its verdict and warnings.
+std::vector<ReportSection> report_sections(const OutlineFit& fit);
+
+/// The figures of a validation, without its warnings and the series of plots.
+std::vector<ReportSection> report_sections(const OutlineJudgement& found);
+
+}  // namespace wisp

@@ -1,0 +1,180 @@
+#include "wisp/learn/validate_outline.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "learn/flame/extinction_report.hpp"
+#include "learn/flame/wind_gain.hpp"
+#include "learn/outline/outline_report.hpp"
+#include "learn/outline/outline_shape.hpp"
+#include "wisp/learn/spectrum.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr double kSameGain = 0.02;  // factors nearer to 1 than this are not worth a word
+
+// A row's control points x0, y0, x1, …; empty where one is missing.
+std::vector<double> control_points(const Recording& recording, const OutlineLayout& layout, std::size_t row) {
+  std::vector<double> control;
+  for (std::size_t channel : layout.outputs) {
+    control.push_back(recording.channels[channel].samples[row]);
+    if (std::isnan(control.back())) return {};
+  }
+  return control;
+}
+
+Result<OutlineRows> rows_of(const Recording& recording) {
+  const auto layout = outline_layout(recording);
+  if (!layout) return layout.error();
+  const OutlineCurve curve(layout->knots);
+  OutlineRows rows;
+  for (std::size_t row = 0; row < recording.rows(); ++row) {
+    const auto control = control_points(recording, *layout, row);
+    rows.push_back(control.empty() ? std::vector<OutlinePoint>() : curve.polyline(control));
+  }
+  return rows;
+}
+
+// What pictures show: free simulation where an input drives it, else the longest prediction up to five frames ahead.
+const PredictedOutlines& shown(const OutlineJudgement& found) {
+  constexpr int kLookAhead = 5;
+  const PredictedOutlines* best = &found.predicted.front();
+  for (const PredictedOutlines& predicted : found.predicted) {
+    if (found.static_gain) {
+      if (predicted.steps == kFreeRun) return predicted;
+    } else if (predicted.steps != kFreeRun && predicted.steps <= kLookAhead) {
+      best = &predicted;
+    }
+  }
+  return *best;
+}
+
+std::string label_of(const PredictedOutlines& predicted) {
+  if (predicted.steps == kFreeRun) return "simulated from the input alone";
+  return "predicted " + std::to_string(predicted.steps) + " frames ahead";
+}
+
+// The tip's place beside (0) or above (1) the base, in the model's units, row by row; NaN where missing.
+std::vector<double> tips(const OutlineRows& rows, double pixels_per_unit, std::size_t coordinate) {
+  std::vector<double> values;
+  const double unit = coordinate == 0 ? pixels_per_unit : -pixels_per_unit;
+  for (const auto& outline : rows) {
+    if (outline.empty()) {
+      values.push_back(std::nan(""));
+    } else {
+      const double base = (outline.front()[coordinate] + outline.back()[coordinate]) / 2;
+      values.push_back((tip_of(outline)[coordinate] - base) / unit);
+    }
+  }
+  return values;
+}
+
+ReportSection tip_series(const ValidatedOutline& out, const std::vector<double>& seconds) {
+  ReportSection section{"Tip, sideways"};
+  const auto add = [&](const char* id, const std::string& label, const OutlineRows& rows) {
+    section.series.push_back({id, label, "seconds", "flame heights", seconds, tips(rows, out.pixels_per_unit, 0)});
+  };
+  add("tip.captured", "captured", out.captured);
+  add("tip.simulated", out.simulated_label, out.simulated);
+  return section;
+}
+
+// A unit of 1 is no unit: what of a sound is made into a wind is given as shares of a strong gust.
+ReportSection input_series(const Channel& input, const std::vector<double>& seconds) {
+  const std::string unit = input.unit == "1" ? "1: a strong gust" : input.unit;
+  return {input.name, {}, {}, {{"input." + input.name, "", "seconds", unit, seconds, input.samples}}};
+}
+
+// Runs of samples between missing ones.
+std::vector<std::vector<double>> whole_stretches(const std::vector<double>& values) {
+  std::vector<std::vector<double>> stretches(1);
+  for (double value : values) {
+    if (!std::isnan(value)) {
+      stretches.back().push_back(value);
+    } else if (!stretches.back().empty()) {
+      stretches.emplace_back();
+    }
+  }
+  return stretches;
+}
+
+ReportSection flicker_series(const ValidatedOutline& out, double rate_hz, std::size_t welch_samples,
+                             std::size_t coordinate) {
+  ReportSection section{coordinate == 0 ? "Flicker of the tip, sideways" : "Flicker of the tip, up and down"};
+  const auto add = [&](const std::string& label, const OutlineRows& rows) {
+    const std::vector<std::vector<double>> stretches = whole_stretches(tips(rows, out.pixels_per_unit, coordinate));
+    const Spectrum spectrum = welch(stretches, rate_hz, welch_samples);
+    section.series.push_back({std::string("flicker.") + (coordinate == 0 ? "x." : "y.") + label, label, "Hz",
+                              "power density", spectrum.frequency_hz, spectrum.power});
+  };
+  add("captured", out.captured);
+  add("synthesized", out.played);
+  return section;
+}
+
+void add_series(const Recording& recording, const OutlineJudgement& found, ValidatedOutline& out) {
+  std::vector<double> seconds(recording.rows());
+  for (std::size_t row = 0; row < seconds.size(); ++row) seconds[row] = static_cast<double>(row) / recording.rate_hz;
+  auto& sections = out.report.sections;
+  sections.push_back(tip_series(out, seconds));
+  for (std::size_t channel : channels_with_role(recording, Role::kInput)) {
+    sections.push_back(input_series(recording.channels[channel], seconds));
+  }
+  const std::size_t welch_samples = found.fidelity ? found.fidelity->welch_samples : 64;
+  for (std::size_t coordinate : {0, 1}) {
+    sections.push_back(flicker_series(out, recording.rate_hz, welch_samples, coordinate));
+  }
+}
+
+// What the same wind is called elsewhere is easily overlooked.
+ReportSection gain_section(double factor) {
+  ReportSection section{"", {{"gain", factor, "", ""}}};
+  if (std::abs(factor - 1) < kSameGain) return section;
+  section.entries[0].label = "wind of this recording, times";
+  section.entries[0].meaning =
+      "as the training's microphone would call it; with per-recording gain (--own-gain) where another one heard it";
+  return section;
+}
+
+Result<void> add_outlines(const Recording& recording, const OutlineJudgement& found, ValidatedOutline& out) {
+  auto captured = rows_of(recording);
+  if (!captured) return captured.error();
+  auto simulated = rows_of(shown(found).recording);
+  if (!simulated) return simulated.error();
+  auto played = rows_of(found.played);
+  if (!played) return played.error();
+  out.captured = *std::move(captured);
+  out.simulated = *std::move(simulated);
+  out.played = *std::move(played);
+  out.simulated_label = label_of(shown(found));
+  out.pixels_per_unit = found.pixels_per_unit;
+  return {};
+}
+
+}  // namespace
+
+Result<ValidatedOutline> validate_outline(const Model& model, const Recording& recording,
+                                          const OutlineValidationOptions& options, const Progress& progress) {
+  if (options.steps.empty()) return Error{"steps: there are none, expected at least one number of steps to judge"};
+  const auto factor = options.own_input_scale ? Result<double>(1.0) : factor_to_trained_gain(model, recording);
+  if (!factor) return factor.error();
+  const auto heard = options.own_input_scale ? Result<Recording>(recording) : at_trained_gain(model, recording);
+  if (!heard) return heard.error();
+  const auto burning = burning_part(model, *heard);
+  if (!burning) return burning.error();
+  const auto found = judge_outline(model, *burning, options, progress);
+  if (!found) return found.error();
+  const auto extinction = judge_extinction(model, *heard, options.own_input_scale);
+  if (!extinction) return extinction.error();
+  ValidatedOutline out;
+  if (auto ok = add_outlines(*heard, *found, out); !ok) return ok.error();
+  out.report.warnings = found->warnings;
+  out.report.sections = report_sections(*found);
+  out.report.sections.push_back(gain_section(*factor));
+  out.report.sections.push_back(extinction_section(*extinction));
+  add_series(*heard, *found, out);
+  return out;
+}
+
+}  // namespace wisp

@@ -1,0 +1,32 @@
+#pragma once
+// From recordings and a recipe to a switched model and its report; and a model on a recording.
+
+#include <span>
+
+#include "wisp/base/progress.hpp"
+#include "wisp/base/result.hpp"
+#include "wisp/learn/arx_recipe.hpp"
+#include "wisp/learn/fit.hpp"
+
+namespace wisp {
+
+/// Errors: no recordings, channels that they have not, settings out of range, too few rows, kStopped.
+Result<Fit> learn_switched(std::span<const Recording> recordings, const SwitchedRecipe& recipe,
+                           const Progress& progress = {});
+
+/// Predictions, free simulation, likelihood, and how often each mode acts.
+/// Errors: the recording has not the model's channels or is too short, steps out of range, kStopped.
+///
+/// Precondition: the model's dynamics are a SwitchedArxModel.
+Result<Report> validate_switched(const Model& model, const Recording& recording, const ArxValidation& options = {},
+                                 const Progress& progress = {});
+
+namespace switched {
+
+/// For programs, their ids after `prefix`: `modes` [{A, B, constant, shock, radius, std_error}], `region_columns` and
+/// `regions`, or `initial` and `transitions`; `lyapunov` (whether there is a common Lyapunov function) and
+/// `bounded_by`, a sentence, also for people.
+void describe(const SwitchedArxModel& model, const std::string& prefix, ReportSection& section);
+
+}  // namespace switched
+}  // namespace wisp

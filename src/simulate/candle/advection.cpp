@@ -1,0 +1,122 @@
+#include "simulate/candle/advection.hpp"
+
+#include <algorithm>
+
+namespace wisp::flow {
+namespace {
+
+// A place between four values: index of the lower left one and the weights of its right and upper neighbours.
+struct Place {
+  int index;
+  float right;
+  float up;
+};
+
+// x and y are held to [lowest, highest]; a NaN becomes the lower limit, so that no index leaves the grid.
+Place place(const FlowGrid& grid, float x, float y, float lowest, float highest_x, float highest_y) {
+  x = x > lowest ? std::min(x, highest_x) : lowest;
+  y = y > lowest ? std::min(y, highest_y) : lowest;
+  // Truncation is rounding down once the border's −1 is lifted above zero.
+  const int i = static_cast<int>(x + 1.0F) - 1;
+  const int j = static_cast<int>(y + 1.0F) - 1;
+  return {grid.at(i, j), x - static_cast<float>(i), y - static_cast<float>(j)};
+}
+
+template <class T>
+T look_up(const T* values, int stride, Place p) {
+  const T* corner = values + p.index;
+  const T lower = corner[0] + p.right * (corner[1] - corner[0]);
+  const T upper = corner[stride] + p.right * (corner[stride + 1] - corner[stride]);
+  return lower + p.up * (upper - lower);
+}
+
+void copy_rim(const FlowGrid& grid, Plane& plane) {
+  for (int j = 0; j < grid.ny; ++j) {
+    plane[grid.at(-1, j)] = plane[grid.at(0, j)];
+    plane[grid.at(grid.nx, j)] = plane[grid.at(grid.nx - 1, j)];
+  }
+  const std::size_t row = grid.stride();
+  std::copy_n(plane.begin() + grid.at(-1, 0), row, plane.begin() + grid.at(-1, -1));
+  std::copy_n(plane.begin() + grid.at(-1, grid.ny - 1), row, plane.begin() + grid.at(-1, grid.ny));
+}
+
+void centre_velocity(const FlowGrid& grid, const Plane& u, const Plane& v, float cells_per_speed, Plane& x, Plane& y) {
+  const int stride = grid.stride();
+  const float half = 0.5F * cells_per_speed;
+  for (int j = 0; j < grid.ny; ++j) {
+    const int row = grid.at(0, j);
+    const float* __restrict left = u.data() + row;
+    const float* __restrict low = v.data() + row;
+    float* __restrict out_x = x.data() + row;
+    float* __restrict out_y = y.data() + row;
+    for (int i = 0; i < grid.nx; ++i) {
+      out_x[i] = half * (left[i] + left[i + 1]);
+      out_y[i] = half * (low[i] + low[i + stride]);
+    }
+  }
+  copy_rim(grid, x);
+  copy_rim(grid, y);
+}
+
+}  // namespace
+
+void trace(const FlowGrid& grid, const Plane& u, const Plane& v, float step, Plane& way_x, Plane& way_y,
+           Plane& scratch_x, Plane& scratch_y) {
+  centre_velocity(grid, u, v, step / grid.h, scratch_x, scratch_y);
+  const auto right = static_cast<float>(grid.nx - 1);
+  const auto top = static_cast<float>(grid.ny - 1);
+  const float longest = 0.25F * static_cast<float>(std::min(grid.nx, grid.ny));
+  for (int j = 0; j < grid.ny; ++j)
+    for (int i = 0; i < grid.nx; ++i) {
+      const int cell = grid.at(i, j);
+      const Place middle = place(grid, static_cast<float>(i) - 0.5F * scratch_x[cell],
+                                 static_cast<float>(j) - 0.5F * scratch_y[cell], 0.0F, right, top);
+      way_x[cell] = std::clamp(look_up(scratch_x.data(), grid.stride(), middle), -longest, longest);
+      way_y[cell] = std::clamp(look_up(scratch_y.data(), grid.stride(), middle), -longest, longest);
+    }
+  copy_rim(grid, way_x);
+  copy_rim(grid, way_y);
+}
+
+void advect(const FlowGrid& grid, const Plane& way_x, const Plane& way_y, const ScalarPlane& from, ScalarPlane& to) {
+  const auto right = static_cast<float>(grid.nx);
+  const auto top = static_cast<float>(grid.ny);
+  // Fuel thins out for ever, down to denormal numbers, which cost a hundred times as much as others. What is far below
+  // anything that matters is rounded to zero.
+  constexpr float kNothing = 1e-12F;
+  for (int j = 0; j < grid.ny; ++j)
+    for (int i = 0; i < grid.nx; ++i) {
+      const int cell = grid.at(i, j);
+      const Float4 moved = look_up(
+          from.data(), grid.stride(),
+          place(grid, static_cast<float>(i) - way_x[cell], static_cast<float>(j) - way_y[cell], -1.0F, right, top));
+      to[cell] = (moved + kNothing) - kNothing;
+    }
+}
+
+void advect_u(const FlowGrid& grid, const Plane& way_x, const Plane& way_y, const Plane& from, Plane& to) {
+  const auto right = static_cast<float>(grid.nx);
+  const auto top = static_cast<float>(grid.ny - 1);
+  for (int j = 0; j < grid.ny; ++j)
+    for (int i = 0; i <= grid.nx; ++i) {
+      const int face = grid.at(i, j);
+      const float x = static_cast<float>(i) - 0.5F * (way_x[face - 1] + way_x[face]);
+      const float y = static_cast<float>(j) - 0.5F * (way_y[face - 1] + way_y[face]);
+      to[face] = look_up(from.data(), grid.stride(), place(grid, x, y, 0.0F, right, top));
+    }
+}
+
+void advect_v(const FlowGrid& grid, const Plane& way_x, const Plane& way_y, const Plane& from, Plane& to) {
+  const int stride = grid.stride();
+  const auto right = static_cast<float>(grid.nx - 1);
+  const auto top = static_cast<float>(grid.ny);
+  for (int j = 0; j <= grid.ny; ++j)
+    for (int i = 0; i < grid.nx; ++i) {
+      const int face = grid.at(i, j);
+      const float x = static_cast<float>(i) - 0.5F * (way_x[face - stride] + way_x[face]);
+      const float y = static_cast<float>(j) - 0.5F * (way_y[face - stride] + way_y[face]);
+      to[face] = look_up(from.data(), grid.stride(), place(grid, x, y, 0.0F, right, top));
+    }
+}
+
+}  // namespace wisp::flow

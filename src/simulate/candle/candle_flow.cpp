@@ -1,0 +1,309 @@
+#include "simulate/candle/candle_flow.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulate/candle/advection.hpp"
+#include "simulate/candle/diffusion.hpp"
+
+namespace wisp::flow {
+namespace {
+
+constexpr float kGravity = 9.81F;
+constexpr float kLighterTemperature = 1500.0F;
+constexpr float kLighterFuel = 0.6F;  // share of the fuel rate that a lighter's heat draws from the wick
+constexpr int kMostIterations = 40;
+constexpr Float4 kDiffuses = {1.0F, 1.0F, 1.0F, 0.0F};  // soot particles are too large to
+
+}  // namespace
+
+CandleFlow::CandleFlow(const CandleRigOptions& options)
+    : options_(options),
+      grid_{options.columns, options.rows, static_cast<float>(options.cell_mm * 1e-3)},
+      step_(static_cast<float>(1 / (options.rate_hz * steps_per_frame(options)))),
+      body_(candle_body(grid_, options)),
+      combustion_(options, step_),
+      pressure_(grid_) {
+  const Plane zero(grid_.size(), 0.0F);
+  u_ = v_ = u_scratch_ = v_scratch_ = way_x_ = way_y_ = zero;
+  conductance_ = corner_ = flux_x_ = flux_y_ = scale_ = fuel_source_ = glow_ = blue_ = zero;
+  temperature_ = moved_temperature_ = Plane(grid_.size(), kAmbientTemperature);
+  cells_ = cells_scratch_ = ScalarPlane(grid_.size(), kAmbient);
+  const auto updraught = static_cast<float>(options.updraught);
+  for (int j = 0; j <= grid_.ny; ++j)
+    for (int i = 0; i < grid_.nx; ++i) v_[grid_.at(i, j)] = updraught * body_.open_y[grid_.at(i, j)];
+  set_drag();
+}
+
+// What is left of a velocity after one step of the wick's drag; nothing on the wax.
+void CandleFlow::set_drag() {
+  keep_u_ = body_.open_x;
+  keep_v_ = body_.open_y;
+  const double damping = options_.wick_damping * static_cast<double>(step_);
+  for (int j = 0; j <= grid_.ny; ++j)
+    for (int i = 0; i <= grid_.nx; ++i) {
+      const int face = grid_.at(i, j);
+      const float wick_x = 0.5F * (body_.drag[face] + body_.drag[face - 1]);
+      const float wick_y = 0.5F * (body_.drag[face] + body_.drag[face - grid_.stride()]);
+      keep_u_[face] *= static_cast<float>(std::exp(-damping * static_cast<double>(wick_x)));
+      keep_v_[face] *= static_cast<float>(std::exp(-damping * static_cast<double>(wick_y)));
+    }
+}
+
+FlowStep CandleFlow::step(float wind, bool exposed) {
+  feed_wick();
+  move();
+  mix();
+  release_fuel();
+  FlowStep result;
+  result.burnt = combustion_.burn(grid_, cells_, exposed ? &blue_ : nullptr) * static_cast<double>(grid_.h) *
+                 static_cast<double>(grid_.h) / static_cast<double>(step_);
+  take_temperature();
+  push(wind);
+  result.pressure = project();
+  if (exposed) {
+    combustion_.add_glow(grid_, cells_, glow_);
+    ++exposed_steps_;
+  }
+  return result;
+}
+
+float CandleFlow::wick_temperature() const {
+  float sum = 0;
+  for (const int cell : body_.near_wick) sum += cells_[cell][kTemperature];
+  return sum / static_cast<float>(body_.near_wick.size());
+}
+
+void CandleFlow::feed_wick() {
+  const float most = static_cast<float>(options_.fuel_rate);
+  const auto cold = static_cast<float>(options_.wick_cold);
+  const auto warm = static_cast<float>(options_.wick_warm);
+  const float wanted = most * std::clamp((wick_temperature() - cold) / (warm - cold), 0.0F, 1.0F);
+  fuel_ += step_ / static_cast<float>(options_.wick_time) * (wanted - fuel_);
+}
+
+void CandleFlow::hold_flame_to_wick() {
+  for (const int cell : body_.near_wick)
+    cells_[cell][kTemperature] = std::max(cells_[cell][kTemperature], kLighterTemperature);
+  fuel_ = std::max(fuel_, kLighterFuel * static_cast<float>(options_.fuel_rate));
+}
+
+void CandleFlow::move() {
+  trace(grid_, u_, v_, step_, way_x_, way_y_, u_scratch_, v_scratch_);
+  advect(grid_, way_x_, way_y_, cells_, cells_scratch_);
+  cells_.swap(cells_scratch_);
+  advect_u(grid_, way_x_, way_y_, u_, u_scratch_);
+  u_.swap(u_scratch_);
+  advect_v(grid_, way_x_, way_y_, v_, v_scratch_);
+  v_.swap(v_scratch_);
+  take_temperature();
+  moved_temperature_ = temperature_;
+}
+
+void CandleFlow::take_temperature() {
+  for (int j = 0; j < grid_.ny; ++j)
+    for (int k = grid_.at(0, j), end = k + grid_.nx; k < end; ++k) temperature_[k] = cells_[k][kTemperature];
+  for (int j = 0; j < grid_.ny; ++j) {
+    temperature_[grid_.at(-1, j)] = temperature_[grid_.at(0, j)];
+    temperature_[grid_.at(grid_.nx, j)] = temperature_[grid_.at(grid_.nx - 1, j)];
+  }
+  std::copy_n(temperature_.begin() + grid_.at(0, grid_.ny - 1), grid_.nx, temperature_.begin() + grid_.at(0, grid_.ny));
+}
+
+// Conductance (T/T0)^0.75 of cells and corners; none outside, so that nothing diffuses through the rim.
+void CandleFlow::set_conductance() {
+  const int stride = grid_.stride();
+  for (int j = 0; j < grid_.ny; ++j) {
+    const float* __restrict t = temperature_.data() + grid_.at(0, j);
+    float* __restrict out = conductance_.data() + grid_.at(0, j);
+    for (int i = 0; i < grid_.nx; ++i) {
+      const float theta = t[i] * (1.0F / kAmbientTemperature);
+      out[i] = std::sqrt(theta * std::sqrt(theta));
+    }
+  }
+  for (int j = 1; j < grid_.ny; ++j) {
+    const float* __restrict g = conductance_.data() + grid_.at(0, j);
+    float* __restrict out = corner_.data() + grid_.at(0, j);
+    for (int i = 1; i < grid_.nx; ++i) out[i] = 0.25F * ((g[i] + g[i - 1]) + (g[i - stride] + g[i - stride - 1]));
+  }
+}
+
+void CandleFlow::set_scalar_fluxes() {
+  const int stride = grid_.stride();
+  for (int j = 0; j <= grid_.ny; ++j) {
+    const int row = grid_.at(0, j);
+    const float* __restrict g = conductance_.data() + row;
+    const float* __restrict open_x = body_.open_x.data() + row;
+    const float* __restrict open_y = body_.open_y.data() + row;
+    float* __restrict x = flux_x_.data() + row;
+    float* __restrict y = flux_y_.data() + row;
+    for (int i = 0; i <= grid_.nx; ++i) {
+      x[i] = 0.5F * open_x[i] * (g[i - 1] + g[i]);
+      y[i] = 0.5F * open_y[i] * (g[i - stride] + g[i]);
+    }
+    x[0] = x[grid_.nx] = 0.0F;
+    if (j == 0 || j == grid_.ny) std::fill_n(y, grid_.nx + 1, 0.0F);
+  }
+}
+
+// scale = strength · T/T0 between the cells `offset` apart, where open.
+void CandleFlow::set_scale(double material, int offset, const Plane* open) {
+  const float strength = static_cast<float>(material) * step_ / (grid_.h * grid_.h) * (0.5F / kAmbientTemperature);
+  for (int j = 0; j <= grid_.ny; ++j) {
+    const int row = grid_.at(0, j);
+    const float* __restrict t = temperature_.data() + row;
+    float* __restrict out = scale_.data() + row;
+    for (int i = 0; i <= grid_.nx; ++i) out[i] = strength * (t[i] + t[i - offset]);
+    if (!open) continue;
+    const float* __restrict mask = open->data() + row;
+    for (int i = 0; i <= grid_.nx; ++i) out[i] *= mask[i];
+  }
+}
+
+void CandleFlow::mix() {
+  set_conductance();
+  set_scalar_fluxes();
+  const float theta = hottest() / kAmbientTemperature;
+  const float spread = theta * std::sqrt(theta * std::sqrt(theta)) * step_ / (grid_.h * grid_.h);
+  const int nx = grid_.nx;
+  const int ny = grid_.ny;
+
+  set_scale(options_.diffusivity, 0, nullptr);
+  diffuse(grid_, {nx, ny, flux_x_.data(), flux_y_.data()}, scale_,
+          rkl1_stages(spread * static_cast<float>(options_.diffusivity)), kDiffuses, cells_, cells_scratch_);
+
+  const int stages = rkl1_stages(spread * static_cast<float>(options_.viscosity));
+  set_scale(options_.viscosity, 1, &body_.open_x);
+  diffuse(grid_, {nx + 1, ny, conductance_.data() - 1, corner_.data()}, scale_, stages, u_, u_scratch_);
+  set_scale(options_.viscosity, grid_.stride(), &body_.open_y);
+  diffuse(grid_, {nx, ny + 1, corner_.data(), conductance_.data() - grid_.stride()}, scale_, stages, v_, v_scratch_);
+}
+
+// Fuel vapour comes in as cold gas that takes the room of hot gas: by volume it is T/T0 times as much. Without that
+// factor a wick that has cooled would give off three times too much.
+void CandleFlow::release_fuel() {
+  const Float4 vapour = {1.0F, 1.0F, static_cast<float>(options_.fuel_temperature), 0.0F};
+  for (const int k : body_.fuel_cells) {
+    const float theta = cells_[k][kTemperature] * (1.0F / kAmbientTemperature);
+    const float source = body_.fuel_share[k] * fuel_ * theta;
+    const float share = source * step_ / (1.0F + source * step_);
+    const float soot = cells_[k][kSoot];
+    cells_[k] += share * (vapour - cells_[k]);
+    cells_[k][kSoot] = soot;
+    fuel_source_[k] = source;
+  }
+}
+
+void CandleFlow::push(float wind) {
+  const int stride = grid_.stride();
+  const float share = 1.0F - 1.0F / (1.0F + static_cast<float>(options_.wind_rate) * step_);
+  const float target = static_cast<float>(options_.wind_share) * wind;
+  const float lift = 0.5F * step_ * kGravity / kAmbientTemperature;
+  for (int j = 0; j <= grid_.ny; ++j) {
+    const int row = grid_.at(0, j);
+    const float* __restrict t = temperature_.data() + row;
+    const float* __restrict keep_u = keep_u_.data() + row;
+    const float* __restrict keep_v = keep_v_.data() + row;
+    float* __restrict u = u_.data() + row;
+    float* __restrict v = v_.data() + row;
+    for (int i = 0; i <= grid_.nx; ++i) {
+      u[i] = keep_u[i] * (u[i] + share * (target - u[i]));
+      v[i] = keep_v[i] * (v[i] + lift * ((t[i] - kAmbientTemperature) + (t[i - stride] - kAmbientTemperature)));
+    }
+  }
+  const auto updraught = static_cast<float>(options_.updraught);
+  for (int k = grid_.at(0, 0), end = k + grid_.nx; k < end; ++k) v_[k] = updraught * body_.open_y[k];
+}
+
+// The right side −h² (∇·u − expansion) and the coefficients T/T0.
+void CandleFlow::set_divergence() {
+  const int stride = grid_.stride();
+  const float h = grid_.h;
+  const float most = static_cast<float>(options_.most_expansion);
+  const float rate = 1.0F / step_;
+  constexpr float kHalf = 0.5F / kAmbientTemperature;
+  for (int j = 0; j <= grid_.ny; ++j) {
+    const int row = grid_.at(0, j);
+    const float* __restrict t = temperature_.data() + row;
+    const float* __restrict moved = moved_temperature_.data() + row;
+    const float* __restrict fuel = fuel_source_.data() + row;
+    const float* __restrict u = u_.data() + row;
+    const float* __restrict v = v_.data() + row;
+    const float* __restrict open_x = body_.open_x.data() + row;
+    const float* __restrict open_y = body_.open_y.data() + row;
+    float* __restrict beta_x = pressure_.beta_x().data() + row;
+    float* __restrict beta_y = pressure_.beta_y().data() + row;
+    float* __restrict right = pressure_.right_side().data() + row;
+    for (int i = 0; i <= grid_.nx; ++i) {
+      beta_x[i] = kHalf * open_x[i] * (t[i] + t[i - 1]);
+      beta_y[i] = kHalf * open_y[i] * (t[i] + t[i - stride]);
+    }
+    if (j == 0) std::fill_n(beta_y, grid_.nx + 1, 0.0F);
+    if (j == grid_.ny) break;
+    for (int i = 0; i < grid_.nx; ++i) {
+      const float ratio = (t[i] - moved[i]) / (t[i] + moved[i]);
+      const float square = ratio * ratio;
+      const float expansion = rate * 2.0F * ratio * (1.0F + square * (1.0F / 3 + square * 0.2F));
+      const float held = std::min(std::max(expansion, -most), most) + fuel[i];
+      right[i] = h * (h * held - ((u[i + 1] - u[i]) + (v[i + stride] - v[i])));
+    }
+  }
+}
+
+void CandleFlow::apply_pressure() {
+  const int stride = grid_.stride();
+  const float per_cell = 1.0F / grid_.h;
+  for (int j = 0; j <= grid_.ny; ++j) {
+    const int row = grid_.at(0, j);
+    const float* __restrict phi = pressure_.phi().data() + row;
+    const float* __restrict beta_x = pressure_.beta_x().data() + row;
+    const float* __restrict beta_y = pressure_.beta_y().data() + row;
+    float* __restrict u = u_.data() + row;
+    float* __restrict v = v_.data() + row;
+    for (int i = 0; i <= grid_.nx; ++i) {
+      u[i] -= per_cell * beta_x[i] * (phi[i] - phi[i - 1]);
+      v[i] -= per_cell * beta_y[i] * (phi[i] - phi[i - stride]);
+    }
+  }
+}
+
+PressureSolve CandleFlow::project() {
+  set_divergence();
+  pressure_.prepare();
+  const float tolerance = static_cast<float>(options_.pressure_tolerance) * grid_.h * grid_.h;
+  const PressureSolve result = pressure_.solve(tolerance, kMostIterations);
+  apply_pressure();
+  return result;
+}
+
+float CandleFlow::hottest() const {
+  float most = kAmbientTemperature;
+  for (int j = 0; j < grid_.ny; ++j)
+    for (int k = grid_.at(0, j), end = k + grid_.nx; k < end; ++k) most = std::max(most, temperature_[k]);
+  return most;
+}
+
+float CandleFlow::fastest() const {
+  float most = 0;
+  for (int j = 0; j < grid_.ny; ++j)
+    for (int k = grid_.at(0, j), end = k + grid_.nx; k < end; ++k) most = std::max(most, u_[k] * u_[k] + v_[k] * v_[k]);
+  return std::sqrt(most);
+}
+
+bool CandleFlow::finite() const {
+  // A sum carries any NaN or infinity along.
+  float sum = 0;
+  for (std::size_t k = 0; k < cells_.size(); ++k) {
+    const Float4 c = cells_[k];
+    sum += (c[kMixture] + c[kFuel]) + (c[kTemperature] + c[kSoot]) + (u_[k] + v_[k]) + pressure_.phi()[k];
+  }
+  return std::isfinite(sum);
+}
+
+void CandleFlow::clear_light() {
+  std::fill(glow_.begin(), glow_.end(), 0.0F);
+  std::fill(blue_.begin(), blue_.end(), 0.0F);
+  exposed_steps_ = 0;
+}
+
+}  // namespace wisp::flow

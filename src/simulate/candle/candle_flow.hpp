@@ -1,0 +1,78 @@
+#pragma once
+// The candle's flow, advanced by one time step: the state of the grid and the order of its parts.
+
+#include "simulate/candle/candle_body.hpp"
+#include "simulate/candle/combustion.hpp"
+#include "simulate/candle/flow_grid.hpp"
+#include "simulate/candle/pressure_solver.hpp"
+#include "wisp/simulate/candle_rig.hpp"
+
+namespace wisp::flow {
+
+/// Figures of one step.
+struct FlowStep {
+  double burnt = 0;  ///< m²/s of cold fuel
+  PressureSolve pressure;
+};
+
+class CandleFlow {
+ public:
+  explicit CandleFlow(const CandleRigOptions& options);
+
+  /// One step under a wind in m/s. While `exposed`, light is added up.
+  FlowStep step(float wind, bool exposed);
+
+  /// Keeps the surroundings of the wick at 1500 K at least, and gives it fuel.
+  void hold_flame_to_wick();
+
+  const FlowGrid& grid() const { return grid_; }
+  const CandleBody& body() const { return body_; }
+  float wick_temperature() const;
+  float fuel() const { return fuel_; }
+  float hottest() const;
+  float fastest() const;
+  bool finite() const;
+
+  /// Light added up since the last call of clear_light(), over `exposed_steps` steps.
+  const Plane& glow() const { return glow_; }
+  const Plane& blue() const { return blue_; }
+  int exposed_steps() const { return exposed_steps_; }
+  void clear_light();
+
+ private:
+  void set_drag();
+  void feed_wick();
+  void move();
+  void take_temperature();
+  void set_conductance();
+  void set_scalar_fluxes();
+  void set_scale(double material, int offset, const Plane* open);
+  void mix();
+  void release_fuel();
+  void push(float wind);
+  PressureSolve project();
+  void set_divergence();
+  void apply_pressure();
+
+  CandleRigOptions options_;
+  FlowGrid grid_;
+  float step_;
+  CandleBody body_;
+  Combustion combustion_;
+  PressureSolver pressure_;
+
+  ScalarPlane cells_, cells_scratch_;
+  Plane u_, v_, u_scratch_, v_scratch_;
+  Plane way_x_, way_y_;
+  Plane temperature_;              // of cells, with copies of the rim around it
+  Plane moved_temperature_;        // after moving, before anything heats it
+  Plane keep_u_, keep_v_;          // what drag leaves of a velocity in a step
+  Plane conductance_, corner_;     // (T/T0)^0.75 in cells, and at their lower left corners
+  Plane flux_x_, flux_y_, scale_;  // of diffusion
+  Plane fuel_source_;              // 1/s
+  Plane glow_, blue_;
+  float fuel_ = 0;  // m²/s
+  int exposed_steps_ = 0;
+};
+
+}  // namespace wisp::flow

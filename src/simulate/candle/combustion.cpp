@@ -1,0 +1,93 @@
+#include "simulate/candle/combustion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wisp::flow {
+namespace {
+
+constexpr float kGlowFrom = 900.0F;  // K: colder soot is black to a camera
+constexpr float kGlowTo = 2500.0F;
+constexpr float kGlowStep = 5.0F;
+constexpr double kGlowActivation = 9000;  // K: second radiation constant over a wavelength of orange-red light, with a
+                                          // soot absorption that falls as 1/wavelength folded in; calibrated
+constexpr double kGlowUnit = 1800;        // K: where soot of unit density glows with 1
+constexpr float kMostSoot = 1.2F;
+
+// 0 below a, 1 above a + width, smooth between.
+float smoothstep(float x, float a, float width) {
+  const float t = std::clamp((x - a) / width, 0.0F, 1.0F);
+  return t * t * (3.0F - 2.0F * t);
+}
+
+// 1 − e^(−x) for x ≥ 0 to 0.2 % at 1 and never above 1: only its first unit of x matters here, and no library's
+// exponential makes its way into the result.
+float share_of_step(float x) {
+  return 1.0F - 1.0F / (1.0F + x * (1.0F + x * (0.5F + x * (1.0F / 6 + x * (1.0F / 24)))));
+}
+
+}  // namespace
+
+Combustion::Combustion(const CandleRigOptions& o, float step)
+    : step_(step),
+      stoichiometric_(static_cast<float>(o.stoichiometric)),
+      heat_(static_cast<float>(o.flame_heating / o.stoichiometric)),
+      rate_(static_cast<float>(o.reaction_rate)),
+      ignition_low_(static_cast<float>(o.ignition_low)),
+      ignition_width_(static_cast<float>(o.ignition_high - o.ignition_low)),
+      soot_rate_(static_cast<float>(o.soot_rate)),
+      soot_burnout_(static_cast<float>(o.soot_burnout)) {
+  for (float t = kGlowFrom; t <= kGlowTo + 2 * kGlowStep; t += kGlowStep)
+    glow_.push_back(static_cast<float>(std::exp(-kGlowActivation * (1.0 / static_cast<double>(t) - 1.0 / kGlowUnit))));
+}
+
+float Combustion::burn_cell(Float4& cell) const {
+  const float oxygen_per_fuel = stoichiometric_ / (1.0F - stoichiometric_);
+  const float oxygen = (1.0F - cell[kMixture]) - (cell[kMixture] - cell[kFuel]) / oxygen_per_fuel;
+  const float burnable = std::min(cell[kFuel], std::max(oxygen, 0.0F) * oxygen_per_fuel);
+  const float hot = smoothstep(cell[kTemperature], ignition_low_, ignition_width_);
+  const float burnt = burnable * share_of_step(rate_ * step_ * hot);
+  cell[kFuel] -= burnt;
+  cell[kTemperature] += heat_ * burnt;
+  soot_cell(cell, oxygen - burnt / oxygen_per_fuel);
+  return burnt;
+}
+
+void Combustion::soot_cell(Float4& cell, float oxygen) const {
+  const float richness = cell[kMixture] / stoichiometric_;
+  const float temperature = cell[kTemperature];
+  const float made = soot_rate_ * smoothstep(richness, 1.05F, 0.75F) * smoothstep(temperature, 1250.0F, 300.0F);
+  const float lost = soot_burnout_ * smoothstep(oxygen, 0.02F, 0.1F) * smoothstep(temperature, 1000.0F, 400.0F);
+  cell[kSoot] = (cell[kSoot] + step_ * made * kMostSoot) / (1.0F + step_ * (made + lost));
+}
+
+double Combustion::burn(const FlowGrid& grid, ScalarPlane& cells, Plane* blue) const {
+  const float coldest = std::min(ignition_low_, 1000.0F);
+  double total = 0;
+  for (int j = 0; j < grid.ny; ++j) {
+    float row_total = 0;
+    for (int k = grid.at(0, j), end = k + grid.nx; k < end; ++k) {
+      if (cells[k][kTemperature] <= coldest) continue;
+      const float burnt = burn_cell(cells[k]);
+      row_total += burnt * kAmbientTemperature / cells[k][kTemperature];
+      if (blue) (*blue)[k] += burnt / step_;
+    }
+    total += static_cast<double>(row_total);
+  }
+  return total;
+}
+
+float Combustion::glow(float temperature) const {
+  const float place = (std::min(temperature, kGlowTo) - kGlowFrom) / kGlowStep;
+  const int index = static_cast<int>(place);
+  return glow_[index] + (place - static_cast<float>(index)) * (glow_[index + 1] - glow_[index]);
+}
+
+void Combustion::add_glow(const FlowGrid& grid, const ScalarPlane& cells, Plane& light) const {
+  for (int j = 0; j < grid.ny; ++j)
+    for (int k = grid.at(0, j), end = k + grid.nx; k < end; ++k)
+      if (cells[k][kTemperature] > kGlowFrom && cells[k][kSoot] > 1e-5F)
+        light[k] += cells[k][kSoot] * glow(cells[k][kTemperature]);
+}
+
+}  // namespace wisp::flow

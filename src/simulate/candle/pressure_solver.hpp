@@ -1,0 +1,61 @@
+#pragma once
+// The pressure equation −∇·(β∇φ) = b by conjugate gradients, preconditioned with one multigrid V-cycle.
+//
+// Source: W. Briggs, V. Henson & S. McCormick, A Multigrid Tutorial (2nd ed.), chapters 4 and 10; O. Tatebe, The
+// multigrid preconditioned conjugate gradient method (1993). Cells are halved while both sides are even, coefficients
+// of coarse faces are means of fine ones, residuals are summed over and corrections copied to the four children (each
+// the other's transpose, as a preconditioner needs), smoothed by Chebyshev-weighted Jacobi sweeps, which use all cells
+// alike and so go wide in the machine.
+
+#include <vector>
+
+#include "simulate/candle/flow_grid.hpp"
+
+namespace wisp::flow {
+
+/// What a solve did.
+struct PressureSolve {
+  int iterations = 0;
+  float residual = 0;  ///< root mean square over cells, in the right side's unit
+};
+
+class PressureSolver {
+ public:
+  explicit PressureSolver(const FlowGrid& grid);
+
+  /// Face coefficients to be set before prepare(): zero where nothing passes. Outside the left, right and upper rim
+  /// φ is 0; a lower rim of zeros is a wall.
+  Plane& beta_x() { return levels_.front().beta_x; }
+  Plane& beta_y() { return levels_.front().beta_y; }
+
+  /// Right side b, one a cell; zero in cells that have no open face.
+  Plane& right_side() { return levels_.front().right_side; }
+
+  /// The answer, and the guess that a solve starts from.
+  const Plane& phi() const { return phi_; }
+
+  /// Takes in new face coefficients.
+  void prepare();
+
+  /// Iterates until the residual's root mean square is at most `tolerance`, at most `most` times.
+  PressureSolve solve(float tolerance, int most);
+
+  /// Forgets the guess.
+  void reset();
+
+ private:
+  struct Level {
+    FlowGrid grid;
+    Plane beta_x, beta_y, diagonal, inverse_diagonal, right_side, x, other;
+  };
+
+  void v_cycle(std::size_t level);
+  void smooth_from_zero(Level& level);
+  void restrict_residual(const Level& fine, Level& coarse);
+  void correct(const Level& coarse, Level& fine);
+
+  std::vector<Level> levels_;
+  Plane phi_, residual_, direction_, product_;
+};
+
+}  // namespace wisp::flow

@@ -1,0 +1,214 @@
+#include "wisp/simulate/virtual_camera.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "simulate/candle/light_sampling.hpp"
+#include "simulate/option_range.hpp"
+#include "simulate/random_numbers.hpp"
+
+namespace wisp {
+namespace {
+
+// Tones are kept in sixteenths of an 8-bit step until noise has been added.
+constexpr int kToneUnit = 16;
+constexpr int kTones = 8192;
+constexpr float kBrightest = 25.0F;  // exposure that the tables end at, where every channel is white
+constexpr int kNoiseValues = 1 << 14;
+
+// How much each channel sees of glowing soot and of the reaction's own light.
+constexpr std::array<float, 3> kSootColour = {1.0F, 0.56F, 0.21F};
+constexpr std::array<float, 3> kBlueColour = {0.15F, 0.36F, 1.0F};
+constexpr float kBlueGain = 0.013F;  // of exposure, per 1/s of fuel burnt
+constexpr float kBlueVeil = 5.0F;    // soot outshines it
+constexpr double kBlueFullMm = 4;    // above the rim; a candle's blue is at its base,
+constexpr double kBlueGoneMm = 16;   // farther up the planar rig would show a rim that a camera does not see
+constexpr double kGlowReachMm = 2.5;
+constexpr float kDark = 2e-4F;  // light that no channel can show
+
+constexpr double kWaxWidthMm = 12;
+constexpr double kWickWidthMm = 0.9;
+constexpr double kWickHeightMm = 6;
+
+Result<void> check(const VirtualCameraOptions& o) {
+  const auto ranges = flow::check_ranges("virtual camera", {
+                                                               {"width", double(o.width), 16, 4096},
+                                                               {"height", double(o.height), 16, 4096},
+                                                               {"pixels_per_mm", o.pixels_per_mm, 0.5, 100},
+                                                               {"wick_x", o.wick_x, 0, 1},
+                                                               {"rim_y", o.rim_y, 0, 1},
+                                                               {"gain", o.gain, 0.01, 100},
+                                                               {"contrast", o.contrast, 0.5, 4},
+                                                               {"glow", o.glow, 0, 1},
+                                                               {"noise", o.noise, 0, 50},
+                                                           });
+  if (!ranges) return ranges.error();
+  if (o.width % 2 != 0 || o.height % 2 != 0)
+    return Error{"virtual camera: a picture of " + std::to_string(o.width) + " × " + std::to_string(o.height) +
+                 " pixels, expected even numbers, as video encoders do"};
+  return {};
+}
+
+// A running mean of 2 reach + 1 values along one axis; outside is dark.
+void box_blur(std::vector<float>& values, int lines, int line_step, int length, int step, int reach) {
+  std::vector<float> line(length);
+  const float share = 1.0F / static_cast<float>(2 * reach + 1);
+  for (int l = 0; l < lines; ++l) {
+    float* first = values.data() + static_cast<std::size_t>(l) * line_step;
+    for (int k = 0; k < length; ++k) line[k] = first[static_cast<std::size_t>(k) * step];
+    float sum = 0;
+    for (int k = 0; k < std::min(reach, length); ++k) sum += line[k];
+    for (int k = 0; k < length; ++k) {
+      if (k + reach < length) sum += line[k + reach];
+      if (k - reach - 1 >= 0) sum -= line[k - reach - 1];
+      first[static_cast<std::size_t>(k) * step] = share * std::max(sum, 0.0F);
+    }
+  }
+}
+
+float smooth_fall(double x, double from, double to) {
+  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+  return static_cast<float>(1 - t * t * (3 - 2 * t));
+}
+
+}  // namespace
+
+double CameraView::pixel_x(double mm) const { return origin_x + mm * pixels_per_mm; }
+double CameraView::pixel_y(double mm) const { return origin_y - mm * pixels_per_mm; }
+
+struct VirtualCamera::Parts {
+  explicit Parts(const VirtualCameraOptions& o);
+
+  void set_places(const FlameLight& light);
+  void scatter(const FlameLight& light);
+  void expose_row(const FlameLight& light, int row);
+  void expose_body(int row, float shine);
+  std::int16_t tone(float exposure) const {
+    return tones[static_cast<int>(std::min(exposure, kBrightest) * ((kTones - 1) / kBrightest))];
+  }
+
+  VirtualCameraOptions options;
+  CameraView view;
+  std::vector<std::int16_t> tones, noise;
+  std::vector<float> steep;  // exposure by soot, raised to the contrast
+  flow::SamplePlaces columns, rows;
+  FlameLight seen;  // the grid that the places are for
+  std::vector<float> soot, scattered, mixed_soot, mixed_blue;
+  std::vector<std::int16_t> line;
+  std::vector<std::uint8_t> picture;
+};
+
+VirtualCamera::Parts::Parts(const VirtualCameraOptions& o)
+    : options(o),
+      line(3 * static_cast<std::size_t>(o.width)),
+      picture(3 * static_cast<std::size_t>(o.width) * o.height) {
+  view = {o.wick_x * o.width - 0.5, (1 - o.rim_y) * o.height - 0.5, o.pixels_per_mm};
+  for (int k = 0; k < kTones; ++k) {
+    const double exposure = static_cast<double>(kBrightest) * k / (kTones - 1);
+    steep.push_back(static_cast<float>(std::pow(exposure, o.contrast)));
+    tones.push_back(static_cast<std::int16_t>(std::lround(255 * kToneUnit * (1 - std::exp(-exposure)))));
+  }
+  flow::RandomNumbers random(o.seed, 0x6e6f697365U);
+  for (int k = 0; k < kNoiseValues; ++k)
+    noise.push_back(static_cast<std::int16_t>(std::lround(o.noise * kToneUnit * random.normal())));
+}
+
+void VirtualCamera::Parts::set_places(const FlameLight& light) {
+  const bool same = seen.columns == light.columns && seen.rows == light.rows && seen.cell_mm == light.cell_mm &&
+                    seen.wick_x_mm == light.wick_x_mm && seen.wick_y_mm == light.wick_y_mm;
+  if (same) return;
+  seen = {light.columns, light.rows, light.cell_mm, light.wick_x_mm, light.wick_y_mm, {}, {}};
+  const double step = 1 / (view.pixels_per_mm * light.cell_mm);
+  columns = flow::sample_places(options.width, light.wick_x_mm / light.cell_mm - 0.5 - view.origin_x * step, step,
+                                light.columns);
+  rows = flow::sample_places(options.height, light.wick_y_mm / light.cell_mm - 0.5 + view.origin_y * step, -step,
+                             light.rows);
+  mixed_soot.resize(light.columns);
+  mixed_blue.resize(light.columns);
+}
+
+// Light scattered in the lens: three running means make a bell.
+void VirtualCamera::Parts::scatter(const FlameLight& light) {
+  soot = light.soot;
+  if (options.glow <= 0) return;
+  scattered = light.soot;
+  const int reach = std::max(1, static_cast<int>(std::lround(kGlowReachMm / light.cell_mm)));
+  for (int pass = 0; pass < 3; ++pass) {
+    box_blur(scattered, light.rows, light.columns, light.columns, 1, reach);
+    box_blur(scattered, light.columns, 1, light.rows, light.columns, reach);
+  }
+  const auto share = static_cast<float>(options.glow);
+  for (std::size_t k = 0; k < soot.size(); ++k) soot[k] += share * scattered[k];
+}
+
+void VirtualCamera::Parts::expose_row(const FlameLight& light, int row) {
+  flow::mix_rows(soot, light.columns, rows, row, mixed_soot);
+  const double height_mm = (view.origin_y - row) / view.pixels_per_mm;
+  const float fade = kBlueGain * smooth_fall(height_mm, kBlueFullMm, kBlueGoneMm);
+  flow::mix_rows(light.blue, light.columns, rows, row, mixed_blue);
+  for (float& value : mixed_blue) value *= fade;
+
+  std::fill(line.begin(), line.end(), std::int16_t{0});
+  const auto gain = static_cast<float>(options.gain);
+  for (int x = 0; x < options.width; ++x) {
+    const float body = flow::sample(mixed_soot, columns, x);
+    const float veiled = flow::sample(mixed_blue, columns, x) / (1.0F + kBlueVeil * body);
+    if (body + veiled < kDark) continue;
+    const float glowing = steep[static_cast<int>(std::min(gain * body, kBrightest) * ((kTones - 1) / kBrightest))];
+    for (int c = 0; c < 3; ++c) line[3 * x + c] = tone(kSootColour[c] * glowing + kBlueColour[c] * gain * veiled);
+  }
+}
+
+// Wax below the rim, lit from above, and the dark line of the wick.
+void VirtualCamera::Parts::expose_body(int row, float shine) {
+  const double height_mm = (view.origin_y - row) / view.pixels_per_mm;
+  for (int x = 0; x < options.width; ++x) {
+    const double side_mm = std::abs((x - view.origin_x) / view.pixels_per_mm);
+    if (height_mm < 0 && side_mm < kWaxWidthMm / 2) {
+      const double round = std::sqrt(1 - std::pow(2 * side_mm / kWaxWidthMm, 2));
+      const auto exposure = static_cast<float>(0.3 * (0.35 + 0.65 * round) * std::exp(height_mm / 6)) * shine;
+      for (int c = 0; c < 3; ++c) line[3 * x + c] = std::max(line[3 * x + c], tone(exposure * kSootColour[c]));
+    } else if (height_mm < kWickHeightMm && side_mm < kWickWidthMm / 2) {
+      for (int c = 0; c < 3; ++c) line[3 * x + c] = static_cast<std::int16_t>(line[3 * x + c] / 6);
+    }
+  }
+}
+
+VirtualCamera::VirtualCamera(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+VirtualCamera::VirtualCamera(VirtualCamera&&) noexcept = default;
+VirtualCamera& VirtualCamera::operator=(VirtualCamera&&) noexcept = default;
+VirtualCamera::~VirtualCamera() = default;
+
+Result<VirtualCamera> VirtualCamera::create(const VirtualCameraOptions& options) {
+  if (auto good = check(options); !good) return good.error();
+  return VirtualCamera(std::make_unique<Parts>(options));
+}
+
+std::span<const std::uint8_t> VirtualCamera::picture(const FlameLight& light, std::uint64_t frame) {
+  Parts& p = *parts_;
+  p.set_places(light);
+  p.scatter(light);
+  double sum = 0;
+  for (const float value : light.soot) sum += static_cast<double>(value);
+  const double area_mm2 = sum * light.cell_mm * light.cell_mm;
+  const auto shine = static_cast<float>(std::min(1.0, area_mm2 / 100));
+  const int values = 3 * p.options.width;
+  for (int row = 0; row < p.options.height; ++row) {
+    p.expose_row(light, row);
+    if (p.options.candle_visible) p.expose_body(row, shine);
+    const std::uint64_t start = flow::random_word(p.options.seed, frame, row) % (kNoiseValues - values);
+    const std::int16_t* noise = p.noise.data() + start;
+    std::uint8_t* out = p.picture.data() + static_cast<std::size_t>(row) * values;
+    for (int k = 0; k < values; ++k)
+      out[k] = static_cast<std::uint8_t>(std::clamp((p.line[k] + noise[k] + kToneUnit / 2) / kToneUnit, 0, 255));
+  }
+  return p.picture;
+}
+
+CameraView VirtualCamera::view() const { return parts_->view; }
+const VirtualCameraOptions& VirtualCamera::options() const { return parts_->options; }
+
+}  // namespace wisp

@@ -1,0 +1,186 @@
+#include "wisp/simulate/wind_signal.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "simulate/candle/low_pass.hpp"
+#include "simulate/option_range.hpp"
+#include "simulate/random_numbers.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kRate = 240;          // samples a second: forty times the noise's band
+constexpr double kLongest = 86400;     // s
+constexpr double kFadeSeconds = 0.12;  // at both ends of a blow
+constexpr double kBlowOutSpeed = 3;    // m/s
+constexpr double kBlowOutSeconds = 0.3;
+constexpr double kBlowOutRamp = 0.03;  // s
+constexpr double kQuietBefore = 0.5;   // s of calm before a blow-out, so that it is the puff that kills
+constexpr double kQuietAfter = 1.0;    // s of calm after lighting, so that the flame lives
+constexpr double kWeakestPuff = 1.2;   // m/s: a candle lives through it
+constexpr double kStrongestPuff = 4;
+constexpr double kShortestPuff = 0.05;  // s
+constexpr double kLongestPuff = 0.6;
+constexpr double kClosestPuffs = 2;  // s
+
+Result<void> check(const WindSignalOptions& o, double seconds) {
+  return flow::check_ranges("wind", {
+                                        {"most", o.most, 0, 10},
+                                        {"noise", o.noise, 0, 10},
+                                        {"bandwidth_hz", o.bandwidth_hz, 0.1, 50},
+                                        {"gust", o.gust, 0, 10},
+                                        {"rest_share", o.rest_share, 0, 0.9},
+                                        {"blow_out_at", o.blow_out_at, -kLongest, kLongest},
+                                        {"puff_every", o.puff_every, 0, kLongest},
+                                        {"relight_after", o.relight_after, -kLongest, kLongest},
+                                        {"seconds", seconds, 0, kLongest},
+                                    });
+}
+
+// 0 at the ends of [0, length], 1 between, with raised-cosine slopes.
+double plateau(double t, double length, double rise, double fall) {
+  if (t <= 0 || t >= length) return 0;
+  const double up = std::min(1.0, t / rise);
+  const double down = std::min(1.0, (length - t) / fall);
+  return 0.25 * (1 - std::cos(kPi * up)) * (1 - std::cos(kPi * down));
+}
+
+// Adds a gust: a quick rise, a slower fall.
+void add_gust(std::vector<double>& wind, flow::RandomNumbers& random, double start, double peak) {
+  const double length = random.uniform(0.15, 1.2);
+  const double rise = length * random.uniform(0.1, 0.4);
+  const auto first = static_cast<std::size_t>(start * kRate);
+  for (std::size_t k = first; k < wind.size() && static_cast<double>(k - first) < length * kRate; ++k)
+    wind[k] += peak * plateau(static_cast<double>(k - first) / kRate, length, rise, length - rise);
+}
+
+// Blows and rests by turns: within a blow there is a steady part, wideband noise and a few gusts.
+std::vector<double> gusts(const WindSignalOptions& o, std::size_t count) {
+  std::vector<double> wind(count, 0.0);
+  flow::LowPass band(o.bandwidth_hz, kRate);
+  flow::RandomNumbers noise(o.seed, 1);
+  flow::RandomNumbers random(o.seed, 2);
+  std::size_t k = 0;
+  while (k < count) {
+    const double length = random.uniform(2, 6);
+    const double rest = length * o.rest_share / (1 - o.rest_share) * random.uniform(0.5, 1.5);
+    const double steady = random.uniform(0.1, 0.5) * o.most;
+    const double strength = o.noise * random.uniform(0.4, 1.4);
+    const double sign = o.both_sides && random.uniform() < 0.5 ? -1 : 1;
+    const std::size_t end = std::min(count, k + static_cast<std::size_t>(length * kRate));
+    std::vector<double> blow(end - k);
+    for (double& value : blow) value = steady + strength * band.next(noise.normal());
+    for (double start = random.uniform(0.1, 1.0); start < length; start += random.uniform(0.4, 2.0))
+      add_gust(blow, random, start, o.gust * random.uniform(0.4, 1.4));
+    for (std::size_t n = 0; n < blow.size(); ++n)
+      wind[k + n] = sign * std::clamp(blow[n], 0.0, o.most) *
+                    plateau(static_cast<double>(n) / kRate, length, kFadeSeconds, kFadeSeconds);
+    k = end + static_cast<std::size_t>(rest * kRate);
+  }
+  return wind;
+}
+
+// A puff with calm around it, until some time after the candle is lit again.
+struct Puff {
+  double at = 0;
+  double speed = kBlowOutSpeed;
+  double seconds = kBlowOutSeconds;
+};
+
+void add_puff(const Puff& puff, double relight_after, std::vector<double>& wind) {
+  const double quiet_until = relight_after < 0 ? 1e9 : relight_after + kQuietAfter;
+  for (std::size_t k = 0; k < wind.size(); ++k) {
+    const double t = static_cast<double>(k) / kRate - puff.at;
+    if (t > -kQuietBefore && t < quiet_until)
+      wind[k] = puff.speed * plateau(t, puff.seconds + 2 * kBlowOutRamp, kBlowOutRamp, kBlowOutRamp);
+  }
+}
+
+std::vector<Puff> puffs(const WindSignalOptions& o, double seconds) {
+  std::vector<Puff> all;
+  if (o.blow_out_at >= 0) all.push_back({o.blow_out_at});
+  if (o.puff_every == 0) return all;
+  flow::RandomNumbers random(o.seed, 3);
+  for (double at = o.puff_every; at < seconds; at += o.puff_every) {
+    const double speed = random.uniform(kWeakestPuff, kStrongestPuff);
+    const double length = kShortestPuff * std::pow(kLongestPuff / kShortestPuff, random.uniform());
+    all.push_back({at, speed, length});
+  }
+  return all;
+}
+
+Result<const Channel*> wind_channel(const Recording& recording, const std::string& name) {
+  const Channel* only = nullptr;
+  int inputs = 0;
+  for (const Channel& channel : recording.channels) {
+    if (!name.empty() && channel.name == name) return &channel;
+    if (channel.role != Role::kInput) continue;
+    only = &channel;
+    ++inputs;
+  }
+  if (!name.empty()) return Error{recording.source + ": there is no channel '" + name + "'; name one that is there"};
+  if (inputs != 1)
+    return Error{recording.source + ": " + std::to_string(inputs) +
+                 " input channels, expected one to take as wind; name the channel"};
+  return only;
+}
+
+// Fills missing samples by straight lines, and at the ends by the nearest sample. Returns whether there was any.
+bool fill_missing(std::vector<double>& samples) {
+  std::size_t last = samples.size();
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    if (std::isnan(samples[k])) continue;
+    for (std::size_t m = last == samples.size() ? 0 : last + 1; m < k; ++m) {
+      const double t = last == samples.size() ? 1.0 : static_cast<double>(m - last) / static_cast<double>(k - last);
+      samples[m] = last == samples.size() ? samples[k] : samples[last] + t * (samples[k] - samples[last]);
+    }
+    last = k;
+  }
+  if (last == samples.size()) return false;
+  std::fill(samples.begin() + static_cast<std::ptrdiff_t>(last) + 1, samples.end(), samples[last]);
+  return true;
+}
+
+}  // namespace
+
+Result<WindSignal> WindSignal::generate(const WindSignalOptions& options, double seconds) {
+  if (auto good = check(options, seconds); !good) return good.error();
+  if (options.puff_every > 0 && options.puff_every < kClosestPuffs)
+    return Error{"wind: puff_every is " + std::to_string(options.puff_every) + ", expected 0, or 2 s and more"};
+  WindSignal signal;
+  signal.rate_hz_ = kRate;
+  const auto count = static_cast<std::size_t>(std::ceil(seconds * kRate)) + 1;
+  signal.samples_ = options.kind == WindKind::kCalm ? std::vector<double>(count, 0.0) : gusts(options, count);
+  for (const Puff& puff : puffs(options, seconds)) {
+    add_puff(puff, options.relight_after, signal.samples_);
+    if (options.relight_after >= 0) signal.relights_.push_back(puff.at + options.relight_after);
+  }
+  std::sort(signal.relights_.begin(), signal.relights_.end());
+  return signal;
+}
+
+Result<WindSignal> WindSignal::from_recording(const Recording& recording, const std::string& channel) {
+  const auto found = wind_channel(recording, channel);
+  if (!found) return found.error();
+  if (!(recording.rate_hz > 0)) return Error{recording.source + ": no rate, expected samples a second above 0"};
+  WindSignal signal;
+  signal.rate_hz_ = recording.rate_hz;
+  signal.samples_ = (*found)->samples;
+  if (!fill_missing(signal.samples_))
+    return Error{recording.source + ": channel '" + (*found)->name + "' has no samples, expected a wind in m/s"};
+  return signal;
+}
+
+double WindSignal::at(double seconds) const {
+  const double place = std::clamp(seconds * rate_hz_, 0.0, static_cast<double>(samples_.size() - 1));
+  const auto k = std::min(static_cast<std::size_t>(place), samples_.size() - 1);
+  const std::size_t next = std::min(k + 1, samples_.size() - 1);
+  return samples_[k] + (place - static_cast<double>(k)) * (samples_[next] - samples_[k]);
+}
+
+double WindSignal::seconds() const { return static_cast<double>(samples_.size() - 1) / rate_hz_; }
+
+}  // namespace wisp

@@ -1,0 +1,132 @@
+#include "wisp/simulate/leaf.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "simulate/leaf/leaf_constants.hpp"
+#include "simulate/leaf/leaf_equations.hpp"
+#include "simulate/option_range.hpp"
+
+namespace wisp {
+namespace {
+
+using std::numbers::pi;
+
+// Lamb's integrals of an ellipsoid whose thickness goes to 0, over that thickness, along the long and the short axis.
+// With λ = b² tan²θ they become integrals of smooth functions over a quarter of their period, where sums over even
+// steps converge faster than any power of the step.
+struct LambIntegrals {
+  double long_axis = 0;
+  double short_axis = 0;
+};
+
+LambIntegrals lamb_integrals(double a, double b) {
+  constexpr int kSteps = 1024;
+  LambIntegrals sum;
+  for (int k = 0; k < kSteps; ++k) {
+    const double angle = (k + 0.5) / kSteps * pi / 2;
+    const double cos2 = std::cos(angle) * std::cos(angle);
+    const double across = std::sqrt(a * a * cos2 + b * b * (1 - cos2));
+    sum.long_axis += cos2 / (across * across * across);
+    sum.short_axis += cos2 / across;
+  }
+  const double step = pi / 2 / kSteps;
+  return {2 * a * b * step * sum.long_axis, 2 * a / b * step * sum.short_axis};
+}
+
+}  // namespace
+
+LeafAir leaf_air_joint() { return {}; }
+
+LeafAir leaf_air_vertical() {
+  return {.rotational_lift = 0.57,
+          .translational_lift = 1.87,
+          .drag_broadside = 2.84,
+          .drag_edgewise = 0.18,
+          .damping_by_speed = 0.36,
+          .damping_by_spin = 4.5};
+}
+
+Result<void> check(const Leaf& leaf) {
+  return flow::check_ranges("leaf", {
+                                        {"length in metres", leaf.length, 0.001, 1},
+                                        {"width in metres", leaf.width, 0.001, leaf.length},
+                                        {"areal density in kg/m²", leaf.areal_density, 0.001, 10},
+                                        {"air density in kg/m³", leaf.air_density, 0.01, 100},
+                                        {"gravity in m/s²", leaf.gravity, 0, 100},
+                                        {"rotational lift", leaf.air.rotational_lift, 0, 10},
+                                        {"translational lift", leaf.air.translational_lift, 0, 10},
+                                        {"drag broadside", leaf.air.drag_broadside, 0, 20},
+                                        {"drag edgewise", leaf.air.drag_edgewise, 0, leaf.air.drag_broadside},
+                                        {"damping by speed", leaf.air.damping_by_speed, 0, 20},
+                                        {"damping by spin", leaf.air.damping_by_spin, 0, 100},
+                                        {"spin drag", leaf.air.spin_drag, 0, 20},
+                                    });
+}
+
+LeafInertia leaf_inertia(const Leaf& leaf) {
+  const double a = leaf.length / 2, b = leaf.width / 2;
+  LeafInertia inertia;
+  inertia.mass = leaf.areal_density * pi * a * b;
+  const double quarter = inertia.mass / 4;
+  inertia.moment = {quarter * b * b, quarter * a * a, quarter * (a * a + b * b)};
+  // A plate without thickness carries air only broadside, and stirs it only about the axes in its plane.
+  const LambIntegrals lamb = lamb_integrals(a, b);
+  const double air = 8 * pi / 3 * leaf.air_density * a * b;
+  inertia.added_mass = {0, 0, air / (lamb.long_axis + lamb.short_axis)};
+  inertia.added_moment = {air * b * b / 5 / (lamb.long_axis + 2 * lamb.short_axis),
+                          air * a * a / 5 / (lamb.short_axis + 2 * lamb.long_axis), 0};
+  return inertia;
+}
+
+leaf::Constants<double> leaf::constants_of(const Leaf& leaf) {
+  const double a = leaf.length / 2, b = leaf.width / 2;
+  const double area = pi * a * b, density = leaf.air_density;
+  const LeafAir& air = leaf.air;
+  const LeafInertia inertia = leaf_inertia(leaf);
+  leaf::Constants<double> c;
+  c.carried = vec_of(inertia.added_mass);
+  c.mass = inertia.mass;
+  const Vec<double> mass = Vec<double>{c.mass, c.mass, c.mass} + c.carried;
+  c.inverse_mass = {1 / mass.x, 1 / mass.y, 1 / mass.z};
+  c.moment = vec_of(inertia.moment) + vec_of(inertia.added_moment);
+  c.inverse_moment = {1 / c.moment.x, 1 / c.moment.y, 1 / c.moment.z};
+  c.weight = c.mass * leaf.gravity;
+  c.lift = density * area * air.translational_lift;
+  c.drag = density * area * air.drag_edgewise / 2;
+  c.drag_normal = density * area * (air.drag_broadside - air.drag_edgewise) / 2;
+  c.swirl_x = density * air.rotational_lift * 8 / 3 * a * b * b;
+  c.swirl_y = density * air.rotational_lift * 8 / 3 * a * a * b;
+  c.damping_spin = {density * air.damping_by_spin * 4 / 15 * a * b * b * b * b,
+                    density * air.damping_by_spin * 4 / 15 * b * a * a * a * a,
+                    density * air.spin_drag * area * a * a * a * a};
+  const double in_stream = density * air.damping_by_speed * area;
+  c.damping_speed = {in_stream * b * b * b, in_stream * a * a * a, density * air.spin_drag * area * a * a * a};
+  return c;
+}
+
+LeafRate leaf_rate(const Leaf& leaf, const LeafState& state, const WindSample& wind) {
+  return leaf::plain(leaf::rate_of(leaf::constants_of(leaf), leaf::state_of(state), leaf::air_of(wind)));
+}
+
+double leaf_energy(const Leaf& leaf, const LeafState& state) {
+  const LeafInertia inertia = leaf_inertia(leaf);
+  double energy = inertia.mass * leaf.gravity * state.position[2];
+  for (std::size_t k = 0; k < 3; ++k) {
+    energy += (inertia.mass + inertia.added_mass[k]) * state.velocity[k] * state.velocity[k] / 2;
+    energy += (inertia.moment[k] + inertia.added_moment[k]) * state.spin[k] * state.spin[k] / 2;
+  }
+  return energy;
+}
+
+std::array<double, 3> leaf_world_velocity(const LeafState& state) {
+  return leaf::array_of(leaf::rotation_of(leaf::quaternion_of(state.attitude))(leaf::vec_of(state.velocity)));
+}
+
+std::array<double, 3> leaf_normal(const LeafState& state) {
+  return leaf::array_of(leaf::rotation_of(leaf::quaternion_of(state.attitude))(leaf::Vec<double>{0, 0, 1}));
+}
+
+double leaf_forward_speed(const LeafState& state) { return state.velocity[1]; }
+
+}  // namespace wisp

@@ -1,0 +1,142 @@
+#include "wisp/simulate/leaf_flight.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "simulate/leaf/leaf_constants.hpp"
+#include "simulate/leaf/leaf_stepper.hpp"
+#include "simulate/leaf/leaf_stiff.hpp"
+#include "simulate/option_range.hpp"
+
+namespace wisp {
+namespace {
+
+bool finite(const LeafState& s) {
+  double sum = 0;
+  for (const double value : s.attitude) sum += value;
+  for (const auto* part : {&s.position, &s.velocity, &s.spin})
+    for (const double value : *part) sum += value;
+  return std::isfinite(sum);
+}
+
+// Beyond what a step may change; falls in calm stay below half of it.
+constexpr double kSpeedMargin = 2;   // m/s
+constexpr double kSpinMargin = 100;  // rad/s
+constexpr int kMaxHalvings = 12;     // of a step
+
+double length_of(const leaf::Vec<double>& v) { return std::sqrt(leaf::dot(v, v)); }
+
+double squared_length(const std::array<double, 4>& q) { return q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]; }
+
+}  // namespace
+
+struct LeafFlight::Course {
+  leaf::Constants<double> constants;
+  const LeafWind* wind = nullptr;
+  LeafStepping stepping;
+  leaf::State<double> inside;
+  LeafState state;
+  double seconds = 0;
+  std::vector<double> stalls;
+  std::int64_t evaluations = 0;
+  std::optional<leaf::StiffIntegrator> stiff;
+
+  leaf::State<double> rate(const leaf::State<double>& s, double at) {
+    ++evaluations;
+    if (wind->calm()) return leaf::rate_of(constants, s, {});
+    const leaf::Vec<double> moving = leaf::rotation_of(s.attitude)(s.velocity);
+    const WindSample sample = wind->at(leaf::array_of(s.position), leaf::array_of(moving), at);
+    return leaf::rate_of(constants, s, leaf::air_of(sample));
+  }
+
+  leaf::State<double> stepped(double h) {
+    const auto slope = [this, h](const leaf::State<double>& s, double share) { return rate(s, seconds + share * h); };
+    switch (stepping.method) {
+      case LeafMethod::kMidpoint:
+        return leaf::midpoint_step(inside, h, slope);
+      case LeafMethod::kRalston:
+        return leaf::ralston_step(inside, h, slope);
+      default:
+        return leaf::classical_step(inside, h, slope);
+    }
+  }
+
+  // Whether a step went where no leaf goes: drag decays at a rate that grows with the speed of the air, and a step that
+  // is too long for it overshoots.
+  bool overshot(const leaf::State<double>& to) const {
+    if (wind->calm()) return false;
+    const leaf::Vec<double> moving = leaf::rotation_of(inside.attitude)(inside.velocity);
+    const WindSample sample = wind->at(leaf::array_of(inside.position), leaf::array_of(moving), seconds);
+    const double speed = length_of(inside.velocity) + length_of(leaf::vec_of(sample.velocity));
+    return !(length_of(to.velocity) <= 2 * speed + kSpeedMargin) ||
+           !(length_of(to.spin) <= 2 * length_of(inside.spin) + kSpinMargin);
+  }
+
+  void step(double h, int halvings = kMaxHalvings) {
+    const leaf::State<double> next = stepped(h);
+    if (halvings > 0 && overshot(next)) {
+      step(h / 2, halvings - 1);
+      step(h / 2, halvings - 1);
+      return;
+    }
+    const double before = inside.velocity.y, after = next.velocity.y;
+    inside = next;
+    if (before * after < 0) stalls.push_back(seconds + h * before / (before - after));
+    seconds += h;
+  }
+
+  Result<void> advance(double by) {
+    if (stiff) {
+      auto moved = stiff->advance_to(seconds + by, stalls);
+      if (!moved) return moved.error();
+      inside = *moved;
+      seconds += by;
+      evaluations = stiff->evaluations();
+    } else {
+      // A hair's breadth of rounding is no reason for one step more.
+      const double steps = std::max(1.0, std::ceil(by / stepping.longest_step - 1e-9));
+      for (int k = 0; k < static_cast<int>(steps); ++k) step(by / steps);
+    }
+    state = leaf::plain(inside);
+    if (!finite(state)) return Error{"leaf: the fall is no longer finite after " + std::to_string(seconds) + " s"};
+    return {};
+  }
+};
+
+LeafFlight::LeafFlight(std::unique_ptr<Course> course) : course_(std::move(course)) {}
+LeafFlight::LeafFlight(LeafFlight&&) noexcept = default;
+LeafFlight& LeafFlight::operator=(LeafFlight&&) noexcept = default;
+LeafFlight::~LeafFlight() = default;
+
+Result<LeafFlight> LeafFlight::begin(const Leaf& leaf, const LeafWind& wind, const LeafState& state,
+                                     const LeafStepping& stepping, double seconds) {
+  if (auto good = check(leaf); !good) return good.error();
+  auto in_range = flow::check_ranges("leaf stepping", {{"longest_step", stepping.longest_step, 1e-6, 0.05},
+                                                       {"tolerance", stepping.tolerance, 1e-12, 1e-3}});
+  if (!in_range) return in_range.error();
+  if (!finite(state) || !(squared_length(state.attitude) > 0))
+    return Error{"leaf: the state to begin with is not finite or its attitude has no length"};
+  auto course = std::make_unique<Course>();
+  course->constants = leaf::constants_of(leaf);
+  course->wind = &wind;
+  course->stepping = stepping;
+  course->seconds = seconds;
+  course->state = state;
+  course->state.attitude = leaf::normalised(state.attitude);
+  course->inside = leaf::state_of(course->state);
+  if (stepping.method == LeafMethod::kStiff) {
+    auto stiff = leaf::StiffIntegrator::begin(course->constants, wind, course->inside, seconds, stepping.tolerance);
+    if (!stiff) return stiff.error();
+    course->stiff.emplace(std::move(*stiff));
+  }
+  return LeafFlight(std::move(course));
+}
+
+Result<void> LeafFlight::advance(double seconds) { return course_->advance(seconds); }
+const LeafState& LeafFlight::state() const { return course_->state; }
+double LeafFlight::seconds() const { return course_->seconds; }
+const std::vector<double>& LeafFlight::stalls() const { return course_->stalls; }
+std::int64_t LeafFlight::evaluations() const { return course_->evaluations; }
+
+}  // namespace wisp

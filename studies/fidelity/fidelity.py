@@ -1,0 +1,117 @@
+"""How like recorded flames are synthesized ones? One table for every wind.
+
+usage: fidelity.py FOLDER [--splits 20] [--few 4] [--surely NAME]… [--at-most ACCURACY]
+
+FOLDER/WIND/figures.csv and windows.csv are what wisp_verify_flame or wisp_verify_baselines left there. A line of figures:
+name, energy distance, log-spectral distance, speeds, fit of the tip, operations, bytes. A line of windows: side, clip,
+block, features of half a second; the sides are `recorded`; `again`, other takes in the same wind, where only chance
+differs; and one for everything that plays.
+
+What is added here is whether a classifier can tell a side from the recorded one: gradient-boosted trees, five folds over
+whole blocks (windows that overlap are alike for that reason alone), repeated over some splits: FEW, and SPLITS for the
+floor and whatever is named with --surely. 0.5 is indistinguishable; recorded against `again` is the floor,
+recorded against the same windows with their frames in random order the ceiling. With --at-most the exit status is 1 where what is named with --surely is told apart more surely than that.
+"""
+
+import argparse
+import csv
+import pathlib
+import sys
+
+import numpy as np
+
+import told_apart
+from told_apart import accuracies, thinned
+
+CHANNELS = 16
+SETTINGS = {"max_iter": 60, "max_bins": 63}
+
+
+def read(path):
+    """Side, clip, block and features of every window."""
+    sides, clips, blocks, features = [], [], [], []
+    with open(path) as lines:
+        for side, clip, block, *values in csv.reader(lines):
+            sides.append(side)
+            clips.append(int(clip))
+            blocks.append(int(block))
+            features.append(np.array(values, dtype=np.float32))
+    return np.array(sides), np.array(clips), np.array(blocks), np.array(features)
+
+
+def shuffled(x, random):
+    """Windows with their frames in random order, and the differences that those frames then have."""
+    frames = x.shape[1] // (2 * CHANNELS)
+    out = np.empty_like(x)
+    for row, window in enumerate(x):
+        values = window.reshape(2, frames, CHANNELS)[0][random.permutation(frames)]
+        steps = np.diff(values, axis=0, prepend=values[:1])
+        out[row] = np.stack([values, steps]).reshape(-1)
+    return out
+
+
+class Windows:
+    """The windows of one wind."""
+
+    def __init__(self, path):
+        self.sides, clips, blocks, self.features = read(path)
+        # A recorded block and that of the same time on another side have the same wind: they stay on one side of a fold.
+        self.groups = clips * 100000 + blocks
+        self.real = thinned(self.sides == "recorded")
+
+    def told(self, side, splits):
+        made = thinned(self.sides == side)
+        both = np.concatenate([self.real, made])
+        return accuracies(self.features[both], self.sides[both] == "recorded", self.groups[both], splits, **SETTINGS)
+
+    def told_shuffled(self, splits):
+        x = self.features[self.real]
+        both = np.concatenate([x, shuffled(x, np.random.default_rng(1))])
+        labels = np.repeat([True, False], len(x))
+        return accuracies(both, labels, np.tile(self.groups[self.real], 2), splits, **SETTINGS)
+
+
+def print_table(folder, arguments):
+    """Prints a wind's table. Returns the largest accuracy among what must be sure."""
+    largest = 0.0
+    windows = Windows(folder / "windows.csv")
+    print(f"\n{folder.name} ({len(windows.real)} recorded windows)\n\n"
+          "| what plays | energy distance | log-spectral, dB | speeds, sd | told apart | tip's fit, % | operations | bytes |"
+          "\n| --- | --- | --- | --- | --- | --- | --- | --- |")
+    with open(folder / "figures.csv") as lines:
+        for name, *figures in csv.reader(lines):
+            sure = name in ("floor", *arguments.surely)
+            splits = arguments.splits if sure else arguments.few
+            if name == "ceiling":
+                found = windows.told_shuffled(arguments.few)
+            else:
+                found = windows.told("again" if name == "floor" else name, splits)
+            if name in arguments.surely:
+                largest = max(largest, found.mean())
+            figures.insert(3, f"{found.mean():.3f} ± {found.std():.3f}")
+            print(f"| {name} | " + " | ".join(figures) + " |", flush=True)
+    return largest
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--splits", type=int, default=20)
+    parser.add_argument("--few", type=int, default=4)
+    parser.add_argument("--surely", action="append", default=[])
+    parser.add_argument("--at-most", type=float, default=1.0)
+    arguments = parser.parse_args()
+    print(f"== Told apart by {told_apart.TREES}: balanced accuracy, {told_apart.FOLDS} folds over blocks; "
+          f"{arguments.splits} splits for the floor and what must be sure, {arguments.few} for the rest")
+    folders = sorted(path.parent for path in arguments.folder.glob("*/figures.csv"))
+    if not folders:
+        sys.exit(f"{arguments.folder} has no WIND/figures.csv; wisp_verify_flame or wisp_verify_baselines makes them")
+    largest = max(print_table(folder, arguments) for folder in folders)
+    if arguments.surely and largest == 0:
+        sys.exit(f"nothing is called {' or '.join(arguments.surely)}")
+    if largest > arguments.at_most:
+        sys.exit(f"told apart at {largest:.3f}, expected at most {arguments.at_most}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,211 @@
+#include "learn/arx/learn_arx.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "learn/arx/made_system.hpp"
+
+namespace wisp {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+// The recipe that describes made_system().
+ArxRecipe recipe_of_made() {
+  const ArxOrders orders = made_system().orders;
+  return {.name = "made",
+          .inputs = {"u1", "u2"},
+          .outputs = {"y1", "y2"},
+          .na = orders.na,
+          .nb = orders.nb,
+          .nk = orders.nk};
+}
+
+Fit learned(const Recording& recording, const ArxRecipe& recipe) {
+  auto fit = learn_arx({&recording, 1}, recipe);
+  EXPECT_TRUE(fit) << fit.error().message;
+  return std::move(*fit);
+}
+
+double number_of(const Report& report, const std::string& id) {
+  const ReportEntry* entry = report.find(id);
+  EXPECT_NE(entry, nullptr) << id;
+  return entry ? std::get<double>(entry->value) : 0;
+}
+
+const ReportSeries* series_of(const Report& report, const std::string& id) {
+  for (const ReportSection& section : report.sections) {
+    for (const ReportSeries& series : section.series) {
+      if (series.id == id) return &series;
+    }
+  }
+  return nullptr;
+}
+
+TEST(LearnArx, TheModelIsThatOfTheFitWithItsChannelsAndAnAccount) {
+  const Recording recording = record_system(made_system(), 2000, 1);
+  const Fit fit = learned(recording, recipe_of_made());
+  const auto alone = fit_arx({&recording, 1}, {{"u1", "u2"}, {"y1", "y2"}}, {.orders = made_system().orders});
+  ASSERT_TRUE(alone);
+  EXPECT_EQ(std::get<ArxModel>(fit.model.dynamics).theta, alone->model.theta);
+  EXPECT_EQ(fit.model.name, "made");
+  EXPECT_EQ(fit.model.rate_hz, 10);
+  EXPECT_EQ(fit.model.outputs[1].name, "y2");
+  EXPECT_EQ(fit.model.inputs[0].highest,
+            *std::max_element(recording.channels[0].samples.begin(), recording.channels[0].samples.end()));
+  EXPECT_THAT(fit.model.training.sources, ElementsAre("made"));
+  EXPECT_THAT(fit.model.training.recipe,
+              ElementsAre(Note{"na", "2,1;0,3"}, Note{"nb", "2,1;0,2"}, Note{"nk", "1,3;0,0"}, Note{"coupling", "full"},
+                          Note{"offset", "mean"}, Note{"input-curve", "0"}));
+  EXPECT_TRUE(fit.model.training.usable.verdict);
+  EXPECT_EQ(number_of(fit.report, "fpe"), alone->summary.fpe);
+  EXPECT_GT(std::get<double>(std::get<ReportList>(fit.report.find("whiteness_p")->value)[0]), 0.001);
+}
+
+TEST(LearnArx, PeopleSeeCoefficientsWithStandardErrorsFirst) {
+  const Fit fit = learned(record_system(made_system(), 2000, 1), recipe_of_made());
+  const ReportSection& first = fit.report.sections.front();
+  EXPECT_THAT(first.title, HasSubstr("Coefficients of y1"));
+  ASSERT_EQ(first.entries.size(), 6u);
+  EXPECT_EQ(first.entries[0].label, "A  y1(t-1)");
+  EXPECT_EQ(first.entries[5].label, "B  u2(t-3)");
+  EXPECT_NEAR(std::get<double>(first.entries[0].value), -1.4, 0.02);
+  EXPECT_THAT(first.entries[0].meaning, HasSubstr("± 0.00"));
+}
+
+TEST(LearnArx, OpenDelaysAreFoundAndNoted) {
+  ArxRecipe recipe = recipe_of_made();
+  recipe.outputs = {"y1"};
+  recipe.inputs = {"u1"};
+  recipe.na = recipe.nb = 2;
+  recipe.nk = std::nullopt;
+  const Fit fit = learned(record_system(made_system(), 2000, 1), recipe);
+  EXPECT_EQ(std::get<ArxModel>(fit.model.dynamics).orders.nk(0, 0), 1);
+  EXPECT_THAT(fit.model.training.recipe, testing::Contains(Note{"nk", "1"}));
+}
+
+TEST(LearnArx, ASearchTakesTheBestOrdersAndListsAllCandidates) {
+  ArxRecipe recipe = recipe_of_made();
+  recipe.outputs = {"y2"};
+  recipe.inputs = {"u2"};
+  recipe.search = ArxSearch{.na = {1, 5}, .nb = {1, 3}, .nk = {0, 1}, .by = OrderCriterion::kBic};
+  const Fit fit = learned(record_system(made_system(), 4000, 1), recipe);
+  const ArxOrders& orders = std::get<ArxModel>(fit.model.dynamics).orders;
+  EXPECT_EQ(orders.na(0, 0), 3);
+  EXPECT_EQ(orders.nb(0, 0), 2);
+  EXPECT_EQ(orders.nk(0, 0), 0);
+  std::size_t candidates = 0;
+  for (const ReportSection& section : fit.report.sections) {
+    for (const ReportTable& table : section.tables) {
+      if (table.id == "candidates") candidates = table.rows.size();
+    }
+  }
+  EXPECT_EQ(candidates, 30u);
+}
+
+TEST(LearnArx, AnUnstableModelThatIsKeptIsReturnedAndItsVerdictSaysThatItCannotBePlayed) {
+  Recording recording{.source = "growing", .rate_hz = 1, .channels = {{"y", "", Role::kOutput, {1}}}};
+  std::mt19937_64 generator(2);
+  std::normal_distribution<double> normal;
+  for (int t = 1; t < 200; ++t) {
+    recording.channels[0].samples.push_back(1.02 * recording.channels[0].samples.back() + 0.01 * normal(generator));
+  }
+  ArxRecipe recipe{.outputs = {"y"}, .na = 1, .nb = 0, .offset = ArxOffset::kNone, .keep_unstable = true};
+  const Fit kept = learned(recording, recipe);
+  EXPECT_GT(number_of(kept.report, "stable.radius"), 1);
+  ASSERT_TRUE(kept.report.verdict);
+  EXPECT_FALSE(kept.report.verdict->usable);
+  EXPECT_THAT(kept.report.verdict->reason, HasSubstr("unstable"));
+  recipe.keep_unstable = false;
+  EXPECT_LT(number_of(learned(recording, recipe).report, "stable.radius"), 1);
+}
+
+TEST(LearnArx, ResponsesAreSeriesWithBandsAroundThem) {
+  ArxRecipe recipe = recipe_of_made();
+  recipe.responses = true;
+  const Fit fit = learned(record_system(made_system(), 2000, 1), recipe);
+  for (const char* id : {"step.0.1", "amplitude.1.0", "phase.1.1"}) {
+    const ReportSeries* value = series_of(fit.report, id);
+    const ReportSeries* low = series_of(fit.report, std::string(id) + ".low");
+    const ReportSeries* high = series_of(fit.report, std::string(id) + ".high");
+    ASSERT_TRUE(value && low && high) << id;
+    ASSERT_EQ(value->x.size(), value->y.size());
+    for (std::size_t k = 0; k < value->y.size(); ++k) {
+      EXPECT_LE(low->y[k], value->y[k]) << id;
+      EXPECT_GE(high->y[k], value->y[k]) << id;
+    }
+  }
+  EXPECT_EQ(series_of(fit.report, "poles")->x.size(), 5u);  // degrees 2 and 3
+  EXPECT_NE(fit.report.find("responses.step[1][0].sd"), nullptr);
+}
+
+TEST(LearnArx, SettingsOutOfRangeAreNamed) {
+  const Recording recording = record_system(made_system(), 200, 1);
+  const auto complaint = [&](ArxRecipe recipe) {
+    const auto fit = learn_arx({&recording, 1}, recipe);
+    return fit ? std::string("none") : fit.error().message;
+  };
+  ArxRecipe recipe = recipe_of_made();
+  recipe.radius = 1;
+  EXPECT_THAT(complaint(recipe), HasSubstr("the radius is 1, expected"));
+  recipe = recipe_of_made();
+  recipe.na = OrderMatrix(1, 1, 2);
+  EXPECT_THAT(complaint(recipe), HasSubstr("na is 1 × 1, expected 2 × 2"));
+  recipe = recipe_of_made();
+  recipe.outputs = {};
+  EXPECT_THAT(complaint(recipe), HasSubstr("no output channel was named"));
+  recipe.outputs = {"y3"};
+  EXPECT_THAT(complaint(recipe), HasSubstr("made has no channel 'y3'"));
+}
+
+TEST(LearnArx, StopsWhereItIsTold) {
+  const Recording recording = record_system(made_system(), 500, 1);
+  ArxRecipe recipe = recipe_of_made();
+  recipe.search = ArxSearch{.na = {1, 3}, .nb = {1, 3}, .nk = {0, 0}};
+  int calls = 0;
+  const auto fit = learn_arx({&recording, 1}, recipe, [&](std::string_view stage, double share) {
+    EXPECT_EQ(stage, "searching orders");
+    EXPECT_NEAR(share, calls / 9.0, 1e-12);
+    return ++calls < 4;
+  });
+  ASSERT_FALSE(fit);
+  EXPECT_EQ(fit.error().message, kStopped);
+  EXPECT_EQ(calls, 4);
+}
+
+TEST(LearnArx, ValidationHasEveryStepOfEveryOutputAndSaysHowOftenIntervalsHold) {
+  const Fit fit = learned(record_system(made_system(), 2000, 1), recipe_of_made());
+  const auto report = validate_arx(fit.model, record_system(made_system(), 2000, 2), {.steps = {1, 7, kFreeRun}});
+  ASSERT_TRUE(report) << report.error().message;
+  const ReportTable& channels = report->sections.front().tables.front();
+  ASSERT_EQ(channels.rows.size(), 2u);
+  const auto column = [&](const std::string& id) {
+    return static_cast<std::size_t>(
+        std::find_if(channels.columns.begin(), channels.columns.end(), [&](const auto& one) { return one.id == id; }) -
+        channels.columns.begin());
+  };
+  for (const char* k : {"1", "7", "inf"}) {
+    ASSERT_LT(column(std::string("fit_percent.") + k), channels.columns.size());
+    // 2000 rows, correlated over some ten: a share of 0.95 is known to about ±0.015 (3 sd).
+    const auto& inside = channels.rows[0][column(std::string("inside_95_percent_interval.") + k)];
+    EXPECT_NEAR(std::get<double>(inside), 0.95, 0.03) << k;
+  }
+  EXPECT_LT(column("independence_p.u2"), channels.columns.size());
+  EXPECT_NE(report->find("J.inf"), nullptr);
+  EXPECT_EQ(series_of(*report, "predicted.1")->label, "7 samples ahead");
+  EXPECT_EQ(series_of(*report, "poles"), nullptr);
+}
+
+TEST(LearnArx, ValidationRefusesAStrangerAndStepsOutOfRange) {
+  const Fit fit = learned(record_system(made_system(), 500, 1), recipe_of_made());
+  Recording other = record_system(made_system(), 500, 2);
+  EXPECT_THAT(validate_arx(fit.model, other, {.steps = {-1}}).error().message, HasSubstr("-1 steps ahead"));
+  other.channels.pop_back();
+  EXPECT_THAT(validate_arx(fit.model, other).error().message, HasSubstr("has no channel 'y2'"));
+}
+
+}  // namespace
+}  // namespace wisp

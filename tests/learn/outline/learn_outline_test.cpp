@@ -1,0 +1,142 @@
+#include "wisp/learn/learn_outline.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "learn/flame/made_blow_outs.hpp"
+#include "learn/outline/made_outline.hpp"
+#include "wisp/learn/validate_outline.hpp"
+#include "wisp/record/loudness.hpp"
+
+namespace wisp {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsSupersetOf;
+
+Fit learned(const std::vector<Recording>& recordings, const OutlineRecipe& recipe) {
+  auto fit = learn_outline(recordings, recipe);
+  EXPECT_TRUE(fit) << (fit ? "" : fit.error().message);
+  return *std::move(fit);
+}
+
+Recording windy(std::uint64_t seed = 1) {
+  return made::outline_recording({.rows = 900, .shock = 0.003, .wind = true, .seed = seed});
+}
+
+// The top of an id, up to its first dot: a field of the JSON document.
+std::set<std::string> fields(const Report& report) {
+  std::set<std::string> out;
+  for (const ReportSection& section : report.sections) {
+    for (const ReportEntry& entry : section.entries) out.insert(entry.id.substr(0, entry.id.find('.')));
+    for (const ReportTable& table : section.tables) out.insert(table.id.substr(0, table.id.find('.')));
+  }
+  return out;
+}
+
+template <class T>
+T figure(const Report& report, const std::string& id) {
+  const ReportEntry* entry = report.find(id);
+  EXPECT_NE(entry, nullptr) << id;
+  return std::get<T>(static_cast<const ReportValue::Base&>(entry->value));
+}
+
+TEST(LearnOutline, TheReportHasEveryPromisedField) {
+  const Fit fit = learned({windy()}, {});
+  EXPECT_THAT(fields(fit.report), IsSupersetOf({"rate_hz", "inputs", "points", "na", "nb", "nk", "samples", "channels",
+                                                "J", "tip", "overlap", "fpe", "stable", "cost", "gain", "extinction",
+                                                "alignment", "order_and_delay", "input_curve"}));
+  EXPECT_EQ(figure<std::int64_t>(fit.report, "points"), 6);
+  EXPECT_GT(figure<double>(fit.report, "tip.held_out_fit_percent.inf"), 50);
+  ASSERT_TRUE(fit.report.verdict);
+  EXPECT_EQ(fit.report.verdict->usable, fit.model.training.usable.verdict);
+}
+
+TEST(LearnOutline, AnOutlineIsNotExtinguishedAndAFlameIs) {
+  const Recording recording = windy();
+  EXPECT_FALSE(learned({recording}, {}).model.extinction);
+  const Fit flame = learned({recording}, FlameRecipe{});
+  ASSERT_TRUE(flame.model.extinction);
+  EXPECT_EQ(figure<std::string>(flame.report, "extinction.source"), "default");
+}
+
+TEST(LearnOutline, AGivenRuleIsTaken) {
+  OutlineRecipe recipe;
+  recipe.extinction = {ExtinctionSource::kGiven, 1.5, 0.25};
+  const Fit fit = learned({windy()}, recipe);
+  ASSERT_TRUE(fit.model.extinction);
+  EXPECT_EQ(fit.model.extinction->level, 1.5);
+  EXPECT_EQ(fit.model.extinction->haste, 0);
+  EXPECT_EQ(fit.model.training.extinction->origin, Origin::kGiven);
+  recipe.extinction.seconds = 0;
+  EXPECT_THAT(learn_outline(std::vector{windy()}, recipe).error().message, HasSubstr("rule of extinction"));
+  recipe.extinction.seconds = 0.25;
+  const std::vector calm{made::outline_recording({.rows = 900})};
+  EXPECT_THAT(learn_outline(calm, recipe).error().message, HasSubstr("no input that could put it out"));
+}
+
+TEST(LearnOutline, ExtinctionIsLearnedFromRecordingsAndJudgedOnOthers) {
+  const Recording seen = made::blow_out_recording({.shortest = 0.2, .seed = 2}).recording;
+  const Recording unseen = made::blow_out_recording({.shortest = 0.2, .seed = 3}).recording;
+  const Fit fit = learned({seen}, FlameRecipe{});
+  EXPECT_EQ(fit.model.training.extinction->origin, Origin::kLearned);
+  EXPECT_GT(figure<std::int64_t>(fit.report, "extinction.agreement.deaths"), 4);
+  const auto judged = validate_outline(fit.model, unseen, {.fidelity = false});
+  ASSERT_TRUE(judged) << judged.error().message;
+  const auto deaths = figure<std::int64_t>(judged->report, "extinction.deaths");
+  EXPECT_GT(deaths, 4);
+  EXPECT_GE(figure<std::int64_t>(judged->report, "extinction.died") + 1, deaths);
+}
+
+TEST(LearnOutline, OneMicrophonesRecordingsAreLearnedWithACommonGain) {
+  std::vector recordings{windy(1), windy(2)};
+  for (double& value : recordings[1].channels[*find_channel(recordings[1], "wind")].samples) value /= 2.5;
+  set_one_rms(recordings[0], "wind", 0.04);
+  set_one_rms(recordings[1], "wind", 0.04 * 2.5 * 2.5);
+  const Fit fit = learned(recordings, {});
+  EXPECT_TRUE(figure<bool>(fit.report, "gain.one"));
+  EXPECT_DOUBLE_EQ(fit.model.training.inputs[0].one_rms, 0.04 * 2.5 * 2.5);
+}
+
+TEST(LearnOutline, CanBeStopped) {
+  const auto stopped =
+      learn_outline(std::vector{windy()}, {}, [](std::string_view, double share) { return share < 0.5; });
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().message, kStopped);
+  EXPECT_FALSE(learn_outline({}, {}));
+}
+
+TEST(ValidateOutline, TheReportHasEveryPromisedFieldAndSeriesForPlots) {
+  const Fit fit = learned({windy()}, {});
+  const Recording recording = windy(7);
+  const auto found = validate_outline(fit.model, recording, {.play_seconds = 20});
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_THAT(fields(found->report),
+              IsSupersetOf({"gain", "rows", "channels", "points", "alignment", "J", "tip", "overlap", "fidelity",
+                            "held_share", "crossed_share", "static_gain", "extinction"}));
+  EXPECT_GT(figure<double>(found->report, "tip.fit_percent.inf"), 60);
+  std::set<std::string> series;
+  for (const ReportSection& section : found->report.sections) {
+    for (const ReportSeries& one : section.series) {
+      series.insert(one.id);
+      EXPECT_EQ(one.x.size(), one.y.size()) << one.id;
+    }
+  }
+  EXPECT_THAT(series, IsSupersetOf({"tip.captured", "tip.simulated", "input.wind", "flicker.x.synthesized"}));
+  EXPECT_EQ(found->captured.size(), recording.rows());
+  EXPECT_EQ(found->played.size(), recording.rows());
+  EXPECT_EQ(found->simulated_label, "simulated from the input alone");
+}
+
+TEST(ValidateOutline, CanBeStopped) {
+  const Fit fit = learned({windy()}, {});
+  const auto stopped = validate_outline(fit.model, windy(7), {}, [](std::string_view, double) { return false; });
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().message, kStopped);
+  EXPECT_FALSE(validate_outline(fit.model, windy(7), {.steps = {}}));
+}
+
+}  // namespace
+}  // namespace wisp
