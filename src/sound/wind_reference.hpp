@@ -91,7 +91,7 @@ class Reference {
 
  private:
   static constexpr float kHardDb = 17;     ///< a hard blow over wind 1,
-  static constexpr float kSoftDb = 5;      ///< a soft breath under it,
+  static constexpr float kSoftDb = 4;      ///< a soft breath under it,
   static constexpr float kSpreadDb = 6;    ///< and how far either scatters
   static constexpr float kNeither = 0.1F;  ///< likelihood of a gust that is neither; it moves little
   static constexpr float kMostGusts = 6;   ///< memory
