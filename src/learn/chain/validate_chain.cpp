@@ -26,9 +26,7 @@ Result<ChainFidelityOptions> judging_of(const Model& model, std::uint64_t seed) 
                               .seed = seed};
 }
 
-ReportSection counts_of(std::size_t rows) {
-  return {"", {{"rows", rows, "rows", ""}, {"channels", ReportList{}, "", ""}}};
-}
+ReportSection counts_of(std::size_t rows) { return {"", {{"rows", rows, "rows", ""}, {"channels", ReportList{}, "", ""}}}; }
 
 Result<Report> validate_falls(const Model& model, std::span<const Recording> falls, std::uint64_t seed,
                               const Progress& progress) {
