@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "learn/chain/learn_chain.hpp"
 #include "simulate/leaf/leaf_cost.hpp"
-#include "wisp/learn/chain.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/cost.hpp"
 #include "wisp/simulate/leaf_drops.hpp"

@@ -1,31 +1,41 @@
 #include "wisp/learn/learn.hpp"
 
 #include "learn/arx/learn_arx.hpp"
+#include "learn/chain/learn_chain.hpp"
+#include "learn/complete.hpp"
+#include "learn/outline/learn_outline.hpp"
 #include "learn/switched/learn_switched.hpp"
 
 namespace wisp {
 namespace {
 
-struct Learner {
-  std::span<const Recording> recordings;
-  const Progress& progress;
+using Recordings = std::span<const Recording>;
 
-  Result<Fit> operator()(const ArxRecipe& recipe) const { return learn_arx(recordings, recipe, progress); }
-  Result<Fit> operator()(const SwitchedRecipe& recipe) const { return learn_switched(recordings, recipe, progress); }
-};
+Result<Fit> learn_as(const ArxRecipe& recipe, Recordings recordings, const Progress& progress) {
+  return learn_arx(recordings, recipe, progress);
+}
+Result<Fit> learn_as(const SwitchedRecipe& recipe, Recordings recordings, const Progress& progress) {
+  return learn_switched(recordings, recipe, progress);
+}
+Result<Fit> learn_as(const OutlineRecipe& recipe, Recordings recordings, const Progress& progress) {
+  return learn_outline(recordings, recipe, progress);
+}
+Result<Fit> learn_as(const ChainRecipe& recipe, Recordings recordings, const Progress& progress) {
+  return learn_chain(recordings, recipe, progress);
+}
 
 }  // namespace
 
-Result<Fit> learn(std::span<const Recording> recordings, const Recipe& recipe, const Progress& progress) {
-  return std::visit(Learner{recordings, progress}, recipe);
+Result<Fit> learn(Recordings recordings, const Recipe& recipe, const Progress& progress) {
+  if (recordings.empty()) return Error{"there are no recordings to learn from"};
+  auto fit = std::visit([&](const auto& kind) { return learn_as(kind, recordings, progress); }, recipe);
+  if (!fit) return fit;
+  complete(*fit);
+  return fit;
 }
 
-Result<Report> validate(const Model& model, const Recording& recording, const ArxValidation& options,
-                        const Progress& progress) {
-  if (std::holds_alternative<SwitchedArxModel>(model.dynamics)) {
-    return validate_switched(model, recording, options, progress);
-  }
-  return validate_arx(model, recording, options, progress);
+Result<Fit> learn(const Recording& recording, const Recipe& recipe, const Progress& progress) {
+  return learn(Recordings(&recording, 1), recipe, progress);
 }
 
 }  // namespace wisp

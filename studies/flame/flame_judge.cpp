@@ -14,7 +14,7 @@
 #include "learn/outline/outline_units.hpp"
 #include "studies/flame/flame_likeness.hpp"
 #include "studies/value_or_abort.hpp"
-#include "wisp/learn/fidelity.hpp"
+#include "learn/fidelity/fidelity.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/run/cost.hpp"
 

@@ -174,11 +174,12 @@ TEST_F(LearnArxParts, WhatIsMissingOnTheCommandLineIsNamed) {
 
 class LearnArxExamples : public LearnArxParts {
  protected:
-  // Runs examples/parallel_fit/NAME with two workers, and compares with the fit in one.
+  // Runs examples/06_parallel_fit/NAME with two workers, and compares with the fit in one.
   void run_example(const std::string& name, const std::string& environment) {
     const auto want = in_one();
-    const std::string line = environment + " WISP=" + WISP_PROGRAM + " " + WISP_SOURCE_DIR + "/examples/parallel_fit/" +
-                             name + " 2 " + at("spread.wisp") + " " + whole() + " >" + at("said") + " 2>&1 </dev/null";
+    const std::string line = environment + " WISP=" + WISP_PROGRAM + " " + WISP_SOURCE_DIR +
+                             "/examples/06_parallel_fit/" + name + " 2 " + at("spread.wisp") + " " + whole() + " >" +
+                             at("said") + " 2>&1 </dev/null";
     ASSERT_EQ(std::system(line.c_str()), 0) << file_text(at("said"));
     const auto spread = wisp("info --json " + at("spread.wisp")).json();
     EXPECT_EQ(spread["made"]["sources"], (nlohmann::json{"1.part", "2.part"}));

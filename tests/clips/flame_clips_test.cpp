@@ -11,7 +11,7 @@
 #include "learn/outline/outline_fit.hpp"
 #include "learn/outline/outline_shape.hpp"
 #include "learn/outline/outline_synthesis.hpp"
-#include "wisp/learn/fidelity.hpp"
+#include "learn/fidelity/fidelity.hpp"
 
 namespace wisp {
 namespace {

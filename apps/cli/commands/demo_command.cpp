@@ -10,7 +10,7 @@
 #include "terminal.hpp"
 #include "wisp/base/file.hpp"
 #include "wisp/capture/capture.hpp"
-#include "wisp/learn/learn_outline.hpp"
+#include "wisp/learn/learn.hpp"
 #include "wisp/record/csv.hpp"
 
 namespace wisp::cli {
@@ -88,12 +88,11 @@ Result<Model> learn_step(const Places& places, const Recording& recording, Termi
   auto ok = step("learn", "learn flame " + places.at("recording.csv") + " -o " + path, terminal, [&]() -> Result<void> {
     FlameRecipe recipe;
     recipe.name = "flame";
-    auto fit = learn_outline({&recording, 1}, recipe, terminal.progress());
+    auto fit = learn(recording, recipe, terminal.progress());
     if (!fit) return fit.error();
     model = std::move(fit->model);
-    model.training.program = "wisp " WISP_VERSION;
     terminal.show(fit->report);
-    return write_learned(path, model);
+    return write_model(path, model);
   });
   if (!ok) return ok.error();
   return model;

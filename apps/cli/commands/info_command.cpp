@@ -1,8 +1,6 @@
 // `wisp info`: what a model file holds.
 
 #include "commands/commands.hpp"
-#include "reports/chain_json.hpp"
-#include "reports/curve_learning.hpp"
 #include "reports/figures_json.hpp"
 #include "terminal.hpp"
 #include "wisp/base/file.hpp"
@@ -12,6 +10,15 @@
 
 namespace wisp::cli {
 namespace {
+
+// A curve as knot → value pairs.
+std::string curve_text(const InputCurve& curve) {
+  std::string text;
+  for (std::size_t k = 0; k < curve.at.size(); ++k) {
+    text += (k > 0 ? ", " : "") + shown(curve.at[k]) + " → " + shown(curve.value[k]);
+  }
+  return text;
+}
 
 Json channels_of(const Model& model) {
   Json inputs = Json::array(), outputs = Json::array();

@@ -8,7 +8,7 @@
 #include "flags/search_flags.hpp"
 #include "reports/arx_figures.hpp"
 #include "reports/arx_parts.hpp"
-#include "reports/curve_learning.hpp"
+#include "flags/curve_flag.hpp"
 #include "reports/learned_model.hpp"
 #include "terminal.hpp"
 #include "wisp/learn/learn.hpp"
@@ -108,21 +108,15 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   if (arguments.has("partial")) return write_part(*recipe, arguments, terminal);
   auto fit = learned(*recipe, arguments, terminal);
   if (!fit) return fit.error();
-  terminal.show(fit->report);
-  const std::string& output = arguments.text("output");
-  const bool playable = spectral_radius(std::get<ArxModel>(fit->model.dynamics)) < 1;
-  if (playable) {
-    fit->model.training.program = "wisp " WISP_VERSION;
-    if (arguments.has("range")) fit->model.training.recipe.push_back({"range", arguments.text("range")});
-    if (auto ok = write_learned(output, fit->model); !ok) return ok;
-  } else {
-    terminal.warn(output + " was not written: an unstable model cannot be played");
-  }
+  if (arguments.has("range")) fit->model.training.recipe.push_back({"range", arguments.text("range")});
   if (arguments.has("figures")) {
     if (auto ok = write_arx_figures(arguments.text("figures"), fit->model, fit->report); !ok) return ok;
   }
-  terminal.result()["output"] = playable ? Json(output) : Json(nullptr);
-  terminal.result()["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const std::string& output = arguments.text("output");
+  if (spectral_radius(std::get<ArxModel>(fit->model.dynamics)) < 1) return hand_over(*fit, output, start, terminal);
+  terminal.show(fit->report);
+  terminal.warn(output + " was not written: an unstable model cannot be played");
+  terminal.result()["output"] = nullptr;
   return {};
 }
 

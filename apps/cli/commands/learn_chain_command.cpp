@@ -10,7 +10,7 @@
 #include "reports/figures_json.hpp"
 #include "reports/learned_model.hpp"
 #include "terminal.hpp"
-#include "wisp/learn/chain.hpp"
+#include "wisp/learn/learn.hpp"
 
 namespace wisp::cli {
 namespace {
@@ -75,17 +75,9 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   if (auto ok = check_writable(output); !ok) return ok;
   const auto recordings = read_motions(arguments, terminal);
   if (!recordings) return recordings.error();
-  auto fit = learn_chain(*recordings, *recipe, terminal.progress());
+  const auto fit = learn(*recordings, *recipe, terminal.progress());
   if (!fit) return fit.error();
-  fit->model.training.program = "wisp " WISP_VERSION;
-  const auto cost = cost_of(fit->model);
-  if (!cost) return cost.error();
-  if (auto ok = write_learned(output, fit->model); !ok) return ok;
-  terminal.show(fit->report);
-  terminal.result()["cost"] = *cost;
-  terminal.result()["output"] = output;
-  terminal.result()["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return {};
+  return hand_over(*fit, output, start, terminal);
 }
 
 std::vector<Flag> flags(const std::string& event, const std::string& features) {

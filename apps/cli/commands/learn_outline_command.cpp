@@ -6,10 +6,10 @@
 #include "commands/commands.hpp"
 #include "flags/capture_flags.hpp"
 #include "flags/outline_flags.hpp"
-#include "reports/curve_learning.hpp"
+#include "flags/curve_flag.hpp"
 #include "reports/learned_model.hpp"
 #include "terminal.hpp"
-#include "wisp/learn/learn_outline.hpp"
+#include "wisp/learn/learn.hpp"
 
 namespace wisp::cli {
 namespace {
@@ -21,15 +21,9 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   if (!recipe) return recipe.error();
   const auto recordings = outline_recordings(arguments.positionals(), arguments, terminal);
   if (!recordings) return recordings.error();
-  auto fit = learn_outline(*recordings, *recipe, terminal.progress());
+  const auto fit = wisp::learn(*recordings, *recipe, terminal.progress());
   if (!fit) return fit.error();
-  fit->model.training.program = "wisp " WISP_VERSION;
-  if (auto ok = write_learned(path, fit->model); !ok) return ok;
-  terminal.show(fit->report);
-  terminal.say("wrote " + path);
-  terminal.result()["output"] = path;
-  terminal.result()["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return {};
+  return hand_over(*fit, path, start, terminal);
 }
 
 // What differs between the presets.

@@ -47,13 +47,8 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   if (!recordings) return recordings.error();
   auto fit = learn(*recordings, *recipe, terminal.progress());
   if (!fit) return fit.error();
-  terminal.show(fit->report);
-  fit->model.training.program = "wisp " WISP_VERSION;
   if (arguments.has("range")) fit->model.training.recipe.push_back({"range", arguments.text("range")});
-  if (auto ok = write_learned(arguments.text("output"), fit->model); !ok) return ok;
-  terminal.result()["output"] = arguments.text("output");
-  terminal.result()["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return {};
+  return hand_over(*fit, arguments.text("output"), start, terminal);
 }
 
 std::vector<Flag> flags() {

@@ -88,11 +88,11 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   if (!subject) return subject.error();
   const auto truth = truth_for(*subject, arguments);
   if (!truth) return truth.error();
-  const OutlineValidationOptions options{.steps = *steps,
-                                         .own_input_scale = arguments.on("own-gain"),
-                                         .align = arguments.text("align") == "auto",
-                                         .truth = *truth ? &**truth : nullptr,
-                                         .seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
+  const ValidationOptions options{.steps = *steps,
+                                  .own_input_scale = arguments.on("own-gain"),
+                                  .align = arguments.text("align") == "auto",
+                                  .truth = *truth ? &**truth : nullptr,
+                                  .seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
   const auto found = validate_outline(*model, subject->recording, options, terminal.progress());
   if (!found) return found.error();
   terminal.show(found->report);

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <optional>
 
-#include "reports/curve_learning.hpp"
+#include "flags/curve_flag.hpp"
 #include "wisp/model/extinction.hpp"
 
 namespace wisp::cli {

@@ -2,7 +2,7 @@
 
 #include "flags/recordings.hpp"
 #include "reports/arx_figures.hpp"
-#include "wisp/learn/learn.hpp"
+#include "wisp/learn/validate.hpp"
 
 namespace wisp::cli {
 
@@ -34,7 +34,7 @@ Result<void> validate_plain(const Model& model, const std::vector<int>& steps, c
   }
   const auto recording = table_for(model, arguments);
   if (!recording) return recording.error();
-  const ArxValidation options{steps, initial_of(arguments), arguments.has("figures")};
+  const ValidationOptions options{steps, initial_of(arguments), arguments.has("figures")};
   const auto report = validate(model, *recording, options, terminal.progress());
   if (!report) return report.error();
   terminal.show(*report);

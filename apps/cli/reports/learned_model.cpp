@@ -4,7 +4,6 @@
 
 #include "wisp/base/file.hpp"
 #include "wisp/model/file.hpp"
-#include "wisp/run/cost.hpp"
 
 namespace wisp::cli {
 
@@ -16,12 +15,14 @@ Result<void> check_writable(const std::string& path) {
   return Error{path + ": cannot be written: no file can be made in its folder"};
 }
 
-Result<void> write_learned(const std::string& path, Model model) {
-  if (const auto cost = count_operations(model)) {
-    model.training.multiply_adds_per_frame = cost->multiply_adds_per_frame;
-    model.training.operations_per_frame = cost->operations_per_frame;
-  }
-  return write_model(path, model);
+Result<void> hand_over(const Fit& fit, const std::string& path, std::chrono::steady_clock::time_point start,
+                       Terminal& terminal) {
+  if (auto ok = write_model(path, fit.model); !ok) return ok;
+  terminal.show(fit.report);
+  terminal.say("wrote " + path);
+  terminal.result()["output"] = path;
+  terminal.result()["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return {};
 }
 
 }  // namespace wisp::cli

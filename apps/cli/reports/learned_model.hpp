@@ -1,18 +1,20 @@
 #pragma once
 // How the commands hand over what they learned.
 
+#include <chrono>
 #include <string>
 
+#include "terminal.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/model/model.hpp"
+#include "wisp/learn/fit.hpp"
 
 namespace wisp::cli {
 
 /// Whether a file of that name can be written: asked before work that takes long. Errors: as write_file().
 Result<void> check_writable(const std::string& path);
 
-/// Writes a model file that says what a frame of it costs, since players that travel light do not count it themselves.
-/// A model in units that no player takes is written without. Errors: as write_model().
-Result<void> write_learned(const std::string& path, Model model);
+/// Shows the report and writes the model, with where and how long since `start` it took. Errors: as write_model().
+Result<void> hand_over(const Fit& fit, const std::string& path, std::chrono::steady_clock::time_point start,
+                       Terminal& terminal);
 
 }  // namespace wisp::cli

@@ -1,7 +1,7 @@
 #include "reports/switched_validation.hpp"
 
 #include "reports/arx_validation.hpp"
-#include "wisp/learn/learn.hpp"
+#include "wisp/learn/validate.hpp"
 
 namespace wisp::cli {
 

@@ -6,7 +6,7 @@
 #include "films/leaf_film.hpp"
 #include "flags/recordings.hpp"
 #include "reports/chain_figures.hpp"
-#include "wisp/learn/chain.hpp"
+#include "wisp/learn/validate.hpp"
 #include "wisp/run/bank.hpp"
 
 namespace wisp::cli {

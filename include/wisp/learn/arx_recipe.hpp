@@ -107,12 +107,4 @@ struct SwitchedRecipe {
   std::uint64_t seed = 1;      ///< of the starts that are tried
 };
 
-/// How an ARX model, or a switched one, is judged on a recording.
-struct ArxValidation {
-  std::vector<int> steps{1, 5, 15, kFreeRun};  ///< 1 to 100000, or kFreeRun
-  InitialState initial =
-      InitialState::kMeasured;  ///< of free simulation; a switched model starts from measured samples
-  bool responses = false;       ///< also series of poles, zeros, responses, and errors by steps
-};
-
 }  // namespace wisp

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "wisp/base/result.hpp"
+#include "wisp/record/recording.hpp"
 
 namespace wisp {
 
@@ -91,5 +92,10 @@ struct LeafRecipe : ChainRecipe {
     event = {EventKind::kZero, "forward_speed"};
   }
 };
+
+/// Whether a recording tells motion. Errors: no position, no stretch that is long enough, no orientation where it
+/// should have one, a position that is not in metres or further than 1000 km away; of one with the attribute `pair`, a
+/// wind that is missing somewhere or an attribute `clones` that is no whole number.
+Result<void> check_motion(const Recording& recording);
 
 }  // namespace wisp

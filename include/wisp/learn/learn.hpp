@@ -1,27 +1,25 @@
 #pragma once
-// The front door of learning: recordings and a recipe in, a model and its report out.
+// From recordings to a model: one call for every kind of model.
 
 #include <span>
-#include <variant>
 
 #include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/arx_recipe.hpp"
 #include "wisp/learn/fit.hpp"
+#include "wisp/learn/recipe.hpp"
+#include "wisp/record/recording.hpp"
 
 namespace wisp {
 
-/// What is to be learned.
-using Recipe = std::variant<ArxRecipe, SwitchedRecipe>;
-
-/// Learns a model. One that cannot be trusted, or not even played, is returned too, with a verdict that says so.
-/// Errors: recordings that cannot be learned from, settings out of range, kStopped.
+/// Learns a model from recordings as the recipe says. What the recipe leaves open is decided by held-out data; the
+/// report says what was decided, how good the model is, and whether it may be used.
+/// Returns a model that has passed check() and says in `training` what it was made from, or, where the recordings yield
+/// none that can be played, one whose verdict says so.
+/// Errors, naming the recording: what it has not or has wrong, settings out of range, too few rows; kStopped where
+/// `progress` says not to go on.
 Result<Fit> learn(std::span<const Recording> recordings, const Recipe& recipe, const Progress& progress = {});
 
-/// Judges a plain or switched ARX model on a recording. Errors: channels that it has not, too few rows, kStopped.
-///
-/// Precondition: the model is one of these.
-Result<Report> validate(const Model& model, const Recording& recording, const ArxValidation& options = {},
-                        const Progress& progress = {});
+/// The same from one recording.
+Result<Fit> learn(const Recording& recording, const Recipe& recipe, const Progress& progress = {});
 
 }  // namespace wisp

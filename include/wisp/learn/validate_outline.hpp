@@ -10,24 +10,11 @@
 #include "wisp/base/progress.hpp"
 #include "wisp/base/report.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/prediction.hpp"
+#include "wisp/learn/validate.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {
-
-/// How to validate an outline.
-struct OutlineValidationOptions {
-  std::vector<int> steps = {1, 5, 15, kFreeRun};  ///< steps ahead, or kFreeRun
-  double pixels_per_unit = 0;        ///< 0: the recording's own mean calm height is the model's 1, whatever the camera
-  bool own_input_scale = false;      ///< input 1 is this recording's 95th percentile instead of the training's: another
-                                     ///< microphone, another gain
-  bool align = true;                 ///< move inputs that come after the motion that they cause, as in learning
-  const Recording* truth = nullptr;  ///< the inputs as they truly were, row by row: what of the error is the sensor's
-  double play_seconds = 60;          ///< > 0: how long the model plays freely for the fidelity figures
-  bool fidelity = true;              ///< off: it costs a second or two
-  std::uint64_t seed = 1;
-};
 
 /// Outlines of a recording, row by row: points x, y from the base's left over the tip to the base's right, in the
 /// clip's pixels, whose centres are at whole numbers. Empty where a row has no outline.
@@ -52,6 +39,6 @@ struct ValidatedOutline {
 /// Errors, naming the recording: the model is not an outline or its dynamics are not ARX; another number of control
 /// points than the model's; another rate; an input that the recording has not; no outline in any row; kStopped.
 Result<ValidatedOutline> validate_outline(const Model& model, const Recording& recording,
-                                          const OutlineValidationOptions& options = {}, const Progress& progress = {});
+                                          const ValidationOptions& options = {}, const Progress& progress = {});
 
 }  // namespace wisp

@@ -9,6 +9,7 @@
 #include "wisp/learn/arx_fit.hpp"
 #include "wisp/learn/arx_recipe.hpp"
 #include "wisp/learn/fit.hpp"
+#include "wisp/learn/validate.hpp"
 
 namespace wisp {
 
@@ -24,7 +25,7 @@ Result<Fit> learn_arx(std::span<const Recording> recordings, const ArxRecipe& re
 /// Errors: the recording has not the model's channels or is too short, steps out of range, kStopped.
 ///
 /// Precondition: the model's dynamics are an ArxModel.
-Result<Report> validate_arx(const Model& model, const Recording& recording, const ArxValidation& options = {},
+Result<Report> validate_arx(const Model& model, const Recording& recording, const ValidationOptions& options = {},
                             const Progress& progress = {});
 
 namespace arx {

@@ -9,7 +9,7 @@
 #include "learn/chain/join_defect.hpp"
 #include "learn/chain/segments/segmentation.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/fidelity.hpp"
+#include "learn/fidelity/fidelity.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"
 

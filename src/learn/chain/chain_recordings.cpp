@@ -6,9 +6,9 @@
 #include <set>
 #include <string>
 
+#include "learn/chain/learn_chain.hpp"
 #include "learn/chain/motion/motion.hpp"
 #include "wisp/base/hash.hpp"
-#include "wisp/learn/chain.hpp"
 #include "wisp/record/number_text.hpp"
 
 namespace wisp {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "wisp/run/bank.hpp"
+#include "wisp/run/chain_facet.hpp"
 
 namespace wisp::chain {
 namespace {
@@ -73,7 +74,7 @@ Result<Walk> walk_of(const Model& model, std::size_t rows, std::uint64_t seed) {
     if (row > 0) bank->step();
     bank->outputs(id, values);
     walk.piece.position.push_back({values[0], values[1], values[2]});
-    const ChainPlace place = *bank->chain_place(id);
+    const ChainPlace place = *bank->chain()->place_of(id);
     walk.mode.push_back(segments.mode[place.segment]);
     if (place.step == 0) walk.joins.push_back(static_cast<double>(row));
   }

@@ -10,7 +10,7 @@
 #include "learn/chain/chain_recordings.hpp"
 #include "learn/chain/chain_report.hpp"
 #include "learn/chain/gusts/gust_report.hpp"
-#include "wisp/learn/chain.hpp"
+#include "learn/chain/learn_chain.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/record/number_text.hpp"
 

@@ -8,7 +8,7 @@
 #include "learn/chain/chain_report.hpp"
 #include "learn/chain/fall_tracks.hpp"
 #include "learn/chain/gusts/gust_report.hpp"
-#include "wisp/learn/chain.hpp"
+#include "learn/chain/learn_chain.hpp"
 #include "wisp/record/number_text.hpp"
 
 namespace wisp {
@@ -26,7 +26,9 @@ Result<ChainFidelityOptions> judging_of(const Model& model, std::uint64_t seed) 
                               .seed = seed};
 }
 
-ReportSection counts_of(std::size_t rows) { return {"", {{"rows", rows, "rows", ""}, {"channels", ReportList{}, "", ""}}}; }
+ReportSection counts_of(std::size_t rows) {
+  return {"", {{"rows", rows, "rows", ""}, {"channels", ReportList{}, "", ""}}};
+}
 
 Result<Report> validate_falls(const Model& model, std::span<const Recording> falls, std::uint64_t seed,
                               const Progress& progress) {

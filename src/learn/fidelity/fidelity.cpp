@@ -1,4 +1,4 @@
-#include "wisp/learn/fidelity.hpp"
+#include "learn/fidelity/fidelity.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "learn/fidelity/fidelity_marginal.hpp"
 #include "learn/fidelity/fidelity_stretch.hpp"
 #include "learn/fidelity/fidelity_verbatim.hpp"
-#include "wisp/learn/spectrum.hpp"
+#include "learn/numeric/spectrum.hpp"
 
 namespace wisp {
 namespace {

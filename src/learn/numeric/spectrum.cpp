@@ -1,4 +1,4 @@
-#include "wisp/learn/spectrum.hpp"
+#include "learn/numeric/spectrum.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -1,4 +1,4 @@
-#include "wisp/learn/learn_outline.hpp"
+#include "learn/outline/learn_outline.hpp"
 
 #include "learn/flame/extinction_learning.hpp"
 #include "learn/flame/extinction_report.hpp"

@@ -168,14 +168,7 @@ ReportSection model_section(const OutlineSummary& summary) {
        {"stable.estimated_radius", stable.estimated, "", ""},
        {"stable.loss_factor", stable.loss_factor, "", ""},
        {"stable.moved_std_errors", stable.moved, "", ""},
-       {"held_share", summary.held_share, "share of steps clamped", "", {}, "playing freely; at most 0.001 is good"},
-       {"cost.multiply_adds_per_frame", summary.cost.multiply_adds_per_frame, "multiply-adds a frame", ""},
-       {"cost.operations_per_frame",
-        summary.cost.operations_per_frame,
-        "operations a frame",
-        "",
-        {},
-        "noise and outline included"}}};
+       {"held_share", summary.held_share, "share of steps clamped", "", {}, "playing freely; at most 0.001 is good"}}};
 }
 
 }  // namespace

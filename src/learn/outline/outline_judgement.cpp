@@ -211,7 +211,7 @@ Result<Recording> with_truth(const OutlineModel& model, const Recording& recordi
 }
 
 Result<TrueInputFigures> true_input_figures(const OutlineModel& model, const Recording& recording,
-                                            const OutlineValidationOptions& options) {
+                                            const ValidationOptions& options) {
   const auto driven = with_truth(model, recording, *options.truth);
   if (!driven) return driven.error();
   auto inputs = inputs_of(model.whole, *driven, true);
@@ -255,7 +255,7 @@ void hide_unseen(const Recording& recorded, const std::vector<std::string>& outp
 
 // Plays freely with noise and compares with the recording in the model's units.
 Result<void> add_fidelity(const OutlineModel& model, const PreparedOutlines& prepared, const Recording& driving,
-                          const OutlineValidationOptions& options, OutlineJudgement& out) {
+                          const ValidationOptions& options, OutlineJudgement& out) {
   const auto rows = static_cast<std::size_t>(std::ceil(options.play_seconds * model.whole.rate_hz));
   auto play = synthesize(model.whole, {.rows = rows, .seed = options.seed, .input = &driving});
   if (!play) return play.error();
@@ -274,8 +274,8 @@ Result<void> add_fidelity(const OutlineModel& model, const PreparedOutlines& pre
 
 }  // namespace
 
-Result<OutlineJudgement> judge_outline(const Model& model, const Recording& given,
-                                       const OutlineValidationOptions& options, const Progress& progress) {
+Result<OutlineJudgement> judge_outline(const Model& model, const Recording& given, const ValidationOptions& options,
+                                       const Progress& progress) {
   constexpr const char* kStage = "validating";
   const auto outline = outline_model(model);
   if (!outline) return outline.error();

@@ -10,7 +10,7 @@
 #include "learn/outline/outline_figures.hpp"
 #include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/fidelity.hpp"
+#include "learn/fidelity/fidelity.hpp"
 #include "wisp/learn/validate_outline.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"
@@ -57,6 +57,6 @@ struct OutlineJudgement {
 /// Errors, naming the recording: the model is not an outline or its dynamics are not ARX; another number of control
 /// points than the model's; another rate; an input that the recording has not; no outline in any row.
 Result<OutlineJudgement> judge_outline(const Model& model, const Recording& recording,
-                                       const OutlineValidationOptions& options = {}, const Progress& progress = {});
+                                       const ValidationOptions& options = {}, const Progress& progress = {});
 
 }  // namespace wisp

@@ -7,7 +7,7 @@
 #include "learn/flame/wind_gain.hpp"
 #include "learn/outline/outline_report.hpp"
 #include "learn/outline/outline_shape.hpp"
-#include "wisp/learn/spectrum.hpp"
+#include "learn/numeric/spectrum.hpp"
 
 namespace wisp {
 namespace {
@@ -155,7 +155,7 @@ Result<void> add_outlines(const Recording& recording, const OutlineJudgement& fo
 }  // namespace
 
 Result<ValidatedOutline> validate_outline(const Model& model, const Recording& recording,
-                                          const OutlineValidationOptions& options, const Progress& progress) {
+                                          const ValidationOptions& options, const Progress& progress) {
   if (options.steps.empty()) return Error{"steps: there are none, expected at least one number of steps to judge"};
   const auto factor = options.own_input_scale ? Result<double>(1.0) : factor_to_trained_gain(model, recording);
   if (!factor) return factor.error();

@@ -82,7 +82,7 @@ Result<Fit> learn_switched(std::span<const Recording> recordings, const Switched
   return fit;
 }
 
-Result<Report> validate_switched(const Model& model, const Recording& recording, const ArxValidation& options,
+Result<Report> validate_switched(const Model& model, const Recording& recording, const ValidationOptions& options,
                                  const Progress& progress) {
   const auto& dynamics = std::get<SwitchedArxModel>(model.dynamics);
   const ChannelChoice channels = arx::channels_of(model);

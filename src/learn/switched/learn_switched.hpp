@@ -7,6 +7,7 @@
 #include "wisp/base/result.hpp"
 #include "wisp/learn/arx_recipe.hpp"
 #include "wisp/learn/fit.hpp"
+#include "wisp/learn/validate.hpp"
 
 namespace wisp {
 
@@ -18,7 +19,7 @@ Result<Fit> learn_switched(std::span<const Recording> recordings, const Switched
 /// Errors: the recording has not the model's channels or is too short, steps out of range, kStopped.
 ///
 /// Precondition: the model's dynamics are a SwitchedArxModel.
-Result<Report> validate_switched(const Model& model, const Recording& recording, const ArxValidation& options = {},
+Result<Report> validate_switched(const Model& model, const Recording& recording, const ValidationOptions& options = {},
                                  const Progress& progress = {});
 
 namespace switched {

@@ -9,82 +9,110 @@
 namespace wisp {
 namespace {
 
-constexpr double kMostSum = 1e30;  // far below the largest float, so that no sum overflows
+constexpr double kMaxSum = 1e30;  // far below the largest float, so that no sum overflows
 
-float kept(double value) { return std::abs(value) < kLeastCoefficient ? 0.0f : static_cast<float>(value); }
-
-double output_scale(const Model& model, int i) {
-  return channel_scale(model.outputs[i].lowest, model.outputs[i].highest);
-}
-
-// Calls tap(row, channel, lag, coefficient) for every coefficient that is not zero, in the order of adding.
-template <class Tap>
-void for_each_tap(const Model& model, const ArxModel& arx, Tap tap) {
-  const int ny = arx.orders.outputs();
-  for (int i = 0; i < ny; ++i) {
-    const double unit = output_scale(model, i);
-    for (int j = 0; j < ny; ++j) {
-      const double factor = -output_scale(model, j) / unit;
-      std::uint32_t lag = 1;
-      for (double a : arx.a(i, j)) {
-        if (const float coefficient = kept(a * factor); coefficient != 0) tap(i, j, lag, coefficient);
-        ++lag;
-      }
-    }
-    for (int k = 0; k < arx.orders.inputs(); ++k) {
-      const double factor = regressor_scale(model, k) / unit;
-      auto lag = static_cast<std::uint32_t>(arx.orders.nk(i, k));
-      for (double b : arx.b(i, k)) {
-        if (const float coefficient = kept(b * factor); coefficient != 0) tap(i, ny + k, lag, coefficient);
-        ++lag;
-      }
-    }
-  }
-}
-
-// Where the next tap would continue a run.
-struct RunEnd {
-  int row = -1;
-  int channel = -1;
-  std::uint32_t lag = 0;
-
-  bool continued_by(int next_row, int next_channel, std::uint32_t next_lag) const {
-    return row == next_row && channel == next_channel && lag == next_lag;
-  }
+// One mode's coefficients, as ArxModel and ArxMode have them.
+struct ModeRows {
+  const std::vector<std::vector<double>>& theta;
+  const std::vector<double>& constant;
 };
 
-struct TapCount {
-  std::size_t runs = 0;
-  std::size_t coefficients = 0;
-};
-
-TapCount count_taps(const Model& model, const ArxModel& arx) {
-  TapCount count;
-  RunEnd end;
-  for_each_tap(model, arx, [&](int row, int channel, std::uint32_t lag, float) {
-    if (!end.continued_by(row, channel, lag)) ++count.runs;
-    ++count.coefficients;
-    end = {row, channel, lag + 1};
-  });
-  return count;
+std::vector<ModeWeights> taps_of(const ArxOrders& orders, std::span<const ModeRows> modes,
+                                 const std::vector<double>& units, int i) {
+  std::vector<ModeWeights> taps;
+  std::size_t at = 0;  // in the row of theta
+  const auto add = [&](int channel, int lag, double sign) {
+    ModeWeights weights{static_cast<std::uint32_t>(channel), static_cast<std::uint32_t>(lag), {}};
+    for (const ModeRows& mode : modes) {
+      weights.of_mode.push_back(kept(sign * mode.theta[i][at] * units[channel] / units[i]));
+    }
+    ++at;
+    keep(taps, std::move(weights));
+  };
+  for (int j = 0; j < orders.outputs(); ++j) {
+    for (int lag = 1; lag <= orders.na(i, j); ++lag) add(j, lag, -1);
+  }
+  for (int k = 0; k < orders.inputs(); ++k) {
+    for (int l = 0; l < orders.nb(i, k); ++l) add(orders.outputs() + k, orders.nk(i, k) + l, 1);
+  }
+  return taps;
 }
 
-void fill_taps(const Model& model, const ArxModel& arx, ArxProgram& program) {
-  std::uint32_t runs = 0, coefficients = 0;
-  RunEnd end;
-  std::fill(program.row_end.begin(), program.row_end.end(), 0U);
-  for_each_tap(model, arx, [&](int row, int channel, std::uint32_t lag, float coefficient) {
-    if (!end.continued_by(row, channel, lag)) {
-      program.runs[runs++] = {static_cast<std::uint32_t>(channel), lag, 0, coefficients};
-    }
-    ++program.runs[runs - 1].count;
-    program.coefficients[coefficients++] = coefficient;
-    program.row_end[row] = runs;
-    end = {row, channel, lag + 1};
-  });
-  for (std::size_t row = 1; row < program.row_end.size(); ++row) {
-    program.row_end[row] = std::max(program.row_end[row], program.row_end[row - 1]);
+Regression regression_of(const ArxOrders& orders, std::span<const ModeRows> modes, const std::vector<double>& units) {
+  Regression out;
+  out.modes = static_cast<int>(modes.size());
+  out.history = orders.history();
+  out.regressors = orders.inputs();
+  for (int i = 0; i < orders.outputs(); ++i) {
+    out.taps.push_back(taps_of(orders, modes, units, i));
+    for (const ModeRows& mode : modes) out.constant.push_back(kept(mode.constant[i] / units[i]));
   }
+  return out;
+}
+
+std::size_t count(const std::vector<std::vector<ModeWeights>>& rows) {
+  std::size_t all = 0;
+  for (const auto& row : rows) all += row.size();
+  return all;
+}
+
+bool continues(const TapRun& run, const ModeWeights& tap) {
+  return run.channel == tap.channel && run.first_lag + run.count == tap.lag;
+}
+
+std::vector<TapRun> runs_of(const std::vector<ModeWeights>& taps, std::uint32_t first_coefficient) {
+  std::vector<TapRun> runs;
+  for (const ModeWeights& tap : taps) {
+    if (runs.empty() || !continues(runs.back(), tap)) runs.push_back({tap.channel, tap.lag, 0, first_coefficient});
+    ++runs.back().count;
+    ++first_coefficient;
+  }
+  return runs;
+}
+
+std::size_t count_runs(const Regression& regression) {
+  std::size_t all = 0;
+  for (const auto& row : regression.taps) all += runs_of(row, 0).size();
+  return all;
+}
+
+void fill_rows(const Regression& regression, ArxProgram& program) {
+  auto coefficient = program.coefficients.begin(), size = program.shock_size.begin();
+  std::uint32_t run = 0, tap = 0, shock = 0;
+  for (std::size_t i = 0; i < regression.taps.size(); ++i) {
+    for (const TapRun& one : runs_of(regression.taps[i], tap)) program.runs[run++] = one;
+    for (const ModeWeights& one : regression.taps[i]) coefficient = std::ranges::copy(one.of_mode, coefficient).out;
+    tap += static_cast<std::uint32_t>(regression.taps[i].size());
+    program.row_end[i] = run;
+    for (const ModeWeights& one : regression.shocks[i]) {
+      program.shock[shock++] = one.channel;
+      size = std::ranges::copy(one.of_mode, size).out;
+    }
+    program.shock_end[i] = shock;
+  }
+  std::ranges::copy(regression.constant, program.constant.begin());
+}
+
+ArxProgram lay_out(const Regression& regression, const DrawnProgram& drawn, Arena& arena) {
+  ArxProgram program;
+  program.outputs = static_cast<int>(regression.taps.size());
+  program.regressors = regression.regressors;
+  program.modes = regression.modes;
+  program.shock_channels = regression.shock_channels;
+  program.drawn = drawn;
+  program.depth = std::max(regression.history + 1, 2);
+  if (drawn.driven()) program.depth = std::max(program.depth, drawn.trend_steps + 1);
+  const auto ny = static_cast<std::size_t>(program.outputs), modes = static_cast<std::size_t>(program.modes);
+  program.shocks = count(regression.shocks);
+  program.runs = arena.take<TapRun>(count_runs(regression));
+  program.row_end = arena.take<std::uint32_t>(ny);
+  program.coefficients = arena.take<float>(count(regression.taps) * modes);
+  program.constant = arena.take<float>(ny * modes);
+  program.shock = arena.take<std::uint32_t>(program.shocks);
+  program.shock_end = arena.take<std::uint32_t>(ny);
+  program.shock_size = arena.take<float>(program.shocks * modes);
+  if (!arena.measures()) fill_rows(regression, program);
+  return program;
 }
 
 std::span<const TapRun> runs_of(const ArxProgram& program, int row) {
@@ -92,29 +120,38 @@ std::span<const TapRun> runs_of(const ArxProgram& program, int row) {
   return program.runs.subspan(begin, program.row_end[row] - begin);
 }
 
+// The numbers of every mode from one index on.
+std::span<const float> of_modes(const ArxProgram& program, std::span<const float> numbers, std::size_t first,
+                                std::size_t size = 1) {
+  const auto modes = static_cast<std::size_t>(program.modes);
+  return numbers.subspan(first * modes, size * modes);
+}
+
+bool are_opposite(std::span<const float> a, std::span<const float> b) {
+  return std::ranges::equal(a, b, [](float x, float y) { return x == -y; });
+}
+
 // Whether output b looks back at nothing but itself and the regressors, as a does at itself and at their opposites.
 bool taps_mirror(const ArxProgram& program, int a, int b) {
-  const auto ours = runs_of(program, a), theirs = runs_of(program, b);
   const auto mirrors = [&](const TapRun& x, const TapRun& y) {
     const bool own = x.channel == static_cast<std::uint32_t>(a) && y.channel == static_cast<std::uint32_t>(b);
     const bool common = x.channel == y.channel && x.channel >= static_cast<std::uint32_t>(program.outputs);
     if (!(own || common) || x.first_lag != y.first_lag || x.count != y.count) return false;
-    for (std::uint32_t k = 0; k < x.count; ++k) {
-      const float opposite = program.coefficients[y.coefficient + k];
-      if (program.coefficients[x.coefficient + k] != (own ? opposite : -opposite)) return false;
-    }
-    return true;
+    const auto ours = of_modes(program, program.coefficients, x.coefficient, x.count);
+    const auto theirs = of_modes(program, program.coefficients, y.coefficient, y.count);
+    return own ? std::ranges::equal(ours, theirs) : are_opposite(ours, theirs);
   };
-  return std::equal(ours.begin(), ours.end(), theirs.begin(), theirs.end(), mirrors);
+  return std::ranges::equal(runs_of(program, a), runs_of(program, b), mirrors);
 }
 
 bool noise_mirrors(const ArxProgram& program, int a, int b) {
   if (!program.drawn.empty()) return residuals_mirror(program.drawn, a, b);
-  bool opposite = program.sd[a] == 0 && program.sd[b] == 0;
-  for (int r = 0; r < program.rank; ++r) {
-    opposite &= program.mixing[a * program.rank + r] == -program.mixing[b * program.rank + r];
-  }
-  return opposite;
+  const auto begin = [&](int row) { return row == 0 ? 0U : program.shock_end[row - 1]; };
+  const std::uint32_t size = program.shock_end[a] - begin(a);
+  if (program.shock_end[b] - begin(b) != size) return false;
+  return std::ranges::equal(program.shock.subspan(begin(a), size), program.shock.subspan(begin(b), size)) &&
+         are_opposite(of_modes(program, program.shock_size, begin(a), size),
+                      of_modes(program, program.shock_size, begin(b), size));
 }
 
 bool ranges_mirror(const OutputChannel& a, const OutputChannel& b) {
@@ -122,43 +159,81 @@ bool ranges_mirror(const OutputChannel& a, const OutputChannel& b) {
          a.highest == -b.lowest && a.start == -b.start;
 }
 
+double total(std::span<const float> numbers) {
+  double sum = 0;
+  for (float number : numbers) sum += std::abs(number);
+  return sum;
+}
+
 }  // namespace
 
-ArxProgram make_arx_program(const Model& model, const ArxModel& arx, Arena& arena) {
-  ArxProgram program;
-  program.outputs = arx.orders.outputs();
-  program.regressors = arx.orders.inputs();
-  program.drawn = make_drawn_program(model, arx, arena);
-  program.depth = std::max(arx.orders.history() + 1, 2);
-  if (program.drawn.driven()) program.depth = std::max(program.depth, program.drawn.trend_steps + 1);
-  program.rank = arx.noise.rank;
-  const TapCount count = count_taps(model, arx);
-  const auto ny = static_cast<std::size_t>(program.outputs);
-  program.runs = arena.take<TapRun>(count.runs);
-  program.row_end = arena.take<std::uint32_t>(ny);
-  program.coefficients = arena.take<float>(count.coefficients);
-  program.constant = arena.take<float>(ny);
-  program.sd = arena.take<float>(ny);
-  program.mixing = arena.take<float>(ny * program.rank);
-  if (arena.measures()) return program;
-  fill_taps(model, arx, program);
-  for (int i = 0; i < program.outputs; ++i) {
-    const double unit = output_scale(model, i);
-    program.constant[i] = kept(arx.constant[i] / unit);
-    program.sd[i] = kept(arx.noise.sd[i] / unit);
-    for (int r = 0; r < program.rank; ++r) {
-      program.mixing[i * program.rank + r] = kept(arx.noise.mixing[i * program.rank + r] / unit);
+float kept(double value) { return std::abs(value) < kLeastCoefficient ? 0.0f : static_cast<float>(value); }
+
+void keep(std::vector<ModeWeights>& list, ModeWeights weights) {
+  if (std::ranges::any_of(weights.of_mode, [](float weight) { return weight != 0; }))
+    list.push_back(std::move(weights));
+}
+
+std::vector<double> channel_units(const Model& model) {
+  std::vector<double> units;
+  for (const Output& output : model.outputs) units.push_back(channel_scale(output.lowest, output.highest));
+  for (const Input& input : model.inputs) {
+    units.insert(units.end(), regressor_count(input.shape), channel_scale(input.lowest, input.highest));
+  }
+  return units;
+}
+
+// Every output's own shock, and those that outputs share.
+Regression regression_of(const Model& model, const ArxModel& arx) {
+  const std::vector<double> units = channel_units(model);
+  const ModeRows mode[] = {{arx.theta, arx.constant}};
+  Regression out = regression_of(arx.orders, mode, units);
+  const int ny = arx.orders.outputs();
+  out.shock_channels = ny + arx.noise.rank;
+  for (int i = 0; i < ny; ++i) {
+    std::vector<ModeWeights>& shocks = out.shocks.emplace_back();
+    keep(shocks, {static_cast<std::uint32_t>(i), 0, {kept(arx.noise.sd[i] / units[i])}});
+    for (int r = 0; r < arx.noise.rank; ++r) {
+      keep(shocks,
+           {static_cast<std::uint32_t>(ny + r), 0, {kept(arx.noise.mixing[i * arx.noise.rank + r] / units[i])}});
     }
   }
-  return program;
+  return out;
+}
+
+Regression regression_of(const Model& model, const SwitchedArxModel& switched) {
+  const std::vector<double> units = channel_units(model);
+  std::vector<ModeRows> modes;
+  for (const ArxMode& mode : switched.modes) modes.push_back({mode.theta, mode.constant});
+  Regression out = regression_of(switched.orders, modes, units);
+  const auto ny = static_cast<std::size_t>(switched.orders.outputs());
+  out.shock_channels = switched.orders.outputs();
+  for (std::size_t i = 0; i < ny; ++i) {
+    std::vector<ModeWeights>& shocks = out.shocks.emplace_back();
+    for (std::size_t j = 0; j <= i; ++j) {
+      ModeWeights weights{static_cast<std::uint32_t>(j), 0, {}};
+      for (const ArxMode& mode : switched.modes) weights.of_mode.push_back(kept(mode.shock[i * ny + j] / units[i]));
+      keep(shocks, std::move(weights));
+    }
+  }
+  return out;
+}
+
+ArxProgram make_arx_program(const Model& model, const ArxModel& arx, Arena& arena) {
+  return lay_out(regression_of(model, arx), make_drawn_program(model, arx, arena), arena);
+}
+
+ArxProgram make_arx_program(const Model& model, const SwitchedArxModel& switched, Arena& arena) {
+  return lay_out(regression_of(model, switched), {}, arena);
 }
 
 void mark_mirrored(const ArxProgram& program, std::span<OutputChannel> outputs) {
   for (int b = 0; b < program.outputs; ++b) {
     for (int a = 0; a < b && outputs[b].mirrors < 0; ++a) {
-      const bool opposite = outputs[a].mirrors < 0 && ranges_mirror(outputs[a], outputs[b]) &&
-                            program.constant[a] == -program.constant[b] && taps_mirror(program, a, b) &&
-                            noise_mirrors(program, a, b);
+      const bool opposite =
+          outputs[a].mirrors < 0 && ranges_mirror(outputs[a], outputs[b]) &&
+          are_opposite(of_modes(program, program.constant, a), of_modes(program, program.constant, b)) &&
+          taps_mirror(program, a, b) && noise_mirrors(program, a, b);
       if (opposite) outputs[b].mirrors = a;
     }
   }
@@ -166,25 +241,27 @@ void mark_mirrored(const ArxProgram& program, std::span<OutputChannel> outputs) 
 
 std::uint64_t hash_of(const ArxProgram& program, std::uint64_t before) {
   std::uint64_t hash = hash_number(static_cast<std::uint32_t>(program.depth), before);
+  hash = hash_number(static_cast<std::uint32_t>(program.modes), hash);
   for (const TapRun& run : program.runs) {
     for (std::uint32_t number : {run.channel, run.first_lag, run.count}) hash = hash_number(number, hash);
   }
-  for (std::uint32_t end : program.row_end) hash = hash_number(end, hash);
-  for (const auto numbers : {program.coefficients, program.constant, program.sd, program.mixing}) {
+  for (const auto words : {program.row_end, program.shock, program.shock_end}) {
+    for (std::uint32_t word : words) hash = hash_number(word, hash);
+  }
+  for (const auto numbers : {program.coefficients, program.constant, program.shock_size}) {
     hash = hash_floats(numbers, hash);
   }
   return hash_of(program.drawn, hash);
 }
 
-Result<void> check_arx_program(const Model& model, const ArxModel& arx) {
-  double sum = 0;
-  for_each_tap(model, arx, [&](int, int, std::uint32_t, float coefficient) { sum += std::abs(coefficient); });
-  for (int i = 0; i < arx.orders.outputs(); ++i) {
-    const double unit = output_scale(model, i);
-    sum += std::abs(arx.constant[i]) / unit + arx.noise.sd[i] / unit;
+Result<void> check_regression(const Regression& regression) {
+  double sum = total(regression.constant);
+  for (const auto* rows : {&regression.taps, &regression.shocks}) {
+    for (const auto& row : *rows) {
+      for (const ModeWeights& weights : row) sum += total(weights.of_mode);
+    }
   }
-  for (double share : arx.noise.mixing) sum += std::abs(share);
-  if (sum < kMostSum) return {};
+  if (sum < kMaxSum) return {};
   return Error{"the ARX coefficients add up to " + std::to_string(sum) +
                " in units of the channels' ranges, expected less than 1e30: learn the model again"};
 }

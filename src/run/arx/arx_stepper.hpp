@@ -1,54 +1,64 @@
 #pragma once
-// Steps blocks of instances of an ARX model. Source: section 3.5 of the paper (one multiplication by the matrix of
-// coefficients, histories in circular buffers); here the bank shares one place in the buffers, and what is zero costs
-// nothing.
+// Steps blocks of instances of an ARX model, or of a switched one, whose modes are ARX models. Source: section 3.5 of
+// the paper (one multiplication by the matrix of coefficients, histories in circular buffers); here the bank shares one
+// place in the buffers, and what is zero costs nothing.
 
 #include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <type_traits>
 
 #include "run/arx/arx_program.hpp"
 #include "run/arx/drawn_lanes.hpp"
+#include "run/arx/mode_lanes.hpp"
 #include "run/bank/channel_history.hpp"
 #include "run/bank/moment.hpp"
-#include "run/chain/chain_lane.hpp"
-#include "wisp/run/bank.hpp"
 
 namespace wisp {
 
-template <class N>
+/// `Modes` says which of the model's modes acts in each lane.
+template <class N, class Modes = SingleMode<N>>
 class ArxStepper : public ChannelHistory<N> {
  public:
   using typename ChannelHistory<N>::Real;
   using ChannelHistory<N>::kLanes;
-  /// Frames over which a cost is averaged: drawn residuals jump in some of them.
-  static constexpr int kCountedFrames = 60;
+  static constexpr int kCountedFrames = Modes::kCountedFrames;
 
   /// Where the model's deviations are measured from.
-  static OperatingPoint operating_point(const ArxModel& arx) { return {arx.output_mean, arx.input_mean}; }
+  template <class Dynamics>
+  static OperatingPoint operating_point(const Dynamics& dynamics) {
+    return {dynamics.output_mean, dynamics.input_mean};
+  }
 
   /// Errors: what single precision can't step.
-  static Result<void> check(const Model& model, const ArxModel& arx) { return check_arx_program(model, arx); }
+  template <class Dynamics>
+  static Result<void> check(const Model& model, const Dynamics& dynamics) {
+    return check_regression(regression_of(model, dynamics));
+  }
 
-  ArxStepper(const Model& model, const ArxModel& arx, const Channels& channels, int blocks, Arena& arena)
-      : ArxStepper(make_arx_program(model, arx, arena), channels, blocks, arena) {}
+  template <class Dynamics>
+  ArxStepper(const Model& model, const Dynamics& dynamics, const Channels& channels, int blocks, Arena& arena)
+      : ArxStepper(make_arx_program(model, dynamics, arena), Modes(model, dynamics, blocks, arena), channels, blocks,
+                   arena) {}
 
-  /// Sets the scale of the residual noise.
+  /// Sets the scale of the residual noise. At 0 there is no chance in the modes either.
   void set_noise(float scale) {
+    modes_.set_chance(scale > 0);
     noisy_ = drawn_.set_noise(scale);
     if (!drawn_.empty()) return;
-    const auto scaled = [&](float size) {
-      noisy_ |= scale * size != 0;
-      return scale * size;
-    };
-    std::transform(program_.sd.begin(), program_.sd.end(), sd_.begin(), scaled);
-    std::transform(program_.mixing.begin(), program_.mixing.end(), mixing_.begin(), scaled);
+    std::fill(shaken_.begin(), shaken_.end(), std::uint8_t{0});
+    for (std::size_t k = 0; k < shock_size_.size(); ++k) {
+      shock_size_[k] = scale * program_.shock_size[k];
+      if (shock_size_[k] != 0) shaken_[program_.shock[k / modes_.count()]] = 1;
+    }
+    noisy_ = std::find(shaken_.begin(), shaken_.end(), std::uint8_t{1}) != shaken_.end();
   }
 
   /// Makes the newest sample of a block.
   void step(int block, const Moment<N>& moment) {
     count_quiet(block);
+    modes_.choose(block, ring_, moment);
     if (noisy_) make_shocks(block, moment);
     Real* newest = ring_.sample(block, 0);
     auto held = all<Words<N>>(0U);
@@ -60,7 +70,7 @@ class ArxStepper : public ChannelHistory<N> {
         run = program_.row_end[i];
         continue;
       }
-      auto sum = noisy_ ? start_shaken(i) : all<Reals<N>>(program_.constant[i]);
+      auto sum = noisy_ ? start_shaken(i) : constant(i);
       for (; run < program_.row_end[i]; ++run) {
         if (!is_quiet(block, program_.runs[run].channel)) sum = add_run(block, program_.runs[run], sum);
       }
@@ -73,49 +83,59 @@ class ArxStepper : public ChannelHistory<N> {
 
   /// Puts one lane to the operating point.
   void start(int block, int lane, const Moment<N>&) {
+    modes_.start(block, lane);
     if (!drawn_.empty()) drawn_.start(block, lane);
     this->start_history(block, lane);
   }
 
-  /// Coefficients of A and B that are not zero.
-  std::int64_t multiply_adds() const { return static_cast<std::int64_t>(program_.coefficients.size()); }
+  /// The mode that made a lane's newest sample; none before the first step.
+  std::optional<int> mode(int block, int lane) const requires(!std::is_same_v<Modes, SingleMode<N>>) {
+    return modes_.mode(block, lane);
+  }
+
+  /// Coefficients that a step multiplies by: those of A and B of one mode, and what the choice of a mode takes.
+  std::int64_t multiply_adds() const {
+    return static_cast<std::int64_t>(program_.coefficients.size() / modes_.count()) + modes_.multiply_adds();
+  }
 
   /// Numbers of state that one lane holds.
-  std::size_t lane_values() const { return this->history_values() + drawn_.lane_values(); }
+  std::size_t lane_values() const { return modes_.lane_values() + drawn_.lane_values() + this->history_values(); }
 
   /// Calls visit(value, low, high) for each number of one lane's state, in an order that does not depend on where in
   /// the ring it lies: the way to save, check and restore it.
   template <class Visit>
   void visit_lane(int block, int lane, Visit visit) {
     std::fill_n(quiet_.begin() + block * program_.regressors, program_.regressors, 0);  // it may be restored
+    modes_.visit_lane(block, lane, visit);
     drawn_.visit_lane(block, lane, visit);
     this->visit_history(block, lane, visit);
   }
 
   /// Goes into the hash that tells models apart.
-  std::uint64_t hash(std::uint64_t before) const { return hash_of(program_, before); }
+  std::uint64_t hash(std::uint64_t before) const { return modes_.hash(hash_of(program_, before)); }
 
  private:
   using ChannelHistory<N>::channels_;
   using ChannelHistory<N>::ring_;
 
-  ArxStepper(const ArxProgram& program, const Channels& channels, int blocks, Arena& arena)
+  ArxStepper(const ArxProgram& program, const Modes& modes, const Channels& channels, int blocks, Arena& arena)
       : ChannelHistory<N>(program, channels, blocks, arena),
         program_(program),
+        modes_(modes),
         drawn_(program.drawn, blocks, arena),
-        shocks_(arena.take<Real>(static_cast<std::size_t>(program.outputs + program.rank) * kLanes)),
+        shocks_(arena.take<Real>(static_cast<std::size_t>(program.shock_channels) * kLanes)),
+        shaken_(arena.take<std::uint8_t>(program.shock_channels)),
         quiet_(arena.take<int>(static_cast<std::size_t>(blocks) * program.regressors)),
-        sd_(arena.take<float>(program.outputs)),
-        mixing_(arena.take<float>(static_cast<std::size_t>(program.outputs) * program.rank)) {
+        shock_size_(arena.take<float>(program.shocks * modes.count())) {
     if (!arena.measures()) mark_mirrored(program_, channels_.outputs);
   }
 
   // The run's products are added in the order of its lags, each to what was there before.
   Reals<N> add_run(int block, const TapRun& run, Reals<N> sum) const {
-    const float* coefficient = program_.coefficients.data() + run.coefficient;
-    for (std::uint32_t k = 0; k < run.count; ++k) {
+    const float* coefficient = program_.coefficients.data() + run.coefficient * modes_.count();
+    for (std::uint32_t k = 0; k < run.count; ++k, coefficient += modes_.count()) {
       const Real* past = ring_.sample(block, run.first_lag + k) + run.channel * kLanes;
-      sum = sum + all<Reals<N>>(coefficient[k]) * load<Reals<N>>(past);
+      sum = sum + modes_.pick(coefficient) * load<Reals<N>>(past);
     }
     return sum;
   }
@@ -162,16 +182,13 @@ class ArxStepper : public ChannelHistory<N> {
     for (int lane = 0; lane < kLanes; ++lane) winds[lane] = {wind[lane], trend[lane]};
   }
 
-  bool is_shaken(int channel) const { return channel >= program_.outputs || sd_[channel] != 0; }
-
-  // Standard normal deviates for every output that has noise of its own, and for every shared shock.
+  // Standard normal numbers for every shock that is added to an output.
   void draw(const Moment<N>& moment) {
     Words<N> counters[4], words[4];
     random_counters<N>(moment.counters, counters);
-    const int channels = program_.outputs + program_.rank;
     int group = -1;
-    for (int channel = 0; channel < channels; ++channel) {
-      if (!is_shaken(channel)) continue;
+    for (int channel = 0; channel < program_.shock_channels; ++channel) {
+      if (!shaken_[channel]) continue;
       if (channel / 4 != group) {
         group = channel / 4;
         random_group<N>(*moment.keys, counters, static_cast<std::uint32_t>(group), words);
@@ -180,29 +197,33 @@ class ArxStepper : public ChannelHistory<N> {
     }
   }
 
+  Reals<N> constant(int i) const { return modes_.pick(program_.constant.data() + i * modes_.count()); }
+
   // What a sum starts from: the constant and the noise.
   Reals<N> start_shaken(int i) const {
-    auto sum = all<Reals<N>>(program_.constant[i]);
     if (!drawn_.empty()) {
       const auto shock = load<Reals<N>>(shocks_.data() + i * kLanes);
-      return program_.constant[i] == 0 ? shock : sum + shock;
+      return modes_.count() == 1 && program_.constant[i] == 0 ? shock : constant(i) + shock;
     }
-    if (is_shaken(i)) sum = add_shock(i, sd_[i], sum);
-    for (int r = 0; r < program_.rank; ++r) sum = add_shock(program_.outputs + r, mixing_[i * program_.rank + r], sum);
+    auto sum = constant(i);
+    for (std::uint32_t k = i == 0 ? 0 : program_.shock_end[i - 1]; k < program_.shock_end[i]; ++k) {
+      const Real* shock = shocks_.data() + program_.shock[k] * kLanes;
+      sum = sum + modes_.pick(shock_size_.data() + k * modes_.count()) * load<Reals<N>>(shock);
+    }
     return sum;
   }
 
-  Reals<N> add_shock(int channel, float size, const Reals<N>& sum) const {
-    return sum + all<Reals<N>>(size) * load<Reals<N>>(shocks_.data() + channel * kLanes);
-  }
-
   ArxProgram program_;
+  Modes modes_;
   DrawnLanes<N> drawn_;
   std::span<Real> shocks_;
-  std::span<int> quiet_;  // [block][regressor]: steps for which it has been 0 in all lanes, up to the depth
-  std::span<float> sd_;   // those of the program, scaled, as is the next
-  std::span<float> mixing_;
+  std::span<std::uint8_t> shaken_;  // per standard normal number: whether anything is shaken by it
+  std::span<int> quiet_;            // [block][regressor]: steps for which it has been 0 in all lanes, up to the depth
+  std::span<float> shock_size_;     // those of the program, scaled
   bool noisy_ = false;
 };
+
+template <class N>
+using SwitchedStepper = ArxStepper<N, ModeLanes<N>>;
 
 }  // namespace wisp

@@ -1,7 +1,7 @@
-#include "run/arx/switched_stepper.hpp"
+#include "run/arx/arx_stepper.hpp"
 
 namespace wisp {
 
-template class SwitchedStepper<LiveNumbers>;
+template class ArxStepper<LiveNumbers, ModeLanes<LiveNumbers>>;
 
 }  // namespace wisp

@@ -6,7 +6,6 @@
 #include <variant>
 
 #include "run/arx/arx_stepper.hpp"
-#include "run/arx/switched_stepper.hpp"
 #include "run/chain/chain_stepper.hpp"
 
 namespace wisp {
@@ -35,7 +34,7 @@ using Stepper = std::variant<ArxStepper<LiveNumbers>, ChainStepper<LiveNumbers>,
 // Each kind is compiled in a file of its own, so that a build may choose for each whether to be fast or small.
 extern template class ArxStepper<LiveNumbers>;
 extern template class ChainStepper<LiveNumbers>;
-extern template class SwitchedStepper<LiveNumbers>;
+extern template class ArxStepper<LiveNumbers, ModeLanes<LiveNumbers>>;
 
 /// Calls use(dynamics, stepper kind) with the model's dynamics and a std::type_identity of what steps them.
 template <class N, class Use>

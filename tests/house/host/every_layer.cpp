@@ -9,7 +9,7 @@
 #include "wisp/capture/vision/image.hpp"
 #include "wisp/draw/image.hpp"
 #include "wisp/draw/video_writer.hpp"
-#include "wisp/learn/spectrum.hpp"
+#include "learn/numeric/spectrum.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/record/csv.hpp"
 #include "wisp/record/mat.hpp"

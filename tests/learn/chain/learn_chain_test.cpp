@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "learn/chain/learn_chain.hpp"
 #include "learn/chain/made_falls.hpp"
-#include "wisp/learn/chain.hpp"
 #include "wisp/model/file.hpp"
 
 namespace wisp::chain {

@@ -1,4 +1,4 @@
-#include "wisp/learn/fidelity.hpp"
+#include "learn/fidelity/fidelity.hpp"
 
 #include <gtest/gtest.h>
 

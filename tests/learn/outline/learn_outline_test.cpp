@@ -1,4 +1,4 @@
-#include "wisp/learn/learn_outline.hpp"
+#include "learn/outline/learn_outline.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -44,7 +44,7 @@ Recording unseen(made::OutlineRecipe recipe) {
   return made::outline_recording(recipe);
 }
 
-OutlineJudgement validated(const Model& model, const Recording& recording, OutlineValidationOptions options = {}) {
+OutlineJudgement validated(const Model& model, const Recording& recording, ValidationOptions options = {}) {
   options.play_seconds = 20;
   auto result = judge_outline(model, recording, options);
   EXPECT_TRUE(result) << (result ? "" : result.error().message);
@@ -90,7 +90,7 @@ TEST(Validation, WindFromTheOtherSideIsAnsweredByTheMirrorImage) {
   ASSERT_TRUE(left);
   Recording from_left = *left;
   for (double& wind : from_left.channels[*find_channel(from_left, "wind")].samples) wind = -wind;
-  const OutlineValidationOptions options{.pixels_per_unit = kUnit, .fidelity = false};
+  const ValidationOptions options{.pixels_per_unit = kUnit, .fidelity = false};
   const OutlineFigures of_right = validated(windy_model(), right, options).figures;
   const OutlineFigures of_left = validated(windy_model(), from_left, options).figures;
   // Not the tip, which is not linear in the control points: about a shape that chance made a little askew, its mirror

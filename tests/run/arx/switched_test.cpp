@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model/sample_switched.hpp"
+#include "run/flame_model.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/cost.hpp"
 #include "wisp/run/switched_facet.hpp"
@@ -191,6 +192,24 @@ TEST(SwitchedBank, CostsOneModeAndTheRegions) {
   EXPECT_EQ(regions->noise_operations, 2 * 5 + 3 * 2);
   EXPECT_EQ(regions->random_operations, 1 + 7 * 6 + 2 * 6);
   EXPECT_EQ(markov->random_operations, regions->random_operations + 1 + 7 * 6);  // a word for the chain
+}
+
+TEST(SwitchedBank, ASingleModeHasTheBitsOfItsArxModel) {
+  const Model arx = flame_model({.wind = InputShape::kSplitSign});
+  Model single = arx;
+  single.dynamics = switched_of(std::get<ArxModel>(arx.dynamics));
+  Bank a = bank_of(arx, 9), b = bank_of(single, 9);
+  std::vector<float> wind(9), from_a(9 * 16), from_b(9 * 16);
+  for (int step = 0; step < 300; ++step) {
+    for (int k = 0; k < 9; ++k) wind[static_cast<std::size_t>(k)] = input_at(step, k) - 0.5f;
+    for (Bank* bank : {&a, &b}) {
+      bank->set_inputs(wind);
+      bank->step();
+    }
+    a.outputs(from_a);
+    b.outputs(from_b);
+    ASSERT_EQ(from_a, from_b) << step;
+  }
 }
 
 }  // namespace

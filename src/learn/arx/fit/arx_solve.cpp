@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/Householder>
 #include <cmath>
 
 #include "learn/numeric/decompositions.hpp"

@@ -12,6 +12,7 @@
 #include "learn/arx/report/report_values.hpp"
 #include "learn/arx/report/response_report.hpp"
 #include "wisp/learn/prediction.hpp"
+#include "wisp/record/number_text.hpp"
 
 namespace wisp {
 namespace arx {
@@ -30,7 +31,7 @@ struct Subject {
   const ArxModel& arx;
   const ChannelChoice& channels;
   const Recording& recording;
-  const ArxValidation& options;
+  const ValidationOptions& options;
   std::vector<std::vector<double>> sd;  // of prediction errors, per output, then per step
 
   const std::vector<double>& measured(std::size_t output) const {
@@ -70,7 +71,8 @@ std::vector<std::vector<double>> error_sd(const ArxModel& arx, const std::vector
 }
 
 Result<Judged> judge(const Subject& subject, const Progress& progress) {
-  const auto& [steps, initial, responses] = subject.options;
+  const std::vector<int>& steps = subject.options.steps;
+  const InitialState initial = subject.options.initial;
   auto figures =
       prediction_figures(subject.arx, {&subject.recording, 1}, subject.channels, {.steps = steps, .initial = initial});
   if (!figures) return figures.error();
@@ -156,7 +158,8 @@ void add_plots(const Subject& subject, const Judged& judged, ReportSection& sect
     plot("measured" + place, "measured", subject.measured(i));
     for (std::size_t s = 0; s < steps.size(); ++s) {
       const std::vector<double>& predicted = judged.predictions[s][i];
-      if (steps[s] == kFreeRun) plot("simulated" + place, "simulated from the input", predicted);
+      const std::string fit = " (fit " + number_text(judged.figures[s].fit_percent[i], 3) + " %)";
+      if (steps[s] == kFreeRun) plot("simulated" + place, "simulated from the input" + fit, predicted);
       if (steps[s] != ahead || ahead == 0) continue;
       std::vector<double> low = predicted, high = predicted;
       for (double& y : low) y -= kSure * subject.sd_of(i, ahead);
@@ -226,7 +229,7 @@ Report report_of(const Subject& subject, const Judged& judged) {
 }  // namespace
 }  // namespace arx
 
-Result<Report> validate_arx(const Model& model, const Recording& recording, const ArxValidation& options,
+Result<Report> validate_arx(const Model& model, const Recording& recording, const ValidationOptions& options,
                             const Progress& progress) {
   if (auto ok = arx::check_steps(options.steps); !ok) return ok.error();
   const ChannelChoice channels = arx::channels_of(model);

@@ -24,7 +24,7 @@ void add_quality(const ArxSummary& summary, std::size_t outputs, ReportSection& 
   add(section, "V", summary.loss, "residual variance V");
   add(section, "noise_covariance", matrix_of(summary.noise_covariance, outputs));
   add(section, "fpe", summary.fpe, "FPE", "",
-      "expected on unseen rows; compare models of the same data, less is better");
+      "expected variance on unseen rows: of models of the same data, less is better");
   add(section, "aic", summary.aic, "AIC");
   add(section, "aicc", summary.aicc);
   add(section, "bic", summary.bic, "BIC");
@@ -38,7 +38,7 @@ void add_data(const ArxSummary& summary, ReportSection& section) {
   add(section, "episodes.skipped", summary.episodes_skipped);
   add(section, "rows_left_out", summary.rows_left_out);
   add(section, "condition", *std::max_element(summary.condition.begin(), summary.condition.end()), "condition", "",
-      "of the regressors; standard errors lose digits above 1e6");
+      "of the regressors, in the data's units");
   add(section, "row_condition", summary.condition);
   add(section, "method", summary.method);
 }

@@ -8,8 +8,8 @@
 
 #include "learn/chain/chain_fit.hpp"
 #include "learn/chain/gusts/gust_play.hpp"
+#include "learn/chain/learn_chain.hpp"
 #include "learn/chain/made_falls.hpp"
-#include "wisp/learn/chain.hpp"
 
 namespace wisp::chain {
 namespace {

@@ -13,11 +13,6 @@
 
 namespace wisp {
 
-/// Whether a recording tells motion. Errors: no position, no stretch that is long enough, no orientation where it
-/// should have one, a position that is not in metres or further than 1000 km away; of one with the attribute `pair`, a
-/// wind that is missing somewhere or an attribute `clones` that is no whole number.
-Result<void> check_motion(const Recording& recording);
-
 /// Learns a chain, with its response to gusts where two of the recordings are a pair, and judges it on the stretches
 /// that were held out (where none are, on those that it was learned from).
 /// Errors, each with the file that it is about: as check_motion(); a pair that is none; no falls beside it; no event,

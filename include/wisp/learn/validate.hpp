@@ -1,0 +1,46 @@
+#pragma once
+// A model held against recordings that it was not learned from: one call for every kind of model.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "wisp/base/progress.hpp"
+#include "wisp/base/report.hpp"
+#include "wisp/base/result.hpp"
+#include "wisp/learn/arx_recipe.hpp"
+#include "wisp/model/model.hpp"
+#include "wisp/record/recording.hpp"
+
+namespace wisp {
+
+/// How to validate. Each kind of model takes what concerns it.
+struct ValidationOptions {
+  std::vector<int> steps{1, 5, 15, kFreeRun};      ///< steps ahead, 1 to 100000, or kFreeRun
+  InitialState initial = InitialState::kMeasured;  ///< of an ARX model's free simulation; a switched model starts from
+                                                   ///< measured samples
+  bool responses = false;                          ///< ARX: also series of poles, zeros, responses, and errors by steps
+  double pixels_per_unit = 0;        ///< outlines: 0: the recording's own mean calm height is the model's 1
+  bool own_input_scale = false;      ///< outlines: input 1 is this recording's 95th percentile instead of the
+                                     ///< training's: another microphone, another gain
+  bool align = true;                 ///< outlines: move inputs that come after the motion that they cause
+  const Recording* truth = nullptr;  ///< outlines: the inputs as they truly were, row by row
+  double play_seconds = 60;          ///< outlines: > 0: how long the model plays freely for the fidelity figures
+  bool fidelity = true;              ///< outlines: off: it costs a second or two
+  std::uint64_t seed = 1;            ///< of what plays with noise
+};
+
+/// Validates a model on a recording; a chain also on several, or on a windy recording and its calm twin.
+/// The report has the fields of `wisp validate --json` for that kind of model, and the series of its plots.
+/// Errors, naming the recording: channels that it has not, another rate or number of control points than the model's,
+/// too few rows, options out of range; kStopped.
+Result<Report> validate(const Model& model, std::span<const Recording> recordings,
+                        const ValidationOptions& options = {}, const Progress& progress = {});
+
+/// The same on one recording.
+Result<Report> validate(const Model& model, const Recording& recording, const ValidationOptions& options = {},
+                        const Progress& progress = {});
+
+}  // namespace wisp

@@ -1,0 +1,34 @@
+#include "wisp/learn/validate.hpp"
+
+#include "learn/arx/learn_arx.hpp"
+#include "learn/chain/learn_chain.hpp"
+#include "learn/switched/learn_switched.hpp"
+#include "wisp/learn/validate_outline.hpp"
+
+namespace wisp {
+
+Result<Report> validate(const Model& model, const Recording& recording, const ValidationOptions& options,
+                        const Progress& progress) {
+  if (std::holds_alternative<ChainModel>(model.dynamics)) {
+    return validate_chain(model, std::span(&recording, 1), options.seed, progress);
+  }
+  if (std::holds_alternative<SwitchedArxModel>(model.dynamics)) {
+    return validate_switched(model, recording, options, progress);
+  }
+  if (!std::holds_alternative<OutlineView>(model.view)) return validate_arx(model, recording, options, progress);
+  auto outline = validate_outline(model, recording, options, progress);
+  if (!outline) return outline.error();
+  return std::move(outline->report);
+}
+
+Result<Report> validate(const Model& model, std::span<const Recording> recordings, const ValidationOptions& options,
+                        const Progress& progress) {
+  if (recordings.empty()) return Error{model.name + ": there is no recording to validate it on"};
+  if (std::holds_alternative<ChainModel>(model.dynamics)) {
+    return validate_chain(model, recordings, options.seed, progress);
+  }
+  if (recordings.size() == 1) return validate(model, recordings.front(), options, progress);
+  return Error{recordings[1].source + ": is one recording too many, expected a single one for a model of this kind"};
+}
+
+}  // namespace wisp

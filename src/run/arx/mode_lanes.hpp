@@ -1,0 +1,158 @@
+#pragma once
+// Which mode of an ARX model acts in every lane of a block: the only one, or one of those of a switched model, chosen
+// by regions or by a Markov chain.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "run/arx/mode_program.hpp"
+#include "run/bank/moment.hpp"
+#include "run/bank/sample_ring.hpp"
+#include "run/lanes/random_lanes.hpp"
+#include "wisp/model/arx.hpp"
+
+namespace wisp {
+
+/// An ARX model's: there is nothing to choose, and nothing of it is kept.
+template <class N>
+class SingleMode {
+ public:
+  using Real = typename N::Real;
+  /// Frames over which a cost is averaged: drawn residuals jump in some of them.
+  static constexpr int kCountedFrames = 60;
+
+  SingleMode(const Model&, const ArxModel&, int, Arena&) {}
+
+  static constexpr std::size_t count() { return 1; }
+  void set_chance(bool) {}
+  void choose(int, const SampleRing<N>&, const Moment<N>&) {}
+  Reals<N> pick(const float* of_mode) const { return all<Reals<N>>(*of_mode); }
+  void start(int, int) {}
+  std::int64_t multiply_adds() const { return 0; }
+  std::size_t lane_values() const { return 0; }
+  template <class Visit>
+  void visit_lane(int, int, Visit) {}
+  std::uint64_t hash(std::uint64_t before) const { return before; }
+};
+
+/// A switched model's. Numbers are picked lane by lane, so that the arithmetic is that of a single mode, however many
+/// there are. By regions, the affine functions of all modes come on top; by a Markov chain, one random word.
+template <class N>
+class ModeLanes {
+ public:
+  using Real = typename N::Real;
+  static constexpr int kLanes = N::kLanes;
+  /// Every frame costs the same.
+  static constexpr int kCountedFrames = 1;
+
+  ModeLanes(const Model& model, const SwitchedArxModel& switched, int blocks, Arena& arena)
+      : program_(make_mode_program(model, switched, arena)),
+        modes_(arena.take<Real>(static_cast<std::size_t>(blocks) * kLanes)) {}
+
+  std::size_t count() const { return static_cast<std::size_t>(program_.modes); }
+
+  /// Without chance a Markov chain takes the likeliest step.
+  void set_chance(bool there) { chance_ = there; }
+
+  /// Chooses every lane's mode of this step.
+  void choose(int block, const SampleRing<N>& ring, const Moment<N>& moment) {
+    if (program_.markov) {
+      walk(block, moment);
+    } else {
+      classify(block, ring);
+    }
+    for (int lane = 0; lane < kLanes; ++lane) modes_[block * kLanes + lane] = Real(static_cast<float>(mode_[lane]));
+  }
+
+  /// Every lane's number of its own mode.
+  Reals<N> pick(const float* of_mode) const {
+    Real picked[kLanes];
+    for (int lane = 0; lane < kLanes; ++lane) picked[lane] = Real(of_mode[mode_[lane]]);
+    return load<Reals<N>>(picked);
+  }
+
+  /// A newborn has no mode before its first step.
+  void start(int block, int lane) { modes_[block * kLanes + lane] = Real(kNoMode); }
+
+  /// The mode that made the newest sample; none before the first step.
+  std::optional<int> mode(int block, int lane) const {
+    const int mode = static_cast<int>(value_of(modes_[block * kLanes + lane]));
+    if (mode < 0) return {};
+    return mode;
+  }
+
+  /// Coefficients of the regions of all modes.
+  std::int64_t multiply_adds() const { return static_cast<std::int64_t>(program_.region_weights.size()); }
+
+  std::size_t lane_values() const { return 1; }
+
+  template <class Visit>
+  void visit_lane(int block, int lane, Visit visit) {
+    visit(modes_[block * kLanes + lane], kNoMode, static_cast<float>(program_.modes - 1));
+  }
+
+  std::uint64_t hash(std::uint64_t before) const { return hash_of(program_, before); }
+
+ private:
+  static constexpr float kNoMode = -1.0f;
+
+  // Of the affine functions the largest, of equal ones the first.
+  void classify(int block, const SampleRing<N>& ring) {
+    Real best[kLanes], score[kLanes];
+    const float* weight = program_.region_weights.data();
+    for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(program_.modes); ++k) {
+      auto sum = all<Reals<N>>(program_.region_constant[k]);
+      for (const RegionTap& tap : program_.region_taps) {
+        sum = sum + all<Reals<N>>(*weight++) * load<Reals<N>>(ring.sample(block, tap.lag) + tap.channel * kLanes);
+      }
+      store(sum, score);
+      for (int lane = 0; lane < kLanes; ++lane) {
+        if (k > 0 && !(score[lane] > best[lane])) continue;
+        best[lane] = score[lane];
+        mode_[lane] = k;
+      }
+    }
+  }
+
+  // One step of every lane's Markov chain. Its word comes after those of the shocks.
+  void walk(int block, const Moment<N>& moment) {
+    const auto modes = static_cast<std::uint32_t>(program_.modes);
+    typename N::Word word[kLanes] = {};
+    if (chance_) {
+      Words<N> counters[4], words[4];
+      random_counters<N>(moment.counters, counters);
+      random_group<N>(*moment.keys, counters, static_cast<std::uint32_t>(program_.outputs + 3) / 4, words);
+      store(words[0], word);
+    }
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const int before = static_cast<int>(value_of(modes_[block * kLanes + lane]));
+      const auto row = static_cast<std::size_t>(before < 0 ? program_.modes : before) * modes;
+      const std::uint32_t* threshold = program_.thresholds.data() + row;
+      mode_[lane] = chance_ ? first_above(threshold, value_of(word[lane])) : likeliest(threshold, modes);
+    }
+  }
+
+  static std::uint32_t first_above(const std::uint32_t* threshold, std::uint32_t word) {
+    std::uint32_t mode = 0;
+    while (threshold[mode] != kAnyWord && word >= threshold[mode]) ++mode;
+    return mode;
+  }
+
+  static std::uint32_t likeliest(const std::uint32_t* threshold, std::uint32_t modes) {
+    std::uint32_t best = 0, most = threshold[0];
+    for (std::uint32_t mode = 1; mode < modes; ++mode) {
+      if (threshold[mode] - threshold[mode - 1] <= most) continue;
+      most = threshold[mode] - threshold[mode - 1];
+      best = mode;
+    }
+    return best;
+  }
+
+  ModeProgram program_;
+  std::span<Real> modes_;            // [block][lane]: what made the newest sample, or kNoMode
+  std::uint32_t mode_[kLanes] = {};  // of the block that is being stepped
+  bool chance_ = true;
+};
+
+}  // namespace wisp

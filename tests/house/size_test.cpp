@@ -1,0 +1,110 @@
+// The house stays small enough to be known: short functions, folders that one look takes in, few public headers.
+// script/figures prints what is measured here.
+
+#include "house/size.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+namespace wisp::house {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+// Ceilings, to be lowered as the house gets smaller: 60 lines, 25 sources and 60 headers are what it should come to.
+constexpr int kFunctionLines = 67;
+constexpr int kFolderSources = 25;
+constexpr int kPublicHeaders = 104;
+
+std::vector<std::string> long_functions(const std::filesystem::path& root, int most) {
+  std::vector<std::string> found;
+  for (const auto& [file, function] : functions_by_length(root)) {
+    if (function.lines <= most) break;
+    found.push_back(file + ":" + std::to_string(function.line) + ": " + function.name + " has " +
+                    std::to_string(function.lines) + " lines");
+  }
+  return found;
+}
+
+std::vector<std::string> full_folders(const std::filesystem::path& root, int most) {
+  std::vector<std::string> found;
+  for (const auto& [folder, count] : sources_by_folder(root)) {
+    if (count > most) found.push_back(folder + " has " + std::to_string(count) + " sources");
+  }
+  return found;
+}
+
+TEST(Size, Figures) {
+  int total = 0;
+  for (const auto& [top, lines] : lines_by_folder(WISP_SOURCE_DIR)) {
+    std::cout << "lines of " << top << ": " << lines << "\n";
+    total += lines;
+  }
+  std::cout << "lines together: " << total << "\npublic headers: " << public_headers(WISP_SOURCE_DIR) << "\n";
+  std::vector<std::pair<int, std::string>> folders;
+  for (const auto& [folder, count] : sources_by_folder(WISP_SOURCE_DIR)) folders.emplace_back(-count, folder);
+  std::sort(folders.begin(), folders.end());
+  folders.resize(std::min<std::size_t>(folders.size(), 8));
+  for (const auto& [count, folder] : folders) std::cout << "sources in " << folder << ": " << -count << "\n";
+  auto functions = functions_by_length(WISP_SOURCE_DIR);
+  ASSERT_GT(functions.size(), 1000u) << "the functions of the house were not found";
+  functions.resize(10);
+  for (const auto& [file, function] : functions) {
+    std::cout << "lines of " << function.name << " (" << file << ":" << function.line << "): " << function.lines
+              << "\n";
+  }
+}
+
+TEST(Size, FunctionsAreShort) { EXPECT_THAT(long_functions(WISP_SOURCE_DIR, kFunctionLines), IsEmpty()); }
+
+TEST(Size, FoldersAreNotFull) { EXPECT_THAT(full_folders(WISP_SOURCE_DIR, kFolderSources), IsEmpty()); }
+
+TEST(Size, PublicHeadersAreFew) { EXPECT_LE(public_headers(WISP_SOURCE_DIR), kPublicHeaders); }
+
+TEST(Size, LongFunctionsAreFound) {
+  ScratchTree tree;
+  tree.add("src/run/a.cpp",
+           "#include <map>\n"
+           "namespace wisp {\n"
+           "const std::map<int, char> kBraces = {{1, '{'}, {2, '}'}};  // } and {\n"
+           "struct Pair {\n"
+           "  int sum() const { return a + b; }\n"
+           "  int a = 0;\n"
+           "  int b = 0;\n"
+           "};\n"
+           "int brief() { return 1'000; }\n"
+           "int Pair::lengthy(int a,\n"
+           "                  int b) {\n"
+           "  const auto text = R\"({ { {)\";\n"
+           "  if (a < b) {\n"
+           "    return [&] { return 1; }();\n"
+           "  }\n"
+           "  return 2;\n"
+           "}\n"
+           "Bank::Bank(int n) : n_(n), rows_{n} {\n"
+           "  fill();\n"
+           "  fill();\n"
+           "  fill();\n"
+           "}\n"
+           "}  // namespace wisp\n");
+  tree.add("tests/run/a_test.cpp", "int long_test() {\n\n\n\n\n\n\n\n\n}\n");
+  EXPECT_THAT(long_functions(tree.root(), 4),
+              ElementsAre("src/run/a.cpp:10: Pair::lengthy has 8 lines", "src/run/a.cpp:18: Bank::Bank has 5 lines"));
+}
+
+TEST(Size, FullFoldersAndManyHeadersAreFound) {
+  ScratchTree tree;
+  for (const std::string name : {"a", "b", "c"}) {
+    tree.add("src/learn/arx/" + name + ".cpp", "").add("src/learn/arx/" + name + ".hpp", "");
+    tree.add("include/wisp/learn/" + name + ".hpp", "");
+  }
+  tree.add("src/learn/d.cpp", "");
+  EXPECT_THAT(full_folders(tree.root(), 2), ElementsAre("src/learn/arx has 3 sources"));
+  EXPECT_EQ(public_headers(tree.root()), 3);
+}
+
+}  // namespace
+}  // namespace wisp::house
