@@ -414,7 +414,7 @@ typedef struct wisp_wind_frame {
   float rms;        /* of all samples in the frame */
   float rms_clean;  /* less the background's, not below 0 */
   float level;      /* of the band in which wind is heard, less the background in power */
-  float speed;      /* proportional to wind speed; 1 is the 95th percentile while it blows */
+  float speed;      /* proportional to wind speed; 1 lies between soft breath and hard blowing */
   float wind;       /* a model's input: speed where it sounds like blowing, 0 where nothing is heard */
   float confidence; /* 0 to 1: this is blowing, not talking */
   float background; /* RMS of the background as known at this frame */
@@ -441,6 +441,17 @@ wisp_status wisp_wind_calibrate(wisp_wind* wind, double seconds);
 
 /* 1 while that time is still running, else 0. */
 int32_t wisp_wind_calibrating(const wisp_wind* wind);
+
+/* What a guided calibration asks for. */
+#define WISP_WIND_BE_STILL 0u       /* the room: what is steady in it is no wind then; as wisp_wind_calibrate() */
+#define WISP_WIND_BREATHE_GENTLY 1u /* what is to lean a flame and not to put it out */
+#define WISP_WIND_BLOW_HARD 2u      /* what is to put it out */
+
+/* Takes the coming seconds of sound (0.5 to 30 used) for what was asked for. */
+wisp_status wisp_wind_calibrate_for(wisp_wind* wind, uint32_t what, double seconds);
+
+/* 1 when the last calibration is over and heard what it asked for. */
+int32_t wisp_wind_calibrated(const wisp_wind* wind);
 
 /* What a microphone in a room was found to be: kept, it spares the next start the finding. */
 typedef struct wisp_wind_calibration {

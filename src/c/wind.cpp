@@ -114,11 +114,19 @@ wisp_status wisp_wind_latest(const wisp_wind* wind, wisp_wind_frame* frame) {
 }
 
 wisp_status wisp_wind_calibrate(wisp_wind* wind, double seconds) {
+  return wisp_wind_calibrate_for(wind, WISP_WIND_BE_STILL, seconds);
+}
+
+wisp_status wisp_wind_calibrate_for(wisp_wind* wind, uint32_t what, double seconds) {
   if (!wind) return null_argument(__func__);
   if (!std::isfinite(seconds)) return fail(WISP_BAD_ARGUMENT, "%s was given a time that is not finite", __func__);
-  wind->level.calibrate(seconds);
+  if (what > WISP_WIND_BLOW_HARD)
+    return fail(WISP_BAD_ARGUMENT, "%s was asked for %u, expected a WISP_WIND_*, 0 to 2", __func__, what);
+  wind->level.calibrate(seconds, static_cast<wisp::WindAsk>(what));
   return WISP_OK;
 }
+
+int32_t wisp_wind_calibrated(const wisp_wind* wind) { return wind && wind->level.calibrated() ? 1 : 0; }
 
 int32_t wisp_wind_calibrating(const wisp_wind* wind) { return wind && wind->level.calibrating() ? 1 : 0; }
 

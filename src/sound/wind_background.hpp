@@ -11,6 +11,7 @@ constexpr float kNothingDb = -110;    ///< of loudness: below, no sound comes at
 constexpr float kLeastFloorDb = -95;  ///< a floor below this is a gated microphone's, not a room's
 constexpr float kRoomDb = -70;        ///< a room at first hearing: no louder than this, so that a first gust is one
 constexpr float kQuietDb = 6;         ///< of loudness over the floor: no wind below this
+constexpr float kTopDb = 3;           ///< the floor lies at most so far below the loudest that the room was
 constexpr int kWarmHops = 15;         ///< until the 50 ms mean has forgotten its start
 
 /// The loudness that the sound keeps coming back to: falls to a softer sound within 50 ms, rises slowly.
@@ -89,6 +90,7 @@ class Background {
 
   void end_frame(const Observation<T>& seen, const Design& d) {
     if (room_frames_ > 0) return learn_room(seen);
+    follow_top(seen.loudness_db, d);
     if (seen.loudness_db < T(kNothingDb) || !floor_.known()) return;
     const T floor = floor_.level_db();
     const bool quiet = seen.loudness_db < floor + T(kQuietDb) && last_floor_ < floor + T(1.0F);
@@ -104,6 +106,7 @@ class Background {
   void calibrate(int frames) {
     room_frames_ = frames;
     room_ = {};
+    top_db_ = T(kLeastFloorDb);
   }
 
   int frames_to_calibrate() const { return room_frames_; }
@@ -112,15 +115,22 @@ class Background {
     mean_.set(rms, band_power, loudness_db, d.quiet_span_frames);
     floor_.set(loudness_db);
     last_floor_ = floor_.level_db();
+    top_db_ = T(kLeastFloorDb);
     room_frames_ = 0;
   }
 
-  T floor_db() const { return floor_.level_db(); }
+  /// Loudness of the room. One that was calibrated may swell as it did then: the sea, a fan that labours.
+  T floor_db() const {
+    const T swell = top_db_ - T(kTopDb);
+    return floor_.level_db() < swell ? swell : floor_.level_db();
+  }
+
   const QuietMean<T>& mean() const { return mean_; }
 
  private:
   void learn_room(const Observation<T>& seen) {
     room_.add(seen, 1e9F);
+    if (top_db_ < seen.loudness_db) top_db_ = seen.loudness_db;
     mean_ = room_;
     floor_.set(room_.loudness_db());
     last_floor_ = floor_.level_db();
@@ -128,8 +138,20 @@ class Background {
     --room_frames_;
   }
 
+  /// The room's own sounds, not loud enough to be heard as something else, lift what it may swell to.
+  void follow_top(T loudness_db, const Design& d) {
+    if (top_db_ < T(kLeastFloorDb + 1)) return;  // never calibrated
+    if (top_db_ < loudness_db && loudness_db < floor_db() + T(kQuietDb)) {
+      const T most = top_db_ + T(d.top_rise_db);
+      top_db_ = loudness_db < most ? loudness_db : most;
+    } else if (loudness_db < top_db_) {
+      top_db_ = top_db_ - T(d.top_fall_db);
+    }
+  }
+
   Floor<T> floor_;
   QuietMean<T> mean_;
+  T top_db_ = T(kLeastFloorDb);  ///< loudest that a calibrated room was
   QuietMean<T> room_;
   T last_floor_ = T(kLeastFloorDb);
   int run_ = 0;

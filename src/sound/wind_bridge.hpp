@@ -4,10 +4,8 @@
 // Another sound can only add to the level: under a voice or a knock the wind is at most what is measured, and most
 // likely what it was just before (and, where that is known, what it is just after).
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <vector>
 
 #include "sound/wind_design.hpp"
 #include "sound/wind_kernel.hpp"
@@ -74,54 +72,5 @@ class LiveBridge {
   int foreign_frames_ = 0;
   T most_ = T(0.0F);
 };
-
-/// Frames [begin, end) in which something else than blowing is heard.
-struct ForeignSound {
-  std::size_t begin = 0;
-  std::size_t end = 0;
-};
-
-/// Stretches of another sound that are longer than fast swings of the wind make them, with 50 ms before each, in which
-/// it was not yet known for one.
-inline std::vector<ForeignSound> foreign_sounds(const std::vector<Observation<float>>& seen, float floor_db,
-                                                const Design& d) {
-  std::vector<ForeignSound> found;
-  const std::size_t early = static_cast<std::size_t>(d.bridge_delay_frames);
-  for (std::size_t begin = 0; begin < seen.size();) {
-    std::size_t end = begin;
-    while (end < seen.size() && is_heard(seen[end], floor_db) && !sounds_like_blowing(seen[end])) ++end;
-    if (end - begin > 2 * static_cast<std::size_t>(d.trust_frames))
-      found.push_back({begin - std::min(begin, early), end});
-    begin = end + 1;
-  }
-  return found;
-}
-
-/// The same for a recording, which knows what comes after: under another sound the wind is at most the straight line
-/// from what it was before to what it is after. `speeds` are heard_speed()s, replaced by the wind.
-inline void bridge_recording(const std::vector<Observation<float>>& seen, float floor_db, const Design& d,
-                             std::vector<float>& speeds) {
-  const auto mean = [&speeds](std::size_t from, std::size_t to) {
-    float sum = 0;
-    for (std::size_t k = from; k < to; ++k) sum += speeds[k];
-    return from < to ? sum / static_cast<float>(to - from) : 0.0F;
-  };
-  const std::size_t around = static_cast<std::size_t>(d.bridge_delay_frames);
-  const std::vector<ForeignSound> sounds = foreign_sounds(seen, floor_db, d);
-  for (std::size_t i = 0; i < sounds.size(); ++i) {
-    const std::size_t begin = sounds[i].begin;
-    const std::size_t end = sounds[i].end;
-    const std::size_t left = i == 0 ? 0 : sounds[i - 1].end;
-    const std::size_t right = i + 1 == sounds.size() ? speeds.size() : std::max(sounds[i + 1].begin, end);
-    float before = mean(std::max(left, begin - std::min(begin, around)), begin);
-    float after = mean(end, std::min(right, end + around));
-    if (begin == 0) before = after;
-    if (end == speeds.size()) after = before;
-    for (std::size_t k = begin; k < end; ++k) {
-      const float share = (static_cast<float>(k - begin) + 0.5F) / static_cast<float>(end - begin);
-      speeds[k] = std::min(speeds[k], before + share * (after - before));
-    }
-  }
-}
 
 }  // namespace wisp::wind

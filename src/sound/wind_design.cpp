@@ -48,6 +48,8 @@ void set_times(Design& d, const WindOptions& options) {
   d.power_approach = static_cast<float>(approach(hop_seconds, 0.050));
   d.voice_release = static_cast<float>(approach(hop_seconds, 0.300));
   d.tone_approach = static_cast<float>(approach(hop_seconds, 0.150));
+  d.slow_rise = static_cast<float>(approach(hop_seconds, 0.350));
+  d.slow_fall = static_cast<float>(approach(hop_seconds, 0.100));
   d.floor_fall = static_cast<float>(approach(hop_seconds, 0.050));
   d.floor_rise_db = static_cast<float>(options.floor_rise_db_per_second * hop_seconds);
 
@@ -57,12 +59,13 @@ void set_times(Design& d, const WindOptions& options) {
   d.trust_frames = rounded(0.08 * rate);
   d.bridge_delay_frames = rounded(0.05 * rate) + 1;
   d.bridge_keep = static_cast<float>(1 - approach(1 / rate, 0.5));
+  d.top_rise_db = static_cast<float>(2 / rate);
+  d.top_fall_db = static_cast<float>(0.25 / rate);
   d.quiet_run_frames = rounded(0.3 * rate);
   d.quiet_span_frames = static_cast<float>(10 * rate);
   d.first_gust_db = decibels(static_cast<float>(options.first_gust_rms * options.first_gust_rms));
-  d.first_gust_frames = static_cast<float>(0.05 * rate);
-  d.known_gust_frames = static_cast<float>(15 * rate);
-  d.gust_keep = static_cast<float>(1 - 1 / (60 * rate));
+  d.gust_rest_frames = rounded(0.25 * rate) + 1;
+  d.least_gust_frames = rounded(0.1 * rate) + 1;
 }
 
 }  // namespace

@@ -39,6 +39,8 @@ struct Design {
   float power_approach = 1;     ///< of band powers in one hop (50 ms)
   float voice_release = 1;      ///< of the held voicing in one hop (300 ms)
   float tone_approach = 1;      ///< of the mean autocorrelation in one hop (150 ms)
+  float slow_rise = 1;          ///< of the level that a sudden sound exceeds, in one hop (0.35 s)
+  float slow_fall = 1;          ///< downwards (100 ms)
   float floor_fall = 1;         ///< of the floor downwards in one hop (50 ms)
   float floor_rise_db = 0.01F;  ///< of the floor upwards in one hop
   float smoothing = 1;          ///< of the level's band power in one frame
@@ -49,12 +51,14 @@ struct Design {
   int bridge_delay_frames = 4;  ///< and begins so many before it is known for one (50 ms)
   float bridge_keep = 0.97F;    ///< of the wind under another sound, in one frame (0.5 s)
 
+  float top_rise_db = 0.03F;   ///< of the loudest that the room is, in one frame (2 dB/s)
+  float top_fall_db = 0.004F;  ///< and downwards (0.25 dB/s)
+
   int quiet_run_frames = 18;      ///< quiet must last so long before it counts (0.3 s)
   float quiet_span_frames = 600;  ///< memory of the background (10 s of quiet)
-  float first_gust_db = -26;      ///< gust level before anything is heard
-  float first_gust_frames = 3;    ///< what that weighs (50 ms of blowing)
-  float known_gust_frames = 900;  ///< what a given gust level weighs (15 s of blowing)
-  float gust_keep = 1;            ///< memory of gusts in one frame of blowing (60 s of it)
+  float first_gust_db = -28;      ///< level of wind 1 before anything is heard
+  int gust_rest_frames = 15;      ///< a gust ends when it has not blown for so long (0.25 s)
+  int least_gust_frames = 6;      ///< and is none when it blew for less than this (0.1 s)
 };
 
 constexpr int kMostChannels = 8;

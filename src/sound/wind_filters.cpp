@@ -83,6 +83,11 @@ std::vector<float> windowed_sinc(int taps, double cutoff) {
   return rounded;
 }
 
+Turn turn_of(double share) {
+  const SinCos found = sin_cos((share > 0.5 ? share - 1 : share) * 2 * kPi);
+  return {found.sin, found.cos};
+}
+
 double magnitude_of_difference(double frequency_hz, double rate_hz) {
   return 2 * sin_cos(kPi * frequency_hz / rate_hz).sin;
 }

@@ -26,6 +26,13 @@ Section band_pass(double frequency_hz, double q, double rate_hz);
 /// Precondition: taps >= 1, 0 < cutoff < 0.5 (share of the sample rate).
 std::vector<float> windowed_sinc(int taps, double cutoff);
 
+/// Sine and cosine of a share of a turn, 0 to 1.
+struct Turn {
+  double sin;
+  double cos;
+};
+Turn turn_of(double share);
+
 /// Gain of x(t) − x(t−1) at a frequency.
 double magnitude_of_difference(double frequency_hz, double rate_hz);
 

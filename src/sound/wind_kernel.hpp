@@ -1,19 +1,22 @@
 #pragma once
 // The estimator's arithmetic, over any number type: from samples to what was observed in a frame.
 //
-// Features and weights follow the approach of C. M. Nelke et al. (wind noise told from speech by its low band and by
-// the lack of harmonics), refitted on breath, speech, knocks and music; docs/wind.md has figures.
+// The features follow the approach of C. M. Nelke et al. (wind noise told from speech by its low band and by the lack
+// of harmonics); tools/fit_blowing.py fits what is made of them, docs/wind.md has figures.
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "sound/wind_bands.hpp"
 #include "sound/wind_decimator.hpp"
 #include "sound/wind_design.hpp"
+#include "sound/wind_likeness_weights.hpp"
 #include "sound/wind_math.hpp"
+#include "sound/wind_sudden.hpp"
 #include "sound/wind_voicing.hpp"
 
 namespace wisp::wind {
@@ -39,11 +42,17 @@ struct Observation {
   T likeness = T(0.0F);        ///< 0 to 1: sounds like blowing, not talking, whatever its strength
 };
 
-/// 0 to 1: whether features are those of blowing.
+/// 0 to 1: whether features are those of blowing. A layer of rectified sums and a logistic one.
 template <class T>
 T likeness_of(const Features<T>& f) {
-  const T z = T(4.0F) + T(0.317F) * f.low_db - T(17.0F) * f.voicing - T(0.45F) * f.high_db - T(0.869F) * f.peaked;
-  return sigmoid(z) * sigmoid((T(0.78F) - f.voicing) * T(25.0F)) * sigmoid((T(0.36F) - f.tone) * T(30.0F));
+  const T features[] = {f.low_db, f.high_db, f.voicing, f.tone, f.peaked};
+  T z = T(kLikenessOffset);
+  for (int unit = 0; unit < kLikenessUnits; ++unit) {
+    T sum = T(kLikenessBias[unit]);
+    for (int i = 0; i < 5; ++i) sum = sum + T(kLikenessFirst[unit][i]) * features[i];
+    if (T(0.0F) < sum) z = z + T(kLikenessSecond[unit]) * sum;
+  }
+  return sigmoid(z);
 }
 
 /// A gust that dies away does so in a few soft puffs that by themselves sound like anything. For half a second after
@@ -123,6 +132,14 @@ class Kernel {
   const Features<T>& features() const { return features_; }
   T likeness() const { return likeness_; }
 
+  /// What is heard now is the room: nothing of it began suddenly.
+  void be_still() { sudden_.be_still(); }
+
+  /// A channel's voice band in the hop that has just ended, differenced, at the rate of voices.
+  std::span<const T> voice_hop(std::size_t channel) const {
+    return {channels_[channel].history.hop(), static_cast<std::size_t>(d_.hop / d_.voice_step)};
+  }
+
  private:
   struct Channel {
     explicit Channel(const Design& d) : decimator(d), bands(d), history(d) {}
@@ -192,7 +209,8 @@ class Kernel {
       channel.history.end_hop();
     }
     describe();
-    const T now = judged(sums.voice) ? likeness_of(features_) : T(0.0F);
+    const bool sudden = sudden_.end_hop(features_.loudness_db, d_);
+    const T now = sudden && judged(sums.voice) ? likeness_of(features_) : T(0.0F);
     likeness_ = tail_.end_hop(now, features_.loudness_db);
   }
 
@@ -246,6 +264,7 @@ class Kernel {
   T group_power_ = T(0.0F), power_ = T(0.0F), frame_band_ = T(0.0F), band_power_ = T(0.0F);
   BandSums<T> mean_;
   Features<T> features_;
+  Sudden<T> sudden_;
   Tail<T> tail_;
   T likeness_ = T(0.0F);
 };

@@ -75,16 +75,18 @@ WindFed WindLevel::feed(std::span<const std::int16_t> samples, std::span<WindFra
 
 const WindFrame& WindLevel::latest() const { return state_->latest; }
 
-void WindLevel::calibrate(double seconds) {
+void WindLevel::calibrate(double seconds, WindAsk ask) {
   const double used = seconds >= 0.5 ? std::min(seconds, 30.0) : 0.5;
-  state_->listener.background().calibrate(static_cast<int>(std::ceil(used * state_->options.frame_rate_hz)));
+  state_->listener.calibrate(ask, static_cast<int>(std::ceil(used * state_->options.frame_rate_hz)));
 }
 
-bool WindLevel::calibrating() const { return state_->listener.background().frames_to_calibrate() > 0; }
+bool WindLevel::calibrating() const { return state_->listener.calibrating(); }
+
+bool WindLevel::calibrated() const { return state_->listener.calibrated(); }
 
 WindCalibration WindLevel::calibration() const {
   const auto& background = state_->listener.background();
-  const float gust_db = state_->listener.gusts().high_db();
+  const float gust_db = state_->listener.reference().level_db();
   return {background.mean().rms(), std::sqrt(background.mean().band_power()), background.floor_db(),
           std::sqrt(wind::from_decibels(gust_db))};
 }
@@ -94,11 +96,12 @@ void WindLevel::set_calibration(const WindCalibration& known) {
   const float power = known.background_level * known.background_level;
   state_->listener.background().set(known.background_rms, power, known.floor_db, d);
   if (known.gust_rms > 0) {
-    state_->listener.gusts().start(wind::decibels(known.gust_rms * known.gust_rms), d.known_gust_frames);
+    auto& reference = state_->listener.reference();
+    reference.start(wind::decibels(known.gust_rms * known.gust_rms), reference.kKnownGusts);
   }
 }
 
-void WindLevel::reset() { *state_ = State(state_->format, state_->options); }
+void WindLevel::reset() { state_ = std::make_unique<State>(state_->format, state_->options); }
 
 double WindLevel::latency_seconds() const {
   const wind::Design& d = state_->design;

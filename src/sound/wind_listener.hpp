@@ -6,8 +6,8 @@
 #include "sound/wind_background.hpp"
 #include "sound/wind_bridge.hpp"
 #include "sound/wind_design.hpp"
-#include "sound/wind_gusts.hpp"
 #include "sound/wind_kernel.hpp"
+#include "sound/wind_reference.hpp"
 #include "sound/wind_verdict.hpp"
 
 namespace wisp::wind {
@@ -15,7 +15,7 @@ namespace wisp::wind {
 template <class T>
 class Listener {
  public:
-  explicit Listener(const Design& d) : d_(d), kernel_(d) { gusts_.start(T(d.first_gust_db), d.first_gust_frames); }
+  explicit Listener(const Design& d) : d_(d), kernel_(d) { reference_.start(T(d.first_gust_db), kFirstGusts); }
 
   /// Takes one sample of every channel.
   void push(const float* samples) {
@@ -27,28 +27,55 @@ class Listener {
     background_.end_frame(seen, d_);
     const QuietMean<T>& quiet = background_.mean();
     const T floor = background_.floor_db();
-    if (background_.frames_to_calibrate() == 0 && T(kGustConfidence) < confidence_of(seen, floor)) {
-      const T power = power_over(seen, quiet.band_power());
-      if (T(0.0F) < power) gusts_.add(decibels(power), T(d_.gust_keep));
-    }
-    WindFrame frame = verdict(seen, {quiet.rms(), quiet.band_power(), floor, gusts_.high_db()}, d_.power_exponent);
+    const T power = power_over(seen, quiet.band_power());
+    const bool blows = background_.frames_to_calibrate() == 0 && T(kGustConfidence) < confidence_of(seen, floor);
+    hear_gust(blows && T(0.0F) < power, decibels(power));
+    WindFrame frame = verdict(seen, {quiet.rms(), quiet.band_power(), floor, reference_.level_db()}, d_.power_exponent);
     frame.wind = plain(bridge_.end_frame(heard_speed(T(frame.speed), seen, floor), seen, floor, d_));
     return frame;
   }
 
+  /// Takes the coming frames for what was asked for.
+  void calibrate(WindAsk ask, int frames) {
+    ask_ = ask;
+    asked_frames_ = ask == WindAsk::kBeStill ? 0 : frames;
+    asked_.clear();
+    heard_ask_ = ask == WindAsk::kBeStill;
+    if (ask != WindAsk::kBeStill) return;
+    background_.calibrate(frames);
+    kernel_.be_still();
+  }
+
+  bool calibrating() const { return background_.frames_to_calibrate() > 0 || asked_frames_ > 0; }
+  bool calibrated() const { return heard_ask_ && !calibrating(); }
+
   Background<T>& background() { return background_; }
   const Background<T>& background() const { return background_; }
-  GustLevel<T>& gusts() { return gusts_; }
-  const GustLevel<T>& gusts() const { return gusts_; }
+  Reference<T>& reference() { return reference_; }
+  const Reference<T>& reference() const { return reference_; }
 
  private:
+  void hear_gust(bool blows, T power_db) {
+    if (asked_frames_ == 0) return reference_.hear(blows, power_db, d_);
+    if (blows) asked_.add(power_db);
+    if (--asked_frames_ > 0 || asked_.frames() < d_.least_gust_frames) return;
+    heard_ask_ = true;
+    if (ask_ == WindAsk::kBreatheGently) reference_.set_soft(asked_.high_db());
+    if (ask_ == WindAsk::kBlowHard) reference_.set_hard(asked_.high_db());
+  }
+
   static constexpr float kGustConfidence = 0.8F;
+  static constexpr float kFirstGusts = 0.6F;  ///< what the level of wind 1 weighs before any was heard
 
   Design d_;
   Kernel<T> kernel_;
   Background<T> background_;
-  GustLevel<T> gusts_;
+  Reference<T> reference_;
   LiveBridge<T> bridge_;
+  GustLevel<T> asked_;  ///< what is heard of what a guided calibration asked for
+  WindAsk ask_ = WindAsk::kBeStill;
+  int asked_frames_ = 0;
+  bool heard_ask_ = false;
 };
 
 }  // namespace wisp::wind

@@ -9,6 +9,7 @@
 #include "sound/wind_bridge.hpp"
 #include "sound/wind_design.hpp"
 #include "sound/wind_kernel.hpp"
+#include "sound/wind_spectrum.hpp"
 #include "sound/wind_verdict.hpp"
 
 namespace wisp {
@@ -20,6 +21,7 @@ constexpr float kFloorShare = 0.05F;    // softest frames that tell the floor
 constexpr float kQuietSeconds = 0.25F;  // a stretch without wind lasts at least so long
 constexpr float kSilentDb = -80;        // loudness of a track on which nothing is heard
 constexpr float kBlowingConfidence = 0.8F;
+constexpr float kWindHeard = 0.05F;  // of wind 1: what is told of as wind
 
 float percentile(std::vector<float> values, float share) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<float>(values.size() - 1) + 0.5F);
@@ -89,16 +91,51 @@ bool find_gusts(const Seen& seen, const wind::Surroundings<float>& around, float
   return true;
 }
 
-std::vector<WindFrame> frames_of(const Seen& seen, const wind::Surroundings<float>& around, const wind::Design& d) {
-  std::vector<WindFrame> frames;
-  std::vector<float> winds;
-  for (const auto& one : seen) {
-    frames.push_back(wind::verdict(one, around, d.power_exponent));
-    frames.back().index = static_cast<std::int64_t>(frames.size()) - 1;
-    winds.push_back(wind::heard_speed(frames.back().speed, one, around.floor_db));
+/// What wind and room sound like: from frames that surely blow and from the quiet ones.
+wind::BandMeans band_means(const wind::Spectra& spectra, const Seen& seen, const std::vector<bool>& quiet,
+                           const wind::Surroundings<float>& around) {
+  wind::BandMeans means;
+  double blowing_power = 0;
+  double blowing_frames = 0;
+  double quiet_frames = 0;
+  const double one = static_cast<double>(wind::from_decibels(around.gust_db));
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    if (quiet[k]) {
+      spectra.add(k, 1, means.room);
+      quiet_frames += 1;
+    } else if (wind::confidence_of(seen[k], around.floor_db) > kBlowingConfidence) {
+      spectra.add(k, 1, means.wind);
+      blowing_frames += 1;
+      blowing_power += static_cast<double>(wind::power_over(seen[k], around.band_power)) / one;
+    }
   }
-  wind::bridge_recording(seen, around.floor_db, d, winds);
-  for (std::size_t k = 0; k < frames.size(); ++k) frames[k].wind = winds[k];
+  means.room.resize(means.wind.size(), 0.0);
+  for (double& power : means.room) power /= std::max(quiet_frames, 1.0);
+  for (std::size_t b = 0; b < means.wind.size(); ++b)
+    means.wind[b] = (means.wind[b] - blowing_frames * means.room[b]) / std::max(blowing_power, 1e-9);
+  return means;
+}
+
+/// Wind is what was measured where that sounds like wind, and what lies between the harmonics of a voice where it does
+/// not, or where a voice makes it much louder.
+float wind_of(float measured, bool foreign, float between) {
+  constexpr float kMuch = 1.35F;
+  constexpr float kAtLeast = 0.08F;
+  return foreign || measured > kMuch * between + kAtLeast ? std::min(measured, between) : measured;
+}
+
+std::vector<WindFrame> frames_of(const Seen& seen, const wind::Surroundings<float>& around, const wind::Design& d,
+                                 const wind::Spectra& spectra, const wind::BandMeans& means) {
+  std::vector<WindFrame> frames;
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    WindFrame frame = wind::verdict(seen[k], around, d.power_exponent);
+    frame.index = static_cast<std::int64_t>(k);
+    const bool foreign = wind::is_heard(seen[k], around.floor_db) && !wind::sounds_like_blowing(seen[k]);
+    const float power = wind::power_between(spectra.frame(k), means);
+    const float between = power > 0 ? wind::exp2_of(wind::log2_of(std::max(power, 1e-12F)) * d.power_exponent) : 0.0F;
+    frame.wind = wind_of(wind::heard_speed(frame.speed, seen[k], around.floor_db), foreign, between);
+    frames.push_back(frame);
+  }
   return frames;
 }
 
@@ -129,7 +166,8 @@ struct WindTracker::State {
         options(given),
         design(wind::design(sound, given)),
         kernel(design),
-        times(frame_times.begin(), frame_times.end()) {
+        times(frame_times.begin(), frame_times.end()),
+        bands(static_cast<std::size_t>(sound.channels)) {
     skip = times.empty() ? 0 : sample_at(times.front());
     next_frame_at = sample_at(end_seconds());
   }
@@ -154,7 +192,7 @@ struct WindTracker::State {
   }
 
   void hear(const float* one) {
-    kernel.push(one);
+    if (kernel.push(one)) keep_hop();
     ++position;
     if (position == skip) (void)kernel.end_frame();
     if (!wants_more() || position < next_frame_at) return;
@@ -162,11 +200,29 @@ struct WindTracker::State {
     if (wants_more()) next_frame_at = sample_at(end_seconds());
   }
 
+  void keep_hop() {
+    for (std::size_t c = 0; c < bands.size(); ++c) {
+      const auto hop = kernel.voice_hop(c);
+      bands[c].insert(bands[c].end(), hop.begin(), hop.end());
+    }
+  }
+
+  wind::Spectra spectra() const {
+    std::vector<double> middles;
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+      const double at = static_cast<double>(k);
+      middles.push_back(times.empty() ? (at + 0.5) / options.frame_rate_hz : (times[k] + times[k + 1]) / 2);
+    }
+    return {bands, design.analysis_rate_hz / design.voice_step, middles};
+  }
+
   SoundFormat format;
   WindOptions options;
   wind::Design design;
   wind::Kernel<float> kernel;
   std::vector<double> times;
+  std::vector<std::vector<float>>
+      bands;  ///< each channel's, kept at 4 kHz for what is read between a voice's harmonics
   Seen seen;
   std::int64_t position = 0;
   std::int64_t skip = 0;  ///< samples before the first frame
@@ -218,11 +274,12 @@ Result<WindTrack> WindTracker::finish() const {
   const bool blows = find_gusts(seen, around, around.gust_db);
 
   track.one_rms = std::sqrt(wind::from_decibels(around.gust_db));
-  track.frames = frames_of(seen, around, state_->design);
+  const wind::Spectra spectra = state_->spectra();
+  track.frames = frames_of(seen, around, state_->design, spectra, band_means(spectra, seen, stretches, around));
   const float share = 1 / static_cast<float>(seen.size());
   track.silent = true;
   for (std::size_t k = 0; k < seen.size(); ++k) {
-    track.blowing_share += track.frames[k].confidence > 0.5F ? share : 0.0F;
+    track.blowing_share += track.frames[k].wind > kWindHeard ? share : 0.0F;
     track.clipped_share += track.frames[k].clipped * share;
     track.silent = track.silent && seen[k].loudness_db < kSilentDb;
   }

@@ -3,11 +3,10 @@
 
 #include "studies/wind/verify_wind.hpp"
 
-int main() {
-  wisp::verify::Bounds bounds;
-  wisp::verify::anemometer(bounds);
-  wisp::verify::gusts(bounds);
-  wisp::verify::confidence(bounds);
-  std::printf("\n%s\n", bounds.missed() == 0 ? "all bounds held" : "bounds were missed");
-  return bounds.missed() == 0 ? 0 : 1;
+int main(int count, char** names) {
+  using namespace wisp::verify;
+  if (count == 2 && std::string(names[1]) == "--features") return print_features(), 0;
+  const Check checks[] = {
+      {"anemometer", anemometer}, {"gusts", gusts}, {"confidence", confidence}, {"blowing", blowing}};
+  return run_checks(checks, {names + 1, static_cast<std::size_t>(count - 1)});
 }

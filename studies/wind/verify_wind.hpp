@@ -78,5 +78,9 @@ inline double mean(std::span<const double> values) {
 void anemometer(Bounds& bounds);
 void gusts(Bounds& bounds);
 void confidence(Bounds& bounds);
+void blowing(Bounds& bounds);
+
+/// What likeness is fitted on, as CSV.
+void print_features();
 
 }  // namespace wisp::verify

@@ -80,37 +80,23 @@ TEST(WindBridge, WindThatSwingsFastLosesNothing) {
   EXPECT_GT(mean(now, &WindFrame::wind, 1.2, 4.8), 0.95 * mean(now, &WindFrame::speed, 1.2, 4.8));
 }
 
-/// Observations that all are heard; those at `blowing` sound like it.
-std::vector<wind::Observation<float>> heard(std::size_t count, const std::vector<std::size_t>& blowing) {
-  std::vector<wind::Observation<float>> seen(count);
-  for (auto& one : seen) one.loudness_db = 0;
-  for (const std::size_t k : blowing) seen[k].likeness = 1;
-  return seen;
-}
-
-TEST(WindBridge, UnderAnotherSoundTheWindIsAtMostTheLineFromBeforeToAfter) {
-  wind::Design d;
-  d.trust_frames = 0;
-  d.bridge_delay_frames = 1;
-  std::vector<float> speeds{1, 1, 9, 9, 1.1F, 9, 2, 2};
-  wind::bridge_recording(heard(8, {0, 1, 6, 7}), -60, d, speeds);
-  // The other sound began a frame before it was known; 1.1 was measured, so there it is no more.
-  const std::vector<float> expected{1, 1, 1.3F, 1.5F, 1.1F, 1.9F, 2, 2};
-  for (std::size_t k = 0; k < speeds.size(); ++k) EXPECT_FLOAT_EQ(speeds[k], expected[k]) << k;
-}
-
-TEST(WindBridge, AFewFramesThatSoundLikeSomethingElseAreStillWind) {
-  wind::Design d;
-  std::vector<float> speeds{1, 1, 3, 1, 1};
-  wind::bridge_recording(heard(5, {0, 1, 3, 4}), -60, d, speeds);
-  EXPECT_EQ(speeds[2], 3.0F);
+/// Blowing from 1 to 3 s, a gust under one word from 4 to 5 s, and talk over blowing until the end.
+TEST(WindBridge, ARecordingReadsTheWindBetweenAVoicesHarmonics) {
+  Samples sound = sounds::room(8, kRate, 1e-3);
+  sounds::add(sound, sounds::steady_blowing(2, kRate, 0.05), 1, kRate);
+  sounds::add(sound, sounds::voice(1.6, kRate, 130, 0.1), 3.7, kRate);
+  sounds::add(sound, sounds::steady_blowing(1, kRate, 0.05, 5), 4, kRate);
+  sounds::add(sound, sounds::steady_blowing(2, kRate, 0.05, 6), 6, kRate);
+  sounds::add(sound, sounds::voice(1.4, kRate, 130, 0.1), 6.6, kRate);
+  const auto frames = known(sound);
+  const double alone = mean(frames, &WindFrame::wind, 1.2, 2.8);
+  EXPECT_NEAR(mean(frames, &WindFrame::wind, 4.2, 4.9), alone, 0.2 * alone);
+  EXPECT_NEAR(mean(frames, &WindFrame::wind, 6.8, 7.9), alone, 0.2 * alone);
+  EXPECT_LT(mean(frames, &WindFrame::wind, 3.75, 3.95), 0.2 * alone);
 }
 
 TEST(WindBridge, ARecordingThatIsTalkThroughoutHasNoWind) {
-  wind::Design d;
-  std::vector<float> speeds(50, 3.0F);
-  wind::bridge_recording(heard(50, {}), -60, d, speeds);
-  EXPECT_EQ(speeds, std::vector<float>(50, 0.0F));
+  EXPECT_LT(mean(known(sounds::voice(6, kRate, 130, 0.1)), &WindFrame::wind, 0.5, 5.5), 0.02);
 }
 
 }  // namespace

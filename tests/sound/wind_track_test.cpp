@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -122,6 +123,14 @@ TEST(WindTrack, SaysWhenNoStretchWasWithoutWind) {
   // Wind that swings without a rest: it passes the softest level again and again and never stays there.
   const auto swing = [](double t) { return 0.6 + 0.4 * std::sin(2 * std::numbers::pi * 2 * t); };
   EXPECT_FALSE(track_of(sounds::blowing(10, 44100, 0.1, swing)).background_found);
+}
+
+TEST(WindTrack, TheShareThatBlowsIsThatOfTheWindThatIsWritten) {
+  const WindTrack track = track_of(blow_rest_blow());
+  const auto windy =
+      std::count_if(track.frames.begin(), track.frames.end(), [](const WindFrame& f) { return f.wind > 0.05F; });
+  EXPECT_GT(windy, 0);
+  EXPECT_NEAR(track.blowing_share, static_cast<double>(windy) / static_cast<double>(track.frames.size()), 1e-5);
 }
 
 TEST(WindTrack, SilenceBeforeTheSoundBeginsIsNoRoom) {

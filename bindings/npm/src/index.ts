@@ -26,7 +26,7 @@ export {
   type View,
 } from './model.js';
 export { hasSimd, Status, WispError, type LoadOptions } from './native.js';
-export { WindLevel, type WindCalibration, type WindFrame, type WindOptions } from './wind.js';
+export { WindLevel, type WindAsk, type WindCalibration, type WindFrame, type WindOptions } from './wind.js';
 
 /** A running copy of the library, with memory of its own. */
 export class Wisp {

@@ -2,7 +2,7 @@
 // leaves the audio thread: what comes out is wind.
 
 import type { Wisp } from './index.js';
-import type { WindCalibration } from './wind.js';
+import { windAsks, type WindAsk, type WindCalibration } from './wind.js';
 import type { WindCommand, WindMessage, WindProcessorOptions } from './worklet.js';
 
 /** A frame of wind, as the worklet tells it. */
@@ -34,8 +34,8 @@ export interface MicrophoneOptions {
   onWind?: (wind: Wind) => void;
   /** Called once when the microphone goes away by itself, or the estimator fails; it is closed then. */
   onLost?: (error: MicrophoneError) => void;
-  /** Called when a calibration has ended. */
-  onCalibrated?: (calibration: WindCalibration) => void;
+  /** Called when a calibration has ended; `heard` says whether it heard what it asked for. */
+  onCalibrated?: (calibration: WindCalibration, heard: boolean) => void;
   /** Seconds of the room to listen to at the start; default 3, 0: none. */
   calibrate?: number;
   /** What was known of this microphone and room before. */
@@ -67,8 +67,11 @@ export interface Microphone {
   readonly calibrating: boolean;
   /** The latest frame; null before the first. */
   readonly latest: Wind | null;
-  /** Listens to the room, 0.5 to 30 s; `onCalibrated` tells when it is known. */
-  calibrate(seconds?: number): void;
+  /**
+   * Listens for 0.5 to 30 s to the room, or to what was asked for; `onCalibrated` tells when it is known. Ask for
+   * stillness, gentle breath and hard blowing in turn where soft breath at a sensitive microphone must stay soft.
+   */
+  calibrate(seconds?: number, ask?: WindAsk): void;
   /** What is known of microphone and room by now. */
   calibration(): Promise<WindCalibration>;
   /** Forgets what was heard. */
@@ -152,7 +155,7 @@ class OpenMicrophone implements Microphone {
     navigator.mediaDevices.addEventListener('devicechange', this.devicesChanged);
     const seconds = options.calibrate ?? 3;
     this.calibrating = seconds > 0;
-    if (seconds > 0) this.tell({ type: 'calibrate', seconds });
+    if (seconds > 0) this.tell({ type: 'calibrate', seconds, ask: 0 });
   }
 
   get raw(): boolean {
@@ -160,9 +163,9 @@ class OpenMicrophone implements Microphone {
     return !echoCancellation && !noiseSuppression && !autoGainControl;
   }
 
-  calibrate(seconds = 3): void {
+  calibrate(seconds = 3, ask: WindAsk = 'be still'): void {
     this.calibrating = true;
-    this.tell({ type: 'calibrate', seconds });
+    this.tell({ type: 'calibrate', seconds, ask: windAsks.indexOf(ask) });
   }
 
   calibration(): Promise<WindCalibration> {
@@ -196,7 +199,7 @@ class OpenMicrophone implements Microphone {
       this.options.onWind?.(message);
       return;
     }
-    if (message.type === 'calibrated') this.options.onCalibrated?.(message.known);
+    if (message.type === 'calibrated') this.options.onCalibrated?.(message.known, message.heard);
     else this.asked.shift()?.(message.known);
   }
 

@@ -46,6 +46,10 @@ export interface WindCalibration {
   gustRms: number;
 }
 
+/** What a guided calibration asks of whoever sits at the microphone, in the order of WISP_WIND_*. */
+export const windAsks = ['be still', 'breathe gently', 'blow hard'] as const;
+export type WindAsk = (typeof windAsks)[number];
+
 const samplesAtOnce = 4096;
 const framesAtOnce = 64;
 
@@ -124,14 +128,19 @@ export class WindLevel {
     return this.frameAt(this.frames);
   }
 
-  /** Takes the coming seconds of sound, 0.5 to 30, as the room without wind. */
-  calibrate(seconds = 3): void {
-    this.check(this.native.functions.wisp_wind_calibrate!(this.pointer, seconds));
+  /** Takes the coming seconds of sound, 0.5 to 30, for what was asked for: the room without wind, unless told otherwise. */
+  calibrate(seconds = 3, ask: WindAsk = 'be still'): void {
+    this.check(this.native.functions.wisp_wind_calibrate_for!(this.pointer, windAsks.indexOf(ask), seconds));
   }
 
   /** Whether that time is still running. */
   get calibrating(): boolean {
     return this.native.functions.wisp_wind_calibrating!(this.pointer) === 1;
+  }
+
+  /** Whether the last calibration is over and heard what it asked for. */
+  get calibrated(): boolean {
+    return this.native.functions.wisp_wind_calibrated!(this.pointer) === 1;
   }
 
   get calibration(): WindCalibration {

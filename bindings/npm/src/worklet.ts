@@ -30,12 +30,19 @@ export type WindMessage =
       /** The audio clock at the end of the block that completed the frame, seconds. */
       time: number;
     }
-  | { type: 'calibrated' | 'calibration'; known: NonNullable<WindProcessorOptions['calibration']> }
+  | { type: 'calibration'; known: NonNullable<WindProcessorOptions['calibration']> }
+  | {
+      type: 'calibrated';
+      known: NonNullable<WindProcessorOptions['calibration']>;
+      /** Whether what was asked for was heard. */
+      heard: boolean;
+    }
   | { type: 'failed'; message: string };
 
 /** What it can be told. */
 export type WindCommand =
-  | { type: 'calibrate'; seconds: number }
+  /** `ask`: one of WISP_WIND_*. */
+  | { type: 'calibrate'; seconds: number; ask: number }
   | { type: 'tell calibration' }
   | { type: 'reset' }
   | { type: 'stop' };
@@ -97,8 +104,12 @@ class Ears {
     }
   }
 
-  calibrate(seconds: number): void {
-    this.check(this.functions.wisp_wind_calibrate!(this.wind, seconds));
+  calibrate(seconds: number, ask: number): void {
+    this.check(this.functions.wisp_wind_calibrate_for!(this.wind, ask, seconds));
+  }
+
+  get calibrated(): boolean {
+    return this.functions.wisp_wind_calibrated!(this.wind) === 1;
   }
 
   reset(): void {
@@ -180,7 +191,9 @@ class WindProcessor extends AudioWorkletProcessor {
         time: currentTime + channels[0]!.length / sampleRate,
       });
     });
-    if (this.wasCalibrating && !ears.calibrating) this.say({ type: 'calibrated', known: ears.calibration() });
+    if (this.wasCalibrating && !ears.calibrating) {
+      this.say({ type: 'calibrated', known: ears.calibration(), heard: ears.calibrated });
+    }
     this.wasCalibrating = ears.calibrating;
   }
 
@@ -198,7 +211,7 @@ class WindProcessor extends AudioWorkletProcessor {
 
   private obey(command: WindCommand): void {
     if (command.type === 'stop') this.ears = null;
-    if (command.type === 'calibrate') this.ears?.calibrate(command.seconds);
+    if (command.type === 'calibrate') this.ears?.calibrate(command.seconds, command.ask);
     if (command.type === 'reset') this.ears?.reset();
     if (command.type === 'tell calibration' && this.ears) this.say({ type: 'calibration', known: this.ears.calibration() });
     this.wasCalibrating = this.ears?.calibrating ?? false;

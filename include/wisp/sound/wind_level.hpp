@@ -37,9 +37,9 @@ struct WindOptions {
   /// for ten to thirty seconds, and wind that never pauses for that long passes for a fan. 0: as calibrated, for ever.
   double floor_rise_db_per_second = 1;
 
-  /// Wind 1 before any blowing was heard: this RMS of the band, full scale 1, 1e-6 to 8. A second of blowing replaces
-  /// it.
-  double first_gust_rms = 0.05;
+  /// Wind 1 before any blowing was heard: this RMS of the band, full scale 1, 1e-6 to 8. It moves after each gust, by
+  /// whether that was likelier a soft breath or a hard blow, and never while it blows.
+  double first_gust_rms = 0.04;
 };
 
 /// The wind during one video frame. Amplitudes are root mean squares with full scale 1.
@@ -48,12 +48,20 @@ struct WindFrame {
   float rms = 0;           ///< the paper's: plain RMS of all samples in the frame
   float rms_clean = 0;     ///< rms less the background's, not below 0
   float level = 0;         ///< RMS of the band 100–900 Hz, its spectrum levelled, less the background in power
-  float speed = 0;         ///< proportional to wind speed; 1 is the 95th percentile while it blows
+  float speed = 0;         ///< proportional to wind speed; 1 lies between soft breath and hard blowing (in a
+                           ///< recording: the 95th percentile while it blows)
   float wind = 0;          ///< a model's input: speed where it sounds like blowing, 0 where nothing is heard, and under
                            ///< another sound no more than the wind before it (in a recording: and after it)
   float confidence = 0;    ///< 0 to 1: this is blowing, not talking
   float background = 0;    ///< the plain RMS of the background as known at this frame
   float clipped = 0;       ///< share of samples at full scale, 0 to 1
+};
+
+/// What a guided calibration asks of whoever sits at the microphone.
+enum class WindAsk {
+  kBeStill,        ///< the room: what is steady in it (rain, a fan) is no wind then
+  kBreatheGently,  ///< what is to lean a flame and not to put it out
+  kBlowHard,       ///< what is to put it out
 };
 
 /// What a microphone in a room was found to be: kept, it spares the next start the finding.
@@ -97,11 +105,15 @@ class WindLevel {
   /// The latest frame made; all zero before the first.
   const WindFrame& latest() const;
 
-  /// Takes the coming `seconds` of sound (0.5 to 30 used) as the room without wind.
-  void calibrate(double seconds = 3);
+  /// Takes the coming `seconds` of sound (0.5 to 30 used) for what was asked for. A soft breath at one microphone is as
+  /// loud as a hard one at another: ask for stillness, breath and blowing in turn where that matters.
+  void calibrate(double seconds = 3, WindAsk ask = WindAsk::kBeStill);
 
   /// Whether calibrate()'s time is still running.
   bool calibrating() const;
+
+  /// Whether the last calibration is over and heard what it asked for: 0.1 s of blowing, where that was it.
+  bool calibrated() const;
 
   /// What is known of microphone and room by now.
   WindCalibration calibration() const;

@@ -1,6 +1,7 @@
 #pragma once
-// The wind of a whole recording: as WindLevel, but the background is the mean of all stretches without wind and the
-// gain is exact, since the whole is known when the frames are made.
+// The wind of a whole recording: as WindLevel, but the background is the mean of all stretches without wind, the gain
+// is exact, and under voices the wind is read between their harmonics, since the whole is known when the frames are
+// made.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,13 +21,14 @@ struct WindTrack {
   float one_rms = 0;              ///< RMS of the band at speed 1: the gust level, or the option's where nothing blows
   double seconds = 0;             ///< length of the sound
   float quiet_share = 0;          ///< share of frames taken as background
-  float blowing_share = 0;        ///< share of frames with confidence above 0.5
+  float blowing_share = 0;        ///< share of frames whose wind is above 0.05
   float clipped_share = 0;        ///< share of samples at full scale
   bool silent = false;            ///< nothing at all is heard (below −80 dB throughout)
   bool background_found = false;  ///< false: no stretch without wind was found; the background is then the softest part
 };
 
-/// Makes a WindTrack from sound that comes in blocks; keeps a few numbers a frame, not the sound.
+/// Makes a WindTrack from sound that comes in blocks; keeps its wind band (16 kB a second a channel), not
+/// the sound.
 class WindTracker {
  public:
   /// For video at a fixed frame rate (options.frame_rate_hz). Errors: as WindLevel::create.

@@ -1,0 +1,134 @@
+#pragma once
+// How strong blowing is at this microphone: the level that is wind 1.
+//
+// A gust cannot tell what it is to be measured by: whoever blows hard from the start would teach the estimator that
+// this is how one blows. So the level begins with what is usual for microphones at arm's length, stays as it is while
+// it blows, and moves after each gust: towards what makes it a soft breath or a hard blow, whichever it is likelier to
+// have been.
+
+#include <array>
+#include <cstddef>
+
+#include "sound/wind_design.hpp"
+#include "sound/wind_math.hpp"
+
+namespace wisp::wind {
+
+/// The level of one gust, as a histogram over decibels.
+template <class T>
+class GustLevel {
+ public:
+  void clear() {
+    counts_.fill(0);
+    frames_ = 0;
+  }
+
+  void add(T db) {
+    T place = (db - T(kLeastDb)) * T(1 / kStepDb);
+    if (place < T(0.0F)) place = T(0.0F);
+    if (T(kBins - 1.0F) < place) place = T(kBins - 1.0F);
+    ++counts_[static_cast<std::size_t>(plain(place))];
+    ++frames_;
+  }
+
+  int frames() const { return frames_; }
+
+  /// The 80th percentile, dB: a gust's ends are soft.
+  T high_db() const {
+    int above = frames_ / 5;
+    std::size_t bin = counts_.size() - 1;
+    while (bin > 0 && above >= counts_[bin]) above -= counts_[bin--];
+    return T(kLeastDb) + T(kStepDb) * T(static_cast<float>(bin) + 0.5F);
+  }
+
+ private:
+  static constexpr int kBins = 120;
+  static constexpr float kStepDb = 1;
+  static constexpr float kLeastDb = -100;
+
+  std::array<int, kBins> counts_{};
+  int frames_ = 0;
+};
+
+template <class T>
+class Reference {
+ public:
+  /// Begins with a level that is believed as firmly as `gusts` of them would make it.
+  void start(T db, float gusts) {
+    first_db_ = level_db_ = db;
+    learned_ = gusts;
+    end();
+  }
+
+  /// Takes a frame: whether it blows for sure, and how strong, dB.
+  void hear(bool blows, T db, const Design& d) {
+    if (blows) {
+      rest_frames_ = 0;
+      gust_.add(db);
+      return;
+    }
+    if (gust_.frames() == 0 || ++rest_frames_ < d.gust_rest_frames) return;
+    if (gust_.frames() >= d.least_gust_frames) learn(gust_.high_db());
+    end();
+  }
+
+  /// What a guided calibration heard: breath that is soft for sure, or blowing that is hard. The level is then set by
+  /// them, between the two where both are known, and goes on from there.
+  void set_soft(T gust_db) {
+    soft_db_ = gust_db + T(kSoftDb);
+    knows_soft_ = true;
+    set_known();
+  }
+  void set_hard(T gust_db) {
+    hard_db_ = gust_db - T(kHardDb);
+    knows_hard_ = true;
+    set_known();
+  }
+
+  T level_db() const { return level_db_; }
+
+  static constexpr float kKnownGusts = 3;  ///< what a level that was given or calibrated weighs
+
+ private:
+  static constexpr float kHardDb = 17;     ///< a hard blow over wind 1,
+  static constexpr float kSoftDb = 4;      ///< a soft breath under it,
+  static constexpr float kSpreadDb = 6;    ///< and how far either scatters
+  static constexpr float kNeither = 0.1F;  ///< likelihood of a gust that is neither; it moves little
+  static constexpr float kMostGusts = 6;   ///< memory
+  static constexpr float kFallDb = 8;      ///< as far below the beginning,
+  static constexpr float kRiseDb = 12;     ///< and above it, as microphones differ
+
+  void learn(T gust_db) {
+    const T hard = (gust_db - level_db_ - T(kHardDb)) * T(1 / kSpreadDb);
+    const T soft = (gust_db - level_db_ + T(kSoftDb)) * T(1 / kSpreadDb);
+    const T like_hard = exp2_of(hard * hard * T(-0.7213475204F));
+    const T like_soft = exp2_of(soft * soft * T(-0.7213475204F));
+    const T step = T(kSpreadDb) * (like_hard * hard + like_soft * soft) / (like_hard + like_soft + T(kNeither));
+    level_db_ = level_db_ + T(1.0F / (learned_ + 1.0F)) * step;
+    if (level_db_ < first_db_ - T(kFallDb)) level_db_ = first_db_ - T(kFallDb);
+    if (first_db_ + T(kRiseDb) < level_db_) level_db_ = first_db_ + T(kRiseDb);
+    if (learned_ < kMostGusts) learned_ += 1.0F;
+  }
+
+  void set_known() {
+    const T both = T(0.5F) * (soft_db_ + hard_db_);
+    start(knows_soft_ && knows_hard_ ? both : (knows_soft_ ? soft_db_ : hard_db_), kKnownGusts);
+  }
+
+  void end() {
+    gust_.clear();
+    rest_frames_ = 0;
+  }
+
+  GustLevel<T> gust_;
+  T first_db_ = T(0.0F);
+  T level_db_ = T(0.0F);
+  T soft_db_ = T(0.0F);
+  T hard_db_ = T(0.0F);
+  bool knows_soft_ = false;
+  bool knows_hard_ = false;
+  float learned_ = 1;
+  int rest_frames_ = 0;
+};
+
+}  // namespace wisp::wind

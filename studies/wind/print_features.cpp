@@ -1,0 +1,46 @@
+// What likeness is fitted on: the features of every hop of every known sound, as CSV for tools/fit_blowing.py.
+
+#include "sound/wind_kernel.hpp"
+#include "studies/wind/blowing_sounds.hpp"
+#include "studies/wind/verify_wind.hpp"
+
+namespace wisp::verify {
+namespace {
+
+void print(const KnownSound& one, int blowing, double rms, double lows) {
+  WindOptions options;
+  wind::Kernel<float> kernel(wind::design({kSoundRate, 1}, options));
+  sounds::Samples sound = sounds::room(0.5, kSoundRate, 1e-4);
+  const sounds::Samples given = without_lows(at_rms(one.samples, rms), lows);
+  sounds::add(sound, given, 0.5, kSoundRate);
+  int hop = 0;
+  for (const float x : sound) {
+    if (!kernel.push(&x)) continue;
+    const auto& f = kernel.features();
+    if (++hop > 50 && f.loudness_db > -75)
+      std::printf("%s,%s,%d,%.3f,%.0f,%d,%.2f,%.2f,%.3f,%.3f,%.3f,%.2f,%.4f\n", one.kind.c_str(), one.from.c_str(),
+                  blowing, rms, lows, hop, f.low_db, f.high_db, f.voicing, f.tone, f.peaked, f.loudness_db,
+                  kernel.likeness());
+  }
+}
+
+}  // namespace
+
+void print_features() {
+  std::printf("kind,from,blowing,rms,lows,hop,low,high,voicing,tone,peaked,loudness,likeness\n");
+  for (const double lows : {0.0, 80.0, 120.0, 200.0}) {
+    for (const KnownSound& one : breaths()) print(one, 1, 0.03, lows);
+    for (KnownSound one : blows()) {
+      print(one, 1, 0.5, lows);
+      sounds::add(one.samples, sounds::steady_blowing(1, kSoundRate, 0.3, 7), 0, kSoundRate);  // a fan 10 dB below
+      print(one, 1, 0.03, lows);
+    }
+    for (const KnownSound& one : puffs()) print(one, 1, 0.4, lows);
+    for (const KnownSound& one : winds()) print(one, 1, 0.1, lows);
+    for (const KnownSound& one : recorded_puffs()) print(one, 1, 0.1, lows);
+    for (const KnownSound& one : other_sounds()) print(one, 0, 0.1, lows);
+    for (const KnownSound& one : steady_sounds()) print(one, 0, 0.1, lows);
+  }
+}
+
+}  // namespace wisp::verify

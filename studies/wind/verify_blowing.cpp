@@ -1,0 +1,233 @@
+// Whoever blows hard puts the candle out, at once and first thing; whoever breathes, talks or plays music does not.
+//
+// Every recording of breath is replayed behind a second of a quiet room that the estimator was told of, and what it
+// makes of them is put to the rule of the candles that the page ships: a wind of 1.27 for 0.3 s.
+
+#include <map>
+
+#include "studies/wind/blowing_sounds.hpp"
+#include "studies/wind/verify_wind.hpp"
+#include "wisp/sound/wind_level.hpp"
+
+namespace wisp::verify {
+namespace {
+
+using sounds::Samples;
+
+constexpr double kFrames = 60;
+constexpr double kRoom = 3;  ///< seconds of calibration before anything is heard
+
+/// The rule of model/extinction.hpp, with the numbers of the shipped candles.
+class Candle {
+ public:
+  /// Takes a frame's wind; returns whether the candle has just gone out. It is lit again at once.
+  bool step(double wind) {
+    constexpr double kLevel = 1.27, kSeconds = 0.3, kHaste = 2, kRecovery = 0.3, kMost = 3 * kLevel;
+    const double w = std::min(wind, kMost);
+    harm_ += w >= kLevel ? (1 + kHaste * (w / kLevel - 1)) / kSeconds / kFrames : -1 / kRecovery / kFrames;
+    harm_ = std::max(harm_, 0.0);
+    if (harm_ < 1) return false;
+    harm_ = 0;
+    return true;
+  }
+
+ private:
+  double harm_ = 0;
+};
+
+struct Heard {
+  std::vector<double> out;  ///< seconds after the calibration
+  double wind = 0;          ///< share of frames after it
+  double most = 0;
+};
+
+/// Plays a room, then the sound; `steady` is there from the start and goes on.
+Heard play(const Samples& sound, const Samples& steady = {}) {
+  auto level = WindLevel::create({kSoundRate, 1}, {.frame_rate_hz = kFrames});
+  if (!level) std::abort();
+  const double seconds = kRoom + static_cast<double>(sound.size()) / kSoundRate + 0.5;
+  Samples all = sounds::room(seconds, kSoundRate, 3e-4);
+  sounds::add(all, sound, kRoom, kSoundRate);
+  for (std::size_t i = 0; i < all.size() && !steady.empty(); ++i) all[i] += steady[i % steady.size()];
+  level->calibrate(kRoom - 0.5);
+  std::vector<WindFrame> frames(static_cast<std::size_t>(seconds * kFrames) + 1);
+  frames.resize(level->feed(std::span<const float>(all), frames).frames);
+  Heard heard;
+  Candle candle;
+  for (std::size_t k = static_cast<std::size_t>(kRoom * kFrames); k < frames.size(); ++k) {
+    const double wind = static_cast<double>(frames[k].wind);
+    if (candle.step(wind)) heard.out.push_back(static_cast<double>(k + 1) / kFrames - kRoom);
+    heard.wind += wind > 0.1 ? 1 : 0;
+    heard.most = std::max(heard.most, wind);
+  }
+  heard.wind /= std::max(1.0, static_cast<double>(frames.size()) - kRoom * kFrames);
+  return heard;
+}
+
+bool went_out(const Heard& heard, double from, double to) {
+  return std::any_of(heard.out.begin(), heard.out.end(), [&](double t) { return t >= from && t <= to; });
+}
+
+/// Shares of trials by what was tried.
+class Table {
+ public:
+  void count(const std::string& row, bool out, const Heard& heard) {
+    Row& r = rows_[row];
+    r.tried += 1;
+    r.out += out ? 1 : 0;
+    r.wind += heard.wind;
+    r.most = std::max(r.most, heard.most);
+    all_.tried += 1;
+    all_.out += out ? 1 : 0;
+  }
+
+  double share() const { return all_.tried > 0 ? all_.out / all_.tried : 0; }
+
+  void print(const char* title) const {
+    std::printf("\n== %s\n  %-28s  trials  out     wind in  strongest\n", title, "");
+    for (const auto& [name, row] : rows_)
+      std::printf("  %-28s  %5.0f   %5.1f %%  %5.1f %%  %.2f\n", name.c_str(), row.tried, 100 * row.out / row.tried,
+                  100 * row.wind / row.tried, row.most);
+  }
+
+ private:
+  struct Row {
+    double tried = 0;
+    double out = 0;
+    double wind = 0;
+    double most = 0;
+  };
+  std::map<std::string, Row> rows_;
+  Row all_;
+};
+
+/// Two soft breaths as the recording has them, then what is asked.
+Samples after_soft(const Samples& soft, const Samples& hard) {
+  Samples all = soft;
+  sounds::add(all, soft, 2, kSoundRate);
+  sounds::add(all, hard, 4, kSoundRate);
+  return all;
+}
+
+Samples three(const Samples& one) {
+  Samples all = one;
+  sounds::add(all, one, 2, kSoundRate);
+  sounds::add(all, one, 4, kSoundRate);
+  return all;
+}
+
+void scale_loudest_second(Samples& sound, double rms) {
+  const std::size_t n = std::min(sound.size(), static_cast<std::size_t>(kSoundRate));
+  double loudest = 0;
+  for (std::size_t i = 0; i + n <= sound.size(); i += n / 20 + 1)
+    loudest = std::max(loudest, sounds::rms_of({sound.data() + i, n}));
+  for (float& x : sound) x = static_cast<float>(static_cast<double>(x) * rms / loudest);
+}
+
+void hard_blows(Bounds& bounds) {
+  constexpr double kSoon = 0.7;
+  Table table;
+  std::map<std::string, Table> sums;
+  const auto count = [&](const std::string& how, const KnownSound& blow, const Heard& heard, double at) {
+    const bool out = went_out(heard, at, at + kSoon);
+    table.count(blow.from, out, heard);
+    sums[how].count(how, out, heard);
+  };
+  for (const KnownSound& blow : blows()) {
+    const Samples soft = at_rms(blow.samples, 0.01);
+    for (const double rms : {0.1, 0.2, 0.35, 0.6}) {
+      const Samples hard = at_rms(blow.samples, rms);
+      const Heard in_a_row = play(three(hard));
+      count("first", blow, in_a_row, 0);
+      count("second", blow, in_a_row, 2);
+      count("third", blow, in_a_row, 4);
+      count("after soft breaths", blow, play(after_soft(soft, hard)), 4);
+    }
+    count("0.05 after soft breaths", blow, play(after_soft(soft, at_rms(blow.samples, 0.05))), 4);
+  }
+  table.print("Hard blows, by recording");
+  std::printf("\n");
+  for (const auto& [how, sum] : sums) bounds.at_least("hard blows put it out in 0.7 s: " + how, sum.share(), 0.95);
+}
+
+void puffs_at_the_microphone(Bounds& bounds) {
+  Table made;
+  Table found;
+  for (const KnownSound& puff : puffs()) {
+    for (const double rms : {0.2, 0.4}) {
+      const Heard heard = play(at_rms(puff.samples, rms));
+      made.count("made, " + std::to_string(rms).substr(0, 4), went_out(heard, 0, 1), heard);
+    }
+  }
+  for (const KnownSound& puff : recorded_puffs()) {
+    for (const double rms : {0.1, 0.3}) {
+      const Heard heard = play(at_rms(puff.samples, rms));
+      found.count(puff.from + ", " + std::to_string(rms).substr(0, 4), went_out(heard, 0, 1), heard);
+    }
+  }
+  made.print("Puffs at the microphone");
+  found.print("Puffs from web pages (no bound)");
+  std::printf("\n");
+  bounds.at_least("puffs made here put it out", made.share(), 0.9);
+}
+
+/// Whole recordings, and each of their gusts three times; the loudest second has the level that is told.
+void natural_breath(Bounds& bounds) {
+  Table table;
+  for (const double rms : {0.005, 0.01, 0.02, 0.03}) {
+    for (KnownSound& breath : breaths()) {
+      scale_loudest_second(breath.samples, rms);
+      const Heard heard = play(breath.samples);
+      table.count(breath.from, !heard.out.empty(), heard);
+    }
+    for (const KnownSound& blow : blows()) {
+      const Heard heard = play(three(at_rms(blow.samples, rms)));
+      table.count("gusts of " + blow.from, !heard.out.empty(), heard);
+    }
+  }
+  table.print("Natural breathing");
+  std::printf("\n");
+  bounds.at_most("natural breathing puts it out", table.share(), 0.02);
+}
+
+void others(Bounds& bounds) {
+  Table short_ones;
+  for (const KnownSound& one : other_sounds()) {
+    for (const double rms : {0.02, 0.05, 0.1}) {
+      const Heard heard = play(at_rms(one.samples, rms));
+      short_ones.count(one.kind, !heard.out.empty(), heard);
+    }
+  }
+  short_ones.print("Other sounds");
+  Table steady;
+  Table later;
+  for (const KnownSound& one : steady_sounds()) {
+    for (const double rms : {0.02, 0.05, 0.1}) {
+      const Samples sound = at_rms(one.samples, rms);
+      const Heard heard = play(Samples(at_rms(one.samples, rms).size(), 0.0F), sound);
+      steady.count(one.kind, !heard.out.empty(), heard);
+      const Heard begins = play(sound);
+      later.count(one.kind, !begins.out.empty(), begins);
+    }
+  }
+  steady.print("Steady sounds that were there from the start");
+  later.print("The same, that begin later (no bound)");
+  std::printf("\n");
+  bounds.at_most("other sounds put it out", short_ones.share(), 0.01);
+  bounds.at_most("steady sounds that were there put it out", steady.share(), 0.01);
+}
+
+}  // namespace
+
+void blowing(Bounds& bounds) {
+  if (blows().empty()) {
+    std::printf("\n== Blowing\n  skipped: no recordings of breath in %s\n", (data_folder() / "sound").string().c_str());
+    return;
+  }
+  hard_blows(bounds);
+  puffs_at_the_microphone(bounds);
+  natural_breath(bounds);
+  others(bounds);
+}
+
+}  // namespace wisp::verify
