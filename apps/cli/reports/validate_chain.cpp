@@ -97,8 +97,8 @@ Result<void> validate_chain(const Model& model, const Arguments& arguments, Term
   if (auto ok = check_flags(arguments); !ok) return ok;
   const auto recordings = read_recordings(arguments);
   if (!recordings) return recordings.error();
-  const auto report = wisp::validate_chain(model, *recordings, static_cast<std::uint64_t>(arguments.integer("seed")),
-                                           terminal.progress());
+  const ValidationOptions options{.seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
+  const auto report = validate(model, *recordings, options, terminal.progress());
   if (!report) return report.error();
   terminal.show(*report);
   if (arguments.has("film")) {
