@@ -25,6 +25,9 @@ void report(const CapturedClip& clip, Terminal& terminal) {
   for (const DroppedFrame& dropped : found.dropped) {
     result["dropped"].push_back({{"frame", dropped.frame}, {"reason", dropped.reason}});
   }
+  result["flames"] = found.flames;
+  result["out_at"] = found.out_at ? Json(*found.out_at + 1) : Json();
+  result["usable"] = {{"verdict", found.usable}, {"reason", found.reason}};
   result["rate_hz"] = number(found.rate_hz);
   result["points"] = found.points;
   result["threshold"] = number(found.threshold);
@@ -33,6 +36,7 @@ void report(const CapturedClip& clip, Terminal& terminal) {
   result["separation"] = number(found.separation);
   result["residual_px"] = number(found.residual);
   result["knots_placed"] = found.knots_placed;
+  terminal.say((found.usable ? "usable: " : "not usable: ") + found.reason);
   terminal.say(std::to_string(found.frames) + " frames: " + std::to_string(found.tracked) + " tracked, " +
                std::to_string(found.duplicates) + " duplicates, " + std::to_string(found.filled) + " filled, " +
                std::to_string(found.dropped.size()) + " dropped");

@@ -34,6 +34,10 @@ Result<ClipCaptureOptions> options_from(const Arguments& arguments) {
   }
   options.outline.channel = channel_from_name(arguments.text("channel"));
   options.outline.dark = arguments.on("dark");
+  if (arguments.has("flame")) options.outline.flame = arguments.integer("flame");
+  if (options.outline.flame < 0) {
+    return Error{"--flame is " + std::to_string(options.outline.flame) + ", expected 0 or more"};
+  }
   if (arguments.has("region")) {
     const auto region = parse_region(arguments.text("region"));
     if (!region) return region.error();
@@ -79,8 +83,9 @@ std::vector<Flag> capture_flags() {
        Kind::kChoice,
        "C",
        "auto",
-       "brightness to look at: auto takes the one that separates best",
+       "brightness to look at: auto takes the one in which the flame stands out best",
        {"auto", "luma", "red", "green", "blue"}},
+      {"flame", Kind::kInteger, "K", "1", "which of several flames, 1 the largest; 0: what moves, flame or not"},
       {"dark", Kind::kSwitch, "", "", "the thing is dark on a light ground"},
       {"region", Kind::kText, "X,Y,W,H", "", "look only here, in pixels from the top left"},
       {"frames", Kind::kSamples, "A:B", "", "only these frames, 1-based and inclusive"},
