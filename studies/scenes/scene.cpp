@@ -51,7 +51,7 @@ Drop drop_at(const Scene& scene, int which, int k) {
   const double t = k / scene.rate_hz, seed = 1.7 * which, lively = scene.lamp ? 0 : scene.liveliness;
   const double size = scene.flame_height * (which == 0 ? 1 : 0.8 - 0.1 * which);
   Drop drop;
-  const double spacing = std::max(1.6 * scene.flame_height, 0.24 * scene.width);
+  const double spacing = 0.3 * scene.width;
   drop.x = scene.base_x * scene.width + (which == 0 ? 0 : which == 1 ? spacing : -spacing);
   drop.y = scene.base_y * scene.height + (which == 0 ? 0 : 0.12 * scene.flame_height);
   drop.height = size * (1 + 0.18 * lively * wave(t, seed));
@@ -64,13 +64,13 @@ double cover(const Drop& drop, double x, double y) { return std::clamp(0.5 + dro
 
 // What stands below a flame: a cylinder of wax, lit from above, with or without a pool as bright as the flame.
 Light candle(const Scene& scene, const Drop& drop, double x, double y, Light under, double burning) {
-  const double half = 0.45 * scene.flame_height, top = drop.y + 0.08 * scene.flame_height;
+  const double half = 0.45 * scene.flame_height, top = drop.y + (scene.pool ? 0 : 0.08) * scene.flame_height;
   const double wick = 0.02 * scene.flame_height + 0.5;
-  if (std::abs(x - drop.x) < wick && y > drop.y && y <= top + 1) return {0.01, 0.008, 0.006};
+  if (!scene.pool && std::abs(x - drop.x) < wick && y > drop.y && y <= top + 1) return {0.01, 0.008, 0.006};
   const Light& wax = scene.wax;
   if (wax.r + wax.g + wax.b == 0) return under;
   if (scene.pool) {
-    const double across = (x - drop.x) / (1.6 * half), down = (y - drop.y - 0.25 * half) / (0.25 * half);
+    const double across = (x - drop.x) / (1.6 * half), down = (y - drop.y - 0.2 * half) / (0.25 * half);
     if (across * across + down * down < 1) return wax * (1.1 * burning + scene.room);
   }
   if (std::abs(x - drop.x) > half || y < top) return under;
@@ -102,7 +102,7 @@ Light light_at(const Scene& scene, const std::vector<Drop>& drops, double x, dou
     image.lean *= -0.5;
     light = light + kFlame * (0.35 * burning * cover(image, x, y));
   }
-  const double table = first.y + 0.9 * scene.flame_height;
+  const double table = first.y + 0.5 * scene.flame_height;
   if (scene.table && y > table) {
     const double mirrored = 2 * table - y;
     Light image{};
@@ -112,8 +112,9 @@ Light light_at(const Scene& scene, const std::vector<Drop>& drops, double x, dou
   for (const Drop& drop : drops) light = candle(scene, drop, x, y, light, burning);
   for (const Drop& drop : drops) {
     const double up = std::clamp((drop.y - y) / drop.height, 0.0, 1.0);
-    // The foot is dim and bluish, as around a wick.
-    const Light core = mix(Light{0.12, 0.16, 0.35}, kFlame * scene.brightness, std::clamp(up / 0.08, 0.0, 1.0));
+    // The foot is dim and bluish, as around a wick, where no pool outshines it.
+    const double bright = scene.pool ? 1 : std::clamp(up / 0.08, 0.0, 1.0);
+    const Light core = mix(Light{0.12, 0.16, 0.35}, kFlame * scene.brightness, bright);
     light = mix(light, core, burning * cover(drop, x, y));
   }
   return light;
@@ -193,7 +194,7 @@ SceneFrame film(const Scene& scene, int k) {
       const bool hidden = std::abs(px - hand) < 0.08 * scene.width && py > 0.1 * scene.height;
       if (hidden) light = Light{0.12, 0.07, 0.05};
       const std::size_t at = static_cast<std::size_t>(y) * scene.width + x;
-      const std::uint32_t dice = random();
+      const auto dice = static_cast<std::uint32_t>(random());
       frame.rgb[3 * at] = stored(light.r * exposure, scene.noise * noise[dice & 4095]);
       frame.rgb[3 * at + 1] = stored(light.g * exposure, scene.noise * noise[(dice >> 10) & 4095]);
       frame.rgb[3 * at + 2] = stored(light.b * exposure, scene.noise * noise[dice >> 20]);

@@ -41,9 +41,10 @@ std::vector<Named> all_scenes() {
     add("glass, " + colour, s);
     s = lit;
     s.table = true;
+    s.base_y = 0.5;
     add("table, " + colour, s);
     s = lit;
-    s.wall = 0.08;
+    s.wall = 0.15;
     add("wall, " + colour, s);
     s = lit;
     s.auto_exposure = true;
@@ -54,6 +55,7 @@ std::vector<Named> all_scenes() {
     add("blocks and noise, " + colour, s);
     s = lit;
     s.candles = 2;
+    s.width = 360;
     add("two candles, " + colour, s);
     s = lit;
     s.shake = 4;
@@ -103,6 +105,7 @@ std::vector<Named> all_scenes() {
   }
   Scene s = plain;
   s.candles = 3;
+  s.width = 400;
   add("three candles", s);
   s = plain;
   s.wax = {};

@@ -10,14 +10,14 @@ namespace wisp {
 namespace {
 
 // Calibrated on the scenes of studies/scenes and on films; wisp_verify_scenes prints how often they are wrong.
-constexpr double kMostMissing = 0.1;     // share of rows
+constexpr double kMostMissing = 0.04;    // share of rows
 constexpr double kMostJumps = 0.03;      // share of steps
 constexpr double kJumpShare = 0.35;      // of the height: a base that moves farther in a frame is another one
 constexpr double kJumpRatio = 2.2;       // … and a height that changes so many times
 constexpr double kMostAtBorder = 0.05;   // share of rows
 constexpr double kLeastMovement = 0.006;  // heights
-constexpr double kLeastTaper = 0.2;
-constexpr double kLeastSolidity = 0.9;
+constexpr double kLeastTaper = 0.32;
+constexpr double kLeastSolidity = 0.86;
 constexpr double kLeastLight = 0.85;
 constexpr double kLeastHeight = 10;  // pixels
 constexpr double kOutSeconds = 0.4;  // without a flame until the clip's end: it went out

@@ -18,6 +18,7 @@ constexpr double kLeastContrast = 12;  // levels between the clusters, of 255: l
 constexpr double kAsLikely = 0.35;     // another flame is at least this share as likely as the first
 constexpr double kAsBright = 0.9;      // … and as bright
 constexpr double kAsGood = 0.5;        // at another level it is still the same thing when it is this share as likely
+constexpr double kHalfWay = 0.58;
 constexpr double kSameHome = 0.6;      // … and shares this much of its place
 constexpr double kBrightest = 3e-4;    // share of the picture that is as bright as anything
 
@@ -114,8 +115,9 @@ std::vector<Candidate> places(const std::vector<Candidate>& candidates, const Su
   return out;
 }
 
-// Half-way from what is just around a thing to the thing itself: there its area depends least on how a rim is blurred.
-// What is around it counts by its brighter quarter, which may become brighter still.
+// A little more than half-way from what is just around a thing to the thing itself: there its area depends little on how
+// a rim is blurred, and its glow, which reaches less than half-way, is left out. What is around it counts by its brighter
+// quarter, which may become brighter still.
 int half_way(const Candidate& thing, std::span<const Picture> pictures, const Region& area, bool dark) {
   const Region box = intersection(grown(thing.home, std::max(thing.home.width, thing.home.height) / 8 + 2), area);
   const PictureGrid grid = sample_grid(pictures, thing.channel, box, kFineGrid, dark);
@@ -126,7 +128,7 @@ int half_way(const Candidate& thing, std::span<const Picture> pictures, const Re
   if (inside.empty() || outside.empty()) return thing.level;
   const auto quarter = outside.begin() + static_cast<std::ptrdiff_t>(3 * outside.size() / 4);
   std::nth_element(outside.begin(), quarter, outside.end());
-  return static_cast<int>(0.5 * (*quarter + middle(std::move(inside))));
+  return static_cast<int>(*quarter + kHalfWay * (middle(std::move(inside)) - *quarter));
 }
 
 // The same thing at the level nearest to half-way at which it still is that: candidates are the likeliest first.

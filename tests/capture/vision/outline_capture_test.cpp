@@ -175,14 +175,14 @@ TEST(OutlineCapture, LostFramesLeaveRowsOfTheirOwn) {
 TEST(OutlineCapture, FadesAreDroppedAtBothEnds) {
   const auto captured = capture(80, [](int k) {
     const int from_end = std::min(k, 79 - k);
-    Plane plane = support::flame_picture(support::swaying(k), 160, 180, from_end < 6 ? 8 + 26 * from_end : 230);
+    Plane plane = support::flame_picture(support::swaying(k), 160, 180, from_end < 8 ? 8 + 22 * from_end : 230);
     add_noise(plane, static_cast<unsigned>(k));
     return plane;
   });
   ASSERT_TRUE(captured);
-  ASSERT_EQ(captured->report.dropped.size(), 12u);
+  ASSERT_EQ(captured->report.dropped.size(), 16u);
   for (const DroppedFrame& dropped : captured->report.dropped) {
-    EXPECT_TRUE(dropped.frame < 6 || dropped.frame > 73) << dropped.frame;
+    EXPECT_TRUE(dropped.frame < 8 || dropped.frame > 71) << dropped.frame;
     EXPECT_EQ(dropped.reason, "fade");
   }
 }
@@ -301,6 +301,18 @@ TEST(OutlineCapture, TheOtherFlameIsNotTakenWhenTheOneFollowedGoesOut) {
   ASSERT_TRUE(captured);
   EXPECT_EQ(captured->report.tracked, 60u);
   EXPECT_EQ(captured->report.out_at, 60u);
+}
+
+TEST(OutlineCapture, AGlintAfterTheFlameWentOutIsLeftOut) {
+  const auto captured = capture(90, [](int k) {
+    Plane plane = noisy_flame(k);
+    if (k >= 50 && (k < 70 || k > 73)) plane = Plane(160, 180, 8);
+    return plane;
+  });
+  ASSERT_TRUE(captured);
+  EXPECT_EQ(captured->report.tracked, 50u);
+  EXPECT_EQ(captured->report.out_at, 50u);
+  EXPECT_THAT(captured->report.reason, HasSubstr("out from frame 51"));
 }
 
 TEST(OutlineCapture, AThirdFlameOfTwoIsAnError) {
