@@ -184,7 +184,8 @@ SceneFrame film(const Scene& scene, int k) {
   const double sx = scene.shake * wave(1.1 * t, 5), sy = scene.shake * wave(1.4 * t, 9);
   const double c = std::cos(scene.turn / 57.3), s = std::sin(scene.turn / 57.3);
   frame.rgb.resize(static_cast<std::size_t>(scene.width) * scene.height * 3);
-  frame.flame = {scene.width, scene.height, std::vector<std::uint8_t>(static_cast<std::size_t>(scene.width) * scene.height)};
+  frame.flame = {scene.width, scene.height,
+                 std::vector<std::uint8_t>(static_cast<std::size_t>(scene.width) * scene.height)};
   const double cx = 0.5 * scene.width, cy = 0.5 * scene.height;
   const double hand = scene.hand ? scene.width * (1.5 - 3.0 * k / scene.frames) : -1e9;
   for (int y = 0; y < scene.height; ++y) {

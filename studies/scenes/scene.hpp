@@ -22,24 +22,24 @@ struct Scene {
   int height = 200;
   int frames = 60;
   double rate_hz = 30;
-  double flame_height = 80;   ///< pixels, of the calm flame
-  double brightness = 4;      ///< of the flame's core, as light
-  double base_x = 0.5;        ///< where it stands, share of the width
-  double base_y = 0.7;        ///< … and of the height
-  double liveliness = 1;      ///< how far it moves; 0 stands still
-  Light wax;                  ///< colour of the wax; black: none in view
-  double halo = 0;            ///< light around the flame, share of its own
-  double wall = 0;            ///< light of the wall behind, by the flame
-  double window = 0;          ///< light of a window, by day
-  double room = 0.004;        ///< light everywhere
-  bool glass = false;         ///< the flame is mirrored in a glass behind it
-  bool table = false;         ///< … and in the table below
-  bool pool = false;          ///< stands in a lit pool of wax as bright as itself
+  double flame_height = 80;  ///< pixels, of the calm flame
+  double brightness = 4;     ///< of the flame's core, as light
+  double base_x = 0.5;       ///< where it stands, share of the width
+  double base_y = 0.7;       ///< … and of the height
+  double liveliness = 1;     ///< how far it moves; 0 stands still
+  Light wax;                 ///< colour of the wax; black: none in view
+  double halo = 0;           ///< light around the flame, share of its own
+  double wall = 0;           ///< light of the wall behind, by the flame
+  double window = 0;         ///< light of a window, by day
+  double room = 0.004;       ///< light everywhere
+  bool glass = false;        ///< the flame is mirrored in a glass behind it
+  bool table = false;        ///< … and in the table below
+  bool pool = false;         ///< stands in a lit pool of wax as bright as itself
   int candles = 1;
-  bool lamp = false;          ///< a lamp instead of the flame: same shape, still
-  bool hand = false;          ///< a hand passes in front of it
-  int out_from = 0;           ///< blown out in this frame; 0 never
-  double noise = 1;           ///< standard deviation, levels
+  bool lamp = false;  ///< a lamp instead of the flame: same shape, still
+  bool hand = false;  ///< a hand passes in front of it
+  int out_from = 0;   ///< blown out in this frame; 0 never
+  double noise = 1;   ///< standard deviation, levels
   double exposure = 1;
   bool auto_exposure = false;  ///< follows the picture's mean, slowly
   bool blocks = false;         ///< 8 × 8 blocks, as coarse compression leaves them
@@ -53,7 +53,7 @@ struct Scene {
 struct SceneFrame {
   bool lost = false;
   std::vector<std::uint8_t> rgb;  ///< packed
-  support::Mask flame;            ///< pixels in which the flame that is followed is brighter than half of white by itself
+  support::Mask flame;  ///< pixels in which the flame that is followed is brighter than half of white by itself
   bool burning = true;
 };
 

@@ -220,7 +220,9 @@ std::array<Outcome, 2> try_out(const Scene& scene) {
 }
 
 // A verdict is right where what is right is called usable, and what is wrong is not.
-bool right(const Outcome& outcome) { return outcome.overlap >= 0.85 && outcome.tracked >= 0.9 && outcome.elsewhere == 0; }
+bool right(const Outcome& outcome) {
+  return outcome.overlap >= 0.85 && outcome.tracked >= 0.9 && outcome.elsewhere == 0;
+}
 
 struct Totals {
   double overlap = 0;

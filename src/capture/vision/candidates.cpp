@@ -8,14 +8,14 @@
 namespace wisp {
 namespace {
 
-constexpr double kPersistence = 0.6;          // a candidate is there in this share of the pictures
-constexpr std::size_t kMostRegions = 24;      // of one picture at one level, the largest
-constexpr std::size_t kLeastRows = 3;         // a shape of fewer rows has none
-constexpr double kSurelyMoves = 0.06;         // shapes that differ by this share move for sure
-constexpr double kStillWorth = 0.15;          // … and this is what one is worth that does not
-constexpr double kAloneIsBetter = 0.5;        // what must be cut from its stand, against what stands out alone
-constexpr double kLightPower = 8;             // what is a tenth dimmer than the brightest is half as likely
-constexpr double kSolidPower = 4;             // a flame has no notches; what has run together with something has
+constexpr double kPersistence = 0.6;      // a candidate is there in this share of the pictures
+constexpr std::size_t kMostRegions = 24;  // of one picture at one level, the largest
+constexpr std::size_t kLeastRows = 3;     // a shape of fewer rows has none
+constexpr double kSurelyMoves = 0.06;     // shapes that differ by this share move for sure
+constexpr double kStillWorth = 0.15;      // … and this is what one is worth that does not
+constexpr double kAloneIsBetter = 0.5;    // what must be cut from its stand, against what stands out alone
+constexpr double kLightPower = 8;         // what is a tenth dimmer than the brightest is half as likely
+constexpr double kSolidPower = 4;         // a flame has no notches; what has run together with something has
 
 double area_of(const Region& region) { return region.empty() ? 0 : static_cast<double>(region.width) * region.height; }
 
@@ -237,11 +237,13 @@ Region box_of(const Profile& profile, BaseSide base) {
 
 double score_of(const Candidate& c, const Evidence& evidence) {
   const double moves = kStillWorth + (1 - kStillWorth) * std::min(1.0, c.change / kSurelyMoves);
-  const double general = c.presence * moves * std::min(1.0, 2 * (1 - c.change)) * std::exp(-c.softness) * (c.stands ? kAloneIsBetter : 1);
+  const double general =
+      c.presence * moves * std::min(1.0, 2 * (1 - c.change)) * std::exp(-c.softness) * (c.stands ? kAloneIsBetter : 1);
   if (!evidence.flame) return general * std::sqrt(std::sqrt(c.area));
   // A higher level leaves more room for what the flame lights to become brighter later.
   const double room = c.level / 255.0;
-  return general * room * std::pow(c.light, kLightPower) * std::pow(c.solidity, kSolidPower) * c.taper * c.steadiness * c.steadiness;
+  return general * room * std::pow(c.light, kLightPower) * std::pow(c.solidity, kSolidPower) * c.taper * c.steadiness *
+         c.steadiness;
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ PictureGrid sample_grid(std::span<const Picture> pictures, PixelChannel channel,
 
 /// What is looked for.
 struct Evidence {
-  bool flame = true;         ///< gives light, tapers and stands; else only moves
+  bool flame = true;  ///< gives light, tapers and stands; else only moves
   BaseSide base = BaseSide::kBottom;
   std::span<const double> brightest;  ///< luma of the brightest there is in each picture; empty: does not matter
 };

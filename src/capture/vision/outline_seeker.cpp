@@ -20,10 +20,10 @@ constexpr int kLeastJump = 3;        // … with what it stands on; pixels
 constexpr double kSlack = 0.12;      // of the thing's length: how far above its former end its stand may begin
 constexpr double kFarDeeper = 0.25;  // of its length: what reaches so far below its place is stand, shoulder or not
 
-constexpr double kAsBright = 0.9;   // what is found anew is at least so bright for what was there before
-constexpr double kAsLarge = 4;      // … at most so many times larger or smaller
-constexpr double kAsNear = 0.35;    // … and stands at most this share of its length away
-constexpr double kStays = 0.2;      // of the smaller box, what is followed shares with where it was a frame ago
+constexpr double kAsBright = 0.9;  // what is found anew is at least so bright for what was there before
+constexpr double kAsLarge = 4;     // … at most so many times larger or smaller
+constexpr double kAsNear = 0.35;   // … and stands at most this share of its length away
+constexpr double kStays = 0.2;     // of the smaller box, what is followed shares with where it was a frame ago
 
 double area_of(const Region& region) { return region.empty() ? 0 : static_cast<double>(region.width) * region.height; }
 
@@ -80,7 +80,8 @@ OutlineSeeker::Window OutlineSeeker::open(const Picture& picture, const Region& 
 
 // Whether what was found stands nearer to this flame's place than to another's. A camera moves all of them alike.
 bool OutlineSeeker::ours(const Region& box) const {
-  const PixelPosition home = foot(usual_, base_), now = following_ ? foot(found_.box, base_) : home, at = foot(box, base_);
+  const PixelPosition home = foot(usual_, base_), now = following_ ? foot(found_.box, base_) : home,
+                      at = foot(box, base_);
   return std::none_of(others_.begin(), others_.end(), [&](const Region& other) {
     const PixelPosition place = foot(other, base_);
     return distance(at, {place.x + now.x - home.x, place.y + now.y - home.y}) < distance(at, now);

@@ -62,7 +62,7 @@ class OutlineSeeker {
   int base_edge_;  // where the thing ended when it last stood alone
   BrightRegion found_;
   PixelPosition last_foot_;  // the middle of its end towards the base, when it was last there
-  int pace_ = 0;  // how far the box's sides moved in the last frames, pixels a frame
+  int pace_ = 0;             // how far the box's sides moved in the last frames, pixels a frame
   Window window_;
   std::vector<std::uint8_t> plane_;
   Region before_place_;

@@ -10,11 +10,11 @@ namespace wisp {
 namespace {
 
 // Calibrated on the scenes of studies/scenes and on films; wisp_verify_scenes prints how often they are wrong.
-constexpr double kMostMissing = 0.04;    // share of rows
-constexpr double kMostJumps = 0.03;      // share of steps
-constexpr double kJumpShare = 0.35;      // of the height: a base that moves farther in a frame is another one
-constexpr double kJumpRatio = 2.2;       // … and a height that changes so many times
-constexpr double kMostAtBorder = 0.05;   // share of rows
+constexpr double kMostMissing = 0.04;     // share of rows
+constexpr double kMostJumps = 0.03;       // share of steps
+constexpr double kJumpShare = 0.35;       // of the height: a base that moves farther in a frame is another one
+constexpr double kJumpRatio = 2.2;        // … and a height that changes so many times
+constexpr double kMostAtBorder = 0.05;    // share of rows
 constexpr double kLeastMovement = 0.006;  // heights
 constexpr double kLeastTaper = 0.32;
 constexpr double kLeastSolidity = 0.86;
@@ -42,7 +42,8 @@ struct Shape {
 
 Shape shape_of(const Recording& recording, const SplineTable& table, std::size_t row) {
   std::vector<double> controls;
-  for (int i = 0; i < 2 * table.points(); ++i) controls.push_back(recording.channels[static_cast<std::size_t>(i)].samples[row]);
+  for (int i = 0; i < 2 * table.points(); ++i)
+    controls.push_back(recording.channels[static_cast<std::size_t>(i)].samples[row]);
   Shape shape{.row = row, .curve = curve_polyline(table, controls, kCurvePoints), .base = {}, .tip = {}};
   const CurvePoint first = shape.curve.front(), last = shape.curve.back();
   shape.base = {0.5 * (first.x + last.x), 0.5 * (first.y + last.y)};
@@ -82,7 +83,8 @@ double movement_of(const std::vector<Shape>& shapes, double height) {
   for (int k = 0; k < kCurvePoints; ++k) {
     double x = 0, y = 0, xx = 0, yy = 0;
     for (const Shape& s : shapes) {
-      const double dx = s.curve[static_cast<std::size_t>(k)].x - s.base.x, dy = s.curve[static_cast<std::size_t>(k)].y - s.base.y;
+      const double dx = s.curve[static_cast<std::size_t>(k)].x - s.base.x,
+                   dy = s.curve[static_cast<std::size_t>(k)].y - s.base.y;
       x += dx;
       y += dy;
       xx += dx * dx;
@@ -139,9 +141,11 @@ std::string percent(double share) {
 std::string fault(const OutlineFacts& f, const CaptureReport& report) {
   constexpr std::array<const char*, 4> kSide{"left", "upper", "right", "lower"};
   const bool flame = report.flames > 0;
-  if (f.movement < kLeastMovement) return "its edges do not move: it may be a lamp or a lit thing; film a flame in a dark room";
+  if (f.movement < kLeastMovement)
+    return "its edges do not move: it may be a lamp or a lit thing; film a flame in a dark room";
   if (flame && f.taper < kLeastTaper) {
-    return "it does not taper upwards as a flame does; choose a region around the flame, or film it before a dark ground";
+    return "it does not taper upwards as a flame does; choose a region around the flame, or film it before a dark "
+           "ground";
   }
   if (flame && f.light < kLeastLight) {
     return "other things in the picture are brighter; choose a region around the flame, or film it in a dark room";
@@ -150,7 +154,8 @@ std::string fault(const OutlineFacts& f, const CaptureReport& report) {
     return "it is missing in " + percent(f.missing) + " of the frames; film it steadily, with nothing in between";
   }
   if (f.jumps > kMostJumps) {
-    return "it jumps in " + percent(f.jumps) + " of the frames; keep the camera still, and only one flame in the picture";
+    return "it jumps in " + percent(f.jumps) +
+           " of the frames; keep the camera still, and only one flame in the picture";
   }
   for (const std::size_t side : {0, 1, 2}) {
     if (f.border[side] <= kMostAtBorder) continue;
@@ -161,7 +166,8 @@ std::string fault(const OutlineFacts& f, const CaptureReport& report) {
     return "its shape is not a flame's: it may have run together with what it lights; film it darker, so that only the "
            "flame is bright";
   }
-  if (f.height < kLeastHeight) return "it is only " + std::to_string(std::lround(f.height)) + " pixels high; film it from nearer";
+  if (f.height < kLeastHeight)
+    return "it is only " + std::to_string(std::lround(f.height)) + " pixels high; film it from nearer";
   return {};
 }
 
@@ -189,7 +195,9 @@ void judge_outline(const Recording& recording, const SplineTable& table, Capture
   report.out_at = out_at(report, last);
   const std::string why = fault(facts, report);
   report.usable = why.empty();
-  report.reason = report.usable ? "an outline was found in " + percent(1 - facts.missing) + " of the frames and moves steadily" : why;
+  report.reason = report.usable
+                      ? "an outline was found in " + percent(1 - facts.missing) + " of the frames and moves steadily"
+                      : why;
   if (report.flames > 1) report.reason += "; there are " + std::to_string(report.flames) + " flames, one is followed";
   if (report.out_at) report.reason += "; the flame is out from frame " + std::to_string(*report.out_at + 1) + " on";
 }

@@ -2,7 +2,8 @@
 // Where a thing ends and what it stands on begins, when both have run together into one region.
 //
 // A flame touches lit wax, its pool or the wick's holder by a few bright pixels or by its whole base. Seen from the tip
-// down, the region then suddenly becomes wide: that is the shoulder. A base that is slanted, hollow or pointed has none.
+// down, the region then suddenly becomes wide: that is the shoulder. A base that is slanted, hollow or pointed has
+// none.
 
 #include <optional>
 #include <span>

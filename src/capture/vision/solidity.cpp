@@ -17,7 +17,8 @@ double area(const std::vector<CurvePoint>& points) {
 
 // Andrew's monotone chain.
 std::vector<CurvePoint> convex_hull(std::vector<CurvePoint> points) {
-  std::sort(points.begin(), points.end(), [](const CurvePoint& a, const CurvePoint& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  std::sort(points.begin(), points.end(),
+            [](const CurvePoint& a, const CurvePoint& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
   std::vector<CurvePoint> hull;
   for (int side = 0; side < 2; ++side) {
     const std::size_t first = hull.size();

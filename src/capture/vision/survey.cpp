@@ -19,8 +19,8 @@ constexpr double kAsLikely = 0.35;     // another flame is at least this share a
 constexpr double kAsBright = 0.9;      // … and as bright
 constexpr double kAsGood = 0.5;        // at another level it is still the same thing when it is this share as likely
 constexpr double kHalfWay = 0.58;
-constexpr double kSameHome = 0.6;      // … and shares this much of its place
-constexpr double kBrightest = 3e-4;    // share of the picture that is as bright as anything
+constexpr double kSameHome = 0.6;    // … and shares this much of its place
+constexpr double kBrightest = 3e-4;  // share of the picture that is as bright as anything
 
 // Luma that only the brightest points reach.
 double brightest_of(const ImageView& luma) {
@@ -67,7 +67,8 @@ std::vector<Candidate> scan(std::span<const Picture> pictures, const Region& are
     const PictureGrid grid = sample_grid(pictures, channel, area, most, options.dark);
     std::vector<std::vector<Candidate>> levels;
     // One level more than may be chosen: what is left at it tells how steep the rim is below.
-    for (int level = 2 * kLevelStep; brightness(pictures.front(), channel, level) < kHighestLevel + kLevelStep; level += kLevelStep) {
+    for (int level = 2 * kLevelStep; brightness(pictures.front(), channel, level) < kHighestLevel + kLevelStep;
+         level += kLevelStep) {
       levels.push_back(find_candidates(grid, luma, level, evidence));
       for (Candidate& candidate : levels.back()) candidate.channel = channel;
     }
@@ -77,7 +78,8 @@ std::vector<Candidate> scan(std::span<const Picture> pictures, const Region& are
     levels.pop_back();
     for (auto& level : levels) std::move(level.begin(), level.end(), std::back_inserter(found));
   }
-  std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
   return found;
 }
 
@@ -115,9 +117,9 @@ std::vector<Candidate> places(const std::vector<Candidate>& candidates, const Su
   return out;
 }
 
-// A little more than half-way from what is just around a thing to the thing itself: there its area depends little on how
-// a rim is blurred, and its glow, which reaches less than half-way, is left out. What is around it counts by its brighter
-// quarter, which may become brighter still.
+// A little more than half-way from what is just around a thing to the thing itself: there its area depends little on
+// how a rim is blurred, and its glow, which reaches less than half-way, is left out. What is around it counts by its
+// brighter quarter, which may become brighter still.
 int half_way(const Candidate& thing, std::span<const Picture> pictures, const Region& area, bool dark) {
   const Region box = intersection(grown(thing.home, std::max(thing.home.width, thing.home.height) / 8 + 2), area);
   const PictureGrid grid = sample_grid(pictures, thing.channel, box, kFineGrid, dark);
@@ -146,8 +148,7 @@ Candidate settle_level(const Candidate& thing, const std::vector<Candidate>& can
 // The same thing on a finer grid, where there is one, and at the level that suits it best.
 Candidate refine(const Candidate& coarse, const std::vector<Candidate>& all, std::span<const Picture> pictures,
                  const Region& area, const SurveyOptions& options, const Evidence& evidence) {
-  const Region around =
-      intersection(grown(coarse.home, std::max(coarse.home.width, coarse.home.height) / 2 + 2), area);
+  const Region around = intersection(grown(coarse.home, std::max(coarse.home.width, coarse.home.height) / 2 + 2), area);
   const bool finer = std::max(around.width, around.height) < std::max(area.width, area.height) / 2;
   const std::vector<Candidate> fine = finer ? scan(pictures, around, kFineGrid, options, evidence) : all;
   const auto found = std::find_if(fine.begin(), fine.end(), [&](const Candidate& c) { return same_place(c, coarse); });
@@ -213,7 +214,8 @@ Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptio
     return Error{"found " + std::to_string(things.size()) + (things.size() == 1 ? " flame" : " flames") +
                  ", expected at least " + std::to_string(options.flame) + "; ask for a smaller number"};
   }
-  Survey survey = describe(refine(things[which], all, lit.pictures, area, options, evidence), lit.pictures, area, options.dark);
+  Survey survey =
+      describe(refine(things[which], all, lit.pictures, area, options, evidence), lit.pictures, area, options.dark);
   if (!flame) return survey;
   survey.flames = static_cast<int>(things.size());
   for (std::size_t k = 0; k < things.size(); ++k) {

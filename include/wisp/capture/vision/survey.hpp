@@ -27,22 +27,23 @@ struct SurveyOptions {
 /// What was found.
 struct Survey {
   PixelChannel channel = PixelChannel::kLuma;
-  int level = 0;              ///< a pixel belongs to the thing when its value (inverted for dark things) is above this
-  double separation = 0;      ///< of the two clusters, 0 to 1
-  Histogram histogram{};      ///< of the channel as stored (inverted for dark things), over the pictures that count
-  Region home;                ///< around all places where the thing was seen
-  std::vector<Region> seen;   ///< around the thing in each picture in which it was there
-  bool stands = false;        ///< at that level it has mostly run together with what it stands on
-  double area = 0;            ///< median, pixels
-  double change = 0;          ///< share of its shape that changes from picture to picture: 0 nothing moves
-  double taper = 0;           ///< how much narrower its first quarter is than its middle: 0 not at all, 1 pointed
-  double solidity = 1;        ///< its area over its convex hull's, notches from below apart
-  double light = 1;           ///< its luma over the brightest there is
-  int flames = 0;             ///< how many flames there are; 0 where any thing was looked for
-  std::vector<Region> others; ///< the median boxes of the others
+  int level = 0;               ///< a pixel belongs to the thing when its value (inverted for dark things) is above this
+  double separation = 0;       ///< of the two clusters, 0 to 1
+  Histogram histogram{};       ///< of the channel as stored (inverted for dark things), over the pictures that count
+  Region home;                 ///< around all places where the thing was seen
+  std::vector<Region> seen;    ///< around the thing in each picture in which it was there
+  bool stands = false;         ///< at that level it has mostly run together with what it stands on
+  double area = 0;             ///< median, pixels
+  double change = 0;           ///< share of its shape that changes from picture to picture: 0 nothing moves
+  double taper = 0;            ///< how much narrower its first quarter is than its middle: 0 not at all, 1 pointed
+  double solidity = 1;         ///< its area over its convex hull's, notches from below apart
+  double light = 1;            ///< its luma over the brightest there is
+  int flames = 0;              ///< how many flames there are; 0 where any thing was looked for
+  std::vector<Region> others;  ///< the median boxes of the others
 };
 
-/// Surveys pictures of one size. Errors: nothing stands out anywhere (one brightness only); fewer flames than asked for.
+/// Surveys pictures of one size. Errors: nothing stands out anywhere (one brightness only); fewer flames than asked
+/// for.
 ///
 /// Precondition: pictures is not empty; all have one size and layout; region is empty or inside them.
 Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptions& options);
