@@ -51,6 +51,11 @@ void Terminal::show(const Report& report) {
   std::fputs(to_text(told).c_str(), stdout);
 }
 
+void Terminal::verdict(const std::string& of, const Report& report) {
+  if (!report.verdict) return;
+  say(of + ": " + (report.verdict->usable ? "usable: " : "not usable: ") + report.verdict->reason);
+}
+
 void Terminal::clear_bar() {
   if (bar_shown_) std::fputs("\r\033[K", stderr);
   bar_shown_ = false;

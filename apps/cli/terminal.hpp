@@ -31,6 +31,9 @@ class Terminal {
   /// standard error too.
   void show(const Report& report);
 
+  /// The verdict of something that was made on the way to the result, for people.
+  void verdict(const std::string& of, const Report& report);
+
   /// Something the user should know though the command goes on; one line on standard error.
   void warn(std::string_view text);
 

@@ -7,6 +7,7 @@
 #include "capture/capture_clip.hpp"
 #include "wisp/model/bspline.hpp"
 #include "wisp/record/loudness.hpp"
+#include "wisp/record/verdict.hpp"
 
 namespace wisp {
 namespace {
@@ -21,6 +22,7 @@ Result<ClipCaptureOptions> clip_options(const std::filesystem::path& path, const
   out.outline.points = options.points;
   out.outline.channel = options.channel;
   out.outline.dark = options.dark;
+  out.outline.flame = options.flame;
   out.outline.region = options.region;
   if (options.curve) {
     out.outline.points = static_cast<int>(options.curve->knots.size()) - kSplineDegree - 1;
@@ -81,11 +83,14 @@ void warn_of_sound(const std::filesystem::path& path, const ClipWind& wind, Repo
 
 ReportSection frames_section(const CaptureReport& picture) {
   ReportSection section{"Frames"};
-  section.entries = {{"frames", picture.frames, "frames", ""},
-                     {"tracked", picture.tracked, "tracked", "", {}, "frames with an outline of their own"},
-                     {"duplicates", picture.duplicates, "duplicates", "", {}, "frames that repeat the one before"},
-                     {"filled", picture.filled, "filled", "", {}, "interpolated between their neighbours"},
-                     {"", picture.dropped.size(), "dropped", "", {}, "frames without an outline"}};
+  section.entries = {
+      {"frames", picture.frames, "frames", ""},
+      {"tracked", picture.tracked, "tracked", "", {}, "frames with an outline of their own"},
+      {"duplicates", picture.duplicates, "duplicates", "", {}, "frames that repeat the one before"},
+      {"filled", picture.filled, "filled", "", {}, "interpolated between their neighbours"},
+      {"flames", picture.flames, "flames seen", ""},
+      {"out_at", picture.out_at ? ReportValue(*picture.out_at + 1) : ReportValue(), "out from frame", ""},
+      {"", picture.dropped.size(), "dropped", "", {}, "frames without an outline"}};
   ReportTable dropped{"dropped", "", {{"frame", "frame"}, {"reason", "reason"}}, {}};
   for (const DroppedFrame& frame : picture.dropped) dropped.rows.push_back({frame.frame, frame.reason});
   section.tables.push_back(std::move(dropped));
@@ -153,6 +158,8 @@ Result<Captured> capture(const std::filesystem::path& path, const ClipCapture& o
   const auto wind = wind_of(path, options, picture->report);
   if (!wind) return wind.error();
   Captured out{std::move(picture->recording), {}};
+  out.report.verdict = ReportVerdict{picture->report.usable, picture->report.reason};
+  set_verdict(out.recording, picture->report.usable, picture->report.reason);
   join_wind(*wind, options.wind, out.recording);
   out.report.warnings = std::move(picture->report.warnings);
   warn_of_sound(path, *wind, out.report);

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "learn/fidelity/fidelity.hpp"
 #include "learn/flame/blow_outs.hpp"
 #include "learn/outline/outline_figures.hpp"
 #include "learn/outline/outline_inputs.hpp"
@@ -14,7 +15,6 @@
 #include "learn/outline/outline_units.hpp"
 #include "studies/flame/flame_likeness.hpp"
 #include "studies/value_or_abort.hpp"
-#include "learn/fidelity/fidelity.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/run/cost.hpp"
 

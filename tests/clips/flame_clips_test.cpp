@@ -8,10 +8,10 @@
 #include <string>
 
 #include "capture/capture_clip.hpp"
+#include "learn/fidelity/fidelity.hpp"
 #include "learn/outline/outline_fit.hpp"
 #include "learn/outline/outline_shape.hpp"
 #include "learn/outline/outline_synthesis.hpp"
-#include "learn/fidelity/fidelity.hpp"
 
 namespace wisp {
 namespace {

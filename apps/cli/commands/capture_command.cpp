@@ -25,9 +25,9 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   return {};
 }
 
-Command capturing(std::string name, std::string summary, std::vector<Example> examples) {
+Command capturing(std::string name, const std::string& flame, std::string summary, std::vector<Example> examples) {
   std::vector<Flag> flags = {{"output", Kind::kPath, "REC.csv", "", "where to write the recording", {}, true}};
-  for (Flag& flag : capture_flags()) flags.push_back(std::move(flag));
+  for (Flag& flag : capture_flags(flame)) flags.push_back(std::move(flag));
   return {std::move(name),  std::move(summary),  {{"CLIP", "a video file, or a folder of numbered images"}},
           std::move(flags), std::move(examples), run};
 }
@@ -35,7 +35,7 @@ Command capturing(std::string name, std::string summary, std::vector<Example> ex
 }  // namespace
 
 Command capture_outline_command() {
-  return capturing("capture outline",
+  return capturing("capture outline", "0",
                    "Finds the outline of a moving thing in a clip, frame by frame, and writes it as a recording.",
                    {{"wisp capture outline flag.mp4 --dark --points 12 -o flag.csv", "A dark flag on a light ground"},
                     {"wisp capture outline frames/ --rate 30 -o flame.csv", "A folder of numbered images"}});
@@ -43,7 +43,7 @@ Command capture_outline_command() {
 
 Command capture_flame_command() {
   return capturing(
-      "capture flame", "Finds the outline of a flame in a clip: `capture outline` with a flame's settings.",
+      "capture flame", "1", "Finds the outline of a flame in a clip: `capture outline` with a flame's settings.",
       {{"wisp capture flame candle.mp4 -o candle.csv", "The outline of a candle's flame, eight control points"},
        {"wisp capture flame candle.mp4 --points 16 --frames 1:300 -o candle.csv",
         "Finer, and only the first 300 frames"}});

@@ -77,7 +77,10 @@ Result<Recording> capture_step(const Places& places, const std::string& clip, co
     if (!captured) return captured.error();
     terminal.show(captured->report);
     recording = std::move(captured->recording);
-    return write_csv(path, recording);
+    if (auto written = write_csv(path, recording); !written) return written;
+    const auto& verdict = captured->report.verdict;
+    if (!verdict || verdict->usable) return {};
+    return Error{clip + ": no flame is learned from it: " + verdict->reason};
   });
   if (!ok) return ok.error();
   return recording;

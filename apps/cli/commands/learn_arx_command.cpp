@@ -3,12 +3,12 @@
 #include <chrono>
 
 #include "commands/commands.hpp"
+#include "flags/curve_flag.hpp"
 #include "flags/order_flags.hpp"
 #include "flags/recordings.hpp"
 #include "flags/search_flags.hpp"
 #include "reports/arx_figures.hpp"
 #include "reports/arx_parts.hpp"
-#include "flags/curve_flag.hpp"
 #include "reports/learned_model.hpp"
 #include "terminal.hpp"
 #include "wisp/learn/learn.hpp"

@@ -5,8 +5,8 @@
 
 #include "commands/commands.hpp"
 #include "flags/capture_flags.hpp"
-#include "flags/outline_flags.hpp"
 #include "flags/curve_flag.hpp"
+#include "flags/outline_flags.hpp"
 #include "reports/learned_model.hpp"
 #include "terminal.hpp"
 #include "wisp/learn/learn.hpp"
@@ -30,14 +30,15 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
 struct Preset {
   const char* extinction;
   const char* input_curve;
+  const char* flame;
 };
 
 Command learn(std::string name, std::string summary, const Preset& preset, std::vector<Example> examples) {
   std::vector<Flag> flags = {{"output", Kind::kPath, "M.wisp", "", "where to write the model", {}, true},
                              extinction_flag(preset.extinction),
                              curve_flag(preset.input_curve, "")};
-  for (auto* more : {&outline_flags, &capture_flags}) {
-    for (Flag& flag : (*more)()) flags.push_back(std::move(flag));
+  for (const std::vector<Flag>& more : {outline_flags(), capture_flags(preset.flame)}) {
+    flags.insert(flags.end(), more.begin(), more.end());
   }
   return {
       std::move(name),  std::move(summary),  {{"CLIP_OR_REC", "clips, folders of images, or recordings (.csv)", true}},
@@ -47,13 +48,13 @@ Command learn(std::string name, std::string summary, const Preset& preset, std::
 }  // namespace
 
 Command learn_outline_command() {
-  return learn("learn outline", "Learns how an outline moves, by itself and driven by its inputs.", {"off", "0"},
+  return learn("learn outline", "Learns how an outline moves, by itself and driven by its inputs.", {"off", "0", "0"},
                {{"wisp learn outline flag.mp4 --dark --points 12 -o flag.wisp", "Straight from a clip"}});
 }
 
 Command learn_flame_command() {
   return learn(
-      "learn flame", "Learns a flame: `learn outline` with a flame's settings.", {"auto", "auto"},
+      "learn flame", "Learns a flame: `learn outline` with a flame's settings.", {"auto", "auto", "1"},
       {{"wisp learn flame candle.csv -o flame.wisp", "From a captured recording"},
        {"wisp learn flame candle.mp4 --points 16 -o flame.wisp", "Straight from a clip, sixteen control points"},
        {"wisp learn flame candle.csv --blow-out 1.5,0.3 -o flame.wisp",

@@ -126,7 +126,7 @@ Command validate_command() {
       {"outputs", Kind::kNames, "C,D", "", "columns of a plain table that are outputs"},
       {"dt", Kind::kNumber, "S", "", "seconds between samples of a plain table"},
   };
-  for (Flag& flag : capture_flags()) {
+  for (Flag& flag : capture_flags("1")) {
     if (flag.name != "points") flags.push_back(std::move(flag));  // the model says how many
   }
   return {

@@ -32,15 +32,16 @@ WindMeasure wind_measure(const Arguments& arguments) {
 
 }  // namespace
 
-std::vector<Flag> capture_flags() {
+std::vector<Flag> capture_flags(const std::string& flame) {
   return {
       {"points", Kind::kInteger, "N", "8", "control points of the outline, 4 to 64"},
       {"channel",
        Kind::kChoice,
        "C",
        "auto",
-       "brightness to look at: auto takes the one that separates best",
+       "brightness to look at: auto takes the one in which the flame stands out best",
        {"auto", "luma", "red", "green", "blue"}},
+      {"flame", Kind::kInteger, "K", flame, "which of several flames, 1 the largest; 0: what moves, flame or not"},
       {"dark", Kind::kSwitch, "", "", "the thing is dark on a light ground"},
       {"region", Kind::kText, "X,Y,W,H", "", "look only here, in pixels from the top left"},
       {"frames", Kind::kSamples, "A:B", "", "only these frames, 1-based and inclusive"},
@@ -61,6 +62,7 @@ Result<ClipCapture> capture_options(const Arguments& arguments) {
   if (arguments.has("points")) options.points = arguments.integer("points");
   options.channel = channel_from_name(arguments.text("channel"));
   options.dark = arguments.on("dark");
+  options.flame = arguments.integer("flame");
   if (arguments.has("region")) {
     const auto region = parse_region(arguments.text("region"));
     if (!region) return region.error();
@@ -84,6 +86,7 @@ Result<std::vector<Recording>> outline_recordings(const std::vector<std::string>
     auto clip = capture(path, *options, terminal.progress());
     if (!clip) return clip.error();
     for (const std::string& warning : clip->report.warnings) terminal.warn(path + ": " + warning);
+    terminal.verdict(path, clip->report);
     return std::move(clip->recording);
   };
   std::vector<Recording> recordings;

@@ -11,7 +11,7 @@
 namespace wisp::cli {
 
 /// --points, --channel, --dark, --region, --frames, --rate, --wind-measure.
-std::vector<Flag> capture_flags();
+std::vector<Flag> capture_flags(const std::string& flame);
 
 /// What they say.
 /// Errors: a value that does not fit.

@@ -35,6 +35,7 @@ struct ClipCapture {
   int points = 8;                          ///< control points, 4 to 64; 8 as in the paper
   std::optional<PixelChannel> channel{};   ///< none: the one that separates best
   bool dark = false;                       ///< the thing is dark on a light ground
+  int flame = 0;                           ///< which of several flames, 1 the largest; 0: whatever moves, flame or not
   Region region{};                         ///< where to look, pixels; empty: the whole picture
   std::optional<FrameRange> frames{};      ///< 1-based and inclusive; none: all. The sound is heard from the beginning
   double rate_hz = 0;                      ///< frames a second: needed for a folder of images, overrides a video's own
@@ -42,15 +43,18 @@ struct ClipCapture {
   std::optional<SharedCurve> curve{};      ///< of another clip; overrides `points`
 };
 
-/// How a flame is captured. A flame is bright, and so are the defaults.
-struct FlameCapture : ClipCapture {};
+/// How a flame is captured: the largest one, by the light that it gives.
+struct FlameCapture : ClipCapture {
+  FlameCapture() { flame = 1; }
+};
 
 /// A recording and what happened on the way to it.
 struct Captured {
   Recording recording;  ///< outputs p0.x, p0.y, …, motion base.x, base.y, and, where the clip has sound, an input
                         ///< named by the wind's measure; one row a frame, missing rows empty
-  Report report;  ///< frames, tracked, duplicates, filled, dropped, rate_hz, points, threshold, channel, wind {…},
-                  ///< and the series `brightness`: the histogram
+  Report
+      report;  ///< whether the outline can be learned from; flames, out_at, frames, tracked, duplicates, filled,
+               ///< dropped, rate_hz, points, threshold, channel, wind {…}, and the series `brightness`: the histogram
 };
 
 /// Captures the outline in a video file or a folder of numbered images, and the wind in the video's sound.

@@ -7,6 +7,7 @@
 #include "capture/vision/knots.hpp"
 #include "capture/vision/outline_rows.hpp"
 #include "capture/vision/outline_seeker.hpp"
+#include "capture/vision/outline_verdict.hpp"
 #include "wisp/record/number_text.hpp"
 
 namespace wisp {
@@ -50,8 +51,7 @@ class OutlineCapture::Stage {
     std::vector<EdgeCloud> above;   // from corner to corner over the tip
     std::vector<EdgeCloud> around;  // with the underside
   };
-  Samples choose_channel(std::span<const Survey> surveys, std::span<const Picture> pictures);
-  Samples take_samples(const OutlineSeeker& seeker, BaseSide base, std::span<const Picture> pictures) const;
+  Samples take_samples(std::span<const Picture> pictures) const;
   std::vector<double> decide_shape(Samples& samples);
   void look(const Picture& picture);
   void note_lost();
@@ -131,9 +131,13 @@ Result<void> OutlineCapture::Stage::decide() {
   cloud_options_.most_points = std::max(kLeastEdgePoints, kEdgePointsEach * options_.points);
   std::vector<Picture> seen = evenly_from(pictures, kSurveyed);
   for (const OwnedPicture& glimpse : glimpses_) seen.push_back(glimpse.picture());
-  const auto surveys = survey_scene(seen, {options_.channel, options_.dark, options_.region});
-  if (!surveys) return complaint(surveys.error().message);
-  Samples samples = choose_channel(*surveys, pictures);
+  auto survey = survey_scene(seen, {options_.channel, options_.dark, options_.region, options_.flame});
+  if (!survey) return complaint(survey.error().message);
+  survey_ = std::move(*survey);
+  const Region area = options_.region.empty() ? pictures.front().frame() : options_.region;
+  cloud_options_.base = options_.base.value_or(survey_->flames > 0 ? BaseSide::kBottom : base_side(*survey_, area));
+  seeker_.emplace(*survey_, area, cloud_options_.base, options_.dark);
+  Samples samples = take_samples(pictures);
   tracker_.emplace(decide_shape(samples));
   for (const auto& held : held_) {
     if (held) {
@@ -148,37 +152,10 @@ Result<void> OutlineCapture::Stage::decide() {
   return {};
 }
 
-// The channel that separates best and in which the outline is simplest: where wax, a stand or only part of a flame is
-// in the region, a spline follows it less well.
-OutlineCapture::Stage::Samples OutlineCapture::Stage::choose_channel(std::span<const Survey> surveys,
-                                                                     std::span<const Picture> pictures) {
-  constexpr int kTrialPoints = 8;
-  const Region area = options_.region.empty() ? pictures.front().frame() : options_.region;
-  double best = -1;
-  for (const Survey& survey : surveys) {
-    const BaseSide base = options_.base.value_or(base_side(survey, area));
-    Samples samples = take_samples(OutlineSeeker(survey, area, base, options_.dark), base, pictures);
-    double score = 0;
-    if (surveys.size() > 1 && !samples.above.empty()) {
-      const double overlap = 1 - fit_pace(samples.above, uniform_knots(kTrialPoints)).misfit;
-      score = survey.separation * std::max(overlap, 0.0) * std::abs(overlap);
-    }
-    if (score <= best) continue;
-    best = score;
-    survey_ = survey;
-    cloud_options_.base = base;
-  }
-  survey_->level = survey_->steepest_level;
-  seeker_.emplace(*survey_, area, cloud_options_.base, options_.dark);
-  return take_samples(*seeker_, cloud_options_.base, pictures);
-}
-
 // The edge points of a few of the pictures and of the glimpses, without and with the underside.
-OutlineCapture::Stage::Samples OutlineCapture::Stage::take_samples(const OutlineSeeker& seeker, BaseSide base,
-                                                                   std::span<const Picture> pictures) const {
+OutlineCapture::Stage::Samples OutlineCapture::Stage::take_samples(std::span<const Picture> pictures) const {
   EdgeCloudOptions above = cloud_options_, around = cloud_options_;
   above.most_points = around.most_points = kSamplePoints;
-  above.base = around.base = base;
   around.underside = true;
   Samples samples;
   EdgeCloud cloud;
@@ -187,10 +164,10 @@ OutlineCapture::Stage::Samples OutlineCapture::Stage::take_samples(const Outline
     if (looking.edge_points(above, cloud)) samples.above.push_back(cloud);
     if (looking.edge_points(around, cloud)) samples.around.push_back(cloud);
   };
-  OutlineSeeker following = seeker;
+  OutlineSeeker following = *seeker_;
   for (const Picture& picture : evenly_from(pictures, kSamples)) take(following, picture);
   for (const OwnedPicture& glimpse : glimpses_) {
-    OutlineSeeker anew = seeker;
+    OutlineSeeker anew = *seeker_;
     take(anew, glimpse.picture());
   }
   return samples;
@@ -240,6 +217,9 @@ void OutlineCapture::Stage::look(const Picture& picture) {
 
 void OutlineCapture::Stage::describe(CapturedOutline& out) const {
   CaptureReport& report = out.report;
+  report.flames = survey_->flames;
+  report.facts.light = survey_->light;
+  report.facts.solidity = survey_->solidity;
   report.rate_hz = options_.rate_hz;
   report.points = options_.points;
   report.channel = survey_->channel;
@@ -285,6 +265,7 @@ Result<CapturedOutline> OutlineCapture::Stage::finish() {
                      std::to_string(out.report.frames) + " frames, expected at least " + std::to_string(kLeastTracked) +
                      "; try another channel, or a region around the thing");
   }
+  judge_outline(out.recording, tracker_->table(), out.report);
   return out;
 }
 

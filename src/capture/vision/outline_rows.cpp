@@ -13,6 +13,7 @@ constexpr double kDuplicateShare =
     0.35;                               // a frame that changes less than this share of its neighbours repeats the last
 constexpr double kDuplicateMost = 0.5;  // … and by less than half a grey level: a picture taken anew has its own noise
 constexpr std::size_t kNeighbours = 4;  // on each side
+constexpr std::size_t kGlint = 6;       // frames at most
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 enum class Fate : std::uint8_t { kKept, kDuplicate, kFilled, kFade, kNothing, kLost };
@@ -54,6 +55,28 @@ std::vector<Fate> judge(const FrameFindings& findings) {
   std::vector<Fate> fate;
   for (std::size_t row = 0; row < findings.size(); ++row) fate.push_back(judge(findings, row, usual_brightness));
   return fate;
+}
+
+// What flashes up briefly between longer stretches of nothing is a glint, not the thing.
+void leave_out_glints(std::vector<Fate>& fate) {
+  struct Stretch {
+    bool nothing = false;
+    std::size_t begin = 0;
+    std::size_t end = 0;
+    std::size_t size() const { return end - begin; }
+  };
+  std::vector<Stretch> stretches;
+  for (std::size_t k = 0; k < fate.size(); ++k) {
+    const bool nothing = fate[k] == Fate::kNothing;
+    if (stretches.empty() || stretches.back().nothing != nothing) stretches.push_back({nothing, k, k});
+    stretches.back().end = k + 1;
+  }
+  for (std::size_t k = 1; k + 1 < stretches.size(); ++k) {
+    const Stretch& now = stretches[k];
+    if (now.nothing || now.size() > kGlint) continue;
+    if (std::min(stretches[k - 1].size(), stretches[k + 1].size()) <= now.size()) continue;
+    for (std::size_t row = now.begin; row < now.end; ++row) fate[row] = Fate::kNothing;
+  }
 }
 
 // The dark end of a fade has no bright region at all: it is part of the fade.
@@ -146,6 +169,7 @@ void assemble_rows(const FrameFindings& findings, int points, Recording& recordi
   std::vector<Fate> fate = judge(findings);
   report.duplicates = static_cast<std::size_t>(std::count(fate.begin(), fate.end(), Fate::kDuplicate));
   extend_fades(fate);
+  leave_out_glints(fate);
   std::vector<double> controls = findings.controls;
   fill_single_gaps(fate, controls, 2 * static_cast<std::size_t>(points));
   count(fate, findings, report);

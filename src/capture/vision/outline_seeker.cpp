@@ -1,10 +1,9 @@
 #include "capture/vision/outline_seeker.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
-
-#include "capture/vision/waist.hpp"
 
 namespace wisp {
 namespace {
@@ -18,7 +17,39 @@ constexpr int kLeastArea = 24;           // pixels
 constexpr double kJumpShare = 0.03;  // of its length: reaching suddenly deeper than that, it may have run together
 constexpr int kLeastJump = 3;        // … with what it stands on; pixels
 
-double area_of(const Region& region) { return static_cast<double>(region.width) * region.height; }
+constexpr double kSlack = 0.12;      // of the thing's length: how far above its former end its stand may begin
+constexpr double kFarDeeper = 0.25;  // of its length: what reaches so far below its place is stand, shoulder or not
+
+constexpr double kAsBright = 0.9;  // what is found anew is at least so bright for what was there before
+constexpr double kAsLarge = 4;     // … at most so many times larger or smaller
+constexpr double kAsNear = 0.35;   // … and stands at most this share of its length away
+constexpr double kStays = 0.2;     // of the smaller box, what is followed shares with where it was a frame ago
+
+double area_of(const Region& region) { return region.empty() ? 0 : static_cast<double>(region.width) * region.height; }
+
+// The middle of a box's end towards the base.
+PixelPosition foot(const Region& box, BaseSide side) {
+  const int edge = base_edge(box, side);
+  if (side == BaseSide::kBottom || side == BaseSide::kTop) return {box.x + box.width / 2, edge};
+  return {edge, box.y + box.height / 2};
+}
+
+double distance(const PixelPosition& a, const PixelPosition& b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
+Region usual_of(const std::vector<Region>& seen, const Region& home) {
+  if (seen.empty()) return home;
+  std::array<std::vector<int>, 4> sides;
+  for (const Region& box : seen) {
+    const std::array<int, 4> now{box.x, box.y, box.right(), box.bottom()};
+    for (std::size_t k = 0; k < 4; ++k) sides[k].push_back(now[k]);
+  }
+  // What the thing only now and then runs together with does not count: the middle one of the pictures.
+  for (auto& side : sides) {
+    std::nth_element(side.begin(), side.begin() + static_cast<std::ptrdiff_t>(side.size() / 2), side.end());
+    side.front() = side[side.size() / 2];
+  }
+  return {sides[0][0], sides[1][0], sides[2][0] - sides[0][0], sides[3][0] - sides[1][0]};
+}
 
 }  // namespace
 
@@ -29,15 +60,12 @@ OutlineSeeker::OutlineSeeker(const Survey& survey, const Region& area, BaseSide 
       dark_(dark),
       area_(area),
       home_(survey.home),
-      still_(survey.still),
-      base_edge_(wisp::base_edge(survey.home, base)) {
-  // What the thing only now and then runs together with does not count: the middle one of the pictures.
-  std::vector<int> edges;
-  for (const Region& box : survey.seen) edges.push_back(wisp::base_edge(box, base));
-  if (edges.empty()) return;
-  std::nth_element(edges.begin(), edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2), edges.end());
-  base_edge_ = edges[edges.size() / 2];
-}
+      others_(survey.others),
+      usual_(usual_of(survey.seen, survey.home)),
+      stands_(survey.stands),
+      usual_area_(survey.area),
+      base_edge_(wisp::base_edge(usual_, base)),
+      last_foot_(foot(usual_, base)) {}
 
 OutlineSeeker::Window OutlineSeeker::open(const Picture& picture, const Region& place) {
   const ImageView direct = plane_in_place(picture, channel_);
@@ -50,9 +78,27 @@ OutlineSeeker::Window OutlineSeeker::open(const Picture& picture, const Region& 
   return {place, {plane_.data(), place.width, place.height, place.width}};
 }
 
-bool OutlineSeeker::still(const Region& box) const {
-  return std::any_of(still_.begin(), still_.end(),
-                     [&](const Region& region) { return area_of(intersection(region, box)) > 0.8 * area_of(box); });
+// Whether what was found stands nearer to this flame's place than to another's. A camera moves all of them alike.
+bool OutlineSeeker::ours(const Region& box) const {
+  const PixelPosition home = foot(usual_, base_), now = following_ ? foot(found_.box, base_) : home,
+                      at = foot(box, base_);
+  return std::none_of(others_.begin(), others_.end(), [&](const Region& other) {
+    const PixelPosition place = foot(other, base_);
+    return distance(at, {place.x + now.x - home.x, place.y + now.y - home.y}) < distance(at, now);
+  });
+}
+
+// Whether what was found may be what was there before. What was there a frame ago is still partly where it was; what is
+// found anew stands where that stood, and is not smoke, nor what put it out.
+bool OutlineSeeker::plausible(const Region& before) const {
+  const Region& box = found_.box;
+  if (following_) return area_of(intersection(box, before)) > kStays * std::min(area_of(box), area_of(before));
+  const double length = std::max({usual_.width, usual_.height, box.height});
+  const PixelPosition at = foot(box, base_);
+  if (std::min(distance(at, last_foot_), distance(at, foot(usual_, base_))) > kAsNear * length) return false;
+  const double area = static_cast<double>(found_.area);
+  const bool bright = dark_ || brightness_ >= kAsBright * usual_brightness_;
+  return bright && area < kAsLarge * usual_area_ && area > usual_area_ / kAsLarge;
 }
 
 // Nearest to what was there before: the overlap of boxes times the area.
@@ -64,7 +110,7 @@ bool OutlineSeeker::choose(std::span<const BrightRegion> regions, const Region& 
     BrightRegion moved = region;
     moved.box.x += place.x;
     moved.box.y += place.y;
-    if (!following_ && still(moved.box)) continue;
+    if (!ours(moved.box)) continue;
     const double shared = area_of(intersection(moved.box, expected));
     const double likeness = (shared + 1) / (area_of(moved.box) + area_of(expected) - shared);
     const double score = static_cast<double>(region.area) * likeness;
@@ -99,31 +145,43 @@ bool OutlineSeeker::find_in(const Picture& picture, Region place) {
   }
 }
 
+void OutlineSeeker::follow() {
+  const Region place = window_.place;
+  follow_boundary(window_.image, level_, {found_.seed_x - place.x, found_.seed_y - place.y}, boundary_);
+}
+
 // Cuts off what the thing stands on where both have run together. Returns whether there is still something left.
 bool OutlineSeeker::part_from_stand() {
-  const BaseSide side = base_;
-  const Region box = found_.box;
-  const int end = wisp::base_edge(box, side);
-  const int length = side == BaseSide::kBottom || side == BaseSide::kTop ? box.height : box.width;
-  const int jump = deeper(end, base_edge_, side);
-  const bool inside = deeper(end, base_edge_, side) < length;
-  if (jump <= std::max(kLeastJump, static_cast<int>(kJumpShare * length)) || !inside) {
+  const Region box = found_.box, place = window_.place;
+  const int end = wisp::base_edge(box, base_);
+  const bool rows = base_ == BaseSide::kBottom || base_ == BaseSide::kTop;
+  const int length = rows ? box.height : box.width;
+  const int jump = deeper(end, base_edge_, base_);
+  const bool inside = jump < length;
+  const bool suspicious = jump > std::max(kLeastJump, static_cast<int>(kJumpShare * length));
+  follow();
+  if (!inside || (!stands_ && !suspicious)) {
     base_edge_ = end;
     return true;
   }
-  const Region place = window_.place;
-  const bool rows = side == BaseSide::kBottom || side == BaseSide::kTop;
+  measure_profile(boundary_, base_, profile_);
+  const int above = length - jump;
+  const int slack = static_cast<int>(kSlack * above);
+  const auto shoulder = find_shoulder(profile_, static_cast<std::size_t>(std::max(0, stands_ ? 0 : above - slack)));
+  const bool far = stands_ && jump > static_cast<int>(kFarDeeper * above);
+  if (!shoulder && !far) {
+    base_edge_ = end;
+    return true;
+  }
   const int offset = rows ? place.y : place.x;
-  const Region in_window{box.x - place.x, box.y - place.y, box.width, box.height};
-  const auto waist = find_waist(window_.image, level_, in_window, base_edge_ - offset, side);
-  if (!waist) {
-    base_edge_ = end;
-    return true;
-  }
-  const Region kept = above_edge(place, *waist + offset, side);
+  const int last = depth_of(profile_.first + (shoulder ? static_cast<int>(*shoulder) : above - 1), base_) + offset;
+  const Region kept = above_edge(place, last, base_);
   window_.image = crop(window_.image, {kept.x - place.x, kept.y - place.y, kept.width, kept.height});
   window_.place = kept;
-  return choose(finder_.find(window_.image, level_, kLeastArea), kept);
+  if (!choose(finder_.find(window_.image, level_, kLeastArea), kept)) return false;
+  if (!stands_ || shoulder) base_edge_ = last;
+  follow();
+  return true;
 }
 
 // Mean difference from the frame before where the thing is and was; every second row is enough.
@@ -177,7 +235,15 @@ bool OutlineSeeker::seek(const Picture& picture) {
     following_ = false;
     seen = find_in(picture, grown(home_, kLeastMargin)) || find_in(picture, area_);
   }
-  if (!seen || !part_from_stand()) return false;
+  if (!seen || !part_from_stand()) {
+    following_ = false;
+    return false;
+  }
+  if (!dark_) measure_brightness(picture);  // a dark thing does not fade: its ground does
+  if (!plausible(before.box)) {
+    following_ = false;
+    return false;
+  }
   if (following_) {
     const Region &a = before.box, &b = found_.box;
     const int moved = std::max(
@@ -185,12 +251,11 @@ bool OutlineSeeker::seek(const Picture& picture) {
     pace_ = std::max(moved, static_cast<int>(kPaceMemory * pace_));
   }
   following_ = true;
+  last_foot_ = foot(found_.box, base_);
   const double area = static_cast<double>(found_.area);
-  usual_area_ = usual_area_ == 0 ? area : 0.95 * usual_area_ + 0.05 * area;
+  usual_area_ = 0.95 * usual_area_ + 0.05 * area;
+  usual_brightness_ = usual_brightness_ == 0 ? brightness_ : 0.95 * usual_brightness_ + 0.05 * brightness_;
   measure_change();
-  if (!dark_) measure_brightness(picture);  // a dark thing does not fade: its ground does
-  const Region place = window_.place;
-  follow_boundary(window_.image, level_, {found_.seed_x - place.x, found_.seed_y - place.y}, boundary_);
   return true;
 }
 

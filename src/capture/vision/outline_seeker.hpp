@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "capture/vision/shoulder.hpp"
 #include "wisp/capture/vision/edge_cloud.hpp"
 #include "wisp/capture/vision/picture.hpp"
 #include "wisp/capture/vision/region.hpp"
@@ -37,8 +38,10 @@ class OutlineSeeker {
   Window open(const Picture& picture, const Region& place);
   bool find_in(const Picture& picture, Region place);
   bool part_from_stand();
+  void follow();
+  bool ours(const Region& box) const;
+  bool plausible(const Region& before) const;
   bool choose(std::span<const BrightRegion> regions, const Region& place);
-  bool still(const Region& box) const;
   int margin() const;
   /// Row y of the picture in the window, such that column x of the picture is element x.
   const std::uint8_t* window_row(int y) const { return window_.image.row(y - window_.place.y) - window_.place.x; }
@@ -51,20 +54,25 @@ class OutlineSeeker {
   bool dark_;
   Region area_;
   Region home_;
-  std::vector<Region> still_;
+  std::vector<Region> others_;  // other flames, where they were when this one was at usual_
+  Region usual_;                // where the thing usually was in the survey
+  bool stands_;                 // it has mostly run together with what it stands on
   bool following_ = false;
-  double usual_area_ = 0;
+  double usual_area_;
   int base_edge_;  // where the thing ended when it last stood alone
   BrightRegion found_;
-  int pace_ = 0;  // how far the box's sides moved in the last frames, pixels a frame
+  PixelPosition last_foot_;  // the middle of its end towards the base, when it was last there
+  int pace_ = 0;             // how far the box's sides moved in the last frames, pixels a frame
   Window window_;
   std::vector<std::uint8_t> plane_;
   Region before_place_;
   std::vector<std::uint8_t> before_;
   double change_ = 0;
   double brightness_ = 0;
+  double usual_brightness_ = 0;
   RegionFinder finder_;
   std::vector<PixelPosition> boundary_;
+  Profile profile_;
 };
 
 }  // namespace wisp

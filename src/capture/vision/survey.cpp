@@ -4,214 +4,224 @@
 #include <array>
 #include <cmath>
 
-#include "wisp/capture/vision/region.hpp"
+#include "capture/vision/candidates.hpp"
 
 namespace wisp {
 namespace {
 
-constexpr int kGridWidth = 240;        // the coarse grid is about this wide and high: enough to tell regions apart
-constexpr double kLitShare = 0.85;     // a picture counts when its contrast is this share of the upper quartile
-constexpr double kChangeShare = 0.25;  // a grid point moves when its range is this share of the clusters' distance
-constexpr double kPersistence = 0.6;   // the thing is there in this share of the pictures
+constexpr int kGrid = 320;             // points of the coarse grid, wide and high: enough to tell regions apart
+constexpr int kFineGrid = 160;         // … and of the one around a flame
+constexpr int kLevelStep = 18;         // levels that are tried, 255ths
+constexpr int kHighestLevel = 225;     // above it, where a camera clips, a level cuts through the flame
+constexpr double kLitShare = 0.7;      // a picture counts when its brightest is this share of the upper quartile's
 constexpr double kLeastContrast = 12;  // levels between the clusters, of 255: less is noise of one brightness
+constexpr double kAsLikely = 0.35;     // another flame is at least this share as likely as the first
+constexpr double kAsBright = 0.9;      // … and as bright
+constexpr double kAsGood = 0.5;        // at another level it is still the same thing when it is this share as likely
+constexpr double kHalfWay = 0.58;
+constexpr double kSameHome = 0.6;    // … and shares this much of its place
+constexpr double kBrightest = 3e-4;  // share of the picture that is as bright as anything
 
-// All pictures on a coarse grid.
-struct Grid {
-  int step = 1;
-  int width = 0;
-  int height = 0;
-  std::vector<std::vector<std::uint8_t>> pictures;
-  std::size_t size() const { return static_cast<std::size_t>(width) * height; }
-};
-
-Grid sample(std::span<const Picture> pictures, PixelChannel channel, const Region& area, bool dark) {
-  Grid grid;
-  grid.step = std::max(1, std::max(area.width, area.height) / kGridWidth);
-  grid.width = (area.width + grid.step - 1) / grid.step;
-  grid.height = (area.height + grid.step - 1) / grid.step;
-  for (const Picture& picture : pictures) {
-    std::vector<std::uint8_t> out(grid.size());
-    sample_channel(picture, channel, area, grid.step, out.data());
-    if (dark) {
-      for (std::uint8_t& value : out) value = static_cast<std::uint8_t>(255 - value);
-    }
-    grid.pictures.push_back(std::move(out));
-  }
-  return grid;
-}
-
-ImageView view(const Grid& grid, const std::vector<std::uint8_t>& picture) {
-  return {picture.data(), grid.width, grid.height, grid.width};
-}
-
-// The pictures that count, and their histogram.
-struct LitPictures {
-  std::vector<std::size_t> which;
+// Luma that only the brightest points reach.
+double brightest_of(const ImageView& luma) {
   Histogram histogram{};
+  add_to_histogram(histogram, luma, 1);
+  const double points = static_cast<double>(luma.width) * luma.height;
+  const double enough = std::max(4.0, kBrightest * points);
+  double count = 0;
+  int level = 255;
+  while (level > 1 && (count += static_cast<double>(histogram[static_cast<std::size_t>(level)])) < enough) --level;
+  return level;
+}
+
+// The pictures that count, and how bright they get. Those of a fade, or after the flame went out, do not.
+struct LitPictures {
+  std::vector<Picture> pictures;
+  std::vector<double> brightest;
 };
 
-// Pictures of a fade would pull the level down.
-LitPictures lit_pictures(const Grid& grid) {
-  std::vector<double> contrast;
-  std::vector<Histogram> histograms(grid.pictures.size());
-  for (std::size_t k = 0; k < grid.pictures.size(); ++k) {
-    add_to_histogram(histograms[k], view(grid, grid.pictures[k]), 1);
-    const TwoClusters clusters = split_histogram(histograms[k]);
-    contrast.push_back(clusters.bright_mean - clusters.dark_mean);
-  }
-  std::vector<double> sorted = contrast;
-  const std::size_t usual = sorted.size() - 1 - sorted.size() / 4;
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(usual), sorted.end());
+LitPictures lit_pictures(std::span<const Picture> pictures, const Region& area) {
+  const PictureGrid luma = sample_grid(pictures, PixelChannel::kLuma, area, kGrid, false);
+  std::vector<double> brightest;
+  for (std::size_t k = 0; k < pictures.size(); ++k) brightest.push_back(brightest_of(luma.view(k)));
+  std::vector<double> sorted = brightest;
+  std::sort(sorted.begin(), sorted.end());
+  const double usual = sorted[sorted.size() - 1 - sorted.size() / 4];
   LitPictures lit;
-  for (std::size_t k = 0; k < contrast.size(); ++k) {
-    if (contrast[k] < kLitShare * sorted[usual]) continue;
-    lit.which.push_back(k);
-    for (int v = 0; v < 256; ++v) lit.histogram[v] += histograms[k][v];
+  for (std::size_t k = 0; k < pictures.size(); ++k) {
+    if (brightest[k] < kLitShare * usual) continue;
+    lit.pictures.push_back(pictures[k]);
+    lit.brightest.push_back(brightest[k]);
   }
   return lit;
 }
 
-struct Extent {
-  std::vector<std::uint8_t> lowest;
-  std::vector<std::uint8_t> highest;
-};
-
-Extent extent(const Grid& grid, std::span<const std::size_t> lit) {
-  Extent out{std::vector<std::uint8_t>(grid.size(), 255), std::vector<std::uint8_t>(grid.size(), 0)};
-  for (const std::size_t k : lit) {
-    const auto& picture = grid.pictures[k];
-    for (std::size_t i = 0; i < picture.size(); ++i) {
-      out.lowest[i] = std::min(out.lowest[i], picture[i]);
-      out.highest[i] = std::max(out.highest[i], picture[i]);
+// Candidates of all channels and levels over one area.
+std::vector<Candidate> scan(std::span<const Picture> pictures, const Region& area, int most,
+                            const SurveyOptions& options, const Evidence& evidence) {
+  std::vector<Candidate> found;
+  const PictureGrid luma = sample_grid(pictures, PixelChannel::kLuma, area, most, false);
+  for (const PixelChannel channel :
+       {PixelChannel::kLuma, PixelChannel::kRed, PixelChannel::kGreen, PixelChannel::kBlue}) {
+    if (options.channel ? channel != *options.channel : !has_channel(pictures.front(), channel)) continue;
+    const PictureGrid grid = sample_grid(pictures, channel, area, most, options.dark);
+    std::vector<std::vector<Candidate>> levels;
+    // One level more than may be chosen: what is left at it tells how steep the rim is below.
+    for (int level = 2 * kLevelStep; brightness(pictures.front(), channel, level) < kHighestLevel + kLevelStep;
+         level += kLevelStep) {
+      levels.push_back(find_candidates(grid, luma, level, evidence));
+      for (Candidate& candidate : levels.back()) candidate.channel = channel;
     }
+    for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
+      weigh(levels[k], k == 0 ? nullptr : &levels[k - 1], &levels[k + 1], evidence);
+    }
+    levels.pop_back();
+    for (auto& level : levels) std::move(level.begin(), level.end(), std::back_inserter(found));
   }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
+  return found;
+}
+
+// Around where a candidate usually is.
+Region usual_place(const Candidate& candidate) {
+  std::vector<double> x, y, right, bottom;
+  for (const Region& box : candidate.seen) {
+    x.push_back(box.x);
+    y.push_back(box.y);
+    right.push_back(box.right());
+    bottom.push_back(box.bottom());
+  }
+  const int left = static_cast<int>(middle(x)), top = static_cast<int>(middle(y));
+  return {left, top, static_cast<int>(middle(right)) - left, static_cast<int>(middle(bottom)) - top};
+}
+
+bool same_place(const Candidate& a, const Candidate& b) {
+  return !intersection(usual_place(a), usual_place(b)).empty();
+}
+
+// The likeliest candidate, and others in its channel and at its level that are nearly as likely: flames of one picture
+// are alike, where what they light is as bright only at other levels. Largest first.
+std::vector<Candidate> places(const std::vector<Candidate>& candidates, const SurveyOptions& options) {
+  std::vector<Candidate> out;
+  const Candidate& best = candidates.front();
+  for (const Candidate& c : candidates) {
+    if (c.channel != best.channel || c.level != best.level) continue;
+    if (c.score < kAsLikely * best.score || c.light < kAsBright * best.light) continue;
+    if (std::none_of(out.begin(), out.end(), [&](const Candidate& other) { return same_place(c, other); })) {
+      out.push_back(c);
+    }
+    if (options.flame == 0) break;
+  }
+  std::stable_sort(out.begin(), out.end(), [](const Candidate& a, const Candidate& b) { return a.area > b.area; });
   return out;
 }
 
-// How a region of "ever bright" grid points behaves. Counted over its box: boxes of different things rarely overlap.
-struct Behaviour {
-  double motion = 0;      // moving grid points
-  double presence = 0;    // share of lit pictures with a bright point
-  double moving_rim = 0;  // share of its rim, in each picture, that lies on moving points
-};
-
-bool on_rim(const ImageView& image, int level, int x, int y) {
-  if (image.at(x, y) <= level) return false;
-  return (x > 0 && image.at(x - 1, y) <= level) || (x + 1 < image.width && image.at(x + 1, y) <= level) ||
-         (y > 0 && image.at(x, y - 1) <= level) || (y + 1 < image.height && image.at(x, y + 1) <= level);
-}
-
-Behaviour behaviour(const Grid& grid, std::span<const std::size_t> lit, int level, const Region& box,
-                    const std::vector<std::uint8_t>& moving) {
-  Behaviour out;
-  std::int64_t rim = 0, rim_moving = 0, present = 0;
-  for (int y = box.y; y < box.bottom(); ++y) {
-    for (int x = box.x; x < box.right(); ++x) out.motion += moving[static_cast<std::size_t>(y) * grid.width + x];
+// A little more than half-way from what is just around a thing to the thing itself: there its area depends little on
+// how a rim is blurred, and its glow, which reaches less than half-way, is left out. What is around it counts by its
+// brighter quarter, which may become brighter still.
+int half_way(const Candidate& thing, std::span<const Picture> pictures, const Region& area, bool dark) {
+  const Region box = intersection(grown(thing.home, std::max(thing.home.width, thing.home.height) / 8 + 2), area);
+  const PictureGrid grid = sample_grid(pictures, thing.channel, box, kFineGrid, dark);
+  std::vector<double> inside, outside;
+  for (const auto& picture : grid.pictures) {
+    for (const std::uint8_t value : picture) (value > thing.level ? inside : outside).push_back(value);
   }
-  for (const std::size_t k : lit) {
-    const ImageView image = view(grid, grid.pictures[k]);
-    bool any = false;
-    for (int y = box.y; y < box.bottom(); ++y) {
-      for (int x = box.x; x < box.right(); ++x) {
-        if (image.at(x, y) <= level) continue;
-        any = true;
-        if (!on_rim(image, level, x, y)) continue;
-        ++rim;
-        rim_moving += moving[static_cast<std::size_t>(y) * grid.width + x];
-      }
-    }
-    present += any;
+  if (inside.empty() || outside.empty()) return thing.level;
+  const auto quarter = outside.begin() + static_cast<std::ptrdiff_t>(3 * outside.size() / 4);
+  std::nth_element(outside.begin(), quarter, outside.end());
+  return static_cast<int>(*quarter + kHalfWay * (middle(std::move(inside)) - *quarter));
+}
+
+// The same thing at the level nearest to half-way at which it still is that: candidates are the likeliest first.
+Candidate settle_level(const Candidate& thing, const std::vector<Candidate>& candidates, int wanted) {
+  Candidate best = thing;
+  for (const Candidate& c : candidates) {
+    if (c.channel != thing.channel || c.stands != thing.stands || c.score < kAsGood * thing.score) continue;
+    if (c.seen.size() < thing.seen.size() || shared_share(c.home, thing.home) < kSameHome) continue;
+    if (std::abs(c.level - wanted) < std::abs(best.level - wanted)) best = c;
   }
-  out.presence = static_cast<double>(present) / static_cast<double>(lit.size());
-  out.moving_rim = rim == 0 ? 0 : static_cast<double>(rim_moving) / static_cast<double>(rim);
-  return out;
+  best.level = std::clamp(wanted, best.level - kLevelStep / 2, best.level + kLevelStep / 2);
+  return best;
 }
 
-Region to_pixels(const Grid& grid, const Region& box, const Region& area) {
-  const Region out{area.x + box.x * grid.step, area.y + box.y * grid.step, box.width * grid.step,
-                   box.height * grid.step};
-  return intersection(grown(out, grid.step), area);
+// The same thing on a finer grid, where there is one, and at the level that suits it best.
+Candidate refine(const Candidate& coarse, const std::vector<Candidate>& all, std::span<const Picture> pictures,
+                 const Region& area, const SurveyOptions& options, const Evidence& evidence) {
+  const Region around = intersection(grown(coarse.home, std::max(coarse.home.width, coarse.home.height) / 2 + 2), area);
+  const bool finer = std::max(around.width, around.height) < std::max(area.width, area.height) / 2;
+  const std::vector<Candidate> fine = finer ? scan(pictures, around, kFineGrid, options, evidence) : all;
+  const auto found = std::find_if(fine.begin(), fine.end(), [&](const Candidate& c) { return same_place(c, coarse); });
+  const Candidate& thing = found == fine.end() || !finer ? coarse : *found;
+  return settle_level(thing, fine, half_way(thing, pictures, area, options.dark));
 }
 
-// Of the thing and what is just around it.
-Histogram histogram_around(const Grid& grid, std::span<const std::size_t> lit, const Region& box) {
-  const Region around =
-      intersection(grown(box, std::max(box.width, box.height) / 4 + 1), {0, 0, grid.width, grid.height});
-  Histogram histogram{};
-  for (const std::size_t k : lit) add_to_histogram(histogram, crop(view(grid, grid.pictures[k]), around), 1);
-  return histogram;
-}
-
-// The thing's box in each lit picture: the largest region where its home is.
-std::vector<Region> sightings(const Grid& grid, std::span<const std::size_t> lit, const Survey& survey,
-                              const Region& area) {
-  RegionFinder finder;
-  std::vector<Region> seen;
-  for (const std::size_t k : lit) {
-    for (const BrightRegion& region : finder.find(view(grid, grid.pictures[k]), survey.level, 1)) {
-      const Region box = to_pixels(grid, region.box, area);
-      if (intersection(box, survey.home).empty()) continue;
-      seen.push_back(box);
-      break;
-    }
-  }
-  return seen;
-}
-
-std::optional<Survey> judge(const Grid& grid, PixelChannel channel, const Region& area) {
+Survey describe(const Candidate& thing, std::span<const Picture> pictures, const Region& area, bool dark) {
   Survey out;
-  out.channel = channel;
-  const LitPictures lit_ones = lit_pictures(grid);
-  const std::span<const std::size_t> lit = lit_ones.which;
-  out.histogram = lit_ones.histogram;
-  const TwoClusters clusters = split_histogram(out.histogram);
-  const double contrast = clusters.bright_mean - clusters.dark_mean;
-  if (contrast < kLeastContrast) return std::nullopt;
-  out.separation = clusters.separation;
-  const Extent range = extent(grid, lit);
-  std::vector<std::uint8_t> moving(grid.size());
-  for (std::size_t i = 0; i < moving.size(); ++i) {
-    moving[i] = range.highest[i] - range.lowest[i] > kChangeShare * contrast;
-  }
-  RegionFinder finder;
-  const auto regions = finder.find(view(grid, range.highest), clusters.threshold, 1);
-  const BrightRegion* thing = nullptr;
-  Behaviour best;
-  for (const BrightRegion& region : regions) {
-    const Behaviour b = behaviour(grid, lit, clusters.threshold, region.box, moving);
-    if (b.moving_rim < 0.05) out.still.push_back(to_pixels(grid, region.box, area));
-    if (b.presence < kPersistence) continue;
-    if (thing != nullptr && b.motion <= best.motion) continue;
-    thing = &region;
-    best = b;
-  }
-  if (thing == nullptr) return std::nullopt;
-  out.level = clusters.threshold;
-  out.steepest_level = steepest_level(histogram_around(grid, lit, thing->box), clusters);
-  out.home = to_pixels(grid, thing->box, area);
-  out.moves = best.motion > 0;
-  std::erase(out.still, out.home);
-  out.seen = sightings(grid, lit, out, area);
+  out.channel = thing.channel;
+  out.level = thing.level;
+  out.home = thing.home;
+  out.seen = thing.seen;
+  out.stands = thing.stands;
+  out.change = thing.change;
+  out.taper = thing.taper;
+  out.area = thing.area;
+  out.light = thing.light;
+  out.solidity = thing.solidity;
+  const PictureGrid grid = sample_grid(pictures, thing.channel, area, kGrid, dark);
+  for (std::size_t k = 0; k < grid.pictures.size(); ++k) add_to_histogram(out.histogram, grid.view(k), 1);
+  out.separation = split_histogram(out.histogram).separation;
   return out;
+}
+
+bool has_contrast(std::span<const Picture> pictures, const Region& area, const SurveyOptions& options) {
+  for (const PixelChannel channel :
+       {PixelChannel::kLuma, PixelChannel::kRed, PixelChannel::kGreen, PixelChannel::kBlue}) {
+    if (options.channel ? channel != *options.channel : !has_channel(pictures.front(), channel)) continue;
+    const PictureGrid grid = sample_grid(pictures, channel, area, kGrid, false);
+    Histogram histogram{};
+    for (std::size_t k = 0; k < grid.pictures.size(); ++k) add_to_histogram(histogram, grid.view(k), 1);
+    const TwoClusters clusters = split_histogram(histogram);
+    if (clusters.bright_mean - clusters.dark_mean >= kLeastContrast) return true;
+  }
+  return false;
+}
+
+Error nothing_found(bool dark) {
+  return Error{std::string("nothing ") + (dark ? "dark" : "bright") +
+               " stands out: the picture has one brightness only; expected " +
+               (dark ? "a dark thing on a light ground" : "a bright thing on a dark ground")};
 }
 
 }  // namespace
 
-Result<std::vector<Survey>> survey_scene(std::span<const Picture> pictures, const SurveyOptions& options) {
+Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptions& options) {
   const Region area = options.region.empty() ? pictures.front().frame() : options.region;
-  std::vector<Survey> found;
-  for (const PixelChannel channel :
-       {PixelChannel::kLuma, PixelChannel::kRed, PixelChannel::kGreen, PixelChannel::kBlue}) {
-    if (options.channel ? channel != *options.channel : !has_channel(pictures.front(), channel)) continue;
-    auto survey = judge(sample(pictures, channel, area, options.dark), channel, area);
-    if (survey) found.push_back(std::move(*survey));
+  if (!has_contrast(pictures, area, options)) return nothing_found(options.dark);
+  const bool flame = options.flame > 0 && !options.dark;
+  LitPictures lit;
+  if (options.dark) {
+    lit.pictures.assign(pictures.begin(), pictures.end());
+  } else {
+    lit = lit_pictures(pictures, area);
   }
-  if (found.empty()) {
-    return Error{std::string("nothing ") + (options.dark ? "dark" : "bright") +
-                 " stands out: the picture has one brightness only; expected " +
-                 (options.dark ? "a dark thing on a light ground" : "a bright thing on a dark ground")};
+  const Evidence evidence{.flame = flame, .base = BaseSide::kBottom, .brightest = lit.brightest};
+  const std::vector<Candidate> all = scan(lit.pictures, area, kGrid, options, evidence);
+  if (all.empty()) return nothing_found(options.dark);
+  const std::vector<Candidate> things = places(all, options);
+  const std::size_t which = flame ? static_cast<std::size_t>(options.flame) - 1 : 0;
+  if (which >= things.size()) {
+    return Error{"found " + std::to_string(things.size()) + (things.size() == 1 ? " flame" : " flames") +
+                 ", expected at least " + std::to_string(options.flame) + "; ask for a smaller number"};
   }
-  return found;
+  Survey survey =
+      describe(refine(things[which], all, lit.pictures, area, options, evidence), lit.pictures, area, options.dark);
+  if (!flame) return survey;
+  survey.flames = static_cast<int>(things.size());
+  for (std::size_t k = 0; k < things.size(); ++k) {
+    if (k != which) survey.others.push_back(usual_place(things[k]));
+  }
+  return survey;
 }
 
 namespace {

@@ -1,8 +1,6 @@
 #include "wisp/capture/vision/threshold.hpp"
 
-#include <algorithm>
 #include <cassert>
-#include <cstdlib>
 
 namespace wisp {
 
@@ -44,40 +42,6 @@ TwoClusters split_histogram(const Histogram& histogram) {
     if (between <= best_between) continue;
     best_between = between;
     best = {v, between / variance, dark_mean, bright_mean, bright_count / count};
-  }
-  return best;
-}
-
-namespace {
-
-// Pixels of the levels from first to last.
-double count_between(const Histogram& histogram, int first, int last) {
-  std::uint64_t count = 0;
-  for (int v = std::max(first, 0); v <= std::min(last, 255); ++v) count += histogram[v];
-  return static_cast<double>(count);
-}
-
-}  // namespace
-
-int steepest_level(const Histogram& histogram, const TwoClusters& clusters) {
-  constexpr int kBlur = 8;          // levels on either side: single levels are noisy
-  constexpr double kReach = 0.4;    // of the way to the clusters' means
-  constexpr double kAsSteep = 1.1;  // as steep as the steepest, within the noise of counting: the nearest one is taken
-  const int otsu = clusters.threshold;
-  const int first = static_cast<int>(otsu - kReach * (otsu - clusters.dark_mean));
-  const int last = static_cast<int>(otsu + kReach * (clusters.bright_mean - otsu));
-  // Pixels near the level for each one above it: in what is thin or faint, nearly all is rim at every level.
-  const auto slope = [&](int level) {
-    return count_between(histogram, level - kBlur, level + kBlur) /
-           std::max(count_between(histogram, level + 1, 255), 1.0);
-  };
-  double least = slope(otsu);
-  for (int level = first; level <= last; ++level) least = std::min(least, slope(level));
-  int best = otsu, distance = 256;
-  for (int level = first; level <= last; ++level) {
-    if (slope(level) > kAsSteep * least || std::abs(level - otsu) >= distance) continue;
-    best = level;
-    distance = std::abs(level - otsu);
   }
   return best;
 }

@@ -8,8 +8,8 @@
 
 #include "learn/chain/join_defect.hpp"
 #include "learn/chain/segments/segmentation.hpp"
-#include "wisp/base/result.hpp"
 #include "learn/fidelity/fidelity.hpp"
+#include "wisp/base/result.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"
 

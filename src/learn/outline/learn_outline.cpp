@@ -5,6 +5,7 @@
 #include "learn/flame/wind_gain.hpp"
 #include "learn/outline/outline_fit.hpp"
 #include "learn/outline/outline_report.hpp"
+#include "wisp/record/verdict.hpp"
 
 namespace wisp {
 namespace {
@@ -33,6 +34,17 @@ Result<ExtinguishedRecordings> on_chosen_scale(std::span<const Recording> record
   return ExtinguishedRecordings::find(*std::move(common), recipe.extinction);
 }
 
+// However well a model follows an outline, it is no better than the outline.
+void refuse_what_capture_refused(std::span<const Recording> recordings, OutlineFit& fit) {
+  for (const Recording& recording : recordings) {
+    const auto verdict = verdict_of(recording);
+    if (!verdict || verdict->usable) continue;
+    fit.summary.usable = {false, recording.source + " was captured as not usable: " + verdict->reason};
+    fit.model.training.usable = fit.summary.usable;
+    return;
+  }
+}
+
 }  // namespace
 
 Result<Fit> learn_outline(std::span<const Recording> recordings, const OutlineRecipe& recipe,
@@ -48,6 +60,7 @@ Result<Fit> learn_outline(std::span<const Recording> recordings, const OutlineRe
   const auto cost = count_operations(fit->model);
   if (!cost) return cost.error();
   fit->summary.cost = *cost;
+  refuse_what_capture_refused(recordings, *fit);
   Report report;
   report.verdict = ReportVerdict{fit->summary.usable.verdict, fit->summary.usable.reason};
   report.warnings = fit->summary.warnings;

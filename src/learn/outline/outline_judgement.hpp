@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "learn/fidelity/fidelity.hpp"
 #include "learn/outline/outline_alignment.hpp"
 #include "learn/outline/outline_figures.hpp"
 #include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
-#include "learn/fidelity/fidelity.hpp"
 #include "wisp/learn/validate_outline.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"

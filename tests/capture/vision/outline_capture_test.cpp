@@ -175,14 +175,14 @@ TEST(OutlineCapture, LostFramesLeaveRowsOfTheirOwn) {
 TEST(OutlineCapture, FadesAreDroppedAtBothEnds) {
   const auto captured = capture(80, [](int k) {
     const int from_end = std::min(k, 79 - k);
-    Plane plane = support::flame_picture(support::swaying(k), 160, 180, from_end < 6 ? 8 + 26 * from_end : 230);
+    Plane plane = support::flame_picture(support::swaying(k), 160, 180, from_end < 8 ? 8 + 22 * from_end : 230);
     add_noise(plane, static_cast<unsigned>(k));
     return plane;
   });
   ASSERT_TRUE(captured);
-  ASSERT_EQ(captured->report.dropped.size(), 12u);
+  ASSERT_EQ(captured->report.dropped.size(), 16u);
   for (const DroppedFrame& dropped : captured->report.dropped) {
-    EXPECT_TRUE(dropped.frame < 6 || dropped.frame > 73) << dropped.frame;
+    EXPECT_TRUE(dropped.frame < 8 || dropped.frame > 71) << dropped.frame;
     EXPECT_EQ(dropped.reason, "fade");
   }
 }
@@ -245,12 +245,14 @@ TEST(OutlineCapture, DarkThingsAreTrackedAlike) {
       options);
   ASSERT_TRUE(captured);
   EXPECT_EQ(captured->report.tracked, 60u);
-  const auto bright = capture(60, noisy_flame);
+  options.dark = false;
+  options.flame = 0;
+  const auto bright = capture(60, noisy_flame, options);
   EXPECT_NEAR(captured->report.threshold, 255 - bright->report.threshold, 1);
   EXPECT_NEAR(controls_at(*captured, 30)[6], controls_at(*bright, 30)[6], 0.2);
 }
 
-TEST(OutlineCapture, AFlameThatLeapsAsideIsFoundAgain) {
+TEST(OutlineCapture, AFlameInAnotherPlaceIsAnotherFlame) {
   const auto captured = capture(60, [](int k) {
     Flame flame = support::swaying(k);
     flame.base_x = k < 30 ? 60 : 240;
@@ -259,8 +261,93 @@ TEST(OutlineCapture, AFlameThatLeapsAsideIsFoundAgain) {
     return plane;
   });
   ASSERT_TRUE(captured);
+  EXPECT_EQ(captured->report.tracked, 30u);
+  EXPECT_EQ(captured->report.out_at, 30u);
+}
+
+// Two flames, the right one smaller, and what a frame shows of them.
+Plane two_flames(int k) {
+  Plane plane(320, 180, 8);
+  Flame large = support::swaying(k), small = support::swaying(k + 7);
+  large.base_x = 80;
+  small.base_x = 230;
+  small.height *= 0.7;
+  small.half_width *= 0.7;
+  support::paint(plane, 230, 3.0, [&](double x, double y) { return std::max(large.depth(x, y), small.depth(x, y)); });
+  add_noise(plane, static_cast<unsigned>(k) + 1);
+  return plane;
+}
+
+TEST(OutlineCapture, OfTwoFlamesTheOneAskedForIsFollowedToTheEnd) {
+  for (const int which : {1, 2}) {
+    OutlineCaptureOptions options = options_for();
+    options.flame = which;
+    const auto captured = capture(60, two_flames, options);
+    ASSERT_TRUE(captured) << captured.error().message;
+    EXPECT_EQ(captured->report.flames, 2);
+    EXPECT_EQ(captured->report.tracked, 60u);
+    for (std::size_t k = 0; k < 60; ++k) {
+      EXPECT_NEAR(captured->recording.channels[16].samples[k], which == 1 ? 80 : 230, 3) << k;
+    }
+  }
+}
+
+TEST(OutlineCapture, TheOtherFlameIsNotTakenWhenTheOneFollowedGoesOut) {
+  const auto captured = capture(90, [](int k) {
+    Plane plane = two_flames(k);
+    if (k >= 60) plane.fill({0, 0, 155, 180}, 8);
+    return plane;
+  });
+  ASSERT_TRUE(captured);
   EXPECT_EQ(captured->report.tracked, 60u);
-  EXPECT_NEAR(captured->recording.channels[16].samples[59], 240, 1);
+  EXPECT_EQ(captured->report.out_at, 60u);
+}
+
+TEST(OutlineCapture, AGlintAfterTheFlameWentOutIsLeftOut) {
+  const auto captured = capture(90, [](int k) {
+    Plane plane = noisy_flame(k);
+    if (k >= 50 && (k < 70 || k > 73)) plane = Plane(160, 180, 8);
+    return plane;
+  });
+  ASSERT_TRUE(captured);
+  EXPECT_EQ(captured->report.tracked, 50u);
+  EXPECT_EQ(captured->report.out_at, 50u);
+  EXPECT_THAT(captured->report.reason, HasSubstr("out from frame 51"));
+}
+
+TEST(OutlineCapture, AThirdFlameOfTwoIsAnError) {
+  OutlineCaptureOptions options = options_for();
+  options.flame = 3;
+  const auto captured = capture(60, two_flames, options);
+  ASSERT_FALSE(captured);
+  EXPECT_THAT(captured.error().message, HasSubstr("found 2 flames"));
+}
+
+TEST(OutlineCapture, AFlameIsUsableAndALampIsNot) {
+  const auto flame = capture(60, noisy_flame);
+  ASSERT_TRUE(flame);
+  EXPECT_TRUE(flame->report.usable) << flame->report.reason;
+  const auto lamp = capture(60, [](int k) {
+    Plane plane = support::flame_picture(support::swaying(0));
+    add_noise(plane, static_cast<unsigned>(k) + 1);
+    return plane;
+  });
+  ASSERT_TRUE(lamp);
+  EXPECT_FALSE(lamp->report.usable);
+  EXPECT_THAT(lamp->report.reason, HasSubstr("do not move"));
+}
+
+TEST(OutlineCapture, AnOutlineAtTheBorderIsNotUsableAndNamesTheSide) {
+  const auto captured = capture(60, [](int k) {
+    Flame flame = support::swaying(k);
+    flame.base_x = 8;
+    Plane plane = support::flame_picture(flame);
+    add_noise(plane, static_cast<unsigned>(k) + 1);
+    return plane;
+  });
+  ASSERT_TRUE(captured);
+  EXPECT_FALSE(captured->report.usable);
+  EXPECT_THAT(captured->report.reason, HasSubstr("left border"));
 }
 
 TEST(OutlineCapture, ARegionHidesWhatLiesOutside) {

@@ -48,34 +48,5 @@ TEST(Threshold, HistogramCountsEveryStepthPixel) {
   EXPECT_EQ(some[5] + some[9], 10u * 7u);
 }
 
-// A ground of 20, a thing of 220, and a glow that gets fewer and fewer pixels towards the thing.
-Histogram glowing() {
-  Histogram histogram{};
-  histogram[20] = 100000;
-  for (int v = 40; v < 130; ++v) histogram[v] = static_cast<std::uint64_t>(130 - v) * 4;
-  for (int v = 130; v < 200; ++v) histogram[v] = 10;
-  histogram[220] = 20000;
-  return histogram;
-}
-
-TEST(Threshold, MovesOutOfAGlowToWhereTheRimIsSteep) {
-  const Histogram histogram = glowing();
-  const TwoClusters clusters = split_histogram(histogram);
-  ASSERT_LT(clusters.threshold, 130);
-  const int level = steepest_level(histogram, clusters);
-  EXPECT_GT(level, 125);
-  EXPECT_LE(level, clusters.threshold + 0.4 * (clusters.bright_mean - clusters.threshold));
-}
-
-// Towards brighter levels the thing loses at every level the same share of what is left: no rim is steeper than
-// another.
-TEST(Threshold, StaysWhereTheRimIsAsSteepAsAnywhere) {
-  Histogram histogram{};
-  histogram[20] = 100000;
-  for (int v = 40; v < 256; ++v) histogram[v] = static_cast<std::uint64_t>(1e5 * std::exp(-v / 30.0));
-  const TwoClusters clusters = split_histogram(histogram);
-  EXPECT_NEAR(steepest_level(histogram, clusters), clusters.threshold, 2);
-}
-
 }  // namespace
 }  // namespace wisp

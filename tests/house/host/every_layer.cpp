@@ -4,12 +4,12 @@
 #include <cstdio>
 #include <vector>
 
+#include "learn/numeric/spectrum.hpp"
 #include "wisp/base/file.hpp"
 #include "wisp/capture/media/video.hpp"
 #include "wisp/capture/vision/image.hpp"
 #include "wisp/draw/image.hpp"
 #include "wisp/draw/video_writer.hpp"
-#include "learn/numeric/spectrum.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/record/csv.hpp"
 #include "wisp/record/mat.hpp"

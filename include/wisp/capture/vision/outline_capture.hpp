@@ -4,6 +4,7 @@
 // The first frames are held back until channel, level, place and knots are decided (survey.hpp, knots.hpp); from then
 // on a frame is looked at once, in the neighbourhood of the thing, and let go.
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -25,6 +26,7 @@ struct OutlineCaptureOptions {
   int points = 8;                       ///< control points, 4 to 64; 8 as in the paper
   std::optional<PixelChannel> channel;  ///< nothing: the one that separates best
   bool dark = false;                    ///< the thing is dark on a light ground
+  int flame = 1;                        ///< which of several flames, 1 the largest; 0: what moves, flame or not
   Region region;                        ///< where to look, pixels; empty: the whole picture
   std::optional<BaseSide> base;         ///< where the outline is open; nothing: the side that cuts it off, else below
   bool place_knots = true;              ///< put knots where the outline bends, if that fits better than uniform ones
@@ -40,6 +42,18 @@ struct OutlineCaptureOptions {
 struct DroppedFrame {
   std::size_t frame = 0;  ///< 0-based row of the recording
   std::string reason;     ///< "fade", "nothing there", "duplicate", "lost"
+};
+
+/// What tells an outline of a flame from one of something else. Shares are of the rows with an outline.
+struct OutlineFacts {
+  double missing = 0;              ///< share of rows without one, from the first outline until the flame is out
+  double jumps = 0;                ///< share of steps by which base or height change more than a flame's can
+  std::array<double, 4> border{};  ///< share that reach the picture's left, upper, right and lower border
+  double movement = 0;             ///< how far the shape moves on its base: root mean square over the median height
+  double taper = 0;                ///< how much narrower it is near its tip than at its middle, median
+  double solidity = 0;             ///< its area over its convex hull's, notches from below apart
+  double light = 0;                ///< luma over the brightest there is
+  double height = 0;               ///< median, pixels
 };
 
 /// What happened, in figures.
@@ -61,6 +75,11 @@ struct CaptureReport {
   bool knots_placed = false;          ///< knots are not uniform
   std::vector<double> knots;          ///< the full knot vector
   bool underside = false;             ///< the underside is followed (attribute `underside`)
+  int flames = 0;                     ///< how many there are; 0 where no flame was looked for
+  std::optional<std::size_t> out_at;  ///< row from which on the flame is out for good
+  OutlineFacts facts;                 ///< what the verdict rests on
+  bool usable = false;                ///< whether the outline can be learned from
+  std::string reason;                 ///< why, or why not and what to film instead: one sentence
   std::vector<std::string> warnings;  ///< what the maker should know, one sentence each
 };
 

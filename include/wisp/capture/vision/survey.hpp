@@ -1,9 +1,9 @@
 #pragma once
-// The first look at a clip: in each channel, which level, and where the thing is that moves.
+// The first look at a clip: what the thing is, and in which channel and at which level it is followed.
 //
-// Wax, the wick's holder and reflections are bright too, but they stand still. Over a few pictures and a coarse grid,
-// the survey finds bright regions and how much in them changes; the thing is the region where most changes and that is
-// there in most pictures.
+// Wax, the wick's holder and reflections are bright too. Over a few pictures, bright regions of many levels in every
+// channel are weighed by what a flame does (candidates.hpp), first in the whole picture on a coarse grid, then around
+// each flame on a finer one: region, channel and level are chosen together.
 
 #include <optional>
 #include <span>
@@ -21,26 +21,32 @@ struct SurveyOptions {
   std::optional<PixelChannel> channel;  ///< nothing: all there are
   bool dark = false;                    ///< the thing is dark on a light ground
   Region region;                        ///< where to look, pixels; empty: the whole picture
+  int flame = 1;                        ///< which of several flames, 1 the largest; 0: what moves, flame or not
 };
 
 /// What was found.
 struct Survey {
   PixelChannel channel = PixelChannel::kLuma;
-  int level = 0;              ///< a pixel belongs to the thing when its value (inverted for dark things) is above this
-  int steepest_level = 0;     ///< a level nearby at which the thing's rim is steepest
-  double separation = 0;      ///< of the two clusters, 0 to 1
-  Histogram histogram{};      ///< of the channel as stored (inverted for dark things), over the pictures that count
-  Region home;                ///< around all places where the thing was seen
-  std::vector<Region> seen;   ///< around the thing in each picture in which it was there
-  std::vector<Region> still;  ///< bright regions where next to nothing changes
-  bool moves = false;         ///< whether anything changed at all
+  int level = 0;               ///< a pixel belongs to the thing when its value (inverted for dark things) is above this
+  double separation = 0;       ///< of the two clusters, 0 to 1
+  Histogram histogram{};       ///< of the channel as stored (inverted for dark things), over the pictures that count
+  Region home;                 ///< around all places where the thing was seen
+  std::vector<Region> seen;    ///< around the thing in each picture in which it was there
+  bool stands = false;         ///< at that level it has mostly run together with what it stands on
+  double area = 0;             ///< median, pixels
+  double change = 0;           ///< share of its shape that changes from picture to picture: 0 nothing moves
+  double taper = 0;            ///< how much narrower its first quarter is than its middle: 0 not at all, 1 pointed
+  double solidity = 1;         ///< its area over its convex hull's, notches from below apart
+  double light = 1;            ///< its luma over the brightest there is
+  int flames = 0;              ///< how many flames there are; 0 where any thing was looked for
+  std::vector<Region> others;  ///< the median boxes of the others
 };
 
-/// Surveys pictures of one size. Returns what was found in each channel that was asked for and in which something
-/// stands out; one at least. Errors: nothing stands out anywhere (one brightness only).
+/// Surveys pictures of one size. Errors: nothing stands out anywhere (one brightness only); fewer flames than asked
+/// for.
 ///
 /// Precondition: pictures is not empty; all have one size and layout; region is empty or inside them.
-Result<std::vector<Survey>> survey_scene(std::span<const Picture> pictures, const SurveyOptions& options);
+Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptions& options);
 
 /// The side on which the thing is held: below, unless the border on another side cuts it off in nearly all pictures and
 /// the lower one does not, or it lies on its side: then the end that moves less.

@@ -33,9 +33,4 @@ struct TwoClusters {
 /// Cuts the histogram where its clusters are farthest apart. Separation is 0 where there is only one brightness.
 TwoClusters split_histogram(const Histogram& histogram);
 
-/// The level near `clusters.threshold` at which a thing's rim is steepest: the smaller the share of the thing's pixels
-/// that have a level's brightness, the less does its area depend on that level, or on how colours were decoded.
-/// `histogram` is of the thing and what is just around it; looked for at most 0.4 of the way to either cluster's mean.
-int steepest_level(const Histogram& histogram, const TwoClusters& clusters);
-
 }  // namespace wisp

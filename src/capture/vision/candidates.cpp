@@ -1,0 +1,335 @@
+#include "capture/vision/candidates.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "capture/vision/solidity.hpp"
+
+namespace wisp {
+namespace {
+
+constexpr double kPersistence = 0.6;      // a candidate is there in this share of the pictures
+constexpr std::size_t kMostRegions = 24;  // of one picture at one level, the largest
+constexpr std::size_t kLeastRows = 3;     // a shape of fewer rows has none
+constexpr double kSurelyMoves = 0.06;     // shapes that differ by this share move for sure
+constexpr double kStillWorth = 0.15;      // … and this is what one is worth that does not
+constexpr double kAloneIsBetter = 0.5;    // what must be cut from its stand, against what stands out alone
+constexpr double kLightPower = 8;         // what is a tenth dimmer than the brightest is half as likely
+constexpr double kSolidPower = 4;         // a flame has no notches; what has run together with something has
+
+double area_of(const Region& region) { return region.empty() ? 0 : static_cast<double>(region.width) * region.height; }
+
+// One region from picture to picture.
+struct Track {
+  std::vector<std::size_t> pictures;
+  std::vector<BrightRegion> regions;
+};
+
+// Each track goes on with the region that shares most with the last one.
+void continue_tracks(std::vector<Track>& tracks, std::span<const BrightRegion> regions, std::size_t picture) {
+  for (Track& track : tracks) {
+    double best = 0;
+    const BrightRegion* next = nullptr;
+    for (const BrightRegion& region : regions) {
+      const double shared = shared_share(region.box, track.regions.back().box);
+      if (shared <= best) continue;
+      best = shared;
+      next = &region;
+    }
+    if (next == nullptr) continue;
+    track.pictures.push_back(picture);
+    track.regions.push_back(*next);
+  }
+}
+
+bool taken(const std::vector<Track>& tracks, const BrightRegion& region, std::size_t picture) {
+  return std::any_of(tracks.begin(), tracks.end(), [&](const Track& track) {
+    return track.pictures.back() == picture && track.regions.back().seed_x == region.seed_x &&
+           track.regions.back().seed_y == region.seed_y;
+  });
+}
+
+std::vector<Track> find_tracks(const PictureGrid& grid, int level) {
+  const double count = static_cast<double>(grid.pictures.size());
+  RegionFinder finder;
+  std::vector<Track> tracks;
+  for (std::size_t k = 0; k < grid.pictures.size(); ++k) {
+    auto regions = finder.find(grid.view(k), level, 2);
+    if (regions.size() > kMostRegions) regions = regions.first(kMostRegions);
+    continue_tracks(tracks, regions, k);
+    if (static_cast<double>(k) > (1 - kPersistence) * count) continue;
+    for (const BrightRegion& region : regions) {
+      if (!taken(tracks, region, k)) tracks.push_back({{k}, {region}});
+    }
+  }
+  std::erase_if(tracks, [&](const Track& t) { return static_cast<double>(t.pictures.size()) < kPersistence * count; });
+  std::stable_sort(tracks.begin(), tracks.end(),
+                   [](const Track& a, const Track& b) { return a.pictures.size() > b.pictures.size(); });
+  std::vector<Track> apart;  // tracks that have run into one region are one
+  for (Track& track : tracks) {
+    if (!taken(apart, track.regions.back(), track.pictures.back())) apart.push_back(std::move(track));
+  }
+  return apart;
+}
+
+// A region's outline as rows, and where they are.
+struct Shape {
+  std::size_t picture = 0;
+  Profile profile;
+  double area = 0;
+  double middle_across = 0;  // of gravity
+  double middle_row = 0;
+  double tip_across = 0;
+  double base_across = 0;
+};
+
+// Mean middle of the rows [from, to).
+double across(const Profile& profile, std::size_t from, std::size_t to) {
+  double sum = 0;
+  for (std::size_t k = from; k < to; ++k) sum += 0.5 * (profile.rows[k].low + profile.rows[k].high);
+  return sum / static_cast<double>(std::max<std::size_t>(to - from, 1));
+}
+
+double mean_width(const Profile& profile, std::size_t from, std::size_t to) {
+  double sum = 0;
+  for (std::size_t k = from; k < to; ++k) sum += profile.rows[k].width();
+  return sum / static_cast<double>(std::max<std::size_t>(to - from, 1));
+}
+
+void measure(Shape& shape) {
+  shape.area = shape.middle_across = shape.middle_row = 0;
+  const auto& rows = shape.profile.rows;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const double width = rows[k].width();
+    shape.area += width;
+    shape.middle_across += width * 0.5 * (rows[k].low + rows[k].high);
+    shape.middle_row += width * static_cast<double>(k);
+  }
+  shape.middle_across /= shape.area;
+  shape.middle_row /= shape.area;
+  const std::size_t quarter = std::max<std::size_t>(1, rows.size() / 4);
+  shape.tip_across = across(shape.profile, 0, quarter);
+  shape.base_across = across(shape.profile, rows.size() - quarter, rows.size());
+}
+
+std::vector<Shape> shapes_of(const PictureGrid& grid, int level, const Track& track, BaseSide base) {
+  std::vector<Shape> shapes;
+  std::vector<PixelPosition> boundary;
+  for (std::size_t k = 0; k < track.regions.size(); ++k) {
+    const BrightRegion& region = track.regions[k];
+    Shape shape{.picture = track.pictures[k], .profile = {}};
+    follow_boundary(grid.view(shape.picture), level, {region.seed_x, region.seed_y}, boundary);
+    measure_profile(boundary, base, shape.profile);
+    shapes.push_back(std::move(shape));
+  }
+  return shapes;
+}
+
+// Leaves off what a thing stands on where they have run together in most pictures. Returns whether they have.
+bool cut_stands(std::vector<Shape>& shapes) {
+  std::vector<std::optional<std::size_t>> cuts;
+  std::size_t count = 0;
+  for (const Shape& shape : shapes) {
+    cuts.push_back(find_shoulder(shape.profile, 0));
+    count += cuts.back().has_value();
+  }
+  if (2 * count < shapes.size()) return false;
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    if (cuts[k]) shapes[k].profile.rows.resize(*cuts[k] + 1);
+  }
+  return true;
+}
+
+// What two shapes share, laid over each other by their centres of gravity, over what either covers.
+double overlap(const Shape& a, const Shape& b) {
+  const int down = static_cast<int>(std::lround(b.middle_row - a.middle_row));
+  const double aside = b.middle_across - a.middle_across;
+  double shared = 0;
+  for (std::size_t k = 0; k < a.profile.rows.size(); ++k) {
+    const std::ptrdiff_t other = static_cast<std::ptrdiff_t>(k) + down;
+    if (other < 0 || other >= static_cast<std::ptrdiff_t>(b.profile.rows.size())) continue;
+    const ProfileRow &p = a.profile.rows[k], &q = b.profile.rows[static_cast<std::size_t>(other)];
+    shared += std::max(0.0, std::min<double>(p.high, q.high - aside) - std::max<double>(p.low, q.low - aside) + 1);
+  }
+  return shared / (a.area + b.area - shared);
+}
+
+double change_of(const std::vector<Shape>& shapes) {
+  std::vector<double> changes;
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    changes.push_back(1 - overlap(shapes[k], shapes[(k + shapes.size() / 2) % shapes.size()]));
+  }
+  return middle(std::move(changes));
+}
+
+double taper_of(const std::vector<Shape>& shapes) {
+  std::vector<double> tapers;
+  for (const Shape& shape : shapes) {
+    const std::size_t rows = shape.profile.rows.size();
+    const double tip = mean_width(shape.profile, 0, std::max<std::size_t>(1, rows / 4));
+    const double body = mean_width(shape.profile, 2 * rows / 5, std::max(2 * rows / 5 + 1, 4 * rows / 5));
+    tapers.push_back(std::max(0.0, 1 - tip / body));
+  }
+  return middle(std::move(tapers));
+}
+
+// Of a shape as wide and straight: a flame that leans or bends has no notches.
+double solidity_of(const std::vector<Shape>& shapes) {
+  std::vector<double> values;
+  for (const Shape& shape : shapes) {
+    const auto& rows = shape.profile.rows;
+    std::vector<CurvePoint> polygon;
+    for (std::size_t k = 0; k < rows.size(); ++k) polygon.push_back({-0.5 * rows[k].width(), static_cast<double>(k)});
+    for (std::size_t k = rows.size(); k-- > 0;) polygon.push_back({0.5 * rows[k].width(), static_cast<double>(k)});
+    values.push_back(solidity(polygon));
+  }
+  return middle(std::move(values));
+}
+
+double spread(const std::vector<double>& values) {
+  double mean = 0, squares = 0;
+  for (const double value : values) mean += value / static_cast<double>(values.size());
+  for (const double value : values) squares += (value - mean) * (value - mean) / static_cast<double>(values.size());
+  return std::sqrt(squares);
+}
+
+double steadiness_of(const std::vector<Shape>& shapes) {
+  constexpr double kGridNoise = 0.3;  // points: what a still edge moves by
+  std::vector<double> tip_across, tip_depth, base_across, base_depth;
+  for (const Shape& shape : shapes) {
+    tip_across.push_back(shape.tip_across);
+    base_across.push_back(shape.base_across);
+    tip_depth.push_back(shape.profile.first);
+    base_depth.push_back(shape.profile.first + static_cast<double>(shape.profile.rows.size()));
+  }
+  const double tip = std::hypot(spread(tip_across), spread(tip_depth)) + kGridNoise;
+  const double base = std::hypot(spread(base_across), spread(base_depth)) + kGridNoise;
+  return tip / (tip + base);
+}
+
+// Median luma of the shape: a rim is dimmer, and more of it is inside a lower level.
+double light_of(const PictureGrid& grid, const PictureGrid& luma, int level, const Shape& shape, BaseSide base) {
+  const bool rows = base == BaseSide::kBottom || base == BaseSide::kTop;
+  std::vector<std::uint8_t> lumas;
+  for (std::size_t k = 0; k < shape.profile.rows.size(); ++k) {
+    const int at = depth_of(shape.profile.first + static_cast<int>(k), base);
+    for (int v = shape.profile.rows[k].low; v <= shape.profile.rows[k].high; ++v) {
+      const int x = rows ? v : at, y = rows ? at : v;
+      if (grid.view(shape.picture).at(x, y) <= level) continue;
+      lumas.push_back(luma.view(shape.picture).at(x, y));
+    }
+  }
+  if (lumas.empty()) return 0;
+  const auto half = lumas.begin() + static_cast<std::ptrdiff_t>(lumas.size() / 2);
+  std::nth_element(lumas.begin(), half, lumas.end());
+  return *half;
+}
+
+Region box_of(const Profile& profile, BaseSide base) {
+  ProfileRow all = profile.rows.front();
+  for (const ProfileRow& row : profile.rows) all = {std::min(all.low, row.low), std::max(all.high, row.high)};
+  const int length = static_cast<int>(profile.rows.size());
+  const int first = depth_of(profile.first, base), last = depth_of(profile.first + length - 1, base);
+  const int begin = std::min(first, last);
+  if (base == BaseSide::kBottom || base == BaseSide::kTop) return {all.low, begin, all.width(), length};
+  return {begin, all.low, length, all.width()};
+}
+
+double score_of(const Candidate& c, const Evidence& evidence) {
+  const double moves = kStillWorth + (1 - kStillWorth) * std::min(1.0, c.change / kSurelyMoves);
+  const double general =
+      c.presence * moves * std::min(1.0, 2 * (1 - c.change)) * std::exp(-c.softness) * (c.stands ? kAloneIsBetter : 1);
+  if (!evidence.flame) return general * std::sqrt(std::sqrt(c.area));
+  // A higher level leaves more room for what the flame lights to become brighter later.
+  const double room = c.level / 255.0;
+  return general * room * std::pow(c.light, kLightPower) * std::pow(c.solidity, kSolidPower) * c.taper * c.steadiness *
+         c.steadiness;
+}
+
+}  // namespace
+
+double shared_share(const Region& a, const Region& b) {
+  const double shared = area_of(intersection(a, b));
+  return shared == 0 ? 0 : shared / (area_of(a) + area_of(b) - shared);
+}
+
+double middle(std::vector<double> values) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+Region PictureGrid::to_pixels(const Region& box) const {
+  return intersection({area.x + box.x * step, area.y + box.y * step, box.width * step, box.height * step}, area);
+}
+
+PictureGrid sample_grid(std::span<const Picture> pictures, PixelChannel channel, const Region& area, int most,
+                        bool dark) {
+  PictureGrid grid{.area = area, .step = std::max(1, (std::max(area.width, area.height) + most - 1) / most)};
+  grid.width = (area.width + grid.step - 1) / grid.step;
+  grid.height = (area.height + grid.step - 1) / grid.step;
+  for (const Picture& picture : pictures) {
+    std::vector<std::uint8_t> out(grid.size());
+    sample_channel(picture, channel, area, grid.step, out.data());
+    if (dark) {
+      for (std::uint8_t& value : out) value = static_cast<std::uint8_t>(255 - value);
+    }
+    grid.pictures.push_back(std::move(out));
+  }
+  return grid;
+}
+
+std::vector<Candidate> find_candidates(const PictureGrid& grid, const PictureGrid& luma, int level,
+                                       const Evidence& evidence) {
+  std::vector<Candidate> found;
+  for (const Track& track : find_tracks(grid, level)) {
+    std::vector<Shape> shapes = shapes_of(grid, level, track, evidence.base);
+    Candidate c;
+    c.level = level;
+    c.stands = evidence.flame && cut_stands(shapes);
+    std::erase_if(shapes, [](const Shape& shape) { return shape.profile.rows.size() < kLeastRows; });
+    c.presence = static_cast<double>(shapes.size()) / static_cast<double>(grid.pictures.size());
+    if (c.presence < kPersistence) continue;
+    std::vector<double> areas, light;
+    for (Shape& shape : shapes) {
+      measure(shape);
+      c.seen.push_back(grid.to_pixels(box_of(shape.profile, evidence.base)));
+      c.home = enclosing(c.home, c.seen.back());
+      areas.push_back(shape.area * grid.step * grid.step);
+      if (evidence.brightest.empty()) continue;
+      light.push_back(light_of(grid, luma, level, shape, evidence.base) / evidence.brightest[shape.picture]);
+    }
+    c.area = middle(areas);
+    if (!light.empty()) c.light = std::min(1.0, middle(light));
+    c.change = change_of(shapes);
+    c.taper = taper_of(shapes);
+    c.solidity = solidity_of(shapes);
+    c.steadiness = steadiness_of(shapes);
+    found.push_back(std::move(c));
+  }
+  return found;
+}
+
+void weigh(std::vector<Candidate>& candidates, const std::vector<Candidate>* below, const std::vector<Candidate>* above,
+           const Evidence& evidence) {
+  // The area at another level of what shares most with the candidate: a region that is no longer there has lost all.
+  const auto area_in = [](const std::vector<Candidate>* others, const Candidate& c, double none) {
+    if (others == nullptr) return c.area;
+    double best = 0, area = none;
+    for (const Candidate& other : *others) {
+      const double shared = shared_share(other.home, c.home);
+      if (shared <= best) continue;
+      best = shared;
+      area = other.area;
+    }
+    return best > 0.2 ? area : none;
+  };
+  for (Candidate& c : candidates) {
+    const double wider = std::max(area_in(below, c, 2 * c.area), c.area);
+    const double narrower = std::min(area_in(above, c, 0), c.area);
+    c.softness = (wider - narrower) / c.area;
+    c.score = score_of(c, evidence);
+  }
+}
+
+}  // namespace wisp

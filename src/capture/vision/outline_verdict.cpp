@@ -1,0 +1,205 @@
+#include "capture/vision/outline_verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "capture/vision/plane_length.hpp"
+
+namespace wisp {
+namespace {
+
+// Calibrated on the scenes of studies/scenes and on films; wisp_verify_scenes prints how often they are wrong.
+constexpr double kMostMissing = 0.04;     // share of rows
+constexpr double kMostJumps = 0.03;       // share of steps
+constexpr double kJumpShare = 0.35;       // of the height: a base that moves farther in a frame is another one
+constexpr double kJumpRatio = 2.2;        // … and a height that changes so many times
+constexpr double kMostAtBorder = 0.05;    // share of rows
+constexpr double kLeastMovement = 0.006;  // heights
+constexpr double kLeastTaper = 0.32;
+constexpr double kLeastSolidity = 0.86;
+constexpr double kLeastLight = 0.85;
+constexpr double kLeastHeight = 10;  // pixels
+constexpr double kOutSeconds = 0.4;  // without a flame until the clip's end: it went out
+
+constexpr int kCurvePoints = 64;
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// One row's outline.
+struct Shape {
+  std::size_t row = 0;
+  std::vector<CurvePoint> curve;
+  CurvePoint base;
+  CurvePoint tip;
+  double height = 0;
+};
+
+Shape shape_of(const Recording& recording, const SplineTable& table, std::size_t row) {
+  std::vector<double> controls;
+  for (int i = 0; i < 2 * table.points(); ++i)
+    controls.push_back(recording.channels[static_cast<std::size_t>(i)].samples[row]);
+  Shape shape{.row = row, .curve = curve_polyline(table, controls, kCurvePoints), .base = {}, .tip = {}};
+  const CurvePoint first = shape.curve.front(), last = shape.curve.back();
+  shape.base = {0.5 * (first.x + last.x), 0.5 * (first.y + last.y)};
+  for (const CurvePoint& p : shape.curve) {
+    const double reach = length(p.x - shape.base.x, p.y - shape.base.y);
+    if (reach <= shape.height) continue;
+    shape.height = reach;
+    shape.tip = p;
+  }
+  return shape;
+}
+
+// How wide a shape is across its axis at a share of its height above the base.
+double width_at(const Shape& shape, double share) {
+  const double ax = (shape.tip.x - shape.base.x) / shape.height, ay = (shape.tip.y - shape.base.y) / shape.height;
+  double low = 1e30, high = -1e30;
+  for (std::size_t k = 0; k < shape.curve.size(); ++k) {
+    const CurvePoint &a = shape.curve[k], &b = shape.curve[(k + 1) % shape.curve.size()];
+    const auto along = [&](const CurvePoint& p) { return (p.x - shape.base.x) * ax + (p.y - shape.base.y) * ay; };
+    const double at = share * shape.height, from = along(a), to = along(b);
+    if ((from > at) == (to > at)) continue;
+    const double part = (at - from) / (to - from);
+    const double x = a.x + part * (b.x - a.x) - shape.base.x, y = a.y + part * (b.y - a.y) - shape.base.y;
+    low = std::min(low, ay * x - ax * y);
+    high = std::max(high, ay * x - ax * y);
+  }
+  return std::max(0.0, high - low);
+}
+
+double taper_of(const Shape& shape) {
+  const double body = width_at(shape, 0.4);
+  return body <= 0 ? 0 : 1 - width_at(shape, 0.88) / body;
+}
+
+double movement_of(const std::vector<Shape>& shapes, double height) {
+  double squares = 0;
+  for (int k = 0; k < kCurvePoints; ++k) {
+    double x = 0, y = 0, xx = 0, yy = 0;
+    for (const Shape& s : shapes) {
+      const double dx = s.curve[static_cast<std::size_t>(k)].x - s.base.x,
+                   dy = s.curve[static_cast<std::size_t>(k)].y - s.base.y;
+      x += dx;
+      y += dy;
+      xx += dx * dx;
+      yy += dy * dy;
+    }
+    const double n = static_cast<double>(shapes.size());
+    squares += std::max(0.0, xx / n - x * x / (n * n) + yy / n - y * y / (n * n)) / kCurvePoints;
+  }
+  return std::sqrt(squares) / height;
+}
+
+double jumps_of(const std::vector<Shape>& shapes, double height) {
+  std::size_t steps = 0, jumps = 0;
+  for (std::size_t k = 1; k < shapes.size(); ++k) {
+    const Shape &a = shapes[k - 1], &b = shapes[k];
+    if (b.row != a.row + 1) continue;
+    ++steps;
+    const double ratio = std::max(a.height, b.height) / std::min(a.height, b.height);
+    jumps += length(b.base.x - a.base.x, b.base.y - a.base.y) > kJumpShare * height || ratio > kJumpRatio;
+  }
+  return steps == 0 ? 0 : static_cast<double>(jumps) / static_cast<double>(steps);
+}
+
+std::array<double, 4> border_of(const std::vector<Shape>& shapes, int width, int height) {
+  constexpr double kNear = 1.5;  // pixels
+  std::array<double, 4> out{};
+  for (const Shape& shape : shapes) {
+    std::array<bool, 4> at{};
+    for (const CurvePoint& p : shape.curve) {
+      at[0] = at[0] || p.x < kNear;
+      at[1] = at[1] || p.y < kNear;
+      at[2] = at[2] || p.x > width - 1 - kNear;
+      at[3] = at[3] || p.y > height - 1 - kNear;
+    }
+    for (std::size_t k = 0; k < 4; ++k) out[k] += at[k] / static_cast<double>(shapes.size());
+  }
+  return out;
+}
+
+// The row after the last outline, where nothing comes for long enough that is no fade and no lost frame.
+std::optional<std::size_t> out_at(const CaptureReport& report, std::size_t last) {
+  const std::size_t dark = report.frames - 1 - last;
+  if (static_cast<double>(dark) < kOutSeconds * report.rate_hz) return std::nullopt;
+  return last + 1;
+}
+
+std::string percent(double share) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%.0f %%", 100 * share);
+  return text;
+}
+
+// The first of what makes an outline unusable, or nothing.
+std::string fault(const OutlineFacts& f, const CaptureReport& report) {
+  constexpr std::array<const char*, 4> kSide{"left", "upper", "right", "lower"};
+  const bool flame = report.flames > 0;
+  if (f.movement < kLeastMovement)
+    return "its edges do not move: it may be a lamp or a lit thing; film a flame in a dark room";
+  if (flame && f.taper < kLeastTaper) {
+    return "it does not taper upwards as a flame does; choose a region around the flame, or film it before a dark "
+           "ground";
+  }
+  if (flame && f.light < kLeastLight) {
+    return "other things in the picture are brighter; choose a region around the flame, or film it in a dark room";
+  }
+  if (f.missing > kMostMissing) {
+    return "it is missing in " + percent(f.missing) + " of the frames; film it steadily, with nothing in between";
+  }
+  if (f.jumps > kMostJumps) {
+    return "it jumps in " + percent(f.jumps) +
+           " of the frames; keep the camera still, and only one flame in the picture";
+  }
+  for (const std::size_t side : {0, 1, 2}) {
+    if (f.border[side] <= kMostAtBorder) continue;
+    return "it reaches the " + std::string(kSide[side]) + " border of the picture in " + percent(f.border[side]) +
+           " of the frames; leave room around it";
+  }
+  if (flame && f.solidity < kLeastSolidity) {
+    return "its shape is not a flame's: it may have run together with what it lights; film it darker, so that only the "
+           "flame is bright";
+  }
+  if (f.height < kLeastHeight)
+    return "it is only " + std::to_string(std::lround(f.height)) + " pixels high; film it from nearer";
+  return {};
+}
+
+}  // namespace
+
+void judge_outline(const Recording& recording, const SplineTable& table, CaptureReport& report) {
+  std::vector<Shape> shapes;
+  std::vector<double> heights, tapers;
+  for (std::size_t row = 0; row < recording.rows(); ++row) {
+    if (std::isnan(recording.channels.front().samples[row])) continue;
+    shapes.push_back(shape_of(recording, table, row));
+    const Shape& shape = shapes.back();
+    heights.push_back(shape.height);
+    tapers.push_back(taper_of(shape));
+  }
+  if (shapes.empty()) return;
+  OutlineFacts& facts = report.facts;
+  facts.height = std::max(median(heights), 1e-9);
+  facts.taper = median(tapers);
+  facts.movement = movement_of(shapes, facts.height);
+  facts.jumps = jumps_of(shapes, facts.height);
+  facts.border = border_of(shapes, report.width, report.height);
+  const std::size_t first = shapes.front().row, last = shapes.back().row;
+  facts.missing = 1 - static_cast<double>(shapes.size()) / static_cast<double>(last - first + 1);
+  report.out_at = out_at(report, last);
+  const std::string why = fault(facts, report);
+  report.usable = why.empty();
+  report.reason = report.usable
+                      ? "an outline was found in " + percent(1 - facts.missing) + " of the frames and moves steadily"
+                      : why;
+  if (report.flames > 1) report.reason += "; there are " + std::to_string(report.flames) + " flames, one is followed";
+  if (report.out_at) report.reason += "; the flame is out from frame " + std::to_string(*report.out_at + 1) + " on";
+}
+
+}  // namespace wisp

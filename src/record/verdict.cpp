@@ -1,0 +1,20 @@
+#include "wisp/record/verdict.hpp"
+
+namespace wisp {
+
+std::optional<RecordingVerdict> verdict_of(const Recording& recording) {
+  const auto usable = find_attribute(recording, "usable");
+  if (!usable) return std::nullopt;
+  const auto reason = find_attribute(recording, "usable_reason");
+  return RecordingVerdict{*usable != "no", reason ? *reason : std::string()};
+}
+
+void set_verdict(Recording& recording, bool usable, const std::string& reason) {
+  std::erase_if(recording.attributes, [](const Attribute& attribute) {
+    return attribute.name == "usable" || attribute.name == "usable_reason";
+  });
+  recording.attributes.push_back({"usable", usable ? "yes" : "no"});
+  recording.attributes.push_back({"usable_reason", reason});
+}
+
+}  // namespace wisp
