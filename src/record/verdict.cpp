@@ -6,7 +6,7 @@ std::optional<RecordingVerdict> verdict_of(const Recording& recording) {
   const auto usable = find_attribute(recording, "usable");
   if (!usable) return std::nullopt;
   const auto reason = find_attribute(recording, "usable_reason");
-  return RecordingVerdict{*usable != "no", reason ? *reason : std::string()};
+  return RecordingVerdict{*usable != "no", reason ? std::string(*reason) : std::string()};
 }
 
 void set_verdict(Recording& recording, bool usable, const std::string& reason) {
