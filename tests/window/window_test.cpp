@@ -148,7 +148,8 @@ TEST_F(Demo, EndsByItselfWithoutATerminal) {
 TEST_F(Demo, ServesThePageOrOpensTheWindowWhereAskedTo) {
   const std::string path = folder_.string() + ":$PATH";
   EXPECT_THAT(demo("--serve", path), testing::EndsWith("wisp demo\nbootstrap --page\nweb serve 8080\n"));
-  EXPECT_THAT(demo("clip.mp4 --serve 9000", path), testing::EndsWith("wisp demo clip.mp4\nbootstrap --page\nweb serve 9000\n"));
+  EXPECT_THAT(demo("clip.mp4 --serve 9000", path),
+              testing::EndsWith("wisp demo clip.mp4\nbootstrap --page\nweb serve 9000\n"));
   EXPECT_THAT(demo("clip.mp4 --window", path), testing::EndsWith("wisp demo clip.mp4 --window\n"));
 }
 
