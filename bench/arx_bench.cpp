@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "learn/arx/fit/arx_fit.hpp"
+#include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/rows/arx_orders.hpp"
 #include "learn/arx/search/order_search.hpp"
-#include "wisp/learn/arx_fit.hpp"
-#include "wisp/learn/prediction.hpp"
 
 namespace wisp {
 namespace {

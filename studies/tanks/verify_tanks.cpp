@@ -15,14 +15,14 @@
 #include <filesystem>
 #include <limits>
 
+#include "learn/arx/curve/curve_choice.hpp"
+#include "learn/arx/fit/arx_fit.hpp"
+#include "learn/arx/judge/prediction.hpp"
 #include "learn/shared_files.hpp"
 #include "learn/switched/switched_fit.hpp"
 #include "learn/switched/switched_prediction.hpp"
 #include "studies/value_or_abort.hpp"
 #include "studies/verify_bounds.hpp"
-#include "wisp/learn/arx_fit.hpp"
-#include "wisp/learn/curve_choice.hpp"
-#include "wisp/learn/prediction.hpp"
 
 namespace wisp::verify {
 namespace {

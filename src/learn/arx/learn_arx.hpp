@@ -3,10 +3,10 @@
 
 #include <span>
 
+#include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/plain_model.hpp"
 #include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/arx_fit.hpp"
 #include "wisp/learn/arx_recipe.hpp"
 #include "wisp/learn/fit.hpp"
 #include "wisp/learn/validate.hpp"

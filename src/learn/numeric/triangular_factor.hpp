@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "learn/arx/fit/arx_fit.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/arx_fit.hpp"
 #include "wisp/learn/channel_choice.hpp"
 #include "wisp/record/csv.hpp"
 #include "wisp/record/recording.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "wisp/learn/prediction.hpp"
+#include "learn/arx/judge/prediction.hpp"
 
 namespace wisp {
 namespace {

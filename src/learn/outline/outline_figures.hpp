@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "learn/arx/judge/prediction.hpp"
 #include "learn/outline/outline_units.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/channel_choice.hpp"
-#include "wisp/learn/prediction.hpp"
 #include "wisp/model/arx.hpp"
 #include "wisp/record/recording.hpp"
 

@@ -11,14 +11,14 @@
 #include <string>
 #include <vector>
 
+#include "learn/arx/curve/curve_choice.hpp"
+#include "learn/arx/fit/arx_fit.hpp"
 #include "learn/outline/outline_alignment.hpp"
 #include "learn/outline/outline_figures.hpp"
 #include "learn/outline/outline_inputs.hpp"
 #include "learn/outline/outline_ridge.hpp"
 #include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/arx_fit.hpp"
-#include "wisp/learn/curve_choice.hpp"
 #include "wisp/learn/outline_recipe.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"

@@ -4,7 +4,7 @@
 #include <limits>
 #include <numeric>
 
-#include "wisp/learn/prediction.hpp"
+#include "learn/arx/judge/prediction.hpp"
 
 namespace wisp {
 namespace {

@@ -5,8 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "learn/arx/fit/arx_fit.hpp"
 #include "learn/outline/outline_figures.hpp"
-#include "wisp/learn/arx_fit.hpp"
 #include "wisp/record/number_text.hpp"
 
 namespace wisp {

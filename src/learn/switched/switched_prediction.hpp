@@ -9,9 +9,9 @@
 #include <span>
 #include <vector>
 
+#include "learn/arx/judge/prediction.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/channel_choice.hpp"
-#include "wisp/learn/prediction.hpp"
 #include "wisp/model/switched.hpp"
 #include "wisp/record/recording.hpp"
 

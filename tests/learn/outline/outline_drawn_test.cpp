@@ -7,9 +7,9 @@
 #include <array>
 #include <cmath>
 
+#include "learn/arx/judge/prediction.hpp"
 #include "learn/outline/made_outline.hpp"
 #include "learn/outline/outline_fit.hpp"
-#include "wisp/learn/prediction.hpp"
 
 namespace wisp {
 namespace {

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "learn/arx/fit/arx_fit.hpp"
 #include "learn/numeric/lyapunov.hpp"
 #include "learn/switched/made_switched.hpp"
 #include "learn/switched/switched_prediction.hpp"
-#include "wisp/learn/arx_fit.hpp"
 
 namespace wisp {
 namespace {

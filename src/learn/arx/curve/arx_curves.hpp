@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "learn/arx/curve/curve_choice.hpp"
 #include "wisp/base/progress.hpp"
 #include "wisp/base/report.hpp"
-#include "wisp/learn/curve_choice.hpp"
 
 namespace wisp::arx {
 

@@ -1,4 +1,4 @@
-#include "wisp/learn/curve_choice.hpp"
+#include "learn/arx/curve/curve_choice.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "wisp/learn/arx_fit.hpp"
-#include "wisp/learn/prediction.hpp"
+#include "learn/arx/fit/arx_fit.hpp"
+#include "learn/arx/judge/prediction.hpp"
 
 namespace wisp {
 namespace {

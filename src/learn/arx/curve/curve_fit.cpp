@@ -1,4 +1,4 @@
-#include "wisp/learn/curve_fit.hpp"
+#include "learn/arx/curve/curve_fit.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

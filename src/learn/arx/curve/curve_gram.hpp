@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "learn/arx/curve/curve_fit.hpp"
 #include "learn/arx/rows/arx_rows.hpp"
-#include "wisp/learn/curve_fit.hpp"
 
 namespace wisp {
 

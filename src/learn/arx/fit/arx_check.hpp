@@ -1,10 +1,10 @@
 #pragma once
 // What is wrong with a request for a fit, before anything is computed.
 
+#include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/rows/arx_design.hpp"
 #include "learn/arx/rows/arx_rows.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/arx_fit.hpp"
 
 namespace wisp {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "learn/arx/fit/arx_estimate.hpp"
+#include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/rows/arx_design.hpp"
-#include "wisp/learn/arx_fit.hpp"
 
 namespace wisp {
 

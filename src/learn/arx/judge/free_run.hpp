@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <functional>
 
+#include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/rows/arx_rows.hpp"
-#include "wisp/learn/prediction.hpp"
 
 namespace wisp {
 

@@ -5,10 +5,10 @@
 #include <limits>
 #include <memory>
 
+#include "learn/arx/fit/arx_fit.hpp"
+#include "learn/arx/judge/prediction.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/arx_fit.hpp"
 #include "wisp/learn/channel_choice.hpp"
-#include "wisp/learn/prediction.hpp"
 #include "wisp/record/csv.hpp"
 
 namespace wisp {

@@ -1,4 +1,4 @@
-#include "wisp/learn/prediction.hpp"
+#include "learn/arx/judge/prediction.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>

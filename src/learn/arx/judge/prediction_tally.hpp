@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/rows/arx_rows.hpp"
-#include "wisp/learn/prediction.hpp"
 
 namespace wisp {
 

@@ -6,12 +6,12 @@
 #include <string>
 
 #include "learn/arx/curve/arx_curves.hpp"
+#include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/judge/residual_tests.hpp"
 #include "learn/arx/learn_arx.hpp"
 #include "learn/arx/report/fit_report.hpp"
 #include "learn/arx/report/report_values.hpp"
 #include "learn/arx/report/response_report.hpp"
-#include "wisp/learn/prediction.hpp"
 #include "wisp/record/number_text.hpp"
 
 namespace wisp {

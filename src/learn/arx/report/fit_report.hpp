@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "learn/arx/curve/curve_choice.hpp"
+#include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/judge/residual_tests.hpp"
 #include "learn/arx/search/order_search.hpp"
 #include "wisp/base/report.hpp"
-#include "wisp/learn/arx_fit.hpp"
-#include "wisp/learn/curve_choice.hpp"
 
 namespace wisp::arx {
 

@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "learn/arx/fit/arx_fit.hpp"
 #include "learn/numeric/lag_gram.hpp"
 #include "learn/numeric/lag_layout.hpp"
-#include "wisp/learn/arx_fit.hpp"
 
 namespace wisp {
 

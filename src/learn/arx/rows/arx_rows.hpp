@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "learn/arx/fit/arx_fit.hpp"
 #include "learn/numeric/lag_layout.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/arx_fit.hpp"
 
 namespace wisp {
 

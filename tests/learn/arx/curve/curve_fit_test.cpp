@@ -1,6 +1,6 @@
 // Hammerstein systems: known curves are recovered, and a curve is taken only where what is held out is likelier by it.
 
-#include "wisp/learn/curve_fit.hpp"
+#include "learn/arx/curve/curve_fit.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,8 +9,8 @@
 #include <cmath>
 #include <random>
 
-#include "wisp/learn/arx_fit.hpp"
-#include "wisp/learn/curve_choice.hpp"
+#include "learn/arx/curve/curve_choice.hpp"
+#include "learn/arx/fit/arx_fit.hpp"
 
 namespace wisp {
 namespace {

@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/rows/arx_orders.hpp"
-#include "wisp/learn/arx_fit.hpp"
 
 namespace wisp {
 namespace {

@@ -1,4 +1,4 @@
-#include "wisp/learn/arx_fit.hpp"
+#include "learn/arx/fit/arx_fit.hpp"
 
 #include <gtest/gtest.h>
 

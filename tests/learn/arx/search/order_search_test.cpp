@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/made_system.hpp"
-#include "wisp/learn/prediction.hpp"
 
 namespace wisp {
 namespace {

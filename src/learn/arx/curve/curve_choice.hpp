@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "wisp/learn/curve_fit.hpp"
+#include "learn/arx/curve/curve_fit.hpp"
 
 namespace wisp {
 
