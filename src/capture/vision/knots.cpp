@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "capture/vision/crossing.hpp"
 #include "capture/vision/plane_length.hpp"
 #include "wisp/capture/vision/outline_tracker.hpp"
 
@@ -62,6 +63,15 @@ double way_between(const EdgeCloud& cloud, std::size_t k) {
 
 constexpr int kPaceRounds = 3;
 
+// A curve that follows an outline closely by crossing itself, in a loop at a sharp tip or where legs part at the base,
+// is worse than any that does not: played with noise it would cross itself all the more.
+constexpr double kFolded = 1;
+
+bool folds(const SplineTable& table, std::span<const double> controls) {
+  constexpr int kFoldPoints = 100;
+  return crosses_itself(curve_polyline(table, controls, kFoldPoints));
+}
+
 double misfit(const EdgeCloud& cloud, std::span<const double> residuals) {
   double area = cloud.left_out;
   for (std::size_t k = 1; k < residuals.size(); ++k) {
@@ -106,22 +116,24 @@ class PaceMeasure {
 
 CurveShape fit_pace(std::span<const EdgeCloud> clouds, std::span<const double> knots) {
   OutlineTracker tracker(knots, {.slip = 0.1});
-  CurveShape best{{knots.begin(), knots.end()}, even_pace(), 1e30};
+  CurveShape best{{knots.begin(), knots.end()}, even_pace(), 1e30, {}};
   std::vector<double> pace = best.pace;
   for (int round = 0; round < kPaceRounds; ++round) {
     PaceMeasure measure;
-    double sum = 0;
+    double mean = 0;
+    std::vector<double> misfits;
     for (const EdgeCloud& cloud : clouds) {
       EdgeCloud paced = cloud;
       for (double& s : paced.s) s = at_pace(pace, s);
       tracker.forget();
-      tracker.update(paced);
-      sum += misfit(cloud, tracker.residuals());
+      const OutlineEstimate& outline = tracker.update(paced);
+      misfits.push_back(folds(tracker.table(), outline.mean) ? kFolded : misfit(cloud, tracker.residuals()));
+      mean += misfits.back() / static_cast<double>(clouds.size());
       measure.add(cloud.s, tracker.places());
     }
-    sum /= static_cast<double>(clouds.size());
-    if (sum < best.misfit) {
-      best.misfit = sum;
+    if (mean < best.misfit) {
+      best.misfit = mean;
+      best.misfits = std::move(misfits);
       best.pace = pace;
     }
     pace = measure.pace(pace);

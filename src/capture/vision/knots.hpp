@@ -17,7 +17,9 @@ struct CurveShape {
   std::vector<double> knots;  ///< full, clamped
   std::vector<double> pace;   ///< the curve's parameter at evenly spread places of a cloud (EdgeCloudOptions::pace)
   double misfit = 0;          ///< area between outlines and curves, with what the line at the base leaves out, over the
-                              ///< outlines' area: about what is missing from an intersection over union of 1
+                              ///< outlines' area: about what is missing from an intersection over union of 1;
+                              ///< an outline whose curve crosses itself counts as missed altogether
+  std::vector<double> misfits;  ///< of each outline; misfit is their mean
 };
 
 /// The pace at which splines over these knots follow the outlines best, and how well that is.

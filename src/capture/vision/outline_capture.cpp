@@ -19,10 +19,15 @@ constexpr int kLeastEdgePoints = 128;
 constexpr int kEdgePointsEach = 12;    // to a control point: more do not make it steadier, as their errors go together
 constexpr std::size_t kSurveyed = 20;  // held frames that are surveyed
 constexpr std::size_t kSamples = 6;    // … and in which outlines are tried
-constexpr int kSamplePoints = 96;      // edge points that are enough to decide by
 
-// Following the underside takes control points away from the sides and makes them move more: it has to pay.
+// Following the underside takes control points away from the sides and makes them move more: it has to pay, and always,
+// as the clip's first second may be calm where later the flame leaves one foot and then the other.
 constexpr double kWorthFollowing = 0.6;
+
+bool worth_following(const CurveShape& around, const CurveShape& above) {
+  return std::equal(around.misfits.begin(), around.misfits.end(), above.misfits.begin(), above.misfits.end(),
+                    [](double with, double without) { return with < kWorthFollowing * without; });
+}
 
 // At most `count` of the pictures, evenly spread.
 std::vector<Picture> evenly_from(std::span<const Picture> pictures, std::size_t count) {
@@ -155,7 +160,6 @@ Result<void> OutlineCapture::Stage::decide() {
 // The edge points of a few of the pictures and of the glimpses, without and with the underside.
 OutlineCapture::Stage::Samples OutlineCapture::Stage::take_samples(std::span<const Picture> pictures) const {
   EdgeCloudOptions above = cloud_options_, around = cloud_options_;
-  above.most_points = around.most_points = kSamplePoints;
   around.underside = true;
   Samples samples;
   EdgeCloud cloud;
@@ -190,7 +194,7 @@ std::vector<double> OutlineCapture::Stage::decide_shape(Samples& samples) {
     for (EdgeCloud& cloud : clouds) place_points(cloud, options);
     CurveShape shape = options_.knots.empty() ? choose_shape(clouds, options_.points, options_.place_knots)
                                               : fit_pace(clouds, options_.knots);
-    if (!best.knots.empty() && shape.misfit >= kWorthFollowing * best.misfit) continue;
+    if (!best.knots.empty() && !worth_following(shape, best)) continue;
     best = std::move(shape);
     options.pace = best.pace;
     cloud_options_ = options;
