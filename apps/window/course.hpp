@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "play.hpp"
 #include "script.hpp"
+#include "window.hpp"
 
 namespace wisp::window {
 

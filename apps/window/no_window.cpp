@@ -1,6 +1,6 @@
 // In place of the window where SDL2 was not found.
 
-#include "play.hpp"
+#include "window.hpp"
 
 namespace wisp::window {
 

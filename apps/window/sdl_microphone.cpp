@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "play.hpp"
 #include "silence.hpp"
+#include "window.hpp"
 
 namespace wisp::window {
 namespace {

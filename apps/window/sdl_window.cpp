@@ -11,9 +11,9 @@
 #include <string_view>
 
 #include "course.hpp"
-#include "play.hpp"
 #include "sdl_microphone.hpp"
 #include "silence.hpp"
+#include "window.hpp"
 
 namespace wisp::window {
 namespace {

@@ -1,7 +1,7 @@
 #include <cstdio>
 
 #include "course.hpp"
-#include "play.hpp"
+#include "window.hpp"
 
 namespace wisp::window {
 namespace {

@@ -1,6 +1,7 @@
 #include "wisp/capture/capture.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <string>
 
@@ -65,6 +66,33 @@ void join_wind(const ClipWind& wind, WindMeasure measure, Recording& recording) 
   for (const WindFrame& frame : wind.frames) channel.samples.push_back(wind_value(frame, measure));
   if (!rms && wind.one_rms > 0) set_one_rms(recording, channel.name, wind.one_rms);
   recording.channels.insert(recording.channels.begin(), std::move(channel));
+}
+
+// A stretch without an outline that begins in or just after wind, and ends with the flame back, is a flame that was
+// blown out and lit again. Wind of half the strong one puts a flame out at the earliest.
+constexpr double kBlowing = 0.5, kLookedBack = 0.6, kLeastOut = 0.2;  // of wind 1; seconds; seconds
+
+void excuse_blown_out(const ClipWind& wind, const Recording& recording, CaptureReport& picture) {
+  if (wind.frames.empty()) return;
+  const std::vector<double>& outline = recording.channels[*find_channel(recording, "p0.x")].samples;
+  const auto rows_of = [&](double seconds) { return static_cast<std::size_t>(seconds * picture.rate_hz); };
+  const auto blows = [&](std::size_t before) {
+    for (std::size_t row = before - std::min(before, rows_of(kLookedBack)); row < before; ++row) {
+      if (row < wind.frames.size() && wind_value(wind.frames[row], WindMeasure::kSpeed) >= kBlowing) return true;
+    }
+    return false;
+  };
+  std::size_t rows = 0, times = 0, seen = outline.size();
+  for (std::size_t row = 0; row < outline.size(); ++row) {
+    if (std::isnan(outline[row])) continue;
+    const bool absent = seen < row && row - seen - 1 > rows_of(kLeastOut);
+    if (absent && blows(seen + 1)) {
+      rows += row - seen - 1;
+      ++times;
+    }
+    seen = row;
+  }
+  excuse_absence(picture, rows, times);
 }
 
 void warn_of_sound(const std::filesystem::path& path, const ClipWind& wind, Report& report) {
@@ -158,6 +186,7 @@ Result<Captured> capture(const std::filesystem::path& path, const ClipCapture& o
   const auto wind = wind_of(path, options, picture->report);
   if (!wind) return wind.error();
   Captured out{std::move(picture->recording), {}};
+  excuse_blown_out(*wind, out.recording, picture->report);
   out.report.verdict = ReportVerdict{picture->report.usable, picture->report.reason};
   set_verdict(out.recording, picture->report.usable, picture->report.reason);
   join_wind(*wind, options.wind, out.recording);

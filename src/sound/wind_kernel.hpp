@@ -2,7 +2,7 @@
 // The estimator's arithmetic, over any number type: from samples to what was observed in a frame.
 //
 // The features follow the approach of C. M. Nelke et al. (wind noise told from speech by its low band and by the lack
-// of harmonics); tools/fit_blowing.py fits what is made of them, docs/wind.md has figures.
+// of harmonics); tools/fit_blowing.py fits what is made of them, docs/explanation/wind.md has figures.
 
 #include <cmath>
 #include <cstddef>

@@ -1,5 +1,6 @@
 // The wind level against the real world: a microphone beside an anemometer, breath, synthetic speech. Prints tables;
-// exit status 1 where a bound of docs/wind.md is missed. What is not there (recordings, espeak-ng) is skipped, clearly.
+// exit status 1 where a bound of docs/explanation/wind.md is missed. What is not there (recordings, espeak-ng) is
+// skipped, clearly.
 
 #include "studies/wind/verify_wind.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "cli/program.hpp"
 #include "sound/wind_sounds.hpp"
-#include "window/play.hpp"
+#include "window/window.hpp"
 #include "wisp/record/wav.hpp"
 
 namespace wisp {
@@ -122,6 +122,7 @@ class Demo : public Play {
     std::filesystem::create_directories(folder_ / "script");
     std::filesystem::create_directories(folder_ / "build/release/bin");
     std::filesystem::copy_file(WISP_SOURCE_DIR "/script/demo", folder_ / "script/demo");
+    stub("script/bootstrap", "bootstrap");
     stub("script/build", "build");
     stub("script/web", "web");
     stub("build/release/bin/wisp", "wisp");
@@ -141,13 +142,14 @@ class Demo : public Play {
 };
 
 TEST_F(Demo, EndsByItselfWithoutATerminal) {
-  EXPECT_EQ(demo("clip.mp4 --points 16", "$PATH"), "build release wisp\nwisp demo clip.mp4 --points 16\n");
+  EXPECT_EQ(demo("clip.mp4 --points 16", "$PATH"), "build demo wisp\nwisp demo clip.mp4 --points 16\n");
 }
 
 TEST_F(Demo, ServesThePageOrOpensTheWindowWhereAskedTo) {
   const std::string path = folder_.string() + ":$PATH";
-  EXPECT_THAT(demo("--serve", path), testing::EndsWith("wisp demo\nweb serve 8080\n"));
-  EXPECT_THAT(demo("clip.mp4 --serve 9000", path), testing::EndsWith("wisp demo clip.mp4\nweb serve 9000\n"));
+  EXPECT_THAT(demo("--serve", path), testing::EndsWith("wisp demo\nbootstrap --page\nweb serve 8080\n"));
+  EXPECT_THAT(demo("clip.mp4 --serve 9000", path),
+              testing::EndsWith("wisp demo clip.mp4\nbootstrap --page\nweb serve 9000\n"));
   EXPECT_THAT(demo("clip.mp4 --window", path), testing::EndsWith("wisp demo clip.mp4 --window\n"));
 }
 

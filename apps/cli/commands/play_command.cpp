@@ -9,7 +9,7 @@
 #include "terminal.hpp"
 #include "wisp/model/file.hpp"
 #ifdef WISP_HAS_PLAYER
-#include "window/play.hpp"
+#include "window/window.hpp"
 #endif
 
 namespace wisp::cli {

@@ -4,7 +4,7 @@
 // Source: L. Ljung, System Identification: Theory for the User (2nd ed.), sections 4.2 (model), 7.3 (least squares),
 // 9.3–9.4 (covariance of the estimate), 16.4 (FPE, AIC). Every output row is its own regression. Departures: rows with
 // a missing sample are left out one by one, and an unstable estimate is made stable (section 7.3 has no such step).
-// Equations and conventions: docs/identification.md.
+// Equations and conventions: docs/explanation/identification.md.
 
 #include <cstddef>
 #include <optional>

@@ -2,7 +2,7 @@
 // What is asked for when one ARX model, or several that take turns, is learned. What a recipe leaves open
 // (std::nullopt) the recordings decide, and the report says what they decided.
 //
-// Orders and signs: docs/identification.md.
+// Orders and signs: docs/explanation/identification.md.
 
 #include <cstdint>
 #include <optional>

@@ -50,8 +50,9 @@ class ChainFacet {
 
   /// Steers an instance: at joins it prefers what leads to the target, weighed against how likely that is, until the
   /// time has come; then it falls on as before. What lies beyond its reach is not reached. A new target takes the place
-  /// of the one before; placing and resetting end it. A join costs more meanwhile; docs/chains.md has figures.
-  /// Returns false, and does nothing, when `id` is not valid, a number is out of its range, or can_steer() is false.
+  /// of the one before; placing and resetting end it. A join costs more meanwhile; docs/explanation/chains.md has
+  /// figures. Returns false, and does nothing, when `id` is not valid, a number is out of its range, or can_steer() is
+  /// false.
   bool steer(InstanceId id, const SteerTarget& target);
 
   /// Lets an instance fall as it will. Returns false when `id` is not valid.

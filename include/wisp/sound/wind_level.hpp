@@ -3,7 +3,8 @@
 //
 // Reissell & Pai 2001, section 3.3, take the plain RMS of the sound at the video's frame rate, less the mean of the
 // stretches without wind. That stays here (`rms`, `rms_clean`). Beyond it: a measure proportional to wind speed, from a
-// band that microphones pass, and a confidence that tells blowing from talking (docs/wind.md has features and figures).
+// band that microphones pass, and a confidence that tells blowing from talking (docs/explanation/wind.md has features
+// and figures).
 
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +27,8 @@ struct WindOptions {
 
   /// Wind speed goes as the band's RMS to this power, 0.1 to 2. The default, 1/2, is what stagnation pressure gives
   /// (pressure as the square of speed) and what the one public record of microphones beside an anemometer bears out
-  /// (0.55 ± 0.04; docs/wind.md); 1 is a plain RMS. It belongs to the microphone: set it where the truth is known.
+  /// (0.55 ± 0.04; docs/explanation/wind.md); 1 is a plain RMS. It belongs to the microphone: set it where the truth is
+  /// known.
   double exponent = 0.5;
 
   /// Mean of the level over this time, seconds, 0 (each frame by itself) to 1. A frame of 16 ms tells its level to

@@ -137,6 +137,11 @@ std::string percent(double share) {
   return text;
 }
 
+// Of the rows in which the flame burns, those without an outline.
+double missing_share(const OutlineFacts& facts) {
+  return static_cast<double>(facts.absent - facts.blown) / static_cast<double>(facts.rows - facts.blown);
+}
+
 // The first of what makes an outline unusable, or nothing.
 std::string fault(const OutlineFacts& f, const CaptureReport& report) {
   constexpr std::array<const char*, 4> kSide{"left", "upper", "right", "lower"};
@@ -150,8 +155,9 @@ std::string fault(const OutlineFacts& f, const CaptureReport& report) {
   if (flame && f.light < kLeastLight) {
     return "other things in the picture are brighter; choose a region around the flame, or film it in a dark room";
   }
-  if (f.missing > kMostMissing) {
-    return "it is missing in " + percent(f.missing) + " of the frames; film it steadily, with nothing in between";
+  if (missing_share(f) > kMostMissing) {
+    return "it is missing in " + percent(missing_share(f)) +
+           " of the frames; film it steadily, with nothing in between";
   }
   if (f.jumps > kMostJumps) {
     return "it jumps in " + percent(f.jumps) +
@@ -171,7 +177,24 @@ std::string fault(const OutlineFacts& f, const CaptureReport& report) {
   return {};
 }
 
+void give_verdict(CaptureReport& report) {
+  const std::string why = fault(report.facts, report);
+  report.usable = why.empty();
+  report.reason = report.usable ? "an outline was found in " + percent(1 - missing_share(report.facts)) +
+                                      " of the frames and moves steadily"
+                                : why;
+  if (report.flames > 1) report.reason += "; there are " + std::to_string(report.flames) + " flames, one is followed";
+  if (report.out_at) report.reason += "; the flame is out from frame " + std::to_string(*report.out_at + 1) + " on";
+}
+
 }  // namespace
+
+void excuse_absence(CaptureReport& report, std::size_t rows, std::size_t times) {
+  report.facts.blown = std::min(rows, report.facts.absent);
+  if (report.facts.blown == 0) return;
+  give_verdict(report);
+  report.reason += "; it is blown out and lit again " + (times == 1 ? "once" : std::to_string(times) + " times");
+}
 
 void judge_outline(const Recording& recording, const SplineTable& table, CaptureReport& report) {
   std::vector<Shape> shapes;
@@ -191,15 +214,10 @@ void judge_outline(const Recording& recording, const SplineTable& table, Capture
   facts.jumps = jumps_of(shapes, facts.height);
   facts.border = border_of(shapes, report.width, report.height);
   const std::size_t first = shapes.front().row, last = shapes.back().row;
-  facts.missing = 1 - static_cast<double>(shapes.size()) / static_cast<double>(last - first + 1);
+  facts.rows = last - first + 1;
+  facts.absent = facts.rows - shapes.size();
   report.out_at = out_at(report, last);
-  const std::string why = fault(facts, report);
-  report.usable = why.empty();
-  report.reason = report.usable
-                      ? "an outline was found in " + percent(1 - facts.missing) + " of the frames and moves steadily"
-                      : why;
-  if (report.flames > 1) report.reason += "; there are " + std::to_string(report.flames) + " flames, one is followed";
-  if (report.out_at) report.reason += "; the flame is out from frame " + std::to_string(*report.out_at + 1) + " on";
+  give_verdict(report);
 }
 
 }  // namespace wisp

@@ -1,5 +1,5 @@
 #pragma once
-// How like the recorded falls are those that a chain makes? docs/fidelity.md says what is measured and why.
+// How like the recorded falls are those that a chain makes? docs/explanation/fidelity.md says what is measured and why.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
 // What an eye follows of something that falls, row by row, and windows of it for the measures of fidelity.
 //
-// docs/fidelity.md: a window spans at least two mean segments, so that every window has a join in it.
+// docs/explanation/fidelity.md: a window spans at least two mean segments, so that every window has a join in it.
 
 #include <cstddef>
 #include <span>

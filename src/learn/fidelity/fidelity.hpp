@@ -2,7 +2,7 @@
 // How like the real thing is synthesized behaviour? Every measure stands between two bounds from the same data: the
 // floor (real against real) and the ceiling (real against its own frames in random order).
 //
-// Definitions, sources and how to read the figures: docs/fidelity.md.
+// Definitions, sources and how to read the figures: docs/explanation/fidelity.md.
 
 #include <cstddef>
 #include <cstdint>

@@ -3,7 +3,7 @@
 //
 // Source: L.-M. Reissell and D. K. Pai (2001), section 3.4: every control point its own ARX system of two outputs,
 // order 4, driven by the wind, its residual fed back as Gaussian noise. Beyond it: wind from both sides, inputs or
-// none, shocks that the control points share (docs/fidelity.md says why), a part held out for judging.
+// none, shocks that the control points share (docs/explanation/fidelity.md says why), a part held out for judging.
 
 #include <array>
 #include <optional>

@@ -2,6 +2,8 @@
 // Files for tests: a folder that goes away, images, raw video and sound, written by hand; and where real recordings
 // are.
 
+#include <unistd.h>
+
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -17,7 +19,8 @@ namespace wisp::support {
 class ScratchFolder {
  public:
   explicit ScratchFolder(const std::string& name)
-      : path_(std::filesystem::temp_directory_path() / ("wisp-" + name + "-" + std::to_string(std::rand()))) {
+      : path_(std::filesystem::temp_directory_path() /
+              ("wisp-" + name + "-" + std::to_string(::getpid()) + "-" + std::to_string(std::rand()))) {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }

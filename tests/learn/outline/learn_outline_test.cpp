@@ -46,7 +46,7 @@ T figure(const Report& report, const std::string& id) {
 TEST(LearnOutline, TheReportHasEveryPromisedField) {
   const Fit fit = learned({windy()}, {});
   EXPECT_THAT(fields(fit.report), IsSupersetOf({"rate_hz", "inputs", "points", "na", "nb", "nk", "samples", "channels",
-                                                "J", "tip", "overlap", "fpe", "stable", "cost", "gain", "extinction",
+                                                "J", "tip", "overlap", "fpe", "stable", "gain", "extinction",
                                                 "alignment", "order_and_delay", "input_curve"}));
   EXPECT_EQ(figure<std::int64_t>(fit.report, "points"), 6);
   EXPECT_GT(figure<double>(fit.report, "tip.held_out_fit_percent.inf"), 50);

@@ -46,7 +46,9 @@ struct DroppedFrame {
 
 /// What tells an outline of a flame from one of something else. Shares are of the rows with an outline.
 struct OutlineFacts {
-  double missing = 0;              ///< share of rows without one, from the first outline until the flame is out
+  std::size_t rows = 0;            ///< from the first outline until the flame is out for good
+  std::size_t absent = 0;          ///< of them, without an outline
+  std::size_t blown = 0;           ///< of those, because the flame was blown out and lit again: see excuse_absence()
   double jumps = 0;                ///< share of steps by which base or height change more than a flame's can
   std::array<double, 4> border{};  ///< share that reach the picture's left, upper, right and lower border
   double movement = 0;             ///< how far the shape moves on its base: root mean square over the median height
@@ -82,6 +84,10 @@ struct CaptureReport {
   std::string reason;                 ///< why, or why not and what to film instead: one sentence
   std::vector<std::string> warnings;  ///< what the maker should know, one sentence each
 };
+
+/// Judges anew where it is known why `rows` of the rows have no outline: the flame had been blown out, `times` times,
+/// and was lit again. A picture alone cannot tell that from a flame that was not found.
+void excuse_absence(CaptureReport& report, std::size_t rows, std::size_t times);
 
 /// A recording of an outline and how it came about.
 struct CapturedOutline {
