@@ -17,11 +17,11 @@ namespace {
 
 using Seen = std::vector<wind::Observation<float>>;
 
-constexpr float kFloorShare = 0.05F;    // softest frames that tell the floor
-constexpr float kQuietSeconds = 0.25F;  // a stretch without wind lasts at least so long
-constexpr float kSilentDb = -80;        // loudness of a track on which nothing is heard
-constexpr float kBlowingConfidence = 0.8F;
-constexpr float kWindHeard = 0.05F;  // of wind 1: what is told of as wind
+constexpr float kFloorShare = 0.05F;        // softest frames that tell the floor
+constexpr float kQuietSeconds = 0.25F;      // a stretch without wind lasts at least so long
+constexpr float kSilentDb = -80;            // loudness of a track on which nothing is heard
+constexpr float kBlowingConfidence = 0.5F;  // likelier blowing than not
+constexpr float kWindHeard = 0.05F;         // of wind 1: what is told of as wind
 
 float percentile(std::vector<float> values, float share) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<float>(values.size() - 1) + 0.5F);

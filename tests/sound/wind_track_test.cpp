@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "sound/wind_sounds.hpp"
@@ -64,6 +65,30 @@ TEST(WindTrack, WindOneIsThe95thPercentileWhileItBlows) {
   }
   std::sort(blowing.begin(), blowing.end());
   EXPECT_NEAR(blowing[blowing.size() * 95 / 100], 1, 0.01);
+}
+
+// Brighter than most wind, and then only just told for it: frames that are surely blowing are the soft ends of the
+// gusts, and wind 1 must not be taken from those.
+TEST(WindTrack, WindOneIsThatOfTheHardGustsWhereBlowingIsBarelyTold) {
+  for (const double rate_hz : {8000.0, 16000.0, 44100.0}) {
+    Samples sound = sounds::room(12, rate_hz, 1e-4);
+    for (int gust = 0; gust < 5; ++gust) {
+      Samples blown = sounds::room(1.2, rate_hz, 1, 20 + static_cast<std::uint64_t>(gust));
+      const double share = 1 - std::exp(-2 * std::numbers::pi * 500 / rate_hz);  // falls by 6 dB an octave from 500 Hz
+      double low = 0;
+      for (std::size_t i = 0; i < blown.size(); ++i) {
+        low += share * (static_cast<double>(blown[i]) - low);
+        const double wind = std::sin(std::numbers::pi * static_cast<double>(i) / static_cast<double>(blown.size()));
+        blown[i] = static_cast<float>(0.3 * wind * wind * low / std::sqrt(share / 2));
+      }
+      sounds::add(sound, blown, 1 + 2 * gust, rate_hz);
+    }
+    const WindTrack track = track_of(sound, rate_hz, {.frame_rate_hz = 30});
+    float strongest = 0;
+    for (const WindFrame& frame : track.frames) strongest = std::max(strongest, frame.wind);
+    EXPECT_GT(strongest, 0.9F) << rate_hz;
+    EXPECT_LT(strongest, 1.4F) << rate_hz;
+  }
 }
 
 TEST(WindTrack, BlocksOfAnySizeGiveTheSameTrack) {

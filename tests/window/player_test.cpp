@@ -110,21 +110,15 @@ Seen look(const Image& image) {
   return seen;
 }
 
-// Three seconds of room for the calibration, two more of it, then a breath and a strong one.
+// Three seconds of room for the calibration, two more of it, then a soft breath and a hard blow, each as loud as it is
+// at a usual microphone: wind 1 is no longer whatever the first gust was, so their levels are absolute.
 sounds::Samples room_breath_strong() {
+  const auto swells = [](double seconds, double rise) {
+    return [=](double t) { return std::min({1.0, t / rise, (seconds - t) / rise}); };
+  };
   sounds::Samples all = sounds::room(9, kRate, 0.001);
-  sounds::add(all,
-              sounds::blowing(1.2, kRate, 0.06,
-                              [](double t) {
-                                return std::min({1.0, t / 0.2, (1.2 - t) / 0.2}) * 0.8;
-                              }),
-              5, kRate);
-  sounds::add(all,
-              sounds::blowing(1.5, kRate, 0.5,
-                              [](double t) {
-                                return std::min({1.0, t / 0.1, (1.5 - t) / 0.1}) * 1.3;
-                              }),
-              7, kRate);
+  sounds::add(all, sounds::blowing(1.2, kRate, 0.01, swells(1.2, 0.2)), 5, kRate);
+  sounds::add(all, sounds::blowing(1, kRate, 0.5, swells(1, 0.1)), 7, kRate);
   return all;
 }
 
