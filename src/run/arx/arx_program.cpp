@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 
 #include "run/bank/model_hash.hpp"
@@ -81,16 +82,18 @@ void fill_rows(const Regression& regression, ArxProgram& program) {
   std::uint32_t run = 0, tap = 0, shock = 0;
   for (std::size_t i = 0; i < regression.taps.size(); ++i) {
     for (const TapRun& one : runs_of(regression.taps[i], tap)) program.runs[run++] = one;
-    for (const ModeWeights& one : regression.taps[i]) coefficient = std::ranges::copy(one.of_mode, coefficient).out;
+    for (const ModeWeights& one : regression.taps[i]) {
+      coefficient = std::copy(one.of_mode.begin(), one.of_mode.end(), coefficient);
+    }
     tap += static_cast<std::uint32_t>(regression.taps[i].size());
     program.row_end[i] = run;
     for (const ModeWeights& one : regression.shocks[i]) {
       program.shock[shock++] = one.channel;
-      size = std::ranges::copy(one.of_mode, size).out;
+      size = std::copy(one.of_mode.begin(), one.of_mode.end(), size);
     }
     program.shock_end[i] = shock;
   }
-  std::ranges::copy(regression.constant, program.constant.begin());
+  std::copy(regression.constant.begin(), regression.constant.end(), program.constant.begin());
 }
 
 ArxProgram lay_out(const Regression& regression, const DrawnProgram& drawn, Arena& arena) {
@@ -127,8 +130,13 @@ std::span<const float> of_modes(const ArxProgram& program, std::span<const float
   return numbers.subspan(first * modes, size * modes);
 }
 
+template <class T, class Same = std::equal_to<>>
+bool all_same(std::span<const T> a, std::span<const T> b, Same same = {}) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
+}
+
 bool are_opposite(std::span<const float> a, std::span<const float> b) {
-  return std::ranges::equal(a, b, [](float x, float y) { return x == -y; });
+  return all_same(a, b, [](float x, float y) { return x == -y; });
 }
 
 // Whether output b looks back at nothing but itself and the regressors, as a does at itself and at their opposites.
@@ -139,9 +147,9 @@ bool taps_mirror(const ArxProgram& program, int a, int b) {
     if (!(own || common) || x.first_lag != y.first_lag || x.count != y.count) return false;
     const auto ours = of_modes(program, program.coefficients, x.coefficient, x.count);
     const auto theirs = of_modes(program, program.coefficients, y.coefficient, y.count);
-    return own ? std::ranges::equal(ours, theirs) : are_opposite(ours, theirs);
+    return own ? all_same(ours, theirs) : are_opposite(ours, theirs);
   };
-  return std::ranges::equal(runs_of(program, a), runs_of(program, b), mirrors);
+  return all_same(runs_of(program, a), runs_of(program, b), mirrors);
 }
 
 bool noise_mirrors(const ArxProgram& program, int a, int b) {
@@ -149,7 +157,8 @@ bool noise_mirrors(const ArxProgram& program, int a, int b) {
   const auto begin = [&](int row) { return row == 0 ? 0U : program.shock_end[row - 1]; };
   const std::uint32_t size = program.shock_end[a] - begin(a);
   if (program.shock_end[b] - begin(b) != size) return false;
-  return std::ranges::equal(program.shock.subspan(begin(a), size), program.shock.subspan(begin(b), size)) &&
+  const std::span<const std::uint32_t> shock = program.shock;
+  return all_same(shock.subspan(begin(a), size), shock.subspan(begin(b), size)) &&
          are_opposite(of_modes(program, program.shock_size, begin(a), size),
                       of_modes(program, program.shock_size, begin(b), size));
 }
@@ -170,8 +179,8 @@ double total(std::span<const float> numbers) {
 float kept(double value) { return std::abs(value) < kLeastCoefficient ? 0.0f : static_cast<float>(value); }
 
 void keep(std::vector<ModeWeights>& list, ModeWeights weights) {
-  if (std::ranges::any_of(weights.of_mode, [](float weight) { return weight != 0; }))
-    list.push_back(std::move(weights));
+  const auto counts = [](float weight) { return weight != 0; };
+  if (std::any_of(weights.of_mode.begin(), weights.of_mode.end(), counts)) list.push_back(std::move(weights));
 }
 
 std::vector<double> channel_units(const Model& model) {

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <type_traits>
 
 #include "run/arx/arx_program.hpp"
 #include "run/arx/drawn_lanes.hpp"
@@ -89,9 +88,7 @@ class ArxStepper : public ChannelHistory<N> {
   }
 
   /// The mode that made a lane's newest sample; none before the first step.
-  std::optional<int> mode(int block, int lane) const requires(!std::is_same_v<Modes, SingleMode<N>>) {
-    return modes_.mode(block, lane);
-  }
+  std::optional<int> mode(int block, int lane) const { return modes_.mode(block, lane); }
 
   /// Coefficients that a step multiplies by: those of A and B of one mode, and what the choice of a mode takes.
   std::int64_t multiply_adds() const {

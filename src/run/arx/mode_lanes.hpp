@@ -29,6 +29,7 @@ class SingleMode {
   void choose(int, const SampleRing<N>&, const Moment<N>&) {}
   Reals<N> pick(const float* of_mode) const { return all<Reals<N>>(*of_mode); }
   void start(int, int) {}
+  std::optional<int> mode(int, int) const { return 0; }
   std::int64_t multiply_adds() const { return 0; }
   std::size_t lane_values() const { return 0; }
   template <class Visit>

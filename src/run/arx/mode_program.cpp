@@ -44,7 +44,7 @@ Regions regions_of(const Model& model, const SwitchedArxModel& switched) {
 
 void fill_regions(const Regions& regions, ModeProgram& program) {
   const std::size_t taps = regions.taps.size();
-  std::ranges::copy(regions.constant, program.region_constant.begin());
+  std::copy(regions.constant.begin(), regions.constant.end(), program.region_constant.begin());
   for (std::size_t t = 0; t < taps; ++t) {
     program.region_taps[t] = {regions.taps[t].channel, regions.taps[t].lag};
     for (int k = 0; k < program.modes; ++k) program.region_weights[k * taps + t] = regions.taps[t].of_mode[k];
