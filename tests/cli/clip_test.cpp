@@ -26,7 +26,7 @@ Image flame_frame(int frame) {
                height = 1 + 0.12 * std::sin(0.53 * frame);
   for (int k = 0; k <= 60; ++k) {
     const double t = k / 60.0, side = t < 0.5 ? -1 : 1, up = 1 - std::abs(2 * t - 1);
-    const double half_width = 0.16 * std::sqrt(1 - up) * (0.6 + 1.4 * up);
+    const double half_width = 0.16 * std::sqrt(1 - up) * (1 + 0.6 * up);
     outline.push_back({static_cast<float>(side * half_width + sway * up * up), static_cast<float>(height * up)});
   }
   Image image(kWidth, kHeight);

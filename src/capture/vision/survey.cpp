@@ -19,8 +19,10 @@ constexpr double kAsLikely = 0.35;     // another flame is at least this share a
 constexpr double kAsBright = 0.9;      // … and as bright
 constexpr double kAsGood = 0.5;        // at another level it is still the same thing when it is this share as likely
 constexpr double kHalfWay = 0.58;
-constexpr double kSameHome = 0.6;    // … and shares this much of its place
-constexpr double kBrightest = 3e-4;  // share of the picture that is as bright as anything
+constexpr double kNearlyAsLikely = 0.82;  // one that shows more of the same flame is at least this share as likely
+constexpr double kNearlyAsBright = 0.98;  // … and as bright
+constexpr double kSameHome = 0.6;         // … and shares this much of its place
+constexpr double kBrightest = 3e-4;       // share of the picture that is as bright as anything
 
 // Luma that only the brightest points reach.
 double brightest_of(const ImageView& luma) {
@@ -145,6 +147,20 @@ Candidate settle_level(const Candidate& thing, const std::vector<Candidate>& can
   return best;
 }
 
+// The largest that is as good as a thing and in its place: where a channel shows only a flame's bright core, or its
+// feet parted by the wick, another shows the whole of it; a glow or wax would be larger too, but with a softer rim.
+Candidate whole(const Candidate& thing, const std::vector<Candidate>& candidates) {
+  Candidate best = thing;
+  for (const Candidate& c : candidates) {
+    if (c.stands != thing.stands || c.score < kNearlyAsLikely * thing.score ||
+        c.light < kNearlyAsBright * thing.light || c.softness > thing.softness)
+      continue;
+    if (c.seen.size() < thing.seen.size() || shared_share(c.home, thing.home) < kSameHome) continue;
+    if (c.area > best.area) best = c;
+  }
+  return best;
+}
+
 // The same thing on a finer grid, where there is one, and at the level that suits it best.
 Candidate refine(const Candidate& coarse, const std::vector<Candidate>& all, std::span<const Picture> pictures,
                  const Region& area, const SurveyOptions& options, const Evidence& evidence) {
@@ -152,7 +168,7 @@ Candidate refine(const Candidate& coarse, const std::vector<Candidate>& all, std
   const bool finer = std::max(around.width, around.height) < std::max(area.width, area.height) / 2;
   const std::vector<Candidate> fine = finer ? scan(pictures, around, kFineGrid, options, evidence) : all;
   const auto found = std::find_if(fine.begin(), fine.end(), [&](const Candidate& c) { return same_place(c, coarse); });
-  const Candidate& thing = found == fine.end() || !finer ? coarse : *found;
+  const Candidate thing = whole(found == fine.end() || !finer ? coarse : *found, fine);
   return settle_level(thing, fine, half_way(thing, pictures, area, options.dark));
 }
 
