@@ -40,8 +40,10 @@ void fill_winds(const Model& model, const ArxModel& arx, const DrawnResiduals& d
   const auto key = [&](std::uint32_t row) {
     return program.mirrors() ? std::abs(program.wind[row]) : program.wind[row];
   };
-  std::stable_sort(program.order.begin(), program.order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+  // Those alike stay in their order. As a heap, since that takes little code and no memory.
+  const auto before = [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b) || (key(a) == key(b) && a < b); };
+  std::make_heap(program.order.begin(), program.order.end(), before);
+  std::sort_heap(program.order.begin(), program.order.end(), before);
 }
 
 // In the regressor's channel units too, so that they can be added to what the wind is apart by.

@@ -2,19 +2,21 @@
 // sentence, and the sentences are counted.
 
 #include <cstdio>
-#include <vector>
+#include <span>
 
-#include "learn/numeric/spectrum.hpp"
 #include "wisp/base/file.hpp"
-#include "wisp/capture/media/video.hpp"
+#include "wisp/capture/capture.hpp"
 #include "wisp/capture/vision/image.hpp"
+#include "wisp/describe/text.hpp"
 #include "wisp/draw/image.hpp"
 #include "wisp/draw/video_writer.hpp"
+#include "wisp/learn.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/record/csv.hpp"
 #include "wisp/record/mat.hpp"
 #include "wisp/run/random.hpp"
 #include "wisp/simulate/candle_rig.hpp"
+#include "wisp/sound/wind_level.hpp"
 #include "wisp/wisp.h"
 
 namespace {
@@ -33,13 +35,15 @@ int main() {
   count += complaints(wisp::read_model("nowhere/model.wisp"));
   count += complaints(wisp::read_csv("nowhere/recording.csv"));
   count += complaints(wisp::read_mat("nowhere/recording.mat", {}));
-  count += complaints(wisp::VideoReader::open("nowhere/clip.mp4", {}));
+  count += complaints(wisp::capture("nowhere/clip.mp4", wisp::FlameCapture{}));
+  count += complaints(wisp::learn(std::span<const wisp::Recording>{}, wisp::FlameRecipe{}));
+  count += complaints(wisp::WindLevel::create({.rate_hz = 1}));
   count += complaints(wisp::write_png("nowhere/picture.png", wisp::Image(2, 2)));
   count += complaints(wisp::VideoWriter::create("nowhere/film.mp4", {}));
 
-  const bool spectrum = wisp::welch({}, 60, 64).segments == 0;
+  const bool report = wisp::to_text(wisp::Report{}).size() < 100;
   const bool random = wisp::normal(0) < 0;
   const bool rig = wisp::candle_rig_options(wisp::CandleGrid{}).pressure_tolerance > 0;
   const bool vision = !wisp::channel_name(wisp::PixelChannel{}).empty();
-  return count == 7 && spectrum && random && rig && vision && wisp_version() > 0 ? 0 : 1;
+  return count == 9 && report && random && rig && vision && wisp_version() > 0 ? 0 : 1;
 }
