@@ -10,7 +10,7 @@
 #include <random>
 
 #include "cli/program.hpp"
-#include "wisp/draw/flame.hpp"
+#include "wisp/draw/image.hpp"
 #include "wisp/draw/video_writer.hpp"
 #include "wisp/record/csv.hpp"
 #include "wisp/record/loudness.hpp"
@@ -31,20 +31,25 @@ double wind_at(double seconds) {
   return gust > 0 && std::fmod(beat, 4) < 3 ? gust * (0.6 + 0.4 * std::sin(2.3 * seconds)) : 0;
 }
 
-// A drop-shaped flame that leans with the wind of a twentieth of a second ago and trembles a little.
+// A drop-shaped flame that leans with the wind of a twentieth of a second ago and trembles a little. Its edge is sharp,
+// as an overexposed flame's is: what is asked here is when it moves, not where its light ends.
 Image flame_frame(int frame) {
   static std::mt19937 random(3);
   std::normal_distribution<double> tremble(0, 0.01);
   const double lean = 0.5 * wind_at(frame / kRate - 0.05) + tremble(random);
-  std::vector<Point> outline;
-  for (int k = 0; k <= 60; ++k) {
-    const double t = k / 60.0, side = t < 0.5 ? -1 : 1, up = 1 - std::abs(2 * t - 1);
-    const double half_width = 0.16 * std::sqrt(1 - up) * (0.6 + 1.4 * up);
-    outline.push_back({static_cast<float>(side * half_width + lean * up * up), static_cast<float>(up)});
+  constexpr double kBaseX = 60, kBaseY = 180, kUnit = 120;
+  std::vector<std::uint8_t> gray(static_cast<std::size_t>(kWidth) * kHeight);
+  for (int y = 0; y < kHeight; ++y) {
+    const double up = (kBaseY - y - 0.5) / kUnit;
+    if (up < 0 || up > 1) continue;
+    const double half_width = kUnit * 0.16 * std::sqrt(1 - up) * (0.6 + 1.4 * up),
+                 middle = kBaseX + kUnit * lean * up * up;
+    for (int x = 0; x < kWidth; ++x) {
+      const double covered = std::clamp(half_width - std::abs(x + 0.5 - middle) + 0.5, 0.0, 1.0);
+      gray[static_cast<std::size_t>(y) * kWidth + x] = static_cast<std::uint8_t>(std::lround(250 * covered));
+    }
   }
-  Image image(kWidth, kHeight);
-  draw_flame(image, outline, {.base = {60, 180}, .pixels_per_unit = 120}, {.glow = 0, .candle = false});
-  return image;
+  return Image::from_gray(gray, kWidth, kHeight);
 }
 
 // How the wind sounds.
