@@ -34,6 +34,9 @@ function(wisp_warnings target)
     # Designated initialisers leave the other fields at their defaults on purpose.
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
                            -Wno-sign-conversion -Wno-missing-field-initializers)
+  else()
+    # A host's -Wextra would complain of it.
+    target_compile_options(${target} PRIVATE -Wno-missing-field-initializers)
   endif()
   if(WISP_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
