@@ -66,7 +66,8 @@ void list_fields(matvar_t& structure, const std::string& prefix, std::vector<std
   char* const* fields = Mat_VarGetStructFieldnames(&structure);
   for (unsigned k = 0; k < Mat_VarGetNumberOfFields(&structure); ++k) {
     matvar_t* field = Mat_VarGetStructFieldByIndex(&structure, k, 0);
-    if (field == nullptr) continue;
+    // A damaged structure can have fields without names, or no list of names at all.
+    if (field == nullptr || fields == nullptr || fields[k] == nullptr) continue;
     const std::string name = prefix + "." + fields[k];
     if (numeric(*field)) names.push_back(name + size_of(*field));
     if (field->class_type == MAT_C_STRUCT) list_fields(*field, name, names);

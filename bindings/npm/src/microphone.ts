@@ -34,7 +34,7 @@ export interface MicrophoneOptions {
   onWind?: (wind: Wind) => void;
   /** Called once when the microphone goes away by itself, or the estimator fails; it is closed then. */
   onLost?: (error: MicrophoneError) => void;
-  /** Called when a calibration has ended; `heard` says whether it heard what it asked for. */
+  /** Called when a calibration has ended; `heard` says whether the requested sound was heard. */
   onCalibrated?: (calibration: WindCalibration, heard: boolean) => void;
   /** Seconds of the room to listen to at the start; default 3, 0: none. */
   calibrate?: number;
@@ -68,7 +68,7 @@ export interface Microphone {
   /** The latest frame; null before the first. */
   readonly latest: Wind | null;
   /**
-   * Listens for 0.5 to 30 s to the room, or to what was asked for; `onCalibrated` tells when it is known. Ask for
+   * Listens for 0.5 to 30 s to the room, or to the requested sound; `onCalibrated` tells when it is known. Ask for
    * stillness, gentle breath and hard blowing in turn where soft breath at a sensitive microphone must stay soft.
    */
   calibrate(seconds?: number, ask?: WindAsk): void;

@@ -128,7 +128,7 @@ export class WindLevel {
     return this.frameAt(this.frames);
   }
 
-  /** Takes the coming seconds of sound, 0.5 to 30, for what was asked for: the room without wind, unless told otherwise. */
+  /** Takes the coming seconds of sound, 0.5 to 30, as the requested sound: the room without wind, unless told otherwise. */
   calibrate(seconds = 3, ask: WindAsk = 'be still'): void {
     this.check(this.native.functions.wisp_wind_calibrate_for!(this.pointer, windAsks.indexOf(ask), seconds));
   }
@@ -138,7 +138,7 @@ export class WindLevel {
     return this.native.functions.wisp_wind_calibrating!(this.pointer) === 1;
   }
 
-  /** Whether the last calibration is over and heard what it asked for. */
+  /** Whether the last calibration is over and heard the requested sound. */
   get calibrated(): boolean {
     return this.native.functions.wisp_wind_calibrated!(this.pointer) === 1;
   }

@@ -34,7 +34,7 @@ export type WindMessage =
   | {
       type: 'calibrated';
       known: NonNullable<WindProcessorOptions['calibration']>;
-      /** Whether what was asked for was heard. */
+      /** Whether the requested sound was heard. */
       heard: boolean;
     }
   | { type: 'failed'; message: string };

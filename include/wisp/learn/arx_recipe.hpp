@@ -1,5 +1,5 @@
 #pragma once
-// What is asked for when one ARX model, or several that take turns, is learned. What a recipe leaves open
+// How one ARX model, or several that take turns, is learned. What a recipe leaves open
 // (std::nullopt) the recordings decide, and the report says what they decided.
 //
 // Orders and signs: docs/explanation/identification.md.

@@ -108,18 +108,21 @@ double jumps_of(const std::vector<Shape>& shapes, double height) {
   return steps == 0 ? 0 : static_cast<double>(jumps) / static_cast<double>(steps);
 }
 
+// Shares of rows in which the curve reaches a border, but for the border on which both of its ends lie: there the
+// picture cuts off what holds it, as a flag's mast.
 std::array<double, 4> border_of(const std::vector<Shape>& shapes, int width, int height) {
   constexpr double kNear = 1.5;  // pixels
   std::array<double, 4> out{};
   for (const Shape& shape : shapes) {
-    std::array<bool, 4> at{};
-    for (const CurvePoint& p : shape.curve) {
-      at[0] = at[0] || p.x < kNear;
-      at[1] = at[1] || p.y < kNear;
-      at[2] = at[2] || p.x > width - 1 - kNear;
-      at[3] = at[3] || p.y > height - 1 - kNear;
+    const auto at = [&](const CurvePoint& p) -> std::array<bool, 4> {
+      return {p.x<kNear, p.y<kNear, p.x> width - 1 - kNear, p.y> height - 1 - kNear};
+    };
+    const auto first = at(shape.curve.front()), last = at(shape.curve.back());
+    for (std::size_t k = 0; k < 4; ++k) {
+      const bool attached = first[k] && last[k];
+      const bool reached = std::any_of(shape.curve.begin(), shape.curve.end(), [&](const auto& p) { return at(p)[k]; });
+      if (reached && !attached) out[k] += 1 / static_cast<double>(shapes.size());
     }
-    for (std::size_t k = 0; k < 4; ++k) out[k] += at[k] / static_cast<double>(shapes.size());
   }
   return out;
 }
