@@ -1,12 +1,16 @@
 // Whoever blows hard puts the candle out, at once and first thing; whoever breathes, talks or plays music does not.
 //
-// Every recording of breath is replayed behind a second of a quiet room that the estimator was told of, and what it
-// makes of them is put to the rule of the candles that the page ships: a wind of 1.27 for 0.3 s.
+// Every recording of breath is replayed behind three seconds of a quiet room that the estimator was told of, and what
+// it makes of them blows on the candle that the page ships.
 
 #include <map>
 
+#include "studies/value_or_abort.hpp"
 #include "studies/wind/blowing_sounds.hpp"
 #include "studies/wind/verify_wind.hpp"
+#include "wisp/model/file.hpp"
+#include "wisp/run/bank.hpp"
+#include "wisp/run/extinction_facet.hpp"
 #include "wisp/sound/wind_level.hpp"
 
 namespace wisp::verify {
@@ -17,22 +21,29 @@ using sounds::Samples;
 constexpr double kFrames = 60;
 constexpr double kRoom = 3;  ///< seconds of calibration before anything is heard
 
-/// The rule of model/extinction.hpp, with the numbers of the shipped candles.
+/// The candle that the page ships.
 class Candle {
  public:
+  Candle() : bank_(shipped()), id_(bank_.spawn()) {}
+
   /// Takes a frame's wind; returns whether the candle has just gone out. It is lit again at once.
-  bool step(double wind) {
-    constexpr double kLevel = 1.27, kSeconds = 0.3, kHaste = 2, kRecovery = 0.3, kMost = 3 * kLevel;
-    const double w = std::min(wind, kMost);
-    harm_ += w >= kLevel ? (1 + kHaste * (w / kLevel - 1)) / kSeconds / kFrames : -1 / kRecovery / kFrames;
-    harm_ = std::max(harm_, 0.0);
-    if (harm_ < 1) return false;
-    harm_ = 0;
+  bool step(float wind) {
+    bank_.set_common_inputs({&wind, 1});
+    bank_.step();
+    if (bank_.extinction()->state_of(id_)->lit) return false;
+    bank_.extinction()->relight(id_);
     return true;
   }
 
  private:
-  double harm_ = 0;
+  static Bank shipped() {
+    static const Model model =
+        value_or_abort(read_model(std::filesystem::path(WISP_SOURCE_DIR) / "apps/web/public/models/flame-4.wisp"));
+    return value_or_abort(Bank::create(model));
+  }
+
+  Bank bank_;
+  InstanceId id_;
 };
 
 struct Heard {
@@ -56,7 +67,7 @@ Heard play(const Samples& sound, const Samples& steady = {}) {
   Candle candle;
   for (std::size_t k = static_cast<std::size_t>(kRoom * kFrames); k < frames.size(); ++k) {
     const double wind = static_cast<double>(frames[k].wind);
-    if (candle.step(wind)) heard.out.push_back(static_cast<double>(k + 1) / kFrames - kRoom);
+    if (candle.step(frames[k].wind)) heard.out.push_back(static_cast<double>(k + 1) / kFrames - kRoom);
     heard.wind += wind > 0.1 ? 1 : 0;
     heard.most = std::max(heard.most, wind);
   }
