@@ -9,6 +9,7 @@
 #include "studies/wind/blowing_sounds.hpp"
 #include "studies/wind/verify_wind.hpp"
 #include "wisp/model/file.hpp"
+#include "wisp/record/wav.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/extinction_facet.hpp"
 #include "wisp/sound/wind_level.hpp"
@@ -242,6 +243,23 @@ void others(Bounds& bounds) {
 }
 
 }  // namespace
+
+void write_blows(const std::filesystem::path& path) {
+  constexpr double kFirst = 3.5, kApart = 4;
+  const std::vector<KnownSound> all = blows();
+  const double seconds = kFirst + kApart * static_cast<double>(all.size());
+  Samples sound = sounds::room(seconds, kSoundRate, 3e-4);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    constexpr double kRms[] = {0.1, 0.2, 0.35, 0.6};
+    const double at = kFirst + kApart * static_cast<double>(k);
+    sounds::add(sound, at_rms(all[k].samples, kRms[k % 4]), at, kSoundRate);
+    std::printf("%g %g %s\n", at, kRms[k % 4], all[k].from.c_str());
+  }
+  WavSound file;
+  file.format = {.rate_hz = kSoundRate, .channels = 1};
+  file.samples.assign(sound.begin(), sound.end());
+  if (auto ok = write_wav(path, file); !ok) std::printf("%s\n", ok.error().message.c_str());
+}
 
 void blowing(Bounds& bounds) {
   if (blows().empty()) {
