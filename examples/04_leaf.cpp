@@ -1,5 +1,5 @@
-// Learns how a leaf falls from simulated falls, calm and in gusts, and plays one that a gust hits: one line a frame,
-// seconds and place in metres.
+// Learns how a leaf falls from simulated falls, calm and in gusts, and plays two that fall alike until a gust hits one:
+// one line a frame, seconds, x and height of that one, and of the other, in metres.
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -24,16 +24,16 @@ int main() {
   if (!fit) return fail(fit.error());
   std::cout << fit->report;
 
-  auto bank = wisp::Bank::create(fit->model);
+  auto bank = wisp::Bank::create(fit->model, {.capacity = 2});
   if (!bank) return fail(bank.error());
-  const wisp::InstanceId leaf = bank->spawn();
-  std::vector<float> wind(static_cast<std::size_t>(bank->input_count()));   // wind.x, wind.y, wind.z
-  std::vector<float> pose(static_cast<std::size_t>(bank->output_count()));  // pos.x, pos.y, pos.z, q.w, q.x, q.y, q.z
+  const wisp::InstanceId blown = bank->spawn(1);
+  bank->spawn(1);                            // of the same stream: they fall alike
+  std::vector<float> wind(3), poses(2 * 7);  // x, y, z; of each leaf pos.x, pos.y, pos.z, q.w, q.x, q.y, q.z
   for (int frame = 0; frame < 180; ++frame) {
     wind[0] = frame > 60 && frame < 90 ? 2.0F : 0.0F;  // m/s, half a second of it
-    bank->set_common_inputs(wind);
+    bank->set_inputs(blown, wind);
     bank->advance(std::chrono::nanoseconds(16'666'667));
-    bank->outputs(leaf, pose);
-    std::printf("%.3f %.3f %.3f %.3f\n", frame / 60.0, pose[0], pose[1], pose[2]);
+    bank->outputs(poses);
+    std::printf("%.3f %.3f %.3f %.3f %.3f\n", frame / 60.0, poses[0], poses[2], poses[7], poses[9]);
   }
 }

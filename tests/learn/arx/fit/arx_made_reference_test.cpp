@@ -96,7 +96,9 @@ TEST_P(ArxMadeReference, CoefficientsStandardErrorsAndLossAgree) {
     expect_near(fit.model.std_error[i], row["std_error"].numbers(), tolerance);
     EXPECT_NEAR(fit.summary.loss[i] / row["V"].number, 1, tolerance);
     EXPECT_NEAR(fit.summary.row_fpe[i] / row["fpe"].number, 1, tolerance);
-    EXPECT_NEAR(fit.summary.condition[i] / row["condition"].number, 1, tolerance);
+    // Where normal equations are solved, it is that of their triangle, which knows it to rounding times its square.
+    const double square = row["condition"].number * row["condition"].number;
+    EXPECT_NEAR(fit.summary.condition[i] / row["condition"].number, 1, 1e-13 + 2.2e-16 * square);
     EXPECT_EQ(fit.summary.samples_used, static_cast<std::size_t>(row["n"].number));
   }
 }
@@ -136,7 +138,9 @@ TEST_P(ArxMadeReference, StepResponseAndRadiusAgree) {
   const ArxFit fit = fit_of(recording_of(want()), want());
   expect_near(step_response(fit.model, 0, 0, 40).value, want()["step"].numbers(),
               1e3 * rounding(want()["estimates"][0]["condition"].number));
-  EXPECT_NEAR(fit.summary.stable.radius, want()["radius"].number, 1e-5);  // rounded to single precision
+  // Coefficients are rounded to single precision, 6e-8, for it, and roots that lie together move by a thousand times
+  // that.
+  EXPECT_NEAR(fit.summary.stable.radius, want()["radius"].number, 6e-5);
 }
 
 TEST(ArxMadeReference, AGridOfOrdersAgreesInAllRows) {
@@ -158,8 +162,13 @@ TEST(ArxMadeReference, AGridOfOrdersAgreesInAllRows) {
     EXPECT_NEAR(got->fpe / row[4], 1, 1e-10);
     EXPECT_NEAR(got->loss_validation[0] / row[5], 1, 1e-10);
   }
-  const OrderCandidate& best = search->candidates[search->best];
-  EXPECT_EQ(best.nk, 3) << "the delay that the set was made with";
+  const auto& grid = reference()["grid"].items;
+  const auto best = std::min_element(grid.begin(), grid.end(), [](const Json& a, const Json& b) {
+                      return a[5].number < b[5].number;
+                    })->numbers();
+  const OrderCandidate& got = search->candidates[search->best];
+  EXPECT_EQ((std::vector<double>{1.0 * got.na, 1.0 * got.nb, 1.0 * got.nk}),
+            (std::vector<double>(best.begin(), best.begin() + 3)));
 }
 
 }  // namespace
