@@ -18,7 +18,7 @@ constexpr std::size_t kLeastTracked = 10;
 constexpr std::size_t kLeastHeld = 8;
 constexpr int kLeastEdgePoints = 128;
 constexpr int kEdgePointsEach = 12;    // to a control point: more do not make it steadier, as their errors go together
-constexpr std::size_t kSurveyed = 12;  // held frames that are surveyed
+constexpr std::size_t kSurveyed = 20;  // held frames that are surveyed
 constexpr std::size_t kSamples = 6;    // … and in which outlines are tried
 
 // What is no flame yet: flames move by 0.05 and more within a second, lit walls and lamps by 0.015 at most.

@@ -10,7 +10,7 @@
 namespace wisp {
 namespace {
 
-constexpr int kGrid = 240;             // points of the coarse grid, wide and high: enough to tell regions apart
+constexpr int kGrid = 320;             // points of the coarse grid, wide and high: enough to tell regions apart
 constexpr int kFineGrid = 160;         // … and of the one around a flame
 constexpr int kLevelStep = 18;         // levels that are tried, 255ths
 constexpr int kHighestLevel = 225;     // above it, where a camera clips, a level cuts through the flame

@@ -7,7 +7,6 @@
 #include "draw/cairo.hpp"
 #include "wisp/draw/flame.hpp"
 #include "wisp/draw/overlay.hpp"
-#include "wisp/model/bspline.hpp"
 #include "wisp/model/model.hpp"
 
 namespace wisp {
@@ -21,20 +20,12 @@ constexpr Colour kShape{176, 184, 192, 255};
 constexpr Colour kEdge{236, 240, 244, 255};
 constexpr float kNarrower = 0.8F;  // of its width at two fifths of its height, near its tip
 
-// The outline in the middle of its range, as a polyline in the model's units.
-std::vector<Point> middle_outline(const Model& model, const OutlineView& view) {
-  constexpr int kPoints = 64;
+// The control polygon in the middle of its range, in the model's units.
+std::vector<Point> middle_polygon(const Model& model) {
   std::vector<Point> out;
-  for (int k = 0; k < kPoints; ++k) {
-    const BasisWeights weights = basis(view.knots, static_cast<double>(k) / (kPoints - 1));
-    double x = 0, y = 0;
-    for (std::size_t r = 0; r < 4; ++r) {
-      const std::size_t control = 2 * (static_cast<std::size_t>(weights.first) + r);
-      const Output &across = model.outputs[control], &up = model.outputs[control + 1];
-      x += weights.weight[r] * 0.5 * (across.lowest + across.highest);
-      y += weights.weight[r] * 0.5 * (up.lowest + up.highest);
-    }
-    out.push_back({static_cast<float>(x), static_cast<float>(y)});
+  const auto middle = [](const Output& output) { return static_cast<float>(0.5 * (output.lowest + output.highest)); };
+  for (std::size_t k = 0; k + 1 < model.outputs.size(); k += 2) {
+    out.push_back({middle(model.outputs[k]), middle(model.outputs[k + 1])});
   }
   return out;
 }
@@ -63,10 +54,9 @@ void fill(Image& image, const std::vector<Point>& pixels) {
 }  // namespace
 
 bool is_flame(const Model& model) {
-  const auto* view = std::get_if<OutlineView>(&model.view);
-  if (view == nullptr) return false;
+  if (!std::holds_alternative<OutlineView>(model.view) || model.outputs.empty()) return false;
   if (model.extinction) return true;
-  const std::vector<Point> outline = middle_outline(model, *view);
+  const std::vector<Point> outline = middle_polygon(model);
   const auto farther = [](Point a, Point b) { return std::hypot(a.x, a.y) < std::hypot(b.x, b.y); };
   const Point tip = *std::max_element(outline.begin(), outline.end(), farther);
   const bool stands = tip.y > std::abs(tip.x) && outline.front().x < outline.back().x;

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <vector>
 
 #include "wisp/draw/flame.hpp"
-#include "wisp/model/bspline.hpp"
 #include "wisp/model/model.hpp"
 
 namespace wisp {
@@ -12,7 +12,7 @@ namespace {
 // An outline model whose control points lie there, in the middle of their ranges.
 Model outline_of(const std::vector<std::array<double, 2>>& points) {
   Model model;
-  model.view = OutlineView{.knots = uniform_knots(static_cast<int>(points.size()))};
+  model.view = OutlineView{};
   for (const auto& point : points) {
     for (const double value : point) model.outputs.push_back({"p", "", value - 0.1, value + 0.1});
   }
