@@ -9,6 +9,7 @@
 #include "learn/arx/report/report_values.hpp"
 #include "learn/arx/report/response_report.hpp"
 #include "learn/arx/search/order_search.hpp"
+#include "learn/arx/simulation/focus.hpp"
 #include "wisp/record/number_text.hpp"
 
 namespace wisp {
@@ -145,9 +146,13 @@ Result<Fit> learn_arx(std::span<const Recording> recordings, const ArxRecipe& re
   if (auto ok = arx::check_progress(progress, "fitting", 0); !ok) return ok.error();
   ArxOptions options = arx::fit_options(recipe, orders->orders);
   options.first_sample = orders->first_sample;
-  const auto fitted = fit_arx(seen, channels, options);
-  if (!fitted) return fitted.error();
+  auto plain = fit_arx(seen, channels, options);
+  if (!plain) return plain.error();
+  const auto focused = arx::focus_fit(seen, channels, options, std::move(*plain), recipe.focus, progress);
+  if (!focused) return focused.error();
+  const ArxFit* const fitted = &focused->fit;
   Fit fit = arx::finish(*fitted, recipe, channels, *sources);
+  if (recipe.focus != ArxFocus::kPrediction) arx::add_focus(*focused, channels.outputs, fit.report);
   fit.report.append(std::move(chosen));
   if (auto ok = arx::check_progress(progress, "testing residuals", 0); !ok) return ok.error();
   const auto tests = test_residuals(fitted->model, seen, channels, {.lags = arx::kTestLags, .learned_from_it = true});
