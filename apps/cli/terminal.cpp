@@ -84,7 +84,10 @@ void Terminal::fail(std::string_view message) {
   clear_bar();
   std::fprintf(stderr, "wisp: %.*s\n", static_cast<int>(message.size()), message.data());
   if (!options_.json) return;
-  const Json failure = {{"error", std::string(message)}};
+  // What was found before the failure stays: an unstable model is not written, and its report says why.
+  Json failure = result_;
+  if (failure["warnings"].empty()) failure.erase("warnings");
+  failure["error"] = std::string(message);
   std::fprintf(stdout, "%s\n", failure.dump(1, ' ', false, Json::error_handler_t::replace).c_str());
 }
 

@@ -18,8 +18,8 @@ namespace wisp::arx {
 /// fit's, with the names of its channels.
 void add_fit(const ArxFit& fit, const Model& model, Report& report);
 
-/// All candidates, the best, and the best of every output on its own.
-void add_search(const OrderSearch& search, const std::vector<std::string>& outputs, Report& report);
+/// All candidates, the best with its runners-up by the criterion, and the best of every output on its own.
+void add_search(const OrderSearch& search, const std::vector<std::string>& outputs, OrderCriterion by, Report& report);
 
 /// Whether the model was refined for free simulation, and how held-out free runs judged that.
 void add_focus(const FocusedFit& focused, const std::vector<std::string>& outputs, Report& report);

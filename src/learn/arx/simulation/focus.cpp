@@ -19,12 +19,17 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t kMaxHeldOutRows = 8192;  // more rows hardly tell more of which way is best
-constexpr std::size_t kMaxTerms = 400;         // of outputs that are refined together
+constexpr std::size_t kMaxHeldOutRows = 8192;   // more rows hardly tell more of which way is best
+constexpr std::size_t kMaxTerms = 120;          // coefficients that are refined together
+constexpr std::size_t kMaxTriedTerms = 24;      // of which every way is tried
+constexpr double kFewWeights[] = {10, 1, 0.1};  // tried for more
+constexpr int kFewSteps = 15;
+constexpr double kFewTolerance = 1e-3;
 constexpr double kAsGood = 1.05;               // a root mean square within this factor of the least is as good
 constexpr double kSure = 1.5;                  // standard errors by which parts must be better than least squares'
 constexpr int kMaxBatches = 64;
 constexpr std::size_t kMinBatchRows = 10;
+constexpr int kMaxPolishing = 5;  // steps over all rows, from what some of them say
 
 // What is asked for.
 struct Subject {
@@ -42,6 +47,7 @@ struct Unit {
   bool decoupled = false;  // taken out of a block of several
   std::vector<FocusCandidate> candidates{};
   MatrixXd squares{};  // a row a candidate, a column a part of a fold: both kinds of starts together
+  double size = 0;     // of the outputs themselves, summed over folds
   std::size_t picked = 0;
 
   double mean_square(std::size_t candidate) const { return squares.row(Index(candidate)).mean(); }
@@ -125,32 +131,46 @@ VectorXd least_squares(const Subject& subject, const Learned& learned, const Uni
   return Eigen::Map<const VectorXd>(theta.data(), Index(theta.size()));
 }
 
-bool refinable(const SimulationBlock& block) { return block.refinable() && block.terms().size() <= kMaxTerms; }
+// How thoroughly a block is worked on: one of many coefficients costs much more.
+std::span<const double> weights_for(const SimulationBlock& block) {
+  if (!block.refinable() || block.terms().size() > kMaxTerms) return {};
+  if (block.terms().size() > kMaxTriedTerms) return kFewWeights;
+  return kOneStepWeights;
+}
 
 std::vector<Refined> refine_unit(const Subject& subject, const Learned& learned, const Unit& unit,
                                  const SimulationBlock& block, std::span<const double> weights) {
   const VectorXd squares = least_squares(subject, learned, unit);
   const OneStepLoss loss = one_step_loss(learned.signals, block, learned.model_of(unit).orders, subject.options.offset,
                                          subject.first_sample());
-  std::vector<VectorXd> starts = other_starts(block, squares);
+  const bool few = block.terms().size() > kMaxTriedTerms;
+  std::vector<VectorXd> starts;
+  if (!few) starts = other_starts(block, squares);
   starts.insert(starts.begin(), squares);
-  return refined_path(block, loss, starts, weights, [&] { return go_on(subject.progress, "refining", -1); });
+  RefineOptions options;
+  if (few) options.steps = kFewSteps, options.tolerance = kFewTolerance;
+  options.go_on = [&] { return go_on(subject.progress, "refining", -1); };
+  return refined_path(block, loss, starts, weights, options);
 }
 
 // Adds what a fold says of every way to go.
 void judge_unit(const Subject& subject, const Learned& learned, const Signals& held_out, Unit& unit) {
   const SimulationBlock seen = simulation_of(subject, learned.signals, learned, unit);
   const SimulationBlock unseen = simulation_of(subject, held_out, learned, unit);
-  if (!refinable(seen) || unseen.runs().empty() || !(unseen.weight().array() > 0).all()) return;
+  if (unseen.runs().empty() || !(unseen.weight().array() > 0).all()) return;
   std::vector<VectorXd> ways{least_squares(subject, learned, unit)};
-  for (Refined& one : refine_unit(subject, learned, unit, seen, kOneStepWeights)) {
-    ways.push_back(std::move(one.simulation.theta));
+  const auto weights = weights_for(seen);
+  if (!weights.empty()) {
+    for (Refined& one : refine_unit(subject, learned, unit, seen, weights)) {
+      ways.push_back(std::move(one.simulation.theta));
+    }
   }
   if (unit.candidates.empty()) {
     unit.candidates.push_back({.decoupled = unit.decoupled});
-    for (double weight : kOneStepWeights) unit.candidates.push_back({weight, unit.decoupled});
+    for (double weight : weights) unit.candidates.push_back({weight, unit.decoupled});
     unit.squares.resize(Index(ways.size()), 0);
   }
+  if (unit.candidates.size() != ways.size()) return;
   const Index before = unit.squares.cols();
   unit.squares.conservativeResize(Eigen::NoChange, before + kParts);
   for (std::size_t w = 0; w < ways.size(); ++w) {
@@ -158,12 +178,14 @@ void judge_unit(const Subject& subject, const Learned& learned, const Signals& h
     unit.squares.row(Index(w)).tail(kParts) = (errors.estimated + errors.measured).transpose();
     unit.candidates[w].estimated_error += errors.estimated.mean();
     unit.candidates[w].measured_error += errors.measured.mean();
+    if (w == 0) unit.size += errors.size;
   }
 }
 
 Result<void> judge_folds(const Subject& subject, std::vector<Block>& blocks) {
   const bool several = std::any_of(blocks.begin(), blocks.end(), [](const Block& one) { return !one.apart.empty(); });
-  for (const Fold& fold : folds_of(subject.recordings, kMaxHeldOutRows)) {
+  const std::vector<Recording> some = middles_of(subject.recordings, kMaxHeldOutRows);
+  for (const Fold& fold : folds_of(some)) {
     const auto learned = learn_rows(subject, fold.learned, several);
     auto held_out = find_signals(fold.held_out, subject.channels);
     if (!learned || !held_out) continue;  // too few rows to hold some out
@@ -189,7 +211,7 @@ double sureness(const MatrixXd& squares, std::size_t one, const MatrixXd& others
 
 // Of all that are as good as the best the one that is nearest to least squares.
 void pick(Unit& unit, ArxFocus focus) {
-  const std::size_t first = focus == ArxFocus::kSimulation ? 1 : 0;
+  const std::size_t first = focus == ArxFocus::kSimulation && unit.candidates.size() > 1 ? 1 : 0;
   std::size_t best = first;
   for (std::size_t w = first; w < unit.candidates.size(); ++w) {
     if (unit.mean_square(w) < unit.mean_square(best)) best = w;
@@ -209,10 +231,7 @@ void pick(Block& block, ArxFocus focus) {
     const MatrixXd own = unit.squares.row(Index(unit.picked)) / static_cast<double>(block.apart.size());
     apart = apart.size() == 0 ? own : MatrixXd(apart + own);
   }
-  if (block.together.candidates.empty() || apart.cols() != block.together.squares.cols()) {
-    block.decoupled = block.together.candidates.empty();
-    return;
-  }
+  if (block.together.candidates.empty() || apart.cols() != block.together.squares.cols()) return;
   block.decoupled = apart.mean() * kAsGood * kAsGood < block.together.mean_square(block.together.picked) &&
                     sureness(apart, 0, block.together.squares, 0) >= kSure;
 }
@@ -231,13 +250,32 @@ MatrixXd covariance_of(const SimulationBlock& block, const OneStepLoss& loss, co
   return solver.solve(solver.solve(scatter).transpose());
 }
 
+// The best for all rows: of many, from what is best for some of them.
+Refined best_of(const Subject& subject, const Learned& learned, const Unit& unit, const SimulationBlock& block,
+                const OneStepLoss& loss) {
+  const double weight = *unit.candidates[unit.picked].one_step_weight;
+  const std::vector<Recording> some = middles_of(subject.recordings, kMaxHeldOutRows);
+  if (learned.coupled.summary.samples_used <= kMaxHeldOutRows) {
+    return refine_unit(subject, learned, unit, block, {&weight, 1}).front();
+  }
+  Learned part{*find_signals(some, subject.channels), learned.coupled, learned.decoupled};
+  part.signals.offset = learned.signals.offset;
+  part.signals.scale = learned.signals.scale;
+  const SimulationBlock few = simulation_of(subject, part.signals, part, unit);
+  const Refined start = refine_unit(subject, part, unit, few, {&weight, 1}).front();
+  return refine(block, loss, start.simulation.theta,
+                {.one_step_weight = start.one_step_weight,
+                 .steps = kMaxPolishing,
+                 .tolerance = 1e-4,
+                 .go_on = [&] { return go_on(subject.progress, "refining", -1); }});
+}
+
 // The rows of one unit, refined on all rows as far as was chosen.
 void give_refined(const Subject& subject, const Learned& learned, const Unit& unit, std::vector<GivenRow>& rows) {
   const SimulationBlock block = simulation_of(subject, learned.signals, learned, unit);
-  const double weight = *unit.candidates[unit.picked].one_step_weight;
-  const Refined best = refine_unit(subject, learned, unit, block, {&weight, 1}).front();
   const OneStepLoss loss = one_step_loss(learned.signals, block, learned.model_of(unit).orders, subject.options.offset,
                                          subject.first_sample());
+  const Refined best = best_of(subject, learned, unit, block, loss);
   const MatrixXd covariance = covariance_of(block, loss, best, learned.coupled.summary.samples_used);
   Index at = 0;
   for (int output : unit.outputs) {
@@ -252,10 +290,9 @@ std::vector<FocusChoice> choices_of(std::vector<Block>& blocks) {
   for (Block& block : blocks) {
     for (const Unit* unit : block.chosen()) {
       FocusChoice& choice = choices.emplace_back(FocusChoice{unit->outputs, unit->picked, unit->candidates});
-      const double folds = static_cast<double>(unit->squares.cols() / kParts);
       for (FocusCandidate& one : choice.candidates) {
-        one.estimated_error = std::sqrt(one.estimated_error / folds);
-        one.measured_error = std::sqrt(one.measured_error / folds);
+        one.estimated_error = std::sqrt(one.estimated_error / unit->size);
+        one.measured_error = std::sqrt(one.measured_error / unit->size);
       }
     }
   }

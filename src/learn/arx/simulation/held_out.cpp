@@ -22,13 +22,12 @@ class PartSums {
  public:
   explicit PartSums(const SimulationBlock& block) : sum_(VectorXd::Zero(kParts)), rows_(sum_) {
     for (const BlockRun& run : block.runs()) total_ += run.rows;
-    variance_ = static_cast<double>(total_) * block.weight();
   }
 
-  void add(Index row, Index output, double error) {
+  void add(Index row, double error) {
     const double size = std::isnan(error) ? kMaxError : std::min(std::abs(error), kMaxError);
     const Index part = row * kParts / total_;
-    sum_[part] += size * size * variance_[output];
+    sum_[part] += size * size;
     ++rows_[part];
   }
 
@@ -43,7 +42,6 @@ class PartSums {
   VectorXd sum_;
   VectorXd rows_;
   Index total_ = 0;
-  VectorXd variance_;
 };
 
 bool past_is_measured(const SimulationBlock& block, const BlockRun& run, Index row) {
@@ -64,7 +62,7 @@ void add_measured_starts(const SimulationBlock& block, const VectorXd& theta, co
     for (int o = 0; o < block.size(); ++o) {
       for (Index t = begin; t < history + run.rows; ++t) {
         if (std::isnan(run.outputs(t, o))) continue;
-        sums.add(before + t - history, o, run.outputs(t, o) - simulated(t, o));
+        sums.add(before + t - history, run.outputs(t, o) - simulated(t, o));
       }
     }
   }
@@ -72,21 +70,30 @@ void add_measured_starts(const SimulationBlock& block, const VectorXd& theta, co
 
 }  // namespace
 
-std::vector<Fold> folds_of(std::span<const Recording> recordings, std::size_t max_rows) {
+std::vector<Recording> middles_of(std::span<const Recording> recordings, std::size_t max_rows) {
   std::size_t total = 0;
   for (const Recording& one : recordings) total += one.rows();
-  const double share = std::min(1.0, static_cast<double>(max_rows) / static_cast<double>(std::max<std::size_t>(total, 1)));
+  std::vector<Recording> middles;
+  for (const Recording& one : recordings) {
+    const double share = total > max_rows ? static_cast<double>(max_rows) / static_cast<double>(total) : 1;
+    const auto rows = static_cast<std::size_t>(share * static_cast<double>(one.rows()));
+    const std::size_t skipped = (one.rows() - rows) / 2;
+    middles.push_back(slice(one, skipped, skipped + rows));
+  }
+  return middles;
+}
+
+std::vector<Fold> folds_of(std::span<const Recording> recordings) {
   std::vector<Fold> folds;
   for (const auto& [first, last] : {std::pair{0.7, 1.0}, {0.35, 0.65}, {0.0, 0.3}}) {
     Fold& fold = folds.emplace_back();
     for (const Recording& one : recordings) {
-      const double rows = share * static_cast<double>(one.rows());
-      const auto skipped = (one.rows() - static_cast<std::size_t>(rows)) / 2;
-      const auto at = [&](double place) { return skipped + static_cast<std::size_t>(std::lround(place * rows)); };
-      const auto end = std::min(one.rows(), at(1));
-      if (at(first) > skipped) fold.learned.push_back(slice(one, skipped, at(first)));
-      fold.held_out.push_back(slice(one, at(first), std::min(end, at(last))));
-      if (at(last) < end) fold.learned.push_back(slice(one, at(last), end));
+      const auto at = [&](double place) {
+        return static_cast<std::size_t>(std::lround(place * static_cast<double>(one.rows())));
+      };
+      if (at(first) > 0) fold.learned.push_back(slice(one, 0, at(first)));
+      fold.held_out.push_back(slice(one, at(first), at(last)));
+      if (at(last) < one.rows()) fold.learned.push_back(slice(one, at(last), one.rows()));
     }
   }
   return folds;
@@ -101,14 +108,15 @@ HeldOutErrors held_out_errors(const SimulationBlock& block, const VectorXd& thet
     for (int o = 0; o < block.size(); ++o) {
       for (const RowRun& stretch : run.measured[o]) {
         for (auto t = static_cast<Index>(stretch.begin); t < static_cast<Index>(stretch.end); ++t) {
-          estimated.add(before + t - block.history(), o, simulation.error[r](t, o));
+          estimated.add(before + t - block.history(), simulation.error[r](t, o));
         }
       }
     }
     add_measured_starts(block, theta, run, before, measured);
     before += run.rows;
   }
-  return {estimated.means(), measured.means()};
+  const double size = block.weight().cwiseInverse().sum() / std::max(block.measured_rows(), 1.0);
+  return {estimated.means(), measured.means(), size};
 }
 
 }  // namespace wisp::arx

@@ -144,24 +144,29 @@ Refined refine(const SimulationBlock& block, const OneStepLoss& loss, const Vect
 
 std::vector<Refined> refined_path(const SimulationBlock& block, const OneStepLoss& loss,
                                   const std::vector<VectorXd>& starts, std::span<const double> weights,
-                                  const std::function<bool()>& go_on) {
+                                  const RefineOptions& options) {
   Refined free;
   free.value = std::numeric_limits<double>::infinity();
   for (const VectorXd& start : starts) {
-    Refined one = refine(block, loss, start, {.go_on = go_on});
+    Refined one = refine(block, loss, start, options);
     if (one.value < free.value) free = std::move(one);
   }
-  std::vector<Refined> path(weights.size());
   const double unit = free.value / static_cast<double>(block.size());  // of the error one step ahead
+  const auto refined_from = [&](const VectorXd& from, double weight) {
+    RefineOptions own = options;
+    own.one_step_weight = weight * unit;
+    return refine(block, loss, from, own);
+  };
+  std::vector<Refined> path(weights.size());
   VectorXd from = starts.front();
   for (std::size_t w = 0; w < weights.size(); ++w) {
-    path[w] = weights[w] > 0 ? refine(block, loss, from, {.one_step_weight = weights[w] * unit, .go_on = go_on}) : free;
+    path[w] = weights[w] > 0 ? refined_from(from, weights[w]) : free;
     from = path[w].simulation.theta;
   }
   from = free.simulation.theta;
   for (std::size_t w = weights.size(); w-- > 0;) {
     if (weights[w] == 0) continue;
-    Refined back = refine(block, loss, from, {.one_step_weight = weights[w] * unit, .go_on = go_on});
+    Refined back = refined_from(from, weights[w]);
     from = back.simulation.theta;
     if (back.value < path[w].value) path[w] = std::move(back);
   }

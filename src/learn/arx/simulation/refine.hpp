@@ -69,11 +69,11 @@ std::vector<Eigen::VectorXd> other_starts(const SimulationBlock& block, const Ei
 /// to simulation only.
 inline constexpr double kOneStepWeights[] = {30, 10, 3, 1, 0.3, 0.1, 0.03, 0.01, 0};
 
-/// The coefficients that are best for each of kOneStepWeights.
+/// The coefficients that are best for each weight, the largest first.
 ///
 /// Precondition: the block is refinable.
 std::vector<Refined> refined_path(const SimulationBlock& block, const OneStepLoss& loss,
                                   const std::vector<Eigen::VectorXd>& starts, std::span<const double> weights,
-                                  const std::function<bool()>& go_on);
+                                  const RefineOptions& options = {});
 
 }  // namespace wisp::arx
