@@ -41,7 +41,9 @@ class LearnArxCases : public InFolder {
 
   Said learn(const Recording& recording, const std::string& flags) {
     EXPECT_TRUE(write_csv(folder_ / "r.csv", recording));
-    return run_wisp("learn arx " + at("r.csv") + " -o " + at("m.wisp") + " --outputs place --focus prediction --json " + flags, folder_);
+    return run_wisp(
+        "learn arx " + at("r.csv") + " -o " + at("m.wisp") + " --outputs place --focus prediction --json " + flags,
+        folder_);
   }
 };
 

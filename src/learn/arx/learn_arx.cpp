@@ -28,7 +28,8 @@ std::string word_of(ArxOffset offset) {
 std::vector<Note> notes_of(const ArxRecipe& recipe, const ArxFit& fit, const Sources& sources) {
   const OrderMatrix& na = fit.model.orders.na;
   const bool apart = arx::coupled_outputs(na).size() == static_cast<std::size_t>(na.rows());
-  std::vector<Note> notes = order_notes(fit.model.orders, apart && na.rows() > 1 ? Coupling::kDiagonal : recipe.coupling);
+  std::vector<Note> notes =
+      order_notes(fit.model.orders, apart && na.rows() > 1 ? Coupling::kDiagonal : recipe.coupling);
   notes.push_back({"offset", word_of(recipe.offset)});
   if (recipe.ridge > 0) notes.push_back({"ridge", number_text(recipe.ridge, 6)});
   const std::size_t knots = sources.curves.empty() ? 0 : sources.curves.front().at.size();

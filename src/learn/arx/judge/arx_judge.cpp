@@ -30,8 +30,8 @@ void warn_of_free_run(const std::vector<std::string>& outputs, ArxSummary& summa
     const double free_run = summary.free_run_fit_percent[i];
     if (one_step < kPromise || free_run >= kKept) continue;
     summary.warnings.push_back("output '" + outputs[i] + "': one step ahead the fit is " + percent(one_step) +
-                               ", but free simulation from the input fits " + (free_run > -1000 ? "only " : "") + percent(free_run) +
-                               "; judge this model by simulation, and try other orders or delays");
+                               ", but free simulation from the input fits " + (free_run > -1000 ? "only " : "") +
+                               percent(free_run) + "; judge this model by simulation, and try other orders or delays");
     failing += (failing.empty() ? "'" : ", '") + outputs[i] + "'";
   }
   if (!failing.empty() && summary.stable.changed) {

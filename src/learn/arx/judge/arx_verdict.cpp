@@ -44,8 +44,8 @@ std::string acts_at_once(const VerdictEvidence& evidence) {
       const double own = std::abs(pair.correlation[pair.correlation.size() / 2]);
       if (own < kSameSample || own < kTimesBound * pair.bound) continue;
       return "input '" + evidence.channels.inputs[std::size_t(k)] + "' acts on '" +
-             evidence.channels.outputs[std::size_t(i)] + "' in the same sample (the residual's correlation with it is " +
-             number_text(own, 2) + "): try --nk 0";
+             evidence.channels.outputs[std::size_t(i)] +
+             "' in the same sample (the residual's correlation with it is " + number_text(own, 2) + "): try --nk 0";
     }
   }
   return "";

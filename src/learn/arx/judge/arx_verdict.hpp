@@ -1,6 +1,6 @@
 #pragma once
-// Whether an ARX model may be used, beyond that it is stable and determined: what it predicts or simulates, and from how
-// much.
+// Whether an ARX model may be used, beyond that it is stable and determined: what it predicts or simulates, and from
+// how much.
 
 #include <optional>
 #include <span>
@@ -34,8 +34,8 @@ std::vector<double> persistence_errors(std::span<const Recording> recordings, co
 struct VerdictEvidence {
   const ChannelChoice& channels;
   const ArxOrders& orders;
-  std::vector<double> persistence{};          ///< per output, or empty where unknown
-  const ResidualTests* least_squares{};       ///< residuals of least squares, or none
+  std::vector<double> persistence{};     ///< per output, or empty where unknown
+  const ResidualTests* least_squares{};  ///< residuals of least squares, or none
 };
 
 /// Turns a summary that is usable so far into one that is not, with the reason, where one of the limits above is not

@@ -165,22 +165,23 @@ void add_focus(const FocusedFit& focused, const std::vector<std::string>& output
   ReportSection& section = report.add("Focus");
   add(section, "focus.chosen", focused.refined ? "simulation" : "prediction", "focus", "", focused.reason);
   add(section, "focus.reason", focused.reason);
-  ReportTable table{"focus.outputs",
-                    focused.choices.empty() ? "" : "free runs over held-out rows, error as a share of the output's size",
-                    {{"outputs", "outputs"},
-                     {"chosen", "chosen"},
-                     {"error", "from fitted states", "%"},
-                     {"error_measured", "from measured ones", "%"},
-                     {"error_least_squares", "least squares, fitted", "%"},
-                     {"error_least_squares_measured", "measured", "%"}},
-                    {}};
+  ReportTable table{
+      "focus.outputs",
+      focused.choices.empty() ? "" : "free runs over held-out rows, error as a share of the output's size",
+      {{"outputs", "outputs"},
+       {"chosen", "chosen"},
+       {"error", "from fitted states", "%"},
+       {"error_measured", "from measured ones", "%"},
+       {"error_least_squares", "least squares, fitted", "%"},
+       {"error_least_squares_measured", "measured", "%"}},
+      {}};
   for (const FocusChoice& choice : focused.choices) {
     if (choice.candidates.empty()) continue;
     std::string names;
     for (int output : choice.outputs) names += (names.empty() ? "" : ", ") + outputs[std::size_t(output)];
     const FocusCandidate &own = choice.candidates[choice.chosen], &squares = choice.candidates.front();
-    std::string word = own.one_step_weight ? "simulation, one step weighs " + number_text(*own.one_step_weight, 3)
-                                           : "least squares";
+    std::string word =
+        own.one_step_weight ? "simulation, one step weighs " + number_text(*own.one_step_weight, 3) : "least squares";
     if (own.decoupled) word += ", on its own";
     table.rows.push_back({names, word, 100 * own.estimated_error, 100 * own.measured_error,
                           100 * squares.estimated_error, 100 * squares.measured_error});

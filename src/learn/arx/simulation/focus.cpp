@@ -19,17 +19,18 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t kMaxHeldOutRows = 8192;   // more rows hardly tell more of which way is best
+constexpr std::size_t kManyRows = 8192;         // more hardly tell more of which way is best:
+constexpr std::size_t kRowsOfMany = 4096;       // of them so many decide
 constexpr std::size_t kMaxTerms = 120;          // coefficients that are refined together
 constexpr std::size_t kMaxTriedTerms = 24;      // of which every way is tried
 constexpr double kFewWeights[] = {10, 1, 0.1};  // tried for more
 constexpr int kFewSteps = 15;
 constexpr double kFewTolerance = 1e-3;
-constexpr double kAsGood = 1.05;               // a root mean square within this factor of the least is as good
-constexpr double kSure = 1.5;                  // standard errors by which parts must be better than least squares'
+constexpr double kAsGood = 1.05;  // a root mean square within this factor of the least is as good
+constexpr double kSure = 1;       // standard errors by which parts must be better than least squares'
 constexpr int kMaxBatches = 64;
 constexpr std::size_t kMinBatchRows = 10;
-constexpr int kMaxPolishing = 5;  // steps over all rows, from what some of them say
+constexpr int kMaxPolishing = 2;  // steps over all rows, from what some of them say
 
 // What is asked for.
 struct Subject {
@@ -38,6 +39,12 @@ struct Subject {
   const ArxOptions& options;
   const Progress& progress;
 
+  bool many_rows() const {
+    std::size_t rows = 0;
+    for (const Recording& one : recordings) rows += one.rows();
+    return rows > kManyRows;
+  }
+  std::vector<Recording> some_rows() const { return middles_of(recordings, many_rows() ? kRowsOfMany : kManyRows); }
   int first_sample() const { return options.first_sample.value_or(options.orders.history()); }
 };
 
@@ -131,10 +138,14 @@ VectorXd least_squares(const Subject& subject, const Learned& learned, const Uni
   return Eigen::Map<const VectorXd>(theta.data(), Index(theta.size()));
 }
 
-// How thoroughly a block is worked on: one of many coefficients costs much more.
-std::span<const double> weights_for(const SimulationBlock& block) {
+// How thoroughly a block is worked on.
+bool is_expensive(const Subject& subject, const SimulationBlock& block) {
+  return subject.many_rows() || block.terms().size() > kMaxTriedTerms;
+}
+
+std::span<const double> weights_for(const Subject& subject, const SimulationBlock& block) {
   if (!block.refinable() || block.terms().size() > kMaxTerms) return {};
-  if (block.terms().size() > kMaxTriedTerms) return kFewWeights;
+  if (is_expensive(subject, block)) return kFewWeights;
   return kOneStepWeights;
 }
 
@@ -143,7 +154,7 @@ std::vector<Refined> refine_unit(const Subject& subject, const Learned& learned,
   const VectorXd squares = least_squares(subject, learned, unit);
   const OneStepLoss loss = one_step_loss(learned.signals, block, learned.model_of(unit).orders, subject.options.offset,
                                          subject.first_sample());
-  const bool few = block.terms().size() > kMaxTriedTerms;
+  const bool few = is_expensive(subject, block);
   std::vector<VectorXd> starts;
   if (!few) starts = other_starts(block, squares);
   starts.insert(starts.begin(), squares);
@@ -159,7 +170,7 @@ void judge_unit(const Subject& subject, const Learned& learned, const Signals& h
   const SimulationBlock unseen = simulation_of(subject, held_out, learned, unit);
   if (unseen.runs().empty() || !(unseen.weight().array() > 0).all()) return;
   std::vector<VectorXd> ways{least_squares(subject, learned, unit)};
-  const auto weights = weights_for(seen);
+  const auto weights = weights_for(subject, seen);
   if (!weights.empty()) {
     for (Refined& one : refine_unit(subject, learned, unit, seen, weights)) {
       ways.push_back(std::move(one.simulation.theta));
@@ -184,8 +195,7 @@ void judge_unit(const Subject& subject, const Learned& learned, const Signals& h
 
 Result<void> judge_folds(const Subject& subject, std::vector<Block>& blocks) {
   const bool several = std::any_of(blocks.begin(), blocks.end(), [](const Block& one) { return !one.apart.empty(); });
-  const std::vector<Recording> some = middles_of(subject.recordings, kMaxHeldOutRows);
-  for (const Fold& fold : folds_of(some)) {
+  for (const Fold& fold : folds_of(subject.some_rows())) {
     const auto learned = learn_rows(subject, fold.learned, several);
     auto held_out = find_signals(fold.held_out, subject.channels);
     if (!learned || !held_out) continue;  // too few rows to hold some out
@@ -209,16 +219,18 @@ double sureness(const MatrixXd& squares, std::size_t one, const MatrixXd& others
   return error > 0 ? mean / error : mean > 0 ? std::numeric_limits<double>::infinity() : 0;
 }
 
-// Of all that are as good as the best the one that is nearest to least squares.
+// The best; where least squares would do, of all that are as good the one that is nearest to it.
 void pick(Unit& unit, ArxFocus focus) {
   const std::size_t first = focus == ArxFocus::kSimulation && unit.candidates.size() > 1 ? 1 : 0;
   std::size_t best = first;
   for (std::size_t w = first; w < unit.candidates.size(); ++w) {
     if (unit.mean_square(w) < unit.mean_square(best)) best = w;
   }
-  unit.picked = first;
+  unit.picked = best;
+  if (first == 1) return;
+  unit.picked = 0;
   while (unit.mean_square(unit.picked) > kAsGood * kAsGood * unit.mean_square(best)) ++unit.picked;
-  if (first == 0 && unit.picked > 0 && sureness(unit.squares, unit.picked, unit.squares, 0) < kSure) unit.picked = 0;
+  if (unit.picked > 0 && sureness(unit.squares, unit.picked, unit.squares, 0) < kSure) unit.picked = 0;
 }
 
 void pick(Block& block, ArxFocus focus) {
@@ -254,20 +266,17 @@ MatrixXd covariance_of(const SimulationBlock& block, const OneStepLoss& loss, co
 Refined best_of(const Subject& subject, const Learned& learned, const Unit& unit, const SimulationBlock& block,
                 const OneStepLoss& loss) {
   const double weight = *unit.candidates[unit.picked].one_step_weight;
-  const std::vector<Recording> some = middles_of(subject.recordings, kMaxHeldOutRows);
-  if (learned.coupled.summary.samples_used <= kMaxHeldOutRows) {
-    return refine_unit(subject, learned, unit, block, {&weight, 1}).front();
-  }
+  if (!subject.many_rows()) return refine_unit(subject, learned, unit, block, {&weight, 1}).front();
+  const std::vector<Recording> some = subject.some_rows();
   Learned part{*find_signals(some, subject.channels), learned.coupled, learned.decoupled};
   part.signals.offset = learned.signals.offset;
   part.signals.scale = learned.signals.scale;
   const SimulationBlock few = simulation_of(subject, part.signals, part, unit);
   const Refined start = refine_unit(subject, part, unit, few, {&weight, 1}).front();
   return refine(block, loss, start.simulation.theta,
-                {.one_step_weight = start.one_step_weight,
-                 .steps = kMaxPolishing,
-                 .tolerance = 1e-4,
-                 .go_on = [&] { return go_on(subject.progress, "refining", -1); }});
+                {.one_step_weight = start.one_step_weight, .steps = kMaxPolishing, .tolerance = 1e-4, .go_on = [&] {
+                   return go_on(subject.progress, "refining", -1);
+                 }});
 }
 
 // The rows of one unit, refined on all rows as far as was chosen.
@@ -374,7 +383,7 @@ Result<FocusedFit> focus_fit(std::span<const Recording> recordings, const Channe
     }
   }
   out.choices = choices_of(blocks);
-  out.reason = !judged ? "too few rows to hold some out"
+  out.reason = !judged   ? "too few rows to hold some out"
                : changed ? "held-out free runs are surely better than with least squares"
                          : "held-out free runs are no better than with least squares";
   if (!changed) return out;

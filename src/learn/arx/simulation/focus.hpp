@@ -17,8 +17,8 @@ namespace wisp::arx {
 struct FocusCandidate {
   std::optional<double> one_step_weight{};  ///< of refined ones; none: least squares
   bool decoupled = false;                   ///< every output remembers itself only
-  double estimated_error = 0;               ///< root mean square, shares of the outputs' own, from the best initial state
-  double measured_error = 0;                ///< … from measured samples
+  double estimated_error = 0;  ///< root mean square, shares of the outputs' own, from the best initial state
+  double measured_error = 0;   ///< … from measured samples
 };
 
 /// What was chosen for outputs that feed each other.
@@ -36,9 +36,9 @@ struct FocusedFit {
 };
 
 /// `plain` refined as the focus says: with kAuto where held-out free runs are surely better for it, with kSimulation in
-/// any case as far as they say. `plain` itself where nothing is to be simulated (no inputs, no feedback), where the data
-/// cannot tell all coefficients, or where too few rows are there to hold some out.
-/// Errors: as fit_arx, kStopped. Precondition: `plain` is fit_arx() of the same arguments.
+/// any case as far as they say. `plain` itself where nothing is to be simulated (no inputs, no feedback), where the
+/// data cannot tell all coefficients, or where too few rows are there to hold some out. Errors: as fit_arx, kStopped.
+/// Precondition: `plain` is fit_arx() of the same arguments.
 Result<FocusedFit> focus_fit(std::span<const Recording> recordings, const ChannelChoice& channels,
                              const ArxOptions& options, ArxFit plain, ArxFocus focus, const Progress& progress);
 

@@ -195,7 +195,11 @@ std::span<const double> span_of(const MatrixXd& matrix, Index column, Index firs
 class RunProducts {
  public:
   RunProducts(const SimulationBlock& block, const Lanes& lanes)
-      : block_(block), lanes_(lanes), states_(state_columns(block)), with_state_(layout(true)), without_(layout(false)) {}
+      : block_(block),
+        lanes_(lanes),
+        states_(state_columns(block)),
+        with_state_(layout(true)),
+        without_(layout(false)) {}
 
   Index states() const { return Index(states_.size()); }
 

@@ -1,8 +1,8 @@
 #pragma once
 // The squared error of free simulation as a function of an ARX model's coefficients, with its Gauss–Newton model.
 //
-// Source: L. Ljung, System Identification (2nd ed.), sections 4.2 (output error), 10.2 (gradients by filtering), G. Golub
-// and V. Pereyra, Inverse Problems 19 (2003), for the elimination of the initial states (variable projection). An
+// Source: L. Ljung, System Identification (2nd ed.), sections 4.2 (output error), 10.2 (gradients by filtering), G.
+// Golub and V. Pereyra, Inverse Problems 19 (2003), for the elimination of the initial states (variable projection). An
 // initial state is given as shocks to the first rows of a stretch, which reach the same outputs and need no past.
 
 #include <Eigen/Core>

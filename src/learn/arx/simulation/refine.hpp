@@ -45,13 +45,13 @@ OneStepLoss one_step_loss(const Signals& signals, const SimulationBlock& block, 
 struct RefineOptions {
   double one_step_weight = 0;  ///< of OneStepLoss::value() beside the simulation's cost
   int steps = 60;
-  double tolerance = 1e-5;     ///< of the criterion, relative
-  std::function<bool()> go_on; ///< or none
+  double tolerance = 1e-5;      ///< of the criterion, relative
+  std::function<bool()> go_on;  ///< or none
 };
 
 struct Refined {
   BlockSimulation simulation;
-  double value = 0;  ///< of the criterion
+  double value = 0;            ///< of the criterion
   double one_step_weight = 0;  ///< in it
 };
 

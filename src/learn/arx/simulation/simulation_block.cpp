@@ -44,8 +44,7 @@ SimulationBlock::SimulationBlock(const Signals& signals, const ArxOrders& orders
       BlockTerm term{r, size() + inputs_, column.lag};
       if (column.channel >= signals.outputs) term.channel = size() + column.channel - signals.outputs;
       if (column.channel >= 0 && column.channel < signals.outputs) {
-        term.channel =
-            static_cast<int>(std::find(outputs_.begin(), outputs_.end(), column.channel) - outputs_.begin());
+        term.channel = static_cast<int>(std::find(outputs_.begin(), outputs_.end(), column.channel) - outputs_.begin());
         memory_[term.channel] = std::max(memory_[term.channel], column.lag);
       }
       terms_.push_back(term);

@@ -21,10 +21,10 @@ struct BlockTerm {
 
 /// Rows of one stretch without a gap in the inputs, `history` rows before them included: deviations in scaled units.
 struct BlockRun {
-  Eigen::Index rows = 0;                       ///< that are simulated
-  Eigen::MatrixXd outputs;                     ///< (history + rows) × outputs, NaN where not measured
-  Eigen::MatrixXd inputs;                      ///< (history + rows) × inputs
-  std::vector<std::vector<RowRun>> measured;   ///< per output, within this run's rows; `recording` is the run's place
+  Eigen::Index rows = 0;                      ///< that are simulated
+  Eigen::MatrixXd outputs;                    ///< (history + rows) × outputs, NaN where not measured
+  Eigen::MatrixXd inputs;                     ///< (history + rows) × inputs
+  std::vector<std::vector<RowRun>> measured;  ///< per output, within this run's rows; `recording` is the run's place
 };
 
 /// What a free simulation of one block needs, taken out of the recordings.

@@ -45,8 +45,8 @@ class FilteredRuns {
     Signals signals;
     RowPlan plan;
     for (const MatrixXd& one : series_) {
-      plan.runs.push_back({signals.samples.size(), static_cast<std::size_t>(block.history()),
-                           static_cast<std::size_t>(one.rows())});
+      plan.runs.push_back(
+          {signals.samples.size(), static_cast<std::size_t>(block.history()), static_cast<std::size_t>(one.rows())});
       auto& samples = signals.samples.emplace_back();
       for (Index c = 0; c < one.cols(); ++c) {
         samples.emplace_back(one.col(c).data(), static_cast<std::size_t>(one.rows()));

@@ -37,13 +37,11 @@ ReportVerdict verdict(const Recording& recording, const ArxRecipe& recipe) {
   return fit ? *fit->report.verdict : ReportVerdict{};
 }
 
-ArxRecipe driven(int order) {
-  return {.inputs = {"u"}, .outputs = {"y"}, .na = order, .nb = order};
-}
+ArxRecipe driven(int order) { return {.inputs = {"u"}, .outputs = {"y"}, .na = order, .nb = order}; }
 
 TEST(ArxVerdict, ASystemThatIsDrivenIsUsableAndSaysHowWellItSimulates) {
-  const auto said = verdict(made(1000, 1, [](double y, double, double u, double e) { return 0.8 * y + u + 0.1 * e; }),
-                            driven(1));
+  const auto said =
+      verdict(made(1000, 1, [](double y, double, double u, double e) { return 0.8 * y + u + 0.1 * e; }), driven(1));
   EXPECT_TRUE(said.usable);
   EXPECT_THAT(said.reason, HasSubstr("free simulation fits 9"));
 }
@@ -83,9 +81,8 @@ TEST(ArxVerdict, TenRowsAreTooFew) {
 }
 
 TEST(ArxVerdict, AnInputThatActsAtOnceIsToldOf) {
-  const Recording direct = made(1000, 6, [](double y, double u, double before, double e) {
-    return 0.5 * y + u + 2 * before + 0.1 * e;
-  });
+  const Recording direct =
+      made(1000, 6, [](double y, double u, double before, double e) { return 0.5 * y + u + 2 * before + 0.1 * e; });
   const auto said = verdict(direct, driven(2));
   EXPECT_FALSE(said.usable);
   EXPECT_THAT(said.reason, HasSubstr("acts on 'y' in the same sample"));
