@@ -125,7 +125,7 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   const std::string& output = arguments.text("output");
   if (spectral_radius(std::get<ArxModel>(fit->model.dynamics)) < 1) return hand_over(*fit, output, start, terminal);
   terminal.show(fit->report);
-  terminal.result()["output"] = nullptr;
+  terminal.add("output", {});
   return Error{output + " was not written: an unstable model cannot be played" +
                (std::filesystem::exists(output) ? "; the file of that name is an older one" : "")};
 }

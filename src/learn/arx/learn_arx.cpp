@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number_text.hpp"
 #include "learn/arx/curve/arx_curves.hpp"
 #include "learn/arx/judge/arx_verdict.hpp"
 #include "learn/arx/judge/residual_tests.hpp"
@@ -12,7 +13,6 @@
 #include "learn/arx/search/order_search.hpp"
 #include "learn/arx/simulation/focus.hpp"
 #include "learn/arx/simulation/simulation_block.hpp"
-#include "wisp/record/number_text.hpp"
 
 namespace wisp {
 namespace arx {
