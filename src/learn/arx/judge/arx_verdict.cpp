@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "wisp/record/number_text.hpp"
+#include "base/number_text.hpp"
 
 namespace wisp::arx {
 namespace {
