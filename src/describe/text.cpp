@@ -20,7 +20,9 @@ std::string padded(std::string text, std::size_t to) {
   return text;
 }
 
-std::string with_unit(const std::string& text, const std::string& unit) { return unit.empty() ? text : text + " " + unit; }
+std::string with_unit(const std::string& text, const std::string& unit) {
+  return unit.empty() ? text : text + " " + unit;
+}
 
 // Percentages of a simulation that runs away: their digits say nothing more.
 bool diverges(const ReportValue& value, const std::string& unit) {

@@ -27,7 +27,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Blocks of more poles are only scaled inwards: every step of the search costs their number cubed several times over.
-constexpr Index kMaxExactSize = 48;
+constexpr Index kMaxExactSize = 100;
 
 // One coefficient of A that may move: row and column within the block, and its lag.
 struct Coefficient {
