@@ -74,7 +74,8 @@ void bind_recording(py::module_& module) {
           "rows",
           [](const Recording& self, std::size_t first, std::size_t last) {
             if (first > last || last > self.rows())
-              throw py::index_error("rows " + std::to_string(first) + " to " + std::to_string(last));
+              throw py::index_error("rows " + std::to_string(first) + " to " + std::to_string(last) +
+                                    ": the recording has " + std::to_string(self.rows()));
             return slice(self, first, last);
           },
           py::arg("first"), py::arg("last"), "Rows [first, last).")
