@@ -4,12 +4,12 @@
 #include <cassert>
 #include <cmath>
 
-#include "base/number_text.hpp"
 #include "capture/vision/knots.hpp"
 #include "capture/vision/outline_rows.hpp"
 #include "capture/vision/outline_seeker.hpp"
 #include "capture/vision/outline_tracker.hpp"
 #include "capture/vision/outline_verdict.hpp"
+#include "record/number_text.hpp"
 
 namespace wisp {
 namespace {

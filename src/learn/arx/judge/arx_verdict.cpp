@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/number_text.hpp"
+#include "record/number_text.hpp"
 
 namespace wisp::arx {
 namespace {
