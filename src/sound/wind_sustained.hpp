@@ -8,8 +8,8 @@
 
 namespace wisp::wind {
 
-/// Wind up to 1 passes as it comes; what exceeds it, once that has gone on for 120 ms, and until it has paused for twice
-/// as long. Swings within a gust are no pauses.
+/// Wind up to 1 passes as it comes; what exceeds it, once that has gone on for 120 ms, and until it has paused for
+/// twice as long. Swings within a gust are no pauses.
 template <class T>
 class Sustained {
  public:
