@@ -128,7 +128,7 @@ void OutlineTracker::spread_sums() {
 void OutlineTracker::measure(const EdgeCloud& cloud, bool along_own_normal) {
   information_ = prior_information_;
   vector_ = prior_vector_;
-  sums_.assign(static_cast<std::size_t>(table_.points()), {});
+  sums_.assign(static_cast<std::size_t>(table_.points()) - 3, {});  // one a span
   for (std::size_t k = 0; k < cloud.points.size(); ++k) {
     if (out_[k]) continue;
     const EdgePoint& edge = cloud.points[k];
