@@ -20,6 +20,7 @@ const std::vector<Command>& commands() {
       simulate_candle_command(),
       simulate_leaf_command(),
       run_command(),
+      export_command(),
       info_command(),
       play_command(),
       demo_command(),

@@ -17,6 +17,7 @@ Command validate_command();
 Command simulate_candle_command();
 Command simulate_leaf_command();
 Command run_command();
+Command export_command();
 Command info_command();
 Command play_command();
 Command demo_command();
