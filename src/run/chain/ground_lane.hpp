@@ -40,7 +40,7 @@ template <class Real>
 inline void touch(ChainLane<Real>& lane, const BodyState<Real>& body, float ground) {
   lane.settled = Real(0.0f);
   lane.base = {body.position[0], body.position[1], Real(ground)};
-  const auto slip = ChainMover<Real>::bounded(scaled(body.rates.velocity, Real(kSettleSeconds)));
+  const auto slip = ChainMover<Real>::bounded(scaled(body.rates.velocity, Real(kSettleSeconds)), kFarthest);
   lane.slip = {slip[0], slip[1], Real(0.0f)};
   lane.touched = body.orientation;
 }
