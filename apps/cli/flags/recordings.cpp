@@ -1,28 +1,53 @@
 #include "flags/recordings.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cctype>
+
 #include "wisp/record/csv.hpp"
 #include "wisp/record/mat.hpp"
 
 namespace wisp::cli {
 
-std::vector<Flag> recording_flags() {
+std::vector<Flag> table_flags() {
   return {
+      {"columns", Kind::kNames, "A,B,…", "",
+       "names of all columns of a plain table, in their order: of one without a header, or in place of it"},
       {"rate", Kind::kNumber, "HZ", "",
        "samples a second of a table, or frames a second of a folder of images, that does not say so itself"},
       {"dt", Kind::kNumber, "S", "", "seconds between samples, instead of --rate"},
-      {"skip-bad", Kind::kSwitch, "", "", "leave bad recordings out, listing them, instead of stopping at the first"},
   };
 }
 
-bool is_table(const std::filesystem::path& path) {
-  const std::string extension = path.extension().string();
-  return extension == ".csv" || extension == ".txt" || extension == ".mat" || extension == ".CSV";
+std::vector<Flag> recording_flags() {
+  std::vector<Flag> flags = table_flags();
+  flags.push_back(
+      {"skip-bad", Kind::kSwitch, "", "", "leave bad recordings out, listing them, instead of stopping at the first"});
+  return flags;
 }
 
-Result<CsvOptions> csv_options(const Arguments& arguments, const ChannelChoice& channels) {
-  CsvOptions options;
+namespace {
+
+std::string extension_of(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+}  // namespace
+
+bool is_table(const std::filesystem::path& path) {
+  static constexpr std::array<std::string_view, 6> kTables = {".csv", ".tsv", ".txt", ".dat", ".asc", ".mat"};
+  return std::find(kTables.begin(), kTables.end(), extension_of(path)) != kTables.end();
+}
+
+bool is_matlab(const std::filesystem::path& path) { return extension_of(path) == ".mat"; }
+
+Result<CsvOptions> csv_options(const Arguments& arguments, const ChannelChoice& channels, double rate_hz) {
+  CsvOptions options{.rate_hz = rate_hz};
   options.inputs = arguments.has("inputs") ? arguments.names("inputs") : channels.inputs;
   options.outputs = arguments.has("outputs") ? arguments.names("outputs") : channels.outputs;
+  options.columns = arguments.names("columns");
   if (arguments.has("dt")) {
     const double seconds = arguments.number("dt");
     if (!(seconds > 0)) return Error{"--dt is " + arguments.text("dt") + ", expected seconds above 0"};
@@ -33,11 +58,18 @@ Result<CsvOptions> csv_options(const Arguments& arguments, const ChannelChoice& 
 }
 
 Result<Recording> read_table(const std::filesystem::path& path, const Arguments& arguments,
-                             const ChannelChoice& channels) {
-  const auto options = csv_options(arguments, channels);
+                             const ChannelChoice& channels, double rate_hz) {
+  const auto options = csv_options(arguments, channels, rate_hz);
   if (!options) return options.error();
-  if (path.extension() == ".mat") {
-    return read_mat(path, {.rate_hz = options->rate_hz, .inputs = options->inputs, .outputs = options->outputs});
+  if (is_matlab(path)) {
+    if (!options->columns.empty()) {
+      return Error{"--columns names columns of a table; of " + path.string() +
+                   " name variables with --inputs and --outputs, such as u or u(:,2)"};
+    }
+    const MatOptions named{.rate_hz = options->rate_hz, .inputs = options->inputs, .outputs = options->outputs};
+    if (arguments.has("dt") || arguments.has("rate") || rate_hz == 0) return read_mat(path, named);
+    auto stated = read_mat(path, {.inputs = options->inputs, .outputs = options->outputs});
+    return stated ? std::move(stated) : read_mat(path, named);
   }
   return read_csv(path, *options);
 }

@@ -13,19 +13,25 @@
 
 namespace wisp::cli {
 
-/// Flags of every command that reads recordings: --rate, --dt, --skip-bad.
+/// Flags of every command that reads a table: --columns, --rate, --dt.
+std::vector<Flag> table_flags();
+
+/// Those, and --skip-bad of commands that read many.
 std::vector<Flag> recording_flags();
 
-/// Whether a name is that of a table (`.csv`, `.txt`) rather than of a clip.
+/// Whether a name is that of a table (`.csv`, `.tsv`, `.txt`, `.dat`, `.asc`, `.mat`) rather than of a clip.
 bool is_table(const std::filesystem::path& path);
 
-/// How --inputs, --outputs, --rate and --dt say a table is to be understood; `channels` where the command has no such
-/// flags. Errors: --dt that is not above 0.
-Result<CsvOptions> csv_options(const Arguments& arguments, const ChannelChoice& channels = {});
+/// Whether it is that of a MATLAB file.
+bool is_matlab(const std::filesystem::path& path);
+
+/// How --inputs, --outputs, --columns, --rate and --dt say a table is to be understood; `channels` where the command
+/// has no such flags, `rate_hz` (0: none) where neither they nor the table say one. Errors: --dt that is not above 0.
+Result<CsvOptions> csv_options(const Arguments& arguments, const ChannelChoice& channels = {}, double rate_hz = 0);
 
 /// Reads one table; --inputs and --outputs, where the command has them, name its columns, and else `channels` does.
 Result<Recording> read_table(const std::filesystem::path& path, const Arguments& arguments,
-                             const ChannelChoice& channels = {});
+                             const ChannelChoice& channels = {}, double rate_hz = 0);
 
 /// What becomes of a bad recording: with --skip-bad it is left out, with a warning and an entry of `skipped` in the
 /// result. Returns whether it is left out.
