@@ -4,10 +4,10 @@
 #include <cmath>
 #include <filesystem>
 
-#include "record/number_text.hpp"
 #include "learn/arx/fit/arx_check.hpp"
 #include "learn/arx/rows/arx_orders.hpp"
 #include "learn/arx/rows/arx_rows.hpp"
+#include "record/number_text.hpp"
 
 namespace wisp::arx {
 namespace {

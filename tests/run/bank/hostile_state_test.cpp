@@ -9,10 +9,10 @@
 #include <limits>
 #include <vector>
 
+#include "base/hash.hpp"
 #include "model/sample_chain.hpp"
 #include "model/sample_switched.hpp"
 #include "run/flame_model.hpp"
-#include "base/hash.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/chain_facet.hpp"
 
