@@ -50,8 +50,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   auto whole = WindLevel::create(format, options), cut = WindLevel::create(format, options);
   if (!whole || !cut) std::abort();
   if (source.take<std::uint8_t>() % 4 == 0) {
-    const wisp::WindCalibration known{source.take<float>(), source.take<float>(), source.take<float>(),
-                                      source.take<float>()};
+    const auto amplitude = [&] { return static_cast<float>(source.take<std::uint8_t>()) / 32.0f; };
+    const wisp::WindCalibration known{amplitude(), amplitude(),
+                                      -200.0f + static_cast<float>(source.take<std::uint8_t>()) * 0.9f, amplitude()};
     whole->set_calibration(known);
     cut->set_calibration(known);
   }

@@ -19,6 +19,7 @@ Result<void> check_channels(const std::vector<Channel>& channels, const std::str
   std::set<std::string> names;
   for (const Channel& channel : channels) {
     if (channel.name.empty()) return Error{"an " + what + " has no name"};
+    if (channel.name.find('\0') != std::string::npos) return Error{"the name of an " + what + " holds a zero byte"};
     if (!names.insert(channel.name).second) return Error{"two " + what + "s are named " + channel.name};
     const bool finite = std::isfinite(channel.lowest) && std::isfinite(channel.highest);
     if (!finite || channel.lowest > channel.highest) {

@@ -244,7 +244,7 @@ Result<void> CsvReader::add_column(const std::string& text, const CsvOptions& op
   if (own_form_ && column.role.empty() && !episode) {
     return at_row("column " + shown(text) + " has no role; expected u:, y:, m: or flag: before its name");
   }
-  if (column.name.empty() && own_form_) {
+  if (column.name.empty() && (own_form_ || !column.role.empty())) {
     return at_row("column " + std::to_string(columns_.size() + 1) + " has no name");
   }
   if (episode) {

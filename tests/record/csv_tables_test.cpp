@@ -93,6 +93,18 @@ TEST(CsvTable, QuotedCellsHoldSeparatorsAndQuotes) {
   EXPECT_THAT(complaint("\"Power, W\",y\n1,2\n"), HasSubstr("its columns are \"Power, W\", y"));
 }
 
+TEST(CsvTable, NamesThatHoldSeparatorsAreWrittenBack) {
+  const CsvOptions options{.rate_hz = 1, .inputs = {"Power, W"}, .outputs = {"the \"y\""}};
+  const auto recording = parse("\"Power, W\";\"the \"\"y\"\"\"\nkW, or so;m\n1,5;2\n", options);
+  ASSERT_TRUE(recording) << recording.error().message;
+  const auto again = parse(csv_text(*recording), {});
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(again->channels[0].name, "Power, W");
+  EXPECT_EQ(again->channels[0].unit, "kW, or so");
+  EXPECT_EQ(again->channels[1].name, "the \"y\"");
+  EXPECT_THAT(again->channels[0].samples, ElementsAre(1.5));
+}
+
 TEST(CsvTable, SeparatorsAtTheEndOfRowsAreNobodysCells) {
   expect_samples("u,y,\n1,4,\n2.5,5,\n-3e-4,6,\n");
   expect_samples("u,y\n1,4,\n2.5,5,,,\n-3e-4,6\n");
@@ -102,6 +114,7 @@ TEST(CsvTable, SeparatorsAtTheEndOfRowsAreNobodysCells) {
 
 TEST(CsvTable, ColumnsWithoutANameAndUnwantedTwinsAreNoMatter) {
   expect_samples(",u,y,z,z\n0,1,4,0,0\n1,2.5,5,0,0\n2,-3e-4,6,0,0\n");
+  EXPECT_THAT(complaint("y:,u:u\n1,2\n", {.rate_hz = 1}), HasSubstr("column 1 has no name"));
   EXPECT_THAT(complaint("u,y,y\n1,2,3\n"), HasSubstr("two columns are named \"y\"; rename one"));
 }
 

@@ -186,7 +186,7 @@ TEST(Csv, ABadRecordingIsNotWritten) {
   Recording recording{"", 0, {{"a", "", Role::kOutput, {1}}}, {}, {}, {}};
   EXPECT_FALSE(write_csv(path, recording));
   recording.rate_hz = 1;
-  recording.channels[0].name = "a,b";
+  recording.channels[0].name = "a[b";
   EXPECT_FALSE(write_csv(path, recording));
   recording.channels[0].name = "a";
   recording.channels[0].samples[0] = INFINITY;
