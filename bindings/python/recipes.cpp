@@ -16,6 +16,10 @@ void bind_words(py::module_& module) {
       .value("MEAN", ArxOffset::kMean)
       .value("NONE", ArxOffset::kNone)
       .value("ESTIMATE", ArxOffset::kEstimate);
+  py::enum_<ArxFocus>(module, "ArxFocus")
+      .value("PREDICTION", ArxFocus::kPrediction)
+      .value("SIMULATION", ArxFocus::kSimulation)
+      .value("AUTO", ArxFocus::kAuto);
   py::enum_<Coupling>(module, "Coupling")
       .value("FULL", Coupling::kFull)
       .value("DIAGONAL", Coupling::kDiagonal)
@@ -76,6 +80,7 @@ void bind_arx(py::module_& module) {
       .def_readwrite("keep_unstable", &ArxRecipe::keep_unstable)
       .def_readwrite("curve_knots", &ArxRecipe::curve_knots)
       .def_readwrite("search", &ArxRecipe::search)
+      .def_readwrite("focus", &ArxRecipe::focus)
       .def_readwrite("responses", &ArxRecipe::responses);
   options<SwitchedRecipe>(module, "SwitchedRecipe")
       .def_readwrite("name", &SwitchedRecipe::name)

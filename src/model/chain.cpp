@@ -9,8 +9,8 @@
 namespace wisp {
 namespace {
 
-constexpr double kMostRounding = 1e-6;  // of a sum of probabilities that were written with at least seven digits
-constexpr double kMostStretch = 0.005;  // of a quaternion's length: what rounding to 16 bits makes of it, hundredfold
+constexpr double kMaxRounding = 1e-6;  // of a sum of probabilities that were written with at least seven digits
+constexpr double kMaxStretch = 0.005;  // of a quaternion's length: what rounding to 16 bits makes of it, hundredfold
 constexpr std::size_t kMostContexts = 65535;
 constexpr std::size_t kMostHistory = 64;
 constexpr double kLargestScale = 1e9;
@@ -31,7 +31,7 @@ Result<void> check_probabilities(const std::vector<double>& row, int modes, cons
     if (!(p >= 0 && p <= 1)) return Error{"the chain's " + what + " hold a number that is not a probability"};
     sum += p;
   }
-  if (std::abs(sum - 1) > kMostRounding) {
+  if (std::abs(sum - 1) > kMaxRounding) {
     return Error{"the chain's " + what + " sum to " + std::to_string(sum) + ", expected 1"};
   }
   return {};
@@ -99,7 +99,7 @@ Result<void> check_orientations(const ChainSegments& segments) {
       square += static_cast<double>(segments.rows[k]) * segments.rows[k];
     }
     const double length = segments.row_scale[1] * std::sqrt(square);
-    if (std::abs(length - 1) <= kMostStretch) continue;
+    if (std::abs(length - 1) <= kMaxStretch) continue;
     return Error{"row " + std::to_string(row) + " of the chain's segments has a quaternion of length " +
                  std::to_string(length) + ", expected 1 but for rounding"};
   }
