@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "wisp/base/result.hpp"
-#include "wisp/export/take.hpp"
+#include "wisp/export/export.hpp"
 #include "wisp/model/model.hpp"
 
 namespace wisp::exporting {

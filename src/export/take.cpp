@@ -1,4 +1,4 @@
-#include "wisp/export/take.hpp"
+#include "wisp/export/export.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "wisp/export/take.hpp"
+#include "wisp/export/export.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 // A take of a flame as pictures of light on nothing.
 
 #include "wisp/base/result.hpp"
-#include "wisp/draw/flipbook.hpp"
-#include "wisp/export/take.hpp"
+#include "wisp/draw/film_strip.hpp"
+#include "wisp/export/export.hpp"
 #include "wisp/model/model.hpp"
 
 namespace wisp::cli {

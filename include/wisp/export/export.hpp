@@ -1,15 +1,51 @@
 #pragma once
-// Animations for tools that draw: glTF and Lottie.
+// A model played once and kept, and files of it that other tools open: glTF and Lottie.
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "wisp/base/result.hpp"
-#include "wisp/export/take.hpp"
 #include "wisp/model/model.hpp"
 
 namespace wisp {
+
+/// How long, how many, and in what input.
+struct TakeOptions {
+  double seconds = 4;            ///< above 0, at most an hour
+  bool loop = false;             ///< the frame after the last one is the first one, in value and in speed
+  int instances = 1;             ///< 1 to 1000, each with its own chance
+  std::uint64_t seed = 1;        ///< of all chance
+  bool noise = true;             ///< the residual noise; a loop without it stands still
+  std::vector<double> inputs{};  ///< constant, per input of the model, in its unit; what is missing is 0
+};
+
+/// Frames of a model at its own rate. Play begins where the model has forgotten how it started.
+struct Take {
+  double rate_hz = 0;
+  bool loop = false;
+  std::size_t frames = 0;  ///< of a loop: of one round, without the first one once more
+  std::size_t instances = 0;
+  std::size_t outputs = 0;
+  std::vector<float> values;  ///< frames × instances × outputs
+  /// Of a loop of bodies, per instance: how far one round leads, metres. A leaf falls; what returns is its attitude and
+  /// its velocity, and the next round begins where this one ends.
+  std::vector<std::array<double, 3>> travel;
+
+  /// All outputs of one instance in one frame.
+  std::span<const float> at(std::size_t frame, std::size_t instance) const {
+    return std::span(values).subspan((frame * instances + instance) * outputs, outputs);
+  }
+};
+
+/// Plays a model. A loop of an ARX model is its periodic orbit under shocks that repeat; a loop of a chain is a walk
+/// that comes back to where it was in a segment, turned evenly by what is left of its heading.
+/// Errors: an option out of range; more than 5e8 numbers; a flame goes out in that input; no loop of that length is
+/// found, or the chain's modes are systems.
+Result<Take> take(const Model& model, const TakeOptions& options);
 
 /// A take as a binary glTF 2.0 file (.glb), in metres where the model knows its size, with all times at the model's
 /// rate. A body is a node with translation and rotation; its mesh lies in its first two axes. An outline is a flat mesh

@@ -1,4 +1,4 @@
-#include "wisp/draw/flipbook.hpp"
+#include "wisp/draw/film_strip.hpp"
 
 extern "C" {
 #include <libavcodec/avcodec.h>
