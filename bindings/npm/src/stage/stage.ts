@@ -49,6 +49,9 @@ export class Stage {
   private footer = 0;
   private gl: WebGL2RenderingContext | null = null;
   private scene: Scene | null = null;
+  /** nothing that passes makes wind */
+  still = false;
+  private running = 0;
   private last = 0;
   private fade = 0;
   private adapted = 1;
@@ -83,8 +86,16 @@ export class Stage {
     this.canvas.setAttribute('aria-label', scene.describe());
   }
 
+  /** Runs; twice is fine. */
   start(): void {
-    requestAnimationFrame((now) => this.frame(now));
+    this.running ||= requestAnimationFrame((now) => this.frame(now));
+  }
+
+  /** Stands still until start(). */
+  stop(): void {
+    cancelAnimationFrame(this.running);
+    this.running = 0;
+    this.last = 0;
   }
 
   private open(): void {
@@ -109,13 +120,14 @@ export class Stage {
   }
 
   private frame(now: number): void {
-    requestAnimationFrame((next) => this.frame(next));
+    this.running = requestAnimationFrame((next) => this.frame(next));
     const passed = this.last === 0 ? 0 : (now - this.last) / 1000;
     this.last = now;
     const seconds = this.paused ? 0 : Math.min(LONGEST_FRAME, Math.max(0, passed));
     if (this.scene === null) return;
     const before = performance.now();
     this.pointer.update(seconds);
+    if (this.still) this.pointer.now.speedX = this.pointer.now.speedY = 0;
     this.scene.update({ seconds, breath: this.events.breath(seconds), pointer: this.pointer.now });
     const between = performance.now();
     this.fade = Math.min(1, this.fade + passed / FADE_SECONDS);
