@@ -51,6 +51,7 @@ export class Stage {
   private scene: Scene | null = null;
   /** nothing that passes makes wind */
   still = false;
+  private wanted: BlobCallback | null = null;
   private running = 0;
   private last = 0;
   private fade = 0;
@@ -98,6 +99,13 @@ export class Stage {
     this.last = 0;
   }
 
+  /** The next picture as a file. */
+  snapshot(): Promise<Blob> {
+    return new Promise((resolve, reject) => {
+      this.wanted = (blob) => (blob === null ? reject(new Error('The picture could not be made.')) : resolve(blob));
+    });
+  }
+
   private open(): void {
     this.gl = this.canvas.getContext('webgl2', {
       alpha: this.clear,
@@ -137,6 +145,11 @@ export class Stage {
       const drawn = this.scene.draw(this.canvas.width, this.canvas.height, { fade, footer: this.footer, clear, plain: this.adapted < PLAIN });
       // It fades in from its first picture.
       if (!drawn) this.fade = 0;
+    }
+    if (this.wanted !== null) {
+      // A canvas keeps its picture only until this frame is over.
+      this.canvas.toBlob(this.wanted, 'image/png');
+      this.wanted = null;
     }
     this.cost.update = between - before;
     this.cost.draw = performance.now() - between;
