@@ -65,8 +65,6 @@ export abstract class SceneElement extends HTMLElement {
 
   constructor() {
     super();
-    const style = document.createElement('style');
-    style.textContent = STYLE;
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute('role', 'img');
     this.button.type = 'button';
@@ -74,7 +72,12 @@ export abstract class SceneElement extends HTMLElement {
     this.button.addEventListener('click', () => void this.toggleMicrophone());
     this.words.hidden = true;
     this.words.setAttribute('role', 'status');
-    this.attachShadow({ mode: 'open' }).append(style, this.canvas, this.words, this.button);
+    const shadow = this.attachShadow({ mode: 'open' });
+    // A sheet that is made by script: a page's policy may forbid those that are written into it.
+    const sheet = new CSSStyleSheet();
+    sheet.replaceSync(STYLE);
+    shadow.adoptedStyleSheets = [sheet];
+    shadow.append(this.canvas, this.words, this.button);
     this.listenToKeys();
   }
 
