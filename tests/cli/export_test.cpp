@@ -46,7 +46,7 @@ TEST_F(Export, ALeafsRoundSaysHowFarItLeads) {
 }
 
 TEST_F(Export, WhatCannotBeWrittenIsOneSentenceAndNoFile) {
-  expect_error(kFlame + " -o " + at("a.fbx"), "expected a name that ends in .glb, .json, .png, .apng or .webm");
+  expect_error(kFlame + " -o " + at("a.fbx"), "expected a name that ends in .glb, .json, .png, .apng, .webm or .c");
   expect_error(kLeaf + " -o " + at("a.json"), "a body's motion goes into a .glb");
   expect_error(kLeaf + " -o " + at("a.png"), "no flame to draw");
   expect_error(kFlame + " --seconds 0 -o " + at("a.glb"), "expected above 0");

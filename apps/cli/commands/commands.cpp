@@ -10,10 +10,12 @@ const std::vector<Command>& commands() {
   static const std::vector<Command> all = {
       capture_outline_command(),
       capture_flame_command(),
+      capture_brightness_command(),
       learn_outline_command(),
       learn_flame_command(),
       learn_arx_command(),
       learn_switched_command(),
+      learn_flicker_command(),
       learn_chain_command(),
       learn_leaf_command(),
       validate_command(),

@@ -7,10 +7,12 @@ namespace wisp::cli {
 
 Command capture_outline_command();
 Command capture_flame_command();
+Command capture_brightness_command();
 Command learn_outline_command();
 Command learn_flame_command();
 Command learn_arx_command();
 Command learn_switched_command();
+Command learn_flicker_command();
 Command learn_chain_command();
 Command learn_leaf_command();
 Command validate_command();

@@ -64,18 +64,35 @@ Result<void> write_pictures(const Job& job, const Take& taken) {
   return job.path.ends_with(".png") ? write_atlas(job.path, *book) : write_animation(job.path, *book);
 }
 
+// NAME.c, and NAME.h beside it.
+Result<void> write_firmware(const Model& model, const std::filesystem::path& path, Terminal& terminal) {
+  const auto lamp = firmware_source(model, path.stem().string());
+  if (!lamp) return Error{path.string() + ": " + lamp.error().message};
+  std::filesystem::path header = path;
+  header.replace_extension(".h");
+  if (auto ok = write_file(header, lamp->header); !ok) return ok;
+  if (auto ok = write_file(path, lamp->source); !ok) return ok;
+  terminal.add("state_bytes", lamp->state_bytes);
+  terminal.add("output", path.string());
+  terminal.say("wrote " + path.string() + " and " + header.string() + ": " + std::to_string(lamp->state_bytes) +
+               " bytes of state a lamp, " + shown(model.rate_hz, 5) + " steps a second");
+  return {};
+}
+
 Result<void> run(const Arguments& arguments, Terminal& terminal) {
   static const std::map<std::string, std::function<Result<void>(const Job&, const Take&)>> writers = {
       {".glb", write_gltf},      {".json", write_lottie},   {".png", write_pictures},
       {".apng", write_pictures}, {".webm", write_pictures},
   };
   const std::string& path = arguments.text("output");
-  const auto writer = writers.find(std::filesystem::path(path).extension().string());
-  if (writer == writers.end()) {
-    return Error{path + ": cannot be written, expected a name that ends in .glb, .json, .png, .apng or .webm"};
+  const std::string extension = std::filesystem::path(path).extension().string();
+  const auto writer = writers.find(extension);
+  if (writer == writers.end() && extension != ".c") {
+    return Error{path + ": cannot be written, expected a name that ends in .glb, .json, .png, .apng, .webm or .c"};
   }
   const auto model = read_model(arguments.positional());
   if (!model) return model.error();
+  if (extension == ".c") return write_firmware(*model, path, terminal);
   const Job job{*model, arguments, path};
   const auto taken = take_of(job, terminal);
   if (!taken) return Error{arguments.positional() + ": " + taken.error().message};
@@ -95,10 +112,10 @@ Command export_command() {
       "export",
       "Writes a model's play as a file that another tool opens: glTF (.glb), Lottie (.json), a sprite atlas (.png, "
       "with "
-      "its .atlas.json), APNG or WebM with opacity.",
+      "its .atlas.json), APNG or WebM with opacity; or the model itself as C for microcontrollers (.c, with its .h).",
       {{"MODEL", "the model, a .wisp file"}},
       {
-          {"output", Kind::kPath, "OUT", "", "what to write: OUT.glb, .json, .png, .apng or .webm", {}, true},
+          {"output", Kind::kPath, "OUT", "", "what to write: OUT.glb, .json, .png, .apng, .webm or .c", {}, true},
           {"seconds", Kind::kNumber, "S", "4", "how much of its play"},
           {"loop", Kind::kNumber, "S", "",
            "a round of that many seconds, whose last frame meets its first in value and in speed; a leaf's round "
@@ -116,6 +133,7 @@ Command export_command() {
           {"wisp export flame.wisp --loop 2 --height 128 -o flame.png",
            "A sprite atlas for a game, premultiplied, and flame.atlas.json that says where the frames are"},
           {"wisp export flame.wisp --loop 3 -o flame.json", "The outline as a Lottie animation"},
+          {"wisp export light.wisp -o candle.c", "A lamp that flickers, in fixed point, for a microcontroller"},
       },
       run,
   };

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "wisp/base/result.hpp"
@@ -59,6 +60,20 @@ Result<std::vector<std::byte>> gltf_bytes(const Model& model, const Take& take);
 /// curves, which the spline is exactly, with a key a frame.
 /// Errors: the model's outputs are no outline; the height is not 16 to 8192; the take is not of this model.
 Result<std::string> lottie_text(const Model& model, const Take& take, int height = 512);
+
+/// C99 for microcontrollers: one file with what the model is, one that declares it.
+struct FirmwareSource {
+  std::string header;         ///< NAME.h
+  std::string source;         ///< NAME.c, which includes it
+  std::size_t state_bytes{};  ///< of one candle
+};
+
+/// A model of one output as C source in fixed point: 32-bit integers, no heap, no floating point, no library. All that
+/// compilers agree on, so that every processor plays the same numbers from the same seed. Shocks are Gaussian (of the
+/// residuals' size, where the model plays residuals again), made of four random bytes. `name` begins all names in it.
+/// Errors: not exactly one output; more than one input, or one that is bent or split; a chain; regions that switch; more
+/// than 16 modes or 32 lags; a coefficient of 8 or more; a name that C does not take.
+Result<FirmwareSource> firmware_source(const Model& model, std::string_view name);
 
 /// The outline of one instance in one frame as a polyline: `points` × (x, y), at equal steps of the spline's parameter.
 ///
