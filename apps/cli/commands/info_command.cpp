@@ -87,7 +87,7 @@ Json dynamics_of(const ChainModel& chain) {
           {"histories", chain.contexts.size()},
           {"heading_free", chain.heading_free},
           {"best_of", chain.segments.breadth},
-          {"blend_share", number(chain.blend.share)},
+          {"blend_steps", chain.blend_steps},
           {"initial", json_of(chain.initial)},
           {"transitions", rows_of(chain.transitions(), chain.modes)}};
 }

@@ -1,5 +1,6 @@
 #include "flags/recordings.hpp"
 
+#include "flags/motion_flags.hpp"
 #include "wisp/record/csv.hpp"
 #include "wisp/record/mat.hpp"
 
@@ -23,6 +24,7 @@ Result<CsvOptions> csv_options(const Arguments& arguments, const ChannelChoice& 
   CsvOptions options;
   options.inputs = arguments.has("inputs") ? arguments.names("inputs") : channels.inputs;
   options.outputs = arguments.has("outputs") ? arguments.names("outputs") : channels.outputs;
+  for (const std::string& column : motion_columns(arguments)) options.outputs.push_back(column);
   if (arguments.has("dt")) {
     const double seconds = arguments.number("dt");
     if (!(seconds > 0)) return Error{"--dt is " + arguments.text("dt") + ", expected seconds above 0"};
@@ -36,10 +38,12 @@ Result<Recording> read_table(const std::filesystem::path& path, const Arguments&
                              const ChannelChoice& channels) {
   const auto options = csv_options(arguments, channels);
   if (!options) return options.error();
-  if (path.extension() == ".mat") {
-    return read_mat(path, {.rate_hz = options->rate_hz, .inputs = options->inputs, .outputs = options->outputs});
-  }
-  return read_csv(path, *options);
+  auto recording =
+      path.extension() == ".mat"
+          ? read_mat(path, {.rate_hz = options->rate_hz, .inputs = options->inputs, .outputs = options->outputs})
+          : read_csv(path, *options);
+  if (!recording) return recording;
+  return as_motion(std::move(*recording), arguments);
 }
 
 bool leave_out(const std::string& path, const Error& error, const Arguments& arguments, Terminal& terminal) {
