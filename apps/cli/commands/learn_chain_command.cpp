@@ -8,7 +8,6 @@
 #include "flags/flag_ranges.hpp"
 #include "flags/motion_flags.hpp"
 #include "flags/recordings.hpp"
-#include "reports/figures_json.hpp"
 #include "reports/learned_model.hpp"
 #include "terminal.hpp"
 #include "wisp/learn/learn.hpp"

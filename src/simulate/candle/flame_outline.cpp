@@ -1,12 +1,12 @@
-#include "wisp/simulate/flame_outline.hpp"
+#include "simulate/candle/flame_outline.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <span>
 
+#include "model/bspline.hpp"
 #include "simulate/candle/contour.hpp"
 #include "simulate/candle/light_sampling.hpp"
-#include "wisp/model/bspline.hpp"
 
 namespace wisp {
 namespace {
