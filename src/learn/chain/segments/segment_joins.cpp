@@ -9,6 +9,17 @@ namespace wisp::chain {
 namespace {
 
 constexpr std::size_t kLookedAt = 64;  // nearest ones, of which those that are played too often give way
+constexpr double kMaxGain = 0.4;       // of the variance of velocity: what falls is not sped up by more at once
+constexpr double kGainCost = 4;  // a join that does counts as twice as far away: it is taken where others are none
+
+// How much faster a segment begins than another ends: the square of its speed over the other's, in variances. Moments
+// begin with velocity in such units.
+double gain_of(const JoinMoment& end, const JoinMoment& start) {
+  double gain = 0;
+  for (std::size_t k = 0; k < std::min<std::size_t>(3, start.size()); ++k)
+    gain += start[k] * start[k] - end[k] * end[k];
+  return gain;
+}
 
 Successors candidates_of(const SegmentMoments& moments, std::span<const std::uint16_t> mode,
                          std::span<const double> weight, int modes) {
@@ -28,6 +39,7 @@ Successors candidates_of(const SegmentMoments& moments, std::span<const std::uin
       for (Successor& one : near) {
         // Of two that stood beside each other in a plane of moments, the nearer one would be as much nearer.
         one.misfit /= weight[one.segment];
+        if (gain_of(moments.ends[from], moments.starts[one.segment]) > kMaxGain) one.misfit *= kGainCost;
       }
       candidates.push_back(std::move(near));
     }
