@@ -128,7 +128,7 @@ TEST(ChainModel, RowsAndRatesOfAnySizeAreReadAsWritten) {
 TEST(ChainModel, SmoothMotionTakesLessThanAByteANumber) {
   Model model = spline_chain();
   chain(model).splines.reset();
-  const Model longer = [&] {
+  Model longer = [&] {
     Model out = lengthened(spline_chain());
     chain(out).splines.reset();
     return out;

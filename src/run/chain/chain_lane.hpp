@@ -137,6 +137,7 @@ class ChainMover {
 
   /// Lets a lane's segment meet what came before it, to which it lacks `from`, and what follows, by its gap.
   void meet(Lane& lane, const ChainGap<Real>& from) const {
+    if (program_.blend_steps == 0) return;
     const std::uint32_t steps = program_.steps(index(lane.segment, program_.segments()));
     if (steps < 2 * program_.blend_steps) return spread(lane, steps, from, lane.gap);
     spread(lane, program_.blend_steps, from, {});
