@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <optional>
 
-#include "wisp/record/number_text.hpp"
+#include "base/number_text.hpp"
 
 namespace wisp::chain {
 namespace {
