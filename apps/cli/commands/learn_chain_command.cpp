@@ -110,7 +110,7 @@ std::vector<Flag> flags(const std::string& event, const std::string& features) {
        {"segments", "spline", "linear", "ode", "chain"}},
       {"best-of", Kind::kInteger, "N", "4",
        "a segment is followed by one of its N best-joining ones of the mode; 0: by any of the mode"},
-      {"blend", Kind::kNumber, "S", "0.5",
+      {"blend", Kind::kNumber, "S", "0.15",
        "most seconds on either side that a join is spread over, 0 to 0.5; 0: joins stay as they are"},
       {"shortest", Kind::kNumber, "S", "0.04", "seconds; events nearer to the one before do not count"},
       {"debounce", Kind::kNumber, "D", "0.1",

@@ -70,7 +70,7 @@ struct ChainRecipe {
   Realisation realisation = Realisation::kSegments;
   int best_of = 4;  ///< 0 … 256: best-joining successors kept for each segment and mode; 0: any segment of the mode
                     ///< follows (the paper's). Fewer join better, but repeat themselves sooner
-  double blend = 0.5;  ///< seconds on either side that a join may be spread over, 0 … 0.5; 0: joins stay as they are
+  double blend = 0.15;  ///< seconds on either side that a join may be spread over, 0 … 0.5; 0: joins stay as they are
   double min_seconds = 0.04;  ///< ≥ 0, shortest segment: events nearer to the one before are left out
   double debounce = 0.1;  ///< ≥ 0: how far, in standard deviations of the signal, it must go beyond a zero on both
                           ///< sides, or away from an extremum, before that counts

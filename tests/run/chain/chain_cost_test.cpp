@@ -106,7 +106,7 @@ TEST(ChainCost, NoFrameOfALongRunTakesMoreThan300Operations) {
     for (double rate : {60.0, 61.0, 90.0, 144.0, 1000.0}) EXPECT_LE(dearest_frame(model, rate), 300) << rate;
   }
   EXPECT_LE(dearest_frame(unblended(), 60), 100);
-  for (double rate : {61.0, 90.0, 144.0, 1000.0}) EXPECT_LE(dearest_frame(unblended(), rate), 130) << rate;
+  for (double rate : {61.0, 90.0, 144.0, 1000.0}) EXPECT_LE(dearest_frame(unblended(), rate), 135) << rate;
 }
 
 TEST(ChainCost, AFrameThatMakesTwoStepsTakesNoMoreThanBoth) {
@@ -147,7 +147,7 @@ TEST(ChainCost, AGustAdds42OperationsToAFrame) {
   EXPECT_EQ(most - most_calm, 3 + 10 + 8 + 15 + 6);
 }
 
-TEST(ChainCost, ABodyThatIsPlacedTakesAtMost300OperationsAFrame) {
+TEST(ChainCost, AfterABodyIsPlacedAFrameTakesAtMost450Operations) {
   CountedChain chain(hasty_chain({1, 1, 12}));
   BodyState<CountingReal> body;
   for (int k = 0; k < 200; ++k) {
@@ -156,7 +156,7 @@ TEST(ChainCost, ABodyThatIsPlacedTakesAtMost300OperationsAFrame) {
     body.rates.velocity = {CountingReal(x), CountingReal(y), CountingReal(-0.7f)};
     chain.place(body);
     EXPECT_EQ(chain.segment(), 2U);  // the one in which it can fade
-    for (int step = 0; step < 30; ++step) ASSERT_LE(chain.step(), 300) << k << ' ' << step;
+    for (int step = 0; step < 30; ++step) ASSERT_LE(chain.step(), 450) << k << ' ' << step;
   }
 }
 

@@ -15,9 +15,9 @@ namespace wisp::chain {
 namespace {
 
 constexpr double kMaxStored = 32767;
-constexpr double kRowShare = 0.01;         // of a usual step: what positions are rounded to, 0.2 mm for a leaf
+constexpr double kRowShare = 0.005;        // of a usual step: what positions are rounded to, 0.1 mm for a leaf
 constexpr double kRateShare = 0.002;       // of a usual rate: what rates are rounded to
-constexpr double kTurnScale = 1.0 / 2048;  // of quaternions: rounds an orientation by 0.03° on the mean, at most 0.06°
+constexpr double kTurnScale = 1.0 / 4096;  // of quaternions: rounds an orientation by 0.03° at most
 
 // What a segment consists of, in its own frame, before it is rounded.
 struct Piece {
@@ -80,7 +80,7 @@ std::pair<double, double> usual_rates(const Motion& motion) {
 }
 
 // What a segment takes in a file, about: its numbers are packed (model/chain_rows.hpp).
-constexpr double kNumberBytes = 0.85;
+constexpr double kNumberBytes = 0.97;
 constexpr double kSuccessorBytes = 1.6;
 
 double bytes_of(const Segment& segment, bool pose, double successors) {
