@@ -10,7 +10,7 @@ namespace wisp {
 namespace {
 
 constexpr int kMostChannels = 4096;
-constexpr int kMostOrder = 4096;
+constexpr int kMaxOrder = 4096;
 
 std::string at(const char* what, int i, int j) {
   return std::string(what) + "(" + std::to_string(i) + "," + std::to_string(j) + ")";
@@ -29,7 +29,7 @@ Result<void> check_orders(const ArxOrders& orders) {
     for (int i = 0; i < matrix->rows(); ++i) {
       for (int j = 0; j < matrix->columns(); ++j) {
         const int order = (*matrix)(i, j);
-        if (order < 0 || order > kMostOrder) {
+        if (order < 0 || order > kMaxOrder) {
           return Error{at(name, i, j) + " is " + std::to_string(order) + ", expected 0 to 4096"};
         }
       }
@@ -101,7 +101,7 @@ Result<void> check_drawn(const DrawnResiduals& drawn, std::size_t ny, int nu) {
     return ok;
   if (drawn.wind_scale < 0 || drawn.tolerance < 0) return Error{"the drawn residuals' wind has a negative scale"};
   if (auto ok = check_leans(drawn, ny); !ok) return ok;
-  if (drawn.trend_steps < 1 || drawn.trend_steps > kMostOrder || drawn.shortest < 1 || drawn.longest < drawn.shortest ||
+  if (drawn.trend_steps < 1 || drawn.trend_steps > kMaxOrder || drawn.shortest < 1 || drawn.longest < drawn.shortest ||
       drawn.longest > 1000000) {
     return Error{"the drawn residuals' numbers of steps are out of range"};
   }

@@ -5,9 +5,9 @@
 #include <limits>
 #include <numeric>
 
-#include "base/number_text.hpp"
 #include "learn/arx/fit/arx_fit.hpp"
 #include "learn/outline/outline_figures.hpp"
+#include "record/number_text.hpp"
 
 namespace wisp {
 namespace {
