@@ -23,7 +23,9 @@ bool is_table(const std::filesystem::path& path) {
 Result<CsvOptions> csv_options(const Arguments& arguments, CsvOptions options) {
   if (arguments.has("inputs")) options.inputs = arguments.names("inputs");
   if (arguments.has("outputs")) options.outputs = arguments.names("outputs");
-  for (const std::string& column : motion_columns(arguments)) options.outputs.push_back(column);
+  const auto motion = motion_columns(arguments);
+  if (!motion) return motion.error();
+  options.outputs.insert(options.outputs.end(), motion->begin(), motion->end());
   if (arguments.has("dt")) {
     const double seconds = arguments.number("dt");
     if (!(seconds > 0)) return Error{"--dt is " + arguments.text("dt") + ", expected seconds above 0"};
