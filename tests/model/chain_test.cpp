@@ -206,6 +206,10 @@ TEST(ChainModel, WhatIsNotAChainIsRefusedWithAReason) {
       {"steered by", [](Model& m) { chain(m).drift->spread_ground = 0; }},
       {"steered by", [&](Model& m) { chain(m).drift->drift[1] = nan; }},
       {"size of the body", [](Model& m) { std::get<PoseView>(m.view).half_width = -1; }},
+      {"size of the body", [](Model& m) { std::get<PoseView>(m.view).half_length = 1e30; }},
+      {"quaternion of length 0.0", [](Model& m) { std::fill_n(chain(m).segments.rows.begin() + 3, 4, 0); }},
+      {"quaternion of length 1.4", [](Model& m) { chain(m).segments.rows[4] = 32767; }},
+      {"quaternion of length 2", [](Model& m) { chain(m).segments.row_scale[1] *= 2; }},
   };
   for (const auto& [word, harm] : broken) {
     Model model = steered_chain();

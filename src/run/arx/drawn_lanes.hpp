@@ -78,8 +78,9 @@ class DrawnLanes {
   void visit_lane(int block, int lane, Visit visit) {
     if (empty()) return;
     const std::size_t places = 2 * program_.left.size();
-    visit(place(block)[lane], 0.0f, static_cast<float>(places - (program_.mirrors() ? 1 : 2)));
-    visit(age(block)[lane], 0.0f, static_cast<float>(program_.longest));
+    const bool mirrors = program_.mirrors();
+    visit(place(block)[lane], 0.0f, static_cast<float>(places - (mirrors ? 1 : 2)), mirrors ? 1.0f : 2.0f);
+    visit(age(block)[lane], 0.0f, static_cast<float>(program_.longest), 1.0f);
   }
 
  private:

@@ -2,10 +2,11 @@
 
 import type { Model } from '@wisp/player';
 import { ORDERS, type Settings } from '../link.js';
-import type { FrameCost } from '../stage/stage.js';
-import type { Reading } from '../stage/scene.js';
+import type { FrameCost } from '@wisp/player/parts/stage/stage';
+import type { Reading } from '@wisp/player/parts/stage/scene';
 import { element } from './element.js';
 import { factsOf } from './facts.js';
+import { introductionTo } from './introduction.js';
 import { Plot } from './plot.js';
 
 /** What the drawer shows of. */
@@ -16,6 +17,8 @@ export interface Shown {
   /** false: it was dropped here, and has no sisters of other orders */
   shipped: boolean;
   answerName: string;
+  /** its answer to wind is the shipped flame's */
+  borrows: boolean;
 }
 
 export interface DrawerEvents {
@@ -63,7 +66,7 @@ export class Drawer {
     close.addEventListener('click', () => this.events.closed());
     this.place.replaceChildren(
       element('header', {}, element('h2', {}, 'What was learned'), close),
-      element('p', {}, this.introduction(shown)),
+      element('p', { class: 'introduction' }, introductionTo(shown.model, shown.shipped, shown.borrows)),
       this.livePlots(shown),
       this.knobs(shown, settings),
       factsOf(shown.model, shown.bytes.length),
@@ -84,16 +87,6 @@ export class Drawer {
       const output = this.outputs[name];
       if (output !== undefined) output.value = name === 'cost' ? `${mean.toFixed(2)} ms` : mean.toFixed(2);
     }
-  }
-
-  private introduction({ model }: Shown): string {
-    if (model.view === 'outline') {
-      return 'Nothing here is animated by hand. Each point of the outline follows equations that were fitted to a film of a flame and the sound of the wind beside it.';
-    }
-    if (model.kind === 'chain') {
-      return 'Nothing here is animated by hand. Pieces of recorded falls follow each other by chance, as they were seen to, and the wind changes them as it was seen to.';
-    }
-    return 'What the model does, number by number.';
   }
 
   private livePlots(shown: Shown): HTMLElement {
