@@ -29,6 +29,8 @@ export interface DrawerEvents {
   /** saves a picture, or a few seconds of it; says how that went */
   picture(): Promise<string>;
   loop(): Promise<string>;
+  /** sound and touch on or off; returns which */
+  senses(): boolean;
 }
 
 /** Frames between drawings of the plots. */
@@ -38,6 +40,7 @@ export class Drawer {
   private plots: Record<'wind' | 'answer' | 'cost', Plot> | null = null;
   private outputs: Partial<Record<'wind' | 'answer' | 'cost', HTMLOutputElement>> = {};
   private frames = 0;
+  private sensesOn = false;
   private address: string | null = null;
 
   constructor(
@@ -47,6 +50,12 @@ export class Drawer {
     place.addEventListener('keydown', (event) => {
       if (event.key === 'Escape') events.closed();
     });
+  }
+
+  /** Whether sound and touch are on. */
+  showSenses(on: boolean): void {
+    this.sensesOn = on;
+    this.place.querySelector('[data-knob=senses]')?.setAttribute('aria-pressed', String(on));
   }
 
   get open(): boolean {
@@ -116,7 +125,10 @@ export class Drawer {
     if (model.chain !== null && model.chain.history > 1) section.append(this.history(model.chain.history, settings.history));
     const again = element('button', { type: 'button', class: 'tool' }, 'Other chance');
     again.addEventListener('click', () => this.events.change({ seed: 1 + Math.floor(Math.random() * 1e6) }));
-    section.append(element('div', { class: 'actions' }, again));
+    const senses = element('button', { type: 'button', class: 'tool', 'data-knob': 'senses' }, 'Sound and touch');
+    senses.setAttribute('aria-pressed', String(this.sensesOn));
+    senses.addEventListener('click', () => this.events.senses());
+    section.append(element('div', { class: 'actions' }, again, senses));
     return section;
   }
 
