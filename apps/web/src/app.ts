@@ -66,7 +66,7 @@ export class App {
       breath: (seconds) => this.breath.update(seconds, this.stage.frames) + (this.parts?.senses.wind ?? 0),
       touched: () => this.touch(),
       context: (state) => this.onContext(state),
-      framed: (cost) => this.onFrame(cost),
+      framed: (cost, seconds) => this.onFrame(cost, seconds),
     }, { covered: overlay ? 0 : COVERED, clear: overlay });
     this.stage.detail = settings.detail;
     this.player = new Player(wisp, this.stage, settings, (playing) => this.onPlaying(playing));
@@ -98,7 +98,7 @@ export class App {
       trouble: (words) => this.notices.say(words),
       ended: () => this.breath.deafen(),
     });
-    const drawer = new Drawer(byId('drawer', HTMLElement), {
+    const drawer = new Drawer(this.wisp, byId('drawer', HTMLElement), {
       change: (change) => this.change(change),
       open: (file) => this.openFile(file),
       closed: () => this.showDrawer(false),
@@ -283,7 +283,7 @@ export class App {
         : 'The graphics card took the picture away for a moment. It comes back by itself.';
   }
 
-  private onFrame(cost: Readonly<FrameCost>): void {
+  private onFrame(cost: Readonly<FrameCost>, seconds: number): void {
     const { playing } = this.player;
     if (playing === null) return;
     const reading = playing.scene.reading();
@@ -295,7 +295,7 @@ export class App {
     if (this.parts !== null) {
       const { lit, of } = playing.scene instanceof CandleScene ? playing.scene.burning() : { lit: 0, of: 0 };
       this.parts.senses.frame(lit, of, reading.wind, this.parts.ear.state !== 'off');
-      this.parts.drawer.frame(reading, cost);
+      this.parts.drawer.frame(reading, cost, seconds);
       this.controls.hear(this.parts.ear.state, this.parts.ear.level);
     }
     this.probe.frames = this.stage.frames;
