@@ -10,6 +10,7 @@
 #include <rlottie_capi.h>
 #endif
 
+#include "paths.hpp"
 #include "run/flame_model.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/run/bank.hpp"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paths.hpp"
 #include "run/flame_model.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/run/bank.hpp"
