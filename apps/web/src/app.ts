@@ -288,7 +288,8 @@ export class App {
     if (playing === null) return;
     const reading = playing.scene.reading();
     this.costs.push(cost);
-    if (this.probe.firstPicture === 0) {
+    // Where nothing can be drawn the rest comes all the same.
+    if (this.probe.firstPicture === 0 && (this.stage.shown || this.stage.frames > 60)) {
       this.probe.firstPicture = performance.now();
       this.bring();
     }
