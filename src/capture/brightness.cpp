@@ -11,9 +11,7 @@
 namespace wisp {
 namespace {
 
-double linear_light(double value) {
-  return value < 0.081 ? value / 4.5 : std::pow((value + 0.099) / 1.099, 1 / 0.45);
-}
+double linear_light(double value) { return value < 0.081 ? value / 4.5 : std::pow((value + 0.099) / 1.099, 1 / 0.45); }
 
 // Mean light of a region, black 0 and white 1.
 double light_of(const Picture& picture, const Region& region, std::vector<std::uint8_t>& pixels) {
@@ -43,8 +41,9 @@ Result<Recording> capture_brightness(const std::filesystem::path& path, const Cl
     if (!*frame) break;
     const Picture& picture = (*frame)->picture;
     const Region region = options.region.empty() ? picture.frame() : intersection(options.region, picture.frame());
-    if (region.empty()) return Error{path.string() + ": the region lies outside its picture of " +
-                                     std::to_string(picture.width) + " x " + std::to_string(picture.height) + " pixels"};
+    if (region.empty())
+      return Error{path.string() + ": the region lies outside its picture of " + std::to_string(picture.width) + " x " +
+                   std::to_string(picture.height) + " pixels"};
     // Frames that the clip has lost stay missing.
     channel.samples.resize(static_cast<std::size_t>((*frame)->index), std::nan(""));
     channel.samples.push_back(light_of(picture, region, pixels));

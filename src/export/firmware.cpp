@@ -1,6 +1,6 @@
 // Fixed point: the state is in 2^-29 of a power of two that holds all it may reach, coefficients are in 2^-28, and sums
-// are in 2^-25, so that a product is the upper half of 32 by 32 bits. Shocks: the sum of four uniform bytes (Irwin-Hall),
-// from G. Marsaglia's xorshift32 (Journal of Statistical Software 8, 2003).
+// are in 2^-25, so that a product is the upper half of 32 by 32 bits. Shocks: the sum of four uniform bytes
+// (Irwin-Hall), from G. Marsaglia's xorshift32 (Journal of Statistical Software 8, 2003).
 
 #include <algorithm>
 #include <cctype>
@@ -78,8 +78,9 @@ Result<Lamp> lamp_of(const Model& model) {
     lamp.transitions = {1};
   } else if (const auto* switched = std::get_if<SwitchedArxModel>(&model.dynamics)) {
     if (switched->switching != Switching::kMarkov) {
-      return Error{"the model's modes are switched by regions, which has no fixed-point form; learn it with "
-                   "--switching markov, or with `wisp learn flicker`"};
+      return Error{
+          "the model's modes are switched by regions, which has no fixed-point form; learn it with "
+          "--switching markov, or with `wisp learn flicker`"};
     }
     for (std::size_t mode = 0; mode < switched->modes.size(); ++mode) {
       add_mode(mode_model(*switched, mode), switched->modes[mode].shock[0], lamp);
@@ -96,8 +97,9 @@ Result<Lamp> lamp_of(const Model& model) {
     for (const double weight : weights) {
       sum += std::abs(weight);
       if (std::abs(weight) >= kLargestWeight || sum >= kLargestSum) {
-        return Error{"its coefficients are 8 or more, or 24 together, which fixed point does not hold; learn it with a "
-                     "lower order"};
+        return Error{
+            "its coefficients are 8 or more, or 24 together, which fixed point does not hold; learn it with a "
+            "lower order"};
       }
     }
   }
@@ -113,7 +115,8 @@ std::string whole(double value) { return std::to_string(static_cast<std::int64_t
 
 // Rows of numbers as C writes them.
 template <class Value>
-std::string table(const std::string& type, const std::string& name, std::size_t rows, std::size_t columns, Value value) {
+std::string table(const std::string& type, const std::string& name, std::size_t rows, std::size_t columns,
+                  Value value) {
   std::string text = "static const " + type + " " + name + "[" + std::to_string(rows) + "][" + std::to_string(columns) +
                      "] LAMP_FLASH = {\n";
   for (std::size_t row = 0; row < rows; ++row) {
@@ -137,7 +140,8 @@ std::string filled(std::string text, const std::vector<std::pair<std::string, st
   return text;
 }
 
-constexpr const char* kHeader = R"(/* Made by `wisp export` from the model "@MODEL@". A lamp that flickers: call @NAME@_step() @RATE@ times a second. */
+constexpr const char* kHeader =
+    R"(/* Made by `wisp export` from the model "@MODEL@". A lamp that flickers: call @NAME@_step() @RATE@ times a second. */
 #ifndef @GUARD@
 #define @GUARD@
 
@@ -252,7 +256,7 @@ constexpr const char* kInputSum = R"(  for (k = @INPUTS@ - 1; k > 0; --k) lamp->
 // Parts of the source that only some models have.
 std::vector<std::pair<std::string, std::string>> input_words(const Model& model, const Lamp& lamp, double sum_one) {
   if (lamp.taps == 0) {
-    return {{"INPUTSTATE", ""}, {"STEPWORDS", ""}, {"INPUTARGUMENT", model.inputs.empty() ? "" : ", int16_t input"},
+    return {{"INPUTSTATE", ""},   {"STEPWORDS", ""},  {"INPUTARGUMENT", model.inputs.empty() ? "" : ", int16_t input"},
             {"INPUTWEIGHTS", ""}, {"INPUTSTART", ""}, {"INPUTSUM", ""}};
   }
   const double one = 1 << kOneBits, range = kRangeMargin * (model.inputs[0].highest - model.inputs[0].lowest);
@@ -260,12 +264,12 @@ std::vector<std::pair<std::string, std::string>> input_words(const Model& model,
   const auto weight = [&](std::size_t mode, std::size_t k) {
     return k < lamp.input[mode].size() ? lamp.input[mode][k] * sum_one / one * 65536 : 0;
   };
-  const std::string sums = filled(
-      kInputSum, {{"INPUTS", inputs},
-                  {"TAPS", std::to_string(lamp.taps)},
-                  {"DELAY", std::to_string(lamp.delay)},
-                  {"INPUTHIGHEST", whole(std::min(32767.0, one * (model.inputs[0].highest + range)))},
-                  {"INPUTLOWEST", whole(std::max(-32767.0, one * (model.inputs[0].lowest - range)))}});
+  const std::string sums =
+      filled(kInputSum, {{"INPUTS", inputs},
+                         {"TAPS", std::to_string(lamp.taps)},
+                         {"DELAY", std::to_string(lamp.delay)},
+                         {"INPUTHIGHEST", whole(std::min(32767.0, one * (model.inputs[0].highest + range)))},
+                         {"INPUTLOWEST", whole(std::max(-32767.0, one * (model.inputs[0].lowest - range)))}});
   return {{"INPUTSTATE", "  int16_t inputs[" + inputs + "];\n"},
           {"STEPWORDS", " in an input, of which 4096 is 1"},
           {"INPUTARGUMENT", ", int16_t input"},
@@ -318,7 +322,8 @@ Result<FirmwareSource> firmware_source(const Model& model, std::string_view name
   std::string upper(name);
   for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   std::string called = model.name;
-  std::erase_if(called, [](char c) { return c == '*' || c == '/' || c == '"' || static_cast<unsigned char>(c) < 0x20; });
+  std::erase_if(called,
+                [](char c) { return c == '*' || c == '/' || c == '"' || static_cast<unsigned char>(c) < 0x20; });
   auto words = input_words(model, *lamp, sum_one);
   words.insert(words.end(), {{"SWITCH", modes > 1 ? kSwitch : ""},
                              {"THRESHOLDS", modes > 1 ? thresholds(*lamp) : ""},

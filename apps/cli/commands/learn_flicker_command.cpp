@@ -33,7 +33,8 @@ Command learn_flicker_command() {
   std::vector<Flag> flags = {
       output_flag(),
       {"channel", Kind::kText, "NAME", "", "the channel of light; default: brightness, or the first output"},
-      {"steps-a-second", Kind::kNumber, "HZ", "50", "what the lamp steps at; faster recordings are averaged down to it"},
+      {"steps-a-second", Kind::kNumber, "HZ", "50",
+       "what the lamp steps at; faster recordings are averaged down to it"},
       {"modes", Kind::kInteger, "K", "3", "degrees of restlessness, 2 to 8"},
       {"order", Kind::kInteger, "N", "4", "lags in every mode, 1 to 8"},
       {"holdout", Kind::kNumber, "SHARE", "0.3", "the last part of each stretch, kept for judging"},

@@ -1,6 +1,6 @@
 #pragma once
-// WLED usermod: segments flicker like candles, each with its own chance. Add candle.c and candle.h to the build, register
-// with `usermods.add(new WispCandleUsermod());` in usermods_list.cpp.
+// WLED usermod: segments flicker like candles, each with its own chance. Add candle.c and candle.h to the build,
+// register with `usermods.add(new WispCandleUsermod());` in usermods_list.cpp.
 #include "candle.h"
 #include "wled.h"
 

@@ -70,7 +70,8 @@ Result<void> check(const FlickerRecipe& recipe) {
   if (!(recipe.rate_hz >= 10 && recipe.rate_hz <= 1000)) return wrong("the rate", recipe.rate_hz, "10 to 1000");
   if (recipe.modes < 2 || recipe.modes > 8) return wrong("the number of modes", recipe.modes, "2 to 8");
   if (recipe.order < 1 || recipe.order > 8) return wrong("the order", recipe.order, "1 to 8");
-  if (!(recipe.holdout > 0 && recipe.holdout <= 0.9)) return wrong("the holdout", recipe.holdout, "above 0, at most 0.9");
+  if (!(recipe.holdout > 0 && recipe.holdout <= 0.9))
+    return wrong("the holdout", recipe.holdout, "above 0, at most 0.9");
   return {};
 }
 
@@ -240,8 +241,8 @@ void match_shocks(const Light& light, const std::vector<std::vector<int>>& modes
       if (k + 1 == count) scale = whole.sd / figures_of(play.traces, light.rate_hz).sd;
       // A calm mode begins with what a restless one left ringing: it is not to be still for that.
       const double most = k + 1 == count ? 16 : 2;
-      dynamics.modes[k].shock[0] = std::clamp(dynamics.modes[k].shock[0] * std::clamp(scale, 0.5, 2.0),
-                                              fitted[k] / most, fitted[k] * most);
+      dynamics.modes[k].shock[0] =
+          std::clamp(dynamics.modes[k].shock[0] * std::clamp(scale, 0.5, 2.0), fitted[k] / most, fitted[k] * most);
     }
   }
 }
@@ -266,12 +267,16 @@ Model plain(const Light& light, const FlickerRecipe& recipe, std::span<const Rec
 // Decibels of the play over a trace, band by band.
 ReportTable bands_of(const Traces& play, const Light& light) {
   constexpr std::size_t kSegment = 128;
-  ReportTable table{"spectrum", "power in bands, play against recording",
-                    {{"from", "from", "Hz"}, {"to", "to", "Hz"}, {"learned_db", "learned part", "dB"},
+  ReportTable table{"spectrum",
+                    "power in bands, play against recording",
+                    {{"from", "from", "Hz"},
+                     {"to", "to", "Hz"},
+                     {"learned_db", "learned part", "dB"},
                      {"held_out_db", "held-out part", "dB"}},
                     {}};
   const auto played = welch(play, light.rate_hz, kSegment);
-  const std::array spectra{welch(light.learned, light.rate_hz, kSegment), welch(light.held_out, light.rate_hz, kSegment)};
+  const std::array spectra{welch(light.learned, light.rate_hz, kSegment),
+                           welch(light.held_out, light.rate_hz, kSegment)};
   for (std::size_t band = 0; band + 1 < std::size(kBands); ++band) {
     const auto power = [&](const Spectrum& spectrum) {
       double sum = 0;
@@ -319,15 +324,16 @@ void judge(const Light& light, const FlickerRecipe& recipe, Fit& fit) {
 
 ReportSection modes_section(const SwitchedArxModel& model, const std::vector<Regression>& regressions, double rate_hz) {
   ReportSection section{"Modes"};
-  ReportTable table{"modes", "from calm to restless",
-                    {{"share", "share of time"}, {"dwell_seconds", "stays", "s"}, {"radius", "spectral radius"},
-                     {"shock", "shock"}},
-                    {}};
+  ReportTable table{
+      "modes",
+      "from calm to restless",
+      {{"share", "share of time"}, {"dwell_seconds", "stays", "s"}, {"radius", "spectral radius"}, {"shock", "shock"}},
+      {}};
   const std::size_t count = model.modes.size();
   for (std::size_t k = 0; k < count; ++k) {
     const double leaves = 1 - model.transitions[k * count + k];
-    table.rows.push_back({model.initial[k], leaves > 0 ? 1 / (leaves * rate_hz) : 0.0, regressions[k].radius,
-                          model.modes[k].shock[0]});
+    table.rows.push_back(
+        {model.initial[k], leaves > 0 ? 1 / (leaves * rate_hz) : 0.0, regressions[k].radius, model.modes[k].shock[0]});
   }
   section.tables.push_back(std::move(table));
   return section;

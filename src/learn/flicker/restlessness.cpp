@@ -19,9 +19,7 @@ std::size_t nearest(double value, std::span<const double> levels) {
 
 }  // namespace
 
-std::size_t half_second(double rate_hz) {
-  return static_cast<std::size_t>(std::max(4.0, std::round(rate_hz / 2)));
-}
+std::size_t half_second(double rate_hz) { return static_cast<std::size_t>(std::max(4.0, std::round(rate_hz / 2))); }
 
 std::vector<double> restlessness(std::span<const double> trace, std::size_t window) {
   // Sums about a value of the trace lose nothing to cancellation.

@@ -12,9 +12,9 @@ static NAMED(LAMP_NAME, _state) lamp;
 static uint32_t play(uint32_t steps, uint16_t* slowest);
 
 #ifdef __AVR__
+#include <avr/interrupt.h>
 #include <avr/io.h>
 #include <avr/sleep.h>
-#include <avr/interrupt.h>
 
 static void put(char c) {
   while (!(UCSR0A & (1 << UDRE0))) continue;
