@@ -74,6 +74,10 @@ class ChainStepper {
   /// Where the regressors of the step belong: [regressor][lane].
   Real* regressors(int block) { return regressors_.data() + static_cast<std::size_t>(block) * regressor_row_; }
 
+  /// Lanes are moved one by one: blocks together would be no faster.
+  static constexpr int kGroup = 1;
+  void step_group(int block, const Moment<N>& moment) { step(block, moment); }
+
   /// Makes the newest sample of a block.
   void step(int block, const Moment<N>& moment) {
     const ChainMover<Real> mover(program_);
