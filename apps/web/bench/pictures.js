@@ -50,11 +50,11 @@ for (const size of sizes) {
   for (const name of wanted.length > 0 ? wanted : Object.keys(states)) {
     const [hash, act] = states[name];
     // Coarse while it comes about, so that time passes where the processor draws; then as it is.
-    const page = await opened.page(`${hash}&seed=3&detail=0.25`, { viewport: { width, height } });
+    const page = await opened.page(`${hash}&seed=3&detail=0.12`, { viewport: { width, height } });
     await act(page);
     const frames = await page.evaluate(() => {
       location.hash += '&detail=1';
-      location.hash = location.hash.replace('detail=0.25&', '');
+      location.hash = location.hash.replace('detail=0.12&', '');
       return window.wisp.frames;
     });
     await until(page, 'the picture is whole', (many) => window.wisp.frames > many + 2, frames, 120_000);

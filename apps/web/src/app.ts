@@ -58,13 +58,14 @@ export class App {
   constructor(
     private readonly wisp: Wisp,
     private readonly settings: Settings,
+    private readonly overlay: boolean,
   ) {
     this.stage = new Stage(byId('stage', HTMLCanvasElement), {
       breath: (seconds) => this.breath.update(seconds, this.stage.frames),
       touched: () => this.touch(),
       context: (state) => this.onContext(state),
       framed: (cost) => this.onFrame(cost),
-    }, { covered: COVERED });
+    }, { covered: overlay ? 0 : COVERED, clear: overlay });
     this.stage.detail = settings.detail;
     this.player = new Player(wisp, this.stage, settings, (playing) => this.onPlaying(playing));
     this.controls = new Controls({
@@ -84,10 +85,12 @@ export class App {
     this.stage.start();
     await this.playChosen();
     this.hint.show(START_HINT, 12);
+    // Nobody presses buttons that are not there.
+    if (this.overlay) this.toggleMicrophone();
   }
 
   /** Makes what has come after the first flame. */
-  private furnish({ Drawer, Ear, fillHelp }: Late): void {
+  private furnish({ Drawer, Ear, fillHelp, saveLoop, savePicture }: Late): void {
     const ear = new Ear(this.wisp, {
       wind: (wind) => this.breath.hear(wind, this.stage.frames),
       trouble: (words) => this.notices.say(words),
@@ -98,6 +101,8 @@ export class App {
       open: (file) => this.openFile(file),
       closed: () => this.showDrawer(false),
       link: () => this.copyLink(),
+      picture: () => savePicture(this.stage),
+      loop: () => saveLoop(this.stage),
     });
     this.parts = { ear, drawer };
     fillHelp(this.help);
@@ -105,6 +110,7 @@ export class App {
   }
 
   private listen(): void {
+    byId('share', HTMLButtonElement).addEventListener('click', () => void this.share());
     byId('open-help', HTMLButtonElement).addEventListener('click', () => this.showHelp());
     this.drawerButton.addEventListener('click', () => this.toggleDrawer());
     watchDrops(byId('drop', HTMLElement), (file) => this.openFile(file));
@@ -118,6 +124,7 @@ export class App {
         '1': scene('candle'),
         '2': scene('leaves'),
         i: () => this.toggleDrawer(),
+        s: () => void this.share(),
         n: () => this.change({ noise: this.settings.noise > 0 ? 0 : 1 }),
         p: () => this.pause(),
         f: () => this.fullScreen(),
@@ -138,7 +145,7 @@ export class App {
     const needsModel = this.player.apply(change);
     this.stage.detail = this.settings.detail;
     const link = linkOf(this.settings);
-    if (location.hash !== link) history.replaceState(null, '', link);
+    if (location.hash !== link && !this.overlay) history.replaceState(null, '', link);
     const { playing } = this.player;
     if (needsModel) void this.playChosen();
     else if (playing !== null) this.controls.show(playing.tab, this.settings);
@@ -222,6 +229,19 @@ export class App {
     document.body.classList.toggle('beside', open);
     this.drawerButton.setAttribute('aria-expanded', String(open));
     if (!open) this.drawerButton.focus();
+  }
+
+  /** Sends what plays to somebody: by whatever this device sends things, or as a link to paste. */
+  private async share(): Promise<void> {
+    this.touch();
+    const said = await this.copyLink();
+    const touch = window.matchMedia('(pointer: coarse)').matches;
+    if (touch && 'share' in navigator) {
+      // Closed again by whom it was shown to: nothing to be said.
+      await navigator.share({ title: document.title, url: location.href }).catch(() => undefined);
+      return;
+    }
+    this.notices.say(said === 'Copied' ? 'The link is copied. Whoever opens it can blow it out.' : `${said}.`);
   }
 
   private async copyLink(): Promise<string> {

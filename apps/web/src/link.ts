@@ -64,6 +64,9 @@ export function settingsFromLink(hash: string, otherwise: Readonly<Settings> = D
   return settings;
 }
 
+/** Whether it asks for what burns alone, on nothing: for films and for other people's pictures. */
+export const isOverlay = (hash: string): boolean => new URLSearchParams(hash.replace(/^#/, '')).has('overlay');
+
 /** The shortest link that carries these settings, from its # on. */
 export function linkOf(settings: Readonly<Settings>): string {
   const given = new URLSearchParams();

@@ -26,6 +26,9 @@ export interface DrawerEvents {
   open(file: File): void;
   closed(): void;
   link(): Promise<string>;
+  /** saves a picture, or a few seconds of it; says how that went */
+  picture(): Promise<string>;
+  loop(): Promise<string>;
 }
 
 /** Frames between drawings of the plots. */
@@ -163,18 +166,35 @@ export class Drawer {
       if (file !== undefined) this.events.open(file);
       chosen.value = '';
     });
-    const link = element('button', { type: 'button', class: 'tool', 'data-file': 'link' }, 'Copy a link');
-    link.addEventListener('click', () => {
-      void this.events.link().then((said) => {
-        link.textContent = said;
-      });
-    });
     return element(
       'section',
       {},
       element('h3', {}, 'The file'),
       element('p', {}, 'A .wisp file can be dropped anywhere on this page to play it.'),
-      element('div', { class: 'actions' }, save, open, link, chosen),
+      element('div', { class: 'actions' }, save, open, chosen),
+      element('h3', {}, 'Show it to somebody'),
+      element(
+        'div',
+        { class: 'actions' },
+        this.telling('Copy a link', 'link', '', () => this.events.link()),
+        this.telling('Save a picture', 'picture', 'One moment…', () => this.events.picture()),
+        this.telling('Save three seconds', 'loop', 'Recording…', () => this.events.loop()),
+      ),
     );
+  }
+
+  /** A button that says how it went. */
+  private telling(words: string, name: string, meanwhile: string, act: () => Promise<string>): HTMLButtonElement {
+    const button = element('button', { type: 'button', class: 'tool', 'data-file': name }, words);
+    button.addEventListener('click', () => {
+      if (meanwhile !== '') button.textContent = meanwhile;
+      void act()
+        .catch((error: unknown) => (error instanceof Error ? error.message : String(error)))
+        .then((said) => {
+          button.textContent = said;
+          setTimeout(() => (button.textContent = words), 4000);
+        });
+    });
+    return button;
   }
 }

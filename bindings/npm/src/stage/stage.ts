@@ -49,6 +49,10 @@ export class Stage {
   private footer = 0;
   private gl: WebGL2RenderingContext | null = null;
   private scene: Scene | null = null;
+  /** nothing that passes makes wind */
+  still = false;
+  private wanted: BlobCallback | null = null;
+  private running = 0;
   private last = 0;
   private fade = 0;
   private adapted = 1;
@@ -83,8 +87,23 @@ export class Stage {
     this.canvas.setAttribute('aria-label', scene.describe());
   }
 
+  /** Runs; twice is fine. */
   start(): void {
-    requestAnimationFrame((now) => this.frame(now));
+    this.running ||= requestAnimationFrame((now) => this.frame(now));
+  }
+
+  /** Stands still until start(). */
+  stop(): void {
+    cancelAnimationFrame(this.running);
+    this.running = 0;
+    this.last = 0;
+  }
+
+  /** The next picture as a file. */
+  snapshot(): Promise<Blob> {
+    return new Promise((resolve, reject) => {
+      this.wanted = (blob) => (blob === null ? reject(new Error('The picture could not be made.')) : resolve(blob));
+    });
   }
 
   private open(): void {
@@ -109,13 +128,14 @@ export class Stage {
   }
 
   private frame(now: number): void {
-    requestAnimationFrame((next) => this.frame(next));
+    this.running = requestAnimationFrame((next) => this.frame(next));
     const passed = this.last === 0 ? 0 : (now - this.last) / 1000;
     this.last = now;
     const seconds = this.paused ? 0 : Math.min(LONGEST_FRAME, Math.max(0, passed));
     if (this.scene === null) return;
     const before = performance.now();
     this.pointer.update(seconds);
+    if (this.still) this.pointer.now.speedX = this.pointer.now.speedY = 0;
     this.scene.update({ seconds, breath: this.events.breath(seconds), pointer: this.pointer.now });
     const between = performance.now();
     this.fade = Math.min(1, this.fade + passed / FADE_SECONDS);
@@ -125,6 +145,11 @@ export class Stage {
       const drawn = this.scene.draw(this.canvas.width, this.canvas.height, { fade, footer: this.footer, clear, plain: this.adapted < PLAIN });
       // It fades in from its first picture.
       if (!drawn) this.fade = 0;
+    }
+    if (this.wanted !== null) {
+      // A canvas keeps its picture only until this frame is over.
+      this.canvas.toBlob(this.wanted, 'image/png');
+      this.wanted = null;
     }
     this.cost.update = between - before;
     this.cost.draw = performance.now() - between;

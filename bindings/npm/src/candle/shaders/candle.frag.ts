@@ -51,7 +51,7 @@ vec3 side(float u, float below) {
   lit += wax * kFire * lamps;
   // The flame itself, grazing the drops from above; the room's own warm light; the moon from the right, behind.
   lit += wax * kFire * uLight * (0.16 * max(0.0, normal.y) * exp(-deep / 0.6) + 0.022 * (0.6 + 0.4 * s));
-  float moon = max(0.0, dot(normal, vec3(0.86, 0.24, 0.10)));
+  float moon = max(0.0, 0.25 + 0.75 * dot(normal, vec3(0.88, 0.24, 0.10)));
   lit += wax * kMoon * (0.002 + 0.026 * pow(moon, 1.6));
   float shine = pow(max(0.0, dot(normal, normalize(vec3(uLean.x - 0.2 * u, 0.55, 1.0)))), 40.0);
   lit += kFire * uLight * 0.20 * shine * lift * exp(-deep / 0.7) + kMoon * 0.03 * lift * pow(moon, 8.0);
