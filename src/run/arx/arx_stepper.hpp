@@ -71,6 +71,9 @@ class ArxStepper : public ChannelHistory<N> {
     this->start_history(block, lane);
   }
 
+  /// Whether ranges of blocks can be stepped at once.
+  bool can_be_shared() const { return true; }
+
   /// The mode that made a lane's newest sample; none before the first step.
   std::optional<int> mode(int block, int lane) const { return modes_.mode(block, lane); }
 
@@ -142,9 +145,8 @@ class ArxStepper : public ChannelHistory<N> {
         continue;
       }
       Reals<N> sum[kBlocks];
-      unrolled<kBlocks>([&](auto b) {
-        sum[b] = noisy_ ? load<Reals<N>>(newest + b * stride) : constant(choice[b], i);
-      });
+      unrolled<kBlocks>(
+          [&](auto b) { sum[b] = noisy_ ? load<Reals<N>>(newest + b * stride) : constant(choice[b], i); });
       for (; run < program_.row_end[i]; ++run) {
         if (!is_quiet<kBlocks>(block, program_.runs[run].channel)) add_run(block, choice, program_.runs[run], sum);
       }
@@ -164,9 +166,8 @@ class ArxStepper : public ChannelHistory<N> {
     const std::size_t stride = ring_.stride();
     for (std::uint32_t k = 0; k < run.count; ++k, coefficient += modes_.count()) {
       const Real* past = ring_.sample(block, run.first_lag + k) + run.channel * kLanes;
-      unrolled<kBlocks>([&](auto b) {
-        sum[b] = sum[b] + choice[b].pick(coefficient) * load<Reals<N>>(past + b * stride);
-      });
+      unrolled<kBlocks>(
+          [&](auto b) { sum[b] = sum[b] + choice[b].pick(coefficient) * load<Reals<N>>(past + b * stride); });
     }
   }
 

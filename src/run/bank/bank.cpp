@@ -153,6 +153,11 @@ void Bank::set_noise(float scale) {
   state_->set_noise(held >= kLeastNoise ? held : 0.0f);
 }
 
+void Bank::set_crew(const Crew& crew) {
+  assert(crew.parts >= 1);
+  state_->crew = crew;
+}
+
 void Bank::step() {
   state_->step_all();
   state_->passed = 0;

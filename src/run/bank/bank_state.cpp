@@ -1,12 +1,14 @@
 #include "run/bank/bank_state.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 
 namespace wisp {
 namespace {
 
 constexpr double kNanosecondsPerSecond = 1e9;
+constexpr int kGroupOfBlocks = 8;
 
 OperatingPoint operating_point(const Model& model) {
   const auto of_kind = []<class Type>(const auto& dynamics, std::type_identity<Type>) {
@@ -149,14 +151,43 @@ void Bank::State::set_chain(const ChainSettings& settings) {
   if (auto* stepped = chain_stepper()) stepped->set_chain(settings);
 }
 
+// In parts of whole groups of blocks, so that no two parts write to one cache line.
+template <class Work>
+void Bank::State::share(Work work) {
+  const bool shared = crew.run && std::visit([](const auto& dynamics) { return dynamics.can_be_shared(); }, stepper);
+  const int groups = (blocks() + kGroupOfBlocks - 1) / kGroupOfBlocks;
+  const int parts = shared ? std::min(crew.parts, groups) : 1;
+  if (parts <= 1) return work(0, blocks());
+  struct Task {
+    const State& state;
+    Work& work;
+    int groups;
+    int parts;
+
+    int begin(int part) const {
+      const auto group = static_cast<int>(static_cast<std::int64_t>(groups) * part / parts);
+      return std::min(group * kGroupOfBlocks, state.blocks());
+    }
+  } task{*this, work, groups, parts};
+  const auto do_part = [](void* of, int part) {
+    const Task& own = *static_cast<Task*>(of);
+    own.work(own.begin(part), own.begin(part + 1));
+  };
+  crew.run(crew.pool, parts, do_part, &task);
+}
+
 void Bank::State::step_all() {
   std::visit([](auto& dynamics) { dynamics.turn(); }, stepper);
-  held.held += path->step(*this, 0, blocks());
+  std::atomic<std::uint64_t> count = 0;
+  share([&](int first, int last) { count.fetch_add(path->step(*this, first, last), std::memory_order_relaxed); });
+  held.held += count;
   ++steps;
   held.steps += static_cast<std::uint64_t>(living);
 }
 
-void Bank::State::show() { path->show(*this, 0, blocks()); }
+void Bank::State::show() {
+  share([this](int first, int last) { path->show(*this, first, last); });
+}
 
 void Bank::State::read_outputs(int slot, float* values) const {
   const float* row = shown_of(slot / kLanes) + slot % kLanes;

@@ -51,6 +51,8 @@ struct Bank::State {
   void set_lane_inputs(int slot, const float* values);  // null: zeros
   void step_all();
   std::uint64_t step_blocks(int first, int last);
+  template <class Work>
+  void share(Work work);  // work(first block, one past its last), for all blocks
   std::uint32_t count_held(int block, const std::uint32_t* flags) const;
   void live_block(int block);
   void go_out(int slot, std::uint64_t moment);
@@ -111,6 +113,7 @@ struct Bank::State {
   bool between = false;     // what is shown lies between the last two steps, by `passed`
   float noise = 0.0f;
   ChainSettings chain;
+  Crew crew;
   Held held;
   ChainFacet chain_facet{*this};
   ExtinctionFacet extinction_facet{*this};

@@ -50,7 +50,7 @@ class ChainStepper {
     if (program_.gust.order > 0) gusts_ = arena.take<GustLane<Real>>(lanes);
     if (chain.systems) {
       systems_ = arena.take<SystemLane<Real>>(lanes);
-      shocks_ = arena.take<Real>(8 * kLanes);
+      shocks_ = arena.take<Real>(kShocks * lanes);
     }
     newest_ = arena.take<Real>(lanes * static_cast<std::size_t>(program_.channels));
     previous_ = arena.take<Real>(lanes * static_cast<std::size_t>(program_.channels));
@@ -84,7 +84,7 @@ class ChainStepper {
     std::copy_n(newest(block), sample_size(), previous_of(block));
     std::uint32_t words[4][kLanes];
     bool drawn = false;
-    if (noisy_) draw_shocks(moment);
+    if (noisy_) draw_shocks(block, moment);
     for (int lane = 0; lane < kLanes; ++lane) {
       moment.held[lane] = 0;
       if (lane >= moment.lanes) continue;
@@ -167,6 +167,9 @@ class ChainStepper {
     return {segment, row, program_.mode[segment]};
   }
 
+  /// Whether ranges of blocks can be stepped at once: what is steered weighs its candidates in one place for all.
+  bool can_be_shared() const { return !steered_; }
+
   bool can_steer() const { return !program_.lead.empty(); }
 
   /// Steers a lane to a place that it is to be near in so many steps; none: no longer.
@@ -176,6 +179,7 @@ class ChainStepper {
     Lane& life = lane_of(block, lane);
     life.target = target;
     life.left = Real(steps);
+    steered_ |= steps > 0;
     life.near = Real(near);
     life.next = Real(0.0f);  // what was drawn a step before the join, knew of no target
   }
@@ -244,6 +248,7 @@ class ChainStepper {
     }
     visit(life.settled, -1.0f, 2.0f);
     visit(life.left, 0.0f, kMostSlip, 1.0f);
+    steered_ |= life.left > Real(0.0f);
     for (Real& x : life.target) visit(x, -kFarthest, kFarthest);
     visit(life.near, 0.0f, kFarthest);
     for (Real& x : life.touched) visit(x, -kLongest, kLongest);
@@ -273,6 +278,7 @@ class ChainStepper {
  private:
   using Mover = ChainMover<Real>;
   static constexpr std::size_t kLaneNumbers = 3 + 3 + 2 + 4 + 3 + 2 + 11 + 5 + 5;
+  static constexpr std::size_t kShocks = 6;
   static constexpr float kMostSlip = 1e12f;
   static constexpr float kLongestTurn = 1e18f;
   static constexpr float kLongest = 1.01f;  // numbers of an orientation: stored ones are of length 1 but for rounding
@@ -281,6 +287,8 @@ class ChainStepper {
   Lane& lane_of(int block, int lane) { return lanes_[static_cast<std::size_t>(block) * kLanes + lane]; }
   Real* newest_of(int block) { return newest_.data() + block * sample_size(); }
   Real* previous_of(int block) { return previous_.data() + block * sample_size(); }
+
+  Real* shocks_of(int block) { return shocks_.data() + static_cast<std::size_t>(block) * kShocks * kLanes; }
 
   SystemLane<Real>& system_of(int block, int lane) { return systems_[static_cast<std::size_t>(block) * kLanes + lane]; }
 
@@ -322,13 +330,13 @@ class ChainStepper {
   }
 
   // Six normal deviates a lane.
-  void draw_shocks(const Moment<N>& moment) {
+  void draw_shocks(int block, const Moment<N>& moment) {
     Words<N> counters[4], words[4];
     random_counters<N>(moment.counters, counters);
     for (std::uint32_t group : {0U, 1U}) {
       random_group<N>(*moment.keys, counters, 2 + group, words);
       for (std::uint32_t k = 0; k < (group == 0 ? 4U : 2U); ++k) {
-        store(normal_lanes<N>(words[k]), shocks_.data() + (4 * group + k) * kLanes);
+        store(normal_lanes<N>(words[k]), shocks_of(block) + (4 * group + k) * kLanes);
       }
     }
   }
@@ -338,7 +346,7 @@ class ChainStepper {
     Lane& life = lane_of(block, lane);
     SystemLane<Real>& system = system_of(block, lane);
     const std::uint32_t mode = program_.mode[Mover::index(life.segment, program_.segments())];
-    system_step(program_.systems, mode, program_.step_seconds, noisy_ ? shocks_.data() + lane : nullptr, system,
+    system_step(program_.systems, mode, program_.step_seconds, noisy_ ? shocks_of(block) + lane : nullptr, system,
                 newest_of(block) + lane, kLanes);
     life.row = Real(value_of(life.row) + 1.0f);
     return !(life.row < system.length);
@@ -448,8 +456,9 @@ class ChainStepper {
   std::span<Lane> lanes_;
   std::span<GustLane<Real>> gusts_;
   std::span<SystemLane<Real>> systems_;
-  std::span<Real> shocks_;  // of one step of one block
+  std::span<Real> shocks_;  // [block][deviate][lane], of one step
   bool noisy_ = false;
+  bool steered_ = false;  // now or once
   std::span<Real> newest_;
   std::span<Real> previous_;
   std::span<Real> regressors_;

@@ -11,7 +11,6 @@
 
 namespace wisp {
 
-
 template <class Real>
 using Vector3 = std::array<Real, 3>;
 template <class Real>

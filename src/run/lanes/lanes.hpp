@@ -198,9 +198,8 @@ struct LiveNumbers {
 /// Calls function(0), …, function(count − 1), each with a constant: what a loop holds in an array stays in registers.
 template <int count, class Function>
 inline void unrolled(Function function) {
-  [&]<int... k>(std::integer_sequence<int, k...>) {
-    (function(std::integral_constant<int, k>()), ...);
-  }(std::make_integer_sequence<int, count>());
+  [&]<int... k>(std::integer_sequence<int, k...>) { (function(std::integral_constant<int, k>()), ...); }
+  (std::make_integer_sequence<int, count>());
 }
 
 /// Values side by side, one a lane. Arithmetic is lane by lane.

@@ -52,7 +52,7 @@ std::vector<float> lives(const Model& model, const char* width) {
   return all;
 }
 
-TEST(FramePath, GivesTheSameBitsAtEveryWidth) {
+TEST(FramePathChoice, GivesTheSameBitsAtEveryWidth) {
   const Model models[] = {flame_model({.wind = InputShape::kSplitSign}),
                           flame_model({.noise_rank = 2}),
                           default_flame_model(),
@@ -69,14 +69,14 @@ TEST(FramePath, GivesTheSameBitsAtEveryWidth) {
   }
 }
 
-TEST(FramePath, IsTheWidestThatTheMachineHas) {
+TEST(FramePathChoice, IsTheWidestThatTheMachineHas) {
   const Width none("");
   const auto path = choose_frame_path();
   ASSERT_TRUE(path);
   EXPECT_EQ(*path, frame_paths().back());
 }
 
-TEST(FramePath, IsTheOneThatTheEnvironmentNames) {
+TEST(FramePathChoice, IsTheOneThatTheEnvironmentNames) {
   for (const FramePath* each : frame_paths()) {
     const Width forced(each->width);
     const auto path = choose_frame_path();
@@ -85,7 +85,7 @@ TEST(FramePath, IsTheOneThatTheEnvironmentNames) {
   }
 }
 
-TEST(FramePath, OfAWidthThatIsNotThereIsAnError) {
+TEST(FramePathChoice, OfAWidthThatIsNotThereIsAnError) {
   if (frame_paths().size() == 1) GTEST_SKIP() << "there is but one width to choose from";
   const Width forced("mmx");
   const auto bank = Bank::create(flame_model(), {});
