@@ -1518,23 +1518,21 @@ struct Chain FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
     VT_MODES = 8,
     VT_SEGMENT_MODE = 10,
     VT_SEGMENT_STEPS = 12,
-    VT_ROWS = 14,
+    VT_PACKED = 14,
     VT_ROW_SCALE = 16,
-    VT_RATES = 18,
-    VT_RATE_SCALE = 20,
-    VT_FOLLOW = 22,
-    VT_BREADTH = 24,
-    VT_INITIAL = 26,
-    VT_HISTORY_LENGTHS = 28,
-    VT_HISTORIES = 30,
-    VT_PROBABILITIES = 32,
-    VT_BLEND_SHARE = 34,
-    VT_BLEND_LONGEST_STEPS = 36,
-    VT_GUST = 38,
-    VT_DRIFT = 40,
-    VT_SYSTEMS = 42,
-    VT_SPLINES = 44,
-    VT_ONWARD = 46
+    VT_RATE_SCALE = 18,
+    VT_FOLLOW = 20,
+    VT_BREADTH = 22,
+    VT_INITIAL = 24,
+    VT_HISTORY_LENGTHS = 26,
+    VT_HISTORIES = 28,
+    VT_PROBABILITIES = 30,
+    VT_BLEND_STEPS = 32,
+    VT_GUST = 34,
+    VT_DRIFT = 36,
+    VT_SYSTEMS = 38,
+    VT_SPLINES = 40,
+    VT_ONWARD = 42
   };
   wisp::file::ChainMotion motion() const {
     return static_cast<wisp::file::ChainMotion>(GetField<uint8_t>(VT_MOTION, 0));
@@ -1551,20 +1549,17 @@ struct Chain FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   const flatbuffers::Vector<uint16_t> *segment_steps() const {
     return GetPointer<const flatbuffers::Vector<uint16_t> *>(VT_SEGMENT_STEPS);
   }
-  const flatbuffers::Vector<int16_t> *rows() const {
-    return GetPointer<const flatbuffers::Vector<int16_t> *>(VT_ROWS);
+  const flatbuffers::Vector<uint8_t> *packed() const {
+    return GetPointer<const flatbuffers::Vector<uint8_t> *>(VT_PACKED);
   }
   const flatbuffers::Vector<double> *row_scale() const {
     return GetPointer<const flatbuffers::Vector<double> *>(VT_ROW_SCALE);
   }
-  const flatbuffers::Vector<int16_t> *rates() const {
-    return GetPointer<const flatbuffers::Vector<int16_t> *>(VT_RATES);
-  }
   const flatbuffers::Vector<double> *rate_scale() const {
     return GetPointer<const flatbuffers::Vector<double> *>(VT_RATE_SCALE);
   }
-  const flatbuffers::Vector<uint16_t> *follow() const {
-    return GetPointer<const flatbuffers::Vector<uint16_t> *>(VT_FOLLOW);
+  const flatbuffers::Vector<uint8_t> *follow() const {
+    return GetPointer<const flatbuffers::Vector<uint8_t> *>(VT_FOLLOW);
   }
   uint16_t breadth() const {
     return GetField<uint16_t>(VT_BREADTH, 0);
@@ -1581,11 +1576,8 @@ struct Chain FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   const flatbuffers::Vector<double> *probabilities() const {
     return GetPointer<const flatbuffers::Vector<double> *>(VT_PROBABILITIES);
   }
-  double blend_share() const {
-    return GetField<double>(VT_BLEND_SHARE, 0.0);
-  }
-  double blend_longest_steps() const {
-    return GetField<double>(VT_BLEND_LONGEST_STEPS, 0.0);
+  uint16_t blend_steps() const {
+    return GetField<uint16_t>(VT_BLEND_STEPS, 0);
   }
   const wisp::file::GustResponse *gust() const {
     return GetPointer<const wisp::file::GustResponse *>(VT_GUST);
@@ -1611,12 +1603,10 @@ struct Chain FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
            verifier.VerifyVector(segment_mode()) &&
            VerifyOffsetRequired(verifier, VT_SEGMENT_STEPS) &&
            verifier.VerifyVector(segment_steps()) &&
-           VerifyOffsetRequired(verifier, VT_ROWS) &&
-           verifier.VerifyVector(rows()) &&
+           VerifyOffsetRequired(verifier, VT_PACKED) &&
+           verifier.VerifyVector(packed()) &&
            VerifyOffsetRequired(verifier, VT_ROW_SCALE) &&
            verifier.VerifyVector(row_scale()) &&
-           VerifyOffsetRequired(verifier, VT_RATES) &&
-           verifier.VerifyVector(rates()) &&
            VerifyOffsetRequired(verifier, VT_RATE_SCALE) &&
            verifier.VerifyVector(rate_scale()) &&
            VerifyOffset(verifier, VT_FOLLOW) &&
@@ -1630,8 +1620,7 @@ struct Chain FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
            verifier.VerifyVector(histories()) &&
            VerifyOffsetRequired(verifier, VT_PROBABILITIES) &&
            verifier.VerifyVector(probabilities()) &&
-           VerifyField<double>(verifier, VT_BLEND_SHARE, 8) &&
-           VerifyField<double>(verifier, VT_BLEND_LONGEST_STEPS, 8) &&
+           VerifyField<uint16_t>(verifier, VT_BLEND_STEPS, 2) &&
            VerifyOffset(verifier, VT_GUST) &&
            verifier.VerifyTable(gust()) &&
            VerifyOffset(verifier, VT_DRIFT) &&
@@ -1665,19 +1654,16 @@ struct ChainBuilder {
   void add_segment_steps(flatbuffers::Offset<flatbuffers::Vector<uint16_t>> segment_steps) {
     fbb_.AddOffset(Chain::VT_SEGMENT_STEPS, segment_steps);
   }
-  void add_rows(flatbuffers::Offset<flatbuffers::Vector<int16_t>> rows) {
-    fbb_.AddOffset(Chain::VT_ROWS, rows);
+  void add_packed(flatbuffers::Offset<flatbuffers::Vector<uint8_t>> packed) {
+    fbb_.AddOffset(Chain::VT_PACKED, packed);
   }
   void add_row_scale(flatbuffers::Offset<flatbuffers::Vector<double>> row_scale) {
     fbb_.AddOffset(Chain::VT_ROW_SCALE, row_scale);
   }
-  void add_rates(flatbuffers::Offset<flatbuffers::Vector<int16_t>> rates) {
-    fbb_.AddOffset(Chain::VT_RATES, rates);
-  }
   void add_rate_scale(flatbuffers::Offset<flatbuffers::Vector<double>> rate_scale) {
     fbb_.AddOffset(Chain::VT_RATE_SCALE, rate_scale);
   }
-  void add_follow(flatbuffers::Offset<flatbuffers::Vector<uint16_t>> follow) {
+  void add_follow(flatbuffers::Offset<flatbuffers::Vector<uint8_t>> follow) {
     fbb_.AddOffset(Chain::VT_FOLLOW, follow);
   }
   void add_breadth(uint16_t breadth) {
@@ -1695,11 +1681,8 @@ struct ChainBuilder {
   void add_probabilities(flatbuffers::Offset<flatbuffers::Vector<double>> probabilities) {
     fbb_.AddOffset(Chain::VT_PROBABILITIES, probabilities);
   }
-  void add_blend_share(double blend_share) {
-    fbb_.AddElement<double>(Chain::VT_BLEND_SHARE, blend_share, 0.0);
-  }
-  void add_blend_longest_steps(double blend_longest_steps) {
-    fbb_.AddElement<double>(Chain::VT_BLEND_LONGEST_STEPS, blend_longest_steps, 0.0);
+  void add_blend_steps(uint16_t blend_steps) {
+    fbb_.AddElement<uint16_t>(Chain::VT_BLEND_STEPS, blend_steps, 0);
   }
   void add_gust(flatbuffers::Offset<wisp::file::GustResponse> gust) {
     fbb_.AddOffset(Chain::VT_GUST, gust);
@@ -1725,9 +1708,8 @@ struct ChainBuilder {
     auto o = flatbuffers::Offset<Chain>(end);
     fbb_.Required(o, Chain::VT_SEGMENT_MODE);
     fbb_.Required(o, Chain::VT_SEGMENT_STEPS);
-    fbb_.Required(o, Chain::VT_ROWS);
+    fbb_.Required(o, Chain::VT_PACKED);
     fbb_.Required(o, Chain::VT_ROW_SCALE);
-    fbb_.Required(o, Chain::VT_RATES);
     fbb_.Required(o, Chain::VT_RATE_SCALE);
     fbb_.Required(o, Chain::VT_INITIAL);
     fbb_.Required(o, Chain::VT_HISTORY_LENGTHS);
@@ -1744,26 +1726,22 @@ inline flatbuffers::Offset<Chain> CreateChain(
     uint16_t modes = 0,
     flatbuffers::Offset<flatbuffers::Vector<uint16_t>> segment_mode = 0,
     flatbuffers::Offset<flatbuffers::Vector<uint16_t>> segment_steps = 0,
-    flatbuffers::Offset<flatbuffers::Vector<int16_t>> rows = 0,
+    flatbuffers::Offset<flatbuffers::Vector<uint8_t>> packed = 0,
     flatbuffers::Offset<flatbuffers::Vector<double>> row_scale = 0,
-    flatbuffers::Offset<flatbuffers::Vector<int16_t>> rates = 0,
     flatbuffers::Offset<flatbuffers::Vector<double>> rate_scale = 0,
-    flatbuffers::Offset<flatbuffers::Vector<uint16_t>> follow = 0,
+    flatbuffers::Offset<flatbuffers::Vector<uint8_t>> follow = 0,
     uint16_t breadth = 0,
     flatbuffers::Offset<flatbuffers::Vector<double>> initial = 0,
     flatbuffers::Offset<flatbuffers::Vector<uint8_t>> history_lengths = 0,
     flatbuffers::Offset<flatbuffers::Vector<uint16_t>> histories = 0,
     flatbuffers::Offset<flatbuffers::Vector<double>> probabilities = 0,
-    double blend_share = 0.0,
-    double blend_longest_steps = 0.0,
+    uint16_t blend_steps = 0,
     flatbuffers::Offset<wisp::file::GustResponse> gust = 0,
     flatbuffers::Offset<wisp::file::ChainDrift> drift = 0,
     flatbuffers::Offset<wisp::file::ModeSystems> systems = 0,
     flatbuffers::Offset<wisp::file::ModeSplines> splines = 0,
     flatbuffers::Offset<flatbuffers::Vector<uint16_t>> onward = 0) {
   ChainBuilder builder_(_fbb);
-  builder_.add_blend_longest_steps(blend_longest_steps);
-  builder_.add_blend_share(blend_share);
   builder_.add_onward(onward);
   builder_.add_splines(splines);
   builder_.add_systems(systems);
@@ -1775,11 +1753,11 @@ inline flatbuffers::Offset<Chain> CreateChain(
   builder_.add_initial(initial);
   builder_.add_follow(follow);
   builder_.add_rate_scale(rate_scale);
-  builder_.add_rates(rates);
   builder_.add_row_scale(row_scale);
-  builder_.add_rows(rows);
+  builder_.add_packed(packed);
   builder_.add_segment_steps(segment_steps);
   builder_.add_segment_mode(segment_mode);
+  builder_.add_blend_steps(blend_steps);
   builder_.add_breadth(breadth);
   builder_.add_modes(modes);
   builder_.add_heading_free(heading_free);
@@ -1799,18 +1777,16 @@ inline flatbuffers::Offset<Chain> CreateChainDirect(
     uint16_t modes = 0,
     const std::vector<uint16_t> *segment_mode = nullptr,
     const std::vector<uint16_t> *segment_steps = nullptr,
-    const std::vector<int16_t> *rows = nullptr,
+    const std::vector<uint8_t> *packed = nullptr,
     const std::vector<double> *row_scale = nullptr,
-    const std::vector<int16_t> *rates = nullptr,
     const std::vector<double> *rate_scale = nullptr,
-    const std::vector<uint16_t> *follow = nullptr,
+    const std::vector<uint8_t> *follow = nullptr,
     uint16_t breadth = 0,
     const std::vector<double> *initial = nullptr,
     const std::vector<uint8_t> *history_lengths = nullptr,
     const std::vector<uint16_t> *histories = nullptr,
     const std::vector<double> *probabilities = nullptr,
-    double blend_share = 0.0,
-    double blend_longest_steps = 0.0,
+    uint16_t blend_steps = 0,
     flatbuffers::Offset<wisp::file::GustResponse> gust = 0,
     flatbuffers::Offset<wisp::file::ChainDrift> drift = 0,
     flatbuffers::Offset<wisp::file::ModeSystems> systems = 0,
@@ -1818,11 +1794,10 @@ inline flatbuffers::Offset<Chain> CreateChainDirect(
     const std::vector<uint16_t> *onward = nullptr) {
   auto segment_mode__ = segment_mode ? _fbb.CreateVector<uint16_t>(*segment_mode) : 0;
   auto segment_steps__ = segment_steps ? _fbb.CreateVector<uint16_t>(*segment_steps) : 0;
-  auto rows__ = rows ? _fbb.CreateVector<int16_t>(*rows) : 0;
+  auto packed__ = packed ? _fbb.CreateVector<uint8_t>(*packed) : 0;
   auto row_scale__ = row_scale ? _fbb.CreateVector<double>(*row_scale) : 0;
-  auto rates__ = rates ? _fbb.CreateVector<int16_t>(*rates) : 0;
   auto rate_scale__ = rate_scale ? _fbb.CreateVector<double>(*rate_scale) : 0;
-  auto follow__ = follow ? _fbb.CreateVector<uint16_t>(*follow) : 0;
+  auto follow__ = follow ? _fbb.CreateVector<uint8_t>(*follow) : 0;
   auto initial__ = initial ? _fbb.CreateVector<double>(*initial) : 0;
   auto history_lengths__ = history_lengths ? _fbb.CreateVector<uint8_t>(*history_lengths) : 0;
   auto histories__ = histories ? _fbb.CreateVector<uint16_t>(*histories) : 0;
@@ -1835,9 +1810,8 @@ inline flatbuffers::Offset<Chain> CreateChainDirect(
       modes,
       segment_mode__,
       segment_steps__,
-      rows__,
+      packed__,
       row_scale__,
-      rates__,
       rate_scale__,
       follow__,
       breadth,
@@ -1845,8 +1819,7 @@ inline flatbuffers::Offset<Chain> CreateChainDirect(
       history_lengths__,
       histories__,
       probabilities__,
-      blend_share,
-      blend_longest_steps,
+      blend_steps,
       gust,
       drift,
       systems,

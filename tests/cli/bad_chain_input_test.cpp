@@ -297,6 +297,15 @@ TEST_F(BadChainInput, AFallTooShortToBeMeasuredIsSaid) {
   EXPECT_TRUE(said.json()["fidelity"]["energy_distance"]["value"].is_null());
 }
 
+TEST_F(BadChainInput, AChainWhoseFallsHaveNoEventsIsNotLikeRecordedFallsThatDo) {
+  // The sample glides ahead all along.
+  const auto path = record("brief.csv", Falls{.falls = 1, .rows = 40});
+  const Said said = wisp("validate " + at("leaf.wisp") + " " + path + " --json");
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_EQ(said.json()["usable"]["verdict"], false);
+  EXPECT_THAT(said.json()["usable"]["reason"], HasSubstr("its falls have no events"));
+}
+
 TEST_F(BadChainInput, ARunThatCannotBeIsExplained) {
   const auto falls = record("falls.csv", Falls{});
   const auto run = [&](const std::string& flags, int status) {

@@ -6,6 +6,7 @@
 #include "commands/commands.hpp"
 #include "films/validation_pictures.hpp"
 #include "flags/capture_flags.hpp"
+#include "flags/motion_flags.hpp"
 #include "flags/outline_flags.hpp"
 #include "flags/recordings.hpp"
 #include "flags/steps_flag.hpp"
@@ -112,6 +113,7 @@ Command validate_command() {
       {"columns", Kind::kNames, "A,B,…", "", "names of all columns of a plain table, in their order"},
       {"dt", Kind::kNumber, "S", "", "seconds between samples of a plain table; default: as the model's"},
   };
+  for (Flag& flag : motion_flags()) flags.push_back(std::move(flag));
   for (Flag& flag : capture_flags("1")) {
     if (flag.name != "points") flags.push_back(std::move(flag));  // the model says how many
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 
+#include "flags/motion_flags.hpp"
 #include "wisp/record/csv.hpp"
 #include "wisp/record/mat.hpp"
 
@@ -46,6 +47,9 @@ bool is_matlab(const std::filesystem::path& path) { return extension_of(path) ==
 Result<CsvOptions> csv_options(const Arguments& arguments, CsvOptions options) {
   if (arguments.has("inputs")) options.inputs = arguments.names("inputs");
   if (arguments.has("outputs")) options.outputs = arguments.names("outputs");
+  const auto motion = motion_columns(arguments);
+  if (!motion) return motion.error();
+  options.outputs.insert(options.outputs.end(), motion->begin(), motion->end());
   options.columns = arguments.names("columns");
   if (arguments.has("dt")) {
     const double seconds = arguments.number("dt");
@@ -77,7 +81,9 @@ Result<Recording> read_table(const std::filesystem::path& path, const Arguments&
                              const CsvOptions& otherwise) {
   const auto options = csv_options(arguments, otherwise);
   if (!options) return options.error();
-  return is_matlab(path) ? read_matlab(path, *options, arguments, otherwise) : read_csv(path, *options);
+  auto recording = is_matlab(path) ? read_matlab(path, *options, arguments, otherwise) : read_csv(path, *options);
+  if (!recording) return recording;
+  return as_motion(std::move(*recording), arguments);
 }
 
 bool leave_out(const std::string& path, const Error& error, const Arguments& arguments, Terminal& terminal) {

@@ -5,7 +5,7 @@
 #
 # It last changed when switched models came onto the stepper of ARX models, which adds a shock before the taps.
 # A change of this hash is a change of what every game sees: CHANGES.md says so on a line of its own.
-set(golden 7c921daf7ccdd1b6)
+set(golden 3626a66fa5eac3d3)
 
 set(variants
   "g++ -O0"

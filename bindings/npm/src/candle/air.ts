@@ -76,7 +76,7 @@ export class Air {
   private readonly flow: Pair;
   private readonly pressure: Pair;
   private readonly smoke: Pair;
-  private readonly programs: Record<'carry' | 'press' | 'free' | 'soot' | 'smoke', Program>;
+  readonly programs: Record<'carry' | 'press' | 'free' | 'soot' | 'smoke', Program>;
   private aspect = 1;
 
   constructor(

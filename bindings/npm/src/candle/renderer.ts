@@ -1,6 +1,6 @@
 // Draws the candle's room with WebGL2: light is added up in a picture of high range and developed onto the canvas.
 
-import { drawToCanvas, hasRange, Program, Quad, Target } from '../stage/gl.js';
+import { drawToCanvas, hasRange, Program, Quad, Target, Warming } from '../stage/gl.js';
 import type { After } from './after.js';
 import type { Stirring } from './air.js';
 import type { FlameShape } from './flame_shape.js';
@@ -25,8 +25,6 @@ const GLARING = 0.13;
 const SHIMMER = 0.0035;
 /** What the eye makes of a lit room and of a dark one; and seconds in which it gets used to more light, and to less. */
 const EXPOSURES = { lit: 1, dark: 8, brighter: 0.25, darker: 0.9 };
-/** Frames that late programs are given to be compiled beside us. */
-const COMPILING = 4;
 
 /** A candle with its flame, as it is to be drawn. */
 export interface DrawnCandle {
@@ -78,6 +76,13 @@ export interface Look {
   plain: boolean;
 }
 
+/** What draws the room with what stands in it. */
+interface Room {
+  surface: Program;
+  light: Program;
+  warming: Warming;
+}
+
 interface Lamp {
   x: number;
   y: number;
@@ -91,7 +96,8 @@ export class CandleRenderer {
   private readonly picture: Target;
   private readonly programs: Record<'candle' | 'flame' | 'develop', Program>;
   /** of the room: with nothing on the table, and with a cake, once that has come */
-  private readonly rooms: Partial<Record<'table' | 'cake', { surface: Program; light: Program }>> = {};
+  private readonly rooms: Partial<Record<'table' | 'cake', Room>> = {};
+  private readonly warming: Warming;
   private readonly lights = new Float32Array(4 * MOST_LIGHTS);
   private readonly halos = new Float32Array(4 * MOST_LIGHTS);
   private readonly spread = new Float32Array(MOST_LIGHTS);
@@ -103,7 +109,6 @@ export class CandleRenderer {
   private readonly lamps: Lamp[] = [];
   private surfaceOf = '';
   private after: After | null = null;
-  private compiling = COMPILING;
   private bringing = false;
   private exposure = EXPOSURES.lit;
   private gone = false;
@@ -117,6 +122,7 @@ export class CandleRenderer {
       flame: new Program(gl, boardVertex, noise + flameFragment),
       develop: new Program(gl, fullVertex, noise + developFragment),
     };
+    this.warming = new Warming(Object.values(this.programs));
   }
 
   /** Draws one picture on the canvas, which is view.width by view.height pixels. False: what it needs is still to come. */
@@ -164,11 +170,15 @@ export class CandleRenderer {
   }
 
   /** The programs of the room that is to be drawn; null while those of a cake are on their way. */
-  private room(setting: Setting): { surface: Program; light: Program } | null {
+  private room(setting: Setting): Room | null {
+    if (!this.warming.done()) return null;
     const name = setting.cake === null ? 'table' : 'cake';
     const there = this.rooms[name];
-    if (there !== undefined) return there;
-    if (name === 'table') return this.furnish(name, table);
+    if (there !== undefined) return there.warming.done() ? there : null;
+    if (name === 'table') {
+      this.furnish(name, table);
+      return null;
+    }
     if (this.bringing) return null;
     this.bringing = true;
     void import('./cake.js').then(({ cake }) => {
@@ -178,14 +188,11 @@ export class CandleRenderer {
     return null;
   }
 
-  private furnish(name: 'table' | 'cake', onIt: string): { surface: Program; light: Program } {
+  private furnish(name: 'table' | 'cake', onIt: string): void {
     const source = noise + room + onIt;
-    const made = {
-      surface: new Program(this.gl, fullVertex, source + surfaceFragment),
-      light: new Program(this.gl, fullVertex, source + lightFragment),
-    };
-    this.rooms[name] = made;
-    return made;
+    const surface = new Program(this.gl, fullVertex, source + surfaceFragment);
+    const light = new Program(this.gl, fullVertex, source + lightFragment);
+    this.rooms[name] = { surface, light, warming: new Warming([surface, light]) };
   }
 
   /** Fetches what comes after the first picture. */
@@ -199,12 +206,8 @@ export class CandleRenderer {
   }
 
   private ready(look: Look): After | null {
-    if (this.after === null) return null;
-    if (this.compiling > 0) {
-      this.compiling -= 1;
-      return null;
-    }
-    return look.plain ? null : this.after;
+    if (this.after === null || look.plain) return null;
+    return this.after.warming.done() ? this.after : null;
   }
 
   /** The eye gets used to how much light there is. */

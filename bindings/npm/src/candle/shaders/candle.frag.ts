@@ -37,7 +37,7 @@ vec3 side(float u, float below) {
   vec3 normal = normalize(vec3(u - 0.10 * slope * s, 0.09 * drop, s + 0.10 * slope * u));
   float deep = below / max(0.35, uRadius / 0.33);
   // Light that the wax passes on, from the pool downwards: soon red, and soon gone.
-  float through = 1.55 * exp(-deep / 0.26) + 0.50 * exp(-deep / 0.85) + 0.05 * exp(-deep / 3.0);
+  float through = 1.35 * exp(-deep / 0.26) + 0.50 * exp(-deep / 0.85) + 0.05 * exp(-deep / 3.0);
   through *= 0.70 + 0.30 * u * u + 0.22 * lift;
   through *= 1.0 + 0.9 * uLean.x * u * exp(-deep / 0.5);
   through *= 0.93 + 0.14 * fractal(vec2(turn * 3.0 + uSeed, below * 2.2));

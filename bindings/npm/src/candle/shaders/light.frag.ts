@@ -56,7 +56,7 @@ vec3 shown(Hit hit, vec4 surface) {
     float fall = uLights[k].w / (0.22 + r2);
     float seen = shade(hit.at, uStands[k], uLights[k].xyz);
     if (hit.kind == kOnCakeTop) seen *= sticks(hit.at, uLights[k].xyz);
-    light += kFire * (facing * fall * seen * (hit.kind == kOnWall ? 1.9 : 1.0));
+    light += kFire * (facing * fall * seen * (hit.kind == kOnWall ? 1.9 : hit.kind == kOnCakeTop ? 0.62 : 1.0));
     if (surface.a > 0.0 && hit.kind != kOnWall) {
       float shine = max(0.0, dot(hit.normal, normalize(way + eye)));
       gloss += kFire * (surface.a * fall * seen * (0.9 * pow(shine, 60.0) + 0.10 * pow(shine, 12.0)));
