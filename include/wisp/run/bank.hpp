@@ -118,8 +118,8 @@ class Bank {
   /// Scale of the residual noise: 1 as learned, 0 none; held to [0, 10]. At 0 a step costs less.
   /// A segment chain has no residual noise, its chance is in its walk: at 0 the likeliest mode follows, as the segment
   /// that joins best. Instances that are spawned then differ by their first heading alone, and their lives sooner or
-  /// later repeat themselves (chain_loop() in wisp/run/chain_loop.hpp computes when). Any other scale leaves a chain as
-  /// it is.
+  /// later repeat themselves (chain_loop() in wisp/run/chain_facet.hpp computes when). Any other scale leaves a chain
+  /// as it is.
   void set_noise(float scale);
   float noise() const;
 
