@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/hash.hpp"
+#include "model/chain_rows.hpp"
 #include "model/damaged_bytes.hpp"
 #include "model/sample_chain.hpp"
 #include "paths.hpp"
@@ -128,6 +129,28 @@ TEST(ChainModel, RowsAndRatesOfAnySizeAreReadAsWritten) {
     const auto read = parse_model(*model_bytes(model), "chain.wisp");
     ASSERT_TRUE(read) << read.error().message;
     expect_same(*read, model);
+  }
+}
+
+TEST(ChainModel, MoreSegmentsThanThereCanBeAreNotUnpacked) {
+  // 65536 of 65536 rows each are none, counted in 32 bits.
+  ChainModel many = std::get<ChainModel>(sample_chain().dynamics);
+  many.segments = {};
+  many.segments.mode.assign(65536, 0);
+  many.segments.steps.assign(65536, 65535);
+  EXPECT_FALSE(unpack_segments(std::vector<std::uint8_t>(200'000), many));
+  EXPECT_TRUE(many.segments.rows.empty());
+}
+
+TEST(ChainModel, FactorsOfRatesThatNoFileHasAreNotMultipliedBy) {
+  const ChainModel model = std::get<ChainModel>(sample_chain().dynamics);
+  std::vector<std::uint8_t> packed = packed_segments(model);
+  ChainModel read = model;
+  ASSERT_TRUE(unpack_segments(packed, read));
+  EXPECT_EQ(read.segments.rates, model.segments.rates);
+  for (std::uint8_t first : {std::uint8_t{0x7f}, std::uint8_t{0x80}}) {
+    packed[0] = first;
+    EXPECT_FALSE(unpack_segments(packed, read)) << int{first};
   }
 }
 
