@@ -1,0 +1,31 @@
+#pragma once
+// What a frame computes, for all instances of a range of blocks. frame_path.cpp is compiled once for every width of
+// vectors that the machine may have (src/run/CMakeLists.txt), and a bank takes one when it is made. All give the same
+// bits.
+
+#include <cstdint>
+#include <span>
+
+#include "wisp/base/result.hpp"
+#include "wisp/run/bank.hpp"
+
+namespace wisp {
+
+struct FramePath {
+  const char* width;
+  void (*set_inputs)(Bank::State& state, const float* values);
+  void (*set_common_inputs)(Bank::State& state, const float* values);
+  /// Makes the newest samples of blocks; returns of how many instances an output was held.
+  std::uint64_t (*step)(Bank::State& state, int first, int last);
+  void (*show)(Bank::State& state, int first, int last);
+  void (*polylines)(const Bank::State& state, float* values);
+};
+
+/// Those that this machine can run, the narrowest first: it is what the compiler was told to make.
+std::span<const FramePath* const> frame_paths();
+
+/// The widest; or the one that the environment variable WISP_WIDTH names.
+/// Errors: it names another.
+Result<const FramePath*> choose_frame_path();
+
+}  // namespace wisp
