@@ -1,6 +1,6 @@
 // The page as a whole: stage, player, microphone and controls, and what passes between them.
 
-import type { Wisp } from '@wisp/player';
+import type { Library } from '@wisp/player';
 import { CandleScene } from '@wisp/player/parts/candle/scene';
 import { watchDrops } from './drops.js';
 import { linkOf, settingsFromLink, type Settings } from './link.js';
@@ -58,7 +58,7 @@ export class App {
   private offered: Playing | null = null;
 
   constructor(
-    private readonly wisp: Wisp,
+    private readonly wisp: Library,
     private readonly settings: Settings,
     private readonly overlay: boolean,
   ) {

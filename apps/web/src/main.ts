@@ -1,6 +1,6 @@
 // Where the page begins.
 
-import { load } from '@wisp/player';
+import { loadLibrary } from '@wisp/player/parts/library';
 import { App } from './app.js';
 import { DEFAULTS, isOverlay, settingsFromLink, type Settings } from './link.js';
 
@@ -31,7 +31,7 @@ async function start(): Promise<void> {
   }
   const overlay = isOverlay(location.hash);
   document.body.classList.toggle('overlay', overlay);
-  const app = new App(await load(), startingSettings(), overlay);
+  const app = new App(await loadLibrary(), startingSettings(), overlay);
   await app.start();
   keepForOffline();
 }

@@ -1,6 +1,6 @@
 // For lessons: flames of several orders, and one without noise, side by side in the same wind as the large one.
 
-import type { Bank, Instance, Model, Wisp } from '@wisp/player';
+import type { Bank, Instance, Model, Library } from '@wisp/player';
 import { ORDERS } from '../link.js';
 import { fetchShipped, shippedFlame } from '../shipped.js';
 import { element } from './element.js';
@@ -23,7 +23,7 @@ export class Lesson {
   private readonly pupils: Pupil[] = [];
   private gone = false;
 
-  constructor(private readonly wisp: Wisp, seed: number) {
+  constructor(private readonly wisp: Library, seed: number) {
     void this.bring(seed).catch((error: unknown) => {
       this.place.textContent = error instanceof Error ? error.message : String(error);
     });

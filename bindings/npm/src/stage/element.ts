@@ -1,8 +1,8 @@
 // What the package's elements have in common: a canvas in a shadow of its own, a model, wind, and one WebAssembly module
 // for all of them.
 
-import type { Model, Wisp } from '../index.js';
-import { load } from '../index.js';
+import { type Library, loadLibrary } from '../library.js';
+import type { Model } from '../model.js';
 import type { Microphone } from '../microphone.js';
 import { KeyBreath } from '../air/keys.js';
 import type { Scene, SceneSettings } from './scene.js';
@@ -26,11 +26,11 @@ const STALE = 250;
 /** Seconds that the room is listened to before it counts. */
 const CALIBRATION = 3;
 
-let wisp: Promise<Wisp> | null = null;
+let wisp: Promise<Library> | null = null;
 
 /** The library, loaded once for all elements of a page. */
-export function shared(): Promise<Wisp> {
-  wisp ??= load();
+export function shared(): Promise<Library> {
+  wisp ??= loadLibrary();
   return wisp;
 }
 
