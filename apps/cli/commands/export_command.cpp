@@ -115,7 +115,7 @@ Command export_command() {
       "its .atlas.json), APNG or WebM with opacity; or the model itself as C for microcontrollers (.c, with its .h).",
       {{"MODEL", "the model, a .wisp file"}},
       {
-          {"output", Kind::kPath, "OUT", "", "what to write: OUT.glb, .json, .png, .apng, .webm or .c", {}, true},
+          {"output", Kind::kOutput, "OUT", "", "what to write: OUT.glb, .json, .png, .apng, .webm or .c", {}, true},
           {"seconds", Kind::kNumber, "S", "4", "how much of its play"},
           {"loop", Kind::kNumber, "S", "",
            "a round of that many seconds, whose last frame meets its first in value and in speed; a leaf's round "
