@@ -174,11 +174,11 @@ int16_t @NAME@_step(@NAME@_state* lamp@INPUTARGUMENT@);
 )";
 
 constexpr const char* kSource = R"(/* Made by `wisp export` from the model "@MODEL@". */
-#include "@NAME@.h"
+@INCLUDE@ "@NAME@.h"
 
 /* Tables stay in flash on AVR, where memory for data is small. */
 #ifdef __AVR__
-#include <avr/pgmspace.h>
+@INCLUDE@ <avr/pgmspace.h>
 #define LAMP_FLASH PROGMEM
 #define LAMP_32(address) ((int32_t)pgm_read_dword(address))
 #define LAMP_16(address) pgm_read_word(address)
@@ -341,6 +341,8 @@ Result<FirmwareSource> firmware_source(const Model& model, std::string_view name
                              {"GUARD", upper + "_H"},
                              {"UPPER", upper},
                              {"MODEL", called},
+                             // Not written out above: what this file includes is read line by line.
+                             {"INCLUDE", "#include"},
                              {"NAME", std::string(name)}});
   FirmwareSource out{filled(kHeader, words), filled(kSource, words), 0};
   const std::size_t inputs = lamp->taps > 0 ? 2 * (lamp->taps + lamp->delay) : 0;
