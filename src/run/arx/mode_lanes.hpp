@@ -12,6 +12,11 @@
 #include "run/lanes/random_lanes.hpp"
 #include "wisp/model/arx.hpp"
 
+// A build whose size comes first steps one block at a time, with the same bits: the kernel is there once, not twice.
+#ifndef WISP_BLOCKS_AT_ONCE
+#define WISP_BLOCKS_AT_ONCE 4
+#endif
+
 namespace wisp {
 
 /// An ARX model's: there is nothing to choose, and nothing of it is kept.
@@ -27,7 +32,7 @@ class SingleMode {
   static constexpr std::size_t count() { return 1; }
   void set_chance(bool) {}
   /// Blocks that can be stepped at once: what they multiply with is the same.
-  static constexpr int kGroup = 4;
+  static constexpr int kGroup = WISP_BLOCKS_AT_ONCE;
   struct Choice {
     Reals<N> pick(const float* of_mode) const { return all<Reals<N>>(*of_mode); }
   };
