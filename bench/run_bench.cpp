@@ -48,9 +48,7 @@ void flame_step(benchmark::State& state) {
   step_flames(state, flame_model({.wind = InputShape::kSplitSign}), static_cast<int>(state.range(0)),
               static_cast<float>(state.range(1)));
 }
-BENCHMARK(flame_step)
-    ->ArgNames({"flames", "noise"})
-    ->ArgsProduct({{1, 8, 64, 1024, 16384, 131072, 1048576}, {0, 1}});
+BENCHMARK(flame_step)->ArgNames({"flames", "noise"})->ArgsProduct({{1, 8, 64, 1024, 16384, 131072, 1048576}, {0, 1}});
 
 // As wisp learn flame makes them.
 void default_flame_step(benchmark::State& state) {

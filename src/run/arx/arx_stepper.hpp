@@ -196,7 +196,7 @@ class ArxStepper : public ChannelHistory<N> {
   void make_shocks(int block, const Choice& choice, const Moment<N>& moment) {
     Real* newest = ring_.sample(block, 0);
     if (drawn_.empty()) {
-      if (own_shocks_) {
+      if (kGroup > 1 && own_shocks_) {  // a second copy of what draws, worth it where many are stepped
         draw(moment, [&](int i, const auto& normals) {
           const auto size = choice.pick(shock_size_.data() + i * modes_.count());
           store(constant(choice, i) + size * normals, newest + i * kLanes);
