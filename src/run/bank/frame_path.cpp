@@ -170,7 +170,7 @@ void polylines(const Bank::State& s, float* values) {
 }  // namespace
 }  // namespace wisp
 
-extern "C" const wisp::FramePath WISP_FRAME_PATH = {
+extern "C" WISP_INSIDE const wisp::FramePath WISP_FRAME_PATH = {
     WISP_WIDTH_NAME,
     wisp::set_inputs,
     wisp::set_common_inputs,

@@ -9,6 +9,13 @@
 #include "wisp/base/result.hpp"
 #include "wisp/run/bank.hpp"
 
+// The shared library shows what begins with wisp_: not these.
+#ifdef __ELF__
+#define WISP_INSIDE __attribute__((visibility("hidden")))
+#else
+#define WISP_INSIDE
+#endif
+
 namespace wisp {
 
 struct FramePath {

@@ -5,10 +5,10 @@
 
 #include "run/bank/frame_path.hpp"
 
-extern "C" const wisp::FramePath wisp_frame_path;
+extern "C" WISP_INSIDE const wisp::FramePath wisp_frame_path;
 #ifdef WISP_WIDE_PATHS
-extern "C" const wisp::FramePath wisp_frame_path_avx2;
-extern "C" const wisp::FramePath wisp_frame_path_avx512;
+extern "C" WISP_INSIDE const wisp::FramePath wisp_frame_path_avx2;
+extern "C" WISP_INSIDE const wisp::FramePath wisp_frame_path_avx512;
 #endif
 
 namespace wisp {
