@@ -101,43 +101,35 @@ inline LongWords high_half(LongWords a) { return {_mm512_srli_epi64(a.all, 32)};
 inline LongWords differing(LongWords a, LongWords b, std::uint32_t key) {
   return {_mm512_ternarylogic_epi64(a.all, b.all, _mm512_set1_epi64(static_cast<long long>(key)), 0x96)};
 }
-#elif defined(__AVX2__)
+#else
+using LongPart = std::uint64_t __attribute__((vector_size(4 * kPartLanes)));
 struct LongWords {
-  __m256i even, odd;
+  LongPart even, odd;
 };
 
-inline LongWords long_words(WordPart words) { return {(__m256i)words, _mm256_srli_epi64((__m256i)words, 32)}; }
+inline LongWords high_half(LongWords a) { return {a.even >> 32, a.odd >> 32}; }
+inline LongWords long_words(WordPart words) { return {(LongPart)words, (LongPart)words >> 32}; }
+inline LongWords differing(LongWords a, LongWords b, std::uint32_t key) {
+  return {a.even ^ b.even ^ std::uint64_t{key}, a.odd ^ b.odd ^ std::uint64_t{key}};
+}
+#ifdef __AVX2__
 inline WordPart words_of(LongWords a) {
-  return (WordPart)_mm256_blend_epi32(a.even, _mm256_slli_epi64(a.odd, 32), 0xAA);
+  return (WordPart)_mm256_blend_epi32((__m256i)a.even, (__m256i)(a.odd << 32), 0xAA);
 }
 inline LongWords product(LongWords a, std::uint32_t b) {
-  const __m256i factor = _mm256_set1_epi32(static_cast<int>(b));
-  return {_mm256_mul_epu32(a.even, factor), _mm256_mul_epu32(a.odd, factor)};
-}
-inline LongWords high_half(LongWords a) { return {_mm256_srli_epi64(a.even, 32), _mm256_srli_epi64(a.odd, 32)}; }
-inline LongWords differing(LongWords a, LongWords b, std::uint32_t key) {
-  const __m256i keys = _mm256_set1_epi32(static_cast<int>(key));
-  return {a.even ^ b.even ^ keys, a.odd ^ b.odd ^ keys};
+  const __m256i factor = _mm256_set1_epi64x(b);
+  return {(LongPart)_mm256_mul_epu32((__m256i)a.even, factor), (LongPart)_mm256_mul_epu32((__m256i)a.odd, factor)};
 }
 #else
-struct LongWords {
-  __m128i even, odd;
-};
-
-inline LongWords long_words(WordPart words) { return {(__m128i)words, _mm_srli_epi64((__m128i)words, 32)}; }
 inline WordPart words_of(LongWords a) {
-  const __m128i even = _mm_shuffle_epi32(a.even, 0x08), odd = _mm_shuffle_epi32(a.odd, 0x08);
-  return (WordPart)_mm_unpacklo_epi32(even, odd);
+  return (WordPart)_mm_unpacklo_epi32(_mm_shuffle_epi32((__m128i)a.even, 0x08),
+                                      _mm_shuffle_epi32((__m128i)a.odd, 0x08));
 }
 inline LongWords product(LongWords a, std::uint32_t b) {
-  const __m128i factor = _mm_set1_epi32(static_cast<int>(b));
-  return {_mm_mul_epu32(a.even, factor), _mm_mul_epu32(a.odd, factor)};
+  const __m128i factor = _mm_set1_epi64x(b);
+  return {(LongPart)_mm_mul_epu32((__m128i)a.even, factor), (LongPart)_mm_mul_epu32((__m128i)a.odd, factor)};
 }
-inline LongWords high_half(LongWords a) { return {_mm_srli_epi64(a.even, 32), _mm_srli_epi64(a.odd, 32)}; }
-inline LongWords differing(LongWords a, LongWords b, std::uint32_t key) {
-  const __m128i keys = _mm_set1_epi32(static_cast<int>(key));
-  return {a.even ^ b.even ^ keys, a.odd ^ b.odd ^ keys};
-}
+#endif
 #endif
 #endif
 

@@ -86,6 +86,7 @@ TEST(FramePathChoice, IsTheOneThatTheEnvironmentNames) {
 }
 
 TEST(FramePathChoice, OfAWidthThatIsNotThereIsAnError) {
+  // Where only one was compiled, or the processor has no other, the variable is not read.
   if (frame_paths().size() == 1) GTEST_SKIP() << "there is but one width to choose from";
   const Width forced("mmx");
   const auto bank = Bank::create(flame_model(), {});
