@@ -5,7 +5,7 @@ import type { After } from './after.js';
 import type { Stirring } from './air.js';
 import type { FlameShape } from './flame_shape.js';
 import type { RoomView, Setting, Stand } from './room.js';
-import { MOST_CANDLES, WICK_GAP } from './room.js';
+import { flameFoot, MOST_CANDLES } from './room.js';
 import boardVertex from './shaders/board.vert.js';
 import candleFragment from './shaders/candle.frag.js';
 import developFragment from './shaders/develop.frag.js';
@@ -147,7 +147,7 @@ export class CandleRenderer {
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     for (const candle of shown.candles) {
       this.drawCandle(view, candle, shown);
-      this.drawFlame(view, candle, candle.stand, this.flameFoot(candle.stand), shown.clock);
+      this.drawFlame(view, candle, candle.stand, flameFoot(candle.stand), shown.clock);
     }
     if (after !== null) this.drawLate(after, view, shown, look);
     gl.disable(gl.BLEND);
@@ -241,7 +241,7 @@ export class CandleRenderer {
   private gatherLamps(view: RoomView, shown: CandlePicture): void {
     this.lamps.length = 0;
     for (const { stand, shape } of shown.candles) {
-      const foot = this.flameFoot(stand);
+      const foot = flameFoot(stand);
       this.addLamp(view, stand.x, foot, stand.z, stand.unit, shape, stand);
     }
     const { match } = shown;
@@ -285,10 +285,6 @@ export class CandleRenderer {
       program.setVectors4('uSticks', this.sticks);
     }
     this.quad.draw();
-  }
-
-  private flameFoot(stand: Stand): number {
-    return stand.ground + stand.height + WICK_GAP * stand.unit;
   }
 
   private setBoard(program: Program, view: RoomView, x: number, y: number, z: number, unit: number, box: number[]): Program {
@@ -433,7 +429,7 @@ export class CandleRenderer {
     for (const { stand, ember, shape } of shown.candles) {
       if (!shape.empty || ember < 0.02 || count >= MOST_LIGHTS) continue;
       const scale = (view.scale * view.nearness(stand.z) * stand.unit) / tall;
-      const at = [view.pixelX(stand.x + 0.03 * stand.unit, stand.z) / tall, view.pixelY(this.flameFoot(stand) + 0.08 * stand.unit, stand.z) / tall];
+      const at = [view.pixelX(stand.x + 0.03 * stand.unit, stand.z) / tall, view.pixelY(flameFoot(stand) + 0.08 * stand.unit, stand.z) / tall];
       this.smokeLamps.set([...at, 0.10 * scale, 0.5 * ember], 4 * count);
       count += 1;
     }
