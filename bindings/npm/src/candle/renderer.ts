@@ -23,6 +23,8 @@ const MOST_LIGHTS = MOST_CANDLES + 2;
 const GLARING = 0.13;
 /** How far heat shifts what is behind it, shares of the picture. */
 const SHIMMER = 0.0035;
+/** Least width of rising air, heights of the picture: what is narrower than two cells of its grid does not rise. */
+const LEAST_PLUME = 0.02;
 /** What the eye makes of a lit room and of a dark one; and seconds in which it gets used to more light, and to less. */
 const EXPOSURES = { lit: 1, dark: 8, brighter: 0.25, darker: 0.9 };
 
@@ -394,7 +396,7 @@ export class CandleRenderer {
     const add = (x: number, y: number, z: number, unit: number, shape: FlameShape, lit: boolean, smoking: number): void => {
       const scale = (view.scale * view.nearness(z) * unit) / tall;
       const at = [(view.pixelX(x, z) + (lit ? 0.6 * shape.tipX * scale * tall : 0)) / tall, view.pixelY(y, z) / tall + (lit ? 0.8 * shape.tipY * scale : 0)];
-      this.heats.set([...at, (lit ? 0.16 : 0.10) * scale, lit ? 9 * shape.light : 7 * smoking], 4 * count);
+      this.heats.set([...at, Math.max(LEAST_PLUME, (lit ? 0.16 : 0.10) * scale), lit ? 9 * shape.light : 7 * smoking], 4 * count);
       this.wicks.set([...at, 0.022 * scale + 0.0012, 26 * smoking], 4 * count);
       count += 1;
     };
