@@ -56,7 +56,7 @@ Result<Flipbook> flame_flipbook(const Model& model, const Take& take, int height
     }
   }
   // A halo that is nearly gone within its room, so that the fading hardly shows.
-  const FlameStyle style{.candle = false, .glow_reach = 0.45F};
+  const FlameStyle style{.glow_reach = 0.25F, .candle = false};
   FlameScene scene;
   scene.pixels_per_unit = static_cast<float>(height) / (top + 2 * kHalo);
   const float room = kHalo * scene.pixels_per_unit;
