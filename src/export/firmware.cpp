@@ -17,8 +17,8 @@ namespace wisp {
 namespace {
 
 constexpr int kStateBits = 29, kWeightBits = 28, kSumBits = 25, kOneBits = 12;
-constexpr std::size_t kMostModes = 16, kMostLags = 32;
-constexpr double kLargestWeight = 8, kLargestSum = 24;
+constexpr std::size_t kMaxModes = 16, kMaxLags = 32;
+constexpr double kMaxWeight = 8, kMaxSum = 24;
 // Standard deviation of the sum of four bytes from -128 to 127.
 const double kBytesSd = std::sqrt(4.0 * (256 * 256 - 1) / 12);
 
@@ -89,21 +89,26 @@ Result<Lamp> lamp_of(const Model& model) {
   } else {
     return Error{"the model is a chain of segments, which no small microcontroller holds"};
   }
-  if (lamp.feedback.size() > kMostModes || lamp.lags > kMostLags || lamp.taps + lamp.delay > kMostLags) {
+  return lamp;
+}
+
+// What fixed point and a small memory hold.
+Result<void> check(const Lamp& lamp) {
+  if (lamp.feedback.size() > kMaxModes || lamp.lags > kMaxLags || lamp.taps + lamp.delay > kMaxLags) {
     return Error{"the model has more than 16 modes or 32 lags; learn a smaller one"};
   }
   for (const auto& weights : lamp.feedback) {
     double sum = 0;
     for (const double weight : weights) {
       sum += std::abs(weight);
-      if (std::abs(weight) >= kLargestWeight || sum >= kLargestSum) {
+      if (std::abs(weight) >= kMaxWeight || sum >= kMaxSum) {
         return Error{
             "its coefficients are 8 or more, or 24 together, which fixed point does not hold; learn it with a "
             "lower order"};
       }
     }
   }
-  return lamp;
+  return {};
 }
 
 bool is_name(std::string_view name) {
@@ -294,9 +299,10 @@ std::string thresholds(const Lamp& lamp) {
 
 Result<FirmwareSource> firmware_source(const Model& model, std::string_view name) {
   if (!is_name(name)) return Error{"\"" + std::string(name) + "\" is no name in C; call the file after one"};
-  if (auto ok = check(model); !ok) return ok.error();
+  if (auto ok = wisp::check(model); !ok) return ok.error();
   const auto lamp = lamp_of(model);
   if (!lamp) return lamp.error();
+  if (auto ok = check(*lamp); !ok) return ok.error();
   const Output& output = model.outputs[0];
   const double margin = kRangeMargin * (output.highest - output.lowest), one = 1 << kOneBits;
   const double below = output.lowest - margin, highest = output.highest + margin;

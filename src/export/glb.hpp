@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "export/json_text.hpp"
+#include "base/json_text.hpp"
 
 namespace wisp::exporting {
 

@@ -253,8 +253,8 @@ Result<std::vector<std::byte>> gltf_bytes(const Model& model, const Take& take) 
   const auto document = document_of(model, take);
   if (!document) {
     return Error{
-        "the model's outputs are neither an outline nor a body, so there is nothing to move; write numbers "
-        "with `wisp run -o X.csv`"};
+        "the model's outputs are neither an outline nor a body, so there is nothing to move; a lamp goes into a .c, "
+        "and numbers are written with `wisp run -o X.csv`"};
   }
   JsonText json;
   json.object().object("asset").value("2.0", "version").value("Wisp", "generator").end();

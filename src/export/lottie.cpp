@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "export/json_text.hpp"
+#include "base/json_text.hpp"
 #include "export/outline.hpp"
 #include "wisp/export/export.hpp"
 
@@ -94,7 +94,8 @@ void write_transform(JsonText& json) {
 Result<std::string> lottie_text(const Model& model, const Take& take, int height) {
   if (auto ok = check_take(model, take); !ok) return ok.error();
   const auto* view = std::get_if<OutlineView>(&model.view);
-  if (!view) return Error{"the model's outputs are no outline to draw; a body's motion goes into a .glb"};
+  if (!view)
+    return Error{"the model's outputs are no outline to draw; a body's motion goes into a .glb, a lamp into a .c"};
   if (height < 16 || height > 8192) {
     return Error{"the height is " + std::to_string(height) + " pixels, expected 16 to 8192"};
   }

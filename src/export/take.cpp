@@ -15,20 +15,20 @@ namespace {
 
 using namespace exporting;
 
-constexpr double kMostSeconds = 3600, kMostNumbers = 5e8;
-constexpr int kMostInstances = 1000;
+constexpr double kMaxSeconds = 3600, kMaxNumbers = 5e8;
+constexpr int kMaxInstances = 1000;
 constexpr double kSettle = 4;  // seconds of play before the first frame
 
 Result<void> check(const Model& model, const TakeOptions& options) {
-  if (!(options.seconds > 0 && options.seconds <= kMostSeconds)) {
+  if (!(options.seconds > 0 && options.seconds <= kMaxSeconds)) {
     return Error{"the length is " + std::to_string(options.seconds) + " s, expected above 0 and at most 3600 s"};
   }
   const double frames = options.seconds * model.rate_hz;
   if (frames < 1) return Error{"the length is less than one frame of the model, expected at least 1"};
-  if (options.instances < 1 || options.instances > kMostInstances) {
+  if (options.instances < 1 || options.instances > kMaxInstances) {
     return Error{"there are " + std::to_string(options.instances) + " instances, expected 1 to 1000"};
   }
-  if (frames * options.instances * static_cast<double>(model.outputs.size()) > kMostNumbers) {
+  if (frames * options.instances * static_cast<double>(model.outputs.size()) > kMaxNumbers) {
     return Error{"the frames are more than 5e8 numbers; ask for fewer seconds or instances"};
   }
   if (options.inputs.size() > model.inputs.size()) {

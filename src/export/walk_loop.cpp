@@ -13,7 +13,7 @@ namespace {
 constexpr int kWalks = 64;       // side by side
 constexpr double kSeconds = 80;  // of each, beside the loop
 constexpr double kSettled = 4;   // seconds after which a walk has forgotten how it began, and a wind has blown in
-constexpr int kMostRounds = 8;
+constexpr int kMaxRounds = 8;
 
 using Vector = std::array<double, 3>;
 
@@ -156,7 +156,7 @@ WalkLoop loop_of(const Return& found, std::size_t outputs, std::size_t frames) {
 std::optional<WalkLoop> find_walk_loop(const Model& model, std::size_t frames, std::uint64_t seed,
                                        const std::vector<float>& inputs) {
   const std::size_t length = frames + static_cast<std::size_t>(kSeconds * model.rate_hz);
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMaxRounds; ++round) {
     const std::uint64_t other = seed + 0x9e3779b97f4a7c15U * static_cast<std::uint64_t>(round);
     const auto walks = walk(model, length, other, inputs);
     if (const auto found = best_return(walks, model.outputs.size(), frames)) {

@@ -8,23 +8,16 @@
 #include <csignal>
 #include <fstream>
 
+#include "folder_test.hpp"
+
 namespace wisp {
 namespace {
 
 namespace fs = std::filesystem;
 
-class FileTest : public testing::Test {
+class FileTest : public FolderTest {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   std::size_t files() const { return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), {})); }
-
-  fs::path folder_;
 };
 
 std::string text_of(const std::vector<std::byte>& bytes) {

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "folder_test.hpp"
 #include "paths.hpp"
 #include "run/flame_model.hpp"
 #include "wisp/export/export.hpp"
@@ -18,8 +19,6 @@
 
 namespace wisp {
 namespace {
-
-namespace fs = std::filesystem;
 
 // A light that is calm and restless by turns, as `wisp learn flicker` makes them.
 Model light() {
@@ -58,15 +57,8 @@ Look look_of(const std::vector<double>& trace) {
   return look;
 }
 
-class Firmware : public testing::Test {
+class Firmware : public FolderTest {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   void write(const Model& model) const {
     const auto source = firmware_source(model, "lamp");
     ASSERT_TRUE(source) << source.error().message;
@@ -84,8 +76,6 @@ class Firmware : public testing::Test {
     return ::pclose(pipe) == 0 ? text : "";
   }
 
-  bool has(const std::string& program) const { return !said("command -v " + program).empty(); }
-
   // The hash and the slowest step that a compiled lamp prints.
   std::string played(const std::string& compiler, const std::string& flags, const std::string& runner) const {
     const std::string bench = WISP_SOURCE_DIR "/studies/export/firmware/";
@@ -96,8 +86,6 @@ class Firmware : public testing::Test {
     EXPECT_NE(built.find("built"), std::string::npos) << built;
     return said(runner);
   }
-
-  fs::path folder_;
 };
 
 TEST_F(Firmware, PlaysAsABankDoes) {
@@ -131,34 +119,27 @@ TEST_F(Firmware, FitsASmallProcessorAndPlaysTheSameNumbersThere) {
   write(light());
   const std::string host = played("cc", "-O2", "./play").substr(0, 8);
   ASSERT_EQ(host.size(), 8u);
-  if (has("avr-gcc") && has("simavr")) {
-    const std::string avr =
-        played("avr-gcc", "-mmcu=atmega328p -Os", "timeout 120 simavr -m atmega328p -f 16000000 play");
-    const std::size_t at = avr.find(host);
-    ASSERT_NE(at, std::string::npos) << "the host says " << host << ", simavr: " << avr;
-    // 2 % of 16 MHz at 50 steps a second.
-    EXPECT_LE(std::stoul(avr.substr(at + 9, 8), nullptr, 16), 6400u);
-    const std::string size = said("avr-gcc -mmcu=atmega328p -Os -std=c99 -c lamp.c -o lamp.o && avr-size lamp.o");
-    std::istringstream words(size.substr(size.find('\n')));
-    int text = 0, data = 0, bss = 0;
-    words >> text >> data >> bss;
-    EXPECT_GT(text, 100) << size;
-    EXPECT_LE(text + data, 1024);
-    EXPECT_EQ(bss, 0);
-  } else {
-    std::puts("AVR: skipped, there is no avr-gcc or no simavr");
-  }
-  if (has("arm-none-eabi-gcc") && has("qemu-system-arm")) {
-    const std::string bench = WISP_SOURCE_DIR "/studies/export/firmware/";
-    const std::string arm =
-        played("arm-none-eabi-gcc",
-               "-mcpu=cortex-m0 -mthumb -Os -nostartfiles -T " + bench + "cortex_m0.ld " + bench + "cortex_m0.c",
-               "timeout 60 qemu-system-arm -M microbit -nographic -semihosting-config "
-               "enable=on,target=native -kernel play </dev/null");
-    EXPECT_NE(arm.find(host), std::string::npos) << "the host says " << host << ", QEMU: " << arm;
-  } else {
-    std::puts("Cortex-M0: skipped, there is no arm-none-eabi-gcc or no qemu-system-arm");
-  }
+  // The compilers and simulators are of script/bootstrap.
+  const std::string avr =
+      played("avr-gcc", "-mmcu=atmega328p -Os", "timeout 120 simavr -m atmega328p -f 16000000 play");
+  const std::size_t at = avr.find(host);
+  ASSERT_NE(at, std::string::npos) << "the host says " << host << ", simavr: " << avr;
+  // 2 % of 16 MHz at 50 steps a second.
+  EXPECT_LE(std::stoul(avr.substr(at + 9, 8), nullptr, 16), 6400u);
+  const std::string size = said("avr-gcc -mmcu=atmega328p -Os -std=c99 -c lamp.c -o lamp.o && avr-size lamp.o");
+  std::istringstream words(size.substr(size.find('\n')));
+  int text = 0, data = 0, bss = 0;
+  words >> text >> data >> bss;
+  EXPECT_GT(text, 100) << size;
+  EXPECT_LE(text + data, 1024);
+  EXPECT_EQ(bss, 0);
+  const std::string bench = WISP_SOURCE_DIR "/studies/export/firmware/";
+  const std::string arm =
+      played("arm-none-eabi-gcc",
+             "-mcpu=cortex-m0 -mthumb -Os -nostartfiles -T " + bench + "cortex_m0.ld " + bench + "cortex_m0.c",
+             "timeout 60 qemu-system-arm -M microbit -nographic -semihosting-config "
+             "enable=on,target=native -kernel play </dev/null");
+  EXPECT_NE(arm.find(host), std::string::npos) << "the host says " << host << ", QEMU: " << arm;
 }
 
 TEST_F(Firmware, ALampIsSmallAndFollowsAnInput) {

@@ -30,6 +30,11 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
 // A clip's light, or a photodiode's trace, of mean 1.
 Result<Recording> brightness_of(const Arguments& arguments, Terminal& terminal) {
   const std::string& path = arguments.positional();
+  for (const auto& [flag, of_table] : {std::pair{"region", false}, {"frames", false}, {"channel", true}}) {
+    if (!arguments.has(flag) || arguments.text(flag) == "brightness" || of_table == is_table(path)) continue;
+    return Error{"--" + std::string(flag) + " is of a " + (of_table ? "table, and " : "clip, and ") + path +
+                 (of_table ? " is a clip" : " is a table")};
+  }
   if (!is_table(path)) {
     Arguments of_clip = arguments;
     of_clip.set("channel", "luma");

@@ -79,6 +79,23 @@ Result<void> write_firmware(const Model& model, const std::filesystem::path& pat
   return {};
 }
 
+// A flag that would change nothing is an error: who gives it expects that it does.
+Result<void> check_flags(const Arguments& arguments, const std::string& extension) {
+  const auto refuse = [&](const char* flag, const char* fallback, const std::string& why) -> Result<void> {
+    if (!arguments.has(flag) || arguments.text(flag) == fallback) return {};
+    return Error{"--" + std::string(flag) + " does nothing to a " + extension + " file, which " + why};
+  };
+  if (extension == ".c") {
+    static const std::map<const char*, const char*> of_play = {{"seconds", "4"}, {"loop", ""},   {"wind", "0"},
+                                                               {"noise", "on"},  {"height", ""}, {"seed", "1"}};
+    for (const auto& [flag, fallback] : of_play) {
+      if (auto ok = refuse(flag, fallback, "is the model itself and plays for ever"); !ok) return ok;
+    }
+  }
+  if (extension == ".glb") return refuse("height", "", "is in metres");
+  return refuse("instances", "1", "holds one");
+}
+
 Result<void> run(const Arguments& arguments, Terminal& terminal) {
   static const std::map<std::string, std::function<Result<void>(const Job&, const Take&)>> writers = {
       {".glb", write_gltf},      {".json", write_lottie},   {".png", write_pictures},
@@ -90,8 +107,12 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   if (writer == writers.end() && extension != ".c") {
     return Error{path + ": cannot be written, expected a name that ends in .glb, .json, .png, .apng, .webm or .c"};
   }
+  if (auto ok = check_flags(arguments, extension); !ok) return ok;
   const auto model = read_model(arguments.positional());
   if (!model) return model.error();
+  if (model->inputs.empty() && arguments.number("wind") != 0) {
+    return Error{"--wind drives a model's inputs, and " + arguments.positional() + " has none"};
+  }
   if (extension == ".c") return write_firmware(*model, path, terminal);
   const Job job{*model, arguments, path};
   const auto taken = take_of(job, terminal);

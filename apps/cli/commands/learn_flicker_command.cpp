@@ -32,7 +32,7 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
 Command learn_flicker_command() {
   std::vector<Flag> flags = {
       output_flag(),
-      {"channel", Kind::kText, "NAME", "", "the channel of light; default: brightness, or the first output"},
+      {"channel", Kind::kText, "NAME", "", "the channel of light; default: brightness, or the only output"},
       {"steps-a-second", Kind::kNumber, "HZ", "50",
        "what the lamp steps at; faster recordings are averaged down to it"},
       {"modes", Kind::kInteger, "K", "3", "degrees of restlessness, 2 to 8"},

@@ -13,7 +13,7 @@ import { Player, type Playing } from './player.js';
 import { Costs, type Probe } from './probe.js';
 import type { Scene } from '@wisp/player/parts/stage/scene';
 import { Stage, type FrameCost } from '@wisp/player/parts/stage/stage';
-import { Breath } from './wind/breath.js';
+import { Breath } from '@wisp/player/parts/air/breath';
 import type { Senses } from './senses/senses.js';
 import type { Ear } from './wind/ear.js';
 

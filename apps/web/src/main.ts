@@ -4,7 +4,7 @@ import { loadLibrary } from '@wisp/player/parts/library';
 import { App } from './app.js';
 import { DEFAULTS, isOverlay, settingsFromLink, type Settings } from './link.js';
 
-/** For people who asked their system for less motion: a calmer flame, fewer leaves. */
+/** With `prefers-reduced-motion`: a calmer flame, fewer leaves. */
 function startingSettings(): Settings {
   const calm = window.matchMedia('(prefers-reduced-motion: reduce)').matches;
   return settingsFromLink(location.hash, calm ? { ...DEFAULTS, noise: 0.3, leaves: 25 } : DEFAULTS);

@@ -126,7 +126,7 @@ struct SwitchedRecipe {
 /// stretches of about half a second that vary as much; how strong their shocks are is matched by playing.
 struct FlickerRecipe {
   std::string name{};
-  std::string output{};    ///< the channel; empty: "brightness", or the first output
+  std::string output{};    ///< the channel; empty: "brightness", or the only output
   double rate_hz = 50;     ///< 10 to 1000: what the model steps at; faster recordings are averaged down to the nearest
                            ///< whole part of their rate
   int modes = 3;           ///< 2 to 8

@@ -12,6 +12,8 @@ extern "C" {
 #include <memory>
 #include <string>
 
+#include "base/json_text.hpp"
+#include "base/path_text.hpp"
 #include "record/number_text.hpp"
 #include "wisp/base/file.hpp"
 
@@ -179,29 +181,27 @@ Grid grid_of(const Flipbook& book) {
   return {columns, static_cast<int>(std::ceil(count / columns))};
 }
 
-std::string size_text(int width, int height) {
-  return "{\"w\":" + std::to_string(width) + ",\"h\":" + std::to_string(height) + "}";
-}
+JsonText& write_size(int width, int height, JsonText& json) { return json.value(width, "w").value(height, "h"); }
 
 std::string atlas_json(const std::filesystem::path& path, const Flipbook& book, const Grid& grid) {
   const int width = book.frames[0].width(), height = book.frames[0].height();
-  std::string text = "{\"frames\":[\n";
+  JsonText json;
+  json.object().list("frames");
   for (std::size_t k = 0; k < book.frames.size(); ++k) {
-    const int x = static_cast<int>(k) % grid.columns * width, y = static_cast<int>(k) / grid.columns * height;
-    text += std::string(k > 0 ? ",\n" : "") + "{\"filename\":\"" + std::to_string(k) +
-            "\",\"frame\":{\"x\":" + std::to_string(x) + ",\"y\":" + std::to_string(y) + "," +
-            size_text(width, height).substr(1) +
-            ",\"rotated\":false,\"trimmed\":false,\"spriteSourceSize\":{\"x\":0,\"y\":0," +
-            size_text(width, height).substr(1) + ",\"sourceSize\":" + size_text(width, height) +
-            ",\"duration\":" + number_text(1000 / book.rate_hz, 6) +
-            ",\"pivot\":{\"x\":" + number_text(book.pivot.x / static_cast<float>(width), 6) +
-            ",\"y\":" + number_text(book.pivot.y / static_cast<float>(height), 6) + "}}";
+    const int column = static_cast<int>(k) % grid.columns, row = static_cast<int>(k) / grid.columns;
+    json.object().value(std::to_string(k), "filename").object("frame").value(column * width, "x");
+    write_size(width, height, json.value(row * height, "y")).end().value(false, "rotated").value(false, "trimmed");
+    write_size(width, height, json.object("spriteSourceSize").value(0, "x").value(0, "y")).end();
+    write_size(width, height, json.object("sourceSize")).end().value(1000 / book.rate_hz, "duration");
+    json.object("pivot").value(book.pivot.x / static_cast<float>(width), "x");
+    json.value(book.pivot.y / static_cast<float>(height), "y").end().end();
   }
-  return text + "\n],\"meta\":{\"app\":\"Wisp\",\"image\":\"" + path.filename().string() +
-         "\",\"format\":\"RGBA8888\",\"premultiplied\":true,\"size\":" +
-         size_text(grid.columns * width, grid.rows * height) +
-         ",\"scale\":\"1\",\"columns\":" + std::to_string(grid.columns) + ",\"rows\":" + std::to_string(grid.rows) +
-         ",\"rate_hz\":" + number_text(book.rate_hz) + ",\"loop\":" + (book.loop ? "true" : "false") + "}}\n";
+  json.end().object("meta").value("Wisp", "app").value(path_text(path.filename()), "image");
+  json.value("RGBA8888", "format").value(true, "premultiplied");
+  write_size(grid.columns * width, grid.rows * height, json.object("size")).end().value("1", "scale");
+  json.value(grid.columns, "columns").value(grid.rows, "rows").value(book.rate_hz, "rate_hz").value(book.loop, "loop");
+  json.end().end();
+  return json.text() + "\n";
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ namespace flicker {
 namespace {
 
 using Traces = std::vector<std::vector<double>>;
-constexpr double kLeastSeconds = 20, kLargestRadius = 0.995;
+constexpr double kMinSeconds = 20, kMaxRadius = 0.995;
 constexpr double kBands[] = {0.3, 1, 2, 4, 6, 8, 12, 20};  // Hz
 
 struct Light {
@@ -33,11 +33,14 @@ struct Light {
   Traces learned, held_out;  // mean 1 over all of them
 };
 
-std::optional<std::size_t> channel_of(const Recording& recording, const std::string& name) {
-  if (!name.empty()) return find_channel(recording, name);
-  if (const auto found = find_channel(recording, "brightness")) return found;
+// The channel that is named, or "brightness", or the only output: which of several is light cannot be guessed.
+Result<std::size_t> channel_of(const Recording& recording, const std::string& name) {
+  if (const auto found = find_channel(recording, name.empty() ? "brightness" : name)) return *found;
+  if (!name.empty()) return Error{recording.source + ": has no channel \"" + name + "\""};
   const auto outputs = channels_with_role(recording, Role::kOutput);
-  return outputs.empty() ? std::nullopt : std::optional(outputs.front());
+  if (outputs.size() == 1) return outputs.front();
+  return Error{recording.source + ": has no channel \"brightness\", and " + std::to_string(outputs.size()) +
+               " outputs, expected one; name the one that is light"};
 }
 
 // Stretches without a gap, averaged over `every` rows.
@@ -75,15 +78,12 @@ Result<void> check(const FlickerRecipe& recipe) {
   return {};
 }
 
-Result<Light> light_of(std::span<const Recording> recordings, const FlickerRecipe& recipe) {
+// All stretches of the recordings, at the rate that all of them come to.
+Result<Light> gathered(std::span<const Recording> recordings, const FlickerRecipe& recipe) {
   Light light;
-  Traces traces;
   for (const Recording& recording : recordings) {
     const auto channel = channel_of(recording, recipe.output);
-    if (!channel) {
-      return Error{recording.source + ": has no channel " +
-                   (recipe.output.empty() ? "of light: no output at all" : "\"" + recipe.output + "\"")};
-    }
+    if (!channel) return channel.error();
     const double every = std::max(1.0, std::round(recording.rate_hz / recipe.rate_hz));
     const double rate = recording.rate_hz / every;
     if (light.rate_hz > 0 && std::abs(rate - light.rate_hz) > 1e-9 * rate) {
@@ -91,26 +91,42 @@ Result<Light> light_of(std::span<const Recording> recordings, const FlickerRecip
                    number_text(light.rate_hz, 6) + "; learn from recordings of one rate"};
     }
     light.rate_hz = rate;
-    add_stretches(recording, *channel, static_cast<std::size_t>(every), traces);
+    add_stretches(recording, *channel, static_cast<std::size_t>(every), light.learned);
   }
+  return light;
+}
+
+// The last part of each stretch is held out; half a second at least lies on either side of the cut.
+void hold_out(double share, Light& light) {
+  for (auto& trace : light.learned) {
+    const auto kept = static_cast<std::ptrdiff_t>((1 - share) * static_cast<double>(trace.size()));
+    light.held_out.emplace_back(trace.begin() + kept, trace.end());
+    trace.resize(static_cast<std::size_t>(kept));
+  }
+}
+
+Result<Light> light_of(std::span<const Recording> recordings, const FlickerRecipe& recipe) {
+  auto light = gathered(recordings, recipe);
+  if (!light) return light;
+  const double parts = std::max(4.0, 1 / std::min(recipe.holdout, 1 - recipe.holdout));
+  const double shortest = std::ceil(parts * static_cast<double>(half_second(light->rate_hz))) + 1;
+  std::erase_if(light->learned, [&](const auto& trace) { return static_cast<double>(trace.size()) < shortest; });
   double sum = 0, rows = 0;
-  std::erase_if(traces, [&](const auto& trace) { return trace.size() < 4 * half_second(light.rate_hz); });
-  for (const auto& trace : traces) {
+  for (const auto& trace : light->learned) {
     for (const double value : trace) sum += value;
     rows += static_cast<double>(trace.size());
   }
-  if (rows < kLeastSeconds * light.rate_hz) {
-    return Error{"the light lasts " + number_text(rows / light.rate_hz, 3) +
-                 " s in stretches of at least two, expected at least 20 s; record for longer"};
+  const std::string others = recordings.size() > 1 ? " and " + std::to_string(recordings.size() - 1) + " more" : "";
+  const auto wrong = [&](const std::string& what) { return Error{recordings.front().source + others + ": " + what}; };
+  if (rows < kMinSeconds * light->rate_hz) {
+    return wrong("the light lasts " + number_text(rows / light->rate_hz, 3) + " s in stretches of at least " +
+                 number_text(shortest / light->rate_hz, 2) + " s, expected at least 20 s; record for longer");
   }
-  if (!(sum > 0)) return Error{"the light is not above 0 on average; is the channel right, and dark at 0?"};
-  for (auto& trace : traces) {
+  if (!(sum > 0)) return wrong("the light is not above 0 on average; is the channel right, and dark at 0?");
+  for (auto& trace : light->learned) {
     for (double& value : trace) value /= sum / rows;
-    const auto kept = static_cast<std::ptrdiff_t>((1 - recipe.holdout) * static_cast<double>(trace.size()));
-    light.held_out.emplace_back(trace.begin() + kept, trace.end());
-    trace.resize(static_cast<std::size_t>(kept));
-    light.learned.push_back(std::move(trace));
   }
+  hold_out(recipe.holdout, *light);
   return light;
 }
 
@@ -157,10 +173,10 @@ std::optional<Regression> regress(const Traces& traces, const std::vector<std::v
   out.shock = std::sqrt(std::max(0.0, (energy - right.dot(solution)) / rows));
   out.radius = radius_of(out.theta);
   // Poles are pulled in together where a mode would wander.
-  if (out.radius > kLargestRadius) {
+  if (out.radius > kMaxRadius) {
     double power = 1;
-    for (double& weight : out.theta) weight *= power *= kLargestRadius / out.radius;
-    out.radius = kLargestRadius;
+    for (double& weight : out.theta) weight *= power *= kMaxRadius / out.radius;
+    out.radius = kMaxRadius;
   }
   return out;
 }
@@ -192,7 +208,7 @@ struct Play {
 };
 
 Play play_of(const Model& model, std::uint64_t seed) {
-  constexpr int kInstances = 16;
+  constexpr int kInstances = 64;  // the play's own figures are known to a few per cent then
   constexpr double kSeconds = 150, kSettle = 5;
   auto bank = Bank::create(model, {.capacity = kInstances, .seed = seed});
   Play play{Traces(kInstances), std::vector<std::vector<int>>(kInstances)};
@@ -342,7 +358,7 @@ ReportSection modes_section(const SwitchedArxModel& model, const std::vector<Reg
 Result<Fit> fit_light(const Light& light, const FlickerRecipe& recipe, std::span<const Recording> recordings) {
   Traces restless;
   for (const auto& trace : light.learned) restless.push_back(restlessness(trace, half_second(light.rate_hz)));
-  const auto levels = levels_of(restless, recipe.modes);
+  const auto levels = levels_of(restless, recipe.modes, recipe.seed);
   std::vector<std::vector<int>> modes;
   for (const auto& trace : restless) modes.push_back(nearest_levels(trace, levels));
   SwitchedArxModel dynamics{.switching = Switching::kMarkov};
@@ -352,7 +368,7 @@ Result<Fit> fit_light(const Light& light, const FlickerRecipe& recipe, std::span
   for (int mode = 0; mode < recipe.modes; ++mode) {
     const auto found = regress(light.learned, modes, mode, recipe.order);
     if (!found) {
-      return Error{"the light has no " + std::to_string(recipe.modes) +
+      return Error{recordings.front().source + ": the light has no " + std::to_string(recipe.modes) +
                    " degrees of restlessness to tell apart; ask for fewer modes, or record calm and draught"};
     }
     regressions.push_back(*found);

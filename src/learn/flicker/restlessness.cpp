@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "learn/numeric/clustering.hpp"
+
 namespace wisp::flicker {
 namespace {
 
@@ -62,28 +64,13 @@ Figures figures_of(std::span<const std::vector<double>> traces, double rate_hz) 
   return figures;
 }
 
-std::vector<double> levels_of(std::span<const std::vector<double>> restless, int modes) {
+std::vector<double> levels_of(std::span<const std::vector<double>> restless, int modes, std::uint64_t seed) {
   std::vector<double> values;
   for (const auto& trace : restless) {
     for (const double value : trace) values.push_back(level(value));
   }
-  std::sort(values.begin(), values.end());
-  std::vector<double> levels;
-  for (int k = 0; k < modes; ++k) {
-    const double share = (k + 0.5) / modes;
-    levels.push_back(values[static_cast<std::size_t>(share * static_cast<double>(values.size()))]);
-  }
-  for (int round = 0; round < 100; ++round) {
-    std::vector<double> sum(levels.size(), 0.0), count(levels.size(), 0.0);
-    for (const double value : values) {
-      const std::size_t k = nearest(value, levels);
-      sum[k] += value;
-      count[k] += 1;
-    }
-    for (std::size_t k = 0; k < levels.size(); ++k) {
-      if (count[k] > 0) levels[k] = sum[k] / count[k];
-    }
-  }
+  auto levels = k_means(values, 1, {.clusters = modes, .seed = seed})->centroids;
+  std::ranges::sort(levels);
   return levels;
 }
 

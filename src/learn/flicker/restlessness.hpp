@@ -2,6 +2,7 @@
 // How restless a light is, half a second at a time, and what that makes of its rows.
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -30,7 +31,9 @@ struct Figures {
 Figures figures_of(std::span<const std::vector<double>> traces, double rate_hz);
 
 /// Rows by how restless they are: k-means of the logarithm in one dimension, calmest first. Returns centroids.
-std::vector<double> levels_of(std::span<const std::vector<double>> restless, int modes);
+///
+/// Precondition: there are at least `modes` rows, and modes > 0.
+std::vector<double> levels_of(std::span<const std::vector<double>> restless, int modes, std::uint64_t seed);
 
 /// The nearest level of each row.
 std::vector<int> nearest_levels(std::span<const double> restless, std::span<const double> levels);

@@ -65,6 +65,16 @@ TEST(LearnFlicker, ALightThatChangesItsWaysIsNotUsable) {
   EXPECT_NE(fit->report.verdict->reason.find("record for longer"), std::string::npos);
 }
 
+TEST(LearnFlicker, BriefStretchesLeaveHalfASecondOnBothSidesOrAreLeftOut) {
+  Recording broken = light(50, 5, 300);
+  for (std::size_t k = 0; k < broken.rows(); k += 150) broken.channels[0].samples[k] = std::nan("");
+  EXPECT_TRUE(learn(broken, FlickerRecipe{}));
+  const auto fit = learn(broken, FlickerRecipe{.holdout = 0.9});
+  ASSERT_FALSE(fit);
+  EXPECT_NE(fit.error().message.find("light.csv: the light lasts 0 s in stretches of at least 5"), std::string::npos)
+      << fit.error().message;
+}
+
 TEST(LearnFlicker, WhatCannotBeLearnedFromIsSaid) {
   const auto says = [](const Recording& recording, const FlickerRecipe& recipe, const std::string& words) {
     const auto fit = learn(recording, recipe);
@@ -75,6 +85,12 @@ TEST(LearnFlicker, WhatCannotBeLearnedFromIsSaid) {
   says(light(50, 4), {.output = "colour"}, "has no channel \"colour\"");
   says(light(50, 4), {.modes = 1}, "expected 2 to 8");
   says(light(50, 4), {.rate_hz = 2}, "expected 10 to 1000");
+  Recording outline = light(50, 4);
+  outline.channels[0].name = "p0.x";
+  EXPECT_TRUE(learn(outline, FlickerRecipe{})) << "an only output is the light";
+  outline.channels.push_back(outline.channels[0]);
+  outline.channels[1].name = "p0.y";
+  says(outline, {}, "no channel \"brightness\", and 2 outputs");
   Recording dark = light(50, 4);
   for (double& value : dark.channels[0].samples) value = 0;
   says(dark, {}, "not above 0");

@@ -5,7 +5,7 @@ import type { After } from './after.js';
 import type { Stirring } from './air.js';
 import type { FlameShape } from './flame_shape.js';
 import type { RoomView, Setting, Stand } from './room.js';
-import { MOST_CANDLES, WICK_GAP } from './room.js';
+import { flameFoot, MOST_CANDLES } from './room.js';
 import boardVertex from './shaders/board.vert.js';
 import candleFragment from './shaders/candle.frag.js';
 import developFragment from './shaders/develop.frag.js';
@@ -23,6 +23,8 @@ const MOST_LIGHTS = MOST_CANDLES + 2;
 const GLARING = 0.13;
 /** How far heat shifts what is behind it, shares of the picture. */
 const SHIMMER = 0.0035;
+/** Least width of rising air, heights of the picture: what is narrower than two cells of its grid does not rise. */
+const LEAST_PLUME = 0.02;
 /** What the eye makes of a lit room and of a dark one; and seconds in which it gets used to more light, and to less. */
 const EXPOSURES = { lit: 1, dark: 8, brighter: 0.25, darker: 0.9 };
 
@@ -147,7 +149,7 @@ export class CandleRenderer {
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     for (const candle of shown.candles) {
       this.drawCandle(view, candle, shown);
-      this.drawFlame(view, candle, candle.stand, this.flameFoot(candle.stand), shown.clock);
+      this.drawFlame(view, candle, candle.stand, flameFoot(candle.stand), shown.clock);
     }
     if (after !== null) this.drawLate(after, view, shown, look);
     gl.disable(gl.BLEND);
@@ -241,7 +243,7 @@ export class CandleRenderer {
   private gatherLamps(view: RoomView, shown: CandlePicture): void {
     this.lamps.length = 0;
     for (const { stand, shape } of shown.candles) {
-      const foot = this.flameFoot(stand);
+      const foot = flameFoot(stand);
       this.addLamp(view, stand.x, foot, stand.z, stand.unit, shape, stand);
     }
     const { match } = shown;
@@ -285,10 +287,6 @@ export class CandleRenderer {
       program.setVectors4('uSticks', this.sticks);
     }
     this.quad.draw();
-  }
-
-  private flameFoot(stand: Stand): number {
-    return stand.ground + stand.height + WICK_GAP * stand.unit;
   }
 
   private setBoard(program: Program, view: RoomView, x: number, y: number, z: number, unit: number, box: number[]): Program {
@@ -398,7 +396,7 @@ export class CandleRenderer {
     const add = (x: number, y: number, z: number, unit: number, shape: FlameShape, lit: boolean, smoking: number): void => {
       const scale = (view.scale * view.nearness(z) * unit) / tall;
       const at = [(view.pixelX(x, z) + (lit ? 0.6 * shape.tipX * scale * tall : 0)) / tall, view.pixelY(y, z) / tall + (lit ? 0.8 * shape.tipY * scale : 0)];
-      this.heats.set([...at, (lit ? 0.16 : 0.10) * scale, lit ? 9 * shape.light : 7 * smoking], 4 * count);
+      this.heats.set([...at, Math.max(LEAST_PLUME, (lit ? 0.16 : 0.10) * scale), lit ? 9 * shape.light : 7 * smoking], 4 * count);
       this.wicks.set([...at, 0.022 * scale + 0.0012, 26 * smoking], 4 * count);
       count += 1;
     };
@@ -433,7 +431,7 @@ export class CandleRenderer {
     for (const { stand, ember, shape } of shown.candles) {
       if (!shape.empty || ember < 0.02 || count >= MOST_LIGHTS) continue;
       const scale = (view.scale * view.nearness(stand.z) * stand.unit) / tall;
-      const at = [view.pixelX(stand.x + 0.03 * stand.unit, stand.z) / tall, view.pixelY(this.flameFoot(stand) + 0.08 * stand.unit, stand.z) / tall];
+      const at = [view.pixelX(stand.x + 0.03 * stand.unit, stand.z) / tall, view.pixelY(flameFoot(stand) + 0.08 * stand.unit, stand.z) / tall];
       this.smokeLamps.set([...at, 0.10 * scale, 0.5 * ember], 4 * count);
       count += 1;
     }

@@ -30,7 +30,10 @@ export interface Setting {
 export const MOST_CANDLES = 12;
 
 /** From the upper end of a candle to the base of its flame, in flame units. */
-export const WICK_GAP = 0.085;
+const WICK_GAP = 0.085;
+
+/** Height of the base of a candle's flame in the room. */
+export const flameFoot = ({ ground, height, unit }: Stand): number => ground + height + WICK_GAP * unit;
 
 const PASTELS: readonly (readonly [number, number, number])[] = [
   [0.92, 0.42, 0.46],

@@ -1,6 +1,6 @@
 // The little of WebGL2 that the scenes need: a context, programs, buffers of quads, a target of high range.
 
-/** A program; uniform locations are asked for once. */
+/** A program; each uniform's location is looked up once. */
 export class Program {
   private readonly program: WebGLProgram;
   private readonly shaders: readonly WebGLShader[];

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace wisp::exporting {
+namespace wisp {
 
 class JsonText {
  public:
@@ -74,4 +74,4 @@ class JsonText {
   bool first_ = true;
 };
 
-}  // namespace wisp::exporting
+}  // namespace wisp
