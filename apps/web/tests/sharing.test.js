@@ -96,5 +96,13 @@ describe('sharing', { skip }, () => {
     await over.close();
   });
 
+  it("as an overlay a cake's candles fill the picture, with no room left for the cake", async () => {
+    const over = await opened.page('#overlay&scene=candle&candles=7&detail=0.2');
+    await until(over, 'a picture', () => window.wisp.firstPicture > 0);
+    const [x] = await over.evaluate(() => window.wisp.places().wick);
+    assert.ok(x < 0.22 * 360, `the leftmost wick is at ${x} of 360`);
+    await over.close();
+  });
+
   it('made no error, and asked no other host', () => assert.deepEqual([page.errors, page.strangers], [[], []]));
 });

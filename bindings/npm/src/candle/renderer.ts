@@ -1,6 +1,7 @@
 // Draws the candle's room with WebGL2: light is added up in a picture of high range and developed onto the canvas.
 
 import { drawToCanvas, hasRange, Program, Quad, Target, Warming } from '../stage/gl.js';
+import type { SceneLook } from '../stage/scene.js';
 import type { After } from './after.js';
 import type { Stirring } from './air.js';
 import type { FlameShape } from './flame_shape.js';
@@ -68,16 +69,6 @@ export interface CandlePicture {
   hand: { x: number; y: number; speedX: number; speedY: number; present: boolean };
 }
 
-/** How a picture is to be drawn. */
-export interface Look {
-  /** 0 black, 1 all of it */
-  fade: number;
-  /** flames and candles alone, on nothing */
-  clear: boolean;
-  /** without what costs most */
-  plain: boolean;
-}
-
 /** What draws the room with what stands in it. */
 interface Room {
   surface: Program;
@@ -128,7 +119,7 @@ export class CandleRenderer {
   }
 
   /** Draws one picture on the canvas, which is view.width by view.height pixels. False: what it needs is still to come. */
-  draw(view: RoomView, shown: CandlePicture, look: Look): boolean {
+  draw(view: RoomView, shown: CandlePicture, look: SceneLook): boolean {
     const { gl } = this;
     const room = this.room(shown.setting);
     if (room === null) return false;
@@ -207,7 +198,7 @@ export class CandleRenderer {
     });
   }
 
-  private ready(look: Look): After | null {
+  private ready(look: SceneLook): After | null {
     if (this.after === null || look.plain) return null;
     return this.after.warming.done() ? this.after : null;
   }
@@ -419,7 +410,7 @@ export class CandleRenderer {
     };
   }
 
-  private drawLate(after: After, view: RoomView, shown: CandlePicture, look: Look): void {
+  private drawLate(after: After, view: RoomView, shown: CandlePicture, look: SceneLook): void {
     if (!look.clear || shown.match.burning) this.drawMatch(after.match, view, shown);
     const tall = view.height;
     this.smokeLamps.fill(0);
@@ -438,7 +429,7 @@ export class CandleRenderer {
     after.air.draw(this.smokeLamps, count, look.clear ? 0.2 : 0.055);
   }
 
-  private develop(after: After | null, look: Look, { clock }: CandlePicture): void {
+  private develop(after: After | null, look: SceneLook, { clock }: CandlePicture): void {
     const glare = after === null || look.clear ? null : after.glare.of(this.picture);
     drawToCanvas(this.gl);
     this.picture.bindTexture(0);

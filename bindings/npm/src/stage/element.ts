@@ -22,6 +22,8 @@ button[aria-pressed=true]::before { content: ''; display: inline-block; width: 8
 p { position: absolute; inset: 30% 8% auto; margin: 0; text-align: center; font: inherit; }
 [hidden] { display: none; }`;
 
+/** CSS pixels that the button covers at the lower edge. */
+const BUTTON = 56;
 /** Seconds that the room is listened to before it counts. */
 const CALIBRATION = 3;
 
@@ -175,7 +177,10 @@ export abstract class SceneElement extends HTMLElement {
 
   private showWind(): void {
     const wind = this.getAttribute('wind') ?? 'pointer';
-    if (this.stage !== null) this.stage.still = wind === 'none';
+    if (this.stage !== null) {
+      this.stage.still = wind === 'none';
+      this.stage.covered = wind === 'mic' ? BUTTON : 0;
+    }
     this.button.hidden = wind !== 'mic';
     if (wind !== 'mic') this.closeMicrophone();
     this.showButton('Blow');

@@ -45,7 +45,8 @@ export interface StageOptions {
 export class Stage {
   readonly pointer: PointerReader;
   readonly clear: boolean;
-  private readonly covered: number;
+  /** CSS pixels at the lower edge that controls lie over */
+  covered: number;
   frames = 0;
   /** whether the last frame showed a picture */
   shown = false;
