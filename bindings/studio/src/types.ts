@@ -1,0 +1,130 @@
+// What goes into learning and what comes out of it.
+
+/** A rectangle of pixels. */
+export interface Region {
+  x: number;
+  y: number;
+  width: number;
+  height: number;
+}
+
+/** How an outline is captured. What is not said is the program's default. */
+export interface PictureSettings {
+  /** which of several flames, 1 the largest; 0: whatever moves, flame or not */
+  flame?: number;
+  /** where to look; the whole picture */
+  region?: Region;
+  /** which brightness; the one that separates best */
+  channel?: 'luma' | 'red' | 'green' | 'blue';
+  /** the thing is dark on a light ground */
+  dark?: boolean;
+  /** control points, 4 to 64; 8 */
+  points?: number;
+}
+
+/** What has been seen by now of a film or a camera. */
+export interface Seen {
+  /** frames so far, lost ones included */
+  frame: number;
+  width: number;
+  height: number;
+  /** `waiting`: nothing that stands out yet; `following`: there is an outline; `gone`: not in this frame */
+  state: 'waiting' | 'following' | 'gone';
+  /** x and y of the outline's points by turns, pixels from the top left; empty where there is none */
+  outline: Float32Array;
+  /** x, y, width, height of what was found, pixels; null while waiting */
+  box: Region | null;
+  /** brightness at the edge, 0 to 255, once decided */
+  threshold: number | null;
+  /** colour channel, once decided */
+  channel: string | null;
+  /** share of the thing as bright in every channel as it gets, once decided */
+  clipped: number | null;
+  /** how many flames there are, once decided */
+  flames: number | null;
+  /** the frame, small, for whoever shows it; the taker closes it. A film's only */
+  picture?: ImageBitmap;
+}
+
+/** Who watches, and may stop. */
+export interface Watch {
+  /** aborted: the work ends with an AbortError, what was captured before is kept */
+  signal?: AbortSignal;
+  /** the stage in words, and the share of it that is done: 0 to 1, negative where its length is unknown */
+  progress?: (stage: string, share: number) => void;
+  /** what is seen, some fifteen times a second of work */
+  seen?: (seen: Seen) => void;
+}
+
+/** A report as `wisp … --json` prints it. */
+export interface Report {
+  usable?: { verdict: boolean; reason: string };
+  warnings?: string[];
+  [figure: string]: unknown;
+}
+
+/** One time series of a recording. Missing samples are NaN. */
+export interface Series {
+  name: string;
+  unit: string;
+  role: 'input' | 'output' | 'motion';
+  samples: Float64Array;
+}
+
+/** A recording. */
+export interface Captured {
+  /** as the program writes it: what is learned from, saved and sent */
+  csv: Uint8Array;
+  rate: number;
+  rows: number;
+  series: Series[];
+  report: Report;
+  /** the report in words, as the program prints it */
+  text: string;
+}
+
+/** What is learned, and how; what is not said is the program's default. */
+export interface Recipe {
+  kind: 'flame' | 'outline' | 'arx' | 'leaf' | 'chain';
+  name?: string;
+  seed?: number;
+  /** lags of outputs and inputs; 0: the default */
+  order?: number;
+  /** the paper's 192 multiply-adds: inputs as they are, Gaussian noise */
+  light?: boolean;
+  /** noise of an outline */
+  noise?: 'independent' | 'residual' | 'matched' | 'drawn';
+  /** knots of the input curve, 3 to 16; 0: none; not said: found */
+  curve?: number;
+  /** lags of inputs and delay of an ARX model; names of its channels where the table does not say */
+  nb?: number;
+  nk?: number;
+  inputs?: string[];
+  outputs?: string[];
+}
+
+/** A curve to plot. */
+export interface Curve {
+  id: string;
+  label: string;
+  x_label: string;
+  y_label: string;
+  x: number[];
+  y: number[];
+}
+
+/** A model and what to think of it. */
+export interface Learned {
+  /** a .wisp file */
+  model: Uint8Array;
+  report: Report;
+  curves: Curve[];
+  text: string;
+}
+
+/** Columns of a table that does not say itself. */
+export interface TableSettings {
+  rate?: number;
+  inputs?: string[];
+  outputs?: string[];
+}
