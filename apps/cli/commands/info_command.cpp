@@ -27,7 +27,8 @@ Json channels_of(const Model& model) {
                       {"unit", input.unit},
                       {"range", {number(input.lowest), number(input.highest)}},
                       {"shape", std::string(splits_sign(input.shape) ? "split sign" : "linear") +
-                                    (has_curve(input.shape) ? " bent by a curve" : "")}});
+                                    (has_curve(input.shape) ? " bent by a curve" : "") +
+                                    (has_powers(input.shape) ? ", its square root and its square" : "")}});
     if (has_curve(input.shape)) {
       inputs.back()["curve"] = {{"at", json_of(input.curve.at)}, {"value", json_of(input.curve.value)}};
     }

@@ -79,8 +79,13 @@ ReportSection fidelity_section(const OutlineJudgement& found) {
     add_bounded("fidelity.autocorrelation_distance", figures.autocorrelation_distance, "", "", section);
     add_bounded("fidelity.wasserstein_value", figures.wasserstein_value, "", "", section);
     add_bounded("fidelity.wasserstein_speed", figures.wasserstein_speed, "", "", section);
-    add_bounded("fidelity.energy_distance", figures.energy_distance, "normalised energy distance", "", section);
+    add_bounded("fidelity.energy_distance", figures.energy_distance, "normalised energy distance over half a second",
+                "", section);
     section.entries.push_back({"fidelity.energy_p_value", figures.energy_p_value, "", ""});
+    add_bounded("fidelity.two_seconds.energy_distance", figures.long_motion, "the same over two seconds", "", section);
+    add_bounded("fidelity.two_seconds.spectral_distance", figures.long_spectra, "of log spectra over two seconds", "",
+                section);
+    add_bounded("fidelity.tails", figures.tails, "violence of the rarest motion, |ln| of its ratio", "", section);
     section.entries.push_back({"fidelity.verbatim_seconds", figures.verbatim_seconds, "", ""});
     const char* bounded = "log_spectral_distance";
     ReportTable channels{"fidelity.channels", "", {{"name", ""}, {"sd_real", ""}, {"sd_synthesized", ""}}, {}};

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "run/arx/arx_program.hpp"
 #include "run/arx/drawn_lanes.hpp"
@@ -54,9 +55,16 @@ class ArxStepper : public ChannelHistory<N> {
     noisy_ = std::find(shaken_.begin(), shaken_.end(), std::uint8_t{1}) != shaken_.end();
   }
 
+  /// Moves every block's history by one sample; the newest is now to be made.
+  void turn() {
+    ChannelHistory<N>::turn();
+    drawn_.turn();
+  }
+
   /// Makes the newest sample of a block.
   void step(int block, const Moment<N>& moment) {
     count_quiet(block);
+    if (!drawn_.empty()) drawn_.hear(block, this->regressors(block));
     modes_.choose(block, ring_, moment);
     if (noisy_) make_shocks(block, moment);
     Real* newest = ring_.sample(block, 0);
@@ -104,7 +112,8 @@ class ArxStepper : public ChannelHistory<N> {
   void visit_lane(int block, int lane, Visit visit) {
     std::fill_n(quiet_.begin() + block * program_.regressors, program_.regressors, 0);  // it may be restored
     modes_.visit_lane(block, lane, visit);
-    drawn_.visit_lane(block, lane, visit);
+    const auto [low, high] = drawn_bounds();
+    drawn_.visit_lane(block, lane, low, high, visit);
     this->visit_history(block, lane, visit);
   }
 
@@ -156,27 +165,19 @@ class ArxStepper : public ChannelHistory<N> {
 
   void make_shocks(int block, const Moment<N>& moment) {
     if (!drawn_.empty()) {
-      DrawnWind<Real> winds[kLanes];
-      if (drawn_.driven()) measure_winds(block, winds);
-      drawn_.step(block, winds, this->previous(block), moment, shocks_.data());
+      drawn_.step(block, moment, shocks_.data());
       return;
     }
     draw(moment);
   }
 
-  Reals<N> wind_at(int block, std::uint32_t lag) const {
-    const Real* row = ring_.sample(block, lag) + program_.outputs * kLanes;
-    const auto toward = load<Reals<N>>(row + program_.drawn.toward * kLanes);
-    if (program_.drawn.against < 0) return toward;
-    return toward - load<Reals<N>>(row + program_.drawn.against * kLanes);
-  }
-
-  void measure_winds(int block, DrawnWind<Real> (&winds)[kLanes]) const {
-    Real wind[kLanes], trend[kLanes];
-    const auto now = wind_at(block, 0);
-    store(now, wind);
-    store(now - wind_at(block, static_cast<std::uint32_t>(program_.drawn.trend_steps)), trend);
-    for (int lane = 0; lane < kLanes; ++lane) winds[lane] = {wind[lane], trend[lane]};
+  // The lowest and the highest input that drawn residuals hear.
+  std::pair<float, float> drawn_bounds() const {
+    if (!program_.drawn.driven()) return {0.0f, 0.0f};
+    const RegressorChannel& toward = channels_.regressors[program_.drawn.toward];
+    if (program_.drawn.against < 0) return {toward.least, toward.most};
+    const RegressorChannel& against = channels_.regressors[program_.drawn.against];
+    return {toward.least - against.most, toward.most - against.least};
   }
 
   // Standard normal numbers for every shock that is added to an output.

@@ -11,10 +11,6 @@
 
 namespace wisp {
 
-inline float square_root(float a) { return __builtin_sqrtf(a); }
-inline float value_of(float a) { return a; }
-inline std::uint32_t value_of(std::uint32_t a) { return a; }
-
 template <class Real>
 using Vector3 = std::array<Real, 3>;
 template <class Real>

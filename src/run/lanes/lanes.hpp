@@ -95,6 +95,10 @@ inline WideProduct<WordPart> wide_product_part(WordPart a, std::uint32_t b) {
 }
 #endif
 
+inline float square_root(float a) { return __builtin_sqrtf(a); }
+inline float value_of(float a) { return a; }
+inline std::uint32_t value_of(std::uint32_t a) { return a; }
+
 /// The numbers of a live bank.
 struct LiveNumbers {
   using Real = float;

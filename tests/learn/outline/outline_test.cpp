@@ -228,7 +228,9 @@ TEST(Outline, CostsAreThePapers) {
   EXPECT_EQ(coefficients, 256);
   EXPECT_EQ(both.summary.cost.multiply_adds_per_frame, 240);
   // Drawn residuals hold what more lags and the other coordinate would say.
-  EXPECT_EQ(learned(windy).summary.cost.multiply_adds_per_frame, 144);
+  EXPECT_EQ(learned(windy, {.light = true}).summary.cost.multiply_adds_per_frame, 144);
+  // Every coordinate hears two lags of 14, and of the wind from either side four, and two of its root and its square.
+  EXPECT_EQ(learned(windy).summary.cost.multiply_adds_per_frame, 16 * (2 * 14 + 2 * 8));
 }
 
 TEST(Outline, MoreCouplingMakesMoreCoefficients) {

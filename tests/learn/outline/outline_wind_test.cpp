@@ -46,7 +46,7 @@ TEST(OutlineWind, TheTipIsFollowedFromTheWindAlone) {
 TEST(OutlineWind, OneIsThe95thPercentileAndItsUnitIsKept) {
   const OutlineFit fit = learned(kWindy);
   ASSERT_EQ(fit.model.inputs.size(), 1u);
-  EXPECT_EQ(fit.model.inputs[0].shape, InputShape::kSplitSign);
+  EXPECT_EQ(fit.model.inputs[0].shape, InputShape::kSplitSignPowers);
   EXPECT_NE(fit.model.inputs[0].unit.find("m/s"), std::string::npos);
   EXPECT_DOUBLE_EQ(fit.model.inputs[0].lowest, -fit.model.inputs[0].highest);
   EXPECT_GT(fit.model.inputs[0].highest, 1);
@@ -107,7 +107,7 @@ TEST(OutlineWind, TheMirrorCanBeSwitchedOff) {
   const OutlineFit fit = learned(kFromBothSides, {.mirror = false});
   const OutlineFit symmetric = learned(kFromBothSides);
   EXPECT_NE(arx(fit).theta, arx(symmetric).theta);
-  EXPECT_EQ(fit.model.inputs[0].shape, InputShape::kSplitSign);
+  EXPECT_EQ(fit.model.inputs[0].shape, InputShape::kSplitSignPowers);
 }
 
 TEST(OutlineWind, InputsCanBeLeftOut) {
