@@ -8,6 +8,7 @@
 #include <ctime>
 
 #include "learn/outline/outline_fit.hpp"
+#include "simulate/candle/candle_rig.hpp"
 #include "studies/flame/verify_flame.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/simulate/candle_clip.hpp"

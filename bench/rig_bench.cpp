@@ -8,6 +8,11 @@
 
 #include "wisp/simulate/candle_clip.hpp"
 
+#include "simulate/candle/candle_rig.hpp"
+#include "simulate/candle/flame_outline.hpp"
+#include "simulate/candle/virtual_camera.hpp"
+#include "simulate/candle/virtual_microphone.hpp"
+
 namespace {
 
 using namespace wisp;

@@ -453,6 +453,10 @@ wisp_status wisp_wind_calibrate_for(wisp_wind* wind, uint32_t what, double secon
 /* 1 when the last calibration is over and heard what it asked for. */
 int32_t wisp_wind_calibrated(const wisp_wind* wind);
 
+/* How much louder the room is by now than when it was calibrated or first heard, dB, not below 0. From 6 on something
+ * steady has begun (rain, a fan, an engine) that may be taken for wind: calibrate again. 0 for NULL. */
+double wisp_wind_room_rise(const wisp_wind* wind);
+
 /* What a microphone in a room was found to be: kept, it spares the next start the finding. */
 typedef struct wisp_wind_calibration {
   uint32_t size;          /* sizeof(wisp_wind_calibration), set by the caller */

@@ -128,6 +128,8 @@ wisp_status wisp_wind_calibrate_for(wisp_wind* wind, uint32_t what, double secon
 
 int32_t wisp_wind_calibrated(const wisp_wind* wind) { return wind && wind->level.calibrated() ? 1 : 0; }
 
+double wisp_wind_room_rise(const wisp_wind* wind) { return wind ? static_cast<double>(wind->level.room_rise_db()) : 0; }
+
 int32_t wisp_wind_calibrating(const wisp_wind* wind) { return wind && wind->level.calibrating() ? 1 : 0; }
 
 wisp_status wisp_wind_get_calibration(const wisp_wind* wind, wisp_wind_calibration* calibration) {

@@ -90,6 +90,7 @@ class Background {
 
   void end_frame(const Observation<T>& seen, const Design& d) {
     if (room_frames_ > 0) return learn_room(seen);
+    if (room_db_ < T(kLeastFloorDb) && floor_.known()) room_db_ = floor_.level_db();
     follow_top(seen.loudness_db, d);
     if (seen.loudness_db < T(kNothingDb) || !floor_.known()) return;
     const T floor = floor_.level_db();
@@ -114,7 +115,7 @@ class Background {
   void set(T rms, T band_power, T loudness_db, const Design& d) {
     mean_.set(rms, band_power, loudness_db, d.quiet_span_frames);
     floor_.set(loudness_db);
-    last_floor_ = floor_.level_db();
+    room_db_ = last_floor_ = floor_.level_db();
     top_db_ = T(kLeastFloorDb);
     room_frames_ = 0;
   }
@@ -125,6 +126,9 @@ class Background {
     return floor_.level_db() < swell ? swell : floor_.level_db();
   }
 
+  /// How far the floor has risen since the room was learned, dB, not below 0.
+  T rise_db() const { return room_db_ < floor_.level_db() ? floor_.level_db() - room_db_ : T(0.0F); }
+
   const QuietMean<T>& mean() const { return mean_; }
 
  private:
@@ -133,7 +137,7 @@ class Background {
     if (top_db_ < seen.loudness_db) top_db_ = seen.loudness_db;
     mean_ = room_;
     floor_.set(room_.loudness_db());
-    last_floor_ = floor_.level_db();
+    room_db_ = last_floor_ = floor_.level_db();
     run_ = 0;
     --room_frames_;
   }
@@ -153,6 +157,7 @@ class Background {
   QuietMean<T> mean_;
   T top_db_ = T(kLeastFloorDb);  ///< loudest that a calibrated room was
   QuietMean<T> room_;
+  T room_db_ = T(kLeastFloorDb - 1);  ///< the floor when the room was learned; below kLeastFloorDb: it was not
   T last_floor_ = T(kLeastFloorDb);
   int run_ = 0;
   int room_frames_ = 0;

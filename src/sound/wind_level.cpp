@@ -84,6 +84,8 @@ bool WindLevel::calibrating() const { return state_->listener.calibrating(); }
 
 bool WindLevel::calibrated() const { return state_->listener.calibrated(); }
 
+float WindLevel::room_rise_db() const { return state_->listener.background().rise_db(); }
+
 WindCalibration WindLevel::calibration() const {
   const auto& background = state_->listener.background();
   const float gust_db = state_->listener.reference().level_db();

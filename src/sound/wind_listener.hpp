@@ -8,6 +8,7 @@
 #include "sound/wind_design.hpp"
 #include "sound/wind_kernel.hpp"
 #include "sound/wind_reference.hpp"
+#include "sound/wind_sustained.hpp"
 #include "sound/wind_verdict.hpp"
 
 namespace wisp::wind {
@@ -31,7 +32,8 @@ class Listener {
     const bool blows = background_.frames_to_calibrate() == 0 && T(kGustConfidence) < confidence_of(seen, floor);
     hear_gust(blows && T(0.0F) < power, decibels(power));
     WindFrame frame = verdict(seen, {quiet.rms(), quiet.band_power(), floor, reference_.level_db()}, d_.power_exponent);
-    frame.wind = plain(bridge_.end_frame(heard_speed(T(frame.speed), seen, floor), seen, floor, d_));
+    const T believed = bridge_.end_frame(heard_speed(T(frame.speed), seen, floor), seen, floor, d_);
+    frame.wind = plain(sustained_.end_frame(believed, d_));
     return frame;
   }
 
@@ -72,6 +74,7 @@ class Listener {
   Background<T> background_;
   Reference<T> reference_;
   LiveBridge<T> bridge_;
+  Sustained<T> sustained_;
   GustLevel<T> asked_;  ///< what is heard of what a guided calibration asked for
   WindAsk ask_ = WindAsk::kBeStill;
   int asked_frames_ = 0;

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "simulate/leaf/leaf_flight.hpp"
 #include "studies/verify_bounds.hpp"
-#include "wisp/simulate/leaf_flight.hpp"
 
 namespace wisp::verify {
 

@@ -11,6 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "simulate/candle/candle_rig.hpp"
+#include "simulate/candle/flame_outline.hpp"
+#include "simulate/candle/wind_signal.hpp"
 #include "studies/verify_bounds.hpp"
 #include "wisp/simulate/candle_clip.hpp"
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "simulate/candle/virtual_microphone.hpp"
+#include "simulate/candle/wind_signal.hpp"
 #include "studies/verify_bounds.hpp"
-#include "wisp/simulate/virtual_microphone.hpp"
-#include "wisp/simulate/wind_signal.hpp"
 #include "wisp/sound/wind_level.hpp"
 #include "wisp/sound/wind_track.hpp"
 

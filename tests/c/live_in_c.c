@@ -196,7 +196,7 @@ const char* wind_in_c(void) {
   blow(samples, kRate, 0, &state);
   EXPECT(wisp_wind_feed(wind, samples, kRate, frames, kFrames, &taken, &made) == WISP_OK);
   EXPECT(taken == kRate && made == kFrames && wisp_wind_calibrating(wind) == 0);
-  EXPECT(wisp_wind_calibrated(wind) == 1);
+  EXPECT(wisp_wind_calibrated(wind) == 1 && wisp_wind_room_rise(wind) < 1);
   EXPECT(wisp_wind_calibrate_for(wind, WISP_WIND_BLOW_HARD, 1) == WISP_OK && wisp_wind_calibrated(wind) == 0);
   EXPECT(wisp_wind_calibrate_for(wind, 3, 1) == WISP_BAD_ARGUMENT);
   EXPECT(frames[59].index == 59 && frames[59].wind < 0.01f);
@@ -262,6 +262,7 @@ const char* misuse_of_wind(void) {
   EXPECT_FAILURE(wisp_wind_set_calibration(wind, &known), WISP_BAD_ARGUMENT, "no room has");
   known.background_rms = nanf("");
   EXPECT_FAILURE(wisp_wind_set_calibration(wind, &known), WISP_BAD_ARGUMENT, "no room has");
+  EXPECT(wisp_wind_room_rise(NULL) == 0);
   EXPECT(wisp_wind_calibrated(NULL) == 0 && wisp_wind_calibrate_for(NULL, 0, 1) == WISP_BAD_ARGUMENT);
   EXPECT(wisp_wind_calibrating(NULL) == 0 && wisp_wind_latency(NULL) == 0);
   wisp_wind_free(wind);

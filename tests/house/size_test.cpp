@@ -17,7 +17,7 @@ using ::testing::IsEmpty;
 // Ceilings, to be lowered as the house gets smaller: 60 lines, 25 sources and 60 headers are what it should come to.
 constexpr int kFunctionLines = 60;
 constexpr int kFolderSources = 25;
-constexpr int kPublicHeaders = 82;
+constexpr int kPublicHeaders = 67;
 
 std::vector<std::string> long_functions(const std::filesystem::path& root, int most) {
   std::vector<std::string> found;

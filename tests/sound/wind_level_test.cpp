@@ -233,6 +233,34 @@ TEST(WindLevel, AHardBlowIsNotMeasuredByItself) {
   EXPECT_NEAR(blow_mean(frames, 0) / mean_of(frames, &WindFrame::wind, 3.6, 3.9), 1, 0.1);  // nor does it wear off
 }
 
+TEST(WindLevel, WhatIsLoudForATenthOfASecondIsNoStrongWind) {
+  const auto strongest_after = [](double seconds) {
+    Samples sound = sounds::room(4, 44100, 3e-4);
+    sounds::add(sound, sounds::steady_blowing(seconds, 44100, 0.6), 3, 44100);
+    float strongest = 0;
+    for (const WindFrame& frame : hear({44100, 1}, sound)) strongest = std::max(strongest, frame.wind);
+    return strongest;
+  };
+  EXPECT_LE(strongest_after(0.05), 1);
+  EXPECT_GT(strongest_after(0.3), 2);
+}
+
+TEST(WindLevel, ARoomThatHasBecomeLouderIsToldOfUntilItIsCalibratedAgain) {
+  WindLevel wind = make({44100, 1});
+  wind.calibrate(2);
+  hear(wind, sounds::room(3, 44100, 1e-3));
+  EXPECT_LT(wind.room_rise_db(), 1);
+  hear(wind, sounds::steady_blowing(2, 44100, 0.1));  // a breath is not the room
+  EXPECT_LT(wind.room_rise_db(), 4);
+  hear(wind, sounds::room(3, 44100, 1e-3));
+  EXPECT_LT(wind.room_rise_db(), 1);
+  hear(wind, sounds::room(9, 44100, 3e-2));  // a fan that was switched on
+  EXPECT_GT(wind.room_rise_db(), 6);
+  wind.calibrate(1);
+  hear(wind, sounds::room(2, 44100, 3e-2));
+  EXPECT_LT(wind.room_rise_db(), 1);
+}
+
 TEST(WindLevel, SoftBreathIsSoftFromTheFirst) {
   const auto frames = hear({44100, 1}, blows_of({0.01, 0.01, 0.01}));
   for (const int blow : {0, 1, 2}) {

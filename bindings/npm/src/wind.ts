@@ -143,6 +143,14 @@ export class WindLevel {
     return this.native.functions.wisp_wind_calibrated!(this.pointer) === 1;
   }
 
+  /**
+   * How much louder the room is by now than when it was calibrated or first heard, dB, not below 0. From 6 on something
+   * steady has begun (rain, a fan) that may be taken for wind: calibrate again.
+   */
+  get roomRise(): number {
+    return this.native.functions.wisp_wind_room_rise!(this.pointer);
+  }
+
   get calibration(): WindCalibration {
     this.living();
     const { native, counts: p } = this;

@@ -25,6 +25,8 @@ export type WindMessage =
       rms: number;
       background: number;
       clipped: number;
+      /** How much louder the room is than when it was calibrated, dB. */
+      roomRise: number;
       /** Whether the room is being listened to. */
       calibrating: boolean;
       /** The audio clock at the end of the block that completed the frame, seconds. */
@@ -112,6 +114,10 @@ class Ears {
     return this.functions.wisp_wind_calibrated!(this.wind) === 1;
   }
 
+  get roomRise(): number {
+    return this.functions.wisp_wind_room_rise!(this.wind)!;
+  }
+
   reset(): void {
     this.check(this.functions.wisp_wind_reset!(this.wind));
   }
@@ -187,6 +193,7 @@ class WindProcessor extends AudioWorkletProcessor {
         confidence: number(28),
         background: number(32),
         clipped: number(36),
+        roomRise: ears.roomRise,
         calibrating: ears.calibrating,
         time: currentTime + channels[0]!.length / sampleRate,
       });

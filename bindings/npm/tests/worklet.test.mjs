@@ -38,7 +38,7 @@ test('it says the wind that WindLevel says, and when a calibration has ended', (
   const frames = processor.said.filter(({ type }) => type === 'wind');
   assert.equal(frames.length, 300);
   assert.ok(frames.some(({ wind }) => wind > 0.1));
-  frames.forEach(({ type, calibrating, time, ...frame }, k) => {
+  frames.forEach(({ type, calibrating, time, roomRise, ...frame }, k) => {
     const { rmsClean, ...rest } = expected[k];
     assert.deepEqual(frame, rest);
   });
@@ -46,6 +46,7 @@ test('it says the wind that WindLevel says, and when a calibration has ended', (
   assert.equal(calibrated.length, 1);
   assert.ok(calibrated[0].known.backgroundRms > 0);
   assert.ok(frames[30].calibrating && !frames[90].calibrating);
+  assert.equal(frames.at(-1).roomRise, level.roomRise);
   tell(processor, { type: 'tell calibration' });
   assert.deepEqual(processor.said.at(-1), { type: 'calibration', known: level.calibration });
   level.free();

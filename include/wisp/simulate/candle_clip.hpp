@@ -5,16 +5,128 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "wisp/base/result.hpp"
 #include "wisp/record/recording.hpp"
-#include "wisp/simulate/candle_rig.hpp"
-#include "wisp/simulate/flame_outline.hpp"
-#include "wisp/simulate/virtual_camera.hpp"
-#include "wisp/simulate/virtual_microphone.hpp"
-#include "wisp/simulate/wind_signal.hpp"
 
 namespace wisp {
+
+/// Grids whose parameters have been calibrated together. The tip's height depends on cell and time step, so take one
+/// of these and change what you must.
+enum class CandleGrid {
+  kCoarse,  ///< 64 × 128 cells of 0.667 mm, 1200 steps a second: the demo's
+  kFine,    ///< 112 × 192 cells of 0.417 mm, 600 steps a second
+};
+
+/// The rig. Lengths in millimetres, all else in SI units. "Calibrated" is said where a number was chosen for the
+/// flame to look and lean like a real one, not taken from a property of matter.
+struct CandleRigOptions {
+  // The grid and its time.
+  int columns = 64;              ///< 16 … 1024
+  int rows = 128;                ///< 16 … 1024
+  double cell_mm = 2.0 / 3;      ///< 0.1 … 2; a flame is about 6 mm wide
+  double rate_hz = 60;           ///< frames a second, 1 … 1000
+  double steps_a_second = 1200;  ///< 100 … 100000, rounded to whole steps a frame: the flame depends on the step, not
+                                 ///< on the camera's rate
+
+  // The candle.
+  double position = 0.35;       ///< of the candle's axis, as a share of the width, 0.1 … 0.9: room on the lee side
+  double candle_width_mm = 12;  ///< of the wax, solid
+  double candle_height_mm = 10;
+  double wick_gap_mm = 4;         ///< from the wax to the box that gives off fuel
+  double wick_width_mm = 5;       ///< calibrated: of that box; at 6 mm the flame is near puffing
+  double wick_height_mm = 4;      ///< calibrated
+  double wick_damping = 80;       ///< 1/s, calibrated: drag of the wick; without it the flame dies at 0.5 m/s
+  double wick_time = 0.15;        ///< s, calibrated: how slowly the fuel follows the wick's heat
+  double wick_cold = 500;         ///< K, calibrated: surroundings of the wick at which it gives off nothing
+  double wick_warm = 900;         ///< K, calibrated: and at which it gives off all it can
+  double fuel_rate = 1.35e-4;     ///< m²/s, calibrated: volume of cold vapour a second per depth of a warm wick
+  double fuel_temperature = 600;  ///< K
+
+  // The gas.
+  double diffusivity = 2.0e-5;   ///< m²/s at 300 K; grows as T^1.75
+  double viscosity = 1.5e-5;     ///< m²/s at 300 K
+  double stoichiometric = 0.08;  ///< mixture fraction where fuel and oxygen match
+  double flame_heating = 1700;   ///< K of heating there
+  double reaction_rate = 2000;   ///< 1/s at full temperature
+  double ignition_low = 900;     ///< K: below it nothing burns
+  double ignition_high = 1300;   ///< K: above it the reaction has its full rate
+  double updraught = 0.25;       ///< m/s, calibrated: the air that rises with a candle
+  double most_expansion = 1500;  ///< 1/s: ∇·u is held to it
+
+  // The wind, and soot as a camera sees it.
+  double wind_share = 0.4;    ///< calibrated: how much of the wind reaches the flame, most of it goes around
+  double wind_rate = 20;      ///< 1/s, calibrated: how fast the air at the flame takes it up
+  double soot_rate = 60;      ///< 1/s, calibrated
+  double soot_burnout = 400;  ///< 1/s, calibrated
+  double exposure = 0.5;      ///< share of a frame's time that its shutter is open, (0, 1]
+
+  double pressure_tolerance = 0.5;  ///< 1/s, root mean square of what the flow still diverges too much
+};
+
+/// The options of a calibrated grid.
+CandleRigOptions candle_rig_options(CandleGrid grid);
+
+/// The camera. Colours are chosen to look like a photograph of a candle; they are not colorimetry.
+struct VirtualCameraOptions {
+  int width = 320;              ///< pixels, 16 … 4096; even, as video wants it
+  int height = 480;             ///< pixels, 16 … 4096; even
+  double pixels_per_mm = 7.5;   ///< 0.5 … 100; at 7.5 a calm flame is about 260 pixels high
+  double wick_x = 0.35;         ///< where the candle's axis is, as a share of the width from the left, 0 … 1
+  double rim_y = 0.06;          ///< where the candle's upper rim is, as a share of the height from below, 0 … 1
+  double gain = 2.5;            ///< exposure: higher is brighter and whiter, 0.01 … 100
+  double contrast = 1.8;        ///< steepness of the tone curve, 0.5 … 4: higher gives the flame a sharper edge
+  double glow = 0.05;           ///< light scattered in the lens, as a share of the flame's, 0 … 1
+  double noise = 1.2;           ///< standard deviation of the sensor's noise in steps of 255, 0 … 50
+  bool candle_visible = false;  ///< also show wax and wick, dimly lit; the flame is all that learning wants to see
+  std::uint64_t seed = 1;       ///< of the noise
+};
+
+/// The microphone.
+struct VirtualMicrophoneOptions {
+  double rate_hz = 44100;  ///< samples a second, 4000 … 192000
+  double exponent = 2;     ///< amplitude ∝ wind^exponent, 0.5 … 4: 2 is stagnation pressure, a real chain outdoors
+                           ///< was nearer to 1.5
+  double level = 0.12;     ///< root mean square of the sound of 1 m/s, full scale 1, 1e-6 … 1; gusts go beyond 1 m/s
+  double corner_hz = 300;  ///< the spectrum is flat below and falls with 12 dB an octave above, 20 … 5000
+  double hiss = 4e-4;      ///< root mean square of the background, white, 0 … 0.1
+  double hum = 0;          ///< amplitude of a 50 Hz hum, 0 … 0.1
+  double other_sounds = 0.05;  ///< sounds that are not wind, a second on average, 0 … 10: half voice, half knocks
+  double other_level = 0.05;   ///< their typical root mean square, 0 … 1
+  std::uint64_t seed = 1;
+};
+
+/// How the outline is taken.
+struct FlameOutlineRecipe {
+  double level = 0.3;  ///< light of glowing soot at the contour; 0.3 is about half of full brightness in a picture of
+                       ///< the default camera, (0, 10]
+  int points = 8;      ///< control points of the cubic B-spline, 4 … 32
+  double cut = 0.03;   ///< the base lies this share of the flame's height above its lowest point, [0, 0.5): the round
+                       ///< bottom of a contour has no corners that a control point could hold on to
+};
+
+/// What the wind does.
+enum class WindKind {
+  kCalm,   ///< nothing
+  kGusts,  ///< wideband noise and gusts of all lengths, with rests: what a learner needs to see
+};
+
+/// The wind. Speeds in m/s.
+struct WindSignalOptions {
+  WindKind kind = WindKind::kGusts;
+  double most = 1.0;         ///< what gusts and noise together are held to, 0 … 10; a candle lives through 1 m/s
+  double noise = 0.35;       ///< standard deviation of the wideband part while it blows, 0 … 10
+  double bandwidth_hz = 6;   ///< of that noise, two poles, 0.1 … 50; slower wind does not show how a flame swings
+  double gust = 0.55;        ///< typical peak of a gust, 0 … 10
+  double rest_share = 0.25;  ///< of the time that is calm, 0 … 0.9
+  bool both_sides = false;   ///< gusts from the right as well (negative); a microphone hears only strength
+  double blow_out_at = -1;   ///< seconds: a puff of 3 m/s for 0.3 s that kills the flame; negative: none
+  double puff_every = 0;     ///< seconds between puffs of 1.2 to 4 m/s that last 0.05 to 0.6 s, of which some kill and
+                             ///< some do not: what blowing out is learned from; 0: none, else 2 … 86400
+  double relight_after = 2;  ///< seconds from a blow-out or a puff until the candle is lit again; negative: never
+  std::uint64_t seed = 1;
+};
 
 /// The clip. Its frame rate is rig.rate_hz.
 struct CandleClipOptions {

@@ -1,14 +1,86 @@
 #pragma once
 // Many falls of one leaf as a recording: what a chain is learned from.
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 #include "wisp/base/result.hpp"
 #include "wisp/record/recording.hpp"
-#include "wisp/simulate/leaf_flight.hpp"
 
 namespace wisp {
+
+/// A fitted set of coefficients of the air's forces, without dimension where nothing else is said.
+struct LeafAir {
+  double rotational_lift = 0.33;     ///< C_R, 0 … 10
+  double translational_lift = 2.66;  ///< C_T, 0 … 10
+  double drag_broadside = 3.09;      ///< C_D90, 0 … 20
+  double drag_edgewise = 0.20;       ///< C_D0, 0 … 20
+  double damping_by_speed = 0.57;    ///< μ, of rotation in a stream, 0 … 20
+  double damping_by_spin = 5.7;      ///< C_r, of rotation in still air, 0 … 100
+  double spin_drag = 0.05;           ///< C_3, of rotation in the leaf's own plane, 0 … 20
+};
+
+/// Fitted to discs let go vertically and, apart from that, horizontally: the default.
+LeafAir leaf_air_joint();
+/// Fitted to discs let go vertically only.
+LeafAir leaf_air_vertical();
+
+/// The leaf and the air it falls in. The default is the leaf of the training recordings.
+struct Leaf {
+  double length = 0.073;        ///< full axis along the midrib (body x), metres, 0.001 … 1
+  double width = 0.049;         ///< full axis across it (body y), metres, 0.001 … length
+  double areal_density = 0.07;  ///< kg/m², 0.001 … 10; 0.07 is office paper and many a dry leaf
+  double air_density = 1.2;     ///< kg/m³, 0.01 … 100
+  double gravity = 9.81;        ///< m/s², 0 … 100
+  LeafAir air{};
+};
+
+/// What the wind does.
+enum class LeafWindKind {
+  kCalm,        ///< nothing
+  kConstant,    ///< one speed, one direction
+  kGusts,       ///< gusts of random strength, length and direction that travel, with rests between them
+  kTurbulence,  ///< a steady wind and eddies of one size that it carries along
+};
+
+/// The wind. Directions are in the horizontal plane, counted from x towards y.
+struct LeafWindOptions {
+  LeafWindKind kind = LeafWindKind::kCalm;
+  double speed = 1;            ///< m/s, 0 … 30: of the steady wind, or a typical gust's
+  double direction = 0;        ///< degrees: where the steady wind blows to
+  double spread = 180;         ///< degrees, 0 … 180: gusts blow to `direction` ± this, evenly
+  double gust_seconds = 0.3;   ///< a typical gust's length, 0.02 … 60; each is 0.6 to 1.8 times as long
+  double rest_seconds = 1.5;   ///< typical calm between gusts, 0 … 60
+  double edge_seconds = 0.06;  ///< in which a gust rises and falls, 0.001 … 10; what begins at once has no derivative
+  double travel_speed = 8;     ///< m/s, 0.1 … 1000: how fast a gust's front comes along
+  double turbulence = 0.3;     ///< m/s, 0 … 30: standard deviation of each component of the eddies' velocity
+  double eddy_metres = 0.5;    ///< length of a typical eddy, 0.01 … 1000
+  std::uint64_t seed = 1;
+};
+
+/// A wind that was measured: the same everywhere, between its rows along a smooth curve through them, before the first
+/// and after the last as there.
+struct MeasuredWind {
+  std::vector<std::array<double, 3>> rows;  ///< m/s, world's axes; none: there is no such wind
+  double rate_hz = 60;                      ///< > 0
+  double begins = 0;                        ///< seconds: when the first row is
+};
+
+/// How the equations are integrated.
+enum class LeafMethod {
+  kClassical,  ///< four evaluations a step, fourth order: the cheapest whose statistics agree at 1/60 s a step
+  kRalston,    ///< three evaluations a step, third order: 0.7 % fewer stalls at 1/60 s
+  kMidpoint,   ///< two evaluations a step, second order: falls 4 % too fast at 1/60 s
+  kStiff,      ///< backward differentiation of variable order and step, with an error bound, by SUNDIALS' CVODE
+};
+
+struct LeafStepping {
+  LeafMethod method = LeafMethod::kClassical;  ///< in wind above 2.5 m/s always kStiff: fixed steps overshoot there
+  double longest_step = 1.0 / 60;  ///< seconds, 1e-6 … 0.05: of the fixed steps; the fastest decay is about 100/s
+  double tolerance = 1e-8;         ///< relative, 1e-12 … 1e-3: of the stiff method
+};
 
 /// Falls of one leaf from random attitudes, velocities and spins. One leaf, since segments of different leaves must not
 /// be joined.

@@ -53,7 +53,8 @@ struct WindFrame {
   float speed = 0;         ///< proportional to wind speed; 1 lies between soft breath and hard blowing (in a
                            ///< recording: the 95th percentile while it blows)
   float wind = 0;          ///< a model's input: speed where it sounds like blowing, 0 where nothing is heard, and under
-                           ///< another sound no more than the wind before it (in a recording: and after it)
+                           ///< another sound no more than the wind before it (in a recording: and after it); live, what
+                           ///< exceeds 1 has lasted: it is at most the median of the last 0.12 s, or 1
   float confidence = 0;    ///< 0 to 1: this is blowing, not talking
   float background = 0;    ///< the plain RMS of the background as known at this frame
   float clipped = 0;       ///< share of samples at full scale, 0 to 1
@@ -116,6 +117,11 @@ class WindLevel {
 
   /// Whether the last calibration is over and heard what it asked for: 0.1 s of blowing, where that was it.
   bool calibrated() const;
+
+  /// How much louder the room is by now than when it was calibrated or first heard, dB, not below 0: what goes on
+  /// without a pause and is no breath. From 6 on something steady has begun (rain, a fan, an engine) that may be taken
+  /// for wind: calibrate again.
+  float room_rise_db() const;
 
   /// What is known of microphone and room by now.
   WindCalibration calibration() const;

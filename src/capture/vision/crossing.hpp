@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "wisp/capture/vision/spline_table.hpp"
+#include "capture/vision/spline_table.hpp"
 
 namespace wisp {
 

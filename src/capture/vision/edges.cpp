@@ -1,4 +1,4 @@
-#include "wisp/capture/vision/edges.hpp"
+#include "capture/vision/edges.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "capture/vision/crossing.hpp"
+#include "capture/vision/outline_tracker.hpp"
 #include "capture/vision/plane_length.hpp"
-#include "wisp/capture/vision/outline_tracker.hpp"
 
 namespace wisp {
 namespace {

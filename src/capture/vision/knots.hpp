@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "wisp/capture/vision/edge_cloud.hpp"
+#include "capture/vision/edge_cloud.hpp"
 
 namespace wisp {
 

@@ -7,6 +7,7 @@
 #include "capture/vision/knots.hpp"
 #include "capture/vision/outline_rows.hpp"
 #include "capture/vision/outline_seeker.hpp"
+#include "capture/vision/outline_tracker.hpp"
 #include "capture/vision/outline_verdict.hpp"
 #include "wisp/record/number_text.hpp"
 

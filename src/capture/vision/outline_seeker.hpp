@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "capture/vision/edge_cloud.hpp"
+#include "capture/vision/region.hpp"
 #include "capture/vision/shoulder.hpp"
-#include "wisp/capture/vision/edge_cloud.hpp"
+#include "capture/vision/survey.hpp"
 #include "wisp/capture/vision/picture.hpp"
-#include "wisp/capture/vision/region.hpp"
-#include "wisp/capture/vision/survey.hpp"
 
 namespace wisp {
 

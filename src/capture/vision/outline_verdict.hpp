@@ -1,8 +1,8 @@
 #pragma once
 // Whether an outline is a flame's that can be learned from, and if not, why.
 
+#include "capture/vision/spline_table.hpp"
 #include "wisp/capture/vision/outline_capture.hpp"
-#include "wisp/capture/vision/spline_table.hpp"
 
 namespace wisp {
 

@@ -9,9 +9,9 @@
 #include <span>
 #include <vector>
 
-#include "wisp/capture/vision/edge_cloud.hpp"
+#include "capture/vision/edge_cloud.hpp"
+#include "capture/vision/region.hpp"
 #include "wisp/capture/vision/image.hpp"
-#include "wisp/capture/vision/region.hpp"
 
 namespace wisp {
 

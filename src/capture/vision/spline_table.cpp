@@ -1,4 +1,4 @@
-#include "wisp/capture/vision/spline_table.hpp"
+#include "capture/vision/spline_table.hpp"
 
 #include <algorithm>
 #include <cassert>

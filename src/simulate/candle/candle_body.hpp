@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "simulate/candle/candle_rig.hpp"
 #include "simulate/candle/flow_grid.hpp"
-#include "wisp/simulate/candle_rig.hpp"
 
 namespace wisp::flow {
 

@@ -2,10 +2,10 @@
 // The candle's flow, advanced by one time step: the state of the grid and the order of its parts.
 
 #include "simulate/candle/candle_body.hpp"
+#include "simulate/candle/candle_rig.hpp"
 #include "simulate/candle/combustion.hpp"
 #include "simulate/candle/flow_grid.hpp"
 #include "simulate/candle/pressure_solver.hpp"
-#include "wisp/simulate/candle_rig.hpp"
 
 namespace wisp::flow {
 

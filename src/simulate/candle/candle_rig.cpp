@@ -1,4 +1,4 @@
-#include "wisp/simulate/candle_rig.hpp"
+#include "simulate/candle/candle_rig.hpp"
 
 #include <algorithm>
 #include <array>

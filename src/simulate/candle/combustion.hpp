@@ -1,8 +1,8 @@
 #pragma once
 // One-step combustion of a mixture fraction, soot, and the light that both give off.
 
+#include "simulate/candle/candle_rig.hpp"
 #include "simulate/candle/flow_grid.hpp"
-#include "wisp/simulate/candle_rig.hpp"
 
 namespace wisp::flow {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "wisp/simulate/flame_outline.hpp"
+#include "simulate/candle/flame_outline.hpp"
 
 namespace wisp::flow {
 

@@ -1,4 +1,4 @@
-#include "wisp/simulate/virtual_camera.hpp"
+#include "simulate/candle/virtual_camera.hpp"
 
 #include <algorithm>
 #include <array>

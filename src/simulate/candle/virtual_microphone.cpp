@@ -1,4 +1,4 @@
-#include "wisp/simulate/virtual_microphone.hpp"
+#include "simulate/candle/virtual_microphone.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "wisp/simulate/leaf.hpp"
+#include "simulate/leaf/leaf.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,8 +1,8 @@
 #pragma once
 // A leaf made ready for its equations.
 
+#include "simulate/leaf/leaf.hpp"
 #include "simulate/leaf/leaf_equations.hpp"
-#include "wisp/simulate/leaf.hpp"
 
 namespace wisp::leaf {
 

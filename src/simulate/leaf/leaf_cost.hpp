@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "wisp/simulate/leaf_flight.hpp"
+#include "simulate/leaf/leaf_flight.hpp"
 
 namespace wisp {
 

@@ -1,4 +1,4 @@
-#include "wisp/simulate/leaf_flight.hpp"
+#include "simulate/leaf/leaf_flight.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "simulate/leaf/leaf_stepper.hpp"
+#include "simulate/leaf/leaf_wind.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/simulate/leaf_wind.hpp"
 
 namespace wisp::leaf {
 

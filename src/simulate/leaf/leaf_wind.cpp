@@ -1,7 +1,7 @@
 // Turbulence is a sum of random Fourier modes without divergence that also change in time, as in R. Kraichnan,
 // Diffusion by a random velocity field, Phys. Fluids 13 (1970): smooth everywhere, with derivatives in closed form.
 
-#include "wisp/simulate/leaf_wind.hpp"
+#include "simulate/leaf/leaf_wind.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "capture/vision/region.hpp"
+#include "capture/vision/spline_table.hpp"
 #include "wisp/capture/vision/picture.hpp"
-#include "wisp/capture/vision/region.hpp"
-#include "wisp/capture/vision/spline_table.hpp"
 
 namespace wisp::support {
 

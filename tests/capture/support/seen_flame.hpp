@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "capture/support/synthetic.hpp"
-#include "wisp/capture/vision/edge_cloud.hpp"
-#include "wisp/capture/vision/region.hpp"
+#include "capture/vision/edge_cloud.hpp"
+#include "capture/vision/region.hpp"
 
 namespace wisp::support {
 

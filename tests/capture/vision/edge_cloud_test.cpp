@@ -1,4 +1,4 @@
-#include "wisp/capture/vision/edge_cloud.hpp"
+#include "capture/vision/edge_cloud.hpp"
 
 #include <gtest/gtest.h>
 

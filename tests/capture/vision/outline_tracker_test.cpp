@@ -1,4 +1,4 @@
-#include "wisp/capture/vision/outline_tracker.hpp"
+#include "capture/vision/outline_tracker.hpp"
 
 #include <gtest/gtest.h>
 

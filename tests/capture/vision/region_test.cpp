@@ -1,4 +1,4 @@
-#include "wisp/capture/vision/region.hpp"
+#include "capture/vision/region.hpp"
 
 #include <gtest/gtest.h>
 

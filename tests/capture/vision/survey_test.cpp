@@ -1,4 +1,4 @@
-#include "wisp/capture/vision/survey.hpp"
+#include "capture/vision/survey.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "wisp/capture/vision/threshold.hpp"
+#include "capture/vision/threshold.hpp"
 
 #include <gtest/gtest.h>
 

@@ -15,7 +15,7 @@
 #include "wisp/record/csv.hpp"
 #include "wisp/record/mat.hpp"
 #include "wisp/run/random.hpp"
-#include "wisp/simulate/candle_rig.hpp"
+#include "wisp/simulate/candle_clip.hpp"
 #include "wisp/sound/wind_level.hpp"
 #include "wisp/wisp.h"
 

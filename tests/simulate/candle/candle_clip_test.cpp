@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "simulate/candle/candle_rig.hpp"
+
 namespace wisp {
 namespace {
 

@@ -1,4 +1,4 @@
-#include "wisp/simulate/candle_rig.hpp"
+#include "simulate/candle/candle_rig.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "wisp/simulate/flame_outline.hpp"
+#include "simulate/candle/flame_outline.hpp"
 
 // What takes minutes (both grids, all winds, long runs, resolution) is in studies/rig/verify_rig.cpp.
 

@@ -1,4 +1,4 @@
-#include "wisp/simulate/flame_outline.hpp"
+#include "simulate/candle/flame_outline.hpp"
 
 #include <gtest/gtest.h>
 

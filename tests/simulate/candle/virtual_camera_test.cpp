@@ -1,4 +1,4 @@
-#include "wisp/simulate/virtual_camera.hpp"
+#include "simulate/candle/virtual_camera.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

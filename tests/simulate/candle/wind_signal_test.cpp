@@ -1,4 +1,4 @@
-#include "wisp/simulate/wind_signal.hpp"
+#include "simulate/candle/wind_signal.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

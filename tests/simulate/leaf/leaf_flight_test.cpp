@@ -1,6 +1,6 @@
 // One fall, by both integrators.
 
-#include "wisp/simulate/leaf_flight.hpp"
+#include "simulate/leaf/leaf_flight.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "simulate/leaf/leaf_flight.hpp"
 #include "simulate/random_numbers.hpp"
-#include "wisp/simulate/leaf_flight.hpp"
 
 namespace wisp {
 namespace {

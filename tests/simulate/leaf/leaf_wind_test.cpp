@@ -1,6 +1,6 @@
 // Wind over place and time.
 
-#include "wisp/simulate/leaf_wind.hpp"
+#include "simulate/leaf/leaf_wind.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -8,6 +8,12 @@ import type { Hearing } from '../panel/controls.js';
 /** Seconds that the room is listened to before it counts. */
 const CALIBRATION = 3;
 
+/** A room that is so much louder than it was, dB, has something steady in it that passes for wind. */
+const LOUDER = 6;
+
+const STEADY =
+  'It has become louder here since I listened to the room: a fan, rain or an engine may pass for breath. Press Blow twice to listen anew.';
+
 export interface EarEvents {
   wind(wind: number): void;
   /** something went wrong, in words for people */
@@ -32,6 +38,7 @@ export class Ear {
   private microphone: Microphone | null = null;
   private wind = 0;
   private since = 0;
+  private louder = false;
   /** counts openings: one that was closed again before it was allowed is dropped */
   private turn = 0;
 
@@ -54,7 +61,10 @@ export class Ear {
     try {
       const microphone = await openMicrophone(this.wisp, {
         calibrate: CALIBRATION,
-        onWind: ({ wind, calibrating }) => this.hear(wind, calibrating),
+        onWind: ({ wind, roomRise, calibrating }) => {
+          this.hear(wind, calibrating);
+          this.watchRoom(roomRise);
+        },
         onLost: (error) => this.fail(error),
       });
       if (turn !== this.turn) {
@@ -86,6 +96,12 @@ export class Ear {
     this.wind = calibrating ? 0 : wind;
     if (this.microphone !== null) this.state = calibrating ? 'calibrating' : 'listening';
     if (!calibrating) this.events.wind(wind);
+  }
+
+  /** Says once that something steady has begun since the room was learned. */
+  private watchRoom(rise: number): void {
+    if (rise >= LOUDER && !this.louder) this.events.trouble(STEADY);
+    this.louder = rise >= LOUDER;
   }
 
   private fail(error: unknown): void {

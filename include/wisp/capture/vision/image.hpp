@@ -60,4 +60,10 @@ std::string_view channel_name(PixelChannel channel);
 /// The channel of that name, or nothing.
 std::optional<PixelChannel> channel_from_name(std::string_view name);
 
+/// The side of a picture on which an outline is open and clamped.
+enum class BaseSide { kBottom, kLeft, kTop, kRight };
+
+/// Pixels of each brightness.
+using Histogram = std::array<std::uint64_t, 256>;
+
 }  // namespace wisp

@@ -1,8 +1,8 @@
 #pragma once
 // From frames to a recording of an outline, one frame at a time and in bounded memory.
 //
-// The first frames are held back until channel, level, place and knots are decided (survey.hpp, knots.hpp); from then
-// on a frame is looked at once, in the neighbourhood of the thing, and let go.
+// The first frames are held back until channel, level, place and knots are decided; from then on a frame is looked at
+// once, in the neighbourhood of the thing, and let go.
 
 #include <array>
 #include <cstdint>
@@ -13,10 +13,7 @@
 #include <vector>
 
 #include "wisp/base/result.hpp"
-#include "wisp/capture/vision/edge_cloud.hpp"
-#include "wisp/capture/vision/outline_tracker.hpp"
 #include "wisp/capture/vision/picture.hpp"
-#include "wisp/capture/vision/survey.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {

@@ -9,10 +9,10 @@
 #include <span>
 #include <vector>
 
+#include "capture/vision/edge_cloud.hpp"
+#include "capture/vision/threshold.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/capture/vision/edge_cloud.hpp"
 #include "wisp/capture/vision/picture.hpp"
-#include "wisp/capture/vision/threshold.hpp"
 
 namespace wisp {
 

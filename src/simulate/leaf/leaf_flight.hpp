@@ -8,24 +8,10 @@
 #include <memory>
 #include <vector>
 
+#include "simulate/leaf/leaf.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/simulate/leaf.hpp"
 
 namespace wisp {
-
-/// How the equations are integrated.
-enum class LeafMethod {
-  kClassical,  ///< four evaluations a step, fourth order: the cheapest whose statistics agree at 1/60 s a step
-  kRalston,    ///< three evaluations a step, third order: 0.7 % fewer stalls at 1/60 s
-  kMidpoint,   ///< two evaluations a step, second order: falls 4 % too fast at 1/60 s
-  kStiff,      ///< backward differentiation of variable order and step, with an error bound, by SUNDIALS' CVODE
-};
-
-struct LeafStepping {
-  LeafMethod method = LeafMethod::kClassical;  ///< in wind above 2.5 m/s always kStiff: fixed steps overshoot there
-  double longest_step = 1.0 / 60;  ///< seconds, 1e-6 … 0.05: of the fixed steps; the fastest decay is about 100/s
-  double tolerance = 1e-8;         ///< relative, 1e-12 … 1e-3: of the stiff method
-};
 
 /// A leaf in the air. Moves in time by advance(); the same calls give the same bits.
 class LeafFlight {

@@ -4,7 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "wisp/simulate/candle_rig.hpp"
+#include "simulate/candle/candle_rig.hpp"
+#include "wisp/simulate/candle_clip.hpp"
 
 namespace wisp {
 
@@ -12,15 +13,6 @@ namespace wisp {
 struct PointMm {
   double x = 0;
   double y = 0;
-};
-
-/// How the outline is taken.
-struct FlameOutlineRecipe {
-  double level = 0.3;  ///< light of glowing soot at the contour; 0.3 is about half of full brightness in a picture of
-                       ///< the default camera, (0, 10]
-  int points = 8;      ///< control points of the cubic B-spline, 4 … 32
-  double cut = 0.03;   ///< the base lies this share of the flame's height above its lowest point, [0, 0.5): the round
-                       ///< bottom of a contour has no corners that a control point could hold on to
 };
 
 /// The outline of one frame. All empty or zero where there is no flame.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wisp/base/result.hpp"
+#include "wisp/simulate/leaf_drops.hpp"
 
 namespace wisp {
 
@@ -15,29 +16,6 @@ struct WindSample {
   std::array<double, 3> change{};    ///< m/s², for one who goes along with the leaf
 };
 
-/// What the wind does.
-enum class LeafWindKind {
-  kCalm,        ///< nothing
-  kConstant,    ///< one speed, one direction
-  kGusts,       ///< gusts of random strength, length and direction that travel, with rests between them
-  kTurbulence,  ///< a steady wind and eddies of one size that it carries along
-};
-
-/// The wind. Directions are in the horizontal plane, counted from x towards y.
-struct LeafWindOptions {
-  LeafWindKind kind = LeafWindKind::kCalm;
-  double speed = 1;            ///< m/s, 0 … 30: of the steady wind, or a typical gust's
-  double direction = 0;        ///< degrees: where the steady wind blows to
-  double spread = 180;         ///< degrees, 0 … 180: gusts blow to `direction` ± this, evenly
-  double gust_seconds = 0.3;   ///< a typical gust's length, 0.02 … 60; each is 0.6 to 1.8 times as long
-  double rest_seconds = 1.5;   ///< typical calm between gusts, 0 … 60
-  double edge_seconds = 0.06;  ///< in which a gust rises and falls, 0.001 … 10; what begins at once has no derivative
-  double travel_speed = 8;     ///< m/s, 0.1 … 1000: how fast a gust's front comes along
-  double turbulence = 0.3;     ///< m/s, 0 … 30: standard deviation of each component of the eddies' velocity
-  double eddy_metres = 0.5;    ///< length of a typical eddy, 0.01 … 1000
-  std::uint64_t seed = 1;
-};
-
 /// One gust of a train: its front passes the origin at `start`.
 struct Gust {
   double start = 0;                  ///< seconds
@@ -45,14 +23,6 @@ struct Gust {
   double edge = 0;                   ///< seconds of each edge, at most half of the length
   std::array<double, 3> velocity{};  ///< at its height, m/s
   std::array<double, 3> slowness{};  ///< s/m: along its way, 1 / travel speed
-};
-
-/// A wind that was measured: the same everywhere, between its rows along a smooth curve through them, before the first
-/// and after the last as there.
-struct MeasuredWind {
-  std::vector<std::array<double, 3>> rows;  ///< m/s, world's axes; none: there is no such wind
-  double rate_hz = 60;                      ///< > 0
-  double begins = 0;                        ///< seconds: when the first row is
 };
 
 /// The wind at any place and time.

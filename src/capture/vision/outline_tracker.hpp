@@ -15,8 +15,8 @@
 #include <span>
 #include <vector>
 
-#include "wisp/capture/vision/edge_cloud.hpp"
-#include "wisp/capture/vision/spline_table.hpp"
+#include "capture/vision/edge_cloud.hpp"
+#include "capture/vision/spline_table.hpp"
 
 namespace wisp {
 

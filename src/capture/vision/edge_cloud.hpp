@@ -15,12 +15,9 @@
 #include <span>
 #include <vector>
 
-#include "wisp/capture/vision/edges.hpp"
+#include "capture/vision/edges.hpp"
 
 namespace wisp {
-
-/// The side on which an outline is open and held.
-enum class BaseSide { kBottom, kLeft, kTop, kRight };
 
 /// Steps of a pace that is fitted.
 inline constexpr int kPaceSteps = 64;

@@ -6,15 +6,9 @@
 // with the largest variance between the clusters, and that variance as a share of the whole as the measure of how well
 // they are apart, by which the channel is chosen.
 
-#include <array>
-#include <cstdint>
-
 #include "wisp/capture/vision/image.hpp"
 
 namespace wisp {
-
-/// Pixels of each brightness.
-using Histogram = std::array<std::uint64_t, 256>;
 
 /// Counts every `step`-th pixel of every `step`-th row.
 ///

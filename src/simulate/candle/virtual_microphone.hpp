@@ -10,22 +10,9 @@
 #include <span>
 
 #include "wisp/base/result.hpp"
+#include "wisp/simulate/candle_clip.hpp"
 
 namespace wisp {
-
-/// The microphone.
-struct VirtualMicrophoneOptions {
-  double rate_hz = 44100;  ///< samples a second, 4000 … 192000
-  double exponent = 2;     ///< amplitude ∝ wind^exponent, 0.5 … 4: 2 is stagnation pressure, a real chain outdoors
-                           ///< was nearer to 1.5
-  double level = 0.12;     ///< root mean square of the sound of 1 m/s, full scale 1, 1e-6 … 1; gusts go beyond 1 m/s
-  double corner_hz = 300;  ///< the spectrum is flat below and falls with 12 dB an octave above, 20 … 5000
-  double hiss = 4e-4;      ///< root mean square of the background, white, 0 … 0.1
-  double hum = 0;          ///< amplitude of a 50 Hz hum, 0 … 0.1
-  double other_sounds = 0.05;  ///< sounds that are not wind, a second on average, 0 … 10: half voice, half knocks
-  double other_level = 0.05;   ///< their typical root mean square, 0 … 1
-  std::uint64_t seed = 1;
-};
 
 /// Makes sound from wind, block by block. The same wind and seed give the same samples however the blocks are cut.
 class VirtualMicrophone {

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "capture/vision/region.hpp"
 #include "wisp/capture/vision/image.hpp"
-#include "wisp/capture/vision/region.hpp"
 
 namespace wisp {
 

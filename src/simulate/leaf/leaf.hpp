@@ -8,36 +8,11 @@
 
 #include <array>
 
+#include "simulate/leaf/leaf_wind.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/simulate/leaf_wind.hpp"
+#include "wisp/simulate/leaf_drops.hpp"
 
 namespace wisp {
-
-/// A fitted set of coefficients of the air's forces, without dimension where nothing else is said.
-struct LeafAir {
-  double rotational_lift = 0.33;     ///< C_R, 0 … 10
-  double translational_lift = 2.66;  ///< C_T, 0 … 10
-  double drag_broadside = 3.09;      ///< C_D90, 0 … 20
-  double drag_edgewise = 0.20;       ///< C_D0, 0 … 20
-  double damping_by_speed = 0.57;    ///< μ, of rotation in a stream, 0 … 20
-  double damping_by_spin = 5.7;      ///< C_r, of rotation in still air, 0 … 100
-  double spin_drag = 0.05;           ///< C_3, of rotation in the leaf's own plane, 0 … 20
-};
-
-/// Fitted to discs let go vertically and, apart from that, horizontally: the default.
-LeafAir leaf_air_joint();
-/// Fitted to discs let go vertically only.
-LeafAir leaf_air_vertical();
-
-/// The leaf and the air it falls in. The default is the leaf of the training recordings.
-struct Leaf {
-  double length = 0.073;        ///< full axis along the midrib (body x), metres, 0.001 … 1
-  double width = 0.049;         ///< full axis across it (body y), metres, 0.001 … length
-  double areal_density = 0.07;  ///< kg/m², 0.001 … 10; 0.07 is office paper and many a dry leaf
-  double air_density = 1.2;     ///< kg/m³, 0.01 … 100
-  double gravity = 9.81;        ///< m/s², 0 … 100
-  LeafAir air{};
-};
 
 /// Errors: a field outside its range.
 Result<void> check(const Leaf& leaf);
