@@ -132,7 +132,7 @@ inline Model coupled_flame_model() {
       const bool last = j >= kOutputs - 2;
       arx.orders.na(i, j) = last ? 0 : kLags;
       if (last) continue;
-      const double other = 0.004 * ((like * 7 + j * 5) % 9 - 4);
+      const double other = 0.004 * ((like * 7 + j * 5) % 9 - 4.5);
       arx.theta[i].insert(arx.theta[i].end(), {sign * (like == j ? -1.1 : other), sign * (like == j ? 0.4 : -other)});
     }
     for (int k = 0; k < kRegressors; ++k) {

@@ -182,7 +182,7 @@ double carried(const Covariance& shocks, const Eigen::MatrixXd& factor) {
 Result<void> set_drawn(std::span<const Recording> recordings, const PreparedOutlines& prepared,
                        const OutlineRecipe& options, ArxModel& model) {
   // Coordinates alone show every jump: they are to jump less often.
-  const double tolerance = *options.coupling == OutlineCoupling::kFull ? 0.1 : 0.25;
+  const double tolerance = *options.coupling == OutlineCoupling::kFull ? 0.1 : 0.2;
   auto drawn = drawn_residuals(
       model, recordings, prepared,
       {.most_bytes = options.drawn_bytes, .tolerance = tolerance, .mirror = mirror_wanted(options, prepared)});

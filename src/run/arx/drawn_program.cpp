@@ -76,10 +76,12 @@ class PastTree {
   void fill(std::size_t node, std::size_t begin, std::size_t end) {
     if (node >= program_.nodes.size()) return;
     const std::uint32_t lag = widest(begin, end);
-    // Those alike stay in their order. As a heap, since that takes little code and no memory.
+    // Those alike are scattered, so that a leaf has not one stretch of calm alone: all of it may have been played just
+    // now. As a heap, since that takes little code and no memory.
+    const auto scattered = [](std::uint32_t row) { return row * 0x9E3779B1U; };
     const auto before = [&](std::uint32_t a, std::uint32_t b) {
       const float x = past(a, lag), y = past(b, lag);
-      return x < y || (x == y && a < b);
+      return x < y || (x == y && scattered(a) < scattered(b));
     };
     const auto first = program_.order.begin() + static_cast<std::ptrdiff_t>(begin);
     const auto last = program_.order.begin() + static_cast<std::ptrdiff_t>(end);

@@ -88,7 +88,7 @@ Model bent_by_many_knots(Model model) {
 }
 
 // Residuals that are drawn, a bent wind, the rule of extinction, and an outline that is looked at.
-TEST(Cost, TheLightFlameWithEverythingOnTakesFewerThan600Operations) {
+TEST(Cost, TheLightFlameWithEverythingOnTakesFewerThan660Operations) {
   for (const Model& flame : {default_flame_model(), default_flame_model(InputShape::kSplitSignCurve)}) {
     const Cost cost = cost_of(has_curve(flame.inputs[0].shape) ? bent_by_many_knots(flame) : flame, 32);
     EXPECT_EQ(cost.multiply_adds_per_frame, 144 - 4);  // the ends have no last tap of either wind
@@ -96,7 +96,7 @@ TEST(Cost, TheLightFlameWithEverythingOnTakesFewerThan600Operations) {
                               cost.view_operations, cost.extinction_operations}) {
       EXPECT_GT(part, 0);
     }
-    EXPECT_LT(cost.operations_per_frame, 600);
+    EXPECT_LT(cost.operations_per_frame, 660);  // of them 100 for a search in every step, in a wind never recorded
   }
 }
 
@@ -105,7 +105,7 @@ TEST(Cost, TheLightFlameWithEverythingOnTakesFewerThan600Operations) {
 TEST(Cost, TheDefaultFlameTakesAtMost1600OperationsInItsWorstFrame) {
   const Cost cost = cost_of(coupled_flame_model(), 32);
   EXPECT_EQ(cost.multiply_adds_per_frame, 16 * (14 * 2 + 2 * 8));
-  EXPECT_GT(cost.worst_operations, cost.operations_per_frame + 100);
+  EXPECT_GT(cost.worst_operations, cost.operations_per_frame);
   EXPECT_LE(cost.worst_operations, 1600);
 }
 
