@@ -11,6 +11,7 @@
 #include "simulate/candle/candle_rig.hpp"
 #include "studies/flame/verify_flame.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/cost.hpp"
 #include "wisp/simulate/candle_clip.hpp"
 
 namespace {
@@ -61,9 +62,9 @@ int main() {
     std::fprintf(stderr, "%s\n", fit.error().message.c_str());
     return 1;
   }
+  const auto cost = count_operations(fit->model).value();
   std::printf("model: %lld multiply-adds a frame, %lld operations with noise\n",
-              static_cast<long long>(fit->summary.cost.multiply_adds_per_frame),
-              static_cast<long long>(fit->summary.cost.operations_per_frame));
+              static_cast<long long>(cost.multiply_adds_per_frame), static_cast<long long>(cost.operations_per_frame));
   const double coarse = rig_seconds_a_frame(CandleGrid::kCoarse);
   const double fine = rig_seconds_a_frame(CandleGrid::kFine);
   std::printf("a frame of the rig:   coarse grid %8.2f ms, fine grid %8.2f ms\n", 1e3 * coarse, 1e3 * fine);

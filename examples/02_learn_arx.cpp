@@ -1,6 +1,6 @@
-// Learns an ARX model of a hair dryer from a table: what `wisp learn arx TABLE -o MODEL --inputs u1 --outputs y1 --dt
-// 0.08
-// --na 2 --nb 2 --nk 3` does.
+// Learns an ARX model of a hair dryer from a table. The command that does the same:
+//
+//   wisp learn arx TABLE -o MODEL --inputs u1 --outputs y1 --dt 0.08 --na 2 --nb 2 --nk 3
 #include <filesystem>
 #include <iostream>
 #include <wisp/learn.hpp>

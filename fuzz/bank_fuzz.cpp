@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "../tests/run/flame_model.hpp"
-#include "wisp/base/hash.hpp"
+#include "base/hash.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/extinction_facet.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <unistd.h>
 
-#include <cmath>
+#include <algorithm>
 #include <cstdio>
 
 #include "wisp/describe/json.hpp"
@@ -10,9 +10,7 @@
 
 namespace wisp::cli {
 
-Terminal::Terminal(Options options) : options_(options), terminal_(::isatty(STDERR_FILENO) == 1) {
-  result_["warnings"] = Json::array();
-}
+Terminal::Terminal(Options options) : options_(options), terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 void Terminal::progress(std::string_view what, double done) {
   if (options_.quiet || !terminal_) return;
@@ -40,15 +38,28 @@ Progress Terminal::progress() {
 }
 
 void Terminal::show(const Report& report) {
-  Report told = report;
   for (const std::string& warning : report.warnings) warn(warning);
+  Report told = report;
   told.warnings.clear();
-  if (options_.json) {
-    result_.update(Json::parse(to_json(told)), true);
-    return;
-  }
   clear_bar();
-  std::fputs(to_text(told).c_str(), stdout);
+  if (!options_.json) std::fputs(to_text(told).c_str(), stdout);
+  if (told.verdict) result_.verdict = told.verdict;
+  result_.append(std::move(told));
+}
+
+void Terminal::add(std::string id, ReportValue value) {
+  result_.add("").entries.push_back({std::move(id), std::move(value), "", ""});
+}
+
+void Terminal::add(ReportTable table) {
+  for (ReportSection& section : result_.sections) {
+    for (ReportTable& before : section.tables) {
+      if (before.id != table.id) continue;
+      before.rows.insert(before.rows.end(), table.rows.begin(), table.rows.end());
+      return;
+    }
+  }
+  result_.add("").tables.push_back(std::move(table));
 }
 
 void Terminal::verdict(const std::string& of, const Report& report) {
@@ -63,7 +74,7 @@ void Terminal::clear_bar() {
 
 void Terminal::warn(std::string_view text) {
   clear_bar();
-  result_["warnings"].push_back(std::string(text));
+  result_.warnings.emplace_back(text);
   std::fprintf(stderr, "wisp: warning: %.*s\n", static_cast<int>(text.size()), text.data());
 }
 
@@ -76,24 +87,18 @@ void Terminal::say(std::string_view text) {
 void Terminal::finish() {
   clear_bar();
   if (!options_.json) return;
-  if (result_["warnings"].empty()) result_.erase("warnings");
-  std::fprintf(stdout, "%s\n", result_.dump(1, ' ', false, Json::error_handler_t::replace).c_str());
+  std::fprintf(stdout, "%s\n", to_json(result_, 1).c_str());
 }
 
 void Terminal::fail(std::string_view message) {
   clear_bar();
   std::fprintf(stderr, "wisp: %.*s\n", static_cast<int>(message.size()), message.data());
   if (!options_.json) return;
-  const Json failure = {{"error", std::string(message)}};
-  std::fprintf(stdout, "%s\n", failure.dump(1, ' ', false, Json::error_handler_t::replace).c_str());
+  Report failure;
+  failure.add("").entries = {{"error", std::string(message), "", ""}};
+  std::fprintf(stdout, "%s\n", to_json(failure, 1).c_str());
 }
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-std::string shown(double value, int digits) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.*g", digits, value);
-  return text;
-}
+std::string shown(double value, int digits) { return wisp::shown(ReportValue(value), digits); }
 
 }  // namespace wisp::cli

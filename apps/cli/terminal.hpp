@@ -1,7 +1,6 @@
 #pragma once
 // What the user sees: progress on standard error, the result on standard output.
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 
@@ -9,8 +8,6 @@
 #include "wisp/base/report.hpp"
 
 namespace wisp::cli {
-
-using Json = nlohmann::ordered_json;
 
 class Terminal {
  public:
@@ -31,6 +28,12 @@ class Terminal {
   /// standard error too.
   void show(const Report& report);
 
+  /// A figure of the result for programs only.
+  void add(std::string id, ReportValue value);
+
+  /// Rows for programs only; they follow those of the same id.
+  void add(ReportTable table);
+
   /// The verdict of something that was made on the way to the result, for people.
   void verdict(const std::string& of, const Report& report);
 
@@ -40,8 +43,9 @@ class Terminal {
   /// One line of the result for people; silent with --json.
   void say(std::string_view text);
 
-  /// The result for programs; printed at the end, once, with --json only.
-  Json& result() { return result_; }
+  /// The result so far, which finish() prints as one JSON document with --json. A command of several steps takes each
+  /// step's result out and puts the whole in.
+  Report& result() { return result_; }
 
   /// Ends the progress bar, and prints the JSON document where asked for.
   void finish();
@@ -59,11 +63,8 @@ class Terminal {
   bool bar_shown_ = false;
   int last_percent_ = -1;
   std::string last_what_;
-  Json result_ = Json::object();
+  Report result_;
 };
-
-/// A number as JSON: null where it is not finite, so that the document stays valid.
-Json number(double value);
 
 /// A number for people, with `digits` significant digits.
 std::string shown(double value, int digits = 3);

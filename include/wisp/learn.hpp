@@ -6,6 +6,7 @@
 #include "wisp/describe/json.hpp"
 #include "wisp/describe/text.hpp"
 #include "wisp/learn/learn.hpp"
+#include "wisp/learn/model_report.hpp"
 #include "wisp/learn/validate.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/record/csv.hpp"

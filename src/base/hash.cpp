@@ -1,4 +1,4 @@
-#include "wisp/base/hash.hpp"
+#include "base/hash.hpp"
 
 namespace wisp {
 

@@ -214,7 +214,7 @@ wisp_status wisp_bank_polylines(const wisp_bank* bank, float* values, size_t cou
 wisp_status wisp_bank_polyline(const wisp_bank* bank, wisp_instance instance, float* values, size_t count) {
   if (!bank) return null_argument(__func__);
   if (!has_outline(__func__, bank)) return WISP_BAD_ARGUMENT;
-  const auto expected = static_cast<size_t>(2 * bank->bank.polyline_points());
+  const auto expected = 2 * static_cast<size_t>(bank->bank.polyline_points());
   if (!buffer_is_right(__func__, values, count, expected)) return WISP_BAD_ARGUMENT;
   return bank->bank.polyline(id_of(instance), {values, count}) ? WISP_OK : not_alive(__func__);
 }

@@ -246,7 +246,8 @@ wisp_status wisp_model_chain_transitions(const wisp_model* model, double* values
   if (!model) return null_argument(__func__);
   const wisp::ChainModel* chain = chain_of(__func__, model);
   if (!chain) return WISP_BAD_ARGUMENT;
-  return guarded(__func__, [&] { return hand_out_values(__func__, chain->transitions(), values, count); });
+  const char* const call = __func__;  // within the lambda it would be operator()
+  return guarded(call, [&] { return hand_out_values(call, chain->transitions(), values, count); });
 }
 
 wisp_status wisp_model_chain_segments(const wisp_model* model, uint32_t* modes, uint32_t* steps, size_t count) {

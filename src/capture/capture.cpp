@@ -6,9 +6,9 @@
 #include <string>
 
 #include "capture/capture_clip.hpp"
-#include "wisp/model/bspline.hpp"
-#include "wisp/record/loudness.hpp"
-#include "wisp/record/verdict.hpp"
+#include "model/bspline.hpp"
+#include "record/loudness.hpp"
+#include "record/verdict.hpp"
 
 namespace wisp {
 namespace {

@@ -20,7 +20,7 @@ std::string padded(std::string text, std::size_t to) {
   return text;
 }
 
-std::string with_unit(std::string text, const std::string& unit) { return unit.empty() ? text : text + " " + unit; }
+std::string with_unit(const std::string& text, const std::string& unit) { return unit.empty() ? text : text + " " + unit; }
 
 std::string line_of(const ReportEntry& entry, std::size_t label_width) {
   std::string line = "  " + padded(entry.label, label_width) + "  " + with_unit(shown(entry.value), entry.unit);

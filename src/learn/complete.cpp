@@ -1,8 +1,23 @@
 #include "learn/complete.hpp"
 
-#include "wisp/run/cost.hpp"
-
 namespace wisp {
+
+ReportSection cost_section(const Cost& cost) {
+  return {"Cost",
+          {{.id = "cost.multiply_adds_per_frame",
+            .value = cost.multiply_adds_per_frame,
+            .label = "multiply-adds a frame",
+            .meaning = "by the paper's count"},
+           {.id = "cost.operations_per_frame",
+            .value = cost.operations_per_frame,
+            .label = "operations a frame",
+            .meaning = "all arithmetic, noise and view included"},
+           {.id = "cost.worst_operations_per_frame",
+            .value = cost.worst_operations,
+            .label = "operations in the worst frame"},
+           {.id = "cost.steered_operations_per_frame", .value = cost.steered_operations},
+           {.id = "cost.operations_between_steps", .value = cost.between_operations}}};
+}
 
 void complete(Fit& fit) {
   fit.model.training.program = "wisp " WISP_VERSION;
@@ -11,19 +26,7 @@ void complete(Fit& fit) {
   // Players that travel light read the cost instead of counting it.
   fit.model.training.multiply_adds_per_frame = cost->multiply_adds_per_frame;
   fit.model.training.operations_per_frame = cost->operations_per_frame;
-  fit.report.add("Cost").entries = {{.id = "cost.multiply_adds_per_frame",
-                                     .value = cost->multiply_adds_per_frame,
-                                     .label = "multiply-adds a frame",
-                                     .meaning = "by the paper's count"},
-                                    {.id = "cost.operations_per_frame",
-                                     .value = cost->operations_per_frame,
-                                     .label = "operations a frame",
-                                     .meaning = "all arithmetic, noise and view included"},
-                                    {.id = "cost.worst_operations_per_frame",
-                                     .value = cost->worst_operations,
-                                     .label = "operations in the worst frame"},
-                                    {.id = "cost.steered_operations_per_frame", .value = cost->steered_operations},
-                                    {.id = "cost.operations_between_steps", .value = cost->between_operations}};
+  fit.report.sections.push_back(cost_section(*cost));
 }
 
 }  // namespace wisp

@@ -1,4 +1,4 @@
-#include "wisp/model/bspline.hpp"
+#include "model/bspline.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "wisp/model/bspline.hpp"
+#include "model/bspline.hpp"
 #include "wisp/model/file.hpp"
 
 namespace wisp {

@@ -9,9 +9,9 @@
 #include <cstring>
 #include <string>
 
+#include "base/hash.hpp"
 #include "model/payload.hpp"
 #include "wisp/base/file.hpp"
-#include "wisp/base/hash.hpp"
 
 namespace wisp {
 namespace {

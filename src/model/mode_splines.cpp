@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <span>
 
-#include "wisp/model/bspline.hpp"
+#include "model/bspline.hpp"
 #include "wisp/model/chain.hpp"
 
 namespace wisp {

@@ -1,4 +1,4 @@
-#include "wisp/record/loudness.hpp"
+#include "record/loudness.hpp"
 
 #include <cmath>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "wisp/record/verdict.hpp"
+#include "record/verdict.hpp"
 
 namespace wisp {
 

@@ -6,9 +6,9 @@
 
 #include "learn/flame/blow_outs.hpp"
 #include "learn/outline/outline_units.hpp"
+#include "record/loudness.hpp"
 #include "studies/value_or_abort.hpp"
 #include "wisp/record/csv.hpp"
-#include "wisp/record/loudness.hpp"
 
 namespace wisp::verify {
 namespace {

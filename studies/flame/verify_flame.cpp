@@ -27,6 +27,7 @@
 #include "studies/flame/verify_flame_pieces.hpp"
 #include "studies/value_or_abort.hpp"
 #include "studies/verify_bounds.hpp"
+#include "wisp/run/cost.hpp"
 
 namespace wisp::verify {
 namespace {
@@ -90,7 +91,7 @@ Score score_of(const OutlineFit& fit, const Recording& unseen, bool fidelity) {
   for (double point : figures.point_fit_percent.back()) score.worst_point = std::min(score.worst_point, point);
   score.j1 = mean(figures.j.front());
   score.j_free = mean(figures.j.back());
-  score.multiply_adds = fit.summary.cost.multiply_adds_per_frame;
+  score.multiply_adds = value_or_abort(count_operations(fit.model)).multiply_adds_per_frame;
   if (found.static_gain) score.static_gain = found.static_gain->fit_percent;
   if (found.fidelity) {
     score.energy = found.fidelity->energy_distance.value;

@@ -3,10 +3,10 @@
 #include <ctime>
 #include <limits>
 
+#include "record/loudness.hpp"
 #include "studies/flame/verify_flame.hpp"
 #include "studies/value_or_abort.hpp"
 #include "wisp/capture/vision/outline_capture.hpp"
-#include "wisp/record/loudness.hpp"
 #include "wisp/simulate/candle_clip.hpp"
 
 namespace wisp::verify {

@@ -10,7 +10,6 @@
 namespace wisp::scenes {
 namespace {
 
-constexpr Light kFlame{1, 0.82, 0.45};  // colour of its light
 constexpr double kGamma = 1 / 2.2;
 constexpr double kMidGrey = 0.22;  // light that is displayed as half as bright as white: where a flame is seen to end
 
@@ -25,11 +24,17 @@ struct Drop {
   double height = 1;
   double half_width = 1;
   double lean = 0;  // of the tip, pixels to the right
+  double bluntness = 1.8;
+  double rim = 1;
 
   // How deep a point lies inside, pixels; exact enough near the rim for an edge of a pixel.
   double depth(double px, double py) const {
     const double up = (y - py) / height;
-    if (up < 0 || up > 1) return -std::max(py - y, y - height - py) - 0.5;
+    if (up < 0 || up > 1) {
+      const double end = std::clamp(up, 0.0, 1.0);
+      const double aside = std::max(0.0, std::abs(px - x - lean * end * end) - width_at(end));
+      return -std::hypot(aside, std::max(py - y, y - height - py) + 0.5);
+    }
     const double middle = x + lean * up * up;
     const double side = width_at(up) - std::abs(px - middle);
     const double slope = (width_at(std::min(up + 0.01, 1.0)) - width_at(std::max(up - 0.01, 0.0))) / (0.02 * height);
@@ -39,7 +44,7 @@ struct Drop {
   double width_at(double up) const {
     if (up < 0.33) return half_width * (1 - 0.33 * std::pow(1 - up / 0.33, 2));
     const double rest = (up - 0.33) / 0.67;
-    return half_width * (1 - std::pow(rest, 1.8));
+    return half_width * (1 - std::pow(rest, bluntness));
   }
 };
 
@@ -48,19 +53,21 @@ double wave(double t, double seed) {
 }
 
 Drop drop_at(const Scene& scene, int which, int k) {
-  const double t = k / scene.rate_hz, seed = 1.7 * which, lively = scene.lamp ? 0 : scene.liveliness;
+  const double t = k / scene.rate_hz, seed = scene.phase + 1.7 * which, lively = scene.lamp ? 0 : scene.liveliness;
   const double size = scene.flame_height * (which == 0 ? 1 : 0.8 - 0.1 * which);
   Drop drop;
   const double spacing = 0.3 * scene.width;
   drop.x = scene.base_x * scene.width + (which == 0 ? 0 : which == 1 ? spacing : -spacing);
   drop.y = scene.base_y * scene.height + (which == 0 ? 0 : 0.12 * scene.flame_height);
   drop.height = size * (1 + 0.18 * lively * wave(t, seed));
-  drop.half_width = 0.16 * size * (1 + 0.1 * lively * wave(1.3 * t, seed + 1));
+  drop.half_width = scene.slenderness * size * (1 + 0.1 * lively * wave(1.3 * t, seed + 1));
   drop.lean = 0.25 * size * lively * wave(0.8 * t, seed + 2);
+  drop.bluntness = scene.bluntness;
+  drop.rim = scene.rim;
   return drop;
 }
 
-double cover(const Drop& drop, double x, double y) { return std::clamp(0.5 + drop.depth(x, y), 0.0, 1.0); }
+double cover(const Drop& drop, double x, double y) { return std::clamp(0.5 + drop.depth(x, y) / drop.rim, 0.0, 1.0); }
 
 // What stands below a flame: a cylinder of wax, lit from above, with or without a pool as bright as the flame.
 Light candle(const Scene& scene, const Drop& drop, double x, double y, Light under, double burning) {
@@ -81,10 +88,12 @@ Light candle(const Scene& scene, const Drop& drop, double x, double y, Light und
 Light behind(const Scene& scene, const Drop& drop, double x, double y, double burning) {
   Light light = Light{1, 1, 1} * scene.room;
   const double far = std::hypot(x - drop.x, y - drop.y + 0.5 * drop.height) / scene.flame_height;
-  light = light + kFlame * (burning * scene.wall / (1 + far * far));
+  light = light + scene.colour * (burning * scene.wall / (1 + far * far));
   const double halo = scene.halo * scene.brightness * std::exp(-3 * std::max(0.0, far - 0.3));
-  light = light + kFlame * (burning * halo);
+  light = light + scene.colour * (burning * halo);
   const bool window = x < 0.3 * scene.width && y < 0.6 * scene.height && x > 0.05 * scene.width;
+  const double lamp = std::hypot(x - 0.82 * scene.width, y - 0.25 * scene.height) / (0.07 * scene.width);
+  if (lamp < 1) light = light + Light{1, 0.9, 0.7} * scene.still_light;
   if (scene.window > 0) light = light + Light{0.9, 0.95, 1} * (window ? scene.window : 0.15 * scene.window);
   return light;
 }
@@ -95,18 +104,18 @@ Light light_at(const Scene& scene, const std::vector<Drop>& drops, double x, dou
   const Drop& first = drops.front();
   if (scene.glass) {
     Drop image = first;
-    image.x += 0.5 * scene.flame_height;
+    image.x += scene.glass_aside * scene.flame_height;
     image.y -= 0.9 * scene.flame_height;
     image.height *= 0.5;
     image.half_width *= 0.5;
     image.lean *= -0.5;
-    light = light + kFlame * (0.35 * burning * cover(image, x, y));
+    light = light + scene.colour * (0.35 * burning * cover(image, x, y));
   }
   const double table = first.y + 0.5 * scene.flame_height;
   if (scene.table && y > table) {
     const double mirrored = 2 * table - y;
     Light image{};
-    for (const Drop& drop : drops) image = image + kFlame * (0.3 * burning * cover(drop, x, mirrored));
+    for (const Drop& drop : drops) image = image + scene.colour * (0.3 * burning * cover(drop, x, mirrored));
     return Light{0.05, 0.03, 0.02} * (burning * 0.4 + scene.room) + image;
   }
   for (const Drop& drop : drops) light = candle(scene, drop, x, y, light, burning);
@@ -114,7 +123,7 @@ Light light_at(const Scene& scene, const std::vector<Drop>& drops, double x, dou
     const double up = std::clamp((drop.y - y) / drop.height, 0.0, 1.0);
     // The foot is dim and bluish, as around a wick, where no pool outshines it.
     const double bright = scene.pool ? 1 : std::clamp(up / 0.08, 0.0, 1.0);
-    const Light core = mix(Light{0.12, 0.16, 0.35}, kFlame * scene.brightness, bright);
+    const Light core = mix(Light{0.12, 0.16, 0.35}, scene.colour * scene.brightness, bright);
     light = mix(light, core, burning * cover(drop, x, y));
   }
   return light;
@@ -171,10 +180,10 @@ void make_blocks(const Scene& scene, std::vector<std::uint8_t>& rgb) {
 
 SceneFrame film(const Scene& scene, int k) {
   SceneFrame frame;
-  std::mt19937 random(static_cast<unsigned>(1000 + k));
+  std::mt19937 random(static_cast<unsigned>(1000 + k + 7919 * std::lround(10 * scene.phase)));
   static const std::vector<double> noise = noise_table();
   frame.lost = scene.irregular && k > 0 && random() % 3 == 0;
-  frame.burning = scene.out_from == 0 || k < scene.out_from;
+  frame.burning = k >= scene.lit_from && (scene.out_from == 0 || k < scene.out_from);
   std::vector<Drop> drops;
   for (int which = 0; which < scene.candles; ++which) drops.push_back(drop_at(scene, which, k));
   const double burning = frame.burning ? 1 : 0;

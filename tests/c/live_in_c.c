@@ -96,7 +96,8 @@ const char* account_of_a_leaf(const void* bytes, size_t size) {
   EXPECT(modes[0] == 0 && modes[2] == 1 && steps[0] == 8 && steps[2] == 12);
   EXPECT(wisp_model_chain_segments(model, NULL, steps, 3) == WISP_OK);
   EXPECT_FAILURE(wisp_model_chain_segments(model, modes, NULL, 2), WISP_BAD_ARGUMENT, "room for 2, expected 3");
-  EXPECT_FAILURE(wisp_model_chain_transitions(model, transitions, 2), WISP_BAD_ARGUMENT, "expected 4");
+  EXPECT_FAILURE(wisp_model_chain_transitions(model, transitions, 2), WISP_BAD_ARGUMENT,
+                 "wisp_model_chain_transitions was given room for 2, expected 4");
   EXPECT_FAILURE(wisp_model_chain_initial(model, NULL, 2), WISP_BAD_ARGUMENT, "null pointer");
   arx.size = sizeof arx;
   EXPECT_FAILURE(wisp_model_get_arx(model, &arx), WISP_BAD_ARGUMENT, "not ARX");

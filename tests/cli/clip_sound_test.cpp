@@ -10,10 +10,10 @@
 #include <random>
 
 #include "cli/program.hpp"
+#include "record/loudness.hpp"
 #include "wisp/draw/image.hpp"
 #include "wisp/draw/video_writer.hpp"
 #include "wisp/record/csv.hpp"
-#include "wisp/record/loudness.hpp"
 
 namespace wisp {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "cli/program.hpp"
 #include "learn/outline/made_outline.hpp"
+#include "record/loudness.hpp"
 #include "wisp/record/csv.hpp"
-#include "wisp/record/loudness.hpp"
 
 namespace wisp {
 namespace {

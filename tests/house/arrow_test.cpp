@@ -28,9 +28,9 @@ TEST(Arrow, AnIncludeOfALayerBelowIsFine) {
 
 TEST(Arrow, AnIncludeThatRunsBackUpIsFound) {
   ScratchTree tree;
-  tree.add("src/run/bank.cpp", "#include <vector>\n#include \"wisp/learn/fit.hpp\"\n");
+  tree.add("src/run/bank.cpp", "#include <vector>\n#include \"wisp/learn/learn.hpp\"\n");
   EXPECT_THAT(arrow_violations(tree.root()),
-              ElementsAre("src/run/bank.cpp:2: includes \"wisp/learn/fit.hpp\": run may not include learn"));
+              ElementsAre("src/run/bank.cpp:2: includes \"wisp/learn/learn.hpp\": run may not include learn"));
 }
 
 TEST(Arrow, AnIncludeThatRunsBackUpFromAPublicHeaderIsFound) {
@@ -50,6 +50,15 @@ TEST(Arrow, AnotherLayersPrivateHeaderIsFound) {
   tree.add("src/run/bank.cpp", "#include \"model/payload.hpp\"\n");
   tree.add("src/model/payload.hpp", "");
   EXPECT_THAT(arrow_violations(tree.root()), ElementsAre(HasSubstr("a private header of model")));
+}
+
+TEST(Arrow, APrivateHeaderThatALayerSharesIsForTheLayersAboveItOnly) {
+  ScratchTree tree;
+  tree.add("src/record/loudness.hpp", "").add("src/base/hash.hpp", "");
+  tree.add("src/learn/gain.cpp", "#include \"base/hash.hpp\"\n#include \"record/loudness.hpp\"\n");
+  tree.add("src/run/bank.cpp", "#include \"base/hash.hpp\"\n#include \"record/loudness.hpp\"\n");
+  EXPECT_THAT(arrow_violations(tree.root()),
+              ElementsAre("src/run/bank.cpp:2: includes \"record/loudness.hpp\": run may not include record"));
 }
 
 TEST(Arrow, AnotherLayersPrivateHeaderIsFoundBehindDots) {
@@ -93,7 +102,7 @@ TEST(Arrow, OutsideLibrariesStayWhereTheyBelong) {
 
 TEST(Arrow, OutsideLibrariesStayOutOfPublicHeaders) {
   ScratchTree tree;
-  tree.add("include/wisp/learn/fit.hpp", "#include <Eigen/Core>\n");
+  tree.add("include/wisp/learn/learn.hpp", "#include <Eigen/Core>\n");
   EXPECT_THAT(arrow_violations(tree.root()), ElementsAre(HasSubstr("outside libraries stay private")));
 }
 

@@ -14,10 +14,10 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-// Ceilings, to be lowered as the house gets smaller: 60 lines, 25 sources and 60 headers are what it should come to.
+// Ceilings, to be lowered as the house gets smaller.
 constexpr int kFunctionLines = 60;
 constexpr int kFolderSources = 25;
-constexpr int kPublicHeaders = 67;
+constexpr int kPublicHeaders = 58;
 
 std::vector<std::string> long_functions(const std::filesystem::path& root, int most) {
   std::vector<std::string> found;

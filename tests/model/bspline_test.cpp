@@ -1,4 +1,4 @@
-#include "wisp/model/bspline.hpp"
+#include "model/bspline.hpp"
 
 #include <gtest/gtest.h>
 

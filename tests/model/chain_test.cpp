@@ -7,9 +7,9 @@
 #include <functional>
 #include <limits>
 
+#include "base/hash.hpp"
 #include "model/damaged_bytes.hpp"
 #include "model/sample_chain.hpp"
-#include "wisp/base/hash.hpp"
 #include "wisp/model/file.hpp"
 
 namespace wisp {

@@ -1,7 +1,7 @@
 #pragma once
 // A small outline model for tests: four control points, one wind, every field in use.
 
-#include "wisp/model/bspline.hpp"
+#include "model/bspline.hpp"
 #include "wisp/model/model.hpp"
 
 namespace wisp {

@@ -1,6 +1,6 @@
 // How loud an input was where it is 1, and one scale for what one microphone heard.
 
-#include "wisp/record/loudness.hpp"
+#include "record/loudness.hpp"
 
 #include <gtest/gtest.h>
 

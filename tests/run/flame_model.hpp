@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "wisp/model/bspline.hpp"
+#include "model/bspline.hpp"
 #include "wisp/model/model.hpp"
 
 namespace wisp {

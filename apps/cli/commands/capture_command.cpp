@@ -20,8 +20,8 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   if (auto ok = write_csv(path, clip->recording); !ok) return ok;
   terminal.show(clip->report);
   terminal.say("wrote " + path);
-  terminal.result()["output"] = path;
-  terminal.result()["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  terminal.add("output", path);
+  terminal.add("seconds", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   return {};
 }
 

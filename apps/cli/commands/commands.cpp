@@ -36,7 +36,7 @@ Command manual_command() {
           {},
           [](const Arguments&, Terminal& terminal) -> Result<void> {
             if (terminal.json()) {
-              terminal.result()["manual"] = manual();
+              terminal.add("manual", manual());
             } else {
               std::fputs(manual().c_str(), stdout);
             }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <utility>
 
 #include "commands/commands.hpp"
 #include "films/simulated_clip.hpp"
@@ -10,6 +11,7 @@
 #include "terminal.hpp"
 #include "wisp/base/file.hpp"
 #include "wisp/capture/capture.hpp"
+#include "wisp/describe/json.hpp"
 #include "wisp/learn/learn.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/record/csv.hpp"
@@ -19,15 +21,32 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// A step's result as a part of the whole: under its name.
+Report part_of_whole(const std::string& name, const std::string& line, Report step) {
+  step.add("").entries = {{"command", "wisp " + line, "", ""},
+                          {"warnings", ReportList(step.warnings.begin(), step.warnings.end()), "", ""}};
+  if (step.verdict) {
+    step.add("").entries = {{"usable.verdict", step.verdict->usable, "", ""},
+                            {"usable.reason", step.verdict->reason, "", ""}};
+  }
+  step.verdict.reset();
+  step.warnings.clear();
+  for (ReportSection& section : step.sections) {
+    for (ReportTable& table : section.tables) table.id = name + "." + table.id;
+    for (ReportEntry& entry : section.entries) {
+      if (!entry.id.empty()) entry.id = name + "." + entry.id;
+    }
+  }
+  return step;
+}
+
 // Does one step of the demo below the line that would do it by hand; its figures go into the result under `name`.
 Result<void> step(const std::string& name, const std::string& line, Terminal& terminal,
                   const std::function<Result<void>()>& work) {
   terminal.say("\n$ wisp " + line);
-  Json all = std::move(terminal.result());
-  terminal.result() = {{"warnings", Json::array()}};
+  Report all = std::exchange(terminal.result(), {});
   auto outcome = work();
-  all[name] = std::move(terminal.result());
-  all[name]["command"] = "wisp " + line;
+  all.append(part_of_whole(name, line, std::move(terminal.result())));
   terminal.result() = std::move(all);
   return outcome;
 }
@@ -50,7 +69,7 @@ Result<void> simulate(const std::string& path, double seconds, std::uint64_t see
   options.wind.seed = options.microphone.seed = options.camera.seed = seed;
   const auto truth = write_simulated_clip(path, options, terminal);
   if (!truth) return truth.error();
-  terminal.result()["frames"] = truth->rows();
+  terminal.add("frames", truth->rows());
   return {};
 }
 
@@ -203,7 +222,7 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
     clips = {arguments.positional(), arguments.positional()};
   }
   if (auto ok = all_steps(places, clips, arguments, terminal); !ok) return ok;
-  if (auto ok = write_file(places.at("summary.json"), terminal.result().dump(1) + "\n"); !ok) return ok;
+  if (auto ok = write_file(places.at("summary.json"), to_json(terminal.result(), 1) + "\n"); !ok) return ok;
   say_what_next(places, terminal);
   if (!arguments.on("window")) return {};
   return step("play", "play " + places.at("flame.wisp"), terminal,

@@ -116,7 +116,7 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   if (spectral_radius(std::get<ArxModel>(fit->model.dynamics)) < 1) return hand_over(*fit, output, start, terminal);
   terminal.show(fit->report);
   terminal.warn(output + " was not written: an unstable model cannot be played");
-  terminal.result()["output"] = nullptr;
+  terminal.add("output", {});
   return {};
 }
 

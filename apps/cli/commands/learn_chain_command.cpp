@@ -7,7 +7,6 @@
 #include "commands/commands.hpp"
 #include "flags/flag_ranges.hpp"
 #include "flags/recordings.hpp"
-#include "reports/figures_json.hpp"
 #include "reports/learned_model.hpp"
 #include "terminal.hpp"
 #include "wisp/learn/learn.hpp"

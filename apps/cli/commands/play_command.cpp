@@ -92,21 +92,22 @@ Result<PlayOptions> options_of(const Arguments& arguments) {
 }
 
 void tell(const PlayReport& report, const PlayOptions& options, Terminal& terminal) {
-  Json& result = terminal.result();
-  result["model"] = options.player.models.front().string();
-  result["seed"] = options.player.seed;
-  result["frames"] = report.figures.frames;
-  result["went_out"] = report.figures.went_out;
-  result["relit"] = report.figures.relit;
-  result["held_share"] =
-      report.figures.steps ? static_cast<double>(report.figures.held) / static_cast<double>(report.figures.steps) : 0.0;
-  result["frame_ms"] = {{"mean", number(report.draw_ms)}, {"worst", number(report.worst_draw_ms)}};
-  if (!report.renderer.empty()) result["renderer"] = report.renderer;
-  result["state"] = report.state;
-  result["said"] = report.said;
-  result["pictures"] = Json::array();
-  for (const auto& picture : report.pictures)
-    result["pictures"].push_back({{"name", picture.name}, {"frame", picture.frame}, {"state", picture.state}});
+  const auto& figures = report.figures;
+  terminal.add("model", options.player.models.front().string());
+  terminal.add("seed", options.player.seed);
+  terminal.add("frames", figures.frames);
+  terminal.add("went_out", figures.went_out);
+  terminal.add("relit", figures.relit);
+  terminal.add("held_share",
+               figures.steps ? static_cast<double>(figures.held) / static_cast<double>(figures.steps) : 0.0);
+  terminal.add("frame_ms.mean", report.draw_ms);
+  terminal.add("frame_ms.worst", report.worst_draw_ms);
+  if (!report.renderer.empty()) terminal.add("renderer", report.renderer);
+  terminal.add("state", report.state);
+  terminal.add("said", ReportList(report.said.begin(), report.said.end()));
+  ReportTable pictures{"pictures", "", {{"name", ""}, {"frame", ""}, {"state", ""}}, {}};
+  for (const auto& picture : report.pictures) pictures.rows.push_back({picture.name, picture.frame, picture.state});
+  terminal.add(std::move(pictures));
   terminal.say(std::to_string(report.figures.frames) + " frames, " + shown(report.draw_ms) +
                " ms of the processor each; seed " + std::to_string(options.player.seed));
   if (!report.pictures.empty())

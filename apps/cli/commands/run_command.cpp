@@ -12,6 +12,7 @@
 #include "flags/wind_input.hpp"
 #include "reports/chain_walk.hpp"
 #include "terminal.hpp"
+#include "wisp/describe/text.hpp"
 #include "wisp/draw/plot.hpp"
 #include "wisp/draw/video_writer.hpp"
 #include "wisp/model/file.hpp"
@@ -60,19 +61,19 @@ class Player {
   }
 
   // When instances went out, for programs.
-  const Json& deaths() const { return deaths_; }
+  const ReportTable& deaths() const { return deaths_; }
 
  private:
   void note(const ExtinctionFacet& extinction, int slot) {
     const bool lit = extinction.state_of(bank_.at(slot))->lit;
-    if (burnt_[slot] && !lit) deaths_.push_back({{"instance", slot}, {"frame", frame_}});
+    if (burnt_[slot] && !lit) deaths_.rows.push_back({slot, frame_});
     burnt_[slot] = lit;
   }
 
   const Play& play_;
   Bank& bank_;
   std::vector<bool> burnt_;
-  Json deaths_ = Json::array();
+  ReportTable deaths_{"went_out", "", {{"instance", ""}, {"frame", ""}}, {}};
   std::size_t frame_ = 0;
 };
 
@@ -266,17 +267,18 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
 
   if (bank->noise() == 0) say_chain_loop(play->model, *walk, terminal);
   const auto held = bank->held();
-  terminal.result()["frames"] = play->frames;
-  terminal.result()["instances"] = bank->size();
-  terminal.result()["seed"] = play->seed;
-  terminal.result()["held_share"] = held.steps ? static_cast<double>(held.held) / static_cast<double>(held.steps) : 0.0;
-  terminal.result()["output"] = path;
+  terminal.add("frames", play->frames);
+  terminal.add("instances", bank->size());
+  terminal.add("seed", play->seed);
+  terminal.add("held_share", held.steps ? static_cast<double>(held.held) / static_cast<double>(held.steps) : 0.0);
+  terminal.add("output", path);
   if (bank->extinction()) {
-    terminal.result()["went_out"] = player.deaths();
-    if (!player.deaths().empty()) {
-      terminal.say("went out " + std::to_string(player.deaths().size()) + " times, first in frame " +
-                   player.deaths()[0]["frame"].dump());
+    const auto& deaths = player.deaths().rows;
+    if (!deaths.empty()) {
+      terminal.say("went out " + std::to_string(deaths.size()) + " times, first in frame " +
+                   wisp::shown(deaths.front().back()));
     }
+    terminal.add(player.deaths());
   }
   terminal.say("wrote " + path + ": " + std::to_string(play->frames) + " frames at " + shown(play->model.rate_hz, 5) +
                " a second, seed " + std::to_string(play->seed));

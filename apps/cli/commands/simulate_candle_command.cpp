@@ -45,13 +45,12 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   const auto truth = write_simulated_clip(path, *options, terminal);
   if (!truth) return truth.error();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  Json& result = terminal.result();
-  result["frames"] = truth->rows();
-  result["rate_hz"] = number(truth->rate_hz);
-  result["seed"] = options->wind.seed;
-  result["output"] = path.string();
-  result["truth"] = truth_path(path).string();
-  result["seconds"] = seconds;
+  terminal.add("frames", truth->rows());
+  terminal.add("rate_hz", truth->rate_hz);
+  terminal.add("seed", options->wind.seed);
+  terminal.add("output", path.string());
+  terminal.add("truth", truth_path(path).string());
+  terminal.add("seconds", seconds);
   terminal.say("wrote " + path.string() + " and " + truth_path(path).string() + ": " + std::to_string(truth->rows()) +
                " frames, seed " + std::to_string(options->wind.seed) + ", in " + shown(seconds) + " s");
   return {};

@@ -171,8 +171,8 @@ Result<Recording> write_pairs(const std::filesystem::path& path, const LeafPairs
   if (!pairs) return pairs.error();
   if (auto good = write_csv(calm_path(path), pairs->calm); !good) return good.error();
   if (auto good = write_csv(path, pairs->windy); !good) return good.error();
-  terminal.result()["calm"] = calm_path(path).string();
-  terminal.result()["clones"] = options.clones;
+  terminal.add("calm", calm_path(path).string());
+  terminal.add("clones", options.clones);
   return std::move(pairs->windy);
 }
 
@@ -197,16 +197,15 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
     film.style.length = static_cast<float>(options.drops.leaf.length);
     film.style.width = static_cast<float>(options.drops.leaf.width);
     if (auto good = write_leaf_film(arguments.text("video"), *recording, film, terminal); !good) return good;
-    terminal.result()["video"] = arguments.text("video");
+    terminal.add("video", arguments.text("video"));
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  Json& result = terminal.result();
-  result["episodes"] = episodes(*recording).size();
-  result["rows"] = recording->rows();
-  result["rate_hz"] = number(recording->rate_hz);
-  result["seed"] = options.drops.seed;
-  result["output"] = path.string();
-  result["seconds"] = seconds;
+  terminal.add("episodes", episodes(*recording).size());
+  terminal.add("rows", recording->rows());
+  terminal.add("rate_hz", recording->rate_hz);
+  terminal.add("seed", options.drops.seed);
+  terminal.add("output", path.string());
+  terminal.add("seconds", seconds);
   terminal.say("wrote " + path.string() + (pairs ? " and " + calm_path(path).string() : "") + ": " +
                std::to_string(episodes(*recording).size()) + " episodes, " + std::to_string(recording->rows()) +
                " rows, seed " + std::to_string(options.drops.seed) + ", in " + shown(seconds) + " s");

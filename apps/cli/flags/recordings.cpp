@@ -19,10 +19,9 @@ bool is_table(const std::filesystem::path& path) {
   return extension == ".csv" || extension == ".txt" || extension == ".mat" || extension == ".CSV";
 }
 
-Result<CsvOptions> csv_options(const Arguments& arguments, const ChannelChoice& channels) {
-  CsvOptions options;
-  options.inputs = arguments.has("inputs") ? arguments.names("inputs") : channels.inputs;
-  options.outputs = arguments.has("outputs") ? arguments.names("outputs") : channels.outputs;
+Result<CsvOptions> csv_options(const Arguments& arguments, CsvOptions options) {
+  if (arguments.has("inputs")) options.inputs = arguments.names("inputs");
+  if (arguments.has("outputs")) options.outputs = arguments.names("outputs");
   if (arguments.has("dt")) {
     const double seconds = arguments.number("dt");
     if (!(seconds > 0)) return Error{"--dt is " + arguments.text("dt") + ", expected seconds above 0"};
@@ -33,8 +32,8 @@ Result<CsvOptions> csv_options(const Arguments& arguments, const ChannelChoice& 
 }
 
 Result<Recording> read_table(const std::filesystem::path& path, const Arguments& arguments,
-                             const ChannelChoice& channels) {
-  const auto options = csv_options(arguments, channels);
+                             const CsvOptions& otherwise) {
+  const auto options = csv_options(arguments, otherwise);
   if (!options) return options.error();
   if (path.extension() == ".mat") {
     return read_mat(path, {.rate_hz = options->rate_hz, .inputs = options->inputs, .outputs = options->outputs});
@@ -45,7 +44,7 @@ Result<Recording> read_table(const std::filesystem::path& path, const Arguments&
 bool leave_out(const std::string& path, const Error& error, const Arguments& arguments, Terminal& terminal) {
   if (!arguments.on("skip-bad")) return false;
   terminal.warn("left out: " + error.message);
-  terminal.result()["skipped"].push_back({{"file", path}, {"reason", error.message}});
+  terminal.add(ReportTable{"skipped", "", {{"file", ""}, {"reason", ""}}, {{path, error.message}}});
   return true;
 }
 

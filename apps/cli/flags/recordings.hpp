@@ -7,7 +7,6 @@
 
 #include "command.hpp"
 #include "terminal.hpp"
-#include "wisp/learn/channel_choice.hpp"
 #include "wisp/record/csv.hpp"
 #include "wisp/record/recording.hpp"
 
@@ -19,13 +18,13 @@ std::vector<Flag> recording_flags();
 /// Whether a name is that of a table (`.csv`, `.txt`) rather than of a clip.
 bool is_table(const std::filesystem::path& path);
 
-/// How --inputs, --outputs, --rate and --dt say a table is to be understood; `channels` where the command has no such
-/// flags. Errors: --dt that is not above 0.
-Result<CsvOptions> csv_options(const Arguments& arguments, const ChannelChoice& channels = {});
+/// How --inputs, --outputs, --rate and --dt say a table is to be understood, and `otherwise` where they do not.
+/// Errors: --dt that is not above 0.
+Result<CsvOptions> csv_options(const Arguments& arguments, CsvOptions otherwise = {});
 
-/// Reads one table; --inputs and --outputs, where the command has them, name its columns, and else `channels` does.
+/// Reads one table, understood as csv_options() says.
 Result<Recording> read_table(const std::filesystem::path& path, const Arguments& arguments,
-                             const ChannelChoice& channels = {});
+                             const CsvOptions& otherwise = {});
 
 /// What becomes of a bad recording: with --skip-bad it is left out, with a warning and an entry of `skipped` in the
 /// result. Returns whether it is left out.

@@ -3,7 +3,6 @@
 #include <charconv>
 
 #include "flags/recordings.hpp"
-#include "reports/figures_json.hpp"
 #include "wisp/base/file.hpp"
 
 namespace wisp::cli {
@@ -44,6 +43,16 @@ Result<ArxPart> read_part(const std::string& path) {
   auto part = ArxPart::from_bytes(*bytes);
   if (!part) return Error{path + ": " + part.error().message};
   return part;
+}
+
+ReportList list_of(const OrderMatrix& orders) {
+  ReportList rows;
+  for (int i = 0; i < orders.rows(); ++i) {
+    const auto row = orders.values().subspan(static_cast<std::size_t>(i * orders.columns()),
+                                             static_cast<std::size_t>(orders.columns()));
+    rows.push_back(ReportList(row.begin(), row.end()));
+  }
+  return rows;
 }
 
 }  // namespace
@@ -107,13 +116,12 @@ Result<void> write_part(const ArxRecipe& recipe, const Arguments& arguments, Ter
   const std::string& path = arguments.text("partial");
   const auto bytes = part.bytes();
   if (auto ok = write_file(path, bytes); !ok) return ok;
-  Json& result = terminal.result();
-  result["partial"] = path;
-  result["rows"] = part.rows();
-  result["bytes"] = bytes.size();
-  result["na"] = json_of(part.orders().na);
-  result["nb"] = json_of(part.orders().nb);
-  result["nk"] = json_of(part.orders().nk);
+  terminal.add("partial", path);
+  terminal.add("rows", part.rows());
+  terminal.add("bytes", bytes.size());
+  terminal.add("na", list_of(part.orders().na));
+  terminal.add("nb", list_of(part.orders().nb));
+  terminal.add("nk", list_of(part.orders().nk));
   terminal.say("wrote " + path + ": " + std::to_string(part.rows()) + " rows in " + std::to_string(bytes.size()) +
                " bytes; wisp learn arx --merge makes a model of all parts");
   return {};

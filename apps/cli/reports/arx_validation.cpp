@@ -9,7 +9,7 @@ namespace wisp::cli {
 Result<Recording> table_for(const Model& model, const Arguments& arguments) {
   const std::string& path = arguments.positionals()[1];
   if (!is_table(path)) return Error{path + ": is not a table (.csv), which this model is validated against"};
-  ChannelChoice channels;
+  CsvOptions channels;
   for (const Input& input : model.inputs) channels.inputs.push_back(input.name);
   for (const Output& output : model.outputs) channels.outputs.push_back(output.name);
   auto whole = read_table(path, arguments, channels);

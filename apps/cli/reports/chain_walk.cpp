@@ -94,8 +94,9 @@ Result<ChainWalk> chain_walk_from(const Model& model, const Arguments& arguments
 void say_chain_loop(const Model& model, const ChainWalk& walk, Terminal& terminal) {
   const auto loop = chain_loop(model, walk.history);
   if (!loop) return;
-  terminal.result()["loop"] = {
-      {"segments", loop->segments}, {"seconds", loop->seconds}, {"lead_seconds", loop->lead_seconds}};
+  terminal.add("loop.segments", loop->segments);
+  terminal.add("loop.seconds", loop->seconds);
+  terminal.add("loop.lead_seconds", loop->lead_seconds);
   terminal.say("without chance it repeats itself every " + shown(loop->seconds) + " s (" +
                std::to_string(loop->segments) + " segments), from " + shown(loop->lead_seconds) + " s on");
 }

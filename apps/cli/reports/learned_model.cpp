@@ -20,8 +20,8 @@ Result<void> hand_over(const Fit& fit, const std::string& path, std::chrono::ste
   if (auto ok = write_model(path, fit.model); !ok) return ok;
   terminal.show(fit.report);
   terminal.say("wrote " + path);
-  terminal.result()["output"] = path;
-  terminal.result()["seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  terminal.add("output", path);
+  terminal.add("seconds", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   return {};
 }
 

@@ -6,7 +6,7 @@
 
 #include "terminal.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/fit.hpp"
+#include "wisp/learn/learn.hpp"
 
 namespace wisp::cli {
 

@@ -13,7 +13,7 @@ namespace wisp {
 
 struct ChainSegments;
 
-/// Cubic B-splines with uniform knots (wisp/model/bspline.hpp) over the time of a segment, from 0 at its start to 1 at
+/// Cubic B-splines with uniform knots over the time of a segment, from 0 at its start to 1 at
 /// its end. All control points are in the numbers in which rows are stored.
 struct ModeSplines {
   int control_points = 0;           ///< 4 … 32

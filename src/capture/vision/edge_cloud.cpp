@@ -222,7 +222,9 @@ bool make_edge_cloud(const BoundaryWindow& window, std::span<const PixelPosition
   const Outwards to_left = corner_direction(axes, -1, leaning), to_right = corner_direction(axes, 1, leaning);
   const std::size_t size = boundary.size();
   const std::size_t left = farthest(boundary, to_left), right = farthest(boundary, to_right);
-  const Arc over{left, (right + size - left) % size + 1}, under{right, (left + size - right) % size + 1};
+  // On a pointed foot both corners are one: the way over the tip is the whole boundary.
+  const Arc over{left, left == right ? size : (right + size - left) % size + 1};
+  const Arc under{right, (left + size - right) % size + 1};
   if (over.count < kLeastBoundary / 2) return false;
   std::vector<EdgePoint> underside;
   locate_points(window, boundary, over, options.most_points, cloud.points);

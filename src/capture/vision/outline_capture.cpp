@@ -4,12 +4,12 @@
 #include <cassert>
 #include <cmath>
 
+#include "base/number_text.hpp"
 #include "capture/vision/knots.hpp"
 #include "capture/vision/outline_rows.hpp"
 #include "capture/vision/outline_seeker.hpp"
 #include "capture/vision/outline_tracker.hpp"
 #include "capture/vision/outline_verdict.hpp"
-#include "wisp/record/number_text.hpp"
 
 namespace wisp {
 namespace {
@@ -21,6 +21,11 @@ constexpr int kEdgePointsEach = 12;    // to a control point: more do not make i
 constexpr std::size_t kSurveyed = 20;  // held frames that are surveyed
 constexpr std::size_t kSamples = 6;    // … and in which outlines are tried
 
+// What is no flame yet: flames move by 0.05 and more within a second, lit walls and lamps by 0.015 at most.
+constexpr double kLeastChange = 0.02;
+constexpr double kLeastTaper = 0.25;
+constexpr double kLeastLight = 0.85;
+
 // Following the underside takes control points away from the sides and makes them move more: it has to pay, and always,
 // as the clip's first second may be calm where later the flame leaves one foot and then the other.
 constexpr double kWorthFollowing = 0.6;
@@ -28,6 +33,11 @@ constexpr double kWorthFollowing = 0.6;
 bool worth_following(const CurveShape& around, const CurveShape& above) {
   return std::equal(around.misfits.begin(), around.misfits.end(), above.misfits.begin(), above.misfits.end(),
                     [](double with, double without) { return with < kWorthFollowing * without; });
+}
+
+// A flame that has not been lit yet is waited for; what stands still, or is lit by something else, is none.
+bool burns(const Survey& survey) {
+  return survey.change >= kLeastChange && survey.taper >= kLeastTaper && survey.light >= kLeastLight;
 }
 
 // At most `count` of the pictures, evenly spread.
@@ -52,7 +62,8 @@ class OutlineCapture::Stage {
 
  private:
   Result<void> accept(const Picture& picture);
-  Result<void> decide();
+  Result<void> decide(bool at_end = false);
+  void wait_on();
   struct Samples {
     std::vector<EdgeCloud> above;   // from corner to corner over the tip
     std::vector<EdgeCloud> around;  // with the underside
@@ -60,7 +71,7 @@ class OutlineCapture::Stage {
   Samples take_samples(std::span<const Picture> pictures) const;
   std::vector<double> decide_shape(Samples& samples);
   void look(const Picture& picture);
-  void note_lost();
+  void note(FrameFinding::Kind kind);
   Error complaint(const std::string& what) const { return Error{options_.source + ": " + what}; }
   void describe(CapturedOutline& out) const;
 
@@ -120,16 +131,28 @@ Result<void> OutlineCapture::Stage::feed(const Picture& picture) {
 }
 
 void OutlineCapture::Stage::lost() {
-  if (survey_) return note_lost();
+  if (survey_) return note(FrameFinding::Kind::kLost);
   held_.emplace_back(std::nullopt);
 }
 
-void OutlineCapture::Stage::note_lost() {
-  findings_.frames.push_back({FrameFinding::Kind::kLost, 0, 0, 0});
+// A frame without an outline.
+void OutlineCapture::Stage::note(FrameFinding::Kind kind) {
+  findings_.frames.push_back({kind, 0, 0, 0});
   findings_.controls.resize(findings_.controls.size() + 2 * static_cast<std::size_t>(options_.points));
 }
 
-Result<void> OutlineCapture::Stage::decide() {
+// Lets half of the held frames go: there is no flame in them yet. Glimpses of the whole clip have been of no use.
+void OutlineCapture::Stage::wait_on() {
+  const std::size_t half = (held_.size() + 1) / 2;
+  for (std::size_t k = 0; k < half; ++k) {
+    note(held_[k] ? FrameFinding::Kind::kNothing : FrameFinding::Kind::kLost);
+    if (held_[k]) held_bytes_ -= held_[k]->bytes();
+  }
+  held_.erase(held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>(half));
+  glimpses_.clear();
+}
+
+Result<void> OutlineCapture::Stage::decide(bool at_end) {
   std::vector<Picture> pictures;
   for (const auto& held : held_) {
     if (held) pictures.push_back(held->picture());
@@ -138,6 +161,11 @@ Result<void> OutlineCapture::Stage::decide() {
   std::vector<Picture> seen = evenly_from(pictures, kSurveyed);
   for (const OwnedPicture& glimpse : glimpses_) seen.push_back(glimpse.picture());
   auto survey = survey_scene(seen, {options_.channel, options_.dark, options_.region, options_.flame});
+  const bool flame = options_.flame > 0 && !options_.dark;
+  if (flame && !at_end && !(survey && burns(*survey))) {
+    wait_on();
+    return {};
+  }
   if (!survey) return complaint(survey.error().message);
   survey_ = std::move(*survey);
   const Region area = options_.region.empty() ? pictures.front().frame() : options_.region;
@@ -149,7 +177,7 @@ Result<void> OutlineCapture::Stage::decide() {
     if (held) {
       look(held->picture());
     } else {
-      note_lost();
+      note(FrameFinding::Kind::kLost);
     }
   }
   held_.clear();
@@ -224,7 +252,9 @@ void OutlineCapture::Stage::describe(CapturedOutline& out) const {
   CaptureReport& report = out.report;
   report.flames = survey_->flames;
   report.facts.light = survey_->light;
+  report.facts.narrowing = survey_->taper;
   report.facts.solidity = survey_->solidity;
+  report.facts.clipped = survey_->clipped;
   report.rate_hz = options_.rate_hz;
   report.points = options_.points;
   report.channel = survey_->channel;
@@ -260,7 +290,7 @@ Result<CapturedOutline> OutlineCapture::Stage::finish() {
                      "; give a longer clip");
   }
   if (!survey_) {
-    if (auto decided = decide(); !decided) return decided.error();
+    if (auto decided = decide(true); !decided) return decided.error();
   }
   CapturedOutline out;
   describe(out);

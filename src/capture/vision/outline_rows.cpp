@@ -89,14 +89,25 @@ void extend_fades(std::vector<Fate>& fate) {
   }
 }
 
-bool fillable(Fate fate) { return fate == Fate::kDuplicate || fate == Fate::kLost; }
+// How many frames in a row may be filled: a screen shows a picture up to four times, and what happened in lost frames
+// is not known.
+std::size_t most_filled(Fate fate) { return fate == Fate::kDuplicate ? 3 : fate == Fate::kLost ? 1 : 0; }
 
-void fill_single_gaps(std::vector<Fate>& fate, std::vector<double>& controls, std::size_t width) {
-  for (std::size_t k = 1; k + 1 < fate.size(); ++k) {
-    if (!fillable(fate[k]) || fate[k - 1] != Fate::kKept || fate[k + 1] != Fate::kKept) continue;
-    fate[k] = Fate::kFilled;
-    for (std::size_t i = 0; i < width; ++i) {
-      controls[k * width + i] = 0.5 * (controls[(k - 1) * width + i] + controls[(k + 1) * width + i]);
+// Fills short gaps between outlines that are a frame's own, in a straight line from one to the other.
+void fill_gaps(std::vector<Fate>& fate, std::vector<double>& controls, std::size_t width) {
+  for (std::size_t begin = 1; begin + 1 < fate.size(); ++begin) {
+    const std::size_t most = most_filled(fate[begin]);
+    if (most == 0 || fate[begin - 1] != Fate::kKept) continue;
+    std::size_t end = begin;
+    while (end < fate.size() && fate[end] == fate[begin]) ++end;
+    if (end == fate.size() || end - begin > most || fate[end] != Fate::kKept) continue;
+    for (std::size_t k = begin; k < end; ++k) {
+      const double part = static_cast<double>(k + 1 - begin) / static_cast<double>(end + 1 - begin);
+      for (std::size_t i = 0; i < width; ++i) {
+        const double from = controls[(begin - 1) * width + i], to = controls[end * width + i];
+        controls[k * width + i] = from + part * (to - from);
+      }
+      fate[k] = Fate::kFilled;
     }
   }
 }
@@ -167,11 +178,14 @@ void write_episodes(const std::vector<Fate>& fate, Recording& recording) {
 
 void assemble_rows(const FrameFindings& findings, int points, Recording& recording, CaptureReport& report) {
   std::vector<Fate> fate = judge(findings);
-  report.duplicates = static_cast<std::size_t>(std::count(fate.begin(), fate.end(), Fate::kDuplicate));
+  const auto times = [&](Fate one) { return static_cast<std::size_t>(std::count(fate.begin(), fate.end(), one)); };
+  report.duplicates = times(Fate::kDuplicate);
+  report.facts.repeated = static_cast<double>(report.duplicates) / static_cast<double>(fate.size());
+  report.facts.lost = static_cast<double>(times(Fate::kLost)) / static_cast<double>(fate.size());
   extend_fades(fate);
   leave_out_glints(fate);
   std::vector<double> controls = findings.controls;
-  fill_single_gaps(fate, controls, 2 * static_cast<std::size_t>(points));
+  fill_gaps(fate, controls, 2 * static_cast<std::size_t>(points));
   count(fate, findings, report);
   write_channels(fate, controls, points, recording);
   write_episodes(fate, recording);

@@ -17,10 +17,14 @@ constexpr double kJumpRatio = 2.2;        // … and a height that changes so ma
 constexpr double kMostAtBorder = 0.05;    // share of rows
 constexpr double kLeastMovement = 0.006;  // heights
 constexpr double kLeastTaper = 0.32;
+constexpr double kLeastNarrowing = 0.25;
 constexpr double kLeastSolidity = 0.86;
 constexpr double kLeastLight = 0.85;
-constexpr double kLeastHeight = 10;  // pixels
-constexpr double kOutSeconds = 0.4;  // without a flame until the clip's end: it went out
+constexpr double kMostLost = 0.1;       // share of rows without a frame of their own: flicker is not what lies between
+constexpr double kMostRepeated = 0.35;  // … and that repeat the one before
+constexpr double kFlat = 0.5;           // share of a shape that is clipped: then its form is the camera's
+constexpr double kLeastHeight = 10;     // pixels
+constexpr double kOutSeconds = 0.4;     // without a flame until the clip's end: it went out
 
 constexpr int kCurvePoints = 64;
 
@@ -145,19 +149,45 @@ double missing_share(const OutlineFacts& facts) {
   return static_cast<double>(facts.absent - facts.blown) / static_cast<double>(facts.rows - facts.blown);
 }
 
+// Why frames are not where they should be, or nothing.
+std::string irregular(const OutlineFacts& f) {
+  if (f.lost > kMostLost) {
+    return "its frames come irregularly, " + percent(f.lost) +
+           " are missing from the clip; film at a fixed rate, with more light or less to do for the camera";
+  }
+  if (f.repeated > kMostRepeated) {
+    return percent(f.repeated) +
+           " of its frames repeat the one before: it was filmed at a lower rate; give the clip in that rate";
+  }
+  return {};
+}
+
+// Why the shape is not a flame's, or nothing.
+std::string misshapen(const OutlineFacts& f) {
+  const bool taper = f.taper >= kLeastTaper && f.narrowing >= kLeastNarrowing, solid = f.solidity >= kLeastSolidity;
+  if (taper && solid) return {};
+  if (f.clipped > kFlat) {
+    return "it is clipped flat, " + percent(f.clipped) +
+           " of it as bright as the camera shows anything, and its shape is not a flame's; film it darker";
+  }
+  if (!taper) {
+    return "it does not taper upwards as a flame does; choose a region around the flame, or film it before a dark "
+           "ground";
+  }
+  return "its shape is not a flame's: it may have run together with what it lights; film it darker, so that only the "
+         "flame is bright";
+}
+
 // The first of what makes an outline unusable, or nothing.
 std::string fault(const OutlineFacts& f, const CaptureReport& report) {
   constexpr std::array<const char*, 4> kSide{"left", "upper", "right", "lower"};
   const bool flame = report.flames > 0;
   if (f.movement < kLeastMovement)
     return "its edges do not move: it may be a lamp or a lit thing; film a flame in a dark room";
-  if (flame && f.taper < kLeastTaper) {
-    return "it does not taper upwards as a flame does; choose a region around the flame, or film it before a dark "
-           "ground";
-  }
   if (flame && f.light < kLeastLight) {
     return "other things in the picture are brighter; choose a region around the flame, or film it in a dark room";
   }
+  if (std::string why = irregular(f); !why.empty()) return why;
   if (missing_share(f) > kMostMissing) {
     return "it is missing in " + percent(missing_share(f)) +
            " of the frames; film it steadily, with nothing in between";
@@ -171,10 +201,7 @@ std::string fault(const OutlineFacts& f, const CaptureReport& report) {
     return "it reaches the " + std::string(kSide[side]) + " border of the picture in " + percent(f.border[side]) +
            " of the frames; leave room around it";
   }
-  if (flame && f.solidity < kLeastSolidity) {
-    return "its shape is not a flame's: it may have run together with what it lights; film it darker, so that only the "
-           "flame is bright";
-  }
+  if (std::string why = flame ? misshapen(f) : ""; !why.empty()) return why;
   if (f.height < kLeastHeight)
     return "it is only " + std::to_string(std::lround(f.height)) + " pixels high; film it from nearer";
   return {};

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "wisp/model/bspline.hpp"
+#include "model/bspline.hpp"
 
 namespace wisp {
 

@@ -172,6 +172,39 @@ Candidate refine(const Candidate& coarse, const std::vector<Candidate>& all, std
   return settle_level(thing, fine, half_way(thing, pictures, area, options.dark));
 }
 
+// Share of a thing that is as bright in every channel as that channel gets anywhere in it: there the camera tells no
+// more of it. That need not be white: tone curves end below.
+double flat_share(const Candidate& thing, std::span<const Picture> pictures, bool dark) {
+  constexpr int kFlat = 5;  // levels: coding errors of a flat area
+  if (dark) return 0;
+  const auto grid_of = [&](PixelChannel channel) {
+    return sample_grid(pictures, channel, thing.home, kFineGrid, false);
+  };
+  const PictureGrid own = grid_of(thing.channel);
+  std::vector<PictureGrid> grids;
+  for (const PixelChannel channel : {PixelChannel::kRed, PixelChannel::kGreen, PixelChannel::kBlue}) {
+    if (has_channel(pictures.front(), channel)) grids.push_back(grid_of(channel));
+  }
+  if (grids.empty()) grids.push_back(own);
+  std::vector<std::vector<double>> inside(grids.size());
+  for (std::size_t k = 0; k < own.pictures.size(); ++k) {
+    for (std::size_t at = 0; at < own.size(); ++at) {
+      if (own.pictures[k][at] <= thing.level) continue;
+      for (std::size_t c = 0; c < grids.size(); ++c) inside[c].push_back(grids[c].pictures[k][at]);
+    }
+  }
+  const std::size_t count = inside.front().size();
+  if (count == 0) return 0;
+  std::vector<std::uint8_t> flat(count, 1);
+  for (const auto& values : inside) {
+    std::vector<double> sorted = values;
+    const auto high = sorted.begin() + static_cast<std::ptrdiff_t>(9 * count / 10);
+    std::nth_element(sorted.begin(), high, sorted.end());
+    for (std::size_t k = 0; k < count; ++k) flat[k] &= values[k] >= *high - kFlat;
+  }
+  return static_cast<double>(std::count(flat.begin(), flat.end(), 1)) / static_cast<double>(count);
+}
+
 Survey describe(const Candidate& thing, std::span<const Picture> pictures, const Region& area, bool dark) {
   Survey out;
   out.channel = thing.channel;
@@ -184,6 +217,7 @@ Survey describe(const Candidate& thing, std::span<const Picture> pictures, const
   out.area = thing.area;
   out.light = thing.light;
   out.solidity = thing.solidity;
+  out.clipped = flat_share(thing, pictures, dark);
   const PictureGrid grid = sample_grid(pictures, thing.channel, area, kGrid, dark);
   for (std::size_t k = 0; k < grid.pictures.size(); ++k) add_to_histogram(out.histogram, grid.view(k), 1);
   out.separation = split_histogram(out.histogram).separation;

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number_text.hpp"
 #include "learn/arx/curve/arx_curves.hpp"
 #include "learn/arx/judge/residual_tests.hpp"
 #include "learn/arx/report/fit_report.hpp"
 #include "learn/arx/report/report_values.hpp"
 #include "learn/arx/report/response_report.hpp"
 #include "learn/arx/search/order_search.hpp"
-#include "wisp/record/number_text.hpp"
 
 namespace wisp {
 namespace arx {

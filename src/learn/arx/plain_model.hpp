@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "learn/channel_choice.hpp"
 #include "learn/numeric/triangular_factor.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/arx_recipe.hpp"
-#include "wisp/learn/channel_choice.hpp"
 #include "wisp/model/input_curve.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"

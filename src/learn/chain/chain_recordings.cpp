@@ -6,10 +6,10 @@
 #include <set>
 #include <string>
 
+#include "base/hash.hpp"
+#include "base/number_text.hpp"
 #include "learn/chain/learn_chain.hpp"
 #include "learn/chain/motion/motion.hpp"
-#include "wisp/base/hash.hpp"
-#include "wisp/record/number_text.hpp"
 
 namespace wisp {
 namespace {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "base/number_text.hpp"
 #include "learn/chain/chain_fidelity.hpp"
 #include "learn/chain/chain_fit.hpp"
 #include "learn/chain/chain_recordings.hpp"
@@ -12,7 +13,6 @@
 #include "learn/chain/gusts/gust_report.hpp"
 #include "learn/chain/learn_chain.hpp"
 #include "wisp/model/file.hpp"
-#include "wisp/record/number_text.hpp"
 
 namespace wisp {
 namespace chain {

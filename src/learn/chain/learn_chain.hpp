@@ -8,7 +8,7 @@
 #include "wisp/base/report.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/chain_recipe.hpp"
-#include "wisp/learn/fit.hpp"
+#include "wisp/learn/learn.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {

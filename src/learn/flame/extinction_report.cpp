@@ -2,8 +2,6 @@
 
 #include <cstdio>
 
-#include "wisp/learn/extinction_report.hpp"
-
 namespace wisp {
 namespace {
 

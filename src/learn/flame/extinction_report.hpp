@@ -1,5 +1,5 @@
 #pragma once
-// Figures of extinction in the reports of learning and validating.
+// Figures of extinction in the reports of models, of learning and of validating.
 
 #include <optional>
 
@@ -7,6 +7,10 @@
 #include "wisp/base/report.hpp"
 
 namespace wisp {
+
+/// `extinction` {input, level, seconds, haste, recovery, modes […]} as model_report() has it; none where nothing puts
+/// the model out.
+ReportSection extinction_section(const Model& model);
 
 /// extinction_section() of a model that was just learned, with `source`, `agreement` {…}, `unexplained`, `level_range`
 /// and `seconds_range`.

@@ -4,8 +4,8 @@
 #include <numeric>
 #include <utility>
 
-#include "wisp/record/loudness.hpp"
-#include "wisp/record/number_text.hpp"
+#include "base/number_text.hpp"
+#include "record/loudness.hpp"
 
 namespace wisp {
 namespace {

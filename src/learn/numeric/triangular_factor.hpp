@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "learn/arx/fit/arx_fit.hpp"
+#include "learn/channel_choice.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/channel_choice.hpp"
 #include "wisp/record/csv.hpp"
 #include "wisp/record/recording.hpp"
 

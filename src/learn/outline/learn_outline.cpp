@@ -5,7 +5,7 @@
 #include "learn/flame/wind_gain.hpp"
 #include "learn/outline/outline_fit.hpp"
 #include "learn/outline/outline_report.hpp"
-#include "wisp/record/verdict.hpp"
+#include "record/verdict.hpp"
 
 namespace wisp {
 namespace {
@@ -57,9 +57,6 @@ Result<Fit> learn_outline(std::span<const Recording> recordings, const OutlineRe
   if (!fit) return fit.error();
   const auto extinction = seen->complete(fit->model, recipe.extinction);
   if (!extinction) return extinction.error();
-  const auto cost = count_operations(fit->model);
-  if (!cost) return cost.error();
-  fit->summary.cost = *cost;
   refuse_what_capture_refused(recordings, *fit);
   Report report;
   report.verdict = ReportVerdict{fit->summary.usable.verdict, fit->summary.usable.reason};

@@ -5,7 +5,7 @@
 
 #include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/fit.hpp"
+#include "wisp/learn/learn.hpp"
 #include "wisp/learn/outline_recipe.hpp"
 #include "wisp/record/recording.hpp"
 

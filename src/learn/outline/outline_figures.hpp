@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "learn/arx/judge/prediction.hpp"
+#include "learn/channel_choice.hpp"
 #include "learn/outline/outline_units.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/channel_choice.hpp"
 #include "wisp/model/arx.hpp"
 #include "wisp/record/recording.hpp"
 

@@ -405,12 +405,9 @@ std::size_t liveliest(const PreparedOutlines& prepared) {
   return best;
 }
 
-// What it costs, and what it does when it plays along the inputs of the liveliest recording.
+// What it does when it plays along the inputs of the liveliest recording.
 Result<void> try_out(const Model& model, const OutlineRecipe& options, const PreparedOutlines& prepared,
                      std::span<const Recording> recordings, OutlineSummary& summary) {
-  const auto cost = count_operations(model);
-  if (!cost) return cost.error();
-  summary.cost = *cost;
   const std::size_t lively = liveliest(prepared);
   const Recording driving = with_regressors(recordings[lively], summary.inputs, {});
   const auto play = play_freely(model, kTrialSteps, {.seed = options.seed, .input = &driving});

@@ -22,7 +22,6 @@
 #include "wisp/learn/outline_recipe.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"
-#include "wisp/run/cost.hpp"
 
 namespace wisp {
 
@@ -77,7 +76,6 @@ struct OutlineSummary {
   std::vector<OutlineResidual> residuals;  ///< of the returned model, one a channel
   double fpe = 0;                          ///< of the returned model, mean over rows of V·(1 + d/n)/(1 − d/n)
   ArxStability stable;
-  Cost cost;
   double held_share = 0;         ///< of steps in which an output is clamped to its range, playing freely with noise
   std::vector<double> sd_ratio;  ///< of every channel: playing freely along the liveliest recording over
                                  ///< what that has; 1 where nothing moves

@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "wisp/model/bspline.hpp"
+#include "model/bspline.hpp"
 
 namespace wisp {
 namespace {

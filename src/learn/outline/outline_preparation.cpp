@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/number_text.hpp"
 #include "learn/outline/outline_knots.hpp"
-#include "wisp/model/bspline.hpp"
-#include "wisp/record/number_text.hpp"
+#include "model/bspline.hpp"
 
 namespace wisp {
 namespace {

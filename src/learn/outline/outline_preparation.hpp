@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "learn/channel_choice.hpp"
 #include "learn/outline/outline_inputs.hpp"
 #include "learn/outline/outline_units.hpp"
-#include "wisp/learn/channel_choice.hpp"
 
 namespace wisp {
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "wisp/model/bspline.hpp"
+#include "model/bspline.hpp"
 
 namespace wisp {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "learn/outline/outline_shape.hpp"
-#include "wisp/model/bspline.hpp"
+#include "model/bspline.hpp"
 
 namespace wisp {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "wisp/record/loudness.hpp"
+#include "record/loudness.hpp"
 
 namespace wisp {
 namespace {

@@ -6,7 +6,7 @@
 #include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/arx_recipe.hpp"
-#include "wisp/learn/fit.hpp"
+#include "wisp/learn/learn.hpp"
 #include "wisp/learn/validate.hpp"
 
 namespace wisp {

@@ -17,10 +17,10 @@
 #include <string>
 #include <vector>
 
+#include "learn/channel_choice.hpp"
 #include "learn/switched/mode_difference.hpp"
 #include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/channel_choice.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/model/switched.hpp"
 #include "wisp/record/recording.hpp"

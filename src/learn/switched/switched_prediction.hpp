@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "learn/arx/judge/prediction.hpp"
+#include "learn/channel_choice.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/channel_choice.hpp"
 #include "wisp/model/switched.hpp"
 #include "wisp/record/recording.hpp"
 

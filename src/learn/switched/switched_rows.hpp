@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "learn/channel_choice.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/channel_choice.hpp"
 #include "wisp/model/switched.hpp"
 #include "wisp/record/recording.hpp"
 

@@ -7,9 +7,9 @@
 #include <cstring>
 #include <string>
 
+#include "base/hash.hpp"
 #include "run/bank/bank_state.hpp"
 #include "run/bank/little_endian.hpp"
-#include "wisp/base/hash.hpp"
 
 namespace wisp {
 namespace {

@@ -6,8 +6,8 @@
 #include <initializer_list>
 #include <span>
 
+#include "base/hash.hpp"
 #include "run/bank/little_endian.hpp"
-#include "wisp/base/hash.hpp"
 
 namespace wisp {
 

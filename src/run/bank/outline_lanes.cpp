@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "wisp/model/bspline.hpp"
+#include "model/bspline.hpp"
 
 namespace wisp {
 namespace {

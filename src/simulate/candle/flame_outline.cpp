@@ -4,9 +4,9 @@
 #include <cmath>
 #include <span>
 
+#include "model/bspline.hpp"
 #include "simulate/candle/contour.hpp"
 #include "simulate/candle/light_sampling.hpp"
-#include "wisp/model/bspline.hpp"
 
 namespace wisp {
 namespace {

@@ -84,6 +84,19 @@ TEST(EdgeCloud, AForkedBaseIsClosedFromFootToFootOrFollowed) {
   EXPECT_NEAR(followed.base_y, closed.base_y, 0.5);
 }
 
+TEST(EdgeCloud, APointedFootIsBothCorners) {
+  Plane plane(160, 180, 8);
+  support::paint(plane, 230, 3.0, [](double x, double y) {
+    const double up = (150 - y) / 110;
+    return up < 0 || up > 1 ? -5 : 25 * std::sin(std::numbers::pi * up) - std::abs(x - 80);
+  });
+  const EdgeCloud cloud = cloud_of(plane, kLevel);
+  ASSERT_FALSE(cloud.points.empty());
+  EXPECT_NEAR(cloud.base_x, 80, 2);
+  EXPECT_NEAR(cloud.base_y, 148, 3);
+  EXPECT_NEAR(cloud.area, 2 * 25 * 110 * 2 / std::numbers::pi, 150);
+}
+
 TEST(EdgeCloud, LandmarksLieWhereTheOptionsSay) {
   EdgeCloudOptions options;
   options.landmarks = {0, 0.3, 1};

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "capture/support/seen_flame.hpp"
-#include "wisp/model/bspline.hpp"
+#include "model/bspline.hpp"
 
 namespace wisp {
 namespace {

@@ -139,10 +139,19 @@ TEST(OutlineCapture, ASingleDuplicateIsFilledAndFlagged) {
   EXPECT_NEAR(controls_at(*captured, 30)[6], 0.5 * (before + after), 1e-9);
 }
 
-TEST(OutlineCapture, TwoDuplicatesInARowEndTheEpisode) {
+TEST(OutlineCapture, APictureShownThreeTimesIsFilledInAStraightLine) {
   const auto captured = capture(60, [](int k) { return noisy_flame(k == 30 || k == 31 ? 29 : k); });
   ASSERT_TRUE(captured);
-  ASSERT_EQ(captured->report.dropped.size(), 2u);
+  EXPECT_EQ(captured->report.filled, 2u);
+  EXPECT_TRUE(captured->report.dropped.empty());
+  const double before = controls_at(*captured, 29)[6], after = controls_at(*captured, 32)[6];
+  EXPECT_NEAR(controls_at(*captured, 31)[6], before + 2 * (after - before) / 3, 1e-9);
+}
+
+TEST(OutlineCapture, FourDuplicatesInARowEndTheEpisode) {
+  const auto captured = capture(60, [](int k) { return noisy_flame(k >= 30 && k < 34 ? 29 : k); });
+  ASSERT_TRUE(captured);
+  ASSERT_EQ(captured->report.dropped.size(), 4u);
   EXPECT_EQ(captured->report.dropped[0].frame, 30u);
   EXPECT_EQ(captured->report.dropped[0].reason, "duplicate");
   EXPECT_TRUE(missing(*captured, 31));
@@ -335,6 +344,51 @@ TEST(OutlineCapture, AFlameIsUsableAndALampIsNot) {
   ASSERT_TRUE(lamp);
   EXPECT_FALSE(lamp->report.usable);
   EXPECT_THAT(lamp->report.reason, HasSubstr("do not move"));
+}
+
+TEST(OutlineCapture, AFlameThatIsLitLaterIsWaitedFor) {
+  const auto captured = capture(140, [](int k) {
+    Plane plane = k < 70 ? Plane(160, 180, 8) : support::flame_picture(support::swaying(k));
+    plane.fill({10, 20, 30, 40}, 120);  // a lit wall, as bright before as after
+    add_noise(plane, static_cast<unsigned>(k) + 1);
+    return plane;
+  });
+  ASSERT_TRUE(captured) << captured.error().message;
+  EXPECT_TRUE(captured->report.usable) << captured->report.reason;
+  EXPECT_TRUE(missing(*captured, 69));
+  EXPECT_FALSE(missing(*captured, 90));
+  EXPECT_NEAR(captured->recording.channels[16].samples[100], 80, 1);
+}
+
+TEST(OutlineCapture, AClipThatLostManyFramesIsIrregular) {
+  OutlineCapture capturing(options_for());
+  for (int k = 0; k < 90; ++k) {
+    const Plane plane = noisy_flame(k);
+    if (k % 5 == 4) {
+      capturing.lost();
+    } else {
+      ASSERT_TRUE(capturing.feed(grey_picture(plane.view())));
+    }
+  }
+  const auto captured = capturing.finish();
+  ASSERT_TRUE(captured);
+  EXPECT_EQ(captured->report.filled, 17u);
+  EXPECT_FALSE(captured->report.usable);
+  EXPECT_THAT(captured->report.reason, HasSubstr("irregularly, 20 %"));
+}
+
+TEST(OutlineCapture, AWhiteBlobIsClippedFlat) {
+  const auto captured = capture(60, [](int k) {
+    Plane plane(160, 180, 8);
+    const double wide = 30 + 6 * std::sin(0.5 * k);
+    support::paint(plane, 255, 3.0, [&](double x, double y) {
+      return std::min({wide + 0.2 * (110 - y) - std::abs(x - 80), 150 - y, y - 60 - 8 * std::sin(0.7 * k)});
+    });
+    return plane;
+  });
+  ASSERT_TRUE(captured);
+  EXPECT_FALSE(captured->report.usable);
+  EXPECT_THAT(captured->report.reason, HasSubstr("clipped flat"));
 }
 
 TEST(OutlineCapture, AnOutlineAtTheBorderIsNotUsableAndNamesTheSide) {

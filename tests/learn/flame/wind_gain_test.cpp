@@ -8,7 +8,7 @@
 
 #include "learn/outline/made_outline.hpp"
 #include "learn/outline/outline_judgement.hpp"
-#include "wisp/record/loudness.hpp"
+#include "record/loudness.hpp"
 
 namespace wisp {
 namespace {

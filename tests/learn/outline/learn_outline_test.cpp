@@ -7,8 +7,8 @@
 
 #include "learn/flame/made_blow_outs.hpp"
 #include "learn/outline/made_outline.hpp"
+#include "record/loudness.hpp"
 #include "wisp/learn/validate_outline.hpp"
-#include "wisp/record/loudness.hpp"
 
 namespace wisp {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "learn/outline/made_outline.hpp"
 #include "learn/outline/outline_shape.hpp"
-#include "wisp/model/bspline.hpp"
+#include "model/bspline.hpp"
 
 namespace wisp {
 namespace {

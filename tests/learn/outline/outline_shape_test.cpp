@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "wisp/model/bspline.hpp"
+#include "model/bspline.hpp"
 
 namespace wisp {
 namespace {

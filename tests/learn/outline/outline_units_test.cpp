@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "wisp/model/bspline.hpp"
+#include "model/bspline.hpp"
 
 namespace wisp {
 namespace {

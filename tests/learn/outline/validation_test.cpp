@@ -12,7 +12,7 @@
 #include "learn/outline/outline_knots.hpp"
 #include "learn/outline/outline_shape.hpp"
 #include "learn/outline/outline_synthesis.hpp"
-#include "wisp/model/bspline.hpp"
+#include "model/bspline.hpp"
 
 namespace wisp {
 namespace {

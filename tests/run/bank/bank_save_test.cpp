@@ -5,9 +5,9 @@
 #include <random>
 #include <vector>
 
+#include "base/hash.hpp"
 #include "model/sample_model.hpp"
 #include "run/flame_model.hpp"
-#include "wisp/base/hash.hpp"
 #include "wisp/run/bank.hpp"
 
 namespace wisp {

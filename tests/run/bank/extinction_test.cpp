@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "base/hash.hpp"
 #include "run/flame_model.hpp"
-#include "wisp/base/hash.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/cost.hpp"
 #include "wisp/run/extinction_facet.hpp"

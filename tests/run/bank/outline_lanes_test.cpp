@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "wisp/model/bspline.hpp"
+#include "model/bspline.hpp"
 #include "wisp/run/random.hpp"
 
 namespace wisp {

@@ -10,11 +10,11 @@
 #include <immintrin.h>
 #endif
 
+#include "base/hash.hpp"
 #include "model/sample_chain.hpp"
 #include "model/sample_model.hpp"
 #include "model/sample_switched.hpp"
 #include "run/flame_model.hpp"
-#include "wisp/base/hash.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/chain_facet.hpp"
 #include "wisp/run/extinction_facet.hpp"

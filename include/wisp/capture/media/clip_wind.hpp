@@ -29,7 +29,7 @@ double wind_value(const WindFrame& frame, WindMeasure measure);
 struct ClipWind {
   std::vector<WindFrame> frames;  ///< one a frame of the picture; empty where nothing can be heard
   double background = 0;          ///< root mean square of the stretches without wind, full scale 1
-  double one_rms = 0;             ///< of the wind's band where speed is 1, full scale 1 (wisp/record/loudness.hpp)
+  double one_rms = 0;             ///< of the wind's band where speed is 1, full scale 1
   double clipped_share = 0;       ///< of samples at full scale
   std::size_t uncovered = 0;      ///< frames of the picture that the sound does not reach: their wind is missing (NaN)
   std::string note;               ///< one clause for people: what was heard, or why nothing was

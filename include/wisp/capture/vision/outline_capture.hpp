@@ -46,12 +46,16 @@ struct OutlineFacts {
   std::size_t rows = 0;            ///< from the first outline until the flame is out for good
   std::size_t absent = 0;          ///< of them, without an outline
   std::size_t blown = 0;           ///< of those, because the flame was blown out and lit again: see excuse_absence()
+  double lost = 0;                 ///< share of the clip's rows that have no frame, filled or not
+  double repeated = 0;             ///< … and whose frame repeats the one before
   double jumps = 0;                ///< share of steps by which base or height change more than a flame's can
   std::array<double, 4> border{};  ///< share that reach the picture's left, upper, right and lower border
   double movement = 0;             ///< how far the shape moves on its base: root mean square over the median height
   double taper = 0;                ///< how much narrower it is near its tip than at its middle, median
+  double narrowing = 0;            ///< how much narrower its first quarter is than its middle, median of the survey
   double solidity = 0;             ///< its area over its convex hull's, notches from below apart
   double light = 0;                ///< luma over the brightest there is
+  double clipped = 0;              ///< share of it that is flat: as bright in every channel as it gets
   double height = 0;               ///< median, pixels
 };
 

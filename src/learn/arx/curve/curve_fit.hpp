@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "learn/channel_choice.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/channel_choice.hpp"
 #include "wisp/model/arx.hpp"
 #include "wisp/model/input_curve.hpp"
 #include "wisp/record/recording.hpp"

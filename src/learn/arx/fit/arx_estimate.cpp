@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "base/number_text.hpp"
 #include "learn/arx/rows/arx_triangle.hpp"
-#include "wisp/record/number_text.hpp"
 
 namespace wisp {
 namespace {

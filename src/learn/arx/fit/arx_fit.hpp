@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
+#include "learn/channel_choice.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/arx_recipe.hpp"
-#include "wisp/learn/channel_choice.hpp"
 #include "wisp/model/arx.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"

@@ -7,8 +7,8 @@
 
 #include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/judge/prediction.hpp"
+#include "learn/channel_choice.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/channel_choice.hpp"
 #include "wisp/record/csv.hpp"
 
 namespace wisp {

@@ -11,9 +11,9 @@
 #include <span>
 #include <vector>
 
+#include "learn/channel_choice.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/arx_recipe.hpp"
-#include "wisp/learn/channel_choice.hpp"
 #include "wisp/model/arx.hpp"
 #include "wisp/record/recording.hpp"
 

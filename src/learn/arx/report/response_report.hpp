@@ -3,8 +3,8 @@
 
 #include <span>
 
+#include "learn/channel_choice.hpp"
 #include "wisp/base/report.hpp"
-#include "wisp/learn/channel_choice.hpp"
 #include "wisp/model/arx.hpp"
 
 namespace wisp::arx {

@@ -12,9 +12,9 @@
 
 #include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/rows/arx_orders.hpp"
+#include "learn/channel_choice.hpp"
 #include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/channel_choice.hpp"
 #include "wisp/model/arx.hpp"
 #include "wisp/record/recording.hpp"
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include "wisp/record/number_text.hpp"
+#include "base/number_text.hpp"
 
 namespace wisp::chain {
 namespace {

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "learn/numeric/decompositions.hpp"
-#include "wisp/model/bspline.hpp"
+#include "model/bspline.hpp"
 
 namespace wisp::chain {
 namespace {

@@ -1,0 +1,177 @@
+#include "wisp/learn/model_report.hpp"
+
+#include <span>
+
+#include "base/number_text.hpp"
+#include "learn/arx/report/arx_description.hpp"
+#include "learn/arx/report/report_values.hpp"
+#include "learn/complete.hpp"
+#include "learn/flame/extinction_report.hpp"
+#include "learn/switched/learn_switched.hpp"
+#include "wisp/run/cost.hpp"
+
+namespace wisp {
+namespace {
+
+using arx::add;
+
+std::string element(const char* list, std::size_t index, const char* field) {
+  return std::string(list) + "[" + std::to_string(index) + "]." + field;
+}
+
+// A curve as knot → value pairs.
+std::string curve_text(const InputCurve& curve) {
+  std::string text;
+  for (std::size_t k = 0; k < curve.at.size(); ++k) {
+    text += (k > 0 ? ", " : "") + number_text(curve.at[k], 3) + " → " + number_text(curve.value[k], 3);
+  }
+  return text;
+}
+
+std::string shape_text(InputShape shape) {
+  return std::string(splits_sign(shape) ? "split sign" : "linear") + (has_curve(shape) ? " bent by a curve" : "") +
+         (has_powers(shape) ? ", its square root and its square" : "");
+}
+
+void add_inputs(const std::vector<Input>& inputs, ReportSection& section) {
+  ReportList names;
+  for (const Input& input : inputs) names.push_back(input.name);
+  add(section, inputs.empty() ? "inputs" : "", inputs.empty() ? ReportValue(ReportList()) : names,
+      inputs.empty() ? "" : "inputs");
+  for (std::size_t k = 0; k < inputs.size(); ++k) {
+    const Input& input = inputs[k];
+    add(section, element("inputs", k, "name"), input.name);
+    add(section, element("inputs", k, "unit"), input.unit);
+    add(section, element("inputs", k, "range"), ReportList{input.lowest, input.highest});
+    add(section, element("inputs", k, "shape"), shape_text(input.shape));
+    if (!has_curve(input.shape)) continue;
+    add(section, element("inputs", k, "curve.at"), input.curve.at);
+    add(section, element("inputs", k, "curve.value"), input.curve.value);
+    add(section, "", curve_text(input.curve), "curve of " + input.name);
+  }
+}
+
+void add_outputs(const std::vector<Output>& outputs, ReportSection& section) {
+  ReportList names;
+  ReportTable table{"outputs", "", {{"name", ""}, {"unit", ""}, {"range", ""}}, {}};
+  for (const Output& output : outputs) {
+    names.push_back(output.name);
+    table.rows.push_back({output.name, output.unit, ReportList{output.lowest, output.highest}});
+  }
+  add(section, "", std::move(names), "outputs");
+  section.tables.push_back(std::move(table));
+}
+
+void add_orders(const ArxOrders& orders, ReportSection& section) {
+  add(section, "dynamics.na", arx::list_of(orders.na));
+  add(section, "dynamics.nb", arx::list_of(orders.nb));
+  add(section, "dynamics.nk", arx::list_of(orders.nk));
+  add(section, "dynamics.history", orders.history());
+}
+
+std::string samples(int history) { return "a history of " + std::to_string(history) + " samples"; }
+
+void add_dynamics(const ArxModel& arx, ReportSection& section) {
+  const double radius = spectral_radius(arx);
+  add(section, "dynamics.kind", "arx");
+  add_orders(arx.orders, section);
+  add(section, "dynamics.noise_rank", arx.noise.rank);
+  add(section, "dynamics.radius", radius);
+  add(section, "", "arx, " + samples(arx.orders.history()) + ", spectral radius " + number_text(radius, 5), "dynamics");
+  arx::describe(arx, "dynamics.", section);
+}
+
+void add_dynamics(const SwitchedArxModel& switching, ReportSection& section) {
+  const bool markov = switching.switching == Switching::kMarkov;
+  add(section, "dynamics.kind", "switched arx");
+  add(section, "dynamics.switching", markov ? "markov" : "regions");
+  add_orders(switching.orders, section);
+  add(section, "",
+      "arx of " + std::to_string(switching.modes.size()) + " modes switched by " +
+          (markov ? "a Markov chain" : "regions") + ", " + samples(switching.orders.history()),
+      "dynamics");
+  switched::describe(switching, "dynamics.", section);
+}
+
+const char* realisation_of(const ChainModel& chain) {
+  if (chain.splines) return "splines";
+  return chain.systems ? "systems" : "segments";
+}
+
+void add_dynamics(const ChainModel& chain, ReportSection& section) {
+  add(section, "dynamics.kind", "chain");
+  add(section, "dynamics.played_as", realisation_of(chain));
+  add(section, "dynamics.segments", chain.segments.size());
+  add(section, "dynamics.modes", chain.modes);
+  add(section, "dynamics.history", chain.history());
+  add(section, "dynamics.histories", chain.contexts.size());
+  add(section, "dynamics.heading_free", chain.heading_free);
+  add(section, "dynamics.best_of", chain.segments.breadth);
+  add(section, "dynamics.blend_share", chain.blend.share);
+  add(section, "dynamics.initial", chain.initial);
+  add(section, "dynamics.transitions", arx::matrix_of(chain.transitions(), static_cast<std::size_t>(chain.modes)));
+  add(section, "",
+      "chain of " + std::to_string(chain.segments.size()) + " segments in " + std::to_string(chain.modes) +
+          " modes, histories of up to " + std::to_string(chain.history()),
+      "dynamics");
+}
+
+struct ViewFields {
+  const Model& model;
+  ReportSection& section;
+
+  void kind(const char* word) const { add(section, "view.kind", word, "view"); }
+  void operator()(const PlainView&) const { kind("plain"); }
+  void operator()(const PoseView& pose) const {
+    kind("pose");
+    add(section, "view.half_width", pose.half_width);
+    add(section, "view.half_length", pose.half_length);
+  }
+  void operator()(const PositionView& position) const {
+    kind("position");
+    add(section, "view.half_width", position.half_width);
+  }
+  void operator()(const OutlineView& outline) const {
+    kind("outline");
+    add(section, "view.points", model.outputs.size() / 2);
+    add(section, "view.knots", outline.knots);
+    add(section, "view.metres_per_unit", outline.metres_per_unit);
+    add(section, "view.pixels_per_unit", outline.pixels_per_unit);
+  }
+};
+
+ReportSection made_section(const Training& made) {
+  ReportSection section{"Training"};
+  add(section, "made.program", made.program, "by");
+  add(section, "made.sources", ReportList(made.sources.begin(), made.sources.end()), "from");
+  for (const Note& note : made.recipe) {
+    add(section, "made.options." + arx::as_id(note.name), note.value, "option " + note.name);
+  }
+  for (const Figure& figure : made.figures) {
+    add(section, "made.figures." + arx::as_id(figure.name), figure.value, "figure " + figure.name);
+  }
+  return section;
+}
+
+}  // namespace
+
+Result<Report> model_report(const Model& model) {
+  const auto cost = count_operations(model);
+  if (!cost) return cost.error();
+  Report report;
+  report.verdict = ReportVerdict{model.training.usable.verdict, model.training.usable.reason};
+  ReportSection& section = report.add("Model");
+  add(section, "name", model.name, "name");
+  add(section, "rate_hz", model.rate_hz, "rate", "steps a second");
+  std::visit(ViewFields{model, section}, model.view);
+  add_inputs(model.inputs, section);
+  add_outputs(model.outputs, section);
+  std::visit([&](const auto& dynamics) { add_dynamics(dynamics, section); }, model.dynamics);
+  if (const auto* plain = std::get_if<ArxModel>(&model.dynamics)) arx::tell_poles(*plain, model.rate_hz, report);
+  report.sections.push_back(cost_section(*cost));
+  report.sections.push_back(extinction_section(model));
+  report.sections.push_back(made_section(model.training));
+  return report;
+}
+
+}  // namespace wisp
