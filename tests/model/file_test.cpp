@@ -141,8 +141,14 @@ TEST(ModelFile, DrawnResidualsThatMeanNothingAreRefused) {
       {"scale", [](DrawnResiduals& d) { d.scale[2] = -1; }},
       {"number of wind", [](DrawnResiduals& d) { d.winds.pop_back(); }},
       {"number of wind", [](DrawnResiduals& d) { d.lags.back() = 4; }},
-      {"lags", [](DrawnResiduals& d) { d.lags = {0, 3, 3}; }},
-      {"lags", [](DrawnResiduals& d) { d.lags = {1, 2, 3}; }},
+      {"lags",
+       [](DrawnResiduals& d) {
+         d.lags = {0, 3, 3};
+       }},
+      {"lags",
+       [](DrawnResiduals& d) {
+         d.lags = {1, 2, 3};
+       }},
       {"lags", [](DrawnResiduals& d) { d.lags.clear(); }},
       {"input that is not there", [](DrawnResiduals& d) { d.toward = 2; }},
       {"input that is not there", [](DrawnResiduals& d) { d.against = -2; }},

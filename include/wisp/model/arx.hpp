@@ -58,17 +58,17 @@ struct ArxOrders {
 
 /// Residuals as they were, to be played again instead of Gaussian shocks: rows in the order of time, all outputs of a
 /// row together, so that what they share, their memory and their tails stay. An instance plays row after row while its
-/// input has been what it was then, and jumps to a row whose past is nearer when it has not. How far two pasts are apart
-/// is the mean over a few lags of the differences' sizes. A jump moves no output: the dynamics lie between.
+/// input has been what it was then, and jumps to a row whose past is nearer when it has not. How far two pasts are
+/// apart is the mean over a few lags of the differences' sizes. A jump moves no output: the dynamics lie between.
 struct DrawnResiduals {
   std::vector<double> scale;        ///< per output: a stored 1, in the output's unit, >= 0
   std::vector<std::int16_t> rows;   ///< rows × outputs, row-major
   std::vector<std::uint32_t> ends;  ///< one past the last row of every stretch, ascending; the last is the row count
   double wind_scale = 0;            ///< a stored 1 of `winds`, in the regressor's unit
-  std::vector<std::int16_t> winds;  ///< the input: of every stretch as many samples before it as the last lag says, then
-                                    ///< one a row
-  int toward = -1;                  ///< the regressor that the input is; -1: none, and jumps go anywhere
-  int against = -1;                 ///< another one that is subtracted from it: wind from the other side; -1: none
+  std::vector<std::int16_t> winds;  ///< the input: of every stretch as many samples before it as the last lag says,
+                                    ///< then one a row
+  int toward = -1;        ///< the regressor that the input is; -1: none, and jumps go anywhere
+  int against = -1;       ///< another one that is subtracted from it: wind from the other side; -1: none
   std::vector<int> lags;  ///< 1 to kMostDrawnLags numbers of steps that are looked back, ascending from 0; empty where
                           ///< nothing drives it
   double tolerance = 0;   ///< by which a row may be farther than the nearest one before a jump, in the regressor's unit

@@ -26,7 +26,7 @@ enum class InputShape {
   kSplitSign,  ///< as two non-negative regressors, max(u, 0) and max(−u, 0): a gust from the right is not a negative
                ///< one
   kCurve,      ///< bent by the input's own curve: one regressor
-  kSplitSignCurve,  ///< as the two of kSplitSign, each bent by the input's curve
+  kSplitSignCurve,   ///< as the two of kSplitSign, each bent by the input's curve
   kSplitSignPowers,  ///< as six: max(u, 0), its square root and its square, then those of max(−u, 0)
 };
 

@@ -15,8 +15,8 @@ struct LongDistances {
   double motion = 0;   ///< normalised energy distance of windows of all channels and their differences
   double spectra = 0;  ///< the same of their log spectra in geometric bands: whether each rhythm is there, and whether
                        ///< rhythms come together
-  double tails = 0;    ///< mean over channels and percentiles (99, 99.9) of |ln| of the ratio of the sizes of the second
-                       ///< differences: 0.1 is ten per cent more or less violent
+  double tails = 0;  ///< mean over channels and percentiles (99, 99.9) of |ln| of the ratio of the sizes of the second
+                     ///< differences: 0.1 is ten per cent more or less violent
 };
 
 /// How to compare long windows.

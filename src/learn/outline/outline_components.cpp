@@ -149,7 +149,8 @@ void set_noise(const ShapeComponents& components, double weight, ArxFit& fitted,
   const Eigen::Index m = components.shape.cols(), ny = components.shape.rows();
   Eigen::MatrixXd covariance(m, m);
   for (Eigen::Index i = 0; i < m; ++i) {
-    for (Eigen::Index j = 0; j < m; ++j) covariance(i, j) = summary.noise_covariance[static_cast<std::size_t>(i * m + j)];
+    for (Eigen::Index j = 0; j < m; ++j)
+      covariance(i, j) = summary.noise_covariance[static_cast<std::size_t>(i * m + j)];
   }
   const double share = weight > 0 ? (1 + weight) / 2 : 1;
   const Eigen::MatrixXd noise = components.shape * covariance * components.shape.transpose() / share;

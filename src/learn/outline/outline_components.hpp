@@ -25,8 +25,8 @@ struct ShapeComponents {
   std::vector<double> rest;        ///< one an output: the calm shape, or the mean where it is never calm
   bool about_calm = false;         ///< whether it is the calm shape
   Eigen::MatrixXd shape;           ///< outputs × components
-  Eigen::MatrixXd score;           ///< components × outputs: its pseudo-inverse, which does not look at the last point,
-                                   ///< that mirrors the first about the base
+  Eigen::MatrixXd score;  ///< components × outputs: its pseudo-inverse, which does not look at the last point,
+                          ///< that mirrors the first about the base
 };
 
 /// How the dynamics are estimated.

@@ -20,8 +20,8 @@ std::size_t rows_of(std::span<const Recording> recordings, const ChannelChoice& 
   return rows;
 }
 
-Result<RidgeCandidate> tried(const RidgeFit& fit, std::span<const Recording> held_out,
-                             const PreparedOutlines& prepared, double ridge) {
+Result<RidgeCandidate> tried(const RidgeFit& fit, std::span<const Recording> held_out, const PreparedOutlines& prepared,
+                             double ridge) {
   const auto fitted = fit(ridge);
   if (!fitted) return fitted.error();
   RidgeCandidate out{ridge, std::numeric_limits<double>::infinity(), !fitted->summary.stable.changed};

@@ -11,7 +11,7 @@
 namespace wisp {
 namespace {
 
-constexpr double kMostUnits = 1e9;  // of a residual or a wind, in ranges: no sum overflows
+constexpr double kMostUnits = 1e9;        // of a residual or a wind, in ranges: no sum overflows
 constexpr std::uint32_t kFewestLeft = 6;  // rows that follow one to which a jump leads, where any has as many
 
 float bounded(double value) {

@@ -31,17 +31,17 @@ struct DrawnProgram {
   float tolerance = 0;  ///< of the sum over lags
   float margin = 0;     ///< nearer to a node's value than this, chance takes the side
   std::uint32_t longest = 1;
-  int depth = 1;        ///< steps of the input that are looked back at, the present one included
+  int depth = 1;  ///< steps of the input that are looked back at, the present one included
   std::span<std::uint32_t> lags;
-  std::span<float> rows;            ///< rows × outputs, in the outputs' channel units
-  std::span<std::uint32_t> left;    ///< per row, how many follow it in its stretch
-  std::span<float> wind;            ///< of every stretch, first what was before it; empty where nothing drives it
-  std::span<std::uint32_t> now;     ///< per row, its place in `wind`
-  std::span<std::uint8_t> turned;   ///< per row: 1 where its past lies in the tree as its mirror image
-  std::span<PastNode> nodes;        ///< children of node k are 2k + 1 and 2k + 2; halves of what it has
-  std::span<std::uint32_t> order;   ///< rows, leaf after leaf
-  std::span<std::uint16_t> from;    ///< side × outputs: whose residual an output takes
-  std::span<float> factor;          ///< side × outputs, of what is taken: 1, on the mirrored side −1 where it negates
+  std::span<float> rows;           ///< rows × outputs, in the outputs' channel units
+  std::span<std::uint32_t> left;   ///< per row, how many follow it in its stretch
+  std::span<float> wind;           ///< of every stretch, first what was before it; empty where nothing drives it
+  std::span<std::uint32_t> now;    ///< per row, its place in `wind`
+  std::span<std::uint8_t> turned;  ///< per row: 1 where its past lies in the tree as its mirror image
+  std::span<PastNode> nodes;       ///< children of node k are 2k + 1 and 2k + 2; halves of what it has
+  std::span<std::uint32_t> order;  ///< rows, leaf after leaf
+  std::span<std::uint16_t> from;   ///< side × outputs: whose residual an output takes
+  std::span<float> factor;         ///< side × outputs, of what is taken: 1, on the mirrored side −1 where it negates
 
   bool empty() const { return outputs == 0; }
   bool driven() const { return toward >= 0; }

@@ -53,7 +53,8 @@ struct StepCount {
 };
 
 template <class Stepper>
-StepCount count_step(Stepper& stepper, std::span<const CountingReal> regressors, float noise, Course course = Course::kSteady) {
+StepCount count_step(Stepper& stepper, std::span<const CountingReal> regressors, float noise,
+                     Course course = Course::kSteady) {
   constexpr int kFrames = Stepper::kCountedFrames;
   const RandomKeys keys = random_keys(1);
   const std::uint64_t stream = 0, born = 0;

@@ -90,7 +90,8 @@ TEST(OutlineComponents, WhatIsGuessedWeighsLittle) {
 
 TEST(OutlineComponents, AreTheDefaultFromTwentySecondsOfWindOn) {
   const auto coefficients = [](std::size_t rows, const OutlineRecipe& recipe) {
-    const auto fit = fit_outline(std::vector{made::outline_recording({.points = 6, .rows = rows, .wind = true})}, recipe);
+    const auto fit =
+        fit_outline(std::vector{made::outline_recording({.points = 6, .rows = rows, .wind = true})}, recipe);
     EXPECT_TRUE(fit) << fit.error().message;
     return fit->summary.orders.row_size(0);
   };
