@@ -94,9 +94,9 @@ void Terminal::fail(std::string_view message) {
   clear_bar();
   std::fprintf(stderr, "wisp: %.*s\n", static_cast<int>(message.size()), message.data());
   if (!options_.json) return;
-  Report failure;
-  failure.add("").entries = {{"error", std::string(message), "", ""}};
-  std::fprintf(stdout, "%s\n", to_json(failure, 1).c_str());
+  // What was found before the failure stays: an unstable model is not written, and its report says why.
+  result_.add("").entries.push_back({"error", std::string(message), "", ""});
+  std::fprintf(stdout, "%s\n", to_json(result_, 1).c_str());
 }
 
 std::string shown(double value, int digits) { return wisp::shown(ReportValue(value), digits); }

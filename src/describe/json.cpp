@@ -82,7 +82,9 @@ std::string to_json(const Report& report, int indent) {
       if (entry.interval)
         field(out, entry.id + "_ci95") = {json_of((*entry.interval)[0]), json_of((*entry.interval)[1])};
     }
-    for (const ReportTable& table : section.tables) field(out, table.id) = json_of(table);
+    for (const ReportTable& table : section.tables) {
+      if (!table.id.empty()) field(out, table.id) = json_of(table);
+    }
   }
   if (!report.warnings.empty()) out["warnings"] = report.warnings;
   if (report.verdict) out["usable"] = {{"verdict", report.verdict->usable}, {"reason", report.verdict->reason}};

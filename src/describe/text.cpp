@@ -20,13 +20,37 @@ std::string padded(std::string text, std::size_t to) {
   return text;
 }
 
-std::string with_unit(const std::string& text, const std::string& unit) { return unit.empty() ? text : text + " " + unit; }
+std::string with_unit(const std::string& text, const std::string& unit) {
+  return unit.empty() ? text : text + " " + unit;
+}
+
+// Percentages of a simulation that runs away: their digits say nothing more.
+bool diverges(const ReportValue& value, const std::string& unit) {
+  constexpr double kRunsAway = -1000;
+  const auto* number = std::get_if<double>(static_cast<const ReportValue::Base*>(&value));
+  return unit == "%" && number && *number < kRunsAway;
+}
+
+std::string shown_in(const ReportValue& value, const std::string& unit) {
+  if (diverges(value, unit)) return "diverges";
+  const auto* list = std::get_if<ReportList>(static_cast<const ReportValue::Base*>(&value));
+  if (!list) return shown(value);
+  std::string out;
+  for (const ReportValue& each : *list) out += (out.empty() ? "" : ", ") + shown_in(each, unit);
+  return out;
+}
 
 std::string line_of(const ReportEntry& entry, std::size_t label_width) {
-  std::string line = "  " + padded(entry.label, label_width) + "  " + with_unit(shown(entry.value), entry.unit);
+  const std::string value = shown_in(entry.value, entry.unit);
+  std::string line = "  " + padded(entry.label, label_width) + "  ";
+  line += value == "diverges" ? value : with_unit(value, entry.unit);
   if (entry.interval) line += " (95 %: " + shown((*entry.interval)[0]) + " to " + shown((*entry.interval)[1]) + ")";
   if (!entry.meaning.empty()) line += "   " + entry.meaning;
   return line + "\n";
+}
+
+std::string cell_of(const ReportTable& table, const std::vector<ReportValue>& row, std::size_t column) {
+  return shown_in(row[column], table.columns[column].unit);
 }
 
 std::string text_of(const ReportTable& table) {
@@ -37,7 +61,7 @@ std::string text_of(const ReportTable& table) {
     widths.push_back(width(with_unit(table.columns[k].label, table.columns[k].unit)));
   }
   for (const auto& row : table.rows) {
-    for (std::size_t c = 0; c < kept.size(); ++c) widths[c] = std::max(widths[c], width(shown(row[kept[c]])));
+    for (std::size_t c = 0; c < kept.size(); ++c) widths[c] = std::max(widths[c], width(cell_of(table, row, kept[c])));
   }
   const auto line = [&](const auto& cell) {
     std::string text = " ";
@@ -46,7 +70,7 @@ std::string text_of(const ReportTable& table) {
   };
   std::string out = "  " + table.label + "\n";
   out += line([&](std::size_t k) { return with_unit(table.columns[k].label, table.columns[k].unit); });
-  for (const auto& row : table.rows) out += line([&](std::size_t k) { return shown(row[k]); });
+  for (const auto& row : table.rows) out += line([&](std::size_t k) { return cell_of(table, row, k); });
   return out;
 }
 

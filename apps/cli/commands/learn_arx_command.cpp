@@ -21,6 +21,11 @@ ArxOffset offset_of(const Arguments& arguments) {
   return arguments.text("offset") == "estimate" ? ArxOffset::kEstimate : ArxOffset::kMean;
 }
 
+ArxFocus focus_of(const Arguments& arguments) {
+  if (arguments.text("focus") == "prediction") return ArxFocus::kPrediction;
+  return arguments.text("focus") == "simulation" ? ArxFocus::kSimulation : ArxFocus::kAuto;
+}
+
 Result<void> take_orders(const Arguments& arguments, ArxRecipe& recipe) {
   auto na = order_choice(arguments, "na"), nb = order_choice(arguments, "nb");
   if (!na) return na.error();
@@ -45,6 +50,7 @@ Result<ArxRecipe> recipe_of(const Arguments& arguments) {
                    .radius = arguments.number("radius"),
                    .keep_unstable = arguments.on("keep-unstable"),
                    .curve_knots = curve_knots_of(arguments),
+                   .focus = focus_of(arguments),
                    .responses = arguments.has("figures")};
   if (arguments.has("output")) recipe.name = std::filesystem::path(arguments.text("output")).stem().string();
   if (!(recipe.radius > 0 && recipe.radius < 1)) {
@@ -58,6 +64,9 @@ Result<ArxRecipe> recipe_of(const Arguments& arguments) {
   }
   if (arguments.has("partial") && arguments.has("search")) {
     return Error{"--partial is of one model; --search tries many: search first, then fit the best orders in parts"};
+  }
+  if (recipe.focus == ArxFocus::kSimulation && (arguments.has("partial") || arguments.on("merge"))) {
+    return Error{"--focus simulation needs the recordings in one place: learn without --partial and --merge"};
   }
   if (arguments.on("merge")) return recipe;
   if (arguments.has("search")) {
@@ -92,8 +101,9 @@ Result<Fit> learned(const ArxRecipe& recipe, const Arguments& arguments, Termina
     if (!merged) return merged.error();
     return merged->part.finish(recipe, merged->sources, terminal.progress());
   }
-  // A search, curves and open delays need the recordings in memory, however large they are.
-  if (arguments.has("search") || recipe.curve_knots != 0 || !recipe.nk || !too_large(arguments)) {
+  // A search, curves, open delays and free runs need the recordings in memory, however large they are.
+  const bool whole = arguments.has("search") || recipe.curve_knots != 0 || !recipe.nk;
+  if (whole || recipe.focus == ArxFocus::kSimulation || !too_large(arguments)) {
     return learned_from_memory(recipe, arguments, terminal);
   }
   const auto all = part_of_tables(recipe, arguments, terminal);
@@ -115,9 +125,9 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   const std::string& output = arguments.text("output");
   if (spectral_radius(std::get<ArxModel>(fit->model.dynamics)) < 1) return hand_over(*fit, output, start, terminal);
   terminal.show(fit->report);
-  terminal.warn(output + " was not written: an unstable model cannot be played");
   terminal.add("output", {});
-  return {};
+  return Error{output + " was not written: an unstable model cannot be played" +
+               (std::filesystem::exists(output) ? "; the file of that name is an older one" : "")};
 }
 
 std::vector<Flag> flags() {
@@ -138,6 +148,13 @@ std::vector<Flag> flags() {
            "mean",
            "the operating point: mean removes means, none, estimate adds a constant term",
            {"mean", "none", "estimate"}},
+          {"focus",
+           Kind::kChoice,
+           "F",
+           "auto",
+           "what the coefficients are best at: prediction, the next sample (least squares); simulation, free runs from "
+           "the input; auto, simulation where held-out free runs are surely better so",
+           {"prediction", "simulation", "auto"}},
           {"ridge", Kind::kNumber, "R", "0", "weight of the coefficients' size, as a share of each regressor's energy"},
           {"radius", Kind::kNumber, "R", "0.999",
            "an unstable estimate is brought within this spectral radius, between 0 and 1, with the least loss of fit; "

@@ -30,6 +30,13 @@ enum class Coupling {
   kBand,      ///< those of its own group and of its neighbours along the chain of groups
 };
 
+/// What coefficients are best at.
+enum class ArxFocus {
+  kPrediction,  ///< the next sample: least squares
+  kSimulation,  ///< free simulation: least squares refined, as far as held-out free runs say
+  kAuto,        ///< simulation for outputs whose held-out free runs are surely better so, else prediction
+};
+
 /// In the place of a number of steps: infinitely many, from the input alone (free simulation).
 inline constexpr int kFreeRun = 0;
 
@@ -87,6 +94,7 @@ struct ArxRecipe {
   std::optional<int> curve_knots = 0;  ///< of a monotone curve on every input, 3 to 16; 0: none; unset: 3 to 6 or none,
                                        ///< as the last 30 % of every recording say
   std::optional<ArxSearch> search{};   ///< in the place of na, nb and nk
+  ArxFocus focus = ArxFocus::kAuto;    ///< parts and tables beyond memory: kPrediction
   bool responses = false;  ///< report step and frequency responses with 95 % bands, which cost d_total² memory
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "learn/arx/judge/arx_verdict.hpp"
 #include "learn/arx/judge/free_run_judge.hpp"
 #include "learn/arx/learn_arx.hpp"
 #include "learn/arx/report/report_values.hpp"
@@ -170,6 +171,7 @@ Result<Fit> ArxPart::finish(const ArxRecipe& recipe, const std::vector<std::stri
   if (simulated) {
     if (auto ok = judge_free_run(state_->tables, channels, progress, *fitted); !ok) return ok.error();
   }
+  arx::judge_use({channels, factor.options().orders}, fitted->summary);
   Fit fit = arx::finish(*fitted, recipe, channels, {factor.rate_hz(), factor.spans(), sources});
   if (!simulated && driven(fitted->model.orders)) {
     arx::add_line(fit.report.sections.back(), "free simulation",

@@ -5,11 +5,14 @@
 
 #include "base/number_text.hpp"
 #include "learn/arx/curve/arx_curves.hpp"
+#include "learn/arx/judge/arx_verdict.hpp"
 #include "learn/arx/judge/residual_tests.hpp"
 #include "learn/arx/report/fit_report.hpp"
 #include "learn/arx/report/report_values.hpp"
 #include "learn/arx/report/response_report.hpp"
 #include "learn/arx/search/order_search.hpp"
+#include "learn/arx/simulation/focus.hpp"
+#include "learn/arx/simulation/simulation_block.hpp"
 
 namespace wisp {
 namespace arx {
@@ -23,7 +26,10 @@ std::string word_of(ArxOffset offset) {
 }
 
 std::vector<Note> notes_of(const ArxRecipe& recipe, const ArxFit& fit, const Sources& sources) {
-  std::vector<Note> notes = order_notes(fit.model.orders, recipe.coupling);
+  const OrderMatrix& na = fit.model.orders.na;
+  const bool apart = arx::coupled_outputs(na).size() == static_cast<std::size_t>(na.rows());
+  std::vector<Note> notes =
+      order_notes(fit.model.orders, apart && na.rows() > 1 ? Coupling::kDiagonal : recipe.coupling);
   notes.push_back({"offset", word_of(recipe.offset)});
   if (recipe.ridge > 0) notes.push_back({"ridge", number_text(recipe.ridge, 6)});
   const std::size_t knots = sources.curves.empty() ? 0 : sources.curves.front().at.size();
@@ -52,7 +58,7 @@ Result<ChosenOrders> searched(std::span<const Recording> recordings, const ArxRe
                               .offset = recipe.offset};
   const auto search = search_orders(recordings, asked.validation, channels, options, progress);
   if (!search) return search.error();
-  add_search(*search, channels.outputs, report);
+  add_search(*search, channels.outputs, asked.by, report);
   ChosenOrders chosen{asked.per_output ? search->row_orders : search->candidates[search->best].orders};
   if (!asked.common_start) return chosen;
   int latest = 0;
@@ -145,12 +151,20 @@ Result<Fit> learn_arx(std::span<const Recording> recordings, const ArxRecipe& re
   if (auto ok = arx::check_progress(progress, "fitting", 0); !ok) return ok.error();
   ArxOptions options = arx::fit_options(recipe, orders->orders);
   options.first_sample = orders->first_sample;
-  const auto fitted = fit_arx(seen, channels, options);
-  if (!fitted) return fitted.error();
-  Fit fit = arx::finish(*fitted, recipe, channels, *sources);
-  fit.report.append(std::move(chosen));
+  auto plain = fit_arx(seen, channels, options);
+  if (!plain) return plain.error();
+  const ArxModel squares = plain->model;
+  auto focused = arx::focus_fit(seen, channels, options, std::move(*plain), recipe.focus, progress);
+  if (!focused) return focused.error();
   if (auto ok = arx::check_progress(progress, "testing residuals", 0); !ok) return ok.error();
-  const auto tests = test_residuals(fitted->model, seen, channels, {.lags = arx::kTestLags, .learned_from_it = true});
+  const ResidualTestOptions testing{.lags = arx::kTestLags, .learned_from_it = true};
+  const auto first = test_residuals(squares, seen, channels, testing);
+  const auto tests = focused->refined ? test_residuals(focused->fit.model, seen, channels, testing) : first;
+  arx::judge_use({channels, squares.orders, arx::persistence_errors(seen, channels), first ? &*first : nullptr},
+                 focused->fit.summary);
+  Fit fit = arx::finish(focused->fit, recipe, channels, *sources);
+  if (recipe.focus != ArxFocus::kPrediction) arx::add_focus(*focused, channels.outputs, fit.report);
+  fit.report.append(std::move(chosen));
   if (tests) arx::add_tests(*tests, channels, fit.report);  // too short: nothing can be said
   return fit;
 }

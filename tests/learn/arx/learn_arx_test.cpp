@@ -21,7 +21,8 @@ ArxRecipe recipe_of_made() {
           .outputs = {"y1", "y2"},
           .na = orders.na,
           .nb = orders.nb,
-          .nk = orders.nk};
+          .nk = orders.nk,
+          .focus = ArxFocus::kPrediction};
 }
 
 Fit learned(const Recording& recording, const ArxRecipe& recipe) {

@@ -16,6 +16,7 @@
 #include <numeric>
 #include <optional>
 
+#include "learn/arx/simulation/simulation_block.hpp"
 #include "learn/numeric/decompositions.hpp"
 
 namespace wisp {
@@ -24,6 +25,9 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+// Blocks of more poles are only scaled inwards: every step of the search costs their number cubed several times over.
+constexpr Index kMaxExactSize = 100;
 
 // One coefficient of A that may move: row and column within the block, and its lag.
 struct Coefficient {
@@ -61,6 +65,9 @@ class Block {
       at += own;
     }
   }
+
+  /// Of the companion matrix: its poles.
+  Index size() const { return static_cast<Index>(outputs_.size()) * order_; }
 
   const VectorXd& start() const { return start_; }
   const std::vector<int>& outputs() const { return outputs_; }
@@ -241,26 +248,6 @@ VectorXd descend(const Block& block, VectorXd a, double most) {
   return a;
 }
 
-// Blocks of outputs that feed each other.
-std::vector<std::vector<int>> coupled_outputs(const OrderMatrix& na) {
-  std::vector<int> label(static_cast<std::size_t>(na.rows()));
-  std::iota(label.begin(), label.end(), 0);
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (int i = 0; i < na.rows(); ++i) {
-      for (int j = 0; j < na.columns(); ++j) {
-        if (na(i, j) == 0 || label[i] == label[j]) continue;
-        label[i] = label[j] = std::min(label[i], label[j]);
-        changed = true;
-      }
-    }
-  }
-  std::vector<std::vector<int>> blocks(label.size());
-  for (std::size_t i = 0; i < label.size(); ++i) blocks[label[i]].push_back(static_cast<int>(i));
-  std::erase_if(blocks, [](const std::vector<int>& block) { return block.empty(); });
-  return blocks;
-}
-
 // Writes A, and lets B and the constant follow to where they are best for it.
 void write_block(const Block& block, const VectorXd& a, const std::vector<RowCurvature>& curvature, ArxModel& model) {
   Index at = 0;
@@ -285,9 +272,15 @@ void write_block(const Block& block, const VectorXd& a, const std::vector<RowCur
 
 double make_stable(ArxModel& model, const std::vector<RowCurvature>& curvature, double most_radius) {
   double loss = 0;
-  for (std::vector<int>& outputs : coupled_outputs(model.orders.na)) {
+  for (std::vector<int>& outputs : arx::coupled_outputs(model.orders.na)) {
     const Block block(model, curvature, std::move(outputs));
     if (block.radius(block.start()) <= most_radius) continue;
+    if (block.size() > kMaxExactSize) {
+      const VectorXd scaled = block.feasible(block.start(), most_radius);
+      loss += block.loss(scaled);
+      write_block(block, scaled, curvature, model);
+      continue;
+    }
     const VectorXd from_scaled = descend(block, block.feasible(block.start(), most_radius), most_radius);
     const VectorXd from_inside = descend(block, through_the_inside(block, most_radius), most_radius);
     const VectorXd& best = block.loss(from_inside) < block.loss(from_scaled) ? from_inside : from_scaled;

@@ -11,6 +11,7 @@ namespace wisp {
 namespace {
 
 std::string percent(double value) {
+  if (!(value > -1000)) return "nothing: it diverges";
   char text[32];
   std::snprintf(text, sizeof text, "%.1f %%", value);
   return text;
@@ -29,17 +30,14 @@ void warn_of_free_run(const std::vector<std::string>& outputs, ArxSummary& summa
     const double free_run = summary.free_run_fit_percent[i];
     if (one_step < kPromise || free_run >= kKept) continue;
     summary.warnings.push_back("output '" + outputs[i] + "': one step ahead the fit is " + percent(one_step) +
-                               ", but free simulation from the input fits only " + percent(free_run) +
-                               "; judge this model by simulation, and try other orders or delays");
+                               ", but free simulation from the input fits " + (free_run > -1000 ? "only " : "") +
+                               percent(free_run) + "; judge this model by simulation, and try other orders or delays");
     failing += (failing.empty() ? "'" : ", '") + outputs[i] + "'";
   }
   if (!failing.empty() && summary.stable.changed) {
     summary.warnings.push_back(
         "a repair with the least loss one step ahead leaves poles at the edge of stability; one that draws them "
         "farther in (a smaller radius) may simulate better");
-  }
-  if (!failing.empty() && summary.usable.verdict) {
-    summary.usable.reason += "; for prediction only, since free simulation of " + failing + " fails";
   }
 }
 

@@ -25,6 +25,7 @@ void add_quality(const ArxSummary& summary, std::size_t outputs, ReportSection& 
   add(section, "noise_covariance", matrix_of(summary.noise_covariance, outputs));
   add(section, "fpe", summary.fpe, "FPE", "",
       "expected variance on unseen rows: of models of the same data, less is better");
+  add(section, "fpe_total", summary.fpe_total);
   add(section, "aic", summary.aic, "AIC");
   add(section, "aicc", summary.aicc);
   add(section, "bic", summary.bic, "BIC");
@@ -92,6 +93,8 @@ std::vector<ReportValue> candidate_row(const OrderCandidate& one) {
           list_or_none(one.loss_validation)};
 }
 
+constexpr std::size_t kMaxTold = 10;
+
 std::string orders_text(const OrderCandidate& candidate) {
   return "na " + std::to_string(candidate.na) + ", nb " + std::to_string(candidate.nb) + ", nk " +
          std::to_string(candidate.nk);
@@ -133,9 +136,7 @@ void add_fit(const ArxFit& fit, const Model& model, Report& report) {
   section.tables.push_back(rank_problems(summary.rank_problems));
 }
 
-void add_search(const OrderSearch& search, const std::vector<std::string>& outputs, Report& report) {
-  // More candidates than fit a screen are for programs.
-  constexpr std::size_t kMaxTold = 30;
+void add_search(const OrderSearch& search, const std::vector<std::string>& outputs, OrderCriterion by, Report& report) {
   ReportSection& section = report.add("Orders");
   const OrderCandidate& best = search.candidates[search.best];
   add_line(section, "best of " + std::to_string(search.candidates.size()), orders_text(best));
@@ -143,9 +144,12 @@ void add_search(const OrderSearch& search, const std::vector<std::string>& outpu
   const auto row = candidate_row(best);
   for (std::size_t k = 0; k < columns.size(); ++k) add(section, "best." + columns[k].id, row[k]);
   add(section, "best.index", search.best);
-  ReportTable all{"candidates", search.candidates.size() <= kMaxTold ? "candidates" : "", columns, {}};
+  ReportTable all{"candidates", "", columns, {}};  // more than fit a screen: for programs
   for (const OrderCandidate& one : search.candidates) all.rows.push_back(candidate_row(one));
   section.tables.push_back(std::move(all));
+  ReportTable first{"", "the best and its runners-up", columns, {}};
+  for (std::size_t c : best_candidates(search, by, kMaxTold)) first.rows.push_back(candidate_row(search.candidates[c]));
+  section.tables.push_back(std::move(first));
   ReportTable rows{"best_of_output",
                    outputs.size() > 1 ? "best for every output alone" : "",
                    {{"name", "output"}, {"na", "na"}, {"nb", "nb"}, {"nk", "nk"}, {"index", ""}},
@@ -155,6 +159,34 @@ void add_search(const OrderSearch& search, const std::vector<std::string>& outpu
     rows.rows.push_back({outputs[i], own.na, own.nb, own.nk, search.best_of_row[i]});
   }
   section.tables.push_back(std::move(rows));
+}
+
+void add_focus(const FocusedFit& focused, const std::vector<std::string>& outputs, Report& report) {
+  ReportSection& section = report.add("Focus");
+  add(section, "focus.chosen", focused.refined ? "simulation" : "prediction", "focus", "", focused.reason);
+  add(section, "focus.reason", focused.reason);
+  ReportTable table{
+      "focus.outputs",
+      focused.choices.empty() ? "" : "free runs over held-out rows, error as a share of the output's size",
+      {{"outputs", "outputs"},
+       {"chosen", "chosen"},
+       {"error", "from fitted states", "%"},
+       {"error_measured", "from measured ones", "%"},
+       {"error_least_squares", "least squares, fitted", "%"},
+       {"error_least_squares_measured", "measured", "%"}},
+      {}};
+  for (const FocusChoice& choice : focused.choices) {
+    if (choice.candidates.empty()) continue;
+    std::string names;
+    for (int output : choice.outputs) names += (names.empty() ? "" : ", ") + outputs[std::size_t(output)];
+    const FocusCandidate &own = choice.candidates[choice.chosen], &squares = choice.candidates.front();
+    std::string word =
+        own.one_step_weight ? "simulation, one step weighs " + number_text(*own.one_step_weight, 3) : "least squares";
+    if (own.decoupled) word += ", on its own";
+    table.rows.push_back({names, word, 100 * own.estimated_error, 100 * own.measured_error,
+                          100 * squares.estimated_error, 100 * squares.measured_error});
+  }
+  section.tables.push_back(std::move(table));
 }
 
 void add_curves(const CurveChoice& choice, const std::vector<std::string>& inputs,

@@ -9,6 +9,7 @@
 #include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/judge/residual_tests.hpp"
 #include "learn/arx/search/order_search.hpp"
+#include "learn/arx/simulation/focus.hpp"
 #include "wisp/base/report.hpp"
 
 namespace wisp::arx {
@@ -17,8 +18,11 @@ namespace wisp::arx {
 /// fit's, with the names of its channels.
 void add_fit(const ArxFit& fit, const Model& model, Report& report);
 
-/// All candidates, the best, and the best of every output on its own.
-void add_search(const OrderSearch& search, const std::vector<std::string>& outputs, Report& report);
+/// All candidates, the best with its runners-up by the criterion, and the best of every output on its own.
+void add_search(const OrderSearch& search, const std::vector<std::string>& outputs, OrderCriterion by, Report& report);
+
+/// Whether the model was refined for free simulation, and how held-out free runs judged that.
+void add_focus(const FocusedFit& focused, const std::vector<std::string>& outputs, Report& report);
 
 /// How curves were chosen, and those of the inputs that are named.
 void add_curves(const CurveChoice& choice, const std::vector<std::string>& inputs,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include "learn/arx/fit/arx_check.hpp"
@@ -335,6 +336,16 @@ Result<OrderSearch> search_orders(std::span<const Recording> estimation, std::sp
   search.candidates = std::move(*candidates);
   choose(options, signals->outputs, search);
   return search;
+}
+
+std::vector<std::size_t> best_candidates(const OrderSearch& search, OrderCriterion by, std::size_t count) {
+  std::vector<std::size_t> places(search.candidates.size());
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  std::stable_sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) {
+    return value_of(search.candidates[a], by) < value_of(search.candidates[b], by);
+  });
+  places.resize(std::min(count, places.size()));
+  return places;
 }
 
 }  // namespace wisp

@@ -68,6 +68,9 @@ Result<OrderSearch> search_orders(std::span<const Recording> estimation, std::sp
                                   const ChannelChoice& channels, const SearchOptions& options = {},
                                   const Progress& progress = {});
 
+/// Places of the best candidates by a criterion over all outputs together, at most `count`, the best first.
+std::vector<std::size_t> best_candidates(const OrderSearch& search, OrderCriterion by, std::size_t count);
+
 /// How to look for delays.
 struct DelayOptions {
   int most = 20;  ///< largest delay tried, in samples, 0 to 4096

@@ -40,6 +40,16 @@ TEST(MakeStable, OrderOneGoesToTheBoundaryAndBFollows) {
   EXPECT_NEAR(model.theta[0][1], 2.0 + 0.5 / 2 * 0.101, 1e-9);
 }
 
+TEST(MakeStable, ManyPolesAreScaledInwardsAlike) {
+  constexpr int kOrder = 120;
+  const ArxOrders orders = make_orders({.outputs = 1, .inputs = 0, .na = kOrder, .nb = 0, .nk = 0});
+  std::vector<double> theta(kOrder);
+  theta[kOrder - 1] = -std::pow(1.02, kOrder);  // poles on a circle of radius 1.02
+  ArxModel model = model_with({theta}, orders);
+  make_stable(model, {{Eigen::MatrixXd::Identity(kOrder, kOrder), 1}}, kMost);
+  EXPECT_NEAR(model.theta[0][kOrder - 1], -std::pow(kMost, kOrder), 1e-9);
+}
+
 TEST(MakeStable, OrderTwoFindsTheLeastLossOfAllStablePolynomials) {
   const ArxOrders orders = make_orders({.outputs = 1, .inputs = 0, .na = 2, .nb = 0, .nk = 0});
   std::mt19937 generator(3);

@@ -1,0 +1,117 @@
+#include "learn/arx/judge/arx_verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/number_text.hpp"
+
+namespace wisp::arx {
+namespace {
+
+// Beyond the sum of what chance allows.
+constexpr double kTimesBound = 2.5;
+
+// Below this a fit's digits say no more than that the simulation diverges.
+constexpr double kDiverges = -1000;
+
+std::string fit_text(double percent) {
+  return percent > kDiverges ? number_text(percent, 3) + " %" : std::string("nothing: it diverges");
+}
+
+std::string too_few_rows(const VerdictEvidence& evidence, const ArxSummary& summary) {
+  int most = 0;
+  for (int i = 0; i < evidence.orders.outputs(); ++i) most = std::max(most, evidence.orders.row_size(i));
+  const auto rows = static_cast<double>(summary.samples_used);
+  if (most == 0 || rows >= kFewestRowsACoefficient * most) return "";
+  return std::to_string(summary.samples_used) + " rows are too few for " + std::to_string(most) +
+         " coefficients an output: fewer than " + number_text(kFewestRowsACoefficient, 3) +
+         " a coefficient; record more, or lower the orders";
+}
+
+std::string repaired_far(const ArxSummary& summary) {
+  if (!summary.stable.changed || summary.stable.moved <= kMostMoved) return "";
+  return "to make the estimate stable a coefficient was moved by " + number_text(summary.stable.moved, 3) +
+         " standard errors: the model is not what the data say; try other orders, or fewer coupled outputs";
+}
+
+std::string acts_at_once(const VerdictEvidence& evidence) {
+  if (!evidence.least_squares) return "";
+  for (int i = 0; i < evidence.orders.outputs(); ++i) {
+    for (int k = 0; k < evidence.orders.inputs(); ++k) {
+      if (evidence.orders.nk(i, k) == 0 || evidence.orders.nb(i, k) == 0) continue;
+      const Independence& pair = evidence.least_squares->independence[std::size_t(i)][std::size_t(k)];
+      const double own = std::abs(pair.correlation[pair.correlation.size() / 2]);
+      if (own < kSameSample || own < kTimesBound * pair.bound) continue;
+      return "input '" + evidence.channels.inputs[std::size_t(k)] + "' acts on '" +
+             evidence.channels.outputs[std::size_t(i)] +
+             "' in the same sample (the residual's correlation with it is " + number_text(own, 2) + "): try --nk 0";
+    }
+  }
+  return "";
+}
+
+std::string simulates_badly(const VerdictEvidence& evidence, const ArxSummary& summary) {
+  std::string failing;
+  for (std::size_t i = 0; i < summary.free_run_fit_percent.size(); ++i) {
+    const double fit = summary.free_run_fit_percent[i];
+    if (fit >= kLeastSimulationFit) continue;
+    failing += (failing.empty() ? "" : ", ") + ("'" + evidence.channels.outputs[i] + "' " + fit_text(fit));
+  }
+  if (failing.empty()) return "";
+  return "free simulation from the input fits " + failing + ", and at least " + number_text(kLeastSimulationFit, 3) +
+         " % is needed; try other inputs, orders or delays";
+}
+
+std::string has_no_skill(const VerdictEvidence& evidence, const ArxSummary& summary) {
+  if (!summary.free_run_fit_percent.empty() || evidence.orders.inputs() > 0) return "";
+  for (std::size_t i = 0; i < summary.fit_percent.size(); ++i) {
+    const double left = 1 - summary.fit_percent[i] / 100;
+    const double against_mean = 100 * (1 - left * left);
+    double skill = against_mean;
+    if (i < evidence.persistence.size() && evidence.persistence[i] > 0) {
+      skill = std::min(skill, 100 * (1 - summary.loss[i] / evidence.persistence[i]));
+    }
+    if (skill >= kLeastSkill) continue;
+    return "output '" + evidence.channels.outputs[i] + "' is predicted no better than by its " +
+           (skill < against_mean ? "last sample" : "mean") + ": its squared error is less by " +
+           number_text(std::max(skill, 0.0), 2) + " %, and at least " + number_text(kLeastSkill, 2) + " % is needed";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<double> persistence_errors(std::span<const Recording> recordings, const ChannelChoice& channels) {
+  std::vector<double> out;
+  for (const std::string& name : channels.outputs) {
+    double sum = 0, rows = 0;
+    for (const Recording& recording : recordings) {
+      const auto& samples = recording.channels[*find_channel(recording, name)].samples;
+      for (const Episode& episode : episodes(recording)) {
+        for (std::size_t t = episode.begin + 1; t < episode.end; ++t) {
+          const double change = samples[t] - samples[t - 1];
+          if (!std::isnan(change)) sum += change * change, ++rows;
+        }
+      }
+    }
+    out.push_back(rows > 0 ? sum / rows : std::numeric_limits<double>::quiet_NaN());
+  }
+  return out;
+}
+
+void judge_use(const VerdictEvidence& evidence, ArxSummary& summary) {
+  if (!summary.usable.verdict) return;
+  for (std::string reason : {too_few_rows(evidence, summary), repaired_far(summary), acts_at_once(evidence),
+                             simulates_badly(evidence, summary), has_no_skill(evidence, summary)}) {
+    if (reason.empty()) continue;
+    summary.usable = {false, std::move(reason)};
+    return;
+  }
+  if (summary.free_run_fit_percent.empty()) return;
+  const auto& fits = summary.free_run_fit_percent;
+  summary.usable.reason += ", and free simulation fits " + number_text(*std::min_element(fits.begin(), fits.end()), 3) +
+                           (fits.size() > 1 ? " % or more" : " %");
+}
+
+}  // namespace wisp::arx

@@ -1,0 +1,45 @@
+#pragma once
+// Whether an ARX model may be used, beyond that it is stable and determined: what it predicts or simulates, and from
+// how much.
+
+#include <optional>
+#include <span>
+
+#include "learn/arx/fit/arx_fit.hpp"
+#include "learn/arx/judge/residual_tests.hpp"
+#include "learn/channel_choice.hpp"
+
+namespace wisp::arx {
+
+/// The least free-run fit of an output, in percent, that a model with inputs is usable with.
+inline constexpr double kLeastSimulationFit = 40;
+
+/// The least share of the squared error of the better of the last sample and the mean by which a model without inputs
+/// must be better, in percent.
+inline constexpr double kLeastSkill = 5;
+
+/// The fewest rows for every coefficient of an output.
+inline constexpr double kFewestRowsACoefficient = 10;
+
+/// The most standard errors by which a repair of its stability may move a coefficient.
+inline constexpr double kMostMoved = 10;
+
+/// A residual that correlates at least so with the input of its own sample: the input acts without delay.
+inline constexpr double kSameSample = 0.25;
+
+/// Mean squared change of every output from one sample to the next; NaN where there is none.
+std::vector<double> persistence_errors(std::span<const Recording> recordings, const ChannelChoice& channels);
+
+/// What a verdict looks at beside the fit's summary.
+struct VerdictEvidence {
+  const ChannelChoice& channels;
+  const ArxOrders& orders;
+  std::vector<double> persistence{};     ///< per output, or empty where unknown
+  const ResidualTests* least_squares{};  ///< residuals of least squares, or none
+};
+
+/// Turns a summary that is usable so far into one that is not, with the reason, where one of the limits above is not
+/// kept. What is usable stays so with the figure that says how well.
+void judge_use(const VerdictEvidence& evidence, ArxSummary& summary);
+
+}  // namespace wisp::arx

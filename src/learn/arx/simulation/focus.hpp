@@ -1,0 +1,45 @@
+#pragma once
+// Whether an ARX model is refined for free simulation, how far, and the refined model.
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "learn/arx/fit/arx_fit.hpp"
+#include "wisp/base/progress.hpp"
+#include "wisp/base/result.hpp"
+#include "wisp/learn/arx_recipe.hpp"
+
+namespace wisp::arx {
+
+/// One way to choose a block's coefficients, and its errors over held-out free runs.
+struct FocusCandidate {
+  std::optional<double> one_step_weight{};  ///< of refined ones; none: least squares
+  bool decoupled = false;                   ///< every output remembers itself only
+  double estimated_error = 0;  ///< root mean square, shares of the outputs' own, from the best initial state
+  double measured_error = 0;   ///< … from measured samples
+};
+
+/// What was chosen for outputs that feed each other.
+struct FocusChoice {
+  std::vector<int> outputs;
+  std::size_t chosen = 0;
+  std::vector<FocusCandidate> candidates{};  ///< least squares first; empty where none could be judged
+};
+
+struct FocusedFit {
+  ArxFit fit;
+  bool refined = false;
+  std::string reason;  ///< one sentence
+  std::vector<FocusChoice> choices{};
+};
+
+/// `plain` refined as the focus says: with kAuto where held-out free runs are surely better for it, with kSimulation in
+/// any case as far as they say. `plain` itself where nothing is to be simulated (no inputs, no feedback), where the
+/// data cannot tell all coefficients, or where too few rows are there to hold some out. Errors: as fit_arx, kStopped.
+/// Precondition: `plain` is fit_arx() of the same arguments.
+Result<FocusedFit> focus_fit(std::span<const Recording> recordings, const ChannelChoice& channels,
+                             const ArxOptions& options, ArxFit plain, ArxFocus focus, const Progress& progress);
+
+}  // namespace wisp::arx

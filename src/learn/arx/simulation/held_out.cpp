@@ -1,0 +1,122 @@
+#include "learn/arx/simulation/held_out.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "learn/arx/simulation/output_error.hpp"
+
+namespace wisp::arx {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int kStarts = 8;       // from measured samples
+constexpr double kReach = 0.75;  // the last one starts here
+constexpr Index kMinRows = 20;   // that a start is worth
+constexpr double kMaxError = 1e6;
+
+// Sums of squared errors by parts of all rows.
+class PartSums {
+ public:
+  explicit PartSums(const SimulationBlock& block) : sum_(VectorXd::Zero(kParts)), rows_(sum_) {
+    for (const BlockRun& run : block.runs()) total_ += run.rows;
+  }
+
+  void add(Index row, double error) {
+    const double size = std::isnan(error) ? kMaxError : std::min(std::abs(error), kMaxError);
+    const Index part = row * kParts / total_;
+    sum_[part] += size * size;
+    ++rows_[part];
+  }
+
+  VectorXd means() const {
+    const double mean = sum_.sum() / std::max(rows_.sum(), 1.0);
+    VectorXd out(kParts);
+    for (Index p = 0; p < kParts; ++p) out[p] = rows_[p] > 0 ? sum_[p] / rows_[p] : mean;
+    return out;
+  }
+
+ private:
+  VectorXd sum_;
+  VectorXd rows_;
+  Index total_ = 0;
+};
+
+bool past_is_measured(const SimulationBlock& block, const BlockRun& run, Index row) {
+  for (int o = 0; o < block.size(); ++o) {
+    if (run.outputs.col(o).segment(row - block.memory()[o], block.memory()[o]).hasNaN()) return false;
+  }
+  return true;
+}
+
+void add_measured_starts(const SimulationBlock& block, const VectorXd& theta, const BlockRun& run, Index before,
+                         PartSums& sums) {
+  const Index history = block.history();
+  const Index starts = std::clamp<Index>(run.rows / kMinRows, 1, kStarts);
+  for (Index k = 0; k < starts; ++k) {
+    const Index begin = history + static_cast<Index>(kReach * static_cast<double>(run.rows * k / starts));
+    if (!past_is_measured(block, run, begin)) continue;
+    const MatrixXd simulated = simulate_from(block, theta, run, begin);
+    for (int o = 0; o < block.size(); ++o) {
+      for (Index t = begin; t < history + run.rows; ++t) {
+        if (std::isnan(run.outputs(t, o))) continue;
+        sums.add(before + t - history, run.outputs(t, o) - simulated(t, o));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Recording> middles_of(std::span<const Recording> recordings, std::size_t max_rows) {
+  std::size_t total = 0;
+  for (const Recording& one : recordings) total += one.rows();
+  std::vector<Recording> middles;
+  for (const Recording& one : recordings) {
+    const double share = total > max_rows ? static_cast<double>(max_rows) / static_cast<double>(total) : 1;
+    const auto rows = static_cast<std::size_t>(share * static_cast<double>(one.rows()));
+    const std::size_t skipped = (one.rows() - rows) / 2;
+    middles.push_back(slice(one, skipped, skipped + rows));
+  }
+  return middles;
+}
+
+std::vector<Fold> folds_of(std::span<const Recording> recordings) {
+  std::vector<Fold> folds;
+  for (const auto& [first, last] : {std::pair{0.7, 1.0}, {0.35, 0.65}, {0.0, 0.3}}) {
+    Fold& fold = folds.emplace_back();
+    for (const Recording& one : recordings) {
+      const auto at = [&](double place) {
+        return static_cast<std::size_t>(std::lround(place * static_cast<double>(one.rows())));
+      };
+      if (at(first) > 0) fold.learned.push_back(slice(one, 0, at(first)));
+      fold.held_out.push_back(slice(one, at(first), at(last)));
+      if (at(last) < one.rows()) fold.learned.push_back(slice(one, at(last), one.rows()));
+    }
+  }
+  return folds;
+}
+
+HeldOutErrors held_out_errors(const SimulationBlock& block, const VectorXd& theta) {
+  PartSums estimated(block), measured(block);
+  const BlockSimulation simulation = simulate_block(block, theta);
+  Index before = 0;
+  for (std::size_t r = 0; r < block.runs().size(); ++r) {
+    const BlockRun& run = block.runs()[r];
+    for (int o = 0; o < block.size(); ++o) {
+      for (const RowRun& stretch : run.measured[o]) {
+        for (auto t = static_cast<Index>(stretch.begin); t < static_cast<Index>(stretch.end); ++t) {
+          estimated.add(before + t - block.history(), simulation.error[r](t, o));
+        }
+      }
+    }
+    add_measured_starts(block, theta, run, before, measured);
+    before += run.rows;
+  }
+  const double size = block.weight().cwiseInverse().sum() / std::max(block.measured_rows(), 1.0);
+  return {estimated.means(), measured.means(), size};
+}
+
+}  // namespace wisp::arx

@@ -1,0 +1,38 @@
+#pragma once
+// How free runs over rows that were not learned from judge coefficients.
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "learn/arx/simulation/simulation_block.hpp"
+#include "wisp/record/recording.hpp"
+
+namespace wisp::arx {
+
+/// One way to hold out: what is learned from, and what is judged on.
+struct Fold {
+  std::vector<Recording> learned;
+  std::vector<Recording> held_out;
+};
+
+/// The middle of every recording, the same share of all, where they have more than `max_rows` rows together.
+std::vector<Recording> middles_of(std::span<const Recording> recordings, std::size_t max_rows);
+
+/// The last, middle and first 30 % of every recording, in turn.
+std::vector<Fold> folds_of(std::span<const Recording> recordings);
+
+/// Parts of a fold whose errors are told apart.
+inline constexpr int kParts = 8;
+
+/// Mean squared errors of free runs over kParts parts of the block's rows, all outputs together, in scaled units: from
+/// the initial state that fits best, and from measured samples at eight places.
+struct HeldOutErrors {
+  Eigen::VectorXd estimated;
+  Eigen::VectorXd measured;
+  double size = 0;  ///< mean square of the outputs themselves
+};
+
+HeldOutErrors held_out_errors(const SimulationBlock& block, const Eigen::VectorXd& theta);
+
+}  // namespace wisp::arx

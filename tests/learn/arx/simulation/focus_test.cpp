@@ -1,0 +1,180 @@
+#include "learn/arx/simulation/focus.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "learn/arx/fit/given_rows.hpp"
+#include "learn/arx/judge/prediction.hpp"
+#include "learn/arx/made_system.hpp"
+#include "learn/arx/simulation/output_error.hpp"
+#include "learn/arx/simulation/refine.hpp"
+
+namespace wisp {
+namespace {
+
+using testing::HasSubstr;
+
+// One lightly damped output, without noise of its own.
+ArxModel ringing() {
+  ArxModel model;
+  model.orders = {OrderMatrix(1, 1, 2), OrderMatrix(1, 1, 2), OrderMatrix(1, 1, 1)};
+  model.theta = {{-1.7, 0.9, 1.0, 0.5}};
+  model.constant = {0};
+  model.output_mean = {5};
+  model.input_mean = {1};
+  model.noise.sd = {0};
+  return model;
+}
+
+// The output is measured with white noise: an output error, which least squares does not expect.
+Recording measured_with_noise(std::size_t rows, unsigned seed, double sd) {
+  Recording recording = record_system(ringing(), rows, seed);
+  std::mt19937_64 generator(seed + 1000);
+  std::normal_distribution<double> noise(0, sd);
+  for (double& y : recording.channels[1].samples) y += noise(generator);
+  return recording;
+}
+
+const ChannelChoice kChannels{{"u1"}, {"y1"}};
+
+arx::FocusedFit focused(std::span<const Recording> recordings, ArxFocus focus, const ArxOptions& options,
+                        const ChannelChoice& channels = kChannels) {
+  auto plain = fit_arx(recordings, channels, options);
+  EXPECT_TRUE(plain) << plain.error().message;
+  auto fit = arx::focus_fit(recordings, channels, options, std::move(*plain), focus, {});
+  EXPECT_TRUE(fit) << fit.error().message;
+  return std::move(*fit);
+}
+
+double free_run_fit(const ArxModel& model, const Recording& recording) {
+  return prediction_figures(model, {&recording, 1}, kChannels, {.steps = {kFreeRun}})->front().fit_percent[0];
+}
+
+TEST(Focus, AnOutputMeasuredWithNoiseIsRefinedToTheTrueCoefficients) {
+  const Recording recording = measured_with_noise(1500, 1, 1);
+  const auto fit = focused({&recording, 1}, ArxFocus::kAuto, {.orders = ringing().orders});
+  ASSERT_TRUE(fit.refined);
+  for (std::size_t p = 0; p < 4; ++p) {
+    EXPECT_NEAR(fit.fit.model.theta[0][p], ringing().theta[0][p], 5 * fit.fit.model.std_error[0][p]) << p;
+  }
+  const auto squares = fit_arx({&recording, 1}, kChannels, {.orders = ringing().orders});
+  const Recording unseen = record_system(ringing(), 1000, 2);
+  EXPECT_LT(free_run_fit(squares->model, unseen), 80);
+  EXPECT_GT(free_run_fit(fit.fit.model, unseen), 95);
+}
+
+TEST(Focus, ResidualsNoiseAndCriteriaAreOfTheRefinedModel) {
+  const Recording recording = measured_with_noise(1500, 1, 1);
+  const auto fit = focused({&recording, 1}, ArxFocus::kSimulation, {.orders = ringing().orders});
+  const auto one_step = prediction_figures(fit.fit.model, {&recording, 1}, kChannels, {.steps = {1}});
+  EXPECT_NEAR(fit.fit.summary.loss[0] / one_step->front().mean_square[0], 1, 1e-9);
+  EXPECT_NEAR(fit.fit.summary.fit_percent[0], one_step->front().fit_percent[0], 1e-6);
+  EXPECT_NEAR(fit.fit.model.noise.sd[0] / std::sqrt(fit.fit.summary.loss[0]), 1, 0.01);
+}
+
+TEST(Focus, SamplesMayBeMissingAndRecordingsSeveral) {
+  std::vector<Recording> recordings{measured_with_noise(700, 3, 1), measured_with_noise(500, 4, 1),
+                                    measured_with_noise(400, 5, 1)};
+  for (std::size_t t = 100; t < 140; ++t) {
+    recordings[0].channels[1].samples[t] = std::numeric_limits<double>::quiet_NaN();
+  }
+  recordings[1].channels[0].samples[250] = std::numeric_limits<double>::quiet_NaN();
+  const auto fit = focused(recordings, ArxFocus::kSimulation, {.orders = ringing().orders});
+  ASSERT_TRUE(fit.refined);
+  EXPECT_GT(free_run_fit(fit.fit.model, record_system(ringing(), 1000, 2)), 95);
+}
+
+TEST(Focus, PredictionStaysAtLeastSquares) {
+  const Recording recording = measured_with_noise(800, 1, 1);
+  const auto plain = fit_arx({&recording, 1}, kChannels, {.orders = ringing().orders});
+  const auto fit = focused({&recording, 1}, ArxFocus::kPrediction, {.orders = ringing().orders});
+  EXPECT_FALSE(fit.refined);
+  EXPECT_EQ(fit.fit.model.theta, plain->model.theta);
+  EXPECT_EQ(fit.fit.model.std_error, plain->model.std_error);
+}
+
+TEST(Focus, WhatLeastSquaresDescribesIsLeftToIt) {
+  ArxModel model = ringing();
+  model.noise.sd = {1};
+  const Recording recording = record_system(model, 1500, 7);
+  const auto plain = fit_arx({&recording, 1}, kChannels, {.orders = model.orders});
+  const auto fit = focused({&recording, 1}, ArxFocus::kAuto, {.orders = model.orders});
+  EXPECT_EQ(fit.fit.model.theta, plain->model.theta);
+  EXPECT_THAT(fit.reason, HasSubstr("no better"));
+}
+
+TEST(Focus, AFewRowsAndNoInputsAreLeftToLeastSquaresWithTheReason) {
+  const Recording brief = measured_with_noise(8, 1, 1);
+  EXPECT_EQ(focused({&brief, 1}, ArxFocus::kAuto, {.orders = ringing().orders}).reason,
+            "too few rows to hold some out");
+  ArxOrders alone{OrderMatrix(1, 1, 2), OrderMatrix(1, 0), OrderMatrix(1, 0)};
+  const Recording recording = measured_with_noise(500, 1, 1);
+  EXPECT_EQ(focused({&recording, 1}, ArxFocus::kSimulation, {.orders = alone}, {{}, {"y1"}}).reason,
+            "no input drives a free simulation");
+}
+
+TEST(Focus, StandardErrorsAreThoseOfRepeatedRecordings) {
+  const ArxOptions options{.orders = ringing().orders};
+  const int repeats = 40;
+  for (std::size_t p = 0; p < 4; ++p) {
+    double sum = 0, square = 0, said = 0;
+    for (unsigned seed = 0; seed < repeats; ++seed) {
+      const Recording recording = measured_with_noise(600, 100 + seed, 0.5);
+      const auto fit = focused({&recording, 1}, ArxFocus::kSimulation, options);
+      const double theta = fit.fit.model.theta[0][p];
+      sum += theta / repeats;
+      square += theta * theta / repeats;
+      said += fit.fit.model.std_error[0][p] * fit.fit.model.std_error[0][p] / repeats;
+    }
+    EXPECT_GT((square - sum * sum) / said, 0.4) << p;
+    EXPECT_LT((square - sum * sum) / said, 2.5) << p;
+    EXPECT_NEAR(sum, ringing().theta[0][p], 2 * std::sqrt(said)) << p;
+  }
+}
+
+TEST(OutputError, TheGradientIsThatOfDifferences) {
+  Recording recording = record_system(made_system(), 300, 3, 5);
+  recording.channels[2].samples[120] = std::numeric_limits<double>::quiet_NaN();
+  const ChannelChoice channels{{"u1", "u2"}, {"y1", "y2"}};
+  const auto signals = gather_signals({&recording, 1}, channels, ArxOffset::kMean);
+  ASSERT_TRUE(signals);
+  const ArxModel model = made_system();
+  const arx::SimulationBlock block(*signals, model.orders, {0, 1}, false, model.orders.history());
+  Eigen::VectorXd theta(static_cast<Eigen::Index>(block.terms().size()));
+  theta << row_of_model(model, 0, *signals, ArxOffset::kMean).theta,
+      row_of_model(model, 1, *signals, ArxOffset::kMean).theta;
+  theta *= 0.97;
+  const arx::GaussNewton exact = arx::gauss_newton(block, arx::simulate_block(block, theta));
+  for (Eigen::Index p = 0; p < theta.size(); ++p) {
+    constexpr double kStep = 1e-5;
+    Eigen::VectorXd up = theta, down = theta;
+    up[p] += kStep;
+    down[p] -= kStep;
+    const double slope = (arx::simulate_block(block, up).cost - arx::simulate_block(block, down).cost) / (2 * kStep);
+    EXPECT_NEAR(-2 * exact.gradient[p], slope, 1e-5 * (1 + std::abs(slope))) << p;
+  }
+}
+
+TEST(Refine, EveryStepIsStableAndLessensTheCriterion) {
+  const Recording recording = measured_with_noise(500, 9, 3);
+  const auto signals = gather_signals({&recording, 1}, kChannels, ArxOffset::kMean);
+  const ArxOrders orders = ringing().orders;
+  const arx::SimulationBlock block(*signals, orders, {0}, false, orders.history());
+  const auto loss = arx::one_step_loss(*signals, block, orders, ArxOffset::kMean, orders.history());
+  Eigen::VectorXd unstable(4);
+  unstable << 2.1, -1.2, 0.1, 0.1;
+  double before = std::numeric_limits<double>::infinity();
+  for (int steps = 0; steps < 8; ++steps) {
+    const auto at = arx::refine(block, loss, unstable, {.steps = steps});
+    EXPECT_LT(block.radius(at.simulation.theta), 1);
+    EXPECT_LE(at.value, before);
+    before = at.value;
+  }
+}
+
+}  // namespace
+}  // namespace wisp
