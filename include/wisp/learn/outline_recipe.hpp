@@ -61,7 +61,8 @@ struct OutlineRecipe {
                                  ///< unset: searched, up to a quarter of a second
   bool align = true;             ///< move inputs that come after the motion that they cause
   InputGain gain = InputGain::kAuto;
-  std::optional<OutlineCoupling> coupling{};  ///< unset: with resampled residuals kFull from 20 s on unless `light`,
+  std::optional<OutlineCoupling> coupling{};  ///< unset: with resampled residuals kFull from 20 s on unless `light`
+                                              ///< or without mirror images,
                                               ///< else kCoordinate; without them kPoint
   bool light = false;  ///< a third of the arithmetic: every coordinate its own system, an input nonlinearity in the
                        ///< place of powers of the input

@@ -13,8 +13,7 @@ namespace wisp {
 /// Distances of two sides over long windows. NaN where there are too few data.
 struct LongDistances {
   double motion = 0;   ///< normalised energy distance of windows of all channels and their differences
-  double spectra = 0;  ///< the same of their log spectra in geometric bands: whether each rhythm is there, and whether
-                       ///< rhythms come together
+  double spectra = 0;  ///< the same of their log spectra in geometric bands: whether each rhythm is there
   double tails = 0;  ///< mean over channels and percentiles (99, 99.9) of |ln| of the ratio of the sizes of the second
                      ///< differences: 0.1 is ten per cent more or less violent
 };

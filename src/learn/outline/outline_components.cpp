@@ -223,7 +223,7 @@ Result<ArxFit> fit_components(std::span<const Recording> recordings, const Prepa
     }
   }
   const ArxOptions arx{.orders = component_orders(options.orders, components.names.size()),
-                       .offset = components.about_calm ? ArxOffset::kNone : ArxOffset::kMean,
+                       .offset = weight > 0 && weight < 1 ? ArxOffset::kNone : ArxOffset::kMean,  // shrunk about rest
                        .ridge = options.ridge,
                        .judge_free_run = options.judge_free_run};
   auto fitted = fit_arx(rows, {prepared.channels.inputs, components.names}, arx);

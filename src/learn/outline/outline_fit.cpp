@@ -63,7 +63,7 @@ OutlineRecipe decided(OutlineRecipe options, const PreparedOutlines& prepared) {
     options.noise = draw ? OutlineNoise::kDrawn : OutlineNoise::kMatched;
   }
   const bool drawn = options.noise == OutlineNoise::kDrawn;
-  const bool whole = !options.light && seconds >= kMinWholeSeconds;
+  const bool whole = !options.light && options.mirror.value_or(true) && seconds >= kMinWholeSeconds;
   const OutlineCoupling heard = whole ? OutlineCoupling::kFull : OutlineCoupling::kCoordinate;
   if (!options.coupling) options.coupling = drawn ? heard : OutlineCoupling::kPoint;
   const bool full = options.coupling == OutlineCoupling::kFull;

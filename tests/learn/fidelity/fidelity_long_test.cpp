@@ -12,18 +12,17 @@ namespace {
 
 constexpr LongOptions kOptions{.rate_hz = 60};
 
-// Two channels of one resonance each, whose shocks share a part; now and then one is hit.
-Stretch resonances(std::size_t rows, std::uint64_t seed, double shared, double hit) {
+// Two channels of one resonance each; now and then one is hit.
+Stretch resonances(std::size_t rows, std::uint64_t seed, double damping, double hit) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> gauss;
   Stretch out{2, {}};
   double now[2] = {}, before[2] = {};
   for (std::size_t t = 0; t < rows; ++t) {
-    const double common = gauss(random);
     for (int c = 0; c < 2; ++c) {
-      double shock = shared * common + std::sqrt(1 - shared * shared) * gauss(random);
+      double shock = gauss(random);
       if (hit > 0 && random() % 200 == 0) shock *= hit;
-      const double next = 1.6 * now[c] - 0.8 * before[c] + shock;
+      const double next = 1.6 * now[c] - damping * before[c] + shock;
       before[c] = now[c];
       now[c] = next;
       out.values.push_back(next);
@@ -35,26 +34,25 @@ Stretch resonances(std::size_t rows, std::uint64_t seed, double shared, double h
 LongDistances apart(const Stretch& a, const Stretch& b) { return long_distances({&a, 1}, {&b, 1}, kOptions); }
 
 TEST(FidelityLong, TheSameProcessIsNear) {
-  const LongDistances found = apart(resonances(6000, 1, 0.9, 0), resonances(6000, 2, 0.9, 0));
+  const LongDistances found = apart(resonances(6000, 1, 0.8, 0), resonances(6000, 2, 0.8, 0));
   EXPECT_LT(found.motion, 0.02);
   EXPECT_LT(found.spectra, 0.02);
   EXPECT_LT(found.tails, 0.1);
 }
 
-// Each channel by itself is as before.
-TEST(FidelityLong, SpectraTellRhythmsThatNoLongerComeTogether) {
-  const Stretch real = resonances(6000, 1, 0.95, 0);
-  const double same = apart(real, resonances(6000, 2, 0.95, 0)).spectra;
-  EXPECT_GT(apart(real, resonances(6000, 3, 0, 0)).spectra, 5 * same);
+TEST(FidelityLong, SpectraTellAnotherRhythm) {
+  const Stretch real = resonances(6000, 1, 0.8, 0);
+  const double same = apart(real, resonances(6000, 2, 0.8, 0)).spectra;
+  EXPECT_GT(apart(real, resonances(6000, 3, 0.9, 0)).spectra, 5 * same);
 }
 
 TEST(FidelityLong, TailsTellBurstsThatAreMissing) {
-  const Stretch real = resonances(6000, 1, 0.9, 12);
-  EXPECT_GT(apart(real, resonances(6000, 2, 0.9, 0)).tails, 0.3);
+  const Stretch real = resonances(6000, 1, 0.8, 12);
+  EXPECT_GT(apart(real, resonances(6000, 2, 0.8, 0)).tails, 0.3);
 }
 
 TEST(FidelityLong, TooFewWindowsAreNoDistance) {
-  const LongDistances found = apart(resonances(100, 1, 0.9, 0), resonances(100, 2, 0.9, 0));
+  const LongDistances found = apart(resonances(100, 1, 0.8, 0), resonances(100, 2, 0.8, 0));
   EXPECT_TRUE(std::isnan(found.motion) && std::isnan(found.spectra) && std::isnan(found.tails));
 }
 

@@ -61,9 +61,9 @@ TEST(OutlineWind, AGustFromTheOtherSideIsTheMirrorImage) {
     return resting(fit.model, wind, output) - resting(fit.model, 0, output);
   };
   EXPECT_GT(moved(0.8, "p2.x"), 0.05);
-  EXPECT_NEAR(moved(-0.8, "p3.x"), -moved(0.8, "p2.x"), 1e-4);
+  EXPECT_NEAR(moved(-0.8, "p3.x"), -moved(0.8, "p2.x"), 3e-4);
   EXPECT_LT(moved(0.8, "p3.y"), -0.01);
-  EXPECT_NEAR(moved(-0.8, "p2.y"), moved(0.8, "p3.y"), 1e-4);
+  EXPECT_NEAR(moved(-0.8, "p2.y"), moved(0.8, "p3.y"), 3e-4);
 }
 
 // The mirror image tells nothing that its frame does not: intervals are as wide as without it.
@@ -107,7 +107,7 @@ TEST(OutlineWind, TheMirrorCanBeSwitchedOff) {
   const OutlineFit fit = learned(kFromBothSides, {.mirror = false});
   const OutlineFit symmetric = learned(kFromBothSides);
   EXPECT_NE(arx(fit).theta, arx(symmetric).theta);
-  EXPECT_EQ(fit.model.inputs[0].shape, InputShape::kSplitSignPowers);
+  EXPECT_EQ(fit.model.inputs[0].shape, InputShape::kSplitSign);
 }
 
 TEST(OutlineWind, InputsCanBeLeftOut) {
