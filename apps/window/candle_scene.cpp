@@ -49,7 +49,7 @@ Result<CandleScene> CandleScene::create(const Model& model, int candles, std::ui
   return CandleScene(std::move(*bank), model, candles);
 }
 
-CandleScene::CandleScene(Bank bank, const Model& model, int candles) : bank_(std::move(bank)) {
+CandleScene::CandleScene(Bank bank, const Model& model, int candles) : bank_(std::move(bank)), flame_(is_flame(model)) {
   if (model.extinction) {
     wind_input_ = model.extinction->input;
     level_ = static_cast<float>(model.extinction->level);
@@ -266,7 +266,11 @@ void CandleScene::draw(Image& image) {
     outlines.push_back(outline_of(candle));
     flames.push_back({outlines.back(), candle.scene});
   }
-  painter_->draw(image, flames);
+  if (flame_) {
+    painter_->draw(image, flames);
+  } else {
+    draw_shapes(image, flames);
+  }
 }
 
 float CandleScene::tip() const {

@@ -81,6 +81,7 @@ class CandleScene {
   LitState state_of(const Candle& candle) const;
 
   Bank bank_;
+  bool flame_;  // else a plain shape is drawn
   std::size_t wind_input_ = 0;
   float level_ = 2;
   std::vector<Candle> candles_;

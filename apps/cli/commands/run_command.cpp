@@ -125,7 +125,7 @@ Recording record_run(const Play& play, const Bank& bank, Player& player) {
 
 Result<void> write_film(const Play& play, const Bank& bank, Player& player, const std::string& path,
                         Terminal& terminal) {
-  CandlePictures pictures(bank);
+  CandlePictures pictures(play.model, bank);
   auto film = VideoWriter::create(
       path, {.width = pictures.width(), .height = pictures.height(), .rate_hz = play.model.rate_hz});
   if (!film) return film.error();
@@ -139,7 +139,7 @@ Result<void> write_film(const Play& play, const Bank& bank, Player& player, cons
 
 Result<void> write_picture(const Play& play, const Bank& bank, Player& player, const std::string& path) {
   if (std::holds_alternative<OutlineView>(play.model.view)) {
-    CandlePictures pictures(bank);
+    CandlePictures pictures(play.model, bank);
     for (std::size_t frame = 0; frame < play.frames; ++frame) pictures.blow(bank, player.wind(player.step()));
     return write_png(path, pictures.draw(bank));
   }

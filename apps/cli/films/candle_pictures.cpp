@@ -22,8 +22,8 @@ float seconds(std::chrono::nanoseconds age) {
 
 }  // namespace
 
-CandlePictures::CandlePictures(const Bank& bank)
-    : width_(std::min(kLoneWidth + 220 * (bank.size() - 1), kWidest)), height_(kHeight) {
+CandlePictures::CandlePictures(const Model& model, const Bank& bank)
+    : flame_(is_flame(model)), width_(std::min(kLoneWidth + 220 * (bank.size() - 1), kWidest)), height_(kHeight) {
   const int count = bank.size();
   for (int k = 0; k < count; ++k) {
     FlameScene scene = framed(width_, height_);
@@ -66,6 +66,10 @@ const Image& CandlePictures::draw(const Bank& bank) {
     scenes_[k].seconds_since_out = seconds(state.since_out);
     scenes_[k].size = state.size;
     flames.push_back({std::span(points_).subspan(k * each, each), scenes_[k]});
+  }
+  if (!flame_) {
+    draw_shapes(image_, flames);
+    return image_;
   }
   draw_night(image_);
   draw_flames(image_, flames);

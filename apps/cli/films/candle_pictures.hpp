@@ -1,5 +1,5 @@
 #pragma once
-// Pictures of a bank of flames: its instances as candles side by side, smoke and all.
+// Pictures of a bank of outlines: flames as candles side by side, smoke and all; other things as plain shapes.
 
 #include <vector>
 
@@ -10,10 +10,10 @@ namespace wisp::cli {
 
 class CandlePictures {
  public:
-  /// Sized for the bank's living instances.
+  /// Sized for the living instances of the model's bank.
   ///
   /// Precondition: bank.polyline_points() > 0 and bank.size() > 0.
-  explicit CandlePictures(const Bank& bank);
+  CandlePictures(const Model& model, const Bank& bank);
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -31,6 +31,7 @@ class CandlePictures {
     float count = 0;
   };
 
+  bool flame_;
   int width_;
   int height_;
   std::vector<FlameScene> scenes_;

@@ -158,7 +158,7 @@ Cell cell_of(const StripContent& content) {
   return {2.3 * widest * unit, (highest + 0.55) * unit, 0.35 * unit};
 }
 
-// The cartoon of an outline, as large as a cell.
+// The cartoon of a flame or the plain shape of another outline, as large as a cell.
 Image cartoon(const Outline& pixels, const StripContent& content, const Cell& cell) {
   const double scale = 2.0 * kStripCellHeight / cell.height;
   Image image(static_cast<int>(std::lround(cell.width * scale)), 2 * kStripCellHeight);
@@ -169,6 +169,11 @@ Image cartoon(const Outline& pixels, const StripContent& content, const Cell& ce
   FlameScene scene;
   scene.base = {static_cast<float>(image.width() / 2.0), static_cast<float>((cell.height - cell.below_base) * scale)};
   scene.pixels_per_unit = static_cast<float>(content.pixels_per_unit * scale);
+  if (!content.flame) {
+    const Flame shape{outline, scene};
+    draw_shapes(image, {&shape, 1});
+    return image;
+  }
   draw_night(image);
   draw_flame(image, outline, scene);
   return image;

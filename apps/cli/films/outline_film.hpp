@@ -37,6 +37,7 @@ struct StripContent {
   const OutlineRows& captured;     ///< all rows, in pixels
   const OutlineRows& synthesized;  ///< likewise
   double pixels_per_unit = 1;
+  bool flame = true;  ///< drawn as a cartoon flame; else as a plain shape
   std::string synthesized_caption;
 };
 

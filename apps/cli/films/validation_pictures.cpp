@@ -1,4 +1,5 @@
 #include "films/validation_pictures.hpp"
+#include "wisp/draw/flame.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -49,6 +50,7 @@ Result<void> draw_validation(const ValidatedOutline& found, const Model& model, 
         .captured = found.captured,
         .synthesized = found.played,
         .pixels_per_unit = found.pixels_per_unit,
+        .flame = is_flame(model),
         .synthesized_caption = model.inputs.empty() ? "synthesized" : "synthesized from the same wind"};
     if (auto ok = write_film_strip(pictures.film_strip, subject.clip, content); !ok) return ok;
     terminal.say("wrote " + pictures.film_strip);

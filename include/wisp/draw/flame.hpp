@@ -15,6 +15,8 @@
 
 namespace wisp {
 
+struct Model;
+
 /// How a candle and its flame look. Lengths are in model units: 1 is the mean height of the calm flame.
 struct FlameStyle {
   Colour core{255, 248, 224};  ///< the bright middle, where the glow is thickest
@@ -72,6 +74,14 @@ struct Flame {
 /// smoke, then the light of all flames. Points that are not finite are left out; an outline of fewer than three points
 /// or without area draws a candle that does not burn. Fields outside their range are held to it.
 void draw_flames(Image& image, std::span<const Flame> flames, const FlameStyle& style = {});
+
+/// Whether a model is drawn as a flame: it is an outline that can go out, or that stands on its base and tapers
+/// upwards, in the middle of its range.
+bool is_flame(const Model& model);
+
+/// Draws outlines of other things, each where its scene puts it: filled shapes on a plain ground. Times, smoke and size
+/// mean nothing to them.
+void draw_shapes(Image& image, std::span<const Flame> shapes);
 
 /// Draws one candle.
 void draw_flame(Image& image, std::span<const Point> outline, const FlameScene& scene, const FlameStyle& style = {});

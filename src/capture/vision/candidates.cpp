@@ -1,9 +1,8 @@
 #include "capture/vision/candidates.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-
-#include "capture/vision/solidity.hpp"
 
 namespace wisp {
 namespace {
@@ -173,16 +172,30 @@ double taper_of(const std::vector<Shape>& shapes) {
   return middle(std::move(tapers));
 }
 
-// Of a shape as wide and straight: a flame that leans or bends has no notches.
+// The area of a shape as wide and straight over its convex hull's: a flame that leans or bends has no notches. The hull
+// of a symmetrical shape is as wide as the least concave function above its widths.
+double solidity_of(const Profile& profile) {
+  std::vector<std::size_t> hull;
+  const auto width = [&](std::size_t k) { return static_cast<double>(profile.rows[k].width()); };
+  double area = 0, hull_area = 0;
+  for (std::size_t k = 0; k < profile.rows.size(); ++k) {
+    if (k > 0) area += 0.5 * (width(k) + width(k - 1));
+    const auto below = [&](std::size_t a, std::size_t b) {  // b, between a and k, is no corner of the hull
+      const double run = static_cast<double>(k - a), part = static_cast<double>(b - a);
+      return (width(b) - width(a)) * run <= (width(k) - width(a)) * part;
+    };
+    while (hull.size() >= 2 && below(hull[hull.size() - 2], hull.back())) hull.pop_back();
+    hull.push_back(k);
+  }
+  for (std::size_t k = 1; k < hull.size(); ++k) {
+    hull_area += 0.5 * (width(hull[k]) + width(hull[k - 1])) * static_cast<double>(hull[k] - hull[k - 1]);
+  }
+  return area / std::max(hull_area, 1e-9);
+}
+
 double solidity_of(const std::vector<Shape>& shapes) {
   std::vector<double> values;
-  for (const Shape& shape : shapes) {
-    const auto& rows = shape.profile.rows;
-    std::vector<CurvePoint> polygon;
-    for (std::size_t k = 0; k < rows.size(); ++k) polygon.push_back({-0.5 * rows[k].width(), static_cast<double>(k)});
-    for (std::size_t k = rows.size(); k-- > 0;) polygon.push_back({0.5 * rows[k].width(), static_cast<double>(k)});
-    values.push_back(solidity(polygon));
-  }
+  for (const Shape& shape : shapes) values.push_back(solidity_of(shape.profile));
   return middle(std::move(values));
 }
 
@@ -210,19 +223,24 @@ double steadiness_of(const std::vector<Shape>& shapes) {
 // Median luma of the shape: a rim is dimmer, and more of it is inside a lower level.
 double light_of(const PictureGrid& grid, const PictureGrid& luma, int level, const Shape& shape, BaseSide base) {
   const bool rows = base == BaseSide::kBottom || base == BaseSide::kTop;
-  std::vector<std::uint8_t> lumas;
+  std::array<std::uint32_t, 256> counts{};
+  std::uint32_t count = 0;
+  const ImageView view = grid.view(shape.picture), lumas = luma.view(shape.picture);
   for (std::size_t k = 0; k < shape.profile.rows.size(); ++k) {
     const int at = depth_of(shape.profile.first + static_cast<int>(k), base);
     for (int v = shape.profile.rows[k].low; v <= shape.profile.rows[k].high; ++v) {
       const int x = rows ? v : at, y = rows ? at : v;
-      if (grid.view(shape.picture).at(x, y) <= level) continue;
-      lumas.push_back(luma.view(shape.picture).at(x, y));
+      if (view.at(x, y) <= level) continue;
+      ++counts[lumas.at(x, y)];
+      ++count;
     }
   }
-  if (lumas.empty()) return 0;
-  const auto half = lumas.begin() + static_cast<std::ptrdiff_t>(lumas.size() / 2);
-  std::nth_element(lumas.begin(), half, lumas.end());
-  return *half;
+  std::uint32_t below = 0;
+  for (std::size_t value = 0; value < counts.size(); ++value) {
+    below += counts[value];
+    if (below > count / 2) return static_cast<double>(value);
+  }
+  return 0;
 }
 
 Region box_of(const Profile& profile, BaseSide base) {

@@ -81,6 +81,7 @@ class OutlineCapture::Stage {
   std::size_t fed_ = 0;
   std::vector<std::optional<OwnedPicture>> held_;  // nothing: a lost frame
   std::size_t held_bytes_ = 0;
+  bool waited_ = false;  // for a flame that was not there at first
   std::vector<OwnedPicture> glimpses_;
   std::optional<Survey> survey_;
   std::optional<Picture> format_;  // the first picture's layout, without its planes
@@ -150,6 +151,7 @@ void OutlineCapture::Stage::wait_on() {
   }
   held_.erase(held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>(half));
   glimpses_.clear();
+  waited_ = true;
 }
 
 Result<void> OutlineCapture::Stage::decide(bool at_end) {
@@ -162,7 +164,9 @@ Result<void> OutlineCapture::Stage::decide(bool at_end) {
   for (const OwnedPicture& glimpse : glimpses_) seen.push_back(glimpse.picture());
   auto survey = survey_scene(seen, {options_.channel, options_.dark, options_.region, options_.flame});
   const bool flame = options_.flame > 0 && !options_.dark;
-  if (flame && !at_end && !(survey && burns(*survey))) {
+  // A window in which it was lit shows it in too few pictures; the next one shows it in all.
+  const bool throughout = survey && (!waited_ || 3 * survey->seen.size() >= 2 * seen.size());
+  if (flame && !at_end && !(throughout && burns(*survey))) {
     wait_on();
     return {};
   }

@@ -78,21 +78,48 @@ void OutlineTracker::widen(double height) {
   }
 }
 
-// One scalar measurement: n · curve(s) = value, with that precision (1 / variance). Four control points carry the curve
-// at s: 8 entries of the vector and 8 × 8 of the information (its lower triangle) change.
-void OutlineTracker::add(double s, double nx, double ny, double value, double precision) {
-  const BasisWeights weights = table_.weights(s);
-  const std::size_t n = vector_.size(), first = 2 * static_cast<std::size_t>(weights.first);
-  std::array<double, 8> row;
+void OutlineTracker::Gathered::take(double nx, double ny, double value, double precision) {
+  const double px = precision * nx, py = precision * ny;
+  xx += px * nx;
+  xy += px * ny;
+  yy += py * ny;
+  x += px * value;
+  y += py * value;
+}
+
+// n · curve(s) = value, with that precision (1 / variance): four control points carry the curve at s.
+void OutlineTracker::add(const BasisWeights& weights, const Gathered& gathered) {
+  SpanSums& sums = sums_[static_cast<std::size_t>(weights.first)];
+  const std::array<double, 4> block{gathered.xx, gathered.xy, gathered.yy, 0};
+  std::size_t pair = 0;
   for (int r = 0; r < 4; ++r) {
-    row[2 * r] = weights.weight[r] * nx;
-    row[2 * r + 1] = weights.weight[r] * ny;
+    for (int c = 0; c <= r; ++c, ++pair) {
+      const double both = weights.weight[r] * weights.weight[c];
+      for (int k = 0; k < 4; ++k) sums.pairs[pair][k] += both * block[k];
+    }
+    sums.points[r][0] += weights.weight[r] * gathered.x;
+    sums.points[r][1] += weights.weight[r] * gathered.y;
   }
-  for (int i = 0; i < 8; ++i) {
-    const double scaled = precision * row[i];
-    vector_[first + i] += scaled * value;
-    double* information = information_.data() + (first + i) * n + first;
-    for (int j = 0; j <= i; ++j) information[j] += scaled * row[j];
+}
+
+// Adds what the spans gathered to the information (its lower triangle) and the vector.
+void OutlineTracker::spread_sums() {
+  const std::size_t n = vector_.size();
+  for (std::size_t first = 0; first < sums_.size(); ++first) {
+    const SpanSums& sums = sums_[first];
+    std::size_t pair = 0;
+    for (std::size_t r = 0; r < 4; ++r) {
+      double* row = information_.data() + 2 * (first + r) * n + 2 * first;
+      for (std::size_t c = 0; c <= r; ++c, ++pair) {
+        const auto& [xx, xy, yy, nothing] = sums.pairs[pair];
+        row[2 * c] += xx;
+        if (c < r) row[2 * c + 1] += xy;
+        row[n + 2 * c] += xy;
+        row[n + 2 * c + 1] += yy;
+      }
+      vector_[2 * (first + r)] += sums.points[r][0];
+      vector_[2 * (first + r) + 1] += sums.points[r][1];
+    }
   }
 }
 
@@ -101,22 +128,27 @@ void OutlineTracker::add(double s, double nx, double ny, double value, double pr
 void OutlineTracker::measure(const EdgeCloud& cloud, bool along_own_normal) {
   information_ = prior_information_;
   vector_ = prior_vector_;
+  sums_.assign(static_cast<std::size_t>(table_.points()), {});
   for (std::size_t k = 0; k < cloud.points.size(); ++k) {
     if (out_[k]) continue;
     const EdgePoint& edge = cloud.points[k];
     double nx = edge.normal_x, ny = edge.normal_y;
     if (!along_own_normal) {
-      const CurvePoint slope = table_.slope(estimate_.mean, places_[k]);
-      const double size = std::max(length(slope.x, slope.y), 1e-9);
+      const CurvePoint slope = pieces_.slope(places_[k]);
+      const double size = std::max(std::sqrt(slope.x * slope.x + slope.y * slope.y), 1e-9);
       nx = slope.y / size;
       ny = -slope.x / size;
     }
-    add(places_[k], nx, ny, nx * edge.x + ny * edge.y, normal_precision_);
     const double along = nx * edge.y - ny * edge.x;
-    add(cloud.s[k], -ny, nx, along, tangent_precision_);
-    if (!along_own_normal) add(places_[k], -ny, nx, along, hold_precision_);
+    Gathered here, before;
+    here.take(nx, ny, nx * edge.x + ny * edge.y, normal_precision_);
+    if (!along_own_normal) here.take(-ny, nx, along, hold_precision_);
+    before.take(-ny, nx, along, tangent_precision_);
+    add(table_.weights(places_[k]), here);
+    add(cloud_weights_[k], before);
   }
   hold_ends(cloud);
+  spread_sums();
 }
 
 // The curve's ends are points, not places on a line: both directions count, and as much as a whole side's edge points.
@@ -124,8 +156,10 @@ void OutlineTracker::hold_ends(const EdgeCloud& cloud) {
   const double precision = normal_precision_ * 4;
   for (const bool last : {false, true}) {
     const EdgePoint& end = last ? cloud.points.back() : cloud.points.front();
-    add(last ? 1.0 : 0.0, 1, 0, end.x, precision);
-    add(last ? 1.0 : 0.0, 0, 1, end.y, precision);
+    Gathered both;
+    both.take(1, 0, end.x, precision);
+    both.take(0, 1, end.y, precision);
+    add(table_.weights(last ? 1.0 : 0.0), both);
   }
 }
 
@@ -142,9 +176,10 @@ void OutlineTracker::solve() {
 // One Newton step a pass towards the curve's nearest point; kept near the edge point's place in the cloud, or points
 // would gather where the curve happens to pass close by.
 void OutlineTracker::project(const EdgeCloud& cloud) {
+  table_.pieces(estimate_.mean, pieces_);
   for (std::size_t k = 0; k < cloud.points.size(); ++k) {
     double& s = places_[k];
-    const CurvePoint at = table_.at(estimate_.mean, s), slope = table_.slope(estimate_.mean, s);
+    const auto [at, slope] = pieces_.at(s);
     const double square = slope.x * slope.x + slope.y * slope.y;
     if (square <= 0) continue;
     const double step = ((cloud.points[k].x - at.x) * slope.x + (cloud.points[k].y - at.y) * slope.y) / square;
@@ -155,8 +190,9 @@ void OutlineTracker::project(const EdgeCloud& cloud) {
 void OutlineTracker::measure_residuals(const EdgeCloud& cloud) {
   residuals_.resize(cloud.points.size());
   for (std::size_t k = 0; k < residuals_.size(); ++k) {
-    const CurvePoint at = table_.at(estimate_.mean, places_[k]);
-    residuals_[k] = length(cloud.points[k].x - at.x, cloud.points[k].y - at.y);
+    const CurvePoint at = pieces_.at(places_[k]).point;
+    const double dx = cloud.points[k].x - at.x, dy = cloud.points[k].y - at.y;
+    residuals_[k] = std::sqrt(dx * dx + dy * dy);
   }
 }
 
@@ -183,7 +219,8 @@ void OutlineTracker::settle(const EdgeCloud& cloud) {
     measure_residuals(cloud);
     const double now = misfit();
     const bool settled = now > kStillFalling * best && now <= best;
-    if (now < best) {
+    const bool better = now < best;
+    if (better) {
       best = now;
       best_mean_ = estimate_.mean;
       best_places_ = places_;
@@ -192,11 +229,14 @@ void OutlineTracker::settle(const EdgeCloud& cloud) {
       hold_precision_ *= 8;
     }
     if (settled) break;
+    if (better) continue;
     estimate_.mean = best_mean_;
     places_ = best_places_;
+    table_.pieces(estimate_.mean, pieces_);
   }
   estimate_.mean = best_mean_;
   places_ = best_places_;
+  table_.pieces(estimate_.mean, pieces_);
   measure_residuals(cloud);
 }
 
@@ -235,6 +275,8 @@ const OutlineEstimate& OutlineTracker::update(const EdgeCloud& cloud) {
   normal_precision_ = 1 / (normal_sd * normal_sd);
   tangent_precision_ = 1 / (tangent_sd * tangent_sd);
   places_ = cloud.s;
+  cloud_weights_.clear();
+  for (const double s : cloud.s) cloud_weights_.push_back(table_.weights(s));
   out_.assign(cloud.points.size(), 0);
   predict(cloud);
   measure(cloud, true);

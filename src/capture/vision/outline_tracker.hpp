@@ -65,7 +65,22 @@ class OutlineTracker {
  private:
   void predict(const EdgeCloud& cloud);
   void widen(double height);
-  void add(double s, double nx, double ny, double value, double precision);
+  /// Scalar measurements at one place of the curve, gathered: Σ precision·n·nᵀ and Σ precision·value·n.
+  struct Gathered {
+    double xx = 0;
+    double xy = 0;
+    double yy = 0;
+    double x = 0;
+    double y = 0;
+    void take(double nx, double ny, double value, double precision);
+  };
+  /// The same of a span's four control points: their 10 pairs, and themselves.
+  struct SpanSums {
+    std::array<std::array<double, 4>, 10> pairs{};  // xx, xy, yy, nothing: four are added at a time
+    std::array<std::array<double, 2>, 4> points{};
+  };
+  void add(const BasisWeights& weights, const Gathered& gathered);
+  void spread_sums();
   void measure(const EdgeCloud& cloud, bool along_own_normal);
   void hold_ends(const EdgeCloud& cloud);
   void solve();
@@ -92,6 +107,9 @@ class OutlineTracker {
   std::vector<double> information_;
   std::vector<double> vector_;
   std::vector<double> factor_;
+  std::vector<SpanSums> sums_;               // by a span's first control point
+  std::vector<BasisWeights> cloud_weights_;  // at the edge points' places in the cloud
+  CurvePieces pieces_;                       // of the mean
   std::vector<double> places_;
   std::vector<std::uint8_t> out_;  // gated
   std::vector<double> residuals_;

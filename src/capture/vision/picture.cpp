@@ -189,13 +189,17 @@ void sample_channel(const Picture& picture, PixelChannel channel, const Region& 
   assert(has_channel(picture, channel));
   const Conversion to = conversion(picture, channel);
   const bool computed = picture.layout == PictureLayout::kYuv && channel != PixelChannel::kLuma;
+  const bool mixed = picture.layout == PictureLayout::kRgb && channel == PixelChannel::kLuma;
   for (int y = region.y; y < region.bottom(); y += step) {
-    for (int x = region.x; x < region.right(); x += step, ++out) {
-      if (computed) {
-        *out = colour_of_yuv(picture, to, x, y);
-      } else {
-        extract_row(picture, channel, to, {x, y, 1, 1}, y, out);
-      }
+    if (computed) {
+      for (int x = region.x; x < region.right(); x += step, ++out) *out = colour_of_yuv(picture, to, x, y);
+    } else if (mixed) {
+      for (int x = region.x; x < region.right(); x += step, ++out) luma_row_of_rgb(picture, x, y, 1, out);
+    } else {
+      const PicturePlane& plane = picture.planes[channel == PixelChannel::kLuma ? 0 : static_cast<int>(channel) - 1];
+      const std::uint8_t* row = plane_row(plane, region.x, y);
+      const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(step) * plane.step;
+      for (int x = region.x; x < region.right(); x += step, row += stride, ++out) *out = *row;
     }
   }
 }

@@ -84,6 +84,36 @@ CurvePoint SplineTable::slope(std::span<const double> controls, double s) const 
   return combine(derivatives(s), controls);
 }
 
+void SplineTable::pieces(std::span<const double> controls, CurvePieces& out) const {
+  out.guess_ = guess_;
+  out.pieces_.resize(spans_.size());
+  for (std::size_t k = 0; k < spans_.size(); ++k) {
+    const Span& span = spans_[k];
+    out.pieces_[k].begin = span.begin;
+    for (std::size_t power = 0; power < 4; ++power) {
+      CurvePoint sum;
+      for (std::size_t r = 0; r < 4; ++r) {
+        const std::size_t control = 2 * (static_cast<std::size_t>(span.first) + r);
+        sum.x += span.power[power][r] * controls[control];
+        sum.y += span.power[power][r] * controls[control + 1];
+      }
+      out.pieces_[k].power[power] = sum;
+    }
+  }
+}
+
+CurvePieces::Place CurvePieces::at(double s) const {
+  auto k = static_cast<std::size_t>(guess_[static_cast<std::size_t>(s * kCells)]);
+  while (k + 1 < pieces_.size() && pieces_[k + 1].begin <= s) ++k;
+  const auto& [begin, power] = pieces_[k];
+  const double t = s - begin;
+  const auto point = [&](double a, double b, double c, double d) { return a + t * (b + t * (c + t * d)); };
+  const auto slope = [&](double b, double c, double d) { return b + t * (2 * c + t * 3 * d); };
+  return {
+      {point(power[0].x, power[1].x, power[2].x, power[3].x), point(power[0].y, power[1].y, power[2].y, power[3].y)},
+      {slope(power[1].x, power[2].x, power[3].x), slope(power[1].y, power[2].y, power[3].y)}};
+}
+
 std::vector<CurvePoint> curve_polyline(const SplineTable& table, std::span<const double> controls, int count) {
   assert(count >= 2);
   std::vector<CurvePoint> out;

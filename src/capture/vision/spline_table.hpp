@@ -15,6 +15,28 @@ struct CurvePoint {
   double y = 0;
 };
 
+/// One curve as a cubic polynomial a span: the fastest to evaluate, once it is made.
+class CurvePieces {
+ public:
+  struct Place {
+    CurvePoint point;
+    CurvePoint slope;
+  };
+
+  /// The curve and its derivative at s, 0 to 1.
+  Place at(double s) const;
+  CurvePoint slope(double s) const { return at(s).slope; }
+
+ private:
+  friend class SplineTable;
+  struct Piece {
+    double begin = 0;
+    std::array<CurvePoint, 4> power;  // of (s − begin)
+  };
+  std::vector<Piece> pieces_;
+  std::span<const int> guess_;  // the table's
+};
+
 /// The basis functions over one knot vector.
 class SplineTable {
  public:
@@ -35,6 +57,9 @@ class SplineTable {
 
   /// Its derivative.
   CurvePoint slope(std::span<const double> controls, double s) const;
+
+  /// Makes the curve's pieces, which are good as long as the table is.
+  void pieces(std::span<const double> controls, CurvePieces& out) const;
 
  private:
   struct Span {

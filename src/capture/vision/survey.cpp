@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "capture/vision/candidates.hpp"
 
@@ -24,6 +25,31 @@ constexpr double kNearlyAsBright = 0.98;  // … and as bright
 constexpr double kSameHome = 0.6;         // … and shares this much of its place
 constexpr double kBrightest = 3e-4;       // share of the picture that is as bright as anything
 
+// Pictures over one area, one grid a channel: sampled once, looked at again and again.
+struct Grids {
+  std::array<std::optional<PictureGrid>, 4> channels;
+  const PictureGrid* of(PixelChannel channel) const {
+    const auto& grid = channels[static_cast<std::size_t>(channel)];
+    return grid ? &*grid : nullptr;
+  }
+};
+
+constexpr std::array<PixelChannel, 4> kChannels{PixelChannel::kLuma, PixelChannel::kRed, PixelChannel::kGreen,
+                                                PixelChannel::kBlue};
+
+bool wanted(PixelChannel channel, const Picture& picture, const SurveyOptions& options) {
+  return options.channel ? channel == *options.channel : has_channel(picture, channel);
+}
+
+Grids sample_all(std::span<const Picture> pictures, const Region& area, int most, const SurveyOptions& options) {
+  Grids grids;
+  for (const PixelChannel channel : kChannels) {
+    if (!wanted(channel, pictures.front(), options) && channel != PixelChannel::kLuma) continue;
+    grids.channels[static_cast<std::size_t>(channel)] = sample_grid(pictures, channel, area, most, options.dark);
+  }
+  return grids;
+}
+
 // Luma that only the brightest points reach.
 double brightest_of(const ImageView& luma) {
   Histogram histogram{};
@@ -42,43 +68,59 @@ struct LitPictures {
   std::vector<double> brightest;
 };
 
-LitPictures lit_pictures(std::span<const Picture> pictures, const Region& area) {
-  const PictureGrid luma = sample_grid(pictures, PixelChannel::kLuma, area, kGrid, false);
+// Leaves the others out of the grids too.
+LitPictures lit_pictures(std::span<const Picture> pictures, Grids& grids) {
+  const PictureGrid& luma = *grids.of(PixelChannel::kLuma);
   std::vector<double> brightest;
   for (std::size_t k = 0; k < pictures.size(); ++k) brightest.push_back(brightest_of(luma.view(k)));
   std::vector<double> sorted = brightest;
   std::sort(sorted.begin(), sorted.end());
   const double usual = sorted[sorted.size() - 1 - sorted.size() / 4];
   LitPictures lit;
+  std::vector<std::size_t> dim;
   for (std::size_t k = 0; k < pictures.size(); ++k) {
-    if (brightest[k] < kLitShare * usual) continue;
+    if (brightest[k] < kLitShare * usual) {
+      dim.push_back(k);
+      continue;
+    }
     lit.pictures.push_back(pictures[k]);
     lit.brightest.push_back(brightest[k]);
+  }
+  for (auto& grid : grids.channels) {
+    for (std::size_t k = dim.size(); grid && k-- > 0;) {
+      grid->pictures.erase(grid->pictures.begin() + static_cast<std::ptrdiff_t>(dim[k]));
+    }
   }
   return lit;
 }
 
-// Candidates of all channels and levels over one area.
-std::vector<Candidate> scan(std::span<const Picture> pictures, const Region& area, int most,
-                            const SurveyOptions& options, const Evidence& evidence) {
+// Candidates of one channel at all levels.
+std::vector<Candidate> scan_levels(const PictureGrid& grid, const PictureGrid& luma, PixelChannel channel,
+                                   const Picture& format, const Evidence& evidence) {
+  std::vector<std::vector<Candidate>> levels;
+  // One level more than may be chosen: what is left at it tells how steep the rim is below.
+  for (int level = 2 * kLevelStep; brightness(format, channel, level) < kHighestLevel + kLevelStep;
+       level += kLevelStep) {
+    levels.push_back(find_candidates(grid, luma, level, evidence));
+    for (Candidate& candidate : levels.back()) candidate.channel = channel;
+  }
   std::vector<Candidate> found;
-  const PictureGrid luma = sample_grid(pictures, PixelChannel::kLuma, area, most, false);
-  for (const PixelChannel channel :
-       {PixelChannel::kLuma, PixelChannel::kRed, PixelChannel::kGreen, PixelChannel::kBlue}) {
-    if (options.channel ? channel != *options.channel : !has_channel(pictures.front(), channel)) continue;
-    const PictureGrid grid = sample_grid(pictures, channel, area, most, options.dark);
-    std::vector<std::vector<Candidate>> levels;
-    // One level more than may be chosen: what is left at it tells how steep the rim is below.
-    for (int level = 2 * kLevelStep; brightness(pictures.front(), channel, level) < kHighestLevel + kLevelStep;
-         level += kLevelStep) {
-      levels.push_back(find_candidates(grid, luma, level, evidence));
-      for (Candidate& candidate : levels.back()) candidate.channel = channel;
-    }
-    for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
-      weigh(levels[k], k == 0 ? nullptr : &levels[k - 1], &levels[k + 1], evidence);
-    }
-    levels.pop_back();
-    for (auto& level : levels) std::move(level.begin(), level.end(), std::back_inserter(found));
+  for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
+    weigh(levels[k], k == 0 ? nullptr : &levels[k - 1], &levels[k + 1], evidence);
+  }
+  levels.pop_back();
+  for (auto& level : levels) std::move(level.begin(), level.end(), std::back_inserter(found));
+  return found;
+}
+
+// Candidates of all channels and levels, the likeliest first.
+std::vector<Candidate> scan(const Grids& grids, const Picture& format, const SurveyOptions& options,
+                            const Evidence& evidence) {
+  std::vector<Candidate> found;
+  for (const PixelChannel channel : kChannels) {
+    if (!wanted(channel, format, options)) continue;
+    auto more = scan_levels(*grids.of(channel), *grids.of(PixelChannel::kLuma), channel, format, evidence);
+    std::move(more.begin(), more.end(), std::back_inserter(found));
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const Candidate& a, const Candidate& b) { return a.score > b.score; });
@@ -166,7 +208,8 @@ Candidate refine(const Candidate& coarse, const std::vector<Candidate>& all, std
                  const Region& area, const SurveyOptions& options, const Evidence& evidence) {
   const Region around = intersection(grown(coarse.home, std::max(coarse.home.width, coarse.home.height) / 2 + 2), area);
   const bool finer = std::max(around.width, around.height) < std::max(area.width, area.height) / 2;
-  const std::vector<Candidate> fine = finer ? scan(pictures, around, kFineGrid, options, evidence) : all;
+  const std::vector<Candidate> fine =
+      finer ? scan(sample_all(pictures, around, kFineGrid, options), pictures.front(), options, evidence) : all;
   const auto found = std::find_if(fine.begin(), fine.end(), [&](const Candidate& c) { return same_place(c, coarse); });
   const Candidate thing = whole(found == fine.end() || !finer ? coarse : *found, fine);
   return settle_level(thing, fine, half_way(thing, pictures, area, options.dark));
@@ -205,7 +248,7 @@ double flat_share(const Candidate& thing, std::span<const Picture> pictures, boo
   return static_cast<double>(std::count(flat.begin(), flat.end(), 1)) / static_cast<double>(count);
 }
 
-Survey describe(const Candidate& thing, std::span<const Picture> pictures, const Region& area, bool dark) {
+Survey describe(const Candidate& thing, std::span<const Picture> pictures, const Grids& grids, bool dark) {
   Survey out;
   out.channel = thing.channel;
   out.level = thing.level;
@@ -218,17 +261,16 @@ Survey describe(const Candidate& thing, std::span<const Picture> pictures, const
   out.light = thing.light;
   out.solidity = thing.solidity;
   out.clipped = flat_share(thing, pictures, dark);
-  const PictureGrid grid = sample_grid(pictures, thing.channel, area, kGrid, dark);
+  const PictureGrid& grid = *grids.of(thing.channel);
   for (std::size_t k = 0; k < grid.pictures.size(); ++k) add_to_histogram(out.histogram, grid.view(k), 1);
   out.separation = split_histogram(out.histogram).separation;
   return out;
 }
 
-bool has_contrast(std::span<const Picture> pictures, const Region& area, const SurveyOptions& options) {
-  for (const PixelChannel channel :
-       {PixelChannel::kLuma, PixelChannel::kRed, PixelChannel::kGreen, PixelChannel::kBlue}) {
-    if (options.channel ? channel != *options.channel : !has_channel(pictures.front(), channel)) continue;
-    const PictureGrid grid = sample_grid(pictures, channel, area, kGrid, false);
+bool has_contrast(const Grids& grids, const Picture& format, const SurveyOptions& options) {
+  for (const PixelChannel channel : kChannels) {
+    if (!wanted(channel, format, options)) continue;
+    const PictureGrid& grid = *grids.of(channel);
     Histogram histogram{};
     for (std::size_t k = 0; k < grid.pictures.size(); ++k) add_to_histogram(histogram, grid.view(k), 1);
     const TwoClusters clusters = split_histogram(histogram);
@@ -247,16 +289,17 @@ Error nothing_found(bool dark) {
 
 Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptions& options) {
   const Region area = options.region.empty() ? pictures.front().frame() : options.region;
-  if (!has_contrast(pictures, area, options)) return nothing_found(options.dark);
+  Grids grids = sample_all(pictures, area, kGrid, options);
+  if (!has_contrast(grids, pictures.front(), options)) return nothing_found(options.dark);
   const bool flame = options.flame > 0 && !options.dark;
   LitPictures lit;
   if (options.dark) {
     lit.pictures.assign(pictures.begin(), pictures.end());
   } else {
-    lit = lit_pictures(pictures, area);
+    lit = lit_pictures(pictures, grids);
   }
   const Evidence evidence{.flame = flame, .base = BaseSide::kBottom, .brightest = lit.brightest};
-  const std::vector<Candidate> all = scan(lit.pictures, area, kGrid, options, evidence);
+  const std::vector<Candidate> all = scan(grids, pictures.front(), options, evidence);
   if (all.empty()) return nothing_found(options.dark);
   const std::vector<Candidate> things = places(all, options);
   const std::size_t which = flame ? static_cast<std::size_t>(options.flame) - 1 : 0;
@@ -265,7 +308,7 @@ Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptio
                  ", expected at least " + std::to_string(options.flame) + "; ask for a smaller number"};
   }
   Survey survey =
-      describe(refine(things[which], all, lit.pictures, area, options, evidence), lit.pictures, area, options.dark);
+      describe(refine(things[which], all, lit.pictures, area, options, evidence), lit.pictures, grids, options.dark);
   if (!flame) return survey;
   survey.flames = static_cast<int>(things.size());
   for (std::size_t k = 0; k < things.size(); ++k) {

@@ -10,6 +10,7 @@
 #include "learn/outline/outline_components.hpp"
 #include "learn/outline/outline_curve.hpp"
 #include "learn/outline/outline_drawn.hpp"
+#include "learn/outline/outline_fidelity.hpp"
 #include "learn/outline/outline_noise.hpp"
 #include "learn/outline/outline_orders.hpp"
 #include "learn/outline/outline_preparation.hpp"
@@ -417,6 +418,9 @@ Result<void> try_out(const Model& model, const OutlineRecipe& options, const Pre
     const double recorded = recorded_sd(prepared.channels.outputs[i], prepared.recordings[lively]);
     summary.sd_ratio.push_back(recorded > 0 ? play->sd[i] / recorded : 1);
   }
+  const auto distance = play_distance(model, prepared, lively, driving, options.seed);
+  if (!distance) return distance.error();
+  summary.play_distance = *distance;
   return {};
 }
 

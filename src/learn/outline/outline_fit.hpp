@@ -13,6 +13,7 @@
 
 #include "learn/arx/curve/curve_choice.hpp"
 #include "learn/arx/fit/arx_fit.hpp"
+#include "learn/fidelity/fidelity.hpp"
 #include "learn/outline/outline_alignment.hpp"
 #include "learn/outline/outline_figures.hpp"
 #include "learn/outline/outline_inputs.hpp"
@@ -79,7 +80,8 @@ struct OutlineSummary {
   double held_share = 0;         ///< of steps in which an output is clamped to its range, playing freely with noise
   std::vector<double> sd_ratio;  ///< of every channel: playing freely along the liveliest recording over
                                  ///< what that has; 1 where nothing moves
-  double shared_variance = 0;    ///< share of the wanted shocks' variance that the shared ones carry, 0 to 1
+  std::optional<Bounded> play_distance;  ///< of the same play from that recording; nothing where it is too short
+  double shared_variance = 0;            ///< share of the wanted shocks' variance that the shared ones carry, 0 to 1
   bool variance_matched = false;
   double pixels_per_unit = 0;  ///< of the first recording
   std::vector<std::string> warnings;

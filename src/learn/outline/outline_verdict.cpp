@@ -12,6 +12,7 @@ namespace {
 constexpr std::size_t kMinRows = 50;
 constexpr int kMinRowsACoefficient = 4;
 constexpr double kMinFollowed = 5;  // per cent: a short simulation fits a little by where it starts
+constexpr double kMinTipFit = 8;    // per cent, one step ahead: white noise of 250 frames comes to 5
 constexpr double kMaxHeld = 1e-3;
 constexpr double kMaxLossGrown = 1.2;  // of a repaired model, in variance: beyond it is another model
 constexpr double kMaxSpread = 2;       // playing freely over recorded, of the typical channel, either way
@@ -141,6 +142,20 @@ Usable outline_verdict(const ArxSummary& fit, const OutlineSummary& summary) {
     return {false, "it predicts the next frame no better than the mean does (median fit " +
                        rounded(typical_fit(summary.learned, 1), 1) + " %)"};
   }
+  if (tip_fit(judged, 1) < kMinTipFit) {
+    return {false, "it predicts the tip's next place with a fit of only " + rounded(tip_fit(judged, 1), 1) +
+                       " %, at least " + rounded(kMinTipFit, 0) +
+                       " % are needed: the outline is more noise than movement; film it larger, sharper or at a "
+                       "higher rate"};
+  }
+  if (summary.play_distance && summary.play_distance->value > summary.play_distance->ceiling) {
+    return {false,
+            "playing freely it is farther from the recording than that recording's own frames in random order "
+            "(energy distance " +
+                rounded(summary.play_distance->value, 3) + ", shuffled " + rounded(summary.play_distance->ceiling, 3) +
+                "): record longer, or something that moves more "
+                "steadily"};
+  }
   if (!summary.inputs.empty() && tip_fit(judged, kFreeRun) < kMinFollowed) {
     return {false, "simulated from its inputs alone the tip is followed hardly better than by its mean (fit " +
                        rounded(tip_fit(judged, kFreeRun), 1) + " %): learn without inputs, or check their timing"};
@@ -164,6 +179,10 @@ Training outline_training(std::span<const Recording> recordings, const OutlineRe
                  {"held_share", summary.held_share},
                  {"sd_ratio", median(summary.sd_ratio)},
                  {"pixels_per_unit", summary.pixels_per_unit}};
+  if (summary.play_distance) {
+    out.figures.push_back({"play_distance", summary.play_distance->value});
+    out.figures.push_back({"play_distance.shuffled", summary.play_distance->ceiling});
+  }
   for (const OutlineInput& input : summary.inputs) {
     out.inputs.push_back({input.scale, common_one_rms(recordings, input.name)});
   }

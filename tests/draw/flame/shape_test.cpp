@@ -1,0 +1,52 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <vector>
+
+#include "wisp/draw/flame.hpp"
+#include "wisp/model/model.hpp"
+
+namespace wisp {
+namespace {
+
+// An outline model whose control points lie there, in the middle of their ranges.
+Model outline_of(const std::vector<std::array<double, 2>>& points) {
+  Model model;
+  model.view = OutlineView{};
+  for (const auto& point : points) {
+    for (const double value : point) model.outputs.push_back({"p", "", value - 0.1, value + 0.1});
+  }
+  return model;
+}
+
+const std::vector<std::array<double, 2>> kFlame{{-0.1, 0},   {-0.2, 0.3}, {-0.15, 0.7}, {0, 1.1},
+                                                {0.15, 0.7}, {0.2, 0.3},  {0.1, 0}};
+const std::vector<std::array<double, 2>> kFlag{{0, 0.1},    {0.3, 0.1},  {0.7, 0.1}, {1, 0},
+                                               {0.7, -0.1}, {0.3, -0.1}, {0, -0.1}};
+const std::vector<std::array<double, 2>> kBox{{-0.3, 0}, {-0.3, 1}, {-0.3, 1}, {0, 1}, {0.3, 1}, {0.3, 1}, {0.3, 0}};
+
+TEST(Shape, WhatStandsAndTapersIsAFlame) {
+  EXPECT_TRUE(is_flame(outline_of(kFlame)));
+  EXPECT_FALSE(is_flame(outline_of(kFlag)));
+  EXPECT_FALSE(is_flame(outline_of(kBox)));
+}
+
+TEST(Shape, WhatCanGoOutIsAFlame) {
+  Model model = outline_of(kBox);
+  model.extinction = Extinction{};
+  EXPECT_TRUE(is_flame(model));
+}
+
+TEST(Shape, ThereIsNoCandleUnderAPlainShape) {
+  Image image(200, 200);
+  const std::vector<Point> square{{-0.2F, 0}, {-0.2F, 0.5F}, {0.2F, 0.5F}, {0.2F, 0}};
+  const Flame shape{square, {.base = {100, 150}, .pixels_per_unit = 100}};
+  draw_shapes(image, {&shape, 1});
+  const auto at = [&](int x, int y) { return image.at(x, y); };
+  EXPECT_NE(at(100, 125), at(10, 10));
+  EXPECT_EQ(at(100, 170), at(10, 10));
+  EXPECT_EQ(at(150, 125), at(10, 10));
+}
+
+}  // namespace
+}  // namespace wisp
