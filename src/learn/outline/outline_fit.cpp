@@ -76,6 +76,11 @@ bool mirror_wanted(const OutlineRecipe& options, const PreparedOutlines& prepare
   return options.mirror.value_or(prepared.shape.split_sign);
 }
 
+Result<PreparedOutlines> prepared_for(std::span<const Recording> recordings, const OutlineRecipe& wanted, bool powers) {
+  const RegressorShape shape{.split_sign = !wanted.one_sided, .powers = powers};
+  return prepare_outlines(recordings, {wanted.inputs, shape, wanted.pixels_per_unit});
+}
+
 // Square roots and squares of inputs stand for what a curve would, where the outline moves as a whole.
 bool takes_powers(const OutlineRecipe& options, const PreparedOutlines& prepared) {
   const bool bent = options.input_curve.value_or(0) != 0;
@@ -439,15 +444,13 @@ Result<OutlineFit> fit_outline(std::span<const Recording> recordings, const Outl
     in_step = *std::move(moved);
     recordings = in_step;
   }
-  RegressorShape shape{.split_sign = !wanted.one_sided};
-  auto prepared = prepare_outlines(recordings, {wanted.inputs, shape, wanted.pixels_per_unit});
+  auto prepared = prepared_for(recordings, wanted, false);
   if (!prepared) return prepared.error();
   if (!go_on(progress, kStage, 0.1)) return Error{std::string(kStopped)};
   OutlineRecipe options = decided(wanted, *prepared);
   if (takes_powers(options, *prepared)) {
-    shape.powers = true;
     options.input_curve = 0;
-    prepared = prepare_outlines(recordings, {wanted.inputs, shape, wanted.pixels_per_unit});
+    prepared = prepared_for(recordings, wanted, true);
     if (!prepared) return prepared.error();
   }
   if (auto ok = check_rows(*prepared, options); !ok) return ok.error();
