@@ -45,10 +45,10 @@ double time_of(double frames, const std::function<void()>& work) {
   return times[kRepeats / 2];
 }
 
-Model learned(double blend_share) {
+Model learned(double blend) {
   const Recording drops = must(simulate_leaf_drops({.drops = 60}));
   LeafRecipe recipe;
-  recipe.blend = blend_share;
+  recipe.blend = blend;
   recipe.restarts = 3;
   return must(learn_chain(std::span(&drops, 1), recipe)).model;
 }

@@ -107,7 +107,7 @@ void add_dynamics(const ChainModel& chain, ReportSection& section) {
   add(section, "dynamics.histories", chain.contexts.size());
   add(section, "dynamics.heading_free", chain.heading_free);
   add(section, "dynamics.best_of", chain.segments.breadth);
-  add(section, "dynamics.blend_share", chain.blend.share);
+  add(section, "dynamics.blend_steps", chain.blend_steps);
   add(section, "dynamics.initial", chain.initial);
   add(section, "dynamics.transitions", arx::matrix_of(chain.transitions(), static_cast<std::size_t>(chain.modes)));
   add(section, "",

@@ -13,6 +13,7 @@ constexpr double kMostRounding = 1e-6;  // of a sum of probabilities that were w
 constexpr std::size_t kMostContexts = 65535;
 constexpr std::size_t kMostHistory = 64;
 constexpr double kLargestScale = 1e9;
+constexpr int kMaxBlendSteps = 4096;
 
 std::string found(std::size_t value, const std::string& expected) {
   return std::to_string(value) + ", expected " + expected;
@@ -249,8 +250,8 @@ Result<void> check(const ChainModel& model) {
   if (auto ok = check_segments(model); !ok) return ok;
   if (auto ok = check_probabilities(model.initial, model.modes, "initial probabilities"); !ok) return ok;
   if (auto ok = check_contexts(model); !ok) return ok;
-  if (!(model.blend.share >= 0 && model.blend.share <= 0.5)) {
-    return Error{"a chain blends a share of " + std::to_string(model.blend.share) + " of a segment, expected 0 to 0.5"};
+  if (model.blend_steps < 0 || model.blend_steps > kMaxBlendSteps) {
+    return Error{"a chain spreads joins over " + std::to_string(model.blend_steps) + " steps, expected 0 to 4096"};
   }
   if (model.gust) {
     if (auto ok = check_gust(*model.gust); !ok) return ok;
@@ -263,9 +264,6 @@ Result<void> check(const ChainModel& model) {
   }
   if (model.drift) {
     if (auto ok = check_drift(model); !ok) return ok;
-  }
-  if (!(model.blend.longest_steps >= 0 && model.blend.longest_steps <= 1e6)) {
-    return Error{"a chain blends " + std::to_string(model.blend.longest_steps) + " steps, expected 0 to 1000000"};
   }
   return {};
 }

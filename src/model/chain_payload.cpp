@@ -3,6 +3,8 @@
 #include <cstring>
 #include <string>
 
+#include "model/chain_rows.hpp"
+
 namespace wisp {
 namespace {
 
@@ -142,7 +144,6 @@ Result<void> read_splines(const file::ModeSplines& stored, ChainModel& chain) {
   ChainSegments& segments = chain.segments;
   chain.splines = ModeSplines{stored.control_points(), stored.components(), copied(stored.mean()),
                               copied(stored.component()), copied(stored.score())};
-  if (!segments.rows.empty()) return Error{"is damaged: its chain holds rows as well as splines that make them"};
   const int channels = channel_count(chain.motion);
   if (auto ok = check(*chain.splines, segments, chain.modes, channels); !ok) return ok;
   segments.rows = rows_of(*chain.splines, segments, channels);
@@ -156,11 +157,10 @@ fb::Offset<file::Chain> write_chain(fb::FlatBufferBuilder& builder, const ChainM
   const ChainSegments& segments = chain.segments;
   const auto mode = builder.CreateVector(segments.mode);
   const auto steps = builder.CreateVector(segments.steps);
-  const auto rows = builder.CreateVector(chain.splines ? std::vector<std::int16_t>() : segments.rows);
+  const auto packed = builder.CreateVector(packed_segments(chain));
   const auto row_scale = builder.CreateVector(segments.row_scale);
-  const auto rates = builder.CreateVector(segments.rates);
   const auto rate_scale = builder.CreateVector(segments.rate_scale);
-  const auto follow = builder.CreateVector(segments.follow);
+  const auto follow = builder.CreateVector(packed_successors(chain));
   const bool leads_on = !segments.onward.empty();
   const auto onward = leads_on ? builder.CreateVector(segments.onward) : 0;
   const auto initial = builder.CreateVector(chain.initial);
@@ -177,9 +177,8 @@ fb::Offset<file::Chain> write_chain(fb::FlatBufferBuilder& builder, const ChainM
   table.add_modes(static_cast<std::uint16_t>(chain.modes));
   table.add_segment_mode(mode);
   table.add_segment_steps(steps);
-  table.add_rows(rows);
+  table.add_packed(packed);
   table.add_row_scale(row_scale);
-  table.add_rates(rates);
   table.add_rate_scale(rate_scale);
   table.add_follow(follow);
   table.add_breadth(static_cast<std::uint16_t>(segments.breadth));
@@ -187,8 +186,7 @@ fb::Offset<file::Chain> write_chain(fb::FlatBufferBuilder& builder, const ChainM
   table.add_history_lengths(lengths);
   table.add_histories(histories);
   table.add_probabilities(probabilities);
-  table.add_blend_share(chain.blend.share);
-  table.add_blend_longest_steps(chain.blend.longest_steps);
+  table.add_blend_steps(static_cast<std::uint16_t>(chain.blend_steps));
   if (chain.gust) table.add_gust(gust);
   if (chain.drift) table.add_drift(drift);
   if (chain.systems) table.add_systems(systems);
@@ -205,17 +203,21 @@ Result<ChainModel> read_chain(const file::Chain& stored) {
   chain.motion = stored.motion() == file::ChainMotion::Pose ? ChainMotion::kPose : ChainMotion::kPosition;
   chain.heading_free = stored.heading_free();
   chain.modes = stored.modes();
-  chain.segments = {copied(stored.segment_mode()), copied(stored.segment_steps()),
-                    copied(stored.rows()),         copied(stored.row_scale()),
-                    copied(stored.rates()),        copied(stored.rate_scale()),
-                    copied(stored.follow()),       stored.breadth(),
+  chain.segments = {copied(stored.segment_mode()),
+                    copied(stored.segment_steps()),
+                    {},
+                    copied(stored.row_scale()),
+                    {},
+                    copied(stored.rate_scale()),
+                    {},
+                    stored.breadth(),
                     copied(stored.onward())};
   chain.initial = copied(stored.initial());
   auto contexts = contexts_of(
       {copied(stored.history_lengths()), copied(stored.histories()), copied(stored.probabilities())}, stored.modes());
   if (!contexts) return contexts.error();
   chain.contexts = std::move(*contexts);
-  chain.blend = {stored.blend_share(), stored.blend_longest_steps()};
+  chain.blend_steps = stored.blend_steps();
   if (stored.gust()) chain.gust = read_gust(*stored.gust());
   if (stored.systems()) {
     auto systems = read_systems(*stored.systems(), stored.modes());
@@ -225,6 +227,8 @@ Result<ChainModel> read_chain(const file::Chain& stored) {
   if (stored.splines()) {
     if (auto ok = read_splines(*stored.splines(), chain); !ok) return ok.error();
   }
+  if (auto ok = unpack_successors(copied(stored.follow()), chain); !ok) return ok.error();
+  if (auto ok = unpack_segments({stored.packed()->data(), stored.packed()->size()}, chain); !ok) return ok.error();
   if (stored.drift()) {
     auto drift = read_drift(*stored.drift());
     if (!drift) return drift.error();

@@ -7,6 +7,7 @@
 #include "model/sample_chain.hpp"
 #include "model/sample_model.hpp"
 #include "wisp/model/file.hpp"
+#include "wisp/record/csv.hpp"
 
 namespace wisp {
 namespace {
@@ -43,6 +44,26 @@ TEST_F(RunChain, WalksAsItIsTold) {
   EXPECT_EQ(file_text(at("out.csv")), plain);
   EXPECT_EQ(run("--history 1 --temperature 0 --steer 1,-0.5,-0.4@0.5 --near 0.05").status, 0);
   EXPECT_NE(file_text(at("out.csv")), plain);
+}
+
+TEST_F(RunChain, SeveralInstancesAreEpisodesOfOneRecording) {
+  ASSERT_EQ(run("--instances 3").status, 0);
+  const auto recording = read_csv(at("out.csv"));
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_TRUE(find_channel(*recording, "pos.x"));
+  EXPECT_EQ(recording->rows(), 900U);
+  EXPECT_EQ(episodes(*recording).size(), 3U);
+}
+
+TEST_F(RunChain, WarnsOfATargetThatIsOutOfReach) {
+  EXPECT_THAT(run("--steer 50,0,-1@1").err, HasSubstr("the target lies out of reach"));
+  EXPECT_THAT(run("--steer 0.1,0,-0.75@1").err, testing::Not(HasSubstr("out of reach")));
+}
+
+TEST_F(RunChain, WarnsOfWindBeyondWhatWasLearned) {
+  ASSERT_TRUE(write_model(at("windy.wisp"), windy_chain()));
+  EXPECT_THAT(run("--wind 4", "windy.wisp").err, HasSubstr("wind.x reaches 4 m/s, and the model was learned up to 3"));
+  EXPECT_THAT(run("--wind 2", "windy.wisp").err, testing::Not(HasSubstr("learned up to")));
 }
 
 TEST_F(RunChain, WithoutNoiseItSaysHowItRepeatsItself) {

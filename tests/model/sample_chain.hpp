@@ -145,7 +145,7 @@ inline Model spline_chain() {
 /// The sample whose joins are left as they are.
 inline Model unblended() {
   Model model = sample_chain();
-  std::get<ChainModel>(model.dynamics).blend.share = 0;
+  std::get<ChainModel>(model.dynamics).blend_steps = 0;
   return model;
 }
 

@@ -6,6 +6,7 @@
 
 #include "commands/commands.hpp"
 #include "flags/flag_ranges.hpp"
+#include "flags/motion_flags.hpp"
 #include "flags/recordings.hpp"
 #include "reports/learned_model.hpp"
 #include "terminal.hpp"
@@ -109,18 +110,21 @@ std::vector<Flag> flags(const std::string& event, const std::string& features) {
        {"segments", "spline", "linear", "ode", "chain"}},
       {"best-of", Kind::kInteger, "N", "4",
        "a segment is followed by one of its N best-joining ones of the mode; 0: by any of the mode"},
-      {"blend", Kind::kNumber, "SHARE", "0.5", "most of a segment that a join fades over, 0 to 0.5; 0: not at all"},
+      {"blend", Kind::kNumber, "S", "0.15",
+       "most seconds on either side that a join is spread over, 0 to 0.5; 0: joins stay as they are"},
       {"shortest", Kind::kNumber, "S", "0.04", "seconds; events nearer to the one before do not count"},
       {"debounce", Kind::kNumber, "D", "0.1",
        "standard deviations that the signal must move beyond an event on both sides"},
       {"smooth", Kind::kInteger, "ROWS", "0", "rows that velocities are taken over, where positions are noisy"},
-      {"max-bytes", Kind::kInteger, "N", "850000", "of stored segments; what is more is left out at random"},
+      {"max-bytes", Kind::kInteger, "N", "4000000",
+       "of stored segments; of what is more, evenly by dive, speed and turn, some are left out"},
       {"holdout", Kind::kNumber, "SHARE", "0.2", "share of the stretches kept for judging"},
       {"restarts", Kind::kInteger, "N", "10", "starts of the clustering; the best is taken"},
       {"seed", Kind::kInteger, "N", "1", "of all chance"},
       {"inputs", Kind::kNames, "A,B", "", "columns of a plain table that are inputs"},
       {"outputs", Kind::kNames, "C,D", "", "columns of a plain table that are outputs"},
   };
+  for (Flag& flag : motion_flags()) all.push_back(std::move(flag));
   for (Flag& flag : recording_flags()) all.push_back(std::move(flag));
   return all;
 }

@@ -184,7 +184,9 @@ Result<void> write_falls(const Play& play, const Bank& bank, Player& player, con
 Result<void> write_run(const Play& play, const Bank& bank, Player& player, const std::string& path,
                        Terminal& terminal) {
   const std::string extension = std::filesystem::path(path).extension().string();
-  if (extension == ".csv") return write_csv(path, record_run(play, bank, player));
+  const bool falls_apart = std::holds_alternative<ChainModel>(play.model.dynamics) && bank.size() > 1;
+  if (extension == ".csv")
+    return write_csv(path, falls_apart ? falls(play, bank, player) : record_run(play, bank, player));
   if (extension == ".png") return write_picture(play, bank, player, path);
   if (extension != ".mp4") return Error{path + ": cannot be written, expected a name that ends in .csv, .png or .mp4"};
   if (std::holds_alternative<PoseView>(play.model.view)) return write_falls(play, bank, player, path, terminal);
@@ -224,6 +226,24 @@ Result<void> check_drive(const Model& model, const Arguments& arguments) {
   return {};
 }
 
+// What blows harder than any wind that a chain was learned in: it is held to that and half of it more.
+void warn_of_wind(const Play& play, Terminal& terminal) {
+  if (!std::holds_alternative<ChainModel>(play.model.dynamics)) return;
+  std::vector<float> most(play.model.inputs.size());
+  for (std::size_t frame = 0; frame < play.frames; ++frame) {
+    const auto inputs = play.input.at(frame);
+    for (std::size_t k = 0; k < most.size(); ++k) most[k] = std::max(most[k], std::abs(inputs[k]));
+  }
+  for (std::size_t k = 0; k < most.size(); ++k) {
+    const Input& input = play.model.inputs[k];
+    const double learned = std::max(std::abs(input.lowest), std::abs(input.highest));
+    if (most[k] <= learned) continue;
+    terminal.warn(input.name + " reaches " + shown(most[k], 3) + " " + input.unit +
+                  ", and the model was learned up to " + shown(learned, 3) +
+                  ": beyond that its response is a guess, and beyond " + shown(1.5 * learned, 3) + " it is clamped");
+  }
+}
+
 // What a run holds until it is written.
 Result<void> check_size(const Play& play, int instances) {
   const double columns =
@@ -259,6 +279,8 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   if (!play) return play.error();
   const auto walk = chain_walk_from(play->model, arguments);
   if (!walk) return walk.error();
+  warn_of_wind(*play, terminal);
+  warn_of_target(play->model, *walk, terminal);
   auto bank = make_bank(*play, *walk, arguments);
   if (!bank) return bank.error();
   const std::string& path = arguments.text("output");

@@ -6,6 +6,7 @@
 #include "commands/commands.hpp"
 #include "films/validation_pictures.hpp"
 #include "flags/capture_flags.hpp"
+#include "flags/motion_flags.hpp"
 #include "flags/outline_flags.hpp"
 #include "flags/recordings.hpp"
 #include "reports/arx_validation.hpp"
@@ -126,6 +127,7 @@ Command validate_command() {
       {"outputs", Kind::kNames, "C,D", "", "columns of a plain table that are outputs"},
       {"dt", Kind::kNumber, "S", "", "seconds between samples of a plain table"},
   };
+  for (Flag& flag : motion_flags()) flags.push_back(std::move(flag));
   for (Flag& flag : capture_flags("1")) {
     if (flag.name != "points") flags.push_back(std::move(flag));  // the model says how many
   }

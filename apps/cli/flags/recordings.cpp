@@ -1,5 +1,6 @@
 #include "flags/recordings.hpp"
 
+#include "flags/motion_flags.hpp"
 #include "wisp/record/csv.hpp"
 #include "wisp/record/mat.hpp"
 
@@ -22,6 +23,7 @@ bool is_table(const std::filesystem::path& path) {
 Result<CsvOptions> csv_options(const Arguments& arguments, CsvOptions options) {
   if (arguments.has("inputs")) options.inputs = arguments.names("inputs");
   if (arguments.has("outputs")) options.outputs = arguments.names("outputs");
+  for (const std::string& column : motion_columns(arguments)) options.outputs.push_back(column);
   if (arguments.has("dt")) {
     const double seconds = arguments.number("dt");
     if (!(seconds > 0)) return Error{"--dt is " + arguments.text("dt") + ", expected seconds above 0"};
@@ -35,10 +37,12 @@ Result<Recording> read_table(const std::filesystem::path& path, const Arguments&
                              const CsvOptions& otherwise) {
   const auto options = csv_options(arguments, otherwise);
   if (!options) return options.error();
-  if (path.extension() == ".mat") {
-    return read_mat(path, {.rate_hz = options->rate_hz, .inputs = options->inputs, .outputs = options->outputs});
-  }
-  return read_csv(path, *options);
+  auto recording =
+      path.extension() == ".mat"
+          ? read_mat(path, {.rate_hz = options->rate_hz, .inputs = options->inputs, .outputs = options->outputs})
+          : read_csv(path, *options);
+  if (!recording) return recording;
+  return as_motion(std::move(*recording), arguments);
 }
 
 bool leave_out(const std::string& path, const Error& error, const Arguments& arguments, Terminal& terminal) {

@@ -29,6 +29,8 @@ std::vector<Flag> chain_walk_flags() {
 
 namespace {
 
+constexpr double kReach = 4;  // deviations of walks that are not steered: beyond it steering has nothing to choose from
+
 // Why a chain can't be steered.
 Error unsteered(const ChainModel& chain) {
   if (!chain.systems) return {"the model can't be steered: an older Wisp learned it; learn it again"};
@@ -89,6 +91,21 @@ Result<ChainWalk> chain_walk_from(const Model& model, const Arguments& arguments
     return Error{"--temperature chooses among best-joining segments, and the model was learned with --best-of 0"};
   }
   return walk;
+}
+
+void warn_of_target(const Model& model, const ChainWalk& walk, Terminal& terminal) {
+  if (!walk.target) return;
+  const ChainDrift& drift = *std::get<ChainModel>(model.dynamics).drift;
+  const double seconds = std::chrono::duration<double>(walk.target->in).count();
+  const auto& to = walk.target->position;
+  const auto beyond = [&](std::size_t axis) { return to[axis] - drift.drift[axis] * seconds; };
+  const double reach_ground = kReach * std::sqrt(2 * drift.spread_ground * seconds) + walk.target->near;
+  const double reach_height = kReach * std::sqrt(drift.spread_height * seconds) + walk.target->near;
+  const double away = std::hypot(beyond(0), beyond(1)), off_height = std::abs(beyond(2));
+  if (away <= reach_ground && off_height <= reach_height) return;
+  terminal.warn("--steer: the target lies out of reach: after " + shown(seconds, 3) + " s falls are " +
+                shown(-drift.drift[2] * seconds, 3) + " m lower, give or take " + shown(reach_height, 2) +
+                " m, and within " + shown(reach_ground, 2) + " m over ground; what is out of reach is not reached");
 }
 
 void say_chain_loop(const Model& model, const ChainWalk& walk, Terminal& terminal) {

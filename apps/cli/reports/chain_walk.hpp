@@ -33,4 +33,7 @@ void steer_all(const ChainWalk& walk, Bank& bank);
 /// Says, of a chain, how it repeats itself without chance.
 void say_chain_loop(const Model& model, const ChainWalk& walk, Terminal& terminal);
 
+/// Warns of a target that hardly any walk comes to, however it is steered.
+void warn_of_target(const Model& model, const ChainWalk& walk, Terminal& terminal);
+
 }  // namespace wisp::cli

@@ -70,13 +70,13 @@ struct ChainRecipe {
   Realisation realisation = Realisation::kSegments;
   int best_of = 4;  ///< 0 … 256: best-joining successors kept for each segment and mode; 0: any segment of the mode
                     ///< follows (the paper's). Fewer join better, but repeat themselves sooner
-  double blend = 0.5;         ///< share of a segment that a join may fade over, 0 … 0.5; 0: joins stay as they are
+  double blend = 0.15;  ///< seconds on either side that a join may be spread over, 0 … 0.5; 0: joins stay as they are
   double min_seconds = 0.04;  ///< ≥ 0, shortest segment: events nearer to the one before are left out
   double debounce = 0.1;  ///< ≥ 0: how far, in standard deviations of the signal, it must go beyond a zero on both
                           ///< sides, or away from an extremum, before that counts
   int smooth_rows = 0;    ///< odd: rows that velocities are taken over, where positions are noisy; 0: none
-  std::size_t max_bytes = 850'000;  ///< > 0, of stored segments; what is over it is left out at random, as many of each
-                                    ///< mode as the rarer ones allow. A leaf for the web is at most 1 MB
+  std::size_t max_bytes = 4'000'000;  ///< > 0, of stored segments; what is over it is left out, in strata by dive,
+                                      ///< speed and turn. A leaf for the web has 900'000
   double holdout = 0.2;    ///< 0 … 0.9: share of the stretches, the last ones, kept from learning and judged on
   int restarts = 10;       ///< ≥ 1, of k-means
   double half_width = 0;   ///< metres of the body along its first axis, for who draws it; 0: as the first recording's

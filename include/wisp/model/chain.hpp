@@ -2,7 +2,7 @@
 // A segment chain, as a value: pieces of recorded motion between critical events, sorted into modes; a Markov chain of
 // variable order over the modes; and how one piece joins the next.
 //
-// Segments are stored compactly, 16 bits a number and one scale for all positions, each in a frame of its own: its
+// Segments are whole numbers of 16 bits and one scale for all positions, each in a frame of its own: its
 // position begins at the origin and, in a chain that is free of heading, what "ahead" means is the segment's own
 // business.
 
@@ -63,16 +63,12 @@ struct ChainContext {
   std::vector<double> probability;     ///< per mode; sums to 1
 };
 
-/// How a join is smoothed: position, orientation and their rates go over to the new segment by inertialization.
-struct ChainBlend {
-  double share = 0.5;         ///< most of the new segment that is blended, in [0, 0.5]; 0 leaves joins as they are
-  double longest_steps = 30;  ///< and most steps
-};
-
 /// How wind changes the velocity of what the chain moves: v_windy − v_calm = F(wind, attitude), an autoregression with
-/// exogenous inputs. Lags 1 … n of the change itself, lags 0 … n−1 of the wind and of its press, the part of it that is
-/// square to the body, n (n·w) for a normal n. All directions over ground are alike, so that one set of coefficients
-/// stands for x and y and the response turns with the heading; z has its own.
+/// exogenous inputs. Lags 1 … n of the change itself, lags 0 … n−1 of the wind and of its press: the part that is
+/// square to the body, n (n·u) for a normal n, of the wind u that the body feels beyond the change that it has. Where
+/// the lags of change and wind sum to 1, a steady wind carries the body along with it, whatever its attitude: a change
+/// of frame. All directions over ground are alike, so that one set of coefficients stands for x and y and the response
+/// turns with the heading; z has its own.
 struct GustResponse {
   struct Axis {
     std::vector<double> change;
@@ -106,7 +102,8 @@ struct ChainModel {
   ChainSegments segments;
   std::vector<double> initial;         ///< per mode: how a recording begins; sums to 1
   std::vector<ChainContext> contexts;  ///< every single mode, and longer histories that say more
-  ChainBlend blend;
+  int blend_steps = 30;  ///< most steps over which a join is spread, on either side of it: neighbours meet half-way in
+                         ///< attitude and rates; 0 … 4096, 0 leaves joins as they are
   std::optional<GustResponse>
       gust;  ///< where there is one, the model's inputs are the wind's x, y and z, metres a second
   std::optional<ChainDrift> drift;  ///< none: it can't be steered

@@ -104,15 +104,14 @@ std::array<std::vector<MotionSeries>, 2> halves_of(std::span<const MotionSeries>
   return halves;
 }
 
-void compare(std::span<const MotionSeries> real, std::span<const MotionSeries> made, std::size_t rows,
-             const ChainFidelityOptions& options, ChainFidelity& out) {
-  const EnergyTest test = energy_of(real, made, rows, options, options.permutations);
-  out.energy_distance.value = test.distance;
-  out.energy_p_value = test.p_value;
+// Between what two halves of the real falls differ by and what their rows in random order do.
+Bounded compared(std::span<const MotionSeries> real, std::span<const MotionSeries> made, std::size_t rows,
+                 const ChainFidelityOptions& options, double* p_value) {
+  const EnergyTest test = energy_of(real, made, rows, options, p_value ? options.permutations : 0);
+  if (p_value) *p_value = test.p_value;
   const auto halves = halves_of(real);
-  out.energy_distance.floor = energy_of(halves[0], halves[1], rows, options, 0).distance;
-  out.energy_distance.ceiling = energy_of(real, shuffled(real, options.seed), rows, options, 0).distance;
-  out.windows = std::min(series_windows(real, rows).size(), options.max_windows);
+  return {test.distance, energy_of(halves[0], halves[1], rows, options, 0).distance,
+          energy_of(real, shuffled(real, options.seed), rows, options, 0).distance};
 }
 
 }  // namespace
@@ -152,8 +151,14 @@ Result<ChainFidelity> chain_fidelity(const Model& model, std::span<const Recordi
   const auto rows =
       static_cast<std::size_t>(std::lround(options.window_segments * out.real.event_seconds * model.rate_hz));
   out.window_seconds = static_cast<double>(rows) / model.rate_hz;
-  compare(motion_series(*seen, cut->segments), motion_series(*played, played_cut->segments),
-          std::max<std::size_t>(2, rows), options, out);
+  const auto seen_series = motion_series(*seen, cut->segments);
+  const auto played_series = motion_series(*played, played_cut->segments);
+  out.energy_distance =
+      compared(seen_series, played_series, std::max<std::size_t>(2, rows), options, &out.energy_p_value);
+  out.windows = std::min(series_windows(seen_series, std::max<std::size_t>(2, rows)).size(), options.max_windows);
+  const auto long_rows = static_cast<std::size_t>(std::lround(kLongWindowSeconds * model.rate_hz));
+  out.long_energy_distance = compared(seen_series, played_series, long_rows, options, nullptr);
+  out.seconds = seconds_fidelity(*seen, *played, options.max_windows, options.seed);
   out.join_defect = join_defect(*seen, cut->segments, *played, made->joins);
   return out;
 }

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "learn/chain/chain_seconds.hpp"
 #include "learn/chain/join_defect.hpp"
 #include "learn/chain/segments/segmentation.hpp"
 #include "learn/fidelity/fidelity.hpp"
@@ -38,6 +39,8 @@ struct ChainFidelity {
   FallFigures synthesized;
   Bounded energy_distance;
   double energy_p_value = 0;
+  Bounded long_energy_distance;  ///< over windows of two seconds; NaN where recordings are shorter
+  SecondsFidelity seconds;
   JoinDefect join_defect;
   std::size_t windows = 0;  ///< a side
   double window_seconds = 0;

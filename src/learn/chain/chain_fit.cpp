@@ -194,7 +194,7 @@ Result<void> check_recipe(const ChainRecipe& recipe) {
   if (!(recipe.holdout >= 0 && recipe.holdout <= 0.9))
     return out_of_range("the share that is held out", recipe.holdout, "0 to 0.9");
   if (!(recipe.blend >= 0 && recipe.blend <= 0.5))
-    return out_of_range("the share of a segment that a join fades over", recipe.blend, "0 to 0.5");
+    return out_of_range("the seconds that a join is spread over", recipe.blend, "0 to 0.5");
   if (recipe.best_of < 0 || recipe.best_of > 256)
     return out_of_range("the number of best-joining successors", recipe.best_of, "0 to 256");
   if (recipe.max_bytes == 0) return out_of_range("the size of the store", 0, "bytes above 0");

@@ -2,9 +2,14 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
+
+#include "base/number_text.hpp"
 
 namespace wisp::chain {
 namespace {
+
+constexpr double kMaxShareOfCeiling = 0.5;  // a distance above it is nearer to rows in random order than to falls
 
 // Entries with a value, a label (empty: for programs only), a unit and a meaning.
 class Entries {
@@ -39,6 +44,47 @@ void add_jumps(const std::string& id, const std::string& what, const JoinJumps& 
   entries.add(id + ".floor.median", floor.median, "");
   entries.add(id + ".floor.share_above", floor.share_above, label.empty() ? "" : "  the recording's own events", "",
               "which nobody joined");
+}
+
+void add_bounded(const std::string& id, const Bounded& measure, const std::string& label, const std::string& meaning,
+                 const std::string& ceiling, Entries& entries) {
+  entries.add(id + ".value", measure.value, label, "", meaning);
+  entries.add(id + ".floor", measure.floor, "  floor", "", "two halves of the recorded falls");
+  entries.add(id + ".ceiling", measure.ceiling, "  ceiling", "", ceiling);
+}
+
+void add_extremes(const std::string& which, const FallExtremes& falls, const std::string& label, Entries& entries) {
+  const std::string id = "fidelity." + which + ".";
+  const char* percentiles[] = {"0.1", "1", "99", "99.9"};
+  for (std::size_t k = 0; k < 4; ++k) {
+    entries.add(id + "vertical_speed.percentile_" + percentiles[k], falls.vertical_speed[k],
+                k < 2 ? label + "vertical speed, percentile " + percentiles[k] : "", "m/s");
+  }
+  for (std::size_t k = 0; k < 2; ++k) {
+    entries.add(id + "acceleration.percentile_" + percentiles[2 + k], falls.acceleration[k],
+                label + "acceleration, percentile " + percentiles[2 + k], "m/s²");
+  }
+  const char* lags[] = {"0.5", "1", "2"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    entries.add(id + "mean_squared_displacement.seconds_" + lags[k], falls.spread[k],
+                k == 2 ? label + "mean squared displacement in 2 s" : "", "m²");
+  }
+}
+
+// What half a second does not show.
+void add_seconds(const ChainFidelity& fidelity, Entries& entries) {
+  const std::string shuffled = "recorded rows in random order";
+  add_bounded("fidelity.two_seconds", fidelity.long_energy_distance, "energy distance over 2 s",
+              "of windows of two seconds", shuffled, entries);
+  add_bounded("fidelity.spectra", fidelity.seconds.spectra, "energy distance of spectra",
+              "of log powers to 12 Hz over two seconds, but for what is below 0.3 mm and 0.2°", shuffled, entries);
+  add_bounded("fidelity.tails", fidelity.seconds.tails, "tails off by",
+              "share of the worst percentile of vertical speed (0.1, 1) and acceleration (99, 99.9)",
+              "a normal distribution of the same mean and deviation", entries);
+  add_bounded("fidelity.spread", fidelity.seconds.spread, "spread in 2 s off by",
+              "share of the recorded mean squared displacement over ground", "recorded steps in random order", entries);
+  add_extremes("real", fidelity.seconds.real, "recorded ", entries);
+  add_extremes("synthesized", fidelity.seconds.synthesized, "synthesized ", entries);
 }
 
 ReportList row_of(const std::vector<double>& values, std::size_t row, std::size_t columns) {
@@ -87,6 +133,7 @@ ReportSection fidelity_section(const ChainFidelity& fidelity, bool has_orientati
   entries.add("fidelity.energy_p_value", fidelity.energy_p_value, "  p-value", "", "that chance alone is as far apart");
   section.entries.push_back({"fidelity.windows", fidelity.windows, "windows", "", {}, "a side"});
   entries.add("fidelity.window_seconds", fidelity.window_seconds, "length of a window", "s");
+  add_seconds(fidelity, entries);
   add_falls("real", fidelity.real, "recorded ", has_orientation, entries);
   add_falls("synthesized", fidelity.synthesized, "synthesized ", has_orientation, entries);
   const JoinDefect& defect = fidelity.join_defect;
@@ -94,6 +141,20 @@ ReportSection fidelity_section(const ChainFidelity& fidelity, bool has_orientati
   add_jumps("join_defect.rotation", has_orientation ? "orientation" : "", defect.rotation, defect.rotation_floor,
             entries);
   return section;
+}
+
+std::optional<std::string> fault_of(const ChainFidelity& fidelity) {
+  const std::pair<const char*, const Bounded*> measures[] = {{"over half a second", &fidelity.energy_distance},
+                                                             {"over two seconds", &fidelity.long_energy_distance},
+                                                             {"by spectra", &fidelity.seconds.spectra}};
+  for (const auto& [name, measure] : measures) {
+    // Few windows are far apart by chance, recorded ones too.
+    if (!(measure->value > kMaxShareOfCeiling * measure->ceiling) || measure->value <= measure->floor) continue;
+    return "its falls are not like the recorded ones (energy distance " + std::string(name) + " " +
+           number_text(measure->value, 3) + "; rows in random order have " + number_text(measure->ceiling, 3) +
+           "): record more, or choose another event, realisation or number of modes";
+  }
+  return {};
 }
 
 void add_figures(const ChainFidelity& fidelity, Training& training) {

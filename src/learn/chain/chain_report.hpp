@@ -15,4 +15,7 @@ ReportSection fidelity_section(const ChainFidelity& fidelity, bool has_orientati
 /// The figures that a model keeps.
 void add_figures(const ChainFidelity& fidelity, Training& training);
 
+/// Why falls are not like the recorded ones: a measure near its ceiling, or past it. Nothing: they are.
+std::optional<std::string> fault_of(const ChainFidelity& fidelity);
+
 }  // namespace wisp::chain

@@ -10,7 +10,9 @@
 namespace wisp::chain {
 namespace {
 
-constexpr double kMinSpeed = 0.05;  // m/s: slower than this, a thing has no heading to change
+constexpr std::size_t kTiltColumn = 3;  // of poses
+constexpr double kUnseenTilt = 3.5e-3;  // rad, 0.2°: no eye sees less, so that much noise is on every figure of it
+constexpr double kMinSpeed = 0.05;      // m/s: slower than this, a thing has no heading to change
 
 void add_row(const Motion& motion, const MotionPiece& piece, std::size_t row, double segment_seconds,
              std::vector<double>& out) {
@@ -66,12 +68,17 @@ std::vector<MotionSeries> motion_series(const Motion& motion, std::span<const Se
 
 FeatureWindows series_windows(std::span<const MotionSeries> series, std::size_t rows) {
   FeatureWindows windows;
+  std::mt19937_64 random(rows);
   std::size_t block = 0;
   for (const MotionSeries& own : series) {
     if (own.rows() < rows) continue;
     for (std::size_t first = 0; first + rows <= own.rows(); first += rows) {
       for (std::size_t column = 0; column < own.columns; ++column) {
         add_figures(own, first, rows, column, windows.values);
+        if (own.columns != 6 || column != kTiltColumn) continue;
+        for (std::size_t k = windows.values.size() - 4; k < windows.values.size(); ++k) {
+          windows.values[k] += kUnseenTilt * (2 * (static_cast<double>(random() >> 11) * 0x1p-53) - 1);
+        }
       }
       windows.features = 4 * own.columns;
       windows.blocks.push_back(block);

@@ -18,8 +18,7 @@ namespace wisp {
 namespace chain {
 namespace {
 
-constexpr double kMaxShareOfCeiling = 0.5;  // a distance above it is nearer to rows in random order than to falls
-constexpr double kMaxSpeed = 100;           // m/s: nothing falls as fast; millimetres read as metres do
+constexpr double kMaxSpeed = 100;  // m/s: nothing falls as fast; millimetres read as metres do
 constexpr std::size_t kVerbatimSegments = 20000;
 
 // Full axes of the leaf, where its maker has said them.
@@ -66,13 +65,6 @@ void judge_speed(std::span<const Recording> falls, Usable& usable) {
                        " m/s on average: give positions in metres, not in millimetres"};
 }
 
-void judge_fidelity(const Bounded& energy, Usable& usable) {
-  if (!usable.verdict || !(energy.value > kMaxShareOfCeiling * energy.ceiling)) return;
-  usable = {false, "its falls are not like the recorded ones (energy distance " + number_text(energy.value, 3) +
-                       "; rows in random order have " + number_text(energy.ceiling, 3) +
-                       "): record more, or choose another event, realisation or number of modes"};
-}
-
 // How like the stretches that were held out, or, where none were, those that were learned from.
 void judge(const ChainFit& found, const ChainRecipe& recipe, Fit& fit) {
   const ChainFidelityOptions judging{
@@ -90,7 +82,9 @@ void judge(const ChainFit& found, const ChainRecipe& recipe, Fit& fit) {
       {"fidelity.verbatim_seconds", verbatim, "longest stretch copied from one recording", "s"});
   add_figures(*fidelity, fit.model.training);
   fit.model.training.figures.push_back({"verbatim_seconds", verbatim});
-  judge_fidelity(fidelity->energy_distance, fit.model.training.usable);
+  if (fit.model.training.usable.verdict) {
+    if (const auto reason = fault_of(*fidelity)) fit.model.training.usable = {false, *reason};
+  }
 }
 
 // The response to gusts, from a windy recording and its calm twin.

@@ -46,6 +46,8 @@ Result<Report> validate_falls(const Model& model, std::span<const Recording> fal
                               number_text(fidelity->window_seconds, 3) +
                               " s, expected longer ones: how like the falls are was not measured");
   }
+  const auto fault = fault_of(*fidelity);
+  report.verdict = {!fault, fault.value_or("its falls are like the recorded ones")};
   std::size_t rows = 0;
   for (const Recording& fall : falls) rows += fall.rows();
   report.sections = {counts_of(rows), fidelity_section(*fidelity, std::holds_alternative<PoseView>(model.view)),

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::array<char, 8> kMagic = {'\x89', 'W', 'I', 'S', 'P', 'B', 'N', 'K'};
 constexpr std::uint32_t kVersion = 2;
-constexpr std::uint32_t kChainVersion = 3;  // of chains, which prepare their joins
+constexpr std::uint32_t kChainVersion = 4;  // of chains, whose joins are spread over both segments
 constexpr std::uint32_t kFirstVersion = 1;  // without what is set of a chain
 constexpr std::size_t kHeaderSize = 32;
 constexpr std::size_t kChainFields = 4;
@@ -164,7 +164,7 @@ Result<std::uint32_t> check_header(const Bank::State& s, std::span<const std::by
   const std::uint32_t version = in.get32();
   if (is_chain(s) && version < kChainVersion) {
     return Error{"a saved bank has version " + std::to_string(version) +
-                 ", those of chains are read from version 3 on: save it again with this version of Wisp"};
+                 ", those of chains are read from version 4 on: save it again with this version of Wisp"};
   }
   if (version < kFirstVersion || version > version_of(s)) {
     return Error{"a saved bank has version " + std::to_string(version) + ", this build reads versions " +

@@ -1,15 +1,15 @@
 #pragma once
-// One instance of a segment chain: where it is in which segment, where that segment lies, and what is left of the last
-// join. All arithmetic of a frame is here, on one number of any kind.
+// One instance of a segment chain: where it is in which segment, where that segment lies, and what is added to it so
+// that it meets its neighbours. All arithmetic of a frame is here, on one number of any kind.
 //
-// Joins by inertialization: the difference between what was shown and what the new segment shows, and of their rates,
-// is held at the join and fades along a cubic. D. Bollo, Inertialization: high-performance animation transitions in
-// Gears of War, GDC 2018, has the idea (with a quintic; half a segment of a leaf is four frames, too short for one).
-// Differences are held as they are stored, in the frame and the numbers of the new segment: of quaternions component by
-// component, made unit when shown.
+// Neighbours meet half-way: at a join attitude, its rate and velocity are the means of what one segment ends with and
+// the other begins with. What that takes off either is spread over the whole segment: by a smooth curve for each number
+// of a quaternion, in the world's frame, made unit when shown, and by a velocity that changes evenly. Half of the
+// difference over twice the time of fading it on one side (D. Bollo, Inertialization, GDC 2018) has an eighth of its
+// curvature, which recorded motion has little of. It takes the next segment to be known while one is
+// played, so what follows is drawn when a segment begins.
 //
-// A join is spread over frames, so that none is dear: what follows is drawn, and how it is to be turned, a step before
-// the end (prepare), it is placed at the end (join), and its difference of velocities is made in the step after that.
+// The curve of each number is two parabolas, held as differences from row to row: two additions a number.
 
 #include "run/chain/chain_choice.hpp"
 #include "run/chain/chain_program.hpp"
@@ -33,53 +33,58 @@ struct BodyState {
   BodyRates<Real> rates{};
 };
 
+/// A turn about z with which a segment lies: half of it, and the whole and half of it times the scales of what they
+/// turn.
+template <class Real>
+struct ChainTurn {
+  Real half_cos{1.0f};
+  Real half_sin{};
+  Real cos_scale{};
+  Real sin_scale{};
+  Real half_cos_scale{};
+  Real half_sin_scale{};
+};
+
+/// Half of what a segment's beginning lacks against what comes before it, in the world; rates are a step's.
+template <class Real>
+struct ChainGap {
+  Quaternion<Real> lean{};
+  Quaternion<Real> lean_rate{};
+  Vector3<Real> slip{};
+};
+
 template <class Real>
 struct ChainLane {
   // Where it is in the chain; whole numbers.
   Real segment{};
   Real row{};
   Real state{};
-  // Where the segment lies: base + turn(scale · row).
+  // Where the segment lies: base + turn(scale · row). What is added to its velocity moves the base.
   Vector3<Real> base{};
-  Real half_cos{1.0f};
-  Real half_sin{};
-  // The same turn times the scales of what it turns.
-  Real cos_scale{};
-  Real sin_scale{};
-  Real half_cos_scale{};
-  Real half_sin_scale{};
-  // What follows: the segment's number and 1, 0: not drawn yet. The half turn by which it is turned against this one,
-  // of any length; once it is joined and fades, by which it was turned, of length 1.
+  ChainTurn<Real> turn{};
+  // What follows: the segment's number and 1, 0: not drawn yet; how it will lie; and what differs where it joins.
   Real next{};
-  Real turn_cos{1.0f};
-  Real turn_sin{};
-  // The join: how much of it has passed, in [0, 1]; 1: all of it. In the segment's frame and in its stored numbers.
-  Real passed{1.0f};
-  Real share{};             ///< passes in a step
-  Vector3<Real> slip{};     ///< until the first step: how fast the body moved, in the frame of the segment before
-  Quaternion<Real> lean{};  ///< once it lies: 0 and the Gibbs vector that lays it flat
-  Quaternion<Real> lean_slip{};
-  // The ground: how much of coming to rest has passed, in [0, 1]; below 0: it falls. The pose in which it touched.
+  ChainTurn<Real> next_turn{};
+  ChainGap<Real> gap{};
+  // What is added to the orientation, its first and second differences, and the second one of the latter half; what is
+  // added to the base, and its difference.
+  std::array<Quaternion<Real>, 4> lean{};
+  std::array<Vector3<Real>, 2> slip{};
+  // The ground: how much of coming to rest has passed, in [0, 1]; below 0: it falls. The pose in which it touched, and
+  // the Gibbs vector that lays it flat.
   Real settled{-1.0f};
   Quaternion<Real> touched{};
+  Vector3<Real> laid{};
   // Steering: steps left until it should be there, 0: it is not steered; where; and how near, metres.
   Real left{};
   Vector3<Real> target{};
   Real near{};
 };
 
-/// How a segment, or a body, ends: as segments are stored, in a frame of its own.
-template <class Real>
-struct ChainEnd {
-  Vector3<Real> velocity{};
-  Quaternion<Real> orientation{};
-  Quaternion<Real> change{};  ///< of the orientation, a second
-};
-
 /// Stored quaternions of which no turn about z brings one nearer to the other than this, are not turned.
 inline constexpr float kLeastTurn = 1e-3f;
 
-/// Differences at joins are held to this many of the numbers that are stored.
+/// Differences at joins are held to this.
 inline constexpr float kMostDifference = 1e9f;
 
 /// What moves lanes of one program.
@@ -102,52 +107,40 @@ class ChainMover {
     return begins ? choice.beginning(program_, mode, words) : choice.follower(program_, before, mode, words);
   }
 
-  /// How a segment ends.
-  ChainEnd<Real> end_of(std::uint32_t segment) const {
-    ChainEnd<Real> end;
-    end.velocity = vector(rates_at(segment, true));
-    if (program_.channels < 7) return end;
-    end.orientation = quaternion(row_of(segment, program_.steps(segment)));
-    end.change = change_at(segment, true);
-    return end;
-  }
-
-  /// How a body moves, in the world's frame.
-  ChainEnd<Real> end_of(const Body& body) const {
-    ChainEnd<Real> end;
-    end.velocity = scaled(body.rates.velocity, Real(1.0f / program_.velocity_scale));
-    if (program_.channels < 7) return end;
-    for (std::size_t k = 0; k < 4; ++k) end.orientation[k] = body.orientation[k] / Real(program_.orientation_scale);
-    end.change = quaternion_rate(body.rates.spin, end.orientation);
-    return end;
-  }
-
-  /// Notes what follows what ends so, and how it will be turned.
-  void prepare(Lane& lane, std::uint32_t next, const ChainEnd<Real>& end) const {
+  /// Notes what follows a lane's segment: how it will lie, and what differs where they meet.
+  void prepare(Lane& lane, std::uint32_t next) const {
+    const std::uint32_t before = index(lane.segment, program_.segments());
     lane.next = Real(static_cast<float>(next + 1));
-    const LongTurn<Real> turn = turn_after(next, end);
-    lane.turn_cos = turn.cos;
-    lane.turn_sin = turn.sin;
+    lane.next_turn = turn_after(lane.turn, before, next);
+    if (program_.blend_steps == 0) return;
+    const auto slip =
+        taken(turned_row(lane.turn, rates_at(before, true)), turned_row(lane.next_turn, rates_at(next, false)));
+    const float half_step = 0.5f * program_.step_seconds * program_.velocity_scale;
+    const Real over_ground(half_step / program_.position_scale);
+    lane.gap.slip = bounded(Vector3<Real>{over_ground * slip[0], over_ground * slip[1], Real(half_step) * slip[2]});
+    if (program_.channels < 7) return;
+    const auto end = oriented(lane.turn, quaternion(row_of(before, program_.steps(before))));
+    const auto start = oriented(lane.next_turn, quaternion(row_of(next, 0)));
+    lane.gap.lean = bounded(scaled(taken(end, start), Real(0.5f)));
+    lane.gap.lean_rate =
+        bounded(taken(oriented(lane.turn, change_at(before, true)), oriented(lane.next_turn, change_at(next, false))));
   }
 
-  /// Places the beginning of what was prepared where a body is: its position, its heading where the chain is free of
-  /// it; what else differs fades.
-  void join(Lane& lane, const Vector3<Real>& position, const ChainEnd<Real>& end) const {
-    const std::uint32_t segment = index(lane.next, program_.segments() + 1) - 1;
-    const Real shrinks = turn_on(lane);
-    place(lane, segment, position, lane.half_cos, lane.half_sin);
-    const ChainFade& fade = program_.fade[segment];
-    if (!(fade.share > 0.0f)) return;
-    lane.turn_cos = lane.turn_cos * shrinks;
-    lane.turn_sin = lane.turn_sin * shrinks;
-    lane.passed = Real(0.0f);
-    lane.share = Real(fade.share);
-    lane.slip = bounded(end.velocity);
-    if (program_.channels < 7) return;
-    const auto back = [&](const Quaternion<Real>& q) { return turned_back(lane.turn_cos, lane.turn_sin, q); };
-    const auto start = quaternion(row_of(segment, 0));
-    lane.lean = bounded(taken(back(end.orientation), start));
-    lane.lean_slip = bounded(scaled(taken(back(end.change), change_at(segment, false)), Real(fade.seconds)));
+  /// Places the beginning of what was prepared where a body is shown.
+  void join(Lane& lane, const Vector3<Real>& position) const {
+    lane.segment = Real(static_cast<float>(index(lane.next, program_.segments() + 1) - 1));
+    lane.row = Real(0.0f);
+    lane.next = Real(0.0f);
+    lane.base = position;
+    lane.turn = lane.next_turn;
+  }
+
+  /// Lets a lane's segment meet what came before it, to which it lacks `from`, and what follows, by its gap.
+  void meet(Lane& lane, const ChainGap<Real>& from) const {
+    if (program_.blend_steps == 0) return;
+    const std::uint32_t steps = program_.steps(index(lane.segment, program_.segments()));
+    if (steps < 2 * program_.blend_steps) return spread(lane, steps, from, lane.gap);
+    spread(lane, program_.blend_steps, from, {});
   }
 
   /// Places the beginning of a segment as it is, turned by a half turn.
@@ -156,27 +149,48 @@ class ChainMover {
     lane.row = Real(0.0f);
     lane.next = Real(0.0f);
     lane.base = position;
-    lane.half_cos = half_cos;
-    lane.half_sin = half_sin;
-    const Real scale(program_.position_scale), quaternion_scale(program_.orientation_scale);
-    lane.cos_scale = (half_cos * half_cos - half_sin * half_sin) * scale;
-    lane.sin_scale = half_cos * half_sin * Real(2.0f * program_.position_scale);
-    lane.half_cos_scale = half_cos * quaternion_scale;
-    lane.half_sin_scale = half_sin * quaternion_scale;
-    lane.passed = Real(1.0f);
+    lane.turn = turn_of(half_cos, half_sin);
+  }
+
+  /// Places the beginning of a segment where a body is, so that what differs fades.
+  void place(Lane& lane, std::uint32_t segment, const Body& body) const {
+    const HalfTurn<Real> turn = turn_to(segment, body);
+    place(lane, segment, body.position, turn.cos, turn.sin);
+    if (program_.blend_steps == 0) return;
+    ChainGap<Real> gap;
+    const auto begins = turned_velocity(lane.turn, rates_at(segment, false));
+    gap.slip = bounded(scaled(taken(body.rates.velocity, begins), Real(program_.step_seconds)));
+    if (program_.channels >= 7) {
+      const auto start = oriented(lane.turn, quaternion(row_of(segment, 0)));
+      const auto change = scaled(oriented(lane.turn, change_at(segment, false)), Real(2.0f));
+      auto shown = body.orientation;
+      if (dot(start, shown) < Real(0.0f)) shown = scaled(shown, Real(-1.0f));
+      gap.lean = bounded(taken(shown, start));
+      gap.lean_rate =
+          bounded(taken(scaled(quaternion_rate(body.rates.spin, shown), Real(program_.step_seconds)), change));
+    }
+    meet(lane, gap);
   }
 
   /// Moves a lane on by one step, within its segment. Returns whether it has come to the segment's end, where the next
   /// one is to be joined.
   bool advance(Lane& lane) const {
-    const std::uint32_t segment = index(lane.segment, program_.segments());
-    const std::uint32_t row = index(lane.row, program_.steps(segment)) + 1;
+    const std::uint32_t segment = index(lane.segment, program_.segments()), steps = program_.steps(segment);
+    const std::uint32_t before = index(lane.row, steps), row = before + 1;
     lane.row = Real(static_cast<float>(row));
     if (lane.left > Real(0.0f)) lane.left = lane.left - Real(1.0f);
-    if (!(lane.passed < Real(1.0f))) return row >= program_.steps(segment);
-    if (row == 1) make_slip(lane, segment);
-    lane.passed = lane.passed + lane.share;
-    return row >= program_.steps(segment);
+    if (program_.blend_steps == 0) return row >= steps;
+    if (steps >= 2 * program_.blend_steps) {
+      if (before == steps - program_.blend_steps) spread(lane, program_.blend_steps, {}, lane.gap);
+      if (!fades(before, steps) && !fades(row, steps)) return row >= steps;
+    }
+    lane.base = added(lane.base, lane.slip[0]);
+    lane.slip[0] = added(lane.slip[0], lane.slip[1]);
+    if (program_.channels < 7) return row >= steps;
+    lane.lean[0] = added(lane.lean[0], lane.lean[1]);
+    if (turns(row, steps)) lane.lean[2] = lane.lean[3];
+    lane.lean[1] = added(lane.lean[1], lane.lean[2]);
+    return row >= steps;
   }
 
   /// Steps that are left of the lane's segment.
@@ -190,32 +204,38 @@ class ChainMover {
 
   /// What the lane shows: position, then, for poses, orientation. `out` has a stride, as lanes lie side by side.
   void show(const Lane& lane, Real* out, int stride) const {
-    const std::uint32_t segment = index(lane.segment, program_.segments());
-    const std::int16_t* row = row_of(segment, index(lane.row, program_.steps(segment) + 1));
-    const bool fades = lane.passed < Real(1.0f);
-    Real weight(0.0f), slip(0.0f);
-    if (fades) weigh(lane.passed, weight, slip);
-    Vector3<Real> at = vector(row);
-    if (fades) at = added(at, scaled(lane.slip, slip));
-    const auto position = placed(lane, at);
+    const std::uint32_t segment = index(lane.segment, program_.segments()), steps = program_.steps(segment);
+    const std::uint32_t at = index(lane.row, steps + 1);
+    const std::int16_t* row = row_of(segment, at);
+    const auto position = placed(lane, vector(row));
     for (int axis = 0; axis < 3; ++axis) out[axis * stride] = held(position[static_cast<std::size_t>(axis)]);
     if (program_.channels < 7) return;
-    Quaternion<Real> q = quaternion(row);
-    if (fades) q = added(q, added(scaled(lane.lean, weight), scaled(lane.lean_slip, slip)));
-    q = turned<Real>(lane.half_cos_scale, lane.half_sin_scale, q);
-    if (fades) q = unit(q);
+    Quaternion<Real> q = oriented(lane.turn, quaternion(row));
+    if (fades(at, steps)) q = unit(added(q, lane.lean[0]));
     for (int k = 0; k < 4; ++k) out[(3 + k) * stride] = q[static_cast<std::size_t>(k)];
+  }
+
+  /// How a lane's segment will have ended, but for what is added to it: where a walk goes on.
+  Body end_of(const Lane& lane) const {
+    const std::uint32_t segment = index(lane.segment, program_.segments());
+    const std::int16_t* row = row_of(segment, program_.steps(segment));
+    Body body;
+    body.position = placed(lane, vector(row));
+    if (program_.channels >= 7) body.orientation = oriented(lane.turn, quaternion(row));
+    if (program_.channels < 7) body.rates = rates_of(lane, segment, true);
+    return body;
   }
 
   /// The rates of a segment's beginning or end, turned as the lane is.
   Rates rates_of(const Lane& lane, std::uint32_t segment, bool end) const {
     const std::int16_t* rate = rates_at(segment, end);
-    const Real cos = lane.half_cos * lane.half_cos - lane.half_sin * lane.half_sin;
-    const Real product = lane.half_cos * lane.half_sin;
-    const Real sin = product + product;
     Rates rates;
-    rates.velocity = turned<Real>(cos, sin, scaled(vector(rate), Real(program_.velocity_scale)));
+    rates.velocity = turned_velocity(lane.turn, rate);
     if (program_.channels < 7) return rates;
+    const ChainTurn<Real>& turn = lane.turn;
+    const Real cos = turn.half_cos * turn.half_cos - turn.half_sin * turn.half_sin;
+    const Real product = turn.half_cos * turn.half_sin;
+    const Real sin = product + product;
     rates.spin = turned<Real>(cos, sin, scaled(vector(rate + 3), Real(program_.spin_scale)));
     return rates;
   }
@@ -225,7 +245,7 @@ class ChainMover {
   Real misfit(std::uint32_t segment, const Body& body) const {
     Lane lane;
     const HalfTurn<Real> turn = turn_to(segment, body);
-    place(lane, segment, {}, turn.cos, turn.sin);
+    place(lane, segment, Vector3<Real>{}, turn.cos, turn.sin);
     const Rates start = rates_of(lane, segment, false);
     const auto slip = taken(start.velocity, body.rates.velocity);
     const Real unit = Real(1.0f / program_.speed_unit);
@@ -275,50 +295,89 @@ class ChainMover {
     return coordinate < least ? least : coordinate;
   }
 
-  // Weights of what differs and of the rates that differ, along the fading cubic.
-  static void weigh(Real passed, Real& weight, Real& slip) {
-    const Real rest = Real(1.0f) - passed;
-    const Real rest_squared = rest * rest;
-    slip = passed * rest_squared;
-    weight = rest_squared + (slip + slip);
+  // Whether something is added to a row: to all rows of a segment in which both joins overlap.
+  bool fades(std::uint32_t row, std::uint32_t steps) const {
+    if (program_.blend_steps == 0) return false;
+    return steps < 2 * program_.blend_steps || row < program_.blend_steps || row > steps - program_.blend_steps;
   }
 
-  // The half turn with which a segment follows what ends so. Where heading is kept, a whole turn keeps the quaternion's
-  // sign from jumping.
-  LongTurn<Real> turn_after(std::uint32_t segment, const ChainEnd<Real>& end) const {
+  // Whether the latter half of a curve begins with a row.
+  bool turns(std::uint32_t row, std::uint32_t steps) const {
+    const std::uint32_t blend = program_.blend_steps;
+    if (steps < 2 * blend) return row == first_half(steps);
+    return row == first_half(blend) || row == steps - blend + first_half(blend);
+  }
+
+  // The curves over so many steps from what is lacking at the beginning to what is too much at the end.
+  void spread(Lane& lane, std::uint32_t steps, const ChainGap<Real>& from, const ChainGap<Real>& to) const {
+    const ChainSpread& spread = program_.spread[steps];
+    lane.slip[1] = scaled(added(to.slip, from.slip), Real(spread.slope));
+    lane.slip[0] = from.slip;
+    if (program_.channels < 7) return;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Real way = to.lean[k] + from.lean[k] + Real(static_cast<float>(steps)) * from.lean_rate[k];
+      const Real change = to.lean_rate[k] + from.lean_rate[k];
+      lane.lean[2][k] = Real(spread.way[0]) * way + Real(spread.change[0]) * change;
+      lane.lean[3][k] = Real(spread.way[1]) * way + Real(spread.change[1]) * change;
+      lane.lean[1][k] = from.lean_rate[k] + Real(0.5f) * lane.lean[2][k];
+    }
+    lane.lean[0] = from.lean;
+  }
+
+  ChainTurn<Real> turn_of(Real half_cos, Real half_sin) const {
+    const Real quaternion_scale(program_.orientation_scale);
+    return {half_cos,
+            half_sin,
+            (half_cos * half_cos - half_sin * half_sin) * Real(program_.position_scale),
+            half_cos * half_sin * Real(2.0f * program_.position_scale),
+            half_cos * quaternion_scale,
+            half_sin * quaternion_scale};
+  }
+
+  // How a segment lies that follows another. Where heading is kept, a whole turn keeps the quaternion's sign from
+  // jumping.
+  ChainTurn<Real> turn_after(const ChainTurn<Real>& turn, std::uint32_t before, std::uint32_t segment) const {
+    const LongTurn<Real> more = turn_between_segments(before, segment);
+    const Real cos = turn.half_cos * more.cos - turn.half_sin * more.sin;
+    const Real sin = turn.half_cos * more.sin + turn.half_sin * more.cos;
+    const Real square = cos * cos + sin * sin;
+    if (!(square > Real(1e-12f))) return turn;  // a saved bank that was made to harm
+    const Real inverse = Real(1.0f) / square_root(square);
+    return turn_of(cos * inverse, sin * inverse);
+  }
+
+  // The same as half a turn against the other, of any length.
+  LongTurn<Real> turn_between_segments(std::uint32_t before, std::uint32_t segment) const {
     const LongTurn<Real> none{Real(1.0f), Real(0.0f)};
     if (program_.channels < 7) {
       if (!program_.heading_free) return none;
-      const HalfTurn<Real> turn = turn_between(vector(rates_at(segment, false)), end.velocity);
+      const HalfTurn<Real> turn = turn_between(vector(rates_at(segment, false)), vector(rates_at(before, true)));
       return {turn.cos, turn.sin};
     }
-    const auto start = quaternion(row_of(segment, 0));
-    if (!program_.heading_free) {
-      return dot(start, end.orientation) < Real(0.0f) ? LongTurn<Real>{Real(-1.0f), Real(0.0f)} : none;
-    }
-    const LongTurn<Real> turn = long_turn_between(start, end.orientation);
+    const auto start = quaternion(row_of(segment, 0)), end = quaternion(row_of(before, program_.steps(before)));
+    if (!program_.heading_free) return dot(start, end) < Real(0.0f) ? LongTurn<Real>{Real(-1.0f), Real(0.0f)} : none;
+    const LongTurn<Real> turn = long_turn_between(start, end);
     const auto is_long = [](const Real& x) { return x > Real(kLeastTurn) || x < Real(-kLeastTurn); };
     return is_long(turn.cos) || is_long(turn.sin) ? turn : none;
   }
 
-  // Turns a lane by what was prepared. Returns one over the length of that.
-  static Real turn_on(Lane& lane) {
-    const Real cos = lane.half_cos * lane.turn_cos - lane.half_sin * lane.turn_sin;
-    const Real sin = lane.half_cos * lane.turn_sin + lane.half_sin * lane.turn_cos;
-    const Real square = cos * cos + sin * sin;
-    if (!(square > Real(1e-12f))) return Real(1.0f);  // a saved bank that was made to harm
-    const Real inverse = Real(1.0f) / square_root(square);
-    lane.half_cos = cos * inverse;
-    lane.half_sin = sin * inverse;
-    return inverse;
+  // Stored quaternions, or their changes, in the world.
+  static Quaternion<Real> oriented(const ChainTurn<Real>& turn, const Quaternion<Real>& stored) {
+    return turned<Real>(turn.half_cos_scale, turn.half_sin_scale, stored);
   }
 
-  // How the velocities at a join differ, from how fast the body moved before it.
-  void make_slip(Lane& lane, std::uint32_t segment) const {
-    const Real cos = lane.turn_cos * lane.turn_cos - lane.turn_sin * lane.turn_sin;
-    const Real product = lane.turn_cos * lane.turn_sin;
-    const auto before = turned_back<Real>(cos, product + product, lane.slip);
-    lane.slip = bounded(scaled(taken(before, vector(rates_at(segment, false))), Real(program_.fade[segment].slip)));
+  // A stored velocity in the world, in the units of positions.
+  static Vector3<Real> turned_row(const ChainTurn<Real>& turn, const std::int16_t* stored) {
+    const auto v = vector(stored);
+    return {turn.cos_scale * v[0] - turn.sin_scale * v[1], turn.sin_scale * v[0] + turn.cos_scale * v[1], v[2]};
+  }
+
+  // The same, metres a second.
+  Vector3<Real> turned_velocity(const ChainTurn<Real>& turn, const std::int16_t* stored) const {
+    const Real scale(program_.velocity_scale / program_.position_scale);
+    const auto v = vector(stored);
+    return {scale * (turn.cos_scale * v[0] - turn.sin_scale * v[1]),
+            scale * (turn.sin_scale * v[0] + turn.cos_scale * v[1]), Real(program_.velocity_scale) * v[2]};
   }
 
   const std::int16_t* rates_at(std::uint32_t segment, bool end) const {
@@ -335,8 +394,8 @@ class ChainMover {
   }
 
   Vector3<Real> placed(const Lane& lane, const Vector3<Real>& at) const {
-    return {lane.base[0] + (lane.cos_scale * at[0] - lane.sin_scale * at[1]),
-            lane.base[1] + (lane.sin_scale * at[0] + lane.cos_scale * at[1]),
+    return {lane.base[0] + (lane.turn.cos_scale * at[0] - lane.turn.sin_scale * at[1]),
+            lane.base[1] + (lane.turn.sin_scale * at[0] + lane.turn.cos_scale * at[1]),
             lane.base[2] + Real(program_.position_scale) * at[2]};
   }
 

@@ -14,6 +14,7 @@ constexpr double kWords = 4294967296.0;  // 2^32
 constexpr double kLeastScale = 1e-12;
 constexpr double kMostScale = 1e6;
 constexpr float kLeastUnit = 1e-6f;
+constexpr double kMostStored = 32767;
 
 void fill_thresholds(const std::vector<double>& probability, std::span<std::uint32_t> out) {
   double sum = 0;
@@ -80,18 +81,33 @@ float unit_of(const ChainProgram& program, std::size_t offset, float scale) {
   return std::max(unit, kLeastUnit);
 }
 
-// How long the join to each segment fades: over a share of it, and so many steps at most.
-void fill_fades(const ChainBlend& blend, ChainProgram& program) {
-  const auto share = static_cast<float>(blend.share), longest = static_cast<float>(blend.longest_steps);
-  for (std::uint32_t segment = 0; segment < program.segments(); ++segment) {
-    const float length = std::min(share * static_cast<float>(program.steps(segment)), longest);
-    if (!(length > 1.0f)) continue;
-    const float seconds = length * program.step_seconds;
-    program.fade[segment] = {1.0f / length, seconds, seconds * (program.velocity_scale / program.position_scale)};
+// Differences go on by the first half's second difference m − 1 times and by the latter's n times, from a first one of
+// the slope and half of the former: their sum and the last slope are what is asked for.
+ChainSpread spread_over(std::uint32_t steps) {
+  const double m = first_half(steps), n = steps - m;
+  const double way[] = {m * m / 2 + n * (m - 0.5), n * (n + 1) / 2}, slope[] = {m - 0.5, n + 0.5};
+  const double whole = way[0] * slope[1] - way[1] * slope[0];
+  const auto share = [&](double x) { return static_cast<float>(-x / whole); };
+  return {{share(slope[1]), share(-slope[0])},
+          {share(-way[1]), share(way[0])},
+          steps > 1 ? static_cast<float>(-1.0 / (n + m - 1)) : 0.0f};
+}
+
+// Gives stored quaternions the length that is shown: a file has them coarser.
+void make_unit(ChainProgram& program) {
+  for (std::size_t at = 3; at < program.rows.size(); at += 7) {
+    std::int16_t* q = program.rows.data() + at;
+    double square = 0;
+    for (std::size_t k = 0; k < 4; ++k) square += static_cast<double>(q[k]) * q[k];
+    const double factor = square > 0 ? kMostStored / __builtin_sqrt(square) : 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double x = factor * q[k];
+      q[k] = static_cast<std::int16_t>(x < 0 ? x - 0.5 : x + 0.5);
+    }
   }
 }
 
-// How fast stored quaternions change at both ends of each segment.
+// How much stored quaternions change in half a step, at both ends of each segment.
 void fill_changes(ChainProgram& program) {
   float* out = program.changes.data();
   for (std::uint32_t segment = 0; segment < program.segments(); ++segment) {
@@ -103,7 +119,7 @@ void fill_changes(ChainProgram& program) {
       for (std::size_t k = 0; k < 3; ++k) spin[k] = static_cast<float>(rate[k]) * program.spin_scale;
       Quaternion<float> orientation;
       for (std::size_t k = 0; k < 4; ++k) orientation[k] = static_cast<float>(q[k]);
-      const Quaternion<float> change = quaternion_rate(spin, orientation);
+      const auto change = scaled(quaternion_rate(spin, orientation), 0.5f * program.step_seconds);
       out = std::copy(change.begin(), change.end(), out);
     }
   }
@@ -153,9 +169,10 @@ ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double 
   program.heading_free = chain.heading_free;
   program.position_scale = static_cast<float>(segments.row_scale[0]);
   program.velocity_scale = static_cast<float>(segments.rate_scale[0]);
-  program.orientation_scale = pose ? static_cast<float>(segments.row_scale[1]) : 0.0f;
+  program.orientation_scale = pose ? static_cast<float>(1 / kMostStored) : 0.0f;
   program.spin_scale = pose ? static_cast<float>(segments.rate_scale[1]) : 0.0f;
   program.step_seconds = static_cast<float>(1.0 / rate_hz);
+  program.blend_steps = static_cast<std::uint32_t>(chain.blend_steps);
   if (chain.gust) program.gust = gust_program(*chain.gust, wind_unit);
   program.rows = copy_of(segments.rows, arena);
   program.rates = copy_of(segments.rates, arena);
@@ -175,11 +192,14 @@ ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double 
   program.next = arena.take<std::uint16_t>(states * modes);
   program.length = arena.take<std::uint8_t>(states);
   program.shorter = arena.take<std::uint16_t>(states);
-  program.fade = arena.take<ChainFade>(segments.size());
+  if (program.blend_steps > 0) program.spread = arena.take<ChainSpread>(2 * program.blend_steps + 1);
   if (pose) program.changes = arena.take<float>(8 * segments.size());
   if (arena.measures()) return program;
-  fill_fades(chain.blend, program);
-  if (pose) fill_changes(program);
+  for (std::uint32_t steps = 1; steps < program.spread.size(); ++steps) program.spread[steps] = spread_over(steps);
+  if (pose) {
+    make_unit(program);
+    fill_changes(program);
+  }
   for (std::uint16_t mode : segments.mode) ++program.first_of_mode[mode + 1U];
   for (std::size_t mode = 0; mode < modes; ++mode) program.first_of_mode[mode + 1] += program.first_of_mode[mode];
   fill_automaton(chain, program);
@@ -201,7 +221,7 @@ std::uint64_t hash_of(const ChainProgram& program, std::uint64_t before) {
       {static_cast<float>(program.channels), static_cast<float>(program.breadth), flag, program.position_scale,
        program.orientation_scale, program.velocity_scale, program.spin_scale, program.half_width, program.half_length},
       before);
-  for (const ChainFade& fade : program.fade) hash = hash_floats({fade.share, fade.seconds, fade.slip}, hash);
+  hash = hash_number(program.blend_steps, hash);
   for (const auto* axis : {&program.gust.ground, &program.gust.vertical}) {
     for (const auto& lag : *axis) hash = hash_floats({lag[0], lag[1], 0.25f * lag[2]}, hash);
   }

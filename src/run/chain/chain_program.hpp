@@ -21,12 +21,16 @@ struct GustProgram {
   std::array<std::array<float, 3>, kMostGustOrder> vertical{};
 };
 
-/// How the join to a segment fades.
-struct ChainFade {
-  float share = 0;    ///< that passes in a step; 0: it does not fade
-  float seconds = 0;  ///< that it takes
-  float slip = 0;     ///< the same times what velocities are stored in, over what positions are
+/// The curve over so many steps that goes from one number and slope to others: two parabolas. What their second
+/// differences are, of what is lacking beyond the first slope, and of the change of slope.
+struct ChainSpread {
+  std::array<float, 2> way{};     ///< of the first half, and of the latter
+  std::array<float, 2> change{};  ///< likewise
+  float slope = 0;                ///< of a straight line from the first step to the last
 };
+
+/// Steps of the first parabola.
+inline std::uint32_t first_half(std::uint32_t steps) { return (steps + 1) / 2; }
 
 struct ChainProgram {
   int channels = 0;  ///< 3 or 7
@@ -39,14 +43,15 @@ struct ChainProgram {
   float velocity_scale = 1;
   float spin_scale = 1;
   float step_seconds = 0;
+  std::uint32_t blend_steps = 0;  ///< most that a join fades over, on either side; 0: not at all
   float speed_unit = 1;  ///< root-mean-square of the speeds at joins: what differences of speed are measured in
   float spin_unit = 1;   ///< the same of angular speeds
   GustProgram gust{};
   std::span<std::int16_t> rows;
   std::span<std::int16_t> rates;
-  std::span<float> changes;            ///< of poses: per segment, at its start and its end, of the stored quaternion a
-                                       ///< second
-  std::span<ChainFade> fade;           ///< per segment
+  std::span<float> changes;            ///< of poses: per segment, at its start and its end, of the stored quaternion in
+                                       ///< half a step
+  std::span<ChainSpread> spread;       ///< by steps, up to twice those of a blend
   std::span<std::uint32_t> first_row;  ///< per segment, and one past the last
   std::span<std::uint16_t> mode;       ///< per segment
   std::span<std::uint16_t> follow;

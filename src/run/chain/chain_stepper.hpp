@@ -97,9 +97,9 @@ class ChainStepper {
         land(block, lane, *reach);
         continue;
       }
-      const auto chance = [&]() -> ChainWords {
-        if (!drawn) draw(moment, 0, words);
-        drawn = true;
+      const auto chance = [&](std::uint32_t group) -> ChainWords {
+        if (!drawn || group != 0) draw(moment, group, words);
+        drawn = group == 0;
         return {words[0][lane], words[1][lane], words[2][lane]};
       };
       go_on(mover, block, lane, ends, chance);
@@ -145,9 +145,10 @@ class ChainStepper {
     if (program_.systems.used()) {
       take_rates(system_of(block, lane), shown_orientation(block, lane), mover.rates_of(life, segment, false));
       system_of(block, lane).length = Real(duration_of(program_.systems, program_.mode[segment], words[1][lane]));
-    } else if (mover.steps_left(life) == 1) {
+    } else {
       draw(moment, 2, words);
       prepare(mover, life, {words[0][lane], words[1][lane], words[2][lane]});
+      mover.meet(life, {});
     }
     for (int k = 0; k < program_.channels; ++k) {
       previous_of(block)[k * kLanes + lane] = newest_of(block)[k * kLanes + lane];
@@ -172,7 +173,6 @@ class ChainStepper {
     life.target = target;
     life.left = Real(steps);
     life.near = Real(near);
-    life.next = Real(0.0f);  // what was drawn a step before the join, knew of no target
   }
 
   /// Puts a lane where a body is, on whichever segment begins most as the body moves.
@@ -181,7 +181,7 @@ class ChainStepper {
     std::uint32_t best = 0;
     Real least(3e38f);
     for (std::uint32_t segment = 0; segment < program_.segments(); ++segment) {
-      // A segment of one step has no time for what differs to fade, and none for what follows it to be drawn.
+      // A segment of one step has no time for what differs to fade.
       if (program_.steps(segment) == 1 && !program_.systems.used()) continue;
       const Real misfit = mover.misfit(segment, body);
       if (!(misfit < least)) continue;
@@ -190,14 +190,11 @@ class ChainStepper {
     }
     Lane& life = lane_of(block, lane);
     life = {};
-    const auto end = mover.end_of(body);
-    mover.prepare(life, best, end);
-    mover.join(life, body.position, end);
+    mover.place(life, best, body);
     life.state = Real(static_cast<float>(program_.next[program_.mode[best]]));
     if (program_.gust.order > 0) gust_of(block, lane) = {};
     mover.show(life, newest_of(block) + lane, kLanes);
     if (program_.systems.used()) {
-      life.passed = Real(1.0f);
       for (int k = 0; k < 4; ++k)
         newest_of(block)[(3 + k) * kLanes + lane] = body.orientation[static_cast<std::size_t>(k)];
       take_rates(system_of(block, lane), body.orientation, body.rates);
@@ -225,18 +222,18 @@ class ChainStepper {
     visit(life.row, 0.0f, 65535.0f);
     visit(life.state, 0.0f, static_cast<float>(program_.states() - 1));
     for (Real& x : life.base) visit(x, -2 * kFarthest, 2 * kFarthest);
-    for (Real* x : {&life.half_cos, &life.half_sin}) visit(*x, -1.01f, 1.01f);
-    const float turn = 1.01f * (program_.position_scale + program_.orientation_scale);
-    for (Real* x : {&life.cos_scale, &life.sin_scale, &life.half_cos_scale, &life.half_sin_scale})
-      visit(*x, -turn, turn);
-    visit(life.next, 0.0f, static_cast<float>(program_.segments()));
-    for (Real* x : {&life.turn_cos, &life.turn_sin}) visit(*x, -kLongestTurn, kLongestTurn);
-    visit(life.passed, 0.0f, 2.0f);
-    visit(life.share, 0.0f, 1.0f);
-    for (Real& x : life.slip) visit(x, -kMostDifference, kMostDifference);
-    for (auto* quaternion : {&life.lean, &life.lean_slip}) {
-      for (Real& x : *quaternion) visit(x, -kMostDifference, kMostDifference);
+    const float most = 1.01f * (program_.position_scale + program_.orientation_scale);
+    for (ChainTurn<Real>* turn : {&life.turn, &life.next_turn}) {
+      for (Real* x : {&turn->half_cos, &turn->half_sin}) visit(*x, -1.01f, 1.01f);
+      for (Real* x : {&turn->cos_scale, &turn->sin_scale, &turn->half_cos_scale, &turn->half_sin_scale})
+        visit(*x, -most, most);
     }
+    visit(life.next, 0.0f, static_cast<float>(program_.segments()));
+    for (auto* numbers :
+         {&life.gap.lean, &life.gap.lean_rate, &life.lean[0], &life.lean[1], &life.lean[2], &life.lean[3]})
+      for (Real& x : *numbers) visit(x, -kMostSlip, kMostSlip);
+    for (auto* numbers : {&life.gap.slip, &life.slip[0], &life.slip[1], &life.laid})
+      for (Real& x : *numbers) visit(x, -kMostSlip, kMostSlip);
     visit(life.settled, -1.0f, 2.0f);
     visit(life.left, 0.0f, kMostSlip);
     for (Real& x : life.target) visit(x, -kFarthest, kFarthest);
@@ -264,9 +261,8 @@ class ChainStepper {
 
  private:
   using Mover = ChainMover<Real>;
-  static constexpr std::size_t kLaneNumbers = 3 + 3 + 2 + 4 + 3 + 2 + 11 + 5 + 5;
+  static constexpr std::size_t kLaneNumbers = 3 + 3 + 2 * 6 + 1 + 6 * 4 + 4 * 3 + 1 + 5 + 4;
   static constexpr float kMostSlip = 1e12f;
-  static constexpr float kLongestTurn = 1e18f;
 
   std::size_t sample_size() const { return static_cast<std::size_t>(program_.channels) * kLanes; }
   Lane& lane_of(int block, int lane) { return lanes_[static_cast<std::size_t>(block) * kLanes + lane]; }
@@ -298,7 +294,7 @@ class ChainStepper {
       return;
     }
     Vector3<Real> press{};
-    if (program_.channels >= 7) press = quarter_press(shown_orientation(block, lane), wind);
+    if (program_.channels >= 7) press = quarter_press(shown_orientation(block, lane), taken(wind, gust.change[0]));
     const auto change = blow(program_.gust, gust, wind, press);
     const auto way = scaled(change, Real(program_.step_seconds));
     if (program_.systems.used()) {
@@ -375,7 +371,7 @@ class ChainStepper {
   template <class Chance>
   void go_on(const Mover& mover, int block, int lane, bool ends, Chance chance) {
     if (!program_.systems.used()) return follow(mover, lane_of(block, lane), ends, chance, newest_of(block) + lane);
-    if (ends) change_system(mover, block, lane, chance());
+    if (ends) change_system(mover, block, lane, chance(0));
   }
 
   // Lets the next mode of a lane begin, whose modes are systems.
@@ -388,38 +384,32 @@ class ChainStepper {
     system_of(block, lane).length = Real(duration_of(program_.systems, program_.mode[next], word));
   }
 
-  // Joins the next segment where the lane's own ends, and prepares that a step before; a segment of one step prepares
-  // what follows it when it is joined. A join fades over half a segment at most, so that at its end nothing is left of
-  // the one before.
+  // Joins the next segment where the lane's own ends, and draws what follows that. Where a body was placed, nothing was
+  // drawn yet: then all that differs is left to the new segment.
   template <class Chance>
   void follow(const Mover& mover, Lane& life, bool ends, Chance chance, const Real* shown) {
-    if (ends) {
-      if (!mover.is_prepared(life)) prepare(mover, life, chance());
-      const std::uint32_t before = Mover::index(life.segment, program_.segments());
-      mover.join(life, {shown[0], shown[kLanes], shown[2 * kLanes]}, mover.end_of(before));
-    }
-    if (mover.steps_left(life) == 1 && !mover.is_prepared(life)) prepare(mover, life, chance());
+    if (!ends) return;
+    const bool known = Mover::is_prepared(life);
+    if (!known) prepare(mover, life, chance(2));
+    ChainGap<Real> from = life.gap;
+    if (!known)
+      from = {added(from.lean, from.lean), added(from.lean_rate, from.lean_rate), added(from.slip, from.slip)};
+    mover.join(life, {shown[0], shown[kLanes], shown[2 * kLanes]});
+    prepare(mover, life, chance(0));
+    mover.meet(life, from);
   }
 
   // Draws what follows a lane's segment.
   void prepare(const Mover& mover, Lane& life, const ChainWords& words) {
-    const std::uint32_t before = Mover::index(life.segment, program_.segments());
     const bool steered = life.left > Real(static_cast<float>(mover.steps_left(life))) && !program_.lead.empty();
-    const std::uint32_t next = steered ? draw_steered(mover, life, words) : mover.draw(life, choice_, words, false);
-    mover.prepare(life, next, mover.end_of(before));
+    mover.prepare(life, steered ? draw_steered(mover, life, words) : mover.draw(life, choice_, words, false));
   }
 
   // The same towards a target: from where the segment will have ended.
   std::uint32_t draw_steered(const Mover& mover, Lane& life, const ChainWords& words) {
     Lane end = life;
-    for (std::uint32_t left = mover.steps_left(life); left > 0; --left) mover.advance(end);
-    std::array<Real, 7> shown;
-    mover.show(end, shown.data(), 1);
-    Body body;
-    std::copy_n(shown.begin(), 3, body.position.begin());
-    if (program_.channels >= 7) std::copy_n(shown.begin() + 3, 4, body.orientation.begin());
-    if (program_.channels < 7) body.rates = mover.rates_of(end, Mover::index(end.segment, program_.segments()), true);
-    const std::uint32_t next = steering_.draw(mover, program_, choice_, end, body, words);
+    end.left = life.left - Real(static_cast<float>(mover.steps_left(life)));
+    const std::uint32_t next = steering_.draw(mover, program_, choice_, end, mover.end_of(life), words);
     life.state = end.state;
     return next;
   }

@@ -41,27 +41,27 @@ inline void touch(ChainLane<Real>& lane, const BodyState<Real>& body, float grou
   lane.settled = Real(0.0f);
   lane.base = {body.position[0], body.position[1], Real(ground)};
   const auto slip = ChainMover<Real>::bounded(scaled(body.rates.velocity, Real(kSettleSeconds)));
-  lane.slip = {slip[0], slip[1], Real(0.0f)};
+  lane.slip[0] = {slip[0], slip[1], Real(0.0f)};
   lane.touched = body.orientation;
 }
 
-/// The rotation that lays a body flat on the side that is nearer, as a quaternion without its first number.
+/// The rotation that lays a body flat on the side that is nearer, as a Gibbs vector.
 template <class Real>
-inline Quaternion<Real> lean_to_ground(const Quaternion<Real>& q) {
+inline Vector3<Real> lean_to_ground(const Quaternion<Real>& q) {
   const Real two(2.0f);
   const Vector3<Real> normal{two * (q[1] * q[3] + q[0] * q[2]), two * (q[2] * q[3] - q[0] * q[1]),
                              Real(1.0f) - two * (q[1] * q[1] + q[2] * q[2])};
   // From the normal to straight up, or down: its Gibbs vector is n × z / (1 + n·z).
   const Real side = normal[2] < Real(0.0f) ? Real(-1.0f) : Real(1.0f);
   const Real factor = side / (Real(1.0f) + normal[2] * side);
-  return {Real(0.0f), normal[1] * factor, Real(0.0f) - normal[0] * factor, Real(0.0f)};
+  return {normal[1] * factor, Real(0.0f) - normal[0] * factor, Real(0.0f)};
 }
 
 /// Moves a settling lane on by a step and shows it; `out` has a stride.
 template <class Real>
 inline void settle_step(ChainLane<Real>& lane, const ChainProgram& program, Real* out, int stride) {
   // Made here, since the step that touches has enough to do.
-  if (!(lane.settled > Real(0.0f)) && program.channels >= 7) lane.lean = lean_to_ground(lane.touched);
+  if (!(lane.settled > Real(0.0f)) && program.channels >= 7) lane.laid = lean_to_ground(lane.touched);
   if (lane.settled < Real(1.0f)) lane.settled = lane.settled + Real(program.step_seconds / kSettleSeconds);
   const bool rests = !(lane.settled < Real(1.0f));
   const Real passed = rests ? Real(1.0f) : lane.settled;
@@ -69,11 +69,10 @@ inline void settle_step(ChainLane<Real>& lane, const ChainProgram& program, Real
   // It slides to where a speed that fades to nothing, (1 − s)², takes it: a third of the way that it had gone.
   const Real way = (Real(1.0f) - rest * rest * rest) * Real(1.0f / 3.0f);
   const Real lean = passed * passed * (Real(3.0f) - (passed + passed));
-  const auto position = added(lane.base, scaled(lane.slip, way));
+  const auto position = added(lane.base, scaled(lane.slip[0], way));
   for (int axis = 0; axis < 3; ++axis) out[axis * stride] = position[static_cast<std::size_t>(axis)];
   if (program.channels < 7) return;
-  const Vector3<Real> axis{lane.lean[1], lane.lean[2], lane.lean[3]};
-  const auto q = rotated(scaled(axis, lean), lane.touched);
+  const auto q = rotated(scaled(lane.laid, lean), lane.touched);
   // At rest it lies flat but for rounding.
   if (!rests) out[2 * stride] = out[2 * stride] + reach_of(program, q);
   for (int k = 0; k < 4; ++k) out[(3 + k) * stride] = q[static_cast<std::size_t>(k)];

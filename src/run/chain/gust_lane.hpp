@@ -30,7 +30,8 @@ inline bool stirs(const Vector3<Real>& v) {
   return false;
 }
 
-/// A quarter of the wind's part that is square to a flat body: half a normal is cheaper than a whole one.
+/// A quarter of the part that is square to a flat body of the wind that it feels, beyond what it moves with: half a
+/// normal is cheaper than a whole one.
 template <class Real>
 inline Vector3<Real> quarter_press(const Quaternion<Real>& q, const Vector3<Real>& wind) {
   const Vector3<Real> half_normal{q[1] * q[3] + q[0] * q[2], q[2] * q[3] - q[0] * q[1],

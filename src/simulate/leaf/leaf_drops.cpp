@@ -201,7 +201,16 @@ Gust one_gust(const LeafPairsOptions& o, std::uint64_t index) {
   options.seed = flow::random_word(o.drops.seed + options.seed, kWindSeed, index);
   options.rest_seconds = std::max(options.rest_seconds, 0.1);
   Gust gust = LeafWind::create(options, 2 * options.rest_seconds)->gusts().front();
-  gust.start = o.lead_seconds * RandomNumbers(o.drops.seed, (kGust << 32) + index).uniform(0.8, 1.2);
+  RandomNumbers random(o.drops.seed, (kGust << 32) + index);
+  gust.start = o.lead_seconds * random.uniform(0.8, 1.2);
+  // Up and down too, all directions alike: a train's gusts blow over ground.
+  const double up = random.uniform(-1, 1), over_ground = std::sqrt(1 - up * up);
+  for (auto* vector : {&gust.velocity, &gust.slowness}) {
+    auto& [x, y, z] = *vector;
+    z = up * std::hypot(x, y);
+    x *= over_ground;
+    y *= over_ground;
+  }
   return gust;
 }
 

@@ -23,6 +23,14 @@ TEST(ChainCost, PlacementAsThePaperJoinsTakesAtMost31OperationsAFrame) {
   EXPECT_GE(cost->operations_per_frame, 22);
 }
 
+// Segments as long as a leaf's, 8.5 steps at 60 a second.
+TEST(ChainCost, JoinsThatMeetHalfWayTakeAtMost80OperationsAFrame) {
+  const auto cost = count_operations(sample_chain());
+  ASSERT_TRUE(cost);
+  EXPECT_LE(cost->operations_per_frame, 80);
+  EXPECT_GE(cost->operations_per_frame, 70);
+}
+
 TEST(ChainCost, WhatLiesBetweenStepsIsCounted) {
   const auto cost = count_operations(sample_chain());
   ASSERT_TRUE(cost);
@@ -92,16 +100,17 @@ std::int64_t dearest_frame(const Model& model, double rate) {
   return most;
 }
 
-TEST(ChainCost, NoFrameOfALongRunTakesMoreThan120Operations) {
-  for (const Model& model : {sample_chain(), sample_chain(ChainMotion::kPosition), unblended()}) {
-    EXPECT_LE(dearest_frame(model, 60), 83);
-    for (double rate : {61.0, 90.0, 144.0, 1000.0}) EXPECT_LE(dearest_frame(model, rate), 120) << rate;
+TEST(ChainCost, NoFrameOfALongRunTakesMoreThan300Operations) {
+  // A frame that joins draws what follows, places it and spreads what differs.
+  for (const Model& model : {sample_chain(), sample_chain(ChainMotion::kPosition)}) {
+    for (double rate : {60.0, 61.0, 90.0, 144.0, 1000.0}) EXPECT_LE(dearest_frame(model, rate), 300) << rate;
   }
-  EXPECT_GT(dearest_frame(sample_chain(), 60), 78);
+  EXPECT_LE(dearest_frame(unblended(), 60), 100);
+  for (double rate : {61.0, 90.0, 144.0, 1000.0}) EXPECT_LE(dearest_frame(unblended(), rate), 135) << rate;
 }
 
 TEST(ChainCost, AFrameThatMakesTwoStepsTakesNoMoreThanBoth) {
-  EXPECT_LE(dearest_frame(sample_chain(), 31), 2 * 83 + 34);
+  EXPECT_LE(dearest_frame(sample_chain(), 31), 300 + 55 + 34);
 }
 
 // The sample with the shortest segments that there can be.
@@ -114,9 +123,9 @@ Model hasty_chain(std::array<std::uint16_t, 3> steps) {
 }
 
 TEST(ChainCost, ShortSegmentsTakeNoMore) {
-  EXPECT_LE(dearest_frame(hasty_chain({2, 3, 4}), 60), 83);
-  // With segments of one step, something is drawn, turned, and placed in every frame.
-  EXPECT_LE(dearest_frame(hasty_chain({1, 1, 12}), 60), 120);
+  for (const auto& steps : {std::array<std::uint16_t, 3>{2, 3, 4}, {1, 1, 12}}) {
+    EXPECT_LE(dearest_frame(hasty_chain(steps), 60), 300);
+  }
 }
 
 // As gusts are learned: of order 1, with a press.
@@ -126,7 +135,7 @@ Model gusty_chain() {
   return model;
 }
 
-TEST(ChainCost, AGustTakesAtMost120OperationsAFrame) {
+TEST(ChainCost, AGustAdds42OperationsToAFrame) {
   const Model model = gusty_chain();
   CountedChain chain(model), calm(model);
   std::int64_t most = 0, most_calm = 0;
@@ -134,12 +143,11 @@ TEST(ChainCost, AGustTakesAtMost120OperationsAFrame) {
     most = std::max(most, chain.step({1, -2, 0.5f}));
     most_calm = std::max(most_calm, calm.step());
   }
-  EXPECT_LE(most, 120);
-  // Half a normal 10, a quarter of the press 8, three numbers 5 each, and 6 to move.
-  EXPECT_EQ(most - most_calm, 10 + 8 + 15 + 6);
+  // What the body feels of the wind 3, half a normal 10, a quarter of the press 8, three numbers 5 each, 6 to move.
+  EXPECT_EQ(most - most_calm, 3 + 10 + 8 + 15 + 6);
 }
 
-TEST(ChainCost, ABodyThatIsPlacedTakesAtMost120OperationsAFrame) {
+TEST(ChainCost, AfterABodyIsPlacedAFrameTakesAtMost450Operations) {
   CountedChain chain(hasty_chain({1, 1, 12}));
   BodyState<CountingReal> body;
   for (int k = 0; k < 200; ++k) {
@@ -148,7 +156,7 @@ TEST(ChainCost, ABodyThatIsPlacedTakesAtMost120OperationsAFrame) {
     body.rates.velocity = {CountingReal(x), CountingReal(y), CountingReal(-0.7f)};
     chain.place(body);
     EXPECT_EQ(chain.segment(), 2U);  // the one in which it can fade
-    for (int step = 0; step < 30; ++step) ASSERT_LE(chain.step(), 120) << k << ' ' << step;
+    for (int step = 0; step < 30; ++step) ASSERT_LE(chain.step(), 450) << k << ' ' << step;
   }
 }
 
@@ -159,18 +167,18 @@ TEST(ChainCost, ASteeredJoinTakesSoManyOperationsACandidate) {
   const auto cost = count_operations(model);
   ASSERT_TRUE(cost);
   const std::int64_t candidates = chain.segments.breadth * chain.modes;
-  EXPECT_GT(cost->steered_operations, 120);
-  EXPECT_LE(cost->steered_operations, 200 + 85 * candidates);
+  EXPECT_GT(cost->steered_operations, 300);
+  EXPECT_LE(cost->steered_operations, 350 + 85 * candidates);
   EXPECT_EQ(count_operations(sample_chain())->steered_operations, 0);
   CountedChain steered(model);
   steered.steer({CountingReal(1.0f), CountingReal(2.0f), CountingReal(-3.0f)});
   for (int step = 0; step < 20'000; ++step) ASSERT_LE(steered.step(), cost->steered_operations);
 }
 
-TEST(ChainCost, ComingToRestTakesAtMost120OperationsAFrame) {
+TEST(ChainCost, ComingToRestTakesAtMost300OperationsAFrame) {
   for (int drop = 1; drop < 20; ++drop) {
     CountedChain chain(sample_chain(), -0.1f * static_cast<float>(drop));
-    for (int step = 0; step < 300; ++step) ASSERT_LE(chain.step(), 120) << drop << ' ' << step;
+    for (int step = 0; step < 300; ++step) ASSERT_LE(chain.step(), 300) << drop << ' ' << step;
   }
 }
 

@@ -17,11 +17,9 @@ void add(Triple& sum, const Triple& value, double factor) {
   for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += factor * value[axis];
 }
 
-// The wind's part that is square to a flat body.
-Triple press_of(const Quad& q, const Triple& wind) {
+void add_normal(std::array<Triple, 3>& sum, const Quad& q, double factor) {
   const Triple normal = in_world_axes(q, {0, 0, 1});
-  const double part = normal[0] * wind[0] + normal[1] * wind[1] + normal[2] * wind[2];
-  return {normal[0] * part, normal[1] * part, normal[2] * part};
+  for (std::size_t axis = 0; axis < 3; ++axis) add(sum[axis], normal, factor * normal[axis]);
 }
 
 // How far a piece of the windy recording has gone since the onset beyond its calm twin.
@@ -105,7 +103,8 @@ GustEnsemble ensemble_of(const GustPairs& pairs, std::size_t gust, const GustSpa
   const double share = 1.0 / static_cast<double>(pieces.size());
   std::vector<Triple> ends;
   for (std::size_t row = span.onset; row < span.end; ++row) {
-    Triple change{}, displacement{}, wind{}, press{};
+    Triple change{}, displacement{}, wind{};
+    std::array<Triple, 3> normal{};
     ends.clear();
     for (std::size_t k : pieces) {
       const MotionPiece &blown = pairs.windy.pieces[k], &still = pairs.calm.pieces[k];
@@ -113,14 +112,13 @@ GustEnsemble ensemble_of(const GustPairs& pairs, std::size_t gust, const GustSpa
       add(change, still.velocity[row], -share);
       ends.push_back(displacement_of(blown, still, span.onset, row));
       add(displacement, ends.back(), share);
-      const Triple now = pairs.wind_at(k, row);
-      add(wind, now, share);
-      if (pairs.calm.has_orientation) add(press, press_of(still.orientation[row], now), share);
+      add(wind, pairs.wind_at(k, row), share);
+      if (pairs.calm.has_orientation) add_normal(normal, still.orientation[row], share);
     }
     mean.change.push_back(change);
     mean.displacement.push_back(displacement);
     mean.wind.push_back(wind);
-    mean.press.push_back(press);
+    mean.normal.push_back(normal);
   }
   if (!ends.empty()) mean.displacement_error = error_of_mean(ends, mean.displacement.back());
   return mean;

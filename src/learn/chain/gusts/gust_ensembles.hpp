@@ -38,8 +38,8 @@ struct GustEnsemble {
   std::vector<Triple> change;        ///< of velocity
   std::vector<Triple> displacement;  ///< since the onset
   std::vector<Triple> wind;
-  std::vector<Triple> press;      ///< the wind's part that is square to the body
-  double displacement_error = 0;  ///< over ground at the end: standard error of the mean, metres
+  std::vector<std::array<Triple, 3>> normal;  ///< what takes of a wind its part that is square to the body: n nᵀ
+  double displacement_error = 0;              ///< over ground at the end: standard error of the mean, metres
 };
 
 /// Over the clones first, first + stride, …

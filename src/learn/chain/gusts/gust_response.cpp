@@ -12,87 +12,103 @@
 namespace wisp::chain {
 namespace {
 
-constexpr int kRefinements = 12;
+constexpr int kRefinements = 24;
+constexpr double kNudge = 1e-5;
+// What the air carries moves with a steady wind: only a response that follows its gusts this much better does not.
+constexpr double kMuchBetter = 0.8;  // of the squared error
 
 using Axis = GustResponse::Axis;
 using Ensemble = GustEnsemble;
 
-double lagged(const std::vector<Triple>& values, std::size_t row, std::size_t lag, std::size_t axis) {
-  return lag > row ? 0.0 : values[row - lag][axis];
-}
+double dot(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 // The change of velocity that a response makes of a gust, by itself.
-std::vector<double> simulated(const Ensemble& gust, std::size_t axis, const Axis& response) {
-  std::vector<double> change(gust.wind.size());
-  const std::size_t order = response.change.size();
+std::vector<Triple> simulated(const Ensemble& gust, const GustResponse& response) {
+  std::vector<Triple> change(gust.wind.size()), press(gust.wind.size());
+  const auto order = static_cast<std::size_t>(response.order());
   for (std::size_t row = 0; row < change.size(); ++row) {
-    for (std::size_t k = 0; k < order; ++k) {
-      if (row > k) change[row] += response.change[k] * change[row - k - 1];
-      change[row] += response.wind[k] * lagged(gust.wind, row, k, axis);
-      change[row] += response.press[k] * lagged(gust.press, row, k, axis);
+    Triple through = gust.wind[row];
+    for (std::size_t axis = 0; axis < 3; ++axis) through[axis] -= row > 0 ? change[row - 1][axis] : 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      press[row][axis] = dot(gust.normal[row][axis], through);
+      const Axis& lags = axis < 2 ? response.ground : response.vertical;
+      for (std::size_t k = 0; k < std::min(order, row + 1); ++k) {
+        if (row > k) change[row][axis] += lags.change[k] * change[row - k - 1][axis];
+        change[row][axis] += lags.wind[k] * gust.wind[row - k][axis] + lags.press[k] * press[row - k][axis];
+      }
     }
   }
   return change;
 }
 
-Axis axis_of(const std::vector<double>& theta) {
-  const auto order = static_cast<long>(theta.size() / 3);
-  const auto at = [&](long k) { return theta.begin() + k * order; };
-  return {{at(0), at(1)}, {at(1), at(2)}, {at(2), at(3)}};
-}
+// What is searched for: of each axis the lags of the change, of the press, and of the wind; where a steady wind is to
+// carry the body along with it, without the wind's first lag, which is then what is left to 1.
+struct Unknowns {
+  int order;
+  bool carried;
 
-// Least squares of the equation error: where the refinement begins.
-std::vector<double> first_guess(std::span<const Ensemble> gusts, std::span<const std::size_t> axes, int order) {
-  NormalEquations equations(3 * static_cast<std::size_t>(order));
-  std::vector<double> row(3 * static_cast<std::size_t>(order));
-  for (const Ensemble& gust : gusts) {
-    for (std::size_t axis : axes) {
-      for (std::size_t t = 0; t < gust.change.size(); ++t) {
-        for (std::size_t k = 0; k < static_cast<std::size_t>(order); ++k) {
-          row[k] = lagged(gust.change, t, k + 1, axis);
-          row[static_cast<std::size_t>(order) + k] = lagged(gust.wind, t, k, axis);
-          row[2 * static_cast<std::size_t>(order) + k] = lagged(gust.press, t, k, axis);
-        }
-        equations.add(row, gust.change[t][axis]);
-      }
+  std::size_t size() const { return 2 * static_cast<std::size_t>(3 * order - (carried ? 1 : 0)); }
+
+  GustResponse response(const std::vector<double>& theta) const {
+    GustResponse out;
+    auto next = theta.begin();
+    for (Axis* axis : {&out.ground, &out.vertical}) {
+      const auto take = [&](int count) {
+        next += count;
+        return std::vector<double>(next - count, next);
+      };
+      axis->change = take(order);
+      axis->press = take(order);
+      axis->wind = take(carried ? order - 1 : order);
+      if (!carried) continue;
+      double rest = 1;
+      for (double x : axis->change) rest -= x;
+      for (double x : axis->wind) rest -= x;
+      axis->wind.insert(axis->wind.begin(), rest);
     }
+    return out;
   }
-  return equations.solved(1e-6);
-}
 
-double squared_error(std::span<const Ensemble> gusts, std::span<const std::size_t> axes,
-                     const std::vector<double>& theta) {
-  const Axis response = axis_of(theta);
+  // A body that is carried along within a few steps, as light ones are.
+  std::vector<double> begun() const {
+    std::vector<double> theta(size());
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const std::size_t first = axis * size() / 2;
+      theta[first] = 0.8;
+      if (!carried) theta[first + 2 * static_cast<std::size_t>(order)] = 0.2;
+    }
+    return theta;
+  }
+};
+
+double squared_error(std::span<const Ensemble> gusts, const GustResponse& response) {
   double sum = 0;
   for (const Ensemble& gust : gusts) {
-    for (std::size_t axis : axes) {
-      const auto change = simulated(gust, axis, response);
-      for (std::size_t t = 0; t < change.size(); ++t) {
-        sum += (change[t] - gust.change[t][axis]) * (change[t] - gust.change[t][axis]);
-      }
+    const auto change = simulated(gust, response);
+    for (std::size_t t = 0; t < change.size(); ++t) {
+      for (std::size_t axis = 0; axis < 3; ++axis) sum += std::pow(change[t][axis] - gust.change[t][axis], 2);
     }
   }
   return sum;
 }
 
 // One step of Levenberg and Marquardt on the error of free simulation, slopes by differences.
-std::vector<double> refined(std::span<const Ensemble> gusts, std::span<const std::size_t> axes,
-                            const std::vector<double>& theta, double damping) {
-  constexpr double kNudge = 1e-5;
+std::vector<double> refined(std::span<const Ensemble> gusts, const Unknowns& unknowns, const std::vector<double>& theta,
+                            double damping) {
   NormalEquations equations(theta.size());
   std::vector<double> row(theta.size());
   for (const Ensemble& gust : gusts) {
-    for (std::size_t axis : axes) {
-      const auto now = simulated(gust, axis, axis_of(theta));
-      std::vector<std::vector<double>> nudged;
-      for (std::size_t k = 0; k < theta.size(); ++k) {
-        auto other = theta;
-        other[k] += kNudge;
-        nudged.push_back(simulated(gust, axis, axis_of(other)));
-      }
-      for (std::size_t t = 0; t < now.size(); ++t) {
-        for (std::size_t k = 0; k < theta.size(); ++k) row[k] = (nudged[k][t] - now[t]) / kNudge;
-        equations.add(row, gust.change[t][axis] - now[t]);
+    const auto now = simulated(gust, unknowns.response(theta));
+    std::vector<std::vector<Triple>> nudged;
+    for (std::size_t k = 0; k < theta.size(); ++k) {
+      auto other = theta;
+      other[k] += kNudge;
+      nudged.push_back(simulated(gust, unknowns.response(other)));
+    }
+    for (std::size_t t = 0; t < now.size(); ++t) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (std::size_t k = 0; k < theta.size(); ++k) row[k] = (nudged[k][t][axis] - now[t][axis]) / kNudge;
+        equations.add(row, gust.change[t][axis] - now[t][axis]);
       }
     }
   }
@@ -101,25 +117,17 @@ std::vector<double> refined(std::span<const Ensemble> gusts, std::span<const std
   return step;
 }
 
-Axis fit_axis(std::span<const Ensemble> gusts, std::span<const std::size_t> axes, int order) {
-  auto theta = first_guess(gusts, axes, order);
-  // What grows can't be refined, and wind that was never seen tells nothing: then a body is carried along within a few
-  // steps, as light ones are.
-  double error = squared_error(gusts, axes, theta);
-  const std::vector<double> plain = [&] {
-    std::vector<double> start(theta.size(), 0.0);
-    start[0] = 0.8;
-    start[static_cast<std::size_t>(order)] = 0.2;
-    return start;
-  }();
-  if (const double other = squared_error(gusts, axes, plain); !(error < other)) {
-    theta = plain;
-    error = other;
-  }
-  double damping = 1e-4;
+struct Found {
+  GustResponse response;
+  double error = 0;
+};
+
+Found fitted(std::span<const Ensemble> gusts, const Unknowns& unknowns) {
+  auto theta = unknowns.begun();
+  double error = squared_error(gusts, unknowns.response(theta)), damping = 1e-4;
   for (int round = 0; round < kRefinements; ++round) {
-    const auto tried = refined(gusts, axes, theta, damping);
-    const double found = squared_error(gusts, axes, tried);
+    const auto tried = refined(gusts, unknowns, theta, damping);
+    const double found = squared_error(gusts, unknowns.response(tried));
     if (found < error) {
       theta = tried;
       error = found;
@@ -128,7 +136,12 @@ Axis fit_axis(std::span<const Ensemble> gusts, std::span<const std::size_t> axes
       damping *= 16;
     }
   }
-  return axis_of(theta);
+  return {unknowns.response(theta), error};
+}
+
+GustResponse fitted(std::span<const Ensemble> gusts, int order) {
+  Found carried = fitted(gusts, Unknowns{order, true}), free = fitted(gusts, Unknowns{order, false});
+  return free.error < kMuchBetter * carried.error ? free.response : carried.response;
 }
 
 struct Judgement {
@@ -137,15 +150,11 @@ struct Judgement {
 };
 
 void judge(const Ensemble& gust, const GustResponse& response, double rate_hz, Judgement& out, GustFigures& figures) {
-  std::array<std::vector<double>, 3> change;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    change[axis] = simulated(gust, axis, axis < 2 ? response.ground : response.vertical);
-  }
+  const auto change = simulated(gust, response);
   Triple place{};
   for (std::size_t t = 0; t < gust.change.size(); ++t) {
-    Triple now{};
+    const Triple& now = change[t];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      now[axis] = change[axis][t];
       // As the bank does it: a step's change of velocity moves the step after it.
       if (t > 0) place[axis] += now[axis] / rate_hz;
       figures.largest_change = std::max(figures.largest_change, std::abs(now[axis]));
@@ -189,8 +198,7 @@ Result<GustFit> learn_gusts(const Recording& windy, const Recording& calm, const
   if (judged.empty()) judged = told;
 
   GustFit fit;
-  constexpr std::size_t kGround[] = {0, 1}, kVertical[] = {2};
-  fit.response = {fit_axis(told, kGround, options.order), fit_axis(told, kVertical, options.order)};
+  fit.response = fitted(told, options.order);
   fit.inputs = inputs_of(pairs->wind);
   fit.figures.gusts_learned = told.size();
   fit.figures.gusts_judged = judged.size();

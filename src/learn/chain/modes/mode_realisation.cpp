@@ -1,5 +1,7 @@
 #include "learn/chain/modes/mode_realisation.hpp"
 
+#include <cmath>
+
 #include "learn/chain/chain_drift.hpp"
 #include "learn/chain/modes/mode_parts.hpp"
 #include "learn/chain/modes/mode_splines.hpp"
@@ -13,11 +15,8 @@ namespace {
 constexpr int kMaxPartHistory = 2;  // of halves: a longer one has thousands of rows
 
 RealisedChain stored_chain(const ModeWalk& walk, const ChainRecipe& recipe) {
-  const SegmentStoreOptions storing{.heading_free = recipe.features.heading_free,
-                                    .max_bytes = recipe.max_bytes,
-                                    .breadth = recipe.best_of,
-                                    .blend = {.share = recipe.blend},
-                                    .seed = recipe.seed};
+  const SegmentStoreOptions storing{
+      .heading_free = recipe.features.heading_free, .max_bytes = recipe.max_bytes, .breadth = recipe.best_of};
   const auto store = store_segments(walk.motion, walk.segments, walk.cluster, walk.modes, storing);
   RealisedChain out;
   ChainModel& dynamics = out.dynamics;
@@ -27,7 +26,7 @@ RealisedChain stored_chain(const ModeWalk& walk, const ChainRecipe& recipe) {
   dynamics.segments = store.segments;
   dynamics.initial = walk.chain.initial;
   dynamics.contexts = walk.chain.contexts;
-  dynamics.blend.share = recipe.blend;
+  dynamics.blend_steps = static_cast<int>(std::lround(recipe.blend * walk.motion.rate_hz));
   for (std::size_t source : store.source) out.origin.push_back(source + walk.segments[source].piece);
   return out;
 }

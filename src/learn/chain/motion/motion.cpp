@@ -5,10 +5,14 @@
 #include <cstdio>
 #include <optional>
 
+#include "base/number_text.hpp"
+
 namespace wisp::chain {
 namespace {
 
 constexpr std::size_t kMinRows = 8;
+constexpr double kUsualStep = 0.9;   // share of the steps that are shorter
+constexpr double kMaxJump = 20;      // usual steps, and those around it: a row that is farther was not moved to
 constexpr double kRounding = 2e-4;   // of a unit quaternion that was written with four digits
 constexpr double kMaxWrong = 0.01;   // beyond it, it is something else than a unit quaternion
 constexpr double kMaxJitter = 0.01;  // of a step of time
@@ -186,27 +190,54 @@ Result<void> add_row(const Recording& recording, const Layout& layout, std::size
   return {};
 }
 
+double distance_between(const Triple& a, const Triple& b) { return std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]); }
+
+// What moves does not jump: a step that is many times as long as the steps around it, and as steps are, is another
+// place, or another fall.
+Result<void> check_jumps(const Recording& recording, const MotionPiece& piece) {
+  std::vector<double> steps;
+  for (std::size_t row = 1; row < piece.rows(); ++row) {
+    steps.push_back(distance_between(piece.position[row - 1], piece.position[row]));
+  }
+  auto sorted = steps;
+  const auto usual = sorted.begin() + static_cast<long>(kUsualStep * static_cast<double>(sorted.size() - 1));
+  std::nth_element(sorted.begin(), usual, sorted.end());
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    double around = *usual;
+    for (std::size_t other = k > 2 ? k - 2 : 0; other < std::min(k + 3, steps.size()); ++other) {
+      if (other != k) around = std::max(around, steps[other]);
+    }
+    if (!(around > 0) || steps[k] <= kMaxJump * around) continue;
+    return Error{recording.source + ": row " + std::to_string(piece.first_row + k + 2) + " lies " +
+                 number_text(steps[k], 3) + " m from the row before it, where steps are " + number_text(*usual, 3) +
+                 " m: expected motion without jumps; begin a new episode there, or leave the row empty"};
+  }
+  return {};
+}
+
 Result<void> add_recording(const Recording& recording, std::size_t index, const Layout& layout, int smooth_rows,
                            Motion& motion) {
   double worst = 0;
-  const auto finish = [&](MotionPiece& piece) {
+  const auto finish = [&](MotionPiece& piece) -> Result<void> {
     if (piece.rows() >= kMinRows) {
+      if (auto ok = check_jumps(recording, piece); !ok) return ok;
       add_rates(piece, recording.rate_hz, smooth_rows);
       motion.pieces.push_back(std::move(piece));
     }
     piece = {};
+    return {};
   };
   for (const Episode& episode : episodes(recording)) {
     MotionPiece piece;
     for (std::size_t row = episode.begin; row < episode.end; ++row) {
       if (!is_whole(recording, layout, row)) {
-        finish(piece);
+        if (auto ok = finish(piece); !ok) return ok;
         continue;
       }
       if (piece.rows() == 0) piece = {.recording = index, .first_row = row};
       if (auto ok = add_row(recording, layout, row, piece, worst); !ok) return ok;
     }
-    finish(piece);
+    if (auto ok = finish(piece); !ok) return ok;
   }
   if (worst > kRounding) {
     char text[160];

@@ -4,18 +4,25 @@
 #include <utility>
 
 #include "learn/chain/modes/successor_balance.hpp"
-#include "learn/chain/segments/join_jumps.hpp"
 
 namespace wisp::chain {
 namespace {
 
-constexpr std::size_t kLookedAt = 64;  // nearest ones of which the jumps are foreseen
-// Jumps that come near the recording's 99th percentile count against a successor, and soon more than all else.
-constexpr double kSmooth = 0.8;
-constexpr double kJumpWeight = 15;
+constexpr std::size_t kLookedAt = 64;  // nearest ones, of which those that are played too often give way
+constexpr double kMaxGain = 0.4;       // of the variance of velocity: what falls is not sped up by more at once
+constexpr double kGainCost = 4;  // a join that does counts as twice as far away: it is taken where others are none
+
+// How much faster a segment begins than another ends: the square of its speed over the other's, in variances. Moments
+// begin with velocity in such units.
+double gain_of(const JoinMoment& end, const JoinMoment& start) {
+  double gain = 0;
+  for (std::size_t k = 0; k < std::min<std::size_t>(3, start.size()); ++k)
+    gain += start[k] * start[k] - end[k] * end[k];
+  return gain;
+}
 
 Successors candidates_of(const SegmentMoments& moments, std::span<const std::uint16_t> mode,
-                         std::span<const double> weight, int modes, const JoinForesight& foresight) {
+                         std::span<const double> weight, int modes) {
   std::vector<std::vector<std::uint16_t>> members(static_cast<std::size_t>(modes));
   for (std::size_t k = 0; k < mode.size(); ++k) members[mode[k]].push_back(static_cast<std::uint16_t>(k));
   Successors candidates;
@@ -30,10 +37,9 @@ Successors candidates_of(const SegmentMoments& moments, std::span<const std::uin
       std::partial_sort(near.begin(), near.begin() + static_cast<long>(looked_at), near.end());
       near.resize(looked_at);
       for (Successor& one : near) {
-        const double beyond = std::max(0.0, foresight.jump(from, one.segment) - kSmooth);
-        one.misfit += kJumpWeight * beyond * beyond;
         // Of two that stood beside each other in a plane of moments, the nearer one would be as much nearer.
         one.misfit /= weight[one.segment];
+        if (gain_of(moments.ends[from], moments.starts[one.segment]) > kMaxGain) one.misfit *= kGainCost;
       }
       candidates.push_back(std::move(near));
     }
@@ -43,13 +49,10 @@ Successors candidates_of(const SegmentMoments& moments, std::span<const std::uin
 
 }  // namespace
 
-std::vector<std::uint16_t> best_successors(const Motion& motion, std::span<const Segment> segments,
-                                           const SegmentMoments& moments, std::span<const std::uint16_t> mode,
-                                           int modes, const SuccessorOptions& options, std::span<const double> weight,
+std::vector<std::uint16_t> best_successors(const SegmentMoments& moments, std::span<const std::uint16_t> mode,
+                                           int modes, int breadth, std::span<const double> weight,
                                            std::span<const double> chances) {
-  const JoinForesight foresight(motion, segments, options.heading_free, options.blend);
-  return balanced_successors(candidates_of(moments, mode, weight, modes, foresight), mode, weight, chances, modes,
-                             options.breadth);
+  return balanced_successors(candidates_of(moments, mode, weight, modes), mode, weight, chances, modes, breadth);
 }
 
 }  // namespace wisp::chain

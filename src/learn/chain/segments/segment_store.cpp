@@ -3,22 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <random>
+#include <utility>
 
 #include "learn/chain/modes/successor_modes.hpp"
-#include "learn/chain/segments/join_jumps.hpp"
 #include "learn/chain/segments/segment_features.hpp"
 #include "learn/chain/segments/segment_joins.hpp"
 #include "learn/chain/segments/segment_moments.hpp"
 #include "learn/chain/segments/segment_weights.hpp"
-#include "learn/fidelity/fidelity_shuffle.hpp"
 
 namespace wisp::chain {
 namespace {
 
 constexpr double kMaxStored = 32767;
-constexpr double kUsualShare = 0.99;
-constexpr double kCalm = 0.95;
+constexpr double kRowShare = 0.005;        // of a usual step: what positions are rounded to, 0.1 mm for a leaf
+constexpr double kRateShare = 0.002;       // of a usual rate: what rates are rounded to
+constexpr double kTurnScale = 1.0 / 4096;  // of quaternions: rounds an orientation by 0.03° at most
 
 // What a segment consists of, in its own frame, before it is rounded.
 struct Piece {
@@ -50,12 +49,17 @@ Piece piece_of(const Motion& motion, const Segment& segment, bool heading_free) 
   return piece;
 }
 
+double dot(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
 double largest(double so_far, const Triple& vector) {
   for (double x : vector) so_far = std::max(so_far, std::abs(x));
   return so_far;
 }
 
-double scale_for(double most) { return most > 0 ? most / kMaxStored : 1.0 / kMaxStored; }
+// What numbers are rounded to that are usually so large, and at most as large as `most`.
+double scale_for(double most, double usual) {
+  return std::max(usual, most / kMaxStored) + (most > 0 ? 0 : 1.0 / kMaxStored);
+}
 
 template <std::size_t kSize>
 void put(const std::array<double, kSize>& values, double scale, std::vector<std::int16_t>& out) {
@@ -64,9 +68,24 @@ void put(const std::array<double, kSize>& values, double scale, std::vector<std:
   }
 }
 
-std::size_t bytes_of(const Segment& segment, bool pose, std::size_t successors) {
-  const std::size_t channels = pose ? 7 : 3, rates = pose ? 12 : 6;
-  return 2 * (static_cast<std::size_t>(segment.steps + 1) * channels + rates + 2 + successors);
+// Root-mean-square speed and angular speed.
+std::pair<double, double> usual_rates(const Motion& motion) {
+  double speed = 0, spin = 0, rows = 0;
+  for (const MotionPiece& piece : motion.pieces) {
+    for (const Triple& v : piece.velocity) speed += v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    for (const Triple& w : piece.spin) spin += w[0] * w[0] + w[1] * w[1] + w[2] * w[2];
+    rows += static_cast<double>(piece.rows());
+  }
+  return {std::sqrt(speed / rows), std::sqrt(spin / rows)};
+}
+
+// What a segment takes in a file, about: its numbers are packed (model/chain_rows.hpp).
+constexpr double kNumberBytes = 0.97;
+constexpr double kSuccessorBytes = 1.6;
+
+double bytes_of(const Segment& segment, bool pose, double successors) {
+  const double channels = pose ? 7 : 3, rates = pose ? 12 : 6;
+  return kNumberBytes * ((segment.steps + 1.0) * channels + rates) + 4 + successors;
 }
 
 // Most segments a mode may keep so that all fit: modes that have fewer leave their room to the others.
@@ -94,38 +113,61 @@ std::vector<Segment> on_rows(const Motion& motion, std::span<const Segment> segm
   return out;
 }
 
-// Whether a segment's last row jumps no more than rows do but for the hundredth that jump most.
-bool ends_calmly(const Motion& motion, const Segment& segment, const Jump& usual) {
-  const auto end = static_cast<std::size_t>(segment.end);
-  if (end < 2) return true;
-  const Jump jump = jump_at(motion.pieces[segment.piece], end);
-  return jump.position <= kCalm * usual.position && jump.rotation <= kCalm * usual.rotation;
+// How deep a segment dives, how fast it goes over ground, and how far it turns: what tails are made of.
+std::array<double, 3> extremes_of(const Motion& motion, const Segment& segment) {
+  const MotionPiece& piece = motion.pieces[segment.piece];
+  const auto first = static_cast<std::size_t>(segment.begin), last = static_cast<std::size_t>(segment.end);
+  std::array<double, 3> out{};
+  for (std::size_t row = first; row <= last; ++row) {
+    const Triple& v = piece.velocity[row];
+    out[0] = row == first ? v[2] : std::min(out[0], v[2]);
+    out[1] = std::max(out[1], std::hypot(v[0], v[1]));
+    if (motion.has_orientation) out[2] += std::sqrt(dot(piece.spin[row], piece.spin[row]));
+  }
+  return out;
 }
 
-// Segments that stay, by mode, and within a mode in the order of the recording. Where not all can, those go first that
-// end with a jump: it would show at every join.
+// Puts segments in an order in which neighbours are alike: halves by one of their extremes after the other.
+void order_alike(std::span<std::size_t> members, const std::vector<std::array<double, 3>>& extremes, std::size_t by) {
+  if (members.size() < 2) return;
+  const auto middle = members.begin() + static_cast<long>(members.size() / 2);
+  std::nth_element(members.begin(), middle, members.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair(extremes[a][by], a) < std::pair(extremes[b][by], b);
+  });
+  const std::size_t half = members.size() / 2, next = (by + 1) % extremes[0].size();
+  order_alike(members.first(half), extremes, next);
+  order_alike(members.subspan(half), extremes, next);
+}
+
+// So many of them, at even shares.
+std::vector<std::size_t> thinned(const std::vector<std::size_t>& members, std::size_t count) {
+  std::vector<std::size_t> out;
+  for (std::size_t k = 0; k < count; ++k) out.push_back(members[(2 * k + 1) * members.size() / (2 * count)]);
+  return out;
+}
+
+// Segments that stay, by mode, and within a mode in the order of the recording. Where not all can, they are drawn in
+// strata, so that dives, speeds and turns are as frequent among those that stay.
 std::vector<std::size_t> kept_segments(const Motion& motion, std::span<const Segment> segments,
                                        std::span<const std::uint16_t> cluster, int modes, bool pose,
                                        const SegmentStoreOptions& options) {
   std::vector<std::vector<std::size_t>> members(static_cast<std::size_t>(modes));
-  std::size_t bytes = 0;
-  const auto successors = static_cast<std::size_t>(options.breadth > 0 ? options.breadth + 1 : 0) *
-                          static_cast<std::size_t>(modes);  // and how likely each mode is
+  double bytes = 0;
+  const double successors =
+      options.breadth > 0 ? (kSuccessorBytes * options.breadth + 2) * modes + 6 : 0;  // with weights of modes and leads
   for (std::size_t k = 0; k < segments.size(); ++k) {
     members[cluster[k]].push_back(k);
     bytes += bytes_of(segments[k], pose, successors);
   }
-  const double share = std::min(1.0, static_cast<double>(options.max_bytes) / static_cast<double>(bytes));
+  const double share = std::min(1.0, static_cast<double>(options.max_bytes) / bytes);
   const auto room = static_cast<std::size_t>(share * static_cast<double>(segments.size()));
   const std::size_t cap = cap_of(members, std::clamp<std::size_t>(room, 1, kMostSegments - members.size()));
-  std::mt19937_64 random(options.seed);
-  const Jump usual = usual_jump(motion, kUsualShare);
+  std::vector<std::array<double, 3>> extremes;
+  for (const Segment& one : segments) extremes.push_back(extremes_of(motion, one));
   std::vector<std::size_t> kept;
   for (auto& mode : members) {
-    shuffle(std::span(mode), random);
-    std::stable_partition(mode.begin(), mode.end(),
-                          [&](std::size_t k) { return ends_calmly(motion, segments[k], usual); });
-    mode.resize(std::min(mode.size(), cap));
+    order_alike(mode, extremes, 0);
+    mode = thinned(mode, std::min(mode.size(), cap));
     std::sort(mode.begin(), mode.end());
     kept.insert(kept.end(), mode.begin(), mode.end());
   }
@@ -156,18 +198,15 @@ void join_up(const Motion& motion, std::span<const Segment> segments, std::span<
   const std::vector<double> weight = segment_weights(motion, segments);
   SuccessorModes onward =
       successor_modes(moments, cluster, weight, store.source, transitions_of(segments, cluster, weight, modes), modes);
-  std::vector<Segment> kept;
   SegmentMoments own;
   std::vector<double> own_weight;
   for (std::size_t source : store.source) {
-    kept.push_back(segments[source]);
     own.starts.push_back(moments.starts[source]);
     own.ends.push_back(moments.ends[source]);
     own_weight.push_back(weight[source]);
   }
-  const SuccessorOptions joining{options.heading_free, options.breadth, options.blend};
   ChainSegments& out = store.segments;
-  out.follow = best_successors(motion, kept, own, out.mode, modes, joining, own_weight, onward.chances);
+  out.follow = best_successors(own, out.mode, modes, options.breadth, own_weight, onward.chances);
   if (modes > 1) out.onward = std::move(onward.share);
 }
 
@@ -180,6 +219,7 @@ SegmentStore store_segments(const Motion& motion, std::span<const Segment> found
   store.source = kept_segments(motion, segments, cluster, modes, motion.has_orientation, options);
   std::vector<Piece> pieces;
   double farthest = 0, fastest = 0, quickest = 0;
+  const auto [speed, spin_speed] = usual_rates(motion);
   for (std::size_t source : store.source) {
     pieces.push_back(piece_of(motion, segments[source], options.heading_free));
     for (const Triple& at : pieces.back().position) farthest = largest(farthest, at);
@@ -187,11 +227,11 @@ SegmentStore store_segments(const Motion& motion, std::span<const Segment> found
     for (const Triple& spin : pieces.back().spin) quickest = largest(quickest, spin);
   }
   ChainSegments& out = store.segments;
-  out.row_scale = {scale_for(farthest)};
-  out.rate_scale = {scale_for(fastest)};
+  out.row_scale = {scale_for(farthest, kRowShare * speed / motion.rate_hz)};
+  out.rate_scale = {scale_for(fastest, kRateShare * speed)};
   if (motion.has_orientation) {
-    out.row_scale.push_back(1 / kMaxStored);
-    out.rate_scale.push_back(scale_for(quickest));
+    out.row_scale.push_back(kTurnScale);
+    out.rate_scale.push_back(scale_for(quickest, kRateShare * spin_speed));
   }
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     out.mode.push_back(cluster[store.source[k]]);

@@ -15,12 +15,10 @@ namespace wisp::chain {
 
 struct SegmentStoreOptions {
   bool heading_free = true;
-  std::size_t max_bytes = 850'000;  ///< > 0, of all segments: what is over it is left out, as many of each mode as
-                                    ///< the rarer ones allow; a leaf for the web is at most 1 MB
+  std::size_t max_bytes = 4'000'000;  ///< > 0, of all segments: what is over it is left out, as many of each mode as
+                                      ///< the rarer ones allow
   int breadth = 4;  ///< 0 … 256: best successors kept for each segment and mode; 0: any segment of the mode follows
                     ///< (the paper's). Fewer join better and leave room for more segments, but repeat themselves sooner
-  ChainBlend blend{};      ///< how joins will fade: successors are chosen for what is seen then
-  std::uint64_t seed = 1;  ///< of which segments stay
 };
 
 struct SegmentStore {

@@ -133,5 +133,25 @@ TEST(Motion, TurnsAndTheirInversesAgree) {
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(seen[k], same[k], 1e-12);
 }
 
+TEST(Motion, AJumpIsAnErrorWithItsRow) {
+  Recording recording = made_falls({.falls = 2, .seconds = 4});
+  for (std::size_t row = 300; row < 480; ++row) recording.channels[0].samples[row] += 3;
+  const auto motion = motion_of_one(recording);
+  ASSERT_FALSE(motion);
+  EXPECT_THAT(motion.error().message, HasSubstr("made.csv: row 301 lies 3"));
+  EXPECT_THAT(motion.error().message, HasSubstr("begin a new episode there"));
+  // Where one fall ends and another begins is no jump.
+  for (std::size_t row = 240; row < 300; ++row) recording.channels[0].samples[row] += 3;
+  EXPECT_TRUE(motion_of_one(recording));
+}
+
+TEST(Motion, WhatRestsAndThenMovesDoesNotJump) {
+  Recording recording = made_falls({.falls = 1, .seconds = 4});
+  for (Channel& channel : recording.channels) {
+    for (std::size_t row = 0; row < 200; ++row) channel.samples[row] = channel.samples[200];
+  }
+  EXPECT_TRUE(motion_of_one(recording));
+}
+
 }  // namespace
 }  // namespace wisp::chain

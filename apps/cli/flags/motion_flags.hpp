@@ -1,0 +1,23 @@
+#pragma once
+// How a recording of motion is to be understood whose names, axes or units are another program's.
+
+#include <string>
+#include <vector>
+
+#include "command.hpp"
+#include "wisp/record/recording.hpp"
+
+namespace wisp::cli {
+
+/// --up, --quaternion, --units, --position and --orientation.
+std::vector<Flag> motion_flags();
+
+/// The columns that --position and --orientation name; none where they are not given.
+std::vector<std::string> motion_columns(const Arguments& arguments);
+
+/// The recording as learning expects it: pos.x, pos.y, pos.z in metres with z up, q.w, q.x, q.y, q.z. Where none of the
+/// flags is given it is as it was.
+/// Errors: a column that is not there; not three, or four, of them.
+Result<Recording> as_motion(Recording recording, const Arguments& arguments);
+
+}  // namespace wisp::cli

@@ -1,0 +1,77 @@
+// Recordings of motion in another program's names, axes and units.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "cli/program.hpp"
+
+namespace wisp {
+namespace {
+
+using testing::HasSubstr;
+
+// A leaf that rocks about x and slides to the side that is lower: x, y, z up, then w, x, y, z.
+std::array<double, 7> rocking(int fall, int row) {
+  const double t = row / 60.0, rate = 18 + 0.7 * fall, tilt = (0.7 + 0.03 * fall) * std::sin(rate * t + fall);
+  return {0.02 * t, 0.1 * std::sin(rate * t + fall), -0.7 * t, std::cos(tilt / 2), std::sin(tilt / 2), 0, 0};
+}
+
+class MotionFlags : public InFolder {
+ protected:
+  // Writes the same falls as `shown` has them.
+  template <class Shown>
+  std::string falls(const std::string& name, const std::string& header, Shown shown) {
+    std::ostringstream out;
+    out.precision(12);
+    const bool own = header.find("y:") != std::string::npos;
+    out << (own ? "# wisp-recording 1\n# rate_hz 60\n" : "") << header << '\n';
+    for (int fall = 0; fall < 8; ++fall) {
+      for (int row = 0; row < 120; ++row) {
+        out << fall;
+        for (double x : shown(rocking(fall, row))) out << ',' << x;
+        out << '\n';
+      }
+    }
+    std::ofstream(at(name)) << out.str();
+    return at(name);
+  }
+
+  nlohmann::json learned(const std::string& file, const std::string& flags) {
+    const Said said = wisp("learn leaf " + file + " -o " + at("m.wisp") + " --modes 2 --json " + flags);
+    EXPECT_EQ(said.status, 0) << said.err;
+    return said.json();
+  }
+};
+
+TEST_F(MotionFlags, AnotherProgramsConventionsAreTakenOver) {
+  const auto plain = falls("plain.csv", "episode,y:pos.x[m],y:pos.y[m],y:pos.z[m],y:q.w,y:q.x,y:q.y,y:q.z",
+                           [](const std::array<double, 7>& r) { return r; });
+  // Millimetres, y up, and quaternions x, y, z, w in columns of other names. Up is turned to y by a quarter turn back
+  // about x.
+  const auto other = falls("other.csv", "episode,X,Y,Z,qx,qy,qz,qw", [](const std::array<double, 7>& r) {
+    const double half = std::sqrt(0.5);
+    return std::array<double, 7>{1000 * r[0],          1000 * r[2],          -1000 * r[1],        half * (r[4] - r[3]),
+                                 half * (r[5] + r[6]), half * (r[6] - r[5]), half * (r[3] + r[4])};
+  });
+  const auto a = learned(plain, "");
+  const auto b =
+      learned(other, "--position X,Y,Z --orientation qx,qy,qz,qw --quaternion xyzw --units mm --up y --rate 60");
+  EXPECT_EQ(a["segments"], b["segments"]);
+  EXPECT_NEAR(a["mean_segment_seconds"], b["mean_segment_seconds"], 1e-6);
+  EXPECT_NEAR(a["fidelity"]["real"]["descent_speed"], b["fidelity"]["real"]["descent_speed"], 1e-6);
+}
+
+TEST_F(MotionFlags, ColumnsThatAreNotThereAreErrors) {
+  const auto plain = falls("plain.csv", "episode,y:pos.x[m],y:pos.y[m],y:pos.z[m],y:q.w,y:q.x,y:q.y,y:q.z",
+                           [](const std::array<double, 7>& r) { return r; });
+  EXPECT_THAT(wisp("learn leaf " + plain + " -o " + at("m.wisp") + " --position X,Y").err,
+              HasSubstr("--position names 2 columns, expected 3"));
+}
+
+}  // namespace
+}  // namespace wisp
