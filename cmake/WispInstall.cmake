@@ -13,6 +13,16 @@ foreach(layer IN LISTS layers)
   install(EXPORT wisp-${name} NAMESPACE wisp:: DESTINATION ${package})
 endforeach()
 
+if(WISP_BUILD_SHARED)
+  install(TARGETS wisp_shared EXPORT wisp-shared)
+  install(EXPORT wisp-shared NAMESPACE wisp:: DESTINATION ${package})
+  list(APPEND WISP_INSTALLED_LAYERS shared)
+  # A pkg-config file that says where it lies, not where it was built.
+  file(RELATIVE_PATH WISP_PC_PREFIX /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/wisp.pc.in ${PROJECT_BINARY_DIR}/wisp.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/wisp.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endif()
+
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/wisp-config.cmake.in
   ${PROJECT_BINARY_DIR}/wisp-config.cmake INSTALL_DESTINATION ${package} NO_SET_AND_CHECK_MACRO)
 # Before 1.0 a minor version may break what a host relies on.

@@ -6,9 +6,3 @@ if(NOT WISP_EMSCRIPTEN_MODULES)
   message(FATAL_ERROR "There is no Emscripten: install the package emscripten, or set EMSCRIPTEN to its folder.")
 endif()
 include(${WISP_EMSCRIPTEN_MODULES}/Platform/Emscripten.cmake)
-
-# A cross build does not look outside Emscripten's own headers, and FlatBuffers' are outside. src/model copies them to a
-# folder of their own, so that the rest of the system's headers stays out.
-find_path(WISP_FLATBUFFERS_INCLUDE flatbuffers/flatbuffers.h NO_CMAKE_FIND_ROOT_PATH
-  PATHS /usr/include /usr/local/include /opt/homebrew/include)
-

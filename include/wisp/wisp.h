@@ -33,6 +33,17 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* What the library shows. Who links the shared one on Windows defines WISP_SHARED. */
+#if defined(_WIN32) && defined(WISP_EXPORTS)
+#define WISP_API __declspec(dllexport)
+#elif defined(_WIN32) && defined(WISP_SHARED)
+#define WISP_API __declspec(dllimport)
+#elif defined(__GNUC__) && !defined(_WIN32)
+#define WISP_API __attribute__((visibility("default")))
+#else
+#define WISP_API
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -42,7 +53,7 @@ extern "C" {
 #define WISP_VERSION_PATCH 0
 
 /* The version of the library that is linked: major * 1000000 + minor * 1000 + patch. */
-int32_t wisp_version(void);
+WISP_API int32_t wisp_version(void);
 
 typedef int32_t wisp_status;
 enum {
@@ -55,7 +66,7 @@ enum {
 };
 
 /* One sentence about the last failure on this thread; "" before the first. Valid until the next failure on it. */
-const char* wisp_last_error(void);
+WISP_API const char* wisp_last_error(void);
 
 /* ---- Models ---- */
 
@@ -63,10 +74,10 @@ typedef struct wisp_model wisp_model;
 
 /* Reads a model from the bytes of a .wisp file; they are not needed afterwards. Sets *model.
  * Fails with WISP_BAD_DATA when they are not a whole, sound model of a known version. */
-wisp_status wisp_model_load(const void* bytes, size_t size, wisp_model** model);
+WISP_API wisp_status wisp_model_load(const void* bytes, size_t size, wisp_model** model);
 
 /* Frees a model; banks made from it live on. NULL is fine. */
-void wisp_model_free(wisp_model* model);
+WISP_API void wisp_model_free(wisp_model* model);
 
 /* What moves the outputs. */
 enum {
@@ -109,7 +120,7 @@ typedef struct wisp_model_facts {
 } wisp_model_facts;
 
 /* Fills the fields that the caller's `size` has room for. */
-wisp_status wisp_model_get_facts(const wisp_model* model, wisp_model_facts* facts);
+WISP_API wisp_status wisp_model_get_facts(const wisp_model* model, wisp_model_facts* facts);
 
 typedef struct wisp_channel {
   uint32_t size; /* sizeof(wisp_channel), set by the caller */
@@ -123,11 +134,11 @@ typedef struct wisp_channel {
 } wisp_channel;
 
 /* What input or output number `index`, from 0, is. */
-wisp_status wisp_model_get_input(const wisp_model* model, uint32_t index, wisp_channel* channel);
-wisp_status wisp_model_get_output(const wisp_model* model, uint32_t index, wisp_channel* channel);
+WISP_API wisp_status wisp_model_get_input(const wisp_model* model, uint32_t index, wisp_channel* channel);
+WISP_API wisp_status wisp_model_get_output(const wisp_model* model, uint32_t index, wisp_channel* channel);
 
 /* The model's name; lives as long as the model. "" for NULL. */
-const char* wisp_model_name(const wisp_model* model);
+WISP_API const char* wisp_model_name(const wisp_model* model);
 
 /* ---- What a model says of itself. Texts live as long as the model. ---- */
 
@@ -158,12 +169,12 @@ typedef struct wisp_figure {
   double value;
 } wisp_figure;
 
-wisp_status wisp_model_get_provenance(const wisp_model* model, wisp_provenance* provenance);
+WISP_API wisp_status wisp_model_get_provenance(const wisp_model* model, wisp_provenance* provenance);
 
 /* Number `index`, from 0, of each. Sets *name to the file name of a recording that the model was learned from. */
-wisp_status wisp_model_get_source(const wisp_model* model, uint32_t index, const char** name);
-wisp_status wisp_model_get_option(const wisp_model* model, uint32_t index, wisp_note* option);
-wisp_status wisp_model_get_figure(const wisp_model* model, uint32_t index, wisp_figure* figure);
+WISP_API wisp_status wisp_model_get_source(const wisp_model* model, uint32_t index, const char** name);
+WISP_API wisp_status wisp_model_get_option(const wisp_model* model, uint32_t index, wisp_note* option);
+WISP_API wisp_status wisp_model_get_figure(const wisp_model* model, uint32_t index, wisp_figure* figure);
 
 /* Of models whose dynamics are WISP_DYNAMICS_ARX; others are a WISP_BAD_ARGUMENT. */
 typedef struct wisp_arx_facts {
@@ -175,15 +186,15 @@ typedef struct wisp_arx_facts {
   uint32_t resamples;  /* 1 when recorded residuals are played again, 0 when the noise is Gaussian */
 } wisp_arx_facts;
 
-wisp_status wisp_model_get_arx(const wisp_model* model, wisp_arx_facts* facts);
+WISP_API wisp_status wisp_model_get_arx(const wisp_model* model, wisp_arx_facts* facts);
 
 /* Matrices of orders, row by row: na (outputs * outputs), nb and nk (outputs * regressors). */
-wisp_status wisp_model_arx_na(const wisp_model* model, int32_t* values, size_t count);
-wisp_status wisp_model_arx_nb(const wisp_model* model, int32_t* values, size_t count);
-wisp_status wisp_model_arx_nk(const wisp_model* model, int32_t* values, size_t count);
+WISP_API wisp_status wisp_model_arx_na(const wisp_model* model, int32_t* values, size_t count);
+WISP_API wisp_status wisp_model_arx_nb(const wisp_model* model, int32_t* values, size_t count);
+WISP_API wisp_status wisp_model_arx_nk(const wisp_model* model, int32_t* values, size_t count);
 
 /* Standard deviation of each output's own noise, in its unit: outputs. */
-wisp_status wisp_model_arx_noise(const wisp_model* model, double* values, size_t count);
+WISP_API wisp_status wisp_model_arx_noise(const wisp_model* model, double* values, size_t count);
 
 /* Of models whose dynamics are WISP_DYNAMICS_CHAIN; others are a WISP_BAD_ARGUMENT. */
 typedef struct wisp_chain_facts {
@@ -197,14 +208,14 @@ typedef struct wisp_chain_facts {
   uint32_t reserved;
 } wisp_chain_facts;
 
-wisp_status wisp_model_get_chain(const wisp_model* model, wisp_chain_facts* facts);
+WISP_API wisp_status wisp_model_get_chain(const wisp_model* model, wisp_chain_facts* facts);
 
 /* Probabilities of how a recording begins (modes), and of what follows one mode (modes * modes, a row for each). */
-wisp_status wisp_model_chain_initial(const wisp_model* model, double* values, size_t count);
-wisp_status wisp_model_chain_transitions(const wisp_model* model, double* values, size_t count);
+WISP_API wisp_status wisp_model_chain_initial(const wisp_model* model, double* values, size_t count);
+WISP_API wisp_status wisp_model_chain_transitions(const wisp_model* model, double* values, size_t count);
 
 /* Mode and steps of each segment: segments. Either may be NULL. */
-wisp_status wisp_model_chain_segments(const wisp_model* model, uint32_t* modes, uint32_t* steps, size_t count);
+WISP_API wisp_status wisp_model_chain_segments(const wisp_model* model, uint32_t* modes, uint32_t* steps, size_t count);
 
 /* ---- Banks: living instances of one model, stepped together ---- */
 
@@ -225,16 +236,16 @@ typedef struct wisp_bank_options {
 } wisp_bank_options;
 
 /* Options with every default: capacity 1, 32 points, seed 1, memory of its own. */
-wisp_bank_options wisp_bank_default_options(void);
+WISP_API wisp_bank_options wisp_bank_default_options(void);
 
 /* How much memory a bank needs. `options` may be NULL for the defaults, here and below. */
-wisp_status wisp_bank_bytes(const wisp_model* model, const wisp_bank_options* options, size_t* bytes);
+WISP_API wisp_status wisp_bank_bytes(const wisp_model* model, const wisp_bank_options* options, size_t* bytes);
 
 /* Makes an empty bank; memory that the caller gives must outlive it. Sets *bank. */
-wisp_status wisp_bank_create(const wisp_model* model, const wisp_bank_options* options, wisp_bank** bank);
+WISP_API wisp_status wisp_bank_create(const wisp_model* model, const wisp_bank_options* options, wisp_bank** bank);
 
 /* Frees a bank. NULL is fine. */
-void wisp_bank_free(wisp_bank* bank);
+WISP_API void wisp_bank_free(wisp_bank* bank);
 
 typedef struct wisp_bank_facts {
   uint32_t size; /* sizeof(wisp_bank_facts), set by the caller */
@@ -253,49 +264,51 @@ typedef struct wisp_bank_facts {
  *
  * Bulk buffers have one row per slot. Rows of empty slots are ignored on the way in and are zeros on the way out. */
 
-wisp_status wisp_bank_get_facts(const wisp_bank* bank, wisp_bank_facts* facts);
+WISP_API wisp_status wisp_bank_get_facts(const wisp_bank* bank, wisp_bank_facts* facts);
 
 /* Starts an instance at the model's operating point, with all inputs zero. Its random stream is the count of spawns so
  * far, or `stream`: two instances of the same stream and inputs live the same life. Sets *instance. */
-wisp_status wisp_bank_spawn(wisp_bank* bank, wisp_instance* instance);
-wisp_status wisp_bank_spawn_stream(wisp_bank* bank, uint64_t stream, wisp_instance* instance);
+WISP_API wisp_status wisp_bank_spawn(wisp_bank* bank, wisp_instance* instance);
+WISP_API wisp_status wisp_bank_spawn_stream(wisp_bank* bank, uint64_t stream, wisp_instance* instance);
 
-wisp_status wisp_bank_end(wisp_bank* bank, wisp_instance instance);
+WISP_API wisp_status wisp_bank_end(wisp_bank* bank, wisp_instance instance);
 
 /* 1 when it lives in this bank, else 0. */
-int32_t wisp_bank_alive(const wisp_bank* bank, wisp_instance instance);
+WISP_API int32_t wisp_bank_alive(const wisp_bank* bank, wisp_instance instance);
 
 /* The instance in a slot; WISP_NO_INSTANCE when it is empty. */
-wisp_instance wisp_bank_at(const wisp_bank* bank, uint32_t slot);
+WISP_API wisp_instance wisp_bank_at(const wisp_bank* bank, uint32_t slot);
 
 /* What acts from the next step on, in the inputs' units: on all (slots * inputs), the same on all (inputs), on one
  * (inputs). What is not a number counts as 0; what is beyond the trained range and half of it is held there. */
-wisp_status wisp_bank_set_inputs(wisp_bank* bank, const float* values, size_t count);
-wisp_status wisp_bank_set_common_inputs(wisp_bank* bank, const float* values, size_t count);
-wisp_status wisp_bank_set_instance_inputs(wisp_bank* bank, wisp_instance instance, const float* values, size_t count);
+WISP_API wisp_status wisp_bank_set_inputs(wisp_bank* bank, const float* values, size_t count);
+WISP_API wisp_status wisp_bank_set_common_inputs(wisp_bank* bank, const float* values, size_t count);
+WISP_API wisp_status wisp_bank_set_instance_inputs(wisp_bank* bank, wisp_instance instance, const float* values,
+                                                   size_t count);
 
 /* Scale of the residual noise: 1 as learned, 0 none; held to 0 to 10. A chain has its chance in its walk: at 0 the
  * likeliest mode follows as the segment that joins best, any other scale leaves it as it is. */
-wisp_status wisp_bank_set_noise(wisp_bank* bank, float scale);
+WISP_API wisp_status wisp_bank_set_noise(wisp_bank* bank, float scale);
 
 /* The scale as it is. */
-wisp_status wisp_bank_get_noise(const wisp_bank* bank, float* scale);
+WISP_API wisp_status wisp_bank_get_noise(const wisp_bank* bank, float* scale);
 
 /* One step of the model, whatever the time. */
-wisp_status wisp_bank_step(wisp_bank* bank);
+WISP_API wisp_status wisp_bank_step(wisp_bank* bank);
 
 /* Lets time pass and shows what lies between the last two steps, one step late. Negative time counts as none, more than
  * ten seconds as ten. Sets *steps, unless NULL, to the steps made. */
-wisp_status wisp_bank_advance(wisp_bank* bank, int64_t nanoseconds, int32_t* steps);
+WISP_API wisp_status wisp_bank_advance(wisp_bank* bank, int64_t nanoseconds, int32_t* steps);
 
 /* Outputs, in their units: of all (slots * outputs), of one (outputs). */
-wisp_status wisp_bank_outputs(const wisp_bank* bank, float* values, size_t count);
-wisp_status wisp_bank_instance_outputs(const wisp_bank* bank, wisp_instance instance, float* values, size_t count);
+WISP_API wisp_status wisp_bank_outputs(const wisp_bank* bank, float* values, size_t count);
+WISP_API wisp_status wisp_bank_instance_outputs(const wisp_bank* bank, wisp_instance instance, float* values,
+                                                size_t count);
 
 /* Outlines as points, x and y in turn, from the base's left over the tip to the base's right: of all
  * (slots * polyline_points * 2), of one (polyline_points * 2). */
-wisp_status wisp_bank_polylines(const wisp_bank* bank, float* values, size_t count);
-wisp_status wisp_bank_polyline(const wisp_bank* bank, wisp_instance instance, float* values, size_t count);
+WISP_API wisp_status wisp_bank_polylines(const wisp_bank* bank, float* values, size_t count);
+WISP_API wisp_status wisp_bank_polyline(const wisp_bank* bank, wisp_instance instance, float* values, size_t count);
 
 /* Whether an instance burns. Those of a model with a blow_out_level go out when the wind is too strong for too long,
  * and stay out whatever the wind does then. Outputs and outlines shrink to 0 by themselves; for smoke and ember there
@@ -310,15 +323,15 @@ typedef struct wisp_flame_state {
   int64_t since_out; /* since it last went out */
 } wisp_flame_state;
 
-wisp_status wisp_bank_get_flame_state(const wisp_bank* bank, wisp_instance instance, wisp_flame_state* state);
+WISP_API wisp_status wisp_bank_get_flame_state(const wisp_bank* bank, wisp_instance instance, wisp_flame_state* state);
 
 /* The flame_size of all: slots. */
-wisp_status wisp_bank_flame_sizes(const wisp_bank* bank, float* values, size_t count);
+WISP_API wisp_status wisp_bank_flame_sizes(const wisp_bank* bank, float* values, size_t count);
 
 /* Lights an instance that is out: it starts from rest and grows. Puts one out, whatever the wind. Either does nothing
  * to one that is so already. WISP_BAD_ARGUMENT where the model has no blow_out_level: it never goes out. */
-wisp_status wisp_bank_relight(wisp_bank* bank, wisp_instance instance);
-wisp_status wisp_bank_extinguish(wisp_bank* bank, wisp_instance instance);
+WISP_API wisp_status wisp_bank_relight(wisp_bank* bank, wisp_instance instance);
+WISP_API wisp_status wisp_bank_extinguish(wisp_bank* bank, wisp_instance instance);
 
 /* ---- Instances of a chain: things that fall, drift or fly. WISP_BAD_ARGUMENT where the dynamics are no chain ---- */
 
@@ -330,7 +343,7 @@ typedef struct wisp_chain_place {
   uint32_t mode;    /* of the segment */
 } wisp_chain_place;
 
-wisp_status wisp_bank_get_chain_place(const wisp_bank* bank, wisp_instance instance, wisp_chain_place* place);
+WISP_API wisp_status wisp_bank_get_chain_place(const wisp_bank* bank, wisp_instance instance, wisp_chain_place* place);
 
 /* A body at one moment, in the world: metres, seconds, radians, z up. */
 typedef struct wisp_body {
@@ -344,21 +357,21 @@ typedef struct wisp_body {
 /* Sets an instance of a chain where a body is, as after a throw, a collision or a kick: it goes on with the segment
  * that begins most as the body moves, the rest fading away. Looks at every segment once: not for every frame.
  * WISP_BAD_ARGUMENT where a number is not finite. */
-wisp_status wisp_bank_place(wisp_bank* bank, wisp_instance instance, const wisp_body* body);
+WISP_API wisp_status wisp_bank_place(wisp_bank* bank, wisp_instance instance, const wisp_body* body);
 
 /* Level ground at that height, on which instances of a chain come to rest until they are placed or reset; or none, as
  * at first: they fall for ever. WISP_BAD_ARGUMENT for a height that is not finite. */
-wisp_status wisp_bank_set_ground(wisp_bank* bank, float height);
-wisp_status wisp_bank_clear_ground(wisp_bank* bank);
+WISP_API wisp_status wisp_bank_set_ground(wisp_bank* bank, float height);
+WISP_API wisp_status wisp_bank_clear_ground(wisp_bank* bank);
 
 /* How many modes back a chain looks when it chooses the next one, from the next join on; 0, as at first: as many as it
  * has learned to. Below 0 is 0. */
-wisp_status wisp_bank_set_history(wisp_bank* bank, int32_t longest);
+WISP_API wisp_status wisp_bank_set_history(wisp_bank* bank, int32_t longest);
 
 /* How a chain chooses among the segments of a mode: 0: always the one that joins best, infinity: any alike; or, as at
  * first, as learned. Below 0 and what is not a number are 0. */
-wisp_status wisp_bank_set_temperature(wisp_bank* bank, float temperature);
-wisp_status wisp_bank_clear_temperature(wisp_bank* bank);
+WISP_API wisp_status wisp_bank_set_temperature(wisp_bank* bank, float temperature);
+WISP_API wisp_status wisp_bank_clear_temperature(wisp_bank* bank);
 
 typedef struct wisp_chain_settings {
   uint32_t size;            /* sizeof(wisp_chain_settings), set by the caller */
@@ -370,17 +383,17 @@ typedef struct wisp_chain_settings {
 } wisp_chain_settings;
 
 /* What was set. */
-wisp_status wisp_bank_get_chain_settings(const wisp_bank* bank, wisp_chain_settings* settings);
+WISP_API wisp_status wisp_bank_get_chain_settings(const wisp_bank* bank, wisp_chain_settings* settings);
 
 /* Back to where they were when spawned, lit: one, or all and the bank's time. */
-wisp_status wisp_bank_reset_instance(wisp_bank* bank, wisp_instance instance);
-wisp_status wisp_bank_reset(wisp_bank* bank);
+WISP_API wisp_status wisp_bank_reset_instance(wisp_bank* bank, wisp_instance instance);
+WISP_API wisp_status wisp_bank_reset(wisp_bank* bank);
 
 /* The whole state as bytes, and back: a bank restored goes on with the same bits. The same model and capacity are
  * needed. Restoring fails with WISP_BAD_DATA when the bytes are damaged or of another model, capacity or version. */
-wisp_status wisp_bank_save_bytes(const wisp_bank* bank, size_t* bytes);
-wisp_status wisp_bank_save(const wisp_bank* bank, void* bytes, size_t size);
-wisp_status wisp_bank_restore(wisp_bank* bank, const void* bytes, size_t size);
+WISP_API wisp_status wisp_bank_save_bytes(const wisp_bank* bank, size_t* bytes);
+WISP_API wisp_status wisp_bank_save(const wisp_bank* bank, void* bytes, size_t size);
+WISP_API wisp_status wisp_bank_restore(wisp_bank* bank, const void* bytes, size_t size);
 
 /* ---- Wind heard by a microphone ---- */
 
@@ -398,14 +411,14 @@ typedef struct wisp_wind_options {
 } wisp_wind_options;
 
 /* Options with every default: one channel of 44100 Hz, 60 frames a second; docs/explanation/wind.md has the reasons. */
-wisp_wind_options wisp_wind_default_options(void);
+WISP_API wisp_wind_options wisp_wind_default_options(void);
 
 /* Makes an estimator at the start of a stream of sound. `options` may be NULL for the defaults. Sets *wind.
  * WISP_BAD_ARGUMENT names the option that is out of its range. */
-wisp_status wisp_wind_create(const wisp_wind_options* options, wisp_wind** wind);
+WISP_API wisp_status wisp_wind_create(const wisp_wind_options* options, wisp_wind** wind);
 
 /* Frees an estimator. NULL is fine. */
-void wisp_wind_free(wisp_wind* wind);
+WISP_API void wisp_wind_free(wisp_wind* wind);
 
 /* The wind during one frame. It comes in arrays, so it stays as it is: fields will not be added. Amplitudes are root
  * mean squares with full scale 1. */
@@ -428,19 +441,19 @@ typedef struct wisp_wind_frame {
  * Sets *taken to the samples taken, all channels counted, and *made to the frames written; either may be NULL. `frames`
  * may be NULL where `room` is 0: nothing is taken then that would make a frame. WISP_BAD_ARGUMENT when `count` is not a
  * multiple of the channels. */
-wisp_status wisp_wind_feed(wisp_wind* wind, const float* samples, size_t count, wisp_wind_frame* frames, size_t room,
-                           size_t* taken, size_t* made);
-wisp_status wisp_wind_feed_int16(wisp_wind* wind, const int16_t* samples, size_t count, wisp_wind_frame* frames,
-                                 size_t room, size_t* taken, size_t* made);
+WISP_API wisp_status wisp_wind_feed(wisp_wind* wind, const float* samples, size_t count, wisp_wind_frame* frames,
+                                    size_t room, size_t* taken, size_t* made);
+WISP_API wisp_status wisp_wind_feed_int16(wisp_wind* wind, const int16_t* samples, size_t count,
+                                          wisp_wind_frame* frames, size_t room, size_t* taken, size_t* made);
 
 /* The latest frame made; all zero before the first. */
-wisp_status wisp_wind_latest(const wisp_wind* wind, wisp_wind_frame* frame);
+WISP_API wisp_status wisp_wind_latest(const wisp_wind* wind, wisp_wind_frame* frame);
 
 /* Takes the coming seconds of sound (0.5 to 30 used) as the room without wind. */
-wisp_status wisp_wind_calibrate(wisp_wind* wind, double seconds);
+WISP_API wisp_status wisp_wind_calibrate(wisp_wind* wind, double seconds);
 
 /* 1 while that time is still running, else 0. */
-int32_t wisp_wind_calibrating(const wisp_wind* wind);
+WISP_API int32_t wisp_wind_calibrating(const wisp_wind* wind);
 
 /* What a guided calibration asks for. */
 #define WISP_WIND_BE_STILL 0u       /* the room: what is steady in it is no wind then; as wisp_wind_calibrate() */
@@ -448,14 +461,14 @@ int32_t wisp_wind_calibrating(const wisp_wind* wind);
 #define WISP_WIND_BLOW_HARD 2u      /* what is to put it out */
 
 /* Takes the coming seconds of sound (0.5 to 30 used) for what was asked for. */
-wisp_status wisp_wind_calibrate_for(wisp_wind* wind, uint32_t what, double seconds);
+WISP_API wisp_status wisp_wind_calibrate_for(wisp_wind* wind, uint32_t what, double seconds);
 
 /* 1 when the last calibration is over and heard what it asked for. */
-int32_t wisp_wind_calibrated(const wisp_wind* wind);
+WISP_API int32_t wisp_wind_calibrated(const wisp_wind* wind);
 
 /* How much louder the room is by now than when it was calibrated or first heard, dB, not below 0. From 6 on something
  * steady has begun (rain, a fan, an engine) that may be taken for wind: calibrate again. 0 for NULL. */
-double wisp_wind_room_rise(const wisp_wind* wind);
+WISP_API double wisp_wind_room_rise(const wisp_wind* wind);
 
 /* What a microphone in a room was found to be: kept, it spares the next start the finding. */
 typedef struct wisp_wind_calibration {
@@ -466,14 +479,14 @@ typedef struct wisp_wind_calibration {
   float gust_rms;         /* RMS of the band at wind 1; 0: not known yet */
 } wisp_wind_calibration;
 
-wisp_status wisp_wind_get_calibration(const wisp_wind* wind, wisp_wind_calibration* calibration);
-wisp_status wisp_wind_set_calibration(wisp_wind* wind, const wisp_wind_calibration* calibration);
+WISP_API wisp_status wisp_wind_get_calibration(const wisp_wind* wind, wisp_wind_calibration* calibration);
+WISP_API wisp_status wisp_wind_set_calibration(wisp_wind* wind, const wisp_wind_calibration* calibration);
 
 /* Forgets everything but the options. */
-wisp_status wisp_wind_reset(wisp_wind* wind);
+WISP_API wisp_status wisp_wind_reset(wisp_wind* wind);
 
 /* Seconds between wind and the frame that tells of it, beyond the frame itself. 0 for NULL. */
-double wisp_wind_latency(const wisp_wind* wind);
+WISP_API double wisp_wind_latency(const wisp_wind* wind);
 
 #ifdef __cplusplus
 }

@@ -70,7 +70,7 @@ void join_wind(const ClipWind& wind, WindMeasure measure, Recording& recording) 
 
 // A stretch without an outline that begins in or just after wind, and ends with the flame back, is a flame that was
 // blown out and lit again. Wind of half the strong one puts a flame out at the earliest.
-constexpr double kBlowing = 0.5, kLookedBack = 0.6, kLeastOut = 0.2;  // of wind 1; seconds; seconds
+constexpr double kBlowing = 0.5, kLookedBack = 0.6, kMinOut = 0.2;  // of wind 1; seconds; seconds
 
 void excuse_blown_out(const ClipWind& wind, const Recording& recording, CaptureReport& picture) {
   if (wind.frames.empty()) return;
@@ -85,7 +85,7 @@ void excuse_blown_out(const ClipWind& wind, const Recording& recording, CaptureR
   std::size_t rows = 0, times = 0, seen = outline.size();
   for (std::size_t row = 0; row < outline.size(); ++row) {
     if (std::isnan(outline[row])) continue;
-    const bool absent = seen < row && row - seen - 1 > rows_of(kLeastOut);
+    const bool absent = seen < row && row - seen - 1 > rows_of(kMinOut);
     if (absent && blows(seen + 1)) {
       rows += row - seen - 1;
       ++times;

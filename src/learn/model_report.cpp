@@ -2,12 +2,12 @@
 
 #include <span>
 
-#include "base/number_text.hpp"
 #include "learn/arx/report/arx_description.hpp"
 #include "learn/arx/report/report_values.hpp"
 #include "learn/complete.hpp"
 #include "learn/flame/extinction_report.hpp"
 #include "learn/switched/learn_switched.hpp"
+#include "record/number_text.hpp"
 #include "wisp/run/cost.hpp"
 
 namespace wisp {

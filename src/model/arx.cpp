@@ -11,7 +11,7 @@ namespace wisp {
 namespace {
 
 constexpr int kMostChannels = 4096;
-constexpr int kMostOrder = 4096;
+constexpr int kMaxOrder = 4096;
 
 std::string at(const char* what, int i, int j) {
   return std::string(what) + "(" + std::to_string(i) + "," + std::to_string(j) + ")";
@@ -30,7 +30,7 @@ Result<void> check_orders(const ArxOrders& orders) {
     for (int i = 0; i < matrix->rows(); ++i) {
       for (int j = 0; j < matrix->columns(); ++j) {
         const int order = (*matrix)(i, j);
-        if (order < 0 || order > kMostOrder) {
+        if (order < 0 || order > kMaxOrder) {
           return Error{at(name, i, j) + " is " + std::to_string(order) + ", expected 0 to 4096"};
         }
       }
@@ -74,7 +74,7 @@ Result<void> check_past(const DrawnResiduals& drawn) {
   const std::vector<int>& lags = drawn.lags;
   const bool ascending = std::is_sorted(lags.begin(), lags.end(), std::less_equal<>());
   if (driven
-          ? lags.empty() || lags.size() > kMostDrawnLags || lags.front() != 0 || lags.back() > kMostOrder || !ascending
+          ? lags.empty() || lags.size() > kMostDrawnLags || lags.front() != 0 || lags.back() > kMaxOrder || !ascending
           : !lags.empty()) {
     return Error{"the drawn residuals' lags are not up to 16 ascending numbers from 0 to 4096"};
   }

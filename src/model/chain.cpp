@@ -9,7 +9,7 @@
 namespace wisp {
 namespace {
 
-constexpr double kMostRounding = 1e-6;  // of a sum of probabilities that were written with at least seven digits
+constexpr double kMaxRounding = 1e-6;  // of a sum of probabilities that were written with at least seven digits
 constexpr std::size_t kMostContexts = 65535;
 constexpr std::size_t kMostHistory = 64;
 constexpr double kLargestScale = 1e9;
@@ -31,7 +31,7 @@ Result<void> check_probabilities(const std::vector<double>& row, int modes, cons
     if (!(p >= 0 && p <= 1)) return Error{"the chain's " + what + " hold a number that is not a probability"};
     sum += p;
   }
-  if (std::abs(sum - 1) > kMostRounding) {
+  if (std::abs(sum - 1) > kMaxRounding) {
     return Error{"the chain's " + what + " sum to " + std::to_string(sum) + ", expected 1"};
   }
   return {};

@@ -34,7 +34,7 @@ double value_at(const InputCurve& curve, double input) {
 }
 
 Result<void> check(const InputCurve& curve, double lowest, double highest) {
-  if (curve.at.size() < 2 || curve.at.size() > kMostCurveKnots || curve.value.size() != curve.at.size()) {
+  if (curve.at.size() < 2 || curve.at.size() > kMaxCurveKnots || curve.value.size() != curve.at.size()) {
     return Error{"an input's curve has " + std::to_string(curve.at.size()) + " knots and " +
                  std::to_string(curve.value.size()) + " values, expected 2 to 16 and as many"};
   }

@@ -2,7 +2,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "base/number_text.hpp"
+#include "record/number_text.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {

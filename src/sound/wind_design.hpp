@@ -50,7 +50,7 @@ struct Design {
   int trust_frames = 5;         ///< another sound is one after so many frames (80 ms)
   int bridge_delay_frames = 4;  ///< and begins so many before it is known for one (50 ms)
   float bridge_keep = 0.97F;    ///< of the wind under another sound, in one frame (0.5 s)
-  int sustain_frames = 7;       ///< over whose median strong wind is not believed (120 ms)
+  int sustain_frames = 7;       ///< that it must have blown before it is strong (120 ms)
 
   float top_rise_db = 0.03F;   ///< of the loudest that the room is, in one frame (2 dB/s)
   float top_fall_db = 0.004F;  ///< and downwards (0.25 dB/s)

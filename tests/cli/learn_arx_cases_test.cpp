@@ -41,9 +41,7 @@ class LearnArxCases : public InFolder {
 
   Said learn(const Recording& recording, const std::string& flags) {
     EXPECT_TRUE(write_csv(folder_ / "r.csv", recording));
-    return run_wisp(
-        "learn arx " + at("r.csv") + " -o " + at("m.wisp") + " --outputs place --focus prediction --json " + flags,
-        folder_);
+    return run_wisp("learn arx " + at("r.csv") + " -o " + at("m.wisp") + " --outputs place --json " + flags, folder_);
   }
 };
 
@@ -285,7 +283,7 @@ class LearnArxData : public LearnArxCases {
   }
   Said learn_sysid(const std::string& name, const std::string& flags) {
     return run_wisp("learn arx " + data_folder() + "/sysid/" + name + ".csv -o " + at("m.wisp") +
-                        " --inputs u1 --outputs y1 --focus prediction --json " + flags,
+                        " --inputs u1 --outputs y1 --json " + flags,
                     folder_);
   }
 };

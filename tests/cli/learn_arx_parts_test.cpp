@@ -72,7 +72,7 @@ class LearnArxParts : public InFolder {
   }
 
   nlohmann::json in_one(const std::string& more = "") {
-    const Said said = wisp("learn arx " + whole() + " -o " + at("whole.wisp") + " --focus prediction --json " + more);
+    const Said said = wisp("learn arx " + whole() + " -o " + at("whole.wisp") + " --json " + more);
     EXPECT_EQ(said.status, 0) << said.err;
     return said.json();
   }

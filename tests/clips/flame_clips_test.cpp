@@ -75,18 +75,21 @@ TEST_P(FlameClips, InAMillionStepsHardlyAnyIsHeld) {
   EXPECT_LT(play->held_share, 1e-3);
 }
 
-// Shaken apart, 5 to 50 of 100 frames of these flames would fold over themselves; recorded, up to 7 do, at the base.
+// Shaken apart, 5 to 50 of 100 frames of these flames would fold over themselves; recorded, up to 7 do, at the base. A
+// flame of 16 points leans for seconds on end, so that 1000 frames have 5 to 16 in 100 by chance: here are twenty times
+// as many.
 TEST_P(FlameClips, TheOutlineKeepsItsShape) {
-  const auto play = synthesize(fit.model, {.rows = 1000});
+  constexpr std::size_t kRows = 20000;
+  const auto play = synthesize(fit.model, {.rows = kRows});
   ASSERT_TRUE(play);
   const OutlineCurve curve(layout.knots, 100);
-  int crossed = 0;
-  for (std::size_t row = 0; row < 1000; ++row) {
+  std::size_t crossed = 0;
+  for (std::size_t row = 0; row < kRows; ++row) {
     std::vector<double> control;
     for (const Channel& channel : play->recording.channels) control.push_back(channel.samples[row]);
     crossed += crosses_itself(curve.polyline(control)) ? 1 : 0;
   }
-  EXPECT_LT(crossed, 150);
+  EXPECT_LT(crossed, kRows * 13 / 100);
 }
 
 TEST_P(FlameClips, TheModelIsUsable) { EXPECT_TRUE(fit.summary.usable.verdict) << fit.summary.usable.reason; }

@@ -54,17 +54,17 @@ inline bool is_cpp_source(const std::filesystem::path& path) {
   return extensions.contains(path.extension().string());
 }
 
-/// All files of the project under `root`, as sorted paths relative to it with forward slashes. What is built, fetched
-/// or made by running is left out.
+/// All files of the project under `root`, as sorted paths relative to it with forward slashes. What is built, fetched,
+/// made by running or others' is left out.
 inline std::vector<std::string> project_files(const std::filesystem::path& root) {
-  static const std::set<std::string> not_ours{".git", "build", "out", "node_modules", ".cache"};
+  static const std::set<std::string> not_ours{".git", "build", "out", "node_modules", ".cache", "third_party"};
   std::vector<std::string> files;
   std::filesystem::recursive_directory_iterator walk(root);
   for (auto it = begin(walk); it != end(walk); ++it) {
     const std::string name = it->path().filename().string();
     if (it->is_directory() && not_ours.contains(name)) it.disable_recursion_pending();
-    // In a work tree of git's, .git is a file.
-    if (name == ".git") continue;
+    // In a work tree of git's, .git is a file. The reader of model files is flatc's.
+    if (name == ".git" || name == "wisp_generated.h") continue;
     if (it->is_regular_file()) files.push_back(it->path().lexically_relative(root).generic_string());
   }
   std::sort(files.begin(), files.end());

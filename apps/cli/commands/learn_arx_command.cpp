@@ -22,8 +22,8 @@ ArxOffset offset_of(const Arguments& arguments) {
 }
 
 ArxFocus focus_of(const Arguments& arguments) {
-  if (arguments.text("focus") == "prediction") return ArxFocus::kPrediction;
-  return arguments.text("focus") == "simulation" ? ArxFocus::kSimulation : ArxFocus::kAuto;
+  if (arguments.text("focus") == "auto") return ArxFocus::kAuto;
+  return arguments.text("focus") == "simulation" ? ArxFocus::kSimulation : ArxFocus::kPrediction;
 }
 
 Result<void> take_orders(const Arguments& arguments, ArxRecipe& recipe) {
@@ -151,7 +151,7 @@ std::vector<Flag> flags() {
           {"focus",
            Kind::kChoice,
            "F",
-           "auto",
+           "prediction",
            "what the coefficients are best at: prediction, the next sample (least squares); simulation, free runs from "
            "the input; auto, simulation where held-out free runs are surely better so",
            {"prediction", "simulation", "auto"}},

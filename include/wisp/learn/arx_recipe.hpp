@@ -94,7 +94,7 @@ struct ArxRecipe {
   std::optional<int> curve_knots = 0;  ///< of a monotone curve on every input, 3 to 16; 0: none; unset: 3 to 6 or none,
                                        ///< as the last 30 % of every recording say
   std::optional<ArxSearch> search{};   ///< in the place of na, nb and nk
-  ArxFocus focus = ArxFocus::kAuto;    ///< parts and tables beyond memory: kPrediction
+  ArxFocus focus = ArxFocus::kPrediction;  ///< of parts and tables beyond memory always so
   bool responses = false;  ///< report step and frequency responses with 95 % bands, which cost d_total² memory
 };
 

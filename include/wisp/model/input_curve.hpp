@@ -14,7 +14,7 @@
 namespace wisp {
 
 /// Most knots of a curve.
-inline constexpr std::size_t kMostCurveKnots = 16;
+inline constexpr std::size_t kMaxCurveKnots = 16;
 
 /// A monotone, piecewise linear curve. Where an input's sign is split it belongs to either side alike: its first knot
 /// is 0 then.
@@ -30,7 +30,7 @@ struct InputCurve {
 /// The curve at an input; NaN stays NaN. An empty curve is the input itself.
 double value_at(const InputCurve& curve, double input);
 
-/// Checks a curve that is not empty: 2 to kMostCurveKnots knots within [lowest, highest], none nearer to the next than
+/// Checks a curve that is not empty: 2 to kMaxCurveKnots knots within [lowest, highest], none nearer to the next than
 /// a millionth of the curve's length, finite values that never fall and are the knot's own at both ends. Errors say
 /// which, what was found and what was expected.
 Result<void> check(const InputCurve& curve, double lowest, double highest);

@@ -27,7 +27,7 @@ constexpr std::array<ImageKind, 9> kKinds{{{".png", AV_CODEC_ID_PNG},
                                            {".tiff", AV_CODEC_ID_TIFF}}};
 
 // A picture of more than this is not a frame of a clip.
-constexpr std::size_t kMostImageBytes = std::size_t{256} << 20;
+constexpr std::size_t kMaxImageBytes = std::size_t{256} << 20;
 
 std::string lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -121,7 +121,7 @@ Result<ImageFolder> ImageFolder::open(const std::filesystem::path& path, const V
 }
 
 Result<void> ImageFolder::decode(const std::filesystem::path& path) {
-  const auto bytes = read_file(path, kMostImageBytes);
+  const auto bytes = read_file(path, kMaxImageBytes);
   if (!bytes) return bytes.error();
   const AVCodecID id = codec_of(path);
   if (!codec_ || codec_->codec_id != id) {

@@ -8,7 +8,7 @@
 namespace wisp {
 namespace {
 
-constexpr std::size_t kMostSamples = std::size_t{1} << 30;
+constexpr std::size_t kMaxSamples = std::size_t{1} << 30;
 
 // One sound track on its way from the file to blocks of floats.
 struct SoundTrack {
@@ -109,7 +109,7 @@ Result<std::optional<Sound>> read_sound(const std::filesystem::path& path) {
   Sound sound;
   bool too_long = false;
   const auto info = stream_sound(path, [&](const SoundInfo&, std::span<const float> samples) {
-    too_long = sound.samples.size() + samples.size() > kMostSamples;
+    too_long = sound.samples.size() + samples.size() > kMaxSamples;
     if (!too_long) sound.samples.insert(sound.samples.end(), samples.begin(), samples.end());
     return !too_long;
   });

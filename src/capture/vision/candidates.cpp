@@ -7,14 +7,14 @@
 namespace wisp {
 namespace {
 
-constexpr double kPersistence = 0.6;      // a candidate is there in this share of the pictures
-constexpr std::size_t kMostRegions = 24;  // of one picture at one level, the largest
-constexpr std::size_t kLeastRows = 3;     // a shape of fewer rows has none
-constexpr double kSurelyMoves = 0.06;     // shapes that differ by this share move for sure
-constexpr double kStillWorth = 0.15;      // … and this is what one is worth that does not
-constexpr double kAloneIsBetter = 0.5;    // what must be cut from its stand, against what stands out alone
-constexpr double kLightPower = 8;         // what is a tenth dimmer than the brightest is half as likely
-constexpr double kSolidPower = 4;         // a flame has no notches; what has run together with something has
+constexpr double kPersistence = 0.6;     // a candidate is there in this share of the pictures
+constexpr std::size_t kMaxRegions = 24;  // of one picture at one level, the largest
+constexpr std::size_t kLeastRows = 3;    // a shape of fewer rows has none
+constexpr double kSurelyMoves = 0.06;    // shapes that differ by this share move for sure
+constexpr double kStillWorth = 0.15;     // … and this is what one is worth that does not
+constexpr double kAloneIsBetter = 0.5;   // what must be cut from its stand, against what stands out alone
+constexpr double kLightPower = 8;        // what is a tenth dimmer than the brightest is half as likely
+constexpr double kSolidPower = 4;        // a flame has no notches; what has run together with something has
 
 double area_of(const Region& region) { return region.empty() ? 0 : static_cast<double>(region.width) * region.height; }
 
@@ -54,7 +54,7 @@ std::vector<Track> find_tracks(const PictureGrid& grid, int level) {
   std::vector<Track> tracks;
   for (std::size_t k = 0; k < grid.pictures.size(); ++k) {
     auto regions = finder.find(grid.view(k), level, 2);
-    if (regions.size() > kMostRegions) regions = regions.first(kMostRegions);
+    if (regions.size() > kMaxRegions) regions = regions.first(kMaxRegions);
     continue_tracks(tracks, regions, k);
     if (static_cast<double>(k) > (1 - kPersistence) * count) continue;
     for (const BrightRegion& region : regions) {

@@ -8,7 +8,7 @@
 namespace wisp {
 namespace {
 
-constexpr std::size_t kLeastBoundary = 12;
+constexpr std::size_t kMinBoundary = 12;
 
 // A direction across (to the right when the base is below) and one down (towards the base).
 struct Axes {
@@ -216,7 +216,7 @@ void place_points(EdgeCloud& cloud, const EdgeCloudOptions& options) {
 
 bool make_edge_cloud(const BoundaryWindow& window, std::span<const PixelPosition> boundary,
                      const EdgeCloudOptions& options, EdgeCloud& cloud) {
-  if (boundary.size() < kLeastBoundary) return false;
+  if (boundary.size() < kMinBoundary) return false;
   const Axes axes = picture_axes(options.base);
   const double leaning = lean(boundary, axes);
   const Outwards to_left = corner_direction(axes, -1, leaning), to_right = corner_direction(axes, 1, leaning);
@@ -225,11 +225,11 @@ bool make_edge_cloud(const BoundaryWindow& window, std::span<const PixelPosition
   // On a pointed foot both corners are one: the way over the tip is the whole boundary.
   const Arc over{left, left == right ? size : (right + size - left) % size + 1};
   const Arc under{right, (left + size - right) % size + 1};
-  if (over.count < kLeastBoundary / 2) return false;
+  if (over.count < kMinBoundary / 2) return false;
   std::vector<EdgePoint> underside;
   locate_points(window, boundary, over, options.most_points, cloud.points);
   locate_points(window, boundary, under, options.most_points, underside);
-  if (cloud.points.size() < kLeastBoundary / 2) return false;
+  if (cloud.points.size() < kMinBoundary / 2) return false;
   const double height = length(window.place.width, window.place.height);
   settle_corner(cloud.points, false, to_left, 0.5 * height);
   settle_corner(cloud.points, true, to_right, 0.5 * height);

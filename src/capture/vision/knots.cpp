@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kBins = 128;
 constexpr double kWorthwhile = 0.98;  // placed knots must miss less than this share of what uniform ones miss,
-constexpr double kLeastGain = 0.002;  // … and less by this share of the area: a fifth of a percent cannot be seen
+constexpr double kMinGain = 0.002;    // … and less by this share of the area: a fifth of a percent cannot be seen
 using Density = std::array<double, kBins>;
 
 // Mean turning of the outlines' direction in each bin of s; sums to 1.
@@ -144,7 +144,7 @@ CurveShape fit_pace(std::span<const EdgeCloud> clouds, std::span<const double> k
 CurveShape choose_shape(std::span<const EdgeCloud> clouds, int points, bool place) {
   CurveShape best = fit_pace(clouds, uniform_knots(points));
   if (!place) return best;
-  const double enough = std::min(kWorthwhile * best.misfit, best.misfit - kLeastGain);
+  const double enough = std::min(kWorthwhile * best.misfit, best.misfit - kMinGain);
   const Density bend = bending(clouds);
   for (const double power : {0.5, 1.0}) {
     for (const double even : {0.6, 0.35, 0.15}) {

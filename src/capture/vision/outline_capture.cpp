@@ -4,27 +4,27 @@
 #include <cassert>
 #include <cmath>
 
-#include "base/number_text.hpp"
 #include "capture/vision/knots.hpp"
 #include "capture/vision/outline_rows.hpp"
 #include "capture/vision/outline_seeker.hpp"
 #include "capture/vision/outline_tracker.hpp"
 #include "capture/vision/outline_verdict.hpp"
+#include "record/number_text.hpp"
 
 namespace wisp {
 namespace {
 
-constexpr std::size_t kLeastTracked = 10;
-constexpr std::size_t kLeastHeld = 8;
-constexpr int kLeastEdgePoints = 128;
+constexpr std::size_t kMinTracked = 10;
+constexpr std::size_t kMinHeld = 8;
+constexpr int kMinEdgePoints = 128;
 constexpr int kEdgePointsEach = 12;    // to a control point: more do not make it steadier, as their errors go together
 constexpr std::size_t kSurveyed = 20;  // held frames that are surveyed
 constexpr std::size_t kSamples = 6;    // … and in which outlines are tried
 
 // What is no flame yet: flames move by 0.05 and more within a second, lit walls and lamps by 0.015 at most.
-constexpr double kLeastChange = 0.02;
-constexpr double kLeastTaper = 0.25;
-constexpr double kLeastLight = 0.85;
+constexpr double kMinChange = 0.02;
+constexpr double kMinTaper = 0.25;
+constexpr double kMinLight = 0.85;
 
 // Following the underside takes control points away from the sides and makes them move more: it has to pay, and always,
 // as the clip's first second may be calm where later the flame leaves one foot and then the other.
@@ -37,7 +37,7 @@ bool worth_following(const CurveShape& around, const CurveShape& above) {
 
 // A flame that has not been lit yet is waited for; what stands still, or is lit by something else, is none.
 bool burns(const Survey& survey) {
-  return survey.change >= kLeastChange && survey.taper >= kLeastTaper && survey.light >= kLeastLight;
+  return survey.change >= kMinChange && survey.taper >= kMinTaper && survey.light >= kMinLight;
 }
 
 // At most `count` of the pictures, evenly spread.
@@ -127,7 +127,7 @@ Result<void> OutlineCapture::Stage::feed(const Picture& picture) {
   held_.emplace_back(OwnedPicture(picture));
   held_bytes_ += held_.back()->bytes();
   const bool enough = held_.size() >= static_cast<std::size_t>(options_.held_frames) ||
-                      (held_bytes_ >= options_.held_bytes && held_.size() >= kLeastHeld);
+                      (held_bytes_ >= options_.held_bytes && held_.size() >= kMinHeld);
   return enough ? decide() : Result<void>();
 }
 
@@ -159,7 +159,7 @@ Result<void> OutlineCapture::Stage::decide(bool at_end) {
   for (const auto& held : held_) {
     if (held) pictures.push_back(held->picture());
   }
-  cloud_options_.most_points = std::max(kLeastEdgePoints, kEdgePointsEach * options_.points);
+  cloud_options_.most_points = std::max(kMinEdgePoints, kEdgePointsEach * options_.points);
   std::vector<Picture> seen = evenly_from(pictures, kSurveyed);
   for (const OwnedPicture& glimpse : glimpses_) seen.push_back(glimpse.picture());
   auto survey = survey_scene(seen, {options_.channel, options_.dark, options_.region, options_.flame});
@@ -289,8 +289,8 @@ void OutlineCapture::Stage::describe(CapturedOutline& out) const {
 }
 
 Result<CapturedOutline> OutlineCapture::Stage::finish() {
-  if (fed_ < kLeastTracked) {
-    return complaint("found " + std::to_string(fed_) + " frames, expected at least " + std::to_string(kLeastTracked) +
+  if (fed_ < kMinTracked) {
+    return complaint("found " + std::to_string(fed_) + " frames, expected at least " + std::to_string(kMinTracked) +
                      "; give a longer clip");
   }
   if (!survey_) {
@@ -299,9 +299,9 @@ Result<CapturedOutline> OutlineCapture::Stage::finish() {
   CapturedOutline out;
   describe(out);
   assemble_rows(findings_, options_.points, out.recording, out.report);
-  if (out.report.tracked < kLeastTracked) {
+  if (out.report.tracked < kMinTracked) {
     return complaint("an outline was found in " + std::to_string(out.report.tracked) + " of " +
-                     std::to_string(out.report.frames) + " frames, expected at least " + std::to_string(kLeastTracked) +
+                     std::to_string(out.report.frames) + " frames, expected at least " + std::to_string(kMinTracked) +
                      "; try another channel, or a region around the thing");
   }
   judge_outline(out.recording, tracker_->table(), out.report);

@@ -8,14 +8,14 @@
 namespace wisp {
 namespace {
 
-constexpr int kLeastMargin = 8;          // pixels around the place where the thing was
-constexpr double kMarginPace = 1.5;      // … and this many times how far it moved in the last frames
-constexpr double kPaceMemory = 0.8;      // what is remembered of that from frame to frame
-constexpr double kLeastAreaShare = 0.1;  // of its usual area: less is a spark or what is left after it went out
-constexpr int kLeastArea = 24;           // pixels
+constexpr int kMinMargin = 8;          // pixels around the place where the thing was
+constexpr double kMarginPace = 1.5;    // … and this many times how far it moved in the last frames
+constexpr double kPaceMemory = 0.8;    // what is remembered of that from frame to frame
+constexpr double kMinAreaShare = 0.1;  // of its usual area: less is a spark or what is left after it went out
+constexpr int kMinArea = 24;           // pixels
 
 constexpr double kJumpShare = 0.03;  // of its length: reaching suddenly deeper than that, it may have run together
-constexpr int kLeastJump = 3;        // … with what it stands on; pixels
+constexpr int kMinJump = 3;          // … with what it stands on; pixels
 
 constexpr double kSlack = 0.12;      // of the thing's length: how far above its former end its stand may begin
 constexpr double kFarDeeper = 0.25;  // of its length: what reaches so far below its place is stand, shoulder or not
@@ -106,7 +106,7 @@ bool OutlineSeeker::choose(std::span<const BrightRegion> regions, const Region& 
   const Region expected = following_ ? found_.box : home_;
   double best = 0;
   for (const BrightRegion& region : regions) {
-    if (static_cast<double>(region.area) < kLeastAreaShare * usual_area_) continue;
+    if (static_cast<double>(region.area) < kMinAreaShare * usual_area_) continue;
     BrightRegion moved = region;
     moved.box.x += place.x;
     moved.box.y += place.y;
@@ -132,7 +132,7 @@ bool OutlineSeeker::find_in(const Picture& picture, Region place) {
     place = intersection(place, area_);
     if (place.empty()) return false;
     window_ = open(picture, place);
-    if (!choose(finder_.find(window_.image, level_, kLeastArea), place)) return false;
+    if (!choose(finder_.find(window_.image, level_, kMinArea), place)) return false;
     const Region box = found_.box;
     Region more = place;
     if (box.x == place.x && place.x > area_.x) more = enclosing(more, {place.x - farther, place.y, 1, 1});
@@ -158,7 +158,7 @@ bool OutlineSeeker::part_from_stand() {
   const int length = rows ? box.height : box.width;
   const int jump = deeper(end, base_edge_, base_);
   const bool inside = jump < length;
-  const bool suspicious = jump > std::max(kLeastJump, static_cast<int>(kJumpShare * length));
+  const bool suspicious = jump > std::max(kMinJump, static_cast<int>(kJumpShare * length));
   follow();
   if (!inside || (!stands_ && !suspicious)) {
     base_edge_ = end;
@@ -178,7 +178,7 @@ bool OutlineSeeker::part_from_stand() {
   const Region kept = above_edge(place, last, base_);
   window_.image = crop(window_.image, {kept.x - place.x, kept.y - place.y, kept.width, kept.height});
   window_.place = kept;
-  if (!choose(finder_.find(window_.image, level_, kLeastArea), kept)) return false;
+  if (!choose(finder_.find(window_.image, level_, kMinArea), kept)) return false;
   if (!stands_ || shoulder) base_edge_ = last;
   follow();
   return true;
@@ -186,7 +186,7 @@ bool OutlineSeeker::part_from_stand() {
 
 // Mean difference from the frame before where the thing is and was; every second row is enough.
 void OutlineSeeker::measure_change() {
-  const Region place = intersection(grown(found_.box, kLeastMargin), window_.place);
+  const Region place = intersection(grown(found_.box, kMinMargin), window_.place);
   const Region both = intersection(place, before_place_);
   std::int64_t sum = 0, rows = 0;
   for (int y = both.y + (both.y & 1); y < both.bottom(); y += 2, ++rows) {
@@ -226,14 +226,14 @@ void OutlineSeeker::measure_brightness(const Picture& picture) {
 
 // How far the thing may move from frame to frame. Where it moves farther, it touches the window's border and is looked
 // for again in more.
-int OutlineSeeker::margin() const { return kLeastMargin + static_cast<int>(kMarginPace * pace_); }
+int OutlineSeeker::margin() const { return kMinMargin + static_cast<int>(kMarginPace * pace_); }
 
 bool OutlineSeeker::seek(const Picture& picture) {
   const BrightRegion before = found_;
   bool seen = following_ && find_in(picture, grown(found_.box, margin()));
   if (!seen) {
     following_ = false;
-    seen = find_in(picture, grown(home_, kLeastMargin)) || find_in(picture, area_);
+    seen = find_in(picture, grown(home_, kMinMargin)) || find_in(picture, area_);
   }
   if (!seen || !part_from_stand()) {
     following_ = false;

@@ -10,7 +10,7 @@
 namespace wisp {
 namespace {
 
-constexpr double kLeastNormalSd = 0.25;  // pixels: what is left of noise when an edge is located well
+constexpr double kMinNormalSd = 0.25;  // pixels: what is left of noise when an edge is located well
 
 // Nothing nearer than this share of the height is an outlier: few control points cannot follow a sharp tip.
 constexpr double kNoOutlier = 0.1;
@@ -128,7 +128,7 @@ void OutlineTracker::spread_sums() {
 void OutlineTracker::measure(const EdgeCloud& cloud, bool along_own_normal) {
   information_ = prior_information_;
   vector_ = prior_vector_;
-  sums_.assign(static_cast<std::size_t>(table_.points()), {});
+  sums_.assign(static_cast<std::size_t>(table_.points()) - 3, {});  // one a span
   for (std::size_t k = 0; k < cloud.points.size(); ++k) {
     if (out_[k]) continue;
     const EdgePoint& edge = cloud.points[k];
@@ -246,7 +246,7 @@ bool OutlineTracker::gate(const EdgeCloud& cloud) {
   std::vector<double>& sorted = vector_;  // solved already, and rebuilt by the next measure()
   sorted.assign(residuals_.begin(), residuals_.end());
   std::nth_element(sorted.begin(), sorted.begin() + count / 2, sorted.end());
-  const double typical = std::max(sorted[count / 2], kLeastNormalSd);
+  const double typical = std::max(sorted[count / 2], kMinNormalSd);
   const double limit = std::max(options_.gate * typical, kNoOutlier * cloud.height);
   bool any = false;
   for (std::size_t k = 0; k < count; ++k) {
@@ -270,7 +270,7 @@ void OutlineTracker::account() {
 }
 
 const OutlineEstimate& OutlineTracker::update(const EdgeCloud& cloud) {
-  const double normal_sd = std::max(options_.normal_sd * cloud.height, kLeastNormalSd);
+  const double normal_sd = std::max(options_.normal_sd * cloud.height, kMinNormalSd);
   const double tangent_sd = options_.tangent_sd * cloud.height;
   normal_precision_ = 1 / (normal_sd * normal_sd);
   tangent_precision_ = 1 / (tangent_sd * tangent_sd);

@@ -10,21 +10,21 @@ namespace wisp {
 namespace {
 
 // Calibrated on the scenes of studies/scenes and on films; wisp_verify_scenes prints how often they are wrong.
-constexpr double kMostMissing = 0.04;     // share of rows
-constexpr double kMostJumps = 0.03;       // share of steps
-constexpr double kJumpShare = 0.35;       // of the height: a base that moves farther in a frame is another one
-constexpr double kJumpRatio = 2.2;        // … and a height that changes so many times
-constexpr double kMostAtBorder = 0.05;    // share of rows
-constexpr double kLeastMovement = 0.006;  // heights
-constexpr double kLeastTaper = 0.32;
-constexpr double kLeastNarrowing = 0.25;
-constexpr double kLeastSolidity = 0.86;
-constexpr double kLeastLight = 0.85;
-constexpr double kMostLost = 0.1;       // share of rows without a frame of their own: flicker is not what lies between
-constexpr double kMostRepeated = 0.35;  // … and that repeat the one before
-constexpr double kFlat = 0.5;           // share of a shape that is clipped: then its form is the camera's
-constexpr double kLeastHeight = 10;     // pixels
-constexpr double kOutSeconds = 0.4;     // without a flame until the clip's end: it went out
+constexpr double kMaxMissing = 0.04;    // share of rows
+constexpr double kMaxJumps = 0.03;      // share of steps
+constexpr double kJumpShare = 0.35;     // of the height: a base that moves farther in a frame is another one
+constexpr double kJumpRatio = 2.2;      // … and a height that changes so many times
+constexpr double kMaxAtBorder = 0.05;   // share of rows
+constexpr double kMinMovement = 0.006;  // heights
+constexpr double kMinTaper = 0.32;
+constexpr double kMinNarrowing = 0.25;
+constexpr double kMinSolidity = 0.86;
+constexpr double kMinLight = 0.85;
+constexpr double kMaxLost = 0.1;       // share of rows without a frame of their own: flicker is not what lies between
+constexpr double kMaxRepeated = 0.35;  // … and that repeat the one before
+constexpr double kFlat = 0.5;          // share of a shape that is clipped: then its form is the camera's
+constexpr double kMinHeight = 10;      // pixels
+constexpr double kOutSeconds = 0.4;    // without a flame until the clip's end: it went out
 
 constexpr int kCurvePoints = 64;
 
@@ -151,11 +151,11 @@ double missing_share(const OutlineFacts& facts) {
 
 // Why frames are not where they should be, or nothing.
 std::string irregular(const OutlineFacts& f) {
-  if (f.lost > kMostLost) {
+  if (f.lost > kMaxLost) {
     return "its frames come irregularly, " + percent(f.lost) +
            " are missing from the clip; film at a fixed rate, with more light or less to do for the camera";
   }
-  if (f.repeated > kMostRepeated) {
+  if (f.repeated > kMaxRepeated) {
     return percent(f.repeated) +
            " of its frames repeat the one before: it was filmed at a lower rate; give the clip in that rate";
   }
@@ -164,7 +164,7 @@ std::string irregular(const OutlineFacts& f) {
 
 // Why the shape is not a flame's, or nothing.
 std::string misshapen(const OutlineFacts& f) {
-  const bool taper = f.taper >= kLeastTaper && f.narrowing >= kLeastNarrowing, solid = f.solidity >= kLeastSolidity;
+  const bool taper = f.taper >= kMinTaper && f.narrowing >= kMinNarrowing, solid = f.solidity >= kMinSolidity;
   if (taper && solid) return {};
   if (f.clipped > kFlat) {
     return "it is clipped flat, " + percent(f.clipped) +
@@ -182,27 +182,27 @@ std::string misshapen(const OutlineFacts& f) {
 std::string fault(const OutlineFacts& f, const CaptureReport& report) {
   constexpr std::array<const char*, 4> kSide{"left", "upper", "right", "lower"};
   const bool flame = report.flames > 0;
-  if (f.movement < kLeastMovement)
+  if (f.movement < kMinMovement)
     return "its edges do not move: it may be a lamp or a lit thing; film a flame in a dark room";
-  if (flame && f.light < kLeastLight) {
+  if (flame && f.light < kMinLight) {
     return "other things in the picture are brighter; choose a region around the flame, or film it in a dark room";
   }
   if (std::string why = irregular(f); !why.empty()) return why;
-  if (missing_share(f) > kMostMissing) {
+  if (missing_share(f) > kMaxMissing) {
     return "it is missing in " + percent(missing_share(f)) +
            " of the frames; film it steadily, with nothing in between";
   }
-  if (f.jumps > kMostJumps) {
+  if (f.jumps > kMaxJumps) {
     return "it jumps in " + percent(f.jumps) +
            " of the frames; keep the camera still, and only one flame in the picture";
   }
   for (const std::size_t side : {0, 1, 2}) {
-    if (f.border[side] <= kMostAtBorder) continue;
+    if (f.border[side] <= kMaxAtBorder) continue;
     return "it reaches the " + std::string(kSide[side]) + " border of the picture in " + percent(f.border[side]) +
            " of the frames; leave room around it";
   }
   if (std::string why = flame ? misshapen(f) : ""; !why.empty()) return why;
-  if (f.height < kLeastHeight)
+  if (f.height < kMinHeight)
     return "it is only " + std::to_string(std::lround(f.height)) + " pixels high; film it from nearer";
   return {};
 }

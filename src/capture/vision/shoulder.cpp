@@ -5,11 +5,11 @@
 namespace wisp {
 namespace {
 
-constexpr double kWiderBelow = 1.6;      // a shoulder is this many times as wide as what is above it
-constexpr int kLeastStep = 3;            // … and this many pixels wider
-constexpr double kWithin = 0.05;         // of the length above: within so many rows it widens
-constexpr double kSlenderness = 0.7;     // what stands is at least this long for its width: a blunt tip widens too
-constexpr std::size_t kLeastLength = 4;  // rows
+constexpr double kWiderBelow = 1.6;    // a shoulder is this many times as wide as what is above it
+constexpr int kMinStep = 3;            // … and this many pixels wider
+constexpr double kWithin = 0.05;       // of the length above: within so many rows it widens
+constexpr double kSlenderness = 0.7;   // what stands is at least this long for its width: a blunt tip widens too
+constexpr std::size_t kMinLength = 4;  // rows
 
 bool along_rows(BaseSide side) { return side == BaseSide::kBottom || side == BaseSide::kTop; }
 
@@ -78,14 +78,14 @@ std::optional<std::size_t> find_shoulder(const Profile& profile, std::size_t fro
       below = std::max(below, rows[j].width());
     }
     const int width = rows[k].width();
-    return below < std::max<double>(kWiderBelow * width, width + kLeastStep) ? 0 : static_cast<double>(below) / width;
+    return below < std::max<double>(kWiderBelow * width, width + kMinStep) ? 0 : static_cast<double>(below) / width;
   };
   std::optional<std::size_t> best;
   double sharpest = 0;
   int widest = 0;
   for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
     widest = std::max(widest, rows[k].width());
-    if (k < from || k + 1 < kLeastLength || static_cast<double>(k + 1) < kSlenderness * widest) continue;
+    if (k < from || k + 1 < kMinLength || static_cast<double>(k + 1) < kSlenderness * widest) continue;
     if (step(k) <= sharpest) continue;
     sharpest = step(k);
     best = k;

@@ -10,15 +10,15 @@
 namespace wisp {
 namespace {
 
-constexpr int kGrid = 320;             // points of the coarse grid, wide and high: enough to tell regions apart
-constexpr int kFineGrid = 160;         // … and of the one around a flame
-constexpr int kLevelStep = 18;         // levels that are tried, 255ths
-constexpr int kHighestLevel = 225;     // above it, where a camera clips, a level cuts through the flame
-constexpr double kLitShare = 0.7;      // a picture counts when its brightest is this share of the upper quartile's
-constexpr double kLeastContrast = 12;  // levels between the clusters, of 255: less is noise of one brightness
-constexpr double kAsLikely = 0.35;     // another flame is at least this share as likely as the first
-constexpr double kAsBright = 0.9;      // … and as bright
-constexpr double kAsGood = 0.5;        // at another level it is still the same thing when it is this share as likely
+constexpr int kGrid = 320;           // points of the coarse grid, wide and high: enough to tell regions apart
+constexpr int kFineGrid = 160;       // … and of the one around a flame
+constexpr int kLevelStep = 18;       // levels that are tried, 255ths
+constexpr int kHighestLevel = 225;   // above it, where a camera clips, a level cuts through the flame
+constexpr double kLitShare = 0.7;    // a picture counts when its brightest is this share of the upper quartile's
+constexpr double kMinContrast = 12;  // levels between the clusters, of 255: less is noise of one brightness
+constexpr double kAsLikely = 0.35;   // another flame is at least this share as likely as the first
+constexpr double kAsBright = 0.9;    // … and as bright
+constexpr double kAsGood = 0.5;      // at another level it is still the same thing when it is this share as likely
 constexpr double kHalfWay = 0.58;
 constexpr double kNearlyAsLikely = 0.82;  // one that shows more of the same flame is at least this share as likely
 constexpr double kNearlyAsBright = 0.98;  // … and as bright
@@ -274,7 +274,7 @@ bool has_contrast(const Grids& grids, const Picture& format, const SurveyOptions
     Histogram histogram{};
     for (std::size_t k = 0; k < grid.pictures.size(); ++k) add_to_histogram(histogram, grid.view(k), 1);
     const TwoClusters clusters = split_histogram(histogram);
-    if (clusters.bright_mean - clusters.dark_mean >= kLeastContrast) return true;
+    if (clusters.bright_mean - clusters.dark_mean >= kMinContrast) return true;
   }
   return false;
 }
@@ -345,7 +345,7 @@ BaseSide steady_end(const Survey& survey) {
 }  // namespace
 
 BaseSide base_side(const Survey& survey, const Region& area) {
-  constexpr double kMostPictures = 0.5, kNearlyAll = 0.95;
+  constexpr double kMaxPictures = 0.5, kNearlyAll = 0.95;
   std::array<double, 4> cut{};
   for (const Region& box : survey.seen) {
     const double share = 1.0 / static_cast<double>(survey.seen.size());
@@ -354,7 +354,7 @@ BaseSide base_side(const Survey& survey, const Region& area) {
     if (box.y <= area.y) cut[static_cast<int>(BaseSide::kTop)] += share;
     if (box.right() >= area.right()) cut[static_cast<int>(BaseSide::kRight)] += share;
   }
-  if (cut[static_cast<int>(BaseSide::kBottom)] >= kMostPictures) return BaseSide::kBottom;
+  if (cut[static_cast<int>(BaseSide::kBottom)] >= kMaxPictures) return BaseSide::kBottom;
   for (const BaseSide side : {BaseSide::kLeft, BaseSide::kRight, BaseSide::kTop}) {
     if (cut[static_cast<int>(side)] >= kNearlyAll) return side;
   }

@@ -230,8 +230,8 @@ FlameShape flame_shape(std::span<const Point> outline, const FlameScene& scene, 
   if (points.size() < 3) return shape;
   for (Point& p : points) p = {scale * p.x, scale * p.y};
   measure(shape, points);
-  constexpr float kLeastArea = 1e-5F;
-  if (shape.area < kLeastArea) return shape;
+  constexpr float kMinArea = 1e-5F;
+  if (shape.area < kMinArea) return shape;
 
   close_base(points, cap);
   const float unit = scene.pixels_per_unit;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/number_text.hpp"
 #include "learn/arx/curve/arx_curves.hpp"
 #include "learn/arx/judge/arx_verdict.hpp"
 #include "learn/arx/judge/residual_tests.hpp"
@@ -13,6 +12,7 @@
 #include "learn/arx/search/order_search.hpp"
 #include "learn/arx/simulation/focus.hpp"
 #include "learn/arx/simulation/simulation_block.hpp"
+#include "record/number_text.hpp"
 
 namespace wisp {
 namespace arx {

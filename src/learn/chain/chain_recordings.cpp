@@ -7,9 +7,9 @@
 #include <string>
 
 #include "base/hash.hpp"
-#include "base/number_text.hpp"
 #include "learn/chain/learn_chain.hpp"
 #include "learn/chain/motion/motion.hpp"
+#include "record/number_text.hpp"
 
 namespace wisp {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "base/number_text.hpp"
+#include "record/number_text.hpp"
 
 namespace wisp::chain {
 namespace {
@@ -56,15 +56,16 @@ void add_bounded(const std::string& id, const Bounded& measure, const std::strin
 void add_extremes(const std::string& which, const FallExtremes& falls, const std::string& label, Entries& entries) {
   const std::string id = "fidelity." + which + ".";
   const char* percentiles[] = {"0.1", "1", "99", "99.9"};
+  const char* names[] = {"0_1", "1", "99", "99_9"};  // a dot in an id opens a section
   for (std::size_t k = 0; k < 4; ++k) {
-    entries.add(id + "vertical_speed.percentile_" + percentiles[k], falls.vertical_speed[k],
+    entries.add(id + "vertical_speed.percentile_" + names[k], falls.vertical_speed[k],
                 k < 2 ? label + "vertical speed, percentile " + percentiles[k] : "", "m/s");
   }
   for (std::size_t k = 0; k < 2; ++k) {
-    entries.add(id + "acceleration.percentile_" + percentiles[2 + k], falls.acceleration[k],
+    entries.add(id + "acceleration.percentile_" + names[2 + k], falls.acceleration[k],
                 label + "acceleration, percentile " + percentiles[2 + k], "m/s²");
   }
-  const char* lags[] = {"0.5", "1", "2"};
+  const char* lags[] = {"0_5", "1", "2"};
   for (std::size_t k = 0; k < 3; ++k) {
     entries.add(id + "mean_squared_displacement.seconds_" + lags[k], falls.spread[k],
                 k == 2 ? label + "mean squared displacement in 2 s" : "", "m²");

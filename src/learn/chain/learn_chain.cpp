@@ -5,13 +5,13 @@
 #include <filesystem>
 #include <string>
 
-#include "base/number_text.hpp"
 #include "learn/chain/chain_fidelity.hpp"
 #include "learn/chain/chain_fit.hpp"
 #include "learn/chain/chain_recordings.hpp"
 #include "learn/chain/chain_report.hpp"
 #include "learn/chain/gusts/gust_report.hpp"
 #include "learn/chain/learn_chain.hpp"
+#include "record/number_text.hpp"
 #include "wisp/model/file.hpp"
 
 namespace wisp {

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <string>
 
-#include "base/number_text.hpp"
 #include "learn/chain/chain_fidelity.hpp"
 #include "learn/chain/chain_recordings.hpp"
 #include "learn/chain/chain_report.hpp"
 #include "learn/chain/fall_tracks.hpp"
 #include "learn/chain/gusts/gust_report.hpp"
 #include "learn/chain/learn_chain.hpp"
+#include "record/number_text.hpp"
 
 namespace wisp {
 namespace chain {

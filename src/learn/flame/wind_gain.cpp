@@ -4,8 +4,8 @@
 #include <numeric>
 #include <utility>
 
-#include "base/number_text.hpp"
 #include "record/loudness.hpp"
+#include "record/number_text.hpp"
 
 namespace wisp {
 namespace {

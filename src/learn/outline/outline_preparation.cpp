@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/number_text.hpp"
 #include "learn/outline/outline_knots.hpp"
 #include "model/bspline.hpp"
+#include "record/number_text.hpp"
 
 namespace wisp {
 namespace {

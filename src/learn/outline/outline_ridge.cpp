@@ -5,8 +5,8 @@
 #include <limits>
 #include <numeric>
 
-#include "base/number_text.hpp"
 #include "learn/outline/outline_figures.hpp"
+#include "record/number_text.hpp"
 
 namespace wisp {
 namespace {

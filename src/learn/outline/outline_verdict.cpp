@@ -12,7 +12,6 @@ namespace {
 constexpr std::size_t kMinRows = 50;
 constexpr int kMinRowsACoefficient = 4;
 constexpr double kMinFollowed = 5;  // per cent: a short simulation fits a little by where it starts
-constexpr double kMinTipFit = 8;    // per cent, one step ahead: white noise of 250 frames comes to 5
 constexpr double kMaxHeld = 1e-3;
 constexpr double kMaxLossGrown = 1.2;  // of a repaired model, in variance: beyond it is another model
 constexpr double kMaxSpread = 2;       // playing freely over recorded, of the typical channel, either way
@@ -141,12 +140,6 @@ Usable outline_verdict(const ArxSummary& fit, const OutlineSummary& summary) {
   if (typical_fit(summary.learned, 1) <= 0) {
     return {false, "it predicts the next frame no better than the mean does (median fit " +
                        rounded(typical_fit(summary.learned, 1), 1) + " %)"};
-  }
-  if (tip_fit(judged, 1) < kMinTipFit) {
-    return {false, "it predicts the tip's next place with a fit of only " + rounded(tip_fit(judged, 1), 1) +
-                       " %, at least " + rounded(kMinTipFit, 0) +
-                       " % are needed: the outline is more noise than movement; film it larger, sharper or at a "
-                       "higher rate"};
   }
   if (summary.play_distance && summary.play_distance->value > summary.play_distance->ceiling) {
     return {false,

@@ -1,9 +1,9 @@
 #include "learn/switched/switched_report.hpp"
 
-#include "base/number_text.hpp"
 #include "learn/arx/report/arx_description.hpp"
 #include "learn/arx/report/report_values.hpp"
 #include "learn/switched/learn_switched.hpp"
+#include "record/number_text.hpp"
 
 namespace wisp::switched {
 namespace {

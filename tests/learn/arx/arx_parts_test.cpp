@@ -14,9 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-ArxRecipe recipe_of_made() {
-  return {.inputs = {"u1", "u2"}, .outputs = {"y1", "y2"}, .na = 3, .nb = 2, .nk = 1, .focus = ArxFocus::kPrediction};
-}
+ArxRecipe recipe_of_made() { return {.inputs = {"u1", "u2"}, .outputs = {"y1", "y2"}, .na = 3, .nb = 2, .nk = 1}; }
 
 // Rounding of 1e-16 times the condition number (below 1e3) and a few hundred additions.
 void expect_same(const Model& got, const Model& want) {

@@ -21,8 +21,7 @@ ArxRecipe recipe_of_made() {
           .outputs = {"y1", "y2"},
           .na = orders.na,
           .nb = orders.nb,
-          .nk = orders.nk,
-          .focus = ArxFocus::kPrediction};
+          .nk = orders.nk};
 }
 
 Fit learned(const Recording& recording, const ArxRecipe& recipe) {

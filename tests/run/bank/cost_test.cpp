@@ -80,8 +80,8 @@ TEST(Cost, APolylineTakesFewerThanFiveOperationsACoordinate) {
 // A wind that is bent on either side by as many knots as a curve may have.
 Model bent_by_many_knots(Model model) {
   InputCurve& curve = model.inputs[0].curve = {};
-  for (std::size_t knot = 0; knot < kMostCurveKnots; ++knot) {
-    curve.at.push_back(knot + 1 < kMostCurveKnots ? static_cast<double>(knot) / kMostCurveKnots : 1);
+  for (std::size_t knot = 0; knot < kMaxCurveKnots; ++knot) {
+    curve.at.push_back(knot + 1 < kMaxCurveKnots ? static_cast<double>(knot) / kMaxCurveKnots : 1);
     curve.value.push_back(curve.at.back() * (2 - curve.at.back()));
   }
   return model;

@@ -17,7 +17,7 @@ constexpr int kReweightings = 8;         // each halves what is left to go, or b
 constexpr double kSureBy = 2;            // standard errors of the held-out gain
 constexpr double kBlockSeconds = 1;      // neighbouring rows may not be independent
 constexpr std::size_t kFewestRows = 20;  // of a block, where a second has fewer
-constexpr std::size_t kLeastBlocks = 5;  // to tell a standard error from
+constexpr std::size_t kMinBlocks = 5;    // to tell a standard error from
 
 std::vector<Recording> bent(std::span<const Recording> recordings, const CurveFitOptions& options,
                             std::span<const InputCurve> curves) {
@@ -92,7 +92,7 @@ void judge(const std::vector<double>& with, const std::vector<double>& without, 
   if (blocks.empty()) return;
   const auto n = static_cast<double>(blocks.size());
   for (double block : blocks) out.gain += block / n;
-  if (blocks.size() < kLeastBlocks) return;
+  if (blocks.size() < kMinBlocks) return;
   double square = 0;
   for (double block : blocks) square += (block - out.gain) * (block - out.gain);
   out.gain_error = std::sqrt(square / (n * (n - 1)));
@@ -115,7 +115,7 @@ std::string reason_for(const CurveCandidate& best, bool kept, bool given) {
 // Whether every input takes values enough for a curve.
 bool can_bend(std::span<const Recording> learned, const CurveFitOptions& options) {
   return !options.inputs.empty() && std::all_of(options.inputs.begin(), options.inputs.end(), [&](const auto& input) {
-    return curve_knots(learned, input, kFewestCurveKnots).size() >= 3;
+    return curve_knots(learned, input, kMinCurveKnots).size() >= 3;
   });
 }
 
@@ -153,7 +153,7 @@ Result<CurveChoice> choose_input_curves(std::span<const Recording> learned, std:
   if (!without) return without.error();
   const double rate = learned.front().rate_hz;
   const std::size_t block = std::max(kFewestRows, static_cast<std::size_t>(std::lround(kBlockSeconds * rate)));
-  for (int count = knots.value_or(kFewestCurveKnots); count <= knots.value_or(kMostTriedKnots); ++count) {
+  for (int count = knots.value_or(kMinCurveKnots); count <= knots.value_or(kMaxTriedKnots); ++count) {
     CurveFitOptions tried = options;
     tried.knots = count;
     const auto fit = fit_input_curves(learned, channels, tried);

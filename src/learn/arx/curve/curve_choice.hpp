@@ -14,8 +14,8 @@
 namespace wisp {
 
 /// Numbers of knots that are tried.
-inline constexpr int kFewestCurveKnots = 3;
-inline constexpr int kMostTriedKnots = 6;
+inline constexpr int kMinCurveKnots = 3;
+inline constexpr int kMaxTriedKnots = 6;
 
 /// A number of knots that was tried.
 struct CurveCandidate {

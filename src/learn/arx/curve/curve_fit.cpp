@@ -14,9 +14,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kRidge = 1e-12;      // of a regressor's own product
-constexpr double kSettled = 1e-11;    // of the loss: what a further pass must gain
-constexpr double kLeastLoss = 1e-12;  // of an output's own square: less is rounding
+constexpr double kRidge = 1e-12;    // of a regressor's own product
+constexpr double kSettled = 1e-11;  // of the loss: what a further pass must gain
+constexpr double kMinLoss = 1e-12;  // of an output's own square: less is rounding
 
 // The rises of all curves, one after the other.
 struct Rises {
@@ -127,7 +127,7 @@ class Row {
     const VectorXd theta = taps() > 0 ? VectorXd(map * b_) : VectorXd::Zero(pieces_);
     const double whole = data_.gram(pieces_, pieces_);
     const double left = whole - 2 * theta.dot(target()) + theta.dot(gram() * theta);
-    loss_ = std::max(left, kLeastLoss * whole + std::numeric_limits<double>::min()) / samples_;
+    loss_ = std::max(left, kMinLoss * whole + std::numeric_limits<double>::min()) / samples_;
   }
 
   double loss() const { return loss_; }

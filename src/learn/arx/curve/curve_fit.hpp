@@ -34,7 +34,7 @@ struct CurvedInput {
 struct CurveFitOptions {
   ArxOrders orders;
   std::vector<CurvedInput> inputs;
-  int knots = 4;           ///< of every curve, both ends among them, 3 to kMostCurveKnots
+  int knots = 4;           ///< of every curve, both ends among them, 3 to kMaxCurveKnots
   int most_passes = 2000;  ///< of the alternation; it mostly ends within a hundred
 };
 

@@ -11,8 +11,8 @@
 namespace wisp {
 namespace {
 
-constexpr double kLeastGap = 1e-3;  // of the curve's length: knots that are nearer are one
-constexpr double kRidge = 1e-12;    // of a column's own product: sides that never blow are nobody's
+constexpr double kMinGap = 1e-3;  // of the curve's length: knots that are nearer are one
+constexpr double kRidge = 1e-12;  // of a column's own product: sides that never blow are nobody's
 
 // How far an input has come from a knot to the next, 0 to 1; NaN stays NaN.
 double climbed(double input, double from, double to) {
@@ -136,7 +136,7 @@ CurveRow row_of(const Expanded& data, const ArxOrders& orders, const Signals& si
 }
 
 Result<void> check_options(const CurveFitOptions& options) {
-  if (options.knots >= 3 && options.knots <= static_cast<int>(kMostCurveKnots)) return {};
+  if (options.knots >= 3 && options.knots <= static_cast<int>(kMaxCurveKnots)) return {};
   return Error{"a curve of " + std::to_string(options.knots) + " knots was asked for, expected 3 to 16"};
 }
 
@@ -152,7 +152,7 @@ std::vector<double> curve_knots(std::span<const Recording> recordings, const Cur
     }
   }
   std::sort(samples.begin(), samples.end());
-  const double gap = kLeastGap * (input.highest - input.lowest);
+  const double gap = kMinGap * (input.highest - input.lowest);
   std::vector<double> at{input.lowest};
   for (int k = 1; k < knots - 1 && !samples.empty(); ++k) {
     const double share = static_cast<double>(k) / (knots - 1);

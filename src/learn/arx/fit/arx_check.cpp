@@ -6,7 +6,7 @@
 namespace wisp {
 namespace {
 
-constexpr int kMostOrder = 4096;
+constexpr int kMaxOrder = 4096;
 
 std::string shape(int rows, int columns) { return std::to_string(rows) + " × " + std::to_string(columns); }
 
@@ -17,9 +17,9 @@ Result<void> check_matrix(const char* name, const OrderMatrix& matrix, int rows,
                  (name[1] == 'a' ? "an output" : "an input")};
   }
   for (int order : matrix.values()) {
-    if (order < 0 || order > kMostOrder) {
+    if (order < 0 || order > kMaxOrder) {
       return Error{std::string(name) + " holds " + std::to_string(order) + ", expected 0 to " +
-                   std::to_string(kMostOrder)};
+                   std::to_string(kMaxOrder)};
     }
   }
   return {};

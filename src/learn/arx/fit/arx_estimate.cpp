@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "base/number_text.hpp"
 #include "learn/arx/rows/arx_triangle.hpp"
+#include "record/number_text.hpp"
 
 namespace wisp {
 namespace {
@@ -75,7 +75,7 @@ std::optional<ArxEstimate> try_gram(const Signals& signals, const RowPlan& plan,
   ArxEstimate estimate;
   double condition = 1;
   for (const SharedRows& rows : design.groups) {
-    auto solution = solve_with_gram(gram, problem_of(rows, signals.scale, design, ridge), kMostConditionForGram);
+    auto solution = solve_with_gram(gram, problem_of(rows, signals.scale, design, ridge), kMaxConditionForGram);
     if (!solution) return std::nullopt;
     condition = std::max(condition, solution->scaled_condition);
     estimate.groups.push_back(std::move(*solution));

@@ -3,7 +3,7 @@
 //
 // The Gram matrix of lagged channels costs least by far (lag_gram.hpp). Its rounding errors enter the coefficients
 // multiplied by the condition squared; one step of refinement with residuals from the data takes that back to what QR
-// has, while the inverse (standard errors) keeps it. So the Gram matrix is used up to kMostConditionForGram and
+// has, while the inverse (standard errors) keeps it. So the Gram matrix is used up to kMaxConditionForGram and
 // Householder QR beyond, whichever the measured condition says.
 
 #include <Eigen/Core>
@@ -19,7 +19,7 @@
 namespace wisp {
 
 /// Nine digits in standard errors: condition² · 2.2e-16 = 1e-9.
-inline constexpr double kMostConditionForGram = 2e3;
+inline constexpr double kMaxConditionForGram = 2e3;
 
 struct ArxEstimate {
   std::vector<SharedSolution> groups;  ///< as the design's, in scaled units

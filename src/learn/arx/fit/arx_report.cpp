@@ -206,12 +206,12 @@ std::string dependence(const FitFacts& facts, const ArxDesign& design, const Sha
                        const DependentColumn& dependent) {
   const std::string what = lag_text(facts, design.layout[rows.columns[dependent.column]]);
   if (dependent.of.empty()) return what + " never changes: it does not excite the system";
-  constexpr std::size_t kMostNamed = 6;
+  constexpr std::size_t kMaxNamed = 6;
   std::string list;
-  for (std::size_t k = 0; k < std::min(dependent.of.size(), kMostNamed); ++k) {
+  for (std::size_t k = 0; k < std::min(dependent.of.size(), kMaxNamed); ++k) {
     list += (k ? ", " : "") + lag_text(facts, design.layout[rows.columns[dependent.of[k]]]);
   }
-  if (dependent.of.size() > kMostNamed) list += " and " + std::to_string(dependent.of.size() - kMostNamed) + " more";
+  if (dependent.of.size() > kMaxNamed) list += " and " + std::to_string(dependent.of.size() - kMaxNamed) + " more";
   return what + (dependent.of.size() == 1 ? " tells the same as " : " is a combination of ") + list;
 }
 

@@ -35,9 +35,9 @@ double condition_number(const Eigen::MatrixXd& matrix) {
   if (matrix.cols() == 0) return 1;
   const Eigen::MatrixXd gram = matrix.transpose() * matrix;
   const Eigen::VectorXd squares = symmetric_eigenvalues(gram);
-  constexpr double kMostSquare = 1e8;
+  constexpr double kMaxSquare = 1e8;
   const double square = squares[squares.size() - 1] / squares[0];
-  if (square > 0 && square < kMostSquare) return std::sqrt(square);
+  if (square > 0 && square < kMaxSquare) return std::sqrt(square);
   const Eigen::VectorXd values = singular_values(matrix);
   return values[0] / values[values.size() - 1];
 }

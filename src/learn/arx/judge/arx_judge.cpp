@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "base/number_text.hpp"
 #include "learn/arx/fit/arx_report.hpp"
+#include "record/number_text.hpp"
 
 namespace wisp {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/number_text.hpp"
+#include "record/number_text.hpp"
 
 namespace wisp::arx {
 namespace {
@@ -23,14 +23,14 @@ std::string too_few_rows(const VerdictEvidence& evidence, const ArxSummary& summ
   int most = 0;
   for (int i = 0; i < evidence.orders.outputs(); ++i) most = std::max(most, evidence.orders.row_size(i));
   const auto rows = static_cast<double>(summary.samples_used);
-  if (most == 0 || rows >= kFewestRowsACoefficient * most) return "";
+  if (most == 0 || rows >= kMinRowsACoefficient * most) return "";
   return std::to_string(summary.samples_used) + " rows are too few for " + std::to_string(most) +
-         " coefficients an output: fewer than " + number_text(kFewestRowsACoefficient, 3) +
+         " coefficients an output: fewer than " + number_text(kMinRowsACoefficient, 3) +
          " a coefficient; record more, or lower the orders";
 }
 
 std::string repaired_far(const ArxSummary& summary) {
-  if (!summary.stable.changed || summary.stable.moved <= kMostMoved) return "";
+  if (!summary.stable.changed || summary.stable.moved <= kMaxMoved) return "";
   return "to make the estimate stable a coefficient was moved by " + number_text(summary.stable.moved, 3) +
          " standard errors: the model is not what the data say; try other orders, or fewer coupled outputs";
 }
@@ -55,12 +55,12 @@ std::string simulates_badly(const VerdictEvidence& evidence, const ArxSummary& s
   std::string failing;
   for (std::size_t i = 0; i < summary.free_run_fit_percent.size(); ++i) {
     const double fit = summary.free_run_fit_percent[i];
-    if (fit >= kLeastSimulationFit) continue;
+    if (fit >= kMinSimulationFit) continue;
     failing += (failing.empty() ? "" : ", ") + ("'" + evidence.channels.outputs[i] + "' " + fit_text(fit));
   }
   if (failing.empty()) return "";
-  return "free simulation from the input fits " + failing + ", and at least " + number_text(kLeastSimulationFit, 3) +
-         " % is needed; try other inputs, orders or delays";
+  return "free simulation from the input fits " + failing + ", and at least " + number_text(kMinSimulationFit, 3) +
+         " % is needed; try another --focus, other inputs, orders or delays";
 }
 
 std::string has_no_skill(const VerdictEvidence& evidence, const ArxSummary& summary) {
@@ -72,10 +72,10 @@ std::string has_no_skill(const VerdictEvidence& evidence, const ArxSummary& summ
     if (i < evidence.persistence.size() && evidence.persistence[i] > 0) {
       skill = std::min(skill, 100 * (1 - summary.loss[i] / evidence.persistence[i]));
     }
-    if (skill >= kLeastSkill) continue;
+    if (skill >= kMinSkill) continue;
     return "output '" + evidence.channels.outputs[i] + "' is predicted no better than by its " +
            (skill < against_mean ? "last sample" : "mean") + ": its squared error is less by " +
-           number_text(std::max(skill, 0.0), 2) + " %, and at least " + number_text(kLeastSkill, 2) + " % is needed";
+           number_text(std::max(skill, 0.0), 2) + " %, and at least " + number_text(kMinSkill, 2) + " % is needed";
   }
   return "";
 }

@@ -12,17 +12,17 @@
 namespace wisp::arx {
 
 /// The least free-run fit of an output, in percent, that a model with inputs is usable with.
-inline constexpr double kLeastSimulationFit = 40;
+inline constexpr double kMinSimulationFit = 40;
 
 /// The least share of the squared error of the better of the last sample and the mean by which a model without inputs
 /// must be better, in percent.
-inline constexpr double kLeastSkill = 5;
+inline constexpr double kMinSkill = 5;
 
 /// The fewest rows for every coefficient of an output.
-inline constexpr double kFewestRowsACoefficient = 10;
+inline constexpr double kMinRowsACoefficient = 10;
 
 /// The most standard errors by which a repair of its stability may move a coefficient.
-inline constexpr double kMostMoved = 10;
+inline constexpr double kMaxMoved = 10;
 
 /// A residual that correlates at least so with the input of its own sample: the input acts without delay.
 inline constexpr double kSameSample = 0.25;

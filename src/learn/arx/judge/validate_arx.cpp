@@ -5,7 +5,6 @@
 #include <limits>
 #include <string>
 
-#include "base/number_text.hpp"
 #include "learn/arx/curve/arx_curves.hpp"
 #include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/judge/residual_tests.hpp"
@@ -13,6 +12,7 @@
 #include "learn/arx/report/fit_report.hpp"
 #include "learn/arx/report/report_values.hpp"
 #include "learn/arx/report/response_report.hpp"
+#include "record/number_text.hpp"
 
 namespace wisp {
 namespace arx {

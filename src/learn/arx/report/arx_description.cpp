@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/number_text.hpp"
 #include "learn/arx/judge/response.hpp"
 #include "learn/arx/report/report_values.hpp"
+#include "record/number_text.hpp"
 
 namespace wisp::arx {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "base/number_text.hpp"
 #include "learn/arx/report/arx_description.hpp"
 #include "learn/arx/report/report_values.hpp"
+#include "record/number_text.hpp"
 
 namespace wisp::arx {
 namespace {

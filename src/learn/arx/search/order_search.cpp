@@ -18,11 +18,11 @@
 namespace wisp {
 namespace {
 
-constexpr int kMostOrder = 4096;
-constexpr std::size_t kMostCandidates = 1'000'000;
+constexpr int kMaxOrder = 4096;
+constexpr std::size_t kMaxCandidates = 1'000'000;
 
 Result<void> check_range(const OrderRange& range, const char* name) {
-  if (range.first >= 0 && range.first <= range.last && range.last <= kMostOrder) return {};
+  if (range.first >= 0 && range.first <= range.last && range.last <= kMaxOrder) return {};
   return Error{std::string("the range of ") + name + " is " + std::to_string(range.first) + ":" +
                std::to_string(range.last) + ", expected first <= last, both 0 to 4096"};
 }
@@ -48,7 +48,7 @@ Result<std::vector<OrderCandidate>> list_candidates(const ChannelChoice& channel
   if (auto ok = check_range(options.na, "na"); !ok) return ok.error();
   if (auto ok = check_range(options.nb, "nb"); !ok) return ok.error();
   if (auto ok = check_range(options.nk, "nk"); !ok) return ok.error();
-  if (length(options.na) * length(options.nb) * length(options.nk) > kMostCandidates) {
+  if (length(options.na) * length(options.nb) * length(options.nk) > kMaxCandidates) {
     return Error{"the grid has more than a million candidates; search it in parts"};
   }
   UniformOrders uniform{.outputs = static_cast<int>(channels.outputs.size()),
@@ -82,7 +82,7 @@ class Search {
   Search(const Signals& signals, const Signals* validation, const SearchOptions& options,
          const std::vector<OrderCandidate>& candidates)
       : signals_(signals), validation_signals_(validation), options_(options), layout_(layout_of(candidates)) {
-    int earliest = kMostOrder * 2;
+    int earliest = kMaxOrder * 2;
     for (const OrderCandidate& candidate : candidates) {
       latest_ = std::max(latest_, candidate.orders.history());
       earliest = std::min(earliest, candidate.orders.history());

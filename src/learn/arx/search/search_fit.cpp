@@ -10,10 +10,10 @@ namespace wisp {
 namespace {
 
 // The residuals' products are a small difference of large ones; this share of a residual's square may be rounding.
-constexpr double kMostRounding = 1e-10;
+constexpr double kMaxRounding = 1e-10;
 
 // A pivot below this: the column is nearly a combination of those before it, and the triangle must decide.
-constexpr double kLeastPivot = 1e-9;
+constexpr double kMinPivot = 1e-9;
 
 std::optional<Eigen::MatrixXd> products(const Eigen::MatrixXd& gram, const Eigen::MatrixXd& annihilator) {
   const Eigen::MatrixXd half = gram.selfadjointView<Eigen::Upper>() * annihilator;
@@ -21,7 +21,7 @@ std::optional<Eigen::MatrixXd> products(const Eigen::MatrixXd& gram, const Eigen
   const Eigen::RowVectorXd terms = gram.diagonal().cwiseMax(0).cwiseSqrt().transpose() * annihilator.cwiseAbs();
   for (Eigen::Index i = 0; i < out.rows(); ++i) {
     const double rounding = std::numeric_limits<double>::epsilon() * terms[i] * terms[i];
-    if (!(rounding <= kMostRounding * out(i, i))) return std::nullopt;
+    if (!(rounding <= kMaxRounding * out(i, i))) return std::nullopt;
   }
   return out;
 }
@@ -38,7 +38,7 @@ bool solve_by_gram(const Eigen::MatrixXd& gram, const CandidateRows& rows, const
   if (!weight.allFinite()) return false;
   const Eigen::LLT<Eigen::MatrixXd> cholesky(weight.asDiagonal() * part * weight.asDiagonal());
   if (cholesky.info() != Eigen::Success) return false;
-  if (!rows.columns.empty() && cholesky.matrixLLT().diagonal().minCoeff() < std::sqrt(kLeastPivot)) return false;
+  if (!rows.columns.empty() && cholesky.matrixLLT().diagonal().minCoeff() < std::sqrt(kMinPivot)) return false;
   for (int output : rows.outputs) {
     const Eigen::VectorXd moment = weight.cwiseProduct(gram.col(layout.target(output))(rows.columns));
     annihilator.col(output)(rows.columns) = -weight.cwiseProduct(cholesky.solve(moment));

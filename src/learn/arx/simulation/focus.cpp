@@ -6,11 +6,11 @@
 #include <functional>
 #include <limits>
 
-#include "base/number_text.hpp"
 #include "learn/arx/fit/given_rows.hpp"
 #include "learn/arx/rows/arx_rows.hpp"
 #include "learn/arx/simulation/held_out.hpp"
 #include "learn/arx/simulation/refine.hpp"
+#include "record/number_text.hpp"
 
 namespace wisp::arx {
 namespace {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include "base/number_text.hpp"
+#include "record/number_text.hpp"
 
 namespace wisp::chain {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <optional>
 
-#include "base/number_text.hpp"
+#include "record/number_text.hpp"
 
 namespace wisp::chain {
 namespace {

@@ -1,4 +1,4 @@
-#include "base/number_text.hpp"
+#include "record/number_text.hpp"
 
 #include <charconv>
 

@@ -1,0 +1,157 @@
+"""The module against the program: the same files, the same bytes, the same figures.
+
+    WISP_PROGRAM=build/release/bin/wisp python3 -m unittest discover bindings/python/tests
+"""
+
+import json
+import os
+import pathlib
+import pickle
+import signal
+import subprocess
+import tempfile
+import threading
+import unittest
+
+import numpy as np
+
+import wisp
+
+root = pathlib.Path(__file__).resolve().parents[3]
+program = os.environ.get("WISP_PROGRAM", str(root / "build/release/bin/wisp"))
+flame = root / "tests/c/models/flame.wisp"
+
+
+def run(*words):
+    return subprocess.run([program, *map(str, words)], check=True, capture_output=True, text=True).stdout
+
+
+def made_system(rows=2000, seed=1):
+    """y(t) = 1.5 y(t-1) - 0.7 y(t-2) + u(t-1) + 0.5 u(t-2) + e"""
+    random = np.random.default_rng(seed)
+    u, e = np.sign(random.standard_normal(rows)), 0.05 * random.standard_normal(rows)
+    y = np.zeros(rows)
+    for t in range(2, rows):
+        y[t] = 1.5 * y[t - 1] - 0.7 * y[t - 2] + u[t - 1] + 0.5 * u[t - 2] + e[t]
+    return wisp.Recording(10, {"y": y}, {"u": u})
+
+
+recipe = wisp.ArxRecipe(inputs=["u"], outputs=["y"], na=2, nb=2, nk=1)
+
+
+class Learning(unittest.TestCase):
+    def test_a_table_gives_the_programs_model_to_the_byte(self):
+        table = root / "tests/examples/dryer.csv"
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "model.wisp"
+            run("learn", "arx", table, "-o", path, "--inputs", "u1", "--outputs", "y1", "--dt", "0.08",
+                "--na", "2", "--nb", "2", "--nk", "3", "--quiet")
+            recording = wisp.read_csv(table, rate_hz=1 / 0.08, inputs=["u1"], outputs=["y1"])
+            fit = wisp.learn(recording, wisp.ArxRecipe(name="model", inputs=["u1"], outputs=["y1"], na=2, nb=2, nk=3))
+            self.assertEqual(bytes(fit.model), path.read_bytes())
+
+    def test_arrays_are_learned_from(self):
+        fit = wisp.learn(made_system(), recipe)
+        self.assertIsInstance(fit.report.usable, bool)
+        self.assertGreater(len(fit.report.reason), 10)
+        report = wisp.validate(fit.model, made_system(seed=2), wisp.ValidationOptions(steps=[1, wisp.FREE_RUN]))
+        self.assertGreater(report.to_dict()["channels"][0]["fit_percent"]["inf"], 90)
+        self.assertIn("y", str(report))
+
+    def test_samples_are_not_copied_out(self):
+        recording = made_system()
+        recording["y"][5] = 7
+        self.assertEqual(recording["y"][5], 7)
+        self.assertFalse(recording["y"].flags.owndata)
+
+    def test_bad_data_is_one_sentence(self):
+        with self.assertRaisesRegex(wisp.Error, "nosuch"):
+            wisp.learn(made_system(), wisp.ArxRecipe(inputs=["nosuch"], outputs=["y"]))
+        with self.assertRaises(TypeError):
+            wisp.ArxRecipe(ordre=3)
+        with self.assertRaises(wisp.Error):
+            wisp.Recording(10, {"y": [1.0, 2.0]}, {"u": [1.0]})
+        with self.assertRaises(wisp.Error):
+            wisp.read_model(root / "README.md")
+
+    def test_progress_is_heard_and_may_stop(self):
+        heard = []
+        wisp.learn(made_system(), recipe, progress=lambda stage, share: heard.append(stage))
+        with self.assertRaisesRegex(wisp.Error, "stopped"):
+            wisp.learn(made_system(), recipe, progress=lambda stage, share: False)
+        with self.assertRaises(ZeroDivisionError):
+            wisp.learn(made_system(), recipe, progress=lambda stage, share: 1 / 0)
+        self.assertTrue(heard)
+
+
+class Capturing(unittest.TestCase):
+    def test_a_film_gives_the_programs_flame_to_the_byte(self):
+        with tempfile.TemporaryDirectory() as folder:
+            clip, path = pathlib.Path(folder) / "candle.mp4", pathlib.Path(folder) / "model.wisp"
+            run("simulate", "candle", "-o", clip, "--seconds", "3", "--seed", "5", "--quiet")
+            run("learn", "flame", clip, "-o", path, "--quiet")
+            captured = wisp.capture(clip)
+            fit = wisp.learn(captured.recording, wisp.FlameRecipe(name="model"))
+            self.assertEqual(bytes(fit.model), path.read_bytes())
+            self.assertIn("usable", captured.report.to_dict())
+
+    def test_ctrl_c_ends_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            clip = pathlib.Path(folder) / "candle.mp4"
+            run("simulate", "candle", "-o", clip, "--seconds", "20", "--seed", "5", "--quiet")
+            timer = threading.Timer(0.3, lambda: signal.raise_signal(signal.SIGINT))
+            timer.start()
+            with self.assertRaises(KeyboardInterrupt):
+                for _ in range(100):
+                    wisp.capture(clip)
+
+
+class Playing(unittest.TestCase):
+    def test_a_bank_reads_into_one_array(self):
+        bank = wisp.Bank(wisp.read_model(flame), 5, seed=3)
+        out = np.zeros_like(bank.outputs())
+        for _ in range(10):
+            bank.set_inputs([0.5])
+            bank.step()
+            self.assertIs(bank.outputs(out), out)
+        self.assertEqual(out.shape[0], 5)
+        self.assertTrue(np.isfinite(out).all() and np.abs(out).max() > 0)
+        self.assertEqual(bank.polylines().shape, (5, 32, 2))
+
+    def test_the_same_seed_is_the_same_life_and_a_saved_bank_goes_on(self):
+        model = wisp.read_model(flame)
+        one, two = wisp.Bank(model, seed=3), wisp.Bank(pickle.loads(pickle.dumps(model)), seed=3)
+        one.step(50)
+        two.restore(one.save())
+        one.step(50)
+        two.step(50)
+        np.testing.assert_array_equal(one.outputs(), two.outputs())
+
+    def test_strong_wind_puts_it_out(self):
+        bank = wisp.Bank(wisp.read_model(flame))
+        bank.set_inputs([3.0])
+        bank.step(60)
+        self.assertEqual(bank.lit, [False])
+        bank.relight()
+        self.assertEqual(bank.lit, [True])
+
+    def test_inputs_of_another_shape_are_refused(self):
+        bank = wisp.Bank(wisp.read_model(flame), 5)
+        with self.assertRaisesRegex(ValueError, "expected 1 for all or 1 for each of 5 slots"):
+            bank.set_inputs([1, 2, 3])
+        with self.assertRaises(ValueError):
+            bank.outputs(np.zeros((4, 16), np.float32))
+
+
+class Hearing(unittest.TestCase):
+    def test_blocks_give_the_frames_of_the_whole(self):
+        sound = 0.05 * np.random.default_rng(1).standard_normal(44100).astype(np.float32)
+        whole = wisp.WindLevel(44100).feed(sound)
+        level = wisp.WindLevel(44100)
+        pieces = [level.feed(block)["rms"] for block in np.array_split(sound, 17)]
+        np.testing.assert_array_equal(np.concatenate(pieces), whole["rms"])
+        self.assertEqual(len(whole["wind"]), 60)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,238 @@
+"""Learns how a thing behaves from recordings of it, and plays that behaviour live."""
+
+import os
+from enum import Enum
+from typing import Any, Callable, Mapping, Optional, Sequence, Union, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Path = Union[str, os.PathLike[str]]
+# Hears the stage and its share that is done (negative: unknown); False ends the work.
+Progress = Optional[Callable[[str, float], Optional[bool]]]
+
+__version__: str
+FREE_RUN: int
+
+class Error(ValueError):
+    """Bad data: one sentence that names the file, the place, what was found, what was expected."""
+
+class Recording:
+    """Inputs and outputs over time at one fixed rate; a missing sample is NaN."""
+
+    def __init__(self, rate_hz: float, outputs: Mapping[str, ArrayLike], inputs: Optional[Mapping[str, ArrayLike]] = None,
+                 episodes: Sequence[int] = ..., source: str = "") -> None: ...
+    source: str
+    rate_hz: float
+    inputs: list[str]
+    outputs: list[str]
+    attributes: dict[str, str]
+    def __len__(self) -> int: ...
+    def __getitem__(self, channel: str) -> NDArray[np.float64]: ...
+    def rows(self, first: int, last: int) -> Recording: ...
+    def write_csv(self, path: Path) -> None: ...
+
+def read_csv(path: Path, rate_hz: float = 0, inputs: Sequence[str] = ..., outputs: Sequence[str] = ...) -> Recording: ...
+
+class Report:
+    usable: Optional[bool]
+    reason: str
+    warnings: list[str]
+    series: list[dict[str, Any]]
+    def to_dict(self) -> dict[str, Any]: ...
+
+class ArxOffset(Enum):
+    MEAN = ...
+    NONE = ...
+    ESTIMATE = ...
+
+class ArxFocus(Enum):
+    PREDICTION = ...
+    SIMULATION = ...
+    AUTO = ...
+
+class Coupling(Enum):
+    FULL = ...
+    DIAGONAL = ...
+    BAND = ...
+
+class OrderCriterion(Enum):
+    FPE = ...
+    AIC = ...
+    AICC = ...
+    BIC = ...
+    VALIDATION = ...
+
+class Switching(Enum):
+    REGIONS = ...
+    MARKOV = ...
+
+class InitialState(Enum):
+    MEASURED = ...
+    ZERO = ...
+    ESTIMATED = ...
+
+class OutlineCoupling(Enum):
+    COORDINATE = ...
+    POINT = ...
+    BAND = ...
+    FULL = ...
+
+class OrderRange:
+    def __init__(self, first: int, last: int) -> None: ...
+    first: int
+    last: int
+
+class ArxSearch:
+    def __init__(self, **fields: Any) -> None: ...
+    na: OrderRange
+    nb: OrderRange
+    nk: OrderRange
+    by: OrderCriterion
+    steps: int
+    per_output: bool
+    common_start: bool
+    validation: list[Recording]
+
+class ArxRecipe:
+    def __init__(self, **fields: Any) -> None: ...
+    name: str
+    inputs: list[str]
+    outputs: list[str]
+    na: int
+    nb: int
+    nk: Optional[int]
+    coupling: Coupling
+    offset: ArxOffset
+    ridge: float
+    radius: float
+    keep_unstable: bool
+    curve_knots: Optional[int]
+    search: Optional[ArxSearch]
+    focus: ArxFocus
+    responses: bool
+
+class SwitchedRecipe:
+    def __init__(self, **fields: Any) -> None: ...
+    name: str
+    inputs: list[str]
+    outputs: list[str]
+    switching: Switching
+    modes: Optional[int]
+    max_modes: int
+    holdout: float
+    seed: int
+
+class OutlineRecipe:
+    def __init__(self, **fields: Any) -> None: ...
+    order: Optional[int]
+    delay: Optional[int]
+    align: bool
+    coupling: Optional[OutlineCoupling]
+    inputs: Optional[list[str]]
+    input_curve: Optional[int]
+    one_sided: bool
+    mirror: Optional[bool]
+    holdout: float
+    refit: bool
+    seed: int
+    name: str
+
+class FlameRecipe(OutlineRecipe): ...
+
+class ChainRecipe:
+    def __init__(self, **fields: Any) -> None: ...
+    name: str
+    event: str
+    features: str
+    realisation: str
+    modes: int
+    history: int
+    best_of: int
+    min_seconds: float
+    max_bytes: int
+    holdout: float
+    half_width: float
+    half_length: float
+    seed: int
+
+class LeafRecipe(ChainRecipe): ...
+
+Recipe = Union[ArxRecipe, SwitchedRecipe, OutlineRecipe, FlameRecipe, ChainRecipe, LeafRecipe]
+
+class ClipCapture:
+    def __init__(self, **fields: Any) -> None: ...
+    points: int
+    dark: bool
+    flame: int
+    rate_hz: float
+
+class FlameCapture(ClipCapture): ...
+
+class Captured:
+    recording: Recording
+    report: Report
+
+def capture(path: Path, options: ClipCapture = ..., *, progress: Progress = None) -> Captured: ...
+
+class Model:
+    name: str
+    rate_hz: float
+    inputs: list[str]
+    outputs: list[str]
+    def write(self, path: Path) -> None: ...
+    def __bytes__(self) -> bytes: ...
+
+def read_model(path: Path) -> Model: ...
+
+class Fit:
+    model: Model
+    report: Report
+
+@overload
+def learn(recording: Recording, recipe: Recipe, *, progress: Progress = None) -> Fit: ...
+@overload
+def learn(recordings: Sequence[Recording], recipe: Recipe, *, progress: Progress = None) -> Fit: ...
+
+class ValidationOptions:
+    def __init__(self, **fields: Any) -> None: ...
+    steps: list[int]
+    initial: InitialState
+    responses: bool
+    play_seconds: float
+    fidelity: bool
+    seed: int
+
+def validate(model: Model, recording: Recording, options: ValidationOptions = ..., *, progress: Progress = None) -> Report: ...
+
+class Bank:
+    """Living instances of one model, stepped together. Rows of arrays are slots."""
+
+    def __init__(self, model: Model, instances: int = 1, *, seed: int = 1, polyline_points: int = 32) -> None: ...
+    slots: int
+    noise: float
+    lit: list[bool]
+    def set_inputs(self, values: ArrayLike) -> None: ...
+    def step(self, steps: int = 1) -> None: ...
+    def advance(self, seconds: float) -> int: ...
+    def outputs(self, out: Optional[NDArray[np.float32]] = None) -> NDArray[np.float32]: ...
+    def polylines(self, out: Optional[NDArray[np.float32]] = None) -> NDArray[np.float32]: ...
+    def relight(self) -> None: ...
+    def reset(self) -> None: ...
+    def save(self) -> bytes: ...
+    def restore(self, bytes: bytes) -> None: ...
+
+class WindAsk(Enum):
+    BE_STILL = ...
+    BREATHE_GENTLY = ...
+    BLOW_HARD = ...
+
+class WindLevel:
+    """The wind that a microphone hears, as its sound comes."""
+
+    def __init__(self, rate_hz: float = 44100, channels: int = 1, frame_rate_hz: float = 60) -> None: ...
+    def feed(self, samples: ArrayLike) -> dict[str, NDArray[np.float32]]: ...
+    def calibrate(self, seconds: float = 3, ask: WindAsk = ...) -> None: ...
+    calibrating: bool
+    calibrated: bool
+    room_rise_db: float
