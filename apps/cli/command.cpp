@@ -8,16 +8,40 @@ int Arguments::integer(std::string_view flag) const { return std::atoi(text(flag
 
 double Arguments::number(std::string_view flag) const { return std::strtod(text(flag).c_str(), nullptr); }
 
+namespace {
+
+// Whether all that is opened is closed again: then a comma within belongs to a name.
+bool is_balanced(std::string_view text) {
+  int depth = 0;
+  for (char c : text) {
+    depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+    if (depth < 0) return false;
+  }
+  return depth == 0;
+}
+
+}  // namespace
+
 std::vector<std::string> Arguments::names(std::string_view flag) const {
   std::vector<std::string> names;
   if (!has(flag)) return names;
-  std::string_view rest = text(flag);
-  while (!rest.empty()) {
-    const std::size_t comma = rest.find(',');
-    if (comma != 0) names.emplace_back(rest.substr(0, comma));
-    if (comma == std::string_view::npos) break;
-    rest.remove_prefix(comma + 1);
+  const std::string& all = text(flag);
+  const bool brackets = is_balanced(all);
+  int depth = 0;
+  bool quoted = false;
+  std::string name;
+  for (char c : all) {
+    if (c == '"') {
+      quoted = !quoted;
+    } else if (c == ',' && !quoted && depth == 0) {
+      if (!name.empty()) names.push_back(std::move(name));
+      name.clear();
+    } else {
+      if (brackets) depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+      name += c;
+    }
   }
+  if (!name.empty()) names.push_back(std::move(name));
   return names;
 }
 
@@ -25,6 +49,17 @@ SampleRange Arguments::samples(std::string_view flag) const {
   const std::string& range = text(flag);
   const std::size_t colon = range.find(':');
   return {std::strtoull(range.c_str(), nullptr, 10), std::strtoull(range.c_str() + colon + 1, nullptr, 10)};
+}
+
+std::string help_of(const Flag& flag) {
+  std::string words, signs;
+  for (const std::string& word : flag.words) {
+    words += (words.empty() ? "" : ", ") + word;
+    signs += (signs.empty() ? "" : "|") + word;
+  }
+  // Some say it in the name of their value.
+  if (words.empty() || flag.value == signs || flag.kind != Kind::kChoice) return flag.help;
+  return flag.help + " (one of " + words + ")";
 }
 
 const std::vector<Flag>& common_flags() {

@@ -19,11 +19,12 @@ enum class Kind {
   kSwitch,         ///< nothing: it is there or not
   kText,           ///< any text
   kPath,           ///< a file or folder name
+  kOutput,         ///< a file or folder that is written; never one that is read
   kInteger,        ///< a whole number, not negative
   kNumber,         ///< a finite number
   kChoice,         ///< one of the words in `words`
   kIntegerOrWord,  ///< a whole number, or one of the words
-  kNames,          ///< names, separated by commas
+  kNames,          ///< names, separated by commas; those within quotes or brackets belong to a name
   kSamples,        ///< a range A:B of samples, 1-based, inclusive
 };
 
@@ -36,8 +37,11 @@ struct Flag {
   std::string help;
   std::vector<std::string> words{};
   bool required = false;
-  std::string unless{};  ///< a flag in whose presence this one is not required
+  std::vector<std::string> unless{};  ///< flags in whose presence this one is not required
 };
+
+/// Its help, with the words that it takes.
+std::string help_of(const Flag& flag);
 
 /// What stands without dashes.
 struct Positional {

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <memory>
 
 #include "command.hpp"
@@ -52,6 +53,7 @@ std::string complaint(const Flag& flag, const std::string& text) {
     case Kind::kText:
       return {};
     case Kind::kPath:
+    case Kind::kOutput:
     case Kind::kNames:
       return text.empty() ? "is empty" : std::string();
     case Kind::kInteger:
@@ -84,7 +86,7 @@ void add_flag(Wired& wired, const Flag& flag) {
     return;
   }
   const std::string short_name = flag.name == "output" ? "-o," : "";
-  auto* option = wired.app->add_option(short_name + "--" + flag.name, wired.values[flag.name], flag.help);
+  auto* option = wired.app->add_option(short_name + "--" + flag.name, wired.values[flag.name], help_of(flag));
   option->type_name(flag.value)->check(CLI::Validator([flag](std::string& text) { return complaint(flag, text); }, ""));
   if (!flag.fallback.empty()) option->default_str(flag.fallback);
   if (flag.required && flag.unless.empty()) option->required();
@@ -94,7 +96,8 @@ void add_flag(Wired& wired, const Flag& flag) {
 void check_required(const Wired& wired) {
   for (const Flag& flag : wired.command->flags) {
     if (!flag.required || flag.unless.empty() || wired.app->count("--" + flag.name) > 0) continue;
-    if (wired.app->count("--" + flag.unless) == 0) throw CLI::RequiredError("--" + flag.name);
+    const auto given = [&](const std::string& other) { return wired.app->count("--" + other) > 0; };
+    if (std::none_of(flag.unless.begin(), flag.unless.end(), given)) throw CLI::RequiredError("--" + flag.name);
   }
 }
 
@@ -155,9 +158,35 @@ Arguments arguments_of(const Wired& wired) {
   return arguments;
 }
 
+// What may name files that are read: winds are words or files.
+std::vector<std::string> files_read(const Command& command, const Arguments& arguments) {
+  std::vector<std::string> files = arguments.positionals();
+  for (const Flag& flag : command.flags) {
+    const bool reads = flag.kind == Kind::kPath || flag.kind == Kind::kText;
+    if (reads && arguments.has(flag.name)) files.push_back(arguments.text(flag.name));
+  }
+  return files;
+}
+
+// Writing over what is read would destroy it, whatever name it goes by.
+Result<void> check_outputs(const Command& command, const Arguments& arguments) {
+  for (const Flag& flag : command.flags) {
+    if (flag.kind != Kind::kOutput || !arguments.has(flag.name)) continue;
+    const std::string& output = arguments.text(flag.name);
+    for (const std::string& input : files_read(command, arguments)) {
+      std::error_code none;
+      if (!std::filesystem::equivalent(input, output, none) || std::filesystem::is_directory(output, none)) continue;
+      return Error{"--" + flag.name + " " + output + " is a file that is read, and would be lost: give another name"};
+    }
+  }
+  return {};
+}
+
 int run_command(const Wired& wired) {
   Terminal terminal({wired.switches.at("json"), wired.switches.at("quiet")});
-  const auto outcome = wired.command->run(arguments_of(wired), terminal);
+  const Arguments arguments = arguments_of(wired);
+  auto outcome = check_outputs(*wired.command, arguments);
+  if (outcome) outcome = wired.command->run(arguments, terminal);
   if (!outcome) {
     const std::string& message = outcome.error().message;
     terminal.fail(message);

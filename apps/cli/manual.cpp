@@ -24,7 +24,7 @@ std::string flag_row(const Flag& flag) {
   const std::string dashes = flag.name == "output" ? "-o, --output" : "--" + flag.name;
   const std::string value = flag.value.empty() ? "" : " " + flag.value;
   return "| `" + dashes + escaped(value) + "` | " + (flag.fallback.empty() ? "" : "`" + flag.fallback + "`") + " | " +
-         escaped(flag.help) + " |\n";
+         escaped(help_of(flag)) + " |\n";
 }
 
 std::string section(const Command& command) {

@@ -15,11 +15,11 @@ namespace fs = std::filesystem;
 // The flame that is offered first: the order of the paper's, as on the page.
 constexpr const char* kFirst = "flame-4.wisp";
 
-// The order in which they are offered.
+// The order in which they are offered: a flame, then what is something else, then flames of other orders.
 int rank(const fs::path& path, const View& view) {
   if (path.filename() == kFirst) return 0;
-  if (std::holds_alternative<OutlineView>(view)) return 1;
-  return std::holds_alternative<PlainView>(view) ? 3 : 2;
+  if (std::holds_alternative<PlainView>(view)) return 3;
+  return std::holds_alternative<OutlineView>(view) ? 2 : 1;
 }
 
 std::vector<fs::path> models_in(const fs::path& folder) {

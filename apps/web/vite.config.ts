@@ -65,17 +65,15 @@ function shorterShaders(): Plugin {
     name: 'wisp-shorter-shaders',
     apply: 'build',
     enforce: 'pre',
-    load(id) {
-      const match = /^(.*\.(?:glsl|vert|frag))\?raw$/.exec(id);
-      if (match === null) return null;
-      const source = readFileSync(match[1] as string, 'utf8')
+    transform(code, id) {
+      if (!/\.(?:glsl|vert|frag)\.js$/.test(id)) return null;
+      return code
         .replace(/\/\/.*$/gm, '')
         .replace(/^\s+/gm, '')
         .replace(/\s*([=+*,;(){}<>?:])\s*(?![^\n]*#)/g, '$1')
         .replace(/ ([-/]) (?=[\w(.])/g, '$1')
         .replace(/\b0(\.\d)/g, '$1')
         .replace(/(\d\.)0\b/g, '$1');
-      return `export default ${JSON.stringify(source)};`;
     },
   };
 }

@@ -27,6 +27,9 @@ constexpr float kRiseSeconds = 0.085F;
 // How far a wind of 1 carries smoke, in flame heights a second. Real smoke would be gone at once.
 constexpr float kSmokeCarried = 1.5F;
 
+// How deep a ring of candles looks, in shares of the picture's width: the eye is a little above it.
+constexpr float kRingDepth = 0.07F;
+
 constexpr float kClickPixels = 5;
 
 float seconds_of(std::chrono::nanoseconds age) {
@@ -84,8 +87,12 @@ void CandleScene::arrange() {
     Candle& candle = candles_[static_cast<std::size_t>(k)];
     const float across = static_cast<float>(k) - 0.5F * static_cast<float>(count - 1);
     candle.home = {frame.base.x + spacing * across, frame.base.y};
-    // Not on a line: as somebody put them on a cake.
-    if (count > 1) candle.home.y -= 0.16F * unit_ * static_cast<float>((k * 2) % 3 - 1) - 0.12F * unit_;
+    // In a ring, as somebody put them on a cake: by turns behind and in front, evenly side by side as they are seen.
+    if (count > 1) {
+      const float turn = across / (0.5F * static_cast<float>(count));
+      const float deep = std::sqrt(1 - turn * turn) * (k % 2 == 0 ? 1.0F : -1.0F);
+      candle.home.y += std::min(kRingDepth * static_cast<float>(width_), 0.5F * unit_) * deep;
+    }
     candle.place = candle.home;
     candle.scene.pixels_per_unit = unit_;
     candle.track.assign(kTrackSteps, candle.home);

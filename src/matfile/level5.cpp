@@ -1,38 +1,259 @@
-#include "level5.hpp"
+// MAT-file format, The MathWorks, "MAT-File Level 5 File Format": parts of a tag (kind and length) and data, padded to
+// eight bytes; an array is a part that holds parts: flags, dimensions, name, then numbers or fields. Read in one pass
+// from front to back, so that nothing is allocated for what a file only claims to hold.
 
+#include "matfile/level5.hpp"
+
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
-#include <fstream>
+#include <cstring>
 
-namespace wisp {
+#include "matfile/byte_source.hpp"
+
+namespace wisp::matfile {
 namespace {
 
-constexpr std::uintmax_t kHeader = 128;
-constexpr std::uintmax_t kTag = 8;
+constexpr std::size_t kHeader = 128;
+constexpr std::uint32_t kMatrix = 14, kCompressed = 15;
+constexpr unsigned kStruct = 2, kFirstNumeric = 6, kLastNumeric = 15;
+constexpr unsigned kComplex = 0x08;
+constexpr std::size_t kMostDimensions = 32, kMostFields = 4096, kMostName = 4096;
 
-std::uint32_t number(const unsigned char* bytes, bool big) {
-  std::uint32_t value = 0;
-  for (int k = 0; k < 4; ++k) value |= std::uint32_t{bytes[big ? 3 - k : k]} << (8 * k);
+// Numbers as they are stored, by the kinds of parts 1 to 13.
+constexpr std::size_t kWidth[] = {0, 1, 1, 2, 2, 4, 4, 4, 0, 8, 0, 0, 8, 8};
+constexpr std::uint32_t kSingle = 7, kDouble = 9;
+
+bool is_signed(std::uint32_t kind) { return kind == 1 || kind == 3 || kind == 5 || kind == 12; }
+
+std::uint64_t whole(const std::byte* at, std::size_t width, bool big) {
+  std::uint64_t value = 0;
+  for (std::size_t k = 0; k < width; ++k) {
+    value = value << 8 | std::to_integer<std::uint64_t>(at[big ? k : width - 1 - k]);
+  }
   return value;
+}
+
+double number(const std::byte* at, std::uint32_t kind, bool big) {
+  const std::uint64_t bits = whole(at, kWidth[kind], big);
+  if (kind == kDouble) return std::bit_cast<double>(bits);
+  if (kind == kSingle) return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(bits)));
+  if (!is_signed(kind)) return static_cast<double>(bits);
+  const int unused = 64 - 8 * static_cast<int>(kWidth[kind]);
+  return static_cast<double>(static_cast<std::int64_t>(bits << unused) >> unused);
+}
+
+struct Tag {
+  std::uint32_t kind = 0;
+  std::size_t bytes = 0;
+  std::size_t padding = 0;  // after the data
+};
+
+// What is said of an array before its numbers or fields.
+struct Head {
+  unsigned type = 0;
+  bool complex = false;
+  std::vector<std::size_t> dims;
+  std::string name;
+
+  bool flat() const { return dims.size() == 2; }
+  bool numeric() const { return type >= kFirstNumeric && type <= kLastNumeric && flat() && !complex; }
+  bool single_struct() const { return type == kStruct && flat() && dims[0] == 1 && dims[1] == 1; }
+};
+
+class Reader {
+ public:
+  Reader(ByteSource source, bool big) : source_(std::move(source)), big_(big) {}
+
+  std::optional<Tag> tag() {
+    std::array<std::byte, 8> bytes;
+    if (!source_.read(bytes)) return {};
+    const auto first = static_cast<std::uint32_t>(whole(bytes.data(), 4, big_));
+    // Up to four bytes may lie in the tag itself.
+    if (first >> 16 != 0) {
+      small_ = {bytes[4], bytes[5], bytes[6], bytes[7]};
+      in_tag_ = true;
+      if (first >> 16 > 4) return {};
+      return Tag{first & 0xffff, first >> 16, 0};
+    }
+    in_tag_ = false;
+    const auto length = static_cast<std::size_t>(whole(bytes.data() + 4, 4, big_));
+    return Tag{first, length, (8 - length % 8) % 8};
+  }
+
+  // Data of the part whose tag was read last.
+  bool take(std::span<std::byte> out) {
+    if (!in_tag_) return source_.read(out);
+    std::copy_n(small_.begin(), out.size(), out.begin());
+    return true;
+  }
+
+  // Looks at the next array by `look`, and passes over it, however much was looked at. Returns whether both went well.
+  template <class Look>
+  bool within_part(Look look) {
+    const auto part = tag();
+    if (!part || part->kind != kMatrix || in_tag_) return false;
+    const std::size_t begin = source_.passed(), all = part->bytes + part->padding;
+    if (part->bytes > 0 && !look()) return false;
+    const std::size_t used = source_.passed() - begin;
+    return used <= all && source_.skip(all - used);
+  }
+
+  // A short part whole.
+  std::optional<std::vector<std::byte>> part(std::uint32_t kind, std::size_t most) {
+    const auto found = tag();
+    if (!found || found->kind != kind || found->bytes > most) return {};
+    std::vector<std::byte> data(found->bytes);
+    if (!take(data) || (!in_tag_ && !source_.skip(found->padding))) return {};
+    return data;
+  }
+
+  std::optional<Head> head() {
+    const auto flags = part(6, 8), dims = part(5, 4 * kMostDimensions), name = part(1, kMostName);
+    if (!flags || flags->size() != 8 || !dims || dims->size() % 4 != 0 || !name) return {};
+    const auto word = static_cast<unsigned>(whole(flags->data(), 4, big_));
+    Head head{word & 0xff, (word >> 8 & kComplex) != 0, {}, {}};
+    for (std::size_t at = 0; at < dims->size(); at += 4) {
+      const auto size = static_cast<std::int32_t>(whole(dims->data() + at, 4, big_));
+      if (size < 0) return {};
+      head.dims.push_back(static_cast<std::size_t>(size));
+    }
+    for (std::byte letter : *name) head.name += static_cast<char>(letter);
+    return head;
+  }
+
+  // Names of a structure's fields, of equal width and ended by zeros.
+  std::optional<std::vector<std::string>> fields() {
+    const auto width = part(5, 4);
+    if (!width || width->size() != 4) return {};
+    const auto size = static_cast<std::size_t>(whole(width->data(), 4, big_));
+    if (size < 1 || size > kMostName) return {};
+    const auto letters = part(1, size * kMostFields);
+    if (!letters || letters->size() % size != 0) return {};
+    std::vector<std::string> names;
+    for (std::size_t at = 0; at < letters->size(); at += size) {
+      const char* text = reinterpret_cast<const char*>(letters->data() + at);
+      names.emplace_back(text, strnlen(text, size));
+    }
+    return names;
+  }
+
+  Found numbers(const Head& head) {
+    const auto found = tag();
+    if (!found || found->kind >= std::size(kWidth) || kWidth[found->kind] == 0) return Miss::kDamaged;
+    const std::size_t width = kWidth[found->kind], count = found->bytes / width;
+    if (head.dims[0] == 0 || head.dims[1] == 0) return Miss::kNotNumbers;
+    if (head.dims[1] > kMostNumbers / head.dims[0]) return Miss::kTooLarge;
+    if (found->bytes % width != 0 || count != head.dims[0] * head.dims[1]) return Miss::kDamaged;
+    Table table{head.dims[0], head.dims[1], {}};
+    std::array<std::byte, 8192> block;
+    for (std::size_t left = found->bytes; left > 0;) {
+      const auto taken = std::span(block).first(std::min(left, block.size()));
+      if (!take(taken)) return Miss::kDamaged;
+      for (std::size_t at = 0; at < taken.size(); at += width) {
+        table.numbers.push_back(number(&taken[at], found->kind, big_));
+      }
+      left -= taken.size();
+    }
+    return table;
+  }
+
+ private:
+  ByteSource source_;
+  bool big_;
+  std::array<std::byte, 4> small_{};
+  bool in_tag_ = false;
+};
+
+bool is_big(std::span<const std::byte> file) { return file[126] == std::byte{'M'} && file[127] == std::byte{'I'}; }
+
+// Calls visit(reader) at the head of every variable, until it returns false.
+template <class Visit>
+void for_each_variable(std::span<const std::byte> file, Visit visit) {
+  const bool big = is_big(file);
+  for (auto rest = file.subspan(kHeader); rest.size() >= 8;) {
+    const auto kind = static_cast<std::uint32_t>(whole(rest.data(), 4, big));
+    const auto bytes = std::min(static_cast<std::size_t>(whole(rest.data() + 4, 4, big)), rest.size() - 8);
+    const auto data = rest.subspan(8, bytes);
+    rest = rest.subspan(8 + bytes);
+    Reader reader(kind == kCompressed ? ByteSource::unpacking(data) : ByteSource(data), big);
+    if (kind == kCompressed) {
+      const auto inner = reader.tag();
+      if (!inner || inner->kind != kMatrix) continue;
+    } else if (kind != kMatrix) {
+      continue;
+    }
+    if (!visit(reader)) return;
+  }
+}
+
+// Every numeric array within one whose head was read. Returns false where it is damaged.
+bool list(Reader& reader, const Head& head, const std::string& name, int depth, std::vector<Name>& names) {
+  if (head.numeric()) names.push_back({name, head.dims[0], head.dims[1]});
+  if (!head.single_struct() || depth == kDeepest) return true;
+  const auto fields = reader.fields();
+  if (!fields) return false;
+  for (const std::string& field : *fields) {
+    const bool whole = reader.within_part([&] {
+      const auto inner = reader.head();
+      return !inner || list(reader, *inner, name + "." + field, depth + 1, names);
+    });
+    if (!whole) return false;
+  }
+  return true;
+}
+
+// What the path leads to from an array whose head was read; `at` names of it are behind.
+Found find(Reader& reader, const Head& head, const Path& path, std::size_t at) {
+  if (at == path.size()) return head.numeric() ? reader.numbers(head) : Miss::kNotNumbers;
+  if (!head.single_struct()) return Miss::kNoField;
+  const auto fields = reader.fields();
+  if (!fields) return Miss::kDamaged;
+  const auto wanted = std::find(fields->begin(), fields->end(), path[at]);
+  if (wanted == fields->end()) return Miss::kNoField;
+  for (auto field = fields->begin(); field != wanted; ++field) {
+    if (!reader.within_part([] { return true; })) return Miss::kDamaged;
+  }
+  const auto part = reader.tag();
+  if (!part || part->kind != kMatrix) return Miss::kDamaged;
+  if (part->bytes == 0) return Miss::kNotNumbers;
+  const auto inner = reader.head();
+  return inner ? find(reader, *inner, path, at + 1) : Miss::kDamaged;
 }
 
 }  // namespace
 
-bool level5_is_whole(const std::filesystem::path& path) {
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  std::ifstream stream(path, std::ios::binary);
-  std::array<unsigned char, kHeader> header{};
-  if (error || !stream.read(reinterpret_cast<char*>(header.data()), header.size())) return false;
-  const bool big = header[126] == 'M' && header[127] == 'I';
-  std::uintmax_t at = kHeader;
-  while (at + kTag <= size) {
-    std::array<unsigned char, kTag> tag{};
-    stream.seekg(static_cast<std::streamoff>(at));
-    if (!stream.read(reinterpret_cast<char*>(tag.data()), tag.size())) return false;
-    at += kTag + number(tag.data() + 4, big);
-  }
-  return at == size;
+bool is_level5(std::span<const std::byte> file) {
+  if (file.size() < kHeader) return false;
+  const bool little = file[126] == std::byte{'I'} && file[127] == std::byte{'M'};
+  return (little || is_big(file)) && whole(&file[124], 2, is_big(file)) == 0x0100;
 }
 
-}  // namespace wisp
+bool is_whole_level5(std::span<const std::byte> file) {
+  std::size_t at = kHeader;
+  while (at + 8 <= file.size()) at += 8 + static_cast<std::size_t>(whole(&file[at + 4], 4, is_big(file)));
+  return at == file.size();
+}
+
+std::vector<Name> names_in_level5(std::span<const std::byte> file) {
+  std::vector<Name> names;
+  for_each_variable(file, [&](Reader& reader) {
+    if (const auto head = reader.head()) list(reader, *head, head->name, 0, names);
+    return true;
+  });
+  return names;
+}
+
+Found read_level5(std::span<const std::byte> file, const Path& path) {
+  Found found = Miss::kNoVariable;
+  for_each_variable(file, [&](Reader& reader) {
+    const auto head = reader.head();
+    if (!head || head->name != path.front()) return true;
+    found = find(reader, *head, path, 1);
+    return false;
+  });
+  return found;
+}
+
+}  // namespace wisp::matfile

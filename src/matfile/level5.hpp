@@ -1,13 +1,24 @@
 #pragma once
-// The outermost structure of a MATLAB file of level 5.
+// MATLAB files of level 5 (`save` up to -v7), compressed or not.
 
-#include <filesystem>
+#include <cstddef>
+#include <optional>
+#include <span>
 
-namespace wisp {
+#include "matfile/mat_table.hpp"
 
-/// Whether the file's data elements, each a tag of type and size and that many bytes, end where the file ends. A reader
-/// that is not asked first may take what is missing for zeros.
-/// Source: MathWorks, MAT-File Format, chapter 1. Returns false where the file cannot be read.
-bool level5_is_whole(const std::filesystem::path& path);
+namespace wisp::matfile {
 
-}  // namespace wisp
+/// Whether bytes begin as a file of level 5 does.
+bool is_level5(std::span<const std::byte> file);
+
+/// Whether a file's parts end where it ends.
+bool is_whole_level5(std::span<const std::byte> file);
+
+/// All numeric variables and fields. What is damaged is left out.
+std::vector<Name> names_in_level5(std::span<const std::byte> file);
+
+/// Memory grows with what is there, whatever sizes the file claims.
+Found read_level5(std::span<const std::byte> file, const Path& path);
+
+}  // namespace wisp::matfile

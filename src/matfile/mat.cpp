@@ -1,86 +1,63 @@
 #include "wisp/record/mat.hpp"
 
-#include <hdf5.h>
-#include <matio.h>
-
+#include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <memory>
 #include <optional>
 
-#include "level5.hpp"
+#include "matfile/level5.hpp"
+#include "matfile/level73.hpp"
+#include "wisp/base/file.hpp"
 
 namespace wisp {
 namespace {
 
-struct Close {
-  void operator()(mat_t* file) const { Mat_Close(file); }
-  void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
-};
-using File = std::unique_ptr<mat_t, Close>;
-using Variable = std::unique_ptr<matvar_t, Close>;
+using matfile::Found;
+using matfile::Miss;
+using matfile::Name;
+using matfile::Table;
 
-// While it lives HDF5 prints nothing about what it finds wrong: that is ours to say.
-class QuietHdf5 {
+// A file of either level.
+class File {
  public:
-  QuietHdf5() {
-    H5Eget_auto2(H5E_DEFAULT, &report_, &client_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  static Result<File> open(const std::filesystem::path& path) {
+    if (!std::filesystem::is_regular_file(path)) return Error{path.string() + ": there is no such file"};
+    auto bytes = read_file(path);
+    if (!bytes) return bytes.error();
+    File file(path);
+    if (matfile::is_level73(*bytes)) {
+      file.level73_ = matfile::Level73::open(path);
+      if (!file.level73_) return Error{path.string() + ": the file is cut short or damaged: HDF5 cannot open it"};
+      return file;
+    }
+    if (!matfile::is_level5(*bytes)) {
+      return Error{path.string() + ": this is not a MATLAB file of level 5 or 7.3; save it with -v7 or -v7.3"};
+    }
+    if (!matfile::is_whole_level5(*bytes)) {
+      return Error{path.string() + ": the file is cut short or damaged: its parts do not end where it ends"};
+    }
+    file.bytes_ = std::move(*bytes);
+    return file;
   }
-  ~QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, report_, client_); }
-  QuietHdf5(const QuietHdf5&) = delete;
-  QuietHdf5& operator=(const QuietHdf5&) = delete;
+
+  std::vector<Name> names() const { return level73_ ? level73_->names() : matfile::names_in_level5(bytes_); }
+
+  Found read(const matfile::Path& at) const { return level73_ ? level73_->read(at) : matfile::read_level5(bytes_, at); }
+
+  const std::filesystem::path& path() const { return path_; }
 
  private:
-  H5E_auto2_t report_ = nullptr;
-  void* client_ = nullptr;
+  explicit File(std::filesystem::path path) : path_(std::move(path)) {}
+
+  std::filesystem::path path_;
+  std::vector<std::byte> bytes_;
+  std::unique_ptr<matfile::Level73> level73_;
 };
 
-// A gigabyte of doubles: more is a damaged size, or a recording that wants another form.
-constexpr std::size_t kMostNumbers = std::size_t{1} << 27;
-
-Result<File> open(const std::filesystem::path& path) {
-  if (!std::filesystem::is_regular_file(path)) return Error{path.string() + ": there is no such file"};
-  File file(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
-  // What is neither level 5 nor 7.3 is taken for level 4, which has no mark of its own and could be anything.
-  if (!file || (Mat_GetVersion(file.get()) != MAT_FT_MAT5 && Mat_GetVersion(file.get()) != MAT_FT_MAT73)) {
-    return Error{path.string() + ": this is not a MATLAB file of level 5 or 7.3; save it with -v7 or -v7.3"};
-  }
-  if (Mat_GetVersion(file.get()) == MAT_FT_MAT5 && !level5_is_whole(path)) {
-    return Error{path.string() + ": the file is cut short or damaged: its parts do not end where it ends"};
-  }
-  return file;
-}
-
-bool numeric(const matvar_t& variable) {
-  const bool full = variable.class_type >= MAT_C_DOUBLE && variable.class_type <= MAT_C_UINT64;
-  return full && variable.rank == 2 && variable.dims != nullptr && !variable.isComplex;
-}
-
-std::string size_of(const matvar_t& variable) {
-  return " (" + std::to_string(variable.dims[0]) + " × " + std::to_string(variable.dims[1]) + ")";
-}
-
-void list_fields(matvar_t& structure, const std::string& prefix, std::vector<std::string>& names) {
-  if (structure.rank != 2 || structure.dims == nullptr || structure.dims[0] * structure.dims[1] != 1) return;
-  char* const* fields = Mat_VarGetStructFieldnames(&structure);
-  for (unsigned k = 0; k < Mat_VarGetNumberOfFields(&structure); ++k) {
-    matvar_t* field = Mat_VarGetStructFieldByIndex(&structure, k, 0);
-    // A damaged structure can have fields without names, or no list of names at all.
-    if (field == nullptr || fields == nullptr || fields[k] == nullptr) continue;
-    const std::string name = prefix + "." + fields[k];
-    if (numeric(*field)) names.push_back(name + size_of(*field));
-    if (field->class_type == MAT_C_STRUCT) list_fields(*field, name, names);
-  }
-}
-
-std::vector<std::string> list_variables(mat_t& file) {
+std::vector<std::string> list_variables(const File& file) {
   std::vector<std::string> names;
-  Mat_Rewind(&file);
-  while (const Variable variable{Mat_VarReadNextInfo(&file)}) {
-    if (variable->name == nullptr) continue;
-    if (numeric(*variable)) names.push_back(variable->name + size_of(*variable));
-    if (variable->class_type == MAT_C_STRUCT) list_fields(*variable, variable->name, names);
+  for (const Name& found : file.names()) {
+    names.push_back(found.name + " (" + std::to_string(found.rows) + " × " + std::to_string(found.columns) + ")");
   }
   return names;
 }
@@ -112,90 +89,26 @@ std::optional<Reference> parse(std::string text) {
   return reference;
 }
 
-template <class Number>
-void append(const void* data, std::size_t count, std::vector<double>& out) {
-  const auto* numbers = static_cast<const Number*>(data);
-  out.insert(out.end(), numbers, numbers + count);
-}
-
-// All numbers, column after column; nothing where the class is not known.
-std::vector<double> numbers_of(const matvar_t& variable) {
-  const std::size_t count = variable.dims[0] * variable.dims[1];
-  std::vector<double> out;
-  out.reserve(count);
-  switch (variable.data_type) {
-    case MAT_T_DOUBLE:
-      append<double>(variable.data, count, out);
-      break;
-    case MAT_T_SINGLE:
-      append<float>(variable.data, count, out);
-      break;
-    case MAT_T_INT8:
-      append<std::int8_t>(variable.data, count, out);
-      break;
-    case MAT_T_UINT8:
-      append<std::uint8_t>(variable.data, count, out);
-      break;
-    case MAT_T_INT16:
-      append<std::int16_t>(variable.data, count, out);
-      break;
-    case MAT_T_UINT16:
-      append<std::uint16_t>(variable.data, count, out);
-      break;
-    case MAT_T_INT32:
-      append<std::int32_t>(variable.data, count, out);
-      break;
-    case MAT_T_UINT32:
-      append<std::uint32_t>(variable.data, count, out);
-      break;
-    case MAT_T_INT64:
-      append<std::int64_t>(variable.data, count, out);
-      break;
-    case MAT_T_UINT64:
-      append<std::uint64_t>(variable.data, count, out);
-      break;
-    default:
-      break;
-  }
-  return out;
-}
-
-struct Table {
-  std::size_t rows = 0;
-  std::size_t columns = 0;
-  std::vector<double> numbers;  // column after column
-};
-
-// Sizes are checked before anything is read: a damaged file may claim any.
-bool sane(const matvar_t& info) {
-  if (!numeric(info)) return false;
-  const std::size_t rows = info.dims[0];
-  const std::size_t columns = info.dims[1];
-  return rows > 0 && columns > 0 && rows <= kMostNumbers && columns <= kMostNumbers / rows;
+// Enough of them to choose from.
+std::string listed(const File& file) {
+  constexpr std::size_t kMost = 40;
+  std::string list;
+  const std::vector<std::string> names = list_variables(file);
+  for (std::size_t k = 0; k < std::min(names.size(), kMost); ++k) list += (k == 0 ? "" : ", ") + names[k];
+  if (names.size() > kMost) list += " and " + std::to_string(names.size() - kMost) + " more";
+  return list.empty() ? "nothing numeric" : list;
 }
 
 class Reader {
  public:
-  Reader(mat_t& file, const std::filesystem::path& path) : file_(file), path_(path) {}
+  explicit Reader(const File& file) : file_(file) {}
 
   Result<Table> table(const std::string& name) const {
     const auto reference = parse(name);
     if (!reference) return at(name, "expected a variable such as u, data.u or u(:,2)");
-    Variable variable(Mat_VarReadInfo(&file_, reference->path.front().c_str()));
-    if (!variable) return at(name, "there is no such variable; the file has: " + names());
-    if (reference->path.size() == 1 && !sane(*variable)) return not_numbers(name);
-    if (Mat_VarReadDataAll(&file_, variable.get()) != 0) return at(name, "its data is damaged or cut short");
-    const matvar_t* found = variable.get();
-    for (std::size_t k = 1; k < reference->path.size() && found != nullptr; ++k) {
-      found = found->class_type == MAT_C_STRUCT
-                  ? Mat_VarGetStructFieldByName(const_cast<matvar_t*>(found), reference->path[k].c_str(), 0)
-                  : nullptr;
-    }
-    if (found == nullptr) return at(name, "there is no such field; the file has: " + names());
-    if (!sane(*found)) return not_numbers(name);
-    if (found->data == nullptr) return at(name, "its data is damaged or cut short");
-    Table table{found->dims[0], found->dims[1], numbers_of(*found)};
-    if (table.numbers.empty()) return not_numbers(name);
+    Found found = file_.read(reference->path);
+    if (const auto* miss = std::get_if<Miss>(&found)) return at(name, words_of(*miss));
+    Table table = std::get<Table>(std::move(found));
     if (table.rows == 1) std::swap(table.rows, table.columns);
     if (!reference->column) return table;
     if (*reference->column < 1 || *reference->column > table.columns) {
@@ -206,31 +119,37 @@ class Reader {
   }
 
   std::optional<double> scalar(const char* name) const {
-    Variable variable(Mat_VarReadInfo(&file_, name));
-    if (!variable || !sane(*variable) || variable->dims[0] * variable->dims[1] != 1) return std::nullopt;
-    if (Mat_VarReadDataAll(&file_, variable.get()) != 0 || variable->data == nullptr) return std::nullopt;
-    const auto numbers = numbers_of(*variable);
-    if (numbers.empty() || !std::isfinite(numbers[0]) || !(numbers[0] > 0)) return std::nullopt;
-    return numbers[0];
+    const Found found = file_.read({name});
+    const auto* table = std::get_if<Table>(&found);
+    if (!table || table->numbers.size() != 1) return std::nullopt;
+    const double number = table->numbers.front();
+    if (!std::isfinite(number) || !(number > 0)) return std::nullopt;
+    return number;
   }
 
   Error at(const std::string& name, const std::string& what) const {
-    return Error{path_.string() + ", variable " + name + ": " + what};
+    return Error{file_.path().string() + ", variable " + name + ": " + what};
   }
 
  private:
-  Error not_numbers(const std::string& name) const {
-    return at(name, "expected a real, full, numeric vector or matrix of two dimensions");
+  std::string words_of(Miss miss) const {
+    switch (miss) {
+      case Miss::kNoVariable:
+        return "there is no such variable; the file has: " + listed(file_);
+      case Miss::kNoField:
+        return "there is no such field; the file has: " + listed(file_);
+      case Miss::kNotNumbers:
+        return "expected a real, full, numeric vector or matrix of two dimensions; the file has: " + listed(file_);
+      case Miss::kTooLarge:
+        return "it has more than 2^27 numbers; save fewer, or write the recording as CSV, which is read a stretch at a "
+               "time";
+      case Miss::kDamaged:
+        break;
+    }
+    return "its data is damaged or cut short";
   }
 
-  std::string names() const {
-    std::string list;
-    for (const std::string& name : list_variables(file_)) list += (list.empty() ? "" : ", ") + name;
-    return list.empty() ? "nothing numeric" : list;
-  }
-
-  mat_t& file_;
-  const std::filesystem::path& path_;
+  const File& file_;
 };
 
 Result<void> add_channels(const Reader& reader, const std::string& name, Role role, Recording& recording) {
@@ -257,15 +176,12 @@ Result<void> add_channels(const Reader& reader, const std::string& name, Role ro
 }  // namespace
 
 Result<Recording> read_mat(const std::filesystem::path& path, const MatOptions& options) {
-  const QuietHdf5 quiet;
-  const auto file = open(path);
+  const auto file = File::open(path);
   if (!file) return file.error();
   if (options.inputs.empty() && options.outputs.empty()) {
-    std::string list;
-    for (const std::string& name : list_variables(**file)) list += (list.empty() ? "" : ", ") + name;
-    return Error{path.string() + ": name the variables that are inputs and outputs; the file has: " + list};
+    return Error{path.string() + ": name the variables that are inputs and outputs; the file has: " + listed(*file)};
   }
-  const Reader reader(**file, path);
+  const Reader reader(*file);
   Recording recording;
   recording.source = path.string();
   recording.rate_hz = options.rate_hz;
@@ -286,10 +202,9 @@ Result<Recording> read_mat(const std::filesystem::path& path, const MatOptions& 
 }
 
 Result<std::vector<std::string>> list_mat(const std::filesystem::path& path) {
-  const QuietHdf5 quiet;
-  const auto file = open(path);
+  const auto file = File::open(path);
   if (!file) return file.error();
-  return list_variables(**file);
+  return list_variables(*file);
 }
 
 }  // namespace wisp

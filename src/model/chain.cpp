@@ -10,6 +10,7 @@ namespace wisp {
 namespace {
 
 constexpr double kMaxRounding = 1e-6;  // of a sum of probabilities that were written with at least seven digits
+constexpr double kMaxStretch = 0.005;  // of a quaternion's length: what rounding to 16 bits makes of it, hundredfold
 constexpr std::size_t kMostContexts = 65535;
 constexpr std::size_t kMostHistory = 64;
 constexpr double kLargestScale = 1e9;
@@ -91,6 +92,21 @@ Result<void> check_onward(const ChainModel& model) {
   return {};
 }
 
+// Stored orientations are played as they are: nothing makes them unit on the path of a frame.
+Result<void> check_orientations(const ChainSegments& segments) {
+  for (std::size_t row = 0; 7 * row < segments.rows.size(); ++row) {
+    double square = 0;
+    for (std::size_t k = 7 * row + 3; k < 7 * row + 7; ++k) {
+      square += static_cast<double>(segments.rows[k]) * segments.rows[k];
+    }
+    const double length = segments.row_scale[1] * std::sqrt(square);
+    if (std::abs(length - 1) <= kMaxStretch) continue;
+    return Error{"row " + std::to_string(row) + " of the chain's segments has a quaternion of length " +
+                 std::to_string(length) + ", expected 1 but for rounding"};
+  }
+  return {};
+}
+
 Result<void> check_segments(const ChainModel& model) {
   const ChainSegments& segments = model.segments;
   if (segments.size() == 0 || segments.size() > kMostSegments) {
@@ -104,6 +120,9 @@ Result<void> check_segments(const ChainModel& model) {
   if (auto ok = check_size(segments.rates.size(), segments.size() * 2 * rates, "rates"); !ok) return ok;
   if (auto ok = check_scales(segments.row_scale, scale_count(model.motion), "row scales"); !ok) return ok;
   if (auto ok = check_scales(segments.rate_scale, scale_count(model.motion), "rate scales"); !ok) return ok;
+  if (model.motion == ChainMotion::kPose) {
+    if (auto ok = check_orientations(segments); !ok) return ok;
+  }
   if (auto ok = check_onward(model); !ok) return ok;
   return check_follow(model);
 }

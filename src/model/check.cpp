@@ -12,11 +12,14 @@
 namespace wisp {
 namespace {
 
+constexpr double kLargestBody = 1e4;  // metres
+
 template <class Channel>
 Result<void> check_channels(const std::vector<Channel>& channels, const std::string& what) {
   std::set<std::string> names;
   for (const Channel& channel : channels) {
     if (channel.name.empty()) return Error{"an " + what + " has no name"};
+    if (channel.name.find('\0') != std::string::npos) return Error{"the name of an " + what + " holds a zero byte"};
     if (!names.insert(channel.name).second) return Error{"two " + what + "s are named " + channel.name};
     const bool finite = std::isfinite(channel.lowest) && std::isfinite(channel.highest);
     if (!finite || channel.lowest > channel.highest) {
@@ -124,8 +127,9 @@ Result<void> check_body(const Model& model, std::size_t outputs, const std::stri
                  std::to_string(model.outputs.size())};
   }
   for (double size : sizes) {
-    if (!std::isfinite(size) || size < 0)
-      return Error{"the size of the body in the " + what + " is not a positive number"};
+    if (!(size >= 0 && size <= kLargestBody)) {
+      return Error{"the size of the body in the " + what + " is " + std::to_string(size) + " m, expected 0 to 10000"};
+    }
   }
   return {};
 }

@@ -6,6 +6,8 @@
 #include <limits>
 #include <set>
 
+#include "record/csv_cells.hpp"
+#include "record/csv_dialect.hpp"
 #include "wisp/record/csv.hpp"
 
 namespace wisp {
@@ -13,20 +15,10 @@ namespace {
 
 constexpr std::size_t kLongestLine = std::size_t{16} << 20;
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kLookedAt = 3;  // lines that show how a table is written: names, units, a row
 
-std::string_view trimmed(std::string_view text) {
-  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
-  return text;
-}
-
-// Some programs quote the names in a header, and some even numbers.
-std::string_view unquoted(std::string_view cell) {
-  cell = trimmed(cell);
-  if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
-  return cell;
-}
+using csv::Cell;
+using csv::trimmed;
 
 // What was found, short enough for a message of one line.
 std::string shown(std::string_view text) {
@@ -43,32 +35,10 @@ bool is_text(std::string_view line) {
   });
 }
 
-template <class Visit>
-void for_each_cell(std::string_view line, char separator, Visit visit) {
-  for (;;) {
-    const std::size_t end = line.find(separator);
-    visit(line.substr(0, end));
-    if (end == std::string_view::npos) return;
-    line.remove_prefix(end + 1);
-  }
-}
-
-std::vector<std::string> cells_of(std::string_view line, char separator) {
-  std::vector<std::string> cells;
-  for_each_cell(line, separator, [&](std::string_view cell) { cells.emplace_back(unquoted(cell)); });
+std::vector<Cell> cells_of(std::string_view line, char separator) {
+  std::vector<Cell> cells;
+  csv::for_each_cell(line, separator, [&](const Cell& cell) { cells.push_back(cell); });
   return cells;
-}
-
-// The whole of `text` as a double, hexadecimal excluded; nothing where it is not one.
-std::optional<double> parsed_number(std::string_view text) {
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  double value = 0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (end != text.data() + text.size()) return std::nullopt;
-  // Too small for a double is a true zero; too large is caught as not finite.
-  if (code == std::errc::result_out_of_range)
-    return text.find("e-") != text.npos || text.find("E-") != text.npos ? 0.0 : HUGE_VAL;
-  return code == std::errc() ? std::optional(value) : std::nullopt;
 }
 
 struct ColumnName {
@@ -111,11 +81,17 @@ std::optional<Role> role_of(const ColumnName& column, const CsvOptions& options)
   return std::nullopt;
 }
 
+// As --inputs takes them: a name that holds a comma stands in quotes.
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  for (const std::string& name : names) {
+    const bool quoted = name.find(',') != std::string::npos;
+    text += (text.empty() ? "" : ", ") + (quoted ? "\"" + name + "\"" : name);
+  }
   return text;
 }
+
+bool is_utf16(std::string_view line) { return line.substr(0, 2) == "\xff\xfe" || line.substr(0, 2) == "\xfe\xff"; }
 
 }  // namespace
 
@@ -123,22 +99,58 @@ Error CsvReader::at_row(const std::string& what) const {
   return {name_ + ", row " + std::to_string(row_) + ": " + what};
 }
 
-// Puts the next line that is not blank into line_; false at the end.
-Result<bool> CsvReader::next_line() {
+// Puts the next line of the stream that is not blank into `line`; false at the end.
+Result<bool> CsvReader::read_line(Line& line) {
   do {
-    line_.clear();
-    ++row_;
+    line.text.clear();
+    line.row = ++rows_read_;
     auto* buffer = stream_->rdbuf();
     int c = buffer->sbumpc();
     if (c == std::char_traits<char>::eof()) return false;
     for (; c != std::char_traits<char>::eof() && c != '\n'; c = buffer->sbumpc()) {
-      if (line_.size() == kLongestLine)
+      if (line.text.size() == kLongestLine) {
+        row_ = line.row;
         return at_row("the line is longer than 16 MiB, expected a row of numbers; is this a CSV file?");
-      line_.push_back(static_cast<char>(c));
+      }
+      line.text.push_back(static_cast<char>(c));
     }
-    if (!is_text(line_)) return at_row("holds bytes that are not text; expected a CSV file");
-  } while (trimmed(line_).empty());
+    if (is_text(line.text)) continue;
+    row_ = line.row;
+    if (line.row == 1 && is_utf16(line.text)) return at_row("is UTF-16; save it as UTF-8 (Excel: \"CSV UTF-8\")");
+    return at_row("holds bytes that are not text; expected a CSV file");
+  } while (trimmed(line.text).empty());
   return true;
+}
+
+// Puts the next line that is not blank into line_; false at the end.
+Result<bool> CsvReader::next_line() {
+  if (ahead_.empty()) {
+    Line line{std::move(line_), 0};
+    const auto more = read_line(line);
+    line_ = std::move(line.text);
+    row_ = line.row;
+    return more;
+  }
+  line_ = std::move(ahead_.front().text);
+  row_ = ahead_.front().row;
+  ahead_.pop_front();
+  return true;
+}
+
+// The texts of line_ and of those after it, which stay to be read.
+Result<std::vector<std::string>> CsvReader::look_ahead() {
+  while (ahead_.size() + 1 < kLookedAt) {
+    const std::size_t row = row_;
+    Line line;
+    const auto more = read_line(line);
+    if (!more) return more.error();
+    row_ = row;
+    if (!*more) break;
+    ahead_.push_back(std::move(line));
+  }
+  std::vector<std::string> lines = {line_};
+  for (const Line& line : ahead_) lines.push_back(line.text);
+  return lines;
 }
 
 Result<CsvReader> CsvReader::open(std::istream& stream, std::string_view name, const CsvOptions& options) {
@@ -159,70 +171,109 @@ Result<CsvReader> CsvReader::open(std::istream& stream, std::string_view name, c
   return reader;
 }
 
-// Comment lines; leaves the header in line_.
+// One comment line.
+Result<void> CsvReader::read_attribute() {
+  const std::string_view line = trimmed(trimmed(line_).substr(1));
+  const std::size_t space = line.find_first_of(" \t");
+  const std::string key(line.substr(0, space));
+  const std::string value(space == std::string_view::npos ? "" : trimmed(line.substr(space)));
+  if (key == "wisp-recording") {
+    if (value != "1")
+      return at_row("is a Wisp recording of version " + shown(value) + ", this program reads version 1; update Wisp");
+    own_form_ = true;
+  } else if (key == "rate_hz") {
+    const auto rate = csv::number_of({value, false}, ',');
+    if (!rate || !(std::isfinite(*rate) && *rate > 0)) {
+      return at_row("rate_hz is " + shown(value) + ", expected a number of samples a second above 0");
+    }
+    header_.rate_hz = *rate;
+  } else if (own_form_ && !key.empty()) {
+    header_.attributes.push_back({key, value});
+  }
+  return {};
+}
+
+// Comment lines and what Excel is told; leaves the first line of the table in line_.
 Result<void> CsvReader::read_attributes() {
   for (bool first = true;; first = false) {
     const auto more = next_line();
     if (!more) return more.error();
     if (!*more) return Error{name_ + ": is empty, expected a header line with column names"};
-    std::string_view line = line_;
-    if (first && line.substr(0, 3) == "\xef\xbb\xbf") line_.erase(0, 3), line = line_;
-    if (line.front() != '#') return {};
-    line = trimmed(line.substr(1));
-    const std::size_t space = line.find_first_of(" \t");
-    const std::string key(line.substr(0, space));
-    const std::string value(space == std::string_view::npos ? "" : trimmed(line.substr(space)));
-    if (key == "wisp-recording") {
-      if (value != "1")
-        return at_row("is a Wisp recording of version " + shown(value) + ", this program reads version 1; update Wisp");
-      own_form_ = true;
-    } else if (key == "rate_hz") {
-      const auto rate = parsed_number(value);
-      if (!rate || !(std::isfinite(*rate) && *rate > 0)) {
-        return at_row("rate_hz is " + shown(value) + ", expected a number of samples a second above 0");
-      }
-      header_.rate_hz = *rate;
-    } else if (own_form_ && !key.empty()) {
-      header_.attributes.push_back({key, value});
+    if (first && line_.substr(0, 3) == "\xef\xbb\xbf") line_.erase(0, 3);
+    if (const char told = csv::told_separator(line_); first && told != '\0') {
+      separator_ = told;
+    } else if (trimmed(line_).front() == '#' || trimmed(line_).front() == '%') {
+      if (auto ok = read_attribute(); !ok) return ok;
+    } else {
+      return {};
     }
   }
 }
 
-Result<void> CsvReader::read_columns(const CsvOptions& options) {
-  for (char candidate : {',', ';', '\t'}) {
-    separator_ = candidate;
-    if (line_.find(candidate) != std::string::npos) break;
-    separator_ = ',';
+// Names of all columns, from the options or from line_, which is then used up.
+Result<std::vector<std::string>> CsvReader::read_names(const CsvOptions& options) {
+  const auto lines = look_ahead();
+  if (!lines) return lines.error();
+  if (own_form_) separator_ = ',';
+  if (separator_ == '\0') separator_ = csv::separator_of(*lines);
+  const std::vector<Cell> cells = cells_of(line_, separator_);
+  std::vector<std::string> names;
+  for (const Cell& cell : cells) names.push_back(csv::text_of(cell));
+  while (names.size() > 1 && names.back().empty()) names.pop_back();
+  const bool numbers = csv::is_row(line_, separator_);
+  if (!options.columns.empty()) {
+    if (options.columns.size() != names.size()) {
+      return at_row("has " + std::to_string(names.size()) + " columns, --columns names " +
+                    std::to_string(options.columns.size()) + "; name all of them, in their order");
+    }
+    if (numbers) ahead_.push_front({line_, row_});
+    return options.columns;
   }
-  const std::vector<std::string> cells = cells_of(line_, separator_);
-  if (std::all_of(cells.begin(), cells.end(),
-                  [](const std::string& cell) { return parsed_number(cell).has_value(); })) {
-    return at_row("starts with numbers, expected a header line with column names such as u1,y1");
+  if (!numbers) return names;
+  std::string example;
+  for (std::size_t k = 0; k < std::min<std::size_t>(names.size(), 6); ++k)
+    example += (k == 0 ? "" : ",") + std::string(k + 1 < names.size() ? "u" + std::to_string(k + 1) : "y1");
+  return at_row("starts with numbers, expected a header line with column names; give names to its " +
+                std::to_string(names.size()) + " columns with --columns, such as --columns " + example);
+}
+
+// One more column, by its name.
+Result<void> CsvReader::add_column(const std::string& text, const CsvOptions& options) {
+  const ColumnName column = split_name(text);
+  const bool episode = column.role.empty() && column.name == "episode";
+  if (own_form_ && column.role.empty() && !episode) {
+    return at_row("column " + shown(text) + " has no role; expected u:, y:, m: or flag: before its name");
   }
+  if (column.name.empty() && (own_form_ || !column.role.empty())) {
+    return at_row("column " + std::to_string(columns_.size() + 1) + " has no name");
+  }
+  if (episode) {
+    columns_.push_back({Column::Kind::kEpisode, 0});
+  } else if (column.role == "flag") {
+    columns_.push_back({Column::Kind::kFlag, header_.flags.size()});
+    header_.flags.push_back({column.name, {}});
+  } else if (const auto role = role_of(column, options)) {
+    columns_.push_back({Column::Kind::kChannel, header_.channels.size()});
+    header_.channels.push_back({column.name, column.unit, *role, {}});
+  } else {
+    columns_.push_back({});
+  }
+  return {};
+}
+
+// Two columns of one name are an error where one of them is wanted.
+Result<void> CsvReader::check_columns(const std::vector<std::string>& names, const CsvOptions& options) const {
   std::set<std::string> seen;
   std::vector<std::string> available;
   bool any_role = false;
-  for (const std::string& cell : cells) {
-    const ColumnName column = split_name(cell);
-    if (!seen.insert(column.role == "flag" ? cell : column.name).second)
-      return at_row("two columns are named " + shown(column.name));
-    const bool episode = column.role.empty() && column.name == "episode";
-    if (!episode) available.push_back(column.name);
+  for (const std::string& name : names) {
+    const ColumnName column = split_name(name);
     any_role |= !column.role.empty();
-    if (own_form_ && column.role.empty() && !episode) {
-      return at_row("column " + shown(cell) + " has no role; expected u:, y:, m: or flag: before its name");
-    }
-    if (column.name.empty()) return at_row("column " + std::to_string(columns_.size() + 1) + " has no name");
-    if (episode) {
-      columns_.push_back({Column::Kind::kEpisode, 0});
-    } else if (column.role == "flag") {
-      columns_.push_back({Column::Kind::kFlag, header_.flags.size()});
-      header_.flags.push_back({column.name, {}});
-    } else if (const auto role = role_of(column, options)) {
-      columns_.push_back({Column::Kind::kChannel, header_.channels.size()});
-      header_.channels.push_back({column.name, column.unit, *role, {}});
-    } else {
-      columns_.push_back({});
+    if (column.name.empty() || (column.role.empty() && column.name == "episode")) continue;
+    available.push_back(column.name);
+    if (seen.insert(column.role == "flag" ? name : column.name).second) continue;
+    if (own_form_ || role_of(column, options)) {
+      return at_row("two columns are named " + shown(column.name) + "; rename one, or name all with --columns");
     }
   }
   for (const auto* wanted : {&options.inputs, &options.outputs}) {
@@ -231,12 +282,34 @@ Result<void> CsvReader::read_columns(const CsvOptions& options) {
         return at_row("has no column " + shown(name) + "; its columns are " + listed(available));
     }
   }
-  if (header_.channels.empty()) {
-    return at_row(any_role ? "the header has no input, output or motion column"
-                           : "the columns (" + listed(available) +
-                                 ") state no roles; name them with --inputs and --outputs");
+  if (!header_.channels.empty()) return {};
+  return at_row(any_role
+                    ? "the header has no input, output or motion column"
+                    : "the columns (" + listed(available) + ") state no roles; name them with --inputs and --outputs");
+}
+
+// A line below the names that says in what they are measured.
+Result<void> CsvReader::read_units() {
+  if (own_form_ || ahead_.size() < 2) return {};
+  if (!csv::is_row_of_units(ahead_[0].text, ahead_[1].text, separator_)) return {};
+  const std::vector<std::string> units = csv::units_in(ahead_[0].text, separator_);
+  for (std::size_t k = 0; k < std::min(units.size(), columns_.size()); ++k) {
+    if (columns_[k].kind != Column::Kind::kChannel) continue;
+    std::string& unit = header_.channels[columns_[k].index].unit;
+    if (unit.empty()) unit = units[k];
   }
+  ahead_.pop_front();
   return {};
+}
+
+Result<void> CsvReader::read_columns(const CsvOptions& options) {
+  const auto names = read_names(options);
+  if (!names) return names.error();
+  for (const std::string& name : *names) {
+    if (auto ok = add_column(name, options); !ok) return ok;
+  }
+  if (auto ok = check_columns(*names, options); !ok) return ok;
+  return read_units();
 }
 
 Result<std::size_t> CsvReader::read(Recording& recording, std::size_t most_rows) {
@@ -263,32 +336,37 @@ Result<std::size_t> CsvReader::skip(std::size_t most_rows) {
 }
 
 Result<void> CsvReader::add_row(Recording& recording) {
-  std::size_t place = 0;
+  std::size_t place = 0, filled = 0;
   Result<void> outcome;
-  for_each_cell(line_, separator_, [&](std::string_view cell) {
-    if (outcome && place < columns_.size()) outcome = add_cell(recording, columns_[place], unquoted(cell), place);
+  csv::for_each_cell(line_, separator_, [&](const Cell& cell) {
+    if (outcome && place < columns_.size()) outcome = add_cell(recording, columns_[place], cell, place);
     ++place;
+    if (!cell.text.empty()) filled = place;
   });
-  if (place != columns_.size()) {
-    return at_row("has " + std::to_string(place) + " columns, the header has " + std::to_string(columns_.size()));
+  // Separators at the end of a row are nobody's cells.
+  if (place < columns_.size() || filled > columns_.size()) {
+    return at_row("has " + std::to_string(place) + " columns, the header has " + std::to_string(columns_.size()) +
+                  "; a cell that holds a separator stands in quotes");
   }
   return outcome;
 }
 
-Result<void> CsvReader::add_cell(Recording& recording, const Column& column, std::string_view cell, std::size_t place) {
-  const auto in_column = [&] { return ", column " + std::to_string(place + 1); };
+Result<void> CsvReader::add_cell(Recording& recording, const Column& column, const Cell& cell, std::size_t place) {
+  const auto found = [&](const std::string& expected) {
+    return at_row("found " + shown(cell.text) + ", column " + std::to_string(place + 1) + ", expected " + expected);
+  };
   switch (column.kind) {
     case Column::Kind::kSkip:
       return {};
     case Column::Kind::kFlag:
-      if (cell != "0" && cell != "1") return at_row("found " + shown(cell) + in_column() + ", expected a flag, 0 or 1");
-      recording.flags[column.index].rows.push_back(cell == "1");
+      if (cell.text != "0" && cell.text != "1") return found("a flag, 0 or 1");
+      recording.flags[column.index].rows.push_back(cell.text == "1");
       return {};
     case Column::Kind::kEpisode: {
       std::int64_t id = 0;
-      const auto [end, code] = std::from_chars(cell.data(), cell.data() + cell.size(), id);
-      if (code != std::errc() || end != cell.data() + cell.size()) {
-        return at_row("found " + shown(cell) + in_column() + ", expected an episode's whole number");
+      const auto [end, code] = std::from_chars(cell.text.data(), cell.text.data() + cell.text.size(), id);
+      if (code != std::errc() || end != cell.text.data() + cell.text.size()) {
+        return found("an episode's whole number");
       }
       recording.episode_ids.push_back(id);
       return {};
@@ -297,19 +375,31 @@ Result<void> CsvReader::add_cell(Recording& recording, const Column& column, std
       break;
   }
   auto& samples = recording.channels[column.index].samples;
-  if (cell.empty()) {
+  const auto value = csv::number_of(cell, separator_);
+  if (!value && csv::is_missing(cell)) {
     samples.push_back(kMissing);
     return {};
   }
-  const auto value = parsed_number(cell);
-  if (!value)
-    return at_row("found " + shown(cell) + in_column() + ", expected a number, or nothing for a missing sample");
-  if (!std::isfinite(*value)) {
-    return at_row("found " + shown(cell) + in_column() +
-                  ", expected a finite number; leave the cell empty where a sample is missing");
+  if (!value) return found("a number without separators of thousands, or nothing for a missing sample");
+  if (std::isnan(*value)) {
+    samples.push_back(kMissing);
+    return {};
   }
+  if (!std::isfinite(*value)) return found("a finite number; leave the cell empty where a sample is missing");
+  if (auto ok = check_mark(cell); !ok) return ok;
   samples.push_back(*value);
   return {};
+}
+
+// 1,234 is a thousand to some and little more than one to others: a table writes it in one way.
+Result<void> CsvReader::check_mark(const Cell& cell) {
+  if (separator_ == ',' && !cell.quoted) return {};
+  const bool comma = csv::has_comma(cell), point = cell.text.find('.') != std::string_view::npos;
+  commas_ |= comma;
+  points_ |= point;
+  if (!commas_ || !points_) return {};
+  return at_row("found " + shown(cell.text) + " though numbers above have a decimal " + (comma ? "point" : "comma") +
+                "; write all numbers in one way, without separators of thousands");
 }
 
 Result<Recording> read_csv(std::istream& stream, std::string_view name, const CsvOptions& options) {

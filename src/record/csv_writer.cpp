@@ -26,6 +26,14 @@ std::string_view role_letter(Role role) {
   return "";
 }
 
+// A name that holds a separator or a quote stands in quotes, its own doubled.
+std::string quoted(const std::string& name) {
+  if (name.find_first_of(",\"") == std::string::npos) return name;
+  std::string out = "\"";
+  for (char c : name) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
 // A table of a single column has an episode column too: without it a missing sample would be a blank line.
 bool writes_episodes(const Recording& recording) {
   return !recording.episode_ids.empty() || recording.channels.size() + recording.flags.size() == 1;
@@ -39,7 +47,7 @@ void append_head(std::string& text, const Recording& recording) {
 
   const char* comma = "";
   const auto column = [&](const std::string& name) {
-    text += comma + name;
+    text += comma + quoted(name);
     comma = ",";
   };
   if (writes_episodes(recording)) column("episode");
@@ -82,11 +90,11 @@ Result<void> check_text(const std::string& text, std::string_view forbidden, con
 Result<void> check_writable(const Recording& recording) {
   if (auto ok = check(recording); !ok) return ok;
   for (const Channel& channel : recording.channels) {
-    if (auto ok = check_text(channel.name, ",\n\r\"[]", "the channel's name"); !ok) return ok;
-    if (auto ok = check_text(channel.unit, ",\n\r\"[]", "the channel's unit"); !ok) return ok;
+    if (auto ok = check_text(channel.name, "\n\r[]", "the channel's name"); !ok) return ok;
+    if (auto ok = check_text(channel.unit, "\n\r[]", "the channel's unit"); !ok) return ok;
   }
   for (const RowFlag& flag : recording.flags) {
-    if (auto ok = check_text(flag.name, ",\n\r\"[]", "the flag's name"); !ok) return ok;
+    if (auto ok = check_text(flag.name, "\n\r[]", "the flag's name"); !ok) return ok;
   }
   for (const Attribute& attribute : recording.attributes) {
     if (auto ok = check_text(attribute.name, " \t\n\r", "the attribute's name"); !ok) return ok;

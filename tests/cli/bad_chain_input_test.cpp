@@ -130,10 +130,10 @@ TEST_F(BadChainInput, SamplesThatAreNoneAreNamed) {
   const auto gaps = [&](int fall, int row, const std::string& text) { return row % 5 ? text : gone(fall, row, text); };
   EXPECT_THAT(not_learned(record("gaps.csv", Falls{.line = gaps})), HasSubstr("has no stretch of 8 complete rows"));
   const auto word = [](int fall, int row, const std::string& text) {
-    return fall == 0 && row == 2 ? text.substr(0, text.rfind(',') + 1) + "nan" : text;
+    return fall == 0 && row == 2 ? text.substr(0, text.rfind(',') + 1) + "inf" : text;
   };
   EXPECT_THAT(not_learned(record("word.csv", Falls{.line = word})),
-              HasSubstr("word.csv, row 6: found \"nan\", column 8, expected a finite number"));
+              HasSubstr("word.csv, row 6: found \"inf\", column 8, expected a finite number"));
 }
 
 TEST_F(BadChainInput, OrientationThatIsNoneOrOnlyInPartIsExplained) {
@@ -295,6 +295,15 @@ TEST_F(BadChainInput, AFallTooShortToBeMeasuredIsSaid) {
   ASSERT_EQ(said.status, 0) << said.err;
   EXPECT_THAT(said.err, HasSubstr("brief.csv: its stretches are shorter than"));
   EXPECT_TRUE(said.json()["fidelity"]["energy_distance"]["value"].is_null());
+}
+
+TEST_F(BadChainInput, AChainWhoseFallsHaveNoEventsIsNotLikeRecordedFallsThatDo) {
+  // The sample glides ahead all along.
+  const auto path = record("brief.csv", Falls{.falls = 1, .rows = 40});
+  const Said said = wisp("validate " + at("leaf.wisp") + " " + path + " --json");
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_EQ(said.json()["usable"]["verdict"], false);
+  EXPECT_THAT(said.json()["usable"]["reason"], HasSubstr("its falls have no events"));
 }
 
 TEST_F(BadChainInput, ARunThatCannotBeIsExplained) {

@@ -142,7 +142,7 @@ TEST_F(LearnArxParts, ADamagedPartIsNamedAndNothingIsWritten) {
   bytes[8] = 9;
   std::ofstream(at("1.part"), std::ios::binary) << bytes;
   EXPECT_THAT(wisp("learn arx --merge" + parts + " -o " + at("m.wisp")).err,
-              HasSubstr("1.part: this part of a fit has format version 9, expected 1"));
+              HasSubstr("1.part: this part of a fit has format version 9, expected 2"));
 
   const Said table = wisp("learn arx --merge " + at("system.csv") + " -o " + at("m.wisp"));
   EXPECT_THAT(table.err, HasSubstr("system.csv: this is not a part of a fit"));
@@ -172,6 +172,27 @@ TEST_F(LearnArxParts, WhatIsMissingOnTheCommandLineIsNamed) {
   EXPECT_FALSE(std::filesystem::exists(at("p.part")));
 }
 
+TEST_F(LearnArxParts, APartTwiceOrOneMissingIsRefused) {
+  const std::string parts = write_parts(3);
+  const Said twice = wisp("learn arx --merge" + parts + " " + at("2.part") + " -o " + at("m.wisp"));
+  EXPECT_EQ(twice.status, 1);
+  EXPECT_THAT(twice.err, HasSubstr("2.part: cannot be merged with"));
+  EXPECT_THAT(twice.err, HasSubstr("of system.csv are in both"));
+  const Said missing = wisp("learn arx --merge " + at("1.part") + " " + at("3.part") + " -o " + at("m.wisp"));
+  EXPECT_EQ(missing.status, 1);
+  EXPECT_THAT(missing.err, HasSubstr("of system.csv are in no part: merge the part that is missing"));
+  EXPECT_EQ(wisp("learn arx --merge " + at("1.part") + " -o " + at("m.wisp")).status, 1);
+  const Said fewer =
+      wisp("learn arx --merge " + at("1.part") + " " + at("3.part") + " --expect 3 --partial " + at("p.part"));
+  EXPECT_THAT(fewer.err, HasSubstr("found 2 parts, expected 3"));
+  EXPECT_FALSE(std::filesystem::exists(at("m.wisp")));
+  EXPECT_FALSE(std::filesystem::exists(at("p.part")));
+  const Said all = wisp("learn arx --merge" + parts + " --expect 3 --json -o " + at("m.wisp"));
+  ASSERT_EQ(all.status, 0) << all.err;
+  EXPECT_EQ(all.json()["parts"], 3);
+  EXPECT_EQ(all.json()["covered"][0]["source"], "system.csv");
+}
+
 class LearnArxExamples : public LearnArxParts {
  protected:
   // Runs examples/06_parallel_fit/NAME with two workers, and compares with the fit in one.
@@ -182,7 +203,7 @@ class LearnArxExamples : public LearnArxParts {
                              at("said") + " 2>&1 </dev/null";
     ASSERT_EQ(std::system(line.c_str()), 0) << file_text(at("said"));
     const auto spread = wisp("info --json " + at("spread.wisp")).json();
-    EXPECT_EQ(spread["made"]["sources"], (nlohmann::json{"1.part", "2.part"}));
+    EXPECT_EQ(spread["made"]["sources"], (nlohmann::json{"system.csv"}));
     EXPECT_EQ(spread["made"]["figures"]["samples_used"], want["samples_used"]);
     EXPECT_NEAR(spread["made"]["figures"]["fpe"].get<double>() / want["fpe"].get<double>(), 1, 1e-11);
   }

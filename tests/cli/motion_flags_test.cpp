@@ -71,6 +71,8 @@ TEST_F(MotionFlags, ColumnsThatAreNotThereAreErrors) {
                            [](const std::array<double, 7>& r) { return r; });
   EXPECT_THAT(wisp("learn leaf " + plain + " -o " + at("m.wisp") + " --position X,Y").err,
               HasSubstr("--position names 2 columns, expected 3"));
+  EXPECT_THAT(wisp("learn leaf " + plain + " -o " + at("m.wisp") + " --position X,Y,Z").err,
+              HasSubstr("has no column \"X\""));
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ inline const std::map<std::string, Layer>& layers() {
       {"sound", {{"base"}, {}}},
       {"c", {{"base", "model", "run", "sound"}, {}}},
       {"record", {{"base"}, {}, {"record/loudness.hpp", "record/number_text.hpp", "record/verdict.hpp"}}},
-      {"matfile", {{"base", "record"}, {"hdf5.h", "matio.h"}}},
+      {"matfile", {{"base", "record"}, {"hdf5.h", "zlib.h"}}},
       {"umbrella",
        {{"base", "model", "run", "sound", "record", "learn", "capture", "capture/vision", "capture/media", "describe"},
         {}}},

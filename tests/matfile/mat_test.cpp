@@ -5,6 +5,7 @@
 #include <matio.h>
 
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -160,6 +161,101 @@ TEST_P(MatLevels, EveryCutIsAnErrorOrWhole) {
     }
   }
   std::filesystem::remove(path);
+}
+
+// A structure within a file of level 5 as damaged files have them, byte by byte.
+class HandMade {
+ public:
+  explicit HandMade(const char* name)
+      : path_(std::filesystem::temp_directory_path() / ("wisp_mat_" + std::string(name) + ".mat")) {
+    bytes_.assign(124, ' ');
+    bytes_ += std::string("\x00\x01IM", 4);
+  }
+  ~HandMade() { std::filesystem::remove(path_); }
+
+  static std::string part(std::uint32_t kind, const std::string& data, std::uint32_t claimed) {
+    std::string bytes(8, '\0');
+    std::memcpy(&bytes[0], &kind, 4);
+    std::memcpy(&bytes[4], &claimed, 4);
+    return bytes + data + std::string((8 - data.size() % 8) % 8, '\0');
+  }
+  static std::string part(std::uint32_t kind, const std::string& data) {
+    return part(kind, data, static_cast<std::uint32_t>(data.size()));
+  }
+  static std::string words(std::vector<std::uint32_t> values) {
+    return {reinterpret_cast<const char*>(values.data()), 4 * values.size()};
+  }
+  static std::string array(std::uint32_t type, std::vector<std::uint32_t> dims, const std::string& name,
+                           const std::string& rest) {
+    return part(14, part(6, words({type, 0})) + part(5, words(std::move(dims))) + part(1, name) + rest);
+  }
+
+  const std::filesystem::path& with(const std::string& more) {
+    std::ofstream(path_, std::ios::binary) << bytes_ << more;
+    return path_;
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::string bytes_;
+};
+
+constexpr std::uint32_t kDouble = 6, kStruct = 2;
+
+TEST(HandMadeMat, IsReadLikeAnyOther) {
+  HandMade file("made");
+  const double numbers[] = {1, 2, 3};
+  const std::string three(reinterpret_cast<const char*>(numbers), sizeof numbers);
+  const std::string y = HandMade::array(kDouble, {3, 1}, "", HandMade::part(9, three));
+  const std::string field =
+      HandMade::part(5, HandMade::words({8})) + HandMade::part(1, std::string("y\0\0\0\0\0\0\0", 8));
+  const auto& path = file.with(HandMade::array(kStruct, {1, 1}, "data", field + y));
+  const auto recording = read_mat(path, {.rate_hz = 1, .outputs = {"data.y"}});
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_THAT(recording->channels[0].samples, ElementsAre(1, 2, 3));
+}
+
+TEST(HandMadeMat, AStructureWithoutFieldsHasNone) {
+  HandMade file("no_fields");
+  for (const std::string& fields :
+       {std::string(), HandMade::part(5, HandMade::words({0})), HandMade::part(5, HandMade::words({32})),
+        HandMade::part(5, HandMade::words({32})) + HandMade::part(1, ""),
+        HandMade::part(5, HandMade::words({0x7fffffff})) + HandMade::part(1, "", 0x7fffffff)}) {
+    const auto& path = file.with(HandMade::array(kStruct, {1, 1}, "data", fields));
+    EXPECT_THAT(error_of(path, {.rate_hz = 1, .outputs = {"data.u"}}), HasSubstr("variable data.u"));
+    EXPECT_THAT(error_of(path, {.rate_hz = 1, .outputs = {"nope"}}), HasSubstr("the file has: nothing numeric"));
+  }
+}
+
+TEST(HandMadeMat, ASizeThatIsOnlyClaimedTakesNoMemory) {
+  HandMade file("claims");
+  for (const auto& dims :
+       {std::vector<std::uint32_t>{336860180, 54036}, {0x7fffffff, 1}, {100000000, 1}, {1u << 20, 1u << 20}}) {
+    const auto& path =
+        file.with(HandMade::array(kDouble, dims, "u", HandMade::part(9, std::string(64, 'x'), 0x7ffffff8)));
+    EXPECT_THAT(error_of(path, {.rate_hz = 1, .outputs = {"u"}}),
+                testing::AnyOf(HasSubstr("damaged"), HasSubstr("more than 2^27")));
+    EXPECT_TRUE(list_mat(path));
+  }
+}
+
+TEST(HandMadeMat, EveryByteChangedIsAnErrorOrARecording) {
+  HandMade file("bytes");
+  const std::string eight(64, '\x3f');
+  const std::string field =
+      HandMade::part(5, HandMade::words({8})) + HandMade::part(1, std::string("y\0\0\0\0\0\0\0", 8));
+  const std::string y = HandMade::array(kDouble, {8, 1}, "", HandMade::part(9, eight));
+  const std::string whole = HandMade::array(kDouble, {8, 1}, "u", HandMade::part(9, eight)) +
+                            HandMade::array(kStruct, {1, 1}, "data", field + y);
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    for (char harm : {'\0', '\1', '\x7f', '\xff'}) {
+      std::string bytes = whole;
+      bytes[at] = harm;
+      const auto& path = file.with(bytes);
+      (void)list_mat(path);
+      (void)read_mat(path, {.rate_hz = 1, .inputs = {"u"}, .outputs = {"data.y"}});
+    }
+  }
 }
 
 TEST(Mat, RefusesWhatIsNotAMatlabFile) {

@@ -111,18 +111,23 @@ TEST(ChainModel, SplinesAreStoredInThePlaceOfRows) {
 }
 
 TEST(ChainModel, RowsAndRatesOfAnySizeAreReadAsWritten) {
-  Model model = sample_chain();
-  ChainSegments& segments = chain(model).segments;
-  std::uint32_t word = 1;
-  for (auto* numbers : {&segments.rows, &segments.rates}) {
-    for (std::int16_t& number : *numbers) {
+  for (ChainMotion motion : {ChainMotion::kPosition, ChainMotion::kPose}) {
+    Model model = sample_chain(motion);
+    ChainSegments& segments = chain(model).segments;
+    std::uint32_t word = 1;
+    const auto next = [&] {
       word = word * 1664525U + 1013904223U;
-      number = static_cast<std::int16_t>(word >> 16);
+      return static_cast<std::int16_t>(word >> 16);
+    };
+    const auto channels = static_cast<std::size_t>(channel_count(motion));
+    for (std::size_t k = 0; k < segments.rows.size(); ++k) {
+      if (k % channels < 3) segments.rows[k] = next();  // quaternions are of length 1
     }
+    for (std::int16_t& rate : segments.rates) rate = next();
+    const auto read = parse_model(*model_bytes(model), "chain.wisp");
+    ASSERT_TRUE(read) << read.error().message;
+    expect_same(*read, model);
   }
-  const auto read = parse_model(*model_bytes(model), "chain.wisp");
-  ASSERT_TRUE(read) << read.error().message;
-  expect_same(*read, model);
 }
 
 TEST(ChainModel, SmoothMotionTakesLessThanAByteANumber) {
@@ -206,6 +211,10 @@ TEST(ChainModel, WhatIsNotAChainIsRefusedWithAReason) {
       {"steered by", [](Model& m) { chain(m).drift->spread_ground = 0; }},
       {"steered by", [&](Model& m) { chain(m).drift->drift[1] = nan; }},
       {"size of the body", [](Model& m) { std::get<PoseView>(m.view).half_width = -1; }},
+      {"size of the body", [](Model& m) { std::get<PoseView>(m.view).half_length = 1e30; }},
+      {"quaternion of length 0.0", [](Model& m) { std::fill_n(chain(m).segments.rows.begin() + 3, 4, 0); }},
+      {"quaternion of length 1.4", [](Model& m) { chain(m).segments.rows[4] = 32767; }},
+      {"quaternion of length 2", [](Model& m) { chain(m).segments.row_scale[1] *= 2; }},
   };
   for (const auto& [word, harm] : broken) {
     Model model = steered_chain();

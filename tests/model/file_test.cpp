@@ -330,5 +330,14 @@ TEST(ModelFile, AModelWithoutMeaningIsNeitherWrittenNorRead) {
   }
 }
 
+// Readers in C would see the name end there, and two names be one.
+TEST(ModelFile, ANameThatHoldsAZeroByteIsRefused) {
+  Model model = sample_model();
+  model.outputs[1].name = model.outputs[0].name + std::string(1, '\0') + "x";
+  const auto outcome = model_bytes(model);
+  ASSERT_FALSE(outcome);
+  EXPECT_THAT(outcome.error().message, HasSubstr("holds a zero byte"));
+}
+
 }  // namespace
 }  // namespace wisp

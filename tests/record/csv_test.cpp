@@ -122,7 +122,7 @@ TEST(Csv, WhatIsNotANumberIsNamedWithItsRow) {
   EXPECT_THAT(complaint(kHead + "u:a,y:b\n1,two\n"), AllOf(HasSubstr("row 4"), HasSubstr("\"two\", column 2")));
   EXPECT_THAT(complaint(kHead + "u:a,y:b\n1,2.5.1\n"), HasSubstr("expected a number"));
   EXPECT_THAT(complaint(kHead + "u:a,y:b\n1,0x10\n"), HasSubstr("expected a number"));
-  for (const char* cell : {"nan", "NaN", "inf", "-Infinity", "1e999"}) {
+  for (const char* cell : {"inf", "-Infinity", "1e999"}) {
     EXPECT_THAT(complaint(kHead + "u:a,y:b\n1," + cell + "\n"), HasSubstr("expected a finite number")) << cell;
   }
 }
@@ -186,7 +186,7 @@ TEST(Csv, ABadRecordingIsNotWritten) {
   Recording recording{"", 0, {{"a", "", Role::kOutput, {1}}}, {}, {}, {}};
   EXPECT_FALSE(write_csv(path, recording));
   recording.rate_hz = 1;
-  recording.channels[0].name = "a,b";
+  recording.channels[0].name = "a[b";
   EXPECT_FALSE(write_csv(path, recording));
   recording.channels[0].name = "a";
   recording.channels[0].samples[0] = INFINITY;

@@ -26,7 +26,7 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
 }
 
 Command capturing(std::string name, const std::string& flame, std::string summary, std::vector<Example> examples) {
-  std::vector<Flag> flags = {{"output", Kind::kPath, "REC.csv", "", "where to write the recording", {}, true}};
+  std::vector<Flag> flags = {{"output", Kind::kOutput, "REC.csv", "", "where to write the recording", {}, true}};
   for (Flag& flag : capture_flags(flame)) flags.push_back(std::move(flag));
   return {std::move(name),  std::move(summary),  {{"CLIP", "a video file, or a folder of numbered images"}},
           std::move(flags), std::move(examples), run};

@@ -17,6 +17,8 @@ const std::vector<Command>& commands() {
       learn_chain_command(),
       learn_leaf_command(),
       validate_command(),
+      predict_command(),
+      compare_command(),
       simulate_candle_command(),
       simulate_leaf_command(),
       run_command(),

@@ -14,6 +14,8 @@ Command learn_switched_command();
 Command learn_chain_command();
 Command learn_leaf_command();
 Command validate_command();
+Command predict_command();
+Command compare_command();
 Command simulate_candle_command();
 Command simulate_leaf_command();
 Command run_command();

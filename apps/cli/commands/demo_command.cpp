@@ -237,7 +237,7 @@ Command demo_command() {
       "The whole job: from a clip of a flame to a model and its pictures. Without a clip it simulates one.",
       {{"CLIP", "a video of a flame, or a folder of numbered images", false, true}},
       {
-          {"output", Kind::kPath, "DIR", "out/demo", "the folder for all that is made"},
+          {"output", Kind::kOutput, "DIR", "out/demo", "the folder for all that is made"},
           {"points", Kind::kInteger, "N", "8", "control points of the outline"},
           {"rate", Kind::kNumber, "HZ", "", "frames a second of a folder of images"},
           {"window", Kind::kSwitch, "", "", "opens the window with the model at the end, as wisp play does"},

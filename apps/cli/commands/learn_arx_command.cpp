@@ -52,7 +52,7 @@ Result<ArxRecipe> recipe_of(const Arguments& arguments) {
                    .curve_knots = curve_knots_of(arguments),
                    .focus = focus_of(arguments),
                    .responses = arguments.has("figures")};
-  if (arguments.has("output")) recipe.name = std::filesystem::path(arguments.text("output")).stem().string();
+  recipe.name = model_name(arguments);
   if (!(recipe.radius > 0 && recipe.radius < 1)) {
     return Error{"--radius is " + arguments.text("radius") + ", expected a number between 0 and 1"};
   }
@@ -122,7 +122,7 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   if (arguments.has("figures")) {
     if (auto ok = write_arx_figures(arguments.text("figures"), fit->model, fit->report); !ok) return ok;
   }
-  const std::string& output = arguments.text("output");
+  const std::string output = model_path(arguments);
   if (spectral_radius(std::get<ArxModel>(fit->model.dynamics)) < 1) return hand_over(*fit, output, start, terminal);
   terminal.show(fit->report);
   terminal.add("output", {});
@@ -132,9 +132,9 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
 
 std::vector<Flag> flags() {
   std::vector<Flag> all = {
-      {"output", Kind::kPath, "M.wisp", "", "where to write the model", {}, true, "partial"},
+      output_flag({"partial"}),
       {"inputs", Kind::kNames, "A,B", "", "channels that are inputs; none: a model of the outputs alone"},
-      {"outputs", Kind::kNames, "C,D", "", "channels that are outputs", {}, true, "merge"},
+      {"outputs", Kind::kNames, "C,D", "", "channels that are outputs", {}, true, {"merge"}},
   };
   for (Flag& flag : order_flags({"4", "", "; auto finds every input's delay to every output"}))
     all.push_back(std::move(flag));
@@ -168,7 +168,7 @@ std::vector<Flag> flags() {
       });
   all.push_back(curve_flag("0", "; needs the recordings in memory"));
   all.push_back(
-      {"figures", Kind::kPath, "DIR", "",
+      {"figures", Kind::kOutput, "DIR", "",
        "draw poles and zeros, step and frequency responses with their 95 % bands, and residual tests there; --json "
        "has their numbers as responses"});
   all.push_back({"memory", Kind::kInteger, "MIB", "256",

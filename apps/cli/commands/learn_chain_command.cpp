@@ -38,7 +38,7 @@ Result<ChainRecipe> recipe_from(const Arguments& arguments) {
   features->heading_free = arguments.text("frame") == "heading";
   auto realisation = parse_realisation(arguments.text("realisation"));
   if (!realisation) return Error{"--realisation: " + realisation.error().message};
-  return ChainRecipe{.name = std::filesystem::path(arguments.text("output")).stem().string(),
+  return ChainRecipe{.name = model_name(arguments),
                      .event = std::move(*event),
                      .features = *features,
                      .modes = number_or_auto(arguments, "modes"),
@@ -71,7 +71,7 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
   const auto recipe = recipe_from(arguments);
   if (!recipe) return recipe.error();
-  const std::string& output = arguments.text("output");
+  const std::string output = model_path(arguments);
   if (auto ok = check_writable(output); !ok) return ok;
   const auto recordings = read_motions(arguments, terminal);
   if (!recordings) return recordings.error();
@@ -82,7 +82,7 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
 
 std::vector<Flag> flags(const std::string& event, const std::string& features) {
   std::vector<Flag> all = {
-      {"output", Kind::kPath, "M.wisp", "", "where to write the model", {}, true},
+      output_flag(),
       {"event", Kind::kText, "SPEC", event,
        "where motion is cut: zero:, min: or max: of a channel, or of speed, horizontal_speed, forward_speed"},
       {"features", Kind::kNames, "LIST", features,

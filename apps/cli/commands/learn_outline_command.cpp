@@ -16,8 +16,8 @@ namespace {
 
 Result<void> run(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
-  const std::string& path = arguments.text("output");
-  const auto recipe = outline_recipe(arguments, std::filesystem::path(path).stem().string());
+  const std::string path = model_path(arguments);
+  const auto recipe = outline_recipe(arguments, model_name(arguments));
   if (!recipe) return recipe.error();
   const auto recordings = outline_recordings(arguments.positionals(), arguments, terminal);
   if (!recordings) return recordings.error();
@@ -34,8 +34,7 @@ struct Preset {
 };
 
 Command learn(std::string name, std::string summary, const Preset& preset, std::vector<Example> examples) {
-  std::vector<Flag> flags = {{"output", Kind::kPath, "M.wisp", "", "where to write the model", {}, true},
-                             extinction_flag(preset.extinction),
+  std::vector<Flag> flags = {output_flag(), extinction_flag(preset.extinction),
                              curve_flag(preset.input_curve,
                                         "; where all points feed each other auto is none, as the input's root and "
                                         "square are regressors")};

@@ -22,7 +22,7 @@ Result<SwitchedRecipe> recipe_of(const Arguments& arguments) {
     if (!*choice) return choice->error();
   }
   return SwitchedRecipe{
-      .name = std::filesystem::path(arguments.text("output")).stem().string(),
+      .name = model_name(arguments),
       .inputs = arguments.names("inputs"),
       .outputs = arguments.names("outputs"),
       .na = std::move(*na),
@@ -48,12 +48,12 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   auto fit = learn(*recordings, *recipe, terminal.progress());
   if (!fit) return fit.error();
   if (arguments.has("range")) fit->model.training.recipe.push_back({"range", arguments.text("range")});
-  return hand_over(*fit, arguments.text("output"), start, terminal);
+  return hand_over(*fit, model_path(arguments), start, terminal);
 }
 
 std::vector<Flag> flags() {
   std::vector<Flag> all = {
-      {"output", Kind::kPath, "M.wisp", "", "where to write the model", {}, true},
+      output_flag(),
       {"inputs", Kind::kNames, "A,B", "", "channels that are inputs; none: a model of the outputs alone"},
       {"outputs", Kind::kNames, "C,D", "", "channels that are outputs", {}, true},
   };

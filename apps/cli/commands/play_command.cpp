@@ -153,7 +153,7 @@ Command play_command() {
           {"sound", Kind::kPath, "FILE.wav", "", "a sound file in place of the microphone"},
           {"no-microphone", Kind::kSwitch, "", "", "begin with the microphone off; M turns it on"},
           {"headless-frames", Kind::kInteger, "N", "", "no window: N frames of 1/60 s, the same for the same seed"},
-          {"png", Kind::kPath, "DIR", "", "the folder for pictures: every frame, or those that --script takes"},
+          {"png", Kind::kOutput, "DIR", "", "the folder for pictures: every frame, or those that --script takes"},
           {"script", Kind::kPath, "FILE", "",
            "events with times, as docs/reference/window.md describes, in place of a person"},
           {"seed", Kind::kInteger, "N", "1", "of all chance"},

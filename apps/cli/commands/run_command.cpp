@@ -309,9 +309,14 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
 
 std::vector<Flag> all_flags() {
   std::vector<Flag> all = {
-      {"output", Kind::kPath, "OUT", "", "what to write: OUT.csv, OUT.png or OUT.mp4", {}, true},
+      {"output", Kind::kOutput, "OUT", "", "what to write: OUT.csv, OUT.png or OUT.mp4", {}, true},
       {"frames", Kind::kInteger, "N", "", "frames at the model's rate; default: as many as --input has"},
       {"input", Kind::kPath, "REC", "", "a recording, or a WAV of blowing, whose input drives the model"},
+      {"inputs", Kind::kNames, "A,B", "",
+       "columns of --input that are the model's inputs, in its order, where they have other names"},
+      {"columns", Kind::kNames, "A,B,…", "", "names of all columns of a plain table, in their order"},
+      {"rate", Kind::kNumber, "HZ", "", "samples a second of a plain table; default: as the model's"},
+      {"dt", Kind::kNumber, "S", "", "seconds between samples, instead of --rate"},
       {"wind", Kind::kNumber, "W", "0", "a constant value for every input, where there is no --input"},
       {"noise",
        Kind::kChoice,

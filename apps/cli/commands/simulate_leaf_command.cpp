@@ -220,7 +220,7 @@ Command simulate_leaf_command() {
       "Simulates falls of one leaf from random starts: a recording of its pose, one episode a drop.",
       {},
       {
-          {"output", Kind::kPath, "REC.csv", "", "where to write the recording", {}, true},
+          {"output", Kind::kOutput, "REC.csv", "", "where to write the recording", {}, true},
           {"drops", Kind::kInteger, "N", "200", "falls; with --pairs, gusts"},
           {"seconds", Kind::kNumber, "S", "20", "recorded of each"},
           {"rate", Kind::kNumber, "HZ", "60", "rows a second"},
@@ -251,7 +251,7 @@ Command simulate_leaf_command() {
            "fixed steps, or the stiff reference with an error bound",
            {"fixed", "stiff"}},
           {"threads", Kind::kInteger, "N", "0", "0: one a core; the result does not depend on it"},
-          {"video", Kind::kPath, "CLIP.mp4", "", "and film the first few drops, up to 20 s"},
+          {"video", Kind::kOutput, "CLIP.mp4", "", "and film the first few drops, up to 20 s"},
           {"view", Kind::kChoice, "V", "side", "where from: side, or above", {"side", "above"}},
           {"seed", Kind::kInteger, "N", "1", "of all chance"},
       },

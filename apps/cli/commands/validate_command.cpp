@@ -9,6 +9,7 @@
 #include "flags/motion_flags.hpp"
 #include "flags/outline_flags.hpp"
 #include "flags/recordings.hpp"
+#include "flags/steps_flag.hpp"
 #include "reports/arx_validation.hpp"
 #include "reports/switched_validation.hpp"
 #include "reports/validate_chain.hpp"
@@ -47,19 +48,6 @@ Result<ValidationSubject> subject_of(const std::string& path, const Model& model
   return subject;
 }
 
-Result<std::vector<int>> judged_steps(const Arguments& arguments) {
-  std::vector<int> steps;
-  for (const std::string& word : arguments.names("steps")) {
-    const int step = word == "inf" ? kFreeRun : std::atoi(word.c_str());
-    const bool valid =
-        word == "inf" || (step >= 1 && step <= 100000 && word.find_first_not_of("0123456789") == std::string::npos);
-    if (!valid)
-      return Error{"--steps: found \"" + word + "\", expected numbers from 1 to 100000, or inf, separated by commas"};
-    steps.push_back(step);
-  }
-  return steps;
-}
-
 ValidationPictures wanted_pictures(const Arguments& arguments) {
   const auto path = [&](const char* flag) { return arguments.has(flag) ? arguments.text(flag) : std::string(); };
   return {path("overlay"), path("film-strip"), path("figures")};
@@ -78,7 +66,7 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   const auto& positionals = arguments.positionals();
   const auto model = read_model(positionals[0]);
   if (!model) return model.error();
-  const auto steps = judged_steps(arguments);
+  const auto steps = steps_in(arguments);
   if (!steps) return steps.error();
   if (std::holds_alternative<ChainModel>(model->dynamics)) return validate_chain(*model, arguments, terminal);
   if (positionals.size() > 2) return Error{positionals[2] + ": is one file too many, only segment chains take a twin"};
@@ -106,26 +94,24 @@ Command validate_command() {
   std::vector<Flag> flags = {
       {"range", Kind::kSamples, "A:B", "", "rows to judge on, 1-based and inclusive"},
       {"steps", Kind::kNames, "K,…", "1,5,15,inf", "steps ahead; inf is free simulation from the input alone"},
-      {"initial",
-       Kind::kChoice,
-       "STATE",
-       "measured",
-       "where free simulation of a plain model starts: from measured samples, from rest (zero), or from what fits best",
-       {"measured", "zero", "estimated"}},
-      {"overlay", Kind::kPath, "OUT.mp4", "", "write the clip with captured and simulated outlines drawn over it"},
-      {"film-strip", Kind::kPath, "OUT.png", "", "write a film strip: recorded above, synthesized below"},
-      {"film", Kind::kPath, "OUT.mp4", "",
+      initial_flag(),
+      {"overlay", Kind::kOutput, "OUT.mp4", "", "write the clip with captured and simulated outlines drawn over it"},
+      {"film-strip", Kind::kOutput, "OUT.png", "", "write a film strip: recorded above, synthesized below"},
+      {"film", Kind::kOutput, "OUT.mp4", "",
        "film recorded and synthesized falls side by side (segment chains of poses)"},
-      {"figures", Kind::kPath, "DIR", "", "write plots there, as PNG and SVG"},
+      {"figures", Kind::kOutput, "DIR", "", "write plots there, as PNG and SVG"},
       {"clip", Kind::kPath, "CLIP", "", "the clip that the recording was captured from, for the pictures"},
       {"own-gain", Kind::kSwitch, "", "",
        "input 1 is this recording's own 95th percentile: another microphone, another gain"},
       align_flag(),
       {"truth", Kind::kPath, "REC.csv", "", "the inputs as they truly were: simulates from those too, to compare"},
       {"seed", Kind::kInteger, "N", "1", "of the synthesized life"},
-      {"inputs", Kind::kNames, "A,B", "", "columns of a plain table that are inputs"},
-      {"outputs", Kind::kNames, "C,D", "", "columns of a plain table that are outputs"},
-      {"dt", Kind::kNumber, "S", "", "seconds between samples of a plain table"},
+      {"inputs", Kind::kNames, "A,B", "",
+       "columns that are the model's inputs, in its order, where they have other names"},
+      {"outputs", Kind::kNames, "C,D", "",
+       "columns that are the model's outputs, in its order, where they have other names"},
+      {"columns", Kind::kNames, "A,B,…", "", "names of all columns of a plain table, in their order"},
+      {"dt", Kind::kNumber, "S", "", "seconds between samples of a plain table; default: as the model's"},
   };
   for (Flag& flag : motion_flags()) flags.push_back(std::move(flag));
   for (Flag& flag : capture_flags("1")) {

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <utility>
 
 namespace wisp::cli {
 namespace {
@@ -17,10 +19,6 @@ Result<void> rename(const Arguments& arguments, const char* flag, const std::arr
                     Recording& recording) {
   if (!arguments.has(flag)) return {};
   const auto columns = arguments.names(flag);
-  if (columns.size() != kSize) {
-    return Error{"--" + std::string(flag) + " names " + std::to_string(columns.size()) + " columns, expected " +
-                 std::to_string(kSize)};
-  }
   for (std::size_t k = 0; k < kSize; ++k) {
     const auto channel = find_channel(recording, columns[k]);
     if (!channel) return Error{recording.source + ": has no column " + columns[k] + ", which --" + flag + " names"};
@@ -83,11 +81,16 @@ std::vector<Flag> motion_flags() {
   };
 }
 
-std::vector<std::string> motion_columns(const Arguments& arguments) {
+Result<std::vector<std::string>> motion_columns(const Arguments& arguments) {
   std::vector<std::string> columns;
-  for (const char* flag : {"position", "orientation"}) {
+  for (const auto& [flag, count] : {std::pair{"position", kPosition.size()}, {"orientation", kOrientation.size()}}) {
     if (!arguments.has(flag)) continue;
-    for (std::string& name : arguments.names(flag)) columns.push_back(std::move(name));
+    auto names = arguments.names(flag);
+    if (names.size() != count) {
+      return Error{"--" + std::string(flag) + " names " + std::to_string(names.size()) + " columns, expected " +
+                   std::to_string(count)};
+    }
+    std::move(names.begin(), names.end(), std::back_inserter(columns));
   }
   return columns;
 }

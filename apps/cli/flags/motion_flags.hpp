@@ -13,11 +13,14 @@ namespace wisp::cli {
 std::vector<Flag> motion_flags();
 
 /// The columns that --position and --orientation name; none where they are not given.
-std::vector<std::string> motion_columns(const Arguments& arguments);
+/// Errors: not three of the one, or four of the other.
+Result<std::vector<std::string>> motion_columns(const Arguments& arguments);
 
 /// The recording as learning expects it: pos.x, pos.y, pos.z in metres with z up, q.w, q.x, q.y, q.z. Where none of the
 /// flags is given it is as it was.
-/// Errors: a column that is not there; not three, or four, of them.
+/// Errors: a column that is not there.
+///
+/// Precondition: motion_columns() has none.
 Result<Recording> as_motion(Recording recording, const Arguments& arguments);
 
 }  // namespace wisp::cli

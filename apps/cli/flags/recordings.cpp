@@ -1,29 +1,56 @@
 #include "flags/recordings.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cctype>
+
 #include "flags/motion_flags.hpp"
 #include "wisp/record/csv.hpp"
 #include "wisp/record/mat.hpp"
 
 namespace wisp::cli {
 
-std::vector<Flag> recording_flags() {
+std::vector<Flag> table_flags() {
   return {
+      {"columns", Kind::kNames, "A,B,…", "",
+       "names of all columns of a plain table, in their order: of one without a header, or in place of it"},
       {"rate", Kind::kNumber, "HZ", "",
        "samples a second of a table, or frames a second of a folder of images, that does not say so itself"},
       {"dt", Kind::kNumber, "S", "", "seconds between samples, instead of --rate"},
-      {"skip-bad", Kind::kSwitch, "", "", "leave bad recordings out, listing them, instead of stopping at the first"},
   };
 }
 
-bool is_table(const std::filesystem::path& path) {
-  const std::string extension = path.extension().string();
-  return extension == ".csv" || extension == ".txt" || extension == ".mat" || extension == ".CSV";
+std::vector<Flag> recording_flags() {
+  std::vector<Flag> flags = table_flags();
+  flags.push_back(
+      {"skip-bad", Kind::kSwitch, "", "", "leave bad recordings out, listing them, instead of stopping at the first"});
+  return flags;
 }
+
+namespace {
+
+std::string extension_of(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension;
+}
+
+}  // namespace
+
+bool is_table(const std::filesystem::path& path) {
+  static constexpr std::array<std::string_view, 6> kTables = {".csv", ".tsv", ".txt", ".dat", ".asc", ".mat"};
+  return std::find(kTables.begin(), kTables.end(), extension_of(path)) != kTables.end();
+}
+
+bool is_matlab(const std::filesystem::path& path) { return extension_of(path) == ".mat"; }
 
 Result<CsvOptions> csv_options(const Arguments& arguments, CsvOptions options) {
   if (arguments.has("inputs")) options.inputs = arguments.names("inputs");
   if (arguments.has("outputs")) options.outputs = arguments.names("outputs");
-  for (const std::string& column : motion_columns(arguments)) options.outputs.push_back(column);
+  const auto motion = motion_columns(arguments);
+  if (!motion) return motion.error();
+  options.outputs.insert(options.outputs.end(), motion->begin(), motion->end());
+  options.columns = arguments.names("columns");
   if (arguments.has("dt")) {
     const double seconds = arguments.number("dt");
     if (!(seconds > 0)) return Error{"--dt is " + arguments.text("dt") + ", expected seconds above 0"};
@@ -33,14 +60,28 @@ Result<CsvOptions> csv_options(const Arguments& arguments, CsvOptions options) {
   return options;
 }
 
+namespace {
+
+// A rate that is only otherwise the one gives way to what the file says.
+Result<Recording> read_matlab(const std::filesystem::path& path, const CsvOptions& options, const Arguments& arguments,
+                              const CsvOptions& otherwise) {
+  if (!options.columns.empty()) {
+    return Error{"--columns names columns of a table; of " + path.string() +
+                 " name variables with --inputs and --outputs, such as u or u(:,2)"};
+  }
+  const MatOptions named{.rate_hz = options.rate_hz, .inputs = options.inputs, .outputs = options.outputs};
+  if (arguments.has("dt") || arguments.has("rate") || otherwise.rate_hz == 0) return read_mat(path, named);
+  auto stated = read_mat(path, {.inputs = options.inputs, .outputs = options.outputs});
+  return stated ? std::move(stated) : read_mat(path, named);
+}
+
+}  // namespace
+
 Result<Recording> read_table(const std::filesystem::path& path, const Arguments& arguments,
                              const CsvOptions& otherwise) {
   const auto options = csv_options(arguments, otherwise);
   if (!options) return options.error();
-  auto recording =
-      path.extension() == ".mat"
-          ? read_mat(path, {.rate_hz = options->rate_hz, .inputs = options->inputs, .outputs = options->outputs})
-          : read_csv(path, *options);
+  auto recording = is_matlab(path) ? read_matlab(path, *options, arguments, otherwise) : read_csv(path, *options);
   if (!recording) return recording;
   return as_motion(std::move(*recording), arguments);
 }

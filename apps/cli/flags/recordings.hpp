@@ -12,14 +12,20 @@
 
 namespace wisp::cli {
 
-/// Flags of every command that reads recordings: --rate, --dt, --skip-bad.
+/// Flags of every command that reads a table: --columns, --rate, --dt.
+std::vector<Flag> table_flags();
+
+/// Those, and --skip-bad of commands that read many.
 std::vector<Flag> recording_flags();
 
-/// Whether a name is that of a table (`.csv`, `.txt`) rather than of a clip.
+/// Whether a name is that of a table (`.csv`, `.tsv`, `.txt`, `.dat`, `.asc`, `.mat`) rather than of a clip.
 bool is_table(const std::filesystem::path& path);
 
-/// How --inputs, --outputs, --rate and --dt say a table is to be understood, and `otherwise` where they do not.
-/// Errors: --dt that is not above 0.
+/// Whether it is that of a MATLAB file.
+bool is_matlab(const std::filesystem::path& path);
+
+/// How --inputs, --outputs, --columns, --rate and --dt say a table is to be understood, and `otherwise` where they do
+/// not. Errors: --dt that is not above 0.
 Result<CsvOptions> csv_options(const Arguments& arguments, CsvOptions otherwise = {});
 
 /// Reads one table, understood as csv_options() says.

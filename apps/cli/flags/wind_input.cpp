@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "flags/recordings.hpp"
+#include "terminal.hpp"
 #include "wisp/capture/media/clip_wind.hpp"
 #include "wisp/record/wav.hpp"
 #include "wisp/sound/wind_track.hpp"
@@ -46,6 +47,19 @@ Result<double> scale_of(const Model& model, std::size_t input) {
                " was in recordings, expected a model that was learned from some; learn it with this program"};
 }
 
+// Columns that are the model's inputs: --inputs, in its order, or those of its own names.
+Result<std::vector<std::string>> input_names(const Model& model, const Arguments& arguments) {
+  std::vector<std::string> names = arguments.names("inputs");
+  if (names.empty()) {
+    for (const Input& input : model.inputs) names.push_back(input.name);
+  }
+  if (names.size() == model.inputs.size()) return names;
+  return Error{"--inputs names " + std::to_string(names.size()) + " columns, the model has " +
+               std::to_string(model.inputs.size()) + " inputs: name one for each, in the model's order"};
+}
+
+constexpr double kMostFrames = 1e9;
+
 }  // namespace
 
 Result<InputTrack> InputTrack::heard(const Model& model, const std::string& path) {
@@ -85,11 +99,18 @@ Result<InputTrack> InputTrack::from(const Model& model, const Arguments& argumen
   }
   const std::string& path = arguments.text("input");
   if (std::filesystem::path(path).extension() == ".wav") return heard(model, path);
-  const auto recording = read_table(path, arguments);
+  const auto names = input_names(model, arguments);
+  if (!names) return names.error();
+  const auto recording = read_table(path, arguments, {.rate_hz = model.rate_hz, .inputs = *names});
   if (!recording) return recording.error();
-  for (const Input& input : model.inputs) {
-    const auto channel = find_channel(*recording, input.name);
-    if (!channel) return Error{path + ": has no channel " + input.name + ", which the model takes as input"};
+  const double frames = static_cast<double>(recording->rows()) * model.rate_hz / recording->rate_hz;
+  if (!(frames <= kMostFrames)) {
+    return Error{path + ": at " + shown(recording->rate_hz) + " samples a second lasts " + shown(frames) +
+                 " frames of the model, expected at most " + shown(kMostFrames) + ": is the rate right?"};
+  }
+  for (const std::string& name : *names) {
+    const auto channel = find_channel(*recording, name);
+    if (!channel) return Error{path + ": has no channel " + name + ", which the model takes as input"};
     track.tracks_.push_back(at_rate(recording->channels[*channel].samples, recording->rate_hz, model.rate_hz));
     track.rows_ = std::max(track.rows_, track.tracks_.back().size());
   }

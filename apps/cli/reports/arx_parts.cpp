@@ -27,7 +27,7 @@ Result<TableShare> share_of(const Arguments& arguments) {
 }
 
 Result<void> take(const std::string& path, const TableShare& share, const Arguments& arguments, ArxPart& part) {
-  if (std::filesystem::path(path).extension() == ".mat") {
+  if (is_matlab(path)) {
     const auto whole = read_table(path, arguments);
     if (!whole) return whole.error();
     return part.add(*whole, share);
@@ -59,11 +59,12 @@ ReportList list_of(const OrderMatrix& orders) {
 
 std::vector<Flag> part_flags() {
   return {
-      {"partial", Kind::kPath, "P", "",
+      {"partial", Kind::kOutput, "P", "",
        "write a part of a fit instead of a model: what these rows have to say, a small file however many they are"},
       {"part", Kind::kText, "K/N", "1/1", "with --partial: take the K-th of N equal shares of every recording's rows"},
       {"merge", Kind::kSwitch, "", "",
        "what is named are parts written with --partial, in any order; they say what the channels and orders are"},
+      {"expect", Kind::kInteger, "N", "", "with --merge: how many parts there must be, so that none is forgotten"},
   };
 }
 
@@ -106,7 +107,12 @@ Result<NamedPart> merged_parts(const Arguments& arguments) {
       return Error{paths[k] + ": cannot be merged with " + paths.front() + ": " + ok.error().message};
     }
   }
-  return NamedPart{std::move(*whole), paths};
+  if (arguments.has("expect") && static_cast<std::size_t>(arguments.integer("expect")) != whole->jobs()) {
+    return Error{"found " + std::to_string(whole->jobs()) + " parts, expected " + arguments.text("expect") +
+                 ": did every job end well, and are all parts named?"};
+  }
+  auto sources = whole->sources();
+  return NamedPart{std::move(*whole), std::move(sources)};
 }
 
 Result<void> write_part(const ArxRecipe& recipe, const Arguments& arguments, Terminal& terminal) {
@@ -119,6 +125,9 @@ Result<void> write_part(const ArxRecipe& recipe, const Arguments& arguments, Ter
   terminal.add("partial", path);
   terminal.add("rows", part.rows());
   terminal.add("bytes", bytes.size());
+  terminal.add("parts", part.jobs());
+  const auto sources = part.sources();
+  terminal.add("sources", ReportList(sources.begin(), sources.end()));
   terminal.add("na", list_of(part.orders().na));
   terminal.add("nb", list_of(part.orders().nb));
   terminal.add("nk", list_of(part.orders().nk));

@@ -1,30 +1,49 @@
 #include "reports/arx_validation.hpp"
 
+#include <utility>
+
 #include "flags/recordings.hpp"
+#include "flags/steps_flag.hpp"
 #include "reports/arx_figures.hpp"
 #include "wisp/learn/validate.hpp"
 
 namespace wisp::cli {
 
-Result<Recording> table_for(const Model& model, const Arguments& arguments) {
-  const std::string& path = arguments.positionals()[1];
-  if (!is_table(path)) return Error{path + ": is not a table (.csv), which this model is validated against"};
-  CsvOptions channels;
+namespace {
+
+// Finds the channels that stand for the model's, where --inputs or --outputs name them: index, then name.
+Result<void> find_renamed(const Recording& recording, const std::vector<std::string>& given,
+                          const std::vector<std::string>& own, const std::string& flag,
+                          std::vector<std::pair<std::size_t, std::string>>& renamed) {
+  if (given.empty()) return {};
+  if (given.size() != own.size()) {
+    return Error{"--" + flag + " names " + std::to_string(given.size()) + " channels, the model has " +
+                 std::to_string(own.size()) + ": name one for each, in the model's order"};
+  }
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    const auto channel = find_channel(recording, given[k]);
+    if (!channel) return Error{recording.source + ": has no channel " + given[k] + ", which --" + flag + " names"};
+    renamed.emplace_back(*channel, own[k]);
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<Recording> table_for(const Model& model, const std::string& path, const Arguments& arguments) {
+  if (!is_table(path)) return Error{path + ": is not a table (.csv), which this model is judged on"};
+  CsvOptions channels{.rate_hz = model.rate_hz};
   for (const Input& input : model.inputs) channels.inputs.push_back(input.name);
   for (const Output& output : model.outputs) channels.outputs.push_back(output.name);
   auto whole = read_table(path, arguments, channels);
   if (!whole) return whole;
+  std::vector<std::pair<std::size_t, std::string>> renamed;
+  for (const auto& [flag, own] : {std::pair("inputs", &channels.inputs), std::pair("outputs", &channels.outputs)}) {
+    if (auto ok = find_renamed(*whole, arguments.names(flag), *own, flag, renamed); !ok) return ok.error();
+  }
+  for (const auto& [channel, name] : renamed) whole->channels[channel].name = name;
   return in_range(std::move(*whole), arguments, "range");
 }
-
-namespace {
-
-InitialState initial_of(const Arguments& arguments) {
-  if (arguments.text("initial") == "zero") return InitialState::kZero;
-  return arguments.text("initial") == "estimated" ? InitialState::kEstimated : InitialState::kMeasured;
-}
-
-}  // namespace
 
 Result<void> validate_plain(const Model& model, const std::vector<int>& steps, const Arguments& arguments,
                             Terminal& terminal) {
@@ -32,7 +51,7 @@ Result<void> validate_plain(const Model& model, const std::vector<int>& steps, c
     if (arguments.has(flag))
       return Error{arguments.positional() + ": is not a model of an outline, so --" + flag + " has nothing to draw"};
   }
-  const auto recording = table_for(model, arguments);
+  const auto recording = table_for(model, arguments.positionals()[1], arguments);
   if (!recording) return recording.error();
   const ValidationOptions options{steps, initial_of(arguments), arguments.has("figures")};
   const auto report = validate(model, *recording, options, terminal.progress());

@@ -16,7 +16,9 @@ namespace wisp::cli {
 Result<void> validate_plain(const Model& model, const std::vector<int>& steps, const Arguments& arguments,
                             Terminal& terminal);
 
-/// The recording that such a model is validated against, its --range. Errors: as read_table() and in_range().
-Result<Recording> table_for(const Model& model, const Arguments& arguments);
+/// The recording that such a model is judged on, its --range. Where --inputs or --outputs are given they name, in the
+/// model's order, the columns that stand for its channels; a table that states no rate has the model's.
+/// Errors: as read_table() and in_range(); another number of names than the model has channels.
+Result<Recording> table_for(const Model& model, const std::string& path, const Arguments& arguments);
 
 }  // namespace wisp::cli

@@ -1,5 +1,6 @@
 #include "reports/learned_model.hpp"
 
+#include <filesystem>
 #include <fstream>
 
 #include "wisp/base/file.hpp"
@@ -7,7 +8,29 @@
 
 namespace wisp::cli {
 
+Flag output_flag(std::vector<std::string> unless) {
+  unless.push_back("json");
+  return {"output",
+          Kind::kOutput,
+          "M.wisp",
+          "",
+          "where to write the model; with --json not needed: then there is "
+          "the report alone",
+          {},
+          true,
+          std::move(unless)};
+}
+
+std::string model_path(const Arguments& arguments) {
+  return arguments.has("output") ? arguments.text("output") : std::string();
+}
+
+std::string model_name(const Arguments& arguments) {
+  return std::filesystem::path(model_path(arguments)).stem().string();
+}
+
 Result<void> check_writable(const std::string& path) {
+  if (path.empty()) return {};
   auto pending = PendingFile::create(path);
   if (!pending) return pending.error();
   // Some folders let nobody write though they say otherwise.
@@ -17,10 +40,14 @@ Result<void> check_writable(const std::string& path) {
 
 Result<void> hand_over(const Fit& fit, const std::string& path, std::chrono::steady_clock::time_point start,
                        Terminal& terminal) {
-  if (auto ok = write_model(path, fit.model); !ok) return ok;
+  if (!path.empty()) {
+    if (auto ok = write_model(path, fit.model); !ok) return ok;
+  }
   terminal.show(fit.report);
-  terminal.say("wrote " + path);
-  terminal.add("output", path);
+  if (!path.empty()) {
+    terminal.say("wrote " + path);
+    terminal.add("output", path);
+  }
   terminal.add("seconds", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   return {};
 }

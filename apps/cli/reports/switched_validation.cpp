@@ -11,7 +11,7 @@ Result<void> validate_switched(const Model& model, const std::vector<int>& steps
     if (arguments.has(flag))
       return Error{arguments.positional() + ": is a switched model, for which --" + flag + " draws nothing"};
   }
-  const auto recording = table_for(model, arguments);
+  const auto recording = table_for(model, arguments.positionals()[1], arguments);
   if (!recording) return recording.error();
   const auto report = validate(model, *recording, {.steps = steps}, terminal.progress());
   if (!report) return report.error();

@@ -1,68 +1,80 @@
 // The page as a whole: stage, player, microphone and controls, and what passes between them.
 
 import type { Wisp } from '@wisp/player';
-import { CandleScene } from './candle/scene.js';
-import { Refused, watchDrops } from './files.js';
+import { CandleScene } from '@wisp/player/parts/candle/scene';
+import { watchDrops } from './drops.js';
 import { linkOf, settingsFromLink, type Settings } from './link.js';
 import { Controls } from './panel/controls.js';
-import { Drawer } from './panel/drawer.js';
+import type { Drawer } from './panel/drawer.js';
 import { byId } from './panel/element.js';
-import { fillHelp } from './panel/help.js';
 import { listenToKeys } from './panel/keys.js';
 import { Hint, Notices } from './panel/notices.js';
 import { Player, type Playing } from './player.js';
 import { Costs, type Probe } from './probe.js';
-import type { Scene } from './stage/scene.js';
-import { Stage, type FrameCost } from './stage/stage.js';
+import type { Scene } from '@wisp/player/parts/stage/scene';
+import { Stage, type FrameCost } from '@wisp/player/parts/stage/stage';
 import { Breath } from './wind/breath.js';
-import { Ear } from './wind/ear.js';
+import type { Ear } from './wind/ear.js';
+
+/** Everything that is not needed for the first flame. */
+type Late = typeof import('./late.js');
+
+/** What has come by now of it. */
+interface Parts {
+  ear: Ear;
+  drawer: Drawer;
+}
+
+/** Wind that is meant. */
+const BLOWN = 0.3;
+
+/** CSS pixels that the controls cover at the lower edge. */
+const COVERED = 118;
 
 const START_HINT = 'Move past it, or press Blow and blow';
+
+/** A sentence with its stop. */
+const stopped = (words: string): string => (/[.!?]$/.test(words) ? words : `${words}.`);
 
 export class App {
   readonly stage: Stage;
   private readonly player: Player;
   private readonly breath = new Breath();
-  private readonly ear: Ear;
   private readonly controls: Controls;
-  private readonly drawer: Drawer;
   private readonly drawerButton = byId('open-drawer', HTMLButtonElement);
   private readonly help = byId('help', HTMLDialogElement);
   private readonly notices = new Notices(byId('notices', HTMLElement));
   private readonly hint = new Hint(byId('hint', HTMLElement));
   private readonly costs = new Costs();
   private readonly probe: Probe;
+  private parts: Parts | null = null;
+  private readonly late: Promise<Late>;
+  private bring: () => void = () => undefined;
   private touched = false;
   private wasLit = true;
+  /** the model that wind was last offered to */
+  private offered: Playing | null = null;
 
   constructor(
     private readonly wisp: Wisp,
     private readonly settings: Settings,
+    private readonly overlay: boolean,
   ) {
     this.stage = new Stage(byId('stage', HTMLCanvasElement), {
       breath: (seconds) => this.breath.update(seconds, this.stage.frames),
       touched: () => this.touch(),
       context: (state) => this.onContext(state),
       framed: (cost) => this.onFrame(cost),
-    });
+    }, { covered: overlay ? 0 : COVERED, clear: overlay });
     this.stage.detail = settings.detail;
     this.player = new Player(wisp, this.stage, settings, (playing) => this.onPlaying(playing));
-    this.ear = new Ear(wisp, {
-      wind: (wind) => this.breath.hear(wind, this.stage.frames),
-      trouble: (words) => this.notices.say(words),
-      ended: () => this.breath.deafen(),
-    });
     this.controls = new Controls({
       change: (change) => this.change(change),
       blow: () => this.toggleMicrophone(),
       act: () => this.act(),
     });
-    this.drawer = new Drawer(byId('drawer', HTMLElement), {
-      change: (change) => this.change(change),
-      open: (file) => this.openFile(file),
-      closed: () => this.showDrawer(false),
-      link: () => this.copyLink(),
-    });
+    this.late = new Promise<void>((resolve) => (this.bring = resolve)).then(() => import('./late.js'));
+    void this.late.then((late) => this.furnish(late));
     this.probe = this.makeProbe();
     window.wisp = this.probe;
     this.listen();
@@ -71,14 +83,36 @@ export class App {
   /** Plays the first scene. */
   async start(): Promise<void> {
     this.stage.start();
-    await this.playShipped();
+    await this.playChosen();
     this.hint.show(START_HINT, 12);
+    // Nobody presses buttons that are not there.
+    if (this.overlay) this.toggleMicrophone();
+  }
+
+  /** Makes what has come after the first flame. */
+  private furnish({ Drawer, Ear, fillHelp, saveLoop, savePicture }: Late): void {
+    const ear = new Ear(this.wisp, {
+      wind: (wind) => this.breath.hear(wind, this.stage.frames),
+      trouble: (words) => this.notices.say(words),
+      ended: () => this.breath.deafen(),
+    });
+    const drawer = new Drawer(byId('drawer', HTMLElement), {
+      change: (change) => this.change(change),
+      open: (file) => this.openFile(file),
+      closed: () => this.showDrawer(false),
+      link: () => this.copyLink(),
+      picture: () => savePicture(this.stage),
+      loop: () => saveLoop(this.stage),
+    });
+    this.parts = { ear, drawer };
+    fillHelp(this.help);
+    if (this.player.playing !== null) drawer.fill(this.player.playing, this.settings);
   }
 
   private listen(): void {
-    fillHelp(this.help);
-    byId('open-help', HTMLButtonElement).addEventListener('click', () => this.help.showModal());
-    this.drawerButton.addEventListener('click', () => this.showDrawer(!this.drawer.open));
+    byId('share', HTMLButtonElement).addEventListener('click', () => void this.share());
+    byId('open-help', HTMLButtonElement).addEventListener('click', () => this.showHelp());
+    this.drawerButton.addEventListener('click', () => this.toggleDrawer());
     watchDrops(byId('drop', HTMLElement), (file) => this.openFile(file));
     window.addEventListener('hashchange', () => this.change(settingsFromLink(location.hash, this.settings)));
     const scene = (name: Settings['scene']) => () => this.change({ scene: name });
@@ -89,12 +123,13 @@ export class App {
         b: () => this.toggleMicrophone(),
         '1': scene('candle'),
         '2': scene('leaves'),
-        i: () => this.showDrawer(!this.drawer.open),
+        i: () => this.toggleDrawer(),
+        s: () => void this.share(),
         n: () => this.change({ noise: this.settings.noise > 0 ? 0 : 1 }),
         p: () => this.pause(),
         f: () => this.fullScreen(),
-        '?': () => this.help.showModal(),
-        h: () => this.help.showModal(),
+        '?': () => this.showHelp(),
+        h: () => this.showHelp(),
         '-': () => this.controls.step(-1, this.settings),
         '+': () => this.controls.step(1, this.settings),
         '=': () => this.controls.step(1, this.settings),
@@ -105,38 +140,45 @@ export class App {
   }
 
   private change(change: Partial<Settings>): void {
+    // Another scene or order is of the shipped models.
+    if (change.model === undefined && (change.scene !== undefined || change.order !== undefined)) change = { ...change, model: '' };
     const needsModel = this.player.apply(change);
+    this.stage.detail = this.settings.detail;
     const link = linkOf(this.settings);
-    if (location.hash !== link) history.replaceState(null, '', link);
+    if (location.hash !== link && !this.overlay) history.replaceState(null, '', link);
     const { playing } = this.player;
-    if (needsModel) void this.playShipped();
+    if (needsModel) void this.playChosen();
     else if (playing !== null) this.controls.show(playing.tab, this.settings);
     // Where a key has changed what the drawer shows.
-    if (!needsModel && playing !== null && this.drawer.open && !this.drawer.holdsFocus) this.drawer.fill(playing, this.settings);
+    const drawer = this.parts?.drawer;
+    if (!needsModel && playing !== null && drawer?.open === true && !drawer.holdsFocus) drawer.fill(playing, this.settings);
   }
 
-  private async playShipped(): Promise<void> {
+  private async playChosen(): Promise<void> {
     try {
-      await this.player.playShipped();
+      await this.player.playChosen();
     } catch (error) {
-      this.notices.say(`${error instanceof Error ? error.message : String(error)} What plays goes on.`);
+      this.notices.say(`${stopped(error instanceof Error ? error.message : String(error))} What plays goes on.`);
+      if (this.player.playing === null) await this.player.playShipped();
     }
   }
 
   private openFile(file: File): void {
-    this.player.playFile(file).then(
-      () => this.notices.say(`Playing ${file.name}.`),
-      (error: unknown) => {
-        if (!(error instanceof Refused)) throw error;
-        this.notices.say(`${error.message} What plays goes on.`);
-      },
-    );
+    void this.late.then(async ({ readDropped, refusalOf, Refused }) => {
+      try {
+        await this.player.playFile(file.name, await readDropped(file));
+        this.notices.say(`Playing ${file.name}.`);
+      } catch (error) {
+        const refused = error instanceof Refused ? error : refusalOf(file.name, error);
+        this.notices.say(`${refused.message} What plays goes on.`);
+      }
+    });
   }
 
   private onPlaying(playing: Playing): void {
     if (playing.tab !== null) this.settings.scene = playing.tab;
     this.controls.show(playing.tab, this.settings);
-    this.drawer.fill(playing, this.settings);
+    this.parts?.drawer.fill(playing, this.settings);
     this.wasLit = true;
     if (this.touched) this.hint.hide();
   }
@@ -154,8 +196,11 @@ export class App {
 
   private toggleMicrophone(): void {
     this.touch();
-    if (this.ear.state === 'off') void this.ear.open();
-    else this.ear.close();
+    void this.late.then(() => {
+      const ear = this.parts?.ear;
+      if (ear?.state === 'off') void ear.open();
+      else ear?.close();
+    });
   }
 
   private pause(): void {
@@ -169,16 +214,45 @@ export class App {
     else document.documentElement.requestFullscreen().catch(() => this.notices.say('This browser keeps its frame here.'));
   }
 
+  private showHelp(): void {
+    void this.late.then(() => this.help.showModal());
+  }
+
+  private toggleDrawer(): void {
+    void this.late.then(() => this.showDrawer(this.parts?.drawer.open !== true));
+  }
+
   private showDrawer(open: boolean): void {
-    if (this.drawer.open === open) return;
-    this.drawer.show(open);
-    this.stage.canvas.classList.toggle('beside', open);
+    const drawer = this.parts?.drawer;
+    if (drawer === undefined || drawer.open === open) return;
+    drawer.show(open);
+    document.body.classList.toggle('beside', open);
     this.drawerButton.setAttribute('aria-expanded', String(open));
     if (!open) this.drawerButton.focus();
   }
 
+  /** Sends what plays to somebody: by whatever this device sends things, or as a link to paste. */
+  private async share(): Promise<void> {
+    this.touch();
+    const said = await this.copyLink();
+    const touch = window.matchMedia('(pointer: coarse)').matches;
+    if (touch && 'share' in navigator) {
+      // Closed again by whom it was shown to: nothing to be said.
+      await navigator.share({ title: document.title, url: location.href }).catch(() => undefined);
+      return;
+    }
+    this.notices.say(said === 'Copied' ? 'The link is copied. Whoever opens it can blow it out.' : `${said}.`);
+  }
+
   private async copyLink(): Promise<string> {
-    const link = new URL(linkOf(this.settings), location.href).href;
+    const { playing } = this.player;
+    const settings = { ...this.settings };
+    if (playing?.shipped === false && settings.model === '') {
+      const { MOST_PACKED_BYTES, packModel } = await this.late;
+      if (playing.bytes.length > MOST_PACKED_BYTES) return 'Too large for a link: save and send it';
+      settings.model = await packModel(playing.bytes);
+    }
+    const link = new URL(linkOf(settings), location.href).href;
     history.replaceState(null, '', link);
     try {
       await navigator.clipboard.writeText(link);
@@ -202,14 +276,31 @@ export class App {
     if (playing === null) return;
     const reading = playing.scene.reading();
     this.costs.push(cost);
-    this.drawer.frame(reading, cost);
-    this.controls.hear(this.ear.state, this.ear.level);
-    if (this.probe.firstPicture === 0) this.probe.firstPicture = performance.now();
+    if (this.probe.firstPicture === 0) {
+      this.probe.firstPicture = performance.now();
+      this.bring();
+    }
+    if (this.parts !== null) {
+      this.parts.drawer.frame(reading, cost);
+      this.controls.hear(this.parts.ear.state, this.parts.ear.level);
+    }
     this.probe.frames = this.stage.frames;
     this.probe.wind = reading.wind;
     this.probe.answer = reading.answer;
+    this.offerWind(playing, reading.wind);
     if (playing.scene instanceof CandleScene) this.watchCandles(playing.scene);
     else this.watchOthers(playing.scene);
+  }
+
+  /** Says, once for each model, that it has never felt wind, and what can be done about it. */
+  private offerWind(playing: Playing, wind: number): void {
+    if (playing.tab !== 'candle' || playing.model.inputs.length > 0 || playing.borrows) return;
+    if (Math.abs(wind) < BLOWN || this.offered === playing) return;
+    this.offered = playing;
+    this.notices.say(`${playing.file} was learned without wind: it cannot lean or go out.`, {
+      words: 'Borrow the shipped answer to wind',
+      accept: () => void this.player.borrowWind(),
+    });
   }
 
   private watchOthers(scene: Scene): void {
@@ -244,7 +335,8 @@ export class App {
   }
 
   private makeProbe(): Probe {
-    const { costs, ear, breath, wisp } = this;
+    const { costs, breath, wisp } = this;
+    const hearing = (): string => this.parts?.ear.state ?? 'off';
     return {
       frames: 0,
       costs: () => costs.list(),
@@ -257,7 +349,7 @@ export class App {
       leaves: null,
       candleX: 0,
       get hearing() {
-        return ear.state;
+        return hearing();
       },
       sound: breath.path,
       get memory() {

@@ -1,5 +1,7 @@
 // What a link carries after its #: scene, seed and settings. Nothing of it is kept anywhere else.
 
+import { MOST_LEAVES } from '@wisp/player/parts/leaves/limits';
+
 export type SceneName = 'candle' | 'leaves';
 
 export interface Settings {
@@ -16,9 +18,11 @@ export interface Settings {
   history: number;
   /** pixels drawn for each of the screen's, 0.25 to 2; 0: as many as keep it smooth */
   detail: number;
+  /** a model instead of the shipped one: an address of this origin, or the model itself (model_link.ts); '': shipped */
+  model: string;
 }
 
-export const MOST_LEAVES = 10_000;
+export { MOST_LEAVES };
 export const ORDERS: readonly number[] = [2, 4, 6];
 
 export const DEFAULTS: Readonly<Settings> = {
@@ -30,9 +34,10 @@ export const DEFAULTS: Readonly<Settings> = {
   order: 4,
   history: 0,
   detail: 0,
+  model: '',
 };
 
-const RANGES: Readonly<Record<Exclude<keyof Settings, 'scene'>, readonly [number, number, boolean]>> = {
+const RANGES: Readonly<Record<Exclude<keyof Settings, 'scene' | 'model'>, readonly [number, number, boolean]>> = {
   seed: [0, 2 ** 32 - 1, true],
   noise: [0, 2, false],
   candles: [1, 12, true],
@@ -48,6 +53,7 @@ export function settingsFromLink(hash: string, otherwise: Readonly<Settings> = D
   const settings: Settings = { ...otherwise };
   const scene = given.get('scene');
   if (scene === 'candle' || scene === 'leaves') settings.scene = scene;
+  settings.model = given.get('model') ?? otherwise.model;
   for (const [name, [low, high, whole]] of Object.entries(RANGES)) {
     const text = given.get(name);
     const value = text === null || text.trim() === '' ? NaN : Number(text);
@@ -57,6 +63,9 @@ export function settingsFromLink(hash: string, otherwise: Readonly<Settings> = D
   if (!ORDERS.includes(settings.order)) settings.order = otherwise.order;
   return settings;
 }
+
+/** Whether it asks for what burns alone, on nothing: for films and for other people's pictures. */
+export const isOverlay = (hash: string): boolean => new URLSearchParams(hash.replace(/^#/, '')).has('overlay');
 
 /** The shortest link that carries these settings, from its # on. */
 export function linkOf(settings: Readonly<Settings>): string {

@@ -2,7 +2,7 @@
 
 import { load } from '@wisp/player';
 import { App } from './app.js';
-import { DEFAULTS, settingsFromLink, type Settings } from './link.js';
+import { DEFAULTS, isOverlay, settingsFromLink, type Settings } from './link.js';
 
 /** For people who asked their system for less motion: a calmer flame, fewer leaves. */
 function startingSettings(): Settings {
@@ -29,7 +29,9 @@ async function start(): Promise<void> {
     say('This browser runs no WebAssembly, which the flame is computed with.');
     return;
   }
-  const app = new App(await load(), startingSettings());
+  const overlay = isOverlay(location.hash);
+  document.body.classList.toggle('overlay', overlay);
+  const app = new App(await load(), startingSettings(), overlay);
   await app.start();
   keepForOffline();
 }

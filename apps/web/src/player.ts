@@ -1,13 +1,12 @@
 // What plays: which model, in which scene, with which settings.
 
 import type { Model, Wisp } from '@wisp/player';
-import { CandleScene } from './candle/scene.js';
-import { readDropped, refusalOf } from './files.js';
-import type { SceneName, Settings } from './link.js';
+import { CandleScene } from '@wisp/player/parts/candle/scene';
+import { DEFAULTS, type SceneName, type Settings } from './link.js';
 import type { Shown } from './panel/drawer.js';
 import { fetchShipped, SHIPPED_LEAF, shippedFlame } from './shipped.js';
-import type { Scene, SceneSettings } from './stage/scene.js';
-import type { Stage } from './stage/stage.js';
+import type { Scene, SceneSettings } from '@wisp/player/parts/stage/scene';
+import type { Stage } from '@wisp/player/parts/stage/stage';
 
 /** What is on: the scene, and what is to be said of its model. */
 export interface Playing extends Shown {
@@ -28,6 +27,32 @@ export class Player {
     private readonly changed: (playing: Playing) => void,
   ) {}
 
+  /** Plays what the settings say: the model of the link, or the shipped one of the scene. Throws where that fails. */
+  async playChosen(): Promise<void> {
+    const { model } = this.settings;
+    if (model === '') {
+      await this.playShipped();
+      return;
+    }
+    const turn = ++this.opening;
+    const { fetchModel } = await import('./model_link.js');
+    const { bytes, file } = await fetchModel(model);
+    if (turn === this.opening) await this.play(bytes, file, false, turn);
+  }
+
+  /** Lets a flame that has never felt wind answer as the shipped one does. */
+  async borrowWind(): Promise<void> {
+    const { playing } = this;
+    if (!(playing?.scene instanceof CandleScene) || playing.borrows) return;
+    const lender = this.wisp.model(await fetchShipped(shippedFlame(DEFAULTS.order)));
+    await playing.scene.borrow(lender);
+    if (this.playing === playing) {
+      playing.borrows = true;
+      this.changed(playing);
+    }
+    lender.free();
+  }
+
   /** Plays the shipped model of the scene in the settings. Throws where it cannot be fetched. */
   async playShipped(): Promise<void> {
     const shipped = this.settings.scene === 'leaves' ? SHIPPED_LEAF : shippedFlame(this.settings.order);
@@ -36,11 +61,10 @@ export class Player {
     if (turn === this.opening) await this.play(bytes, shipped.file, true, turn);
   }
 
-  /** Plays a file that somebody gave. Throws Refused, and what played plays on. */
-  async playFile(file: File): Promise<void> {
-    const turn = ++this.opening;
-    const bytes = await readDropped(file);
-    if (turn === this.opening) await this.play(bytes, file.name, false, turn);
+  /** Plays a file that somebody gave. Throws what is wrong with it, and what played plays on. */
+  async playFile(name: string, bytes: Uint8Array): Promise<void> {
+    await this.play(bytes, name, false, ++this.opening);
+    this.settings.model = '';
   }
 
   /** Takes over changed settings; true where another model has to be fetched for them. */
@@ -50,6 +74,7 @@ export class Player {
     const { playing } = this;
     if (playing === null) return false;
     const { scene, order } = this.settings;
+    if (change.model !== undefined && change.model !== before.model) return true;
     if (change.scene !== undefined && (scene !== before.scene || !playing.shipped)) return true;
     if (playing.shipped && playing.tab === 'candle' && order !== before.order) return true;
     playing.scene.apply(this.sceneSettings(playing.tab));
@@ -62,12 +87,7 @@ export class Player {
   }
 
   private async play(bytes: Uint8Array, file: string, shipped: boolean, turn: number): Promise<void> {
-    let model: Model;
-    try {
-      model = this.wisp.model(bytes);
-    } catch (error) {
-      throw refusalOf(file, error);
-    }
+    const model = this.wisp.model(bytes);
     const { scene, tab } = await this.sceneOf(model);
     if (turn !== this.opening) {
       scene.dispose();
@@ -77,7 +97,7 @@ export class Player {
     const before = this.playing?.model;
     this.stage.show(scene);
     before?.free();
-    this.playing = { scene, tab, model, bytes, file, shipped, answerName: scene.answerName };
+    this.playing = { scene, tab, model, bytes, file, shipped, answerName: scene.answerName, borrows: false };
     this.changed(this.playing);
   }
 
@@ -86,7 +106,7 @@ export class Player {
       return { scene: new CandleScene(model, this.sceneSettings('candle')), tab: 'candle' };
     }
     if (model.view === 'pose' || model.view === 'position') {
-      const { LeavesScene } = await import('./leaves/scene.js');
+      const { LeavesScene } = await import('@wisp/player/parts/leaves/scene');
       return { scene: new LeavesScene(model, this.sceneSettings('leaves')), tab: 'leaves' };
     }
     const { PlainScene } = await import('./plain/scene.js');

@@ -1,7 +1,7 @@
 // Figures for measurements from outside (docs/studies/live.md): tests, the bench, whoever is curious in the console.
 
 import type { SoundPath } from './wind/breath.js';
-import type { FrameCost } from './stage/stage.js';
+import type { FrameCost } from '@wisp/player/parts/stage/stage';
 
 const KEPT = 600;
 

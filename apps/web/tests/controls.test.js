@@ -162,7 +162,8 @@ describe('the drawer', { skip }, () => {
   it('opens by its button and by I, closes by Escape, its cross and I', async () => {
     const hidden = () => page.evaluate(() => document.getElementById('drawer').hidden);
     await page.click('#open-drawer');
-    assert.equal(await hidden(), false);
+    // It comes after the first flame.
+    await until(page, 'the drawer is open', () => !document.getElementById('drawer').hidden);
     assert.equal(await page.getAttribute('#open-drawer', 'aria-expanded'), 'true');
     await page.keyboard.press('Escape');
     assert.equal(await hidden(), true);
@@ -305,6 +306,7 @@ describe('the page', { skip }, () => {
   it('has its help by button and key', async () => {
     const open = () => page.evaluate(() => document.getElementById('help').open);
     await page.click('#open-help');
+    await until(page, 'the help is open', () => document.getElementById('help').open);
     assert.equal(await open(), true);
     await page.keyboard.press('Escape');
     assert.equal(await open(), false);
@@ -378,6 +380,7 @@ describe('the page', { skip }, () => {
   it('is calmer for who asked for less motion', async () => {
     const calm = await opened.page('#scene=candle&seed=3&detail=0.5', { reducedMotion: 'reduce' });
     await calm.keyboard.press('i');
+    await until(calm, 'the drawer is open', () => !document.getElementById('drawer').hidden);
     assert.equal(await calm.inputValue('[data-knob=noise]'), '0.3');
     await calm.close();
   });

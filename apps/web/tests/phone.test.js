@@ -67,6 +67,7 @@ describe('on a phone', { skip }, () => {
 
   it('the drawer fits the screen and can be scrolled to its end', async () => {
     await page.tap('#open-drawer');
+    await until(page, 'the drawer is open', () => !document.getElementById('drawer').hidden);
     const sizes = await page.$eval('#drawer', (drawer) => {
       drawer.scrollTop = drawer.scrollHeight;
       const last = drawer.lastElementChild.getBoundingClientRect();

@@ -83,8 +83,13 @@ describe('trouble', { skip }, () => {
   });
 
   it('says that a file of 50 MB is no model, without reading it', async () => {
-    await drop('film.mp4', 50_000_000);
-    await said('film.mp4 is 50 MB');
+    await drop('heap.bin', 50_000_000);
+    await said('heap.bin is 50 MB large');
+  });
+
+  it('says of a film how to learn from it', async () => {
+    await drop('candle.mp4', 1000);
+    await said('wisp learn flame candle.mp4 -o flame.wisp');
   });
 
   it('says what is wrong with a broken model', async () => {

@@ -1,40 +1,13 @@
 // The package as `npm pack` makes it, used by a plain page and by a Vite project, in Chromium.
 
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
-import { cpSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { createServer } from 'node:http';
+import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
-import { extname, join, normalize } from 'node:path';
+import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
-import { fileURLToPath } from 'node:url';
 
+import { executablePath, furnish, models, pack, quiet, serve, skip, until } from './chromium.mjs';
 import { Chance } from './lives.mjs';
-
-const here = fileURLToPath(new URL('.', import.meta.url));
-const models = fileURLToPath(new URL('../../../tests/c/models/', import.meta.url));
-const executablePath = process.env.WISP_CHROMIUM ?? '/usr/bin/chromium';
-const quiet = ['--no-sandbox', '--disable-background-networking', '--disable-component-update', '--disable-sync',
-  '--disable-quic', '--no-first-run'];
-
-const types = { '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.wasm': 'application/wasm' };
-const policy = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; object-src 'none'";
-
-/** Serves a folder under a strict policy. */
-function serve(folder) {
-  const server = createServer((request, response) => {
-    const path = join(folder, normalize(new URL(request.url, 'http://localhost').pathname));
-    const file = path.endsWith('/') ? join(path, 'index.html') : path;
-    if (path.endsWith('favicon.ico')) return response.writeHead(204).end();
-    if (!existsSync(file)) return response.writeHead(404).end();
-    response.writeHead(200, {
-      'content-type': types[extname(file)] ?? 'application/octet-stream',
-      'content-security-policy': policy,
-    });
-    response.end(readFileSync(file));
-  });
-  return new Promise((resolve) => server.listen(0, 'localhost', () => resolve(server)));
-}
 
 /** Two seconds of a room, two of blowing, as a WAV file. */
 function writeBreath(path) {
@@ -62,30 +35,6 @@ function writeBreath(path) {
   writeFileSync(path, Buffer.concat([header, Buffer.from(samples.buffer)]));
 }
 
-/** Waits until an expression is true in a page: by asking, since the policy forbids Playwright's own way. */
-async function until(page, expression) {
-  for (let tries = 0; tries < 200; ++tries) {
-    if (await page.evaluate(`Boolean(${expression})`)) return;
-    await new Promise((resolve) => setTimeout(resolve, 100));
-  }
-  assert.fail(`20 seconds, and still not: ${expression}`);
-}
-
-/** A folder with the packed package installed, a page, what both pages share, and the models. */
-function furnish(work, tarball, name) {
-  const folder = join(work, name);
-  const installed = join(folder, 'node_modules/@wisp/player');
-  mkdirSync(installed, { recursive: true });
-  execFileSync('tar', ['-xzf', tarball, '-C', installed, '--strip-components=1']);
-  cpSync(join(here, 'pages', name), folder, { recursive: true });
-  for (const shared of ['pages/exercise.js', 'pages/life_worker.js', 'lives.mjs']) {
-    cpSync(join(here, shared), join(folder, shared.split('/').at(-1)));
-  }
-  return folder;
-}
-
-const skip = existsSync(executablePath) ? false : `there is no ${executablePath}`;
-
 describe('in Chromium', { skip }, () => {
   let work, chromium, browser, listening;
   const servers = {};
@@ -94,8 +43,7 @@ describe('in Chromium', { skip }, () => {
     ({ chromium } = await import('playwright-core'));
     const { build } = await import('vite');
     work = mkdtempSync(join(tmpdir(), 'wisp-player-'));
-    const packed = execFileSync('npm', ['pack', '--silent', '--pack-destination', work], { cwd: join(here, '..') });
-    const tarball = join(work, packed.toString().trim());
+    const tarball = pack(work);
     const plain = furnish(work, tarball, 'plain');
     const project = furnish(work, tarball, 'vite');
     await build({ root: project, logLevel: 'error', configFile: join(project, 'vite.config.js') });

@@ -49,11 +49,15 @@ class ArxPart {
   /// Errors: also those of CsvReader.
   Result<void> add(const std::filesystem::path& table, const CsvOptions& options = {}, const TableShare& share = {});
 
-  /// Takes in all that another part knows. Errors: a part of another model.
+  /// Takes in all that another part knows. Errors: a part of another model, rows that are in both.
   Result<void> merge(const ArxPart& other);
 
   /// Rows in the regression so far.
   std::size_t rows() const;
+
+  /// Parts that were merged, itself counted; and what the recordings are called whose rows they hold.
+  std::size_t jobs() const;
+  std::vector<std::string> sources() const;
 
   /// Orders of the model.
   const ArxOrders& orders() const;
@@ -67,7 +71,8 @@ class ArxPart {
   /// The fit of all that was taken in, as learn() makes it; `sources` are the names that the model remembers. Of the
   /// recipe only name, offset, ridge, radius, keep_unstable and responses count here. Free simulation is judged where
   /// all that was taken in are CSV files, which are read once more for it; residuals are not tested.
-  /// Errors: too few rows, a file that cannot be read again, kStopped.
+  /// Errors: too few rows, rows of a recording's shares that are in no part, a file that cannot be read again,
+  /// kStopped.
   Result<Fit> finish(const ArxRecipe& recipe, const std::vector<std::string>& sources,
                      const Progress& progress = {}) const;
 

@@ -43,4 +43,31 @@ Result<Report> validate(const Model& model, std::span<const Recording> recording
 Result<Report> validate(const Model& model, const Recording& recording, const ValidationOptions& options = {},
                         const Progress& progress = {});
 
+/// Which predictions.
+struct PredictionOptions {
+  int steps = 1;                                   ///< ahead, 1 to 100000, or kFreeRun: from the inputs alone
+  InitialState initial = InitialState::kMeasured;  ///< of an ARX model's free run; others start from measured samples
+};
+
+/// What a model says of a recording, row by row, as a recording: its inputs, and for every output the measured channel
+/// NAME, NAME.predicted and, but for switched models, NAME.low and NAME.high: the 95 % interval by the model's own
+/// noise. NaN where there is no prediction: at the beginning of an episode, and after missing samples. Of an outline in
+/// the recording's pixels.
+/// Errors, naming the recording: channels that it has not, another rate than the model's; a segment chain, which
+/// predicts no rows; a start that the model cannot have; steps out of range.
+Result<Recording> predict(const Model& model, const Recording& recording, const PredictionOptions& options = {});
+
+/// A model and what it is called among others.
+struct NamedModel {
+  std::string name;
+  Model model;
+};
+
+/// Holds several ARX or switched models against one recording: the table `compared` has the fit of every output by
+/// every model, over the rows that all models predict; series are what was measured and what each model said in the
+/// last of `options.steps`. Of the options, steps and initial count. Errors: as predict(), naming the model; a model of
+/// an outline; kStopped.
+Result<Report> compare(std::span<const NamedModel> models, const Recording& recording,
+                       const ValidationOptions& options = {}, const Progress& progress = {});
+
 }  // namespace wisp

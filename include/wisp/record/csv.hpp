@@ -2,6 +2,7 @@
 // Recordings as CSV: Wisp's own form (docs/reference/recordings.md) and plain tables from elsewhere.
 
 #include <cstddef>
+#include <deque>
 #include <filesystem>
 #include <iosfwd>
 #include <string>
@@ -13,20 +14,27 @@
 
 namespace wisp {
 
+namespace csv {
+struct Cell;
+}
+
 /// How to understand a table that does not say so itself. A file's own words win where both speak, except
 /// `inputs` and `outputs`, which, when given, choose the channels to keep and their roles.
 struct CsvOptions {
   double rate_hz = 0;                  ///< samples a second; 0: the file must state it
   std::vector<std::string> inputs{};   ///< columns that are inputs
   std::vector<std::string> outputs{};  ///< columns that are outputs
+  std::vector<std::string> columns{};  ///< names of all columns in their order, in place of a header or without one
 };
 
 /// A table read a stretch at a time, for recordings larger than memory.
 class CsvReader {
  public:
   /// Reads the comment lines and the header. `name` stands for the file in messages.
-  /// Errors, each with file and row (1-based, as an editor counts lines): not text, no header, no rate, an unknown
-  /// version, an unknown or repeated column.
+  /// Tables from elsewhere may be separated by commas, semicolons, tabs or blanks, have decimal commas, a line that
+  /// tells Excel the separator, a line of units, and comment lines that begin with # or %.
+  /// Errors, each with file and row (1-based, as an editor counts lines): not text, no header and no names, no rate, an
+  /// unknown version, an unknown or repeated column.
   ///
   /// Precondition: `stream` outlives the reader.
   static Result<CsvReader> open(std::istream& stream, std::string_view name, const CsvOptions& options = {});
@@ -36,7 +44,9 @@ class CsvReader {
 
   /// Appends up to `most_rows` further rows to `recording`, which is the header or what was read before.
   /// Returns how many; 0 at the end.
-  /// Errors: a wrong number of columns, text, NaN or infinity where a number belongs, a line longer than 16 MiB.
+  /// An empty cell, NaN or NA is a missing sample.
+  /// Errors: a wrong number of columns, text or infinity where a number belongs, decimal points and commas in one
+  /// table, a line longer than 16 MiB.
   Result<std::size_t> read(Recording& recording, std::size_t most_rows);
 
   /// Passes over up to `most_rows` rows without looking at their numbers.
@@ -50,11 +60,24 @@ class CsvReader {
     std::size_t index = 0;  // of the channel or flag
   };
 
+  struct Line {
+    std::string text;
+    std::size_t row = 0;
+  };
+
+  Result<bool> read_line(Line& line);
   Result<bool> next_line();
+  Result<std::vector<std::string>> look_ahead();
+  Result<void> read_attribute();
   Result<void> read_attributes();
+  Result<std::vector<std::string>> read_names(const CsvOptions& options);
+  Result<void> add_column(const std::string& name, const CsvOptions& options);
+  Result<void> check_columns(const std::vector<std::string>& names, const CsvOptions& options) const;
+  Result<void> read_units();
   Result<void> read_columns(const CsvOptions& options);
   Result<void> add_row(Recording& recording);
-  Result<void> add_cell(Recording& recording, const Column& column, std::string_view cell, std::size_t place);
+  Result<void> add_cell(Recording& recording, const Column& column, const csv::Cell& cell, std::size_t place);
+  Result<void> check_mark(const csv::Cell& cell);
   Error at_row(const std::string& what) const;
 
   std::istream* stream_ = nullptr;
@@ -62,9 +85,13 @@ class CsvReader {
   Recording header_;
   std::vector<Column> columns_;
   std::string line_;
-  std::size_t row_ = 0;
-  char separator_ = ',';
+  std::size_t row_ = 0;  // of line_, 1-based
+  std::deque<Line> ahead_;
+  std::size_t rows_read_ = 0;
+  char separator_ = '\0';
   bool own_form_ = false;
+  bool commas_ = false;  // numbers so far had decimal commas, points
+  bool points_ = false;
 };
 
 /// Reads a recording from a CSV file.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -29,6 +30,10 @@ constexpr std::array<ImageKind, 9> kKinds{{{".png", AV_CODEC_ID_PNG},
 // A picture of more than this is not a frame of a clip.
 constexpr std::size_t kMaxImageBytes = std::size_t{256} << 20;
 
+// A longer hole in the numbers is taken as this long, as in a video: what matters is that an episode ends there.
+constexpr double kLongestGapSeconds = 2;
+constexpr std::size_t kMostDigits = 18;
+
 std::string lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return text;
@@ -42,16 +47,15 @@ AVCodecID codec_of(const std::filesystem::path& path) {
   return AV_CODEC_ID_NONE;
 }
 
-// The last group of digits in the name, or −1.
-std::int64_t number_in(const std::filesystem::path& path) {
+// The last group of digits in the name.
+std::string digits_in(const std::filesystem::path& path) {
   const std::string stem = path.stem().string();
   const auto digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
   std::size_t end = stem.size();
   while (end > 0 && !digit(stem[end - 1])) --end;
   std::size_t begin = end;
   while (begin > 0 && digit(stem[begin - 1])) --begin;
-  if (begin == end || end - begin > 18) return -1;
-  return std::stoll(stem.substr(begin, end - begin));
+  return stem.substr(begin, end - begin);
 }
 
 std::string pixels(int width, int height) { return std::to_string(width) + " x " + std::to_string(height) + " pixels"; }
@@ -63,8 +67,17 @@ Result<std::vector<ImageFolder::NumberedImage>> ImageFolder::list(const std::fil
   std::error_code code;
   for (const auto& entry : std::filesystem::directory_iterator(path, code)) {
     if (codec_of(entry.path()) == AV_CODEC_ID_NONE) continue;
-    const std::int64_t number = number_in(entry.path());
-    if (number >= 0) images.push_back({entry.path(), number, 0});
+    const std::string digits = digits_in(entry.path());
+    if (digits.empty()) continue;
+    if (digits.size() > kMostDigits) {
+      return Error{entry.path().string() + ": its number has " + std::to_string(digits.size()) +
+                   " digits, expected at most 18; number the images by frames"};
+    }
+    std::error_code ignored;
+    if (!entry.is_regular_file(ignored)) {
+      return Error{entry.path().string() + ": is no plain file, expected an image; remove it from the folder"};
+    }
+    images.push_back({entry.path(), std::stoll(digits), 0});
   }
   if (code) return Error{path.string() + ": the folder cannot be read (" + code.message() + ")"};
   if (images.empty()) {
@@ -87,17 +100,25 @@ Result<std::vector<ImageFolder::NumberedImage>> ImageFolder::list(const std::fil
 void ImageFolder::place(std::vector<NumberedImage>& images) {
   std::int64_t step = std::numeric_limits<std::int64_t>::max();
   for (std::size_t k = 1; k < images.size(); ++k) step = std::min(step, images[k].number - images[k - 1].number);
-  for (NumberedImage& image : images) image.index = (image.number - images.front().number) / step;
+  const auto longest = static_cast<std::int64_t>(std::ceil(std::min(kLongestGapSeconds * info_.rate_hz, 1e6)));
+  for (std::size_t k = 1; k < images.size(); ++k) {
+    const std::int64_t way = (images[k].number - images[k - 1].number) / step;
+    if (way > longest + 1) ++long_gaps_;
+    images[k].index = images[k - 1].index + std::min(way, longest + 1);
+  }
 }
 
 Result<ImageFolder> ImageFolder::open(const std::filesystem::path& path, const VideoOptions& options) {
   if (!(options.rate_hz > 0))
     return Error{path.string() + ": a folder of images has no rate of its own; give --rate HZ"};
+  silence_libav();
   auto images = list(path);
   if (!images) return images.error();
   ImageFolder folder;
   folder.images_ = std::move(images).value();
-  place(folder.images_);
+  folder.path_ = path;
+  folder.info_.rate_hz = options.rate_hz;
+  folder.place(folder.images_);
   if (options.frames) {
     const std::int64_t last = folder.images_.back().index + 1;
     if (options.frames->first > last) {
@@ -110,7 +131,6 @@ Result<ImageFolder> ImageFolder::open(const std::filesystem::path& path, const V
   }
   folder.packet_.reset(av_packet_alloc());
   folder.frame_.reset(av_frame_alloc());
-  folder.info_.rate_hz = options.rate_hz;
   folder.info_.frames = static_cast<std::int64_t>(folder.images_.size());
   folder.info_.images = true;
   if (folder.images_.empty()) return folder;
@@ -128,6 +148,7 @@ Result<void> ImageFolder::decode(const std::filesystem::path& path) {
     const AVCodec* codec = avcodec_find_decoder(id);
     codec_.reset(codec == nullptr ? nullptr : avcodec_alloc_context3(codec));
     if (codec_) codec_->thread_count = 1;
+    if (codec_) codec_->max_pixels = kMostPixels;
     if (!codec_ || avcodec_open2(codec_.get(), codec, nullptr) < 0) {
       return Error{path.string() + ": this FFmpeg cannot decode such images; convert them to PNG"};
     }
@@ -149,6 +170,12 @@ Result<void> ImageFolder::decode(const std::filesystem::path& path) {
     return Error{path.string() + ": the image cannot be decoded (" + libav_message(code) + "); remove or replace it"};
   }
   return {};
+}
+
+std::vector<std::string> ImageFolder::warnings() const {
+  if (long_gaps_ == 0) return {};
+  return {path_.string() + ": " + std::to_string(long_gaps_) + (long_gaps_ == 1 ? " hole" : " holes") +
+          " of more than 2 s in the images' numbers taken as 2 s"};
 }
 
 std::vector<OwnedPicture> ImageFolder::glimpses(int count) {

@@ -15,7 +15,7 @@ class ImageFolder {
   Result<std::optional<VideoFrame>> next();
   std::vector<OwnedPicture> glimpses(int count);
   RgbImage rgb() { return pictures_.rgb(*frame_); }
-  std::vector<std::string> warnings() const { return {}; }
+  std::vector<std::string> warnings() const;
 
  private:
   struct NumberedImage {
@@ -24,10 +24,12 @@ class ImageFolder {
     std::int64_t index = 0;
   };
   static Result<std::vector<NumberedImage>> list(const std::filesystem::path& path);
-  static void place(std::vector<NumberedImage>& images);
+  void place(std::vector<NumberedImage>& images);
   Result<void> decode(const std::filesystem::path& path);
 
+  std::filesystem::path path_;
   std::vector<NumberedImage> images_;
+  int long_gaps_ = 0;
   std::size_t at_ = 0;
   VideoInfo info_;
   CodecOwner codec_;

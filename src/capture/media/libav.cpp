@@ -5,12 +5,22 @@
 namespace wisp {
 namespace {
 
-void silence() {
+// What clips and sounds are kept in. FFmpeg knows more, among it playlists and scripts that make it open other files.
+constexpr const char* kContainers =
+    "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,avi,mpegts,mpeg,mpegvideo,flv,asf,ogg,nut,ivf,gif,apng,yuv4mpegpipe,h264,"
+    "hevc,wav,w64,aiff,caf,flac,mp3,aac,au";
+
+struct Options {
+  AVDictionary* entries = nullptr;
+  ~Options() { av_dict_free(&entries); }
+};
+
+}  // namespace
+
+void silence_libav() {
   static std::once_flag once;
   std::call_once(once, [] { av_log_set_level(AV_LOG_QUIET); });
 }
-
-}  // namespace
 
 std::string libav_message(int code) {
   char buffer[AV_ERROR_MAX_STRING_SIZE] = {};
@@ -19,15 +29,22 @@ std::string libav_message(int code) {
 }
 
 Result<FormatOwner> open_media(const std::filesystem::path& path) {
-  silence();
+  silence_libav();
   const std::string name = path.string();
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) return Error{name + ": no such file; check the path"};
   if (std::filesystem::is_directory(path, ignored)) {
     return Error{name + ": found a folder, expected a media file"};
   }
+  if (!std::filesystem::is_regular_file(path, ignored)) {
+    return Error{name + ": is no plain file but a device or a pipe, expected a media file"};
+  }
+  Options options;
+  av_dict_set(&options.entries, "format_whitelist", kContainers, 0);
+  av_dict_set(&options.entries, "protocol_whitelist", "file", 0);
   AVFormatContext* raw = nullptr;
-  int code = avformat_open_input(&raw, name.c_str(), nullptr, nullptr);
+  // Without "file:" a name with a colon would be taken for a protocol.
+  int code = avformat_open_input(&raw, ("file:" + name).c_str(), nullptr, &options.entries);
   if (code < 0) {
     return Error{name + ": cannot be read as video or sound (" + libav_message(code) +
                  "); it is of another kind, or was cut off before its index; give a file that plays"};
@@ -49,6 +66,7 @@ Result<CodecOwner> open_decoder(const std::filesystem::path& path, const AVStrea
     return Error{path.string() + ": not enough memory to decode " + coded};
   }
   context->thread_count = threads;
+  context->max_pixels = kMostPixels;
   context->pkt_timebase = track.time_base;
   if (const int code = avcodec_open2(context.get(), codec, nullptr); code < 0) {
     return Error{path.string() + ": the decoder for " + coded + " does not start (" + libav_message(code) +

@@ -11,6 +11,7 @@ extern "C" {
 #include <libswscale/swscale.h>
 }
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -45,12 +46,19 @@ using PacketOwner = std::unique_ptr<AVPacket, PacketCloser>;
 using ScalerOwner = std::unique_ptr<SwsContext, ScalerCloser>;
 using ResamplerOwner = std::unique_ptr<SwrContext, ResamplerCloser>;
 
+/// More in a picture is a damaged size, not a camera's: eight times 4K.
+inline constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;
+
+/// From now on FFmpeg prints nothing itself.
+void silence_libav();
+
 /// FFmpeg's words for one of its error codes.
 std::string libav_message(int code);
 
 /// Opens a media file and reads what tracks it has. FFmpeg's own chatter on standard error is silenced: what matters
 /// comes back as errors and warnings.
-/// Errors: missing, a folder, not a media file, cut off before its index.
+/// Nothing but the file itself is read, whatever it says: playlists and scripts are not media files here.
+/// Errors: missing, a folder, a pipe or a device, not a media file, cut off before its index.
 Result<FormatOwner> open_media(const std::filesystem::path& path);
 
 /// A decoder for one track, opened with `threads` threads.

@@ -74,6 +74,7 @@ void add_ember(LightField& field, const Candle& candle) {
   const float bare = 1 - 0.8F * scene.size.value_or(0.0F);
   const float heat = burns(scene) ? 0.16F : bare * (0.75F * std::exp(-out / 0.7F) + 0.25F * std::exp(-out / 2.6F));
   if (heat < 0.004F) return;
+  const float halo = burns(scene) ? 0 : 0.25F;
   const Light glow = heat * Light{2.6F, 0.62F * (0.25F + 0.75F * heat), 0.10F * heat};
   const float radius = 0.62F * candle.wick.width + 0.5F;
   const int reach = static_cast<int>(std::ceil(2.2F * radius));
@@ -84,7 +85,8 @@ void add_ember(LightField& field, const Candle& candle) {
       const float dx = static_cast<float>(x) + 0.5F - candle.wick.end.x;
       const float dy = static_cast<float>(y) + 0.5F - candle.wick.end.y - 0.5F * radius;
       const float near = std::exp(-1.6F * (dx * dx + dy * dy) / (radius * radius));
-      field.add(x, y, near * (0.25F + 0.75F * wick_at(candle.wick, x, y)) * glow);
+      // While it burns only the wick's own end glows: a flame that leans away leaves no light of it beside it.
+      field.add(x, y, near * (halo + (1 - halo) * wick_at(candle.wick, x, y)) * glow);
     }
   }
 }

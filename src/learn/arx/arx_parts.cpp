@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <fstream>
 
+#include "base/hash.hpp"
 #include "learn/arx/judge/arx_verdict.hpp"
 #include "learn/arx/judge/free_run_judge.hpp"
 #include "learn/arx/learn_arx.hpp"
+#include "learn/arx/plain_model.hpp"
 #include "learn/arx/report/report_values.hpp"
+#include "learn/numeric/seen_rows.hpp"
 #include "learn/numeric/triangular_factor.hpp"
 
 namespace wisp {
@@ -57,9 +60,51 @@ Result<std::size_t> count_rows(const Table& table) {
   return *rows;
 }
 
+// Which rows of a recording a share is of.
+SeenRows seen_of(const std::string& source, std::uint64_t hash, std::uint64_t rows, const TableShare& share,
+                 const PartRows& part) {
+  const bool all = share.count == 1 && share.rows == kAllRows && rows == kAllRows;
+  const std::uint64_t last = all ? kToTheEnd : share.first + rows;
+  const std::uint64_t end = all || part.end >= rows ? last : share.first + part.end;
+  return {source, hash, share.first, last, share.first + part.begin, end};
+}
+
+// Of a file's bytes, read once more: two parts know by it that they are of one recording, wherever it lies.
+Result<std::uint64_t> hash_of_file(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::vector<char> block(std::size_t{1} << 20);
+  std::uint64_t hash = hash_bytes({});
+  while (stream.read(block.data(), static_cast<std::streamsize>(block.size())) || stream.gcount() > 0) {
+    hash = hash_bytes(std::as_bytes(std::span(block.data(), static_cast<std::size_t>(stream.gcount()))), hash);
+  }
+  if (stream.bad()) return Error{path.string() + ": cannot be read to its end"};
+  return hash;
+}
+
+// Of the samples of a model's channels.
+std::uint64_t hash_of_samples(const Recording& recording, const ChannelChoice& channels) {
+  std::uint64_t hash = hash_bytes({});
+  for (const auto* names : {&channels.outputs, &channels.inputs}) {
+    for (const std::string& name : *names) {
+      const auto channel = find_channel(recording, name);
+      if (channel) hash = hash_bytes(std::as_bytes(std::span(recording.channels[*channel].samples)), hash);
+    }
+  }
+  return hash;
+}
+
 bool driven(const ArxOrders& orders) {
   const auto nb = orders.nb.values();
   return std::any_of(nb.begin(), nb.end(), [](int order) { return order > 0; });
+}
+
+// Which rows of which recordings the model knows.
+void add_coverage(const FactorNotes& notes, ReportSection& section) {
+  if (notes.jobs < 2) return;
+  arx::add(section, "parts", static_cast<std::int64_t>(notes.jobs), "parts that were merged");
+  ReportTable table{"covered", "rows taken in", {{"source", "recording"}, {"rows", "rows"}}, {}};
+  for (const SeenRows& seen : notes.seen) table.rows.push_back({seen.source, rows_text(seen.begin, seen.end)});
+  section.tables.push_back(std::move(table));
 }
 
 // Simulates the model over the tables and adds what that says to the fit's summary.
@@ -85,8 +130,11 @@ struct ArxPart::State {
   std::vector<Table> tables{};  // that were taken in whole
   bool only_tables = true;      // nothing else was taken in
 
-  Result<void> merge(const TriangularFactor& more, const std::string& name) {
-    if (auto ok = factor.merge(more); !ok) return Error{name + ": " + ok.error().message};
+  Result<void> merge(const TriangularFactor& more, const SeenRows& seen) {
+    auto all = joined(factor.notes().seen, {copy_of(seen, factor.notes().seen)});
+    if (!all) return Error{seen.source + ": " + all.error().message};
+    if (auto ok = factor.merge(more); !ok) return Error{seen.source + ": " + ok.error().message};
+    factor.set_notes({factor.notes().jobs, std::move(*all)});
     return {};
   }
 };
@@ -114,32 +162,46 @@ Result<void> ArxPart::add(const Recording& recording, const TableShare& share) {
   if (share.first >= recording.rows() || end > recording.rows()) return beyond(recording.source, share);
   const Recording ranged = slice(recording, share.first, end);
   TriangularFactor factor = state_->empty;
-  if (auto ok = factor.add(ranged, part_rows(ranged.rows(), share.index, share.count)); !ok) return ok;
+  const PartRows part = part_rows(ranged.rows(), share.index, share.count);
+  if (auto ok = factor.add(ranged, part); !ok) return ok;
+  const std::uint64_t hash = hash_of_samples(recording, factor.options().channels);
+  if (auto ok = state_->merge(factor, seen_of(recording.source, hash, ranged.rows(), share, part)); !ok) return ok;
   state_->only_tables = false;
-  return state_->merge(factor, recording.source);
+  return {};
 }
 
 Result<void> ArxPart::add(const std::filesystem::path& path, const CsvOptions& options, const TableShare& share) {
   const Table table{path, options, share};
   PartRows part;
+  std::uint64_t rows = kAllRows;
   if (share.count > 1 || share.first > 0 || share.rows != kAllRows) {
-    const auto rows = count_rows(table);
-    if (!rows) return rows.error();
-    part = part_rows(*rows, share.index, share.count);
+    const auto counted = count_rows(table);
+    if (!counted) return counted.error();
+    rows = *counted;
+    part = part_rows(*counted, share.index, share.count);
   }
   const auto open = open_table(table);
   if (!open) return open.error();
   TriangularFactor factor = state_->empty;
   const bool last = share.index + 1 == share.count;
   if (auto ok = factor.add(*open->reader, part, last ? std::min(part.end, share.rows) : kAllRows); !ok) return ok;
-  if (auto ok = state_->merge(factor, path.string()); !ok) return ok;
+  const auto hash = hash_of_file(path);
+  if (!hash) return hash.error();
+  const SeenRows seen = seen_of(path.filename().string(), *hash, rows, share, part);
+  if (auto ok = state_->merge(factor, seen); !ok) return ok;
   state_->tables.push_back(table);
   state_->only_tables &= share.count == 1;
   return {};
 }
 
 Result<void> ArxPart::merge(const ArxPart& other) {
-  if (auto ok = state_->factor.merge(other.state_->factor); !ok) return ok;
+  const FactorNotes &own = state_->factor.notes(), &more_notes = other.state_->factor.notes();
+  TriangularFactor whole = state_->factor;
+  if (auto ok = whole.merge(other.state_->factor); !ok) return ok;
+  auto seen = joined(own.seen, more_notes.seen);
+  if (!seen) return seen.error();
+  whole.set_notes({own.jobs + more_notes.jobs, std::move(*seen)});
+  state_->factor = std::move(whole);
   state_->only_tables &= other.state_->only_tables;
   const auto& more = other.state_->tables;
   state_->tables.insert(state_->tables.end(), more.begin(), more.end());
@@ -147,6 +209,17 @@ Result<void> ArxPart::merge(const ArxPart& other) {
 }
 
 std::size_t ArxPart::rows() const { return state_->factor.rows(); }
+
+std::size_t ArxPart::jobs() const { return static_cast<std::size_t>(state_->factor.notes().jobs); }
+
+std::vector<std::string> ArxPart::sources() const {
+  std::vector<std::string> names;
+  for (const SeenRows& seen : state_->factor.notes().seen) {
+    if (std::find(names.begin(), names.end(), seen.source) == names.end()) names.push_back(seen.source);
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
 
 const ArxOrders& ArxPart::orders() const { return state_->factor.options().orders; }
 
@@ -164,6 +237,14 @@ Result<Fit> ArxPart::finish(const ArxRecipe& recipe, const std::vector<std::stri
                             const Progress& progress) const {
   const TriangularFactor& factor = state_->factor;
   const ChannelChoice& channels = factor.options().channels;
+  const FactorNotes& notes = factor.notes();
+  if (auto ok = check_complete(notes.seen); !ok) return ok.error();
+  const auto spans = factor.spans();
+  for (std::size_t c = 0; c < spans.size(); ++c) {
+    const std::size_t outputs = channels.outputs.size();
+    const std::string& name = c < outputs ? channels.outputs[c] : channels.inputs[c - outputs];
+    if (auto ok = arx::check_size(name, spans[c]); !ok) return ok.error();
+  }
   if (auto ok = arx::check_progress(progress, "fitting", 0); !ok) return ok.error();
   auto fitted = factor.finish(arx::fit_options(recipe, factor.options().orders));
   if (!fitted) return fitted.error();
@@ -173,6 +254,7 @@ Result<Fit> ArxPart::finish(const ArxRecipe& recipe, const std::vector<std::stri
   }
   arx::judge_use({channels, factor.options().orders}, fitted->summary);
   Fit fit = arx::finish(*fitted, recipe, channels, {factor.rate_hz(), factor.spans(), sources});
+  add_coverage(notes, fit.report.sections.back());
   if (!simulated && driven(fitted->model.orders)) {
     arx::add_line(fit.report.sections.back(), "free simulation",
                   "not judged: parts hold no rows to simulate; validate the model on a recording");

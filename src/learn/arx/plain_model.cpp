@@ -7,9 +7,12 @@
 #include "learn/arx/fit/arx_check.hpp"
 #include "learn/arx/rows/arx_orders.hpp"
 #include "learn/arx/rows/arx_rows.hpp"
+#include "record/number_text.hpp"
 
 namespace wisp::arx {
 namespace {
+
+constexpr double kLeastRange = 1e-120;  // of a channel: its square, and that of its square, are numbers
 
 ChannelSpan span_of(const std::string& name, std::span<const Recording> recordings) {
   ChannelSpan span;
@@ -54,11 +57,24 @@ std::string word_of(Coupling coupling) {
 
 }  // namespace
 
+Result<void> check_size(const std::string& name, const ChannelSpan& span) {
+  const double size = std::max(std::abs(span.lowest), std::abs(span.highest)), range = span.highest - span.lowest;
+  const bool tiny = range > 0 && range<kLeastRange, huge = size> 1 / kLeastRange;
+  if (!tiny && !huge) return {};
+  return Error{"channel '" + name + "' reaches from " + number_text(span.lowest, 6) + " to " +
+               number_text(span.highest, 6) + ", whose squares no number holds: give it in another unit, near 1"};
+}
+
 Result<Sources> sources_of(std::span<const Recording> recordings, const ChannelChoice& channels) {
   if (const auto found = find_signals(recordings, channels); !found) return found.error();
   Sources sources{.rate_hz = recordings.front().rate_hz};
   for (const auto* names : {&channels.outputs, &channels.inputs}) {
-    for (const std::string& name : *names) sources.spans.push_back(span_of(name, recordings));
+    for (const std::string& name : *names) {
+      sources.spans.push_back(span_of(name, recordings));
+      if (auto ok = check_size(name, sources.spans.back()); !ok) {
+        return Error{recordings.front().source + ": " + ok.error().message};
+      }
+    }
   }
   for (const Recording& recording : recordings) sources.files.push_back(recording.source);
   return sources;

@@ -23,7 +23,10 @@ struct Sources {
   std::vector<InputCurve> curves{};  ///< one an input, or none
 };
 
-/// Of recordings in memory. Errors: there is none, or one has not a channel.
+/// Whether the squares of a channel's samples are numbers. Errors: they are not; a constant channel is no error.
+Result<void> check_size(const std::string& name, const ChannelSpan& span);
+
+/// Of recordings in memory. Errors: there is none, or one has not a channel; as check_size().
 Result<Sources> sources_of(std::span<const Recording> recordings, const ChannelChoice& channels);
 
 /// Name, rate, channels with their units and ranges, and sources; in the recordings' own units.

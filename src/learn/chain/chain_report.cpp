@@ -145,6 +145,10 @@ ReportSection fidelity_section(const ChainFidelity& fidelity, bool has_orientati
 }
 
 std::optional<std::string> fault_of(const ChainFidelity& fidelity) {
+  if (std::isnan(fidelity.synthesized.event_seconds)) {
+    return "its falls have no events, and recorded ones have one every " + number_text(fidelity.real.event_seconds, 3) +
+           " s: record more, or choose another event, realisation or number of modes";
+  }
   const std::pair<const char*, const Bounded*> measures[] = {{"over half a second", &fidelity.energy_distance},
                                                              {"over two seconds", &fidelity.long_energy_distance},
                                                              {"by spectra", &fidelity.seconds.spectra}};

@@ -41,7 +41,7 @@ Result<Report> validate_falls(const Model& model, std::span<const Recording> fal
   auto tracks = fall_tracks(model, falls, *options);
   if (!tracks) return tracks.error();
   Report report;
-  if (std::isnan(fidelity->energy_distance.value)) {
+  if (fidelity->windows == 0) {
     report.warnings.push_back(falls.front().source + ": its stretches are shorter than " +
                               number_text(fidelity->window_seconds, 3) +
                               " s, expected longer ones: how like the falls are was not measured");

@@ -3,6 +3,7 @@
 
 #include "learn/numeric/factor_state.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -14,10 +15,11 @@ namespace wisp {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x3152544350534957;  // "WISPCTR1"
-constexpr std::uint64_t kVersion = 1;
+constexpr std::uint64_t kVersion = 2;
 constexpr std::size_t kHeader = 4 * 8;
 constexpr std::uint64_t kMostChannels = 4096;
 constexpr std::uint64_t kMostName = 65536;
+constexpr std::uint64_t kMostSeen = 1 << 20;
 
 std::uint64_t hash(std::span<const std::byte> bytes) {
   std::uint64_t value = 0xcbf29ce484222325;
@@ -111,6 +113,33 @@ FactorOptions read_options(Reader& reader) {
   return options;
 }
 
+void write_notes(const FactorNotes& notes, Writer& payload) {
+  payload.number(notes.jobs);
+  payload.number(notes.seen.size());
+  for (const SeenRows& seen : notes.seen) {
+    payload.text(seen.source);
+    for (std::uint64_t number : {seen.hash, seen.first, seen.last, seen.begin, seen.end, seen.copy})
+      payload.number(number);
+  }
+}
+
+void read_notes(Reader& reader, FactorNotes& notes) {
+  notes.jobs = reader.number();
+  const std::uint64_t count = reader.bounded(kMostSeen);
+  for (std::uint64_t k = 0; k < count && reader.fine(); ++k) {
+    SeenRows seen{.source = reader.text()};
+    for (auto* number : {&seen.hash, &seen.first, &seen.last, &seen.begin, &seen.end, &seen.copy})
+      *number = reader.number();
+    notes.seen.push_back(std::move(seen));
+  }
+}
+
+bool meaningful(const FactorNotes& notes) {
+  return notes.jobs > 0 && std::all_of(notes.seen.begin(), notes.seen.end(), [](const SeenRows& seen) {
+           return seen.first <= seen.begin && seen.begin <= seen.end && seen.end <= seen.last;
+         });
+}
+
 void read_channels(Reader& reader, FactorState& state) {
   for (std::size_t c = 0; c < state.reference.size(); ++c) {
     state.reference[c] = reader.real();
@@ -193,6 +222,7 @@ std::vector<std::byte> factor_bytes(const FactorState& state) {
   for (Eigen::Index q = 0; q < state.triangle.cols(); ++q) {
     for (Eigen::Index p = 0; p <= q; ++p) payload.real(state.triangle(p, q));
   }
+  write_notes(state.notes, payload);
   const std::vector<std::byte> body = payload.take();
   Writer whole;
   whole.number(kMagic);
@@ -232,7 +262,8 @@ Result<FactorState> factor_from_bytes(std::span<const std::byte> bytes) {
   for (Eigen::Index q = 0; q < state.triangle.cols(); ++q) {
     for (Eigen::Index p = 0; p <= q; ++p) state.triangle(p, q) = reader.real();
   }
-  if (!reader.fine() || reader.left() != 0 || !meaningful(state)) return damaged;
+  read_notes(reader, state.notes);
+  if (!reader.fine() || reader.left() != 0 || !meaningful(state) || !meaningful(state.notes)) return damaged;
   return state;
 }
 

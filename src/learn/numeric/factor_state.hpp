@@ -27,6 +27,7 @@ struct FactorState {
   std::uint64_t episodes_used = 0;
   std::uint64_t episodes_skipped = 0;
   std::uint64_t rows_left_out = 0;
+  FactorNotes notes;
 
   explicit FactorState(const FactorOptions& given);
 

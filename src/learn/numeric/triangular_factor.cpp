@@ -213,6 +213,10 @@ double TriangularFactor::rate_hz() const { return state_->rate_hz; }
 
 std::vector<ChannelSpan> TriangularFactor::spans() const { return state_->spans; }
 
+const FactorNotes& TriangularFactor::notes() const { return state_->notes; }
+
+void TriangularFactor::set_notes(FactorNotes notes) { state_->notes = std::move(notes); }
+
 std::vector<std::byte> TriangularFactor::bytes() const { return factor_bytes(*state_); }
 
 Result<TriangularFactor> TriangularFactor::from_bytes(std::span<const std::byte> bytes) {

@@ -17,6 +17,7 @@
 
 #include "learn/arx/fit/arx_fit.hpp"
 #include "learn/channel_choice.hpp"
+#include "learn/numeric/seen_rows.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/record/csv.hpp"
 #include "wisp/record/recording.hpp"
@@ -46,6 +47,12 @@ struct ChannelSpan {
   std::string unit;
   double lowest = 0;  ///< 0 where it has no sample, as the next
   double highest = 0;
+};
+
+/// What a part says of itself; merge() leaves it to whoever merges.
+struct FactorNotes {
+  std::uint64_t jobs = 1;  ///< that made it
+  std::vector<SeenRows> seen;
 };
 
 class TriangularFactor {
@@ -82,6 +89,9 @@ class TriangularFactor {
 
   /// Unit and range of every channel: outputs, then inputs.
   std::vector<ChannelSpan> spans() const;
+
+  const FactorNotes& notes() const;
+  void set_notes(FactorNotes notes);
 
   /// As bytes, the same on every machine, with a hash.
   std::vector<std::byte> bytes() const;

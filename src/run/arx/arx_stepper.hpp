@@ -106,8 +106,9 @@ class ArxStepper : public ChannelHistory<N> {
   /// Numbers of state that one lane holds.
   std::size_t lane_values() const { return modes_.lane_values() + drawn_.lane_values() + this->history_values(); }
 
-  /// Calls visit(value, low, high) for each number of one lane's state, in an order that does not depend on where in
-  /// the ring it lies: the way to save, check and restore it.
+  /// Calls visit(value, low, high) for each number of one lane's state, or visit(value, low, high, step) where only
+  /// low and whole steps above it are sound, in an order that does not depend on where in the ring it lies: the way to
+  /// save, check and restore it.
   template <class Visit>
   void visit_lane(int block, int lane, Visit visit) {
     std::fill_n(quiet_.begin() + block * program_.regressors, program_.regressors, 0);  // it may be restored

@@ -95,9 +95,11 @@ class DrawnLanes {
   void visit_lane(int block, int lane, float low, float high, Visit visit) {
     if (empty()) return;
     const std::size_t places = 2 * program_.left.size();
-    const auto last = static_cast<float>(places - (program_.mirrors() ? 1 : 2));
-    for (int value = 0; value < kStateValues; ++value) {
-      visit(state(block, value)[lane], 0.0f, value % 2 == kPlace ? last : static_cast<float>(program_.longest));
+    const bool mirrors = program_.mirrors();
+    const auto last = static_cast<float>(places - (mirrors ? 1 : 2));
+    for (int value = 0; value < kStateValues; value += 2) {
+      visit(state(block, value + kPlace)[lane], 0.0f, last, mirrors ? 1.0f : 2.0f);
+      visit(state(block, value + kAge)[lane], 0.0f, static_cast<float>(program_.longest), 1.0f);
     }
     for (int lag = 0; lag < past_.depth(); ++lag) {
       visit(past(block, static_cast<std::uint32_t>(lag))[lane], low, high);

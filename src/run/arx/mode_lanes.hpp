@@ -90,7 +90,7 @@ class ModeLanes {
 
   template <class Visit>
   void visit_lane(int block, int lane, Visit visit) {
-    visit(modes_[block * kLanes + lane], kNoMode, static_cast<float>(program_.modes - 1));
+    visit(modes_[block * kLanes + lane], kNoMode, static_cast<float>(program_.modes - 1), 1.0f);
   }
 
   std::uint64_t hash(std::uint64_t before) const { return hash_of(program_, before); }

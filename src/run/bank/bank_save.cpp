@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <cstring>
 #include <string>
 
@@ -62,12 +63,16 @@ void save_slot(Bank::State& s, int slot, ByteWriter& out) {
   out.put(s.steps - s.born[slot]);
   const int block = slot / s.kLanes, lane = slot % s.kLanes;
   for (std::size_t k = 0; k < s.channels.regressors.size(); ++k) out.put(s.regressors_of(block)[k * s.kLanes + lane]);
-  std::visit([&](auto& dynamics) { dynamics.visit_lane(block, lane, [&](float& z, float, float) { out.put(z); }); },
-             s.stepper);
+  const auto put = [&](float& z, float, float, float = 0) { out.put(z); };
+  std::visit([&](auto& dynamics) { dynamics.visit_lane(block, lane, put); }, s.stepper);
   if (s.extinction.present) save_life(s, slot, out);
 }
 
 bool within(float value, float low, float high) { return value >= low && value <= high; }
+
+// Whether a number is a whole number of steps away from another; any number is where they have no size. Numbers of a
+// bank that count or point are small enough for single precision to hold each of them.
+bool on_grid(float value, float low, float step) { return !(step > 0) || std::fmod(value - low, step) == 0; }
 
 bool life_is_sound(const Bank::State& s, ByteReader& in) {
   bool sound = within(in.get_float(), 0, s.extinction.most);
@@ -94,7 +99,10 @@ bool slot_is_sound(Bank::State& s, ByteReader& in) {
   for (const RegressorChannel& channel : s.channels.regressors) {
     sound &= within(in.get_float(), channel.least, channel.most);
   }
-  const auto check = [&](float&, float low, float high) { sound &= within(in.get_float(), low, high); };
+  const auto check = [&](float&, float low, float high, float step = 0) {
+    const float value = in.get_float();
+    sound &= within(value, low, high) && on_grid(value, low, step);
+  };
   std::visit([&](auto& dynamics) { dynamics.visit_lane(0, 0, check); }, s.stepper);
   if (s.extinction.present) sound &= life_is_sound(s, in);
   return sound;
@@ -109,7 +117,7 @@ void restore_slot(Bank::State& s, int slot, ByteReader& in) {
   for (std::size_t k = 0; k < s.channels.regressors.size(); ++k) {
     s.regressors_of(block)[k * s.kLanes + lane] = in.get_float();
   }
-  const auto take = [&](float& z, float, float) { z = in.get_float(); };
+  const auto take = [&](float& z, float, float, float = 0) { z = in.get_float(); };
   std::visit([&](auto& dynamics) { dynamics.visit_lane(block, lane, take); }, s.stepper);
   if (s.extinction.present) restore_life(s, slot, in);
   if (!s.alive[slot]) return;

@@ -278,8 +278,8 @@ class ChainMover {
 
   /// Held to what no sound model exceeds: squares of it are no trouble to single precision.
   template <class Numbers>
-  static Numbers bounded(Numbers numbers) {
-    const Real most(kMostDifference), least(-kMostDifference);
+  static Numbers bounded(Numbers numbers, float bound = kMostDifference) {
+    const Real most(bound), least(-bound);
     for (Real& x : numbers) x = x > most ? most : x > least ? x : least;
     return numbers;
   }

@@ -93,6 +93,7 @@ class ChainStepper {
       const bool ends = program_.systems.used() ? move_system(block, lane) : mover.advance(life);
       if (!program_.systems.used()) mover.show(life, newest_of(block) + lane, kLanes);
       moment.held[lane] = is_far(newest_of(block) + lane) ? 1 : 0;
+      if (moment.held[lane] != 0) life.base = Mover::bounded(life.base, 2 * kFarthest);
       if (const auto reach = reach_touching(program_, newest_of(block) + lane, kLanes, ground_)) {
         land(block, lane, *reach);
         continue;
@@ -213,32 +214,27 @@ class ChainStepper {
            9 * static_cast<std::size_t>(program_.gust.order) + (program_.systems.used() ? kSystemStates + 1 : 0);
   }
 
-  /// Calls visit(value, low, high) for each number of one lane's state.
+  /// Calls visit(value, low, high) for each number of one lane's state, with a step of 1 where it is a whole number.
   template <class Visit>
   void visit_lane(int block, int lane, Visit visit) {
     Lane& life = lane_of(block, lane);
     const auto segments = static_cast<float>(program_.segments() - 1);
-    visit(life.segment, 0.0f, segments);
-    visit(life.row, 0.0f, 65535.0f);
-    visit(life.state, 0.0f, static_cast<float>(program_.states() - 1));
+    visit(life.segment, 0.0f, segments, 1.0f);
+    visit(life.row, 0.0f, 65535.0f, 1.0f);
+    visit(life.state, 0.0f, static_cast<float>(program_.states() - 1), 1.0f);
     for (Real& x : life.base) visit(x, -2 * kFarthest, 2 * kFarthest);
-    const float most = 1.01f * (program_.position_scale + program_.orientation_scale);
-    for (ChainTurn<Real>* turn : {&life.turn, &life.next_turn}) {
-      for (Real* x : {&turn->half_cos, &turn->half_sin}) visit(*x, -1.01f, 1.01f);
-      for (Real* x : {&turn->cos_scale, &turn->sin_scale, &turn->half_cos_scale, &turn->half_sin_scale})
-        visit(*x, -most, most);
-    }
-    visit(life.next, 0.0f, static_cast<float>(program_.segments()));
+    visit_turn(life.turn, visit);
+    visit(life.next, 0.0f, static_cast<float>(program_.segments()), 1.0f);
+    visit_turn(life.next_turn, visit);
     for (auto* numbers :
          {&life.gap.lean, &life.gap.lean_rate, &life.lean[0], &life.lean[1], &life.lean[2], &life.lean[3]})
-      for (Real& x : *numbers) visit(x, -kMostSlip, kMostSlip);
-    for (auto* numbers : {&life.gap.slip, &life.slip[0], &life.slip[1], &life.laid})
-      for (Real& x : *numbers) visit(x, -kMostSlip, kMostSlip);
+      visit_difference(*numbers, visit);
+    for (auto* numbers : {&life.gap.slip, &life.slip[0], &life.slip[1], &life.laid}) visit_difference(*numbers, visit);
     visit(life.settled, -1.0f, 2.0f);
-    visit(life.left, 0.0f, kMostSlip);
+    visit(life.left, 0.0f, kMostSlip, 1.0f);
     for (Real& x : life.target) visit(x, -kFarthest, kFarthest);
     visit(life.near, 0.0f, kFarthest);
-    for (Real& x : life.touched) visit(x, -2.0f, 2.0f);
+    for (Real& x : life.touched) visit(x, -kLongest, kLongest);
     for (std::size_t k = 0; k < static_cast<std::size_t>(program_.gust.order); ++k) {
       GustLane<Real>& gust = gust_of(block, lane);
       gust.press[k] = scaled(gust.press[k], Real(4.0f));  // it is saved whole
@@ -249,10 +245,13 @@ class ChainStepper {
     }
     if (program_.systems.used()) {
       for (Real& x : system_of(block, lane).rates) visit(x, -kMostSlip, kMostSlip);
-      visit(system_of(block, lane).length, 1.0f, 65535.0f);
+      visit(system_of(block, lane).length, 1.0f, 65535.0f, 1.0f);
     }
     for (Real* sample : {newest_of(block), previous_of(block)}) {
-      for (int k = 0; k < program_.channels; ++k) visit(sample[k * kLanes + lane], -kFarthest, kFarthest);
+      for (int k = 0; k < program_.channels; ++k) {
+        const float most = k < 3 ? 2 * kFarthest : kLongest;
+        visit(sample[k * kLanes + lane], -most, most);
+      }
     }
   }
 
@@ -263,6 +262,22 @@ class ChainStepper {
   using Mover = ChainMover<Real>;
   static constexpr std::size_t kLaneNumbers = 3 + 3 + 2 * 6 + 1 + 6 * 4 + 4 * 3 + 1 + 5 + 4;
   static constexpr float kMostSlip = 1e12f;
+  static constexpr float kLongest = 1.01f;  // numbers of an orientation: stored ones are of length 1 but for rounding
+
+  template <class Visit>
+  void visit_turn(ChainTurn<Real>& turn, Visit visit) {
+    for (Real* x : {&turn.half_cos, &turn.half_sin}) visit(*x, -1.01f, 1.01f);
+    const float most = 1.01f * (program_.position_scale + program_.orientation_scale);
+    for (Real* x : {&turn.cos_scale, &turn.sin_scale, &turn.half_cos_scale, &turn.half_sin_scale})
+      visit(*x, -most, most);
+  }
+
+  // Differences grow from step to step: those of a bank that was made to harm beyond what it could be restored with.
+  template <class Numbers, class Visit>
+  static void visit_difference(Numbers& numbers, Visit visit) {
+    numbers = Mover::bounded(numbers);
+    for (Real& x : numbers) visit(x, -kMostDifference, kMostDifference);
+  }
 
   std::size_t sample_size() const { return static_cast<std::size_t>(program_.channels) * kLanes; }
   Lane& lane_of(int block, int lane) { return lanes_[static_cast<std::size_t>(block) * kLanes + lane]; }

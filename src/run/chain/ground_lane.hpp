@@ -40,7 +40,7 @@ template <class Real>
 inline void touch(ChainLane<Real>& lane, const BodyState<Real>& body, float ground) {
   lane.settled = Real(0.0f);
   lane.base = {body.position[0], body.position[1], Real(ground)};
-  const auto slip = ChainMover<Real>::bounded(scaled(body.rates.velocity, Real(kSettleSeconds)));
+  const auto slip = ChainMover<Real>::bounded(scaled(body.rates.velocity, Real(kSettleSeconds)), kFarthest);
   lane.slip[0] = {slip[0], slip[1], Real(0.0f)};
   lane.touched = body.orientation;
 }
@@ -69,7 +69,8 @@ inline void settle_step(ChainLane<Real>& lane, const ChainProgram& program, Real
   // It slides to where a speed that fades to nothing, (1 − s)², takes it: a third of the way that it had gone.
   const Real way = (Real(1.0f) - rest * rest * rest) * Real(1.0f / 3.0f);
   const Real lean = passed * passed * (Real(3.0f) - (passed + passed));
-  const auto position = added(lane.base, scaled(lane.slip[0], way));
+  // A bank that was made to harm may have slid any way.
+  const auto position = ChainMover<Real>::bounded(added(lane.base, scaled(lane.slip[0], way)), 2 * kFarthest);
   for (int axis = 0; axis < 3; ++axis) out[axis * stride] = position[static_cast<std::size_t>(axis)];
   if (program.channels < 7) return;
   const auto q = rotated(scaled(lane.laid, lean), lane.touched);

@@ -1,5 +1,7 @@
 #include "wisp/capture/media/video.hpp"
 
+#include <sys/stat.h>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -63,6 +65,48 @@ TEST(ImageFolder, MissingNumbersAreLostFrames) {
   EXPECT_EQ(see(*reader).index, (std::vector<std::int64_t>{0, 1, 3, 4}));
 }
 
+// A number that was mistyped must not become millions of lost frames.
+TEST(ImageFolder, ALongHoleInTheNumbersIsTakenAsTwoSeconds) {
+  for (const char* last : {"30000000", "999999999999999999"}) {
+    ScratchFolder folder("far");
+    for (const char* number : {"1", "2", "3", last}) write_pgm(folder / (std::string(number) + ".pgm"), Plane(16, 12));
+    auto reader = VideoReader::open(folder.path(), kThirty);
+    ASSERT_TRUE(reader) << reader.error().message;
+    EXPECT_EQ(see(*reader).index, (std::vector<std::int64_t>{0, 1, 2, 63}));
+    ASSERT_EQ(reader->warnings().size(), 1u);
+    EXPECT_THAT(reader->warnings().front(), HasSubstr("1 hole of more than 2 s"));
+  }
+}
+
+TEST(ImageFolder, ANumberThatNoCounterHoldsIsNamed) {
+  ScratchFolder folder("digits");
+  write_pgm(folder / "1.pgm", Plane(16, 12));
+  write_pgm(folder / "9999999999999999999.pgm", Plane(16, 12));
+  EXPECT_THAT(error_of(folder.path(), kThirty), HasSubstr("its number has 19 digits, expected at most 18"));
+}
+
+TEST(ImageFolder, APipeAmongTheImagesIsNamedAndNotWaitedFor) {
+  ScratchFolder folder("pipe");
+  write_pgm(folder / "000.pgm", Plane(16, 12));
+  ASSERT_EQ(::mkfifo((folder / "001.pgm").c_str(), 0600), 0);
+  EXPECT_THAT(error_of(folder.path(), kThirty), HasSubstr("001.pgm: is no plain file"));
+  EXPECT_THAT(error_of(folder / "001.pgm"), HasSubstr("a device or a pipe"));
+}
+
+TEST(ImageFolder, AnImageThatClaimsGigapixelsIsNamed) {
+  ScratchFolder folder("claims");
+  std::ofstream(folder / "000.pgm") << "P5\n60000 60000\n255\nshort";
+  EXPECT_THAT(error_of(folder.path(), kThirty), HasSubstr("000.pgm: the image cannot be decoded"));
+}
+
+TEST(ImageFolder, FfmpegPrintsNothingOfItsOwn) {
+  ScratchFolder folder("loud");
+  std::ofstream(folder / "000.png") << "no image";
+  testing::internal::CaptureStderr();
+  EXPECT_THAT(error_of(folder.path(), kThirty), HasSubstr("000.png"));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 TEST(ImageFolder, OfAnotherSizeIsNamed) {
   ScratchFolder folder("sizes");
   write_pgm(folder / "000.pgm", Plane(16, 12));
@@ -108,6 +152,33 @@ TEST(VideoFile, GivesItsFramesAndSaysWhatTheyAre) {
   EXPECT_EQ(seen.pixel, (std::vector<int>{0, 10, 20, 30, 40, 50}));
   EXPECT_EQ(seen.index, (std::vector<std::int64_t>{0, 1, 2, 3, 4, 5}));
   EXPECT_TRUE(reader->warnings().empty());
+}
+
+// FFmpeg knows a file by its contents, whatever it is called, and playlists name other files.
+TEST(VideoFile, APlaylistOpensNoOtherFile) {
+  ScratchFolder folder("playlist");
+  {
+    RawVideo video(folder / "secret.y4m", 32, 24, 25);
+    for (int k = 0; k < 6; ++k) video.add(Plane(32, 24));
+  }
+  const std::string secret = (folder / "secret.y4m").string();
+  std::ofstream(folder / "hls.mp4") << "#EXTM3U\n#EXT-X-TARGETDURATION:1\n#EXTINF:1,\n"
+                                    << secret << "\n#EXT-X-ENDLIST\n";
+  std::ofstream(folder / "concat.mp4") << "ffconcat version 1.0\nfile '" << secret << "'\n";
+  std::ofstream(folder / "dash.mp4") << "<?xml version=\"1.0\"?><MPD><Period><BaseURL>" << secret
+                                     << "</BaseURL></Period></MPD>";
+  for (const char* name : {"hls.mp4", "concat.mp4", "dash.mp4"}) {
+    EXPECT_THAT(error_of(folder / name), HasSubstr("cannot be read as video or sound")) << name;
+  }
+}
+
+TEST(VideoFile, ANameWithAColonIsAFilesName) {
+  ScratchFolder folder("colon");
+  {
+    RawVideo video(folder / "concat:clip.y4m", 32, 24, 25);
+    for (int k = 0; k < 3; ++k) video.add(Plane(32, 24));
+  }
+  EXPECT_EQ(error_of(folder / "concat:clip.y4m"), "");
 }
 
 TEST(VideoFile, ARangeOfFramesIsCountedFromOne) {

@@ -96,7 +96,7 @@ export class Controls {
     const shown = Math.round(100 * Math.max(0, Math.min(1, level)));
     if (shown === this.shownLevel) return;
     this.shownLevel = shown;
-    this.ring?.setAttribute('stroke-dasharray', `${shown} 100`);
+    if (this.ring !== null) this.ring.style.strokeDasharray = `${shown} 100`;
   }
 
   private counted(share: number): Partial<Settings> {

@@ -2,10 +2,11 @@
 
 import type { Model } from '@wisp/player';
 import { ORDERS, type Settings } from '../link.js';
-import type { FrameCost } from '../stage/stage.js';
-import type { Reading } from '../stage/scene.js';
+import type { FrameCost } from '@wisp/player/parts/stage/stage';
+import type { Reading } from '@wisp/player/parts/stage/scene';
 import { element } from './element.js';
 import { factsOf } from './facts.js';
+import { introductionTo } from './introduction.js';
 import { Plot } from './plot.js';
 
 /** What the drawer shows of. */
@@ -16,6 +17,8 @@ export interface Shown {
   /** false: it was dropped here, and has no sisters of other orders */
   shipped: boolean;
   answerName: string;
+  /** its answer to wind is the shipped flame's */
+  borrows: boolean;
 }
 
 export interface DrawerEvents {
@@ -23,6 +26,9 @@ export interface DrawerEvents {
   open(file: File): void;
   closed(): void;
   link(): Promise<string>;
+  /** saves a picture, or a few seconds of it; says how that went */
+  picture(): Promise<string>;
+  loop(): Promise<string>;
 }
 
 /** Frames between drawings of the plots. */
@@ -63,7 +69,7 @@ export class Drawer {
     close.addEventListener('click', () => this.events.closed());
     this.place.replaceChildren(
       element('header', {}, element('h2', {}, 'What was learned'), close),
-      element('p', {}, this.introduction(shown)),
+      element('p', { class: 'introduction' }, introductionTo(shown.model, shown.shipped, shown.borrows)),
       this.livePlots(shown),
       this.knobs(shown, settings),
       factsOf(shown.model, shown.bytes.length),
@@ -84,16 +90,6 @@ export class Drawer {
       const output = this.outputs[name];
       if (output !== undefined) output.value = name === 'cost' ? `${mean.toFixed(2)} ms` : mean.toFixed(2);
     }
-  }
-
-  private introduction({ model }: Shown): string {
-    if (model.view === 'outline') {
-      return 'Nothing here is animated by hand. Each point of the outline follows equations that were fitted to a film of a flame and the sound of the wind beside it.';
-    }
-    if (model.kind === 'chain') {
-      return 'Nothing here is animated by hand. Pieces of recorded falls follow each other by chance, as they were seen to, and the wind changes them as it was seen to.';
-    }
-    return 'What the model does, number by number.';
   }
 
   private livePlots(shown: Shown): HTMLElement {
@@ -170,18 +166,35 @@ export class Drawer {
       if (file !== undefined) this.events.open(file);
       chosen.value = '';
     });
-    const link = element('button', { type: 'button', class: 'tool', 'data-file': 'link' }, 'Copy a link');
-    link.addEventListener('click', () => {
-      void this.events.link().then((said) => {
-        link.textContent = said;
-      });
-    });
     return element(
       'section',
       {},
       element('h3', {}, 'The file'),
       element('p', {}, 'A .wisp file can be dropped anywhere on this page to play it.'),
-      element('div', { class: 'actions' }, save, open, link, chosen),
+      element('div', { class: 'actions' }, save, open, chosen),
+      element('h3', {}, 'Show it to somebody'),
+      element(
+        'div',
+        { class: 'actions' },
+        this.telling('Copy a link', 'link', '', () => this.events.link()),
+        this.telling('Save a picture', 'picture', 'One moment…', () => this.events.picture()),
+        this.telling('Save three seconds', 'loop', 'Recording…', () => this.events.loop()),
+      ),
     );
+  }
+
+  /** A button that says how it went. */
+  private telling(words: string, name: string, meanwhile: string, act: () => Promise<string>): HTMLButtonElement {
+    const button = element('button', { type: 'button', class: 'tool', 'data-file': name }, words);
+    button.addEventListener('click', () => {
+      if (meanwhile !== '') button.textContent = meanwhile;
+      void act()
+        .catch((error: unknown) => (error instanceof Error ? error.message : String(error)))
+        .then((said) => {
+          button.textContent = said;
+          setTimeout(() => (button.textContent = words), 4000);
+        });
+    });
+    return button;
   }
 }

@@ -2,24 +2,29 @@
 
 import type { Model } from '@wisp/player';
 import { element } from './element.js';
+import { inWords, number } from './figures.js';
 
 type Fact = readonly [string, string];
 
-const number = (value: number, digits = 3): string =>
-  Number.isInteger(value) ? value.toLocaleString('en') : Number(value.toPrecision(digits)).toLocaleString('en', { maximumSignificantDigits: digits });
-
 const KINDS: Readonly<Record<Model['view'], string>> = {
-  outline: 'an outline that wind moves',
+  outline: 'an outline',
   pose: 'a body that tumbles',
   position: 'a thing that moves',
   plain: 'numbers',
 };
+
+function inputOf({ name, unit, lowest, highest }: Model['inputs'][number]): string {
+  // A unit may be a number of its own: 0.73 1 is a breath.
+  const said = unit === '' || /1$/.test(unit) ? '' : ` ${unit}`;
+  return `${name}, ${number(lowest, 2)} to ${number(highest, 2)}${said}`;
+}
 
 function commonFacts(model: Model, bytes: number): Fact[] {
   const { facts } = model;
   const list: Fact[] = [
     ['Name', model.name || 'none given'],
     ['What it is', KINDS[model.view]],
+    ['Moved by', model.inputs.map(inputOf).join(', ') || 'nothing: it has no input'],
     ['File', bytes < 20_000 ? `${number(bytes)} bytes` : `${number(bytes / 1000)} kB`],
     ['Its own clock', `${number(facts.rateHz)} steps a second`],
     ['Cost of a step', `${number(facts.operationsPerFrame)} operations`],
@@ -75,10 +80,21 @@ function transitions(model: Model): HTMLElement[] {
   return [element('h3', {}, 'Which kind of motion follows which'), grid];
 }
 
+// How well it does, with what a good figure is.
+function figuresOf(model: Model): HTMLElement[] {
+  const { figures } = model.provenance;
+  if (figures.length === 0) return [];
+  const made = element('dl', { class: 'figures' });
+  for (const { name, value } of figures) {
+    const { words, value: shown, good } = inWords(name, value);
+    made.append(element('dt', {}, words, ...(good === '' ? [] : [element('small', {}, `good: ${good}`)])), element('dd', {}, shown));
+  }
+  return [element('h3', {}, 'How well it does'), made];
+}
+
 /** All of it, as the drawer shows it. */
 export function factsOf(model: Model, bytes: number): HTMLElement {
   const { provenance } = model;
-  const figures = provenance.figures.slice(0, 10).map(({ name, value }): Fact => [name.replaceAll('_', ' '), number(value)]);
   const made: Fact[] = [['By', provenance.program]];
   if (provenance.sources.length > 0) made.push(['From', provenance.sources.join(', ')]);
   made.push(['Fit for use', provenance.usable ? 'yes' : `no: ${provenance.reason}`]);
@@ -88,7 +104,7 @@ export function factsOf(model: Model, bytes: number): HTMLElement {
     element('h3', {}, 'The model'),
     list([...commonFacts(model, bytes), ...flameFacts(model), ...chainFacts(model)]),
     ...transitions(model),
-    ...(figures.length > 0 ? [element('h3', {}, 'How well it does'), list(figures)] : []),
+    ...figuresOf(model),
     element('h3', {}, 'How it was made'),
     list(made),
   );

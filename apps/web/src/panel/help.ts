@@ -19,6 +19,7 @@ const KEYS: readonly (readonly [string[], string])[] = [
   [['−', '+'], 'fewer, more'],
   [['1', '2'], 'candle, leaves'],
   [['I'], 'what was learned'],
+  [['S'], 'send a link to this'],
   [['N'], 'learned noise on and off'],
   [['P'], 'pause'],
   [['F'], 'full screen'],

@@ -1,6 +1,6 @@
 // Keys of the page. Those that blow are held; the others act once.
 
-import { KeyBreath } from '../wind/keys.js';
+import { KeyBreath } from '@wisp/player/parts/air/keys';
 
 /** What each key (KeyboardEvent.key, in lower case) does. */
 export type KeyActions = Readonly<Record<string, () => void>>;

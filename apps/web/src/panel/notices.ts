@@ -5,20 +5,34 @@ import { element } from './element.js';
 const STAYS = 9000;
 const MOST = 3;
 
+/** Something that can be done, on a button of the message. */
+export interface Offer {
+  words: string;
+  accept(): void;
+}
+
 export class Notices {
   constructor(private readonly place: HTMLElement) {}
 
-  /** Shows a sentence or two for a while; the same one again only stays longer. */
-  say(text: string): void {
+  /** Shows a sentence or two for a while, and something that can be done about it; the same one again only stays longer. */
+  say(text: string, offer?: Offer): void {
     for (const shown of this.place.querySelectorAll('.notice')) {
       if (shown.querySelector('p')?.textContent === text) shown.remove();
     }
     const close = element('button', { type: 'button', 'aria-label': 'Dismiss' }, '×');
     const notice = element('div', { class: 'notice' }, element('p', {}, text), close);
+    if (offer !== undefined) {
+      const accept = element('button', { type: 'button', class: 'tool' }, offer.words);
+      accept.addEventListener('click', () => {
+        notice.remove();
+        offer.accept();
+      });
+      close.before(accept);
+    }
     close.addEventListener('click', () => notice.remove());
     this.place.append(notice);
     while (this.place.children.length > MOST) this.place.firstElementChild?.remove();
-    setTimeout(() => notice.remove(), STAYS);
+    setTimeout(() => notice.remove(), offer === undefined ? STAYS : 2 * STAYS);
   }
 }
 

@@ -1,8 +1,8 @@
 // A model whose outputs stand for nothing but themselves: they are drawn as they come, each a line that runs.
 
 import type { Bank, Model } from '@wisp/player';
-import { drawToCanvas, Program } from '../stage/gl.js';
-import type { Acting, Reading, Scene, SceneSettings } from '../stage/scene.js';
+import { drawToCanvas, Program } from '@wisp/player/parts/stage/gl';
+import type { Acting, Reading, Scene, SceneLook, SceneSettings } from '@wisp/player/parts/stage/scene';
 
 const KEPT = 600;
 const MOST_LINES = 8;
@@ -82,8 +82,8 @@ export class PlainScene implements Scene {
     this.drawing = { gl, program: new Program(gl, VERTEX, FRAGMENT), buffer, array };
   }
 
-  draw(width: number, height: number, fade: number): void {
-    if (this.drawing === null) return;
+  draw(width: number, height: number, { fade }: SceneLook): boolean {
+    if (this.drawing === null) return true;
     const { gl, program, buffer, array } = this.drawing;
     drawToCanvas(gl);
     gl.disable(gl.BLEND);
@@ -103,6 +103,7 @@ export class PlainScene implements Scene {
       }
     });
     gl.bindVertexArray(null);
+    return true;
   }
 
   hover(): 'none' {

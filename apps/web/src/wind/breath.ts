@@ -1,6 +1,6 @@
 // The breath of a frame: what microphone and keys blow, together.
 
-import { KeyBreath } from './keys.js';
+import { KeyBreath } from '@wisp/player/parts/air/keys';
 
 /** Wind that a microphone told of is believed for so long, milliseconds; then it has fallen silent. */
 const STALE = 250;

@@ -1,0 +1,68 @@
+// Pictures of every state of the page, at the sizes of a phone, a laptop and a large screen: for eyes, not for tests.
+//
+//     npm run pictures --workspace apps/web -- FOLDER [STATE…] [--size 390x844]…      default: all states, all sizes
+
+import { mkdirSync } from 'node:fs';
+import { join } from 'node:path';
+import { chromiumPath, openBrowser, until } from '../tests/browser.js';
+
+const args = process.argv.slice(2);
+const sizes = [];
+for (let k = args.indexOf('--size'); k >= 0; k = args.indexOf('--size')) sizes.push(args.splice(k, 2)[1]);
+const [folder, ...wanted] = args;
+if (folder === undefined) throw new Error('which folder do the pictures go to?');
+if (sizes.length === 0) sizes.push('390x844', '1280x800', '2560x1440');
+
+const pass = (page, seconds) => page.waitForTimeout(1000 * seconds);
+const blowOut = async (page) => {
+  await page.focus('#stage');
+  await page.keyboard.down('Space');
+  await until(page, 'all are out', () => window.wisp.burning.lit === 0);
+  await page.keyboard.up('Space');
+};
+
+/** What is done before a picture is taken, from a link on. */
+const states = {
+  candle: ['#scene=candle', (page) => pass(page, 2)],
+  lean: ['#scene=candle', async (page) => {
+    await page.focus('#stage');
+    await page.keyboard.down('ArrowRight');
+    await pass(page, 1.2);
+  }],
+  smoke: ['#scene=candle', async (page) => { await blowOut(page); await pass(page, 1.2); }],
+  dark: ['#scene=candle', async (page) => { await blowOut(page); await pass(page, 4); }],
+  match: ['#scene=candle', async (page) => { await blowOut(page); await pass(page, 1); await page.keyboard.press('l'); await pass(page, 0.7); }],
+  cake: ['#scene=candle&candles=12', (page) => pass(page, 2)],
+  three: ['#scene=candle&candles=3', (page) => pass(page, 2)],
+  seven: ['#scene=candle&candles=7', (page) => pass(page, 2)],
+  wish: ['#scene=candle&candles=12', async (page) => { await blowOut(page); await pass(page, 1.5); }],
+  leaves: ['#scene=leaves', (page) => pass(page, 5)],
+  many: ['#scene=leaves&leaves=10000', (page) => pass(page, 12)],
+  drawer: ['#scene=candle', async (page) => { await page.click('#open-drawer'); await pass(page, 2); }],
+  help: ['#scene=candle', async (page) => { await page.click('#open-help'); await pass(page, 0.5); }],
+};
+
+if (chromiumPath === undefined) throw new Error('there is no Chromium here');
+mkdirSync(folder, { recursive: true });
+const opened = await openBrowser();
+for (const size of sizes) {
+  const [width, height] = size.split('x').map(Number);
+  for (const name of wanted.length > 0 ? wanted : Object.keys(states)) {
+    const [hash, act] = states[name];
+    // Coarse while it comes about, so that time passes where the processor draws; then as it is.
+    const page = await opened.page(`${hash}&seed=3&detail=0.12`, { viewport: { width, height } });
+    await act(page);
+    const frames = await page.evaluate(() => {
+      location.hash += '&detail=1';
+      location.hash = location.hash.replace('detail=0.12&', '');
+      return window.wisp.frames;
+    });
+    await until(page, 'the picture is whole', (many) => window.wisp.frames > many + 2, frames, 120_000);
+    await page.screenshot({ path: join(folder, `${name}-${size}.png`), timeout: 120_000 });
+    const costs = await page.evaluate(() => window.wisp.costs());
+    const mean = costs.reduce((sum, { update, draw }) => sum + update + draw, 0) / costs.length;
+    console.log(`${name}-${size}: ${costs.length} frames, ${mean.toFixed(2)} ms of ours each${page.errors.length ? `, ERRORS ${page.errors.join('; ')}` : ''}`);
+    await page.close();
+  }
+}
+await opened.close();

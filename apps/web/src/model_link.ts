@@ -1,0 +1,36 @@
+// A model in a link: packed into the link itself, or at an address of the page's own origin.
+
+/** What an address never begins with: the model's own bytes follow, compressed, in base64url. */
+const PACKED = 'packed,';
+/** Longer links are cut by programs that pass them on. */
+export const MOST_PACKED_BYTES = 24_000;
+
+async function through(bytes: Uint8Array, stream: CompressionStream | DecompressionStream): Promise<Uint8Array> {
+  return new Uint8Array(await new Response(new Blob([bytes.slice()]).stream().pipeThrough(stream)).arrayBuffer());
+}
+
+/** The value of `model=` that carries these bytes. */
+export async function packModel(bytes: Uint8Array): Promise<string> {
+  const packed = await through(bytes, new CompressionStream('deflate-raw'));
+  const letters = Array.from(packed, (byte) => String.fromCharCode(byte)).join('');
+  return PACKED + btoa(letters).replaceAll('+', '-').replaceAll('/', '_').replace(/=+$/, '');
+}
+
+/** The bytes that a `model=` stands for, and what the file is called. Throws an Error in words for people. */
+export async function fetchModel(value: string): Promise<{ bytes: Uint8Array; file: string }> {
+  if (value.startsWith(PACKED)) {
+    try {
+      const letters = atob(value.slice(PACKED.length).replaceAll('-', '+').replaceAll('_', '/'));
+      const packed = Uint8Array.from(letters, (letter) => letter.charCodeAt(0));
+      return { bytes: await through(packed, new DecompressionStream('deflate-raw')), file: 'from-a-link.wisp' };
+    } catch {
+      throw new Error('The model in this link is damaged: was the link cut?');
+    }
+  }
+  const url = new URL(value, location.href);
+  if (url.origin !== location.origin) throw new Error(`A link can name models of ${location.host} only, not of ${url.host}.`);
+  const answer = await fetch(url);
+  const file = url.pathname.split('/').pop() ?? 'model.wisp';
+  if (!answer.ok) throw new Error(`${file} could not be fetched (${answer.status}).`);
+  return { bytes: new Uint8Array(await answer.arrayBuffer()), file };
+}

@@ -1,0 +1,26 @@
+// What comes after the first flame: glare, the air with its smoke, the match. One piece, fetched while the flame burns.
+
+import { Program, type Quad } from '../stage/gl.js';
+import { Air } from './air.js';
+import { Glare } from './glare.js';
+import boardVertex from './shaders/board.vert.js';
+import matchFragment from './shaders/match.frag.js';
+import noise from './shaders/noise.glsl.js';
+
+export class After {
+  readonly glare: Glare;
+  readonly air: Air;
+  readonly match: Program;
+
+  constructor(gl: WebGL2RenderingContext, quad: Quad) {
+    this.glare = new Glare(gl, quad);
+    this.air = new Air(gl, quad);
+    this.match = new Program(gl, boardVertex, noise + matchFragment);
+  }
+
+  dispose(): void {
+    this.glare.dispose();
+    this.air.dispose();
+    this.match.dispose();
+  }
+}

@@ -1,0 +1,49 @@
+// <wisp-candle>: a candle, or a cake with several, on anybody's page.
+
+import type { Model } from '../index.js';
+import { numberOf, SceneElement } from '../stage/element.js';
+import type { Scene, SceneSettings } from '../stage/scene.js';
+import { MOST_CANDLES } from './room.js';
+import { CandleScene } from './scene.js';
+
+/**
+ * Attributes beside those of every scene: `candles`, 1 to 12. Events: `load`, `error`, `extinguish` when the last flame
+ * goes out, `light` when all burn again.
+ */
+export class WispCandle extends SceneElement {
+  protected readonly usualModel = new URL('../models/flame.wisp', import.meta.url);
+  private lit = true;
+
+  /** How many burn, of how many. */
+  get burning(): { lit: number; of: number } {
+    return this.scene instanceof CandleScene ? this.scene.burning() : { lit: 0, of: 0 };
+  }
+
+  protected sceneOf(model: Model, settings: SceneSettings): Promise<Scene> {
+    if (model.view !== 'outline') throw new Error(`${model.name || 'This model'} is no flame: its outputs are no outline.`);
+    return Promise.resolve(new CandleScene(model, settings));
+  }
+
+  protected count(): number {
+    return Math.round(numberOf(this, 'candles', 1, MOST_CANDLES, 1));
+  }
+
+  protected watch(): void {
+    const { lit, of } = this.burning;
+    if (this.lit && lit === 0 && of > 0) {
+      this.lit = false;
+      this.dispatchEvent(new Event('extinguish'));
+    } else if (!this.lit && lit === of) {
+      this.lit = true;
+      this.dispatchEvent(new Event('light'));
+    }
+  }
+}
+
+if (!customElements.get('wisp-candle')) customElements.define('wisp-candle', WispCandle);
+
+declare global {
+  interface HTMLElementTagNameMap {
+    'wisp-candle': WispCandle;
+  }
+}

@@ -1,0 +1,45 @@
+// The answer to wind of one flame model, lent to another that has never felt any: how far the outline moves from its rest,
+// and whether it burns.
+
+import type { Bank, FlameState, Instance, Model } from '../index.js';
+
+/** Below this size a flame's outline says nothing of how it leans. */
+const LEAST_SIZE = 0.05;
+const SETTLES = 2e9;
+
+export class Lender {
+  readonly bank: Bank;
+  private readonly rest: Float32Array;
+  private readonly moved: Float32Array;
+
+  constructor(model: Model, capacity: number, points: number) {
+    this.bank = model.bank({ capacity, polylinePoints: points });
+    // Its chance stays at home: the borrower has its own.
+    this.bank.setNoise(0);
+    const still = this.bank.spawn();
+    this.bank.advance(SETTLES);
+    this.rest = this.bank.polyline(still).slice();
+    this.moved = new Float32Array(this.rest.length);
+    this.bank.end(still);
+  }
+
+  /** A flame of the borrower as it is in this one's wind. `own`: its outline in still air. */
+  lend(instance: Instance, own: Float32Array, state: Readonly<FlameState>): Float32Array {
+    const { moved, rest } = this;
+    moved.set(own);
+    const size = state.flameSize;
+    const lent = this.bank.polyline(instance);
+    const height = heightOf(moved) / heightOf(rest);
+    for (let k = 0; k < moved.length; ++k) {
+      const shift = size > LEAST_SIZE ? (lent[k] as number) / size - (rest[k] as number) : 0;
+      moved[k] = size * ((moved[k] as number) + height * shift);
+    }
+    return moved;
+  }
+}
+
+function heightOf(outline: Float32Array): number {
+  let height = 0.1;
+  for (let k = 1; k < outline.length; k += 2) height = Math.max(height, outline[k] as number);
+  return height;
+}

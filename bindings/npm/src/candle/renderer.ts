@@ -1,0 +1,460 @@
+// Draws the candle's room with WebGL2: light is added up in a picture of high range and developed onto the canvas.
+
+import { drawToCanvas, hasRange, Program, Quad, Target } from '../stage/gl.js';
+import type { After } from './after.js';
+import type { Stirring } from './air.js';
+import type { FlameShape } from './flame_shape.js';
+import type { RoomView, Setting, Stand } from './room.js';
+import { MOST_CANDLES, WICK_GAP } from './room.js';
+import boardVertex from './shaders/board.vert.js';
+import candleFragment from './shaders/candle.frag.js';
+import developFragment from './shaders/develop.frag.js';
+import flameFragment from './shaders/flame.frag.js';
+import fullVertex from './shaders/full.vert.js';
+import lightFragment from './shaders/light.frag.js';
+import noise from './shaders/noise.glsl.js';
+import room from './shaders/room.glsl.js';
+import surfaceFragment from './shaders/surface.frag.js';
+import table from './shaders/table.glsl.js';
+
+/** Most flames that give light: the candles, the match, one to spare. */
+const MOST_LIGHTS = MOST_CANDLES + 2;
+/** How much of the light strays in the eye. */
+const GLARING = 0.13;
+/** How far heat shifts what is behind it, shares of the picture. */
+const SHIMMER = 0.0035;
+/** What the eye makes of a lit room and of a dark one; and seconds in which it gets used to more light, and to less. */
+const EXPOSURES = { lit: 1, dark: 8, brighter: 0.25, darker: 0.9 };
+/** Frames that late programs are given to be compiled beside us. */
+const COMPILING = 4;
+
+/** A candle with its flame, as it is to be drawn. */
+export interface DrawnCandle {
+  stand: Stand;
+  shape: FlameShape;
+  /** how much of the flame is seen, 0 to 1 */
+  size: number;
+  /** the wick's glowing end, 0 to 1 */
+  ember: number;
+  /** how much it smokes, 0 to 1 */
+  smoking: number;
+}
+
+/** The match: where the middle of its head is, in the room. */
+export interface DrawnMatch {
+  x: number;
+  y: number;
+  z: number;
+  unit: number;
+  burning: boolean;
+  shape: FlameShape;
+  size: number;
+  /** how fiercely its head flares up, 0 to 1 */
+  flare: number;
+  /** how much it smokes, 0 to 1 */
+  smoking: number;
+}
+
+/** All that one picture shows. */
+export interface CandlePicture {
+  setting: Setting;
+  candles: DrawnCandle[];
+  match: DrawnMatch;
+  /** time since the picture before, and since the beginning */
+  seconds: number;
+  clock: number;
+  /** what stirs the air: breath, 1 is strong; the pointer, pixels and pixels a second */
+  breath: number;
+  hand: { x: number; y: number; speedX: number; speedY: number; present: boolean };
+}
+
+/** How a picture is to be drawn. */
+export interface Look {
+  /** 0 black, 1 all of it */
+  fade: number;
+  /** flames and candles alone, on nothing */
+  clear: boolean;
+  /** without what costs most */
+  plain: boolean;
+}
+
+interface Lamp {
+  x: number;
+  y: number;
+  z: number;
+  light: number;
+}
+
+export class CandleRenderer {
+  private readonly quad: Quad;
+  private readonly surface: Target;
+  private readonly picture: Target;
+  private readonly programs: Record<'candle' | 'flame' | 'develop', Program>;
+  /** of the room: with nothing on the table, and with a cake, once that has come */
+  private readonly rooms: Partial<Record<'table' | 'cake', { surface: Program; light: Program }>> = {};
+  private readonly lights = new Float32Array(4 * MOST_LIGHTS);
+  private readonly halos = new Float32Array(4 * MOST_LIGHTS);
+  private readonly spread = new Float32Array(MOST_LIGHTS);
+  private readonly standNumbers = new Float32Array(4 * MOST_LIGHTS);
+  private readonly sticks = new Float32Array(4 * MOST_CANDLES);
+  private readonly heats = new Float32Array(4 * MOST_LIGHTS);
+  private readonly wicks = new Float32Array(4 * MOST_LIGHTS);
+  private readonly smokeLamps = new Float32Array(4 * MOST_LIGHTS);
+  private readonly lamps: Lamp[] = [];
+  private surfaceOf = '';
+  private after: After | null = null;
+  private compiling = COMPILING;
+  private bringing = false;
+  private exposure = EXPOSURES.lit;
+  private gone = false;
+
+  constructor(private readonly gl: WebGL2RenderingContext) {
+    this.quad = new Quad(gl);
+    this.surface = new Target(gl, { range: false });
+    this.picture = new Target(gl, { range: true });
+    this.programs = {
+      candle: new Program(gl, boardVertex, noise + candleFragment),
+      flame: new Program(gl, boardVertex, noise + flameFragment),
+      develop: new Program(gl, fullVertex, noise + developFragment),
+    };
+  }
+
+  /** Draws one picture on the canvas, which is view.width by view.height pixels. False: what it needs is still to come. */
+  draw(view: RoomView, shown: CandlePicture, look: Look): boolean {
+    const { gl } = this;
+    const room = this.room(shown.setting);
+    if (room === null) return false;
+    this.picture.resize(view.width, view.height);
+    gl.disable(gl.DEPTH_TEST);
+    gl.disable(gl.BLEND);
+    this.gatherLamps(view, shown);
+    this.adapt(shown);
+    const after = this.ready(look);
+    if (after !== null) after.air.update(view.width / view.height, this.stirring(view, shown));
+    if (!look.clear) this.drawSurface(room.surface, view, shown.setting);
+    this.picture.begin();
+    if (look.clear) {
+      gl.clearColor(0, 0, 0, 0);
+      gl.clear(gl.COLOR_BUFFER_BIT);
+    } else this.drawLight(room.light, view, shown);
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+    for (const candle of shown.candles) {
+      this.drawCandle(view, candle, shown);
+      this.drawFlame(view, candle, candle.stand, this.flameFoot(candle.stand), shown.clock);
+    }
+    if (after !== null) this.drawLate(after, view, shown, look);
+    gl.disable(gl.BLEND);
+    this.develop(after, look, shown);
+    this.bring();
+    return true;
+  }
+
+  dispose(): void {
+    this.gone = true;
+    this.quad.dispose();
+    this.surface.dispose();
+    this.picture.dispose();
+    this.after?.dispose();
+    for (const program of Object.values(this.programs)) program.dispose();
+    for (const { surface, light } of Object.values(this.rooms)) {
+      surface.dispose();
+      light.dispose();
+    }
+  }
+
+  /** The programs of the room that is to be drawn; null while those of a cake are on their way. */
+  private room(setting: Setting): { surface: Program; light: Program } | null {
+    const name = setting.cake === null ? 'table' : 'cake';
+    const there = this.rooms[name];
+    if (there !== undefined) return there;
+    if (name === 'table') return this.furnish(name, table);
+    if (this.bringing) return null;
+    this.bringing = true;
+    void import('./cake.js').then(({ cake }) => {
+      this.bringing = false;
+      if (!this.gone) this.furnish('cake', cake);
+    });
+    return null;
+  }
+
+  private furnish(name: 'table' | 'cake', onIt: string): { surface: Program; light: Program } {
+    const source = noise + room + onIt;
+    const made = {
+      surface: new Program(this.gl, fullVertex, source + surfaceFragment),
+      light: new Program(this.gl, fullVertex, source + lightFragment),
+    };
+    this.rooms[name] = made;
+    return made;
+  }
+
+  /** Fetches what comes after the first picture. */
+  private bring(): void {
+    if (this.bringing || this.after !== null || !hasRange(this.gl)) return;
+    this.bringing = true;
+    void import('./after.js').then(({ After }) => {
+      this.bringing = false;
+      if (!this.gone && !this.gl.isContextLost()) this.after = new After(this.gl, this.quad);
+    });
+  }
+
+  private ready(look: Look): After | null {
+    if (this.after === null) return null;
+    if (this.compiling > 0) {
+      this.compiling -= 1;
+      return null;
+    }
+    return look.plain ? null : this.after;
+  }
+
+  /** The eye gets used to how much light there is. */
+  private adapt({ seconds }: CandlePicture): void {
+    const light = this.lamps.reduce((sum, lamp) => sum + lamp.light, 0);
+    const dim = Math.min(1, light / 0.35);
+    const goal = (EXPOSURES.dark + (EXPOSURES.lit - EXPOSURES.dark) * dim) / (1 + 0.26 * Math.max(0, light - 1));
+    const within = goal < this.exposure ? EXPOSURES.brighter : EXPOSURES.darker;
+    this.exposure *= (goal / this.exposure) ** (1 - Math.exp(-seconds / within));
+  }
+
+  private setRoom(program: Program, view: RoomView, setting: Setting): Program {
+    const cake = setting.cake;
+    return program
+      .use()
+      .set('uView', view.middle, view.horizon, view.scale, view.distance)
+      .set('uEye', view.eye)
+      .set('uCake', cake?.radius ?? 0, cake?.height ?? 0, cake?.x ?? 0);
+  }
+
+  private drawSurface(program: Program, view: RoomView, setting: Setting): void {
+    const of = [view.width, view.height, view.scale, view.horizon, setting.cake?.radius, setting.cake?.x].join();
+    this.surface.resize(view.width, view.height);
+    if (of === this.surfaceOf) return;
+    this.surfaceOf = of;
+    this.surface.begin();
+    this.setRoom(program, view, setting);
+    this.quad.draw();
+  }
+
+  private gatherLamps(view: RoomView, shown: CandlePicture): void {
+    this.lamps.length = 0;
+    for (const { stand, shape } of shown.candles) {
+      const foot = this.flameFoot(stand);
+      this.addLamp(view, stand.x, foot, stand.z, stand.unit, shape, stand);
+    }
+    const { match } = shown;
+    if (match.burning) this.addLamp(view, match.x, match.y, match.z, match.unit, match.shape, null);
+  }
+
+  private addLamp(view: RoomView, x: number, y: number, z: number, unit: number, shape: FlameShape, stand: Stand | null): void {
+    const k = this.lamps.length;
+    const lamp: Lamp = {
+      x: x + unit * shape.middleX,
+      y: y + unit * Math.max(0.2, shape.middleY),
+      z,
+      // Small flames on a cake are many.
+      light: shape.empty ? 0 : shape.light * unit ** 1.3,
+    };
+    this.lamps.push(lamp);
+    this.lights.set([lamp.x, lamp.y, lamp.z, lamp.light], 4 * k);
+    this.halos[4 * k] = view.pixelX(x, z);
+    this.halos[4 * k + 1] = view.pixelY(y + 0.25 * unit * shape.tipY, z);
+    this.halos[4 * k + 2] = view.pixelX(x + 0.8 * unit * shape.tipX, z);
+    this.halos[4 * k + 3] = view.pixelY(y + 0.72 * unit * shape.tipY, z);
+    this.spread[k] = view.scale * view.nearness(z) * Math.max(0.3, unit);
+    this.standNumbers.set(stand === null ? [0, 0, 0.01, 0] : [stand.x, stand.z, stand.radius, stand.height], 4 * k);
+  }
+
+  private drawLight(program: Program, view: RoomView, shown: CandlePicture): void {
+    this.surface.bindTexture(0);
+    const first = shown.candles[0]?.stand;
+    this.setRoom(program, view, shown.setting)
+      .setInteger('uSurface', 0)
+      .setInteger('uCount', this.lamps.length)
+      .set('uGround', first?.ground ?? 0)
+      .set('uFoot', first === undefined || first.saucer === 0 ? 1 : first.saucer / first.radius)
+      .setVectors4('uLights', this.lights)
+      .setVectors4('uHalos', this.halos)
+      .setVectors4('uStands', this.standNumbers)
+      .setNumbers('uSpread', this.spread);
+    if (shown.setting.cake !== null) {
+      this.sticks.fill(0);
+      shown.candles.forEach(({ stand }, k) => this.sticks.set([stand.x, stand.z, stand.radius, stand.height], 4 * k));
+      program.setVectors4('uSticks', this.sticks);
+    }
+    this.quad.draw();
+  }
+
+  private flameFoot(stand: Stand): number {
+    return stand.ground + stand.height + WICK_GAP * stand.unit;
+  }
+
+  private setBoard(program: Program, view: RoomView, x: number, y: number, z: number, unit: number, box: number[]): Program {
+    return program
+      .use()
+      .set('uView', view.middle, view.horizon, view.scale, view.distance)
+      .set('uEye', view.eye)
+      .set('uSize', view.width, view.height)
+      .set('uFoot', x, y, z)
+      .set('uUnit', unit)
+      .set('uPixel', 1 / (view.scale * view.nearness(z) * unit))
+      .set('uBox', ...box);
+  }
+
+  /** Light that the other flames throw on a candle: from the left, from the right, from behind, on the whole. */
+  private lightFromOthers(candle: DrawnCandle): [number, number, number, number] {
+    const { stand, shape } = candle;
+    const sum: [number, number, number, number] = [0, 0, 0, 0];
+    const own = stand.x + stand.unit * shape.middleX;
+    for (const lamp of this.lamps) {
+      if (lamp.x === own && lamp.z === stand.z) continue;
+      const dx = lamp.x - stand.x;
+      const dz = lamp.z - stand.z;
+      const flat2 = dx * dx + dz * dz;
+      const light = (0.9 * lamp.light) / (0.2 + flat2);
+      const flat = Math.sqrt(Math.max(1e-6, flat2));
+      sum[0] += light * Math.max(0, -dx / flat);
+      sum[1] += light * Math.max(0, dx / flat);
+      sum[2] += light * Math.max(0, -dz / flat);
+      sum[3] += light;
+    }
+    return sum;
+  }
+
+  private drawCandle(view: RoomView, candle: DrawnCandle, { clock }: CandlePicture): void {
+    const { stand, shape } = candle;
+    const top = stand.ground + stand.height;
+    const radius = stand.radius / stand.unit;
+    const height = stand.height / stand.unit;
+    const upper = view.flatness(top, stand.z);
+    const lower = view.flatness(stand.ground, stand.z);
+    const saucer = stand.saucer / stand.unit;
+    const wide = Math.max(radius, saucer) + 0.06;
+    const box = [-wide, -height - Math.max(radius, saucer) * lower - 0.05, wide, 0.34];
+    this.setBoard(this.programs.candle, view, stand.x, top, stand.z, stand.unit, box)
+      .set('uRadius', radius)
+      .set('uHeight', height)
+      .set('uSaucer', saucer)
+      .set('uFlat', upper, lower)
+      .set('uLight', shape.empty ? 0 : shape.light)
+      .set('uLean', shape.middleX, shape.middleY)
+      .set('uEmber', candle.ember)
+      .set('uSeed', stand.seed)
+      .set('uStripe', stand.striped ? 1 : 0)
+      .set('uClock', clock)
+      .set('uWax', ...stand.wax)
+      .set('uOthers', ...this.lightFromOthers(candle));
+    this.quad.draw();
+  }
+
+  private drawFlame(
+    view: RoomView,
+    { shape, size }: { shape: FlameShape; size: number },
+    at: { x: number; z: number; unit: number; seed?: number },
+    foot: number,
+    clock: number,
+  ): void {
+    if (shape.empty || size <= 0) return;
+    const margin = 0.07;
+    const box = [shape.left - margin, shape.bottom - margin, shape.right + margin, shape.top + margin];
+    this.setBoard(this.programs.flame, view, at.x, foot, at.z, at.unit, box)
+      .setVectors3('uOutline', shape.points)
+      .setInteger('uPoints', shape.count)
+      .set('uBright', 0.35 + 0.65 * size)
+      .set('uSoot', Math.min(1, 0.25 + shape.top))
+      .set('uWidth', shape.width)
+      .set('uClock', clock)
+      .set('uSeed', 7.3 * (at.seed ?? 0));
+    this.quad.draw();
+  }
+
+  private drawMatch(program: Program, view: RoomView, { match, clock }: CandlePicture): void {
+    this.setBoard(program, view, match.x, match.y, match.z, match.unit, [-0.5, -1.05, 0.75, 0.5])
+      .set('uBurnt', match.burning ? match.size : 0)
+      .set('uFlare', match.flare)
+      .set('uRoom', this.lightAt(match.x, match.y, match.z));
+    this.quad.draw();
+    if (match.burning) this.drawFlame(view, match, match, match.y, clock);
+  }
+
+  /** Light of all flames at a place of the room. */
+  private lightAt(x: number, y: number, z: number): number {
+    let sum = 0;
+    for (const lamp of this.lamps) {
+      const far2 = (lamp.x - x) ** 2 + (lamp.y - y) ** 2 + (lamp.z - z) ** 2;
+      sum += lamp.light / (0.8 + far2);
+    }
+    return Math.min(1.2, 1.6 * sum);
+  }
+
+  /** What acts on the air, in heights of the picture. */
+  private stirring(view: RoomView, { candles, match, seconds, clock, breath, hand }: CandlePicture): Stirring {
+    this.heats.fill(0);
+    this.wicks.fill(0);
+    const tall = view.height;
+    let count = 0;
+    const add = (x: number, y: number, z: number, unit: number, shape: FlameShape, lit: boolean, smoking: number): void => {
+      const scale = (view.scale * view.nearness(z) * unit) / tall;
+      const at = [(view.pixelX(x, z) + (lit ? 0.6 * shape.tipX * scale * tall : 0)) / tall, view.pixelY(y, z) / tall + (lit ? 0.8 * shape.tipY * scale : 0)];
+      this.heats.set([...at, (lit ? 0.16 : 0.10) * scale, lit ? 9 * shape.light : 7 * smoking], 4 * count);
+      this.wicks.set([...at, 0.022 * scale + 0.0012, 26 * smoking], 4 * count);
+      count += 1;
+    };
+    for (const { stand, shape, smoking } of candles) {
+      const lit = !shape.empty && shape.light > 0;
+      add(stand.x + 0.03 * stand.unit, stand.ground + stand.height + 0.17 * stand.unit, stand.z, stand.unit, shape, lit, smoking);
+    }
+    add(match.x, match.y, match.z, match.unit, match.shape, match.burning, match.smoking);
+    const first = candles[0]?.stand;
+    const blown = first === undefined ? 0.5 : view.pixelY(first.ground + first.height + 0.3 * first.unit, first.z) / tall;
+    return {
+      seconds,
+      clock,
+      heats: this.heats,
+      wicks: this.wicks,
+      count,
+      breath: Math.max(-1, Math.min(1, 0.6 * breath)),
+      breathHeight: blown,
+      hand: hand.present ? [hand.x / tall, hand.y / tall, hand.speedX / tall, hand.speedY / tall] : [0, 0, 0, 0],
+    };
+  }
+
+  private drawLate(after: After, view: RoomView, shown: CandlePicture, look: Look): void {
+    if (!look.clear || shown.match.burning) this.drawMatch(after.match, view, shown);
+    const tall = view.height;
+    this.smokeLamps.fill(0);
+    this.lamps.forEach((lamp, k) => {
+      const reach = (view.scale * view.nearness(lamp.z)) / tall;
+      this.smokeLamps.set([view.pixelX(lamp.x, lamp.z) / tall, view.pixelY(lamp.y, lamp.z) / tall, 0.9 * reach, 0.55 * lamp.light], 4 * k);
+    });
+    let count = this.lamps.length;
+    for (const { stand, ember, shape } of shown.candles) {
+      if (!shape.empty || ember < 0.02 || count >= MOST_LIGHTS) continue;
+      const scale = (view.scale * view.nearness(stand.z) * stand.unit) / tall;
+      const at = [view.pixelX(stand.x + 0.03 * stand.unit, stand.z) / tall, view.pixelY(this.flameFoot(stand) + 0.08 * stand.unit, stand.z) / tall];
+      this.smokeLamps.set([...at, 0.10 * scale, 0.5 * ember], 4 * count);
+      count += 1;
+    }
+    after.air.draw(this.smokeLamps, count, look.clear ? 0.2 : 0.055);
+  }
+
+  private develop(after: After | null, look: Look, { clock }: CandlePicture): void {
+    const glare = after === null || look.clear ? null : after.glare.of(this.picture);
+    drawToCanvas(this.gl);
+    this.picture.bindTexture(0);
+    (glare ?? this.picture).bindTexture(1);
+    (after?.air.state ?? this.picture).bindTexture(2);
+    this.programs.develop
+      .use()
+      .setInteger('uPicture', 0)
+      .setInteger('uGlare', 1)
+      .setInteger('uAir', 2)
+      .set('uSize', this.picture.width, this.picture.height)
+      .set('uFade', look.fade)
+      .set('uExposure', this.exposure)
+      .set('uGlaring', glare === null ? 0 : GLARING)
+      .set('uShimmer', after === null ? 0 : SHIMMER)
+      .set('uClock', clock)
+      .set('uClear', look.clear ? 1 : 0);
+    this.quad.draw();
+  }
+}

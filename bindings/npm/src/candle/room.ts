@@ -1,0 +1,147 @@
+// Where things stand in the candle's room, and where that is in the picture.
+//
+// Room units: 1 is the height of a lone candle's calm flame. x right, y up from the table, z towards the eye. The eye
+// looks straight ahead, so that verticals stay vertical and a flame is a flat board that faces it.
+
+/** A candle as it stands. */
+export interface Stand {
+  x: number;
+  z: number;
+  /** height of what it stands on */
+  ground: number;
+  height: number;
+  radius: number;
+  /** room units a flame unit */
+  unit: number;
+  wax: readonly [number, number, number];
+  striped: boolean;
+  /** radius of the dish that it stands in; 0: none */
+  saucer: number;
+  seed: number;
+}
+
+/** What stands on the table. */
+export interface Setting {
+  stands: Stand[];
+  cake: { x: number; radius: number; height: number } | null;
+}
+
+/** Most candles on a cake. */
+export const MOST_CANDLES = 12;
+
+/** From the upper end of a candle to the base of its flame, in flame units. */
+export const WICK_GAP = 0.085;
+
+const PASTELS: readonly (readonly [number, number, number])[] = [
+  [0.92, 0.42, 0.46],
+  [0.42, 0.66, 0.88],
+  [0.94, 0.74, 0.36],
+  [0.52, 0.78, 0.56],
+  [0.72, 0.54, 0.86],
+];
+
+/** One candle by itself, or a cake with 2 to MOST_CANDLES of them. */
+export function settingFor(candles: number): Setting {
+  if (candles <= 1) {
+    const wax = [0.93, 0.86, 0.74] as const;
+    return {
+      cake: null,
+      stands: [{ x: 0, z: 0, ground: 0, height: 1.72, radius: 0.335, unit: 1, wax, striped: false, saucer: 0.74, seed: 3 }],
+    };
+  }
+  const cake = { x: 0, radius: 1.9, height: 1.06 };
+  const stands = places(candles).map(
+    ([x, z], k): Stand => ({
+      x,
+      z,
+      ground: cake.height,
+      height: 0.74,
+      radius: 0.072,
+      unit: 0.46,
+      wax: PASTELS[k % PASTELS.length] as (typeof PASTELS)[number],
+      striped: true,
+      saucer: 0,
+      seed: k + 1,
+    }),
+  );
+  // The farthest first: nearer ones are drawn over them.
+  return { cake, stands: stands.sort((a, b) => a.z - b.z) };
+}
+
+const DISTANCE = 11;
+
+/** How much larger things look at that depth than at z = 0. */
+const nearnessAt = (z: number): number => DISTANCE / (DISTANCE - z);
+
+/** Places around the cake, by turns in front and behind, evenly side by side as they are seen: none hides another. */
+function places(candles: number): [x: number, z: number][] {
+  const ring = candles < 4 ? 0.85 : 1.36;
+  return Array.from({ length: candles }, (_, k): [number, number] => {
+    const seen = ring * ((2 * k + 1) / candles - 1);
+    const side = k % 2 === 0 ? 1 : -1;
+    let x = seen;
+    let z = 0;
+    for (let round = 0; round < 8; ++round) {
+      z = side * Math.sqrt(Math.max(0, ring * ring - x * x));
+      x = Math.max(-ring, Math.min(ring, seen / nearnessAt(z)));
+    }
+    return [x, z];
+  });
+}
+
+/** A picture of the room. Pixels, y up from the lower edge. */
+export class RoomView {
+  readonly eye = 3.4;
+  readonly distance = DISTANCE;
+  width = 1;
+  footer = 0;
+  height = 1;
+  /** pixels a unit at z = 0 */
+  scale = 1;
+  /** pixel of x = 0 */
+  middle = 0;
+  /** pixel of the eye's height */
+  horizon = 0;
+
+  /** Frames what stands on the table in a picture of that size. `footer`: share of its height that controls cover below. */
+  frame(width: number, height: number, cake: boolean, footer: number): void {
+    this.width = width;
+    this.height = height;
+    this.footer = footer;
+    const free = height * (1 - footer);
+    // From the nearest edge of what stands there to above the highest flame.
+    const tall = cake ? 4.0 : 3.6;
+    this.scale = cake ? Math.min(free / tall, width / 5.0) : Math.min(free / tall, width / 2.9);
+    this.middle = width / 2;
+    // Where the picture is tall, what stands there stays near its middle.
+    const spare = Math.max(0, free - this.scale * tall);
+    const foot = height * footer + 0.42 * spare + this.scale * (cake ? 0.94 : 0.40);
+    this.horizon = foot + this.scale * this.eye;
+  }
+
+  /** How much larger things look at that depth than at z = 0. */
+  nearness(z: number): number {
+    return nearnessAt(z);
+  }
+
+  pixelX(x: number, z: number): number {
+    return this.middle + x * this.nearness(z) * this.scale;
+  }
+
+  pixelY(y: number, z: number): number {
+    return this.horizon + (y - this.eye) * this.nearness(z) * this.scale;
+  }
+
+  roomX(pixel: number, z: number): number {
+    return (pixel - this.middle) / (this.nearness(z) * this.scale);
+  }
+
+  roomY(pixel: number, z: number): number {
+    return this.eye + (pixel - this.horizon) / (this.nearness(z) * this.scale);
+  }
+
+  /** How round a level circle at that height and depth looks: the share of its width that is seen as height. */
+  flatness(y: number, z: number): number {
+    return Math.max(0.02, (this.eye - y) / (this.distance - z));
+  }
+}

@@ -1,0 +1,335 @@
+// The candle: a flame model, alive, in a dark room; and the cake, several of them in one wind.
+
+import type { Bank, FlameState, Instance, Model } from '../index.js';
+import type { Acting, Pointer, Reading, Scene, SceneLook, SceneSettings } from '../stage/scene.js';
+import { Candle } from './candle.js';
+import type { Lender } from './lender.js';
+import { Match } from './match.js';
+import { CandleRenderer } from './renderer.js';
+import { MOST_CANDLES, RoomView, settingFor, type Setting } from './room.js';
+import { WindDelay } from '../air/delay.js';
+
+/** Points of a flame's outline; smooth at 500 pixels' height. */
+const OUTLINE_POINTS = 40;
+const NANOSECONDS = 1e9;
+
+export class CandleScene implements Scene {
+  readonly bank: Bank;
+  readonly answerName = 'tip, sideways';
+  private readonly view = new RoomView();
+  private readonly match = new Match();
+  private readonly delay = new WindDelay();
+  private setting: Setting = settingFor(1);
+  private candles: Candle[] = [];
+  private renderer: CandleRenderer | null = null;
+  /** seconds since the last picture, and since the beginning */
+  private passed = 0;
+  private clock = 0;
+  private breath = 0;
+  private hand: Pointer = { x: 0, y: 0, fromX: 0, fromY: 0, speedX: 0, speedY: 0, present: false };
+  private dragged: { offset: number; goal: number } | null = null;
+  private inputs = new Float32Array(1);
+  private settings: SceneSettings;
+  private lender: Lender | null = null;
+  private disposed = false;
+
+  constructor(
+    readonly model: Model,
+    settings: SceneSettings,
+  ) {
+    this.settings = { ...settings };
+    this.bank = model.bank({ capacity: MOST_CANDLES + 1, polylinePoints: OUTLINE_POINTS, seed: settings.seed });
+    this.bank.setNoise(settings.noise);
+    this.inputs = new Float32Array(Math.max(1, this.bank.inputs));
+    this.seat();
+  }
+
+  /** Takes its answer to wind from another flame model; that one may be freed afterwards. */
+  async borrow(from: Model): Promise<void> {
+    const { Lender } = await import('./lender.js');
+    if (this.disposed) return;
+    this.lender = new Lender(from, MOST_CANDLES + 1, OUTLINE_POINTS);
+    for (const candle of this.candles) candle.lent = this.lender.bank.spawn();
+  }
+
+  update(acting: Acting): void {
+    const { seconds } = acting;
+    this.passed += seconds;
+    this.clock += seconds;
+    this.breath = acting.breath;
+    this.hand = acting.pointer;
+    this.followPointer(acting);
+    this.match.update(seconds);
+    this.tendMatch();
+    this.delay.push(seconds, acting.breath);
+    for (const candle of this.candles) this.blowOn(candle, acting);
+    if (this.match.id !== null) this.setWind(this.match.id, Math.max(-1, Math.min(1, -0.16 * this.match.speedX)));
+    this.bank.advance(seconds * NANOSECONDS);
+    this.lender?.bank.advance(seconds * NANOSECONDS);
+    for (const candle of this.candles) this.showCandle(candle);
+    this.showMatch(seconds);
+  }
+
+  reading(): Reading {
+    const first = this.candles[this.candles.length - 1];
+    return { wind: first?.wind ?? 0, answer: first?.shape.empty === false ? first.shape.tipX : 0 };
+  }
+
+  attach(gl: WebGL2RenderingContext): void {
+    this.renderer = new CandleRenderer(gl);
+  }
+
+  draw(width: number, height: number, look: SceneLook): boolean {
+    if (this.view.width !== width || this.view.height !== height || this.view.footer !== look.footer) this.frame(width, height, look.footer);
+    if (this.renderer === null) return false;
+    const { setting, candles, match, passed, clock, breath, hand } = this;
+    const shown = { setting, candles, match, seconds: passed, clock, breath, hand };
+    this.passed = 0;
+    return this.renderer.draw(this.view, shown, { fade: look.fade, clear: look.clear, plain: look.plain });
+  }
+
+  hover(x: number, y: number): 'none' | 'grab' {
+    return this.overMatch(x, y) || this.candleAt(x, y) !== null ? 'grab' : 'none';
+  }
+
+  press(x: number, y: number): void {
+    if (this.overMatch(x, y)) {
+      this.match.take();
+      return;
+    }
+    const candle = this.candleAt(x, y);
+    if (candle === null) return;
+    const at = this.view.roomX(x, candle.stand.z);
+    const held = this.setting.cake?.x ?? candle.stand.x;
+    this.dragged = { offset: held - at, goal: held };
+  }
+
+  release(x: number, y: number, tap: boolean): void {
+    if (this.match.held) {
+      this.match.drop();
+      return;
+    }
+    this.dragged = null;
+    if (!tap) return;
+    const nearest = this.nearestOut(x, y);
+    if (nearest !== null) this.relight(nearest);
+  }
+
+  act(): void {
+    const out = this.candles.find((candle) => !candle.lit);
+    if (out === undefined) return;
+    this.match.send(...this.wickOf(out));
+  }
+
+  apply(settings: SceneSettings): void {
+    const reseat = settings.count !== this.settings.count || settings.seed !== this.settings.seed;
+    this.settings = { ...settings };
+    this.bank.setNoise(settings.noise);
+    if (reseat) this.seat();
+  }
+
+  describe(): string {
+    const lit = this.candles.filter((candle) => candle.lit).length;
+    if (this.candles.length === 1) return lit === 1 ? 'A candle burns in a dark room.' : 'The candle is out.';
+    return `A cake with ${this.candles.length} candles, ${lit} of them burning.`;
+  }
+
+  /** How many burn, of how many. */
+  burning(): { lit: number; of: number } {
+    return { lit: this.candles.filter((candle) => candle.lit).length, of: this.candles.length };
+  }
+
+  /** Where the first candle stands. */
+  get firstX(): number {
+    return this.candles[0]?.stand.x ?? 0;
+  }
+
+  /** Pixels of the first wick and of the match's head. */
+  places(): { wick: readonly [number, number]; match: readonly [number, number] } {
+    const { view, match } = this;
+    const { stand } = this.candles[0] as Candle;
+    return {
+      wick: [view.pixelX(stand.x, stand.z), view.pixelY(stand.ground + stand.height + 0.1 * stand.unit, stand.z)],
+      match: [view.pixelX(match.x, match.z), view.pixelY(match.y, match.z)],
+    };
+  }
+
+  /** Whether there is smoke in the air. */
+  get smoking(): boolean {
+    return this.candles.some((candle) => candle.smoking > 0);
+  }
+
+  dispose(): void {
+    this.disposed = true;
+    this.renderer?.dispose();
+    this.bank.free();
+    this.lender?.bank.free();
+  }
+
+  private frame(width: number, height: number, footer: number): void {
+    const cake = this.setting.cake !== null;
+    this.view.frame(width, height, cake, footer);
+    const z = cake ? 2.6 : 1.4;
+    const edge = this.view.roomX(width, z);
+    this.match.rest(Math.min(edge - 0.55, cake ? 2.3 : 1.35), z);
+  }
+
+  /** Sets up the table anew. */
+  private seat(): void {
+    for (const { id, lent } of this.candles) {
+      this.bank.end(id);
+      if (lent !== null) this.lender?.bank.end(lent);
+    }
+    this.setting = settingFor(this.settings.count);
+    this.candles = this.setting.stands.map((stand) => new Candle(stand, this.bank.spawn(BigInt(stand.seed))));
+    if (this.lender !== null) for (const candle of this.candles) candle.lent = this.lender.bank.spawn();
+    this.dragged = null;
+    this.frame(this.view.width, this.view.height, this.view.footer);
+  }
+
+  private setWind(id: Instance, wind: number, bank = this.bank): void {
+    if (bank.inputs === 0) return;
+    this.inputs[0] = wind;
+    bank.setInstanceInputs(id, this.inputs);
+  }
+
+  private stateOf({ id, lent }: Candle): FlameState {
+    return lent === null || this.lender === null ? this.bank.flameState(id) : this.lender.bank.flameState(lent);
+  }
+
+  private followPointer({ pointer, seconds }: Acting): void {
+    if (this.match.held) {
+      this.match.moveTo(this.view.roomX(pointer.x, this.match.z), this.view.roomY(pointer.y, this.match.z));
+    }
+    if (this.dragged === null) return;
+    const edge = this.view.roomX(this.view.width, 0) - 0.4;
+    const goal = this.view.roomX(pointer.x, 0) + this.dragged.offset;
+    this.dragged.goal = Math.max(-edge, Math.min(edge, goal));
+    const held = this.setting.cake?.x ?? (this.candles[0] as Candle).stand.x;
+    const way = (this.dragged.goal - held) * (1 - Math.exp(-18 * seconds));
+    if (this.setting.cake !== null) this.setting.cake.x += way;
+    for (const candle of this.candles) candle.stand.x += way;
+  }
+
+  private blowOn(candle: Candle, acting: Acting): void {
+    const { stand } = candle;
+    const breath = this.setting.cake === null ? acting.breath : this.delay.at(stand.x - this.setting.cake.x, stand.z);
+    candle.sheltered = Math.max(0, candle.sheltered - acting.seconds);
+    const busy = this.match.held || this.dragged !== null || candle.sheltered > 0;
+    const near = this.view.scale * this.view.nearness(stand.z) * stand.unit;
+    const flameX = this.view.pixelX(stand.x, stand.z);
+    const flameY = this.view.pixelY(candle.foot + 0.4 * stand.unit, stand.z);
+    candle.stroke.update(acting, busy, flameX, flameY, near);
+    candle.wind = breath + candle.stroke.wind + candle.motionWind(acting.seconds);
+    this.setWind(candle.id, candle.wind);
+    if (candle.lent !== null) this.setWind(candle.lent, candle.wind, this.lender?.bank);
+  }
+
+  private showCandle(candle: Candle): void {
+    const state = this.stateOf(candle);
+    const sinceOut = state.lit ? Infinity : Number(state.sinceOut) / NANOSECONDS;
+    const own = this.bank.polyline(candle.id);
+    const outline = candle.lent === null || this.lender === null ? own : this.lender.lend(candle.lent, own, state);
+    candle.show(outline, state.flameSize, sinceOut);
+  }
+
+  private tendMatch(): void {
+    const { match } = this;
+    if (match.wanted && match.id === null) {
+      match.id = this.bank.spawn(BigInt(1000));
+      match.catchFire();
+      if (this.model.facts.blowOut !== null) {
+        this.bank.extinguish(match.id);
+        this.bank.relight(match.id);
+      }
+    }
+    if (!match.wanted && match.burning) {
+      match.burning = false;
+      match.sinceOut = 0.01;
+      if (match.id !== null) this.bank.end(match.id);
+      match.id = null;
+    }
+    match.burning = match.id !== null;
+    if (!match.burning) return;
+    for (const candle of this.candles) {
+      if (candle.lit) continue;
+      const [x, y] = this.wickOf(candle);
+      if (Math.hypot(x - match.x, y - match.y) < 0.42 * Math.max(0.5, candle.stand.unit)) {
+        this.relight(candle);
+        this.sendOn();
+      }
+    }
+  }
+
+  /** After one wick, to the next one that is out, where the match goes by itself. */
+  private sendOn(): void {
+    if (this.match.held) return;
+    const next = this.candles.find((candle) => !candle.lit && !this.stateOf(candle).lit);
+    if (next !== undefined) this.match.send(...this.wickOf(next));
+  }
+
+  private showMatch(seconds: number): void {
+    const { match } = this;
+    if (match.id !== null) {
+      const state = this.bank.flameState(match.id);
+      match.size = state.flameSize;
+      match.shape.update(this.bank.polyline(match.id), state.flameSize);
+      match.sinceOut = Infinity;
+    } else if (match.sinceOut < Infinity) {
+      match.sinceOut += seconds;
+      match.size = Math.max(0, match.size - 3 * seconds);
+    }
+  }
+
+  private relight(candle: Candle): void {
+    if (candle.lent !== null) this.lender?.bank.relight(candle.lent);
+    else this.bank.relight(candle.id);
+    candle.stroke.settle();
+    candle.sheltered = 0.6;
+  }
+
+  /** Where the match has to be to light it: its flame at the wick, at the match's depth. */
+  private wickOf(candle: Candle): [number, number] {
+    const { view, match } = this;
+    const { stand } = candle;
+    const x = view.pixelX(stand.x + 0.02, stand.z);
+    const y = view.pixelY(stand.ground + stand.height + 0.1 * stand.unit, stand.z);
+    return [view.roomX(x, match.z), view.roomY(y, match.z) - 0.12];
+  }
+
+  private overMatch(x: number, y: number): boolean {
+    return this.match.near(this.view.roomX(x, this.match.z), this.view.roomY(y, this.match.z));
+  }
+
+  private candleAt(x: number, y: number): Candle | null {
+    const { view } = this;
+    for (const candle of [...this.candles].reverse()) {
+      const { stand } = candle;
+      const dx = view.roomX(x, stand.z) - stand.x;
+      const dy = view.roomY(y, stand.z) - stand.ground;
+      const wide = Math.max(stand.radius, 0.22) + 0.1;
+      if (Math.abs(dx) < wide && dy > -0.2 && dy < stand.height + 0.3 * stand.unit) return candle;
+    }
+    const cake = this.setting.cake;
+    const first = this.candles[0];
+    if (cake === null || first === undefined) return null;
+    const dy = view.roomY(y, 0);
+    return Math.abs(view.roomX(x, 0) - cake.x) < cake.radius && dy > -0.5 && dy < cake.height + 0.3 ? first : null;
+  }
+
+  /** The candle that a tap there lights: the nearest that is out, anywhere on it or near its wick. */
+  private nearestOut(x: number, y: number): Candle | null {
+    let best: Candle | null = null;
+    let least = Infinity;
+    for (const candle of this.candles) {
+      if (candle.lit) continue;
+      const { stand } = candle;
+      const near = this.view.scale * this.view.nearness(stand.z);
+      const dx = (x - this.view.pixelX(stand.x, stand.z)) / near;
+      const dy = (y - this.view.pixelY(candle.foot, stand.z)) / near;
+      const far = Math.hypot(dx, dy > 0 ? dy : 0.35 * dy);
+      if (far < least) [least, best] = [far, candle];
+    }
+    return least < 1.6 ? best : null;
+  }
+}

@@ -1,0 +1,18 @@
+export default /* glsl */ `
+// A rectangle that faces the eye, in units of the room around a foot; p is how near it is.
+uniform vec4 uView;
+uniform float uEye;
+uniform vec3 uFoot;   // in the room
+uniform vec4 uBox;    // left, bottom, right, top, around the foot, in units of the board
+uniform float uUnit;  // of the room, a unit of the board
+uniform vec2 uSize;   // of the picture, pixels
+layout(location = 0) in vec2 corner;
+out vec2 vAt;
+void main() {
+  vAt = mix(uBox.xy, uBox.zw, 0.5 + 0.5 * corner);
+  float near = uView.w / (uView.w - uFoot.z);
+  vec2 place = vec2(uFoot.x + vAt.x * uUnit, uFoot.y + vAt.y * uUnit - uEye);
+  vec2 pixel = uView.xy + place * near * uView.z;
+  gl_Position = vec4(2.0 * pixel / uSize - 1.0, 0, 1);
+}
+`;

@@ -1,0 +1,99 @@
+export default /* glsl */ `
+// The room in the light of the flames and of the moon: wall, table and cake, and the light that hangs in the air.
+uniform sampler2D uSurface;
+uniform vec4 uLights[14];   // middle of each flame in the room, and its light
+uniform vec4 uHalos[14];    // pixel of the base and of the tip of each flame
+uniform float uSpread[14];  // pixels of one model unit of each flame
+uniform vec4 uStands[14];   // each candle: foot x, z; radius; height over what it stands on
+uniform float uGround;      // height that candles stand on
+uniform float uFoot;        // of what each candle stands on: radius, in its own radii
+uniform int uCount;
+out vec4 colour;
+
+const vec3 kFire = vec3(1.0, 0.44, 0.115);
+const vec3 kMoon = vec3(0.36, 0.56, 1.0);
+
+// Moonlight through a window that is not in the picture: six panes, slanted, on the wall.
+float window(vec2 at) {
+  vec2 q = vec2(at.x - 1.95 + 0.30 * (at.y - 2.4), at.y - 2.4) / vec2(0.50, 0.62);
+  vec2 pane = abs(fract(vec2(q.x + 0.5, q.y)) - 0.5) * 2.0;
+  vec2 whole = abs(vec2(q.x, q.y)) - vec2(1.0, 1.5);
+  vec2 soft = smoothstep(vec2(0.97, 0.97), vec2(0.78, 0.84), pane);
+  vec2 out_ = smoothstep(vec2(0.55, 0.05), vec2(0.40, -0.12), whole);
+  return mix(0.35, 1.0, soft.x * soft.y) * out_.x * out_.y;
+}
+
+// A candle hides its own flame from what lies around its foot, on the side that the flame leans away from.
+float shade(vec3 at, vec4 stand, vec3 lamp) {
+  if (at.y > uGround + 0.02) return 1.0;
+  float high = max(0.15, lamp.y - uGround - stand.w);
+  float share = stand.w / (stand.w + high);
+  vec2 past = mix(at.xz, lamp.xz, share) - stand.xy;
+  float dark = smoothstep(0.45, 1.55, length(past) / stand.z);
+  float contact = smoothstep(0.72, 1.55, length(at.xz - stand.xy) / (stand.z * uFoot));
+  return mix(0.10, 1.0, dark) * mix(0.28, 1.0, contact);
+}
+
+float segment(vec2 p, vec2 a, vec2 b) {
+  vec2 ab = b - a;
+  return length(p - a - ab * clamp(dot(p - a, ab) / max(1.0, dot(ab, ab)), 0.0, 1.0));
+}
+
+// What a place sends to the eye.
+vec3 shown(Hit hit, vec4 surface) {
+  vec3 albedo = surface.rgb * surface.rgb;
+  vec3 eye = normalize(vec3(0.0, uEye, uView.w) - hit.at);
+  bool level = hit.normal.y > 0.5;
+  vec3 light = vec3(0);
+  vec3 gloss = vec3(0);
+  for (int k = 0; k < uCount; ++k) {
+    vec3 to = uLights[k].xyz - hit.at;
+    float r2 = dot(to, to);
+    vec3 way = to * inversesqrt(r2);
+    float facing = level ? max(0.0, dot(way, hit.normal)) : max(0.0, 0.15 + 0.85 * dot(way, hit.normal));
+    // What the cream throws back lights the side of the cake.
+    if (hit.kind == kOnCakeSide) facing = 0.30 + 0.20 * dot(way, hit.normal) - 0.16 * (uCake.y - hit.at.y);
+    float fall = uLights[k].w / (0.22 + r2);
+    float seen = shade(hit.at, uStands[k], uLights[k].xyz);
+    if (hit.kind == kOnCakeTop) seen *= sticks(hit.at, uLights[k].xyz);
+    light += kFire * (facing * fall * seen * (hit.kind == kOnWall ? 1.9 : 1.0));
+    if (surface.a > 0.0 && hit.kind != kOnWall) {
+      float shine = max(0.0, dot(hit.normal, normalize(way + eye)));
+      gloss += kFire * (surface.a * fall * seen * (0.9 * pow(shine, 60.0) + 0.10 * pow(shine, 12.0)));
+    }
+    // Wax lets some light through to what the candle stands on.
+    if (level) {
+      float foot = max(0.0, length(hit.at.xz - uStands[k].xy) - uStands[k].z);
+      light += vec3(1.0, 0.30, 0.06) * uLights[k].w * 0.05 * exp(-foot * 2.2) / (0.4 + uStands[k].w);
+    }
+  }
+  vec3 night = vec3(0.005, 0.007, 0.013) * (0.55 + 0.45 * hit.normal.y);
+  if (hit.kind == kOnWall) night += kMoon * (0.040 * window(hit.at.xy) + 0.008 * exp(-0.35 * length(hit.at.xy - vec2(1.9, 2.4))));
+  else night += kMoon * 0.013 * smoothstep(6.5, 0.0, length(hit.at.xz - vec2(1.2, -3.0)));
+  float corner = hit.kind == kOnWall ? 0.30 + 0.70 * smoothstep(0.0, 1.9, hit.at.y) : 0.50 + 0.50 * smoothstep(-4.6, -2.4, hit.at.z);
+  return albedo * (4.2 * light + 3.0 * night) * corner + 0.7 * gloss;
+}
+
+void main() {
+  vec2 at = gl_FragCoord.xy;
+  ivec2 cell = ivec2(at);
+  Hit hit = hitOf(at);
+  vec3 light;
+#if SAMPLES > 1
+  // Where two things meet within a pixel, a quarter of each.
+  Hit a = hitOf(at + vec2(-0.375, -0.125)), b = hitOf(at + vec2(0.125, -0.375)), c = hitOf(at + vec2(0.375, 0.125)), d = hitOf(at + vec2(-0.125, 0.375));
+  if (a.kind != c.kind || b.kind != d.kind || a.kind != b.kind) {
+    light = 0.25 * (shown(a, texelFetch(uSurface, cell + ivec2(-1, 0), 0)) + shown(b, texelFetch(uSurface, cell + ivec2(0, -1), 0)) +
+                    shown(c, texelFetch(uSurface, cell + ivec2(1, 0), 0)) + shown(d, texelFetch(uSurface, cell + ivec2(0, 1), 0)));
+  } else
+#endif
+  light = shown(hit, texelFetch(uSurface, cell, 0));
+  vec3 air = vec3(0);
+  for (int k = 0; k < uCount; ++k) {
+    float far = segment(at, uHalos[k].xy, uHalos[k].zw) / uSpread[k];
+    float glow = 0.16 * exp(-far * 8.0) + 0.045 * exp(-far * 2.6) + 0.010 * exp(-far * 0.9);
+    air += uLights[k].w * mix(vec3(1.0, 0.32, 0.07), vec3(1.0, 0.46, 0.13), exp(-far * 5.0)) * glow;
+  }
+  colour = vec4(light + air, 1);
+}
+`;

@@ -1,0 +1,22 @@
+export default /* glsl */ `
+// Smoke that the air carries: how dense it is.
+uniform sampler2D uFlow, uSmoke;
+uniform vec4 uWicks[14];  // where a wick smokes, how wide, how much
+uniform int uCount;
+void main() {
+  vec2 flow = texture(uFlow, vAt).xy / vec2(uAspect, 1);
+  // Half a step, then the whole of it from there: threads stay thin.
+  vec2 half_ = texture(uFlow, vAt - 0.5 * uSeconds * flow).xy / vec2(uAspect, 1);
+  float smoke = texture(uSmoke, vAt - uSeconds * half_).x * exp(-0.42 * uSeconds);
+  vec2 at = vAt * vec2(uAspect, 1);
+  for (int k = 0; k < uCount; ++k) {
+    // What came out during the step lies along the way that the air took from there: a thread, however long the step.
+    vec2 way = uSeconds * texture(uFlow, uWicks[k].xy / vec2(uAspect, 1)).xy;
+    vec2 to = at - uWicks[k].xy;
+    float along = clamp(dot(to, way) / max(1e-7, dot(way, way)), 0.0, 1.0);
+    vec2 off = (to - along * way) / uWicks[k].z;
+    smoke += uSeconds * uWicks[k].w * exp(-dot(off, off)) / (1.0 + length(way) / uWicks[k].z);
+  }
+  colour = vec4(max(0.0, smoke - 0.004 * uSeconds), 0, 0, 1);
+}
+`;

@@ -1,0 +1,35 @@
+// <wisp-leaves>: leaves that fall, on anybody's page.
+
+import type { Model } from '../index.js';
+import { numberOf, SceneElement } from '../stage/element.js';
+import type { Scene, SceneSettings } from '../stage/scene.js';
+import { MOST_LEAVES } from './limits.js';
+import { LeavesScene } from './scene.js';
+
+const USUAL = 200;
+
+/** Attributes beside those of every scene: `leaves`, 1 to 10000. Events: `load`, `error`. */
+export class WispLeaves extends SceneElement {
+  protected readonly usualModel = new URL('../models/leaf.wisp', import.meta.url);
+
+  protected sceneOf(model: Model, settings: SceneSettings): Promise<Scene> {
+    if (model.view !== 'pose' && model.view !== 'position') throw new Error(`${model.name || 'This model'} has no pose to fall with.`);
+    return Promise.resolve(new LeavesScene(model, settings));
+  }
+
+  protected count(): number {
+    return Math.round(numberOf(this, 'leaves', 1, MOST_LEAVES, USUAL));
+  }
+
+  protected watch(): void {
+    return;
+  }
+}
+
+if (!customElements.get('wisp-leaves')) customElements.define('wisp-leaves', WispLeaves);
+
+declare global {
+  interface HTMLElementTagNameMap {
+    'wisp-leaves': WispLeaves;
+  }
+}

@@ -1,0 +1,264 @@
+// Leaves that fall for ever: instances of one chain, each with its own way through the air, its rest on the ground, and
+// its return to the top. The bank moves them; this says where they begin, what wind they feel, and which are in view.
+
+import type { Bank, Instance } from '../index.js';
+import type { LeafCamera } from './camera.js';
+
+/** Leaves live between these depths and below that height, metres. */
+const NEAREST = -1.35;
+const FARTHEST = 3.4;
+const TOP = 2.75;
+/** Below this a leaf lies on the ground. */
+const LYING = 0.035;
+/** Leaves that are placed anew in one frame, at most: each looks through all segments. */
+const PLACINGS = 6;
+/** Milliseconds that a frame may spend on leaves that are still to come, beyond those. */
+const FILLING = 1.5;
+const FADES = 0.7;
+/** Wind that lifts a leaf off the ground, metres a second, and for how long it is carried up. */
+const LIFTING = 0.9;
+const LIFT_SECONDS = 0.45;
+/** How far a gust of the pointer reaches, metres, squared. */
+const REACH2 = 1.4;
+/** Numbers an instance on the graphics card: x, y, z, how much of it is seen; quaternion w, x, y, z. */
+export const LEAF_NUMBERS = 8;
+
+/** A gust of a place: an upright column of moving air. */
+export interface Gust {
+  /** where, and how fast that air moves, metres and metres a second */
+  x: number;
+  z: number;
+  speedX: number;
+  speedZ: number;
+  /** wind everywhere, along x */
+  everywhere: number;
+  /** an upward push at the ground around a place; 0: none */
+  kick: number;
+  kickX: number;
+  kickY: number;
+  /** how far it reaches, metres */
+  kickReach: number;
+}
+
+export class LeafFall {
+  readonly shown: Float32Array;
+  count = 0;
+  /** how many lie on the ground */
+  lying = 0;
+  private readonly ids: Instance[] = [];
+  private readonly offsetX: Float32Array;
+  private readonly offsetY: Float32Array;
+  private readonly rested: Float32Array;
+  private readonly rests: Float32Array;
+  private readonly lift: Float32Array;
+  private readonly seen: Float32Array;
+  private readonly wide: boolean;
+  private random: number;
+  private clock = 0;
+  private wanted = 0;
+  /** speed of the gust's own air */
+  private stroke = 0;
+
+  constructor(
+    private readonly bank: Bank,
+    private readonly camera: LeafCamera,
+    seed: number,
+  ) {
+    const most = bank.capacity;
+    this.shown = new Float32Array(LEAF_NUMBERS * most);
+    this.offsetX = new Float32Array(most);
+    this.offsetY = new Float32Array(most);
+    this.rested = new Float32Array(most);
+    this.rests = new Float32Array(most);
+    this.lift = new Float32Array(most);
+    this.seen = new Float32Array(most);
+    this.wide = bank.outputs >= 7;
+    this.random = (seed * 2654435761) >>> 0 || 1;
+    bank.setGround(0);
+  }
+
+  /** Wants so many; they come and go over the next frames. */
+  want(count: number): void {
+    this.wanted = Math.min(count, this.bank.capacity);
+    while (this.ids.length > this.wanted) this.bank.end(this.ids.pop() as Instance);
+    this.count = Math.min(this.count, this.ids.length);
+  }
+
+  /** Lets time pass. */
+  update(seconds: number, gust: Gust): void {
+    this.clock += seconds;
+    let placings = PLACINGS;
+    const began = performance.now();
+    while (this.ids.length < this.wanted && (placings > 0 || performance.now() - began < FILLING)) {
+      this.begin();
+      placings = Math.max(0, placings - 1);
+    }
+    this.blow(gust);
+    this.bank.advance(seconds * 1e9);
+    this.gather(seconds, gust, placings);
+  }
+
+  private chance(): number {
+    // xorshift: cheap, and the same for the same seed.
+    let word = this.random;
+    word ^= word << 13;
+    word ^= word >>> 17;
+    word ^= word << 5;
+    this.random = word >>> 0;
+    return this.random / 4294967296;
+  }
+
+  private begin(): void {
+    const slot = this.ids.length;
+    this.ids.push(this.bank.spawn(slot));
+    this.start(slot, TOP * (0.12 + 0.95 * this.chance()));
+    this.count = this.ids.length;
+  }
+
+  /** Lets a leaf fall from that height, somewhere. */
+  private start(slot: number, height: number): void {
+    // Denser near the eye, where the view is narrow, than even over the ground.
+    const y = NEAREST + (FARTHEST - NEAREST) * Math.pow(this.chance(), 0.72);
+    const half = this.camera.halfWidth(y) + 0.3;
+    this.offsetX[slot] = (2 * this.chance() - 1) * half;
+    this.offsetY[slot] = y;
+    this.rested[slot] = 0;
+    this.rests[slot] = 3 + 9 * this.chance();
+    this.lift[slot] = 0;
+    this.seen[slot] = 0;
+    const turn = this.chance() * Math.PI;
+    const tilt = 0.5 * (this.chance() - 0.5);
+    this.bank.place(this.ids[slot] as Instance, {
+      position: [0, 0, height],
+      orientation: [Math.cos(turn), tilt * Math.cos(3 * turn), tilt * Math.sin(3 * turn), Math.sin(turn)],
+      velocity: [0.3 * (this.chance() - 0.5), 0.3 * (this.chance() - 0.5), -0.6],
+    });
+  }
+
+  /** Gives every leaf its wind. */
+  private blow(gust: Gust): void {
+    const { bank, shown, lift, clock } = this;
+    if (bank.inputs !== 3 || this.ids.length === 0) return;
+    const winds = bank.inputsView();
+    const aside = 0.25 * Math.sin(3 * clock);
+    const still = Math.abs(gust.speedX) + Math.abs(gust.speedZ) < 0.05 && gust.everywhere === 0;
+    for (let slot = 0; slot < this.count; ++slot) {
+      const k = LEAF_NUMBERS * slot;
+      let windX = 0;
+      let windZ = (lift[slot] as number) > 0 ? 2.2 : 0;
+      if (!still) {
+        const x = shown[k] as number;
+        const z = shown[k + 2] as number;
+        const dx = x - gust.x;
+        const dz = z - gust.z;
+        const far2 = dx * dx + dz * dz;
+        if (far2 < REACH2) {
+          const near = nearness(far2);
+          windX += gust.speedX * near;
+          windZ += gust.speedZ * near;
+        }
+        if (gust.everywhere !== 0) {
+          const waves = 0.75 + 0.25 * Math.sin(2.1 * x - 5 * clock + 1.7 * (shown[k + 1] as number));
+          windX += gust.everywhere * waves;
+          windZ += 0.3 * Math.abs(gust.everywhere) * (waves - 0.6);
+        }
+      }
+      winds[3 * slot] = windX;
+      winds[3 * slot + 1] = slot % 2 === 0 ? aside * windX : -aside * windX;
+      winds[3 * slot + 2] = windZ;
+    }
+    bank.setInputs(winds);
+  }
+
+  /** Reads where the leaves are, and starts again those that have lain long enough. */
+  private gather(seconds: number, gust: Gust, placings: number): void {
+    const outputs = this.bank.outputsView();
+    const { shown, seen } = this;
+    const stride = this.bank.outputs;
+    const again: number[] = [];
+    const kicked: number[] = [];
+    this.lying = 0;
+    this.stroke = Math.hypot(gust.speedX, gust.speedZ);
+    for (let slot = 0; slot < this.count; ++slot) {
+      const from = stride * slot;
+      const to = LEAF_NUMBERS * slot;
+      const y = wrapped((outputs[from + 1] as number) + (this.offsetY[slot] as number), NEAREST, FARTHEST);
+      const half = this.camera.halfWidth(y) + 0.3;
+      const x = wrapped((outputs[from] as number) + (this.offsetX[slot] as number), -half, half);
+      const z = outputs[from + 2] as number;
+      shown[to] = x;
+      shown[to + 1] = y;
+      shown[to + 2] = z;
+      if (this.wide) {
+        shown[to + 4] = outputs[from + 3] as number;
+        shown[to + 5] = outputs[from + 4] as number;
+        shown[to + 6] = outputs[from + 5] as number;
+        shown[to + 7] = outputs[from + 6] as number;
+      } else {
+        shown[to + 4] = 1;
+      }
+      this.lift[slot] = Math.max(0, (this.lift[slot] as number) - seconds);
+      const tired = this.rest(slot, z, seconds);
+      if (tired && placings > again.length && seen[slot] === 0) again.push(slot);
+      if (z < LYING && again.length + kicked.length < placings && this.lifts(x, y, gust)) kicked.push(slot);
+      const goal = tired ? 0 : 1;
+      const step = seconds / FADES;
+      seen[slot] = Math.max(0, Math.min(1, (seen[slot] as number) + (goal > 0 ? step : -step)));
+      shown[to + 3] = seen[slot] as number;
+    }
+    for (const slot of again) this.start(slot, TOP * (0.8 + 0.3 * this.chance()));
+    for (const slot of kicked) this.kick(slot, gust);
+  }
+
+  /** Counts a leaf's rest. Returns whether it has lain long enough. */
+  private rest(slot: number, z: number, seconds: number): boolean {
+    if (z >= LYING) {
+      this.rested[slot] = 0;
+      return false;
+    }
+    this.lying += 1;
+    this.rested[slot] = (this.rested[slot] as number) + seconds;
+    return (this.rested[slot] as number) > (this.rests[slot] as number);
+  }
+
+  private lifts(x: number, y: number, gust: Gust): boolean {
+    if (gust.kick > 0) {
+      const dx = x - gust.kickX;
+      const dy = y - gust.kickY;
+      if (Math.exp(-(dx * dx + dy * dy) / gust.kickReach ** 2) * gust.kick > 0.15 + 0.6 * this.chance()) return true;
+    }
+    const dx = x - gust.x;
+    const dz = 0.1 - gust.z;
+    const wind = this.stroke * nearness(dx * dx + dz * dz) + Math.abs(gust.everywhere);
+    return wind > LIFTING && wind > LIFTING * (1 + 2 * this.chance());
+  }
+
+  /** Throws a lying leaf up. */
+  private kick(slot: number, gust: Gust): void {
+    const outputs = this.bank.instanceOutputs(this.ids[slot] as Instance);
+    const spread = (): number => this.chance() - 0.5;
+    this.bank.place(this.ids[slot] as Instance, {
+      position: [outputs[0] as number, outputs[1] as number, LYING + 0.02],
+      orientation: this.wide
+        ? [outputs[3] as number, outputs[4] as number, outputs[5] as number, outputs[6] as number]
+        : [1, 0, 0, 0],
+      velocity: [0.5 * gust.everywhere + 0.3 * gust.speedX + spread(), spread(), 1.6 + 1.4 * this.chance()],
+      spin: [8 * spread(), 8 * spread(), 6 * spread()],
+    });
+    this.lift[slot] = LIFT_SECONDS * (0.6 + 0.8 * this.chance());
+    this.rested[slot] = 0;
+    this.seen[slot] = Math.max(0.5, this.seen[slot] as number);
+  }
+}
+
+/** How much of a gust is felt at that distance, squared: a bell that ends. */
+function nearness(far2: number): number {
+  const share = Math.max(0, 1 - far2 / REACH2);
+  return share * share * share;
+}
+
+/** What goes out of the range on one side comes in on the other. */
+function wrapped(value: number, low: number, high: number): number {
+  const range = high - low;
+  return value - range * Math.floor((value - low) / range);
+}

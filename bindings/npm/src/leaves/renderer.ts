@@ -1,0 +1,167 @@
+// Draws leaves with WebGL2: one instanced call for all leaves, one for all their shadows. Poses go to the card as the
+// bank gives them and are turned there.
+
+import { drawToCanvas, Program, Quad, Target } from '../stage/gl.js';
+import noise from '../candle/shaders/noise.glsl.js';
+import fullVertex from '../candle/shaders/full.vert.js';
+import type { LeafCamera } from './camera.js';
+import { LEAF_NUMBERS } from './fall.js';
+import { leafMesh, MESH_NUMBERS } from './mesh.js';
+import finishFragment from './shaders/finish.frag.js';
+import leafFragment from './shaders/leaf.frag.js';
+import leafVertex from './shaders/leaf.vert.js';
+import shadowFragment from './shaders/shadow.frag.js';
+import shadowVertex from './shaders/shadow.vert.js';
+import skyFragment from './shaders/sky.frag.js';
+
+/** The more leaves, the fewer triangles each: up to so many leaves, so many rows and columns of them. */
+const MESHES: readonly (readonly [most: number, rows: number, columns: number])[] = [
+  [120, 10, 4],
+  [1200, 6, 4],
+  [3000, 4, 2],
+  [Infinity, 3, 2],
+];
+/** Leaves are drawn this much larger than they are. */
+const ENLARGED = 1.45;
+
+interface Shape {
+  array: WebGLVertexArrayObject;
+  vertices: WebGLBuffer;
+  indices: WebGLBuffer | null;
+  count: number;
+}
+
+export class LeafRenderer {
+  private readonly quad: Quad;
+  private readonly picture: Target;
+  private readonly programs: Record<'sky' | 'leaf' | 'shadow' | 'finish', Program>;
+  private readonly instances: WebGLBuffer;
+  private readonly leaves: readonly { most: number; shape: Shape }[];
+  private readonly shadow: Shape;
+  private room = 0;
+
+  constructor(private readonly gl: WebGL2RenderingContext) {
+    this.quad = new Quad(gl);
+    this.picture = new Target(gl, { range: false, depth: true, samples: 4 });
+    this.programs = {
+      sky: new Program(gl, fullVertex, noise + skyFragment),
+      leaf: new Program(gl, leafVertex, leafFragment),
+      shadow: new Program(gl, shadowVertex, shadowFragment),
+      finish: new Program(gl, fullVertex, noise + finishFragment),
+    };
+    this.instances = gl.createBuffer() as WebGLBuffer;
+    this.leaves = MESHES.map(([most, rows, columns]) => ({ most, shape: this.shape(rows, columns) }));
+    this.shadow = this.shadowShape();
+  }
+
+  /** Draws `count` leaves on the canvas, from LEAF_NUMBERS numbers each; half sizes in metres. */
+  draw(camera: LeafCamera, leaves: Float32Array, count: number, halfSize: readonly [number, number], clock: number, fade: number): void {
+    const { gl } = this;
+    this.upload(leaves, count);
+    this.picture.resize(camera.width, camera.height);
+    this.picture.begin();
+    gl.clear(gl.DEPTH_BUFFER_BIT);
+    gl.disable(gl.DEPTH_TEST);
+    gl.disable(gl.BLEND);
+    this.drawSky(camera, clock);
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.DST_COLOR, gl.ZERO);
+    const size = [ENLARGED * halfSize[0], ENLARGED * halfSize[1]] as const;
+    this.programs.shadow.use().setMatrix('uMatrix', camera.matrix).set('uHalfSize', ...size);
+    gl.bindVertexArray(this.shadow.array);
+    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
+    gl.disable(gl.BLEND);
+    gl.enable(gl.DEPTH_TEST);
+    this.programs.leaf.use().setMatrix('uMatrix', camera.matrix).set('uHalfSize', ...size).set('uEye', ...camera.eye);
+    const { shape } = this.leaves.find(({ most }) => count <= most) as { shape: Shape };
+    gl.bindVertexArray(shape.array);
+    gl.drawElementsInstanced(gl.TRIANGLES, shape.count, gl.UNSIGNED_SHORT, 0, count);
+    gl.bindVertexArray(null);
+    gl.disable(gl.DEPTH_TEST);
+    this.picture.finish();
+    drawToCanvas(gl);
+    this.picture.bindTexture(0);
+    this.programs.finish.use().setInteger('uPicture', 0).set('uSize', camera.width, camera.height).set('uFade', fade);
+    this.quad.draw();
+  }
+
+  dispose(): void {
+    this.quad.dispose();
+    this.picture.dispose();
+    for (const program of Object.values(this.programs)) program.dispose();
+    for (const shape of [this.shadow, ...this.leaves.map(({ shape: leaf }) => leaf)]) {
+      this.gl.deleteVertexArray(shape.array);
+      this.gl.deleteBuffer(shape.vertices);
+      this.gl.deleteBuffer(shape.indices);
+    }
+    this.gl.deleteBuffer(this.instances);
+  }
+
+  private upload(leaves: Float32Array, count: number): void {
+    const { gl } = this;
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.instances);
+    if (this.room < count) {
+      this.room = Math.min(leaves.length / LEAF_NUMBERS, Math.max(count, 2 * this.room));
+      gl.bufferData(gl.ARRAY_BUFFER, 4 * LEAF_NUMBERS * this.room, gl.STREAM_DRAW);
+    }
+    gl.bufferSubData(gl.ARRAY_BUFFER, 0, leaves, 0, LEAF_NUMBERS * count);
+  }
+
+  private drawSky(camera: LeafCamera, clock: number): void {
+    this.programs.sky
+      .use()
+      .set('uSize', camera.width, camera.height)
+      .set('uHalf', ...camera.half)
+      .set('uDown', ...camera.looksDown)
+      .set('uEye', ...camera.eye)
+      .set('uClock', clock);
+    this.quad.draw();
+  }
+
+  private perInstance(): void {
+    const { gl } = this;
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.instances);
+    for (const [location, offset] of [
+      [2, 0],
+      [3, 16],
+    ] as const) {
+      gl.enableVertexAttribArray(location);
+      gl.vertexAttribPointer(location, 4, gl.FLOAT, false, 4 * LEAF_NUMBERS, offset);
+      gl.vertexAttribDivisor(location, 1);
+    }
+  }
+
+  private shape(rows: number, columns: number): Shape {
+    const { gl } = this;
+    const mesh = leafMesh(rows, columns);
+    const array = gl.createVertexArray() as WebGLVertexArrayObject;
+    const vertices = gl.createBuffer() as WebGLBuffer;
+    const indices = gl.createBuffer() as WebGLBuffer;
+    gl.bindVertexArray(array);
+    gl.bindBuffer(gl.ARRAY_BUFFER, vertices);
+    gl.bufferData(gl.ARRAY_BUFFER, mesh.vertices, gl.STATIC_DRAW);
+    gl.enableVertexAttribArray(0);
+    gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 4 * MESH_NUMBERS, 0);
+    gl.enableVertexAttribArray(1);
+    gl.vertexAttribPointer(1, 2, gl.FLOAT, false, 4 * MESH_NUMBERS, 12);
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, indices);
+    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, mesh.indices, gl.STATIC_DRAW);
+    this.perInstance();
+    gl.bindVertexArray(null);
+    return { array, vertices, indices, count: mesh.indices.length };
+  }
+
+  private shadowShape(): Shape {
+    const { gl } = this;
+    const array = gl.createVertexArray() as WebGLVertexArrayObject;
+    const vertices = gl.createBuffer() as WebGLBuffer;
+    gl.bindVertexArray(array);
+    gl.bindBuffer(gl.ARRAY_BUFFER, vertices);
+    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]), gl.STATIC_DRAW);
+    gl.enableVertexAttribArray(0);
+    gl.vertexAttribPointer(0, 2, gl.FLOAT, false, 0, 0);
+    this.perInstance();
+    gl.bindVertexArray(null);
+    return { array, vertices, indices: null, count: 4 };
+  }
+}

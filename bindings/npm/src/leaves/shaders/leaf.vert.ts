@@ -1,0 +1,37 @@
+export default /* glsl */ `
+layout(location = 0) in vec3 place;     // shares of half the width and half the length
+layout(location = 1) in vec2 veins;     // across −1 … 1, along 0 … 1
+layout(location = 2) in vec4 where;     // metres; how much of it is seen
+layout(location = 3) in vec4 attitude;  // quaternion w, x, y, z
+uniform mat4 uMatrix;
+uniform vec2 uHalfSize;  // half width, half length, metres
+uniform vec3 uEye;
+out vec2 vVeins;
+out vec3 vNormal;
+out vec3 vPlace;
+flat out vec4 vChance;
+
+vec3 turned(vec4 q, vec3 v) {
+  vec3 t = 2.0 * cross(q.yzw, v);
+  return v + q.x * t + cross(q.yzw, t);
+}
+
+vec4 chanceOf(float k) { return fract(sin(vec4(k * 12.9898, k * 78.233, k * 39.425, k * 93.989)) * 43758.5453); }
+
+void main() {
+  vChance = chanceOf(float(gl_InstanceID) + 1.0);
+  float size = (0.72 + 0.5 * vChance.x) * smoothstep(0.0, 1.0, where.w);
+  float broad = 0.85 + 0.35 * vChance.y;
+  float curl = 0.5 + 1.1 * vChance.z;
+  vec3 local = vec3(place.x * uHalfSize.x * broad, place.y * uHalfSize.y, place.z * uHalfSize.x * curl) * size;
+  vec4 q = normalize(attitude);
+  vec3 at = where.xyz + turned(q, local);
+  // Leaves that lie do not reach into the ground.
+  at.z = max(at.z, 0.002 + 0.0015 * vChance.w);
+  vec3 bent = normalize(vec3(-0.24 * curl * sign(place.x) * min(1.0, abs(veins.x) * 4.0), 0.34 * curl * (veins.y - 0.45), 1.0));
+  vNormal = turned(q, bent);
+  vVeins = veins;
+  vPlace = at;
+  gl_Position = uMatrix * vec4(at, 1);
+}
+`;

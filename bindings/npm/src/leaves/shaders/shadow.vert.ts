@@ -1,0 +1,38 @@
+export default /* glsl */ `
+// The soft shadow of a leaf on the ground: its outline seen from the sun, wider and fainter the higher it is.
+layout(location = 0) in vec2 corner;
+layout(location = 2) in vec4 where;
+layout(location = 3) in vec4 attitude;
+uniform mat4 uMatrix;
+uniform vec2 uHalfSize;
+out vec2 vAt;
+out float vDark;
+out float vSoft;
+
+const vec3 kSun = vec3(-0.52, 0.62, 0.59);
+
+vec3 turned(vec4 q, vec3 v) {
+  vec3 t = 2.0 * cross(q.yzw, v);
+  return v + q.x * t + cross(q.yzw, t);
+}
+
+vec2 onGround(vec3 at) { return at.xy - kSun.xy * (at.z / kSun.z); }
+
+void main() {
+  vec4 q = normalize(attitude);
+  vec2 middle = onGround(where.xyz);
+  vec2 wide = onGround(turned(q, vec3(uHalfSize.x, 0, 0)));
+  vec2 along = onGround(turned(q, vec3(0, uHalfSize.y, 0)));
+  float blur = 0.006 + 0.055 * max(0.0, where.z);
+  float size = 0.5 * (length(wide) + length(along));
+  // Never thinner than its own blur.
+  float area = abs(wide.x * along.y - wide.y * along.x);
+  vec2 grown_wide = wide + normalize(wide + 1e-6) * blur;
+  vec2 grown_along = along + normalize(along + 1e-6) * blur;
+  float grown = max(abs(grown_wide.x * grown_along.y - grown_wide.y * grown_along.x), blur * blur);
+  vDark = 0.62 * where.w * min(1.0, (area + 0.15 * blur * blur) / grown) * exp(-0.55 * max(0.0, where.z));
+  vSoft = clamp(blur / max(1e-4, size), 0.1, 1.0);
+  vAt = corner * 1.25;
+  gl_Position = uMatrix * vec4(middle + corner.x * 1.25 * grown_wide + corner.y * 1.25 * grown_along, 0.001, 1);
+}
+`;

@@ -1,0 +1,245 @@
+// What the package's elements have in common: a canvas in a shadow of its own, a model, wind, and one WebAssembly module
+// for all of them.
+
+import type { Model, Wisp } from '../index.js';
+import { load } from '../index.js';
+import type { Microphone } from '../microphone.js';
+import { KeyBreath } from '../air/keys.js';
+import type { Scene, SceneSettings } from './scene.js';
+import { Stage } from './stage.js';
+
+const STYLE = `
+:host { display: block; position: relative; width: 300px; height: 400px; contain: strict; background: #07080c; color: #f3ece2; }
+:host([clear]) { background: none; }
+:host([hidden]) { display: none; }
+canvas { width: 100%; height: 100%; display: block; touch-action: pan-y; outline: none; }
+canvas:focus-visible { box-shadow: inset 0 0 0 2px #ffb35c; }
+button { position: absolute; left: 50%; bottom: 10px; transform: translateX(-50%); padding: 8px 18px; min-height: 40px;
+  border: 1px solid rgb(255 240 220 / 30%); border-radius: 999px; background: rgb(14 14 19 / 78%); color: inherit; font: inherit; cursor: pointer; }
+button:focus-visible { outline: 2px solid #ffb35c; outline-offset: 2px; }
+button[aria-pressed=true]::before { content: ''; display: inline-block; width: 8px; height: 8px; margin-right: 8px; border-radius: 50%; background: #ff6b57; }
+p { position: absolute; inset: 30% 8% auto; margin: 0; text-align: center; font: inherit; }
+[hidden] { display: none; }`;
+
+/** Wind that a microphone told of is believed for so long, milliseconds. */
+const STALE = 250;
+/** Seconds that the room is listened to before it counts. */
+const CALIBRATION = 3;
+
+let wisp: Promise<Wisp> | null = null;
+
+/** The library, loaded once for all elements of a page. */
+export function shared(): Promise<Wisp> {
+  wisp ??= load();
+  return wisp;
+}
+
+/** A number of an attribute, in a range; `otherwise` where there is none. */
+export function numberOf(element: Element, name: string, low: number, high: number, otherwise: number): number {
+  const text = element.getAttribute(name);
+  const value = text === null || text.trim() === '' ? NaN : Number(text);
+  return Number.isFinite(value) ? Math.max(low, Math.min(high, value)) : otherwise;
+}
+
+/**
+ * An element that plays a model. Attributes: `src`, the model's address; `wind`: `pointer` (default), `mic` or `none`;
+ * `seed`; `noise`; `clear`: on a transparent canvas. Keys, where it has the focus: arrows and Space blow, Enter acts.
+ */
+export abstract class SceneElement extends HTMLElement {
+  static readonly observedAttributes: readonly string[] = ['src', 'wind', 'seed', 'noise', 'candles', 'leaves'];
+
+  private readonly canvas = document.createElement('canvas');
+  private readonly button = document.createElement('button');
+  private readonly words = document.createElement('p');
+  private readonly keys = new KeyBreath();
+  private stage: Stage | null = null;
+  private model: Model | null = null;
+  private microphone: Microphone | null = null;
+  private heard = 0;
+  private heardAt = -Infinity;
+  /** counts loads and listenings: one that was overtaken is dropped */
+  private turn = 0;
+  private asked = 0;
+  private seen: IntersectionObserver | null = null;
+  protected scene: Scene | null = null;
+
+  constructor() {
+    super();
+    this.canvas.tabIndex = 0;
+    this.canvas.setAttribute('role', 'img');
+    this.button.type = 'button';
+    this.button.hidden = true;
+    this.button.addEventListener('click', () => void this.toggleMicrophone());
+    this.words.hidden = true;
+    this.words.setAttribute('role', 'status');
+    const shadow = this.attachShadow({ mode: 'open' });
+    // A sheet that is made by script: a page's policy may forbid those that are written into it.
+    const sheet = new CSSStyleSheet();
+    sheet.replaceSync(STYLE);
+    shadow.adoptedStyleSheets = [sheet];
+    shadow.append(this.canvas, this.words, this.button);
+    this.listenToKeys();
+  }
+
+  /** The address of the model where the page names none. */
+  protected abstract readonly usualModel: URL;
+  protected abstract sceneOf(model: Model, settings: SceneSettings): Promise<Scene>;
+  /** How many of what there are to be. */
+  protected abstract count(): number;
+  /** Called after each frame. */
+  protected abstract watch(scene: Scene): void;
+
+  connectedCallback(): void {
+    this.stage ??= new Stage(
+      this.canvas,
+      {
+        breath: (seconds) => this.breath(seconds),
+        touched: () => undefined,
+        context: (state) => this.say(state === 'absent' ? 'This browser shows no WebGL 2.' : ''),
+        framed: () => {
+          if (this.scene !== null) this.watch(this.scene);
+        },
+      },
+      { clear: this.hasAttribute('clear') },
+    );
+    this.stage.start();
+    // What nobody sees costs nothing.
+    this.seen = new IntersectionObserver(([entry]) => {
+      if (entry?.isIntersecting === true) this.stage?.start();
+      else this.stage?.stop();
+    });
+    this.seen.observe(this);
+    this.showWind();
+    if (this.scene === null) void this.play();
+  }
+
+  disconnectedCallback(): void {
+    this.seen?.disconnect();
+    this.stage?.stop();
+    this.closeMicrophone();
+  }
+
+  attributeChangedCallback(name: string, before: string | null, now: string | null): void {
+    if (before === now || this.stage === null) return;
+    if (name === 'src') void this.play();
+    else if (name === 'wind') this.showWind();
+    else this.scene?.apply(this.settings());
+  }
+
+  /** What its own action does: lights candles, kicks leaves. */
+  act(): void {
+    this.scene?.act();
+  }
+
+  private settings(): SceneSettings {
+    const calm = matchMedia('(prefers-reduced-motion: reduce)').matches;
+    return {
+      seed: numberOf(this, 'seed', 0, 2 ** 32 - 1, 1),
+      noise: numberOf(this, 'noise', 0, 2, calm ? 0.3 : 1),
+      count: this.count(),
+      history: 0,
+    };
+  }
+
+  private async play(): Promise<void> {
+    const turn = ++this.turn;
+    const src = this.getAttribute('src');
+    try {
+      const url = src === null ? this.usualModel : new URL(src, document.baseURI);
+      const [library, answer] = await Promise.all([shared(), fetch(url)]);
+      if (!answer.ok) throw new Error(`${url.pathname.split('/').pop() ?? 'the model'} could not be fetched (${answer.status})`);
+      const model = library.model(await answer.arrayBuffer());
+      const scene = await this.sceneOf(model, this.settings());
+      if (turn !== this.turn || this.stage === null) {
+        scene.dispose();
+        model.free();
+        return;
+      }
+      this.stage.show(scene);
+      this.model?.free();
+      [this.scene, this.model] = [scene, model];
+      this.say('');
+      this.dispatchEvent(new Event('load'));
+    } catch (error) {
+      if (turn !== this.turn) return;
+      this.say(error instanceof Error ? error.message : String(error));
+      this.dispatchEvent(new ErrorEvent('error', { error, message: this.words.textContent ?? '' }));
+    }
+  }
+
+  private say(words: string): void {
+    this.words.textContent = words;
+    this.words.hidden = words === '';
+  }
+
+  private breath(seconds: number): number {
+    const heard = performance.now() - this.heardAt < STALE ? this.heard : 0;
+    return this.getAttribute('wind') === 'none' ? 0 : this.keys.update(seconds) + heard;
+  }
+
+  private showWind(): void {
+    const wind = this.getAttribute('wind') ?? 'pointer';
+    if (this.stage !== null) this.stage.still = wind === 'none';
+    this.button.hidden = wind !== 'mic';
+    if (wind !== 'mic') this.closeMicrophone();
+    this.showButton('Blow');
+  }
+
+  private showButton(words: string): void {
+    const open = this.microphone !== null;
+    this.button.textContent = words;
+    this.button.setAttribute('aria-pressed', String(open));
+    this.button.setAttribute('aria-label', open ? `${words}: microphone off` : `${words}: microphone on`);
+  }
+
+  private async toggleMicrophone(): Promise<void> {
+    if (this.microphone !== null) {
+      this.closeMicrophone();
+      return;
+    }
+    const asked = ++this.asked;
+    try {
+      // Fetched when somebody wants to blow, not before.
+      const [library, { openMicrophone }] = await Promise.all([shared(), import('../microphone.js')]);
+      const microphone = await openMicrophone(library, {
+        calibrate: CALIBRATION,
+        onWind: ({ wind, calibrating }) => {
+          [this.heard, this.heardAt] = [calibrating ? 0 : wind, performance.now()];
+        },
+        onCalibrated: () => this.showButton('Listening'),
+        onLost: (error) => {
+          this.closeMicrophone();
+          this.showButton(error.message);
+        },
+      });
+      if (asked !== this.asked || !this.isConnected) {
+        microphone.stop();
+        return;
+      }
+      this.microphone = microphone;
+      this.showButton('Hush…');
+    } catch (error) {
+      this.showButton(error instanceof Error ? error.message : String(error));
+    }
+  }
+
+  private closeMicrophone(): void {
+    this.asked += 1;
+    this.microphone?.stop();
+    this.microphone = null;
+    this.heard = 0;
+    this.showButton('Blow');
+  }
+
+  private listenToKeys(): void {
+    this.canvas.addEventListener('keydown', (event) => {
+      if (event.ctrlKey || event.metaKey || event.altKey) return;
+      if (event.key === 'Enter') this.act();
+      else if (KeyBreath.blows(event.code)) this.keys.press(event.code);
+      else return;
+      event.preventDefault();
+    });
+    this.canvas.addEventListener('keyup', (event) => this.keys.release(event.code));
+    this.canvas.addEventListener('blur', () => this.keys.releaseAll());
+  }
+}

@@ -1,0 +1,217 @@
+// The little of WebGL2 that the scenes need: a context, programs, buffers of quads, a target of high range.
+
+/** A program; uniform locations are asked for once. */
+export class Program {
+  private readonly program: WebGLProgram;
+  private readonly shaders: readonly WebGLShader[];
+  private readonly locations = new Map<string, WebGLUniformLocation | null>();
+  private checked = false;
+
+  /** Begins to compile. Whether that went well is asked at the first use: until then it goes on beside us. */
+  constructor(
+    private readonly gl: WebGL2RenderingContext,
+    vertex: string,
+    fragment: string,
+  ) {
+    this.program = gl.createProgram() as WebGLProgram;
+    this.shaders = [begun(gl, gl.VERTEX_SHADER, vertex), begun(gl, gl.FRAGMENT_SHADER, fragment)];
+    for (const shader of this.shaders) gl.attachShader(this.program, shader);
+    gl.linkProgram(this.program);
+  }
+
+  /** Throws an Error with the compiler's words when the sources are wrong; a lost context passes. */
+  use(): this {
+    if (!this.checked) this.check();
+    this.gl.useProgram(this.program);
+    return this;
+  }
+
+  /** Sets a uniform of 1 to 4 numbers; one that the compiler left out is passed over. */
+  set(name: string, ...values: number[]): this {
+    const at = this.at(name);
+    if (values.length === 1) this.gl.uniform1f(at, values[0] as number);
+    else if (values.length === 2) this.gl.uniform2fv(at, values);
+    else if (values.length === 3) this.gl.uniform3fv(at, values);
+    else this.gl.uniform4fv(at, values);
+    return this;
+  }
+
+  setInteger(name: string, value: number): this {
+    this.gl.uniform1i(this.at(name), value);
+    return this;
+  }
+
+  setNumbers(name: string, values: Float32Array): this {
+    this.gl.uniform1fv(this.at(name), values);
+    return this;
+  }
+
+  setVectors3(name: string, values: Float32Array): this {
+    this.gl.uniform3fv(this.at(name), values);
+    return this;
+  }
+
+  setVectors4(name: string, values: Float32Array): this {
+    this.gl.uniform4fv(this.at(name), values);
+    return this;
+  }
+
+  setMatrix(name: string, values: Float32Array): this {
+    this.gl.uniformMatrix4fv(this.at(name), false, values);
+    return this;
+  }
+
+  dispose(): void {
+    this.gl.deleteProgram(this.program);
+  }
+
+  private check(): void {
+    const { gl, program, shaders } = this;
+    this.checked = true;
+    if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) {
+      const words = [...shaders.map((shader) => gl.getShaderInfoLog(shader)), gl.getProgramInfoLog(program)];
+      throw new Error(`a shader is wrong: ${words.filter(Boolean).join(' ')}`);
+    }
+    for (const shader of shaders) gl.deleteShader(shader);
+  }
+
+  private at(name: string): WebGLUniformLocation | null {
+    let found = this.locations.get(name);
+    if (found === undefined) {
+      found = this.gl.getUniformLocation(this.program, name);
+      this.locations.set(name, found);
+    }
+    return found;
+  }
+}
+
+function begun(gl: WebGL2RenderingContext, kind: number, source: string): WebGLShader {
+  const shader = gl.createShader(kind) as WebGLShader;
+  gl.shaderSource(shader, `#version 300 es\nprecision highp float;\nprecision highp int;\n${source}`);
+  gl.compileShader(shader);
+  return shader;
+}
+
+/** A square from (−1, −1) to (1, 1), as two vectors a vertex at attribute 0 of whatever program draws it. */
+export class Quad {
+  private readonly array: WebGLVertexArrayObject;
+  private readonly buffer: WebGLBuffer;
+
+  constructor(private readonly gl: WebGL2RenderingContext) {
+    this.array = gl.createVertexArray() as WebGLVertexArrayObject;
+    this.buffer = gl.createBuffer() as WebGLBuffer;
+    gl.bindVertexArray(this.array);
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]), gl.STATIC_DRAW);
+    gl.enableVertexAttribArray(0);
+    gl.vertexAttribPointer(0, 2, gl.FLOAT, false, 0, 0);
+    gl.bindVertexArray(null);
+  }
+
+  draw(): void {
+    this.gl.bindVertexArray(this.array);
+    this.gl.drawArrays(this.gl.TRIANGLE_STRIP, 0, 4);
+    this.gl.bindVertexArray(null);
+  }
+
+  dispose(): void {
+    this.gl.deleteVertexArray(this.array);
+    this.gl.deleteBuffer(this.buffer);
+  }
+}
+
+/** A picture to draw into, read as a texture afterwards. */
+export class Target {
+  readonly texture: WebGLTexture;
+  private readonly frame: WebGLFramebuffer;
+  private depth: WebGLRenderbuffer | null = null;
+  /** where several samples a pixel are drawn, before they are put together */
+  private sampled: { frame: WebGLFramebuffer; colour: WebGLRenderbuffer } | null = null;
+  width = 0;
+  height = 0;
+
+  /** `range`: light brighter than 1 is kept, where the machine can do that. */
+  constructor(
+    private readonly gl: WebGL2RenderingContext,
+    private readonly options: { range: boolean; depth?: boolean; samples?: number },
+  ) {
+    this.texture = gl.createTexture() as WebGLTexture;
+    this.frame = gl.createFramebuffer() as WebGLFramebuffer;
+  }
+
+  /** Makes it that large. Returns whether that was news. */
+  resize(width: number, height: number): boolean {
+    if (this.width === width && this.height === height) return false;
+    const { gl } = this;
+    this.width = width;
+    this.height = height;
+    const range = this.options.range && hasRange(gl);
+    gl.bindTexture(gl.TEXTURE_2D, this.texture);
+    if (range) gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA16F, width, height, 0, gl.RGBA, gl.HALF_FLOAT, null);
+    else gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, width, height, 0, gl.RGBA, gl.UNSIGNED_BYTE, null);
+    for (const axis of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, axis, gl.CLAMP_TO_EDGE);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.frame);
+    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, this.texture, 0);
+    if ((this.options.samples ?? 0) > 1) this.resizeSamples();
+    if (this.options.depth) this.resizeDepth();
+    return true;
+  }
+
+  /** What is drawn from now on goes here. */
+  begin(): void {
+    this.gl.bindFramebuffer(this.gl.FRAMEBUFFER, this.sampled?.frame ?? this.frame);
+    this.gl.viewport(0, 0, this.width, this.height);
+  }
+
+  /** Puts the samples of each pixel together; before the texture is read. */
+  finish(): void {
+    if (this.sampled === null) return;
+    const { gl, width, height } = this;
+    gl.bindFramebuffer(gl.READ_FRAMEBUFFER, this.sampled.frame);
+    gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, this.frame);
+    gl.blitFramebuffer(0, 0, width, height, 0, 0, width, height, gl.COLOR_BUFFER_BIT, gl.NEAREST);
+  }
+
+  bindTexture(unit: number): void {
+    this.gl.activeTexture(this.gl.TEXTURE0 + unit);
+    this.gl.bindTexture(this.gl.TEXTURE_2D, this.texture);
+  }
+
+  dispose(): void {
+    this.gl.deleteFramebuffer(this.frame);
+    this.gl.deleteTexture(this.texture);
+    this.gl.deleteRenderbuffer(this.depth);
+    this.gl.deleteFramebuffer(this.sampled?.frame ?? null);
+    this.gl.deleteRenderbuffer(this.sampled?.colour ?? null);
+  }
+
+  private resizeSamples(): void {
+    const { gl } = this;
+    this.sampled ??= { frame: gl.createFramebuffer() as WebGLFramebuffer, colour: gl.createRenderbuffer() as WebGLRenderbuffer };
+    gl.bindRenderbuffer(gl.RENDERBUFFER, this.sampled.colour);
+    gl.renderbufferStorageMultisample(gl.RENDERBUFFER, this.options.samples ?? 1, gl.RGBA8, this.width, this.height);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.sampled.frame);
+    gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.RENDERBUFFER, this.sampled.colour);
+  }
+
+  private resizeDepth(): void {
+    const { gl } = this;
+    this.depth ??= gl.createRenderbuffer();
+    gl.bindRenderbuffer(gl.RENDERBUFFER, this.depth);
+    const samples = this.sampled === null ? 0 : (this.options.samples ?? 0);
+    gl.renderbufferStorageMultisample(gl.RENDERBUFFER, samples, gl.DEPTH_COMPONENT24, this.width, this.height);
+    gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.RENDERBUFFER, this.depth);
+  }
+}
+
+/** Whether light brighter than 1 can be drawn here. */
+export function hasRange(gl: WebGL2RenderingContext): boolean {
+  return (gl.getExtension('EXT_color_buffer_float') ?? gl.getExtension('EXT_color_buffer_half_float')) !== null;
+}
+
+/** What is drawn from now on goes to the canvas. */
+export function drawToCanvas(gl: WebGL2RenderingContext): void {
+  gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+  gl.viewport(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight);
+}

@@ -1,0 +1,182 @@
+// The stage: a canvas with its WebGL2 context, the loop of frames, and whatever scene is on.
+
+import { PointerReader } from './pointer.js';
+import type { Scene } from './scene.js';
+
+/** Longest time that a frame stands for; after a pause the scene goes on where it was. */
+const LONGEST_FRAME = 0.1;
+/** Most pixels drawn; more would not be seen and would warm a phone. */
+const MOST_PIXELS = 2.6e6;
+const LEAST_DETAIL = 0.5;
+/** Coarser than this, a picture is drawn without what costs most. */
+const PLAIN = 0.6;
+/** A picture every so many seconds is smooth enough; slower ones are drawn coarser. */
+const SMOOTH = 1 / 42;
+/** Frames between looks at how smooth it is. */
+const LOOK_EVERY = 45;
+const FADE_SECONDS = 0.45;
+
+/** What a frame cost us, milliseconds of this thread's time, ours alone. */
+export interface FrameCost {
+  update: number;
+  draw: number;
+}
+
+export interface StageEvents {
+  /** breath at this frame: microphone and keys, signed */
+  breath(seconds: number): number;
+  touched(): void;
+  /** the graphics card took the picture away, or gave it back */
+  context(state: 'absent' | 'lost' | 'back'): void;
+  framed(cost: FrameCost, seconds: number): void;
+}
+
+export interface StageOptions {
+  /** what burns alone, on a transparent canvas */
+  clear?: boolean;
+  /** CSS pixels at the lower edge that controls lie over */
+  covered?: number;
+}
+
+export class Stage {
+  readonly pointer: PointerReader;
+  readonly clear: boolean;
+  private readonly covered: number;
+  frames = 0;
+  paused = false;
+  /** fixed pixels for each of the screen's; 0: as many as keep it smooth */
+  detail = 0;
+  private footer = 0;
+  private gl: WebGL2RenderingContext | null = null;
+  private scene: Scene | null = null;
+  /** nothing that passes makes wind */
+  still = false;
+  private wanted: BlobCallback | null = null;
+  private running = 0;
+  private last = 0;
+  private fade = 0;
+  private adapted = 1;
+  private lookedAt = 0;
+  private framesSinceLook = 0;
+  private readonly cost: FrameCost = { update: 0, draw: 0 };
+
+  constructor(
+    readonly canvas: HTMLCanvasElement,
+    private readonly events: StageEvents,
+    options: StageOptions = {},
+  ) {
+    this.clear = options.clear ?? false;
+    this.covered = options.covered ?? 0;
+    this.pointer = new PointerReader(canvas, {
+      press: (x, y) => this.scene?.press(x, y),
+      release: (x, y, tap) => this.scene?.release(x, y, tap),
+      hover: (x, y) => this.scene?.hover(x, y) ?? 'none',
+      touched: () => events.touched(),
+    });
+    canvas.addEventListener('webglcontextlost', (event) => this.lose(event));
+    canvas.addEventListener('webglcontextrestored', () => this.regain());
+    this.open();
+  }
+
+  /** Puts a scene on; the one before is done with and disposed of. */
+  show(scene: Scene): void {
+    this.scene?.dispose();
+    this.scene = scene;
+    this.fade = 0;
+    if (this.gl !== null && !this.gl.isContextLost()) scene.attach(this.gl);
+    this.canvas.setAttribute('aria-label', scene.describe());
+  }
+
+  /** Runs; twice is fine. */
+  start(): void {
+    this.running ||= requestAnimationFrame((now) => this.frame(now));
+  }
+
+  /** Stands still until start(). */
+  stop(): void {
+    cancelAnimationFrame(this.running);
+    this.running = 0;
+    this.last = 0;
+  }
+
+  /** The next picture as a file. */
+  snapshot(): Promise<Blob> {
+    return new Promise((resolve, reject) => {
+      this.wanted = (blob) => (blob === null ? reject(new Error('The picture could not be made.')) : resolve(blob));
+    });
+  }
+
+  private open(): void {
+    this.gl = this.canvas.getContext('webgl2', {
+      alpha: this.clear,
+      antialias: false,
+      depth: false,
+      powerPreference: 'high-performance',
+    });
+    if (this.gl === null) this.events.context('absent');
+  }
+
+  private lose(event: Event): void {
+    event.preventDefault();
+    this.events.context('lost');
+  }
+
+  private regain(): void {
+    if (this.gl === null || this.scene === null) return;
+    this.scene.attach(this.gl);
+    this.events.context('back');
+  }
+
+  private frame(now: number): void {
+    this.running = requestAnimationFrame((next) => this.frame(next));
+    const passed = this.last === 0 ? 0 : (now - this.last) / 1000;
+    this.last = now;
+    const seconds = this.paused ? 0 : Math.min(LONGEST_FRAME, Math.max(0, passed));
+    if (this.scene === null) return;
+    const before = performance.now();
+    this.pointer.update(seconds);
+    if (this.still) this.pointer.now.speedX = this.pointer.now.speedY = 0;
+    this.scene.update({ seconds, breath: this.events.breath(seconds), pointer: this.pointer.now });
+    const between = performance.now();
+    this.fade = Math.min(1, this.fade + passed / FADE_SECONDS);
+    if (this.gl !== null && !this.gl.isContextLost()) {
+      this.resize();
+      const { fade, clear } = this;
+      const drawn = this.scene.draw(this.canvas.width, this.canvas.height, { fade, footer: this.footer, clear, plain: this.adapted < PLAIN });
+      // It fades in from its first picture.
+      if (!drawn) this.fade = 0;
+    }
+    if (this.wanted !== null) {
+      // A canvas keeps its picture only until this frame is over.
+      this.canvas.toBlob(this.wanted, 'image/png');
+      this.wanted = null;
+    }
+    this.cost.update = between - before;
+    this.cost.draw = performance.now() - between;
+    this.frames += 1;
+    this.events.framed(this.cost, seconds);
+    this.lookHowSmooth(now);
+  }
+
+  private resize(): void {
+    const box = this.canvas.getBoundingClientRect();
+    this.footer = Math.min(0.4, this.covered / Math.max(1, box.height));
+    let share = this.detail > 0 ? this.detail : Math.min(2, window.devicePixelRatio) * this.adapted;
+    share = Math.min(share, Math.sqrt(MOST_PIXELS / Math.max(1, box.width * box.height)));
+    const width = Math.max(1, Math.round(box.width * share));
+    const height = Math.max(1, Math.round(box.height * share));
+    if (this.canvas.width === width && this.canvas.height === height) return;
+    this.canvas.width = width;
+    this.canvas.height = height;
+  }
+
+  /** Draws coarser where frames come too slowly, and never finer again: changing to and fro is seen. */
+  private lookHowSmooth(now: number): void {
+    this.framesSinceLook += 1;
+    if (this.framesSinceLook < LOOK_EVERY) return;
+    const mean = (now - this.lookedAt) / 1000 / this.framesSinceLook;
+    if (this.lookedAt > 0 && mean > SMOOTH && mean < 1) this.adapted = Math.max(LEAST_DETAIL, this.adapted * 0.8);
+    this.lookedAt = now;
+    this.framesSinceLook = 0;
+  }
+}

@@ -1,0 +1,63 @@
+// Pages that use the package as `npm pack` makes it, for tests in Chromium.
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { cpSync, existsSync, mkdirSync, readFileSync } from 'node:fs';
+import { createServer } from 'node:http';
+import { extname, join, normalize } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+const here = fileURLToPath(new URL('.', import.meta.url));
+export const models = fileURLToPath(new URL('../../../tests/c/models/', import.meta.url));
+export const executablePath = process.env.WISP_CHROMIUM ?? '/usr/bin/chromium';
+export const quiet = ['--no-sandbox', '--disable-background-networking', '--disable-component-update', '--disable-sync',
+  '--disable-quic', '--no-first-run'];
+
+const types = { '.css': 'text/css', '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.wasm': 'application/wasm' };
+const policy = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; object-src 'none'";
+
+/** Serves a folder under a strict policy. */
+export function serve(folder) {
+  const server = createServer((request, response) => {
+    const path = join(folder, normalize(new URL(request.url, 'http://localhost').pathname));
+    const file = path.endsWith('/') ? join(path, 'index.html') : path;
+    if (path.endsWith('favicon.ico')) return response.writeHead(204).end();
+    if (!existsSync(file)) return response.writeHead(404).end();
+    response.writeHead(200, {
+      'content-type': types[extname(file)] ?? 'application/octet-stream',
+      'content-security-policy': policy,
+    });
+    response.end(readFileSync(file));
+  });
+  return new Promise((resolve) => server.listen(0, 'localhost', () => resolve(server)));
+}
+
+export const skip = existsSync(executablePath) ? false : `there is no ${executablePath}`;
+
+/** The package as npm packs it, in a folder. */
+export function pack(work) {
+  const packed = execFileSync('npm', ['pack', '--silent', '--pack-destination', work], { cwd: join(here, '..') });
+  return join(work, packed.toString().trim());
+}
+
+/** Waits until an expression is true in a page: by asking, since the policy forbids Playwright's own way. */
+export async function until(page, expression) {
+  for (let tries = 0; tries < 200; ++tries) {
+    if (await page.evaluate(`Boolean(${expression})`)) return;
+    await new Promise((resolve) => setTimeout(resolve, 100));
+  }
+  assert.fail(`20 seconds, and still not: ${expression}`);
+}
+
+/** A folder with the packed package installed, a page, what both pages share, and the models. */
+export function furnish(work, tarball, name) {
+  const folder = join(work, name);
+  const installed = join(folder, 'node_modules/@wisp/player');
+  mkdirSync(installed, { recursive: true });
+  execFileSync('tar', ['-xzf', tarball, '-C', installed, '--strip-components=1']);
+  cpSync(join(here, 'pages', name), folder, { recursive: true });
+  for (const shared of ['pages/exercise.js', 'pages/life_worker.js', 'lives.mjs']) {
+    cpSync(join(here, shared), join(folder, shared.split('/').at(-1)));
+  }
+  return folder;
+}

@@ -1,0 +1,132 @@
+// The elements in pages of other people: plain HTML, a Vite project, a frame of another origin.
+
+import assert from 'node:assert/strict';
+import { cpSync, mkdtempSync, rmSync } from 'node:fs';
+import { createServer } from 'node:http';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, describe, test } from 'node:test';
+
+import { executablePath, furnish, models, pack, quiet, serve, skip, until } from './chromium.mjs';
+
+const flags = [...quiet, '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--use-fake-device-for-media-stream',
+  '--use-fake-ui-for-media-stream', '--autoplay-policy=no-user-gesture-required'];
+
+describe('elements in Chromium', { skip }, () => {
+  let work, browser, plain, vite, framing;
+
+  before(async () => {
+    const { chromium } = await import('playwright-core');
+    const { build } = await import('vite');
+    work = mkdtempSync(join(tmpdir(), 'wisp-element-'));
+    const tarball = pack(work);
+    const folder = furnish(work, tarball, 'element');
+    cpSync(models, join(folder, 'models'), { recursive: true });
+    plain = await serve(folder);
+    const project = furnish(work, tarball, 'element_vite');
+    await build({ root: project, logLevel: 'error', configFile: join(project, 'vite.config.js') });
+    vite = await serve(join(project, 'dist'));
+    // Another origin, which only frames the plain page.
+    framing = createServer((_request, response) => {
+      response.setHeader('content-type', 'text/html');
+      response.end(`<!doctype html><iframe src="http://localhost:${plain.address().port}/" width="400" height="300"></iframe>`);
+    });
+    await new Promise((resolve) => framing.listen(0, '127.0.0.1', resolve));
+    browser = await chromium.launch({ executablePath, args: flags });
+  });
+
+  after(async () => {
+    await browser?.close();
+    for (const server of [plain, vite, framing]) server?.close();
+    if (work) rmSync(work, { recursive: true, force: true });
+  });
+
+  /** Opens a page, counting what it fetches; `page.errors` are its errors. */
+  async function open(address, watched = (page) => page) {
+    const page = await browser.newPage({ viewport: { width: 420, height: 320 } });
+    page.errors = [];
+    page.modules = 0;
+    page.on('pageerror', (error) => page.errors.push(error.message));
+    page.on('console', (message) => message.type() === 'error' && page.errors.push(message.text()));
+    page.on('request', (request) => (page.modules += request.url().endsWith('.wasm') ? 1 : 0));
+    await page.goto(address);
+    return { page, inside: watched(page) };
+  }
+
+  const local = (server) => `http://localhost:${server.address().port}/`;
+  const lit = (id, count) => `document.getElementById('${id}')?.burning?.lit === ${count}`;
+
+  test('two candles on a plain page burn, and share one module', async () => {
+    const { page } = await open(local(plain));
+    await until(page, `${lit('one', 1)} && ${lit('two', 3)}`);
+    assert.equal(page.modules, 1);
+    assert.equal(await page.evaluate('document.getElementById("one").shadowRoot.querySelector("canvas").ariaLabel'), 'A candle burns in a dark room.');
+    assert.deepEqual(page.errors, []);
+  });
+
+  test('Space blows it out and says so, Enter lights it again; one without wind burns on', async () => {
+    const { page } = await open(local(plain));
+    await until(page, `${lit('one', 1)} && ${lit('two', 3)}`);
+    await page.evaluate(`window.heard = []; for (const kind of ['extinguish', 'light'])
+      document.getElementById('one').addEventListener(kind, () => heard.push(kind))`);
+    for (const id of ['one', 'two']) {
+      await page.evaluate(`document.getElementById('${id}').shadowRoot.querySelector('canvas').focus()`);
+      await page.keyboard.down('Space');
+      if (id === 'one') await until(page, lit('one', 0));
+      else await page.waitForTimeout(1500);
+      await page.keyboard.up('Space');
+    }
+    assert.equal(await page.evaluate(lit('two', 3)), true);
+    await page.evaluate(`document.getElementById('one').shadowRoot.querySelector('canvas').focus()`);
+    await page.keyboard.press('Enter');
+    await until(page, lit('one', 1));
+    await until(page, 'heard.length === 2');
+    assert.deepEqual(await page.evaluate('heard'), ['extinguish', 'light']);
+  });
+
+  test('attributes act while it plays: more candles, another model, and one that is not there', async () => {
+    const { page } = await open(local(plain));
+    await until(page, lit('one', 1));
+    await page.evaluate(`document.getElementById('one').setAttribute('candles', '5')`);
+    await until(page, lit('one', 5));
+    await page.evaluate(`(() => { const one = document.getElementById('one');
+      one.addEventListener('error', () => (window.failed = true)); one.setAttribute('src', 'models/none.wisp'); })()`);
+    await until(page, 'window.failed');
+    assert.match(await page.evaluate(`document.getElementById('one').shadowRoot.querySelector('p').textContent`), /none.wisp could not be fetched \(404\)/);
+  });
+
+  test('taken out of the page it stands still, put back it goes on', async () => {
+    const { page } = await open(local(plain));
+    await until(page, lit('one', 1));
+    await page.evaluate(`(() => { window.kept = document.getElementById('one'); kept.remove();
+      window.frames = 0; const real = requestAnimationFrame; kept.watch = () => { frames += 1; }; })()`);
+    await page.waitForTimeout(500);
+    assert.equal(await page.evaluate('frames'), 0);
+    await page.evaluate('document.body.append(kept)');
+    await until(page, 'frames > 2');
+  });
+
+  test('burns in a frame of another origin', async () => {
+    const { page } = await open(`http://127.0.0.1:${framing.address().port}/`);
+    const inside = () => page.frames().find((frame) => frame.url().startsWith(local(plain)));
+    await until({ evaluate: (words) => inside()?.evaluate(words) ?? false }, lit('one', 1));
+    assert.deepEqual(page.errors, []);
+  });
+
+  test('a Vite project has a candle that listens when it is asked to, and leaves', async () => {
+    const { page } = await open(local(vite));
+    await until(page, lit('one', 1));
+    const button = `document.getElementById('one').shadowRoot.querySelector('button')`;
+    assert.equal(await page.evaluate(`${button}.hidden`), false);
+    assert.equal(await page.evaluate(`${button}.ariaLabel`), 'Blow: microphone on');
+    await page.evaluate(`${button}.click()`);
+    await until(page, `${button}.ariaPressed === 'true'`);
+    await page.evaluate(`${button}.click()`);
+    await until(page, `${button}.ariaPressed === 'false'`);
+    // Below the edge of the page it waits.
+    assert.equal(await page.evaluate(`document.getElementById('two').scene?.leaves().count ?? 0`), 0);
+    await page.evaluate(`document.getElementById('two').scrollIntoView()`);
+    await until(page, `document.getElementById('two').scene?.leaves().count === 20`);
+    assert.deepEqual(page.errors, []);
+  });
+});

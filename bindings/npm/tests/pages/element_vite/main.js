@@ -1,0 +1,2 @@
+import '@wisp/player/candle';
+import '@wisp/player/leaves';

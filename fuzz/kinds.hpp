@@ -1,0 +1,36 @@
+#pragma once
+// A model of every kind of dynamics, noise and view.
+
+#include <vector>
+
+#include "model/sample_chain.hpp"
+#include "model/sample_model.hpp"
+#include "model/sample_switched.hpp"
+#include "run/flame_model.hpp"
+
+namespace wisp::fuzz {
+
+inline const std::vector<Model>& kinds() {
+  static const std::vector<Model> all = [] {
+    Model gaussian = flame_model({.points = 4, .wind = InputShape::kSplitSign, .noise_rank = 1});
+    gaussian.extinction.emplace();
+    return std::vector<Model>{gaussian,
+                              default_flame_model(),
+                              leaning_flame_model(InputShape::kSplitSign),
+                              flame_model({.points = 5, .drawn_rows = 60}),
+                              sample_model(),
+                              sample_switched(),
+                              sample_switched(Switching::kMarkov),
+                              sample_chain(ChainMotion::kPosition),
+                              onward_chain(),
+                              steered_chain(),
+                              unblended(),
+                              windy_chain(),
+                              system_chain(1),
+                              system_chain(2),
+                              spline_chain()};
+  }();
+  return all;
+}
+
+}  // namespace wisp::fuzz

@@ -1,0 +1,145 @@
+// What a model says of a recording, as numbers.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "learn/arx/curve/arx_curves.hpp"
+#include "learn/arx/judge/prediction.hpp"
+#include "learn/arx/plain_model.hpp"
+#include "learn/flame/wind_gain.hpp"
+#include "learn/outline/outline_judgement.hpp"
+#include "learn/same_rate.hpp"
+#include "learn/switched/switched_prediction.hpp"
+#include "wisp/learn/validate.hpp"
+
+namespace wisp {
+namespace {
+
+using Series = std::vector<std::vector<double>>;  // one an output
+
+constexpr double kSure = 1.959963985;  // standard deviations to either side of 95 %
+constexpr int kSettled = 2000;         // steps after which the noise of free simulation has its full size
+
+// Half the width of the 95 % interval of every prediction. A free run knows its start: it is as sure as a prediction of
+// as many steps as it has run.
+Series half_widths(const Series& sd, const Recording& recording, const Series& predicted, int steps) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  Series widths(predicted.size(), std::vector<double>(recording.rows(), none));
+  for (std::size_t i = 0; i < predicted.size(); ++i) {
+    for (const Episode& episode : episodes(recording)) {
+      std::size_t run = 0;
+      for (std::size_t row = episode.begin; row < episode.end; ++row) {
+        run = std::isnan(predicted[i][row]) ? 0 : run + 1;
+        if (run == 0) continue;
+        const std::size_t ahead = steps == kFreeRun ? std::min(run, sd[i].size()) : static_cast<std::size_t>(steps);
+        widths[i][row] = kSure * sd[i][ahead - 1];
+      }
+    }
+  }
+  return widths;
+}
+
+// Inputs and outputs as they were measured, and beside every output what was predicted.
+Recording table_of(const Recording& measured, const ChannelChoice& channels, const Series& predicted,
+                   const Series& widths) {
+  Recording out;
+  out.source = measured.source;
+  out.rate_hz = measured.rate_hz;
+  out.episode_ids = measured.episode_ids;
+  const auto take = [&](const std::string& name, Role role) -> const Channel& {
+    out.channels.push_back(measured.channels[*find_channel(measured, name)]);
+    out.channels.back().role = role;
+    return measured.channels[*find_channel(measured, name)];
+  };
+  for (const std::string& name : channels.inputs) take(name, Role::kInput);
+  for (std::size_t i = 0; i < channels.outputs.size(); ++i) {
+    const Channel& output = take(channels.outputs[i], Role::kOutput);
+    out.channels.push_back({output.name + ".predicted", output.unit, Role::kOutput, predicted[i]});
+    if (widths.empty()) continue;
+    Channel low{output.name + ".low", output.unit, Role::kOutput, predicted[i]};
+    Channel high{output.name + ".high", output.unit, Role::kOutput, predicted[i]};
+    for (std::size_t row = 0; row < predicted[i].size(); ++row) {
+      low.samples[row] -= widths[i][row];
+      high.samples[row] += widths[i][row];
+    }
+    out.channels.push_back(std::move(low));
+    out.channels.push_back(std::move(high));
+  }
+  return out;
+}
+
+Series sd_of(const ArxModel& arx, int steps) { return prediction_sd(arx, {}, steps == kFreeRun ? kSettled : steps); }
+
+Result<Recording> predict_plain(const Model& model, const Recording& recording, const PredictionOptions& options) {
+  const auto& arx = std::get<ArxModel>(model.dynamics);
+  const ChannelChoice channels = arx::channels_of(model);
+  if (const auto found = arx::sources_of({&recording, 1}, channels); !found) return found.error();
+  std::vector<InputCurve> curves;
+  for (const Input& input : model.inputs) curves.push_back(input.curve);
+  const Recording seen = arx::with_curves({&recording, 1}, channels.inputs, curves).front();
+  const auto predicted = predict(arx, seen, channels, {options.steps, options.initial});
+  if (!predicted) return predicted.error();
+  return table_of(recording, channels, *predicted,
+                  half_widths(sd_of(arx, options.steps), recording, *predicted, options.steps));
+}
+
+Result<Recording> predict_modes(const Model& model, const Recording& recording, const PredictionOptions& options) {
+  if (options.initial != InitialState::kMeasured) {
+    return Error{model.name + ": is a switched model, whose free run starts from measured samples only"};
+  }
+  const ChannelChoice channels = arx::channels_of(model);
+  if (const auto found = arx::sources_of({&recording, 1}, channels); !found) return found.error();
+  const auto& dynamics = std::get<SwitchedArxModel>(model.dynamics);
+  const auto predicted = predict_switched(dynamics, recording, channels, options.steps);
+  if (!predicted) return predicted.error();
+  return table_of(recording, channels, *predicted, {});
+}
+
+// In the recording's pixels.
+Result<Recording> predict_outline(const Model& model, const Recording& recording, const PredictionOptions& options) {
+  if (options.initial != InitialState::kMeasured) {
+    return Error{model.name + ": is a model of an outline, whose free run starts from measured samples only"};
+  }
+  const auto heard = at_trained_gain(model, recording);
+  if (!heard) return heard.error();
+  const auto found = judge_outline(model, *heard, {.steps = {options.steps}, .play_seconds = 0, .fidelity = false});
+  if (!found) return found.error();
+  ChannelChoice channels;
+  for (std::size_t channel : channels_with_role(*heard, Role::kInput)) {
+    channels.inputs.push_back(heard->channels[channel].name);
+  }
+  for (const Output& output : model.outputs) channels.outputs.push_back(output.name);
+  const Recording& said = found->predicted.front().recording;
+  Series predicted;
+  for (const std::string& name : channels.outputs) {
+    predicted.push_back(said.channels[*find_channel(said, name)].samples);
+  }
+  Series sd = sd_of(std::get<ArxModel>(model.dynamics), options.steps);
+  for (auto& one : sd) {
+    for (double& x : one) x *= found->pixels_per_unit;
+  }
+  return table_of(*heard, channels, predicted, half_widths(sd, *heard, predicted, options.steps));
+}
+
+}  // namespace
+
+Result<Recording> predict(const Model& model, const Recording& recording, const PredictionOptions& options) {
+  if (std::holds_alternative<ChainModel>(model.dynamics)) {
+    return Error{model.name +
+                 ": is a segment chain, which lives by chance and predicts no row; wisp validate compares "
+                 "how it lives"};
+  }
+  if (options.steps < 0 || options.steps > 100'000) {
+    return Error{"predictions were asked for " + std::to_string(options.steps) +
+                 " steps ahead, expected 1 to 100000, or free"};
+  }
+  const bool outline = std::holds_alternative<OutlineView>(model.view);
+  if (!outline) {
+    if (auto ok = check_rate(model, recording); !ok) return ok.error();
+  }
+  if (std::holds_alternative<SwitchedArxModel>(model.dynamics)) return predict_modes(model, recording, options);
+  return outline ? predict_outline(model, recording, options) : predict_plain(model, recording, options);
+}
+
+}  // namespace wisp

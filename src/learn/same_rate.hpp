@@ -1,0 +1,21 @@
+#pragma once
+// A model of samples knows no time: at another rate it is another system.
+
+#include <cmath>
+
+#include "record/number_text.hpp"
+#include "wisp/base/result.hpp"
+#include "wisp/model/model.hpp"
+#include "wisp/record/recording.hpp"
+
+namespace wisp {
+
+/// Whether a recording has the model's rate. Errors: it has another.
+inline Result<void> check_rate(const Model& model, const Recording& recording) {
+  constexpr double kSame = 1e-3;  // of the rate: clocks and rounded periods differ by less
+  if (std::abs(recording.rate_hz - model.rate_hz) <= kSame * model.rate_hz) return {};
+  return Error{recording.source + ": has " + number_text(recording.rate_hz, 6) + " samples a second, the model " +
+               number_text(model.rate_hz, 6) + ": resample the recording, or learn the model at that rate"};
+}
+
+}  // namespace wisp

@@ -1,0 +1,82 @@
+#include "record/csv_cells.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace wisp::csv {
+namespace {
+
+// As std::from_chars, but for a sign before and for what no double holds.
+std::optional<double> parsed(std::string_view text) {
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  double value = 0;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end != text.data() + text.size()) return std::nullopt;
+  if (code == std::errc::result_out_of_range)
+    return text.find("e-") != text.npos || text.find("E-") != text.npos ? 0.0 : HUGE_VAL;
+  return code == std::errc() ? std::optional(value) : std::nullopt;
+}
+
+bool same_word(std::string_view text, std::string_view lower) {
+  return text.size() == lower.size() && std::equal(text.begin(), text.end(), lower.begin(), [](char a, char b) {
+           return a == b || (a >= 'A' && a <= 'Z' && a + ('a' - 'A') == b);
+         });
+}
+
+}  // namespace
+
+std::size_t quoted_length(std::string_view line, char separator) {
+  std::size_t at = 1;
+  for (;; at += 2) {
+    at = line.find('"', at);
+    if (at == std::string_view::npos) return 0;
+    if (at + 1 == line.size() || line[at + 1] != '"') break;
+  }
+  ++at;
+  const auto ends = [&](char c) { return c == separator || (separator == kBlanks && c == '\t'); };
+  while (at < line.size() && !ends(line[at]) && (line[at] == ' ' || line[at] == '\t' || line[at] == '\r')) ++at;
+  return at == line.size() || ends(line[at]) ? at : 0;
+}
+
+Cell cell_of(std::string_view text) {
+  text = trimmed(text);
+  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') {
+    return {trimmed(text.substr(1, text.size() - 2)), true};
+  }
+  return {text, false};
+}
+
+std::string text_of(const Cell& cell) {
+  std::string text(cell.text);
+  for (std::size_t at = text.find("\"\""); cell.quoted && at != text.npos; at = text.find("\"\"", at + 1)) {
+    text.erase(at, 1);
+  }
+  return text;
+}
+
+bool is_missing(const Cell& cell) {
+  static constexpr std::array<std::string_view, 7> kWords = {"nan", "na", "n/a", "#n/a", "null", "none", "-nan"};
+  if (cell.text.empty()) return true;
+  // Numbers are many, and none begins so.
+  const char first = cell.text.front();
+  if (first != 'n' && first != 'N' && first != '#' && first != '-') return false;
+  return std::any_of(kWords.begin(), kWords.end(), [&](auto word) { return same_word(cell.text, word); });
+}
+
+std::optional<double> number_of(const Cell& cell, char separator) {
+  if (const auto value = parsed(cell.text)) return value;
+  constexpr std::size_t kLongest = 64;
+  if (cell.text.size() > kLongest) return std::nullopt;
+  std::string text(cell.text);
+  const bool comma = separator != ',' || cell.quoted;
+  const std::size_t at = text.find(',');
+  if (at != text.npos && comma && text.find('.') == text.npos) text[at] = '.';
+  // Fortran's double precision.
+  const std::size_t exponent = text.find_first_of("dD");
+  if (exponent != text.npos && exponent > 0) text[exponent] = 'e';
+  return text == cell.text ? std::nullopt : parsed(text);
+}
+
+}  // namespace wisp::csv

@@ -1,0 +1,71 @@
+#pragma once
+// Cells of tables as programs write them: what separates them, quotes, numbers with a point or a comma.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace wisp::csv {
+
+struct Cell {
+  std::string_view text;  ///< without the quotes and blanks around it
+  bool quoted = false;
+};
+
+/// Where cells are separated by any number of blanks.
+inline constexpr char kBlanks = ' ';
+
+inline std::string_view trimmed(std::string_view text) {
+  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+/// Length of a cell that begins with a quote, up to the closing one and the blanks after it; 0 where it is not closed
+/// or something follows.
+std::size_t quoted_length(std::string_view line, char separator);
+
+/// The cell of trimmed text.
+Cell cell_of(std::string_view text);
+
+/// Calls visit(cell) for every cell of a line.
+template <class Visit>
+void for_each_cell(std::string_view line, char separator, Visit visit) {
+  if (separator == kBlanks) line = trimmed(line);
+  for (;;) {
+    std::size_t begin = 0;
+    while (begin < line.size() && line[begin] == ' ') ++begin;
+    std::size_t end = std::string_view::npos;
+    if (begin < line.size() && line[begin] == '"') {
+      const std::size_t length = quoted_length(line.substr(begin), separator);
+      if (length > 0) end = begin + length < line.size() ? begin + length : std::string_view::npos;
+      if (length == 0) end = line.find(separator, begin);
+    } else if (separator == kBlanks) {
+      end = line.find_first_of(" \t", begin);
+    } else {
+      end = line.find(separator, begin);
+    }
+    visit(cell_of(line.substr(0, end)));
+    if (end == std::string_view::npos) return;
+    line.remove_prefix(end + 1);
+    if (separator != kBlanks) continue;
+    line = trimmed(line);
+  }
+}
+
+/// A cell without doubled quotes.
+std::string text_of(const Cell& cell);
+
+/// Whether a cell says that there is no sample: nothing, NaN, NA and the like.
+bool is_missing(const Cell& cell);
+
+/// The whole of a cell as a double, with a decimal point or, where commas separate nothing, a decimal comma; nothing
+/// where it is not one. Too small for a double is zero, too large is infinite.
+std::optional<double> number_of(const Cell& cell, char separator);
+
+/// Whether a cell that is a number has a decimal comma.
+inline bool has_comma(const Cell& cell) { return cell.text.find(',') != std::string_view::npos; }
+
+}  // namespace wisp::csv

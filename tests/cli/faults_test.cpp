@@ -1,0 +1,100 @@
+// What goes wrong around a run: a signal, a full disk, an output that is an input. Nothing is left half, nothing is
+// lost.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <thread>
+
+#include "cli/program.hpp"
+
+namespace wisp {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr const char* kFlame = WISP_SOURCE_DIR "/tests/c/models/flame.wisp";
+
+class Faults : public InFolder {
+ protected:
+  std::string table(const std::string& name) {
+    std::ofstream out(at(name));
+    out << "u,y\n";
+    double y = 0;
+    for (int k = 0; k < 60; ++k) {
+      const double u = k % 7 < 3 ? 1 : -0.5;
+      out << u << "," << y << "\n";
+      y = 0.7 * y + 0.5 * u + 0.01 * (k % 5);
+    }
+    return at(name);
+  }
+
+  std::size_t files() const {
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_), {}));
+  }
+};
+
+TEST_F(Faults, AnOutputThatIsAnInputIsRefusedByAnyNameOfIt) {
+  const std::string rec = table("rec.csv"), before = file_text(rec);
+  std::filesystem::create_symlink(rec, at("link.csv"));
+  std::filesystem::create_hard_link(rec, at("twin.csv"));
+  std::filesystem::copy(kFlame, at("flame.wisp"));
+  const std::string model = file_text(at("flame.wisp"));
+  const std::string learns = " --inputs u --outputs y --rate 10 -o ";
+  for (const std::string& line :
+       {"learn arx " + rec + learns + rec, "learn arx " + rec + learns + at("link.csv"),
+        "learn arx " + rec + learns + at("twin.csv"), "learn arx " + rec + learns + at("./rec.csv"),
+        "learn switched " + rec + learns + rec, "learn flame " + rec + " -o " + rec,
+        "learn arx " + rec + " --inputs u --outputs y --rate 10 --partial " + rec,
+        "learn arx --merge " + rec + " -o " + rec, "validate " + at("flame.wisp") + " " + rec + " --overlay " + rec,
+        "validate " + at("flame.wisp") + " " + rec + " --film-strip " + at("flame.wisp"),
+        "validate " + at("flame.wisp") + " x.csv --clip " + rec + " --overlay " + rec,
+        "predict " + at("flame.wisp") + " " + rec + " -o " + rec,
+        "run " + at("flame.wisp") + " --input " + rec + " -o " + rec,
+        "run " + at("flame.wisp") + " --frames 3 -o " + at("flame.wisp"), "capture flame " + rec + " -o " + rec,
+        "simulate leaf --wind " + rec + " -o " + rec}) {
+    const Said said = wisp(line);
+    EXPECT_EQ(said.status, 2) << line << said.err;
+    EXPECT_THAT(said.err, HasSubstr("is a file that is read, and would be lost: give another name")) << line;
+  }
+  EXPECT_EQ(file_text(rec), before);
+  EXPECT_EQ(file_text(at("flame.wisp")), model);
+}
+
+TEST_F(Faults, OutputThatCannotBeWrittenIsStatus1) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  const std::string line =
+      std::string(WISP_PROGRAM) + " info " + kFlame + " --json >/dev/full 2>" + at("err") + " </dev/null";
+  const int status = std::system(line.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  EXPECT_THAT(file_text(at("err")), HasSubstr("standard output cannot be written"));
+}
+
+// A film of hours, ended as soon as its hidden part is there.
+TEST_F(Faults, ASignalLeavesTheOldFileAloneAndItsOwnStatus) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    std::ofstream(at("film.mp4")) << "old";
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      execl(WISP_PROGRAM, WISP_PROGRAM, "run", kFlame, "--frames", "400000", "-o", at("film.mp4").c_str(), "--quiet",
+            static_cast<char*>(nullptr));
+      _exit(127);
+    }
+    while (files() < 2 && waitpid(child, nullptr, WNOHANG) == 0) std::this_thread::yield();
+    kill(child, signal);
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFSIGNALED(status));
+    EXPECT_EQ(WTERMSIG(status), signal);
+    EXPECT_EQ(files(), 1u);
+    EXPECT_EQ(file_text(at("film.mp4")), "old");
+  }
+}
+
+}  // namespace
+}  // namespace wisp

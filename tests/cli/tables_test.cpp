@@ -1,0 +1,209 @@
+// Tables as strangers have them, through the program; numbers out again: predict, compare, run along a table.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "cli/program.hpp"
+#include "wisp/record/csv.hpp"
+
+namespace wisp {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class Tables : public InFolder {
+ protected:
+  // y(t) = 0.8 y(t−1) + 0.5 u(t−1) + 0.05 e(t), at 10 Hz; every row is written by `row`.
+  template <class Row>
+  std::string write(const std::string& name, const std::string& head, Row row) const {
+    std::ofstream out(at(name));
+    out.precision(12);
+    out << head;
+    std::mt19937 random(1);
+    double y = 0, u = 0;
+    for (int t = 0; t < 400; ++t) {
+      y = 0.8 * y + 0.5 * u + 0.05 * (static_cast<double>(random() % 2001) / 1000 - 1);
+      if (t % 5 == 0) u = static_cast<double>(random() % 1000) / 500 - 1;
+      row(out, t, u, y);
+    }
+    return at(name);
+  }
+  std::string plain(const std::string& name = "plain.csv") const {
+    return write(name, "u,y\n", [](std::ostream& out, int, double u, double y) { out << u << ',' << y << '\n'; });
+  }
+  std::string model(int order = 1) {
+    const std::string path = at("m" + std::to_string(order) + ".wisp"), na = std::to_string(order);
+    EXPECT_EQ(wisp("learn arx " + plain("learned.csv") + " --inputs u --outputs y --rate 10 --na " + na + " --nb " +
+                   na + " --nk 1 -o " + path)
+                  .status,
+              0);
+    return path;
+  }
+  Recording recording(const std::string& name) const {
+    auto found = read_csv(at(name));
+    EXPECT_TRUE(found) << found.error().message;
+    return *found;
+  }
+  static const std::vector<double>& samples(const Recording& recording, const std::string& name) {
+    return recording.channels[find_channel(recording, name).value()].samples;
+  }
+};
+
+std::string with_comma(double x) {
+  std::ostringstream text;
+  text.precision(12);
+  text << x;
+  std::string out = text.str();
+  if (out.find('.') != out.npos) out[out.find('.')] = ',';
+  return out;
+}
+
+TEST_F(Tables, TheSameNumbersGiveTheSameModelHoweverTheyAreWritten) {
+  plain();
+  write("german.csv", "sep=;\nZeit;\"u, Kraft\";y\ns;N;m\n", [](std::ostream& out, int t, double u, double y) {
+    out << t << ';' << with_comma(u) << ';' << with_comma(y) << ";\r\n";
+  });
+  write("daisy.dat", "",
+        [](std::ostream& out, int t, double u, double y) { out << "  " << t << "   " << u << "  \t " << y << "\n"; });
+  write("pandas.csv", ",u,y\n",
+        [](std::ostream& out, int t, double u, double y) { out << t << ", \"" << u << "\", " << y << "\n"; });
+  const auto learned = [&](const std::string& table, const std::string& names) {
+    const Said said = wisp("learn arx " + at(table) + " --rate 10 --na 1 --nb 1 --nk 1 --json " + names);
+    EXPECT_EQ(said.status, 0) << table << said.err;
+    return said.json()["A"];
+  };
+  const auto expected = learned("plain.csv", "--inputs u --outputs y");
+  EXPECT_EQ(learned("german.csv", "--inputs '\"u, Kraft\"' --outputs y"), expected);
+  EXPECT_EQ(learned("daisy.dat", "--columns t,u,y --inputs u --outputs y"), expected);
+  EXPECT_EQ(learned("pandas.csv", "--inputs u --outputs y"), expected);
+}
+
+TEST_F(Tables, ARefusalSaysWhatWouldWork) {
+  write("daisy.dat", "",
+        [](std::ostream& out, int t, double u, double y) { out << t << " " << u << " " << y << "\n"; });
+  const Said nameless = wisp("learn arx " + at("daisy.dat") + " --rate 10 --outputs y --json");
+  EXPECT_EQ(nameless.status, 1);
+  EXPECT_THAT(nameless.err, AllOf(HasSubstr("daisy.dat, row 1"), HasSubstr("--columns u1,u2,y1")));
+  const Said rateless = wisp("learn arx " + plain() + " --inputs u --outputs y --json");
+  EXPECT_THAT(rateless.err, HasSubstr("states no rate; expected"));
+}
+
+TEST_F(Tables, NumbersWhoseSquaresNoNumberHoldsAreNotConstant) {
+  for (const char* power : {"e-200", "e200"}) {
+    const std::string far = write("far.csv", "u,y\n", [&](std::ostream& out, int, double u, double y) {
+      out << std::fixed << u << ',' << y << power << '\n';
+    });
+    const Said said = wisp("learn arx " + far + " --inputs u --outputs y --rate 10 --json");
+    EXPECT_EQ(said.status, 1) << power;
+    EXPECT_THAT(said.err, AllOf(HasSubstr("channel 'y' reaches from"), HasSubstr("give it in another unit"))) << power;
+  }
+}
+
+TEST_F(Tables, WithJsonALearnerNeedsNoFile) {
+  const Said said = wisp("learn arx " + plain() + " --inputs u --outputs y --rate 10 --na 1 --nb 1 --json");
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_TRUE(said.json().contains("A"));
+  EXPECT_FALSE(said.json().contains("output"));
+  EXPECT_EQ(wisp("learn arx " + plain() + " --inputs u --outputs y --rate 10").status, 2);
+}
+
+TEST_F(Tables, HelpListsTheChoicesOfAFlag) {
+  EXPECT_THAT(wisp("learn arx --help").out, HasSubstr("(one of mean, none, estimate)"));
+  EXPECT_THAT(wisp("validate --help").out, HasSubstr("(one of measured, zero, estimated)"));
+}
+
+TEST_F(Tables, AModelIsValidatedOnColumnsOfOtherNames) {
+  const std::string m = model();
+  write("other.csv", "a,b,u\n",
+        [](std::ostream& out, int t, double u, double y) { out << u << ',' << y << ',' << t << '\n'; });
+  const Said own = wisp("validate " + m + " " + plain() + " --json");
+  ASSERT_EQ(own.status, 0) << own.err;
+  const Said other = wisp("validate " + m + " " + at("other.csv") + " --inputs a --outputs b --json");
+  ASSERT_EQ(other.status, 0) << other.err;
+  EXPECT_EQ(other.json()["channels"], own.json()["channels"]);
+  EXPECT_THAT(wisp("validate " + m + " " + at("other.csv") + " --inputs a").err, HasSubstr("has no column \"y\""));
+  EXPECT_THAT(wisp("validate " + m + " " + at("other.csv") + " --inputs a,b --outputs b").err,
+              HasSubstr("--inputs names 2 channels, the model has 1"));
+}
+
+TEST_F(Tables, ARecordingOfAnotherRateIsRefused) {
+  const std::string m = model();
+  for (const std::string& line :
+       {"validate " + m + " " + plain() + " --rate 20", "predict " + m + " " + plain() + " --rate 20 -o " + at("p.csv"),
+        "compare " + plain() + " " + m + " --dt 0.05"}) {
+    const Said said = wisp(line);
+    EXPECT_EQ(said.status, 1) << line;
+    EXPECT_THAT(said.err, HasSubstr("has 20 samples a second, the model 10: resample")) << line;
+  }
+}
+
+TEST_F(Tables, PredictWritesPredictionsAndTheirIntervals) {
+  const std::string m = model();
+  ASSERT_EQ(wisp("predict " + m + " " + plain() + " -o " + at("one.csv")).status, 0);
+  const Recording one = recording("one.csv");
+  const auto &u = samples(one, "u"), &y = samples(one, "y"), &said = samples(one, "y.predicted");
+  ASSERT_EQ(one.rows(), 400u);
+  EXPECT_TRUE(std::isnan(said[0]));
+  int inside = 0;
+  for (std::size_t t = 1; t < 400; ++t) {
+    // The model is the truth but for what 400 noisy rows leave open.
+    ASSERT_NEAR(said[t], 0.8 * y[t - 1] + 0.5 * u[t - 1], 0.03) << t;
+    inside += samples(one, "y.low")[t] <= y[t] && y[t] <= samples(one, "y.high")[t];
+  }
+  // Uniform noise never leaves 1.96 of its standard deviations.
+  EXPECT_GE(inside, 395);
+  ASSERT_EQ(wisp("predict " + m + " " + at("plain.csv") + " --steps inf --initial zero -o " + at("free.csv")).status,
+            0);
+  const Recording free = recording("free.csv");
+  const auto width = [&](std::size_t t) { return samples(free, "y.high")[t] - samples(free, "y.low")[t]; };
+  EXPECT_NEAR(width(1), samples(one, "y.high")[9] - samples(one, "y.low")[9], 1e-9);
+  EXPECT_GT(width(30), 1.5 * width(1));
+  EXPECT_NEAR(width(300), width(399), 1e-9);
+}
+
+TEST_F(Tables, PredictOfASwitchedModelHasNoIntervals) {
+  ASSERT_EQ(wisp("learn switched " + plain() + " --inputs u --outputs y --rate 10 --modes 2 -o " + at("s.wisp")).status,
+            0);
+  ASSERT_EQ(wisp("predict " + at("s.wisp") + " " + plain() + " --steps 2 -o " + at("two.csv")).status, 0);
+  const Recording two = recording("two.csv");
+  EXPECT_TRUE(find_channel(two, "y.predicted"));
+  EXPECT_FALSE(find_channel(two, "y.low"));
+}
+
+TEST_F(Tables, CompareHoldsModelsAgainstTheSameRows) {
+  const std::string first = model(1), third = model(3);
+  const Said said =
+      wisp("compare " + plain() + " " + first + " " + third + " --steps 1,inf --json -o " + at("compared.png"));
+  ASSERT_EQ(said.status, 0) << said.err;
+  const auto rows = said.json()["compared"];
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0]["model"], "m1");
+  EXPECT_EQ(rows[1]["model"], "m3");
+  for (const auto& row : rows) {
+    EXPECT_EQ(row["output"], "y");
+    EXPECT_EQ(row["rows"]["1"], 397);
+    EXPECT_GT(row["fit_percent"]["1"], 80);
+    EXPECT_LE(row["fit_percent"]["inf"], row["fit_percent"]["1"]);
+  }
+  EXPECT_TRUE(std::filesystem::exists(at("compared.png")));
+}
+
+TEST_F(Tables, RunGoesAlongAPlainTable) {
+  const std::string m = model();
+  write("pushes.txt", "time push\n", [](std::ostream& out, int t, double u, double) { out << t << ' ' << u << '\n'; });
+  ASSERT_EQ(wisp("run " + m + " --noise off --input " + at("pushes.txt") + " --inputs push -o " + at("ran.csv")).status,
+            0);
+  const Recording ran = recording("ran.csv");
+  EXPECT_EQ(ran.rows(), 400u);
+  ASSERT_EQ(wisp("run " + m + " --noise off --input " + plain() + " -o " + at("same.csv")).status, 0);
+  EXPECT_EQ(samples(recording("same.csv"), "y"), samples(ran, "y"));
+  EXPECT_THAT(wisp("run " + m + " --input " + plain() + " --rate 1e-12 -o " + at("x.csv")).err,
+              HasSubstr("is the rate right?"));
+}
+
+}  // namespace
+}  // namespace wisp

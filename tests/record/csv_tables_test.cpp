@@ -1,0 +1,151 @@
+// Tables from elsewhere: as spreadsheets, loggers and other programs write them, and what each refusal says.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "wisp/record/csv.hpp"
+
+namespace wisp {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const CsvOptions kTwo{.rate_hz = 1, .inputs = {"u"}, .outputs = {"y"}};
+
+Result<Recording> parse(const std::string& text, const CsvOptions& options = kTwo) {
+  std::istringstream stream(text);
+  return read_csv(stream, "t.csv", options);
+}
+
+std::string complaint(const std::string& text, const CsvOptions& options = kTwo) {
+  const auto outcome = parse(text, options);
+  return outcome ? "no complaint" : outcome.error().message;
+}
+
+// u is 1, 2.5, -3e-4 and y is 4, 5, 6.
+void expect_samples(const std::string& text, const CsvOptions& options = kTwo) {
+  const auto recording = parse(text, options);
+  ASSERT_TRUE(recording) << text << recording.error().message;
+  ASSERT_EQ(recording->channels.size(), 2u) << text;
+  EXPECT_THAT(recording->channels[0].samples, ElementsAre(1, 2.5, -3e-4)) << text;
+  EXPECT_THAT(recording->channels[1].samples, ElementsAre(4, 5, 6)) << text;
+}
+
+TEST(CsvTable, SeparatorsAndDecimalMarksAreFound) {
+  expect_samples("u,y\n1,4\n2.5,5\n-3e-4,6\n");
+  expect_samples("u;y\n1;4\n2,5;5\n-3e-4;6\n");
+  expect_samples("u;y\n1,0;4,0\n2,5;5,0\n-0,0003;6,0\n");
+  expect_samples("u\ty\n1\t4\n2,5\t5\n-3E-4\t6\n");
+  expect_samples("u y\n1 4\n2.5 5\n-3e-4 6\n");
+  expect_samples("  u     y\n  1.0   4\n  2.5   5\n-3.0e-4\t6   \n");
+  expect_samples(" u , y \r\n 1 , 4 \r\n 2.5 , 5 \r\n -3e-4 , 6 \r\n");
+  expect_samples("u,y\n\"1\",\"4\"\n\"2,5\",\"5\"\n\"-0,0003\",6\n");
+  expect_samples("u,y\n1.0D+00,4\n2.5d0,5\n-3.0D-04,6\n");
+}
+
+TEST(CsvTable, ExcelsSeparatorLineIsObeyed) {
+  expect_samples("sep=;\nu;y\n1;4\n2,5;5\n-3e-4;6\n");
+  expect_samples("\xef\xbb\xbf\"sep=|\"\r\nu|y\r\n1|4\r\n2.5|5\r\n-3e-4|6\r\n");
+}
+
+TEST(CsvTable, ARowOfUnitsIsNoRowOfNumbers) {
+  const auto recording = parse("time;u;y\ns;[W];-\n0;1,5;4\n1;2,5;5\n");
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_EQ(recording->channels[0].unit, "W");
+  EXPECT_EQ(recording->channels[1].unit, "1");
+  EXPECT_THAT(recording->channels[0].samples, ElementsAre(1.5, 2.5));
+  EXPECT_THAT(complaint("u,y\nvolts,amps\nmore,text\n1,2\n"), HasSubstr("row 2: found \"volts\""));
+}
+
+TEST(CsvTable, WithoutAHeaderTheColumnsAreNamed) {
+  const CsvOptions named{.rate_hz = 1, .inputs = {"u"}, .outputs = {"y"}, .columns = {"u", "y"}};
+  expect_samples("1 4\n2.5 5\n-3e-4 6\n", named);
+  expect_samples("   1.0000e+00   4.0000e+00\n   2.5000e+00   5.0000e+00\n  -3.0000e-04   6.0000e+00\n", named);
+  expect_samples("1,4\n2.5,5\n-3e-4,6\n", named);
+  expect_samples("a,a\n1,4\n2.5,5\n-3e-4,6\n", named);
+  expect_samples("% u y\n1 4\n2.5 5\n-3e-4 6\n", named);
+  EXPECT_THAT(complaint("1 2 3\n4 5 6\n"), AllOf(HasSubstr("t.csv, row 1"), HasSubstr("give names to its 3 columns"),
+                                                 HasSubstr("--columns u1,u2,y1")));
+  EXPECT_THAT(complaint("1 2 3\n4 5 6\n", named), HasSubstr("has 3 columns, --columns names 2"));
+}
+
+TEST(CsvTable, WhatIsMissingIsSaidInManyWays) {
+  const auto recording = parse("u,y\n,1\nNaN,2\nNA,3\nn/a,4\n#N/A,5\nnull,6\n7,7\n");
+  ASSERT_TRUE(recording) << recording.error().message;
+  for (std::size_t row = 0; row < 6; ++row) EXPECT_TRUE(std::isnan(recording->channels[0].samples[row])) << row;
+  EXPECT_EQ(recording->channels[0].samples[6], 7);
+  EXPECT_THAT(complaint("u,y\n1,2\n#DIV/0!,3\n"), HasSubstr("row 3: found \"#DIV/0!\", column 1, expected a number"));
+}
+
+TEST(CsvTable, QuotedCellsHoldSeparatorsAndQuotes) {
+  const CsvOptions options{.rate_hz = 1, .inputs = {"Power, W"}, .outputs = {"the \"y\""}};
+  const auto recording =
+      parse("note,\"Power, W\",\"the \"\"y\"\"\"\n\"a, b\",1,2\n\"say \"\"hi\"\", x\",3,4\n", options);
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_EQ(recording->channels[0].name, "Power, W");
+  EXPECT_EQ(recording->channels[1].name, "the \"y\"");
+  EXPECT_THAT(recording->channels[1].samples, ElementsAre(2, 4));
+  EXPECT_THAT(complaint("\"Power, W\",y\n1,2\n"), HasSubstr("its columns are \"Power, W\", y"));
+}
+
+TEST(CsvTable, NamesThatHoldSeparatorsAreWrittenBack) {
+  const CsvOptions options{.rate_hz = 1, .inputs = {"Power, W"}, .outputs = {"the \"y\""}};
+  const auto recording = parse("\"Power, W\";\"the \"\"y\"\"\"\nkW, or so;m\n1,5;2\n", options);
+  ASSERT_TRUE(recording) << recording.error().message;
+  const auto again = parse(csv_text(*recording), {});
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(again->channels[0].name, "Power, W");
+  EXPECT_EQ(again->channels[0].unit, "kW, or so");
+  EXPECT_EQ(again->channels[1].name, "the \"y\"");
+  EXPECT_THAT(again->channels[0].samples, ElementsAre(1.5));
+}
+
+TEST(CsvTable, SeparatorsAtTheEndOfRowsAreNobodysCells) {
+  expect_samples("u,y,\n1,4,\n2.5,5,\n-3e-4,6,\n");
+  expect_samples("u,y\n1,4,\n2.5,5,,,\n-3e-4,6\n");
+  EXPECT_THAT(complaint("u,y\n1,2\n1,2,3\n"),
+              AllOf(HasSubstr("row 3"), HasSubstr("3 columns, the header has 2"), HasSubstr("stands in quotes")));
+}
+
+TEST(CsvTable, ColumnsWithoutANameAndUnwantedTwinsAreNoMatter) {
+  expect_samples(",u,y,z,z\n0,1,4,0,0\n1,2.5,5,0,0\n2,-3e-4,6,0,0\n");
+  EXPECT_THAT(complaint("y:,u:u\n1,2\n", {.rate_hz = 1}), HasSubstr("column 1 has no name"));
+  EXPECT_THAT(complaint("u,y,y\n1,2,3\n"), HasSubstr("two columns are named \"y\"; rename one"));
+}
+
+TEST(CsvTable, NumbersThatMeanTwoThingsAreRefused) {
+  EXPECT_THAT(complaint("u;y\n1.5;2\n1,234;3\n"),
+              AllOf(HasSubstr("row 3"), HasSubstr("\"1,234\""), HasSubstr("decimal point")));
+  EXPECT_THAT(complaint("u;y\n1.234,5;2\n"), HasSubstr("without separators of thousands"));
+  EXPECT_THAT(complaint("u,y\n\"1,234.5\",2\n"), HasSubstr("without separators of thousands"));
+}
+
+TEST(CsvTable, TinyNumbersAreNotZero) {
+  const auto recording = parse("u,y\n1e-200,2e-300\n3e-200,4e-300\n");
+  ASSERT_TRUE(recording);
+  EXPECT_EQ(recording->channels[0].samples[1], 3e-200);
+  EXPECT_EQ(recording->channels[1].samples[0], 2e-300);
+}
+
+TEST(CsvTable, Utf16IsNamed) {
+  EXPECT_THAT(complaint(std::string("\xff\xfeu\0,\0y\0\n\0", 12)), HasSubstr("is UTF-16; save it as UTF-8"));
+}
+
+TEST(CsvTable, RowsAreCountedAsAnEditorDoes) {
+  EXPECT_THAT(complaint("# note\n\nsep\n"), HasSubstr("row 3"));
+  EXPECT_THAT(complaint("# note\n\nu,y\nW,V\n\n1,2\nx,3\n"), HasSubstr("row 7"));
+}
+
+TEST(CsvTable, AColumnOfNumbersAloneMayHaveDecimalCommas) {
+  const auto recording = parse("y\n1,5\n2,5\n", {.rate_hz = 1, .outputs = {"y"}});
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_THAT(recording->channels[0].samples, ElementsAre(1.5, 2.5));
+}
+
+}  // namespace
+}  // namespace wisp
