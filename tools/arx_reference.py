@@ -7,12 +7,15 @@ The data are made of whole numbers and a recursion, so that tests/learn/arx/fit/
 estimated from them is written down here a second time, by other means than Wisp's: an explicit regressor and numpy's
 lstsq (singular values) for the coefficients, the inverse of its triangle for their errors, predictions by running the
 equation forward from measured samples (Wisp sums shocks through the impulse response), poles as roots, scipy's lfilter
-for responses.
+for responses. Kernels: the likelihood of the outputs from their whole covariance, its maximum by scipy's Nelder-Mead from
+several starts, the posterior mean from that covariance.
 """
 
 import json
 
 import numpy as np
+from scipy.linalg import cho_factor, cho_solve
+from scipy.optimize import minimize
 from scipy.signal import lfilter
 
 
@@ -57,6 +60,12 @@ CASES = [
     dict(set="coupled", rows=[0, 1500], na=2, nb=2, nk=1, coupling="full"),
     dict(set="coupled", rows=[0, 1500], na=3, nb=2, nk=1, coupling="diagonal"),
     dict(set="holes", rows=[0, 1200], na=2, nb=2, nk=0, coupling="full"),
+]
+
+KERNELS = [
+    dict(set="dryer", rows=[0, 300], na=0, nb=50, nk=0, coupling="full"),
+    dict(set="dryer", rows=[300, 500], na=8, nb=12, nk=1, coupling="full"),
+    dict(set="coupled", rows=[0, 260], na=0, nb=20, nk=1, coupling="full"),
 ]
 
 
@@ -179,6 +188,46 @@ def reference(case):
     return found
 
 
+def kernel(case):
+    """Coefficients of every output under the kernel that its rows' likelihood chooses, and 2 ln of that likelihood."""
+    u, y = make(case["set"])
+    u, y = u[slice(*case["rows"])], y[slice(*case["rows"])]
+    u, y = u - u.mean(axis=0), y - y.mean(axis=0)
+    rows = []
+    for i in range(y.shape[1]):
+        X, target, _ = regression(u, y, case, i)
+        sizes = [case["na"]] * (y.shape[1] if case["na"] else 0) + [case["nb"]] * u.shape[1]
+
+        def prior(found):
+            at, whole = 0, np.zeros((X.shape[1], X.shape[1]))
+            for k, size in enumerate(sizes):
+                lag = np.arange(size)
+                decay = 1 / (1 + np.exp(-found[2 * k + 1]))
+                whole[at:at + size, at:at + size] = np.exp(found[2 * k]) * decay**np.maximum.outer(lag, lag)
+                at += size
+            return whole
+
+        def minus_two_log(found):
+            with np.errstate(all="ignore"):
+                covariance = X @ prior(found) @ X.T + np.eye(len(X))
+                if not np.isfinite(covariance).all():
+                    return np.inf
+                try:
+                    factor = cho_factor(covariance, lower=True)
+                except np.linalg.LinAlgError:  # a prior so wide that the identity is lost beside it
+                    return np.inf
+                square = target @ cho_solve(factor, target)
+                return 2 * np.log(np.diag(factor[0])).sum() + len(X) * np.log(square / len(X))
+
+        best = min((minimize(minus_two_log, np.tile([np.log(scale), odds], len(sizes)),
+                             method="Nelder-Mead", options=dict(maxiter=6000, maxfev=6000, xatol=1e-3, fatol=1e-4))
+                    for scale in (0.1, 10.0) for odds in (0.5, 3.0)), key=lambda one: one.fun)
+        covariance = X @ prior(best.x) @ X.T + np.eye(len(X))
+        theta = prior(best.x) @ X.T @ np.linalg.solve(covariance, target)
+        rows.append(dict(theta=theta.tolist(), minus_two_log=float(best.fun)))
+    return dict(case, estimates=rows)
+
+
 def grid():
     """Loss on the first half and on the second, for all orders to 4 and delays to 4, each half less its own means."""
     u, y = make("dryer")
@@ -204,7 +253,8 @@ def main():
     print(json.dumps(dict(
         about="Reference estimates of ARX models on the sets of made_sets.hpp, by tools/arx_reference.py: numpy "
               f"{np.__version__}. Means over the rows are removed first; rows are 0-based, the last one excluded.",
-        sets=made, cases=[reference(case) for case in CASES], grid=grid()), indent=1))
+        sets=made, cases=[reference(case) for case in CASES], grid=grid(),
+        kernels=[kernel(case) for case in KERNELS]), indent=1))
 
 
 if __name__ == "__main__":

@@ -20,6 +20,7 @@ void bind_words(py::module_& module) {
       .value("PREDICTION", ArxFocus::kPrediction)
       .value("SIMULATION", ArxFocus::kSimulation)
       .value("AUTO", ArxFocus::kAuto);
+  py::enum_<ArxKernel>(module, "ArxKernel").value("NONE", ArxKernel::kNone).value("TC", ArxKernel::kTc);
   py::enum_<Coupling>(module, "Coupling")
       .value("FULL", Coupling::kFull)
       .value("DIAGONAL", Coupling::kDiagonal)
@@ -76,6 +77,7 @@ void bind_arx(py::module_& module) {
       .def_readwrite("coupling", &ArxRecipe::coupling)
       .def_readwrite("offset", &ArxRecipe::offset)
       .def_readwrite("ridge", &ArxRecipe::ridge)
+      .def_readwrite("kernel", &ArxRecipe::kernel)
       .def_readwrite("radius", &ArxRecipe::radius)
       .def_readwrite("keep_unstable", &ArxRecipe::keep_unstable)
       .def_readwrite("curve_knots", &ArxRecipe::curve_knots)

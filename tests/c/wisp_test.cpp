@@ -12,6 +12,7 @@
 #include "c/life_in_c.h"
 #include "c/live_in_c.h"
 #include "model/sample_chain.hpp"
+#include "paths.hpp"
 #include "run/flame_model.hpp"
 #include "wisp/base/file.hpp"
 #include "wisp/model/file.hpp"

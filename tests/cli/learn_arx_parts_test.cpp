@@ -6,6 +6,7 @@
 #include <random>
 
 #include "cli/program.hpp"
+#include "paths.hpp"
 #include "wisp/record/csv.hpp"
 
 namespace wisp {

@@ -13,6 +13,8 @@
 #include <sstream>
 #include <string>
 
+#include "paths.hpp"
+
 namespace wisp {
 
 struct Said {

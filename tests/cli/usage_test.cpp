@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/program.hpp"
+#include "paths.hpp"
 
 namespace wisp {
 namespace {

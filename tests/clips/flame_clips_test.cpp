@@ -12,6 +12,7 @@
 #include "learn/outline/outline_fit.hpp"
 #include "learn/outline/outline_shape.hpp"
 #include "learn/outline/outline_synthesis.hpp"
+#include "paths.hpp"
 
 namespace wisp {
 namespace {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "paths.hpp"
 #include "wisp/draw/image.hpp"
 
 namespace wisp {

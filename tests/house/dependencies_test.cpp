@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "house/sources.hpp"
+#include "paths.hpp"
 
 namespace wisp::house {
 namespace {

@@ -7,6 +7,7 @@
 #include <cctype>
 
 #include "house/sources.hpp"
+#include "paths.hpp"
 
 namespace wisp::house {
 namespace {

@@ -8,6 +8,8 @@
 
 #include <iostream>
 
+#include "paths.hpp"
+
 namespace wisp::house {
 namespace {
 

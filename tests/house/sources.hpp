@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "paths.hpp"
+
 namespace wisp::house {
 
 /// One #include line.

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "paths.hpp"
 #include "wisp/record/csv.hpp"
 #include "wisp/record/recording.hpp"
 

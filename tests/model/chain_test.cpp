@@ -10,6 +10,7 @@
 #include "base/hash.hpp"
 #include "model/damaged_bytes.hpp"
 #include "model/sample_chain.hpp"
+#include "paths.hpp"
 #include "wisp/model/file.hpp"
 
 namespace wisp {

@@ -10,6 +10,7 @@
 
 #include "model/same_regression.hpp"
 #include "model/sample_model.hpp"
+#include "paths.hpp"
 #include "wisp/base/file.hpp"
 
 namespace wisp {

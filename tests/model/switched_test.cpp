@@ -11,6 +11,7 @@
 #include "model/same_regression.hpp"
 #include "model/sample_model.hpp"
 #include "model/sample_switched.hpp"
+#include "paths.hpp"
 #include "wisp/model/file.hpp"
 
 namespace wisp {

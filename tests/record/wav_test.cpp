@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "paths.hpp"
 #include "wisp/base/file.hpp"
 
 namespace wisp {

@@ -9,6 +9,7 @@
 #include <array>
 #include <fstream>
 
+#include "paths.hpp"
 #include "sound/wind_sounds.hpp"
 #include "window/course.hpp"
 

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "cli/program.hpp"
+#include "paths.hpp"
 #include "sound/wind_sounds.hpp"
 #include "window/window.hpp"
 #include "wisp/record/wav.hpp"

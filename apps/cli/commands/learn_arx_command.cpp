@@ -47,6 +47,7 @@ Result<ArxRecipe> recipe_of(const Arguments& arguments) {
                    .outputs = arguments.names("outputs"),
                    .offset = offset_of(arguments),
                    .ridge = arguments.number("ridge"),
+                   .kernel = arguments.text("kernel") == "tc" ? ArxKernel::kTc : ArxKernel::kNone,
                    .radius = arguments.number("radius"),
                    .keep_unstable = arguments.on("keep-unstable"),
                    .curve_knots = curve_knots_of(arguments),
@@ -156,6 +157,13 @@ std::vector<Flag> flags() {
            "the input; auto, simulation where held-out free runs are surely better so",
            {"prediction", "simulation", "auto"}},
           {"ridge", Kind::kNumber, "R", "0", "weight of the coefficients' size, as a share of each regressor's energy"},
+          {"kernel",
+           Kind::kChoice,
+           "K",
+           "none",
+           "a prior on the coefficients: tc, every channel's die down over its lags and neighbours are alike, as fast "
+           "as the data say; with --na 0 --nb 60 --nk 0 a step response without a choice of orders",
+           {"none", "tc"}},
           {"radius", Kind::kNumber, "R", "0.999",
            "an unstable estimate is brought within this spectral radius, between 0 and 1, with the least loss of fit; "
            "a "

@@ -40,7 +40,7 @@ std::vector<Flag> order_flags(const OrderHelp& help) {
        Kind::kChoice,
        "C",
        "full",
-       "which outputs appear in an output's equation: full, diagonal, band",
+       "which outputs appear in an output's equation",
        {"full", "diagonal", "band"}},
   };
 }

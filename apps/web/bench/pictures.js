@@ -36,8 +36,8 @@ const states = {
   three: ['#scene=candle&candles=3', (page) => pass(page, 2)],
   seven: ['#scene=candle&candles=7', (page) => pass(page, 2)],
   wish: ['#scene=candle&candles=12', async (page) => { await blowOut(page); await pass(page, 1.5); }],
-  leaves: ['#scene=leaves', (page) => pass(page, 5)],
-  many: ['#scene=leaves&leaves=10000', (page) => pass(page, 12)],
+  leaves: ['#scene=leaves', (page) => pass(page, 1.5)],
+  many: ['#scene=leaves&leaves=10000', (page) => pass(page, 6)],
   drawer: ['#scene=candle', async (page) => { await page.click('#open-drawer'); await pass(page, 2); }],
   help: ['#scene=candle', async (page) => { await page.click('#open-help'); await pass(page, 0.5); }],
 };

@@ -14,6 +14,7 @@ import { Costs, type Probe } from './probe.js';
 import type { Scene } from '@wisp/player/parts/stage/scene';
 import { Stage, type FrameCost } from '@wisp/player/parts/stage/stage';
 import { Breath } from './wind/breath.js';
+import type { Senses } from './senses/senses.js';
 import type { Ear } from './wind/ear.js';
 
 /** Everything that is not needed for the first flame. */
@@ -23,6 +24,7 @@ type Late = typeof import('./late.js');
 interface Parts {
   ear: Ear;
   drawer: Drawer;
+  senses: Senses;
 }
 
 /** Wind that is meant. */
@@ -61,10 +63,10 @@ export class App {
     private readonly overlay: boolean,
   ) {
     this.stage = new Stage(byId('stage', HTMLCanvasElement), {
-      breath: (seconds) => this.breath.update(seconds, this.stage.frames),
+      breath: (seconds) => this.breath.update(seconds, this.stage.frames) + (this.parts?.senses.wind ?? 0),
       touched: () => this.touch(),
       context: (state) => this.onContext(state),
-      framed: (cost) => this.onFrame(cost),
+      framed: (cost, seconds) => this.onFrame(cost, seconds),
     }, { covered: overlay ? 0 : COVERED, clear: overlay });
     this.stage.detail = settings.detail;
     this.player = new Player(wisp, this.stage, settings, (playing) => this.onPlaying(playing));
@@ -90,21 +92,22 @@ export class App {
   }
 
   /** Makes what has come after the first flame. */
-  private furnish({ Drawer, Ear, fillHelp, saveLoop, savePicture }: Late): void {
+  private furnish({ Drawer, Ear, fillHelp, saveLoop, savePicture, Senses }: Late): void {
     const ear = new Ear(this.wisp, {
       wind: (wind) => this.breath.hear(wind, this.stage.frames),
       trouble: (words) => this.notices.say(words),
       ended: () => this.breath.deafen(),
     });
-    const drawer = new Drawer(byId('drawer', HTMLElement), {
+    const drawer = new Drawer(this.wisp, byId('drawer', HTMLElement), {
       change: (change) => this.change(change),
       open: (file) => this.openFile(file),
       closed: () => this.showDrawer(false),
       link: () => this.copyLink(),
       picture: () => savePicture(this.stage),
       loop: () => saveLoop(this.stage),
+      senses: () => this.toggleSenses(),
     });
-    this.parts = { ear, drawer };
+    this.parts = { ear, drawer, senses: new Senses() };
     fillHelp(this.help);
     if (this.player.playing !== null) drawer.fill(this.player.playing, this.settings);
   }
@@ -125,6 +128,7 @@ export class App {
         '2': scene('leaves'),
         i: () => this.toggleDrawer(),
         s: () => void this.share(),
+        a: () => this.toggleSenses(),
         n: () => this.change({ noise: this.settings.noise > 0 ? 0 : 1 }),
         p: () => this.pause(),
         f: () => this.fullScreen(),
@@ -203,6 +207,14 @@ export class App {
     });
   }
 
+  private toggleSenses(): boolean {
+    const senses = this.parts?.senses;
+    senses?.toggle();
+    const on = senses?.on === true;
+    this.parts?.drawer.showSenses(on);
+    return on;
+  }
+
   private pause(): void {
     this.stage.paused = !this.stage.paused;
     if (this.stage.paused) this.hint.show('Paused. P goes on.');
@@ -271,7 +283,7 @@ export class App {
         : 'The graphics card took the picture away for a moment. It comes back by itself.';
   }
 
-  private onFrame(cost: Readonly<FrameCost>): void {
+  private onFrame(cost: Readonly<FrameCost>, seconds: number): void {
     const { playing } = this.player;
     if (playing === null) return;
     const reading = playing.scene.reading();
@@ -281,7 +293,9 @@ export class App {
       this.bring();
     }
     if (this.parts !== null) {
-      this.parts.drawer.frame(reading, cost);
+      const { lit, of } = playing.scene instanceof CandleScene ? playing.scene.burning() : { lit: 0, of: 0 };
+      this.parts.senses.frame(lit, of, reading.wind, this.parts.ear.state !== 'off');
+      this.parts.drawer.frame(reading, cost, seconds);
       this.controls.hear(this.parts.ear.state, this.parts.ear.level);
     }
     this.probe.frames = this.stage.frames;

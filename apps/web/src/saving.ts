@@ -7,7 +7,8 @@ const FRAMES = 30;
 /** Kinds of film that browsers record, the one that most programs show first. */
 const KINDS = ['video/mp4;codecs=avc1', 'video/webm;codecs=vp9', 'video/webm'];
 
-function save(blob: Blob, name: string): void {
+/** Gives a file to whoever sits here. */
+export function saveFile(blob: Blob, name: string): void {
   const address = URL.createObjectURL(blob);
   const link = document.createElement('a');
   link.href = address;
@@ -18,7 +19,7 @@ function save(blob: Blob, name: string): void {
 
 /** Saves the next picture. */
 export async function savePicture(stage: Stage): Promise<string> {
-  save(await stage.snapshot(), 'wisp.png');
+  saveFile(await stage.snapshot(), 'wisp.png');
   return 'Saved';
 }
 
@@ -34,6 +35,6 @@ export async function saveLoop(stage: Stage): Promise<string> {
   await new Promise((resolve) => setTimeout(resolve, 1000 * SECONDS));
   recorder.stop();
   await ended;
-  save(new Blob(parts, { type: kind }), kind.startsWith('video/mp4') ? 'wisp.mp4' : 'wisp.webm');
+  saveFile(new Blob(parts, { type: kind }), kind.startsWith('video/mp4') ? 'wisp.mp4' : 'wisp.webm');
   return 'Saved';
 }

@@ -37,6 +37,12 @@ enum class ArxFocus {
   kAuto,        ///< simulation for outputs whose held-out free runs are surely better so, else prediction
 };
 
+/// What is known of the coefficients before any data.
+enum class ArxKernel {
+  kNone,
+  kTc,  ///< each channel's die down over its lags and neighbours are alike (tuned, correlated); how fast, the data say
+};
+
 /// In the place of a number of steps: infinitely many, from the input alone (free simulation).
 inline constexpr int kFreeRun = 0;
 
@@ -88,7 +94,8 @@ struct ArxRecipe {
   std::optional<OrderChoice> nk = 1;   ///< delays in samples; unset: every input's delay to every output is found
   Coupling coupling = Coupling::kFull;
   ArxOffset offset = ArxOffset::kMean;  ///< a linear model describes deviations from an operating point
-  double ridge = 0;       ///< ≥ 0, no unit: weight of a coefficient's size, as a share of its regressor's own energy
+  double ridge = 0;  ///< ≥ 0, no unit: weight of a coefficient's size, as a share of its regressor's own energy
+  ArxKernel kernel = ArxKernel::kNone;  ///< kTc with na 0 and many lags of the inputs: a step response without orders
   double radius = 0.999;  ///< in (0, 1): an unstable estimate is brought within it; a smaller one may simulate better
   bool keep_unstable = false;          ///< leave an unstable estimate as it is, to compare: it cannot be played
   std::optional<int> curve_knots = 0;  ///< of a monotone curve on every input, 3 to 16; 0: none; unset: 3 to 6 or none,

@@ -32,6 +32,7 @@ std::vector<Note> notes_of(const ArxRecipe& recipe, const ArxFit& fit, const Sou
       order_notes(fit.model.orders, apart && na.rows() > 1 ? Coupling::kDiagonal : recipe.coupling);
   notes.push_back({"offset", word_of(recipe.offset)});
   if (recipe.ridge > 0) notes.push_back({"ridge", number_text(recipe.ridge, 6)});
+  if (recipe.kernel == ArxKernel::kTc) notes.push_back({"kernel", "tc"});
   const std::size_t knots = sources.curves.empty() ? 0 : sources.curves.front().at.size();
   notes.push_back({"input-curve", std::to_string(knots)});
   if (fit.summary.stable.changed) notes.push_back({"radius", number_text(recipe.radius, 6)});
@@ -96,6 +97,9 @@ Result<void> check_recipe(const ArxRecipe& recipe) {
   if (!(recipe.radius > 0 && recipe.radius < 1)) {
     return Error{"the radius is " + number_text(recipe.radius) + ", expected a number between 0 and 1"};
   }
+  if (recipe.kernel != ArxKernel::kNone && recipe.focus != ArxFocus::kPrediction) {
+    return Error{"a kernel chooses the coefficients itself: it needs the focus prediction"};
+  }
   if (recipe.curve_knots != 0 && recipe.offset == ArxOffset::kNone) {
     return Error{"curves on inputs need the offset mean or estimate: a curve has no level of its own"};
   }
@@ -114,6 +118,7 @@ ArxOptions fit_options(const ArxRecipe& recipe, const ArxOrders& orders) {
   options.orders = orders;
   options.offset = recipe.offset;
   options.ridge = recipe.ridge;
+  options.kernel = recipe.kernel;
   options.covariance = recipe.responses;  // for the bands
   options.stabilise = !recipe.keep_unstable;
   options.stability_margin = 1 - recipe.radius;

@@ -232,7 +232,7 @@ Result<ArxFit> TriangularFactor::finish(const ArxOptions& options) const {
   own.orders = state_->options.orders;
   own.first_sample = state_->options.first_sample;
   if (auto ok = check_options(own, state_->options.channels); !ok) return ok.error();
-  const ArxDesign design = make_design(own.orders, own.offset);
+  const ArxDesign design = make_design(own.orders, own.offset, own.kernel != ArxKernel::kNone);
   RowPlan plan;
   plan.rows = state_->rows;
   plan.first_sample = state_->first_sample();
@@ -249,8 +249,8 @@ Result<ArxFit> TriangularFactor::finish(const ArxOptions& options) const {
   for (std::size_t c = 0; c < facts.offset.size(); ++c) shift.push_back(state_->reference[c] - facts.offset[c]);
   Eigen::MatrixXd triangle = state_->triangle;
   shift_columns(design.layout, shift, facts.scale, triangle);
-  ArxFit fit =
-      report_fit(facts, design, estimate_from_triangle(triangle, facts.scale, design, {own.ridge, own.covariance}));
+  ArxFit fit = report_fit(
+      facts, design, estimate_from_triangle(triangle, facts.scale, design, {own.ridge, own.covariance, own.kernel}));
   judge_fit(facts, fit.summary);
   return fit;
 }

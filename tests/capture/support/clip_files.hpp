@@ -12,6 +12,7 @@
 #include <string>
 
 #include "capture/support/synthetic.hpp"
+#include "paths.hpp"
 
 namespace wisp::support {
 

@@ -1,13 +1,16 @@
 // The drawer: what was learned. Live plots, knobs that mean something, the model's own facts, its file.
 
-import type { Model } from '@wisp/player';
+import type { Model, Wisp } from '@wisp/player';
 import { ORDERS, type Settings } from '../link.js';
 import type { FrameCost } from '@wisp/player/parts/stage/stage';
 import type { Reading } from '@wisp/player/parts/stage/scene';
 import { element } from './element.js';
 import { factsOf } from './facts.js';
+import { saveFile } from '../saving.js';
 import { introductionTo } from './introduction.js';
+import { Lesson } from './lesson.js';
 import { Plot } from './plot.js';
+import { PlotRecord } from './record.js';
 
 /** What the drawer shows of. */
 export interface Shown {
@@ -29,6 +32,8 @@ export interface DrawerEvents {
   /** saves a picture, or a few seconds of it; says how that went */
   picture(): Promise<string>;
   loop(): Promise<string>;
+  /** sound and touch on or off; returns which */
+  senses(): boolean;
 }
 
 /** Frames between drawings of the plots. */
@@ -38,15 +43,25 @@ export class Drawer {
   private plots: Record<'wind' | 'answer' | 'cost', Plot> | null = null;
   private outputs: Partial<Record<'wind' | 'answer' | 'cost', HTMLOutputElement>> = {};
   private frames = 0;
+  private sensesOn = false;
+  private record = new PlotRecord();
+  private lesson: Lesson | null = null;
   private address: string | null = null;
 
   constructor(
+    private readonly wisp: Wisp,
     private readonly place: HTMLElement,
     private readonly events: DrawerEvents,
   ) {
     place.addEventListener('keydown', (event) => {
       if (event.key === 'Escape') events.closed();
     });
+  }
+
+  /** Whether sound and touch are on. */
+  showSenses(on: boolean): void {
+    this.sensesOn = on;
+    this.place.querySelector('[data-knob=senses]')?.setAttribute('aria-pressed', String(on));
   }
 
   get open(): boolean {
@@ -61,16 +76,19 @@ export class Drawer {
   show(open: boolean): void {
     this.place.hidden = !open;
     if (open) this.place.querySelector<HTMLElement>('button')?.focus();
+    else this.closeLesson();
   }
 
   /** Fills it for a model and settings. */
   fill(shown: Shown, settings: Readonly<Settings>): void {
+    this.closeLesson();
+    this.record = new PlotRecord();
     const close = element('button', { type: 'button', class: 'tool round', 'aria-label': 'Close' }, '×');
     close.addEventListener('click', () => this.events.closed());
     this.place.replaceChildren(
       element('header', {}, element('h2', {}, 'What was learned'), close),
       element('p', { class: 'introduction' }, introductionTo(shown.model, shown.shipped, shown.borrows)),
-      this.livePlots(shown),
+      this.livePlots(shown, settings),
       this.knobs(shown, settings),
       factsOf(shown.model, shown.bytes.length),
       this.files(shown),
@@ -78,7 +96,9 @@ export class Drawer {
   }
 
   /** Takes in one frame. */
-  frame(reading: Reading, cost: Readonly<FrameCost>): void {
+  frame(reading: Reading, cost: Readonly<FrameCost>, seconds: number): void {
+    this.record.push(seconds, reading.wind, reading.answer);
+    this.lesson?.frame(reading.wind, seconds);
     if (this.plots === null) return;
     const values = { wind: reading.wind, answer: reading.answer, cost: cost.update + cost.draw };
     for (const name of ['wind', 'answer', 'cost'] as const) this.plots[name].push(values[name]);
@@ -92,7 +112,7 @@ export class Drawer {
     }
   }
 
-  private livePlots(shown: Shown): HTMLElement {
+  private livePlots(shown: Shown, settings: Readonly<Settings>): HTMLElement {
     const section = element('section', {}, element('h3', {}, 'Live'));
     const add = (name: 'wind' | 'answer' | 'cost', words: string, colour: string, least: readonly [number, number]): Plot => {
       const canvas = element('canvas', { class: 'plot', 'aria-hidden': 'true' });
@@ -106,7 +126,35 @@ export class Drawer {
       answer: add('answer', `Out: ${shown.answerName}`, '#ffb35c', [-0.3, 0.3]),
       cost: add('cost', 'Our time a frame', '#9fd8a4', [0, 4]),
     };
+    const csv = this.telling('Save this minute as CSV', 'csv', '', () => {
+      saveFile(new Blob([this.record.csv(shown.answerName)], { type: 'text/csv' }), 'wisp.csv');
+      return Promise.resolve('Saved');
+    });
+    section.append(element('div', { class: 'actions' }, csv));
+    if (shown.model.view === 'outline' && shown.model.inputs.length > 0) section.append(this.lessons(settings));
     return section;
+  }
+
+  /** Several orders in the same wind, while somebody looks. */
+  private lessons(settings: Readonly<Settings>): HTMLElement {
+    const room = element('div');
+    const button = element('button', { type: 'button', class: 'tool', 'aria-pressed': 'false', 'data-knob': 'lesson' }, 'Orders side by side');
+    button.addEventListener('click', () => {
+      const open = this.lesson === null;
+      this.closeLesson();
+      button.setAttribute('aria-pressed', String(open));
+      if (!open) return;
+      this.lesson = new Lesson(this.wisp, settings.seed);
+      room.append(this.lesson.place);
+    });
+    return element('div', {}, element('div', { class: 'actions' }, button), room);
+  }
+
+  private closeLesson(): void {
+    this.lesson?.dispose();
+    this.lesson?.place.remove();
+    this.lesson = null;
+    this.place.querySelector('[data-knob=lesson]')?.setAttribute('aria-pressed', 'false');
   }
 
   private knobs({ model, shipped }: Shown, settings: Readonly<Settings>): HTMLElement {
@@ -116,7 +164,10 @@ export class Drawer {
     if (model.chain !== null && model.chain.history > 1) section.append(this.history(model.chain.history, settings.history));
     const again = element('button', { type: 'button', class: 'tool' }, 'Other chance');
     again.addEventListener('click', () => this.events.change({ seed: 1 + Math.floor(Math.random() * 1e6) }));
-    section.append(element('div', { class: 'actions' }, again));
+    const senses = element('button', { type: 'button', class: 'tool', 'data-knob': 'senses' }, 'Sound and touch');
+    senses.setAttribute('aria-pressed', String(this.sensesOn));
+    senses.addEventListener('click', () => this.events.senses());
+    section.append(element('div', { class: 'actions' }, again, senses));
     return section;
   }
 

@@ -19,7 +19,7 @@ export function number(value: number, digits = 3): string {
   if (Number.isInteger(value)) return value.toLocaleString('en');
   const size = Math.abs(value);
   if (size > 0 && size < 1e-3) return value.toExponential(1).replace('e-', ' × 10⁻').replace(/⁻(\d+)/, (_, power: string) => `⁻${[...power].map((k) => '⁰¹²³⁴⁵⁶⁷⁸⁹'[Number(k)]).join('')}`);
-  return value.toLocaleString('en', { maximumSignificantDigits: digits });
+  return value.toLocaleString('en', { maximumSignificantDigits: digits }).replace('-', '−');
 }
 
 const percent = (value: number): string => `${number(value)} %`;

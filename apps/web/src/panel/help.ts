@@ -20,6 +20,7 @@ const KEYS: readonly (readonly [string[], string])[] = [
   [['1', '2'], 'candle, leaves'],
   [['I'], 'what was learned'],
   [['S'], 'send a link to this'],
+  [['A'], 'sound and touch: crackle, breath, a phone that trembles, tilt as wind'],
   [['N'], 'learned noise on and off'],
   [['P'], 'pause'],
   [['F'], 'full screen'],

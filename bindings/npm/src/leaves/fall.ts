@@ -10,6 +10,13 @@ const FARTHEST = 3.4;
 const TOP = 2.75;
 /** Below this a leaf lies on the ground. */
 const LYING = 0.035;
+/** Heaps: the ground is counted in cells of that size, metres; what a leaf adds to one, and the most that lie in one. */
+const CELL = 0.16;
+const HALF_COLUMNS = 40;
+const LAYER = 0.0045;
+const MOST_LAYERS = 30;
+/** How much longer leaves lie where heaps are. */
+const LONGER = 6;
 /** Leaves that are placed anew in one frame, at most: each looks through all segments. */
 const PLACINGS = 6;
 /** Milliseconds that a frame may spend on leaves that are still to come, beyond those. */
@@ -52,6 +59,10 @@ export class LeafFall {
   private readonly rests: Float32Array;
   private readonly lift: Float32Array;
   private readonly seen: Float32Array;
+  /** of the ground: how many leaves lie in each of its cells; the cell and layer of each leaf that lies, −1 and 0 of others */
+  private readonly heights = new Uint8Array(2 * HALF_COLUMNS * Math.ceil((FARTHEST - NEAREST) / CELL));
+  private readonly cells: Int32Array;
+  private readonly layers: Float32Array;
   private readonly wide: boolean;
   private random: number;
   private clock = 0;
@@ -72,6 +83,8 @@ export class LeafFall {
     this.rests = new Float32Array(most);
     this.lift = new Float32Array(most);
     this.seen = new Float32Array(most);
+    this.cells = new Int32Array(most).fill(-1);
+    this.layers = new Float32Array(most);
     this.wide = bank.outputs >= 7;
     this.random = (seed * 2654435761) >>> 0 || 1;
     bank.setGround(0);
@@ -80,7 +93,10 @@ export class LeafFall {
   /** Wants so many; they come and go over the next frames. */
   want(count: number): void {
     this.wanted = Math.min(count, this.bank.capacity);
-    while (this.ids.length > this.wanted) this.bank.end(this.ids.pop() as Instance);
+    while (this.ids.length > this.wanted) {
+      this.bank.end(this.ids.pop() as Instance);
+      if ((this.cells[this.ids.length] as number) >= 0) this.leaveHeap(this.ids.length);
+    }
     this.count = Math.min(this.count, this.ids.length);
   }
 
@@ -198,7 +214,8 @@ export class LeafFall {
         shown[to + 4] = 1;
       }
       this.lift[slot] = Math.max(0, (this.lift[slot] as number) - seconds);
-      const tired = this.rest(slot, z, seconds);
+      const tired = this.rest(slot, x, y, z, seconds);
+      shown[to + 2] = z + LAYER * (this.layers[slot] as number);
       if (tired && placings > again.length && seen[slot] === 0) again.push(slot);
       if (z < LYING && again.length + kicked.length < placings && this.lifts(x, y, gust)) kicked.push(slot);
       const goal = tired ? 0 : 1;
@@ -210,15 +227,33 @@ export class LeafFall {
     for (const slot of kicked) this.kick(slot, gust);
   }
 
-  /** Counts a leaf's rest. Returns whether it has lain long enough. */
-  private rest(slot: number, z: number, seconds: number): boolean {
+  /** Counts a leaf's rest. Returns whether it has lain long enough: in a heap longer, so that heaps grow. */
+  private rest(slot: number, x: number, y: number, z: number, seconds: number): boolean {
     if (z >= LYING) {
       this.rested[slot] = 0;
+      if ((this.cells[slot] as number) >= 0) this.leaveHeap(slot);
       return false;
     }
     this.lying += 1;
+    if ((this.cells[slot] as number) < 0) this.joinHeap(slot, x, y);
     this.rested[slot] = (this.rested[slot] as number) + seconds;
-    return (this.rested[slot] as number) > (this.rests[slot] as number);
+    return (this.rested[slot] as number) > (this.rests[slot] as number) * (1 + LONGER * heap(x, y));
+  }
+
+  private joinHeap(slot: number, x: number, y: number): void {
+    const column = Math.floor(x / CELL) + HALF_COLUMNS;
+    const row = Math.floor((y - NEAREST) / CELL);
+    const cell = Math.max(0, Math.min(this.heights.length - 1, row * 2 * HALF_COLUMNS + column));
+    this.cells[slot] = cell;
+    this.layers[slot] = this.heights[cell] as number;
+    this.heights[cell] = Math.min(MOST_LAYERS, (this.heights[cell] as number) + 1);
+  }
+
+  private leaveHeap(slot: number): void {
+    const cell = this.cells[slot] as number;
+    this.heights[cell] = Math.max(0, (this.heights[cell] as number) - 1);
+    this.cells[slot] = -1;
+    this.layers[slot] = 0;
   }
 
   private lifts(x: number, y: number, gust: Gust): boolean {
@@ -249,6 +284,13 @@ export class LeafFall {
     this.rested[slot] = 0;
     this.seen[slot] = Math.max(0.5, this.seen[slot] as number);
   }
+}
+
+/** How much of a heap a place is: two of them, where the wind has swept leaves together. */
+function heap(x: number, y: number): number {
+  const left = ((x + 0.75) / 0.55) ** 2 + ((y - 0.9) / 0.45) ** 2;
+  const right = ((x - 1.15) / 0.7) ** 2 + ((y - 1.6) / 0.5) ** 2;
+  return Math.exp(-left) + Math.exp(-right);
 }
 
 /** How much of a gust is felt at that distance, squared: a bell that ends. */

@@ -1,17 +1,16 @@
-// A leaf as triangles: the blade, pointed and a little curled, and its stalk. y along the midrib towards the tip, x
-// across, z out of the upper side; lengths are shares of half the leaf's width (x) and length (y).
+// What a leaf is drawn on: a sheet that is folded along its midrib and bent, large enough for every species' outline,
+// which the fragment shader cuts out of it. y along the midrib towards the tip, x across, z out of the upper side;
+// lengths are shares of half the leaf's width (x) and length (y).
 
-/** Numbers a vertex: x, y, z, then across (−1 … 1) and along (0 stalk end … 1 tip). */
+/** Numbers a vertex: x, y, z, then across (−1 … 1) and along (below 0 the stalk, 1 the tip). */
 export const MESH_NUMBERS = 5;
+
+/** Where the stalk ends. */
+const STALK = -0.28;
 
 export interface LeafMesh {
   vertices: Float32Array;
   indices: Uint16Array;
-}
-
-/** Half the blade's width at the share t from base to tip. */
-function blade(t: number): number {
-  return Math.pow(Math.sin(Math.PI * Math.pow(t, 0.7)), 1.05) * (1.02 - 0.2 * t);
 }
 
 /** A mesh with so many rows along and columns across. */
@@ -19,15 +18,12 @@ export function leafMesh(rows: number, columns: number): LeafMesh {
   const vertices: number[] = [];
   const indices: number[] = [];
   for (let row = 0; row <= rows; ++row) {
-    const t = row / rows;
+    const t = STALK + ((1 - STALK) * row) / rows;
     for (let column = 0; column <= columns; ++column) {
       const u = (2 * column) / columns - 1;
-      const half = blade(t);
-      const notch = 0.05 * Math.cos(t * 34) * Math.abs(u) ** 6;
-      const x = u * half * (1 + notch);
-      const fold = 0.15 * Math.abs(u) * half;
+      const fold = 0.15 * Math.abs(u);
       const bend = 0.55 * (t - 0.45) ** 2;
-      vertices.push(x, 2 * t - 1, fold - bend + 0.05 * Math.sin(5 * t + 2 * u), u, t);
+      vertices.push(u, 2 * t - 1, fold - bend + 0.05 * Math.sin(5 * t + 2 * u), u, t);
     }
   }
   const across = columns + 1;
@@ -37,8 +33,5 @@ export function leafMesh(rows: number, columns: number): LeafMesh {
       indices.push(k, k + 1, k + across, k + 1, k + across + 1, k + across);
     }
   }
-  const stalk = vertices.length / MESH_NUMBERS;
-  vertices.push(-0.045, -0.96, -0.06, 0, 0, 0.045, -0.96, -0.06, 0, 0, 0.05, -1.5, -0.2, 0, 0);
-  indices.push(stalk, stalk + 2, stalk + 1);
   return { vertices: new Float32Array(vertices), indices: new Uint16Array(indices) };
 }

@@ -12,13 +12,13 @@ import leafFragment from './shaders/leaf.frag.js';
 import leafVertex from './shaders/leaf.vert.js';
 import shadowFragment from './shaders/shadow.frag.js';
 import shadowVertex from './shaders/shadow.vert.js';
+import species from './shaders/species.glsl.js';
 import skyFragment from './shaders/sky.frag.js';
 
 /** The more leaves, the fewer triangles each: up to so many leaves, so many rows and columns of them. */
 const MESHES: readonly (readonly [most: number, rows: number, columns: number])[] = [
   [120, 10, 4],
-  [1200, 6, 4],
-  [3000, 4, 2],
+  [1200, 5, 2],
   [Infinity, 3, 2],
 ];
 /** Leaves are drawn this much larger than they are. */
@@ -45,7 +45,7 @@ export class LeafRenderer {
     this.picture = new Target(gl, { range: false, depth: true, samples: 4 });
     this.programs = {
       sky: new Program(gl, fullVertex, noise + skyFragment),
-      leaf: new Program(gl, leafVertex, leafFragment),
+      leaf: new Program(gl, leafVertex, noise + species + leafFragment),
       shadow: new Program(gl, shadowVertex, shadowFragment),
       finish: new Program(gl, fullVertex, noise + finishFragment),
     };
@@ -72,11 +72,14 @@ export class LeafRenderer {
     gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, count);
     gl.disable(gl.BLEND);
     gl.enable(gl.DEPTH_TEST);
+    // Outlines are cut out of sheets: their edge is spread over a pixel's samples.
+    gl.enable(gl.SAMPLE_ALPHA_TO_COVERAGE);
     this.programs.leaf.use().setMatrix('uMatrix', camera.matrix).set('uHalfSize', ...size).set('uEye', ...camera.eye);
     const { shape } = this.leaves.find(({ most }) => count <= most) as { shape: Shape };
     gl.bindVertexArray(shape.array);
     gl.drawElementsInstanced(gl.TRIANGLES, shape.count, gl.UNSIGNED_SHORT, 0, count);
     gl.bindVertexArray(null);
+    gl.disable(gl.SAMPLE_ALPHA_TO_COVERAGE);
     gl.disable(gl.DEPTH_TEST);
     this.picture.finish();
     drawToCanvas(gl);

@@ -4,15 +4,35 @@
 #include <cmath>
 #include <optional>
 
+#include "learn/arx/fit/kernel_prior.hpp"
 #include "learn/arx/rows/arx_triangle.hpp"
 #include "record/number_text.hpp"
 
 namespace wisp {
 namespace {
 
+// The kernel's prior of one output's coefficients; `products` are of all columns of the layout.
+Eigen::MatrixXd prior_of(const SharedRows& rows, const ArxDesign& design, const Eigen::MatrixXd& products) {
+  const int target = design.layout.target(rows.outputs.front());
+  std::vector<arx::KernelBlock> blocks;
+  int last = kConstantChannel;
+  for (std::size_t p = 0; p < rows.columns.size(); ++p) {
+    const int channel = design.layout[rows.columns[p]].channel;
+    if (channel == kConstantChannel) continue;
+    if (channel != last) blocks.push_back({static_cast<int>(p), 0});
+    ++blocks.back().size;
+    last = channel;
+  }
+  return arx::kernel_factor(
+      {products(rows.columns, rows.columns), products(rows.columns, target), products(target, target), products(0, 0)},
+      blocks);
+}
+
 SharedProblem problem_of(const SharedRows& rows, const std::vector<double>& scale, const ArxDesign& design,
-                         double ridge) {
-  SharedProblem problem{rows.columns, {}, Eigen::VectorXd(static_cast<Eigen::Index>(rows.columns.size())), ridge};
+                         const EstimateOptions& options, const Eigen::MatrixXd& products) {
+  SharedProblem problem{
+      rows.columns, {}, Eigen::VectorXd(static_cast<Eigen::Index>(rows.columns.size())), options.ridge, {}};
+  if (options.kernel == ArxKernel::kTc) problem.prior = prior_of(rows, design, products);
   for (int output : rows.outputs) problem.targets.push_back(design.layout.target(output));
   for (std::size_t p = 0; p < rows.columns.size(); ++p) {
     const int channel = design.layout[rows.columns[p]].channel;
@@ -20,6 +40,13 @@ SharedProblem problem_of(const SharedRows& rows, const std::vector<double>& scal
     problem.unit[static_cast<Eigen::Index>(p)] = factor == 0 ? 0.0 : 1.0 / factor;
   }
   return problem;
+}
+
+// Number of coefficients that the data determine where a kernel is: the trace of (XᵀX + FᵀF)⁻¹ XᵀX.
+double effective_number(const SharedProblem& problem, const SharedSolution& solution, const Eigen::MatrixXd& products) {
+  const auto size = static_cast<double>(problem.columns.size());
+  if (problem.prior.size() == 0) return size;
+  return (solution.inverse * products(problem.columns, problem.columns)).trace();
 }
 
 // Residuals in the triangle's space: the triangle times [−θ; 1], one column an output.
@@ -40,21 +67,25 @@ Eigen::MatrixXd residuals_of(const Eigen::MatrixXd& triangle, const ArxDesign& d
 }
 
 // Adds the refinement step to the coefficients. Returns its size relative to them.
-double refine(const ArxDesign& design, const Eigen::MatrixXd& gram, double ridge, ResidualProducts& products,
-              ArxEstimate& estimate) {
+double refine(const ArxDesign& design, const Eigen::MatrixXd& gram, const std::vector<SharedProblem>& problems,
+              ResidualProducts& products, ArxEstimate& estimate) {
   double largest = 0;
   for (std::size_t g = 0; g < design.groups.size(); ++g) {
     SharedSolution& solution = estimate.groups[g];
     Eigen::MatrixXd slope = products.gradient[g];
+    const double ridge = problems[g].ridge;
+    const Eigen::MatrixXd& prior = problems[g].prior;
+    const bool drawn_in = ridge > 0 || prior.size() > 0;
     if (ridge > 0) {
       const Eigen::VectorXd energy = gram.diagonal()(design.groups[g].columns);
       slope -= ridge * energy.asDiagonal() * solution.theta;
     }
+    if (prior.size() > 0) slope -= prior.transpose() * (prior * solution.theta);
     const Eigen::MatrixXd step = solution.inverse * slope;
-    // (r − Xδ)ᵀ(r − Xδ) = rᵀr − δᵀXᵀr − rᵀXδ + δᵀXᵀXδ; without ridge XᵀXδ = Xᵀr, and one of the three terms remains.
+    // (r − Xδ)ᵀ(r − Xδ) = rᵀr − δᵀXᵀr − rᵀXδ + δᵀXᵀXδ; without a prior XᵀXδ = Xᵀr, and one of the three terms remains.
     const Eigen::MatrixXd change = step.transpose() * products.gradient[g];
     const std::vector<int>& outputs = design.groups[g].outputs;
-    products.gram(outputs, outputs) -= ridge > 0 ? Eigen::MatrixXd(change + change.transpose()) : change;
+    products.gram(outputs, outputs) -= drawn_in ? Eigen::MatrixXd(change + change.transpose()) : change;
     solution.theta += step;
     if (step.size() > 0) {
       largest = std::max(largest, step.cwiseAbs().maxCoeff() / std::max(solution.theta.cwiseAbs().maxCoeff(), 1e-300));
@@ -70,14 +101,16 @@ ChannelPairs pairs_for(const ArxDesign& design, bool joint) {
 
 std::optional<ArxEstimate> try_gram(const Signals& signals, const RowPlan& plan, const ArxDesign& design,
                                     const EstimateOptions& options) {
-  const double ridge = options.ridge;
   Eigen::MatrixXd gram = lag_gram(signals, plan, design.layout, pairs_for(design, options.joint));
   ArxEstimate estimate;
+  std::vector<SharedProblem> problems;
   double condition = 1;
   for (const SharedRows& rows : design.groups) {
-    auto solution = solve_with_gram(gram, problem_of(rows, signals.scale, design, ridge), kMaxConditionForGram);
+    const SharedProblem& problem = problems.emplace_back(problem_of(rows, signals.scale, design, options, gram));
+    auto solution = solve_with_gram(gram, problem, kMaxConditionForGram);
     if (!solution) return std::nullopt;
     condition = std::max(condition, solution->scaled_condition);
+    estimate.effective.push_back(effective_number(problem, *solution, gram));
     estimate.groups.push_back(std::move(*solution));
   }
   // One step leaves condition⁴ · 1e-32 of the coefficients' error; rows of different groups share no formula for what
@@ -86,7 +119,7 @@ std::optional<ArxEstimate> try_gram(const Signals& signals, const RowPlan& plan,
   ResidualProducts products;
   for (int pass = 0; pass < 3; ++pass) {
     products = residual_products(signals, plan, design, estimate.thetas());
-    const double step = refine(design, gram, ridge, products, estimate);
+    const double step = refine(design, gram, problems, products, estimate);
     if (step < kNegligible || design.groups.size() == 1) break;
   }
   estimate.residual_gram = products.gram;
@@ -122,8 +155,11 @@ ArxEstimate estimate_from_triangle(const Eigen::MatrixXd& triangle, const std::v
                                    const ArxDesign& design, const EstimateOptions& options) {
   ArxEstimate estimate;
   double condition = 1;
+  const Eigen::MatrixXd products = triangle.transpose() * triangle;
   for (const SharedRows& rows : design.groups) {
-    estimate.groups.push_back(solve_with_triangle(triangle, problem_of(rows, scale, design, options.ridge)));
+    const SharedProblem problem = problem_of(rows, scale, design, options, products);
+    estimate.groups.push_back(solve_with_triangle(triangle, problem));
+    estimate.effective.push_back(effective_number(problem, estimate.groups.back(), products));
     condition = std::max(condition, estimate.groups.back().scaled_condition);
   }
   const Eigen::MatrixXd residuals = residuals_of(triangle, design, estimate.thetas());
@@ -135,7 +171,7 @@ ArxEstimate estimate_from_triangle(const Eigen::MatrixXd& triangle, const std::v
     const double sum = triangle.col(0).dot(target);
     estimate.target_square[i] = target.squaredNorm() - sum * sum / rows;
   }
-  if (options.joint) estimate.gram = triangle.transpose() * triangle;
+  if (options.joint) estimate.gram = products;
   estimate.method = "Householder QR by blocks of rows (condition " + number_text(condition, 2) + ")";
   estimate.residual_gram_at = [triangle, &design](const GroupThetas& theta) {
     const Eigen::MatrixXd at = residuals_of(triangle, design, theta);

@@ -23,6 +23,7 @@ inline constexpr double kMaxConditionForGram = 2e3;
 
 struct ArxEstimate {
   std::vector<SharedSolution> groups;  ///< as the design's, in scaled units
+  std::vector<double> effective;       ///< per group: number of coefficients, or what a kernel leaves of it
   Eigen::MatrixXd residual_gram;       ///< ny × ny: Σ r_i r_j
   Eigen::VectorXd target_square;       ///< Σ (y − ȳ)² per output
   std::string method;                  ///< which factorisation and why
@@ -38,7 +39,8 @@ struct ArxEstimate {
 /// What to compute.
 struct EstimateOptions {
   double ridge = 0;
-  bool joint = false;  ///< also the products that tie rows of different groups together
+  bool joint = false;                   ///< also the products that tie rows of different groups together
+  ArxKernel kernel = ArxKernel::kNone;  ///< with one, every group has one output
 };
 
 /// From the data. The estimate keeps references to its arguments.

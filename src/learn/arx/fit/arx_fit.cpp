@@ -74,13 +74,14 @@ Result<ArxFit> fit_as(std::span<const Recording> recordings, const ChannelChoice
   if (auto ok = check_options(options, channels); !ok) return ok.error();
   const auto signals = gather_signals(recordings, channels, options.offset);
   if (!signals) return signals.error();
-  const ArxDesign design = make_design(options.orders, options.offset);
+  const ArxDesign design = make_design(options.orders, options.offset, options.kernel != ArxKernel::kNone);
   const RowPlan plan = plan_rows(*signals, design.layout, options.first_sample.value_or(options.orders.history()));
   if (auto ok = check_rows(plan, design); !ok) return ok.error();
 
   const FitFacts facts{options,   signals->outputs,  signals->names,     signals->offset,       signals->scale,
                        plan.rows, plan.first_sample, plan.episodes_used, plan.episodes_skipped, plan.rows_left_out};
-  ArxEstimate estimate = estimate_from_data(*signals, plan, design, {options.ridge, options.covariance});
+  ArxEstimate estimate =
+      estimate_from_data(*signals, plan, design, {options.ridge, options.covariance, options.kernel});
   if (rows) give_rows(design, *rows, estimate);
   ArxFit fit = report_fit(facts, design, std::move(estimate));
   if (rows) give_errors(*signals, options, *rows, *plain, fit);

@@ -26,12 +26,13 @@ struct ArxOptions {
   ArxOrders orders;                     ///< see make_orders
   ArxOffset offset = ArxOffset::kMean;  ///< a linear model describes deviations from an operating point
   double ridge = 0;  ///< ≥ 0, no unit: weight of every coefficient's size, as a share of its regressor's own energy
-  std::optional<int> first_sample;  ///< first row of an episode to be predicted, 0-based, at least the longest lag;
-                                    ///< unset: the longest lag, max(na, nb + nk − 1)
-  bool stabilise = true;            ///< re-estimate an unstable model under the constraint that it is stable
-  double stability_margin = 1e-3;   ///< in (0, 1): a repaired model's spectral radius is at most 1 − this
-  bool covariance = false;          ///< compute the covariance of all coefficients together, for confidence bands
-  bool judge_free_run = true;       ///< simulate over the recordings too, to warn where one-step fit hides failure
+  ArxKernel kernel = ArxKernel::kNone;  ///< a prior on every output's coefficients, found by its marginal likelihood
+  std::optional<int> first_sample;      ///< first row of an episode to be predicted, 0-based, at least the longest lag;
+                                        ///< unset: the longest lag, max(na, nb + nk − 1)
+  bool stabilise = true;                ///< re-estimate an unstable model under the constraint that it is stable
+  double stability_margin = 1e-3;       ///< in (0, 1): a repaired model's spectral radius is at most 1 − this
+  bool covariance = false;              ///< compute the covariance of all coefficients together, for confidence bands
+  bool judge_free_run = true;           ///< simulate over the recordings too, to warn where one-step fit hides failure
 };
 
 /// A coefficient that the data cannot tell: its regressor is (nearly) a combination of others. It is set to 0.
@@ -66,8 +67,9 @@ struct ArxSummary {
   std::vector<double> condition;             ///< 2-norm condition number of every row's regressor, in the data's units
   std::vector<RankProblem> rank_problems;
   ArxStability stable;
-  std::size_t samples_used = 0;  ///< n: rows in the regression
-  int first_sample = 0;          ///< first row of an episode that was predicted, 0-based
+  std::vector<double> effective;  ///< d per output: number of coefficients, or what a kernel leaves of it
+  std::size_t samples_used = 0;   ///< n: rows in the regression
+  int first_sample = 0;           ///< first row of an episode that was predicted, 0-based
   std::size_t episodes_used = 0;
   std::size_t episodes_skipped = 0;  ///< too short to predict a single row
   std::size_t rows_left_out = 0;     ///< because a sample in them or in their history is missing

@@ -98,7 +98,7 @@ void write_std_errors(const FitFacts& facts, const ArxDesign& design, const ArxE
   model.std_error.resize(facts.outputs);
   for (std::size_t g = 0; g < design.groups.size(); ++g) {
     const SharedRows& rows = design.groups[g];
-    const double freedom = static_cast<double>(facts.rows - rows.columns.size());
+    const double freedom = static_cast<double>(facts.rows) - estimate.effective[g];
     for (int output : rows.outputs) {
       const double variance = estimate.residual_gram(output, output) / freedom;
       const double own = inverse_or_zero(facts.scale[output]);
@@ -113,11 +113,18 @@ void write_std_errors(const FitFacts& facts, const ArxDesign& design, const ArxE
   }
 }
 
-void write_criteria(const FitFacts& facts, const ArxDesign& design, ArxSummary& summary) {
+void write_effective(const ArxDesign& design, const ArxEstimate& estimate, ArxSummary& summary) {
+  summary.effective.resize(std::size_t(design.layout.outputs()));
+  for (std::size_t g = 0; g < design.groups.size(); ++g) {
+    for (int output : design.groups[g].outputs) summary.effective[std::size_t(output)] = estimate.effective[g];
+  }
+}
+
+void write_criteria(const FitFacts& facts, ArxSummary& summary) {
   const double n = static_cast<double>(facts.rows);
   double coefficients = 0;
   for (int i = 0; i < facts.outputs; ++i) {
-    const double d = static_cast<double>(design.row_size(i));
+    const double d = summary.effective[std::size_t(i)];
     coefficients += d;
     summary.row_fpe.push_back(summary.loss[i] * (1 + d / n) / (1 - d / n));
   }
@@ -143,9 +150,9 @@ void write_loss(const FitFacts& facts, const ArxEstimate& estimate, const Eigen:
   }
 }
 
-void write_noise(const FitFacts& facts, const ArxDesign& design, const ArxSummary& summary, ArxModel& model) {
+void write_noise(const FitFacts& facts, const ArxSummary& summary, ArxModel& model) {
   for (int i = 0; i < facts.outputs; ++i) {
-    const double freedom = static_cast<double>(facts.rows - design.row_size(i));
+    const double freedom = static_cast<double>(facts.rows) - summary.effective[std::size_t(i)];
     const double sd = std::sqrt(summary.loss[i] * static_cast<double>(facts.rows) / freedom);
     model.noise.sd.push_back(sd);
     model.noise.sd_ci95.push_back({sd * std::sqrt(freedom / chi_squared_quantile(0.975, freedom)),
@@ -171,17 +178,20 @@ Eigen::VectorXd factors(const FitFacts& facts, const ArxDesign& design, const Sh
   return out;
 }
 
-// cov(θ_i, θ_j) = s_ij P_i X_iᵀX_j P_j with P = (XᵀX)⁻¹ and s the covariance of the noise.
+// cov(θ_i, θ_j) = s_ij P_i X_iᵀX_j P_j with P = (XᵀX)⁻¹ and s the covariance of the noise; under a kernel a row's own
+// is that after the data, s_ii P_i, which counts what the prior may have wrong.
 std::vector<double> joint_covariance(const FitFacts& facts, const ArxDesign& design, const ArxEstimate& estimate,
                                      const ArxModel& model) {
   const auto starts = row_starts(model);
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> joint(starts.back(), starts.back());
   for (const SharedRows& left : design.groups) {
     for (const SharedRows& right : design.groups) {
-      const Eigen::MatrixXd between = estimate.groups[&left - design.groups.data()].inverse *
-                                      estimate.gram(left.columns, right.columns) *
-                                      estimate.groups[&right - design.groups.data()].inverse;
-      const double mean_size = 0.5 * static_cast<double>(left.columns.size() + right.columns.size());
+      const bool after = facts.options.kernel != ArxKernel::kNone && &left == &right;
+      const Eigen::MatrixXd& p = estimate.groups[&left - design.groups.data()].inverse;
+      const Eigen::MatrixXd& q = estimate.groups[&right - design.groups.data()].inverse;
+      const Eigen::MatrixXd between = after ? p : p * estimate.gram(left.columns, right.columns) * q;
+      const double mean_size = 0.5 * (estimate.effective[std::size_t(&left - design.groups.data())] +
+                                      estimate.effective[std::size_t(&right - design.groups.data())]);
       for (int i : left.outputs) {
         for (int j : right.outputs) {
           const Eigen::Index rows = starts[i + 1] - starts[i];
@@ -250,7 +260,7 @@ double largest_move(const FitFacts& facts, const ArxDesign& design, const ArxEst
                     const ArxModel& after) {
   double largest = 0;
   for (std::size_t g = 0; g < design.groups.size(); ++g) {
-    const double freedom = static_cast<double>(facts.rows - design.groups[g].columns.size());
+    const double freedom = static_cast<double>(facts.rows) - estimate.effective[g];
     for (int output : design.groups[g].outputs) {
       const double variance = estimate.residual_gram(output, output) / freedom;
       for (std::size_t p = 0; p < before.theta[output].size(); ++p) {
@@ -289,8 +299,9 @@ ArxFit report_fit(const FitFacts& facts, const ArxDesign& design, ArxEstimate es
   write_std_errors(facts, design, estimate, fit.model);
   if (facts.options.covariance) fit.covariance = joint_covariance(facts, design, estimate, fit.model);
   write_loss(facts, estimate, residual_gram, summary);
-  write_criteria(facts, design, summary);
-  write_noise(facts, design, summary, fit.model);
+  write_effective(design, estimate, summary);
+  write_criteria(facts, summary);
+  write_noise(facts, summary, fit.model);
   summary.condition.resize(facts.outputs);
   for (std::size_t g = 0; g < design.groups.size(); ++g) {
     for (int output : design.groups[g].outputs) summary.condition[output] = estimate.groups[g].condition;

@@ -19,9 +19,9 @@ std::string fit_text(double percent) {
   return percent > kDiverges ? number_text(percent, 3) + " %" : std::string("nothing: it diverges");
 }
 
-std::string too_few_rows(const VerdictEvidence& evidence, const ArxSummary& summary) {
-  int most = 0;
-  for (int i = 0; i < evidence.orders.outputs(); ++i) most = std::max(most, evidence.orders.row_size(i));
+std::string too_few_rows(const ArxSummary& summary) {
+  const auto& numbers = summary.effective;
+  const int most = numbers.empty() ? 0 : int(std::ceil(*std::max_element(numbers.begin(), numbers.end()) - 1e-9));
   const auto rows = static_cast<double>(summary.samples_used);
   if (most == 0 || rows >= kMinRowsACoefficient * most) return "";
   return std::to_string(summary.samples_used) + " rows are too few for " + std::to_string(most) +
@@ -102,7 +102,7 @@ std::vector<double> persistence_errors(std::span<const Recording> recordings, co
 
 void judge_use(const VerdictEvidence& evidence, ArxSummary& summary) {
   if (!summary.usable.verdict) return;
-  for (std::string reason : {too_few_rows(evidence, summary), repaired_far(summary), acts_at_once(evidence),
+  for (std::string reason : {too_few_rows(summary), repaired_far(summary), acts_at_once(evidence),
                              simulates_badly(evidence, summary), has_no_skill(evidence, summary)}) {
     if (reason.empty()) continue;
     summary.usable = {false, std::move(reason)};

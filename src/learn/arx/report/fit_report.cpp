@@ -41,6 +41,7 @@ void add_data(const ArxSummary& summary, ReportSection& section) {
   add(section, "condition", *std::max_element(summary.condition.begin(), summary.condition.end()), "condition", "",
       "of the regressors, in the data's units");
   add(section, "row_condition", summary.condition);
+  add(section, "effective_coefficients", summary.effective);
   add(section, "method", summary.method);
 }
 

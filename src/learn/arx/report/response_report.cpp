@@ -17,7 +17,8 @@ constexpr int kFrequencies = 240;
 int settling_samples(const ArxModel& model) {
   constexpr int kMin = 20, kMax = 600;
   const double radius = spectral_radius(model);
-  const double settled = radius > 0 && radius < 1 ? std::log(0.01) / std::log(radius) : kMax;
+  // Without feedback the response is over with its last lag.
+  const double settled = radius <= 0 ? 0 : radius < 1 ? std::log(0.01) / std::log(radius) : kMax;
   return model.orders.history() + static_cast<int>(std::clamp(settled, double{kMin}, double{kMax}));
 }
 

@@ -26,7 +26,7 @@ std::size_t ArxDesign::row_size(int output) const {
   return 0;
 }
 
-ArxDesign make_design(const ArxOrders& orders, ArxOffset offset) {
+ArxDesign make_design(const ArxOrders& orders, ArxOffset offset, bool apart) {
   std::vector<std::vector<LaggedChannel>> rows;
   std::vector<LaggedChannel> used;
   for (int i = 0; i < orders.outputs(); ++i) {
@@ -39,7 +39,7 @@ ArxDesign make_design(const ArxOrders& orders, ArxOffset offset) {
     for (const LaggedChannel& column : rows[i]) columns.push_back(design.layout.find(column));
     const auto same = std::find_if(design.groups.begin(), design.groups.end(),
                                    [&](const SharedRows& group) { return group.columns == columns; });
-    if (same != design.groups.end()) {
+    if (!apart && same != design.groups.end()) {
       same->outputs.push_back(i);
     } else {
       design.groups.push_back({std::move(columns), {i}});

@@ -27,7 +27,8 @@ struct ArxDesign {
 /// Regressors of one output row in theta's order; the constant, where it is estimated, comes last.
 std::vector<LaggedChannel> row_regressors(const ArxOrders& orders, int output, ArxOffset offset);
 
-ArxDesign make_design(const ArxOrders& orders, ArxOffset offset);
+/// `apart`: every output is a group of its own, whatever regressors others have.
+ArxDesign make_design(const ArxOrders& orders, ArxOffset offset, bool apart = false);
 
 /// Channels whose products the design's rows need.
 ChannelPairs wanted_pairs(const ArxDesign& design);

@@ -21,7 +21,7 @@ vec4 chanceOf(float k) { return fract(sin(vec4(k * 12.9898, k * 78.233, k * 39.4
 void main() {
   vChance = chanceOf(float(gl_InstanceID) + 1.0);
   float size = (0.72 + 0.5 * vChance.x) * smoothstep(0.0, 1.0, where.w);
-  float broad = 0.85 + 0.35 * vChance.y;
+  float broad = vChance.y > 0.34 && vChance.y < 0.60 ? 1.35 : 1.0 + 0.2 * vChance.z;
   float curl = 0.5 + 1.1 * vChance.z;
   vec3 local = vec3(place.x * uHalfSize.x * broad, place.y * uHalfSize.y, place.z * uHalfSize.x * curl) * size;
   vec4 q = normalize(attitude);

@@ -1,0 +1,50 @@
+// The commands of docs/guide/hair-dryer.md, in their order, on the data that it is about.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "cli/program.hpp"
+#include "paths.hpp"
+
+namespace wisp {
+namespace {
+
+// Lines of an indented block that begin with "wisp ", lines that end in a backslash joined to the next.
+std::vector<std::string> commands_of(const std::string& page) {
+  std::vector<std::string> commands;
+  std::istringstream text(page);
+  bool open = false;
+  for (std::string line; std::getline(text, line);) {
+    const auto first = line.find_first_not_of(' ');
+    if (first == std::string::npos || first < 4) continue;
+    std::string words = line.substr(first);
+    if (!open && !words.starts_with("wisp ")) continue;
+    const bool goes_on = words.back() == '\\';
+    if (goes_on) words.pop_back();
+    open ? commands.back() += words : commands.emplace_back(words.substr(5));
+    open = goes_on;
+  }
+  return commands;
+}
+
+class Guide : public InFolder {};
+
+TEST_F(Guide, AnHourWithTheHairDryerRuns) {
+  if (data_folder().empty()) GTEST_SKIP() << "../shared/data is not here";
+  const auto data = std::filesystem::path(data_folder()) / "sysid/hairdryer.csv";
+  std::filesystem::copy_file(data, at("hairdryer.csv"));
+  const auto commands = commands_of(file_text(WISP_SOURCE_DIR "/docs/guide/hair-dryer.md"));
+  ASSERT_EQ(commands.size(), 8u);
+  for (const std::string& command : commands) {
+    const std::string line = "cd " + folder_.string() + " && " WISP_PROGRAM " " + command + " >said 2>&1 </dev/null";
+    EXPECT_EQ(std::system(line.c_str()), 0) << command << "\n" << file_text(at("said"));
+  }
+  for (const char* made : {"response/step.png", "figures/prediction.png", "five.csv", "compared.png"}) {
+    EXPECT_TRUE(std::filesystem::exists(at(made))) << made;
+  }
+}
+
+}  // namespace
+}  // namespace wisp
