@@ -1,5 +1,6 @@
-// What a frame of a flame costs, alone and in banks; and an order-4 filter for 10^6 steps beside the plain loop in
-// double that a peer's library runs (bench/peers/run.py times SciPy's).
+// What a step of a flame costs, alone and in banks of up to 2^20, beside what the machine can do at most: multiply and
+// add, and move memory; and an order-4 filter for 10^6 steps beside the plain loop in double that a peer's library runs
+// (bench/peers/run.py times SciPy's). bench/run_table.py makes one table of all, at every width of vectors.
 
 #include <benchmark/benchmark.h>
 
@@ -32,10 +33,9 @@ Bank full_bank(const Model& model, int capacity) {
 }
 
 // Wind in, one step; nothing is read.
-void flame_step(benchmark::State& state) {
-  const auto instances = static_cast<int>(state.range(0));
-  Bank bank = full_bank(flame_model({.wind = InputShape::kSplitSign}), instances);
-  bank.set_noise(static_cast<float>(state.range(1)));
+void step_flames(benchmark::State& state, const Model& model, int instances, float noise) {
+  Bank bank = full_bank(model, instances);
+  bank.set_noise(noise);
   const std::vector<float> wind(instances, 0.3f);
   for (auto _ : state) {
     bank.set_inputs(wind);
@@ -43,7 +43,59 @@ void flame_step(benchmark::State& state) {
   }
   per_instance(state, instances);
 }
-BENCHMARK(flame_step)->ArgNames({"flames", "noise"})->ArgsProduct({{1, 100, 10000}, {0, 1}});
+
+void flame_step(benchmark::State& state) {
+  step_flames(state, flame_model({.wind = InputShape::kSplitSign}), static_cast<int>(state.range(0)),
+              static_cast<float>(state.range(1)));
+}
+BENCHMARK(flame_step)->ArgNames({"flames", "noise"})->ArgsProduct({{1, 8, 64, 1024, 16384, 131072, 1048576}, {0, 1}});
+
+// As wisp learn flame makes them.
+void default_flame_step(benchmark::State& state) {
+  step_flames(state, default_flame_model(), static_cast<int>(state.range(0)), 1.0f);
+}
+BENCHMARK(default_flame_step)->ArgName("flames")->Arg(1)->Arg(1024);
+
+// The machine's limits. Products and sums apart, as the library has them: twelve sums that wait for nothing but
+// themselves, in vectors of so many bytes.
+template <int bytes>
+inline __attribute__((always_inline)) void multiply_add(benchmark::State& state) {
+  using Vector = float __attribute__((vector_size(bytes)));
+  constexpr int kSums = 12, kRounds = 1000;
+  Vector sum[kSums] = {}, factor = Vector{} + 0.999f, more = Vector{} + 0.5f;
+  for (auto _ : state) {
+    for (int round = 0; round < kRounds; ++round) {
+#pragma GCC unroll 12
+      for (int k = 0; k < kSums; ++k) sum[k] = sum[k] * factor + more;
+    }
+    benchmark::DoNotOptimize(sum);
+  }
+  const double operations = 2.0 * kSums * kRounds * bytes / 4 * static_cast<double>(state.iterations());
+  state.counters["operations"] = Counter(operations, Counter::kIsRate);
+}
+void limit_baseline(benchmark::State& state) { multiply_add<16>(state); }
+BENCHMARK(limit_baseline);
+#ifdef __x86_64__
+__attribute__((target("avx2"))) void limit_avx2(benchmark::State& state) { multiply_add<32>(state); }
+__attribute__((target("avx512f"))) void limit_avx512(benchmark::State& state) { multiply_add<64>(state); }
+const int limits = [] {
+  if (__builtin_cpu_supports("avx2")) benchmark::RegisterBenchmark("limit_avx2", limit_avx2);
+  if (__builtin_cpu_supports("avx512f")) benchmark::RegisterBenchmark("limit_avx512", limit_avx512);
+  return 0;
+}();
+#endif
+
+// a = b + s·c over arrays that no cache holds.
+void limit_triad(benchmark::State& state) {
+  constexpr std::size_t kSize = std::size_t{1} << 24;
+  std::vector<float> a(kSize), b(kSize, 1.0f), c(kSize, 2.0f);
+  for (auto _ : state) {
+    for (std::size_t k = 0; k < kSize; ++k) a[k] = b[k] + 3.0f * c[k];
+    benchmark::DoNotOptimize(a.data());
+  }
+  state.SetBytesProcessed(static_cast<std::int64_t>(3 * sizeof(float) * kSize) * state.iterations());
+}
+BENCHMARK(limit_triad)->Unit(benchmark::kMillisecond);
 
 // A game's whole frame at 60 Hz: wind in, time passes, polylines of 32 points out.
 void flame_frame(benchmark::State& state) {

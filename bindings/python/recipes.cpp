@@ -93,6 +93,14 @@ void bind_arx(py::module_& module) {
       .def_readwrite("max_modes", &SwitchedRecipe::max_modes)
       .def_readwrite("holdout", &SwitchedRecipe::holdout)
       .def_readwrite("seed", &SwitchedRecipe::seed);
+  options<FlickerRecipe>(module, "FlickerRecipe")
+      .def_readwrite("name", &FlickerRecipe::name)
+      .def_readwrite("output", &FlickerRecipe::output)
+      .def_readwrite("rate_hz", &FlickerRecipe::rate_hz)
+      .def_readwrite("modes", &FlickerRecipe::modes)
+      .def_readwrite("order", &FlickerRecipe::order)
+      .def_readwrite("holdout", &FlickerRecipe::holdout)
+      .def_readwrite("seed", &FlickerRecipe::seed);
 }
 
 void bind_outlines(py::module_& module) {

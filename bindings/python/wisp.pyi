@@ -128,6 +128,16 @@ class SwitchedRecipe:
     holdout: float
     seed: int
 
+class FlickerRecipe:
+    def __init__(self, **fields: Any) -> None: ...
+    name: str
+    output: str
+    rate_hz: float
+    modes: int
+    order: int
+    holdout: float
+    seed: int
+
 class OutlineRecipe:
     def __init__(self, **fields: Any) -> None: ...
     order: Optional[int]
@@ -163,7 +173,7 @@ class ChainRecipe:
 
 class LeafRecipe(ChainRecipe): ...
 
-Recipe = Union[ArxRecipe, SwitchedRecipe, OutlineRecipe, FlameRecipe, ChainRecipe, LeafRecipe]
+Recipe = Union[ArxRecipe, SwitchedRecipe, FlickerRecipe, OutlineRecipe, FlameRecipe, ChainRecipe, LeafRecipe]
 
 class ClipCapture:
     def __init__(self, **fields: Any) -> None: ...

@@ -8,7 +8,6 @@
 #include "wisp/model/model.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/chain_facet.hpp"
-#include "wisp/run/chain_loop.hpp"
 #include "wisp/run/cost.hpp"
 #include "wisp/run/extinction_facet.hpp"
 #include "wisp/run/switched_facet.hpp"

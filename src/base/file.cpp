@@ -1,8 +1,5 @@
 #include "wisp/base/file.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -11,6 +8,9 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+
+#include "base/path_text.hpp"
+#include "base/system.hpp"
 
 namespace wisp {
 namespace {
@@ -22,15 +22,17 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
-Error file_error(const fs::path& path, const std::string& what) { return {path.string() + ": " + what}; }
+Error file_error(const fs::path& path, const std::string& what) { return {path_text(path) + ": " + what}; }
 
 std::string reason() { return std::strerror(errno); }
 
 fs::path pending_name(const fs::path& path) {
   // Two threads may write the same name at once; the process number alone would let them share a pending file.
   static std::atomic<unsigned> counter{0};
-  std::string name = "." + path.stem().string() + ".part-" + std::to_string(::getpid()) + "-" +
-                     std::to_string(counter.fetch_add(1)) + path.extension().string();
+  fs::path name = fs::path(".");
+  name += path.stem();
+  name += ".part-" + std::to_string(system::process_number()) + "-" + std::to_string(counter.fetch_add(1));
+  name += path.extension();
   return path.parent_path() / name;
 }
 
@@ -39,17 +41,17 @@ fs::path pending_name(const fs::path& path) {
 constexpr std::size_t kMaxListed = 32, kMaxName = 4096;
 struct Listed {
   std::atomic<int> state{0};  // 0 free, 1 being written, 2 a name
-  std::array<char, kMaxName> name{};
+  std::array<fs::path::value_type, kMaxName> name{};
 };
 std::array<Listed, kMaxListed> listed_files;
 
 int list(const fs::path& path) {
-  const std::string name = path.string();
+  const fs::path::string_type& name = path.native();
   if (name.size() >= kMaxName) return -1;
   for (std::size_t k = 0; k < kMaxListed; ++k) {
     int free = 0;
     if (!listed_files[k].state.compare_exchange_strong(free, 1)) continue;
-    std::memcpy(listed_files[k].name.data(), name.c_str(), name.size() + 1);
+    std::memcpy(listed_files[k].name.data(), name.c_str(), (name.size() + 1) * sizeof(fs::path::value_type));
     listed_files[k].state = 2;
     return static_cast<int>(k);
   }
@@ -62,19 +64,10 @@ void unlist(int place) {
 
 extern "C" void remove_pending_files(int signal) {
   for (Listed& file : listed_files) {
-    if (file.state == 2) ::unlink(file.name.data());
+    if (file.state == 2) system::remove_now(file.name.data());
   }
   std::signal(signal, SIG_DFL);
   std::raise(signal);
-}
-
-// Without this a power failure could leave an empty file under the final name.
-bool on_disk(const fs::path& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return false;
-  const bool done = ::fsync(file) == 0 || errno == EINVAL || errno == EROFS;  // not every file system can
-  ::close(file);
-  return done;
 }
 
 }  // namespace
@@ -82,7 +75,7 @@ bool on_disk(const fs::path& path) {
 Result<std::vector<std::byte>> read_file(const fs::path& path, std::uint64_t most_bytes) {
   std::error_code code;
   if (fs::is_directory(path, code)) return file_error(path, "is a folder, expected a file");
-  File file(std::fopen(path.c_str(), "rb"));
+  File file(system::open_file(path, "rb"));
   if (!file) return file_error(path, "cannot be opened: " + reason());
 
   std::vector<std::byte> bytes;
@@ -110,7 +103,7 @@ Result<std::vector<std::byte>> read_file(const fs::path& path, std::uint64_t mos
 Result<void> write_file(const fs::path& path, std::span<const std::byte> bytes) {
   auto pending = PendingFile::create(path);
   if (!pending) return pending.error();
-  File file(std::fopen(pending->path().c_str(), "wb"));
+  File file(system::open_file(pending->path(), "wb"));
   if (!file) return file_error(path, "cannot be written: " + reason());
   // An empty span may point nowhere, which fwrite must not be given.
   const bool written = bytes.empty() || std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
@@ -164,9 +157,9 @@ Result<PendingFile> PendingFile::create(const fs::path& given) {
     return file_error(path, "is no plain file but a device or a pipe, expected the name of a file");
   }
   if (!fs::is_directory(folder, code)) {
-    return file_error(path, "cannot be written: the folder " + folder.string() + " does not exist; make it first");
+    return file_error(path, "cannot be written: the folder " + path_text(folder) + " does not exist; make it first");
   }
-  if (::access(folder.c_str(), W_OK) != 0) return file_error(path, "cannot be written: " + reason());
+  if (!system::may_write_into(folder)) return file_error(path, "cannot be written: " + reason());
   return PendingFile(pending_name(path), path);
 }
 
@@ -174,7 +167,8 @@ Result<void> PendingFile::commit() {
   std::error_code code;
   const fs::file_status old = fs::status(final_, code);
   if (fs::is_regular_file(old)) fs::permissions(pending_, old.permissions(), code);
-  if (!on_disk(pending_)) return file_error(final_, "cannot be written whole: " + reason());
+  // Without this a power failure could leave an empty file under the final name.
+  if (!system::bring_to_disk(pending_)) return file_error(final_, "cannot be written whole: " + reason());
   fs::rename(pending_, final_, code);
   if (code) return file_error(final_, "cannot be put in place: " + code.message());
   pending_.clear();
@@ -183,7 +177,12 @@ Result<void> PendingFile::commit() {
 }
 
 void remove_pending_files_when_interrupted() {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+#ifdef SIGHUP
+  constexpr std::array signals{SIGINT, SIGTERM, SIGHUP};
+#else
+  constexpr std::array signals{SIGINT, SIGTERM};
+#endif
+  for (const int signal : signals) {
     if (std::signal(signal, remove_pending_files) == SIG_IGN) std::signal(signal, SIG_IGN);  // nohup stays nohup
   }
 }

@@ -10,10 +10,19 @@
 #include "wisp/base/result.hpp"
 #include "wisp/wisp.h"
 
+// Format strings are C99's, which MinGW's own printf would not know.
+#if defined(__MINGW32__) && !defined(__clang__)
+#define WISP_FORMAT __attribute__((format(gnu_printf, 2, 3)))
+#elif defined(__GNUC__)
+#define WISP_FORMAT __attribute__((format(printf, 2, 3)))
+#else
+#define WISP_FORMAT
+#endif
+
 namespace wisp::c {
 
 /// Keeps a sentence as this thread's last error. Returns `status`. Allocates nothing.
-wisp_status fail(wisp_status status, const char* format, ...) __attribute__((format(printf, 2, 3)));
+wisp_status fail(wisp_status status, const char* format, ...) WISP_FORMAT;
 wisp_status fail(wisp_status status, const Error& error);
 
 wisp_status null_argument(const char* function);

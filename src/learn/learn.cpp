@@ -3,6 +3,7 @@
 #include "learn/arx/learn_arx.hpp"
 #include "learn/chain/learn_chain.hpp"
 #include "learn/complete.hpp"
+#include "learn/flicker/learn_flicker.hpp"
 #include "learn/outline/learn_outline.hpp"
 #include "learn/switched/learn_switched.hpp"
 
@@ -16,6 +17,9 @@ Result<Fit> learn_as(const ArxRecipe& recipe, Recordings recordings, const Progr
 }
 Result<Fit> learn_as(const SwitchedRecipe& recipe, Recordings recordings, const Progress& progress) {
   return learn_switched(recordings, recipe, progress);
+}
+Result<Fit> learn_as(const FlickerRecipe& recipe, Recordings recordings, const Progress& progress) {
+  return learn_flicker(recordings, recipe, progress);
 }
 Result<Fit> learn_as(const OutlineRecipe& recipe, Recordings recordings, const Progress& progress) {
   return learn_outline(recordings, recipe, progress);

@@ -126,6 +126,7 @@ std::int64_t told_rate(const SegmentOf& segment, bool end, std::size_t axis) {
 }
 
 constexpr std::array<int, 2> kShifts = {10, 26};  // what a factor of 1 divides by, as a power of 2
+constexpr std::int32_t kMaxFactor = 10'000'000;   // of what rows can tell, 2^38 at most, it keeps within 64 bits
 
 std::int32_t predicted_rate(const SegmentOf& segment, bool end, std::size_t axis, const RateFactors& factors) {
   const std::int64_t limit = std::int64_t{1} << 38;
@@ -178,7 +179,7 @@ RateFactors factors_of(const ChainModel& chain) {
   for (std::size_t part = 0; part < 2; ++part) {
     const double factor = square[part] > 0 ? product[part] / square[part] : 0;
     const double unit = static_cast<double>(std::int64_t{1} << kShifts[part]);
-    factors[part] = static_cast<std::int32_t>(std::clamp(unit * factor, -1e7, 1e7));
+    factors[part] = static_cast<std::int32_t>(std::clamp<double>(unit * factor, -kMaxFactor, kMaxFactor));
   }
   return factors;
 }
@@ -228,7 +229,8 @@ Result<void> unpack_segments(std::span<const std::uint8_t> bytes, ChainModel& ch
   const Error damaged{"is damaged: the rows and rates of its chain's segments are cut off or too long"};
   const auto channels = static_cast<std::size_t>(channel_count(chain.motion));
   ChainSegments& segments = chain.segments;
-  if (segments.steps.size() != segments.size()) return damaged;
+  // So many are counted in 32 bits.
+  if (segments.steps.size() != segments.size() || segments.size() > kMostSegments) return damaged;
   const std::size_t rows = chain.splines ? 0 : std::size_t{segment_rows(segments).back()} * channels;
   const std::size_t rates = segments.size() * 2 * static_cast<std::size_t>(rate_count(chain.motion));
   // A number takes a bit at least: what can't be there takes no memory.
@@ -237,7 +239,10 @@ Result<void> unpack_segments(std::span<const std::uint8_t> bytes, ChainModel& ch
   if (!chain.splines) segments.rows.assign(rows, 0);
   BitReader in(bytes);
   RateFactors factors{};
-  for (std::int32_t& factor : factors) factor = static_cast<std::int32_t>(in.take(32));
+  for (std::int32_t& factor : factors) {
+    factor = static_cast<std::int32_t>(in.take(32));
+    if (factor > kMaxFactor || factor < -kMaxFactor) return damaged;
+  }
   std::vector<int> low(kinds_of(chain));
   for (int& one : low) one = static_cast<int>(in.take(4));
   bool fits = true;

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "base/hash.hpp"
+#include "base/path_text.hpp"
 #include "model/payload.hpp"
 #include "wisp/base/file.hpp"
 
@@ -109,7 +110,7 @@ Result<Model> parse_model(std::span<const std::byte> bytes, std::string_view nam
 Result<Model> read_model(const std::filesystem::path& path) {
   const auto bytes = read_file(path, kHeaderSize + kMostPayload);
   if (!bytes) return bytes.error();
-  return parse_model(*bytes, path.string());
+  return parse_model(*bytes, path_text(path));
 }
 
 Result<void> write_model(const std::filesystem::path& path, const Model& model) {

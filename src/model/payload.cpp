@@ -524,7 +524,10 @@ Result<Model> read_payload(std::span<const std::byte> payload) {
   std::vector<std::uint64_t> aligned((payload.size() + 7) / 8);
   std::copy(payload.begin(), payload.end(), reinterpret_cast<std::byte*>(aligned.data()));
   fb::Verifier verifier(reinterpret_cast<const std::uint8_t*>(aligned.data()), payload.size());
-  if (!file::VerifyModelBuffer(verifier)) return Error{"is damaged: its contents are not a valid model table"};
+  if (!file::VerifyModelBuffer(verifier))
+    return Error{
+        "is damaged, or was made before the format was settled: its contents are not a valid model table; learn the "
+        "model again"};
   const file::Model& stored = *file::GetModel(aligned.data());
 
   Model model;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "base/path_text.hpp"
 #include "record/csv_cells.hpp"
 #include "record/csv_dialect.hpp"
 #include "wisp/record/csv.hpp"
@@ -414,10 +415,10 @@ Result<Recording> read_csv(std::istream& stream, std::string_view name, const Cs
 
 Result<Recording> read_csv(const std::filesystem::path& path, const CsvOptions& options) {
   std::error_code code;
-  if (std::filesystem::is_directory(path, code)) return Error{path.string() + ": is a folder, expected a CSV file"};
+  if (std::filesystem::is_directory(path, code)) return Error{path_text(path) + ": is a folder, expected a CSV file"};
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) return Error{path.string() + ": cannot be opened; is the name right?"};
-  return read_csv(stream, path.string(), options);
+  if (!stream) return Error{path_text(path) + ": cannot be opened; is the name right?"};
+  return read_csv(stream, path_text(path), options);
 }
 
 }  // namespace wisp

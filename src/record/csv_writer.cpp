@@ -1,6 +1,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/path_text.hpp"
 #include "wisp/base/file.hpp"
 #include "wisp/record/csv.hpp"
 
@@ -113,7 +114,7 @@ std::string csv_text(const Recording& recording) {
 }
 
 Result<void> write_csv(const std::filesystem::path& path, const Recording& recording) {
-  if (auto ok = check_writable(recording); !ok) return Error{path.string() + ": " + ok.error().message};
+  if (auto ok = check_writable(recording); !ok) return Error{path_text(path) + ": " + ok.error().message};
   return write_file(path, csv_text(recording));
 }
 

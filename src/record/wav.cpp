@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/path_text.hpp"
 #include "wisp/base/file.hpp"
 
 namespace wisp {
@@ -70,7 +71,7 @@ std::string shown(const unsigned char* id) {
   return text + "'";
 }
 
-Error bad(const std::filesystem::path& path, const std::string& what) { return Error{path.string() + ": " + what}; }
+Error bad(const std::filesystem::path& path, const std::string& what) { return Error{path_text(path) + ": " + what}; }
 
 std::optional<WavSample> sample_of(unsigned tag, unsigned bits) {
   if (tag == kTagPcm && bits == 8) return WavSample::kPcm8;
@@ -305,7 +306,7 @@ Result<Recording> read_wav_recording(const std::filesystem::path& path) {
   auto sound = read_wav(path);
   if (!sound) return sound.error();
   Recording recording;
-  recording.source = path.string();
+  recording.source = path_text(path);
   recording.rate_hz = sound->format.rate_hz;
   const std::size_t channels = static_cast<std::size_t>(sound->format.channels);
   const std::size_t rows = sound->samples.size() / channels;

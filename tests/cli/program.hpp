@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -13,6 +12,7 @@
 #include <sstream>
 #include <string>
 
+#include "folder_test.hpp"
 #include "paths.hpp"
 
 namespace wisp {
@@ -41,22 +41,11 @@ inline Said run_wisp(const std::string& arguments, const std::filesystem::path& 
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, file_text(out), file_text(err)};
 }
 
-/// A test in a folder of its own, which goes with it.
-class InFolder : public testing::Test {
+/// A test of the program in a folder of its own.
+class InFolder : public FolderTest {
  protected:
-  InFolder() {
-    const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
-    // By process, so that two runs at once do not meet.
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              (std::string(test.test_suite_name()) + "." + test.name() + "." + std::to_string(getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  ~InFolder() override { std::filesystem::remove_all(folder_); }
-
   Said wisp(const std::string& arguments) { return run_wisp(arguments, folder_); }
   std::string at(const std::string& name) const { return (folder_ / name).string(); }
-
-  std::filesystem::path folder_;
 };
 
 /// Where the recordings of real things are; empty where they are not.

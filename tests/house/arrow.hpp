@@ -28,7 +28,10 @@ inline const std::map<std::string, Layer>& layers() {
                                               "libavutil/", "libswscale/", "libswresample/"};
   static const std::map<std::string, Layer> table{
       // The one place that speaks to the operating system about files.
-      {"base", {{}, {"fcntl.h", "unistd.h"}, {"base/hash.hpp"}}},
+      {"base",
+       {{},
+        {"fcntl.h", "unistd.h", "io.h", "process.h"},
+        {"base/hash.hpp", "base/json_text.hpp", "base/path_text.hpp"}}},
       {"model", {{"base"}, {"flatbuffers/", "wisp_generated.h"}, {"model/bspline.hpp"}}},
       // The compiler's own header of the processor's vector instructions.
       {"run", {{"base", "model"}, {"immintrin.h"}}},
@@ -40,6 +43,7 @@ inline const std::map<std::string, Layer>& layers() {
        {{"base", "model", "run", "sound", "record", "learn", "capture", "capture/vision", "capture/media", "describe"},
         {}}},
       {"describe", {{"base"}, {"nlohmann/"}}},
+      {"export", {{"base", "model", "run"}, {}}},
       {"learn", {{"base", "model", "run", "sound", "record"}, {"Eigen/"}}},
       {"capture/vision", {{"base", "model", "record"}, {}}},
       {"capture/media", {{"base", "model", "sound", "record", "capture/vision"}, ffmpeg}},

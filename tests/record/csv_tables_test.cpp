@@ -133,7 +133,7 @@ TEST(CsvTable, TinyNumbersAreNotZero) {
 }
 
 TEST(CsvTable, Utf16IsNamed) {
-  EXPECT_THAT(complaint(std::string("\xff\xfeu\0,\0y\0\n\0", 12)), HasSubstr("is UTF-16; save it as UTF-8"));
+  EXPECT_THAT(complaint(std::string("\xff\xfeu\0,\0y\0\n\0", 10)), HasSubstr("is UTF-16; save it as UTF-8"));
 }
 
 TEST(CsvTable, RowsAreCountedAsAnEditorDoes) {

@@ -1,9 +1,11 @@
 // `wisp capture outline` and its preset `wisp capture flame`: from a clip to a recording.
 
 #include <chrono>
+#include <cmath>
 
 #include "commands/commands.hpp"
 #include "flags/capture_flags.hpp"
+#include "flags/recordings.hpp"
 #include "terminal.hpp"
 #include "wisp/record/csv.hpp"
 
@@ -22,6 +24,51 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   terminal.say("wrote " + path);
   terminal.add("output", path);
   terminal.add("seconds", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  return {};
+}
+
+// A clip's light, or a photodiode's trace, of mean 1.
+Result<Recording> brightness_of(const Arguments& arguments, Terminal& terminal) {
+  const std::string& path = arguments.positional();
+  for (const auto& [flag, of_table] : {std::pair{"region", false}, {"frames", false}, {"channel", true}}) {
+    if (!arguments.has(flag) || arguments.text(flag) == "brightness" || of_table == is_table(path)) continue;
+    return Error{"--" + std::string(flag) + " is of a " + (of_table ? "table, and " : "clip, and ") + path +
+                 (of_table ? " is a clip" : " is a table")};
+  }
+  if (!is_table(path)) {
+    Arguments of_clip = arguments;
+    of_clip.set("channel", "luma");
+    const auto options = capture_options(of_clip);
+    if (!options) return options.error();
+    return capture_brightness(path, *options, terminal.progress());
+  }
+  auto recording = read_table(path, arguments, {.outputs = {arguments.text("channel")}});
+  if (!recording) return recording;
+  Channel light = std::move(recording->channels[*find_channel(*recording, arguments.text("channel"))]);
+  double sum = 0, rows = 0;
+  for (const double value : light.samples) {
+    if (std::isnan(value)) continue;
+    sum += value;
+    rows += 1;
+  }
+  if (!(sum > 0)) return Error{path + ": its light is not above 0 on average; is the column right, and dark at 0?"};
+  for (double& value : light.samples) value /= sum / rows;
+  light.name = "brightness";
+  light.unit.clear();
+  recording->channels = {std::move(light)};
+  return recording;
+}
+
+Result<void> run_brightness(const Arguments& arguments, Terminal& terminal) {
+  const auto recording = brightness_of(arguments, terminal);
+  if (!recording) return recording.error();
+  const std::string& path = arguments.text("output");
+  if (auto ok = write_csv(path, *recording); !ok) return ok;
+  terminal.add("frames", recording->rows());
+  terminal.add("rate_hz", recording->rate_hz);
+  terminal.add("output", path);
+  terminal.say("wrote " + path + ": " + std::to_string(recording->rows()) + " rows, " + shown(recording->rate_hz, 5) +
+               " a second");
   return {};
 }
 
@@ -47,6 +94,24 @@ Command capture_flame_command() {
       {{"wisp capture flame candle.mp4 -o candle.csv", "The outline of a candle's flame, eight control points"},
        {"wisp capture flame candle.mp4 --points 16 --frames 1:300 -o candle.csv",
         "Finer, and only the first 300 frames"}});
+}
+
+Command capture_brightness_command() {
+  std::vector<Flag> flags = {
+      {"output", Kind::kOutput, "REC.csv", "", "where to write the recording", {}, true},
+      {"region", Kind::kText, "X,Y,W,H", "", "of a clip: look only here, in pixels from the top left"},
+      {"frames", Kind::kSamples, "A:B", "", "of a clip: only these frames, 1-based and inclusive"},
+      {"channel", Kind::kText, "NAME", "brightness", "of a table: the column of light"},
+  };
+  for (Flag& flag : table_flags()) flags.push_back(std::move(flag));
+  return {"capture brightness",
+          "Measures the light of a clip, frame by frame, or takes a photodiode's trace, linear and of mean 1.",
+          {{"CLIP_OR_TRACE", "a video file, a folder of numbered images, or a table"}},
+          std::move(flags),
+          {{"wisp capture brightness candle.mp4 --region 300,100,200,400 -o light.csv", "A candle's light"},
+           {"wisp capture brightness photodiode.csv --columns time,brightness --rate 100 -o light.csv",
+            "A photodiode's trace"}},
+          run_brightness};
 }
 
 }  // namespace wisp::cli

@@ -23,7 +23,7 @@
 namespace wisp::cli {
 namespace {
 
-constexpr double kMostNumbers = 5e8;  // 4 GB while they are held
+constexpr double kMaxNumbers = 5e8;  // 4 GB while they are held
 
 struct Play {
   Model model;
@@ -248,9 +248,9 @@ void warn_of_wind(const Play& play, Terminal& terminal) {
 Result<void> check_size(const Play& play, int instances) {
   const double columns =
       static_cast<double>(play.model.inputs.size()) + static_cast<double>(play.model.outputs.size()) * instances;
-  if (static_cast<double>(play.frames) * columns <= kMostNumbers) return {};
+  if (static_cast<double>(play.frames) * columns <= kMaxNumbers) return {};
   return Error{"--frames " + std::to_string(play.frames) + " of " + std::to_string(instances) + " instances are " +
-               shown(static_cast<double>(play.frames) * columns) + " numbers, expected at most " + shown(kMostNumbers) +
+               shown(static_cast<double>(play.frames) * columns) + " numbers, expected at most " + shown(kMaxNumbers) +
                ": run it in parts with other seeds"};
 }
 

@@ -18,8 +18,8 @@ namespace wisp::cli {
 namespace {
 
 constexpr double kGramsPerKilogram = 1000;
-constexpr double kLeastPairSeconds = 0.7;  // half a second to the onset, give or take a fifth, and some of the gust
-constexpr double kMostJitter = 0.01;       // of a step of a wind's time
+constexpr double kMinPairSeconds = 0.7;  // half a second to the onset, give or take a fifth, and some of the gust
+constexpr double kMaxJitter = 0.01;      // of a step of a wind's time
 
 Result<void> check_flags(const Arguments& arguments) {
   static constexpr FlagRange kRanges[] = {
@@ -62,7 +62,7 @@ Result<void> check_time(const Recording& recording) {
     const auto& time = recording.channels[*channel].samples;
     for (std::size_t row = 1; row < time.size(); ++row) {
       const double found = time[row] - time[row - 1];
-      if (std::abs(found - step) <= kMostJitter * step) continue;
+      if (std::abs(found - step) <= kMaxJitter * step) continue;
       return Error{recording.source + ": " + name + " goes on by " + shown(found) + " s in row " +
                    std::to_string(row + 1) + ", expected " + shown(step) +
                    " everywhere, as rate_hz says: sort and resample the wind"};
@@ -111,8 +111,8 @@ Result<MeasuredWind> track_from(const std::string& path, const Arguments& argume
 
 // A gust has to have begun before the recording ends.
 Result<void> check_pairs(const Arguments& arguments) {
-  if (!arguments.on("pairs") || arguments.number("seconds") >= kLeastPairSeconds) return {};
-  return Error{"--seconds is " + arguments.text("seconds") + ", expected at least " + shown(kLeastPairSeconds) +
+  if (!arguments.on("pairs") || arguments.number("seconds") >= kMinPairSeconds) return {};
+  return Error{"--seconds is " + arguments.text("seconds") + ", expected at least " + shown(kMinPairSeconds) +
                " with --pairs: gusts begin half a second after the recording"};
 }
 

@@ -15,7 +15,7 @@
 namespace wisp::cli {
 namespace {
 
-constexpr double kMostFramesASecond = 60;
+constexpr double kMaxFramesASecond = 60;
 constexpr double kRestSeconds = 2.2;     // on the floor
 constexpr double kFadeSeconds = 0.6;     // the last of it
 constexpr double kSettleSeconds = 0.12;  // from the pose it landed in to lying flat
@@ -244,7 +244,7 @@ Result<void> write_leaf_films(const std::filesystem::path& path, std::span<const
     longest = std::max(longest, longest_episode(*panel.recording));
     sides.push_back(std::make_unique<Side>(panel, *columns, narrow));
   }
-  const double rate = std::min(kMostFramesASecond, own_rate);
+  const double rate = std::min(kMaxFramesASecond, own_rate);
   const int width = narrow.width * static_cast<int>(panels.size());
   auto video = VideoWriter::create(
       path, {.width = width, .height = options.height, .rate_hz = rate, .crf = 18, .preset = "fast"});

@@ -38,8 +38,8 @@ Result<void> for_each_row(const ClipFrames& clip, std::size_t last_row,
 }
 
 // Lines and letters need room: a small clip is drawn larger.
-constexpr int kLeastOverlayHeight = 480;
-int enlargement(int height) { return std::max(1, (kLeastOverlayHeight + height - 1) / height); }
+constexpr int kMinOverlayHeight = 480;
+int enlargement(int height) { return std::max(1, (kMinOverlayHeight + height - 1) / height); }
 
 using Outline = std::vector<std::array<double, 2>>;
 

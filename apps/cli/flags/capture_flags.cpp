@@ -57,12 +57,15 @@ std::vector<Flag> capture_flags(const std::string& flame) {
 
 Result<ClipCapture> capture_options(const Arguments& arguments) {
   const FlagRange points{"points", 4, 64};
-  if (auto ok = check_ranges(arguments, {&points, 1}); !ok) return ok.error();
   ClipCapture options;
-  if (arguments.has("points")) options.points = arguments.integer("points");
-  options.channel = channel_from_name(arguments.text("channel"));
+  // What measures light only has none of these.
+  if (arguments.has("points")) {
+    if (auto ok = check_ranges(arguments, {&points, 1}); !ok) return ok.error();
+    options.points = arguments.integer("points");
+  }
+  if (arguments.has("channel")) options.channel = channel_from_name(arguments.text("channel"));
   options.dark = arguments.on("dark");
-  options.flame = arguments.integer("flame");
+  if (arguments.has("flame")) options.flame = arguments.integer("flame");
   if (arguments.has("region")) {
     const auto region = parse_region(arguments.text("region"));
     if (!region) return region.error();
@@ -73,7 +76,7 @@ Result<ClipCapture> capture_options(const Arguments& arguments) {
     options.frames = FrameRange{static_cast<std::int64_t>(frames.first), static_cast<std::int64_t>(frames.last)};
   }
   if (arguments.has("rate")) options.rate_hz = arguments.number("rate");
-  options.wind = wind_measure(arguments);
+  if (arguments.has("wind-measure")) options.wind = wind_measure(arguments);
   return options;
 }
 

@@ -58,7 +58,7 @@ Result<std::vector<std::string>> input_names(const Model& model, const Arguments
                std::to_string(model.inputs.size()) + " inputs: name one for each, in the model's order"};
 }
 
-constexpr double kMostFrames = 1e9;
+constexpr double kMaxFrames = 1e9;
 
 }  // namespace
 
@@ -104,9 +104,9 @@ Result<InputTrack> InputTrack::from(const Model& model, const Arguments& argumen
   const auto recording = read_table(path, arguments, {.rate_hz = model.rate_hz, .inputs = *names});
   if (!recording) return recording.error();
   const double frames = static_cast<double>(recording->rows()) * model.rate_hz / recording->rate_hz;
-  if (!(frames <= kMostFrames)) {
+  if (!(frames <= kMaxFrames)) {
     return Error{path + ": at " + shown(recording->rate_hz) + " samples a second lasts " + shown(frames) +
-                 " frames of the model, expected at most " + shown(kMostFrames) + ": is the rate right?"};
+                 " frames of the model, expected at most " + shown(kMaxFrames) + ": is the rate right?"};
   }
   for (const std::string& name : *names) {
     const auto channel = find_channel(*recording, name);

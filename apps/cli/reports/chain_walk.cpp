@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include "wisp/run/chain_loop.hpp"
+#include "wisp/run/chain_facet.hpp"
 
 namespace wisp::cli {
 

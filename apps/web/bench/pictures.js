@@ -36,9 +36,11 @@ const states = {
   three: ['#scene=candle&candles=3', (page) => pass(page, 2)],
   seven: ['#scene=candle&candles=7', (page) => pass(page, 2)],
   wish: ['#scene=candle&candles=12', async (page) => { await blowOut(page); await pass(page, 1.5); }],
+  after: ['#scene=candle&candles=12', async (page) => { await blowOut(page); await pass(page, 3.5); }],
   leaves: ['#scene=leaves', (page) => pass(page, 1.5)],
   many: ['#scene=leaves&leaves=10000', (page) => pass(page, 6)],
   drawer: ['#scene=candle', async (page) => { await page.click('#open-drawer'); await pass(page, 2); }],
+  overlay: ['#overlay&scene=candle&candles=7', (page) => pass(page, 2)],
   help: ['#scene=candle', async (page) => { await page.click('#open-help'); await pass(page, 0.5); }],
 };
 
@@ -50,11 +52,11 @@ for (const size of sizes) {
   for (const name of wanted.length > 0 ? wanted : Object.keys(states)) {
     const [hash, act] = states[name];
     // Coarse while it comes about, so that time passes where the processor draws; then as it is.
-    const page = await opened.page(`${hash}&seed=3&detail=0.12`, { viewport: { width, height } });
+    const page = await opened.page(`${hash}&seed=3&detail=0.1`, { viewport: { width, height } });
     await act(page);
     const frames = await page.evaluate(() => {
       location.hash += '&detail=1';
-      location.hash = location.hash.replace('detail=0.12&', '');
+      location.hash = location.hash.replace('detail=0.1&', '');
       return window.wisp.frames;
     });
     await until(page, 'the picture is whole', (many) => window.wisp.frames > many + 2, frames, 120_000);

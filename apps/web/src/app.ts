@@ -1,6 +1,6 @@
 // The page as a whole: stage, player, microphone and controls, and what passes between them.
 
-import type { Wisp } from '@wisp/player';
+import type { Library } from '@wisp/player';
 import { CandleScene } from '@wisp/player/parts/candle/scene';
 import { watchDrops } from './drops.js';
 import { linkOf, settingsFromLink, type Settings } from './link.js';
@@ -13,7 +13,7 @@ import { Player, type Playing } from './player.js';
 import { Costs, type Probe } from './probe.js';
 import type { Scene } from '@wisp/player/parts/stage/scene';
 import { Stage, type FrameCost } from '@wisp/player/parts/stage/stage';
-import { Breath } from './wind/breath.js';
+import { Breath } from '@wisp/player/parts/air/breath';
 import type { Senses } from './senses/senses.js';
 import type { Ear } from './wind/ear.js';
 
@@ -58,7 +58,7 @@ export class App {
   private offered: Playing | null = null;
 
   constructor(
-    private readonly wisp: Wisp,
+    private readonly wisp: Library,
     private readonly settings: Settings,
     private readonly overlay: boolean,
   ) {
@@ -288,7 +288,8 @@ export class App {
     if (playing === null) return;
     const reading = playing.scene.reading();
     this.costs.push(cost);
-    if (this.probe.firstPicture === 0) {
+    // Where nothing can be drawn the rest comes all the same.
+    if (this.probe.firstPicture === 0 && (this.stage.shown || this.stage.frames > 60)) {
       this.probe.firstPicture = performance.now();
       this.bring();
     }

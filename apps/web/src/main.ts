@@ -1,10 +1,10 @@
 // Where the page begins.
 
-import { load } from '@wisp/player';
+import { loadLibrary } from '@wisp/player/parts/library';
 import { App } from './app.js';
 import { DEFAULTS, isOverlay, settingsFromLink, type Settings } from './link.js';
 
-/** For people who asked their system for less motion: a calmer flame, fewer leaves. */
+/** With `prefers-reduced-motion`: a calmer flame, fewer leaves. */
 function startingSettings(): Settings {
   const calm = window.matchMedia('(prefers-reduced-motion: reduce)').matches;
   return settingsFromLink(location.hash, calm ? { ...DEFAULTS, noise: 0.3, leaves: 25 } : DEFAULTS);
@@ -31,7 +31,7 @@ async function start(): Promise<void> {
   }
   const overlay = isOverlay(location.hash);
   document.body.classList.toggle('overlay', overlay);
-  const app = new App(await load(), startingSettings(), overlay);
+  const app = new App(await loadLibrary(), startingSettings(), overlay);
   await app.start();
   keepForOffline();
 }

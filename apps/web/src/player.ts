@@ -1,6 +1,6 @@
 // What plays: which model, in which scene, with which settings.
 
-import type { Model, Wisp } from '@wisp/player';
+import type { Model, Library } from '@wisp/player';
 import { CandleScene } from '@wisp/player/parts/candle/scene';
 import { DEFAULTS, type SceneName, type Settings } from './link.js';
 import type { Shown } from './panel/drawer.js';
@@ -21,7 +21,7 @@ export class Player {
   private opening = 0;
 
   constructor(
-    private readonly wisp: Wisp,
+    private readonly wisp: Library,
     private readonly stage: Stage,
     readonly settings: Settings,
     private readonly changed: (playing: Playing) => void,

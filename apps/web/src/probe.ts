@@ -1,6 +1,6 @@
 // Figures for measurements from outside (docs/studies/live.md): tests, the bench, whoever is curious in the console.
 
-import type { SoundPath } from './wind/breath.js';
+import type { SoundPath } from '@wisp/player/parts/air/breath';
 import type { FrameCost } from '@wisp/player/parts/stage/stage';
 
 const KEPT = 600;

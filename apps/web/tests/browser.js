@@ -91,3 +91,20 @@ export async function until(page, what, holds, argument = null, timeout = 30_000
     await page.waitForTimeout(15);
   }
 }
+
+/** Drops a file on the page. */
+export const drop = (page, name, bytes) =>
+  page.evaluate(
+    ([called, values]) => {
+      const carried = new DataTransfer();
+      carried.items.add(new File([new Uint8Array(values)], called));
+      window.dispatchEvent(new DragEvent('drop', { dataTransfer: carried, bubbles: true, cancelable: true }));
+    },
+    [name, [...bytes]],
+  );
+
+/** Opens the drawer, if it is not open. */
+export async function openDrawer(page) {
+  if (await page.evaluate(() => document.getElementById('drawer').hidden)) await page.click('#open-drawer');
+  await until(page, 'the drawer is open', () => !document.getElementById('drawer').hidden);
+}

@@ -4,24 +4,11 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { after, before, describe, it } from 'node:test';
-import { chromiumPath, openBrowser, until } from './browser.js';
+import { chromiumPath, drop, openBrowser, openDrawer, until } from './browser.js';
 
 const skip = chromiumPath === undefined && 'there is no Chromium here';
 const calm = readFileSync(new URL('models/calm.wisp', import.meta.url));
 
-const drop = (page, name, bytes) =>
-  page.evaluate(
-    ([called, values]) => {
-      const carried = new DataTransfer();
-      carried.items.add(new File([new Uint8Array(values)], called));
-      window.dispatchEvent(new DragEvent('drop', { dataTransfer: carried, bubbles: true, cancelable: true }));
-    },
-    [name, [...bytes]],
-  );
-const openDrawer = async (page) => {
-  if (await page.evaluate(() => document.getElementById('drawer').hidden)) await page.click('#open-drawer');
-  await until(page, 'the drawer is open', () => !document.getElementById('drawer').hidden);
-};
 const noticed = (page, words) => until(page, `it says ${words}`, (source) => new RegExp(source).test(document.getElementById('notices').textContent), words);
 const hold = async (page, code, what, holds) => {
   await page.focus('#stage');

@@ -3,24 +3,10 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { after, before, describe, it } from 'node:test';
-import { chromiumPath, openBrowser, until } from './browser.js';
+import { chromiumPath, drop, openBrowser, openDrawer, until } from './browser.js';
 
 const skip = chromiumPath === undefined && 'there is no Chromium here';
 const bytesOf = (name) => readFileSync(new URL(`../public/models/${name}`, import.meta.url));
-
-const drop = (page, name, bytes) =>
-  page.evaluate(
-    ([called, values]) => {
-      const carried = new DataTransfer();
-      carried.items.add(new File([new Uint8Array(values)], called));
-      window.dispatchEvent(new DragEvent('drop', { dataTransfer: carried, bubbles: true, cancelable: true }));
-    },
-    [name, [...bytes]],
-  );
-const openDrawer = async (page) => {
-  await page.click('#open-drawer');
-  await until(page, 'the drawer is open', () => !document.getElementById('drawer').hidden);
-};
 
 describe('sharing', { skip }, () => {
   let opened, page;
@@ -107,6 +93,14 @@ describe('sharing', { skip }, () => {
     );
     assert.ok(alpha.corner < 20, `corner ${alpha.corner}`);
     assert.equal(alpha.wax, 255);
+    await over.close();
+  });
+
+  it("as an overlay a cake's candles fill the picture, with no room left for the cake", async () => {
+    const over = await opened.page('#overlay&scene=candle&candles=7&detail=0.2');
+    await until(over, 'a picture', () => window.wisp.firstPicture > 0);
+    const [x] = await over.evaluate(() => window.wisp.places().wick);
+    assert.ok(x < 0.22 * 360, `the leftmost wick is at ${x} of 360`);
     await over.close();
   });
 

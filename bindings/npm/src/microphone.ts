@@ -1,7 +1,7 @@
 // Opens a microphone as a source of wind. Nothing is asked of anyone before `openMicrophone()` is called, and no sound
 // leaves the audio thread: what comes out is wind.
 
-import type { Wisp } from './index.js';
+import type { Library } from './library.js';
 import { windAsks, type WindAsk, type WindCalibration } from './wind.js';
 import type { WindCommand, WindMessage, WindProcessorOptions } from './worklet.js';
 
@@ -137,7 +137,7 @@ class OpenMicrophone implements Microphone {
   private open = true;
 
   constructor(
-    wisp: Wisp,
+    wisp: Library,
     private readonly stream: MediaStream,
     private readonly context: AudioContext,
     private readonly options: MicrophoneOptions,
@@ -229,7 +229,7 @@ class OpenMicrophone implements Microphone {
  * Asks for a microphone and listens to its wind. Call it from a click or a key, where browsers let sound begin.
  * Throws a MicrophoneError that says why there is none.
  */
-export async function openMicrophone(wisp: Wisp, options: MicrophoneOptions = {}): Promise<Microphone> {
+export async function openMicrophone(wisp: Library, options: MicrophoneOptions = {}): Promise<Microphone> {
   const stream = await askForSound(options.deviceId);
   const context = options.context ?? new AudioContext({ latencyHint: 'interactive' });
   try {

@@ -95,6 +95,16 @@ describe('elements in Chromium', { skip }, () => {
     assert.match(await page.evaluate(`document.getElementById('one').shadowRoot.querySelector('p').textContent`), /none.wisp could not be fetched \(404\)/);
   });
 
+  test('its button lies below the candle', async () => {
+    const { page } = await open(local(plain));
+    await until(page, `${lit('one', 1)} && document.getElementById('one').scene.places().wick[1] > 20`);
+    const wick = () => page.evaluate(`document.getElementById('one').scene.places().wick[1] / document.getElementById('one').shadowRoot.querySelector('canvas').height`);
+    const before = await wick();
+    await page.evaluate(`document.getElementById('one').setAttribute('wind', 'mic')`);
+    await page.waitForTimeout(500);
+    assert.ok((await wick()) > before + 0.05, `${before} ${await wick()}`);
+  });
+
   test('taken out of the page it stands still, put back it goes on', async () => {
     const { page } = await open(local(plain));
     await until(page, lit('one', 1));

@@ -62,6 +62,13 @@ struct Captured {
 /// outline, sound that cannot be decoded.
 Result<Captured> capture(const std::filesystem::path& path, const ClipCapture& options, const Progress& progress = {});
 
+/// Captures how bright a clip is: the mean light of `options.region` (or of the whole picture) in every frame, linear
+/// in the light that fell on the camera, as the output `brightness` of mean 1. Other options than `frames` and
+/// `rate_hz` mean nothing to it. Errors, naming the file: missing or not a clip, black throughout, a region outside the
+/// picture, kStopped.
+Result<Recording> capture_brightness(const std::filesystem::path& path, const ClipCapture& options,
+                                     const Progress& progress = {});
+
 /// Captures clips that are to be learned from together: all have the curve of the first, or `options.curve`.
 /// Errors: as capture(), of the first clip that fails.
 Result<std::vector<Captured>> capture_all(std::span<const std::filesystem::path> paths, ClipCapture options,

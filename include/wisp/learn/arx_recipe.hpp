@@ -122,4 +122,17 @@ struct SwitchedRecipe {
   std::uint64_t seed = 1;      ///< of the starts that are tried
 };
 
+/// The light of a flame, as a lamp can play it: ARX modes from calm to restless that a Markov chain switches. Modes are
+/// stretches of about half a second that vary as much; how strong their shocks are is matched by playing.
+struct FlickerRecipe {
+  std::string name{};
+  std::string output{};    ///< the channel; empty: "brightness", or the only output
+  double rate_hz = 50;     ///< 10 to 1000: what the model steps at; faster recordings are averaged down to the nearest
+                           ///< whole part of their rate
+  int modes = 3;           ///< 2 to 8
+  int order = 4;           ///< lags, 1 to 8: two damped resonances
+  double holdout = 0.3;    ///< in (0, 0.9]: share of every stretch, its end, that judges
+  std::uint64_t seed = 1;  ///< of the play that shocks are matched by
+};
+
 }  // namespace wisp

@@ -16,7 +16,8 @@
 namespace wisp {
 
 /// How a model is learned: one plain struct of settings for each kind of model.
-using Recipe = std::variant<ArxRecipe, SwitchedRecipe, OutlineRecipe, FlameRecipe, ChainRecipe, LeafRecipe>;
+using Recipe =
+    std::variant<ArxRecipe, SwitchedRecipe, FlickerRecipe, OutlineRecipe, FlameRecipe, ChainRecipe, LeafRecipe>;
 
 /// A model and what to think of it. The model's `training` has the verdict and the figures that stay with it; the
 /// report has everything that was found.

@@ -8,7 +8,7 @@
 // Bulk buffers have one row per slot, in the order of the slots: row `id.slot` belongs to instance `id`. Rows of empty
 // slots are ignored on the way in and are zeros on the way out.
 //
-// A bank is used by one thread at a time; different banks are independent.
+// A bank is used by one thread at a time (which may have others step it, set_crew()); different banks are independent.
 
 #include <chrono>
 #include <cstddef>
@@ -54,6 +54,14 @@ inline constexpr std::chrono::nanoseconds kLongestAdvance = std::chrono::seconds
 
 /// Share of the trained or seen range by which inputs and outputs may go beyond it, on either side.
 inline constexpr double kRangeMargin = 0.5;
+
+/// Threads of the caller's that step parts of a bank at once. `run` calls task(of, part) for every part below `parts`,
+/// each once and on any thread, and returns when all calls have returned.
+struct Crew {
+  int parts = 1;  ///< one, or without `run`: the calling thread does all
+  void (*run)(void* pool, int parts, void (*task)(void* of, int part), void* of) = nullptr;
+  void* pool = nullptr;  ///< handed to `run`
+};
 
 /// A bank of instances of one model.
 ///
@@ -110,8 +118,8 @@ class Bank {
   /// Scale of the residual noise: 1 as learned, 0 none; held to [0, 10]. At 0 a step costs less.
   /// A segment chain has no residual noise, its chance is in its walk: at 0 the likeliest mode follows, as the segment
   /// that joins best. Instances that are spawned then differ by their first heading alone, and their lives sooner or
-  /// later repeat themselves (chain_loop() in wisp/run/chain_loop.hpp computes when). Any other scale leaves a chain as
-  /// it is.
+  /// later repeat themselves (chain_loop() in wisp/run/chain_facet.hpp computes when). Any other scale leaves a chain
+  /// as it is.
   void set_noise(float scale);
   float noise() const;
 
@@ -122,6 +130,11 @@ class Bank {
   /// (one step of latency). A negative time counts as none, a longer one than kLongestAdvance as that. Returns the
   /// number of steps made.
   int advance(std::chrono::nanoseconds time);
+
+  /// From now on step() and advance() are shared by a crew: each part steps some of the instances, with the same bits.
+  /// Worth its while from some thousand instances on. A chain in which an instance has been steered is stepped by the
+  /// calling thread.
+  void set_crew(const Crew& crew);
 
   /// Reads all outputs: slots() × output_count(), in the outputs' units, held to the seen range and kRangeMargin (those
   /// of an instance that is out, or about to be, lie between there and 0). A chain's positions go as far as they go.

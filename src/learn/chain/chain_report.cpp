@@ -1,5 +1,6 @@
 #include "learn/chain/chain_report.hpp"
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -10,6 +11,12 @@ namespace wisp::chain {
 namespace {
 
 constexpr double kMaxShareOfCeiling = 0.5;  // a distance above it is nearer to rows in random order than to falls
+
+std::array<std::pair<const char*, const Bounded*>, 3> measures_of(const ChainFidelity& fidelity) {
+  return {{{"over half a second", &fidelity.energy_distance},
+           {"over two seconds", &fidelity.long_energy_distance},
+           {"by spectra", &fidelity.seconds.spectra}}};
+}
 
 // Entries with a value, a label (empty: for programs only), a unit and a meaning.
 class Entries {
@@ -144,15 +151,23 @@ ReportSection fidelity_section(const ChainFidelity& fidelity, bool has_orientati
   return section;
 }
 
+Judged judged_by(const ChainFidelity& fidelity) {
+  Judged out;
+  for (const auto& [name, measure] : measures_of(fidelity)) {
+    // Where halves of the recorded falls are as far apart as rows in random order, nothing can be told from them.
+    const bool told = measure->floor < kMaxShareOfCeiling * measure->ceiling;
+    std::string& names = told ? out.judged : out.unjudged;
+    names += (names.empty() ? "" : ", ") + std::string(name);
+  }
+  return out;
+}
+
 std::optional<std::string> fault_of(const ChainFidelity& fidelity) {
   if (std::isnan(fidelity.synthesized.event_seconds)) {
     return "its falls have no events, and recorded ones have one every " + number_text(fidelity.real.event_seconds, 3) +
            " s: record more, or choose another event, realisation or number of modes";
   }
-  const std::pair<const char*, const Bounded*> measures[] = {{"over half a second", &fidelity.energy_distance},
-                                                             {"over two seconds", &fidelity.long_energy_distance},
-                                                             {"by spectra", &fidelity.seconds.spectra}};
-  for (const auto& [name, measure] : measures) {
+  for (const auto& [name, measure] : measures_of(fidelity)) {
     // Few windows are far apart by chance, recorded ones too.
     if (!(measure->value > kMaxShareOfCeiling * measure->ceiling) || measure->value <= measure->floor) continue;
     return "its falls are not like the recorded ones (energy distance " + std::string(name) + " " +

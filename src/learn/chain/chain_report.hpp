@@ -15,6 +15,14 @@ ReportSection fidelity_section(const ChainFidelity& fidelity, bool has_orientati
 /// The figures that a model keeps.
 void add_figures(const ChainFidelity& fidelity, Training& training);
 
+/// Measures by name, and those of which the recorded falls are too few or too short to say anything.
+struct Judged {
+  std::string judged;
+  std::string unjudged;
+};
+
+Judged judged_by(const ChainFidelity& fidelity);
+
 /// Why falls are not like the recorded ones: a measure near its ceiling, or past it. Nothing: they are.
 std::optional<std::string> fault_of(const ChainFidelity& fidelity);
 

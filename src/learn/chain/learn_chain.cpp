@@ -82,8 +82,12 @@ void judge(const ChainFit& found, const ChainRecipe& recipe, Fit& fit) {
       {"fidelity.verbatim_seconds", verbatim, "longest stretch copied from one recording", "s"});
   add_figures(*fidelity, fit.model.training);
   fit.model.training.figures.push_back({"verbatim_seconds", verbatim});
-  if (fit.model.training.usable.verdict) {
-    if (const auto reason = fault_of(*fidelity)) fit.model.training.usable = {false, *reason};
+  Usable& usable = fit.model.training.usable;
+  if (!usable.verdict) return;
+  if (const auto reason = fault_of(*fidelity)) {
+    usable = {false, *reason};
+  } else if (const Judged by = judged_by(*fidelity); !by.unjudged.empty()) {
+    usable.reason += "; how they play was not judged " + by.unjudged + ": too few falls were held out, or too short";
   }
 }
 

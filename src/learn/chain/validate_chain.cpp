@@ -31,6 +31,15 @@ ReportSection counts_of(std::size_t rows) {
   return {"", {{"rows", rows, "rows", ""}, {"channels", ReportList{}, "", ""}}};
 }
 
+ReportVerdict likeness_of(const Judged& by) {
+  if (by.judged.empty()) {
+    return {false, "the recorded falls are too few or too short to judge by: record more, of two seconds or longer"};
+  }
+  if (by.unjudged.empty()) return {true, "its falls are like the recorded ones"};
+  return {true, "its falls are like the recorded ones " + by.judged + "; these are too few or too short to judge " +
+                    by.unjudged};
+}
+
 Result<Report> validate_falls(const Model& model, std::span<const Recording> falls, std::uint64_t seed,
                               const Progress& progress) {
   const auto options = judging_of(model, seed);
@@ -47,7 +56,7 @@ Result<Report> validate_falls(const Model& model, std::span<const Recording> fal
                               " s, expected longer ones: how like the falls are was not measured");
   }
   const auto fault = fault_of(*fidelity);
-  report.verdict = {!fault, fault.value_or("its falls are like the recorded ones")};
+  report.verdict = fault ? ReportVerdict{false, *fault} : likeness_of(judged_by(*fidelity));
   std::size_t rows = 0;
   for (const Recording& fall : falls) rows += fall.rows();
   report.sections = {counts_of(rows), fidelity_section(*fidelity, std::holds_alternative<PoseView>(model.view)),

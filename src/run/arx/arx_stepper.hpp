@@ -61,32 +61,15 @@ class ArxStepper : public ChannelHistory<N> {
     drawn_.turn();
   }
 
+  /// Blocks that step_group() steps at once.
+  static constexpr int kGroup = Modes::kGroup;
+
   /// Makes the newest sample of a block.
-  void step(int block, const Moment<N>& moment) {
-    count_quiet(block);
-    if (!drawn_.empty()) drawn_.hear(block, this->regressors(block));
-    modes_.choose(block, ring_, moment);
-    if (noisy_) make_shocks(block, moment);
-    Real* newest = ring_.sample(block, 0);
-    auto held = all<Words<N>>(0U);
-    std::uint32_t run = 0;
-    for (int i = 0; i < program_.outputs; ++i) {
-      const OutputChannel& channel = channels_.outputs[i];
-      if (channel.mirrors >= 0) {
-        store(negative(load<Reals<N>>(newest + channel.mirrors * kLanes)), newest + i * kLanes);
-        run = program_.row_end[i];
-        continue;
-      }
-      auto sum = noisy_ ? start_shaken(i) : constant(i);
-      for (; run < program_.row_end[i]; ++run) {
-        if (!is_quiet(block, program_.runs[run].channel)) sum = add_run(block, program_.runs[run], sum);
-      }
-      const auto value = hold(sum, all<Reals<N>>(channel.low), all<Reals<N>>(channel.high));
-      held = held | differ(value, sum);
-      store(settle(value), newest + i * kLanes);
-    }
-    store(held, moment.held);
-  }
+  void step(int block, const Moment<N>& moment) { step_blocks<1>(block, moment); }
+
+  /// The same of kGroup blocks in a row, of which the moment is the first's: each coefficient is read once for all, and
+  /// sums that do not wait for each other keep the machine busy.
+  void step_group(int block, const Moment<N>& moment) { step_blocks<kGroup>(block, moment); }
 
   /// Puts one lane to the operating point.
   void start(int block, int lane, const Moment<N>&) {
@@ -94,6 +77,9 @@ class ArxStepper : public ChannelHistory<N> {
     if (!drawn_.empty()) drawn_.start(block, lane);
     this->start_history(block, lane);
   }
+
+  /// Whether ranges of blocks can be stepped at once.
+  bool can_be_shared() const { return true; }
 
   /// The mode that made a lane's newest sample; none before the first step.
   std::optional<int> mode(int block, int lane) const { return modes_.mode(block, lane); }
@@ -130,21 +116,68 @@ class ArxStepper : public ChannelHistory<N> {
         program_(program),
         modes_(modes),
         drawn_(program.drawn, blocks, arena),
-        shocks_(arena.take<Real>(static_cast<std::size_t>(program.shock_channels) * kLanes)),
+        shared_(arena.take<Real>(static_cast<std::size_t>(blocks) * shared_row())),
         shaken_(arena.take<std::uint8_t>(program.shock_channels)),
         quiet_(arena.take<int>(static_cast<std::size_t>(blocks) * program.regressors)),
         shock_size_(arena.take<float>(program.shocks * modes.count())) {
-    if (!arena.measures()) mark_mirrored(program_, channels_.outputs);
+    if (arena.measures()) return;
+    mark_mirrored(program_, channels_.outputs);
+    own_shocks_ = program.shock_channels == program.outputs && program.shocks == channels.outputs.size();
+    for (std::size_t i = 0; own_shocks_ && i < program.shocks; ++i) {
+      own_shocks_ = program.shock[i] == i && program.shock_end[i] == i + 1;
+    }
+  }
+
+  using Choice = typename Modes::Choice;
+
+  template <int kBlocks>
+  void step_blocks(int block, const Moment<N>& moment) {
+    Choice choice[kBlocks];
+    for (int b = 0; b < kBlocks; ++b) {
+      const Moment<N> of = moment.later(b);
+      count_quiet(block + b);
+      if (!drawn_.empty()) drawn_.hear(block + b, this->regressors(block + b));
+      choice[b] = modes_.choose(block + b, ring_, of);
+      if (noisy_) make_shocks(block + b, choice[b], of);
+    }
+    Real* newest = ring_.sample(block, 0);
+    const std::size_t stride = ring_.stride();
+    Words<N> held[kBlocks];
+    for (auto& of_block : held) of_block = all<Words<N>>(0U);
+    std::uint32_t run = 0;
+    for (int i = 0; i < program_.outputs; ++i, newest += kLanes) {
+      const OutputChannel& channel = channels_.outputs[i];
+      if (channel.mirrors >= 0) {
+        const Real* mirrored = newest + (channel.mirrors - i) * kLanes;
+        for (int b = 0; b < kBlocks; ++b) store(negative(load<Reals<N>>(mirrored + b * stride)), newest + b * stride);
+        run = program_.row_end[i];
+        continue;
+      }
+      Reals<N> sum[kBlocks];
+      unrolled<kBlocks>(
+          [&](auto b) { sum[b] = noisy_ ? load<Reals<N>>(newest + b * stride) : constant(choice[b], i); });
+      for (; run < program_.row_end[i]; ++run) {
+        if (!is_quiet<kBlocks>(block, program_.runs[run].channel)) add_run(block, choice, program_.runs[run], sum);
+      }
+      unrolled<kBlocks>([&](auto b) {
+        const auto value = hold(sum[b], all<Reals<N>>(channel.low), all<Reals<N>>(channel.high));
+        held[b] = held[b] | differ(value, sum[b]);
+        store(settle(value), newest + b * stride);
+      });
+    }
+    for (int b = 0; b < kBlocks; ++b) store(held[b], moment.later(b).held);
   }
 
   // The run's products are added in the order of its lags, each to what was there before.
-  Reals<N> add_run(int block, const TapRun& run, Reals<N> sum) const {
+  template <int kBlocks>
+  void add_run(int block, const Choice (&choice)[kBlocks], const TapRun& run, Reals<N> (&sum)[kBlocks]) const {
     const float* coefficient = program_.coefficients.data() + run.coefficient * modes_.count();
+    const std::size_t stride = ring_.stride();
     for (std::uint32_t k = 0; k < run.count; ++k, coefficient += modes_.count()) {
       const Real* past = ring_.sample(block, run.first_lag + k) + run.channel * kLanes;
-      sum = sum + modes_.pick(coefficient) * load<Reals<N>>(past);
+      unrolled<kBlocks>(
+          [&](auto b) { sum[b] = sum[b] + choice[b].pick(coefficient) * load<Reals<N>>(past + b * stride); });
     }
-    return sum;
   }
 
   // A regressor that has been 0 in all lanes for as long as anything looks back adds nothing: a wind from the one side
@@ -152,24 +185,42 @@ class ArxStepper : public ChannelHistory<N> {
   void count_quiet(int block) {
     int* quiet = quiet_.data() + block * program_.regressors;
     const Real* newest = this->regressors(block);
-    for (int k = 0; k < program_.regressors; ++k, ++quiet) {
-      bool zero = true;
-      for (int lane = 0; lane < kLanes; ++lane) zero &= value_of(*newest++) == 0.0f;
-      *quiet = zero ? std::min(*quiet + 1, program_.depth) : 0;
+    const auto zero = all<Reals<N>>(0.0f);
+    for (int k = 0; k < program_.regressors; ++k, ++quiet, newest += kLanes) {
+      *quiet = any(differ(load<Reals<N>>(newest), zero)) ? 0 : std::min(*quiet + 1, program_.depth);
     }
   }
 
+  template <int kBlocks>
   bool is_quiet(int block, std::uint32_t channel) const {
     const int regressor = static_cast<int>(channel) - program_.outputs;
-    return regressor >= 0 && quiet_[block * program_.regressors + regressor] >= program_.depth;
+    if (regressor < 0) return false;
+    const int* quiet = quiet_.data() + block * program_.regressors + regressor;
+    bool all_quiet = true;
+    for (int b = 0; b < kBlocks; ++b) all_quiet &= quiet[b * program_.regressors] >= program_.depth;
+    return all_quiet;
   }
 
-  void make_shocks(int block, const Moment<N>& moment) {
-    if (!drawn_.empty()) {
-      drawn_.step(block, moment, shocks_.data());
+  // Puts what the sums of a block's outputs start from where the newest sample will be.
+  void make_shocks(int block, const Choice& choice, const Moment<N>& moment) {
+    Real* newest = ring_.sample(block, 0);
+    if (drawn_.empty()) {
+      if (kGroup > 1 && own_shocks_) {  // a second copy of what draws, worth it where many are stepped
+        draw(moment, [&](int i, const auto& normals) {
+          const auto size = choice.pick(shock_size_.data() + i * modes_.count());
+          store(constant(choice, i) + size * normals, newest + i * kLanes);
+        });
+        return;
+      }
+      draw(moment, [&](int channel, const auto& normals) { store(normals, shock(block, channel)); });
+      // Downwards, since a shock of an output is added to that and later ones.
+      for (int i = program_.outputs - 1; i >= 0; --i) store(start_shaken(block, choice, i), newest + i * kLanes);
       return;
     }
-    draw(moment);
+    drawn_.step(block, moment, newest);
+    for (int i = 0; i < program_.outputs; ++i, newest += kLanes) {
+      if (program_.constant[i] != 0) store(constant(choice, i) + load<Reals<N>>(newest), newest);
+    }
   }
 
   // The lowest and the highest input that drawn residuals hear.
@@ -181,45 +232,54 @@ class ArxStepper : public ChannelHistory<N> {
     return {toward.least - against.most, toward.most - against.least};
   }
 
-  // Standard normal numbers for every shock that is added to an output.
-  void draw(const Moment<N>& moment) {
+  // Calls take(channel, normals) for every shock that is added to an output.
+  template <class Take>
+  void draw(const Moment<N>& moment, Take take) const {
     Words<N> counters[4], words[4];
     random_counters<N>(moment.counters, counters);
-    int group = -1;
-    for (int channel = 0; channel < program_.shock_channels; ++channel) {
-      if (!shaken_[channel]) continue;
-      if (channel / 4 != group) {
-        group = channel / 4;
-        random_group<N>(*moment.keys, counters, static_cast<std::uint32_t>(group), words);
-      }
-      store(normal_lanes<N>(words[channel % 4]), shocks_.data() + channel * kLanes);
+    for (int group = 0; 4 * group < program_.shock_channels; ++group) {
+      const int count = std::min(4, program_.shock_channels - 4 * group);
+      const std::uint8_t* shaken = shaken_.data() + 4 * group;
+      if (std::find(shaken, shaken + count, std::uint8_t{1}) == shaken + count) continue;
+      random_group<N>(*moment.keys, counters, static_cast<std::uint32_t>(group), words);
+      unrolled<4>([&](auto k) {
+        if (k < count && shaken[k]) take(4 * group + k, normal_lanes<N>(words[k]));
+      });
     }
   }
 
-  Reals<N> constant(int i) const { return modes_.pick(program_.constant.data() + i * modes_.count()); }
+  Reals<N> constant(const Choice& choice, int i) const {
+    return choice.pick(program_.constant.data() + i * modes_.count());
+  }
 
   // What a sum starts from: the constant and the noise.
-  Reals<N> start_shaken(int i) const {
-    if (!drawn_.empty()) {
-      const auto shock = load<Reals<N>>(shocks_.data() + i * kLanes);
-      return modes_.count() == 1 && program_.constant[i] == 0 ? shock : constant(i) + shock;
-    }
-    auto sum = constant(i);
+  Reals<N> start_shaken(int block, const Choice& choice, int i) {
+    auto sum = constant(choice, i);
     for (std::uint32_t k = i == 0 ? 0 : program_.shock_end[i - 1]; k < program_.shock_end[i]; ++k) {
-      const Real* shock = shocks_.data() + program_.shock[k] * kLanes;
-      sum = sum + modes_.pick(shock_size_.data() + k * modes_.count()) * load<Reals<N>>(shock);
+      const auto size = choice.pick(shock_size_.data() + k * modes_.count());
+      sum = sum + size * load<Reals<N>>(shock(block, static_cast<int>(program_.shock[k])));
     }
     return sum;
+  }
+
+  // Where a standard normal number lies: those of outputs where their sums will.
+  Real* shock(int block, int channel) {
+    if (channel < program_.outputs) return ring_.sample(block, 0) + channel * kLanes;
+    return shared_.data() + block * shared_row() + static_cast<std::size_t>(channel - program_.outputs) * kLanes;
+  }
+  std::size_t shared_row() const {
+    return static_cast<std::size_t>(program_.shock_channels - program_.outputs) * kLanes;
   }
 
   ArxProgram program_;
   Modes modes_;
   DrawnLanes<N> drawn_;
-  std::span<Real> shocks_;
+  std::span<Real> shared_;          // [block][channel][lane]: standard normal numbers that outputs share
   std::span<std::uint8_t> shaken_;  // per standard normal number: whether anything is shaken by it
   std::span<int> quiet_;            // [block][regressor]: steps for which it has been 0 in all lanes, up to the depth
   std::span<float> shock_size_;     // those of the program, scaled
   bool noisy_ = false;
+  bool own_shocks_ = false;  // every output has one, and shares none
 };
 
 template <class N>

@@ -12,6 +12,11 @@
 #include "run/lanes/random_lanes.hpp"
 #include "wisp/model/arx.hpp"
 
+// A build whose size comes first steps one block at a time, with the same bits: the kernel is there once, not twice.
+#ifndef WISP_BLOCKS_AT_ONCE
+#define WISP_BLOCKS_AT_ONCE 4
+#endif
+
 namespace wisp {
 
 /// An ARX model's: there is nothing to choose, and nothing of it is kept.
@@ -26,8 +31,12 @@ class SingleMode {
 
   static constexpr std::size_t count() { return 1; }
   void set_chance(bool) {}
-  void choose(int, const SampleRing<N>&, const Moment<N>&) {}
-  Reals<N> pick(const float* of_mode) const { return all<Reals<N>>(*of_mode); }
+  /// Blocks that can be stepped at once: what they multiply with is the same.
+  static constexpr int kGroup = WISP_BLOCKS_AT_ONCE;
+  struct Choice {
+    Reals<N> pick(const float* of_mode) const { return all<Reals<N>>(*of_mode); }
+  };
+  Choice choose(int, const SampleRing<N>&, const Moment<N>&) { return {}; }
   void start(int, int) {}
   std::optional<int> mode(int, int) const { return 0; }
   std::int64_t multiply_adds() const { return 0; }
@@ -56,21 +65,26 @@ class ModeLanes {
   /// Without chance a Markov chain takes the likeliest step.
   void set_chance(bool there) { chance_ = there; }
 
-  /// Chooses every lane's mode of this step.
-  void choose(int block, const SampleRing<N>& ring, const Moment<N>& moment) {
-    if (program_.markov) {
-      walk(block, moment);
-    } else {
-      classify(block, ring);
-    }
-    for (int lane = 0; lane < kLanes; ++lane) modes_[block * kLanes + lane] = Real(static_cast<float>(mode_[lane]));
-  }
+  static constexpr int kGroup = 1;
 
-  /// Every lane's number of its own mode.
-  Reals<N> pick(const float* of_mode) const {
-    Real picked[kLanes];
-    for (int lane = 0; lane < kLanes; ++lane) picked[lane] = Real(of_mode[mode_[lane]]);
-    return load<Reals<N>>(picked);
+  /// Every lane's mode of this step.
+  struct Choice {
+    std::uint32_t mode[kLanes];
+
+    /// Every lane's number of its own mode.
+    Reals<N> pick(const float* of_mode) const {
+      Real picked[kLanes];
+      for (int lane = 0; lane < kLanes; ++lane) picked[lane] = Real(of_mode[mode[lane]]);
+      return load<Reals<N>>(picked);
+    }
+  };
+
+  Choice choose(int block, const SampleRing<N>& ring, const Moment<N>& moment) {
+    const Choice choice = program_.markov ? walk(block, moment) : classify(block, ring);
+    for (int lane = 0; lane < kLanes; ++lane) {
+      modes_[block * kLanes + lane] = Real(static_cast<float>(choice.mode[lane]));
+    }
+    return choice;
   }
 
   /// A newborn has no mode before its first step.
@@ -99,7 +113,8 @@ class ModeLanes {
   static constexpr float kNoMode = -1.0f;
 
   // Of the affine functions the largest, of equal ones the first.
-  void classify(int block, const SampleRing<N>& ring) {
+  Choice classify(int block, const SampleRing<N>& ring) const {
+    Choice choice{};
     Real best[kLanes], score[kLanes];
     const float* weight = program_.region_weights.data();
     for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(program_.modes); ++k) {
@@ -111,13 +126,15 @@ class ModeLanes {
       for (int lane = 0; lane < kLanes; ++lane) {
         if (k > 0 && !(score[lane] > best[lane])) continue;
         best[lane] = score[lane];
-        mode_[lane] = k;
+        choice.mode[lane] = k;
       }
     }
+    return choice;
   }
 
   // One step of every lane's Markov chain. Its word comes after those of the shocks.
-  void walk(int block, const Moment<N>& moment) {
+  Choice walk(int block, const Moment<N>& moment) const {
+    Choice choice;
     const auto modes = static_cast<std::uint32_t>(program_.modes);
     typename N::Word word[kLanes] = {};
     if (chance_) {
@@ -130,8 +147,9 @@ class ModeLanes {
       const int before = static_cast<int>(value_of(modes_[block * kLanes + lane]));
       const auto row = static_cast<std::size_t>(before < 0 ? program_.modes : before) * modes;
       const std::uint32_t* threshold = program_.thresholds.data() + row;
-      mode_[lane] = chance_ ? first_above(threshold, value_of(word[lane])) : likeliest(threshold, modes);
+      choice.mode[lane] = chance_ ? first_above(threshold, value_of(word[lane])) : likeliest(threshold, modes);
     }
+    return choice;
   }
 
   static std::uint32_t first_above(const std::uint32_t* threshold, std::uint32_t word) {
@@ -151,8 +169,7 @@ class ModeLanes {
   }
 
   ModeProgram program_;
-  std::span<Real> modes_;            // [block][lane]: what made the newest sample, or kNoMode
-  std::uint32_t mode_[kLanes] = {};  // of the block that is being stepped
+  std::span<Real> modes_;  // [block][lane]: what made the newest sample, or kNoMode
   bool chance_ = true;
 };
 

@@ -57,6 +57,8 @@ Result<std::size_t> bank_bytes(const Model& model, const BankOptions& options) {
 Result<Bank> Bank::create(const Model& model, const BankOptions& options) {
   const auto bytes = bank_bytes(model, options);
   if (!bytes) return bytes.error();
+  const auto path = choose_frame_path();
+  if (!path) return path.error();
   std::span<std::byte> memory = options.memory;
   const bool owned = memory.data() == nullptr;
   if (!owned && memory.size() < *bytes) {
@@ -70,7 +72,9 @@ Result<Bank> Bank::create(const Model& model, const BankOptions& options) {
   }
   Arena arena(memory);
   void* place = arena.take<std::byte>(sizeof(State)).data();
-  return Bank(std::unique_ptr<State, Release>(new (place) State(model, options, arena), Release{owned}));
+  std::unique_ptr<State, Release> state(new (place) State(model, options, arena), Release{owned});
+  state->path = *path;
+  return Bank(std::move(state));
 }
 
 int Bank::capacity() const { return state_->capacity; }
@@ -128,17 +132,13 @@ bool Bank::end(InstanceId id) {
 void Bank::set_inputs(std::span<const float> values) {
   State& s = *state_;
   assert(values.size() == static_cast<std::size_t>(s.rows) * s.inputs);
-  for (int block = 0; block < s.blocks(); ++block) {
-    const int first = block * State::kLanes;
-    s.set_inputs(block, values.data() + static_cast<std::size_t>(first) * s.inputs,
-                 std::min(State::kLanes, s.rows - first));
-  }
+  s.path->set_inputs(s, values.data());
 }
 
 void Bank::set_common_inputs(std::span<const float> values) {
   State& s = *state_;
   assert(values.size() == static_cast<std::size_t>(s.inputs));
-  for (int block = 0; block < s.blocks(); ++block) s.set_common_inputs(block, values.data());
+  s.path->set_common_inputs(s, values.data());
 }
 
 bool Bank::set_inputs(InstanceId id, std::span<const float> values) {
@@ -151,6 +151,11 @@ bool Bank::set_inputs(InstanceId id, std::span<const float> values) {
 void Bank::set_noise(float scale) {
   const float held = std::min(scale, kMostNoise);
   state_->set_noise(held >= kLeastNoise ? held : 0.0f);
+}
+
+void Bank::set_crew(const Crew& crew) {
+  assert(crew.parts >= 1);
+  state_->crew = crew;
 }
 
 void Bank::step() {
@@ -197,19 +202,8 @@ bool Bank::outputs(InstanceId id, std::span<float> values) const {
 
 void Bank::polylines(std::span<float> values) const {
   const State& s = *state_;
-  const std::size_t row = static_cast<std::size_t>(s.polyline.points) * 2;
-  assert(row > 0 && values.size() == s.rows * row);
-  for (int block = 0; block < s.blocks(); ++block) {
-    const int first = block * State::kLanes;
-    const int lanes = std::min(State::kLanes, s.rows - first);
-    float* out = values.data() + first * row;
-    s.polyline_of(block, [&](int number, const float* lane_values) {
-      for (int lane = 0; lane < lanes; ++lane) out[lane * row + number] = lane_values[lane];
-    });
-    for (int lane = 0; lane < lanes; ++lane) {
-      if (!s.alive[first + lane]) std::fill_n(out + lane * row, row, 0.0f);
-    }
-  }
+  assert(s.polyline.points > 0 && values.size() == static_cast<std::size_t>(s.rows) * s.polyline.points * 2);
+  s.path->polylines(s, values.data());
 }
 
 bool Bank::polyline(InstanceId id, std::span<float> values) const {

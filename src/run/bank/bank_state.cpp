@@ -1,12 +1,14 @@
 #include "run/bank/bank_state.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 
 namespace wisp {
 namespace {
 
 constexpr double kNanosecondsPerSecond = 1e9;
+constexpr int kGroupOfBlocks = 8;
 
 OperatingPoint operating_point(const Model& model) {
   const auto of_kind = []<class Type>(const auto& dynamics, std::type_identity<Type>) {
@@ -124,34 +126,6 @@ LitState Bank::State::lit_state(int slot) const {
   return state;
 }
 
-// Rows of the first `count` lanes of a block; what the others get is cleared when an instance is spawned there.
-void Bank::State::set_inputs(int block, const float* values, int count) {
-  const auto lanes_of = [&](int input) {
-    if (inputs == 1 && count == kLanes) return load<Reals<LiveNumbers>>(values);  // they lie as lanes do
-    float lanes[kLanes] = {};
-    for (int lane = 0; lane < count; ++lane) lanes[lane] = values[lane * inputs + input];
-    return load<Reals<LiveNumbers>>(lanes);
-  };
-  float* out = regressors_of(block);
-  for (const RegressorChannel& channel : channels.regressors) {
-    store(regress<LiveNumbers>(channel, lanes_of(channel.input)), out);
-    out += kLanes;
-  }
-  if (!extinction.present) return;
-  store(blowing<LiveNumbers>(extinction, lanes_of(extinction.input)), wind.data() + block * kLanes);
-}
-
-void Bank::State::set_common_inputs(int block, const float* values) {
-  float* out = regressors_of(block);
-  for (const RegressorChannel& channel : channels.regressors) {
-    store(regress<LiveNumbers>(channel, all<Reals<LiveNumbers>>(values[channel.input])), out);
-    out += kLanes;
-  }
-  if (!extinction.present) return;
-  const auto input = all<Reals<LiveNumbers>>(values[extinction.input]);
-  store(blowing<LiveNumbers>(extinction, input), wind.data() + block * kLanes);
-}
-
 void Bank::State::set_lane_inputs(int slot, const float* values) {
   float lanes[kLanes];
   float* out = regressors_of(slot / kLanes) + slot % kLanes;
@@ -177,83 +151,42 @@ void Bank::State::set_chain(const ChainSettings& settings) {
   if (auto* stepped = chain_stepper()) stepped->set_chain(settings);
 }
 
-Moment<LiveNumbers> Bank::State::moment(int block, std::uint32_t* flags) const {
-  const std::size_t first = static_cast<std::size_t>(block) * kLanes;
-  return {&keys, {stream.data() + first, born.data() + first, steps}, flags, std::min(kLanes, rows - block * kLanes)};
+// In parts of whole groups of blocks, so that no two parts write to one cache line.
+template <class Work>
+void Bank::State::share(Work work) {
+  const bool shared = crew.run && std::visit([](const auto& dynamics) { return dynamics.can_be_shared(); }, stepper);
+  const int groups = (blocks() + kGroupOfBlocks - 1) / kGroupOfBlocks;
+  const int parts = shared ? std::min(crew.parts, groups) : 1;
+  if (parts <= 1) return work(0, blocks());
+  struct Task {
+    const State& state;
+    Work& work;
+    int groups;
+    int parts;
+
+    int begin(int part) const {
+      const auto group = static_cast<int>(static_cast<std::int64_t>(groups) * part / parts);
+      return std::min(group * kGroupOfBlocks, state.blocks());
+    }
+  } task{*this, work, groups, parts};
+  const auto do_part = [](void* of, int part) {
+    const Task& own = *static_cast<Task*>(of);
+    own.work(own.begin(part), own.begin(part + 1));
+  };
+  crew.run(crew.pool, parts, do_part, &task);
 }
 
 void Bank::State::step_all() {
-  std::visit(
-      [&](auto& dynamics) {
-        dynamics.turn();
-        const std::size_t count = channels.regressors.size() * kLanes;
-        for (int block = 0; block < blocks(); ++block) {
-          if (count > 0) std::copy_n(regressors_of(block), count, dynamics.regressors(block));
-          const std::size_t first = static_cast<std::size_t>(block) * kLanes;
-          std::uint32_t flags[kLanes];
-          dynamics.step(block, moment(block, flags));
-          if (extinction.present) live_block(block);
-          for (int lane = 0; lane < kLanes; ++lane) {
-            held.held += (flags[lane] & 1) & alive[first + lane] & std::uint32_t{burns(static_cast<int>(first) + lane)};
-          }
-        }
-      },
-      stepper);
+  std::visit([](auto& dynamics) { dynamics.turn(); }, stepper);
+  std::atomic<std::uint64_t> count = 0;
+  share([&](int first, int last) { count.fetch_add(path->step(*this, first, last), std::memory_order_relaxed); });
+  held.held += count;
   ++steps;
   held.steps += static_cast<std::uint64_t>(living);
 }
 
-void Bank::State::live_block(int block) {
-  float before[kLanes];
-  const LifeLanes<float> life = life_of(block);
-  std::copy_n(life.lit, kLanes, before);
-  std::copy_n(life.size, kLanes, previous_size.data() + block * kLanes);
-  live<LiveNumbers>(extinction, life);
-  for (int lane = 0; lane < kLanes; ++lane) {
-    if (before[lane] != life.lit[lane]) go_out(block * kLanes + lane, steps + 1);
-  }
-}
-
 void Bank::State::show() {
-  for (int block = 0; block < blocks(); ++block) show_block(block);
-}
-
-void Bank::State::show_block(int block) {
-  const float share = static_cast<float>(passed) / static_cast<float>(step_time);
-  std::visit(
-      [&](const auto& dynamics) {
-        if (between) {
-          dynamics.show_between(block, share, shown_of(block));
-        } else {
-          dynamics.show(block, shown_of(block));
-        }
-      },
-      stepper);
-  if (extinction.present) show_life(block, share);
-}
-
-// Whether all of a block burns at full size. To shrink it to that would not change a bit.
-bool Bank::State::is_whole(int block) const {
-  bool whole = true;
-  for (const auto& values : {lit, size, previous_size}) {
-    for (int lane = 0; lane < kLanes; ++lane) whole &= values[block * kLanes + lane] == 1.0f;
-  }
-  return whole;
-}
-
-void Bank::State::show_life(int block, float share) {
-  if (is_whole(block)) return;
-  for (int lane = 0; lane < kLanes; ++lane) {
-    if (lit[block * kLanes + lane] != 0.0f) continue;
-    for (std::size_t k = lane; k < channels.outputs.size() * kLanes; k += kLanes) {
-      shown_of(block)[k] = last_shape_of(block)[k];
-    }
-  }
-  auto seen = load<Reals<LiveNumbers>>(size.data() + block * kLanes);
-  if (between) {
-    seen = size_between<LiveNumbers>(load<Reals<LiveNumbers>>(previous_size.data() + block * kLanes), seen, share);
-  }
-  shrink<LiveNumbers>(seen, channels.outputs.size(), shown_of(block));
+  share([this](int first, int last) { path->show(*this, first, last); });
 }
 
 void Bank::State::read_outputs(int slot, float* values) const {

@@ -2,6 +2,7 @@
 // What a bank consists of; everything lies in the bank's one piece of memory, this struct included.
 
 #include "run/bank/extinction_lanes.hpp"
+#include "run/bank/frame_path.hpp"
 #include "run/bank/outline_lanes.hpp"
 #include "run/bank/stepper.hpp"
 #include "wisp/run/bank.hpp"
@@ -49,6 +50,10 @@ struct Bank::State {
   void set_common_inputs(int block, const float* values);
   void set_lane_inputs(int slot, const float* values);  // null: zeros
   void step_all();
+  std::uint64_t step_blocks(int first, int last);
+  template <class Work>
+  void share(Work work);  // work(first block, one past its last), for all blocks
+  std::uint32_t count_held(int block, const std::uint32_t* flags) const;
   void live_block(int block);
   void go_out(int slot, std::uint64_t moment);
   float* last_shape_of(int block) { return last_shape.data() + block * channels.outputs.size() * kLanes; }
@@ -70,6 +75,7 @@ struct Bank::State {
     }
   }
 
+  const FramePath* path = frame_paths().front();
   int capacity;
   int inputs;
   std::uint64_t seed;
@@ -107,6 +113,7 @@ struct Bank::State {
   bool between = false;     // what is shown lies between the last two steps, by `passed`
   float noise = 0.0f;
   ChainSettings chain;
+  Crew crew;
   Held held;
   ChainFacet chain_facet{*this};
   ExtinctionFacet extinction_facet{*this};

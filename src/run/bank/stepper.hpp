@@ -32,9 +32,11 @@ struct StepperOf<SwitchedArxModel, N> {
 using Stepper = std::variant<ArxStepper<LiveNumbers>, ChainStepper<LiveNumbers>, SwitchedStepper<LiveNumbers>>;
 
 // Each kind is compiled in a file of its own, so that a build may choose for each whether to be fast or small.
+#ifndef WISP_FRAME_PATH  // wide ones have their own
 extern template class ArxStepper<LiveNumbers>;
 extern template class ChainStepper<LiveNumbers>;
 extern template class ArxStepper<LiveNumbers, ModeLanes<LiveNumbers>>;
+#endif
 
 /// Calls use(dynamics, stepper kind) with the model's dynamics and a std::type_identity of what steps them.
 template <class N, class Use>

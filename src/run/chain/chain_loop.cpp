@@ -1,4 +1,4 @@
-#include "wisp/run/chain_loop.hpp"
+#include "wisp/run/chain_facet.hpp"
 
 #include <map>
 #include <utility>

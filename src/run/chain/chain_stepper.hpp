@@ -50,7 +50,7 @@ class ChainStepper {
     if (program_.gust.order > 0) gusts_ = arena.take<GustLane<Real>>(lanes);
     if (chain.systems) {
       systems_ = arena.take<SystemLane<Real>>(lanes);
-      shocks_ = arena.take<Real>(8 * kLanes);
+      shocks_ = arena.take<Real>(kShocks * lanes);
     }
     newest_ = arena.take<Real>(lanes * static_cast<std::size_t>(program_.channels));
     previous_ = arena.take<Real>(lanes * static_cast<std::size_t>(program_.channels));
@@ -74,13 +74,17 @@ class ChainStepper {
   /// Where the regressors of the step belong: [regressor][lane].
   Real* regressors(int block) { return regressors_.data() + static_cast<std::size_t>(block) * regressor_row_; }
 
+  /// Lanes are moved one by one: blocks together would be no faster.
+  static constexpr int kGroup = 1;
+  void step_group(int block, const Moment<N>& moment) { step(block, moment); }
+
   /// Makes the newest sample of a block.
   void step(int block, const Moment<N>& moment) {
     const ChainMover<Real> mover(program_);
     std::copy_n(newest(block), sample_size(), previous_of(block));
     std::uint32_t words[4][kLanes];
     bool drawn = false;
-    if (noisy_) draw_shocks(moment);
+    if (noisy_) draw_shocks(block, moment);
     for (int lane = 0; lane < kLanes; ++lane) {
       moment.held[lane] = 0;
       if (lane >= moment.lanes) continue;
@@ -164,6 +168,9 @@ class ChainStepper {
     return {segment, row, program_.mode[segment]};
   }
 
+  /// Whether ranges of blocks can be stepped at once: what is steered weighs its candidates in one place for all.
+  bool can_be_shared() const { return !steered_; }
+
   bool can_steer() const { return !program_.lead.empty(); }
 
   /// Steers a lane to a place that it is to be near in so many steps; none: no longer.
@@ -173,6 +180,7 @@ class ChainStepper {
     Lane& life = lane_of(block, lane);
     life.target = target;
     life.left = Real(steps);
+    steered_ |= steps > 0;
     life.near = Real(near);
   }
 
@@ -232,6 +240,7 @@ class ChainStepper {
     for (auto* numbers : {&life.gap.slip, &life.slip[0], &life.slip[1], &life.laid}) visit_difference(*numbers, visit);
     visit(life.settled, -1.0f, 2.0f);
     visit(life.left, 0.0f, kMostSlip, 1.0f);
+    steered_ |= life.left > Real(0.0f);
     for (Real& x : life.target) visit(x, -kFarthest, kFarthest);
     visit(life.near, 0.0f, kFarthest);
     for (Real& x : life.touched) visit(x, -kLongest, kLongest);
@@ -261,6 +270,7 @@ class ChainStepper {
  private:
   using Mover = ChainMover<Real>;
   static constexpr std::size_t kLaneNumbers = 3 + 3 + 2 * 6 + 1 + 6 * 4 + 4 * 3 + 1 + 5 + 4;
+  static constexpr std::size_t kShocks = 6;
   static constexpr float kMostSlip = 1e12f;
   static constexpr float kLongest = 1.01f;  // numbers of an orientation: stored ones are of length 1 but for rounding
 
@@ -283,6 +293,8 @@ class ChainStepper {
   Lane& lane_of(int block, int lane) { return lanes_[static_cast<std::size_t>(block) * kLanes + lane]; }
   Real* newest_of(int block) { return newest_.data() + block * sample_size(); }
   Real* previous_of(int block) { return previous_.data() + block * sample_size(); }
+
+  Real* shocks_of(int block) { return shocks_.data() + static_cast<std::size_t>(block) * kShocks * kLanes; }
 
   SystemLane<Real>& system_of(int block, int lane) { return systems_[static_cast<std::size_t>(block) * kLanes + lane]; }
 
@@ -324,13 +336,13 @@ class ChainStepper {
   }
 
   // Six normal deviates a lane.
-  void draw_shocks(const Moment<N>& moment) {
+  void draw_shocks(int block, const Moment<N>& moment) {
     Words<N> counters[4], words[4];
     random_counters<N>(moment.counters, counters);
     for (std::uint32_t group : {0U, 1U}) {
       random_group<N>(*moment.keys, counters, 2 + group, words);
       for (std::uint32_t k = 0; k < (group == 0 ? 4U : 2U); ++k) {
-        store(normal_lanes<N>(words[k]), shocks_.data() + (4 * group + k) * kLanes);
+        store(normal_lanes<N>(words[k]), shocks_of(block) + (4 * group + k) * kLanes);
       }
     }
   }
@@ -340,7 +352,7 @@ class ChainStepper {
     Lane& life = lane_of(block, lane);
     SystemLane<Real>& system = system_of(block, lane);
     const std::uint32_t mode = program_.mode[Mover::index(life.segment, program_.segments())];
-    system_step(program_.systems, mode, program_.step_seconds, noisy_ ? shocks_.data() + lane : nullptr, system,
+    system_step(program_.systems, mode, program_.step_seconds, noisy_ ? shocks_of(block) + lane : nullptr, system,
                 newest_of(block) + lane, kLanes);
     life.row = Real(value_of(life.row) + 1.0f);
     return !(life.row < system.length);
@@ -444,8 +456,9 @@ class ChainStepper {
   std::span<Lane> lanes_;
   std::span<GustLane<Real>> gusts_;
   std::span<SystemLane<Real>> systems_;
-  std::span<Real> shocks_;  // of one step of one block
+  std::span<Real> shocks_;  // [block][deviate][lane], of one step
   bool noisy_ = false;
+  bool steered_ = false;  // now or once
   std::span<Real> newest_;
   std::span<Real> previous_;
   std::span<Real> regressors_;

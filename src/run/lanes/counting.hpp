@@ -71,6 +71,14 @@ inline WideProduct<CountingWord> wide_product_part(CountingWord a, std::uint32_t
   return {counted(static_cast<std::uint32_t>(product >> 32)), {static_cast<std::uint32_t>(product)}};
 }
 
+template <class RowOf>
+inline void columns_of_part(const RowOf& row_of, CountingReal& a, CountingReal& b, CountingReal& c) {
+  const float* row = row_of(0);
+  a = CountingReal(row[0]);
+  b = CountingReal(row[1]);
+  c = CountingReal(row[2]);
+}
+
 inline std::uint32_t value_of(CountingWord word) { return word.value; }
 
 /// One lane of them.

@@ -10,13 +10,13 @@
 #include <cfloat>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #if defined(__GNUC__) && !defined(WISP_PLAIN_LANES)
 #define WISP_VECTOR_LANES 1
 #endif
-// clang sees by itself that 32-bit numbers multiplied to 64 bits are one instruction; gcc has to be told.
-#if defined(WISP_VECTOR_LANES) && defined(__SSE2__) && !defined(__clang__)
-#define WISP_WIDE_INTRINSICS 1
+#if defined(WISP_VECTOR_LANES) && defined(__SSE2__)
+#define WISP_LONG_WORDS 1
 #include <immintrin.h>
 #endif
 
@@ -67,22 +67,7 @@ struct WideProduct {
   Part low;
 };
 
-#if defined(WISP_WIDE_INTRINSICS) && defined(__AVX2__)
-inline WideProduct<WordPart> wide_product_part(WordPart a, std::uint32_t b) {
-  const __m256i x = (__m256i)a, factor = _mm256_set1_epi32(static_cast<int>(b));
-  const __m256i even = _mm256_mul_epu32(x, factor), odd = _mm256_mul_epu32(_mm256_srli_epi64(x, 32), factor);
-  return {(WordPart)_mm256_blend_epi32(_mm256_srli_epi64(even, 32), odd, 0xAA),
-          (WordPart)_mm256_blend_epi32(even, _mm256_slli_epi64(odd, 32), 0xAA)};
-}
-#elif defined(WISP_WIDE_INTRINSICS)
-inline WideProduct<WordPart> wide_product_part(WordPart a, std::uint32_t b) {
-  const __m128i x = (__m128i)a, factor = _mm_set1_epi32(static_cast<int>(b));
-  const __m128i even = _mm_mul_epu32(x, factor), odd = _mm_mul_epu32(_mm_srli_epi64(x, 32), factor);
-  const __m128i lows = _mm_shuffle_epi32(even, 0x08), highs = _mm_shuffle_epi32(even, 0x0D);
-  return {(WordPart)_mm_unpacklo_epi32(highs, _mm_shuffle_epi32(odd, 0x0D)),
-          (WordPart)_mm_unpacklo_epi32(lows, _mm_shuffle_epi32(odd, 0x08))};
-}
-#elif defined(WISP_VECTOR_LANES)
+#ifdef WISP_VECTOR_LANES
 inline WideProduct<WordPart> wide_product_part(WordPart a, std::uint32_t b) {
   using WidePart = std::uint64_t __attribute__((vector_size(8 * kPartLanes)));
   const WidePart product = __builtin_convertvector(a, WidePart) * b;
@@ -99,6 +84,99 @@ inline float square_root(float a) { return __builtin_sqrtf(a); }
 inline float value_of(float a) { return a; }
 inline std::uint32_t value_of(std::uint32_t a) { return a; }
 
+#ifdef WISP_LONG_WORDS
+// The words of a part, each in the lower half of 64 bits, as x86 multiplies them; what the upper halves hold does not
+// count. So products follow each other without being put back in order.
+#if defined(__AVX512F__) && defined(__AVX512VL__)
+struct LongWords {
+  __m512i all;
+};
+
+inline LongWords long_words(WordPart words) { return {_mm512_cvtepu32_epi64((__m256i)words)}; }
+inline WordPart words_of(LongWords a) { return (WordPart)_mm512_cvtepi64_epi32(a.all); }
+inline LongWords product(LongWords a, std::uint32_t b) {
+  return {_mm512_mul_epu32(a.all, _mm512_set1_epi64(static_cast<long long>(b)))};
+}
+inline LongWords high_half(LongWords a) { return {_mm512_srli_epi64(a.all, 32)}; }
+inline LongWords differing(LongWords a, LongWords b, std::uint32_t key) {
+  return {_mm512_ternarylogic_epi64(a.all, b.all, _mm512_set1_epi64(static_cast<long long>(key)), 0x96)};
+}
+#else
+using LongPart = std::uint64_t __attribute__((vector_size(4 * kPartLanes)));
+struct LongWords {
+  LongPart even, odd;
+};
+
+inline LongWords high_half(LongWords a) { return {a.even >> 32, a.odd >> 32}; }
+inline LongWords long_words(WordPart words) { return {(LongPart)words, (LongPart)words >> 32}; }
+inline LongWords differing(LongWords a, LongWords b, std::uint32_t key) {
+  return {a.even ^ b.even ^ std::uint64_t{key}, a.odd ^ b.odd ^ std::uint64_t{key}};
+}
+#ifdef __AVX2__
+inline WordPart words_of(LongWords a) {
+  return (WordPart)_mm256_blend_epi32((__m256i)a.even, (__m256i)(a.odd << 32), 0xAA);
+}
+inline LongWords product(LongWords a, std::uint32_t b) {
+  const __m256i factor = _mm256_set1_epi64x(b);
+  return {(LongPart)_mm256_mul_epu32((__m256i)a.even, factor), (LongPart)_mm256_mul_epu32((__m256i)a.odd, factor)};
+}
+#else
+inline WordPart words_of(LongWords a) {
+  return (WordPart)_mm_unpacklo_epi32(_mm_shuffle_epi32((__m128i)a.even, 0x08),
+                                      _mm_shuffle_epi32((__m128i)a.odd, 0x08));
+}
+inline LongWords product(LongWords a, std::uint32_t b) {
+  const __m128i factor = _mm_set1_epi64x(b);
+  return {(LongPart)_mm_mul_epu32((__m128i)a.even, factor), (LongPart)_mm_mul_epu32((__m128i)a.odd, factor)};
+}
+#endif
+#endif
+#endif
+
+// Turns rows into columns: of the row of every lane its first, second and third number. Vectors read four numbers of
+// each row at once.
+#ifdef WISP_VECTOR_LANES
+using Quad = float __attribute__((vector_size(16)));
+
+inline Quad quad_at(const float* row) {
+  Quad quad;
+  std::memcpy(&quad, row, sizeof quad);
+  return quad;
+}
+
+template <class RowOf>
+inline void columns_of_part(const RowOf& row_of, RealPart& a, RealPart& b, RealPart& c) {
+#ifdef __AVX2__
+  const auto rows = [&](int lane) {
+    return __builtin_shufflevector(quad_at(row_of(lane)), quad_at(row_of(lane + 4)), 0, 1, 2, 3, 4, 5, 6, 7);
+  };
+  const auto r0 = rows(0), r1 = rows(1), r2 = rows(2), r3 = rows(3);
+  const auto ab01 = __builtin_shufflevector(r0, r1, 0, 8, 1, 9, 4, 12, 5, 13);
+  const auto ab23 = __builtin_shufflevector(r2, r3, 0, 8, 1, 9, 4, 12, 5, 13);
+  const auto c01 = __builtin_shufflevector(r0, r1, 2, 10, 3, 11, 6, 14, 7, 15);
+  const auto c23 = __builtin_shufflevector(r2, r3, 2, 10, 3, 11, 6, 14, 7, 15);
+  a = __builtin_shufflevector(ab01, ab23, 0, 1, 8, 9, 4, 5, 12, 13);
+  b = __builtin_shufflevector(ab01, ab23, 2, 3, 10, 11, 6, 7, 14, 15);
+  c = __builtin_shufflevector(c01, c23, 0, 1, 8, 9, 4, 5, 12, 13);
+#else
+  const Quad r0 = quad_at(row_of(0)), r1 = quad_at(row_of(1)), r2 = quad_at(row_of(2)), r3 = quad_at(row_of(3));
+  const Quad ab01 = __builtin_shufflevector(r0, r1, 0, 4, 1, 5), ab23 = __builtin_shufflevector(r2, r3, 0, 4, 1, 5);
+  const Quad c01 = __builtin_shufflevector(r0, r1, 2, 6, 3, 7), c23 = __builtin_shufflevector(r2, r3, 2, 6, 3, 7);
+  a = __builtin_shufflevector(ab01, ab23, 0, 1, 4, 5);
+  b = __builtin_shufflevector(ab01, ab23, 2, 3, 6, 7);
+  c = __builtin_shufflevector(c01, c23, 0, 1, 4, 5);
+#endif
+}
+#else
+template <class RowOf>
+inline void columns_of_part(const RowOf& row_of, RealPart& a, RealPart& b, RealPart& c) {
+  const float* row = row_of(0);
+  a = row[0];
+  b = row[1];
+  c = row[2];
+}
+#endif
+
 /// The numbers of a live bank.
 struct LiveNumbers {
   using Real = float;
@@ -108,6 +186,17 @@ struct LiveNumbers {
   static constexpr int kLanes = 8;
   static constexpr int kParts = kLanes / kPartLanes;
 };
+
+/// Calls function(0), …, function(count − 1), each with a constant: what a loop holds in an array stays in registers.
+template <int count, class Function>
+inline void unrolled(Function function) {
+#ifdef __wasm__
+  for (int k = 0; k < count; ++k) function(k);  // a page fetches the code before it runs: short goes before fast
+#else
+  [&]<int... k>(std::integer_sequence<int, k...>) { (function(std::integral_constant<int, k>()), ...); }
+  (std::make_integer_sequence<int, count>());
+#endif
+}
 
 /// Values side by side, one a lane. Arithmetic is lane by lane.
 template <class Part, int kParts>
@@ -123,7 +212,7 @@ using Words = Pack<typename N::WordPart, N::kParts>;
 template <class Function, class Part, int kParts, class... More>
 inline auto each(Function function, const Pack<Part, kParts>& first, const More&... more) {
   Pack<decltype(function(first.part[0], more.part[0]...)), kParts> out;
-  for (int i = 0; i < kParts; ++i) out.part[i] = function(first.part[i], more.part[i]...);
+  unrolled<kParts>([&](auto i) { out.part[i] = function(first.part[i], more.part[i]...); });
   return out;
 }
 
@@ -168,12 +257,19 @@ inline Packed all(Value value) {
 template <class Packed, class Value>
 inline Packed load(const Value* values) {
   Packed out;
-  std::memcpy(static_cast<void*>(&out), static_cast<const void*>(values), sizeof(Packed));
+  constexpr int kParts = sizeof out.part / sizeof out.part[0], kStep = sizeof out.part[0] / sizeof(Value);
+  unrolled<kParts>([&](auto i) {
+    std::memcpy(static_cast<void*>(&out.part[i]), static_cast<const void*>(values + i * kStep), sizeof out.part[i]);
+  });
   return out;
 }
 template <class Packed, class Value>
 inline void store(const Packed& packed, Value* values) {
-  std::memcpy(static_cast<void*>(values), static_cast<const void*>(&packed), sizeof(Packed));
+  constexpr int kParts = sizeof packed.part / sizeof packed.part[0], kStep = sizeof packed.part[0] / sizeof(Value);
+  unrolled<kParts>([&](auto i) {
+    std::memcpy(static_cast<void*>(values + i * kStep), static_cast<const void*>(&packed.part[i]),
+                sizeof packed.part[i]);
+  });
 }
 
 template <class Part, int kParts>
@@ -202,6 +298,15 @@ inline auto spread_sign(const Pack<Part, kParts>& words) {
 template <class Part, int kParts>
 inline auto differ(const Pack<Part, kParts>& a, const Pack<Part, kParts>& b) {
   return each([](const Part& x, const Part& y) { return differ_part(x, y); }, a, b);
+}
+
+/// Whether any bit of any lane is set.
+template <class Part, int kParts>
+inline bool any(const Pack<Part, kParts>& words) {
+  std::uint32_t lanes[sizeof(words) / sizeof(std::uint32_t)], set = 0;
+  std::memcpy(lanes, static_cast<const void*>(&words), sizeof(words));
+  for (const std::uint32_t lane : lanes) set |= lane;
+  return set != 0;
 }
 
 /// The larger and the smaller of two numbers; the second where the first is not a number.

@@ -25,19 +25,41 @@ inline RandomKeys random_keys(std::uint64_t seed) {
   return keys;
 }
 
-/// Philox4x32: turns four counters a lane into four random words a lane.
+inline constexpr std::uint32_t kPhiloxFactors[] = {0xD2511F53U, 0xCD9E8D57U};
+
+/// Philox4x32: turns four counters a lane into four random words a lane. Of one part:
+template <class Part>
+inline void philox_part(const RandomKeys& keys, Part& w0, Part& w1, Part& w2, Part& w3) {
+  for (const auto& key : keys) {
+    const auto a = wide_product_part(w0, kPhiloxFactors[0]), b = wide_product_part(w2, kPhiloxFactors[1]);
+    w0 = b.high ^ w1 ^ key[0];
+    w1 = b.low;
+    w2 = a.high ^ w3 ^ key[1];
+    w3 = a.low;
+  }
+}
+
+#ifdef WISP_LONG_WORDS
+inline void philox_part(const RandomKeys& keys, WordPart& w0, WordPart& w1, WordPart& w2, WordPart& w3) {
+  LongWords l0 = long_words(w0), l1 = long_words(w1), l2 = long_words(w2), l3 = long_words(w3);
+  for (const auto& key : keys) {
+    const LongWords a = product(l0, kPhiloxFactors[0]), b = product(l2, kPhiloxFactors[1]);
+    l0 = differing(high_half(b), l1, key[0]);
+    l1 = b;
+    l2 = differing(high_half(a), l3, key[1]);
+    l3 = a;
+  }
+  w0 = words_of(l0);
+  w1 = words_of(l1);
+  w2 = words_of(l2);
+  w3 = words_of(l3);
+}
+#endif
+
 template <class N>
 inline void philox(const RandomKeys& keys, Words<N> (&words)[4]) {
-  for (const auto& key : keys) {
-    for (int i = 0; i < N::kParts; ++i) {
-      const auto a = wide_product_part(words[0].part[i], 0xD2511F53U);
-      const auto b = wide_product_part(words[2].part[i], 0xCD9E8D57U);
-      words[0].part[i] = b.high ^ words[1].part[i] ^ key[0];
-      words[1].part[i] = b.low;
-      words[2].part[i] = a.high ^ words[3].part[i] ^ key[1];
-      words[3].part[i] = a.low;
-    }
-  }
+  unrolled<N::kParts>(
+      [&](auto i) { philox_part(keys, words[0].part[i], words[1].part[i], words[2].part[i], words[3].part[i]); });
 }
 
 /// What tells the lanes' random numbers apart: the instance's stream, and how many steps it has lived.
@@ -58,14 +80,14 @@ inline void random_counters(const LaneCounters& lanes, Words<N> (&words)[4]) {
     counters[2][lane] = static_cast<std::uint32_t>(lanes.stream[lane]);
     counters[3][lane] = static_cast<std::uint32_t>(lanes.stream[lane] >> 32);
   }
-  for (int k = 0; k < 4; ++k) words[k] = load<Words<N>>(counters[k]);
+  unrolled<4>([&](auto k) { words[k] = load<Words<N>>(counters[k]); });
 }
 
 /// Random words of one group of four channels.
 template <class N>
 inline void random_group(const RandomKeys& keys, const Words<N> (&counters)[4], std::uint32_t group,
                          Words<N> (&words)[4]) {
-  for (int k = 0; k < 4; ++k) words[k] = counters[k];
+  unrolled<4>([&](auto k) { words[k] = counters[k]; });
   words[1] = words[1] ^ all<Words<N>>(group);
   philox<N>(keys, words);
 }
@@ -76,6 +98,7 @@ struct NormalSegment {
 };
 inline constexpr NormalSegment kNormalSegments[] = {
 #include "run/lanes/normal_table.inc"
+    {0, 0, 0},  // segments are read four numbers at a time
 };
 inline constexpr std::uint32_t kFirstSegment = 126U << 4;  // the bits of 0.5f above the 19 lowest
 
@@ -86,18 +109,18 @@ template <class N>
 inline Reals<N> normal_lanes(const Words<N>& words) {
   const Words<N> sign = spread_sign(words);
   const Words<N> bits = bits_of(real_of(words ^ sign) + all<Reals<N>>(0.5f));
-  std::uint32_t segment[N::kLanes];
+  typename N::Word segment[N::kLanes];
   store(bits >> 19, segment);
-  float c0[N::kLanes], c1[N::kLanes], c2[N::kLanes];
-  for (int lane = 0; lane < N::kLanes; ++lane) {
-    const NormalSegment& quadratic = kNormalSegments[segment[lane] - kFirstSegment];
-    c0[lane] = quadratic.c0;
-    c1[lane] = quadratic.c1;
-    c2[lane] = quadratic.c2;
-  }
+  Reals<N> c[3];
+  unrolled<N::kParts>([&](auto i) {
+    const auto row_of = [&](int lane) {
+      return &kNormalSegments[value_of(segment[i * (N::kLanes / N::kParts) + lane]) - kFirstSegment].c0;
+    };
+    columns_of_part(row_of, c[0].part[i], c[1].part[i], c[2].part[i]);
+  });
   const Reals<N> place = real_of(bits & all<Words<N>>(0x7ffffU));
-  const Reals<N> slope = load<Reals<N>>(c1) + place * load<Reals<N>>(c2);
-  const Reals<N> lower = load<Reals<N>>(c0) + place * slope;
+  const Reals<N> slope = c[1] + place * c[2];
+  const Reals<N> lower = c[0] + place * slope;
   return real_of_bits(bits_of(lower) ^ (sign & all<Words<N>>(0x80000000U)));
 }
 

@@ -138,6 +138,14 @@ TEST(LearnChain, FallsUnlikeTheHeldOutOnesAreNotUsable) {
   EXPECT_THAT(fit->report.verdict->reason, HasSubstr("are not like the recorded ones"));
 }
 
+TEST(LearnChain, WhatTooFewFallsCannotJudgeIsSaid) {
+  // Falls of less than two seconds, of which few are held out.
+  const auto fit = learned(made_falls({.falls = 60, .seconds = 1.7}));
+  ASSERT_TRUE(fit) << fit.error().message;
+  EXPECT_THAT(fit->report.verdict->reason, HasSubstr("was not judged"));
+  EXPECT_THAT(fit->report.verdict->reason, HasSubstr("over two seconds, by spectra"));
+}
+
 TEST(LearnChain, ItCanBeStopped) {
   const Recording recording = made_falls({.falls = 4});
   int calls = 0;
@@ -150,6 +158,16 @@ TEST(LearnChain, ItCanBeStopped) {
     EXPECT_EQ(fit.error().message, kStopped);
     EXPECT_EQ(seen, last);
   }
+}
+
+TEST(ValidateChain, FallsThatJudgeNothingSaySo) {
+  const auto fit = learned(made_falls({.falls = 20}));
+  ASSERT_TRUE(fit);
+  const Recording brief = made_falls({.falls = 4, .seconds = 1.7});
+  const auto report = validate_chain(fit->model, std::span(&brief, 1), 1);
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_FALSE(report->verdict->usable);
+  EXPECT_THAT(report->verdict->reason, HasSubstr("too few or too short to judge by"));
 }
 
 TEST(ValidateChain, SeriesAreTracksOfBothSides) {

@@ -1,7 +1,10 @@
 # The frame path gives the same bits whatever compiles it: builds frames.cpp with the run layer's own sources and options
 # in many ways and compares the hashes.
 #
-#   cmake -DSOURCE=… -DWORK=… -DOPTIONS="the layer's options" [-DLAUNCHER=ccache] -P bits.cmake
+#   cmake -DSOURCE=… -DWORK=… -DOPTIONS="the layer's options" [-DLAUNCHER=ccache]
+#         [-DCROSS=compiler -DEMULATOR=program] -P bits.cmake
+#
+# CROSS: another machine's compiler, whose programs EMULATOR runs.
 #
 # It last changed when drawn residuals came to be matched by the recent past of their input, and an input could have powers.
 # A change of this hash is a change of what every game sees: CHANGES.md says so on a line of its own.
@@ -15,6 +18,11 @@ set(variants
   "clang++ -O0"
   "clang++ -O3"
   "clang++ -O3 -ffast-math -march=native")
+set(ground_compiler c++)
+if(CROSS)
+  set(ground_compiler ${CROSS})
+  set(variants "${CROSS} -O0" "${CROSS} -O3" "${CROSS} -O3 -DWISP_PLAIN_LANES")
+endif()
 
 separate_arguments(OPTIONS)
 
@@ -45,21 +53,29 @@ function(compile folder compiler flags sources)
   set(objects ${objects} PARENT_SCOPE)
 endfunction()
 
-compile(${WORK}/ground c++ -O1 "${ground}")
+compile(${WORK}/ground ${ground_compiler} -O1 "${ground}")
 set(ground_objects ${objects})
 
 # Builds and runs one variant; what is in `last` has the last word over the layer's options. Sets `hash`.
 function(run_variant name compiler flags last)
   set(objects ${ground_objects})
   compile(${WORK}/${name} ${compiler} "${flags};${OPTIONS};${last}" "${computing}")
-  execute_process(COMMAND ${compiler} ${flags} ${objects} -o ${WORK}/${name}/frames RESULT_VARIABLE failed)
+  execute_process(COMMAND ${compiler} ${flags} ${link} ${objects} -o ${WORK}/${name}/frames RESULT_VARIABLE failed)
   if(failed)
     message(FATAL_ERROR "${compiler} ${flags}: does not link")
   endif()
-  execute_process(COMMAND ${WORK}/${name}/frames OUTPUT_VARIABLE hash OUTPUT_STRIP_TRAILING_WHITESPACE)
+  execute_process(COMMAND ${EMULATOR} ${WORK}/${name}/frames${suffix} OUTPUT_VARIABLE hash OUTPUT_STRIP_TRAILING_WHITESPACE)
   set(hash "${hash}" PARENT_SCOPE)
 endfunction()
 
+set(link "")
+set(suffix "")
+if(CROSS)
+  set(link -static)
+  if(CROSS MATCHES mingw)
+    set(suffix .exe)
+  endif()
+endif()
 set(wrong 0)
 foreach(variant IN LISTS variants)
   separate_arguments(flags UNIX_COMMAND "${variant}")
@@ -81,7 +97,7 @@ endforeach()
 
 # That the comparison sees a difference: products and sums fused, as they are without the layer's options.
 file(STRINGS /proc/cpuinfo fuses REGEX "^flags.* fma " LIMIT_COUNT 1)
-if(fuses)
+if(fuses AND NOT CROSS)
   run_variant(fused c++ "-O2;-mfma" -ffp-contract=fast)
   if(hash STREQUAL golden)
     message("same      fused, which must differ: this test sees nothing")

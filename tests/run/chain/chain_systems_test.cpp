@@ -9,7 +9,6 @@
 #include "model/sample_chain.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/chain_facet.hpp"
-#include "wisp/run/chain_loop.hpp"
 #include "wisp/run/cost.hpp"
 
 namespace wisp {

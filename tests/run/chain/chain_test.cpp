@@ -13,7 +13,6 @@
 #include "run/chain/chain_stepper.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/chain_facet.hpp"
-#include "wisp/run/chain_loop.hpp"
 
 namespace wisp {
 namespace {

@@ -1,6 +1,6 @@
 // The drawer: what was learned. Live plots, knobs that mean something, the model's own facts, its file.
 
-import type { Model, Wisp } from '@wisp/player';
+import type { Model, Library } from '@wisp/player';
 import { ORDERS, type Settings } from '../link.js';
 import type { FrameCost } from '@wisp/player/parts/stage/stage';
 import type { Reading } from '@wisp/player/parts/stage/scene';
@@ -49,7 +49,7 @@ export class Drawer {
   private address: string | null = null;
 
   constructor(
-    private readonly wisp: Wisp,
+    private readonly wisp: Library,
     private readonly place: HTMLElement,
     private readonly events: DrawerEvents,
   ) {

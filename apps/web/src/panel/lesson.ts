@@ -1,13 +1,14 @@
 // For lessons: flames of several orders, and one without noise, side by side in the same wind as the large one.
 
-import type { Bank, Instance, Model, Wisp } from '@wisp/player';
+import type { Bank, Instance, Model, Library } from '@wisp/player';
+import { FlameShape } from '@wisp/player/parts/candle/flame_shape';
 import { ORDERS } from '../link.js';
 import { fetchShipped, shippedFlame } from '../shipped.js';
 import { element } from './element.js';
 
 const POINTS = 40;
 const NANOSECONDS = 1e9;
-/** Seconds of the tip's way that are drawn below each flame, at so many a second. */
+/** Frames of the tip's way that are drawn below each flame. */
 const TRACE = 240;
 
 /** One of the flames. */
@@ -16,6 +17,7 @@ interface Pupil {
   instance: Instance;
   canvas: HTMLCanvasElement;
   trace: Float32Array;
+  shape: FlameShape;
 }
 
 export class Lesson {
@@ -23,7 +25,7 @@ export class Lesson {
   private readonly pupils: Pupil[] = [];
   private gone = false;
 
-  constructor(private readonly wisp: Wisp, seed: number) {
+  constructor(private readonly wisp: Library, seed: number) {
     void this.bring(seed).catch((error: unknown) => {
       this.place.textContent = error instanceof Error ? error.message : String(error);
     });
@@ -32,20 +34,16 @@ export class Lesson {
   /** Takes in a frame: the wind that the large flame felt. */
   frame(wind: number, seconds: number): void {
     for (const pupil of this.pupils) {
-      const { bank, instance, trace } = pupil;
+      const { bank, instance, trace, shape } = pupil;
       bank.setInstanceInputs(instance, [wind]);
       bank.advance(seconds * NANOSECONDS);
       const state = bank.flameState(instance);
       // Whoever learns watches how it lives: what went out burns again.
       if (!state.lit && state.sinceOut > NANOSECONDS) bank.relight(instance);
       const outline = bank.polyline(instance);
-      let tip = 0;
-      let high = -1;
-      for (let k = 0; k < outline.length; k += 2) {
-        if ((outline[k + 1] as number) > high) [tip, high] = [outline[k] as number, outline[k + 1] as number];
-      }
+      shape.update(outline, state.flameSize);
       trace.copyWithin(0, 1);
-      trace[TRACE - 1] = tip;
+      trace[TRACE - 1] = shape.tipX;
       draw(pupil, outline);
     }
   }
@@ -69,7 +67,7 @@ export class Lesson {
     bank.setNoise(noise);
     const canvas = element('canvas', { width: 150, height: 240, role: 'img', 'aria-label': `${words}: a flame in the same wind, and the way of its tip` });
     this.place.append(element('figure', {}, canvas, element('figcaption', {}, words)));
-    this.pupils.push({ bank, instance: bank.spawn(), canvas, trace: new Float32Array(TRACE) });
+    this.pupils.push({ bank, instance: bank.spawn(), canvas, trace: new Float32Array(TRACE), shape: new FlameShape() });
   }
 }
 

@@ -1,10 +1,10 @@
-// Sound and touch, off until they are asked for: crackle and breath, a phone that trembles when the flame goes out, tilt.
+// Sound and touch, opt-in: crackle and breath, a phone that vibrates when the flame goes out, tilt.
 
 import { Sound } from './sound.js';
 import { Tilt } from './tilt.js';
 
-/** Milliseconds that a phone trembles when a flame goes out. */
-const TREMBLES = 40;
+/** Milliseconds that a phone vibrates when a flame goes out. */
+const VIBRATES = 40;
 
 export class Senses {
   private sound: Sound | null = null;
@@ -35,7 +35,7 @@ export class Senses {
 
   /** Takes in a frame. `heard`: the microphone listens, and must not hear our own breath. */
   frame(lit: number, of: number, wind: number, heard: boolean): void {
-    if (lit < this.burning && this.on) navigator.vibrate?.(TREMBLES);
+    if (lit < this.burning && this.on) navigator.vibrate?.(VIBRATES);
     this.burning = lit;
     this.sound?.frame(of === 0 ? 0 : lit / of, heard ? 0 : wind);
   }

@@ -1,4 +1,4 @@
-// What a flame and a breath sound like: made of noise in this page, off until somebody asks for it.
+// The sound of a flame and of a breath, synthesised from noise; opt-in.
 
 /** Seconds of crackle that repeat. */
 const CRACKLE_SECONDS = 11;

@@ -1,7 +1,7 @@
 // The microphone of the page: asked for when somebody presses Blow, listened to for wind alone, given back on the next
 // press.
 
-import type { Wisp } from '@wisp/player';
+import type { Library } from '@wisp/player';
 import { MicrophoneError, openMicrophone, type Microphone, type MicrophoneTrouble } from '@wisp/player/microphone';
 import type { Hearing } from '../panel/controls.js';
 
@@ -43,7 +43,7 @@ export class Ear {
   private turn = 0;
 
   constructor(
-    private readonly wisp: Wisp,
+    private readonly wisp: Library,
     private readonly events: EarEvents,
   ) {}
 

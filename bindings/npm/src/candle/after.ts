@@ -1,6 +1,6 @@
 // What comes after the first flame: glare, the air with its smoke, the match. One piece, fetched while the flame burns.
 
-import { Program, type Quad } from '../stage/gl.js';
+import { Program, type Quad, Warming } from '../stage/gl.js';
 import { Air } from './air.js';
 import { Glare } from './glare.js';
 import boardVertex from './shaders/board.vert.js';
@@ -11,11 +11,13 @@ export class After {
   readonly glare: Glare;
   readonly air: Air;
   readonly match: Program;
+  readonly warming: Warming;
 
   constructor(gl: WebGL2RenderingContext, quad: Quad) {
     this.glare = new Glare(gl, quad);
     this.air = new Air(gl, quad);
     this.match = new Program(gl, boardVertex, noise + matchFragment);
+    this.warming = new Warming([this.match, this.glare.program, ...Object.values(this.air.programs)]);
   }
 
   dispose(): void {

@@ -18,8 +18,6 @@ const FINER = 3;
 const PRESSINGS = 10;
 /** Longest step; a longer frame makes two of them. */
 const LONGEST = 1 / 30;
-/** Most sources of each kind. */
-export const MOST_SOURCES = 14;
 
 /** What acts on the air during a frame. Heights of the picture, from its lower left corner; seconds. */
 export interface Stirring {
@@ -44,9 +42,9 @@ class Pair {
     this.next = new Target(gl, { range: true });
   }
 
-  resize(width: number, height: number): boolean {
+  resize(width: number, height: number): void {
+    this.now.resize(width, height);
     this.next.resize(width, height);
-    return this.now.resize(width, height);
   }
 
   clear(gl: WebGL2RenderingContext): void {
@@ -76,7 +74,7 @@ export class Air {
   private readonly flow: Pair;
   private readonly pressure: Pair;
   private readonly smoke: Pair;
-  private readonly programs: Record<'carry' | 'press' | 'free' | 'soot' | 'smoke', Program>;
+  readonly programs: Record<'carry' | 'press' | 'free' | 'soot' | 'smoke', Program>;
   private aspect = 1;
 
   constructor(
@@ -131,10 +129,13 @@ export class Air {
   /** Square cells, about as many in every shape of picture. */
   private fit(aspect: number): void {
     this.aspect = aspect;
+    // A picture that is only drawn coarser differs by its rounding: the smoke in it stays.
+    const there = this.flow.now;
+    if (Math.abs((aspect * there.height) / there.width - 1) < 0.02) return;
     const height = Math.round(Math.sqrt(CELLS / aspect));
     const width = Math.round(height * aspect);
+    this.flow.resize(width, height);
     this.pressure.resize(width, height);
-    if (!this.flow.resize(width, height)) return;
     this.smoke.resize(FINER * width, FINER * height);
     for (const pair of [this.flow, this.pressure, this.smoke]) pair.clear(this.gl);
   }

@@ -3,7 +3,7 @@
 import type { DrawnCandle } from './renderer.js';
 import { FlameShape } from './flame_shape.js';
 import { Stroke } from '../air/stroke.js';
-import { WICK_GAP, type Stand } from './room.js';
+import { flameFoot, type Stand } from './room.js';
 
 /** Wind that a base moving at one flame height a second puts the flame into. */
 const MOTION_WIND = 0.3;
@@ -50,7 +50,7 @@ export class Candle implements DrawnCandle {
 
   /** Height of the flame's base in the room. */
   get foot(): number {
-    return this.stand.ground + this.stand.height + WICK_GAP * this.stand.unit;
+    return flameFoot(this.stand);
   }
 
   /** Wind in the flame's frame because the candle moves. Call once a frame. */

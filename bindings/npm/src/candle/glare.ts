@@ -11,7 +11,7 @@ const SPREAD = [0.5, 0.5, 0.5, 0.48, 0.45];
 export class Glare {
   private readonly down: Target[];
   private readonly up: Target[];
-  private readonly program: Program;
+  readonly program: Program;
 
   constructor(
     gl: WebGL2RenderingContext,

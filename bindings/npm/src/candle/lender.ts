@@ -14,7 +14,7 @@ export class Lender {
 
   constructor(model: Model, capacity: number, points: number) {
     this.bank = model.bank({ capacity, polylinePoints: points });
-    // Its chance stays at home: the borrower has its own.
+    // Noise off: the borrower has its own.
     this.bank.setNoise(0);
     const still = this.bank.spawn();
     this.bank.advance(SETTLES);

@@ -1,11 +1,12 @@
 // Draws the candle's room with WebGL2: light is added up in a picture of high range and developed onto the canvas.
 
-import { drawToCanvas, hasRange, Program, Quad, Target } from '../stage/gl.js';
+import { drawToCanvas, hasRange, Program, Quad, Target, Warming } from '../stage/gl.js';
+import type { SceneLook } from '../stage/scene.js';
 import type { After } from './after.js';
 import type { Stirring } from './air.js';
 import type { FlameShape } from './flame_shape.js';
 import type { RoomView, Setting, Stand } from './room.js';
-import { MOST_CANDLES, WICK_GAP } from './room.js';
+import { flameFoot, MOST_CANDLES } from './room.js';
 import boardVertex from './shaders/board.vert.js';
 import candleFragment from './shaders/candle.frag.js';
 import developFragment from './shaders/develop.frag.js';
@@ -23,10 +24,10 @@ const MOST_LIGHTS = MOST_CANDLES + 2;
 const GLARING = 0.13;
 /** How far heat shifts what is behind it, shares of the picture. */
 const SHIMMER = 0.0035;
+/** Least width of rising air, heights of the picture: what is narrower than two cells of its grid does not rise. */
+const LEAST_PLUME = 0.02;
 /** What the eye makes of a lit room and of a dark one; and seconds in which it gets used to more light, and to less. */
 const EXPOSURES = { lit: 1, dark: 8, brighter: 0.25, darker: 0.9 };
-/** Frames that late programs are given to be compiled beside us. */
-const COMPILING = 4;
 
 /** A candle with its flame, as it is to be drawn. */
 export interface DrawnCandle {
@@ -68,14 +69,11 @@ export interface CandlePicture {
   hand: { x: number; y: number; speedX: number; speedY: number; present: boolean };
 }
 
-/** How a picture is to be drawn. */
-export interface Look {
-  /** 0 black, 1 all of it */
-  fade: number;
-  /** flames and candles alone, on nothing */
-  clear: boolean;
-  /** without what costs most */
-  plain: boolean;
+/** What draws the room with what stands in it. */
+interface Room {
+  surface: Program;
+  light: Program;
+  warming: Warming;
 }
 
 interface Lamp {
@@ -91,7 +89,8 @@ export class CandleRenderer {
   private readonly picture: Target;
   private readonly programs: Record<'candle' | 'flame' | 'develop', Program>;
   /** of the room: with nothing on the table, and with a cake, once that has come */
-  private readonly rooms: Partial<Record<'table' | 'cake', { surface: Program; light: Program }>> = {};
+  private readonly rooms: Partial<Record<'table' | 'cake', Room>> = {};
+  private readonly warming: Warming;
   private readonly lights = new Float32Array(4 * MOST_LIGHTS);
   private readonly halos = new Float32Array(4 * MOST_LIGHTS);
   private readonly spread = new Float32Array(MOST_LIGHTS);
@@ -103,7 +102,6 @@ export class CandleRenderer {
   private readonly lamps: Lamp[] = [];
   private surfaceOf = '';
   private after: After | null = null;
-  private compiling = COMPILING;
   private bringing = false;
   private exposure = EXPOSURES.lit;
   private gone = false;
@@ -117,10 +115,11 @@ export class CandleRenderer {
       flame: new Program(gl, boardVertex, noise + flameFragment),
       develop: new Program(gl, fullVertex, noise + developFragment),
     };
+    this.warming = new Warming(Object.values(this.programs));
   }
 
   /** Draws one picture on the canvas, which is view.width by view.height pixels. False: what it needs is still to come. */
-  draw(view: RoomView, shown: CandlePicture, look: Look): boolean {
+  draw(view: RoomView, shown: CandlePicture, look: SceneLook): boolean {
     const { gl } = this;
     const room = this.room(shown.setting);
     if (room === null) return false;
@@ -141,7 +140,7 @@ export class CandleRenderer {
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     for (const candle of shown.candles) {
       this.drawCandle(view, candle, shown);
-      this.drawFlame(view, candle, candle.stand, this.flameFoot(candle.stand), shown.clock);
+      this.drawFlame(view, candle, candle.stand, flameFoot(candle.stand), shown.clock);
     }
     if (after !== null) this.drawLate(after, view, shown, look);
     gl.disable(gl.BLEND);
@@ -164,11 +163,15 @@ export class CandleRenderer {
   }
 
   /** The programs of the room that is to be drawn; null while those of a cake are on their way. */
-  private room(setting: Setting): { surface: Program; light: Program } | null {
+  private room(setting: Setting): Room | null {
+    if (!this.warming.done()) return null;
     const name = setting.cake === null ? 'table' : 'cake';
     const there = this.rooms[name];
-    if (there !== undefined) return there;
-    if (name === 'table') return this.furnish(name, table);
+    if (there !== undefined) return there.warming.done() ? there : null;
+    if (name === 'table') {
+      this.furnish(name, table);
+      return null;
+    }
     if (this.bringing) return null;
     this.bringing = true;
     void import('./cake.js').then(({ cake }) => {
@@ -178,14 +181,11 @@ export class CandleRenderer {
     return null;
   }
 
-  private furnish(name: 'table' | 'cake', onIt: string): { surface: Program; light: Program } {
+  private furnish(name: 'table' | 'cake', onIt: string): void {
     const source = noise + room + onIt;
-    const made = {
-      surface: new Program(this.gl, fullVertex, source + surfaceFragment),
-      light: new Program(this.gl, fullVertex, source + lightFragment),
-    };
-    this.rooms[name] = made;
-    return made;
+    const surface = new Program(this.gl, fullVertex, source + surfaceFragment);
+    const light = new Program(this.gl, fullVertex, source + lightFragment);
+    this.rooms[name] = { surface, light, warming: new Warming([surface, light]) };
   }
 
   /** Fetches what comes after the first picture. */
@@ -198,13 +198,9 @@ export class CandleRenderer {
     });
   }
 
-  private ready(look: Look): After | null {
-    if (this.after === null) return null;
-    if (this.compiling > 0) {
-      this.compiling -= 1;
-      return null;
-    }
-    return look.plain ? null : this.after;
+  private ready(look: SceneLook): After | null {
+    if (this.after === null || look.plain) return null;
+    return this.after.warming.done() ? this.after : null;
   }
 
   /** The eye gets used to how much light there is. */
@@ -238,7 +234,7 @@ export class CandleRenderer {
   private gatherLamps(view: RoomView, shown: CandlePicture): void {
     this.lamps.length = 0;
     for (const { stand, shape } of shown.candles) {
-      const foot = this.flameFoot(stand);
+      const foot = flameFoot(stand);
       this.addLamp(view, stand.x, foot, stand.z, stand.unit, shape, stand);
     }
     const { match } = shown;
@@ -282,10 +278,6 @@ export class CandleRenderer {
       program.setVectors4('uSticks', this.sticks);
     }
     this.quad.draw();
-  }
-
-  private flameFoot(stand: Stand): number {
-    return stand.ground + stand.height + WICK_GAP * stand.unit;
   }
 
   private setBoard(program: Program, view: RoomView, x: number, y: number, z: number, unit: number, box: number[]): Program {
@@ -395,7 +387,7 @@ export class CandleRenderer {
     const add = (x: number, y: number, z: number, unit: number, shape: FlameShape, lit: boolean, smoking: number): void => {
       const scale = (view.scale * view.nearness(z) * unit) / tall;
       const at = [(view.pixelX(x, z) + (lit ? 0.6 * shape.tipX * scale * tall : 0)) / tall, view.pixelY(y, z) / tall + (lit ? 0.8 * shape.tipY * scale : 0)];
-      this.heats.set([...at, (lit ? 0.16 : 0.10) * scale, lit ? 9 * shape.light : 7 * smoking], 4 * count);
+      this.heats.set([...at, Math.max(LEAST_PLUME, (lit ? 0.16 : 0.10) * scale), lit ? 9 * shape.light : 7 * smoking], 4 * count);
       this.wicks.set([...at, 0.022 * scale + 0.0012, 26 * smoking], 4 * count);
       count += 1;
     };
@@ -418,7 +410,7 @@ export class CandleRenderer {
     };
   }
 
-  private drawLate(after: After, view: RoomView, shown: CandlePicture, look: Look): void {
+  private drawLate(after: After, view: RoomView, shown: CandlePicture, look: SceneLook): void {
     if (!look.clear || shown.match.burning) this.drawMatch(after.match, view, shown);
     const tall = view.height;
     this.smokeLamps.fill(0);
@@ -430,14 +422,14 @@ export class CandleRenderer {
     for (const { stand, ember, shape } of shown.candles) {
       if (!shape.empty || ember < 0.02 || count >= MOST_LIGHTS) continue;
       const scale = (view.scale * view.nearness(stand.z) * stand.unit) / tall;
-      const at = [view.pixelX(stand.x + 0.03 * stand.unit, stand.z) / tall, view.pixelY(this.flameFoot(stand) + 0.08 * stand.unit, stand.z) / tall];
+      const at = [view.pixelX(stand.x + 0.03 * stand.unit, stand.z) / tall, view.pixelY(flameFoot(stand) + 0.08 * stand.unit, stand.z) / tall];
       this.smokeLamps.set([...at, 0.10 * scale, 0.5 * ember], 4 * count);
       count += 1;
     }
     after.air.draw(this.smokeLamps, count, look.clear ? 0.2 : 0.055);
   }
 
-  private develop(after: After | null, look: Look, { clock }: CandlePicture): void {
+  private develop(after: After | null, look: SceneLook, { clock }: CandlePicture): void {
     const glare = after === null || look.clear ? null : after.glare.of(this.picture);
     drawToCanvas(this.gl);
     this.picture.bindTexture(0);

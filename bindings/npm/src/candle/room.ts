@@ -30,7 +30,10 @@ export interface Setting {
 export const MOST_CANDLES = 12;
 
 /** From the upper end of a candle to the base of its flame, in flame units. */
-export const WICK_GAP = 0.085;
+const WICK_GAP = 0.085;
+
+/** Height of the base of a candle's flame in the room. */
+export const flameFoot = ({ ground, height, unit }: Stand): number => ground + height + WICK_GAP * unit;
 
 const PASTELS: readonly (readonly [number, number, number])[] = [
   [0.92, 0.42, 0.46],
@@ -95,6 +98,7 @@ export class RoomView {
   readonly distance = DISTANCE;
   width = 1;
   footer = 0;
+  clear = false;
   height = 1;
   /** pixels a unit at z = 0 */
   scale = 1;
@@ -103,19 +107,23 @@ export class RoomView {
   /** pixel of the eye's height */
   horizon = 0;
 
-  /** Frames what stands on the table in a picture of that size. `footer`: share of its height that controls cover below. */
-  frame(width: number, height: number, cake: boolean, footer: number): void {
+  /**
+   * Frames what stands on the table in a picture of that size. `footer`: share of its height that controls cover below;
+   * `clear`: a cake's candles are drawn without it.
+   */
+  frame(width: number, height: number, cake: boolean, footer: number, clear: boolean): void {
     this.width = width;
     this.height = height;
     this.footer = footer;
+    this.clear = clear;
     const free = height * (1 - footer);
-    // From the nearest edge of what stands there to above the highest flame.
-    const tall = cake ? 4.0 : 3.6;
-    this.scale = cake ? Math.min(free / tall, width / 5.0) : Math.min(free / tall, width / 2.9);
+    // Height from the nearest edge of what is drawn to above the highest flame, its width, and where that edge is.
+    const [tall, wide, low] = cake ? (clear ? [1.95, 3.4, -0.6] : [4, 5, 0.94]) : [3.6, 2.9, 0.4];
+    this.scale = Math.min(free / tall, width / wide);
     this.middle = width / 2;
     // Where the picture is tall, what stands there stays near its middle.
     const spare = Math.max(0, free - this.scale * tall);
-    const foot = height * footer + 0.42 * spare + this.scale * (cake ? 0.94 : 0.40);
+    const foot = height * footer + 0.42 * spare + this.scale * low;
     this.horizon = foot + this.scale * this.eye;
   }
 

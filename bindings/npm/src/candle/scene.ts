@@ -80,12 +80,13 @@ export class CandleScene implements Scene {
   }
 
   draw(width: number, height: number, look: SceneLook): boolean {
-    if (this.view.width !== width || this.view.height !== height || this.view.footer !== look.footer) this.frame(width, height, look.footer);
+    const { view } = this;
+    if (view.width !== width || view.height !== height || view.footer !== look.footer || view.clear !== look.clear) this.frame(width, height, look.footer, look.clear);
     if (this.renderer === null) return false;
     const { setting, candles, match, passed, clock, breath, hand } = this;
     const shown = { setting, candles, match, seconds: passed, clock, breath, hand };
     this.passed = 0;
-    return this.renderer.draw(this.view, shown, { fade: look.fade, clear: look.clear, plain: look.plain });
+    return this.renderer.draw(view, shown, look);
   }
 
   hover(x: number, y: number): 'none' | 'grab' {
@@ -166,9 +167,9 @@ export class CandleScene implements Scene {
     this.lender?.bank.free();
   }
 
-  private frame(width: number, height: number, footer: number): void {
+  private frame(width: number, height: number, footer: number, clear: boolean): void {
     const cake = this.setting.cake !== null;
-    this.view.frame(width, height, cake, footer);
+    this.view.frame(width, height, cake, footer, clear);
     const z = cake ? 2.6 : 1.4;
     const edge = this.view.roomX(width, z);
     this.match.rest(Math.min(edge - 0.55, cake ? 2.3 : 1.35), z);
@@ -184,7 +185,7 @@ export class CandleScene implements Scene {
     this.candles = this.setting.stands.map((stand) => new Candle(stand, this.bank.spawn(BigInt(stand.seed))));
     if (this.lender !== null) for (const candle of this.candles) candle.lent = this.lender.bank.spawn();
     this.dragged = null;
-    this.frame(this.view.width, this.view.height, this.view.footer);
+    this.frame(this.view.width, this.view.height, this.view.footer, this.view.clear);
   }
 
   private setWind(id: Instance, wind: number, bank = this.bank): void {

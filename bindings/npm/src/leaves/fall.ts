@@ -237,7 +237,8 @@ export class LeafFall {
     this.lying += 1;
     if ((this.cells[slot] as number) < 0) this.joinHeap(slot, x, y);
     this.rested[slot] = (this.rested[slot] as number) + seconds;
-    return (this.rested[slot] as number) > (this.rests[slot] as number) * (1 + LONGER * heap(x, y));
+    const overdue = (this.rested[slot] as number) / (this.rests[slot] as number);
+    return overdue > 1 && overdue > 1 + LONGER * heap(x, y);
   }
 
   private joinHeap(slot: number, x: number, y: number): void {

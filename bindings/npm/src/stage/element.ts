@@ -1,9 +1,10 @@
 // What the package's elements have in common: a canvas in a shadow of its own, a model, wind, and one WebAssembly module
 // for all of them.
 
-import type { Model, Wisp } from '../index.js';
-import { load } from '../index.js';
+import { type Library, loadLibrary } from '../library.js';
+import type { Model } from '../model.js';
 import type { Microphone } from '../microphone.js';
+import { Breath } from '../air/breath.js';
 import { KeyBreath } from '../air/keys.js';
 import type { Scene, SceneSettings } from './scene.js';
 import { Stage } from './stage.js';
@@ -21,16 +22,16 @@ button[aria-pressed=true]::before { content: ''; display: inline-block; width: 8
 p { position: absolute; inset: 30% 8% auto; margin: 0; text-align: center; font: inherit; }
 [hidden] { display: none; }`;
 
-/** Wind that a microphone told of is believed for so long, milliseconds. */
-const STALE = 250;
+/** CSS pixels that the button covers at the lower edge. */
+const BUTTON = 56;
 /** Seconds that the room is listened to before it counts. */
 const CALIBRATION = 3;
 
-let wisp: Promise<Wisp> | null = null;
+let wisp: Promise<Library> | null = null;
 
 /** The library, loaded once for all elements of a page. */
-export function shared(): Promise<Wisp> {
-  wisp ??= load();
+export function shared(): Promise<Library> {
+  wisp ??= loadLibrary();
   return wisp;
 }
 
@@ -51,13 +52,11 @@ export abstract class SceneElement extends HTMLElement {
   private readonly canvas = document.createElement('canvas');
   private readonly button = document.createElement('button');
   private readonly words = document.createElement('p');
-  private readonly keys = new KeyBreath();
+  private readonly wind = new Breath();
   private stage: Stage | null = null;
   private model: Model | null = null;
   private microphone: Microphone | null = null;
-  private heard = 0;
-  private heardAt = -Infinity;
-  /** counts loads and listenings: one that was overtaken is dropped */
+  /** count loads and openings of the microphone: one that was overtaken is dropped */
   private turn = 0;
   private asked = 0;
   private seen: IntersectionObserver | null = null;
@@ -173,13 +172,15 @@ export abstract class SceneElement extends HTMLElement {
   }
 
   private breath(seconds: number): number {
-    const heard = performance.now() - this.heardAt < STALE ? this.heard : 0;
-    return this.getAttribute('wind') === 'none' ? 0 : this.keys.update(seconds) + heard;
+    return this.getAttribute('wind') === 'none' ? 0 : this.wind.update(seconds, this.stage?.frames ?? 0);
   }
 
   private showWind(): void {
     const wind = this.getAttribute('wind') ?? 'pointer';
-    if (this.stage !== null) this.stage.still = wind === 'none';
+    if (this.stage !== null) {
+      this.stage.still = wind === 'none';
+      this.stage.covered = wind === 'mic' ? BUTTON : 0;
+    }
     this.button.hidden = wind !== 'mic';
     if (wind !== 'mic') this.closeMicrophone();
     this.showButton('Blow');
@@ -203,9 +204,7 @@ export abstract class SceneElement extends HTMLElement {
       const [library, { openMicrophone }] = await Promise.all([shared(), import('../microphone.js')]);
       const microphone = await openMicrophone(library, {
         calibrate: CALIBRATION,
-        onWind: ({ wind, calibrating }) => {
-          [this.heard, this.heardAt] = [calibrating ? 0 : wind, performance.now()];
-        },
+        onWind: ({ wind, calibrating }) => this.wind.hear(calibrating ? 0 : wind, this.stage?.frames ?? 0),
         onCalibrated: () => this.showButton('Listening'),
         onLost: (error) => {
           this.closeMicrophone();
@@ -227,7 +226,7 @@ export abstract class SceneElement extends HTMLElement {
     this.asked += 1;
     this.microphone?.stop();
     this.microphone = null;
-    this.heard = 0;
+    this.wind.deafen();
     this.showButton('Blow');
   }
 
@@ -235,11 +234,11 @@ export abstract class SceneElement extends HTMLElement {
     this.canvas.addEventListener('keydown', (event) => {
       if (event.ctrlKey || event.metaKey || event.altKey) return;
       if (event.key === 'Enter') this.act();
-      else if (KeyBreath.blows(event.code)) this.keys.press(event.code);
+      else if (KeyBreath.blows(event.code)) this.wind.keys.press(event.code);
       else return;
       event.preventDefault();
     });
-    this.canvas.addEventListener('keyup', (event) => this.keys.release(event.code));
-    this.canvas.addEventListener('blur', () => this.keys.releaseAll());
+    this.canvas.addEventListener('keyup', (event) => this.wind.keys.release(event.code));
+    this.canvas.addEventListener('blur', () => this.wind.keys.releaseAll());
   }
 }

@@ -1,6 +1,6 @@
 // The little of WebGL2 that the scenes need: a context, programs, buffers of quads, a target of high range.
 
-/** A program; uniform locations are asked for once. */
+/** A program; each uniform's location is looked up once. */
 export class Program {
   private readonly program: WebGLProgram;
   private readonly shaders: readonly WebGLShader[];
@@ -17,6 +17,18 @@ export class Program {
     this.shaders = [begun(gl, gl.VERTEX_SHADER, vertex), begun(gl, gl.FRAGMENT_SHADER, fragment)];
     for (const shader of this.shaders) gl.attachShader(this.program, shader);
     gl.linkProgram(this.program);
+  }
+
+  /** Whether it can be used without waiting for the compiler; true where the machine does not tell. */
+  private get ready(): boolean {
+    const told = this.gl.getExtension('KHR_parallel_shader_compile');
+    return told === null || this.gl.getProgramParameter(this.program, told.COMPLETION_STATUS_KHR) !== false;
+  }
+
+  /** Whether it is compiled, with nothing left to be asked. */
+  warm(): boolean {
+    if (this.ready) this.use();
+    return this.checked;
   }
 
   /** Throws an Error with the compiler's words when the sources are wrong; a lost context passes. */
@@ -90,6 +102,19 @@ function begun(gl: WebGL2RenderingContext, kind: number, source: string): WebGLS
   gl.shaderSource(shader, `#version 300 es\nprecision highp float;\nprecision highp int;\n${source}`);
   gl.compileShader(shader);
   return shader;
+}
+
+/** Programs that are waited for one after another, one a frame: together they would hold a frame up. */
+export class Warming {
+  constructor(private readonly programs: Program[]) {}
+
+  /** Looks at the next of them. True: all can be used. */
+  done(): boolean {
+    const next = this.programs[0];
+    if (next === undefined) return true;
+    if (next.warm()) this.programs.shift();
+    return false;
+  }
 }
 
 /** A square from (−1, −1) to (1, 1), as two vectors a vertex at attribute 0 of whatever program draws it. */

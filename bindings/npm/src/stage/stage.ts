@@ -14,6 +14,10 @@ const PLAIN = 0.6;
 const SMOOTH = 1 / 42;
 /** Frames between looks at how smooth it is. */
 const LOOK_EVERY = 45;
+/** Where frames are few, a look after so many seconds and frames. */
+const LOOK_SECONDS = 1.2;
+const LOOK_FRAMES = 5;
+const FAR_TOO_SLOW = 1 / 16;
 const FADE_SECONDS = 0.45;
 
 /** What a frame cost us, milliseconds of this thread's time, ours alone. */
@@ -41,8 +45,11 @@ export interface StageOptions {
 export class Stage {
   readonly pointer: PointerReader;
   readonly clear: boolean;
-  private readonly covered: number;
+  /** CSS pixels at the lower edge that controls lie over */
+  covered: number;
   frames = 0;
+  /** whether the last frame showed a picture */
+  shown = false;
   paused = false;
   /** fixed pixels for each of the screen's; 0: as many as keep it smooth */
   detail = 0;
@@ -142,9 +149,10 @@ export class Stage {
     if (this.gl !== null && !this.gl.isContextLost()) {
       this.resize();
       const { fade, clear } = this;
-      const drawn = this.scene.draw(this.canvas.width, this.canvas.height, { fade, footer: this.footer, clear, plain: this.adapted < PLAIN });
+      const drawn = this.scene.draw(this.canvas.width, this.canvas.height, { fade, footer: this.footer, clear, plain: this.detail === 0 && this.adapted < PLAIN });
       // It fades in from its first picture.
       if (!drawn) this.fade = 0;
+      this.shown = drawn;
     }
     if (this.wanted !== null) {
       // A canvas keeps its picture only until this frame is over.
@@ -173,9 +181,12 @@ export class Stage {
   /** Draws coarser where frames come too slowly, and never finer again: changing to and fro is seen. */
   private lookHowSmooth(now: number): void {
     this.framesSinceLook += 1;
-    if (this.framesSinceLook < LOOK_EVERY) return;
-    const mean = (now - this.lookedAt) / 1000 / this.framesSinceLook;
-    if (this.lookedAt > 0 && mean > SMOOTH && mean < 1) this.adapted = Math.max(LEAST_DETAIL, this.adapted * 0.8);
+    const seconds = (now - this.lookedAt) / 1000;
+    if (this.framesSinceLook < LOOK_EVERY && (seconds < LOOK_SECONDS || this.framesSinceLook < LOOK_FRAMES)) return;
+    const mean = seconds / this.framesSinceLook;
+    // Far too slow: all that costs most goes at once.
+    const coarser = mean > FAR_TOO_SLOW ? 0.5 : 0.8;
+    if (this.lookedAt > 0 && mean > SMOOTH && mean < 1) this.adapted = Math.max(LEAST_DETAIL, this.adapted * coarser);
     this.lookedAt = now;
     this.framesSinceLook = 0;
   }

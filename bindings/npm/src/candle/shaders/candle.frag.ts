@@ -37,7 +37,7 @@ vec3 side(float u, float below) {
   vec3 normal = normalize(vec3(u - 0.10 * slope * s, 0.09 * drop, s + 0.10 * slope * u));
   float deep = below / max(0.35, uRadius / 0.33);
   // Light that the wax passes on, from the pool downwards: soon red, and soon gone.
-  float through = 1.55 * exp(-deep / 0.26) + 0.50 * exp(-deep / 0.85) + 0.05 * exp(-deep / 3.0);
+  float through = 1.35 * exp(-deep / 0.26) + 0.50 * exp(-deep / 0.85) + 0.05 * exp(-deep / 3.0);
   through *= 0.70 + 0.30 * u * u + 0.22 * lift;
   through *= 1.0 + 0.9 * uLean.x * u * exp(-deep / 0.5);
   through *= 0.93 + 0.14 * fractal(vec2(turn * 3.0 + uSeed, below * 2.2));
@@ -145,9 +145,10 @@ void main() {
   vec3 char = vec3(0.010, 0.008, 0.007) + vec3(0.22, 0.10, 0.035) * uLight * smoothstep(0.40, 0.0, thread.y);
   float burning = smoothstep(0.62, 0.98, thread.y);
   vec3 ember = vec3(1.6, 0.21, 0.012) * uEmber * burning * (0.30 + 1.1 * noise(vAt * 120.0 + uSeed + 0.7 * uClock));
-  lit = mix(lit, char + ember, here);
-  float alpha = max(body, here);
+  // The wick before the wax, both before the saucer.
+  vec4 all = vec4(lit, 1) * body;
+  all = mix(all, vec4(char + ember, 1), here);
   vec4 below = uSaucer > 0.0 ? saucer() : vec4(0);
-  colour = vec4(lit * alpha + below.rgb * below.a * (1.0 - alpha), max(alpha, below.a));
+  colour = all + vec4(below.rgb, 1) * below.a * (1.0 - all.a);
 }
 `;

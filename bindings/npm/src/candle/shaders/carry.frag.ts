@@ -19,7 +19,7 @@ void main() {
   vec4 now = flow(from);
   vec2 at = vAt * vec2(uAspect, 1);
   // A puff is soon spent in the air of a room.
-  now.xy /= 1.0 + uSeconds * vec2(0.5 + 2.4 * abs(now.x), 0.30);
+  now.xy /= 1.0 + uSeconds * vec2(1.6 + 2.4 * abs(now.x), 0.30);
   now.z *= exp(-1.5 * uSeconds);
   for (int k = 0; k < uCount; ++k) {
     vec2 off = (at - uHeats[k].xy) / uHeats[k].z;

@@ -58,8 +58,8 @@ void main() {
   fire = mix(fire, vec3(1.0, 0.66, 0.30), smoothstep(0.25, 0.85, glow));
   vec3 lit = fire * (0.42 * glow + 9.5 * glow * glow);
   // The mantle: thin, blue, brightest where it is seen edge on.
-  vec2 thread = (vAt - vec2(0.006, 0.02)) / vec2(0.030, 0.11);
-  float mantle = (1.0 - 0.85 * exp(-dot(thread, thread))) * exp(-9.0 * (thick - 0.12) * (thick - 0.12)) * (1.0 - smoothstep(0.03, 0.30, t));
+  vec2 thread = (vAt - vec2(0.008, 0.02)) / vec2(0.036, 0.12);
+  float mantle = (1.0 - 0.94 * exp(-dot(thread, thread))) * exp(-9.0 * (thick - 0.12) * (thick - 0.12)) * (1.0 - smoothstep(0.03, 0.30, t));
   lit += vec3(0.045, 0.15, 0.80) * mantle * 0.36;
   lit += vec3(0.30, 0.10, 0.30) * 0.05 * exp(-8.0 * thick * thick) * smoothstep(0.14, 0.3, t) * (1.0 - smoothstep(0.3, 0.55, t));
   // Soot hides a little of what is behind it.

@@ -13,13 +13,13 @@ out vec4 colour;
 const vec3 kFire = vec3(1.0, 0.44, 0.115);
 const vec3 kMoon = vec3(0.36, 0.56, 1.0);
 
-// Moonlight through a window that is not in the picture: six panes, slanted, on the wall.
+// Moonlight through a window that is not in the picture: nine panes, slanted, on the wall, low enough for wide pictures.
 float window(vec2 at) {
-  vec2 q = vec2(at.x - 1.95 + 0.30 * (at.y - 2.4), at.y - 2.4) / vec2(0.50, 0.62);
-  vec2 pane = abs(fract(vec2(q.x + 0.5, q.y)) - 0.5) * 2.0;
-  vec2 whole = abs(vec2(q.x, q.y)) - vec2(1.0, 1.5);
-  vec2 soft = smoothstep(vec2(0.97, 0.97), vec2(0.78, 0.84), pane);
-  vec2 out_ = smoothstep(vec2(0.55, 0.05), vec2(0.40, -0.12), whole);
+  at.y -= 1.96;
+  vec2 q = vec2(at.x - 1.95 + 0.30 * at.y, at.y) / vec2(0.50, 0.56);
+  vec2 pane = abs(fract(q + 0.5) - 0.5) * 2.0;
+  vec2 soft = smoothstep(vec2(0.97), vec2(0.78, 0.84), pane);
+  vec2 out_ = smoothstep(vec2(1.55), vec2(1.40), abs(q));
   return mix(0.35, 1.0, soft.x * soft.y) * out_.x * out_.y;
 }
 
@@ -56,7 +56,7 @@ vec3 shown(Hit hit, vec4 surface) {
     float fall = uLights[k].w / (0.22 + r2);
     float seen = shade(hit.at, uStands[k], uLights[k].xyz);
     if (hit.kind == kOnCakeTop) seen *= sticks(hit.at, uLights[k].xyz);
-    light += kFire * (facing * fall * seen * (hit.kind == kOnWall ? 1.9 : 1.0));
+    light += kFire * (facing * fall * seen * (hit.kind == kOnWall ? 1.9 : hit.kind == kOnCakeTop ? 0.62 : 1.0));
     if (surface.a > 0.0 && hit.kind != kOnWall) {
       float shine = max(0.0, dot(hit.normal, normalize(way + eye)));
       gloss += kFire * (surface.a * fall * seen * (0.9 * pow(shine, 60.0) + 0.10 * pow(shine, 12.0)));
@@ -68,7 +68,7 @@ vec3 shown(Hit hit, vec4 surface) {
     }
   }
   vec3 night = vec3(0.005, 0.007, 0.013) * (0.55 + 0.45 * hit.normal.y);
-  if (hit.kind == kOnWall) night += kMoon * (0.040 * window(hit.at.xy) + 0.008 * exp(-0.35 * length(hit.at.xy - vec2(1.9, 2.4))));
+  if (hit.kind == kOnWall) night += kMoon * (0.040 * window(hit.at.xy) + 0.008 * exp(-0.35 * length(hit.at.xy - vec2(1.9, 2.0))));
   else night += kMoon * 0.013 * smoothstep(6.5, 0.0, length(hit.at.xz - vec2(1.2, -3.0)));
   float corner = hit.kind == kOnWall ? 0.30 + 0.70 * smoothstep(0.0, 1.9, hit.at.y) : 0.50 + 0.50 * smoothstep(-4.6, -2.4, hit.at.z);
   return albedo * (4.2 * light + 3.0 * night) * corner + 0.7 * gloss;

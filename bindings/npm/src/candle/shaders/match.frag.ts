@@ -16,9 +16,9 @@ void main() {
   float charred = smoothstep(0.30, 0.05, along + 0.05 * noise(vAt * 40.0)) * uBurnt;
   float round_ = 0.55 + 0.45 * cos(across * 58.0);
   vec3 fire = vec3(1.0, 0.46, 0.13);
-  vec3 lit = wood * (vec3(0.012, 0.016, 0.028) + fire * round_ * (0.75 * uRoom + uBurnt * 1.4 * exp(-along * 2.6)));
+  vec3 lit = wood * (vec3(0.05, 0.07, 0.12) + fire * round_ * (3.2 * uRoom / (1.0 + 0.8 * uRoom) + uBurnt * 1.4 * exp(-along * 2.6)));
   vec3 red = vec3(0.42, 0.035, 0.022) * (0.6 + 0.4 * noise(vAt * 70.0));
-  lit = mix(lit, red * (0.06 + 1.3 * uRoom * round_), smoothstep(0.010, -0.004, head) * (1.0 - uBurnt));
+  lit = mix(lit, red * (0.12 + 2.6 * uRoom * round_), smoothstep(0.010, -0.004, head) * (1.0 - uBurnt));
   lit = mix(lit, vec3(0.010) + vec3(2.2, 0.34, 0.03) * uBurnt * smoothstep(0.12, 0.0, along) * noise(vAt * 60.0), charred);
   // The head catches: white for a blink, with sparks around it.
   float far = length(vAt - vec2(0.0, 0.03));

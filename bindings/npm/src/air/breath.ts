@@ -1,8 +1,8 @@
 // The breath of a frame: what microphone and keys blow, together.
 
-import { KeyBreath } from '@wisp/player/parts/air/keys';
+import { KeyBreath } from './keys.js';
 
-/** Wind that a microphone told of is believed for so long, milliseconds; then it has fallen silent. */
+/** Milliseconds for which the microphone's last wind counts; without a newer one it has fallen silent. */
 const STALE = 250;
 
 /** When the sound came that a picture shows: for measuring the way from one to the other. */

@@ -1,0 +1,163 @@
+// `wisp export`: a model as a file that another tool opens.
+
+#include <filesystem>
+#include <functional>
+#include <map>
+
+#include "commands/commands.hpp"
+#include "films/flame_flipbook.hpp"
+#include "terminal.hpp"
+#include "wisp/base/file.hpp"
+#include "wisp/export/export.hpp"
+#include "wisp/model/file.hpp"
+
+namespace wisp::cli {
+namespace {
+
+constexpr int kAtlasHeight = 256, kLottieHeight = 512;
+
+struct Job {
+  const Model& model;
+  const Arguments& arguments;
+  std::string path;
+};
+
+int height_of(const Job& job, int fallback) {
+  return job.arguments.has("height") ? job.arguments.integer("height") : fallback;
+}
+
+Result<Take> take_of(const Job& job, Terminal& terminal) {
+  const Arguments& arguments = job.arguments;
+  TakeOptions options{.loop = arguments.has("loop"),
+                      .instances = arguments.integer("instances"),
+                      .seed = static_cast<std::uint64_t>(arguments.integer("seed")),
+                      .noise = arguments.text("noise") == "on"};
+  options.seconds = arguments.number(options.loop ? "loop" : "seconds");
+  options.inputs.assign(job.model.inputs.size(), arguments.number("wind"));
+  auto taken = take(job.model, options);
+  if (!taken) return taken;
+  terminal.add("frames", taken->frames);
+  terminal.add("instances", taken->instances);
+  terminal.add("rate_hz", taken->rate_hz);
+  terminal.add("loop", taken->loop);
+  ReportList travel;
+  for (const auto& way : taken->travel) travel.push_back(ReportList(way.begin(), way.end()));
+  if (!travel.empty()) terminal.add("travel", std::move(travel));
+  return taken;
+}
+
+Result<void> write_gltf(const Job& job, const Take& taken) {
+  const auto bytes = gltf_bytes(job.model, taken);
+  if (!bytes) return bytes.error();
+  return write_file(job.path, *bytes);
+}
+
+Result<void> write_lottie(const Job& job, const Take& taken) {
+  const auto text = lottie_text(job.model, taken, height_of(job, kLottieHeight));
+  if (!text) return text.error();
+  return write_file(job.path, *text);
+}
+
+Result<void> write_pictures(const Job& job, const Take& taken) {
+  const auto book = flame_flipbook(job.model, taken, height_of(job, kAtlasHeight));
+  if (!book) return book.error();
+  return job.path.ends_with(".png") ? write_atlas(job.path, *book) : write_animation(job.path, *book);
+}
+
+// NAME.c, and NAME.h beside it.
+Result<void> write_firmware(const Model& model, const std::filesystem::path& path, Terminal& terminal) {
+  const auto lamp = firmware_source(model, path.stem().string());
+  if (!lamp) return Error{path.string() + ": " + lamp.error().message};
+  std::filesystem::path header = path;
+  header.replace_extension(".h");
+  if (auto ok = write_file(header, lamp->header); !ok) return ok;
+  if (auto ok = write_file(path, lamp->source); !ok) return ok;
+  terminal.add("state_bytes", lamp->state_bytes);
+  terminal.add("output", path.string());
+  terminal.say("wrote " + path.string() + " and " + header.string() + ": " + std::to_string(lamp->state_bytes) +
+               " bytes of state a lamp, " + shown(model.rate_hz, 5) + " steps a second");
+  return {};
+}
+
+// A flag that would change nothing is an error: who gives it expects that it does.
+Result<void> check_flags(const Arguments& arguments, const std::string& extension) {
+  const auto refuse = [&](const char* flag, const char* fallback, const std::string& why) -> Result<void> {
+    if (!arguments.has(flag) || arguments.text(flag) == fallback) return {};
+    return Error{"--" + std::string(flag) + " does nothing to a " + extension + " file, which " + why};
+  };
+  if (extension == ".c") {
+    static const std::map<const char*, const char*> of_play = {{"seconds", "4"}, {"loop", ""},   {"wind", "0"},
+                                                               {"noise", "on"},  {"height", ""}, {"seed", "1"}};
+    for (const auto& [flag, fallback] : of_play) {
+      if (auto ok = refuse(flag, fallback, "is the model itself and plays for ever"); !ok) return ok;
+    }
+  }
+  if (extension == ".glb") return refuse("height", "", "is in metres");
+  return refuse("instances", "1", "holds one");
+}
+
+Result<void> run(const Arguments& arguments, Terminal& terminal) {
+  static const std::map<std::string, std::function<Result<void>(const Job&, const Take&)>> writers = {
+      {".glb", write_gltf},      {".json", write_lottie},   {".png", write_pictures},
+      {".apng", write_pictures}, {".webm", write_pictures},
+  };
+  const std::string& path = arguments.text("output");
+  const std::string extension = std::filesystem::path(path).extension().string();
+  const auto writer = writers.find(extension);
+  if (writer == writers.end() && extension != ".c") {
+    return Error{path + ": cannot be written, expected a name that ends in .glb, .json, .png, .apng, .webm or .c"};
+  }
+  if (auto ok = check_flags(arguments, extension); !ok) return ok;
+  const auto model = read_model(arguments.positional());
+  if (!model) return model.error();
+  if (model->inputs.empty() && arguments.number("wind") != 0) {
+    return Error{"--wind drives a model's inputs, and " + arguments.positional() + " has none"};
+  }
+  if (extension == ".c") return write_firmware(*model, path, terminal);
+  const Job job{*model, arguments, path};
+  const auto taken = take_of(job, terminal);
+  if (!taken) return Error{arguments.positional() + ": " + taken.error().message};
+  if (auto ok = writer->second(job, *taken); !ok) {
+    return ok.error().message.starts_with(path) ? ok : Error{path + ": " + ok.error().message};
+  }
+  terminal.add("output", path);
+  terminal.say("wrote " + path + ": " + std::to_string(taken->frames) + " frames at " + shown(taken->rate_hz, 5) +
+               " a second" + (taken->loop ? ", a loop" : ""));
+  return {};
+}
+
+}  // namespace
+
+Command export_command() {
+  return {
+      "export",
+      "Writes a model's play as a file that another tool opens: glTF (.glb), Lottie (.json), a sprite atlas (.png, "
+      "with "
+      "its .atlas.json), APNG or WebM with opacity; or the model itself as C for microcontrollers (.c, with its .h).",
+      {{"MODEL", "the model, a .wisp file"}},
+      {
+          {"output", Kind::kOutput, "OUT", "", "what to write: OUT.glb, .json, .png, .apng, .webm or .c", {}, true},
+          {"seconds", Kind::kNumber, "S", "4", "how much of its play"},
+          {"loop", Kind::kNumber, "S", "",
+           "a round of that many seconds, whose last frame meets its first in value and in speed; a leaf's round "
+           "leads on by `travel`"},
+          {"instances", Kind::kInteger, "K", "1", "how many in one .glb, each with its own chance"},
+          {"wind", Kind::kNumber, "W", "0", "a constant value for every input"},
+          {"noise", Kind::kChoice, "on|off", "on", "the residual noise", {"on", "off"}},
+          {"height", Kind::kInteger, "PIXELS", "", "of a frame; default 256 for pictures, 512 for Lottie"},
+          {"seed", Kind::kInteger, "N", "1", "of all chance; the same seed gives the same bytes"},
+      },
+      {
+          {"wisp export leaf.wisp --loop 6 --instances 20 -o leaves.glb", "Twenty leaves that fall for ever"},
+          {"wisp export flame.wisp --loop 4 -o flame.glb",
+           "A flame as a mesh whose morph targets are the model's outputs"},
+          {"wisp export flame.wisp --loop 2 --height 128 -o flame.png",
+           "A sprite atlas for a game, premultiplied, and flame.atlas.json that says where the frames are"},
+          {"wisp export flame.wisp --loop 3 -o flame.json", "The outline as a Lottie animation"},
+          {"wisp export light.wisp -o candle.c", "A lamp that flickers, in fixed point, for a microcontroller"},
+      },
+      run,
+  };
+}
+
+}  // namespace wisp::cli

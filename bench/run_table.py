@@ -1,0 +1,83 @@
+#!/usr/bin/env python3
+"""One table of what stepping costs: every width of vectors, beside the machine's limits and SciPy's filter.
+
+  bench/run_table.py build/release/bin/wisp_bench_run [FIGURES.json]     needs python3-numpy and python3-scipy
+
+Prints Markdown; all figures are processor time. With a second argument, the figures as JSON too.
+"""
+
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+WIDTHS = ("baseline", "avx2", "avx512")
+OPERATIONS = 192 * 2  # a step of the flame: 12 products and sums for each of 16 outputs, without noise
+
+
+def run(program, width):
+    command = [program, "--benchmark_format=json", "--benchmark_min_time=0.2"]
+    done = subprocess.run(command, env={**os.environ, "WISP_WIDTH": width}, capture_output=True, text=True)
+    if done.returncode != 0 or "WISP_WIDTH is" in done.stderr:
+        return None  # the machine has not that width
+    return {one["name"]: one for one in json.loads(done.stdout)["benchmarks"]}
+
+
+def peers():
+    script = pathlib.Path(__file__).parent / "peers" / "run.py"
+    said = subprocess.run([sys.executable, script], capture_output=True, text=True, check=True).stdout
+    bare, noisy = re.findall(r"([0-9.]+) ms", said)
+    return {"lfilter_ms": float(bare), "lfilter_noise_ms": float(noisy)}
+
+
+def rows_of(figures):
+    """Name of a row and its figure at a width, in nanoseconds an instance and step."""
+    names = [name for name in figures["baseline"] if name.startswith(("flame_step/", "default_flame_step/", "flame_frame/"))]
+    return [(name, {width: figures[width][name]["ns_each"] * 1e9 for width in figures}) for name in names]
+
+
+def print_steps(figures):
+    widths = list(figures)
+    print("| ns an instance | " + " | ".join(widths) + " | " + " | ".join(f"{w} : baseline" for w in widths[1:]) + " |")
+    print("| --- |" + " ---: |" * (2 * len(widths) - 1))
+    for name, at in rows_of(figures):
+        ratios = [f"{at[width] / at['baseline']:.2f}" for width in widths[1:]]
+        print(f"| {name} | " + " | ".join([f"{at[width]:.1f}" for width in widths] + ratios) + " |")
+
+
+def print_limits(figures):
+    print("\n| of the machine's limit | multiplies and adds, 10⁹ a second | a step without noise, 1,024 flames | share |")
+    print("| --- | ---: | ---: | ---: |")
+    for width, at in figures.items():
+        limit = at[f"limit_{width}"]["operations"]
+        reached = OPERATIONS / at["flame_step/flames:1024/noise:0"]["ns_each"]
+        print(f"| {width} | {limit / 1e9:.1f} | {reached / 1e9:.1f} | {reached / limit:.2f} |")
+    triad = figures["baseline"]["limit_triad"]["bytes_per_second"]
+    print(f"\nMemory: triad {triad / 1e9:.1f} GB/s.")
+
+
+def print_filter(figures, peer):
+    print("\n| order 4, 10⁶ steps, ms | one instance | a bank of 1,000 | SciPy's lfilter | bank : SciPy |")
+    print("| --- | ---: | ---: | ---: | ---: |")
+    widest = figures[list(figures)[-1]]
+    for noise, name in ((0, "lfilter_ms"), (1, "lfilter_noise_ms")):
+        one, bank = (widest[f"filter/instances:{count}/noise:{noise}"]["cpu_time"] for count in (1, 1000))
+        label = "with Gaussian noise" if noise else "bare"
+        print(f"| {label} | {one:.1f} | {bank:.1f} | {peer[name]:.1f} | {bank / peer[name]:.2f} |")
+
+
+def main():
+    figures = {width: result for width in WIDTHS if (result := run(sys.argv[1], width))}
+    peer = peers()
+    print_steps(figures)
+    print_limits(figures)
+    print_filter(figures, peer)
+    if len(sys.argv) > 2:
+        kept = {"steps": dict(rows_of(figures)), "peers": peer, "benchmarks": figures}
+        pathlib.Path(sys.argv[2]).write_text(json.dumps(kept, indent=1) + "\n")
+
+
+if __name__ == "__main__":
+    main()

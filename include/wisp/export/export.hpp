@@ -1,0 +1,84 @@
+#pragma once
+// A model played once and kept, and files of it that other tools open: glTF and Lottie.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "wisp/base/result.hpp"
+#include "wisp/model/model.hpp"
+
+namespace wisp {
+
+/// How long, how many, and in what input.
+struct TakeOptions {
+  double seconds = 4;            ///< above 0, at most an hour
+  bool loop = false;             ///< the frame after the last one is the first one, in value and in speed
+  int instances = 1;             ///< 1 to 1000, each with its own chance
+  std::uint64_t seed = 1;        ///< of all chance
+  bool noise = true;             ///< the residual noise; a loop without it stands still
+  std::vector<double> inputs{};  ///< constant, per input of the model, in its unit; what is missing is 0
+};
+
+/// Frames of a model at its own rate. Play begins where the model has forgotten how it started.
+struct Take {
+  double rate_hz = 0;
+  bool loop = false;
+  std::size_t frames = 0;  ///< of a loop: of one round, without the first one once more
+  std::size_t instances = 0;
+  std::size_t outputs = 0;
+  std::vector<float> values;  ///< frames × instances × outputs
+  /// Of a loop of bodies, per instance: how far one round leads, metres. A leaf falls; what returns is its attitude and
+  /// its velocity, and the next round begins where this one ends.
+  std::vector<std::array<double, 3>> travel;
+
+  /// All outputs of one instance in one frame.
+  std::span<const float> at(std::size_t frame, std::size_t instance) const {
+    return std::span(values).subspan((frame * instances + instance) * outputs, outputs);
+  }
+};
+
+/// Plays a model. A loop of an ARX model is its periodic orbit under shocks that repeat; a loop of a chain is a walk
+/// that comes back to where it was in a segment, turned evenly by what is left of its heading.
+/// Errors: an option out of range; more than 5e8 numbers; a flame goes out in that input; no loop of that length is
+/// found, or the chain's modes are systems.
+Result<Take> take(const Model& model, const TakeOptions& options);
+
+/// A take as a binary glTF 2.0 file (.glb), in metres where the model knows its size, with all times at the model's
+/// rate. A body is a node with translation and rotation; its mesh lies in its first two axes. An outline is a flat mesh
+/// with one morph target an output of the model, named after it: its weight is where the output is between `lowest` (0)
+/// and `highest` (1), two lists in the mesh's extras, so that a bank's outputs can drive the same mesh live. The root
+/// node turns Wisp's z up into glTF's y up for bodies. A loop ends with its first frame again.
+/// Errors: the model's outputs are neither an outline nor a body; the take is not of this model.
+Result<std::vector<std::byte>> gltf_bytes(const Model& model, const Take& take);
+
+/// The outline of a take's first instance as a Lottie animation, `height` pixels high: one closed path of cubic Bézier
+/// curves, which the spline is exactly, with a key a frame.
+/// Errors: the model's outputs are no outline; the height is not 16 to 8192; the take is not of this model.
+Result<std::string> lottie_text(const Model& model, const Take& take, int height = 512);
+
+/// C99 for microcontrollers: one file with what the model is, one that declares it.
+struct FirmwareSource {
+  std::string header;         ///< NAME.h
+  std::string source;         ///< NAME.c, which includes it
+  std::size_t state_bytes{};  ///< of one candle
+};
+
+/// A model of one output as C source in fixed point: 32-bit integers, no heap, no floating point, no library. All that
+/// compilers agree on, so that every processor plays the same numbers from the same seed. Shocks are Gaussian (of the
+/// residuals' size, where the model plays residuals again), made of four random bytes. `name` begins all names in it.
+/// Errors: not exactly one output; more than one input, or one that is bent or split; a chain; regions that switch;
+/// more than 16 modes or 32 lags; a coefficient of 8 or more; a name that C does not take.
+Result<FirmwareSource> firmware_source(const Model& model, std::string_view name);
+
+/// The outline of one instance in one frame as a polyline: `points` × (x, y), at equal steps of the spline's parameter.
+///
+/// Precondition: the view is an outline, the take is of this model, and points >= 2.
+std::vector<float> outline_of(const Model& model, const Take& take, std::size_t frame, std::size_t instance,
+                              int points);
+
+}  // namespace wisp

@@ -1,0 +1,157 @@
+#include "wisp/export/export.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "export/orbit.hpp"
+#include "export/walk_loop.hpp"
+#include "wisp/model/file.hpp"
+#include "wisp/run/bank.hpp"
+#include "wisp/run/extinction_facet.hpp"
+#include "wisp/run/switched_facet.hpp"
+
+namespace wisp {
+namespace {
+
+using namespace exporting;
+
+constexpr double kMaxSeconds = 3600, kMaxNumbers = 5e8;
+constexpr int kMaxInstances = 1000;
+constexpr double kSettle = 4;  // seconds of play before the first frame
+
+Result<void> check(const Model& model, const TakeOptions& options) {
+  if (!(options.seconds > 0 && options.seconds <= kMaxSeconds)) {
+    return Error{"the length is " + std::to_string(options.seconds) + " s, expected above 0 and at most 3600 s"};
+  }
+  const double frames = options.seconds * model.rate_hz;
+  if (frames < 1) return Error{"the length is less than one frame of the model, expected at least 1"};
+  if (options.instances < 1 || options.instances > kMaxInstances) {
+    return Error{"there are " + std::to_string(options.instances) + " instances, expected 1 to 1000"};
+  }
+  if (frames * options.instances * static_cast<double>(model.outputs.size()) > kMaxNumbers) {
+    return Error{"the frames are more than 5e8 numbers; ask for fewer seconds or instances"};
+  }
+  if (options.inputs.size() > model.inputs.size()) {
+    return Error{"there are " + std::to_string(options.inputs.size()) + " inputs, the model has " +
+                 std::to_string(model.inputs.size())};
+  }
+  return wisp::check(model);
+}
+
+std::vector<float> inputs_of(const Model& model, const TakeOptions& options) {
+  std::vector<float> inputs(model.inputs.size());
+  for (std::size_t k = 0; k < options.inputs.size(); ++k) inputs[k] = static_cast<float>(options.inputs[k]);
+  return inputs;
+}
+
+Error went_out(double seconds) {
+  return {"the flame goes out after " + std::to_string(seconds) +
+          " s in that input; what is exported burns: ask for less"};
+}
+
+// A bank of what is taken, settled.
+Result<Bank> settled_bank(const Model& model, const TakeOptions& options) {
+  auto bank = Bank::create(model, {.capacity = options.instances, .seed = options.seed});
+  if (!bank) return bank;
+  bank->set_noise(options.noise ? 1.0F : 0.0F);
+  for (int k = 0; k < options.instances; ++k) bank->spawn();
+  bank->set_common_inputs(inputs_of(model, options));
+  // A body is taken from where it starts to fall.
+  if (bank->chain()) return bank;
+  for (double t = 0; t < kSettle * model.rate_hz; t += 1) bank->step();
+  return bank;
+}
+
+bool burns(const Bank& bank) {
+  const ExtinctionFacet* extinction = bank.extinction();
+  for (int slot = 0; extinction && slot < bank.slots(); ++slot) {
+    if (!extinction->state_of(bank.at(slot))->lit) return false;
+  }
+  return true;
+}
+
+Result<Take> plain_take(const Model& model, const TakeOptions& options, Take taken) {
+  auto bank = settled_bank(model, options);
+  if (!bank) return bank.error();
+  const std::size_t width = taken.instances * taken.outputs;
+  taken.values.resize(taken.frames * width);
+  for (std::size_t frame = 0; frame < taken.frames; ++frame) {
+    bank->step();
+    if (!burns(*bank)) return went_out(static_cast<double>(frame) / model.rate_hz);
+    bank->outputs(std::span(taken.values).subspan(frame * width, width));
+  }
+  return taken;
+}
+
+Result<Take> orbit_take(const Model& model, const TakeOptions& options, Take taken) {
+  auto bank = settled_bank(model, options);
+  if (!bank) return bank.error();
+  const std::size_t lags = output_lags(model), count = lags + taken.frames, width = taken.instances * taken.outputs;
+  std::vector<std::vector<double>> rows(taken.instances);
+  std::vector<std::vector<std::size_t>> modes(taken.instances);
+  std::vector<float> values(width);
+  for (std::size_t row = 0; row < count; ++row) {
+    bank->step();
+    if (!burns(*bank)) return went_out(static_cast<double>(row) / model.rate_hz);
+    bank->outputs(values);
+    for (std::size_t k = 0; k < taken.instances; ++k) {
+      const auto from = values.begin() + static_cast<std::ptrdiff_t>(k * taken.outputs);
+      rows[k].insert(rows[k].end(), from, from + static_cast<std::ptrdiff_t>(taken.outputs));
+      const SwitchedFacet* switched = bank->switched();
+      const auto mode = switched ? switched->mode_of(bank->at(static_cast<int>(k))) : std::nullopt;
+      modes[k].push_back(static_cast<std::size_t>(mode.value_or(0)));
+    }
+  }
+  taken.values.resize(taken.frames * width);
+  for (std::size_t k = 0; k < taken.instances; ++k) {
+    if (!close_orbit(model, modes[k], lags, rows[k])) {
+      return Error{"no loop of " + std::to_string(taken.frames) +
+                   " frames: the model forgets too slowly for so short a round; ask for a longer one"};
+    }
+    for (std::size_t frame = 0; frame < taken.frames; ++frame) {
+      for (std::size_t i = 0; i < taken.outputs; ++i) {
+        taken.values[frame * width + k * taken.outputs + i] =
+            static_cast<float>(rows[k][(lags - 1 + frame) * taken.outputs + i]);
+      }
+    }
+  }
+  return taken;
+}
+
+Result<Take> walk_take(const Model& model, const TakeOptions& options, Take taken) {
+  if (std::get<ChainModel>(model.dynamics).systems) {
+    return Error{
+        "a chain whose modes are systems never comes back to where it was; learn it as segments "
+        "for a loop, or export without one"};
+  }
+  const std::size_t width = taken.instances * taken.outputs;
+  taken.values.resize(taken.frames * width);
+  for (std::size_t k = 0; k < taken.instances; ++k) {
+    const auto loop = find_walk_loop(model, taken.frames, options.seed + k, inputs_of(model, options));
+    if (!loop) {
+      return Error{"none of hundreds of walks came back to where it was after exactly " + std::to_string(taken.frames) +
+                   " frames; ask for a few frames more or less, or a longer loop"};
+    }
+    taken.travel.push_back(loop->travel);
+    for (std::size_t frame = 0; frame < taken.frames; ++frame) {
+      std::copy_n(loop->rows.begin() + static_cast<std::ptrdiff_t>(frame * taken.outputs), taken.outputs,
+                  taken.values.begin() + static_cast<std::ptrdiff_t>(frame * width + k * taken.outputs));
+    }
+  }
+  return taken;
+}
+
+}  // namespace
+
+Result<Take> take(const Model& model, const TakeOptions& options) {
+  if (auto ok = check(model, options); !ok) return ok.error();
+  Take taken{.rate_hz = model.rate_hz, .loop = options.loop};
+  taken.frames = static_cast<std::size_t>(std::llround(std::max(1.0, options.seconds * model.rate_hz)));
+  taken.instances = static_cast<std::size_t>(options.instances);
+  taken.outputs = model.outputs.size();
+  if (!options.loop) return plain_take(model, options, std::move(taken));
+  if (std::holds_alternative<ChainModel>(model.dynamics)) return walk_take(model, options, std::move(taken));
+  return orbit_take(model, options, std::move(taken));
+}
+
+}  // namespace wisp

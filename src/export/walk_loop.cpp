@@ -1,0 +1,169 @@
+#include "export/walk_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "wisp/run/chain_facet.hpp"
+
+namespace wisp::exporting {
+namespace {
+
+constexpr int kWalks = 64;       // side by side
+constexpr double kSeconds = 80;  // of each, beside the loop
+constexpr double kSettled = 4;   // seconds after which a walk has forgotten how it began, and a wind has blown in
+constexpr int kMaxRounds = 8;
+
+using Vector = std::array<double, 3>;
+
+struct Walk {
+  std::vector<float> rows;           // frames × outputs
+  std::vector<std::uint32_t> place;  // segment and step
+};
+
+std::vector<Walk> walk(const Model& model, std::size_t frames, std::uint64_t seed, const std::vector<float>& inputs) {
+  auto bank = Bank::create(model, {.capacity = kWalks, .seed = seed});
+  std::vector<Walk> walks(kWalks);
+  for (int k = 0; k < kWalks; ++k) bank->spawn();
+  bank->set_common_inputs(inputs);
+  const auto settle = static_cast<std::size_t>(kSettled * model.rate_hz);
+  const std::size_t outputs = model.outputs.size();
+  std::vector<float> all(kWalks * outputs);
+  for (std::size_t frame = 0; frame < settle + frames; ++frame) {
+    bank->step();
+    if (frame < settle) continue;
+    bank->outputs(all);
+    for (int k = 0; k < kWalks; ++k) {
+      const auto at = all.begin() + static_cast<std::ptrdiff_t>(k * outputs);
+      walks[k].rows.insert(walks[k].rows.end(), at, at + static_cast<std::ptrdiff_t>(outputs));
+      const ChainPlace place = *bank->chain()->place_of(bank->at(k));
+      walks[k].place.push_back(place.segment * 65536 + place.step);
+    }
+  }
+  return walks;
+}
+
+Vector velocity(const std::vector<float>& rows, std::size_t outputs, std::size_t frame) {
+  Vector v{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    v[axis] = static_cast<double>(rows[frame * outputs + axis]) - rows[(frame - 1) * outputs + axis];
+  }
+  return v;
+}
+
+using Quaternion = std::array<double, 4>;  // w first
+
+Quaternion product(const Quaternion& p, const Quaternion& q) {
+  return {p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3], p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2],
+          p[0] * q[2] - p[1] * q[3] + p[2] * q[0] + p[3] * q[1], p[0] * q[3] + p[1] * q[2] - p[2] * q[1] + p[3] * q[0]};
+}
+
+Quaternion conjugate(const Quaternion& q) { return {q[0], -q[1], -q[2], -q[3]}; }
+
+// The rotation by a vector's length about its direction.
+Quaternion rotation(const Vector& by, double share) {
+  const double angle = std::hypot(by[0], by[1], by[2]) * share;
+  if (std::abs(angle) < 1e-12) return {1, 0, 0, 0};
+  const double s = std::sin(angle / 2) * share / angle;
+  return {std::cos(angle / 2), s * by[0], s * by[1], s * by[2]};
+}
+
+Vector turned(const Vector& v, const Quaternion& by) {
+  const Quaternion out = product(product(by, {0, v[0], v[1], v[2]}), conjugate(by));
+  return {out[1], out[2], out[3]};
+}
+
+Quaternion attitude(const std::vector<float>& rows, std::size_t outputs, std::size_t frame) {
+  const float* q = &rows[frame * outputs + 3];
+  const double size = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
+  return {q[0] / size, q[1] / size, q[2] / size, q[3] / size};
+}
+
+// By how much frame `b` is turned against frame `a`, about the vertical or as a whole: of attitudes, or of velocities
+// where there are none.
+Vector turn_between(const std::vector<float>& rows, std::size_t outputs, std::size_t a, std::size_t b) {
+  if (outputs < 7) {
+    const Vector va = velocity(rows, outputs, a), vb = velocity(rows, outputs, b);
+    return {0, 0, std::atan2(va[0] * vb[1] - va[1] * vb[0], va[0] * vb[0] + va[1] * vb[1])};
+  }
+  Quaternion q = product(attitude(rows, outputs, b), conjugate(attitude(rows, outputs, a)));
+  if (q[0] < 0) q = {-q[0], -q[1], -q[2], -q[3]};
+  const double s = std::hypot(q[1], q[2], q[3]);
+  const double scale = s > 1e-12 ? 2 * std::atan2(s, q[0]) / s : 2;
+  return {scale * q[1], scale * q[2], scale * q[3]};
+}
+
+struct Return {
+  const Walk* walk = nullptr;
+  std::size_t frame = 0;
+  Vector turn{};  // from its first frame to the one that is to be it again
+  Vector jump{};  // of the velocity, when that is turned back
+  double cost = 0;
+};
+
+// The return that is turned least about the vertical, of those that are nearly the same otherwise: what joins a segment
+// to its neighbours differs from visit to visit.
+std::optional<Return> best_return(const std::vector<Walk>& walks, std::size_t outputs, std::size_t frames) {
+  constexpr double kSame = 0.1, kWeight = 20;
+  std::optional<Return> best;
+  for (const Walk& walk : walks) {
+    for (std::size_t at = 1; at + frames < walk.place.size(); ++at) {
+      if (walk.place[at] != walk.place[at + frames]) continue;
+      Return found{&walk, at, turn_between(walk.rows, outputs, at, at + frames)};
+      const double tilt = std::hypot(found.turn[0], found.turn[1]);
+      const Vector before = velocity(walk.rows, outputs, at);
+      const Vector after = turned(velocity(walk.rows, outputs, at + frames), rotation(found.turn, -1));
+      for (std::size_t axis = 0; axis < 3; ++axis) found.jump[axis] = after[axis] - before[axis];
+      const double size = std::hypot(before[0], before[1], before[2]);
+      const double jump = std::hypot(found.jump[0], found.jump[1], found.jump[2]) / std::max(size, 1e-9);
+      found.cost = std::abs(found.turn[2]) + kWeight * (tilt + jump);
+      if (tilt <= kSame && jump <= kSame && (!best || found.cost < best->cost)) best = found;
+    }
+  }
+  return best;
+}
+
+// What is left of turn and jump is taken back evenly over the round.
+WalkLoop loop_of(const Return& found, std::size_t outputs, std::size_t frames) {
+  WalkLoop loop;
+  const std::vector<float>& rows = found.walk->rows;
+  Vector position{};
+  for (std::size_t t = 0; t <= frames; ++t) {
+    const std::size_t frame = found.frame + t;
+    const double share = static_cast<double>(t) / static_cast<double>(frames);
+    const Quaternion back = rotation(found.turn, -share);
+    if (t > 0) {
+      const Vector v = turned(velocity(rows, outputs, frame), back);
+      for (std::size_t axis = 0; axis < 3; ++axis) position[axis] += v[axis] - share * found.jump[axis];
+    }
+    if (t == frames) break;
+    std::vector<float> row(rows.begin() + static_cast<std::ptrdiff_t>(frame * outputs),
+                           rows.begin() + static_cast<std::ptrdiff_t>((frame + 1) * outputs));
+    for (std::size_t axis = 0; axis < 3; ++axis) row[axis] = static_cast<float>(position[axis]);
+    if (outputs >= 7) {
+      const Quaternion q = product(back, attitude(rows, outputs, frame));
+      for (std::size_t k = 0; k < 4; ++k) row[3 + k] = static_cast<float>(q[k]);
+    }
+    loop.rows.insert(loop.rows.end(), row.begin(), row.end());
+  }
+  loop.travel = position;
+  return loop;
+}
+
+}  // namespace
+
+std::optional<WalkLoop> find_walk_loop(const Model& model, std::size_t frames, std::uint64_t seed,
+                                       const std::vector<float>& inputs) {
+  const std::size_t length = frames + static_cast<std::size_t>(kSeconds * model.rate_hz);
+  for (int round = 0; round < kMaxRounds; ++round) {
+    const std::uint64_t other = seed + 0x9e3779b97f4a7c15U * static_cast<std::uint64_t>(round);
+    const auto walks = walk(model, length, other, inputs);
+    if (const auto found = best_return(walks, model.outputs.size(), frames)) {
+      return loop_of(*found, model.outputs.size(), frames);
+    }
+  }
+  return {};
+}
+
+}  // namespace wisp::exporting

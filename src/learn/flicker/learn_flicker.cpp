@@ -1,0 +1,405 @@
+// A light that is calm and restless by turns: Markov-switched autoregressions (J. D. Hamilton, "A new approach to the
+// economic analysis of nonstationary time series and the business cycle", Econometrica 57, 1989). The regimes are not
+// inferred from the regressions' residuals, whose tails would make regimes of single shocks, but from how much half
+// seconds vary; and shocks are scaled until the play varies as much, as a least-squares fit to heavy tails does not.
+
+#include "learn/flicker/learn_flicker.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "learn/arx/learn_arx.hpp"
+#include "learn/arx/report/report_values.hpp"
+#include "learn/flicker/restlessness.hpp"
+#include "learn/numeric/spectrum.hpp"
+#include "record/number_text.hpp"
+#include "wisp/run/bank.hpp"
+#include "wisp/run/switched_facet.hpp"
+
+namespace wisp {
+namespace flicker {
+namespace {
+
+using Traces = std::vector<std::vector<double>>;
+constexpr double kMinSeconds = 20, kMaxRadius = 0.995;
+constexpr double kBands[] = {0.3, 1, 2, 4, 6, 8, 12, 20};  // Hz
+
+struct Light {
+  double rate_hz = 0;
+  Traces learned, held_out;  // mean 1 over all of them
+};
+
+// The channel that is named, or "brightness", or the only output: which of several is light cannot be guessed.
+Result<std::size_t> channel_of(const Recording& recording, const std::string& name) {
+  if (const auto found = find_channel(recording, name.empty() ? "brightness" : name)) return *found;
+  if (!name.empty()) return Error{recording.source + ": has no channel \"" + name + "\""};
+  const auto outputs = channels_with_role(recording, Role::kOutput);
+  if (outputs.size() == 1) return outputs.front();
+  return Error{recording.source + ": has no channel \"brightness\", and " + std::to_string(outputs.size()) +
+               " outputs, expected one; name the one that is light"};
+}
+
+// Stretches without a gap, averaged over `every` rows.
+void add_stretches(const Recording& recording, std::size_t channel, std::size_t every, Traces& traces) {
+  const auto& samples = recording.channels[channel].samples;
+  for (const Episode& episode : episodes(recording)) {
+    std::vector<double> trace;
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t row = episode.begin; row <= episode.end; ++row) {
+      if (row == episode.end || std::isnan(samples[row])) {
+        if (!trace.empty()) traces.push_back(std::exchange(trace, {}));
+        sum = 0;
+        count = 0;
+        continue;
+      }
+      sum += samples[row];
+      if (++count < every) continue;
+      trace.push_back(sum / static_cast<double>(every));
+      sum = 0;
+      count = 0;
+    }
+  }
+}
+
+Result<void> check(const FlickerRecipe& recipe) {
+  const auto wrong = [](const std::string& what, double found, const std::string& expected) {
+    return Error{what + " is " + number_text(found, 6) + ", expected " + expected};
+  };
+  if (!(recipe.rate_hz >= 10 && recipe.rate_hz <= 1000)) return wrong("the rate", recipe.rate_hz, "10 to 1000");
+  if (recipe.modes < 2 || recipe.modes > 8) return wrong("the number of modes", recipe.modes, "2 to 8");
+  if (recipe.order < 1 || recipe.order > 8) return wrong("the order", recipe.order, "1 to 8");
+  if (!(recipe.holdout > 0 && recipe.holdout <= 0.9))
+    return wrong("the holdout", recipe.holdout, "above 0, at most 0.9");
+  return {};
+}
+
+// All stretches of the recordings, at the rate that all of them come to.
+Result<Light> gathered(std::span<const Recording> recordings, const FlickerRecipe& recipe) {
+  Light light;
+  for (const Recording& recording : recordings) {
+    const auto channel = channel_of(recording, recipe.output);
+    if (!channel) return channel.error();
+    const double every = std::max(1.0, std::round(recording.rate_hz / recipe.rate_hz));
+    const double rate = recording.rate_hz / every;
+    if (light.rate_hz > 0 && std::abs(rate - light.rate_hz) > 1e-9 * rate) {
+      return Error{recording.source + ": comes to " + number_text(rate, 6) + " rows a second, the first recording to " +
+                   number_text(light.rate_hz, 6) + "; learn from recordings of one rate"};
+    }
+    light.rate_hz = rate;
+    add_stretches(recording, *channel, static_cast<std::size_t>(every), light.learned);
+  }
+  return light;
+}
+
+// The last part of each stretch is held out; half a second at least lies on either side of the cut.
+void hold_out(double share, Light& light) {
+  for (auto& trace : light.learned) {
+    const auto kept = static_cast<std::ptrdiff_t>((1 - share) * static_cast<double>(trace.size()));
+    light.held_out.emplace_back(trace.begin() + kept, trace.end());
+    trace.resize(static_cast<std::size_t>(kept));
+  }
+}
+
+Result<Light> light_of(std::span<const Recording> recordings, const FlickerRecipe& recipe) {
+  auto light = gathered(recordings, recipe);
+  if (!light) return light;
+  const double parts = std::max(4.0, 1 / std::min(recipe.holdout, 1 - recipe.holdout));
+  const double shortest = std::ceil(parts * static_cast<double>(half_second(light->rate_hz))) + 1;
+  std::erase_if(light->learned, [&](const auto& trace) { return static_cast<double>(trace.size()) < shortest; });
+  double sum = 0, rows = 0;
+  for (const auto& trace : light->learned) {
+    for (const double value : trace) sum += value;
+    rows += static_cast<double>(trace.size());
+  }
+  const std::string others = recordings.size() > 1 ? " and " + std::to_string(recordings.size() - 1) + " more" : "";
+  const auto wrong = [&](const std::string& what) { return Error{recordings.front().source + others + ": " + what}; };
+  if (rows < kMinSeconds * light->rate_hz) {
+    return wrong("the light lasts " + number_text(rows / light->rate_hz, 3) + " s in stretches of at least " +
+                 number_text(shortest / light->rate_hz, 2) + " s, expected at least 20 s; record for longer");
+  }
+  if (!(sum > 0)) return wrong("the light is not above 0 on average; is the channel right, and dark at 0?");
+  for (auto& trace : light->learned) {
+    for (double& value : trace) value /= sum / rows;
+  }
+  hold_out(recipe.holdout, *light);
+  return light;
+}
+
+// Rows that one mode made, as a regression on the rows before them, about 1.
+struct Regression {
+  std::vector<double> theta;  // of past rows, sign of the prediction
+  double constant = 0;
+  double shock = 0;
+  double radius = 0;
+};
+
+double radius_of(const std::vector<double>& theta) {
+  const auto n = static_cast<Eigen::Index>(theta.size());
+  Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index k = 0; k < n; ++k) companion(0, k) = theta[static_cast<std::size_t>(k)];
+  for (Eigen::Index k = 1; k < n; ++k) companion(k, k - 1) = 1;
+  return companion.eigenvalues().cwiseAbs().maxCoeff();
+}
+
+std::optional<Regression> regress(const Traces& traces, const std::vector<std::vector<int>>& modes, int mode,
+                                  int order) {
+  const Eigen::Index width = order + 1;
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(width, width);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(width), row = Eigen::VectorXd::Ones(width);
+  double energy = 0, rows = 0;
+  for (std::size_t t = 0; t < traces.size(); ++t) {
+    for (std::size_t k = static_cast<std::size_t>(order); k < traces[t].size(); ++k) {
+      if (modes[t][k] != mode) continue;
+      for (int lag = 1; lag <= order; ++lag) row(lag - 1) = traces[t][k - static_cast<std::size_t>(lag)] - 1;
+      const double value = traces[t][k] - 1;
+      gram += row * row.transpose();
+      right += value * row;
+      energy += value * value;
+      rows += 1;
+    }
+  }
+  if (rows < 4.0 * static_cast<double>(width)) return {};
+  // As little as rounding asks for: a still mode has hardly any energy.
+  gram.diagonal().array() += 1e-12 * gram.trace() / static_cast<double>(width);
+  const Eigen::VectorXd solution = gram.ldlt().solve(right);
+  Regression out;
+  for (int lag = 0; lag < order; ++lag) out.theta.push_back(solution(lag));
+  out.constant = solution(order);
+  out.shock = std::sqrt(std::max(0.0, (energy - right.dot(solution)) / rows));
+  out.radius = radius_of(out.theta);
+  // Poles are pulled in together where a mode would wander.
+  if (out.radius > kMaxRadius) {
+    double power = 1;
+    for (double& weight : out.theta) weight *= power *= kMaxRadius / out.radius;
+    out.radius = kMaxRadius;
+  }
+  return out;
+}
+
+// The chain of modes as it was seen.
+void count_transitions(const std::vector<std::vector<int>>& modes, SwitchedArxModel& model) {
+  const std::size_t count = model.modes.size();
+  std::vector<double> seen(count * count, 0.0), share(count, 0.0);
+  for (const auto& trace : modes) {
+    for (std::size_t k = 0; k < trace.size(); ++k) {
+      share[static_cast<std::size_t>(trace[k])] += 1;
+      if (k > 0) seen[static_cast<std::size_t>(trace[k - 1]) * count + static_cast<std::size_t>(trace[k])] += 1;
+    }
+  }
+  double rows = 0;
+  for (const double each : share) rows += each;
+  for (std::size_t from = 0; from < count; ++from) {
+    double sum = 0;
+    for (std::size_t to = 0; to < count; ++to) sum += seen[from * count + to];
+    for (std::size_t to = 0; to < count; ++to) model.transitions.push_back(seen[from * count + to] / sum);
+    model.initial.push_back(share[from] / rows);
+  }
+}
+
+// What a model plays: light, and which mode made each row.
+struct Play {
+  Traces traces;
+  std::vector<std::vector<int>> modes;
+};
+
+Play play_of(const Model& model, std::uint64_t seed) {
+  constexpr int kInstances = 64;  // the play's own figures are known to a few per cent then
+  constexpr double kSeconds = 150, kSettle = 5;
+  auto bank = Bank::create(model, {.capacity = kInstances, .seed = seed});
+  Play play{Traces(kInstances), std::vector<std::vector<int>>(kInstances)};
+  for (int k = 0; k < kInstances; ++k) bank->spawn();
+  std::vector<float> outputs(kInstances);
+  for (double t = 0; t < kSeconds * model.rate_hz; t += 1) {
+    bank->step();
+    bank->outputs(outputs);
+    for (std::size_t k = 0; k < kInstances && t >= kSettle * model.rate_hz; ++k) {
+      play.traces[k].push_back(outputs[k]);
+      play.modes[k].push_back(*bank->switched()->mode_of(bank->at(static_cast<int>(k))));
+    }
+  }
+  return play;
+}
+
+// Mean variance within half seconds around the rows of each mode.
+std::vector<double> variances(const Traces& traces, const std::vector<std::vector<int>>& modes, std::size_t count,
+                              double rate_hz) {
+  std::vector<double> sum(count, 0.0), rows(count, 0.0);
+  for (std::size_t t = 0; t < traces.size(); ++t) {
+    const auto restless = restlessness(traces[t], half_second(rate_hz));
+    for (std::size_t k = 0; k < restless.size(); ++k) {
+      sum[static_cast<std::size_t>(modes[t][k])] += restless[k] * restless[k];
+      rows[static_cast<std::size_t>(modes[t][k])] += 1;
+    }
+  }
+  for (std::size_t k = 0; k < count; ++k) sum[k] /= std::max(1.0, rows[k]);
+  return sum;
+}
+
+void match_shocks(const Light& light, const std::vector<std::vector<int>>& modes, std::uint64_t seed, Model& model) {
+  constexpr int kRounds = 10;
+  auto& dynamics = std::get<SwitchedArxModel>(model.dynamics);
+  const std::size_t count = dynamics.modes.size();
+  const auto wanted = variances(light.learned, modes, count, light.rate_hz);
+  const Figures whole = figures_of(light.learned, light.rate_hz);
+  std::vector<double> fitted;
+  for (const ArxMode& mode : dynamics.modes) fitted.push_back(mode.shock[0]);
+  for (int round = 0; round < kRounds; ++round) {
+    const Play play = play_of(model, seed);
+    const auto found = variances(play.traces, play.modes, count, light.rate_hz);
+    for (std::size_t k = 0; k < count; ++k) {
+      double scale = std::sqrt(wanted[k] / std::max(found[k], 1e-12));
+      // The most restless mode makes nearly all of the whole's variance.
+      if (k + 1 == count) scale = whole.sd / figures_of(play.traces, light.rate_hz).sd;
+      // A calm mode begins with what a restless one left ringing: it is not to be still for that.
+      const double most = k + 1 == count ? 16 : 2;
+      dynamics.modes[k].shock[0] =
+          std::clamp(dynamics.modes[k].shock[0] * std::clamp(scale, 0.5, 2.0), fitted[k] / most, fitted[k] * most);
+    }
+  }
+}
+
+Model plain(const Light& light, const FlickerRecipe& recipe, std::span<const Recording> recordings) {
+  Model model{.name = recipe.name, .rate_hz = light.rate_hz};
+  Output output{"brightness", "", 1, 1};
+  for (const auto& trace : light.learned) {
+    for (const double value : trace) {
+      output.lowest = std::min(output.lowest, value);
+      output.highest = std::max(output.highest, value);
+    }
+  }
+  model.outputs = {output};
+  for (const Recording& recording : recordings) model.training.sources.push_back(recording.source);
+  model.training.recipe = {{"modes", std::to_string(recipe.modes)},
+                           {"order", std::to_string(recipe.order)},
+                           {"holdout", number_text(recipe.holdout, 6)}};
+  return model;
+}
+
+// Decibels of the play over a trace, band by band.
+ReportTable bands_of(const Traces& play, const Light& light) {
+  constexpr std::size_t kSegment = 128;
+  ReportTable table{"spectrum",
+                    "power in bands, play against recording",
+                    {{"from", "from", "Hz"},
+                     {"to", "to", "Hz"},
+                     {"learned_db", "learned part", "dB"},
+                     {"held_out_db", "held-out part", "dB"}},
+                    {}};
+  const auto played = welch(play, light.rate_hz, kSegment);
+  const std::array spectra{welch(light.learned, light.rate_hz, kSegment),
+                           welch(light.held_out, light.rate_hz, kSegment)};
+  for (std::size_t band = 0; band + 1 < std::size(kBands); ++band) {
+    const auto power = [&](const Spectrum& spectrum) {
+      double sum = 0;
+      for (std::size_t k = 0; k < spectrum.power.size(); ++k) {
+        const double f = spectrum.frequency_hz[k];
+        if (f >= kBands[band] && f < kBands[band + 1]) sum += spectrum.power[k];
+      }
+      return sum;
+    };
+    std::vector<ReportValue> row{kBands[band], kBands[band + 1]};
+    for (const Spectrum& spectrum : spectra) row.push_back(10 * std::log10(power(played) / power(spectrum)));
+    if (kBands[band + 1] <= light.rate_hz / 2) table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+void judge(const Light& light, const FlickerRecipe& recipe, Fit& fit) {
+  constexpr double kCalmPoints = 0.10, kSdShare = 0.15;
+  const Play play = play_of(fit.model, recipe.seed + 1);
+  const Figures learned = figures_of(light.learned, light.rate_hz), held = figures_of(light.held_out, light.rate_hz);
+  const Figures played = figures_of(play.traces, light.rate_hz);
+  ReportSection section{"Light"};
+  const auto share = [&](const std::string& of, const Figures& figures, const std::string& words) {
+    arx::add(section, of + ".calm_share", figures.calm_share, "calm half seconds, " + words);
+    arx::add(section, of + ".sd", figures.sd / figures.mean, "standard deviation, " + words, "of the mean");
+    fit.model.training.figures.push_back({of + "_calm_share", figures.calm_share});
+    fit.model.training.figures.push_back({of + "_sd", figures.sd / figures.mean});
+  };
+  share("learned", learned, "learned part");
+  share("held_out", held, "held-out part");
+  share("played", played, "played");
+  section.tables.push_back(bands_of(play.traces, light));
+  fit.report.sections.push_back(std::move(section));
+  const double calm = std::abs(played.calm_share - held.calm_share);
+  const double sd = std::abs(played.sd / played.mean * held.mean / held.sd - 1);
+  Usable usable{calm <= kCalmPoints && sd <= kSdShare, {}};
+  usable.reason = "plays " + number_text(100 * played.calm_share, 3) + " % of half seconds calm, held out are " +
+                  number_text(100 * held.calm_share, 3) + " %; its standard deviation is " +
+                  number_text(100 * played.sd / played.mean, 3) + " % of the mean, held out " +
+                  number_text(100 * held.sd / held.mean, 3) + " %";
+  if (!usable.verdict) usable.reason += "; expected within 10 points and within 15 % of it: record for longer";
+  fit.model.training.usable = usable;
+  fit.report.verdict = ReportVerdict{usable.verdict, usable.reason};
+}
+
+ReportSection modes_section(const SwitchedArxModel& model, const std::vector<Regression>& regressions, double rate_hz) {
+  ReportSection section{"Modes"};
+  ReportTable table{
+      "modes",
+      "from calm to restless",
+      {{"share", "share of time"}, {"dwell_seconds", "stays", "s"}, {"radius", "spectral radius"}, {"shock", "shock"}},
+      {}};
+  const std::size_t count = model.modes.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const double leaves = 1 - model.transitions[k * count + k];
+    table.rows.push_back(
+        {model.initial[k], leaves > 0 ? 1 / (leaves * rate_hz) : 0.0, regressions[k].radius, model.modes[k].shock[0]});
+  }
+  section.tables.push_back(std::move(table));
+  return section;
+}
+
+Result<Fit> fit_light(const Light& light, const FlickerRecipe& recipe, std::span<const Recording> recordings) {
+  Traces restless;
+  for (const auto& trace : light.learned) restless.push_back(restlessness(trace, half_second(light.rate_hz)));
+  const auto levels = levels_of(restless, recipe.modes, recipe.seed);
+  std::vector<std::vector<int>> modes;
+  for (const auto& trace : restless) modes.push_back(nearest_levels(trace, levels));
+  SwitchedArxModel dynamics{.switching = Switching::kMarkov};
+  dynamics.orders = {OrderMatrix(1, 1, recipe.order), OrderMatrix(1, 0), OrderMatrix(1, 0)};
+  dynamics.output_mean = {1};
+  std::vector<Regression> regressions;
+  for (int mode = 0; mode < recipe.modes; ++mode) {
+    const auto found = regress(light.learned, modes, mode, recipe.order);
+    if (!found) {
+      return Error{recordings.front().source + ": the light has no " + std::to_string(recipe.modes) +
+                   " degrees of restlessness to tell apart; ask for fewer modes, or record calm and draught"};
+    }
+    regressions.push_back(*found);
+    ArxMode one{.theta = {{}}, .constant = {found->constant}, .shock = {found->shock}};
+    for (const double weight : found->theta) one.theta[0].push_back(-weight);
+    dynamics.modes.push_back(std::move(one));
+  }
+  count_transitions(modes, dynamics);
+  Fit fit{plain(light, recipe, recordings), {}};
+  fit.model.dynamics = std::move(dynamics);
+  if (auto ok = wisp::check(std::get<SwitchedArxModel>(fit.model.dynamics)); !ok) return ok.error();
+  match_shocks(light, modes, recipe.seed, fit.model);
+  fit.report.sections.push_back(
+      modes_section(std::get<SwitchedArxModel>(fit.model.dynamics), regressions, light.rate_hz));
+  return fit;
+}
+
+}  // namespace
+}  // namespace flicker
+
+Result<Fit> learn_flicker(std::span<const Recording> recordings, const FlickerRecipe& recipe,
+                          const Progress& progress) {
+  if (auto ok = flicker::check(recipe); !ok) return ok.error();
+  const auto light = flicker::light_of(recordings, recipe);
+  if (!light) return light.error();
+  if (auto ok = arx::check_progress(progress, "learning", 0); !ok) return ok.error();
+  auto fit = flicker::fit_light(*light, recipe, recordings);
+  if (!fit) return fit;
+  if (auto ok = arx::check_progress(progress, "judging", 0.9); !ok) return ok.error();
+  flicker::judge(*light, recipe, *fit);
+  return fit;
+}
+
+}  // namespace wisp

@@ -1,0 +1,179 @@
+// Compiled once for every width of vectors, each time with another name for what it makes. The wide ones are objects of
+// their own in which nothing but that name is seen from outside: what they have of templates and inline functions, the
+// standard library's included, is compiled for wide vectors, and must not get to where a narrow machine runs it.
+
+#include <algorithm>
+
+#include "run/bank/bank_state.hpp"
+
+#ifndef WISP_FRAME_PATH
+#define WISP_FRAME_PATH wisp_frame_path
+#endif
+#ifndef WISP_WIDTH_NAME
+#define WISP_WIDTH_NAME "baseline"
+#endif
+
+namespace wisp {
+
+// Rows of the first `count` lanes of a block; what the others get is cleared when an instance is spawned there.
+void Bank::State::set_inputs(int block, const float* values, int count) {
+  const auto lanes_of = [&](int input) {
+    if (inputs == 1 && count == kLanes) return load<Reals<LiveNumbers>>(values);  // they lie as lanes do
+    float lanes[kLanes] = {};
+    for (int lane = 0; lane < count; ++lane) lanes[lane] = values[lane * inputs + input];
+    return load<Reals<LiveNumbers>>(lanes);
+  };
+  float* out = regressors_of(block);
+  for (const RegressorChannel& channel : channels.regressors) {
+    store(regress<LiveNumbers>(channel, lanes_of(channel.input)), out);
+    out += kLanes;
+  }
+  if (!extinction.present) return;
+  store(blowing<LiveNumbers>(extinction, lanes_of(extinction.input)), wind.data() + block * kLanes);
+}
+
+void Bank::State::set_common_inputs(int block, const float* values) {
+  float* out = regressors_of(block);
+  for (const RegressorChannel& channel : channels.regressors) {
+    store(regress<LiveNumbers>(channel, all<Reals<LiveNumbers>>(values[channel.input])), out);
+    out += kLanes;
+  }
+  if (!extinction.present) return;
+  const auto input = all<Reals<LiveNumbers>>(values[extinction.input]);
+  store(blowing<LiveNumbers>(extinction, input), wind.data() + block * kLanes);
+}
+
+Moment<LiveNumbers> Bank::State::moment(int block, std::uint32_t* flags) const {
+  const std::size_t first = static_cast<std::size_t>(block) * kLanes;
+  return {&keys, {stream.data() + first, born.data() + first, steps}, flags, std::min(kLanes, rows - block * kLanes)};
+}
+
+std::uint64_t Bank::State::step_blocks(int first, int last) {
+  std::uint64_t count_of_held = 0;
+  std::visit(
+      [&](auto& dynamics) {
+        const std::size_t count = channels.regressors.size() * kLanes;
+        constexpr int kGroup = std::remove_reference_t<decltype(dynamics)>::kGroup;
+        std::uint32_t flags[kGroup * kLanes];
+        for (int block = first; block < last;) {
+          const int group = last - block < kGroup ? 1 : kGroup;
+          for (int b = block; count > 0 && b < block + group; ++b) {
+            std::copy_n(regressors_of(b), count, dynamics.regressors(b));
+          }
+          if (group == kGroup) {
+            dynamics.step_group(block, moment(block, flags));
+          } else {
+            dynamics.step(block, moment(block, flags));
+          }
+          for (int b = 0; b < group; ++b, ++block) {
+            if (extinction.present) live_block(block);
+            count_of_held += count_held(block, flags + b * kLanes);
+          }
+        }
+      },
+      stepper);
+  return count_of_held;
+}
+
+// Instances of a block that live, burn and had an output held.
+std::uint32_t Bank::State::count_held(int block, const std::uint32_t* flags) const {
+  if (!any(load<Words<LiveNumbers>>(flags))) return 0;
+  std::uint32_t count = 0;
+  const int first = block * kLanes;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    count += (flags[lane] & 1) & alive[first + lane] & std::uint32_t{burns(first + lane)};
+  }
+  return count;
+}
+
+void Bank::State::live_block(int block) {
+  float before[kLanes];
+  const LifeLanes<float> life = life_of(block);
+  std::copy_n(life.lit, kLanes, before);
+  std::copy_n(life.size, kLanes, previous_size.data() + block * kLanes);
+  live<LiveNumbers>(extinction, life);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (before[lane] != life.lit[lane]) go_out(block * kLanes + lane, steps + 1);
+  }
+}
+
+void Bank::State::show_block(int block) {
+  const float share = static_cast<float>(passed) / static_cast<float>(step_time);
+  std::visit(
+      [&](const auto& dynamics) {
+        if (between) {
+          dynamics.show_between(block, share, shown_of(block));
+        } else {
+          dynamics.show(block, shown_of(block));
+        }
+      },
+      stepper);
+  if (extinction.present) show_life(block, share);
+}
+
+// Whether all of a block burns at full size. To shrink it to that would not change a bit.
+bool Bank::State::is_whole(int block) const {
+  bool whole = true;
+  for (const auto& values : {lit, size, previous_size}) {
+    for (int lane = 0; lane < kLanes; ++lane) whole &= values[block * kLanes + lane] == 1.0f;
+  }
+  return whole;
+}
+
+void Bank::State::show_life(int block, float share) {
+  if (is_whole(block)) return;
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (lit[block * kLanes + lane] != 0.0f) continue;
+    for (std::size_t k = lane; k < channels.outputs.size() * kLanes; k += kLanes) {
+      shown_of(block)[k] = last_shape_of(block)[k];
+    }
+  }
+  auto seen = load<Reals<LiveNumbers>>(size.data() + block * kLanes);
+  if (between) {
+    seen = size_between<LiveNumbers>(load<Reals<LiveNumbers>>(previous_size.data() + block * kLanes), seen, share);
+  }
+  shrink<LiveNumbers>(seen, channels.outputs.size(), shown_of(block));
+}
+
+namespace {
+
+void set_inputs(Bank::State& s, const float* values) {
+  for (int block = 0; block < s.blocks(); ++block) {
+    const int first = block * s.kLanes;
+    s.set_inputs(block, values + static_cast<std::size_t>(first) * s.inputs, std::min(s.kLanes, s.rows - first));
+  }
+}
+
+void set_common_inputs(Bank::State& s, const float* values) {
+  for (int block = 0; block < s.blocks(); ++block) s.set_common_inputs(block, values);
+}
+
+void show(Bank::State& s, int first, int last) {
+  for (int block = first; block < last; ++block) s.show_block(block);
+}
+
+void polylines(const Bank::State& s, float* values) {
+  const std::size_t row = static_cast<std::size_t>(s.polyline.points) * 2;
+  for (int block = 0; block < s.blocks(); ++block) {
+    const int first = block * s.kLanes;
+    const int lanes = std::min(s.kLanes, s.rows - first);
+    float* out = values + first * row;
+    s.polyline_of(block, [&](int number, const float* lane_values) {
+      for (int lane = 0; lane < lanes; ++lane) out[lane * row + number] = lane_values[lane];
+    });
+    for (int lane = 0; lane < lanes; ++lane) {
+      if (!s.alive[first + lane]) std::fill_n(out + lane * row, row, 0.0f);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace wisp
+
+extern "C" WISP_INSIDE const wisp::FramePath WISP_FRAME_PATH = {
+    WISP_WIDTH_NAME,
+    wisp::set_inputs,
+    wisp::set_common_inputs,
+    [](wisp::Bank::State& s, int first, int last) { return s.step_blocks(first, last); },
+    wisp::show,
+    wisp::polylines};

@@ -1,0 +1,38 @@
+#pragma once
+// What a frame computes, for all instances of a range of blocks. frame_path.cpp is compiled once for every width of
+// vectors that the machine may have (src/run/CMakeLists.txt), and a bank takes one when it is made. All give the same
+// bits.
+
+#include <cstdint>
+#include <span>
+
+#include "wisp/base/result.hpp"
+#include "wisp/run/bank.hpp"
+
+// The shared library shows what begins with wisp_: not these.
+#ifdef __ELF__
+#define WISP_INSIDE __attribute__((visibility("hidden")))
+#else
+#define WISP_INSIDE
+#endif
+
+namespace wisp {
+
+struct FramePath {
+  const char* width;
+  void (*set_inputs)(Bank::State& state, const float* values);
+  void (*set_common_inputs)(Bank::State& state, const float* values);
+  /// Makes the newest samples of blocks; returns of how many instances an output was held.
+  std::uint64_t (*step)(Bank::State& state, int first, int last);
+  void (*show)(Bank::State& state, int first, int last);
+  void (*polylines)(const Bank::State& state, float* values);
+};
+
+/// Those that this machine can run, the narrowest first: it is what the compiler was told to make.
+std::span<const FramePath* const> frame_paths();
+
+/// The widest; or the one that the environment variable WISP_WIDTH names.
+/// Errors: it names another.
+Result<const FramePath*> choose_frame_path();
+
+}  // namespace wisp

@@ -1,0 +1,99 @@
+// `wisp export`: what is written, and what cannot be.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/program.hpp"
+#include "model/sample_chain.hpp"
+#include "wisp/model/file.hpp"
+
+namespace wisp {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+const std::string kModels = WISP_SOURCE_DIR "/apps/web/public/models/";
+const std::string kFlame = kModels + "flame-2.wisp", kLeaf = kModels + "leaf.wisp";
+
+class Export : public InFolder {
+ protected:
+  void expect_error(const std::string& arguments, const std::string& words) {
+    const Said said = wisp("export " + arguments);
+    EXPECT_EQ(said.status, 1) << arguments;
+    EXPECT_THAT(said.err, HasSubstr(words)) << arguments;
+    EXPECT_EQ(std::count(said.err.begin(), said.err.end(), '\n'), 1) << said.err;
+  }
+};
+
+TEST_F(Export, WritesEveryKindAndTheSameBytesAgain) {
+  for (const std::string name : {"a.glb", "a.json", "a.png", "a.apng", "a.webm"}) {
+    const std::string height = name == "a.glb" ? "" : " --height 48";
+    const std::string arguments = "export " + kFlame + " --loop 0.5" + height + " -o ";
+    const Said said = wisp(arguments + at(name) + " --json");
+    ASSERT_EQ(said.status, 0) << said.err;
+    EXPECT_EQ(said.json()["frames"], 30);
+    EXPECT_EQ(said.json()["loop"], true);
+    fs::create_directory(folder_ / "again");
+    ASSERT_EQ(wisp(arguments + at("again/" + name)).status, 0);
+    const bool same = file_text(at(name)) == file_text(at("again/" + name));
+    EXPECT_TRUE(same || name == "a.webm") << name;  // Matroska files carry a random number
+  }
+  EXPECT_TRUE(fs::exists(at("a.atlas.json")));
+}
+
+TEST_F(Export, ALeafsRoundSaysHowFarItLeads) {
+  const Said said = wisp("export " + kLeaf + " --loop 3 -o " + at("a.glb") + " --json");
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_LT(said.json()["travel"][0][2].get<double>(), -1);
+}
+
+TEST_F(Export, APictureOfAFlameEndsInNothing) {
+  ASSERT_EQ(wisp("export " + kFlame + " --seconds 0.1 --height 64 -o " + at("a.apng")).status, 0);
+  const std::string ffprobe =
+      "ffprobe -v error -show_entries stream=width -of csv=p=0 " + at("a.apng") + " >" + at("width");
+  ASSERT_EQ(std::system(ffprobe.c_str()), 0);
+  const std::string ffmpeg =
+      "ffmpeg -v error -i " + at("a.apng") + " -frames:v 1 -f rawvideo -pix_fmt rgba " + at("raw");
+  ASSERT_EQ(std::system(ffmpeg.c_str()), 0);
+  const std::size_t width = std::stoul(file_text(at("width")));
+  const std::string pixels = file_text(at("raw"));
+  ASSERT_EQ(pixels.size(), width * 64 * 4);
+  int edge = 0, middle = 0;
+  for (std::size_t k = 0; k < width * 64; ++k) {
+    const std::size_t x = k % width, y = k / width;
+    int& brightest = x == 0 || y == 0 || x + 1 == width || y == 63 ? edge : middle;
+    brightest = std::max(brightest, static_cast<int>(static_cast<unsigned char>(pixels[4 * k + 3])));
+  }
+  EXPECT_EQ(edge, 0);
+  EXPECT_GT(middle, 200);
+}
+
+TEST_F(Export, AFlagThatWouldDoNothingIsWrongUsage) {
+  const auto refused = [&](const std::string& arguments, const std::string& words) {
+    const Said said = wisp("export " + arguments);
+    EXPECT_EQ(said.status, 2) << arguments;
+    EXPECT_THAT(said.err, HasSubstr(words)) << arguments;
+  };
+  refused(kFlame + " --loop 2 -o " + at("a.c"), "--loop does nothing to a .c file");
+  refused(kFlame + " --height 99 -o " + at("a.glb"), "--height does nothing to a .glb file");
+  refused(kFlame + " --instances 2 -o " + at("a.json"), "--instances does nothing to a .json file");
+  ASSERT_TRUE(write_model(at("calm.wisp"), sample_chain()));
+  refused(at("calm.wisp") + " --wind 1 -o " + at("a.glb"), "has none");
+  EXPECT_FALSE(fs::exists(at("a.c")) || fs::exists(at("a.glb")) || fs::exists(at("a.json")));
+}
+
+TEST_F(Export, WhatCannotBeWrittenIsOneSentenceAndNoFile) {
+  expect_error(kFlame + " -o " + at("a.fbx"), "expected a name that ends in .glb, .json, .png, .apng, .webm or .c");
+  expect_error(kLeaf + " -o " + at("a.json"), "a body's motion goes into a .glb");
+  expect_error(kLeaf + " -o " + at("a.png"), "no flame to draw");
+  expect_error(kFlame + " --seconds 0 -o " + at("a.glb"), "expected above 0");
+  expect_error(kFlame + " --height 4 -o " + at("a.png"), "expected 16 to 2048");
+  expect_error(kFlame + " --instances 5000 -o " + at("a.glb"), "expected 1 to 1000");
+  expect_error(kFlame + " --wind 9 --seconds 2 -o " + at("a.glb"), "goes out");
+  expect_error(at("none.wisp") + " -o " + at("a.glb"), "cannot be opened");
+  EXPECT_FALSE(fs::exists(at("a.glb")) || fs::exists(at("a.png")) || fs::exists(at("a.json")));
+}
+
+}  // namespace
+}  // namespace wisp

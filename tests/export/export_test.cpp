@@ -1,0 +1,211 @@
+#include "wisp/export/export.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#ifdef WISP_HAS_RLOTTIE
+#include <rlottie_capi.h>
+#endif
+
+#include "paths.hpp"
+#include "run/flame_model.hpp"
+#include "wisp/model/file.hpp"
+#include "wisp/run/bank.hpp"
+
+namespace wisp {
+namespace {
+
+using Json = nlohmann::json;
+
+// A .glb taken apart as its specification says.
+struct Opened {
+  Json json;
+  std::vector<float> numbers(std::size_t accessor) const {
+    const Json& view = json["bufferViews"][json["accessors"][accessor]["bufferView"].get<std::size_t>()];
+    std::vector<float> values(view["byteLength"].get<std::size_t>() / 4);
+    std::memcpy(values.data(), binary.data() + view["byteOffset"].get<std::size_t>(), values.size() * 4);
+    return values;
+  }
+  std::vector<std::byte> binary;
+};
+
+Opened opened(const std::vector<std::byte>& bytes) {
+  const auto word = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    std::memcpy(&value, bytes.data() + at, 4);
+    return value;
+  };
+  EXPECT_EQ(word(0), 0x46546c67u);
+  EXPECT_EQ(word(8), bytes.size());
+  const std::size_t json_size = word(12);
+  const auto* text = reinterpret_cast<const char*>(bytes.data()) + 20;
+  Opened file{Json::parse(text, text + json_size), {}};
+  file.binary.assign(bytes.begin() + static_cast<std::ptrdiff_t>(28 + json_size), bytes.end());
+  EXPECT_EQ(word(20 + json_size), file.binary.size());
+  return file;
+}
+
+std::vector<float> keys(const Opened& file, std::size_t channel) {
+  const Json& animation = file.json["animations"][0];
+  const auto sampler = animation["channels"][channel]["sampler"].get<std::size_t>();
+  return file.numbers(animation["samplers"][sampler]["output"].get<std::size_t>());
+}
+
+Model leaf() { return *read_model(WISP_SOURCE_DIR "/apps/web/public/models/leaf.wisp"); }
+
+TEST(Gltf, ABodysKeysAreWhatIsPlayed) {
+  const Model model = leaf();
+  const auto taken = take(model, {.seconds = 2, .instances = 2});
+  const auto bytes = gltf_bytes(model, *taken);
+  ASSERT_TRUE(bytes);
+  const Opened file = opened(*bytes);
+  ASSERT_EQ(file.json["nodes"].size(), 3u);
+  const auto places = keys(file, 2), turns = keys(file, 3);
+  ASSERT_EQ(places.size(), taken->frames * 3);
+  for (std::size_t t = 0; t < taken->frames; ++t) {
+    const auto row = taken->at(t, 1);
+    double along = 0;
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(places[3 * t + k], row[k]);
+    // A bank's quaternions are of segments in 16 bits, and as long as those are: 1 within 4e-5.
+    for (std::size_t k = 0; k < 4; ++k) along += static_cast<double>(turns[4 * t + k]) * row[3 + (k + 1) % 4];
+    EXPECT_NEAR(std::abs(along), 1, 4e-5) << t;
+    if (t == 0) continue;
+    double step = 0;
+    for (std::size_t k = 0; k < 4; ++k) step += static_cast<double>(turns[4 * t + k]) * turns[4 * t - 4 + k];
+    EXPECT_GT(step, 0) << "the long way from key to key";
+  }
+}
+
+TEST(Gltf, ALoopEndsWithItsFirstFrameAgain) {
+  const Model model = leaf();
+  const auto taken = take(model, {.seconds = 2, .loop = true});
+  ASSERT_TRUE(taken) << taken.error().message;
+  const Opened file = opened(*gltf_bytes(model, *taken));
+  const auto places = keys(file, 0), turns = keys(file, 1);
+  ASSERT_EQ(places.size(), (taken->frames + 1) * 3);
+  double along = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(places[places.size() - 3 + k], places[k] + taken->travel[0][k], 1e-6);
+    EXPECT_EQ(file.json["nodes"][1]["extras"]["travel"][k].get<double>(), taken->travel[0][k]);
+  }
+  for (std::size_t k = 0; k < 4; ++k) along += static_cast<double>(turns[turns.size() - 4 + k]) * turns[k];
+  EXPECT_NEAR(std::abs(along), 1, 1e-6);
+}
+
+TEST(Gltf, AFlamesMorphTargetsAndWeightsMakeTheOutlineThatABankDraws) {
+  const Model model = flame_model();
+  auto bank = Bank::create(model, {.seed = 4, .polyline_points = 32});
+  bank->spawn();
+  std::vector<float> polyline(64);
+  for (int k = 0; k < 120; ++k) bank->step();
+  const auto taken = take(model, {.seconds = 2, .seed = 4});
+  const Opened file = opened(*gltf_bytes(model, *taken));
+  const Json& primitive = file.json["meshes"][0]["primitives"][0];
+  const auto base = file.numbers(primitive["attributes"]["POSITION"].get<std::size_t>());
+  const auto weights = keys(file, 0);
+  ASSERT_EQ(primitive["targets"].size(), 16u);
+  EXPECT_EQ(file.json["meshes"][0]["extras"]["targetNames"][3], "p1.y");
+  std::vector<std::vector<float>> targets;
+  for (const Json& target : primitive["targets"])
+    targets.push_back(file.numbers(target["POSITION"].get<std::size_t>()));
+  for (std::size_t t = 0; t < taken->frames; ++t) {
+    bank->step();
+    bank->polylines(polyline);
+    for (std::size_t p = 0; p < 32; ++p) {
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        double sum = base[3 * p + axis];
+        for (std::size_t k = 0; k < 16; ++k) {
+          ASSERT_TRUE(weights[16 * t + k] >= 0 && weights[16 * t + k] <= 1);
+          sum += static_cast<double>(weights[16 * t + k]) * targets[k][3 * p + axis];
+        }
+        ASSERT_NEAR(sum, polyline[2 * p + axis], 1e-5) << t;
+      }
+    }
+  }
+}
+
+// A cubic Bézier curve of a Lottie path at a parameter.
+std::array<double, 2> on_path(const Json& path, std::size_t curve, double s) {
+  std::array<double, 2> point{};
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const double from = path["v"][curve][axis], to = path["v"][curve + 1][axis];
+    const double out = from + path["o"][curve][axis].get<double>(), in = to + path["i"][curve + 1][axis].get<double>();
+    const double r = 1 - s;
+    point[axis] = r * r * r * from + 3 * r * r * s * out + 3 * r * s * s * in + s * s * s * to;
+  }
+  return point;
+}
+
+TEST(Lottie, PathsAreTheSplineItself) {
+  const Model model = flame_model();
+  const auto taken = take(model, {.seconds = 1});
+  const auto text = lottie_text(model, *taken, 400);
+  ASSERT_TRUE(text);
+  const Json layer = Json::parse(*text)["layers"][0];
+  const Json& path_keys = layer["shapes"][0]["it"][0]["ks"]["k"];
+  ASSERT_EQ(path_keys.size(), taken->frames);
+  for (std::size_t t = 0; t + 1 < taken->frames; ++t) {
+    const auto points = outline_of(model, *taken, t, 0, 51);
+    const Json& path = path_keys[t]["s"][0];
+    ASSERT_EQ(path["v"].size(), 6u);  // eight control points make five curves
+    // Both are the same points but for the scale and the place of the picture.
+    const auto first = on_path(path, 0, 0), last = on_path(path, 4, 1);
+    const double scale = (last[0] - first[0]) / (points[100] - points[0]);
+    for (std::size_t k = 0; k <= 50; ++k) {
+      const std::size_t curve = std::min<std::size_t>(4, k / 10);
+      const auto found = on_path(path, curve, (static_cast<double>(k) - 10.0 * static_cast<double>(curve)) / 10);
+      EXPECT_NEAR(found[0] - first[0], scale * (points[2 * k] - points[0]), 0.02);
+      EXPECT_NEAR(found[1] - first[1], -scale * (points[2 * k + 1] - points[1]), 0.02);
+    }
+  }
+}
+
+#ifdef WISP_HAS_RLOTTIE
+TEST(Lottie, RlottieFillsTheOutline) {
+  const Model model = flame_model();
+  const auto taken = take(model, {.seconds = 1});
+  const auto text = lottie_text(model, *taken, 400);
+  const Json json = Json::parse(*text);
+  Lottie_Animation* animation = lottie_animation_from_data(text->c_str(), "outline", "");
+  ASSERT_TRUE(animation);
+  std::size_t width = 0, height = 0;
+  lottie_animation_get_size(animation, &width, &height);
+  EXPECT_EQ(height, 400u);
+  EXPECT_EQ(lottie_animation_get_totalframe(animation), taken->frames);
+  for (const std::size_t frame : {0u, 7u, 28u}) {
+    std::vector<std::uint32_t> pixels(width * height);
+    lottie_animation_render(animation, frame, pixels.data(), width, height, width * 4);
+    double filled = 0, area = 0;
+    for (const std::uint32_t pixel : pixels) filled += (pixel >> 24) / 255.0;
+    std::vector<std::array<double, 2>> polygon;
+    const Json& path = json["layers"][0]["shapes"][0]["it"][0]["ks"]["k"][frame]["s"][0];
+    for (std::size_t k = 0; k <= 100; ++k) {
+      const std::size_t curve = std::min<std::size_t>(4, k / 20);
+      polygon.push_back(on_path(path, curve, (static_cast<double>(k) - 20.0 * static_cast<double>(curve)) / 20));
+    }
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const auto &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+      area += (a[0] * b[1] - a[1] * b[0]) / 2;
+    }
+    EXPECT_NEAR(filled, std::abs(area), 0.01 * std::abs(area)) << frame;
+  }
+  lottie_animation_destroy(animation);
+}
+#endif
+
+TEST(Export, WhatHasNoShapeIsRefusedWithAReason) {
+  Model plain = flame_model();
+  plain.view = PlainView{};
+  const auto taken = take(plain, {.seconds = 1});
+  EXPECT_NE(gltf_bytes(plain, *taken).error().message.find("neither an outline nor a body"), std::string::npos);
+  EXPECT_NE(lottie_text(plain, *taken).error().message.find("no outline"), std::string::npos);
+  EXPECT_NE(gltf_bytes(leaf(), *taken).error().message.find("expected one of this model"), std::string::npos);
+  const Model flame = flame_model();
+  EXPECT_NE(lottie_text(flame, *taken, 3).error().message.find("expected 16 to 8192"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace wisp

@@ -1,0 +1,189 @@
+// A lamp in fixed point: beside what a bank plays, and on the processors that it is for.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "folder_test.hpp"
+#include "paths.hpp"
+#include "run/flame_model.hpp"
+#include "wisp/export/export.hpp"
+#include "wisp/model/file.hpp"
+#include "wisp/run/bank.hpp"
+
+namespace wisp {
+namespace {
+
+// A light that is calm and restless by turns, as `wisp learn flicker` makes them.
+Model light() {
+  SwitchedArxModel dynamics{.switching = Switching::kMarkov};
+  dynamics.orders = {OrderMatrix(1, 1, 4), OrderMatrix(1, 0), OrderMatrix(1, 0)};
+  dynamics.output_mean = {1};
+  // Poles of size 0.88, 0.31 and 0.20, in a mode that is shaken hardly and in one that is.
+  dynamics.modes = {{.theta = {{-1.5, 0.8725, -0.00525, -0.04755}}, .constant = {0}, .shock = {0.0008}},
+                    {.theta = {{-1.5, 0.8725, -0.00525, -0.04755}}, .constant = {0.002}, .shock = {0.03}}};
+  dynamics.transitions = {0.98, 0.02, 0.03, 0.97};
+  dynamics.initial = {0.6, 0.4};
+  Model model{.name = "a light", .rate_hz = 50};
+  model.outputs = {{"brightness", "", 0.5, 1.8}};
+  model.dynamics = dynamics;
+  return model;
+}
+
+// Mean, standard deviation, and share of half seconds that hardly change.
+struct Look {
+  double mean = 0, sd = 0, calm = 0;
+};
+
+Look look_of(const std::vector<double>& trace) {
+  constexpr std::size_t kHalf = 25;
+  Look look;
+  for (const double value : trace) look.mean += value / static_cast<double>(trace.size());
+  for (const double value : trace) look.sd += std::pow(value - look.mean, 2) / static_cast<double>(trace.size());
+  look.sd = std::sqrt(look.sd);
+  for (std::size_t at = 0; at + kHalf <= trace.size(); at += kHalf) {
+    double mean = 0, square = 0;
+    for (std::size_t k = at; k < at + kHalf; ++k) mean += trace[k] / kHalf;
+    for (std::size_t k = at; k < at + kHalf; ++k) square += std::pow(trace[k] - mean, 2) / kHalf;
+    look.calm += square < 0.02 * 0.02;
+  }
+  look.calm /= static_cast<double>(trace.size() / kHalf);
+  return look;
+}
+
+class Firmware : public FolderTest {
+ protected:
+  void write(const Model& model) const {
+    const auto source = firmware_source(model, "lamp");
+    ASSERT_TRUE(source) << source.error().message;
+    std::ofstream(folder_ / "lamp.h") << source->header;
+    std::ofstream(folder_ / "lamp.c") << source->source;
+  }
+
+  // What a shell prints, run in the folder; empty where it fails.
+  std::string said(const std::string& command) const {
+    const std::string line = "cd '" + folder_.string() + "' && " + command + " 2>&1";
+    std::FILE* pipe = ::popen(line.c_str(), "r");
+    std::string text;
+    std::array<char, 4096> part{};
+    while (const std::size_t got = std::fread(part.data(), 1, part.size(), pipe)) text.append(part.data(), got);
+    return ::pclose(pipe) == 0 ? text : "";
+  }
+
+  // The hash and the slowest step that a compiled lamp prints.
+  std::string played(const std::string& compiler, const std::string& flags, const std::string& runner) const {
+    const std::string bench = WISP_SOURCE_DIR "/studies/export/firmware/";
+    const std::string built = said(compiler +
+                                   " -std=c99 -I. -DLAMP_HEADER='\"lamp.h\"' -DLAMP_NAME=lamp "
+                                   "-DLAMP_STEPS=3000 " +
+                                   flags + " " + bench + "lamp_main.c lamp.c -o play && echo built");
+    EXPECT_NE(built.find("built"), std::string::npos) << built;
+    return said(runner);
+  }
+};
+
+TEST_F(Firmware, PlaysAsABankDoes) {
+  const Model model = light();
+  write(model);
+  std::ofstream(folder_ / "main.c")
+      << "#include <stdio.h>\n#include \"lamp.h\"\n"
+         "int main(void) { lamp_state lamp; int k; lamp_start(&lamp, 3);\n"
+         "for (k = 0; k < 400000; ++k) printf(\"%d\\n\", lamp_step(&lamp));\nreturn 0; }\n";
+  ASSERT_NE(said("cc -std=c99 -O1 -Wall -Wextra -Werror lamp.c main.c -o play && ./play > out && echo done"), "");
+  std::vector<double> lamp, bank_light;
+  std::ifstream stream(folder_ / "out");
+  for (double value = 0; stream >> value;) lamp.push_back(value / 4096);
+  ASSERT_EQ(lamp.size(), 400000u);
+  auto bank = Bank::create(model, {.seed = 3});
+  const InstanceId id = bank->spawn();
+  std::array<float, 1> value{};
+  for (int k = 0; k < 400000; ++k) {
+    bank->step();
+    bank->outputs(id, value);
+    bank_light.push_back(value[0]);
+  }
+  const Look a = look_of(lamp), b = look_of(bank_light);
+  // 8,000 s in modes that last about a second: shares are known to about 0.01, the deviation to 1 %.
+  EXPECT_NEAR(a.mean, b.mean, 0.005);
+  EXPECT_NEAR(a.sd / b.sd, 1, 0.04);
+  EXPECT_NEAR(a.calm, b.calm, 0.03);
+}
+
+TEST_F(Firmware, FitsASmallProcessorAndPlaysTheSameNumbersThere) {
+  write(light());
+  const std::string host = played("cc", "-O2", "./play").substr(0, 8);
+  ASSERT_EQ(host.size(), 8u);
+  // The compilers and simulators are of script/bootstrap.
+  const std::string avr =
+      played("avr-gcc", "-mmcu=atmega328p -Os", "timeout 120 simavr -m atmega328p -f 16000000 play");
+  const std::size_t at = avr.find(host);
+  ASSERT_NE(at, std::string::npos) << "the host says " << host << ", simavr: " << avr;
+  // 2 % of 16 MHz at 50 steps a second.
+  EXPECT_LE(std::stoul(avr.substr(at + 9, 8), nullptr, 16), 6400u);
+  const std::string size = said("avr-gcc -mmcu=atmega328p -Os -std=c99 -c lamp.c -o lamp.o && avr-size lamp.o");
+  std::istringstream words(size.substr(size.find('\n')));
+  int text = 0, data = 0, bss = 0;
+  words >> text >> data >> bss;
+  EXPECT_GT(text, 100) << size;
+  EXPECT_LE(text + data, 1024);
+  EXPECT_EQ(bss, 0);
+  const std::string bench = WISP_SOURCE_DIR "/studies/export/firmware/";
+  const std::string arm =
+      played("arm-none-eabi-gcc",
+             "-mcpu=cortex-m0 -mthumb -Os -nostartfiles -T " + bench + "cortex_m0.ld " + bench + "cortex_m0.c",
+             "timeout 60 qemu-system-arm -M microbit -nographic -semihosting-config "
+             "enable=on,target=native -kernel play </dev/null");
+  EXPECT_NE(arm.find(host), std::string::npos) << "the host says " << host << ", QEMU: " << arm;
+}
+
+TEST_F(Firmware, ALampIsSmallAndFollowsAnInput) {
+  EXPECT_LE(firmware_source(light(), "lamp")->state_bytes, 64u);
+  ArxModel arx;
+  arx.orders = {OrderMatrix(1, 1, 1), OrderMatrix(1, 1, 1), OrderMatrix(1, 1, 1)};
+  arx.theta = {{-0.5, -0.25}};
+  arx.constant = {0};
+  arx.output_mean = {1};
+  arx.input_mean = {0};
+  arx.noise.sd = {0};
+  Model model{.name = "driven", .rate_hz = 50};
+  model.inputs = {{"wind", "", 0, 1}};
+  model.outputs = {{"brightness", "", 0, 2}};
+  model.dynamics = arx;
+  write(model);
+  std::ofstream(folder_ / "main.c") << "#include <stdio.h>\n#include \"lamp.h\"\n"
+                                       "int main(void) { lamp_state lamp; int k, last = 0; lamp_start(&lamp, 3);\n"
+                                       "for (k = 0; k < 100; ++k) last = lamp_step(&lamp, 4096);\n"
+                                       "printf(\"%d\", last); return 0; }\n";
+  const std::string settled = said("cc -std=c99 -Wall -Wextra -Werror lamp.c main.c -o play && ./play");
+  // 1 − 0.25 / (1 − 0.5) in 4096ths.
+  EXPECT_NEAR(std::stoi(settled), 2048, 2);
+}
+
+TEST_F(Firmware, WhatNoLampCanPlayIsSaid) {
+  const auto says = [](const Model& model, const std::string& words, const std::string& name = "lamp") {
+    const auto source = firmware_source(model, name);
+    ASSERT_FALSE(source);
+    EXPECT_NE(source.error().message.find(words), std::string::npos) << source.error().message;
+  };
+  says(flame_model(), "16 outputs, a lamp has one");
+  says(light(), "no name in C", "my lamp");
+  Model regions = light();
+  auto& dynamics = std::get<SwitchedArxModel>(regions.dynamics);
+  dynamics.switching = Switching::kRegions;
+  dynamics.transitions.clear();
+  dynamics.initial.clear();
+  dynamics.regions.assign(10, 0.0);
+  says(regions, "switched by regions");
+  Model far = light();
+  std::get<SwitchedArxModel>(far.dynamics).output_mean = {90};
+  says(far, "expected at most 3.9");
+}
+
+}  // namespace
+}  // namespace wisp
