@@ -1,5 +1,5 @@
-// The sentences of errors, without the C library's printf, which is more than 3 kB of what a page fetches: of its formats
-// those that this library uses. They are %s, %u, %zu, %016llx, and the %f of std::to_string().
+// The sentences of errors, without the C library's printf, which is more than 3 kB of what a page fetches: of its
+// formats those that this library uses. They are %s, %u, %zu, %016llx, and the %f of std::to_string().
 
 #include <cmath>
 #include <cstdarg>

@@ -67,8 +67,8 @@ struct DrawnResiduals {
   double wind_scale = 0;            ///< a stored 1 of `winds`, in the regressor's unit
   std::vector<std::int16_t> winds;  ///< the input: of every stretch as many samples before it as the last lag says,
                                     ///< then one a row
-  int toward = -1;        ///< the regressor that the input is; -1: none, and jumps go anywhere
-  int against = -1;       ///< another one that is subtracted from it: wind from the other side; -1: none
+  int toward = -1;                  ///< the regressor that the input is; -1: none, and jumps go anywhere
+  int against = -1;                 ///< another one that is subtracted from it: wind from the other side; -1: none
   std::vector<int> lags;  ///< 1 to kMostDrawnLags numbers of steps that are looked back, ascending from 0; empty where
                           ///< nothing drives it
   double tolerance = 0;   ///< by which a row may be farther than the nearest one before a jump, in the regressor's unit

@@ -225,7 +225,7 @@ Result<ArxFit> fit_components(std::span<const Recording> recordings, const Prepa
   const ArxOptions arx{.orders = component_orders(options.orders, components.names.size()),
                        .offset = weight > 0 && weight < 1 ? ArxOffset::kNone : ArxOffset::kMean,  // shrunk about rest
                        .ridge = options.ridge,
-                       .judge_free_run = options.judge_free_run};
+                       .judge_free_run = false};  // nobody knows components by name
   auto fitted = fit_arx(rows, {prepared.channels.inputs, components.names}, arx);
   if (!fitted) return fitted;
   ArxModel model = in_coordinates(fitted->model, components, options.orders);

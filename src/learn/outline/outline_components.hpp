@@ -31,10 +31,9 @@ struct ShapeComponents {
 
 /// How the dynamics are estimated.
 struct ComponentOptions {
-  ArxOrders orders;            ///< of the coordinates: outline_orders() with OutlineCoupling::kFull
-  double ridge = 0;            ///< ArxOptions::ridge
-  double mirror_weight = 0;    ///< 0 to 1: of the mirror image of every row; 0: none is learned from
-  bool judge_free_run = true;  ///< ArxOptions::judge_free_run
+  ArxOrders orders;          ///< of the coordinates: outline_orders() with OutlineCoupling::kFull
+  double ridge = 0;          ///< ArxOptions::ridge
+  double mirror_weight = 0;  ///< 0 to 1: of the mirror image of every row; 0: none is learned from
 };
 
 /// The components of what moves in prepared recordings.

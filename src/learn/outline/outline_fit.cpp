@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "learn/arx/fit/arx_report.hpp"
 #include "learn/fidelity/fidelity_marginal.hpp"
 #include "learn/numeric/chi_squared.hpp"
 #include "learn/outline/outline_components.hpp"
@@ -124,7 +125,7 @@ Result<ArxFit> fit(std::span<const Recording> recordings, const PreparedOutlines
   const ArxOrders orders = outline_orders(chosen.order, chosen.delay, *options.coupling, prepared);
   const bool mirror = mirror_wanted(options, prepared);
   if (*options.coupling == OutlineCoupling::kFull) {
-    return fit_components(recordings, prepared, {orders, ridge, mirror ? mirror_weight(prepared) : 0, judge_free_run});
+    return fit_components(recordings, prepared, {orders, ridge, mirror ? mirror_weight(prepared) : 0});
   }
   const ArxOptions arx{.orders = orders, .ridge = ridge, .judge_free_run = judge_free_run};
   auto fitted = fit_arx(to_learn_from(recordings, prepared, options), prepared.channels, arx);
@@ -352,6 +353,17 @@ Result<void> bend(OutlineParts& parts, const PreparedOutlines& prepared, const O
   return {};
 }
 
+// Of a model whose components were fitted: says of which coordinates one step ahead promises too much.
+void warn_of_coordinates(const PreparedOutlines& prepared, OutlineSummary& summary) {
+  ArxSummary found;
+  for (const OutlineChannelFigures& channel : summary.learned.channels) {
+    found.fit_percent.push_back(channel.fit_percent.front());
+    found.free_run_fit_percent.push_back(channel.fit_percent.back());
+  }
+  warn_of_free_run(prepared.channels.outputs, found);
+  summary.warnings.insert(summary.warnings.end(), found.warnings.begin(), found.warnings.end());
+}
+
 // Judges a model that has seen only the first part of every recording.
 Result<ArxFit> judge(const PreparedOutlines& prepared, const OutlineRecipe& options, OutlineSummary& summary) {
   OutlineParts parts = hold_out(prepared.recordings, prepared.channels, options.holdout);
@@ -372,6 +384,8 @@ Result<ArxFit> judge(const PreparedOutlines& prepared, const OutlineRecipe& opti
   auto learned = outline_figures(fitted->model, parts.learned, prepared.channels, prepared.layout);
   if (!learned) return learned.error();
   summary.learned = *std::move(learned);
+  const bool full = *options.coupling == OutlineCoupling::kFull;
+  if (full && !prepared.inputs.empty()) warn_of_coordinates(prepared, summary);
   const auto history = static_cast<std::size_t>(fitted->model.orders.history());
   if (summary.rows_held_out < kMinHeldOut + history) return fitted;
   auto held_out = outline_figures(fitted->model, parts.held_out, prepared.channels, prepared.layout);

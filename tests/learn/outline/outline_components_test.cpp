@@ -2,9 +2,12 @@
 
 #include "learn/outline/outline_components.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "learn/outline/made_outline.hpp"
 #include "learn/outline/outline_fit.hpp"
@@ -98,6 +101,18 @@ TEST(OutlineComponents, AreTheDefaultFromTwentySecondsOfWindOn) {
   EXPECT_EQ(coefficients(900, {}), 2 * 10 + 2 * (4 + 2 + 2));
   EXPECT_EQ(coefficients(900, {.light = true}), 3 + 2 * 3);
   EXPECT_EQ(coefficients(450, {}), 3 + 2 * 3);
+}
+
+// In another flame's wind one step ahead is good and a free run is not.
+TEST(OutlineComponents, WarningsNameCoordinates) {
+  Recording recording = made::outline_recording(kWindy);
+  recording.channels[*find_channel(recording, "wind")].samples = made::gusts({.rows = 1500, .seed = 9});
+  const auto fit = fit_outline(std::vector{recording}, {});
+  ASSERT_TRUE(fit) << fit.error().message;
+  std::string all;
+  for (const std::string& warning : fit->summary.warnings) all += warning + '\n';
+  EXPECT_THAT(all, testing::HasSubstr("output 'p2.x': one step ahead"));
+  EXPECT_THAT(all, testing::Not(testing::HasSubstr("component")));
 }
 
 }  // namespace

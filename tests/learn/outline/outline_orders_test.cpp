@@ -66,7 +66,8 @@ TEST(OutlineOrders, BothAreFoundTogether) {
 }
 
 // Where all coordinates hear each other their equations have twice as many lags of the wind, and two resonances that
-// follow it: delays up to the wind's own and somewhat more are alike (held-out errors within 0.5 %), later ones are not.
+// follow it: delays up to the wind's own and somewhat more are alike (held-out errors within 0.5 %), later ones are
+// not.
 TEST(OutlineOrders, AWholeOutlineIsFollowedAsWellAsWithTheDelayThatIsTrue) {
   const Recording early = heard_early(made::outline_recording(kWindy), 4);
   const OutlineSummary searched = learned(early, {.order = {}, .delay = {}});

@@ -113,8 +113,8 @@ TEST(Validation, WindFromTheOtherSideIsAnsweredByTheMirrorImage) {
   EXPECT_LT(sides_apart(fit->model), 1e-2);
 }
 
-// Where coordinates hear each other, and all wind came from the right, what a mirror image says weighs a tenth of what was
-// recorded.
+// Where coordinates hear each other, and all wind came from the right, what a mirror image says weighs a tenth of what
+// was recorded.
 TEST(Validation, WindFromASideThatWasNotRecordedIsAnsweredNearlyByTheMirrorImage) {
   EXPECT_LT(sides_apart(windy_model()), 2.5);  // 1.97 points of a fit
 }
