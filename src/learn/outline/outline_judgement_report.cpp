@@ -1,3 +1,7 @@
+#include <cmath>
+#include <cstdio>
+#include <string>
+
 #include "learn/outline/outline_report.hpp"
 #include "learn/outline/outline_report_parts.hpp"
 
@@ -60,9 +64,13 @@ ReportSection fit_section(const OutlineJudgement& found) {
 
 void add_bounded(const std::string& id, const Bounded& measure, const std::string& label, const std::string& unit,
                  ReportSection& section) {
-  char meaning[128];
-  std::snprintf(meaning, sizeof meaning, "two halves of the recording: %.3g, shuffled frames: %.3g", measure.floor,
-                measure.ceiling);
+  const auto bound = [](double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return std::isfinite(value) ? std::string(text) : std::string("too short to tell");
+  };
+  const std::string meaning =
+      "two halves of the recording: " + bound(measure.floor) + ", shuffled frames: " + bound(measure.ceiling);
   section.entries.push_back({id + ".value", measure.value, label, unit, {}, meaning});
   section.entries.push_back({id + ".floor", measure.floor, "", ""});
   section.entries.push_back({id + ".ceiling", measure.ceiling, "", ""});
