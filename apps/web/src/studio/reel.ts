@@ -1,0 +1,60 @@
+// Pictures that are kept of a film: for the strip, and for playing it again where there is no file. Bounded: when they
+// become many, every other one is let go.
+
+import type { Region } from '@wisp/studio';
+
+/** Pictures; they are small. */
+const MOST = 420;
+
+/** A kept picture: when it was, seconds, and which part of the film it shows, pixels of the film. */
+export interface Kept {
+  seconds: number;
+  bitmap: ImageBitmap;
+  part: Region;
+}
+
+export class Reel {
+  private pictures: Kept[] = [];
+  private every: number;
+  private last = -Infinity;
+
+  /** `every`: seconds between pictures, at first */
+  constructor(every = 0) {
+    this.every = every;
+  }
+
+  /** Whether a picture of that moment would be kept. */
+  wants(seconds: number): boolean {
+    return seconds - this.last >= 0.98 * this.every;
+  }
+
+  /** Keeps it; it belongs to the reel from then on. */
+  keep(picture: Kept): void {
+    this.last = picture.seconds;
+    this.pictures.push(picture);
+    if (this.pictures.length < MOST) return;
+    this.every = (2 * ((this.pictures.at(-1) as Kept).seconds - (this.pictures[0] as Kept).seconds)) / MOST;
+    this.pictures = this.pictures.filter(({ bitmap }, k) => {
+      if (k % 2 === 1) bitmap.close();
+      return k % 2 === 0;
+    });
+  }
+
+  /** The one nearest to a moment; null where there is none. */
+  at(seconds: number): Kept | null {
+    let best: Kept | null = null;
+    for (const picture of this.pictures) {
+      if (best === null || Math.abs(picture.seconds - seconds) < Math.abs(best.seconds - seconds)) best = picture;
+    }
+    return best;
+  }
+
+  /** Multiplies all times: what was counted in frames becomes seconds. */
+  scale(factor: number): void {
+    for (const picture of this.pictures) picture.seconds *= factor;
+  }
+
+  close(): void {
+    for (const { bitmap } of this.pictures.splice(0)) bitmap.close();
+  }
+}
