@@ -200,11 +200,12 @@ export class Camera {
   }
 }
 
-/** A small picture of what a camera shows in a part of it. */
-export function smallPicture(video: HTMLVideoElement, part: Region): Promise<ImageBitmap> {
+/** A small picture of what a camera shows in a part of it; null where none can be made. */
+export function smallPicture(video: HTMLVideoElement, part: Region): ImageBitmap | null {
   const share = Math.min(1, KEPT_HEIGHT / part.height);
-  return createImageBitmap(video, part.x, part.y, part.width, part.height, {
-    resizeWidth: Math.max(1, Math.round(share * part.width)),
-    resizeHeight: Math.max(1, Math.round(share * part.height)),
-  });
+  const canvas = new OffscreenCanvas(Math.max(1, Math.round(share * part.width)), Math.max(1, Math.round(share * part.height)));
+  const context = canvas.getContext('2d');
+  if (context === null) return null;
+  context.drawImage(video, part.x, part.y, part.width, part.height, 0, 0, canvas.width, canvas.height);
+  return canvas.transferToImageBitmap();
 }

@@ -30,6 +30,8 @@ export class Duet {
   private readonly part: Region;
   private readonly address: string | null;
   private filmed = false;
+  /** seconds of the film's picture that is shown; null: the browser does not say */
+  private shown: number | null = null;
   private clock = 0;
   private last = 0;
   private running = 0;
@@ -78,6 +80,15 @@ export class Duet {
     this.video.addEventListener('loadeddata', () => (this.filmed = true));
     this.video.addEventListener('error', () => (this.filmed = false));
     this.video.src = address;
+    this.watchFilm();
+  }
+
+  private watchFilm(): void {
+    if (!('requestVideoFrameCallback' in this.video)) return;
+    this.video.requestVideoFrameCallback((_, { mediaTime }) => {
+      this.shown = mediaTime;
+      this.watchFilm();
+    });
   }
 
   private frame(now: number): void {
@@ -87,7 +98,8 @@ export class Duet {
     const { rows, rate } = this.outlines;
     if (this.filmed) {
       if (this.video.paused) this.video.play().catch(() => (this.filmed = false));
-      this.clock = this.video.currentTime;
+      // What is shown, not what is due: a slow machine shows pictures late.
+      this.clock = this.shown ?? this.video.currentTime;
     } else {
       this.clock = (this.clock + seconds) % (rows / rate);
     }
@@ -138,7 +150,10 @@ export class Duet {
 }
 
 function drawWick(context: CanvasRenderingContext2D, x: number, y: number, height: number): void {
-  context.strokeStyle = 'rgb(70 52 44)';
+  const wick = context.createLinearGradient(0, y - 0.05 * height, 0, y + 0.14 * height);
+  wick.addColorStop(0, '#6b4a36');
+  wick.addColorStop(1, 'rgb(50 40 36 / 0%)');
+  context.strokeStyle = wick;
   context.lineWidth = Math.max(2, 0.03 * height);
   context.lineCap = 'round';
   context.beginPath();

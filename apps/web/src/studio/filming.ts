@@ -33,6 +33,7 @@ export class Filming {
   private readonly hint = element('p', { class: 'quiet', role: 'status' });
   private readonly ring: SVGCircleElement;
   private readonly level = element('i');
+  private readonly plan = element('ol', { class: 'plan' });
   private live: LiveCapture | null = null;
   private reel = new Reel(1 / KEPT_RATE);
   private settings: PictureSettings = {};
@@ -113,9 +114,11 @@ export class Filming {
       this.events.cancelled();
     });
     const meter = element('div', { class: 'level', 'aria-hidden': 'true' }, this.level);
+    for (const [name, words, seconds] of this.guide.plan) this.plan.append(element('li', { 'data-plan': name }, element('span', {}, words), element('small', {}, `${seconds} s`)));
     this.panel.append(
-      element('h2', {}, 'Film your flame'),
-      element('p', {}, 'One flame before something dark, large in the picture; the camera lies still, the microphone near. It takes half a minute, and you are told what to do.'),
+      element('h2', { tabindex: '-1' }, 'Film your flame'),
+      element('p', {}, 'One flame before something dark, large in the picture; the camera lies still, the microphone near. It takes half a minute:'),
+      this.plan,
       this.hint,
       element('div', { class: 'record-row' }, this.button, ...(this.camera.silent === '' ? [element('div', {}, element('small', {}, 'Sound'), meter)] : [])),
       ...(this.camera.silent === '' ? [] : [element('p', { class: 'warning' }, this.camera.silent)]),
@@ -171,6 +174,7 @@ export class Filming {
     const { act, words, share } = this.guide.at(seconds, this.seen?.state ?? null);
     this.ring.style.strokeDasharray = `${Math.round(100 * share)} 100`;
     this.viewer.say(words);
+    for (const item of this.plan.children) item.toggleAttribute('aria-current', (item as HTMLElement).dataset.plan === act);
     if (words !== this.act) this.events.announce(words);
     this.act = words;
     if (act === 'done') this.finish('');
@@ -190,10 +194,8 @@ export class Filming {
     const { reel } = this;
     if (!reel.wants(seconds) || video.videoWidth === 0) return;
     const part = aroundFlame(this.seen?.box ?? null, video.videoWidth, video.videoHeight);
-    smallPicture(video, part).then(
-      (bitmap) => reel.keep({ seconds, bitmap, part }),
-      () => undefined,
-    );
+    const bitmap = smallPicture(video, part);
+    if (bitmap !== null) reel.keep({ seconds, bitmap, part });
   }
 
   private lose(): void {

@@ -34,27 +34,27 @@ export function paintFlame(context: CanvasRenderingContext2D, line: Float32Array
   trace(context, line, WHOLE);
   context.closePath();
   context.fill();
-  context.shadowColor = 'rgb(255 240 200)';
-  context.shadowBlur = 0.1 * height;
+  context.shadowColor = 'rgb(255 240 200 / 60%)';
+  context.shadowBlur = 0.05 * height;
   const core = context.createLinearGradient(0, foot, 0, top);
   core.addColorStop(0, 'rgb(255 190 110 / 0%)');
-  core.addColorStop(0.3, 'rgb(255 236 190 / 90%)');
-  core.addColorStop(0.75, '#fff6df');
-  core.addColorStop(1, 'rgb(255 214 140 / 0%)');
+  core.addColorStop(0.3, 'rgb(255 232 180 / 34%)');
+  core.addColorStop(0.75, 'rgb(255 250 236 / 42%)');
+  core.addColorStop(1, 'rgb(255 224 160 / 0%)');
   context.fillStyle = core;
-  paintCore(context, line, foot, top);
+  for (const inset of [0.1, 0.17, 0.24, 0.31]) paintCore(context, line, foot, top, inset);
   context.restore();
 }
 
 // The same shape, narrower towards its own middle at every height, and not quite as tall.
-function paintCore(context: CanvasRenderingContext2D, line: Float32Array, foot: number, top: number): void {
+function paintCore(context: CanvasRenderingContext2D, line: Float32Array, foot: number, top: number, inset: number): void {
   const points = line.length / 2;
   context.beginPath();
   for (let k = 0; k < points; ++k) {
     const other = points - 1 - k;
     const [x, y] = [line[2 * k] as number, line[2 * k + 1] as number];
     const [across, level] = [line[2 * other] as number, line[2 * other + 1] as number];
-    context.lineTo(x + 0.24 * (across - x), foot + 0.9 * ((0.76 * y + 0.24 * level) - foot) - 0.02 * (foot - top));
+    context.lineTo(x + inset * (across - x), foot + (1 - 0.4 * inset) * (y + inset * (level - y) - foot) - 0.1 * inset * (foot - top));
   }
   context.closePath();
   context.fill();

@@ -32,6 +32,16 @@ export class Guide {
   /** `hears`: there is a microphone */
   constructor(private readonly hears: boolean) {}
 
+  /** All that will be done, and how many seconds each takes at most. */
+  get plan(): readonly (readonly [Act, string, number])[] {
+    if (!this.hears) return [['still', 'Hold still, let it flicker', STILL_ALONE]];
+    return [
+      ['still', 'Hold still, let it burn alone', STILL],
+      ['blow', 'Blow softly from the side, with pauses', BLOW],
+      ['out', 'Blow it out', OUT],
+    ];
+  }
+
   /** What is to be done so many seconds after filming began. */
   at(seconds: number, state: Seen['state'] | null): Moment {
     const passed = seconds - this.last;

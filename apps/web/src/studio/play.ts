@@ -1,9 +1,9 @@
 // A learned outline that lives through a recording's wind, row by row, and is shown at the film's own scale.
 
 import type { Bank, Instance, Library } from '@wisp/player';
+import { FlameShape, MOST_POINTS } from '@wisp/player/parts/candle/flame_shape';
 import type { Outlines } from './outlines.js';
 
-const POINTS = 64;
 /** Rows; a longer way forward is a jump: it begins anew there. */
 const JUMP = 240;
 
@@ -15,12 +15,13 @@ export class Play {
   /** of the recording's wind, what the model calls 1 */
   private readonly one: number;
   private readonly burns: boolean;
-  private readonly polyline = new Float32Array(2 * POINTS);
+  private readonly shape = new FlameShape();
+  private readonly polyline = new Float32Array(2 * MOST_POINTS);
   private row = -1;
 
   constructor(wisp: Library, private readonly outlines: Outlines, bytes: Uint8Array) {
     const model = wisp.model(bytes);
-    this.bank = model.bank({ polylinePoints: POINTS });
+    this.bank = model.bank({ polylinePoints: MOST_POINTS });
     this.flame = this.bank.spawn();
     this.hasWind = model.inputs.length > 0 && outlines.wind !== null;
     this.burns = model.facts.blowOut !== null;
@@ -52,11 +53,11 @@ export class Play {
 
   /** Its outline in pixels of the film, x and y by turns. The next call writes over it. */
   line(): Float32Array {
-    const outline = this.bank.polyline(this.flame);
-    const { base } = this.outlines;
-    for (let k = 0; k < outline.length; k += 2) {
-      this.polyline[k] = base.x + this.unit * (outline[k] as number);
-      this.polyline[k + 1] = base.y - this.unit * (outline[k + 1] as number);
+    const { shape, outlines } = this;
+    shape.update(this.bank.polyline(this.flame), this.size);
+    for (let k = 0; k < shape.count; ++k) {
+      this.polyline[2 * k] = outlines.base.x + this.unit * (shape.points[3 * k] as number);
+      this.polyline[2 * k + 1] = outlines.base.y - this.unit * (shape.points[3 * k + 1] as number);
     }
     return this.polyline;
   }

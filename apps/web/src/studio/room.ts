@@ -39,12 +39,9 @@ export interface Host {
 
 type Step = 'gather' | 'look' | 'learn' | 'blow';
 
-const STEPS: readonly (readonly [Step, string])[] = [
-  ['gather', 'Film'],
-  ['look', 'Look'],
-  ['learn', 'Learn'],
-  ['blow', 'Blow'],
-];
+const STEPS: readonly Step[] = ['gather', 'look', 'learn', 'blow'];
+const FLAME_STEPS: Readonly<Record<Step, string>> = { gather: 'Film', look: 'Look', learn: 'Learn', blow: 'Blow' };
+const TABLE_STEPS: Readonly<Record<Step, string>> = { gather: 'Table', look: 'Columns', learn: 'Learn', blow: 'See' };
 
 /** Frames a second of a folder of pictures, until somebody says otherwise. */
 const PICTURES_RATE = 30;
@@ -123,11 +120,10 @@ export class Room {
     return this.engine;
   }
 
-  private stepTo(step: Step): void {
+  private stepTo(step: Step, tabled = false): void {
     this.place.dataset.step = step;
-    this.steps.replaceChildren(
-      ...STEPS.map(([name, words]) => element('li', name === step ? { 'aria-current': 'step' } : {}, words)),
-    );
+    const words = tabled ? TABLE_STEPS : FLAME_STEPS;
+    this.steps.replaceChildren(...STEPS.map((name) => element('li', name === step ? { 'aria-current': 'step' } : {}, words[name])));
   }
 
   /** Shows a panel, and whoever reads or types goes on at its head. */
@@ -354,8 +350,9 @@ export class Room {
     const { session } = this;
     this.clear();
     const { turn } = this;
-    this.stepTo('learn');
-    const working = new Working('Learning', 'What each point of the outline does next is fitted to what it did before, and to the wind. The end of the film is kept back, to judge by.', (words) => this.announce(words));
+    const tabled = session.recipe.kind === 'arx';
+    this.stepTo('learn', tabled);
+    const working = new Working('Learning', tabled ? 'What comes out is fitted to its own past and to what went in.' : 'What each point of the outline does next is fitted to what it did before, and to the wind. The end of the film is kept back, to judge by.', (words) => this.announce(words));
     this.working = working;
     this.showPanel(working.panel);
     try {
@@ -385,7 +382,7 @@ export class Room {
     const [take] = session.takes.slice(-1);
     if (learned === null || take === undefined) return;
     this.clear();
-    this.stepTo('blow');
+    this.stepTo('blow', session.recipe.kind === 'arx');
     const { outlines } = take;
     const flame = outlines !== null && session.recipe.kind !== 'arx';
     if (flame) this.showFlame(take, outlines, learned.model);
@@ -435,7 +432,8 @@ export class Room {
         return;
       }
       this.clear();
-      this.stepTo('look');
+      this.stepTo('look', true);
+      this.showLeft(element('div', { class: 'plots' }, ...plotsOf(head.preview)));
       this.showPanel(tablePanel(file.name, head, (settings) => void this.tabled(file.name, head.named ?? bytes, settings), () => this.back()));
     } catch (error) {
       this.host.say(wordsOf(error));

@@ -1,8 +1,10 @@
 // The first lines of a table: its separator, the names of its columns, which of them are numbers.
 
+import type { Curve } from '@wisp/studio';
+
 /** Bytes that are looked at. */
 const LOOKED_AT = 64_000;
-const ROWS = 40;
+const ROWS = 400;
 
 export interface TableHead {
   names: string[];
@@ -14,6 +16,8 @@ export interface TableHead {
   recording: boolean;
   /** nothing names its columns: these are its bytes with names */
   named: Uint8Array | null;
+  /** the columns of numbers, row by row, as far as they were looked at */
+  preview: Curve[];
 }
 
 function separatorOf(line: string): RegExp {
@@ -56,7 +60,13 @@ export function headOf(bytes: Uint8Array): TableHead {
     rate: said !== undefined ? Number(said) : times.length > 3 ? rateOfTimes(times) : null,
     recording: comments.some((line) => line.startsWith('# wisp-recording')),
     named: unnamed ? withNames(bytes, names, separator) : null,
+    preview: names.flatMap((name, k) => (numeric[k] === true ? [columnOf(name, rows.map((row) => row[k] ?? ''))] : [])),
   };
+}
+
+function columnOf(name: string, cells: readonly string[]): Curve {
+  const y = cells.map((text) => (text === '' ? NaN : Number(text.replace(',', '.').replace(/d/i, 'e'))));
+  return { id: `column ${name}`, label: name, x_label: 'row', y_label: '', x: y.map((_, row) => row), y };
 }
 
 function withNames(bytes: Uint8Array, names: readonly string[], separator: RegExp): Uint8Array {
