@@ -10,6 +10,9 @@ import type { Take } from './session.js';
 import { contain, surfaceOf, trace } from './surface.js';
 
 const PICTURES = 9;
+const FEWER = 6;
+/** CSS pixels; a narrower strip shows fewer. */
+const NARROW = 560;
 /** Share of the film at its end that was kept back to judge by. */
 const HELD_BACK = 0.3;
 
@@ -36,9 +39,10 @@ export class Strip {
     const { context, width, height } = surface;
     const { rows, rate } = this.outlines;
     const play = new Play(this.wisp, this.outlines, this.model);
-    const each = width / PICTURES;
-    for (let k = 0; k < PICTURES; ++k) {
-      const row = Math.round(((k + 0.5) / PICTURES) * (rows - 1));
+    const pictures = width < NARROW ? FEWER : PICTURES;
+    const each = width / pictures;
+    for (let k = 0; k < pictures; ++k) {
+      const row = Math.round(((k + 0.5) / pictures) * (rows - 1));
       // Step by step: a jump would begin anew.
       for (let on = 0; on < row; on += 100) play.goTo(on);
       play.goTo(row);
@@ -51,7 +55,7 @@ export class Strip {
     }
     context.fillStyle = '#b9b3ac';
     context.font = '11px ui-sans-serif, system-ui, sans-serif';
-    for (let k = 0; k < PICTURES; ++k) context.fillText(`${(((k + 0.5) / PICTURES) * (rows / rate)).toFixed(1)} s`, k * each + 6, 13);
+    for (let k = 0; k < pictures; ++k) context.fillText(`${(((k + 0.5) / pictures) * (rows / rate)).toFixed(1)} s`, k * each + 6, 13);
     play.free();
   }
 
