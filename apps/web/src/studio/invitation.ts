@@ -17,6 +17,7 @@ export class Invitation {
   private running = 0;
   private last = 0;
   private clock = 0;
+  private readonly still = window.matchMedia('(prefers-reduced-motion: reduce)').matches;
 
   constructor(private readonly wisp: Library) {}
 
@@ -47,7 +48,7 @@ export class Invitation {
     const surface = surfaceOf(this.canvas);
     if (bank === null || surface === null) return;
     // A breath now and then.
-    const breath = Math.max(0, Math.sin(0.9 * this.clock)) ** 3 * 0.55;
+    const breath = this.still ? 0 : Math.max(0, Math.sin(0.9 * this.clock)) ** 3 * 0.55;
     if (bank.inputs > 0) bank.setInstanceInputs(this.flame, [breath]);
     bank.advance(seconds * NANOSECONDS);
     const { context, width, height } = surface;

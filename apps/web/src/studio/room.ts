@@ -68,6 +68,8 @@ export class Room {
   private filming: Filming | null = null;
   private duet: Duet | null = null;
   private working: Working | null = null;
+  /** films that came with the one that is looked at */
+  private waiting: File[] = [];
   /** the take that a dragged box is about */
   private looked: Looked | null = null;
   /** counts what is shown: work that was overtaken shows nothing */
@@ -118,6 +120,16 @@ export class Room {
         throw error;
       });
     return this.engine;
+  }
+
+  /** After a failure the next work begins in a worker of its own: memory that ran out is free again. */
+  private renew(): void {
+    const failed = this.engine;
+    this.engine = null;
+    failed?.then(
+      (studio) => studio.close(),
+      () => undefined,
+    );
   }
 
   private stepTo(step: Step, tabled = false): void {
@@ -178,15 +190,22 @@ export class Room {
     if (pick.kind === 'nothing') this.host.say(pick.words);
     else if (pick.kind === 'table') void this.table(pick.files[0] as File);
     else if (pick.kind === 'film') {
-      const [file] = pick.files as [File];
-      if (pick.files.length > 1) this.host.say(`One film after another: this is ${file.name}.`);
-      void this.look(file.name, file, {}, async (settings, watch) => (await this.open()).film(file, settings, watch));
+      this.waiting = pick.files;
+      this.lookAtNext();
     } else {
       const name = pick.files[0]?.webkitRelativePath.split('/')[0] ?? '';
       void this.look(name === '' ? 'pictures' : name, null, {}, async (settings, watch) =>
         (await this.open()).pictures(pick.files, PICTURES_RATE, settings, watch),
       );
     }
+  }
+
+  /** Films that came together are looked at one after another. False: there is none left. */
+  private lookAtNext(): boolean {
+    const file = this.waiting.shift();
+    if (file === undefined) return false;
+    void this.look(file.name, file, {}, async (settings, watch) => (await this.open()).film(file, settings, watch));
+    return true;
   }
 
   /** Looks at a film: follows the outline through it while somebody watches. */
@@ -209,6 +228,7 @@ export class Room {
       reel.scale(1 / captured.rate);
       this.keep({ ...looked, captured, outlines: Outlines.of(captured) });
     } catch (error) {
+      reel.close();
       if (turn === this.turn) this.notFound(error);
     }
   }
@@ -231,7 +251,7 @@ export class Room {
     if (before >= 0) takes[before] = take;
     else takes.push(take);
     this.session.learned = null;
-    this.showLook(take);
+    if (!this.lookAtNext()) this.showLook(take);
   }
 
   private showLook(take: Take): void {
@@ -288,11 +308,13 @@ export class Room {
   /** Nothing came of a film, or it was stopped: says why, and what can be done. */
   private notFound(error: unknown): void {
     this.working = null;
+    this.waiting = [];
     if (isAbort(error)) {
       this.host.say(this.session.takes.length > 0 ? 'Stopped. What was gathered before is kept.' : 'Stopped.');
       this.back();
       return;
     }
+    this.renew();
     this.trouble('Nothing was learned from this', wordsOf(error), 'The picture stays: drag a box around what you mean to look there, or choose something else.');
   }
 
@@ -364,7 +386,10 @@ export class Room {
       if (turn !== this.turn) return;
       this.working = null;
       if (isAbort(error)) this.host.say('Stopped. What was filmed is kept.');
-      else this.host.say(wordsOf(error));
+      else {
+        this.renew();
+        this.host.say(wordsOf(error));
+      }
       this.backToLook();
     }
   }
