@@ -1,7 +1,7 @@
 // Pictures that are kept of a film: for the strip, and for playing it again where there is no file. Bounded: when they
 // become many, every other one is let go.
 
-import type { Region } from '@wisp/studio';
+import type { Region, Seen } from '@wisp/studio';
 
 /** Pictures; they are small. */
 const MOST = 420;
@@ -40,6 +40,18 @@ export class Reel {
     });
   }
 
+  /** Keeps what was seen of a film, cut to the flame. The film's rate is not known yet: its time is its frame. */
+  keepSeen({ picture, box, frame, width, height }: Seen): void {
+    if (picture === undefined || !this.wants(frame)) return;
+    const share = picture.width / width;
+    const part = box === null ? { x: 0, y: 0, width, height } : around(box, width, height);
+    const [x, y] = [Math.floor(share * part.x), Math.floor(share * part.y)];
+    createImageBitmap(picture, x, y, Math.max(1, Math.ceil(share * part.width)), Math.max(1, Math.ceil(share * part.height))).then(
+      (bitmap) => this.keep({ seconds: frame, bitmap, part }),
+      () => undefined,
+    );
+  }
+
   /** The one nearest to a moment; null where there is none. */
   at(seconds: number): Kept | null {
     let best: Kept | null = null;
@@ -57,4 +69,17 @@ export class Reel {
   close(): void {
     for (const { bitmap } of this.pictures.splice(0)) bitmap.close();
   }
+}
+
+/** A flame with air around it, within the picture. */
+export function around(box: Region, width: number, height: number): Region {
+  const air = box.height;
+  const x = Math.max(0, Math.floor(box.x - air));
+  const y = Math.max(0, Math.floor(box.y - 0.6 * air));
+  return {
+    x,
+    y,
+    width: Math.min(width, Math.ceil(box.x + box.width + air)) - x,
+    height: Math.min(height, Math.ceil(box.y + box.height + 0.6 * air)) - y,
+  };
 }

@@ -3,29 +3,30 @@
 
 import './studio.css';
 import type { Library } from '@wisp/player';
-import type { PictureSettings, Recipe, Seen, Studio, TableSettings } from '@wisp/studio';
+import type { PictureSettings, Recipe, Seen, TableSettings } from '@wisp/studio';
 import type { Dropped } from '../drops.js';
 import { DEFAULTS } from '../link.js';
 import { element } from '../panel/element.js';
 import { fetchShipped, shippedFlame } from '../shipped.js';
-import { curvesOf, plotsOf } from './curves.js';
-import { Duet } from './duet.js';
-import { Filming } from './filming.js';
-import { gatherPanel } from './gather.js';
-import { Invitation } from './invitation.js';
-import { lookPanel, partOfSeen } from './look.js';
+import { curvesOf, plotsOf } from './pictures/curves.js';
+import { Duet } from './pictures/duet.js';
+import { Filming } from './camera/filming.js';
+import { gatherPanel } from './panels/gather.js';
+import { Invitation } from './pictures/invitation.js';
+import { lookPanel, partOfSeen } from './panels/look.js';
+import { Engine } from './engine.js';
 import { Outlines } from './outlines.js';
 import { pickOf, unfold } from './picks.js';
 import { Reel } from './reel.js';
-import { resultPanel } from './result.js';
+import { resultPanel } from './panels/result.js';
 import { newSession, sessionName, type Looked, type Session, type Take } from './session.js';
-import { Strip } from './strip.js';
-import { tablePanel } from './table.js';
+import { Strip } from './pictures/strip.js';
+import { tablePanel } from './panels/table.js';
 import { headOf } from './table_head.js';
-import { Traces } from './traces.js';
-import { Viewer } from './viewer.js';
+import { Traces } from './pictures/traces.js';
+import { Viewer } from './pictures/viewer.js';
 import { sentence } from './words.js';
-import { Working } from './working.js';
+import { Working } from './panels/working.js';
 
 /** What it asks of the page. */
 export interface Host {
@@ -64,7 +65,7 @@ export class Room {
   private readonly traces = new Traces();
   private readonly invitation: Invitation;
   private session: Session = newSession();
-  private engine: Promise<Studio> | null = null;
+  private readonly engine = new Engine();
   private filming: Filming | null = null;
   private duet: Duet | null = null;
   private working: Working | null = null;
@@ -94,7 +95,7 @@ export class Room {
     this.place.hidden = !inside;
     if (inside) {
       // Fetched while people look at what there is to choose.
-      this.open().catch(() => undefined);
+      this.engine.open().catch(() => undefined);
       this.invitation.start();
       this.duet?.start();
       return;
@@ -109,26 +110,6 @@ export class Room {
     unfold(files, entries).then(
       (found) => this.files(found),
       () => this.host.say('What was dropped cannot be read.'),
-    );
-  }
-
-  private open(): Promise<Studio> {
-    this.engine ??= import('@wisp/studio')
-      .then(({ Studio }) => Studio.open())
-      .catch((error: unknown) => {
-        this.engine = null;
-        throw error;
-      });
-    return this.engine;
-  }
-
-  /** After a failure the next work begins in a worker of its own: memory that ran out is free again. */
-  private renew(): void {
-    const failed = this.engine;
-    this.engine = null;
-    failed?.then(
-      (studio) => studio.close(),
-      () => undefined,
     );
   }
 
@@ -195,7 +176,7 @@ export class Room {
     } else {
       const name = pick.files[0]?.webkitRelativePath.split('/')[0] ?? '';
       void this.look(name === '' ? 'pictures' : name, null, {}, async (settings, watch) =>
-        (await this.open()).pictures(pick.files, PICTURES_RATE, settings, watch),
+        (await this.engine.open()).pictures(pick.files, PICTURES_RATE, settings, watch),
       );
     }
   }
@@ -204,7 +185,7 @@ export class Room {
   private lookAtNext(): boolean {
     const file = this.waiting.shift();
     if (file === undefined) return false;
-    void this.look(file.name, file, {}, async (settings, watch) => (await this.open()).film(file, settings, watch));
+    void this.look(file.name, file, {}, async (settings, watch) => (await this.engine.open()).film(file, settings, watch));
     return true;
   }
 
@@ -238,7 +219,7 @@ export class Room {
       seen.picture?.close();
       return;
     }
-    keepSeen(seen, reel);
+    reel.keepSeen(seen);
     this.viewer.show(seen);
     working.found(partOfSeen(seen));
   }
@@ -314,7 +295,7 @@ export class Room {
       this.back();
       return;
     }
-    this.renew();
+    this.engine.renew();
     this.trouble('Nothing was learned from this', wordsOf(error), 'The picture stays: drag a box around what you mean to look there, or choose something else.');
   }
 
@@ -337,7 +318,7 @@ export class Room {
     this.clear();
     const { turn } = this;
     try {
-      const studio = await this.open();
+      const studio = await this.engine.open();
       const filming = await Filming.open(studio, this.viewer, {
         done: (captured, reel, settings) => {
           this.filming = null;
@@ -378,7 +359,7 @@ export class Room {
     this.working = working;
     this.showPanel(working.panel);
     try {
-      const studio = await this.open();
+      const studio = await this.engine.open();
       const recipe = { ...session.recipe, name: sessionName(session) };
       session.learned = await studio.learn(session.takes.map(({ captured }) => captured.csv), recipe, working.watch());
       if (turn === this.turn) this.showResult();
@@ -387,7 +368,7 @@ export class Room {
       this.working = null;
       if (isAbort(error)) this.host.say('Stopped. What was filmed is kept.');
       else {
-        this.renew();
+        this.engine.renew();
         this.host.say(wordsOf(error));
       }
       this.backToLook();
@@ -467,7 +448,7 @@ export class Room {
 
   private async tabled(name: string, bytes: Uint8Array, settings: TableSettings | undefined): Promise<void> {
     try {
-      const captured = await (await this.open()).table(name, bytes, settings);
+      const captured = await (await this.engine.open()).table(name, bytes, settings);
       const outlines = Outlines.of(captured);
       const take: Take = { name, captured, outlines, reel: new Reel(), film: null, settings: {}, again: null };
       if (outlines === null) {
@@ -484,18 +465,4 @@ export class Room {
       this.host.say(wordsOf(error));
     }
   }
-}
-
-/** Keeps a small picture of what was seen, cut to the flame. The rate is not known yet: times are frames. */
-function keepSeen({ picture, box, frame, width, height }: Seen, reel: Reel): void {
-  if (picture === undefined || !reel.wants(frame)) return;
-  const share = picture.width / width;
-  const air = box === null ? 0 : 1.1 * box.height;
-  const x = box === null ? 0 : Math.max(0, box.x - air);
-  const y = box === null ? 0 : Math.max(0, box.y - 0.6 * air);
-  const part = box === null ? { x, y, width, height } : { x, y, width: Math.min(width, box.x + box.width + air) - x, height: Math.min(height, box.y + box.height + 0.6 * air) - y };
-  createImageBitmap(picture, Math.floor(share * x), Math.floor(share * y), Math.max(1, Math.ceil(share * part.width)), Math.max(1, Math.ceil(share * part.height))).then(
-    (bitmap) => reel.keep({ seconds: frame, bitmap, part }),
-    () => undefined,
-  );
 }

@@ -1,11 +1,11 @@
 // Filming with the camera: first a look at the picture, then half a minute with somebody who says what to do.
 
 import type { Captured, LiveCapture, PictureSettings, Region, Seen, Studio } from '@wisp/studio';
-import { element } from '../panel/element.js';
+import { element } from '../../panel/element.js';
 import { Camera, KEPT_RATE, smallPicture } from './camera.js';
 import { Guide, hintOf } from './guide.js';
-import { Reel } from './reel.js';
-import type { Viewer } from './viewer.js';
+import { around, Reel } from '../reel.js';
+import type { Viewer } from '../pictures/viewer.js';
 
 /** Milliseconds between looks at what to say. */
 const LOOK = 100;
@@ -193,7 +193,9 @@ export class Filming {
     const { video } = this.viewer;
     const { reel } = this;
     if (!reel.wants(seconds) || video.videoWidth === 0) return;
-    const part = aroundFlame(this.seen?.box ?? null, video.videoWidth, video.videoHeight);
+    const all = { x: 0, y: 0, width: video.videoWidth, height: video.videoHeight };
+    const box = this.seen?.box ?? null;
+    const part = box === null ? all : around(box, all.width, all.height);
     const bitmap = smallPicture(video, part);
     if (bitmap !== null) reel.keep({ seconds, bitmap, part });
   }
@@ -234,13 +236,4 @@ export class Filming {
     const share = Math.max(0, Math.min(1, (20 * Math.log10(level + 1e-6) + 66) / 60));
     this.level.style.transform = `scaleX(${share.toFixed(3)})`;
   }
-}
-
-/** The flame with air around it, where there is one; else all of the picture. */
-function aroundFlame(box: Region | null, width: number, height: number): Region {
-  if (box === null) return { x: 0, y: 0, width, height };
-  const air = 0.9 * box.height;
-  const x = Math.max(0, Math.floor(box.x - air));
-  const y = Math.max(0, Math.floor(box.y - 0.6 * air));
-  return { x, y, width: Math.min(width, Math.ceil(box.x + box.width + air)) - x, height: Math.min(height, Math.ceil(box.y + box.height + 0.6 * air)) - y };
 }

@@ -1,7 +1,7 @@
 // The film while it is looked at: its picture, the outline that was found drawn over it, and a box to say "this one".
 
 import type { Region, Seen } from '@wisp/studio';
-import { element } from '../panel/element.js';
+import { element } from '../../panel/element.js';
 import { contain, surfaceOf, trace, type Fit } from './surface.js';
 
 /** Narrower boxes are presses that slipped, CSS pixels. */

@@ -1,6 +1,6 @@
 // The first panel: what can be learned from.
 
-import { element } from '../panel/element.js';
+import { element } from '../../panel/element.js';
 
 export interface GatherEvents {
   camera(): void;

@@ -1,8 +1,8 @@
 // A table: which columns go in, which come out, how often a row comes.
 
 import type { TableSettings } from '@wisp/studio';
-import { element } from '../panel/element.js';
-import { roleOf, type TableHead } from './table_head.js';
+import { element } from '../../panel/element.js';
+import { roleOf, type TableHead } from '../table_head.js';
 
 const ROLES = ['input', 'output', 'ignored'] as const;
 const WORDS = { input: 'goes in', output: 'comes out', ignored: 'ignored' } as const;

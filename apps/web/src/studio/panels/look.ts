@@ -1,9 +1,9 @@
 // What was found in a film: whether it will do, what was decided, and what can be done now.
 
 import type { Seen } from '@wisp/studio';
-import { element } from '../panel/element.js';
-import type { Take } from './session.js';
-import { adviceOf, sentence, within } from './words.js';
+import { element } from '../../panel/element.js';
+import type { Take } from '../session.js';
+import { adviceOf, sentence, within } from '../words.js';
 
 const COLOURS: Readonly<Record<string, string>> = { luma: 'all colours', red: 'red', green: 'green', blue: 'blue' };
 

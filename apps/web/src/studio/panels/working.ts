@@ -1,8 +1,8 @@
 // The panel of work that takes a while: which stage it is at, what that means, how far it is, and a way out.
 
 import type { Seen, Watch } from '@wisp/studio';
-import { element } from '../panel/element.js';
-import { stageInWords } from './words.js';
+import { element } from '../../panel/element.js';
+import { stageInWords } from '../words.js';
 
 export class Working {
   readonly panel: HTMLElement;

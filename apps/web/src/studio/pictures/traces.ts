@@ -1,7 +1,7 @@
 // Wind and the tip's lean, all of a recording below each other, with the moment that is shown.
 
-import { element } from '../panel/element.js';
-import type { Outlines } from './outlines.js';
+import { element } from '../../panel/element.js';
+import type { Outlines } from '../outlines.js';
 import { surfaceOf } from './surface.js';
 
 /** A line: its name, colour and values; what is NaN leaves a gap. */

@@ -1,7 +1,7 @@
 // What stands in the film's place while there is none: what will be looked for, an outline and the points that hold it.
 
 import type { Bank, Instance, Library } from '@wisp/player';
-import { element } from '../panel/element.js';
+import { element } from '../../panel/element.js';
 import { paintFlame } from './flame_paint.js';
 import { surfaceOf, trace } from './surface.js';
 

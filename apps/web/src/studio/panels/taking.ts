@@ -1,10 +1,10 @@
 // Taking it away: the model, what it was learned from, a link, a tag for a page, a few seconds of film.
 
-import { MOST_PACKED_BYTES, packModel } from '../model_link.js';
-import { element } from '../panel/element.js';
-import { telling } from '../panel/telling.js';
-import { saveFile } from '../saving.js';
-import { sessionName, type Session } from './session.js';
+import { MOST_PACKED_BYTES, packModel } from '../../model_link.js';
+import { element } from '../../panel/element.js';
+import { telling } from '../../panel/telling.js';
+import { saveFile } from '../../saving.js';
+import { sessionName, type Session } from '../session.js';
 
 async function copy(text: string): Promise<string> {
   await navigator.clipboard.writeText(text);

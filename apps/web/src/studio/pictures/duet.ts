@@ -2,12 +2,12 @@
 
 import type { Library } from '@wisp/player';
 import type { Region } from '@wisp/studio';
-import { element } from '../panel/element.js';
+import { element } from '../../panel/element.js';
 import { paintFlame } from './flame_paint.js';
-import type { Take } from './session.js';
-import { Play } from './play.js';
+import type { Take } from '../session.js';
+import { Play } from '../play.js';
 import { contain, surfaceOf, trace, type Fit } from './surface.js';
-import type { Outlines } from './outlines.js';
+import type { Outlines } from '../outlines.js';
 
 /** Seconds; a longer step is a jump, not a frame. */
 const LONGEST = 0.1;

@@ -1,12 +1,12 @@
 // A film strip: what was recorded above, what the model plays in the same wind below, at the same moments.
 
 import type { Library } from '@wisp/player';
-import { element } from '../panel/element.js';
+import { element } from '../../panel/element.js';
 import { partOf } from './duet.js';
 import { paintFlame } from './flame_paint.js';
-import type { Outlines } from './outlines.js';
-import { Play } from './play.js';
-import type { Take } from './session.js';
+import type { Outlines } from '../outlines.js';
+import { Play } from '../play.js';
+import type { Take } from '../session.js';
 import { contain, surfaceOf, trace } from './surface.js';
 
 const PICTURES = 9;

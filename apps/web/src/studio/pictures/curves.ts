@@ -1,7 +1,7 @@
 // Plots of a report's curves: those with the same axes share one.
 
 import type { Captured, Curve } from '@wisp/studio';
-import { element } from '../panel/element.js';
+import { element } from '../../panel/element.js';
 import { surfaceOf } from './surface.js';
 
 const COLOURS = ['#7fc4ff', '#ffb35c', '#9fd8a4', '#e690b8'];

@@ -1,11 +1,11 @@
 // What was learned: the verdict first, then how well it does, the flame to blow at, and what would make it better.
 
 import type { Recipe } from '@wisp/studio';
-import { element } from '../panel/element.js';
-import { plotsOf } from './curves.js';
-import type { Session } from './session.js';
+import { element } from '../../panel/element.js';
+import { plotsOf } from '../pictures/curves.js';
+import type { Session } from '../session.js';
 import { takingOf } from './taking.js';
-import { adviceOf, heldOutSeconds, metersOf, sentence, verdictOf, type Meter } from './words.js';
+import { adviceOf, heldOutSeconds, metersOf, sentence, verdictOf, type Meter } from '../words.js';
 
 export interface ResultEvents {
   blow(): void;
