@@ -54,8 +54,12 @@ export class StudioDoor {
     if (app.parts !== null && app.parts.ear.state !== 'off') app.parts.ear.close();
     app.stage.stop();
     document.body.classList.add('studying');
-    for (const tab of this.tab.parentElement?.children ?? []) tab.setAttribute('aria-current', String(tab === this.tab));
+    this.markTab();
     room.show(true);
+  }
+
+  private markTab(): void {
+    for (const tab of this.tab.parentElement?.children ?? []) tab.setAttribute('aria-current', String(tab === this.tab));
   }
 
   /** Comes out; what was gathered stays there. */
@@ -84,6 +88,7 @@ export class StudioDoor {
       },
       film: async (file, model) => {
         await app.player.playFile(file, model);
+        this.markTab();
         app.stage.start();
         await new Promise((resolve) => setTimeout(resolve, LIT));
         try {

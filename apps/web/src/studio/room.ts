@@ -361,7 +361,11 @@ export class Room {
     try {
       const studio = await this.engine.open();
       const recipe = { ...session.recipe, name: sessionName(session) };
-      session.learned = await studio.learn(session.takes.map(({ captured }) => captured.csv), recipe, working.watch());
+      const recordings = session.takes.map(({ captured }) => captured.csv);
+      const learned = await studio.learn(recordings, recipe, working.watch());
+      // A table's plots are of the model beside what it learned from.
+      const judged = tabled ? await studio.validate(learned.model, recordings, working.watch()) : null;
+      session.learned = { ...learned, curves: [...learned.curves, ...(judged?.curves ?? [])] };
       if (turn === this.turn) this.showResult();
     } catch (error) {
       if (turn !== this.turn) return;
