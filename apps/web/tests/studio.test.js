@@ -223,7 +223,23 @@ describe('a bad day in the studio', { skip }, () => {
     await says(page, panel, 'no microphone: the flicker can be learned');
   });
 
+  it('stops filming when the page is hidden, and says so', async () => {
+    await page.click('.record');
+    await says(page, '.caption', 'Hold still');
+    await page.evaluate(() => {
+      Object.defineProperty(document, 'hidden', { configurable: true, get: () => true });
+      document.dispatchEvent(new Event('visibilitychange'));
+      delete document.hidden;
+    });
+    await says(page, '#notices', 'stopped when the page was hidden');
+    await until(page, 'it ends', () => document.querySelector('[data-act=choose], [data-act=more]') !== null);
+    assert.equal(await page.evaluate(() => window.stream.getVideoTracks()[0].readyState), 'ended');
+    await page.click('[data-act=choose], [data-act=more]');
+  });
+
   it('says that the camera is gone', async () => {
+    await page.click('[data-gather=camera]');
+    await says(page, panel, 'Film your flame');
     await page.evaluate(() => window.stream.getVideoTracks()[0].dispatchEvent(new Event('ended')));
     await says(page, panel, 'The camera is gone');
     await again();
