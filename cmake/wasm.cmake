@@ -6,3 +6,10 @@ if(NOT WISP_EMSCRIPTEN_MODULES)
   message(FATAL_ERROR "There is no Emscripten: install the package emscripten, or set EMSCRIPTEN to its folder.")
 endif()
 include(${WISP_EMSCRIPTEN_MODULES}/Platform/Emscripten.cmake)
+
+# Libraries of headers alone are this machine's own. Their folder may have the machine's C library beside them: each is
+# seen through a link of its own.
+file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/headers)
+file(CREATE_LINK /usr/include/nlohmann ${CMAKE_BINARY_DIR}/headers/nlohmann SYMBOLIC)
+set(Eigen3_DIR /usr/share/eigen3/cmake CACHE PATH "")
+set(nlohmann_json_DIR ${CMAKE_CURRENT_LIST_DIR}/wasm CACHE PATH "")

@@ -16,7 +16,7 @@ inline const std::vector<Model>& kinds() {
     gaussian.extinction.emplace();
     return std::vector<Model>{gaussian,
                               default_flame_model(),
-                              leaning_flame_model(InputShape::kSplitSign),
+                              coupled_flame_model(),
                               flame_model({.points = 5, .drawn_rows = 60}),
                               sample_model(),
                               sample_switched(),

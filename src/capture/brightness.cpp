@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "wisp/capture/capture.hpp"
+#include "wisp/capture/media/video.hpp"
 
 namespace wisp {
 namespace {

@@ -15,6 +15,10 @@ struct ClipCaptureOptions {
   VideoOptions video;
 };
 
+/// Shows a capture all that a reader has; `progress` is told after each frame.
+/// Errors: as VideoReader and OutlineCapture, and kStopped where `progress` returned false.
+Result<void> read_into(VideoReader& reader, OutlineCapture& capture, const Progress& progress = {});
+
 /// Captures an outline from a video file or a folder of numbered images; `progress` is told after each frame.
 /// Errors: as VideoReader and OutlineCapture, and kStopped where `progress` returned false.
 Result<CapturedOutline> capture_outline(const std::filesystem::path& path, const ClipCaptureOptions& options,

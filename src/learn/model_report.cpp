@@ -29,7 +29,8 @@ std::string curve_text(const InputCurve& curve) {
 }
 
 std::string shape_text(InputShape shape) {
-  return std::string(splits_sign(shape) ? "split sign" : "linear") + (has_curve(shape) ? " bent by a curve" : "");
+  return std::string(splits_sign(shape) ? "split sign" : "linear") + (has_curve(shape) ? " bent by a curve" : "") +
+         (has_powers(shape) ? ", its square root and its square" : "");
 }
 
 void add_inputs(const std::vector<Input>& inputs, ReportSection& section) {

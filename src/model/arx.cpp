@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <numeric>
 #include <string>
 
@@ -68,17 +69,24 @@ Result<void> check_mirror(const DrawnResiduals& drawn, std::size_t ny) {
   return {};
 }
 
-Result<void> check_leans(const DrawnResiduals& drawn, std::size_t ny) {
-  const std::array weights{drawn.lean_weight, drawn.lean_scale};
-  if (auto ok = check_finite(weights, weights.size(), "the drawn residuals' lean"); !ok) return ok;
-  const bool present = !drawn.lean_of.empty();
-  if (drawn.leans.size() != (present ? 2 * drawn.row_count() : 0)) {
-    return Error{"the drawn residuals have not two numbers of lean a row"};
+Result<void> check_past(const DrawnResiduals& drawn) {
+  const bool driven = drawn.toward >= 0;
+  const std::vector<int>& lags = drawn.lags;
+  const bool ascending = std::is_sorted(lags.begin(), lags.end(), std::less_equal<>());
+  if (driven
+          ? lags.empty() || lags.size() > kMostDrawnLags || lags.front() != 0 || lags.back() > kMaxOrder || !ascending
+          : !lags.empty()) {
+    return Error{"the drawn residuals' lags are not up to 16 ascending numbers from 0 to 4096"};
   }
-  const bool there = std::all_of(drawn.lean_of.begin(), drawn.lean_of.end(),
-                                 [ny](int of) { return of >= 0 && static_cast<std::size_t>(of) < ny; });
-  if (!present || (drawn.lean_of.size() == 4 && drawn.toward >= 0 && there)) return {};
-  return Error{"the drawn residuals' lean is not that of four outputs in an input"};
+  const std::size_t before = driven ? drawn.ends.size() * static_cast<std::size_t>(lags.back()) : 0;
+  if (drawn.winds.size() != (driven ? drawn.row_count() + before : 0)) {
+    return Error{"the drawn residuals have not a number of wind a row and a lag before each stretch"};
+  }
+  const std::array bounds{drawn.wind_scale, drawn.tolerance, drawn.margin};
+  if (auto ok = check_finite(bounds, bounds.size(), "the drawn residuals' wind"); !ok) return ok;
+  if (drawn.wind_scale < 0 || drawn.tolerance < 0 || drawn.margin < 0)
+    return Error{"the drawn residuals' wind has a negative scale"};
+  return {};
 }
 
 Result<void> check_drawn(const DrawnResiduals& drawn, std::size_t ny, int nu) {
@@ -90,20 +98,13 @@ Result<void> check_drawn(const DrawnResiduals& drawn, std::size_t ny, int nu) {
   if (auto ok = check_finite(drawn.scale, ny, "the drawn residuals' scale"); !ok) return ok;
   const bool negative = std::any_of(drawn.scale.begin(), drawn.scale.end(), [](double scale) { return scale < 0; });
   if (negative) return Error{"a scale of the drawn residuals is negative"};
-  const bool driven = drawn.toward >= 0;
   if (drawn.toward < -1 || drawn.toward >= nu || drawn.against < -1 || drawn.against >= nu ||
-      (!driven && drawn.against >= 0)) {
+      (drawn.toward < 0 && drawn.against >= 0)) {
     return Error{"the drawn residuals hang on an input that is not there"};
   }
-  if (drawn.winds.size() != (driven ? 2 * drawn.row_count() : 0))
-    return Error{"the drawn residuals have not two numbers of wind a row"};
-  if (auto ok = check_finite(std::array{drawn.wind_scale, drawn.tolerance}, 2, "the drawn residuals' wind"); !ok)
-    return ok;
-  if (drawn.wind_scale < 0 || drawn.tolerance < 0) return Error{"the drawn residuals' wind has a negative scale"};
-  if (auto ok = check_leans(drawn, ny); !ok) return ok;
-  if (drawn.trend_steps < 1 || drawn.trend_steps > kMaxOrder || drawn.shortest < 1 || drawn.longest < drawn.shortest ||
-      drawn.longest > 1000000) {
-    return Error{"the drawn residuals' numbers of steps are out of range"};
+  if (auto ok = check_past(drawn); !ok) return ok;
+  if (drawn.longest < 1 || drawn.longest > 1000000) {
+    return Error{"the drawn residuals' number of steps is out of range"};
   }
   return check_mirror(drawn, ny);
 }

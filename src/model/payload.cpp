@@ -46,14 +46,12 @@ fb::Offset<file::DrawnResiduals> write_drawn(Builder& builder, const DrawnResidu
   const auto winds = drawn.winds.empty() ? 0 : builder.CreateVector(drawn.winds);
   const std::vector<std::int16_t> sources(drawn.mirror.begin(), drawn.mirror.end());
   const auto mirror = sources.empty() ? 0 : builder.CreateVector(sources);
-  const std::vector<std::int16_t> looked_at(drawn.lean_of.begin(), drawn.lean_of.end());
-  const auto lean_of = looked_at.empty() ? 0 : builder.CreateVector(looked_at);
-  const auto leans = drawn.leans.empty() ? 0 : builder.CreateVector(drawn.leans);
-  return file::CreateDrawnResiduals(
-      builder, scale, rows, ends, drawn.wind_scale, winds, static_cast<std::int16_t>(drawn.toward),
-      static_cast<std::int16_t>(drawn.against), static_cast<std::uint16_t>(drawn.trend_steps), drawn.tolerance,
-      static_cast<std::uint32_t>(drawn.shortest), static_cast<std::uint32_t>(drawn.longest), mirror, lean_of,
-      drawn.lean_weight, drawn.lean_scale, leans);
+  const std::vector<std::uint16_t> past(drawn.lags.begin(), drawn.lags.end());
+  const auto lags = past.empty() ? 0 : builder.CreateVector(past);
+  return file::CreateDrawnResiduals(builder, scale, rows, ends, drawn.wind_scale, winds,
+                                    static_cast<std::int16_t>(drawn.toward), static_cast<std::int16_t>(drawn.against),
+                                    lags, drawn.tolerance, drawn.margin, static_cast<std::uint32_t>(drawn.longest),
+                                    mirror);
 }
 
 fb::Offset<file::Arx> write_arx(Builder& builder, const ArxModel& arx) {
@@ -212,15 +210,11 @@ DrawnResiduals read_drawn(const file::DrawnResiduals& stored) {
   drawn.winds = integers(stored.winds());
   drawn.toward = stored.toward();
   drawn.against = stored.against();
-  drawn.trend_steps = stored.trend_steps();
+  for (std::uint16_t lag : integers(stored.lags())) drawn.lags.push_back(lag);
   drawn.tolerance = stored.tolerance();
-  drawn.shortest = static_cast<int>(std::min(stored.shortest(), kLargest));
+  drawn.margin = stored.margin();
   drawn.longest = static_cast<int>(std::min(stored.longest(), kLargest));
   for (std::int16_t from : integers(stored.mirror())) drawn.mirror.push_back(from);
-  for (std::int16_t of : integers(stored.lean_of())) drawn.lean_of.push_back(of);
-  drawn.lean_weight = stored.lean_weight();
-  drawn.lean_scale = stored.lean_scale();
-  drawn.leans = integers(stored.leans());
   return drawn;
 }
 
@@ -371,6 +365,8 @@ Result<InputShape> read_shape(file::InputShape shape) {
       return InputShape::kCurve;
     case file::InputShape::SplitSignCurve:
       return InputShape::kSplitSignCurve;
+    case file::InputShape::SplitSignPowers:
+      return InputShape::kSplitSignPowers;
   }
   return Error{"has an input shape that this program does not know; update Wisp"};
 }
@@ -385,6 +381,8 @@ file::InputShape stored_shape(InputShape shape) {
       return file::InputShape::Curve;
     case InputShape::kSplitSignCurve:
       return file::InputShape::SplitSignCurve;
+    case InputShape::kSplitSignPowers:
+      return file::InputShape::SplitSignPowers;
   }
   return file::InputShape::Linear;
 }

@@ -93,33 +93,36 @@ enum class InputShape : uint8_t {
   SplitSign = 1,
   Curve = 2,
   SplitSignCurve = 3,
+  SplitSignPowers = 4,
   MIN = Linear,
-  MAX = SplitSignCurve
+  MAX = SplitSignPowers
 };
 
-inline const InputShape (&EnumValuesInputShape())[4] {
+inline const InputShape (&EnumValuesInputShape())[5] {
   static const InputShape values[] = {
     InputShape::Linear,
     InputShape::SplitSign,
     InputShape::Curve,
-    InputShape::SplitSignCurve
+    InputShape::SplitSignCurve,
+    InputShape::SplitSignPowers
   };
   return values;
 }
 
 inline const char * const *EnumNamesInputShape() {
-  static const char * const names[5] = {
+  static const char * const names[6] = {
     "Linear",
     "SplitSign",
     "Curve",
     "SplitSignCurve",
+    "SplitSignPowers",
     nullptr
   };
   return names;
 }
 
 inline const char *EnumNameInputShape(InputShape e) {
-  if (flatbuffers::IsOutRange(e, InputShape::Linear, InputShape::SplitSignCurve)) return "";
+  if (flatbuffers::IsOutRange(e, InputShape::Linear, InputShape::SplitSignPowers)) return "";
   const size_t index = static_cast<size_t>(e);
   return EnumNamesInputShape()[index];
 }
@@ -603,15 +606,11 @@ struct DrawnResiduals FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
     VT_WINDS = 12,
     VT_TOWARD = 14,
     VT_AGAINST = 16,
-    VT_TREND_STEPS = 18,
+    VT_LAGS = 18,
     VT_TOLERANCE = 20,
-    VT_SHORTEST = 22,
+    VT_MARGIN = 22,
     VT_LONGEST = 24,
-    VT_MIRROR = 26,
-    VT_LEAN_OF = 28,
-    VT_LEAN_WEIGHT = 30,
-    VT_LEAN_SCALE = 32,
-    VT_LEANS = 34
+    VT_MIRROR = 26
   };
   const flatbuffers::Vector<double> *scale() const {
     return GetPointer<const flatbuffers::Vector<double> *>(VT_SCALE);
@@ -634,32 +633,20 @@ struct DrawnResiduals FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   int16_t against() const {
     return GetField<int16_t>(VT_AGAINST, -1);
   }
-  uint16_t trend_steps() const {
-    return GetField<uint16_t>(VT_TREND_STEPS, 0);
+  const flatbuffers::Vector<uint16_t> *lags() const {
+    return GetPointer<const flatbuffers::Vector<uint16_t> *>(VT_LAGS);
   }
   double tolerance() const {
     return GetField<double>(VT_TOLERANCE, 0.0);
   }
-  uint32_t shortest() const {
-    return GetField<uint32_t>(VT_SHORTEST, 0);
+  double margin() const {
+    return GetField<double>(VT_MARGIN, 0.0);
   }
   uint32_t longest() const {
     return GetField<uint32_t>(VT_LONGEST, 0);
   }
   const flatbuffers::Vector<int16_t> *mirror() const {
     return GetPointer<const flatbuffers::Vector<int16_t> *>(VT_MIRROR);
-  }
-  const flatbuffers::Vector<int16_t> *lean_of() const {
-    return GetPointer<const flatbuffers::Vector<int16_t> *>(VT_LEAN_OF);
-  }
-  double lean_weight() const {
-    return GetField<double>(VT_LEAN_WEIGHT, 0.0);
-  }
-  double lean_scale() const {
-    return GetField<double>(VT_LEAN_SCALE, 0.0);
-  }
-  const flatbuffers::Vector<int16_t> *leans() const {
-    return GetPointer<const flatbuffers::Vector<int16_t> *>(VT_LEANS);
   }
   bool Verify(flatbuffers::Verifier &verifier) const {
     return VerifyTableStart(verifier) &&
@@ -674,18 +661,13 @@ struct DrawnResiduals FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
            verifier.VerifyVector(winds()) &&
            VerifyField<int16_t>(verifier, VT_TOWARD, 2) &&
            VerifyField<int16_t>(verifier, VT_AGAINST, 2) &&
-           VerifyField<uint16_t>(verifier, VT_TREND_STEPS, 2) &&
+           VerifyOffset(verifier, VT_LAGS) &&
+           verifier.VerifyVector(lags()) &&
            VerifyField<double>(verifier, VT_TOLERANCE, 8) &&
-           VerifyField<uint32_t>(verifier, VT_SHORTEST, 4) &&
+           VerifyField<double>(verifier, VT_MARGIN, 8) &&
            VerifyField<uint32_t>(verifier, VT_LONGEST, 4) &&
            VerifyOffset(verifier, VT_MIRROR) &&
            verifier.VerifyVector(mirror()) &&
-           VerifyOffset(verifier, VT_LEAN_OF) &&
-           verifier.VerifyVector(lean_of()) &&
-           VerifyField<double>(verifier, VT_LEAN_WEIGHT, 8) &&
-           VerifyField<double>(verifier, VT_LEAN_SCALE, 8) &&
-           VerifyOffset(verifier, VT_LEANS) &&
-           verifier.VerifyVector(leans()) &&
            verifier.EndTable();
   }
 };
@@ -715,32 +697,20 @@ struct DrawnResidualsBuilder {
   void add_against(int16_t against) {
     fbb_.AddElement<int16_t>(DrawnResiduals::VT_AGAINST, against, -1);
   }
-  void add_trend_steps(uint16_t trend_steps) {
-    fbb_.AddElement<uint16_t>(DrawnResiduals::VT_TREND_STEPS, trend_steps, 0);
+  void add_lags(flatbuffers::Offset<flatbuffers::Vector<uint16_t>> lags) {
+    fbb_.AddOffset(DrawnResiduals::VT_LAGS, lags);
   }
   void add_tolerance(double tolerance) {
     fbb_.AddElement<double>(DrawnResiduals::VT_TOLERANCE, tolerance, 0.0);
   }
-  void add_shortest(uint32_t shortest) {
-    fbb_.AddElement<uint32_t>(DrawnResiduals::VT_SHORTEST, shortest, 0);
+  void add_margin(double margin) {
+    fbb_.AddElement<double>(DrawnResiduals::VT_MARGIN, margin, 0.0);
   }
   void add_longest(uint32_t longest) {
     fbb_.AddElement<uint32_t>(DrawnResiduals::VT_LONGEST, longest, 0);
   }
   void add_mirror(flatbuffers::Offset<flatbuffers::Vector<int16_t>> mirror) {
     fbb_.AddOffset(DrawnResiduals::VT_MIRROR, mirror);
-  }
-  void add_lean_of(flatbuffers::Offset<flatbuffers::Vector<int16_t>> lean_of) {
-    fbb_.AddOffset(DrawnResiduals::VT_LEAN_OF, lean_of);
-  }
-  void add_lean_weight(double lean_weight) {
-    fbb_.AddElement<double>(DrawnResiduals::VT_LEAN_WEIGHT, lean_weight, 0.0);
-  }
-  void add_lean_scale(double lean_scale) {
-    fbb_.AddElement<double>(DrawnResiduals::VT_LEAN_SCALE, lean_scale, 0.0);
-  }
-  void add_leans(flatbuffers::Offset<flatbuffers::Vector<int16_t>> leans) {
-    fbb_.AddOffset(DrawnResiduals::VT_LEANS, leans);
   }
   explicit DrawnResidualsBuilder(flatbuffers::FlatBufferBuilder &_fbb)
         : fbb_(_fbb) {
@@ -765,30 +735,22 @@ inline flatbuffers::Offset<DrawnResiduals> CreateDrawnResiduals(
     flatbuffers::Offset<flatbuffers::Vector<int16_t>> winds = 0,
     int16_t toward = -1,
     int16_t against = -1,
-    uint16_t trend_steps = 0,
+    flatbuffers::Offset<flatbuffers::Vector<uint16_t>> lags = 0,
     double tolerance = 0.0,
-    uint32_t shortest = 0,
+    double margin = 0.0,
     uint32_t longest = 0,
-    flatbuffers::Offset<flatbuffers::Vector<int16_t>> mirror = 0,
-    flatbuffers::Offset<flatbuffers::Vector<int16_t>> lean_of = 0,
-    double lean_weight = 0.0,
-    double lean_scale = 0.0,
-    flatbuffers::Offset<flatbuffers::Vector<int16_t>> leans = 0) {
+    flatbuffers::Offset<flatbuffers::Vector<int16_t>> mirror = 0) {
   DrawnResidualsBuilder builder_(_fbb);
-  builder_.add_lean_scale(lean_scale);
-  builder_.add_lean_weight(lean_weight);
+  builder_.add_margin(margin);
   builder_.add_tolerance(tolerance);
   builder_.add_wind_scale(wind_scale);
-  builder_.add_leans(leans);
-  builder_.add_lean_of(lean_of);
   builder_.add_mirror(mirror);
   builder_.add_longest(longest);
-  builder_.add_shortest(shortest);
+  builder_.add_lags(lags);
   builder_.add_winds(winds);
   builder_.add_ends(ends);
   builder_.add_rows(rows);
   builder_.add_scale(scale);
-  builder_.add_trend_steps(trend_steps);
   builder_.add_against(against);
   builder_.add_toward(toward);
   return builder_.Finish();
@@ -808,22 +770,17 @@ inline flatbuffers::Offset<DrawnResiduals> CreateDrawnResidualsDirect(
     const std::vector<int16_t> *winds = nullptr,
     int16_t toward = -1,
     int16_t against = -1,
-    uint16_t trend_steps = 0,
+    const std::vector<uint16_t> *lags = nullptr,
     double tolerance = 0.0,
-    uint32_t shortest = 0,
+    double margin = 0.0,
     uint32_t longest = 0,
-    const std::vector<int16_t> *mirror = nullptr,
-    const std::vector<int16_t> *lean_of = nullptr,
-    double lean_weight = 0.0,
-    double lean_scale = 0.0,
-    const std::vector<int16_t> *leans = nullptr) {
+    const std::vector<int16_t> *mirror = nullptr) {
   auto scale__ = scale ? _fbb.CreateVector<double>(*scale) : 0;
   auto rows__ = rows ? _fbb.CreateVector<int16_t>(*rows) : 0;
   auto ends__ = ends ? _fbb.CreateVector<uint32_t>(*ends) : 0;
   auto winds__ = winds ? _fbb.CreateVector<int16_t>(*winds) : 0;
+  auto lags__ = lags ? _fbb.CreateVector<uint16_t>(*lags) : 0;
   auto mirror__ = mirror ? _fbb.CreateVector<int16_t>(*mirror) : 0;
-  auto lean_of__ = lean_of ? _fbb.CreateVector<int16_t>(*lean_of) : 0;
-  auto leans__ = leans ? _fbb.CreateVector<int16_t>(*leans) : 0;
   return wisp::file::CreateDrawnResiduals(
       _fbb,
       scale__,
@@ -833,15 +790,11 @@ inline flatbuffers::Offset<DrawnResiduals> CreateDrawnResidualsDirect(
       winds__,
       toward,
       against,
-      trend_steps,
+      lags__,
       tolerance,
-      shortest,
+      margin,
       longest,
-      mirror__,
-      lean_of__,
-      lean_weight,
-      lean_scale,
-      leans__);
+      mirror__);
 }
 
 struct Arx FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {

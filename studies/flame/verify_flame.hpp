@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "wisp/capture/media/clip_wind.hpp"
+#include "wisp/capture/clip/clip_capture.hpp"
 #include "wisp/record/recording.hpp"
 #include "wisp/sound/wind_track.hpp"
 

@@ -20,7 +20,7 @@ struct Piece {
   OutlineRecipe options;
 };
 
-constexpr const char* kDefaultPiece = "drawn with curve (the default)";  // of `wisp learn flame`
+constexpr const char* kDefaultPiece = "drawn all points with powers (the default)";  // of `wisp learn flame`
 
 /// One after the other, each beside the one before.
 std::vector<Piece> pieces() {
@@ -30,8 +30,9 @@ std::vector<Piece> pieces() {
       {"residual covariance", {.noise = OutlineNoise::kResidual}},
       {"matched", {.noise = OutlineNoise::kMatched}},
       {"drawn order 4 points", {.order = 4, .coupling = OutlineCoupling::kPoint, .noise = OutlineNoise::kDrawn}},
-      {"drawn", {}},
-      {kDefaultPiece, {.input_curve = std::nullopt}},
+      {"drawn", {.light = true}},
+      {"drawn with curve (light)", {.light = true, .input_curve = std::nullopt}},
+      {kDefaultPiece, {}},
   };
 }
 
@@ -74,7 +75,7 @@ std::vector<FlamePlayer> players_of(const std::vector<Recording>& clips, const P
 
 /// The longest stretch that a play along a learned clip's own wind repeats of that clip: the most tempting case.
 void print_longest_copy(const std::vector<Recording>& clips) {
-  const auto fit = value_or_abort(fit_outline(clips, {.input_curve = std::nullopt}));
+  const auto fit = value_or_abort(fit_outline(clips, {}));
   double seconds = 0;
   for (const Recording& clip : clips) {
     const auto found = value_or_abort(judge_outline(fit.model, clip));

@@ -73,24 +73,13 @@ Model drawn_model() {
   for (int k = 0; k < 5 * 8; ++k) drawn.rows.push_back(static_cast<std::int16_t>(800 * k - 16000));
   drawn.ends = {2, 5};
   drawn.wind_scale = 1e-4;
-  drawn.winds = {0, 0, 100, 100, -7, 3, 9000, 12, 32767, -32768};
+  drawn.winds = {0, 0, 0, 100, 100, -7, 3, 9000, 12, 32767, -32768};
   drawn.toward = 1;
   drawn.against = 0;
-  drawn.trend_steps = 3;
+  drawn.lags = {0, 1, 3};
   drawn.tolerance = 0.15;
-  drawn.shortest = 2;
+  drawn.margin = 0.04;
   drawn.longest = 90;
-  return model;
-}
-
-// The same whose jumps look at the lean too.
-Model leaning_model() {
-  Model model = drawn_model();
-  DrawnResiduals& drawn = std::get<ArxModel>(model.dynamics).noise.drawn;
-  drawn.lean_of = {2, 4, 3, 5};
-  drawn.lean_weight = 2.5;
-  drawn.lean_scale = 1e-3;
-  drawn.leans = {1, -1, 2, -2, 3, 32767, -32768, 4, 5, 0};
   return model;
 }
 
@@ -98,19 +87,33 @@ void expect_same_drawn(const Model& read, const Model& made = drawn_model()) {
   const DrawnResiduals& x = std::get<ArxModel>(read.dynamics).noise.drawn;
   const DrawnResiduals& y = std::get<ArxModel>(made.dynamics).noise.drawn;
   EXPECT_EQ(std::tie(x.scale, x.rows, x.ends, x.winds, x.mirror), std::tie(y.scale, y.rows, y.ends, y.winds, y.mirror));
-  EXPECT_EQ(std::tie(x.wind_scale, x.toward, x.against, x.trend_steps, x.tolerance, x.shortest, x.longest),
-            std::tie(y.wind_scale, y.toward, y.against, y.trend_steps, y.tolerance, y.shortest, y.longest));
-  EXPECT_EQ(std::tie(x.lean_of, x.lean_weight, x.lean_scale, x.leans),
-            std::tie(y.lean_of, y.lean_weight, y.lean_scale, y.leans));
+  EXPECT_EQ(std::tie(x.wind_scale, x.toward, x.against, x.lags, x.tolerance, x.margin, x.longest),
+            std::tie(y.wind_scale, y.toward, y.against, y.lags, y.tolerance, y.margin, y.longest));
 }
 
 TEST(ModelFile, DrawnResidualsAreReadAsTheyWereWritten) {
   const auto read = parse_model(*model_bytes(drawn_model()), "drawn.wisp");
   ASSERT_TRUE(read) << read.error().message;
   expect_same_drawn(*read);
-  const auto leaning = parse_model(*model_bytes(leaning_model()), "leaning.wisp");
-  ASSERT_TRUE(leaning) << leaning.error().message;
-  expect_same_drawn(*leaning, leaning_model());
+}
+
+TEST(ModelFile, AnInputOfThreePowersIsReadAsItWasWritten) {
+  Model model;
+  model.name = "powers";
+  model.rate_hz = 60;
+  model.inputs = {{"wind", "", -1, 1, InputShape::kSplitSignPowers}};
+  model.outputs = {{"y", "", -1, 1}};
+  ArxModel arx;
+  arx.orders = {OrderMatrix(1, 1, 1), OrderMatrix(1, 6, 1), OrderMatrix(1, 6)};
+  arx.theta = {{-0.5, 1, 2, 3, 4, 5, 6}};
+  arx.constant = arx.output_mean = {0};
+  arx.input_mean.assign(6, 0.0);
+  arx.noise.sd = {0};
+  model.dynamics = arx;
+  const auto read = parse_model(*model_bytes(model), "powers.wisp");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->inputs[0].shape, InputShape::kSplitSignPowers);
+  EXPECT_EQ(std::get<ArxModel>(read->dynamics).theta, arx.theta);
 }
 
 // Written when residuals came to be drawn.
@@ -137,23 +140,28 @@ TEST(ModelFile, DrawnResidualsThatMeanNothingAreRefused) {
        }},
       {"without rows", [](DrawnResiduals& d) { d.rows.clear(); }},
       {"scale", [](DrawnResiduals& d) { d.scale[2] = -1; }},
-      {"two numbers of wind", [](DrawnResiduals& d) { d.winds.pop_back(); }},
+      {"number of wind", [](DrawnResiduals& d) { d.winds.pop_back(); }},
+      {"number of wind", [](DrawnResiduals& d) { d.lags.back() = 4; }},
+      {"lags",
+       [](DrawnResiduals& d) {
+         d.lags = {0, 3, 3};
+       }},
+      {"lags",
+       [](DrawnResiduals& d) {
+         d.lags = {1, 2, 3};
+       }},
+      {"lags", [](DrawnResiduals& d) { d.lags.clear(); }},
       {"input that is not there", [](DrawnResiduals& d) { d.toward = 2; }},
       {"input that is not there", [](DrawnResiduals& d) { d.against = -2; }},
       {"wind", [](DrawnResiduals& d) { d.tolerance = NAN; }},
-      {"steps", [](DrawnResiduals& d) { d.longest = 1; }},
-      {"steps", [](DrawnResiduals& d) { d.trend_steps = 0; }},
+      {"negative", [](DrawnResiduals& d) { d.margin = -1; }},
+      {"steps", [](DrawnResiduals& d) { d.longest = 0; }},
       {"mirror", [](DrawnResiduals& d) { d.mirror[0] = 0; }},
       {"mirror", [](DrawnResiduals& d) { d.mirror[0] = 9; }},
       {"mirror", [](DrawnResiduals& d) { d.mirror.pop_back(); }},
-      {"two numbers of lean", [](DrawnResiduals& d) { d.leans.pop_back(); }},
-      {"two numbers of lean", [](DrawnResiduals& d) { d.lean_of.clear(); }},
-      {"four outputs", [](DrawnResiduals& d) { d.lean_of.pop_back(); }},
-      {"four outputs", [](DrawnResiduals& d) { d.lean_of[3] = 8; }},
-      {"lean", [](DrawnResiduals& d) { d.lean_weight = INFINITY; }},
   };
   for (const Case& one : cases) {
-    Model model = leaning_model();
+    Model model = drawn_model();
     one.spoil(std::get<ArxModel>(model.dynamics).noise.drawn);
     const auto ok = check(model);
     ASSERT_FALSE(ok) << one.word;

@@ -26,15 +26,18 @@ inline DrawnResiduals drawn_flame_residuals(int outputs, int rows, bool both_sid
   for (int k = 0; k < rows * outputs; ++k) drawn.rows.push_back(static_cast<std::int16_t>(k * 7919 % 20011 - 10005));
   drawn.ends = {static_cast<std::uint32_t>(rows / 3), static_cast<std::uint32_t>(rows)};
   drawn.wind_scale = 1e-4;
-  for (int row = 0; row < rows; ++row) {
-    const auto wind = [swing](int at) { return 20000 / swing * std::min(at % swing, swing - at % swing); };
-    drawn.winds.push_back(static_cast<std::int16_t>(wind(row)));
-    drawn.winds.push_back(static_cast<std::int16_t>(wind(row) - wind(row + swing - 2)));
+  drawn.lags = {0, 1, 2, 4};
+  int begin = 0;
+  for (std::uint32_t end : drawn.ends) {
+    for (int row = begin - drawn.lags.back(); row < static_cast<int>(end); ++row) {
+      const int at = (row + swing) % swing;
+      drawn.winds.push_back(static_cast<std::int16_t>(20000 / swing * std::min(at, swing - at)));
+    }
+    begin = static_cast<int>(end);
   }
   drawn.toward = 0;
-  drawn.trend_steps = 2;
-  drawn.tolerance = 0.15;
-  drawn.shortest = 2;
+  drawn.tolerance = 0.1;
+  drawn.margin = 0.01;
   drawn.longest = 40;
   if (!both_sides) return drawn;
   drawn.against = 1;
@@ -110,20 +113,35 @@ inline Model default_flame_model(InputShape wind = InputShape::kSplitSign) {
   return model;
 }
 
-/// The same whose jumps look at the lean too. Its residuals' wind swings half as fast, so that they jump about as often
-/// as learned ones: with their random words 30 operations a frame, where flames learned from five sets of clips take 18
-/// to 40.
-inline Model leaning_flame_model(InputShape wind) {
-  Model model = default_flame_model(wind);
-  DrawnResiduals& drawn = std::get<ArxModel>(model.dynamics).noise.drawn;
-  drawn.winds = drawn_flame_residuals(1, static_cast<int>(drawn.row_count()), true, 40).winds;
-  drawn.tolerance = 0.25;
-  drawn.longest = 45;
-  drawn.lean_of = {6, 8, 7, 9};
-  drawn.lean_weight = 2;
-  drawn.lean_scale = 1e-4;
-  for (std::size_t k = 0; k < 2 * drawn.row_count(); ++k) {
-    drawn.leans.push_back(static_cast<std::int16_t>(k * 7919 % 4001 - 2000));
+/// A flame as `wisp learn flame` makes them: every coordinate hears two lags of all others, four of a wind and two of
+/// its root and its square, the outline's last point is the first one mirrored about the base's middle.
+inline Model coupled_flame_model() {
+  constexpr int kOutputs = 16, kRegressors = 6, kLags = 2;
+  Model model = default_flame_model();
+  model.inputs[0].shape = InputShape::kSplitSignPowers;
+  auto& arx = std::get<ArxModel>(model.dynamics);
+  arx.orders = {OrderMatrix(kOutputs, kOutputs, kLags), OrderMatrix(kOutputs, kRegressors, kLags),
+                OrderMatrix(kOutputs, kRegressors, 1)};
+  arx.input_mean.assign(kRegressors, 0.0);
+  arx.noise.drawn.against = kRegressors / 2;
+  for (int i = 0; i < kOutputs; ++i) {
+    arx.theta[i].clear();
+    const int like = i < kOutputs - 2 ? i : i - (kOutputs - 2);
+    const double sign = i < kOutputs - 2 ? 1 : -1;
+    for (int j = 0; j < kOutputs; ++j) {
+      const bool last = j >= kOutputs - 2;
+      arx.orders.na(i, j) = last ? 0 : kLags;
+      if (last) continue;
+      const double other = 0.004 * ((like * 7 + j * 5) % 9 - 4.5);
+      arx.theta[i].insert(arx.theta[i].end(), {sign * (like == j ? -1.1 : other), sign * (like == j ? 0.4 : -other)});
+    }
+    for (int k = 0; k < kRegressors; ++k) {
+      const int lags = k % 3 == 0 ? 2 * kLags : kLags;
+      arx.orders.nb(i, k) = lags;
+      arx.orders.nk(i, k) = k % 3 == 0 ? 0 : 1;
+      const double side = k >= 3 && like % 2 == 0 ? -1 : 1;
+      for (int l = 0; l < lags; ++l) arx.theta[i].push_back(sign * side * 0.001 * (1 + (like + k + l) % 5));
+    }
   }
   return model;
 }

@@ -34,7 +34,10 @@ struct Preset {
 };
 
 Command learn(std::string name, std::string summary, const Preset& preset, std::vector<Example> examples) {
-  std::vector<Flag> flags = {output_flag(), extinction_flag(preset.extinction), curve_flag(preset.input_curve, "")};
+  std::vector<Flag> flags = {output_flag(), extinction_flag(preset.extinction),
+                             curve_flag(preset.input_curve,
+                                        "; where all points feed each other auto is none, as the input's root and "
+                                        "square are regressors")};
   for (const std::vector<Flag>& more : {outline_flags(), capture_flags(preset.flame)}) {
     flags.insert(flags.end(), more.begin(), more.end());
   }

@@ -59,8 +59,8 @@ std::vector<Flag> outline_flags() {
        Kind::kIntegerOrWord,
        "N|auto",
        "0",
-       "lags of outputs and inputs in every equation; 0: 3 where residuals are drawn, else 4; auto searches 1 to 32 on "
-       "what is held out",
+       "lags of outputs and inputs in every equation; 0: 2 where all points feed each other (4 of an input whose root "
+       "and square are regressors too), 3 where residuals are drawn, else 4; auto searches 1 to 32 on what is held out",
        {"auto"}},
       {"delay",
        Kind::kIntegerOrWord,
@@ -81,8 +81,10 @@ std::vector<Flag> outline_flags() {
        "C",
        "auto",
        "what feeds each other: nothing (coordinate), a point's two coordinates, neighbouring points, all points; auto: "
-       "coordinate where residuals are drawn, else point",
+       "full where residuals are drawn from at least 20 s, coordinate where from less or with --light, else point",
        {"auto", "coordinate", "point", "band", "full"}},
+      {"light", Kind::kSwitch, "", "",
+       "a third of the arithmetic a frame, for less fidelity: every coordinate its own system"},
       {"one-sided", Kind::kSwitch, "", "", "inputs as they are: no sign, no mirror image"},
       {"holdout", Kind::kNumber, "SHARE", "0.3", "the last part of each recording, kept for judging"},
       {"noise",
@@ -117,6 +119,7 @@ Result<OutlineRecipe> outline_recipe(const Arguments& arguments, std::string nam
   if (noise == "residual") recipe.noise = OutlineNoise::kResidual;
   if (noise == "matched") recipe.noise = OutlineNoise::kMatched;
   if (noise == "drawn") recipe.noise = OutlineNoise::kDrawn;
+  recipe.light = arguments.on("light");
   recipe.one_sided = arguments.on("one-sided");
   recipe.input_curve = curve_knots_of(arguments);
   recipe.holdout = arguments.number("holdout");

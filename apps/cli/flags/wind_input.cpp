@@ -5,7 +5,7 @@
 
 #include "flags/recordings.hpp"
 #include "terminal.hpp"
-#include "wisp/capture/media/clip_wind.hpp"
+#include "wisp/capture/clip/clip_capture.hpp"
 #include "wisp/record/wav.hpp"
 #include "wisp/sound/wind_track.hpp"
 

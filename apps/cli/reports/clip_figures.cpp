@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "wisp/capture/media/clip_wind.hpp"
+#include "wisp/capture/capture.hpp"
 #include "wisp/capture/media/sound.hpp"
 
 namespace wisp::cli {

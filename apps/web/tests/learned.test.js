@@ -46,6 +46,8 @@ describe('what was learned', { skip }, () => {
   });
 
   it('saves the last minute as a table', async () => {
+    const frames = await page.evaluate(() => window.wisp.frames);
+    await until(page, 'some frames', (before) => window.wisp.frames > before + 3, frames);
     const [download] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=csv]')]);
     assert.equal(download.suggestedFilename(), 'wisp.csv');
     const [head, ...rows] = readFileSync(await download.path(), 'utf8').trim().split('\n');

@@ -131,12 +131,26 @@ test('bytes that are no model are told so, and leave nothing behind', () => {
     [new TextEncoder().encode('<!doctype html>'), /is not a .wisp model/],
     [flameBytes.subarray(0, 20), /cut short/],
     [flameBytes.subarray(0, flameBytes.length >> 1), /cut or damaged/],
-    [flipped, /damaged/],
+    [flipped, /damaged: its contents hash to 0x[0-9a-f]{16}, the header says 0x[0-9a-f]{16};/],
   ];
   for (const [bytes, words] of cases) assert.throws(() => wisp.model(bytes), wrong(Status.badData, words));
   assert.equal(wisp.memoryBytes, before);
   assert.equal(wisp.model(flameBytes.buffer.slice(flameBytes.byteOffset, flameBytes.byteOffset + flameBytes.length)).name,
     'made-up flame');
+});
+
+test('errors say numbers as the library does anywhere', () => {
+  const cases = [
+    [7999.5, 'is 7999.5 Hz, expected 8000 to 192000 Hz'],
+    [199999.9999999, 'is 200000 Hz,'],
+    [-0.25, 'is -0.25 Hz,'],
+    [1e21, 'is 1000000000000000000000 Hz,'],
+    [Infinity, 'is inf Hz,'],
+    [NaN, 'is nan Hz,'],
+  ];
+  for (const [sampleRate, words] of cases) {
+    assert.throws(() => wisp.windLevel({ sampleRate }), wrong(Status.badArgument, new RegExp(words)));
+  }
 });
 
 test('instances are spawned, lead lives of their own and are ended', () => {

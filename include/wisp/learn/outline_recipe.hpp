@@ -19,6 +19,7 @@ enum class OutlineCoupling {
   kPoint,       ///< every point is its own system, as in the paper
   kBand,        ///< every point hears its neighbours too, regularised by a ridge
   kFull,        ///< every point hears all others but the last, which mirrors the first about the base; with a ridge
+                ///< on the components of the outline's shape
 };
 
 /// What shakes the outline.
@@ -53,14 +54,18 @@ struct ExtinctionRecipe {
 
 /// How to learn an outline. What is unset is decided from the recordings, and the report says how.
 struct OutlineRecipe {
-  std::optional<int> order = 0;  ///< lags of outputs and of inputs, 1 to 64; unset: searched, up to 32; 0: 3 with
-                                 ///< resampled residuals, which carry the rest, and else the paper's 4, two damped
-                                 ///< resonances a coordinate
+  std::optional<int> order = 0;  ///< lags of outputs and of inputs, 1 to 64; unset: searched, up to 32; 0: 2 where
+                                 ///< all coordinates hear each other, 3 with resampled residuals, which carry the
+                                 ///< rest, and else the paper's 4, two damped resonances a coordinate
   std::optional<int> delay = 0;  ///< frames until an input acts, 0 to 1000; 0: in the same frame, as in the paper;
                                  ///< unset: searched, up to a quarter of a second
   bool align = true;             ///< move inputs that come after the motion that they cause
   InputGain gain = InputGain::kAuto;
-  std::optional<OutlineCoupling> coupling{};         ///< unset: kCoordinate with resampled residuals, else kPoint
+  std::optional<OutlineCoupling> coupling{};  ///< unset: with resampled residuals kFull from 20 s on unless `light`
+                                              ///< or without mirror images,
+                                              ///< else kCoordinate; without them kPoint
+  bool light = false;  ///< a third of the arithmetic: every coordinate its own system, an input nonlinearity in the
+                       ///< place of powers of the input
   std::optional<std::vector<std::string>> inputs{};  ///< names; unset: all of the recordings; empty: none, flicker only
   std::optional<int> input_curve = 0;  ///< knots of the input nonlinearity, 3 to 16; 0: none; unset: 3 to 6 or none
   bool one_sided = false;        ///< inputs as they are, no sign and no mirror image: the paper's 192 multiply-adds

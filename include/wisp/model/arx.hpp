@@ -57,32 +57,32 @@ struct ArxOrders {
 };
 
 /// Residuals as they were, to be played again instead of Gaussian shocks: rows in the order of time, all outputs of a
-/// row together, so that what they share, their memory and their tails stay. An instance plays row after row while the
-/// input is as it was then, and jumps to another row where the input was alike when it is not; by what is stored,
-/// `run/` is told when. A jump moves no output: the dynamics lie between.
+/// row together, so that what they share, their memory and their tails stay. An instance plays row after row while its
+/// input has been what it was then, and jumps to a row whose past is nearer when it has not. How far two pasts are
+/// apart is the mean over a few lags of the differences' sizes. A jump moves no output: the dynamics lie between.
 struct DrawnResiduals {
   std::vector<double> scale;        ///< per output: a stored 1, in the output's unit, >= 0
   std::vector<std::int16_t> rows;   ///< rows × outputs, row-major
   std::vector<std::uint32_t> ends;  ///< one past the last row of every stretch, ascending; the last is the row count
   double wind_scale = 0;            ///< a stored 1 of `winds`, in the regressor's unit
-  std::vector<std::int16_t> winds;  ///< rows × 2: the input in that row, and what it rose by in `trend_steps`
+  std::vector<std::int16_t> winds;  ///< the input: of every stretch as many samples before it as the last lag says,
+                                    ///< then one a row
   int toward = -1;                  ///< the regressor that the input is; -1: none, and jumps go anywhere
   int against = -1;                 ///< another one that is subtracted from it: wind from the other side; -1: none
-  int trend_steps = 1;              ///< 1 to 4096
-  double tolerance = 0;             ///< by which input and trend may differ from the row's, in the regressor's unit
-  int shortest = 1;                 ///< steps from one jump to the next where a stretch has as many, 1 to longest
-  int longest = 1;                  ///< steps, at most 1 000 000
-  std::vector<int> mirror;          ///< per output ±(1 + the output whose residual it takes in an input from the other
-                                    ///< side); empty: that side is no mirror image
-  std::vector<int> lean_of;  ///< four outputs: jumps also look at the sum of the first two, which changes its sign
-                             ///< in a mirror image, and at that of the others; empty: at the input alone
-  double lean_weight = 0;    ///< what those sums weigh beside the input, in the regressor's unit for 1 of theirs
-  double lean_scale = 0;     ///< a stored 1 of `leans`, in the outputs' unit
-  std::vector<std::int16_t> leans;  ///< rows × 2: those sums before the row, as deviations from the outputs' means
+  std::vector<int> lags;  ///< 1 to kMostDrawnLags numbers of steps that are looked back, ascending from 0; empty where
+                          ///< nothing drives it
+  double tolerance = 0;   ///< by which a row may be farther than the nearest one before a jump, in the regressor's unit
+  double margin = 0;      ///< pasts that differ by less count as alike, in the regressor's unit
+  int longest = 1;        ///< steps from one jump to the next at most, 1 to 1 000 000
+  std::vector<int> mirror;  ///< per output ±(1 + the output whose residual it takes in an input from the other side);
+                            ///< empty: that side is no mirror image
 
   bool empty() const { return rows.empty(); }
   std::size_t row_count() const { return ends.empty() ? 0 : ends.back(); }
 };
+
+/// Most lags of the input's past that drawn residuals look at.
+inline constexpr std::size_t kMostDrawnLags = 16;
 
 /// Most rows that residuals are drawn from.
 inline constexpr std::size_t kMostDrawnRows = std::size_t{1} << 22;

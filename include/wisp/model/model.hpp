@@ -26,7 +26,8 @@ enum class InputShape {
   kSplitSign,  ///< as two non-negative regressors, max(u, 0) and max(−u, 0): a gust from the right is not a negative
                ///< one
   kCurve,      ///< bent by the input's own curve: one regressor
-  kSplitSignCurve,  ///< as the two of kSplitSign, each bent by the input's curve
+  kSplitSignCurve,   ///< as the two of kSplitSign, each bent by the input's curve
+  kSplitSignPowers,  ///< as six: max(u, 0), its square root and its square, then those of max(−u, 0)
 };
 
 /// An input as the world gives it.
@@ -88,7 +89,7 @@ struct Model {
 /// Number of regressors that the inputs make: the number of inputs that the dynamics see.
 std::size_t regressor_count(const std::vector<Input>& inputs);
 
-/// Regressors that one input of that shape makes: 1 or 2.
+/// Regressors that one input of that shape makes: 1, 2 or 6.
 int regressor_count(InputShape shape);
 
 /// Whether the sign is carried by regressors of their own.
@@ -96,5 +97,8 @@ bool splits_sign(InputShape shape);
 
 /// Whether a curve bends the values.
 bool has_curve(InputShape shape);
+
+/// Whether square roots and squares are regressors too.
+bool has_powers(InputShape shape);
 
 }  // namespace wisp

@@ -16,8 +16,9 @@ struct Cost {
   std::int64_t noise_operations = 0;     ///< from random words to what is added to the outputs, on numbers
   std::int64_t random_operations = 0;    ///< arithmetic and logic on 32-bit words, for the noise
   std::int64_t view_operations = 0;      ///< outputs between two steps, in their units, and the polyline; on numbers
-  std::int64_t worst_operations = 0;     ///< the most in any frame: one that joins a segment, or jumps to another
-                                         ///< residual, or shrinks a flame that goes out; without any of them the same
+  std::int64_t worst_operations =
+      0;  ///< the most in any frame: one that joins a segment, or searches for another
+          ///< residual in an input that swings, or shrinks a flame that goes out; without any of them the same
   std::int64_t steered_operations = 0;  ///< the most in any frame of a chain that is steered, where a join weighs
                                         ///< --best-of x modes candidates; 0: it can't be steered
   std::int64_t between_operations = 0;  ///< that a frame between two steps takes more than one at a step; the sum has

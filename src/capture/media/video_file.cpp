@@ -2,16 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace wisp {
 namespace {
 
 // Above this, a frame rate is a file's clock, not a camera's.
 constexpr double kHighestRate = 1000;
-
-// A longer hole in a clip's times is taken as this long: what matters is that an episode ends there.
-constexpr double kLongestGapSeconds = 2;
 
 // The rate of the grid that frames lie on. A camera's nominal rate (the lowest in which all times can be written) is
 // right while not too many of its frames were lost; else the mean rate is.
@@ -59,6 +55,7 @@ Result<VideoFile> VideoFile::open(const std::filesystem::path& path, const Video
   info.rate_hz = options.rate_hz > 0 ? options.rate_hz : grid_rate(track);
   if (!(info.rate_hz > 0)) return Error{path.string() + ": states no frame rate; give it as --rate"};
   const int turns = quarter_turns(track);
+  file.grid_.emplace(info.rate_hz);
   info.width = turns % 2 == 0 ? track.codecpar->width : track.codecpar->height;
   info.height = turns % 2 == 0 ? track.codecpar->height : track.codecpar->width;
   info.frames = stated_frames(*file.format_, track, info.rate_hz);
@@ -112,35 +109,22 @@ bool VideoFile::decode() {
 
 std::int64_t VideoFile::place_on_grid() {
   const std::int64_t tick = frame_->best_effort_timestamp;
-  const std::int64_t next = last_index_ + 1;
-  if (tick == AV_NOPTS_VALUE || options_.rate_hz > 0) return next;
-  if (first_tick_ == AV_NOPTS_VALUE) first_tick_ = tick;
-  const double place = static_cast<double>(tick - first_tick_) * seconds_per_tick_ * info_.rate_hz;
-  const double longest = static_cast<double>(next) + kLongestGapSeconds * info_.rate_hz;
-  if (place > longest) {
-    // From here on, time is counted from this frame.
-    ++long_gaps_;
-    const std::int64_t index = static_cast<std::int64_t>(longest);
-    first_tick_ = tick - std::llround(static_cast<double>(index) / (info_.rate_hz * seconds_per_tick_));
-    return index;
-  }
-  const std::int64_t index = std::max(next, static_cast<std::int64_t>(std::llround(place)));
-  worst_misplacement_ = std::max(worst_misplacement_, std::abs(place - static_cast<double>(index)));
-  return index;
+  if (tick == AV_NOPTS_VALUE || options_.rate_hz > 0) return grid_->follow();
+  return grid_->place(static_cast<double>(tick) * seconds_per_tick_);
 }
 
 Result<std::optional<VideoFrame>> VideoFile::next() {
   while (decode()) {
     ++decoded_;
-    last_index_ = place_on_grid();
-    if (options_.frames && last_index_ + 1 < options_.frames->first) continue;
-    if (options_.frames && last_index_ + 1 > options_.frames->last) return std::optional<VideoFrame>();
+    const std::int64_t index = place_on_grid();
+    if (options_.frames && index + 1 < options_.frames->first) continue;
+    if (options_.frames && index + 1 > options_.frames->last) return std::optional<VideoFrame>();
     auto picture = pictures_.view(*frame_);
     if (!picture) return Error{path_.string() + ": " + picture.error().message};
-    return std::optional<VideoFrame>(VideoFrame{*picture, last_index_});
+    return std::optional<VideoFrame>(VideoFrame{*picture, index});
   }
-  if (options_.frames && last_index_ + 1 < options_.frames->first) {
-    return Error{path_.string() + ": found " + std::to_string(last_index_ + 1) + " frames, expected frame " +
+  if (options_.frames && grid_->last() + 1 < options_.frames->first) {
+    return Error{path_.string() + ": found " + std::to_string(grid_->last() + 1) + " frames, expected frame " +
                  std::to_string(options_.frames->first) + " as the first; give a range inside the clip"};
   }
   return std::optional<VideoFrame>();
@@ -190,25 +174,19 @@ std::vector<OwnedPicture> VideoFile::glimpses(int count) {
 std::vector<std::string> VideoFile::warnings() const {
   std::vector<std::string> out;
   const std::string name = path_.string();
-  const bool to_the_end = !options_.frames || last_index_ + 1 < options_.frames->last;
+  const bool to_the_end = !options_.frames || grid_->last() + 1 < options_.frames->last;
   if (broken_ > 0)
     out.push_back(name + ": " + std::to_string(broken_) +
                   (broken_ == 1 ? " broken frame was left out" : " broken frames were left out"));
   // A duration is not exact to the frame; a count is.
   const bool counted = format_->streams[track_]->nb_frames > 0;
   const std::int64_t least = counted ? info_.frames : info_.frames - info_.frames / 20 - 2;
-  const std::int64_t found = counted ? decoded_ + broken_ : last_index_ + 1;
+  const std::int64_t found = counted ? decoded_ + broken_ : grid_->last() + 1;
   if (to_the_end && (read_error_ || found < least)) {
     out.push_back(name + ": cut off: found " + std::to_string(decoded_) + " frames of " + std::to_string(info_.frames) +
                   " stated; what is there is used");
   }
-  if (long_gaps_ > 0) out.push_back(name + ": " + std::to_string(long_gaps_) + " holes in time were shortened");
-  if (worst_misplacement_ > 0.6) {
-    char line[160];
-    std::snprintf(line, sizeof line, ": frames come at irregular times, up to %.1f ms off a rate of %.6g a second",
-                  1000 * worst_misplacement_ / info_.rate_hz, info_.rate_hz);
-    out.push_back(name + line);
-  }
+  for (std::string& warning : grid_->warnings(name)) out.push_back(std::move(warning));
   return out;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Frames of a video file.
 
+#include "capture/clip/frame_grid.hpp"
 #include "capture/media/frame_picture.hpp"
 #include "capture/media/libav.hpp"
 #include "wisp/capture/media/video.hpp"
@@ -35,12 +36,9 @@ class VideoFile {
   double seconds_per_tick_ = 0;
   bool ended_ = false;
   bool read_error_ = false;
-  std::int64_t first_tick_ = AV_NOPTS_VALUE;
   std::int64_t decoded_ = 0;
-  std::int64_t last_index_ = -1;
+  std::optional<FrameGrid> grid_;
   std::int64_t broken_ = 0;
-  std::int64_t long_gaps_ = 0;
-  double worst_misplacement_ = 0;
 };
 
 }  // namespace wisp

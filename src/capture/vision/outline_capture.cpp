@@ -18,6 +18,7 @@ constexpr std::size_t kMinTracked = 10;
 constexpr std::size_t kMinHeld = 8;
 constexpr int kMinEdgePoints = 128;
 constexpr int kEdgePointsEach = 12;    // to a control point: more do not make it steadier, as their errors go together
+constexpr int kShownPoints = 64;
 constexpr std::size_t kSurveyed = 20;  // held frames that are surveyed
 constexpr std::size_t kSamples = 6;    // … and in which outlines are tried
 
@@ -58,9 +59,11 @@ class OutlineCapture::Stage {
   Result<void> feed(const Picture& picture);
   void glimpse(const Picture& picture) { glimpses_.emplace_back(picture); }
   void lost();
+  OutlineSeen seen() const;
   Result<CapturedOutline> finish();
 
  private:
+  double bright(int stored) const;
   Result<void> accept(const Picture& picture);
   Result<void> decide(bool at_end = false);
   void wait_on();
@@ -252,6 +255,29 @@ void OutlineCapture::Stage::look(const Picture& picture) {
   findings_.frames.push_back(finding);
 }
 
+// A level of the survey as brightness.
+double OutlineCapture::Stage::bright(int stored) const {
+  return brightness(*format_, survey_->channel, options_.dark ? 255 - stored : stored);
+}
+
+OutlineSeen OutlineCapture::Stage::seen() const {
+  OutlineSeen out;
+  out.frames = findings_.size() + held_.size();
+  out.decided = tracker_.has_value();
+  if (!out.decided) return out;
+  out.channel = survey_->channel;
+  out.threshold = bright(survey_->level);
+  out.clipped = survey_->clipped;
+  out.flames = survey_->flames;
+  out.found = seeker_->found().box;
+  if (findings_.frames.back().kind != FrameFinding::Kind::kTracked) return out;
+  const auto controls = std::span(findings_.controls).last(2 * static_cast<std::size_t>(options_.points));
+  for (const CurvePoint p : curve_polyline(tracker_->table(), controls, kShownPoints)) {
+    out.polyline.insert(out.polyline.end(), {p.x, p.y});
+  }
+  return out;
+}
+
 void OutlineCapture::Stage::describe(CapturedOutline& out) const {
   CaptureReport& report = out.report;
   report.flames = survey_->flames;
@@ -265,9 +291,6 @@ void OutlineCapture::Stage::describe(CapturedOutline& out) const {
   report.separation = survey_->separation;
   report.width = width_;
   report.height = height_;
-  const auto bright = [&](int stored) {
-    return brightness(*format_, survey_->channel, options_.dark ? 255 - stored : stored);
-  };
   report.threshold = bright(survey_->level);
   for (int v = 0; v < 256; ++v) {
     report.histogram[static_cast<std::size_t>(std::lround(bright(v)))] += survey_->histogram[v];
@@ -320,6 +343,8 @@ void OutlineCapture::glimpse(const Picture& picture) { stage_->glimpse(picture);
 void OutlineCapture::lost(int count) {
   for (int k = 0; k < count; ++k) stage_->lost();
 }
+
+OutlineSeen OutlineCapture::seen() const { return stage_->seen(); }
 
 Result<CapturedOutline> OutlineCapture::finish() { return stage_->finish(); }
 

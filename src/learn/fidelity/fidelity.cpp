@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "learn/fidelity/fidelity_energy.hpp"
+#include "learn/fidelity/fidelity_long.hpp"
 #include "learn/fidelity/fidelity_marginal.hpp"
 #include "learn/fidelity/fidelity_stretch.hpp"
 #include "learn/fidelity/fidelity_verbatim.hpp"
@@ -229,6 +230,18 @@ void take_verbatim(const Sides& sides, double tolerance, Fidelity& out) {
   out.verbatim_ceiling_seconds = seconds(longest(sides.real));
 }
 
+void take_long(const Sides& sides, const Stretches& pieces, const FidelityOptions& options, Fidelity& out) {
+  out.long_motion = out.long_spectra = out.tails = {kNothing, kNothing, kNothing};
+  if (options.max_long_windows == 0) return;
+  const LongOptions how{sides.rate_hz, options.long_seconds, options.max_long_windows};
+  const LongDistances value = long_distances(sides.real, pieces, how);
+  const LongDistances floor = long_distances(sides.halves.first, sides.halves.second, how);
+  const LongDistances ceiling = long_distances(sides.real, shuffled(sides.real, options.seed), how);
+  out.long_motion = {value.motion, floor.motion, ceiling.motion};
+  out.long_spectra = {value.spectra, floor.spectra, ceiling.spectra};
+  out.tails = {value.tails, floor.tails, ceiling.tails};
+}
+
 }  // namespace
 
 double Bounded::floor_ratio() const {
@@ -249,6 +262,7 @@ Result<Fidelity> fidelity(std::span<const Recording> real, std::span<const Recor
   take_channels(*sides, value, floor, ceiling, out);
   out.energy_distance = {value.energy.distance, floor.energy.distance, ceiling.energy.distance};
   if (options.permutations > 0) out.energy_p_value = value.energy.p_value;
+  take_long(*sides, pieces, options, out);
   take_verbatim(*sides, options.verbatim_tolerance, out);
   out.real_rows = total_rows(sides->real);
   out.synthesized_rows = total_rows(sides->synthesized);

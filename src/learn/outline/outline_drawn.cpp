@@ -11,27 +11,30 @@
 namespace wisp {
 namespace {
 
-constexpr double kTrendSeconds = 1.0 / 15;     // by which a gust's rise is told from its fall
-constexpr double kShortestSeconds = 1.0 / 20;  // between jumps
-constexpr double kLongestSeconds = 4;          // in a wind that stays; longer would repeat what was recorded
-constexpr double kLongestAloneSeconds = 0.5;   // where no input says when to go elsewhere
-constexpr double kTolerance = 0.25;            // of wind 1
-constexpr double kCalm = 0.04;                 // of wind 1: less than this does not move what stands still
-constexpr double kLeanWeight = 0.45;           // of wind 1, of a standard deviation of how it leans or rises
+// Looked back over 0.4 s, closer together where it is more recent: what blew a moment ago matters most.
+constexpr double kLagSeconds[] = {0, 3.0 / 60, 7.0 / 60, 13.0 / 60, 22.0 / 60};
+constexpr double kLongestSeconds = 1.5;       // from one jump to the next: longer would repeat what was recorded
+constexpr double kLongestAloneSeconds = 0.5;  // where no input says when to go elsewhere
+constexpr double kCalm = 0.04;                // of wind 1: less than this does not move what stands still
+constexpr double kMargin = 0.01;  // of wind 1: what no microphone tells apart; more makes the search less sharp
 constexpr double kMinSeconds = 1;
 constexpr double kLargestStored = 32767;
 
-// One row's residuals, the lean before it and its wind, NaN where one is missing.
+// One row's residuals and its wind, NaN where one is missing.
 struct Row {
   std::vector<double> residual;
-  std::array<double, 2> lean{};
   double wind = 0;
-  double trend = 0;
 
   bool complete() const {
-    return std::isfinite(wind) && std::isfinite(trend) &&
+    return std::isfinite(wind) &&
            std::all_of(residual.begin(), residual.end(), [](double x) { return std::isfinite(x); });
   }
+};
+
+// Rows one after the other, and the wind before them.
+struct RowStretch {
+  std::vector<double> before;
+  std::vector<Row> rows;
 };
 
 int steps_of(double seconds, double rate_hz) { return std::max(1, static_cast<int>(std::lround(seconds * rate_hz))); }
@@ -51,64 +54,63 @@ std::vector<double> signed_input(const Recording& recording, const PreparedOutli
   return out;
 }
 
-// The two control points about the tip: their x, which change places and signs in a mirror image, and their y.
-std::vector<int> tip_outputs(std::size_t points) {
-  const auto left = static_cast<int>((points - 1) / 2), right = static_cast<int>(points / 2);
-  return {2 * left, 2 * right, 2 * left + 1, 2 * right + 1};
-}
-
 // Where it begins to blow after calm. What was recorded in calm ends there: a thing that stands still in a wind that
 // stays away is not to be moved by a gust that it does not feel, however little of that gust is within the tolerance.
 bool begins_to_blow(const Row& before, const Row& now) {
   return std::abs(before.wind) <= kCalm && std::abs(now.wind) > kCalm;
 }
 
+// Adds a row to the stretches, to a new one where it does not go on from the last.
+void add_row(const std::vector<double>& wind, std::size_t row, std::size_t past, Row one,
+             std::vector<RowStretch>& stretches, bool& goes_on) {
+  const auto before = wind.begin() + static_cast<std::ptrdiff_t>(row);
+  const std::vector<double> heard(before - static_cast<std::ptrdiff_t>(past), before);
+  const bool known = std::all_of(heard.begin(), heard.end(), [](double x) { return std::isfinite(x); });
+  if (!one.complete() || !known) {
+    goes_on = false;
+    return;
+  }
+  if (!goes_on || begins_to_blow(stretches.back().rows.back(), one)) stretches.push_back({heard, {}});
+  stretches.back().rows.push_back(std::move(one));
+  goes_on = true;
+}
+
 // Complete rows in stretches.
-Result<std::vector<std::vector<Row>>> stretches_left(const ArxModel& model, const Recording& recording,
-                                                     const PreparedOutlines& prepared, std::size_t trend_steps) {
+Result<std::vector<RowStretch>> stretches_left(const ArxModel& model, const Recording& recording,
+                                               const PreparedOutlines& prepared, std::size_t past) {
   const auto predicted = predict(model, recording, prepared.channels, {.steps = 1});
   if (!predicted) return predicted.error();
   const std::vector<double> wind = signed_input(recording, prepared);
-  const std::vector<int> tip = tip_outputs(prepared.layout.points);
-  std::vector<std::vector<Row>> out;
+  std::vector<RowStretch> out;
   for (const Episode& episode : episodes(recording)) {
-    out.emplace_back();
-    for (std::size_t row = episode.begin + trend_steps; row < episode.end; ++row) {
-      Row one{{}, {}, wind[row], wind[row] - wind[row - trend_steps]};
-      for (std::size_t k = 0; k < tip.size(); ++k) {
-        const auto output = static_cast<std::size_t>(tip[k]);
-        const double value = samples(recording, prepared.channels.outputs[output])[row - 1];
-        one.lean[k / 2] += value - model.output_mean[output];
-      }
+    bool goes_on = false;
+    for (std::size_t row = episode.begin + past; row < episode.end; ++row) {
+      Row one{{}, wind[row]};
       for (std::size_t i = 0; i < prepared.channels.outputs.size(); ++i) {
         one.residual.push_back(samples(recording, prepared.channels.outputs[i])[row] - (*predicted)[i][row]);
       }
-      if (!out.back().empty() && begins_to_blow(out.back().back(), one)) out.emplace_back();
-      if (one.complete()) {
-        out.back().push_back(std::move(one));
-      } else if (!out.back().empty()) {
-        out.emplace_back();
-      }
+      add_row(wind, row, past, std::move(one), out, goes_on);
     }
   }
-  std::erase_if(out, [](const auto& stretch) { return stretch.size() < 2; });
+  std::erase_if(out, [](const RowStretch& stretch) { return stretch.rows.size() < 2; });
   return out;
 }
 
-std::size_t row_count(const std::vector<std::vector<Row>>& stretches) {
+std::size_t row_count(const std::vector<RowStretch>& stretches) {
   std::size_t rows = 0;
-  for (const auto& stretch : stretches) rows += stretch.size();
+  for (const RowStretch& stretch : stretches) rows += stretch.rows.size();
   return rows;
 }
 
 // Keeps the same share of every stretch.
-void keep_at_most(std::vector<std::vector<Row>>& stretches, std::size_t rows) {
+void keep_at_most(std::vector<RowStretch>& stretches, std::size_t rows) {
   const auto all = static_cast<double>(row_count(stretches));
   if (all <= static_cast<double>(rows)) return;
-  for (auto& stretch : stretches) {
-    stretch.resize(static_cast<std::size_t>(static_cast<double>(stretch.size()) * static_cast<double>(rows) / all));
+  for (RowStretch& stretch : stretches) {
+    const auto size = static_cast<double>(stretch.rows.size());
+    stretch.rows.resize(static_cast<std::size_t>(size * static_cast<double>(rows) / all));
   }
-  std::erase_if(stretches, [](const auto& stretch) { return stretch.size() < 2; });
+  std::erase_if(stretches, [](const RowStretch& stretch) { return stretch.rows.size() < 2; });
 }
 
 std::int16_t stored(double value, double scale) {
@@ -116,55 +118,40 @@ std::int16_t stored(double value, double scale) {
   return static_cast<std::int16_t>(std::clamp(units, -kLargestStored, kLargestStored));
 }
 
-void store_rows(const std::vector<std::vector<Row>>& stretches, DrawnResiduals& out) {
-  const std::size_t ny = stretches.front().front().residual.size();
-  out.scale.assign(ny, 0.0);
-  for (const auto& stretch : stretches) {
-    for (const Row& row : stretch) {
-      for (std::size_t i = 0; i < ny; ++i) {
-        out.scale[i] = std::max(out.scale[i], std::abs(row.residual[i]) / kLargestStored);
-      }
-      out.wind_scale =
-          std::max({out.wind_scale, std::abs(row.wind) / kLargestStored, std::abs(row.trend) / kLargestStored});
+void find_scales(const std::vector<RowStretch>& stretches, DrawnResiduals& out) {
+  out.scale.assign(stretches.front().rows.front().residual.size(), 0.0);
+  const auto grow = [](double& scale, double value) { scale = std::max(scale, std::abs(value) / kLargestStored); };
+  for (const RowStretch& stretch : stretches) {
+    for (double wind : stretch.before) grow(out.wind_scale, wind);
+    for (const Row& row : stretch.rows) {
+      for (std::size_t i = 0; i < out.scale.size(); ++i) grow(out.scale[i], row.residual[i]);
+      grow(out.wind_scale, row.wind);
     }
-  }
-  for (const auto& stretch : stretches) {
-    for (const Row& row : stretch) {
-      for (std::size_t i = 0; i < ny; ++i) out.rows.push_back(stored(row.residual[i], out.scale[i]));
-      if (out.toward < 0) continue;
-      out.winds.push_back(stored(row.wind, out.wind_scale));
-      out.winds.push_back(stored(row.trend, out.wind_scale));
-    }
-    out.ends.push_back(static_cast<std::uint32_t>(out.row_count() + stretch.size()));
   }
 }
 
-// How the outline leaned and rose before every row: what a gust does hangs on where it finds the flame. Both weigh by
-// the larger of their standard deviations.
-void store_leans(const std::vector<std::vector<Row>>& stretches, std::size_t points, DrawnResiduals& out) {
-  double largest = 0;
-  std::array<double, 2> sum{}, square{};
-  for (const auto& stretch : stretches) {
-    for (const Row& row : stretch) {
-      for (std::size_t k = 0; k < 2; ++k) {
-        largest = std::max(largest, std::abs(row.lean[k]));
-        sum[k] += row.lean[k];
-        square[k] += row.lean[k] * row.lean[k];
-      }
+void store_rows(const std::vector<RowStretch>& stretches, DrawnResiduals& out) {
+  find_scales(stretches, out);
+  const auto hear = [&](double wind) {
+    if (out.toward >= 0) out.winds.push_back(stored(wind, out.wind_scale));
+  };
+  for (const RowStretch& stretch : stretches) {
+    for (double wind : stretch.before) hear(wind);
+    for (const Row& row : stretch.rows) {
+      for (std::size_t i = 0; i < out.scale.size(); ++i) out.rows.push_back(stored(row.residual[i], out.scale[i]));
+      hear(row.wind);
     }
+    out.ends.push_back(static_cast<std::uint32_t>(out.row_count() + stretch.rows.size()));
   }
-  const auto rows = static_cast<double>(row_count(stretches));
-  double variance = 0;
-  for (std::size_t k = 0; k < 2; ++k) variance = std::max(variance, square[k] / rows - sum[k] * sum[k] / rows / rows);
-  if (!(variance > 0)) return;
-  out.lean_of = tip_outputs(points);
-  out.lean_weight = kLeanWeight / std::sqrt(variance);
-  out.lean_scale = largest / kLargestStored;
-  for (const auto& stretch : stretches) {
-    for (const Row& row : stretch) {
-      for (double lean : row.lean) out.leans.push_back(stored(lean, out.lean_scale));
-    }
+}
+
+std::vector<int> lags_of(double rate_hz) {
+  std::vector<int> lags;
+  for (double seconds : kLagSeconds) {
+    const int lag = static_cast<int>(std::lround(seconds * rate_hz));
+    if (lags.empty() || lag > lags.back()) lags.push_back(lag);
   }
+  return lags;
 }
 
 // x of the point opposite negated, y as it is.
@@ -183,26 +170,26 @@ std::vector<int> mirror_image(std::size_t points) {
 Result<DrawnResiduals> drawn_residuals(const ArxModel& model, std::span<const Recording> recordings,
                                        const PreparedOutlines& prepared, const DrawnOptions& options) {
   const double rate = recordings.front().rate_hz;
+  const bool driven = !prepared.inputs.empty();
   DrawnResiduals out;
-  out.trend_steps = steps_of(kTrendSeconds, rate);
-  std::vector<std::vector<Row>> stretches;
+  if (driven) out.lags = lags_of(rate);
+  const auto past = static_cast<std::size_t>(driven ? out.lags.back() : 0);
+  std::vector<RowStretch> stretches;
   for (const Recording& recording : recordings) {
-    auto found = stretches_left(model, recording, prepared, static_cast<std::size_t>(out.trend_steps));
+    auto found = stretches_left(model, recording, prepared, past);
     if (!found) return found.error();
-    for (auto& stretch : *found) stretches.push_back(std::move(stretch));
+    for (RowStretch& stretch : *found) stretches.push_back(std::move(stretch));
   }
   const std::size_t bytes_a_row = 2 * prepared.channels.outputs.size();
   keep_at_most(stretches, std::min(kMostDrawnRows, options.most_bytes / bytes_a_row));
   if (static_cast<double>(row_count(stretches)) < kMinSeconds * rate) return DrawnResiduals{};
-  const bool driven = !prepared.inputs.empty();
   if (driven) out.toward = 0;
-  if (driven && prepared.shape.split_sign) out.against = 1;
+  if (driven && prepared.shape.split_sign) out.against = prepared.shape.powers ? 3 : 1;
   if (out.against >= 0 && options.mirror) out.mirror = mirror_image(prepared.layout.points);
-  out.tolerance = kTolerance;
-  out.shortest = steps_of(kShortestSeconds, rate);
-  out.longest = std::max(out.shortest, steps_of(driven ? kLongestSeconds : kLongestAloneSeconds, rate));
+  out.tolerance = options.tolerance;
+  out.margin = kMargin;
+  out.longest = steps_of(driven ? kLongestSeconds : kLongestAloneSeconds, rate);
   store_rows(stretches, out);
-  if (driven) store_leans(stretches, prepared.layout.points, out);
   return out;
 }
 

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "learn/arx/fit/arx_report.hpp"
 #include "learn/fidelity/fidelity_marginal.hpp"
 #include "learn/numeric/chi_squared.hpp"
+#include "learn/outline/outline_components.hpp"
 #include "learn/outline/outline_curve.hpp"
 #include "learn/outline/outline_drawn.hpp"
 #include "learn/outline/outline_fidelity.hpp"
@@ -53,7 +55,7 @@ Result<void> check_options(const OutlineRecipe& options) {
 
 // What is left open, decided.
 OutlineRecipe decided(OutlineRecipe options, const PreparedOutlines& prepared) {
-  constexpr double kMinDrawnSeconds = 10;
+  constexpr double kMinDrawnSeconds = 10, kMinWholeSeconds = 20;
   double seconds = 0;
   for (const Recording& recording : prepared.recordings) {
     seconds += static_cast<double>(complete_rows(recording, prepared.channels)) / recording.rate_hz;
@@ -63,8 +65,11 @@ OutlineRecipe decided(OutlineRecipe options, const PreparedOutlines& prepared) {
     options.noise = draw ? OutlineNoise::kDrawn : OutlineNoise::kMatched;
   }
   const bool drawn = options.noise == OutlineNoise::kDrawn;
-  if (!options.coupling) options.coupling = drawn ? OutlineCoupling::kCoordinate : OutlineCoupling::kPoint;
-  if (options.order == 0) options.order = drawn ? 3 : 4;
+  const bool whole = !options.light && options.mirror.value_or(true) && seconds >= kMinWholeSeconds;
+  const OutlineCoupling heard = whole ? OutlineCoupling::kFull : OutlineCoupling::kCoordinate;
+  if (!options.coupling) options.coupling = drawn ? heard : OutlineCoupling::kPoint;
+  const bool full = options.coupling == OutlineCoupling::kFull;
+  if (options.order == 0) options.order = full ? 2 : drawn ? 3 : 4;
   return options;
 }
 
@@ -72,11 +77,30 @@ bool mirror_wanted(const OutlineRecipe& options, const PreparedOutlines& prepare
   return options.mirror.value_or(prepared.shape.split_sign);
 }
 
+Result<PreparedOutlines> prepared_for(std::span<const Recording> recordings, const OutlineRecipe& wanted, bool powers) {
+  const RegressorShape shape{.split_sign = !wanted.one_sided, .powers = powers};
+  return prepare_outlines(recordings, {wanted.inputs, shape, wanted.pixels_per_unit});
+}
+
+// Square roots and squares of inputs stand for what a curve would, where the outline moves as a whole.
+bool takes_powers(const OutlineRecipe& options, const PreparedOutlines& prepared) {
+  const bool bent = options.input_curve.value_or(0) != 0;
+  return *options.coupling == OutlineCoupling::kFull && prepared.shape.split_sign && !bent;
+}
+
 // Recordings and, where wanted, their mirror images.
 std::vector<Recording> to_learn_from(std::span<const Recording> recordings, const PreparedOutlines& prepared,
                                      const OutlineRecipe& options) {
   if (mirror_wanted(options, prepared)) return with_mirror_images(recordings, prepared);
   return {recordings.begin(), recordings.end()};
+}
+
+// Where the wind only ever came from one side, what it does from the other side is a guess, which must not spoil what
+// is known: the coordinates' answers to each other are those of a flame that leans as it was recorded.
+double mirror_weight(const PreparedOutlines& prepared) {
+  constexpr double kGuess = 0.1;
+  const auto one_side = [](const OutlineInput& input) { return input.lowest >= 0 || input.highest <= 0; };
+  return std::all_of(prepared.inputs.begin(), prepared.inputs.end(), one_side) ? kGuess : 1;
 }
 
 // A frame and its mirror image are one observation: what is known of coefficients and noise is known from half as many
@@ -95,12 +119,17 @@ void count_frames_once(ArxFit& fitted) {
 }
 
 Result<ArxFit> fit(std::span<const Recording> recordings, const PreparedOutlines& prepared,
-                   const OutlineRecipe& options, const OutlineSummary& summary) {
+                   const OutlineRecipe& options, const OutlineSummary& summary, double ridge,
+                   bool judge_free_run = true) {
   const OutlineCandidate& chosen = summary.choice.taken();
-  const ArxOptions arx{.orders = outline_orders(chosen.order, chosen.delay, *options.coupling, prepared),
-                       .ridge = summary.ridge.ridge};
+  const ArxOrders orders = outline_orders(chosen.order, chosen.delay, *options.coupling, prepared);
+  const bool mirror = mirror_wanted(options, prepared);
+  if (*options.coupling == OutlineCoupling::kFull) {
+    return fit_components(recordings, prepared, {orders, ridge, mirror ? mirror_weight(prepared) : 0});
+  }
+  const ArxOptions arx{.orders = orders, .ridge = ridge, .judge_free_run = judge_free_run};
   auto fitted = fit_arx(to_learn_from(recordings, prepared, options), prepared.channels, arx);
-  if (fitted && mirror_wanted(options, prepared)) count_frames_once(*fitted);
+  if (fitted && mirror) count_frames_once(*fitted);
   return fitted;
 }
 
@@ -159,8 +188,11 @@ double carried(const Covariance& shocks, const Eigen::MatrixXd& factor) {
 // Gives the model its own residuals to play.
 Result<void> set_drawn(std::span<const Recording> recordings, const PreparedOutlines& prepared,
                        const OutlineRecipe& options, ArxModel& model) {
-  auto drawn = drawn_residuals(model, recordings, prepared,
-                               {.most_bytes = options.drawn_bytes, .mirror = mirror_wanted(options, prepared)});
+  // Coordinates alone show every jump: they are to jump less often.
+  const double tolerance = *options.coupling == OutlineCoupling::kFull ? 0.1 : 0.2;
+  auto drawn = drawn_residuals(
+      model, recordings, prepared,
+      {.most_bytes = options.drawn_bytes, .tolerance = tolerance, .mirror = mirror_wanted(options, prepared)});
   if (!drawn) return drawn.error();
   model.noise.drawn = *std::move(drawn);
   return {};
@@ -219,6 +251,7 @@ Output output_of(const std::string& name, std::span<const Recording> recordings)
 }
 
 InputShape input_shape(RegressorShape shape) {
+  if (shape.powers) return InputShape::kSplitSignPowers;
   if (shape.curve) return shape.split_sign ? InputShape::kSplitSignCurve : InputShape::kCurve;
   return shape.split_sign ? InputShape::kSplitSign : InputShape::kLinear;
 }
@@ -320,6 +353,17 @@ Result<void> bend(OutlineParts& parts, const PreparedOutlines& prepared, const O
   return {};
 }
 
+// Of a model whose components were fitted: says of which coordinates one step ahead promises too much.
+void warn_of_coordinates(const PreparedOutlines& prepared, OutlineSummary& summary) {
+  ArxSummary found;
+  for (const OutlineChannelFigures& channel : summary.learned.channels) {
+    found.fit_percent.push_back(channel.fit_percent.front());
+    found.free_run_fit_percent.push_back(channel.fit_percent.back());
+  }
+  warn_of_free_run(prepared.channels.outputs, found);
+  summary.warnings.insert(summary.warnings.end(), found.warnings.begin(), found.warnings.end());
+}
+
 // Judges a model that has seen only the first part of every recording.
 Result<ArxFit> judge(const PreparedOutlines& prepared, const OutlineRecipe& options, OutlineSummary& summary) {
   OutlineParts parts = hold_out(prepared.recordings, prepared.channels, options.holdout);
@@ -330,16 +374,18 @@ Result<ArxFit> judge(const PreparedOutlines& prepared, const OutlineRecipe& opti
   summary.choice = *std::move(choice);
   if (auto ok = bend(parts, prepared, options, summary); !ok) return ok.error();
   if (hear_each_other(options)) {
-    auto ridge = choose_ridge(to_learn_from(parts.learned, prepared, options), parts.held_out, prepared,
-                              chosen_orders(prepared, options, summary.choice));
+    const auto with = [&](double ridge) { return fit(parts.learned, prepared, options, summary, ridge, false); };
+    auto ridge = choose_ridge(with, parts.held_out, prepared, chosen_orders(prepared, options, summary.choice));
     if (!ridge) return ridge.error();
     summary.ridge = *std::move(ridge);
   }
-  auto fitted = fit(parts.learned, prepared, options, summary);
+  auto fitted = fit(parts.learned, prepared, options, summary, summary.ridge.ridge);
   if (!fitted) return fitted;
   auto learned = outline_figures(fitted->model, parts.learned, prepared.channels, prepared.layout);
   if (!learned) return learned.error();
   summary.learned = *std::move(learned);
+  const bool full = *options.coupling == OutlineCoupling::kFull;
+  if (full && !prepared.inputs.empty()) warn_of_coordinates(prepared, summary);
   const auto history = static_cast<std::size_t>(fitted->model.orders.history());
   if (summary.rows_held_out < kMinHeldOut + history) return fitted;
   auto held_out = outline_figures(fitted->model, parts.held_out, prepared.channels, prepared.layout);
@@ -412,11 +458,15 @@ Result<OutlineFit> fit_outline(std::span<const Recording> recordings, const Outl
     in_step = *std::move(moved);
     recordings = in_step;
   }
-  const RegressorShape shape{.split_sign = !wanted.one_sided};
-  auto prepared = prepare_outlines(recordings, {wanted.inputs, shape, wanted.pixels_per_unit});
+  auto prepared = prepared_for(recordings, wanted, false);
   if (!prepared) return prepared.error();
   if (!go_on(progress, kStage, 0.1)) return Error{std::string(kStopped)};
-  const OutlineRecipe options = decided(wanted, *prepared);
+  OutlineRecipe options = decided(wanted, *prepared);
+  if (takes_powers(options, *prepared)) {
+    options.input_curve = 0;
+    prepared = prepared_for(recordings, wanted, true);
+    if (!prepared) return prepared.error();
+  }
   if (auto ok = check_rows(*prepared, options); !ok) return ok.error();
   auto fitted = judge(*prepared, options, summary);
   if (!fitted) return fitted.error();
@@ -427,7 +477,7 @@ Result<OutlineFit> fit_outline(std::span<const Recording> recordings, const Outl
   }
   if (!summary.curves.empty()) prepared = bent_preparation(*std::move(prepared), summary.curves);
   if (refit) {
-    fitted = fit(prepared->recordings, *prepared, options, summary);
+    fitted = fit(prepared->recordings, *prepared, options, summary, summary.ridge.ridge);
     if (!fitted) return fitted.error();
     summary.refitted = true;
   }

@@ -50,11 +50,23 @@ double whole(double u) { return u; }
 double positive(double u) { return u < 0 ? 0 : u; }
 double negative(double u) { return u > 0 ? 0 : -u; }
 
-using Part = double (*)(double);
+double root(double u) { return std::sqrt(u); }
+double square(double u) { return u * u; }
 
-std::vector<Part> parts_of(RegressorShape shape) {
-  if (shape.split_sign) return {positive, negative};
-  return {whole};
+// One regressor of an input: a power of a part, and what follows the input's name.
+struct Form {
+  const char* suffix;
+  double (*part)(double);
+  double (*power)(double);
+};
+
+std::vector<Form> forms_of(RegressorShape shape) {
+  if (shape.powers) {
+    return {{"+", positive, whole}, {"+ root", positive, root}, {"+ square", positive, square},
+            {"-", negative, whole}, {"- root", negative, root}, {"- square", negative, square}};
+  }
+  if (shape.split_sign) return {{"+", positive, whole}, {"-", negative, whole}};
+  return {{"", whole, whole}};
 }
 
 }  // namespace
@@ -121,9 +133,7 @@ double resting_height_pixels(const Recording& recording, const OutlineLayout& la
 std::vector<std::string> regressor_names(std::span<const OutlineInput> inputs, RegressorShape shape) {
   std::vector<std::string> names;
   for (const OutlineInput& input : inputs) {
-    std::vector<std::string> parts{input.name};
-    if (shape.split_sign) parts = {input.name + "+", input.name + "-"};
-    names.insert(names.end(), parts.begin(), parts.end());
+    for (const Form& form : forms_of(shape)) names.push_back(input.name + form.suffix);
   }
   return names;
 }
@@ -133,12 +143,10 @@ Recording with_regressors(const Recording& recording, std::span<const OutlineInp
   std::erase_if(out.channels, [](const Channel& channel) { return channel.role == Role::kInput; });
   for (const OutlineInput& input : inputs) {
     const std::vector<double>& samples = recording.channels[*find_channel(recording, input.name)].samples;
-    const std::vector<std::string> names = regressor_names({&input, 1}, shape);
-    auto name = names.begin();
-    for (const Part part : parts_of(shape)) {
-      Channel channel{*name++, "", Role::kInput, {}};
+    for (const Form& form : forms_of(shape)) {
+      Channel channel{input.name + form.suffix, "", Role::kInput, {}};
       for (double u : samples) {
-        const double plain = part(u / input.scale);
+        const double plain = form.power(form.part(u / input.scale));
         channel.samples.push_back(shape.curve ? value_at(input.curve, plain) : plain);
       }
       out.channels.push_back(std::move(channel));
@@ -176,9 +184,11 @@ Recording mirrored(const Recording& recording, const OutlineLayout& layout, std:
     for (double& value : samples) value = shift + sign * value;
   }
   for (const OutlineInput& input : inputs) {
-    const auto plus = find_channel(out, input.name + "+");
-    const auto minus = find_channel(out, input.name + "-");
-    if (plus && minus) std::swap(out.channels[*plus].samples, out.channels[*minus].samples);
+    for (const char* power : {"", " root", " square"}) {
+      const auto plus = find_channel(out, input.name + "+" + power);
+      const auto minus = find_channel(out, input.name + "-" + power);
+      if (plus && minus) std::swap(out.channels[*plus].samples, out.channels[*minus].samples);
+    }
   }
   return out;
 }

@@ -59,6 +59,8 @@ double resting_height_pixels(const Recording& recording, const OutlineLayout& la
 struct RegressorShape {
   bool split_sign = false;  ///< NAME+ and NAME- instead of NAME
   bool curve = false;       ///< each passed through its input's curve; names stay the same
+  bool powers = false;      ///< each followed by its square root and its square, NAME+ root and NAME+ square; signs are
+                            ///< split then
 };
 
 /// Names of the regressors that inputs make, in the model's order (regressor_count(InputShape)).

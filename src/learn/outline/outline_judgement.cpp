@@ -78,6 +78,7 @@ RegressorShape shape_of(const Model& model) {
   for (const Input& input : model.inputs) {
     shape.split_sign |= splits_sign(input.shape);
     shape.curve |= has_curve(input.shape);
+    shape.powers |= has_powers(input.shape);
   }
   return shape;
 }

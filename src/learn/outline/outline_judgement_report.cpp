@@ -1,3 +1,7 @@
+#include <cmath>
+#include <cstdio>
+#include <string>
+
 #include "learn/outline/outline_report.hpp"
 #include "learn/outline/outline_report_parts.hpp"
 
@@ -60,9 +64,13 @@ ReportSection fit_section(const OutlineJudgement& found) {
 
 void add_bounded(const std::string& id, const Bounded& measure, const std::string& label, const std::string& unit,
                  ReportSection& section) {
-  char meaning[128];
-  std::snprintf(meaning, sizeof meaning, "two halves of the recording: %.3g, shuffled frames: %.3g", measure.floor,
-                measure.ceiling);
+  const auto bound = [](double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return std::isfinite(value) ? std::string(text) : std::string("too short to tell");
+  };
+  const std::string meaning =
+      "two halves of the recording: " + bound(measure.floor) + ", shuffled frames: " + bound(measure.ceiling);
   section.entries.push_back({id + ".value", measure.value, label, unit, {}, meaning});
   section.entries.push_back({id + ".floor", measure.floor, "", ""});
   section.entries.push_back({id + ".ceiling", measure.ceiling, "", ""});
@@ -79,8 +87,13 @@ ReportSection fidelity_section(const OutlineJudgement& found) {
     add_bounded("fidelity.autocorrelation_distance", figures.autocorrelation_distance, "", "", section);
     add_bounded("fidelity.wasserstein_value", figures.wasserstein_value, "", "", section);
     add_bounded("fidelity.wasserstein_speed", figures.wasserstein_speed, "", "", section);
-    add_bounded("fidelity.energy_distance", figures.energy_distance, "normalised energy distance", "", section);
+    add_bounded("fidelity.energy_distance", figures.energy_distance, "normalised energy distance over half a second",
+                "", section);
     section.entries.push_back({"fidelity.energy_p_value", figures.energy_p_value, "", ""});
+    add_bounded("fidelity.two_seconds.energy_distance", figures.long_motion, "the same over two seconds", "", section);
+    add_bounded("fidelity.two_seconds.spectral_distance", figures.long_spectra, "of log spectra over two seconds", "",
+                section);
+    add_bounded("fidelity.tails", figures.tails, "violence of the rarest motion, |ln| of its ratio", "", section);
     section.entries.push_back({"fidelity.verbatim_seconds", figures.verbatim_seconds, "", ""});
     const char* bounded = "log_spectral_distance";
     ReportTable channels{"fidelity.channels", "", {{"name", ""}, {"sd_real", ""}, {"sd_synthesized", ""}}, {}};

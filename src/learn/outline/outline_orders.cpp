@@ -200,6 +200,13 @@ ArxOrders outline_orders(int order, int delay, OutlineCoupling coupling, const P
   // The last point is the first one mirrored about the base: together they would be a regressor twice.
   for (int i = 0; i < uniform.outputs; ++i) {
     for (int j = uniform.outputs - 2; j < uniform.outputs; ++j) orders.na(i, j) = 0;
+    if (!prepared.shape.powers) continue;
+    // Twice the lags for an input itself, whose delay no few poles make; its root and its square begin one later.
+    for (int k = 0; k < uniform.inputs; ++k) {
+      const bool power = k % 3 != 0;
+      orders.nb(i, k) = power ? order : 2 * order;
+      orders.nk(i, k) = delay + (power ? 1 : 0);
+    }
   }
   return orders;
 }

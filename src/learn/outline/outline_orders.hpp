@@ -8,7 +8,8 @@
 
 namespace wisp {
 
-/// The order matrices of an outline's control points: as many lags of outputs as of inputs.
+/// The order matrices of an outline's control points: as many lags of outputs as of inputs, and twice as many of an
+/// input whose powers are regressors too.
 ///
 /// Precondition: order >= 1, delay >= 0.
 ArxOrders outline_orders(int order, int delay, OutlineCoupling coupling, const PreparedOutlines& prepared);

@@ -5,7 +5,6 @@
 #include <limits>
 #include <numeric>
 
-#include "learn/arx/fit/arx_fit.hpp"
 #include "learn/outline/outline_figures.hpp"
 #include "record/number_text.hpp"
 
@@ -21,11 +20,11 @@ std::size_t rows_of(std::span<const Recording> recordings, const ChannelChoice& 
   return rows;
 }
 
-Result<RidgeCandidate> tried(std::span<const Recording> learned, std::span<const Recording> held_out,
-                             const PreparedOutlines& prepared, const ArxOptions& options) {
-  const auto fitted = fit_arx(learned, prepared.channels, options);
+Result<RidgeCandidate> tried(const RidgeFit& fit, std::span<const Recording> held_out, const PreparedOutlines& prepared,
+                             double ridge) {
+  const auto fitted = fit(ridge);
   if (!fitted) return fitted.error();
-  RidgeCandidate out{options.ridge, std::numeric_limits<double>::infinity(), !fitted->summary.stable.changed};
+  RidgeCandidate out{ridge, std::numeric_limits<double>::infinity(), !fitted->summary.stable.changed};
   const int half_a_second = std::max(1, static_cast<int>(std::lround(prepared.recordings.front().rate_hz / 2)));
   const int steps = prepared.inputs.empty() ? half_a_second : kFreeRun;
   const auto figures = outline_figures(fitted->model, held_out, prepared.channels, prepared.layout, {steps});
@@ -43,7 +42,7 @@ bool better(const RidgeCandidate& a, const RidgeCandidate& b) {
 
 }  // namespace
 
-Result<RidgeChoice> choose_ridge(std::span<const Recording> learned, std::span<const Recording> held_out,
+Result<RidgeChoice> choose_ridge(const RidgeFit& fit, std::span<const Recording> held_out,
                                  const PreparedOutlines& prepared, const ArxOrders& orders) {
   constexpr std::size_t kMinHeldOut = 50;  // rows beside a history
   if (rows_of(held_out, prepared.channels) < kMinHeldOut + static_cast<std::size_t>(orders.history())) {
@@ -51,7 +50,7 @@ Result<RidgeChoice> choose_ridge(std::span<const Recording> learned, std::span<c
   }
   RidgeChoice out;
   for (const double ridge : kRidges) {
-    auto one = tried(learned, held_out, prepared, {.orders = orders, .ridge = ridge, .judge_free_run = false});
+    auto one = tried(fit, held_out, prepared, ridge);
     if (!one) return one.error();
     out.candidates.push_back(*one);
   }

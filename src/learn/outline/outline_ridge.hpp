@@ -5,11 +5,13 @@
 // estimate is unstable or simulates badly. A ridge (A. E. Hoerl and R. W. Kennard, Technometrics 12 (1970)) keeps the
 // coefficients small; how strong it is, held-out data say.
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "learn/arx/fit/arx_fit.hpp"
 #include "learn/outline/outline_preparation.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/arx.hpp"
@@ -30,10 +32,13 @@ struct RidgeChoice {
   std::string reason;
 };
 
+/// Estimates a model with a ridge.
+using RidgeFit = std::function<Result<ArxFit>(double ridge)>;
+
 /// Tries ridges of nothing to a tenth of the regressors' energy. Errors are of free simulation where inputs drive the
 /// outline, and else half a second ahead.
-/// Errors: as fit_arx().
-Result<RidgeChoice> choose_ridge(std::span<const Recording> learned, std::span<const Recording> held_out,
+/// Errors: as `fit`.
+Result<RidgeChoice> choose_ridge(const RidgeFit& fit, std::span<const Recording> held_out,
                                  const PreparedOutlines& prepared, const ArxOrders& orders);
 
 }  // namespace wisp

@@ -104,7 +104,6 @@ ArxProgram lay_out(const Regression& regression, const DrawnProgram& drawn, Aren
   program.shock_channels = regression.shock_channels;
   program.drawn = drawn;
   program.depth = std::max(regression.history + 1, 2);
-  if (drawn.driven()) program.depth = std::max(program.depth, drawn.trend_steps + 1);
   const auto ny = static_cast<std::size_t>(program.outputs), modes = static_cast<std::size_t>(program.modes);
   program.shocks = count(regression.shocks);
   program.runs = arena.take<TapRun>(count_runs(regression));
@@ -139,11 +138,11 @@ bool are_opposite(std::span<const float> a, std::span<const float> b) {
   return all_same(a, b, [](float x, float y) { return x == -y; });
 }
 
-// Whether output b looks back at nothing but itself and the regressors, as a does at itself and at their opposites.
+// Whether output b looks back at itself as a does at itself, and at all else with opposite coefficients.
 bool taps_mirror(const ArxProgram& program, int a, int b) {
   const auto mirrors = [&](const TapRun& x, const TapRun& y) {
     const bool own = x.channel == static_cast<std::uint32_t>(a) && y.channel == static_cast<std::uint32_t>(b);
-    const bool common = x.channel == y.channel && x.channel >= static_cast<std::uint32_t>(program.outputs);
+    const bool common = x.channel == y.channel;
     if (!(own || common) || x.first_lag != y.first_lag || x.count != y.count) return false;
     const auto ours = of_modes(program, program.coefficients, x.coefficient, x.count);
     const auto theirs = of_modes(program, program.coefficients, y.coefficient, y.count);
@@ -186,9 +185,8 @@ void keep(std::vector<ModeWeights>& list, ModeWeights weights) {
 std::vector<double> channel_units(const Model& model) {
   std::vector<double> units;
   for (const Output& output : model.outputs) units.push_back(channel_scale(output.lowest, output.highest));
-  for (const Input& input : model.inputs) {
-    units.insert(units.end(), regressor_count(input.shape), channel_scale(input.lowest, input.highest));
-  }
+  const auto regressors = static_cast<int>(regressor_count(model.inputs));
+  for (int k = 0; k < regressors; ++k) units.push_back(regressor_scale(model, k));
   return units;
 }
 

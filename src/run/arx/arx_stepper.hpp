@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "run/arx/arx_program.hpp"
 #include "run/arx/drawn_lanes.hpp"
@@ -54,6 +55,12 @@ class ArxStepper : public ChannelHistory<N> {
     noisy_ = std::find(shaken_.begin(), shaken_.end(), std::uint8_t{1}) != shaken_.end();
   }
 
+  /// Moves every block's history by one sample; the newest is now to be made.
+  void turn() {
+    ChannelHistory<N>::turn();
+    drawn_.turn();
+  }
+
   /// Blocks that step_group() steps at once.
   static constexpr int kGroup = Modes::kGroup;
 
@@ -92,7 +99,8 @@ class ArxStepper : public ChannelHistory<N> {
   void visit_lane(int block, int lane, Visit visit) {
     std::fill_n(quiet_.begin() + block * program_.regressors, program_.regressors, 0);  // it may be restored
     modes_.visit_lane(block, lane, visit);
-    drawn_.visit_lane(block, lane, visit);
+    const auto [low, high] = drawn_bounds();
+    drawn_.visit_lane(block, lane, low, high, visit);
     this->visit_history(block, lane, visit);
   }
 
@@ -128,6 +136,7 @@ class ArxStepper : public ChannelHistory<N> {
     for (int b = 0; b < kBlocks; ++b) {
       const Moment<N> of = moment.later(b);
       count_quiet(block + b);
+      if (!drawn_.empty()) drawn_.hear(block + b, this->regressors(block + b));
       choice[b] = modes_.choose(block + b, ring_, of);
       if (noisy_) make_shocks(block + b, choice[b], of);
     }
@@ -208,27 +217,19 @@ class ArxStepper : public ChannelHistory<N> {
       for (int i = program_.outputs - 1; i >= 0; --i) store(start_shaken(block, choice, i), newest + i * kLanes);
       return;
     }
-    DrawnWind<Real> winds[kLanes];
-    if (drawn_.driven()) measure_winds(block, winds);
-    drawn_.step(block, winds, this->previous(block), moment, newest);
+    drawn_.step(block, moment, newest);
     for (int i = 0; i < program_.outputs; ++i, newest += kLanes) {
       if (program_.constant[i] != 0) store(constant(choice, i) + load<Reals<N>>(newest), newest);
     }
   }
 
-  Reals<N> wind_at(int block, std::uint32_t lag) const {
-    const Real* row = ring_.sample(block, lag) + program_.outputs * kLanes;
-    const auto toward = load<Reals<N>>(row + program_.drawn.toward * kLanes);
-    if (program_.drawn.against < 0) return toward;
-    return toward - load<Reals<N>>(row + program_.drawn.against * kLanes);
-  }
-
-  void measure_winds(int block, DrawnWind<Real> (&winds)[kLanes]) const {
-    Real wind[kLanes], trend[kLanes];
-    const auto now = wind_at(block, 0);
-    store(now, wind);
-    store(now - wind_at(block, static_cast<std::uint32_t>(program_.drawn.trend_steps)), trend);
-    for (int lane = 0; lane < kLanes; ++lane) winds[lane] = {wind[lane], trend[lane]};
+  // The lowest and the highest input that drawn residuals hear.
+  std::pair<float, float> drawn_bounds() const {
+    if (!program_.drawn.driven()) return {0.0f, 0.0f};
+    const RegressorChannel& toward = channels_.regressors[program_.drawn.toward];
+    if (program_.drawn.against < 0) return {toward.least, toward.most};
+    const RegressorChannel& against = channels_.regressors[program_.drawn.against];
+    return {toward.least - against.most, toward.most - against.least};
   }
 
   // Calls take(channel, normals) for every shock that is added to an output.

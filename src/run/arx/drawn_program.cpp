@@ -11,19 +11,42 @@
 namespace wisp {
 namespace {
 
-constexpr double kMostUnits = 1e9;  // of a residual or a wind, in ranges: no sum overflows
+constexpr double kMostUnits = 1e9;        // of a residual or a wind, in ranges: no sum overflows
+constexpr std::uint32_t kFewestLeft = 6;  // rows that follow one to which a jump leads, where any has as many
 
 float bounded(double value) {
   if (std::abs(value) < kLeastCoefficient) return 0.0f;
   return static_cast<float>(std::clamp(value, -kMostUnits, kMostUnits));
 }
 
-void fill_left(const DrawnResiduals& drawn, DrawnProgram& program) {
-  std::uint32_t begin = 0;
+// Calls visit(row, left, stretch) for every row.
+template <class Visit>
+void each_row(const DrawnResiduals& drawn, Visit visit) {
+  std::uint32_t begin = 0, stretch = 0;
   for (std::uint32_t end : drawn.ends) {
-    for (std::uint32_t row = begin; row < end; ++row) program.left[row] = end - 1 - row;
+    for (std::uint32_t row = begin; row < end; ++row) visit(row, end - 1 - row, stretch);
     begin = end;
+    ++stretch;
   }
+}
+
+std::uint32_t most_left(const DrawnResiduals& drawn) {
+  std::uint32_t most = 0;
+  each_row(drawn, [&](std::uint32_t, std::uint32_t left, std::uint32_t) { most = std::max(most, left); });
+  return std::min(most, kFewestLeft);
+}
+
+std::size_t count_targets(const DrawnResiduals& drawn) {
+  const std::uint32_t least = most_left(drawn);
+  std::size_t count = 0;
+  each_row(drawn, [&](std::uint32_t, std::uint32_t left, std::uint32_t) { count += left >= least ? 1 : 0; });
+  return count;
+}
+
+std::size_t count_nodes(std::size_t rows) {
+  std::size_t leaves = 1;
+  while ((rows + leaves - 1) / leaves > kCandidates) leaves *= 2;
+  return leaves - 1;
 }
 
 // In the regressor's channel units, as deviations from its mean where the channel is one.
@@ -31,32 +54,80 @@ void fill_winds(const Model& model, const ArxModel& arx, const DrawnResiduals& d
   const double unit = drawn.wind_scale / regressor_scale(model, drawn.toward);
   const double mean = (arx.input_mean[drawn.toward] - (drawn.against < 0 ? 0 : arx.input_mean[drawn.against])) /
                       regressor_scale(model, drawn.toward);
-  for (std::size_t row = 0; row < program.wind.size(); ++row) {
-    program.wind[row] = bounded(drawn.winds[2 * row] * unit - mean);
-    program.trend[row] = bounded(drawn.winds[2 * row + 1] * unit);
-  }
-  program.tolerance = bounded(drawn.tolerance / regressor_scale(model, drawn.toward));
-  std::iota(program.order.begin(), program.order.end(), 0U);
-  const auto key = [&](std::uint32_t row) {
-    return program.mirrors() ? std::abs(program.wind[row]) : program.wind[row];
-  };
-  // Those alike stay in their order. As a heap, since that takes little code and no memory.
-  const auto before = [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b) || (key(a) == key(b) && a < b); };
-  std::make_heap(program.order.begin(), program.order.end(), before);
-  std::sort_heap(program.order.begin(), program.order.end(), before);
+  for (std::size_t k = 0; k < program.wind.size(); ++k) program.wind[k] = bounded(drawn.winds[k] * unit - mean);
+  const auto lags = static_cast<double>(drawn.lags.size());
+  program.tolerance = bounded(lags * drawn.tolerance / regressor_scale(model, drawn.toward));
+  program.margin = bounded(drawn.margin / regressor_scale(model, drawn.toward));
+  std::copy(drawn.lags.begin(), drawn.lags.end(), program.lags.begin());
+  const auto before = static_cast<std::uint32_t>(program.depth - 1);
+  each_row(drawn, [&](std::uint32_t row, std::uint32_t, std::uint32_t stretch) {
+    program.now[row] = row + (stretch + 1) * before;
+    float sum = 0;
+    for (std::uint32_t lag : program.lags) sum = sum + program.wind[program.now[row] - lag];
+    program.turned[row] = program.mirrors() && sum < 0 ? 1 : 0;
+  });
 }
 
-// In the regressor's channel units too, so that they can be added to what the wind is apart by.
-void fill_leans(const Model& model, const DrawnResiduals& drawn, DrawnProgram& program) {
-  const double weight = drawn.lean_weight / regressor_scale(model, drawn.toward);
-  for (std::size_t k = 0; k < drawn.leans.size(); ++k) {
-    program.leans[k] = bounded(drawn.leans[k] * drawn.lean_scale * weight);
+// A balanced k-d tree (J. L. Bentley, Communications of the ACM 18 (1975)) over the inputs' pasts.
+class PastTree {
+ public:
+  explicit PastTree(DrawnProgram& program) : program_(program) {}
+
+  void fill(std::size_t node, std::size_t begin, std::size_t end) {
+    if (node >= program_.nodes.size()) return;
+    const std::uint32_t lag = widest(begin, end);
+    // Those alike are scattered, so that a leaf has not one stretch of calm alone: all of it may have been played just
+    // now. As a heap, since that takes little code and no memory.
+    const auto scattered = [](std::uint32_t row) { return row * 0x9E3779B1U; };
+    const auto before = [&](std::uint32_t a, std::uint32_t b) {
+      const float x = past(a, lag), y = past(b, lag);
+      return x < y || (x == y && scattered(a) < scattered(b));
+    };
+    const auto first = program_.order.begin() + static_cast<std::ptrdiff_t>(begin);
+    const auto last = program_.order.begin() + static_cast<std::ptrdiff_t>(end);
+    std::make_heap(first, last, before);
+    std::sort_heap(first, last, before);
+    const std::size_t middle = begin + (end - begin) / 2;
+    const float low = past(program_.order[middle - (middle > begin ? 1 : 0)], lag);
+    const float high = past(program_.order[middle], lag);
+    program_.nodes[node] = {0.5f * (low + high), lag};
+    fill(2 * node + 1, begin, middle);
+    fill(2 * node + 2, middle, end);
   }
-  for (std::size_t k = 0; k < drawn.lean_of.size(); ++k) {
-    const Output& out = model.outputs[drawn.lean_of[k]];
-    program.lean_of[k] = drawn.lean_of[k];
-    program.lean[k] = bounded(channel_scale(out.lowest, out.highest) * weight);
+
+ private:
+  float past(std::uint32_t row, std::uint32_t lag) const {
+    const float wind = program_.wind[program_.now[row] - program_.lags[lag]];
+    return program_.turned[row] != 0 ? -wind : wind;
   }
+
+  std::uint32_t widest(std::size_t begin, std::size_t end) const {
+    std::uint32_t best = 0;
+    float most = -1;
+    for (std::uint32_t lag = 0; lag < program_.lags.size(); ++lag) {
+      float lowest = past(program_.order[begin], lag), highest = lowest;
+      for (std::size_t k = begin; k < end; ++k) {
+        const float value = past(program_.order[k], lag);
+        lowest = std::min(lowest, value);
+        highest = std::max(highest, value);
+      }
+      if (!(highest - lowest > most)) continue;
+      most = highest - lowest;
+      best = lag;
+    }
+    return best;
+  }
+
+  DrawnProgram& program_;
+};
+
+void fill_tree(const DrawnResiduals& drawn, DrawnProgram& program) {
+  const std::uint32_t least = most_left(drawn);
+  std::size_t next = 0;
+  each_row(drawn, [&](std::uint32_t row, std::uint32_t left, std::uint32_t) {
+    if (left >= least) program.order[next++] = row;
+  });
+  PastTree(program).fill(0, 0, program.order.size());
 }
 
 void fill_rows(const Model& model, const DrawnResiduals& drawn, DrawnProgram& program) {
@@ -65,6 +136,7 @@ void fill_rows(const Model& model, const DrawnResiduals& drawn, DrawnProgram& pr
     const Output& out = model.outputs[i];
     program.rows[k] = bounded(drawn.rows[k] * (drawn.scale[i] / channel_scale(out.lowest, out.highest)));
   }
+  each_row(drawn, [&](std::uint32_t row, std::uint32_t left, std::uint32_t) { program.left[row] = left; });
 }
 
 void fill_sides(const Model& model, const DrawnResiduals& drawn, DrawnProgram& program) {
@@ -90,28 +162,27 @@ DrawnProgram make_drawn_program(const Model& model, const ArxModel& arx, Arena& 
   program.outputs = arx.orders.outputs();
   program.toward = drawn.toward;
   program.against = drawn.against;
-  program.trend_steps = drawn.trend_steps;
-  program.shortest = static_cast<std::uint32_t>(drawn.shortest);
   program.longest = static_cast<std::uint32_t>(drawn.longest);
-  const std::size_t rows = drawn.row_count();
-  const std::size_t winds = program.driven() ? rows : 0;
   program.sides = drawn.mirror.empty() ? 1 : 2;
+  program.depth = drawn.lags.empty() ? 1 : static_cast<int>(drawn.lags.back()) + 1;
+  const std::size_t rows = drawn.row_count(), past = program.driven() ? rows : 0;
+  const std::size_t targets = program.driven() ? count_targets(drawn) : 0;
+  program.lags = arena.take<std::uint32_t>(drawn.lags.size());
   program.rows = arena.take<float>(drawn.rows.size());
   program.left = arena.take<std::uint32_t>(rows);
-  program.wind = arena.take<float>(winds);
-  program.trend = arena.take<float>(winds);
-  program.leans = arena.take<float>(drawn.leans.size());
-  program.order = arena.take<std::uint32_t>(winds);
+  program.wind = arena.take<float>(drawn.winds.size());
+  program.now = arena.take<std::uint32_t>(past);
+  program.turned = arena.take<std::uint8_t>(past);
+  program.nodes = arena.take<PastNode>(program.driven() ? count_nodes(targets) : 0);
+  program.order = arena.take<std::uint32_t>(targets);
   program.from = arena.take<std::uint16_t>(static_cast<std::size_t>(program.sides) * program.outputs);
   program.factor = arena.take<float>(static_cast<std::size_t>(program.sides) * program.outputs);
   if (arena.measures()) return program;
   fill_rows(model, drawn, program);
-  fill_left(drawn, program);
   fill_sides(model, drawn, program);
-  if (program.driven()) {
-    fill_winds(model, arx, drawn, program);
-    fill_leans(model, drawn, program);
-  }
+  if (!program.driven()) return program;
+  fill_winds(model, arx, drawn, program);
+  fill_tree(drawn, program);
   return program;
 }
 
@@ -129,24 +200,21 @@ bool residuals_mirror(const DrawnProgram& program, int a, int b) {
   return true;
 }
 
+// What the tree is follows from the rest.
 std::uint64_t hash_of(const DrawnProgram& program, std::uint64_t before) {
   if (program.empty()) return before;
   std::uint64_t hash = before;
-  for (int number : {program.toward, program.against, program.trend_steps}) {
-    hash = hash_number(static_cast<std::uint32_t>(number), hash);
-  }
-  for (std::uint32_t number : {program.shortest, program.longest}) hash = hash_number(number, hash);
+  for (int number : {program.toward, program.against}) hash = hash_number(static_cast<std::uint32_t>(number), hash);
+  hash = hash_number(program.longest, hash);
+  for (std::uint32_t lag : program.lags) hash = hash_number(lag, hash);
   for (std::uint32_t left : program.left) hash = hash_number(left, hash);
   for (std::uint16_t from : program.from) hash = hash_number(std::uint32_t{from}, hash);
-  const float tolerance[] = {program.tolerance};
-  for (const auto numbers : {std::span<const float>(tolerance), std::span<const float>(program.rows),
-                             std::span<const float>(program.wind), std::span<const float>(program.trend),
-                             std::span<const float>(program.factor), std::span<const float>(program.leans)}) {
+  const float bounds[] = {program.tolerance, program.margin};
+  for (const auto numbers : {std::span<const float>(bounds), std::span<const float>(program.rows),
+                             std::span<const float>(program.wind), std::span<const float>(program.factor)}) {
     hash = hash_floats(numbers, hash);
   }
-  if (program.leans.empty()) return hash;
-  for (int of : program.lean_of) hash = hash_number(static_cast<std::uint32_t>(of), hash);
-  return hash_floats(program.lean, hash);
+  return hash;
 }
 
 }  // namespace wisp

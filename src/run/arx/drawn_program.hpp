@@ -1,5 +1,5 @@
 #pragma once
-// Drawn residuals compiled for stepping: in channel units, with an index of rows by the strength of the input.
+// Drawn residuals compiled for stepping: in channel units, with a tree over the input's recent past at every row.
 
 #include <array>
 #include <cstdint>
@@ -10,28 +10,36 @@
 
 namespace wisp {
 
-/// Rows near in strength of which a jump looks at some, and at how many: the one whose input rose most alike is taken.
-/// More of either find rows that are no more alike, and cost more.
-inline constexpr std::uint32_t kNearRows = 64;
-inline constexpr int kCandidates = 8;
+/// A leaf of the tree has at most so many rows: the candidates of a jump.
+inline constexpr std::uint32_t kCandidates = 8;
+/// A jump takes one of so many best of them, by chance.
+inline constexpr int kNearestRows = 3;
+/// Blocks before the present one whose rows a jump avoids.
+inline constexpr int kRecentBlocks = 3;
+
+/// A node of the tree: rows whose input was lower `lag` (an index of lags) steps before lie on the left.
+struct PastNode {
+  float value;
+  std::uint32_t lag;
+};
 
 struct DrawnProgram {
   int outputs = 0;  ///< 0: nothing is drawn
   int sides = 1;    ///< 2: an input from the other side plays mirror images
   int toward = -1;
   int against = -1;
-  int trend_steps = 1;
-  float tolerance = 0;
-  std::uint32_t shortest = 1;
+  float tolerance = 0;  ///< of the sum over lags
+  float margin = 0;     ///< nearer to a node's value than this, chance takes the side
   std::uint32_t longest = 1;
+  int depth = 1;  ///< steps of the input that are looked back at, the present one included
+  std::span<std::uint32_t> lags;
   std::span<float> rows;           ///< rows × outputs, in the outputs' channel units
   std::span<std::uint32_t> left;   ///< per row, how many follow it in its stretch
-  std::span<float> wind;           ///< per row; empty where nothing drives it
-  std::span<float> trend;          ///< per row
-  std::array<int, 4> lean_of{};    ///< outputs whose sums, two by two, are an instance's lean
-  std::array<float, 4> lean{};     ///< their factors
-  std::span<float> leans;          ///< rows × 2, or empty
-  std::span<std::uint32_t> order;  ///< rows by rising strength of the wind, or by rising wind where there is no mirror
+  std::span<float> wind;           ///< of every stretch, first what was before it; empty where nothing drives it
+  std::span<std::uint32_t> now;    ///< per row, its place in `wind`
+  std::span<std::uint8_t> turned;  ///< per row: 1 where its past lies in the tree as its mirror image
+  std::span<PastNode> nodes;       ///< children of node k are 2k + 1 and 2k + 2; halves of what it has
+  std::span<std::uint32_t> order;  ///< rows, leaf after leaf
   std::span<std::uint16_t> from;   ///< side × outputs: whose residual an output takes
   std::span<float> factor;         ///< side × outputs, of what is taken: 1, on the mirrored side −1 where it negates
 

@@ -62,15 +62,17 @@ std::span<const CurvePiece> fill_pieces(const InputCurve& curve, std::span<Curve
   return pieces.first(last + 1);
 }
 
-RegressorChannel make_regressor(const Input& input, int index, RegressorPart part, double mean,
+RegressorChannel make_regressor(const Input& input, int index, RegressorForm form, double mean,
                                 std::span<const CurvePiece> curve) {
   const double room = margin(input.lowest, input.highest);
   RegressorChannel channel{};
   channel.input = index;
-  channel.part = part;
+  channel.part = form.part;
+  channel.power = form.power;
   channel.low = static_cast<float>(input.lowest - room);
   channel.high = static_cast<float>(input.highest + room);
-  channel.mean = static_cast<float>(mean);
+  const bool power = form.power != RegressorPower::kOne;
+  channel.mean = static_cast<float>(power ? mean / regressor_unit(input, form.power) : mean);
   channel.inverse_scale = static_cast<float>(1.0 / channel_scale(input.lowest, input.highest));
   channel.curve = curve;
   // A newborn's history is z = 0, whatever the range is.
@@ -102,19 +104,29 @@ double channel_scale(double lowest, double highest) {
   return std::ldexp(1.0, exponent - 1);
 }
 
-std::span<const RegressorPart> regressor_parts(InputShape shape) {
+std::span<const RegressorForm> regressor_forms(InputShape shape) {
   using enum RegressorPart;
-  static constexpr RegressorPart kLinear[] = {kWhole};
-  static constexpr RegressorPart kSplit[] = {kPositive, kNegative};
+  using enum RegressorPower;
+  static constexpr RegressorForm kLinear[] = {{kWhole}};
+  static constexpr RegressorForm kSplit[] = {{kPositive}, {kNegative}};
+  static constexpr RegressorForm kPowers[] = {{kPositive, kOne}, {kPositive, kRoot}, {kPositive, kSquare},
+                                              {kNegative, kOne}, {kNegative, kRoot}, {kNegative, kSquare}};
+  if (has_powers(shape)) return kPowers;
   if (splits_sign(shape)) return kSplit;
   return kLinear;
 }
 
+double regressor_unit(const Input& input, RegressorPower power) {
+  const double scale = channel_scale(input.lowest, input.highest);
+  if (power == RegressorPower::kRoot) return std::sqrt(scale);
+  return power == RegressorPower::kSquare ? scale * scale : scale;
+}
+
 double regressor_scale(const Model& model, int regressor) {
-  int first = 0;
   for (const Input& input : model.inputs) {
-    first += regressor_count(input.shape);
-    if (regressor < first) return channel_scale(input.lowest, input.highest);
+    const auto forms = regressor_forms(input.shape);
+    if (regressor < static_cast<int>(forms.size())) return regressor_unit(input, forms[regressor].power);
+    regressor -= static_cast<int>(forms.size());
   }
   return 1;
 }
@@ -123,7 +135,7 @@ std::uint64_t hash_of(const Channels& channels, std::uint64_t before) {
   std::uint64_t hash = before;
   for (const OutputChannel& c : channels.outputs) hash = hash_floats({c.mean, c.scale, c.low, c.high}, hash);
   for (const RegressorChannel& c : channels.regressors) {
-    const auto place = static_cast<float>(c.input * 3 + static_cast<int>(c.part));
+    const auto place = static_cast<float>((c.input * 3 + static_cast<int>(c.part)) * 3 + static_cast<int>(c.power));
     hash = hash_floats({place, c.low, c.high, c.mean, c.inverse_scale}, hash);
     for (const CurvePiece& piece : c.curve) hash = hash_floats({piece.from, piece.width, piece.slope}, hash);
   }
@@ -146,11 +158,10 @@ Channels make_channels(const Model& model, const OperatingPoint& point, Arena& a
       curve = fill_pieces(input.curve, pieces);
       pieces = pieces.subspan(curve.size());
     }
-    const auto add = [&](RegressorPart part) {
-      channels.regressors[next] = make_regressor(input, static_cast<int>(k), part, point.regressors[next], curve);
+    for (const RegressorForm form : regressor_forms(input.shape)) {
+      channels.regressors[next] = make_regressor(input, static_cast<int>(k), form, point.regressors[next], curve);
       ++next;
-    };
-    for (RegressorPart part : regressor_parts(input.shape)) add(part);
+    }
   }
   return channels;
 }

@@ -28,8 +28,17 @@ struct OutputChannel {
 /// How a regressor is made from its input.
 enum class RegressorPart : std::uint8_t { kWhole, kPositive, kNegative };
 
+/// What of a part a regressor is.
+enum class RegressorPower : std::uint8_t { kOne, kRoot, kSquare };
+
+/// A regressor of an input.
+struct RegressorForm {
+  RegressorPart part;
+  RegressorPower power = RegressorPower::kOne;
+};
+
 /// The regressors that an input of that shape makes, in their order.
-std::span<const RegressorPart> regressor_parts(InputShape shape);
+std::span<const RegressorForm> regressor_forms(InputShape shape);
 
 /// A piece of an input's curve: what it is at a knot, and what it climbs from there to the next.
 struct CurvePiece {
@@ -40,10 +49,11 @@ struct CurvePiece {
 };
 
 /// A regressor: z = (part(u) − mean) · inverse_scale, u held to [low, high] first. Where there is a curve it bends the
-/// part.
+/// part. Of a power it is power(part(u) · inverse_scale) − mean · inverse_scale, so that a square overflows nothing.
 struct RegressorChannel {
   std::int32_t input;
   RegressorPart part;
+  RegressorPower power;
   float low;
   float high;
   float mean;
@@ -61,7 +71,10 @@ struct Channels {
 /// The power of two that a channel's deviations are measured in; 1 where its range is 1/128 to 128, or nothing.
 double channel_scale(double lowest, double highest);
 
-/// The power of two that the deviations of a regressor, by its place among all of a model's, are measured in.
+/// What the deviations of a power of an input are measured in.
+double regressor_unit(const Input& input, RegressorPower power);
+
+/// The same of a regressor by its place among all of a model's.
 double regressor_scale(const Model& model, int regressor);
 
 /// The operating point of each channel, as the dynamics know it.
@@ -93,6 +106,21 @@ inline Real bend(std::span<const CurvePiece> curve, Real input) {
   return Real(piece->value) + Real(piece->slope) * climbed;
 }
 
+/// A power of the parts of inputs, none of them below 0.
+template <class N>
+inline Reals<N> power_of(const RegressorChannel& channel, Reals<N> part) {
+  if (channel.inverse_scale != 1) part = part * all<Reals<N>>(channel.inverse_scale);
+  if (channel.power == RegressorPower::kSquare) {
+    part = part * part;
+  } else {
+    typename N::Real root[N::kLanes];
+    store(part, root);
+    for (auto& lane : root) lane = square_root(lane);
+    part = load<Reals<N>>(root);
+  }
+  return channel.mean != 0 ? part - all<Reals<N>>(channel.mean) : part;
+}
+
 /// The values of a regressor for its inputs; what is not a number counts as 0.
 template <class N>
 inline Reals<N> regress(const RegressorChannel& channel, const Reals<N>& inputs) {
@@ -107,6 +135,7 @@ inline Reals<N> regress(const RegressorChannel& channel, const Reals<N>& inputs)
     for (auto& lane : bent) lane = bend(channel.curve, lane);
     part = load<Reals<N>>(bent);
   }
+  if (channel.power != RegressorPower::kOne) return settle(power_of<N>(channel, part));
   if (channel.mean != 0) part = part - all<Reals<N>>(channel.mean);
   if (channel.inverse_scale != 1) part = part * all<Reals<N>>(channel.inverse_scale);
   return settle(part);

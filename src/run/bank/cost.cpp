@@ -33,6 +33,19 @@ std::vector<CountingReal> blowing_regressors(const Model& model, const Channels&
   return values;
 }
 
+// What happens while steps are counted.
+enum class Course {
+  kSteady,    // every input is at its highest
+  kSwinging,  // it rises to that again and again: residuals that look back at it are searched
+  kSteered,   // as kSteady, towards a place
+};
+
+// The share of the regressors that acts in a step.
+float share_of(Course course, std::uint64_t step) {
+  constexpr std::uint64_t kSwing = 24;
+  return course == Course::kSwinging ? static_cast<float>(step % kSwing) / kSwing : 1.0f;
+}
+
 // Of one step: the mean over as many as it takes, rounded up, and the most.
 struct StepCount {
   OperationCount mean;
@@ -40,7 +53,8 @@ struct StepCount {
 };
 
 template <class Stepper>
-StepCount count_step(Stepper& stepper, std::span<const CountingReal> regressors, float noise, bool steered = false) {
+StepCount count_step(Stepper& stepper, std::span<const CountingReal> regressors, float noise,
+                     Course course = Course::kSteady) {
   constexpr int kFrames = Stepper::kCountedFrames;
   const RandomKeys keys = random_keys(1);
   const std::uint64_t stream = 0, born = 0;
@@ -48,11 +62,13 @@ StepCount count_step(Stepper& stepper, std::span<const CountingReal> regressors,
   stepper.set_noise(noise);
   stepper.start(0, 0, {&keys, {&stream, &born, 0}, &held});
   if constexpr (requires { stepper.can_steer(); }) {
-    if (steered) stepper.steer(0, 0, {}, 3.0f * kFrames, 0.1f);
+    if (course == Course::kSteered) stepper.steer(0, 0, {}, 3.0f * kFrames, 0.1f);
   }
   const auto play = [&](std::uint64_t step) {
     stepper.turn();
-    std::copy(regressors.begin(), regressors.end(), stepper.regressors(0));
+    for (std::size_t k = 0; k < regressors.size(); ++k) {
+      stepper.regressors(0)[k] = CountingReal(share_of(course, step) * regressors[k].value);
+    }
     stepper.step(0, {&keys, {&stream, &born, step}, &held});
   };
   for (std::uint64_t step = 0; step < kFrames; ++step) play(step);  // what was before them is not counted
@@ -119,7 +135,8 @@ Cost count_frame(const Model& model, const Kind& dynamics, const Channels& chann
   std::vector<CountingReal> blowing;
   const OperationCount inputs = count([&] { blowing = blowing_regressors(model, channels); });
   const OperationCount quiet = count_step(stepper, blowing, 0).mean;
-  const auto [noisy, most] = count_step(stepper, blowing, 1);
+  const auto [noisy, steady] = count_step(stepper, blowing, 1);
+  const std::int64_t most = std::max(steady, count_step(stepper, blowing, 1, Course::kSwinging).most);
   Cost cost;
   cost.multiply_adds_per_frame = stepper.multiply_adds();
   cost.dynamics_operations = inputs.numbers + quiet.numbers + quiet.words;
@@ -132,7 +149,7 @@ Cost count_frame(const Model& model, const Kind& dynamics, const Channels& chann
                               cost.view_operations + cost.extinction_operations;
   cost.worst_operations = cost.operations_per_frame - (noisy.numbers + noisy.words) + most + extinction.shrinking;
   if constexpr (requires { stepper.can_steer(); }) {
-    const std::int64_t steered = stepper.can_steer() ? count_step(stepper, blowing, 1, true).most : 0;
+    const std::int64_t steered = stepper.can_steer() ? count_step(stepper, blowing, 1, Course::kSteered).most : 0;
     if (steered > 0) cost.steered_operations = cost.worst_operations - most + steered;
   }
   cost.between_operations = count_between(channels, stepper);

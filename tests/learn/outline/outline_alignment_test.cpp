@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "learn/outline/made_outline.hpp"
@@ -101,7 +102,13 @@ TEST(OutlineAlignment, LearningAndValidatingBringSoundIntoStep) {
   EXPECT_GT(tip(*mended), tip(*good) - 5);
   EXPECT_LT(tip(*lost), tip(*good) - 15);
   EXPECT_EQ(mended->summary.alignment.size(), 1u);
-  EXPECT_EQ(mended->summary.warnings.size(), good->summary.warnings.size() + 1);
+  const auto said_to_be_moved = [](const OutlineFit& fit) {
+    const auto& warnings = fit.summary.warnings;
+    return std::count_if(warnings.begin(), warnings.end(),
+                         [](const std::string& one) { return one.find("it was moved") != std::string::npos; });
+  };
+  EXPECT_EQ(said_to_be_moved(*mended), 1);
+  EXPECT_EQ(said_to_be_moved(*good), 0);
 
   made::OutlineRecipe unseen = kWindy;
   unseen.seed = 7;

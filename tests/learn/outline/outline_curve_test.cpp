@@ -29,6 +29,7 @@ Recording heard_by_its_root(made::OutlineRecipe recipe, std::uint64_t seed) {
 
 OutlineFit learned(const Recording& recording, std::optional<int> knots) {
   OutlineRecipe options;
+  options.light = true;
   options.input_curve = knots;
   auto fit = fit_outline({&recording, 1}, options);
   EXPECT_TRUE(fit) << fit.error().message;

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 
 #include "learn/arx/judge/prediction.hpp"
@@ -29,7 +28,7 @@ TEST(OutlineDrawn, IsTheDefaultWhereAnInputDrivesAtLeastTenSeconds) {
   const DrawnResiduals& drawn = dynamics_of(fit).noise.drawn;
   EXPECT_GT(drawn.row_count(), 850u);
   EXPECT_EQ(drawn.toward, 0);
-  EXPECT_EQ(drawn.against, 1);
+  EXPECT_EQ(drawn.against, 3);  // after wind, its root and its square
   EXPECT_EQ(drawn.mirror.size(), drawn.scale.size());
   made::OutlineRecipe brief = kWindy;
   brief.rows = 200;
@@ -53,37 +52,14 @@ TEST(OutlineDrawn, KeepsResidualsToTheirSixteenBits) {
   }
 }
 
-TEST(OutlineDrawn, RemembersHowTheTipLeanedBeforeEveryRow) {
-  const OutlineFit fit = learned(kWindy);
-  const DrawnResiduals& drawn = dynamics_of(fit).noise.drawn;
-  ASSERT_EQ(drawn.leans.size(), 2 * drawn.row_count());
-  const auto points = static_cast<int>(drawn.scale.size() / 2);
-  const int left = (points - 1) / 2, right = points / 2;
-  EXPECT_EQ(drawn.lean_of, (std::vector<int>{2 * left, 2 * right, 2 * left + 1, 2 * right + 1}));
-  std::array<double, 2> sum{}, square{};
-  double with_wind = 0, wind = 0;
-  const auto rows = static_cast<double>(drawn.row_count());
-  for (std::size_t row = 0; row < drawn.row_count(); ++row) {
-    for (std::size_t k = 0; k < 2; ++k) {
-      const double lean = drawn.leans[2 * row + k] * drawn.lean_scale;
-      sum[k] += lean / rows;
-      square[k] += lean * lean / rows;
-    }
-    with_wind += drawn.leans[2 * row] * drawn.lean_scale * drawn.winds[2 * row] * drawn.wind_scale / rows;
-    wind += drawn.winds[2 * row] * drawn.wind_scale / rows;
-  }
-  const double sway = std::sqrt(square[0] - sum[0] * sum[0]), rise = std::sqrt(square[1] - sum[1] * sum[1]);
-  EXPECT_NEAR(std::max(sway, rise) * drawn.lean_weight, 0.45, 0.005);
-  EXPECT_GT(with_wind - wind * sum[0], 0);  // it leans with the wind
-}
-
 // The first gust of a stretch begins it: what stands still in calm is not taken into a gust that it does not feel.
 TEST(OutlineDrawn, WhatWasRecordedInCalmEndsWhereItBeginsToBlow) {
   const OutlineFit fit = learned(kWindy);
   const DrawnResiduals& drawn = dynamics_of(fit).noise.drawn;
-  const auto wind = [&](std::size_t row) { return std::abs(drawn.winds[2 * row] * drawn.wind_scale); };
-  std::size_t begin = 0, calm = 0, abated = 0;
+  std::size_t begin = 0, calm = 0, abated = 0, stretch = 0;
   for (const std::size_t end : drawn.ends) {
+    const std::size_t before = ++stretch * static_cast<std::size_t>(drawn.lags.back());
+    const auto wind = [&](std::size_t row) { return std::abs(drawn.winds[before + row] * drawn.wind_scale); };
     for (std::size_t row = begin + 1; row < end; ++row) {
       calm += wind(row) <= 0.039 ? 1 : 0;
       abated += wind(row - 1) > 0.041 && wind(row) <= 0.039 ? 1 : 0;
@@ -94,6 +70,21 @@ TEST(OutlineDrawn, WhatWasRecordedInCalmEndsWhereItBeginsToBlow) {
   EXPECT_GT(calm, 100u);
   EXPECT_GT(abated, 2u);
   EXPECT_GT(drawn.ends.size(), 5u);
+}
+
+// What blew before the first row of a stretch is known too: a jump may lead there.
+TEST(OutlineDrawn, EveryStretchHasTheWindBeforeIt) {
+  const OutlineFit fit = learned(kWindy);
+  const DrawnResiduals& drawn = dynamics_of(fit).noise.drawn;
+  const auto past = static_cast<std::size_t>(drawn.lags.back());
+  EXPECT_GE(past, 23u * 30 / 60);
+  ASSERT_EQ(drawn.winds.size(), drawn.row_count() + drawn.ends.size() * past);
+  // Stretches that were cut where it began to blow go on where the one before ended.
+  for (std::size_t s = 0; s + 1 < drawn.ends.size(); ++s) {
+    const std::size_t end = drawn.ends[s];
+    const std::size_t last = end - 1 + (s + 1) * past, before = end + (s + 2) * past - 1;
+    EXPECT_EQ(drawn.winds[before], drawn.winds[last]) << s;
+  }
 }
 
 TEST(OutlineDrawn, TakesNoMoreBytesThanItMay) {

@@ -89,7 +89,7 @@ TEST(DrawnResiduals, JumpWhereTheWindWasAlikeWhenItIsNot) {
   for (int frame = 1; frame < 400; ++frame) {
     seen.insert(rows[frame]);
     if (rows[frame] == rows[frame - 1] + 1) continue;
-    EXPECT_NEAR(swing(rows[frame] - 1), 0.5, 0.11) << frame;  // the nearest 64 of 400 lie in three levels
+    EXPECT_NEAR(swing(rows[frame] - 1), 0.5, 0.21) << frame;  // it swung then: over four steps it was near 0.5
   }
   EXPECT_GT(seen.size(), 60u);  // by chance, not the same each time
 }
@@ -123,6 +123,7 @@ TEST(DrawnResiduals, WithoutAnInputAnyRowMayFollow) {
   DrawnResiduals& drawn = drawn_of(model);
   drawn.toward = -1;
   drawn.winds.clear();
+  drawn.lags.clear();
   drawn.longest = 10;
   const auto rows = rows_played(model, 2000, swing);
   std::set<int> seen(rows.begin(), rows.end());
@@ -140,31 +141,32 @@ TEST(DrawnResiduals, AnotherSeedPlaysOtherRows) {
   EXPECT_EQ(rows_played(bare_model(), 100, steady, 1), rows_played(bare_model(), 100, steady, 1));
 }
 
-// How far from the next row jumps lead, on average, where all rows but `leans` are alike.
-double mean_jump(Model model, double lean_weight, float wind) {
-  DrawnResiduals& drawn = drawn_of(model);
-  drawn.lean_of = {0, 0, 1, 1};
-  drawn.lean_weight = lean_weight;
-  drawn.lean_scale = 1;
-  for (int row = 0; row < kRows; ++row) {
-    drawn.leans.insert(drawn.leans.end(), {static_cast<std::int16_t>(2 * row), 2});  // before it x was its number
+// The same wind now, after another: 0.5 on the way up is not 0.5 on the way down.
+TEST(DrawnResiduals, JumpWhereTheInputsPastWasAlike) {
+  Model model = bare_model();
+  drawn_of(model).longest = 1;  // a jump every step
+  const auto rows = rows_played(model, 600, swing);
+  for (int frame = 40; frame < 600; ++frame) {
+    const int row = rows[frame] - 1;
+    EXPECT_NEAR(swing(row), swing(frame), 0.11) << frame;            // one step away at most: a leaf has a few phases
+    EXPECT_NEAR(swing(row + 16), swing(frame + 16), 0.11) << frame;  // four steps ago, one swing later
   }
-  const auto rows = rows_played(model, 2000, [wind](int) { return wind; });
-  double sum = 0, jumps = 0;
-  for (std::size_t k = 2; k < rows.size(); ++k) {
-    const int away = std::abs(std::abs(rows[k]) - std::abs(rows[k - 1]) - 1);
-    sum += away;
-    jumps += away > 0 ? 1 : 0;
-  }
-  return sum / jumps;
 }
 
-TEST(DrawnResiduals, JumpWhereTheOutlineLeanedAsItDoesNow) {
-  for (const float wind : {0.5f, -0.5f}) {
-    const double blind = mean_jump(bare_model(), 0, wind), seeing = mean_jump(bare_model(), 0.1, wind);
-    EXPECT_GT(blind, 100) << wind;  // any of the nearest in wind: a third of 400 on average
-    EXPECT_LT(seeing, 50) << wind;  // the best of eight of them
+// In calm all rows of calm are alike: none of them is favoured, and none is heard again within a second.
+TEST(DrawnResiduals, InAWindThatStaysEveryRowThatIsAlikeHasItsTurn) {
+  Model model = bare_model();
+  DrawnResiduals& drawn = drawn_of(model);
+  std::fill(drawn.winds.begin(), drawn.winds.end(), std::int16_t{0});
+  drawn.longest = 10;
+  const auto rows = rows_played(model, 4000, [](int) { return 0.0f; });
+  std::set<int> seen;
+  for (std::size_t k = 1; k < rows.size(); ++k) {
+    seen.insert(std::abs(rows[k]));
+    if (std::abs(rows[k]) == std::abs(rows[k - 1]) + 1 || k < 30) continue;
+    for (std::size_t back = 1; back <= 30; ++back) EXPECT_NE(std::abs(rows[k]), std::abs(rows[k - back])) << k;
   }
+  EXPECT_GT(seen.size(), 350u);
 }
 
 TEST(DrawnResiduals, AreScaledByTheNoise) {
@@ -215,9 +217,9 @@ TEST(DrawnResiduals, AnInstanceLivesTheSameLifeInABankOfAnySizeAndAfterARestore)
 TEST(DrawnResiduals, CostAProductAndASumAnOutputAndNowAndThenAJump) {
   const Cost gaussian = *count_operations(flame_model({.wind = InputShape::kSplitSign, .noise_rank = 4}));
   const Cost drawn = *count_operations(flame_model({.wind = InputShape::kSplitSign, .drawn_rows = 600}));
-  EXPECT_LT(drawn.noise_operations, 16 * 2 + 25);
-  EXPECT_LT(drawn.random_operations, 25);
-  EXPECT_EQ(drawn.dynamics_operations, gaussian.dynamics_operations);
+  EXPECT_LT(drawn.noise_operations, 16 * 2 + 130);
+  EXPECT_LT(drawn.random_operations, 50);  // in a wind that was never recorded it searches in every step
+  EXPECT_EQ(drawn.dynamics_operations, gaussian.dynamics_operations + 1);  // what blows less what blows against it
 }
 
 }  // namespace

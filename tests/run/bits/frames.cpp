@@ -161,7 +161,7 @@ int main() {
   time_frames(hash, flame_model(), 37, 1'000);
   mortal_frames(hash, flame_model({.wind = InputShape::kSplitSign}), 11, 2'000);
   mortal_frames(hash, default_flame_model(), 5, 2'000);
-  mortal_frames(hash, leaning_flame_model(InputShape::kSplitSignCurve), 5, 2'000);
+  mortal_frames(hash, coupled_flame_model(), 5, 2'000);
   for (int capacity : {1, 13}) falling_frames(hash, windy_chain(), capacity, 4'000);
   falling_frames(hash, sample_chain(ChainMotion::kPosition), 5, 2'000);
   falling_frames(hash, spline_chain(), 9, 2'000);

@@ -12,15 +12,10 @@
 #include <vector>
 
 #include "wisp/base/result.hpp"
+#include "wisp/capture/clip/clip_capture.hpp"
 #include "wisp/capture/vision/picture.hpp"
 
 namespace wisp {
-
-/// Frames first to last, 1-based and inclusive.
-struct FrameRange {
-  std::int64_t first = 1;
-  std::int64_t last = 1;
-};
 
 /// How a clip is read.
 struct VideoOptions {

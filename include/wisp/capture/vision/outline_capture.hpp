@@ -96,6 +96,18 @@ struct CapturedOutline {
   CaptureReport report;
 };
 
+/// What is seen of the thing while it is captured, for whoever watches.
+struct OutlineSeen {
+  std::size_t frames = 0;        ///< rows so far, lost frames included
+  bool decided = false;          ///< channel, level and place are; until then frames are held back, and all below is empty
+  std::vector<double> polyline;  ///< x and y of 64 points of the outline in the last frame, pixels; empty: not there
+  Region found;                  ///< its box in the last frame that it was found in, pixels
+  PixelChannel channel = PixelChannel::kLuma;
+  double threshold = 0;  ///< brightness of the level, 0 black to 255 white
+  double clipped = 0;    ///< share of the thing that is as bright in every channel as it gets
+  int flames = 0;        ///< how many there are; 0 where no flame was looked for
+};
+
 /// Captures an outline from frames that are fed in their order.
 class OutlineCapture {
  public:
@@ -118,6 +130,9 @@ class OutlineCapture {
 
   /// Notes that the clip lost `count` frames here.
   void lost(int count = 1);
+
+  /// What the frames so far have shown.
+  OutlineSeen seen() const;
 
   /// Ends the clip. Returns the recording: outputs p0.x, p0.y, … and motion base.x, base.y in pixels, flag `filled`,
   /// one row a frame, missing rows empty.

@@ -1,0 +1,107 @@
+// Films: taken apart by Mediabunny, decoded by the browser, frame by frame and block by block.
+
+import { ALL_FORMATS, AudioSampleSink, BlobSource, EncodedPacketSink, Input, VideoSampleSink, type InputVideoTrack } from 'mediabunny';
+import { StudioError, type CaptureSettings, type Engine } from './engine.js';
+import { rawOfFrame } from './pictures.js';
+
+/** Places over the whole film that are looked at first. */
+const GLIMPSES = 4;
+
+/** Rates that cameras have: a clock's rounding is not a rate of its own. */
+const RATES = [24_000 / 1001, 24, 25, 30_000 / 1001, 30, 48, 50, 60_000 / 1001, 60, 90, 100, 120_000 / 1001, 120, 240_000 / 1001, 240];
+
+/**
+ * The rate of the grid that frames lie on: the camera's, by the usual time between frames, while not too many of its
+ * frames were lost; else the mean rate.
+ */
+export function gridRate(times: readonly number[]): number {
+  const sorted = [...times].sort((a, b) => a - b);
+  const steps = sorted.slice(1).map((time, k) => time - sorted[k]!).filter((step) => step > 1e-4);
+  if (steps.length === 0) return 0;
+  const mean = (times.length - 1) / (sorted.at(-1)! - sorted[0]!);
+  // Times are rounded to a millisecond in some files: the usual step is a mean over those near the middle one.
+  const middle = steps.toSorted((a, b) => a - b)[steps.length >> 1]!;
+  const usual = steps.filter((step) => Math.abs(step - middle) < 0.2 * middle);
+  const nominal = usual.length / usual.reduce((sum, step) => sum + step, 0);
+  const near = RATES.reduce((best, rate) => (Math.abs(rate - nominal) < Math.abs(best - nominal) ? rate : best));
+  const rate = Math.abs(near - nominal) < 0.004 * near ? near : nominal;
+  return rate / mean < 1.5 ? rate : mean;
+}
+
+async function timesOf(track: InputVideoTrack): Promise<number[]> {
+  const times: number[] = [];
+  for await (const packet of new EncodedPacketSink(track).packets(undefined, undefined, { metadataOnly: true })) times.push(packet.timestamp);
+  return times;
+}
+
+/** Key frames at the ends of the film's quarters. */
+async function glimpse(engine: Engine, track: InputVideoTrack, first: number, last: number): Promise<void> {
+  const packets = new EncodedPacketSink(track);
+  const frames = new VideoSampleSink(track);
+  let before = first;
+  for (let k = 1; k <= GLIMPSES; ++k) {
+    const packet = await packets.getKeyPacket(first + ((last - first) * k) / GLIMPSES, { metadataOnly: true });
+    if (packet === null || packet.timestamp === before) continue;
+    before = packet.timestamp;
+    const sample = await frames.getSample(packet.timestamp);
+    if (sample === null) continue;
+    const frame = sample.toVideoFrame();
+    engine.frame(await rawOfFrame(frame, sample.rotation), 0, true);
+    frame.close();
+    sample.close();
+  }
+}
+
+/** Hands the film's sound on, if it has any that can be decoded. Returns why not, or nothing. */
+async function hear(engine: Engine, input: Input, first: number): Promise<string> {
+  const track = await input.getPrimaryAudioTrack();
+  if (track === null) return '';
+  if (!(await track.canDecode())) return `its sound (${track.codec ?? 'of an unknown kind'}) cannot be decoded by this browser, so its wind is not heard`;
+  for await (const sample of new AudioSampleSink(track).samples()) {
+    const samples = new Float32Array(sample.numberOfFrames * sample.numberOfChannels);
+    sample.copyTo(samples, { planeIndex: 0, format: 'f32' });
+    engine.sound(samples, sample.numberOfChannels, sample.sampleRate, sample.timestamp - first);
+    sample.close();
+  }
+  return '';
+}
+
+/** Shows the engine a whole film. `looked` is told after each frame, with the frame and the share that is done. */
+export async function showFilm(
+  engine: Engine,
+  file: Blob,
+  settings: Omit<CaptureSettings, 'rate'>,
+  looked: (frame: VideoFrame, share: number, turn: number) => Promise<void>,
+): Promise<string[]> {
+  const input = new Input({ source: new BlobSource(file), formats: ALL_FORMATS });
+  try {
+    const track = await input.getPrimaryVideoTrack().catch((error: unknown) => {
+      throw new StudioError(`${settings.name} is not a film that can be read here: ${error instanceof Error ? error.message : String(error)}`);
+    });
+    if (track === null) throw new StudioError(`${settings.name} has no picture in it: give a film`);
+    if (!(await track.canDecode())) {
+      throw new StudioError(`${settings.name} is coded in ${track.codec ?? 'a way'} that this browser cannot decode: convert it to MP4 with H.264, or use another browser`);
+    }
+    const times = await timesOf(track);
+    const rate = gridRate(times);
+    if (!(rate > 0)) throw new StudioError(`${settings.name} has ${times.length === 1 ? 'one frame' : 'no frames'}: give a film of some seconds`);
+    engine.begin({ ...settings, rate });
+    const [first, last] = [Math.min(...times.slice(0, 64)), times.reduce((a, b) => Math.max(a, b), 0)];
+    await glimpse(engine, track, first, last);
+    let begin = null;
+    let done = 0;
+    for await (const sample of new VideoSampleSink(track).samples()) {
+      begin ??= sample.timestamp;
+      const frame = sample.toVideoFrame();
+      engine.frame(await rawOfFrame(frame, sample.rotation), sample.timestamp);
+      done += 1;
+      await looked(frame, done / times.length, sample.rotation);
+      frame.close();
+      sample.close();
+    }
+    const unheard = await hear(engine, input, begin ?? first);
+    return unheard === '' ? [] : [`${settings.name}: ${unheard}`];
+  } finally {
+    input.dispose();
+  }
+}

@@ -1,0 +1,29 @@
+// What passes between a page and its worker.
+
+import type { CaptureSettings } from './engine.js';
+import type { Captured, Learned, PictureSettings, Recipe, Seen, TableSettings } from './types.js';
+
+/** What a worker is asked for. */
+export type Task =
+  | { do: 'film'; file: File; settings: PictureSettings }
+  | { do: 'pictures'; files: File[]; rate: number; settings: PictureSettings }
+  | { do: 'table'; name: string; bytes: Uint8Array; settings: TableSettings }
+  | { do: 'learn'; recordings: readonly Uint8Array[]; recipe: Recipe }
+  | { do: 'validate'; model: Uint8Array; recordings: readonly Uint8Array[] }
+  | { do: 'live'; settings: CaptureSettings }
+  | { do: 'finish' };
+
+/** A task, or what a live capture is fed; both bear the number of the work that they belong to. */
+export type ToWorker =
+  | { of: number; task: Task }
+  | { of: number; frame: VideoFrame | ImageBitmap; seconds: number }
+  | { of: number; sound: Float32Array; rate: number; seconds: number };
+
+export type Outcome = Captured | Learned | Pick<Learned, 'report' | 'curves' | 'text'>;
+
+export type FromWorker =
+  | { of: number; progress: { stage: string; share: number } }
+  | { of: number; seen: Seen }
+  | { of: number; looked: number }
+  | { of: number; done: Outcome }
+  | { of: number; failed: string; dead: boolean };

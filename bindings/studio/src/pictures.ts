@@ -1,0 +1,59 @@
+// Decoded frames as the planes that they already have.
+
+import type { RawPicture } from './engine.js';
+
+/** More pixels than this are made fewer: a flame's edge is known to a tenth of a pixel. */
+const MOST_PIXELS = 3840 * 2160;
+
+const SHIFTS: Record<string, [number, number]> = { I420: [1, 1], I422: [1, 0], I444: [0, 0], NV12: [1, 1] };
+
+let canvas: OffscreenCanvas | null = null;
+
+/** What a canvas shows, as packed colours. */
+function drawn(width: number, height: number, draw: (on: OffscreenCanvasRenderingContext2D) => void): RawPicture {
+  if (canvas === null || canvas.width !== width || canvas.height !== height) canvas = new OffscreenCanvas(width, height);
+  const on = canvas.getContext('2d', { willReadFrequently: true })!;
+  draw(on);
+  const data = new Uint8Array(on.getImageData(0, 0, width, height).data.buffer);
+  const planes = [0, 1, 2].map((offset) => ({ offset, stride: 4 * width, step: 4 }));
+  return { layout: 'rgb', width, height, data, planes };
+}
+
+/** A frame of a decoder or a camera. `turn`: degrees clockwise by which it is to be shown. */
+export async function rawOfFrame(frame: VideoFrame, turn = 0): Promise<RawPicture> {
+  const { width, height } = frame.visibleRect ?? { width: frame.codedWidth, height: frame.codedHeight };
+  const shifts = SHIFTS[frame.format ?? ''];
+  if (shifts === undefined || turn !== 0 || width * height > MOST_PIXELS) return turned(frame, width, height, turn);
+  const data = new Uint8Array(frame.allocationSize());
+  const layout = await frame.copyTo(data);
+  const planes = layout.map(({ offset, stride }) => ({ offset, stride, step: 1 }));
+  if (frame.format === 'NV12') {
+    const { offset, stride } = planes[1]!;
+    planes[1] = { offset, stride, step: 2 };
+    planes[2] = { offset: offset + 1, stride, step: 2 };
+  }
+  const { fullRange, matrix } = frame.colorSpace;
+  return { layout: 'yuv', width, height, data, planes, shiftX: shifts[0], shiftY: shifts[1], fullRange: fullRange ?? false, bt709: matrix === 'bt709' };
+}
+
+function turned(frame: VideoFrame, width: number, height: number, turn: number): RawPicture {
+  const share = Math.min(1, Math.sqrt(MOST_PIXELS / (width * height)));
+  const [wide, tall] = [Math.round(width * share), Math.round(height * share)];
+  const sideways = turn % 180 !== 0;
+  const [shownWidth, shownHeight] = sideways ? [tall, wide] : [wide, tall];
+  return drawn(shownWidth, shownHeight, (on) => {
+    on.setTransform(1, 0, 0, 1, shownWidth / 2, shownHeight / 2);
+    on.rotate((turn * Math.PI) / 180);
+    on.drawImage(frame, -wide / 2, -tall / 2, wide, tall);
+  });
+}
+
+/** A still picture. */
+export function rawOfBitmap(bitmap: ImageBitmap): RawPicture {
+  const share = Math.min(1, Math.sqrt(MOST_PIXELS / (bitmap.width * bitmap.height)));
+  const [width, height] = [Math.round(bitmap.width * share), Math.round(bitmap.height * share)];
+  return drawn(width, height, (on) => {
+    on.setTransform(1, 0, 0, 1, 0, 0);
+    on.drawImage(bitmap, 0, 0, width, height);
+  });
+}

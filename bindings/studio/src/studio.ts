@@ -1,0 +1,173 @@
+// The page's end of the worker.
+
+import { StudioError } from './engine.js';
+import type { FromWorker, Outcome, Task, ToWorker } from './messages.js';
+import type { Captured, Learned, PictureSettings, Recipe, TableSettings, Watch } from './types.js';
+
+/** A capture that is fed as things happen: a camera and a microphone. */
+export interface LiveCapture {
+  /** Takes a frame (it is closed) with its time in seconds on any clock that sound is on too. */
+  frame(frame: VideoFrame | ImageBitmap, seconds: number): void;
+  /** Takes a block of sound; `seconds`: time of its first sample, on the clock of the frames. It is mono. */
+  sound(samples: Float32Array, rate: number, seconds: number): void;
+  /** frames that wait to be looked at: where it grows, feed fewer */
+  readonly waiting: number;
+  /** Ends it. Rejects with a sentence where there is nothing to learn from. */
+  finish(): Promise<Captured>;
+  /** Gives it up. */
+  cancel(): void;
+}
+
+/** Work that the worker has not answered yet. */
+interface Pending {
+  watch: Watch;
+  resolve: (outcome: Outcome) => void;
+  reject: (why: unknown) => void;
+  looked?: () => void;
+}
+
+const stopped = (): DOMException => new DOMException('stopped', 'AbortError');
+
+export class Studio {
+  private worker: Worker | null = null;
+  private readonly pending = new Map<number, Pending>();
+  private count = 0;
+
+  private constructor() {}
+
+  /** Starts the worker, which fetches the module. Rejects with a sentence where this browser cannot. */
+  static async open(): Promise<Studio> {
+    if (typeof Worker === 'undefined' || typeof WebAssembly === 'undefined') {
+      throw new StudioError('this browser has no WebAssembly in workers, which learning needs: a current Firefox, Chrome, Edge or Safari does');
+    }
+    const studio = new Studio();
+    studio.employ();
+    return studio;
+  }
+
+  /** Captures a film file: sound and picture, decoded here. */
+  film(file: File, settings: PictureSettings, watch: Watch = {}): Promise<Captured> {
+    if (typeof VideoDecoder === 'undefined') {
+      return Promise.reject(new StudioError('this browser cannot take films apart (it has no WebCodecs): a current Chrome, Edge, Safari or Firefox can'));
+    }
+    return this.ask({ do: 'film', file, settings }, watch);
+  }
+
+  /** Captures numbered pictures. */
+  pictures(files: File[], rate: number, settings: PictureSettings, watch: Watch = {}): Promise<Captured> {
+    return this.ask({ do: 'pictures', files, rate, settings }, watch);
+  }
+
+  /** Captures live. `rate`: what the camera says, frames a second. */
+  live(name: string, rate: number, settings: PictureSettings, watch: Watch = {}): LiveCapture {
+    const of = ++this.count;
+    let waiting = 0;
+    const ended = new Promise<Outcome>((resolve, reject) => {
+      this.pending.set(of, { watch, resolve, reject, looked: () => (waiting -= 1) });
+    });
+    // A failure is told by finish().
+    ended.catch(() => undefined);
+    this.send({ of, task: { do: 'live', settings: { ...settings, name, rate } } });
+    return {
+      frame: (frame, seconds) => {
+        if (!this.pending.has(of)) return frame.close();
+        waiting += 1;
+        this.send({ of, frame, seconds }, [frame]);
+      },
+      sound: (sound, heard, seconds) => {
+        if (this.pending.has(of)) this.send({ of, sound, rate: heard, seconds }, [sound.buffer]);
+      },
+      get waiting() {
+        return waiting;
+      },
+      finish: () => {
+        if (this.pending.has(of)) this.send({ of, task: { do: 'finish' } });
+        return ended as Promise<Captured>;
+      },
+      cancel: () => {
+        this.pending.get(of)?.reject(stopped());
+        this.pending.delete(of);
+      },
+    };
+  }
+
+  /** Reads a recording or a table: CSV. */
+  table(name: string, bytes: Uint8Array, settings: TableSettings = {}): Promise<Captured> {
+    return this.ask({ do: 'table', name, bytes, settings });
+  }
+
+  /** Learns from recordings, each as `Captured.csv`. */
+  learn(recordings: readonly Uint8Array[], recipe: Recipe, watch: Watch = {}): Promise<Learned> {
+    return this.ask({ do: 'learn', recordings, recipe }, watch);
+  }
+
+  /** Judges a model on recordings. */
+  validate(model: Uint8Array, recordings: readonly Uint8Array[], watch: Watch = {}): Promise<Pick<Learned, 'report' | 'curves' | 'text'>> {
+    return this.ask({ do: 'validate', model, recordings }, watch);
+  }
+
+  /** Ends the worker; everything is forgotten. */
+  close(): void {
+    this.dismiss(stopped());
+  }
+
+  private employ(): Worker {
+    const worker = new Worker(new URL('./worker.js', import.meta.url), { type: 'module' });
+    worker.addEventListener('message', ({ data }: MessageEvent<FromWorker>) => this.take(data));
+    worker.addEventListener('error', (event) => {
+      event.preventDefault();
+      this.dismiss(new StudioError(`the worker that learns stopped${event.message ? ` (${event.message})` : ''}: what was gathered is kept, try once more`));
+    });
+    this.worker = worker;
+    return worker;
+  }
+
+  /** Everything that is going on fails; the next work is done by another worker. */
+  private dismiss(why: unknown): void {
+    this.worker?.terminate();
+    this.worker = null;
+    for (const { reject } of this.pending.values()) reject(why);
+    this.pending.clear();
+  }
+
+  private send(message: ToWorker, carried: Transferable[] = []): void {
+    (this.worker ?? this.employ()).postMessage(message, carried);
+  }
+
+  private ask<T extends Outcome>(task: Task, watch: Watch = {}): Promise<T> {
+    const { signal } = watch;
+    if (signal?.aborted === true) return Promise.reject(stopped());
+    const of = ++this.count;
+    return new Promise<T>((resolve, reject) => {
+      // The module cannot hear while it computes: its worker is ended, and another begins when it is wanted.
+      const stop = (): void => this.dismiss(stopped());
+      const over = <V>(then: (value: V) => void) => (value: V): void => {
+        signal?.removeEventListener('abort', stop);
+        then(value);
+      };
+      signal?.addEventListener('abort', stop, { once: true });
+      this.pending.set(of, { watch, resolve: over(resolve as (outcome: Outcome) => void), reject: over(reject) });
+      this.send({ of, task });
+    });
+  }
+
+  private take(message: FromWorker): void {
+    const work = this.pending.get(message.of);
+    if (work === undefined) {
+      if ('seen' in message) message.seen.picture?.close();
+    } else if ('progress' in message) work.watch.progress?.(message.progress.stage, message.progress.share);
+    else if ('looked' in message) work.looked?.();
+    else if ('seen' in message) {
+      if (work.watch.seen === undefined) message.seen.picture?.close();
+      else work.watch.seen(message.seen);
+    } else {
+      this.pending.delete(message.of);
+      if ('done' in message) work.resolve(message.done);
+      else {
+        work.reject(new StudioError(message.failed));
+        // Memory that ran out comes back with another worker.
+        if (message.dead) this.dismiss(new StudioError(message.failed));
+      }
+    }
+  }
+}

@@ -1,0 +1,192 @@
+// The worker: the engine, and what decodes for it.
+
+import { Engine, StudioError } from './engine.js';
+import { showFilm } from './film.js';
+import type { FromWorker, Outcome, Task, ToWorker } from './messages.js';
+import { rawOfBitmap, rawOfFrame } from './pictures.js';
+import type { Captured, Seen } from './types.js';
+
+const SHOWN_EVERY_MS = 66;
+const SHOWN_PIXELS = 640;
+/** Holes in live sound that are longer than this are silence. */
+const LOST_SECONDS = 0.05;
+
+const engine = (async () => {
+  const response = await fetch(new URL('./studio.wasm', import.meta.url));
+  if (!response.ok) throw new StudioError(`the studio could not be fetched: ${response.status}`);
+  return Engine.start(await response.arrayBuffer());
+})();
+// It is awaited, and told of, by whoever asks first.
+engine.catch(() => undefined);
+
+const tell = (message: FromWorker, carried: Transferable[] = []): void => self.postMessage(message, { transfer: carried });
+
+/** Tells what is seen now and then, with a small picture of the frame where there is one. */
+class Showing {
+  private shown = 0;
+
+  constructor(
+    private readonly of: number,
+    private readonly engine: Engine,
+  ) {}
+
+  async frame(frame: VideoFrame | ImageBitmap | null, share: number, turn = 0): Promise<void> {
+    if (performance.now() - this.shown < SHOWN_EVERY_MS) return;
+    this.shown = performance.now();
+    const seen: Seen = this.engine.seen();
+    if (frame !== null) seen.picture = await small(frame, seen, turn);
+    tell({ of: this.of, seen }, seen.picture === undefined ? [] : [seen.picture]);
+    if (share >= 0) tell({ of: this.of, progress: { stage: 'capturing', share } });
+  }
+}
+
+function small(frame: VideoFrame | ImageBitmap, { width, height }: Seen, turn: number): ImageBitmap {
+  const share = Math.min(1, SHOWN_PIXELS / Math.max(width, height));
+  const [shownWidth, shownHeight] = [Math.max(1, Math.round(width * share)), Math.max(1, Math.round(height * share))];
+  const canvas = new OffscreenCanvas(shownWidth, shownHeight);
+  const on = canvas.getContext('2d')!;
+  on.translate(shownWidth / 2, shownHeight / 2);
+  on.rotate((turn * Math.PI) / 180);
+  const [wide, tall] = turn % 180 === 0 ? [shownWidth, shownHeight] : [shownHeight, shownWidth];
+  on.drawImage(frame, -wide / 2, -tall / 2, wide, tall);
+  return canvas.transferToImageBitmap();
+}
+
+/** A capture that is fed as things happen. */
+class Live {
+  private first: number | null = null;
+  private early: { sound: Float32Array; rate: number; seconds: number }[] = [];
+  private heardTo: number | null = null;
+  /** why it cannot go on */
+  private failure: unknown = null;
+  private work: Promise<void> = Promise.resolve();
+  private readonly showing: Showing;
+
+  constructor(
+    private readonly of: number,
+    private readonly engine: Engine,
+  ) {
+    this.showing = new Showing(of, engine);
+  }
+
+  frame(frame: VideoFrame | ImageBitmap, seconds: number): void {
+    this.work = this.work.then(async () => {
+      try {
+        if (this.failure !== null) return;
+        this.engine.frame(frame instanceof ImageBitmap ? rawOfBitmap(frame) : await rawOfFrame(frame), seconds);
+        if (this.first === null) this.start(seconds);
+        await this.showing.frame(null, -1);
+      } catch (error) {
+        this.failure = error;
+      } finally {
+        frame.close();
+        tell({ of: this.of, looked: 1 });
+      }
+    });
+  }
+
+  sound(sound: Float32Array, rate: number, seconds: number): void {
+    this.work = this.work.then(() => {
+      if (this.first === null) this.early.push({ sound, rate, seconds });
+      else this.hear(sound, rate, seconds);
+    });
+  }
+
+  async finish(): Promise<Captured> {
+    await this.work;
+    if (this.failure !== null) throw this.failure;
+    return this.engine.finish();
+  }
+
+  private start(seconds: number): void {
+    this.first = seconds;
+    for (const { sound, rate, seconds: at } of this.early) this.hear(sound, rate, at);
+    this.early = [];
+  }
+
+  private hear(sound: Float32Array, rate: number, seconds: number): void {
+    try {
+      const lost = this.heardTo === null ? 0 : seconds - this.heardTo;
+      if (lost > LOST_SECONDS) this.engine.sound(new Float32Array(Math.round(lost * rate)), 1, rate, 0);
+      this.engine.sound(sound, 1, rate, seconds - (this.first ?? 0));
+      // Times jitter, samples do not: only what is lost moves the clock.
+      this.heardTo = (this.heardTo === null || lost > LOST_SECONDS ? seconds : this.heardTo) + sound.length / rate;
+    } catch (error) {
+      this.failure ??= error;
+    }
+  }
+}
+
+let live: Live | null = null;
+
+async function film(of: number, wisp: Engine, file: File, settings: object): Promise<Captured> {
+  const showing = new Showing(of, wisp);
+  const warnings = await showFilm(wisp, file, { ...settings, name: file.name }, (frame, share, turn) => showing.frame(frame, share, turn));
+  const captured = wisp.finish();
+  if (warnings.length > 0) captured.report.warnings = [...(captured.report.warnings ?? []), ...warnings];
+  return captured;
+}
+
+async function pictures(of: number, wisp: Engine, files: File[], rate: number, settings: object): Promise<Captured> {
+  const showing = new Showing(of, wisp);
+  const collator = new Intl.Collator('en', { numeric: true });
+  const sorted = files.toSorted((a, b) => collator.compare(a.name, b.name));
+  wisp.begin({ ...settings, name: 'pictures', rate, pictures: true });
+  for (const [k, file] of sorted.entries()) {
+    const bitmap = await createImageBitmap(file, { colorSpaceConversion: 'none' }).catch(() => {
+      throw new StudioError(`${file.name} is not a picture that can be read here`);
+    });
+    wisp.frame(rawOfBitmap(bitmap), k / rate);
+    await showing.frame(bitmap, (k + 1) / sorted.length);
+    bitmap.close();
+  }
+  return wisp.finish();
+}
+
+async function perform(of: number, task: Task): Promise<Outcome | null> {
+  const wisp = await engine;
+  wisp.onProgress = (stage, share) => {
+    tell({ of, progress: { stage, share } });
+    return true;
+  };
+  switch (task.do) {
+    case 'film':
+      return film(of, wisp, task.file, task.settings);
+    case 'pictures':
+      return pictures(of, wisp, task.files, task.rate, task.settings);
+    case 'table':
+      return wisp.table(task.name, task.bytes, task.settings);
+    case 'learn':
+      return wisp.learn(task.recordings, task.recipe);
+    case 'validate':
+      return wisp.validate(task.model, task.recordings);
+    case 'live':
+      wisp.begin(task.settings);
+      live = new Live(of, wisp);
+      return null;
+    case 'finish': {
+      const ending = live;
+      live = null;
+      if (ending === null) throw new StudioError('nothing is being filmed');
+      return ending.finish();
+    }
+  }
+}
+
+async function answer(of: number, task: Task): Promise<void> {
+  try {
+    const done = await perform(of, task);
+    if (done !== null) tell({ of, done });
+  } catch (error) {
+    const memory = error instanceof RangeError || (error instanceof StudioError && error.cause !== undefined);
+    tell({ of, failed: error instanceof Error ? error.message : String(error), dead: memory });
+  }
+}
+
+self.addEventListener('message', ({ data }: MessageEvent<ToWorker>) => {
+  if ('task' in data) void answer(data.of, data.task);
+  else if ('frame' in data) {
+    if (live === null) data.frame.close();
+    else live.frame(data.frame, data.seconds);
+  } else live?.sound(data.sound, data.rate, data.seconds);
+});

@@ -1,0 +1,293 @@
+// The front door as functions of WebAssembly: what goes in is JSON and memory, what comes out is the answer.
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <sstream>
+#include <string_view>
+
+#include "answer.hpp"
+#include "capture/clip/frame_grid.hpp"
+#include "wisp/capture/clip/clip_capture.hpp"
+#include "wisp/describe/json.hpp"
+#include "wisp/describe/text.hpp"
+#include "wisp/learn/learn.hpp"
+#include "wisp/learn/validate.hpp"
+#include "wisp/model/file.hpp"
+#include "wisp/record/csv.hpp"
+
+#define WISP_STUDIO(name) __attribute__((export_name("studio_" #name)))
+
+// The host is told of progress, and answers whether to go on.
+extern "C" __attribute__((import_module("env"), import_name("studio_progress"))) int studio_progress(const char* stage,
+                                                                                                      std::size_t size,
+                                                                                                      double share);
+
+namespace wisp::studio {
+namespace {
+
+using nlohmann::json;
+
+// What is being captured, and what has been gathered to learn from.
+struct Desk {
+  std::optional<LiveCapture> capture;
+  std::optional<FrameGrid> grid;
+  std::string source;
+  std::vector<Recording> recordings;
+};
+
+Desk& desk() {
+  static Desk the;
+  return the;
+}
+
+Progress progress() {
+  return [](std::string_view stage, double share) { return studio_progress(stage.data(), stage.size(), share) != 0; };
+}
+
+json parsed(const char* text, std::size_t size) { return json::parse(text, text + size, nullptr, false); }
+
+std::optional<int> whole(const json& from, const char* name) {
+  const auto found = from.find(name);
+  if (found == from.end() || !found->is_number()) return std::nullopt;
+  return found->get<int>();
+}
+
+std::vector<std::string> names(const json& from, const char* name) {
+  const auto found = from.find(name);
+  return found == from.end() || !found->is_array() ? std::vector<std::string>() : found->get<std::vector<std::string>>();
+}
+
+ClipCapture capture_options(const json& from) {
+  ClipCapture options;
+  options.flame = whole(from, "flame").value_or(1);
+  options.points = whole(from, "points").value_or(8);
+  options.dark = from.value("dark", false);
+  options.channel = channel_from_name(from.value("channel", ""));
+  if (const auto region = from.find("region"); region != from.end() && region->is_object()) {
+    options.region = {region->value("x", 0), region->value("y", 0), region->value("width", 0),
+                      region->value("height", 0)};
+  }
+  return options;
+}
+
+// The report as the program's --json has it, and, for pictures, its series.
+std::string report_json(const Report& report) {
+  json out = json::parse(to_json(report, -1), nullptr, false);
+  json curves = json::array();
+  for (const ReportSection& section : report.sections) {
+    for (const ReportSeries& series : section.series) {
+      curves.push_back({{"id", series.id},
+                        {"label", series.label},
+                        {"x_label", series.x_label},
+                        {"y_label", series.y_label},
+                        {"x", series.x},
+                        {"y", series.y}});
+    }
+  }
+  return json{{"report", std::move(out)}, {"curves", std::move(curves)}, {"text", to_text(report)}}.dump();
+}
+
+const char* role_name(Role role) {
+  return role == Role::kInput ? "input" : role == Role::kOutput ? "output" : "motion";
+}
+
+// A recording: its CSV as bytes, its channels' samples as numbers, one channel after the other.
+int hand_over(const Recording& recording, const Report& report) {
+  Answer& out = fresh();
+  const std::string csv = csv_text(recording);
+  const auto bytes = std::as_bytes(std::span(csv));
+  out.bytes.assign(bytes.begin(), bytes.end());
+  json series = json::array();
+  for (const Channel& channel : recording.channels) {
+    series.push_back({{"name", channel.name}, {"unit", channel.unit}, {"role", role_name(channel.role)}});
+    out.numbers.insert(out.numbers.end(), channel.samples.begin(), channel.samples.end());
+  }
+  json text = json::parse(report_json(report), nullptr, false);
+  text["rate"] = recording.rate_hz;
+  text["rows"] = recording.rows();
+  text["series"] = std::move(series);
+  out.text = text.dump();
+  return kDone;
+}
+
+OutlineRecipe outline_recipe(const json& from, OutlineRecipe recipe) {
+  recipe.name = from.value("name", recipe.name);
+  recipe.seed = from.value("seed", recipe.seed);
+  if (const auto order = whole(from, "order")) recipe.order = *order;
+  if (const auto knots = whole(from, "curve")) recipe.input_curve = *knots;
+  const std::string noise = from.value("noise", "");
+  if (noise == "independent") recipe.noise = OutlineNoise::kIndependent;
+  if (noise == "residual") recipe.noise = OutlineNoise::kResidual;
+  if (noise == "matched") recipe.noise = OutlineNoise::kMatched;
+  if (noise == "drawn") recipe.noise = OutlineNoise::kDrawn;
+  if (from.value("light", false)) {
+    recipe.one_sided = true;
+    recipe.noise = OutlineNoise::kIndependent;
+  }
+  return recipe;
+}
+
+Recipe recipe_of(const json& from) {
+  const std::string kind = from.value("kind", "flame");
+  if (kind == "arx") {
+    ArxRecipe recipe{.inputs = names(from, "inputs"), .outputs = names(from, "outputs"), .responses = true};
+    recipe.name = from.value("name", "table");
+    if (const auto order = whole(from, "order"); order && *order > 0) recipe.na = recipe.nb = *order;
+    if (const auto nb = whole(from, "nb")) recipe.nb = *nb;
+    recipe.nk.reset();
+    if (const auto nk = whole(from, "nk")) recipe.nk = *nk;
+    return recipe;
+  }
+  if (kind == "leaf" || kind == "chain") {
+    LeafRecipe leaf;
+    ChainRecipe recipe = kind == "leaf" ? leaf : ChainRecipe{};
+    recipe.name = from.value("name", recipe.name);
+    recipe.seed = from.value("seed", recipe.seed);
+    if (kind == "chain") return recipe;
+    static_cast<ChainRecipe&>(leaf) = recipe;
+    return leaf;
+  }
+  if (kind == "outline") return outline_recipe(from, OutlineRecipe{});
+  FlameRecipe flame;
+  static_cast<OutlineRecipe&>(flame) = outline_recipe(from, flame);
+  return flame;
+}
+
+Result<Recording> read_recording(const char* bytes, std::size_t size, const json& settings) {
+  std::istringstream stream(std::string(bytes, size));
+  CsvOptions options{.inputs = names(settings, "inputs"), .outputs = names(settings, "outputs")};
+  options.rate_hz = settings.value("rate", 0.0);
+  return read_csv(stream, settings.value("name", "recording.csv"), options);
+}
+
+}  // namespace
+}  // namespace wisp::studio
+
+using namespace wisp;
+using namespace wisp::studio;
+
+extern "C" {
+
+// Begins a capture: {name, rate, pictures, flame, points, dark, channel, region}.
+WISP_STUDIO(begin) int studio_begin(const char* text, std::size_t size) {
+  const json settings = parsed(text, size);
+  Desk& all = desk();
+  all.source = settings.value("name", "camera");
+  const double rate = settings.value("rate", 0.0);
+  auto capture = LiveCapture::create(
+      {.name = all.source, .rate_hz = rate, .pictures = settings.value("pictures", false)}, capture_options(settings));
+  if (!capture) return fail(capture.error());
+  all.capture.emplace(std::move(*capture));
+  all.grid.emplace(rate);
+  return kDone;
+}
+
+// A frame of three planes as decoders lay them out. `glimpse`: from anywhere in the clip, before the first frames.
+WISP_STUDIO(frame)
+int studio_frame(int layout, int width, int height, const std::uint8_t* first, int first_stride,
+                 const std::uint8_t* second, int second_stride, const std::uint8_t* third, int third_stride, int step,
+                 int shift_x, int shift_y, int full_range, int bt709, double seconds, int glimpse) {
+  Desk& all = desk();
+  if (!all.capture) return fail({"no capture has begun"});
+  const Picture picture{
+      .layout = static_cast<PictureLayout>(layout),
+      .width = width,
+      .height = height,
+      .planes = {PicturePlane{first, first_stride, layout == 2 ? step : 1}, PicturePlane{second, second_stride, step},
+                 PicturePlane{third, third_stride, step}},
+      .chroma_shift_x = shift_x,
+      .chroma_shift_y = shift_y,
+      .full_range = full_range != 0,
+      .bt709 = bt709 != 0};
+  OutlineCapture& capture = all.capture->picture();
+  if (glimpse != 0) {
+    capture.glimpse(picture);
+    return kDone;
+  }
+  const std::int64_t before = all.grid->last();
+  const std::int64_t place = all.grid->place(seconds);
+  if (before >= 0) capture.lost(static_cast<int>(place - before - 1));
+  const auto fed = capture.feed(picture);
+  return fed ? kDone : fail(fed.error());
+}
+
+// Interleaved samples; the first block says when the sound begins, seconds after the first frame.
+WISP_STUDIO(sound)
+int studio_sound(const float* samples, std::size_t count, int channels, double rate, double begin) {
+  Desk& all = desk();
+  if (!all.capture) return fail({"no capture has begun"});
+  const auto heard = all.capture->hear({.rate_hz = rate, .channels = channels}, begin, {samples, count});
+  return heard ? kDone : fail(heard.error());
+}
+
+// {frames, decided, channel, threshold, clipped, flames, box}; numbers: the outline's points.
+WISP_STUDIO(seen) int studio_seen() {
+  Desk& all = desk();
+  if (!all.capture) return fail({"no capture has begun"});
+  OutlineSeen seen = all.capture->picture().seen();
+  Answer& out = fresh();
+  json text{{"frames", seen.frames}, {"decided", seen.decided}};
+  if (seen.decided) {
+    text["channel"] = channel_name(seen.channel);
+    text["threshold"] = seen.threshold;
+    text["clipped"] = seen.clipped;
+    text["flames"] = seen.flames;
+    text["box"] = {seen.found.x, seen.found.y, seen.found.width, seen.found.height};
+  }
+  out.text = text.dump();
+  out.numbers = std::move(seen.polyline);
+  return kDone;
+}
+
+// The recording.
+WISP_STUDIO(finish) int studio_finish() {
+  Desk& all = desk();
+  if (!all.capture) return fail({"no capture has begun"});
+  auto captured = all.capture->finish();
+  const std::vector<std::string> odd = all.grid->warnings(all.source);
+  all.capture.reset();
+  if (!captured) return fail(captured.error());
+  for (const std::string& warning : odd) captured->report.warnings.push_back(warning);
+  return hand_over(captured->recording, captured->report);
+}
+
+// Reads a table or a recording: {name, rate, inputs, outputs}.
+WISP_STUDIO(table) int studio_table(const char* bytes, std::size_t size, const char* text, std::size_t text_size) {
+  const auto recording = read_recording(bytes, size, parsed(text, text_size));
+  if (!recording) return fail(recording.error());
+  return hand_over(*recording, {});
+}
+
+// Puts a recording, as CSV, beside the others that are to be learned from; {name, …} as studio_table.
+WISP_STUDIO(add) int studio_add(const char* bytes, std::size_t size, const char* text, std::size_t text_size) {
+  auto recording = read_recording(bytes, size, parsed(text, text_size));
+  if (!recording) return fail(recording.error());
+  desk().recordings.push_back(std::move(*recording));
+  return kDone;
+}
+
+WISP_STUDIO(clear) void studio_clear() { desk().recordings.clear(); }
+
+// Learns from what was added. Bytes: the model.
+WISP_STUDIO(learn) int studio_learn(const char* text, std::size_t size) {
+  const auto fit = learn(desk().recordings, recipe_of(parsed(text, size)), progress());
+  if (!fit) return fail(fit.error());
+  auto bytes = model_bytes(fit->model);
+  if (!bytes) return fail(bytes.error());
+  Answer& out = fresh();
+  out.bytes = std::move(*bytes);
+  out.text = report_json(fit->report);
+  return kDone;
+}
+
+// Judges a model on what was added.
+WISP_STUDIO(validate) int studio_validate(const std::byte* bytes, std::size_t size) {
+  const auto model = parse_model({bytes, size}, "the model");
+  if (!model) return fail(model.error());
+  const auto report = validate(*model, desk().recordings, {}, progress());
+  if (!report) return fail(report.error());
+  fresh().text = report_json(*report);
+  return kDone;
+}
+}

@@ -1,0 +1,212 @@
+#include "wisp/capture/clip/clip_capture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "capture/clip/clip_ear.hpp"
+#include "model/bspline.hpp"
+#include "record/loudness.hpp"
+#include "record/verdict.hpp"
+
+namespace wisp {
+namespace {
+
+OutlineCaptureOptions outline_options(const ClipSource& source, const ClipCapture& options) {
+  OutlineCaptureOptions out;
+  out.points = options.points;
+  out.channel = options.channel;
+  out.dark = options.dark;
+  out.flame = options.flame;
+  out.region = options.region;
+  if (options.curve) {
+    out.points = static_cast<int>(options.curve->knots.size()) - kSplineDegree - 1;
+    out.knots = options.curve->knots;
+    out.underside = options.curve->underside;
+  }
+  out.rate_hz = source.rate_hz;
+  out.source = source.name;
+  return out;
+}
+
+constexpr double kClippedShare = 0.01;  // of samples at full scale: beyond it the wind's peaks are cut off
+
+void join_wind(const ClipWind& wind, WindMeasure measure, Recording& recording) {
+  if (wind.frames.empty()) return;
+  const bool rms = measure == WindMeasure::kRms;
+  Channel channel{wind_channel_name(measure), rms ? "full scale" : "1", Role::kInput, {}};
+  for (const WindFrame& frame : wind.frames) channel.samples.push_back(wind_value(frame, measure));
+  if (!rms && wind.one_rms > 0) set_one_rms(recording, channel.name, wind.one_rms);
+  recording.channels.insert(recording.channels.begin(), std::move(channel));
+}
+
+// A stretch without an outline that begins in or just after wind, and ends with the flame back, is a flame that was
+// blown out and lit again. Wind of half the strong one puts a flame out at the earliest.
+constexpr double kBlowing = 0.5, kLookedBack = 0.6, kMinOut = 0.2;  // of wind 1; seconds; seconds
+
+void excuse_blown_out(const ClipWind& wind, const Recording& recording, CaptureReport& picture) {
+  if (wind.frames.empty()) return;
+  const std::vector<double>& outline = recording.channels[*find_channel(recording, "p0.x")].samples;
+  const auto rows_of = [&](double seconds) { return static_cast<std::size_t>(seconds * picture.rate_hz); };
+  const auto blows = [&](std::size_t before) {
+    for (std::size_t row = before - std::min(before, rows_of(kLookedBack)); row < before; ++row) {
+      if (row < wind.frames.size() && wind_value(wind.frames[row], WindMeasure::kSpeed) >= kBlowing) return true;
+    }
+    return false;
+  };
+  std::size_t rows = 0, times = 0, seen = outline.size();
+  for (std::size_t row = 0; row < outline.size(); ++row) {
+    if (std::isnan(outline[row])) continue;
+    const bool absent = seen < row && row - seen - 1 > rows_of(kMinOut);
+    if (absent && blows(seen + 1)) {
+      rows += row - seen - 1;
+      ++times;
+    }
+    seen = row;
+  }
+  excuse_absence(picture, rows, times);
+}
+
+void warn_of_sound(const ClipSource& source, const ClipWind& wind, Report& report) {
+  if (wind.frames.empty()) {
+    if (!source.pictures) {
+      report.warnings.push_back("wind " + wind.note + "; without it only flicker can be learned");
+    }
+  } else if (wind.uncovered > 0) {
+    report.warnings.push_back("the sound ends " + std::to_string(wind.uncovered) +
+                              " frames before the picture; the wind there is missing");
+  }
+  if (wind.clipped_share > kClippedShare) {
+    report.warnings.push_back("the sound is clipped; record it more quietly for a truer wind");
+  }
+}
+
+ReportSection frames_section(const CaptureReport& picture) {
+  ReportSection section{"Frames"};
+  section.entries = {
+      {"frames", picture.frames, "frames", ""},
+      {"tracked", picture.tracked, "tracked", "", {}, "frames with an outline of their own"},
+      {"duplicates", picture.duplicates, "duplicates", "", {}, "frames that repeat the one before"},
+      {"filled", picture.filled, "filled", "", {}, "interpolated between their neighbours"},
+      {"flames", picture.flames, "flames seen", ""},
+      {"out_at", picture.out_at ? ReportValue(*picture.out_at + 1) : ReportValue(), "out from frame", ""},
+      {"", picture.dropped.size(), "dropped", "", {}, "frames without an outline"}};
+  ReportTable dropped{"dropped", "", {{"frame", "frame"}, {"reason", "reason"}}, {}};
+  for (const DroppedFrame& frame : picture.dropped) dropped.rows.push_back({frame.frame, frame.reason});
+  section.tables.push_back(std::move(dropped));
+  section.entries.push_back({"rate_hz", picture.rate_hz, "rate", "frames a second"});
+  return section;
+}
+
+ReportSection outline_section(const CaptureReport& picture) {
+  ReportSection section{"Outline"};
+  section.entries = {
+      {"points", picture.points, "control points", ""},
+      {"threshold", picture.threshold, "threshold", "", {}, "brightness at the edge, 0 black to 255 white"},
+      {"channel", std::string(channel_name(picture.channel)), "colour channel", ""},
+      {"separation", picture.separation, "separation", "", {}, "of thing and ground, 0 to 1"},
+      {"residual_px", picture.residual, "distance of edge from curve", "px", {}, "root mean square"},
+      {"knots_placed", picture.knots_placed, "", ""}};
+  ReportSeries brightness{"brightness",
+                          "Brightness of the " + std::string(channel_name(picture.channel)) + " channel",
+                          "brightness",
+                          "pixels",
+                          std::vector<double>(picture.histogram.size()),
+                          {picture.histogram.begin(), picture.histogram.end()}};
+  std::iota(brightness.x.begin(), brightness.x.end(), 0.0);
+  section.series.push_back(std::move(brightness));
+  return section;
+}
+
+ReportSection wind_section(const ClipWind& wind) {
+  return {"Wind",
+          {{"wind.heard", !wind.frames.empty(), "", ""},
+           {"wind.background", wind.background, "", ""},
+           {"wind.reason", wind.note, "wind", ""}}};
+}
+
+}  // namespace
+
+std::optional<SharedCurve> curve_of(const Recording& recording) {
+  SharedCurve curve;
+  int points = 0;
+  while (find_channel(recording, "p" + std::to_string(points) + ".x")) ++points;
+  if (points < 4) return std::nullopt;
+  const auto knots = numbers_attribute(recording, "knots");
+  if (!knots) return std::nullopt;
+  curve.knots = *knots ? **knots : uniform_knots(points);
+  if (curve.knots.size() != static_cast<std::size_t>(points + kSplineDegree + 1) || !valid_knots(curve.knots)) {
+    return std::nullopt;
+  }
+  if (const auto underside = find_attribute(recording, "underside")) curve.underside = *underside == "1";
+  return curve;
+}
+
+Result<SharedCurve> curve_of(const Model& model) {
+  const auto* outline = std::get_if<OutlineView>(&model.view);
+  if (outline == nullptr)
+    return Error{model.name + ": is not a model of an outline, so no clip can be captured for it"};
+  return SharedCurve{outline->knots, model.training.underside};
+}
+
+LiveCapture::LiveCapture(ClipSource source, const ClipCapture& options)
+    : source_(std::move(source)),
+      measure_(options.wind),
+      skipped_(options.frames ? static_cast<std::size_t>(options.frames->first - 1) : 0),
+      picture_(outline_options(source_, options)) {}
+
+LiveCapture::LiveCapture(LiveCapture&&) noexcept = default;
+LiveCapture& LiveCapture::operator=(LiveCapture&&) noexcept = default;
+LiveCapture::~LiveCapture() = default;
+
+Result<LiveCapture> LiveCapture::create(const ClipSource& source, const ClipCapture& options) {
+  if (options.points < 4 || options.points > 64) {
+    return Error{source.name + ": points is " + std::to_string(options.points) + ", expected 4 to 64"};
+  }
+  if (!(source.rate_hz > 0)) return Error{source.name + ": states no frame rate; give it as --rate"};
+  return LiveCapture(source, options);
+}
+
+Result<void> LiveCapture::hear(const SoundFormat& format, double begin, std::span<const float> samples) {
+  if (!ear_) {
+    auto ear = ClipEar::create(format, begin, source_.rate_hz);
+    if (!ear) return Error{source_.name + ": its sound cannot be used: " + ear.error().message};
+    ear_ = std::make_unique<ClipEar>(std::move(*ear));
+  }
+  ear_->feed(samples);
+  return {};
+}
+
+// The wind of the captured frames. The sound is heard from the clip's start, whichever frames are captured, so that its
+// background is known.
+Result<ClipWind> LiveCapture::wind_of(std::size_t rows) const {
+  if (!ear_) {
+    ClipWind none;
+    none.note = source_.pictures ? "not heard: images have no sound" : "not heard: the clip has no sound track";
+    return none;
+  }
+  auto wind = ear_->finish(skipped_ + rows);
+  if (!wind) return Error{source_.name + ": its sound cannot be used: " + wind.error().message};
+  if (!wind->frames.empty()) {
+    wind->frames.erase(wind->frames.begin(), wind->frames.begin() + static_cast<std::ptrdiff_t>(skipped_));
+  }
+  return wind;
+}
+
+Result<Captured> LiveCapture::finish() {
+  auto picture = picture_.finish();
+  if (!picture) return picture.error();
+  const auto wind = wind_of(picture->report.frames);
+  if (!wind) return wind.error();
+  Captured out{std::move(picture->recording), {}};
+  excuse_blown_out(*wind, out.recording, picture->report);
+  out.report.verdict = ReportVerdict{picture->report.usable, picture->report.reason};
+  set_verdict(out.recording, picture->report.usable, picture->report.reason);
+  join_wind(*wind, measure_, out.recording);
+  out.report.warnings = std::move(picture->report.warnings);
+  warn_of_sound(source_, *wind, out.report);
+  out.report.sections = {frames_section(picture->report), outline_section(picture->report), wind_section(*wind)};
+  return out;
+}
+
+}  // namespace wisp

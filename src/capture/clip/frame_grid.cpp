@@ -1,0 +1,47 @@
+#include "capture/clip/frame_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace wisp {
+namespace {
+
+// A longer hole in a clip's times is taken as this long: what matters is that an episode ends there.
+constexpr double kLongestGapSeconds = 2;
+
+// Frames farther off their places than this do not come at a fixed rate.
+constexpr double kIrregular = 0.6;
+
+}  // namespace
+
+std::int64_t FrameGrid::place(double seconds) {
+  const std::int64_t next = last_ + 1;
+  if (!first_) first_ = seconds;
+  const double place = (seconds - *first_) * rate_hz_;
+  const double longest = static_cast<double>(next) + kLongestGapSeconds * rate_hz_;
+  if (place > longest) {
+    // From here on, time is counted from this frame.
+    ++long_gaps_;
+    last_ = static_cast<std::int64_t>(longest);
+    first_ = seconds - static_cast<double>(last_) / rate_hz_;
+    return last_;
+  }
+  last_ = std::max(next, static_cast<std::int64_t>(std::llround(place)));
+  worst_ = std::max(worst_, std::abs(place - static_cast<double>(last_)));
+  return last_;
+}
+
+std::vector<std::string> FrameGrid::warnings(const std::string& name) const {
+  std::vector<std::string> out;
+  if (long_gaps_ > 0) out.push_back(name + ": " + std::to_string(long_gaps_) + " holes in time were shortened");
+  if (worst_ > kIrregular) {
+    char line[160];
+    std::snprintf(line, sizeof line, ": frames come at irregular times, up to %.1f ms off a rate of %.6g a second",
+                  1000 * worst_ / rate_hz_, rate_hz_);
+    out.push_back(name + line);
+  }
+  return out;
+}
+
+}  // namespace wisp

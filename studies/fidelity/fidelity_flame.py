@@ -1,0 +1,200 @@
+#!/usr/bin/env python3
+"""Can a classifier tell flames that a model plays from recorded ones, over half a second and over two?
+
+usage: fidelity_flame.py [--at-most ACCURACY] RECORDED.csv… -- PLAYED.csv… [-- PLAYED.csv…]…
+
+The k-th file after each -- is what a model plays along the wind of the k-th recording (wisp run --input); each -- begins
+another play. Whole clips are left out in turn, so at least two are wanted; both sides are on the scale of the recording
+(median area). For a floor, give other takes in the same winds (wisp simulate candle --chance).
+
+Windows: half a second of eight points at equal steps along the outline, and their differences; two seconds of log spectra
+of tip, square root of the area, and a point of each flank, in 13 geometric bands; two seconds of statistics of the same
+signals (correlation with the wind by lag, deviation of differences, kurtosis, peaks, deviation by wind, correlations).
+0.5 is indistinguishable. Beside it the burst: the tip's peak acceleration upwards over its deviation. With --at-most the
+exit status is 1 where any mean over plays is more than that.
+"""
+
+import sys
+import warnings
+
+import numpy as np
+from scipy.interpolate import BSpline
+from sklearn.ensemble import HistGradientBoostingClassifier
+from sklearn.linear_model import LogisticRegression
+from sklearn.model_selection import LeaveOneGroupOut
+from sklearn.pipeline import make_pipeline
+from sklearn.preprocessing import StandardScaler
+
+CURVE_POINTS = 400
+TIP_POINTS = 8
+LAGS = (0, 2, 4, 6, 9, 12, 18, 30)
+WINDS = ((-1, 0.05), (0.05, 0.4), (0.4, 0.8), (0.8, 9))
+
+
+def number(cell):
+    return float(cell) if cell else np.nan
+
+
+def read(path):
+    """Header, rows and knots of a recording."""
+    knots, lines = None, []
+    with open(path) as file:
+        for line in map(str.strip, file):
+            if line.startswith("# knots"):
+                knots = np.array([float(knot) for knot in line.split()[2:]])
+            elif line and not line.startswith("#"):
+                lines.append(line.split(","))
+    return lines[0], lines[1:], knots
+
+
+class Clip:
+    """Eight points of the outline, the tip and the area, a row a frame; the origin is the middle of the base, y is up."""
+
+    def __init__(self, path):
+        head, rows, knots = read(path)
+        xs = [i for i, name in enumerate(head) if name.startswith("y:p") and ".x" in name]
+        ys = [i for i, name in enumerate(head) if name.startswith("y:p") and ".y" in name]
+        up = -1 if "[px]" in head[xs[0]] else 1
+        points = np.array([[[number(row[i]), up * number(row[j])] for i, j in zip(xs, ys)] for row in rows])
+        curve = self.curves(points, knots)
+        curve = curve - 0.5 * (curve[:, :1] + curve[:, -1:])
+        far = np.argsort(-np.nan_to_num(np.hypot(curve[..., 0], curve[..., 1])), axis=1)[:, :TIP_POINTS]
+        self.tip = np.take_along_axis(curve, far[..., None], 1).mean(1)
+        x, y = curve[..., 0], curve[..., 1]
+        self.area = 0.5 * np.abs(np.sum(x[:, :-1] * y[:, 1:] - x[:, 1:] * y[:, :-1], axis=1))
+        self.eight = np.array([self.at_equal_steps(one) for one in curve])
+        wind = [i for i, name in enumerate(head) if name.startswith("u:")]
+        self.wind = np.array([number(row[wind[0]]) for row in rows])
+
+    @staticmethod
+    def curves(points, knots):
+        count = points.shape[1]
+        if knots is None:
+            knots = np.r_[[0] * 3, np.linspace(0, 1, count - 2), [1] * 3]
+        elif len(knots) == count - 4:
+            knots = np.r_[[0] * 4, knots, [1] * 4]
+        at = np.clip(np.linspace(0, 1, CURVE_POINTS), 0, 1 - 1e-12)
+        basis = np.array([BSpline(knots, np.eye(count)[k], 3)(at) for k in range(count)]).T
+        return np.einsum("sn,fnk->fsk", basis, points)
+
+    @staticmethod
+    def at_equal_steps(curve):
+        if not np.isfinite(curve).all():
+            return np.full((8, 2), np.nan)
+        length = np.r_[0, np.cumsum(np.hypot(*np.diff(curve, axis=0).T))]
+        at = np.linspace(0, length[-1], 10)[1:-1]
+        return np.c_[np.interp(at, length, curve[:, 0]), np.interp(at, length, curve[:, 1])]
+
+    def on_scale_of(self, recorded):
+        scale = np.sqrt(np.nanmedian(recorded.area) / np.nanmedian(self.area))
+        self.tip, self.eight, self.area = self.tip * scale, self.eight * scale, self.area * scale**2
+        self.wind = recorded.wind
+        return self
+
+    def signals(self, first, rows):
+        parts = [self.tip, np.sqrt(self.area), self.eight[:, 2], self.eight[:, 5]]
+        return np.column_stack(parts)[first:first + rows]
+
+    def burst(self):
+        rise = np.diff(self.tip[:, 1], 2)
+        return np.nanmax(np.abs(rise)) / np.nanstd(rise)
+
+
+def motion(clip, first, rows):
+    points = clip.eight[first:first + rows:3]
+    return np.r_[points.ravel(), np.diff(points, axis=0).ravel()]
+
+
+def spectra(clip, first, rows):
+    values = clip.signals(first, rows)
+    power = np.abs(np.fft.rfft((values - values.mean(0)) * np.hanning(rows)[:, None], axis=0)) ** 2
+    edges = np.unique(np.round(np.geomspace(1, rows // 2, 14)).astype(int))
+    return np.log(np.array([power[a:b].mean(0) for a, b in zip(edges[:-1], edges[1:])]) + 1e-9).ravel()
+
+
+def statistics(clip, first, rows):
+    values, wind = clip.signals(first, rows), clip.wind[first:first + rows]
+    speed, acceleration = np.diff(values, axis=0), np.diff(values, 2, axis=0)
+    out = []
+    for j in range(values.shape[1]):
+        y = np.abs(values[:, j]) if j % 2 == 0 else values[:, j]
+        for lag in LAGS:
+            together = np.mean((y[lag:] - y.mean()) * (wind[:rows - lag] - wind.mean()))
+            out.append(together / (wind.std() * y.std() + 1e-9))
+        v, a = speed[:, j], acceleration[:, j]
+        out += [np.log(v.std() + 1e-9), np.log(a.std() + 1e-9), np.mean(v**4) / (np.mean(v**2) ** 2 + 1e-18),
+                np.max(np.abs(a)) / (a.std() + 1e-9), np.mean(v[1:] * v[:-1]) / (np.var(v) + 1e-12)]
+    for low, high in WINDS:
+        blown = (wind[1:] > low) & (wind[1:] <= high)
+        enough = blown.sum() > 5
+        out += [np.log(speed[blown].std(0).mean() + 1e-6), values[1:][blown].std(0).mean()] if enough else [0.0, 0.0]
+    return np.nan_to_num(np.r_[out, np.corrcoef(values.T)[np.triu_indices(values.shape[1], 1)]])
+
+
+def trees():
+    return HistGradientBoostingClassifier(
+        max_iter=60, learning_rate=0.15, random_state=0, max_leaf_nodes=12, l2_regularization=1, max_bins=64)
+
+
+def lines():
+    return make_pipeline(StandardScaler(), LogisticRegression(C=0.1, max_iter=500))
+
+
+# Name, rows of a window and from one to the next at 60 rows a second, features, classifier.
+JUDGES = (
+    ("half a second, trees", 30, 6, motion, trees),
+    ("half a second, logistic", 30, 6, motion, lines),
+    ("two seconds, spectra, logistic", 120, 15, spectra, lines),
+    ("two seconds, statistics, logistic", 120, 15, statistics, lines),
+    ("two seconds, statistics, trees", 120, 15, statistics, trees),
+)
+
+
+def told(recorded, played, judge):
+    """Held-out accuracy, every clip left out once, and windows a side."""
+    _, rows, hop, features, make = judge
+    x, y, clips = [], [], []
+    for k, (a, b) in enumerate(zip(recorded, played)):
+        for first in range(0, min(len(a.tip), len(b.tip)) - rows, hop):
+            pair = features(a, first, rows), features(b, first, rows)
+            if all(np.isfinite(one).all() for one in pair):
+                x += pair
+                y += [0, 1]
+                clips += [k, k]
+    x, y, clips = np.array(x), np.array(y), np.array(clips)
+    right = 0
+    for train, test in LeaveOneGroupOut().split(x, y, clips):
+        right += (make().fit(x[train], y[train]).predict(x[test]) == y[test]).sum()
+    return right / len(y), len(y) // 2
+
+
+def main():
+    arguments = sys.argv[1:]
+    most = 1.0
+    if arguments[:1] == ["--at-most"]:
+        most, arguments = float(arguments[1]), arguments[2:]
+    groups = [[]]
+    for argument in arguments:
+        if argument == "--":
+            groups.append([])
+        else:
+            groups[-1].append(argument)
+    if len(groups[0]) < 2 or any(len(group) != len(groups[0]) for group in groups) or len(groups) < 2:
+        sys.exit(__doc__)
+    recorded = [Clip(path) for path in groups[0]]
+    plays = [[Clip(path).on_scale_of(real) for path, real in zip(group, recorded)] for group in groups[1:]]
+    surely = False
+    for judge in JUDGES:
+        found = [told(recorded, play, judge) for play in plays]
+        accuracy = [one[0] for one in found]
+        surely |= np.mean(accuracy) > most
+        print(f"{judge[0]:36} {np.mean(accuracy):.3f}   plays {min(accuracy):.3f} to {max(accuracy):.3f}, "
+              f"{found[0][1]} windows a side")
+    burst = [np.mean([clip.burst() for clip in play]) for play in [recorded, *plays]]
+    print(f"{'peak acceleration over deviation':36} {np.mean(burst[1:]):.2f}   recorded {burst[0]:.2f}")
+    return int(surely)
+
+
+if __name__ == "__main__":
+    warnings.filterwarnings("ignore")
+    sys.exit(main())
