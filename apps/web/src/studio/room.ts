@@ -366,7 +366,6 @@ export class Room {
       // A table's plots are of the model beside what it learned from.
       const judged = tabled ? await studio.validate(learned.model, recordings, working.watch()) : null;
       session.learned = { ...learned, curves: [...learned.curves, ...(judged?.curves ?? [])] };
-      if (turn === this.turn) this.showResult();
     } catch (error) {
       if (turn !== this.turn) return;
       this.working = null;
@@ -376,7 +375,9 @@ export class Room {
         this.host.say(wordsOf(error));
       }
       this.backToLook();
+      return;
     }
+    if (turn === this.turn) this.showResult();
   }
 
   private backToLook(): void {
