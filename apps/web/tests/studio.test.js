@@ -130,6 +130,7 @@ describe('a camera', { skip: skip || noConverter }, () => {
       '--autoplay-policy=no-user-gesture-required',
     ]);
     const page = await opened.page('#scene=candle&detail=0.1', { viewport: { width: 390, height: 844 } });
+    await until(page, 'the page has all of its parts', () => document.querySelector('[data-scene=yours]') !== null);
     await page.focus('#stage');
     await page.keyboard.press('3');
     await step(page, 'gather');
