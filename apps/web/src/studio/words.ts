@@ -46,14 +46,16 @@ export interface Meter {
 export function metersOf(report: Report): Meter[] {
   const made: Meter[] = [];
   const add = (words: string, share: number | null, good: number): void => {
-    if (share !== null) made.push({ words, share: Math.max(0, Math.min(1, share)), good, value: `${Math.round(100 * share)} %` });
+    if (share !== null) made.push({ words, share: Math.max(0, Math.min(1, share)), good, value: `${Math.round(100 * share)} %`.replace('-', '−') });
   };
   const percent = (...path: string[]): number | null => {
     const value = figure(report, ...path);
     return value === null ? null : value / 100;
   };
   add('The tip, a frame ahead', percent('tip', 'held_out_fit_percent', '1'), 0.5);
-  add('The tip, played freely in the same wind', percent('tip', 'held_out_fit_percent', 'inf'), 0.5);
+  // Without wind it flickers in its own time: no play can follow the film for long.
+  const inputs = within(report, 'inputs');
+  if (Array.isArray(inputs) && inputs.length > 0) add('The tip, played freely in the same wind', percent('tip', 'held_out_fit_percent', 'inf'), 0.5);
   add('Outlines that lie over each other', figure(report, 'overlap'), 0.85);
   return made;
 }
@@ -73,7 +75,8 @@ export function adviceOf(captured: readonly Captured[], report: Report | null): 
   if (!windy) made.push('Film with sound, and blow close to the microphone: without it only the flicker can be learned, not what wind does.');
   else if (!heard) made.push('Hardly any wind was heard. Blow closer to the microphone, from the side, with pauses.');
   if (seconds < 30) made.push(`These are ${Math.round(seconds)} seconds. Forty, with a soft breath from the side now and then, make it surer.`);
-  if (report !== null && windy && within(report, 'extinction', 'source') !== 'learned') {
+  const out = captured.some((one) => figure(one.report, 'out_at') !== null);
+  if (report !== null && windy && !out && within(report, 'extinction', 'source') !== 'learned') {
     made.push('It has not been seen to go out. Blow it out once or twice while you film, and light it again.');
   }
   if (captured.some((one) => (figure(one.report, 'clipped') ?? 0) > 0.5)) {

@@ -1,10 +1,11 @@
 // The camera and the microphone, raw, and both on one clock.
 //
-// The clock is performance.now(). A frame has the time at which the camera took it, where the browser says that
-// (captureTime), else the time at which it was handed over. A block of sound has the audio clock's time of its first
-// sample; how far that clock is from performance.now() is the least that ever lay between the end of a block and its
-// arrival here: arrivals come late, never early. It is found while the picture is looked at before filming, and stands
-// still while it is filmed. What remains, some tens of milliseconds of the microphone's own way, learning finds.
+// The clock is performance.now(). Frames come from the camera's track itself where the browser lets them
+// (MediaStreamTrackProcessor), with the camera clock's time; else from the picture on the page, with the time at which the
+// camera took them, where the browser says that (captureTime). A block of sound has the audio clock's time of its first
+// sample. How far a clock is from performance.now() is the least that ever lay between what it says and the arrival here:
+// arrivals come late, never early. It is found while the picture is looked at before filming, and stands still while it
+// is filmed. What remains, some tens of milliseconds of each one's own way, learning finds.
 
 import type { LiveCapture, Region } from '@wisp/studio';
 
@@ -42,6 +43,10 @@ interface Abilities extends MediaTrackCapabilities {
   focusMode?: string[];
   exposureCompensation?: { min: number; max: number; step: number };
 }
+
+/** Frames of a track, one after another; not yet in TypeScript's own list, and not in every browser. */
+type TrackProcessor = new (of: { track: MediaStreamTrack; maxBufferSize?: number }) => { readable: ReadableStream<VideoFrame> };
+const { MediaStreamTrackProcessor: Processor } = globalThis as { MediaStreamTrackProcessor?: TrackProcessor };
 
 async function ask(): Promise<{ stream: MediaStream; silent: string }> {
   const devices = navigator.mediaDevices as MediaDevices | undefined;
@@ -130,8 +135,27 @@ export class Camera {
     return true;
   }
 
-  /** Watches the picture in which the stream is shown: once, until the camera is closed. */
+  /** Watches the camera, or the picture in which it is shown: once, until the camera is closed. */
   watch(video: HTMLVideoElement): void {
+    if (Processor === undefined) this.watchPicture(video);
+    else void this.watchTrack(new Processor({ track: this.picture, maxBufferSize: MOST_WAITING }).readable.getReader());
+  }
+
+  private async watchTrack(frames: ReadableStreamDefaultReader<VideoFrame>): Promise<void> {
+    let offset = Infinity;
+    for (let count = 1; ; ++count) {
+      const { value: frame } = await frames.read();
+      if (frame === undefined) return;
+      const seconds = frame.timestamp / 1e6;
+      if (!this.heeds) offset = Math.min(offset, performance.now() / 1000 - seconds);
+      const { live } = this;
+      if (live !== null && live.waiting < MOST_WAITING && count % this.every === 0) live.frame(frame, seconds + offset);
+      else frame.close();
+      if (this.ended) await frames.cancel();
+    }
+  }
+
+  private watchPicture(video: HTMLVideoElement): void {
     let frames = 0;
     const frame = (now: number, taken?: VideoFrameCallbackMetadata): void => {
       if (this.ended) return;
