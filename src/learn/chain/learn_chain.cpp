@@ -133,7 +133,7 @@ Result<Fit> learn_chain(std::span<const Recording> recordings, const ChainRecipe
   Fit fit{std::move(found->model), {}};
   fit.report.warnings = found->summary.warnings;
   fit.report.sections.push_back(chain::segments_section(found->summary));
-  fit.report.sections.front().entries.push_back({"seed", recipe.seed, "", ""});
+  fit.report.sections.front().entries.push_back({"seed", static_cast<std::int64_t>(recipe.seed), "", ""});
   chain::take_repeats(data->falls, fit);
   chain::judge_speed(data->falls, fit.model.training.usable);
   if (!go_on(progress, "judging falls", 0)) return Error{std::string(kStopped)};

@@ -70,7 +70,7 @@ std::vector<double> levels_of(std::span<const std::vector<double>> restless, int
     for (const double value : trace) values.push_back(level(value));
   }
   auto levels = k_means(values, 1, {.clusters = modes, .seed = seed})->centroids;
-  std::ranges::sort(levels);
+  std::sort(levels.begin(), levels.end());
   return levels;
 }
 
