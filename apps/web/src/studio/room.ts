@@ -241,8 +241,10 @@ export class Room {
     this.stepTo('look');
     this.showLeft(this.viewer.place);
     this.viewer.showBox(take.settings.region ?? null);
-    if (take.outlines !== null) {
-      this.traces.fill(take.outlines);
+    const { outlines } = take;
+    if (outlines !== null) {
+      if (take.film === null) this.showStill(take, outlines);
+      this.traces.fill(outlines);
       this.below.replaceChildren(this.traces.place);
     }
     this.showPanel(
@@ -253,6 +255,13 @@ export class Room {
         flame: (flame) => this.lookAgain({ ...take.settings, flame }),
       }),
     );
+  }
+
+  /** A camera's film is not kept: a moment near its middle, with the outline of then. */
+  private showStill({ reel }: Take, outlines: Outlines): void {
+    const kept = reel.at(0.4 * (outlines.rows / outlines.rate));
+    const line = new Float32Array(2 * outlines.samples);
+    if (kept !== null && outlines.line(Math.round(kept.seconds * outlines.rate), line)) this.viewer.still(kept, line);
   }
 
   private leaveOut(take: Take): void {

@@ -93,6 +93,7 @@ const STAGES: Readonly<Record<string, string>> = {
   reading: 'Reading the film.',
   decoding: 'Reading the film.',
   listening: 'Listening for wind in the sound.',
+  learning: 'Finding out what each point does next, and what the wind does to it.',
   aligning: 'Finding out how much later the flame moves than the sound is heard.',
   'choosing input curves': 'Finding out how much harder a strong breath bends it than a soft one.',
   'fitting input curves': 'Bending the wind so that soft and strong both fit.',

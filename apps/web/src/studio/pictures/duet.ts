@@ -6,7 +6,7 @@ import { element } from '../../panel/element.js';
 import { paintFlame } from './flame_paint.js';
 import type { Take } from '../session.js';
 import { Play } from '../play.js';
-import { contain, surfaceOf, trace, type Fit } from './surface.js';
+import { contain, drawKept, surfaceOf, trace, type Fit } from './surface.js';
 import type { Outlines } from '../outlines.js';
 
 /** Seconds; a longer step is a jump, not a frame. */
@@ -124,10 +124,7 @@ export class Duet {
       context.drawImage(this.video, fit.x, fit.y, fit.scale * this.video.videoWidth, fit.scale * this.video.videoHeight);
     } else {
       const kept = this.take.reel.at(row / this.outlines.rate);
-      if (kept !== null) {
-        const { part, bitmap } = kept;
-        context.drawImage(bitmap, fit.x + fit.scale * part.x, fit.y + fit.scale * part.y, fit.scale * part.width, fit.scale * part.height);
-      }
+      if (kept !== null) drawKept(context, kept, fit);
     }
     if (!this.outlines.line(row, this.outline)) return;
     context.lineJoin = 'round';

@@ -7,7 +7,7 @@ import { paintFlame } from './flame_paint.js';
 import type { Outlines } from '../outlines.js';
 import { Play } from '../play.js';
 import type { Take } from '../session.js';
-import { contain, surfaceOf, trace } from './surface.js';
+import { contain, drawKept, surfaceOf, trace } from './surface.js';
 
 const PICTURES = 9;
 const FEWER = 6;
@@ -75,10 +75,7 @@ export class Strip {
   private drawRecorded(context: CanvasRenderingContext2D, row: number, cell: Cell): void {
     this.inside(context, cell, (fit) => {
       const kept = this.take.reel.at(row / this.outlines.rate);
-      if (kept !== null) {
-        const { part, bitmap } = kept;
-        context.drawImage(bitmap, fit.x + fit.scale * part.x, fit.y + fit.scale * part.y, fit.scale * part.width, fit.scale * part.height);
-      }
+      if (kept !== null) drawKept(context, kept, fit);
       const line = new Float32Array(2 * this.outlines.samples);
       if (!this.outlines.line(row, line)) return;
       trace(context, line, fit);

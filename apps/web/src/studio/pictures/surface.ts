@@ -1,5 +1,7 @@
 // A canvas as sharp as the screen.
 
+import type { Kept } from '../reel.js';
+
 /** Fits a canvas to its place and clears it; null where nothing can be drawn. The unit is the CSS pixel. */
 export function surfaceOf(canvas: HTMLCanvasElement): { context: CanvasRenderingContext2D; width: number; height: number } | null {
   const context = canvas.getContext('2d');
@@ -33,4 +35,9 @@ export function contain(picture: { width: number; height: number }, width: numbe
 export function trace(context: CanvasRenderingContext2D, line: ArrayLike<number>, { scale, x, y }: Fit): void {
   context.beginPath();
   for (let k = 0; k + 1 < line.length; k += 2) context.lineTo(x + scale * (line[k] as number), y + scale * (line[k + 1] as number));
+}
+
+/** A kept picture, at its place in the film. */
+export function drawKept(context: CanvasRenderingContext2D, { part, bitmap }: Kept, { scale, x, y }: Fit): void {
+  context.drawImage(bitmap, x + scale * part.x, y + scale * part.y, scale * part.width, scale * part.height);
 }

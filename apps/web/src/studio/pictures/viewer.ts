@@ -2,7 +2,8 @@
 
 import type { Region, Seen } from '@wisp/studio';
 import { element } from '../../panel/element.js';
-import { contain, surfaceOf, trace, type Fit } from './surface.js';
+import type { Kept } from '../reel.js';
+import { contain, drawKept, surfaceOf, trace, type Fit } from './surface.js';
 
 /** Narrower boxes are presses that slipped, CSS pixels. */
 const SLIP = 12;
@@ -21,6 +22,7 @@ export class Viewer {
   });
   private readonly caption = element('p', { class: 'caption', hidden: true });
   private picture: ImageBitmap | null = null;
+  private kept: Kept | null = null;
   private size: { width: number; height: number } | null = null;
   private seen: Seen | null = null;
   private box: Region | null = null;
@@ -48,7 +50,7 @@ export class Viewer {
   /** Forgets what it shows. */
   clear(): void {
     this.picture?.close();
-    this.picture = this.size = this.seen = this.box = null;
+    this.picture = this.kept = this.size = this.seen = this.box = null;
     this.say('');
     this.draw();
   }
@@ -70,6 +72,14 @@ export class Viewer {
       this.picture?.close();
       this.picture = seen.picture;
     }
+    this.draw();
+  }
+
+  /** A moment of a camera's film, which is not kept but for small pictures. */
+  still(kept: Kept, outline: Float32Array): void {
+    if (this.picture !== null) return;
+    this.kept = kept;
+    if (this.seen !== null) this.seen = { ...this.seen, outline };
     this.draw();
   }
 
@@ -102,7 +112,11 @@ export class Viewer {
   private drawFilm(): void {
     const surface = surfaceOf(this.film);
     const { fit, size, picture } = this;
-    if (surface === null || fit === null || size === null || picture === null || !this.video.hidden) return;
+    if (surface === null || fit === null || size === null || !this.video.hidden) return;
+    if (picture === null) {
+      if (this.kept !== null) drawKept(surface.context, this.kept, fit);
+      return;
+    }
     surface.context.drawImage(picture, fit.x, fit.y, fit.scale * size.width, fit.scale * size.height);
   }
 
