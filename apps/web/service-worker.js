@@ -18,7 +18,14 @@ self.addEventListener('activate', (event) => event.waitUntil(dropOthers()));
 
 async function answer(request) {
   const kept = await caches.match(request, { ignoreSearch: true, cacheName });
-  return kept ?? fetch(request);
+  if (kept !== undefined) return kept;
+  const fetched = await fetch(request);
+  // The studio is large, and few go in: it is kept for whoever did.
+  if (fetched.ok && request.url.includes('/assets/studio/')) {
+    const cache = await caches.open(cacheName);
+    await cache.put(request, fetched.clone());
+  }
+  return fetched;
 }
 
 self.addEventListener('fetch', (event) => {

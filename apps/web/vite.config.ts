@@ -16,6 +16,8 @@ const POLICY = [
   "connect-src 'self'",
   "worker-src 'self'",
   "manifest-src 'self'",
+  // A film that was chosen here, beside the flame that learned from it.
+  'media-src blob:',
   "base-uri 'none'",
   "form-action 'none'",
 ].join('; ');
@@ -36,6 +38,11 @@ function filesUnder(folder: string): string[] {
     .map((entry) => join(entry.parentPath, entry.name));
 }
 
+/** What belongs to the studio alone lies in a folder of its own: it is fetched, and kept, once somebody goes in. */
+const STUDIO = 'assets/studio/';
+const ofStudio = (path: string | null | undefined): boolean => path != null && /(src|bindings|@wisp)\/studio\/|mediabunny/.test(path);
+const named = (studio: boolean, rest: string): string => (studio ? STUDIO : 'assets/') + rest;
+
 /** Tells the service worker which files to keep, under a name that changes with any of them. */
 function serviceWorker(): Plugin {
   return {
@@ -53,7 +60,7 @@ function serviceWorker(): Plugin {
       hash.update(readFileSync(join(here, 'index.html')));
       const source = readFileSync(join(here, 'service-worker.js'), 'utf8')
         .replace("'VERSION'", JSON.stringify(hash.digest('hex').slice(0, 12)))
-        .replace("['FILES']", JSON.stringify(['./', ...files.filter((name) => !name.endsWith('.html')).sort()]));
+        .replace("['FILES']", JSON.stringify(['./', ...files.filter((name) => !name.endsWith('.html') && !name.startsWith(STUDIO)).sort()]));
       this.emitFile({ type: 'asset', fileName: 'sw.js', source });
     },
   };
@@ -81,5 +88,21 @@ function shorterShaders(): Plugin {
 export default defineConfig({
   base: './',
   plugins: [policy(), serviceWorker(), shorterShaders()],
-  build: { target: 'es2022', assetsInlineLimit: 0, modulePreload: { polyfill: false }, reportCompressedSize: false },
+  worker: {
+    format: 'es',
+    // The studio's is the only one.
+    rollupOptions: { output: { entryFileNames: `${STUDIO}[name]-[hash].js`, chunkFileNames: `${STUDIO}[name]-[hash].js`, assetFileNames: `${STUDIO}[name]-[hash][extname]` } },
+  },
+  build: {
+    target: 'es2022',
+    assetsInlineLimit: 0,
+    modulePreload: { polyfill: false },
+    reportCompressedSize: false,
+    rollupOptions: {
+      output: {
+        chunkFileNames: ({ moduleIds }) => named(moduleIds.some(ofStudio), '[name]-[hash].js'),
+        assetFileNames: ({ names, originalFileNames }) => named([...originalFileNames, ...names].some((name) => ofStudio(name) || name === 'room.css'), '[name]-[hash][extname]'),
+      },
+    },
+  },
 });

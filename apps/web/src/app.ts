@@ -5,7 +5,6 @@ import { CandleScene } from '@wisp/player/parts/candle/scene';
 import { watchDrops } from './drops.js';
 import { linkOf, settingsFromLink, type Settings } from './link.js';
 import { Controls } from './panel/controls.js';
-import type { Drawer } from './panel/drawer.js';
 import { byId } from './panel/element.js';
 import { listenToKeys } from './panel/keys.js';
 import { Hint, Notices } from './panel/notices.js';
@@ -14,18 +13,10 @@ import { Costs, type Probe } from './probe.js';
 import type { Scene } from '@wisp/player/parts/stage/scene';
 import { Stage, type FrameCost } from '@wisp/player/parts/stage/stage';
 import { Breath } from '@wisp/player/parts/air/breath';
-import type { Senses } from './senses/senses.js';
-import type { Ear } from './wind/ear.js';
+import type { Parts } from './late.js';
 
 /** Everything that is not needed for the first flame. */
 type Late = typeof import('./late.js');
-
-/** What has come by now of it. */
-interface Parts {
-  ear: Ear;
-  drawer: Drawer;
-  senses: Senses;
-}
 
 /** Wind that is meant. */
 const BLOWN = 0.3;
@@ -35,21 +26,20 @@ const COVERED = 118;
 
 const START_HINT = 'Move past it, or press Blow and blow';
 
-/** A sentence with its stop. */
-const stopped = (words: string): string => (/[.!?]$/.test(words) ? words : `${words}.`);
-
 export class App {
   readonly stage: Stage;
-  private readonly player: Player;
-  private readonly breath = new Breath();
+  readonly player: Player;
+  readonly breath = new Breath();
   private readonly controls: Controls;
   private readonly drawerButton = byId('open-drawer', HTMLButtonElement);
-  private readonly help = byId('help', HTMLDialogElement);
-  private readonly notices = new Notices(byId('notices', HTMLElement));
+  readonly help = byId('help', HTMLDialogElement);
+  readonly notices = new Notices(byId('notices', HTMLElement));
   private readonly hint = new Hint(byId('hint', HTMLElement));
   private readonly costs = new Costs();
   private readonly probe: Probe;
-  private parts: Parts | null = null;
+  parts: Parts | null = null;
+  /** what keys do; what comes later adds its own */
+  keys: Record<string, () => void> = {};
   private readonly late: Promise<Late>;
   private bring: () => void = () => undefined;
   private touched = false;
@@ -58,8 +48,8 @@ export class App {
   private offered: Playing | null = null;
 
   constructor(
-    private readonly wisp: Library,
-    private readonly settings: Settings,
+    readonly wisp: Library,
+    readonly settings: Settings,
     private readonly overlay: boolean,
   ) {
     this.stage = new Stage(byId('stage', HTMLCanvasElement), {
@@ -76,7 +66,7 @@ export class App {
       act: () => this.act(),
     });
     this.late = new Promise<void>((resolve) => (this.bring = resolve)).then(() => import('./late.js'));
-    void this.late.then((late) => this.furnish(late));
+    void this.late.then((late) => (this.parts = late.furnish(this)));
     this.probe = this.makeProbe();
     window.wisp = this.probe;
     this.listen();
@@ -91,37 +81,16 @@ export class App {
     if (this.overlay) this.toggleMicrophone();
   }
 
-  /** Makes what has come after the first flame. */
-  private furnish({ Drawer, Ear, fillHelp, saveLoop, savePicture, Senses }: Late): void {
-    const ear = new Ear(this.wisp, {
-      wind: (wind) => this.breath.hear(wind, this.stage.frames),
-      trouble: (words) => this.notices.say(words),
-      ended: () => this.breath.deafen(),
-    });
-    const drawer = new Drawer(this.wisp, byId('drawer', HTMLElement), {
-      change: (change) => this.change(change),
-      open: (file) => this.openFile(file),
-      closed: () => this.showDrawer(false),
-      link: () => this.copyLink(),
-      picture: () => savePicture(this.stage),
-      loop: () => saveLoop(this.stage),
-      senses: () => this.toggleSenses(),
-    });
-    this.parts = { ear, drawer, senses: new Senses() };
-    fillHelp(this.help);
-    if (this.player.playing !== null) drawer.fill(this.player.playing, this.settings);
-  }
-
   private listen(): void {
     byId('share', HTMLButtonElement).addEventListener('click', () => void this.share());
     byId('open-help', HTMLButtonElement).addEventListener('click', () => this.showHelp());
     this.drawerButton.addEventListener('click', () => this.toggleDrawer());
-    watchDrops(byId('drop', HTMLElement), (file) => this.openFile(file));
+    watchDrops(byId('drop', HTMLElement), (dropped) => void this.late.then((late) => late.openDropped(this, dropped)));
     window.addEventListener('hashchange', () => this.change(settingsFromLink(location.hash, this.settings)));
     const scene = (name: Settings['scene']) => () => this.change({ scene: name });
     listenToKeys(
       this.breath.keys,
-      {
+      (this.keys = {
         l: () => this.act(),
         b: () => this.toggleMicrophone(),
         '1': scene('candle'),
@@ -138,12 +107,12 @@ export class App {
         '+': () => this.controls.step(1, this.settings),
         '=': () => this.controls.step(1, this.settings),
         escape: () => this.showDrawer(false),
-      },
+      }),
       () => this.touch(),
     );
   }
 
-  private change(change: Partial<Settings>): void {
+  change(change: Partial<Settings>): void {
     // Another scene or order is of the shipped models.
     if (change.model === undefined && (change.scene !== undefined || change.order !== undefined)) change = { ...change, model: '' };
     const needsModel = this.player.apply(change);
@@ -162,21 +131,10 @@ export class App {
     try {
       await this.player.playChosen();
     } catch (error) {
-      this.notices.say(`${stopped(error instanceof Error ? error.message : String(error))} What plays goes on.`);
+      // What comes late comes once something plays.
       if (this.player.playing === null) await this.player.playShipped();
+      (await this.late).sayWrong(this, error);
     }
-  }
-
-  private openFile(file: File): void {
-    void this.late.then(async ({ readDropped, refusalOf, Refused }) => {
-      try {
-        await this.player.playFile(file.name, await readDropped(file));
-        this.notices.say(`Playing ${file.name}.`);
-      } catch (error) {
-        const refused = error instanceof Refused ? error : refusalOf(file.name, error);
-        this.notices.say(`${refused.message} What plays goes on.`);
-      }
-    });
   }
 
   private onPlaying(playing: Playing): void {
@@ -198,7 +156,7 @@ export class App {
     this.hint.hide();
   }
 
-  private toggleMicrophone(): void {
+  toggleMicrophone(): void {
     this.touch();
     void this.late.then(() => {
       const ear = this.parts?.ear;
@@ -207,7 +165,7 @@ export class App {
     });
   }
 
-  private toggleSenses(): boolean {
+  toggleSenses(): boolean {
     const senses = this.parts?.senses;
     senses?.toggle();
     const on = senses?.on === true;
@@ -234,7 +192,7 @@ export class App {
     void this.late.then(() => this.showDrawer(this.parts?.drawer.open !== true));
   }
 
-  private showDrawer(open: boolean): void {
+  showDrawer(open: boolean): void {
     const drawer = this.parts?.drawer;
     if (drawer === undefined || drawer.open === open) return;
     drawer.show(open);
@@ -256,7 +214,7 @@ export class App {
     this.notices.say(said === 'Copied' ? 'The link is copied. Whoever opens it can blow it out.' : `${said}.`);
   }
 
-  private async copyLink(): Promise<string> {
+  async copyLink(): Promise<string> {
     const { playing } = this.player;
     const settings = { ...this.settings };
     if (playing?.shipped === false && settings.model === '') {

@@ -1,7 +1,13 @@
 // Files that are dropped anywhere on the page.
 
+/** What was dropped: its files, and where a browser says it what each is, so that a folder can be looked into. */
+export interface Dropped {
+  files: File[];
+  entries: (FileSystemEntry | null)[];
+}
+
 /** Lets files be dropped anywhere. */
-export function watchDrops(curtain: HTMLElement, dropped: (file: File) => void): void {
+export function watchDrops(curtain: HTMLElement, dropped: (what: Dropped) => void): void {
   let depth = 0;
   const carriesFiles = (event: DragEvent): boolean => event.dataTransfer?.types.includes('Files') ?? false;
   window.addEventListener('dragenter', (event) => {
@@ -18,7 +24,8 @@ export function watchDrops(curtain: HTMLElement, dropped: (file: File) => void):
     event.preventDefault();
     depth = 0;
     curtain.hidden = true;
-    const file = event.dataTransfer?.files[0];
-    if (file !== undefined) dropped(file);
+    const carried = event.dataTransfer;
+    // Known during the event alone.
+    if (carried?.files.length) dropped({ files: [...carried.files], entries: [...carried.items].map((item) => item.webkitGetAsEntry()) });
   });
 }

@@ -1,11 +1,68 @@
 // What comes after the first flame: the drawer, the help, the microphone, files. One piece, fetched while the flame burns.
 
 import './late.css';
+import type { App } from './app.js';
+import type { Dropped } from './drops.js';
+import { isLesson, readDropped, refusalOf, Refused } from './files.js';
+import { Drawer } from './panel/drawer.js';
+import { byId } from './panel/element.js';
+import { fillHelp } from './panel/help.js';
+import { saveLoop, savePicture } from './saving.js';
+import { Senses } from './senses/senses.js';
+import { StudioDoor } from './studio_door.js';
+import { Ear } from './wind/ear.js';
 
-export { readDropped, Refused, refusalOf } from './files.js';
 export { MOST_PACKED_BYTES, packModel } from './model_link.js';
-export { Drawer } from './panel/drawer.js';
-export { fillHelp } from './panel/help.js';
-export { Senses } from './senses/senses.js';
-export { saveLoop, savePicture } from './saving.js';
-export { Ear } from './wind/ear.js';
+
+/** What the page has from then on. */
+export interface Parts {
+  ear: Ear;
+  drawer: Drawer;
+  senses: Senses;
+  door: StudioDoor;
+}
+
+/** Makes it. */
+export function furnish(app: App): Parts {
+  const ear = new Ear(app.wisp, {
+    wind: (wind) => app.breath.hear(wind, app.stage.frames),
+    trouble: (words) => app.notices.say(words),
+    ended: () => app.breath.deafen(),
+  });
+  const drawer = new Drawer(app.wisp, byId('drawer', HTMLElement), {
+    change: (change) => app.change(change),
+    open: (file) => openDropped(app, { files: [file], entries: [] }),
+    closed: () => app.showDrawer(false),
+    link: () => app.copyLink(),
+    picture: () => savePicture(app.stage),
+    loop: () => saveLoop(app.stage.canvas),
+    senses: () => app.toggleSenses(),
+  });
+  fillHelp(app.help);
+  if (app.player.playing !== null) drawer.fill(app.player.playing, app.settings);
+  return { ear, drawer, senses: new Senses(), door: new StudioDoor(app) };
+}
+
+/** Says what went wrong, as a sentence with its stop. */
+export function sayWrong(app: App, error: unknown): void {
+  const words = error instanceof Error ? error.message : String(error);
+  app.notices.say(`${/[.!?]$/.test(words) ? words : `${words}.`} What plays goes on.`);
+}
+
+/** Plays a model that was dropped or chosen; what can be learned from opens the studio. */
+export function openDropped(app: App, { files, entries }: Dropped): void {
+  const [file] = files;
+  if (file === undefined) return;
+  if (isLesson(files, entries)) {
+    app.parts?.door.open({ files, entries });
+    return;
+  }
+  readDropped(file)
+    .then((bytes) =>
+      app.player.playFile(file.name, bytes).catch((error: unknown) => {
+        throw refusalOf(file.name, error);
+      }),
+    )
+    .then(() => app.notices.say(`Playing ${file.name}.`))
+    .catch((error: unknown) => sayWrong(app, error instanceof Refused ? error : refusalOf(file.name, error)));
+}

@@ -23,11 +23,11 @@ export async function savePicture(stage: Stage): Promise<string> {
   return 'Saved';
 }
 
-/** Saves what the next seconds show, as a film. */
-export async function saveLoop(stage: Stage): Promise<string> {
+/** Saves what the next seconds of a canvas show, as a film. */
+export async function saveLoop(canvas: HTMLCanvasElement): Promise<string> {
   const kind = typeof MediaRecorder === 'undefined' ? undefined : KINDS.find((name) => MediaRecorder.isTypeSupported(name));
   if (kind === undefined) return 'This browser records no films';
-  const recorder = new MediaRecorder(stage.canvas.captureStream(FRAMES), { mimeType: kind, videoBitsPerSecond: 8e6 });
+  const recorder = new MediaRecorder(canvas.captureStream(FRAMES), { mimeType: kind, videoBitsPerSecond: 8e6 });
   const parts: Blob[] = [];
   recorder.addEventListener('dataavailable', ({ data }) => parts.push(data));
   const ended = new Promise((resolve) => recorder.addEventListener('stop', resolve, { once: true }));

@@ -87,11 +87,6 @@ describe('trouble', { skip }, () => {
     await said('heap.bin is 50 MB large');
   });
 
-  it('says of a film how to learn from it', async () => {
-    await drop('candle.mp4', 1000);
-    await said('wisp learn flame candle.mp4 -o flame.wisp');
-  });
-
   it('says what is wrong with a broken model', async () => {
     await drop('broken.wisp', flame.length, [...flame.subarray(0, 400), ...flame.subarray(400).map((value) => value ^ 1)]);
     await said('broken.wisp is not a model that can be played');

@@ -10,7 +10,8 @@ const packed = (name) => gzipSync(readFileSync(new URL(name, dist)), { level: 9 
 
 describe('the built page', () => {
   const html = readFileSync(new URL('index.html', dist), 'utf8');
-  const assets = readdirSync(new URL('assets/', dist));
+  const assets = readdirSync(new URL('assets/', dist)).filter((name) => name.includes('.'));
+  const studio = readdirSync(new URL('assets/studio/', dist));
 
   // One of the two modules is fetched: the larger counts.
   const modules = assets.filter((name) => name.endsWith('.wasm')).map((name) => packed(`assets/${name}`));
@@ -32,6 +33,12 @@ describe('the built page', () => {
     assert.ok(total <= 400_000, `${total} bytes`);
   });
 
+  it('fetches no more than 700 kB for the studio, and only when somebody goes in', () => {
+    const total = studio.map((name) => packed(`assets/studio/${name}`)).reduce((sum, part) => sum + part, 0);
+    assert.ok(total <= 700_000, `${total} bytes`);
+    assert.doesNotMatch(html, /studio/);
+  });
+
   it('ships flames of a few kilobytes and a leaf of less than a megabyte', () => {
     const size = (name) => readFileSync(new URL(`models/${name}`, dist)).length;
     for (const order of [2, 4, 6]) assert.ok(size(`flame-${order}.wisp`) < 20_000);
@@ -45,9 +52,10 @@ describe('the built page', () => {
     assert.doesNotMatch(html, /(?:src|href)="(?:https?:)?\/\//);
   });
 
-  it('keeps all of its files for when there is no network', () => {
+  it('keeps all of its files but the studio for when there is no network', () => {
     const worker = readFileSync(new URL('sw.js', dist), 'utf8');
     for (const name of assets) assert.ok(worker.includes(`assets/${name}`), name);
     assert.ok(worker.includes('models/leaf.wisp'));
+    for (const name of studio) assert.ok(!worker.includes(name), `${name} is not kept before it is wanted`);
   });
 });

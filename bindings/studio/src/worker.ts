@@ -59,6 +59,8 @@ class Live {
   private heardTo: number | null = null;
   /** why it cannot go on */
   private failure: unknown = null;
+  /** whether it was given up: the engine captures something else by now */
+  private abandoned = false;
   private work: Promise<void> = Promise.resolve();
   private readonly showing: Showing;
 
@@ -72,8 +74,10 @@ class Live {
   frame(frame: VideoFrame | ImageBitmap, seconds: number): void {
     this.work = this.work.then(async () => {
       try {
-        if (this.failure !== null) return;
-        this.engine.frame(frame instanceof ImageBitmap ? rawOfBitmap(frame) : await rawOfFrame(frame), seconds);
+        if (this.failure !== null || this.abandoned) return;
+        const raw = frame instanceof ImageBitmap ? rawOfBitmap(frame) : await rawOfFrame(frame);
+        if (this.abandoned) return;
+        this.engine.frame(raw, seconds);
         if (this.first === null) this.start(seconds);
         await this.showing.frame(null, -1);
       } catch (error) {
@@ -87,9 +91,15 @@ class Live {
 
   sound(sound: Float32Array, rate: number, seconds: number): void {
     this.work = this.work.then(() => {
+      if (this.abandoned) return;
       if (this.first === null) this.early.push({ sound, rate, seconds });
       else this.hear(sound, rate, seconds);
     });
+  }
+
+  /** What still waits is not the next capture's. */
+  abandon(): void {
+    this.abandoned = true;
   }
 
   async finish(): Promise<Captured> {
@@ -149,6 +159,10 @@ async function perform(of: number, task: Task): Promise<Outcome | null> {
     tell({ of, progress: { stage, share } });
     return true;
   };
+  if (task.do === 'film' || task.do === 'pictures' || task.do === 'live') {
+    live?.abandon();
+    live = null;
+  }
   switch (task.do) {
     case 'film':
       return film(of, wisp, task.file, task.settings);
@@ -186,7 +200,11 @@ async function answer(of: number, task: Task): Promise<void> {
 self.addEventListener('message', ({ data }: MessageEvent<ToWorker>) => {
   if ('task' in data) void answer(data.of, data.task);
   else if ('frame' in data) {
-    if (live === null) data.frame.close();
-    else live.frame(data.frame, data.seconds);
+    if (live !== null) live.frame(data.frame, data.seconds);
+    else {
+      // The module is still on its way: what is not looked at does not wait either.
+      data.frame.close();
+      tell({ of: data.of, looked: 1 });
+    }
   } else live?.sound(data.sound, data.rate, data.seconds);
 });

@@ -11,6 +11,7 @@ import { introductionTo } from './introduction.js';
 import { Lesson } from './lesson.js';
 import { Plot } from './plot.js';
 import { PlotRecord } from './record.js';
+import { telling } from './telling.js';
 
 /** What the drawer shows of. */
 export interface Shown {
@@ -126,7 +127,7 @@ export class Drawer {
       answer: add('answer', `Out: ${shown.answerName}`, '#ffb35c', [-0.3, 0.3]),
       cost: add('cost', 'Our time a frame', '#9fd8a4', [0, 4]),
     };
-    const csv = this.telling('Save this minute as CSV', 'csv', '', () => {
+    const csv = telling('Save this minute as CSV', 'csv', '', () => {
       saveFile(new Blob([this.record.csv(shown.answerName)], { type: 'text/csv' }), 'wisp.csv');
       return Promise.resolve('Saved');
     });
@@ -227,25 +228,10 @@ export class Drawer {
       element(
         'div',
         { class: 'actions' },
-        this.telling('Copy a link', 'link', '', () => this.events.link()),
-        this.telling('Save a picture', 'picture', 'One moment…', () => this.events.picture()),
-        this.telling('Save three seconds', 'loop', 'Recording…', () => this.events.loop()),
+        telling('Copy a link', 'link', '', () => this.events.link()),
+        telling('Save a picture', 'picture', 'One moment…', () => this.events.picture()),
+        telling('Save three seconds', 'loop', 'Recording…', () => this.events.loop()),
       ),
     );
-  }
-
-  /** A button that says how it went. */
-  private telling(words: string, name: string, meanwhile: string, act: () => Promise<string>): HTMLButtonElement {
-    const button = element('button', { type: 'button', class: 'tool', 'data-file': name }, words);
-    button.addEventListener('click', () => {
-      if (meanwhile !== '') button.textContent = meanwhile;
-      void act()
-        .catch((error: unknown) => (error instanceof Error ? error.message : String(error)))
-        .then((said) => {
-          button.textContent = said;
-          setTimeout(() => (button.textContent = words), 4000);
-        });
-    });
-    return button;
   }
 }

@@ -7,7 +7,7 @@ const GESTURES: readonly (readonly [string, string])[] = [
   ['Move past', 'a pointer or a finger that passes quickly makes wind'],
   ['Drag', 'the candle, the cake or the match'],
   ['Tap', 'a candle that is out, to light it; the ground, to kick leaves up'],
-  ['Drop', 'a .wisp file anywhere, to play it'],
+  ['Drop', 'a .wisp file anywhere, to play it; a film or a table, to learn from it'],
 ];
 
 const KEYS: readonly (readonly [string[], string])[] = [
@@ -17,7 +17,7 @@ const KEYS: readonly (readonly [string[], string])[] = [
   [['L'], 'carry the match to a candle; kick leaves up'],
   [['B'], 'microphone on and off'],
   [['−', '+'], 'fewer, more'],
-  [['1', '2'], 'candle, leaves'],
+  [['1', '2', '3'], 'candle, leaves, a flame of your own'],
   [['I'], 'what was learned'],
   [['S'], 'send a link to this'],
   [['A'], 'sound and touch: crackle, breath, a phone that trembles, tilt as wind'],
@@ -43,8 +43,8 @@ export function fillHelp(dialog: HTMLDialogElement): void {
     element(
       'p',
       {},
-      'Sound is turned into wind inside this page and then forgotten. Nothing is recorded, nothing leaves this device, ' +
-        'and nothing is stored but the page itself, so that it works without a network.',
+      'Sound is turned into wind inside this page and then forgotten; what you film for a flame of your own is forgotten when the ' +
+        'page is closed. Nothing leaves this device, and nothing is stored but the page itself, so that it works without a network.',
     ),
   );
   // A press beside it closes it.

@@ -8,7 +8,7 @@ const list = (names: readonly string[]): string =>
 function taught(model: Model, shipped: boolean): string {
   if (shipped) {
     return model.view === 'outline'
-      ? 'This flame was taught by the candle simulator that comes with Wisp; learn one from a film of yours and drop it here.'
+      ? 'This flame was taught by the candle simulator that comes with Wisp; learn one from a film of yours under Yours.'
       : 'This leaf was taught by the leaf simulator that comes with Wisp.';
   }
   const { sources, program } = model.provenance;

@@ -1,0 +1,235 @@
+// The camera and the microphone, raw, and both on one clock.
+//
+// The clock is performance.now(). Frames come from the camera's track itself where the browser lets them
+// (MediaStreamTrackProcessor), with the camera clock's time; else from the picture on the page, with the time at which the
+// camera took them, where the browser says that (captureTime). A block of sound has the audio clock's time of its first
+// sample. How far a clock is from performance.now() is the least that ever lay between what it says and the arrival here:
+// arrivals come late, never early. It is found while the picture is looked at before filming, and stands still while it
+// is filmed. What remains, some tens of milliseconds of each one's own way, learning finds.
+
+import type { LiveCapture, Region } from '@wisp/studio';
+
+/** Why there is no camera, in words for people. */
+export class CameraTrouble extends Error {}
+
+/** More frames than that which wait to be looked at: this machine is too slow for all of them. */
+const MOST_WAITING = 6;
+/** Pixels that kept pictures are high at most, and how many are kept a second. */
+const KEPT_HEIGHT = 200;
+export const KEPT_RATE = 12;
+
+const VIDEO: MediaTrackConstraints = {
+  width: { ideal: 1280 },
+  height: { ideal: 720 },
+  frameRate: { ideal: 60 },
+  facingMode: { ideal: 'environment' },
+};
+// What lets speech through and takes noise away would take the wind away.
+const AUDIO: MediaTrackConstraints = { echoCancellation: false, noiseSuppression: false, autoGainControl: false, channelCount: 1 };
+
+const TROUBLE: Readonly<Record<string, string>> = {
+  NotAllowedError: 'The camera was not allowed. It can be allowed in the address bar; a film from your phone does as well.',
+  SecurityError: 'The camera was not allowed. It can be allowed in the address bar; a film from your phone does as well.',
+  NotFoundError: 'No camera was found. Plug one in, or choose a film from your phone.',
+  OverconstrainedError: 'No camera was found. Plug one in, or choose a film from your phone.',
+  NotReadableError: 'Another program holds the camera. Close it there and try again.',
+  AbortError: 'The camera could not be started. Unplug it, plug it in and try again.',
+};
+
+/** What cameras can be told, where they can be told it; not yet in TypeScript's own list. */
+interface Abilities extends MediaTrackCapabilities {
+  exposureMode?: string[];
+  whiteBalanceMode?: string[];
+  focusMode?: string[];
+  exposureCompensation?: { min: number; max: number; step: number };
+}
+
+/** Frames of a track, one after another; not yet in TypeScript's own list, and not in every browser. */
+type TrackProcessor = new (of: { track: MediaStreamTrack; maxBufferSize?: number }) => { readable: ReadableStream<VideoFrame> };
+const { MediaStreamTrackProcessor: Processor } = globalThis as { MediaStreamTrackProcessor?: TrackProcessor };
+
+async function ask(): Promise<{ stream: MediaStream; silent: string }> {
+  const devices = navigator.mediaDevices as MediaDevices | undefined;
+  if (devices?.getUserMedia === undefined) {
+    throw new CameraTrouble('Browsers give a camera only to pages that come over HTTPS, or from this very machine. Choose a film instead.');
+  }
+  try {
+    return { stream: await devices.getUserMedia({ video: VIDEO, audio: AUDIO }), silent: '' };
+  } catch (error) {
+    const name = error instanceof DOMException ? error.name : '';
+    // Which of the two it was is not said: the camera alone is asked for.
+    if (name in TROUBLE) {
+      const stream = await devices.getUserMedia({ video: VIDEO }).catch(() => null);
+      const why = name === 'NotAllowedError' ? 'The microphone was not allowed' : 'There is no microphone';
+      if (stream !== null) return { stream, silent: `${why}: the flicker can be learned, what wind does cannot.` };
+    }
+    throw new CameraTrouble(TROUBLE[name] ?? `The camera could not be used: ${error instanceof Error ? error.message : String(error)}`);
+  }
+}
+
+export interface CameraEvents {
+  /** the camera was unplugged or taken away */
+  lost(): void;
+  /** the microphone was; filming goes on without it */
+  deaf(): void;
+  /** how loud it is, root mean square of full scale */
+  loud(level: number): void;
+}
+
+export class Camera {
+  /** what is wrong with the sound; '' nothing */
+  readonly silent: string;
+  private readonly picture: MediaStreamTrack;
+  private context: AudioContext | null = null;
+  /** seconds from the audio clock to performance.now() */
+  private offset = Infinity;
+  private live: LiveCapture | null = null;
+  private every = 1;
+  /** whether sound is handed on too */
+  private heeds = false;
+  private ended = false;
+
+  static async open(events: CameraEvents): Promise<Camera> {
+    const { stream, silent } = await ask();
+    const camera = new Camera(stream, silent, events);
+    await camera.listen().catch(() => events.deaf());
+    return camera;
+  }
+
+  private constructor(readonly stream: MediaStream, silent: string, private readonly events: CameraEvents) {
+    this.silent = silent;
+    this.picture = stream.getVideoTracks()[0] as MediaStreamTrack;
+    this.picture.addEventListener('ended', () => {
+      if (!this.ended) events.lost();
+    });
+    stream.getAudioTracks()[0]?.addEventListener('ended', () => {
+      if (!this.ended) events.deaf();
+    });
+  }
+
+  /** Frames a second, as the camera says. */
+  get rate(): number {
+    return this.picture.getSettings().frameRate ?? 30;
+  }
+
+  /** Keeps exposure, colours and focus as they are now. Says which of it this camera or browser does not let be kept. */
+  async lock(): Promise<string> {
+    const abilities = this.abilities();
+    const wanted = { exposureMode: 'its exposure', whiteBalanceMode: 'its colours', focusMode: 'its focus' } as const;
+    const kept: Record<string, string> = {};
+    for (const name of Object.keys(wanted) as (keyof typeof wanted)[]) {
+      if (abilities[name]?.includes('manual') === true) kept[name] = 'manual';
+    }
+    await this.picture.applyConstraints({ advanced: [kept as MediaTrackConstraintSet] }).catch(() => undefined);
+    return kept.exposureMode === undefined ? 'This camera changes its exposure by itself. Keep the light in the room as it is.' : '';
+  }
+
+  /** Lets less light in. False: it cannot, or there is no less. */
+  async darker(): Promise<boolean> {
+    const range = this.abilities().exposureCompensation;
+    if (range === undefined) return false;
+    const now = (this.picture.getSettings() as { exposureCompensation?: number }).exposureCompensation ?? 0;
+    const next = Math.max(range.min, now - Math.max(range.step, (range.max - range.min) / 12));
+    if (next >= now) return false;
+    await this.picture.applyConstraints({ advanced: [{ exposureCompensation: next } as MediaTrackConstraintSet] });
+    return true;
+  }
+
+  /** Watches the camera, or the picture in which it is shown: once, until the camera is closed. */
+  watch(video: HTMLVideoElement): void {
+    if (Processor === undefined) this.watchPicture(video);
+    else void this.watchTrack(new Processor({ track: this.picture, maxBufferSize: MOST_WAITING }).readable.getReader());
+  }
+
+  private async watchTrack(frames: ReadableStreamDefaultReader<VideoFrame>): Promise<void> {
+    let offset = Infinity;
+    for (let count = 1; ; ++count) {
+      const { value: frame } = await frames.read();
+      if (frame === undefined) return;
+      const seconds = frame.timestamp / 1e6;
+      if (!this.heeds) offset = Math.min(offset, performance.now() / 1000 - seconds);
+      const { live } = this;
+      if (live !== null && live.waiting < MOST_WAITING && count % this.every === 0) live.frame(frame, seconds + offset);
+      else frame.close();
+      if (this.ended) await frames.cancel();
+    }
+  }
+
+  private watchPicture(video: HTMLVideoElement): void {
+    let frames = 0;
+    const frame = (now: number, taken?: VideoFrameCallbackMetadata): void => {
+      if (this.ended) return;
+      frames += 1;
+      const { live } = this;
+      if (live !== null && live.waiting < MOST_WAITING && frames % this.every === 0) {
+        void this.hand(live, video, (taken?.captureTime ?? now) / 1000);
+      }
+      this.next(video, frame);
+    };
+    this.next(video, frame);
+  }
+
+  /** Hands what is filmed and heard from now on to a capture; null: to none. `every`: one frame of so many. */
+  feed(live: LiveCapture | null, every = 1): void {
+    this.live = live;
+    this.every = every;
+    this.heeds = every === 1;
+  }
+
+  close(): void {
+    this.ended = true;
+    this.live = null;
+    for (const track of this.stream.getTracks()) track.stop();
+    void this.context?.close();
+  }
+
+  private abilities(): Abilities {
+    // Firefox has none to tell of.
+    return (this.picture.getCapabilities as (() => Abilities) | undefined)?.call(this.picture) ?? {};
+  }
+
+  private next(video: HTMLVideoElement, frame: (now: number, taken?: VideoFrameCallbackMetadata) => void): void {
+    if ('requestVideoFrameCallback' in video) video.requestVideoFrameCallback(frame);
+    else requestAnimationFrame((now) => frame(now));
+  }
+
+  private async hand(live: LiveCapture, video: HTMLVideoElement, seconds: number): Promise<void> {
+    if (typeof VideoFrame !== 'undefined') {
+      live.frame(new VideoFrame(video, { timestamp: Math.round(1e6 * seconds) }), seconds);
+      return;
+    }
+    const bitmap = await createImageBitmap(video);
+    if (this.live === live) live.frame(bitmap, seconds);
+    else bitmap.close();
+  }
+
+  private async listen(): Promise<void> {
+    if (this.stream.getAudioTracks().length === 0) return;
+    const context = new AudioContext();
+    this.context = context;
+    await context.audioWorklet.addModule(new URL('./blocks.worklet.js', import.meta.url));
+    const node = new AudioWorkletNode(context, 'wisp-blocks', { numberOfInputs: 1, numberOfOutputs: 0, channelCount: 1, channelCountMode: 'explicit' });
+    node.port.onmessage = ({ data }: MessageEvent<{ samples: Float32Array<ArrayBuffer>; since: number }>) => this.hear(data.samples, data.since);
+    context.createMediaStreamSource(this.stream).connect(node);
+    context.resume().catch(() => undefined);
+  }
+
+  private hear(samples: Float32Array<ArrayBuffer>, since: number): void {
+    const rate = this.context?.sampleRate ?? 48_000;
+    if (!this.heeds) this.offset = Math.min(this.offset, performance.now() / 1000 - (since + samples.length / rate));
+    let sum = 0;
+    for (const sample of samples) sum += sample * sample;
+    this.events.loud(Math.sqrt(sum / samples.length));
+    if (this.heeds && Number.isFinite(this.offset)) this.live?.sound(samples, rate, since + this.offset);
+  }
+}
+
+/** A small picture of what a camera shows in a part of it; null where none can be made. */
+export function smallPicture(video: HTMLVideoElement, part: Region): ImageBitmap | null {
+  const share = Math.min(1, KEPT_HEIGHT / part.height);
+  const canvas = new OffscreenCanvas(Math.max(1, Math.round(share * part.width)), Math.max(1, Math.round(share * part.height)));
+  const context = canvas.getContext('2d');
+  if (context === null) return null;
+  context.drawImage(video, part.x, part.y, part.width, part.height, 0, 0, canvas.width, canvas.height);
+  return canvas.transferToImageBitmap();
+}

@@ -1,0 +1,239 @@
+// Filming with the camera: first a look at the picture, then half a minute with somebody who says what to do.
+
+import type { Captured, LiveCapture, PictureSettings, Region, Seen, Studio } from '@wisp/studio';
+import { element } from '../../panel/element.js';
+import { Camera, KEPT_RATE, smallPicture } from './camera.js';
+import { Guide, hintOf } from './guide.js';
+import { around, Reel } from '../reel.js';
+import type { Viewer } from '../pictures/viewer.js';
+
+/** Milliseconds between looks at what to say. */
+const LOOK = 100;
+/** While the picture is only looked at, one frame of so many is. */
+const PREVIEW_SHARE = 4;
+/** Milliseconds between steps towards a darker picture. */
+const DARKER_EVERY = 900;
+
+export interface FilmingEvents {
+  /** it was filmed */
+  done(captured: Captured, reel: Reel, settings: PictureSettings): void;
+  /** nothing came of it; a sentence says why */
+  failed(words: string): void;
+  /** something to be said meanwhile */
+  say(words: string): void;
+  /** read out, not shown */
+  announce(words: string): void;
+  cancelled(): void;
+}
+
+export class Filming {
+  readonly panel = element('div', { class: 'panel filming' });
+  private readonly button = element('button', { type: 'button', class: 'blow record' });
+  private readonly word = element('span', {}, 'Film');
+  private readonly hint = element('p', { class: 'quiet', role: 'status' });
+  private readonly ring: SVGCircleElement;
+  private readonly level = element('i');
+  private readonly plan = element('ol', { class: 'plan' });
+  private live: LiveCapture | null = null;
+  private reel = new Reel(1 / KEPT_RATE);
+  private settings: PictureSettings = {};
+  private seen: Seen | null = null;
+  private state: 'looking' | 'filming' | 'ending' | 'over' = 'looking';
+  private began = 0;
+  private timer = 0;
+  private darkened = 0;
+  private act = '';
+  private guide: Guide;
+  private readonly hidden = (): void => {
+    if (document.hidden && this.state === 'filming') this.finish('Filming stopped when the page was hidden; what was filmed till then is kept.');
+  };
+
+  /** Asks for the camera. Throws a CameraTrouble in words for people. */
+  static async open(studio: Studio, viewer: Viewer, events: FilmingEvents): Promise<Filming> {
+    let filming: Filming | null = null;
+    const camera = await Camera.open({
+      lost: () => filming?.lose(),
+      deaf: () => events.say('The microphone is gone: from here on the wind is not heard.'),
+      loud: (level) => filming?.showLevel(level),
+    });
+    filming = new Filming(studio, viewer, camera, events);
+    return filming;
+  }
+
+  private constructor(
+    private readonly studio: Studio,
+    private readonly viewer: Viewer,
+    private readonly camera: Camera,
+    private readonly events: FilmingEvents,
+  ) {
+    this.guide = new Guide(camera.silent === '');
+    const picture = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
+    picture.setAttribute('viewBox', '0 0 100 100');
+    picture.setAttribute('aria-hidden', 'true');
+    const circle = (kind: string): SVGCircleElement => {
+      const made = document.createElementNS('http://www.w3.org/2000/svg', 'circle');
+      for (const [name, value] of Object.entries({ class: kind, cx: 50, cy: 50, r: 46, pathLength: 100 })) made.setAttribute(name, String(value));
+      picture.append(made);
+      return made;
+    };
+    circle('rail');
+    this.ring = circle('ring');
+    this.button.append(picture, this.word);
+    this.button.addEventListener('click', () => this.press());
+    this.fill();
+    viewer.camera(camera.stream);
+    camera.watch(viewer.video);
+    document.addEventListener('visibilitychange', this.hidden);
+    this.look();
+    this.timer = window.setInterval(() => this.tick(), LOOK);
+  }
+
+  /** Where to look. */
+  choose(region: Region | null): void {
+    this.settings = region === null ? {} : { region };
+    if (this.state === 'looking') this.look();
+  }
+
+  /** Gives camera and microphone back. */
+  close(): void {
+    if (this.state === 'over') return;
+    this.state = 'over';
+    clearInterval(this.timer);
+    document.removeEventListener('visibilitychange', this.hidden);
+    this.live?.cancel();
+    this.live = null;
+    this.camera.close();
+    this.viewer.camera(null);
+    this.viewer.say('');
+  }
+
+  private fill(): void {
+    const back = element('button', { type: 'button', class: 'tool' }, 'Back');
+    back.addEventListener('click', () => {
+      this.close();
+      this.events.cancelled();
+    });
+    const meter = element('div', { class: 'level', 'aria-hidden': 'true' }, this.level);
+    for (const [name, words, seconds] of this.guide.plan) this.plan.append(element('li', { 'data-plan': name }, element('span', {}, words), element('small', {}, `${seconds} s`)));
+    this.panel.append(
+      element('h2', { tabindex: '-1' }, 'Film your flame'),
+      element('p', {}, 'One flame before something dark, large in the picture; the camera lies still, the microphone near. It takes half a minute:'),
+      this.plan,
+      this.hint,
+      element('div', { class: 'record-row' }, this.button, ...(this.camera.silent === '' ? [element('div', {}, element('small', {}, 'Sound'), meter)] : [])),
+      ...(this.camera.silent === '' ? [] : [element('p', { class: 'warning' }, this.camera.silent)]),
+      element('div', { class: 'actions' }, back),
+    );
+  }
+
+  /** Looks at the picture without keeping anything. */
+  private look(): void {
+    this.live?.cancel();
+    this.live = this.studio.live('a look', this.camera.rate, this.settings, { seen: (seen) => this.take(seen) });
+    this.camera.feed(this.live, PREVIEW_SHARE);
+  }
+
+  private press(): void {
+    if (this.state === 'looking') void this.begin();
+    else if (this.state === 'filming') this.finish('');
+  }
+
+  private async begin(): Promise<void> {
+    this.state = 'filming';
+    const said = await this.camera.lock();
+    if (said !== '') this.events.say(said);
+    if (this.state !== 'filming') return;
+    this.live?.cancel();
+    this.reel = new Reel(1 / KEPT_RATE);
+    this.guide = new Guide(this.camera.silent === '');
+    this.live = this.studio.live('camera', this.camera.rate, this.settings, { seen: (seen) => this.take(seen) });
+    this.camera.feed(this.live);
+    this.began = performance.now();
+    this.word.textContent = 'Stop';
+    this.button.classList.add('live');
+    this.hint.textContent = '';
+  }
+
+  private take(seen: Seen): void {
+    if (this.state === 'over') return;
+    this.seen = seen;
+    this.viewer.show(seen);
+  }
+
+  private tick(): void {
+    if (this.state === 'filming') this.advise();
+    const hint = this.seen === null ? '' : hintOf(this.seen);
+    if (this.state !== 'looking' && this.state !== 'filming') return;
+    if (this.hint.textContent !== hint) this.hint.textContent = hint;
+    if (this.state === 'looking') this.brighten();
+  }
+
+  /** Says what to do next, and ends when all of it was done. */
+  private advise(): void {
+    const seconds = (performance.now() - this.began) / 1000;
+    const { act, words, share } = this.guide.at(seconds, this.seen?.state ?? null);
+    this.ring.style.strokeDasharray = `${Math.round(100 * share)} 100`;
+    this.viewer.say(words);
+    for (const item of this.plan.children) item.toggleAttribute('aria-current', (item as HTMLElement).dataset.plan === act);
+    if (words !== this.act) this.events.announce(words);
+    this.act = words;
+    if (act === 'done') this.finish('');
+    else this.keepPicture(seconds);
+  }
+
+  /** Lets less light in where the flame is white all over. */
+  private brighten(): void {
+    const now = performance.now();
+    if ((this.seen?.clipped ?? 0) < 0.5 || now - this.darkened < DARKER_EVERY) return;
+    this.darkened = now;
+    this.camera.darker().catch(() => false);
+  }
+
+  private keepPicture(seconds: number): void {
+    const { video } = this.viewer;
+    const { reel } = this;
+    if (!reel.wants(seconds) || video.videoWidth === 0) return;
+    const all = { x: 0, y: 0, width: video.videoWidth, height: video.videoHeight };
+    const box = this.seen?.box ?? null;
+    const part = box === null ? all : around(box, all.width, all.height);
+    const bitmap = smallPicture(video, part);
+    if (bitmap !== null) reel.keep({ seconds, bitmap, part });
+  }
+
+  private lose(): void {
+    if (this.state === 'filming') this.finish('The camera is gone; what was filmed till then is kept.');
+    else if (this.state === 'looking') {
+      this.close();
+      this.events.failed('The camera is gone. Plug it in, or choose a film from your phone.');
+    }
+  }
+
+  private finish(said: string): void {
+    const { live, reel, settings } = this;
+    if (this.state !== 'filming' || live === null) return;
+    this.state = 'ending';
+    this.live = null;
+    this.camera.feed(null);
+    this.word.textContent = 'One moment';
+    this.button.classList.add('small-word');
+    this.viewer.say('');
+    if (said !== '') this.events.say(said);
+    live.finish().then(
+      (captured) => {
+        this.close();
+        this.events.done(captured, reel, settings);
+      },
+      (error: unknown) => {
+        this.close();
+        reel.close();
+        this.events.failed(error instanceof Error ? error.message : String(error));
+      },
+    );
+  }
+
+  private showLevel(level: number): void {
+    // In decibels: from a quiet room to a strong breath.
+    const share = Math.max(0, Math.min(1, (20 * Math.log10(level + 1e-6) + 66) / 60));
+    this.level.style.transform = `scaleX(${share.toFixed(3)})`;
+  }
+}

@@ -1,0 +1,94 @@
+// What a recording of an outline holds, as the screens want it: lines to draw, the wind, how the tip leans.
+
+import type { Captured, Region } from '@wisp/studio';
+import { evenKnots, Spline } from './spline.js';
+
+const sorted = (values: Iterable<number>): number[] => [...values].filter(Number.isFinite).sort((a, b) => a - b);
+const quantile = (values: readonly number[], share: number): number => values[Math.round(share * (values.length - 1))] ?? 0;
+
+/** Knots that the file says; null: they are even. */
+function knotsOf(csv: Uint8Array): number[] | null {
+  const head = new TextDecoder().decode(csv.subarray(0, 4096));
+  const said = /^# knots (.+)$/m.exec(head)?.[1];
+  return said === undefined ? null : said.trim().split(/\s+/).map(Number);
+}
+
+export class Outlines {
+  readonly rate: number;
+  readonly rows: number;
+  readonly points: number;
+  /** as the model takes it; null: there was no sound */
+  readonly wind: Float64Array | null;
+  /** how far the tip is to the right of the base, in heights of the flame; NaN: there is no flame */
+  readonly lean: Float64Array;
+  /** pixels: the median height, and where the base stands */
+  readonly height: number;
+  readonly base: { x: number; y: number };
+  /** all of it, pixels */
+  readonly bounds: Region;
+  private readonly xs: Float64Array[] = [];
+  private readonly ys: Float64Array[] = [];
+  private readonly spline: Spline;
+  private readonly control: Float64Array;
+
+  /** Null where the recording is of something else. */
+  static of(captured: Captured): Outlines | null {
+    return captured.series.some(({ name }) => name === 'p3.x') ? new Outlines(captured) : null;
+  }
+
+  private constructor(captured: Captured) {
+    const { series, rows, rate } = captured;
+    const named = (name: string): Float64Array | undefined => series.find((one) => one.name === name)?.samples;
+    for (let k = 0; ; ++k) {
+      const [x, y] = [named(`p${k}.x`), named(`p${k}.y`)];
+      if (x === undefined || y === undefined) break;
+      this.xs.push(x);
+      this.ys.push(y);
+    }
+    this.rate = rate;
+    this.rows = rows;
+    this.points = this.xs.length;
+    this.wind = series.find(({ role }) => role === 'input')?.samples ?? null;
+    this.spline = new Spline(this.points, knotsOf(captured.csv) ?? evenKnots(this.points));
+    this.control = new Float64Array(2 * this.points);
+    const last = this.points - 1;
+    const middle = (columns: readonly Float64Array[], row: number): number =>
+      ((columns[0]?.[row] as number) + (columns[last]?.[row] as number)) / 2;
+    const every = Array.from({ length: rows }, (_, row) => row);
+    this.base = {
+      x: quantile(sorted(every.map((row) => named('base.x')?.[row] ?? middle(this.xs, row))), 0.5),
+      y: quantile(sorted(every.map((row) => named('base.y')?.[row] ?? middle(this.ys, row))), 0.5),
+    };
+    const tops = every.map((row) => Math.min(...this.ys.map((column) => column[row] as number)));
+    this.height = Math.max(1, quantile(sorted(every.map((row) => middle(this.ys, row) - (tops[row] as number))), 0.5));
+    const tip = last / 2;
+    this.lean = Float64Array.from(every, (row) => {
+      const top = ((this.xs[Math.floor(tip)]?.[row] as number) + (this.xs[Math.ceil(tip)]?.[row] as number)) / 2;
+      return (top - middle(this.xs, row)) / this.height;
+    });
+    this.bounds = this.boundsOf(tops);
+  }
+
+  get samples(): number {
+    return this.spline.samples;
+  }
+
+  /** The outline of a row, pixels, x and y by turns; false where there is none. */
+  line(row: number, into: Float32Array): boolean {
+    for (let k = 0; k < this.points; ++k) {
+      this.control[2 * k] = this.xs[k]?.[row] ?? NaN;
+      this.control[2 * k + 1] = this.ys[k]?.[row] ?? NaN;
+    }
+    if (!this.control.every(Number.isFinite)) return false;
+    this.spline.draw(this.control, into);
+    return true;
+  }
+
+  private boundsOf(tops: readonly number[]): Region {
+    const left = quantile(sorted(this.xs.flatMap((column) => [...column])), 0.002);
+    const right = quantile(sorted(this.xs.flatMap((column) => [...column])), 0.998);
+    const top = quantile(sorted(tops), 0.005);
+    const bottom = quantile(sorted(this.ys.flatMap((column) => [...column])), 0.998);
+    return { x: left, y: top, width: Math.max(1, right - left), height: Math.max(1, bottom - top) };
+  }
+}

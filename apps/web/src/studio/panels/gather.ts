@@ -1,0 +1,79 @@
+// The first panel: what can be learned from.
+
+import { element } from '../../panel/element.js';
+
+export interface GatherEvents {
+  camera(): void;
+  files(files: File[]): void;
+}
+
+const ICONS = {
+  camera: 'M4 8h3l2-3h6l2 3h3v11H4zM12 10a3.5 3.5 0 1 0 0 7 3.5 3.5 0 0 0 0-7z',
+  film: 'M4 5h16v14H4zM8 5v14M16 5v14M4 9.700h4M4 14.300h4M16 9.700h4M16 14.300h4',
+  pictures: 'M3 7h13v12H3zM7 7V4h14v12h-5M3 16l4-4 3 3 2-2 4 4',
+  table: 'M4 5h16v14H4zM4 10h16M10 10v9M15 10v9M4 14.500h16',
+} as const;
+
+function icon(name: keyof typeof ICONS): SVGElement {
+  const picture = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
+  picture.setAttribute('viewBox', '0 0 24 24');
+  picture.setAttribute('aria-hidden', 'true');
+  const path = document.createElementNS('http://www.w3.org/2000/svg', 'path');
+  path.setAttribute('d', ICONS[name]);
+  picture.append(path);
+  return picture;
+}
+
+function choice(name: keyof typeof ICONS, title: string, words: string, act: () => void): HTMLElement {
+  const button = element('button', { type: 'button', class: 'choice-card', 'data-gather': name });
+  button.append(icon(name), element('span', {}, element('b', {}, title), element('small', {}, words)));
+  button.addEventListener('click', act);
+  return button;
+}
+
+/** `more`: something was gathered already, and this is to be learned together with it; `back` returns to it. */
+export function gatherPanel(events: GatherEvents, more: { count: number; back: () => void } | null): HTMLElement {
+  const chooser = (attributes: Record<string, string | boolean>): HTMLInputElement => {
+    const input = element('input', { type: 'file', hidden: true, tabindex: '-1', ...attributes });
+    input.addEventListener('change', () => {
+      const files = [...(input.files ?? [])];
+      input.value = '';
+      if (files.length > 0) events.files(files);
+    });
+    return input;
+  };
+  const film = chooser({ accept: 'video/*,.mkv', multiple: true, 'data-choose': 'film' });
+  const pictures = chooser({ webkitdirectory: true, multiple: true, 'data-choose': 'pictures' });
+  const table = chooser({ accept: '.csv,.tsv,.txt,.dat,.asc,text/csv', 'data-choose': 'table' });
+  const choices = element(
+    'div',
+    { class: 'choices' },
+    choice('camera', 'Film a candle', 'with this camera and microphone, in half a minute', () => events.camera()),
+    choice('film', 'Choose a film', 'from your phone or disk', () => film.click()),
+    choice('pictures', 'Folder of pictures', 'numbered frames', () => pictures.click()),
+    ...(more === null ? [choice('table', 'A table', 'CSV: what went in and what came out of anything', () => table.click())] : []),
+    film,
+    pictures,
+    table,
+  );
+  if (more !== null) {
+    const back = element('button', { type: 'button', class: 'tool' }, 'Back');
+    back.addEventListener('click', () => more.back());
+    return element(
+      'div',
+      { class: 'panel' },
+      element('h2', { tabindex: '-1' }, 'Film more'),
+      element('p', {}, `${more.count === 1 ? 'One film is' : `${more.count} films are`} kept. Another is learned together with ${more.count === 1 ? 'it' : 'them'}: soft breaths in one, blowing out in the next.`),
+      choices,
+      element('div', { class: 'actions' }, back),
+    );
+  }
+  return element(
+    'div',
+    { class: 'panel' },
+    element('h2', { tabindex: '-1' }, 'Film a flame, then blow it out'),
+    element('p', {}, 'Half a minute of a real candle is enough. Its outline is found in every picture, what the wind does to it is learned, and the flame that learned it is yours to blow at.'),
+    choices,
+    element('p', { class: 'quiet' }, 'Or drop any of these here. All of it happens on this device: nothing is sent, and closing the page forgets it.'),
+  );
+}

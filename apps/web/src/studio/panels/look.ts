@@ -1,0 +1,90 @@
+// What was found in a film: whether it will do, what was decided, and what can be done now.
+
+import type { Seen } from '@wisp/studio';
+import { element } from '../../panel/element.js';
+import type { Take } from '../session.js';
+import { adviceOf, sentence, within } from '../words.js';
+
+const COLOURS: Readonly<Record<string, string>> = { luma: 'all colours', red: 'red', green: 'green', blue: 'blue' };
+
+type Fact = readonly [string, string];
+
+/** What was decided by now. */
+export function partOfSeen({ threshold, channel, flames, frame, state }: Seen): Fact[] {
+  const facts: Fact[] = [['Picture', frame.toLocaleString('en')]];
+  facts.push(['Flame', state === 'waiting' ? 'not found yet' : state === 'gone' ? 'not in this picture' : 'followed']);
+  if (threshold !== null && channel !== null) facts.push(['Its edge', `${Math.round(threshold)} of 255 in ${COLOURS[channel] ?? channel}`]);
+  if (flames !== null && flames > 1) facts.push(['Flames', String(flames)]);
+  return facts;
+}
+
+function factsOf({ captured }: Take): Fact[] {
+  const { report, rows, rate } = captured;
+  const number = (...path: string[]): number | null => {
+    const value = within(report, ...path);
+    return typeof value === 'number' ? value : null;
+  };
+  const facts: Fact[] = [['Length', `${(rows / rate).toFixed(1)} s, ${Math.round(rate * 100) / 100} frames a second`]];
+  const [tracked, frames, threshold] = [number('tracked'), number('frames'), number('threshold')];
+  if (tracked !== null && frames !== null) facts.push(['Outline', `in ${tracked.toLocaleString('en')} of ${frames.toLocaleString('en')} pictures`]);
+  const channel = within(report, 'channel');
+  if (threshold !== null && typeof channel === 'string') facts.push(['Its edge', `${Math.round(threshold)} of 255 in ${COLOURS[channel] ?? channel}`]);
+  const wind = within(report, 'wind', 'reason');
+  if (typeof wind === 'string') facts.push(['Wind', wind]);
+  return facts;
+}
+
+export interface LookEvents {
+  learn(): void;
+  more(): void;
+  leaveOut(): void;
+  /** which of several flames, 1 the largest */
+  flame(which: number): void;
+}
+
+/** The panel. */
+export function lookPanel(take: Take, takes: readonly Take[], events: LookEvents): HTMLElement {
+  const { captured, settings } = take;
+  const { report } = captured;
+  const good = report.usable?.verdict !== false;
+  const act = (words: string, name: string, does: () => void, main = false): HTMLButtonElement => {
+    const made = element('button', { type: 'button', class: main ? 'tool main' : 'tool', 'data-act': name }, words);
+    made.addEventListener('click', does);
+    return made;
+  };
+  const facts = element('dl', { class: 'found' });
+  for (const [name, value] of factsOf(take)) facts.append(element('dt', {}, name), element('dd', {}, value));
+  const panel = element(
+    'div',
+    { class: 'panel' },
+    element(
+      'div',
+      { class: good ? 'verdict good' : 'verdict bad' },
+      element('h2', { tabindex: '-1' }, good ? 'The flame is found' : 'The flame is not seen well'),
+      element('p', {}, sentence(report.usable?.reason ?? '')),
+    ),
+    element('div', { class: 'actions' }, act(takes.length > 1 ? `Learn from ${takes.length} films` : 'Learn it', 'learn', events.learn, true), act('Film more', 'more', events.more)),
+    facts,
+  );
+  const flames = within(report, 'flames');
+  if (typeof flames === 'number' && flames > 1 && take.again !== null) panel.append(flameChoice(flames, settings.flame ?? 1, events));
+  const warnings = [...(report.warnings ?? []).map(sentence), ...adviceOf([captured], null)];
+  if (warnings.length > 0) {
+    panel.append(element('section', { class: 'warnings' }, element('h3', {}, 'Better next time'), element('ul', {}, ...[...new Set(warnings)].map((line) => element('li', {}, line)))));
+  }
+  panel.append(
+    ...(take.again === null ? [] : [element('p', { class: 'quiet' }, 'Not the right one? Drag a box over the picture to say where to look.')]),
+    element('div', { class: 'actions' }, act('Leave this film out', 'leave-out', events.leaveOut)),
+  );
+  return panel;
+}
+
+function flameChoice(flames: number, now: number, events: LookEvents): HTMLElement {
+  const group = element('div', { class: 'choice', role: 'group', 'aria-label': 'Which flame' }, element('span', {}, 'Which flame'));
+  for (let which = 1; which <= Math.min(flames, 6); ++which) {
+    const made = element('button', { type: 'button', 'aria-pressed': String(which === now) }, which === 1 ? 'largest' : String(which));
+    made.addEventListener('click', () => events.flame(which));
+    group.append(made);
+  }
+  return group;
+}

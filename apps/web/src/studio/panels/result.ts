@@ -1,0 +1,110 @@
+// What was learned: the verdict first, then how well it does, the flame to blow at, and what would make it better.
+
+import type { Recipe } from '@wisp/studio';
+import { element } from '../../panel/element.js';
+import { plotsOf } from '../pictures/curves.js';
+import type { Session } from '../session.js';
+import { takingOf } from './taking.js';
+import { adviceOf, heldOutSeconds, metersOf, sentence, verdictOf, type Meter } from '../words.js';
+
+export interface ResultEvents {
+  blow(): void;
+  more(): void;
+  /** from the beginning, without what was gathered */
+  anew(): void;
+  again(change: Partial<Recipe>): void;
+  film(): Promise<string>;
+}
+
+const button = (words: string, name: string, act: () => void, main = false): HTMLButtonElement => {
+  const made = element('button', { type: 'button', class: main ? 'tool main' : 'tool', 'data-act': name }, words);
+  made.addEventListener('click', act);
+  return made;
+};
+
+function meter({ words, share, good, value }: Meter): HTMLElement {
+  const bar = element('div', { class: share >= good ? 'bar good' : 'bar', 'aria-hidden': 'true' }, element('i'), element('b'));
+  (bar.firstElementChild as HTMLElement).style.width = `${100 * share}%`;
+  (bar.lastElementChild as HTMLElement).style.left = `${100 * good}%`;
+  return element('div', { class: 'meter' }, element('span', {}, words), element('output', {}, value), bar);
+}
+
+function list(title: string, lines: readonly string[], kind: string): HTMLElement[] {
+  if (lines.length === 0) return [];
+  return [element('section', { class: kind }, element('h3', {}, title), element('ul', {}, ...lines.map((line) => element('li', {}, line))))];
+}
+
+/** The panel of a session that has learned something. `flame`: it is one, and can be blown at. */
+export function resultPanel(session: Session, flame: boolean, events: ResultEvents): HTMLElement {
+  const { learned, takes, recipe } = session;
+  if (learned === null) return element('div', { class: 'panel' });
+  const { report, curves, text } = learned;
+  const { good, title, reason } = verdictOf(report, !flame);
+  const held = heldOutSeconds(report);
+  const meters = metersOf(report);
+  const panel = element(
+    'div',
+    { class: 'panel result' },
+    element(
+      'div',
+      { class: good ? 'verdict good' : 'verdict bad' },
+      element('h2', { tabindex: '-1' }, title),
+      element('p', {}, reason),
+    ),
+  );
+  if (flame) {
+    panel.append(
+      element(
+        'div',
+        { class: 'actions' },
+        button(good ? 'Blow it out' : 'Blow at it all the same', 'blow', () => events.blow(), good),
+        button('Film more', 'more', () => events.more(), !good),
+      ),
+    );
+  }
+  if (meters.length > 0) {
+    const seen = held === null ? 'On seconds that it had not seen' : `On the ${Math.round(held)} seconds that it had not seen`;
+    panel.append(element('section', {}, element('h3', {}, seen), ...meters.map(meter)));
+  }
+  panel.append(
+    ...list('Take care', (report.warnings ?? []).map(sentence), 'warnings'),
+    ...(flame ? list('To make it better', adviceOf(takes.map(({ captured }) => captured), report), 'advice') : []),
+    takingOf(session, flame ? () => events.film() : null),
+    moreOf(recipe, text, flame ? plotsOf(curves) : [], events),
+    element('div', { class: 'actions' }, button('Begin anew', 'anew', () => events.anew())),
+  );
+  return panel;
+}
+
+type Option = readonly [string, Partial<Recipe>];
+
+const FLAME_KNOBS: readonly (readonly [string, keyof Recipe, readonly Option[]])[] = [
+  ['Remembers', 'order', [['as usual', { order: 0 }], ['2', { order: 2 }], ['4', { order: 4 }], ['6', { order: 6 }], ['8', { order: 8 }]]],
+  ['Flicker', 'noise', [['found', {}], ['as it was', { noise: 'drawn' }], ['matched', { noise: 'matched' }], ['shared', { noise: 'residual' }], ['each point', { noise: 'independent' }]]],
+  ['Wind curve', 'curve', [['found', {}], ['none', { curve: 0 }], ['3', { curve: 3 }], ['6', { curve: 6 }]]],
+  ['Weight', 'light', [['full', { light: false }], ['light, for small machines', { light: true }]]],
+];
+
+const TABLE_KNOBS: typeof FLAME_KNOBS = [
+  ['Remembers', 'order', [['as usual', { order: 0 }], ['1', { order: 1 }], ['2', { order: 2 }], ['4', { order: 4 }], ['8', { order: 8 }]]],
+  ['Input lags', 'nb', [['as usual', {}], ['1', { nb: 1 }], ['2', { nb: 2 }], ['4', { nb: 4 }]]],
+  ['Delay', 'nk', [['found', {}], ['0', { nk: 0 }], ['1', { nk: 1 }], ['3', { nk: 3 }]]],
+];
+
+/** Controls that learn again, and the report as the program prints it. */
+function moreOf(recipe: Recipe, text: string, plots: readonly HTMLElement[], events: ResultEvents): HTMLElement {
+  const details = element('details', { class: 'more' }, element('summary', {}, 'More: learn it in another way'));
+  for (const [words, name, options] of recipe.kind === 'arx' ? TABLE_KNOBS : FLAME_KNOBS) {
+    const group = element('div', { class: 'choice', role: 'group', 'aria-label': words }, element('span', {}, words));
+    const now = options.find(([, change]) => change[name] === recipe[name]) ?? options[0];
+    for (const option of options) {
+      const [label, change] = option;
+      const made = element('button', { type: 'button', 'aria-pressed': String(option === now), 'data-knob': `${name} ${label}` }, label);
+      made.addEventListener('click', () => events.again({ [name]: undefined, ...change } as Partial<Recipe>));
+      group.append(made);
+    }
+    details.append(group);
+  }
+  details.append(...plots, element('h3', {}, 'The report'), element('pre', { tabindex: '0', 'aria-label': 'The report' }, text));
+  return details;
+}

@@ -1,0 +1,54 @@
+// A table: which columns go in, which come out, how often a row comes.
+
+import type { TableSettings } from '@wisp/studio';
+import { element } from '../../panel/element.js';
+import { roleOf, type TableHead } from '../table_head.js';
+
+const ROLES = ['input', 'output', 'ignored'] as const;
+const WORDS = { input: 'goes in', output: 'comes out', ignored: 'ignored' } as const;
+
+/** The panel. `learn` is called with what was chosen. */
+export function tablePanel(name: string, head: TableHead, learn: (settings: TableSettings) => void, back: () => void): HTMLElement {
+  const roles = head.names.map((column, k) => roleOf(column, head.numeric[k] === true));
+  const rows = element('div', { class: 'columns' });
+  const rate = element('input', { type: 'number', min: '0', step: 'any', value: head.rate ?? 1, id: 'table-rate', inputmode: 'decimal' });
+  const go = element('button', { type: 'button', class: 'tool main', 'data-act': 'learn' }, 'Learn it');
+  const trouble = element('p', { class: 'quiet', role: 'status' });
+  const check = (): void => {
+    const missing = !roles.includes('output') ? 'Say which column comes out.' : !(rate.valueAsNumber > 0) ? 'Say how many rows a second there are.' : '';
+    go.disabled = missing !== '';
+    trouble.textContent = missing;
+  };
+  head.names.forEach((column, k) => {
+    const group = element('div', { class: 'choice', role: 'group', 'aria-label': column }, element('span', {}, column));
+    for (const role of ROLES) {
+      const made = element('button', { type: 'button', 'aria-pressed': String(roles[k] === role), 'data-column': `${column} ${role}` }, WORDS[role]);
+      made.disabled = head.numeric[k] !== true && role !== 'ignored';
+      made.addEventListener('click', () => {
+        roles[k] = role;
+        for (const one of group.querySelectorAll('button')) one.setAttribute('aria-pressed', String(one === made));
+        check();
+      });
+      group.append(made);
+    }
+    rows.append(group);
+  });
+  rate.addEventListener('input', check);
+  go.addEventListener('click', () => {
+    const named = (role: (typeof ROLES)[number]): string[] => head.names.filter((_, k) => roles[k] === role);
+    learn({ rate: rate.valueAsNumber, inputs: named('input'), outputs: named('output') });
+  });
+  const returns = element('button', { type: 'button', class: 'tool' }, 'Back');
+  returns.addEventListener('click', back);
+  check();
+  return element(
+    'div',
+    { class: 'panel' },
+    element('h2', { tabindex: '-1' }, 'What goes in, what comes out?'),
+    element('p', {}, `${name}: say what each column is. What comes out is learned from its own past and from what went in.`),
+    rows,
+    element('label', { class: 'rate', for: 'table-rate' }, 'Rows a second', rate),
+    trouble,
+    element('div', { class: 'actions' }, go, returns),
+  );
+}

@@ -1,0 +1,60 @@
+// The panel of work that takes a while: which stage it is at, what that means, how far it is, and a way out.
+
+import type { Seen, Watch } from '@wisp/studio';
+import { element } from '../../panel/element.js';
+import { stageInWords } from '../words.js';
+
+export class Working {
+  readonly panel: HTMLElement;
+  private readonly stage = element('p', { class: 'stage-words' });
+  private readonly bar = element('progress', { max: 1, 'aria-label': 'Progress' });
+  private readonly facts = element('dl', { class: 'found' });
+  private readonly control = new AbortController();
+  private shown = '';
+
+  /** `announce`: read out, not shown */
+  constructor(title: string, words: string, private readonly announce: (words: string) => void) {
+    const cancel = element('button', { type: 'button', class: 'tool', 'data-act': 'cancel' }, 'Cancel');
+    cancel.addEventListener('click', () => this.control.abort());
+    this.panel = element(
+      'div',
+      { class: 'panel working' },
+      element('h2', { tabindex: '-1' }, title),
+      element('p', {}, words),
+      this.bar,
+      this.stage,
+      this.facts,
+      element('div', { class: 'actions' }, cancel),
+    );
+  }
+
+  /** What the work tells while it goes on. */
+  watch(seen?: (seen: Seen) => void): Watch {
+    return {
+      signal: this.control.signal,
+      progress: (stage, share) => this.progress(stage, share),
+      ...(seen === undefined ? {} : { seen }),
+    };
+  }
+
+  abort(): void {
+    this.control.abort();
+  }
+
+  /** Something that was decided, by its name. */
+  found(facts: readonly (readonly [string, string])[]): void {
+    const text = facts.map(([name, value]) => `${name}: ${value}`).join();
+    if (text === this.shown) return;
+    this.shown = text;
+    this.facts.replaceChildren(...facts.flatMap(([name, value]) => [element('dt', {}, name), element('dd', {}, value)]));
+  }
+
+  private progress(stage: string, share: number): void {
+    if (share < 0) this.bar.removeAttribute('value');
+    else this.bar.value = share;
+    const words = stageInWords(stage);
+    if (this.stage.textContent === words) return;
+    this.stage.textContent = words;
+    this.announce(words);
+  }
+}

@@ -1,0 +1,49 @@
+// What people choose or drop: films, pictures, tables; a folder is looked into.
+
+/** What it is, to be learned from. */
+export type Pick =
+  | { kind: 'film'; files: File[] }
+  | { kind: 'pictures'; files: File[] }
+  | { kind: 'table'; files: File[] }
+  | { kind: 'nothing'; words: string };
+
+const isPicture = ({ name, type }: File): boolean => /^image\/(?!gif|svg)/.test(type) || /\.(png|jpe?g|webp|bmp)$/i.test(name);
+const isFilm = ({ name, type }: File): boolean => type.startsWith('video/') || /\.(mp4|mov|m4v|mkv|webm|avi|gif)$/i.test(name);
+const isTable = ({ name, type }: File): boolean => type === 'text/csv' || /\.(csv|tsv|txt|dat|asc)$/i.test(name);
+
+/** Files of a folder, those of folders in it too. */
+async function filesOf(entry: FileSystemEntry): Promise<File[]> {
+  if (entry.isFile) return [await new Promise<File>((resolve, reject) => (entry as FileSystemFileEntry).file(resolve, reject))];
+  const reader = (entry as FileSystemDirectoryEntry).createReader();
+  const found: File[] = [];
+  for (;;) {
+    // A browser gives a hundred at a time.
+    const some = await new Promise<FileSystemEntry[]>((resolve, reject) => reader.readEntries(resolve, reject));
+    if (some.length === 0) return found;
+    for (const one of some) found.push(...(await filesOf(one)));
+  }
+}
+
+/** The files that were dropped, folders looked into. */
+export async function unfold(files: readonly File[], entries: readonly (FileSystemEntry | null)[]): Promise<File[]> {
+  const folders = entries.filter((entry): entry is FileSystemEntry => entry?.isDirectory === true);
+  if (folders.length === 0) return [...files];
+  return (await Promise.all(folders.map(filesOf))).flat();
+}
+
+/** Sorted as people count: frame 9 comes before frame 10. */
+const counted = (files: readonly File[]): File[] =>
+  [...files].sort((a, b) => a.name.localeCompare(b.name, 'en', { numeric: true }));
+
+/** Says what files are. */
+export function pickOf(files: readonly File[]): Pick {
+  const films = files.filter(isFilm);
+  if (films.length > 0) return { kind: 'film', files: films };
+  const pictures = counted(files.filter(isPicture));
+  if (pictures.length > 1) return { kind: 'pictures', files: pictures };
+  if (pictures.length === 1) return { kind: 'nothing', words: 'One picture does not move. Choose a film, or the whole folder of numbered pictures.' };
+  const tables = files.filter(isTable);
+  if (tables.length > 0) return { kind: 'table', files: tables };
+  const [name] = files.map((file) => file.name);
+  return { kind: 'nothing', words: name === undefined ? 'There is no picture in this folder.' : `${name} is no film, no picture and no table.` };
+}

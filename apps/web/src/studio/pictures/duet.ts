@@ -1,0 +1,160 @@
+// The film and the flame that learned from it, side by side: the same wind, the same moment, the same scale.
+
+import type { Library } from '@wisp/player';
+import type { Region } from '@wisp/studio';
+import { element } from '../../panel/element.js';
+import { paintFlame } from './flame_paint.js';
+import type { Take } from '../session.js';
+import { Play } from '../play.js';
+import { contain, drawKept, surfaceOf, trace, type Fit } from './surface.js';
+import type { Outlines } from '../outlines.js';
+
+/** Seconds; a longer step is a jump, not a frame. */
+const LONGEST = 0.1;
+
+/** The part of the film that both show: where the flame ever was, and some air around it. */
+export function partOf({ bounds, base, height }: Outlines): Region {
+  const left = Math.min(bounds.x, base.x - 0.45 * height);
+  const right = Math.max(bounds.x + bounds.width, base.x + 0.45 * height);
+  const air = 0.3 * height;
+  return { x: left - air, y: bounds.y - air, width: right - left + 2 * air, height: bounds.height + 1.7 * air };
+}
+
+export class Duet {
+  readonly place = element('div', { class: 'duet' });
+  private readonly film = element('canvas', { role: 'img', 'aria-label': 'The film' });
+  private readonly flame = element('canvas', { role: 'img', 'aria-label': 'The flame that learned from it, in the same wind' });
+  private readonly video = element('video', { muted: true, playsinline: true, loop: true });
+  private readonly play: Play;
+  private readonly outline: Float32Array;
+  private readonly part: Region;
+  private readonly address: string | null;
+  private filmed = false;
+  /** seconds of the film's picture that is shown; null: the browser does not say */
+  private shown: number | null = null;
+  private clock = 0;
+  private last = 0;
+  private running = 0;
+
+  /** `moved`: the moment that is shown, as a share of the film */
+  constructor(
+    wisp: Library,
+    private readonly take: Take,
+    private readonly outlines: Outlines,
+    model: Uint8Array,
+    private readonly moved: (share: number) => void,
+  ) {
+    this.play = new Play(wisp, outlines, model);
+    this.outline = new Float32Array(2 * outlines.samples);
+    this.part = partOf(outlines);
+    this.place.append(
+      element('figure', {}, this.film, element('figcaption', {}, 'Your film')),
+      element('figure', {}, this.flame, element('figcaption', {}, 'What it learned')),
+    );
+    this.address = take.film === null ? null : URL.createObjectURL(take.film);
+    if (this.address !== null) this.openFilm(this.address);
+  }
+
+  start(): void {
+    this.running ||= requestAnimationFrame((now) => this.frame(now));
+  }
+
+  stop(): void {
+    cancelAnimationFrame(this.running);
+    this.running = 0;
+    this.last = 0;
+    this.video.pause();
+  }
+
+  dispose(): void {
+    this.stop();
+    this.play.free();
+    this.video.removeAttribute('src');
+    this.video.load();
+    if (this.address !== null) URL.revokeObjectURL(this.address);
+  }
+
+  private openFilm(address: string): void {
+    this.video.muted = true;
+    // A film that only the engine can decode is shown by the pictures that were kept of it.
+    this.video.addEventListener('loadeddata', () => (this.filmed = true));
+    this.video.addEventListener('error', () => (this.filmed = false));
+    this.video.src = address;
+    this.watchFilm();
+  }
+
+  private watchFilm(): void {
+    if (!('requestVideoFrameCallback' in this.video)) return;
+    this.video.requestVideoFrameCallback((_, { mediaTime }) => {
+      this.shown = mediaTime;
+      this.watchFilm();
+    });
+  }
+
+  private frame(now: number): void {
+    this.running = requestAnimationFrame((next) => this.frame(next));
+    const seconds = this.last === 0 ? 0 : Math.min(LONGEST, (now - this.last) / 1000);
+    this.last = now;
+    const { rows, rate } = this.outlines;
+    if (this.filmed) {
+      if (this.video.paused) this.video.play().catch(() => (this.filmed = false));
+      // What is shown, not what is due: a slow machine shows pictures late.
+      this.clock = this.shown ?? this.video.currentTime;
+    } else {
+      this.clock = (this.clock + seconds) % (rows / rate);
+    }
+    const row = Math.min(rows - 1, Math.floor(this.clock * rate));
+    this.play.goTo(row);
+    this.drawFilm(row);
+    this.drawFlame();
+    this.moved(row / rows);
+  }
+
+  private fitOf(width: number, height: number): Fit {
+    const { scale, x, y } = contain(this.part, width, height);
+    return { scale, x: x - scale * this.part.x, y: y - scale * this.part.y };
+  }
+
+  private drawFilm(row: number): void {
+    const surface = surfaceOf(this.film);
+    if (surface === null) return;
+    const { context, width, height } = surface;
+    const fit = this.fitOf(width, height);
+    if (this.filmed) {
+      context.drawImage(this.video, fit.x, fit.y, fit.scale * this.video.videoWidth, fit.scale * this.video.videoHeight);
+    } else {
+      const kept = this.take.reel.at(row / this.outlines.rate);
+      if (kept !== null) drawKept(context, kept, fit);
+    }
+    if (!this.outlines.line(row, this.outline)) return;
+    context.lineJoin = 'round';
+    context.strokeStyle = 'rgb(127 227 255 / 75%)';
+    context.lineWidth = 1.5;
+    trace(context, this.outline, fit);
+    context.stroke();
+  }
+
+  private drawFlame(): void {
+    const surface = surfaceOf(this.flame);
+    if (surface === null) return;
+    const { context, width, height } = surface;
+    const fit = this.fitOf(width, height);
+    const { base } = this.outlines;
+    drawWick(context, fit.x + fit.scale * base.x, fit.y + fit.scale * base.y, fit.scale * this.outlines.height);
+    const line = this.play.line().map((value, k) => (k % 2 === 0 ? fit.x : fit.y) + fit.scale * value);
+    if (this.play.size > 0) paintFlame(context, line, fit.scale * this.outlines.height);
+  }
+}
+
+function drawWick(context: CanvasRenderingContext2D, x: number, y: number, height: number): void {
+  const wick = context.createLinearGradient(0, y - 0.05 * height, 0, y + 0.14 * height);
+  wick.addColorStop(0, '#6b4a36');
+  wick.addColorStop(1, 'rgb(50 40 36 / 0%)');
+  context.strokeStyle = wick;
+  context.lineWidth = Math.max(2, 0.03 * height);
+  context.lineCap = 'round';
+  context.beginPath();
+  context.moveTo(x, y + 0.14 * height);
+  context.lineTo(x, y - 0.05 * height);
+  context.stroke();
+}

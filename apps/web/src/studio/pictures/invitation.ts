@@ -1,0 +1,81 @@
+// What stands in the film's place while there is none: what will be looked for, an outline and the points that hold it.
+
+import type { Bank, Instance, Library } from '@wisp/player';
+import { element } from '../../panel/element.js';
+import { paintFlame } from './flame_paint.js';
+import { surfaceOf, trace } from './surface.js';
+
+const POINTS = 64;
+const NANOSECONDS = 1e9;
+/** Share of the place that the flame is high. */
+const HEIGHT = 0.5;
+
+export class Invitation {
+  readonly canvas = element('canvas', { class: 'invitation', role: 'img', 'aria-label': 'A flame, with the outline and the eight points that are learned of it' });
+  private bank: Bank | null = null;
+  private flame: Instance = 0n;
+  private running = 0;
+  private last = 0;
+  private clock = 0;
+  private readonly still = window.matchMedia('(prefers-reduced-motion: reduce)').matches;
+
+  constructor(private readonly wisp: Library) {}
+
+  /** Lets a flame live in it. */
+  fill(model: Uint8Array): void {
+    const made = this.wisp.model(model);
+    this.bank = made.bank({ polylinePoints: POINTS });
+    this.flame = this.bank.spawn();
+    made.free();
+  }
+
+  start(): void {
+    this.running ||= requestAnimationFrame((now) => this.frame(now));
+  }
+
+  stop(): void {
+    cancelAnimationFrame(this.running);
+    this.running = 0;
+    this.last = 0;
+  }
+
+  private frame(now: number): void {
+    this.running = requestAnimationFrame((next) => this.frame(next));
+    const seconds = this.last === 0 ? 0 : Math.min(0.1, (now - this.last) / 1000);
+    this.last = now;
+    this.clock += seconds;
+    const { bank } = this;
+    const surface = surfaceOf(this.canvas);
+    if (bank === null || surface === null) return;
+    // A breath now and then.
+    const breath = this.still ? 0 : Math.max(0, Math.sin(0.9 * this.clock)) ** 3 * 0.55;
+    if (bank.inputs > 0) bank.setInstanceInputs(this.flame, [breath]);
+    bank.advance(seconds * NANOSECONDS);
+    const { context, width, height } = surface;
+    const unit = HEIGHT * height;
+    const foot = { x: width / 2, y: 0.5 * height + 0.5 * unit };
+    const placed = (values: Float32Array): Float32Array =>
+      values.map((value, k) => (k % 2 === 0 ? foot.x + unit * value : foot.y - unit * value));
+    context.globalAlpha = 0.34;
+    const line = placed(bank.polyline(this.flame));
+    paintFlame(context, line, unit);
+    context.globalAlpha = 1;
+    const points = placed(bank.instanceOutputs(this.flame));
+    context.setLineDash([3, 5]);
+    context.strokeStyle = 'rgb(255 240 220 / 22%)';
+    context.lineWidth = 1;
+    trace(context, points, { scale: 1, x: 0, y: 0 });
+    context.stroke();
+    context.setLineDash([]);
+    context.strokeStyle = '#7fe3ff';
+    context.lineWidth = 2;
+    trace(context, line, { scale: 1, x: 0, y: 0 });
+    context.stroke();
+    context.fillStyle = '#f3ece2';
+    for (let k = 0; k < points.length; k += 2) {
+      context.beginPath();
+      context.arc(points[k] as number, points[k + 1] as number, 3, 0, 2 * Math.PI);
+      context.fill();
+    }
+  }
+}

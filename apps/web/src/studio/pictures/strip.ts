@@ -1,0 +1,102 @@
+// A film strip: what was recorded above, what the model plays in the same wind below, at the same moments.
+
+import type { Library } from '@wisp/player';
+import { element } from '../../panel/element.js';
+import { partOf } from './duet.js';
+import { paintFlame } from './flame_paint.js';
+import type { Outlines } from '../outlines.js';
+import { Play } from '../play.js';
+import type { Take } from '../session.js';
+import { contain, drawKept, surfaceOf, trace } from './surface.js';
+
+const PICTURES = 9;
+const FEWER = 6;
+/** CSS pixels; a narrower strip shows fewer. */
+const NARROW = 560;
+/** Share of the film at its end that was kept back to judge by. */
+const HELD_BACK = 0.3;
+
+export class Strip {
+  readonly place = element('figure', { class: 'strip' });
+  private readonly canvas = element('canvas', { role: 'img', 'aria-label': 'Film strip: recorded above, played below' });
+
+  constructor(
+    private readonly wisp: Library,
+    private readonly take: Take,
+    private readonly outlines: Outlines,
+    private readonly model: Uint8Array,
+  ) {
+    this.place.append(
+      this.canvas,
+      element('figcaption', {}, 'Recorded above, played below, at the same moments. The last ones it had never seen.'),
+    );
+    new ResizeObserver(() => this.draw()).observe(this.canvas);
+  }
+
+  private draw(): void {
+    const surface = surfaceOf(this.canvas);
+    if (surface === null) return;
+    const { context, width, height } = surface;
+    const { rows, rate } = this.outlines;
+    const play = new Play(this.wisp, this.outlines, this.model);
+    const pictures = width < NARROW ? FEWER : PICTURES;
+    const each = width / pictures;
+    for (let k = 0; k < pictures; ++k) {
+      const row = Math.round(((k + 0.5) / pictures) * (rows - 1));
+      // Step by step: a jump would begin anew.
+      for (let on = 0; on < row; on += 100) play.goTo(on);
+      play.goTo(row);
+      const cell = { x: k * each + 1, width: each - 2, height: height / 2 - 1 };
+      this.drawRecorded(context, row, { ...cell, y: 0 });
+      this.drawPlayed(context, play, { ...cell, y: height / 2 + 1 });
+      if (row / rows < 1 - HELD_BACK) continue;
+      context.fillStyle = '#9fd8a4';
+      context.fillRect(cell.x, height - 2, cell.width, 2);
+    }
+    context.fillStyle = '#b9b3ac';
+    context.font = '11px ui-sans-serif, system-ui, sans-serif';
+    for (let k = 0; k < pictures; ++k) context.fillText(`${(((k + 0.5) / pictures) * (rows / rate)).toFixed(1)} s`, k * each + 6, 13);
+    play.free();
+  }
+
+  private inside(context: CanvasRenderingContext2D, cell: Cell, draw: (fit: { scale: number; x: number; y: number }) => void): void {
+    const part = partOf(this.outlines);
+    const { scale, x, y } = contain(part, cell.width, cell.height);
+    context.save();
+    context.beginPath();
+    context.roundRect(cell.x, cell.y, cell.width, cell.height, 4);
+    context.clip();
+    context.fillStyle = '#050507';
+    context.fillRect(cell.x, cell.y, cell.width, cell.height);
+    draw({ scale, x: cell.x + x - scale * part.x, y: cell.y + y - scale * part.y });
+    context.restore();
+  }
+
+  private drawRecorded(context: CanvasRenderingContext2D, row: number, cell: Cell): void {
+    this.inside(context, cell, (fit) => {
+      const kept = this.take.reel.at(row / this.outlines.rate);
+      if (kept !== null) drawKept(context, kept, fit);
+      const line = new Float32Array(2 * this.outlines.samples);
+      if (!this.outlines.line(row, line)) return;
+      trace(context, line, fit);
+      context.strokeStyle = '#7fe3ff';
+      context.lineWidth = 1.2;
+      context.stroke();
+    });
+  }
+
+  private drawPlayed(context: CanvasRenderingContext2D, play: Play, cell: Cell): void {
+    this.inside(context, cell, (fit) => {
+      if (play.size <= 0) return;
+      const line = play.line().map((value, k) => (k % 2 === 0 ? fit.x : fit.y) + fit.scale * value);
+      paintFlame(context, line, fit.scale * this.outlines.height);
+    });
+  }
+}
+
+interface Cell {
+  x: number;
+  y: number;
+  width: number;
+  height: number;
+}

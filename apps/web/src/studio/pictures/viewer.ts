@@ -1,0 +1,211 @@
+// The film while it is looked at: its picture, the outline that was found drawn over it, and a box to say "this one".
+
+import type { Region, Seen } from '@wisp/studio';
+import { element } from '../../panel/element.js';
+import type { Kept } from '../reel.js';
+import { contain, drawKept, surfaceOf, trace, type Fit } from './surface.js';
+
+/** Narrower boxes are presses that slipped, CSS pixels. */
+const SLIP = 12;
+/** Share of the picture by which a key moves or widens the box. */
+const KEY_STEP = 0.03;
+
+export class Viewer {
+  readonly place = element('div', { class: 'viewer' });
+  readonly video = element('video', { muted: true, playsinline: true, hidden: true, 'aria-hidden': 'true', tabindex: -1 });
+  private readonly film = element('canvas', { class: 'film', 'aria-hidden': 'true' });
+  private readonly over = element('canvas', {
+    class: 'over',
+    tabindex: 0,
+    role: 'img',
+    'aria-label': 'The film with the outline that was found. Drag a box over it, or use the arrow keys, Shift and the arrow keys, and Enter, to say where to look.',
+  });
+  private readonly caption = element('p', { class: 'caption', hidden: true });
+  private picture: ImageBitmap | null = null;
+  private kept: Kept | null = null;
+  private size: { width: number; height: number } | null = null;
+  private seen: Seen | null = null;
+  private box: Region | null = null;
+  private from: { x: number; y: number } | null = null;
+
+  /** `chosen`: somebody said where to look, pixels of the film; null: anywhere */
+  constructor(private readonly chosen: (region: Region | null) => void) {
+    // A camera's own sound is never played.
+    this.video.muted = true;
+    this.place.append(this.film, this.video, this.over, this.caption);
+    this.over.addEventListener('pointerdown', (event) => this.begin(event));
+    this.over.addEventListener('pointermove', (event) => this.stretch(event));
+    this.over.addEventListener('pointerup', () => this.end());
+    this.over.addEventListener('pointercancel', () => this.drop());
+    this.over.addEventListener('keydown', (event) => this.key(event));
+    new ResizeObserver(() => this.draw()).observe(this.place);
+  }
+
+  /** Words over the picture; '' for none. */
+  say(words: string): void {
+    this.caption.hidden = words === '';
+    if (this.caption.textContent !== words) this.caption.textContent = words;
+  }
+
+  /** Forgets what it shows. */
+  clear(): void {
+    this.picture?.close();
+    this.picture = this.kept = this.size = this.seen = this.box = null;
+    this.say('');
+    this.draw();
+  }
+
+  /** A camera's live picture, or none. */
+  camera(stream: MediaStream | null): void {
+    this.video.srcObject = stream;
+    this.video.hidden = stream === null;
+    if (stream === null) return;
+    this.clear();
+    this.video.play().catch(() => undefined);
+  }
+
+  /** What was seen of the film; its picture is this one's from now on. */
+  show(seen: Seen): void {
+    this.seen = seen;
+    if (seen.width > 0) this.size = { width: seen.width, height: seen.height };
+    if (seen.picture !== undefined) {
+      this.picture?.close();
+      this.picture = seen.picture;
+    }
+    this.draw();
+  }
+
+  /** A moment of a camera's film, which is not kept but for small pictures. */
+  still(kept: Kept, outline: Float32Array): void {
+    if (this.picture !== null) return;
+    this.kept = kept;
+    if (this.seen !== null) this.seen = { ...this.seen, outline };
+    this.draw();
+  }
+
+  /** Where it was told to look, pixels of the film. */
+  showBox(region: Region | null): void {
+    this.box = region;
+    this.draw();
+  }
+
+  private get dimensions(): { width: number; height: number } | null {
+    if (!this.video.hidden && this.video.videoWidth > 0) return { width: this.video.videoWidth, height: this.video.videoHeight };
+    return this.size;
+  }
+
+  private get fit(): Fit | null {
+    const { dimensions } = this;
+    return dimensions === null ? null : contain(dimensions, this.over.clientWidth, this.over.clientHeight);
+  }
+
+  private draw(): void {
+    this.drawFilm();
+    const surface = surfaceOf(this.over);
+    const { fit, seen, box } = this;
+    if (surface === null || fit === null) return;
+    const { context } = surface;
+    if (seen !== null && seen.outline.length > 2) drawOutline(context, seen.outline, fit);
+    if (box !== null) drawBox(context, box, fit, surface.width, surface.height);
+  }
+
+  private drawFilm(): void {
+    const surface = surfaceOf(this.film);
+    const { fit, size, picture } = this;
+    if (surface === null || fit === null || size === null || !this.video.hidden) return;
+    if (picture === null) {
+      if (this.kept !== null) drawKept(surface.context, this.kept, fit);
+      return;
+    }
+    surface.context.drawImage(picture, fit.x, fit.y, fit.scale * size.width, fit.scale * size.height);
+  }
+
+  private filmPoint({ offsetX, offsetY }: PointerEvent): { x: number; y: number } | null {
+    const { fit, dimensions } = this;
+    if (fit === null || dimensions === null) return null;
+    const within = (value: number, most: number): number => Math.max(0, Math.min(most, value));
+    return { x: within((offsetX - fit.x) / fit.scale, dimensions.width), y: within((offsetY - fit.y) / fit.scale, dimensions.height) };
+  }
+
+  private begin(event: PointerEvent): void {
+    this.from = this.filmPoint(event);
+    if (this.from !== null) this.over.setPointerCapture(event.pointerId);
+  }
+
+  private stretch(event: PointerEvent): void {
+    const to = this.filmPoint(event);
+    const { from } = this;
+    if (from === null || to === null) return;
+    this.showBox({
+      x: Math.round(Math.min(from.x, to.x)),
+      y: Math.round(Math.min(from.y, to.y)),
+      width: Math.round(Math.abs(to.x - from.x)),
+      height: Math.round(Math.abs(to.y - from.y)),
+    });
+  }
+
+  private end(): void {
+    const { box, fit, from } = this;
+    this.from = null;
+    if (from === null || box === null || fit === null) return;
+    if (Math.min(box.width, box.height) * fit.scale < SLIP) this.drop();
+    else this.chosen(box);
+  }
+
+  private drop(): void {
+    this.from = null;
+    this.showBox(null);
+    this.chosen(null);
+  }
+
+  private key(event: KeyboardEvent): void {
+    const all = this.dimensions;
+    if (all === null) return;
+    const ways: Readonly<Record<string, readonly [number, number]>> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+    const way = ways[event.key];
+    if (way !== undefined) {
+      event.preventDefault();
+      const box = this.box ?? { x: all.width / 4, y: all.height / 4, width: all.width / 2, height: all.height / 2 };
+      const [across, down] = [way[0] * KEY_STEP * all.width, way[1] * KEY_STEP * all.height];
+      const moved = event.shiftKey
+        ? { ...box, width: box.width + across, height: box.height + down }
+        : { ...box, x: box.x + across, y: box.y + down };
+      this.showBox(inside(moved, all));
+    } else if (event.key === 'Enter' && this.box !== null) this.chosen(this.box);
+    else if (event.key === 'Escape' && this.box !== null) this.drop();
+  }
+}
+
+function inside(box: Region, all: { width: number; height: number }): Region {
+  const width = Math.round(Math.max(16, Math.min(all.width, box.width)));
+  const height = Math.round(Math.max(16, Math.min(all.height, box.height)));
+  const at = (value: number, most: number): number => Math.round(Math.max(0, Math.min(most, value)));
+  return { x: at(box.x, all.width - width), y: at(box.y, all.height - height), width, height };
+}
+
+/** The outline that was found, as a bright thread with a dark one under it: seen on a flame and beside it. */
+export function drawOutline(context: CanvasRenderingContext2D, outline: Float32Array, fit: Fit): void {
+  context.lineJoin = 'round';
+  trace(context, outline, fit);
+  context.strokeStyle = 'rgb(0 0 0 / 60%)';
+  context.lineWidth = 4.5;
+  context.stroke();
+  context.strokeStyle = '#7fe3ff';
+  context.lineWidth = 2;
+  context.stroke();
+}
+
+function drawBox(context: CanvasRenderingContext2D, box: Region, fit: Fit, width: number, height: number): void {
+  const [x, y] = [fit.x + fit.scale * box.x, fit.y + fit.scale * box.y];
+  const [across, down] = [fit.scale * box.width, fit.scale * box.height];
+  context.fillStyle = 'rgb(5 5 8 / 55%)';
+  context.beginPath();
+  context.rect(0, 0, width, height);
+  context.rect(x, y, across, down);
+  context.fill('evenodd');
+  context.strokeStyle = '#ffb35c';
+  context.lineWidth = 1.5;
+  context.setLineDash([6, 5]);
+  context.strokeRect(x, y, across, down);
+  context.setLineDash([]);
+}

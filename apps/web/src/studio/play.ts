@@ -1,0 +1,74 @@
+// A learned outline that lives through a recording's wind, row by row, and is shown at the film's own scale.
+
+import type { Bank, Instance, Library } from '@wisp/player';
+import { FlameShape, MOST_POINTS } from '@wisp/player/parts/candle/flame_shape';
+import type { Outlines } from './outlines.js';
+
+/** Rows; a longer way forward is a jump: it begins anew there. */
+const JUMP = 240;
+
+export class Play {
+  private readonly bank: Bank;
+  private readonly flame: Instance;
+  private readonly unit: number;
+  private readonly hasWind: boolean;
+  /** of the recording's wind, what the model calls 1 */
+  private readonly one: number;
+  private readonly burns: boolean;
+  private readonly shape = new FlameShape();
+  private readonly polyline = new Float32Array(2 * MOST_POINTS);
+  private row = -1;
+
+  constructor(wisp: Library, private readonly outlines: Outlines, bytes: Uint8Array) {
+    const model = wisp.model(bytes);
+    this.bank = model.bank({ polylinePoints: MOST_POINTS });
+    this.flame = this.bank.spawn();
+    this.hasWind = model.inputs.length > 0 && outlines.wind !== null;
+    this.burns = model.facts.blowOut !== null;
+    this.unit = model.provenance.figures.find(({ name }) => name === 'pixels_per_unit')?.value ?? outlines.height;
+    // Its unit says so: 0.95 1 is 0.95 of the recording's.
+    this.one = parseFloat(model.inputs[0]?.unit ?? '') || 1;
+    model.free();
+  }
+
+  /** How much of it burns, 0 to 1. */
+  get size(): number {
+    return this.burns ? this.bank.flameState(this.flame).flameSize : 1;
+  }
+
+  /** Lives on to that row; back, or far ahead, it begins anew. */
+  goTo(row: number): void {
+    if (row < this.row || row > this.row + JUMP) {
+      this.bank.reset(this.flame);
+      this.row = row - 1;
+    }
+    while (this.row < row) {
+      this.row += 1;
+      if (this.hasWind) this.bank.setInstanceInputs(this.flame, [(this.outlines.wind?.[this.row] || 0) / this.one]);
+      // Lit again when the film's was.
+      if (this.burns && !this.bank.flameState(this.flame).lit && this.filmBurns()) this.bank.relight(this.flame);
+      this.bank.step();
+    }
+  }
+
+  /** Its outline in pixels of the film, x and y by turns. The next call writes over it. */
+  line(): Float32Array {
+    const { shape, outlines } = this;
+    shape.update(this.bank.polyline(this.flame), this.size);
+    for (let k = 0; k < shape.count; ++k) {
+      this.polyline[2 * k] = outlines.base.x + this.unit * (shape.points[3 * k] as number);
+      this.polyline[2 * k + 1] = outlines.base.y - this.unit * (shape.points[3 * k + 1] as number);
+    }
+    return this.polyline;
+  }
+
+  free(): void {
+    this.bank.free();
+  }
+
+  // Once the wind that put it out has passed, a film that still shows a flame was not blown out then, or was lit again.
+  private filmBurns(): boolean {
+    const { lean, wind } = this.outlines;
+    return Number.isFinite(lean[this.row]) && (wind?.[this.row] ?? 0) < 0.2;
+  }
+}

@@ -1,0 +1,85 @@
+// Pictures that are kept of a film: for the strip, and for playing it again where there is no file. Bounded: when they
+// become many, every other one is let go.
+
+import type { Region, Seen } from '@wisp/studio';
+
+/** Pictures; they are small. */
+const MOST = 420;
+
+/** A kept picture: when it was, seconds, and which part of the film it shows, pixels of the film. */
+export interface Kept {
+  seconds: number;
+  bitmap: ImageBitmap;
+  part: Region;
+}
+
+export class Reel {
+  private pictures: Kept[] = [];
+  private every: number;
+  private last = -Infinity;
+
+  /** `every`: seconds between pictures, at first */
+  constructor(every = 0) {
+    this.every = every;
+  }
+
+  /** Whether a picture of that moment would be kept. */
+  wants(seconds: number): boolean {
+    return seconds - this.last >= 0.98 * this.every;
+  }
+
+  /** Keeps it; it belongs to the reel from then on. */
+  keep(picture: Kept): void {
+    this.last = picture.seconds;
+    this.pictures.push(picture);
+    if (this.pictures.length < MOST) return;
+    this.every = (2 * ((this.pictures.at(-1) as Kept).seconds - (this.pictures[0] as Kept).seconds)) / MOST;
+    this.pictures = this.pictures.filter(({ bitmap }, k) => {
+      if (k % 2 === 1) bitmap.close();
+      return k % 2 === 0;
+    });
+  }
+
+  /** Keeps what was seen of a film, cut to the flame. The film's rate is not known yet: its time is its frame. */
+  keepSeen({ picture, box, frame, width, height }: Seen): void {
+    if (picture === undefined || !this.wants(frame)) return;
+    const share = picture.width / width;
+    const part = box === null ? { x: 0, y: 0, width, height } : around(box, width, height);
+    const [x, y] = [Math.floor(share * part.x), Math.floor(share * part.y)];
+    createImageBitmap(picture, x, y, Math.max(1, Math.ceil(share * part.width)), Math.max(1, Math.ceil(share * part.height))).then(
+      (bitmap) => this.keep({ seconds: frame, bitmap, part }),
+      () => undefined,
+    );
+  }
+
+  /** The one nearest to a moment; null where there is none. */
+  at(seconds: number): Kept | null {
+    let best: Kept | null = null;
+    for (const picture of this.pictures) {
+      if (best === null || Math.abs(picture.seconds - seconds) < Math.abs(best.seconds - seconds)) best = picture;
+    }
+    return best;
+  }
+
+  /** Multiplies all times: what was counted in frames becomes seconds. */
+  scale(factor: number): void {
+    for (const picture of this.pictures) picture.seconds *= factor;
+  }
+
+  close(): void {
+    for (const { bitmap } of this.pictures.splice(0)) bitmap.close();
+  }
+}
+
+/** A flame with air around it, within the picture. */
+export function around(box: Region, width: number, height: number): Region {
+  const air = box.height;
+  const x = Math.max(0, Math.floor(box.x - air));
+  const y = Math.max(0, Math.floor(box.y - 0.6 * air));
+  return {
+    x,
+    y,
+    width: Math.min(width, Math.ceil(box.x + box.width + air)) - x,
+    height: Math.min(height, Math.ceil(box.y + box.height + 0.6 * air)) - y,
+  };
+}

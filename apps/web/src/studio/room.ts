@@ -1,0 +1,482 @@
+// The studio: from a film, a camera or a table to a model, in one screen. What is shown follows what was gathered; whatever
+// goes wrong is a sentence, and nothing that was gathered is lost by it.
+
+import './studio.css';
+import type { Library } from '@wisp/player';
+import type { PictureSettings, Recipe, Seen, TableSettings } from '@wisp/studio';
+import type { Dropped } from '../drops.js';
+import { DEFAULTS } from '../link.js';
+import { element } from '../panel/element.js';
+import { fetchShipped, shippedFlame } from '../shipped.js';
+import { curvesOf, plotsOf } from './pictures/curves.js';
+import { Duet } from './pictures/duet.js';
+import { Filming } from './camera/filming.js';
+import { gatherPanel } from './panels/gather.js';
+import { Invitation } from './pictures/invitation.js';
+import { lookPanel, partOfSeen } from './panels/look.js';
+import { Engine } from './engine.js';
+import { Outlines } from './outlines.js';
+import { pickOf, unfold } from './picks.js';
+import { Reel } from './reel.js';
+import { resultPanel } from './panels/result.js';
+import { newSession, sessionName, type Looked, type Session, type Take } from './session.js';
+import { Strip } from './pictures/strip.js';
+import { tablePanel } from './panels/table.js';
+import { headOf } from './table_head.js';
+import { Traces } from './pictures/traces.js';
+import { Viewer } from './pictures/viewer.js';
+import { sentence } from './words.js';
+import { Working } from './panels/working.js';
+
+/** What it asks of the page. */
+export interface Host {
+  wisp: Library;
+  say(words: string): void;
+  /** puts a flame into the page's own scene, with the microphone */
+  blow(file: string, model: Uint8Array): Promise<void>;
+  /** saves some seconds of it there; says how that went */
+  film(file: string, model: Uint8Array): Promise<string>;
+}
+
+type Step = 'gather' | 'look' | 'learn' | 'blow';
+
+const STEPS: readonly Step[] = ['gather', 'look', 'learn', 'blow'];
+const FLAME_STEPS: Readonly<Record<Step, string>> = { gather: 'Film', look: 'Look', learn: 'Learn', blow: 'Blow' };
+const TABLE_STEPS: Readonly<Record<Step, string>> = { gather: 'Table', look: 'Columns', learn: 'Learn', blow: 'See' };
+
+/** Frames a second of a folder of pictures, until somebody says otherwise. */
+const PICTURES_RATE = 30;
+
+/** Frames between pictures that are kept of a film, at first. */
+const FRAMES_APART = 3;
+
+const isAbort = (error: unknown): boolean => error instanceof Error && error.name === 'AbortError';
+const wordsOf = (error: unknown): string => sentence(error instanceof Error ? error.message : String(error));
+
+export class Room {
+  readonly place = element('section', { id: 'studio', class: 'studio', 'aria-label': 'Learn a flame of your own', hidden: true });
+  private readonly left = element('div', { class: 'left' });
+  private readonly story = element('div', { class: 'story' });
+  private readonly below = element('div', { class: 'below' });
+  private readonly steps = element('ol', { class: 'steps', 'aria-label': 'Steps' });
+  private readonly panel = element('div');
+  private readonly spoken = element('p', { class: 'spoken', role: 'status', 'aria-live': 'polite' });
+  private readonly viewer = new Viewer((region) => this.lookThere(region));
+  private readonly traces = new Traces();
+  private readonly invitation: Invitation;
+  private session: Session = newSession();
+  private readonly engine = new Engine();
+  private filming: Filming | null = null;
+  private duet: Duet | null = null;
+  private working: Working | null = null;
+  /** films that came with the one that is looked at */
+  private waiting: File[] = [];
+  /** the take that a dragged box is about */
+  private looked: Looked | null = null;
+  /** counts what is shown: work that was overtaken shows nothing */
+  private turn = 0;
+
+  constructor(private readonly host: Host) {
+    this.invitation = new Invitation(host.wisp);
+    this.story.append(this.steps, this.panel, this.spoken);
+    this.place.append(this.left, this.story, this.below);
+    document.querySelector('header.top')?.after(this.place);
+    // Keys of the page blow and pause: in here they are letters.
+    this.place.addEventListener('keydown', (event) => event.stopPropagation());
+    fetchShipped(shippedFlame(DEFAULTS.order)).then(
+      (model) => this.invitation.fill(model),
+      () => undefined,
+    );
+    this.gather();
+  }
+
+  /** Comes in and goes out; what was gathered stays. */
+  show(inside: boolean): void {
+    this.place.hidden = !inside;
+    if (inside) {
+      // Fetched while people look at what there is to choose.
+      this.engine.open().catch(() => undefined);
+      this.invitation.start();
+      this.duet?.start();
+      return;
+    }
+    this.invitation.stop();
+    this.duet?.stop();
+    if (this.filming !== null) this.gather();
+  }
+
+  /** Takes what was dropped. */
+  take({ files, entries }: Dropped): void {
+    unfold(files, entries).then(
+      (found) => this.files(found),
+      () => this.host.say('What was dropped cannot be read.'),
+    );
+  }
+
+  private stepTo(step: Step, tabled = false): void {
+    this.place.dataset.step = step;
+    const words = tabled ? TABLE_STEPS : FLAME_STEPS;
+    this.steps.replaceChildren(...STEPS.map((name) => element('li', name === step ? { 'aria-current': 'step' } : {}, words[name])));
+  }
+
+  /** Shows a panel, and whoever reads or types goes on at its head. */
+  private showPanel(panel: HTMLElement): void {
+    const here = this.place.contains(document.activeElement);
+    this.panel.replaceChildren(panel);
+    this.story.scrollTop = 0;
+    if (here || document.activeElement === document.body) panel.querySelector<HTMLElement>('h2')?.focus({ preventScroll: true });
+  }
+
+  private showLeft(...parts: HTMLElement[]): void {
+    this.left.replaceChildren(...parts);
+  }
+
+  private announce(words: string): void {
+    this.spoken.textContent = words;
+  }
+
+  /** Ends whatever is under way. */
+  private clear(): void {
+    this.turn += 1;
+    this.working?.abort();
+    this.working = null;
+    this.filming?.close();
+    this.filming = null;
+    this.duet?.dispose();
+    this.duet = null;
+    this.looked = null;
+    this.below.replaceChildren();
+  }
+
+  private gather(): void {
+    this.clear();
+    this.stepTo('gather');
+    this.viewer.clear();
+    this.showLeft(element('div', { class: 'viewer' }, this.invitation.canvas));
+    const { takes } = this.session;
+    const more = takes.length === 0 ? null : { count: takes.length, back: () => this.back() };
+    this.showPanel(gatherPanel({ camera: () => void this.film(), files: (files) => this.files(files) }, more));
+  }
+
+  /** To what there was before. */
+  private back(): void {
+    const [last] = this.session.takes.slice(-1);
+    if (this.session.learned !== null) this.showResult();
+    else if (last !== undefined) this.showLook(last);
+    else this.gather();
+  }
+
+  private files(files: File[]): void {
+    const pick = pickOf(files);
+    if (pick.kind === 'nothing') this.host.say(pick.words);
+    else if (pick.kind === 'table') void this.table(pick.files[0] as File);
+    else if (pick.kind === 'film') {
+      this.waiting = pick.files;
+      this.lookAtNext();
+    } else {
+      const name = pick.files[0]?.webkitRelativePath.split('/')[0] ?? '';
+      void this.look(name === '' ? 'pictures' : name, null, {}, async (settings, watch) =>
+        (await this.engine.open()).pictures(pick.files, PICTURES_RATE, settings, watch),
+      );
+    }
+  }
+
+  /** Films that came together are looked at one after another. False: there is none left. */
+  private lookAtNext(): boolean {
+    const file = this.waiting.shift();
+    if (file === undefined) return false;
+    void this.look(file.name, file, {}, async (settings, watch) => (await this.engine.open()).film(file, settings, watch));
+    return true;
+  }
+
+  /** Looks at a film: follows the outline through it while somebody watches. */
+  private async look(name: string, film: File | null, settings: PictureSettings, capture: NonNullable<Take['again']>): Promise<void> {
+    this.clear();
+    const { turn } = this;
+    this.stepTo('look');
+    this.viewer.clear();
+    this.viewer.showBox(settings.region ?? null);
+    this.showLeft(this.viewer.place);
+    const working = new Working('Looking for the flame', 'What is brightest and moves is followed by its edge. Is it another flame that you mean? Drag a box around it.', (words) => this.announce(words));
+    this.working = working;
+    this.showPanel(working.panel);
+    const reel = new Reel(FRAMES_APART);
+    const looked: Looked = { name, reel, film, settings, again: capture };
+    this.looked = looked;
+    try {
+      const captured = await capture(settings, working.watch((seen) => this.see(seen, reel, working)));
+      if (turn !== this.turn) return;
+      reel.scale(1 / captured.rate);
+      this.keep({ ...looked, captured, outlines: Outlines.of(captured) });
+    } catch (error) {
+      reel.close();
+      if (turn === this.turn) this.notFound(error);
+    }
+  }
+
+  private see(seen: Seen, reel: Reel, working: Working): void {
+    if (working !== this.working) {
+      seen.picture?.close();
+      return;
+    }
+    reel.keepSeen(seen);
+    this.viewer.show(seen);
+    working.found(partOfSeen(seen));
+  }
+
+  /** A take is kept: at the place of the one that was looked at again, else after the others. */
+  private keep(take: Take): void {
+    const { takes } = this.session;
+    const before = takes.findIndex(({ name, film }) => name === take.name && film === take.film && film !== null);
+    if (before >= 0) takes[before]?.reel.close();
+    if (before >= 0) takes[before] = take;
+    else takes.push(take);
+    this.session.learned = null;
+    if (!this.lookAtNext()) this.showLook(take);
+  }
+
+  private showLook(take: Take): void {
+    this.clear();
+    this.looked = take;
+    this.stepTo('look');
+    this.showLeft(this.viewer.place);
+    this.viewer.showBox(take.settings.region ?? null);
+    const { outlines } = take;
+    if (outlines !== null) {
+      if (take.film === null) this.showStill(take, outlines);
+      this.traces.fill(outlines);
+      this.below.replaceChildren(this.traces.place);
+    }
+    this.showPanel(
+      lookPanel(take, this.session.takes, {
+        learn: () => void this.learn(),
+        more: () => this.gather(),
+        leaveOut: () => this.leaveOut(take),
+        flame: (flame) => this.lookAgain({ ...take.settings, flame }),
+      }),
+    );
+  }
+
+  /** A camera's film is not kept: a moment near its middle, with the outline of then. */
+  private showStill({ reel }: Take, outlines: Outlines): void {
+    const kept = reel.at(0.4 * (outlines.rows / outlines.rate));
+    const line = new Float32Array(2 * outlines.samples);
+    if (kept !== null && outlines.line(Math.round(kept.seconds * outlines.rate), line)) this.viewer.still(kept, line);
+  }
+
+  private leaveOut(take: Take): void {
+    this.session.takes = this.session.takes.filter((one) => one !== take);
+    this.session.learned = null;
+    take.reel.close();
+    this.back();
+  }
+
+  private lookThere(region: PictureSettings['region'] | null): void {
+    if (this.filming !== null) {
+      this.filming.choose(region ?? null);
+      return;
+    }
+    const before = this.looked?.settings ?? {};
+    if (region === null || region === undefined) {
+      if (before.region === undefined) return;
+      const { region: _, ...rest } = before;
+      this.lookAgain(rest);
+    } else this.lookAgain({ ...before, region });
+  }
+
+  private lookAgain(settings: PictureSettings): void {
+    const take = this.looked;
+    if (take === null) return;
+    if (take.again === null) {
+      this.host.say('A film from the camera is not kept, only its outline. Film again to look elsewhere.');
+      this.viewer.showBox(null);
+      return;
+    }
+    void this.look(take.name, take.film, settings, take.again);
+  }
+
+  /** Nothing came of a film, or it was stopped: says why, and what can be done. */
+  private notFound(error: unknown): void {
+    this.working = null;
+    this.waiting = [];
+    if (isAbort(error)) {
+      this.host.say(this.session.takes.length > 0 ? 'Stopped. What was gathered before is kept.' : 'Stopped.');
+      this.back();
+      return;
+    }
+    this.engine.renew();
+    this.trouble('Nothing was learned from this', wordsOf(error), 'The picture stays: drag a box around what you mean to look there, or choose something else.');
+  }
+
+  private trouble(title: string, words: string, otherwise: string): void {
+    const choose = element('button', { type: 'button', class: 'tool main', 'data-act': 'choose' }, 'Choose something else');
+    choose.addEventListener('click', () => this.gather());
+    this.announce(words);
+    this.showPanel(
+      element(
+        'div',
+        { class: 'panel' },
+        element('div', { class: 'verdict bad' }, element('h2', { tabindex: '-1' }, title), element('p', {}, words)),
+        element('p', {}, otherwise),
+        element('div', { class: 'actions' }, choose),
+      ),
+    );
+  }
+
+  private async film(): Promise<void> {
+    this.clear();
+    const { turn } = this;
+    try {
+      const studio = await this.engine.open();
+      const filming = await Filming.open(studio, this.viewer, {
+        done: (captured, reel, settings) => {
+          this.filming = null;
+          const count = this.session.takes.filter(({ film }) => film === null).length + 1;
+          this.keep({ name: count === 1 ? 'camera' : `camera ${count}`, captured, outlines: Outlines.of(captured), reel, film: null, settings, again: null });
+        },
+        failed: (words) => {
+          this.filming = null;
+          this.trouble('Nothing was learned from this', sentence(words), 'What was gathered before is kept. Film again, or choose a film from your phone.');
+        },
+        say: (words) => this.host.say(words),
+        announce: (words) => this.announce(words),
+        cancelled: () => {
+          this.filming = null;
+          this.back();
+        },
+      });
+      if (turn !== this.turn) {
+        filming.close();
+        return;
+      }
+      this.filming = filming;
+      this.stepTo('gather');
+      this.showLeft(this.viewer.place);
+      this.showPanel(filming.panel);
+    } catch (error) {
+      if (turn === this.turn) this.trouble('There is no camera', wordsOf(error), 'What was gathered before is kept.');
+    }
+  }
+
+  private async learn(): Promise<void> {
+    const { session } = this;
+    this.clear();
+    const { turn } = this;
+    const tabled = session.recipe.kind === 'arx';
+    this.stepTo('learn', tabled);
+    const working = new Working('Learning', tabled ? 'What comes out is fitted to its own past and to what went in.' : 'What each point of the outline does next is fitted to what it did before, and to the wind. The end of the film is kept back, to judge by.', (words) => this.announce(words));
+    this.working = working;
+    this.showPanel(working.panel);
+    try {
+      const studio = await this.engine.open();
+      const recipe = { ...session.recipe, name: sessionName(session) };
+      const recordings = session.takes.map(({ captured }) => captured.csv);
+      const learned = await studio.learn(recordings, recipe, working.watch());
+      // A table's plots are of the model beside what it learned from.
+      const judged = tabled ? await studio.validate(learned.model, recordings, working.watch()) : null;
+      session.learned = { ...learned, curves: [...learned.curves, ...(judged?.curves ?? [])] };
+    } catch (error) {
+      if (turn !== this.turn) return;
+      this.working = null;
+      if (isAbort(error)) this.host.say('Stopped. What was filmed is kept.');
+      else {
+        this.engine.renew();
+        this.host.say(wordsOf(error));
+      }
+      this.backToLook();
+      return;
+    }
+    if (turn === this.turn) this.showResult();
+  }
+
+  private backToLook(): void {
+    const [last] = this.session.takes.slice(-1);
+    if (last === undefined) this.gather();
+    else if (this.session.learned !== null) this.showResult();
+    else this.showLook(last);
+  }
+
+  private showResult(): void {
+    const { session, host } = this;
+    const { learned } = session;
+    const [take] = session.takes.slice(-1);
+    if (learned === null || take === undefined) return;
+    this.clear();
+    this.stepTo('blow', session.recipe.kind === 'arx');
+    const { outlines } = take;
+    const flame = outlines !== null && session.recipe.kind !== 'arx';
+    if (flame) this.showFlame(take, outlines, learned.model);
+    else this.showLeft(element('div', { class: 'plots' }, ...plotsOf(learned.curves.length > 0 ? learned.curves : curvesOf(take.captured))));
+    const file = `${sessionName(session)}.wisp`;
+    this.showPanel(
+      resultPanel(session, flame, {
+        blow: () => void host.blow(file, learned.model).catch((error: unknown) => host.say(wordsOf(error))),
+        more: () => this.gather(),
+        anew: () => this.anew(),
+        again: (change) => this.learnAgain(change),
+        film: () => host.film(file, learned.model),
+      }),
+    );
+    this.announce(`${learned.report.usable?.verdict === true ? 'Usable' : 'Not usable'}: ${learned.report.usable?.reason ?? ''}`);
+  }
+
+  private showFlame(take: Take, outlines: Outlines, model: Uint8Array): void {
+    const { host } = this;
+    this.traces.fill(outlines);
+    this.duet = new Duet(host.wisp, take, outlines, model, (share) => this.traces.mark(share));
+    this.duet.start();
+    this.showLeft(this.duet.place);
+    this.below.replaceChildren(this.traces.place, new Strip(host.wisp, take, outlines, model).place);
+  }
+
+  private learnAgain(change: Partial<Recipe>): void {
+    const recipe = Object.fromEntries(Object.entries({ ...this.session.recipe, ...change }).filter(([, value]) => value !== undefined));
+    this.session.recipe = recipe as unknown as Recipe;
+    void this.learn();
+  }
+
+  private anew(): void {
+    for (const { reel } of this.session.takes) reel.close();
+    this.session = newSession();
+    this.gather();
+  }
+
+  /** A table: its columns are chosen first, unless it is a recording of Wisp's own. */
+  private async table(file: File): Promise<void> {
+    try {
+      const bytes = new Uint8Array(await file.arrayBuffer());
+      const head = headOf(bytes);
+      if (head.names.length === 0) throw new Error(`${file.name} is empty.`);
+      if (head.recording) {
+        await this.tabled(file.name, bytes, undefined);
+        return;
+      }
+      this.clear();
+      this.stepTo('look', true);
+      this.showLeft(element('div', { class: 'plots' }, ...plotsOf(head.preview)));
+      this.showPanel(tablePanel(file.name, head, (settings) => void this.tabled(file.name, head.named ?? bytes, settings), () => this.back()));
+    } catch (error) {
+      this.host.say(wordsOf(error));
+    }
+  }
+
+  private async tabled(name: string, bytes: Uint8Array, settings: TableSettings | undefined): Promise<void> {
+    try {
+      const captured = await (await this.engine.open()).table(name, bytes, settings);
+      const outlines = Outlines.of(captured);
+      const take: Take = { name, captured, outlines, reel: new Reel(), film: null, settings: {}, again: null };
+      if (outlines === null) {
+        for (const { reel } of this.session.takes) reel.close();
+        const { inputs, outputs } = settings ?? {};
+        this.session = { takes: [take], recipe: { kind: 'arx', ...(inputs === undefined ? {} : { inputs }), ...(outputs === undefined ? {} : { outputs }) }, learned: null };
+        this.showLeft(element('div', { class: 'plots' }, ...plotsOf(curvesOf(captured))));
+        await this.learn();
+      } else {
+        this.viewer.clear();
+        this.keep(take);
+      }
+    } catch (error) {
+      this.host.say(wordsOf(error));
+    }
+  }
+}

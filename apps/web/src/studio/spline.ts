@@ -1,0 +1,47 @@
+// An outline's curve: a cubic B-spline that is clamped at both ends, as the recording has its control points.
+
+const DEGREE = 3;
+
+/** Knots of a clamped curve whose pieces are alike. */
+export function evenKnots(points: number): number[] {
+  const inner = points - DEGREE;
+  return Array.from({ length: points + DEGREE + 1 }, (_, k) => Math.min(1, Math.max(0, (k - DEGREE) / inner)));
+}
+
+// How much each control point counts at one place of the curve: the recursion of Cox and de Boor.
+function weightsAt(knots: readonly number[], points: number, at: number): Float64Array {
+  const place = Math.min(at, 1 - 1e-9);
+  let weights: number[] = Array.from({ length: knots.length - 1 }, (_, k) =>
+    (knots[k] as number) <= place && place < (knots[k + 1] as number) ? 1 : 0,
+  );
+  for (let degree = 1; degree <= DEGREE; ++degree) {
+    const before = weights;
+    const knot = (k: number): number => knots[k] as number;
+    const rising = (k: number): number => (knot(k + degree) > knot(k) ? (place - knot(k)) / (knot(k + degree) - knot(k)) : 0);
+    weights = before.slice(1).map((_, k) => rising(k) * (before[k] as number) + (1 - rising(k + 1)) * (before[k + 1] as number));
+  }
+  return Float64Array.from(weights.slice(0, points));
+}
+
+export class Spline {
+  private readonly weights: readonly Float64Array[];
+
+  /** `samples`: points of the drawn line. */
+  constructor(points: number, knots: readonly number[], readonly samples = 56) {
+    this.weights = Array.from({ length: samples }, (_, k) => weightsAt(knots, points, k / (samples - 1)));
+  }
+
+  /** The line, x and y by turns, of control points that are given the same way. */
+  draw(control: ArrayLike<number>, line: Float32Array): void {
+    this.weights.forEach((weights, k) => {
+      let x = 0;
+      let y = 0;
+      weights.forEach((weight, point) => {
+        x += weight * (control[2 * point] as number);
+        y += weight * (control[2 * point + 1] as number);
+      });
+      line[2 * k] = x;
+      line[2 * k + 1] = y;
+    });
+  }
+}

@@ -1,0 +1,86 @@
+// The first lines of a table: its separator, the names of its columns, which of them are numbers.
+
+import type { Curve } from '@wisp/studio';
+
+/** Bytes that are looked at. */
+const LOOKED_AT = 64_000;
+const ROWS = 400;
+
+export interface TableHead {
+  names: string[];
+  /** whether its cells are numbers, by column */
+  numeric: boolean[];
+  /** samples a second, where a column of times or the file itself says so */
+  rate: number | null;
+  /** a recording in Wisp's own form: its roles are known */
+  recording: boolean;
+  /** nothing names its columns: these are its bytes with names */
+  named: Uint8Array | null;
+  /** the columns of numbers, row by row, as far as they were looked at */
+  preview: Curve[];
+}
+
+function separatorOf(line: string): RegExp {
+  if (line.includes('\t')) return /\t/;
+  if (line.includes(';')) return /;/;
+  if (line.includes(',')) return /,/;
+  return /\s+/;
+}
+
+const cell = (text: string): string => text.trim().replace(/^"(.*)"$/, '$1');
+const isNumber = (text: string): boolean => text === '' || /^(nan|na|n\/a)$/i.test(text) || Number.isFinite(Number(text.replace(',', '.').replace(/d/i, 'e')));
+
+/** The time between rows of a column that counts evenly, as a rate; null where it does not. */
+function rateOfTimes(times: readonly number[]): number | null {
+  const steps = times.slice(1).map((time, k) => time - (times[k] as number));
+  const mean = steps.reduce((sum, step) => sum + step, 0) / Math.max(1, steps.length);
+  if (!(mean > 0) || steps.some((step) => Math.abs(step - mean) > 0.05 * mean)) return null;
+  return Number((1 / mean).toPrecision(6));
+}
+
+/** Looks at the first lines. */
+export function headOf(bytes: Uint8Array): TableHead {
+  const text = new TextDecoder().decode(bytes.subarray(0, LOOKED_AT)).replace(/^\uFEFF/, '');
+  const all = text.split(/\r?\n/).filter((line) => line.trim() !== '' && !/^sep=/i.test(line));
+  const comments = all.filter((line) => /^[#%]/.test(line));
+  const lines = all.filter((line) => !/^[#%]/.test(line)).slice(0, ROWS);
+  const separator = separatorOf(lines[0] ?? '');
+  const cells = lines.map((line) => line.trim().split(separator).map(cell));
+  const first = cells[0] ?? [];
+  const unnamed = first.length > 0 && first.every((name) => name !== '' && isNumber(name));
+  const names = unnamed ? first.map((_, k) => `c${k + 1}`) : first;
+  const rows = (unnamed ? cells : cells.slice(1)).filter((row) => row.length >= names.length);
+  const numeric = names.map((_, k) => rows.some((row) => row[k] !== '') && rows.slice(1).every((row) => isNumber(row[k] ?? '')));
+  const timed = names.findIndex((name) => /^(t|time|seconds?|sec|zeit)\b/i.test(name));
+  const said = comments.map((line) => /^# rate_hz (\S+)/.exec(line)?.[1]).find((rate) => rate !== undefined);
+  const times = timed < 0 ? [] : rows.slice(0, -1).map((row) => Number(row[timed])).filter(Number.isFinite);
+  return {
+    names,
+    numeric,
+    rate: said !== undefined ? Number(said) : times.length > 3 ? rateOfTimes(times) : null,
+    recording: comments.some((line) => line.startsWith('# wisp-recording')),
+    named: unnamed ? withNames(bytes, names, separator) : null,
+    preview: names.flatMap((name, k) => (numeric[k] === true ? [columnOf(name, rows.map((row) => row[k] ?? ''))] : [])),
+  };
+}
+
+function columnOf(name: string, cells: readonly string[]): Curve {
+  const y = cells.map((text) => (text === '' ? NaN : Number(text.replace(',', '.').replace(/d/i, 'e'))));
+  return { id: `column ${name}`, label: name, x_label: 'row', y_label: '', x: y.map((_, row) => row), y };
+}
+
+function withNames(bytes: Uint8Array, names: readonly string[], separator: RegExp): Uint8Array {
+  const between = separator.source === '\\t' ? '\t' : separator.source === '\\s+' ? ' ' : separator.source;
+  const head = new TextEncoder().encode(`${names.join(between)}\n`);
+  const made = new Uint8Array(head.length + bytes.length);
+  made.set(head);
+  made.set(bytes, head.length);
+  return made;
+}
+
+/** What a column is for, as its name suggests. */
+export function roleOf(name: string, numeric: boolean): 'input' | 'output' | 'ignored' {
+  if (!numeric || /^(t|time|seconds?|sec|zeit|date|index|n|k)\b/i.test(name)) return 'ignored';
+  if (/^(u|in|input|x|power|heat|voltage|wind|force|steam|fuel|valve)/i.test(name)) return 'input';
+  return /^(y|out|output|temp|level|speed|angle|pos|v)/i.test(name) ? 'output' : 'ignored';
+}

@@ -1,0 +1,113 @@
+// Reports in words that people read: the verdict first, then how well it does, then what to film to make it better.
+
+import type { Captured, Report } from '@wisp/studio';
+
+/** A value deep in a report; undefined where it is not there. */
+export function within(report: Report, ...path: string[]): unknown {
+  let at: unknown = report;
+  for (const name of path) at = typeof at === 'object' && at !== null ? (at as Record<string, unknown>)[name] : undefined;
+  return at;
+}
+
+const figure = (report: Report, ...path: string[]): number | null => {
+  const value = within(report, ...path);
+  return typeof value === 'number' && Number.isFinite(value) ? value : null;
+};
+
+/** A sentence: a capital first, a stop last. */
+export function sentence(words: string): string {
+  const said = words.trim();
+  return said === '' ? '' : `${said[0]?.toUpperCase() ?? ''}${said.slice(1)}${/[.!?]$/.test(said) ? '' : '.'}`;
+}
+
+export interface Verdict {
+  good: boolean;
+  /** in a few words */
+  title: string;
+  reason: string;
+}
+
+/** What to think of a model. */
+export function verdictOf(report: Report, table: boolean): Verdict {
+  const good = report.usable?.verdict === true;
+  const thing = table ? 'It learned how this behaves' : 'It learned your flame';
+  return { good, title: good ? thing : 'This is not enough to learn from', reason: sentence(report.usable?.reason ?? '') };
+}
+
+/** A figure as a bar: how far it fills, and from where on it is good. */
+export interface Meter {
+  words: string;
+  share: number;
+  good: number;
+  value: string;
+}
+
+/** How well it does on what it has not seen. */
+export function metersOf(report: Report): Meter[] {
+  const made: Meter[] = [];
+  const add = (words: string, share: number | null, good: number): void => {
+    if (share !== null) made.push({ words, share: Math.max(0, Math.min(1, share)), good, value: `${Math.round(100 * share)} %`.replace('-', '−') });
+  };
+  const percent = (...path: string[]): number | null => {
+    const value = figure(report, ...path);
+    return value === null ? null : value / 100;
+  };
+  add('The tip, a frame ahead', percent('tip', 'held_out_fit_percent', '1'), 0.5);
+  // Without wind it flickers in its own time: no play can follow the film for long.
+  const inputs = within(report, 'inputs');
+  if (Array.isArray(inputs) && inputs.length > 0) add('The tip, played freely in the same wind', percent('tip', 'held_out_fit_percent', 'inf'), 0.5);
+  add('Outlines that lie over each other', figure(report, 'overlap'), 0.85);
+  return made;
+}
+
+/** Seconds that were kept back to judge by; null where that is not said. */
+export function heldOutSeconds(report: Report): number | null {
+  const [rows, rate] = [figure(report, 'samples', 'held_out'), figure(report, 'rate_hz')];
+  return rows === null || rate === null || rate <= 0 ? null : rows / rate;
+}
+
+/** What to film to make it better: at most three things, the most telling first. */
+export function adviceOf(captured: readonly Captured[], report: Report | null): string[] {
+  const made: string[] = [];
+  const seconds = captured.reduce((sum, { rows, rate }) => sum + rows / rate, 0);
+  const windy = captured.some(({ series }) => series.some(({ role }) => role === 'input'));
+  const heard = captured.some((one) => within(one.report, 'wind', 'heard') === true);
+  if (!windy) made.push('Film with sound, and blow close to the microphone: without it only the flicker can be learned, not what wind does.');
+  else if (!heard) made.push('Hardly any wind was heard. Blow closer to the microphone, from the side, with pauses.');
+  if (seconds < 30) made.push(`These are ${Math.round(seconds)} seconds. Forty, with a soft breath from the side now and then, make it surer.`);
+  const out = captured.some((one) => figure(one.report, 'out_at') !== null);
+  if (report !== null && windy && !out && within(report, 'extinction', 'source') !== 'learned') {
+    made.push('It has not been seen to go out. Blow it out once or twice while you film, and light it again.');
+  }
+  if (captured.some((one) => (figure(one.report, 'clipped') ?? 0) > 0.5)) {
+    made.push('The flame is white all over. Lower the exposure until its edge has a colour.');
+  }
+  if (captured.some((one) => one.report.usable?.verdict === false)) {
+    made.push('Let the flame stand alone before something dark, large in the picture, and keep the camera still.');
+  }
+  return made.slice(0, 3);
+}
+
+const STAGES: Readonly<Record<string, string>> = {
+  capturing: 'Following the edge of the flame, picture by picture.',
+  reading: 'Reading the film.',
+  decoding: 'Reading the film.',
+  listening: 'Listening for wind in the sound.',
+  learning: 'Finding out what each point does next, and what the wind does to it.',
+  aligning: 'Finding out how much later the flame moves than the sound is heard.',
+  'choosing input curves': 'Finding out how much harder a strong breath bends it than a soft one.',
+  'fitting input curves': 'Bending the wind so that soft and strong both fit.',
+  'searching orders': 'Finding out how far back it has to remember.',
+  'finding delays': 'Finding out how late it answers.',
+  fitting: 'Fitting what each point of the outline does next.',
+  refining: 'Refining it until it also fits far ahead.',
+  simulating: 'Playing it freely, beside the film.',
+  predicting: 'Predicting seconds that it has never seen.',
+  judging: 'Judging it on seconds that it has never seen.',
+  'testing residuals': 'Looking whether anything is left that could be learned.',
+};
+
+/** What a stage of work means. */
+export function stageInWords(stage: string): string {
+  return STAGES[stage] ?? sentence(stage);
+}

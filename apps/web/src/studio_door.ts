@@ -1,0 +1,102 @@
+// The way into the studio: its tab, its key, its link. Nothing of the studio itself is fetched before somebody goes in.
+
+import type { App } from './app.js';
+import type { Dropped } from './drops.js';
+import { byId, element } from './panel/element.js';
+import { saveLoop } from './saving.js';
+import type { Room } from './studio/room.js';
+
+/** Milliseconds until a flame that was just put on stands in full light. */
+const LIT = 900;
+
+export class StudioDoor {
+  private readonly tab = element('button', { type: 'button', 'data-scene': 'yours', 'aria-current': 'false' }, 'Yours');
+  private room: Promise<Room> | null = null;
+  private inside = false;
+
+  constructor(private readonly app: App) {
+    const tabs = byId('scenes', HTMLElement);
+    tabs.append(this.tab);
+    tabs.addEventListener('click', ({ target }) => {
+      if (target === this.tab) this.open();
+      else if (target instanceof HTMLButtonElement) this.leave();
+    });
+    app.keys['3'] = () => this.open();
+    for (const scene of ['1', '2']) {
+      const stay = app.keys[scene];
+      app.keys[scene] = () => {
+        this.leave();
+        stay?.();
+      };
+    }
+    if (new URLSearchParams(location.hash.slice(1)).has('yours')) this.open();
+  }
+
+  /** Goes in, with something to learn from. */
+  open(dropped?: Dropped): void {
+    this.room ??= import('./studio/room.js').then(({ Room }) => new Room(this.host()));
+    this.room.then(
+      (room) => {
+        if (!this.inside) this.enter(room);
+        if (dropped !== undefined) room.take(dropped);
+      },
+      () => {
+        this.room = null;
+        this.app.notices.say('The studio could not be fetched. Is there a network? Press Yours to try again.');
+      },
+    );
+  }
+
+  private enter(room: Room): void {
+    this.inside = true;
+    const { app } = this;
+    app.showDrawer(false);
+    if (app.parts !== null && app.parts.ear.state !== 'off') app.parts.ear.close();
+    app.stage.stop();
+    document.body.classList.add('studying');
+    this.markTab();
+    room.show(true);
+  }
+
+  private markTab(): void {
+    for (const tab of this.tab.parentElement?.children ?? []) tab.setAttribute('aria-current', String(tab === this.tab));
+  }
+
+  /** Comes out; what was gathered stays there. */
+  private leave(): void {
+    if (!this.inside) return;
+    this.inside = false;
+    void this.room?.then((room) => room.show(false));
+    document.body.classList.remove('studying');
+    this.tab.setAttribute('aria-current', 'false');
+    // Shows its own tab again.
+    this.app.change({});
+    this.app.stage.start();
+  }
+
+  /** What the studio may ask of the page. */
+  private host(): ConstructorParameters<typeof Room>[0] {
+    const { app } = this;
+    return {
+      wisp: app.wisp,
+      say: (words) => app.notices.say(words),
+      blow: async (file, model) => {
+        await app.player.playFile(file, model);
+        this.leave();
+        if (app.player.playing?.model.inputs.length === 0) await app.player.borrowWind();
+        if (app.parts?.ear.state === 'off') app.toggleMicrophone();
+      },
+      film: async (file, model) => {
+        await app.player.playFile(file, model);
+        this.markTab();
+        app.stage.start();
+        await new Promise((resolve) => setTimeout(resolve, LIT));
+        try {
+          return await saveLoop(app.stage.canvas);
+        } finally {
+          if (this.inside) app.stage.stop();
+        }
+      },
+    };
+  }
+}

@@ -1,0 +1,279 @@
+// The studio, in Chromium: a film, a camera, a table go in, a flame comes out and is blown out; and bad days.
+
+import assert from 'node:assert/strict';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, describe, it } from 'node:test';
+import { chromiumPath, drop, openBrowser, until } from './browser.js';
+import { asDevices, candleFilm, noConverter, noFilms, wallFilm } from './films.js';
+
+const skip = chromiumPath === undefined && 'there is no Chromium here';
+const folder = mkdtempSync(join(tmpdir(), 'wisp-studio-'));
+after(() => rmSync(folder, { recursive: true }));
+let made;
+const film = () => (made ??= candleFilm(folder));
+
+const step = (page, name, timeout) => until(page, `step ${name}`, (wanted) => document.getElementById('studio')?.dataset.step === wanted, name, timeout);
+const says = (page, where, words, timeout) =>
+  until(page, `${where} says ${words}`, ([place, source]) => new RegExp(source, 'i').test(document.querySelector(place)?.textContent ?? ''), [where, words], timeout);
+const enter = async (page) => {
+  await page.click('[data-scene=yours]');
+  await step(page, 'gather');
+};
+/** The room's own voice: its panel. */
+const panel = '#studio .panel';
+
+/** A second-order system's answer to steps, as a logger writes it. */
+function table() {
+  const rows = ['time,power,temperature'];
+  let [y, before] = [0, 0];
+  for (let k = 0; k < 600; ++k) {
+    const u = Math.sin(k * k * 0.013) > 0 ? 1 : -1;
+    [y, before] = [1.5 * y - 0.56 * before + 0.06 * u, y];
+    rows.push(`${(k * 0.1).toFixed(1)},${u},${y.toFixed(6)}`);
+  }
+  return Buffer.from(`${rows.join('\n')}\n`);
+}
+
+describe('a film that is dropped', { skip: skip || noFilms }, () => {
+  let opened, page;
+  const asked = [];
+  before(async () => {
+    const bytes = readFileSync(film());
+    opened = await openBrowser();
+    page = await opened.page('#scene=candle&seed=3&detail=0.1', { viewport: { width: 1000, height: 700 } });
+    page.on('request', (request) => asked.push(new URL(request.url()).pathname));
+    await until(page, 'the page has all of its parts', () => document.querySelector('[data-scene=yours]') !== null);
+    assert.deepEqual(
+      await page.evaluate(() => performance.getEntriesByType('resource').filter(({ name }) => name.includes('studio')).map(({ name }) => name)),
+      [],
+      'not a byte of the studio comes before somebody goes in',
+    );
+    await drop(page, 'mine.mp4', bytes);
+    await step(page, 'look');
+  });
+  after(() => opened?.close());
+
+  it('brings the studio, and only then', () => assert.ok(asked.some((path) => path.includes('/assets/studio/'))));
+
+  it('is followed by its edge, and says what was found', async () => {
+    await until(page, 'the outline is found', () => document.querySelector('[data-act=learn]') !== null, null, 40_000);
+    assert.match(await page.textContent(panel), /The flame is found.*(100|9\d) % of the frames/s);
+    assert.match(await page.textContent(panel), /heard in/);
+  });
+
+  it('is learned, and the verdict comes first', async () => {
+    await page.click('[data-act=learn]');
+    await step(page, 'blow', 30_000);
+    assert.match(await page.textContent(`${panel} h2`), /It learned your flame/);
+    assert.match(await page.textContent(panel), /The tip, played freely in the same wind\d+ %/);
+  });
+
+  it('plays beside what it learned', async () => {
+    const lit = () => page.$$eval('.duet canvas', (all) => all.map((canvas) => {
+      const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+      let bright = 0;
+      for (let k = 0; k < data.length; k += 4) if (data[k] > 200) bright += 1;
+      return bright;
+    }));
+    for (let look = 0; look < 100; ++look) {
+      if ((await lit()).every((bright) => bright > 100)) return;
+      await page.waitForTimeout(50);
+    }
+    assert.fail(`bright pixels: ${await lit()}`);
+  });
+
+  it('is learned again in another way, and taken away', async () => {
+    await page.click('.more summary');
+    await page.click('[data-knob="light light, for small machines"]');
+    await step(page, 'blow', 30_000);
+    await until(page, 'it is light', () => document.querySelector('[data-knob="light light, for small machines"]')?.getAttribute('aria-pressed') === 'true');
+    const [model] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=wisp]')]);
+    assert.equal(model.suggestedFilename(), 'mine.wisp');
+    assert.deepEqual([...readFileSync(await model.path()).subarray(1, 5)], [...Buffer.from('WISP')]);
+    const [recording] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=recording]')]);
+    assert.match(readFileSync(await recording.path(), 'latin1'), /^# wisp-recording 1\n[^]*u:wind/);
+  });
+
+  it('burns in the page, and goes out when somebody blows', async () => {
+    await page.click('[data-act=blow]');
+    await until(page, 'it burns', () => document.getElementById('studio').hidden && window.wisp.burning?.lit === 1);
+    const frames = await page.evaluate(() => window.wisp.frames);
+    await until(page, 'it lives', (many) => window.wisp.frames > many + 3, frames);
+    await page.focus('#stage');
+    await page.keyboard.down('Space');
+    await until(page, 'it is out', () => window.wisp.burning.lit === 0);
+    await page.keyboard.up('Space');
+  });
+
+  it('is still there when somebody comes back', async () => {
+    await page.click('[data-scene=yours]');
+    await step(page, 'blow');
+    assert.match(await page.textContent(`${panel} h2`), /It learned your flame/);
+  });
+
+  it('made no error, and asked no other host', () => assert.deepEqual([page.errors.filter((words) => !/NotFound|microphone/i.test(words)), page.strangers], [[], []]));
+});
+
+describe('a camera', { skip: skip || noConverter }, () => {
+  let opened;
+  after(() => opened?.close());
+
+  it('is filmed with, learned from, and given back; by keyboard alone', async () => {
+    const { picture, sound } = asDevices(film(), folder);
+    opened = await openBrowser([
+      '--use-fake-ui-for-media-stream',
+      '--use-fake-device-for-media-stream',
+      `--use-file-for-fake-video-capture=${picture}`,
+      `--use-file-for-fake-audio-capture=${sound}`,
+      '--autoplay-policy=no-user-gesture-required',
+    ]);
+    const page = await opened.page('#scene=candle&detail=0.1', { viewport: { width: 390, height: 844 } });
+    await until(page, 'the page has all of its parts', () => document.querySelector('[data-scene=yours]') !== null);
+    await page.focus('#stage');
+    await page.keyboard.press('3');
+    await step(page, 'gather');
+    await page.focus('[data-gather=camera]');
+    await page.keyboard.press('Enter');
+    await until(page, 'the camera is looked through', () => document.querySelector('.record') !== null);
+    await until(page, 'a flame is found', () => document.querySelector('.filming [role=status]')?.textContent === '' && document.querySelector('.viewer video').videoWidth > 0, null, 20_000);
+    await page.focus('.record');
+    await page.keyboard.press('Enter');
+    await says(page, '.caption', 'softly', 10_000);
+    await page.waitForTimeout(4000);
+    await page.keyboard.press('Enter');
+    await until(page, 'the outline is found', () => document.querySelector('[data-act=learn]') !== null, null, 30_000);
+    assert.equal(await page.evaluate(() => document.querySelector('.viewer video').srcObject), null);
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'nothing sticks out sideways');
+    await page.focus('[data-act=learn]');
+    await page.keyboard.press('Enter');
+    await until(page, 'it says what came of it', () => document.querySelector('.result .verdict h2') !== null, null, 30_000);
+    assert.deepEqual([page.errors, page.strangers], [[], []]);
+  });
+});
+
+describe('a table', { skip }, () => {
+  let opened;
+  after(() => opened?.close());
+
+  it('says what its columns are, and is learned', async () => {
+    opened = await openBrowser();
+    const page = await opened.page('#scene=candle&detail=0.1', { viewport: { width: 1000, height: 700 } });
+    await drop(page, 'kettle.csv', table());
+    await step(page, 'look');
+    const pressed = (column) => page.getAttribute(`[data-column="${column}"]`, 'aria-pressed');
+    assert.deepEqual(await Promise.all(['time ignored', 'power input', 'temperature output'].map(pressed)), ['true', 'true', 'true']);
+    assert.equal(await page.inputValue('#table-rate'), '10');
+    await page.click('[data-act=learn]');
+    await step(page, 'blow', 30_000);
+    assert.match(await page.textContent(`${panel} h2`), /It learned how this behaves/);
+    assert.ok((await page.locator('.plots canvas').count()) > 0);
+    assert.deepEqual([page.errors, page.strangers], [[], []]);
+  });
+});
+
+describe('a bad day in the studio', { skip }, () => {
+  let opened, page;
+  // In the page: a camera that is missing, refused, or taken away while it films.
+  function stubCamera() {
+    window.camera = 'NotFoundError';
+    window.wanted = [];
+    navigator.mediaDevices.getUserMedia = async (wanted) => {
+      window.wanted.push(wanted);
+      if (window.camera === 'mute' && wanted.audio) throw new DOMException('no', 'NotFoundError');
+      if (window.camera !== 'mute' && window.camera !== 'there') throw new DOMException('no', window.camera);
+      const canvas = document.createElement('canvas');
+      const context = canvas.getContext('2d');
+      window.drawing = setInterval(() => context.fillRect(0, 0, Math.random() * 9, 9), 30);
+      window.stream = canvas.captureStream(30);
+      return window.stream;
+    };
+  }
+  before(async () => {
+    opened = await openBrowser();
+    page = await opened.page('#scene=candle&detail=0.1', { viewport: { width: 1000, height: 700 }, before: stubCamera });
+    await until(page, 'the page has all of its parts', () => document.querySelector('[data-scene=yours]') !== null);
+    await enter(page);
+  });
+  after(() => opened?.close());
+
+  const again = async () => {
+    await page.click('[data-act=choose]');
+    await until(page, 'what there is to choose', () => document.querySelector('[data-gather=camera]') !== null);
+  };
+
+  it('says that there is no camera, having asked for raw sound', async () => {
+    await page.click('[data-gather=camera]');
+    await says(page, panel, 'No camera was found');
+    const { audio } = await page.evaluate(() => window.wanted[0]);
+    assert.deepEqual([audio.echoCancellation, audio.noiseSuppression, audio.autoGainControl], [false, false, false]);
+    await again();
+  });
+
+  it('says that the camera was not allowed', async () => {
+    await page.evaluate(() => (window.camera = 'NotAllowedError'));
+    await page.click('[data-gather=camera]');
+    await says(page, panel, 'was not allowed');
+    await again();
+  });
+
+  it('films without a microphone, and says what cannot be learned then', async () => {
+    await page.evaluate(() => (window.camera = 'mute'));
+    await page.click('[data-gather=camera]');
+    await says(page, panel, 'no microphone: the flicker can be learned');
+  });
+
+  it('stops filming when the page is hidden, and says so', async () => {
+    await page.click('.record');
+    await says(page, '.caption', 'Hold still');
+    await page.evaluate(() => {
+      Object.defineProperty(document, 'hidden', { configurable: true, get: () => true });
+      document.dispatchEvent(new Event('visibilitychange'));
+      delete document.hidden;
+    });
+    await says(page, '#notices', 'stopped when the page was hidden');
+    await until(page, 'it ends', () => document.querySelector('[data-act=choose], [data-act=more]') !== null);
+    assert.equal(await page.evaluate(() => window.stream.getVideoTracks()[0].readyState), 'ended');
+    await page.click('[data-act=choose], [data-act=more]');
+  });
+
+  it('says that the camera is gone', async () => {
+    await page.click('[data-gather=camera]');
+    await says(page, panel, 'Film your flame');
+    await page.evaluate(() => window.stream.getVideoTracks()[0].dispatchEvent(new Event('ended')));
+    await says(page, panel, 'The camera is gone');
+    await again();
+  });
+
+  it('says that a film cannot be read', async () => {
+    await drop(page, 'broken.mp4', Buffer.from('this is no film'));
+    await says(page, `${panel} .verdict.bad`, 'broken.mp4', 20_000);
+    await again();
+  });
+
+  it('says that there is no flame in a film', { skip: noConverter }, async () => {
+    await drop(page, 'wall.mp4', readFileSync(wallFilm(folder)));
+    await says(page, `${panel} .verdict.bad`, 'flame|outline|nothing', 20_000);
+    await again();
+  });
+
+  it('says that one picture does not move', async () => {
+    await drop(page, 'one.png', Buffer.from('png'));
+    await says(page, '#notices', 'One picture does not move');
+  });
+
+  it('says that a table is empty', async () => {
+    await drop(page, 'empty.csv', Buffer.from(''));
+    await says(page, '#notices', 'empty.csv');
+  });
+
+  it('leaves by any other tab, and the page plays on', async () => {
+    await page.click('[data-scene=candle]');
+    await until(page, 'it is hidden', () => document.getElementById('studio').hidden);
+    const frames = await page.evaluate(() => window.wisp.frames);
+    await until(page, 'the candle burns', (many) => window.wisp.frames > many + 2, frames);
+  });
+
+  it('made no error, and asked no other host', () => assert.deepEqual([page.errors, page.strangers], [[], []]));
+});
