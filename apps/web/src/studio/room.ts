@@ -372,9 +372,12 @@ export class Room {
       const recipe = { ...session.recipe, name: sessionName(session) };
       const recordings = session.takes.map(({ captured }) => captured.csv);
       const learned = await studio.learn(recordings, recipe, working.watch());
-      // A table's plots are of the model beside what it learned from.
-      const judged = tabled ? await studio.validate(learned.model, recordings, working.watch()) : null;
-      session.learned = { ...learned, curves: [...learned.curves, ...(judged?.curves ?? [])] };
+      // Plots are of the model beside what it learned from; several films are judged by the last.
+      const judged = await studio.validate(learned.model, recordings.slice(-1), working.watch()).catch((error: unknown) => {
+        if (isAbort(error)) throw error;
+        return { curves: [] };
+      });
+      session.learned = { ...learned, curves: [...judged.curves, ...learned.curves] };
     } catch (error) {
       if (turn !== this.turn) return;
       this.working = null;

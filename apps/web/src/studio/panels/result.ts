@@ -41,7 +41,8 @@ export function resultPanel(session: Session, flame: boolean, events: ResultEven
   const { report, curves, text } = learned;
   const { good, title, reason } = verdictOf(report, !flame);
   const held = heldOutSeconds(report);
-  const meters = metersOf(report);
+  const outputs = (takes[0]?.captured.series ?? []).filter(({ role }) => role === 'output').map(({ name }) => name);
+  const meters = metersOf(report, flame ? [] : outputs);
   const panel = element(
     'div',
     { class: 'panel result' },
@@ -63,7 +64,7 @@ export function resultPanel(session: Session, flame: boolean, events: ResultEven
     );
   }
   if (meters.length > 0) {
-    const seen = held === null ? 'On seconds that it had not seen' : `On the ${Math.round(held)} seconds that it had not seen`;
+    const seen = held === null ? 'How well it fits' : `On the ${Math.round(held)} seconds that it had not seen`;
     panel.append(element('section', {}, element('h3', {}, seen), ...meters.map(meter)));
   }
   panel.append(
