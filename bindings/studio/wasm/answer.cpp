@@ -27,5 +27,7 @@ __attribute__((export_name("studio_text_size"))) std::size_t studio_text_size() 
 __attribute__((export_name("studio_bytes"))) const std::byte* studio_bytes() { return answer().bytes.data(); }
 __attribute__((export_name("studio_bytes_size"))) std::size_t studio_bytes_size() { return answer().bytes.size(); }
 __attribute__((export_name("studio_numbers"))) const double* studio_numbers() { return answer().numbers.data(); }
-__attribute__((export_name("studio_numbers_size"))) std::size_t studio_numbers_size() { return answer().numbers.size(); }
+__attribute__((export_name("studio_numbers_size"))) std::size_t studio_numbers_size() {
+  return answer().numbers.size();
+}
 }

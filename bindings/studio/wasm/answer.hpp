@@ -10,7 +10,7 @@
 namespace wisp::studio {
 
 struct Answer {
-  std::string text;            ///< JSON; where the call failed the sentence that says why
+  std::string text;  ///< JSON; where the call failed the sentence that says why
   std::vector<std::byte> bytes;
   std::vector<double> numbers;
 };

@@ -20,8 +20,8 @@
 
 // The host is told of progress, and answers whether to go on.
 extern "C" __attribute__((import_module("env"), import_name("studio_progress"))) int studio_progress(const char* stage,
-                                                                                                      std::size_t size,
-                                                                                                      double share);
+                                                                                                     std::size_t size,
+                                                                                                     double share);
 
 namespace wisp::studio {
 namespace {
@@ -55,7 +55,8 @@ std::optional<int> whole(const json& from, const char* name) {
 
 std::vector<std::string> names(const json& from, const char* name) {
   const auto found = from.find(name);
-  return found == from.end() || !found->is_array() ? std::vector<std::string>() : found->get<std::vector<std::string>>();
+  return found == from.end() || !found->is_array() ? std::vector<std::string>()
+                                                   : found->get<std::vector<std::string>>();
 }
 
 ClipCapture capture_options(const json& from) {
@@ -190,16 +191,15 @@ int studio_frame(int layout, int width, int height, const std::uint8_t* first, i
                  int shift_x, int shift_y, int full_range, int bt709, double seconds, int glimpse) {
   Desk& all = desk();
   if (!all.capture) return fail({"no capture has begun"});
-  const Picture picture{
-      .layout = static_cast<PictureLayout>(layout),
-      .width = width,
-      .height = height,
-      .planes = {PicturePlane{first, first_stride, layout == 2 ? step : 1}, PicturePlane{second, second_stride, step},
-                 PicturePlane{third, third_stride, step}},
-      .chroma_shift_x = shift_x,
-      .chroma_shift_y = shift_y,
-      .full_range = full_range != 0,
-      .bt709 = bt709 != 0};
+  const Picture picture{.layout = static_cast<PictureLayout>(layout),
+                        .width = width,
+                        .height = height,
+                        .planes = {PicturePlane{first, first_stride, layout == 2 ? step : 1},
+                                   PicturePlane{second, second_stride, step}, PicturePlane{third, third_stride, step}},
+                        .chroma_shift_x = shift_x,
+                        .chroma_shift_y = shift_y,
+                        .full_range = full_range != 0,
+                        .bt709 = bt709 != 0};
   OutlineCapture& capture = all.capture->picture();
   if (glimpse != 0) {
     capture.glimpse(picture);

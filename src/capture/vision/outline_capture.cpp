@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kMinTracked = 10;
 constexpr std::size_t kMinHeld = 8;
 constexpr int kMinEdgePoints = 128;
-constexpr int kEdgePointsEach = 12;    // to a control point: more do not make it steadier, as their errors go together
+constexpr int kEdgePointsEach = 12;  // to a control point: more do not make it steadier, as their errors go together
 constexpr int kShownPoints = 64;
 constexpr std::size_t kSurveyed = 20;  // held frames that are surveyed
 constexpr std::size_t kSamples = 6;    // … and in which outlines are tried

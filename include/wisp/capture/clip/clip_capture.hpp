@@ -92,9 +92,9 @@ struct Captured {
 
 /// Where a clip comes from.
 struct ClipSource {
-  std::string name{};    ///< for messages and the recording
-  double rate_hz = 0;    ///< frames a second, > 0
-  bool pictures = false; ///< pictures, which have no sound: that none is heard is no defect
+  std::string name{};     ///< for messages and the recording
+  double rate_hz = 0;     ///< frames a second, > 0
+  bool pictures = false;  ///< pictures, which have no sound: that none is heard is no defect
 };
 
 /// Captures a clip whose frames and sound come one after the other, in bounded memory.

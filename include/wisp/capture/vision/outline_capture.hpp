@@ -98,8 +98,8 @@ struct CapturedOutline {
 
 /// What is seen of the thing while it is captured, for whoever watches.
 struct OutlineSeen {
-  std::size_t frames = 0;        ///< rows so far, lost frames included
-  bool decided = false;          ///< channel, level and place are; until then frames are held back, and all below is empty
+  std::size_t frames = 0;  ///< rows so far, lost frames included
+  bool decided = false;    ///< channel, level and place are; until then frames are held back, and all below is empty
   std::vector<double> polyline;  ///< x and y of 64 points of the outline in the last frame, pixels; empty: not there
   Region found;                  ///< its box in the last frame that it was found in, pixels
   PixelChannel channel = PixelChannel::kLuma;

@@ -1,0 +1,176 @@
+// The module against the program: from the same frames and sound the same recording, from the same recording the same
+// model. ffmpeg decodes for both, as the program's own decoder is of it.
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, describe, test } from 'node:test';
+
+import { Engine, StudioError } from '../dist/engine.js';
+
+const module = new WebAssembly.Module(readFileSync(new URL('../dist/studio.wasm', import.meta.url)));
+const program = new URL('../../../build/release/bin/wisp', import.meta.url).pathname;
+
+/** Shows a clip to an engine as its decoder left it. */
+function capture(engine, clip, settings) {
+  const decoded = (...how) => execFileSync('ffmpeg', ['-v', 'error', '-i', clip, ...how, '-'], { maxBuffer: 4e9 });
+  const film = decoded('-f', 'rawvideo', '-pix_fmt', 'yuv420p');
+  const sound = decoded('-f', 'f32le');
+  const [width, height, rate] = sizeOf(clip);
+  const luma = width * height;
+  const size = (3 * luma) / 2;
+  const planes = [
+    { offset: 0, stride: width, step: 1 },
+    { offset: luma, stride: width / 2, step: 1 },
+    { offset: (5 * luma) / 4, stride: width / 2, step: 1 },
+  ];
+  const picture = (k) => ({ layout: 'yuv', width, height, data: film.subarray(k * size, (k + 1) * size), planes, shiftX: 1, shiftY: 1, ...settings.colours });
+  const frames = film.length / size;
+  engine.begin({ name: clip, rate, ...settings });
+  for (const k of settings.glimpses ?? []) engine.frame(picture(k), 0, true);
+  for (let k = 0; k < frames; ++k) engine.frame(picture(k), k / rate);
+  const samples = new Float32Array(sound.buffer, sound.byteOffset, sound.length / 4);
+  engine.sound(samples, settings.channels ?? 1, settings.sampleRate ?? 48000, 0);
+  return engine;
+}
+
+function sizeOf(clip) {
+  const ask = ['-v', 'error', '-select_streams', 'v', '-show_entries', 'stream=width,height,r_frame_rate', '-of', 'csv=p=0', clip];
+  const [width, height, rate] = execFileSync('ffprobe', ask, { encoding: 'utf8' }).trim().split(',');
+  const [over, under] = rate.split('/').map(Number);
+  return [Number(width), Number(height), over / under];
+}
+
+function soundOf(clip) {
+  const ask = ['-v', 'error', '-select_streams', 'a', '-show_entries', 'stream=sample_rate,channels', '-of', 'csv=p=0', clip];
+  const [sampleRate, channels] = execFileSync('ffprobe', ask, { encoding: 'utf8' }).trim().split(',').map(Number);
+  return { sampleRate, channels };
+}
+
+/** Where its decoder goes to a key frame for a glimpse, as the program does: at the ends of quarters. */
+function glimpsesOf(clip) {
+  const ask = ['-v', 'error', '-select_streams', 'v', '-show_entries', 'packet=flags', '-of', 'csv=p=0', clip];
+  const keys = execFileSync('ffprobe', ask, { encoding: 'utf8' }).trim().split('\n').flatMap((flags, k) => (flags.includes('K') ? [k] : []));
+  const last = execFileSync('ffprobe', ask, { encoding: 'utf8' }).trim().split('\n').length - 1;
+  const wanted = [1, 2, 3, 4].map((quarter) => keys.filter((key) => key <= (last * quarter) / 4).at(-1));
+  return [...new Set(wanted)].filter((key) => key > 0);
+}
+
+/** Every number of a document, by its path. */
+function numbersIn(value, path = '', found = new Map()) {
+  if (typeof value === 'number') found.set(path, value);
+  else if (value !== null && typeof value === 'object') for (const [key, part] of Object.entries(value)) numbersIn(part, `${path}.${key}`, found);
+  return found;
+}
+
+const table = (rows) => {
+  let [x, past] = [0, 0];
+  const lines = ['time,heat,temperature'];
+  for (let k = 0; k < rows; ++k) {
+    const heat = Math.sin(0.7 * k) + (k % 23 < 11 ? 1 : -1);
+    x = 0.8 * x + 0.3 * past;
+    past = heat;
+    lines.push(`${k * 0.1},${heat},${x}`);
+  }
+  return Buffer.from(`${lines.join('\n')}\n`);
+};
+
+describe('the module that learns', () => {
+  test('learns a table, and says how good it is', async () => {
+    const engine = await Engine.start(module);
+    const read = engine.table('dryer.csv', table(600), { inputs: ['heat'], outputs: ['temperature'], rate: 10 });
+    assert.deepEqual(read.series.map(({ name, role }) => [name, role]), [['heat', 'input'], ['temperature', 'output']]);
+    assert.equal(read.rows, 600);
+    const stages = [];
+    engine.onProgress = (stage) => stages.push(stage) > 0;
+    const fit = engine.learn([read.csv], { kind: 'arx', inputs: ['heat'], outputs: ['temperature'], order: 1, nk: 1 });
+    assert.equal(fit.report.usable.verdict, true, fit.report.usable.reason);
+    assert.equal(Buffer.from(fit.model.subarray(1, 5)).toString(), 'WISP');
+    assert.match(fit.text, /^usable/);
+    const judged = engine.validate(fit.model, [read.csv]);
+    assert.ok(judged.curves.length > 0);
+  });
+
+  test('refuses with sentences, and goes on', async () => {
+    const engine = await Engine.start(module);
+    const refused = (words) => (error) => error instanceof StudioError && words.test(error.message);
+    assert.throws(() => engine.table('noise.csv', Buffer.from([0, 1, 2, 255])), refused(/noise\.csv/));
+    assert.throws(() => engine.table('empty.csv', Buffer.alloc(0)), refused(/empty\.csv/));
+    assert.throws(() => engine.learn([], { kind: 'arx', outputs: ['y'] }), refused(/record/));
+    assert.throws(() => engine.finish(), refused(/no capture/));
+    assert.throws(() => engine.begin({ name: 'film', rate: 0 }), refused(/film.*rate/));
+    engine.begin({ name: 'dark.mp4', rate: 30 });
+    const dark = { layout: 'grey', width: 64, height: 48, data: new Uint8Array(64 * 48), planes: [{ offset: 0, stride: 64, step: 1 }] };
+    assert.throws(() => {
+      for (let k = 0; k < 90; ++k) engine.frame(dark, k / 30);
+      engine.finish();
+    }, refused(/dark\.mp4/));
+    assert.equal(engine.table('t.csv', table(50), { rate: 10, outputs: ['temperature'] }).rows, 50);
+  });
+
+  test('ends where it is told not to go on', async () => {
+    const engine = await Engine.start(module);
+    engine.onProgress = () => false;
+    const { csv } = engine.table('t.csv', table(600), { rate: 10, inputs: ['heat'], outputs: ['temperature'] });
+    assert.throws(() => engine.learn([csv], { kind: 'arx', inputs: ['heat'], outputs: ['temperature'] }), /stopped/);
+  });
+});
+
+describe('against the program', { skip: existsSync(program) ? false : 'the program is not built: script/build' }, () => {
+  const folder = mkdtempSync(join(tmpdir(), 'studio-'));
+  const clip = join(folder, 'rig.mp4');
+  const recording = join(folder, 'rig.csv');
+  const wisp = (...words) => execFileSync(program, words, { encoding: 'utf8', maxBuffer: 1e8, stdio: ['ignore', 'pipe', 'pipe'] });
+  let engine;
+
+  before(async () => {
+    wisp('simulate', 'candle', '-o', clip, '--seconds', '8', '--blow-out', '6', '--seed', '91');
+    wisp('capture', 'flame', clip, '-o', recording, '--json');
+    engine = await Engine.start(module);
+  });
+  after(() => rmSync(folder, { recursive: true }));
+
+  test('the same frames and sound give the same recording', () => {
+    capture(engine, clip, { flame: 1, glimpses: glimpsesOf(clip), colours: { fullRange: false, bt709: true }, ...soundOf(clip) });
+    const seen = engine.seen();
+    assert.ok(['following', 'gone'].includes(seen.state));
+    assert.ok(seen.threshold > 0 && seen.box.width > 2);
+    const ours = engine.finish();
+    const theirs = engine.table('rig.csv', readFileSync(recording));
+    assert.equal(ours.rows, theirs.rows);
+    assert.deepEqual(ours.series.map(({ name }) => name), theirs.series.map(({ name }) => name));
+    // Pixels and wind: sums are in the same order, and only the C library's functions differ in their last bit.
+    let worst = 0;
+    for (const [c, { name, samples }] of ours.series.entries()) {
+      const other = theirs.series[c].samples;
+      for (let k = 0; k < ours.rows; ++k) {
+        assert.equal(Number.isNaN(samples[k]), Number.isNaN(other[k]), `${name} in row ${k}`);
+        if (!Number.isNaN(samples[k])) worst = Math.max(worst, Math.abs(samples[k] - other[k]));
+      }
+    }
+    assert.ok(worst < 1e-6, `${worst} apart`);
+  });
+
+  test('a recording that is read is written as it was, to the byte', () => {
+    const bytes = readFileSync(recording);
+    assert.ok(bytes.equals(engine.table('rig.csv', bytes).csv));
+  });
+
+  test('the same recording gives the same model', () => {
+    const model = join(folder, 'rig.wisp');
+    const report = JSON.parse(wisp('learn', 'flame', recording, '-o', model, '--json'));
+    const fit = engine.learn([readFileSync(recording)], { kind: 'flame', name: 'rig' });
+    assert.deepEqual(fit.report.usable, report.usable);
+    assert.equal(fit.model.length > 0, true);
+    const theirs = numbersIn(report);
+    const ours = numbersIn(fit.report);
+    // Products of matrices are summed in blocks that fit the processor's caches, so that the last digits are the machine's.
+    for (const [path, value] of theirs) {
+      if (path === '.seconds') continue;
+      const other = ours.get(path);
+      assert.ok(Math.abs(other - value) <= 1e-6 * Math.max(1, Math.abs(value)), `${path}: ${other} and ${value}`);
+    }
+  });
+});

@@ -1,0 +1,138 @@
+#include "wisp/capture/clip/clip_capture.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "capture/support/synthetic.hpp"
+
+namespace wisp {
+namespace {
+
+using support::Plane;
+using testing::HasSubstr;
+
+constexpr double kRate = 30;
+constexpr int kFrames = 90;
+constexpr SoundFormat kSound{.rate_hz = 8000, .channels = 1};
+
+Plane flame(int k) {
+  Plane plane = support::flame_picture(support::swaying(k));
+  std::mt19937 random(static_cast<unsigned>(k) + 1);
+  for (auto& pixel : plane.pixels) {
+    pixel = static_cast<std::uint8_t>(std::clamp(pixel + static_cast<int>(random() % 5) - 2, 0, 255));
+  }
+  return plane;
+}
+
+LiveCapture live_flame(int frames = kFrames, bool pictures = false) {
+  auto live = LiveCapture::create({.name = "camera", .rate_hz = kRate, .pictures = pictures});
+  EXPECT_TRUE(live);
+  for (int k = 0; k < frames; ++k) {
+    const Plane plane = flame(k);
+    EXPECT_TRUE(live->picture().feed(grey_picture(plane.view())));
+  }
+  return std::move(*live);
+}
+
+// Rushing air: noise that is loud in the second half.
+std::vector<float> rushing(double seconds) {
+  std::mt19937 random(5);
+  std::vector<float> samples(static_cast<std::size_t>(seconds * kSound.rate_hz));
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const double loud = k < samples.size() / 2 ? 0.001 : 0.2;
+    samples[k] = static_cast<float>(loud * (static_cast<double>(random()) / 2147483648.0 - 1));
+  }
+  return samples;
+}
+
+std::size_t missing_wind(const Recording& recording) {
+  const auto& samples = recording.channels[*find_channel(recording, "wind")].samples;
+  return static_cast<std::size_t>(
+      std::count_if(samples.begin(), samples.end(), [](double x) { return std::isnan(x); }));
+}
+
+TEST(LiveCapture, JoinsWhatIsSeenWithWhatIsHeard) {
+  LiveCapture live = live_flame();
+  for (const auto& block : {rushing(2), rushing(2)}) ASSERT_TRUE(live.hear(kSound, 0, block));
+  const auto captured = live.finish();
+  ASSERT_TRUE(captured) << captured.error().message;
+  EXPECT_EQ(captured->recording.rows(), kFrames);
+  EXPECT_EQ(captured->recording.channels.front().name, "wind");
+  EXPECT_EQ(missing_wind(captured->recording), 0U);
+  EXPECT_TRUE(captured->report.verdict.has_value());
+}
+
+TEST(LiveCapture, LeavesTheWindMissingWhereTheSoundHasEnded) {
+  LiveCapture live = live_flame();
+  ASSERT_TRUE(live.hear(kSound, 0, rushing(2)));
+  const auto captured = live.finish();
+  ASSERT_TRUE(captured) << captured.error().message;
+  EXPECT_EQ(missing_wind(captured->recording), kFrames - 60U);
+  EXPECT_THAT(captured->report.warnings, testing::Contains(HasSubstr("the sound ends 30 frames before the picture")));
+}
+
+TEST(LiveCapture, CountsSoundFromTheFirstFrame) {
+  // Half a second of it came before the first frame, or a whole second is missing there.
+  for (const auto& [begin, covered] : {std::pair{-0.5, 45U}, {1.0, 90U}}) {
+    LiveCapture live = live_flame();
+    ASSERT_TRUE(live.hear(kSound, begin, rushing(2)));
+    const auto captured = live.finish();
+    ASSERT_TRUE(captured) << captured.error().message;
+    EXPECT_EQ(missing_wind(captured->recording), kFrames - covered) << begin;
+  }
+}
+
+TEST(LiveCapture, WithoutSoundSaysThatOnlyFlickerIsLeft) {
+  const auto captured = live_flame().finish();
+  ASSERT_TRUE(captured) << captured.error().message;
+  EXPECT_FALSE(find_channel(captured->recording, "wind"));
+  EXPECT_THAT(captured->report.warnings, testing::Contains(HasSubstr("only flicker can be learned")));
+  const auto pictures = live_flame(kFrames, true).finish();
+  ASSERT_TRUE(pictures) << pictures.error().message;
+  EXPECT_THAT(pictures->report.warnings, testing::Not(testing::Contains(HasSubstr("flicker"))));
+}
+
+TEST(LiveCapture, RefusesWhatCannotBe) {
+  const auto points = LiveCapture::create({.name = "camera", .rate_hz = kRate}, [] {
+    ClipCapture options;
+    options.points = 3;
+    return options;
+  }());
+  ASSERT_FALSE(points);
+  EXPECT_THAT(points.error().message, HasSubstr("camera: points is 3, expected 4 to 64"));
+  for (const double rate : {0.0, -30.0, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_FALSE(LiveCapture::create({.name = "camera", .rate_hz = rate}));
+  }
+  LiveCapture live = live_flame(20);
+  const auto heard = live.hear({.rate_hz = 10, .channels = 1}, 0, std::vector<float>(8));
+  ASSERT_FALSE(heard);
+  EXPECT_THAT(heard.error().message, HasSubstr("camera: its sound cannot be used"));
+}
+
+TEST(OutlineSeen, IsEmptyUntilPlaceAndLevelAreDecidedAndThenShowsTheOutline) {
+  auto live = LiveCapture::create({.name = "camera", .rate_hz = kRate});
+  ASSERT_TRUE(live);
+  OutlineCapture& picture = live->picture();
+  EXPECT_FALSE(picture.seen().decided);
+  for (int k = 0; k < 60; ++k) {
+    const Plane plane = flame(k);
+    ASSERT_TRUE(picture.feed(grey_picture(plane.view())));
+  }
+  const OutlineSeen seen = picture.seen();
+  EXPECT_EQ(seen.frames, 60U);
+  ASSERT_TRUE(seen.decided);
+  ASSERT_EQ(seen.polyline.size(), 128U);
+  for (std::size_t k = 0; k < seen.polyline.size(); k += 2) {
+    EXPECT_NEAR(seen.polyline[k], seen.found.x + seen.found.width / 2.0, seen.found.width);
+    EXPECT_NEAR(seen.polyline[k + 1], seen.found.y + seen.found.height / 2.0, seen.found.height);
+  }
+  picture.lost();
+  EXPECT_TRUE(picture.seen().polyline.empty());
+}
+
+}  // namespace
+}  // namespace wisp
