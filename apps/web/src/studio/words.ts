@@ -58,8 +58,10 @@ export function metersOf(report: Report, outputs: readonly string[]): Meter[] {
   add('The tip, a frame ahead', percent('tip', 'held_out_fit_percent', '1'), 0.5);
   // Without wind it flickers in its own time: no play can follow the film for long.
   const inputs = within(report, 'inputs');
-  if (Array.isArray(inputs) && inputs.length > 0) add('The tip, played freely in the same wind', percent('tip', 'held_out_fit_percent', 'inf'), 0.5);
-  add('Outlines that lie over each other', figure(report, 'overlap'), 0.85);
+  if (Array.isArray(inputs) && inputs.length > 0) {
+    add('The tip, played freely in the same wind', percent('tip', 'held_out_fit_percent', 'inf'), 0.5);
+    add('Outlines that lie over each other', figure(report, 'overlap'), 0.85);
+  } else add('Outlines that lie over each other, a frame ahead', figure(report, 'overlap_by_steps', '1'), 0.85);
   outputs.slice(0, MOST_OUTPUTS).forEach((name, k) => {
     add(`${name}, a row ahead`, percent('fit_percent', '1', String(k)), 0.5);
     add(`${name}, played from what goes in alone`, percent('fit_percent', 'inf', String(k)), 0.4);
