@@ -12,20 +12,21 @@ const short = (value: number): string => (value === 0 ? '0' : String(Number(valu
 
 /** What is plotted, in this order, by how its ids begin; of the rest nothing is. */
 const FAMILIES: readonly (readonly [RegExp, string])[] = [
-  [/^(column|input$|output$)/, ''],
+  [/^column/, ''],
   [/^(measured|predicted|simulated)\./, 'Measured and played'],
   [/^tip\./, 'The tip, recorded and played from the wind alone'],
   [/^step\./, 'Answer to a step'],
   [/^flicker\./, 'Spectrum of the flicker'],
   [/^residual\./, 'What is left over'],
   [/^(poles|zeros)/, 'Poles and zeros'],
+  [/^(input|output):/, ''],
 ];
 
 /** Curves that share a plot: a channel's own, and everything of one kind that has no channel. */
 function plotKey({ id }: Curve): string | null {
   const family = FAMILIES.findIndex(([begins]) => begins.test(id));
   if (family < 0) return null;
-  const channel = /^(?:measured|predicted|simulated)\.(\d+)/.exec(id)?.[1] ?? /^flicker\.(\w)/.exec(id)?.[1];
+  const channel = /^(?:measured|predicted|simulated)\.(\d+)/.exec(id)?.[1] ?? /^flicker\.(\w)/.exec(id)?.[1] ?? /^(input|output):/.exec(id)?.[1];
   const own = channel ?? (/^(step|residual|column)/.test(id) ? id.replace(/\.(low|high|bound)$/, '') : '');
   return `${family} ${own}`;
 }
@@ -54,7 +55,7 @@ export function curvesOf({ series, rate, rows }: Captured): Curve[] {
   return series.map(({ name, unit, samples, role }) => {
     const kept = Array.from({ length: Math.floor(rows / every) }, (_, k) => k * every);
     return {
-      id: role,
+      id: `${role}: ${name}`,
       label: `${name}, ${role === 'input' ? 'goes in' : 'comes out'}`,
       x_label: 'seconds',
       y_label: unit,
