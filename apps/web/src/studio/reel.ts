@@ -40,14 +40,14 @@ export class Reel {
     });
   }
 
-  /** Keeps what was seen of a film, cut to the flame. The film's rate is not known yet: its time is its frame. */
+  /** Keeps what was seen of a film, cut to the flame. The film's rate is not known yet: its time is its frame, from 0. */
   keepSeen({ picture, box, frame, width, height }: Seen): void {
     if (picture === undefined || !this.wants(frame)) return;
     const share = picture.width / width;
     const part = box === null ? { x: 0, y: 0, width, height } : around(box, width, height);
     const [x, y] = [Math.floor(share * part.x), Math.floor(share * part.y)];
     createImageBitmap(picture, x, y, Math.max(1, Math.ceil(share * part.width)), Math.max(1, Math.ceil(share * part.height))).then(
-      (bitmap) => this.keep({ seconds: frame, bitmap, part }),
+      (bitmap) => this.keep({ seconds: frame - 1, bitmap, part }),
       () => undefined,
     );
   }

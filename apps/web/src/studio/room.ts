@@ -69,6 +69,8 @@ export class Room {
   private filming: Filming | null = null;
   private duet: Duet | null = null;
   private working: Working | null = null;
+  /** plots that are still being made */
+  private judging: AbortController | null = null;
   /** films that came with the one that is looked at */
   private waiting: File[] = [];
   /** the take that a dragged box is about */
@@ -140,6 +142,8 @@ export class Room {
     this.turn += 1;
     this.working?.abort();
     this.working = null;
+    this.judging?.abort();
+    this.judging = null;
     this.filming?.close();
     this.filming = null;
     this.duet?.dispose();
@@ -371,10 +375,7 @@ export class Room {
       const studio = await this.engine.open();
       const recipe = { ...session.recipe, name: sessionName(session) };
       const recordings = session.takes.map(({ captured }) => captured.csv);
-      const learned = await studio.learn(recordings, recipe, working.watch());
-      // A table's plots are of the model beside what it learned from.
-      const judged = tabled ? await studio.validate(learned.model, recordings, working.watch()) : null;
-      session.learned = { ...learned, curves: [...learned.curves, ...(judged?.curves ?? [])] };
+      session.learned = await studio.learn(recordings, recipe, working.watch());
     } catch (error) {
       if (turn !== this.turn) return;
       this.working = null;
@@ -386,7 +387,28 @@ export class Room {
       this.backToLook();
       return;
     }
-    if (turn === this.turn) this.showResult();
+    if (turn !== this.turn) return;
+    this.showResult();
+    await this.judge();
+  }
+
+  /** Plays the model beside what it learned from, for plots; of several films, the last. The result does not wait for it. */
+  private async judge(): Promise<void> {
+    const { learned, takes } = this.session;
+    const [take] = takes.slice(-1);
+    if (learned === null || take === undefined) return;
+    const control = new AbortController();
+    this.judging = control;
+    try {
+      const studio = await this.engine.open();
+      const { curves } = await studio.validate(learned.model, [take.captured.csv], { signal: control.signal });
+      learned.curves = [...curves, ...learned.curves];
+      if (this.judging === control) this.place.querySelector('[data-plots]')?.replaceChildren(...plotsOf(learned.curves));
+    } catch {
+      // Without these plots there are those of the fit.
+    } finally {
+      if (this.judging === control) this.judging = null;
+    }
   }
 
   private backToLook(): void {
@@ -406,7 +428,7 @@ export class Room {
     const { outlines } = take;
     const flame = outlines !== null && session.recipe.kind !== 'arx';
     if (flame) this.showFlame(take, outlines, learned.model);
-    else this.showLeft(element('div', { class: 'plots' }, ...plotsOf(learned.curves.length > 0 ? learned.curves : curvesOf(take.captured))));
+    else this.showLeft(element('div', { class: 'plots', 'data-plots': true }, ...plotsOf([...learned.curves, ...curvesOf(take.captured)])));
     const file = `${sessionName(session)}.wisp`;
     this.showPanel(
       resultPanel(session, flame, {

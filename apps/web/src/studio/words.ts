@@ -42,8 +42,11 @@ export interface Meter {
   value: string;
 }
 
-/** How well it does on what it has not seen. */
-export function metersOf(report: Report): Meter[] {
+/** Of a table's outputs, those that have bars. */
+const MOST_OUTPUTS = 4;
+
+/** How well it does, on what it has not seen where something was kept back. `outputs`: names of a table's. */
+export function metersOf(report: Report, outputs: readonly string[]): Meter[] {
   const made: Meter[] = [];
   const add = (words: string, share: number | null, good: number): void => {
     if (share !== null) made.push({ words, share: Math.max(0, Math.min(1, share)), good, value: `${Math.round(100 * share)} %`.replace('-', '−') });
@@ -55,8 +58,14 @@ export function metersOf(report: Report): Meter[] {
   add('The tip, a frame ahead', percent('tip', 'held_out_fit_percent', '1'), 0.5);
   // Without wind it flickers in its own time: no play can follow the film for long.
   const inputs = within(report, 'inputs');
-  if (Array.isArray(inputs) && inputs.length > 0) add('The tip, played freely in the same wind', percent('tip', 'held_out_fit_percent', 'inf'), 0.5);
-  add('Outlines that lie over each other', figure(report, 'overlap'), 0.85);
+  if (Array.isArray(inputs) && inputs.length > 0) {
+    add('The tip, played freely in the same wind', percent('tip', 'held_out_fit_percent', 'inf'), 0.5);
+    add('Outlines that lie over each other', figure(report, 'overlap'), 0.85);
+  } else add('Outlines that lie over each other, a frame ahead', figure(report, 'overlap_by_steps', '1'), 0.85);
+  outputs.slice(0, MOST_OUTPUTS).forEach((name, k) => {
+    add(`${name}, a row ahead`, percent('fit_percent', '1', String(k)), 0.5);
+    add(`${name}, played from what goes in alone`, percent('fit_percent', 'inf', String(k)), 0.4);
+  });
   return made;
 }
 

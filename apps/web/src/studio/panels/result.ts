@@ -41,7 +41,8 @@ export function resultPanel(session: Session, flame: boolean, events: ResultEven
   const { report, curves, text } = learned;
   const { good, title, reason } = verdictOf(report, !flame);
   const held = heldOutSeconds(report);
-  const meters = metersOf(report);
+  const outputs = (takes[0]?.captured.series ?? []).filter(({ role }) => role === 'output').map(({ name }) => name);
+  const meters = metersOf(report, flame ? [] : outputs);
   const panel = element(
     'div',
     { class: 'panel result' },
@@ -63,14 +64,14 @@ export function resultPanel(session: Session, flame: boolean, events: ResultEven
     );
   }
   if (meters.length > 0) {
-    const seen = held === null ? 'On seconds that it had not seen' : `On the ${Math.round(held)} seconds that it had not seen`;
+    const seen = held === null ? 'How well it fits' : `On the ${Math.round(held)} seconds that it had not seen`;
     panel.append(element('section', {}, element('h3', {}, seen), ...meters.map(meter)));
   }
   panel.append(
     ...list('Take care', (report.warnings ?? []).map(sentence), 'warnings'),
     ...(flame ? list('To make it better', adviceOf(takes.map(({ captured }) => captured), report), 'advice') : []),
     takingOf(session, flame ? () => events.film() : null),
-    moreOf(recipe, text, flame ? plotsOf(curves) : [], events),
+    moreOf(recipe, text, flame ? plotsOf(curves) : null, events),
     element('div', { class: 'actions' }, button('Begin anew', 'anew', () => events.anew())),
   );
   return panel;
@@ -92,7 +93,7 @@ const TABLE_KNOBS: typeof FLAME_KNOBS = [
 ];
 
 /** Controls that learn again, and the report as the program prints it. */
-function moreOf(recipe: Recipe, text: string, plots: readonly HTMLElement[], events: ResultEvents): HTMLElement {
+function moreOf(recipe: Recipe, text: string, plots: readonly HTMLElement[] | null, events: ResultEvents): HTMLElement {
   const details = element('details', { class: 'more' }, element('summary', {}, 'More: learn it in another way'));
   for (const [words, name, options] of recipe.kind === 'arx' ? TABLE_KNOBS : FLAME_KNOBS) {
     const group = element('div', { class: 'choice', role: 'group', 'aria-label': words }, element('span', {}, words));
@@ -105,6 +106,7 @@ function moreOf(recipe: Recipe, text: string, plots: readonly HTMLElement[], eve
     }
     details.append(group);
   }
-  details.append(...plots, element('h3', {}, 'The report'), element('pre', { tabindex: '0', 'aria-label': 'The report' }, text));
+  if (plots !== null) details.append(element('div', { class: 'judged', 'data-plots': true }, ...plots));
+  details.append(element('h3', {}, 'The report'), element('pre', { tabindex: '0', 'aria-label': 'The report' }, text));
   return details;
 }

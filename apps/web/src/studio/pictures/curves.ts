@@ -5,20 +5,49 @@ import { element } from '../../panel/element.js';
 import { surfaceOf } from './surface.js';
 
 const COLOURS = ['#7fc4ff', '#ffb35c', '#9fd8a4', '#e690b8'];
-const MARGIN = { left: 44, right: 8, top: 8, bottom: 30 };
+const MARGIN = { left: 54, right: 8, top: 8, bottom: 30 };
 const MOST_PLOTS = 6;
 
-const short = (value: number): string => (value === 0 ? '0' : String(Number(value.toPrecision(3))).replace('-', '−'));
+const short = (value: number): string => (value === 0 ? '0' : String(Number(value.toPrecision(Math.abs(value) < 1e-3 ? 2 : 3))).replace('-', '−'));
+
+/** What is plotted, in this order, by how its ids begin; of the rest nothing is. */
+const FAMILIES: readonly (readonly [RegExp, string])[] = [
+  [/^column/, ''],
+  [/^(measured|predicted|simulated)\./, 'Measured and played'],
+  [/^tip\./, 'The tip, recorded and played from the wind alone'],
+  [/^step\./, 'Answer to a step'],
+  [/^flicker\./, 'Spectrum of the flicker'],
+  [/^residual\./, 'What is left over'],
+  [/^(poles|zeros)/, 'Poles and zeros'],
+  [/^(input|output):/, ''],
+];
+
+/** Curves that share a plot: a channel's own, and everything of one kind that has no channel. */
+function plotKey({ id }: Curve): string | null {
+  const family = FAMILIES.findIndex(([begins]) => begins.test(id));
+  if (family < 0) return null;
+  const channel = /^(?:measured|predicted|simulated)\.(\d+)/.exec(id)?.[1] ?? /^flicker\.(\w)/.exec(id)?.[1] ?? /^(input|output):/.exec(id)?.[1];
+  const own = channel ?? (/^(step|residual|column)/.test(id) ? id.replace(/\.(low|high|bound)$/, '') : '');
+  return `${family} ${own}`;
+}
 
 /** Plots of all of them. */
 export function plotsOf(curves: readonly Curve[]): HTMLElement[] {
   const groups = new Map<string, Curve[]>();
   for (const curve of curves) {
-    const axes = `${curve.id.replace(/[.:#].*$/, '')}\n${curve.x_label}\n${curve.y_label}`;
-    groups.set(axes, [...(groups.get(axes) ?? []), curve]);
+    const key = plotKey(curve);
+    // Twice from two reports: once is enough.
+    if (key === null || groups.get(key)?.some(({ id }) => id === curve.id) === true) continue;
+    groups.set(key, [...(groups.get(key) ?? []), curve]);
   }
-  return [...groups.values()].slice(0, MOST_PLOTS).map(plotOf);
+  return [...groups.entries()]
+    .sort(([one], [other]) => parseInt(one) - parseInt(other))
+    .slice(0, MOST_PLOTS)
+    .map(([key, group]) => plotOf(group, FAMILIES[parseInt(key)]?.[1] ?? ''));
 }
+
+/** The edge of an interval, drawn beside its curve. */
+const isEdge = ({ id }: Curve): boolean => /\.(low|high|bound)$/.test(id);
 
 /** Columns of a table, as curves over time; no more points than can be seen. */
 export function curvesOf({ series, rate, rows }: Captured): Curve[] {
@@ -26,7 +55,7 @@ export function curvesOf({ series, rate, rows }: Captured): Curve[] {
   return series.map(({ name, unit, samples, role }) => {
     const kept = Array.from({ length: Math.floor(rows / every) }, (_, k) => k * every);
     return {
-      id: role,
+      id: `${role}: ${name}`,
       label: `${name}, ${role === 'input' ? 'goes in' : 'comes out'}`,
       x_label: 'seconds',
       y_label: unit,
@@ -36,17 +65,17 @@ export function curvesOf({ series, rate, rows }: Captured): Curve[] {
   });
 }
 
-function plotOf(curves: readonly Curve[]): HTMLElement {
-  const labels = curves.map(({ label }) => label);
-  const canvas = element('canvas', { role: 'img', 'aria-label': `${labels.join(', ')} over ${curves[0]?.x_label ?? ''}` });
-  const legend = element('figcaption');
-  labels.forEach((label, k) => {
-    const name = element('span', { class: 'legend' }, label);
+function plotOf(curves: readonly Curve[], title: string): HTMLElement {
+  const named = curves.filter((curve) => !isEdge(curve));
+  const canvas = element('canvas', { role: 'img', 'aria-label': `${title} ${named.map(({ label }) => label).join(', ')}` });
+  const legend = element('figcaption', {}, ...(title === '' ? [] : [element('b', {}, title)]));
+  named.forEach(({ label, id }, k) => {
+    const name = element('span', { class: 'legend' }, label === id ? 'poles' : label);
     name.style.setProperty('--colour', COLOURS[k % COLOURS.length] as string);
     legend.append(name);
   });
   new ResizeObserver(() => draw(canvas, curves)).observe(canvas);
-  return element('figure', { class: 'curves' }, canvas, legend);
+  return element('figure', { class: 'curves' }, legend, canvas);
 }
 
 function extent(values: readonly number[]): [number, number] {
@@ -82,17 +111,23 @@ function draw(canvas: HTMLCanvasElement, curves: readonly Curve[]): void {
   context.fillText(curves[0]?.x_label ?? '', (MARGIN.left + width) / 2, height - 3);
   context.lineWidth = 1.5;
   context.lineJoin = 'round';
-  curves.forEach((curve, k) => {
-    context.strokeStyle = COLOURS[k % COLOURS.length] as string;
-    context.beginPath();
+  let drawn = -1;
+  for (const curve of curves) {
+    if (!isEdge(curve)) drawn += 1;
+    context.strokeStyle = context.fillStyle = COLOURS[Math.max(0, drawn) % COLOURS.length] as string;
+    context.globalAlpha = isEdge(curve) ? 0.35 : 1;
+    const dots = curve.x_label === 'real part' || (/^lag/.test(curve.x_label) && !isEdge(curve));
     let on = false;
+    context.beginPath();
     curve.x.forEach((across, at) => {
       const value = curve.y[at] as number;
       const here = Number.isFinite(across) && Number.isFinite(value);
-      if (here && on) context.lineTo(x(across), y(value));
+      if (here && dots) context.fillRect(x(across) - 2.5, y(value) - 2.5, 5, 5);
+      else if (here && on) context.lineTo(x(across), y(value));
       else if (here) context.moveTo(x(across), y(value));
       on = here;
     });
     context.stroke();
-  });
+  }
+  context.globalAlpha = 1;
 }

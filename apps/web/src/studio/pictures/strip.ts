@@ -40,9 +40,10 @@ export class Strip {
     const { rows, rate } = this.outlines;
     const play = new Play(this.wisp, this.outlines, this.model);
     const pictures = width < NARROW ? FEWER : PICTURES;
+    const rowsShown = this.rowsShown(pictures);
     const each = width / pictures;
     for (let k = 0; k < pictures; ++k) {
-      const row = Math.round(((k + 0.5) / pictures) * (rows - 1));
+      const row = rowsShown[k] as number;
       // Step by step: a jump would begin anew.
       for (let on = 0; on < row; on += 100) play.goTo(on);
       play.goTo(row);
@@ -55,8 +56,17 @@ export class Strip {
     }
     context.fillStyle = '#b9b3ac';
     context.font = '11px ui-sans-serif, system-ui, sans-serif';
-    for (let k = 0; k < pictures; ++k) context.fillText(`${(((k + 0.5) / pictures) * (rows / rate)).toFixed(1)} s`, k * each + 6, 13);
+    for (let k = 0; k < pictures; ++k) context.fillText(`${((rowsShown[k] as number) / rate).toFixed(1)} s`, k * each + 6, 13);
     play.free();
+  }
+
+  /** Moments of which there are pictures, evenly over the film. */
+  private rowsShown(pictures: number): number[] {
+    const { rows, rate } = this.outlines;
+    return Array.from({ length: pictures }, (_, k) => {
+      const seconds = ((k + 0.5) / pictures) * (rows / rate);
+      return Math.max(0, Math.min(rows - 1, Math.round((this.take.reel.at(seconds)?.seconds ?? seconds) * rate)));
+    });
   }
 
   private inside(context: CanvasRenderingContext2D, cell: Cell, draw: (fit: { scale: number; x: number; y: number }) => void): void {

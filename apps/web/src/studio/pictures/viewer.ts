@@ -26,6 +26,7 @@ export class Viewer {
   private size: { width: number; height: number } | null = null;
   private seen: Seen | null = null;
   private box: Region | null = null;
+  private drawing = 0;
   private from: { x: number; y: number } | null = null;
 
   /** `chosen`: somebody said where to look, pixels of the film; null: anywhere */
@@ -99,7 +100,15 @@ export class Viewer {
     return dimensions === null ? null : contain(dimensions, this.over.clientWidth, this.over.clientHeight);
   }
 
+  /** Once a picture of the screen, however often something is seen. */
   private draw(): void {
+    this.drawing ||= requestAnimationFrame(() => {
+      this.drawing = 0;
+      this.drawNow();
+    });
+  }
+
+  private drawNow(): void {
     this.drawFilm();
     const surface = surfaceOf(this.over);
     const { fit, seen, box } = this;
