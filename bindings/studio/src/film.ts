@@ -1,8 +1,11 @@
 // Films: taken apart by Mediabunny, decoded by the browser, frame by frame and block by block.
 
-import { ALL_FORMATS, AudioSampleSink, BlobSource, EncodedPacketSink, Input, VideoSampleSink, type InputVideoTrack } from 'mediabunny';
+import { AudioSampleSink, BlobSource, EncodedPacketSink, Input, MATROSKA, MP4, QTFF, VideoSampleSink, WEBM, type InputVideoTrack } from 'mediabunny';
 import { StudioError, type CaptureSettings, type Engine } from './engine.js';
 import { rawOfFrame } from './pictures.js';
+
+/** What cameras and phones write, and browsers. */
+const FORMATS = [MP4, QTFF, MATROSKA, WEBM];
 
 /** Places over the whole film that are looked at first. */
 const GLIMPSES = 4;
@@ -73,7 +76,7 @@ export async function showFilm(
   settings: Omit<CaptureSettings, 'rate'>,
   looked: (frame: VideoFrame, share: number, turn: number) => Promise<void>,
 ): Promise<string[]> {
-  const input = new Input({ source: new BlobSource(file), formats: ALL_FORMATS });
+  const input = new Input({ source: new BlobSource(file), formats: FORMATS });
   try {
     const track = await input.getPrimaryVideoTrack().catch((error: unknown) => {
       throw new StudioError(`${settings.name} is not a film that can be read here: ${error instanceof Error ? error.message : String(error)}`);
