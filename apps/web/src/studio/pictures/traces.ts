@@ -28,17 +28,17 @@ export class Traces {
   private readonly canvas = element('canvas', { role: 'img', 'aria-label': 'Wind that was heard, and how the tip of the flame leans' });
   private lines: Line[] = [];
   private seconds = 0;
-  private marked = -1;
+  private readonly marker = element('i', { hidden: true });
 
   constructor() {
-    this.place.append(this.canvas);
+    this.place.append(this.canvas, this.marker);
     new ResizeObserver(() => this.draw()).observe(this.place);
   }
 
   /** Shows a recording's. */
   fill({ wind, lean, rows, rate }: Outlines): void {
     this.seconds = rows / rate;
-    this.marked = -1;
+    this.marker.hidden = true;
     this.lines = [
       ...(wind === null ? [] : [{ name: 'Wind', colour: '#7fc4ff', values: wind, ...rangeOf(wind, [0, 1]) }]),
       { name: 'Tip', colour: '#ffb35c', values: lean, ...rangeOf(lean, [-0.2, 0.2]) },
@@ -48,8 +48,9 @@ export class Traces {
 
   /** The moment that is shown, as a share of all. */
   mark(share: number): void {
-    this.marked = share;
-    this.draw();
+    // The lines are not drawn anew for it.
+    this.marker.hidden = false;
+    this.marker.style.left = `${(100 * share).toFixed(2)}%`;
   }
 
   private draw(): void {
@@ -66,9 +67,6 @@ export class Traces {
       context.textAlign = at === 0 ? 'left' : x > width - 20 ? 'right' : 'center';
       context.fillText(`${at} s`, x, height - 2);
     }
-    if (this.marked < 0) return;
-    context.fillStyle = 'rgb(255 240 220 / 70%)';
-    context.fillRect(Math.round(this.marked * width), 0, 1.5, height - 16);
   }
 }
 
