@@ -30,6 +30,20 @@ export function candleFilm(folder) {
   return film;
 }
 
+/** The same, to be shown turned by a quarter. */
+export function turnedFilm(film, folder) {
+  const turned = join(folder, 'turned.mp4');
+  convert('-i', film, '-t', '3', '-c', 'copy', '-metadata:s:v:0', 'rotate=90', turned);
+  return turned;
+}
+
+/** The recording that the program captures. */
+export function capturedByProgram(film, folder) {
+  const recording = join(folder, 'recording.csv');
+  execFileSync(program, ['capture', 'flame', film, '-o', recording, '--quiet'], { stdio: 'ignore' });
+  return recording;
+}
+
 /** The same as what a camera and a microphone give, again and again. */
 export function asDevices(film, folder) {
   const [picture, sound] = [join(folder, 'camera.mjpeg'), join(folder, 'microphone.wav')];

@@ -103,7 +103,8 @@ export async function showFilm(
       sample.close();
     }
     const unheard = await hear(engine, input, begin ?? first);
-    return unheard === '' ? [] : [`${settings.name}: ${unheard}`];
+    const cut = done < times.length - 1 ? `cut off: found ${done} frames of ${times.length} stated; what is there is used` : '';
+    return [unheard, cut].filter((words) => words !== '').map((words) => `${settings.name}: ${words}`);
   } finally {
     input.dispose();
   }

@@ -23,7 +23,7 @@ function drawn(width: number, height: number, draw: (on: OffscreenCanvasRenderin
 export async function rawOfFrame(frame: VideoFrame, turn = 0): Promise<RawPicture> {
   const { width, height } = frame.visibleRect ?? { width: frame.codedWidth, height: frame.codedHeight };
   const shifts = SHIFTS[frame.format ?? ''];
-  if (shifts === undefined || turn !== 0 || width * height > MOST_PIXELS) return turned(frame, width, height, turn);
+  if (shifts === undefined || width * height > MOST_PIXELS) return redrawn(frame, width, height, turn);
   const data = new Uint8Array(frame.allocationSize());
   const layout = await frame.copyTo(data);
   const planes = layout.map(({ offset, stride }) => ({ offset, stride, step: 1 }));
@@ -33,10 +33,35 @@ export async function rawOfFrame(frame: VideoFrame, turn = 0): Promise<RawPictur
     planes[2] = { offset: offset + 1, stride, step: 2 };
   }
   const { fullRange, matrix } = frame.colorSpace;
-  return { layout: 'yuv', width, height, data, planes, shiftX: shifts[0], shiftY: shifts[1], fullRange: fullRange ?? false, bt709: matrix === 'bt709' };
+  const picture: RawPicture = { layout: 'yuv', width, height, data, planes, shiftX: shifts[0], shiftY: shifts[1], fullRange: fullRange ?? false, bt709: matrix === 'bt709' };
+  return turn === 0 ? picture : turned(picture, turn / 90);
 }
 
-function turned(frame: VideoFrame, width: number, height: number, turn: number): RawPicture {
+/** The same picture turned clockwise by quarters, plane by plane. */
+function turned(picture: RawPicture, quarters: number): RawPicture {
+  const sideways = quarters % 2 !== 0;
+  const { width, height, data, shiftX = 0, shiftY = 0 } = picture;
+  const sizes = [[width, height], [-(-width >> shiftX), -(-height >> shiftY)]] as const;
+  const out = new Uint8Array(sizes[0][0] * sizes[0][1] + 2 * sizes[1][0] * sizes[1][1]);
+  let next = 0;
+  const planes = picture.planes.map(({ offset, stride, step }, k) => {
+    const [wide, tall] = sizes[k === 0 ? 0 : 1];
+    const plane = { offset: next, stride: sideways ? tall : wide, step: 1 };
+    // What stands at the end of a row or of a column comes first.
+    const [outWidth, outHeight] = sideways ? [tall, wide] : [wide, tall];
+    const [first, along, down] =
+      quarters === 1 ? [offset + (tall - 1) * stride, -stride, step]
+      : quarters === 2 ? [offset + (tall - 1) * stride + (wide - 1) * step, -step, -stride]
+      : [offset + (wide - 1) * step, stride, -step];
+    for (let y = 0; y < outHeight; ++y) {
+      for (let x = 0, at = first + y * down; x < outWidth; ++x, at += along) out[next++] = data[at]!;
+    }
+    return plane;
+  });
+  return { ...picture, width: sideways ? height : width, height: sideways ? width : height, data: out, planes, shiftX: sideways ? shiftY : shiftX, shiftY: sideways ? shiftX : shiftY };
+}
+
+function redrawn(frame: VideoFrame, width: number, height: number, turn: number): RawPicture {
   const share = Math.min(1, Math.sqrt(MOST_PIXELS / (width * height)));
   const [wide, tall] = [Math.round(width * share), Math.round(height * share)];
   const sideways = turn % 180 !== 0;

@@ -14,10 +14,12 @@ const figure = (report: Report, ...path: string[]): number | null => {
   return typeof value === 'number' && Number.isFinite(value) ? value : null;
 };
 
-/** A sentence: a capital first, a stop last. */
+/** A sentence: a capital first, but for a file's name, and a stop last. */
 export function sentence(words: string): string {
   const said = words.trim();
-  return said === '' ? '' : `${said[0]?.toUpperCase() ?? ''}${said.slice(1)}${/[.!?]$/.test(said) ? '' : '.'}`;
+  if (said === '') return '';
+  const first = /^\S+\.\w{2,4}\b/.test(said) ? said[0] : said[0]?.toUpperCase();
+  return `${first ?? ''}${said.slice(1)}${/[.!?]$/.test(said) ? '' : '.'}`;
 }
 
 export interface Verdict {
@@ -83,7 +85,7 @@ export function adviceOf(captured: readonly Captured[], report: Report | null): 
   const heard = captured.some((one) => within(one.report, 'wind', 'heard') === true);
   if (!windy) made.push('Film with sound, and blow close to the microphone: without it only the flicker can be learned, not what wind does.');
   else if (!heard) made.push('Hardly any wind was heard. Blow closer to the microphone, from the side, with pauses.');
-  if (seconds < 30) made.push(`These are ${Math.round(seconds)} seconds. Forty, with a soft breath from the side now and then, make it surer.`);
+  if (seconds < 30) made.push(`There are ${Math.round(seconds)} s of film. Forty, with a soft breath from the side now and then, make it surer.`);
   const out = captured.some((one) => figure(one.report, 'out_at') !== null);
   if (report !== null && windy && !out && within(report, 'extinction', 'source') !== 'learned') {
     made.push('It has not been seen to go out. Blow it out once or twice while you film, and light it again.');
