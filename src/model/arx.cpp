@@ -73,9 +73,8 @@ Result<void> check_past(const DrawnResiduals& drawn) {
   const bool driven = drawn.toward >= 0;
   const std::vector<int>& lags = drawn.lags;
   const bool ascending = std::is_sorted(lags.begin(), lags.end(), std::less_equal<>());
-  if (driven
-          ? lags.empty() || lags.size() > kMostDrawnLags || lags.front() != 0 || lags.back() > kMaxOrder || !ascending
-          : !lags.empty()) {
+  if (driven ? lags.empty() || lags.size() > kMaxDrawnLags || lags.front() != 0 || lags.back() > kMaxOrder || !ascending
+             : !lags.empty()) {
     return Error{"the drawn residuals' lags are not up to 16 ascending numbers from 0 to 4096"};
   }
   const std::size_t before = driven ? drawn.ends.size() * static_cast<std::size_t>(lags.back()) : 0;

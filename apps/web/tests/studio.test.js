@@ -236,7 +236,7 @@ describe('a bad day in the studio', { skip }, () => {
     await until(page, 'what there is to choose', () => document.querySelector('[data-gather=camera]') !== null);
   };
 
-  it('says that there is no camera, having asked for raw sound', async () => {
+  it('says that there is no camera, and requests unprocessed sound', async () => {
     await page.click('[data-gather=camera]');
     await says(page, panel, 'No camera was found');
     const { audio } = await page.evaluate(() => window.wanted[0]);

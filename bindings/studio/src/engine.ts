@@ -257,7 +257,7 @@ function absent(name: string): () => number {
   const BAD_DESCRIPTOR = 8;
   if (/^(fd_|environ_|clock_)/.test(name)) return () => BAD_DESCRIPTOR;
   return () => {
-    throw new StudioError(`the module asked for ${name}, which is not there`);
+    throw new StudioError(`the module called ${name}, which is not implemented`);
   };
 }
 

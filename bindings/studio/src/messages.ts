@@ -3,7 +3,7 @@
 import type { CaptureSettings } from './engine.js';
 import type { Captured, Learned, PictureSettings, Recipe, Seen, TableSettings } from './types.js';
 
-/** What a worker is asked for. */
+/** Requests to a worker. */
 export type Task =
   | { do: 'film'; file: File; settings: PictureSettings }
   | { do: 'pictures'; files: File[]; rate: number; settings: PictureSettings }

@@ -90,7 +90,7 @@ export interface Recipe {
   seed?: number;
   /** lags of outputs and inputs; 0: the default */
   order?: number;
-  /** the paper's 192 multiply-adds: inputs as they are, Gaussian noise */
+  /** an outline with a third of the arithmetic, as `--light` */
   light?: boolean;
   /** noise of an outline */
   noise?: 'independent' | 'residual' | 'matched' | 'drawn';

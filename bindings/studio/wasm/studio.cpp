@@ -112,9 +112,16 @@ int hand_over(const Recording& recording, const Report& report) {
   return kDone;
 }
 
-OutlineRecipe outline_recipe(const json& from, OutlineRecipe recipe) {
+template <class SomeRecipe>
+SomeRecipe named(const json& from, SomeRecipe recipe) {
   recipe.name = from.value("name", recipe.name);
   recipe.seed = from.value("seed", recipe.seed);
+  return recipe;
+}
+
+template <class SomeRecipe>
+SomeRecipe outline_recipe(const json& from, SomeRecipe defaults) {
+  SomeRecipe recipe = named(from, std::move(defaults));
   if (const auto order = whole(from, "order")) recipe.order = *order;
   if (const auto knots = whole(from, "curve")) recipe.input_curve = *knots;
   const std::string noise = from.value("noise", "");
@@ -122,10 +129,7 @@ OutlineRecipe outline_recipe(const json& from, OutlineRecipe recipe) {
   if (noise == "residual") recipe.noise = OutlineNoise::kResidual;
   if (noise == "matched") recipe.noise = OutlineNoise::kMatched;
   if (noise == "drawn") recipe.noise = OutlineNoise::kDrawn;
-  if (from.value("light", false)) {
-    recipe.one_sided = true;
-    recipe.noise = OutlineNoise::kIndependent;
-  }
+  recipe.light = from.value("light", false);
   return recipe;
 }
 
@@ -140,19 +144,10 @@ Recipe recipe_of(const json& from) {
     if (const auto nk = whole(from, "nk")) recipe.nk = *nk;
     return recipe;
   }
-  if (kind == "leaf" || kind == "chain") {
-    LeafRecipe leaf;
-    ChainRecipe recipe = kind == "leaf" ? leaf : ChainRecipe{};
-    recipe.name = from.value("name", recipe.name);
-    recipe.seed = from.value("seed", recipe.seed);
-    if (kind == "chain") return recipe;
-    static_cast<ChainRecipe&>(leaf) = recipe;
-    return leaf;
-  }
+  if (kind == "chain") return named(from, ChainRecipe{});
+  if (kind == "leaf") return named(from, LeafRecipe{});
   if (kind == "outline") return outline_recipe(from, OutlineRecipe{});
-  FlameRecipe flame;
-  static_cast<OutlineRecipe&>(flame) = outline_recipe(from, flame);
-  return flame;
+  return outline_recipe(from, FlameRecipe{});
 }
 
 Result<Recording> read_recording(const char* bytes, std::size_t size, const json& settings) {

@@ -69,11 +69,10 @@ struct DrawnResiduals {
                                     ///< then one a row
   int toward = -1;                  ///< the regressor that the input is; -1: none, and jumps go anywhere
   int against = -1;                 ///< another one that is subtracted from it: wind from the other side; -1: none
-  std::vector<int> lags;  ///< 1 to kMostDrawnLags numbers of steps that are looked back, ascending from 0; empty where
-                          ///< nothing drives it
-  double tolerance = 0;   ///< by which a row may be farther than the nearest one before a jump, in the regressor's unit
-  double margin = 0;      ///< pasts that differ by less count as alike, in the regressor's unit
-  int longest = 1;        ///< steps from one jump to the next at most, 1 to 1 000 000
+  std::vector<int> lags;            ///< 1 to kMaxDrawnLags lags, steps, ascending from 0; empty where nothing drives it
+  double tolerance = 0;  ///< by which a row may be farther than the nearest one before a jump, in the regressor's unit
+  double margin = 0;     ///< pasts that differ by less count as alike, in the regressor's unit
+  int longest = 1;       ///< steps from one jump to the next at most, 1 to 1 000 000
   std::vector<int> mirror;  ///< per output ±(1 + the output whose residual it takes in an input from the other side);
                             ///< empty: that side is no mirror image
 
@@ -82,7 +81,7 @@ struct DrawnResiduals {
 };
 
 /// Most lags of the input's past that drawn residuals look at.
-inline constexpr std::size_t kMostDrawnLags = 16;
+inline constexpr std::size_t kMaxDrawnLags = 16;
 
 /// Most rows that residuals are drawn from.
 inline constexpr std::size_t kMostDrawnRows = std::size_t{1} << 22;

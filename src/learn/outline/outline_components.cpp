@@ -12,7 +12,7 @@
 namespace wisp {
 namespace {
 
-constexpr double kLeastSd = 1e-3;  // of the largest component's: below it is rounding
+constexpr double kMinSd = 1e-3;  // of the largest component's: below it is rounding
 
 // Calls visit(row of outputs) for every row that has all of them.
 template <class Visit>
@@ -189,7 +189,7 @@ ShapeComponents shape_components(std::span<const Recording> recordings, const Pr
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> found(covariance / std::max(1.0, rows));
   const Eigen::VectorXd sd = found.eigenvalues().cwiseMax(0).cwiseSqrt();
   Eigen::Index m = 0;
-  while (m < ny && sd[ny - 1 - m] > kLeastSd * sd[ny - 1]) ++m;
+  while (m < ny && sd[ny - 1 - m] > kMinSd * sd[ny - 1]) ++m;
   m = std::max<Eigen::Index>(1, std::min(m, ny - 2));
   out.shape.resize(ny, m);
   out.score.resize(m, ny);

@@ -1,5 +1,6 @@
 // The stage: a canvas with its WebGL2 context, the loop of frames, and whatever scene is on.
 
+import { FrameLoop } from './frame_loop.js';
 import { PointerReader } from './pointer.js';
 import type { Scene } from './scene.js';
 
@@ -59,8 +60,7 @@ export class Stage {
   /** nothing that passes makes wind */
   still = false;
   private wanted: BlobCallback | null = null;
-  private running = 0;
-  private last = 0;
+  private readonly loop = new FrameLoop((passed, now) => this.frame(passed, now));
   private fade = 0;
   private adapted = 1;
   private lookedAt = 0;
@@ -96,14 +96,12 @@ export class Stage {
 
   /** Runs; twice is fine. */
   start(): void {
-    this.running ||= requestAnimationFrame((now) => this.frame(now));
+    this.loop.start();
   }
 
   /** Stands still until start(). */
   stop(): void {
-    cancelAnimationFrame(this.running);
-    this.running = 0;
-    this.last = 0;
+    this.loop.stop();
   }
 
   /** The next picture as a file. */
@@ -134,10 +132,7 @@ export class Stage {
     this.events.context('back');
   }
 
-  private frame(now: number): void {
-    this.running = requestAnimationFrame((next) => this.frame(next));
-    const passed = this.last === 0 ? 0 : (now - this.last) / 1000;
-    this.last = now;
+  private frame(passed: number, now: number): void {
     const seconds = this.paused ? 0 : Math.min(LONGEST_FRAME, Math.max(0, passed));
     if (this.scene === null) return;
     const before = performance.now();

@@ -57,7 +57,7 @@ async function ask(): Promise<{ stream: MediaStream; silent: string }> {
     return { stream: await devices.getUserMedia({ video: VIDEO, audio: AUDIO }), silent: '' };
   } catch (error) {
     const name = error instanceof DOMException ? error.name : '';
-    // Which of the two it was is not said: the camera alone is asked for.
+    // The browser does not say which of the two was refused: the camera alone is requested.
     if (name in TROUBLE) {
       const stream = await devices.getUserMedia({ video: VIDEO }).catch(() => null);
       const why = name === 'NotAllowedError' ? 'The microphone was not allowed' : 'There is no microphone';

@@ -1,6 +1,7 @@
 // The film and the flame that learned from it, side by side: the same wind, the same moment, the same scale.
 
 import type { Library } from '@wisp/player';
+import { FrameLoop } from '@wisp/player/parts/stage/frame_loop';
 import type { Region } from '@wisp/studio';
 import { element } from '../../panel/element.js';
 import { paintFlame } from './flame_paint.js';
@@ -33,8 +34,7 @@ export class Duet {
   /** seconds of the film's picture that is shown; null: the browser does not say */
   private shown: number | null = null;
   private clock = 0;
-  private last = 0;
-  private running = 0;
+  private readonly loop = new FrameLoop((passed) => this.frame(passed));
 
   /** `moved`: the moment that is shown, as a share of the film */
   constructor(
@@ -56,13 +56,11 @@ export class Duet {
   }
 
   start(): void {
-    this.running ||= requestAnimationFrame((now) => this.frame(now));
+    this.loop.start();
   }
 
   stop(): void {
-    cancelAnimationFrame(this.running);
-    this.running = 0;
-    this.last = 0;
+    this.loop.stop();
     this.video.pause();
   }
 
@@ -91,10 +89,8 @@ export class Duet {
     });
   }
 
-  private frame(now: number): void {
-    this.running = requestAnimationFrame((next) => this.frame(next));
-    const seconds = this.last === 0 ? 0 : Math.min(LONGEST, (now - this.last) / 1000);
-    this.last = now;
+  private frame(passed: number): void {
+    const seconds = Math.min(LONGEST, passed);
     const { rows, rate } = this.outlines;
     if (this.filmed) {
       if (this.video.paused) this.video.play().catch(() => (this.filmed = false));

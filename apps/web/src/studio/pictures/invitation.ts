@@ -1,6 +1,7 @@
 // What stands in the film's place while there is none: what will be looked for, an outline and the points that hold it.
 
 import type { Bank, Instance, Library } from '@wisp/player';
+import { FrameLoop } from '@wisp/player/parts/stage/frame_loop';
 import { element } from '../../panel/element.js';
 import { paintFlame } from './flame_paint.js';
 import { surfaceOf, trace } from './surface.js';
@@ -14,8 +15,7 @@ export class Invitation {
   readonly canvas = element('canvas', { class: 'invitation', role: 'img', 'aria-label': 'A flame, with the outline and the eight points that are learned of it' });
   private bank: Bank | null = null;
   private flame: Instance = 0n;
-  private running = 0;
-  private last = 0;
+  private readonly loop = new FrameLoop((passed) => this.frame(passed));
   private clock = 0;
   private readonly still = window.matchMedia('(prefers-reduced-motion: reduce)').matches;
 
@@ -30,19 +30,15 @@ export class Invitation {
   }
 
   start(): void {
-    this.running ||= requestAnimationFrame((now) => this.frame(now));
+    this.loop.start();
   }
 
   stop(): void {
-    cancelAnimationFrame(this.running);
-    this.running = 0;
-    this.last = 0;
+    this.loop.stop();
   }
 
-  private frame(now: number): void {
-    this.running = requestAnimationFrame((next) => this.frame(next));
-    const seconds = this.last === 0 ? 0 : Math.min(0.1, (now - this.last) / 1000);
-    this.last = now;
+  private frame(passed: number): void {
+    const seconds = Math.min(0.1, passed);
     this.clock += seconds;
     const { bank } = this;
     const surface = surfaceOf(this.canvas);
