@@ -57,6 +57,11 @@ std::uint64_t Bank::State::step_blocks(int first, int last, bool read) {
         std::uint32_t flags[kGroup * kLanes];
         for (int block = first; block < last;) {
           const int group = last - block < kGroup ? 1 : kGroup;
+          if constexpr (kGroup > 1) {
+            if (dynamics.is_far()) {
+              for (int b = block + kGroup; b < std::min(block + 2 * kGroup, last); ++b) dynamics.fetch(b);
+            }
+          }
           for (int b = block; count > 0 && b < block + group; ++b) {
             std::copy_n(regressors_of(b), count, dynamics.regressors(b));
           }
