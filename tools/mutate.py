@@ -82,7 +82,7 @@ def mutants_of_line(line):
                 yield line[:begin] + f" (MUTANT(K) ? ({other}) : ({whole}))" + line[end:], other.strip()
     if re.match(r"\s+(?:[\w\.\[\]\*\->]+ [+\-|&]?= |[\w\.\->:]+\(|\+\+|--)[^{}]*;$", line) and not re.match(r"\s+(return|const)\b", line):
         indent = len(line) - len(line.lstrip())
-        yield line[:indent] + f"if (!MUTANT(K)) {line[indent:]}", "(left out)"
+        yield line[:indent] + "{ if (!MUTANT(K)) " + line[indent:] + " }", "(left out)"
 
 
 DEFINED = {"WISP_VECTOR_LANES": True, "WISP_LONG_WORDS": True, "__AVX2__": False, "__AVX512F__": False, "__wasm__": False,
