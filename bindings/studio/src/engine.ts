@@ -54,7 +54,7 @@ interface ReportText {
   text: string;
 }
 
-type RecordingText = ReportText & { rate: number; rows: number; series: Omit<Series, 'samples'>[] };
+type RecordingText = ReportText & { rate: number; rows: number; episodes: number[]; series: Omit<Series, 'samples'>[] };
 
 export class Engine {
   /** Told of progress; returns whether to go on. */
@@ -180,11 +180,12 @@ export class Engine {
   private recording(): Captured {
     const { series, rows, ...rest } = JSON.parse(this.text()) as RecordingText;
     const numbers = this.numbers();
-    const { report, text, rate } = rest;
+    const { report, text, rate, episodes } = rest;
     return {
       csv: this.answerBytes(),
       rate,
       rows,
+      episodes,
       series: series.map((one, k) => ({ ...one, samples: numbers.slice(k * rows, (k + 1) * rows) })),
       report,
       text,

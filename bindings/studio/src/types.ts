@@ -77,6 +77,8 @@ export interface Captured {
   csv: Uint8Array;
   rate: number;
   rows: number;
+  /** rows at which episodes begin: stretches that history does not cross */
+  episodes: number[];
   series: Series[];
   report: Report;
   /** the report in words, as the program prints it */

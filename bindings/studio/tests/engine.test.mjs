@@ -173,6 +173,7 @@ describe('against the program', { skip: existsSync(program) ? false : 'the progr
   test('the same falls give the same leaf, and the same chain of positions', () => {
     const falls = join(folder, 'falls.csv');
     wisp('simulate', 'leaf', '-o', falls, '--drops', '8', '--seconds', '6', '--seed', '7');
+    assert.deepEqual(engine.table('falls.csv', readFileSync(falls)).episodes, Array.from({ length: 8 }, (_, k) => 360 * k));
     for (const kind of ['leaf', 'chain']) {
       const report = JSON.parse(wisp('learn', kind, falls, '-o', join(folder, `${kind}.wisp`), '--json'));
       const fit = engine.learn([readFileSync(falls)], { kind, name: kind });

@@ -107,6 +107,9 @@ int hand_over(const Recording& recording, const Report& report) {
   json text = report_json(report);
   text["rate"] = recording.rate_hz;
   text["rows"] = recording.rows();
+  json begins = json::array();
+  for (const Episode& episode : episodes(recording)) begins.push_back(episode.begin);
+  text["episodes"] = std::move(begins);
   text["series"] = std::move(series);
   out.text = text.dump();
   return kDone;

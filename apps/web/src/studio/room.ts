@@ -8,7 +8,7 @@ import type { Dropped } from '../drops.js';
 import { DEFAULTS } from '../link.js';
 import { element } from '../panel/element.js';
 import { fetchShipped, shippedFlame } from '../shipped.js';
-import { curvesOf, plotsOf } from './pictures/curves.js';
+import { plotsOf, recordedOf } from './pictures/curves.js';
 import { Duet } from './pictures/duet.js';
 import { Filming } from './camera/filming.js';
 import { gatherPanel } from './panels/gather.js';
@@ -443,7 +443,7 @@ export class Room {
     const { outlines } = take;
     this.stepTo('blow', thing);
     if (outlines !== null && thing === 'flame') this.showFlame(take, outlines, learned.model);
-    else this.showLeft(element('div', { class: 'plots', 'data-plots': true }, ...plotsOf([...(learned.judged?.curves ?? []), ...learned.curves, ...curvesOf(take.captured)])));
+    else this.showLeft(element('div', { class: 'plots', 'data-plots': true }, ...plotsOf([...(learned.judged?.curves ?? []), ...learned.curves, ...recordedOf(take.captured)])));
     const file = `${sessionName(session)}.wisp`;
     this.showPanel(
       resultPanel(session, {
@@ -506,7 +506,7 @@ export class Room {
       if (outlines === null) {
         for (const { reel } of this.session.takes) reel.close();
         this.session = { takes: [take], recipe: recipeOfTable(captured, settings), learned: null };
-        this.showLeft(element('div', { class: 'plots' }, ...plotsOf(curvesOf(captured))));
+        this.showLeft(element('div', { class: 'plots' }, ...plotsOf(recordedOf(captured))));
         await this.learn();
       } else {
         this.viewer.clear();
