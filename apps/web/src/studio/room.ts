@@ -20,6 +20,7 @@ import { pickOf, unfold } from './picks.js';
 import { Reel } from './reel.js';
 import { ratePanel } from './panels/rate.js';
 import { resultPanel } from './panels/result.js';
+import type { Moving } from './panels/taking.js';
 import { newSession, sessionName, thingOf, type Looked, type Session, type Take } from './session.js';
 import { Strip } from './pictures/strip.js';
 import { tablePanel } from './panels/table.js';
@@ -36,7 +37,7 @@ export interface Host {
   /** puts a flame into the page's own scene, with the microphone */
   blow(file: string, model: Uint8Array): Promise<void>;
   /** saves some seconds of it there; says how that went */
-  film(file: string, model: Uint8Array): Promise<string>;
+  film(file: string, model: Uint8Array, kind: Moving): Promise<string>;
 }
 
 type Step = 'gather' | 'look' | 'learn' | 'blow';
@@ -451,7 +452,7 @@ export class Room {
         more: () => this.gather(),
         anew: () => this.anew(),
         again: (change) => this.learnAgain(change),
-        film: () => host.film(file, learned.model),
+        film: (kind) => host.film(file, learned.model, kind),
       }),
     );
     const { title, reason } = verdictOf(learned, thing);
