@@ -31,7 +31,7 @@ std::span<const std::array<float, 3>> normal_table() {
   static constexpr auto kTable = [] {
     std::array<std::array<float, 3>, kCount> table{};
     for (std::size_t k = 0; k < kCount; ++k) {
-      table[k] = {kNormalSegments[k].c0, kNormalSegments[k].c1, kNormalSegments[k].c2};
+      for (int c = 0; c < 3; ++c) table[k][c] = kNormalSegments[k].c[c];
     }
     return table;
   }();
