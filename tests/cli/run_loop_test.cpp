@@ -1,4 +1,4 @@
-// `wisp run --loop`: a round whose last frame meets its first.
+// `wisp run --loop`: a loop whose last frame meets its first.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
