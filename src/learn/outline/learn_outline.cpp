@@ -1,5 +1,8 @@
 #include "learn/outline/learn_outline.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "learn/flame/extinction_learning.hpp"
 #include "learn/flame/extinction_report.hpp"
 #include "learn/flame/wind_gain.hpp"
@@ -34,6 +37,32 @@ Result<ExtinguishedRecordings> on_chosen_scale(std::span<const Recording> record
   return ExtinguishedRecordings::find(*std::move(common), recipe.extinction);
 }
 
+// Whether no input of any recording stands out from chance in the motion.
+bool driven_by_nothing(const OutlineSummary& summary) {
+  const auto stands_out = [](const InputAlignment& one) {
+    return one.found.chance > 0 && std::abs(one.found.correlation) >= one.found.chance;
+  };
+  return !summary.inputs.empty() && std::none_of(summary.alignment.begin(), summary.alignment.end(), stands_out);
+}
+
+// Most films have sound, and in most of them nobody blows. Where nobody said what drives the outline, an input that has
+// nothing in common with it and by which it cannot be followed is left out.
+Result<OutlineFit> fit_what_drives(const std::vector<Recording>& recordings, const OutlineRecipe& recipe,
+                                   const Progress& progress) {
+  auto fit = fit_outline(recordings, recipe, progress);
+  if (!fit || recipe.inputs || fit->summary.usable.verdict || !driven_by_nothing(fit->summary)) return fit;
+  OutlineRecipe alone = recipe;
+  alone.inputs.emplace();
+  auto flicker = fit_outline(recordings, alone, progress);
+  if (!flicker) return fit;
+  flicker->summary.alignment = std::move(fit->summary.alignment);
+  flicker->summary.warnings.push_back(
+      "what was heard as wind has nothing in common with the motion: learned without it, so that the model flickers "
+      "but "
+      "does not answer to wind; to teach it that, blow while you record");
+  return flicker;
+}
+
 // However well a model follows an outline, it is no better than the outline.
 void refuse_what_capture_refused(std::span<const Recording> recordings, OutlineFit& fit) {
   for (const Recording& recording : recordings) {
@@ -53,7 +82,7 @@ Result<Fit> learn_outline(std::span<const Recording> recordings, const OutlineRe
   WindGain gain;
   const auto seen = on_chosen_scale(recordings, recipe, progress, gain);
   if (!seen) return seen.error();
-  auto fit = fit_outline(seen->burning(), recipe, progress);
+  auto fit = fit_what_drives(seen->burning(), recipe, progress);
   if (!fit) return fit.error();
   const auto extinction = seen->complete(fit->model, recipe.extinction);
   if (!extinction) return extinction.error();

@@ -100,6 +100,38 @@ TEST(LearnOutline, OneMicrophonesRecordingsAreLearnedWithACommonGain) {
   EXPECT_DOUBLE_EQ(fit.model.training.inputs[0].one_rms, 0.04 * 2.5 * 2.5);
 }
 
+// A microphone that hears gusts which never reach the thing.
+Recording with_wind_elsewhere() { return made::outline_recording({.rows = 900, .wind = true, .lean = 0, .seed = 4}); }
+
+TEST(LearnOutline, AnInputThatMovesNothingIsLeftOutWithAWarning) {
+  const Fit fit = learned({with_wind_elsewhere()}, {});
+  EXPECT_TRUE(fit.model.inputs.empty());
+  EXPECT_TRUE(fit.report.verdict->usable) << fit.report.verdict->reason;
+  EXPECT_THAT(fit.report.warnings, testing::Contains(HasSubstr("nothing in common with the motion")));
+}
+
+TEST(LearnOutline, AnInputThatWasAskedForStays) {
+  OutlineRecipe recipe;
+  recipe.inputs = {"wind"};
+  const Fit fit = learned({with_wind_elsewhere()}, recipe);
+  EXPECT_FALSE(fit.model.inputs.empty());
+  EXPECT_FALSE(fit.report.verdict->usable);
+}
+
+TEST(LearnOutline, AnInputThatMovesItStays) { EXPECT_FALSE(learned({windy()}, {}).model.inputs.empty()); }
+
+TEST(LearnOutline, WhatMovesOtherwiseInTheEndIsNotUsable) {
+  Recording recording = made::outline_recording({.rows = 600, .seed = 5});
+  const Recording other = made::outline_recording({.rows = 600, .lag1 = -1.5, .seed = 6});
+  for (std::size_t c = 0; c < recording.channels.size(); ++c) {
+    auto& samples = recording.channels[c].samples;
+    std::copy(other.channels[c].samples.begin() + 420, other.channels[c].samples.end(), samples.begin() + 420);
+  }
+  const Fit fit = learned({recording}, {});
+  EXPECT_FALSE(fit.report.verdict->usable);
+  EXPECT_THAT(fit.report.verdict->reason, HasSubstr("moves otherwise than what was learned from"));
+}
+
 TEST(LearnOutline, CanBeStopped) {
   const auto stopped =
       learn_outline(std::vector{windy()}, {}, [](std::string_view, double share) { return share < 0.5; });
