@@ -8,6 +8,7 @@
 #include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/capture/clip/clip_capture.hpp"
+#include "wisp/capture/clip/fall_capture.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {
@@ -23,6 +24,11 @@ Result<Captured> capture(const std::filesystem::path& path, const ClipCapture& o
 /// picture, kStopped.
 Result<Recording> capture_brightness(const std::filesystem::path& path, const ClipCapture& options,
                                      const Progress& progress = {});
+
+/// Captures the falls of something light that is dropped before a plain wall in a clip: see FallCapture.
+/// Errors, naming the file: missing or not a clip, as FallCapture, kStopped.
+Result<Captured> capture_falls(const std::filesystem::path& path, const FallOptions& options,
+                               const Progress& progress = {});
 
 /// Hears the wind of a clip whose picture has `frames` frames at `rate_hz` a second.
 /// Returns no frames where there is no sound track or a silent one; `note` tells which.
