@@ -28,7 +28,7 @@ struct FallOptions {
   std::optional<FrameRange> frames{};  ///< of a file: 1-based and inclusive; none: all
   double rate_hz = 0;                  ///< of a file: frames a second, needed for a folder of images, overrides a
                                        ///< video's own: a film in slow motion has the rate that it was filmed at
-  std::size_t max_bytes = 192u << 20;  ///< of small pictures that are kept, one byte a pixel: about 3400 frames of a
+  std::size_t max_bytes = 384u << 20;  ///< of small pictures that are kept, one byte a pixel: about 6900 frames of a
                                        ///< wide film
 };
 

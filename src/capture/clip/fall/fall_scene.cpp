@@ -12,7 +12,8 @@ constexpr std::size_t kGainSpots = 997;  // pixels that exposure is measured on
 constexpr float kMinGround = 16;         // grey levels: darker, it tells no exposure
 constexpr float kMinDifference = 8;      // grey levels: coding leaves less behind
 constexpr float kSigmas = 5;
-constexpr float kUnsteady = 5;  // grey levels
+constexpr double kUnsteady = 5;   // grey levels that a pixel that changes all the time is not within …
+constexpr double kMoments = 0.7;  // … for more than so much of it
 constexpr float kMadToSigma = 1.4826F;
 constexpr int kMinPixels = 4;     // of something, beyond the tolerance
 constexpr double kTypical = 0.9;  // quantile of a thing's differences that is the thing's own: its edge differs less
@@ -130,7 +131,7 @@ Wall wall_of(std::span<const Frame> frames, int width, int height) {
     for (std::size_t k = 0; k < samples.size(); ++k)
       values[k] = std::abs((*samples[k])[p] - gains[k] * wall.brightness[p]);
     sigmas[p] = kMadToSigma * quantile(values, 0.5);
-    unsteady += sigmas[p] > kUnsteady;
+    unsteady += quantile(values, kMoments) > kUnsteady;
   }
   std::vector<float> sorted = sigmas;
   const float noise = quantile(sorted, 0.5);
