@@ -20,6 +20,12 @@ using ReportList = std::vector<ReportValue>;
 struct ReportValue : std::variant<std::monostate, bool, std::int64_t, double, std::string, ReportList> {
   using Base = std::variant<std::monostate, bool, std::int64_t, double, std::string, ReportList>;
   ReportValue() = default;
+  ReportValue(ReportValue&&) = default;
+  ReportValue& operator=(const ReportValue&) = default;
+  ReportValue& operator=(ReportValue&&) = default;
+  ~ReportValue() = default;
+  // libstdc++ 12 destroys what was never made where a copy of such a variant finds no memory; assigning, it does not.
+  ReportValue(const ReportValue& other) : Base() { *this = other; }
   ReportValue(bool value) : Base(value) {}
   ReportValue(int value) : Base(static_cast<std::int64_t>(value)) {}
   ReportValue(std::int64_t value) : Base(value) {}

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 namespace wisp {
 namespace {
@@ -33,6 +34,12 @@ std::int64_t stated_frames(const AVFormatContext& format, const AVStream& track,
   }
   if (format.duration == AV_NOPTS_VALUE) return 0;
   return std::llround(static_cast<double>(format.duration) / AV_TIME_BASE * rate);
+}
+
+// Want of memory is no fault of the film's: to leave the frame out would change what is measured.
+int with_memory(int code) {
+  if (code == AVERROR(ENOMEM)) throw std::bad_alloc();
+  return code;
 }
 
 }  // namespace
@@ -72,7 +79,7 @@ Result<VideoFile> VideoFile::open(const std::filesystem::path& path, const Video
 // Feeds the decoder one packet of the track. Returns false once there are none.
 bool VideoFile::send_packet() {
   while (true) {
-    const int code = av_read_frame(format_.get(), packet_.get());
+    const int code = with_memory(av_read_frame(format_.get(), packet_.get()));
     if (code < 0) {
       read_error_ = code != AVERROR_EOF;
       avcodec_send_packet(codec_.get(), nullptr);
@@ -81,7 +88,7 @@ bool VideoFile::send_packet() {
     const bool ours = packet_->stream_index == track_;
     const bool whole = (packet_->flags & AV_PKT_FLAG_CORRUPT) == 0;
     if (ours && !whole) ++broken_;
-    if (ours && whole && avcodec_send_packet(codec_.get(), packet_.get()) < 0) ++broken_;
+    if (ours && whole && with_memory(avcodec_send_packet(codec_.get(), packet_.get())) < 0) ++broken_;
     av_packet_unref(packet_.get());
     if (ours) return true;
   }
@@ -90,7 +97,7 @@ bool VideoFile::send_packet() {
 // The next whole frame into frame_. Returns false at the end.
 bool VideoFile::decode() {
   while (true) {
-    const int code = avcodec_receive_frame(codec_.get(), frame_.get());
+    const int code = with_memory(avcodec_receive_frame(codec_.get(), frame_.get()));
     if (code == AVERROR(EAGAIN)) {
       if (!ended_) ended_ = !send_packet();
       continue;

@@ -77,6 +77,12 @@ std::size_t count_runs(const Regression& regression) {
   return all;
 }
 
+// Whether two outputs are sums over the same samples in the same order.
+bool are_twins(const std::vector<ModeWeights>& a, const std::vector<ModeWeights>& b) {
+  const auto same = [](const ModeWeights& x, const ModeWeights& y) { return x.channel == y.channel && x.lag == y.lag; };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
+}
+
 void fill_rows(const Regression& regression, ArxProgram& program) {
   auto coefficient = program.coefficients.begin(), size = program.shock_size.begin();
   std::uint32_t run = 0, tap = 0, shock = 0;
@@ -87,6 +93,8 @@ void fill_rows(const Regression& regression, ArxProgram& program) {
     }
     tap += static_cast<std::uint32_t>(regression.taps[i].size());
     program.row_end[i] = run;
+    const bool twin = i + 1 < regression.taps.size() && are_twins(regression.taps[i], regression.taps[i + 1]);
+    program.twin[i] = twin ? static_cast<std::uint32_t>(regression.taps[i].size()) : 0;
     for (const ModeWeights& one : regression.shocks[i]) {
       program.shock[shock++] = one.channel;
       size = std::copy(one.of_mode.begin(), one.of_mode.end(), size);
@@ -108,6 +116,7 @@ ArxProgram lay_out(const Regression& regression, const DrawnProgram& drawn, Aren
   program.shocks = count(regression.shocks);
   program.runs = arena.take<TapRun>(count_runs(regression));
   program.row_end = arena.take<std::uint32_t>(ny);
+  program.twin = arena.take<std::uint32_t>(ny);
   program.coefficients = arena.take<float>(count(regression.taps) * modes);
   program.constant = arena.take<float>(ny * modes);
   program.shock = arena.take<std::uint32_t>(program.shocks);

@@ -32,6 +32,7 @@ struct ArxProgram {
   std::size_t shocks = 0;  ///< that are added; known while measuring, when all arrays are empty
   std::span<TapRun> runs;
   std::span<std::uint32_t> row_end;    ///< per output, one past its last run
+  std::span<std::uint32_t> twin;       ///< per output, its taps where the next has the same but for coefficients, or 0
   std::span<float> coefficients;       ///< taps × modes; those of A with their sign turned: a step only adds
   std::span<float> constant;           ///< outputs × modes
   std::span<std::uint32_t> shock;      ///< which of the standard normal numbers

@@ -132,79 +132,125 @@ class ArxStepper : public ChannelHistory<N> {
 
   template <int kBlocks>
   void step_blocks(int block, const Moment<N>& moment) {
-    Choice choice[kBlocks];
+    Step<kBlocks> step{program_.coefficients.data(), modes_.count(), ring_.back(), ~std::uint64_t{0}, {}, {}, {}};
     for (int b = 0; b < kBlocks; ++b) {
       const Moment<N> of = moment.later(b);
-      count_quiet(block + b);
+      step.quiet &= count_quiet(block + b);
       if (!drawn_.empty()) drawn_.hear(block + b, this->regressors(block + b));
-      choice[b] = modes_.choose(block + b, ring_, of);
-      if (noisy_) make_shocks(block + b, choice[b], of);
+      step.choice[b] = modes_.choose(block + b, ring_, of);
+      if (noisy_) make_shocks(block + b, step.choice[b], of);
+      step.ring[b] = ring_.begin(block + b);
+      step.held[b] = all<Words<N>>(0U);
     }
     Real* newest = ring_.sample(block, 0);
-    const std::size_t stride = ring_.stride();
-    Words<N> held[kBlocks];
-    for (auto& of_block : held) of_block = all<Words<N>>(0U);
-    std::uint32_t run = 0;
-    for (int i = 0; i < program_.outputs; ++i, newest += kLanes) {
-      const OutputChannel& channel = channels_.outputs[i];
-      if (channel.mirrors >= 0) {
-        const Real* mirrored = newest + (channel.mirrors - i) * kLanes;
-        for (int b = 0; b < kBlocks; ++b) store(negative(load<Reals<N>>(mirrored + b * stride)), newest + b * stride);
-        run = program_.row_end[i];
-        continue;
+    for (int i = 0; i < program_.outputs;) {
+      if (channels_.outputs[i].mirrors >= 0) {
+        mirror<kBlocks>(i++, newest);
+      } else if (kGroup > 1 && has_twin(i)) {
+        make_rows<2>(i, newest, step);
+        i += 2;
+      } else {
+        make_rows<1>(i++, newest, step);
       }
-      Reals<N> sum[kBlocks];
-      unrolled<kBlocks>(
-          [&](auto b) { sum[b] = noisy_ ? load<Reals<N>>(newest + b * stride) : constant(choice[b], i); });
-      for (; run < program_.row_end[i]; ++run) {
-        if (!is_quiet<kBlocks>(block, program_.runs[run].channel)) add_run(block, choice, program_.runs[run], sum);
-      }
-      unrolled<kBlocks>([&](auto b) {
-        const auto value = hold(sum[b], all<Reals<N>>(channel.low), all<Reals<N>>(channel.high));
-        held[b] = held[b] | differ(value, sum[b]);
-        store(settle(value), newest + b * stride);
-      });
     }
-    for (int b = 0; b < kBlocks; ++b) store(held[b], moment.later(b).held);
+    for (int b = 0; b < kBlocks; ++b) store(step.held[b], moment.later(b).held);
+  }
+
+  // What the blocks of a step have in common, and what each of them has, where no store can touch it.
+  template <int kBlocks>
+  struct Step {
+    const float* coefficients;
+    std::size_t modes;
+    const std::uint32_t* back;
+    std::uint64_t quiet;  // a bit for each of the first regressors
+    const Real* ring[kBlocks];
+    Choice choice[kBlocks];
+    Words<N> held[kBlocks];
+  };
+
+  bool has_twin(int i) const { return program_.twin[i] != 0 && channels_.outputs[i + 1].mirrors < 0; }
+
+  template <int kBlocks>
+  void mirror(int i, Real* newest) const {
+    const Real* mirrored = newest + channels_.outputs[i].mirrors * kLanes;
+    newest += i * kLanes;
+    for (int b = 0; b < kBlocks; ++b, mirrored += ring_.stride(), newest += ring_.stride()) {
+      store(negative(load<Reals<N>>(mirrored)), newest);
+    }
+  }
+
+  // Outputs from i on whose sums are over the same samples: each sample is read once for all of them.
+  template <int kRows, int kBlocks>
+  void make_rows(int i, Real* newest, Step<kBlocks>& step) const {
+    const std::size_t stride = ring_.stride(), twin = program_.twin[i] * step.modes;
+    newest += i * kLanes;
+    Reals<N> sum[kRows][kBlocks];
+    unrolled<kRows>([&](auto row) {
+      unrolled<kBlocks>([&](auto b) {
+        sum[row][b] = noisy_ ? load<Reals<N>>(newest + b * stride + row * kLanes) : constant(step.choice[b], i + row);
+      });
+    });
+    const TapRun* run = program_.runs.data() + (i == 0 ? 0 : program_.row_end[i - 1]);
+    for (const TapRun* end = program_.runs.data() + program_.row_end[i]; run != end; ++run) {
+      if (!is_quiet(step.quiet, run->channel)) add_run(step, *run, twin, sum);
+    }
+    unrolled<kRows>([&](auto row) {
+      const OutputChannel& channel = channels_.outputs[i + row];
+      const auto low = all<Reals<N>>(channel.low), high = all<Reals<N>>(channel.high);
+      unrolled<kBlocks>([&](auto b) {
+        const auto value = hold(sum[row][b], low, high);
+        step.held[b] = step.held[b] | differ(value, sum[row][b]);
+        store(settle(value), newest + b * stride + row * kLanes);
+      });
+    });
   }
 
   // The run's products are added in the order of its lags, each to what was there before.
-  template <int kBlocks>
-  void add_run(int block, const Choice (&choice)[kBlocks], const TapRun& run, Reals<N> (&sum)[kBlocks]) const {
-    const float* coefficient = program_.coefficients.data() + run.coefficient * modes_.count();
-    const std::size_t stride = ring_.stride();
-    for (std::uint32_t k = 0; k < run.count; ++k, coefficient += modes_.count()) {
-      const Real* past = ring_.sample(block, run.first_lag + k) + run.channel * kLanes;
-      unrolled<kBlocks>(
-          [&](auto b) { sum[b] = sum[b] + choice[b].pick(coefficient) * load<Reals<N>>(past + b * stride); });
+  template <int kRows, int kBlocks>
+  static void add_run(const Step<kBlocks>& step, const TapRun& run, std::size_t twin, Reals<N> (&sum)[kRows][kBlocks]) {
+    const float* coefficient = step.coefficients + run.coefficient * step.modes;
+    const std::uint32_t* back = step.back + run.first_lag;
+    for (const std::uint32_t* end = back + run.count; back != end; ++back, coefficient += step.modes) {
+      const std::size_t place = *back + run.channel * kLanes;
+      unrolled<kBlocks>([&](auto b) {
+        auto past = load<Reals<N>>(step.ring[b] + place);
+        if (kRows > 1 && kBlocks > 1) hold_in_register(past);
+        unrolled<kRows>(
+            [&](auto row) { sum[row][b] = sum[row][b] + step.choice[b].pick(coefficient + row * twin) * past; });
+      });
     }
   }
 
   // A regressor that has been 0 in all lanes for as long as anything looks back adds nothing: a wind from the one side
-  // while it blows from the other. Whether its zeros are added or not changes no bit (settle() makes −0 to 0).
-  void count_quiet(int block) {
+  // while it blows from the other. Whether its zeros are added or not changes no bit (settle() makes −0 to 0). Returns
+  // a bit for each of the first regressors.
+  std::uint64_t count_quiet(int block) {
     int* quiet = quiet_.data() + block * program_.regressors;
     const Real* newest = this->regressors(block);
     const auto zero = all<Reals<N>>(0.0f);
-    for (int k = 0; k < program_.regressors; ++k, ++quiet, newest += kLanes) {
-      *quiet = any(differ(load<Reals<N>>(newest), zero)) ? 0 : std::min(*quiet + 1, program_.depth);
+    std::uint64_t bits = 0;
+    for (int k = 0; k < program_.regressors; ++k, newest += kLanes) {
+      quiet[k] = any(differ(load<Reals<N>>(newest), zero)) ? 0 : std::min(quiet[k] + 1, program_.depth);
+      if (k < kQuietBits && quiet[k] >= program_.depth) bits |= std::uint64_t{1} << k;
     }
+    return bits;
   }
 
-  template <int kBlocks>
-  bool is_quiet(int block, std::uint32_t channel) const {
+  static constexpr int kQuietBits = 64;
+  bool is_quiet(std::uint64_t quiet, std::uint32_t channel) const {
     const int regressor = static_cast<int>(channel) - program_.outputs;
-    if (regressor < 0) return false;
-    const int* quiet = quiet_.data() + block * program_.regressors + regressor;
-    bool all_quiet = true;
-    for (int b = 0; b < kBlocks; ++b) all_quiet &= quiet[b * program_.regressors] >= program_.depth;
-    return all_quiet;
+    return regressor >= 0 && regressor < kQuietBits && (quiet >> regressor & 1) != 0;
   }
 
   // Puts what the sums of a block's outputs start from where the newest sample will be.
   void make_shocks(int block, const Choice& choice, const Moment<N>& moment) {
     Real* newest = ring_.sample(block, 0);
     if (drawn_.empty()) {
+      if (are_few(moment.lanes)) {
+        for (int lane = 0; lane < moment.lanes; ++lane) draw_alone(block, lane, moment);
+        start_all(block, choice);
+        return;
+      }
       if (kGroup > 1 && own_shocks_) {  // a second copy of what draws, worth it where many are stepped
         draw(moment, [&](int i, const auto& normals) {
           const auto size = choice.pick(shock_size_.data() + i * modes_.count());
@@ -213,8 +259,7 @@ class ArxStepper : public ChannelHistory<N> {
         return;
       }
       draw(moment, [&](int channel, const auto& normals) { store(normals, shock(block, channel)); });
-      // Downwards, since a shock of an output is added to that and later ones.
-      for (int i = program_.outputs - 1; i >= 0; --i) store(start_shaken(block, choice, i), newest + i * kLanes);
+      start_all(block, choice);
       return;
     }
     drawn_.step(block, moment, newest);
@@ -232,24 +277,64 @@ class ArxStepper : public ChannelHistory<N> {
     return {toward.least - against.most, toward.most - against.least};
   }
 
-  // Calls take(channel, normals) for every shock that is added to an output.
+  // Whether random numbers are fewer when each lane draws for itself, many channels at once.
+  bool are_few(int lanes) const {
+    if constexpr (kGroup == 1 || kLanes == 1) return false;
+    const int rounds = (program_.shock_channels + 4 * kLanes - 1) / (4 * kLanes);
+    return 4 * rounds * lanes <= program_.shock_channels;
+  }
+
+  // The standard normal numbers of one lane, each to where it belongs.
+  void draw_alone(int block, int lane, const Moment<N>& moment) {
+    typename N::Word groups[kLanes];
+    Words<N> own[4], words[4];
+    random_counters_of<N>(moment.counters, lane, own);
+    Real normals[4][kLanes];
+    for (int first = 0; first < program_.shock_channels; first += 4 * kLanes) {
+      for (int k = 0; k < kLanes; ++k) groups[k] = static_cast<std::uint32_t>(first / 4 + k);
+      unrolled<4>([&](auto k) { words[k] = own[k]; });
+      words[1] = words[1] ^ load<Words<N>>(groups);
+      philox<N>(*moment.keys, words);
+      unrolled<4>([&](auto k) { store(normal_lanes<N>(words[k]), normals[k]); });
+      const int last = std::min(first + 4 * kLanes, program_.shock_channels);
+      for (int channel = first; channel < last; ++channel) {
+        shock(block, channel)[lane] = normals[channel % 4][(channel - first) / 4];
+      }
+    }
+  }
+
+  // Calls take(channel, normals) for every shock that is added to an output. First the words of many channels, then
+  // what is made of them: a word takes so many steps that hang on each other that one after the other would wait.
+  static constexpr int kDrawnAtOnce = 32;
   template <class Take>
   void draw(const Moment<N>& moment, Take take) const {
-    Words<N> counters[4], words[4];
+    typename N::Word words[kDrawnAtOnce][kLanes];
+    Words<N> counters[4], group[4];
     random_counters<N>(moment.counters, counters);
-    for (int group = 0; 4 * group < program_.shock_channels; ++group) {
-      const int count = std::min(4, program_.shock_channels - 4 * group);
-      const std::uint8_t* shaken = shaken_.data() + 4 * group;
-      if (std::find(shaken, shaken + count, std::uint8_t{1}) == shaken + count) continue;
-      random_group<N>(*moment.keys, counters, static_cast<std::uint32_t>(group), words);
-      unrolled<4>([&](auto k) {
-        if (k < count && shaken[k]) take(4 * group + k, normal_lanes<N>(words[k]));
-      });
+    for (int first = 0; first < program_.shock_channels; first += kDrawnAtOnce) {
+      const int last = std::min(first + kDrawnAtOnce, program_.shock_channels);
+      for (int channel = first; channel < last; channel += 4) {
+        const auto shaken = shaken_.begin() + channel;
+        if (std::find(shaken, shaken + std::min(4, last - channel), std::uint8_t{1}) ==
+            shaken + std::min(4, last - channel))
+          continue;
+        random_group<N>(*moment.keys, counters, static_cast<std::uint32_t>(channel / 4), group);
+        unrolled<4>([&](auto k) { store(group[k], words[channel - first + k]); });
+      }
+      for (int channel = first; channel < last; ++channel) {
+        if (shaken_[channel]) take(channel, normal_lanes<N>(load<Words<N>>(words[channel - first])));
+      }
     }
   }
 
   Reals<N> constant(const Choice& choice, int i) const {
     return choice.pick(program_.constant.data() + i * modes_.count());
+  }
+
+  // Downwards, since a shock of an output is added to that and later ones.
+  void start_all(int block, const Choice& choice) {
+    Real* newest = ring_.sample(block, 0);
+    for (int i = program_.outputs - 1; i >= 0; --i) store(start_shaken(block, choice, i), newest + i * kLanes);
   }
 
   // What a sum starts from: the constant and the noise.

@@ -159,23 +159,20 @@ void Bank::set_crew(const Crew& crew) {
 }
 
 void Bank::step() {
-  state_->step_all();
   state_->passed = 0;
   state_->between = false;
-  state_->show();
+  state_->step_all(true);
 }
 
 int Bank::advance(std::chrono::nanoseconds time) {
   State& s = *state_;
   const auto most = static_cast<std::int64_t>(kLongestAdvance.count());
   s.passed += std::clamp<std::int64_t>(time.count(), 0, most);
-  int steps = 0;
-  for (; s.passed >= s.step_time; ++steps) {
-    s.step_all();
-    s.passed -= s.step_time;
-  }
+  const auto steps = static_cast<int>(s.passed / s.step_time);
+  s.passed %= s.step_time;
   s.between = true;
-  s.show();
+  for (int k = 1; k <= steps; ++k) s.step_all(k == steps);
+  if (steps == 0) s.show();
   return steps;
 }
 

@@ -176,10 +176,11 @@ void Bank::State::share(Work work) {
   crew.run(crew.pool, parts, do_part, &task);
 }
 
-void Bank::State::step_all() {
+// What is shown goes by `passed` and `between`, which are set before.
+void Bank::State::step_all(bool read) {
   std::visit([](auto& dynamics) { dynamics.turn(); }, stepper);
   std::atomic<std::uint64_t> count = 0;
-  share([&](int first, int last) { count.fetch_add(path->step(*this, first, last), std::memory_order_relaxed); });
+  share([&](int first, int last) { count.fetch_add(path->step(*this, first, last, read), std::memory_order_relaxed); });
   held.held += count;
   ++steps;
   held.steps += static_cast<std::uint64_t>(living);

@@ -49,8 +49,8 @@ struct Bank::State {
   void set_inputs(int block, const float* values, int count);
   void set_common_inputs(int block, const float* values);
   void set_lane_inputs(int slot, const float* values);  // null: zeros
-  void step_all();
-  std::uint64_t step_blocks(int first, int last);
+  void step_all(bool read);
+  std::uint64_t step_blocks(int first, int last, bool read);
   template <class Work>
   void share(Work work);  // work(first block, one past its last), for all blocks
   std::uint32_t count_held(int block, const std::uint32_t* flags) const;

@@ -24,6 +24,10 @@ class ChannelHistory {
   /// Moves every block's history by one sample; the newest is now to be made.
   void turn() { ring_.turn(); }
 
+  /// Whether blocks are better asked for before they are stepped: caches do not hold them all.
+  bool is_far() const { return ring_.bytes() > kNearBytes; }
+  void fetch(int block) const { ring_.fetch(block); }
+
   /// Where the regressors of the step belong: [regressor][lane].
   Real* regressors(int block) { return ring_.sample(block, 0) + channels_.outputs.size() * kLanes; }
 
@@ -41,6 +45,8 @@ class ChannelHistory {
   void show_frame(int block, Real* out) const { show_between(block, 0.5f, out); }
 
  protected:
+  static constexpr std::size_t kNearBytes = std::size_t{1} << 20;
+
   /// Puts one lane's history to the operating point.
   void start_history(int block, int lane) {
     for (int lag = 0; lag < ring_.depth(); ++lag) {

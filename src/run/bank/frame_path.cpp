@@ -48,7 +48,7 @@ Moment<LiveNumbers> Bank::State::moment(int block, std::uint32_t* flags) const {
   return {&keys, {stream.data() + first, born.data() + first, steps}, flags, std::min(kLanes, rows - block * kLanes)};
 }
 
-std::uint64_t Bank::State::step_blocks(int first, int last) {
+std::uint64_t Bank::State::step_blocks(int first, int last, bool read) {
   std::uint64_t count_of_held = 0;
   std::visit(
       [&](auto& dynamics) {
@@ -57,6 +57,11 @@ std::uint64_t Bank::State::step_blocks(int first, int last) {
         std::uint32_t flags[kGroup * kLanes];
         for (int block = first; block < last;) {
           const int group = last - block < kGroup ? 1 : kGroup;
+          if constexpr (kGroup > 1) {
+            if (dynamics.is_far()) {
+              for (int b = block + kGroup; b < std::min(block + 2 * kGroup, last); ++b) dynamics.fetch(b);
+            }
+          }
           for (int b = block; count > 0 && b < block + group; ++b) {
             std::copy_n(regressors_of(b), count, dynamics.regressors(b));
           }
@@ -68,6 +73,7 @@ std::uint64_t Bank::State::step_blocks(int first, int last) {
           for (int b = 0; b < group; ++b, ++block) {
             if (extinction.present) live_block(block);
             count_of_held += count_held(block, flags + b * kLanes);
+            if (read) show_block(block);
           }
         }
       },
@@ -174,6 +180,6 @@ extern "C" WISP_INSIDE const wisp::FramePath WISP_FRAME_PATH = {
     WISP_WIDTH_NAME,
     wisp::set_inputs,
     wisp::set_common_inputs,
-    [](wisp::Bank::State& s, int first, int last) { return s.step_blocks(first, last); },
+    [](wisp::Bank::State& s, int first, int last, bool read) { return s.step_blocks(first, last, read); },
     wisp::show,
     wisp::polylines};

@@ -22,8 +22,9 @@ struct FramePath {
   const char* width;
   void (*set_inputs)(Bank::State& state, const float* values);
   void (*set_common_inputs)(Bank::State& state, const float* values);
-  /// Makes the newest samples of blocks; returns of how many instances an output was held.
-  std::uint64_t (*step)(Bank::State& state, int first, int last);
+  /// Makes the newest samples of blocks and, where they are to be read, shows them while they are at hand; returns of
+  /// how many instances an output was held.
+  std::uint64_t (*step)(Bank::State& state, int first, int last, bool read);
   void (*show)(Bank::State& state, int first, int last);
   void (*polylines)(const Bank::State& state, float* values);
 };

@@ -32,18 +32,31 @@ class SampleRing {
 
   int depth() const { return depth_; }
 
+  /// Asks the machine for all of a block's samples: they lie in one piece, but are read here and there.
+  void fetch(int block) const {
+#ifdef __GNUC__
+    const auto* line = reinterpret_cast<const char*>(begin(block));
+    for (const char* end = line + stride() * sizeof(Real); line < end; line += kArenaAlignment)
+      __builtin_prefetch(line);
+#endif
+  }
+
+  /// Bytes of all blocks.
+  std::size_t bytes() const { return values_.size_bytes(); }
+
   /// Numbers from a sample of one block to the same sample of the next.
   std::size_t stride() const { return static_cast<std::size_t>(depth_) * row_; }
+
+  /// Where a block's numbers begin, and how far from there its sample `lag` steps ago lies: back()[lag].
+  const Real* begin(int block) const { return values_.data() + static_cast<std::size_t>(block) * stride(); }
+  const std::uint32_t* back() const { return lag_row_.data() + (depth_ - place_); }
 
   /// Moves every block by one sample; the newest is now to be made.
   void turn() { place_ = place_ + 1 == depth_ ? 0 : place_ + 1; }
 
   /// The sample `lag` steps ago, [channel][lane]. The table holds every distance twice, so that the place in the ring
   /// and the lag add up without a modulo. Precondition: lag < depth().
-  const Real* sample(int block, std::uint32_t lag) const {
-    const Real* ring = values_.data() + static_cast<std::size_t>(block) * stride();
-    return ring + lag_row_[static_cast<std::uint32_t>(depth_ - place_) + lag];
-  }
+  const Real* sample(int block, std::uint32_t lag) const { return begin(block) + back()[lag]; }
   Real* sample(int block, std::uint32_t lag) { return const_cast<Real*>(std::as_const(*this).sample(block, lag)); }
 
  private:

@@ -71,12 +71,12 @@ inline WideProduct<CountingWord> wide_product_part(CountingWord a, std::uint32_t
   return {counted(static_cast<std::uint32_t>(product >> 32)), {static_cast<std::uint32_t>(product)}};
 }
 
-template <class RowOf>
-inline void columns_of_part(const RowOf& row_of, CountingReal& a, CountingReal& b, CountingReal& c) {
-  const float* row = row_of(0);
-  a = CountingReal(row[0]);
-  b = CountingReal(row[1]);
-  c = CountingReal(row[2]);
+template <int stride, std::uint32_t first>
+inline void columns_of_part(const float* table, CountingWord row, CountingReal& a, CountingReal& b, CountingReal& c) {
+  const float* numbers = table + stride * (row.value - first);
+  a = CountingReal(numbers[0]);
+  b = CountingReal(numbers[1]);
+  c = CountingReal(numbers[2]);
 }
 
 inline std::uint32_t value_of(CountingWord word) { return word.value; }

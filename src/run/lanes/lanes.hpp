@@ -99,7 +99,7 @@ inline LongWords product(LongWords a, std::uint32_t b) {
 }
 inline LongWords high_half(LongWords a) { return {_mm512_srli_epi64(a.all, 32)}; }
 inline LongWords differing(LongWords a, LongWords b, std::uint32_t key) {
-  return {_mm512_ternarylogic_epi64(a.all, b.all, _mm512_set1_epi64(static_cast<long long>(key)), 0x96)};
+  return {_mm512_ternarylogic_epi64(a.all, b.all, _mm512_set1_epi32(static_cast<int>(key)), 0x96)};
 }
 #else
 using LongPart = std::uint64_t __attribute__((vector_size(4 * kPartLanes)));
@@ -110,7 +110,8 @@ struct LongWords {
 inline LongWords high_half(LongWords a) { return {a.even >> 32, a.odd >> 32}; }
 inline LongWords long_words(WordPart words) { return {(LongPart)words, (LongPart)words >> 32}; }
 inline LongWords differing(LongWords a, LongWords b, std::uint32_t key) {
-  return {a.even ^ b.even ^ std::uint64_t{key}, a.odd ^ b.odd ^ std::uint64_t{key}};
+  const auto keys = (LongPart)(WordPart{} + key);
+  return {a.even ^ b.even ^ keys, a.odd ^ b.odd ^ keys};
 }
 #ifdef __AVX2__
 inline WordPart words_of(LongWords a) {
@@ -133,8 +134,8 @@ inline LongWords product(LongWords a, std::uint32_t b) {
 #endif
 #endif
 
-// Turns rows into columns: of the row of every lane its first, second and third number. Vectors read four numbers of
-// each row at once.
+// Turns rows of a table into columns: of the row of every lane its first, second and third number. Vectors read four
+// numbers of each row at once.
 #ifdef WISP_VECTOR_LANES
 using Quad = float __attribute__((vector_size(16)));
 
@@ -144,11 +145,18 @@ inline Quad quad_at(const float* row) {
   return quad;
 }
 
-template <class RowOf>
-inline void columns_of_part(const RowOf& row_of, RealPart& a, RealPart& b, RealPart& c) {
+/// Row k begins at table[stride · k]; the table's first row is row `first`.
+template <int stride, std::uint32_t first>
+inline void columns_of_part(const float* table, WordPart row, RealPart& a, RealPart& b, RealPart& c) {
+  std::uint32_t place[kPartLanes];
+  const WordPart places = row * stride;
+  std::memcpy(place, &places, sizeof place);
+  const auto row_of = [&](int lane) {
+    return quad_at(table + (std::size_t{place[lane]} - std::size_t{first * stride}));
+  };
 #ifdef __AVX2__
   const auto rows = [&](int lane) {
-    return __builtin_shufflevector(quad_at(row_of(lane)), quad_at(row_of(lane + 4)), 0, 1, 2, 3, 4, 5, 6, 7);
+    return __builtin_shufflevector(row_of(lane), row_of(lane + 4), 0, 1, 2, 3, 4, 5, 6, 7);
   };
   const auto r0 = rows(0), r1 = rows(1), r2 = rows(2), r3 = rows(3);
   const auto ab01 = __builtin_shufflevector(r0, r1, 0, 8, 1, 9, 4, 12, 5, 13);
@@ -159,7 +167,7 @@ inline void columns_of_part(const RowOf& row_of, RealPart& a, RealPart& b, RealP
   b = __builtin_shufflevector(ab01, ab23, 2, 3, 10, 11, 6, 7, 14, 15);
   c = __builtin_shufflevector(c01, c23, 0, 1, 8, 9, 4, 5, 12, 13);
 #else
-  const Quad r0 = quad_at(row_of(0)), r1 = quad_at(row_of(1)), r2 = quad_at(row_of(2)), r3 = quad_at(row_of(3));
+  const Quad r0 = row_of(0), r1 = row_of(1), r2 = row_of(2), r3 = row_of(3);
   const Quad ab01 = __builtin_shufflevector(r0, r1, 0, 4, 1, 5), ab23 = __builtin_shufflevector(r2, r3, 0, 4, 1, 5);
   const Quad c01 = __builtin_shufflevector(r0, r1, 2, 6, 3, 7), c23 = __builtin_shufflevector(r2, r3, 2, 6, 3, 7);
   a = __builtin_shufflevector(ab01, ab23, 0, 1, 4, 5);
@@ -168,12 +176,12 @@ inline void columns_of_part(const RowOf& row_of, RealPart& a, RealPart& b, RealP
 #endif
 }
 #else
-template <class RowOf>
-inline void columns_of_part(const RowOf& row_of, RealPart& a, RealPart& b, RealPart& c) {
-  const float* row = row_of(0);
-  a = row[0];
-  b = row[1];
-  c = row[2];
+template <int stride, std::uint32_t first>
+inline void columns_of_part(const float* table, WordPart row, RealPart& a, RealPart& b, RealPart& c) {
+  const float* numbers = table + stride * (row - first);
+  a = numbers[0];
+  b = numbers[1];
+  c = numbers[2];
 }
 #endif
 
@@ -272,6 +280,16 @@ inline void store(const Packed& packed, Value* values) {
   });
 }
 
+/// Keeps the compiler from reading what was loaded again for every use.
+template <class Part, int kParts>
+inline void hold_in_register([[maybe_unused]] Pack<Part, kParts>& packed) {
+#ifdef WISP_LONG_WORDS
+  if constexpr (sizeof(Part) >= 16) {
+    for (Part& part : packed.part) asm("" : "+x"(part));
+  }
+#endif
+}
+
 template <class Part, int kParts>
 inline auto bits_of(const Pack<Part, kParts>& reals) {
   return each([](const Part& x) { return bits_of_part(x); }, reals);
@@ -303,10 +321,12 @@ inline auto differ(const Pack<Part, kParts>& a, const Pack<Part, kParts>& b) {
 /// Whether any bit of any lane is set.
 template <class Part, int kParts>
 inline bool any(const Pack<Part, kParts>& words) {
-  std::uint32_t lanes[sizeof(words) / sizeof(std::uint32_t)], set = 0;
-  std::memcpy(lanes, static_cast<const void*>(&words), sizeof(words));
-  for (const std::uint32_t lane : lanes) set |= lane;
-  return set != 0;
+  Part set = words.part[0];
+  for (int i = 1; i < kParts; ++i) set = set | words.part[i];
+  std::uint32_t lanes[sizeof set / sizeof(std::uint32_t)], any = 0;
+  std::memcpy(lanes, static_cast<const void*>(&set), sizeof set);
+  for (const std::uint32_t lane : lanes) any |= lane;
+  return any != 0;
 }
 
 /// The larger and the smaller of two numbers; the second where the first is not a number.

@@ -83,6 +83,16 @@ inline void random_counters(const LaneCounters& lanes, Words<N> (&words)[4]) {
   unrolled<4>([&](auto k) { words[k] = load<Words<N>>(counters[k]); });
 }
 
+/// The counters of one lane in every lane, for group 0.
+template <class N>
+inline void random_counters_of(const LaneCounters& lanes, int lane, Words<N> (&words)[4]) {
+  const std::uint64_t age = lanes.step - lanes.born[lane], stream = lanes.stream[lane];
+  words[0] = all<Words<N>>(static_cast<std::uint32_t>(age));
+  words[1] = all<Words<N>>(static_cast<std::uint32_t>(age >> 32) << 16);
+  words[2] = all<Words<N>>(static_cast<std::uint32_t>(stream));
+  words[3] = all<Words<N>>(static_cast<std::uint32_t>(stream >> 32));
+}
+
 /// Random words of one group of four channels.
 template <class N>
 inline void random_group(const RandomKeys& keys, const Words<N> (&counters)[4], std::uint32_t group,
@@ -92,9 +102,16 @@ inline void random_group(const RandomKeys& keys, const Words<N> (&counters)[4], 
   philox<N>(keys, words);
 }
 
-/// One segment of the inverse normal distribution; tools/normal_table.py derives them.
+#ifdef __wasm__
+inline constexpr int kSegmentStride = 3;  // a page fetches the table before it plays
+#else
+inline constexpr int kSegmentStride = 4;  // so that a segment's place is a shift
+#endif
+
+/// One segment of the inverse normal distribution, a quadratic's three coefficients; tools/normal_table.py derives
+/// them.
 struct NormalSegment {
-  float c0, c1, c2;
+  float c[kSegmentStride];
 };
 inline constexpr NormalSegment kNormalSegments[] = {
 #include "run/lanes/normal_table.inc"
@@ -109,14 +126,11 @@ template <class N>
 inline Reals<N> normal_lanes(const Words<N>& words) {
   const Words<N> sign = spread_sign(words);
   const Words<N> bits = bits_of(real_of(words ^ sign) + all<Reals<N>>(0.5f));
-  typename N::Word segment[N::kLanes];
-  store(bits >> 19, segment);
+  const Words<N> segment = bits >> 19;
   Reals<N> c[3];
   unrolled<N::kParts>([&](auto i) {
-    const auto row_of = [&](int lane) {
-      return &kNormalSegments[value_of(segment[i * (N::kLanes / N::kParts) + lane]) - kFirstSegment].c0;
-    };
-    columns_of_part(row_of, c[0].part[i], c[1].part[i], c[2].part[i]);
+    columns_of_part<kSegmentStride, kFirstSegment>(kNormalSegments[0].c, segment.part[i], c[0].part[i], c[1].part[i],
+                                                   c[2].part[i]);
   });
   const Reals<N> place = real_of(bits & all<Words<N>>(0x7ffffU));
   const Reals<N> slope = c[1] + place * c[2];

@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+"""Lines and branches that the tests reach, folder by folder, from what gcc's --coverage left in a build.
+
+  tools/coverage.py BUILD [FOLDER…]     default src/model src/run src/record src/c with their public headers
+
+Prints a table, and the files that are reached least. Branches that only an exception takes do not count. A line of a
+template counts as reached where any instance of it is.
+"""
+
+import collections
+import gzip
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+
+def gathered(build):
+    """File → line → times reached, and file → (line, place) → branch taken."""
+    lines = collections.defaultdict(dict)
+    branches = collections.defaultdict(dict)
+    with tempfile.TemporaryDirectory() as folder:
+        for notes in (build / "src").rglob("*.gcda"):
+            subprocess.run(["gcov", "--json-format", "--branch-probabilities", str(notes)], cwd=folder, check=True,
+                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            for packed in pathlib.Path(folder).glob("*.gcov.json.gz"):
+                for file in json.loads(gzip.open(packed).read())["files"]:
+                    take(file, lines, branches)
+                packed.unlink()
+    return lines, branches
+
+
+def take(file, lines, branches):
+    path = pathlib.Path(file["file"])
+    path = path if path.is_absolute() else ROOT / path
+    try:
+        name = str(path.resolve().relative_to(ROOT))
+    except ValueError:
+        return
+    if not name.startswith(("src/", "include/")):
+        return
+    for line in file["lines"]:
+        number = line["line_number"]
+        lines[name][number] = lines[name].get(number, 0) + line["count"]
+        for place, branch in enumerate(one for one in line["branches"] if not one["throw"]):
+            key = (number, place)
+            branches[name][key] = branches[name].get(key, 0) + branch["count"]
+
+
+def share(counts):
+    return f"{100 * sum(1 for count in counts if count) / len(counts):.1f} %" if counts else "–"
+
+
+def main():
+    build = pathlib.Path(sys.argv[1]).resolve()
+    folders = sys.argv[2:] or ["model", "run", "record", "c"]
+    lines, branches = gathered(build)
+    print("| folder | lines | reached | branches | taken |\n| --- | ---: | ---: | ---: | ---: |")
+    least = []
+    for folder in folders:
+        of = [name for name in lines
+              if name.startswith((f"src/{folder}/", f"include/wisp/{folder}/")) and not name.endswith("_generated.h")]
+        all_lines = [count for name in of for count in lines[name].values()]
+        all_branches = [count for name in of for count in branches[name].values()]
+        print(f"| {folder}/ | {len(all_lines)} | {share(all_lines)} | {len(all_branches)} | {share(all_branches)} |")
+        least += [(sum(1 for count in lines[name].values() if not count), name) for name in of]
+    for missed, name in sorted(least, reverse=True)[:8]:
+        if missed:
+            numbers = [str(number) for number, count in sorted(lines[name].items()) if not count]
+            print(f"{name}: {missed} lines not reached: {' '.join(numbers[:25])}{' …' if missed > 25 else ''}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,224 @@
+#!/usr/bin/env python3
+"""Plants small faults in src/run and src/model's checks, one at a time, and sees whether the tests notice.
+
+  tools/mutate.py [--most N] [--only PART-OF-A-PATH] [--jobs N]
+
+All mutants are compiled at once, into a copy of the tree in build/mutants: each is a branch that the environment
+variable WISP_MUTANT takes (R. H. Untch, A. J. Offutt, M. J. Harrold, "Mutation analysis using mutant schemata", ISSTA
+1993). Conditions are turned round, comparisons and arithmetic changed to their neighbours, statements left out. What
+does not compile is dropped. For each that is left the golden hash and the tests of run and model run until one fails.
+Prints those that survive, and counts; docs/studies/hardening.md has what was found.
+"""
+
+import argparse
+import collections
+import os
+import pathlib
+import random
+import re
+import shutil
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+WORK = ROOT / "build" / "mutants"
+TREE = WORK / "tree"
+SECONDS = 300
+SOURCES = ["src/run", "src/model/check.cpp", "src/model/arx.cpp", "src/model/chain.cpp", "src/model/switched.cpp",
+           "src/model/input_curve.cpp", "src/model/extinction.cpp"]
+SWAPS = [(" < ", " <= "), (" <= ", " < "), (" > ", " >= "), (" >= ", " > "), (" == ", " != "), (" != ", " == "),
+         (" + ", " - "), (" - ", " + "), (" * ", " + "), (" / ", " * "), (" % ", " / "), (" && ", " || "),
+         (" || ", " && "), ("std::min(", "std::max("), ("std::max(", "std::min("), ("smaller(", "larger("),
+         ("larger(", "smaller("), ("true", "false"), ("false", "true"), (" ^ ", " & "), (" & ", " | ")]
+HEADER = """#pragma once
+#include <cstdlib>
+inline const int wisp_mutant = [] { const char* one = std::getenv("WISP_MUTANT"); return one ? std::atoi(one) : -1; }();
+#define MUTANT(k) (wisp_mutant == (k))
+"""
+SKIPPED = re.compile(r"constexpr|static_assert|template|#|operator|//|\bcase\b|assert\(|using |enum |std::to_string")
+Mutant = collections.namedtuple("Mutant", "file line before after")
+
+
+def closing(text, start):
+    """Where the parenthesis that opens at `start` closes."""
+    depth = 0
+    for k in range(start, len(text)):
+        depth += {"(": 1, ")": -1}.get(text[k], 0)
+        if depth == 0:
+            return k
+    return -1
+
+
+def expressions(line):
+    """Parts of a line that can be put into ?: with another of their kind: begin, end."""
+    body = line.rstrip("\n")
+    condition = re.match(r"\s*(?:\} else )?(?:if|while) \(", body)
+    if condition:
+        begin = condition.end()
+        end = closing(body, begin - 1)
+        if end > 0:
+            begin += body[begin:end].rfind(";") + 1
+            if "=" not in re.sub(r"[=!<>]=", "", body[begin:end]):
+                yield begin, end
+    told = re.match(r"\s*return ([^{;]+);$", body)
+    if told:
+        yield told.start(1), told.end(1)
+    made = re.match(r"\s*(?:const )?[\w:<>&*\[\]\.\-]+(?: [\w\[\]\.]+)? (?:[+\-|&]?=) ([^{;]+);$", body)
+    if made and "&" not in body[: made.start(1)].replace("&=", ""):
+        yield made.start(1), made.end(1)
+
+
+def mutants_of_line(line):
+    """Line as it becomes, with K where the mutant's number goes; and what it shows."""
+    if SKIPPED.search(line) or line.lstrip().startswith(("*", "///")):
+        return
+    for begin, end in expressions(line):
+        whole = line[begin:end]
+        if re.match(r"\s*(?:\} else )?if", line):
+            yield line[:begin] + f"MUTANT(K) != static_cast<bool>({whole})" + line[end:], f"!({whole.strip()})"
+        for before, after in SWAPS:
+            for found in re.finditer(re.escape(before), whole):
+                other = whole[: found.start()] + after + whole[found.end():]
+                yield line[:begin] + f" (MUTANT(K) ? ({other}) : ({whole}))" + line[end:], other.strip()
+    if re.match(r"\s+(?:[\w\.\[\]\*\->]+ [+\-|&]?= |[\w\.\->:]+\(|\+\+|--)[^{}]*;$", line) and not re.match(r"\s+(return|const)\b", line):
+        indent = len(line) - len(line.lstrip())
+        yield line[:indent] + "{ if (!MUTANT(K)) " + line[indent:] + " }", "(left out)"
+
+
+DEFINED = {"WISP_VECTOR_LANES": True, "WISP_LONG_WORDS": True, "__AVX2__": False, "__AVX512F__": False, "__wasm__": False,
+           "WISP_WIDE_PATHS": False, "WISP_FRAME_PATH": False}
+
+
+def compiled(lines):
+    """Numbers of the lines that this build compiles, as far as vectors go."""
+    state, numbers = [], set()
+    for number, line in enumerate(lines):
+        if line.startswith(("#ifdef", "#ifndef", "#if ")):
+            known = next((macro for macro in DEFINED if macro in line), None)
+            holds = known is None or DEFINED[known] != (line.startswith("#ifndef") or "!defined" in line)
+            state.append((holds, known is None))
+        elif line.startswith(("#else", "#elif")) and state:
+            holds, always = state[-1]
+            state[-1] = (always or not holds, always)
+        elif line.startswith("#endif") and state:
+            state.pop()
+        elif all(holds for holds, _ in state):
+            numbers.add(number)
+    return numbers
+
+
+def plan(most, only):
+    found = []
+    for source in SOURCES:
+        path = ROOT / source
+        for file in sorted(path.rglob("*.?pp")) if path.is_dir() else [path]:
+            name = str(file.relative_to(ROOT))
+            if only and only not in name or name.endswith(("counting.hpp", "cost.cpp")):
+                continue
+            lines = file.read_text().split("\n")
+            for number in sorted(compiled(lines)):
+                line = lines[number]
+                choices = list(mutants_of_line(line))
+                # One a line, so that they do not stand in each other's way.
+                if choices:
+                    after, shown = random.Random(f"{name}{line}").choice(choices)
+                    found.append((name, number, after, shown))
+    random.Random(7).shuffle(found)
+    return sorted(found[:most])
+
+
+def plant(chosen):
+    """The tree with all mutants in it."""
+    files = collections.defaultdict(dict)
+    for k, (name, number, after, _) in enumerate(chosen):
+        if after:
+            files[name][number] = after.replace("MUTANT(K)", f"MUTANT({k})")
+    for source in {name for name, *_ in chosen}:
+        lines = (ROOT / source).read_text().split("\n")
+        for number, after in files[source].items():
+            lines[number] = after
+        text = "\n".join(lines)
+        if (TREE / source).read_text() != text:
+            (TREE / source).write_text(text)
+
+
+def copy_tree():
+    if TREE.exists():
+        shutil.rmtree(TREE)
+    TREE.mkdir(parents=True)
+    listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, check=True).stdout
+    for name in listed.decode().split("\0"):
+        if (ROOT / name).is_file():
+            (TREE / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(ROOT / name, TREE / name)
+    (WORK / "mutant.hpp").write_text(HEADER)
+
+
+def compile_all(chosen, jobs):
+    """Drops what does not compile, until all does."""
+    off = [f"-DWISP_BUILD_{part}=OFF" for part in ("LEARN", "MEDIA", "MATFILE", "SIMULATE", "APPS", "SHARED")]
+    # One width of vectors: the bits of the others are another test's.
+    flags = f"-include {WORK / 'mutant.hpp'} -O1 -w -ftemplate-depth=2000"
+    subprocess.run(["cmake", "-S", TREE, "-B", WORK / "build", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Debug", "-DWISP_GNU_LD=OFF",
+                    f"-DCMAKE_CXX_FLAGS={flags}", "-DWISP_BUILD_TESTS=ON", *off], check=True, stdout=subprocess.DEVNULL)
+    for _ in range(20):
+        plant(chosen)
+        made = subprocess.run(["ninja", "-C", WORK / "build", "-k", "0", f"-j{jobs}", "wisp_tests_run", "wisp_tests_model",
+                               "wisp_run_frames"], capture_output=True, text=True)
+        if made.returncode == 0:
+            return
+        wrong = set(re.findall(rf"{TREE}/(src/[\w/.]+):(\d+):\d+: error", made.stdout))
+        wrong |= set(re.findall(rf"{TREE}/(src/[\w/.]+):(\d+):\d+:   required from", made.stdout)) if not wrong else set()
+        before = sum(1 for one in chosen if one[2])
+        for k, (name, number, after, shown) in enumerate(chosen):
+            if (name, str(number + 1)) in wrong:
+                chosen[k] = (name, number, None, shown)
+        if before == sum(1 for one in chosen if one[2]):
+            sys.exit("the tree does not compile:\n" + made.stdout[-4000:])
+    sys.exit("what does not compile could not be dropped")
+
+
+def notices(k, golden):
+    """What notices a mutant, or nothing."""
+    environment = {**os.environ, "WISP_MUTANT": str(k)}
+    tests = WORK / "build" / "tests"
+    commands = [("golden hash", [tests / "run" / "wisp_run_frames"])]
+    for room in ("model", "run"):
+        commands.append((room, [tests / f"wisp_tests_{room}", "--gtest_fail_fast", "--gtest_brief=1"]))
+    for name, command in commands:
+        try:
+            done = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=SECONDS)
+        except subprocess.TimeoutExpired:
+            return "time"
+        if done.returncode != 0 or (name == "golden hash" and done.stdout.strip() != golden):
+            return name
+    return None
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--most", type=int, default=300)
+    parser.add_argument("--only", default="")
+    parser.add_argument("--jobs", type=int, default=2)
+    options = parser.parse_args()
+    golden = re.search(r"set\(golden (\w+)\)", (ROOT / "tests/run/bits/bits.cmake").read_text()).group(1)
+    copy_tree()
+    chosen = plan(options.most, options.only)
+    compile_all(chosen, options.jobs)
+    if notices(-1, golden):
+        sys.exit("the tests fail without any mutant")
+    counts = collections.Counter()
+    for k, (name, number, after, shown) in enumerate(chosen):
+        if not after:
+            counts["did not compile"] += 1
+            continue
+        by = notices(k, golden)
+        counts[by or "survived"] += 1
+        if not by:
+            was = (ROOT / name).read_text().split("\n")[number].strip()
+            print(f"survived: {name}:{number + 1}: {was}  ->  {shown}", flush=True)
+    print(", ".join(f"{count} {what}" for what, count in counts.most_common()))
+
+
+if __name__ == "__main__":
+    main()
