@@ -8,7 +8,6 @@
 #include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/capture/clip/clip_capture.hpp"
-#include "wisp/capture/clip/fall_capture.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {

@@ -96,8 +96,9 @@ void judge(const ChainFit& found, const ChainRecipe& recipe, Fit& fit) {
 void refuse_what_capture_refused(std::span<const Recording> recordings, Usable& usable) {
   for (const Recording& recording : recordings) {
     const auto verdict = verdict_of(recording);
-    if (!usable.verdict || !verdict || verdict->usable) continue;
+    if (!verdict || verdict->usable) continue;
     usable = {false, recording.source + " was captured as not usable: " + verdict->reason};
+    return;
   }
 }
 

@@ -1,5 +1,3 @@
-#include "wisp/capture/clip/fall_capture.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +6,7 @@
 #include "capture/clip/fall/fall_tracks.hpp"
 #include "record/number_text.hpp"
 #include "record/verdict.hpp"
+#include "wisp/capture/clip/clip_capture.hpp"
 
 namespace wisp {
 namespace {

@@ -1,5 +1,3 @@
-#include "wisp/capture/clip/fall_capture.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +8,7 @@
 
 #include "capture/support/synthetic.hpp"
 #include "record/verdict.hpp"
+#include "wisp/capture/clip/clip_capture.hpp"
 
 namespace wisp {
 namespace {
