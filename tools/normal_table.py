@@ -42,7 +42,7 @@ def main():
     rows.append("{0.0f, 0.0f, 0.0f},")
     text = "// Written by tools/normal_table.py; see there for what it holds.\n// clang-format off\n"
     text += "\n".join(rows) + "\n// clang-format on\n"
-    target = pathlib.Path(__file__).resolve().parent.parent / "src" / "run" / "normal_table.inc"
+    target = pathlib.Path(__file__).resolve().parent.parent / "src" / "run" / "lanes" / "normal_table.inc"
     target.write_text(text)
 
 

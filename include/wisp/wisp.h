@@ -62,7 +62,8 @@ enum {
   WISP_BAD_DATA = 2,         /* bytes from outside that are not what they should be */
   WISP_NO_INSTANCE_LEFT = 3, /* the bank is full */
   WISP_NOT_ALIVE = 4,        /* the instance has ended, or never was */
-  WISP_NO_MEMORY = 5
+  WISP_NO_MEMORY = 5,
+  WISP_STOPPED = 6 /* a wisp_progress said so */
 };
 
 /* One sentence about the last failure on this thread; "" before the first. Valid until the next failure on it. */
@@ -487,6 +488,94 @@ WISP_API wisp_status wisp_wind_reset(wisp_wind* wind);
 
 /* Seconds between wind and the frame that tells of it, beyond the frame itself. 0 for NULL. */
 WISP_API double wisp_wind_latency(const wisp_wind* wind);
+
+/* ---- Learning ----
+ *
+ * A recording is put together from arrays; what is learned from it are the bytes of a model, which wisp_model_load()
+ * takes and any file may keep.
+ *
+ *     wisp_recipe recipe = wisp_recipe_default(WISP_RECIPE_ARX);
+ *     wisp_recording_create(rate_hz, &recording);
+ *     wisp_recording_add(recording, WISP_ROLE_INPUT, "wind", "", wind, rows);
+ *     wisp_recording_add(recording, WISP_ROLE_OUTPUT, "lean", "m", lean, rows);
+ *     wisp_learn(&recording, 1, &recipe, NULL, NULL, &fit);
+ *     wisp_fit_get_model(fit, &bytes, &size);
+ *
+ * The wind of an input may come from sound, by wisp_wind_feed(). A libwisp that was built without learning
+ * (WISP_BUILD_LEARN=OFF) and the WebAssembly player do not have these functions. */
+
+typedef struct wisp_recording wisp_recording;
+
+/* What a channel is. */
+enum {
+  WISP_ROLE_INPUT = 0,  /* acts on the thing (wind) */
+  WISP_ROLE_OUTPUT = 1, /* what the thing does: a flame's p0.x, p0.y, ..., a leaf's pos.x, pos.y, pos.z, q.w, ... */
+  WISP_ROLE_MOTION = 2  /* where the thing is held */
+};
+
+/* An empty recording of so many samples a second. Sets *recording. */
+WISP_API wisp_status wisp_recording_create(double rate_hz, wisp_recording** recording);
+
+/* Frees a recording. NULL is fine. */
+WISP_API void wisp_recording_free(wisp_recording* recording);
+
+/* Adds a channel, whose samples are copied; NaN is a missing sample. All channels have the count of the first. `unit`
+ * may be NULL. Fails with WISP_BAD_DATA when the name is there already or a sample is infinite. */
+WISP_API wisp_status wisp_recording_add(wisp_recording* recording, uint32_t role, const char* name, const char* unit,
+                                        const double* samples, size_t count);
+
+/* Cuts the rows into episodes: one id for each row; no history crosses from one id to the next. */
+WISP_API wisp_status wisp_recording_set_episodes(wisp_recording* recording, const int64_t* ids, size_t count);
+
+/* A fact about the whole recording, as docs/reference/recordings.md lists them ("knots", "pair", ...). */
+WISP_API wisp_status wisp_recording_set_attribute(wisp_recording* recording, const char* name, const char* value);
+
+/* What is learned. */
+enum {
+  WISP_RECIPE_ARX = 1,     /* one ARX model of all inputs and outputs */
+  WISP_RECIPE_OUTLINE = 2, /* control points of an outline */
+  WISP_RECIPE_FLAME = 3,   /* an outline that wind extinguishes */
+  WISP_RECIPE_CHAIN = 4,   /* pieces of motion, cut at an event */
+  WISP_RECIPE_LEAF = 5,    /* the same, cut where a leaf stalls */
+  WISP_RECIPE_FLICKER = 6  /* the light of a flame, for a lamp */
+};
+
+typedef struct wisp_recipe {
+  uint32_t size;     /* sizeof(wisp_recipe), set by the caller */
+  uint32_t kind;     /* WISP_RECIPE_... */
+  int32_t na;        /* ARX: lags of outputs, */
+  int32_t nb;        /* lags of inputs, */
+  int32_t nk;        /* and delay, samples; -1: found for each pair of channels */
+  int32_t modes;     /* of a chain or a flicker; 0: as the recipe has it */
+  const char* event; /* a chain's, such as "min:horizontal_speed"; NULL: as the recipe has it */
+  const char* name;  /* of the model; NULL: as the recipe has it */
+} wisp_recipe;
+
+/* The recipe as the library has it; what it leaves open is decided by held-out data. */
+WISP_API wisp_recipe wisp_recipe_default(uint32_t kind);
+
+/* Called now and then on the calling thread with a stage in words and the share of it that is done, 0 to 1, or below 0
+ * where its length is unknown. Returns 0 to stop. */
+typedef int32_t (*wisp_progress)(void* of, const char* stage, double share);
+
+typedef struct wisp_fit wisp_fit;
+
+/* Learns one model from recordings. `progress` may be NULL. Sets *fit. That the model came out badly is no failure:
+ * wisp_fit_usable() says so.
+ * Fails with WISP_BAD_DATA when the recordings cannot be learned from, with WISP_STOPPED when stopped. */
+WISP_API wisp_status wisp_learn(const wisp_recording* const* recordings, size_t count, const wisp_recipe* recipe,
+                                wisp_progress progress, void* of, wisp_fit** fit);
+
+/* Frees a fit. NULL is fine. */
+WISP_API void wisp_fit_free(wisp_fit* fit);
+
+/* Hands out the bytes of the model's file, which live as long as the fit.
+ * Fails with WISP_BAD_DATA when what was learned cannot be played. */
+WISP_API wisp_status wisp_fit_get_model(const wisp_fit* fit, const void** bytes, size_t* size);
+
+/* 1 when the model is fit for use, and why or why not, in a sentence. */
+WISP_API int32_t wisp_fit_usable(const wisp_fit* fit);
+WISP_API const char* wisp_fit_reason(const wisp_fit* fit);
 
 #ifdef __cplusplus
 }

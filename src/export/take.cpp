@@ -83,6 +83,12 @@ Result<Take> plain_take(const Model& model, const TakeOptions& options, Take tak
   return taken;
 }
 
+// What a bank would show: the orbit may lead a little beyond the range in which its play was held.
+float held_to(const Output& output, double value) {
+  const double room = kRangeMargin * (output.highest - output.lowest);
+  return static_cast<float>(std::clamp(value, output.lowest - room, output.highest + room));
+}
+
 Result<Take> orbit_take(const Model& model, const TakeOptions& options, Take taken) {
   auto bank = settled_bank(model, options);
   if (!bank) return bank.error();
@@ -111,7 +117,7 @@ Result<Take> orbit_take(const Model& model, const TakeOptions& options, Take tak
     for (std::size_t frame = 0; frame < taken.frames; ++frame) {
       for (std::size_t i = 0; i < taken.outputs; ++i) {
         taken.values[frame * width + k * taken.outputs + i] =
-            static_cast<float>(rows[k][(lags - 1 + frame) * taken.outputs + i]);
+            held_to(model.outputs[i], rows[k][(lags - 1 + frame) * taken.outputs + i]);
       }
     }
   }

@@ -14,10 +14,7 @@ namespace wisp {
 namespace {
 
 using arx::add;
-
-std::string element(const char* list, std::size_t index, const char* field) {
-  return std::string(list) + "[" + std::to_string(index) + "]." + field;
-}
+using arx::element;
 
 // A curve as knot → value pairs.
 std::string curve_text(const InputCurve& curve) {

@@ -36,7 +36,8 @@ inline const std::map<std::string, Layer>& layers() {
       // The compiler's own header of the processor's vector instructions.
       {"run", {{"base", "model"}, {"immintrin.h"}}},
       {"sound", {{"base"}, {}}},
-      {"c", {{"base", "model", "run", "sound"}, {}}},
+      {"c", {{"base", "model", "run", "sound"}, {}, {"c/boundary.hpp"}}},
+      {"c_learn", {{"base", "model", "record", "learn", "c"}, {}}},
       {"record", {{"base"}, {}, {"record/loudness.hpp", "record/number_text.hpp", "record/verdict.hpp"}}},
       {"matfile", {{"base", "record"}, {"hdf5.h", "zlib.h"}}},
       {"umbrella",

@@ -6,6 +6,7 @@
 
 #include "commands/commands.hpp"
 #include "films/flame_flipbook.hpp"
+#include "films/looped.hpp"
 #include "terminal.hpp"
 #include "wisp/base/file.hpp"
 #include "wisp/export/export.hpp"
@@ -24,26 +25,6 @@ struct Job {
 
 int height_of(const Job& job, int fallback) {
   return job.arguments.has("height") ? job.arguments.integer("height") : fallback;
-}
-
-Result<Take> take_of(const Job& job, Terminal& terminal) {
-  const Arguments& arguments = job.arguments;
-  TakeOptions options{.loop = arguments.has("loop"),
-                      .instances = arguments.integer("instances"),
-                      .seed = static_cast<std::uint64_t>(arguments.integer("seed")),
-                      .noise = arguments.text("noise") == "on"};
-  options.seconds = arguments.number(options.loop ? "loop" : "seconds");
-  options.inputs.assign(job.model.inputs.size(), arguments.number("wind"));
-  auto taken = take(job.model, options);
-  if (!taken) return taken;
-  terminal.add("frames", taken->frames);
-  terminal.add("instances", taken->instances);
-  terminal.add("rate_hz", taken->rate_hz);
-  terminal.add("loop", taken->loop);
-  ReportList travel;
-  for (const auto& way : taken->travel) travel.push_back(ReportList(way.begin(), way.end()));
-  if (!travel.empty()) terminal.add("travel", std::move(travel));
-  return taken;
 }
 
 Result<void> write_gltf(const Job& job, const Take& taken) {
@@ -110,13 +91,10 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   if (auto ok = check_flags(arguments, extension); !ok) return ok;
   const auto model = read_model(arguments.positional());
   if (!model) return model.error();
-  if (model->inputs.empty() && arguments.number("wind") != 0) {
-    return Error{"--wind drives a model's inputs, and " + arguments.positional() + " has none"};
-  }
   if (extension == ".c") return write_firmware(*model, path, terminal);
   const Job job{*model, arguments, path};
-  const auto taken = take_of(job, terminal);
-  if (!taken) return Error{arguments.positional() + ": " + taken.error().message};
+  const auto taken = take_from(*model, arguments, terminal);
+  if (!taken) return taken.error();
   if (auto ok = writer->second(job, *taken); !ok) {
     return ok.error().message.starts_with(path) ? ok : Error{path + ": " + ok.error().message};
   }
@@ -138,9 +116,7 @@ Command export_command() {
       {
           {"output", Kind::kOutput, "OUT", "", "what to write: OUT.glb, .json, .png, .apng, .webm or .c", {}, true},
           {"seconds", Kind::kNumber, "S", "4", "how much of its play"},
-          {"loop", Kind::kNumber, "S", "",
-           "a round of that many seconds, whose last frame meets its first in value and in speed; a leaf's round "
-           "leads on by `travel`"},
+          loop_flag(),
           {"instances", Kind::kInteger, "K", "1", "how many in one .glb, each with its own chance"},
           {"wind", Kind::kNumber, "W", "0", "a constant value for every input"},
           {"noise", Kind::kChoice, "on|off", "on", "the residual noise", {"on", "off"}},

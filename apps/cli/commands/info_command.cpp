@@ -16,6 +16,7 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   if (!model) return model.error();
   auto report = model_report(*model);
   if (!report) return report.error();
+  if (terminal.json()) report->append(model_contents(*model));
   report->add("File").entries = {{"bytes", bytes->size(), "size", "bytes"},
                                  {"format_version", kModelFormatVersion, "version of the format", ""}};
   terminal.show(*report);

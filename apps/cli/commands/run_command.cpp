@@ -8,6 +8,7 @@
 #include "commands/commands.hpp"
 #include "films/candle_pictures.hpp"
 #include "films/leaf_film.hpp"
+#include "films/looped.hpp"
 #include "flags/recordings.hpp"
 #include "flags/wind_input.hpp"
 #include "reports/chain_walk.hpp"
@@ -274,7 +275,13 @@ Result<Play> prepare(const Arguments& arguments) {
   return play;
 }
 
+Result<void> run_loop(const Arguments& arguments, Terminal& terminal) {
+  const auto model = read_model(arguments.positional());
+  return model ? write_loop(*model, arguments, terminal) : model.error();
+}
+
 Result<void> run(const Arguments& arguments, Terminal& terminal) {
+  if (arguments.has("loop")) return run_loop(arguments, terminal);
   const auto play = prepare(arguments);
   if (!play) return play.error();
   const auto walk = chain_walk_from(play->model, arguments);
@@ -311,6 +318,7 @@ std::vector<Flag> all_flags() {
   std::vector<Flag> all = {
       {"output", Kind::kOutput, "OUT", "", "what to write: OUT.csv, OUT.png or OUT.mp4", {}, true},
       {"frames", Kind::kInteger, "N", "", "frames at the model's rate; default: as many as --input has"},
+      loop_flag(),
       {"input", Kind::kPath, "REC", "", "a recording, or a WAV of blowing, whose input drives the model"},
       {"inputs", Kind::kNames, "A,B", "",
        "columns of --input that are the model's inputs, in its order, where they have other names"},
@@ -346,6 +354,8 @@ Command run_command() {
            "Twenty seconds of a flame at 30 frames a second, as a film"},
           {"wisp run flame.wisp --frames 1000 --wind 0.5 --noise off -o steady.csv",
            "The noiseless response to steady wind, as numbers"},
+          {"wisp run flame.wisp --loop 4 -o round.mp4",
+           "Four seconds of a flame that go round without an end, as a film"},
           {"wisp run leaf.wisp --frames 1200 --instances 5 -o falls.mp4", "Five leaves that fall for ever, for 20 s"},
           {"wisp run flame.wisp --input puff.csv --frames 600 --relight 5 -o out.mp4",
            "A flame that a puff blows out, its smoke, and how it is lit again after five seconds"},

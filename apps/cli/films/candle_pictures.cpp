@@ -23,8 +23,14 @@ float seconds(std::chrono::nanoseconds age) {
 }  // namespace
 
 CandlePictures::CandlePictures(const Model& model, const Bank& bank)
-    : flame_(is_flame(model)), width_(std::min(kLoneWidth + 220 * (bank.size() - 1), kWidest)), height_(kHeight) {
-  const int count = bank.size();
+    : CandlePictures(model, bank.size(), bank.polyline_points()) {
+  const auto slots = static_cast<std::size_t>(bank.slots());
+  polylines_.resize(slots * bank.polyline_points() * 2);
+  points_.resize(slots * bank.polyline_points());
+}
+
+CandlePictures::CandlePictures(const Model& model, int count, int points)
+    : flame_(is_flame(model)), width_(std::min(kLoneWidth + 220 * (count - 1), kWidest)), height_(kHeight) {
   for (int k = 0; k < count; ++k) {
     FlameScene scene = framed(width_, height_);
     const double spacing = static_cast<double>(width_) / (count + 1);
@@ -34,9 +40,7 @@ CandlePictures::CandlePictures(const Model& model, const Bank& bank)
     scenes_.push_back(scene);
   }
   drifts_.resize(scenes_.size());
-  const auto slots = static_cast<std::size_t>(bank.slots());
-  polylines_.resize(slots * bank.polyline_points() * 2);
-  points_.resize(slots * bank.polyline_points());
+  points_.resize(scenes_.size() * static_cast<std::size_t>(points));
   image_ = Image(width_, height_);
 }
 
@@ -55,16 +59,22 @@ void CandlePictures::blow(const Bank& bank, float wind) {
 
 const Image& CandlePictures::draw(const Bank& bank) {
   bank.polylines(polylines_);
-  for (std::size_t k = 0; k < points_.size(); ++k) points_[k] = {polylines_[2 * k], polylines_[2 * k + 1]};
-  const auto each = static_cast<std::size_t>(bank.polyline_points());
   const ExtinctionFacet* extinction = bank.extinction();
-  std::vector<Flame> flames;
   for (std::size_t k = 0; k < scenes_.size(); ++k) {
     const LitState state =
         extinction ? extinction->state_of(bank.at(static_cast<int>(k))).value_or(LitState{}) : LitState{};
     scenes_[k].seconds_since_lit = seconds(state.since_lit);
     scenes_[k].seconds_since_out = seconds(state.since_out);
     scenes_[k].size = state.size;
+  }
+  return draw(polylines_);
+}
+
+const Image& CandlePictures::draw(std::span<const float> outlines) {
+  for (std::size_t k = 0; k < points_.size(); ++k) points_[k] = {outlines[2 * k], outlines[2 * k + 1]};
+  const std::size_t each = points_.size() / scenes_.size();
+  std::vector<Flame> flames;
+  for (std::size_t k = 0; k < scenes_.size(); ++k) {
     flames.push_back({std::span(points_).subspan(k * each, each), scenes_[k]});
   }
   if (!flame_) {

@@ -1,6 +1,7 @@
 #pragma once
 // Pictures of a bank of outlines: flames as candles side by side, smoke and all; other things as plain shapes.
 
+#include <span>
 #include <vector>
 
 #include "wisp/draw/flame.hpp"
@@ -15,6 +16,11 @@ class CandlePictures {
   /// Precondition: bank.polyline_points() > 0 and bank.size() > 0.
   CandlePictures(const Model& model, const Bank& bank);
 
+  /// Sized for so many outlines of so many points, which need no bank.
+  ///
+  /// Precondition: the view is an outline, count > 0 and points >= 2.
+  CandlePictures(const Model& model, int count, int points);
+
   int width() const { return width_; }
   int height() const { return height_; }
 
@@ -23,6 +29,9 @@ class CandlePictures {
 
   /// The bank as it is now. The picture is good until the next call.
   const Image& draw(const Bank& bank);
+
+  /// Outlines, one after the other, count × points × (x, y), that all burn.
+  const Image& draw(std::span<const float> outlines);
 
  private:
   // The mean wind since a flame went out: what its smoke has gone through.

@@ -190,12 +190,16 @@ Image filmed(const Outline& outline, const Image& frame, const StripContent& con
   return crop(frame, {left, top, width, height});
 }
 
+// Of a row whose frame was lost, the next frame.
 Result<std::map<std::size_t, Image>> frames_at(const ClipFrames& clip, const std::vector<std::size_t>& rows) {
   std::map<std::size_t, Image> frames;
   if (clip.path.empty()) return frames;
+  auto wanted = rows.begin();
   auto read =
       for_each_row(clip, rows.back(), [&](std::size_t row, const std::function<Image()>& picture) -> Result<void> {
-        if (std::binary_search(rows.begin(), rows.end(), row)) frames[row] = picture();
+        if (wanted == rows.end() || *wanted > row) return {};
+        const Image frame = picture();
+        for (; wanted != rows.end() && *wanted <= row; ++wanted) frames[*wanted] = frame;
         return {};
       });
   if (!read) return read.error();

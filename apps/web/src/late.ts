@@ -7,7 +7,7 @@ import { isLesson, readDropped, refusalOf, Refused } from './files.js';
 import { Drawer } from './panel/drawer.js';
 import { byId } from './panel/element.js';
 import { fillHelp } from './panel/help.js';
-import { saveLoop, savePicture } from './saving.js';
+import { saveGif, saveLoop, savePicture } from './saving.js';
 import { Senses } from './senses/senses.js';
 import { StudioDoor } from './studio_door.js';
 import { Ear } from './wind/ear.js';
@@ -36,6 +36,7 @@ export function furnish(app: App): Parts {
     link: () => app.copyLink(),
     picture: () => savePicture(app.stage),
     loop: () => saveLoop(app.stage.canvas),
+    gif: () => saveGif(app.stage.canvas),
     senses: () => app.toggleSenses(),
   });
   fillHelp(app.help);

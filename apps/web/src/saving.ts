@@ -1,11 +1,16 @@
-// What is to be kept of the picture: a still, or three seconds that move. Made here; nothing is sent anywhere.
+// What is to be kept of the picture: a still, or three seconds that move, as a film or as a GIF. Made here; nothing is sent anywhere.
 
 import type { Stage } from '@wisp/player/parts/stage/stage';
 
 const SECONDS = 3;
 const FRAMES = 30;
+const SLICE_MS = 100;
+/** Seconds in which the first picture must be encoded. */
+const PATIENCE = 10;
 /** Kinds of film that browsers record, the one that most programs show first. */
 const KINDS = ['video/mp4;codecs=avc1', 'video/webm;codecs=vp9', 'video/webm'];
+
+const after = (seconds: number): Promise<unknown> => new Promise((resolve) => setTimeout(resolve, 1000 * seconds));
 
 /** Gives a file to whoever sits here. */
 export function saveFile(blob: Blob, name: string): void {
@@ -23,18 +28,33 @@ export async function savePicture(stage: Stage): Promise<string> {
   return 'Saved';
 }
 
+/** Saves what the next seconds of a canvas show, as a GIF. */
+export async function saveGif(canvas: HTMLCanvasElement): Promise<string> {
+  const { gifOf } = await import('./gif.js');
+  saveFile(await gifOf(canvas, SECONDS), 'wisp.gif');
+  return 'Saved';
+}
+
 /** Saves what the next seconds of a canvas show, as a film. */
 export async function saveLoop(canvas: HTMLCanvasElement): Promise<string> {
   const kind = typeof MediaRecorder === 'undefined' ? undefined : KINDS.find((name) => MediaRecorder.isTypeSupported(name));
   if (kind === undefined) return 'This browser records no films';
   const recorder = new MediaRecorder(canvas.captureStream(FRAMES), { mimeType: kind, videoBitsPerSecond: 8e6 });
   const parts: Blob[] = [];
-  recorder.addEventListener('dataavailable', ({ data }) => parts.push(data));
+  const begun = new Promise((resolve) => {
+    recorder.addEventListener('dataavailable', ({ data }) => {
+      parts.push(data);
+      if (data.size > 0) resolve(null);
+    });
+  });
   const ended = new Promise((resolve) => recorder.addEventListener('stop', resolve, { once: true }));
-  recorder.start();
-  await new Promise((resolve) => setTimeout(resolve, 1000 * SECONDS));
+  recorder.start(SLICE_MS);
+  // A busy machine takes its time until it encodes anything.
+  await Promise.race([begun, after(PATIENCE)]);
+  await after(SECONDS);
   recorder.stop();
   await ended;
+  if (parts.every(({ size }) => size === 0)) return 'No picture came: try again';
   saveFile(new Blob(parts, { type: kind }), kind.startsWith('video/mp4') ? 'wisp.mp4' : 'wisp.webm');
   return 'Saved';
 }

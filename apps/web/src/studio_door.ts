@@ -3,7 +3,7 @@
 import type { App } from './app.js';
 import type { Dropped } from './drops.js';
 import { byId, element } from './panel/element.js';
-import { saveLoop } from './saving.js';
+import { saveGif, saveLoop } from './saving.js';
 import type { Room } from './studio/room.js';
 
 /** Milliseconds until a flame that was just put on stands in full light. */
@@ -86,13 +86,13 @@ export class StudioDoor {
         if (app.player.playing?.model.inputs.length === 0) await app.player.borrowWind();
         if (app.parts?.ear.state === 'off') app.toggleMicrophone();
       },
-      film: async (file, model) => {
+      film: async (file, model, kind) => {
         await app.player.playFile(file, model);
         this.markTab();
         app.stage.start();
         await new Promise((resolve) => setTimeout(resolve, LIT));
         try {
-          return await saveLoop(app.stage.canvas);
+          return await (kind === 'gif' ? saveGif : saveLoop)(app.stage.canvas);
         } finally {
           if (this.inside) app.stage.stop();
         }

@@ -93,14 +93,17 @@ export async function until(page, what, holds, argument = null, timeout = 30_000
 }
 
 /** Drops a file on the page. */
-export const drop = (page, name, bytes) =>
+export const drop = (page, name, bytes) => dropAll(page, { [name]: bytes });
+
+/** Drops files, each by its name. */
+export const dropAll = (page, files) =>
   page.evaluate(
-    ([called, values]) => {
+    (all) => {
       const carried = new DataTransfer();
-      carried.items.add(new File([new Uint8Array(values)], called));
+      for (const [called, values] of all) carried.items.add(new File([new Uint8Array(values)], called));
       window.dispatchEvent(new DragEvent('drop', { dataTransfer: carried, bubbles: true, cancelable: true }));
     },
-    [name, [...bytes]],
+    Object.entries(files).map(([name, bytes]) => [name, [...bytes]]),
   );
 
 /** Opens the drawer, if it is not open. */

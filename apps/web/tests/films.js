@@ -30,6 +30,13 @@ export function candleFilm(folder) {
   return film;
 }
 
+/** Some falls of a leaf. */
+export function recordedFalls(folder) {
+  const falls = join(folder, 'falls.csv');
+  execFileSync(program, ['simulate', 'leaf', '-o', falls, '--drops', '12', '--seconds', '8', '--seed', '7', '--quiet']);
+  return falls;
+}
+
 /** The same, to be shown turned by a quarter. */
 export function turnedFilm(film, folder) {
   const turned = join(folder, 'turned.mp4');

@@ -70,6 +70,14 @@ describe('sharing', { skip }, () => {
     assert.match(loop.suggestedFilename(), /^wisp\.(webm|mp4)$/);
     const film = readFileSync(await loop.path());
     assert.ok(film.length > 1_000, `${film.length} bytes`);
+    const [gif] = await Promise.all([page.waitForEvent('download', { timeout: 60_000 }), page.click('[data-file=gif]')]);
+    const bytes = readFileSync(await gif.path());
+    assert.equal(bytes.subarray(0, 6).toString('latin1'), 'GIF89a');
+    assert.ok(bytes.includes('NETSCAPE2.0'), 'it goes on for ever');
+    // Its own blocks of timing: sixty pictures, of which a busy machine draws few anew.
+    const pictures = bytes.toString('latin1').split('\x21\xf9\x04').slice(1);
+    assert.equal(pictures.length, 60);
+    assert.ok(new Set(pictures).size > 1, 'it moves');
   });
 
   it('as an overlay it shows what burns on nothing, and no control', async () => {

@@ -5,8 +5,8 @@ import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, it } from 'node:test';
-import { chromiumPath, drop, openBrowser, until } from './browser.js';
-import { asDevices, candleFilm, capturedByProgram, noConverter, noFilms, turnedFilm, wallFilm } from './films.js';
+import { chromiumPath, drop, dropAll, openBrowser, until } from './browser.js';
+import { asDevices, candleFilm, capturedByProgram, noConverter, noFilms, recordedFalls, turnedFilm, wallFilm } from './films.js';
 
 const skip = chromiumPath === undefined && 'there is no Chromium here';
 const folder = mkdtempSync(join(tmpdir(), 'wisp-studio-'));
@@ -201,8 +201,29 @@ describe('a table', { skip }, () => {
     await page.click('[data-act=learn]');
     await step(page, 'blow', 30_000);
     assert.match(await page.textContent(`${panel} h2`), /It learned how this behaves/);
+    await says(page, panel, 'On the last rows');
+    assert.ok((await page.textContent(`${panel} .meter`)).includes('temperature'));
     assert.ok((await page.locator('.plots canvas').count()) > 0);
     assert.deepEqual([page.errors, page.strangers], [[], []]);
+  });
+});
+
+describe('recorded falls', { skip: skip || noFilms }, () => {
+  let opened;
+  after(() => opened?.close());
+
+  it('are learned, and fall in the page', async () => {
+    opened = await openBrowser();
+    const page = await opened.page('#scene=candle&detail=0.1', { viewport: { width: 1000, height: 700 } });
+    await drop(page, 'falls.csv', readFileSync(recordedFalls(folder)));
+    await step(page, 'blow', 60_000);
+    assert.match(await page.textContent(`${panel} h2`), /It learned how this falls/);
+    await says(page, panel, 'Beside what was recorded');
+    await page.click('[data-act=blow]');
+    await until(page, 'it falls', () => document.getElementById('studio').hidden && document.querySelector('[data-scene=leaves]').getAttribute('aria-current') === 'true');
+    const frames = await page.evaluate(() => window.wisp.frames);
+    await until(page, 'frames go by', (many) => window.wisp.frames > many + 2, frames);
+    assert.deepEqual([page.errors.filter((words) => !/NotFound|microphone/i.test(words)), page.strangers], [[], []]);
   });
 });
 
@@ -294,6 +315,18 @@ describe('a bad day in the studio', { skip }, () => {
   it('says that one picture does not move', async () => {
     await drop(page, 'one.png', Buffer.from('png'));
     await says(page, '#notices', 'One picture does not move');
+  });
+
+  it('asks how fast pictures follow each other', async () => {
+    await dropAll(page, { 'f1.png': Buffer.from('png'), 'f2.png': Buffer.from('png') });
+    await says(page, panel, 'How many pictures a second');
+    await page.fill('#pictures-rate', '0');
+    assert.ok(await page.isDisabled('[data-act=look]'));
+    await page.fill('#pictures-rate', '4');
+    await says(page, panel, 'They last 0.5 s');
+    await page.click('[data-act=look]');
+    await says(page, `${panel} .verdict.bad`, 'f1.png', 20_000);
+    await again();
   });
 
   it('says that a table is empty', async () => {

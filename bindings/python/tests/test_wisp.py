@@ -64,6 +64,18 @@ class Learning(unittest.TestCase):
         self.assertEqual(recording["y"][5], 7)
         self.assertFalse(recording["y"].flags.owndata)
 
+    def test_a_light_flickers_as_the_programs_does(self):
+        random = np.random.default_rng(3)
+        light = np.ones(4000)
+        for t in range(1, len(light)):
+            light[t] = 1 + 0.9 * (light[t - 1] - 1) + (0.05 if t // 60 % 3 == 0 else 0.005) * random.standard_normal()
+        with tempfile.TemporaryDirectory() as folder:
+            table, model = os.path.join(folder, "light.csv"), os.path.join(folder, "light.wisp")
+            wisp.Recording(50, {"brightness": light}).write_csv(table)
+            run("learn", "flicker", table, "-o", model)
+            fit = wisp.learn(wisp.read_csv(table), wisp.FlickerRecipe(name="light"))
+            self.assertEqual(bytes(fit.model), pathlib.Path(model).read_bytes())
+
     def test_bad_data_is_one_sentence(self):
         with self.assertRaisesRegex(wisp.Error, "nosuch"):
             wisp.learn(made_system(), wisp.ArxRecipe(inputs=["nosuch"], outputs=["y"]))

@@ -35,6 +35,7 @@ export class StudioError extends Error {
 }
 
 const NO_MEMORY = 'there is not enough memory for this: give a shorter film, or a smaller picture';
+const FAULT = 'Wisp stopped at a fault of its own; what was gathered before is kept. A report with this file would help to mend it';
 const LAYOUTS = { grey: 0, yuv: 1, rgb: 2 } as const;
 
 interface SeenText {
@@ -53,7 +54,7 @@ interface ReportText {
   text: string;
 }
 
-type RecordingText = ReportText & { rate: number; rows: number; series: Omit<Series, 'samples'>[] };
+type RecordingText = ReportText & { rate: number; rows: number; episodes: number[]; series: Omit<Series, 'samples'>[] };
 
 export class Engine {
   /** Told of progress; returns whether to go on. */
@@ -159,7 +160,7 @@ export class Engine {
     this.gather(recordings);
     this.withText(JSON.stringify(recipe), (at, size) => this.call('studio_learn', at, size));
     const model = this.answerBytes();
-    return { model, ...(JSON.parse(this.text()) as ReportText) };
+    return { model, ...(JSON.parse(this.text()) as Omit<Learned, 'model'>) };
   }
 
   /** Judges a model on recordings. */
@@ -179,11 +180,12 @@ export class Engine {
   private recording(): Captured {
     const { series, rows, ...rest } = JSON.parse(this.text()) as RecordingText;
     const numbers = this.numbers();
-    const { report, text, rate } = rest;
+    const { report, text, rate, episodes } = rest;
     return {
       csv: this.answerBytes(),
       rate,
       rows,
+      episodes,
       series: series.map((one, k) => ({ ...one, samples: numbers.slice(k * rows, (k + 1) * rows) })),
       report,
       text,
@@ -196,8 +198,7 @@ export class Engine {
     try {
       status = this.functions[name]!(...values);
     } catch (error) {
-      // Without memory, or with a bug, the module stops where it is.
-      throw error instanceof WebAssembly.RuntimeError ? new StudioError(NO_MEMORY, { cause: error }) : error;
+      throw error instanceof WebAssembly.RuntimeError ? new StudioError(FAULT, { cause: error }) : error;
     }
     if (status !== 0) throw new StudioError(this.text());
   }
@@ -220,7 +221,7 @@ export class Engine {
 
   private take(size: number): number {
     const at = this.functions.malloc!(Math.max(1, size));
-    if (at === 0) throw new StudioError(NO_MEMORY);
+    if (at === 0) outOfMemory();
     return at;
   }
 
@@ -245,10 +246,15 @@ export class Engine {
       Number(this.onProgress(new TextDecoder().decode(this.bytes(at, size)), share));
     for (const { module: from, name } of WebAssembly.Module.imports(module)) {
       imports[from] ??= {};
-      imports[from]![name] = name === 'studio_progress' ? progress : absent(name);
+      imports[from]![name] = name === 'studio_progress' ? progress : name === 'studio_out_of_memory' ? outOfMemory : absent(name);
     }
     return imports;
   }
+}
+
+/** Ends the call that wants more memory than there is. What the module held is lost with it. */
+function outOfMemory(): never {
+  throw new StudioError(NO_MEMORY, { cause: 'memory' });
 }
 
 /** There are no files, no clock and no environment. */

@@ -77,6 +77,8 @@ export interface Captured {
   csv: Uint8Array;
   rate: number;
   rows: number;
+  /** rows at which episodes begin: stretches that history does not cross */
+  episodes: number[];
   series: Series[];
   report: Report;
   /** the report in words, as the program prints it */
@@ -101,6 +103,9 @@ export interface Recipe {
   nk?: number;
   inputs?: string[];
   outputs?: string[];
+  /** the last share of the rows, 0 to 1, that a model of the rest is judged on; the model that is given is then learned
+   * from all of them. A flame keeps back its own */
+  kept_back?: number;
 }
 
 /** A curve to plot. */
@@ -120,6 +125,8 @@ export interface Learned {
   report: Report;
   curves: Curve[];
   text: string;
+  /** what the rows that were kept back say; absent where nothing was, or too little */
+  judged?: Pick<Learned, 'report' | 'curves' | 'text'>;
 }
 
 /** Columns of a table that does not say itself. */

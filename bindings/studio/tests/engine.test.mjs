@@ -93,6 +93,23 @@ describe('the module that learns', () => {
     assert.ok(judged.curves.length > 0);
   });
 
+  test('judges a table on rows that were kept back', async () => {
+    const engine = await Engine.start(module);
+    const recipe = { kind: 'arx', inputs: ['heat'], outputs: ['temperature'], order: 1, nk: 1, kept_back: 0.25 };
+    const { csv } = engine.table('dryer.csv', table(600), { inputs: ['heat'], outputs: ['temperature'], rate: 10 });
+    const fit = engine.learn([csv], recipe);
+    assert.ok(fit.judged.report.rows <= 150);
+    assert.ok(fit.judged.report.channels[0].fit_percent.inf > 99);
+    // What comes out last has nothing to do with what went in.
+    const lines = table(600).toString().trim().split('\n');
+    const broken = lines.map((line, k) => (k < 460 ? line : line.replace(/[^,]*$/, String(Math.sin(k * k)))));
+    const odd = engine.table('odd.csv', Buffer.from(broken.join('\n')), { inputs: ['heat'], outputs: ['temperature'], rate: 10 });
+    assert.ok(engine.learn([odd.csv], recipe).judged.report.channels[0].fit_percent.inf < 5);
+    // Too short to keep anything back.
+    const short = engine.table('short.csv', table(40), { inputs: ['heat'], outputs: ['temperature'], rate: 10 });
+    assert.equal(engine.learn([short.csv], { ...recipe, kept_back: 0.95 }).judged, undefined);
+  });
+
   test('refuses with sentences, and goes on', async () => {
     const engine = await Engine.start(module);
     const refused = (words) => (error) => error instanceof StudioError && words.test(error.message);
@@ -151,6 +168,20 @@ describe('against the program', { skip: existsSync(program) ? false : 'the progr
       }
     }
     assert.ok(worst < 1e-6, `${worst} apart`);
+  });
+
+  test('the same falls give the same leaf, and the same chain of positions', () => {
+    const falls = join(folder, 'falls.csv');
+    wisp('simulate', 'leaf', '-o', falls, '--drops', '8', '--seconds', '6', '--seed', '7');
+    assert.deepEqual(engine.table('falls.csv', readFileSync(falls)).episodes, Array.from({ length: 8 }, (_, k) => 360 * k));
+    for (const kind of ['leaf', 'chain']) {
+      const report = JSON.parse(wisp('learn', kind, falls, '-o', join(folder, `${kind}.wisp`), '--json'));
+      const fit = engine.learn([readFileSync(falls)], { kind, name: kind });
+      assert.deepEqual(fit.report.usable, report.usable);
+      assert.equal(fit.report.segments, report.segments);
+      assert.deepEqual(fit.report.mode_sizes, report.mode_sizes);
+      assert.ok(Math.abs(fit.report.log_likelihood.chosen - report.log_likelihood.chosen) < 1e-6);
+    }
   });
 
   test('a recording that is read is written as it was, to the byte', () => {

@@ -73,7 +73,7 @@ ClipCapture capture_options(const json& from) {
 }
 
 // The report as the program's --json has it, and, for pictures, its series.
-std::string report_json(const Report& report) {
+json report_json(const Report& report) {
   json out = json::parse(to_json(report, -1), nullptr, false);
   json curves = json::array();
   for (const ReportSection& section : report.sections) {
@@ -86,7 +86,7 @@ std::string report_json(const Report& report) {
                         {"y", series.y}});
     }
   }
-  return json{{"report", std::move(out)}, {"curves", std::move(curves)}, {"text", to_text(report)}}.dump();
+  return json{{"report", std::move(out)}, {"curves", std::move(curves)}, {"text", to_text(report)}};
 }
 
 const char* role_name(Role role) {
@@ -104,9 +104,12 @@ int hand_over(const Recording& recording, const Report& report) {
     series.push_back({{"name", channel.name}, {"unit", channel.unit}, {"role", role_name(channel.role)}});
     out.numbers.insert(out.numbers.end(), channel.samples.begin(), channel.samples.end());
   }
-  json text = json::parse(report_json(report), nullptr, false);
+  json text = report_json(report);
   text["rate"] = recording.rate_hz;
   text["rows"] = recording.rows();
+  json begins = json::array();
+  for (const Episode& episode : episodes(recording)) begins.push_back(episode.begin);
+  text["episodes"] = std::move(begins);
   text["series"] = std::move(series);
   out.text = text.dump();
   return kDone;
@@ -155,6 +158,22 @@ Result<Recording> read_recording(const char* bytes, std::size_t size, const json
   CsvOptions options{.inputs = names(settings, "inputs"), .outputs = names(settings, "outputs")};
   options.rate_hz = settings.value("rate", 0.0);
   return read_csv(stream, settings.value("name", "recording.csv"), options);
+}
+
+// What the last `share` of the rows says of a model that was learned from those before; nothing where either part is
+// too short for that.
+std::optional<json> judged_on_the_end(const std::vector<Recording>& recordings, const Recipe& recipe, double share) {
+  std::vector<Recording> begins, ends;
+  for (const Recording& recording : recordings) {
+    const auto cut = static_cast<std::size_t>((1 - share) * static_cast<double>(recording.rows()));
+    begins.push_back(slice(recording, 0, cut));
+    ends.push_back(slice(recording, cut, recording.rows()));
+  }
+  const auto fit = learn(begins, recipe, progress());
+  if (!fit) return std::nullopt;
+  const auto report = validate(fit->model, ends, {}, progress());
+  if (!report) return std::nullopt;
+  return report_json(*report);
 }
 
 }  // namespace
@@ -264,15 +283,21 @@ WISP_STUDIO(add) int studio_add(const char* bytes, std::size_t size, const char*
 
 WISP_STUDIO(clear) void studio_clear() { desk().recordings.clear(); }
 
-// Learns from what was added. Bytes: the model.
+// Learns from what was added. Bytes: the model. With `kept_back` what the last part of the rows says is `judged`.
 WISP_STUDIO(learn) int studio_learn(const char* text, std::size_t size) {
-  const auto fit = learn(desk().recordings, recipe_of(parsed(text, size)), progress());
+  const json settings = parsed(text, size);
+  const Recipe recipe = recipe_of(settings);
+  const auto fit = learn(desk().recordings, recipe, progress());
   if (!fit) return fail(fit.error());
   auto bytes = model_bytes(fit->model);
   if (!bytes) return fail(bytes.error());
+  json answer = report_json(fit->report);
+  if (const double share = settings.value("kept_back", 0.0); share > 0 && share < 1) {
+    if (auto judged = judged_on_the_end(desk().recordings, recipe, share)) answer["judged"] = *std::move(judged);
+  }
   Answer& out = fresh();
   out.bytes = std::move(*bytes);
-  out.text = report_json(fit->report);
+  out.text = answer.dump();
   return kDone;
 }
 
@@ -282,7 +307,7 @@ WISP_STUDIO(validate) int studio_validate(const std::byte* bytes, std::size_t si
   if (!model) return fail(model.error());
   const auto report = validate(*model, desk().recordings, {}, progress());
   if (!report) return fail(report.error());
-  fresh().text = report_json(*report);
+  fresh().text = report_json(*report).dump();
   return kDone;
 }
 }

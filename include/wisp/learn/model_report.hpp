@@ -16,4 +16,9 @@ namespace wisp {
 /// Errors: the model cannot be played.
 Result<Report> model_report(const Model& model);
 
+/// All else that a model's file holds, for programs, under ids that model_report() does not use: with both, a model can
+/// be written again, or played, in another language. docs/reference/model-file.md has the fields and how they are
+/// played, to the bit.
+Report model_contents(const Model& model);
+
 }  // namespace wisp

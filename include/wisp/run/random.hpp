@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 namespace wisp {
 
@@ -23,5 +24,9 @@ std::array<std::uint32_t, 4> random_words(const RandomKey& key);
 /// The standard normal deviate that a word stands for: the inverse of the normal distribution at (word + ½)/2³², within
 /// 1.5e-6. Rises with the word, from −6.338 to 6.338; symmetric.
 float normal(std::uint32_t word);
+
+/// The quadratics that normal() is made of, c0 + t (c1 + t c2), for a player in another language:
+/// docs/reference/model-file.md says how.
+std::span<const std::array<float, 3>> normal_table();
 
 }  // namespace wisp

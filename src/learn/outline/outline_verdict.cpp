@@ -141,12 +141,6 @@ Usable outline_verdict(const ArxSummary& fit, const OutlineSummary& summary) {
     return {false, "it predicts the next frame no better than the mean does (median fit " +
                        rounded(typical_fit(summary.learned, 1), 1) + " %)"};
   }
-  if (const double next = std::min(typical_fit(judged, 1), tip_fit(judged, 1)); next <= 0) {
-    return {false,
-            "what was kept back to judge by moves otherwise than what was learned from: its next frame is predicted "
-            "no better than by its mean (fit " +
-                rounded(next, 1) + " %): record longer, while nothing else changes"};
-  }
   if (summary.play_distance && summary.play_distance->value > summary.play_distance->ceiling) {
     return {false,
             "playing freely it is farther from the recording than that recording's own frames in random order "

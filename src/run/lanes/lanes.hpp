@@ -283,7 +283,7 @@ inline void store(const Packed& packed, Value* values) {
 /// Keeps the compiler from reading what was loaded again for every use.
 template <class Part, int kParts>
 inline void hold_in_register([[maybe_unused]] Pack<Part, kParts>& packed) {
-#ifdef WISP_LONG_WORDS
+#if defined(WISP_LONG_WORDS) && !defined(__wasm__)
   if constexpr (sizeof(Part) >= 16) {
     for (Part& part : packed.part) asm("" : "+x"(part));
   }

@@ -1,5 +1,7 @@
 #include "wisp/run/random.hpp"
 
+#include <iterator>
+
 #include "run/lanes/random_lanes.hpp"
 
 namespace wisp {
@@ -22,6 +24,18 @@ float normal(std::uint32_t word) {
   float lanes[LiveNumbers::kLanes];
   store(normal_lanes<LiveNumbers>(all<Words<LiveNumbers>>(word)), lanes);
   return lanes[0];
+}
+
+std::span<const std::array<float, 3>> normal_table() {
+  static constexpr std::size_t kCount = std::size(kNormalSegments) - 1;  // the last one only pads
+  static constexpr auto kTable = [] {
+    std::array<std::array<float, 3>, kCount> table{};
+    for (std::size_t k = 0; k < kCount; ++k) {
+      for (int c = 0; c < 3; ++c) table[k][c] = kNormalSegments[k].c[c];
+    }
+    return table;
+  }();
+  return kTable;
 }
 
 }  // namespace wisp

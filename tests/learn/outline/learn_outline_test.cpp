@@ -120,18 +120,6 @@ TEST(LearnOutline, AnInputThatWasAskedForStays) {
 
 TEST(LearnOutline, AnInputThatMovesItStays) { EXPECT_FALSE(learned({windy()}, {}).model.inputs.empty()); }
 
-TEST(LearnOutline, WhatMovesOtherwiseInTheEndIsNotUsable) {
-  Recording recording = made::outline_recording({.rows = 600, .seed = 5});
-  const Recording other = made::outline_recording({.rows = 600, .lag1 = -1.5, .seed = 6});
-  for (std::size_t c = 0; c < recording.channels.size(); ++c) {
-    auto& samples = recording.channels[c].samples;
-    std::copy(other.channels[c].samples.begin() + 420, other.channels[c].samples.end(), samples.begin() + 420);
-  }
-  const Fit fit = learned({recording}, {});
-  EXPECT_FALSE(fit.report.verdict->usable);
-  EXPECT_THAT(fit.report.verdict->reason, HasSubstr("moves otherwise than what was learned from"));
-}
-
 TEST(LearnOutline, CanBeStopped) {
   const auto stopped =
       learn_outline(std::vector{windy()}, {}, [](std::string_view, double share) { return share < 0.5; });

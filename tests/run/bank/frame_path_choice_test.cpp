@@ -16,14 +16,23 @@ namespace {
 
 using testing::HasSubstr;
 
+// Empty: as if it were not there.
+void set_width(const char* width) {
+#ifdef _WIN32
+  _putenv_s("WISP_WIDTH", width);
+#else
+  setenv("WISP_WIDTH", width, 1);
+#endif
+}
+
 // Sets WISP_WIDTH for a while.
 class Width {
  public:
   explicit Width(const char* width) {
     if (const char* old = std::getenv("WISP_WIDTH")) before_ = old;
-    setenv("WISP_WIDTH", width, 1);
+    set_width(width);
   }
-  ~Width() { before_.empty() ? unsetenv("WISP_WIDTH") : setenv("WISP_WIDTH", before_.c_str(), 1); }
+  ~Width() { set_width(before_.c_str()); }
   Width(const Width&) = delete;
   Width& operator=(const Width&) = delete;
 

@@ -1,12 +1,12 @@
 # The golden hash again, from the library as it is built, at every width of vectors that this machine has; and of what is
 # compiled for wide vectors nothing is seen from outside but the one name by which it is chosen.
 #
-#   cmake -DSOURCE=… -DPROGRAM=frames -DOBJECTS="frame_path_avx2.o;…" -DNM=nm -P widths.cmake
+#   cmake -DSOURCE=… -DPROGRAM=frames -DOBJECTS="frame_path_avx2.o;…" -DNM=nm [-DEMULATOR=program] -P widths.cmake
 file(STRINGS ${SOURCE}/tests/run/bits/bits.cmake golden REGEX "^set\\(golden ")
 string(REGEX REPLACE "set\\(golden ([0-9a-f]+)\\)" "\\1" golden "${golden}")
 
 foreach(width baseline avx2 avx512)
-  execute_process(COMMAND ${CMAKE_COMMAND} -E env WISP_WIDTH=${width} ${PROGRAM}
+  execute_process(COMMAND ${CMAKE_COMMAND} -E env WISP_WIDTH=${width} ${EMULATOR} ${PROGRAM}
     OUTPUT_VARIABLE hash OUTPUT_STRIP_TRAILING_WHITESPACE)
   if(hash STREQUAL golden)
     message("same      ${width}")

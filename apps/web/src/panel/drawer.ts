@@ -33,6 +33,7 @@ export interface DrawerEvents {
   /** saves a picture, or a few seconds of it; says how that went */
   picture(): Promise<string>;
   loop(): Promise<string>;
+  gif(): Promise<string>;
   /** sound and touch on or off; returns which */
   senses(): boolean;
 }
@@ -231,6 +232,7 @@ export class Drawer {
         telling('Copy a link', 'link', '', () => this.events.link()),
         telling('Save a picture', 'picture', 'One moment…', () => this.events.picture()),
         telling('Save three seconds', 'loop', 'Recording…', () => this.events.loop()),
+        telling('As a GIF', 'gif', 'Recording…', () => this.events.gif()),
       ),
     );
   }

@@ -8,7 +8,7 @@ import type { Dropped } from '../drops.js';
 import { DEFAULTS } from '../link.js';
 import { element } from '../panel/element.js';
 import { fetchShipped, shippedFlame } from '../shipped.js';
-import { curvesOf, plotsOf } from './pictures/curves.js';
+import { plotsOf, recordedOf } from './pictures/curves.js';
 import { Duet } from './pictures/duet.js';
 import { Filming } from './camera/filming.js';
 import { gatherPanel } from './panels/gather.js';
@@ -18,14 +18,16 @@ import { Engine } from './engine.js';
 import { Outlines } from './outlines.js';
 import { pickOf, unfold } from './picks.js';
 import { Reel } from './reel.js';
+import { ratePanel } from './panels/rate.js';
 import { resultPanel } from './panels/result.js';
-import { newSession, sessionName, type Looked, type Session, type Take } from './session.js';
+import type { Moving } from './panels/taking.js';
+import { newSession, sessionName, thingOf, type Looked, type Session, type Take } from './session.js';
 import { Strip } from './pictures/strip.js';
 import { tablePanel } from './panels/table.js';
-import { headOf } from './table_head.js';
+import { headOf, recipeOfTable } from './table_head.js';
 import { Traces } from './pictures/traces.js';
 import { Viewer } from './pictures/viewer.js';
-import { sentence } from './words.js';
+import { sentence, verdictOf, type Thing } from './words.js';
 import { Working } from './panels/working.js';
 
 /** What it asks of the page. */
@@ -35,17 +37,25 @@ export interface Host {
   /** puts a flame into the page's own scene, with the microphone */
   blow(file: string, model: Uint8Array): Promise<void>;
   /** saves some seconds of it there; says how that went */
-  film(file: string, model: Uint8Array): Promise<string>;
+  film(file: string, model: Uint8Array, kind: Moving): Promise<string>;
 }
 
 type Step = 'gather' | 'look' | 'learn' | 'blow';
 
 const STEPS: readonly Step[] = ['gather', 'look', 'learn', 'blow'];
-const FLAME_STEPS: Readonly<Record<Step, string>> = { gather: 'Film', look: 'Look', learn: 'Learn', blow: 'Blow' };
-const TABLE_STEPS: Readonly<Record<Step, string>> = { gather: 'Table', look: 'Columns', learn: 'Learn', blow: 'See' };
+const STEP_WORDS: Readonly<Record<Thing, Readonly<Record<Step, string>>>> = {
+  flame: { gather: 'Film', look: 'Look', learn: 'Learn', blow: 'Blow' },
+  table: { gather: 'Table', look: 'Columns', learn: 'Learn', blow: 'See' },
+  fall: { gather: 'Film', look: 'Look', learn: 'Learn', blow: 'See' },
+};
+const LEARNING: Readonly<Record<Thing, string>> = {
+  flame: 'What each point of the outline does next is fitted to what it did before, and to the wind. The end of the film is kept back, to judge by.',
+  table: 'What comes out is fitted to its own past and to what went in: once without the last rows, to judge by them, and once from all.',
+  fall: 'The motion is cut where it stalls, its pieces are sorted, and which follows which is counted. Some falls are kept back, to judge by.',
+};
 
-/** Frames a second of a folder of pictures, until somebody says otherwise. */
-const PICTURES_RATE = 30;
+/** Share of a table's rows that are kept back to judge by. */
+const KEPT_BACK = 0.25;
 
 /** Frames between pictures that are kept of a film, at first. */
 const FRAMES_APART = 3;
@@ -115,9 +125,9 @@ export class Room {
     );
   }
 
-  private stepTo(step: Step, tabled = false): void {
+  private stepTo(step: Step, thing: Thing = 'flame'): void {
     this.place.dataset.step = step;
-    const words = tabled ? TABLE_STEPS : FLAME_STEPS;
+    const words = STEP_WORDS[thing];
     this.steps.replaceChildren(...STEPS.map((name) => element('li', name === step ? { 'aria-current': 'step' } : {}, words[name])));
   }
 
@@ -177,12 +187,18 @@ export class Room {
     else if (pick.kind === 'film') {
       this.waiting = pick.files;
       this.lookAtNext();
-    } else {
-      const name = pick.files[0]?.webkitRelativePath.split('/')[0] ?? '';
-      void this.look(name === '' ? 'pictures' : name, null, {}, async (settings, watch) =>
-        (await this.engine.open()).pictures(pick.files, PICTURES_RATE, settings, watch),
-      );
-    }
+    } else this.pictures(pick.files);
+  }
+
+  /** Pictures do not say how fast they follow each other: somebody has to. */
+  private pictures(files: File[]): void {
+    this.clear();
+    this.stepTo('gather');
+    const folder = files[0]?.webkitRelativePath.split('/')[0] ?? '';
+    const name = folder === '' ? 'pictures' : folder;
+    this.showPanel(
+      ratePanel(name, files.length, (rate) => void this.look(name, null, {}, async (settings, watch) => (await this.engine.open()).pictures(files, rate, settings, watch)), () => this.back()),
+    );
   }
 
   /** Films that came together are looked at one after another. False: there is none left. */
@@ -366,14 +382,14 @@ export class Room {
     const { session } = this;
     this.clear();
     const { turn } = this;
-    const tabled = session.recipe.kind === 'arx';
-    this.stepTo('learn', tabled);
-    const working = new Working('Learning', tabled ? 'What comes out is fitted to its own past and to what went in.' : 'What each point of the outline does next is fitted to what it did before, and to the wind. The end of the film is kept back, to judge by.', (words) => this.announce(words));
+    const thing = thingOf(session);
+    this.stepTo('learn', thing);
+    const working = new Working('Learning', LEARNING[thing], (words) => this.announce(words));
     this.working = working;
     this.showPanel(working.panel);
     try {
       const studio = await this.engine.open();
-      const recipe = { ...session.recipe, name: sessionName(session) };
+      const recipe = { ...session.recipe, name: sessionName(session), ...(thing === 'table' ? { kept_back: KEPT_BACK } : {}) };
       const recordings = session.takes.map(({ captured }) => captured.csv);
       session.learned = await studio.learn(recordings, recipe, working.watch());
     } catch (error) {
@@ -389,7 +405,7 @@ export class Room {
     }
     if (turn !== this.turn) return;
     this.showResult();
-    await this.judge();
+    if (thing === 'flame') await this.judge();
   }
 
   /** Plays the model beside what it learned from, for plots; of several films, the last. The result does not wait for it. */
@@ -420,26 +436,27 @@ export class Room {
 
   private showResult(): void {
     const { session, host } = this;
+    const thing = thingOf(session);
     const { learned } = session;
     const [take] = session.takes.slice(-1);
     if (learned === null || take === undefined) return;
     this.clear();
-    this.stepTo('blow', session.recipe.kind === 'arx');
     const { outlines } = take;
-    const flame = outlines !== null && session.recipe.kind !== 'arx';
-    if (flame) this.showFlame(take, outlines, learned.model);
-    else this.showLeft(element('div', { class: 'plots', 'data-plots': true }, ...plotsOf([...learned.curves, ...curvesOf(take.captured)])));
+    this.stepTo('blow', thing);
+    if (outlines !== null && thing === 'flame') this.showFlame(take, outlines, learned.model);
+    else this.showLeft(element('div', { class: 'plots', 'data-plots': true }, ...plotsOf([...(learned.judged?.curves ?? []), ...learned.curves, ...recordedOf(take.captured)])));
     const file = `${sessionName(session)}.wisp`;
     this.showPanel(
-      resultPanel(session, flame, {
+      resultPanel(session, {
         blow: () => void host.blow(file, learned.model).catch((error: unknown) => host.say(wordsOf(error))),
         more: () => this.gather(),
         anew: () => this.anew(),
         again: (change) => this.learnAgain(change),
-        film: () => host.film(file, learned.model),
+        film: (kind) => host.film(file, learned.model, kind),
       }),
     );
-    this.announce(`${learned.report.usable?.verdict === true ? 'Usable' : 'Not usable'}: ${learned.report.usable?.reason ?? ''}`);
+    const { title, reason } = verdictOf(learned, thing);
+    this.announce(`${title}. ${reason}`);
   }
 
   private showFlame(take: Take, outlines: Outlines, model: Uint8Array): void {
@@ -474,7 +491,7 @@ export class Room {
         return;
       }
       this.clear();
-      this.stepTo('look', true);
+      this.stepTo('look', 'table');
       this.showLeft(element('div', { class: 'plots' }, ...plotsOf(head.preview)));
       this.showPanel(tablePanel(file.name, head, (settings) => void this.tabled(file.name, head.named ?? bytes, settings), () => this.back()));
     } catch (error) {
@@ -489,9 +506,8 @@ export class Room {
       const take: Take = { name, captured, outlines, reel: new Reel(), film: null, settings: {}, again: null };
       if (outlines === null) {
         for (const { reel } of this.session.takes) reel.close();
-        const { inputs, outputs } = settings ?? {};
-        this.session = { takes: [take], recipe: { kind: 'arx', ...(inputs === undefined ? {} : { inputs }), ...(outputs === undefined ? {} : { outputs }) }, learned: null };
-        this.showLeft(element('div', { class: 'plots' }, ...plotsOf(curvesOf(captured))));
+        this.session = { takes: [take], recipe: recipeOfTable(captured, settings), learned: null };
+        this.showLeft(element('div', { class: 'plots' }, ...plotsOf(recordedOf(captured))));
         await this.learn();
       } else {
         this.viewer.clear();

@@ -3,6 +3,7 @@
 import type { Captured, Learned, PictureSettings, Recipe, Watch } from '@wisp/studio';
 import type { Outlines } from './outlines.js';
 import type { Reel } from './reel.js';
+import type { Thing } from './words.js';
 
 /** A film that is looked at. */
 export interface Looked {
@@ -27,6 +28,9 @@ export interface Session {
   recipe: Recipe;
   learned: Learned | null;
 }
+
+/** What a session is about. */
+export const thingOf = ({ recipe }: Session): Thing => (recipe.kind === 'arx' ? 'table' : recipe.kind === 'leaf' || recipe.kind === 'chain' ? 'fall' : 'flame');
 
 export const newSession = (): Session => ({ takes: [], recipe: { kind: 'flame' }, learned: null });
 

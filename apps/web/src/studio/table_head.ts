@@ -1,6 +1,6 @@
 // The first lines of a table: its separator, the names of its columns, which of them are numbers.
 
-import type { Curve } from '@wisp/studio';
+import type { Captured, Curve, Recipe, TableSettings } from '@wisp/studio';
 
 /** Bytes that are looked at. */
 const LOOKED_AT = 64_000;
@@ -78,9 +78,20 @@ function withNames(bytes: Uint8Array, names: readonly string[], separator: RegEx
   return made;
 }
 
+const POSITION = ['pos.x', 'pos.y', 'pos.z'];
+const ORIENTATION = ['q.w', 'q.x', 'q.y', 'q.z'];
+
+/** How to learn from a table: as something that falls where it tells of that, else as what comes out of what goes in. */
+export function recipeOfTable({ series }: Captured, { inputs, outputs }: TableSettings = {}): Recipe {
+  const has = (name: string): boolean => series.some((one) => one.name === name && one.role === 'output');
+  if (POSITION.every(has)) return { kind: ORIENTATION.every(has) ? 'leaf' : 'chain' };
+  return { kind: 'arx', ...(inputs === undefined ? {} : { inputs }), ...(outputs === undefined ? {} : { outputs }) };
+}
+
 /** What a column is for, as its name suggests. */
 export function roleOf(name: string, numeric: boolean): 'input' | 'output' | 'ignored' {
   if (!numeric || /^(t|time|seconds?|sec|zeit|date|index|n|k)\b/i.test(name)) return 'ignored';
   if (/^(u|in|input|x|power|heat|voltage|wind|force|steam|fuel|valve)/i.test(name)) return 'input';
+  if ([...POSITION, ...ORIENTATION].includes(name)) return 'output';
   return /^(y|out|output|temp|level|speed|angle|pos|v)/i.test(name) ? 'output' : 'ignored';
 }

@@ -1,6 +1,6 @@
 // Reports in words that people read: the verdict first, then how well it does, then what to film to make it better.
 
-import type { Captured, Report } from '@wisp/studio';
+import type { Captured, Learned, Report } from '@wisp/studio';
 
 /** A value deep in a report; undefined where it is not there. */
 export function within(report: Report, ...path: string[]): unknown {
@@ -29,11 +29,32 @@ export interface Verdict {
   reason: string;
 }
 
+/** What is learned: a flame, how what comes out follows what goes in, how something falls. */
+export type Thing = 'flame' | 'table' | 'fall';
+
+const LEARNED: Readonly<Record<Thing, string>> = { flame: 'It learned your flame', table: 'It learned how this behaves', fall: 'It learned how this falls' };
+
+/** Of a table's rows that were kept back, below this it follows nothing: a fit in per cent. */
+const FOLLOWS = 5;
+
 /** What to think of a model. */
-export function verdictOf(report: Report, table: boolean): Verdict {
-  const good = report.usable?.verdict === true;
-  const thing = table ? 'It learned how this behaves' : 'It learned your flame';
-  return { good, title: good ? thing : 'This is not enough to learn from', reason: sentence(report.usable?.reason ?? '') };
+export function verdictOf({ report, judged }: Learned, thing: Thing): Verdict {
+  const fits = judged === undefined ? [] : judgedFits(judged.report).map(({ free }) => free);
+  const lost = thing === 'table' && fits.length > 0 && fits.every((fit) => !(fit > FOLLOWS));
+  const good = report.usable?.verdict === true && !lost;
+  const reason = lost && report.usable?.verdict === true ? 'it fits the rows that it was learned from, but on those that were kept back it follows nothing that comes out' : (report.usable?.reason ?? '');
+  return { good, title: good ? LEARNED[thing] : 'This is not enough to learn from', reason: sentence(reason) };
+}
+
+/** How well a table's outputs are followed on rows that were kept back, per cent: a row ahead, and from what goes in alone. */
+function judgedFits(report: Report): { name: string; next: number; free: number }[] {
+  const channels = within(report, 'channels');
+  if (!Array.isArray(channels)) return [];
+  return (channels as Report[]).map((channel) => ({
+    name: String(channel.name),
+    next: figure(channel, 'fit_percent', '1') ?? NaN,
+    free: figure(channel, 'fit_percent', 'inf') ?? NaN,
+  }));
 }
 
 /** A figure as a bar: how far it fills, and from where on it is good. */
@@ -48,15 +69,26 @@ export interface Meter {
 const MOST_OUTPUTS = 4;
 
 /** How well it does, on what it has not seen where something was kept back. `outputs`: names of a table's. */
-export function metersOf(report: Report, outputs: readonly string[]): Meter[] {
+export function metersOf({ report, judged }: Learned, thing: Thing, outputs: readonly string[]): Meter[] {
   const made: Meter[] = [];
   const add = (words: string, share: number | null, good: number): void => {
-    if (share !== null) made.push({ words, share: Math.max(0, Math.min(1, share)), good, value: `${Math.round(100 * share)} %`.replace('-', '−') });
+    if (share !== null && !Number.isNaN(share)) made.push({ words, share: Math.max(0, Math.min(1, share)), good, value: `${Math.round(100 * share)} %`.replace('-', '−') });
   };
   const percent = (...path: string[]): number | null => {
     const value = figure(report, ...path);
     return value === null ? null : value / 100;
   };
+  if (thing === 'fall') {
+    // 1: no farther from what was recorded than two halves of that are; 0: as far as its rows in random order.
+    const near = (...name: string[]): number | null => {
+      const [value, floor, ceiling] = ['value', 'floor', 'ceiling'].map((one) => figure(report, 'fidelity', ...name, one));
+      return value == null || floor == null || ceiling == null || !(ceiling > floor) ? null : 1 - Math.max(0, value - floor) / (ceiling - floor);
+    };
+    add('A moment of it is like the recorded ones', near('energy_distance'), 0.9);
+    add('Two seconds are', near('two_seconds'), 0.9);
+    add('It spreads as it did', near('spread'), 0.9);
+    return made;
+  }
   add('The tip, a frame ahead', percent('tip', 'held_out_fit_percent', '1'), 0.5);
   // Without wind it flickers in its own time: no play can follow the film for long.
   const inputs = within(report, 'inputs');
@@ -64,6 +96,13 @@ export function metersOf(report: Report, outputs: readonly string[]): Meter[] {
     add('The tip, played freely in the same wind', percent('tip', 'held_out_fit_percent', 'inf'), 0.5);
     add('Outlines that lie over each other', figure(report, 'overlap'), 0.85);
   } else add('Outlines that lie over each other, a frame ahead', figure(report, 'overlap_by_steps', '1'), 0.85);
+  if (thing === 'flame') return made;
+  const kept = judged === undefined ? [] : judgedFits(judged.report);
+  for (const { name, next, free } of kept.slice(0, MOST_OUTPUTS)) {
+    add(`${name}, a row ahead`, next / 100, 0.5);
+    add(`${name}, played from what goes in alone`, free / 100, 0.4);
+  }
+  if (kept.length > 0) return made;
   outputs.slice(0, MOST_OUTPUTS).forEach((name, k) => {
     add(`${name}, a row ahead`, percent('fit_percent', '1', String(k)), 0.5);
     add(`${name}, played from what goes in alone`, percent('fit_percent', 'inf', String(k)), 0.4);

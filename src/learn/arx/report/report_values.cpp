@@ -63,4 +63,8 @@ std::string as_id(const std::string& name) {
   return id;
 }
 
+std::string element(const char* list, std::size_t index, const char* field) {
+  return std::string(list) + "[" + std::to_string(index) + "]." + field;
+}
+
 }  // namespace wisp::arx

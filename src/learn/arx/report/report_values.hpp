@@ -34,6 +34,9 @@ std::string steps_id(int steps);
 /// A channel's name as one step of an id: its dots do not nest.
 std::string as_id(const std::string& name);
 
+/// The id of an element's field: "inputs[2].name".
+std::string element(const char* list, std::size_t index, const char* field);
+
 /// `values[output][input]` of a model.
 template <class Value>
 ReportList per_pair(const ArxOrders& orders, Value value) {

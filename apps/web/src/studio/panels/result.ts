@@ -1,11 +1,11 @@
 // What was learned: the verdict first, then how well it does, the flame to blow at, and what would make it better.
 
-import type { Recipe } from '@wisp/studio';
+import type { Learned, Recipe } from '@wisp/studio';
 import { element } from '../../panel/element.js';
 import { plotsOf } from '../pictures/curves.js';
-import type { Session } from '../session.js';
-import { takingOf } from './taking.js';
-import { adviceOf, heldOutSeconds, metersOf, sentence, verdictOf, type Meter } from '../words.js';
+import { thingOf, type Session } from '../session.js';
+import { takingOf, type Moving } from './taking.js';
+import { adviceOf, heldOutSeconds, metersOf, sentence, verdictOf, type Meter, type Thing } from '../words.js';
 
 export interface ResultEvents {
   blow(): void;
@@ -13,7 +13,7 @@ export interface ResultEvents {
   /** from the beginning, without what was gathered */
   anew(): void;
   again(change: Partial<Recipe>): void;
-  film(): Promise<string>;
+  film(kind: Moving): Promise<string>;
 }
 
 const button = (words: string, name: string, act: () => void, main = false): HTMLButtonElement => {
@@ -34,15 +34,26 @@ function list(title: string, lines: readonly string[], kind: string): HTMLElemen
   return [element('section', { class: kind }, element('h3', {}, title), element('ul', {}, ...lines.map((line) => element('li', {}, line))))];
 }
 
-/** The panel of a session that has learned something. `flame`: it is one, and can be blown at. */
-export function resultPanel(session: Session, flame: boolean, events: ResultEvents): HTMLElement {
+const TO_PLAY = { flame: ['Blow it out', 'Blow at it all the same'], fall: ['See it fall', 'See it fall all the same'] } as const;
+
+/** What the bars of a result are about. */
+function titleOfMeters(thing: Thing, learned: Learned): string {
+  if (thing === 'fall') return 'Beside what was recorded';
+  if (learned.judged !== undefined) return 'On the last rows, which a trial had not seen';
+  const held = heldOutSeconds(learned.report);
+  return held === null ? 'How well it fits what it was learned from' : `On the ${Math.round(held)} seconds that it had not seen`;
+}
+
+/** The panel of a session that has learned something. */
+export function resultPanel(session: Session, events: ResultEvents): HTMLElement {
   const { learned, takes, recipe } = session;
   if (learned === null) return element('div', { class: 'panel' });
+  const thing = thingOf(session);
+  const flame = thing === 'flame';
   const { report, curves, text } = learned;
-  const { good, title, reason } = verdictOf(report, !flame);
-  const held = heldOutSeconds(report);
+  const { good, title, reason } = verdictOf(learned, thing);
   const outputs = (takes[0]?.captured.series ?? []).filter(({ role }) => role === 'output').map(({ name }) => name);
-  const meters = metersOf(report, flame ? [] : outputs);
+  const meters = metersOf(learned, thing, outputs);
   const panel = element(
     'div',
     { class: 'panel result' },
@@ -53,24 +64,21 @@ export function resultPanel(session: Session, flame: boolean, events: ResultEven
       element('p', {}, reason),
     ),
   );
-  if (flame) {
+  if (thing !== 'table') {
     panel.append(
       element(
         'div',
         { class: 'actions' },
-        button(good ? 'Blow it out' : 'Blow at it all the same', 'blow', () => events.blow(), good),
+        button(TO_PLAY[thing][good ? 0 : 1], 'blow', () => events.blow(), good),
         button('Film more', 'more', () => events.more(), !good),
       ),
     );
   }
-  if (meters.length > 0) {
-    const seen = held === null ? 'How well it fits' : `On the ${Math.round(held)} seconds that it had not seen`;
-    panel.append(element('section', {}, element('h3', {}, seen), ...meters.map(meter)));
-  }
+  if (meters.length > 0) panel.append(element('section', {}, element('h3', {}, titleOfMeters(thing, learned)), ...meters.map(meter)));
   panel.append(
     ...list('Take care', (report.warnings ?? []).map(sentence), 'warnings'),
     ...(flame ? list('To make it better', adviceOf(takes.map(({ captured }) => captured), report), 'advice') : []),
-    takingOf(session, flame ? () => events.film() : null),
+    takingOf(session, flame ? (kind) => events.film(kind) : null),
     moreOf(recipe, text, flame ? plotsOf(curves) : null, events),
     element('div', { class: 'actions' }, button('Begin anew', 'anew', () => events.anew())),
   );
@@ -92,10 +100,15 @@ const TABLE_KNOBS: typeof FLAME_KNOBS = [
   ['Delay', 'nk', [['found', {}], ['0', { nk: 0 }], ['1', { nk: 1 }], ['3', { nk: 3 }]]],
 ];
 
+function knobsOf({ kind }: Recipe): typeof FLAME_KNOBS {
+  if (kind === 'arx') return TABLE_KNOBS;
+  return kind === 'leaf' || kind === 'chain' ? [] : FLAME_KNOBS;
+}
+
 /** Controls that learn again, and the report as the program prints it. */
 function moreOf(recipe: Recipe, text: string, plots: readonly HTMLElement[] | null, events: ResultEvents): HTMLElement {
-  const details = element('details', { class: 'more' }, element('summary', {}, 'More: learn it in another way'));
-  for (const [words, name, options] of recipe.kind === 'arx' ? TABLE_KNOBS : FLAME_KNOBS) {
+  const details = element('details', { class: 'more' }, element('summary', {}, knobsOf(recipe).length > 0 ? 'More: learn it in another way' : 'More'));
+  for (const [words, name, options] of knobsOf(recipe)) {
     const group = element('div', { class: 'choice', role: 'group', 'aria-label': words }, element('span', {}, words));
     const now = options.find(([, change]) => change[name] === recipe[name]) ?? options[0];
     for (const option of options) {

@@ -14,6 +14,7 @@ export function tablePanel(name: string, head: TableHead, learn: (settings: Tabl
   const rate = element('input', { type: 'number', min: '0', step: 'any', value: head.rate ?? 1, id: 'table-rate', inputmode: 'decimal' });
   const go = element('button', { type: 'button', class: 'tool main', 'data-act': 'learn' }, 'Learn it');
   const trouble = element('p', { class: 'quiet', role: 'status' });
+  const unsaid = head.rate === null ? [element('p', { class: 'quiet' }, 'The table does not say how often a row comes. At 1 a second, time is counted in rows.')] : [];
   const check = (): void => {
     const missing = !roles.includes('output') ? 'Say which column comes out.' : !(rate.valueAsNumber > 0) ? 'Say how many rows a second there are.' : '';
     go.disabled = missing !== '';
@@ -48,6 +49,7 @@ export function tablePanel(name: string, head: TableHead, learn: (settings: Tabl
     element('p', {}, `${name}: say what each column is. What comes out is learned from its own past and from what went in.`),
     rows,
     element('label', { class: 'rate', for: 'table-rate' }, 'Rows a second', rate),
+    ...unsaid,
     trouble,
     element('div', { class: 'actions' }, go, returns),
   );

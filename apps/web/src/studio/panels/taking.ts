@@ -11,8 +11,11 @@ async function copy(text: string): Promise<string> {
   return 'Copied';
 }
 
+/** Pictures that move. */
+export type Moving = 'film' | 'gif';
+
 /** The buttons. `film` saves three seconds of it burning in the page's room; null: it is no flame. */
-export function takingOf(session: Session, film: (() => Promise<string>) | null): HTMLElement {
+export function takingOf(session: Session, film: ((kind: Moving) => Promise<string>) | null): HTMLElement {
   const { learned, takes } = session;
   if (learned === null) return element('div');
   const name = sessionName(session);
@@ -34,7 +37,7 @@ export function takingOf(session: Session, film: (() => Promise<string>) | null)
   const tag = telling('A tag for a page', 'tag', '', () =>
     copy(`<script type="module" src="node_modules/@wisp/player/dist/candle/element.js"></script>\n<wisp-candle src="${name}.wisp" wind="mic"></wisp-candle>`),
   );
-  const made = film === null ? [save, recordings] : [save, recordings, link, tag, telling('Three seconds', 'loop', 'Recording…', film)];
+  const made = film === null ? [save, recordings] : [save, recordings, link, tag, telling('Three seconds', 'loop', 'Recording…', () => film('film')), telling('As a GIF', 'gif', 'Recording…', () => film('gif'))];
   return element(
     'section',
     { class: 'taking' },

@@ -13,6 +13,7 @@ const short = (value: number): string => (value === 0 ? '0' : String(Number(valu
 /** What is plotted, in this order, by how its ids begin; of the rest nothing is. */
 const FAMILIES: readonly (readonly [RegExp, string])[] = [
   [/^column/, ''],
+  [/^fall\./, 'The falls, from the side'],
   [/^(measured|predicted|simulated)\./, 'Measured and played'],
   [/^tip\./, 'The tip, recorded and played from the wind alone'],
   [/^step\./, 'Answer to a step'],
@@ -46,11 +47,28 @@ export function plotsOf(curves: readonly Curve[]): HTMLElement[] {
     .map(([key, group]) => plotOf(group, FAMILIES[parseInt(key)]?.[1] ?? ''));
 }
 
+/** One of many alike, which need no names. */
+const isFall = ({ id }: Curve): boolean => id.startsWith('fall.');
+
 /** The edge of an interval, drawn beside its curve. */
 const isEdge = ({ id }: Curve): boolean => /\.(low|high|bound)$/.test(id);
 
+/** Falls that are shown. */
+const MOST_FALLS = 12;
+
+/** Falls as seen from the side, each from where it begins. */
+function fallsOf({ series, episodes, rows }: Captured): Curve[] {
+  const [x, z] = ['pos.x', 'pos.z'].map((name) => series.find((one) => one.name === name)?.samples);
+  if (x === undefined || z === undefined) return [];
+  return episodes.slice(0, MOST_FALLS).map((begin, k) => {
+    const end = episodes[k + 1] ?? rows;
+    const from = (samples: Float64Array): number[] => Array.from(samples.subarray(begin, end), (value) => value - (samples[begin] as number));
+    return { id: `fall.${k}`, label: `fall.${k}`, x_label: 'metres to the side', y_label: 'm', x: from(x), y: from(z) };
+  });
+}
+
 /** Columns of a table, as curves over time; no more points than can be seen. */
-export function curvesOf({ series, rate, rows }: Captured): Curve[] {
+function curvesOf({ series, rate, rows }: Captured): Curve[] {
   const every = Math.max(1, Math.ceil(rows / 2000));
   return series.map(({ name, unit, samples, role }) => {
     const kept = Array.from({ length: Math.floor(rows / every) }, (_, k) => k * every);
@@ -65,8 +83,14 @@ export function curvesOf({ series, rate, rows }: Captured): Curve[] {
   });
 }
 
+/** What was recorded: falls from the side, or every column over time. */
+export function recordedOf(captured: Captured): Curve[] {
+  const falls = fallsOf(captured);
+  return falls.length > 0 ? falls : curvesOf(captured);
+}
+
 function plotOf(curves: readonly Curve[], title: string): HTMLElement {
-  const named = curves.filter((curve) => !isEdge(curve));
+  const named = curves.filter((curve) => !isEdge(curve) && !isFall(curve));
   const canvas = element('canvas', { role: 'img', 'aria-label': `${title} ${named.map(({ label }) => label).join(', ')}` });
   const legend = element('figcaption', {}, ...(title === '' ? [] : [element('b', {}, title)]));
   named.forEach(({ label, id }, k) => {
@@ -91,8 +115,14 @@ function draw(canvas: HTMLCanvasElement, curves: readonly Curve[]): void {
   const surface = surfaceOf(canvas);
   if (surface === null) return;
   const { context, width, height } = surface;
-  const [left, right] = extent(curves.flatMap(({ x }) => [extent(x.filter(Number.isFinite))].flat()));
+  let [left, right] = extent(curves.flatMap(({ x }) => [extent(x.filter(Number.isFinite))].flat()));
   const [low, high] = extent(curves.flatMap(({ y }) => [extent(y.filter(Number.isFinite))].flat()));
+  if (curves.some(isFall)) {
+    // Metres to the side are as long as metres down.
+    const across = ((high - low) * (width - MARGIN.left - MARGIN.right)) / (height - MARGIN.top - MARGIN.bottom);
+    const more = Math.max(0, across - (right - left)) / 2;
+    [left, right] = [left - more, right + more];
+  }
   const x = (value: number): number => MARGIN.left + ((value - left) / (right - left)) * (width - MARGIN.left - MARGIN.right);
   const y = (value: number): number => height - MARGIN.bottom - ((value - low) / (high - low)) * (height - MARGIN.top - MARGIN.bottom);
   context.font = '11px ui-sans-serif, system-ui, sans-serif';

@@ -1,7 +1,7 @@
 // Steps a crowd of instances of a model, 100 000 if nothing else is said, on all cores for two seconds' worth of
 // frames, and prints what a frame took: the library has no threads of its own, a game's are lent to it.
 //
-//   07_crowd MODEL.wisp [INSTANCES [THREADS]]
+//   11_crowd MODEL.wisp [INSTANCES [THREADS]]
 
 #include <chrono>
 #include <condition_variable>

@@ -1,0 +1,133 @@
+#include "films/looped.hpp"
+
+#include <filesystem>
+
+#include "films/candle_pictures.hpp"
+#include "wisp/draw/video_writer.hpp"
+#include "wisp/record/csv.hpp"
+
+namespace wisp::cli {
+namespace {
+
+// What would make another round than the one that is asked for.
+Result<void> check_flags(const Arguments& arguments) {
+  for (const char* flag : {"frames", "input", "relight", "history", "temperature", "steer"}) {
+    if (arguments.has(flag)) {
+      return Error{"--" + std::string(flag) +
+                   " does not go with --loop, a round of so many seconds in a constant wind"};
+    }
+  }
+  return {};
+}
+
+std::vector<Channel> channels_of(const Model& model, const std::string& prefix) {
+  std::vector<Channel> channels;
+  for (const Output& output : model.outputs) {
+    channels.push_back({prefix + output.name, output.unit, Role::kOutput, {}});
+  }
+  return channels;
+}
+
+// As `run` records play: bodies one after the other, each an episode, other things side by side.
+Recording recording_of(const Model& model, const Take& taken, const Arguments& arguments) {
+  Recording recording;
+  recording.rate_hz = taken.rate_hz;
+  recording.attributes = {{"model", model.name}, {"seed", arguments.text("seed")}, {"loop", arguments.text("loop")}};
+  if (const auto* outline = std::get_if<OutlineView>(&model.view)) {
+    set_numbers_attribute(recording, "knots", outline->knots);
+  }
+  const bool episodes = std::holds_alternative<ChainModel>(model.dynamics) && taken.instances > 1;
+  const std::size_t rows = taken.frames * (episodes ? taken.instances : 1);
+  for (const Input& input : model.inputs) {
+    recording.channels.push_back(
+        {input.name, input.unit, Role::kInput, std::vector<double>(rows, arguments.number("wind"))});
+  }
+  std::vector<Channel> outputs;
+  for (std::size_t k = 0; k < taken.instances; ++k) {
+    if (k == 0 || !episodes) {
+      const std::string prefix = taken.instances == 1 || episodes ? "" : "i" + std::to_string(k) + ".";
+      for (Channel& channel : channels_of(model, prefix)) outputs.push_back(std::move(channel));
+    }
+    if (episodes) recording.episode_ids.insert(recording.episode_ids.end(), taken.frames, static_cast<std::int64_t>(k));
+    for (std::size_t frame = 0; frame < taken.frames; ++frame) {
+      const auto values = taken.at(frame, k);
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        outputs[outputs.size() - values.size() + i].samples.push_back(values[i]);
+      }
+    }
+  }
+  for (Channel& channel : outputs) recording.channels.push_back(std::move(channel));
+  return recording;
+}
+
+Result<void> write_film(const Model& model, const Take& taken, const std::string& path, Terminal& terminal) {
+  if (!std::holds_alternative<OutlineView>(model.view)) {
+    return Error{path + ": only a loop of an outline is a film; write its numbers (.csv), or export a .glb"};
+  }
+  constexpr int kPoints = 96;
+  CandlePictures pictures(model, static_cast<int>(taken.instances), kPoints);
+  auto film =
+      VideoWriter::create(path, {.width = pictures.width(), .height = pictures.height(), .rate_hz = taken.rate_hz});
+  if (!film) return film.error();
+  for (std::size_t frame = 0; frame < taken.frames; ++frame) {
+    std::vector<float> outlines;
+    for (std::size_t k = 0; k < taken.instances; ++k) {
+      const auto outline = outline_of(model, taken, frame, k, kPoints);
+      outlines.insert(outlines.end(), outline.begin(), outline.end());
+    }
+    if (auto ok = film->write(pictures.draw(outlines)); !ok) return ok;
+    terminal.progress("drawing", static_cast<double>(frame + 1) / static_cast<double>(taken.frames));
+  }
+  return film->finish();
+}
+
+}  // namespace
+
+Flag loop_flag() {
+  return {"loop", Kind::kNumber, "S", "",
+          "a round of that many seconds, whose last frame meets its first in value and in speed; a leaf's round leads "
+          "on by `travel`"};
+}
+
+Result<Take> take_from(const Model& model, const Arguments& arguments, Terminal& terminal) {
+  if (model.inputs.empty() && arguments.number("wind") != 0) {
+    return Error{"--wind drives a model's inputs, and " + arguments.positional() + " has none"};
+  }
+  TakeOptions options{.loop = arguments.has("loop"),
+                      .instances = arguments.integer("instances"),
+                      .seed = static_cast<std::uint64_t>(arguments.integer("seed")),
+                      .noise = arguments.text("noise") == "on"};
+  options.seconds = arguments.number(options.loop ? "loop" : "seconds");
+  options.inputs.assign(model.inputs.size(), arguments.number("wind"));
+  auto taken = take(model, options);
+  if (!taken) return Error{arguments.positional() + ": " + taken.error().message};
+  terminal.add("frames", taken->frames);
+  terminal.add("instances", taken->instances);
+  terminal.add("rate_hz", taken->rate_hz);
+  terminal.add("loop", taken->loop);
+  ReportList travel;
+  for (const auto& way : taken->travel) travel.push_back(ReportList(way.begin(), way.end()));
+  if (!travel.empty()) terminal.add("travel", std::move(travel));
+  return taken;
+}
+
+Result<void> write_loop(const Model& model, const Arguments& arguments, Terminal& terminal) {
+  if (auto ok = check_flags(arguments); !ok) return ok;
+  const std::string& path = arguments.text("output");
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension != ".csv" && extension != ".mp4") {
+    return Error{path + ": a loop cannot be written so, expected a name that ends in .csv or .mp4 (or wisp export)"};
+  }
+  const auto taken = take_from(model, arguments, terminal);
+  if (!taken) return taken.error();
+  const auto written = extension == ".csv" ? write_csv(path, recording_of(model, *taken, arguments))
+                                           : write_film(model, *taken, path, terminal);
+  if (!written) return written;
+  terminal.add("seed", arguments.integer("seed"));
+  terminal.add("output", path);
+  terminal.say("wrote " + path + ": a round of " + std::to_string(taken->frames) + " frames at " +
+               shown(taken->rate_hz, 5) + " a second, seed " + arguments.text("seed"));
+  return {};
+}
+
+}  // namespace wisp::cli

@@ -1,0 +1,73 @@
+// A few seconds of a canvas as a GIF: what every chat and forum shows, in 256 colours, for ever.
+
+import { applyPalette, GIFEncoder, quantize } from 'gifenc';
+
+/** Between pictures. Viewers count in hundredths of a second. */
+const STEP_MS = 50;
+/** Pixels of the longer side. */
+const LONGEST = 480;
+/** Light falls off so slowly around a flame that 256 colours show as rings: neighbours are rounded differently. */
+const DITHER = [0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5];
+const DITHER_LEVELS = 10;
+
+type Palette = ReturnType<typeof quantize>;
+
+/** Pictures of the canvas, each taken in the frame that drew it: afterwards it is gone. */
+function pictures(canvas: HTMLCanvasElement, seconds: number): Promise<ImageData[]> {
+  const scale = Math.min(1, LONGEST / Math.max(canvas.width, canvas.height));
+  const small = new OffscreenCanvas(Math.max(1, Math.round(canvas.width * scale)), Math.max(1, Math.round(canvas.height * scale)));
+  const context = small.getContext('2d', { willReadFrequently: true });
+  if (context === null) throw new Error('There is no place to draw.');
+  const wanted = Math.round((1000 * seconds) / STEP_MS);
+  return new Promise((resolve) => {
+    const taken: ImageData[] = [];
+    let first: number | null = null;
+    const take = (now: number): void => {
+      first ??= now;
+      // A late frame stands for those that it missed.
+      while (taken.length < wanted && taken.length * STEP_MS <= now - first) {
+        context.drawImage(canvas, 0, 0, small.width, small.height);
+        taken.push(context.getImageData(0, 0, small.width, small.height));
+      }
+      if (taken.length === wanted) resolve(taken);
+      else requestAnimationFrame(take);
+    };
+    requestAnimationFrame(take);
+  });
+}
+
+/** One palette for all: what stands still does not shimmer. */
+function paletteOf(all: readonly ImageData[]): Palette {
+  const some = [0.1, 0.5, 0.9].map((share) => all[Math.floor(share * all.length)]?.data ?? new Uint8ClampedArray());
+  const joined = new Uint8ClampedArray(some.reduce((sum, { length }) => sum + length, 0));
+  let at = 0;
+  for (const data of some) {
+    joined.set(data, at);
+    at += data.length;
+  }
+  return quantize(joined, 256);
+}
+
+function dither({ data, width }: ImageData): void {
+  for (let at = 0; at < data.length; at += 4) {
+    const [x, y] = [(at >> 2) % width, Math.floor((at >> 2) / width)];
+    const shift = ((DITHER[(y & 3) * 4 + (x & 3)] as number) / 16 - 0.47) * DITHER_LEVELS;
+    for (let c = 0; c < 3; ++c) data[at + c] = (data[at + c] as number) + shift;
+  }
+}
+
+/** What the next seconds of a canvas show. */
+export async function gifOf(canvas: HTMLCanvasElement, seconds: number): Promise<Blob> {
+  const all = await pictures(canvas, seconds);
+  const palette = paletteOf(all);
+  const encoder = GIFEncoder();
+  for (const [k, picture] of all.entries()) {
+    // The page goes on between pictures.
+    await new Promise((resolve) => setTimeout(resolve));
+    dither(picture);
+    const { data, width, height } = picture;
+    encoder.writeFrame(applyPalette(data, palette), width, height, { delay: STEP_MS, ...(k === 0 ? { palette } : {}) });
+  }
+  encoder.finish();
+  return new Blob([encoder.bytes().slice()], { type: 'image/gif' });
+}

@@ -1,0 +1,91 @@
+"""examples/10_dask_fit.py on two workers, one of which is killed half-way: the model is one machine's, to the byte.
+
+    WISP_PROGRAM=build/release/bin/wisp python3 -m unittest discover bindings/python/tests
+"""
+
+import importlib.util
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+root = pathlib.Path(__file__).resolve().parents[3]
+program = os.environ.get("WISP_PROGRAM", str(root / "build/release/bin/wisp"))
+example = root / "examples/10_dask_fit.py"
+flags = ["--inputs", "wind", "--outputs", "p3.x,p3.y", "--na", "2", "--nb", "2", "--nk", "1"]
+there = importlib.util.find_spec("distributed") is not None
+
+
+@unittest.skipUnless(there, "Dask's distributed is not there (script/bootstrap --verify installs it)")
+class Dask(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.at = pathlib.Path(folder.name)
+        os.environ["WISP"] = program
+        cls.clips = []
+        for seed in range(1, 6):
+            clip = cls.at / f"clip{seed}.mp4"
+            words = [program, "simulate", "candle", "-o", clip, "--seconds", 3, "--seed", seed, "--quiet"]
+            subprocess.run(list(map(str, words)), check=True, stdout=subprocess.DEVNULL)
+            cls.clips.append(str(clip))
+        # One machine's. A model remembers what its recordings were called: both say work/….
+        for name in ("alone", "spread"):
+            (cls.at / name / "work").mkdir(parents=True)
+        words = [sys.executable, example, "work", "flame.wisp", *cls.clips, "--workers", 0, "--", *flags]
+        subprocess.run(list(map(str, words)), check=True, capture_output=True, cwd=cls.at / "alone")
+
+    def module(self):
+        found = importlib.util.spec_from_file_location("dask_fit", example)
+        module = importlib.util.module_from_spec(found)
+        found.loader.exec_module(module)
+        return module
+
+    def test_a_worker_that_dies_half_way_changes_no_byte(self):
+        from distributed import Client, LocalCluster, as_completed
+
+        fit = self.module()
+        self.addCleanup(os.chdir, os.getcwd())
+        os.chdir(self.at / "spread")
+        tasks = []
+
+        def submit(run, *of):
+            tasks.append(client.submit(run, *of, pure=False, retries=3))
+            return tasks[-1]
+
+        # The workers load the example as code of the task, not as a module that they would have to find.
+        import cloudpickle
+
+        sys.modules["dask_fit"] = fit
+        cloudpickle.register_pickle_by_value(fit)
+        with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=50) as cluster:
+            with Client(cluster) as client:
+                model = fit.graph(submit, "work", "flame.wisp", self.clips, flags)
+                pids = client.run(os.getpid)
+                next(iter(as_completed(tasks)))
+                self.assertFalse(model.done(), "nothing was left to do when the worker was killed")
+                os.kill(list(pids.values())[0], signal.SIGKILL)
+                model.result(timeout=300)
+        self.assertEqual((self.at / "spread/flame.wisp").read_bytes(), (self.at / "alone/flame.wisp").read_bytes())
+
+    def test_without_a_cluster_it_is_the_fit_of_all_rows(self):
+        recordings = sorted(map(str, (self.at / "alone/work").glob("clip*.csv")))
+        words = [program, "learn", "arx", *recordings, *flags, "-o", self.at / "once.wisp", "--quiet"]
+        subprocess.run(list(map(str, words)), check=True, capture_output=True)
+
+        def coefficients(model):
+            said = subprocess.run([program, "info", str(self.at / model), "--json"], check=True, capture_output=True).stdout
+            dynamics = json.loads(said)["dynamics"]
+            return [c for part in ("A", "B") for row in dynamics[part] for lags in row for c in lags]
+
+        for alone, once in zip(coefficients("alone/flame.wisp"), coefficients("once.wisp")):
+            self.assertAlmostEqual(alone, once, delta=1e-9)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,371 @@
+// Wisp for C# and for Unity: a thin cover of the C ABI (include/wisp/wisp.h), one file to copy into Assets/ beside the
+// native library (Assets/Plugins: libwisp.so, wisp.dll, libwisp.dylib). What runs every frame allocates nothing: arrays
+// are the caller's. Everything is used by one thread at a time.
+//
+//     var model = Model.Read("flame.wisp");
+//     var bank = new Bank(model, capacity: 100);
+//     ulong flame = bank.Spawn();
+//     bank.SetCommonInputs(wind);                       // every frame
+//     bank.Advance(Time.deltaTime);
+//     bank.Polyline(flame, points);                     // x, y in turn
+using System;
+using System.IO;
+using System.Runtime.InteropServices;
+using System.Text;
+
+namespace Wisp
+{
+    /// <summary>What the library refused, in its one sentence.</summary>
+    public sealed class WispException : Exception
+    {
+        public readonly int Status;
+
+        public WispException(int status, string message) : base(message)
+        {
+            Status = status;
+        }
+    }
+
+    internal static class Native
+    {
+#if (UNITY_IOS || UNITY_WEBGL) && !UNITY_EDITOR
+        internal const string Library = "__Internal";
+#else
+        internal const string Library = "wisp";
+#endif
+        private const CallingConvention C = CallingConvention.Cdecl;
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct ModelFacts
+        {
+            public uint Size, Inputs, Outputs, ControlPoints, Usable, Reserved;
+            public double RateHz, MetresPerUnit;
+            public long StepNanoseconds, MultiplyAddsPerFrame, OperationsPerFrame;
+            public double BlowOutLevel, BlowOutSeconds;
+            public uint Dynamics, View;
+            public double HalfWidth, HalfLength, BlowOutHaste, BlowOutRecoverySeconds;
+            public uint BlowOutInput, Reserved2;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct Channel
+        {
+            public uint Size, Reserved;
+            public IntPtr Name, Unit;
+            public double Lowest, Highest;
+            public uint SplitsSign, HasCurve;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct BankOptions
+        {
+            public uint Size, Capacity, PolylinePoints, Reserved;
+            public ulong Seed;
+            public IntPtr Memory;
+            public UIntPtr MemorySize;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct BankFacts
+        {
+            public uint Size, Capacity, Alive, Slots, Inputs, Outputs, PolylinePoints, Reserved;
+            public ulong Held, Steps;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct FlameState
+        {
+            public uint Size, Lit;
+            public float FlameSize;
+            public uint Reserved;
+            public long SinceLit, SinceOut;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct WindOptions
+        {
+            public uint Size, Channels;
+            public double RateHz, FrameRateHz, Exponent, SmoothingSeconds, FloorRiseDbPerSecond, FirstGustRms;
+        }
+
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_version();
+        [DllImport(Library, CallingConvention = C)] internal static extern IntPtr wisp_last_error();
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_model_load(byte[] bytes, UIntPtr size, out IntPtr model);
+        [DllImport(Library, CallingConvention = C)] internal static extern void wisp_model_free(IntPtr model);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_model_get_facts(IntPtr model, ref ModelFacts facts);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_model_get_input(IntPtr model, uint index, ref Channel channel);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_model_get_output(IntPtr model, uint index, ref Channel channel);
+        [DllImport(Library, CallingConvention = C)] internal static extern IntPtr wisp_model_name(IntPtr model);
+        [DllImport(Library, CallingConvention = C)] internal static extern BankOptions wisp_bank_default_options();
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_create(IntPtr model, ref BankOptions options, out IntPtr bank);
+        [DllImport(Library, CallingConvention = C)] internal static extern void wisp_bank_free(IntPtr bank);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_get_facts(IntPtr bank, ref BankFacts facts);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_spawn(IntPtr bank, out ulong instance);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_spawn_stream(IntPtr bank, ulong stream, out ulong instance);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_end(IntPtr bank, ulong instance);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_alive(IntPtr bank, ulong instance);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_set_inputs(IntPtr bank, float[] values, UIntPtr count);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_set_common_inputs(IntPtr bank, float[] values, UIntPtr count);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_set_instance_inputs(IntPtr bank, ulong instance, float[] values, UIntPtr count);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_set_noise(IntPtr bank, float scale);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_step(IntPtr bank);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_advance(IntPtr bank, long nanoseconds, out int steps);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_outputs(IntPtr bank, float[] values, UIntPtr count);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_instance_outputs(IntPtr bank, ulong instance, float[] values, UIntPtr count);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_polylines(IntPtr bank, float[] values, UIntPtr count);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_polyline(IntPtr bank, ulong instance, float[] values, UIntPtr count);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_get_flame_state(IntPtr bank, ulong instance, ref FlameState state);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_relight(IntPtr bank, ulong instance);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_bank_extinguish(IntPtr bank, ulong instance);
+        [DllImport(Library, CallingConvention = C)] internal static extern WindOptions wisp_wind_default_options();
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_wind_create(ref WindOptions options, out IntPtr wind);
+        [DllImport(Library, CallingConvention = C)] internal static extern void wisp_wind_free(IntPtr wind);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_wind_feed(IntPtr wind, float[] samples, UIntPtr count, [Out] WindFrame[] frames, UIntPtr room, out UIntPtr taken, out UIntPtr made);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_wind_calibrate(IntPtr wind, double seconds);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_wind_calibrating(IntPtr wind);
+
+        internal static void Check(int status)
+        {
+            if (status != 0) throw new WispException(status, Text(wisp_last_error()));
+        }
+
+        internal static string Text(IntPtr utf8)
+        {
+            int length = 0;
+            while (Marshal.ReadByte(utf8, length) != 0) ++length;
+            var bytes = new byte[length];
+            Marshal.Copy(utf8, bytes, 0, length);
+            return Encoding.UTF8.GetString(bytes);
+        }
+
+        internal static UIntPtr Count(Array values)
+        {
+            return (UIntPtr)(ulong)values.Length;
+        }
+    }
+
+    /// <summary>What the outputs of a model mean.</summary>
+    public enum View { Plain = 0, Outline = 1, Pose = 2, Position = 3 }
+
+    /// <summary>What moves the outputs.</summary>
+    public enum Dynamics { Arx = 1, Chain = 2, Switched = 3 }
+
+    /// <summary>An input or an output: what it is called, and its range.</summary>
+    public struct Channel
+    {
+        public string Name, Unit;
+        public double Lowest, Highest;
+    }
+
+    /// <summary>A model of how a thing behaves. Banks that were made from it live on when it is disposed of.</summary>
+    public sealed class Model : IDisposable
+    {
+        internal IntPtr Handle;
+        private Native.ModelFacts facts;
+
+        /// <summary>From the bytes of a .wisp file (in Unity: a TextAsset's bytes, of a file NAME.wisp.bytes).</summary>
+        public Model(byte[] bytes)
+        {
+            Native.Check(Native.wisp_model_load(bytes, Native.Count(bytes), out Handle));
+            facts.Size = (uint)Marshal.SizeOf(typeof(Native.ModelFacts));
+            Native.Check(Native.wisp_model_get_facts(Handle, ref facts));
+        }
+
+        public static Model Read(string path)
+        {
+            return new Model(File.ReadAllBytes(path));
+        }
+
+        public int Inputs { get { return (int)facts.Inputs; } }
+        public int Outputs { get { return (int)facts.Outputs; } }
+        public int ControlPoints { get { return (int)facts.ControlPoints; } }
+        public bool Usable { get { return facts.Usable != 0; } }
+        public double RateHz { get { return facts.RateHz; } }
+        public View View { get { return (View)facts.View; } }
+        public Dynamics Dynamics { get { return (Dynamics)facts.Dynamics; } }
+        public string Name { get { return Native.Text(Native.wisp_model_name(Handle)); } }
+
+        public Channel Input(int index)
+        {
+            Native.Channel channel = Empty();
+            Native.Check(Native.wisp_model_get_input(Handle, (uint)index, ref channel));
+            return Named(channel);
+        }
+
+        public Channel Output(int index)
+        {
+            Native.Channel channel = Empty();
+            Native.Check(Native.wisp_model_get_output(Handle, (uint)index, ref channel));
+            return Named(channel);
+        }
+
+        private static Native.Channel Empty()
+        {
+            return new Native.Channel { Size = (uint)Marshal.SizeOf(typeof(Native.Channel)) };
+        }
+
+        private static Channel Named(Native.Channel from)
+        {
+            return new Channel { Name = Native.Text(from.Name), Unit = Native.Text(from.Unit), Lowest = from.Lowest, Highest = from.Highest };
+        }
+
+        public void Dispose()
+        {
+            Native.wisp_model_free(Handle);
+            Handle = IntPtr.Zero;
+            GC.SuppressFinalize(this);
+        }
+
+        ~Model() { Native.wisp_model_free(Handle); }
+    }
+
+    /// <summary>Living instances of one model, stepped together. Bulk arrays have a row for each slot.</summary>
+    public sealed class Bank : IDisposable
+    {
+        private IntPtr handle;
+
+        public Bank(Model model, int capacity = 1, ulong seed = 1, int polylinePoints = 32)
+        {
+            Native.BankOptions options = Native.wisp_bank_default_options();
+            options.Capacity = (uint)capacity;
+            options.Seed = seed;
+            options.PolylinePoints = (uint)polylinePoints;
+            Native.Check(Native.wisp_bank_create(model.Handle, ref options, out handle));
+        }
+
+        public int Slots { get { return (int)Facts().Slots; } }
+        public int Alive { get { return (int)Facts().Alive; } }
+        public int PolylinePoints { get { return (int)Facts().PolylinePoints; } }
+
+        private Native.BankFacts Facts()
+        {
+            var facts = new Native.BankFacts { Size = (uint)Marshal.SizeOf(typeof(Native.BankFacts)) };
+            Native.Check(Native.wisp_bank_get_facts(handle, ref facts));
+            return facts;
+        }
+
+        /// <summary>Starts an instance. Its slot is the lower half of what names it.</summary>
+        public ulong Spawn()
+        {
+            ulong instance;
+            Native.Check(Native.wisp_bank_spawn(handle, out instance));
+            return instance;
+        }
+
+        /// <summary>The same with a random stream of its own: the same stream and inputs live the same life.</summary>
+        public ulong Spawn(ulong stream)
+        {
+            ulong instance;
+            Native.Check(Native.wisp_bank_spawn_stream(handle, stream, out instance));
+            return instance;
+        }
+
+        public void End(ulong instance) { Native.Check(Native.wisp_bank_end(handle, instance)); }
+        public bool IsAlive(ulong instance) { return Native.wisp_bank_alive(handle, instance) != 0; }
+
+        /// <summary>What acts from the next step on: for all, slots x inputs; the same for all; for one.</summary>
+        public void SetInputs(float[] values) { Native.Check(Native.wisp_bank_set_inputs(handle, values, Native.Count(values))); }
+        public void SetCommonInputs(params float[] values) { Native.Check(Native.wisp_bank_set_common_inputs(handle, values, Native.Count(values))); }
+        public void SetInputs(ulong instance, float[] values) { Native.Check(Native.wisp_bank_set_instance_inputs(handle, instance, values, Native.Count(values))); }
+
+        /// <summary>1 as learned, 0 none.</summary>
+        public void SetNoise(float scale) { Native.Check(Native.wisp_bank_set_noise(handle, scale)); }
+
+        public void Step() { Native.Check(Native.wisp_bank_step(handle)); }
+
+        /// <summary>Lets time pass, such as Time.deltaTime. Returns the steps made.</summary>
+        public int Advance(double seconds)
+        {
+            int steps;
+            Native.Check(Native.wisp_bank_advance(handle, (long)(seconds * 1e9), out steps));
+            return steps;
+        }
+
+        /// <summary>Outputs into an array of slots x outputs, or of one instance.</summary>
+        public void Outputs(float[] values) { Native.Check(Native.wisp_bank_outputs(handle, values, Native.Count(values))); }
+        public void Outputs(ulong instance, float[] values) { Native.Check(Native.wisp_bank_instance_outputs(handle, instance, values, Native.Count(values))); }
+
+        /// <summary>Outlines as points, x and y in turn: slots x points x 2, or of one instance.</summary>
+        public void Polylines(float[] values) { Native.Check(Native.wisp_bank_polylines(handle, values, Native.Count(values))); }
+        public void Polyline(ulong instance, float[] values) { Native.Check(Native.wisp_bank_polyline(handle, instance, values, Native.Count(values))); }
+
+        /// <summary>Whether an instance burns; only of models that wind puts out.</summary>
+        public bool IsLit(ulong instance)
+        {
+            var state = new Native.FlameState { Size = (uint)Marshal.SizeOf(typeof(Native.FlameState)) };
+            Native.Check(Native.wisp_bank_get_flame_state(handle, instance, ref state));
+            return state.Lit != 0;
+        }
+
+        public void Relight(ulong instance) { Native.Check(Native.wisp_bank_relight(handle, instance)); }
+        public void Extinguish(ulong instance) { Native.Check(Native.wisp_bank_extinguish(handle, instance)); }
+
+        public void Dispose()
+        {
+            Native.wisp_bank_free(handle);
+            handle = IntPtr.Zero;
+            GC.SuppressFinalize(this);
+        }
+
+        ~Bank() { Native.wisp_bank_free(handle); }
+    }
+
+    /// <summary>The wind during one frame of sound, as wisp_wind_frame has it.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct WindFrame
+    {
+        public long Index;
+        public float Rms, RmsClean, Level, Speed, Wind, Confidence, Background, Clipped;
+    }
+
+    /// <summary>Wind heard by a microphone: OnAudioFilterRead's or Microphone's samples in, a model's input out.</summary>
+    public sealed class WindLevel : IDisposable
+    {
+        private readonly WindFrame[] frames = new WindFrame[64];
+        private IntPtr handle;
+
+        public WindLevel(double rateHz, int channels = 1, double frameRateHz = 60)
+        {
+            Native.WindOptions options = Native.wisp_wind_default_options();
+            options.RateHz = rateHz;
+            options.Channels = (uint)channels;
+            options.FrameRateHz = frameRateHz;
+            Native.Check(Native.wisp_wind_create(ref options, out handle));
+        }
+
+        /// <summary>The latest frame.</summary>
+        public WindFrame Latest { get; private set; }
+
+        /// <summary>Takes interleaved samples, full scale +-1. Returns the frames that they made.</summary>
+        public int Feed(float[] samples)
+        {
+            UIntPtr taken, made;
+            int all = 0;
+            float[] block = samples;
+            while (true)
+            {
+                Native.Check(Native.wisp_wind_feed(handle, block, Native.Count(block), frames, Native.Count(frames), out taken, out made));
+                int count = (int)made, used = (int)taken;
+                if (count > 0) Latest = frames[count - 1];
+                all += count;
+                if (used == block.Length) return all;
+                var rest = new float[block.Length - used];  // more than 64 frames in one block: not every frame
+                Array.Copy(block, used, rest, 0, rest.Length);
+                block = rest;
+            }
+        }
+
+        /// <summary>Takes the coming seconds as the room without wind.</summary>
+        public void Calibrate(double seconds) { Native.Check(Native.wisp_wind_calibrate(handle, seconds)); }
+        public bool Calibrating { get { return Native.wisp_wind_calibrating(handle) != 0; } }
+
+        public void Dispose()
+        {
+            Native.wisp_wind_free(handle);
+            handle = IntPtr.Zero;
+            GC.SuppressFinalize(this);
+        }
+
+        ~WindLevel() { Native.wisp_wind_free(handle); }
+    }
+}

@@ -1,0 +1,114 @@
+// What a program in C# sees of a model: play.cmake compares it with `wisp run`.
+using System;
+using System.Globalization;
+using System.IO;
+using Wisp;
+
+internal static class Play
+{
+    private static void Expect(bool held, string what)
+    {
+        if (!held) throw new InvalidOperationException(what);
+    }
+
+    // Three flames in half a wind, held against what `wisp run` wrote: the wind, then all outputs.
+    private static void Numbers(string path, string table)
+    {
+        using (var model = Model.Read(path))
+        using (var bank = new Bank(model, 3, 5))
+        {
+            for (int k = 0; k < 3; ++k) bank.Spawn();
+            var outputs = new float[3 * model.Outputs];
+            bank.SetCommonInputs(0.5f);
+            int frames = 0;
+            foreach (string row in File.ReadAllLines(table))
+            {
+                if (row.StartsWith("#") || row.Contains(":")) continue;
+                bank.Step();
+                bank.Outputs(outputs);
+                string[] cells = row.Split(',');
+                Expect(cells.Length > outputs.Length, "a row of " + cells.Length);  // and whether each burns
+                for (int k = 0; k < outputs.Length; ++k)
+                    Expect((float)double.Parse(cells[k + 1], CultureInfo.InvariantCulture) == outputs[k], "frame " + frames + ": " + outputs[k] + ", wisp run has " + cells[k + 1]);
+                ++frames;
+            }
+            Console.WriteLine("C# under mono plays the numbers of wisp run: " + frames + " frames of three flames");
+            Expect(frames == 200, "200 frames");
+        }
+    }
+
+    private static void Life(string path)
+    {
+        var model = Model.Read(path);
+        Expect(model.View == View.Outline && model.Dynamics == Dynamics.Arx && model.Name.Length > 0, "the model's facts");
+        Expect(model.ControlPoints * 2 == model.Outputs && model.Inputs == 1, "its sizes");
+        Expect(model.Input(0).Name == "wind" && model.Output(1).Name == "p0.y", "its channels");
+        var bank = new Bank(model, 2, 1, 16);
+        model.Dispose();
+        ulong flame = bank.Spawn(), other = bank.Spawn(7);
+        Expect(bank.Alive == 2 && bank.Slots == 2 && bank.PolylinePoints == 16, "the bank's facts");
+        Expect(bank.Advance(1.0) > 0, "time passes");
+        var outline = new float[32];
+        bank.Polyline(flame, outline);
+        Expect(outline[1] < 0.5 && Math.Abs(outline[17]) > 0.5, "an outline that stands on its base");
+        bank.SetInputs(flame, new[] { 9f });
+        for (int frame = 0; frame < 120; ++frame) bank.Step();
+        Expect(!bank.IsLit(flame) && bank.IsLit(other), "strong wind puts one out");
+        bank.Relight(flame);
+        Expect(bank.IsLit(flame), "it is lit again");
+        bank.End(other);
+        Expect(!bank.IsAlive(other) && bank.IsAlive(flame), "one ends");
+        try
+        {
+            bank.SetCommonInputs(1, 2);
+            Expect(false, "two inputs were taken for one");
+        }
+        catch (WispException error)
+        {
+            Expect(error.Status == 1 && error.Message.Contains("expected 1"), "its sentence: " + error.Message);
+        }
+        try
+        {
+            new Model(new byte[] { 1, 2, 3 });
+            Expect(false, "three bytes were taken for a model");
+        }
+        catch (WispException error)
+        {
+            Expect(error.Status == 2, error.Message);
+        }
+        bank.Dispose();
+    }
+
+    // Two seconds of a room, white noise of this size.
+    private static float[] Room(float size)
+    {
+        var block = new float[2 * 48000];
+        uint word = 1;
+        for (int k = 0; k < block.Length; ++k)
+        {
+            word = word * 1664525u + 1013904223u;
+            block[k] = size * ((word >> 8) / 16777216f - 0.5f);
+        }
+        return block;
+    }
+
+    private static void Sound()
+    {
+        var wind = new WindLevel(48000, 1, 60);
+        wind.Calibrate(1);
+        Expect(wind.Calibrating, "it listens to the room");
+        int frames = wind.Feed(Room(0.001f));
+        Expect(frames >= 115 && frames <= 121 && !wind.Calibrating, "two seconds of a room: " + frames + " frames");
+        float room = wind.Latest.Rms;
+        wind.Feed(Room(0.01f));
+        Expect(wind.Latest.Index > 200 && wind.Latest.Rms > 5 * room, "it is louder, " + wind.Latest.Rms);
+        wind.Dispose();
+    }
+
+    private static void Main(string[] arguments)
+    {
+        Life(arguments[1]);
+        Sound();
+        Numbers(arguments[0], arguments[2]);
+    }
+}

@@ -1,0 +1,220 @@
+#include <algorithm>
+#include <string>
+
+#include "learn/arx/report/report_values.hpp"
+#include "wisp/learn/model_report.hpp"
+#include "wisp/run/random.hpp"
+
+namespace wisp {
+namespace {
+
+using arx::add;
+using arx::element;
+
+template <class Values>
+ReportList list(const Values& values) {
+  return ReportList(values.begin(), values.end());
+}
+
+// Row by row, `width` values each; of a width of 0 as many empty rows as are wanted.
+template <class Values>
+ReportList rows(const Values& values, std::size_t width, std::size_t empty_rows = 0) {
+  ReportList out(width == 0 ? empty_rows : 0, ReportList());
+  for (std::size_t at = 0; width > 0 && at < values.size(); at += width) {
+    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(at);
+    out.push_back(ReportList(begin, begin + static_cast<std::ptrdiff_t>(std::min(width, values.size() - at))));
+  }
+  return out;
+}
+
+void add_noise(const ResidualNoise& noise, ReportSection& section) {
+  const std::string id = "dynamics.noise.";
+  ReportList intervals;
+  for (const auto& interval : noise.sd_ci95) intervals.push_back(list(interval));
+  add(section, id + "sd", noise.sd);
+  add(section, id + "sd_ci95", std::move(intervals));
+  add(section, id + "mixing", rows(noise.mixing, static_cast<std::size_t>(noise.rank), noise.sd.size()));
+  const DrawnResiduals& drawn = noise.drawn;
+  if (drawn.empty()) return add(section, id + "resampled", {});
+  const std::string to = id + "resampled.";
+  add(section, to + "scale", drawn.scale);
+  add(section, to + "rows", rows(drawn.rows, drawn.scale.size()));
+  add(section, to + "ends", list(drawn.ends));
+  add(section, to + "wind_scale", drawn.wind_scale);
+  add(section, to + "winds", list(drawn.winds));
+  add(section, to + "toward", drawn.toward);
+  add(section, to + "against", drawn.against);
+  add(section, to + "lags", list(drawn.lags));
+  add(section, to + "tolerance", drawn.tolerance);
+  add(section, to + "margin", drawn.margin);
+  add(section, to + "longest", drawn.longest);
+  add(section, to + "mirror", list(drawn.mirror));
+}
+
+void add_dynamics(const ArxModel& arx, ReportSection& section) {
+  add(section, "dynamics.constant", arx.constant);
+  add(section, "dynamics.output_mean", arx.output_mean);
+  add(section, "dynamics.input_mean", arx.input_mean);
+  add_noise(arx.noise, section);
+}
+
+void add_dynamics(const SwitchedArxModel& switched, ReportSection& section) {
+  ReportList certificates;
+  for (const auto& matrix : switched.lyapunov) certificates.push_back(matrix);
+  add(section, "dynamics.output_mean", switched.output_mean);
+  add(section, "dynamics.input_mean", switched.input_mean);
+  add(section, "dynamics.lyapunov_matrices", std::move(certificates));
+}
+
+void add_gust(const GustResponse& gust, ReportSection& section) {
+  const auto add_axis = [&](const std::string& id, const GustResponse::Axis& axis) {
+    add(section, id + ".change", axis.change);
+    add(section, id + ".wind", axis.wind);
+    add(section, id + ".press", axis.press);
+  };
+  add_axis("dynamics.gust.ground", gust.ground);
+  add_axis("dynamics.gust.vertical", gust.vertical);
+}
+
+void add_drift(const ChainDrift& drift, ReportSection& section) {
+  add(section, "dynamics.drift.lead", rows(drift.lead, 3));
+  add(section, "dynamics.drift.lead_scale", drift.lead_scale);
+  add(section, "dynamics.drift.drift", list(drift.drift));
+  add(section, "dynamics.drift.spread_ground", drift.spread_ground);
+  add(section, "dynamics.drift.spread_height", drift.spread_height);
+  add(section, "dynamics.drift.memory_seconds", drift.memory_seconds);
+}
+
+void add_systems(const ModeSystems& systems, ReportSection& section) {
+  add(section, "dynamics.systems.degree", systems.degree);
+  ReportTable table{"dynamics.systems.modes",
+                    "",
+                    {{"coefficient", ""}, {"noise", ""}, {"lowest", ""}, {"highest", ""}, {"steps", ""}},
+                    {}};
+  for (const ModeSystem& mode : systems.modes) {
+    table.rows.push_back({rows(mode.coefficient, system_terms(systems.degree)), rows(mode.noise, kSystemStates),
+                          list(mode.lowest), list(mode.highest), list(mode.steps)});
+  }
+  section.tables.push_back(std::move(table));
+}
+
+void add_splines(const ModeSplines& splines, ReportSection& section) {
+  add(section, "dynamics.splines.control_points", splines.control_points);
+  add(section, "dynamics.splines.components", splines.components);
+  add(section, "dynamics.splines.mean", list(splines.mean));
+  add(section, "dynamics.splines.component", list(splines.component));
+  add(section, "dynamics.splines.score", list(splines.score));
+}
+
+void add_dynamics(const ChainModel& chain, ReportSection& section) {
+  const ChainSegments& segments = chain.segments;
+  const std::string id = "dynamics.";
+  add(section, id + "motion", chain.motion == ChainMotion::kPose ? "pose" : "position");
+  add(section, id + "segment_modes", list(segments.mode));
+  add(section, id + "segment_steps", list(segments.steps));
+  add(section, id + "rows", rows(segments.rows, static_cast<std::size_t>(channel_count(chain.motion))));
+  add(section, id + "row_scale", segments.row_scale);
+  add(section, id + "rates", rows(segments.rates, static_cast<std::size_t>(rate_count(chain.motion))));
+  add(section, id + "rate_scale", segments.rate_scale);
+  add(section, id + "follow", rows(segments.follow, static_cast<std::size_t>(segments.breadth)));
+  add(section, id + "successor_weights", rows(segments.onward, static_cast<std::size_t>(chain.modes)));
+  ReportTable contexts{"dynamics.contexts", "", {{"history", ""}, {"probability", ""}}, {}};
+  for (const ChainContext& context : chain.contexts) {
+    contexts.rows.push_back({list(context.history), context.probability});
+  }
+  section.tables.push_back(std::move(contexts));
+  chain.gust ? add_gust(*chain.gust, section) : add(section, id + "gust", {});
+  chain.drift ? add_drift(*chain.drift, section) : add(section, id + "drift", {});
+  chain.systems ? add_systems(*chain.systems, section) : add(section, id + "systems", {});
+  chain.splines ? add_splines(*chain.splines, section) : add(section, id + "splines", {});
+}
+
+const char* form_of(InputShape shape) {
+  switch (shape) {
+    case InputShape::kLinear:
+      return "linear";
+    case InputShape::kSplitSign:
+      return "split_sign";
+    case InputShape::kCurve:
+      return "curve";
+    case InputShape::kSplitSignCurve:
+      return "split_sign_curve";
+    case InputShape::kSplitSignPowers:
+      return "split_sign_powers";
+  }
+  return "";
+}
+
+const char* word_of(Origin origin) {
+  return origin == Origin::kLearned ? "learned" : origin == Origin::kGiven ? "given" : "default";
+}
+
+void add_ramp(const std::string& id, const RampTraining& ramp, ReportSection& section) {
+  add(section, id + ".origin", word_of(ramp.origin));
+  add(section, id + ".events", ramp.events);
+  add(section, id + ".seconds_ci95", list(ramp.seconds_ci95));
+  add(section, id + ".error", ramp.error);
+}
+
+void add_extinction(const std::string& id, const ExtinctionTraining& made, ReportSection& section) {
+  add(section, id + ".origin", word_of(made.origin));
+  add(section, id + ".deaths", made.deaths);
+  add(section, id + ".died", made.died);
+  add(section, id + ".gusts", made.gusts);
+  add(section, id + ".spared", made.spared);
+  add_ramp(id + ".dying", made.dying, section);
+  add_ramp(id + ".catching", made.catching, section);
+}
+
+void add_training(const Training& made, ReportSection& section) {
+  const std::string id = "training.";
+  add(section, id + "program", made.program);
+  add(section, id + "sources", list(made.sources));
+  ReportTable recipe{"training.recipe", "", {{"name", ""}, {"value", ""}}, {}};
+  for (const Note& note : made.recipe) recipe.rows.push_back({note.name, note.value});
+  ReportTable figures{"training.figures", "", {{"name", ""}, {"value", ""}}, {}};
+  for (const Figure& figure : made.figures) figures.rows.push_back({figure.name, figure.value});
+  ReportTable inputs{"training.inputs", "", {{"scale", ""}, {"one_rms", ""}}, {}};
+  for (const InputTraining& input : made.inputs) inputs.rows.push_back({input.scale, input.one_rms});
+  section.tables.insert(section.tables.end(), {std::move(recipe), std::move(figures), std::move(inputs)});
+  add(section, id + "residual_sd", made.residual_sd);
+  add(section, id + "underside", made.underside ? ReportValue(*made.underside) : ReportValue());
+  if (made.motion) {
+    add(section, id + "motion.event", made.motion->event);
+    add(section, id + "motion.min_seconds", made.motion->min_seconds);
+    add(section, id + "motion.debounce", made.motion->debounce);
+    add(section, id + "motion.smooth_rows", made.motion->smooth_rows);
+  } else {
+    add(section, id + "motion", {});
+  }
+  if (made.extinction) {
+    add_extinction(id + "extinction", *made.extinction, section);
+  } else {
+    add(section, id + "extinction", {});
+  }
+  add(section, id + "multiply_adds_per_frame", made.multiply_adds_per_frame);
+  add(section, id + "operations_per_frame", made.operations_per_frame);
+}
+
+}  // namespace
+
+Report model_contents(const Model& model) {
+  Report report;
+  ReportSection& section = report.add("");
+  for (std::size_t k = 0; k < model.inputs.size(); ++k) {
+    add(section, element("inputs", k, "form"), form_of(model.inputs[k].shape));
+  }
+  std::visit([&](const auto& dynamics) { add_dynamics(dynamics, section); }, model.dynamics);
+  if (model.extinction) {
+    add(section, "extinction.dying", model.extinction->dying);
+    add(section, "extinction.catching", model.extinction->catching);
+  }
+  add_training(model.training, section);
+  add(section, "random.generator", "Philox4x32-7");
+  ReportList table;
+  for (const auto& part : normal_table()) table.push_back(list(part));
+  add(section, "random.normal_table", std::move(table));
+  return report;
+}
+
+}  // namespace wisp

@@ -1,0 +1,314 @@
+// `wisp info --json`: all that a model's file holds. What is written again from it alone is the same file.
+
+#include <gtest/gtest.h>
+
+#include "cli/program.hpp"
+#include "model/sample_chain.hpp"
+#include "run/flame_model.hpp"
+#include "wisp/model/file.hpp"
+#include "wisp/record/csv.hpp"
+
+namespace wisp {
+namespace {
+
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+template <class T>
+void put(const Json& from, T& to) {
+  if (!from.is_null()) to = from.get<T>();
+}
+
+// A list of lists as one.
+template <class T>
+std::vector<T> flat(const Json& rows) {
+  std::vector<T> all;
+  for (const Json& row : rows) {
+    for (const Json& value : row) all.push_back(value.get<T>());
+  }
+  return all;
+}
+
+OrderMatrix orders_of(const Json& rows, int columns) {
+  OrderMatrix orders(static_cast<int>(rows.size()), columns);
+  for (int i = 0; i < orders.rows(); ++i) {
+    for (int j = 0; j < columns; ++j) orders(i, j) = rows[i][j];
+  }
+  return orders;
+}
+
+ArxOrders orders_of(const Json& json) {
+  const auto outputs = static_cast<int>(json["na"].size()), inputs = static_cast<int>(json["nb"][0].size());
+  return {orders_of(json["na"], outputs), orders_of(json["nb"], inputs), orders_of(json["nk"], inputs)};
+}
+
+// Row i: all lags of A, then of B.
+std::vector<std::vector<double>> theta_of(const Json& json) {
+  std::vector<std::vector<double>> theta;
+  if (json.is_null()) return theta;
+  for (std::size_t i = 0; i < json["A"].size(); ++i) {
+    theta.push_back(flat<double>(json["A"][i]));
+    const auto b = flat<double>(json["B"][i]);
+    theta.back().insert(theta.back().end(), b.begin(), b.end());
+  }
+  return theta;
+}
+
+DrawnResiduals drawn_of(const Json& json) {
+  DrawnResiduals drawn;
+  if (json.is_null()) return drawn;
+  drawn.rows = flat<std::int16_t>(json["rows"]);
+  put(json["scale"], drawn.scale);
+  put(json["ends"], drawn.ends);
+  put(json["wind_scale"], drawn.wind_scale);
+  put(json["winds"], drawn.winds);
+  put(json["toward"], drawn.toward);
+  put(json["against"], drawn.against);
+  put(json["lags"], drawn.lags);
+  put(json["tolerance"], drawn.tolerance);
+  put(json["margin"], drawn.margin);
+  put(json["longest"], drawn.longest);
+  put(json["mirror"], drawn.mirror);
+  return drawn;
+}
+
+ArxModel arx_of(const Json& json) {
+  ArxModel arx{.orders = orders_of(json), .theta = theta_of(json)};
+  if (json.contains("std_error")) arx.std_error = theta_of(json["std_error"]);
+  put(json["constant"], arx.constant);
+  put(json["output_mean"], arx.output_mean);
+  put(json["input_mean"], arx.input_mean);
+  const Json& noise = json["noise"];
+  put(noise["sd"], arx.noise.sd);
+  put(noise["sd_ci95"], arx.noise.sd_ci95);
+  put(json["noise_rank"], arx.noise.rank);
+  arx.noise.mixing = flat<double>(noise["mixing"]);
+  arx.noise.drawn = drawn_of(noise["resampled"]);
+  return arx;
+}
+
+SwitchedArxModel switched_of(const Json& json) {
+  SwitchedArxModel model{.orders = orders_of(json)};
+  put(json["output_mean"], model.output_mean);
+  put(json["input_mean"], model.input_mean);
+  put(json["lyapunov_matrices"], model.lyapunov);
+  for (const Json& from : json["modes"]) {
+    ArxMode& mode = model.modes.emplace_back();
+    mode.theta = theta_of(from);
+    if (from.contains("std_error")) mode.std_error = theta_of(from["std_error"]);
+    put(from["constant"], mode.constant);
+    mode.shock = flat<double>(from["shock"]);
+  }
+  if (json["switching"] == "regions") {
+    model.regions = flat<double>(json["regions"]);
+    return model;
+  }
+  model.switching = Switching::kMarkov;
+  put(json["initial"], model.initial);
+  model.transitions = flat<double>(json["transitions"]);
+  return model;
+}
+
+GustResponse::Axis axis_of(const Json& json) { return {json["change"], json["wind"], json["press"]}; }
+
+ChainDrift drift_of(const Json& json) {
+  ChainDrift drift{.lead = flat<std::int16_t>(json["lead"])};
+  put(json["lead_scale"], drift.lead_scale);
+  put(json["drift"], drift.drift);
+  put(json["spread_ground"], drift.spread_ground);
+  put(json["spread_height"], drift.spread_height);
+  put(json["memory_seconds"], drift.memory_seconds);
+  return drift;
+}
+
+ModeSystems systems_of(const Json& json) {
+  ModeSystems systems{json["degree"], {}};
+  for (const Json& mode : json["modes"]) {
+    systems.modes.push_back({flat<double>(mode["coefficient"]), flat<double>(mode["noise"])});
+    put(mode["lowest"], systems.modes.back().lowest);
+    put(mode["highest"], systems.modes.back().highest);
+    put(mode["steps"], systems.modes.back().steps);
+  }
+  return systems;
+}
+
+ChainModel chain_of(const Json& json) {
+  ChainModel chain{.motion = json["motion"] == "pose" ? ChainMotion::kPose : ChainMotion::kPosition};
+  put(json["heading_free"], chain.heading_free);
+  put(json["modes"], chain.modes);
+  put(json["segment_modes"], chain.segments.mode);
+  put(json["segment_steps"], chain.segments.steps);
+  chain.segments.rows = flat<std::int16_t>(json["rows"]);
+  put(json["row_scale"], chain.segments.row_scale);
+  chain.segments.rates = flat<std::int16_t>(json["rates"]);
+  put(json["rate_scale"], chain.segments.rate_scale);
+  chain.segments.follow = flat<std::uint16_t>(json["follow"]);
+  put(json["best_of"], chain.segments.breadth);
+  chain.segments.onward = flat<std::uint16_t>(json["successor_weights"]);
+  put(json["initial"], chain.initial);
+  for (const Json& context : json["contexts"]) chain.contexts.push_back({context["history"], context["probability"]});
+  put(json["blend_steps"], chain.blend_steps);
+  const auto there = [&](const char* part) { return !json[part].is_null(); };
+  if (there("gust")) chain.gust = {axis_of(json["gust"]["ground"]), axis_of(json["gust"]["vertical"])};
+  if (there("drift")) chain.drift = drift_of(json["drift"]);
+  if (there("systems")) chain.systems = systems_of(json["systems"]);
+  if (there("splines")) {
+    const Json& splines = json["splines"];
+    chain.splines = {splines["control_points"], splines["components"], splines["mean"], splines["component"],
+                     splines["score"]};
+  }
+  return chain;
+}
+
+Dynamics dynamics_of(const Json& json) {
+  if (json["kind"] == "arx") return arx_of(json);
+  if (json["kind"] == "chain") return chain_of(json);
+  return switched_of(json);
+}
+
+View view_of(const Json& json) {
+  if (json["kind"] == "outline") return OutlineView{json["knots"], json["metres_per_unit"], json["pixels_per_unit"]};
+  if (json["kind"] == "pose") return PoseView{json["half_width"], json["half_length"]};
+  if (json["kind"] == "position") return PositionView{json["half_width"]};
+  return PlainView{};
+}
+
+Input input_of(const Json& json) {
+  static const std::map<std::string, InputShape> shapes = {{"linear", InputShape::kLinear},
+                                                           {"split_sign", InputShape::kSplitSign},
+                                                           {"curve", InputShape::kCurve},
+                                                           {"split_sign_curve", InputShape::kSplitSignCurve},
+                                                           {"split_sign_powers", InputShape::kSplitSignPowers}};
+  Input input{json["name"], json["unit"], json["range"][0], json["range"][1], shapes.at(json["form"])};
+  if (json.contains("curve")) input.curve = {json["curve"]["at"], json["curve"]["value"]};
+  return input;
+}
+
+Origin origin_of(const Json& word) {
+  return word == "learned" ? Origin::kLearned : word == "given" ? Origin::kGiven : Origin::kDefault;
+}
+
+RampTraining ramp_of(const Json& json) {
+  return {origin_of(json["origin"]), json["events"], json["seconds_ci95"], json["error"]};
+}
+
+Training training_of(const Json& json, const Json& usable) {
+  Training made{.program = json["program"], .sources = json["sources"]};
+  for (const Json& note : json["recipe"]) made.recipe.push_back({note["name"], note["value"]});
+  for (const Json& figure : json["figures"]) made.figures.push_back({figure["name"], figure["value"]});
+  made.usable = {usable["verdict"], usable["reason"]};
+  for (const Json& input : json["inputs"]) made.inputs.push_back({input["scale"], input["one_rms"]});
+  put(json["residual_sd"], made.residual_sd);
+  if (!json["underside"].is_null()) made.underside = json["underside"].get<bool>();
+  if (const Json& motion = json["motion"]; !motion.is_null()) {
+    made.motion = {motion["event"], motion["min_seconds"], motion["debounce"], motion["smooth_rows"]};
+  }
+  if (const Json& rule = json["extinction"]; !rule.is_null()) {
+    made.extinction = {origin_of(rule["origin"]), rule["deaths"],           rule["died"], rule["gusts"], rule["spared"],
+                       ramp_of(rule["dying"]),    ramp_of(rule["catching"])};
+  }
+  put(json["multiply_adds_per_frame"], made.multiply_adds_per_frame);
+  put(json["operations_per_frame"], made.operations_per_frame);
+  return made;
+}
+
+Model model_of(const Json& json) {
+  Model model{.name = json["name"], .rate_hz = json["rate_hz"]};
+  for (const Json& input : json["inputs"]) model.inputs.push_back(input_of(input));
+  for (const Json& output : json["outputs"]) {
+    model.outputs.push_back({output["name"], output["unit"], output["range"][0], output["range"][1]});
+  }
+  model.dynamics = dynamics_of(json["dynamics"]);
+  model.view = view_of(json["view"]);
+  model.training = training_of(json["training"], json["usable"]);
+  const Json& rule = json["extinction"];
+  if (rule.is_null()) return model;
+  model.extinction = Extinction{.level = rule["level"], .seconds = rule["seconds"], .haste = rule["haste"]};
+  while (model.inputs.at(model.extinction->input).name != rule["input"]) ++model.extinction->input;
+  put(rule["recovery"], model.extinction->recovery);
+  put(rule["dying"], model.extinction->dying);
+  put(rule["catching"], model.extinction->catching);
+  return model;
+}
+
+class Info : public InFolder {
+ protected:
+  // Whether the model's bytes come again from what the program says of it.
+  void expect_complete(const std::string& path) {
+    const Said said = wisp("info " + path + " --json");
+    ASSERT_EQ(said.status, 0) << said.err;
+    const auto again = model_bytes(model_of(said.json()));
+    ASSERT_TRUE(again) << path << ": " << again.error().message;
+    const auto model = read_model(path);
+    ASSERT_TRUE(model) << model.error().message;
+    EXPECT_TRUE(*again == *model_bytes(*model)) << path;
+  }
+};
+
+TEST_F(Info, AModelIsWrittenAgainFromItsJsonToTheByte) {
+  for (const auto& file : fs::directory_iterator(WISP_SOURCE_DIR "/tests/model/golden")) expect_complete(file.path());
+  for (const char* name : {"flame-2", "flame-6", "leaf"}) {
+    expect_complete(std::string(WISP_SOURCE_DIR "/apps/web/public/models/") + name + ".wisp");
+  }
+  const FlameOptions mirrored{.points = 4, .wind = InputShape::kSplitSign, .noise_rank = 2, .drawn_rows = 60};
+  for (const Model& model : {system_chain(2), steered_chain(), flame_model(mirrored)}) {
+    ASSERT_TRUE(write_model(at("m.wisp"), model));
+    expect_complete(at("m.wisp"));
+  }
+}
+
+// examples/08_play_json.py plays what `info` says; `run` plays the model.
+class InfoPlayed : public Info {
+ protected:
+  void SetUp() override {
+    if (std::system("/usr/bin/python3 -c 'import numpy' 2>/dev/null") != 0) GTEST_SKIP() << "no Python with numpy";
+    Info::SetUp();
+  }
+
+  // Every output of every frame, in Python and by `run`.
+  void expect_same_bits(const std::string& path, const std::string& noise, const std::string& wind = "-0.7") {
+    const std::string asked = " --frames 80 --seed 3 --wind " + wind + " --noise " + noise;
+    ASSERT_EQ(wisp("run " + path + asked + " -o " + at("run.csv")).status, 0);
+    ASSERT_EQ(wisp("info " + path + " --json").status, 0);
+    const std::string python = "/usr/bin/python3 " WISP_SOURCE_DIR "/examples/08_play_json.py 80 " + wind + " 3 " +
+                               noise + " <" + at("said.out") + " >" + at("play.csv");
+    ASSERT_EQ(std::system(python.c_str()), 0) << path;
+    const auto ran = read_csv(at("run.csv"));
+    ASSERT_TRUE(ran) << ran.error().message;
+    std::ifstream played(at("play.csv"));
+    std::string line;
+    std::getline(played, line);
+    for (std::size_t row = 0; row < 80; ++row) {
+      ASSERT_TRUE(std::getline(played, line)) << row;
+      std::istringstream cells(line);
+      for (const Channel& channel : ran->channels) {
+        if (channel.role != Role::kOutput) continue;
+        ASSERT_TRUE(std::getline(cells, line, ','));
+        ASSERT_EQ(std::stod(line), channel.samples[row]) << path << ' ' << channel.name << " in frame " << row;
+      }
+    }
+  }
+};
+
+TEST_F(InfoPlayed, GaussianAndSwitchedModelsInPythonAreRunsToTheBit) {
+  const std::string golden = WISP_SOURCE_DIR "/tests/model/golden/";
+  for (const char* name : {"v1.wisp", "v1-curve.wisp", "v1_switched.wisp", "v1_switched_markov.wisp"}) {
+    for (const char* noise : {"on", "off"}) expect_same_bits(golden + name, noise);
+  }
+}
+
+TEST_F(InfoPlayed, PowersOfAnInputAndLargeRangesToo) {
+  Model model = flame_model({.points = 4, .wind = InputShape::kSplitSignPowers, .noise_rank = 2});
+  model.inputs[0].lowest = -300;
+  model.inputs[0].highest = 300;
+  ASSERT_TRUE(write_model(at("m.wisp"), model));
+  for (const char* wind : {"-120", "3"}) expect_same_bits(at("m.wisp"), "on", wind);
+}
+
+TEST_F(InfoPlayed, ResampledResidualsWithoutNoise) {
+  ASSERT_TRUE(write_model(at("m.wisp"), flame_model({.points = 4, .wind = InputShape::kSplitSign, .drawn_rows = 60})));
+  expect_same_bits(at("m.wisp"), "off");
+}
+
+}  // namespace
+}  // namespace wisp
