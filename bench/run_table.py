@@ -10,6 +10,7 @@ import json
 import os
 import pathlib
 import re
+import statistics
 import subprocess
 import sys
 
@@ -17,12 +18,23 @@ WIDTHS = ("baseline", "avx2", "avx512")
 OPERATIONS = 192 * 2  # a step of the flame: 12 products and sums for each of 16 outputs, without noise
 
 
+ROUNDS = 3  # in turns, so that what else the machine does falls on all widths alike
+
+
 def run(program, width):
-    command = [program, "--benchmark_format=json", "--benchmark_min_time=0.2"]
+    command = [program, "--benchmark_format=json", "--benchmark_min_time=0.1"]
     done = subprocess.run(command, env={**os.environ, "WISP_WIDTH": width}, capture_output=True, text=True)
     if done.returncode != 0 or "WISP_WIDTH is" in done.stderr:
         return None  # the machine has not that width
     return {one["name"]: one for one in json.loads(done.stdout)["benchmarks"]}
+
+
+def median(runs):
+    """Of every number of every benchmark the middle one."""
+    def of(name, key):
+        values = [one[name][key] for one in runs]
+        return statistics.median(values) if isinstance(values[0], (int, float)) else values[0]
+    return {name: {key: of(name, key) for key in runs[0][name]} for name in runs[0]}
 
 
 def peers():
@@ -35,7 +47,7 @@ def peers():
 def rows_of(figures):
     """Name of a row and its figure at a width, in nanoseconds an instance and step."""
     names = [name for name in figures["baseline"] if name.startswith(("flame_step/", "default_flame_step/", "flame_frame/"))]
-    return [(name, {width: figures[width][name]["ns_each"] * 1e9 for width in figures}) for name in names]
+    return [(name, {width: figures[width][name]["ns_each"] for width in figures}) for name in names]
 
 
 def print_steps(figures):
@@ -52,7 +64,7 @@ def print_limits(figures):
     print("| --- | ---: | ---: | ---: |")
     for width, at in figures.items():
         limit = at[f"limit_{width}"]["operations"]
-        reached = OPERATIONS / at["flame_step/flames:1024/noise:0"]["ns_each"]
+        reached = 1e9 * OPERATIONS / at["flame_step/flames:1024/noise:0"]["ns_each"]
         print(f"| {width} | {limit / 1e9:.1f} | {reached / 1e9:.1f} | {reached / limit:.2f} |")
     triad = figures["baseline"]["limit_triad"]["bytes_per_second"]
     print(f"\nMemory: triad {triad / 1e9:.1f} GB/s.")
@@ -69,7 +81,8 @@ def print_filter(figures, peer):
 
 
 def main():
-    figures = {width: result for width in WIDTHS if (result := run(sys.argv[1], width))}
+    rounds = [{width: result for width in WIDTHS if (result := run(sys.argv[1], width))} for _ in range(ROUNDS)]
+    figures = {width: median([one[width] for one in rounds]) for width in rounds[0]}
     peer = peers()
     print_steps(figures)
     print_limits(figures)

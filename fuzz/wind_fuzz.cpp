@@ -64,7 +64,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t block = static_cast<std::size_t>(format.channels) * (1 + source.take<std::uint8_t>());
   const auto manner = source.take<std::uint8_t>();
   const bool loud = manner % 2 == 0;
-  const std::size_t most = manner / 2 % 32 == 0 ? 40'000 : 3'000;  // long sound is dear
+  const std::size_t most = manner / 2 % 32 == 0 ? 40'000 : 3'000;  // long sound is slow
   std::vector<float> samples;
   for (const auto rest = source.rest(); samples.size() < most && !rest.empty();) {
     // A short input is heard again and again, so that frames come of it.

@@ -1,4 +1,4 @@
-# Plays a table that `wisp run --loop 4 MODEL -o flame.csv` wrote: an outline as a Polygon2D that goes round without an end.
+# Plays a table that `wisp run --loop 4 MODEL -o flame.csv` wrote: an outline as a Polygon2D that repeats without a seam.
 # Put it on a Polygon2D and set `table`. For a leaf, export a .glb instead: Godot imports it as a scene with its animation.
 # Written for Godot 4; not run by Wisp's tests, which have no Godot.
 extends Polygon2D

@@ -102,15 +102,13 @@ wisp_status wisp_recording_add(wisp_recording* recording, uint32_t role, const c
   if (!buffer_is_right("wisp_recording_add", samples, count, rows)) return WISP_BAD_ARGUMENT;
   static constexpr wisp::Role kRoles[] = {wisp::Role::kInput, wisp::Role::kOutput, wisp::Role::kMotion};
   return guarded("wisp_recording_add", [&]() -> wisp_status {
-    // Checked with what is there already, so that a failure changes nothing.
-    wisp::Recording checked{.source = to.source, .rate_hz = to.rate_hz};
-    for (const wisp::Channel& there : to.channels) {
-      checked.channels.push_back({there.name, "", there.role, std::vector<double>(rows)});
+    if (find_channel(to, name)) {
+      return fail(WISP_BAD_DATA, "wisp_recording_add was given channel %s, which is there already", name);
     }
-    wisp::Channel channel{name, unit ? unit : "", kRoles[role], {samples, samples + count}};
-    checked.channels.push_back(channel);
-    if (auto ok = check(checked); !ok) return fail(WISP_BAD_DATA, ok.error());
-    to.channels.push_back(std::move(channel));
+    wisp::Recording alone{.source = to.source, .rate_hz = to.rate_hz};
+    alone.channels.push_back({name, unit ? unit : "", kRoles[role], {samples, samples + count}});
+    if (auto ok = check(alone); !ok) return fail(WISP_BAD_DATA, ok.error());
+    to.channels.push_back(std::move(alone.channels.front()));
     return WISP_OK;
   });
 }

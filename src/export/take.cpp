@@ -25,6 +25,7 @@ Result<void> check(const Model& model, const TakeOptions& options) {
   }
   const double frames = options.seconds * model.rate_hz;
   if (frames < 1) return Error{"the length is less than one frame of the model, expected at least 1"};
+  if (options.loop && std::lround(frames) < 2) return Error{"the loop is a single frame, expected at least 2"};
   if (options.instances < 1 || options.instances > kMaxInstances) {
     return Error{"there are " + std::to_string(options.instances) + " instances, expected 1 to 1000"};
   }

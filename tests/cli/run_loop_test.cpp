@@ -1,4 +1,4 @@
-// `wisp run --loop`: a round whose last frame meets its first.
+// `wisp run --loop`: a loop whose last frame meets its first.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -78,6 +78,7 @@ TEST_F(RunLoop, WhatDoesNotGoWithItIsSaid) {
   refused("flame-4", "2 --frames 10", "a.csv", 2, "--frames does not go with --loop");
   refused("leaf", "2 --steer 0,0,-1@1", "a.csv", 2, "--steer does not go with --loop");
   refused("flame-4", "0", "a.csv", 1, "expected above 0");
+  refused("flame-4", "0.02", "a.csv", 1, "a single frame");
   refused("flame-4", "2 --wind 9", "a.csv", 1, "goes out");
   refused("leaf", "2", "a.mp4", 1, "only a loop of an outline is a film");
   refused("flame-4", "2", "a.png", 1, "expected a name that ends in .csv or .mp4");

@@ -9,6 +9,7 @@
 #include "films/candle_pictures.hpp"
 #include "films/leaf_film.hpp"
 #include "films/looped.hpp"
+#include "films/played.hpp"
 #include "flags/recordings.hpp"
 #include "flags/wind_input.hpp"
 #include "reports/chain_walk.hpp"
@@ -89,27 +90,11 @@ Result<Bank> make_bank(const Play& play, const ChainWalk& walk, const Arguments&
   return bank;
 }
 
-// The recording that the run will become: its channels, empty.
-Recording empty_recording(const Play& play, int instances) {
-  Recording recording;
-  recording.rate_hz = play.model.rate_hz;
-  recording.attributes = {{"model", play.model.name}, {"seed", std::to_string(play.seed)}};
-  if (const auto* outline = std::get_if<OutlineView>(&play.model.view)) {
-    set_numbers_attribute(recording, "knots", outline->knots);
-  }
-  for (const Input& input : play.model.inputs) recording.channels.push_back({input.name, input.unit, Role::kInput, {}});
-  for (int k = 0; k < instances; ++k) {
-    const std::string prefix = instances == 1 ? "" : "i" + std::to_string(k) + ".";
-    for (const Output& output : play.model.outputs) {
-      recording.channels.push_back({prefix + output.name, output.unit, Role::kOutput, {}});
-    }
-    if (play.model.extinction) recording.flags.push_back({prefix + "lit", {}});
-  }
-  return recording;
-}
-
 Recording record_run(const Play& play, const Bank& bank, Player& player) {
-  Recording recording = empty_recording(play, bank.size());
+  Recording recording = played_channels(play.model, bank.size(), std::to_string(play.seed));
+  for (int k = 0; play.model.extinction && k < bank.size(); ++k) {
+    recording.flags.push_back({bank.size() == 1 ? "lit" : "i" + std::to_string(k) + ".lit", {}});
+  }
   std::vector<float> outputs(static_cast<std::size_t>(bank.slots()) * bank.output_count());
   for (std::size_t frame = 0; frame < play.frames; ++frame) {
     const auto inputs = player.step();
@@ -155,21 +140,8 @@ Result<void> write_picture(const Play& play, const Bank& bank, Player& player, c
   return write_plots(path, {.title = "", .plots = {std::move(plot)}, .plot_width = 800});
 }
 
-// Falls as they are recorded: one after the other, each instance an episode.
 Recording falls(const Play& play, const Bank& bank, Player& player) {
-  const Recording side_by_side = record_run(play, bank, player);
-  const std::size_t inputs = play.model.inputs.size(), outputs = play.model.outputs.size();
-  Recording recording = empty_recording(play, 1);
-  recording.flags.clear();
-  for (int k = 0; k < bank.size(); ++k) {
-    for (std::size_t c = 0; c < recording.channels.size(); ++c) {
-      const std::size_t from = c < inputs ? c : c + static_cast<std::size_t>(k) * outputs;
-      const std::vector<double>& samples = side_by_side.channels[from].samples;
-      recording.channels[c].samples.insert(recording.channels[c].samples.end(), samples.begin(), samples.end());
-    }
-    recording.episode_ids.insert(recording.episode_ids.end(), play.frames, k);
-  }
-  return recording;
+  return one_after_the_other(record_run(play, bank, player), play.model, bank.size(), std::to_string(play.seed));
 }
 
 Result<void> write_falls(const Play& play, const Bank& bank, Player& player, const std::string& path,
@@ -185,9 +157,10 @@ Result<void> write_falls(const Play& play, const Bank& bank, Player& player, con
 Result<void> write_run(const Play& play, const Bank& bank, Player& player, const std::string& path,
                        Terminal& terminal) {
   const std::string extension = std::filesystem::path(path).extension().string();
-  const bool falls_apart = std::holds_alternative<ChainModel>(play.model.dynamics) && bank.size() > 1;
-  if (extension == ".csv")
-    return write_csv(path, falls_apart ? falls(play, bank, player) : record_run(play, bank, player));
+  if (extension == ".csv") {
+    const bool bodies = are_bodies(play.model, bank.size());
+    return write_csv(path, bodies ? falls(play, bank, player) : record_run(play, bank, player));
+  }
   if (extension == ".png") return write_picture(play, bank, player, path);
   if (extension != ".mp4") return Error{path + ": cannot be written, expected a name that ends in .csv, .png or .mp4"};
   if (std::holds_alternative<PoseView>(play.model.view)) return write_falls(play, bank, player, path, terminal);
@@ -354,8 +327,7 @@ Command run_command() {
            "Twenty seconds of a flame at 30 frames a second, as a film"},
           {"wisp run flame.wisp --frames 1000 --wind 0.5 --noise off -o steady.csv",
            "The noiseless response to steady wind, as numbers"},
-          {"wisp run flame.wisp --loop 4 -o round.mp4",
-           "Four seconds of a flame that go round without an end, as a film"},
+          {"wisp run flame.wisp --loop 4 -o loop.mp4", "Four seconds of a flame that repeat without a seam, as a film"},
           {"wisp run leaf.wisp --frames 1200 --instances 5 -o falls.mp4", "Five leaves that fall for ever, for 20 s"},
           {"wisp run flame.wisp --input puff.csv --frames 600 --relight 5 -o out.mp4",
            "A flame that a puff blows out, its smoke, and how it is lit again after five seconds"},

@@ -3,60 +3,38 @@
 #include <filesystem>
 
 #include "films/candle_pictures.hpp"
+#include "films/played.hpp"
 #include "wisp/draw/video_writer.hpp"
 #include "wisp/record/csv.hpp"
 
 namespace wisp::cli {
 namespace {
 
-// What would make another round than the one that is asked for.
+// A loop is of one steady play: these flags would make another.
 Result<void> check_flags(const Arguments& arguments) {
   for (const char* flag : {"frames", "input", "relight", "history", "temperature", "steer"}) {
     if (arguments.has(flag)) {
-      return Error{"--" + std::string(flag) +
-                   " does not go with --loop, a round of so many seconds in a constant wind"};
+      return Error{"--" + std::string(flag) + " does not go with --loop, a loop of so many seconds in a constant wind"};
     }
   }
   return {};
 }
 
-std::vector<Channel> channels_of(const Model& model, const std::string& prefix) {
-  std::vector<Channel> channels;
-  for (const Output& output : model.outputs) {
-    channels.push_back({prefix + output.name, output.unit, Role::kOutput, {}});
-  }
-  return channels;
-}
-
-// As `run` records play: bodies one after the other, each an episode, other things side by side.
 Recording recording_of(const Model& model, const Take& taken, const Arguments& arguments) {
-  Recording recording;
-  recording.rate_hz = taken.rate_hz;
-  recording.attributes = {{"model", model.name}, {"seed", arguments.text("seed")}, {"loop", arguments.text("loop")}};
-  if (const auto* outline = std::get_if<OutlineView>(&model.view)) {
-    set_numbers_attribute(recording, "knots", outline->knots);
-  }
-  const bool episodes = std::holds_alternative<ChainModel>(model.dynamics) && taken.instances > 1;
-  const std::size_t rows = taken.frames * (episodes ? taken.instances : 1);
-  for (const Input& input : model.inputs) {
-    recording.channels.push_back(
-        {input.name, input.unit, Role::kInput, std::vector<double>(rows, arguments.number("wind"))});
-  }
-  std::vector<Channel> outputs;
-  for (std::size_t k = 0; k < taken.instances; ++k) {
-    if (k == 0 || !episodes) {
-      const std::string prefix = taken.instances == 1 || episodes ? "" : "i" + std::to_string(k) + ".";
-      for (Channel& channel : channels_of(model, prefix)) outputs.push_back(std::move(channel));
+  const auto instances = static_cast<int>(taken.instances);
+  const std::string& seed = arguments.text("seed");
+  Recording recording = played_channels(model, instances, seed);
+  for (std::size_t frame = 0; frame < taken.frames; ++frame) {
+    std::size_t channel = 0;
+    while (channel < model.inputs.size()) {
+      recording.channels[channel++].samples.push_back(arguments.number("wind"));
     }
-    if (episodes) recording.episode_ids.insert(recording.episode_ids.end(), taken.frames, static_cast<std::int64_t>(k));
-    for (std::size_t frame = 0; frame < taken.frames; ++frame) {
-      const auto values = taken.at(frame, k);
-      for (std::size_t i = 0; i < values.size(); ++i) {
-        outputs[outputs.size() - values.size() + i].samples.push_back(values[i]);
-      }
+    for (std::size_t k = 0; k < taken.instances; ++k) {
+      for (const float value : taken.at(frame, k)) recording.channels[channel++].samples.push_back(value);
     }
   }
-  for (Channel& channel : outputs) recording.channels.push_back(std::move(channel));
+  if (are_bodies(model, instances)) recording = one_after_the_other(recording, model, instances, seed);
+  recording.attributes.push_back({"loop", arguments.text("loop")});
   return recording;
 }
 
@@ -85,7 +63,7 @@ Result<void> write_film(const Model& model, const Take& taken, const std::string
 
 Flag loop_flag() {
   return {"loop", Kind::kNumber, "S", "",
-          "a round of that many seconds, whose last frame meets its first in value and in speed; a leaf's round leads "
+          "a loop of that many seconds, whose last frame meets its first in value and in speed; a leaf's loop leads "
           "on by `travel`"};
 }
 
@@ -125,7 +103,7 @@ Result<void> write_loop(const Model& model, const Arguments& arguments, Terminal
   if (!written) return written;
   terminal.add("seed", arguments.integer("seed"));
   terminal.add("output", path);
-  terminal.say("wrote " + path + ": a round of " + std::to_string(taken->frames) + " frames at " +
+  terminal.say("wrote " + path + ": a loop of " + std::to_string(taken->frames) + " frames at " +
                shown(taken->rate_hz, 5) + " a second, seed " + arguments.text("seed"));
   return {};
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A round of a model's play, `--loop` of run and of export: what is taken, and what it becomes as numbers and as a
+// A loop of a model's play, `--loop` of run and of export: what is taken, and what it becomes as numbers and as a
 // film.
 
 #include <string>
@@ -17,8 +17,8 @@ Flag loop_flag();
 /// result. Errors: as take(); --wind for a model without inputs.
 Result<Take> take_from(const Model& model, const Arguments& arguments, Terminal& terminal);
 
-/// `run --loop`: writes the round as numbers (.csv) or, of outlines, as a film (.mp4) whose last frame meets its first.
-/// Errors: as take_from(); a flag that does not go with a round; another name.
+/// `run --loop`: writes the loop as numbers (.csv) or, of outlines, as a film (.mp4) whose last frame meets its first.
+/// Errors: as take_from(); a flag that does not go with a loop; another name.
 Result<void> write_loop(const Model& model, const Arguments& arguments, Terminal& terminal);
 
 }  // namespace wisp::cli

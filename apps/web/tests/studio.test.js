@@ -36,6 +36,12 @@ function table() {
   return Buffer.from(`${rows.join('\n')}\n`);
 }
 
+/** The same, until for its last quarter what comes out has nothing to do with what goes in. */
+function tableThatBreaks() {
+  const rows = table().toString().trim().split('\n');
+  return Buffer.from(rows.map((row, k) => (k < 460 ? row : row.replace(/[^,]*$/, String(Math.sin(k * k))))).join('\n'));
+}
+
 /** Whether two recordings are the same: to a hundredth of a pixel, as decoders of pictures agree, and to a thousandth of wind. */
 function assertSame(ours, theirs) {
   const rows = (text) => text.trim().split('\n').filter((line) => !line.startsWith('#')).map((line) => line.split(','));
@@ -203,6 +209,11 @@ describe('a table', { skip }, () => {
     assert.match(await page.textContent(`${panel} h2`), /It learned how this behaves/);
     await says(page, panel, 'On the last rows');
     assert.ok((await page.textContent(`${panel} .meter`)).includes('temperature'));
+    await drop(page, 'broken.csv', tableThatBreaks());
+    await step(page, 'look');
+    await page.click('[data-act=learn]');
+    await step(page, 'blow', 30_000);
+    assert.match(await page.textContent(`${panel} h2`), /not enough to learn from/);
     assert.ok((await page.locator('.plots canvas').count()) > 0);
     assert.deepEqual([page.errors, page.strangers], [[], []]);
   });

@@ -263,7 +263,7 @@ function absent(name: string): () => number {
   const BAD_DESCRIPTOR = 8;
   if (/^(fd_|environ_|clock_)/.test(name)) return () => BAD_DESCRIPTOR;
   return () => {
-    throw new StudioError(`the module called ${name}, which is not implemented`);
+    throw new StudioError(`the module wants ${name} of an operating system, and a page has none`);
   };
 }
 

@@ -45,21 +45,44 @@ bool driven_by_nothing(const OutlineSummary& summary) {
   return !summary.inputs.empty() && std::none_of(summary.alignment.begin(), summary.alignment.end(), stands_out);
 }
 
-// Most films have sound, and in most of them nobody blows. Where nobody said what drives the outline, an input that has
-// nothing in common with it and by which it cannot be followed is left out.
-Result<OutlineFit> fit_what_drives(const std::vector<Recording>& recordings, const OutlineRecipe& recipe,
-                                   const Progress& progress) {
+// Whether no input of any recording is ever other than 0.
+bool are_silent(std::span<const Recording> recordings) {
+  const auto is_zero = [](double u) { return !(std::abs(u) > 0); };
+  for (const Recording& recording : recordings) {
+    for (std::size_t c : channels_with_role(recording, Role::kInput)) {
+      const auto& samples = recording.channels[c].samples;
+      if (!std::all_of(samples.begin(), samples.end(), is_zero)) return false;
+    }
+  }
+  return true;
+}
+
+Result<OutlineFit> fit_flicker(std::span<const Recording> recordings, OutlineRecipe recipe, const std::string& why,
+                               const Progress& progress) {
+  recipe.inputs.emplace();
   auto fit = fit_outline(recordings, recipe, progress);
-  if (!fit || recipe.inputs || fit->summary.usable.verdict || !driven_by_nothing(fit->summary)) return fit;
-  OutlineRecipe alone = recipe;
-  alone.inputs.emplace();
-  auto flicker = fit_outline(recordings, alone, progress);
+  if (fit) {
+    fit->summary.warnings.push_back(why +
+                                    ": learned without it, so that the model flickers but does not answer to wind; to "
+                                    "teach it that, blow while you record");
+  }
+  return fit;
+}
+
+// Most films have sound, and in most of them nobody blows. Where nobody said what drives the outline, an input that is
+// silent, or that has nothing in common with the motion and by which it cannot be followed, is left out.
+Result<OutlineFit> fit_what_drives(std::span<const Recording> recordings, const OutlineRecipe& recipe,
+                                   const Progress& progress) {
+  const bool open = !recipe.inputs && !channels_with_role(recordings.front(), Role::kInput).empty();
+  if (open && are_silent(recordings)) {
+    return fit_flicker(recordings, recipe, "nothing was heard as wind", progress);
+  }
+  auto fit = fit_outline(recordings, recipe, progress);
+  if (!open || !fit || fit->summary.usable.verdict || !driven_by_nothing(fit->summary)) return fit;
+  auto flicker =
+      fit_flicker(recordings, recipe, "what was heard as wind has nothing in common with the motion", progress);
   if (!flicker) return fit;
   flicker->summary.alignment = std::move(fit->summary.alignment);
-  flicker->summary.warnings.push_back(
-      "what was heard as wind has nothing in common with the motion: learned without it, so that the model flickers "
-      "but "
-      "does not answer to wind; to teach it that, blow while you record");
   return flicker;
 }
 

@@ -247,6 +247,8 @@ class ArxStepper : public ChannelHistory<N> {
     Real* newest = ring_.sample(block, 0);
     if (drawn_.empty()) {
       if (are_few(moment.lanes)) {
+        // Empty slots are saved too: they must not get what is left over in memory.
+        for (int k = 0; k < program_.shock_channels; ++k) store(all<Reals<N>>(0.0f), shock(block, k));
         for (int lane = 0; lane < moment.lanes; ++lane) draw_alone(block, lane, moment);
         start_all(block, choice);
         return;

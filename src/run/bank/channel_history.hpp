@@ -24,7 +24,7 @@ class ChannelHistory {
   /// Moves every block's history by one sample; the newest is now to be made.
   void turn() { ring_.turn(); }
 
-  /// Whether blocks are better asked for before they are stepped: caches do not hold them all.
+  /// Whether blocks are prefetched before they are stepped: caches do not hold them all.
   bool is_far() const { return ring_.bytes() > kNearBytes; }
   void fetch(int block) const { ring_.fetch(block); }
 

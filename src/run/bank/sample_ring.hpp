@@ -32,7 +32,7 @@ class SampleRing {
 
   int depth() const { return depth_; }
 
-  /// Asks the machine for all of a block's samples: they lie in one piece, but are read here and there.
+  /// Prefetches all of a block's samples: they lie in one piece, but are read here and there.
   void fetch(int block) const {
 #ifdef __GNUC__
     const auto* line = reinterpret_cast<const char*>(begin(block));

@@ -110,7 +110,16 @@ TEST(LearnOutline, AnInputThatMovesNothingIsLeftOutWithAWarning) {
   EXPECT_THAT(fit.report.warnings, testing::Contains(HasSubstr("nothing in common with the motion")));
 }
 
-TEST(LearnOutline, AnInputThatWasAskedForStays) {
+TEST(LearnOutline, SoundInWhichNobodyBlowsIsLeftOutWithAWarning) {
+  Recording recording = with_wind_elsewhere();
+  for (double& u : recording.channels[*find_channel(recording, "wind")].samples) u = 0;
+  const Fit fit = learned({recording}, FlameRecipe{});
+  EXPECT_TRUE(fit.model.inputs.empty());
+  EXPECT_TRUE(fit.report.verdict->usable) << fit.report.verdict->reason;
+  EXPECT_THAT(fit.report.warnings, testing::Contains(HasSubstr("nothing was heard as wind: learned without it")));
+}
+
+TEST(LearnOutline, AnInputThatIsNamedStays) {
   OutlineRecipe recipe;
   recipe.inputs = {"wind"};
   const Fit fit = learned({with_wind_elsewhere()}, recipe);

@@ -61,6 +61,34 @@ TEST(BankBits, AnInstanceLivesTheSameLifeInABankOfAnySize) {
   }
 }
 
+// Several blocks are stepped at once: each goes by the ages of its own instances.
+TEST(BankBits, AnInstanceBornLaterThanTheBlocksBesideItLivesTheSameLife) {
+  for (int slot : {9, 17, 31}) {
+    Bank bank = bank_of(32);
+    for (int k = 0; k < 32; ++k) bank.spawn(100 + k);
+    for (int frame = 0; frame < 30; ++frame) bank.step();
+    ASSERT_TRUE(bank.end(bank.at(slot)));
+    const InstanceId id = bank.spawn(5);
+    ASSERT_EQ(id.slot, static_cast<std::uint32_t>(slot));
+    EXPECT_TRUE(same_bits(life(bank, id, 5), life_alone(5))) << slot;
+  }
+}
+
+TEST(BankBits, ANewbornDoesNotHearTheWindOfWhatLivedInItsSlot) {
+  Bank bank = bank_of(1), fresh = bank_of(1);
+  bank.spawn(1);
+  bank.set_inputs(std::vector<float>{0.8f});
+  bank.end(bank.at(0));
+  const InstanceId id = bank.spawn(5), other = fresh.spawn(5);
+  std::vector<float> a(bank.output_count()), b(a.size());
+  for (int frame = 0; frame < 10; ++frame) {
+    bank.step();
+    fresh.step();
+  }
+  ASSERT_TRUE(bank.outputs(id, a) && fresh.outputs(other, b));
+  EXPECT_TRUE(same_bits(a, b));
+}
+
 TEST(BankBits, ItsLifeDoesNotDependOnWhatLivedInItsSlotBefore) {
   Bank bank = bank_of(3);
   for (int k = 0; k < 3; ++k) bank.spawn(k);

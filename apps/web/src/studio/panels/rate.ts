@@ -1,32 +1,44 @@
-// Pictures: how many a second.
+// How many a second: of pictures, and of a table's rows.
 
 import { element } from '../../panel/element.js';
 
 /** What cameras mostly do. */
 const USUAL = 30;
+const MOST = 1000;
+
+/** A field for how many of something there are a second. */
+export function rateField(id: string, words: string, value: number): { input: HTMLInputElement; label: HTMLElement } {
+  const input = element('input', { type: 'number', min: '0.001', max: '1000000', step: 'any', value, id, inputmode: 'decimal' });
+  return { input, label: element('label', { class: 'rate', for: id }, words, input) };
+}
+
+/** The foot of a panel that goes on or back. */
+export function goOrBack(go: HTMLButtonElement, back: () => void): HTMLElement {
+  const returns = element('button', { type: 'button', class: 'tool' }, 'Back');
+  returns.addEventListener('click', back);
+  return element('div', { class: 'actions' }, go, returns);
+}
 
 /** The panel. `go` is called with what was said. */
 export function ratePanel(name: string, pictures: number, go: (rate: number) => void, back: () => void): HTMLElement {
-  const rate = element('input', { type: 'number', min: '1', max: '1000', step: 'any', value: USUAL, id: 'pictures-rate', inputmode: 'decimal' });
+  const { input: rate, label } = rateField('pictures-rate', 'Pictures a second', USUAL);
   const look = element('button', { type: 'button', class: 'tool main', 'data-act': 'look' }, 'Look at them');
   const length = element('p', { class: 'quiet', role: 'status' });
   const check = (): void => {
-    const good = rate.validity.valid && rate.valueAsNumber > 0;
+    const good = rate.validity.valid && rate.valueAsNumber <= MOST && rate.valueAsNumber >= 1;
     look.disabled = !good;
-    length.textContent = good ? `They last ${(pictures / rate.valueAsNumber).toFixed(1)} s.` : 'Say a number from 1 to 1000.';
+    length.textContent = good ? `They last ${(pictures / rate.valueAsNumber).toFixed(1)} s.` : `Say a number from 1 to ${MOST}.`;
   };
   rate.addEventListener('input', check);
   look.addEventListener('click', () => go(rate.valueAsNumber));
-  const returns = element('button', { type: 'button', class: 'tool' }, 'Back');
-  returns.addEventListener('click', back);
   check();
   return element(
     'div',
     { class: 'panel' },
     element('h2', { tabindex: '-1' }, 'How many pictures a second?'),
     element('p', {}, `${name}: ${pictures.toLocaleString('en')} pictures. They do not say how fast they follow each other.`),
-    element('label', { class: 'rate', for: 'pictures-rate' }, 'Pictures a second', rate),
+    label,
     length,
-    element('div', { class: 'actions' }, look, returns),
+    goOrBack(look, back),
   );
 }

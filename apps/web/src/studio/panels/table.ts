@@ -2,6 +2,7 @@
 
 import type { TableSettings } from '@wisp/studio';
 import { element } from '../../panel/element.js';
+import { goOrBack, rateField } from './rate.js';
 import { roleOf, type TableHead } from '../table_head.js';
 
 const ROLES = ['input', 'output', 'ignored'] as const;
@@ -11,7 +12,7 @@ const WORDS = { input: 'goes in', output: 'comes out', ignored: 'ignored' } as c
 export function tablePanel(name: string, head: TableHead, learn: (settings: TableSettings) => void, back: () => void): HTMLElement {
   const roles = head.names.map((column, k) => roleOf(column, head.numeric[k] === true));
   const rows = element('div', { class: 'columns' });
-  const rate = element('input', { type: 'number', min: '0', step: 'any', value: head.rate ?? 1, id: 'table-rate', inputmode: 'decimal' });
+  const { input: rate, label } = rateField('table-rate', 'Rows a second', head.rate ?? 1);
   const go = element('button', { type: 'button', class: 'tool main', 'data-act': 'learn' }, 'Learn it');
   const trouble = element('p', { class: 'quiet', role: 'status' });
   const unsaid = head.rate === null ? [element('p', { class: 'quiet' }, 'The table does not say how often a row comes. At 1 a second, time is counted in rows.')] : [];
@@ -39,8 +40,6 @@ export function tablePanel(name: string, head: TableHead, learn: (settings: Tabl
     const named = (role: (typeof ROLES)[number]): string[] => head.names.filter((_, k) => roles[k] === role);
     learn({ rate: rate.valueAsNumber, inputs: named('input'), outputs: named('output') });
   });
-  const returns = element('button', { type: 'button', class: 'tool' }, 'Back');
-  returns.addEventListener('click', back);
   check();
   return element(
     'div',
@@ -48,9 +47,9 @@ export function tablePanel(name: string, head: TableHead, learn: (settings: Tabl
     element('h2', { tabindex: '-1' }, 'What goes in, what comes out?'),
     element('p', {}, `${name}: say what each column is. What comes out is learned from its own past and from what went in.`),
     rows,
-    element('label', { class: 'rate', for: 'table-rate' }, 'Rows a second', rate),
+    label,
     ...unsaid,
     trouble,
-    element('div', { class: 'actions' }, go, returns),
+    goOrBack(go, back),
   );
 }
