@@ -104,6 +104,9 @@ Thing thing_of(const std::vector<int>& pixels, double contrast, const std::vecto
     yy += weight * py * py;
   }
   Thing thing{.x = x / sum, .y = y / sum, .area = sum, .contrast = contrast};
+  const auto [left, right] = std::ranges::minmax(pixels, {}, [&](int p) { return p % width; });
+  thing.left = left % width, thing.right = right % width;
+  thing.bottom = std::ranges::max(pixels) / width;
   xx = xx / sum - thing.x * thing.x, yy = yy / sum - thing.y * thing.y, xy = xy / sum - thing.x * thing.y;
   const double middle = (xx + yy) / 2, radius = std::hypot((xx - yy) / 2, xy);
   const double across = std::max(middle - radius - kPixelVariance, kPixelVariance);
@@ -124,7 +127,13 @@ Wall wall_of(std::span<const Frame> frames, int width, int height) {
     wall.brightness[p] = quantile(values, 0.5);
   }
   std::vector<float> gains;
-  for (const Frame* sample : samples) gains.push_back(gain_of(*sample, wall.brightness));
+  double square = 0;
+  for (const Frame* sample : samples) {
+    gains.push_back(gain_of(*sample, wall.brightness));
+    const double shift = shift_of(*sample, wall, gains.back());
+    square += shift * shift;
+  }
+  wall.shake = std::sqrt(square / static_cast<double>(samples.size()));
   std::vector<float> sigmas(pixels);
   std::size_t unsteady = 0;
   for (std::size_t p = 0; p < pixels; ++p) {

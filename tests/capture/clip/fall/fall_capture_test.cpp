@@ -308,6 +308,101 @@ Plane empty_wall(int frame) {
   return plane;
 }
 
+std::string reason_of(const Captured& clip) { return clip.report.verdict->reason; }
+
+// A wall with what `strip` says of a frame.
+Plane wall_with(const std::optional<Strip>& strip, int frame) {
+  Plane plane(kWidth, kHeight, 200);
+  if (strip) paint_strip(plane, *strip, 80);
+  add_noise(plane, static_cast<unsigned>(frame) + 1, 2);
+  return plane;
+}
+
+TEST(FallCapture, FallsThatThePicturesSidesCutAreNotUsable) {
+  const Film film{.falls = 12};
+  const auto straying = [&](int frame) {
+    auto at = film.strip(frame);
+    const double way = frame / film.frames_a_fall % 2 == 0 ? 0.6 : -0.6;
+    if (at) at->x += way * (at->y - 70);
+    return wall_with(at, frame);
+  };
+  const auto clip = captured(film.frames(), kRate, straying);
+  ASSERT_TRUE(clip) << clip.error().message;
+  EXPECT_FALSE(clip->report.verdict->usable) << reason_of(*clip);
+  EXPECT_THAT(reason_of(*clip), HasSubstr("cut by the picture's sides"));
+  EXPECT_THAT(reason_of(*clip), HasSubstr("from further away"));
+}
+
+TEST(FallCapture, WhatIsOutOfSightForAMomentIsOneFall) {
+  const Film film;
+  const auto clip = captured(film.frames(), kRate, [&](int frame) {
+    const int since = frame % film.frames_a_fall;
+    return wall_with(since >= 20 && since < 24 ? std::nullopt : film.strip(frame), frame);
+  });
+  ASSERT_TRUE(clip) << clip.error().message;
+  EXPECT_EQ(falls_of(*clip), 6u);
+  EXPECT_TRUE(clip->report.verdict->usable) << reason_of(*clip);
+  EXPECT_LT(errors_of(*clip, film).position, 0.02 * kMetres);
+}
+
+TEST(FallCapture, FallsThatAreLostFromViewAtAnyHeightAreNotUsable) {
+  const Film film{.falls = 9};
+  const auto clip = captured(film.frames(), kRate, [&](int frame) {
+    const int fall = frame / film.frames_a_fall;
+    const bool lost = frame % film.frames_a_fall > 24 + 4 * fall;
+    return wall_with(lost ? std::nullopt : film.strip(frame), frame);
+  });
+  ASSERT_TRUE(clip) << clip.error().message;
+  EXPECT_FALSE(clip->report.verdict->usable) << reason_of(*clip);
+  EXPECT_THAT(reason_of(*clip), HasSubstr("lost from view"));
+}
+
+TEST(FallCapture, FallsThatEndOnATableAreWhole) {
+  const Film film;
+  const auto clip = captured(film.frames(), kRate, [&](int frame) {
+    auto at = film.strip(frame);
+    if (at && at->y > 230) at.reset();  // behind its edge
+    return wall_with(at, frame);
+  });
+  ASSERT_TRUE(clip) << clip.error().message;
+  EXPECT_TRUE(clip->report.verdict->usable) << reason_of(*clip);
+  EXPECT_EQ(std::get<std::int64_t>(clip->report.find("whole")->value), 6);
+}
+
+TEST(FallCapture, ThingsThatMayBeTakenForEachOtherAreLeftOut) {
+  const Film film{.falls = 4};
+  const auto clip = captured(film.frames(), kRate, [&](int frame) {
+    Plane plane = film.picture(frame);
+    if (auto at = film.strip(frame)) {
+      at->x = 60 + at->x / 2 + 10;
+      at->y += 25;
+      paint_strip(plane, *at, 80);
+    }
+    return plane;
+  });
+  expect_refused(clip, "one thing fall at a time");
+}
+
+TEST(FallCapture, WhatIsOverAtOnceSaysHowToFilmIt) {
+  const auto clip = captured(6 * 30, kRate, [&](int frame) {
+    const int since = frame % 30;
+    return wall_with(since < 7 ? std::optional<Strip>({.x = 120, .y = 40 + 36.0 * since}) : std::nullopt, frame);
+  });
+  expect_refused(clip, "60 frames a second");
+}
+
+TEST(FallCapture, AnAxisThatJumpsFromFrameToFrameIsNoTilt) {
+  const Film film;
+  const auto clip = captured(film.frames(), kRate, [&](int frame) {
+    auto at = film.strip(frame);
+    if (at && frame % 5 == 0) at->angle += 1.2;
+    return wall_with(at, frame);
+  });
+  ASSERT_TRUE(clip) << clip.error().message;
+  EXPECT_FALSE(find_channel(clip->recording, "q.w"));
+  EXPECT_THAT(std::get<std::string>(clip->report.find("tilt_reason")->value), HasSubstr("jumps"));
+}
+
 TEST(FallCapture, AFilmOfAWallSaysThatNothingMoves) {
   expect_refused(captured(90, kRate, empty_wall), "nothing moves");
 }
@@ -323,6 +418,26 @@ TEST(FallCapture, ACameraThatShakesSaysThatEverythingMoves) {
     return plane;
   };
   expect_refused(captured(90, kRate, shaken), "everything moves");
+}
+
+TEST(FallCapture, ACameraThatTremblesBeforeAWallWithMarksIsNotUsable) {
+  const Film film;
+  std::mt19937 random(3);
+  const auto trembling = [&](int frame) {
+    const double dx = static_cast<double>(random() % 13) - 6, dy = static_cast<double>(random() % 13) - 6;
+    Plane plane(kWidth, kHeight, 200);
+    for (int k = 0; k < 16; ++k) {
+      const double x = 40.0 * (k % 6) + 20 - dx, y = 106.0 * (k / 6) + 26 - dy;
+      support::paint(plane, 60, 1.0, [&](double u, double v) { return 11 - std::hypot(u - x, v - y); });
+    }
+    if (auto at = film.strip(frame)) paint_strip(plane, {.x = at->x - dx, .y = at->y - dy, .angle = at->angle}, 60);
+    return plane;
+  };
+  const auto clip = captured(film.frames(), kRate, trembling);
+  ASSERT_TRUE(clip) << clip.error().message;
+  EXPECT_FALSE(clip->report.verdict->usable) << reason_of(*clip);
+  EXPECT_THAT(reason_of(*clip), HasSubstr("shakes"));
+                                                     << std::get<double>(clip->report.find("unsteady")->value);
 }
 
 TEST(FallCapture, AHandThatOnlyReachesInIsNoFall) {
