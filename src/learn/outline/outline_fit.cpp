@@ -482,6 +482,7 @@ Result<OutlineFit> fit_outline(std::span<const Recording> recordings, const Outl
     summary.refitted = true;
   }
   summary.rate_hz = prepared->recordings.front().rate_hz;
+  summary.unsteadiness = unsteadiness(*prepared);
   summary.inputs = prepared->inputs;
   summary.warnings.insert(summary.warnings.end(), prepared->warnings.begin(), prepared->warnings.end());
   summary.points = prepared->layout.points;

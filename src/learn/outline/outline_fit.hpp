@@ -77,6 +77,7 @@ struct OutlineSummary {
   std::vector<OutlineResidual> residuals;  ///< of the returned model, one a channel
   double fpe = 0;                          ///< of the returned model, mean over rows of V·(1 + d/n)/(1 − d/n)
   ArxStability stable;
+  double unsteadiness = 0;       ///< of what was recorded: 0 moves steadily, 1 is frames in random order
   double held_share = 0;         ///< of steps in which an output is clamped to its range, playing freely with noise
   std::vector<double> sd_ratio;  ///< of every channel: playing freely along the liveliest recording over
                                  ///< what that has; 1 where nothing moves

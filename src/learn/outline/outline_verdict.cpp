@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::size_t kMinRows = 50;
 constexpr int kMinRowsACoefficient = 4;
-constexpr double kMinFollowed = 5;  // per cent: a short simulation fits a little by where it starts
+constexpr double kMaxUnsteadiness = 0.5;  // films of flames have 0.02 to 0.3; noise as strong as the movement 0.55
+constexpr double kMinFollowed = 5;        // per cent: a short simulation fits a little by where it starts
 constexpr double kMaxHeld = 1e-3;
 constexpr double kMaxLossGrown = 1.2;  // of a repaired model, in variance: beyond it is another model
 constexpr double kMaxSpread = 2;       // playing freely over recorded, of the typical channel, either way
@@ -123,6 +124,12 @@ Usable outline_verdict(const ArxSummary& fit, const OutlineSummary& summary) {
                        std::to_string(rows) + " frames describe chance more than the thing; at least " +
                        std::to_string(kMinRowsACoefficient) +
                        " frames a coefficient are needed: record longer, or try a lower order or less coupling"};
+  }
+  if (summary.unsteadiness > kMaxUnsteadiness) {
+    return {false, "neighbouring frames are hardly more alike than frames picked at random (they differ by " +
+                       rounded(100 * summary.unsteadiness, 0) + " % of what those do, at most " +
+                       rounded(100 * kMaxUnsteadiness, 0) +
+                       "): the outline is more noise than movement; film it larger, sharper or at a higher rate"};
   }
   if (fit.stable.changed && fit.stable.loss_factor > kMaxLossGrown) {
     return {false, "the estimate was unstable (radius " + rounded(fit.stable.estimated, 4) +

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <random>
 
 #include "learn/outline/made_outline.hpp"
 #include "learn/outline/outline_knots.hpp"
@@ -254,6 +256,23 @@ TEST(Outline, ThreeFramesAreTooFew) {
   EXPECT_EQ(
       refused({recording}),
       "made 1: has 3 complete rows, and 8 coefficients an output need at least 24; record longer or lower the order");
+}
+
+TEST(Outline, FramesInRandomOrderAreNotUsableAndSaySo) {
+  Recording recording = made::outline_recording({.rows = 1500});
+  std::vector<std::size_t> order(recording.rows());
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.end(), std::mt19937(7));
+  for (Channel& channel : recording.channels) {
+    const std::vector<double> before = channel.samples;
+    for (std::size_t row = 0; row < order.size(); ++row) channel.samples[row] = before[order[row]];
+  }
+  const auto fit = fit_outline(std::vector{recording}, {.order = 2});
+  ASSERT_TRUE(fit) << fit.error().message;
+  EXPECT_GT(fit->summary.unsteadiness, 0.9);
+  EXPECT_FALSE(fit->summary.usable.verdict);
+  EXPECT_NE(fit->summary.usable.reason.find("picked at random"), std::string::npos) << fit->summary.usable.reason;
+  EXPECT_LT(learned({.rows = 1500}, {.order = 2}).summary.unsteadiness, 0.5);
 }
 
 TEST(Outline, AFewDozenFramesAreNotUsableAndSaySo) {
