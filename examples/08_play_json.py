@@ -4,8 +4,8 @@
     wisp info MODEL.wisp --json | python3 08_play_json.py [FRAMES] [WIND] [SEED] [on|off] >play.csv
 
 The numbers are those of `wisp run MODEL.wisp --frames FRAMES --wind WIND --seed SEED --noise on|off`, to the bit: for
-ARX models with Gaussian noise and for switched ones; without noise for models with resampled residuals too. Chains are
-refused, and no flame goes out. docs/reference/model-file.md ("How a model is played") says the same in words.
+ARX models with Gaussian noise or resampled residuals and for switched ones. WIND is a number, or a file with one a line.
+Chains are refused, and no flame goes out. docs/reference/model-file.md ("How a model is played") says the same in words.
 """
 import itertools, json, math, sys
 import numpy as np
@@ -14,6 +14,7 @@ F = np.float32  # all arithmetic of a step is in single precision
 
 
 def kept(value): return F(0) if abs(value) < 1e-10 else F(value)
+def bounded(value): return kept(min(max(value, -1e9), 1e9))
 def settle(z): return F(0) if abs(z) < F(1e-20) else z
 def clamp(z, low, high): return min(max(z, low), high)
 
@@ -78,11 +79,103 @@ def likely(chances, word):  # a step of a Markov chain; without a word the likel
     return next(k for k, top in enumerate(tops) if top == 2**32 - 1 or word < top)
 
 
+class Resampled:
+    """Residuals as they were: row after row, and a jump where another row's past is more like the input's."""
+
+    def __init__(self, d, unit):
+        ny, r = len(d["output_mean"]), d["noise"]["resampled"]
+        self.lags, self.longest, self.toward, self.against = r["lags"], r["longest"], r["toward"], r["against"]
+        self.rows = [[bounded(x * (scale / u)) for x, scale, u in zip(row, r["scale"], unit)] for row in r["rows"]]
+        self.sides = [[(i, F(1)) for i in range(ny)]]
+        if r["mirror"]:
+            self.sides += [[(abs(m) - 1, bounded((-1 if m < 0 else 1) * unit[abs(m) - 1] / u)) for m, u in zip(r["mirror"], unit)]]
+        stretches = list(enumerate(zip([0] + r["ends"], r["ends"])))
+        self.left = [end - 1 - row for _, (begin, end) in stretches for row in range(begin, end)]
+        self.at, self.played = (0, 0), [(0, self.longest)] + [(0, 0)] * 3  # (row, side); (last row, steps) of blocks
+        if self.toward < 0:
+            return
+        scale, of, depth = unit[ny + self.toward], d["input_mean"], self.lags[-1]
+        mean = (of[self.toward] - (of[self.against] if self.against >= 0 else 0)) / scale
+        winds = [bounded(w * (r["wind_scale"] / scale) - mean) for w in r["winds"]]
+        now = [row + (k + 1) * depth for k, (begin, end) in stretches for row in range(begin, end)]
+        self.pasts = [[winds[place - lag] for lag in self.lags] for place in now]
+        self.turned = [len(self.sides) > 1 and sum(past, F(0)) < 0 for past in self.pasts]
+        self.tolerance, self.margin = bounded(len(self.lags) * r["tolerance"] / scale), bounded(r["margin"] / scale)
+        self.heard = [F(0)] * (depth + 1)
+        least = min(max(self.left), 6)
+        self.order, self.nodes, leaves = [row for row, left in enumerate(self.left) if left >= least], {}, 1
+        while (len(self.order) + leaves - 1) // leaves > 8:
+            leaves *= 2
+        self.grow(0, 0, len(self.order), leaves - 1)
+
+    def past(self, row, k):
+        return -self.pasts[row][k] if self.turned[row] else self.pasts[row][k]
+
+    def grow(self, node, begin, end, nodes):  # a balanced tree over the pasts: halves by the lag that spreads widest
+        if node >= nodes:
+            return
+        spread = [max(column) - min(column) for column in
+                  ([self.past(row, k) for row in self.order[begin:end]] for k in range(len(self.lags)))]
+        k, middle = spread.index(max(spread)), begin + (end - begin) // 2
+        self.order[begin:end] = sorted(self.order[begin:end], key=lambda row: (self.past(row, k), row * 0x9E3779B1 % 2**32))
+        low, high = self.past(self.order[middle - (middle > begin)], k), self.past(self.order[middle], k)
+        self.nodes[node] = F(0.5) * (low + high), k
+        self.grow(2 * node + 1, begin, middle, nodes)
+        self.grow(2 * node + 2, middle, end, nodes)
+
+    def hear(self, regressors):
+        if self.toward >= 0:
+            wind = regressors[self.toward] - (regressors[self.against] if self.against >= 0 else F(0))
+            self.heard = [wind] + self.heard[:-1]
+
+    def apart(self, row, side):  # how far the input's past is from a row's
+        total = F(0)
+        for then, lag in zip(self.pasts[row], self.lags):
+            total = total + abs(then + self.heard[lag] if side else then - self.heard[lag])
+        return total
+
+    def leaf(self, turned, word):
+        begin, end, node = 0, len(self.order), 0
+        while node in self.nodes:
+            value, k = self.nodes[node]
+            away = F(0) - value - self.heard[self.lags[k]] if turned else self.heard[self.lags[k]] - value
+            right = word >> 31 if abs(away) <= self.margin else int(away > 0)
+            middle = begin + (end - begin) // 2
+            begin, end = (middle, end) if right else (begin, middle)
+            node, word = 2 * node + 1 + right, (word << 1 | word >> 31) & 0xFFFFFFFF
+        return self.order[begin:end]
+
+    def jump(self, on, ahead, words):  # where to go on; `ahead`: what staying costs, None where that cannot be
+        if self.toward < 0:
+            return words[0] * len(self.left) >> 32, 0
+        turned = len(self.sides) > 1 and sum((self.heard[lag] for lag in self.lags), F(0)) < 0
+        found = [(row, int(turned != self.turned[row])) for row in self.leaf(turned, words[0])]
+        fresh = [at for at in found if not any(n > 0 and at[0] <= last + 1 and at[0] + n > last for last, n in self.played)]
+        nearest = sorted(((self.apart(*at), at) for at in fresh), key=lambda one: one[0])[:3]
+        if not nearest:
+            return found[-1] if ahead is None else on
+        if ahead is not None and ahead - nearest[0][0] <= self.tolerance:
+            return on
+        return nearest[words[1] * len(nearest) >> 32][1]
+
+    def step(self, words):  # what is added to every output
+        (row, side), steps = self.at, self.played[0][1]
+        forced, on = steps >= self.longest or self.left[row] == 0, (row + 1, side)
+        ahead = None if forced else self.apart(*on) if self.toward >= 0 else F(0)
+        self.at = self.jump(on, ahead, words) if forced or self.toward >= 0 and ahead > self.tolerance else on
+        if self.at == on and not forced:
+            self.played[0] = (self.at[0], steps + 1)
+        else:
+            self.played = [(self.at[0], 1)] + self.played[:3]
+        return [factor * self.rows[self.at[0]][i] for i, factor in self.sides[self.at[1]]]
+
+
 def play(model, frames, wind, seed=1, noise=True):
-    """Yields the outputs of every frame; `wind` is the value of all inputs."""
+    """Yields the outputs of every frame; `wind` is the value of all inputs, or one value a frame."""
     d, outputs, ny = model["dynamics"], model["outputs"], len(model["outputs"])
-    if d["kind"] == "chain" or noise and (d.get("noise") or {}).get("resampled"):
-        sys.exit("08_play_json.py: chains are not played, and resampled residuals only without noise (`off`)")
+    if d["kind"] == "chain":
+        sys.exit("08_play_json.py: this model is a chain, which is not played here; expected an ARX or switched model")
+    winds = wind if isinstance(wind, list) else [wind] * frames
     forms = [(item, sign, power) for item in model["inputs"] for sign in ([1, -1] if "split" in item["form"] else [0])
              for power in ([1, 0.5, 2] if "powers" in item["form"] else [1])]
     unit = [unit_of(o) for o in outputs] + [unit_of(item) ** power for item, _, power in forms]
@@ -113,18 +206,24 @@ def play(model, frames, wind, seed=1, noise=True):
         return total
 
     past = [[settle(clamp(F(0), *h)) for h in held] + [F(0)] * len(forms) for _ in range(d["history"] + 1)]
-    mode = None
+    mode, resampled = None, Resampled(d, unit) if (d.get("noise") or {}).get("resampled") else None
     for step in range(frames):
-        now = [F(0)] * ny + [regress(*form, mean, wind) for form, mean in zip(forms, d["input_mean"])]
+        now = [F(0)] * ny + [regress(*form, mean, winds[step]) for form, mean in zip(forms, d["input_mean"])]
         past = [now] + past[:-1]
         if regions:
             mode = max(range(len(regions)), key=lambda k: (score(regions[k]), -k))
         elif "transitions" in d:
             word = words(seed, step, (ny + 3) // 4)[0] if noise else None
             mode = likely(d["initial"] if mode is None else d["transitions"][mode], word)
-        deviates = [normal(w, model["random"]["normal_table"]) for g in range(groups) for w in words(seed, step, g)]
+        drawn = None
+        if resampled:
+            resampled.hear(now[ny:])
+            drawn = resampled.step(words(seed, step, 0)) if noise else [F(0)] * ny
+        deviates = [] if resampled else [normal(w, model["random"]["normal_table"]) for g in range(groups) for w in words(seed, step, g)]
         for i, (total, taps, shocks) in enumerate(rows[mode or 0]):
-            for size, k in shocks if noise else []:
+            if drawn:
+                total = total + drawn[i]
+            for size, k in shocks if noise and not drawn else []:
                 total = total + size * deviates[k]
             for weight, channel, lag in taps:
                 total = total + weight * past[lag][channel]
@@ -136,5 +235,9 @@ if __name__ == "__main__":
     frames, wind, seed, noise = sys.argv[1:] + ["100", "0", "1", "on"][len(sys.argv) - 1:]
     of = json.load(sys.stdin)
     print(",".join(o["name"] for o in of["outputs"]))
-    for values in play(of, int(frames), float(wind), int(seed), noise == "on"):
+    try:
+        winds = [float(wind)] * int(frames)
+    except ValueError:
+        winds = [float(line) for line in open(wind)][: int(frames)]
+    for values in play(of, len(winds), winds, int(seed), noise == "on"):
         print(",".join(repr(float(v)) for v in values))
