@@ -45,8 +45,9 @@ void expect_as_from_chars(std::string_view text) {
 }
 
 TEST(ReadNumber, WithoutTheLibraryIsWhatTheLibraryReads) {
-  for (const char* text : {"0", "-0", "1.5", "-25e-3", ".5", "5.", "1e5", "1e+5", "0.1", "123456789012345678901234567890",
-                           "2.2250738585072011e-308", "1.7976931348623157e308", "4.9e-324", "0.30000000000000004"})
+  for (const char* text :
+       {"0", "-0", "1.5", "-25e-3", ".5", "5.", "1e5", "1e+5", "0.1", "123456789012345678901234567890",
+        "2.2250738585072011e-308", "1.7976931348623157e308", "4.9e-324", "0.30000000000000004"})
     expect_as_from_chars(text);
   for (const char* text : {"", "-", "+1", "-+1", " 1", "x", ".", "e5", "-x"}) expect_as_from_chars(text);
 }
@@ -57,7 +58,8 @@ TEST(ReadNumber, EndsWhereTheLibraryEnds) {
 }
 
 TEST(ReadNumber, KnowsWhatIsNoNumberAndWhatNoDoubleHolds) {
-  for (const char* text : {"nan", "inf", "-inf", "NaN 3", "infinity", "1e999", "-1e999", "1e-999"}) expect_as_from_chars(text);
+  for (const char* text : {"nan", "inf", "-inf", "NaN 3", "infinity", "1e999", "-1e999", "1e-999"})
+    expect_as_from_chars(text);
 }
 
 }  // namespace

@@ -77,8 +77,7 @@ float unit_of(const ChainProgram& program, std::size_t offset, float scale) {
     for (std::size_t axis = 0; axis < 3; ++axis)
       sum += static_cast<double>(program.rates[k + axis]) * program.rates[k + axis];
   }
-  const auto unit =
-      static_cast<float>(std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, count)))) * scale;
+  const auto unit = static_cast<float>(std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, count)))) * scale;
   return std::max(unit, kLeastUnit);
 }
 

@@ -1,0 +1,119 @@
+#!/usr/bin/env python3
+"""Plays a model from nothing but what `wisp info MODEL.wisp --json` says of it: a player in another language.
+
+    wisp info MODEL.wisp --json | python3 play.py [FRAMES] [WIND] [SEED] [on|off] >play.csv
+
+The numbers are those of `wisp run MODEL.wisp --frames FRAMES --wind WIND --seed SEED --noise on|off`, to the bit. WIND is a
+number, or a file of lines with one for each input. docs/reference/model-file.md ("How a model is played")
+says the same in words. Here are ARX and switched models; resampled.py and chain.py have the rest.
+"""
+import itertools, json, math, sys
+from chain import play_chain
+from resampled import Resampled
+from shared import F, clamp, edges, kept, normal, regress, settle, unit_of, words
+
+
+def likely(chances, word):  # a step of a Markov chain; without a word the likeliest
+    last = max(k for k, p in enumerate(chances) if p > 0)
+    sums = [min(math.floor(s * 2**32), 2**32 - 2) for s in itertools.accumulate(chances)]
+    tops = [2**32 - 1 if k >= last else s for k, s in enumerate(sums)]
+    if word is None:
+        return max(range(len(tops)), key=lambda k: (tops[k] - (tops[k - 1] if k else 0), -k))
+    return next(k for k, top in enumerate(tops) if top == 2**32 - 1 or word < top)
+
+
+class Life:
+    """Whether a flame burns: wind harms it, and one that is out shrinks in the shape of its last step."""
+
+    def __init__(self, rule, model):
+        step, self.input = 1 / model["rate_hz"], [i["name"] for i in model["inputs"]].index(rule["input"])
+        harm, haste, self.level = min(step / rule["seconds"], 0.5), rule["haste"], F(rule["level"])
+        self.most = F((min(3, 1 + (0.5 / harm - 1) / haste) if haste > 0 else 3) * rule["level"])
+        self.base, self.slope = kept(harm * (1 - haste)), kept(harm * haste / rule["level"])
+        self.recovery, self.dying = kept(step / rule["recovery"]), F(min(1, step / max(rule["dying"], step)))
+        self.harm, self.size, self.shape = F(0), F(1), None
+
+    def seen(self, shown, inputs):
+        wind = min(abs(F(inputs[self.input])), self.most)
+        self.harm = clamp(self.harm + (-self.recovery if wind < self.level else self.base + self.slope * wind), F(0), F(1))
+        if self.shape is None and self.harm >= 1:
+            self.shape = shown
+        if self.shape is not None:
+            self.size = max(self.size - self.dying, F(0))
+            return [self.size * value if self.size > 0 else F(0) for value in self.shape]
+        return shown
+
+
+def play(model, winds, seed=1, noise=True):
+    """Yields the outputs of every frame; `winds` has the inputs of each."""
+    d, outputs, ny = model["dynamics"], model["outputs"], len(model["outputs"])
+    if d["kind"] == "chain":
+        yield from play_chain(model, winds, seed, noise)
+        return
+    forms = [(item, sign, power) for item in model["inputs"] for sign in ([1, -1] if "split" in item["form"] else [0])
+             for power in ([1, 0.5, 2] if "powers" in item["form"] else [1])]
+    unit = [unit_of(o) for o in outputs] + [unit_of(item) ** power for item, _, power in forms]
+    held = [[F((edge - mean) / u) for edge in edges(o)] for o, mean, u in zip(outputs, d["output_mean"], unit)]
+
+    def row(mode, i):  # of one output: its constant, its taps (weight, channel, lag), its shocks (size, deviate)
+        taps = [(-a * unit[j] / unit[i], j, 1 + lag) for j in range(ny) for lag, a in enumerate(mode["A"][i][j])]
+        taps += [(b * unit[ny + k] / unit[i], ny + k, d["nk"][i][k] + lag)
+                 for k in range(len(forms)) for lag, b in enumerate(mode["B"][i][k])]
+        if "shock" in mode:
+            shocks = list(enumerate(mode["shock"][i][: i + 1]))
+        else:
+            shocks = [(i, d["noise"]["sd"][i])] + list(enumerate(d["noise"]["mixing"][i], ny))
+        return kept(mode["constant"][i] / unit[i]), [(kept(w), c, lag) for w, c, lag in taps], \
+            [(kept(size / unit[i]), k) for k, size in shocks]
+
+    rows = [[row(mode, i) for i in range(ny)] for mode in d.get("modes", [d])]
+    groups = 1 + max(k for mode in rows for _, _, shocks in mode for _, k in shocks) // 4
+    names = [name.strip(")").split("(t-") for name in d.get("region_columns", [])[1:]]
+    samples = [(int(name[1:]) + (ny if name[0] == "u" else 0), int(lag)) for name, lag in names]
+    regions = [[r[0]] + [w * unit[c] for w, (c, _) in zip(r[1:], samples)] for r in d.get("regions", [])]
+    most = max((abs(w) for r in regions for w in r), default=0) or 1
+
+    def score(region):  # of a mode's region: an affine function of the past
+        total = kept(region[0] * (1 / most))
+        for w, (c, lag) in zip(region[1:], samples):
+            total = total + kept(w * (1 / most)) * past[lag][c]
+        return total
+
+    past = [[settle(clamp(F(0), *h)) for h in held] + [F(0)] * len(forms) for _ in range(d["history"] + 1)]
+    mode, resampled = None, Resampled(d, unit) if (d.get("noise") or {}).get("resampled") else None
+    life = Life(model["extinction"], model) if model.get("extinction") else None
+    for step, wind in enumerate(winds):
+        now = [F(0)] * ny + [regress(*form, mean, wind[model["inputs"].index(form[0])]) for form, mean in zip(forms, d["input_mean"])]
+        past = [now] + past[:-1]
+        if regions:
+            mode = max(range(len(regions)), key=lambda k: (score(regions[k]), -k))
+        elif "transitions" in d:
+            word = words(seed, step, (ny + 3) // 4)[0] if noise else None
+            mode = likely(d["initial"] if mode is None else d["transitions"][mode], word)
+        drawn = None
+        if resampled:
+            resampled.hear(now[ny:])
+            drawn = resampled.step(words(seed, step, 0)) if noise else [F(0)] * ny
+        deviates = [] if resampled else [normal(w, model["random"]["normal_table"]) for g in range(groups) for w in words(seed, step, g)]
+        for i, (total, taps, shocks) in enumerate(rows[mode or 0]):
+            if drawn:
+                total = total + drawn[i]
+            for size, k in shocks if noise and not drawn else []:
+                total = total + size * deviates[k]
+            for weight, channel, lag in taps:
+                total = total + weight * past[lag][channel]
+            now[i] = settle(clamp(total, *held[i]))
+        shown = [clamp(F(mean) + F(u) * z, *map(F, edges(o))) for o, mean, u, z in zip(outputs, d["output_mean"], unit, now)]
+        yield life.seen(shown, wind) if life else shown
+
+
+if __name__ == "__main__":
+    frames, wind, seed, noise = sys.argv[1:] + ["100", "0", "1", "on"][len(sys.argv) - 1:]
+    of = json.load(sys.stdin)
+    print(",".join(o["name"] for o in of["outputs"]))
+    try:
+        winds = [[float(wind)] * len(of["inputs"])] * int(frames)
+    except ValueError:
+        winds = [list(map(float, line.split(","))) for line in itertools.islice(open(wind), int(frames))]
+    for values in play(of, winds, int(seed), noise == "on"):
+        print(",".join(repr(float(v)) for v in values))
