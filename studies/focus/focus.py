@@ -73,7 +73,7 @@ def main():
                     print(f"| {share} | {one} | {coupling} | {output} | {plain[0][k]:.1f}, {plain[1][k]:.1f} "
                           f"| {auto[0][k]:.1f}, {auto[1][k]:.1f} | {ways.get(output, 'least squares')} |", flush=True)
                     count += 1
-                    worse += any(auto[s][k] < max(plain[s][k], 0) - 2 for s in (0, 1))
+                    worse += any(plain[s][k] > 0 and max(auto[s][k], 0) < plain[s][k] - 2 for s in (0, 1))
     print(f"\n{worse} of {count} outputs are more than 2 points below least squares that were above 0")
 
 

@@ -8,6 +8,7 @@
 
 #include "learn/arx/fit/given_rows.hpp"
 #include "learn/arx/rows/arx_rows.hpp"
+#include "learn/arx/simulation/focus_choice.hpp"
 #include "learn/arx/simulation/held_out.hpp"
 #include "learn/arx/simulation/refine.hpp"
 #include "record/number_text.hpp"
@@ -26,11 +27,23 @@ constexpr std::size_t kMaxTriedTerms = 24;      // of which every way is tried
 constexpr double kFewWeights[] = {10, 1, 0.1};  // tried for more
 constexpr int kFewSteps = 15;
 constexpr double kFewTolerance = 1e-3;
-constexpr double kAsGood = 1.05;  // a root mean square within this factor of the least is as good
-constexpr double kSure = 1;       // standard errors by which parts must be better than least squares'
 constexpr int kMaxBatches = 64;
 constexpr std::size_t kMinBatchRows = 10;
 constexpr int kMaxPolishing = 2;  // steps over all rows, from what some of them say
+
+ArxOrders kernel_orders(ArxOrders orders) {
+  for (int i = 0; i < orders.outputs(); ++i) {
+    for (int j = 0; j < orders.outputs(); ++j) {
+      if (orders.na(i, j) > 0) orders.na(i, j) = std::max(orders.na(i, j), kKernelLags);
+    }
+    for (int k = 0; k < orders.inputs(); ++k) {
+      if (orders.nb(i, k) == 0) continue;
+      orders.nb(i, k) = std::max(orders.nb(i, k) + orders.nk(i, k), kKernelLags);
+      orders.nk(i, k) = 0;
+    }
+  }
+  return orders;
+}
 
 // What is asked for.
 struct Subject {
@@ -38,6 +51,7 @@ struct Subject {
   const ChannelChoice& channels;
   const ArxOptions& options;
   const Progress& progress;
+  bool kernel = false;  // whether one is tried
 
   bool many_rows() const {
     std::size_t rows = 0;
@@ -46,33 +60,7 @@ struct Subject {
   }
   std::vector<Recording> some_rows() const { return middles_of(recordings, many_rows() ? kRowsOfMany : kManyRows); }
   int first_sample() const { return options.first_sample.value_or(options.orders.history()); }
-};
-
-// One set of outputs that is simulated together, and how the ways to go did on held-out rows.
-struct Unit {
-  std::vector<int> outputs;
-  bool decoupled = false;  // taken out of a block of several
-  std::vector<FocusCandidate> candidates{};
-  MatrixXd squares{};  // a row a candidate, a column a part of a fold: both kinds of starts together
-  double size = 0;     // of the outputs themselves, summed over folds
-  std::size_t picked = 0;
-
-  double mean_square(std::size_t candidate) const { return squares.row(Index(candidate)).mean(); }
-  bool refined() const { return candidates[picked].one_step_weight.has_value(); }
-};
-
-// Outputs that feed each other: together, and, where there are several, each on its own.
-struct Block {
-  Unit together;
-  std::vector<Unit> apart{};
-  bool decoupled = false;  // as chosen
-
-  std::vector<Unit*> chosen() {
-    std::vector<Unit*> units;
-    if (!decoupled) return {&together};
-    for (Unit& unit : apart) units.push_back(&unit);
-    return units;
-  }
+  int judged_from() const { return std::max(first_sample(), kernel ? kernel_orders(options.orders).history() : 0); }
 };
 
 // Least squares for some rows.
@@ -80,8 +68,11 @@ struct Learned {
   Signals signals;
   ArxFit coupled;
   std::optional<ArxFit> decoupled{};
+  std::optional<ArxFit> kernel{};  // where one is tried and rows suffice
+  std::optional<ArxFit> decoupled_kernel{};
 
   const ArxModel& model_of(const Unit& unit) const { return unit.decoupled ? decoupled->model : coupled.model; }
+  const std::optional<ArxFit>& kernel_of(const Unit& unit) const { return unit.decoupled ? decoupled_kernel : kernel; }
 };
 
 ArxOrders decoupled_orders(ArxOrders orders, const std::vector<int>& outputs) {
@@ -104,6 +95,15 @@ std::vector<Block> blocks_of(const ArxOrders& orders) {
   return blocks;
 }
 
+std::optional<ArxFit> under_kernel(const Subject& subject, std::span<const Recording> recordings, ArxOptions options) {
+  options.orders = kernel_orders(std::move(options.orders));
+  options.first_sample = std::max(*options.first_sample, options.orders.history());
+  options.kernel = ArxKernel::kTc;
+  auto fit = fit_arx(recordings, subject.channels, options);
+  if (!fit) return std::nullopt;  // too few rows for as many lags
+  return std::move(*fit);
+}
+
 Result<Learned> learn_rows(const Subject& subject, std::span<const Recording> recordings, bool with_decoupled) {
   auto signals = gather_signals(recordings, subject.channels, subject.options.offset);
   if (!signals) return signals.error();
@@ -113,6 +113,7 @@ Result<Learned> learn_rows(const Subject& subject, std::span<const Recording> re
   auto coupled = fit_arx(recordings, subject.channels, options);
   if (!coupled) return coupled.error();
   Learned learned{std::move(*signals), std::move(*coupled)};
+  if (subject.kernel) learned.kernel = under_kernel(subject, recordings, options);
   if (!with_decoupled) return learned;
   std::vector<int> all(subject.channels.outputs.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
@@ -120,22 +121,31 @@ Result<Learned> learn_rows(const Subject& subject, std::span<const Recording> re
   auto decoupled = fit_arx(recordings, subject.channels, options);
   if (!decoupled) return decoupled.error();
   learned.decoupled = std::move(*decoupled);
+  if (subject.kernel) learned.decoupled_kernel = under_kernel(subject, recordings, options);
   return learned;
+}
+
+SimulationBlock simulation_of(const Subject& subject, const Signals& signals, const ArxOrders& orders, const Unit& unit,
+                              int first_sample) {
+  return SimulationBlock(signals, orders, unit.outputs, subject.options.offset == ArxOffset::kEstimate, first_sample);
 }
 
 SimulationBlock simulation_of(const Subject& subject, const Signals& signals, const Learned& learned,
                               const Unit& unit) {
-  return SimulationBlock(signals, learned.model_of(unit).orders, unit.outputs,
-                         subject.options.offset == ArxOffset::kEstimate, subject.first_sample());
+  return simulation_of(subject, signals, learned.model_of(unit).orders, unit, subject.first_sample());
 }
 
-VectorXd least_squares(const Subject& subject, const Learned& learned, const Unit& unit) {
+VectorXd theta_of(const Subject& subject, const Learned& learned, const ArxModel& model, const Unit& unit) {
   std::vector<double> theta;
   for (int output : unit.outputs) {
-    const GivenRow row = row_of_model(learned.model_of(unit), output, learned.signals, subject.options.offset);
+    const GivenRow row = row_of_model(model, output, learned.signals, subject.options.offset);
     theta.insert(theta.end(), row.theta.begin(), row.theta.end());
   }
   return Eigen::Map<const VectorXd>(theta.data(), Index(theta.size()));
+}
+
+VectorXd least_squares(const Subject& subject, const Learned& learned, const Unit& unit) {
+  return theta_of(subject, learned, learned.model_of(unit), unit);
 }
 
 // How thoroughly a block is worked on.
@@ -164,29 +174,58 @@ std::vector<Refined> refine_unit(const Subject& subject, const Learned& learned,
   return refined_path(block, loss, starts, weights, options);
 }
 
-// Adds what a fold says of every way to go.
-void judge_unit(const Subject& subject, const Learned& learned, const Signals& held_out, Unit& unit) {
+// A way to go, and the coefficients that it gives for a fold's rows.
+struct Way {
+  FocusCandidate candidate;
+  const ArxOrders& orders;
+  VectorXd theta;
+};
+
+// Least squares first, then what lies farther and farther from it.
+std::vector<Way> ways_of(const Subject& subject, const Learned& learned, const Unit& unit) {
   const SimulationBlock seen = simulation_of(subject, learned.signals, learned, unit);
-  const SimulationBlock unseen = simulation_of(subject, held_out, learned, unit);
-  if (unseen.runs().empty() || !(unseen.weight().array() > 0).all()) return;
-  std::vector<VectorXd> ways{least_squares(subject, learned, unit)};
+  const ArxModel& model = learned.model_of(unit);
+  std::vector<Way> ways{{{.decoupled = unit.decoupled}, model.orders, least_squares(subject, learned, unit)}};
   const auto weights = weights_for(subject, seen);
   if (!weights.empty()) {
-    for (Refined& one : refine_unit(subject, learned, unit, seen, weights)) {
-      ways.push_back(std::move(one.simulation.theta));
+    std::vector<Refined> path = refine_unit(subject, learned, unit, seen, weights);
+    for (std::size_t w = 0; w < path.size(); ++w) {
+      ways.push_back({{.one_step_weight = weights[w], .decoupled = unit.decoupled},
+                      model.orders,
+                      std::move(path[w].simulation.theta)});
     }
   }
+  if (const auto& kernel = learned.kernel_of(unit)) {
+    ways.push_back({{.kernel = true, .decoupled = unit.decoupled},
+                    kernel->model.orders,
+                    theta_of(subject, learned, kernel->model, unit)});
+  }
+  return ways;
+}
+
+// Adds what a fold says of every way to go.
+void judge_unit(const Subject& subject, const Learned& learned, const Signals& held_out, Unit& unit) {
+  const SimulationBlock unseen =
+      simulation_of(subject, held_out, learned.model_of(unit).orders, unit, subject.judged_from());
+  if (unseen.runs().empty() || !(unseen.weight().array() > 0).all()) return;
+  std::vector<Way> ways = ways_of(subject, learned, unit);
   if (unit.candidates.empty()) {
-    unit.candidates.push_back({.decoupled = unit.decoupled});
-    for (double weight : weights) unit.candidates.push_back({weight, unit.decoupled});
+    for (const Way& way : ways) unit.candidates.push_back(way.candidate);
     unit.squares.resize(Index(ways.size()), 0);
+    unit.estimated.resize(Index(ways.size()), 0);
   }
   if (unit.candidates.size() != ways.size()) return;
   const Index before = unit.squares.cols();
   unit.squares.conservativeResize(Eigen::NoChange, before + kParts);
+  unit.estimated.conservativeResize(Eigen::NoChange, before + kParts);
   for (std::size_t w = 0; w < ways.size(); ++w) {
-    const HeldOutErrors errors = held_out_errors(unseen, ways[w]);
+    const HeldOutErrors errors =
+        ways[w].candidate.kernel
+            ? held_out_errors(simulation_of(subject, held_out, ways[w].orders, unit, subject.judged_from()),
+                              ways[w].theta)
+            : held_out_errors(unseen, ways[w].theta);
     unit.squares.row(Index(w)).tail(kParts) = (errors.estimated + errors.measured).transpose();
+    unit.estimated.row(Index(w)).tail(kParts) = errors.estimated.transpose();
     unit.candidates[w].estimated_error += errors.estimated.mean();
     unit.candidates[w].measured_error += errors.measured.mean();
     if (w == 0) unit.size += errors.size;
@@ -208,44 +247,6 @@ Result<void> judge_folds(const Subject& subject, std::vector<Block>& blocks) {
     }
   }
   return {};
-}
-
-// By how many standard errors the parts' logarithms are less with `one` than with `other`.
-double sureness(const MatrixXd& squares, std::size_t one, const MatrixXd& others, std::size_t other) {
-  const Eigen::ArrayXd gain = (others.row(Index(other)).array() + 1e-300).log().transpose() -
-                              (squares.row(Index(one)).array() + 1e-300).log().transpose();
-  const double mean = gain.mean(), n = static_cast<double>(gain.size());
-  const double error = std::sqrt((gain - mean).square().sum() / (n * (n - 1)));
-  return error > 0 ? mean / error : mean > 0 ? std::numeric_limits<double>::infinity() : 0;
-}
-
-// The best; where least squares would do, of all that are as good the one that is nearest to it.
-void pick(Unit& unit, ArxFocus focus) {
-  const std::size_t first = focus == ArxFocus::kSimulation && unit.candidates.size() > 1 ? 1 : 0;
-  std::size_t best = first;
-  for (std::size_t w = first; w < unit.candidates.size(); ++w) {
-    if (unit.mean_square(w) < unit.mean_square(best)) best = w;
-  }
-  unit.picked = best;
-  if (first == 1) return;
-  unit.picked = 0;
-  while (unit.mean_square(unit.picked) > kAsGood * kAsGood * unit.mean_square(best)) ++unit.picked;
-  if (unit.picked > 0 && sureness(unit.squares, unit.picked, unit.squares, 0) < kSure) unit.picked = 0;
-}
-
-void pick(Block& block, ArxFocus focus) {
-  if (!block.together.candidates.empty()) pick(block.together, focus);
-  if (block.apart.empty()) return;
-  MatrixXd apart;
-  for (Unit& unit : block.apart) {
-    if (unit.candidates.empty()) return;
-    pick(unit, focus);
-    const MatrixXd own = unit.squares.row(Index(unit.picked)) / static_cast<double>(block.apart.size());
-    apart = apart.size() == 0 ? own : MatrixXd(apart + own);
-  }
-  if (block.together.candidates.empty() || apart.cols() != block.together.squares.cols()) return;
-  block.decoupled = apart.mean() * kAsGood * kAsGood < block.together.mean_square(block.together.picked) &&
-                    sureness(apart, 0, block.together.squares, 0) >= kSure;
 }
 
 MatrixXd covariance_of(const SimulationBlock& block, const OneStepLoss& loss, const Refined& at, std::size_t rows) {
@@ -321,23 +322,49 @@ std::string obstacle(const Subject& subject, const ArxFit& plain, ArxFocus focus
   return "";
 }
 
-// The same orders, without what outputs of decoupled blocks say to each other.
-ArxOrders chosen_orders(const Subject& subject, const std::vector<Block>& blocks) {
+// The orders of what was chosen.
+ArxOrders chosen_orders(const Subject& subject, std::vector<Block>& blocks) {
   ArxOrders orders = subject.options.orders;
-  for (const Block& block : blocks) {
+  for (Block& block : blocks) {
     if (block.decoupled) orders = decoupled_orders(std::move(orders), block.together.outputs);
   }
+  const ArxOrders many = kernel_orders(orders);
+  for (Block& block : blocks) {
+    for (const Unit* unit : block.chosen()) {
+      for (int output : unit->outputs) {
+        if (!unit->kernel()) continue;
+        for (int j = 0; j < orders.outputs(); ++j) orders.na(output, j) = many.na(output, j);
+        for (int k = 0; k < orders.inputs(); ++k) {
+          orders.nb(output, k) = many.nb(output, k);
+          orders.nk(output, k) = many.nk(output, k);
+        }
+      }
+    }
+  }
   return orders;
+}
+
+// The rows of one unit as chosen, learned from all rows. Returns whether they are other than least squares'.
+bool give_chosen(const Subject& subject, const Learned& learned, const Unit& unit, std::vector<GivenRow>& rows,
+                 ArxFit& plain) {
+  if (unit.refined()) give_refined(subject, learned, unit, rows);
+  if (!unit.kernel()) return unit.refined();
+  const ArxModel& kernel = learned.kernel_of(unit)->model;
+  for (int output : unit.outputs) {
+    rows[std::size_t(output)] = row_of_model(kernel, output, learned.signals, subject.options.offset);
+    plain.model.std_error[std::size_t(output)] = kernel.std_error[std::size_t(output)];
+  }
+  return true;
 }
 
 Result<ArxFit> refit(const Subject& subject, std::vector<Block>& blocks, ArxFit plain) {
   ArxOptions options = subject.options;
   options.orders = chosen_orders(subject, blocks);
-  options.first_sample = subject.first_sample();
-  const bool decoupled = !(options.orders == subject.options.orders);
+  options.first_sample = std::max(subject.first_sample(), options.orders.history());
+  const bool decoupled = std::any_of(blocks.begin(), blocks.end(), [](const Block& one) { return one.decoupled; });
   auto learned = learn_rows(subject, subject.recordings, decoupled);
   if (!learned) return learned.error();
-  if (decoupled) {
+  if (!(options.orders == subject.options.orders)) {
     auto again = fit_arx(subject.recordings, subject.channels, options);
     if (!again) return again.error();
     plain = std::move(*again);
@@ -349,9 +376,7 @@ Result<ArxFit> refit(const Subject& subject, std::vector<Block>& blocks, ArxFit 
   bool all = true;
   for (Block& block : blocks) {
     for (const Unit* unit : block.chosen()) {
-      const bool refined = !unit->candidates.empty() && unit->refined();
-      if (refined) give_refined(subject, *learned, *unit, rows);
-      all &= refined;
+      all &= give_chosen(subject, *learned, *unit, rows, plain);
       if (!go_on(subject.progress, "refining", -1)) return Error{std::string(kStopped)};
     }
   }
@@ -363,11 +388,25 @@ Result<ArxFit> refit(const Subject& subject, std::vector<Block>& blocks, ArxFit 
   return fit;
 }
 
+// A kernel is tried where the coefficients are nobody else's and every stretch is long beside its lags.
+bool kernel_is_tried(std::span<const Recording> recordings, const ArxOptions& options, ArxFocus focus) {
+  constexpr std::size_t kMinRows = 10 * kKernelLags;
+  constexpr int kMaxKernelTerms = 150;  // an output's, for the time that it takes
+  if (focus != ArxFocus::kAuto || options.ridge > 0) return false;
+  const ArxOrders orders = kernel_orders(options.orders);
+  for (int i = 0; i < orders.outputs(); ++i) {
+    if (orders.row_size(i) > kMaxKernelTerms) return false;
+  }
+  return std::all_of(recordings.begin(), recordings.end(), [](const Recording& one) {
+    return one.rows() >= kMinRows * std::max<std::size_t>(1, episodes(one).size());
+  });
+}
+
 }  // namespace
 
 Result<FocusedFit> focus_fit(std::span<const Recording> recordings, const ChannelChoice& channels,
                              const ArxOptions& options, ArxFit plain, ArxFocus focus, const Progress& progress) {
-  const Subject subject{recordings, channels, options, progress};
+  const Subject subject{recordings, channels, options, progress, kernel_is_tried(recordings, options, focus)};
   std::string why = obstacle(subject, plain, focus);
   FocusedFit out{std::move(plain), false, std::move(why)};
   if (!out.reason.empty()) return out;
@@ -375,11 +414,11 @@ Result<FocusedFit> focus_fit(std::span<const Recording> recordings, const Channe
   if (auto ok = judge_folds(subject, blocks); !ok) return ok.error();
   bool judged = false, changed = false;
   for (Block& block : blocks) {
-    pick(block, focus);
+    block.pick(focus == ArxFocus::kSimulation);
     changed |= block.decoupled;
     for (const Unit* unit : block.chosen()) {
       judged |= !unit->candidates.empty();
-      changed |= !unit->candidates.empty() && unit->refined();
+      changed |= unit->picked > 0;
     }
   }
   out.choices = choices_of(blocks);

@@ -16,10 +16,14 @@ namespace wisp::arx {
 /// One way to choose a block's coefficients, and its errors over held-out free runs.
 struct FocusCandidate {
   std::optional<double> one_step_weight{};  ///< of refined ones; none: least squares
+  bool kernel = false;                      ///< many lags under a kernel (kKernelLags)
   bool decoupled = false;                   ///< every output remembers itself only
   double estimated_error = 0;  ///< root mean square, shares of the outputs' own, from the best initial state
   double measured_error = 0;   ///< … from measured samples
 };
+
+/// Lags of every channel under a kernel, where the orders have fewer: two damped resonances and what lies between.
+inline constexpr int kKernelLags = 15;
 
 /// What was chosen for outputs that feed each other.
 struct FocusChoice {
@@ -35,10 +39,11 @@ struct FocusedFit {
   std::vector<FocusChoice> choices{};
 };
 
-/// `plain` refined as the focus says: with kAuto where held-out free runs are surely better for it, with kSimulation in
-/// any case as far as they say. `plain` itself where nothing is to be simulated (no inputs, no feedback), where the
-/// data cannot tell all coefficients, or where too few rows are there to hold some out. Errors: as fit_arx, kStopped.
-/// Precondition: `plain` is fit_arx() of the same arguments.
+/// `plain` refined as the focus says: with kSimulation in any case, as far as held-out free runs say; with kAuto where
+/// they are surely better for it, and with kKernelLags lags under a kernel where they are surely better still. `plain`
+/// itself where nothing is to be simulated (no inputs, no feedback), where the data cannot tell all coefficients, or
+/// where too few rows are there to hold some out. Errors: as fit_arx, kStopped. Precondition: `plain` is fit_arx() of
+/// the same arguments.
 Result<FocusedFit> focus_fit(std::span<const Recording> recordings, const ChannelChoice& channels,
                              const ArxOptions& options, ArxFit plain, ArxFocus focus, const Progress& progress);
 

@@ -84,16 +84,26 @@ std::vector<Recording> middles_of(std::span<const Recording> recordings, std::si
 }
 
 std::vector<Fold> folds_of(std::span<const Recording> recordings) {
+  struct Share {
+    double first, last;
+    bool later;  // whether what follows is learned from too
+  };
   std::vector<Fold> folds;
-  for (const auto& [first, last] : {std::pair{0.7, 1.0}, {0.35, 0.65}, {0.0, 0.3}}) {
+  for (const Share& share : {Share{0.7, 1.0, true},
+                             {0.35, 0.65, true},
+                             {0.0, 0.3, true},
+                             {0.4, 0.6, false},
+                             {0.6, 0.8, false},
+                             {0.8, 1.0, false}}) {
     Fold& fold = folds.emplace_back();
     for (const Recording& one : recordings) {
       const auto at = [&](double place) {
         return static_cast<std::size_t>(std::lround(place * static_cast<double>(one.rows())));
       };
-      if (at(first) > 0) fold.learned.push_back(slice(one, 0, at(first)));
-      fold.held_out.push_back(slice(one, at(first), at(last)));
-      if (at(last) < one.rows()) fold.learned.push_back(slice(one, at(last), one.rows()));
+      const std::size_t first = at(share.first), last = at(share.last);
+      if (first > 0) fold.learned.push_back(slice(one, 0, first));
+      fold.held_out.push_back(slice(one, first, last));
+      if (share.later && last < one.rows()) fold.learned.push_back(slice(one, last, one.rows()));
     }
   }
   return folds;

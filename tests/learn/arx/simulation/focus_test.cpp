@@ -10,6 +10,8 @@
 #include "learn/arx/fit/given_rows.hpp"
 #include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/made_system.hpp"
+#include "learn/arx/simulation/focus_choice.hpp"
+#include "learn/arx/simulation/held_out.hpp"
 #include "learn/arx/simulation/output_error.hpp"
 #include "learn/arx/simulation/refine.hpp"
 
@@ -134,6 +136,95 @@ TEST(Focus, StandardErrorsAreThoseOfRepeatedRecordings) {
     EXPECT_LT((square - sum * sum) / said, 2.5) << p;
     EXPECT_NEAR(sum, ringing().theta[0][p], 2 * std::sqrt(said)) << p;
   }
+}
+
+// Least squares, one refined candidate and many lags: the squared error of every part of every fold.
+arx::Unit judged(const std::vector<double>& refined, const std::vector<double>& many) {
+  const auto folds = static_cast<Eigen::Index>(refined.size());
+  arx::Unit unit{{0}};
+  unit.candidates = {{}, {.one_step_weight = 1}, {.kernel = true}};
+  unit.squares.resize(3, folds * arx::kParts);
+  for (Eigen::Index f = 0; f < folds; ++f) {
+    auto fold = unit.squares.middleCols(f * arx::kParts, arx::kParts);
+    fold.row(0).setConstant(1);
+    fold.row(1).setConstant(refined[std::size_t(f)]);
+    fold.row(2).setConstant(many[std::size_t(f)]);
+  }
+  unit.estimated = unit.squares;
+  return unit;
+}
+
+TEST(FocusChoice, ACandidateThatIsBetterInEveryFoldIsTaken) {
+  arx::Unit unit = judged({0.5, 0.4, 0.6}, {2, 2, 2});
+  unit.pick(false);
+  EXPECT_EQ(unit.picked, 1U);
+}
+
+TEST(FocusChoice, ACandidateThatLosesOneFoldIsLeftHoweverMuchItGainsInTheOthers) {
+  arx::Unit unit = judged({0.01, 0.01, 1.6}, {2, 2, 2});
+  unit.pick(false);
+  EXPECT_EQ(unit.picked, 0U);
+}
+
+TEST(FocusChoice, ManyLagsAreTakenOnlyWhereTheyAreBetterFromTheBestInitialStateToo) {
+  arx::Unit unit = judged({0.8, 0.8, 0.8}, {0.3, 0.31, 0.32});
+  unit.pick(false);
+  EXPECT_TRUE(unit.kernel());
+  unit.estimated.row(2) = unit.estimated.row(1);
+  unit.pick(false);
+  EXPECT_TRUE(unit.refined());
+}
+
+TEST(FocusChoice, WhatIsNearestToLeastSquaresIsTakenOfWhatIsAsGood) {
+  arx::Unit unit = judged({1.05, 1.05, 1.05}, {1, 0.98, 0.99});
+  unit.pick(false);
+  EXPECT_EQ(unit.picked, 0U);
+}
+
+TEST(HeldOut, NoFoldLearnsFromWhatItHoldsOutAndHalfLearnOnlyFromWhatIsEarlier) {
+  Recording recording = measured_with_noise(100, 1, 1);
+  auto& samples = recording.channels[0].samples;
+  for (std::size_t t = 0; t < samples.size(); ++t) samples[t] = static_cast<double>(t);
+  int forward = 0;
+  const auto folds = arx::folds_of({&recording, 1});
+  for (const arx::Fold& fold : folds) {
+    const auto& held_out = fold.held_out[0].channels[0].samples;
+    bool earlier = true;
+    for (const Recording& learned : fold.learned) {
+      for (double t : learned.channels[0].samples) {
+        EXPECT_TRUE(t < held_out.front() || t > held_out.back());
+        earlier &= t < held_out.front();
+      }
+    }
+    forward += earlier ? 1 : 0;
+  }
+  EXPECT_EQ(folds.size(), 6U);
+  EXPECT_EQ(forward, 4);  // the last 30 % follow all else too
+}
+
+// A delay that the orders do not reach, in noise: short orders cannot describe it.
+TEST(Focus, ManyLagsUnderAKernelAreChosenWhereTheOrdersMissTheResponse) {
+  std::mt19937_64 generator(3);
+  std::normal_distribution<double> normal;
+  const auto record = [&](std::size_t rows) {
+    Recording recording = record_system(ringing(), rows, 11);
+    auto& u = recording.channels[0].samples;
+    auto& y = recording.channels[1].samples;
+    for (double& value : u) value = normal(generator);
+    for (std::size_t t = 0; t < rows; ++t) {
+      y[t] = (t > 0 ? 0.5 * y[t - 1] : 0) + (t >= 8 ? u[t - 8] + 0.5 * u[t - 11 + (t < 11 ? 11 - t : 0)] : 0) +
+             0.1 * normal(generator);
+    }
+    return recording;
+  };
+  const Recording seen = record(1200), unseen = record(600);
+  const ArxOptions options{.orders = ringing().orders};
+  const auto fit = focused({&seen, 1}, ArxFocus::kAuto, options);
+  ASSERT_TRUE(fit.refined);
+  EXPECT_EQ(fit.fit.model.orders.nb(0, 0), arx::kKernelLags);
+  EXPECT_GT(free_run_fit(fit.fit.model, unseen), 85);
+  const auto kept = focused({&seen, 1}, ArxFocus::kSimulation, options);
+  EXPECT_TRUE(kept.fit.model.orders == options.orders);
 }
 
 TEST(OutputError, TheGradientIsThatOfDifferences) {
