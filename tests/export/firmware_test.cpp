@@ -197,6 +197,8 @@ TEST_F(Firmware, WhatNoLampCanPlayIsSaid) {
   std::get<SwitchedArxModel>(far.dynamics).output_mean = {90};
   says(far, "expected at most 3.9");
   Model driven = light();
+  std::get<SwitchedArxModel>(driven.dynamics).orders = {OrderMatrix(1, 1, 4), OrderMatrix(1, 2), OrderMatrix(1, 2)};
+  std::get<SwitchedArxModel>(driven.dynamics).input_mean = {0, 0};
   driven.inputs = {{"wind", "", 0, 1}, {"rain", "", 0, 1}};
   says(driven, "2 inputs, expected none or one");
   driven.inputs = {{"wind", "", -1, 1, InputShape::kSplitSign}};
@@ -209,8 +211,15 @@ TEST_F(Firmware, WhatFixedPointDoesNotHoldIsSaid) {
     ASSERT_FALSE(source);
     EXPECT_NE(source.error().message.find(words), std::string::npos) << source.error().message;
   };
+  // Five poles at 0.9.
+  ArxModel steep_memory;
+  steep_memory.orders = {OrderMatrix(1, 1, 5), OrderMatrix(1, 0), OrderMatrix(1, 0)};
+  steep_memory.theta = {{-4.5, 8.1, -7.29, 3.2805, -0.59049}};
+  steep_memory.constant = {0};
+  steep_memory.output_mean = {1};
+  steep_memory.noise.sd = {1e-6};
   Model steep = light();
-  std::get<SwitchedArxModel>(steep.dynamics).modes[0].theta[0][0] = -8;
+  steep.dynamics = steep_memory;
   says(steep, "8 or more");
   ArxModel long_memory;
   long_memory.orders = {OrderMatrix(1, 1, 33), OrderMatrix(1, 0), OrderMatrix(1, 0)};
