@@ -43,7 +43,7 @@ std::size_t plain_length(std::string_view text) {
 }  // namespace
 
 std::from_chars_result read_number(const char* first, const char* last, double& value) {
-  std::string text(first, plain_length({first, last}));
+  std::string text(first, plain_length({first, static_cast<std::size_t>(last - first)}));
   const std::size_t point = text.find('.');
   if (point != text.npos) text[point] = *std::localeconv()->decimal_point;
   char* end = text.data();
