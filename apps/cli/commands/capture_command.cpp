@@ -1,10 +1,12 @@
-// `wisp capture outline` and its preset `wisp capture flame`: from a clip to a recording.
+// `wisp capture outline`, its preset `wisp capture flame`, `capture brightness` and `capture fall`: from a clip to a
+// recording.
 
 #include <chrono>
 #include <cmath>
 
 #include "commands/commands.hpp"
 #include "flags/capture_flags.hpp"
+#include "flags/flag_ranges.hpp"
 #include "flags/recordings.hpp"
 #include "terminal.hpp"
 #include "wisp/record/csv.hpp"
@@ -72,6 +74,27 @@ Result<void> run_brightness(const Arguments& arguments, Terminal& terminal) {
   return {};
 }
 
+Result<void> run_fall(const Arguments& arguments, Terminal& terminal) {
+  const FlagRange height{"height", 0.01, 100};
+  if (arguments.has("height")) {
+    if (auto ok = check_ranges(arguments, {&height, 1}); !ok) return ok;
+  }
+  const auto clip = capture_options(arguments);
+  if (!clip) return clip.error();
+  const FallOptions options{.height_metres = arguments.has("height") ? arguments.number("height") : 0,
+                            .region = clip->region,
+                            .frames = clip->frames,
+                            .rate_hz = clip->rate_hz};
+  const auto falls = capture_falls(arguments.positional(), options, terminal.progress());
+  if (!falls) return falls.error();
+  const std::string& path = arguments.text("output");
+  if (auto ok = write_csv(path, falls->recording); !ok) return ok;
+  terminal.show(falls->report);
+  terminal.say("wrote " + path);
+  terminal.add("output", path);
+  return {};
+}
+
 Command capturing(std::string name, const std::string& flame, std::string summary, std::vector<Example> examples) {
   std::vector<Flag> flags = {{"output", Kind::kOutput, "REC.csv", "", "where to write the recording", {}, true}};
   for (Flag& flag : capture_flags(flame)) flags.push_back(std::move(flag));
@@ -112,6 +135,22 @@ Command capture_brightness_command() {
            {"wisp capture brightness photodiode.csv --columns time,brightness --rate 100 -o light.csv",
             "A photodiode's trace"}},
           run_brightness};
+}
+
+Command capture_fall_command() {
+  return {"capture fall",
+          "Tracks something light that is dropped before a plain wall, and writes its falls, an episode each.",
+          {{"CLIP", "a video file, or a folder of numbered images"}},
+          {{"output", Kind::kOutput, "REC.csv", "", "where to write the recording", {}, true},
+           {"height", Kind::kNumber, "METRES", "",
+            "how much of the wall the picture's height shows; without it, 1 m is taken"},
+           {"region", Kind::kText, "X,Y,W,H", "", "look only here, in pixels from the top left"},
+           {"frames", Kind::kSamples, "A:B", "", "only these frames, 1-based and inclusive"},
+           {"rate", Kind::kNumber, "HZ", "",
+            "frames a second that were filmed: of a folder of images, or of a film in slow motion"}},
+          {{"wisp capture fall paper.mp4 --height 2.1 -o falls.csv", "A strip of paper, dropped again and again"},
+           {"wisp capture fall slow.mp4 --rate 240 --height 2.1 -o falls.csv", "Filmed in slow motion"}},
+          run_fall};
 }
 
 }  // namespace wisp::cli

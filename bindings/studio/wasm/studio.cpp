@@ -305,7 +305,7 @@ WISP_STUDIO(learn) int studio_learn(const char* text, std::size_t size) {
 WISP_STUDIO(validate) int studio_validate(const std::byte* bytes, std::size_t size) {
   const auto model = parse_model({bytes, size}, "the model");
   if (!model) return fail(model.error());
-  const auto report = validate(*model, desk().recordings, {}, progress());
+  const auto report = validate(*model, desk().recordings, {.responses = true}, progress());
   if (!report) return fail(report.error());
   fresh().text = report_json(*report).dump();
   return kDone;

@@ -24,6 +24,11 @@ Result<Captured> capture(const std::filesystem::path& path, const ClipCapture& o
 Result<Recording> capture_brightness(const std::filesystem::path& path, const ClipCapture& options,
                                      const Progress& progress = {});
 
+/// Captures the falls of something light that is dropped before a plain wall in a clip: see FallCapture.
+/// Errors, naming the file: missing or not a clip, as FallCapture, kStopped.
+Result<Captured> capture_falls(const std::filesystem::path& path, const FallOptions& options,
+                               const Progress& progress = {});
+
 /// Hears the wind of a clip whose picture has `frames` frames at `rate_hz` a second.
 /// Returns no frames where there is no sound track or a silent one; `note` tells which.
 /// Errors: the file cannot be read, or its sound cannot be decoded.

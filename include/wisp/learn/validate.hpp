@@ -21,7 +21,7 @@ struct ValidationOptions {
   std::vector<int> steps{1, 5, 15, kFreeRun};      ///< steps ahead, 1 to 100000, or kFreeRun
   InitialState initial = InitialState::kMeasured;  ///< of an ARX model's free simulation; a switched model starts from
                                                    ///< measured samples
-  bool responses = false;                          ///< ARX: also series of poles, zeros, responses, and errors by steps
+  bool responses = false;                          ///< also the series of poles; ARX: zeros, responses, errors by steps
   double pixels_per_unit = 0;        ///< outlines: 0: the recording's own mean calm height is the model's 1
   bool own_input_scale = false;      ///< outlines: input 1 is this recording's 95th percentile instead of the
                                      ///< training's: another microphone, another gain

@@ -19,6 +19,8 @@ constexpr double kMinMovement = 0.006;  // heights
 constexpr double kMinTaper = 0.32;
 constexpr double kMinNarrowing = 0.25;
 constexpr double kMinSolidity = 0.86;
+constexpr double kFilled = 0.8;      // of its convex hull: a flame that leans or bends fills more
+constexpr double kMaxRagged = 0.15;  // share of outlines that fill less
 constexpr double kMinLight = 0.85;
 constexpr double kMaxLost = 0.1;       // share of rows without a frame of their own: flicker is not what lies between
 constexpr double kMaxRepeated = 0.35;  // … and that repeat the one before
@@ -80,6 +82,41 @@ double width_at(const Shape& shape, double share) {
 double taper_of(const Shape& shape) {
   const double body = width_at(shape, 0.4);
   return body <= 0 ? 0 : 1 - width_at(shape, 0.88) / body;
+}
+
+// Twice the area of the triangle a, b, c; above 0 where they turn left.
+double turn(const CurvePoint& a, const CurvePoint& b, const CurvePoint& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+double area_of(const std::vector<CurvePoint>& corners) {
+  double twice = 0;
+  for (std::size_t k = 2; k < corners.size(); ++k) twice += turn(corners[0], corners[k - 1], corners[k]);
+  return 0.5 * std::abs(twice);
+}
+
+// A. M. Andrew, Information Processing Letters 9 (1979).
+std::vector<CurvePoint> convex_hull(std::vector<CurvePoint> points) {
+  std::sort(points.begin(), points.end(),
+            [](const auto& a, const auto& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  std::vector<CurvePoint> hull;
+  for (const bool back : {false, true}) {
+    const std::size_t begin = hull.size();
+    for (const CurvePoint& p : points) {
+      while (hull.size() >= begin + 2 && turn(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();
+    if (!back) std::reverse(points.begin(), points.end());
+  }
+  return hull;
+}
+
+double ragged_share(const std::vector<Shape>& shapes) {
+  const auto ragged = std::count_if(shapes.begin(), shapes.end(), [](const Shape& shape) {
+    return area_of(shape.curve) < kFilled * area_of(convex_hull(shape.curve));
+  });
+  return static_cast<double>(ragged) / static_cast<double>(shapes.size());
 }
 
 double movement_of(const std::vector<Shape>& shapes, double height) {
@@ -164,7 +201,8 @@ std::string irregular(const OutlineFacts& f) {
 
 // Why the shape is not a flame's, or nothing.
 std::string misshapen(const OutlineFacts& f) {
-  const bool taper = f.taper >= kMinTaper && f.narrowing >= kMinNarrowing, solid = f.solidity >= kMinSolidity;
+  const bool taper = f.taper >= kMinTaper && f.narrowing >= kMinNarrowing,
+             solid = f.solidity >= kMinSolidity && f.ragged <= kMaxRagged;
   if (taper && solid) return {};
   if (f.clipped > kFlat) {
     return "it is clipped flat, " + percent(f.clipped) +
@@ -240,6 +278,7 @@ void judge_outline(const Recording& recording, const SplineTable& table, Capture
   OutlineFacts& facts = report.facts;
   facts.height = std::max(median(heights), 1e-9);
   facts.taper = median(tapers);
+  facts.ragged = ragged_share(shapes);
   facts.movement = movement_of(shapes, facts.height);
   facts.jumps = jumps_of(shapes, facts.height);
   facts.border = border_of(shapes, report.width, report.height);

@@ -15,6 +15,7 @@ constexpr int kFineGrid = 160;       // … and of the one around a flame
 constexpr int kLevelStep = 18;       // levels that are tried, 255ths
 constexpr int kHighestLevel = 225;   // above it, where a camera clips, a level cuts through the flame
 constexpr double kLitShare = 0.7;    // a picture counts when its brightest is this share of the upper quartile's
+constexpr double kOtherScene = 64;   // … and differs from the usual picture by less than this, mean over its points
 constexpr double kMinContrast = 12;  // levels between the clusters, of 255: less is noise of one brightness
 constexpr double kAsLikely = 0.35;   // another flame is at least this share as likely as the first
 constexpr double kAsBright = 0.9;    // … and as bright
@@ -62,7 +63,21 @@ double brightest_of(const ImageView& luma) {
   return level;
 }
 
-// The pictures that count, and how bright they get. Those of a fade, or after the flame went out, do not.
+// How far each picture is from the usual one, mean over its points: titles and other shots are far.
+std::vector<double> distances_from_usual(const PictureGrid& luma) {
+  std::vector<double> distances(luma.pictures.size());
+  std::vector<std::uint8_t> values(luma.pictures.size());
+  for (std::size_t at = 0; at < luma.size(); ++at) {
+    std::transform(luma.pictures.begin(), luma.pictures.end(), values.begin(), [at](const auto& p) { return p[at]; });
+    const auto usual = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), usual, values.end());
+    for (std::size_t k = 0; k < distances.size(); ++k) distances[k] += std::abs(luma.pictures[k][at] - *usual);
+  }
+  for (double& distance : distances) distance /= static_cast<double>(luma.size());
+  return distances;
+}
+
+// The pictures that count, and how bright they get. Those of a fade, of a title, or after the flame went out do not.
 struct LitPictures {
   std::vector<Picture> pictures;
   std::vector<double> brightest;
@@ -76,19 +91,20 @@ LitPictures lit_pictures(std::span<const Picture> pictures, Grids& grids) {
   std::vector<double> sorted = brightest;
   std::sort(sorted.begin(), sorted.end());
   const double usual = sorted[sorted.size() - 1 - sorted.size() / 4];
+  const std::vector<double> distance = distances_from_usual(luma);
   LitPictures lit;
-  std::vector<std::size_t> dim;
+  std::vector<std::size_t> out;
   for (std::size_t k = 0; k < pictures.size(); ++k) {
-    if (brightest[k] < kLitShare * usual) {
-      dim.push_back(k);
+    if (brightest[k] < kLitShare * usual || distance[k] > kOtherScene) {
+      out.push_back(k);
       continue;
     }
     lit.pictures.push_back(pictures[k]);
     lit.brightest.push_back(brightest[k]);
   }
   for (auto& grid : grids.channels) {
-    for (std::size_t k = dim.size(); grid && k-- > 0;) {
-      grid->pictures.erase(grid->pictures.begin() + static_cast<std::ptrdiff_t>(dim[k]));
+    for (std::size_t k = out.size(); grid && k-- > 0;) {
+      grid->pictures.erase(grid->pictures.begin() + static_cast<std::ptrdiff_t>(out[k]));
     }
   }
   return lit;

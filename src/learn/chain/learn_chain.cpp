@@ -12,6 +12,7 @@
 #include "learn/chain/gusts/gust_report.hpp"
 #include "learn/chain/learn_chain.hpp"
 #include "record/number_text.hpp"
+#include "record/verdict.hpp"
 #include "wisp/model/file.hpp"
 
 namespace wisp {
@@ -91,6 +92,16 @@ void judge(const ChainFit& found, const ChainRecipe& recipe, Fit& fit) {
   }
 }
 
+// However well a model plays what was tracked, it is no better than the tracks.
+void refuse_what_capture_refused(std::span<const Recording> recordings, Usable& usable) {
+  for (const Recording& recording : recordings) {
+    const auto verdict = verdict_of(recording);
+    if (!verdict || verdict->usable) continue;
+    usable = {false, recording.source + " was captured as not usable: " + verdict->reason};
+    return;
+  }
+}
+
 // The response to gusts, from a windy recording and its calm twin.
 Result<void> take_gusts(std::span<const Recording> paired, Fit& fit) {
   if (paired.empty()) return {};
@@ -140,7 +151,8 @@ Result<Fit> learn_chain(std::span<const Recording> recordings, const ChainRecipe
   chain::judge(*found, sized, fit);
   if (!go_on(progress, "learning gusts", 0)) return Error{std::string(kStopped)};
   if (auto ok = chain::take_gusts(data->paired, fit); !ok) return ok.error();
-  const Usable& usable = fit.model.training.usable;
+  Usable& usable = fit.model.training.usable;
+  chain::refuse_what_capture_refused(data->falls, usable);
   fit.report.verdict = {usable.verdict, usable.reason};
   return fit;
 }

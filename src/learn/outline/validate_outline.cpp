@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "learn/arx/report/response_report.hpp"
 #include "learn/flame/extinction_report.hpp"
 #include "learn/flame/wind_gain.hpp"
 #include "learn/numeric/spectrum.hpp"
@@ -52,7 +53,7 @@ const PredictedOutlines& shown(const OutlineJudgement& found) {
 
 std::string label_of(const PredictedOutlines& predicted) {
   if (predicted.steps == kFreeRun) return "simulated from the input alone";
-  return "predicted " + std::to_string(predicted.steps) + " frames ahead";
+  return "predicted " + std::to_string(predicted.steps) + (predicted.steps == 1 ? " frame ahead" : " frames ahead");
 }
 
 // The tip's place beside (0) or above (1) the base, in the model's units, row by row; NaN where missing.
@@ -70,13 +71,27 @@ std::vector<double> tips(const OutlineRows& rows, double pixels_per_unit, std::s
   return values;
 }
 
-ReportSection tip_series(const ValidatedOutline& out, const std::vector<double>& seconds) {
+// What one step is told beside what is shown, where that is another.
+const PredictedOutlines* one_step(const OutlineJudgement& found) {
+  for (const PredictedOutlines& predicted : found.predicted) {
+    if (predicted.steps == 1 && &predicted != &shown(found)) return &predicted;
+  }
+  return nullptr;
+}
+
+Result<ReportSection> tip_series(const OutlineJudgement& found, const ValidatedOutline& out,
+                                 const std::vector<double>& seconds) {
   ReportSection section{"Tip, sideways"};
   const auto add = [&](const char* id, const std::string& label, const OutlineRows& rows) {
     section.series.push_back({id, label, "seconds", "flame heights", seconds, tips(rows, out.pixels_per_unit, 0)});
   };
   add("tip.captured", "captured", out.captured);
   add("tip.simulated", out.simulated_label, out.simulated);
+  if (const PredictedOutlines* next = one_step(found)) {
+    const auto rows = rows_of(next->recording);
+    if (!rows) return rows.error();
+    add("tip.predicted", label_of(*next), *rows);
+  }
   return section;
 }
 
@@ -113,11 +128,13 @@ ReportSection flicker_series(const ValidatedOutline& out, double rate_hz, std::s
   return section;
 }
 
-void add_series(const Recording& recording, const OutlineJudgement& found, ValidatedOutline& out) {
+Result<void> add_series(const Recording& recording, const OutlineJudgement& found, ValidatedOutline& out) {
   std::vector<double> seconds(recording.rows());
   for (std::size_t row = 0; row < seconds.size(); ++row) seconds[row] = static_cast<double>(row) / recording.rate_hz;
   auto& sections = out.report.sections;
-  sections.push_back(tip_series(out, seconds));
+  auto tip = tip_series(found, out, seconds);
+  if (!tip) return tip.error();
+  sections.push_back(*std::move(tip));
   for (std::size_t channel : channels_with_role(recording, Role::kInput)) {
     sections.push_back(input_series(recording.channels[channel], seconds));
   }
@@ -125,6 +142,7 @@ void add_series(const Recording& recording, const OutlineJudgement& found, Valid
   for (std::size_t coordinate : {0, 1}) {
     sections.push_back(flicker_series(out, recording.rate_hz, welch_samples, coordinate));
   }
+  return {};
 }
 
 // What the same wind is called elsewhere is easily overlooked.
@@ -173,7 +191,10 @@ Result<ValidatedOutline> validate_outline(const Model& model, const Recording& r
   out.report.sections = report_sections(*found);
   out.report.sections.push_back(gain_section(*factor));
   out.report.sections.push_back(extinction_section(*extinction));
-  add_series(*heard, *found, out);
+  if (auto ok = add_series(*heard, *found, out); !ok) return ok.error();
+  if (const auto* arx = std::get_if<ArxModel>(&model.dynamics); arx && options.responses) {
+    arx::add_poles(*arx, out.report);
+  }
   return out;
 }
 

@@ -63,6 +63,18 @@ TEST(Survey, PicturesOfAFadeDoNotCount) {
   EXPECT_NEAR(survey_scene(faded.pictures, {})->level, survey_scene(bright.pictures, {}).value().level, 3);
 }
 
+TEST(Survey, PicturesOfATitleDoNotCount) {
+  Clip plain, titled;
+  for (int k = 0; k < 20; ++k) {
+    plain.add(support::flame_picture(support::swaying(k)));
+    titled.add(k < 8 ? Plane(160, 180, 235) : support::flame_picture(support::swaying(k)));
+  }
+  const auto survey = survey_scene(titled.pictures, {});
+  ASSERT_TRUE(survey);
+  EXPECT_NEAR(survey->level, survey_scene(plain.pictures, {}).value().level, 3);
+  EXPECT_EQ(survey->seen.size(), 12u);
+}
+
 TEST(Survey, DarkThingsAreFoundOnLightGround) {
   Clip clip;
   for (int k = 0; k < 10; ++k) {

@@ -140,7 +140,7 @@ TEST(LearnOutline, CanBeStopped) {
 TEST(ValidateOutline, TheReportHasEveryPromisedFieldAndSeriesForPlots) {
   const Fit fit = learned({windy()}, {});
   const Recording recording = windy(7);
-  const auto found = validate_outline(fit.model, recording, {.play_seconds = 20});
+  const auto found = validate_outline(fit.model, recording, {.responses = true, .play_seconds = 20});
   ASSERT_TRUE(found) << found.error().message;
   EXPECT_THAT(fields(found->report),
               IsSupersetOf({"gain", "rows", "channels", "points", "alignment", "J", "tip", "overlap", "fidelity",
@@ -153,7 +153,8 @@ TEST(ValidateOutline, TheReportHasEveryPromisedFieldAndSeriesForPlots) {
       EXPECT_EQ(one.x.size(), one.y.size()) << one.id;
     }
   }
-  EXPECT_THAT(series, IsSupersetOf({"tip.captured", "tip.simulated", "input.wind", "flicker.x.synthesized"}));
+  EXPECT_THAT(series, IsSupersetOf({"tip.captured", "tip.simulated", "tip.predicted", "input.wind",
+                                    "flicker.x.synthesized", "poles"}));
   EXPECT_EQ(found->captured.size(), recording.rows());
   EXPECT_EQ(found->played.size(), recording.rows());
   EXPECT_EQ(found->simulated_label, "simulated from the input alone");

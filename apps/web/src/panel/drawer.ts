@@ -147,14 +147,14 @@ export class Drawer {
       button.setAttribute('aria-pressed', String(open));
       if (!open) return;
       this.lesson = new Lesson(this.wisp, settings.seed);
-      room.append(this.lesson.place);
+      room.append(this.lesson.place, element('p', {}, 'Poles, and one frame ahead beside the free run: of a flame or a table of your own, under Yours.'));
     });
     return element('div', {}, element('div', { class: 'actions' }, button), room);
   }
 
   private closeLesson(): void {
     this.lesson?.dispose();
-    this.lesson?.place.remove();
+    this.lesson?.place.parentElement?.replaceChildren();
     this.lesson = null;
     this.place.querySelector('[data-knob=lesson]')?.setAttribute('aria-pressed', 'false');
   }

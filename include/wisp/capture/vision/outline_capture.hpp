@@ -54,6 +54,7 @@ struct OutlineFacts {
   double taper = 0;                ///< how much narrower it is near its tip than at its middle, median
   double narrowing = 0;            ///< how much narrower its first quarter is than its middle, median of the survey
   double solidity = 0;             ///< its area over its convex hull's, notches from below apart
+  double ragged = 0;               ///< share of outlines with deep notches: they fill little of their convex hulls
   double light = 0;                ///< luma over the brightest there is
   double clipped = 0;              ///< share of it that is flat: as bright in every channel as it gets
   double height = 0;               ///< median, pixels

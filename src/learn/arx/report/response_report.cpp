@@ -166,9 +166,11 @@ class Pair {
 
 }  // namespace
 
+void add_poles(const ArxModel& model, Report& report) { add_places("poles", "poles", poles(model), report.add("")); }
+
 void add_responses(const Responding& responding, bool listed, Report& report) {
-  ReportSection& section = report.add("");
-  add_places("poles", "poles", poles(responding.model), section);
+  add_poles(responding.model, report);
+  ReportSection& section = report.sections.back();
   const ArxOrders& orders = responding.model.orders;
   for (int i = 0; i < orders.outputs(); ++i) {
     for (int k = 0; k < orders.inputs(); ++k) {

@@ -17,11 +17,14 @@ struct Responding {
   std::span<const double> covariance{};
 };
 
-/// Series, I an output and K an input: `poles` and `zeros.I.K` (x the real part, y the imaginary one), `step.I.K` over
-/// seconds, `amplitude.I.K` and `phase.I.K` (degrees) over Hz; with a covariance the ends of their 95 % bands, the same
-/// id with `.low` and `.high` after it.
-/// Where `listed`, also the lists of `responses`: `seconds` and `step` [output][input] {`value`, `sd`}; `hz` and
-/// `frequency` [output][input] {`amplitude`, `amplitude_sd`, `phase`, `phase_sd`}, phases in radians.
+/// The series `poles`: x the real part, y the imaginary one.
+void add_poles(const ArxModel& model, Report& report);
+
+/// Beside the poles, series, I an output and K an input: `zeros.I.K` like them, `step.I.K` over seconds,
+/// `amplitude.I.K` and `phase.I.K` (degrees) over Hz; with a covariance the ends of their 95 % bands, the same id with
+/// `.low` and `.high` after it. Where `listed`, also the lists of `responses`: `seconds` and `step` [output][input]
+/// {`value`, `sd`}; `hz` and `frequency` [output][input] {`amplitude`, `amplitude_sd`, `phase`, `phase_sd`}, phases in
+/// radians.
 void add_responses(const Responding& responding, bool listed, Report& report);
 
 }  // namespace wisp::arx

@@ -15,7 +15,7 @@ const FAMILIES: readonly (readonly [RegExp, string])[] = [
   [/^column/, ''],
   [/^fall\./, 'The falls, from the side'],
   [/^(measured|predicted|simulated)\./, 'Measured and played'],
-  [/^tip\./, 'The tip, recorded and played from the wind alone'],
+  [/^tip\./, 'The tip: recorded, played from the wind alone, and told one frame ahead'],
   [/^step\./, 'Answer to a step'],
   [/^flicker\./, 'Spectrum of the flicker'],
   [/^residual\./, 'What is left over'],
@@ -46,6 +46,9 @@ export function plotsOf(curves: readonly Curve[]): HTMLElement[] {
     .slice(0, MOST_PLOTS)
     .map(([key, group]) => plotOf(group, FAMILIES[parseInt(key)]?.[1] ?? ''));
 }
+
+/** Poles and zeros, in the z plane. */
+const isPlace = ({ id }: Curve): boolean => /^(poles|zeros)/.test(id);
 
 /** One of many alike, which need no names. */
 const isFall = ({ id }: Curve): boolean => id.startsWith('fall.');
@@ -116,12 +119,18 @@ function draw(canvas: HTMLCanvasElement, curves: readonly Curve[]): void {
   if (surface === null) return;
   const { context, width, height } = surface;
   let [left, right] = extent(curves.flatMap(({ x }) => [extent(x.filter(Number.isFinite))].flat()));
-  const [low, high] = extent(curves.flatMap(({ y }) => [extent(y.filter(Number.isFinite))].flat()));
-  if (curves.some(isFall)) {
-    // Metres to the side are as long as metres down.
-    const across = ((high - low) * (width - MARGIN.left - MARGIN.right)) / (height - MARGIN.top - MARGIN.bottom);
-    const more = Math.max(0, across - (right - left)) / 2;
-    [left, right] = [left - more, right + more];
+  let [low, high] = extent(curves.flatMap(({ y }) => [extent(y.filter(Number.isFinite))].flat()));
+  const places = curves.some(isPlace);
+  if (places) {
+    [left, right] = [Math.min(left, -1.05), Math.max(right, 1.05)];
+    [low, high] = [Math.min(low, -1.05), Math.max(high, 1.05)];
+  }
+  if (places || curves.some(isFall)) {
+    // To the side is as long as up.
+    const shape = (width - MARGIN.left - MARGIN.right) / (height - MARGIN.top - MARGIN.bottom);
+    const wider = Math.max(0, shape * (high - low) - (right - left)) / 2;
+    const taller = Math.max(0, (right - left) / shape - (high - low)) / 2;
+    [left, right, low, high] = [left - wider, right + wider, low - taller, high + taller];
   }
   const x = (value: number): number => MARGIN.left + ((value - left) / (right - left)) * (width - MARGIN.left - MARGIN.right);
   const y = (value: number): number => height - MARGIN.bottom - ((value - low) / (high - low)) * (height - MARGIN.top - MARGIN.bottom);
@@ -141,12 +150,19 @@ function draw(canvas: HTMLCanvasElement, curves: readonly Curve[]): void {
   context.fillText(curves[0]?.x_label ?? '', (MARGIN.left + width) / 2, height - 3);
   context.lineWidth = 1.5;
   context.lineJoin = 'round';
+  if (places) {
+    // The edge of stability.
+    context.strokeStyle = 'rgb(255 240 220 / 40%)';
+    context.beginPath();
+    context.ellipse(x(0), y(0), x(1) - x(0), y(0) - y(1), 0, 0, 2 * Math.PI);
+    context.stroke();
+  }
   let drawn = -1;
   for (const curve of curves) {
     if (!isEdge(curve)) drawn += 1;
     context.strokeStyle = context.fillStyle = COLOURS[Math.max(0, drawn) % COLOURS.length] as string;
     context.globalAlpha = isEdge(curve) ? 0.35 : 1;
-    const dots = curve.x_label === 'real part' || (/^lag/.test(curve.x_label) && !isEdge(curve));
+    const dots = isPlace(curve) || (/^lag/.test(curve.x_label) && !isEdge(curve));
     let on = false;
     context.beginPath();
     curve.x.forEach((across, at) => {

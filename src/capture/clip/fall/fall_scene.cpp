@@ -1,0 +1,180 @@
+#include "capture/clip/fall/fall_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace wisp::fall {
+namespace {
+
+constexpr std::size_t kSamples = 61;     // frames that the wall is taken from
+constexpr std::size_t kGainSpots = 997;  // pixels that exposure is measured on
+constexpr float kMinGround = 16;         // grey levels: darker, it tells no exposure
+constexpr float kMinDifference = 8;      // grey levels: coding leaves less behind
+constexpr float kSigmas = 5;
+constexpr double kUnsteady = 5;   // grey levels that a pixel that changes all the time is not within …
+constexpr double kMoments = 0.7;  // … for more than so much of it
+constexpr float kMadToSigma = 1.4826F;
+constexpr int kMinPixels = 4;     // of something, beyond the tolerance
+constexpr double kTypical = 0.9;  // quantile of a thing's differences that is the thing's own: its edge differs less
+constexpr double kShadow = 0.35;  // of that: what differs less is its shadow, or its blur
+constexpr double kPixelVariance = 1.0 / 12;
+
+template <class T>
+T quantile(std::vector<T>& values, double share) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+// How much brighter the wall is in a frame than in the film: cameras follow the light.
+float gain_of(const Frame& frame, const std::vector<float>& brightness) {
+  std::vector<float> ratios;
+  const std::size_t step = std::max<std::size_t>(1, frame.size() / kGainSpots);
+  for (std::size_t p = 0; p < frame.size(); p += step) {
+    if (brightness[p] >= kMinGround) ratios.push_back(static_cast<float>(frame[p]) / brightness[p]);
+  }
+  return ratios.size() < 16 ? 1 : quantile(ratios, 0.5);
+}
+
+std::vector<const Frame*> samples_of(std::span<const Frame> frames) {
+  std::vector<const Frame*> all, out;
+  for (const Frame& frame : frames) {
+    if (!frame.empty()) all.push_back(&frame);
+  }
+  const std::size_t count = std::min(kSamples, all.size());
+  for (std::size_t k = 0; k < count; ++k) out.push_back(all[(2 * k + 1) * all.size() / (2 * count)]);
+  return out;
+}
+
+// Pixels beyond the tolerance, and those around them: a thing whose middle is as bright as the wall stays one.
+std::vector<std::uint8_t> mask_of(const std::vector<float>& difference, const Wall& wall) {
+  std::vector<std::uint8_t> mask(difference.size(), 0);
+  for (int y = 0; y < wall.height; ++y) {
+    for (int x = 0; x < wall.width; ++x) {
+      const auto p = static_cast<std::size_t>(y * wall.width + x);
+      if (std::abs(difference[p]) <= wall.tolerance[p]) continue;
+      for (int v = std::max(0, y - 1); v <= std::min(wall.height - 1, y + 1); ++v) {
+        for (int u = std::max(0, x - 1); u <= std::min(wall.width - 1, x + 1); ++u) {
+          mask[static_cast<std::size_t>(v * wall.width + u)] = 1;
+        }
+      }
+    }
+  }
+  return mask;
+}
+
+// Takes the connected pixels around one out of the mask.
+std::vector<int> component_at(int seed, std::vector<std::uint8_t>& mask, const Wall& wall) {
+  std::vector<int> pixels{seed};
+  mask[static_cast<std::size_t>(seed)] = 0;
+  for (std::size_t k = 0; k < pixels.size(); ++k) {
+    const int x = pixels[k] % wall.width, y = pixels[k] / wall.width;
+    for (int v = std::max(0, y - 1); v <= std::min(wall.height - 1, y + 1); ++v) {
+      for (int u = std::max(0, x - 1); u <= std::min(wall.width - 1, x + 1); ++u) {
+        const int p = v * wall.width + u;
+        if (mask[static_cast<std::size_t>(p)] == 0) continue;
+        mask[static_cast<std::size_t>(p)] = 0;
+        pixels.push_back(p);
+      }
+    }
+  }
+  return pixels;
+}
+
+bool touches_border(const std::vector<int>& pixels, const Wall& wall) {
+  return std::ranges::any_of(pixels, [&](int p) {
+    const int x = p % wall.width, y = p / wall.width;
+    return x == 0 || y == 0 || x == wall.width - 1 || y == wall.height - 1;
+  });
+}
+
+// Its moments, each pixel weighted by how much of it the thing covers.
+Thing thing_of(const std::vector<int>& pixels, double contrast, const std::vector<float>& difference, int width) {
+  double sum = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+  for (const int p : pixels) {
+    const double cover = std::min(1.0, std::abs(difference[static_cast<std::size_t>(p)]) / contrast);
+    const double weight = std::max(0.0, cover - kShadow) / (1 - kShadow);
+    const double px = p % width, py = p / width;
+    sum += weight;
+    x += weight * px;
+    y += weight * py;
+    xx += weight * px * px;
+    xy += weight * px * py;
+    yy += weight * py * py;
+  }
+  Thing thing{.x = x / sum, .y = y / sum, .area = sum, .contrast = contrast};
+  const auto [left, right] = std::ranges::minmax(pixels, {}, [&](int p) { return p % width; });
+  thing.left = left % width, thing.right = right % width;
+  thing.bottom = std::ranges::max(pixels) / width;
+  xx = xx / sum - thing.x * thing.x, yy = yy / sum - thing.y * thing.y, xy = xy / sum - thing.x * thing.y;
+  const double middle = (xx + yy) / 2, radius = std::hypot((xx - yy) / 2, xy);
+  const double across = std::max(middle - radius - kPixelVariance, kPixelVariance);
+  thing.angle = -std::atan2(2 * xy, xx - yy) / 2;  // y is down
+  thing.aspect = std::sqrt(std::max(1.0, (middle + radius - kPixelVariance) / across));
+  return thing;
+}
+
+}  // namespace
+
+Wall wall_of(std::span<const Frame> frames, int width, int height) {
+  const std::vector<const Frame*> samples = samples_of(frames);
+  const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  Wall wall{.width = width, .height = height, .brightness = std::vector<float>(pixels), .tolerance = {}};
+  std::vector<float> values(samples.size());
+  for (std::size_t p = 0; p < pixels; ++p) {
+    for (std::size_t k = 0; k < samples.size(); ++k) values[k] = (*samples[k])[p];
+    wall.brightness[p] = quantile(values, 0.5);
+  }
+  std::vector<float> gains;
+  double square = 0;
+  for (const Frame* sample : samples) {
+    gains.push_back(gain_of(*sample, wall.brightness));
+    const double shift = shift_of(*sample, wall, gains.back());
+    square += shift * shift;
+  }
+  wall.shake = std::sqrt(square / static_cast<double>(samples.size()));
+  std::vector<float> sigmas(pixels);
+  std::size_t unsteady = 0;
+  for (std::size_t p = 0; p < pixels; ++p) {
+    for (std::size_t k = 0; k < samples.size(); ++k)
+      values[k] = std::abs((*samples[k])[p] - gains[k] * wall.brightness[p]);
+    sigmas[p] = kMadToSigma * quantile(values, 0.5);
+    unsteady += quantile(values, kMoments) > kUnsteady;
+  }
+  std::vector<float> sorted = sigmas;
+  const float noise = quantile(sorted, 0.5);
+  for (const float sigma : sigmas) {
+    wall.tolerance.push_back(std::max(kMinDifference, kSigmas * std::max(sigma, noise)));
+  }
+  wall.noise = noise;
+  wall.unsteady = static_cast<double>(unsteady) / static_cast<double>(pixels);
+  return wall;
+}
+
+Seen seen_in(const Frame& frame, const Wall& wall) {
+  const float gain = gain_of(frame, wall.brightness);
+  std::vector<float> difference(frame.size());
+  for (std::size_t p = 0; p < frame.size(); ++p) difference[p] = frame[p] - gain * wall.brightness[p];
+  std::vector<std::uint8_t> mask = mask_of(difference, wall);
+  Seen seen;
+  std::vector<double> beyond;
+  for (std::size_t seed = 0; seed < mask.size(); ++seed) {
+    if (mask[seed] == 0) continue;
+    const std::vector<int> pixels = component_at(static_cast<int>(seed), mask, wall);
+    beyond.clear();
+    for (const int p : pixels) {
+      const double far = std::abs(difference[static_cast<std::size_t>(p)]);
+      if (far > wall.tolerance[static_cast<std::size_t>(p)]) beyond.push_back(far);
+    }
+    if (beyond.size() < kMinPixels) continue;
+    if (touches_border(pixels, wall)) {
+      seen.at_border = true;
+      continue;
+    }
+    seen.things.push_back(thing_of(pixels, quantile(beyond, kTypical), difference, wall.width));
+  }
+  return seen;
+}
+
+}  // namespace wisp::fall

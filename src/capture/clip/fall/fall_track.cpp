@@ -1,0 +1,130 @@
+#include "capture/clip/fall/fall_track.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace wisp::fall {
+namespace {
+
+constexpr double kGapSeconds = 0.05;     // edge on, or as bright as the wall: it is back soon
+constexpr std::size_t kMinGap = 2;       // frames
+constexpr double kFirstSpeed = 6;        // heights a second that something may come into view with
+constexpr double kChange = 2.5;          // heights a second that its speed may change by from one frame to the next …
+constexpr double kShare = 0.6;           // … and of the speed itself
+constexpr double kMinReach = 3;          // small pixels
+constexpr double kJoinSeconds = 0.2;     // what a cubic can bridge of a swing that takes half a second
+constexpr double kJoinReach = 0.1;       // heights: gravity moves nothing further from its straight way in that time
+constexpr double kOverlapSeconds = 0.2;  // one part is followed to its end, while the other one is already there
+constexpr std::size_t kSteady = 3;       // frames that a speed is taken over, where what was seen last is seen in part
+constexpr std::size_t kMinRows = 3;      // fewer are noise
+
+// How far a thing lies from where a track would be in a frame, over how far it may.
+double miss(const Track& track, const Thing& thing, std::size_t frame, const Scale& scale) {
+  const auto gap = static_cast<double>(frame - track.frames.back());
+  const double u = track.speed(&Thing::x, 1), v = track.speed(&Thing::y, 1);
+  const double known = kChange * scale.height / scale.rate_hz + kShare * std::hypot(u, v);
+  const double reach = gap * (track.things.size() < 2 ? kFirstSpeed * scale.height / scale.rate_hz : known);
+  const Thing& last = track.things.back();
+  return std::hypot(thing.x - last.x - gap * u, thing.y - last.y - gap * v) / std::max(kMinReach, reach);
+}
+
+std::vector<Track> linked(std::span<const Seen> frames, const Scale& scale) {
+  const std::size_t gap = std::max(kMinGap, static_cast<std::size_t>(kGapSeconds * scale.rate_hz));
+  std::vector<Track> live, done;
+  for (std::size_t frame = 0; frame < frames.size(); ++frame) {
+    const std::vector<Thing>& things = frames[frame].things;
+    std::erase_if(live, [&](Track& track) {
+      if (frame - track.frames.back() <= gap + 1) return false;
+      done.push_back(std::move(track));
+      return true;
+    });
+    std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
+    for (std::size_t t = 0; t < live.size(); ++t) {
+      for (std::size_t k = 0; k < things.size(); ++k) {
+        const double far = miss(live[t], things[k], frame, scale);
+        if (far <= 1) pairs.emplace_back(far, t, k);
+      }
+    }
+    std::ranges::sort(pairs);
+    std::vector<bool> taken(things.size());
+    for (const auto& [far, t, k] : pairs) {
+      if (taken[k] || live[t].frames.back() == frame) continue;
+      taken[k] = true;
+      live[t].frames.push_back(frame);
+      live[t].things.push_back(things[k]);
+    }
+    for (std::size_t k = 0; k < things.size(); ++k) {
+      if (!taken[k]) live.push_back({{frame}, {things[k]}});
+    }
+  }
+  std::ranges::move(live, std::back_inserter(done));
+  return done;
+}
+
+// Whether one goes on where the other ends: how far apart both come, each on its straight way, half-way between. Below
+// 0: it does not.
+double seam(const Track& before, const Track& after, const Scale& scale) {
+  const double gap = static_cast<double>(after.frames.front()) - static_cast<double>(before.frames.back());
+  if (gap > kJoinSeconds * scale.rate_hz || gap < -kOverlapSeconds * scale.rate_hz) return -1;
+  if (after.frames.front() <= before.frames.front() || after.frames.back() <= before.frames.back()) return -1;
+  const Thing &a = before.things.back(), &b = after.things.front();
+  const auto apart = [&](double Thing::*axis) {
+    return b.*axis - a.*axis - gap / 2 * (before.speed(axis, kSteady) + after.first_speed(axis, kSteady));
+  };
+  const double far = std::hypot(apart(&Thing::x), apart(&Thing::y));
+  return far <= kJoinReach * scale.height ? far : -1;
+}
+
+// What both show, the later one from where it begins.
+void append(Track& before, const Track& after) {
+  const auto end = std::ranges::lower_bound(before.frames, after.frames.front()) - before.frames.begin();
+  before.frames.resize(static_cast<std::size_t>(end));
+  before.things.resize(static_cast<std::size_t>(end));
+  before.frames.insert(before.frames.end(), after.frames.begin(), after.frames.end());
+  before.things.insert(before.things.end(), after.things.begin(), after.things.end());
+}
+
+}  // namespace
+
+double Track::speed(double Thing::*axis, std::size_t steps) const {
+  if (things.size() < 2) return 0;
+  const std::size_t b = things.size() - 1, a = b - std::min(b, steps);
+  return (things[b].*axis - things[a].*axis) / static_cast<double>(frames[b] - frames[a]);
+}
+
+double Track::first_speed(double Thing::*axis, std::size_t steps) const {
+  if (things.size() < 2) return 0;
+  const std::size_t b = std::min(things.size() - 1, steps);
+  return (things[b].*axis - things[0].*axis) / static_cast<double>(frames[b] - frames[0]);
+}
+
+std::vector<Track> tracks_in(std::span<const Seen> frames, const Scale& scale) {
+  std::vector<Track> tracks = linked(frames, scale);
+  std::erase_if(tracks, [](const Track& track) { return track.things.size() < kMinRows; });
+  std::ranges::stable_sort(tracks, {}, [](const Track& track) { return track.frames.front(); });
+  std::vector<std::tuple<double, std::size_t, std::size_t>> seams;
+  for (std::size_t a = 0; a < tracks.size(); ++a) {
+    const double last = static_cast<double>(tracks[a].frames.back()) + kJoinSeconds * scale.rate_hz;
+    for (std::size_t b = a + 1; b < tracks.size() && static_cast<double>(tracks[b].frames.front()) <= last; ++b) {
+      if (const double far = seam(tracks[a], tracks[b], scale); far >= 0) seams.emplace_back(far, a, b);
+    }
+  }
+  std::ranges::sort(seams);
+  std::vector<std::size_t> next(tracks.size(), tracks.size());
+  std::vector<bool> follows(tracks.size());
+  for (const auto& [far, a, b] : seams) {
+    if (next[a] != tracks.size() || follows[b]) continue;
+    next[a] = b;
+    follows[b] = true;
+  }
+  std::vector<Track> joined;
+  for (std::size_t a = 0; a < tracks.size(); ++a) {
+    if (follows[a]) continue;
+    joined.push_back(tracks[a]);
+    for (std::size_t b = next[a]; b != tracks.size(); b = next[b]) append(joined.back(), tracks[b]);
+  }
+  return joined;
+}
+
+}  // namespace wisp::fall

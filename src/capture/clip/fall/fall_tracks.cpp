@@ -1,0 +1,243 @@
+#include "capture/clip/fall/fall_tracks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace wisp::fall {
+namespace {
+
+constexpr double kMinSeconds = 0.3;
+constexpr std::size_t kMinRows = 8;    // of a stretch that a chain is learned from
+constexpr double kMinDescent = 0.25;   // heights of the picture
+constexpr double kPieceDescent = 0.1;  // heights: what sinks by so much and is no fall is a piece of one
+constexpr double kAtRest = 0.01;       // heights: nearer to where it began or ended, it hangs or lies
+constexpr std::size_t kRests = 3;      // frames
+constexpr double kApart = 0.03;        // heights: what keeps its distance as closely is a part, or a shadow
+constexpr double kRound = 1.3;         // aspect: less long, it has no direction
+constexpr double kNearEnd = 0.1;       // heights: so much of a fall may be wanting at its end
+constexpr double kNearSide = 2;        // small pixels
+constexpr std::size_t kAhead = 3;      // frames: what will have crossed the picture's side by then has left there
+constexpr double kSameSeconds = 0.5;   // pieces that follow each other as closely are of one fall
+
+// A track from where the thing begins to move until it lies, or leaves.
+struct Candidate {
+  Track track;
+  bool rests = false;  // it is seen lying
+
+  std::size_t begin() const { return track.frames.front(); }
+  std::size_t end() const { return track.frames.back(); }
+  double bottom() const { return track.things.back().bottom; }
+  double descent() const { return track.things.back().y - track.things.front().y; }
+};
+
+Candidate trimmed(Track track, double height) {
+  const auto lowest = std::ranges::max(track.things, {}, &Thing::y).y;
+  std::size_t first = 0, last = 0;
+  const auto moved = [&](const Thing& thing) {
+    return std::hypot(thing.x - track.things[0].x, thing.y - track.things[0].y) > kAtRest * height;
+  };
+  while (first < track.things.size() && !moved(track.things[first])) ++first;
+  while (last + 1 < track.things.size() && track.things[last].y < lowest - kAtRest * height) ++last;
+  first = std::max<std::size_t>(first, 1) - 1;
+  if (first > last) first = last;
+  const bool rests = last + kRests < track.things.size();
+  const auto cut = [&](auto& values) {
+    values.erase(values.begin() + static_cast<std::ptrdiff_t>(last) + 1, values.end());
+    values.erase(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(first));
+  };
+  cut(track.frames);
+  cut(track.things);
+  return {std::move(track), rests};
+}
+
+bool is_long(const Candidate& fall, const Scale& scale) {
+  const std::size_t rows = fall.end() - fall.begin() + 1;
+  return rows >= kMinRows && static_cast<double>(rows - 1) >= kMinSeconds * scale.rate_hz;
+}
+
+bool is_fall(const Candidate& fall, const Scale& scale) {
+  return is_long(fall, scale) && fall.descent() >= kMinDescent * scale.height;
+}
+
+// Whether a thing that moves on as it does has crossed one of the picture's sides a few frames later.
+bool crosses_side(const Thing& thing, double speed, const Scale& scale) {
+  const double way = speed * kAhead;
+  return thing.left + way < kNearSide || thing.right + way > scale.width - 1 - kNearSide;
+}
+
+// `ground`: where falls end.
+Cut cut_of(const Candidate& fall, double ground, std::size_t frames, const Scale& scale) {
+  const Track& track = fall.track;
+  if (crosses_side(track.things.front(), -track.first_speed(&Thing::x, kAhead), scale)) return Cut::kSide;
+  if (fall.rests || fall.end() + kRests >= frames || fall.bottom() >= ground - kNearEnd * scale.height) return Cut::kNo;
+  return crosses_side(track.things.back(), track.speed(&Thing::x, kAhead), scale) ? Cut::kSide : Cut::kLost;
+}
+
+// How far a thing reaches from its middle, and goes until the next frame.
+double reach(const Track& track, std::size_t k) {
+  const Thing &now = track.things[k], &next = track.things[std::min(k + 1, track.things.size() - 1)];
+  return std::max((now.right - now.left) / 2, now.bottom - now.y) + std::hypot(next.x - now.x, next.y - now.y);
+}
+
+// Whether two touch, or may within a frame.
+bool pass(const Candidate& one, const Candidate& other) {
+  const Track &a = one.track, &b = other.track;
+  for (std::size_t k = 0; k < a.frames.size(); ++k) {
+    const auto at = std::ranges::lower_bound(b.frames, a.frames[k]);
+    if (at == b.frames.end()) break;
+    const auto j = static_cast<std::size_t>(at - b.frames.begin());
+    const double far = std::hypot(a.things[k].x - b.things[j].x, a.things[k].y - b.things[j].y);
+    if (*at == a.frames[k] && far < reach(a, k) + reach(b, j)) return true;
+  }
+  return false;
+}
+
+// The height at which most end; the picture's border where there are none.
+double ground_of(const std::vector<Candidate>& falls, const Scale& scale) {
+  std::vector<double> ends;
+  for (const Candidate& fall : falls) {
+    const Track& track = fall.track;
+    if (!crosses_side(track.things.back(), track.speed(&Thing::x, kAhead), scale)) ends.push_back(fall.bottom());
+  }
+  if (ends.empty()) return scale.height;
+  const auto middle = ends.begin() + static_cast<std::ptrdiff_t>(ends.size() / 2);
+  std::ranges::nth_element(ends, middle);
+  return *middle;
+}
+
+// Whether two tracks keep their distance for most of the shorter one: a thing and its shadow, or two parts of it.
+bool together(const Candidate& one, const Candidate& other_one, double height) {
+  const Track &a = one.track, &b = other_one.track;
+  std::vector<double> x, y;
+  for (std::size_t k = 0; k < a.frames.size(); ++k) {
+    const auto at = std::ranges::lower_bound(b.frames, a.frames[k]);
+    if (at == b.frames.end() || *at != a.frames[k]) continue;
+    const Thing& other = b.things[static_cast<std::size_t>(at - b.frames.begin())];
+    x.push_back(a.things[k].x - other.x);
+    y.push_back(a.things[k].y - other.y);
+  }
+  if (2 * x.size() < std::min(a.frames.size(), b.frames.size())) return false;
+  const auto spread = [](const std::vector<double>& v) { return std::ranges::max(v) - std::ranges::min(v); };
+  return spread(x) <= kApart * height && spread(y) <= kApart * height;
+}
+
+double contrast(const Candidate& fall) {
+  std::vector<double> values;
+  for (const Thing& thing : fall.track.things) values.push_back(thing.contrast);
+  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
+  return values[values.size() / 2];
+}
+
+void leave_out_shadows(std::vector<Candidate>& falls, double height) {
+  std::ranges::stable_sort(falls, std::ranges::greater(), contrast);
+  std::vector<Candidate> kept;
+  for (Candidate& fall : falls) {
+    if (std::ranges::none_of(kept, [&](const Candidate& other) { return together(fall, other, height); })) {
+      kept.push_back(std::move(fall));
+    }
+  }
+  falls = std::move(kept);
+  std::ranges::stable_sort(falls, {}, &Candidate::begin);
+}
+
+// Of what sinks and is no fall: pieces of falls that were not found, each fall once. `rest` in the order of their
+// beginnings.
+std::vector<Cut> missed_of(const std::vector<Candidate>& rest, const std::vector<Candidate>& falls,
+                           const std::vector<Cut>& cuts, double ground, std::size_t frames, const Scale& scale) {
+  const auto same = static_cast<std::size_t>(kSameSeconds * scale.rate_hz);
+  std::vector<Cut> missed;
+  std::size_t last = 0;  // frame in which the one before ends
+  for (const Candidate& piece : rest) {
+    if (piece.descent() < kPieceDescent * scale.height) continue;
+    const bool quick = piece.descent() >= kMinDescent * scale.height;
+    const Cut cut = quick ? Cut::kQuick : cut_of(piece, ground, frames, scale);
+    if (cut == Cut::kNo) continue;
+    bool known = !missed.empty() && piece.begin() <= last + same;
+    for (std::size_t k = 0; k < falls.size() && !known; ++k) {
+      const bool near = piece.begin() <= falls[k].end() + same && falls[k].begin() <= piece.end() + same;
+      known = near && (cuts[k] != Cut::kNo || together(piece, falls[k], scale.height));
+    }
+    if (known) continue;
+    missed.push_back(cut);
+    last = piece.end();
+  }
+  return missed;
+}
+
+// A line is the same turned by half a turn; what is round for a moment points where it pointed before and after.
+void unwrap(Track& track) {
+  std::size_t known = track.things.size();
+  for (std::size_t k = 0; k < track.things.size(); ++k) {
+    if (track.things[k].aspect < kRound) continue;
+    double& angle = track.things[k].angle;
+    const double last = known < k ? track.things[known].angle : angle;
+    angle -= std::numbers::pi * std::round((angle - last) / std::numbers::pi);
+    const std::size_t from = known < k ? known + 1 : 0;
+    for (std::size_t j = from; j < k; ++j) {
+      const double share = from == 0 ? 1 : static_cast<double>(j - known) / static_cast<double>(k - known);
+      track.things[j].angle = last + share * (angle - last);
+    }
+    known = k;
+  }
+  for (std::size_t k = known + 1; k < track.things.size(); ++k) track.things[k].angle = track.things[known].angle;
+}
+
+// Frames in which it was not seen lie on a cubic through those around.
+Fall fall_of(const Track& track, Cut cut) {
+  Fall fall{track.frames.front(), {}, {}, cut};
+  const std::size_t count = track.frames.size();
+  const auto at = [&](std::size_t k, double Thing::*part) { return track.things[k].*part; };
+  for (std::size_t k = 0; k < count; ++k) {
+    fall.rows.push_back(track.things[k]);
+    fall.filled.push_back(0);
+    if (k + 1 == count) break;
+    const auto frame = [&](std::size_t i) { return static_cast<double>(track.frames[i]); };
+    const double step = frame(k + 1) - frame(k);
+    const std::size_t before = k > 0 ? k - 1 : k, after = std::min(k + 2, count - 1);
+    for (std::size_t missing = track.frames[k] + 1; missing < track.frames[k + 1]; ++missing) {
+      Thing thing = track.things[k];
+      const double s = (static_cast<double>(missing) - frame(k)) / step;
+      for (double Thing::*part : {&Thing::x, &Thing::y, &Thing::angle}) {
+        const double a = at(k, part), b = at(k + 1, part);
+        const double from = step * (b - at(before, part)) / (frame(k + 1) - frame(before));
+        const double to = step * (at(after, part) - a) / (frame(after) - frame(k));
+        thing.*part = a + s * (from + s * (3 * (b - a) - 2 * from - to + s * (from + to - 2 * (b - a))));
+      }
+      fall.rows.push_back(thing);
+      fall.filled.push_back(1);
+    }
+  }
+  return fall;
+}
+
+}  // namespace
+
+Falls falls_in(std::span<const Seen> frames, const Scale& scale) {
+  std::vector<Candidate> falls, rest;
+  for (Track& track : tracks_in(frames, scale)) {
+    Candidate candidate = trimmed(std::move(track), scale.height);
+    (is_fall(candidate, scale) ? falls : rest).push_back(std::move(candidate));
+  }
+  leave_out_shadows(falls, scale.height);
+  std::ranges::stable_sort(rest, {}, &Candidate::begin);
+  const double ground = ground_of(falls, scale);
+  std::vector<Cut> cuts;
+  for (const Candidate& fall : falls) {
+    cuts.push_back(cut_of(fall, ground, frames.size(), scale));
+    const auto passes = [&](const Candidate& other) { return &other != &fall && pass(fall, other); };
+    if (cuts.back() == Cut::kNo && std::ranges::any_of(falls, passes)) cuts.back() = Cut::kPasses;
+  }
+  Falls found{{}, missed_of(rest, falls, cuts, ground, frames.size(), scale)};
+  for (std::size_t k = 0; k < falls.size(); ++k) {
+    if (cuts[k] == Cut::kPasses) {
+      found.missed.push_back(cuts[k]);
+      continue;
+    }
+    unwrap(falls[k].track);
+    found.falls.push_back(fall_of(falls[k].track, cuts[k]));
+  }
+  return found;
+}
+
+}  // namespace wisp::fall
