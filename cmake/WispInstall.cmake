@@ -40,7 +40,10 @@ install(FILES ${PROJECT_BINARY_DIR}/wisp-config.cmake ${PROJECT_BINARY_DIR}/wisp
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/wisp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   COMPONENT development FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
 foreach(component program runtime development)
-  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/wisp-${component}
+  set(documents ${CMAKE_INSTALL_DATADIR}/doc/wisp-${component})
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/third_party/NOTICES.txt
+    DESTINATION ${documents} COMPONENT ${component})
+  install(FILES ${PROJECT_SOURCE_DIR}/third_party/flatbuffers/LICENSE DESTINATION ${documents} RENAME LICENSE.Apache-2.0
     COMPONENT ${component})
 endforeach()
 

@@ -23,13 +23,26 @@ function(wisp_layer name)
     target_link_libraries(${target} PUBLIC wisp::${below})
   endforeach()
   target_link_libraries(${target} PRIVATE ${LAYER_LINKS})
-  # A host may build with -ffast-math. A missing sample is a NaN here, and the frame path keeps its bits.
-  target_compile_options(${target} PRIVATE -fno-fast-math ${LAYER_OPTIONS})
+  wisp_exact_arithmetic(${target} ${LAYER_OPTIONS})
   wisp_warnings(${target})
   set_property(GLOBAL APPEND PROPERTY WISP_LAYERS ${target})
 endfunction()
 
+# A host may build with -ffast-math. A missing sample is a NaN here, and the frame path keeps its bits. Further arguments
+# are what GCC and Clang need besides; MSVC and clang-cl have one word for all of it.
+function(wisp_exact_arithmetic target)
+  if(MSVC)
+    target_compile_options(${target} PRIVATE /fp:precise /utf-8 $<$<CXX_COMPILER_ID:Clang>:/clang:-ffp-contract=off>)
+  else()
+    target_compile_options(${target} PRIVATE -fno-fast-math ${ARGN})
+  endif()
+endfunction()
+
 function(wisp_warnings target)
+  if(MSVC)
+    target_compile_options(${target} PRIVATE /utf-8 /W3 $<$<BOOL:${WISP_WERROR}>:/WX>)
+    return()
+  endif()
   if(PROJECT_IS_TOP_LEVEL)
     # Designated initialisers leave the other fields at their defaults on purpose.
     target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion

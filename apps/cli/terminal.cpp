@@ -1,6 +1,10 @@
 #include "terminal.hpp"
 
+#ifdef _WIN32
+#include <io.h>
+#else
 #include <unistd.h>
+#endif
 
 #include <algorithm>
 #include <cstdio>
@@ -10,7 +14,7 @@
 
 namespace wisp::cli {
 
-Terminal::Terminal(Options options) : options_(options), terminal_(::isatty(STDERR_FILENO) == 1) {}
+Terminal::Terminal(Options options) : options_(options), terminal_(::isatty(2) != 0) {}
 
 void Terminal::progress(std::string_view what, double done) {
   if (options_.quiet || !terminal_) return;

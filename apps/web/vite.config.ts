@@ -66,6 +66,19 @@ function serviceWorker(): Plugin {
   };
 }
 
+/** The licences of what others wrote and the page carries; for those who look, so no visitor fetches it. */
+function licences(): Plugin {
+  const thirdParty = join(here, '../../third_party');
+  return {
+    name: 'wisp-licences',
+    apply: 'build',
+    generateBundle() {
+      const source = ['NOTICES.txt', 'flatbuffers/LICENSE'].map((name) => readFileSync(join(thirdParty, name), 'utf8')).join('\n\n');
+      this.emitFile({ type: 'asset', fileName: 'licences.txt', source });
+    },
+  };
+}
+
 /** Shaders lose their comments, their blanks, and the zeros of their numbers. */
 function shorterShaders(): Plugin {
   return {
@@ -87,7 +100,7 @@ function shorterShaders(): Plugin {
 
 export default defineConfig({
   base: './',
-  plugins: [policy(), serviceWorker(), shorterShaders()],
+  plugins: [policy(), serviceWorker(), licences(), shorterShaders()],
   worker: {
     format: 'es',
     // The studio's is the only one.

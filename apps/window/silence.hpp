@@ -2,7 +2,11 @@
 // Standard error, quiet for a while.
 
 #include <fcntl.h>
+#ifdef _WIN32
+#include <io.h>
+#else
 #include <unistd.h>
+#endif
 
 namespace wisp::window {
 
@@ -11,7 +15,11 @@ namespace wisp::window {
 class Silence {
  public:
   Silence() : kept_(::dup(2)) {
+#ifdef _WIN32
+    const int nowhere = ::open("NUL", O_WRONLY);
+#else
     const int nowhere = ::open("/dev/null", O_WRONLY);
+#endif
     if (nowhere < 0) return;
     ::dup2(nowhere, 2);
     ::close(nowhere);

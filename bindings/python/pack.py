@@ -34,6 +34,8 @@ files = {
     f"{info}/METADATA": metadata.encode(),
     f"{info}/WHEEL": f"Wheel-Version: 1.0\nGenerator: pack.py\nRoot-Is-Purelib: false\nTag: {tags}\n".encode(),
     f"{info}/LICENSE": (root / "LICENSE").read_bytes(),
+    f"{info}/NOTICES.txt": (root / "third_party/NOTICES.txt").read_bytes(),
+    f"{info}/LICENSE.Apache-2.0": (root / "third_party/flatbuffers/LICENSE").read_bytes(),
 }
 record = f"{info}/RECORD"
 lines = [

@@ -88,6 +88,14 @@ namespace Wisp
             public double RateHz, FrameRateHz, Exponent, SmoothingSeconds, FloorRiseDbPerSecond, FirstGustRms;
         }
 
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct Recipe
+        {
+            public uint Size, Kind;
+            public int Na, Nb, Nk, Modes;
+            public IntPtr Event, Name;
+        }
+
         [DllImport(Library, CallingConvention = C)] internal static extern int wisp_version();
         [DllImport(Library, CallingConvention = C)] internal static extern IntPtr wisp_last_error();
         [DllImport(Library, CallingConvention = C)] internal static extern int wisp_model_load(byte[] bytes, UIntPtr size, out IntPtr model);
@@ -123,6 +131,22 @@ namespace Wisp
         [DllImport(Library, CallingConvention = C)] internal static extern int wisp_wind_feed(IntPtr wind, float[] samples, UIntPtr count, [Out] WindFrame[] frames, UIntPtr room, out UIntPtr taken, out UIntPtr made);
         [DllImport(Library, CallingConvention = C)] internal static extern int wisp_wind_calibrate(IntPtr wind, double seconds);
         [DllImport(Library, CallingConvention = C)] internal static extern int wisp_wind_calibrating(IntPtr wind);
+
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_recording_create(double rateHz, out IntPtr recording);
+        [DllImport(Library, CallingConvention = C)] internal static extern void wisp_recording_free(IntPtr recording);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_recording_add(IntPtr recording, uint role, byte[] name, byte[] unit, double[] samples, UIntPtr count);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_recording_set_episodes(IntPtr recording, long[] ids, UIntPtr count);
+        [DllImport(Library, CallingConvention = C)] internal static extern Recipe wisp_recipe_default(uint kind);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_learn(IntPtr[] recordings, UIntPtr count, ref Recipe recipe, IntPtr progress, IntPtr of, out IntPtr fit);
+        [DllImport(Library, CallingConvention = C)] internal static extern void wisp_fit_free(IntPtr fit);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_fit_get_model(IntPtr fit, out IntPtr bytes, out UIntPtr size);
+        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_fit_usable(IntPtr fit);
+        [DllImport(Library, CallingConvention = C)] internal static extern IntPtr wisp_fit_reason(IntPtr fit);
+
+        internal static byte[] Utf8(string text)
+        {
+            return Encoding.UTF8.GetBytes(text + "\0");
+        }
 
         internal static void Check(int status)
         {
@@ -367,5 +391,70 @@ namespace Wisp
         }
 
         ~WindLevel() { Native.wisp_wind_free(handle); }
+    }
+    /// <summary>What a channel of a recording is.</summary>
+    public enum Role { Input = 0, Output = 1, Motion = 2 }
+
+    /// <summary>What is learned, as wisp.h has it.</summary>
+    public enum Recipe { Arx = 1, Outline = 2, Flame = 3, Chain = 4, Leaf = 5, Flicker = 6 }
+
+    /// <summary>What is learned from: channels at one rate, all of one length. NaN is a missing sample.</summary>
+    public sealed class Recording : IDisposable
+    {
+        internal IntPtr Handle;
+
+        public Recording(double rateHz) { Native.Check(Native.wisp_recording_create(rateHz, out Handle)); }
+
+        public void Add(Role role, string name, double[] samples, string unit = "")
+        {
+            Native.Check(Native.wisp_recording_add(Handle, (uint)role, Native.Utf8(name), Native.Utf8(unit), samples, Native.Count(samples)));
+        }
+
+        /// <summary>One number a row; no history crosses from one number to the next.</summary>
+        public void SetEpisodes(long[] ids) { Native.Check(Native.wisp_recording_set_episodes(Handle, ids, Native.Count(ids))); }
+
+        public void Dispose()
+        {
+            Native.wisp_recording_free(Handle);
+            Handle = IntPtr.Zero;
+            GC.SuppressFinalize(this);
+        }
+
+        ~Recording() { Native.wisp_recording_free(Handle); }
+    }
+
+    /// <summary>What was learned: the bytes of a model's file, and whether it is fit for use. Takes seconds: for an editor or a
+    /// thread of its own. A library that was built without learning throws EntryPointNotFoundException.</summary>
+    public sealed class Fit
+    {
+        public readonly byte[] Bytes;
+        public readonly bool Usable;
+        public readonly string Reason;
+
+        /// <summary>na, nb and nk (-1: found) count for Recipe.Arx, which has them of the library where they are not given.</summary>
+        public Fit(Recipe recipe, Recording[] recordings, int? na = null, int? nb = null, int? nk = null)
+        {
+            Native.Recipe chosen = Native.wisp_recipe_default((uint)recipe);
+            chosen.Na = na ?? chosen.Na;
+            chosen.Nb = nb ?? chosen.Nb;
+            chosen.Nk = nk ?? chosen.Nk;
+            IntPtr fit, bytes;
+            UIntPtr size;
+            IntPtr[] handles = Array.ConvertAll(recordings, recording => recording.Handle);
+            Native.Check(Native.wisp_learn(handles, Native.Count(handles), ref chosen, IntPtr.Zero, IntPtr.Zero, out fit));
+            GC.KeepAlive(recordings);
+            try
+            {
+                Native.Check(Native.wisp_fit_get_model(fit, out bytes, out size));
+                Bytes = new byte[(int)size];
+                Marshal.Copy(bytes, Bytes, 0, Bytes.Length);
+                Usable = Native.wisp_fit_usable(fit) != 0;
+                Reason = Native.Text(Native.wisp_fit_reason(fit));
+            }
+            finally
+            {
+                Native.wisp_fit_free(fit);
+            }
+        }
     }
 }

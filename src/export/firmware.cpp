@@ -113,7 +113,8 @@ Result<void> check(const Lamp& lamp) {
 
 bool is_name(std::string_view name) {
   const auto plain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
-  return !name.empty() && !std::isdigit(static_cast<unsigned char>(name[0])) && std::ranges::all_of(name, plain);
+  return !name.empty() && !std::isdigit(static_cast<unsigned char>(name[0])) &&
+         std::all_of(name.begin(), name.end(), plain);
 }
 
 std::string whole(double value) { return std::to_string(static_cast<std::int64_t>(std::llround(value))); }

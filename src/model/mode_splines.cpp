@@ -4,6 +4,7 @@
 #include "wisp/model/mode_splines.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "model/bspline.hpp"
@@ -39,7 +40,7 @@ void make_unit(std::span<double> q, double scale) {
     std::fill(q.begin(), q.end(), 0.0);
     q[0] = square = 1;
   }
-  const double length = 1 / (scale * __builtin_sqrt(square));
+  const double length = 1 / (scale * std::sqrt(square));
   for (double& x : q) x *= length;
 }
 

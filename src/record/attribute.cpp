@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "record/number_text.hpp"
@@ -26,7 +25,7 @@ Result<std::optional<std::vector<double>>> numbers_attribute(const Recording& re
       continue;
     }
     double value = 0;
-    const auto [next, code] = std::from_chars(at, end, value);
+    const auto [next, code] = read_number(at, end, value);
     const bool whole = next == end || *next == ' ' || *next == '\t';
     if (code != std::errc() || !whole || !std::isfinite(value)) {
       return Error{recording.source + ": \"# " + std::string(name) + "\" holds \"" +

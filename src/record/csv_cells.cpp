@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
+
+#include "record/number_text.hpp"
 
 namespace wisp::csv {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 std::optional<double> parsed(std::string_view text) {
   if (!text.empty() && text.front() == '+') text.remove_prefix(1);
   double value = 0;
-  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, code] = read_number(text.data(), text.data() + text.size(), value);
   if (end != text.data() + text.size()) return std::nullopt;
   if (code == std::errc::result_out_of_range)
     return text.find("e-") != text.npos || text.find("E-") != text.npos ? 0.0 : HUGE_VAL;

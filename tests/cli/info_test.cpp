@@ -257,7 +257,7 @@ TEST_F(Info, AModelIsWrittenAgainFromItsJsonToTheByte) {
   }
 }
 
-// examples/08_play_json.py plays what `info` says; `run` plays the model.
+// examples/08_play_json/play.py plays what `info` says; `run` plays the model.
 class InfoPlayed : public Info {
  protected:
   void SetUp() override {
@@ -267,11 +267,17 @@ class InfoPlayed : public Info {
 
   // Every output of every frame, in Python and by `run`.
   void expect_same_bits(const std::string& path, const std::string& noise, const std::string& wind = "-0.7") {
-    const std::string asked = " --frames 80 --seed 3 --wind " + wind + " --noise " + noise;
+    expect_same_bits(path, noise, wind, "--frames 80 --wind " + wind);
+  }
+
+  // `wind` is what Python is told of it, `flags` is what `run` is told.
+  void expect_same_bits(const std::string& path, const std::string& noise, const std::string& wind,
+                        const std::string& flags) {
+    const std::string asked = " --seed 3 --noise " + noise + " " + flags;
     ASSERT_EQ(wisp("run " + path + asked + " -o " + at("run.csv")).status, 0);
     ASSERT_EQ(wisp("info " + path + " --json").status, 0);
-    const std::string python = "/usr/bin/python3 " WISP_SOURCE_DIR "/examples/08_play_json.py 80 " + wind + " 3 " +
-                               noise + " <" + at("said.out") + " >" + at("play.csv");
+    const std::string python = "/usr/bin/python3 -B " WISP_SOURCE_DIR "/examples/08_play_json/play.py 80 " + wind +
+                               " 3 " + noise + " <" + at("said.out") + " >" + at("play.csv");
     ASSERT_EQ(std::system(python.c_str()), 0) << path;
     const auto ran = read_csv(at("run.csv"));
     ASSERT_TRUE(ran) << ran.error().message;
@@ -305,9 +311,59 @@ TEST_F(InfoPlayed, PowersOfAnInputAndLargeRangesToo) {
   for (const char* wind : {"-120", "3"}) expect_same_bits(at("m.wisp"), "on", wind);
 }
 
-TEST_F(InfoPlayed, ResampledResidualsWithoutNoise) {
+TEST_F(InfoPlayed, ResampledResidualsJumpAsInRunWhileTheWindChanges) {
   ASSERT_TRUE(write_model(at("m.wisp"), flame_model({.points = 4, .wind = InputShape::kSplitSign, .drawn_rows = 60})));
-  expect_same_bits(at("m.wisp"), "off");
+  std::ofstream table(at("wind.csv")), lines(at("wind.txt"));
+  table << "# wisp-recording 1\n# rate_hz 30\nu:wind\n";
+  for (int t = 0; t < 80; ++t) {
+    const double wind = t % 40 < 15 ? 0 : std::sin(0.3 * t);
+    table << wind << '\n';
+    lines << wind << '\n';
+  }
+  table.close();
+  lines.close();
+  for (const std::string& path : {at("m.wisp"), std::string(WISP_SOURCE_DIR "/tests/model/golden/v1-drawn.wisp")}) {
+    expect_same_bits(path, "off");
+    expect_same_bits(path, "on");
+    expect_same_bits(path, "on", at("wind.txt"), "--input " + at("wind.csv"));
+  }
+}
+
+TEST_F(InfoPlayed, ChainsOfPosesAndTheirGusts) {
+  const std::string golden = WISP_SOURCE_DIR "/tests/model/golden/";
+  for (const char* noise : {"on", "off"}) {
+    for (const char* name : {"v1_chain.wisp", "v1_chain_spline.wisp"})
+      expect_same_bits(golden + name, noise, "0", "--frames 80");
+  }
+  std::ofstream table(at("wind.csv")), lines(at("wind.txt"));
+  table << "# wisp-recording 1\n# rate_hz 60\nu:wind.x,u:wind.y,u:wind.z\n";
+  for (int t = 0; t < 80; ++t) {
+    std::ostringstream row;
+    row << (t % 50 > 20 ? std::sin(0.05 * t) : 0) << ',' << (t % 50 > 20 ? 0.4 : 0) << ",-0.1\n";
+    table << row.str();
+    lines << row.str();
+  }
+  table.close();
+  lines.close();
+  expect_same_bits(WISP_SOURCE_DIR "/apps/web/public/models/leaf.wisp", "on", at("wind.txt"),
+                   "--input " + at("wind.csv"));
+}
+
+TEST_F(InfoPlayed, AFlameGoesOut) {
+  for (const char* wind : {"1.9", "3"})
+    expect_same_bits(WISP_SOURCE_DIR "/tests/model/golden/v1-extinction.wisp", "on", wind);
+}
+
+TEST_F(InfoPlayed, WhatIsNotPlayedIsRefusedInASentence) {
+  ASSERT_TRUE(write_model(at("point.wisp"), sample_chain(ChainMotion::kPosition)));
+  ASSERT_EQ(wisp("info " + at("point.wisp") + " --json").status, 0);
+  const std::string python = "/usr/bin/python3 -B " WISP_SOURCE_DIR "/examples/08_play_json/play.py <" +
+                             at("said.out") + " 2>" + at("why") + " >/dev/null";
+  EXPECT_NE(std::system(python.c_str()), 0);
+  std::string why;
+  std::ifstream stream(at("why"));
+  std::getline(stream, why);
+  EXPECT_NE(why.find("the chain moves a point"), std::string::npos) << why;
 }
 
 }  // namespace

@@ -90,6 +90,10 @@ TEST_F(Tables, ARefusalSaysWhatWouldWork) {
   EXPECT_THAT(nameless.err, AllOf(HasSubstr("daisy.dat, row 1"), HasSubstr("--columns u1,u2,y1")));
   const Said rateless = wisp("learn arx " + plain() + " --inputs u --outputs y --json");
   EXPECT_THAT(rateless.err, HasSubstr("states no rate; expected"));
+  write("split.csv", "u,y\n",
+        [](std::ostream& out, int t, double u, double y) { out << u << ',' << y << (t == 50 ? ",5\n" : "\n"); });
+  EXPECT_THAT(wisp("learn arx " + at("split.csv") + " --inputs u --outputs y --rate 10 --json").err,
+              AllOf(HasSubstr("split.csv, row 52: has 3 columns, the header has 2"), HasSubstr("stands in quotes")));
 }
 
 TEST_F(Tables, NumbersWhoseSquaresNoNumberHoldsAreNotConstant) {
@@ -128,6 +132,8 @@ TEST_F(Tables, AModelIsValidatedOnColumnsOfOtherNames) {
   EXPECT_THAT(wisp("validate " + m + " " + at("other.csv") + " --inputs a").err, HasSubstr("has no column \"y\""));
   EXPECT_THAT(wisp("validate " + m + " " + at("other.csv") + " --inputs a,b --outputs b").err,
               HasSubstr("--inputs names 2 channels, the model has 1"));
+  EXPECT_THAT(wisp("validate " + m + " " + plain() + " --inputs y").err,
+              HasSubstr("channel y stands for the model's u and for its y: name another"));
 }
 
 TEST_F(Tables, ARecordingOfAnotherRateIsRefused) {

@@ -76,6 +76,10 @@ class Firmware : public FolderTest {
     return ::pclose(pipe) == 0 ? text : "";
   }
 
+  bool has(const std::string& compiler, const std::string& runner) const {
+    return !said("command -v " + compiler + " && command -v " + runner).empty();
+  }
+
   // The hash and the slowest step that a compiled lamp prints.
   std::string played(const std::string& compiler, const std::string& flags, const std::string& runner) const {
     const std::string bench = WISP_SOURCE_DIR "/studies/export/firmware/";
@@ -115,11 +119,12 @@ TEST_F(Firmware, PlaysAsABankDoes) {
   EXPECT_NEAR(a.calm, b.calm, 0.03);
 }
 
-TEST_F(Firmware, FitsASmallProcessorAndPlaysTheSameNumbersThere) {
+// The compilers and simulators come with script/bootstrap --verify, not with what all tests need.
+TEST_F(Firmware, FitsAnATmega328PAndPlaysTheSameNumbersThere) {
+  if (!has("avr-gcc", "simavr")) GTEST_SKIP() << "no avr-gcc and simavr; script/bootstrap --verify brings them";
   write(light());
   const std::string host = played("cc", "-O2", "./play").substr(0, 8);
   ASSERT_EQ(host.size(), 8u);
-  // The compilers and simulators are of script/bootstrap.
   const std::string avr =
       played("avr-gcc", "-mmcu=atmega328p -Os", "timeout 120 simavr -m atmega328p -f 16000000 play");
   const std::size_t at = avr.find(host);
@@ -133,6 +138,14 @@ TEST_F(Firmware, FitsASmallProcessorAndPlaysTheSameNumbersThere) {
   EXPECT_GT(text, 100) << size;
   EXPECT_LE(text + data, 1024);
   EXPECT_EQ(bss, 0);
+}
+
+TEST_F(Firmware, PlaysTheSameNumbersOnACortexM0) {
+  if (!has("arm-none-eabi-gcc", "qemu-system-arm"))
+    GTEST_SKIP() << "no arm-none-eabi-gcc and qemu-system-arm; script/bootstrap --verify brings them";
+  write(light());
+  const std::string host = played("cc", "-O2", "./play").substr(0, 8);
+  ASSERT_EQ(host.size(), 8u);
   const std::string bench = WISP_SOURCE_DIR "/studies/export/firmware/";
   const std::string arm =
       played("arm-none-eabi-gcc",
@@ -183,6 +196,40 @@ TEST_F(Firmware, WhatNoLampCanPlayIsSaid) {
   Model far = light();
   std::get<SwitchedArxModel>(far.dynamics).output_mean = {90};
   says(far, "expected at most 3.9");
+  Model driven = light();
+  std::get<SwitchedArxModel>(driven.dynamics).orders = {OrderMatrix(1, 1, 4), OrderMatrix(1, 2), OrderMatrix(1, 2)};
+  std::get<SwitchedArxModel>(driven.dynamics).input_mean = {0, 0};
+  driven.inputs = {{"wind", "", 0, 1}, {"rain", "", 0, 1}};
+  says(driven, "2 inputs, expected none or one");
+  driven.inputs = {{"wind", "", -1, 1, InputShape::kSplitSign}};
+  says(driven, "split by its sign");
+}
+
+TEST_F(Firmware, WhatFixedPointDoesNotHoldIsSaid) {
+  const auto says = [](const Model& model, const std::string& words) {
+    const auto source = firmware_source(model, "lamp");
+    ASSERT_FALSE(source);
+    EXPECT_NE(source.error().message.find(words), std::string::npos) << source.error().message;
+  };
+  // Five poles at 0.9.
+  ArxModel steep_memory;
+  steep_memory.orders = {OrderMatrix(1, 1, 5), OrderMatrix(1, 0), OrderMatrix(1, 0)};
+  steep_memory.theta = {{-4.5, 8.1, -7.29, 3.2805, -0.59049}};
+  steep_memory.constant = {0};
+  steep_memory.output_mean = {1};
+  steep_memory.noise.sd = {1e-6};
+  Model steep = light();
+  steep.dynamics = steep_memory;
+  says(steep, "8 or more");
+  ArxModel long_memory;
+  long_memory.orders = {OrderMatrix(1, 1, 33), OrderMatrix(1, 0), OrderMatrix(1, 0)};
+  long_memory.theta = {std::vector<double>(33, 0.001)};
+  long_memory.constant = {0};
+  long_memory.output_mean = {1};
+  long_memory.noise.sd = {0.01};
+  Model slow = light();
+  slow.dynamics = long_memory;
+  says(slow, "32 lags");
 }
 
 }  // namespace

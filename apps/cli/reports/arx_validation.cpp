@@ -11,19 +11,30 @@ namespace wisp::cli {
 
 namespace {
 
-// Finds the channels that stand for the model's, where --inputs or --outputs name them: index, then name.
+// A channel of the table, and the model's channel that it stands for.
+struct Renamed {
+  std::size_t channel = 0;
+  std::string name;
+};
+
+// Finds the channels that stand for the model's: those that the flag names, or those of the same names.
 Result<void> find_renamed(const Recording& recording, const std::vector<std::string>& given,
-                          const std::vector<std::string>& own, const std::string& flag,
-                          std::vector<std::pair<std::size_t, std::string>>& renamed) {
-  if (given.empty()) return {};
-  if (given.size() != own.size()) {
+                          const std::vector<std::string>& own, const std::string& flag, std::vector<Renamed>& renamed) {
+  if (!given.empty() && given.size() != own.size()) {
     return Error{"--" + flag + " names " + std::to_string(given.size()) + " channels, the model has " +
                  std::to_string(own.size()) + ": name one for each, in the model's order"};
   }
   for (std::size_t k = 0; k < own.size(); ++k) {
-    const auto channel = find_channel(recording, given[k]);
-    if (!channel) return Error{recording.source + ": has no channel " + given[k] + ", which --" + flag + " names"};
-    renamed.emplace_back(*channel, own[k]);
+    const std::string& name = given.empty() ? own[k] : given[k];
+    const auto channel = find_channel(recording, name);
+    if (!channel && given.empty()) continue;  // who reads the recording says so
+    if (!channel) return Error{recording.source + ": has no channel " + name + ", which --" + flag + " names"};
+    for (const Renamed& one : renamed) {
+      if (one.channel != *channel) continue;
+      return Error{recording.source + ": channel " + name + " stands for the model's " + one.name + " and for its " +
+                   own[k] + ": name another for one of them with --inputs or --outputs"};
+    }
+    renamed.push_back({*channel, own[k]});
   }
   return {};
 }
@@ -37,11 +48,11 @@ Result<Recording> table_for(const Model& model, const std::string& path, const A
   for (const Output& output : model.outputs) channels.outputs.push_back(output.name);
   auto whole = read_table(path, arguments, channels);
   if (!whole) return whole;
-  std::vector<std::pair<std::size_t, std::string>> renamed;
+  std::vector<Renamed> renamed;
   for (const auto& [flag, own] : {std::pair("inputs", &channels.inputs), std::pair("outputs", &channels.outputs)}) {
     if (auto ok = find_renamed(*whole, arguments.names(flag), *own, flag, renamed); !ok) return ok.error();
   }
-  for (const auto& [channel, name] : renamed) whole->channels[channel].name = name;
+  for (const Renamed& one : renamed) whole->channels[one.channel].name = one.name;
   return in_range(std::move(*whole), arguments, "range");
 }
 

@@ -3,10 +3,13 @@
     WISP_PROGRAM=build/release/bin/wisp python3 -m unittest discover bindings/python/tests
 """
 
+import ast
+import importlib.util
 import json
 import os
 import pathlib
 import pickle
+import re
 import signal
 import subprocess
 import tempfile
@@ -108,6 +111,9 @@ class Capturing(unittest.TestCase):
             self.assertIn("usable", captured.report.to_dict())
 
     def test_ctrl_c_ends_it(self):
+        # What a shell starts in the background ignores the signal.
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGINT, before)
         with tempfile.TemporaryDirectory() as folder:
             clip = pathlib.Path(folder) / "candle.mp4"
             run("simulate", "candle", "-o", clip, "--seconds", "20", "--seed", "5", "--quiet")
@@ -153,6 +159,76 @@ class Playing(unittest.TestCase):
             bank.set_inputs([1, 2, 3])
         with self.assertRaises(ValueError):
             bank.outputs(np.zeros((4, 16), np.float32))
+
+
+class Guide(unittest.TestCase):
+    """docs/guide/python.md: what stands there runs."""
+
+    def test_its_programs_run_from_a_film_and_from_a_table(self):
+        if not importlib.util.find_spec("matplotlib"):
+            self.skipTest("no matplotlib; script/bootstrap --verify brings it")
+        os.environ["MPLBACKEND"] = "Agg"
+        programs = re.findall(r"```python\n(.*?)```", (root / "docs/guide/python.md").read_text(), re.S)
+        self.assertGreaterEqual(len(programs), 2)
+        here = os.getcwd()
+        with tempfile.TemporaryDirectory() as folder:
+            os.chdir(folder)
+            try:
+                run("simulate", "candle", "-o", "candle.mp4", "--seconds", "12", "--seed", "5", "--quiet")
+                of = made_system(1000)
+                np.savetxt("dryer.csv", np.column_stack([of["u"], of["y"]]), delimiter=",", header="u1,y1", comments="")
+                names = {}
+                exec(programs[0], names)
+                self.assertTrue(pathlib.Path("flame.wisp").exists())
+                self.assertEqual(names["outlines"].shape, (1000, 32, 2))
+                self.assertGreater(np.abs(names["outlines"]).max(), 0.5)
+                exec(programs[1], names)
+                self.assertTrue(names["plt"].get_fignums())
+                names["plt"].close("all")
+            finally:
+                os.chdir(here)
+
+    def test_pandas_frames_are_learned_from(self):
+        if not importlib.util.find_spec("pandas"):
+            self.skipTest("no pandas; script/bootstrap --verify brings it")
+        import pandas
+
+        of = made_system()
+        frame = pandas.DataFrame({"u": of["u"], "y": of["y"]})
+        fit = wisp.learn(wisp.Recording(10, frame[["y"]], frame[["u"]]), recipe)
+        self.assertEqual(bytes(fit.model), bytes(wisp.learn(of, recipe).model))
+
+    def test_its_stubs_name_what_the_module_has(self):
+        said = {node.name: node for node in ast.parse((root / "bindings/python/wisp.pyi").read_text()).body
+                if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
+        there = {name for name in dir(wisp) if not name.startswith("_") and callable(getattr(wisp, name))}
+        self.assertEqual(set(said), there)
+        for name, node in said.items():
+            methods = {part.name for part in getattr(node, "body", []) if isinstance(part, ast.FunctionDef)}
+            self.assertLessEqual(methods, set(dir(getattr(wisp, name))) | {"__init__"}, name)
+
+
+class Threads(unittest.TestCase):
+    def test_other_threads_run_while_it_learns_and_plays(self):
+        turns, over = [0], threading.Event()
+
+        def count():
+            while not over.wait(0.001):
+                turns[0] += 1
+
+        thread = threading.Thread(target=count)
+        thread.start()
+        recording = made_system(200000)
+        bank = wisp.Bank(wisp.read_model(flame), 1000)
+        try:
+            for work in (lambda: wisp.learn(recording, recipe), lambda: bank.step(3000)):
+                before = turns[0]
+                work()
+                # Where a call keeps the interpreter's lock the other thread turns once at most, just before it.
+                self.assertGreater(turns[0] - before, 3)
+        finally:
+            over.set()
+            thread.join()
 
 
 class Hearing(unittest.TestCase):

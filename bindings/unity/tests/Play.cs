@@ -105,8 +105,51 @@ internal static class Play
         wind.Dispose();
     }
 
+    // The pendulum of examples/09_c_learn.c: what is learned of it leans half a metre in a steady wind.
+    private static void Learning()
+    {
+        const int rows = 2000;
+        double[] wind = new double[rows], lean = new double[rows];
+        uint word = 1;
+        for (int t = 0; t < rows; ++t)
+        {
+            word = word * 1664525u + 1013904223u;
+            wind[t] = Math.Sin(0.02 * t) > 0 ? 1 : 0;
+            lean[t] = (t > 1 ? 1.92 * lean[t - 1] - 0.96 * lean[t - 2] : 0) + (t > 0 ? 0.02 * wind[t - 1] : 0) + 0.004 * ((word >> 8) / 16777216.0 - 0.5);
+        }
+        using (var recording = new Recording(30))
+        {
+            recording.Add(Role.Input, "wind", wind);
+            recording.Add(Role.Output, "lean", lean, "m");
+            var fit = new Fit(Recipe.Arx, new[] { recording }, na: 2, nb: 1);
+            Expect(fit.Usable && fit.Reason.Length > 10, fit.Reason);
+            using (var model = new Model(fit.Bytes))
+            using (var bank = new Bank(model))
+            {
+                Expect(model.Output(0).Unit == "m", "its unit");
+                bank.Spawn();
+                bank.SetNoise(0);
+                bank.SetCommonInputs(1);
+                for (int t = 0; t < 300; ++t) bank.Step();
+                var swing = new float[1];
+                bank.Outputs(swing);
+                Expect(Math.Abs(swing[0] - 0.5) < 0.01, "it leans " + swing[0]);
+            }
+            try
+            {
+                recording.Add(Role.Output, "lean", lean);
+                Expect(false, "a name was taken twice");
+            }
+            catch (WispException error)
+            {
+                Expect(error.Status == 2 && error.Message.Contains("lean"), error.Message);
+            }
+        }
+    }
+
     private static void Main(string[] arguments)
     {
+        Learning();
         Life(arguments[1]);
         Sound();
         Numbers(arguments[0], arguments[2]);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -73,10 +74,10 @@ void stroke(cairo_t* context, const LineStyle& style, double width) {
 
 void rounded_box(cairo_t* context, double x, double y, double width, double height, double radius) {
   cairo_new_sub_path(context);
-  cairo_arc(context, x + width - radius, y + radius, radius, -M_PI / 2, 0);
-  cairo_arc(context, x + width - radius, y + height - radius, radius, 0, M_PI / 2);
-  cairo_arc(context, x + radius, y + height - radius, radius, M_PI / 2, M_PI);
-  cairo_arc(context, x + radius, y + radius, radius, M_PI, 3 * M_PI / 2);
+  cairo_arc(context, x + width - radius, y + radius, radius, -std::numbers::pi / 2, 0);
+  cairo_arc(context, x + width - radius, y + height - radius, radius, 0, std::numbers::pi / 2);
+  cairo_arc(context, x + radius, y + height - radius, radius, std::numbers::pi / 2, std::numbers::pi);
+  cairo_arc(context, x + radius, y + radius, radius, std::numbers::pi, 3 * std::numbers::pi / 2);
   cairo_close_path(context);
 }
 
@@ -126,7 +127,7 @@ void draw_control_polygon(Image& image, std::span<const Point> points, Colour co
     if (!finite(p)) continue;
     cairo_new_path(context.get());
     cairo_arc(context.get(), std::clamp(p.x, -kFarthest, kFarthest), std::clamp(p.y, -kFarthest, kFarthest),
-              1.6 * width, 0, 2 * M_PI);
+              1.6 * width, 0, 2 * std::numbers::pi);
     stroke(context.get(), {.colour = colour, .casing = 1}, 0.75 * width);
   }
 }

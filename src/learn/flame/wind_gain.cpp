@@ -1,9 +1,11 @@
 #include "learn/flame/wind_gain.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
+#include "learn/arx/judge/free_run_parts.hpp"
 #include "record/loudness.hpp"
 #include "record/number_text.hpp"
 
@@ -43,17 +45,25 @@ std::vector<double> factors_of(std::span<const Recording> recordings, const Loud
   return out;
 }
 
-// Mean error of free simulation over the control points on what is held out; nothing where too little is.
-Result<std::optional<double>> held_out_error(std::span<const Recording> recordings, OutlineRecipe recipe,
-                                             const Progress& progress) {
+// What free simulation of held-out data says of a model.
+struct HeldOut {
+  double error = 0;       // mean over control points, model units
+  Eigen::MatrixXd parts;  // squared, part by part
+};
+
+// Nothing where too little is held out.
+Result<std::optional<HeldOut>> held_out_error(std::span<const Recording> recordings, OutlineRecipe recipe,
+                                              const Progress& progress) {
   recipe.refit = false;
   recipe.noise = OutlineNoise::kIndependent;  // is not judged here
   recipe.match_variance = false;
   const auto fit = fit_outline(recordings, recipe, progress);
   if (!fit) return fit.error();
-  if (!fit->summary.held_out) return std::optional<double>();
+  const Eigen::MatrixXd& parts = fit->summary.free_run_parts;
+  if (!fit->summary.held_out || parts.size() == 0) return std::optional<HeldOut>();
   const std::vector<double>& free = fit->summary.held_out->j.back();
-  return std::optional(std::accumulate(free.begin(), free.end(), 0.0) / static_cast<double>(free.size()));
+  return std::optional(
+      HeldOut{std::accumulate(free.begin(), free.end(), 0.0) / static_cast<double>(free.size()), parts});
 }
 
 std::string scale_words(const std::vector<double>& factors, bool common) {
@@ -75,11 +85,14 @@ Result<void> compare(std::span<const Recording> recordings, const OutlineRecipe&
     gain.reason = "; too little is held out to compare it with per-recording gain";
     return {};
   }
-  gain.common_error = **common;
-  gain.own_error = **own;
-  gain.common = gain.common_error <= gain.own_error;
+  gain.common_error = (*common)->error;
+  gain.own_error = (*own)->error;
+  const auto relative = [&](const HeldOut& one) { return arx::relative_errors(one.parts, (*common)->parts); };
+  const double sureness = arx::standard_errors_below(relative(**own), relative(**common));
+  gain.common = gain.common_error <= gain.own_error || sureness < arx::kSurelyBetter;
   gain.reason = "; free simulation of held-out data errs by " + number_text(gain.common_error, 3) +
-                " with the common gain, by " + number_text(gain.own_error, 3) + " with per-recording gain";
+                " with the common gain, by " + number_text(gain.own_error, 3) + " with per-recording gain" +
+                (gain.common && gain.own_error < gain.common_error ? ", which is not surely better" : "");
   return {};
 }
 

@@ -25,7 +25,7 @@ struct WindGain {
 Result<std::vector<Recording>> at_common_gain(std::vector<Recording> recordings);
 
 /// Chooses as the recipe's gain says. Where that is open, learns with a common scale and with every recording's own,
-/// and takes what follows the input better where it is held out; the common scale where too little is held out to tell.
+/// simulates freely what is held out, and takes the common scale unless the other is surely better.
 /// There is nothing to choose where not every recording says how loud it was, or where that is within 2 % the same.
 /// Errors: as fit_outline() and one_rms().
 Result<WindGain> choose_wind_gain(std::span<const Recording> recordings, const OutlineRecipe& recipe,

@@ -10,7 +10,19 @@ namespace wisp {
 
 /// Two doubles in one register on every machine that has one (SSE2, NEON, WebAssembly); elsewhere the compiler splits
 /// it. Wider registers are left alone on purpose: the same recording gives the same model on every machine.
+#ifdef __GNUC__
 using Pair = double __attribute__((vector_size(16)));
+#else
+struct Pair {
+  double value[2];
+
+  double operator[](std::size_t k) const { return value[k]; }
+  Pair& operator+=(Pair b) { return value[0] += b.value[0], value[1] += b.value[1], *this; }
+  friend Pair operator+(Pair a, Pair b) { return a += b; }
+  friend Pair operator-(Pair a, Pair b) { return {{a.value[0] - b.value[0], a.value[1] - b.value[1]}}; }
+  friend Pair operator*(Pair a, Pair b) { return {{a.value[0] * b.value[0], a.value[1] * b.value[1]}}; }
+};
+#endif
 
 inline Pair load_pair(const double* from) {
   Pair pair;

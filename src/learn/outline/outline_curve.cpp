@@ -32,10 +32,13 @@ std::vector<InputCurve> curves_of(std::span<const CurveEstimate> estimates) {
 
 }  // namespace
 
-Result<CurveChoice> choose_outline_curves(std::span<const Recording> learned, std::span<const Recording> held_out,
-                                          const PreparedOutlines& prepared, const ArxOrders& orders,
+Result<CurveChoice> choose_outline_curves(const PreparedOutlines& prepared, bool mirror, const ArxOrders& orders,
                                           std::optional<int> knots) {
-  return choose_input_curves(learned, held_out, prepared.channels, fit_options(prepared, orders), knots);
+  const std::vector<Recording>& own = prepared.recordings;
+  std::vector<arx::Fold> folds = arx::folds_of(mirror ? with_mirror_images(own, prepared) : own);
+  // A mirror image would tell nothing that its original has not.
+  for (arx::Fold& fold : folds) fold.held_out.resize(own.size());
+  return choose_input_curves(folds, prepared.channels, fit_options(prepared, orders), knots);
 }
 
 Result<std::vector<CurveEstimate>> outline_curves(std::span<const Recording> recordings,

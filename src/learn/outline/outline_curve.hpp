@@ -10,11 +10,10 @@
 
 namespace wisp {
 
-/// Whether inputs pass a nonlinearity, and of how many knots: as given, or as held-out data say.
-/// `learned` has its mirror images where the model learns from them.
+/// Whether inputs pass a nonlinearity, and of how many knots: as given, or as held-out free runs over the prepared
+/// recordings say, learned with their mirror images where the model learns from them.
 /// Errors: as choose_input_curves().
-Result<CurveChoice> choose_outline_curves(std::span<const Recording> learned, std::span<const Recording> held_out,
-                                          const PreparedOutlines& prepared, const ArxOrders& orders,
+Result<CurveChoice> choose_outline_curves(const PreparedOutlines& prepared, bool mirror, const ArxOrders& orders,
                                           std::optional<int> knots);
 
 /// The curves of prepared recordings, one an input.

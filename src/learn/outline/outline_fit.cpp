@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "learn/arx/fit/arx_report.hpp"
+#include "learn/arx/judge/free_run_parts.hpp"
 #include "learn/fidelity/fidelity_marginal.hpp"
 #include "learn/numeric/chi_squared.hpp"
 #include "learn/outline/outline_components.hpp"
@@ -338,11 +339,11 @@ bool hear_each_other(const OutlineRecipe& options) {
   return options.coupling == OutlineCoupling::kBand || options.coupling == OutlineCoupling::kFull;
 }
 
-// Decides by both parts whether the inputs pass a nonlinearity, which is estimated from the first.
+// Decides whether the inputs pass a nonlinearity, which is estimated from the first part.
 Result<void> bend(OutlineParts& parts, const PreparedOutlines& prepared, const OutlineRecipe& options,
                   OutlineSummary& summary) {
   if (options.input_curve == 0 || prepared.inputs.empty()) return {};
-  auto choice = choose_outline_curves(to_learn_from(parts.learned, prepared, options), parts.held_out, prepared,
+  auto choice = choose_outline_curves(prepared, mirror_wanted(options, prepared),
                                       chosen_orders(prepared, options, summary.choice), options.input_curve);
   if (!choice) return choice.error();
   summary.curve_choice = *std::move(choice);
@@ -390,6 +391,8 @@ Result<ArxFit> judge(const PreparedOutlines& prepared, const OutlineRecipe& opti
   if (summary.rows_held_out < kMinHeldOut + history) return fitted;
   auto held_out = outline_figures(fitted->model, parts.held_out, prepared.channels, prepared.layout);
   if (held_out) summary.held_out = *std::move(held_out);
+  auto free = arx::free_run_parts(fitted->model, parts.held_out, prepared.channels);
+  if (free) summary.free_run_parts = *std::move(free);
   return fitted;
 }
 

@@ -5,6 +5,7 @@
 // order 4, driven by the wind, its residual fed back as Gaussian noise. Beyond it: wind from both sides, inputs or
 // none, shocks that the control points share (docs/explanation/fidelity.md says why), a part held out for judging.
 
+#include <Eigen/Core>
 #include <array>
 #include <optional>
 #include <span>
@@ -74,6 +75,7 @@ struct OutlineSummary {
   bool refitted = false;                   ///< whether the returned model was learned from both
   OutlineFigures learned;                  ///< on what was learned from
   std::optional<OutlineFigures> held_out;  ///< on what was held out; nothing where that is too short
+  Eigen::MatrixXd free_run_parts;          ///< errors of free simulation on it (arx/judge/free_run_parts.hpp)
   std::vector<OutlineResidual> residuals;  ///< of the returned model, one a channel
   double fpe = 0;                          ///< of the returned model, mean over rows of V·(1 + d/n)/(1 − d/n)
   ArxStability stable;

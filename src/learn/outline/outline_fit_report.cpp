@@ -97,9 +97,9 @@ ReportSection curve_section(const OutlineSummary& summary) {
                         {{"input_curve.knots", choice.knots, "", ""},
                          {"input_curve.reason", choice.reason, choice.reason.empty() ? "" : "chosen as", ""}}};
   ReportTable candidates{
-      "input_curve.candidates", "", {{"knots", ""}, {"held_out_gain_nats", ""}, {"gain_se", ""}}, {}};
+      "input_curve.candidates", "", {{"knots", ""}, {"held_out_gain", ""}, {"standard_errors", ""}}, {}};
   for (const CurveCandidate& one : choice.candidates) {
-    candidates.rows.push_back({one.knots, one.gain, one.gain_error});
+    candidates.rows.push_back({one.knots, one.gain, one.sureness});
   }
   ReportTable curves{"input_curve.curves", "", {{"input", ""}, {"at", ""}, {"value", ""}, {"std_error", ""}}, {}};
   for (std::size_t k = 0; k < summary.curves.size(); ++k) {

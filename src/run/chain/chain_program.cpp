@@ -1,6 +1,7 @@
 #include "run/chain/chain_program.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 
@@ -76,8 +77,7 @@ float unit_of(const ChainProgram& program, std::size_t offset, float scale) {
     for (std::size_t axis = 0; axis < 3; ++axis)
       sum += static_cast<double>(program.rates[k + axis]) * program.rates[k + axis];
   }
-  const auto unit =
-      static_cast<float>(__builtin_sqrt(sum / static_cast<double>(std::max<std::size_t>(1, count)))) * scale;
+  const auto unit = static_cast<float>(std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, count)))) * scale;
   return std::max(unit, kLeastUnit);
 }
 
@@ -99,7 +99,7 @@ void make_unit(ChainProgram& program) {
     std::int16_t* q = program.rows.data() + at;
     double square = 0;
     for (std::size_t k = 0; k < 4; ++k) square += static_cast<double>(q[k]) * q[k];
-    const double factor = square > 0 ? kMostStored / __builtin_sqrt(square) : 0;
+    const double factor = square > 0 ? kMostStored / std::sqrt(square) : 0;
     for (std::size_t k = 0; k < 4; ++k) {
       const double x = factor * q[k];
       q[k] = static_cast<std::int16_t>(x < 0 ? x - 0.5 : x + 0.5);

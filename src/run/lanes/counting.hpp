@@ -2,6 +2,7 @@
 // Numbers and words that count the arithmetic that is done with them: the kernels are instantiated with these to find
 // what they cost.
 
+#include <cmath>
 #include <cstdint>
 
 #include "run/lanes/lanes.hpp"
@@ -35,7 +36,7 @@ inline bool operator<(CountingReal a, CountingReal b) { return a.value < b.value
 inline bool operator>(CountingReal a, CountingReal b) { return a.value > b.value; }
 inline bool operator==(CountingReal a, CountingReal b) { return a.value == b.value; }
 
-inline CountingReal square_root(CountingReal a) { return counted(__builtin_sqrtf(a.value)); }
+inline CountingReal square_root(CountingReal a) { return counted(std::sqrt(a.value)); }
 inline float value_of(CountingReal a) { return a.value; }
 
 struct CountingWord {

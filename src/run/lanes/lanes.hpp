@@ -8,6 +8,7 @@
 
 #include <bit>
 #include <cfloat>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <utility>
@@ -80,7 +81,7 @@ inline WideProduct<WordPart> wide_product_part(WordPart a, std::uint32_t b) {
 }
 #endif
 
-inline float square_root(float a) { return __builtin_sqrtf(a); }
+inline float square_root(float a) { return std::sqrt(a); }
 inline float value_of(float a) { return a; }
 inline std::uint32_t value_of(std::uint32_t a) { return a; }
 

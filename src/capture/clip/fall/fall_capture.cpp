@@ -68,9 +68,9 @@ Facts facts_of(const std::vector<Fall>& falls) {
     facts.jerks += static_cast<double>(jerks_of(fall));
   }
   facts.jerks /= static_cast<double>(facts.rows);
-  std::ranges::sort(aspects);
+  std::sort(aspects.begin(), aspects.end());
   facts.aspect = aspects[aspects.size() / 2];
-  const auto shorter = std::ranges::lower_bound(aspects, kShort) - aspects.begin();
+  const auto shorter = std::lower_bound(aspects.begin(), aspects.end(), kShort) - aspects.begin();
   facts.short_share = static_cast<double>(shorter) / static_cast<double>(aspects.size());
   return facts;
 }
@@ -94,7 +94,7 @@ std::array<std::size_t, 5> counted(const Falls& found) {
 
 std::string cut_sentence(const std::array<std::size_t, 5>& count) {
   const auto of = [&](Cut cut) { return count[static_cast<std::size_t>(cut)]; };
-  const std::size_t most = std::ranges::max(std::span(count).subspan(1));
+  const std::size_t most = *std::max_element(count.begin() + 1, count.end());
   const std::string number = std::to_string(most);
   if (of(Cut::kSide) == most) {
     return "cut by the picture's sides, at least " + number +
@@ -117,8 +117,9 @@ std::string cut_sentence(const std::array<std::size_t, 5>& count) {
 // Why there is no fall in a film.
 Error no_fall(const std::string& source, const fall::Wall& wall, const std::vector<fall::Seen>& frames,
               const Falls& found) {
-  const bool inside = std::ranges::any_of(frames, [](const fall::Seen& seen) { return !seen.things.empty(); });
-  const bool border = std::ranges::any_of(frames, &fall::Seen::at_border);
+  const bool inside =
+      std::any_of(frames.begin(), frames.end(), [](const fall::Seen& seen) { return !seen.things.empty(); });
+  const bool border = std::any_of(frames.begin(), frames.end(), [](const fall::Seen& seen) { return seen.at_border; });
   if (wall.unsteady > kMaxUnsteady) return {source + ": " + unsteady_sentence(wall)};
   if (found.missed.size() >= kMinFalls || counted(found)[static_cast<std::size_t>(Cut::kPasses)] > 0) {
     return {source + ": no fall can be followed in it: " + cut_sentence(counted(found))};
@@ -169,7 +170,8 @@ std::array<double, 4> attitude(double angle) {
 
 ReportSection frames_section(const std::vector<std::vector<std::uint8_t>>& frames, std::size_t repeated,
                              const fall::Wall& wall, double rate_hz) {
-  const auto lost = static_cast<std::size_t>(std::ranges::count_if(frames, [](const auto& f) { return f.empty(); }));
+  const auto lost =
+      static_cast<std::size_t>(std::count_if(frames.begin(), frames.end(), [](const auto& f) { return f.empty(); }));
   return {"Frames",
           {{"frames", frames.size(), "frames", ""},
            {"lost", lost, "lost", "", {}, "frames that the film has not"},
@@ -242,7 +244,7 @@ Result<FallCapture> FallCapture::create(const ClipSource& source, const FallOpti
   if (!(source.rate_hz > 0)) return Error{source.name + ": states no frame rate; give it as --rate"};
   const double height = options.height_metres;
   if (height != 0 && !(height >= 0.01 && height <= 100)) {
-    return Error{source.name + ": the picture's height is " + number_text(height, 3) +
+    return Error{source.name + ": the picture's height is " + number_text(height, 6) +
                  " m, expected 0.01 to 100: how much of the wall it shows"};
   }
   return FallCapture(source, options);

@@ -83,7 +83,7 @@ std::vector<int> component_at(int seed, std::vector<std::uint8_t>& mask, const W
 }
 
 bool touches_border(const std::vector<int>& pixels, const Wall& wall) {
-  return std::ranges::any_of(pixels, [&](int p) {
+  return std::any_of(pixels.begin(), pixels.end(), [&](int p) {
     const int x = p % wall.width, y = p / wall.width;
     return x == 0 || y == 0 || x == wall.width - 1 || y == wall.height - 1;
   });
@@ -104,9 +104,10 @@ Thing thing_of(const std::vector<int>& pixels, double contrast, const std::vecto
     yy += weight * py * py;
   }
   Thing thing{.x = x / sum, .y = y / sum, .area = sum, .contrast = contrast};
-  const auto [left, right] = std::ranges::minmax(pixels, {}, [&](int p) { return p % width; });
-  thing.left = left % width, thing.right = right % width;
-  thing.bottom = std::ranges::max(pixels) / width;
+  const auto [left, right] =
+      std::minmax_element(pixels.begin(), pixels.end(), [&](int a, int b) { return a % width < b % width; });
+  thing.left = *left % width, thing.right = *right % width;
+  thing.bottom = *std::max_element(pixels.begin(), pixels.end()) / width;
   xx = xx / sum - thing.x * thing.x, yy = yy / sum - thing.y * thing.y, xy = xy / sum - thing.x * thing.y;
   const double middle = (xx + yy) / 2, radius = std::hypot((xx - yy) / 2, xy);
   const double across = std::max(middle - radius - kPixelVariance, kPixelVariance);

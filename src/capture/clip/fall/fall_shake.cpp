@@ -69,7 +69,7 @@ Block block_of(const Coarse& frame, const Coarse& wall, double gain, int column,
 
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
+  std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 

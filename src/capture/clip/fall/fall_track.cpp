@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <tuple>
 
 namespace wisp::fall {
@@ -46,7 +47,7 @@ std::vector<Track> linked(std::span<const Seen> frames, const Scale& scale) {
         if (far <= 1) pairs.emplace_back(far, t, k);
       }
     }
-    std::ranges::sort(pairs);
+    std::sort(pairs.begin(), pairs.end());
     std::vector<bool> taken(things.size());
     for (const auto& [far, t, k] : pairs) {
       if (taken[k] || live[t].frames.back() == frame) continue;
@@ -58,7 +59,7 @@ std::vector<Track> linked(std::span<const Seen> frames, const Scale& scale) {
       if (!taken[k]) live.push_back({{frame}, {things[k]}});
     }
   }
-  std::ranges::move(live, std::back_inserter(done));
+  std::move(live.begin(), live.end(), std::back_inserter(done));
   return done;
 }
 
@@ -78,7 +79,8 @@ double seam(const Track& before, const Track& after, const Scale& scale) {
 
 // What both show, the later one from where it begins.
 void append(Track& before, const Track& after) {
-  const auto end = std::ranges::lower_bound(before.frames, after.frames.front()) - before.frames.begin();
+  const auto end =
+      std::lower_bound(before.frames.begin(), before.frames.end(), after.frames.front()) - before.frames.begin();
   before.frames.resize(static_cast<std::size_t>(end));
   before.things.resize(static_cast<std::size_t>(end));
   before.frames.insert(before.frames.end(), after.frames.begin(), after.frames.end());
@@ -102,7 +104,8 @@ double Track::first_speed(double Thing::*axis, std::size_t steps) const {
 std::vector<Track> tracks_in(std::span<const Seen> frames, const Scale& scale) {
   std::vector<Track> tracks = linked(frames, scale);
   std::erase_if(tracks, [](const Track& track) { return track.things.size() < kMinRows; });
-  std::ranges::stable_sort(tracks, {}, [](const Track& track) { return track.frames.front(); });
+  std::stable_sort(tracks.begin(), tracks.end(),
+                   [](const Track& a, const Track& b) { return a.frames.front() < b.frames.front(); });
   std::vector<std::tuple<double, std::size_t, std::size_t>> seams;
   for (std::size_t a = 0; a < tracks.size(); ++a) {
     const double last = static_cast<double>(tracks[a].frames.back()) + kJoinSeconds * scale.rate_hz;
@@ -110,7 +113,7 @@ std::vector<Track> tracks_in(std::span<const Seen> frames, const Scale& scale) {
       if (const double far = seam(tracks[a], tracks[b], scale); far >= 0) seams.emplace_back(far, a, b);
     }
   }
-  std::ranges::sort(seams);
+  std::sort(seams.begin(), seams.end());
   std::vector<std::size_t> next(tracks.size(), tracks.size());
   std::vector<bool> follows(tracks.size());
   for (const auto& [far, a, b] : seams) {

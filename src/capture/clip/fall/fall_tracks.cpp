@@ -32,7 +32,8 @@ struct Candidate {
 };
 
 Candidate trimmed(Track track, double height) {
-  const auto lowest = std::ranges::max(track.things, {}, &Thing::y).y;
+  double lowest = track.things.front().y;
+  for (const Thing& thing : track.things) lowest = std::max(lowest, thing.y);
   std::size_t first = 0, last = 0;
   const auto moved = [&](const Thing& thing) {
     return std::hypot(thing.x - track.things[0].x, thing.y - track.things[0].y) > kAtRest * height;
@@ -84,7 +85,7 @@ double reach(const Track& track, std::size_t k) {
 bool pass(const Candidate& one, const Candidate& other) {
   const Track &a = one.track, &b = other.track;
   for (std::size_t k = 0; k < a.frames.size(); ++k) {
-    const auto at = std::ranges::lower_bound(b.frames, a.frames[k]);
+    const auto at = std::lower_bound(b.frames.begin(), b.frames.end(), a.frames[k]);
     if (at == b.frames.end()) break;
     const auto j = static_cast<std::size_t>(at - b.frames.begin());
     const double far = std::hypot(a.things[k].x - b.things[j].x, a.things[k].y - b.things[j].y);
@@ -102,7 +103,7 @@ double ground_of(const std::vector<Candidate>& falls, const Scale& scale) {
   }
   if (ends.empty()) return scale.height;
   const auto middle = ends.begin() + static_cast<std::ptrdiff_t>(ends.size() / 2);
-  std::ranges::nth_element(ends, middle);
+  std::nth_element(ends.begin(), middle, ends.end());
   return *middle;
 }
 
@@ -111,34 +112,43 @@ bool together(const Candidate& one, const Candidate& other_one, double height) {
   const Track &a = one.track, &b = other_one.track;
   std::vector<double> x, y;
   for (std::size_t k = 0; k < a.frames.size(); ++k) {
-    const auto at = std::ranges::lower_bound(b.frames, a.frames[k]);
+    const auto at = std::lower_bound(b.frames.begin(), b.frames.end(), a.frames[k]);
     if (at == b.frames.end() || *at != a.frames[k]) continue;
     const Thing& other = b.things[static_cast<std::size_t>(at - b.frames.begin())];
     x.push_back(a.things[k].x - other.x);
     y.push_back(a.things[k].y - other.y);
   }
   if (2 * x.size() < std::min(a.frames.size(), b.frames.size())) return false;
-  const auto spread = [](const std::vector<double>& v) { return std::ranges::max(v) - std::ranges::min(v); };
+  const auto spread = [](const std::vector<double>& v) {
+    const auto [least, most] = std::minmax_element(v.begin(), v.end());
+    return *most - *least;
+  };
   return spread(x) <= kApart * height && spread(y) <= kApart * height;
 }
 
 double contrast(const Candidate& fall) {
   std::vector<double> values;
   for (const Thing& thing : fall.track.things) values.push_back(thing.contrast);
-  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
   return values[values.size() / 2];
 }
 
+void in_order(std::vector<Candidate>& falls) {
+  std::stable_sort(falls.begin(), falls.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.begin() < b.begin(); });
+}
+
 void leave_out_shadows(std::vector<Candidate>& falls, double height) {
-  std::ranges::stable_sort(falls, std::ranges::greater(), contrast);
+  std::stable_sort(falls.begin(), falls.end(),
+                   [](const Candidate& a, const Candidate& b) { return contrast(a) > contrast(b); });
   std::vector<Candidate> kept;
   for (Candidate& fall : falls) {
-    if (std::ranges::none_of(kept, [&](const Candidate& other) { return together(fall, other, height); })) {
+    if (std::none_of(kept.begin(), kept.end(), [&](const Candidate& other) { return together(fall, other, height); })) {
       kept.push_back(std::move(fall));
     }
   }
   falls = std::move(kept);
-  std::ranges::stable_sort(falls, {}, &Candidate::begin);
+  in_order(falls);
 }
 
 // Of what sinks and is no fall: pieces of falls that were not found, each fall once. `rest` in the order of their
@@ -220,13 +230,13 @@ Falls falls_in(std::span<const Seen> frames, const Scale& scale) {
     (is_fall(candidate, scale) ? falls : rest).push_back(std::move(candidate));
   }
   leave_out_shadows(falls, scale.height);
-  std::ranges::stable_sort(rest, {}, &Candidate::begin);
+  in_order(rest);
   const double ground = ground_of(falls, scale);
   std::vector<Cut> cuts;
   for (const Candidate& fall : falls) {
     cuts.push_back(cut_of(fall, ground, frames.size(), scale));
     const auto passes = [&](const Candidate& other) { return &other != &fall && pass(fall, other); };
-    if (cuts.back() == Cut::kNo && std::ranges::any_of(falls, passes)) cuts.back() = Cut::kPasses;
+    if (cuts.back() == Cut::kNo && std::any_of(falls.begin(), falls.end(), passes)) cuts.back() = Cut::kPasses;
   }
   Falls found{{}, missed_of(rest, falls, cuts, ground, frames.size(), scale)};
   for (std::size_t k = 0; k < falls.size(); ++k) {

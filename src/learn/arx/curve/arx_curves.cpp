@@ -9,8 +9,6 @@
 namespace wisp::arx {
 namespace {
 
-constexpr double kHeldOut = 0.3;  // of every recording, to choose by
-
 CurvedInput curved_input(const std::string& name, std::span<const Recording> recordings) {
   CurvedInput input{{name}};
   bool first = true;
@@ -25,17 +23,6 @@ CurvedInput curved_input(const std::string& name, std::span<const Recording> rec
   return input;
 }
 
-Result<CurveChoice> choice_of(std::span<const Recording> recordings, const ChannelChoice& channels,
-                              const CurveFitOptions& options, std::optional<int> knots) {
-  std::vector<Recording> learned, held_out;
-  for (const Recording& one : recordings) {
-    const auto cut = static_cast<std::size_t>(std::lround((1 - kHeldOut) * static_cast<double>(one.rows())));
-    learned.push_back(slice(one, 0, cut));
-    held_out.push_back(slice(one, cut, one.rows()));
-  }
-  return choose_input_curves(learned, held_out, channels, options, knots);
-}
-
 }  // namespace
 
 Result<std::vector<InputCurve>> learn_curves(std::span<const Recording> recordings, const ChannelChoice& channels,
@@ -46,7 +33,7 @@ Result<std::vector<InputCurve>> learn_curves(std::span<const Recording> recordin
   if (auto ok = check_progress(progress, "choosing input curves", 0); !ok) return ok.error();
   CurveFitOptions options{.orders = orders};
   for (const std::string& name : channels.inputs) options.inputs.push_back(curved_input(name, recordings));
-  const auto choice = choice_of(recordings, channels, options, knots);
+  const auto choice = choose_input_curves(folds_of(recordings), channels, options, knots);
   if (!choice) return choice.error();
   std::vector<CurveEstimate> estimates;
   if (choice->knots > 0) {

@@ -12,9 +12,8 @@
 
 namespace wisp::arx {
 
-/// Curves of all inputs: of so many knots, or, where that is open, as the last 30 % of every recording say; then fitted
-/// to all rows. Empty where there are none.
-/// Errors: as fit_input_curves(), kStopped. Precondition: the recordings have the channels.
+/// Curves of all inputs: of so many knots, or, where that is open, as held-out free runs say; then fitted to all rows.
+/// Empty where there are none. Errors: as fit_input_curves(), kStopped. Precondition: the recordings have the channels.
 Result<std::vector<InputCurve>> learn_curves(std::span<const Recording> recordings, const ChannelChoice& channels,
                                              const ArxOrders& orders, std::optional<int> knots,
                                              const Progress& progress, Report& report);

@@ -195,11 +195,12 @@ void add_curves(const CurveChoice& choice, const std::vector<std::string>& input
   ReportSection& section = report.add("Input nonlinearity");
   add(section, "input_curve.knots", choice.knots, "knots of every curve");
   add(section, "input_curve.reason", choice.reason, "why");
-  ReportTable tried{"input_curve.candidates",
-                    "",
-                    {{"knots", "knots"}, {"held_out_gain_nats", "gain", "nats a row"}, {"gain_se", "± standard error"}},
-                    {}};
-  for (const CurveCandidate& one : choice.candidates) tried.rows.push_back({one.knots, one.gain, one.gain_error});
+  ReportTable tried{
+      "input_curve.candidates",
+      "",
+      {{"knots", "knots"}, {"held_out_gain", "held-out error less by"}, {"standard_errors", "standard errors"}},
+      {}};
+  for (const CurveCandidate& one : choice.candidates) tried.rows.push_back({one.knots, one.gain, one.sureness});
   ReportTable found{"input_curve.curves",
                     curves.empty() ? "" : "curves",
                     {{"input", "input"}, {"at", "at"}, {"value", "value"}, {"std_error", "± standard error"}},

@@ -1,8 +1,5 @@
 #include "learn/arx/simulation/focus_choice.hpp"
 
-#include <cmath>
-#include <limits>
-
 #include "learn/arx/simulation/held_out.hpp"
 
 namespace wisp::arx {
@@ -16,13 +13,9 @@ constexpr double kSure = 1;        // standard errors by which parts must be bet
 constexpr double kSurelyMany = 2;  // the same for many lags, which cost more to play
 constexpr double kMostLost = 1.2;  // no fold may have a larger root mean square than least squares by this factor
 
-// By how many standard errors the parts' logarithms are less with `one` than with `other`.
+// By how many standard errors the errors of one row are below those of another.
 double sureness(const MatrixXd& squares, std::size_t one, const MatrixXd& others, std::size_t other) {
-  const Eigen::ArrayXd gain = (others.row(Index(other)).array() + 1e-300).log().transpose() -
-                              (squares.row(Index(one)).array() + 1e-300).log().transpose();
-  const double mean = gain.mean(), n = static_cast<double>(gain.size());
-  const double error = std::sqrt((gain - mean).square().sum() / (n * (n - 1)));
-  return error > 0 ? mean / error : mean > 0 ? std::numeric_limits<double>::infinity() : 0;
+  return standard_errors_below(squares.row(Index(one)).transpose(), others.row(Index(other)).transpose());
 }
 
 double mean_square(const Unit& unit, std::size_t candidate) { return unit.squares.row(Index(candidate)).mean(); }

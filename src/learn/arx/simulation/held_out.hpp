@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "learn/arx/judge/free_run_parts.hpp"
 #include "learn/arx/simulation/simulation_block.hpp"
 #include "wisp/record/recording.hpp"
 
@@ -23,9 +24,6 @@ std::vector<Recording> middles_of(std::span<const Recording> recordings, std::si
 /// and the next 20 % held out. What is estimated from later rows may know more of an earlier stretch than the other way
 /// round.
 std::vector<Fold> folds_of(std::span<const Recording> recordings);
-
-/// Parts of a fold whose errors are told apart.
-inline constexpr int kParts = 8;
 
 /// Mean squared errors of free runs over kParts parts of the block's rows, all outputs together, in scaled units: from
 /// the initial state that fits best, and from measured samples at eight places.

@@ -1,4 +1,5 @@
-// Hammerstein systems: known curves are recovered, and a curve is taken only where what is held out is likelier by it.
+// Hammerstein systems: known curves are recovered, and a curve is taken only where free simulation of what is held out
+// is surely better by it.
 
 #include "learn/arx/curve/curve_fit.hpp"
 
@@ -171,33 +172,24 @@ TEST(CurveFit, BadRequestsAreNamed) {
 }
 
 CurveChoice chosen(const Recording& recording, std::optional<int> knots = {}) {
-  const std::vector<Recording> learned{slice(recording, 0, recording.rows() * 7 / 10)};
-  const std::vector<Recording> held_out{slice(recording, recording.rows() * 7 / 10, recording.rows())};
-  auto choice = choose_input_curves(learned, held_out, kChannels, kOptions, knots);
+  auto choice = choose_input_curves(arx::folds_of({&recording, 1}), kChannels, kOptions, knots);
   EXPECT_TRUE(choice) << choice.error().message;
   return *std::move(choice);
 }
 
-TEST(CurveChoice, TheWrongClassLosesOnHeldOutLikelihood) {
-  const InputCurve truth = true_curve();
-  const std::vector<Recording> learned{made(truth, 3010, 1)}, unseen{made(truth, 3010, 2)};
-  const auto fit = fitted(learned[0]);
-  const std::vector<InputCurve> curves{fit.curves[0].curve};
-  const auto with = *held_out_log_likelihood(learned, unseen, kChannels, kOptions, curves);
-  const auto without = *held_out_log_likelihood(learned, unseen, kChannels, kOptions, {});
-  double gain = 0;
-  for (std::size_t t = 2; t < with.size(); ++t) gain += (with[t] - without[t]) / static_cast<double>(with.size());
-  EXPECT_GT(gain, 0.1);
-  const CurveChoice choice = chosen(made(truth, 3010, 3));
+TEST(CurveChoice, ABentInputIsFoundByFreeSimulation) {
+  const CurveChoice choice = chosen(made(true_curve(), 3010, 3));
   EXPECT_GE(choice.knots, 4);
   EXPECT_THAT(choice.reason, HasSubstr("inputs are bent by curves of"));
+  EXPECT_GT(choice.candidates[static_cast<std::size_t>(choice.knots - kMinCurveKnots)].gain, 0.1);
 }
 
-// By chance alone a proportional input would gain two standard errors in less than one of forty recordings.
+// By chance alone some curve is better by two standard errors in one of 25 recordings: in more than three of 20 in one
+// test of a hundred.
 TEST(CurveChoice, AProportionalInputIsNotBent) {
   int bent = 0;
   for (unsigned seed = 1; seed <= 20; ++seed) bent += chosen(made({}, 3010, seed)).knots > 0 ? 1 : 0;
-  EXPECT_LE(bent, 1);
+  EXPECT_LE(bent, 3);
 }
 
 TEST(CurveChoice, AGivenNumberIsTaken) {

@@ -1,72 +1,16 @@
 #!/usr/bin/env python3
 """Plays a model from nothing but what `wisp info MODEL.wisp --json` says of it: a player in another language.
 
-    wisp info MODEL.wisp --json | python3 08_play_json.py [FRAMES] [WIND] [SEED] [on|off] >play.csv
+    wisp info MODEL.wisp --json | python3 play.py [FRAMES] [WIND] [SEED] [on|off] >play.csv
 
-The numbers are those of `wisp run MODEL.wisp --frames FRAMES --wind WIND --seed SEED --noise on|off`, to the bit: for
-ARX models with Gaussian noise and for switched ones; without noise for models with resampled residuals too. Chains are
-refused, and no flame goes out. docs/reference/model-file.md ("How a model is played") says the same in words.
+The numbers are those of `wisp run MODEL.wisp --frames FRAMES --wind WIND --seed SEED --noise on|off`, to the bit. WIND is a
+number, or a file of lines with one for each input. docs/reference/model-file.md ("How a model is played")
+says the same in words. Here are ARX and switched models; resampled.py and chain.py have the rest.
 """
 import itertools, json, math, sys
-import numpy as np
-
-F = np.float32  # all arithmetic of a step is in single precision
-
-
-def kept(value): return F(0) if abs(value) < 1e-10 else F(value)
-def settle(z): return F(0) if abs(z) < F(1e-20) else z
-def clamp(z, low, high): return min(max(z, low), high)
-
-
-def edges(item):  # the range and half of it more on either side
-    low, high = item["range"]
-    return low - 0.5 * (high - low), high + 0.5 * (high - low)
-
-
-def unit_of(item):  # a power of two near the range
-    size = item["range"][1] - item["range"][0]
-    return 1.0 if size <= 0 or 1 / 128 <= size <= 128 else 2.0 ** (math.frexp(size)[1] - 1)
-
-
-def bend(u, item):  # an input's curve: straight pieces between its knots
-    at, value = item["curve"]["at"], item["curve"]["value"]
-    y = F(value[0])
-    if not u > F(at[0]):
-        return u
-    for k in range(len(at) - 1):
-        width, slope = F(at[k + 1] - at[k]), F((value[k + 1] - value[k]) / (at[k + 1] - at[k]))
-        if u < F(at[k + 1]):
-            return y + slope * min(u - F(at[k]), width)
-        y = y + slope * width
-    return y + (u - F(at[-1]))
-
-
-def regress(item, sign, power, mean, u):  # one of the numbers that the dynamics see of an input
-    unit = unit_of(item)
-    u = clamp(F(u), *map(F, edges(item)))
-    u = max(F(sign) * u, F(0)) if sign else u
-    u = bend(u, item) if "curve" in item else u
-    if power == 1:
-        return settle((u - F(mean)) * F(1 / unit))
-    u = u * F(1 / unit)
-    return settle((np.sqrt(u) if power == 0.5 else u * u) - F(mean / unit**power))
-
-
-def words(seed, step, group, stream=0):  # Philox4x32 of 7 rounds: four random words
-    full = 0xFFFFFFFF
-    w, key = [step & full, step >> 32 << 16 ^ group, stream & full, stream >> 32], [seed & full, seed >> 32]
-    for _ in range(7):
-        a, b = w[0] * 0xD2511F53, w[2] * 0xCD9E8D57
-        w = [b >> 32 ^ w[1] ^ key[0], b & full, a >> 32 ^ w[3] ^ key[1], a & full]
-        key = [key[0] + 0x9E3779B9 & full, key[1] + 0xBB67AE85 & full]
-    return w
-
-
-def normal(word, table):  # the deviate that a word stands for
-    bits = int((F(word ^ 0xFFFFFFFF if word >> 31 else word) + F(0.5)).view(np.uint32))
-    c0, c1, c2 = map(F, table[(bits >> 19) - (126 << 4)])
-    z = c0 + F(bits & 0x7FFFF) * (c1 + F(bits & 0x7FFFF) * c2)
-    return -z if word >> 31 else z
+from chain import play_chain
+from resampled import Resampled
+from shared import F, clamp, edges, kept, normal, regress, settle, unit_of, words
 
 
 def likely(chances, word):  # a step of a Markov chain; without a word the likeliest
@@ -78,11 +22,34 @@ def likely(chances, word):  # a step of a Markov chain; without a word the likel
     return next(k for k, top in enumerate(tops) if top == 2**32 - 1 or word < top)
 
 
-def play(model, frames, wind, seed=1, noise=True):
-    """Yields the outputs of every frame; `wind` is the value of all inputs."""
+class Life:
+    """Whether a flame burns: wind harms it, and one that is out shrinks in the shape of its last step."""
+
+    def __init__(self, rule, model):
+        step, self.input = 1 / model["rate_hz"], [i["name"] for i in model["inputs"]].index(rule["input"])
+        harm, haste, self.level = min(step / rule["seconds"], 0.5), rule["haste"], F(rule["level"])
+        self.most = F((min(3, 1 + (0.5 / harm - 1) / haste) if haste > 0 else 3) * rule["level"])
+        self.base, self.slope = kept(harm * (1 - haste)), kept(harm * haste / rule["level"])
+        self.recovery, self.dying = kept(step / rule["recovery"]), F(min(1, step / max(rule["dying"], step)))
+        self.harm, self.size, self.shape = F(0), F(1), None
+
+    def seen(self, shown, inputs):
+        wind = min(abs(F(inputs[self.input])), self.most)
+        self.harm = clamp(self.harm + (-self.recovery if wind < self.level else self.base + self.slope * wind), F(0), F(1))
+        if self.shape is None and self.harm >= 1:
+            self.shape = shown
+        if self.shape is not None:
+            self.size = max(self.size - self.dying, F(0))
+            return [self.size * value if self.size > 0 else F(0) for value in self.shape]
+        return shown
+
+
+def play(model, winds, seed=1, noise=True):
+    """Yields the outputs of every frame; `winds` has the inputs of each."""
     d, outputs, ny = model["dynamics"], model["outputs"], len(model["outputs"])
-    if d["kind"] == "chain" or noise and (d.get("noise") or {}).get("resampled"):
-        sys.exit("08_play_json.py: chains are not played, and resampled residuals only without noise (`off`)")
+    if d["kind"] == "chain":
+        yield from play_chain(model, winds, seed, noise)
+        return
     forms = [(item, sign, power) for item in model["inputs"] for sign in ([1, -1] if "split" in item["form"] else [0])
              for power in ([1, 0.5, 2] if "powers" in item["form"] else [1])]
     unit = [unit_of(o) for o in outputs] + [unit_of(item) ** power for item, _, power in forms]
@@ -113,28 +80,40 @@ def play(model, frames, wind, seed=1, noise=True):
         return total
 
     past = [[settle(clamp(F(0), *h)) for h in held] + [F(0)] * len(forms) for _ in range(d["history"] + 1)]
-    mode = None
-    for step in range(frames):
-        now = [F(0)] * ny + [regress(*form, mean, wind) for form, mean in zip(forms, d["input_mean"])]
+    mode, resampled = None, Resampled(d, unit) if (d.get("noise") or {}).get("resampled") else None
+    life = Life(model["extinction"], model) if model.get("extinction") else None
+    for step, wind in enumerate(winds):
+        now = [F(0)] * ny + [regress(*form, mean, wind[model["inputs"].index(form[0])]) for form, mean in zip(forms, d["input_mean"])]
         past = [now] + past[:-1]
         if regions:
             mode = max(range(len(regions)), key=lambda k: (score(regions[k]), -k))
         elif "transitions" in d:
             word = words(seed, step, (ny + 3) // 4)[0] if noise else None
             mode = likely(d["initial"] if mode is None else d["transitions"][mode], word)
-        deviates = [normal(w, model["random"]["normal_table"]) for g in range(groups) for w in words(seed, step, g)]
+        drawn = None
+        if resampled:
+            resampled.hear(now[ny:])
+            drawn = resampled.step(words(seed, step, 0)) if noise else [F(0)] * ny
+        deviates = [] if resampled else [normal(w, model["random"]["normal_table"]) for g in range(groups) for w in words(seed, step, g)]
         for i, (total, taps, shocks) in enumerate(rows[mode or 0]):
-            for size, k in shocks if noise else []:
+            if drawn:
+                total = total + drawn[i]
+            for size, k in shocks if noise and not drawn else []:
                 total = total + size * deviates[k]
             for weight, channel, lag in taps:
                 total = total + weight * past[lag][channel]
             now[i] = settle(clamp(total, *held[i]))
-        yield [clamp(F(mean) + F(u) * z, *map(F, edges(o))) for o, mean, u, z in zip(outputs, d["output_mean"], unit, now)]
+        shown = [clamp(F(mean) + F(u) * z, *map(F, edges(o))) for o, mean, u, z in zip(outputs, d["output_mean"], unit, now)]
+        yield life.seen(shown, wind) if life else shown
 
 
 if __name__ == "__main__":
     frames, wind, seed, noise = sys.argv[1:] + ["100", "0", "1", "on"][len(sys.argv) - 1:]
     of = json.load(sys.stdin)
     print(",".join(o["name"] for o in of["outputs"]))
-    for values in play(of, int(frames), float(wind), int(seed), noise == "on"):
+    try:
+        winds = [[float(wind)] * len(of["inputs"])] * int(frames)
+    except ValueError:
+        winds = [list(map(float, line.split(","))) for line in itertools.islice(open(wind), int(frames))]
+    for values in play(of, winds, int(seed), noise == "on"):
         print(",".join(repr(float(v)) for v in values))

@@ -1,0 +1,62 @@
+"""Arithmetic of the players: single precision, random words and deviates, and an input as the dynamics see it."""
+import math
+import numpy as np
+
+F = np.float32  # all arithmetic of a step is in single precision
+
+
+def kept(value): return F(0) if abs(value) < 1e-10 else F(value)
+def bounded(value): return kept(min(max(value, -1e9), 1e9))
+def settle(z): return F(0) if abs(z) < F(1e-20) else z
+def clamp(z, low, high): return min(max(z, low), high)
+
+
+def edges(item):  # the range and half of it more on either side
+    low, high = item["range"]
+    return low - 0.5 * (high - low), high + 0.5 * (high - low)
+
+
+def unit_of(item):  # a power of two near the range
+    size = item["range"][1] - item["range"][0]
+    return 1.0 if size <= 0 or 1 / 128 <= size <= 128 else 2.0 ** (math.frexp(size)[1] - 1)
+
+
+def bend(u, item):  # an input's curve: straight pieces between its knots
+    at, value = item["curve"]["at"], item["curve"]["value"]
+    y = F(value[0])
+    if not u > F(at[0]):
+        return u
+    for k in range(len(at) - 1):
+        width, slope = F(at[k + 1] - at[k]), F((value[k + 1] - value[k]) / (at[k + 1] - at[k]))
+        if u < F(at[k + 1]):
+            return y + slope * min(u - F(at[k]), width)
+        y = y + slope * width
+    return y + (u - F(at[-1]))
+
+
+def regress(item, sign, power, mean, u):  # one of the numbers that the dynamics see of an input
+    unit = unit_of(item)
+    u = clamp(F(u), *map(F, edges(item)))
+    u = max(F(sign) * u, F(0)) if sign else u
+    u = bend(u, item) if "curve" in item else u
+    if power == 1:
+        return settle((u - F(mean)) * F(1 / unit))
+    u = u * F(1 / unit)
+    return settle((np.sqrt(u) if power == 0.5 else u * u) - F(mean / unit**power))
+
+
+def words(seed, step, group, stream=0):  # Philox4x32 of 7 rounds: four random words
+    full = 0xFFFFFFFF
+    w, key = [step & full, step >> 32 << 16 ^ group, stream & full, stream >> 32], [seed & full, seed >> 32]
+    for _ in range(7):
+        a, b = w[0] * 0xD2511F53, w[2] * 0xCD9E8D57
+        w = [b >> 32 ^ w[1] ^ key[0], b & full, a >> 32 ^ w[3] ^ key[1], a & full]
+        key = [key[0] + 0x9E3779B9 & full, key[1] + 0xBB67AE85 & full]
+    return w
+
+
+def normal(word, table):  # the deviate that a word stands for
+    bits = int((F(word ^ 0xFFFFFFFF if word >> 31 else word) + F(0.5)).view(np.uint32))
+    c0, c1, c2 = map(F, table[(bits >> 19) - (126 << 4)])
+    z = c0 + F(bits & 0x7FFFF) * (c1 + F(bits & 0x7FFFF) * c2)
+    return -z if word >> 31 else z
