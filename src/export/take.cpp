@@ -59,7 +59,7 @@ Result<Bank> settled_bank(const Model& model, const TakeOptions& options) {
   bank->set_common_inputs(inputs_of(model, options));
   // A body is taken from where it starts to fall.
   if (bank->chain()) return bank;
-  for (double t = 0; t < kSettle * model.rate_hz; t += 1) bank->step();
+  for (int step = 0; step < kSettle * model.rate_hz; ++step) bank->step();
   return bank;
 }
 

@@ -98,8 +98,8 @@ Result<void> write_loop(const Model& model, const Arguments& arguments, Terminal
   }
   const auto taken = take_from(model, arguments, terminal);
   if (!taken) return taken.error();
-  const auto written = extension == ".csv" ? write_csv(path, recording_of(model, *taken, arguments))
-                                           : write_film(model, *taken, path, terminal);
+  auto written = extension == ".csv" ? write_csv(path, recording_of(model, *taken, arguments))
+                                     : write_film(model, *taken, path, terminal);
   if (!written) return written;
   terminal.add("seed", arguments.integer("seed"));
   terminal.add("output", path);

@@ -26,7 +26,7 @@ struct ReportValue : std::variant<std::monostate, bool, std::int64_t, double, st
   ReportValue& operator=(ReportValue&&) = default;
   ~ReportValue() = default;
   // libstdc++ 12 destroys what was never made where a copy of such a variant finds no memory; assigning, it does not.
-  ReportValue(const ReportValue& other) : Base() { *this = other; }
+  ReportValue(const ReportValue& other) : Base() { *this = other; }  // NOLINT(bugprone-copy-constructor-init)
   ReportValue(bool value) : Base(value) {}
   template <std::integral Whole>
   ReportValue(Whole value) : Base(static_cast<std::int64_t>(value)) {}

@@ -47,9 +47,8 @@ struct Shape {
 };
 
 Shape shape_of(const Recording& recording, const SplineTable& table, std::size_t row) {
-  std::vector<double> controls;
-  for (int i = 0; i < 2 * table.points(); ++i)
-    controls.push_back(recording.channels[static_cast<std::size_t>(i)].samples[row]);
+  std::vector<double> controls(2 * static_cast<std::size_t>(table.points()));
+  for (std::size_t i = 0; i < controls.size(); ++i) controls[i] = recording.channels[i].samples[row];
   Shape shape{.row = row, .curve = curve_polyline(table, controls, kCurvePoints), .base = {}, .tip = {}};
   const CurvePoint first = shape.curve.front(), last = shape.curve.back();
   shape.base = {0.5 * (first.x + last.x), 0.5 * (first.y + last.y)};

@@ -119,7 +119,7 @@ Usable outline_verdict(const ArxSummary& fit, const OutlineSummary& summary) {
     return {false, "learned from " + std::to_string(rows) + " frames; at least " + std::to_string(kMinRows) +
                        " are needed to tell flicker from chance: record longer"};
   }
-  if (rows < static_cast<std::size_t>(kMinRowsACoefficient * most_coefficients(summary.orders))) {
+  if (rows < static_cast<std::size_t>(kMinRowsACoefficient) * most_coefficients(summary.orders)) {
     return {false, std::to_string(most_coefficients(summary.orders)) + " coefficients an output from " +
                        std::to_string(rows) + " frames describe chance more than the thing; at least " +
                        std::to_string(kMinRowsACoefficient) +

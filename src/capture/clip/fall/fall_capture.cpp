@@ -265,6 +265,7 @@ std::vector<std::uint8_t> FallCapture::reduced(const Picture& picture) const {
   }
   const auto count = static_cast<std::uint32_t>(step_ * step_);
   std::vector<std::uint8_t> small;
+  small.reserve(sums.size());
   for (const std::uint32_t sum : sums) small.push_back(static_cast<std::uint8_t>((sum + count / 2) / count));
   return small;
 }
@@ -299,7 +300,7 @@ Result<void> FallCapture::feed(const Picture& picture) {
   const auto &now = frames_.back(), &before = frames_[frames_.size() - 2];
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {
-      const auto p = static_cast<std::size_t>(y * width_ + x);
+      const auto p = static_cast<std::size_t>(y) * width_ + x;
       if (std::abs(now[p] - before[p]) < kMoves) continue;
       moving_ = enclosing(moving_, {region_.x + x * step_, region_.y + y * step_, step_, step_});
     }

@@ -52,11 +52,11 @@ std::vector<std::uint8_t> mask_of(const std::vector<float>& difference, const Wa
   std::vector<std::uint8_t> mask(difference.size(), 0);
   for (int y = 0; y < wall.height; ++y) {
     for (int x = 0; x < wall.width; ++x) {
-      const auto p = static_cast<std::size_t>(y * wall.width + x);
+      const auto p = static_cast<std::size_t>(y) * wall.width + x;
       if (std::abs(difference[p]) <= wall.tolerance[p]) continue;
       for (int v = std::max(0, y - 1); v <= std::min(wall.height - 1, y + 1); ++v) {
         for (int u = std::max(0, x - 1); u <= std::min(wall.width - 1, x + 1); ++u) {
-          mask[static_cast<std::size_t>(v * wall.width + u)] = 1;
+          mask[static_cast<std::size_t>(v) * wall.width + u] = 1;
         }
       }
     }
@@ -95,7 +95,7 @@ Thing thing_of(const std::vector<int>& pixels, double contrast, const std::vecto
   for (const int p : pixels) {
     const double cover = std::min(1.0, std::abs(difference[static_cast<std::size_t>(p)]) / contrast);
     const double weight = std::max(0.0, cover - kShadow) / (1 - kShadow);
-    const double px = p % width, py = p / width;
+    const int px = p % width, py = p / width;
     sum += weight;
     x += weight * px;
     y += weight * py;
@@ -107,7 +107,8 @@ Thing thing_of(const std::vector<int>& pixels, double contrast, const std::vecto
   const auto [left, right] =
       std::minmax_element(pixels.begin(), pixels.end(), [&](int a, int b) { return a % width < b % width; });
   thing.left = *left % width, thing.right = *right % width;
-  thing.bottom = *std::max_element(pixels.begin(), pixels.end()) / width;
+  const int lowest_row = *std::max_element(pixels.begin(), pixels.end()) / width;
+  thing.bottom = lowest_row;
   xx = xx / sum - thing.x * thing.x, yy = yy / sum - thing.y * thing.y, xy = xy / sum - thing.x * thing.y;
   const double middle = (xx + yy) / 2, radius = std::hypot((xx - yy) / 2, xy);
   const double across = std::max(middle - radius - kPixelVariance, kPixelVariance);

@@ -32,7 +32,7 @@ struct Coarse {
   int height = 0;
   std::vector<double> values;
 
-  double at(int x, int y) const { return values[static_cast<std::size_t>(y * width + x)]; }
+  double at(int x, int y) const { return values[static_cast<std::size_t>(y) * width + x]; }
 };
 
 template <class T>
@@ -42,7 +42,8 @@ Coarse coarse(const std::vector<T>& fine, const Wall& wall) {
     for (int x = 0; x < out.width; ++x) {
       double sum = 0;
       for (int k = 0; k < kCoarse * kCoarse; ++k) {
-        sum += fine[static_cast<std::size_t>((kCoarse * y + k / kCoarse) * wall.width + kCoarse * x + k % kCoarse)];
+        const auto row = static_cast<std::size_t>(kCoarse * y + k / kCoarse);
+        sum += fine[row * wall.width + kCoarse * x + k % kCoarse];
       }
       out.values.push_back(sum / (kCoarse * kCoarse));
     }

@@ -141,7 +141,7 @@ void add_search(const OrderSearch& search, const std::vector<std::string>& outpu
   ReportSection& section = report.add("Orders");
   const OrderCandidate& best = search.candidates[search.best];
   add_line(section, "best of " + std::to_string(search.candidates.size()), orders_text(best));
-  const auto columns = candidate_columns();
+  const auto& columns = candidate_columns();
   const auto row = candidate_row(best);
   for (std::size_t k = 0; k < columns.size(); ++k) add(section, "best." + columns[k].id, row[k]);
   add(section, "best.index", search.best);

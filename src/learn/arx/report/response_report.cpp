@@ -25,6 +25,7 @@ int settling_samples(const ArxModel& model) {
 // From a thousandth of the highest frequency up to it, evenly on a logarithmic axis.
 std::vector<double> angular_frequencies() {
   std::vector<double> omega;
+  omega.reserve(kFrequencies);
   for (int k = 0; k < kFrequencies; ++k) {
     omega.push_back(std::numbers::pi * std::pow(10.0, 3.0 * (k + 1 - kFrequencies) / (kFrequencies - 1)));
   }

@@ -370,6 +370,7 @@ Result<ArxFit> refit(const Subject& subject, std::vector<Block>& blocks, ArxFit 
     plain = std::move(*again);
   }
   std::vector<GivenRow> rows;
+  rows.reserve(static_cast<std::size_t>(plain.model.orders.outputs()));
   for (int i = 0; i < plain.model.orders.outputs(); ++i) {
     rows.push_back(row_of_model(plain.model, i, learned->signals, options.offset));
   }
