@@ -242,7 +242,7 @@ Result<void> WavReader::State::take_data(std::uint64_t at, std::uint64_t said, b
                          std::to_string(frame) + " (one sample of every channel)");
   }
   frames = said / frame;
-  block.resize(std::max<std::size_t>(kBlockBytes / frame, 1) * frame);
+  block.resize(static_cast<std::size_t>(std::max<std::uint64_t>(kBlockBytes / frame, 1) * frame));
   return {};
 }
 

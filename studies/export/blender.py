@@ -45,7 +45,7 @@ def in_blender(glb, rate, frames, work):
 def rows_of(path):
     with open(path) as lines:
         rows = list(csv.reader(line for line in lines if not line.startswith("#")))
-    names = [name.split(":")[1].split("[")[0] for name in rows[0]]
+    names = [name.split(":")[-1].split("[")[0] for name in rows[0]]
     return [dict(zip(names, map(float, row))) for row in rows[1:]]
 
 
@@ -68,10 +68,15 @@ def leaf(program, models, work, frames=180, instances=3):
                                      capture_output=True).stdout)
     width, length = (info["view"][side] or 0.03 for side in ("half_width", "half_length"))
     worst_place = worst_turn = 0
-    for row, found in zip(rows_of(numbers), in_blender(glb, 60, frames, work), strict=True):
+    # An instance is an episode: all its frames, then those of the next.
+    rows = rows_of(numbers)
+    assert len(rows) == frames * instances
+    for at, found in enumerate(in_blender(glb, 60, frames, work)):
         for k, thing in enumerate(found):
-            place = [row[f"i{k}.pos.{axis}"] for axis in "xyz"]
-            turn = [row[f"i{k}.q.{axis}"] for axis in "wxyz"]
+            row = rows[k * frames + at]
+            assert row["episode"] == k
+            place = [row[f"pos.{axis}"] for axis in "xyz"]
+            turn = [row[f"q.{axis}"] for axis in "wxyz"]
             worst_place = max(worst_place, *(abs(a - b) for a, b in zip(place, thing["at"])))
             # The mesh's corners 0 and 6 of 24 lie on the body's first two axes.
             for axis, corner, size in ((0, 0, width), (1, 6, length)):

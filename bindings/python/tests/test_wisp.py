@@ -111,6 +111,9 @@ class Capturing(unittest.TestCase):
             self.assertIn("usable", captured.report.to_dict())
 
     def test_ctrl_c_ends_it(self):
+        # What a shell starts in the background ignores the signal.
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGINT, before)
         with tempfile.TemporaryDirectory() as folder:
             clip = pathlib.Path(folder) / "candle.mp4"
             run("simulate", "candle", "-o", clip, "--seconds", "20", "--seed", "5", "--quiet")

@@ -3,6 +3,7 @@
 // describe/ makes text, JSON and pictures of it; nothing else formats figures.
 
 #include <array>
+#include <concepts>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -27,10 +28,8 @@ struct ReportValue : std::variant<std::monostate, bool, std::int64_t, double, st
   // libstdc++ 12 destroys what was never made where a copy of such a variant finds no memory; assigning, it does not.
   ReportValue(const ReportValue& other) : Base() { *this = other; }
   ReportValue(bool value) : Base(value) {}
-  ReportValue(int value) : Base(static_cast<std::int64_t>(value)) {}
-  ReportValue(std::int64_t value) : Base(value) {}
-  ReportValue(std::size_t value) : Base(static_cast<std::int64_t>(value)) {}
-  ReportValue(std::uint32_t value) : Base(static_cast<std::int64_t>(value)) {}
+  template <std::integral Whole>
+  ReportValue(Whole value) : Base(static_cast<std::int64_t>(value)) {}
   ReportValue(double value) : Base(value) {}
   ReportValue(const char* value) : Base(std::string(value)) {}
   ReportValue(std::string value) : Base(std::move(value)) {}
