@@ -51,6 +51,13 @@ export function capturedByProgram(film, folder) {
   return recording;
 }
 
+/** The falls that the program finds in a film. */
+export function fallsByProgram(film, metres, folder) {
+  const recording = join(folder, 'program_falls.csv');
+  execFileSync(program, ['capture', 'fall', film, '--height', String(metres), '-o', recording, '--quiet'], { stdio: 'ignore' });
+  return recording;
+}
+
 /** The same as what a camera and a microphone give, again and again. */
 export function asDevices(film, folder) {
   const [picture, sound] = [join(folder, 'camera.mjpeg'), join(folder, 'microphone.wav')];

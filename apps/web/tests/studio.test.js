@@ -6,7 +6,8 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, it } from 'node:test';
 import { chromiumPath, drop, dropAll, openBrowser, until } from './browser.js';
-import { asDevices, candleFilm, capturedByProgram, noConverter, noFilms, recordedFalls, turnedFilm, wallFilm } from './films.js';
+import { fallsFilm } from '../../../bindings/studio/tests/falls_film.mjs';
+import { asDevices, candleFilm, capturedByProgram, fallsByProgram, noConverter, noFilms, recordedFalls, turnedFilm, wallFilm } from './films.js';
 
 const skip = chromiumPath === undefined && 'there is no Chromium here';
 const folder = mkdtempSync(join(tmpdir(), 'wisp-studio-'));
@@ -234,6 +235,50 @@ describe('recorded falls', { skip: skip || noFilms }, () => {
     await until(page, 'it falls', () => document.getElementById('studio').hidden && document.querySelector('[data-scene=leaves]').getAttribute('aria-current') === 'true');
     const frames = await page.evaluate(() => window.wisp.frames);
     await until(page, 'frames go by', (many) => window.wisp.frames > many + 2, frames);
+    assert.deepEqual([page.errors.filter((words) => !/NotFound|microphone/i.test(words)), page.strangers], [[], []]);
+  });
+});
+
+describe('a film of something that falls', { skip: skip || noConverter }, () => {
+  let opened, page;
+  before(async () => {
+    opened = await openBrowser();
+    page = await opened.page('#scene=candle&detail=0.1', { viewport: { width: 390, height: 844 } });
+    await until(page, 'the page has all of its parts', () => document.querySelector('[data-scene=yours]') !== null);
+    await drop(page, 'paper.mp4', readFileSync(fallsFilm(join(folder, 'paper.mp4'), 24)));
+    await step(page, 'look');
+    await until(page, 'the falls are found', () => document.querySelector('[data-act=learn]') !== null, null, 40_000);
+  });
+  after(() => opened?.close());
+
+  it('is told from one of a flame, and says what was found', async () => {
+    assert.match(await page.textContent(`${panel} .verdict.good`), /The falls are found24 falls/);
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'nothing sticks out sideways');
+  });
+
+  it('shows the ways that they took', async () => {
+    const drawn = await page.$eval('.viewer .over', (canvas) => canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data.filter((value, k) => k % 4 === 3 && value > 0).length);
+    assert.ok(drawn > 500, `${drawn} pixels`);
+  });
+
+  it('is looked at again where it is said how much of the wall it shows', async () => {
+    await page.fill('#wall-height', '2.4');
+    await page.dispatchEvent('#wall-height', 'change');
+    await until(page, 'it is looked at again', () => document.querySelector('#wall-height')?.value === '2.4', null, 40_000);
+  });
+
+  it('is learned, falls in the page, and is taken away as the program would have it', async () => {
+    await page.click('[data-act=learn]');
+    await step(page, 'blow', 60_000);
+    assert.match(await page.textContent(`${panel} h2`), /It learned how this falls/);
+    const [recording] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=recording]')]);
+    const rows = (text) => text.trim().split('\n').filter((line) => !line.startsWith('#')).map((line) => line.split(','));
+    const theirs = fallsByProgram(join(folder, 'paper.mp4'), 2.4, folder);
+    const [ours, wanted] = [rows(readFileSync(await recording.path(), 'utf8')), rows(readFileSync(theirs, 'utf8'))];
+    assert.deepEqual([ours[0], ours.length], [wanted[0], wanted.length]);
+    ours.slice(1).forEach((row, k) => row.forEach((value, c) => assert.ok(Math.abs(value - wanted[k + 1][c]) < 1e-4, `row ${k}, ${ours[0][c]}: ${value} and ${wanted[k + 1][c]}`)));
+    await page.click('[data-act=blow]');
+    await until(page, 'it falls', () => document.getElementById('studio').hidden && document.querySelector('[data-scene=leaves]').getAttribute('aria-current') === 'true');
     assert.deepEqual([page.errors.filter((words) => !/NotFound|microphone/i.test(words)), page.strangers], [[], []]);
   });
 });

@@ -46,6 +46,7 @@ interface SeenText {
   clipped?: number;
   flames?: number;
   box?: [number, number, number, number];
+  moving?: [number, number, number, number];
 }
 
 interface ReportText {
@@ -134,6 +135,7 @@ export class Engine {
       state: !text.decided ? 'waiting' : outline.length > 0 ? 'following' : 'gone',
       outline,
       box: text.box === undefined ? null : regionOf(text.box),
+      moving: text.moving === undefined ? null : regionOf(text.moving),
       threshold: text.threshold ?? null,
       channel: text.channel ?? null,
       clipped: text.clipped ?? null,

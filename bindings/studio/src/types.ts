@@ -8,8 +8,12 @@ export interface Region {
   height: number;
 }
 
-/** How an outline is captured. What is not said is the program's default. */
+/** How a film is captured. What is not said is the program's default. */
 export interface PictureSettings {
+  /** an outline that wind bends, or something light that falls before a plain wall; `either`: falls where the film has usable ones; `flame` */
+  looks_for?: 'flame' | 'falls' | 'either';
+  /** of falls: how many metres of wall the picture shows from top to bottom; 1 */
+  height?: number;
   /** which of several flames, 1 the largest; 0: whatever moves, flame or not */
   flame?: number;
   /** where to look; the whole picture */
@@ -30,6 +34,8 @@ export interface Seen {
   height: number;
   /** `waiting`: nothing that stands out yet; `following`: there is an outline; `gone`: not in this frame */
   state: 'waiting' | 'following' | 'gone';
+  /** of falls: what moved since the frame before, pixels; null: nothing, or they are not looked for */
+  moving: Region | null;
   /** x and y of the outline's points by turns, pixels from the top left; empty where there is none */
   outline: Float32Array;
   /** x, y, width, height of what was found, pixels; null while waiting */
@@ -90,6 +96,8 @@ export interface Recipe {
   kind: 'flame' | 'outline' | 'arx' | 'leaf' | 'chain';
   name?: string;
   seed?: number;
+  /** of falls: odd, rows that velocities are taken over, where positions are noisy; 0 */
+  smooth?: number;
   /** lags of outputs and inputs; 0: the default */
   order?: number;
   /** an outline with a third of the arithmetic, as `--light` */

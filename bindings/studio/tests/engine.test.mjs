@@ -9,6 +9,7 @@ import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 
 import { Engine, StudioError } from '../dist/engine.js';
+import { fallsFilm } from './falls_film.mjs';
 
 const module = new WebAssembly.Module(readFileSync(new URL('../dist/studio.wasm', import.meta.url)));
 const program = new URL('../../../build/release/bin/wisp', import.meta.url).pathname;
@@ -17,7 +18,7 @@ const program = new URL('../../../build/release/bin/wisp', import.meta.url).path
 function capture(engine, clip, settings) {
   const decoded = (...how) => execFileSync('ffmpeg', ['-v', 'error', '-i', clip, ...how, '-'], { maxBuffer: 4e9 });
   const film = decoded('-f', 'rawvideo', '-pix_fmt', 'yuv420p');
-  const sound = decoded('-f', 'f32le');
+  const sound = settings.silent ? Buffer.alloc(0) : decoded('-f', 'f32le');
   const [width, height, rate] = sizeOf(clip);
   const luma = width * height;
   const size = (3 * luma) / 2;
@@ -32,7 +33,7 @@ function capture(engine, clip, settings) {
   for (const k of settings.glimpses ?? []) engine.frame(picture(k), 0, true);
   for (let k = 0; k < frames; ++k) engine.frame(picture(k), k / rate);
   const samples = new Float32Array(sound.buffer, sound.byteOffset, sound.length / 4);
-  engine.sound(samples, settings.channels ?? 1, settings.sampleRate ?? 48000, 0);
+  if (!settings.silent) engine.sound(samples, settings.channels ?? 1, settings.sampleRate ?? 48000, 0);
   return engine;
 }
 
@@ -118,6 +119,7 @@ describe('the module that learns', () => {
     assert.throws(() => engine.learn([], { kind: 'arx', outputs: ['y'] }), refused(/record/));
     assert.throws(() => engine.finish(), refused(/no capture/));
     assert.throws(() => engine.begin({ name: 'film', rate: 0 }), refused(/film.*rate/));
+    assert.throws(() => engine.begin({ name: 'film', rate: 30, looks_for: 'falls', height: 1000 }), refused(/height is 1000 m/));
     engine.begin({ name: 'dark.mp4', rate: 30 });
     const dark = { layout: 'grey', width: 64, height: 48, data: new Uint8Array(64 * 48), planes: [{ offset: 0, stride: 64, step: 1 }] };
     assert.throws(() => {
@@ -168,6 +170,32 @@ describe('against the program', { skip: existsSync(program) ? false : 'the progr
       }
     }
     assert.ok(worst < 1e-6, `${worst} apart`);
+  });
+
+  test('the same film of falls gives the same recording, whether or not it is said what falls', () => {
+    const paper = fallsFilm(join(folder, 'paper.mp4'), 8);
+    const report = JSON.parse(wisp('capture', 'fall', paper, '--height', '2.4', '-o', join(folder, 'paper.csv'), '--json'));
+    assert.deepEqual([report.falls, report.usable.verdict], [8, true]);
+    const theirs = engine.table('paper.csv', readFileSync(join(folder, 'paper.csv')));
+    for (const looks_for of ['falls', 'either']) {
+      capture(engine, paper, { looks_for, height: 2.4, silent: true });
+      if (looks_for === 'falls') assert.ok('moving' in engine.seen());
+      const ours = engine.finish();
+      assert.deepEqual(ours.report.usable, report.usable);
+      assert.deepEqual([ours.rows, ours.episodes], [theirs.rows, theirs.episodes]);
+      assert.deepEqual(ours.series.map(({ name }) => name), ['pos.x', 'pos.y', 'pos.z', 'q.w', 'q.x', 'q.y', 'q.z']);
+      for (const [c, { samples }] of ours.series.entries()) samples.forEach((value, k) => assert.ok(Math.abs(value - theirs.series[c].samples[k]) < 1e-6));
+    }
+    const smooth = ['--smooth', '5'];
+    const program = JSON.parse(wisp('learn', 'leaf', join(folder, 'paper.csv'), ...smooth, '-o', join(folder, 'paper.wisp'), '--json'));
+    const fit = engine.learn([readFileSync(join(folder, 'paper.csv'))], { kind: 'leaf', name: 'paper', smooth: 5 });
+    assert.deepEqual([fit.report.usable, fit.report.mode_sizes], [program.usable, program.mode_sizes]);
+  });
+
+  test('a film of a flame stays one where either is looked for', () => {
+    capture(engine, clip, { looks_for: 'either', glimpses: glimpsesOf(clip), colours: { fullRange: false, bt709: true }, ...soundOf(clip) });
+    assert.equal(engine.seen().moving, null);
+    assert.ok(engine.finish().series.some(({ name }) => name === 'p0.x'));
   });
 
   test('the same falls give the same leaf, and the same chain of positions', () => {

@@ -15,16 +15,17 @@ import { gatherPanel } from './panels/gather.js';
 import { Invitation } from './pictures/invitation.js';
 import { lookPanel, partOfSeen } from './panels/look.js';
 import { Engine } from './engine.js';
+import { linesOfFalls } from './falls.js';
 import { Outlines } from './outlines.js';
 import { pickOf, unfold } from './picks.js';
 import { Reel } from './reel.js';
 import { ratePanel } from './panels/rate.js';
 import { resultPanel } from './panels/result.js';
 import type { Moving } from './panels/taking.js';
-import { newSession, sessionName, thingOf, type Looked, type Session, type Take } from './session.js';
+import { newSession, sessionName, shownIn, smoothRows, thingOf, type Looked, type Session, type Take } from './session.js';
 import { Strip } from './pictures/strip.js';
 import { tablePanel } from './panels/table.js';
-import { headOf, recipeOfTable } from './table_head.js';
+import { headOf, recipeOfFalls, recipeOfTable } from './table_head.js';
 import { Traces } from './pictures/traces.js';
 import { Viewer } from './pictures/viewer.js';
 import { sentence, verdictOf, type Thing } from './words.js';
@@ -83,6 +84,7 @@ export class Room {
   private judging: AbortController | null = null;
   /** films that came with the one that is looked at */
   private waiting: File[] = [];
+  private looksFor: PictureSettings['looks_for'] = 'either';
   /** the take that a dragged box is about */
   private looked: Looked | null = null;
   /** counts what is shown: work that was overtaken shows nothing */
@@ -168,8 +170,8 @@ export class Room {
     this.viewer.clear();
     this.showLeft(element('div', { class: 'viewer' }, this.invitation.canvas));
     const { takes } = this.session;
-    const more = takes.length === 0 ? null : { count: takes.length, back: () => this.back() };
-    this.showPanel(gatherPanel({ camera: () => void this.film(), files: (files) => this.files(files) }, more));
+    const more = takes.length === 0 ? null : { count: takes.length, thing: thingOf(this.session), back: () => this.back() };
+    this.showPanel(gatherPanel({ camera: () => void this.film(), files: (files) => this.files(files), falls: (files) => this.files(files, 'falls') }, more));
   }
 
   /** To what there was before. */
@@ -180,12 +182,13 @@ export class Room {
     else this.gather();
   }
 
-  private files(files: File[]): void {
+  private files(files: File[], looksFor: PictureSettings['looks_for'] = 'either'): void {
     const pick = pickOf(files);
     if (pick.kind === 'nothing') this.host.say(pick.words);
     else if (pick.kind === 'table') void this.table(pick.files[0] as File);
     else if (pick.kind === 'film') {
       this.waiting = pick.files;
+      this.looksFor = looksFor;
       this.lookAtNext();
     } else this.pictures(pick.files);
   }
@@ -197,7 +200,7 @@ export class Room {
     const folder = files[0]?.webkitRelativePath.split('/')[0] ?? '';
     const name = folder === '' ? 'pictures' : folder;
     this.showPanel(
-      ratePanel(name, files.length, (rate) => void this.look(name, null, {}, async (settings, watch) => (await this.engine.open()).pictures(files, rate, settings, watch)), () => this.back()),
+      ratePanel(name, files.length, (rate) => void this.look(name, null, { looks_for: 'either' }, async (settings, watch) => (await this.engine.open()).pictures(files, rate, settings, watch)), () => this.back()),
     );
   }
 
@@ -205,7 +208,7 @@ export class Room {
   private lookAtNext(): boolean {
     const file = this.waiting.shift();
     if (file === undefined) return false;
-    void this.look(file.name, file, {}, async (settings, watch) => (await this.engine.open()).film(file, settings, watch));
+    void this.look(file.name, file, { looks_for: this.looksFor ?? 'either' }, async (settings, watch) => (await this.engine.open()).film(file, settings, watch));
     return true;
   }
 
@@ -213,11 +216,14 @@ export class Room {
   private async look(name: string, film: File | null, settings: PictureSettings, capture: NonNullable<Take['again']>): Promise<void> {
     this.clear();
     const { turn } = this;
-    this.stepTo('look');
+    this.stepTo('look', settings.looks_for === 'falls' ? 'fall' : 'flame');
     this.viewer.clear();
     this.viewer.showBox(settings.region ?? null);
     this.showLeft(this.viewer.place);
-    const working = new Working('Looking for the flame', 'What is brightest and moves is followed by its edge. Is it another flame that you mean? Drag a box around it.', (words) => this.announce(words));
+    const falls = settings.looks_for === 'falls';
+    const working = falls
+      ? new Working('Looking for falls', 'What moves before the wall is watched. What of it falls is decided when the film is over: the wall is what most pictures show.', (words) => this.announce(words), 'fall')
+      : new Working('Looking for the flame', 'What is brightest and moves is followed by its edge. Is it another flame that you mean? Drag a box around it.', (words) => this.announce(words));
     this.working = working;
     this.showPanel(working.panel);
     const reel = new Reel(FRAMES_APART);
@@ -241,26 +247,34 @@ export class Room {
     }
     reel.keepSeen(seen);
     this.viewer.show(seen);
-    working.found(partOfSeen(seen));
+    working.found(partOfSeen(seen, this.looked?.settings.looks_for === 'falls'));
   }
 
   /** A take is kept: at the place of the one that was looked at again, else after the others. */
   private keep(take: Take): void {
+    const thing = shownIn(take);
+    if (this.session.takes.some((one) => shownIn(one) !== thing)) {
+      // A flame and a leaf are not learned together.
+      for (const { reel } of this.session.takes) reel.close();
+      this.session = newSession();
+    }
     const { takes } = this.session;
     const before = takes.findIndex(({ name, film }) => name === take.name && film === take.film && film !== null);
     if (before >= 0) takes[before]?.reel.close();
     if (before >= 0) takes[before] = take;
     else takes.push(take);
     this.session.learned = null;
+    if (thing === 'fall') this.session.recipe = { ...recipeOfFalls(takes.map(({ captured }) => captured)), smooth: smoothRows(take.captured.rate) };
     if (!this.lookAtNext()) this.showLook(take);
   }
 
   private showLook(take: Take): void {
     this.clear();
     this.looked = take;
-    this.stepTo('look');
+    this.stepTo('look', shownIn(take));
     this.showLeft(this.viewer.place);
     this.viewer.showBox(take.settings.region ?? null);
+    this.viewer.showFalls((size) => linesOfFalls(take.captured, take.settings.height ?? 1, size));
     const { outlines } = take;
     if (outlines !== null) {
       if (take.film === null) this.showStill(take, outlines);
@@ -273,6 +287,8 @@ export class Room {
         more: () => this.gather(),
         leaveOut: () => this.leaveOut(take),
         flame: (flame) => this.lookAgain({ ...take.settings, flame }),
+        other: () => this.lookAgain({ ...take.settings, looks_for: shownIn(take) === 'fall' ? 'flame' : 'falls' }),
+        height: (height) => this.lookAgain({ ...take.settings, height, looks_for: 'falls' }),
       }),
     );
   }
@@ -329,6 +345,9 @@ export class Room {
   }
 
   private trouble(title: string, words: string, otherwise: string): void {
+    const falls = element('button', { type: 'button', class: 'tool', 'data-act': 'other' }, 'It is something that falls');
+    falls.addEventListener('click', () => this.lookAgain({ ...this.looked?.settings, looks_for: 'falls' }));
+    const again = this.looked !== null && this.looked.again !== null && this.looked.settings.looks_for !== 'falls';
     const choose = element('button', { type: 'button', class: 'tool main', 'data-act': 'choose' }, 'Choose something else');
     choose.addEventListener('click', () => this.gather());
     this.announce(words);
@@ -338,7 +357,7 @@ export class Room {
         { class: 'panel' },
         element('div', { class: 'verdict bad' }, element('h2', { tabindex: '-1' }, title), element('p', {}, words)),
         element('p', {}, otherwise),
-        element('div', { class: 'actions' }, choose),
+        element('div', { class: 'actions' }, choose, ...(again ? [falls] : [])),
       ),
     );
   }

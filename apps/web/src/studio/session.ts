@@ -29,6 +29,13 @@ export interface Session {
   learned: Learned | null;
 }
 
+/** What a film shows. */
+export const shownIn = ({ captured }: Take): Thing => (captured.series.some(({ name }) => name === 'pos.x') ? 'fall' : 'flame');
+
+/** Odd: rows that velocities of filmed falls are taken over, about a sixth of a second, for a film shows positions to some
+ * thousandths of its height. */
+export const smoothRows = (rate: number): number => Math.max(5, 2 * Math.round(rate / 12) + 1);
+
 /** What a session is about. */
 export const thingOf = ({ recipe }: Session): Thing => (recipe.kind === 'arx' ? 'table' : recipe.kind === 'leaf' || recipe.kind === 'chain' ? 'fall' : 'flame');
 

@@ -81,6 +81,12 @@ function withNames(bytes: Uint8Array, names: readonly string[], separator: RegEx
 const POSITION = ['pos.x', 'pos.y', 'pos.z'];
 const ORIENTATION = ['q.w', 'q.x', 'q.y', 'q.z'];
 
+/** How to learn from films of falls: tilt counts where all of them have it. */
+export function recipeOfFalls(captured: readonly Captured[]): Recipe {
+  const tilt = captured.every(({ series }) => ORIENTATION.every((name) => series.some((one) => one.name === name)));
+  return { kind: tilt ? 'leaf' : 'chain' };
+}
+
 /** How to learn from a table: as something that falls where it tells of that, else as what comes out of what goes in. */
 export function recipeOfTable({ series }: Captured, { inputs, outputs }: TableSettings = {}): Recipe {
   const has = (name: string): boolean => series.some((one) => one.name === name && one.role === 'output');

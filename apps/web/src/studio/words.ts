@@ -37,6 +37,13 @@ const LEARNED: Readonly<Record<Thing, string>> = { flame: 'It learned your flame
 /** Of a table's rows that were kept back, below this it follows nothing: a fit in per cent. */
 const FOLLOWS = 5;
 
+/** What to think of a film, or of another recording. */
+export function foundIn({ report }: Captured, thing: Thing): Verdict {
+  const good = report.usable?.verdict !== false;
+  const title = thing === 'fall' ? (good ? 'The falls are found' : 'The falls are not seen well') : good ? 'The flame is found' : 'The flame is not seen well';
+  return { good, title, reason: sentence(report.usable?.reason ?? '') };
+}
+
 /** What to think of a model. */
 export function verdictOf({ report, judged }: Learned, thing: Thing): Verdict {
   const fits = judged === undefined ? [] : judgedFits(judged.report).map(({ free }) => free);
@@ -138,6 +145,8 @@ export function adviceOf(captured: readonly Captured[], report: Report | null): 
   return made.slice(0, 3);
 }
 
+const FALLS_STAGES: Readonly<Record<string, string>> = { capturing: 'Watching what moves before the wall, picture by picture.' };
+
 const STAGES: Readonly<Record<string, string>> = {
   capturing: 'Following the edge of the flame, picture by picture.',
   reading: 'Reading the film.',
@@ -158,6 +167,6 @@ const STAGES: Readonly<Record<string, string>> = {
 };
 
 /** What a stage of work means. */
-export function stageInWords(stage: string): string {
-  return STAGES[stage] ?? sentence(stage);
+export function stageInWords(stage: string, thing: Thing = 'flame'): string {
+  return (thing === 'fall' ? FALLS_STAGES[stage] : undefined) ?? STAGES[stage] ?? sentence(stage);
 }

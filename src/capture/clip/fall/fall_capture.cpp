@@ -244,7 +244,7 @@ Result<FallCapture> FallCapture::create(const ClipSource& source, const FallOpti
   if (!(source.rate_hz > 0)) return Error{source.name + ": states no frame rate; give it as --rate"};
   const double height = options.height_metres;
   if (height != 0 && !(height >= 0.01 && height <= 100)) {
-    return Error{source.name + ": the picture's height is " + number_text(height, 3) +
+    return Error{source.name + ": the picture's height is " + number_text(height, 6) +
                  " m, expected 0.01 to 100: how much of the wall it shows"};
   }
   return FallCapture(source, options);

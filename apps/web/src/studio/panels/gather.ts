@@ -1,15 +1,19 @@
 // The first panel: what can be learned from.
 
 import { element } from '../../panel/element.js';
+import type { Thing } from '../words.js';
 
 export interface GatherEvents {
   camera(): void;
   files(files: File[]): void;
+  /** films of something that falls */
+  falls(files: File[]): void;
 }
 
 const ICONS = {
   camera: 'M4 8h3l2-3h6l2 3h3v11H4zM12 10a3.5 3.5 0 1 0 0 7 3.5 3.5 0 0 0 0-7z',
   film: 'M4 5h16v14H4zM8 5v14M16 5v14M4 9.700h4M4 14.300h4M16 9.700h4M16 14.300h4',
+  falls: 'M5 4h14M12 7c5 2 5 7 0 11-5-4-5-9 0-11zM12 10v11',
   pictures: 'M3 7h13v12H3zM7 7V4h14v12h-5M3 16l4-4 3 3 2-2 4 4',
   table: 'M4 5h16v14H4zM4 10h16M10 10v9M15 10v9M4 14.500h16',
 } as const;
@@ -32,17 +36,18 @@ function choice(name: keyof typeof ICONS, title: string, words: string, act: () 
 }
 
 /** `more`: something was gathered already, and this is to be learned together with it; `back` returns to it. */
-export function gatherPanel(events: GatherEvents, more: { count: number; back: () => void } | null): HTMLElement {
-  const chooser = (attributes: Record<string, string | boolean>): HTMLInputElement => {
+export function gatherPanel(events: GatherEvents, more: { count: number; thing: Thing; back: () => void } | null): HTMLElement {
+  const chooser = (attributes: Record<string, string | boolean>, chosen = events.files): HTMLInputElement => {
     const input = element('input', { type: 'file', hidden: true, tabindex: '-1', ...attributes });
     input.addEventListener('change', () => {
       const files = [...(input.files ?? [])];
       input.value = '';
-      if (files.length > 0) events.files(files);
+      if (files.length > 0) chosen(files);
     });
     return input;
   };
   const film = chooser({ accept: 'video/*,.mkv', multiple: true, 'data-choose': 'film' });
+  const falls = chooser({ accept: 'video/*,.mkv', multiple: true, 'data-choose': 'falls' }, events.falls);
   const pictures = chooser({ webkitdirectory: true, multiple: true, 'data-choose': 'pictures' });
   const table = chooser({ accept: '.csv,.tsv,.txt,.dat,.asc,text/csv', 'data-choose': 'table' });
   const choices = element(
@@ -50,9 +55,11 @@ export function gatherPanel(events: GatherEvents, more: { count: number; back: (
     { class: 'choices' },
     choice('camera', 'Film a candle', 'with this camera and microphone, in half a minute', () => events.camera()),
     choice('film', 'Choose a film', 'from your phone or disk', () => film.click()),
+    choice('falls', 'A film of something that falls', 'a slip of paper, a leaf: dropped before a plain wall, again and again', () => falls.click()),
     choice('pictures', 'Folder of pictures', 'numbered frames', () => pictures.click()),
     ...(more === null ? [choice('table', 'A table', 'CSV: what went in and what came out of anything', () => table.click())] : []),
     film,
+    falls,
     pictures,
     table,
   );
@@ -63,7 +70,7 @@ export function gatherPanel(events: GatherEvents, more: { count: number; back: (
       'div',
       { class: 'panel' },
       element('h2', { tabindex: '-1' }, 'Film more'),
-      element('p', {}, `${more.count === 1 ? 'One film is' : `${more.count} films are`} kept. Another is learned together with ${more.count === 1 ? 'it' : 'them'}: soft breaths in one, blowing out in the next.`),
+      element('p', {}, `${more.count === 1 ? 'One film is' : `${more.count} films are`} kept. Another is learned together with ${more.count === 1 ? 'it' : 'them'}${more.thing === 'fall' ? ', if it is of the same thing falling.' : ': soft breaths in one, blowing out in the next.'}`),
       choices,
       element('div', { class: 'actions' }, back),
     );

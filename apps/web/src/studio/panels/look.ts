@@ -2,15 +2,17 @@
 
 import type { Seen } from '@wisp/studio';
 import { element } from '../../panel/element.js';
-import type { Take } from '../session.js';
-import { adviceOf, sentence, within } from '../words.js';
+import { rateField } from './rate.js';
+import { shownIn, type Take } from '../session.js';
+import { adviceOf, foundIn, sentence, within } from '../words.js';
 
 const COLOURS: Readonly<Record<string, string>> = { luma: 'all colours', red: 'red', green: 'green', blue: 'blue' };
 
 type Fact = readonly [string, string];
 
 /** What was decided by now. */
-export function partOfSeen({ threshold, channel, flames, frame, state }: Seen): Fact[] {
+export function partOfSeen({ threshold, channel, flames, frame, state, moving }: Seen, falls: boolean): Fact[] {
+  if (falls) return [['Picture', frame.toLocaleString('en')], ['Moves', moving === null ? 'nothing' : 'something']];
   const facts: Fact[] = [['Picture', frame.toLocaleString('en')]];
   facts.push(['Flame', state === 'waiting' ? 'not found yet' : state === 'gone' ? 'not in this picture' : 'followed']);
   if (threshold !== null && channel !== null) facts.push(['Its edge', `${Math.round(threshold)} of 255 in ${COLOURS[channel] ?? channel}`]);
@@ -25,6 +27,11 @@ function factsOf({ captured }: Take): Fact[] {
     return typeof value === 'number' ? value : null;
   };
   const facts: Fact[] = [['Length', `${(rows / rate).toFixed(1)} s, ${Math.round(rate * 100) / 100} frames a second`]];
+  const [falls, whole, missed] = [number('falls'), number('whole'), number('missed')];
+  if (falls !== null) {
+    facts.push(['Falls', `${falls}${whole === null || whole === falls ? '' : `, ${whole} of them whole`}${missed ? `, and ${missed} that could not be followed` : ''}`]);
+    facts.push(['Tilt', String(within(report, 'tilt_reason') ?? '')]);
+  }
   const [tracked, frames, threshold] = [number('tracked'), number('frames'), number('threshold')];
   if (tracked !== null && frames !== null) facts.push(['Outline', `in ${tracked.toLocaleString('en')} of ${frames.toLocaleString('en')} pictures`]);
   const channel = within(report, 'channel');
@@ -40,13 +47,18 @@ export interface LookEvents {
   leaveOut(): void;
   /** which of several flames, 1 the largest */
   flame(which: number): void;
+  /** it is the other: a flame, or something that falls */
+  other(): void;
+  /** how many metres of wall the picture shows */
+  height(metres: number): void;
 }
 
 /** The panel. */
 export function lookPanel(take: Take, takes: readonly Take[], events: LookEvents): HTMLElement {
   const { captured, settings } = take;
   const { report } = captured;
-  const good = report.usable?.verdict !== false;
+  const falls = shownIn(take) === 'fall';
+  const { good, title, reason } = foundIn(captured, falls ? 'fall' : 'flame');
   const act = (words: string, name: string, does: () => void, main = false): HTMLButtonElement => {
     const made = element('button', { type: 'button', class: main ? 'tool main' : 'tool', 'data-act': name }, words);
     made.addEventListener('click', does);
@@ -60,23 +72,38 @@ export function lookPanel(take: Take, takes: readonly Take[], events: LookEvents
     element(
       'div',
       { class: good ? 'verdict good' : 'verdict bad' },
-      element('h2', { tabindex: '-1' }, good ? 'The flame is found' : 'The flame is not seen well'),
-      element('p', {}, sentence(report.usable?.reason ?? '')),
+      element('h2', { tabindex: '-1' }, title),
+      element('p', {}, reason),
     ),
     element('div', { class: 'actions' }, act(takes.length > 1 ? `Learn from ${takes.length} films` : 'Learn it', 'learn', events.learn, true), act('Film more', 'more', events.more)),
     facts,
   );
   const flames = within(report, 'flames');
+  if (falls && take.again !== null) panel.append(wallHeight(settings.height ?? 1, events));
   if (typeof flames === 'number' && flames > 1 && take.again !== null) panel.append(flameChoice(flames, settings.flame ?? 1, events));
-  const warnings = [...(report.warnings ?? []).map(sentence), ...adviceOf([captured], null)];
+  const warnings = [...(report.warnings ?? []).filter((line) => !falls || !line.includes('--height')).map(sentence), ...(falls ? [] : adviceOf([captured], null))];
   if (warnings.length > 0) {
     panel.append(element('section', { class: 'warnings' }, element('h3', {}, 'Better next time'), element('ul', {}, ...[...new Set(warnings)].map((line) => element('li', {}, line)))));
   }
   panel.append(
     ...(take.again === null ? [] : [element('p', { class: 'quiet' }, 'Not the right one? Drag a box over the picture to say where to look.')]),
-    element('div', { class: 'actions' }, act('Leave this film out', 'leave-out', events.leaveOut)),
+    element(
+      'div',
+      { class: 'actions' },
+      ...(take.again === null ? [] : [act(falls ? 'It is a flame' : 'It is something that falls', 'other', events.other)]),
+      act('Leave this film out', 'leave-out', events.leaveOut),
+    ),
   );
   return panel;
+}
+
+/** Positions are metres, and a film does not say how large what it shows is. */
+function wallHeight(now: number, events: LookEvents): HTMLElement {
+  const { input, label } = rateField('wall-height', 'Metres of wall that the picture shows, top to bottom', now);
+  input.addEventListener('change', () => {
+    if (input.valueAsNumber >= 0.01 && input.valueAsNumber <= 100) events.height(input.valueAsNumber);
+  });
+  return label;
 }
 
 function flameChoice(flames: number, now: number, events: LookEvents): HTMLElement {

@@ -2,7 +2,7 @@
 
 import type { Seen, Watch } from '@wisp/studio';
 import { element } from '../../panel/element.js';
-import { stageInWords } from '../words.js';
+import { stageInWords, type Thing } from '../words.js';
 
 export class Working {
   readonly panel: HTMLElement;
@@ -13,7 +13,7 @@ export class Working {
   private shown = '';
 
   /** `announce`: read out, not shown */
-  constructor(title: string, words: string, private readonly announce: (words: string) => void) {
+  constructor(title: string, words: string, private readonly announce: (words: string) => void, private readonly thing: Thing = 'flame') {
     const cancel = element('button', { type: 'button', class: 'tool', 'data-act': 'cancel' }, 'Cancel');
     cancel.addEventListener('click', () => this.control.abort());
     this.panel = element(
@@ -52,7 +52,7 @@ export class Working {
   private progress(stage: string, share: number): void {
     if (share < 0) this.bar.removeAttribute('value');
     else this.bar.value = share;
-    const words = stageInWords(stage);
+    const words = stageInWords(stage, this.thing);
     if (this.stage.textContent === words) return;
     this.stage.textContent = words;
     this.announce(words);

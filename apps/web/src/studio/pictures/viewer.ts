@@ -5,6 +5,11 @@ import { element } from '../../panel/element.js';
 import type { Kept } from '../reel.js';
 import { contain, drawKept, surfaceOf, trace, type Fit } from './surface.js';
 
+/** Places of what moved that are shown behind it. */
+const TRAIL = 40;
+/** Frames from one place to the next that may be of one fall. */
+const APART = 12;
+
 /** Narrower boxes are presses that slipped, CSS pixels. */
 const SLIP = 12;
 /** Share of the picture by which a key moves or widens the box. */
@@ -18,7 +23,7 @@ export class Viewer {
     class: 'over',
     tabindex: 0,
     role: 'img',
-    'aria-label': 'The film with the outline that was found. Drag a box over it, or use the arrow keys, Shift and the arrow keys, and Enter, to say where to look.',
+    'aria-label': 'The film with what was found. Drag a box over it, or use the arrow keys, Shift and the arrow keys, and Enter, to say where to look.',
   });
   private readonly caption = element('p', { class: 'caption', hidden: true });
   private picture: ImageBitmap | null = null;
@@ -26,6 +31,9 @@ export class Viewer {
   private size: { width: number; height: number } | null = null;
   private seen: Seen | null = null;
   private box: Region | null = null;
+  /** where the middle of what moves was, of falls */
+  private trail: number[] = [];
+  private falls: readonly Float32Array[] = [];
   private drawing = 0;
   private from: { x: number; y: number } | null = null;
 
@@ -52,6 +60,8 @@ export class Viewer {
   clear(): void {
     this.picture?.close();
     this.picture = this.kept = this.size = this.seen = this.box = null;
+    this.trail = [];
+    this.falls = [];
     this.say('');
     this.draw();
   }
@@ -67,6 +77,7 @@ export class Viewer {
 
   /** What was seen of the film; its picture is this one's from now on. */
   show(seen: Seen): void {
+    this.follow(seen, seen.frame - (this.seen?.frame ?? 0));
     this.seen = seen;
     if (seen.width > 0) this.size = { width: seen.width, height: seen.height };
     if (seen.picture !== undefined) {
@@ -74,6 +85,19 @@ export class Viewer {
       this.picture = seen.picture;
     }
     this.draw();
+  }
+
+  /** Falls that were found, over the film's last picture. `lines` is told its size. */
+  showFalls(lines: (size: { width: number; height: number }) => readonly Float32Array[]): void {
+    this.trail = [];
+    this.falls = this.size === null ? [] : lines(this.size);
+    if (this.seen !== null) this.seen = { ...this.seen, moving: null };
+    this.draw();
+  }
+
+  private follow({ moving }: Seen, passed: number): void {
+    if (moving === null || passed > APART) this.trail = [];
+    if (moving !== null) this.trail = [...this.trail, moving.x + moving.width / 2, moving.y + moving.height / 2].slice(-2 * TRAIL);
   }
 
   /** A moment of a camera's film, which is not kept but for small pictures. */
@@ -115,6 +139,8 @@ export class Viewer {
     if (surface === null || fit === null) return;
     const { context } = surface;
     if (seen !== null && seen.outline.length > 2) drawOutline(context, seen.outline, fit);
+    for (const line of this.falls) drawOutline(context, line, fit);
+    if (seen?.moving != null) drawMoving(context, seen.moving, this.trail, fit);
     if (box !== null) drawBox(context, box, fit, surface.width, surface.height);
   }
 
@@ -202,6 +228,15 @@ export function drawOutline(context: CanvasRenderingContext2D, outline: Float32A
   context.strokeStyle = '#7fe3ff';
   context.lineWidth = 2;
   context.stroke();
+}
+
+/** What moves, and the way that it came. */
+function drawMoving(context: CanvasRenderingContext2D, { x, y, width, height }: Region, trail: readonly number[], fit: Fit): void {
+  drawOutline(context, Float32Array.from(trail), fit);
+  const air = 4;
+  context.strokeStyle = '#7fe3ff';
+  context.lineWidth = 2;
+  context.strokeRect(fit.x + fit.scale * x - air, fit.y + fit.scale * y - air, fit.scale * width + 2 * air, fit.scale * height + 2 * air);
 }
 
 function drawBox(context: CanvasRenderingContext2D, box: Region, fit: Fit, width: number, height: number): void {
