@@ -116,6 +116,7 @@ TEST_F(FileTest, AnInterruptedProcessLeavesTheOldFileAndNothingElse) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     ASSERT_TRUE(write_file(folder_ / "a.txt", "old"));
     const auto interrupted = [&] {
+      std::signal(signal, SIG_DFL);  // what a shell starts in the background ignores some
       remove_pending_files_when_interrupted();
       auto first = PendingFile::create(folder_ / "a.txt");
       auto second = PendingFile::create(folder_ / "b.txt");

@@ -207,6 +207,26 @@ TEST_F(LearnArxCases, AnExpertFindsPolesZerosGainAndTests) {
   }
 }
 
+TEST_F(LearnArxCases, FiguresOfManyOutputsSayWhichTheyLeaveOut) {
+  Recording recording = system(400);
+  std::string outputs = "place";
+  for (const char* name : {"b", "c", "d", "e"}) {
+    Channel more = recording.channels[*find_channel(recording, "place")];
+    more.name = name;
+    for (std::size_t t = 0; t < more.samples.size(); ++t) more.samples[t] += static_cast<double>(t * t % 7);
+    recording.channels.push_back(std::move(more));
+    outputs += std::string(",") + name;
+  }
+  ASSERT_TRUE(write_csv(folder_ / "many.csv", recording));
+  const Said said = run_wisp("learn arx " + at("many.csv") + " -o " + at("many.wisp") + " --inputs push --outputs " +
+                                 outputs + " --coupling diagonal --na 1 --nb 1 --nk 1 --figures " + at("many"),
+                             folder_);
+  EXPECT_EQ(said.status, 0) << said.err;
+  EXPECT_THAT(said.err, HasSubstr("figures are drawn of the first 4 of 5 outputs"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "many" / "step-d.png"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "many" / "step-e.png"));
+}
+
 TEST_F(LearnArxCases, ValidationSaysHowOftenTheModelsOwnIntervalsHold) {
   const Recording recording = system(4000);
   ASSERT_EQ(learn(recording, "--inputs push --na 2 --nb 2 --nk 1 --range 1:2000").status, 0);

@@ -121,7 +121,7 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   if (!fit) return fit.error();
   if (arguments.has("range")) fit->model.training.recipe.push_back({"range", arguments.text("range")});
   if (arguments.has("figures")) {
-    if (auto ok = write_arx_figures(arguments.text("figures"), fit->model, fit->report); !ok) return ok;
+    if (auto ok = write_arx_figures(arguments.text("figures"), fit->model, fit->report, terminal); !ok) return ok;
   }
   const std::string output = model_path(arguments);
   if (spectral_radius(std::get<ArxModel>(fit->model.dynamics)) < 1) return hand_over(*fit, output, start, terminal);

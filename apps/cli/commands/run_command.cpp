@@ -130,7 +130,7 @@ Result<void> write_picture(const Play& play, const Bank& bank, Player& player, c
     return write_png(path, pictures.draw(bank));
   }
   const Recording recording = record_run(play, bank, player);
-  Plot plot{.title = play.model.name, .x = {.label = "seconds"}, .y = {}};
+  Plot plot{.title = play.model.name, .x = {.label = "time, s"}, .y = {}};
   for (const Channel& channel : recording.channels) {
     PlotSeries series{.label = channel.name, .x = {}, .y = channel.samples};
     for (std::size_t row = 0; row < channel.samples.size(); ++row)

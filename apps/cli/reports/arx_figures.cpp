@@ -268,7 +268,7 @@ PlotSheet error_sheet(const Figures& figures) {
 
 }  // namespace
 
-Result<void> write_arx_figures(const fs::path& folder, const Model& model, const Report& report) {
+Result<void> write_arx_figures(const fs::path& folder, const Model& model, const Report& report, Terminal& terminal) {
   std::error_code code;
   fs::create_directories(folder, code);
   if (code) return Error{folder.string() + ": cannot be made: " + code.message()};
@@ -285,6 +285,10 @@ Result<void> write_arx_figures(const fs::path& folder, const Model& model, const
   for (const auto& [name, sheet] : sheets) {
     if (sheet.plots.empty()) continue;
     if (auto ok = write_figure(folder, name, sheet); !ok) return ok;
+  }
+  if (model.outputs.size() > kMaxOutputs) {
+    terminal.warn("figures are drawn of the first " + std::to_string(kMaxOutputs) + " of " +
+                  std::to_string(model.outputs.size()) + " outputs; learn the others by --outputs to see theirs");
   }
   return {};
 }

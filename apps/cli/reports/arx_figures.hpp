@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "terminal.hpp"
 #include "wisp/base/report.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/model.hpp"
@@ -12,8 +13,9 @@ namespace wisp::cli {
 
 /// Writes what the report has series for into a folder (made where it is missing), each as PNG and SVG: `poles-zeros`,
 /// per output `step` and `frequency`, `residuals`, and of a validation `simulation`, `prediction` and
-/// `prediction-error`. Models of more than four outputs have those of the first four.
+/// `prediction-error`. Models of more than four outputs have those of the first four, which is said.
 /// Errors: a file cannot be written.
-Result<void> write_arx_figures(const std::filesystem::path& folder, const Model& model, const Report& report);
+Result<void> write_arx_figures(const std::filesystem::path& folder, const Model& model, const Report& report,
+                               Terminal& terminal);
 
 }  // namespace wisp::cli

@@ -69,7 +69,7 @@ Result<void> validate_plain(const Model& model, const std::vector<int>& steps, c
   if (!report) return report.error();
   terminal.show(*report);
   if (!arguments.has("figures")) return {};
-  return write_arx_figures(arguments.text("figures"), model, *report);
+  return write_arx_figures(arguments.text("figures"), model, *report, terminal);
 }
 
 }  // namespace wisp::cli

@@ -76,10 +76,10 @@ Result<void> write_sound_figure(const fs::path& folder, const fs::path& clip, co
   const double rate_hz = figure(captured, "rate_hz");
   const auto wind = hear_wind(clip, rate_hz, static_cast<std::size_t>(figure(captured, "frames")));
   if (!wind) return wind.error();
-  Plot raw{.title = "Sound", .x = {.label = "seconds"}, .y = {.label = "amplitude"}};
+  Plot raw{.title = "Sound", .x = {.label = "time, s"}, .y = {.label = "amplitude"}};
   raw.series.push_back(std::move(envelope.series));
   Plot level{.title = "Root mean square, frame by frame",
-             .x = {.label = "seconds"},
+             .x = {.label = "time, s"},
              .y = {.label = "amplitude", .lowest = 0.0}};
   PlotSeries rms;
   for (const WindFrame& frame : wind->frames) {

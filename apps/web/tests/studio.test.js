@@ -181,6 +181,15 @@ describe('a camera', { skip: skip || noConverter }, () => {
     await page.focus('.record');
     await page.keyboard.press('Enter');
     await says(page, '.caption', 'softly', 10_000);
+    // Blue and orange: the sound, and the tip beside its name.
+    const traced = () => page.$eval('.traces canvas', (canvas) => {
+      const { data } = canvas.getContext('2d').getImageData(60, 0, canvas.width - 60, canvas.height);
+      const many = [0, 0];
+      for (let k = 0; k < data.length; k += 4) if (data[k + 3] > 128) many[data[k] > data[k + 2] ? 1 : 0] += 1;
+      return many;
+    });
+    await page.waitForTimeout(1000);
+    for (const pixels of await traced()) assert.ok(pixels > 60, `sound and tip are traced while it is filmed: ${await traced()}`);
     await page.waitForTimeout(4000);
     await page.keyboard.press('Enter');
     await until(page, 'the outline is found', () => document.querySelector('[data-act=learn]') !== null, null, 30_000);

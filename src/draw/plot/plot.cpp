@@ -68,14 +68,14 @@ void draw_picture(cairo_t* context, const Image& picture, const PlotBox& box) {
   cairo_restore(context);
 }
 
-void draw_plot(cairo_t* context, const Plot& plot, double width, double height) {
+void draw_plot(cairo_t* context, const Plot& plot, double width, double height, double left) {
   if (!plot.picture.empty()) {
     const PlotBox box{12, 30, width - 12, height - 14};
     draw_title(context, plot.title, box);
     draw_picture(context, plot.picture, box);
     return;
   }
-  const Axes axes = make_axes(context, plot, width, height);
+  const Axes axes = make_axes(context, plot, width, height, left);
   draw_title(context, plot.title, axes.box);
   draw_spans(context, plot, axes);
   draw_grid(context, axes);
@@ -91,17 +91,31 @@ void draw_plot(cairo_t* context, const Plot& plot, double width, double height) 
   draw_keys(context, plot, axes);
 }
 
+// Where the data of a column's plots begin: below each other they begin at the same place.
+double left_of_column(cairo_t* context, const PlotSheet& sheet, const SheetLayout& at, std::size_t column) {
+  double left = 0;
+  for (std::size_t k = column; k < sheet.plots.size(); k += at.columns) {
+    if (!sheet.plots[k].picture.empty()) continue;
+    left = std::max(left, make_axes(context, sheet.plots[k], at.plot_width, at.plot_height).box.left);
+  }
+  return left;
+}
+
 void draw_sheet(cairo_t* context, const PlotSheet& sheet, const SheetLayout& at) {
   set_colour(context, kPaper);
   cairo_paint(context);
   if (!sheet.title.empty()) {
     show_text(context, sheet.title, kSheetMargin + 12, kSheetMargin + 17, {13.5, true}, {30, 30, 34});
   }
+  std::vector<double> lefts;
+  for (std::size_t column = 0; column < std::size_t(at.columns); ++column) {
+    lefts.push_back(left_of_column(context, sheet, at, column));
+  }
   for (std::size_t k = 0; k < sheet.plots.size(); ++k) {
     cairo_save(context);
     cairo_translate(context, kSheetMargin + static_cast<double>(k % at.columns) * at.plot_width,
                     kSheetMargin + at.title + static_cast<double>(k / at.columns) * at.plot_height);
-    draw_plot(context, sheet.plots[k], at.plot_width, at.plot_height);
+    draw_plot(context, sheet.plots[k], at.plot_width, at.plot_height, lefts[k % at.columns]);
     cairo_restore(context);
   }
 }

@@ -137,7 +137,7 @@ double crisp(double value) { return std::round(value * 2) / 2; }
 
 }  // namespace
 
-Axes make_axes(cairo_t* context, const Plot& plot, double width, double height) {
+Axes make_axes(cairo_t* context, const Plot& plot, double width, double height, double left) {
   Extent x_extent, y_extent;
   for (const PlotSeries& series : plot.series) take_series(series, plot, x_extent, y_extent);
   for (const PlotMark& mark : plot.marks) {
@@ -163,7 +163,7 @@ Axes make_axes(cairo_t* context, const Plot& plot, double width, double height) 
   };
   axes.y_ticks = y_ticks();
   if (!axes.y_ticks.shared.empty()) axes.box.top += 10;
-  axes.box.left = crisp(label_room + widest(context, axes.y_ticks) + kTickLength + 6);
+  axes.box.left = std::max(left, crisp(label_room + widest(context, axes.y_ticks) + kTickLength + 6));
   axes.box.bottom = crisp(axes.box.bottom);
   if (plot.equal_units && !plot.x.logarithmic && !plot.y.logarithmic) {
     make_equal(axes);

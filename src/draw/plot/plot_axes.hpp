@@ -26,8 +26,9 @@ struct Axes {
   Ticks y_ticks;
 };
 
-/// Finds the range of the data and the room that labels leave for it in a panel of that size.
-Axes make_axes(cairo_t* context, const Plot& plot, double width, double height);
+/// Finds the range of the data and the room that labels leave for it in a panel of that size, whose data begin at
+/// `left` or farther right.
+Axes make_axes(cairo_t* context, const Plot& plot, double width, double height, double left = 0);
 
 void draw_title(cairo_t* context, const std::string& title, const PlotBox& box);
 void draw_grid(cairo_t* context, const Axes& axes);

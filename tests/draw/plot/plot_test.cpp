@@ -271,5 +271,28 @@ TEST(Plot, PlotsStandInTheColumnsAskedFor) {
   EXPECT_NEAR(row.height(), 90, 30);
 }
 
+// The first column of pixels with that colour, in rows [from, to).
+int leftmost(const Image& image, Colour colour, int from, int to) {
+  for (int x = 0; x < image.width(); ++x) {
+    for (int y = from; y < to; ++y) {
+      if (image.at(x, y) == colour) return x;
+    }
+  }
+  return -1;
+}
+
+TEST(Plot, AxesBelowEachOtherAreAligned) {
+  PlotSheet sheet;
+  sheet.columns = 1;
+  sheet.plots.resize(2);
+  sheet.plots[0].series = {line({0, 1}, {0, 0.00125}, kRed)};
+  sheet.plots[1].series = {line({0, 1}, {0, 3}, kRed)};
+  sheet.plots[1].y.label = "y";
+  const Image both = draw_plots(sheet);
+  const int middle = both.height() / 2;
+  ASSERT_GE(leftmost(both, kRed, 0, middle), 0);
+  EXPECT_EQ(leftmost(both, kRed, 0, middle), leftmost(both, kRed, middle, both.height()));
+}
+
 }  // namespace
 }  // namespace wisp

@@ -138,6 +138,8 @@ TEST(LearnArx, ResponsesAreSeriesWithBandsAroundThem) {
       EXPECT_GE(high->y[k], value->y[k]) << id;
     }
   }
+  EXPECT_EQ(series_of(fit.report, "step.0.0")->x_label, "time, s");
+  EXPECT_EQ(series_of(fit.report, "amplitude.0.0")->x_label, "frequency, Hz");
   EXPECT_EQ(series_of(fit.report, "poles")->x.size(), 5u);  // degrees 2 and 3
   EXPECT_NE(fit.report.find("responses.step[1][0].sd"), nullptr);
 }

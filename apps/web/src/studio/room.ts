@@ -227,6 +227,7 @@ export class Room {
     this.working = working;
     this.showPanel(working.panel);
     const reel = new Reel(FRAMES_APART);
+    if (!falls) this.traceLive();
     const looked: Looked = { name, reel, film, settings, again: capture };
     this.looked = looked;
     try {
@@ -240,6 +241,12 @@ export class Room {
     }
   }
 
+  /** The tip is traced while it is looked at. */
+  private traceLive(): void {
+    this.traces.begin();
+    this.below.replaceChildren(this.traces.place);
+  }
+
   private see(seen: Seen, reel: Reel, working: Working): void {
     if (working !== this.working) {
       seen.picture?.close();
@@ -247,6 +254,7 @@ export class Room {
     }
     reel.keepSeen(seen);
     this.viewer.show(seen);
+    this.traces.add(seen, null);
     working.found(partOfSeen(seen, this.looked?.settings.looks_for === 'falls'));
   }
 
@@ -377,6 +385,8 @@ export class Room {
           this.filming = null;
           this.trouble('Nothing was learned from this', sentence(words), 'What was gathered before is kept. Film again, or choose a film from your phone.');
         },
+        began: () => this.traceLive(),
+        seen: (seen, loud) => this.traces.add(seen, loud),
         say: (words) => this.host.say(words),
         announce: (words) => this.announce(words),
         cancelled: () => {

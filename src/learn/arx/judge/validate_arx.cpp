@@ -153,7 +153,7 @@ void add_plots(const Subject& subject, const Judged& judged, ReportSection& sect
   for (std::size_t i = 0; i < subject.channels.outputs.size(); ++i) {
     const std::string place = "." + std::to_string(i), unit = subject.model.outputs[i].unit;
     const auto plot = [&](const std::string& id, const std::string& label, std::vector<double> y) {
-      section.series.push_back({id, label, "seconds", unit, seconds, std::move(y)});
+      section.series.push_back({id, label, "time, s", unit, seconds, std::move(y)});
     };
     plot("measured" + place, "measured", subject.measured(i));
     for (std::size_t s = 0; s < steps.size(); ++s) {

@@ -140,9 +140,10 @@ class Pair {
     const std::string label = output + " from " + of_.channels.inputs[input_];
     const std::string place = "." + std::to_string(output_) + "." + std::to_string(input_);
     add_places("zeros" + place, label, zeros(of_.model, output_, input_), section);
-    plot_curve("step" + place, label, {"seconds", output}, seconds(), step_curve(step_), section);
-    plot_curve("amplitude" + place, label, {"Hz", "amplitude"}, hertz(), amplitude_curve(frequency_), section);
-    plot_curve("phase" + place, label, {"Hz", "phase, degrees"}, hertz(), phase_curve(frequency_), section);
+    plot_curve("step" + place, label, {"time, s", output}, seconds(), step_curve(step_), section);
+    plot_curve("amplitude" + place, label, {"frequency, Hz", "amplitude"}, hertz(), amplitude_curve(frequency_),
+               section);
+    plot_curve("phase" + place, label, {"frequency, Hz", "phase, degrees"}, hertz(), phase_curve(frequency_), section);
   }
 
  private:

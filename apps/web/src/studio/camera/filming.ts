@@ -19,6 +19,10 @@ export interface FilmingEvents {
   done(captured: Captured, reel: Reel, settings: PictureSettings): void;
   /** nothing came of it; a sentence says why */
   failed(words: string): void;
+  /** it begins to be filmed */
+  began(): void;
+  /** what is seen while it is filmed, and how loud it is, 0 to 1; null: there is no microphone */
+  seen(seen: Seen, loud: number | null): void;
   /** something to be said meanwhile */
   say(words: string): void;
   /** read out, not shown */
@@ -38,6 +42,7 @@ export class Filming {
   private reel = new Reel(1 / KEPT_RATE);
   private settings: PictureSettings = {};
   private seen: Seen | null = null;
+  private loud = 0;
   private state: 'looking' | 'filming' | 'ending' | 'over' = 'looking';
   private began = 0;
   private timer = 0;
@@ -148,6 +153,7 @@ export class Filming {
     this.guide = new Guide(this.camera.silent === '');
     this.live = this.studio.live('camera', this.camera.rate, this.settings, { seen: (seen) => this.take(seen) });
     this.camera.feed(this.live);
+    this.events.began();
     this.began = performance.now();
     this.word.textContent = 'Stop';
     this.button.classList.add('live');
@@ -158,6 +164,7 @@ export class Filming {
     if (this.state === 'over') return;
     this.seen = seen;
     this.viewer.show(seen);
+    if (this.state === 'filming') this.events.seen(seen, this.camera.silent === '' ? this.loud : null);
   }
 
   private tick(): void {
@@ -234,6 +241,7 @@ export class Filming {
   private showLevel(level: number): void {
     // In decibels: from a quiet room to a strong breath.
     const share = Math.max(0, Math.min(1, (20 * Math.log10(level + 1e-6) + 66) / 60));
+    this.loud = share;
     this.level.style.transform = `scaleX(${share.toFixed(3)})`;
   }
 }

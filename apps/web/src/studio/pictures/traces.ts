@@ -1,5 +1,6 @@
 // Wind and the tip's lean, all of a recording below each other, with the moment that is shown.
 
+import type { Seen } from '@wisp/studio';
 import { element } from '../../panel/element.js';
 import type { Outlines } from '../outlines.js';
 import { surfaceOf } from './surface.js';
@@ -23,11 +24,30 @@ function rangeOf(values: ArrayLike<number>, least: readonly [number, number]): {
   return { low, high };
 }
 
+/** How far the tip of an outline leans to the right of its base, in heights; NaN where there is none. */
+function leanOf(outline: Float32Array): number {
+  if (outline.length < 6) return NaN;
+  const last = outline.length - 2;
+  const base = { x: ((outline[0] as number) + (outline[last] as number)) / 2, y: ((outline[1] as number) + (outline[last + 1] as number)) / 2 };
+  let tip = 0;
+  for (let k = 2; k < outline.length; k += 2) if ((outline[k + 1] as number) < (outline[tip + 1] as number)) tip = k;
+  return ((outline[tip] as number) - base.x) / Math.max(1, base.y - (outline[tip + 1] as number));
+}
+
+/** Appends a value for every frame up to one, between the last that was seen and this. */
+function extend(values: number[], frame: number, value: number): void {
+  const from = values.length;
+  const before = values.at(-1) ?? NaN;
+  const last = Number.isNaN(before) ? value : before;
+  for (let k = from; k < frame; ++k) values.push(last + ((value - last) * (k + 1 - from)) / (frame - from));
+}
+
 export class Traces {
   readonly place = element('div', { class: 'traces' });
   private readonly canvas = element('canvas', { role: 'img', 'aria-label': 'Wind that was heard, and how the tip of the flame leans' });
   private lines: Line[] = [];
   private seconds = 0;
+  private live: { lean: number[]; loud: number[] } = { lean: [], loud: [] };
   private readonly marker = element('i', { hidden: true });
 
   constructor() {
@@ -46,6 +66,27 @@ export class Traces {
     this.draw();
   }
 
+  /** Begins with nothing: what is seen is added while it comes. */
+  begin(): void {
+    this.live = { lean: [], loud: [] };
+    this.lines = [];
+    this.seconds = 0;
+    this.marker.hidden = true;
+    this.draw();
+  }
+
+  /** What was seen by now, and how loud it is, 0 to 1; null: that is not known while it is looked at. */
+  add({ frame, outline }: Seen, loud: number | null): void {
+    const { live } = this;
+    extend(live.lean, frame, leanOf(outline));
+    if (loud !== null) extend(live.loud, frame, loud);
+    this.lines = [
+      ...(live.loud.length === 0 ? [] : [{ name: 'Sound', colour: '#7fc4ff', values: live.loud, ...rangeOf(live.loud, [0, 1]) }]),
+      { name: 'Tip', colour: '#ffb35c', values: live.lean, ...rangeOf(live.lean, [-0.2, 0.2]) },
+    ];
+    this.draw();
+  }
+
   /** The moment that is shown, as a share of all. */
   mark(share: number): void {
     // The lines are not drawn anew for it.
@@ -56,13 +97,14 @@ export class Traces {
   private draw(): void {
     const surface = surfaceOf(this.canvas);
     if (surface === null || this.lines.length === 0) return;
+    const named = this.seconds > 0;
     const { context, width, height } = surface;
     const each = (height - 16) / this.lines.length;
     this.lines.forEach((line, k) => drawLine(context, line, width, k * each, each - 6));
     context.fillStyle = '#b9b3ac';
     context.font = '11px ui-sans-serif, system-ui, sans-serif';
     const step = [1, 2, 5, 10, 20, 30, 60, 120, 300, 600].find((length) => this.seconds / length <= 9) ?? 1200;
-    for (let at = 0; at <= this.seconds; at += step) {
+    for (let at = 0; named && at <= this.seconds; at += step) {
       const x = (at / this.seconds) * width;
       context.textAlign = at === 0 ? 'left' : x > width - 20 ? 'right' : 'center';
       context.fillText(`${at} s`, x, height - 2);
