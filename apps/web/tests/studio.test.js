@@ -84,6 +84,14 @@ describe('a film that is dropped', { skip: skip || noFilms }, () => {
     await until(page, 'the outline is found', () => document.querySelector('[data-act=learn]') !== null, null, 40_000);
     assert.match(await page.textContent(panel), /The flame is found.*(100|9\d) % of the frames/s);
     assert.match(await page.textContent(panel), /heard in/);
+    await page.waitForTimeout(200);
+    const blue = await page.$eval('.traces canvas', (canvas) => {
+      const { data } = canvas.getContext('2d').getImageData(60, 0, canvas.width - 60, canvas.height / 2);
+      let many = 0;
+      for (let k = 0; k < data.length; k += 4) if (data[k + 3] > 128 && data[k + 2] > data[k]) many += 1;
+      return many;
+    });
+    assert.ok(blue > 60, `the wind that was heard is drawn in place of what was traced: ${blue} pixels`);
   });
 
   it('is learned, and the verdict comes first', async () => {

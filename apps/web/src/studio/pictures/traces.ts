@@ -63,7 +63,8 @@ export class Traces {
       ...(wind === null ? [] : [{ name: 'Wind', colour: '#7fc4ff', values: wind, ...rangeOf(wind, [0, 1]) }]),
       { name: 'Tip', colour: '#ffb35c', values: lean, ...rangeOf(lean, [-0.2, 0.2]) },
     ];
-    this.draw();
+    // Once it has its place: one that is taken out and put back the same size tells no observer.
+    requestAnimationFrame(() => this.draw());
   }
 
   /** Begins with nothing: what is seen is added while it comes. */
