@@ -28,7 +28,6 @@ namespace wisp::verify {
 namespace {
 
 const ChannelChoice kChannels{{"u1"}, {"y1"}};
-constexpr double kHeldOut = 0.3;  // of what is learned from: the number of knots is chosen by it
 constexpr int kModes = 4;
 
 struct Tanks {
@@ -112,10 +111,8 @@ std::vector<InputCurve> curve_of(const Tanks& tanks, int n, int knots) {
 }
 
 int chosen_knots(const Tanks& tanks, int n) {
-  const std::size_t cut = static_cast<std::size_t>((1 - kHeldOut) * static_cast<double>(tanks.learn.rows()));
-  const std::vector<Recording> learn{slice(tanks.learn, 0, cut)};
-  const std::vector<Recording> held{slice(tanks.learn, cut, tanks.learn.rows())};
-  const auto choice = value_or_abort(choose_input_curves(learn, held, kChannels, curve_options(tanks, n), {}));
+  const auto choice =
+      value_or_abort(choose_input_curves(arx::folds_of({&tanks.learn, 1}), kChannels, curve_options(tanks, n), {}));
   std::printf("  n = %d: %s\n", n, choice.reason.c_str());
   return choice.knots;
 }
