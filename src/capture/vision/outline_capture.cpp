@@ -285,6 +285,7 @@ void OutlineCapture::Stage::describe(CapturedOutline& out) const {
   report.facts.narrowing = survey_->taper;
   report.facts.solidity = survey_->solidity;
   report.facts.clipped = survey_->clipped;
+  report.facts.contrast = survey_->contrast;
   report.rate_hz = options_.rate_hz;
   report.points = options_.points;
   report.channel = survey_->channel;

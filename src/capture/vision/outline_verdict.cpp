@@ -22,6 +22,7 @@ constexpr double kMinSolidity = 0.86;
 constexpr double kFilled = 0.8;      // of its convex hull: a flame that leans or bends fills more
 constexpr double kMaxRagged = 0.15;  // share of outlines that fill less
 constexpr double kMinLight = 0.85;
+constexpr double kMinContrast = 20;    // levels of 255: flames in films have 40 and more, a wall's bright middle 6
 constexpr double kMaxLost = 0.1;       // share of rows without a frame of their own: flicker is not what lies between
 constexpr double kMaxRepeated = 0.35;  // … and that repeat the one before
 constexpr double kFlat = 0.5;          // share of a shape that is clipped: then its form is the camera's
@@ -223,6 +224,10 @@ std::string fault(const OutlineFacts& f, const CaptureReport& report) {
     return "its edges do not move: it may be a lamp or a lit thing; film a flame in a dark room";
   if (flame && f.light < kMinLight) {
     return "other things in the picture are brighter; choose a region around the flame, or film it in a dark room";
+  }
+  if (flame && f.contrast < kMinContrast) {
+    return "it is hardly brighter than what is around it, by " + std::to_string(std::lround(f.contrast)) +
+           " of 255 levels: it may be a lit wall; film a flame before a dark ground";
   }
   if (std::string why = irregular(f); !why.empty()) return why;
   if (missing_share(f) > kMaxMissing) {

@@ -177,20 +177,32 @@ std::vector<Candidate> places(const std::vector<Candidate>& candidates, const Su
   return out;
 }
 
-// A little more than half-way from what is just around a thing to the thing itself: there its area depends little on
-// how a rim is blurred, and its glow, which reaches less than half-way, is left out. What is around it counts by its
-// brighter quarter, which may become brighter still.
-int half_way(const Candidate& thing, std::span<const Picture> pictures, const Region& area, bool dark) {
+// How bright a thing is and what is just around it, which counts by its brighter quarter: it may become brighter still.
+struct Brightness {
+  double inside = 0;
+  double outside = 0;
+};
+
+std::optional<Brightness> brightness_of(const Candidate& thing, std::span<const Picture> pictures, const Region& area,
+                                        bool dark) {
   const Region box = intersection(grown(thing.home, std::max(thing.home.width, thing.home.height) / 8 + 2), area);
   const PictureGrid grid = sample_grid(pictures, thing.channel, box, kFineGrid, dark);
   std::vector<double> inside, outside;
   for (const auto& picture : grid.pictures) {
     for (const std::uint8_t value : picture) (value > thing.level ? inside : outside).push_back(value);
   }
-  if (inside.empty() || outside.empty()) return thing.level;
+  if (inside.empty() || outside.empty()) return std::nullopt;
   const auto quarter = outside.begin() + static_cast<std::ptrdiff_t>(3 * outside.size() / 4);
   std::nth_element(outside.begin(), quarter, outside.end());
-  return static_cast<int>(*quarter + kHalfWay * (middle(std::move(inside)) - *quarter));
+  return Brightness{middle(std::move(inside)), *quarter};
+}
+
+// A little more than half-way from what is around a thing to the thing itself: there its area depends little on how a
+// rim is blurred, and its glow, which reaches less than half-way, is left out.
+int half_way(const Candidate& thing, std::span<const Picture> pictures, const Region& area, bool dark) {
+  const auto bright = brightness_of(thing, pictures, area, dark);
+  if (!bright) return thing.level;
+  return static_cast<int>(bright->outside + kHalfWay * (bright->inside - bright->outside));
 }
 
 // The same thing at the level nearest to half-way at which it still is that: candidates are the likeliest first.
@@ -264,8 +276,10 @@ double flat_share(const Candidate& thing, std::span<const Picture> pictures, boo
   return static_cast<double>(std::count(flat.begin(), flat.end(), 1)) / static_cast<double>(count);
 }
 
-Survey describe(const Candidate& thing, std::span<const Picture> pictures, const Grids& grids, bool dark) {
+Survey describe(const Candidate& thing, std::span<const Picture> pictures, const Grids& grids, const Region& area,
+                bool dark) {
   Survey out;
+  if (const auto bright = brightness_of(thing, pictures, area, dark)) out.contrast = bright->inside - bright->outside;
   out.channel = thing.channel;
   out.level = thing.level;
   out.home = thing.home;
@@ -323,8 +337,8 @@ Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptio
     return Error{"found " + std::to_string(things.size()) + (things.size() == 1 ? " flame" : " flames") +
                  ", expected at least " + std::to_string(options.flame) + "; ask for a smaller number"};
   }
-  Survey survey =
-      describe(refine(things[which], all, lit.pictures, area, options, evidence), lit.pictures, grids, options.dark);
+  Survey survey = describe(refine(things[which], all, lit.pictures, area, options, evidence), lit.pictures, grids, area,
+                           options.dark);
   if (!flame) return survey;
   survey.flames = static_cast<int>(things.size());
   for (std::size_t k = 0; k < things.size(); ++k) {

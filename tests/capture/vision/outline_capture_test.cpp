@@ -346,6 +346,18 @@ TEST(OutlineCapture, AFlameIsUsableAndALampIsNot) {
   EXPECT_THAT(lamp->report.reason, HasSubstr("do not move"));
 }
 
+TEST(OutlineCapture, WhatIsHardlyBrighterThanItsWallIsNotUsable) {
+  const auto captured = capture(60, [](int k) {
+    Plane plane = support::flame_picture(support::swaying(k));
+    for (auto& pixel : plane.pixels) pixel = static_cast<std::uint8_t>(185 + pixel / 14);
+    add_noise(plane, static_cast<unsigned>(k) + 1);
+    return plane;
+  });
+  ASSERT_TRUE(captured) << captured.error().message;
+  EXPECT_FALSE(captured->report.usable);
+  EXPECT_THAT(captured->report.reason, HasSubstr("hardly brighter"));
+}
+
 TEST(OutlineCapture, AFlameThatIsLitLaterIsWaitedFor) {
   const auto captured = capture(140, [](int k) {
     Plane plane = k < 70 ? Plane(160, 180, 8) : support::flame_picture(support::swaying(k));

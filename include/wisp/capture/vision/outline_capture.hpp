@@ -56,6 +56,7 @@ struct OutlineFacts {
   double solidity = 0;             ///< its area over its convex hull's, notches from below apart
   double ragged = 0;               ///< share of outlines with deep notches: they fill little of their convex hulls
   double light = 0;                ///< luma over the brightest there is
+  double contrast = 255;           ///< its brightness less that of what is around it, levels of 255
   double clipped = 0;              ///< share of it that is flat: as bright in every channel as it gets
   double height = 0;               ///< median, pixels
 };
