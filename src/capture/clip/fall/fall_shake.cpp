@@ -42,7 +42,7 @@ Coarse coarse(const std::vector<T>& fine, const Wall& wall) {
     for (int x = 0; x < out.width; ++x) {
       double sum = 0;
       for (int k = 0; k < kCoarse * kCoarse; ++k) {
-        const auto row = static_cast<std::size_t>(kCoarse * y + k / kCoarse);
+        const auto row = static_cast<std::size_t>(kCoarse) * y + k / kCoarse;
         sum += fine[row * wall.width + kCoarse * x + k % kCoarse];
       }
       out.values.push_back(sum / (kCoarse * kCoarse));
