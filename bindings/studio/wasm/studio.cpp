@@ -77,10 +77,10 @@ ClipCapture capture_options(const json& from) {
 }
 
 // Of small pictures, one byte a pixel: half a minute of a wide film at 60 frames a second takes 100 MB.
-constexpr std::size_t kMostFallBytes = 192u << 20;
+constexpr std::size_t kMaxFallBytes = 192u << 20;
 
 FallOptions fall_options(const json& from) {
-  return {.height_metres = from.value("height", 0.0), .region = region_of(from), .max_bytes = kMostFallBytes};
+  return {.height_metres = from.value("height", 0.0), .region = region_of(from), .max_bytes = kMaxFallBytes};
 }
 
 // The report as the program's --json has it, and, for pictures, its series.

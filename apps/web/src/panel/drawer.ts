@@ -147,7 +147,7 @@ export class Drawer {
       button.setAttribute('aria-pressed', String(open));
       if (!open) return;
       this.lesson = new Lesson(this.wisp, settings.seed);
-      room.append(this.lesson.place, element('p', {}, 'Poles, and one frame ahead beside the free run: of a flame or a table of your own, under Yours.'));
+      room.append(this.lesson.place, element('p', {}, 'Poles, and predictions beside the free run, of a flame or a table of your own: under Yours.'));
     });
     return element('div', {}, element('div', { class: 'actions' }, button), room);
   }

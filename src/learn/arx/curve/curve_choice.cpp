@@ -55,7 +55,7 @@ Result<Eigen::MatrixXd> errors_of(std::span<const arx::Fold> folds, const Channe
 
 std::string reason_for(const CurveCandidate& best, int knots, bool given) {
   std::string reason = knots > 0 ? "inputs are bent by curves of " : "inputs are as they are, not bent by curves of ";
-  reason += std::to_string(best.knots) + " knots" + (given ? ", as asked for" : "");
+  reason += std::to_string(best.knots) + " knots" + (given ? ", as given" : "");
   reason += ": free simulation of held-out rows errs by " + number_text(100 * std::abs(best.gain), 3) + " % ";
   reason += best.gain >= 0 ? "less" : "more";
   return reason + ", by " + number_text(std::abs(best.sureness), 2) + " standard errors over its parts";
@@ -89,7 +89,7 @@ Result<CurveChoice> choose_input_curves(std::span<const arx::Fold> folds, const 
   }
   if (out.candidates.empty()) {
     out.reason = knots ? "curves of " + std::to_string(*knots) +
-                             " knots, as asked for; too little is recorded to tell whether they help"
+                             " knots, as given; too little is recorded to tell whether they help"
                        : "too little is recorded to tell a curve from a line";
     return out;
   }

@@ -12,7 +12,7 @@
 
 namespace wisp::arx {
 
-/// Parts of a fold whose errors are told apart.
+/// Parts of a fold, each with errors of its own.
 inline constexpr int kParts = 8;
 
 /// Standard errors by which what is less simple has to be better, to be taken: by chance 1 in 40 is.

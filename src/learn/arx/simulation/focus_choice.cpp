@@ -8,10 +8,10 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr double kAsGood = 1.05;   // a root mean square within this factor of the least is as good
-constexpr double kSure = 1;        // standard errors by which parts must be better than least squares'
-constexpr double kSurelyMany = 2;  // the same for many lags, which cost more to play
-constexpr double kMostLost = 1.2;  // no fold may have a larger root mean square than least squares by this factor
+constexpr double kAsGood = 1.05;      // a root mean square within this factor of the least is as good
+constexpr double kSure = 1;           // standard errors by which parts must be better than least squares'
+constexpr double kSurelyMany = 2;     // the same for many lags, which cost more to play
+constexpr double kMaxRmsRatio = 1.2;  // no fold may have a larger root mean square than least squares by this factor
 
 // By how many standard errors the errors of one row are below those of another.
 double sureness(const MatrixXd& squares, std::size_t one, const MatrixXd& others, std::size_t other) {
@@ -23,7 +23,7 @@ double mean_square(const Unit& unit, std::size_t candidate) { return unit.square
 bool loses_a_fold(const Unit& unit, std::size_t candidate) {
   for (Index first = 0; first < unit.squares.cols(); first += kParts) {
     const auto fold = unit.squares.middleCols(first, kParts);
-    if (fold.row(Index(candidate)).mean() > kMostLost * kMostLost * fold.row(0).mean()) return true;
+    if (fold.row(Index(candidate)).mean() > kMaxRmsRatio * kMaxRmsRatio * fold.row(0).mean()) return true;
   }
   return false;
 }

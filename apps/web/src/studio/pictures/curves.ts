@@ -15,7 +15,7 @@ const FAMILIES: readonly (readonly [RegExp, string])[] = [
   [/^column/, ''],
   [/^fall\./, 'The falls, from the side'],
   [/^(measured|predicted|simulated)\./, 'Measured and played'],
-  [/^tip\./, 'The tip: recorded, played from the wind alone, and told one frame ahead'],
+  [/^tip\./, 'The tip, sideways'],
   [/^step\./, 'Answer to a step'],
   [/^flicker\./, 'Spectrum of the flicker'],
   [/^residual\./, 'What is left over'],
@@ -46,6 +46,9 @@ export function plotsOf(curves: readonly Curve[]): HTMLElement[] {
     .slice(0, MOST_PLOTS)
     .map(([key, group]) => plotOf(group, FAMILIES[parseInt(key)]?.[1] ?? ''));
 }
+
+/** What a legend calls it. */
+const nameOf = ({ id, label }: Pick<Curve, 'id' | 'label'>): string => (id.startsWith('zeros') ? `zeros, ${label}` : label);
 
 /** Poles and zeros, in the z plane. */
 const isPlace = ({ id }: Curve): boolean => /^(poles|zeros)/.test(id);
@@ -97,7 +100,7 @@ function plotOf(curves: readonly Curve[], title: string): HTMLElement {
   const canvas = element('canvas', { role: 'img', 'aria-label': `${title} ${named.map(({ label }) => label).join(', ')}` });
   const legend = element('figcaption', {}, ...(title === '' ? [] : [element('b', {}, title)]));
   named.forEach(({ label, id }, k) => {
-    const name = element('span', { class: 'legend' }, label === id ? 'poles' : label);
+    const name = element('span', { class: 'legend' }, nameOf({ id, label }));
     name.style.setProperty('--colour', COLOURS[k % COLOURS.length] as string);
     legend.append(name);
   });
