@@ -53,6 +53,7 @@ struct Candidate {
   double taper = 0;          ///< how much narrower its first quarter is than its middle: 0 not at all, 1 pointed
   double solidity = 0;       ///< its area over its convex hull's
   double steadiness = 0;     ///< how much less its base moves than its tip: 0 only the base moves, 1 only the tip
+  double contrast = 255;     ///< its brightness less that of what is around it, levels, once its level has settled
   double softness = 0;       ///< share of its area that comes or goes with a level's change
   double score = 0;          ///< all of these in one: more is likelier
 };

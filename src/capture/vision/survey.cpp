@@ -199,10 +199,8 @@ std::optional<Brightness> brightness_of(const Candidate& thing, std::span<const 
 
 // A little more than half-way from what is around a thing to the thing itself: there its area depends little on how a
 // rim is blurred, and its glow, which reaches less than half-way, is left out.
-int half_way(const Candidate& thing, std::span<const Picture> pictures, const Region& area, bool dark) {
-  const auto bright = brightness_of(thing, pictures, area, dark);
-  if (!bright) return thing.level;
-  return static_cast<int>(bright->outside + kHalfWay * (bright->inside - bright->outside));
+int half_way(const Brightness& bright) {
+  return static_cast<int>(bright.outside + kHalfWay * (bright.inside - bright.outside));
 }
 
 // The same thing at the level nearest to half-way at which it still is that: candidates are the likeliest first.
@@ -240,7 +238,10 @@ Candidate refine(const Candidate& coarse, const std::vector<Candidate>& all, std
       finer ? scan(sample_all(pictures, around, kFineGrid, options), pictures.front(), options, evidence) : all;
   const auto found = std::find_if(fine.begin(), fine.end(), [&](const Candidate& c) { return same_place(c, coarse); });
   const Candidate thing = whole(found == fine.end() || !finer ? coarse : *found, fine);
-  return settle_level(thing, fine, half_way(thing, pictures, area, options.dark));
+  const auto bright = brightness_of(thing, pictures, area, options.dark);
+  Candidate settled = settle_level(thing, fine, bright ? half_way(*bright) : thing.level);
+  if (bright) settled.contrast = bright->inside - bright->outside;
+  return settled;
 }
 
 // Share of a thing that is as bright in every channel as that channel gets anywhere in it: there the camera tells no
@@ -276,10 +277,8 @@ double flat_share(const Candidate& thing, std::span<const Picture> pictures, boo
   return static_cast<double>(std::count(flat.begin(), flat.end(), 1)) / static_cast<double>(count);
 }
 
-Survey describe(const Candidate& thing, std::span<const Picture> pictures, const Grids& grids, const Region& area,
-                bool dark) {
+Survey describe(const Candidate& thing, std::span<const Picture> pictures, const Grids& grids, bool dark) {
   Survey out;
-  if (const auto bright = brightness_of(thing, pictures, area, dark)) out.contrast = bright->inside - bright->outside;
   out.channel = thing.channel;
   out.level = thing.level;
   out.home = thing.home;
@@ -290,6 +289,7 @@ Survey describe(const Candidate& thing, std::span<const Picture> pictures, const
   out.area = thing.area;
   out.light = thing.light;
   out.solidity = thing.solidity;
+  out.contrast = thing.contrast;
   out.clipped = flat_share(thing, pictures, dark);
   const PictureGrid& grid = *grids.of(thing.channel);
   for (std::size_t k = 0; k < grid.pictures.size(); ++k) add_to_histogram(out.histogram, grid.view(k), 1);
@@ -337,8 +337,8 @@ Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptio
     return Error{"found " + std::to_string(things.size()) + (things.size() == 1 ? " flame" : " flames") +
                  ", expected at least " + std::to_string(options.flame) + "; ask for a smaller number"};
   }
-  Survey survey = describe(refine(things[which], all, lit.pictures, area, options, evidence), lit.pictures, grids, area,
-                           options.dark);
+  Survey survey =
+      describe(refine(things[which], all, lit.pictures, area, options, evidence), lit.pictures, grids, options.dark);
   if (!flame) return survey;
   survey.flames = static_cast<int>(things.size());
   for (std::size_t k = 0; k < things.size(); ++k) {
