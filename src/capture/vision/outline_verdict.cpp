@@ -20,6 +20,7 @@ constexpr double kMinTaper = 0.32;
 constexpr double kMinNarrowing = 0.25;
 constexpr double kMinSolidity = 0.86;
 constexpr double kFilled = 0.8;      // of its convex hull: a flame that leans or bends fills more
+constexpr double kMaxWidth = 0.8;    // heights: flames in films have 0.6 at most
 constexpr double kMaxRagged = 0.15;  // share of outlines that fill less
 constexpr double kMinLight = 0.85;
 constexpr double kMinContrast = 20;    // levels of 255: flames in films have 40 and more, a wall's bright middle 6
@@ -62,6 +63,11 @@ Shape shape_of(const Recording& recording, const SplineTable& table, std::size_t
   return shape;
 }
 
+// Twice the area of the triangle a, b, c; above 0 where they turn left.
+double turn(const CurvePoint& a, const CurvePoint& b, const CurvePoint& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
 // How wide a shape is across its axis at a share of its height above the base.
 double width_at(const Shape& shape, double share) {
   const double ax = (shape.tip.x - shape.base.x) / shape.height, ay = (shape.tip.y - shape.base.y) / shape.height;
@@ -79,14 +85,20 @@ double width_at(const Shape& shape, double share) {
   return std::max(0.0, high - low);
 }
 
+// How wide a shape is across its axis where it is widest, in heights.
+double full_width(const Shape& shape) {
+  double low = 1e30, high = -1e30;
+  for (const CurvePoint& p : shape.curve) {
+    const double across = turn(shape.base, shape.tip, p) / (shape.height * shape.height);
+    low = std::min(low, across);
+    high = std::max(high, across);
+  }
+  return high - low;
+}
+
 double taper_of(const Shape& shape) {
   const double body = width_at(shape, 0.4);
   return body <= 0 ? 0 : 1 - width_at(shape, 0.88) / body;
-}
-
-// Twice the area of the triangle a, b, c; above 0 where they turn left.
-double turn(const CurvePoint& a, const CurvePoint& b, const CurvePoint& c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
 double area_of(const std::vector<CurvePoint>& corners) {
@@ -202,7 +214,7 @@ std::string irregular(const OutlineFacts& f) {
 // Why the shape is not a flame's, or nothing.
 std::string misshapen(const OutlineFacts& f) {
   const bool taper = f.taper >= kMinTaper && f.narrowing >= kMinNarrowing,
-             solid = f.solidity >= kMinSolidity && f.ragged <= kMaxRagged;
+             solid = f.solidity >= kMinSolidity && f.ragged <= kMaxRagged && f.width <= kMaxWidth;
   if (taper && solid) return {};
   if (f.clipped > kFlat) {
     return "it is clipped flat, " + percent(f.clipped) +
@@ -270,18 +282,20 @@ void excuse_absence(CaptureReport& report, std::size_t rows, std::size_t times) 
 
 void judge_outline(const Recording& recording, const SplineTable& table, CaptureReport& report) {
   std::vector<Shape> shapes;
-  std::vector<double> heights, tapers;
+  std::vector<double> heights, tapers, widths;
   for (std::size_t row = 0; row < recording.rows(); ++row) {
     if (std::isnan(recording.channels.front().samples[row])) continue;
     shapes.push_back(shape_of(recording, table, row));
     const Shape& shape = shapes.back();
     heights.push_back(shape.height);
     tapers.push_back(taper_of(shape));
+    widths.push_back(full_width(shape));
   }
   if (shapes.empty()) return;
   OutlineFacts& facts = report.facts;
   facts.height = std::max(median(heights), 1e-9);
   facts.taper = median(tapers);
+  facts.width = median(widths);
   facts.ragged = ragged_share(shapes);
   facts.movement = movement_of(shapes, facts.height);
   facts.jumps = jumps_of(shapes, facts.height);

@@ -63,5 +63,15 @@ TEST(OutlineVerdict, WhatHasRunTogetherWithTheWaxThatItLightsIsNoFlame) {
   EXPECT_THAT(report.reason, HasSubstr("its shape is not a flame's"));
 }
 
+TEST(OutlineVerdict, WhatIsAsWideAsHighIsNoFlame) {
+  Outline outline = kFlame;
+  for (CurvePoint& p : outline) p.x *= 2.6;
+  const CaptureReport report = judged(outline);
+  EXPECT_FALSE(report.usable);
+  EXPECT_EQ(report.facts.ragged, 0);
+  EXPECT_GT(report.facts.width, 0.8);
+  EXPECT_THAT(report.reason, HasSubstr("its shape is not a flame's"));
+}
+
 }  // namespace
 }  // namespace wisp

@@ -55,6 +55,7 @@ struct OutlineFacts {
   double narrowing = 0;            ///< how much narrower its first quarter is than its middle, median of the survey
   double solidity = 0;             ///< its area over its convex hull's, notches from below apart
   double ragged = 0;               ///< share of outlines with deep notches: they fill little of their convex hulls
+  double width = 0;                ///< across its axis, over its height, median
   double light = 0;                ///< luma over the brightest there is
   double contrast = 255;           ///< its brightness less that of what is around it, levels of 255
   double clipped = 0;              ///< share of it that is flat: as bright in every channel as it gets
