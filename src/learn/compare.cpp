@@ -105,8 +105,7 @@ ReportTable table_of(std::span<const NamedModel> models, const Recording& record
 // unless options say otherwise.
 void add_series(std::span<const NamedModel> models, const Recording& recording, const std::vector<Said>& said,
                 int steps, ReportSection& section) {
-  std::vector<double> seconds(recording.rows());
-  for (std::size_t row = 0; row < seconds.size(); ++row) seconds[row] = static_cast<double>(row) / recording.rate_hz;
+  const std::vector<double> seconds = seconds_of(recording);
   const auto outputs = outputs_of(models);
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     const Channel& measured = recording.channels[*find_channel(recording, outputs[i])];

@@ -56,8 +56,19 @@ std::optional<std::size_t> find_channel(const Recording& recording, std::string_
   return std::nullopt;
 }
 
+std::vector<double> seconds_of(const Recording& recording) {
+  std::vector<double> seconds(recording.rows());
+  for (std::size_t row = 0; row < seconds.size(); ++row) {
+    seconds[row] = static_cast<double>(recording.first_row + row) / recording.rate_hz;
+  }
+  return seconds;
+}
+
 Recording slice(const Recording& recording, std::size_t first, std::size_t last) {
-  Recording out{recording.source, recording.rate_hz, {}, {}, {}, recording.attributes};
+  Recording out{.source = recording.source,
+                .rate_hz = recording.rate_hz,
+                .attributes = recording.attributes,
+                .first_row = recording.first_row + first};
   for (const Channel& channel : recording.channels) {
     out.channels.push_back({channel.name, channel.unit, channel.role, part(channel.samples, first, last)});
   }

@@ -55,6 +55,7 @@ struct Recording {
   std::vector<RowFlag> flags{};
   std::vector<std::int64_t> episode_ids{};  ///< one a row; empty: a single episode
   std::vector<Attribute> attributes{};
+  std::size_t first_row = 0;  ///< of a slice: which row of the whole its first one is
 
   std::size_t rows() const { return channels.empty() ? 0 : channels.front().samples.size(); }
 };
@@ -77,6 +78,9 @@ Result<std::optional<std::vector<double>>> numbers_attribute(const Recording& re
 
 /// Sets an attribute to numbers that numbers_attribute() reads back bit for bit.
 void set_numbers_attribute(Recording& recording, std::string_view name, std::span<const double> values);
+
+/// When every row was, in seconds since the first row of the whole.
+std::vector<double> seconds_of(const Recording& recording);
 
 /// Rows [first, last) of a recording, with its channels, flags, episodes and attributes.
 ///

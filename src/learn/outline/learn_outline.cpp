@@ -70,7 +70,8 @@ Result<OutlineFit> fit_flicker(std::span<const Recording> recordings, OutlineRec
 }
 
 // Most films have sound, and in most of them nobody blows. Where nobody said what drives the outline, an input that is
-// silent, or that has nothing in common with the motion and by which it cannot be followed, is left out.
+// silent, or that has nothing in common with the motion, is left out: a few seconds of held-out motion are followed by
+// any wind now and then.
 Result<OutlineFit> fit_what_drives(std::span<const Recording> recordings, const OutlineRecipe& recipe,
                                    const Progress& progress) {
   const bool open = !recipe.inputs && !channels_with_role(recordings.front(), Role::kInput).empty();
@@ -78,7 +79,7 @@ Result<OutlineFit> fit_what_drives(std::span<const Recording> recordings, const 
     return fit_flicker(recordings, recipe, "nothing was heard as wind", progress);
   }
   auto fit = fit_outline(recordings, recipe, progress);
-  if (!open || !fit || fit->summary.usable.verdict || !driven_by_nothing(fit->summary)) return fit;
+  if (!open || !fit || !driven_by_nothing(fit->summary)) return fit;
   auto flicker =
       fit_flicker(recordings, recipe, "what was heard as wind has nothing in common with the motion", progress);
   if (!flicker) return fit;

@@ -129,8 +129,7 @@ ReportSection flicker_series(const ValidatedOutline& out, double rate_hz, std::s
 }
 
 Result<void> add_series(const Recording& recording, const OutlineJudgement& found, ValidatedOutline& out) {
-  std::vector<double> seconds(recording.rows());
-  for (std::size_t row = 0; row < seconds.size(); ++row) seconds[row] = static_cast<double>(row) / recording.rate_hz;
+  const std::vector<double> seconds = seconds_of(recording);
   auto& sections = out.report.sections;
   auto tip = tip_series(found, out, seconds);
   if (!tip) return tip.error();

@@ -201,6 +201,16 @@ TEST(LearnArx, ValidationHasEveryStepOfEveryOutputAndSaysHowOftenIntervalsHold) 
   EXPECT_EQ(series_of(*report, "poles"), nullptr);
 }
 
+TEST(LearnArx, PlotsOfAPartOfARecordingHaveTheTimeOfTheWhole) {
+  const Recording whole = record_system(made_system(), 2000, 1);
+  const Fit fit = learned(whole, recipe_of_made());
+  const auto report = validate_arx(fit.model, slice(slice(whole, 500, 2000), 1000, 1400), {.steps = {1}});
+  ASSERT_TRUE(report) << report.error().message;
+  const ReportSeries& measured = *series_of(*report, "measured.0");
+  EXPECT_EQ(measured.x.size(), 400U);
+  EXPECT_DOUBLE_EQ(measured.x.front(), 1500 / whole.rate_hz);
+}
+
 TEST(LearnArx, ValidationRefusesAStrangerAndStepsOutOfRange) {
   const Fit fit = learned(record_system(made_system(), 500, 1), recipe_of_made());
   Recording other = record_system(made_system(), 500, 2);

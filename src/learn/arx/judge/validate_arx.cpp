@@ -40,11 +40,6 @@ struct Subject {
   double sd_of(std::size_t output, int step) const {
     return step == kFreeRun ? sd[output].back() : sd[output][static_cast<std::size_t>(step) - 1];
   }
-  std::vector<double> seconds() const {
-    std::vector<double> out;
-    for (std::size_t t = 0; t < recording.rows(); ++t) out.push_back(static_cast<double>(t) / recording.rate_hz);
-    return out;
-  }
 };
 
 // Predictions of every number of steps: [step][output][row], and how good they are.
@@ -144,7 +139,7 @@ ReportTable channel_table(const Subject& subject, const Judged& judged) {
 
 // Measured, simulated and predicted: of the predictions the longest that is still one.
 void add_plots(const Subject& subject, const Judged& judged, ReportSection& section) {
-  const std::vector<double> seconds = subject.seconds();
+  const std::vector<double> seconds = seconds_of(subject.recording);
   const auto& steps = subject.options.steps;
   int ahead = 0;
   for (int step : steps) {
