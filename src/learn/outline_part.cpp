@@ -20,7 +20,7 @@ constexpr std::string_view kFirstLine = "wisp-outline-part 1\n";
 constexpr std::size_t kMostShares = 1'000'000;
 constexpr std::string_view kAnyVersion = "wisp-outline-part ";
 
-std::uint64_t hash_of(std::string_view text) { return hash_bytes(std::as_bytes(std::span(text))); }
+std::uint64_t hash_of(std::string_view text) { return hash_bytes(std::as_bytes(std::span(text.data(), text.size()))); }
 
 // Whatever the folder is called on the machine of one job.
 std::uint64_t hash_of_names(const std::vector<std::string>& names) {
