@@ -21,8 +21,6 @@ const STEPS: readonly Step[] = [
 const GET_READY = 1.5;
 /** Seconds that the last words stay. */
 const STAYS = 6;
-/** Breath that fills the meter, in the unit of wind. */
-const FULL = 2;
 
 const after = (seconds: number): Promise<unknown> => new Promise((resolve) => setTimeout(resolve, 1000 * seconds));
 
@@ -30,7 +28,6 @@ export class Tuning {
   private readonly title = element('h2', { id: 'tuning-title' });
   private readonly words = element('p', { 'aria-live': 'polite' });
   private readonly passed = element('progress', { max: 1, value: 0, 'aria-label': 'Time to listen' });
-  private readonly meter = element('div', { class: 'heard', 'aria-hidden': 'true' }, element('i'));
   private readonly steps = element('ol', { 'aria-hidden': 'true' }, ...STEPS.map(({ title }) => element('li', {}, title)));
   private readonly actions = element('div', { class: 'actions' });
   /** counts openings and steps: what was left behind goes no further */
@@ -43,7 +40,7 @@ export class Tuning {
     private readonly place: HTMLElement,
     private readonly returnTo: HTMLElement,
   ) {
-    place.append(this.title, this.steps, this.words, this.passed, this.meter, this.actions);
+    place.append(this.title, this.steps, this.words, this.passed, this.actions);
   }
 
   get isOpen(): boolean {
@@ -69,12 +66,11 @@ export class Tuning {
     this.returnTo.focus();
   }
 
-  /** Once a frame: how much time has passed, and what is heard. */
+  /** Once a frame: how much time has passed. What is heard, the ring of Blow shows. */
   frame(): void {
     if (!this.isOpen) return;
     if (this.ear.state === 'off' && this.lasts > 0) return this.close();
     this.passed.value = this.lasts === 0 ? 0 : Math.min(1, (performance.now() - this.since) / 1000 / this.lasts);
-    (this.meter.firstElementChild as HTMLElement).style.width = `${100 * Math.min(1, this.ear.heard / FULL)}%`;
   }
 
   private async begin(): Promise<void> {

@@ -59,8 +59,8 @@ export class Ear {
   private known: Calibration | null = null;
   private tuning = false;
   private answer: ((heard: boolean) => void) | null = null;
-  /** how strong a breath is at this moment, also while nothing of it reaches the scene */
-  heard = 0;
+  /** how strong a breath is, also while nothing of it reaches the scene */
+  private heard = 0;
   private blowing = false;
   private vain = 0;
   private offered = false;
@@ -75,7 +75,7 @@ export class Ear {
   /** How far the calibration is, or how strong the breath is: 0 to 1. */
   get level(): number {
     if (this.state === 'calibrating') return (performance.now() - this.since) / 1000 / CALIBRATION;
-    return this.state === 'listening' ? this.wind / 1.5 : 0;
+    return this.state === 'listening' ? (this.tuning ? this.heard : this.wind) / 1.5 : 0;
   }
 
   /** Asks for the microphone. Resolves when it listens, or does not. */
@@ -156,7 +156,7 @@ export class Ear {
     const silent = calibrating || this.tuning;
     this.heard = confidence > 0.5 ? speed : 0;
     this.wind = silent ? 0 : wind;
-    if (this.microphone !== null) this.state = calibrating ? 'calibrating' : 'listening';
+    if (this.microphone !== null) this.state = calibrating && !this.tuning ? 'calibrating' : 'listening';
     if (!silent) this.events.wind(wind);
   }
 
