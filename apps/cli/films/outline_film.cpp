@@ -258,8 +258,9 @@ Image cartoon(const Outline& pixels, const Strip& strip) {
     draw_shapes(image, {&shape, 1});
     return image;
   }
-  draw_night(image);
-  draw_flame(image, outline, scene);
+  const Flame flame{outline, scene};
+  draw_room(image, {&flame, 1});
+  draw_flames(image, {&flame, 1});
   return image;
 }
 
