@@ -14,21 +14,21 @@ import { fileURLToPath } from 'node:url';
 const page = 'apps/web/src/';
 const npm = 'bindings/npm/src/';
 
-/** [file, what stands there, what stands there instead, the test that should see it] */
+/** [file, what stands there, what stands there instead, the test that should see it, or the suite of it] */
 const mutants = [
   // Keys and controls
-  [`${page}panel/keys.ts`, 'breath.press(event.code);', '', 'controls'],
-  [`${page}app.ts`, 'l: () => this.act(),', 'l: () => undefined,', 'controls'],
-  [`${page}app.ts`, "'2': scene('leaves'),", "'2': scene('candle'),", 'controls'],
-  [`${page}app.ts`, 'this.settings.noise > 0 ? 0 : 1', 'this.settings.noise > 0 ? 1 : 0', 'controls'],
-  [`${page}app.ts`, 'this.stage.paused = !this.stage.paused;', 'this.stage.paused = false;', 'controls'],
-  [`${page}app.ts`, "setAttribute('aria-expanded', String(open))", "setAttribute('aria-expanded', 'false')", 'controls'],
-  [`${page}app.ts`, 'escape: () => this.showDrawer(false),', 'escape: () => undefined,', 'controls'],
-  [`${page}app.ts`, 'this.stage.canvas.setAttribute(\'aria-label\', scene.describe());', '', 'controls'],
-  [`${page}panel/controls.ts`, 'String(name === tab)', "'false'", 'controls'],
-  [`${page}panel/controls.ts`, 'settings.candles + way', 'settings.candles - way', 'controls'],
+  [`${page}panel/keys.ts`, 'breath.press(event.code);', '', 'controls: the candle'],
+  [`${page}app.ts`, 'l: () => this.act(),', 'l: () => undefined,', 'controls: the candle'],
+  [`${page}app.ts`, "'2': scene('leaves'),", "'2': scene('candle'),", 'controls: the leaves'],
+  [`${page}app.ts`, 'this.settings.noise > 0 ? 0 : 1', 'this.settings.noise > 0 ? 1 : 0', 'controls: the drawer'],
+  [`${page}app.ts`, 'this.stage.paused = !this.stage.paused;', 'this.stage.paused = false;', 'controls: the page'],
+  [`${page}app.ts`, "setAttribute('aria-expanded', String(open))", "setAttribute('aria-expanded', 'false')", 'controls: the drawer'],
+  [`${page}app.ts`, 'escape: () => this.showDrawer(false),', 'escape: () => undefined,', 'controls: the drawer'],
+  [`${page}app.ts`, 'this.stage.canvas.setAttribute(\'aria-label\', scene.describe());', '', 'controls: the candle'],
+  [`${page}panel/controls.ts`, 'String(name === tab)', "'false'", 'controls: the leaves'],
+  [`${page}panel/controls.ts`, 'settings.candles + way', 'settings.candles - way', 'controls: the candle'],
   [`${page}panel/controls.ts`, 'this.ring.style.strokeDasharray = `${shown} 100`', "this.ring.setAttribute('stroke-dasharray', `${shown} 100`)", 'learned'],
-  [`${page}style.css`, '--quiet: #b9b3ac;', '--quiet: #6b655e;', 'controls'],
+  [`${page}style.css`, '--quiet: #b9b3ac;', '--quiet: #6b655e;', 'controls: the page'],
   // A phone
   [`${page}style.css`, '  min-height: 40px;\n', '  line-height: 0.5;\n', 'phone'],
   [`${page}late.css`, '.drawer { top: auto; left: 0; width: 100%;', '.drawer { top: auto; left: 0; width: 120%;', 'phone'],
@@ -49,17 +49,17 @@ const mutants = [
   [`${page}wind/ear.ts`, 'this.microphone?.stop();', '', 'breath'],
   [`${page}wind/ear.ts`, 'const CALIBRATION = 3;', 'const CALIBRATION = 0.5;', 'breath'],
   [`${npm}air/breath.ts`, 'this.path.usedAtFrame = frame;', 'this.path.usedAtFrame = frame + 2;', 'breath'],
-  [`${page}wind/ear.ts`, 'if (!silent) this.events.wind(wind);', 'this.events.wind(wind);', 'tuning'],
-  [`${page}panel/tuning.ts`, 'this.ear.listenFor(step.asked, step.seconds)', "this.ear.listenFor('be still', step.seconds)", 'tuning'],
-  [`${page}panel/tuning.ts`, 'this.returnTo.focus();', '', 'tuning'],
-  [`${page}wind/ear.ts`, '++this.vain >= VAIN_BLOWS', '++this.vain >= 99', 'tuning'],
+  [`${page}wind/ear.ts`, 'if (!silent) this.events.wind(wind);', 'this.events.wind(wind);', 'tuning: a microphone'],
+  [`${page}panel/tuning.ts`, 'this.ear.listenFor(step.asked, step.seconds)', "this.ear.listenFor('be still', step.seconds)", 'tuning: a microphone'],
+  [`${page}panel/tuning.ts`, 'this.returnTo.focus();', '', 'tuning: a microphone'],
+  [`${page}wind/ear.ts`, '++this.vain >= VAIN_BLOWS', '++this.vain >= 99', 'tuning: blow after blow'],
   // The scenes
-  [`${npm}air/delay.ts`, 'const way = Math.max(0, EDGE + side * x);', 'const way = 0;', 'controls'],
-  [`${npm}air/stroke.ts`, 'if (Math.abs(blown) > Math.abs(this.gust)) this.gust = blown;', '', 'controls'],
-  [`${npm}candle/scene.ts`, 'if (nearest !== null) this.relight(nearest);', '', 'controls'],
-  [`${npm}candle/scene.ts`, 'for (const candle of this.candles) candle.stand.x += way;', '', 'controls'],
-  [`${npm}candle/scene.ts`, 'candle.wind = breath + candle.stroke.wind + candle.motionWind(acting.seconds);', 'candle.wind = breath + candle.stroke.wind;', 'controls'],
-  [`${npm}leaves/scene.ts`, 'this.kickLeft = 2 * KICKS;', 'this.kickLeft = 0;', 'controls'],
+  [`${npm}air/delay.ts`, 'const way = Math.max(0, EDGE + side * x);', 'const way = 0;', 'controls: the candle'],
+  [`${npm}air/stroke.ts`, 'if (Math.abs(blown) > Math.abs(this.gust)) this.gust = blown;', '', 'controls: the candle'],
+  [`${npm}candle/scene.ts`, 'if (nearest !== null) this.relight(nearest);', '', 'controls: the candle'],
+  [`${npm}candle/scene.ts`, 'for (const candle of this.candles) candle.stand.x += way;', '', 'controls: the candle'],
+  [`${npm}candle/scene.ts`, 'candle.wind = breath + candle.stroke.wind + candle.motionWind(acting.seconds);', 'candle.wind = breath + candle.stroke.wind;', 'controls: the candle'],
+  [`${npm}leaves/scene.ts`, 'this.kickLeft = 2 * KICKS;', 'this.kickLeft = 0;', 'controls: the leaves'],
 ];
 
 const root = fileURLToPath(new URL('../../../', import.meta.url));
@@ -76,7 +76,8 @@ function build(file) {
 /** Runs a test until it fails, and says what failed; null: nothing did. */
 function failureOf(test) {
   const env = { ...process.env, WISP_DATA: process.env.WISP_DATA ?? join(root, '../shared/data/') };
-  const run = spawn(process.execPath, ['--test', `tests/${test}.test.js`], { cwd: join(copy, 'apps/web'), env, detached: true });
+  const [file, suite = ''] = test.split(': ');
+  const run = spawn(process.execPath, ['--test', `--test-name-pattern=^${suite}`, `tests/${file}.test.js`], { cwd: join(copy, 'apps/web'), env, detached: true });
   let said = '';
   return new Promise((resolve) => {
     run.stdout.on('data', (text) => {

@@ -32,7 +32,7 @@ struct FlameStyle {
   bool candle = true;           ///< draw the candle; without it only the flame's own light and smoke
   Colour wax{240, 226, 200};    ///< the candle's colour by daylight
   float candle_width = 0.62F;   ///< 0.05 … 4; 22 mm under a flame of 35 mm
-  float candle_height = 1.25F;  ///< 0.05 … 20; what does not fit is cut off by the picture
+  float candle_height = 0.95F;  ///< 0.05 … 20; what does not fit is cut off by the picture
   float wick_gap = 0.12F;       ///< from the candle's top to the flame's base, 0 … 1
   float wick_height = 0.24F;    ///< from the candle's top to the wick's end, 0 … 1
   float ambient = 0.06F;        ///< light of the room on the candle, 0 … 1: it stays visible when the flame is out

@@ -65,8 +65,8 @@ void draw_room(Image& image, std::span<const Flame> flames, const FlameStyle& as
 
 FlameScene framed(int width, int height) {
   FlameScene scene;
-  scene.pixels_per_unit = std::min(static_cast<float>(height) * 0.27F, static_cast<float>(width) * 0.45F);
-  scene.base = {static_cast<float>(width) / 2, static_cast<float>(height) * 0.56F};
+  scene.pixels_per_unit = std::min(static_cast<float>(height) * 0.31F, static_cast<float>(width) * 0.45F);
+  scene.base = {static_cast<float>(width) / 2, static_cast<float>(height) * 0.63F};
   return scene;
 }
 
