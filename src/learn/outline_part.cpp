@@ -146,7 +146,7 @@ std::vector<std::byte> OutlinePart::bytes() const {
     out << "recording " << table.text.size() << ' ' << table.source << '\n' << table.text << '\n';
   }
   const std::string body = out.str(), whole = body + hash_line(body);
-  const auto bytes = std::as_bytes(std::span(whole));
+  const auto bytes = std::as_bytes(std::span(whole.data(), whole.size()));
   return {bytes.begin(), bytes.end()};
 }
 

@@ -169,6 +169,11 @@ describe('the drawer', { skip }, () => {
     assert.equal(await hidden(), true);
     await page.keyboard.press('i');
     assert.equal(await hidden(), false);
+    // Also from beside it.
+    await page.focus('#stage');
+    await page.keyboard.press('Escape');
+    assert.equal(await hidden(), true);
+    await page.keyboard.press('i');
     await page.click('#drawer header button');
     assert.equal(await hidden(), true);
     await page.keyboard.press('i');
