@@ -30,10 +30,10 @@ const mutants = [
   [`${page}panel/controls.ts`, 'this.ring.style.strokeDasharray = `${shown} 100`', "this.ring.setAttribute('stroke-dasharray', `${shown} 100`)", 'learned'],
   [`${page}style.css`, '--quiet: #b9b3ac;', '--quiet: #6b655e;', 'controls: the page'],
   // A phone
-  [`${page}style.css`, '  min-height: 40px;\n', '  line-height: 0.5;\n', 'phone'],
+  [`${page}style.css`, '.tool.round { width: 40px;', '.tool.round { width: 20px;', 'phone'],
   [`${page}late.css`, '.drawer { top: auto; left: 0; width: 100%;', '.drawer { top: auto; left: 0; width: 120%;', 'phone'],
   // Links and sharing
-  [`${page}link.ts`, 'if (!(value >= low && value <= high) || ', 'if (Number.isNaN(value) || ', 'sharing'],
+  [`${page}link.ts`, 'if (!(value >= low && value <= high) || ', 'if (Number.isNaN(value) || ', 'controls: the page'],
   [`${page}model_link.ts`, 'if (url.origin !== location.origin)', 'if (url.origin === "")', 'sharing'],
   [`${page}model_link.ts`, "throw new Error('The model in this link is damaged: was the link cut?');", 'return { bytes: new Uint8Array(), file: value };', 'sharing'],
   [`${page}app.ts`, 'settings.model = await packModel(playing.bytes);', '', 'sharing'],
@@ -60,6 +60,9 @@ const mutants = [
   [`${npm}candle/scene.ts`, 'for (const candle of this.candles) candle.stand.x += way;', '', 'controls: the candle'],
   [`${npm}candle/scene.ts`, 'candle.wind = breath + candle.stroke.wind + candle.motionWind(acting.seconds);', 'candle.wind = breath + candle.stroke.wind;', 'controls: the candle'],
   [`${npm}leaves/scene.ts`, 'this.kickLeft = 2 * KICKS;', 'this.kickLeft = 0;', 'controls: the leaves'],
+  // What came last
+  [`${page}late.css`, '--quiet: #5c5247;', '--quiet: #9c9287;', 'controls: the page'],
+  ['apps/web/service-worker.js', "|\\/models\\/leaf", '', 'trouble'],
 ];
 
 const root = fileURLToPath(new URL('../../../', import.meta.url));
