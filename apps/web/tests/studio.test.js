@@ -7,7 +7,7 @@ import { join } from 'node:path';
 import { after, before, describe, it } from 'node:test';
 import { chromiumPath, drop, dropAll, openBrowser, until } from './browser.js';
 import { fallsFilm } from '../../../bindings/studio/tests/falls_film.mjs';
-import { asDevices, candleFilm, capturedByProgram, fallsByProgram, noConverter, noFilms, recordedFalls, turnedFilm, wallFilm } from './films.js';
+import { asDevices, assertSame, candleFilm, capturedByProgram, fallsByProgram, noConverter, noFilms, recordedFalls, turnedFilm, wallFilm } from './films.js';
 
 const skip = chromiumPath === undefined && 'there is no Chromium here';
 const folder = mkdtempSync(join(tmpdir(), 'wisp-studio-'));
@@ -41,22 +41,6 @@ function table() {
 function tableThatBreaks() {
   const rows = table().toString().trim().split('\n');
   return Buffer.from(rows.map((row, k) => (k < 460 ? row : row.replace(/[^,]*$/, String(Math.sin(k * k))))).join('\n'));
-}
-
-/** Whether two recordings are the same: to a hundredth of a pixel, as decoders of pictures agree, and to a thousandth of wind. */
-function assertSame(ours, theirs) {
-  const rows = (text) => text.trim().split('\n').filter((line) => !line.startsWith('#')).map((line) => line.split(','));
-  const [[head, ...found], [names, ...wanted]] = [rows(ours), rows(theirs)];
-  assert.ok(names.some((name) => name.startsWith('u:wind')));
-  assert.deepEqual(head, names);
-  assert.equal(found.length, wanted.length);
-  for (const [k, row] of wanted.entries()) {
-    for (const [c, value] of row.entries()) {
-      assert.equal(found[k][c] === '', value === '', `${names[c]} in row ${k}`);
-      const most = names[c].startsWith('u:wind') ? 0.001 : 0.01;
-      assert.ok(Math.abs(Number(found[k][c]) - Number(value)) <= most, `${names[c]} in row ${k}: ${found[k][c]} and ${value}`);
-    }
-  }
 }
 
 describe('a film that is dropped', { skip: skip || noFilms }, () => {
@@ -125,6 +109,18 @@ describe('a film that is dropped', { skip: skip || noFilms }, () => {
     assert.deepEqual([...readFileSync(await model.path()).subarray(1, 5)], [...Buffer.from('WISP')]);
     const [recording] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=recording]')]);
     assertSame(readFileSync(await recording.path(), 'utf8'), readFileSync(capturedByProgram(film(), folder), 'utf8'));
+  });
+
+  it('becomes files for other tools, and what makes them comes only then', async () => {
+    const made = () => asked.some((path) => /studio\/export-.*\.wasm$/.test(path));
+    assert.ok(!made());
+    const [gltf] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=glb]')]);
+    assert.equal(gltf.suggestedFilename(), 'mine.glb');
+    assert.equal(readFileSync(await gltf.path()).subarray(0, 4).toString(), 'glTF');
+    const [lottie] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=json]')]);
+    const { layers, op, fr } = JSON.parse(readFileSync(await lottie.path(), 'utf8'));
+    assert.deepEqual([layers.length, Math.round(op / fr)], [1, 4]);
+    assert.ok(made());
   });
 
   it('burns in the page, and goes out when somebody blows', async () => {
@@ -227,6 +223,11 @@ describe('a table', { skip }, () => {
     assert.match(await page.textContent(`${panel} h2`), /It learned how this behaves/);
     await says(page, panel, 'On the last rows');
     assert.ok((await page.textContent(`${panel} .meter`)).includes('temperature'));
+    const files = [];
+    page.on('download', (download) => files.push(download.suggestedFilename()));
+    await page.click('[data-file=c]');
+    await until(page, 'it is saved', () => document.querySelector('[data-file=c]').textContent === 'Saved');
+    assert.deepEqual(files.sort(), ['kettle.c', 'kettle.h']);
     await drop(page, 'broken.csv', tableThatBreaks());
     await step(page, 'look');
     await page.click('[data-act=learn]');
