@@ -109,6 +109,18 @@ std::optional<bool> common_underside(std::span<const Recording> recordings) {
   return all ? first : std::nullopt;
 }
 
+// Some real flicker is hardly foretold from one frame to the next, and yet played as it was recorded.
+std::string what_speaks_for_it(const OutlineFigures& judged, const OutlineSummary& summary) {
+  const double next = typical_fit(judged, 1);
+  if (next > 0 || !summary.play_distance) {
+    return "predicts the next frame of held-out data with a median fit of " + rounded(next, 1) + " %";
+  }
+  return "plays nearer to the recording than that recording's own frames in random order (energy distance " +
+         rounded(summary.play_distance->value, 3) + ", shuffled " + rounded(summary.play_distance->ceiling, 3) +
+         "), though it foretells the next frame of held-out data no better than the mean does (median fit " +
+         rounded(next, 1) + " %)";
+}
+
 }  // namespace
 
 Usable outline_verdict(const ArxSummary& fit, const OutlineSummary& summary) {
@@ -160,8 +172,7 @@ Usable outline_verdict(const ArxSummary& fit, const OutlineSummary& summary) {
     return {false, "simulated from its inputs alone the tip is followed hardly better than by its mean (fit " +
                        rounded(tip_fit(judged, kFreeRun), 1) + " %): learn without inputs, or check their timing"};
   }
-  std::string reason =
-      "predicts the next frame of held-out data with a median fit of " + rounded(typical_fit(judged, 1), 1) + " %";
+  std::string reason = what_speaks_for_it(judged, summary);
   if (fit.stable.changed) reason += "; the estimate was unstable and was made stable at hardly any cost";
   return {true, reason};
 }
