@@ -31,11 +31,12 @@ bool loses_a_fold(const Unit& unit, std::size_t candidate) {
 // Many lags start better from measured samples than few, whatever they describe, since they average those: they have to
 // be surely better from the best initial state too.
 bool only_starts_better(const Unit& unit, std::size_t candidate) {
-  if (!unit.candidates[candidate].kernel) return false;
+  const auto many = [](const FocusCandidate& one) { return one.kernel || one.states > 0; };
+  if (!many(unit.candidates[candidate])) return false;
   std::size_t best = 0;
   for (std::size_t w = 0; w < unit.candidates.size(); ++w) {
     const auto error = [&](std::size_t one) { return unit.estimated.row(Index(one)).mean(); };
-    if (!unit.candidates[w].kernel && error(w) < error(best)) best = w;
+    if (!many(unit.candidates[w]) && error(w) < error(best)) best = w;
   }
   return sureness(unit.estimated, candidate, unit.estimated, best) < kSurelyMany;
 }

@@ -24,6 +24,7 @@ struct Unit {
 
   bool refined() const { return !candidates.empty() && candidates[picked].one_step_weight.has_value(); }
   bool kernel() const { return !candidates.empty() && candidates[picked].kernel; }
+  int states() const { return candidates.empty() ? 0 : candidates[picked].states; }
 
   /// Sets what is picked. With `leave_least_squares` the best of what is refined.
   ///
