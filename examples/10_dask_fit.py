@@ -3,8 +3,10 @@
 the model written down, by whichever worker is free; the parts are merged as a tree, which is the same wherever its
 tasks run and however often one is run again. So is the model, to the byte.
 
-    10_dask_fit.py FOLDER MODEL.wisp CLIP_OR_REC… [--scheduler tcp://HOST:8786] [--workers N] [-- flags of learn arx]
-    10_dask_fit.py work flame.wisp clips/*.mp4 -- --inputs wind --outputs p3.x,p3.y --na 2 --nb 2 --nk 1
+    10_dask_fit.py FOLDER MODEL.wisp CLIP_OR_REC… [--kind flame] [--scheduler tcp://HOST:8786] [--workers N]
+                   [-- flags of wisp learn KIND]
+    10_dask_fit.py work tip.wisp clips/*.mp4 -- --inputs wind --outputs p3.x,p3.y --na 2 --nb 2 --nk 1
+    10_dask_fit.py work flame.wisp clips/*.mp4 --kind flame
 
 Workers share FOLDER and nothing else, as those of 06_parallel_fit do. Without --scheduler the workers are processes of
 this machine; with --workers 0 the same tasks run in this process, one after the other. WISP names the program.
@@ -29,39 +31,44 @@ def captured(folder, clip):
     return str(recording)
 
 
-def part_of(folder, recording, flags):
-    """What a recording has to say about the model: a small file, however long it is."""
+def part_of(kind, folder, recording, flags):
+    """What a recording has to say about the model: of an ARX model a small file, however long it is."""
     part = pathlib.Path(folder, pathlib.Path(recording).stem + ".part")
-    wisp("learn", "arx", recording, "--partial", part, *flags)
+    wisp("learn", kind, recording, "--partial", part, *flags)
     return str(part)
 
 
-def merged(folder, name, *parts):
+def merged(kind, folder, name, *parts):
     """Two parts as one."""
     both = pathlib.Path(folder, name + ".part")
-    wisp("learn", "arx", "--merge", *parts, "--partial", both)
+    wisp("learn", kind, "--merge", *parts, "--partial", both)
     return str(both)
 
 
-def finished(part, model, count):
-    wisp("learn", "arx", "--merge", part, "--expect", count, "-o", model)
+def finished(kind, part, model, count, flags):
+    wisp("learn", kind, "--merge", part, "--expect", count, "-o", model, *flags)
     return str(model)
 
 
-def graph(do, folder, model, clips, flags):
+def graph(do, kind, folder, model, clips, flags):
     """All tasks, handed to do(function, …), which returns what the next ones take."""
-    parts = [do(part_of, folder, do(captured, folder, clip), flags) for clip in clips]
+    # An ARX part is of one model; what an outline's model shall be is said where it is learned from all of them.
+    first, last = (flags, []) if kind == "arx" else ([], flags)
+    parts = [do(part_of, kind, folder, do(captured, folder, clip), first) for clip in clips]
     level = 0
     while len(parts) > 1:
         level += 1
         pairs = [parts[k : k + 2] for k in range(0, len(parts), 2)]
-        parts = [do(merged, folder, f"level{level}_{k}", *pair) if len(pair) == 2 else pair[0] for k, pair in enumerate(pairs)]
-    return do(finished, parts[0], model, len(clips))
+        parts = [
+            do(merged, kind, folder, f"level{level}_{k}", *pair) if len(pair) == 2 else pair[0]
+            for k, pair in enumerate(pairs)
+        ]
+    return do(finished, kind, parts[0], model, len(clips), last)
 
 
-def on_cluster(client, folder, model, clips, flags):
+def on_cluster(client, *task):
     """The model's future. A task whose worker dies is run again elsewhere: it writes the same file again."""
-    return graph(lambda task, *of: client.submit(task, *of, pure=False, retries=3), folder, model, clips, flags)
+    return graph(lambda run, *of: client.submit(run, *of, pure=False, retries=3), *task)
 
 
 def main():
@@ -72,11 +79,12 @@ def main():
     parser.add_argument("folder")
     parser.add_argument("model")
     parser.add_argument("clips", nargs="+")
+    parser.add_argument("--kind", default="arx", choices=["arx", "outline", "flame"])
     parser.add_argument("--scheduler")
     parser.add_argument("--workers", type=int, default=2)
     given = parser.parse_args(words)
     pathlib.Path(given.folder).mkdir(parents=True, exist_ok=True)
-    task = (given.folder, given.model, given.clips, flags)
+    task = (given.kind, given.folder, given.model, given.clips, flags)
     if given.workers == 0 and not given.scheduler:
         return graph(lambda run, *of: run(*of), *task)
     from distributed import Client, LocalCluster

@@ -179,7 +179,12 @@ void write_nodes(const Document& document, const Take& take, JsonText& json) {
   for (std::size_t k = 0; k < take.instances; ++k) {
     json.object().value("instance " + std::to_string(k), "name").value(0, "mesh");
     if (document.apart > 0) json.values(std::array{document.apart * static_cast<double>(k), 0.0, 0.0}, "translation");
-    if (!take.travel.empty()) json.object("extras").values(take.travel[k], "travel").end();
+    if (!take.travel.empty()) {
+      // As exact as the keys: digits beyond are the C library's.
+      const auto [x, y, z] = take.travel[k];
+      const std::array travel{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
+      json.object("extras").values(travel, "travel").end();
+    }
     json.end();
   }
   json.end();

@@ -75,8 +75,10 @@ Vector turned(const Vector& v, const Quaternion& by) {
 }
 
 Quaternion attitude(const std::vector<float>& rows, std::size_t outputs, std::size_t frame) {
-  const float* q = &rows[frame * outputs + 3];
-  const double size = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
+  const float* stored = &rows[frame * outputs + 3];
+  const Quaternion q{stored[0], stored[1], stored[2], stored[3]};
+  // Square roots are the same on every machine; what C libraries have for lengths is not.
+  const double size = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   return {q[0] / size, q[1] / size, q[2] / size, q[3] / size};
 }
 

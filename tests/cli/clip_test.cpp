@@ -55,6 +55,30 @@ class Clip : public InFolder {
   }
 };
 
+TEST_F(Clip, SeveralBecomeRecordingsInAFolder) {
+  write_clip("one.mp4", kFrames);
+  write_clip("two.mp4", kFrames / 2);
+  write_clip("black.mp4", 10, true);
+  fs::create_directory(at("more"));
+  write_clip("more/one.mp4", 10);
+  const std::string good = at("one.mp4") + " " + at("two.mp4");
+  const Said said = wisp("capture flame " + good + " -o " + at("recordings") + " --json");
+  ASSERT_EQ(said.status, 0) << said.err;
+  EXPECT_EQ(said.json()["clips"].size(), 2U);
+  ASSERT_EQ(wisp("capture flame " + at("two.mp4") + " -o " + at("alone.csv")).status, 0);
+  EXPECT_EQ(file_text(at("recordings/two.csv")), file_text(at("alone.csv")));
+  EXPECT_EQ(said.json()["clips"][1]["recording"], at("recordings/two.csv"));
+
+  const Said skipped =
+      wisp("capture flame " + good + " " + at("black.mp4") + " --skip-bad -o " + at("left") + " --json");
+  EXPECT_EQ(skipped.status, 0) << skipped.err;
+  EXPECT_EQ(skipped.json()["skipped"].size() + skipped.json()["clips"].size(), 3U);
+  expect_refused("capture flame " + good, "expected a folder for those of 2 clips");
+  const Said same = wisp("capture flame " + at("one.mp4") + " " + at("more/one.mp4") + " -o " + at("two"));
+  EXPECT_EQ(same.status, 1);
+  EXPECT_THAT(same.err, HasSubstr("would both be written as"));
+}
+
 TEST_F(Clip, BecomesARecordingAModelAndPictures) {
   write_clip("clip.mp4", kFrames);
   const Said captured = wisp("capture flame " + at("clip.mp4") + " -o " + at("rec.csv") + " --json");

@@ -89,7 +89,7 @@ TEST(Gltf, ALoopEndsWithItsFirstFrameAgain) {
   double along = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_NEAR(places[places.size() - 3 + k], places[k] + taken->travel[0][k], 1e-6);
-    EXPECT_EQ(file.json["nodes"][1]["extras"]["travel"][k].get<double>(), taken->travel[0][k]);
+    EXPECT_EQ(file.json["nodes"][1]["extras"]["travel"][k].get<float>(), static_cast<float>(taken->travel[0][k]));
   }
   for (std::size_t k = 0; k < 4; ++k) along += static_cast<double>(turns[turns.size() - 4 + k]) * turns[k];
   EXPECT_NEAR(std::abs(along), 1, 1e-6);

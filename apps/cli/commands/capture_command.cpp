@@ -1,8 +1,10 @@
 // `wisp capture outline`, its preset `wisp capture flame`, `capture brightness` and `capture fall`: from a clip to a
 // recording.
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 
 #include "commands/commands.hpp"
 #include "flags/capture_flags.hpp"
@@ -14,10 +16,57 @@
 namespace wisp::cli {
 namespace {
 
+// Where each of several clips is written: under its own name in the folder. Errors: two of one name, no folder.
+Result<std::vector<std::filesystem::path>> tables_in(const std::string& folder, const std::vector<std::string>& clips) {
+  if (is_table(folder)) {
+    return Error{folder + " is the name of one recording, expected a folder for those of " +
+                 std::to_string(clips.size()) + " clips"};
+  }
+  std::vector<std::filesystem::path> tables;
+  for (const std::string& clip : clips) {
+    const std::filesystem::path path(clip), name = path.has_filename() ? path.stem() : path.parent_path().filename();
+    tables.push_back(std::filesystem::path(folder) / (name.string() + ".csv"));
+    const auto same = std::find(tables.begin(), tables.end() - 1, tables.back());
+    if (same == tables.end() - 1) continue;
+    return Error{clip + " and " + clips[static_cast<std::size_t>(same - tables.begin())] +
+                 " would both be written as " + tables.back().string() + ": rename one of them"};
+  }
+  std::error_code code;
+  std::filesystem::create_directories(folder, code);
+  if (!std::filesystem::is_directory(folder)) return Error{folder + ": cannot be made a folder: " + code.message()};
+  return tables;
+}
+
+Result<void> run_many(const ClipCapture& options, const Arguments& arguments, Terminal& terminal) {
+  const auto& clips = arguments.positionals();
+  const std::string& folder = arguments.text("output");
+  const auto tables = tables_in(folder, clips);
+  if (!tables) return tables.error();
+  ReportTable written{"clips", "", {{"clip", ""}, {"recording", ""}, {"usable", ""}, {"reason", ""}}, {}};
+  for (std::size_t k = 0; k < clips.size(); ++k) {
+    const auto clip = capture(clips[k], options, terminal.progress());
+    if (!clip) {
+      if (leave_out(clips[k], clip.error(), arguments, terminal)) continue;
+      return clip.error();
+    }
+    if (auto ok = write_csv((*tables)[k], clip->recording); !ok) return ok;
+    for (const std::string& warning : clip->report.warnings) terminal.warn(clips[k] + ": " + warning);
+    terminal.verdict(clips[k], clip->report);
+    const ReportVerdict verdict = clip->report.verdict.value_or(ReportVerdict{});
+    written.rows.push_back({clips[k], (*tables)[k].string(), verdict.usable, verdict.reason});
+  }
+  if (written.rows.empty()) return Error{"none of the clips can be used"};
+  terminal.say("wrote " + std::to_string(written.rows.size()) + " recordings to " + folder);
+  terminal.add(std::move(written));
+  terminal.add("output", folder);
+  return {};
+}
+
 Result<void> run(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
   const auto options = capture_options(arguments);
   if (!options) return options.error();
+  if (arguments.positionals().size() > 1) return run_many(*options, arguments, terminal);
   const auto clip = capture(arguments.positional(), *options, terminal.progress());
   if (!clip) return clip.error();
   const std::string& path = arguments.text("output");
@@ -96,9 +145,17 @@ Result<void> run_fall(const Arguments& arguments, Terminal& terminal) {
 }
 
 Command capturing(std::string name, const std::string& flame, std::string summary, std::vector<Example> examples) {
-  std::vector<Flag> flags = {{"output", Kind::kOutput, "REC.csv", "", "where to write the recording", {}, true}};
+  std::vector<Flag> flags = {{"output",
+                              Kind::kOutput,
+                              "REC.csv",
+                              "",
+                              "where to write the recording; of several clips a folder, where each has its own name",
+                              {},
+                              true}};
   for (Flag& flag : capture_flags(flame)) flags.push_back(std::move(flag));
-  return {std::move(name),  std::move(summary),  {{"CLIP", "a video file, or a folder of numbered images"}},
+  flags.push_back(
+      {"skip-bad", Kind::kSwitch, "", "", "of several: leave bad clips out, listing them, instead of stopping"});
+  return {std::move(name),  std::move(summary),  {{"CLIP", "video files, or folders of numbered images", true}},
           std::move(flags), std::move(examples), run};
 }
 
@@ -116,7 +173,8 @@ Command capture_flame_command() {
       "capture flame", "1", "Finds the outline of a flame in a clip: `capture outline` with a flame's settings.",
       {{"wisp capture flame candle.mp4 -o candle.csv", "The outline of a candle's flame, eight control points"},
        {"wisp capture flame candle.mp4 --points 16 --frames 1:300 -o candle.csv",
-        "Finer, and only the first 300 frames"}});
+        "Finer, and only the first 300 frames"},
+       {"wisp capture flame one.mp4 two.mp4 -o recordings", "Several clips: recordings/one.csv, recordings/two.csv"}});
 }
 
 Command capture_brightness_command() {

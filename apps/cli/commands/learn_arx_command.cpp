@@ -182,7 +182,7 @@ std::vector<Flag> flags() {
        "has their numbers as responses"});
   all.push_back({"memory", Kind::kInteger, "MIB", "256",
                  "recordings that are larger than this together are read a stretch at a time (never with --search)"});
-  for (auto* more : {&search_flags, &part_flags, &recording_flags}) {
+  for (auto* more : {&search_flags, &arx_part_flags, &recording_flags}) {
     for (Flag& flag : (*more)()) all.push_back(std::move(flag));
   }
   return all;

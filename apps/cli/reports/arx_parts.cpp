@@ -1,7 +1,6 @@
 #include "reports/arx_parts.hpp"
 
-#include <charconv>
-
+#include "flags/part_flags.hpp"
 #include "flags/recordings.hpp"
 #include "wisp/base/file.hpp"
 
@@ -9,16 +8,10 @@ namespace wisp::cli {
 namespace {
 
 // --part "2/8", the second of eight, of the rows of --range.
-Result<TableShare> share_of(const Arguments& arguments) {
-  const std::string& text = arguments.text("part");
-  const Error bad{"--part: found \"" + text + "\", expected K/N with 1 <= K <= N, such as 2/8"};
-  TableShare share;
-  const char* const end = text.data() + text.size();
-  const auto [slash, code] = std::from_chars(text.data(), end, share.index);
-  if (code != std::errc() || slash == end || *slash != '/') return bad;
-  const auto [rest, count_code] = std::from_chars(slash + 1, end, share.count);
-  if (count_code != std::errc() || rest != end || share.index < 1 || share.index > share.count) return bad;
-  --share.index;
+Result<TableShare> table_share(const Arguments& arguments) {
+  const auto part = share_of(arguments);
+  if (!part) return part.error();
+  TableShare share{.index = part->index, .count = part->count};
   if (!arguments.has("range")) return share;
   const SampleRange range = arguments.samples("range");
   share.first = range.first - 1;
@@ -57,15 +50,11 @@ ReportList list_of(const OrderMatrix& orders) {
 
 }  // namespace
 
-std::vector<Flag> part_flags() {
-  return {
-      {"partial", Kind::kOutput, "P", "",
-       "write a part of a fit instead of a model: what these rows have to say, a small file however many they are"},
-      {"part", Kind::kText, "K/N", "1/1", "with --partial: take the K-th of N equal shares of every recording's rows"},
-      {"merge", Kind::kSwitch, "", "",
-       "what is named are parts written with --partial, in any order; they say what the channels and orders are"},
-      {"expect", Kind::kInteger, "N", "", "with --merge: how many parts there must be, so that none is forgotten"},
-  };
+std::vector<Flag> arx_part_flags() {
+  return part_flags(
+      "write a part of a fit instead of a model: what these rows have to say, a small file however many they are",
+      "with --partial: take the K-th of N equal shares of every recording's rows",
+      "what is named are parts written with --partial, in any order; they say what the channels and orders are");
 }
 
 bool too_large(const Arguments& arguments) {
@@ -80,7 +69,7 @@ bool too_large(const Arguments& arguments) {
 }
 
 Result<NamedPart> part_of_tables(const ArxRecipe& recipe, const Arguments& arguments, Terminal& terminal) {
-  const auto share = share_of(arguments);
+  const auto share = table_share(arguments);
   if (!share) return share.error();
   auto part = ArxPart::create(recipe);
   if (!part) return part.error();
@@ -107,10 +96,7 @@ Result<NamedPart> merged_parts(const Arguments& arguments) {
       return Error{paths[k] + ": cannot be merged with " + paths.front() + ": " + ok.error().message};
     }
   }
-  if (arguments.has("expect") && static_cast<std::size_t>(arguments.integer("expect")) != whole->jobs()) {
-    return Error{"found " + std::to_string(whole->jobs()) + " parts, expected " + arguments.text("expect") +
-                 ": did every job end well, and are all parts named?"};
-  }
+  if (auto ok = check_expected(whole->jobs(), arguments); !ok) return ok.error();
   auto sources = whole->sources();
   return NamedPart{std::move(*whole), std::move(sources)};
 }

@@ -7,12 +7,12 @@
 
 #include "command.hpp"
 #include "terminal.hpp"
-#include "wisp/learn/arx_parts.hpp"
+#include "wisp/learn/parts.hpp"
 
 namespace wisp::cli {
 
-/// --partial, --part, --merge.
-std::vector<Flag> part_flags();
+/// --partial, --part, --merge, --expect.
+std::vector<Flag> arx_part_flags();
 
 /// Whether the named recordings together are larger than --memory.
 bool too_large(const Arguments& arguments);

@@ -127,6 +127,18 @@ describe('a film that is dropped', { skip: skip || noFilms }, () => {
     assertSame(readFileSync(await recording.path(), 'utf8'), readFileSync(capturedByProgram(film(), folder), 'utf8'));
   });
 
+  it('becomes files for other tools, and what makes them comes only then', async () => {
+    const made = () => asked.some((path) => /studio\/export-.*\.wasm$/.test(path));
+    assert.ok(!made());
+    const [gltf] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=glb]')]);
+    assert.equal(gltf.suggestedFilename(), 'mine.glb');
+    assert.equal(readFileSync(await gltf.path()).subarray(0, 4).toString(), 'glTF');
+    const [lottie] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=json]')]);
+    const { layers, op, fr } = JSON.parse(readFileSync(await lottie.path(), 'utf8'));
+    assert.deepEqual([layers.length, Math.round(op / fr)], [1, 4]);
+    assert.ok(made());
+  });
+
   it('burns in the page, and goes out when somebody blows', async () => {
     await page.click('[data-act=blow]');
     await until(page, 'it burns', () => document.getElementById('studio').hidden && window.wisp.burning?.lit === 1);
@@ -227,6 +239,11 @@ describe('a table', { skip }, () => {
     assert.match(await page.textContent(`${panel} h2`), /It learned how this behaves/);
     await says(page, panel, 'On the last rows');
     assert.ok((await page.textContent(`${panel} .meter`)).includes('temperature'));
+    const files = [];
+    page.on('download', (download) => files.push(download.suggestedFilename()));
+    await page.click('[data-file=c]');
+    await until(page, 'it is saved', () => document.querySelector('[data-file=c]').textContent === 'Saved');
+    assert.deepEqual(files.sort(), ['kettle.c', 'kettle.h']);
     await drop(page, 'broken.csv', tableThatBreaks());
     await step(page, 'look');
     await page.click('[data-act=learn]');

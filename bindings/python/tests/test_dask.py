@@ -37,8 +37,9 @@ class Dask(unittest.TestCase):
         # One machine's. A model remembers what its recordings were called: both say work/….
         for name in ("alone", "spread"):
             (cls.at / name / "work").mkdir(parents=True)
-        words = [sys.executable, example, "work", "flame.wisp", *cls.clips, "--workers", 0, "--", *flags]
-        subprocess.run(list(map(str, words)), check=True, capture_output=True, cwd=cls.at / "alone")
+        for model, kind, more in (("tip.wisp", "arx", flags), ("flame.wisp", "flame", [])):
+            words = [sys.executable, example, "work", model, *cls.clips, "--kind", kind, "--workers", 0, "--", *more]
+            subprocess.run(list(map(str, words)), check=True, capture_output=True, cwd=cls.at / "alone")
 
     def module(self):
         found = importlib.util.spec_from_file_location("dask_fit", example)
@@ -47,6 +48,12 @@ class Dask(unittest.TestCase):
         return module
 
     def test_a_worker_that_dies_half_way_changes_no_byte(self):
+        self.spread_with_a_death("arx", "tip.wisp", flags)
+
+    def test_nor_of_a_flame(self):
+        self.spread_with_a_death("flame", "flame.wisp", [])
+
+    def spread_with_a_death(self, kind, name, more):
         from distributed import Client, LocalCluster, as_completed
 
         fit = self.module()
@@ -65,13 +72,20 @@ class Dask(unittest.TestCase):
         cloudpickle.register_pickle_by_value(fit)
         with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=50) as cluster:
             with Client(cluster) as client:
-                model = fit.graph(submit, "work", "flame.wisp", self.clips, flags)
+                model = fit.graph(submit, kind, "work", name, self.clips, more)
                 pids = client.run(os.getpid)
                 next(iter(as_completed(tasks)))
                 self.assertFalse(model.done(), "nothing was left to do when the worker was killed")
                 os.kill(list(pids.values())[0], signal.SIGKILL)
                 model.result(timeout=300)
-        self.assertEqual((self.at / "spread/flame.wisp").read_bytes(), (self.at / "alone/flame.wisp").read_bytes())
+        self.assertEqual((self.at / "spread" / name).read_bytes(), (self.at / "alone" / name).read_bytes())
+
+    def test_a_flame_of_parts_is_that_of_all_recordings(self):
+        recordings = sorted(str(path.relative_to(self.at / "alone")) for path in (self.at / "alone/work").glob("clip*.csv"))
+        (self.at / "once").mkdir()
+        words = [program, "learn", "flame", *recordings, "-o", self.at / "once/flame.wisp", "--quiet"]
+        subprocess.run(list(map(str, words)), check=True, capture_output=True, cwd=self.at / "alone")
+        self.assertEqual((self.at / "once/flame.wisp").read_bytes(), (self.at / "alone/flame.wisp").read_bytes())
 
     def test_without_a_cluster_it_is_the_fit_of_all_rows(self):
         recordings = sorted(map(str, (self.at / "alone/work").glob("clip*.csv")))
@@ -83,7 +97,7 @@ class Dask(unittest.TestCase):
             dynamics = json.loads(said)["dynamics"]
             return [c for part in ("A", "B") for row in dynamics[part] for lags in row for c in lags]
 
-        for alone, once in zip(coefficients("alone/flame.wisp"), coefficients("once.wisp")):
+        for alone, once in zip(coefficients("alone/tip.wisp"), coefficients("once.wisp")):
             self.assertAlmostEqual(alone, once, delta=1e-9)
 
 

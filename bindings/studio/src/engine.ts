@@ -1,9 +1,8 @@
 // The module itself: capture, learn and validate, one call after the other. In a page a worker has it; Node may call it
 // where it stands.
 
+import { compiled, Module } from './module.js';
 import type { Captured, Curve, Learned, PictureSettings, Recipe, Region, Report, Seen, Series, TableSettings } from './types.js';
-
-type Functions = Record<string, (...values: number[]) => number>;
 
 /** A picture as decoders lay it out. */
 export interface RawPicture {
@@ -29,13 +28,8 @@ export interface CaptureSettings extends PictureSettings {
   pictures?: boolean;
 }
 
-/** Why something could not be done, in a sentence. */
-export class StudioError extends Error {
-  override name = 'StudioError';
-}
+export { StudioError } from './module.js';
 
-const NO_MEMORY = 'there is not enough memory for this: give a shorter film, or a smaller picture';
-const FAULT = 'Wisp stopped at a fault of its own; what was gathered before is kept. A report with this file would help to mend it';
 const LAYOUTS = { grey: 0, yuv: 1, rgb: 2 } as const;
 
 interface SeenText {
@@ -57,31 +51,17 @@ interface ReportText {
 
 type RecordingText = ReportText & { rate: number; rows: number; episodes: number[]; series: Omit<Series, 'samples'>[] };
 
-export class Engine {
+export class Engine extends Module {
   /** Told of progress; returns whether to go on. */
   onProgress: (stage: string, share: number) => boolean = () => true;
-  private readonly functions: Functions;
-  private readonly memory: WebAssembly.Memory;
   private frameAt = 0;
   private frameBytes = 0;
   private width = 0;
   private height = 0;
 
-  private constructor(module: WebAssembly.Module) {
-    const { memory, ...functions } = new WebAssembly.Instance(module, this.imports(module)).exports;
-    this.memory = memory as WebAssembly.Memory;
-    this.functions = functions as unknown as Functions;
-    this.functions._initialize?.();
-  }
-
   /** Starts a module. */
   static async start(module: WebAssembly.Module | BufferSource): Promise<Engine> {
-    return new Engine(module instanceof WebAssembly.Module ? module : await WebAssembly.compile(module));
-  }
-
-  /** Bytes of memory that it has by now; it grows and never shrinks. */
-  get memoryBytes(): number {
-    return this.memory.buffer.byteLength;
+    return new Engine(await compiled(module));
   }
 
   /** Begins a capture; one that was going on is given up. */
@@ -115,7 +95,7 @@ export class Engine {
   /** The next sound, interleaved; of the first block `begin` counts, seconds after the first frame. */
   sound(samples: Float32Array, channels: number, rate: number, begin: number): void {
     const at = this.take(samples.byteLength);
-    new Float32Array(this.memory.buffer, at, samples.length).set(samples);
+    this.floats(at, samples.length).set(samples);
     try {
       this.call('studio_sound', at, samples.length, channels, rate, begin);
     } finally {
@@ -194,79 +174,9 @@ export class Engine {
     };
   }
 
-  /** Calls a function that answers, and throws the sentence where it fails. */
-  private call(name: string, ...values: number[]): void {
-    let status;
-    try {
-      status = this.functions[name]!(...values);
-    } catch (error) {
-      throw error instanceof WebAssembly.RuntimeError ? new StudioError(FAULT, { cause: error }) : error;
-    }
-    if (status !== 0) throw new StudioError(this.text());
+  protected override progress(stage: string, share: number): boolean {
+    return this.onProgress(stage, share);
   }
-
-  private text(): string {
-    return new TextDecoder().decode(this.bytes(this.functions.studio_text!(), this.functions.studio_text_size!()));
-  }
-
-  private answerBytes(): Uint8Array {
-    return this.bytes(this.functions.studio_bytes!(), this.functions.studio_bytes_size!()).slice();
-  }
-
-  private numbers(): Float64Array {
-    return new Float64Array(this.memory.buffer, this.functions.studio_numbers!(), this.functions.studio_numbers_size!()).slice();
-  }
-
-  private bytes(at: number, size: number): Uint8Array {
-    return new Uint8Array(this.memory.buffer, at, size);
-  }
-
-  private take(size: number): number {
-    const at = this.functions.malloc!(Math.max(1, size));
-    if (at === 0) outOfMemory();
-    return at;
-  }
-
-  private withBytes(bytes: Uint8Array, use: (at: number, size: number) => void): void {
-    const at = this.take(bytes.length);
-    this.bytes(at, bytes.length).set(bytes);
-    try {
-      use(at, bytes.length);
-    } finally {
-      this.functions.free!(at);
-    }
-  }
-
-  private withText(text: string, use: (at: number, size: number) => void): void {
-    this.withBytes(new TextEncoder().encode(text), use);
-  }
-
-  /** What the module asks for: progress is told, and what an operating system would do is not done. */
-  private imports(module: WebAssembly.Module): WebAssembly.Imports {
-    const imports: WebAssembly.Imports = {};
-    const progress = (at: number, size: number, share: number): number =>
-      Number(this.onProgress(new TextDecoder().decode(this.bytes(at, size)), share));
-    for (const { module: from, name } of WebAssembly.Module.imports(module)) {
-      imports[from] ??= {};
-      imports[from]![name] = name === 'studio_progress' ? progress : name === 'studio_out_of_memory' ? outOfMemory : absent(name);
-    }
-    return imports;
-  }
-}
-
-/** Ends the call that wants more memory than there is. What the module held is lost with it. */
-function outOfMemory(): never {
-  throw new StudioError(NO_MEMORY, { cause: 'memory' });
-}
-
-/** There are no files, no clock and no environment. */
-function absent(name: string): () => number {
-  if (name === 'emscripten_notify_memory_growth') return () => 0;
-  const BAD_DESCRIPTOR = 8;
-  if (/^(fd_|environ_|clock_)/.test(name)) return () => BAD_DESCRIPTOR;
-  return () => {
-    throw new StudioError(`the module wants ${name} of an operating system, and a page has none`);
-  };
 }
 
 const regionOf = ([x, y, width, height]: [number, number, number, number]): Region => ({ x, y, width, height });

@@ -1,7 +1,8 @@
 // Films: taken apart by Mediabunny, decoded by the browser, frame by frame and block by block.
 
 import { AudioSampleSink, BlobSource, EncodedPacketSink, Input, MATROSKA, MP4, QTFF, VideoSampleSink, WEBM, type InputVideoTrack } from 'mediabunny';
-import { StudioError, type CaptureSettings, type Engine } from './engine.js';
+import type { CaptureSettings, Engine } from './engine.js';
+import { StudioError } from './module.js';
 import { rawOfFrame } from './pictures.js';
 
 /** What cameras and phones write, and browsers. */

@@ -1,7 +1,7 @@
 // What passes between a page and its worker.
 
 import type { CaptureSettings } from './engine.js';
-import type { Captured, Learned, PictureSettings, Recipe, Seen, TableSettings } from './types.js';
+import type { Captured, Exported, ExportSettings, Learned, PictureSettings, Recipe, Seen, TableSettings } from './types.js';
 
 /** Requests to a worker. */
 export type Task =
@@ -10,6 +10,7 @@ export type Task =
   | { do: 'table'; name: string; bytes: Uint8Array; settings: TableSettings }
   | { do: 'learn'; recordings: readonly Uint8Array[]; recipe: Recipe }
   | { do: 'validate'; model: Uint8Array; recordings: readonly Uint8Array[] }
+  | { do: 'export'; model: Uint8Array; settings: ExportSettings }
   | { do: 'live'; settings: CaptureSettings }
   | { do: 'finish' };
 
@@ -19,7 +20,7 @@ export type ToWorker =
   | { of: number; frame: VideoFrame | ImageBitmap; seconds: number }
   | { of: number; sound: Float32Array; rate: number; seconds: number };
 
-export type Outcome = Captured | Learned | Pick<Learned, 'report' | 'curves' | 'text'>;
+export type Outcome = Captured | Learned | Pick<Learned, 'report' | 'curves' | 'text'> | Exported[];
 
 export type FromWorker =
   | { of: number; progress: { stage: string; share: number } }

@@ -1,8 +1,8 @@
 // The page's end of the worker.
 
-import { StudioError } from './engine.js';
+import { StudioError } from './module.js';
 import type { FromWorker, Outcome, Task, ToWorker } from './messages.js';
-import type { Captured, Learned, PictureSettings, Recipe, TableSettings, Watch } from './types.js';
+import type { Captured, Exported, ExportSettings, Learned, PictureSettings, Recipe, TableSettings, Watch } from './types.js';
 
 /** A capture that is fed as things happen: a camera and a microphone. */
 export interface LiveCapture {
@@ -104,6 +104,11 @@ export class Studio {
   /** Judges a model on recordings. */
   validate(model: Uint8Array, recordings: readonly Uint8Array[], watch: Watch = {}): Promise<Pick<Learned, 'report' | 'curves' | 'text'>> {
     return this.ask({ do: 'validate', model, recordings }, watch);
+  }
+
+  /** Makes files of a model for other tools. What makes them is fetched the first time. */
+  export(model: Uint8Array, settings: ExportSettings, watch: Watch = {}): Promise<Exported[]> {
+    return this.ask({ do: 'export', model, settings }, watch);
   }
 
   /** Ends the worker; everything is forgotten. */

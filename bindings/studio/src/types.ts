@@ -137,6 +137,29 @@ export interface Learned {
   judged?: Pick<Learned, 'report' | 'curves' | 'text'>;
 }
 
+/** What is made of a model for other tools; what is not said is the program's default. */
+export interface ExportSettings {
+  /** glTF, Lottie, C for microcontrollers */
+  format: 'glb' | 'json' | 'c';
+  /** of the files, without what they end in; of all names in C */
+  name: string;
+  seconds?: number;
+  /** seconds of a loop, instead of plain play */
+  loop?: number;
+  instances?: number;
+  /** a constant value of every input */
+  wind?: number;
+  seed?: number;
+  /** pixels, of Lottie */
+  height?: number;
+}
+
+/** A file. */
+export interface Exported {
+  name: string;
+  bytes: Uint8Array;
+}
+
 /** Columns of a table that does not say itself. */
 export interface TableSettings {
   rate?: number;

@@ -1,8 +1,10 @@
 // The worker: the engine, and what decodes for it.
 
-import { Engine, StudioError } from './engine.js';
+import { Engine } from './engine.js';
+import { Exporter } from './exporter.js';
 import { showFilm } from './film.js';
 import type { FromWorker, Outcome, Task, ToWorker } from './messages.js';
+import { sentenceOf, StudioError } from './module.js';
 import { rawOfBitmap, rawOfFrame } from './pictures.js';
 import type { Captured, Seen } from './types.js';
 
@@ -11,11 +13,24 @@ const SHOWN_PIXELS = 640;
 /** Holes in live sound that are longer than this are silence. */
 const LOST_SECONDS = 0.05;
 
-const engine = (async () => {
-  const response = await fetch(new URL('./studio.wasm', import.meta.url));
-  if (!response.ok) throw new StudioError(`the studio could not be fetched: ${response.status}`);
-  return Engine.start(await response.arrayBuffer());
-})();
+async function fetched(address: URL): Promise<ArrayBuffer> {
+  const response = await fetch(address).catch(() => null);
+  if (response?.ok !== true) throw new StudioError(`the studio could not be fetched: ${response === null ? 'there is no network' : response.status}`);
+  return response.arrayBuffer();
+}
+
+const engine = fetched(new URL('./studio.wasm', import.meta.url)).then((bytes) => Engine.start(bytes));
+/** fetched when somebody wants a file */
+let exporter: Promise<Exporter> | null = null;
+
+function exporting(): Promise<Exporter> {
+  exporter ??= fetched(new URL('./export.wasm', import.meta.url)).then((bytes) => Exporter.start(bytes));
+  return exporter.catch((error: unknown) => {
+    exporter = null;
+    throw error;
+  });
+}
+
 // It is awaited, and told of, by whoever asks first.
 engine.catch(() => undefined);
 
@@ -154,6 +169,7 @@ async function pictures(of: number, wisp: Engine, files: File[], rate: number, s
 }
 
 async function perform(of: number, task: Task): Promise<Outcome | null> {
+  if (task.do === 'export') return (await exporting()).files(task.model, task.settings);
   const wisp = await engine;
   wisp.onProgress = (stage, share) => {
     tell({ of, progress: { stage, share } });
@@ -191,9 +207,10 @@ async function answer(of: number, task: Task): Promise<void> {
   try {
     const done = await perform(of, task);
     if (done !== null) tell({ of, done });
-  } catch (error) {
-    const memory = error instanceof RangeError || (error instanceof StudioError && error.cause !== undefined);
-    tell({ of, failed: error instanceof Error ? error.message : String(error), dead: memory });
+  } catch (thrown) {
+    const error = sentenceOf(thrown);
+    // Who has a cause has lost the module with it.
+    tell({ of, failed: error instanceof Error ? error.message : String(error), dead: error instanceof StudioError && error.cause !== undefined });
   }
 }
 

@@ -3,15 +3,18 @@
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 
 import { Engine, StudioError } from '../dist/engine.js';
+import { Exporter } from '../dist/exporter.js';
 import { fallsFilm } from './falls_film.mjs';
 
 const module = new WebAssembly.Module(readFileSync(new URL('../dist/studio.wasm', import.meta.url)));
+const exporting = new WebAssembly.Module(readFileSync(new URL('../dist/export.wasm', import.meta.url)));
+const shipped = (name) => readFileSync(new URL(`../../../apps/web/public/models/${name}.wisp`, import.meta.url));
 const program = new URL('../../../build/release/bin/wisp', import.meta.url).pathname;
 
 /** Shows a clip to an engine as its decoder left it. */
@@ -137,6 +140,18 @@ describe('the module that learns', () => {
   });
 });
 
+describe('the module that makes files for other tools', () => {
+  test('says why there is no such file of a model', async () => {
+    const exporter = await Exporter.start(exporting);
+    const refused = (settings, words, model = shipped('flame-2')) => assert.throws(() => exporter.files(model, { name: 'x', ...settings }), (error) => error instanceof StudioError && words.test(error.message));
+    refused({ format: 'c' }, /16 outputs/);
+    refused({ format: 'json' }, /no outline/, shipped('leaf'));
+    refused({ format: 'glb', loop: 1e9 }, /at most 3600 s/);
+    refused({ format: 'glb' }, /model/, Buffer.from('no model'));
+    assert.equal(exporter.files(shipped('flame-2'), { format: 'glb', name: 'x' })[0].name, 'x.glb');
+  });
+});
+
 describe('against the program', { skip: existsSync(program) ? false : 'the program is not built: script/build' }, () => {
   const folder = mkdtempSync(join(tmpdir(), 'studio-'));
   const clip = join(folder, 'rig.mp4');
@@ -191,6 +206,27 @@ describe('against the program', { skip: existsSync(program) ? false : 'the progr
     const fit = engine.learn([readFileSync(join(folder, 'paper.csv'))], { kind: 'leaf', name: 'paper', smooth: 5 });
     assert.deepEqual([fit.report.usable, fit.report.mode_sizes], [program.usable, program.mode_sizes]);
   });
+
+  for (const [name, format, settings, flags] of [
+    ['flame-4', 'glb', { loop: 4 }, ['--loop', '4']],
+    ['flame-4', 'glb', { seconds: 2, instances: 3, wind: 0.2, seed: 9 }, ['--seconds', '2', '--instances', '3', '--wind', '0.2', '--seed', '9']],
+    ['flame-4', 'json', { loop: 4, height: 300 }, ['--loop', '4', '--height', '300']],
+    ['leaf', 'glb', { loop: 6, instances: 4 }, ['--loop', '6', '--instances', '4']],
+    ['dryer', 'c', {}, []],
+  ]) {
+    test(`a ${format} of ${name} ${flags.join(' ')} is the program's, to the byte`, async () => {
+      const exporter = await Exporter.start(exporting);
+      const model = join(folder, `${name}.wisp`);
+      if (name === 'dryer') {
+        writeFileSync(join(folder, 'dryer.csv'), table(600));
+        wisp('learn', 'arx', join(folder, 'dryer.csv'), '--inputs', 'heat', '--outputs', 'temperature', '--rate', '10', '-o', model, '--quiet');
+      } else writeFileSync(model, shipped(name));
+      const made = exporter.files(readFileSync(model), { format, name: 'made', ...settings });
+      wisp('export', model, '-o', join(folder, `made.${format}`), ...flags, '--quiet');
+      assert.deepEqual(made.map((file) => file.name), format === 'c' ? ['made.c', 'made.h'] : [`made.${format}`]);
+      for (const file of made) assert.ok(readFileSync(join(folder, file.name)).equals(Buffer.from(file.bytes)), file.name);
+    });
+  }
 
   test('a film of a flame stays one where either is looked for', () => {
     capture(engine, clip, { looks_for: 'either', glimpses: glimpsesOf(clip), colours: { fullRange: false, bt709: true }, ...soundOf(clip) });

@@ -1,4 +1,4 @@
-#include "wisp/learn/arx_parts.hpp"
+#include "wisp/learn/parts.hpp"
 
 #include <algorithm>
 #include <fstream>

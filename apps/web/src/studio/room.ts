@@ -8,7 +8,7 @@ import type { Dropped } from '../drops.js';
 import { DEFAULTS } from '../link.js';
 import { element } from '../panel/element.js';
 import { fetchShipped, shippedFlame } from '../shipped.js';
-import { plotsOf, recordedOf } from './pictures/curves.js';
+import { fallsPlayed, plotsOf, recordedOf } from './pictures/curves.js';
 import { Duet } from './pictures/duet.js';
 import { Filming } from './camera/filming.js';
 import { gatherPanel } from './panels/gather.js';
@@ -21,7 +21,8 @@ import { pickOf, unfold } from './picks.js';
 import { Reel } from './reel.js';
 import { ratePanel } from './panels/rate.js';
 import { resultPanel } from './panels/result.js';
-import type { Moving } from './panels/taking.js';
+import { nameInC, type Format, type Moving } from './panels/taking.js';
+import { saveFile } from '../saving.js';
 import { newSession, sessionName, shownIn, smoothRows, thingOf, type Looked, type Session, type Take } from './session.js';
 import { Strip } from './pictures/strip.js';
 import { tablePanel } from './panels/table.js';
@@ -60,6 +61,28 @@ const KEPT_BACK = 0.25;
 
 /** Frames between pictures that are kept of a film, at first. */
 const FRAMES_APART = 3;
+
+/** What is said while a film is looked at. */
+const LOOKING: Readonly<Record<NonNullable<PictureSettings['looks_for']>, { title: string; words: string; thing: Thing | 'either' }>> = {
+  flame: { title: 'Looking for the flame', words: 'What is brightest and moves is followed by its edge. Is it another flame that you mean? Drag a box around it.', thing: 'flame' },
+  falls: {
+    title: 'Looking for falls',
+    words: 'What moves before the wall is watched. What of it falls is decided when the film is over: the wall is what most pictures show.',
+    thing: 'fall',
+  },
+  either: {
+    title: 'Looking at the film',
+    words: 'A flame is followed by its edge; if it is another that you mean, drag a box around it. What falls is found when the film is over.',
+    thing: 'either',
+  },
+};
+
+/** What is made for other tools: seconds of a loop, and how many at once. */
+const LOOPED: Readonly<Record<Thing, { loop: number; instances: number }>> = {
+  flame: { loop: 4, instances: 1 },
+  fall: { loop: 6, instances: 20 },
+  table: { loop: 4, instances: 1 },
+};
 
 const isAbort = (error: unknown): boolean => error instanceof Error && error.name === 'AbortError';
 const wordsOf = (error: unknown): string => sentence(error instanceof Error ? error.message : String(error));
@@ -220,14 +243,12 @@ export class Room {
     this.viewer.clear();
     this.viewer.showBox(settings.region ?? null);
     this.showLeft(this.viewer.place);
-    const falls = settings.looks_for === 'falls';
-    const working = falls
-      ? new Working('Looking for falls', 'What moves before the wall is watched. What of it falls is decided when the film is over: the wall is what most pictures show.', (words) => this.announce(words), 'fall')
-      : new Working('Looking for the flame', 'What is brightest and moves is followed by its edge. Is it another flame that you mean? Drag a box around it.', (words) => this.announce(words));
+    const { title, words, thing } = LOOKING[settings.looks_for ?? 'flame'];
+    const working = new Working(title, words, (said) => this.announce(said), thing);
     this.working = working;
     this.showPanel(working.panel);
     const reel = new Reel(FRAMES_APART);
-    if (!falls) this.traceLive();
+    if (settings.looks_for !== 'falls') this.traces.begin();
     const looked: Looked = { name, reel, film, settings, again: capture };
     this.looked = looked;
     try {
@@ -241,7 +262,7 @@ export class Room {
     }
   }
 
-  /** The tip is traced while it is looked at. */
+  /** The tip is traced while it is filmed. */
   private traceLive(): void {
     this.traces.begin();
     this.below.replaceChildren(this.traces.place);
@@ -255,6 +276,8 @@ export class Room {
     reel.keepSeen(seen);
     this.viewer.show(seen);
     this.traces.add(seen, null);
+    // Where nothing is followed there is no tip to trace.
+    if (seen.state === 'following' && !this.traces.place.isConnected) this.below.replaceChildren(this.traces.place);
     working.found(partOfSeen(seen, this.looked?.settings.looks_for === 'falls'));
   }
 
@@ -285,6 +308,7 @@ export class Room {
     this.viewer.showFalls((size) => linesOfFalls(take.captured, take.settings.height ?? 1, size));
     const { outlines } = take;
     if (outlines !== null) {
+      this.viewer.showFollowed();
       if (take.film === null) this.showStill(take, outlines);
       this.traces.fill(outlines);
       this.below.replaceChildren(this.traces.place);
@@ -473,7 +497,7 @@ export class Room {
     const { outlines } = take;
     this.stepTo('blow', thing);
     if (outlines !== null && thing === 'flame') this.showFlame(take, outlines, learned.model);
-    else this.showLeft(element('div', { class: 'plots', 'data-plots': true }, ...plotsOf([...(learned.judged?.curves ?? []), ...learned.curves, ...recordedOf(take.captured)])));
+    else this.showLeft(element('div', { class: 'plots', 'data-plots': true }, ...plotsOf([...(learned.judged?.curves ?? []), ...learned.curves, ...recordedOf(take.captured), ...(thing === 'fall' ? fallsPlayed(host.wisp, learned.model, take.captured) : [])])));
     const file = `${sessionName(session)}.wisp`;
     this.showPanel(
       resultPanel(session, {
@@ -482,10 +506,19 @@ export class Room {
         anew: () => this.anew(),
         again: (change) => this.learnAgain(change),
         film: (kind) => host.film(file, learned.model, kind),
+        make: (format) => this.make(format, learned.model),
       }),
     );
     const { title, reason } = verdictOf(learned, thing);
     this.announce(`${title}. ${reason}`);
+  }
+
+  /** Makes a file for other tools and saves it. What makes it is fetched the first time. */
+  private async make(format: Format, model: Uint8Array): Promise<string> {
+    const name = sessionName(this.session);
+    const settings = format === 'c' ? { format, name: nameInC(name) } : { format, name, ...LOOPED[thingOf(this.session)] };
+    for (const file of await (await this.engine.open()).export(model, settings)) saveFile(new Blob([file.bytes.slice()]), file.name);
+    return 'Saved';
   }
 
   private showFlame(take: Take, outlines: Outlines, model: Uint8Array): void {

@@ -145,10 +145,14 @@ export function adviceOf(captured: readonly Captured[], report: Report | null): 
   return made.slice(0, 3);
 }
 
-const FALLS_STAGES: Readonly<Record<string, string>> = { capturing: 'Watching what moves before the wall, picture by picture.' };
+const CAPTURING: Readonly<Record<Thing | 'either', string>> = {
+  flame: 'Following the edge of the flame, picture by picture.',
+  fall: 'Watching what moves before the wall, picture by picture.',
+  either: 'Watching what is bright and what moves, picture by picture.',
+  table: 'Reading the table.',
+};
 
 const STAGES: Readonly<Record<string, string>> = {
-  capturing: 'Following the edge of the flame, picture by picture.',
   reading: 'Reading the film.',
   decoding: 'Reading the film.',
   listening: 'Listening for wind in the sound.',
@@ -167,6 +171,6 @@ const STAGES: Readonly<Record<string, string>> = {
 };
 
 /** What a stage of work means. */
-export function stageInWords(stage: string, thing: Thing = 'flame'): string {
-  return (thing === 'fall' ? FALLS_STAGES[stage] : undefined) ?? STAGES[stage] ?? sentence(stage);
+export function stageInWords(stage: string, thing: Thing | 'either' = 'flame'): string {
+  return stage === 'capturing' ? CAPTURING[thing] : (STAGES[stage] ?? sentence(stage));
 }

@@ -4,16 +4,15 @@ import type { Learned, Recipe } from '@wisp/studio';
 import { element } from '../../panel/element.js';
 import { plotsOf } from '../pictures/curves.js';
 import { thingOf, type Session } from '../session.js';
-import { takingOf, type Moving } from './taking.js';
+import { takingOf, type TakingEvents } from './taking.js';
 import { adviceOf, heldOutSeconds, metersOf, sentence, verdictOf, type Meter, type Thing } from '../words.js';
 
-export interface ResultEvents {
+export interface ResultEvents extends TakingEvents {
   blow(): void;
   more(): void;
   /** from the beginning, without what was gathered */
   anew(): void;
   again(change: Partial<Recipe>): void;
-  film(kind: Moving): Promise<string>;
 }
 
 const button = (words: string, name: string, act: () => void, main = false): HTMLButtonElement => {
@@ -78,7 +77,7 @@ export function resultPanel(session: Session, events: ResultEvents): HTMLElement
   panel.append(
     ...list('Take care', (report.warnings ?? []).map(sentence), 'warnings'),
     ...(flame ? list('To make it better', adviceOf(takes.map(({ captured }) => captured), report), 'advice') : []),
-    takingOf(session, flame ? (kind) => events.film(kind) : null),
+    takingOf(session, events),
     moreOf(recipe, text, flame ? plotsOf(curves) : null, events),
     element('div', { class: 'actions' }, button('Begin anew', 'anew', () => events.anew())),
   );

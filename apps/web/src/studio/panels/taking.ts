@@ -1,10 +1,12 @@
-// Taking it away: the model, what it was learned from, a link, a tag for a page, a few seconds of film.
+// Taking it away: the model, what it was learned from, a link, a tag for a page, a few seconds of film, files for other tools.
 
+import type { ExportSettings } from '@wisp/studio';
 import { MOST_PACKED_BYTES, packModel } from '../../model_link.js';
 import { element } from '../../panel/element.js';
 import { telling } from '../../panel/telling.js';
 import { saveFile } from '../../saving.js';
-import { sessionName, type Session } from '../session.js';
+import { sessionName, thingOf, type Session } from '../session.js';
+import type { Thing } from '../words.js';
 
 async function copy(text: string): Promise<string> {
   await navigator.clipboard.writeText(text);
@@ -14,11 +16,25 @@ async function copy(text: string): Promise<string> {
 /** Pictures that move. */
 export type Moving = 'film' | 'gif';
 
-/** The buttons. `film` saves three seconds of it burning in the page's room; null: it is no flame. */
-export function takingOf(session: Session, film: ((kind: Moving) => Promise<string>) | null): HTMLElement {
+/** Files for other tools. */
+export type Format = ExportSettings['format'];
+
+export interface TakingEvents {
+  /** saves three seconds of it burning in the page's room */
+  film(kind: Moving): Promise<string>;
+  /** saves it as a file for other tools; says how that went */
+  make(format: Format): Promise<string>;
+}
+
+/** The name that files in C can have. */
+export const nameInC = (name: string): string => name.normalize('NFKD').replace(/\W+/g, '_').replace(/^(?=\d)|^_+/, 'wisp_');
+
+/** The buttons. */
+export function takingOf(session: Session, events: TakingEvents): HTMLElement {
   const { learned, takes } = session;
   if (learned === null) return element('div');
   const name = sessionName(session);
+  const thing = thingOf(session);
   const { model } = learned;
   const save = telling('The model', 'wisp', '', () => {
     saveFile(new Blob([model.slice()], { type: 'application/octet-stream' }), `${name}.wisp`);
@@ -37,12 +53,32 @@ export function takingOf(session: Session, film: ((kind: Moving) => Promise<stri
   const tag = telling('A tag for a page', 'tag', '', () =>
     copy(`<script type="module" src="node_modules/@wisp/player/dist/candle/element.js"></script>\n<wisp-candle src="${name}.wisp" wind="mic"></wisp-candle>`),
   );
-  const made = film === null ? [save, recordings] : [save, recordings, link, tag, telling('Three seconds', 'loop', 'Recording…', () => film('film')), telling('As a GIF', 'gif', 'Recording…', () => film('gif'))];
+  const moving = (words: string, kind: Moving): HTMLButtonElement => telling(words, kind === 'film' ? 'loop' : kind, 'Recording…', () => events.film(kind));
+  const file = (words: string, format: Format): HTMLButtonElement => telling(words, format, 'Making it…', () => events.make(format));
+  const itself: Readonly<Record<Thing, readonly HTMLElement[]>> = { flame: [save, recordings, link, tag], fall: [save, recordings], table: [save, recordings] };
+  const elsewhere: Readonly<Record<Thing, readonly HTMLElement[]>> = {
+    flame: [moving('Three seconds', 'film'), moving('As a GIF', 'gif'), file('glTF', 'glb'), file('Lottie', 'json')],
+    fall: [file('glTF', 'glb')],
+    table: [file('C for a microcontroller', 'c')],
+  };
   return element(
     'section',
     { class: 'taking' },
     element('h3', {}, 'Take it away'),
-    element('div', { class: 'actions' }, ...made),
-    element('p', { class: 'quiet' }, `${Math.round(model.length / 100) / 10} kB. The model plays in games, on pages and on microcontrollers; the recording can be learned from again.`),
+    element('div', { class: 'actions' }, ...itself[thing]),
+    element('p', { class: 'quiet' }, `${Math.round(model.length / 100) / 10} kB. ${WHERE[thing]} The recording can be learned from again.`),
+    element('div', { class: 'actions' }, ...elsewhere[thing]),
+    element('p', { class: 'quiet' }, LOOPS[thing]),
   );
 }
+
+const WHERE: Readonly<Record<Thing, string>> = {
+  flame: 'The model plays in games, on pages and in films.',
+  fall: 'The model plays in games, on pages and in films.',
+  table: 'The model plays in programs and on pages.',
+};
+const LOOPS: Readonly<Record<Thing, string>> = {
+  flame: 'Loops of four seconds without a seam: glTF for Blender and engines, Lottie for apps.',
+  fall: 'Twenty that fall in a loop of six seconds, for Blender and engines.',
+  table: 'C in whole numbers, without a library: of models with one column that comes out.',
+};

@@ -13,7 +13,7 @@ export class Working {
   private shown = '';
 
   /** `announce`: read out, not shown */
-  constructor(title: string, words: string, private readonly announce: (words: string) => void, private readonly thing: Thing = 'flame') {
+  constructor(title: string, words: string, private readonly announce: (words: string) => void, private readonly thing: Thing | 'either' = 'flame') {
     const cancel = element('button', { type: 'button', class: 'tool', 'data-act': 'cancel' }, 'Cancel');
     cancel.addEventListener('click', () => this.control.abort());
     this.panel = element(

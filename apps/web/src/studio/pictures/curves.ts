@@ -1,5 +1,6 @@
 // Plots of a report's curves: those with the same axes share one.
 
+import type { Library } from '@wisp/player';
 import type { Captured, Curve } from '@wisp/studio';
 import { element } from '../../panel/element.js';
 import { surfaceOf } from './surface.js';
@@ -13,11 +14,13 @@ const short = (value: number): string => (value === 0 ? '0' : String(Number(valu
 /** What is plotted, in this order, by how its ids begin; of the rest nothing is. */
 const FAMILIES: readonly (readonly [RegExp, string])[] = [
   [/^column/, ''],
-  [/^fall\./, 'The falls, from the side'],
+  [/^fall\./, 'Recorded'],
+  [/^played\./, 'What it learned'],
   [/^(measured|predicted|simulated)\./, 'Measured and played'],
   [/^tip\./, 'The tip, sideways'],
   [/^step\./, 'Answer to a step'],
-  [/^flicker\./, 'Spectrum of the flicker'],
+  [/^flicker\.x/, 'Spectrum of the flicker, sideways'],
+  [/^flicker\./, 'Spectrum of the flicker, up and down'],
   [/^residual\./, 'What is left over'],
   [/^(poles|zeros)/, 'Poles and zeros'],
   [/^(input|output):/, ''],
@@ -44,7 +47,7 @@ export function plotsOf(curves: readonly Curve[]): HTMLElement[] {
   return [...groups.entries()]
     .sort(([one], [other]) => parseInt(one) - parseInt(other))
     .slice(0, MOST_PLOTS)
-    .map(([key, group]) => plotOf(group, FAMILIES[parseInt(key)]?.[1] ?? ''));
+    .map(([key, group], _, all) => plotOf(group, FAMILIES[parseInt(key)]?.[1] ?? '', all.map(([, other]) => other)));
 }
 
 /** What a legend calls it. */
@@ -54,23 +57,54 @@ const nameOf = ({ id, label }: Pick<Curve, 'id' | 'label'>): string => (id.start
 const isPlace = ({ id }: Curve): boolean => /^(poles|zeros)/.test(id);
 
 /** One of many alike, which need no names. */
-const isFall = ({ id }: Curve): boolean => id.startsWith('fall.');
+const isFall = ({ id }: Curve): boolean => /^(fall|played)\./.test(id);
 
 /** The edge of an interval, drawn beside its curve. */
 const isEdge = ({ id }: Curve): boolean => /\.(low|high|bound)$/.test(id);
 
+/** Width by height of plots of falls, within what a screen has room for. */
+const SHAPES = [0.45, 1.8] as const;
+
 /** Falls that are shown. */
 const MOST_FALLS = 12;
 
-/** Falls as seen from the side, each from where it begins. */
+/** A way as seen from the side, from where it begins. */
+function wayOf(id: string, across: readonly number[], up: readonly number[]): Curve {
+  const from = (values: readonly number[]): number[] => values.map((value) => value - (values[0] as number));
+  return { id, label: id, x_label: 'metres', y_label: 'm', x: from(across), y: from(up) };
+}
+
+/** Recorded falls. */
 function fallsOf({ series, episodes, rows }: Captured): Curve[] {
   const [x, z] = ['pos.x', 'pos.z'].map((name) => series.find((one) => one.name === name)?.samples);
   if (x === undefined || z === undefined) return [];
   return episodes.slice(0, MOST_FALLS).map((begin, k) => {
     const end = episodes[k + 1] ?? rows;
-    const from = (samples: Float64Array): number[] => Array.from(samples.subarray(begin, end), (value) => value - (samples[begin] as number));
-    return { id: `fall.${k}`, label: `fall.${k}`, x_label: 'metres to the side', y_label: 'm', x: from(x), y: from(z) };
+    return wayOf(`fall.${k}`, [...x.subarray(begin, end)], [...z.subarray(begin, end)]);
   });
+}
+
+/** Falls of a model, as many and as long as those that are shown of the recording. */
+export function fallsPlayed(wisp: Library, bytes: Uint8Array, { episodes, rows }: Captured): Curve[] {
+  const shown = episodes.slice(0, MOST_FALLS);
+  const model = wisp.model(bytes);
+  const bank = model.bank({ capacity: Math.max(1, shown.length), seed: 1 });
+  const instances = shown.map(() => bank.spawn());
+  const [x, z] = ['pos.x', 'pos.z'].map((name) => model.outputs.findIndex((one) => one.name === name)) as [number, number];
+  model.free();
+  const lengths = shown.map((begin, k) => (episodes[k + 1] ?? rows) - begin);
+  const ways = shown.map((): [number[], number[]] => [[], []]);
+  for (let row = 0; row < Math.max(0, ...lengths); ++row) {
+    bank.step();
+    instances.forEach((instance, k) => {
+      if (row >= (lengths[k] as number)) return;
+      const values = bank.instanceOutputs(instance);
+      ways[k]?.[0].push(values[x] as number);
+      ways[k]?.[1].push(values[z] as number);
+    });
+  }
+  bank.free();
+  return ways.map(([across, up], k) => wayOf(`played.${k}`, across, up));
 }
 
 /** Columns of a table, as curves over time; no more points than can be seen. */
@@ -95,17 +129,25 @@ export function recordedOf(captured: Captured): Curve[] {
   return falls.length > 0 ? falls : curvesOf(captured);
 }
 
-function plotOf(curves: readonly Curve[], title: string): HTMLElement {
+/** `all`: the other plots beside it. */
+function plotOf(curves: readonly Curve[], title: string, all: readonly (readonly Curve[])[]): HTMLElement {
+  // Falls that were recorded and those that are played are drawn to one scale.
+  const scale = curves.some(isFall) ? all.filter((other) => other.some(isFall)).flat() : curves;
   const named = curves.filter((curve) => !isEdge(curve) && !isFall(curve));
   const canvas = element('canvas', { role: 'img', 'aria-label': `${title} ${named.map(({ label }) => label).join(', ')}` });
+  if (curves.some(isFall)) {
+    const [left, right] = extent(scale.flatMap(({ x }) => x));
+    const [low, high] = extent(scale.flatMap(({ y }) => y));
+    canvas.style.aspectRatio = String(Math.max(SHAPES[0], Math.min(SHAPES[1], (right - left) / (high - low))));
+  }
   const legend = element('figcaption', {}, ...(title === '' ? [] : [element('b', {}, title)]));
   named.forEach(({ label, id }, k) => {
     const name = element('span', { class: 'legend' }, nameOf({ id, label }));
     name.style.setProperty('--colour', COLOURS[k % COLOURS.length] as string);
     legend.append(name);
   });
-  new ResizeObserver(() => draw(canvas, curves)).observe(canvas);
-  return element('figure', { class: 'curves' }, legend, canvas);
+  new ResizeObserver(() => draw(canvas, curves, scale)).observe(canvas);
+  return element('figure', { class: curves.some(isFall) ? 'curves falls' : 'curves' }, legend, canvas);
 }
 
 function extent(values: readonly number[]): [number, number] {
@@ -117,12 +159,13 @@ function extent(values: readonly number[]): [number, number] {
   return low < high ? [low, high] : [low - 0.5, low + 0.5];
 }
 
-function draw(canvas: HTMLCanvasElement, curves: readonly Curve[]): void {
+/** `scale`: what the axes hold. */
+function draw(canvas: HTMLCanvasElement, curves: readonly Curve[], scale: readonly Curve[]): void {
   const surface = surfaceOf(canvas);
   if (surface === null) return;
   const { context, width, height } = surface;
-  let [left, right] = extent(curves.flatMap(({ x }) => [extent(x.filter(Number.isFinite))].flat()));
-  let [low, high] = extent(curves.flatMap(({ y }) => [extent(y.filter(Number.isFinite))].flat()));
+  let [left, right] = extent(scale.flatMap(({ x }) => [extent(x.filter(Number.isFinite))].flat()));
+  let [low, high] = extent(scale.flatMap(({ y }) => [extent(y.filter(Number.isFinite))].flat()));
   const places = curves.some(isPlace);
   if (places) {
     [left, right] = [Math.min(left, -1.05), Math.max(right, 1.05)];

@@ -27,6 +27,8 @@ export class Viewer {
   });
   private readonly caption = element('p', { class: 'caption', hidden: true });
   private picture: ImageBitmap | null = null;
+  /** the last that was shown with an outline */
+  private followed: { seen: Seen; picture: ImageBitmap } | null = null;
   private kept: Kept | null = null;
   private size: { width: number; height: number } | null = null;
   private seen: Seen | null = null;
@@ -58,8 +60,8 @@ export class Viewer {
 
   /** Forgets what it shows. */
   clear(): void {
-    this.picture?.close();
-    this.picture = this.kept = this.size = this.seen = this.box = null;
+    this.letGo();
+    this.picture = this.kept = this.size = this.seen = this.box = this.followed = null;
     this.trail = [];
     this.falls = [];
     this.say('');
@@ -81,10 +83,30 @@ export class Viewer {
     this.seen = seen;
     if (seen.width > 0) this.size = { width: seen.width, height: seen.height };
     if (seen.picture !== undefined) {
-      this.picture?.close();
+      if (this.picture !== this.followed?.picture) this.picture?.close();
       this.picture = seen.picture;
+      if (seen.state === 'following') this.keepFollowed({ seen, picture: seen.picture });
     }
     this.draw();
+  }
+
+  /** Goes back to the last picture in which something was followed: a flame that is blown out leaves a dark one. */
+  showFollowed(): void {
+    if (this.followed === null) return;
+    if (this.picture !== this.followed.picture) this.picture?.close();
+    this.picture = this.followed.picture;
+    this.seen = this.followed.seen;
+    this.draw();
+  }
+
+  private keepFollowed(followed: { seen: Seen; picture: ImageBitmap }): void {
+    this.followed?.picture.close();
+    this.followed = followed;
+  }
+
+  private letGo(): void {
+    if (this.picture !== this.followed?.picture) this.picture?.close();
+    this.followed?.picture.close();
   }
 
   /** Falls that were found, over the film's last picture. `lines` is told its size. */

@@ -1,0 +1,129 @@
+// A module of WebAssembly of the studio's: its memory, its calls, and what it asks for.
+
+type Functions = Record<string, (...values: number[]) => number>;
+
+/** Why something could not be done, in a sentence. */
+export class StudioError extends Error {
+  override name = 'StudioError';
+}
+
+const NO_MEMORY = 'there is not enough memory for this: give a shorter film, or a smaller picture';
+const FAULT = 'Wisp stopped at a fault of its own; what was gathered before is kept. A report with this file would help to mend it';
+
+/** A module from its bytes, where it is not one yet. */
+export async function compiled(module: WebAssembly.Module | BufferSource): Promise<WebAssembly.Module> {
+  return module instanceof WebAssembly.Module ? module : WebAssembly.compile(module);
+}
+
+/**
+ * What an error that is no sentence means. Stacks that overflow are faults; whatever else browsers call out of range is
+ * memory that they do not give.
+ */
+export function sentenceOf(error: unknown): unknown {
+  if (error instanceof WebAssembly.RuntimeError || (error instanceof RangeError && /stack/i.test(error.message))) {
+    return new StudioError(FAULT, { cause: error });
+  }
+  return error instanceof RangeError ? new StudioError(NO_MEMORY, { cause: error }) : error;
+}
+
+/** Does something with memory; what it throws is a sentence. A module that failed so is of no more use. */
+export function told<T>(work: () => T): T {
+  try {
+    return work();
+  } catch (error) {
+    throw sentenceOf(error);
+  }
+}
+
+export class Module {
+  protected readonly functions: Functions;
+  private readonly memory: WebAssembly.Memory;
+
+  protected constructor(module: WebAssembly.Module) {
+    const { memory, ...functions } = told(() => new WebAssembly.Instance(module, this.imports(module)).exports);
+    this.memory = memory as WebAssembly.Memory;
+    this.functions = functions as unknown as Functions;
+    this.functions._initialize?.();
+  }
+
+  /** Bytes of memory that it has by now; it grows and never shrinks. */
+  get memoryBytes(): number {
+    return this.memory.buffer.byteLength;
+  }
+
+  /** Told of progress; returns whether to go on. */
+  protected progress(_stage: string, _share: number): boolean {
+    return true;
+  }
+
+  /** Calls a function that answers, and throws the sentence where it fails. */
+  protected call(name: string, ...values: number[]): void {
+    if (told(() => this.functions[name]!(...values)) !== 0) throw new StudioError(this.text());
+  }
+
+  protected text(): string {
+    return new TextDecoder().decode(this.bytes(this.functions.studio_text!(), this.functions.studio_text_size!()));
+  }
+
+  protected answerBytes(): Uint8Array {
+    return told(() => this.bytes(this.functions.studio_bytes!(), this.functions.studio_bytes_size!()).slice());
+  }
+
+  protected numbers(): Float64Array {
+    return told(() => new Float64Array(this.memory.buffer, this.functions.studio_numbers!(), this.functions.studio_numbers_size!()).slice());
+  }
+
+  protected bytes(at: number, size: number): Uint8Array {
+    return new Uint8Array(this.memory.buffer, at, size);
+  }
+
+  protected floats(at: number, count: number): Float32Array {
+    return new Float32Array(this.memory.buffer, at, count);
+  }
+
+  protected take(size: number): number {
+    const at = told(() => this.functions.malloc!(Math.max(1, size)));
+    if (at === 0) outOfMemory();
+    return at;
+  }
+
+  protected withBytes(bytes: Uint8Array, use: (at: number, size: number) => void): void {
+    const at = this.take(bytes.length);
+    this.bytes(at, bytes.length).set(bytes);
+    try {
+      use(at, bytes.length);
+    } finally {
+      this.functions.free!(at);
+    }
+  }
+
+  protected withText(text: string, use: (at: number, size: number) => void): void {
+    this.withBytes(new TextEncoder().encode(text), use);
+  }
+
+  /** What the module asks for: progress is told, and what an operating system would do is not done. */
+  private imports(module: WebAssembly.Module): WebAssembly.Imports {
+    const imports: WebAssembly.Imports = {};
+    const progress = (at: number, size: number, share: number): number => Number(this.progress(new TextDecoder().decode(this.bytes(at, size)), share));
+    for (const { module: from, name } of WebAssembly.Module.imports(module)) {
+      imports[from] ??= {};
+      imports[from]![name] = name === 'studio_progress' ? progress : name === 'studio_out_of_memory' ? outOfMemory : absent(name);
+    }
+    return imports;
+  }
+}
+
+/** Ends the call that wants more memory than there is. What the module held is lost with it. */
+function outOfMemory(): never {
+  throw new StudioError(NO_MEMORY, { cause: 'memory' });
+}
+
+/** There are no files, no clock and no environment. */
+function absent(name: string): () => number {
+  if (name === 'emscripten_notify_memory_growth') return () => 0;
+  const BAD_DESCRIPTOR = 8;
+  if (/^(fd_|environ_|clock_)/.test(name)) return () => BAD_DESCRIPTOR;
+  return () => {
+    throw new StudioError(`the module wants ${name} of an operating system, and a page has none`);
+  };
+}
