@@ -84,7 +84,7 @@ struct Subject {
         {first_sample(), kernel ? kernel_orders(options.orders).history() : 0, subspace ? kStateSpaceLags : 0});
   }
 
-  // A state reaches all outputs and is driven by all inputs.
+  // A state is in common, reaches all outputs and is driven by all inputs.
   bool tries_states(const Unit& unit) const {
     const auto driven = [&](int i) {
       for (int j : unit.outputs) {
@@ -95,7 +95,7 @@ struct Subject {
       }
       return true;
     };
-    return subspace && std::all_of(unit.outputs.begin(), unit.outputs.end(), driven);
+    return subspace && unit.outputs.size() > 1 && std::all_of(unit.outputs.begin(), unit.outputs.end(), driven);
   }
   double largest_pole() const { return 1 - options.stability_margin; }
 };
@@ -259,8 +259,10 @@ std::vector<Way> ways_of(const Subject& subject, const Learned& learned, const U
 HeldOutErrors errors_of(const Subject& subject, const Signals& held_out, const Unit& unit, const Way& way,
                         const SimulationBlock& unseen) {
   const int states = way.candidate.states;
-  if (states > 0 && !way.space)
-    return {VectorXd::Constant(kParts, kNotThere), VectorXd::Constant(kParts, kNotThere), 0};
+  if (states > 0 && !way.space) {
+    const VectorXd none = VectorXd::Constant(kParts, kNotThere);
+    return {none, none, 0, VectorXd::Constant(Index(unit.outputs.size()), kNotThere)};
+  }
   if (!way.candidate.kernel && states == 0) return held_out_errors(unseen, way.theta);
   const int lags = arx_lags(states, static_cast<int>(unit.outputs.size()));
   const ArxOrders orders = states > 0 ? state_space_orders(way.orders, unit.outputs, lags) : way.orders;
@@ -278,6 +280,7 @@ void judge_unit(const Subject& subject, const Learned& learned, const Signals& h
     for (const Way& way : ways) unit.candidates.push_back(way.candidate);
     unit.squares.resize(Index(ways.size()), 0);
     unit.estimated.resize(Index(ways.size()), 0);
+    unit.by_output = MatrixXd::Zero(Index(ways.size()), Index(unit.outputs.size()));
   }
   if (unit.candidates.size() != ways.size()) return;
   const Index before = unit.squares.cols();
@@ -287,6 +290,7 @@ void judge_unit(const Subject& subject, const Learned& learned, const Signals& h
     const HeldOutErrors errors = errors_of(subject, held_out, unit, ways[w], unseen);
     unit.squares.row(Index(w)).tail(kParts) = (errors.estimated + errors.measured).transpose();
     unit.estimated.row(Index(w)).tail(kParts) = errors.estimated.transpose();
+    unit.by_output.row(Index(w)) += errors.by_output.transpose();
     unit.candidates[w].estimated_error += errors.estimated.mean();
     unit.candidates[w].measured_error += errors.measured.mean();
     if (w == 0) unit.size += errors.size;

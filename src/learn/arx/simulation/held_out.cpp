@@ -20,15 +20,18 @@ constexpr double kMaxError = 1e6;
 // Sums of squared errors by parts of all rows.
 class PartSums {
  public:
-  explicit PartSums(const SimulationBlock& block) : sum_(VectorXd::Zero(kParts)), rows_(sum_) {
+  explicit PartSums(const SimulationBlock& block)
+      : sum_(VectorXd::Zero(kParts)), rows_(sum_), of_output_(VectorXd::Zero(block.size())), counted_(of_output_) {
     for (const BlockRun& run : block.runs()) total_ += run.rows;
   }
 
-  void add(Index row, double error) {
+  void add(Index row, int output, double error) {
     const double size = std::isnan(error) ? kMaxError : std::min(std::abs(error), kMaxError);
     const Index part = row * kParts / total_;
     sum_[part] += size * size;
     ++rows_[part];
+    of_output_[output] += size * size;
+    ++counted_[output];
   }
 
   VectorXd means() const {
@@ -38,9 +41,13 @@ class PartSums {
     return out;
   }
 
+  VectorXd by_output() const { return of_output_.cwiseQuotient(counted_.cwiseMax(1)); }
+
  private:
   VectorXd sum_;
   VectorXd rows_;
+  VectorXd of_output_;
+  VectorXd counted_;
   Index total_ = 0;
 };
 
@@ -58,7 +65,7 @@ void add_errors(const SimulationBlock& block, const BlockRun& run, Index begin, 
   for (int o = 0; o < block.size(); ++o) {
     for (Index t = begin; t < end; ++t) {
       if (std::isnan(run.outputs(t, o))) continue;
-      sums.add(before + t - block.history(), run.outputs(t, o) - simulated(t - first, o));
+      sums.add(before + t - block.history(), o, run.outputs(t, o) - simulated(t - first, o));
     }
   }
 }
@@ -132,7 +139,7 @@ HeldOutErrors held_out_errors(const SimulationBlock& block, const VectorXd& thet
     add_measured_starts(block, run, before, from, measured);
     before += run.rows;
   }
-  return {estimated.means(), measured.means(), size_of(block)};
+  return {estimated.means(), measured.means(), size_of(block), estimated.by_output() + measured.by_output()};
 }
 
 HeldOutErrors held_out_errors(const SimulationBlock& block, const StateSpace& model, const ArxForm& form) {
@@ -145,7 +152,7 @@ HeldOutErrors held_out_errors(const SimulationBlock& block, const StateSpace& mo
     add_measured_starts(block, run, before, from, measured);
     before += run.rows;
   }
-  return {estimated.means(), measured.means(), size_of(block)};
+  return {estimated.means(), measured.means(), size_of(block), estimated.by_output() + measured.by_output()};
 }
 
 }  // namespace wisp::arx

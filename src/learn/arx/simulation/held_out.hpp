@@ -31,7 +31,8 @@ std::vector<Fold> folds_of(std::span<const Recording> recordings);
 struct HeldOutErrors {
   Eigen::VectorXd estimated;
   Eigen::VectorXd measured;
-  double size = 0;  ///< mean square of the outputs themselves
+  double size = 0;            ///< mean square of the outputs themselves
+  Eigen::VectorXd by_output;  ///< both kinds of starts together, over all parts
 };
 
 HeldOutErrors held_out_errors(const SimulationBlock& block, const Eigen::VectorXd& theta);
