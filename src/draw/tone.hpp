@@ -64,6 +64,10 @@ inline float dither_at(int x, int y) {
   return static_cast<float>(spread >> 8) / 16777216.0F;
 }
 
+/// What is added to a code before it is cut off to a whole one: as dithered() rounds, so that both ways to a pixel
+/// agree.
+inline float rounding_at(int x, int y) { return 0.004F + 0.992F * dither_at(x, y); }
+
 /// The emission that add_light() shows as that colour on black.
 Light emission_of(Colour colour);
 

@@ -20,7 +20,7 @@ constexpr std::string_view kFirstLine = "wisp-outline-part 1\n";
 constexpr std::size_t kMostShares = 1'000'000;
 constexpr std::string_view kAnyVersion = "wisp-outline-part ";
 
-std::uint64_t hash_of(std::string_view text) { return hash_bytes(std::as_bytes(std::span(text))); }
+std::uint64_t hash_of(std::string_view text) { return hash_bytes(std::as_bytes(std::span(text.data(), text.size()))); }
 
 // Whatever the folder is called on the machine of one job.
 std::uint64_t hash_of_names(const std::vector<std::string>& names) {
@@ -146,7 +146,7 @@ std::vector<std::byte> OutlinePart::bytes() const {
     out << "recording " << table.text.size() << ' ' << table.source << '\n' << table.text << '\n';
   }
   const std::string body = out.str(), whole = body + hash_line(body);
-  const auto bytes = std::as_bytes(std::span(whole));
+  const auto bytes = std::as_bytes(std::span(whole.data(), whole.size()));
   return {bytes.begin(), bytes.end()};
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cli/program.hpp"
+#include "wisp/capture/media/video.hpp"
 #include "wisp/draw/flame.hpp"
 #include "wisp/draw/video_writer.hpp"
 #include "wisp/model/file.hpp"
@@ -19,18 +20,18 @@ namespace fs = std::filesystem;
 
 constexpr int kWidth = 160, kHeight = 200, kFrames = 90;
 
-// A drop-shaped flame that sways and stretches, on black.
-Image flame_frame(int frame) {
+// A drop-shaped flame that sways and stretches, on black; `tapers` towards its tip.
+Image flame_frame(int frame, Point base = {80, 180}, double tapers = 0) {
   std::vector<Point> outline;
   const double sway = 0.15 * std::sin(0.9 * frame) + 0.1 * std::sin(0.37 * frame),
                height = 1 + 0.12 * std::sin(0.53 * frame);
   for (int k = 0; k <= 60; ++k) {
     const double t = k / 60.0, side = t < 0.5 ? -1 : 1, up = 1 - std::abs(2 * t - 1);
-    const double half_width = 0.16 * std::sqrt(1 - up) * (1 + 0.6 * up);
+    const double half_width = 0.16 * std::sqrt(1 - up) * (1 + 0.6 * up) * (1 - tapers * up);
     outline.push_back({static_cast<float>(side * half_width + sway * up * up), static_cast<float>(height * up)});
   }
   Image image(kWidth, kHeight);
-  const FlameScene scene{.base = {80, 180}, .pixels_per_unit = 120};
+  const FlameScene scene{.base = base, .pixels_per_unit = 120};
   draw_flame(image, outline, scene, {.glow = 0, .candle = false});
   return image;
 }
@@ -105,6 +106,33 @@ TEST_F(Clip, BecomesARecordingAModelAndPictures) {
   }
   EXPECT_EQ(wisp("run " + at("m.wisp") + " --frames 40 --instances 2 -o " + at("flame.mp4")).status, 0);
   EXPECT_GT(fs::file_size(at("flame.mp4")), 1000u);
+}
+
+TEST_F(Clip, AFilmStripShowsTheLearnedFlameInTheClipsOwnLightAndCrop) {
+  auto film =
+      VideoWriter::create(at("clip.mp4"), {.width = kWidth, .height = kHeight, .rate_hz = 30, .preset = "ultrafast"});
+  ASSERT_TRUE(film);
+  for (int k = 0; k < kFrames; ++k) ASSERT_TRUE(film->write(flame_frame(k, {80, 155}, 0.4)));
+  ASSERT_TRUE(film->finish());
+  fs::create_directories(at("strips"));
+  ASSERT_EQ(wisp("learn flame " + at("clip.mp4") + " -o " + at("m.wisp")).status, 0);
+  ASSERT_EQ(wisp("validate " + at("m.wisp") + " " + at("clip.mp4") + " --film-strip " + at("strips/1.png")).status, 0);
+  auto reader = VideoReader::open(at("strips"), {.rate_hz = 1});
+  ASSERT_TRUE(reader) << reader.error().message;
+  ASSERT_TRUE(*reader->next());
+  const RgbImage rgb = reader->rgb();
+  const Image strip = Image::from_rgb(rgb.pixels, rgb.width, rgb.height);
+  // What stands under the flame is the clip's, and not a candle of the program's own: the feet of both rows are alike.
+  constexpr int kFoot = 250, kHigh = 10, kRowsApart = 251;
+  double difference = 0;
+  for (int y = kFoot; y < kFoot + kHigh; ++y) {
+    for (int x = 0; x < strip.width(); ++x) {
+      const Colour above = strip.at(x, y), below = strip.at(x, y + kRowsApart);
+      difference +=
+          std::abs(above.red - below.red) + std::abs(above.green - below.green) + std::abs(above.blue - below.blue);
+    }
+  }
+  EXPECT_LT(difference / (3.0 * kHigh * strip.width()), 6);
 }
 
 TEST_F(Clip, TheSameSeedGivesTheSameBytes) {

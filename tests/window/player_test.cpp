@@ -305,8 +305,8 @@ TEST(Latency, IsAtMostAFrameABlockAndAModelStep) {
     const sounds::Samples silence = sounds::room(4, kRate, 0.001);
     sounds::Samples breath = silence;
     sounds::add(breath, sounds::steady_blowing(0.4, kRate, 0.2), onset, kRate);
-    // As large as a window is: a smaller picture shows the first hundredths of a lean a frame later.
-    Player calm = player_of("flame-4.wisp", {}, 1, 800), blown = player_of("flame-4.wisp", {}, 1, 800);
+    // Large, since the first hundredths of a lean change a grey level of a smaller picture a frame later.
+    Player calm = player_of("flame-4.wisp", {}, 1, 1200), blown = player_of("flame-4.wisp", {}, 1, 1200);
     Speaker quiet(calm, silence), loud(blown, breath);
     quiet.play_until(onset), loud.play_until(onset);
     ASSERT_EQ(calm.draw(), blown.draw());

@@ -81,7 +81,7 @@ const Image& CandlePictures::draw(std::span<const float> outlines) {
     draw_shapes(image_, flames);
     return image_;
   }
-  draw_night(image_);
+  draw_room(image_, flames);
   draw_flames(image_, flames);
   return image_;
 }

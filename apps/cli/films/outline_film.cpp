@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 
+#include "films/film_look.hpp"
 #include "wisp/capture/media/video.hpp"
 #include "wisp/draw/film_strip.hpp"
 #include "wisp/draw/flame.hpp"
@@ -137,73 +138,183 @@ Outline in_units(Outline outline, double pixels_per_unit) {
   return outline;
 }
 
-// A film strip's view of one frame, in the clip's pixels.
+Outline of_row(const OutlineRows& rows, std::size_t row) { return row < rows.size() ? rows[row] : Outline(); }
+
+double median_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Where a film strip's view of a frame lies. A camera that stands still shows a base that does, but for what its
+// threshold makes of the wick; one that is shaken, or a candle that is carried, shows one that moves.
+class Bases {
+ public:
+  Bases(const OutlineRows& captured, double unit) {
+    std::vector<double> across, down;
+    for (const Outline& outline : captured) {
+      if (outline.empty()) continue;
+      const Place base = base_of(outline);
+      across.push_back(base.x);
+      down.push_back(base.y);
+    }
+    if (across.empty()) return;
+    middle_ = {median_of(across), median_of(down)};
+    for (double& x : across) x = std::abs(x - middle_.x);
+    stands_ = median_of(across) < 0.05 * unit;
+  }
+
+  Place at(const Outline& outline) const { return stands_ ? middle_ : base_of(outline); }
+
+ private:
+  Place middle_{};
+  bool stands_ = true;
+};
+
+// A film strip's view of one frame, in the clip's pixels: as much around the base as all flames need and the clip has.
 struct Cell {
   double width = 0;
   double height = 0;
   double below_base = 0;
 };
 
-Cell cell_of(const StripContent& content) {
+Cell cell_of(const StripContent& content, const Bases& bases) {
   const double unit = content.pixels_per_unit;
   double highest = 1, widest = 0.4;
-  for (std::size_t row : content.rows) {
-    for (const OutlineRows* rows : {&content.captured, &content.synthesized}) {
-      for (const auto& point : in_units((*rows)[row], unit)) {
-        highest = std::max(highest, point[1]);
-        widest = std::max(widest, std::abs(point[0]));
-      }
+  Cell room{.width = 1e9, .height = 1e9, .below_base = 1e9};  // what the clip has
+  const auto look = [&](const Outline& outline) {
+    for (const auto& point : in_units(outline, unit)) {
+      highest = std::max(highest, point[1]);
+      widest = std::max(widest, std::abs(point[0]));
     }
+  };
+  for (std::size_t row : content.rows) {
+    const Outline outline = of_row(content.captured, row);
+    look(outline);
+    if (outline.empty() || content.clip_width == 0) continue;
+    const Place base = bases.at(outline);
+    room.width = std::min({room.width, 2 * base.x, 2 * (content.clip_width - base.x)});
+    room.height = std::min(room.height, base.y);
+    room.below_base = std::min(room.below_base, content.clip_height - 1 - base.y);
   }
-  return {2.3 * widest * unit, (highest + 0.55) * unit, 0.35 * unit};
+  for (std::size_t row : content.synthesized_rows) look(of_row(content.synthesized, row));
+  const double below = std::clamp(room.below_base, 0.05 * unit, 0.4 * unit);
+  const double above = std::clamp(room.height, highest * unit, (highest + 0.4) * unit);
+  return {std::clamp(room.width, 2.1 * widest * unit, 2.6 * widest * unit), above + below, below};
 }
 
-// The cartoon of a flame or the plain shape of another outline, as large as a cell.
-Image cartoon(const Outline& pixels, const StripContent& content, const Cell& cell) {
+// How a strip draws flames.
+struct Strip {
+  const StripContent& content;
+  Bases bases;
+  Cell cell;
+  FilmView view;
+  FilmLook look;
+};
+
+Strip strip_of(const StripContent& content) {
+  const Bases bases(content.captured, content.pixels_per_unit);
+  const Cell cell = cell_of(content, bases);
   const double scale = 2.0 * kStripCellHeight / cell.height;
-  Image image(static_cast<int>(std::lround(cell.width * scale)), 2 * kStripCellHeight);
+  FilmView view{.width = static_cast<int>(std::lround(cell.width * scale)),
+                .height = 2 * kStripCellHeight,
+                .unit = static_cast<float>(content.pixels_per_unit * scale)};
+  view.base = {static_cast<float>(view.width) / 2, static_cast<float>((cell.height - cell.below_base) * scale)};
+  return {content, bases, cell, view, FilmLook(view)};
+}
+
+// An outline in model units, in pixels of the view.
+std::vector<Point> in_view(const Outline& units, const FilmView& view) {
+  std::vector<Point> points;
+  for (const auto& [x, y] : units) {
+    points.push_back(
+        {view.base.x + view.unit * static_cast<float>(x), view.base.y - view.unit * static_cast<float>(y)});
+  }
+  return points;
+}
+
+// The same of an outline that was captured, in pixels of the clip: where it was about what the view is cut around.
+std::vector<Point> captured_in_view(const Outline& outline, const Strip& strip) {
+  const Place base = strip.bases.at(outline);
+  Outline units = outline;
+  for (auto& point : units) {
+    point = {(point[0] - base.x) / strip.content.pixels_per_unit, (base.y - point[1]) / strip.content.pixels_per_unit};
+  }
+  return in_view(units, strip.view);
+}
+
+// The cartoon of a flame or the plain shape of another outline, as large as the view.
+Image cartoon(const Outline& pixels, const Strip& strip) {
+  Image image(strip.view.width, strip.view.height);
   std::vector<Point> outline;
-  for (const auto& [x, y] : in_units(pixels, content.pixels_per_unit)) {
+  for (const auto& [x, y] : in_units(pixels, strip.content.pixels_per_unit)) {
     outline.push_back({static_cast<float>(x), static_cast<float>(y)});
   }
   FlameScene scene;
-  scene.base = {static_cast<float>(image.width() / 2.0), static_cast<float>((cell.height - cell.below_base) * scale)};
-  scene.pixels_per_unit = static_cast<float>(content.pixels_per_unit * scale);
-  if (!content.flame) {
+  scene.base = strip.view.base;
+  scene.pixels_per_unit = strip.view.unit;
+  if (!strip.content.flame) {
     const Flame shape{outline, scene};
     draw_shapes(image, {&shape, 1});
     return image;
   }
-  draw_night(image);
-  draw_flame(image, outline, scene);
+  const Flame flame{outline, scene};
+  draw_room(image, {&flame, 1});
+  draw_flames(image, {&flame, 1});
   return image;
 }
 
-// The filmed frame around the base; the cartoon of what was captured where there is no film.
-Image filmed(const Outline& outline, const Image& frame, const StripContent& content, const Cell& cell) {
-  if (outline.empty()) return {};
-  if (frame.empty()) return cartoon(outline, content, cell);
-  const Place base = base_of(outline);
-  const int width = static_cast<int>(std::lround(cell.width)), height = static_cast<int>(std::lround(cell.height));
-  const int left = static_cast<int>(std::lround(base.x - cell.width / 2));
-  const int top = static_cast<int>(std::lround(base.y + cell.below_base - cell.height));
-  return crop(frame, {left, top, width, height});
+// The model's outline as the clip's camera would have shown it; as a cartoon where there is no clip, or no flame.
+Image synthesized(const Outline& pixels, const Strip& strip) {
+  if (pixels.empty()) return {};
+  if (!strip.look.known() || !strip.content.flame) return cartoon(pixels, strip);
+  return strip.look.draw(in_view(in_units(pixels, strip.content.pixels_per_unit), strip.view));
 }
 
-// Of a row whose frame was lost, the next frame.
-Result<std::map<std::size_t, Image>> frames_at(const ClipFrames& clip, const std::vector<std::size_t>& rows) {
-  std::map<std::size_t, Image> frames;
-  if (clip.path.empty()) return frames;
+// The filmed frame around the base.
+Image filmed(const Outline& outline, const Image& frame, const Strip& strip) {
+  const Place base = strip.bases.at(outline);
+  const Cell& cell = strip.cell;
+  const int width = static_cast<int>(std::lround(cell.width)), height = static_cast<int>(std::lround(cell.height));
+  const int left = static_cast<int>(std::lround(base.x + 0.5 - cell.width / 2));
+  const int top = static_cast<int>(std::lround(base.y + 0.5 + cell.below_base - cell.height));
+  return resized(crop(frame, {left, top, width, height}), strip.view.width, strip.view.height);
+}
+
+// Rows whose frames teach what the flame looks like: those that are shown, and others of the clip's first minute.
+std::vector<std::size_t> lesson_of(const StripContent& content) {
+  constexpr std::size_t kLessons = 48, kLast = 1800;
+  std::vector<std::size_t> rows = content.rows;
+  const std::size_t count = std::min(content.captured.size(), kLast);
+  for (std::size_t row = 0; row < count; row += std::max<std::size_t>(1, count / kLessons)) rows.push_back(row);
+  std::ranges::sort(rows);
+  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+  return rows;
+}
+
+// Looks at the clip: learns its look, and keeps the views that are shown. Of a row whose frame was lost, the next
+// frame.
+Result<std::map<std::size_t, Image>> watch(const ClipFrames& clip, Strip& strip) {
+  std::map<std::size_t, Image> shown;
+  const StripContent& content = strip.content;
+  if (clip.path.empty()) return shown;
+  const std::vector<std::size_t> rows = lesson_of(content);
   auto wanted = rows.begin();
   auto read =
       for_each_row(clip, rows.back(), [&](std::size_t row, const std::function<Image()>& picture) -> Result<void> {
         if (wanted == rows.end() || *wanted > row) return {};
         const Image frame = picture();
-        for (; wanted != rows.end() && *wanted <= row; ++wanted) frames[*wanted] = frame;
+        for (; wanted != rows.end() && *wanted <= row; ++wanted) {
+          const Outline& outline = content.captured[*wanted];
+          if (outline.empty()) continue;
+          Image view = filmed(outline, frame, strip);
+          if (outline.size() >= 3 && *wanted == row) strip.look.learn(view, captured_in_view(outline, strip));
+          if (std::ranges::find(content.rows, *wanted) != content.rows.end()) shown[*wanted] = std::move(view);
+        }
         return {};
       });
   if (!read) return read.error();
-  return frames;
+  return shown;
 }
 
 }  // namespace
@@ -223,19 +334,22 @@ Result<void> write_overlay(const std::filesystem::path& out, const ClipFrames& c
 }
 
 Result<void> write_film_strip(const std::filesystem::path& out, const ClipFrames& clip, const StripContent& content) {
-  const auto frames = frames_at(clip, content.rows);
+  Strip strip = strip_of(content);
+  const auto frames = watch(clip, strip);
   if (!frames) return frames.error();
-  const Cell cell = cell_of(content);
-  FilmStrip strip{.rows = {{clip.path.empty() ? "captured" : "filmed", {}}, {content.synthesized_caption, {}}},
-                  .frame_height = kStripCellHeight};
-  for (std::size_t row : content.rows) {
+  FilmStrip picture{.rows = {{clip.path.empty() ? "captured" : "filmed", {}}, {content.synthesized_caption, {}}},
+                    .frame_height = kStripCellHeight};
+  for (std::size_t k = 0; k < content.rows.size(); ++k) {
+    const std::size_t row = content.rows[k];
     const auto found = frames->find(row);
-    const Image frame = found == frames->end() ? Image() : found->second;
-    strip.rows[0].frames.push_back(filmed(content.captured[row], frame, content, cell));
-    strip.rows[1].frames.push_back(cartoon(content.synthesized[row], content, cell));
-    strip.times.push_back(seconds_text(static_cast<double>(row - content.rows.front()) / content.rate_hz));
+    const Outline outline = of_row(content.captured, row);
+    picture.rows[0].frames.push_back(found != frames->end() ? found->second
+                                     : outline.empty()      ? Image()
+                                                            : cartoon(outline, strip));
+    picture.rows[1].frames.push_back(synthesized(of_row(content.synthesized, content.synthesized_rows[k]), strip));
+    picture.times.push_back(seconds_text(static_cast<double>(row - content.rows.front()) / content.rate_hz));
   }
-  const auto image = draw_film_strip(strip);
+  const auto image = draw_film_strip(picture);
   if (!image) return image.error();
   return write_png(out, *image);
 }

@@ -30,19 +30,21 @@ struct ClipFrames {
 Result<void> write_overlay(const std::filesystem::path& out, const ClipFrames& clip, const Recording& recording,
                            const OverlayContent& content, Terminal& terminal);
 
-/// What a film strip shows: columns of a recording above, the same moments of a synthesized life below.
+/// What a film strip shows: columns of a recording above, moments of a synthesized life in a like state below.
 struct StripContent {
-  std::vector<std::size_t> rows;   ///< of the recording, one a column
-  double rate_hz = 0;              ///< of the recording
-  const OutlineRows& captured;     ///< all rows, in pixels
-  const OutlineRows& synthesized;  ///< likewise
+  std::vector<std::size_t> rows;              ///< of the recording, one a column
+  std::vector<std::size_t> synthesized_rows;  ///< of the synthesized life, as many
+  double rate_hz = 0;                         ///< of both
+  const OutlineRows& captured;                ///< all rows, in pixels
+  const OutlineRows& synthesized;             ///< likewise
   double pixels_per_unit = 1;
-  bool flame = true;  ///< drawn as a cartoon flame; else as a plain shape
+  int clip_width = 0, clip_height = 0;  ///< pixels; 0: not known
+  bool flame = true;                    ///< drawn as a flame; else as a plain shape
   std::string synthesized_caption;
 };
 
-/// Writes the strip: filmed frames above (drawn from the captured outline where there is no clip), synthesized below.
-/// Errors: as write_overlay().
+/// Writes the strip: filmed frames above (drawn from the captured outline where there is no clip), below the
+/// synthesized ones in the clip's own crop, colours and exposure. Errors: as write_overlay().
 Result<void> write_film_strip(const std::filesystem::path& out, const ClipFrames& clip, const StripContent& content);
 
 }  // namespace wisp::cli

@@ -40,6 +40,14 @@ const states = {
   leaves: ['#scene=leaves', (page) => pass(page, 1.5)],
   many: ['#scene=leaves&leaves=10000', (page) => pass(page, 6)],
   drawer: ['#scene=candle', async (page) => { await page.click('#open-drawer'); await pass(page, 2); }],
+  day: ['#scene=candle', async (page) => { await page.emulateMedia({ colorScheme: 'light' }); await page.click('#open-drawer'); await pass(page, 2); }],
+  teacher: ['#scene=candle', async (page) => {
+    await page.emulateMedia({ colorScheme: 'light' });
+    await page.click('#open-drawer');
+    await page.click('text=Orders side by side');
+    await pass(page, 3);
+    await page.evaluate(() => document.querySelector('.lesson').scrollIntoView({ block: 'center' }));
+  }],
   overlay: ['#overlay&scene=candle&candles=7', (page) => pass(page, 2)],
   help: ['#scene=candle', async (page) => { await page.click('#open-help'); await pass(page, 0.5); }],
 };

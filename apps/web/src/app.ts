@@ -256,6 +256,7 @@ export class App {
       this.parts.senses.frame(lit, of, reading.wind, this.parts.ear.state !== 'off');
       this.parts.drawer.frame(reading, cost, seconds);
       this.controls.hear(this.parts.ear.state, this.parts.ear.level);
+      this.parts.tuning.frame();
     }
     this.probe.frames = this.stage.frames;
     this.probe.wind = reading.wind;
@@ -289,6 +290,7 @@ export class App {
     this.probe.candleX = scene.firstX;
     this.probe.leaves = null;
     const allLit = burning.lit === burning.of;
+    if (!allLit) this.parts?.ear.blownOut();
     this.controls.setActive(!allLit);
     if (allLit === this.wasLit) return;
     this.wasLit = allLit;

@@ -10,6 +10,7 @@ import { fillHelp } from './panel/help.js';
 import { saveGif, saveLoop, savePicture } from './saving.js';
 import { Senses } from './senses/senses.js';
 import { StudioDoor } from './studio_door.js';
+import { Tuning } from './panel/tuning.js';
 import { Ear } from './wind/ear.js';
 
 export { MOST_PACKED_BYTES, packModel } from './model_link.js';
@@ -20,7 +21,13 @@ export interface Parts {
   drawer: Drawer;
   senses: Senses;
   door: StudioDoor;
+  tuning: Tuning;
 }
+
+const UNTUNED = {
+  'too hard': 'Blow after blow, and it burns on. It can be tuned to your breath and this microphone.',
+  'too easy': 'This microphone is very sensitive: a soft breath may pass for a hard one. It can be tuned to your breath.',
+} as const;
 
 /** Makes it. */
 export function furnish(app: App): Parts {
@@ -28,7 +35,14 @@ export function furnish(app: App): Parts {
     wind: (wind) => app.breath.hear(wind, app.stage.frames),
     trouble: (words) => app.notices.say(words),
     ended: () => app.breath.deafen(),
+    untuned: (why) => app.notices.say(UNTUNED[why], { words: 'Tune it to my breath', accept: () => tuning.open() }),
   });
+  const tuning = new Tuning(ear, byId('tuning', HTMLElement), byId('blow', HTMLButtonElement));
+  byId('tune', HTMLButtonElement).addEventListener('click', () => tuning.open());
+  // What is filmed in the studio is not blown at.
+  app.keys.t = () => document.body.classList.contains('studying') || tuning.open();
+  const { escape } = app.keys;
+  app.keys.escape = () => (tuning.isOpen ? tuning.close() : escape?.());
   const drawer = new Drawer(app.wisp, byId('drawer', HTMLElement), {
     change: (change) => app.change(change),
     open: (file) => openDropped(app, { files: [file], entries: [] }),
@@ -41,7 +55,7 @@ export function furnish(app: App): Parts {
   });
   fillHelp(app.help);
   if (app.player.playing !== null) drawer.fill(app.player.playing, app.settings);
-  return { ear, drawer, senses: new Senses(), door: new StudioDoor(app) };
+  return { ear, drawer, senses: new Senses(), door: new StudioDoor(app), tuning };
 }
 
 /** Says what went wrong, as a sentence with its stop. */

@@ -51,6 +51,7 @@ export class StudioDoor {
     this.inside = true;
     const { app } = this;
     app.showDrawer(false);
+    app.parts?.tuning.close();
     if (app.parts !== null && app.parts.ear.state !== 'off') app.parts.ear.close();
     app.stage.stop();
     document.body.classList.add('studying');

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import { after, before, describe, it } from 'node:test';
-import { chromiumPath, openBrowser, until } from './browser.js';
+import { chromiumPath, openBrowser, openDrawer, until } from './browser.js';
 
 const model = (name) => fileURLToPath(new URL(`../public/models/${name}`, import.meta.url));
 
@@ -169,6 +169,11 @@ describe('the drawer', { skip }, () => {
     assert.equal(await hidden(), true);
     await page.keyboard.press('i');
     assert.equal(await hidden(), false);
+    // Also from beside it.
+    await page.focus('#stage');
+    await page.keyboard.press('Escape');
+    assert.equal(await hidden(), true);
+    await page.keyboard.press('i');
     await page.click('#drawer header button');
     assert.equal(await hidden(), true);
     await page.keyboard.press('i');
@@ -303,6 +308,14 @@ describe('the page', { skip }, () => {
     await until(page, 'two candles', () => window.wisp.burning.of === 2);
   });
 
+  it('leaves what a link says out of range as it is', async () => {
+    await page.evaluate(() => (location.hash = '#scene=candle&seed=4&candles=99&noise=-1'));
+    const frames = await page.evaluate(() => window.wisp.frames);
+    await until(page, 'some frames', (many) => window.wisp.frames > many + 5, frames);
+    assert.equal((await page.evaluate(() => window.wisp.burning)).of, 2);
+    assert.equal(await page.textContent('#count-shown'), '2');
+  });
+
   it('has its help by button and key', async () => {
     const open = () => page.evaluate(() => document.getElementById('help').open);
     await page.click('#open-help');
@@ -372,6 +385,35 @@ describe('the page', { skip }, () => {
     });
     assert.ok(ratio >= 4.5, `contrast ${ratio}`);
   });
+
+  for (const colorScheme of ['light', 'dark']) {
+    it(`has a drawer and a help that can be read in the ${colorScheme} theme`, async () => {
+      const themed = await opened.page('#scene=candle&seed=3&detail=0.2', { colorScheme });
+      await openDrawer(themed);
+      await themed.click('text=Orders side by side');
+      await themed.keyboard.press('?');
+      const found = await themed.evaluate(() => {
+        const numbers = (text) => text.match(/[\d.]+/g).map(Number);
+        const part = (value) => (value <= 10.31 ? value / 255 / 12.92 : ((value / 255 + 0.055) / 1.055) ** 2.4);
+        const light = ([r, g, b]) => 0.2126 * part(r) + 0.7152 * part(g) + 0.0722 * part(b);
+        const behind = (at) => {
+          const [r, g, b, alpha = 1] = numbers(getComputedStyle(at).backgroundColor);
+          if (alpha === 1 || at.matches('#drawer, #help')) return [r, g, b];
+          return behind(at.parentElement).map((below, k) => alpha * [r, g, b][k] + (1 - alpha) * below);
+        };
+        const texts = [...document.querySelectorAll('#drawer *, #help *')].filter((at) => [...at.childNodes].some((child) => child.nodeType === 3 && child.data.trim() !== ''));
+        const paper = light(behind(document.getElementById('drawer')));
+        return { paper, ratios: texts.map((at) => {
+          const [ink, under] = [light(numbers(getComputedStyle(at).color)), light(behind(at))];
+          return [at.textContent.slice(0, 30), (Math.max(ink, under) + 0.05) / (Math.min(ink, under) + 0.05)];
+        }) };
+      });
+      assert.ok(colorScheme === 'light' ? found.paper > 0.7 : found.paper < 0.05, `the drawer is ${found.paper}`);
+      assert.ok(found.ratios.length > 40);
+      assert.deepEqual(found.ratios.filter(([, ratio]) => ratio < 4.5), []);
+      await themed.close();
+    });
+  }
 
   it('stores nothing', async () => {
     assert.equal(await page.evaluate(() => localStorage.length + sessionStorage.length + document.cookie.length), 0);

@@ -141,8 +141,23 @@ describe('trouble', { skip }, () => {
         await new Promise((resolve) => registration.active.addEventListener('statechange', resolve, { once: true }));
       }
     });
+    // One module of the two, and no leaf before anybody has asked for one.
+    const names = () =>
+      kept.evaluate(async () => {
+        const all = await Promise.all((await caches.keys()).map(async (name) => (await caches.open(name)).keys()));
+        return all.flat().map(({ url }) => new URL(url).pathname);
+      });
+    const first = await names();
+    assert.equal(first.filter((name) => name.endsWith('.wasm')).length, 1);
+    assert.ok(!first.some((name) => name.includes('leaf.wisp')));
     await context.setOffline(true);
+    await kept.reload();
+    await until(kept, 'a candle burns', () => window.wisp?.burning?.lit === 1);
+    await context.setOffline(false);
     await kept.goto(`${opened.address}#detail=0.25&scene=leaves&leaves=5`);
+    await until(kept, 'leaves fall', () => window.wisp?.leaves?.count === 5);
+    for (const end = Date.now() + 20_000; !(await names()).some((name) => name.includes('leaf.wisp')); ) assert.ok(Date.now() < end);
+    await context.setOffline(true);
     await kept.reload();
     await until(kept, 'leaves fall', () => window.wisp?.leaves?.count === 5);
     await context.close();

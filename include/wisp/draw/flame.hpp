@@ -29,13 +29,13 @@ struct FlameStyle {
   float glow = 1.0F;        ///< strength of the halo, 0 … 4; 0 leaves it out
   float glow_reach = 1.0F;  ///< size of the halo, 0.25 … 4; 1 reaches about one flame height
 
-  bool candle = true;          ///< draw the candle; without it only the flame's own light and smoke
-  Colour wax{240, 226, 200};   ///< the candle's colour by daylight
-  float candle_width = 0.62F;  ///< 0.05 … 4; 22 mm under a flame of 35 mm
-  float candle_height = 2.2F;  ///< 0.05 … 20; what does not fit is cut off by the picture
-  float wick_gap = 0.12F;      ///< from the candle's top to the flame's base, 0 … 1
-  float wick_height = 0.24F;   ///< from the candle's top to the wick's end, 0 … 1
-  float ambient = 0.06F;       ///< light of the room on the candle, 0 … 1: it stays visible when the flame is out
+  bool candle = true;           ///< draw the candle; without it only the flame's own light and smoke
+  Colour wax{240, 226, 200};    ///< the candle's colour by daylight
+  float candle_width = 0.62F;   ///< 0.05 … 4; 22 mm under a flame of 35 mm
+  float candle_height = 0.95F;  ///< 0.05 … 20; what does not fit is cut off by the picture
+  float wick_gap = 0.12F;       ///< from the candle's top to the flame's base, 0 … 1
+  float wick_height = 0.24F;    ///< from the candle's top to the wick's end, 0 … 1
+  float ambient = 0.06F;        ///< light of the room on the candle, 0 … 1: it stays visible when the flame is out
 };
 
 /// The age of what never happened.
@@ -86,12 +86,13 @@ void draw_shapes(Image& image, std::span<const Flame> shapes);
 /// Draws one candle.
 void draw_flame(Image& image, std::span<const Point> outline, const FlameScene& scene, const FlameStyle& style = {});
 
-/// Fills a picture with a dark room for candles to stand in: a vertical gradient that is finer than 8 bits (dithered,
-/// so that video does not show steps).
-void draw_night(Image& image);
+/// Fills a picture with a dark room for candles to stand in: a wall and a table, lit by the flames from where they are,
+/// the candles' shadows on the table, and a little moonlight. Finer than 8 bits (dithered, so that video does not show
+/// steps). Draw the same flames over it.
+void draw_room(Image& image, std::span<const Flame> flames, const FlameStyle& style = {});
 
 /// A scene that frames one candle well in a picture of that size: the flame in the upper middle with room to lean and
-/// grow to twice its mean height, the candle reaching the lower edge.
+/// grow to twice its mean height, the candle standing on the table of draw_room().
 FlameScene framed(int width, int height);
 
 }  // namespace wisp

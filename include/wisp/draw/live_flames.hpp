@@ -1,5 +1,5 @@
 #pragma once
-// Candles in a dark room, drawn again and again: the picture of draw_night() and draw_flames(), for a window.
+// Candles in a dark room, drawn again and again: the picture of draw_room() and draw_flames(), for a window.
 //
 // What glows softly is computed on a grid of a quarter of the picture's size and brought up to it, already as codes of
 // the screen, where nothing but the dark room is behind; memory and room are kept. At 1280 × 800 that takes a seventh

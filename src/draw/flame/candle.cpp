@@ -162,9 +162,12 @@ class Shader {
   }
 
  private:
+  // What wall and table give back of the flame's light.
+  Light bounced(const Spot& spot) const { return (0.05F + 0.035F * (1 - spot.facing)) * wax_; }
+
   Light side_light(const Spot& spot) const {
     Light light = room_light(spot, wax_, style_.ambient, false) +
-                  own_.power * (flame_tint() * seeping(spot, wax_, style_.candle_width, lean_));
+                  own_.power * (flame_tint() * (seeping(spot, wax_, style_.candle_width, lean_) + bounced(spot)));
     for (const Lamp& lamp : near_) light = light + neighbour_light(spot, wax_, lamp, body_);
     return light;
   }

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <vector>
 
+#include "draw/flame/cells.hpp"
 #include "draw/flame/flame_layers.hpp"
-#include "draw/flame/night.hpp"
+#include "draw/flame/room.hpp"
 
 namespace wisp {
 
@@ -41,24 +42,31 @@ void draw_flame(Image& image, std::span<const Point> outline, const FlameScene& 
   draw_flames(image, std::span(&flame, 1), style);
 }
 
-void draw_night(Image& image) {
+void draw_room(Image& image, std::span<const Flame> flames, const FlameStyle& asked) {
+  if (image.empty()) return;
+  const FlameStyle style = held(asked);
+  std::vector<Stand> stands;
+  for (const Flame& flame : flames) stands.push_back(stand_of(flame.scene, style, lamp_of(flame)));
+  Room room(image.width(), image.height());
+  LightField codes = room.lit(stands);
   const Tone& tone = Tone::get();
+  for (Plane* plane : {&codes.red, &codes.green, &codes.blue}) {
+    for (float& value : plane->values) value = tone.code(value);
+  }
+  std::vector<float> scratch(static_cast<std::size_t>(codes.width()) + 2),
+      dither(static_cast<std::size_t>(image.width()));
+  Row row(image.width());
   for (int y = 0; y < image.height(); ++y) {
-    const Light light = night_light(static_cast<float>(y), image.height());
-    const Light code{tone.code(light.red), tone.code(light.green), tone.code(light.blue)};
-    const auto row = image.row(y);
-    for (int x = 0; x < image.width(); ++x) {
-      const float dither = dither_at(x, y);
-      row[x] = 0xFF000000U | dithered(code.red, dither) << 16 | dithered(code.green, dither) << 8 |
-               dithered(code.blue, dither);
-    }
+    for (int x = 0; x < image.width(); ++x) dither[static_cast<std::size_t>(x)] = rounding_at(x, y);
+    spread(codes, Between(y, codes.height()), scratch, row, image.width());
+    write_codes(row, dither.data(), image.row(y).data(), 0, image.width());
   }
 }
 
 FlameScene framed(int width, int height) {
   FlameScene scene;
-  scene.pixels_per_unit = std::min(static_cast<float>(height) * 0.38F, static_cast<float>(width) * 0.45F);
-  scene.base = {static_cast<float>(width) / 2, static_cast<float>(height) * 0.77F};
+  scene.pixels_per_unit = std::min(static_cast<float>(height) * 0.31F, static_cast<float>(width) * 0.45F);
+  scene.base = {static_cast<float>(width) / 2, static_cast<float>(height) * 0.63F};
   return scene;
 }
 

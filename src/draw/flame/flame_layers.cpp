@@ -54,6 +54,15 @@ Stage stage_of(const FlameScene& scene) {
   return stage;
 }
 
+// A very small flame burns blue.
+float sooting(const FlameShape& shape) { return smooth_step(0.06F, 0.40F, shape.height); }
+
+Lamp lamp_of(const FlameShape& shape, const FlameMood& mood) {
+  const float area = std::min(3.0F, shape.area / kCalmArea);
+  const float glowing = mood.brightness * (0.06F + 0.94F * mood.soot);
+  return {shape.middle, glowing * std::pow(area, 0.7F)};
+}
+
 // The wick hides what burns behind it, and most of what burns before it is thin there.
 Plane wick_shade(const Candle& candle) {
   constexpr float kHides = 0.82F;
@@ -122,12 +131,18 @@ Candle prepared(const Flame& flame, const FlameStyle& style, int width, int heig
   if (stage.mood.brightness <= 0) return candle;
   const float cap = std::max(0.03F, 0.55F * style.wick_gap);
   candle.shape = flame_shape(flame.outline, candle.scene, stage.scale, cap, width, height);
-  // A very small flame burns blue.
-  candle.mood.soot *= smooth_step(0.06F, 0.40F, candle.shape.height);
-  const float area = std::min(3.0F, candle.shape.area / kCalmArea);
-  const float glowing = candle.mood.brightness * (0.06F + 0.94F * candle.mood.soot);
-  candle.lamp = {candle.shape.middle, glowing * std::pow(area, 0.7F)};
+  candle.mood.soot *= sooting(candle.shape);
+  candle.lamp = lamp_of(candle.shape, candle.mood);
   return candle;
+}
+
+Lamp lamp_of(const Flame& flame) {
+  const FlameScene scene = held(flame.scene);
+  Stage stage = stage_of(scene);
+  if (stage.mood.brightness <= 0) return {};
+  const FlameShape shape = measured_shape(flame.outline, scene, stage.scale);
+  stage.mood.soot *= sooting(shape);
+  return lamp_of(shape, stage.mood);
 }
 
 std::array<HaloRing, 4> glow_rings(const FlameStyle& style, float unit) {

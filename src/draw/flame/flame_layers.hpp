@@ -27,6 +27,9 @@ FlameStyle held(FlameStyle style);
 /// Lays a flame over a picture of that size. Precondition: the style is in its ranges.
 Candle prepared(const Flame& flame, const FlameStyle& style, int width, int height);
 
+/// The flame as others see it, without laying it over a picture.
+Lamp lamp_of(const Flame& flame);
+
 /// Model units of the largest of them in pixels, at least 1.
 float largest_unit(std::span<const Candle> candles);
 

@@ -186,6 +186,10 @@ PixelBox visible_box(const Bounds& bounds, int width, int height) {
   return {left, top, right - left, bottom - top};
 }
 
+Point to_pixel(const FlameScene& scene, Point p) {
+  return {scene.base.x + scene.pixels_per_unit * p.x, scene.base.y - scene.pixels_per_unit * p.y};
+}
+
 void measure(FlameShape& shape, std::span<const Point> model) {
   const Point left = model.front();
   const Point right = model.back();
@@ -223,23 +227,29 @@ void fill_thickness(FlameShape& shape, std::span<const Point> pixels, const Boun
 
 }  // namespace
 
-FlameShape flame_shape(std::span<const Point> outline, const FlameScene& scene, float scale, float cap, int width,
-                       int height) {
+FlameShape measured_shape(std::span<const Point> outline, const FlameScene& scene, float scale) {
   FlameShape shape;
   std::vector<Point> points = finite_points(outline);
   if (points.size() < 3) return shape;
   for (Point& p : points) p = {scale * p.x, scale * p.y};
   measure(shape, points);
+  shape.reach = scene.pixels_per_unit * shape.height;
+  shape.base = to_pixel(scene, shape.base);
+  shape.middle = to_pixel(scene, shape.middle);
+  return shape;
+}
+
+FlameShape flame_shape(std::span<const Point> outline, const FlameScene& scene, float scale, float cap, int width,
+                       int height) {
+  FlameShape shape = measured_shape(outline, scene, scale);
   constexpr float kMinArea = 1e-5F;
   if (shape.area < kMinArea) return shape;
 
+  std::vector<Point> points = finite_points(outline);
+  for (Point& p : points) p = {scale * p.x, scale * p.y};
   close_base(points, cap);
+  std::ranges::transform(points, points.begin(), [&](Point p) { return to_pixel(scene, p); });
   const float unit = scene.pixels_per_unit;
-  shape.reach = unit * shape.height;
-  const auto to_pixel = [&](Point p) { return Point{scene.base.x + unit * p.x, scene.base.y - unit * p.y}; };
-  std::ranges::transform(points, points.begin(), to_pixel);
-  shape.base = to_pixel(shape.base);
-  shape.middle = to_pixel(shape.middle);
   const Bounds bounds = bounds_of(points);
   shape.box = visible_box(bounds, width, height);
   if (shape.empty()) return shape;

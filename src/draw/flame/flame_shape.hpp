@@ -29,6 +29,9 @@ struct FlameShape {
   bool empty() const { return box.width == 0; }
 };
 
+/// What can be said of an outline without laying it over a picture: base, middle, reach, height and area.
+FlameShape measured_shape(std::span<const Point> outline, const FlameScene& scene, float scale);
+
 /// Lays an outline (model units) over a picture of that size, `scale` times its size about the base. Points that are
 /// not finite are left out; the base is drawn as a drop around the wick, down to `cap` units under the base's middle.
 FlameShape flame_shape(std::span<const Point> outline, const FlameScene& scene, float scale, float cap, int width,

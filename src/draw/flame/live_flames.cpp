@@ -6,8 +6,9 @@
 #include <cmath>
 #include <vector>
 
+#include "draw/flame/cells.hpp"
 #include "draw/flame/flame_layers.hpp"
-#include "draw/flame/night.hpp"
+#include "draw/flame/room.hpp"
 
 namespace wisp {
 
@@ -15,15 +16,11 @@ using namespace drawing;
 
 namespace {
 
-// The soft grid has cells of 4 × 4 pixels. Rings of the glow that are too narrow for it are added around the flames
-// only, in the picture's own pixels.
-constexpr int kHalvings = 2;
-constexpr int kCell = 1 << kHalvings;
+// Rings of the glow that are too narrow for the soft grid are added around the flames only, in the picture's own
+// pixels.
 
 // Beyond this many standard deviations a ring adds nothing that could be seen.
 constexpr float kRingReach = 3.5F;
-
-int cells(int pixels) { return (pixels + kCell - 1) / kCell; }
 
 PixelBox grown(PixelBox box, int by, int width, int height) {
   const int left = std::max(0, box.x - by), top = std::max(0, box.y - by);
@@ -38,50 +35,6 @@ PixelBox on_grid(PixelBox box, int width, int height) {
   const int right = std::min(width, (cells(box.x + box.width) + 2) * kCell);
   const int bottom = std::min(height, (cells(box.y + box.height) + 2) * kCell);
   return {left, top, right - left, bottom - top};
-}
-
-// One row of a grid, or the place between two, as values of the picture's row.
-struct Between {
-  Between(int pixel, int count) {
-    const float at = (static_cast<float>(pixel) + 0.5F) / kCell - 0.5F;
-    const int below = static_cast<int>(std::floor(at));
-    share = at - static_cast<float>(below);
-    first = std::clamp(below, 0, count - 1);
-    second = std::clamp(below + 1, 0, count - 1);
-  }
-  int first = 0, second = 0;
-  float share = 0;
-};
-
-// Spreads a row of cells over pixels: linear between the middles of cells. `row` has a spare value at either end.
-void spread(const Plane& grid, const Between& y, std::vector<float>& row, float* out, int width) {
-  const float* a = grid.row(y.first);
-  const float* b = grid.row(y.second);
-  for (int k = 0; k < grid.width; ++k) row[k + 1] = a[k] + y.share * (b[k] - a[k]);
-  row[0] = row[1];
-  row[grid.width + 1] = row[grid.width];
-  // Each group of pixels lies between the middles of two cells; the first and the last group hang over the edge.
-  const int groups = (width + kCell / 2 + kCell - 1) / kCell;
-  float* group = out;
-  for (int k = 0; k < groups; ++k, group += kCell) {
-    const float from = row[k], step = (row[std::min(k + 1, grid.width + 1)] - from) / (2 * kCell);
-    for (int r = 0; r < kCell; ++r) group[r] = from + static_cast<float>(2 * r + 1) * step;
-  }
-}
-
-// The three channels of a row, with room for the groups that hang over both edges.
-struct Row {
-  explicit Row(int width) {
-    for (auto& channel : channels) channel.resize(static_cast<std::size_t>(width) + 2 * kCell);
-  }
-  const float* operator[](int channel) const { return channels[channel].data() + kCell / 2; }
-  std::array<std::vector<float>, 3> channels;
-};
-
-void spread(const LightField& grid, const Between& y, std::vector<float>& scratch, Row& row, int width) {
-  spread(grid.red, y, scratch, row.channels[0].data(), width);
-  spread(grid.green, y, scratch, row.channels[1].data(), width);
-  spread(grid.blue, y, scratch, row.channels[2].data(), width);
 }
 
 void clear(LightField& field, PixelBox box) {
@@ -133,23 +86,13 @@ void merge_meeting(std::vector<PixelBox>& boxes) {
   }
 }
 
-// Writes the codes of pixels that have only the room behind them; a loop that compilers make wide.
-void write_codes(const Row& codes, const float* dither, std::uint32_t* out, int first, int last) {
-  const float *red = codes[0], *green = codes[1], *blue = codes[2];
-  for (int x = first; x < last; ++x) {
-    const auto r = static_cast<std::int32_t>(std::min(255.0F, red[x] + dither[x]));
-    const auto g = static_cast<std::int32_t>(std::min(255.0F, green[x] + dither[x]));
-    const auto b = static_cast<std::int32_t>(std::min(255.0F, blue[x] + dither[x]));
-    out[x] = static_cast<std::uint32_t>(-0x1000000 | r << 16 | g << 8 | b);
-  }
-}
-
 }  // namespace
 
 struct LiveFlames::State {
   State(int width, int height, const FlameStyle& asked)
       : style(held(asked)),
-        night(width, height),
+        room(width, height),
+        behind(width, height),
         dither(width, height),
         own(width, height),
         glow(cells(width), cells(height)),
@@ -158,26 +101,27 @@ struct LiveFlames::State {
         code_row(width),
         scratch(static_cast<std::size_t>(cells(width)) + 2),
         bright(static_cast<std::size_t>(width) + 1) {
-    draw_night(night);
     for (int y = 0; y < height; ++y) {
-      // As dithered() rounds, so that both ways to a pixel agree.
-      for (int x = 0; x < width; ++x) dither.row(y)[x] = 0.004F + 0.992F * dither_at(x, y);
+      for (int x = 0; x < width; ++x) dither.row(y)[x] = rounding_at(x, y);
     }
   }
 
-  int width() const { return night.width(); }
-  int height() const { return night.height(); }
+  int width() const { return behind.width(); }
+  int height() const { return behind.height(); }
 
   void add_glow(std::span<const Candle> candles);
   void add_narrow_rings(std::span<const HaloRing> rings, PixelBox lit);
   void gather(Plane& luminance, PixelBox lit) const;
+  void draw_room(std::span<const Candle> candles);
   void make_codes();
   void show(Image& image);
   void show_row(Image& image, int y);
   void mark_bright(int y);
 
   FlameStyle style;
-  Image night;
+  Room room;
+  const LightField* room_light = nullptr;  // of this picture
+  Image behind;                            // the room alone
   Plane dither;
   LightField own;   // flames and embers, in pixels; dark outside `lit`
   LightField glow;  // what surrounds them, in cells
@@ -236,20 +180,35 @@ void LiveFlames::State::add_glow(std::span<const Candle> candles) {
   for (const PixelBox& box : lit) add_narrow_rings(narrow, box);
 }
 
+void LiveFlames::State::draw_room(std::span<const Candle> candles) {
+  std::vector<Stand> stands;
+  for (const Candle& candle : candles) stands.push_back(stand_of(candle.scene, style, candle.lamp));
+  room_light = &room.lit(stands);
+  const Tone& tone = Tone::get();
+  for (const auto& [from, to] : {std::pair{&room_light->red, &codes.red}, std::pair{&room_light->green, &codes.green},
+                                 std::pair{&room_light->blue, &codes.blue}}) {
+    std::ranges::transform(from->values, to->values.begin(), [&](float light) { return tone.code(light); });
+  }
+  for (int y = 0; y < height(); ++y) {
+    spread(codes, Between(y, codes.height()), scratch, code_row, width());
+    write_codes(code_row, dither.row(y), behind.row(y).data(), 0, width());
+  }
+}
+
 // What the room and the glow look like where nothing else is.
 void LiveFlames::State::make_codes() {
   const Tone& tone = Tone::get();
   for (int y = 0; y < glow.height(); ++y) {
-    const Light room = night_light(kCell * (static_cast<float>(y) + 0.5F) - 0.5F, height());
-    const auto fill = [&](const Plane& light, float there, Plane& code) {
-      const float* from = light.row(y);
+    const auto fill = [&](const Plane& light, const Plane& there, Plane& code) {
+      const float *from = light.row(y), *behind_it = there.row(y);
       float* to = code.row(y);
-      const float dark = 1 - there;
-      for (int x = 0; x < light.width; ++x) to[x] = tone.code(1 - dark * transmitted(style.exposure * from[x]));
+      for (int x = 0; x < light.width; ++x) {
+        to[x] = tone.code(1 - (1 - behind_it[x]) * transmitted(style.exposure * from[x]));
+      }
     };
-    fill(glow.red, room.red, codes.red);
-    fill(glow.green, room.green, codes.green);
-    fill(glow.blue, room.blue, codes.blue);
+    fill(glow.red, room_light->red, codes.red);
+    fill(glow.green, room_light->green, codes.green);
+    fill(glow.blue, room_light->blue, codes.blue);
   }
 }
 
@@ -267,7 +226,7 @@ void LiveFlames::State::show_row(Image& image, int y) {
   spread(glow, place, scratch, light_row, width());
   mark_bright(y);
   std::uint32_t* pixels = image.row(y).data();
-  const std::uint32_t* empty = night.row(y).data();
+  const std::uint32_t* empty = behind.row(y).data();
   const std::array<const float*, 3> flame{own.red.row(y), own.green.row(y), own.blue.row(y)};
   const auto plain = [&](int x) { return !bright[x] && pixels[x] == empty[x]; };
   const auto lit_pixel = [&](int x) {
@@ -301,12 +260,12 @@ LiveFlames::~LiveFlames() = default;
 
 void LiveFlames::draw(Image& image, std::span<const Flame> flames) {
   State& state = *state_;
-  image = state.night;
   for (const PixelBox& box : state.lit) clear(state.own, box);
   state.lit.clear();
-  if (flames.empty()) return;
   std::vector<Candle> candles;
   for (const Flame& flame : flames) candles.push_back(prepared(flame, state.style, state.width(), state.height()));
+  state.draw_room(candles);
+  image = state.behind;
   draw_behind(image, candles, state.style);
   for (const Candle& candle : candles) {
     add_own_light(state.own, candle, state.style);

@@ -33,10 +33,11 @@ struct Swing {
 
 std::array<Swing, 4> swings_of(std::uint64_t seed) {
   const auto phase = [&](int k) { return random_at(seed, 16 + k); };
-  return {{{0.55F, 0.150F, 0.03F, phase(0), 0.12F},
-           {1.20F, 0.075F, 0.08F, phase(1), 0.26F},
-           {2.30F, 0.034F, 0.045F, phase(2), -0.34F},
-           {4.30F, 0.010F, 0.012F, phase(3), 0.5F}}};
+  // Nothing of a swing may overtake what rises before it: the ribbon would fold into rungs.
+  return {{{0.50F, 0.135F, 0.012F, phase(0), 0.10F},
+           {1.05F, 0.052F, 0.014F, phase(1), 0.20F},
+           {1.90F, 0.017F, 0.007F, phase(2), -0.26F},
+           {3.60F, 0.004F, 0.002F, phase(3), 0.4F}}};
 }
 
 // Where smoke of that age is that left the wick at `left` seconds after it went out: model units from the wick's end.
@@ -116,7 +117,7 @@ Plume risen(const Image& image, const FlameScene& scene, Point wick_end, float c
 }
 
 Light smoke_light(const FlameScene& scene, Point wick_end, std::span<const Lamp> lamps) {
-  Light light{0.105F, 0.118F, 0.145F};
+  Light light{0.125F, 0.140F, 0.172F};
   for (const Lamp& lamp : lamps) {
     const float dx = (lamp.place.x - wick_end.x) / scene.pixels_per_unit;
     const float dy = (lamp.place.y - wick_end.y) / scene.pixels_per_unit + 0.6F;

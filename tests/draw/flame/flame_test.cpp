@@ -419,17 +419,43 @@ TEST(Flame, OnATransparentPictureItsLightIsWhatCovers) {
   }
 }
 
-TEST(Night, IsOpaqueDarkAndDithered) {
+TEST(Room, WithoutFlamesIsOpaqueDarkAndDithered) {
   Image image(64, 200, {0, 0, 0, 0});
-  draw_night(image);
+  draw_room(image, {});
   int mixed_rows = 0;
   for (int y = 0; y < image.height(); ++y) {
     const auto row = image.row(y);
     mixed_rows += std::ranges::any_of(row, [&](std::uint32_t pixel) { return pixel != row[0]; }) ? 1 : 0;
     EXPECT_EQ(row[0] >> 24, 255U);
-    EXPECT_LT(brightness_at(image, 0, y), 30);
+    EXPECT_LT(brightness_at(image, 0, y), 40);
   }
   EXPECT_GT(mixed_rows, 150);
+}
+
+// The room around a candle in the middle whose flame leans to a side.
+Image room_around(float lean, FlameScene scene = framed(400, 300)) {
+  const auto outline = drop_outline(lean);
+  const Flame flame{outline, scene};
+  Image image(400, 300);
+  draw_room(image, {&flame, 1});
+  return image;
+}
+
+TEST(Room, ItsWallIsLitByTheFlameAndFallsOffAwayFromIt) {
+  const Image lit = room_around(0);
+  EXPECT_GT(brightness_at(lit, 200, 120), brightness_at(lit, 60, 120) + 20);
+  EXPECT_GT(brightness_at(lit, 60, 120), brightness_at(lit, 2, 2));
+  FlameScene out = framed(400, 300);
+  out.seconds_since_out = 3;
+  EXPECT_GT(brightness_at(lit, 200, 120), brightness_at(room_around(0, out), 200, 120) + 20);
+}
+
+TEST(Room, ItsLightAndTheCandlesShadowFollowTheFlame) {
+  const Image left = room_around(-0.5F), right = room_around(0.5F);
+  EXPECT_GT(brightness_at(right, 260, 120), brightness_at(left, 260, 120));
+  // On the table beside the foot: a flame on the right throws the candle's shadow to the left.
+  EXPECT_GT(brightness_at(right, 245, 285), brightness_at(right, 155, 285));
+  EXPECT_GT(brightness_at(left, 155, 285), brightness_at(left, 245, 285));
 }
 
 TEST(Framed, LeavesRoomForAFlameOfTwiceItsHeight) {

@@ -29,6 +29,7 @@ export class Controls {
   private readonly blowWord = byId('blow-word', HTMLSpanElement);
   private readonly ring = document.getElementById('blow-ring');
   private readonly act = byId('act', HTMLButtonElement);
+  private readonly tune = byId('tune', HTMLButtonElement);
   private tab: SceneName | null = 'candle';
   private word = '';
   private shownLevel = -1;
@@ -92,6 +93,7 @@ export class Controls {
       this.blow.setAttribute('aria-label', state === 'off' ? 'Blow: microphone on' : `${words[state]}: microphone off`);
       this.blow.classList.toggle('live', state === 'calibrating' || state === 'listening');
       this.blow.classList.toggle('small-word', state !== 'off');
+      this.tune.hidden = state !== 'listening';
     }
     const shown = Math.round(100 * Math.max(0, Math.min(1, level)));
     if (shown === this.shownLevel) return;

@@ -9,7 +9,7 @@ import { factsOf } from './facts.js';
 import { saveFile } from '../saving.js';
 import { introductionTo } from './introduction.js';
 import { Lesson } from './lesson.js';
-import { Plot } from './plot.js';
+import { Plot, type Ink } from './plot.js';
 import { PlotRecord } from './record.js';
 import { telling } from './telling.js';
 
@@ -116,7 +116,7 @@ export class Drawer {
 
   private livePlots(shown: Shown, settings: Readonly<Settings>): HTMLElement {
     const section = element('section', {}, element('h3', {}, 'Live'));
-    const add = (name: 'wind' | 'answer' | 'cost', words: string, colour: string, least: readonly [number, number]): Plot => {
+    const add = (name: 'wind' | 'answer' | 'cost', words: string, colour: Ink, least: readonly [number, number]): Plot => {
       const canvas = element('canvas', { class: 'plot', 'aria-hidden': 'true' });
       const output = element('output');
       this.outputs[name] = output;
@@ -124,9 +124,9 @@ export class Drawer {
       return new Plot(canvas, colour, least);
     };
     this.plots = {
-      wind: add('wind', 'Wind in', '#7fc4ff', [-0.2, 1]),
-      answer: add('answer', `Out: ${shown.answerName}`, '#ffb35c', [-0.3, 0.3]),
-      cost: add('cost', 'Our time a frame', '#9fd8a4', [0, 4]),
+      wind: add('wind', 'Wind in', ['#7fc4ff', '#1767a8'], [-0.2, 1]),
+      answer: add('answer', `Out: ${shown.answerName}`, ['#ffb35c', '#b25a00'], [-0.3, 0.3]),
+      cost: add('cost', 'Our time a frame', ['#9fd8a4', '#2c7a3a'], [0, 4]),
     };
     const csv = telling('Save this minute as CSV', 'csv', '', () => {
       saveFile(new Blob([this.record.csv(shown.answerName)], { type: 'text/csv' }), 'wisp.csv');

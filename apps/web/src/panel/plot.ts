@@ -2,6 +2,13 @@
 
 const KEPT = 360;
 
+/** A line's colours: on the drawer by night, and by day. */
+export type Ink = readonly [night: string, day: string];
+
+const day = window.matchMedia('(prefers-color-scheme: light)');
+const ZERO: Ink = ['rgb(255 240 220 / 22%)', 'rgb(60 40 20 / 26%)'];
+const shade = ([night, light]: Ink): string => (day.matches ? light : night);
+
 export class Plot {
   private readonly values = new Float32Array(KEPT);
   private newest = 0;
@@ -10,7 +17,7 @@ export class Plot {
   /** `least`: the range is never drawn narrower than from the first to the second. */
   constructor(
     private readonly canvas: HTMLCanvasElement,
-    private readonly colour: string,
+    private readonly colour: Ink,
     private readonly least: readonly [number, number],
   ) {}
 
@@ -49,13 +56,13 @@ export class Plot {
       high = Math.max(high, this.at(k));
     }
     const y = (value: number): number => height - 3 - ((value - low) / (high - low || 1)) * (height - 6);
-    context.strokeStyle = 'rgb(255 240 220 / 22%)';
+    context.strokeStyle = shade(ZERO);
     context.lineWidth = 1;
     context.beginPath();
     context.moveTo(0, Math.round(y(0)) + 0.5);
     context.lineTo(width, Math.round(y(0)) + 0.5);
     context.stroke();
-    context.strokeStyle = this.colour;
+    context.strokeStyle = shade(this.colour);
     context.lineWidth = 1.6 * share;
     context.lineJoin = 'round';
     context.beginPath();

@@ -2,7 +2,7 @@
 // press.
 
 import type { Library } from '@wisp/player';
-import { MicrophoneError, openMicrophone, type Microphone, type MicrophoneTrouble } from '@wisp/player/microphone';
+import { MicrophoneError, openMicrophone, type Microphone, type MicrophoneTrouble, type Wind } from '@wisp/player/microphone';
 import type { Hearing } from '../panel/controls.js';
 
 /** Seconds that the room is listened to before it counts. */
@@ -10,6 +10,15 @@ const CALIBRATION = 3;
 
 /** A room that is so much louder than it was, dB, has something steady in it that passes for wind. */
 const LOUDER = 6;
+
+/** Wind at which a blow begins, and at which it is over. */
+const BLOW = { from: 0.35, to: 0.1 };
+
+/** Blows that put nothing out until tuning is offered. */
+const VAIN_BLOWS = 3;
+
+/** Share of samples at full scale from which a microphone is too sensitive to tell soft from hard by itself. */
+const CLIPPED = 0.02;
 
 const STEADY =
   'It has become louder here since I listened to the room: a fan, rain or an engine may pass for breath. Press Blow twice to listen anew.';
@@ -20,7 +29,14 @@ export interface EarEvents {
   trouble(words: string): void;
   /** it hears no more, for whatever reason */
   ended(): void;
+  /** tuning to this microphone and this breath would help: said at most once, and why */
+  untuned(why: 'too hard' | 'too easy'): void;
 }
+
+/** What a guided calibration asks for. */
+export type Asked = Parameters<Microphone['calibrate']>[1];
+
+type Calibration = Awaited<ReturnType<Microphone['calibration']>>;
 
 const ELSE = ' Until then a quick move past the flame makes wind too.';
 
@@ -39,6 +55,15 @@ export class Ear {
   private wind = 0;
   private since = 0;
   private louder = false;
+  /** what a guided calibration has found out: kept for when the microphone is opened again */
+  private known: Calibration | null = null;
+  private tuning = false;
+  private answer: ((heard: boolean) => void) | null = null;
+  /** how strong a breath is, also while nothing of it reaches the scene */
+  private heard = 0;
+  private blowing = false;
+  private vain = 0;
+  private offered = false;
   /** counts openings: one that was closed again before it was allowed is dropped */
   private turn = 0;
 
@@ -50,7 +75,7 @@ export class Ear {
   /** How far the calibration is, or how strong the breath is: 0 to 1. */
   get level(): number {
     if (this.state === 'calibrating') return (performance.now() - this.since) / 1000 / CALIBRATION;
-    return this.state === 'listening' ? this.wind / 1.5 : 0;
+    return this.state === 'listening' ? (this.tuning ? this.heard : this.wind) / 1.5 : 0;
   }
 
   /** Asks for the microphone. Resolves when it listens, or does not. */
@@ -61,9 +86,15 @@ export class Ear {
     try {
       const microphone = await openMicrophone(this.wisp, {
         calibrate: CALIBRATION,
-        onWind: ({ wind, roomRise, calibrating }) => {
-          this.hear(wind, calibrating);
-          this.watchRoom(roomRise);
+        ...(this.known === null ? {} : { calibration: this.known }),
+        onWind: (frame) => {
+          this.hear(frame);
+          this.watchRoom(frame.roomRise);
+          this.watchBlows(frame);
+        },
+        onCalibrated: (known, heard) => {
+          if (this.tuning && heard) this.known = known;
+          this.answered(heard);
         },
         onLost: (error) => this.fail(error),
       });
@@ -89,13 +120,58 @@ export class Ear {
     this.microphone = null;
     this.state = 'off';
     this.wind = 0;
+    this.heard = 0;
+    this.answered(false);
     this.events.ended();
   }
 
-  private hear(wind: number, calibrating: boolean): void {
-    this.wind = calibrating ? 0 : wind;
-    if (this.microphone !== null) this.state = calibrating ? 'calibrating' : 'listening';
-    if (!calibrating) this.events.wind(wind);
+  /** While a guided calibration is on, what is heard does not blow at anything. */
+  tune(on: boolean): void {
+    this.tuning = on;
+    this.offered = true;
+    if (on) this.events.ended();
+  }
+
+  /** Listens for what was asked for; whether it was heard. Never when the microphone is off. */
+  listenFor(asked: Asked, seconds: number): Promise<boolean> {
+    this.answered(false);
+    if (this.microphone === null) return Promise.resolve(false);
+    this.microphone.calibrate(seconds, asked);
+    return new Promise((resolve) => (this.answer = resolve));
+  }
+
+  /** A candle went out: blowing does something. */
+  blownOut(): void {
+    this.vain = 0;
+    this.blowing = false;
+  }
+
+  private answered(heard: boolean): void {
+    const answer = this.answer;
+    this.answer = null;
+    answer?.(heard);
+  }
+
+  private hear({ wind, speed, confidence, calibrating }: Wind): void {
+    const silent = calibrating || this.tuning;
+    this.heard = confidence > 0.5 ? speed : 0;
+    this.wind = silent ? 0 : wind;
+    if (this.microphone !== null) this.state = calibrating && !this.tuning ? 'calibrating' : 'listening';
+    if (!silent) this.events.wind(wind);
+  }
+
+  /** Offers tuning where a microphone is overdriven by breath, or where blow after blow puts nothing out. */
+  private watchBlows({ wind, clipped, confidence }: Wind): void {
+    if (this.offered || this.tuning || this.state !== 'listening') return;
+    if (clipped > CLIPPED && confidence > 0.5) return this.offer('too easy');
+    if (this.blowing && wind < BLOW.to && ++this.vain >= VAIN_BLOWS) return this.offer('too hard');
+    if (wind > BLOW.from) this.blowing = true;
+    else if (wind < BLOW.to) this.blowing = false;
+  }
+
+  private offer(why: 'too hard' | 'too easy'): void {
+    this.offered = true;
+    this.events.untuned(why);
   }
 
   /** Says once that something steady has begun since the room was learned. */

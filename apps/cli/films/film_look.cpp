@@ -1,0 +1,224 @@
+#include "films/film_look.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace wisp::cli {
+namespace {
+
+// The table of the flame's colours. Height is in heights of the outline that burns, since a flame that stretches
+// stretches its colours; depth is in mean flame heights, since glow and edge are the camera's and not the flame's.
+constexpr int kHeights = 40;
+constexpr float kTop = 1.6F;
+constexpr int kDepths = 48;
+constexpr float kOutside = -0.30F, kInside = 0.18F;
+
+// Farther outside than this the flame's glow is lost in the surroundings.
+constexpr float kGlowEnds = -0.26F, kGlowWhole = -0.10F;
+
+// Under the base stands what does not sway; up to the other height, in mean flame heights, what is found not to: wick,
+// foot.
+constexpr float kUnder = -0.04F, kFootBegins = 0.05F, kFootEnds = 0.22F;
+
+// Standard deviations, in codes, of a pixel that is still and of one that is not.
+constexpr float kStill = 6, kMoves = 18;
+
+// 0 at `low` and beyond, 1 at `high`; `high` may be the smaller.
+float smooth(float low, float high, float value) {
+  const float t = std::clamp((value - low) / (high - low), 0.0F, 1.0F);
+  return t * t * (3 - 2 * t);
+}
+
+float square_distance(Point p, Point a, Point b) {
+  const float dx = b.x - a.x, dy = b.y - a.y;
+  const float length = dx * dx + dy * dy;
+  const float along = length > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / length, 0.0F, 1.0F) : 0;
+  const float x = a.x + along * dx - p.x, y = a.y + along * dy - p.y;
+  return x * x + y * y;
+}
+
+// How deep a pixel lies inside the outline: positive inside, in pixels, not below −`reach`.
+float depth_of(Point p, std::span<const Point> outline, float reach) {
+  float nearest = reach * reach;
+  bool inside = false;
+  for (std::size_t k = 0; k < outline.size(); ++k) {
+    const Point a = outline[k], b = outline[(k + 1) % outline.size()];
+    nearest = std::min(nearest, square_distance(p, a, b));
+    const bool crosses = (a.y > p.y) != (b.y > p.y);
+    if (crosses && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
+  }
+  return inside ? std::sqrt(nearest) : -std::sqrt(nearest);
+}
+
+// Where a pixel lies in the flame of an outline.
+struct Place {
+  float height = 0;  // 0 at the base, 1 at the outline's top
+  float depth = 0;   // inside the outline, mean flame heights
+};
+
+class Places {
+ public:
+  Places(const FilmView& view, std::span<const Point> outline) : view_(view), outline_(outline) {
+    float top = outline[0].y;
+    for (const Point p : outline) {
+      top = std::min(top, p.y);
+      left_ = std::min(left_, p.x);
+      right_ = std::max(right_, p.x);
+    }
+    tall_ = std::max(0.2F * view.unit, view.base.y - top);
+  }
+
+  Place at(int x, int y) const {
+    const Point p{static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F};
+    const float reach = -kOutside * view_.unit;
+    const float height = std::max(0.0F, (view_.base.y - p.y) / tall_);
+    if (p.x < left_ - reach || p.x > right_ + reach || p.y < view_.base.y - tall_ - reach) return {height, kOutside};
+    return {height, depth_of(p, outline_, reach) / view_.unit};
+  }
+
+ private:
+  const FilmView& view_;
+  std::span<const Point> outline_;
+  float left_ = 1e9F, right_ = -1e9F, tall_ = 1;
+};
+
+float height_index(float height) { return std::clamp(height / kTop, 0.0F, 1.0F) * (kHeights - 1); }
+float depth_index(float depth) {
+  return std::clamp((depth - kOutside) / (kInside - kOutside), 0.0F, 1.0F) * (kDepths - 1);
+}
+
+float square(float value) { return value * value; }
+
+float light_of(std::uint32_t pixel) {
+  return static_cast<float>((pixel >> 16 & 0xFFU) + (pixel >> 8 & 0xFFU) + (pixel & 0xFFU)) / 3;
+}
+
+template <class Sum>
+void add(Sum& sum, std::uint32_t pixel, float weight = 1) {
+  for (int c = 0; c < 3; ++c) sum[c] += weight * static_cast<float>(pixel >> (16 - 8 * c) & 0xFFU);
+  sum[3] += weight;
+}
+
+template <class Sum>
+Sum mean(const Sum& sum) {
+  if (sum[3] == 0) return sum;
+  return {sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3], 1};
+}
+
+template <class Sum>
+Sum mix(const Sum& a, const Sum& b, float share) {
+  Sum out{};
+  for (std::size_t c = 0; c < out.size(); ++c) out[c] = a[c] + share * (b[c] - a[c]);
+  return out;
+}
+
+// Gives every empty place of a row or column what its nearest filled neighbours have, in proportion.
+template <class Sum>
+void fill_gaps(Sum* line, int count, int stride) {
+  int before = -1;
+  for (int k = 0; k <= count; ++k) {
+    if (k < count && line[k * stride][3] == 0) continue;
+    for (int gap = before + 1; gap < k; ++gap) {
+      if (before < 0 && k == count) return;
+      const float share = static_cast<float>(gap - before) / static_cast<float>(k - before);
+      line[gap * stride] = before < 0   ? line[k * stride]
+                           : k == count ? line[before * stride]
+                                        : mix(line[before * stride], line[k * stride], share);
+    }
+    before = k;
+  }
+}
+
+template <class Sum>
+Sum bilinear(const std::vector<Sum>& table, float height, float depth) {
+  const int i = std::min(static_cast<int>(height), kHeights - 2), j = std::min(static_cast<int>(depth), kDepths - 2);
+  const float a = height - static_cast<float>(i), b = depth - static_cast<float>(j);
+  const Sum* at = table.data() + static_cast<std::ptrdiff_t>(i) * kDepths + j;
+  return mix(mix(at[0], at[1], b), mix(at[kDepths], at[kDepths + 1], b), a);
+}
+
+}  // namespace
+
+FilmLook::FilmLook(const FilmView& view)
+    : view_(view),
+      flame_(static_cast<std::size_t>(kHeights) * kDepths),
+      around_(static_cast<std::size_t>(view.width) * view.height),
+      still_(around_.size()),
+      squares_(around_.size()) {
+  assert(view.width >= 1 && view.height >= 1 && view.unit > 0);
+}
+
+void FilmLook::learn(const Image& frame, std::span<const Point> outline) {
+  assert(frame.width() == view_.width && frame.height() == view_.height && outline.size() >= 3);
+  const Places places(view_, outline);
+  for (int y = 0; y < view_.height; ++y) {
+    const auto row = frame.row(y);
+    for (int x = 0; x < view_.width; ++x) {
+      const std::size_t pixel = static_cast<std::size_t>(y) * view_.width + x;
+      const Place place = places.at(x, y);
+      add(still_[pixel], row[x]);
+      squares_[pixel] += square(light_of(row[x]));
+      // The farther the flame was, the surer; where it never was far, what is known counts all the same.
+      if (place.depth <= kGlowWhole) add(around_[pixel], row[x], 0.001F + smooth(kGlowWhole, kOutside, place.depth));
+      if (place.height <= 0) continue;
+      const auto i = static_cast<std::size_t>(std::lround(height_index(place.height)));
+      const auto j = static_cast<std::size_t>(std::lround(depth_index(place.depth)));
+      add(flame_[i * kDepths + j], row[x]);
+    }
+  }
+  ++frames_;
+}
+
+std::vector<FilmLook::Sum> FilmLook::flame_colours() const {
+  std::vector<Sum> table(flame_.size());
+  std::ranges::transform(flame_, table.begin(), [](const Sum& sum) { return mean(sum); });
+  for (int i = 0; i < kHeights; ++i) fill_gaps(table.data() + static_cast<std::ptrdiff_t>(i) * kDepths, kDepths, 1);
+  for (int j = 0; j < kDepths; ++j) fill_gaps(table.data() + j, kHeights, kDepths);
+  return table;
+}
+
+// Where a flame always was, what is behind it is guessed from both sides.
+std::vector<FilmLook::Sum> FilmLook::surroundings() const {
+  std::vector<Sum> plate(around_.size());
+  std::ranges::transform(around_, plate.begin(), [](const Sum& sum) { return mean(sum); });
+  for (int y = 0; y < view_.height; ++y) {
+    fill_gaps(plate.data() + static_cast<std::ptrdiff_t>(y) * view_.width, view_.width, 1);
+  }
+  for (int x = 0; x < view_.width; ++x) fill_gaps(plate.data() + x, view_.height, view_.width);
+  return plate;
+}
+
+// How surely what a pixel shows is not the flame that sways: 0 to 1. Height is over the base, in mean flame heights.
+float FilmLook::stillness(std::size_t pixel, float height) const {
+  const Sum code = mean(still_[pixel]);
+  const float variance = squares_[pixel] / still_[pixel][3] - square((code[0] + code[1] + code[2]) / 3);
+  const float still = 1 - smooth(kStill, kMoves, std::sqrt(std::max(0.0F, variance)));
+  return std::max(1 - smooth(kUnder, kFootBegins, height), still * (1 - smooth(kFootBegins, kFootEnds, height)));
+}
+
+Image FilmLook::draw(std::span<const Point> outline) const {
+  assert(known());
+  const std::vector<Sum> colours = flame_colours(), plate = surroundings();
+  Image image(view_.width, view_.height);
+  if (outline.size() < 3) return image;
+  const Places places(view_, outline);
+  for (int y = 0; y < view_.height; ++y) {
+    const float height = (view_.base.y - static_cast<float>(y)) / view_.unit;
+    for (int x = 0; x < view_.width; ++x) {
+      const std::size_t pixel = static_cast<std::size_t>(y) * view_.width + x;
+      const Place place = places.at(x, y);
+      const Sum flame = bilinear(colours, height_index(place.height), depth_index(place.depth));
+      Sum colour = mix(plate[pixel], flame, smooth(kGlowEnds, kGlowWhole, place.depth));
+      colour = mix(colour, mean(still_[pixel]), stillness(pixel, height));
+      std::uint32_t code = 0xFF000000U;
+      for (int c = 0; c < 3; ++c) {
+        code |= static_cast<std::uint32_t>(std::clamp(colour[c], 0.0F, 255.0F) + 0.5F) << (16 - 8 * c);
+      }
+      image.row(y)[x] = code;
+    }
+  }
+  return image;
+}
+
+}  // namespace wisp::cli

@@ -1,0 +1,55 @@
+#pragma once
+// How a clip shows its flame: colours by place about the outline, and what stands around it. Another outline drawn with
+// them looks as if the same camera had filmed it: the clip's own wax, room and exposure.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "wisp/draw/image.hpp"
+
+namespace wisp::cli {
+
+/// Pixels of a view that is cut from the clip about the flame's base.
+struct FilmView {
+  int width = 0;
+  int height = 0;
+  float unit = 1;  ///< pixels of the mean flame height
+  Point base{};    ///< the middle of the flame's base
+};
+
+class FilmLook {
+ public:
+  /// Precondition: width, height >= 1 and unit > 0.
+  explicit FilmLook(const FilmView& view);
+
+  /// Takes a frame's view and the outline that was captured in it, both in the view's pixels.
+  ///
+  /// Precondition: the frame has the view's size, and the outline at least three points.
+  void learn(const Image& frame, std::span<const Point> outline);
+
+  /// Whether there was any frame to learn from.
+  bool known() const { return frames_ > 0; }
+
+  /// That view with another outline burning in it.
+  ///
+  /// Precondition: known().
+  Image draw(std::span<const Point> outline) const;
+
+ private:
+  using Sum = std::array<float, 4>;  // of red, green and blue codes, and how many
+
+  float stillness(std::size_t pixel, float height) const;
+
+  std::vector<Sum> flame_colours() const;
+  std::vector<Sum> surroundings() const;
+
+  FilmView view_;
+  int frames_ = 0;
+  std::vector<Sum> flame_;      // by height in the flame and by depth inside its outline
+  std::vector<Sum> around_;     // by pixel, of frames whose flame was elsewhere
+  std::vector<Sum> still_;      // by pixel, of all frames: wick and wax
+  std::vector<float> squares_;  // by pixel, of all frames: of the sum of its codes
+};
+
+}  // namespace wisp::cli

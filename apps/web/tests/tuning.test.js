@@ -1,0 +1,169 @@
+// The guided calibration, in Chromium: a sound file plays in the place of a microphone that is far too sensitive.
+
+import assert from 'node:assert/strict';
+import { mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, describe, it } from 'node:test';
+import { chromiumPath, openBrowser, until } from './browser.js';
+import { breath, room, writeSound } from './sound.js';
+
+const skip = chromiumPath === undefined && 'there is no Chromium here';
+const phone = { viewport: { width: 390, height: 844 } };
+
+/** Loudness of somebody's breath at that microphone. */
+const SOFT = 0.15;
+const HARD = 0.6;
+
+/** A page that hears these pieces of sound, one after another, from the moment in which its microphone opens. */
+async function hearing(folder, pieces, options) {
+  const file = join(folder, `${Math.random()}.wav`);
+  writeSound(file, pieces);
+  const opened = await openBrowser([
+    '--use-fake-ui-for-media-stream',
+    '--use-fake-device-for-media-stream',
+    `--use-file-for-fake-audio-capture=${file}%noloop`,
+  ]);
+  const page = await opened.page('#scene=candle&seed=1&noise=0.5&detail=0.2', options);
+  await page.evaluate(() => {
+    let began = 0;
+    window.course = [];
+    setInterval(() => {
+      const { hearing, wind, answer, burning } = window.wisp;
+      if (began === 0 && hearing === 'calibrating') began = performance.now();
+      window.soundTime = began === 0 ? 0 : (performance.now() - began) / 1000;
+      window.course.push({ time: window.soundTime, wind, answer, lit: burning.lit });
+    }, 33);
+  });
+  const at = (seconds) => until(page, `${seconds} s of sound`, (time) => window.soundTime > time, seconds, 60_000);
+  const between = (from, to) => page.evaluate(([low, high]) => window.course.filter(({ time }) => time > low && time < high), [from, to]);
+  return { opened, page, at, between };
+}
+
+const words = (page) => page.textContent('#tuning');
+
+describe('a microphone that is too sensitive', { skip }, () => {
+  const folder = mkdtempSync(join(tmpdir(), 'wisp-sound-'));
+  let heard;
+
+  before(async () => {
+    // Still, soft and hard as they are asked for, with half a second to spare; then soft, then hard.
+    const pieces = [room(8.8), breath(4.8, SOFT), room(0.3), breath(4.1, HARD), room(2.5), breath(3, SOFT), room(2.5), breath(2, HARD), room(10)];
+    heard = await hearing(folder, pieces, phone);
+  });
+  after(async () => {
+    await heard?.opened.close();
+    rmSync(folder, { recursive: true });
+  });
+
+  it('without tuning takes a soft breath for a hard one', async () => {
+    const { opened, page, at } = await hearing(folder, [room(5), breath(3, SOFT), room(10)], {});
+    await page.click('#blow');
+    await at(5);
+    assert.equal(await page.evaluate(() => window.wisp.burning.lit), 1);
+    await until(page, 'it is out', () => window.wisp.burning.lit === 0);
+    await opened.close();
+  });
+
+  it('is asked for stillness, a gentle breath and a hard one, and its names are read out', async () => {
+    const { page, at } = heard;
+    await page.click('#blow');
+    await until(page, 'it listens', () => window.wisp.hearing === 'listening');
+    await page.click('#tune');
+    assert.match(await words(page), /Tune it to your breath/);
+    const name = await page.$eval('#tuning', (dialog) => document.getElementById(dialog.getAttribute('aria-labelledby')).textContent);
+    assert.equal(name, 'Tune it to your breath');
+    assert.equal(await page.getAttribute('#tuning', 'role'), 'dialog');
+    assert.equal(await page.$eval('#tuning p', (line) => line.getAttribute('aria-live')), 'polite');
+    assert.equal(await page.evaluate(() => document.activeElement.textContent), 'Begin');
+    await at(4.5);
+    await page.keyboard.press('Enter');
+    for (const step of ['Be still', 'Breathe gently', 'Blow hard', 'Tuned']) {
+      await until(page, step, (title) => document.getElementById('tuning-title').textContent === title, step);
+    }
+  });
+
+  it('blows at nothing meanwhile', async () => {
+    const course = await heard.between(9, 16);
+    assert.ok(course.length > 50);
+    assert.ok(course.every(({ wind, lit }) => Math.abs(wind) < 0.02 && lit === 1));
+  });
+
+  it('is closed by its button, which gives the focus back', async () => {
+    const { page } = heard;
+    await page.click('#tuning button');
+    assert.equal(await page.isVisible('#tuning'), false);
+    assert.equal(await page.evaluate(() => document.activeElement.id), 'blow');
+  });
+
+  it('lets a soft breath lean the flame, and not put it out', async () => {
+    const { at, between } = heard;
+    await at(23.5);
+    const blown = await between(21, 23.2);
+    assert.ok(Math.max(...blown.map(({ answer }) => answer)) > 0.1, 'it leans');
+    assert.ok(blown.every(({ lit }) => lit === 1), 'it burns on');
+  });
+
+  it('lets a hard one put it out', async () => {
+    await until(heard.page, 'it is out', () => window.wisp.burning.lit === 0);
+    assert.deepEqual([heard.page.errors, heard.page.strangers], [[], []]);
+  });
+});
+
+describe('tuning', { skip }, () => {
+  const folder = mkdtempSync(join(tmpdir(), 'wisp-sound-'));
+  let heard;
+  before(async () => {
+    heard = await hearing(folder, [room(60)], { ...phone, reducedMotion: 'reduce' });
+  });
+  after(async () => {
+    await heard?.opened.close();
+    rmSync(folder, { recursive: true });
+  });
+
+  it('opens by T, lies on the screen of a phone, and closes by Escape', async () => {
+    const { page } = heard;
+    await until(page, 'all of the page is here', () => document.querySelector('#tuning h2') !== null);
+    await page.focus('#stage');
+    await page.keyboard.press('t');
+    const box = await page.$eval('#tuning', (card) => card.getBoundingClientRect().toJSON());
+    assert.ok(box.left >= 0 && box.right <= 390 && box.top >= 400 && box.bottom <= 844, JSON.stringify(box));
+    const blow = await page.$eval('#blow', (button) => button.getBoundingClientRect().top);
+    assert.ok(box.bottom <= blow, 'Blow can be pressed');
+    for (const height of await page.$$eval('#tuning button', (buttons) => buttons.map((button) => button.getBoundingClientRect().height))) {
+      assert.ok(height >= 24);
+    }
+    await page.keyboard.press('Escape');
+    assert.equal(await page.isVisible('#tuning'), false);
+  });
+
+  it('says that it did not hear a breath, and asks again', async () => {
+    const { page } = heard;
+    await page.focus('#stage');
+    await page.keyboard.press('t');
+    await page.keyboard.press('Enter');
+    await until(page, 'it heard none', () => /did not hear it/.test(document.getElementById('tuning').textContent));
+    assert.equal(await page.textContent('#tuning-title'), 'Breathe gently');
+    await page.click('text=Try again');
+    await until(page, 'it listens anew', () => document.getElementById('tuning').classList.contains('listening'));
+    await page.click('text=Cancel');
+    assert.equal(await page.isVisible('#tuning'), false);
+    assert.equal(await page.evaluate(() => window.wisp.burning.lit), 1);
+  });
+});
+
+describe('blow after blow that puts nothing out', { skip }, () => {
+  const folder = mkdtempSync(join(tmpdir(), 'wisp-sound-'));
+  after(() => rmSync(folder, { recursive: true }));
+
+  it('brings the offer to tune, which opens it', async () => {
+    const blows = Array.from({ length: 5 }, () => [breath(1, 0.02), room(0.8)]).flat();
+    const { opened, page } = await hearing(folder, [room(4), ...blows, room(20)], {});
+    await page.click('#blow');
+    await until(page, 'the offer', () => /tuned to your breath/.test(document.getElementById('notices').textContent), null, 40_000);
+    assert.equal(await page.evaluate(() => window.wisp.burning.lit), 1);
+    await page.click('text=Tune it to my breath');
+    assert.equal(await page.isVisible('#tuning'), true);
+    await opened.close();
+  });
+});

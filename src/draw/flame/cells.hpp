@@ -1,0 +1,47 @@
+#pragma once
+// What is soft is computed on a grid of cells of 4 × 4 pixels and spread over them: a sixteenth of the work.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "draw/flame/light_field.hpp"
+
+namespace wisp::drawing {
+
+inline constexpr int kHalvings = 2;
+inline constexpr int kCell = 1 << kHalvings;
+
+inline int cells(int pixels) { return (pixels + kCell - 1) / kCell; }
+
+/// One row of a grid, or the place between two, as values of the picture's row.
+struct Between {
+  Between(int pixel, int count) {
+    const float at = (static_cast<float>(pixel) + 0.5F) / kCell - 0.5F;
+    const int below = static_cast<int>(std::floor(at));
+    share = at - static_cast<float>(below);
+    first = std::clamp(below, 0, count - 1);
+    second = std::clamp(below + 1, 0, count - 1);
+  }
+  int first = 0, second = 0;
+  float share = 0;
+};
+
+/// The three channels of a row of a picture, with room for the groups of pixels that hang over both edges.
+struct Row {
+  explicit Row(int width) {
+    for (auto& channel : channels) channel.resize(static_cast<std::size_t>(width) + 2 * kCell);
+  }
+  const float* operator[](int channel) const { return channels[channel].data() + kCell / 2; }
+  std::array<std::vector<float>, 3> channels;
+};
+
+/// Spreads a row of cells over pixels, linear between the middles of cells. `scratch` has two values more than the grid
+/// has columns.
+void spread(const LightField& grid, const Between& y, std::vector<float>& scratch, Row& row, int width);
+
+/// Writes codes with their fraction as pixels, rounded by `dither`.
+void write_codes(const Row& codes, const float* dither, std::uint32_t* out, int first, int last);
+
+}  // namespace wisp::drawing

@@ -1,0 +1,204 @@
+#include "draw/flame/room.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "draw/flame/cells.hpp"
+#include "draw/random.hpp"
+
+namespace wisp::drawing {
+namespace {
+
+// Shares of the picture's height: where the table ends at the wall, and where its plane vanishes.
+constexpr float kEdge = 0.70F, kHorizon = 0.46F;
+
+// The wall is this far behind the flames, in model units; it looks no farther, since it is not in focus.
+constexpr float kBehind = 1.7F;
+
+// The eye is so much nearer to the table's plane than to the candle, as the ellipse of a candle's top says.
+constexpr float kFlatness = 0.24F;
+
+constexpr Light kPlaster{0.120F, 0.057F, 0.027F};
+constexpr Light kWood{0.260F, 0.098F, 0.036F};
+constexpr Light kNight{0.0052F, 0.0062F, 0.0098F};
+constexpr Light kMoon{0.0115F, 0.0140F, 0.0210F};
+
+// An eye in a dark room opens, and in a bright one narrows: so much for no flame, and for each flame less.
+constexpr float kOpens = 1.9F, kNarrows = 1.3F;
+
+// Smooth noise over a plane, 0 to 1.
+float noise_at(float x, float y, std::uint64_t seed) {
+  const float i = std::floor(x), j = std::floor(y);
+  const auto knot = [&](float a, float b) {
+    return random_at(seed, static_cast<std::uint64_t>(static_cast<std::int64_t>(a) * 7919 +
+                                                      static_cast<std::int64_t>(b) + (1 << 20)));
+  };
+  const float u = smooth_step(0, 1, x - i), v = smooth_step(0, 1, y - j);
+  const float top = knot(i, j) + u * (knot(i + 1, j) - knot(i, j));
+  const float bottom = knot(i, j + 1) + u * (knot(i + 1, j + 1) - knot(i, j + 1));
+  return top + v * (bottom - top);
+}
+
+// The grain of the table's planks at a place, x across and z towards the eye, both in candle widths or so.
+float grain_at(float x, float z) {
+  const float plank = z * 2.6F + 40;
+  const float seam = std::abs(plank - std::floor(plank) - 0.5F);
+  const auto which = static_cast<std::uint64_t>(plank);
+  const float along = 1.3F * x + 10 * random_at(5, which) + 64;
+  const float fine = noise_at(along, 26 * z + 80, 31) * 0.6F + noise_at(3 * along, 61 * z + 200, 37) * 0.4F;
+  return (0.62F + 0.62F * fine) * (0.86F + 0.28F * random_at(11, which)) * (1 - 0.55F * smooth_step(0.46F, 0.5F, seam));
+}
+
+// The moon through a window with nine panes, on the wall: 0 to 1.
+float pane_at(float x, float y) {
+  constexpr float kLeft = 0.70F, kTop = 0.10F, kWide = 0.15F, kHigh = 0.34F, kSlant = 0.16F;
+  const float v = (y - kTop) / kHigh, u = (x - kLeft - kSlant * (v - 0.5F) * kHigh) / kWide;
+  if (u <= 0 || u >= 1 || v <= 0 || v >= 1) return 0;
+  const auto bar = [](float share) {
+    const float in = 3 * share - std::floor(3 * share);
+    return smooth_step(0.02F, 0.09F, std::min(in, 1 - in));
+  };
+  return bar(u) * bar(v);
+}
+
+// Where a pixel of the table lies, from the middle of the picture at the depth of a foot, in model units.
+struct Spot {
+  float x = 0;
+  float z = 0;  // towards the eye
+};
+
+class TableView {
+ public:
+  TableView(const Stand& stand, int width, int height)
+      : middle_(0.5F * static_cast<float>(width)), horizon_(kHorizon * static_cast<float>(height)), unit_(stand.unit) {
+    drop_ = std::max(0.1F * static_cast<float>(height), stand.foot.y - horizon_);
+    distance_ = drop_ / unit_ / kFlatness;
+  }
+
+  Spot at(float x, float y) const {
+    const float share = drop_ / std::max(1.0F, y - horizon_);
+    return {(x - middle_) / unit_ * share, distance_ * (1 - share)};
+  }
+
+ private:
+  float middle_, horizon_, unit_;
+  float drop_ = 1, distance_ = 1;
+};
+
+}  // namespace
+
+Stand stand_of(const FlameScene& scene, const FlameStyle& style, const Lamp& lamp) {
+  const float height = style.candle ? style.candle_height : 0;
+  const float unit = scene.pixels_per_unit;
+  return {.lamp = lamp,
+          .foot = {scene.base.x, scene.base.y + (style.wick_gap + style.candle_height) * unit},
+          .unit = unit,
+          .half = 0.5F * style.candle_width,
+          .height = height};
+}
+
+Room::Room(int width, int height)
+    : width_(width),
+      height_(height),
+      wood_(cells(width), cells(height)),
+      moon_(cells(width), cells(height)),
+      flames_((cells(width) + 1) / 2 + 1, (cells(height) + 1) / 2 + 1),
+      light_(cells(width), cells(height)) {
+  const float tall = static_cast<float>(height), wide = static_cast<float>(width);
+  for (int j = 0; j < wood_.height(); ++j) {
+    for (int i = 0; i < wood_.width(); ++i) {
+      const float x = kCell * (static_cast<float>(i) + 0.5F), y = kCell * (static_cast<float>(j) + 0.5F);
+      const float u = (x - 0.5F * wide) / tall, v = y / tall;
+      const float table = smooth_step(kEdge - 0.004F, kEdge + 0.004F, v);
+      const float far = 1 / std::max(0.05F, v - kHorizon);
+      const float mottled = 0.9F + 0.2F * noise_at(9 * u + 50, 9 * v, 3);
+      const float wood = grain_at(0.55F * u * far, -0.42F * far);
+      // Where wall and table meet neither the flame's light nor the moon's comes well.
+      const float corner = 1 - 0.6F * std::exp(-std::max(0.0F, kEdge - v) / 0.05F);
+      const float sheen = 0.35F * smooth_step(1.0F, kEdge, v);
+      const float behind = smooth_step(kEdge, kEdge + 0.05F, v);
+      const Light back = (1 - table) * mottled * corner * kPlaster + table * behind * wood * kWood;
+      const float aspect = std::min(1.0F, wide / tall);
+      const Light dark = (1 - table) * (kNight + pane_at(0.5F + u / std::max(1.0F, 1.2F * aspect), v) * kMoon) +
+                         table * wood * (0.45F + sheen) * kNight;
+      wood_.add(i, j, back);
+      moon_.add(i, j, (1 - 0.5F * v) * dark);
+    }
+  }
+}
+
+void Room::light_wall(std::span<const Stand> stands) {
+  constexpr int kPixels = 2 * kCell;
+  const int rows = std::min(flames_.height, static_cast<int>(kEdge * static_cast<float>(height_)) / kPixels + 1);
+  for (const Stand& stand : stands) {
+    if (stand.lamp.power <= 0) continue;
+    const float per = 1 / stand.unit;
+    for (int j = 0; j < rows; ++j) {
+      const float dy = (kPixels * (static_cast<float>(j) + 0.5F) - stand.lamp.place.y) * per;
+      float* out = flames_.row(j);
+      const float up = dy * dy + kBehind * kBehind;
+      for (int i = 0; i < flames_.width; ++i) {
+        const float dx = (kPixels * (static_cast<float>(i) + 0.5F) - stand.lamp.place.x) * per;
+        const float square = dx * dx + up;
+        out[i] += stand.lamp.power * kBehind * kBehind * kBehind / (square * std::sqrt(square));
+      }
+    }
+  }
+}
+
+// The shadow of the candle's rim lies where the way to the flame goes through the rim's circle: it moves against the
+// flame.
+void Room::light_table(const Stand& stand) {
+  constexpr int kPixels = 2 * kCell;
+  if (stand.lamp.power <= 0) return;
+  const TableView view(stand, width_, height_);
+  const Spot foot = view.at(stand.foot.x, stand.foot.y);
+  const float high = std::max(0.3F, (stand.foot.y - stand.lamp.place.y) / stand.unit);
+  const float aside = foot.x + (stand.lamp.place.x - stand.foot.x) / stand.unit;
+  const float rim = std::min(0.95F, stand.height / high);
+  for (int j = std::max(0, static_cast<int>(kEdge * static_cast<float>(height_)) / kPixels + 1); j < flames_.height;
+       ++j) {
+    float* out = flames_.row(j);
+    for (int i = 0; i < flames_.width; ++i) {
+      const Spot p = view.at(kPixels * (static_cast<float>(i) + 0.5F), kPixels * (static_cast<float>(j) + 0.5F));
+      const float dx = p.x - aside, dz = p.z - foot.z;
+      const float square = dx * dx + dz * dz + high * high;
+      // Where that way crosses the rim's height.
+      const float qx = p.x + rim * (aside - p.x) - foot.x, qz = (1 - rim) * dz;
+      const float open = stand.height > 0 ? smooth_step(0.75F, 1.35F, std::sqrt(qx * qx + qz * qz) / stand.half) : 1;
+      out[i] += stand.lamp.power * (0.08F + 0.92F * open) * 2.2F * high / (square * std::sqrt(square));
+    }
+  }
+}
+
+const LightField& Room::lit(std::span<const Stand> stands) {
+  std::ranges::fill(flames_.values, 0.0F);
+  light_wall(stands);
+  for (const Stand& stand : stands) light_table(stand);
+  float power = 0;
+  for (const Stand& stand : stands) power += stand.lamp.power;
+  const float dark = 1 + (kOpens - 1) * std::max(0.0F, 1 - power);
+  const float bright = (1 + kNarrows) / (std::max(1.0F, power) + kNarrows);
+  for (int j = 0; j < light_.height(); ++j) {
+    // Twice as fine, linear between the middles of the coarse cells.
+    const float v = 0.5F * (static_cast<float>(j) + 0.5F) - 0.5F;
+    const int above = std::max(0, static_cast<int>(std::floor(v)));
+    const float b = std::clamp(v - static_cast<float>(above), 0.0F, 1.0F);
+    const float *top = flames_.row(above), *bottom = flames_.row(std::min(above + 1, flames_.height - 1));
+    const std::array<std::array<const float*, 2>, 3> from{{{wood_.red.row(j), moon_.red.row(j)},
+                                                           {wood_.green.row(j), moon_.green.row(j)},
+                                                           {wood_.blue.row(j), moon_.blue.row(j)}}};
+    const std::array<float*, 3> to{light_.red.row(j), light_.green.row(j), light_.blue.row(j)};
+    for (int i = 0; i < light_.width(); ++i) {
+      const int left = std::max(0, (i - 1) / 2), right = std::min(left + 1, flames_.width - 1);
+      const float a = i == 0 ? 0 : (i % 2 != 0 ? 0.25F : 0.75F);
+      const float here = (1 - b) * (top[left] + a * (top[right] - top[left])) +
+                         b * (bottom[left] + a * (bottom[right] - bottom[left]));
+      for (int c = 0; c < 3; ++c) to[c][i] = std::min(0.9F, dark * from[c][1][i] + bright * here * from[c][0][i]);
+    }
+  }
+  return light_;
+}
+
+}  // namespace wisp::drawing
