@@ -175,7 +175,8 @@ export class Filming {
   private async begin(): Promise<void> {
     this.state = 'filming';
     const said = await this.camera.lock();
-    if (said !== '') this.events.say(said);
+    // What falls is told from the wall by its place, not by how bright it is; the words would lie over it.
+    if (said !== '' && !this.falls) this.events.say(said);
     if (this.state !== 'filming') return;
     this.live?.cancel();
     this.reel = new Reel(1 / KEPT_RATE);
