@@ -1,7 +1,8 @@
 // Films for the studio's tests: from the candle rig, so that no recording of anybody is needed.
 
+import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { existsSync } from 'node:fs';
+import { appendFileSync, copyFileSync, existsSync, statSync, truncateSync } from 'node:fs';
 import { join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
@@ -59,10 +60,10 @@ export function fallsByProgram(film, metres, folder) {
 }
 
 /** The same as what a camera and a microphone give, again and again. */
-export function asDevices(film, folder) {
+export function asDevices(film, folder, { silent = false, seconds = 8 } = {}) {
   const [picture, sound] = [join(folder, 'camera.mjpeg'), join(folder, 'microphone.wav')];
-  convert('-i', film, '-an', '-t', '8', '-c:v', 'mjpeg', '-q:v', '3', picture);
-  convert('-i', film, '-vn', '-t', '8', '-ac', '1', '-ar', '48000', sound);
+  convert('-i', film, '-an', '-t', String(seconds), '-c:v', 'mjpeg', '-q:v', '3', picture);
+  if (!silent) convert('-i', film, '-vn', '-t', String(seconds), '-ac', '1', '-ar', '48000', sound);
   return { picture, sound };
 }
 
@@ -71,4 +72,56 @@ export function wallFilm(folder) {
   const film = join(folder, 'wall.mp4');
   convert('-f', 'lavfi', '-i', 'color=c=0x303030:s=320x240:r=30:d=3', '-pix_fmt', 'yuv420p', film);
   return film;
+}
+
+/** Its first second. */
+export function shortFilm(film, folder) {
+  const short = join(folder, 'short.mp4');
+  convert('-i', film, '-t', '1', '-c', 'copy', short);
+  return short;
+}
+
+/** The same with every seventh frame left out, each of the others at its own time. */
+export function unevenFilm(film, folder) {
+  const uneven = join(folder, 'uneven.mp4');
+  convert('-i', film, '-t', '4', '-vf', "select='not(eq(mod(n,7),3))'", '-vsync', 'vfr', '-c:v', 'libx264', '-crf', '12', '-c:a', 'copy', uneven);
+  return uneven;
+}
+
+/** Two thirds of a second of it at 7680 by 4320 pixels. */
+export function hugePicture(film, folder) {
+  const huge = join(folder, 'huge.mp4');
+  convert('-i', film, '-an', '-t', '0.67', '-r', '15', '-vf', 'scale=-2:4320:flags=fast_bilinear,pad=7680:4320:(ow-iw)/2:0', '-c:v', 'libx264', '-preset', 'ultrafast', '-crf', '26', '-pix_fmt', 'yuv420p', huge);
+  return huge;
+}
+
+/** The same in a file of more than 2 GB, most of it a hole that the disk does not hold. */
+export function hugeFile(film, folder) {
+  const huge = join(folder, 'gigabytes.mp4');
+  const hole = 2_200_000_000;
+  copyFileSync(film, huge);
+  const header = Buffer.alloc(16);
+  header.writeUInt32BE(1);
+  header.write('free', 4);
+  header.writeBigUInt64BE(BigInt(hole), 8);
+  const { size } = statSync(huge);
+  appendFileSync(huge, header);
+  truncateSync(huge, size + hole);
+  return huge;
+}
+
+/** Whether two recordings are the same: to a hundredth of a pixel, as decoders of pictures agree, and to a thousandth of wind. */
+export function assertSame(ours, theirs) {
+  const rows = (text) => text.trim().split('\n').filter((line) => !line.startsWith('#')).map((line) => line.split(','));
+  const [[head, ...found], [names, ...wanted]] = [rows(ours), rows(theirs)];
+  assert.ok(names.some((name) => name.startsWith('u:wind')));
+  assert.deepEqual(head, names);
+  assert.equal(found.length, wanted.length);
+  for (const [k, row] of wanted.entries()) {
+    for (const [c, value] of row.entries()) {
+      assert.equal(found[k][c] === '', value === '', `${names[c]} in row ${k}`);
+      const most = names[c].startsWith('u:wind') ? 0.001 : 0.01;
+      assert.ok(Math.abs(Number(found[k][c]) - Number(value)) <= most, `${names[c]} in row ${k}: ${found[k][c]} and ${value}`);
+    }
+  }
 }

@@ -7,7 +7,7 @@ import { join } from 'node:path';
 import { after, before, describe, it } from 'node:test';
 import { chromiumPath, drop, dropAll, openBrowser, until } from './browser.js';
 import { fallsFilm } from '../../../bindings/studio/tests/falls_film.mjs';
-import { asDevices, candleFilm, capturedByProgram, fallsByProgram, noConverter, noFilms, recordedFalls, turnedFilm, wallFilm } from './films.js';
+import { asDevices, assertSame, candleFilm, capturedByProgram, fallsByProgram, noConverter, noFilms, recordedFalls, turnedFilm, wallFilm } from './films.js';
 
 const skip = chromiumPath === undefined && 'there is no Chromium here';
 const folder = mkdtempSync(join(tmpdir(), 'wisp-studio-'));
@@ -41,22 +41,6 @@ function table() {
 function tableThatBreaks() {
   const rows = table().toString().trim().split('\n');
   return Buffer.from(rows.map((row, k) => (k < 460 ? row : row.replace(/[^,]*$/, String(Math.sin(k * k))))).join('\n'));
-}
-
-/** Whether two recordings are the same: to a hundredth of a pixel, as decoders of pictures agree, and to a thousandth of wind. */
-function assertSame(ours, theirs) {
-  const rows = (text) => text.trim().split('\n').filter((line) => !line.startsWith('#')).map((line) => line.split(','));
-  const [[head, ...found], [names, ...wanted]] = [rows(ours), rows(theirs)];
-  assert.ok(names.some((name) => name.startsWith('u:wind')));
-  assert.deepEqual(head, names);
-  assert.equal(found.length, wanted.length);
-  for (const [k, row] of wanted.entries()) {
-    for (const [c, value] of row.entries()) {
-      assert.equal(found[k][c] === '', value === '', `${names[c]} in row ${k}`);
-      const most = names[c].startsWith('u:wind') ? 0.001 : 0.01;
-      assert.ok(Math.abs(Number(found[k][c]) - Number(value)) <= most, `${names[c]} in row ${k}: ${found[k][c]} and ${value}`);
-    }
-  }
 }
 
 describe('a film that is dropped', { skip: skip || noFilms }, () => {

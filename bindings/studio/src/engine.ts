@@ -155,7 +155,7 @@ export class Engine extends Module {
   private gather(recordings: readonly Uint8Array[]): void {
     this.functions.studio_clear!();
     for (const bytes of recordings) {
-      this.withBytes(bytes, (at, size) => this.withText('{"name":"the recording"}', (words, length) => this.call('studio_add', at, size, words, length)));
+      this.withBytes(bytes, (at, size) => this.withText('{"name":"recording.csv"}', (words, length) => this.call('studio_add', at, size, words, length)));
     }
   }
 

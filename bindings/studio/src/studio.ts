@@ -12,6 +12,8 @@ export interface LiveCapture {
   sound(samples: Float32Array, rate: number, seconds: number): void;
   /** frames that wait to be looked at: where it grows, feed fewer */
   readonly waiting: number;
+  /** whether it still takes anything: false once its worker has stopped, and `finish` says why */
+  readonly alive: boolean;
   /** Ends it. Rejects with a sentence where there is nothing to learn from. */
   finish(): Promise<Captured>;
   /** Gives it up. */
@@ -61,6 +63,7 @@ export class Studio {
   /** Captures live. `rate`: what the camera says, frames a second. */
   live(name: string, rate: number, settings: PictureSettings, watch: Watch = {}): LiveCapture {
     const of = ++this.count;
+    const { pending } = this;
     let waiting = 0;
     const ended = new Promise<Outcome>((resolve, reject) => {
       this.pending.set(of, { watch, resolve, reject, looked: () => (waiting -= 1) });
@@ -79,6 +82,9 @@ export class Studio {
       },
       get waiting() {
         return waiting;
+      },
+      get alive() {
+        return pending.has(of);
       },
       finish: () => {
         if (this.pending.has(of)) this.send({ of, task: { do: 'finish' } });

@@ -1,13 +1,22 @@
 // Where memory comes from. Without exceptions the C++ library would hand out null and go on, and address 0 is memory
-// like any other in WebAssembly: the host is told, which ends the call.
+// like any other in WebAssembly: the host is told, which ends the call. It begins at whole vectors, as the program's
+// does: sums begin there, and are the same.
 
 #include <cstdlib>
 #include <new>
 
 extern "C" __attribute__((import_module("env"), import_name("studio_out_of_memory"))) void studio_out_of_memory();
 
+namespace {
+// Null where there is none.
+void* whole_vectors(std::size_t size) {
+  void* memory = nullptr;
+  return posix_memalign(&memory, 16, size) == 0 ? memory : nullptr;
+}
+}  // namespace
+
 void* operator new(std::size_t size) {
-  void* memory = std::malloc(size);
+  void* memory = whole_vectors(size);
   if (!memory) {
     studio_out_of_memory();
     __builtin_trap();
@@ -15,6 +24,6 @@ void* operator new(std::size_t size) {
   return memory;
 }
 
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return std::malloc(size); }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return whole_vectors(size); }
 
 void operator delete(void* memory) noexcept { std::free(memory); }

@@ -165,8 +165,9 @@ Result<Fit> learn_arx(std::span<const Recording> recordings, const ArxRecipe& re
   const ResidualTestOptions testing{.lags = arx::kTestLags, .learned_from_it = true};
   const auto first = test_residuals(squares, seen, channels, testing);
   const auto tests = focused->refined ? test_residuals(focused->fit.model, seen, channels, testing) : first;
-  arx::judge_use({channels, squares.orders, arx::persistence_errors(seen, channels), first ? &*first : nullptr},
-                 focused->fit.summary);
+  arx::judge_use(
+      {channels, focused->fit.model.orders, arx::persistence_errors(seen, channels), first ? &*first : nullptr},
+      focused->fit.summary);
   Fit fit = arx::finish(focused->fit, recipe, channels, *sources);
   if (recipe.focus != ArxFocus::kPrediction) arx::add_focus(*focused, channels.outputs, fit.report);
   fit.report.append(std::move(chosen));

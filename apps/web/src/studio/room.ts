@@ -59,6 +59,9 @@ const LEARNING: Readonly<Record<Thing, string>> = {
 /** Share of a table's rows that are kept back to judge by. */
 const KEPT_BACK = 0.25;
 
+/** Bytes of a table: text, its numbers and what is learned from them stand beside each other in memory. */
+const MOST_TABLE_BYTES = 100e6;
+
 /** Frames between pictures that are kept of a film, at first. */
 const FRAMES_APART = 3;
 
@@ -107,7 +110,6 @@ export class Room {
   private judging: AbortController | null = null;
   /** films that came with the one that is looked at */
   private waiting: File[] = [];
-  private looksFor: PictureSettings['looks_for'] = 'either';
   /** the take that a dragged box is about */
   private looked: Looked | null = null;
   /** counts what is shown: work that was overtaken shows nothing */
@@ -194,7 +196,7 @@ export class Room {
     this.showLeft(element('div', { class: 'viewer' }, this.invitation.canvas));
     const { takes } = this.session;
     const more = takes.length === 0 ? null : { count: takes.length, thing: thingOf(this.session), back: () => this.back() };
-    this.showPanel(gatherPanel({ camera: () => void this.film(), files: (files) => this.files(files), falls: (files) => this.files(files, 'falls') }, more));
+    this.showPanel(gatherPanel({ camera: () => void this.film(false), falls: () => void this.film(true), files: (files) => this.files(files) }, more));
   }
 
   /** To what there was before. */
@@ -205,13 +207,12 @@ export class Room {
     else this.gather();
   }
 
-  private files(files: File[], looksFor: PictureSettings['looks_for'] = 'either'): void {
+  private files(files: File[]): void {
     const pick = pickOf(files);
     if (pick.kind === 'nothing') this.host.say(pick.words);
     else if (pick.kind === 'table') void this.table(pick.files[0] as File);
     else if (pick.kind === 'film') {
       this.waiting = pick.files;
-      this.looksFor = looksFor;
       this.lookAtNext();
     } else this.pictures(pick.files);
   }
@@ -231,7 +232,7 @@ export class Room {
   private lookAtNext(): boolean {
     const file = this.waiting.shift();
     if (file === undefined) return false;
-    void this.look(file.name, file, { looks_for: this.looksFor ?? 'either' }, async (settings, watch) => (await this.engine.open()).film(file, settings, watch));
+    void this.look(file.name, file, { looks_for: 'either' }, async (settings, watch) => (await this.engine.open()).film(file, settings, watch));
     return true;
   }
 
@@ -307,6 +308,9 @@ export class Room {
     this.viewer.showBox(take.settings.region ?? null);
     this.viewer.showFalls((size) => linesOfFalls(take.captured, take.settings.height ?? 1, size));
     const { outlines } = take;
+    // A camera's film is not kept: falls are drawn over a picture of the wall.
+    const wall = outlines === null && take.film === null ? take.reel.at(0) : null;
+    if (wall !== null) this.viewer.still(wall, new Float32Array());
     if (outlines !== null) {
       this.viewer.showFollowed();
       if (take.film === null) this.showStill(take, outlines);
@@ -394,12 +398,12 @@ export class Room {
     );
   }
 
-  private async film(): Promise<void> {
+  private async film(falls: boolean): Promise<void> {
     this.clear();
     const { turn } = this;
     try {
       const studio = await this.engine.open();
-      const filming = await Filming.open(studio, this.viewer, {
+      const filming = await Filming.open(studio, this.viewer, falls, {
         done: (captured, reel, settings) => {
           this.filming = null;
           const count = this.session.takes.filter(({ film }) => film === null).length + 1;
@@ -423,7 +427,7 @@ export class Room {
         return;
       }
       this.filming = filming;
-      this.stepTo('gather');
+      this.stepTo('gather', falls ? 'fall' : 'flame');
       this.showLeft(this.viewer.place);
       this.showPanel(filming.panel);
     } catch (error) {
@@ -545,6 +549,7 @@ export class Room {
   /** A table: its columns are chosen first, unless it is a recording of Wisp's own. */
   private async table(file: File): Promise<void> {
     try {
+      if (file.size > MOST_TABLE_BYTES) throw new Error(`${file.name} has ${Math.round(file.size / 1e6).toLocaleString('en')} MB, and tables of up to ${MOST_TABLE_BYTES / 1e6} MB are read here. Give a part of it.`);
       const bytes = new Uint8Array(await file.arrayBuffer());
       const head = headOf(bytes);
       if (head.names.length === 0) throw new Error(`${file.name} is empty.`);

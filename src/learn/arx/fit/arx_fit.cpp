@@ -34,7 +34,11 @@ void give_rows(const ArxDesign& design, const std::vector<GivenRow>& rows, ArxEs
   for (std::size_t g = 0; g < design.groups.size(); ++g) {
     const SharedRows& group = design.groups[g];
     for (std::size_t k = 0; k < group.outputs.size(); ++k) {
-      estimate.groups[g].theta.col(Index(k)) = rows[std::size_t(group.outputs[k])].theta;
+      const GivenRow& row = rows[std::size_t(group.outputs[k])];
+      estimate.groups[g].theta.col(Index(k)) = row.theta;
+      if (row.effective == 0) continue;
+      estimate.effective[g] = row.effective;
+      estimate.groups[g].dependent.clear();
     }
   }
   estimate.residual_gram = estimate.residual_gram_at(estimate.thetas());

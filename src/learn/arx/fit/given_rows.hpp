@@ -13,6 +13,7 @@ namespace wisp {
 struct GivenRow {
   Eigen::VectorXd theta;
   Eigen::MatrixXd covariance;
+  double effective = 0;  ///< coefficients that the data determined; 0: as many as least squares does
 };
 
 /// The row of a model, as it is in the signals' scaled units; without a covariance.

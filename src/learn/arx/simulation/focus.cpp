@@ -11,6 +11,8 @@
 #include "learn/arx/simulation/focus_choice.hpp"
 #include "learn/arx/simulation/held_out.hpp"
 #include "learn/arx/simulation/refine.hpp"
+#include "learn/arx/simulation/state_space.hpp"
+#include "learn/arx/simulation/subspace.hpp"
 #include "record/number_text.hpp"
 
 namespace wisp::arx {
@@ -30,6 +32,9 @@ constexpr double kFewTolerance = 1e-3;
 constexpr int kMaxBatches = 64;
 constexpr std::size_t kMinBatchRows = 10;
 constexpr int kMaxPolishing = 2;  // steps over all rows, from what some of them say
+constexpr int kStates[] = {1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 18, 20, 22, 24, 28, 32, 36, 40};  // tried
+constexpr const char* kRankless = "the data cannot tell all coefficients";
+constexpr double kNotThere = 1e12;  // squared error of a way that a fold has too few rows for
 
 ArxOrders kernel_orders(ArxOrders orders) {
   for (int i = 0; i < orders.outputs(); ++i) {
@@ -45,13 +50,27 @@ ArxOrders kernel_orders(ArxOrders orders) {
   return orders;
 }
 
+// Of what a subspace estimate gives: every output remembers all that it is simulated with.
+ArxOrders state_space_orders(ArxOrders orders, const std::vector<int>& outputs, int lags) {
+  for (int i : outputs) {
+    for (int j : outputs) orders.na(i, j) = lags;
+    for (int k = 0; k < orders.inputs(); ++k) {
+      orders.nb(i, k) = lags + 1;
+      orders.nk(i, k) = 0;
+    }
+  }
+  return orders;
+}
+
 // What is asked for.
 struct Subject {
   std::span<const Recording> recordings;
   const ChannelChoice& channels;
   const ArxOptions& options;
   const Progress& progress;
-  bool kernel = false;  // whether one is tried
+  bool kernel = false;    // whether one is tried
+  bool subspace = false;  // the same of subspace estimates
+  bool refines = true;    // whether the data tell all coefficients; if not, only a state can
 
   bool many_rows() const {
     std::size_t rows = 0;
@@ -60,7 +79,25 @@ struct Subject {
   }
   std::vector<Recording> some_rows() const { return middles_of(recordings, many_rows() ? kRowsOfMany : kManyRows); }
   int first_sample() const { return options.first_sample.value_or(options.orders.history()); }
-  int judged_from() const { return std::max(first_sample(), kernel ? kernel_orders(options.orders).history() : 0); }
+  int judged_from() const {
+    return std::max(
+        {first_sample(), kernel ? kernel_orders(options.orders).history() : 0, subspace ? kStateSpaceLags : 0});
+  }
+
+  // A state is in common, reaches all outputs and is driven by all inputs.
+  bool tries_states(const Unit& unit) const {
+    const auto driven = [&](int i) {
+      for (int j : unit.outputs) {
+        if (options.orders.na(i, j) == 0) return false;
+      }
+      for (int k = 0; k < options.orders.inputs(); ++k) {
+        if (options.orders.nb(i, k) == 0) return false;
+      }
+      return true;
+    };
+    return subspace && unit.outputs.size() > 1 && std::all_of(unit.outputs.begin(), unit.outputs.end(), driven);
+  }
+  double largest_pole() const { return 1 - options.stability_margin; }
 };
 
 // Least squares for some rows.
@@ -174,12 +211,27 @@ std::vector<Refined> refine_unit(const Subject& subject, const Learned& learned,
   return refined_path(block, loss, starts, weights, options);
 }
 
-// A way to go, and the coefficients that it gives for a fold's rows.
+// A way to go, and what it gives for a fold's rows.
 struct Way {
   FocusCandidate candidate;
   const ArxOrders& orders;
   VectorXd theta;
+  std::optional<StateSpace> space{};
+  ArxForm form{};  // of the space
 };
+
+void add_state_spaces(const Subject& subject, const Learned& learned, const Unit& unit, std::vector<Way>& ways) {
+  const int outputs = static_cast<int>(unit.outputs.size());
+  const bool constant = subject.options.offset == ArxOffset::kEstimate;
+  const Subspace subspace(learned.signals, unit.outputs, constant);
+  for (int states : kStates) {
+    if (states > (kStateSpaceLags - 1) * outputs) break;
+    Way& way = ways.emplace_back(Way{{.states = states, .decoupled = unit.decoupled}, subject.options.orders, {}});
+    if (subspace.max_states() > 0) way.space = subspace.model(states, subject.largest_pole());
+    if (way.space) way.form = arx_form(*way.space, arx_lags(states, outputs));
+    if (way.space && !(radius(way.form) < 1)) way.space.reset();
+  }
+}
 
 // Least squares first, then what lies farther and farther from it.
 std::vector<Way> ways_of(const Subject& subject, const Learned& learned, const Unit& unit) {
@@ -187,7 +239,7 @@ std::vector<Way> ways_of(const Subject& subject, const Learned& learned, const U
   const ArxModel& model = learned.model_of(unit);
   std::vector<Way> ways{{{.decoupled = unit.decoupled}, model.orders, least_squares(subject, learned, unit)}};
   const auto weights = weights_for(subject, seen);
-  if (!weights.empty()) {
+  if (subject.refines && !weights.empty()) {
     std::vector<Refined> path = refine_unit(subject, learned, unit, seen, weights);
     for (std::size_t w = 0; w < path.size(); ++w) {
       ways.push_back({{.one_step_weight = weights[w], .decoupled = unit.decoupled},
@@ -200,7 +252,22 @@ std::vector<Way> ways_of(const Subject& subject, const Learned& learned, const U
                     kernel->model.orders,
                     theta_of(subject, learned, kernel->model, unit)});
   }
+  if (subject.tries_states(unit)) add_state_spaces(subject, learned, unit, ways);
   return ways;
+}
+
+HeldOutErrors errors_of(const Subject& subject, const Signals& held_out, const Unit& unit, const Way& way,
+                        const SimulationBlock& unseen) {
+  const int states = way.candidate.states;
+  if (states > 0 && !way.space) {
+    const VectorXd none = VectorXd::Constant(kParts, kNotThere);
+    return {none, none, 0, VectorXd::Constant(Index(unit.outputs.size()), kNotThere)};
+  }
+  if (!way.candidate.kernel && states == 0) return held_out_errors(unseen, way.theta);
+  const int lags = arx_lags(states, static_cast<int>(unit.outputs.size()));
+  const ArxOrders orders = states > 0 ? state_space_orders(way.orders, unit.outputs, lags) : way.orders;
+  const SimulationBlock block = simulation_of(subject, held_out, orders, unit, subject.judged_from());
+  return states > 0 ? held_out_errors(block, *way.space, way.form) : held_out_errors(block, way.theta);
 }
 
 // Adds what a fold says of every way to go.
@@ -213,19 +280,17 @@ void judge_unit(const Subject& subject, const Learned& learned, const Signals& h
     for (const Way& way : ways) unit.candidates.push_back(way.candidate);
     unit.squares.resize(Index(ways.size()), 0);
     unit.estimated.resize(Index(ways.size()), 0);
+    unit.by_output = MatrixXd::Zero(Index(ways.size()), Index(unit.outputs.size()));
   }
   if (unit.candidates.size() != ways.size()) return;
   const Index before = unit.squares.cols();
   unit.squares.conservativeResize(Eigen::NoChange, before + kParts);
   unit.estimated.conservativeResize(Eigen::NoChange, before + kParts);
   for (std::size_t w = 0; w < ways.size(); ++w) {
-    const HeldOutErrors errors =
-        ways[w].candidate.kernel
-            ? held_out_errors(simulation_of(subject, held_out, ways[w].orders, unit, subject.judged_from()),
-                              ways[w].theta)
-            : held_out_errors(unseen, ways[w].theta);
+    const HeldOutErrors errors = errors_of(subject, held_out, unit, ways[w], unseen);
     unit.squares.row(Index(w)).tail(kParts) = (errors.estimated + errors.measured).transpose();
     unit.estimated.row(Index(w)).tail(kParts) = errors.estimated.transpose();
+    unit.by_output.row(Index(w)) += errors.by_output.transpose();
     unit.candidates[w].estimated_error += errors.estimated.mean();
     unit.candidates[w].measured_error += errors.measured.mean();
     if (w == 0) unit.size += errors.size;
@@ -310,14 +375,14 @@ std::vector<FocusChoice> choices_of(std::vector<Block>& blocks) {
 }
 
 // Why nothing can be refined, or nothing.
-std::string obstacle(const Subject& subject, const ArxFit& plain, ArxFocus focus) {
+std::string obstacle(const Subject& subject, ArxFocus focus) {
   const auto& nb = subject.options.orders.nb.values();
   const auto& na = subject.options.orders.na.values();
   const auto positive = [](int order) { return order > 0; };
   if (focus == ArxFocus::kPrediction) return "one step ahead, as asked for";
   if (std::none_of(nb.begin(), nb.end(), positive)) return "no input drives a free simulation";
   if (std::none_of(na.begin(), na.end(), positive)) return "without feedback a prediction is a simulation";
-  if (!plain.summary.rank_problems.empty()) return "the data cannot tell all coefficients";
+  if (!subject.refines && !subject.subspace) return kRankless;
   if (!subject.options.stabilise) return "an unstable estimate was to be kept";
   return "";
 }
@@ -339,14 +404,37 @@ ArxOrders chosen_orders(const Subject& subject, std::vector<Block>& blocks) {
           orders.nk(output, k) = many.nk(output, k);
         }
       }
+      if (unit->states() == 0) continue;
+      const int lags = arx_lags(unit->states(), static_cast<int>(unit->outputs.size()));
+      orders = state_space_orders(std::move(orders), unit->outputs, lags);
     }
   }
   return orders;
 }
 
+// The rows of one unit from a subspace estimate. Returns whether there is one.
+bool give_state_space(const Subject& subject, const Learned& learned, const Unit& unit, std::vector<GivenRow>& rows) {
+  const bool constant = subject.options.offset == ArxOffset::kEstimate;
+  const auto model = Subspace(learned.signals, unit.outputs, constant).model(unit.states(), subject.largest_pole());
+  if (!model) return false;
+  const Index outputs = model->outputs(), inputs = model->inputs();
+  const int lags = arx_lags(unit.states(), model->outputs());
+  const ArxForm form = arx_form(*model, lags);
+  const double shared = model->states() * static_cast<double>(outputs + inputs) / static_cast<double>(outputs);
+  for (Index o = 0; o < outputs; ++o) {
+    GivenRow& row = rows[std::size_t(unit.outputs[std::size_t(o)])];
+    row.theta << form.feedback.row(o).reshaped(outputs, lags).transpose().reshaped(),
+        form.drive.row(o).reshaped(inputs, lags + 1).transpose().reshaped(),
+        form.constant.row(o).head(constant ? 1 : 0);
+    row.effective = shared + static_cast<double>(inputs) + (constant ? 1 : 0);
+  }
+  return true;
+}
+
 // The rows of one unit as chosen, learned from all rows. Returns whether they are other than least squares'.
 bool give_chosen(const Subject& subject, const Learned& learned, const Unit& unit, std::vector<GivenRow>& rows,
                  ArxFit& plain) {
+  if (unit.states() > 0) return give_state_space(subject, learned, unit, rows);
   if (unit.refined()) give_refined(subject, learned, unit, rows);
   if (!unit.kernel()) return unit.refined();
   const ArxModel& kernel = learned.kernel_of(unit)->model;
@@ -389,26 +477,34 @@ Result<ArxFit> refit(const Subject& subject, std::vector<Block>& blocks, ArxFit 
   return fit;
 }
 
-// A kernel is tried where the coefficients are nobody else's and every stretch is long beside its lags.
-bool kernel_is_tried(std::span<const Recording> recordings, const ArxOptions& options, ArxFocus focus) {
+// Many lags are tried where the coefficients are nobody else's and every stretch is long beside them.
+bool many_lags_are_tried(std::span<const Recording> recordings, const ArxOptions& options, ArxFocus focus) {
   constexpr std::size_t kMinRows = 10 * kKernelLags;
-  constexpr int kMaxKernelTerms = 150;  // an output's, for the time that it takes
   if (focus != ArxFocus::kAuto || options.ridge > 0) return false;
+  return std::all_of(recordings.begin(), recordings.end(), [](const Recording& one) {
+    return one.rows() >= kMinRows * std::max<std::size_t>(1, episodes(one).size());
+  });
+}
+
+// Few enough coefficients an output for the time that a kernel takes.
+bool kernel_has_time(const ArxOptions& options) {
+  constexpr int kMaxKernelTerms = 150;
   const ArxOrders orders = kernel_orders(options.orders);
   for (int i = 0; i < orders.outputs(); ++i) {
     if (orders.row_size(i) > kMaxKernelTerms) return false;
   }
-  return std::all_of(recordings.begin(), recordings.end(), [](const Recording& one) {
-    return one.rows() >= kMinRows * std::max<std::size_t>(1, episodes(one).size());
-  });
+  return true;
 }
 
 }  // namespace
 
 Result<FocusedFit> focus_fit(std::span<const Recording> recordings, const ChannelChoice& channels,
                              const ArxOptions& options, ArxFit plain, ArxFocus focus, const Progress& progress) {
-  const Subject subject{recordings, channels, options, progress, kernel_is_tried(recordings, options, focus)};
-  std::string why = obstacle(subject, plain, focus);
+  const bool many = many_lags_are_tried(recordings, options, focus);
+  const bool refines = plain.summary.rank_problems.empty();
+  const Subject subject{recordings, channels, options, progress, refines && many && kernel_has_time(options),
+                        many,       refines};
+  std::string why = obstacle(subject, focus);
   FocusedFit out{std::move(plain), false, std::move(why)};
   if (!out.reason.empty()) return out;
   std::vector<Block> blocks = blocks_of(options.orders);
@@ -423,9 +519,10 @@ Result<FocusedFit> focus_fit(std::span<const Recording> recordings, const Channe
     }
   }
   out.choices = choices_of(blocks);
-  out.reason = !judged   ? "too few rows to hold some out"
-               : changed ? "held-out free runs are surely better than with least squares"
-                         : "held-out free runs are no better than with least squares";
+  out.reason = !judged    ? "too few rows to hold some out"
+               : changed  ? "held-out free runs are surely better than with least squares"
+               : !refines ? kRankless
+                          : "held-out free runs are no better than with least squares";
   if (!changed) return out;
   auto fit = refit(subject, blocks, std::move(out.fit));
   if (!fit) return fit.error();

@@ -17,6 +17,7 @@ namespace wisp::arx {
 struct FocusCandidate {
   std::optional<double> one_step_weight{};  ///< of refined ones; none: least squares
   bool kernel = false;                      ///< many lags under a kernel (kKernelLags)
+  int states = 0;                           ///< of a subspace estimate in its ARX form (state_space.hpp)
   bool decoupled = false;                   ///< every output remembers itself only
   double estimated_error = 0;  ///< root mean square, shares of the outputs' own, from the best initial state
   double measured_error = 0;   ///< … from measured samples
@@ -40,7 +41,8 @@ struct FocusedFit {
 };
 
 /// `plain` refined as the focus says: with kSimulation in any case, as far as held-out free runs say; with kAuto where
-/// they are surely better for it, and with kKernelLags lags under a kernel where they are surely better still. `plain`
+/// they are surely better for it, and with kKernelLags lags under a kernel or from a subspace estimate where they are
+/// surely better still. `plain`
 /// itself where nothing is to be simulated (no inputs, no feedback), where the data cannot tell all coefficients, or
 /// where too few rows are there to hold some out. Errors: as fit_arx, kStopped. Precondition: `plain` is fit_arx() of
 /// the same arguments.

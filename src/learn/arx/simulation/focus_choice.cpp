@@ -1,5 +1,8 @@
 #include "learn/arx/simulation/focus_choice.hpp"
 
+#include <algorithm>
+#include <limits>
+
 #include "learn/arx/simulation/held_out.hpp"
 
 namespace wisp::arx {
@@ -11,6 +14,8 @@ using Eigen::MatrixXd;
 constexpr double kAsGood = 1.05;      // a root mean square within this factor of the least is as good
 constexpr double kSure = 1;           // standard errors by which parts must be better than least squares'
 constexpr double kSurelyMany = 2;     // the same for many lags, which cost more to play
+constexpr double kEveryOutput = 1.1;  // states lessen every output's root mean square by this factor
+constexpr double kSlight = 0.01;      // a squared error below this share of what states have to beat does not matter
 constexpr double kMaxRmsRatio = 1.2;  // no fold may have a larger root mean square than least squares by this factor
 
 // By how many standard errors the errors of one row are below those of another.
@@ -20,12 +25,17 @@ double sureness(const MatrixXd& squares, std::size_t one, const MatrixXd& others
 
 double mean_square(const Unit& unit, std::size_t candidate) { return unit.squares.row(Index(candidate)).mean(); }
 
-bool loses_a_fold(const Unit& unit, std::size_t candidate) {
-  for (Index first = 0; first < unit.squares.cols(); first += kParts) {
-    const auto fold = unit.squares.middleCols(first, kParts);
-    if (fold.row(Index(candidate)).mean() > kMaxRmsRatio * kMaxRmsRatio * fold.row(0).mean()) return true;
+// Both are one row.
+bool loses_a_fold(const MatrixXd& squares, const MatrixXd& others) {
+  for (Index first = 0; first < squares.cols(); first += kParts) {
+    const double limit = kMaxRmsRatio * kMaxRmsRatio * others.middleCols(first, kParts).mean();
+    if (squares.middleCols(first, kParts).mean() > limit) return true;
   }
   return false;
+}
+
+bool loses_a_fold(const Unit& unit, std::size_t candidate) {
+  return loses_a_fold(unit.squares.row(Index(candidate)), unit.squares.row(0));
 }
 
 // Many lags start better from measured samples than few, whatever they describe, since they average those: they have to
@@ -35,7 +45,7 @@ bool only_starts_better(const Unit& unit, std::size_t candidate) {
   std::size_t best = 0;
   for (std::size_t w = 0; w < unit.candidates.size(); ++w) {
     const auto error = [&](std::size_t one) { return unit.estimated.row(Index(one)).mean(); };
-    if (!unit.candidates[w].kernel && error(w) < error(best)) best = w;
+    if (!unit.candidates[w].kernel && unit.candidates[w].states == 0 && error(w) < error(best)) best = w;
   }
   return sureness(unit.estimated, candidate, unit.estimated, best) < kSurelyMany;
 }
@@ -46,6 +56,7 @@ void Unit::pick(bool leave_least_squares) {
   const std::size_t first = leave_least_squares && candidates.size() > 1 ? 1 : 0;
   std::vector<std::size_t> open;
   for (std::size_t w = first; w < candidates.size(); ++w) {
+    if (candidates[w].states > 0) continue;
     if (first == 1 || w == 0 || !(loses_a_fold(*this, w) || only_starts_better(*this, w))) open.push_back(w);
   }
   std::size_t best = open.front();
@@ -70,17 +81,57 @@ std::vector<Unit*> Block::chosen() {
 
 void Block::pick(bool leave_least_squares) {
   if (!together.candidates.empty()) together.pick(leave_least_squares);
-  if (apart.empty()) return;
   MatrixXd own;
+  bool comparable = !apart.empty();
   for (Unit& unit : apart) {
-    if (unit.candidates.empty()) return;
+    comparable &= !unit.candidates.empty();
+    if (unit.candidates.empty()) continue;
     unit.pick(leave_least_squares);
     const MatrixXd share = unit.squares.row(Index(unit.picked)) / static_cast<double>(apart.size());
     own = own.size() == 0 ? share : MatrixXd(own + share);
   }
-  if (together.candidates.empty() || own.cols() != together.squares.cols()) return;
-  decoupled = own.mean() * kAsGood * kAsGood < mean_square(together, together.picked) &&
+  if (together.candidates.empty()) return;
+  decoupled = comparable && own.cols() == together.squares.cols() &&
+              own.mean() * kAsGood * kAsGood < mean_square(together, together.picked) &&
               sureness(own, 0, together.squares, together.picked) >= kSure;
+  if (!leave_least_squares) pick_states();
+}
+
+void Block::pick_states() {
+  // What states have to beat: one row of errors of both starts, one of the best states', one of each output's.
+  MatrixXd squares = together.squares.row(Index(together.picked));
+  MatrixXd estimated = together.estimated.row(Index(together.picked));
+  MatrixXd by_output = together.by_output.row(Index(together.picked));
+  if (decoupled) {
+    squares.setZero(), estimated.setZero();
+    for (std::size_t i = 0; i < apart.size(); ++i) {
+      const Unit& unit = apart[i];
+      squares += unit.squares.row(Index(unit.picked)) / static_cast<double>(apart.size());
+      estimated += unit.estimated.row(Index(unit.picked)) / static_cast<double>(apart.size());
+      by_output(0, Index(i)) = unit.by_output(Index(unit.picked), 0);
+    }
+  }
+  const double slight = kSlight * squares.mean();
+  squares.array() += slight, estimated.array() += slight;
+  std::vector<std::size_t> open;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t w = 0; w < together.candidates.size(); ++w) {
+    if (together.candidates[w].states == 0) continue;
+    const Eigen::ArrayXXd ratio = together.by_output.row(Index(w)).array() / by_output.row(0).array().max(1e-300);
+    if ((ratio * kEveryOutput * kEveryOutput > 1).any()) continue;
+    const MatrixXd own = together.squares.row(Index(w)).array() + slight;
+    const MatrixXd own_estimated = together.estimated.row(Index(w)).array() + slight;
+    if (loses_a_fold(own, squares) || sureness(own, 0, squares, 0) < kSurelyMany) continue;
+    if (sureness(own_estimated, 0, estimated, 0) < kSurelyMany) continue;
+    open.push_back(w);
+    least = std::min(least, mean_square(together, w));
+  }
+  for (std::size_t w : open) {
+    if (mean_square(together, w) > kAsGood * kAsGood * least) continue;
+    together.picked = w;
+    decoupled = false;
+    return;
+  }
 }
 
 }  // namespace wisp::arx

@@ -19,13 +19,15 @@ struct Unit {
   std::vector<FocusCandidate> candidates{};  ///< least squares first, then what lies farther and farther from it
   Eigen::MatrixXd squares{};    ///< a row a candidate, kParts columns a fold: both kinds of starts together
   Eigen::MatrixXd estimated{};  ///< the same from the best initial states alone
+  Eigen::MatrixXd by_output{};  ///< a row a candidate, a column an output: both kinds of starts, summed over folds
   double size = 0;              ///< of the outputs themselves, summed over folds
   std::size_t picked = 0;
 
   bool refined() const { return !candidates.empty() && candidates[picked].one_step_weight.has_value(); }
   bool kernel() const { return !candidates.empty() && candidates[picked].kernel; }
+  int states() const { return candidates.empty() ? 0 : candidates[picked].states; }
 
-  /// Sets what is picked. With `leave_least_squares` the best of what is refined.
+  /// Sets what is picked, states aside. With `leave_least_squares` the best of what is refined.
   ///
   /// Precondition: there are candidates.
   void pick(bool leave_least_squares);
@@ -39,8 +41,12 @@ struct Block {
 
   std::vector<Unit*> chosen();
 
-  /// Sets what is picked and whether outputs are on their own: where that is surely better.
+  /// Sets what is picked and whether outputs are on their own: where that is surely better. States are taken in the
+  /// place of all that where they are surely better and every output gains a tenth.
   void pick(bool leave_least_squares);
+
+ private:
+  void pick_states();
 };
 
 }  // namespace wisp::arx

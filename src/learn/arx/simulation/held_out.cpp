@@ -20,15 +20,18 @@ constexpr double kMaxError = 1e6;
 // Sums of squared errors by parts of all rows.
 class PartSums {
  public:
-  explicit PartSums(const SimulationBlock& block) : sum_(VectorXd::Zero(kParts)), rows_(sum_) {
+  explicit PartSums(const SimulationBlock& block)
+      : sum_(VectorXd::Zero(kParts)), rows_(sum_), of_output_(VectorXd::Zero(block.size())), counted_(of_output_) {
     for (const BlockRun& run : block.runs()) total_ += run.rows;
   }
 
-  void add(Index row, double error) {
+  void add(Index row, int output, double error) {
     const double size = std::isnan(error) ? kMaxError : std::min(std::abs(error), kMaxError);
     const Index part = row * kParts / total_;
     sum_[part] += size * size;
     ++rows_[part];
+    of_output_[output] += size * size;
+    ++counted_[output];
   }
 
   VectorXd means() const {
@@ -38,9 +41,13 @@ class PartSums {
     return out;
   }
 
+  VectorXd by_output() const { return of_output_.cwiseQuotient(counted_.cwiseMax(1)); }
+
  private:
   VectorXd sum_;
   VectorXd rows_;
+  VectorXd of_output_;
+  VectorXd counted_;
   Index total_ = 0;
 };
 
@@ -51,21 +58,33 @@ bool past_is_measured(const SimulationBlock& block, const BlockRun& run, Index r
   return true;
 }
 
-void add_measured_starts(const SimulationBlock& block, const VectorXd& theta, const BlockRun& run, Index before,
-                         PartSums& sums) {
+// Adds the errors of the rows from `begin` of a run on; the simulation ends with the run.
+void add_errors(const SimulationBlock& block, const BlockRun& run, Index begin, Index before, const MatrixXd& simulated,
+                PartSums& sums) {
+  const Index end = block.history() + run.rows, first = end - simulated.rows();
+  for (int o = 0; o < block.size(); ++o) {
+    for (Index t = begin; t < end; ++t) {
+      if (std::isnan(run.outputs(t, o))) continue;
+      sums.add(before + t - block.history(), o, run.outputs(t, o) - simulated(t - first, o));
+    }
+  }
+}
+
+// Adds the errors of simulations from measured samples: `simulate_from` gives a run's rows from one of them on.
+template <class SimulateFrom>
+void add_measured_starts(const SimulationBlock& block, const BlockRun& run, Index before,
+                         const SimulateFrom& simulate_from, PartSums& sums) {
   const Index history = block.history();
   const Index starts = std::clamp<Index>(run.rows / kMinRows, 1, kStarts);
   for (Index k = 0; k < starts; ++k) {
     const Index begin = history + static_cast<Index>(kReach * static_cast<double>(run.rows * k / starts));
     if (!past_is_measured(block, run, begin)) continue;
-    const MatrixXd simulated = simulate_from(block, theta, run, begin);
-    for (int o = 0; o < block.size(); ++o) {
-      for (Index t = begin; t < history + run.rows; ++t) {
-        if (std::isnan(run.outputs(t, o))) continue;
-        sums.add(before + t - history, run.outputs(t, o) - simulated(t, o));
-      }
-    }
+    add_errors(block, run, begin, before, simulate_from(begin), sums);
   }
+}
+
+double size_of(const SimulationBlock& block) {
+  return block.weight().cwiseInverse().sum() / std::max(block.measured_rows(), 1.0);
 }
 
 }  // namespace
@@ -115,18 +134,25 @@ HeldOutErrors held_out_errors(const SimulationBlock& block, const VectorXd& thet
   Index before = 0;
   for (std::size_t r = 0; r < block.runs().size(); ++r) {
     const BlockRun& run = block.runs()[r];
-    for (int o = 0; o < block.size(); ++o) {
-      for (const RowRun& stretch : run.measured[o]) {
-        for (auto t = static_cast<Index>(stretch.begin); t < static_cast<Index>(stretch.end); ++t) {
-          estimated.add(before + t - block.history(), simulation.error[r](t, o));
-        }
-      }
-    }
-    add_measured_starts(block, theta, run, before, measured);
+    add_errors(block, run, block.history(), before, simulation.simulated[r], estimated);
+    const auto from = [&](Index begin) { return simulate_from(block, theta, run, begin); };
+    add_measured_starts(block, run, before, from, measured);
     before += run.rows;
   }
-  const double size = block.weight().cwiseInverse().sum() / std::max(block.measured_rows(), 1.0);
-  return {estimated.means(), measured.means(), size};
+  return {estimated.means(), measured.means(), size_of(block), estimated.by_output() + measured.by_output()};
+}
+
+HeldOutErrors held_out_errors(const SimulationBlock& block, const StateSpace& model, const ArxForm& form) {
+  PartSums estimated(block), measured(block);
+  Index before = 0;
+  for (const BlockRun& run : block.runs()) {
+    const VectorXd state = best_state(model, run, block.history(), block.weight());
+    add_errors(block, run, block.history(), before, simulate(model, run, block.history(), state), estimated);
+    const auto from = [&](Index begin) { return simulate(form, run, begin); };
+    add_measured_starts(block, run, before, from, measured);
+    before += run.rows;
+  }
+  return {estimated.means(), measured.means(), size_of(block), estimated.by_output() + measured.by_output()};
 }
 
 }  // namespace wisp::arx

@@ -7,6 +7,7 @@
 
 #include "learn/arx/judge/free_run_parts.hpp"
 #include "learn/arx/simulation/simulation_block.hpp"
+#include "learn/arx/simulation/state_space.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp::arx {
@@ -30,9 +31,16 @@ std::vector<Fold> folds_of(std::span<const Recording> recordings);
 struct HeldOutErrors {
   Eigen::VectorXd estimated;
   Eigen::VectorXd measured;
-  double size = 0;  ///< mean square of the outputs themselves
+  double size = 0;            ///< mean square of the outputs themselves
+  Eigen::VectorXd by_output;  ///< both kinds of starts together, over all parts
 };
 
 HeldOutErrors held_out_errors(const SimulationBlock& block, const Eigen::VectorXd& theta);
+
+/// The same of a state-space model and its ARX form: the best initial state is the model's, measured samples are the
+/// form's.
+///
+/// Precondition: the block remembers as many rows of every output as the form has lags.
+HeldOutErrors held_out_errors(const SimulationBlock& block, const StateSpace& model, const ArxForm& form);
 
 }  // namespace wisp::arx

@@ -181,6 +181,42 @@ TEST(FocusChoice, WhatIsNearestToLeastSquaresIsTakenOfWhatIsAsGood) {
   EXPECT_EQ(unit.picked, 0U);
 }
 
+// Two outputs: least squares together, states, and least squares of each on its own; the same error in all parts.
+arx::Block two_outputs(double squares, double states, double own, double second_output_of_states) {
+  const auto filled = [](arx::Unit& unit, std::initializer_list<double> errors) {
+    for (auto* matrix : {&unit.squares, &unit.estimated}) matrix->resize(Eigen::Index(errors.size()), 6 * arx::kParts);
+    unit.by_output.resize(Eigen::Index(errors.size()), Eigen::Index(unit.outputs.size()));
+    Eigen::Index w = 0;
+    for (double error : errors) {
+      unit.candidates.push_back({});
+      for (auto* matrix : {&unit.squares, &unit.estimated}) matrix->row(w).setConstant(error);
+      unit.by_output.row(w++).setConstant(6 * error);
+    }
+  };
+  arx::Block block{{{0, 1}}};
+  filled(block.together, {squares, states});
+  block.together.candidates[1].states = 4;
+  block.together.by_output(1, 1) = 6 * second_output_of_states;
+  for (int output : {0, 1}) filled(block.apart.emplace_back(arx::Unit{{output}, true}), {own});
+  return block;
+}
+
+TEST(FocusChoice, StatesAreTakenWhereTheyAreBetterThanAllElseForEveryOutput) {
+  arx::Block block = two_outputs(1, 0.2, 0.5, 0.3);
+  block.pick(false);
+  EXPECT_FALSE(block.decoupled);
+  EXPECT_EQ(block.together.states(), 4);
+}
+
+TEST(FocusChoice, StatesAreLeftWhereOutputsOnTheirOwnAreBetterOrOneOutputLoses) {
+  arx::Block better = two_outputs(1, 0.6, 0.5, 0.6);
+  better.pick(false);
+  EXPECT_TRUE(better.decoupled);
+  arx::Block loses = two_outputs(1, 0.2, 0.5, 0.51);
+  loses.pick(false);
+  EXPECT_TRUE(loses.decoupled);
+}
+
 TEST(HeldOut, NoFoldLearnsFromWhatItHoldsOutAndHalfLearnOnlyFromWhatIsEarlier) {
   Recording recording = measured_with_noise(100, 1, 1);
   auto& samples = recording.channels[0].samples;

@@ -48,17 +48,17 @@ interface Abilities extends MediaTrackCapabilities {
 type TrackProcessor = new (of: { track: MediaStreamTrack; maxBufferSize?: number }) => { readable: ReadableStream<VideoFrame> };
 const { MediaStreamTrackProcessor: Processor } = globalThis as { MediaStreamTrackProcessor?: TrackProcessor };
 
-async function ask(): Promise<{ stream: MediaStream; silent: string }> {
+async function ask(hears: boolean): Promise<{ stream: MediaStream; silent: string }> {
   const devices = navigator.mediaDevices as MediaDevices | undefined;
   if (devices?.getUserMedia === undefined) {
     throw new CameraTrouble('Browsers give a camera only to pages that come over HTTPS, or from this very machine. Choose a film instead.');
   }
   try {
-    return { stream: await devices.getUserMedia({ video: VIDEO, audio: AUDIO }), silent: '' };
+    return { stream: await devices.getUserMedia(hears ? { video: VIDEO, audio: AUDIO } : { video: VIDEO }), silent: '' };
   } catch (error) {
     const name = error instanceof DOMException ? error.name : '';
     // The browser does not say which of the two was refused: the camera alone is requested.
-    if (name in TROUBLE) {
+    if (hears && name in TROUBLE) {
       const stream = await devices.getUserMedia({ video: VIDEO }).catch(() => null);
       const why = name === 'NotAllowedError' ? 'The microphone was not allowed' : 'There is no microphone';
       if (stream !== null) return { stream, silent: `${why}: the flicker can be learned, what wind does cannot.` };
@@ -89,8 +89,9 @@ export class Camera {
   private heeds = false;
   private ended = false;
 
-  static async open(events: CameraEvents): Promise<Camera> {
-    const { stream, silent } = await ask();
+  /** `hears`: whether the microphone is wanted too */
+  static async open(events: CameraEvents, hears: boolean): Promise<Camera> {
+    const { stream, silent } = await ask(hears);
     const camera = new Camera(stream, silent, events);
     await camera.listen().catch(() => events.deaf());
     return camera;

@@ -3,7 +3,8 @@
 import type { Captured, LiveCapture, PictureSettings, Region, Seen, Studio } from '@wisp/studio';
 import { element } from '../../panel/element.js';
 import { Camera, KEPT_RATE, smallPicture } from './camera.js';
-import { Guide, hintOf } from './guide.js';
+import { rateField } from '../panels/rate.js';
+import { FallCount, Guide, hintOf, hintOfFalls } from './guide.js';
 import { around, Reel } from '../reel.js';
 import type { Viewer } from '../pictures/viewer.js';
 
@@ -30,6 +31,11 @@ export interface FilmingEvents {
   cancelled(): void;
 }
 
+const ADVICE = {
+  flame: 'One flame before something dark, large in the picture; the camera lies still, the microphone near. It takes half a minute:',
+  falls: 'A slip of paper or a leaf before a plain wall; the camera lies still and sees the whole way down. Take your hand out of the picture before it lands. A dozen falls are enough, two dozen are better:',
+} as const;
+
 export class Filming {
   readonly panel = element('div', { class: 'panel filming' });
   private readonly button = element('button', { type: 'button', class: 'blow record' });
@@ -40,7 +46,8 @@ export class Filming {
   private readonly plan = element('ol', { class: 'plan' });
   private live: LiveCapture | null = null;
   private reel = new Reel(1 / KEPT_RATE);
-  private settings: PictureSettings = {};
+  private settings: PictureSettings;
+  private count = new FallCount();
   private seen: Seen | null = null;
   private loud = 0;
   private state: 'looking' | 'filming' | 'ending' | 'over' = 'looking';
@@ -53,15 +60,16 @@ export class Filming {
     if (document.hidden && this.state === 'filming') this.finish('Filming stopped when the page was hidden; what was filmed till then is kept.');
   };
 
-  /** Asks for the camera. Throws a CameraTrouble in words for people. */
-  static async open(studio: Studio, viewer: Viewer, events: FilmingEvents): Promise<Filming> {
+  /** Asks for the camera, and for a flame the microphone. Throws a CameraTrouble in words for people. */
+  static async open(studio: Studio, viewer: Viewer, falls: boolean, events: FilmingEvents): Promise<Filming> {
     let filming: Filming | null = null;
-    const camera = await Camera.open({
+    const happens = {
       lost: () => filming?.lose(),
       deaf: () => events.say('The microphone is gone: from here on the wind is not heard.'),
-      loud: (level) => filming?.showLevel(level),
-    });
-    filming = new Filming(studio, viewer, camera, events);
+      loud: (level: number) => filming?.showLevel(level),
+    };
+    const camera = await Camera.open(happens, !falls);
+    filming = new Filming(studio, viewer, camera, falls, events);
     return filming;
   }
 
@@ -69,9 +77,11 @@ export class Filming {
     private readonly studio: Studio,
     private readonly viewer: Viewer,
     private readonly camera: Camera,
+    private readonly falls: boolean,
     private readonly events: FilmingEvents,
   ) {
-    this.guide = new Guide(camera.silent === '');
+    this.settings = falls ? { looks_for: 'falls' } : {};
+    this.guide = this.newGuide();
     const picture = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
     picture.setAttribute('viewBox', '0 0 100 100');
     picture.setAttribute('aria-hidden', 'true');
@@ -95,7 +105,8 @@ export class Filming {
 
   /** Where to look. */
   choose(region: Region | null): void {
-    this.settings = region === null ? {} : { region };
+    const { region: _, ...rest } = this.settings;
+    this.settings = region === null ? rest : { ...rest, region };
     if (this.state === 'looking') this.look();
   }
 
@@ -121,14 +132,32 @@ export class Filming {
     const meter = element('div', { class: 'level', 'aria-hidden': 'true' }, this.level);
     for (const [name, words, seconds] of this.guide.plan) this.plan.append(element('li', { 'data-plan': name }, element('span', {}, words), element('small', {}, `${seconds} s`)));
     this.panel.append(
-      element('h2', { tabindex: '-1' }, 'Film your flame'),
-      element('p', {}, 'One flame before something dark, large in the picture; the camera lies still, the microphone near. It takes half a minute:'),
+      element('h2', { tabindex: '-1' }, this.falls ? 'Film how it falls' : 'Film your flame'),
+      element('p', {}, this.falls ? ADVICE.falls : ADVICE.flame),
       this.plan,
+      ...(this.falls ? [this.wallHeight()] : []),
       this.hint,
-      element('div', { class: 'record-row' }, this.button, ...(this.camera.silent === '' ? [element('div', {}, element('small', {}, 'Sound'), meter)] : [])),
+      element('div', { class: 'record-row' }, this.button, ...(this.hears ? [element('div', {}, element('small', {}, 'Sound'), meter)] : [])),
       ...(this.camera.silent === '' ? [] : [element('p', { class: 'warning' }, this.camera.silent)]),
       element('div', { class: 'actions' }, back),
     );
+  }
+
+  private get hears(): boolean {
+    return !this.falls && this.camera.silent === '';
+  }
+
+  private newGuide(): Guide {
+    return new Guide(this.falls ? 'falls' : this.hears ? 'flame' : 'mute flame');
+  }
+
+  /** Positions are metres, and no camera tells how far the wall is. */
+  private wallHeight(): HTMLElement {
+    const { input, label } = rateField('wall-height', 'Metres of wall that the picture shows, top to bottom', 1);
+    input.addEventListener('change', () => {
+      if (input.valueAsNumber >= 0.01 && input.valueAsNumber <= 100) this.settings = { ...this.settings, height: input.valueAsNumber };
+    });
+    return label;
   }
 
   /** Looks at the picture without keeping anything. */
@@ -146,14 +175,16 @@ export class Filming {
   private async begin(): Promise<void> {
     this.state = 'filming';
     const said = await this.camera.lock();
-    if (said !== '') this.events.say(said);
+    // What falls is told from the wall by its place, not by how bright it is; the words would lie over it.
+    if (said !== '' && !this.falls) this.events.say(said);
     if (this.state !== 'filming') return;
     this.live?.cancel();
     this.reel = new Reel(1 / KEPT_RATE);
-    this.guide = new Guide(this.camera.silent === '');
+    this.guide = this.newGuide();
+    this.count = new FallCount();
     this.live = this.studio.live('camera', this.camera.rate, this.settings, { seen: (seen) => this.take(seen) });
     this.camera.feed(this.live);
-    this.events.began();
+    if (!this.falls) this.events.began();
     this.began = performance.now();
     this.word.textContent = 'Stop';
     this.button.classList.add('live');
@@ -164,12 +195,15 @@ export class Filming {
     if (this.state === 'over') return;
     this.seen = seen;
     this.viewer.show(seen);
-    if (this.state === 'filming') this.events.seen(seen, this.camera.silent === '' ? this.loud : null);
+    if (this.state !== 'filming') return;
+    if (this.falls) this.count.see(seen, (performance.now() - this.began) / 1000);
+    else this.events.seen(seen, this.hears ? this.loud : null);
   }
 
   private tick(): void {
     if (this.state === 'filming') this.advise();
-    const hint = this.seen === null ? '' : hintOf(this.seen);
+    if (this.state === 'looking' && this.live?.alive === false) this.look();
+    const hint = this.seen === null ? '' : this.falls ? hintOfFalls(this.seen) : hintOf(this.seen);
     if (this.state !== 'looking' && this.state !== 'filming') return;
     if (this.hint.textContent !== hint) this.hint.textContent = hint;
     if (this.state === 'looking') this.brighten();
@@ -178,7 +212,9 @@ export class Filming {
   /** Says what to do next, and ends when all of it was done. */
   private advise(): void {
     const seconds = (performance.now() - this.began) / 1000;
-    const { act, words, share } = this.guide.at(seconds, this.seen?.state ?? null);
+    // Why it stopped is told by its end.
+    if (this.live?.alive === false) return this.finish('');
+    const { act, words, share } = this.guide.at(seconds, this.seen?.state ?? null, this.count.falls);
     this.ring.style.strokeDasharray = `${Math.round(100 * share)} 100`;
     this.viewer.say(words);
     for (const item of this.plan.children) item.toggleAttribute('aria-current', (item as HTMLElement).dataset.plan === act);

@@ -3,13 +3,17 @@
 import type { Seen } from '@wisp/studio';
 
 /** What is done, one after another. */
-export type Act = 'still' | 'blow' | 'out' | 'done';
+export type Act = 'still' | 'blow' | 'out' | 'drop' | 'done';
+
+/** What is filmed: a flame with sound or without, something that falls. */
+export type Filmed = 'flame' | 'mute flame' | 'falls';
 
 /** Seconds of each. Without sound there is nothing to blow for. */
 const STILL = 4;
 const BLOW = 16;
 const OUT = 9;
 const STILL_ALONE = 20;
+const DROPS = 60;
 /** Seconds without a flame, once it is to be blown out, until it counts as out. */
 const IS_OUT = 1.2;
 /** A breath and a rest, seconds, and how much of it is breath. */
@@ -29,12 +33,12 @@ export class Guide {
   private gone = 0;
   private last = 0;
 
-  /** `hears`: there is a microphone */
-  constructor(private readonly hears: boolean) {}
+  constructor(private readonly filmed: Filmed) {}
 
   /** All that will be done, and how many seconds each takes at most. */
   get plan(): readonly (readonly [Act, string, number])[] {
-    if (!this.hears) return [['still', 'Hold still, let it flicker', STILL_ALONE]];
+    if (this.filmed === 'falls') return [['drop', 'Drop it, let it land, and again', DROPS]];
+    if (this.filmed === 'mute flame') return [['still', 'Hold still, let it flicker', STILL_ALONE]];
     return [
       ['still', 'Hold still, let it burn alone', STILL],
       ['blow', 'Blow softly from the side, with pauses', BLOW],
@@ -42,11 +46,14 @@ export class Guide {
     ];
   }
 
-  /** What is to be done so many seconds after filming began. */
-  at(seconds: number, state: Seen['state'] | null): Moment {
+  /** What is to be done so many seconds after filming began. `falls`: how many were seen by now. */
+  at(seconds: number, state: Seen['state'] | null, falls = 0): Moment {
     const passed = seconds - this.last;
     this.last = seconds;
-    if (!this.hears) {
+    if (this.filmed === 'falls') {
+      return { act: seconds >= DROPS ? 'done' : 'drop', words: wordsOfFalls(falls), share: Math.min(1, seconds / DROPS) };
+    }
+    if (this.filmed === 'mute flame') {
       const done = seconds >= STILL_ALONE;
       return { act: done ? 'done' : 'still', words: 'Hold still. Let it flicker', share: Math.min(1, seconds / STILL_ALONE) };
     }
@@ -61,6 +68,49 @@ export class Guide {
     const done = this.gone >= IS_OUT || seconds >= STILL + BLOW + OUT;
     return { act: done ? 'done' : 'out', words: 'Now blow it out!', share };
   }
+}
+
+/** Fewer are hardly enough to learn from. */
+const ENOUGH_FALLS = 12;
+
+function wordsOfFalls(falls: number): string {
+  if (falls === 0) return 'Drop it before the wall';
+  const said = falls === 1 ? '1 fall. And again' : `${falls} falls.`;
+  return falls === 1 ? said : `${said} ${falls < ENOUGH_FALLS ? 'And again' : 'Enough, or a few more'}`;
+}
+
+/** Of a picture's height, and seconds: what moves as far down, and then is gone as long, has fallen. */
+const FALLEN = 0.35;
+const LANDED = 0.25;
+
+/** Counts falls while they are seen; what is learned is found when the film is over. */
+export class FallCount {
+  falls = 0;
+  private from: number | null = null;
+  private to = 0;
+  private last = 0;
+
+  /** What is seen so many seconds after filming began. */
+  see({ moving, height }: Seen, seconds: number): void {
+    if (moving !== null) {
+      const middle = moving.y + moving.height / 2;
+      this.from ??= middle;
+      this.to = Math.max(this.to, middle);
+      this.last = seconds;
+    } else if (this.from !== null && seconds - this.last > LANDED) {
+      if (this.to - this.from > FALLEN * height) this.falls += 1;
+      this.from = null;
+      this.to = 0;
+    }
+  }
+}
+
+/** Of the picture: what moves in more of it is the camera. */
+const SHAKEN = 0.4;
+
+/** What is wrong with a picture in which something is to fall; '' nothing. */
+export function hintOfFalls({ moving, width, height }: Seen): string {
+  return moving !== null && moving.width * moving.height > SHAKEN * width * height ? 'Almost all of the picture moves. Let the camera lie still, before a plain wall.' : '';
 }
 
 /** Shares of the picture: nearer to its border is too near, lower than this is too small. */

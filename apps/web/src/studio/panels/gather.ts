@@ -5,9 +5,9 @@ import type { Thing } from '../words.js';
 
 export interface GatherEvents {
   camera(): void;
+  /** with the camera, something that falls */
+  falls(): void;
   files(files: File[]): void;
-  /** films of something that falls */
-  falls(files: File[]): void;
 }
 
 const ICONS = {
@@ -37,29 +37,27 @@ function choice(name: keyof typeof ICONS, title: string, words: string, act: () 
 
 /** `more`: something was gathered already, and this is to be learned together with it; `back` returns to it. */
 export function gatherPanel(events: GatherEvents, more: { count: number; thing: Thing; back: () => void } | null): HTMLElement {
-  const chooser = (attributes: Record<string, string | boolean>, chosen = events.files): HTMLInputElement => {
+  const chooser = (attributes: Record<string, string | boolean>): HTMLInputElement => {
     const input = element('input', { type: 'file', hidden: true, tabindex: '-1', ...attributes });
     input.addEventListener('change', () => {
       const files = [...(input.files ?? [])];
       input.value = '';
-      if (files.length > 0) chosen(files);
+      if (files.length > 0) events.files(files);
     });
     return input;
   };
   const film = chooser({ accept: 'video/*,.mkv', multiple: true, 'data-choose': 'film' });
-  const falls = chooser({ accept: 'video/*,.mkv', multiple: true, 'data-choose': 'falls' }, events.falls);
   const pictures = chooser({ webkitdirectory: true, multiple: true, 'data-choose': 'pictures' });
   const table = chooser({ accept: '.csv,.tsv,.txt,.dat,.asc,text/csv', 'data-choose': 'table' });
   const choices = element(
     'div',
     { class: 'choices' },
     choice('camera', 'Film a candle', 'with this camera and microphone, in half a minute', () => events.camera()),
-    choice('film', 'Choose a film', 'from your phone or disk', () => film.click()),
-    choice('falls', 'A film of something that falls', 'a slip of paper, a leaf: dropped before a plain wall, again and again', () => falls.click()),
+    choice('film', 'Choose a film', 'of a flame or of something that falls, from your phone or disk', () => film.click()),
+    choice('falls', 'Film something that falls', 'a slip of paper, a leaf: dropped before a plain wall, again and again', () => events.falls()),
     choice('pictures', 'Folder of pictures', 'numbered frames', () => pictures.click()),
     ...(more === null ? [choice('table', 'A table', 'CSV: what went in and what came out of anything', () => table.click())] : []),
     film,
-    falls,
     pictures,
     table,
   );

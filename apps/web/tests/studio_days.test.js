@@ -1,0 +1,251 @@
+// Days on which the studio has it hard: films out of the ordinary, devices that are taken away, a worker that stops. Each
+// ends in a model or in a sentence, and what was gathered before stays.
+
+import assert from 'node:assert/strict';
+import { mkdtempSync, readFileSync, rmSync, truncateSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, describe, it } from 'node:test';
+import { chromiumPath, drop, openBrowser, until } from './browser.js';
+import { fallsFilm } from '../../../bindings/studio/tests/falls_film.mjs';
+import { asDevices, assertSame, candleFilm, capturedByProgram, hugeFile, hugePicture, noConverter, shortFilm, unevenFilm } from './films.js';
+
+const skip = (chromiumPath === undefined && 'there is no Chromium here') || noConverter;
+const folder = mkdtempSync(join(tmpdir(), 'wisp-days-'));
+after(() => rmSync(folder, { recursive: true }));
+let made;
+const film = () => (made ??= candleFilm(folder));
+
+const panel = '#studio .panel';
+const says = (page, where, words, timeout) =>
+  until(page, `${where} says ${words}`, ([place, source]) => new RegExp(source, 'i').test(document.querySelector(place)?.textContent ?? ''), [where, words], timeout);
+const looked = (page, timeout = 90_000) => until(page, 'it has looked', () => document.querySelector('[data-act=learn], .verdict.bad') !== null, null, timeout);
+const step = (page, name, timeout) => until(page, `step ${name}`, (wanted) => document.getElementById('studio')?.dataset.step === wanted, name, timeout);
+
+async function studio(opened, options = {}) {
+  const page = await opened.page('#scene=candle&detail=0.1', { viewport: { width: 1000, height: 700 }, ...options });
+  await until(page, 'the page has all of its parts', () => document.querySelector('[data-scene=yours]') !== null);
+  await page.click('[data-scene=yours]');
+  await step(page, 'gather');
+  return page;
+}
+
+/** Chooses a file by its place on the disk: its bytes do not pass through the test. */
+async function choose(page, kind, path) {
+  await page.setInputFiles(`[data-choose=${kind}]`, path);
+}
+
+describe('a film out of the ordinary', { skip }, () => {
+  let opened, page;
+  before(async () => {
+    opened = await openBrowser();
+    page = await studio(opened);
+  });
+  after(() => opened?.close());
+  const anew = async () => {
+    await page.click('[data-act=choose], [data-act=leave-out]');
+    await until(page, 'what there is to choose', () => document.querySelector('[data-gather=camera]') !== null);
+  };
+
+  it('of 2 GB is read where its frames are', async () => {
+    await choose(page, 'film', hugeFile(film(), folder));
+    await looked(page);
+    assert.match(await page.textContent(panel), /The flame is found/);
+    await anew();
+  });
+
+  it('of one second is told to be too short', async () => {
+    await drop(page, 'short.mp4', readFileSync(shortFilm(film(), folder)));
+    await looked(page);
+    const learn = await page.$('[data-act=learn]');
+    if (learn !== null) {
+      await learn.click();
+      await until(page, 'it says what came of it', () => document.querySelector('.verdict.bad, .result') !== null || document.getElementById('notices').textContent !== '', null, 30_000);
+    }
+    const words = (await page.textContent(panel)) + (await page.textContent('#notices'));
+    assert.match(words, /short|frames|not enough|rows|seconds/i);
+    await page.$eval('[data-act=choose], [data-act=leave-out], [data-act=anew]', (button) => button.click());
+    await until(page, 'what there is to choose', () => document.querySelector('[data-gather=camera]') !== null);
+  });
+
+  it('whose frames come unevenly has its rows where the program has them', async () => {
+    const uneven = unevenFilm(film(), folder);
+    await drop(page, 'uneven.mp4', readFileSync(uneven));
+    await looked(page);
+    await page.click('[data-act=learn]');
+    await step(page, 'blow', 60_000);
+    const [recording] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=recording]')]);
+    assertSame(readFileSync(await recording.path(), 'utf8'), readFileSync(capturedByProgram(uneven, folder), 'utf8'));
+    await page.click('[data-act=anew]');
+  });
+
+  it('of 8K is looked at, or it is said why not', async () => {
+    await choose(page, 'film', hugePicture(film(), folder));
+    await looked(page, 180_000);
+    assert.match(await page.textContent(panel), /The flame is found|cannot decode|not enough memory|too short|not seen well/);
+    await anew();
+  });
+
+  it('is no table of 300 MB', async () => {
+    const table = join(folder, 'long.csv');
+    writeFileSync(table, 'time,u,y\n');
+    truncateSync(table, 300e6);
+    await choose(page, 'table', table);
+    await says(page, '#notices', 'long.csv has 300 MB');
+  });
+
+  it('made no error, and asked no other host', () => assert.deepEqual([page.errors, page.strangers], [[], []]));
+});
+
+describe('a worker that stops', { skip }, () => {
+  let opened, page;
+  before(async () => {
+    opened = await openBrowser();
+    page = await studio(opened);
+    await drop(page, 'first.mp4', readFileSync(film()));
+    await looked(page);
+  });
+  after(() => opened?.close());
+
+  /** Something happens in the worker while it looks at a film. */
+  const meanwhile = async (happens) => {
+    await page.click('[data-act=more]');
+    await drop(page, 'second.mp4', readFileSync(film()));
+    await says(page, panel, 'Picture\\d');
+    await page.workers()[0].evaluate(happens);
+  };
+  const kept = async () => {
+    await page.click('[data-act=choose]');
+    await says(page, panel, 'One film is kept');
+    await page.getByRole('button', { name: 'Back' }).click();
+    await until(page, 'the first film', () => document.querySelector('[data-act=learn]') !== null);
+  };
+
+  it('is said to have stopped, and the first film is still there', async () => {
+    await meanwhile(() => setTimeout(() => { throw new Error('struck'); }));
+    await says(page, `${panel} .verdict.bad`, 'worker that learns stopped.*what was gathered is kept', 60_000);
+    await kept();
+  });
+
+  it('for want of memory says so, and what to give it', async () => {
+    await meanwhile(() => {
+      Uint8Array.prototype.set = () => { throw new RangeError('Array buffer allocation failed'); };
+    });
+    await says(page, `${panel} .verdict.bad`, 'not enough memory.*shorter film', 60_000);
+    await kept();
+  });
+
+  it('by a fault of its own says that', async () => {
+    await meanwhile(() => {
+      Uint8Array.prototype.set = () => { throw new WebAssembly.RuntimeError('unreachable'); };
+    });
+    await says(page, `${panel} .verdict.bad`, 'a fault of its own', 60_000);
+    await kept();
+  });
+
+  it('is followed by another, which learns from what was gathered', async () => {
+    await page.click('[data-act=learn]');
+    await step(page, 'blow', 60_000);
+    assert.match(await page.textContent(`${panel} h2`), /It learned your flame/);
+  });
+});
+
+describe('devices that are taken away', { skip }, () => {
+  let opened, page;
+  // In the page: the film stands for the camera, a tone for the microphone.
+  function stubDevices() {
+    window.deaf = false;
+    navigator.mediaDevices.getUserMedia = async (wanted) => {
+      if (window.deaf && wanted.audio) throw new DOMException('no', 'NotAllowedError');
+      const canvas = document.createElement('canvas');
+      [canvas.width, canvas.height] = [160, 240];
+      const context = canvas.getContext('2d');
+      window.drawing = setInterval(() => {
+        context.fillStyle = '#000';
+        context.fillRect(0, 0, 160, 240);
+        context.fillStyle = '#ffd080';
+        context.beginPath();
+        context.ellipse(80 + 4 * Math.sin(performance.now() / 90), 130, 22, 70 + 6 * Math.sin(performance.now() / 70), 0, 0, 7);
+        context.fill();
+      }, 30);
+      const stream = canvas.captureStream(30);
+      if (wanted.audio) {
+        const sound = new AudioContext().createMediaStreamDestination();
+        stream.addTrack(sound.stream.getAudioTracks()[0]);
+      }
+      window.stream = stream;
+      return stream;
+    };
+  }
+  before(async () => {
+    opened = await openBrowser(['--autoplay-policy=no-user-gesture-required']);
+    page = await studio(opened, { before: stubDevices });
+  });
+  after(() => opened?.close());
+  const filming = async () => {
+    await page.click('[data-gather=camera]');
+    await says(page, panel, 'Film your flame');
+    await until(page, 'a flame is found', () => document.querySelector('.filming [role=status]')?.textContent === '', null, 30_000);
+    await page.click('.record');
+    await says(page, '.caption', 'Hold still', 20_000);
+  };
+
+  it('the microphone before filming: the camera alone films', async () => {
+    await page.evaluate(() => (window.deaf = true));
+    await page.click('[data-gather=camera]');
+    await says(page, panel, 'The microphone was not allowed: the flicker can be learned');
+    await page.getByRole('button', { name: 'Back' }).click();
+    await page.evaluate(() => (window.deaf = false));
+  });
+
+  it('the microphone while it films: it is said, and filming goes on', async () => {
+    await filming();
+    await page.evaluate(() => window.stream.getAudioTracks()[0].dispatchEvent(new Event('ended')));
+    await says(page, '#notices', 'microphone is gone: from here on');
+    assert.equal(await page.textContent('.record'), 'Stop');
+  });
+
+  it('the camera while it films: what was filmed till then is looked at', async () => {
+    await page.waitForTimeout(2500);
+    await page.evaluate(() => window.stream.getVideoTracks()[0].dispatchEvent(new Event('ended')));
+    await says(page, '#notices', 'camera is gone; what was filmed till then is kept');
+    await looked(page, 60_000);
+    assert.match(await page.textContent(panel), /The flame is|Nothing was learned/);
+    assert.deepEqual([page.errors, page.strangers], [[], []]);
+  });
+
+  it('the worker while it films: it is said at once', async () => {
+    await page.$eval('[data-act=more], [data-act=choose]', (button) => button.click());
+    await until(page, 'what there is to choose', () => document.querySelector('[data-gather=camera]') !== null);
+    await filming();
+    await page.workers()[0].evaluate(() => setTimeout(() => { throw new Error('struck'); }));
+    await says(page, panel, 'worker that learns stopped', 20_000);
+  });
+});
+
+describe('falls before a camera', { skip }, () => {
+  let opened;
+  after(() => opened?.close());
+
+  it('are counted while they are filmed, and learned from', async () => {
+    const { picture } = asDevices(fallsFilm(join(folder, 'paper.mp4'), 10), folder, { silent: true, seconds: 16 });
+    opened = await openBrowser(['--use-fake-ui-for-media-stream', '--use-fake-device-for-media-stream', `--use-file-for-fake-video-capture=${picture}`]);
+    const page = await studio(opened, { viewport: { width: 390, height: 844 } });
+    await page.click('[data-gather=falls]');
+    await says(page, panel, 'Film how it falls');
+    assert.deepEqual(await page.evaluate(() => document.querySelector('.viewer video').srcObject.getAudioTracks().length), 0, 'no microphone is wanted');
+    await page.fill('#wall-height', '2.4');
+    await page.dispatchEvent('#wall-height', 'change');
+    await until(page, 'the camera shows', () => document.querySelector('.viewer video').videoWidth > 0, null, 20_000);
+    await page.click('.record');
+    await says(page, '.caption', '[4-9] falls', 60_000);
+    await page.click('.record');
+    await looked(page);
+    assert.match(await page.textContent(panel), /The falls are|Falls\d/);
+    assert.match(await page.textContent(panel), /Falls[3-9]/);
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'nothing sticks out sideways');
+    await page.click('[data-act=learn]');
+    await until(page, 'it says what came of it', () => document.querySelector('.result .verdict h2') !== null || document.getElementById('notices').textContent !== '', null, 60_000);
+    assert.deepEqual([page.errors, page.strangers], [[], []]);
+  });
+});
