@@ -43,7 +43,7 @@ const mutants = [
   [`${page}files.ts`, 'if (file.size > MOST_BYTES)', 'if (file.size < 0)', 'trouble'],
   [`${page}wind/ear.ts`, "denied: 'The microphone was not allowed.", "denied: 'No microphone was found.", 'trouble'],
   [`${page}app.ts`, "absent.hidden = state === 'back';", 'absent.hidden = true;', 'trouble'],
-  ['apps/web/service-worker.js', 'cache.addAll(files)', 'cache.addAll([])', 'trouble'],
+  ['apps/web/service-worker.js', 'cache.addAll(files.filter(wanted))', 'cache.addAll([])', 'trouble'],
   ['apps/web/vite.config.ts', '"connect-src \'self\'"', '"connect-src *"', 'weight'],
   // Breath
   [`${page}wind/ear.ts`, 'this.microphone?.stop();', '', 'breath'],
