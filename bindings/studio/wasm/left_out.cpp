@@ -1,7 +1,9 @@
 // What is learned by the program alone, for nobody films it in a page: models that switch, lamps' flicker, a fall's
-// answer to gusts, which wants pairs of recordings, and modes that are systems. Linked before the library, this is what
-// the linker takes; it is an eighth of the module.
+// answer to gusts, which wants pairs of recordings, modes that are systems, and coefficients that are refined for
+// simulation, which no recipe of the studio asks for. Linked before the library, this is what the linker takes; it is
+// an eighth of the module.
 
+#include "learn/arx/simulation/focus.hpp"
 #include "learn/chain/gusts/gust_report.hpp"
 #include "learn/chain/modes/mode_systems.hpp"
 #include "learn/flicker/learn_flicker.hpp"
@@ -21,6 +23,16 @@ Result<Fit> learn_flicker(std::span<const Recording>, const FlickerRecipe&, cons
 Result<Report> validate_switched(const Model&, const Recording&, const ValidationOptions&, const Progress&) {
   return left_out("models that switch");
 }
+
+namespace arx {
+
+Result<FocusedFit> focus_fit(std::span<const Recording>, const ChannelChoice&, const ArxOptions&, ArxFit plain,
+                             ArxFocus focus, const Progress&) {
+  if (focus == ArxFocus::kPrediction) return FocusedFit{.fit = std::move(plain)};
+  return left_out("coefficients that are refined for simulation");
+}
+
+}  // namespace arx
 
 namespace chain {
 
