@@ -69,6 +69,8 @@ TEST_F(Clip, SeveralBecomeRecordingsInAFolder) {
   ASSERT_EQ(wisp("capture flame " + at("two.mp4") + " -o " + at("alone.csv")).status, 0);
   EXPECT_EQ(file_text(at("recordings/two.csv")), file_text(at("alone.csv")));
   EXPECT_EQ(said.json()["clips"][1]["recording"], at("recordings/two.csv"));
+  ASSERT_EQ(wisp("capture flame " + at("more/one.mp4") + " -o " + at("recordings")).status, 0);
+  EXPECT_NE(file_text(at("recordings/one.csv")), "");
 
   const Said skipped =
       wisp("capture flame " + good + " " + at("black.mp4") + " --skip-bad -o " + at("left") + " --json");

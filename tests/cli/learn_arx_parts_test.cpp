@@ -194,52 +194,50 @@ TEST_F(LearnArxParts, APartTwiceOrOneMissingIsRefused) {
   EXPECT_EQ(all.json()["covered"][0]["source"], "system.csv");
 }
 
-// examples/06_parallel_fit with two workers.
-class LearnArxExamples : public LearnArxParts {
+// examples/06_parallel_fit, by each of its launchers, with two workers.
+class LearnArxExample : public LearnArxParts, public testing::WithParamInterface<const char*> {
  protected:
-  // What the example says goes to the file `said`; what it leaves behind, to the folder `left`.
-  int run_example(const std::string& name, const std::string& program) {
+  void SetUp() override {
+    // No launcher is among what Wisp needs: a machine without one has nothing to try here.
+    if (!installed(GetParam())) GTEST_SKIP() << GetParam() << " is not installed (script/bootstrap does it)";
+    write_system();
     std::filesystem::create_directory(at("left"));
+  }
+
+  // What the example says goes to the file `said`; what it leaves behind, to the folder `left`.
+  int run_example(const std::string& program) {
     // Open MPI refuses root and more ranks than cores unless told; in a container both are usual.
     const std::string line =
         "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 PARTS=" +
         at("left") + " TMPDIR=" + at("left") + " WISP=" + program + " " + WISP_SOURCE_DIR +
-        "/examples/06_parallel_fit/" + name + " arx 2 " + at("spread.wisp") + " " + whole() + " >" + at("said") +
-        " 2>&1 </dev/null";
+        "/examples/06_parallel_fit/with_" + GetParam() + " arx 2 " + at("spread.wisp") + " " + whole() + " >" +
+        at("said") + " 2>&1 </dev/null";
     return std::system(line.c_str());
-  }
-
-  void expect_the_fit_in_one(const std::string& name) {
-    if (!installed(name.substr(5))) GTEST_SKIP() << name.substr(5) << " is not installed (script/bootstrap does it)";
-    const auto want = in_one();
-    ASSERT_EQ(run_example(name, WISP_PROGRAM), 0) << file_text(at("said"));
-    const auto spread = wisp("info --json " + at("spread.wisp")).json();
-    EXPECT_EQ(spread["made"]["sources"], (nlohmann::json{"system.csv"}));
-    EXPECT_EQ(spread["made"]["figures"]["samples_used"], want["samples_used"]);
-    EXPECT_NEAR(spread["made"]["figures"]["fpe"].get<double>() / want["fpe"].get<double>(), 1, 1e-11);
-  }
-
-  // The second worker is killed before it has written its part.
-  void expect_no_model_of_a_killed_worker(const std::string& name) {
-    if (!installed(name.substr(5))) GTEST_SKIP() << name.substr(5) << " is not installed (script/bootstrap does it)";
-    std::ofstream(at("dies")) << "#!/bin/sh\ncase \"$*\" in *'--part 2/2'*) kill -9 $$ ;; esac\nexec " << WISP_PROGRAM
-                              << " \"$@\"\n";
-    std::filesystem::permissions(at("dies"), std::filesystem::perms::owner_all);
-    EXPECT_NE(run_example(name, at("dies")), 0) << file_text(at("said"));
-    EXPECT_FALSE(std::filesystem::exists(at("spread.wisp")));
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(at("left"))) {
-      EXPECT_NE(entry.path().extension(), ".part") << entry.path();
-    }
   }
 };
 
-TEST_F(LearnArxExamples, GnuParallelSpreadsTheWorkOverTwoJobs) { expect_the_fit_in_one("with_parallel"); }
+INSTANTIATE_TEST_SUITE_P(, LearnArxExample, testing::Values("parallel", "mpirun"),
+                         [](const auto& launcher) { return std::string(launcher.param); });
 
-TEST_F(LearnArxExamples, TwoMpiRanksShareTheWork) { expect_the_fit_in_one("with_mpirun"); }
+TEST_P(LearnArxExample, SpreadsTheWorkOverTwoWorkers) {
+  const auto want = in_one();
+  ASSERT_EQ(run_example(WISP_PROGRAM), 0) << file_text(at("said"));
+  const auto spread = wisp("info --json " + at("spread.wisp")).json();
+  EXPECT_EQ(spread["made"]["sources"], (nlohmann::json{"system.csv"}));
+  EXPECT_EQ(spread["made"]["figures"]["samples_used"], want["samples_used"]);
+  EXPECT_NEAR(spread["made"]["figures"]["fpe"].get<double>() / want["fpe"].get<double>(), 1, 1e-11);
+}
 
-TEST_F(LearnArxExamples, AKilledJobOfGnuParallelLeavesNoModel) { expect_no_model_of_a_killed_worker("with_parallel"); }
-
-TEST_F(LearnArxExamples, AKilledMpiRankLeavesNoModel) { expect_no_model_of_a_killed_worker("with_mpirun"); }
+TEST_P(LearnArxExample, LeavesNoModelWhereAWorkerIsKilled) {
+  std::ofstream(at("dies")) << "#!/bin/sh\ncase \"$*\" in *'--part 2/2'*) kill -9 $$ ;; esac\nexec " << WISP_PROGRAM
+                            << " \"$@\"\n";
+  std::filesystem::permissions(at("dies"), std::filesystem::perms::owner_all);
+  EXPECT_NE(run_example(at("dies")), 0) << file_text(at("said"));
+  EXPECT_FALSE(std::filesystem::exists(at("spread.wisp")));
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(at("left"))) {
+    EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+  }
+}
 
 }  // namespace
 }  // namespace wisp

@@ -16,6 +16,13 @@
 namespace wisp::cli {
 namespace {
 
+// Several clips go to a folder, and one where a folder of that name is there: what a wildcard names may be one.
+bool goes_to_folder(const Arguments& arguments) {
+  std::error_code none;
+  const std::filesystem::path output(arguments.text("output"));
+  return arguments.positionals().size() > 1 || !output.has_filename() || std::filesystem::is_directory(output, none);
+}
+
 // Where each of several clips is written: under its own name in the folder. Errors: two of one name, no folder.
 Result<std::vector<std::filesystem::path>> tables_in(const std::string& folder, const std::vector<std::string>& clips) {
   if (is_table(folder)) {
@@ -66,7 +73,7 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
   const auto options = capture_options(arguments);
   if (!options) return options.error();
-  if (arguments.positionals().size() > 1) return run_many(*options, arguments, terminal);
+  if (goes_to_folder(arguments)) return run_many(*options, arguments, terminal);
   const auto clip = capture(arguments.positional(), *options, terminal.progress());
   if (!clip) return clip.error();
   const std::string& path = arguments.text("output");
@@ -149,7 +156,8 @@ Command capturing(std::string name, const std::string& flame, std::string summar
                               Kind::kOutput,
                               "REC.csv",
                               "",
-                              "where to write the recording; of several clips a folder, where each has its own name",
+                              "where to write the recording; of several clips, and of one where it is there, a folder, "
+                              "in which each has its own name",
                               {},
                               true}};
   for (Flag& flag : capture_flags(flame)) flags.push_back(std::move(flag));

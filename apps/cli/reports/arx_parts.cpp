@@ -2,6 +2,7 @@
 
 #include "flags/part_flags.hpp"
 #include "flags/recordings.hpp"
+#include "reports/merged_part.hpp"
 #include "wisp/base/file.hpp"
 
 namespace wisp::cli {
@@ -28,14 +29,6 @@ Result<void> take(const std::string& path, const TableShare& share, const Argume
   const auto options = csv_options(arguments);
   if (!options) return options.error();
   return part.add(std::filesystem::path(path), *options, share);
-}
-
-Result<ArxPart> read_part(const std::string& path) {
-  const auto bytes = read_file(path);
-  if (!bytes) return bytes.error();
-  auto part = ArxPart::from_bytes(*bytes);
-  if (!part) return Error{path + ": " + part.error().message};
-  return part;
 }
 
 ReportList list_of(const OrderMatrix& orders) {
@@ -86,17 +79,8 @@ Result<NamedPart> part_of_tables(const ArxRecipe& recipe, const Arguments& argum
 }
 
 Result<NamedPart> merged_parts(const Arguments& arguments) {
-  const auto& paths = arguments.positionals();
-  auto whole = read_part(paths.front());
+  auto whole = merged_part<ArxPart>(arguments);
   if (!whole) return whole.error();
-  for (std::size_t k = 1; k < paths.size(); ++k) {
-    const auto part = read_part(paths[k]);
-    if (!part) return part.error();
-    if (auto ok = whole->merge(*part); !ok) {
-      return Error{paths[k] + ": cannot be merged with " + paths.front() + ": " + ok.error().message};
-    }
-  }
-  if (auto ok = check_expected(whole->jobs(), arguments); !ok) return ok.error();
   auto sources = whole->sources();
   return NamedPart{std::move(*whole), std::move(sources)};
 }

@@ -2,34 +2,12 @@
 
 #include "flags/capture_flags.hpp"
 #include "flags/part_flags.hpp"
+#include "reports/merged_part.hpp"
 #include "wisp/base/file.hpp"
 #include "wisp/learn/parts.hpp"
 
 namespace wisp::cli {
 namespace {
-
-Result<OutlinePart> read_part(const std::string& path) {
-  const auto bytes = read_file(path);
-  if (!bytes) return bytes.error();
-  auto part = OutlinePart::from_bytes(*bytes);
-  if (!part) return Error{path + ": " + part.error().message};
-  return part;
-}
-
-Result<OutlinePart> merged_part(const Arguments& arguments) {
-  const auto& paths = arguments.positionals();
-  auto whole = read_part(paths.front());
-  if (!whole) return whole.error();
-  for (std::size_t k = 1; k < paths.size(); ++k) {
-    const auto part = read_part(paths[k]);
-    if (!part) return part.error();
-    if (auto ok = whole->merge(*part); !ok) {
-      return Error{paths[k] + ": cannot be merged with " + paths.front() + ": " + ok.error().message};
-    }
-  }
-  if (auto ok = check_expected(whole->jobs(), arguments); !ok) return ok.error();
-  return whole;
-}
 
 Result<OutlinePart> captured_part(const Arguments& arguments, Terminal& terminal) {
   const auto part = share_of(arguments);
@@ -57,7 +35,7 @@ std::vector<Flag> outline_part_flags() {
 }
 
 Result<void> write_outline_part(const Arguments& arguments, Terminal& terminal) {
-  const auto part = arguments.on("merge") ? merged_part(arguments) : captured_part(arguments, terminal);
+  const auto part = arguments.on("merge") ? merged_part<OutlinePart>(arguments) : captured_part(arguments, terminal);
   if (!part) return part.error();
   const std::string& path = arguments.text("partial");
   const auto bytes = part->bytes();
@@ -71,7 +49,7 @@ Result<void> write_outline_part(const Arguments& arguments, Terminal& terminal) 
 }
 
 Result<std::vector<Recording>> merged_recordings(const Arguments& arguments) {
-  const auto part = merged_part(arguments);
+  const auto part = merged_part<OutlinePart>(arguments);
   if (!part) return part.error();
   return part->recordings();
 }

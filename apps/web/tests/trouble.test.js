@@ -141,7 +141,7 @@ describe('trouble', { skip }, () => {
         await new Promise((resolve) => registration.active.addEventListener('statechange', resolve, { once: true }));
       }
     });
-    // One module of the two, and no leaf before anybody has asked for one.
+    // One module of the two, and no leaf before Leaves is opened.
     const names = () =>
       kept.evaluate(async () => {
         const all = await Promise.all((await caches.keys()).map(async (name) => (await caches.open(name)).keys()));

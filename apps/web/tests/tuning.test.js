@@ -47,7 +47,7 @@ describe('a microphone that is too sensitive', { skip }, () => {
   let heard;
 
   before(async () => {
-    // Still, soft and hard as they are asked for, with half a second to spare; then soft, then hard.
+    // Still, soft and hard at the times of the three steps, with half a second to spare; then soft, then hard.
     const pieces = [room(8.8), breath(4.8, SOFT), room(0.3), breath(4.1, HARD), room(2.5), breath(3, SOFT), room(2.5), breath(2, HARD), room(10)];
     heard = await hearing(folder, pieces, phone);
   });
@@ -65,7 +65,7 @@ describe('a microphone that is too sensitive', { skip }, () => {
     await opened.close();
   });
 
-  it('is asked for stillness, a gentle breath and a hard one, and its names are read out', async () => {
+  it('goes through stillness, a gentle breath and a hard one, and its names are read out', async () => {
     const { page, at } = heard;
     await page.click('#blow');
     await until(page, 'it listens', () => window.wisp.hearing === 'listening');

@@ -17,7 +17,7 @@ const STEPS: readonly Step[] = [
   { asked: 'blow hard', title: 'Blow hard', words: 'As on a birthday cake.', seconds: 2.5 },
 ];
 
-/** Seconds to read what is asked for and to draw breath. */
+/** Seconds to read the instruction and to draw breath. */
 const GET_READY = 1.5;
 /** Seconds that the last words stay. */
 const STAYS = 6;

@@ -132,7 +132,7 @@ export class Ear {
     if (on) this.events.ended();
   }
 
-  /** Listens for what was asked for; whether it was heard. Never when the microphone is off. */
+  /** Listens for one step of the calibration; whether it was heard. Never when the microphone is off. */
   listenFor(asked: Asked, seconds: number): Promise<boolean> {
     this.answered(false);
     if (this.microphone === null) return Promise.resolve(false);

@@ -62,7 +62,7 @@ ArxOrders state_space_orders(ArxOrders orders, const std::vector<int>& outputs, 
   return orders;
 }
 
-// What is asked for.
+// The arguments of a fit, and what may be tried.
 struct Subject {
   std::span<const Recording> recordings;
   const ChannelChoice& channels;
