@@ -201,6 +201,28 @@ TEST(LearnArx, ValidationHasEveryStepOfEveryOutputAndSaysHowOftenIntervalsHold) 
   EXPECT_EQ(series_of(*report, "poles"), nullptr);
 }
 
+TEST(LearnArx, OrdersThatTheFocusChoseAreJudgedNotThoseThatWereGiven) {
+  std::mt19937 random(5);
+  const auto noise = [&] { return static_cast<double>(random() % 2001) / 1000 - 1; };
+  Recording recording{.rate_hz = 1, .channels = {{"u", "", Role::kInput, {}}, {"y", "", Role::kOutput, {}}}};
+  auto &u = recording.channels[0].samples, &y = recording.channels[1].samples;
+  for (std::size_t t = 0; t < 1200; ++t) {
+    u.push_back(noise());
+    y.push_back(t < 2 ? 0 : 1.5 * y[t - 1] - 0.7 * y[t - 2] + u[t] + 0.05 * noise());
+  }
+  const ArxRecipe given{.inputs = {"u"}, .outputs = {"y"}, .na = 4, .nb = 4, .nk = 1};
+  const auto least_squares = learn({&recording, 1}, given);
+  ASSERT_TRUE(least_squares) << least_squares.error().message;
+  EXPECT_NE(least_squares->report.verdict->reason.find("--nk 0"), std::string::npos);
+
+  ArxRecipe free = given;
+  free.focus = ArxFocus::kAuto;
+  const auto chosen = learn({&recording, 1}, free);
+  ASSERT_TRUE(chosen) << chosen.error().message;
+  EXPECT_EQ(std::get<ArxModel>(chosen->model.dynamics).orders.nk(0, 0), 0);
+  EXPECT_TRUE(chosen->report.verdict->usable) << chosen->report.verdict->reason;
+}
+
 TEST(LearnArx, PlotsOfAPartOfARecordingHaveTheTimeOfTheWhole) {
   const Recording whole = record_system(made_system(), 2000, 1);
   const Fit fit = learned(whole, recipe_of_made());
