@@ -43,6 +43,23 @@ function tableThatBreaks() {
   return Buffer.from(rows.map((row, k) => (k < 460 ? row : row.replace(/[^,]*$/, String(Math.sin(k * k))))).join('\n'));
 }
 
+/** Of a sheet of pictures: its size; of each picture its sum, how opaque its edge gets, and how opaque its middle. In a page. */
+async function looksOfSheet([png, frames]) {
+  const bytes = Uint8Array.from(atob(png), (letter) => letter.charCodeAt(0));
+  const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
+  const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
+  context.drawImage(bitmap, 0, 0);
+  const [sums, edges, middles] = [[], [], []];
+  for (const { x, y, w, h } of frames) {
+    const { data } = context.getImageData(x, y, w, h);
+    const opacity = (across, down) => data[4 * (down * w + across) + 3];
+    sums.push(data.reduce((sum, value, k) => (31 * sum + value * (1 + (k % 97))) % 1e15, 0));
+    edges.push(Math.max(...Array.from({ length: w }, (_, k) => Math.max(opacity(k, 0), opacity(k, h - 1)))));
+    middles.push(Math.max(...Array.from({ length: w }, (_, k) => opacity(k, Math.round(0.6 * h)))));
+  }
+  return { size: { w: bitmap.width, h: bitmap.height }, sums, edges, middles };
+}
+
 describe('a film that is dropped', { skip: skip || noFilms }, () => {
   let opened, page;
   const asked = [];
@@ -121,6 +138,23 @@ describe('a film that is dropped', { skip: skip || noFilms }, () => {
     const { layers, op, fr } = JSON.parse(readFileSync(await lottie.path(), 'utf8'));
     assert.deepEqual([layers.length, Math.round(op / fr)], [1, 4]);
     assert.ok(made());
+  });
+
+  it('becomes a flipbook, whose pictures differ and stand in their frames', async () => {
+    const files = {};
+    page.on('download', (download) => (files[download.suggestedFilename()] = download.path()));
+    await page.click('[data-file=flipbook]');
+    const begun = Date.now();
+    while (Object.keys(files).length < 2 && Date.now() - begun < 20_000) await new Promise((resolve) => setTimeout(resolve, 100));
+    const [sheet, atlas] = await Promise.all([files['mine.png'], files['mine.atlas.json']]);
+    const { frames, meta } = JSON.parse(readFileSync(atlas, 'utf8'));
+    assert.deepEqual([meta.image, meta.loop, Math.round(frames.length / meta.rate_hz)], ['mine.png', true, 4]);
+    const looks = await page.evaluate(looksOfSheet, [readFileSync(sheet).toString('base64'), frames.map(({ frame }) => frame)]);
+    assert.deepEqual(looks.size, meta.size);
+    assert.equal(new Set(looks.sums).size, frames.length);
+    // Light that is cut off at a frame's edge shows as a box.
+    assert.ok(Math.max(...looks.edges) <= 4, String(looks.edges));
+    assert.ok(Math.min(...looks.middles) >= 200, String(looks.middles));
   });
 
   it('burns in the page, and goes out when somebody blows', async () => {

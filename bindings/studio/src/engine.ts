@@ -1,5 +1,5 @@
-// The module itself: capture, learn and validate, one call after the other. In a page a worker has it; Node may call it
-// where it stands.
+// The modules themselves: capture, learn and validate, one call after the other. In a page a worker has them; Node may call
+// them where they stand.
 
 import { compiled, Module } from './module.js';
 import type { Captured, Curve, Learned, PictureSettings, Recipe, Region, Report, Seen, Series, TableSettings } from './types.js';
@@ -28,7 +28,7 @@ export interface CaptureSettings extends PictureSettings {
   pictures?: boolean;
 }
 
-export { StudioError } from './module.js';
+export { Elsewhere, StudioError } from './module.js';
 
 const LAYOUTS = { grey: 0, yuv: 1, rgb: 2 } as const;
 
@@ -51,6 +51,10 @@ interface ReportText {
 
 type RecordingText = ReportText & { rate: number; rows: number; episodes: number[]; series: Omit<Series, 'samples'>[] };
 
+/**
+ * Of `studio.wasm`: captures, and learns and judges everything but chains. Of `chains.wasm`: learns and judges chains and
+ * leaves, from recordings. Each throws `Elsewhere` for what the other learns.
+ */
 export class Engine extends Module {
   /** Told of progress; returns whether to go on. */
   onProgress: (stage: string, share: number) => boolean = () => true;

@@ -7,6 +7,10 @@ export class StudioError extends Error {
   override name = 'StudioError';
 }
 
+/** What was wanted is done by the other module that learns. */
+export class Elsewhere extends StudioError {}
+
+const ELSEWHERE = 2;
 const NO_MEMORY = 'there is not enough memory for this: give a shorter film, or a smaller picture';
 const FAULT = 'Wisp stopped at a fault of its own; what was gathered before is kept. A report with this file would help to mend it';
 
@@ -58,7 +62,10 @@ export class Module {
 
   /** Calls a function that answers, and throws the sentence where it fails. */
   protected call(name: string, ...values: number[]): void {
-    if (told(() => this.functions[name]!(...values)) !== 0) throw new StudioError(this.text());
+    const asked = this.functions[name];
+    if (asked === undefined) throw new Elsewhere('this module learns and does not capture; studio.wasm does');
+    const ended = told(() => asked(...values));
+    if (ended !== 0) throw new (ended === ELSEWHERE ? Elsewhere : StudioError)(this.text());
   }
 
   protected text(): string {

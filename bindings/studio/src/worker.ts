@@ -4,7 +4,7 @@ import { Engine } from './engine.js';
 import { Exporter } from './exporter.js';
 import { showFilm } from './film.js';
 import type { FromWorker, Outcome, Task, ToWorker } from './messages.js';
-import { sentenceOf, StudioError } from './module.js';
+import { Elsewhere, sentenceOf, StudioError } from './module.js';
 import { rawOfBitmap, rawOfFrame } from './pictures.js';
 import type { Captured, Seen } from './types.js';
 
@@ -19,17 +19,22 @@ async function fetched(address: URL): Promise<ArrayBuffer> {
   return response.arrayBuffer();
 }
 
-const engine = fetched(new URL('./studio.wasm', import.meta.url)).then((bytes) => Engine.start(bytes));
-/** fetched when somebody wants a file */
-let exporter: Promise<Exporter> | null = null;
-
-function exporting(): Promise<Exporter> {
-  exporter ??= fetched(new URL('./export.wasm', import.meta.url)).then((bytes) => Exporter.start(bytes));
-  return exporter.catch((error: unknown) => {
-    exporter = null;
-    throw error;
-  });
+/** A module that is fetched when it is first wanted, and again after that failed. */
+function onDemand<T>(start: () => Promise<T>): () => Promise<T> {
+  let started: Promise<T> | null = null;
+  return () => {
+    started ??= start();
+    return started.catch((error: unknown) => {
+      started = null;
+      throw error;
+    });
+  };
 }
+
+// Whole addresses, which bundlers know again.
+const engine = fetched(new URL('./studio.wasm', import.meta.url)).then((bytes) => Engine.start(bytes));
+const chains = onDemand(async () => Engine.start(await fetched(new URL('./chains.wasm', import.meta.url))));
+const exporter = onDemand(async () => Exporter.start(await fetched(new URL('./export.wasm', import.meta.url))));
 
 // It is awaited, and told of, by whoever asks first.
 engine.catch(() => undefined);
@@ -168,13 +173,28 @@ async function pictures(of: number, wisp: Engine, files: File[], rate: number, s
   return wisp.finish();
 }
 
-async function perform(of: number, task: Task): Promise<Outcome | null> {
-  if (task.do === 'export') return (await exporting()).files(task.model, task.settings);
-  const wisp = await engine;
+/** Tells of its progress. */
+function watched(of: number, wisp: Engine): Engine {
   wisp.onProgress = (stage, share) => {
     tell({ of, progress: { stage, share } });
     return true;
   };
+  return wisp;
+}
+
+/** Work of whichever module does it. */
+async function byEither<T>(of: number, work: (wisp: Engine) => T): Promise<T> {
+  try {
+    return work(watched(of, await engine));
+  } catch (error) {
+    if (!(error instanceof Elsewhere)) throw error;
+    return work(watched(of, await chains()));
+  }
+}
+
+async function perform(of: number, task: Task): Promise<Outcome | null> {
+  if (task.do === 'export') return (await exporter()).files(task.model, task.settings);
+  const wisp = watched(of, await engine);
   if (task.do === 'film' || task.do === 'pictures' || task.do === 'live') {
     live?.abandon();
     live = null;
@@ -187,9 +207,9 @@ async function perform(of: number, task: Task): Promise<Outcome | null> {
     case 'table':
       return wisp.table(task.name, task.bytes, task.settings);
     case 'learn':
-      return wisp.learn(task.recordings, task.recipe);
+      return byEither(of, (learner) => learner.learn(task.recordings, task.recipe));
     case 'validate':
-      return wisp.validate(task.model, task.recordings);
+      return byEither(of, (learner) => learner.validate(task.model, task.recordings));
     case 'live':
       wisp.begin(task.settings);
       live = new Live(of, wisp);

@@ -8,11 +8,12 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 
-import { Engine, StudioError } from '../dist/engine.js';
+import { Elsewhere, Engine, StudioError } from '../dist/engine.js';
 import { Exporter } from '../dist/exporter.js';
 import { fallsFilm } from './falls_film.mjs';
 
 const module = new WebAssembly.Module(readFileSync(new URL('../dist/studio.wasm', import.meta.url)));
+const ofChains = new WebAssembly.Module(readFileSync(new URL('../dist/chains.wasm', import.meta.url)));
 const exporting = new WebAssembly.Module(readFileSync(new URL('../dist/export.wasm', import.meta.url)));
 const shipped = (name) => readFileSync(new URL(`../../../apps/web/public/models/${name}.wisp`, import.meta.url));
 const program = new URL('../../../build/release/bin/wisp', import.meta.url).pathname;
@@ -81,7 +82,7 @@ const table = (rows) => {
   return Buffer.from(`${lines.join('\n')}\n`);
 };
 
-describe('the module that learns', () => {
+describe('the modules that learn', () => {
   test('learns a table, and says how good it is', async () => {
     const engine = await Engine.start(module);
     const read = engine.table('dryer.csv', table(600), { inputs: ['heat'], outputs: ['temperature'], rate: 10 });
@@ -138,6 +139,17 @@ describe('the module that learns', () => {
     const { csv } = engine.table('t.csv', table(600), { rate: 10, inputs: ['heat'], outputs: ['temperature'] });
     assert.throws(() => engine.learn([csv], { kind: 'arx', inputs: ['heat'], outputs: ['temperature'] }), /stopped/);
   });
+
+  test('each module says what the other one learns', async () => {
+    const [engine, chains] = await Promise.all([module, ofChains].map((one) => Engine.start(one)));
+    const { csv } = engine.table('t.csv', table(600), { rate: 10, inputs: ['heat'], outputs: ['temperature'] });
+    const arx = { kind: 'arx', inputs: ['heat'], outputs: ['temperature'] };
+    const { model } = engine.learn([csv], arx);
+    for (const work of [() => engine.learn([csv], { kind: 'leaf' }), () => chains.learn([csv], arx), () => chains.validate(model, [csv])]) {
+      assert.throws(work, (error) => error instanceof Elsewhere && /chains\.wasm/.test(error.message));
+    }
+    assert.throws(() => chains.begin({ name: 'film', rate: 30 }), (error) => error instanceof Elsewhere && /studio\.wasm/.test(error.message));
+  });
 });
 
 describe('the module that makes files for other tools', () => {
@@ -187,7 +199,7 @@ describe('against the program', { skip: existsSync(program) ? false : 'the progr
     assert.ok(worst < 1e-6, `${worst} apart`);
   });
 
-  test('the same film of falls gives the same recording, whether or not it is said what falls', () => {
+  test('the same film of falls gives the same recording, whether or not it is said what falls', async () => {
     const paper = fallsFilm(join(folder, 'paper.mp4'), 8);
     const report = JSON.parse(wisp('capture', 'fall', paper, '--height', '2.4', '-o', join(folder, 'paper.csv'), '--json'));
     assert.deepEqual([report.falls, report.usable.verdict], [8, true]);
@@ -203,7 +215,7 @@ describe('against the program', { skip: existsSync(program) ? false : 'the progr
     }
     const smooth = ['--smooth', '5'];
     const program = JSON.parse(wisp('learn', 'leaf', join(folder, 'paper.csv'), ...smooth, '-o', join(folder, 'paper.wisp'), '--json'));
-    const fit = engine.learn([readFileSync(join(folder, 'paper.csv'))], { kind: 'leaf', name: 'paper', smooth: 5 });
+    const fit = (await Engine.start(ofChains)).learn([readFileSync(join(folder, 'paper.csv'))], { kind: 'leaf', name: 'paper', smooth: 5 });
     assert.deepEqual([fit.report.usable, fit.report.mode_sizes], [program.usable, program.mode_sizes]);
   });
 
@@ -234,13 +246,14 @@ describe('against the program', { skip: existsSync(program) ? false : 'the progr
     assert.ok(engine.finish().series.some(({ name }) => name === 'p0.x'));
   });
 
-  test('the same falls give the same leaf, and the same chain of positions', () => {
+  test('the same falls give the same leaf, and the same chain of positions', async () => {
     const falls = join(folder, 'falls.csv');
     wisp('simulate', 'leaf', '-o', falls, '--drops', '8', '--seconds', '6', '--seed', '7');
     assert.deepEqual(engine.table('falls.csv', readFileSync(falls)).episodes, Array.from({ length: 8 }, (_, k) => 360 * k));
+    const chains = await Engine.start(ofChains);
     for (const kind of ['leaf', 'chain']) {
       const report = JSON.parse(wisp('learn', kind, falls, '-o', join(folder, `${kind}.wisp`), '--json'));
-      const fit = engine.learn([readFileSync(falls)], { kind, name: kind });
+      const fit = chains.learn([readFileSync(falls)], { kind, name: kind });
       assert.deepEqual(fit.report.usable, report.usable);
       assert.equal(fit.report.segments, report.segments);
       assert.deepEqual(fit.report.mode_sizes, report.mode_sizes);

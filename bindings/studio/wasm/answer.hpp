@@ -21,6 +21,7 @@ Answer& answer();
 /// What a call returns.
 inline constexpr int kDone = 0;
 inline constexpr int kFailed = 1;
+inline constexpr int kElsewhere = 2;  ///< failed: the other module does it
 
 /// Begins a new answer.
 Answer& fresh();

@@ -16,12 +16,13 @@ import { Invitation } from './pictures/invitation.js';
 import { lookPanel, partOfSeen } from './panels/look.js';
 import { Engine } from './engine.js';
 import { linesOfFalls } from './falls.js';
+import { madeFiles } from './making.js';
 import { Outlines } from './outlines.js';
 import { pickOf, unfold } from './picks.js';
 import { Reel } from './reel.js';
 import { ratePanel } from './panels/rate.js';
 import { resultPanel } from './panels/result.js';
-import { nameInC, type Format, type Moving } from './panels/taking.js';
+import type { Format, Moving } from './panels/taking.js';
 import { saveFile } from '../saving.js';
 import { newSession, sessionName, shownIn, smoothRows, thingOf, type Looked, type Session, type Take } from './session.js';
 import { Strip } from './pictures/strip.js';
@@ -78,13 +79,6 @@ const LOOKING: Readonly<Record<NonNullable<PictureSettings['looks_for']>, { titl
     words: 'A flame is followed by its edge; if it is another that you mean, drag a box around it. What falls is found when the film is over.',
     thing: 'either',
   },
-};
-
-/** What is made for other tools: seconds of a loop, and how many at once. */
-const LOOPED: Readonly<Record<Thing, { loop: number; instances: number }>> = {
-  flame: { loop: 4, instances: 1 },
-  fall: { loop: 6, instances: 20 },
-  table: { loop: 4, instances: 1 },
 };
 
 const isAbort = (error: unknown): boolean => error instanceof Error && error.name === 'AbortError';
@@ -517,11 +511,10 @@ export class Room {
     this.announce(`${title}. ${reason}`);
   }
 
-  /** Makes a file for other tools and saves it. What makes it is fetched the first time. */
+  /** Makes files for other tools and saves them. */
   private async make(format: Format, model: Uint8Array): Promise<string> {
-    const name = sessionName(this.session);
-    const settings = format === 'c' ? { format, name: nameInC(name) } : { format, name, ...LOOPED[thingOf(this.session)] };
-    for (const file of await (await this.engine.open()).export(model, settings)) saveFile(new Blob([file.bytes.slice()]), file.name);
+    const files = await madeFiles(await this.engine.open(), format, model, sessionName(this.session), thingOf(this.session));
+    for (const file of files) saveFile(new Blob([file.bytes.slice()]), file.name);
     return 'Saved';
   }
 

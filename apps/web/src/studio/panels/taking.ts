@@ -16,8 +16,8 @@ async function copy(text: string): Promise<string> {
 /** Pictures that move. */
 export type Moving = 'film' | 'gif';
 
-/** Files for other tools. */
-export type Format = ExportSettings['format'];
+/** Files for other tools; a flipbook is painted here. */
+export type Format = ExportSettings['format'] | 'flipbook';
 
 export interface TakingEvents {
   /** saves three seconds of it burning in the page's room */
@@ -57,7 +57,7 @@ export function takingOf(session: Session, events: TakingEvents): HTMLElement {
   const file = (words: string, format: Format): HTMLButtonElement => telling(words, format, 'Making it…', () => events.make(format));
   const itself: Readonly<Record<Thing, readonly HTMLElement[]>> = { flame: [save, recordings, link, tag], fall: [save, recordings], table: [save, recordings] };
   const elsewhere: Readonly<Record<Thing, readonly HTMLElement[]>> = {
-    flame: [moving('Three seconds', 'film'), moving('As a GIF', 'gif'), file('glTF', 'glb'), file('Lottie', 'json')],
+    flame: [moving('Three seconds', 'film'), moving('As a GIF', 'gif'), file('Flipbook', 'flipbook'), file('glTF', 'glb'), file('Lottie', 'json')],
     fall: [file('glTF', 'glb')],
     table: [file('C for a microcontroller', 'c')],
   };
@@ -78,7 +78,7 @@ const WHERE: Readonly<Record<Thing, string>> = {
   table: 'The model plays in programs and on pages.',
 };
 const LOOPS: Readonly<Record<Thing, string>> = {
-  flame: 'Loops of four seconds without a seam: glTF for Blender and engines, Lottie for apps.',
+  flame: 'Loops of four seconds without a seam: a flipbook for engines and pages, glTF for Blender and engines, Lottie for apps.',
   fall: 'Twenty that fall in a loop of six seconds, for Blender and engines.',
   table: 'C in whole numbers, without a library: of models with one column that comes out.',
 };

@@ -2,10 +2,15 @@
 
 import { trace } from './surface.js';
 
+type Context = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
+
 const WHOLE = { scale: 1, x: 0, y: 0 };
 
-/** Paints a flame whose outline is given in pixels, x and y by turns, from the base's left over the tip to its right. */
-export function paintFlame(context: CanvasRenderingContext2D, line: Float32Array, height: number): void {
+/**
+ * Paints a flame whose outline is given in pixels, x and y by turns, from the base's left over the tip to its right.
+ * `reach`: of its glow, in heights.
+ */
+export function paintFlame(context: Context, line: Float32Array, height: number, reach = 1.5): void {
   let [top, foot, middle, low] = [Infinity, -Infinity, 0, 0];
   for (let k = 0; k < line.length; k += 2) {
     top = Math.min(top, line[k + 1] as number);
@@ -16,7 +21,7 @@ export function paintFlame(context: CanvasRenderingContext2D, line: Float32Array
   if (!(foot - top > 1)) return;
   context.save();
   context.globalCompositeOperation = 'lighter';
-  const glow = context.createRadialGradient(middle, low, 0, middle, low, 1.5 * height);
+  const glow = context.createRadialGradient(middle, low, 0, middle, low, reach * height);
   glow.addColorStop(0, 'rgb(255 150 60 / 34%)');
   glow.addColorStop(0.35, 'rgb(255 120 40 / 12%)');
   glow.addColorStop(1, 'rgb(255 110 30 / 0%)');
@@ -47,7 +52,7 @@ export function paintFlame(context: CanvasRenderingContext2D, line: Float32Array
 }
 
 // The same shape, narrower towards its own middle at every height, and not quite as tall.
-function paintCore(context: CanvasRenderingContext2D, line: Float32Array, foot: number, top: number, inset: number): void {
+function paintCore(context: Context, line: Float32Array, foot: number, top: number, inset: number): void {
   const points = line.length / 2;
   context.beginPath();
   for (let k = 0; k < points; ++k) {

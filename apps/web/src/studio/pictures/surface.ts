@@ -32,7 +32,7 @@ export function contain(picture: { width: number; height: number }, width: numbe
 }
 
 /** A line through points, x and y by turns; `x` and `y` say where each goes. */
-export function trace(context: CanvasRenderingContext2D, line: ArrayLike<number>, { scale, x, y }: Fit): void {
+export function trace(context: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D, line: ArrayLike<number>, { scale, x, y }: Fit): void {
   context.beginPath();
   for (let k = 0; k + 1 < line.length; k += 2) context.lineTo(x + scale * (line[k] as number), y + scale * (line[k + 1] as number));
 }

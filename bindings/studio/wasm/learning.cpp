@@ -1,0 +1,167 @@
+// Learning and judging as functions of WebAssembly: JSON and recordings go in, models and reports come out.
+
+#include <optional>
+#include <span>
+#include <sstream>
+#include <string_view>
+
+#include "reported.hpp"
+#include "settings.hpp"
+#include "wisp/learn/learn.hpp"
+#include "wisp/learn/validate.hpp"
+#include "wisp/model/file.hpp"
+#include "wisp/record/csv.hpp"
+#include "learns.hpp"
+
+// The host is told of progress, and answers whether to go on.
+extern "C" __attribute__((import_module("env"), import_name("studio_progress"))) int studio_progress(const char* stage,
+                                                                                                     std::size_t size,
+                                                                                                     double share);
+
+namespace wisp::studio {
+namespace {
+
+using nlohmann::json;
+
+// What has been gathered to learn from.
+std::vector<Recording>& recordings() {
+  static std::vector<Recording> all;
+  return all;
+}
+
+Progress progress() {
+  return [](std::string_view stage, double share) { return studio_progress(stage.data(), stage.size(), share) != 0; };
+}
+
+template <class SomeRecipe>
+SomeRecipe named(const json& from, SomeRecipe recipe) {
+  recipe.name = from.value("name", recipe.name);
+  recipe.seed = from.value("seed", recipe.seed);
+  return recipe;
+}
+
+template <class SomeRecipe>
+SomeRecipe outline_recipe(const json& from, SomeRecipe defaults) {
+  SomeRecipe recipe = named(from, std::move(defaults));
+  if (const auto order = whole(from, "order")) recipe.order = *order;
+  if (const auto knots = whole(from, "curve")) recipe.input_curve = *knots;
+  const std::string noise = from.value("noise", "");
+  if (noise == "independent") recipe.noise = OutlineNoise::kIndependent;
+  if (noise == "residual") recipe.noise = OutlineNoise::kResidual;
+  if (noise == "matched") recipe.noise = OutlineNoise::kMatched;
+  if (noise == "drawn") recipe.noise = OutlineNoise::kDrawn;
+  recipe.light = from.value("light", false);
+  return recipe;
+}
+
+template <class SomeRecipe>
+SomeRecipe chain_recipe(const json& from, SomeRecipe defaults) {
+  SomeRecipe recipe = named(from, std::move(defaults));
+  if (const auto rows = whole(from, "smooth")) recipe.smooth_rows = *rows;
+  return recipe;
+}
+
+Recipe recipe_of(const json& from) {
+  const std::string kind = from.value("kind", "flame");
+  if (kind == "arx") {
+    ArxRecipe recipe{.inputs = names(from, "inputs"), .outputs = names(from, "outputs"), .responses = true};
+    recipe.name = from.value("name", "table");
+    if (const auto order = whole(from, "order"); order && *order > 0) recipe.na = recipe.nb = *order;
+    if (const auto nb = whole(from, "nb")) recipe.nb = *nb;
+    recipe.nk.reset();
+    if (const auto nk = whole(from, "nk")) recipe.nk = *nk;
+    return recipe;
+  }
+  if (kind == "chain") return chain_recipe(from, ChainRecipe{});
+  if (kind == "leaf") return chain_recipe(from, LeafRecipe{});
+  if (kind == "outline") return outline_recipe(from, OutlineRecipe{});
+  return outline_recipe(from, FlameRecipe{});
+}
+
+Result<Recording> read_recording(const char* bytes, std::size_t size, const json& settings) {
+  std::istringstream stream(std::string(bytes, size));
+  CsvOptions options{.inputs = names(settings, "inputs"), .outputs = names(settings, "outputs")};
+  options.rate_hz = settings.value("rate", 0.0);
+  return read_csv(stream, settings.value("name", "recording.csv"), options);
+}
+
+// What the last `share` of the rows says of a model that was learned from those before; nothing where either part is
+// too short for that.
+std::optional<json> judged_on_the_end(const std::vector<Recording>& recordings, const Recipe& recipe, double share) {
+  std::vector<Recording> begins, ends;
+  for (const Recording& recording : recordings) {
+    const auto cut = static_cast<std::size_t>((1 - share) * static_cast<double>(recording.rows()));
+    begins.push_back(slice(recording, 0, cut));
+    ends.push_back(slice(recording, cut, recording.rows()));
+  }
+  const auto fit = learn(begins, recipe, progress());
+  if (!fit) return std::nullopt;
+  const auto report = validate(fit->model, ends, {}, progress());
+  if (!report) return std::nullopt;
+  return report_json(*report);
+}
+
+bool of_chain(const Recipe& recipe) {
+  return std::visit([]<class Kind>(const Kind&) { return std::is_base_of_v<ChainRecipe, Kind>; }, recipe);
+}
+
+int elsewhere() {
+  fail({"chains are learned and judged by chains.wasm, everything else by studio.wasm"});
+  return kElsewhere;
+}
+
+}  // namespace
+}  // namespace wisp::studio
+
+using namespace wisp;
+using namespace wisp::studio;
+
+extern "C" {
+
+// Reads a table or a recording: {name, rate, inputs, outputs}.
+WISP_STUDIO(table) int studio_table(const char* bytes, std::size_t size, const char* text, std::size_t text_size) {
+  const auto recording = read_recording(bytes, size, parsed(text, text_size));
+  if (!recording) return fail(recording.error());
+  return hand_over(*recording, {});
+}
+
+// Puts a recording, as CSV, beside the others that are to be learned from; {name, …} as studio_table.
+WISP_STUDIO(add) int studio_add(const char* bytes, std::size_t size, const char* text, std::size_t text_size) {
+  auto recording = read_recording(bytes, size, parsed(text, text_size));
+  if (!recording) return fail(recording.error());
+  recordings().push_back(std::move(*recording));
+  return kDone;
+}
+
+WISP_STUDIO(clear) void studio_clear() { recordings().clear(); }
+
+// Learns from what was added, or answers that the other module does. Bytes: the model. With `kept_back` what the last part of the rows says is `judged`.
+WISP_STUDIO(learn) int studio_learn(const char* text, std::size_t size) {
+  const json settings = parsed(text, size);
+  const Recipe recipe = recipe_of(settings);
+  if (of_chain(recipe) != kLearnsChains) return elsewhere();
+  const auto fit = learn(recordings(), recipe, progress());
+  if (!fit) return fail(fit.error());
+  auto bytes = model_bytes(fit->model);
+  if (!bytes) return fail(bytes.error());
+  json answer = report_json(fit->report);
+  if (const double share = settings.value("kept_back", 0.0); share > 0 && share < 1) {
+    if (auto judged = judged_on_the_end(recordings(), recipe, share)) answer["judged"] = *std::move(judged);
+  }
+  Answer& out = fresh();
+  out.bytes = std::move(*bytes);
+  out.text = answer.dump();
+  return kDone;
+}
+
+// Judges a model on what was added.
+WISP_STUDIO(validate) int studio_validate(const std::byte* bytes, std::size_t size) {
+  const auto model = parse_model({bytes, size}, "the model");
+  if (!model) return fail(model.error());
+  if (std::holds_alternative<ChainModel>(model->dynamics) != kLearnsChains) return elsewhere();
+  const auto report = validate(*model, recordings(), {.responses = true}, progress());
+  if (!report) return fail(report.error());
+  fresh().text = report_json(*report).dump();
+  return kDone;
+}
+}

@@ -1,0 +1,48 @@
+// What chains.wasm leaves out: everything that is no chain, and of chains a fall's answer to gusts, which wants pairs of
+// recordings, and modes that are systems.
+
+#include "learn/arx/learn_arx.hpp"
+#include "learn/chain/gusts/gust_report.hpp"
+#include "learn/chain/modes/mode_systems.hpp"
+#include "learn/outline/learn_outline.hpp"
+#include "learns.hpp"
+#include "wisp/learn/validate_outline.hpp"
+
+namespace wisp {
+namespace {
+Error left_out(const char* what) { return Error{std::string(what) + " are not learned here; use the program"}; }
+}  // namespace
+
+const bool studio::kLearnsChains = true;
+
+// Nothing comes to these.
+Result<Fit> learn_arx(std::span<const Recording>, const ArxRecipe&, const Progress&) { return Error{}; }
+Result<Fit> learn_outline(std::span<const Recording>, const OutlineRecipe&, const Progress&) { return Error{}; }
+Result<Report> validate_arx(const Model&, const Recording&, const ValidationOptions&, const Progress&) {
+  return Error{};
+}
+Result<ValidatedOutline> validate_outline(const Model&, const Recording&, const ValidationOptions&, const Progress&) {
+  return Error{};
+}
+
+namespace chain {
+
+Result<GustFit> learn_gusts(const Recording&, const Recording&, const GustOptions&) {
+  return left_out("pairs of a windy recording and its calm twin");
+}
+Result<GustPlay> play_gusts(const Model&, const Recording&, const Recording&, const GustPlayOptions&) {
+  return left_out("pairs of a windy recording and its calm twin");
+}
+// Nothing comes to these: what they report of fails.
+ReportSection gusts_section(const GustFigures&) { return {}; }
+ReportSection gusts_section(const GustPlayFigures&) { return {}; }
+ReportSection scene_section(const GustScene&, std::size_t) { return {}; }
+
+Result<ModeSystems> fit_mode_systems(const Motion&, std::span<const Segment>, std::span<const std::uint16_t>, int,
+                                     const ModeSystemOptions&) {
+  return left_out("modes that are systems");
+}
+
+}  // namespace chain
+
+}  // namespace wisp
