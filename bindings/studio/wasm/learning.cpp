@@ -5,13 +5,13 @@
 #include <sstream>
 #include <string_view>
 
+#include "learns.hpp"
 #include "reported.hpp"
 #include "settings.hpp"
 #include "wisp/learn/learn.hpp"
 #include "wisp/learn/validate.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/record/csv.hpp"
-#include "learns.hpp"
 
 // The host is told of progress, and answers whether to go on.
 extern "C" __attribute__((import_module("env"), import_name("studio_progress"))) int studio_progress(const char* stage,
@@ -135,7 +135,8 @@ WISP_STUDIO(add) int studio_add(const char* bytes, std::size_t size, const char*
 
 WISP_STUDIO(clear) void studio_clear() { recordings().clear(); }
 
-// Learns from what was added, or answers that the other module does. Bytes: the model. With `kept_back` what the last part of the rows says is `judged`.
+// Learns from what was added, or answers that the other module does. Bytes: the model. With `kept_back` what the last
+// part of the rows says is `judged`.
 WISP_STUDIO(learn) int studio_learn(const char* text, std::size_t size) {
   const json settings = parsed(text, size);
   const Recipe recipe = recipe_of(settings);

@@ -1,5 +1,5 @@
-// What chains.wasm leaves out: everything that is no chain, and of chains a fall's answer to gusts, which wants pairs of
-// recordings, and modes that are systems.
+// What chains.wasm leaves out: everything that is no chain, and of chains a fall's answer to gusts, which wants pairs
+// of recordings, and modes that are systems.
 
 #include "learn/arx/learn_arx.hpp"
 #include "learn/chain/gusts/gust_report.hpp"
