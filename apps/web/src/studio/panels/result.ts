@@ -40,7 +40,9 @@ function titleOfMeters(thing: Thing, learned: Learned): string {
   if (thing === 'fall') return 'Beside what was recorded';
   if (learned.judged !== undefined) return 'On the last rows, which a trial had not seen';
   const held = heldOutSeconds(learned.report);
-  return held === null ? 'How well it fits what it was learned from' : `On the ${Math.round(held)} seconds that it had not seen`;
+  if (held === null) return 'How well it fits what it was learned from';
+  const seconds = Math.max(1, Math.round(held));
+  return seconds === 1 ? 'On the second that it had not seen' : `On the ${seconds} seconds that it had not seen`;
 }
 
 /** The panel of a session that has learned something. */
