@@ -143,7 +143,7 @@ export class Engine extends Module {
 
   /** Learns from recordings, each as the CSV of `Captured`. */
   learn(recordings: readonly Uint8Array[], recipe: Recipe): Learned {
-    this.gather(recordings);
+    this.gather(recordings, recipe.sources);
     this.withText(JSON.stringify(recipe), (at, size) => this.call('studio_learn', at, size));
     const model = this.answerBytes();
     return { model, ...(JSON.parse(this.text()) as Omit<Learned, 'model'>) };
@@ -156,10 +156,11 @@ export class Engine extends Module {
     return JSON.parse(this.text()) as ReportText;
   }
 
-  private gather(recordings: readonly Uint8Array[]): void {
+  private gather(recordings: readonly Uint8Array[], names: readonly string[] = []): void {
     this.functions.studio_clear!();
-    for (const bytes of recordings) {
-      this.withBytes(bytes, (at, size) => this.withText('{"name":"recording.csv"}', (words, length) => this.call('studio_add', at, size, words, length)));
+    for (const [k, bytes] of recordings.entries()) {
+      const settings = JSON.stringify({ name: names[k] ?? 'recording.csv' });
+      this.withBytes(bytes, (at, size) => this.withText(settings, (words, length) => this.call('studio_add', at, size, words, length)));
     }
   }
 

@@ -95,6 +95,8 @@ export interface Captured {
 export interface Recipe {
   kind: 'flame' | 'outline' | 'arx' | 'leaf' | 'chain';
   name?: string;
+  /** what the recordings are called in what is said of them, and in the model; recording.csv */
+  sources?: string[];
   seed?: number;
   /** of falls: odd, rows that velocities are taken over, where positions are noisy; 0 */
   smooth?: number;

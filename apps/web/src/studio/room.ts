@@ -440,7 +440,8 @@ export class Room {
     this.showPanel(working.panel);
     try {
       const studio = await this.engine.open();
-      const recipe = { ...session.recipe, name: sessionName(session), ...(thing === 'table' ? { kept_back: KEPT_BACK } : {}) };
+      const sources = session.takes.map(({ name }) => name);
+      const recipe = { ...session.recipe, name: sessionName(session), sources, ...(thing === 'table' ? { kept_back: KEPT_BACK } : {}) };
       const recordings = session.takes.map(({ captured }) => captured.csv);
       session.learned = await studio.learn(recordings, recipe, working.watch());
     } catch (error) {
