@@ -30,7 +30,9 @@ std::vector<Note> notes_of(const ArxRecipe& recipe, const ArxFit& fit, const Sou
   const bool apart = arx::coupled_outputs(na).size() == static_cast<std::size_t>(na.rows());
   std::vector<Note> notes =
       order_notes(fit.model.orders, apart && na.rows() > 1 ? Coupling::kDiagonal : recipe.coupling);
-  notes.push_back({"offset", word_of(recipe.offset)});
+  const auto& levels = fit.model.constant;  // the focus may have estimated them
+  const bool level = std::any_of(levels.begin(), levels.end(), [](double one) { return one != 0; });
+  notes.push_back({"offset", word_of(level ? ArxOffset::kEstimate : recipe.offset)});
   if (recipe.ridge > 0) notes.push_back({"ridge", number_text(recipe.ridge, 6)});
   if (recipe.kernel == ArxKernel::kTc) notes.push_back({"kernel", "tc"});
   const std::size_t knots = sources.curves.empty() ? 0 : sources.curves.front().at.size();

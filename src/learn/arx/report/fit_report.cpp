@@ -181,7 +181,7 @@ void add_focus(const FocusedFit& focused, const std::vector<std::string>& output
     std::string names;
     for (int output : choice.outputs) names += (names.empty() ? "" : ", ") + outputs[std::size_t(output)];
     const FocusCandidate &own = choice.candidates[choice.chosen], &squares = choice.candidates.front();
-    std::string word = own.kernel ? std::to_string(kKernelLags) + " lags under a kernel" : "least squares";
+    std::string word = own.kernel_lags > 0 ? std::to_string(own.kernel_lags) + " lags under a kernel" : "least squares";
     if (own.states > 0)
       word = "subspace estimate, " + std::to_string(own.states) + (own.states > 1 ? " states" : " state");
     if (own.one_step_weight) word = "simulation, one step weighs " + number_text(*own.one_step_weight, 3);

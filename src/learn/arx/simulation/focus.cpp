@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 
 #include "learn/arx/fit/given_rows.hpp"
 #include "learn/arx/rows/arx_rows.hpp"
@@ -36,14 +37,14 @@ constexpr int kStates[] = {1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 18, 20, 22, 2
 constexpr const char* kRankless = "the data cannot tell all coefficients";
 constexpr double kNotThere = 1e12;  // squared error of a way that a fold has too few rows for
 
-ArxOrders kernel_orders(ArxOrders orders) {
+ArxOrders kernel_orders(ArxOrders orders, int lags) {
   for (int i = 0; i < orders.outputs(); ++i) {
     for (int j = 0; j < orders.outputs(); ++j) {
-      if (orders.na(i, j) > 0) orders.na(i, j) = std::max(orders.na(i, j), kKernelLags);
+      if (orders.na(i, j) > 0) orders.na(i, j) = std::max(orders.na(i, j), lags);
     }
     for (int k = 0; k < orders.inputs(); ++k) {
       if (orders.nb(i, k) == 0) continue;
-      orders.nb(i, k) = std::max(orders.nb(i, k) + orders.nk(i, k), kKernelLags);
+      orders.nb(i, k) = std::max(orders.nb(i, k) + orders.nk(i, k), lags);
       orders.nk(i, k) = 0;
     }
   }
@@ -68,9 +69,9 @@ struct Subject {
   const ChannelChoice& channels;
   const ArxOptions& options;
   const Progress& progress;
-  bool kernel = false;    // whether one is tried
-  bool subspace = false;  // the same of subspace estimates
-  bool refines = true;    // whether the data tell all coefficients; if not, only a state can
+  std::vector<int> kernel_lags{};  // that are tried
+  bool subspace = false;           // the same of subspace estimates
+  bool refines = true;             // whether the data tell all coefficients; if not, only a state can
 
   bool many_rows() const {
     std::size_t rows = 0;
@@ -80,9 +81,13 @@ struct Subject {
   std::vector<Recording> some_rows() const { return middles_of(recordings, many_rows() ? kRowsOfMany : kManyRows); }
   int first_sample() const { return options.first_sample.value_or(options.orders.history()); }
   int judged_from() const {
-    return std::max(
-        {first_sample(), kernel ? kernel_orders(options.orders).history() : 0, subspace ? kStateSpaceLags : 0});
+    const int most = kernel_lags.empty() ? 0 : kernel_orders(options.orders, kernel_lags.back()).history();
+    return std::max({first_sample(), most, subspace ? kStateSpaceLags : 0});
   }
+
+  // The mean of a slow output is not where its inputs' means bring it: free runs show it, one step hardly does.
+  ArxOffset level() const { return options.offset == ArxOffset::kMean ? ArxOffset::kEstimate : options.offset; }
+  bool constant() const { return level() == ArxOffset::kEstimate; }
 
   // A state is in common, reaches all outputs and is driven by all inputs.
   bool tries_states(const Unit& unit) const {
@@ -105,11 +110,13 @@ struct Learned {
   Signals signals;
   ArxFit coupled;
   std::optional<ArxFit> decoupled{};
-  std::optional<ArxFit> kernel{};  // where one is tried and rows suffice
-  std::optional<ArxFit> decoupled_kernel{};
+  std::vector<std::optional<ArxFit>> kernels{};  // by the lags that are tried; nothing where rows do not suffice
+  std::vector<std::optional<ArxFit>> decoupled_kernels{};
 
   const ArxModel& model_of(const Unit& unit) const { return unit.decoupled ? decoupled->model : coupled.model; }
-  const std::optional<ArxFit>& kernel_of(const Unit& unit) const { return unit.decoupled ? decoupled_kernel : kernel; }
+  const std::vector<std::optional<ArxFit>>& kernels_of(const Unit& unit) const {
+    return unit.decoupled ? decoupled_kernels : kernels;
+  }
 };
 
 ArxOrders decoupled_orders(ArxOrders orders, const std::vector<int>& outputs) {
@@ -132,13 +139,19 @@ std::vector<Block> blocks_of(const ArxOrders& orders) {
   return blocks;
 }
 
-std::optional<ArxFit> under_kernel(const Subject& subject, std::span<const Recording> recordings, ArxOptions options) {
-  options.orders = kernel_orders(std::move(options.orders));
-  options.first_sample = std::max(*options.first_sample, options.orders.history());
-  options.kernel = ArxKernel::kTc;
-  auto fit = fit_arx(recordings, subject.channels, options);
-  if (!fit) return std::nullopt;  // too few rows for as many lags
-  return std::move(*fit);
+std::vector<std::optional<ArxFit>> under_kernels(const Subject& subject, std::span<const Recording> recordings,
+                                                 const ArxOptions& given) {
+  std::vector<std::optional<ArxFit>> kernels;
+  for (int lags : subject.kernel_lags) {
+    ArxOptions options = given;
+    options.orders = kernel_orders(given.orders, lags);
+    options.first_sample = std::max(*given.first_sample, options.orders.history());
+    options.offset = subject.level();
+    options.kernel = ArxKernel::kTc;
+    auto fit = fit_arx(recordings, subject.channels, options);
+    kernels.push_back(fit ? std::optional<ArxFit>(std::move(*fit)) : std::nullopt);  // too few rows for as many lags
+  }
+  return kernels;
 }
 
 Result<Learned> learn_rows(const Subject& subject, std::span<const Recording> recordings, bool with_decoupled) {
@@ -150,7 +163,7 @@ Result<Learned> learn_rows(const Subject& subject, std::span<const Recording> re
   auto coupled = fit_arx(recordings, subject.channels, options);
   if (!coupled) return coupled.error();
   Learned learned{std::move(*signals), std::move(*coupled)};
-  if (subject.kernel) learned.kernel = under_kernel(subject, recordings, options);
+  learned.kernels = under_kernels(subject, recordings, options);
   if (!with_decoupled) return learned;
   std::vector<int> all(subject.channels.outputs.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int>(i);
@@ -158,13 +171,13 @@ Result<Learned> learn_rows(const Subject& subject, std::span<const Recording> re
   auto decoupled = fit_arx(recordings, subject.channels, options);
   if (!decoupled) return decoupled.error();
   learned.decoupled = std::move(*decoupled);
-  if (subject.kernel) learned.decoupled_kernel = under_kernel(subject, recordings, options);
+  learned.decoupled_kernels = under_kernels(subject, recordings, options);
   return learned;
 }
 
 SimulationBlock simulation_of(const Subject& subject, const Signals& signals, const ArxOrders& orders, const Unit& unit,
                               int first_sample) {
-  return SimulationBlock(signals, orders, unit.outputs, subject.options.offset == ArxOffset::kEstimate, first_sample);
+  return SimulationBlock(signals, orders, unit.outputs, subject.constant(), first_sample);
 }
 
 SimulationBlock simulation_of(const Subject& subject, const Signals& signals, const Learned& learned,
@@ -175,7 +188,7 @@ SimulationBlock simulation_of(const Subject& subject, const Signals& signals, co
 VectorXd theta_of(const Subject& subject, const Learned& learned, const ArxModel& model, const Unit& unit) {
   std::vector<double> theta;
   for (int output : unit.outputs) {
-    const GivenRow row = row_of_model(model, output, learned.signals, subject.options.offset);
+    const GivenRow row = row_of_model(model, output, learned.signals, subject.level());
     theta.insert(theta.end(), row.theta.begin(), row.theta.end());
   }
   return Eigen::Map<const VectorXd>(theta.data(), Index(theta.size()));
@@ -187,7 +200,8 @@ VectorXd least_squares(const Subject& subject, const Learned& learned, const Uni
 
 // How thoroughly a block is worked on.
 bool is_expensive(const Subject& subject, const SimulationBlock& block) {
-  return subject.many_rows() || block.terms().size() > kMaxTriedTerms;
+  const std::size_t levels = subject.constant() ? block.outputs().size() : 0;
+  return subject.many_rows() || block.terms().size() - levels > kMaxTriedTerms;
 }
 
 std::span<const double> weights_for(const Subject& subject, const SimulationBlock& block) {
@@ -199,8 +213,8 @@ std::span<const double> weights_for(const Subject& subject, const SimulationBloc
 std::vector<Refined> refine_unit(const Subject& subject, const Learned& learned, const Unit& unit,
                                  const SimulationBlock& block, std::span<const double> weights) {
   const VectorXd squares = least_squares(subject, learned, unit);
-  const OneStepLoss loss = one_step_loss(learned.signals, block, learned.model_of(unit).orders, subject.options.offset,
-                                         subject.first_sample());
+  const OneStepLoss loss =
+      one_step_loss(learned.signals, block, learned.model_of(unit).orders, subject.level(), subject.first_sample());
   const bool few = is_expensive(subject, block);
   std::vector<VectorXd> starts;
   if (!few) starts = other_starts(block, squares);
@@ -214,7 +228,7 @@ std::vector<Refined> refine_unit(const Subject& subject, const Learned& learned,
 // A way to go, and what it gives for a fold's rows.
 struct Way {
   FocusCandidate candidate;
-  const ArxOrders& orders;
+  ArxOrders orders;
   VectorXd theta;
   std::optional<StateSpace> space{};
   ArxForm form{};  // of the space
@@ -222,8 +236,7 @@ struct Way {
 
 void add_state_spaces(const Subject& subject, const Learned& learned, const Unit& unit, std::vector<Way>& ways) {
   const int outputs = static_cast<int>(unit.outputs.size());
-  const bool constant = subject.options.offset == ArxOffset::kEstimate;
-  const Subspace subspace(learned.signals, unit.outputs, constant);
+  const Subspace subspace(learned.signals, unit.outputs, subject.constant());
   for (int states : kStates) {
     if (states > (kStateSpaceLags - 1) * outputs) break;
     Way& way = ways.emplace_back(Way{{.states = states, .decoupled = unit.decoupled}, subject.options.orders, {}});
@@ -247,10 +260,13 @@ std::vector<Way> ways_of(const Subject& subject, const Learned& learned, const U
                       std::move(path[w].simulation.theta)});
     }
   }
-  if (const auto& kernel = learned.kernel_of(unit)) {
-    ways.push_back({{.kernel = true, .decoupled = unit.decoupled},
-                    kernel->model.orders,
-                    theta_of(subject, learned, kernel->model, unit)});
+  const auto& kernels = learned.kernels_of(unit);
+  for (std::size_t k = 0; k < kernels.size(); ++k) {
+    Way& way = ways.emplace_back(
+        Way{{.kernel_lags = subject.kernel_lags[k], .decoupled = unit.decoupled}, subject.options.orders, {}});
+    if (!kernels[k]) continue;
+    way.orders = kernels[k]->model.orders;
+    way.theta = theta_of(subject, learned, kernels[k]->model, unit);
   }
   if (subject.tries_states(unit)) add_state_spaces(subject, learned, unit, ways);
   return ways;
@@ -259,11 +275,11 @@ std::vector<Way> ways_of(const Subject& subject, const Learned& learned, const U
 HeldOutErrors errors_of(const Subject& subject, const Signals& held_out, const Unit& unit, const Way& way,
                         const SimulationBlock& unseen) {
   const int states = way.candidate.states;
-  if (states > 0 && !way.space) {
+  if (states > 0 ? !way.space : way.theta.size() == 0) {
     const VectorXd none = VectorXd::Constant(kParts, kNotThere);
     return {none, none, 0, VectorXd::Constant(Index(unit.outputs.size()), kNotThere)};
   }
-  if (!way.candidate.kernel && states == 0) return held_out_errors(unseen, way.theta);
+  if (way.candidate.kernel_lags == 0 && states == 0) return held_out_errors(unseen, way.theta);
   const int lags = arx_lags(states, static_cast<int>(unit.outputs.size()));
   const ArxOrders orders = states > 0 ? state_space_orders(way.orders, unit.outputs, lags) : way.orders;
   const SimulationBlock block = simulation_of(subject, held_out, orders, unit, subject.judged_from());
@@ -293,7 +309,7 @@ void judge_unit(const Subject& subject, const Learned& learned, const Signals& h
     unit.by_output.row(Index(w)) += errors.by_output.transpose();
     unit.candidates[w].estimated_error += errors.estimated.mean();
     unit.candidates[w].measured_error += errors.measured.mean();
-    if (w == 0) unit.size += errors.size;
+    if (w == 0) unit.sizes.push_back(errors.size);
   }
 }
 
@@ -348,8 +364,8 @@ Refined best_of(const Subject& subject, const Learned& learned, const Unit& unit
 // The rows of one unit, refined on all rows as far as was chosen.
 void give_refined(const Subject& subject, const Learned& learned, const Unit& unit, std::vector<GivenRow>& rows) {
   const SimulationBlock block = simulation_of(subject, learned.signals, learned, unit);
-  const OneStepLoss loss = one_step_loss(learned.signals, block, learned.model_of(unit).orders, subject.options.offset,
-                                         subject.first_sample());
+  const OneStepLoss loss =
+      one_step_loss(learned.signals, block, learned.model_of(unit).orders, subject.level(), subject.first_sample());
   const Refined best = best_of(subject, learned, unit, block, loss);
   const MatrixXd covariance = covariance_of(block, loss, best, learned.coupled.summary.samples_used);
   Index at = 0;
@@ -365,9 +381,10 @@ std::vector<FocusChoice> choices_of(std::vector<Block>& blocks) {
   for (Block& block : blocks) {
     for (const Unit* unit : block.chosen()) {
       FocusChoice& choice = choices.emplace_back(FocusChoice{unit->outputs, unit->picked, unit->candidates});
+      const double size = std::accumulate(unit->sizes.begin(), unit->sizes.end(), 0.0);
       for (FocusCandidate& one : choice.candidates) {
-        one.estimated_error = std::sqrt(one.estimated_error / unit->size);
-        one.measured_error = std::sqrt(one.measured_error / unit->size);
+        one.estimated_error = std::sqrt(one.estimated_error / size);
+        one.measured_error = std::sqrt(one.measured_error / size);
       }
     }
   }
@@ -393,11 +410,12 @@ ArxOrders chosen_orders(const Subject& subject, std::vector<Block>& blocks) {
   for (Block& block : blocks) {
     if (block.decoupled) orders = decoupled_orders(std::move(orders), block.together.outputs);
   }
-  const ArxOrders many = kernel_orders(orders);
+  const ArxOrders given = orders;
   for (Block& block : blocks) {
     for (const Unit* unit : block.chosen()) {
+      const ArxOrders many = kernel_orders(given, unit->kernel_lags());
       for (int output : unit->outputs) {
-        if (!unit->kernel()) continue;
+        if (unit->kernel_lags() == 0) continue;
         for (int j = 0; j < orders.outputs(); ++j) orders.na(output, j) = many.na(output, j);
         for (int k = 0; k < orders.inputs(); ++k) {
           orders.nb(output, k) = many.nb(output, k);
@@ -414,7 +432,7 @@ ArxOrders chosen_orders(const Subject& subject, std::vector<Block>& blocks) {
 
 // The rows of one unit from a subspace estimate. Returns whether there is one.
 bool give_state_space(const Subject& subject, const Learned& learned, const Unit& unit, std::vector<GivenRow>& rows) {
-  const bool constant = subject.options.offset == ArxOffset::kEstimate;
+  const bool constant = subject.constant();
   const auto model = Subspace(learned.signals, unit.outputs, constant).model(unit.states(), subject.largest_pole());
   if (!model) return false;
   const Index outputs = model->outputs(), inputs = model->inputs();
@@ -436,10 +454,11 @@ bool give_chosen(const Subject& subject, const Learned& learned, const Unit& uni
                  ArxFit& plain) {
   if (unit.states() > 0) return give_state_space(subject, learned, unit, rows);
   if (unit.refined()) give_refined(subject, learned, unit, rows);
-  if (!unit.kernel()) return unit.refined();
-  const ArxModel& kernel = learned.kernel_of(unit)->model;
+  if (unit.kernel_lags() == 0) return unit.refined();
+  const auto tried = std::find(subject.kernel_lags.begin(), subject.kernel_lags.end(), unit.kernel_lags());
+  const ArxModel& kernel = learned.kernels_of(unit)[std::size_t(tried - subject.kernel_lags.begin())]->model;
   for (int output : unit.outputs) {
-    rows[std::size_t(output)] = row_of_model(kernel, output, learned.signals, subject.options.offset);
+    rows[std::size_t(output)] = row_of_model(kernel, output, learned.signals, subject.level());
     plain.model.std_error[std::size_t(output)] = kernel.std_error[std::size_t(output)];
   }
   return true;
@@ -460,7 +479,7 @@ Result<ArxFit> refit(const Subject& subject, std::vector<Block>& blocks, ArxFit 
   std::vector<GivenRow> rows;
   rows.reserve(static_cast<std::size_t>(plain.model.orders.outputs()));
   for (int i = 0; i < plain.model.orders.outputs(); ++i) {
-    rows.push_back(row_of_model(plain.model, i, learned->signals, options.offset));
+    rows.push_back(row_of_model(plain.model, i, learned->signals, subject.level()));
   }
   bool all = true;
   for (Block& block : blocks) {
@@ -469,6 +488,7 @@ Result<ArxFit> refit(const Subject& subject, std::vector<Block>& blocks, ArxFit 
       if (!go_on(subject.progress, "refining", -1)) return Error{std::string(kStopped)};
     }
   }
+  options.offset = subject.level();
   auto fit = fit_with_rows(subject.recordings, subject.channels, options, rows, plain);
   if (!fit || all || !plain.summary.stable.changed) return fit;
   const double radius = fit->summary.stable.radius;
@@ -478,32 +498,34 @@ Result<ArxFit> refit(const Subject& subject, std::vector<Block>& blocks, ArxFit 
 }
 
 // Many lags are tried where the coefficients are nobody else's and every stretch is long beside them.
-bool many_lags_are_tried(std::span<const Recording> recordings, const ArxOptions& options, ArxFocus focus) {
-  constexpr std::size_t kMinRows = 10 * kKernelLags;
+bool many_lags_are_tried(std::span<const Recording> recordings, const ArxOptions& options, ArxFocus focus, int lags) {
   if (focus != ArxFocus::kAuto || options.ridge > 0) return false;
-  return std::all_of(recordings.begin(), recordings.end(), [](const Recording& one) {
-    return one.rows() >= kMinRows * std::max<std::size_t>(1, episodes(one).size());
+  return std::all_of(recordings.begin(), recordings.end(), [&](const Recording& one) {
+    return one.rows() >= std::size_t(10 * lags) * std::max<std::size_t>(1, episodes(one).size());
   });
 }
 
-// Few enough coefficients an output for the time that a kernel takes.
-bool kernel_has_time(const ArxOptions& options) {
-  constexpr int kMaxKernelTerms = 150;
-  const ArxOrders orders = kernel_orders(options.orders);
-  for (int i = 0; i < orders.outputs(); ++i) {
-    if (orders.row_size(i) > kMaxKernelTerms) return false;
-  }
-  return true;
+// Few enough coefficients for the time that a kernel takes, which is of their cubes.
+bool kernel_has_time(const Subject& subject, int lags) {
+  constexpr double kMaxWork = 2e7;
+  if (subject.many_rows() && lags > kKernelLags[0]) return false;
+  const ArxOrders orders = kernel_orders(subject.options.orders, lags);
+  double work = 0;
+  for (int i = 0; i < orders.outputs(); ++i) work += std::pow(orders.row_size(i), 3);
+  return work <= kMaxWork;
 }
 
 }  // namespace
 
 Result<FocusedFit> focus_fit(std::span<const Recording> recordings, const ChannelChoice& channels,
                              const ArxOptions& options, ArxFit plain, ArxFocus focus, const Progress& progress) {
-  const bool many = many_lags_are_tried(recordings, options, focus);
   const bool refines = plain.summary.rank_problems.empty();
-  const Subject subject{recordings, channels, options, progress, refines && many && kernel_has_time(options),
-                        many,       refines};
+  const bool states = many_lags_are_tried(recordings, options, focus, kKernelLags[0]);
+  Subject subject{recordings, channels, options, progress, {}, states, refines};
+  for (int lags : kKernelLags) {
+    const bool tried = refines && many_lags_are_tried(recordings, options, focus, lags);
+    if (tried && kernel_has_time(subject, lags)) subject.kernel_lags.push_back(lags);
+  }
   std::string why = obstacle(subject, focus);
   FocusedFit out{std::move(plain), false, std::move(why)};
   if (!out.reason.empty()) return out;

@@ -16,15 +16,16 @@ namespace wisp::arx {
 /// One way to choose a block's coefficients, and its errors over held-out free runs.
 struct FocusCandidate {
   std::optional<double> one_step_weight{};  ///< of refined ones; none: least squares
-  bool kernel = false;                      ///< many lags under a kernel (kKernelLags)
+  int kernel_lags = 0;                      ///< of many lags under a kernel (kKernelLags); 0: no kernel
   int states = 0;                           ///< of a subspace estimate in its ARX form (state_space.hpp)
   bool decoupled = false;                   ///< every output remembers itself only
   double estimated_error = 0;  ///< root mean square, shares of the outputs' own, from the best initial state
   double measured_error = 0;   ///< … from measured samples
 };
 
-/// Lags of every channel under a kernel, where the orders have fewer: two damped resonances and what lies between.
-inline constexpr int kKernelLags = 15;
+/// Lags of every channel under a kernel, where the orders have fewer: two damped resonances and what lies between, and
+/// for what answers slowly twice as many.
+inline constexpr int kKernelLags[] = {15, 30};
 
 /// What was chosen for outputs that feed each other.
 struct FocusChoice {

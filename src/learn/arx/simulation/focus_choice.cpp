@@ -1,6 +1,7 @@
 #include "learn/arx/simulation/focus_choice.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "learn/arx/simulation/held_out.hpp"
@@ -16,7 +17,8 @@ constexpr double kSure = 1;           // standard errors by which parts must be 
 constexpr double kSurelyMany = 2;     // the same for many lags, which cost more to play
 constexpr double kEveryOutput = 1.1;  // states lessen every output's root mean square by this factor
 constexpr double kSlight = 0.01;      // a squared error below this share of what states have to beat does not matter
-constexpr double kMaxRmsRatio = 1.2;  // no fold may have a larger root mean square than least squares by this factor
+constexpr double kMaxRmsRatio = 1.2;  // no fold may have a larger root mean square than least squares by this factor,
+constexpr double kSmallLoss = 0.05;   // unless, of what is refined, by less than this share of the outputs' own
 
 // By how many standard errors the errors of one row are below those of another.
 double sureness(const MatrixXd& squares, std::size_t one, const MatrixXd& others, std::size_t other) {
@@ -25,29 +27,37 @@ double sureness(const MatrixXd& squares, std::size_t one, const MatrixXd& others
 
 double mean_square(const Unit& unit, std::size_t candidate) { return unit.squares.row(Index(candidate)).mean(); }
 
-// Both are one row.
-bool loses_a_fold(const MatrixXd& squares, const MatrixXd& others) {
-  for (Index first = 0; first < squares.cols(); first += kParts) {
-    const double limit = kMaxRmsRatio * kMaxRmsRatio * others.middleCols(first, kParts).mean();
-    if (squares.middleCols(first, kParts).mean() > limit) return true;
+// Both are one row. `small` is a root mean square by which any fold may lose, of both kinds of starts, or nothing.
+bool loses_a_fold(const MatrixXd& squares, const MatrixXd& others, const std::vector<double>& small = {}) {
+  for (Index fold = 0; fold * kParts < squares.cols(); ++fold) {
+    const double own = std::sqrt(squares.middleCols(fold * kParts, kParts).mean());
+    const double other = std::sqrt(others.middleCols(fold * kParts, kParts).mean());
+    const double allowed = small.empty() ? 0 : small[std::size_t(fold)];
+    if (own > std::max(kMaxRmsRatio * other, other + allowed)) return true;
   }
   return false;
 }
 
+// A fifth more of a small error is no loss where coefficients are as few as before.
 bool loses_a_fold(const Unit& unit, std::size_t candidate) {
-  return loses_a_fold(unit.squares.row(Index(candidate)), unit.squares.row(0));
+  std::vector<double> small;
+  if (unit.candidates[candidate].one_step_weight) {
+    for (double size : unit.sizes) small.push_back(kSmallLoss * std::sqrt(2 * size));
+  }
+  return loses_a_fold(unit.squares.row(Index(candidate)), unit.squares.row(0), small);
 }
 
 // Many lags start better from measured samples than few, whatever they describe, since they average those: they have to
-// be surely better from the best initial state too.
+// be surely better from the best initial state too, and by more than a state with many lags gains by its own size.
 bool only_starts_better(const Unit& unit, std::size_t candidate) {
-  if (!unit.candidates[candidate].kernel) return false;
+  if (unit.candidates[candidate].kernel_lags == 0) return false;
+  const auto error = [&](std::size_t one) { return unit.estimated.row(Index(one)).mean(); };
   std::size_t best = 0;
   for (std::size_t w = 0; w < unit.candidates.size(); ++w) {
-    const auto error = [&](std::size_t one) { return unit.estimated.row(Index(one)).mean(); };
-    if (!unit.candidates[w].kernel && unit.candidates[w].states == 0 && error(w) < error(best)) best = w;
+    if (unit.candidates[w].kernel_lags == 0 && unit.candidates[w].states == 0 && error(w) < error(best)) best = w;
   }
-  return sureness(unit.estimated, candidate, unit.estimated, best) < kSurelyMany;
+  return error(candidate) * kAsGood * kAsGood > error(best) ||
+         sureness(unit.estimated, candidate, unit.estimated, best) < kSurelyMany;
 }
 
 }  // namespace

@@ -20,11 +20,11 @@ struct Unit {
   Eigen::MatrixXd squares{};    ///< a row a candidate, kParts columns a fold: both kinds of starts together
   Eigen::MatrixXd estimated{};  ///< the same from the best initial states alone
   Eigen::MatrixXd by_output{};  ///< a row a candidate, a column an output: both kinds of starts, summed over folds
-  double size = 0;              ///< of the outputs themselves, summed over folds
+  std::vector<double> sizes{};  ///< mean squares of the outputs themselves, one a fold
   std::size_t picked = 0;
 
   bool refined() const { return !candidates.empty() && candidates[picked].one_step_weight.has_value(); }
-  bool kernel() const { return !candidates.empty() && candidates[picked].kernel; }
+  int kernel_lags() const { return candidates.empty() ? 0 : candidates[picked].kernel_lags; }
   int states() const { return candidates.empty() ? 0 : candidates[picked].states; }
 
   /// Sets what is picked, states aside. With `leave_least_squares` the best of what is refined.
