@@ -154,7 +154,7 @@ std::vector<Flag> flags() {
            "F",
            "prediction",
            "what the coefficients are best at: prediction, the next sample (least squares); simulation, free runs from "
-           "the input; auto, simulation, 15 lags under a kernel or a subspace estimate where held-out free runs are "
+           "the input; auto, simulation, many lags under a kernel or a subspace estimate where held-out free runs are "
            "surely better so",
            {"prediction", "simulation", "auto"}},
           {"ridge", Kind::kNumber, "R", "0", "weight of the coefficients' size, as a share of each regressor's energy"},

@@ -53,8 +53,9 @@ bool only_starts_better(const Unit& unit, std::size_t candidate) {
   if (unit.candidates[candidate].kernel_lags == 0) return false;
   const auto error = [&](std::size_t one) { return unit.estimated.row(Index(one)).mean(); };
   std::size_t best = 0;
-  for (std::size_t w = 0; w < unit.candidates.size(); ++w) {
-    if (unit.candidates[w].kernel_lags == 0 && unit.candidates[w].states == 0 && error(w) < error(best)) best = w;
+  for (std::size_t w = 1; w < unit.candidates.size(); ++w) {
+    if (unit.candidates[w].kernel_lags > 0 || unit.candidates[w].states > 0 || loses_a_fold(unit, w)) continue;
+    if (error(w) < error(best)) best = w;
   }
   return error(candidate) * kAsGood * kAsGood > error(best) ||
          sureness(unit.estimated, candidate, unit.estimated, best) < kSurelyMany;

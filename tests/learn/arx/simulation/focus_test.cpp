@@ -187,6 +187,13 @@ TEST(FocusChoice, ManyLagsAreTakenOnlyWhereTheyAreBetterFromTheBestInitialStateT
   }
 }
 
+TEST(FocusChoice, ManyLagsNeedNotBeatWhatCannotStartFromMeasuredSamples) {
+  arx::Unit unit = judged({2, 2, 2}, {0.3, 0.31, 0.32});
+  unit.estimated.row(1).setConstant(0.1);
+  unit.pick(false);
+  EXPECT_EQ(unit.kernel_lags(), 15);
+}
+
 TEST(FocusChoice, WhatIsNearestToLeastSquaresIsTakenOfWhatIsAsGood) {
   arx::Unit unit = judged({1.05, 1.05, 1.05}, {1, 0.98, 0.99});
   unit.pick(false);
