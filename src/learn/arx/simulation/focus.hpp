@@ -43,10 +43,10 @@ struct FocusedFit {
 
 /// `plain` refined as the focus says: with kSimulation in any case, as far as held-out free runs say; with kAuto where
 /// they are surely better for it, and with kKernelLags lags under a kernel or from a subspace estimate where they are
-/// surely better still. `plain`
-/// itself where nothing is to be simulated (no inputs, no feedback), where the data cannot tell all coefficients, or
-/// where too few rows are there to hold some out. Errors: as fit_arx, kStopped. Precondition: `plain` is fit_arx() of
-/// the same arguments.
+/// surely better still. Where means are subtracted a constant is estimated with what is refined. `plain` itself where
+/// nothing is to be simulated (no inputs, no feedback), where the data cannot tell all coefficients, or where too few
+/// rows are there to hold some out. Errors: as fit_arx, kStopped. Precondition: `plain` is fit_arx() of the same
+/// arguments.
 Result<FocusedFit> focus_fit(std::span<const Recording> recordings, const ChannelChoice& channels,
                              const ArxOptions& options, ArxFit plain, ArxFocus focus, const Progress& progress);
 

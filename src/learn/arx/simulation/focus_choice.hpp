@@ -3,7 +3,7 @@
 //
 // Least squares is left only for what is surely better: the candidate nearest to it among those whose error is within a
 // twentieth of the least (as L. Breiman et al., Classification and Regression Trees (1984), section 3.4.3, take the
-// simplest within one standard error), if it is better by one standard error over parts of the folds and loses in none.
+// simplest within one standard error), if it is better by one standard error over parts of the folds and loses none.
 
 #include <Eigen/Core>
 #include <vector>
