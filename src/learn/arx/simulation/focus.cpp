@@ -236,7 +236,8 @@ struct Way {
 
 void add_state_spaces(const Subject& subject, const Learned& learned, const Unit& unit, std::vector<Way>& ways) {
   const int outputs = static_cast<int>(unit.outputs.size());
-  const Subspace subspace(learned.signals, unit.outputs, subject.constant());
+  const bool constant = subject.options.offset == ArxOffset::kEstimate;
+  const Subspace subspace(learned.signals, unit.outputs, constant);
   for (int states : kStates) {
     if (states > (kStateSpaceLags - 1) * outputs) break;
     Way& way = ways.emplace_back(Way{{.states = states, .decoupled = unit.decoupled}, subject.options.orders, {}});
@@ -432,7 +433,7 @@ ArxOrders chosen_orders(const Subject& subject, std::vector<Block>& blocks) {
 
 // The rows of one unit from a subspace estimate. Returns whether there is one.
 bool give_state_space(const Subject& subject, const Learned& learned, const Unit& unit, std::vector<GivenRow>& rows) {
-  const bool constant = subject.constant();
+  const bool constant = subject.options.offset == ArxOffset::kEstimate;
   const auto model = Subspace(learned.signals, unit.outputs, constant).model(unit.states(), subject.largest_pole());
   if (!model) return false;
   const Index outputs = model->outputs(), inputs = model->inputs();
@@ -443,7 +444,7 @@ bool give_state_space(const Subject& subject, const Learned& learned, const Unit
     GivenRow& row = rows[std::size_t(unit.outputs[std::size_t(o)])];
     row.theta << form.feedback.row(o).reshaped(outputs, lags).transpose().reshaped(),
         form.drive.row(o).reshaped(inputs, lags + 1).transpose().reshaped(),
-        form.constant.row(o).head(constant ? 1 : 0);
+        form.constant.row(o).head(subject.constant() ? 1 : 0);
     row.effective = shared + static_cast<double>(inputs) + (constant ? 1 : 0);
   }
   return true;
