@@ -8,7 +8,7 @@
 // tree to a leaf, whose rows are compared. It is done only in steps in which going on costs more than the tolerance.
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -28,7 +28,6 @@ class DrawnLanes {
   DrawnLanes(const DrawnProgram& program, int blocks, Arena& arena) : program_(program) {
     if (program.empty()) return;
     state_ = arena.take<Real>(static_cast<std::size_t>(blocks) * kStateValues * kLanes);
-    factor_ = arena.take<float>(static_cast<std::size_t>(program.sides) * program.outputs);
     past_ = SampleRing<N>(blocks, program.depth, 1, arena);
   }
 
@@ -36,8 +35,7 @@ class DrawnLanes {
 
   /// Sets the scale of the noise. Returns whether there is any.
   bool set_noise(float scale) {
-    std::transform(program_.factor.begin(), program_.factor.end(), factor_.begin(),
-                   [scale](float factor) { return scale * factor; });
+    scale_ = scale;
     return !empty() && scale != 0;
   }
 
@@ -59,31 +57,28 @@ class DrawnLanes {
     store(wind, past(block, 0));
   }
 
-  /// Moves every lane of a block on and puts what is added to the outputs into `shocks`, [output][lane].
+  /// Moves every lane of a block that is in use on, and puts what is added to the outputs into `shocks`,
+  /// [output][lane].
   void step(int block, const Moment<N>& moment, Real* shocks) {
-    std::uint32_t words[4][kLanes];
-    bool drawn = false;
+    Places places;
     for (int lane = 0; lane < kLanes; ++lane) {
-      const auto at = whole(state(block, kPlace)[lane]);
-      const auto steps = whole(state(block, kAge)[lane]);
-      const bool forced = steps >= program_.longest || program_.left[at / 2] == 0;
-      const Real ahead = forced || !program_.driven() ? Real(0.0f) : apart(block, lane, at + 2);
-      std::uint32_t next = at + 2;
-      if (forced || value_of(ahead) > program_.tolerance) {
-        if (!drawn) draw(moment, words);
-        drawn = true;
-        const std::uint32_t own[4] = {words[0][lane], words[1][lane], words[2][lane], words[3][lane]};
-        next = jump(block, lane, own, forced ? nullptr : &ahead);
-      }
-      if (next == at + 2 && !forced) {
-        state(block, kAge)[lane] = Real(static_cast<float>(steps + 1));
+      const std::uint32_t at = whole(state(block, kPlace)[lane]);
+      const bool used = lane < moment.lanes, last = program_.left[at / 2] == 0;
+      places.next[lane] = used ? at + 2 : at;
+      places.forced[lane] = used && (last || whole(state(block, kAge)[lane]) >= program_.longest);
+    }
+    search(block, moment, places);
+    for (int lane = 0; lane < moment.lanes; ++lane) {
+      const std::uint32_t at = whole(state(block, kPlace)[lane]), next = places.next[lane];
+      if (next == at + 2 && !places.forced[lane]) {
+        state(block, kAge)[lane] = Real(static_cast<float>(whole(state(block, kAge)[lane]) + 1));
       } else {
         remember(block, lane);
         state(block, kAge)[lane] = Real(1.0f);
       }
       state(block, kPlace)[lane] = Real(static_cast<float>(next));
-      play(next, shocks + lane);
     }
+    play(places.next, shocks);
   }
 
   std::size_t lane_values() const {
@@ -109,6 +104,7 @@ class DrawnLanes {
  private:
   // Twice the row, and one more where its mirror image is played; steps since the jump; and the same of the last row of
   // every block before, the newest first.
+  static constexpr float kNever = std::numeric_limits<float>::infinity();
   static constexpr int kPlace = 0;
   static constexpr int kAge = 1;
   static constexpr int kStateValues = 2 * (1 + kRecentBlocks);
@@ -123,26 +119,81 @@ class DrawnLanes {
     for (int value = kStateValues - 1; value >= 2; --value) state(block, value)[lane] = state(block, value - 2)[lane];
   }
 
-  bool is_recent(int block, int lane, std::uint32_t row) const {
-    for (int value = 0; value < kStateValues; value += 2) {
-      const std::uint32_t last = whole(state(block, value)[lane]) / 2, steps = whole(state(block, value + 1)[lane]);
-      if (steps > 0 && row <= last + 1 && row + steps > last) return true;
+  // Where the lanes of a block go, and which of them must jump.
+  struct Places {
+    std::uint32_t next[kLanes];
+    bool forced[kLanes];
+  };
+
+  // The input's past at each lag, and whether it blew from the other side: there rows are looked for as mirror images,
+  // and the past is turned about.
+  struct Heard {
+    Real wind[kMaxDrawnLags][kLanes];
+    bool right[kLanes];
+  };
+
+  // Lanes that may jump: of all that follows each does one thing at a time for all of them, since one alone would wait
+  // for every number that it reads.
+  struct Seekers {
+    int lane[kLanes];
+    std::uint32_t leaf[kLanes];
+    int count = 0;
+  };
+
+  // Lets those jump that must, or that go on in an input too far from what it was there.
+  void search(int block, const Moment<N>& moment, Places& places) const {
+    Seekers seekers;
+    Real ahead[kLanes];
+    if (program_.driven()) go_on(block, places, ahead);
+    for (int lane = 0; lane < moment.lanes; ++lane) {
+      const bool seeks =
+          places.forced[lane] || (program_.driven() && value_of(ahead[lane]) > program_.tolerance);
+      seekers.lane[seekers.count] = lane;
+      seekers.count += seeks ? 1 : 0;
     }
-    return false;
+    if (seekers.count == 0) return;
+    std::uint32_t words[4][kLanes];
+    draw(moment, words);
+    if (!program_.driven()) {
+      for (int k = 0; k < seekers.count; ++k) {
+        const int lane = seekers.lane[k];
+        places.next[lane] = 2 * scaled(words[0][lane], static_cast<std::uint32_t>(program_.left.size()));
+      }
+      return;
+    }
+    Heard heard;
+    hear_past(block, heard);
+    descend(heard, words[0], seekers);
+    for (int k = 0; k < seekers.count; ++k) {
+      const int lane = seekers.lane[k];
+      const Real* on = places.forced[lane] ? nullptr : &ahead[lane];
+      places.next[lane] = jump(block, lane, seekers.leaf[k], heard, words[1][lane], on);
+    }
   }
 
-  // How far the input's past is from what it was at a place: the sum over lags of the differences' sizes, as good a
-  // choice as their squares make for half the operations.
-  Real apart(int block, int lane, std::uint32_t at) const {
-    const float* wind = program_.wind.data() + program_.now[at / 2];
-    const bool mirrored = at % 2 != 0;
-    Real sum(0.0f);
-    for (std::size_t k = 0; k < program_.lags.size(); ++k) {
-      const Real then(*(wind - program_.lags[k])), heard = past(block, program_.lags[k])[lane];
-      const Real difference = mirrored ? then + heard : then - heard;
-      sum = value_of(difference) < 0 ? sum - difference : sum + difference;
+  // How far the input's past is from what it was at the next places: the sum over lags of the differences' sizes, as
+  // good a choice as their squares make for half the operations.
+  void go_on(int block, const Places& places, Real (&ahead)[kLanes]) const {
+    const float* wind[kLanes];
+    Real mirrored[kLanes];
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const std::uint32_t next = places.next[lane];
+      // What must jump does not go on, and there may be nothing to go on to.
+      wind[lane] = program_.wind.data() + program_.now[next / 2 - (places.forced[lane] ? 1 : 0)];
+      mirrored[lane] = Real(next % 2 != 0 ? 1.0f : 0.0f);
     }
-    return sum;
+    const auto turned = load<Reals<N>>(mirrored);
+    const auto zero = all<Reals<N>>(0.0f);
+    auto sum = zero;
+    for (const std::uint32_t lag : program_.lags) {
+      Real then[kLanes];
+      for (int lane = 0; lane < kLanes; ++lane) then[lane] = Real(*(wind[lane] - lag));
+      const auto apart = [](const auto& x, const auto& y, const auto& side, const auto& none) {
+        return side > none ? x + y : x - y;
+      };
+      sum = sum + magnitude(each(apart, load<Reals<N>>(then), load<Reals<N>>(past(block, lag)), turned, zero));
+    }
+    store(sum, ahead);
   }
 
   void draw(const Moment<N>& moment, std::uint32_t (&words)[4][kLanes]) const {
@@ -156,74 +207,100 @@ class DrawnLanes {
     }
   }
 
-  bool from_right(int block, int lane) const {
-    if (!program_.mirrors()) return false;
-    Real sum(0.0f);
-    for (std::uint32_t lag : program_.lags) sum = sum + past(block, lag)[lane];
-    return value_of(sum) < 0;
-  }
-
-  // Rows of a leaf.
-  struct Leaf {
-    std::uint32_t begin;
-    std::uint32_t end;
-  };
-
-  // Down the tree. Where the past lies within the margin of a node's value chance takes the side: rows of calm, which
-  // are all alike, are so all within reach.
-  Leaf leaf(int block, int lane, bool turned, std::uint32_t word) const {
-    Leaf out{0, static_cast<std::uint32_t>(program_.order.size())};
-    for (std::size_t node = 0; node < program_.nodes.size(); word = word << 1 | word >> 31) {
-      const PastNode& one = program_.nodes[node];
-      const Real heard = past(block, program_.lags[one.lag])[lane], value(one.value);
-      const float away = value_of(turned ? Real(0.0f) - value - heard : heard - value);
-      const bool near = away <= program_.margin && away >= -program_.margin;
-      const bool right = near ? word >> 31 != 0 : away > 0;
-      const std::uint32_t middle = out.begin + (out.end - out.begin) / 2;
-      (right ? out.begin : out.end) = middle;
-      node = 2 * node + (right ? 2 : 1);
+  void hear_past(int block, Heard& heard) const {
+    const auto zero = all<Reals<N>>(0.0f);
+    auto sum = zero;
+    if (program_.mirrors()) {
+      for (const std::uint32_t lag : program_.lags) sum = sum + load<Reals<N>>(past(block, lag));
     }
-    return out;
+    for (std::size_t k = 0; k < program_.lags.size(); ++k) {
+      const auto about = [](const auto& x, const auto& side, const auto& none) { return side < none ? none - x : x; };
+      store(each(about, load<Reals<N>>(past(block, program_.lags[k])), sum, zero), heard.wind[k]);
+    }
+    Real sides[kLanes];
+    store(sum, sides);
+    for (int lane = 0; lane < kLanes; ++lane) heard.right[lane] = value_of(sides[lane]) < 0;
   }
 
-  // The nearest of the rows that were looked at, the best first.
-  struct Nearest {
-    std::array<float, kNearestRows> apart{};
-    std::array<std::uint32_t, kNearestRows> place{};
-    int count = 0;
-
-    void take(float away, std::uint32_t at) {
-      int k = count;
-      while (k > 0 && away < apart[k - 1]) --k;
-      if (k == kNearestRows) return;
-      if (count < kNearestRows) ++count;
-      for (int behind = count - 1; behind > k; --behind) {
-        apart[behind] = apart[behind - 1];
-        place[behind] = place[behind - 1];
+  // Down the tree to a leaf. Where the past lies within the margin of a node's value chance takes the side: rows of
+  // calm, which are all alike, are so all within reach.
+  void descend(const Heard& heard, const std::uint32_t (&words)[kLanes], Seekers& seekers) const {
+    std::uint32_t node[kLanes] = {}, word[kLanes] = {};
+    for (int k = 0; k < seekers.count; ++k) word[k] = words[seekers.lane[k]];
+    for (std::size_t level = 1; level <= program_.nodes.size(); level *= 2) {
+      for (int k = 0; k < seekers.count; ++k) {
+        const PastNode& one = program_.nodes[node[k]];
+        const float away = value_of(heard.wind[one.lag][seekers.lane[k]] - Real(one.value));
+        const std::uint32_t near = (away <= program_.margin ? 1U : 0U) & (away >= -program_.margin ? 1U : 0U);
+        const std::uint32_t side = (near & word[k] >> 31) | (~near & (away > 0 ? 1U : 0U));
+        word[k] = word[k] << 1 | word[k] >> 31;
+        node[k] = 2 * node[k] + 1 + side;
       }
-      apart[k] = away;
-      place[k] = at;
     }
-  };
+    for (int k = 0; k < seekers.count; ++k) {
+      seekers.leaf[k] = node[k] - static_cast<std::uint32_t>(program_.nodes.size());
+    }
+  }
 
-  // Where to go: on, where `ahead` says what that costs and it is not worse than the best by more than the tolerance,
-  // else to one of the nearest.
-  std::uint32_t jump(int block, int lane, const std::uint32_t (&words)[4], const Real* ahead) const {
-    if (!program_.driven()) return 2 * scaled(words[0], static_cast<std::uint32_t>(program_.left.size()));
-    const bool right = from_right(block, lane);
-    const Leaf found = leaf(block, lane, right, words[0]);
-    Nearest nearest;
-    std::uint32_t at = 0;
-    for (std::uint32_t k = found.begin; k < found.end; ++k) {
-      const std::uint32_t row = program_.order[k];
-      at = 2 * row + (right != (program_.turned[row] != 0) ? 1 : 0);
-      if (is_recent(block, lane, row)) continue;
-      nearest.take(value_of(apart(block, lane, at)), at);
+  // How far a lane's past is from those of a leaf's rows: infinitely far from what is none, or was played just now.
+  void compare(int lane, std::uint32_t leaf, const Heard& heard, Real (&apart)[kCandidates]) const {
+    const Candidates& rows = program_.leaves[leaf];
+    const std::size_t lags = program_.lags.size();
+    const float* winds = program_.leaf_wind.data() + leaf * lags * kCandidates;
+    for (std::uint32_t first = 0; first < rows.count; first += kLanes) {
+      auto sum = all<Reals<N>>(0.0f);
+      for (std::size_t k = 0; k < lags; ++k) {
+        const auto now = all<Reals<N>>(value_of(heard.wind[k][lane]));
+        sum = sum + magnitude(load<Reals<N>>(winds + k * kCandidates + first) - now);
+      }
+      store(sum, apart + first);
     }
-    const std::uint32_t on = whole(state(block, kPlace)[lane]) + 2;
-    if (nearest.count == 0) return ahead ? on : at;
-    if (ahead && value_of(*ahead - Real(nearest.apart[0])) <= program_.tolerance) return on;
-    return nearest.place[scaled(words[1], static_cast<std::uint32_t>(nearest.count))];
+  }
+
+  // Rows that a lane has played just now, or will play if it goes on, are out of the question.
+  void avoid_recent(int block, int lane, const Candidates& rows, Real (&apart)[kCandidates]) const {
+    for (int value = 0; value < kStateValues; value += 2) {
+      const float last = value_of(state(block, value)[lane]), steps = value_of(state(block, value + 1)[lane]);
+      const float row = static_cast<float>(static_cast<std::uint32_t>(last) / 2);
+      const auto low = all<Reals<N>>(row - steps), high = all<Reals<N>>(steps > 0 ? row + 1 : -1.0f);
+      const auto never = all<Reals<N>>(kNever);
+      const auto pick = [](const auto& x, const auto& from, const auto& to, const auto& yes, const auto& no) {
+        return x > from ? (x > to ? no : yes) : no;
+      };
+      for (std::uint32_t first = 0; first < rows.count; first += kLanes) {
+        const auto candidates = load<Reals<N>>(rows.row.data() + first);
+        store(each(pick, candidates, low, high, never, load<Reals<N>>(apart + first)), apart + first);
+      }
+    }
+  }
+
+  // Where to go from a leaf: on, where `ahead` says what that costs and it is not worse than the best by more than the
+  // tolerance, else to one of the nearest.
+  std::uint32_t jump(int block, int lane, std::uint32_t leaf, const Heard& heard, std::uint32_t word,
+                     const Real* ahead) const {
+    const Candidates& rows = program_.leaves[leaf];
+    Real apart[kCandidates];
+    compare(lane, leaf, heard, apart);
+    avoid_recent(block, lane, rows, apart);
+    // Distances are not negative: their bits are in their order. The lower ones tell which row it is, and which of two
+    // that are as near comes first.
+    constexpr std::uint64_t kNone = std::uint64_t{std::bit_cast<std::uint32_t>(kNever)} << 32;
+    std::uint64_t nearest[kNearestRows] = {kNone, kNone, kNone};
+    for (std::uint32_t k = 0; k < rows.count; ++k) {
+      std::uint64_t one = std::uint64_t{std::bit_cast<std::uint32_t>(value_of(apart[k]))} << 32 | k;
+      for (int rank = 0; rank < kNearestRows; ++rank) {
+        const std::uint64_t farther = std::max(nearest[rank], one);
+        nearest[rank] = std::min(nearest[rank], one);
+        one = farther;
+      }
+    }
+    std::uint32_t count = 0;
+    for (int rank = 0; rank < kNearestRows; ++rank) count += nearest[rank] < kNone ? 1 : 0;
+    const std::uint32_t on = whole(state(block, kPlace)[lane]) + 2, about = heard.right[lane] ? 1 : 0;
+    if (count == 0) return ahead ? on : rows.place[rows.count - 1] ^ about;
+    const Real best(std::bit_cast<float>(static_cast<std::uint32_t>(nearest[0] >> 32)));
+    if (ahead && value_of(*ahead - best) <= program_.tolerance) return on;
+    return rows.place[static_cast<std::uint32_t>(nearest[scaled(word, count)])] ^ about;
   }
 
   // A word as a whole number below `count`.
@@ -231,21 +308,23 @@ class DrawnLanes {
     return static_cast<std::uint32_t>((static_cast<std::uint64_t>(word) * count) >> 32);
   }
 
-  void play(std::uint32_t at, Real* shock) const {
-    const auto ny = static_cast<std::size_t>(program_.outputs);
-    const std::size_t side = at % 2 != 0 ? ny : 0;
-    const float* row = program_.rows.data() + (at / 2) * ny;
-    for (std::size_t i = 0; i < ny; ++i) {
-      const Real value(row[program_.from[side + i]]);
-      const float factor = factor_[side + i];
-      shock[i * kLanes] = factor == 1 ? value : Real(factor) * value;
+  void play(const std::uint32_t (&places)[kLanes], Real* shock) const {
+    const float* row[kLanes];
+    for (int lane = 0; lane < kLanes; ++lane) row[lane] = program_.played(places[lane]);
+    const auto scale = all<Reals<N>>(scale_);
+    for (int i = 0; i < program_.outputs; i += 4) {
+      Reals<N> columns[4];
+      columns_of<N>(row, static_cast<std::size_t>(i), columns);
+      for (int k = 0; k < 4 && i + k < program_.outputs; ++k, shock += kLanes) {
+        store(scale_ == 1 ? columns[k] : scale * columns[k], shock);
+      }
     }
   }
 
   DrawnProgram program_;
   std::span<Real> state_;
-  std::span<float> factor_;  // the program's, times the scale of the noise
-  SampleRing<N> past_;       // of the input
+  SampleRing<N> past_;  // of the input
+  float scale_ = 0;     // of the noise
 };
 
 }  // namespace wisp

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <numeric>
+#include <limits>
 
 #include "run/bank/channels.hpp"
 #include "run/bank/model_hash.hpp"
@@ -121,6 +121,31 @@ class PastTree {
   DrawnProgram& program_;
 };
 
+// The rows of each leaf, with all that a comparison reads in one piece.
+void fill_leaves(DrawnProgram& program, std::size_t node, std::size_t begin, std::size_t end) {
+  if (node < program.nodes.size()) {
+    const std::size_t middle = begin + (end - begin) / 2;
+    fill_leaves(program, 2 * node + 1, begin, middle);
+    fill_leaves(program, 2 * node + 2, middle, end);
+    return;
+  }
+  const std::size_t leaf = node - program.nodes.size(), lags = program.lags.size();
+  Candidates& candidates = program.leaves[leaf];
+  candidates.count = static_cast<std::uint32_t>(end - begin);
+  const auto winds = program.leaf_wind.subspan(leaf * lags * kCandidates, lags * kCandidates);
+  std::fill(winds.begin(), winds.end(), std::numeric_limits<float>::infinity());
+  for (std::size_t k = 0; k < candidates.count; ++k) {
+    const std::uint32_t row = program.order[begin + k];
+    const bool turned = program.turned[row] != 0;
+    candidates.row[k] = static_cast<float>(row);
+    candidates.place[k] = 2 * row + (turned ? 1 : 0);
+    for (std::size_t lag = 0; lag < lags; ++lag) {
+      const float wind = program.wind[program.now[row] - program.lags[lag]];
+      winds[lag * kCandidates + k] = turned ? -wind : wind;
+    }
+  }
+}
+
 void fill_tree(const DrawnResiduals& drawn, DrawnProgram& program) {
   const std::uint32_t least = most_left(drawn);
   std::size_t next = 0;
@@ -128,10 +153,11 @@ void fill_tree(const DrawnResiduals& drawn, DrawnProgram& program) {
     if (left >= least) program.order[next++] = row;
   });
   PastTree(program).fill(0, 0, program.order.size());
+  fill_leaves(program, 0, 0, program.order.size());
 }
 
 void fill_rows(const Model& model, const DrawnResiduals& drawn, DrawnProgram& program) {
-  for (std::size_t k = 0; k < program.rows.size(); ++k) {
+  for (std::size_t k = 0; k < drawn.rows.size(); ++k) {
     const std::size_t i = k % drawn.scale.size();
     const Output& out = model.outputs[i];
     program.rows[k] = bounded(drawn.rows[k] * (drawn.scale[i] / channel_scale(out.lowest, out.highest)));
@@ -151,6 +177,14 @@ void fill_sides(const Model& model, const DrawnResiduals& drawn, DrawnProgram& p
     program.from[ny + i] = static_cast<std::uint16_t>(from);
     program.factor[ny + i] = bounded((drawn.mirror[i] < 0 ? -1 : 1) * unit(from) / unit(i));
   }
+  if (!program.mirrors()) return;
+  // Units are powers of two: it makes no difference that mirror images are made here, and not when they are played.
+  const std::size_t half = program.rows.size() / 2;
+  for (std::size_t row = 0; row < half; row += ny) {
+    for (std::size_t i = 0; i < ny; ++i) {
+      program.rows[half + row + i] = program.factor[ny + i] * program.rows[row + program.from[ny + i]];
+    }
+  }
 }
 
 }  // namespace
@@ -168,12 +202,17 @@ DrawnProgram make_drawn_program(const Model& model, const ArxModel& arx, Arena& 
   const std::size_t rows = drawn.row_count(), past = program.driven() ? rows : 0;
   const std::size_t targets = program.driven() ? count_targets(drawn) : 0;
   program.lags = arena.take<std::uint32_t>(drawn.lags.size());
-  program.rows = arena.take<float>(drawn.rows.size());
+  const std::size_t numbers = static_cast<std::size_t>(program.sides) * drawn.rows.size();
+  const auto padded = arena.take<float>(numbers + 3);  // they are read four at a time
+  program.rows = padded.first(padded.empty() ? 0 : numbers);
   program.left = arena.take<std::uint32_t>(rows);
   program.wind = arena.take<float>(drawn.winds.size());
   program.now = arena.take<std::uint32_t>(past);
   program.turned = arena.take<std::uint8_t>(past);
-  program.nodes = arena.take<PastNode>(program.driven() ? count_nodes(targets) : 0);
+  const std::size_t nodes = program.driven() ? count_nodes(targets) : 0, leaves = program.driven() ? nodes + 1 : 0;
+  program.nodes = arena.take<PastNode>(nodes);
+  program.leaves = arena.take<Candidates>(leaves);
+  program.leaf_wind = arena.take<float>(leaves * drawn.lags.size() * kCandidates);
   program.order = arena.take<std::uint32_t>(targets);
   program.from = arena.take<std::uint16_t>(static_cast<std::size_t>(program.sides) * program.outputs);
   program.factor = arena.take<float>(static_cast<std::size_t>(program.sides) * program.outputs);
@@ -189,13 +228,7 @@ DrawnProgram make_drawn_program(const Model& model, const ArxModel& arx, Arena& 
 bool residuals_mirror(const DrawnProgram& program, int a, int b) {
   const auto ny = static_cast<std::size_t>(program.outputs);
   for (std::size_t row = 0; row < program.rows.size(); row += ny) {
-    for (std::size_t side = 0; side < program.from.size(); side += ny) {
-      const auto taken = [&](int output) {
-        const std::size_t place = side + static_cast<std::size_t>(output);
-        return program.factor[place] * program.rows[row + program.from[place]];
-      };
-      if (taken(a) != -taken(b)) return false;
-    }
+    if (program.rows[row + a] != -program.rows[row + b]) return false;
   }
   return true;
 }
@@ -210,7 +243,7 @@ std::uint64_t hash_of(const DrawnProgram& program, std::uint64_t before) {
   for (std::uint32_t left : program.left) hash = hash_number(left, hash);
   for (std::uint16_t from : program.from) hash = hash_number(std::uint32_t{from}, hash);
   const float bounds[] = {program.tolerance, program.margin};
-  for (const auto numbers : {std::span<const float>(bounds), std::span<const float>(program.rows),
+  for (const auto numbers : {std::span<const float>(bounds), std::span<const float>(program.rows).first(program.rows.size() / program.sides),
                              std::span<const float>(program.wind), std::span<const float>(program.factor)}) {
     hash = hash_floats(numbers, hash);
   }

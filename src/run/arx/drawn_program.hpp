@@ -23,6 +23,13 @@ struct PastNode {
   std::uint32_t lag;
 };
 
+/// The rows of a leaf, side by side, as they are compared.
+struct Candidates {
+  std::array<float, kCandidates> row;            ///< its number
+  std::array<std::uint32_t, kCandidates> place;  ///< twice that, and 1 more where it lies there as its mirror image
+  std::uint32_t count;
+};
+
 struct DrawnProgram {
   int outputs = 0;  ///< 0: nothing is drawn
   int sides = 1;    ///< 2: an input from the other side plays mirror images
@@ -33,19 +40,27 @@ struct DrawnProgram {
   std::uint32_t longest = 1;
   int depth = 1;  ///< steps of the input that are looked back at, the present one included
   std::span<std::uint32_t> lags;
-  std::span<float> rows;           ///< rows × outputs, in the outputs' channel units
+  std::span<float> rows;           ///< side × rows × outputs, in the outputs' channel units
   std::span<std::uint32_t> left;   ///< per row, how many follow it in its stretch
   std::span<float> wind;           ///< of every stretch, first what was before it; empty where nothing drives it
   std::span<std::uint32_t> now;    ///< per row, its place in `wind`
   std::span<std::uint8_t> turned;  ///< per row: 1 where its past lies in the tree as its mirror image
   std::span<PastNode> nodes;       ///< children of node k are 2k + 1 and 2k + 2; halves of what it has
-  std::span<std::uint32_t> order;  ///< rows, leaf after leaf
+  std::span<Candidates> leaves;    ///< child k of the tree is leaf k − nodes
+  std::span<float> leaf_wind;      ///< leaf × lag × candidate: its past as it lies in the tree, infinite where none is
+  std::span<std::uint32_t> order;  ///< rows, leaf after leaf: to build the tree
   std::span<std::uint16_t> from;   ///< side × outputs: whose residual an output takes
   std::span<float> factor;         ///< side × outputs, of what is taken: 1, on the mirrored side −1 where it negates
 
   bool empty() const { return outputs == 0; }
   bool driven() const { return toward >= 0; }
   bool mirrors() const { return sides == 2; }
+
+  /// The residuals of a place: twice the row, and 1 more where its mirror image is played.
+  const float* played(std::uint32_t place) const {
+    const std::size_t side = place % 2 != 0 ? left.size() : 0;
+    return rows.data() + (side + place / 2) * static_cast<std::size_t>(outputs);
+  }
 };
 
 /// Lays the program out and, unless the arena measures, fills it.

@@ -65,6 +65,10 @@ inline CountingWord bits_of_part(CountingReal real) { return {std::bit_cast<std:
 inline CountingReal real_of_bits_part(CountingWord bits) { return CountingReal(std::bit_cast<float>(bits.value)); }
 inline CountingWord spread_sign_part(CountingWord word) { return counted(word.value >> 31 ? 0xffffffffU : 0U); }
 inline CountingWord differ_part(CountingReal a, CountingReal b) { return {a == b ? 0U : 0xffffffffU}; }
+inline CountingReal magnitude_part(CountingReal a) { return CountingReal(std::fabs(a.value)); }
+inline void columns_part(const float* const* row, std::size_t first, CountingReal (&column)[4]) {
+  for (std::size_t k = 0; k < 4; ++k) column[k] = CountingReal(row[0][first + k]);
+}
 inline void spread_part(float value, CountingReal& part) { part = CountingReal(value); }
 inline void spread_part(std::uint32_t value, CountingWord& part) { part = {value}; }
 inline WideProduct<CountingWord> wide_product_part(CountingWord a, std::uint32_t b) {

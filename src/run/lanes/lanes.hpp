@@ -45,6 +45,7 @@ inline WordPart bits_of_part(RealPart real) { return (WordPart)real; }
 inline RealPart real_of_bits_part(WordPart bits) { return (RealPart)bits; }
 inline WordPart spread_sign_part(WordPart word) { return (WordPart)((SignedPart)word >> 31); }
 inline WordPart differ_part(RealPart a, RealPart b) { return (WordPart)(a != b); }
+inline RealPart magnitude_part(RealPart a) { return (RealPart)((WordPart)a & 0x7fffffffU); }
 inline void spread_part(float value, RealPart& part) { part = value - RealPart{}; }  // x − 0 is x: nothing is rounded
 inline void spread_part(std::uint32_t value, WordPart& part) { part = value - WordPart{}; }
 #else
@@ -57,6 +58,7 @@ inline WordPart bits_of_part(RealPart real) { return std::bit_cast<std::uint32_t
 inline RealPart real_of_bits_part(WordPart bits) { return std::bit_cast<float>(bits); }
 inline WordPart spread_sign_part(WordPart word) { return word >> 31 ? 0xffffffffU : 0U; }
 inline WordPart differ_part(RealPart a, RealPart b) { return a != b ? 0xffffffffU : 0U; }
+inline RealPart magnitude_part(RealPart a) { return std::fabs(a); }
 inline void spread_part(float value, RealPart& part) { part = value; }
 inline void spread_part(std::uint32_t value, WordPart& part) { part = value; }
 #endif
@@ -183,6 +185,39 @@ inline void columns_of_part(const float* table, WordPart row, RealPart& a, RealP
   a = numbers[0];
   b = numbers[1];
   c = numbers[2];
+}
+#endif
+
+// Turns rows into columns: four successive numbers of the row of every lane.
+#ifdef WISP_VECTOR_LANES
+inline void columns_part(const float* const* row, std::size_t first, RealPart (&column)[4]) {
+  const auto row_of = [&](int lane) { return quad_at(row[lane] + first); };
+#ifdef __AVX2__
+  const auto rows = [&](int lane) {
+    return __builtin_shufflevector(row_of(lane), row_of(lane + 4), 0, 1, 2, 3, 4, 5, 6, 7);
+  };
+  const auto r0 = rows(0), r1 = rows(1), r2 = rows(2), r3 = rows(3);
+  const auto ab01 = __builtin_shufflevector(r0, r1, 0, 8, 1, 9, 4, 12, 5, 13);
+  const auto ab23 = __builtin_shufflevector(r2, r3, 0, 8, 1, 9, 4, 12, 5, 13);
+  const auto cd01 = __builtin_shufflevector(r0, r1, 2, 10, 3, 11, 6, 14, 7, 15);
+  const auto cd23 = __builtin_shufflevector(r2, r3, 2, 10, 3, 11, 6, 14, 7, 15);
+  column[0] = __builtin_shufflevector(ab01, ab23, 0, 1, 8, 9, 4, 5, 12, 13);
+  column[1] = __builtin_shufflevector(ab01, ab23, 2, 3, 10, 11, 6, 7, 14, 15);
+  column[2] = __builtin_shufflevector(cd01, cd23, 0, 1, 8, 9, 4, 5, 12, 13);
+  column[3] = __builtin_shufflevector(cd01, cd23, 2, 3, 10, 11, 6, 7, 14, 15);
+#else
+  const Quad r0 = row_of(0), r1 = row_of(1), r2 = row_of(2), r3 = row_of(3);
+  const Quad ab01 = __builtin_shufflevector(r0, r1, 0, 4, 1, 5), ab23 = __builtin_shufflevector(r2, r3, 0, 4, 1, 5);
+  const Quad cd01 = __builtin_shufflevector(r0, r1, 2, 6, 3, 7), cd23 = __builtin_shufflevector(r2, r3, 2, 6, 3, 7);
+  column[0] = __builtin_shufflevector(ab01, ab23, 0, 1, 4, 5);
+  column[1] = __builtin_shufflevector(ab01, ab23, 2, 3, 6, 7);
+  column[2] = __builtin_shufflevector(cd01, cd23, 0, 1, 4, 5);
+  column[3] = __builtin_shufflevector(cd01, cd23, 2, 3, 6, 7);
+#endif
+}
+#else
+inline void columns_part(const float* const* row, std::size_t first, RealPart (&column)[4]) {
+  for (std::size_t k = 0; k < 4; ++k) column[k] = row[0][first + k];
 }
 #endif
 
@@ -319,6 +354,12 @@ inline auto differ(const Pack<Part, kParts>& a, const Pack<Part, kParts>& b) {
   return each([](const Part& x, const Part& y) { return differ_part(x, y); }, a, b);
 }
 
+/// Numbers without their signs.
+template <class Part, int kParts>
+inline auto magnitude(const Pack<Part, kParts>& reals) {
+  return each([](const Part& x) { return magnitude_part(x); }, reals);
+}
+
 /// Whether any bit of any lane is set.
 template <class Part, int kParts>
 inline bool any(const Pack<Part, kParts>& words) {
@@ -328,6 +369,16 @@ inline bool any(const Pack<Part, kParts>& words) {
   std::memcpy(lanes, static_cast<const void*>(&set), sizeof set);
   for (const std::uint32_t lane : lanes) any |= lane;
   return any != 0;
+}
+
+/// Four successive numbers, from `first` on, of every lane's row.
+template <class N>
+inline void columns_of(const float* const (&row)[N::kLanes], std::size_t first, Reals<N> (&columns)[4]) {
+  unrolled<N::kParts>([&](auto i) {
+    typename N::RealPart part[4];
+    columns_part(row + i * (N::kLanes / N::kParts), first, part);
+    unrolled<4>([&](auto k) { columns[k].part[i] = part[k]; });
+  });
 }
 
 /// The larger and the smaller of two numbers; the second where the first is not a number.
