@@ -242,37 +242,68 @@ class DrawnLanes {
     }
   }
 
+  // Rows that a lane has played just now, or will play if it goes on: above `low`, up to `high`.
+  struct Recent {
+    float low[1 + kRecentBlocks];
+    float high[1 + kRecentBlocks];
+  };
+  Recent recent(int block, int lane) const {
+    Recent out;
+    for (int k = 0; k <= kRecentBlocks; ++k) {
+      const auto row = static_cast<float>(whole(state(block, 2 * k + kPlace)[lane]) / 2);
+      const float steps = value_of(state(block, 2 * k + kAge)[lane]);
+      out.low[k] = row - steps;
+      out.high[k] = steps > 0 ? row + 1 : -1.0f;
+    }
+    return out;
+  }
+
   // How far a lane's past is from those of a leaf's rows: infinitely far from what is none, or was played just now.
-  void compare(int lane, std::uint32_t leaf, const Heard& heard, Real (&apart)[kCandidates]) const {
+  void compare(int block, int lane, std::uint32_t leaf, const Heard& heard, Real (&apart)[kCandidates]) const {
     const Candidates& rows = program_.leaves[leaf];
     const std::size_t lags = program_.lags.size();
     const float* winds = program_.leaf_wind.data() + leaf * lags * kCandidates;
-    for (std::uint32_t first = 0; first < rows.count; first += kLanes) {
+    const Recent recently = recent(block, lane);
+    const auto never = all<Reals<N>>(kNever);
+    const auto pick = [](const auto& x, const auto& low, const auto& high, const auto& yes, const auto& no) {
+      return x > low ? (x > high ? no : yes) : no;
+    };
+    for (std::uint32_t first = 0; first < kCandidates; first += kLanes) {
       auto sum = all<Reals<N>>(0.0f);
-      for (std::size_t k = 0; k < lags; ++k) {
+      for (std::size_t k = 0; k < lags && first < rows.count; ++k) {
         const auto now = all<Reals<N>>(value_of(heard.wind[k][lane]));
         sum = sum + magnitude(load<Reals<N>>(winds + k * kCandidates + first) - now);
       }
+      if (!(first < rows.count)) sum = never;
+      const auto row = load<Reals<N>>(rows.row.data() + first);
+      unrolled<1 + kRecentBlocks>([&](auto k) {
+        sum = each(pick, row, all<Reals<N>>(recently.low[k]), all<Reals<N>>(recently.high[k]), never, sum);
+      });
       store(sum, apart + first);
     }
   }
 
-  // Rows that a lane has played just now, or will play if it goes on, are out of the question.
-  void avoid_recent(int block, int lane, const Candidates& rows, Real (&apart)[kCandidates]) const {
-    for (int value = 0; value < kStateValues; value += 2) {
-      const float last = value_of(state(block, value)[lane]), steps = value_of(state(block, value + 1)[lane]);
-      const float row = static_cast<float>(static_cast<std::uint32_t>(last) / 2);
-      const auto low = all<Reals<N>>(row - steps), high = all<Reals<N>>(steps > 0 ? row + 1 : -1.0f);
-      const auto never = all<Reals<N>>(kNever);
-      const auto pick = [](const auto& x, const auto& from, const auto& to, const auto& yes, const auto& no) {
-        return x > from ? (x > to ? no : yes) : no;
-      };
-      for (std::uint32_t first = 0; first < rows.count; first += kLanes) {
-        const auto candidates = load<Reals<N>>(rows.row.data() + first);
-        store(each(pick, candidates, low, high, never, load<Reals<N>>(apart + first)), apart + first);
-      }
+  // The nearest of a leaf's rows, the best first. Distances are not negative: their bits are in their order. Below
+  // them stands which row it is, so that of two that are as near the first comes first.
+  struct Nearest {
+    static constexpr std::uint64_t kNone = std::uint64_t{std::bit_cast<std::uint32_t>(kNever)} << 32;
+    std::uint64_t best[kNearestRows] = {kNone, kNone, kNone};
+
+    void take(float apart, std::uint32_t candidate) {
+      std::uint64_t one = std::uint64_t{std::bit_cast<std::uint32_t>(apart)} << 32 | candidate;
+      unrolled<kNearestRows>([&](auto rank) {
+        const bool nearer = one < best[rank];
+        const std::uint64_t farther = nearer ? best[rank] : one;
+        best[rank] = nearer ? one : best[rank];
+        one = farther;
+      });
     }
-  }
+    std::uint32_t count() const {
+      return static_cast<std::uint32_t>(std::count_if(best, best + kNearestRows, [](auto one) { return one < kNone; }));
+    }
+    float apart() const { return std::bit_cast<float>(static_cast<std::uint32_t>(best[0] >> 32)); }
+    std::uint32_t candidate(std::uint32_t rank) const { return static_cast<std::uint32_t>(best[rank]); }
+  };
 
   // Where to go from a leaf: on, where `ahead` says what that costs and it is not worse than the best by more than the
   // tolerance, else to one of the nearest.
@@ -280,27 +311,14 @@ class DrawnLanes {
                      const Real* ahead) const {
     const Candidates& rows = program_.leaves[leaf];
     Real apart[kCandidates];
-    compare(lane, leaf, heard, apart);
-    avoid_recent(block, lane, rows, apart);
-    // Distances are not negative: their bits are in their order. The lower ones tell which row it is, and which of two
-    // that are as near comes first.
-    constexpr std::uint64_t kNone = std::uint64_t{std::bit_cast<std::uint32_t>(kNever)} << 32;
-    std::uint64_t nearest[kNearestRows] = {kNone, kNone, kNone};
-    for (std::uint32_t k = 0; k < rows.count; ++k) {
-      std::uint64_t one = std::uint64_t{std::bit_cast<std::uint32_t>(value_of(apart[k]))} << 32 | k;
-      for (int rank = 0; rank < kNearestRows; ++rank) {
-        const std::uint64_t farther = std::max(nearest[rank], one);
-        nearest[rank] = std::min(nearest[rank], one);
-        one = farther;
-      }
-    }
-    std::uint32_t count = 0;
-    for (int rank = 0; rank < kNearestRows; ++rank) count += nearest[rank] < kNone ? 1 : 0;
+    compare(block, lane, leaf, heard, apart);
+    Nearest nearest;
+    unrolled<kCandidates>([&](auto k) { nearest.take(value_of(apart[k]), static_cast<std::uint32_t>(k)); });
     const std::uint32_t on = whole(state(block, kPlace)[lane]) + 2, about = heard.right[lane] ? 1 : 0;
+    const std::uint32_t count = nearest.count();
     if (count == 0) return ahead ? on : rows.place[rows.count - 1] ^ about;
-    const Real best(std::bit_cast<float>(static_cast<std::uint32_t>(nearest[0] >> 32)));
-    if (ahead && value_of(*ahead - best) <= program_.tolerance) return on;
-    return rows.place[static_cast<std::uint32_t>(nearest[scaled(word, count)])] ^ about;
+    if (ahead && value_of(*ahead - Real(nearest.apart())) <= program_.tolerance) return on;
+    return rows.place[nearest.candidate(scaled(word, count))] ^ about;
   }
 
   // A word as a whole number below `count`.
