@@ -146,8 +146,7 @@ class DrawnLanes {
     Real ahead[kLanes];
     if (program_.driven()) go_on(block, places, ahead);
     for (int lane = 0; lane < moment.lanes; ++lane) {
-      const bool seeks =
-          places.forced[lane] || (program_.driven() && value_of(ahead[lane]) > program_.tolerance);
+      const bool seeks = places.forced[lane] || (program_.driven() && value_of(ahead[lane]) > program_.tolerance);
       seekers.lane[seekers.count] = lane;
       seekers.count += seeks ? 1 : 0;
     }

@@ -243,8 +243,9 @@ std::uint64_t hash_of(const DrawnProgram& program, std::uint64_t before) {
   for (std::uint32_t left : program.left) hash = hash_number(left, hash);
   for (std::uint16_t from : program.from) hash = hash_number(std::uint32_t{from}, hash);
   const float bounds[] = {program.tolerance, program.margin};
-  for (const auto numbers : {std::span<const float>(bounds), std::span<const float>(program.rows).first(program.rows.size() / program.sides),
-                             std::span<const float>(program.wind), std::span<const float>(program.factor)}) {
+  for (const auto numbers :
+       {std::span<const float>(bounds), std::span<const float>(program.rows).first(program.rows.size() / program.sides),
+        std::span<const float>(program.wind), std::span<const float>(program.factor)}) {
     hash = hash_floats(numbers, hash);
   }
   return hash;

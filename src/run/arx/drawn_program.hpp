@@ -47,7 +47,7 @@ struct DrawnProgram {
   std::span<std::uint8_t> turned;  ///< per row: 1 where its past lies in the tree as its mirror image
   std::span<PastNode> nodes;       ///< children of node k are 2k + 1 and 2k + 2; halves of what it has
   std::span<Candidates> leaves;    ///< child k of the tree is leaf k − nodes
-  std::span<float> leaf_wind;      ///< leaf × lag × candidate: its past as it lies in the tree, infinite where none is
+  std::span<float> leaf_wind;  ///< leaf × lag × candidate: its past as it lies in the tree, infinite where none is
   std::span<std::uint32_t> order;  ///< rows, leaf after leaf: to build the tree
   std::span<std::uint16_t> from;   ///< side × outputs: whose residual an output takes
   std::span<float> factor;         ///< side × outputs, of what is taken: 1, on the mirrored side −1 where it negates

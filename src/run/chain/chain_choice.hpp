@@ -2,6 +2,7 @@
 // How a chain chooses what comes next: a mode by what came before, then a segment of that mode, by counted random
 // words. Words and whole numbers only.
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -59,22 +60,27 @@ class ChainChoice {
                            const ChainWords& words) const {
     if (program.onward.empty()) return mode(program, state, words);
     const auto modes = static_cast<std::uint32_t>(program.modes);
-    std::uint64_t total = 0, most = 0;
-    std::uint32_t best = 0;
+    const std::uint32_t* threshold = program.threshold.data() + std::size_t{seen(program, state)} * modes;
+    const std::uint16_t* onward = program.onward.data() + std::size_t{before} * modes;
+    // Below 2^32 in sum, so that a word times the sum fits: of the history's words the upper half counts.
+    const auto weight_of = [&](std::uint32_t mode) {
+      const std::uint32_t width = threshold[mode] - (mode > 0 ? threshold[mode - 1] : 0);
+      return (width >> 16) * std::uint32_t{onward[mode]};
+    };
+    std::uint32_t total = 0, most = 0, best = 0;
     for (std::uint32_t mode = 0; mode < modes; ++mode) {
-      const std::uint64_t weight = weight_of(program, state, before, mode);
+      const std::uint32_t weight = weight_of(mode);
       total += weight;
-      if (weight <= most) continue;
-      most = weight;
-      best = mode;
+      best = weight > most ? mode : best;
+      most = std::max(most, weight);
     }
     if (!chance_) return best;
-    std::uint64_t rest = words.mode * total >> 32;
-    std::uint32_t mode = 0;
-    for (; mode + 1 < modes; ++mode) {
-      const std::uint64_t weight = weight_of(program, state, before, mode);
-      if (rest < weight) break;
-      rest -= weight;
+    // How many sums of weights, the last left out, are not above what was drawn.
+    const std::uint32_t drawn = share_of(words.mode, total);
+    std::uint32_t mode = 0, sum = 0;
+    for (std::uint32_t k = 0; k + 1 < modes; ++k) {
+      sum += weight_of(k);
+      mode += drawn < sum ? 0 : 1;
     }
     return mode;
   }
@@ -132,13 +138,6 @@ class ChainChoice {
     const std::uint32_t* threshold =
         program.threshold.data() + seen(program, state) * static_cast<std::uint32_t>(program.modes);
     return threshold[mode] - (mode > 0 ? threshold[mode - 1] : 0);
-  }
-
-  // Below 2^32 in sum, so that a word times the sum fits: of the history's words the upper half counts.
-  std::uint64_t weight_of(const ChainProgram& program, std::uint32_t state, std::uint32_t before,
-                          std::uint32_t mode) const {
-    const std::size_t at = std::size_t{before} * static_cast<std::uint32_t>(program.modes) + mode;
-    return std::uint64_t{width_of(program, state, mode) >> 16} * program.onward[at];
   }
 
   std::uint32_t any(const ChainProgram& program, std::uint32_t mode, std::uint32_t word) const {

@@ -11,6 +11,8 @@
 //
 // The curve of each number is two parabolas, held as differences from row to row: two additions a number.
 
+#include <algorithm>
+
 #include "run/chain/chain_choice.hpp"
 #include "run/chain/chain_program.hpp"
 #include "run/chain/chain_settings.hpp"
@@ -37,7 +39,7 @@ struct BodyState {
 /// turn.
 template <class Real>
 struct ChainTurn {
-  Real half_cos{1.0f};
+  Real half_cos{};
   Real half_sin{};
   Real cos_scale{};
   Real sin_scale{};
@@ -53,33 +55,65 @@ struct ChainGap {
   Vector3<Real> slip{};
 };
 
-template <class Real>
-struct ChainLane {
+/// What every step reads or moves. A bank has these numbers side by side, those of a block's lanes as one `Number`.
+template <class Number>
+struct ChainPlayed {
   // Where it is in the chain; whole numbers.
-  Real segment{};
-  Real row{};
-  Real state{};
+  Number segment{};
+  Number row{};
   // Where the segment lies: base + turn(scale · row). What is added to its velocity moves the base.
-  Vector3<Real> base{};
-  ChainTurn<Real> turn{};
+  Vector3<Number> base{};
+  ChainTurn<Number> turn{};
+  // What is added to the orientation, its first and second differences, and the second one of the latter half; what is
+  // added to the base, and its difference.
+  std::array<Quaternion<Number>, 4> lean{};
+  std::array<Vector3<Number>, 2> slip{};
+  // The ground: how much of coming to rest has passed, in [0, 1]; below 0: it falls.
+  Number settled{};
+  // Steering: steps left until it should be there, 0: it is not steered.
+  Number left{};
+};
+
+/// What only joins, the ground and steering need.
+template <class Real>
+struct ChainPlan {
+  Real state{};  ///< in the chain; a whole number
   // What follows: the segment's number and 1, 0: not drawn yet; how it will lie; and what differs where it joins.
   Real next{};
   ChainTurn<Real> next_turn{};
   ChainGap<Real> gap{};
-  // What is added to the orientation, its first and second differences, and the second one of the latter half; what is
-  // added to the base, and its difference.
-  std::array<Quaternion<Real>, 4> lean{};
-  std::array<Vector3<Real>, 2> slip{};
-  // The ground: how much of coming to rest has passed, in [0, 1]; below 0: it falls. The pose in which it touched, and
-  // the Gibbs vector that lays it flat.
-  Real settled{-1.0f};
+  // The pose in which it touched the ground, and the Gibbs vector that lays it flat.
   Quaternion<Real> touched{};
   Vector3<Real> laid{};
-  // Steering: steps left until it should be there, 0: it is not steered; where; and how near, metres.
-  Real left{};
+  // Steering: where it should be; and how near, metres.
   Vector3<Real> target{};
   Real near{};
 };
+
+template <class Real>
+struct ChainLane : ChainPlayed<Real>, ChainPlan<Real> {};
+
+/// Calls visit(number of a, number of b) for each number that is played.
+template <class A, class B, class Visit>
+inline void each_played(A& a, B& b, Visit visit) {
+  visit(a.segment, b.segment);
+  visit(a.row, b.row);
+  for (std::size_t k = 0; k < 3; ++k) visit(a.base[k], b.base[k]);
+  visit(a.turn.half_cos, b.turn.half_cos);
+  visit(a.turn.half_sin, b.turn.half_sin);
+  visit(a.turn.cos_scale, b.turn.cos_scale);
+  visit(a.turn.sin_scale, b.turn.sin_scale);
+  visit(a.turn.half_cos_scale, b.turn.half_cos_scale);
+  visit(a.turn.half_sin_scale, b.turn.half_sin_scale);
+  for (std::size_t i = 0; i < a.lean.size(); ++i) {
+    for (std::size_t k = 0; k < 4; ++k) visit(a.lean[i][k], b.lean[i][k]);
+  }
+  for (std::size_t i = 0; i < a.slip.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) visit(a.slip[i][k], b.slip[i][k]);
+  }
+  visit(a.settled, b.settled);
+  visit(a.left, b.left);
+}
 
 /// Stored quaternions of which no turn about z brings one nearer to the other than this, are not turned.
 inline constexpr float kLeastTurn = 1e-3f;
@@ -148,6 +182,7 @@ class ChainMover {
     lane.segment = Real(static_cast<float>(segment));
     lane.row = Real(0.0f);
     lane.next = Real(0.0f);
+    lane.settled = Real(-1.0f);
     lane.base = position;
     lane.turn = turn_of(half_cos, half_sin);
   }
@@ -172,26 +207,43 @@ class ChainMover {
     meet(lane, gap);
   }
 
-  /// Moves a lane on by one step, within its segment. Returns whether it has come to the segment's end, where the next
-  /// one is to be joined.
-  bool advance(Lane& lane) const {
-    const std::uint32_t segment = index(lane.segment, program_.segments()), steps = program_.steps(segment);
-    const std::uint32_t before = index(lane.row, steps), row = before + 1;
-    lane.row = Real(static_cast<float>(row));
-    if (lane.left > Real(0.0f)) lane.left = lane.left - Real(1.0f);
-    if (program_.blend_steps == 0) return row >= steps;
-    if (steps >= 2 * program_.blend_steps) {
-      if (before == steps - program_.blend_steps) spread(lane, program_.blend_steps, {}, lane.gap);
-      if (!fades(before, steps) && !fades(row, steps)) return row >= steps;
-    }
-    lane.base = added(lane.base, lane.slip[0]);
-    lane.slip[0] = added(lane.slip[0], lane.slip[1]);
-    if (program_.channels < 7) return row >= steps;
-    lane.lean[0] = added(lane.lean[0], lane.lean[1]);
-    if (turns(row, steps)) lane.lean[2] = lane.lean[3];
-    lane.lean[1] = added(lane.lean[1], lane.lean[2]);
-    return row >= steps;
+  /// Where in its segment a lane is, and what is added to it there.
+  struct Place {
+    std::uint32_t segment;
+    std::uint32_t steps;  ///< of the segment
+    std::uint32_t row;
+
+    bool at_end() const { return row >= steps; }
+  };
+  Place place_of(Real segment, Real row) const {
+    const std::uint32_t at = index(segment, program_.segments()), steps = program_.steps(at);
+    return {at, steps, index(row, steps + 1)};
   }
+
+  /// Whether something is added to a lane's segment at a place: to all rows of a segment in which both joins overlap.
+  bool fades(const Place& place) const {
+    const std::uint32_t blend = program_.blend_steps;
+    return (blend != 0) & ((place.steps < 2 * blend) | (place.row < blend) | (place.row > place.steps - blend));
+  }
+
+  /// Whether a place is the first of the latter half of a curve.
+  bool turns(const Place& place) const {
+    const std::uint32_t blend = program_.blend_steps, steps = place.steps;
+    if (steps < 2 * blend) return place.row == first_half(steps);
+    return place.row == first_half(blend) || place.row == steps - blend + first_half(blend);
+  }
+
+  /// Whether the curve towards what follows begins after a place, where it does not begin with the segment.
+  bool begins_curve(const Place& place) const {
+    const std::uint32_t blend = program_.blend_steps;
+    return blend != 0 && place.steps >= 2 * blend && place.row == place.steps - blend;
+  }
+
+  /// Begins that curve.
+  void begin_curve(Lane& lane) const { spread(lane, program_.blend_steps, {}, lane.gap); }
+
+  /// The stored numbers of a place.
+  const std::int16_t* row_of(const Place& place) const { return row_of(place.segment, place.row); }
 
   /// Steps that are left of the lane's segment.
   std::uint32_t steps_left(const Lane& lane) const {
@@ -202,16 +254,16 @@ class ChainMover {
   /// Whether it is known what follows.
   static bool is_prepared(const Lane& lane) { return lane.next > Real(0.0f); }
 
-  /// What the lane shows: position, then, for poses, orientation. `out` has a stride, as lanes lie side by side.
+  /// What a lane shows that was placed: position, then, for poses, orientation. `out` has a stride, as lanes lie side
+  /// by side.
   void show(const Lane& lane, Real* out, int stride) const {
-    const std::uint32_t segment = index(lane.segment, program_.segments()), steps = program_.steps(segment);
-    const std::uint32_t at = index(lane.row, steps + 1);
-    const std::int16_t* row = row_of(segment, at);
+    const Place at = place_of(lane.segment, lane.row);
+    const std::int16_t* row = row_of(at);
     const auto position = placed(lane, vector(row));
     for (int axis = 0; axis < 3; ++axis) out[axis * stride] = held(position[static_cast<std::size_t>(axis)]);
     if (program_.channels < 7) return;
     Quaternion<Real> q = oriented(lane.turn, quaternion(row));
-    if (fades(at, steps)) q = unit(added(q, lane.lean[0]));
+    if (fades(at)) q = unit(added(q, lane.lean[0]));
     for (int k = 0; k < 4; ++k) out[(3 + k) * stride] = q[static_cast<std::size_t>(k)];
   }
 
@@ -293,19 +345,6 @@ class ChainMover {
     const Real most(kFarthest), least(-kFarthest);
     if (coordinate > most) return most;
     return coordinate < least ? least : coordinate;
-  }
-
-  // Whether something is added to a row: to all rows of a segment in which both joins overlap.
-  bool fades(std::uint32_t row, std::uint32_t steps) const {
-    if (program_.blend_steps == 0) return false;
-    return steps < 2 * program_.blend_steps || row < program_.blend_steps || row > steps - program_.blend_steps;
-  }
-
-  // Whether the latter half of a curve begins with a row.
-  bool turns(std::uint32_t row, std::uint32_t steps) const {
-    const std::uint32_t blend = program_.blend_steps;
-    if (steps < 2 * blend) return row == first_half(steps);
-    return row == first_half(blend) || row == steps - blend + first_half(blend);
   }
 
   // The curves over so many steps from what is lacking at the beginning to what is too much at the end.

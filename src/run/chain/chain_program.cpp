@@ -148,10 +148,11 @@ void take_drift(const ChainDrift& drift, ChainProgram& program) {
 }
 
 template <class Value>
-std::span<Value> copy_of(const std::vector<Value>& values, Arena& arena) {
-  const auto out = arena.take<Value>(values.size());
-  if (!arena.measures()) std::copy(values.begin(), values.end(), out.begin());
-  return out;
+std::span<Value> copy_of(const std::vector<Value>& values, Arena& arena, std::size_t beyond = 0) {
+  const auto out = arena.take<Value>(values.size() + beyond);
+  if (arena.measures()) return out;
+  std::copy(values.begin(), values.end(), out.begin());
+  return out.first(values.size());
 }
 
 }  // namespace
@@ -174,7 +175,7 @@ ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double 
   program.step_seconds = static_cast<float>(1.0 / rate_hz);
   program.blend_steps = static_cast<std::uint32_t>(chain.blend_steps);
   if (chain.gust) program.gust = gust_program(*chain.gust, wind_unit);
-  program.rows = copy_of(segments.rows, arena);
+  program.rows = copy_of(segments.rows, arena, kRowReach);
   program.rates = copy_of(segments.rates, arena);
   program.first_row = copy_of(segment_rows(segments), arena);
   program.mode = copy_of(segments.mode, arena);

@@ -32,6 +32,9 @@ struct ChainSpread {
 /// Steps of the first parabola.
 inline std::uint32_t first_half(std::uint32_t steps) { return (steps + 1) / 2; }
 
+/// Rows are read so many numbers at once, and there are as many behind the last one.
+inline constexpr std::size_t kRowReach = 8;
+
 struct ChainProgram {
   int channels = 0;  ///< 3 or 7
   int rate_count = 0;

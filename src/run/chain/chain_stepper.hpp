@@ -27,6 +27,8 @@ class ChainStepper {
   using Lane = ChainLane<Real>;
   using Body = BodyState<Real>;
   static constexpr int kLanes = N::kLanes;
+  using LaneNumbers = std::array<Real, kLanes>;
+  using Played = ChainPlayed<LaneNumbers>;
   /// Frames over which a cost is averaged: joins come now and then.
   static constexpr int kCountedFrames = 8192;
 
@@ -46,7 +48,9 @@ class ChainStepper {
         steering_(program_, chain.drift.has_value(), arena) {
     take_size(model.view, program_);
     const auto lanes = static_cast<std::size_t>(blocks) * kLanes;
-    lanes_ = arena.take<Lane>(lanes);
+    played_ = arena.take<Played>(static_cast<std::size_t>(blocks));
+    plans_ = arena.take<ChainPlan<Real>>(lanes);
+    stirred_ = arena.take<std::uint8_t>(static_cast<std::size_t>(blocks));
     if (program_.gust.order > 0) gusts_ = arena.take<GustLane<Real>>(lanes);
     if (chain.systems) {
       systems_ = arena.take<SystemLane<Real>>(lanes);
@@ -80,34 +84,41 @@ class ChainStepper {
 
   /// Makes the newest sample of a block.
   void step(int block, const Moment<N>& moment) {
-    const ChainMover<Real> mover(program_);
+    const Mover mover(program_);
     std::copy_n(newest(block), sample_size(), previous_of(block));
+    std::fill_n(moment.held, kLanes, 0U);
+    if (program_.gust.order > 0) drift(block, moment.lanes);
+    if (noisy_) draw_shocks(block, moment);
+    Course course;
+    if (program_.systems.used()) {
+      for (int lane = 0; lane < moment.lanes; ++lane) {
+        course.falls[lane] = falls(block, lane);
+        course.ends[lane] = course.falls[lane] && move_system(block, lane);
+      }
+    } else {
+      set_course(mover, block, moment.lanes, course);
+      move(block, course);
+      show_rows(block, course);
+    }
     std::uint32_t words[4][kLanes];
     bool drawn = false;
-    if (noisy_) draw_shocks(block, moment);
-    for (int lane = 0; lane < kLanes; ++lane) {
-      moment.held[lane] = 0;
-      if (lane >= moment.lanes) continue;
-      Lane& life = lane_of(block, lane);
-      if (!(life.settled < Real(0.0f))) {
-        settle_step(life, program_, newest_of(block) + lane, kLanes);
+    for (int lane = 0; lane < moment.lanes; ++lane) {
+      if (!course.falls[lane]) {
+        settle(block, lane);
         continue;
       }
-      if (program_.gust.order > 0) drift(block, lane);
-      const bool ends = program_.systems.used() ? move_system(block, lane) : mover.advance(life);
-      if (!program_.systems.used()) mover.show(life, newest_of(block) + lane, kLanes);
-      moment.held[lane] = is_far(newest_of(block) + lane) ? 1 : 0;
-      if (moment.held[lane] != 0) life.base = Mover::bounded(life.base, 2 * kFarthest);
+      hold_position(block, lane, moment);
       if (const auto reach = reach_touching(program_, newest_of(block) + lane, kLanes, ground_)) {
         land(block, lane, *reach);
         continue;
       }
+      if (!course.ends[lane]) continue;
       const auto chance = [&](std::uint32_t group) -> ChainWords {
         if (!drawn || group != 0) draw(moment, group, words);
         drawn = group == 0;
         return {words[0][lane], words[1][lane], words[2][lane]};
       };
-      go_on(mover, block, lane, ends, chance);
+      go_on(mover, block, lane, chance);
     }
   }
 
@@ -139,9 +150,8 @@ class ChainStepper {
   void start(int block, int lane, const Moment<N>& moment) {
     std::uint32_t words[4][kLanes];
     draw(moment, 1, words);
-    const ChainMover<Real> mover(program_);
-    Lane& life = lane_of(block, lane);
-    life = {};
+    const Mover mover(program_);
+    Lane life;
     if (program_.gust.order > 0) gust_of(block, lane) = {};
     const std::uint32_t segment = mover.draw(life, choice_, {words[0][lane], words[1][lane], 0}, true);
     const HalfTurn<Real> turn = random_turn(words[2][lane], words[3][lane]);
@@ -155,6 +165,7 @@ class ChainStepper {
       prepare(mover, life, {words[0][lane], words[1][lane], words[2][lane]});
       mover.meet(life, {});
     }
+    put(block, lane, life);
     for (int k = 0; k < program_.channels; ++k) {
       previous_of(block)[k * kLanes + lane] = newest_of(block)[k * kLanes + lane];
     }
@@ -162,9 +173,9 @@ class ChainStepper {
 
   /// Where a lane is in the chain.
   ChainPlace place_of(int block, int lane) const {
-    const Lane& life = const_cast<ChainStepper*>(this)->lane_of(block, lane);
-    const std::uint32_t segment = Mover::index(life.segment, program_.segments());
-    const std::uint32_t row = Mover::index(life.row, program_.systems.used() ? 65536 : program_.steps(segment));
+    const Played& played = played_[static_cast<std::size_t>(block)];
+    const std::uint32_t segment = Mover::index(played.segment[lane], program_.segments());
+    const std::uint32_t row = Mover::index(played.row[lane], program_.systems.used() ? 65536 : program_.steps(segment));
     return {segment, row, program_.mode[segment]};
   }
 
@@ -177,11 +188,10 @@ class ChainStepper {
   ///
   /// Precondition: can_steer().
   void steer(int block, int lane, const Vector3<Real>& target, float steps, float near) {
-    Lane& life = lane_of(block, lane);
-    life.target = target;
-    life.left = Real(steps);
+    plan_of(block, lane).target = target;
+    plan_of(block, lane).near = Real(near);
+    played_of(block).left[lane] = Real(steps);
     steered_ |= steps > 0;
-    life.near = Real(near);
   }
 
   /// Puts a lane where a body is, on whichever segment begins most as the body moves.
@@ -197,10 +207,10 @@ class ChainStepper {
       best = segment;
       least = misfit;
     }
-    Lane& life = lane_of(block, lane);
-    life = {};
+    Lane life;
     mover.place(life, best, body);
     life.state = Real(static_cast<float>(program_.next[program_.mode[best]]));
+    put(block, lane, life);
     if (program_.gust.order > 0) gust_of(block, lane) = {};
     mover.show(life, newest_of(block) + lane, kLanes);
     if (program_.systems.used()) {
@@ -225,7 +235,7 @@ class ChainStepper {
   /// Calls visit(value, low, high) for each number of one lane's state, with a step of 1 where it is a whole number.
   template <class Visit>
   void visit_lane(int block, int lane, Visit visit) {
-    Lane& life = lane_of(block, lane);
+    Lane life = lane_of(block, lane);
     const auto segments = static_cast<float>(program_.segments() - 1);
     visit(life.segment, 0.0f, segments, 1.0f);
     visit(life.row, 0.0f, 65535.0f, 1.0f);
@@ -244,6 +254,8 @@ class ChainStepper {
     for (Real& x : life.target) visit(x, -kFarthest, kFarthest);
     visit(life.near, 0.0f, kFarthest);
     for (Real& x : life.touched) visit(x, -kLongest, kLongest);
+    put(block, lane, life);
+    stirred_[static_cast<std::size_t>(block)] = 1;
     for (std::size_t k = 0; k < static_cast<std::size_t>(program_.gust.order); ++k) {
       GustLane<Real>& gust = gust_of(block, lane);
       gust.press[k] = scaled(gust.press[k], Real(4.0f));  // it is saved whole
@@ -290,7 +302,22 @@ class ChainStepper {
   }
 
   std::size_t sample_size() const { return static_cast<std::size_t>(program_.channels) * kLanes; }
-  Lane& lane_of(int block, int lane) { return lanes_[static_cast<std::size_t>(block) * kLanes + lane]; }
+  Played& played_of(int block) { return played_[static_cast<std::size_t>(block)]; }
+  ChainPlan<Real>& plan_of(int block, int lane) { return plans_[static_cast<std::size_t>(block) * kLanes + lane]; }
+
+  // All of a lane, taken from among the others of its block, and put there.
+  Lane lane_of(int block, int lane) {
+    Lane life;
+    static_cast<ChainPlan<Real>&>(life) = plan_of(block, lane);
+    each_played(life, played_of(block), [&](Real& one, const LaneNumbers& all) { one = all[lane]; });
+    return life;
+  }
+  void put(int block, int lane, const Lane& life) {
+    plan_of(block, lane) = life;
+    each_played(life, played_of(block), [&](const Real& one, LaneNumbers& all) { all[lane] = one; });
+  }
+  bool falls(int block, int lane) { return played_of(block).settled[lane] < Real(0.0f); }
+
   Real* newest_of(int block) { return newest_.data() + block * sample_size(); }
   Real* previous_of(int block) { return previous_.data() + block * sample_size(); }
 
@@ -311,28 +338,180 @@ class ChainStepper {
     return channel_scale(lowest, highest);
   }
 
-  // Moves a lane's segment by what the wind has done to its velocity.
-  void drift(int block, int lane) {
+  // What a step does with each lane of a block.
+  struct Course {
+    const std::int16_t* row[kLanes];
+    bool falls[kLanes] = {};
+    bool ends[kLanes] = {};
+    Real shown[kLanes] = {};  // 1: what is shown is made anew; likewise the next
+    Real moved[kLanes] = {};  // it is between joins: what is added moves
+    Real turned[kLanes] = {};
+    Real faded[kLanes] = {};
+    int moving = 0;
+    int fading = 0;
+  };
+
+  // Where the lanes of a block go. Those that rest, and empty ones, stay where they are.
+  void set_course(const Mover& mover, int block, int lanes, Course& course) {
+    Played& played = played_of(block);
+    for (int lane = 0; lane < kLanes; ++lane) {
+      auto place = mover.place_of(played.segment[lane], played.row[lane]);
+      course.row[lane] = mover.row_of(place);
+      course.falls[lane] = falls(block, lane);
+      if (lane >= lanes || !course.falls[lane]) continue;
+      place.row = std::min(place.row, place.steps - 1);
+      if (mover.begins_curve(place)) {
+        Lane life = lane_of(block, lane);
+        mover.begin_curve(life);
+        put(block, lane, life);
+      }
+      const bool faded = mover.fades(place);
+      ++place.row;
+      const bool fades = mover.fades(place);
+      played.row[lane] = Real(static_cast<float>(place.row));
+      course.row[lane] = mover.row_of(place);
+      course.ends[lane] = place.at_end();
+      course.shown[lane] = Real(1.0f);
+      course.moved[lane] = Real(faded || fades ? 1.0f : 0.0f);
+      course.turned[lane] = Real((faded || fades) && mover.turns(place) ? 1.0f : 0.0f);
+      course.faded[lane] = Real(fades ? 1.0f : 0.0f);
+      course.moving += faded || fades ? 1 : 0;
+      course.fading += fades ? 1 : 0;
+      if (played.left[lane] > Real(0.0f)) played.left[lane] = played.left[lane] - Real(1.0f);
+    }
+  }
+
+  // Moves what is added to the lanes' segments by one step.
+  void move(int block, const Course& course) {
+    if (course.moving == 0) return;
+    Played& played = played_of(block);
+    const auto moved = load<Reals<N>>(course.moved), turned = load<Reals<N>>(course.turned);
+    const auto add = [&](LaneNumbers& to, const LaneNumbers& more) {
+      const auto before = load<Reals<N>>(to.data());
+      store(chosen(moved, before + load<Reals<N>>(more.data()), before), to.data());
+    };
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      add(played.base[axis], played.slip[0][axis]);
+      add(played.slip[0][axis], played.slip[1][axis]);
+    }
+    if (program_.channels < 7) return;
+    for (std::size_t k = 0; k < 4; ++k) {
+      add(played.lean[0][k], played.lean[1][k]);
+      const auto bend = load<Reals<N>>(played.lean[2][k].data());
+      store(chosen(turned, load<Reals<N>>(played.lean[3][k].data()), bend), played.lean[2][k].data());
+      add(played.lean[1][k], played.lean[2][k]);
+    }
+  }
+
+  // Shows the lanes that fall: position, then, for poses, orientation.
+  void show_rows(int block, const Course& course) {
+    const Played& played = played_of(block);
+    float rows[kLanes][kRowReach];
+    const float* row[kLanes];
+    for (int lane = 0; lane < kLanes; ++lane) {
+      widen(course.row[lane], rows[lane]);
+      row[lane] = rows[lane];
+    }
+    Reals<N> first[4], last[4];
+    columns_of<N>(row, 0, first);
+    const auto shown = load<Reals<N>>(course.shown);
+    const auto show = [&](int channel, const Reals<N>& value) {
+      Real* out = newest_of(block) + channel * kLanes;
+      store(chosen(shown, value, load<Reals<N>>(out)), out);
+    };
+    const auto number = [](const LaneNumbers& numbers) { return load<Reals<N>>(numbers.data()); };
+    const auto cos = number(played.turn.cos_scale), sin = number(played.turn.sin_scale);
+    const auto scale = all<Reals<N>>(program_.position_scale);
+    const auto most = all<Reals<N>>(kFarthest), least = all<Reals<N>>(-kFarthest);
+    show(0, hold(number(played.base[0]) + (cos * first[0] - sin * first[1]), least, most));
+    show(1, hold(number(played.base[1]) + (sin * first[0] + cos * first[1]), least, most));
+    show(2, hold(number(played.base[2]) + scale * first[2], least, most));
+    if (program_.channels < 7) return;
+    columns_of<N>(row, 4, last);
+    auto q = turned<Reals<N>>(number(played.turn.half_cos_scale), number(played.turn.half_sin_scale),
+                              {first[3], last[0], last[1], last[2]});
+    if (course.fading > 0) {
+      const auto faded = load<Reals<N>>(course.faded);
+      const auto& lean = played.lean[0];
+      const auto met =
+          unit_lanes(added<Reals<N>>(q, {number(lean[0]), number(lean[1]), number(lean[2]), number(lean[3])}));
+      for (std::size_t k = 0; k < 4; ++k) q[k] = chosen(faded, met[k], q[k]);
+    }
+    for (int k = 0; k < 4; ++k) show(3 + k, q[static_cast<std::size_t>(k)]);
+  }
+
+  // As unit(), lane by lane.
+  static Quaternion<Reals<N>> unit_lanes(const Quaternion<Reals<N>>& q) {
+    const auto square = dot(q, q), one = all<Reals<N>>(1.0f);
+    const auto inverse = one / square_root(square), least = all<Reals<N>>(1e-30f);
+    const auto factor =
+        each([](const auto& x, const auto& bound, const auto& yes, const auto& no) { return x > bound ? yes : no; },
+             square, least, inverse, one);
+    return scaled(q, factor);
+  }
+
+  // Moves a lane that lies on the ground. One at rest is shown as it is.
+  void settle(int block, int lane) {
+    if (!(played_of(block).settled[lane] < Real(1.0f))) return;
+    Lane life = lane_of(block, lane);
+    settle_step(life, program_, newest_of(block) + lane, kLanes);
+    put(block, lane, life);
+  }
+
+  // Notes where a position was held.
+  void hold_position(int block, int lane, const Moment<N>& moment) {
+    if (!is_far(newest_of(block) + lane)) return;
+    moment.held[lane] = 1;
+    for (LaneNumbers& base : played_of(block).base) {
+      const Real& x = base[lane];
+      const Real most(2 * kFarthest), least(-2 * kFarthest);
+      base[lane] = x > most ? most : x > least ? x : least;
+    }
+  }
+
+  // Moves the segments of a block by what the wind has done to their velocity.
+  void drift(int block, int lanes) {
+    std::uint8_t& stirred = stirred_[static_cast<std::size_t>(block)];
+    if (stirred == 0 && is_calm(block)) return;
+    stirred = 0;
+    for (int lane = 0; lane < lanes; ++lane) {
+      if (!falls(block, lane)) {
+        stirred = 1;  // what it has is kept
+        continue;
+      }
+      if (drift_lane(block, lane)) stirred = 1;
+    }
+  }
+
+  // Whether no lane hears a wind.
+  bool is_calm(int block) {
+    const Real* wind = regressors(block);
+    auto most = magnitude(load<Reals<N>>(wind));
+    for (int axis : {1, 2}) most = larger(magnitude(load<Reals<N>>(wind + axis * kLanes)), most);
+    const auto least = all<Reals<N>>(kLeastGust);
+    return !any(differ(larger(most, least), least));
+  }
+
+  // Of one lane. Returns whether something of the wind is left.
+  bool drift_lane(int block, int lane) {
     const Real* at = regressors(block) + lane;
     const Vector3<Real> wind{at[0], at[kLanes], at[2 * kLanes]};
     GustLane<Real>& gust = gust_of(block, lane);
     if (!gust_lasts(program_.gust, gust, wind)) {
       gust = {};
-      return;
+      return false;
     }
     Vector3<Real> press{};
     if (program_.channels >= 7) press = quarter_press(shown_orientation(block, lane), taken(wind, gust.change[0]));
     const auto change = blow(program_.gust, gust, wind, press);
     const auto way = scaled(change, Real(program_.step_seconds));
-    if (program_.systems.used()) {
-      for (int k = 0; k < 3; ++k) {
-        Real& coordinate = newest_of(block)[k * kLanes + lane];
-        coordinate = coordinate + way[static_cast<std::size_t>(k)];
-      }
-      return;
+    for (int k = 0; k < 3; ++k) {
+      const auto axis = static_cast<std::size_t>(k);
+      // A system moves from where it is shown, a segment from where it lies.
+      Real& at_axis = program_.systems.used() ? newest_of(block)[k * kLanes + lane] : played_of(block).base[axis][lane];
+      at_axis = at_axis + way[axis];
     }
-    Lane& life = lane_of(block, lane);
-    life.base = added(life.base, way);
+    return true;
   }
 
   // Six normal deviates a lane.
@@ -349,13 +528,13 @@ class ChainStepper {
 
   // One step of a lane whose mode is a system. Returns whether the mode has come to its end.
   bool move_system(int block, int lane) {
-    Lane& life = lane_of(block, lane);
+    Played& played = played_of(block);
     SystemLane<Real>& system = system_of(block, lane);
-    const std::uint32_t mode = program_.mode[Mover::index(life.segment, program_.segments())];
+    const std::uint32_t mode = program_.mode[Mover::index(played.segment[lane], program_.segments())];
     system_step(program_.systems, mode, program_.step_seconds, noisy_ ? shocks_of(block) + lane : nullptr, system,
                 newest_of(block) + lane, kLanes);
-    life.row = Real(value_of(life.row) + 1.0f);
-    return !(life.row < system.length);
+    played.row[lane] = Real(value_of(played.row[lane]) + 1.0f);
+    return !(played.row[lane] < system.length);
   }
 
   Quaternion<Real> shown_orientation(int block, int lane) const {
@@ -366,7 +545,7 @@ class ChainStepper {
 
   // What is shown has come to the ground, and reaches so far below its middle.
   void land(int block, int lane, Real reach) {
-    Lane& life = lane_of(block, lane);
+    Lane life = lane_of(block, lane);
     Body body;
     for (std::size_t k = 0; k < 3; ++k) body.position[k] = newest(block)[k * kLanes + static_cast<std::size_t>(lane)];
     if (program_.channels >= 7) body.orientation = shown_orientation(block, lane);
@@ -376,6 +555,7 @@ class ChainStepper {
     }
     newest_of(block)[2 * kLanes + lane] = Real(ground_) + reach;
     touch(life, body, ground_);
+    put(block, lane, life);
   }
 
   // Whether a position was held.
@@ -394,16 +574,20 @@ class ChainStepper {
     for (int k = 0; k < 4; ++k) store(words[k], out[k]);
   }
 
-  // What comes after what a step has shown.
+  // What comes after a segment's last step.
   template <class Chance>
-  void go_on(const Mover& mover, int block, int lane, bool ends, Chance chance) {
-    if (!program_.systems.used()) return follow(mover, lane_of(block, lane), ends, chance, newest_of(block) + lane);
-    if (ends) change_system(mover, block, lane, chance(0));
+  void go_on(const Mover& mover, int block, int lane, Chance chance) {
+    Lane life = lane_of(block, lane);
+    if (program_.systems.used()) {
+      change_system(mover, block, lane, life, chance(0));
+    } else {
+      follow(mover, life, chance, newest_of(block) + lane);
+    }
+    put(block, lane, life);
   }
 
   // Lets the next mode of a lane begin, whose modes are systems.
-  void change_system(const Mover& mover, int block, int lane, const ChainWords& words) {
-    Lane& life = lane_of(block, lane);
+  void change_system(const Mover& mover, int block, int lane, Lane& life, const ChainWords& words) {
     const std::uint32_t next = mover.draw(life, choice_, words, false);
     life.segment = Real(static_cast<float>(next));
     life.row = Real(0.0f);
@@ -414,8 +598,7 @@ class ChainStepper {
   // Joins the next segment where the lane's own ends, and draws what follows that. Where a body was placed, nothing was
   // drawn yet: then all that differs is left to the new segment.
   template <class Chance>
-  void follow(const Mover& mover, Lane& life, bool ends, Chance chance, const Real* shown) {
-    if (!ends) return;
+  void follow(const Mover& mover, Lane& life, Chance chance, const Real* shown) {
     const bool known = Mover::is_prepared(life);
     if (!known) prepare(mover, life, chance(2));
     ChainGap<Real> from = life.gap;
@@ -453,7 +636,9 @@ class ChainStepper {
   ChainProgram program_;
   ChainChoice choice_;
   ChainSteering<Real> steering_;
-  std::span<Lane> lanes_;
+  std::span<Played> played_;          // per block
+  std::span<ChainPlan<Real>> plans_;  // per lane
+  std::span<std::uint8_t> stirred_;   // per block: whether something may be left of a wind
   std::span<GustLane<Real>> gusts_;
   std::span<SystemLane<Real>> systems_;
   std::span<Real> shocks_;  // [block][deviate][lane], of one step

@@ -37,6 +37,7 @@ inline bool operator>(CountingReal a, CountingReal b) { return a.value > b.value
 inline bool operator==(CountingReal a, CountingReal b) { return a.value == b.value; }
 
 inline CountingReal square_root(CountingReal a) { return counted(std::sqrt(a.value)); }
+inline CountingReal square_root_part(CountingReal a) { return square_root(a); }
 inline float value_of(CountingReal a) { return a.value; }
 
 struct CountingWord {

@@ -46,6 +46,16 @@ inline RealPart real_of_bits_part(WordPart bits) { return (RealPart)bits; }
 inline WordPart spread_sign_part(WordPart word) { return (WordPart)((SignedPart)word >> 31); }
 inline WordPart differ_part(RealPart a, RealPart b) { return (WordPart)(a != b); }
 inline RealPart magnitude_part(RealPart a) { return (RealPart)((WordPart)a & 0x7fffffffU); }
+inline RealPart square_root_part(RealPart a) {
+#if defined(__AVX2__)
+  return (RealPart)_mm256_sqrt_ps((__m256)a);
+#elif defined(WISP_LONG_WORDS)
+  return (RealPart)_mm_sqrt_ps((__m128)a);
+#else
+  for (int k = 0; k < kPartLanes; ++k) a[k] = std::sqrt(a[k]);
+  return a;
+#endif
+}
 inline void spread_part(float value, RealPart& part) { part = value - RealPart{}; }  // x − 0 is x: nothing is rounded
 inline void spread_part(std::uint32_t value, WordPart& part) { part = value - WordPart{}; }
 #else
@@ -59,6 +69,7 @@ inline RealPart real_of_bits_part(WordPart bits) { return std::bit_cast<float>(b
 inline WordPart spread_sign_part(WordPart word) { return word >> 31 ? 0xffffffffU : 0U; }
 inline WordPart differ_part(RealPart a, RealPart b) { return a != b ? 0xffffffffU : 0U; }
 inline RealPart magnitude_part(RealPart a) { return std::fabs(a); }
+inline RealPart square_root_part(RealPart a) { return std::sqrt(a); }
 inline void spread_part(float value, RealPart& part) { part = value; }
 inline void spread_part(std::uint32_t value, WordPart& part) { part = value; }
 #endif
@@ -273,6 +284,10 @@ inline auto operator*(const Pack<Part, kParts>& a, const Pack<Part, kParts>& b) 
   return each([](const Part& x, const Part& y) { return x * y; }, a, b);
 }
 template <class Part, int kParts>
+inline auto operator/(const Pack<Part, kParts>& a, const Pack<Part, kParts>& b) {
+  return each([](const Part& x, const Part& y) { return x / y; }, a, b);
+}
+template <class Part, int kParts>
 inline auto operator^(const Pack<Part, kParts>& a, const Pack<Part, kParts>& b) {
   return each([](const Part& x, const Part& y) { return x ^ y; }, a, b);
 }
@@ -379,6 +394,29 @@ inline void columns_of(const float* const (&row)[N::kLanes], std::size_t first, 
     columns_part(row + i * (N::kLanes / N::kParts), first, part);
     unrolled<4>([&](auto k) { columns[k].part[i] = part[k]; });
   });
+}
+
+template <class Part, int kParts>
+inline auto square_root(const Pack<Part, kParts>& reals) {
+  return each([](const Part& x) { return square_root_part(x); }, reals);
+}
+
+/// The first where the mask is above 0, else the second.
+template <class Part, int kParts>
+inline auto chosen(const Pack<Part, kParts>& mask, const Pack<Part, kParts>& yes, const Pack<Part, kParts>& no) {
+  return each([](const Part& m, const Part& zero, const Part& x, const Part& y) { return m > zero ? x : y; }, mask,
+              all<Pack<Part, kParts>>(0.0f), yes, no);
+}
+
+/// Eight whole numbers of 16 bits as real ones.
+inline void widen(const std::int16_t* from, float* to) {
+#ifdef WISP_LONG_WORDS
+  const __m128i words = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
+  _mm_storeu_ps(to, _mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpacklo_epi16(words, words), 16)));
+  _mm_storeu_ps(to + 4, _mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpackhi_epi16(words, words), 16)));
+#else
+  for (int k = 0; k < 8; ++k) to[k] = static_cast<float>(from[k]);
+#endif
 }
 
 /// The larger and the smaller of two numbers; the second where the first is not a number.
