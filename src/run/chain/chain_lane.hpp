@@ -207,43 +207,27 @@ class ChainMover {
     meet(lane, gap);
   }
 
-  /// Where in its segment a lane is, and what is added to it there.
-  struct Place {
-    std::uint32_t segment;
-    std::uint32_t steps;  ///< of the segment
-    std::uint32_t row;
-
-    bool at_end() const { return row >= steps; }
+  /// At which rows of a segment what is added to it changes: whole numbers, −1 for none.
+  struct Rows {
+    float steps;       ///< the last row
+    float quiet_from;  ///< nothing is added to rows from here
+    float quiet_to;    ///< to here: to none of a segment in which both joins overlap
+    float turn;        ///< the first row of the latter half of a curve
+    float last_turn;   ///< and of the second curve
+    float curve;  ///< the row after which the curve towards what follows begins, where it does not with the segment
   };
-  Place place_of(Real segment, Real row) const {
-    const std::uint32_t at = index(segment, program_.segments()), steps = program_.steps(at);
-    return {at, steps, index(row, steps + 1)};
+  Rows rows_of(std::uint32_t segment) const {
+    const std::uint32_t blend = program_.blend_steps, steps = program_.steps(segment);
+    const auto number = [](std::uint32_t row) { return static_cast<float>(row); };
+    const float last = number(steps);
+    if (blend == 0) return {last, 0, last, -1, -1, -1};
+    if (steps < 2 * blend) return {last, last + 1, 0, number(first_half(steps)), -1, -1};
+    const float turn = number(first_half(blend));
+    return {last, number(blend), number(steps - blend), turn, number(steps - blend) + turn, number(steps - blend)};
   }
 
-  /// Whether something is added to a lane's segment at a place: to all rows of a segment in which both joins overlap.
-  bool fades(const Place& place) const {
-    const std::uint32_t blend = program_.blend_steps;
-    return (blend != 0) & ((place.steps < 2 * blend) | (place.row < blend) | (place.row > place.steps - blend));
-  }
-
-  /// Whether a place is the first of the latter half of a curve.
-  bool turns(const Place& place) const {
-    const std::uint32_t blend = program_.blend_steps, steps = place.steps;
-    if (steps < 2 * blend) return place.row == first_half(steps);
-    return place.row == first_half(blend) || place.row == steps - blend + first_half(blend);
-  }
-
-  /// Whether the curve towards what follows begins after a place, where it does not begin with the segment.
-  bool begins_curve(const Place& place) const {
-    const std::uint32_t blend = program_.blend_steps;
-    return blend != 0 && place.steps >= 2 * blend && place.row == place.steps - blend;
-  }
-
-  /// Begins that curve.
+  /// Begins the curve towards what follows.
   void begin_curve(Lane& lane) const { spread(lane, program_.blend_steps, {}, lane.gap); }
-
-  /// The stored numbers of a place.
-  const std::int16_t* row_of(const Place& place) const { return row_of(place.segment, place.row); }
 
   /// Steps that are left of the lane's segment.
   std::uint32_t steps_left(const Lane& lane) const {
@@ -257,13 +241,14 @@ class ChainMover {
   /// What a lane shows that was placed: position, then, for poses, orientation. `out` has a stride, as lanes lie side
   /// by side.
   void show(const Lane& lane, Real* out, int stride) const {
-    const Place at = place_of(lane.segment, lane.row);
-    const std::int16_t* row = row_of(at);
+    const std::uint32_t segment = index(lane.segment, program_.segments());
+    const std::int16_t* row = row_of(segment, index(lane.row, program_.steps(segment) + 1));
     const auto position = placed(lane, vector(row));
     for (int axis = 0; axis < 3; ++axis) out[axis * stride] = held(position[static_cast<std::size_t>(axis)]);
     if (program_.channels < 7) return;
     Quaternion<Real> q = oriented(lane.turn, quaternion(row));
-    if (fades(at)) q = unit(added(q, lane.lean[0]));
+    const Rows rows = rows_of(segment);
+    if (value_of(lane.row) < rows.quiet_from || value_of(lane.row) > rows.quiet_to) q = unit(added(q, lane.lean[0]));
     for (int k = 0; k < 4; ++k) out[(3 + k) * stride] = q[static_cast<std::size_t>(k)];
   }
 

@@ -49,6 +49,7 @@ class ChainStepper {
     take_size(model.view, program_);
     const auto lanes = static_cast<std::size_t>(blocks) * kLanes;
     played_ = arena.take<Played>(static_cast<std::size_t>(blocks));
+    segments_ = arena.take<Segments>(static_cast<std::size_t>(blocks));
     plans_ = arena.take<ChainPlan<Real>>(lanes);
     stirred_ = arena.take<std::uint8_t>(static_cast<std::size_t>(blocks));
     if (program_.gust.order > 0) gusts_ = arena.take<GustLane<Real>>(lanes);
@@ -84,26 +85,29 @@ class ChainStepper {
 
   /// Makes the newest sample of a block.
   void step(int block, const Moment<N>& moment) {
-    const Mover mover(program_);
     std::copy_n(newest(block), sample_size(), previous_of(block));
     std::fill_n(moment.held, kLanes, 0U);
     if (program_.gust.order > 0) drift(block, moment.lanes);
     if (noisy_) draw_shocks(block, moment);
-    Course course;
+    Course course(moment.lanes);
     if (program_.systems.used()) {
       for (int lane = 0; lane < moment.lanes; ++lane) {
-        course.falls[lane] = falls(block, lane);
-        course.ends[lane] = course.falls[lane] && move_system(block, lane);
+        if (falls(block, lane) && move_system(block, lane)) course.ends[lane] = Real(1.0f);
       }
     } else {
-      set_course(mover, block, moment.lanes, course);
+      set_course(block, course);
+      begin_curves(block, course);
       move(block, course);
       show_rows(block, course);
     }
+    Real eventful[kLanes];
+    if (!find_events(block, course, eventful)) return;
+    const Mover mover(program_);
     std::uint32_t words[4][kLanes];
     bool drawn = false;
     for (int lane = 0; lane < moment.lanes; ++lane) {
-      if (!course.falls[lane]) {
+      if (!(eventful[lane] > Real(0.0f))) continue;
+      if (!falls(block, lane)) {
         settle(block, lane);
         continue;
       }
@@ -112,7 +116,7 @@ class ChainStepper {
         land(block, lane, *reach);
         continue;
       }
-      if (!course.ends[lane]) continue;
+      if (!(course.ends[lane] > Real(0.0f))) continue;
       const auto chance = [&](std::uint32_t group) -> ChainWords {
         if (!drawn || group != 0) draw(moment, group, words);
         drawn = group == 0;
@@ -314,7 +318,24 @@ class ChainStepper {
   }
   void put(int block, int lane, const Lane& life) {
     plan_of(block, lane) = life;
+    note_segment(block, lane, Mover::index(life.segment, program_.segments()));
     each_played(life, played_of(block), [&](const Real& one, LaneNumbers& all) { all[lane] = one; });
+  }
+  // Of the segments of a block's lanes: follows from what is played.
+  struct Segments {
+    std::array<std::uint32_t, kLanes> first_row{};
+    LaneNumbers steps{}, quiet_from{}, quiet_to{}, turn{}, last_turn{}, curve{};  // as Mover::Rows
+  };
+  void note_segment(int block, int lane, std::uint32_t segment) {
+    Segments& of = segments_[static_cast<std::size_t>(block)];
+    const auto rows = Mover(program_).rows_of(segment);
+    of.first_row[lane] = program_.first_row[segment];
+    of.steps[lane] = Real(rows.steps);
+    of.quiet_from[lane] = Real(rows.quiet_from);
+    of.quiet_to[lane] = Real(rows.quiet_to);
+    of.turn[lane] = Real(rows.turn);
+    of.last_turn[lane] = Real(rows.last_turn);
+    of.curve[lane] = Real(rows.curve);
   }
   bool falls(int block, int lane) { return played_of(block).settled[lane] < Real(0.0f); }
 
@@ -338,52 +359,96 @@ class ChainStepper {
     return channel_scale(lowest, highest);
   }
 
-  // What a step does with each lane of a block.
+  // What a step does with each lane of a block: 1 or 0.
   struct Course {
-    const std::int16_t* row[kLanes];
-    bool falls[kLanes] = {};
-    bool ends[kLanes] = {};
-    Real shown[kLanes] = {};  // 1: what is shown is made anew; likewise the next
-    Real moved[kLanes] = {};  // it is between joins: what is added moves
-    Real turned[kLanes] = {};
-    Real faded[kLanes] = {};
-    int moving = 0;
-    int fading = 0;
+    explicit Course(int lanes) {
+      for (int lane = 0; lane < lanes; ++lane) used[lane] = Real(1.0f);
+    }
+
+    Real used[kLanes] = {};
+    Real shown[kLanes] = {};   // it falls: what is shown is made anew
+    Real ends[kLanes] = {};    // its segment does
+    Real begins[kLanes] = {};  // the curve towards what follows does
+    Real moved[kLanes] = {};   // it is between joins: what is added moves
+    Real turned[kLanes] = {};  // the latter half of its curve begins
+    Real faded[kLanes] = {};   // something is added to what is shown
+    const std::int16_t* row[kLanes] = {};
   };
+  static bool is_any(const Real (&mask)[kLanes]) { return any(bits_of(load<Reals<N>>(mask))); }
+  static Reals<N> number(const LaneNumbers& numbers) { return load<Reals<N>>(numbers.data()); }
 
   // Where the lanes of a block go. Those that rest, and empty ones, stay where they are.
-  void set_course(const Mover& mover, int block, int lanes, Course& course) {
+  void set_course(int block, Course& course) {
     Played& played = played_of(block);
+    const Segments& segments = segments_[static_cast<std::size_t>(block)];
+    Real after[kLanes];
     for (int lane = 0; lane < kLanes; ++lane) {
-      auto place = mover.place_of(played.segment[lane], played.row[lane]);
-      course.row[lane] = mover.row_of(place);
-      course.falls[lane] = falls(block, lane);
-      if (lane >= lanes || !course.falls[lane]) continue;
-      place.row = std::min(place.row, place.steps - 1);
-      if (mover.begins_curve(place)) {
-        Lane life = lane_of(block, lane);
-        mover.begin_curve(life);
-        put(block, lane, life);
-      }
-      const bool faded = mover.fades(place);
-      ++place.row;
-      const bool fades = mover.fades(place);
-      played.row[lane] = Real(static_cast<float>(place.row));
-      course.row[lane] = mover.row_of(place);
-      course.ends[lane] = place.at_end();
-      course.shown[lane] = Real(1.0f);
-      course.moved[lane] = Real(faded || fades ? 1.0f : 0.0f);
-      course.turned[lane] = Real((faded || fades) && mover.turns(place) ? 1.0f : 0.0f);
-      course.faded[lane] = Real(fades ? 1.0f : 0.0f);
-      course.moving += faded || fades ? 1 : 0;
-      course.fading += fades ? 1 : 0;
-      if (played.left[lane] > Real(0.0f)) played.left[lane] = played.left[lane] - Real(1.0f);
+      after[lane] = Real(std::min(value_of(played.row[lane]) + 1.0f, value_of(segments.steps[lane])));
     }
+    const auto zero = all<Reals<N>>(0.0f), row = number(played.row), next = load<Reals<N>>(after);
+    const auto below = [](const auto& x, const auto& y, const auto& yes, const auto& no) { return x < y ? yes : no; };
+    const auto outside = [](const auto& x, const auto& low, const auto& high, const auto& yes, const auto& no) {
+      return x < low ? yes : x > high ? yes : no;
+    };
+    const auto same = [](const auto& x, const auto& y, const auto& yes, const auto& no) { return x == y ? yes : no; };
+    const auto shown = each(below, number(played.settled), zero, load<Reals<N>>(course.used), zero);
+    const auto quiet_from = number(segments.quiet_from), quiet_to = number(segments.quiet_to);
+    const auto faded = each(outside, next, quiet_from, quiet_to, shown, zero);
+    const auto moved = chosen(faded, shown, each(outside, row, quiet_from, quiet_to, shown, zero));
+    const auto turned =
+        each(same, next, number(segments.turn), moved, each(same, next, number(segments.last_turn), moved, zero));
+    store(shown, course.shown);
+    store(faded, course.faded);
+    store(moved, course.moved);
+    store(turned, course.turned);
+    store(each(below, next, number(segments.steps), zero, shown), course.ends);
+    store(each(same, row, number(segments.curve), shown, zero), course.begins);
+    store(chosen(shown, next, row), played.row.data());
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const float own = std::min(value_of(played.row[lane]), value_of(segments.steps[lane]));
+      const std::size_t at = segments.first_row[lane] + static_cast<std::uint32_t>(own);
+      course.row[lane] = program_.rows.data() + at * static_cast<std::uint32_t>(program_.channels);
+    }
+    const auto left = number(played.left), steered = chosen(left, shown, zero);
+    if (!any(bits_of(steered))) return;
+    store(chosen(steered, left - all<Reals<N>>(1.0f), left), played.left.data());
+  }
+
+  void begin_curves(int block, const Course& course) {
+    if (!is_any(course.begins)) return;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      if (!(course.begins[lane] > Real(0.0f))) continue;
+      Lane life = lane_of(block, lane);
+      Mover(program_).begin_curve(life);
+      put(block, lane, life);
+    }
+  }
+
+  // Finds the lanes of which a step makes more than it shows: those that come to rest, are too far away, are near the
+  // ground, or at the end of a segment. Returns whether there are any.
+  bool find_events(int block, const Course& course, Real (&eventful)[kLanes]) {
+    const auto zero = all<Reals<N>>(0.0f), one = all<Reals<N>>(1.0f), used = load<Reals<N>>(course.used);
+    const auto inside = [](const auto& x, const auto& low, const auto& high, const auto& yes, const auto& no) {
+      return x < low ? no : x < high ? yes : no;
+    };
+    const auto beyond = [](const auto& x, const auto& low, const auto& high, const auto& yes, const auto& no) {
+      return x > low ? (x < high ? no : yes) : yes;
+    };
+    auto found = chosen(load<Reals<N>>(course.ends), used,
+                        each(inside, number(played_of(block).settled), zero, one, used, zero));
+    const float nearest[3] = {-kFarthest, -kFarthest,
+                              std::max(-kFarthest, ground_ + (program_.half_width + program_.half_length))};
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto at = load<Reals<N>>(newest(block) + axis * kLanes);
+      found = each(beyond, at, all<Reals<N>>(nearest[axis]), all<Reals<N>>(kFarthest), used, found);
+    }
+    store(found, eventful);
+    return is_any(eventful);
   }
 
   // Moves what is added to the lanes' segments by one step.
   void move(int block, const Course& course) {
-    if (course.moving == 0) return;
+    if (!is_any(course.moved)) return;
     Played& played = played_of(block);
     const auto moved = load<Reals<N>>(course.moved), turned = load<Reals<N>>(course.turned);
     const auto add = [&](LaneNumbers& to, const LaneNumbers& more) {
@@ -419,7 +484,6 @@ class ChainStepper {
       Real* out = newest_of(block) + channel * kLanes;
       store(chosen(shown, value, load<Reals<N>>(out)), out);
     };
-    const auto number = [](const LaneNumbers& numbers) { return load<Reals<N>>(numbers.data()); };
     const auto cos = number(played.turn.cos_scale), sin = number(played.turn.sin_scale);
     const auto scale = all<Reals<N>>(program_.position_scale);
     const auto most = all<Reals<N>>(kFarthest), least = all<Reals<N>>(-kFarthest);
@@ -430,7 +494,7 @@ class ChainStepper {
     columns_of<N>(row, 4, last);
     auto q = turned<Reals<N>>(number(played.turn.half_cos_scale), number(played.turn.half_sin_scale),
                               {first[3], last[0], last[1], last[2]});
-    if (course.fading > 0) {
+    if (is_any(course.faded)) {
       const auto faded = load<Reals<N>>(course.faded);
       const auto& lean = played.lean[0];
       const auto met =
@@ -637,6 +701,7 @@ class ChainStepper {
   ChainChoice choice_;
   ChainSteering<Real> steering_;
   std::span<Played> played_;          // per block
+  std::span<Segments> segments_;      // per block
   std::span<ChainPlan<Real>> plans_;  // per lane
   std::span<std::uint8_t> stirred_;   // per block: whether something may be left of a wind
   std::span<GustLane<Real>> gusts_;
