@@ -1,7 +1,8 @@
 #pragma once
 // Steps blocks of instances of a segment chain. Source: section 4.3 of the paper (the walk over the modes, each
 // realised by one of its segments); section 2.2 for histories longer than one. Lanes of a block are in different places
-// of different segments, so each is moved by itself.
+// of different segments, but move and are shown alike, side by side; what happens now and then, as a join, is done for
+// one lane at a time.
 
 #include <array>
 #include <cstdint>
@@ -79,7 +80,7 @@ class ChainStepper {
   /// Where the regressors of the step belong: [regressor][lane].
   Real* regressors(int block) { return regressors_.data() + static_cast<std::size_t>(block) * regressor_row_; }
 
-  /// Lanes are moved one by one: blocks together would be no faster.
+  /// Joins take most of the time, and are done lane by lane: blocks together would be no faster.
   static constexpr int kGroup = 1;
   void step_group(int block, const Moment<N>& moment) { step(block, moment); }
 
