@@ -23,10 +23,10 @@ describe('the built page', () => {
     return ['index.html', ...named, 'models/flame-4.wisp', `assets/${module}`].map(packed).reduce((sum, part) => sum + part, 0);
   };
 
-  it('weighs at most 150 kB until its first flame burns, 152 kB where there is no SIMD', () => {
+  it('weighs at most 150 kB until its first flame burns, 153 kB where there is no SIMD', () => {
     assert.deepEqual([simd.length, modules.length], [1, 2]);
     assert.ok(first(simd[0]) <= 150_000, `${first(simd[0])} bytes`);
-    for (const module of modules) assert.ok(first(module) <= 152_000, `${first(module)} bytes with ${module}`);
+    for (const module of modules) assert.ok(first(module) <= 153_000, `${first(module)} bytes with ${module}`);
   });
 
   it('fetches no more than 400 kB in all, for all that is not the leaf or the studio', () => {
