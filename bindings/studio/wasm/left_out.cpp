@@ -4,11 +4,11 @@
 
 #include "learn/flicker/learn_flicker.hpp"
 #include "learn/switched/learn_switched.hpp"
+#include "learns.hpp"
 
 namespace wisp {
-namespace {
-Error left_out(const char* what) { return Error{std::string(what) + " are not learned here; use the program"}; }
-}  // namespace
+
+using studio::left_out;
 
 Result<Fit> learn_switched(std::span<const Recording>, const SwitchedRecipe&, const Progress&) {
   return left_out("models that switch");

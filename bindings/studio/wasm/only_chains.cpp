@@ -9,9 +9,8 @@
 #include "wisp/learn/validate_outline.hpp"
 
 namespace wisp {
-namespace {
-Error left_out(const char* what) { return Error{std::string(what) + " are not learned here; use the program"}; }
-}  // namespace
+
+using studio::left_out;
 
 const bool studio::kLearnsChains = true;
 

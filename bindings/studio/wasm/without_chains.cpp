@@ -20,7 +20,7 @@ namespace arx {
 Result<FocusedFit> focus_fit(std::span<const Recording>, const ChannelChoice&, const ArxOptions&, ArxFit plain,
                              ArxFocus focus, const Progress&) {
   if (focus == ArxFocus::kPrediction) return FocusedFit{.fit = std::move(plain)};
-  return Error{"coefficients that are refined for simulation are not learned here; use the program"};
+  return studio::left_out("coefficients that are refined for simulation");
 }
 
 }  // namespace arx

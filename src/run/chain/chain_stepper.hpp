@@ -11,6 +11,7 @@
 
 #include "run/bank/channels.hpp"
 #include "run/bank/moment.hpp"
+#include "run/chain/chain_block.hpp"
 #include "run/chain/chain_lane.hpp"
 #include "run/chain/chain_steering.hpp"
 #include "run/chain/ground_lane.hpp"
@@ -50,7 +51,7 @@ class ChainStepper {
     take_size(model.view, program_);
     const auto lanes = static_cast<std::size_t>(blocks) * kLanes;
     played_ = arena.take<Played>(static_cast<std::size_t>(blocks));
-    segments_ = arena.take<Segments>(static_cast<std::size_t>(blocks));
+    segments_ = arena.take<ChainSegmentRows<N>>(static_cast<std::size_t>(blocks));
     plans_ = arena.take<ChainPlan<Real>>(lanes);
     stirred_ = arena.take<std::uint8_t>(static_cast<std::size_t>(blocks));
     if (program_.gust.order > 0) gusts_ = arena.take<GustLane<Real>>(lanes);
@@ -90,16 +91,17 @@ class ChainStepper {
     std::fill_n(moment.held, kLanes, 0U);
     if (program_.gust.order > 0) drift(block, moment.lanes);
     if (noisy_) draw_shocks(block, moment);
-    Course course(moment.lanes);
+    ChainCourse<N> course(moment.lanes);
     if (program_.systems.used()) {
       for (int lane = 0; lane < moment.lanes; ++lane) {
         if (falls(block, lane) && move_system(block, lane)) course.ends[lane] = Real(1.0f);
       }
     } else {
-      set_course(block, course);
+      ChainBlock<N> lanes(program_, played_of(block), segments_[static_cast<std::size_t>(block)], newest_of(block));
+      lanes.go(course);
       begin_curves(block, course);
-      move(block, course);
-      show_rows(block, course);
+      lanes.move(course);
+      lanes.show(course);
     }
     Real eventful[kLanes];
     if (!find_events(block, course, eventful)) return;
@@ -319,24 +321,9 @@ class ChainStepper {
   }
   void put(int block, int lane, const Lane& life) {
     plan_of(block, lane) = life;
-    note_segment(block, lane, Mover::index(life.segment, program_.segments()));
+    const std::uint32_t segment = Mover::index(life.segment, program_.segments());
+    segments_[static_cast<std::size_t>(block)].note(lane, program_, segment);
     each_played(life, played_of(block), [&](const Real& one, LaneNumbers& all) { all[lane] = one; });
-  }
-  // Of the segments of a block's lanes: follows from what is played.
-  struct Segments {
-    std::array<std::uint32_t, kLanes> first_row{};
-    LaneNumbers steps{}, quiet_from{}, quiet_to{}, turn{}, last_turn{}, curve{};  // as Mover::Rows
-  };
-  void note_segment(int block, int lane, std::uint32_t segment) {
-    Segments& of = segments_[static_cast<std::size_t>(block)];
-    const auto rows = Mover(program_).rows_of(segment);
-    of.first_row[lane] = program_.first_row[segment];
-    of.steps[lane] = Real(rows.steps);
-    of.quiet_from[lane] = Real(rows.quiet_from);
-    of.quiet_to[lane] = Real(rows.quiet_to);
-    of.turn[lane] = Real(rows.turn);
-    of.last_turn[lane] = Real(rows.last_turn);
-    of.curve[lane] = Real(rows.curve);
   }
   bool falls(int block, int lane) { return played_of(block).settled[lane] < Real(0.0f); }
 
@@ -360,63 +347,8 @@ class ChainStepper {
     return channel_scale(lowest, highest);
   }
 
-  // What a step does with each lane of a block: 1 or 0.
-  struct Course {
-    explicit Course(int lanes) {
-      for (int lane = 0; lane < lanes; ++lane) used[lane] = Real(1.0f);
-    }
-
-    Real used[kLanes] = {};
-    Real shown[kLanes] = {};   // it falls: what is shown is made anew
-    Real ends[kLanes] = {};    // its segment does
-    Real begins[kLanes] = {};  // the curve towards what follows does
-    Real moved[kLanes] = {};   // it is between joins: what is added moves
-    Real turned[kLanes] = {};  // the latter half of its curve begins
-    Real faded[kLanes] = {};   // something is added to what is shown
-    const std::int16_t* row[kLanes] = {};
-  };
-  static bool is_any(const Real (&mask)[kLanes]) { return any(bits_of(load<Reals<N>>(mask))); }
-  static Reals<N> number(const LaneNumbers& numbers) { return load<Reals<N>>(numbers.data()); }
-
-  // Where the lanes of a block go. Those that rest, and empty ones, stay where they are.
-  void set_course(int block, Course& course) {
-    Played& played = played_of(block);
-    const Segments& segments = segments_[static_cast<std::size_t>(block)];
-    Real after[kLanes];
-    for (int lane = 0; lane < kLanes; ++lane) {
-      after[lane] = Real(std::min(value_of(played.row[lane]) + 1.0f, value_of(segments.steps[lane])));
-    }
-    const auto zero = all<Reals<N>>(0.0f), row = number(played.row), next = load<Reals<N>>(after);
-    const auto below = [](const auto& x, const auto& y, const auto& yes, const auto& no) { return x < y ? yes : no; };
-    const auto outside = [](const auto& x, const auto& low, const auto& high, const auto& yes, const auto& no) {
-      return x < low ? yes : x > high ? yes : no;
-    };
-    const auto same = [](const auto& x, const auto& y, const auto& yes, const auto& no) { return x == y ? yes : no; };
-    const auto shown = each(below, number(played.settled), zero, load<Reals<N>>(course.used), zero);
-    const auto quiet_from = number(segments.quiet_from), quiet_to = number(segments.quiet_to);
-    const auto faded = each(outside, next, quiet_from, quiet_to, shown, zero);
-    const auto moved = chosen(faded, shown, each(outside, row, quiet_from, quiet_to, shown, zero));
-    const auto turned =
-        each(same, next, number(segments.turn), moved, each(same, next, number(segments.last_turn), moved, zero));
-    store(shown, course.shown);
-    store(faded, course.faded);
-    store(moved, course.moved);
-    store(turned, course.turned);
-    store(each(below, next, number(segments.steps), zero, shown), course.ends);
-    store(each(same, row, number(segments.curve), shown, zero), course.begins);
-    store(chosen(shown, next, row), played.row.data());
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const float own = std::min(value_of(played.row[lane]), value_of(segments.steps[lane]));
-      const std::size_t at = segments.first_row[lane] + static_cast<std::uint32_t>(own);
-      course.row[lane] = program_.rows.data() + at * static_cast<std::uint32_t>(program_.channels);
-    }
-    const auto left = number(played.left), steered = chosen(left, shown, zero);
-    if (!any(bits_of(steered))) return;
-    store(chosen(steered, left - all<Reals<N>>(1.0f), left), played.left.data());
-  }
-
-  void begin_curves(int block, const Course& course) {
-    if (!is_any(course.begins)) return;
+  void begin_curves(int block, const ChainCourse<N>& course) {
+    if (!any_lane<N>(course.begins)) return;
     for (int lane = 0; lane < kLanes; ++lane) {
       if (!(course.begins[lane] > Real(0.0f))) continue;
       Lane life = lane_of(block, lane);
@@ -427,7 +359,7 @@ class ChainStepper {
 
   // Finds the lanes of which a step makes more than it shows: those that come to rest, are too far away, are near the
   // ground, or at the end of a segment. Returns whether there are any.
-  bool find_events(int block, const Course& course, Real (&eventful)[kLanes]) {
+  bool find_events(int block, const ChainCourse<N>& course, Real (&eventful)[kLanes]) {
     const auto zero = all<Reals<N>>(0.0f), one = all<Reals<N>>(1.0f), used = load<Reals<N>>(course.used);
     const auto inside = [](const auto& x, const auto& low, const auto& high, const auto& yes, const auto& no) {
       return x < low ? no : x < high ? yes : no;
@@ -436,7 +368,7 @@ class ChainStepper {
       return x > low ? (x < high ? no : yes) : yes;
     };
     auto found = chosen(load<Reals<N>>(course.ends), used,
-                        each(inside, number(played_of(block).settled), zero, one, used, zero));
+                        each(inside, load<Reals<N>>(played_of(block).settled.data()), zero, one, used, zero));
     const float nearest[3] = {-kFarthest, -kFarthest,
                               std::max(-kFarthest, ground_ + (program_.half_width + program_.half_length))};
     for (int axis = 0; axis < 3; ++axis) {
@@ -444,75 +376,7 @@ class ChainStepper {
       found = each(beyond, at, all<Reals<N>>(nearest[axis]), all<Reals<N>>(kFarthest), used, found);
     }
     store(found, eventful);
-    return is_any(eventful);
-  }
-
-  // Moves what is added to the lanes' segments by one step.
-  void move(int block, const Course& course) {
-    if (!is_any(course.moved)) return;
-    Played& played = played_of(block);
-    const auto moved = load<Reals<N>>(course.moved), turned = load<Reals<N>>(course.turned);
-    const auto add = [&](LaneNumbers& to, const LaneNumbers& more) {
-      const auto before = load<Reals<N>>(to.data());
-      store(chosen(moved, before + load<Reals<N>>(more.data()), before), to.data());
-    };
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      add(played.base[axis], played.slip[0][axis]);
-      add(played.slip[0][axis], played.slip[1][axis]);
-    }
-    if (program_.channels < 7) return;
-    for (std::size_t k = 0; k < 4; ++k) {
-      add(played.lean[0][k], played.lean[1][k]);
-      const auto bend = load<Reals<N>>(played.lean[2][k].data());
-      store(chosen(turned, load<Reals<N>>(played.lean[3][k].data()), bend), played.lean[2][k].data());
-      add(played.lean[1][k], played.lean[2][k]);
-    }
-  }
-
-  // Shows the lanes that fall: position, then, for poses, orientation.
-  void show_rows(int block, const Course& course) {
-    const Played& played = played_of(block);
-    float rows[kLanes][kRowReach];
-    const float* row[kLanes];
-    for (int lane = 0; lane < kLanes; ++lane) {
-      widen(course.row[lane], rows[lane]);
-      row[lane] = rows[lane];
-    }
-    Reals<N> first[4], last[4];
-    columns_of<N>(row, 0, first);
-    const auto shown = load<Reals<N>>(course.shown);
-    const auto show = [&](int channel, const Reals<N>& value) {
-      Real* out = newest_of(block) + channel * kLanes;
-      store(chosen(shown, value, load<Reals<N>>(out)), out);
-    };
-    const auto cos = number(played.turn.cos_scale), sin = number(played.turn.sin_scale);
-    const auto scale = all<Reals<N>>(program_.position_scale);
-    const auto most = all<Reals<N>>(kFarthest), least = all<Reals<N>>(-kFarthest);
-    show(0, hold(number(played.base[0]) + (cos * first[0] - sin * first[1]), least, most));
-    show(1, hold(number(played.base[1]) + (sin * first[0] + cos * first[1]), least, most));
-    show(2, hold(number(played.base[2]) + scale * first[2], least, most));
-    if (program_.channels < 7) return;
-    columns_of<N>(row, 4, last);
-    auto q = turned<Reals<N>>(number(played.turn.half_cos_scale), number(played.turn.half_sin_scale),
-                              {first[3], last[0], last[1], last[2]});
-    if (is_any(course.faded)) {
-      const auto faded = load<Reals<N>>(course.faded);
-      const auto& lean = played.lean[0];
-      const auto met =
-          unit_lanes(added<Reals<N>>(q, {number(lean[0]), number(lean[1]), number(lean[2]), number(lean[3])}));
-      for (std::size_t k = 0; k < 4; ++k) q[k] = chosen(faded, met[k], q[k]);
-    }
-    for (int k = 0; k < 4; ++k) show(3 + k, q[static_cast<std::size_t>(k)]);
-  }
-
-  // As unit(), lane by lane.
-  static Quaternion<Reals<N>> unit_lanes(const Quaternion<Reals<N>>& q) {
-    const auto square = dot(q, q), one = all<Reals<N>>(1.0f);
-    const auto inverse = one / square_root(square), least = all<Reals<N>>(1e-30f);
-    const auto factor =
-        each([](const auto& x, const auto& bound, const auto& yes, const auto& no) { return x > bound ? yes : no; },
-             square, least, inverse, one);
-    return scaled(q, factor);
+    return any_lane<N>(eventful);
   }
 
   // Moves a lane that lies on the ground. One at rest is shown as it is.
@@ -553,7 +417,7 @@ class ChainStepper {
     const Real* wind = regressors(block);
     auto most = magnitude(load<Reals<N>>(wind));
     for (int axis : {1, 2}) most = larger(magnitude(load<Reals<N>>(wind + axis * kLanes)), most);
-    const auto least = all<Reals<N>>(kLeastGust);
+    const auto least = all<Reals<N>>(kMinGust);
     return !any(differ(larger(most, least), least));
   }
 
@@ -701,10 +565,10 @@ class ChainStepper {
   ChainProgram program_;
   ChainChoice choice_;
   ChainSteering<Real> steering_;
-  std::span<Played> played_;          // per block
-  std::span<Segments> segments_;      // per block
-  std::span<ChainPlan<Real>> plans_;  // per lane
-  std::span<std::uint8_t> stirred_;   // per block: whether something may be left of a wind
+  std::span<Played> played_;                 // per block
+  std::span<ChainSegmentRows<N>> segments_;  // per block
+  std::span<ChainPlan<Real>> plans_;         // per lane
+  std::span<std::uint8_t> stirred_;          // per block: whether something may be left of a wind
   std::span<GustLane<Real>> gusts_;
   std::span<SystemLane<Real>> systems_;
   std::span<Real> shocks_;  // [block][deviate][lane], of one step

@@ -9,7 +9,7 @@
 namespace wisp {
 
 /// Changes below this and wind below it end a gust: nothing is left to compute until the next.
-inline constexpr float kLeastGust = 1e-4f;
+inline constexpr float kMinGust = 1e-4f;
 
 /// Changes of velocity are held to this many metres a second.
 inline constexpr float kMostGust = 1e3f;
@@ -25,7 +25,7 @@ struct GustLane {
 template <class Real>
 inline bool stirs(const Vector3<Real>& v) {
   for (const Real& x : v) {
-    if (x > Real(kLeastGust) || x < Real(-kLeastGust)) return true;
+    if (x > Real(kMinGust) || x < Real(-kMinGust)) return true;
   }
   return false;
 }

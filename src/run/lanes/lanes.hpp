@@ -159,48 +159,7 @@ inline Quad quad_at(const float* row) {
   return quad;
 }
 
-/// Row k begins at table[stride · k]; the table's first row is row `first`.
-template <int stride, std::uint32_t first>
-inline void columns_of_part(const float* table, WordPart row, RealPart& a, RealPart& b, RealPart& c) {
-  std::uint32_t place[kPartLanes];
-  const WordPart places = row * stride;
-  std::memcpy(place, &places, sizeof place);
-  const auto row_of = [&](int lane) {
-    return quad_at(table + (std::size_t{place[lane]} - std::size_t{first * stride}));
-  };
-#ifdef __AVX2__
-  const auto rows = [&](int lane) {
-    return __builtin_shufflevector(row_of(lane), row_of(lane + 4), 0, 1, 2, 3, 4, 5, 6, 7);
-  };
-  const auto r0 = rows(0), r1 = rows(1), r2 = rows(2), r3 = rows(3);
-  const auto ab01 = __builtin_shufflevector(r0, r1, 0, 8, 1, 9, 4, 12, 5, 13);
-  const auto ab23 = __builtin_shufflevector(r2, r3, 0, 8, 1, 9, 4, 12, 5, 13);
-  const auto c01 = __builtin_shufflevector(r0, r1, 2, 10, 3, 11, 6, 14, 7, 15);
-  const auto c23 = __builtin_shufflevector(r2, r3, 2, 10, 3, 11, 6, 14, 7, 15);
-  a = __builtin_shufflevector(ab01, ab23, 0, 1, 8, 9, 4, 5, 12, 13);
-  b = __builtin_shufflevector(ab01, ab23, 2, 3, 10, 11, 6, 7, 14, 15);
-  c = __builtin_shufflevector(c01, c23, 0, 1, 8, 9, 4, 5, 12, 13);
-#else
-  const Quad r0 = row_of(0), r1 = row_of(1), r2 = row_of(2), r3 = row_of(3);
-  const Quad ab01 = __builtin_shufflevector(r0, r1, 0, 4, 1, 5), ab23 = __builtin_shufflevector(r2, r3, 0, 4, 1, 5);
-  const Quad c01 = __builtin_shufflevector(r0, r1, 2, 6, 3, 7), c23 = __builtin_shufflevector(r2, r3, 2, 6, 3, 7);
-  a = __builtin_shufflevector(ab01, ab23, 0, 1, 4, 5);
-  b = __builtin_shufflevector(ab01, ab23, 2, 3, 6, 7);
-  c = __builtin_shufflevector(c01, c23, 0, 1, 4, 5);
-#endif
-}
-#else
-template <int stride, std::uint32_t first>
-inline void columns_of_part(const float* table, WordPart row, RealPart& a, RealPart& b, RealPart& c) {
-  const float* numbers = table + stride * (row - first);
-  a = numbers[0];
-  b = numbers[1];
-  c = numbers[2];
-}
-#endif
-
-// Turns rows into columns: four successive numbers of the row of every lane.
-#ifdef WISP_VECTOR_LANES
+/// Four successive numbers of the row of every lane.
 inline void columns_part(const float* const* row, std::size_t first, RealPart (&column)[4]) {
   const auto row_of = [&](int lane) { return quad_at(row[lane] + first); };
 #ifdef __AVX2__
@@ -226,7 +185,32 @@ inline void columns_part(const float* const* row, std::size_t first, RealPart (&
   column[3] = __builtin_shufflevector(cd01, cd23, 2, 3, 6, 7);
 #endif
 }
+
+/// Row k begins at table[stride · k]; the table's first row is row `first`.
+template <int stride, std::uint32_t first>
+inline void columns_of_part(const float* table, WordPart row, RealPart& a, RealPart& b, RealPart& c) {
+  std::uint32_t place[kPartLanes];
+  const WordPart places = row * stride;
+  std::memcpy(place, &places, sizeof place);
+  const float* rows[kPartLanes];
+  for (int lane = 0; lane < kPartLanes; ++lane) {
+    rows[lane] = table + (std::size_t{place[lane]} - std::size_t{first * stride});
+  }
+  RealPart column[4];
+  columns_part(rows, 0, column);
+  a = column[0];
+  b = column[1];
+  c = column[2];
+}
 #else
+template <int stride, std::uint32_t first>
+inline void columns_of_part(const float* table, WordPart row, RealPart& a, RealPart& b, RealPart& c) {
+  const float* numbers = table + stride * (row - first);
+  a = numbers[0];
+  b = numbers[1];
+  c = numbers[2];
+}
+
 inline void columns_part(const float* const* row, std::size_t first, RealPart (&column)[4]) {
   for (std::size_t k = 0; k < 4; ++k) column[k] = row[0][first + k];
 }

@@ -5,7 +5,7 @@ import { paintFlame } from './flame_paint.js';
 
 /** Pixels of the outline's own height. */
 export const FLIPBOOK_HEIGHT = 192;
-const MOST_PICTURES = 64;
+const MAX_PICTURES = 64;
 /** Around the outline, for its light, in heights. */
 const ROOM = 0.4;
 const POINTS_A_CURVE = 8;
@@ -41,7 +41,7 @@ function lineOf({ v, i, o }: Path): Float32Array {
 function loopOf(lottie: Uint8Array): Loop {
   const { fr, w, h, layers } = JSON.parse(new TextDecoder().decode(lottie));
   const keys = (layers[0].shapes[0].it[0].ks.k as { s?: [Path] }[]).flatMap(({ s }) => s ?? []);
-  const step = Math.ceil(keys.length / MOST_PICTURES);
+  const step = Math.ceil(keys.length / MAX_PICTURES);
   const pictures = Math.ceil(keys.length / step);
   // Evenly spaced, so that the loop has no seam where the step does not divide it.
   const lines = Array.from({ length: pictures }, (_, k) => lineOf(keys[Math.round((k * keys.length) / pictures)] as Path));

@@ -1,0 +1,181 @@
+#pragma once
+// What a step does with the lanes of a block of chains side by side, where all fall alike: each goes on in its segment,
+// what is added to it moves, and it is shown.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "run/chain/chain_lane.hpp"
+
+namespace wisp {
+
+/// What a step does with each lane of a block: 1 or 0.
+template <class N>
+struct ChainCourse {
+  using Real = typename N::Real;
+  using Mask = Real[N::kLanes];
+
+  explicit ChainCourse(int lanes) {
+    for (int lane = 0; lane < lanes; ++lane) used[lane] = Real(1.0f);
+  }
+
+  Mask used = {};
+  Mask shown = {};   ///< it falls: what is shown is made anew
+  Mask ends = {};    ///< its segment does
+  Mask begins = {};  ///< the curve towards what follows does
+  Mask moved = {};   ///< it is between joins: what is added moves
+  Mask turned = {};  ///< the latter half of its curve begins
+  Mask faded = {};   ///< something is added to what is shown
+  const std::int16_t* row[N::kLanes] = {};
+};
+
+template <class N>
+inline bool any_lane(const typename N::Real (&mask)[N::kLanes]) {
+  return any(bits_of(load<Reals<N>>(mask)));
+}
+
+/// Of the segments of a block's lanes: follows from what is played.
+template <class N>
+struct ChainSegmentRows {
+  using Real = typename N::Real;
+  using LaneNumbers = std::array<Real, N::kLanes>;
+
+  std::array<std::uint32_t, N::kLanes> first_row{};
+  LaneNumbers steps{}, quiet_from{}, quiet_to{}, turn{}, last_turn{}, curve{};  // as ChainMover::Rows
+
+  void note(int lane, const ChainProgram& program, std::uint32_t segment) {
+    const auto rows = ChainMover<Real>(program).rows_of(segment);
+    first_row[lane] = program.first_row[segment];
+    steps[lane] = Real(rows.steps);
+    quiet_from[lane] = Real(rows.quiet_from);
+    quiet_to[lane] = Real(rows.quiet_to);
+    turn[lane] = Real(rows.turn);
+    last_turn[lane] = Real(rows.last_turn);
+    curve[lane] = Real(rows.curve);
+  }
+};
+
+/// One block; `newest`: what is shown of it, [channel][lane].
+template <class N>
+class ChainBlock {
+ public:
+  using Real = typename N::Real;
+  static constexpr int kLanes = N::kLanes;
+  using LaneNumbers = std::array<Real, kLanes>;
+
+  ChainBlock(const ChainProgram& program, ChainPlayed<LaneNumbers>& played, const ChainSegmentRows<N>& segments,
+             Real* newest)
+      : program_(program), played_(played), segments_(segments), newest_(newest) {}
+
+  // Where the lanes of a block go. Those that rest, and empty ones, stay where they are.
+  void go(ChainCourse<N>& course) {
+    Real after[kLanes];
+    for (int lane = 0; lane < kLanes; ++lane) {
+      after[lane] = Real(std::min(value_of(played_.row[lane]) + 1.0f, value_of(segments_.steps[lane])));
+    }
+    const auto zero = all<Reals<N>>(0.0f), row = number(played_.row), next = load<Reals<N>>(after);
+    const auto below = [](const auto& x, const auto& y, const auto& yes, const auto& no) { return x < y ? yes : no; };
+    const auto outside = [](const auto& x, const auto& low, const auto& high, const auto& yes, const auto& no) {
+      return x < low ? yes : x > high ? yes : no;
+    };
+    const auto same = [](const auto& x, const auto& y, const auto& yes, const auto& no) { return x == y ? yes : no; };
+    const auto shown = each(below, number(played_.settled), zero, load<Reals<N>>(course.used), zero);
+    const auto quiet_from = number(segments_.quiet_from), quiet_to = number(segments_.quiet_to);
+    const auto faded = each(outside, next, quiet_from, quiet_to, shown, zero);
+    const auto moved = chosen(faded, shown, each(outside, row, quiet_from, quiet_to, shown, zero));
+    const auto turned =
+        each(same, next, number(segments_.turn), moved, each(same, next, number(segments_.last_turn), moved, zero));
+    store(shown, course.shown);
+    store(faded, course.faded);
+    store(moved, course.moved);
+    store(turned, course.turned);
+    store(each(below, next, number(segments_.steps), zero, shown), course.ends);
+    store(each(same, row, number(segments_.curve), shown, zero), course.begins);
+    store(chosen(shown, next, row), played_.row.data());
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const float own = std::min(value_of(played_.row[lane]), value_of(segments_.steps[lane]));
+      const std::size_t at = segments_.first_row[lane] + static_cast<std::uint32_t>(own);
+      course.row[lane] = program_.rows.data() + at * static_cast<std::uint32_t>(program_.channels);
+    }
+    const auto left = number(played_.left), steered = chosen(left, shown, zero);
+    if (!any(bits_of(steered))) return;
+    store(chosen(steered, left - all<Reals<N>>(1.0f), left), played_.left.data());
+  }
+
+  // Moves what is added to the lanes' segments by one step.
+  void move(const ChainCourse<N>& course) {
+    if (!any_lane<N>(course.moved)) return;
+    const auto moved = load<Reals<N>>(course.moved), turned = load<Reals<N>>(course.turned);
+    const auto add = [&](LaneNumbers& to, const LaneNumbers& more) {
+      const auto before = load<Reals<N>>(to.data());
+      store(chosen(moved, before + load<Reals<N>>(more.data()), before), to.data());
+    };
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      add(played_.base[axis], played_.slip[0][axis]);
+      add(played_.slip[0][axis], played_.slip[1][axis]);
+    }
+    if (program_.channels < 7) return;
+    for (std::size_t k = 0; k < 4; ++k) {
+      add(played_.lean[0][k], played_.lean[1][k]);
+      const auto bend = load<Reals<N>>(played_.lean[2][k].data());
+      store(chosen(turned, load<Reals<N>>(played_.lean[3][k].data()), bend), played_.lean[2][k].data());
+      add(played_.lean[1][k], played_.lean[2][k]);
+    }
+  }
+
+  // Shows the lanes that fall: position, then, for poses, orientation.
+  void show(const ChainCourse<N>& course) {
+    float rows[kLanes][kRowReach];
+    const float* row[kLanes];
+    for (int lane = 0; lane < kLanes; ++lane) {
+      widen(course.row[lane], rows[lane]);
+      row[lane] = rows[lane];
+    }
+    Reals<N> first[4], last[4];
+    columns_of<N>(row, 0, first);
+    const auto shown = load<Reals<N>>(course.shown);
+    const auto put = [&](int channel, const Reals<N>& value) {
+      Real* out = newest_ + channel * kLanes;
+      store(chosen(shown, value, load<Reals<N>>(out)), out);
+    };
+    const auto cos = number(played_.turn.cos_scale), sin = number(played_.turn.sin_scale);
+    const auto scale = all<Reals<N>>(program_.position_scale);
+    const auto most = all<Reals<N>>(kFarthest), least = all<Reals<N>>(-kFarthest);
+    put(0, hold(number(played_.base[0]) + (cos * first[0] - sin * first[1]), least, most));
+    put(1, hold(number(played_.base[1]) + (sin * first[0] + cos * first[1]), least, most));
+    put(2, hold(number(played_.base[2]) + scale * first[2], least, most));
+    if (program_.channels < 7) return;
+    columns_of<N>(row, 4, last);
+    auto q = turned<Reals<N>>(number(played_.turn.half_cos_scale), number(played_.turn.half_sin_scale),
+                              {first[3], last[0], last[1], last[2]});
+    if (any_lane<N>(course.faded)) {
+      const auto faded = load<Reals<N>>(course.faded);
+      const auto& lean = played_.lean[0];
+      const auto met =
+          unit_lanes(added<Reals<N>>(q, {number(lean[0]), number(lean[1]), number(lean[2]), number(lean[3])}));
+      for (std::size_t k = 0; k < 4; ++k) q[k] = chosen(faded, met[k], q[k]);
+    }
+    for (int k = 0; k < 4; ++k) put(3 + k, q[static_cast<std::size_t>(k)]);
+  }
+
+ private:
+  static Reals<N> number(const LaneNumbers& numbers) { return load<Reals<N>>(numbers.data()); }
+
+  // As unit(), lane by lane.
+  static Quaternion<Reals<N>> unit_lanes(const Quaternion<Reals<N>>& q) {
+    const auto square = dot(q, q), one = all<Reals<N>>(1.0f);
+    const auto inverse = one / square_root(square), least = all<Reals<N>>(1e-30f);
+    const auto factor =
+        each([](const auto& x, const auto& bound, const auto& yes, const auto& no) { return x > bound ? yes : no; },
+             square, least, inverse, one);
+    return scaled(q, factor);
+  }
+
+  const ChainProgram& program_;
+  ChainPlayed<LaneNumbers>& played_;
+  const ChainSegmentRows<N>& segments_;
+  Real* newest_;
+};
+
+}  // namespace wisp
