@@ -68,7 +68,7 @@ class ChainBlock {
              Real* newest)
       : program_(program), played_(played), segments_(segments), newest_(newest) {}
 
-  // Where the lanes of a block go. Those that rest, and empty ones, stay where they are.
+  /// Where the lanes of a block go. Those that rest, and empty ones, stay where they are.
   void go(ChainCourse<N>& course) {
     Real after[kLanes];
     for (int lane = 0; lane < kLanes; ++lane) {
@@ -93,17 +93,13 @@ class ChainBlock {
     store(each(below, next, number(segments_.steps), zero, shown), course.ends);
     store(each(same, row, number(segments_.curve), shown, zero), course.begins);
     store(chosen(shown, next, row), played_.row.data());
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const float own = std::min(value_of(played_.row[lane]), value_of(segments_.steps[lane]));
-      const std::size_t at = segments_.first_row[lane] + static_cast<std::uint32_t>(own);
-      course.row[lane] = program_.rows.data() + at * static_cast<std::uint32_t>(program_.channels);
-    }
+    find_rows(course);
     const auto left = number(played_.left), steered = chosen(left, shown, zero);
     if (!any(bits_of(steered))) return;
     store(chosen(steered, left - all<Reals<N>>(1.0f), left), played_.left.data());
   }
 
-  // Moves what is added to the lanes' segments by one step.
+  /// Moves what is added to the lanes' segments by one step.
   void move(const ChainCourse<N>& course) {
     if (!any_lane<N>(course.moved)) return;
     const auto moved = load<Reals<N>>(course.moved), turned = load<Reals<N>>(course.turned);
@@ -124,7 +120,18 @@ class ChainBlock {
     }
   }
 
-  // Shows the lanes that fall: position, then, for poses, orientation.
+  /// Shows one lane where it was placed.
+  void show_only(int lane) {
+    const float row = value_of(played_.row[lane]);
+    const bool faded = row < value_of(segments_.quiet_from[lane]) || row > value_of(segments_.quiet_to[lane]);
+    ChainCourse<N> course(0);
+    course.shown[lane] = Real(1.0f);
+    course.faded[lane] = Real(faded ? 1.0f : 0.0f);
+    find_rows(course);
+    show(course);
+  }
+
+  /// Shows the lanes that fall: position, then, for poses, orientation.
   void show(const ChainCourse<N>& course) {
     float rows[kLanes][kRowReach];
     const float* row[kLanes];
@@ -161,6 +168,15 @@ class ChainBlock {
 
  private:
   static Reals<N> number(const LaneNumbers& numbers) { return load<Reals<N>>(numbers.data()); }
+
+  // The stored rows that the lanes are at.
+  void find_rows(ChainCourse<N>& course) const {
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const float own = std::min(value_of(played_.row[lane]), value_of(segments_.steps[lane]));
+      const std::size_t at = segments_.first_row[lane] + static_cast<std::uint32_t>(own);
+      course.row[lane] = program_.rows.data() + at * static_cast<std::uint32_t>(program_.channels);
+    }
+  }
 
   // As unit(), lane by lane.
   static Quaternion<Reals<N>> unit_lanes(const Quaternion<Reals<N>>& q) {

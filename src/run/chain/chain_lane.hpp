@@ -238,20 +238,6 @@ class ChainMover {
   /// Whether it is known what follows.
   static bool is_prepared(const Lane& lane) { return lane.next > Real(0.0f); }
 
-  /// What a lane shows that was placed: position, then, for poses, orientation. `out` has a stride, as lanes lie side
-  /// by side.
-  void show(const Lane& lane, Real* out, int stride) const {
-    const std::uint32_t segment = index(lane.segment, program_.segments());
-    const std::int16_t* row = row_of(segment, index(lane.row, program_.steps(segment) + 1));
-    const auto position = placed(lane, vector(row));
-    for (int axis = 0; axis < 3; ++axis) out[axis * stride] = held(position[static_cast<std::size_t>(axis)]);
-    if (program_.channels < 7) return;
-    Quaternion<Real> q = oriented(lane.turn, quaternion(row));
-    const Rows rows = rows_of(segment);
-    if (value_of(lane.row) < rows.quiet_from || value_of(lane.row) > rows.quiet_to) q = unit(added(q, lane.lean[0]));
-    for (int k = 0; k < 4; ++k) out[(3 + k) * stride] = q[static_cast<std::size_t>(k)];
-  }
-
   /// How a lane's segment will have ended, but for what is added to it: where a walk goes on.
   Body end_of(const Lane& lane) const {
     const std::uint32_t segment = index(lane.segment, program_.segments());
@@ -324,12 +310,6 @@ class ChainMover {
  private:
   static Vector3<Real> vector(const std::int16_t* from) {
     return {Real(static_cast<float>(from[0])), Real(static_cast<float>(from[1])), Real(static_cast<float>(from[2]))};
-  }
-
-  static Real held(Real coordinate) {
-    const Real most(kFarthest), least(-kFarthest);
-    if (coordinate > most) return most;
-    return coordinate < least ? least : coordinate;
   }
 
   // The curves over so many steps from what is lacking at the beginning to what is too much at the end.

@@ -97,7 +97,7 @@ class ChainStepper {
         if (falls(block, lane) && move_system(block, lane)) course.ends[lane] = Real(1.0f);
       }
     } else {
-      ChainBlock<N> lanes(program_, played_of(block), segments_[static_cast<std::size_t>(block)], newest_of(block));
+      ChainBlock<N> lanes = lanes_of(block);
       lanes.go(course);
       begin_curves(block, course);
       lanes.move(course);
@@ -163,7 +163,8 @@ class ChainStepper {
     const std::uint32_t segment = mover.draw(life, choice_, {words[0][lane], words[1][lane], 0}, true);
     const HalfTurn<Real> turn = random_turn(words[2][lane], words[3][lane]);
     mover.place(life, segment, {}, turn.cos, turn.sin);
-    mover.show(life, newest_of(block) + lane, kLanes);
+    put(block, lane, life);
+    lanes_of(block).show_only(lane);
     if (program_.systems.used()) {
       take_rates(system_of(block, lane), shown_orientation(block, lane), mover.rates_of(life, segment, false));
       system_of(block, lane).length = Real(duration_of(program_.systems, program_.mode[segment], words[1][lane]));
@@ -219,7 +220,7 @@ class ChainStepper {
     life.state = Real(static_cast<float>(program_.next[program_.mode[best]]));
     put(block, lane, life);
     if (program_.gust.order > 0) gust_of(block, lane) = {};
-    mover.show(life, newest_of(block) + lane, kLanes);
+    lanes_of(block).show_only(lane);
     if (program_.systems.used()) {
       for (int k = 0; k < 4; ++k)
         newest_of(block)[(3 + k) * kLanes + lane] = body.orientation[static_cast<std::size_t>(k)];
@@ -310,6 +311,9 @@ class ChainStepper {
 
   std::size_t sample_size() const { return static_cast<std::size_t>(program_.channels) * kLanes; }
   Played& played_of(int block) { return played_[static_cast<std::size_t>(block)]; }
+  ChainBlock<N> lanes_of(int block) {
+    return {program_, played_of(block), segments_[static_cast<std::size_t>(block)], newest_of(block)};
+  }
   ChainPlan<Real>& plan_of(int block, int lane) { return plans_[static_cast<std::size_t>(block) * kLanes + lane]; }
 
   // All of a lane, taken from among the others of its block, and put there.
