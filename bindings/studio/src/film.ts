@@ -1,7 +1,7 @@
 // Films: taken apart by Mediabunny, decoded by the browser, frame by frame and block by block.
 
 import { AudioSampleSink, BlobSource, EncodedPacketSink, Input, MATROSKA, MP4, QTFF, VideoSampleSink, WEBM, type InputVideoTrack } from 'mediabunny';
-import type { CaptureSettings, Engine } from './engine.js';
+import type { CaptureSettings, Engine, RawPicture } from './engine.js';
 import { StudioError } from './module.js';
 import { rawOfFrame } from './pictures.js';
 
@@ -70,12 +70,12 @@ async function hear(engine: Engine, input: Input, first: number): Promise<string
   return '';
 }
 
-/** Shows the engine a whole film. `looked` is told after each frame, with the frame and the share that is done. */
+/** Shows the engine a whole film. `looked` is told after each frame, with the frame as it is stored and the share that is done. */
 export async function showFilm(
   engine: Engine,
   file: Blob,
   settings: Omit<CaptureSettings, 'rate'>,
-  looked: (frame: VideoFrame, share: number, turn: number) => Promise<void>,
+  looked: (picture: RawPicture, share: number) => Promise<void>,
 ): Promise<string[]> {
   const input = new Input({ source: new BlobSource(file), formats: FORMATS });
   try {
@@ -97,11 +97,12 @@ export async function showFilm(
     for await (const sample of new VideoSampleSink(track).samples()) {
       begin ??= sample.timestamp;
       const frame = sample.toVideoFrame();
-      engine.frame(await rawOfFrame(frame, sample.rotation), sample.timestamp);
-      done += 1;
-      await looked(frame, done / times.length, sample.rotation);
+      const picture = await rawOfFrame(frame, sample.rotation);
       frame.close();
       sample.close();
+      engine.frame(picture, sample.timestamp);
+      done += 1;
+      await looked(picture, done / times.length);
     }
     const unheard = await hear(engine, input, begin ?? first);
     const cut = done < times.length - 1 ? `cut off: found ${done} frames of ${times.length} stated; what is there is used` : '';

@@ -8,6 +8,8 @@ const MOST_PIXELS = 3840 * 2160;
 const SHIFTS: Record<string, [number, number]> = { I420: [1, 1], I422: [1, 0], I444: [0, 0], NV12: [1, 1] };
 
 let canvas: OffscreenCanvas | null = null;
+/** Where a frame's planes are put: each would else leave a megabyte to be collected. */
+let room = new Uint8Array(0);
 
 /** What a canvas shows, as packed colours. */
 function drawn(width: number, height: number, draw: (on: OffscreenCanvasRenderingContext2D) => void): RawPicture {
@@ -19,12 +21,14 @@ function drawn(width: number, height: number, draw: (on: OffscreenCanvasRenderin
   return { layout: 'rgb', width, height, data, planes };
 }
 
-/** A frame of a decoder or a camera. `turn`: degrees clockwise by which it is to be shown. */
+/** A frame of a decoder or a camera, which stands until the next. `turn`: degrees clockwise by which it is to be shown. */
 export async function rawOfFrame(frame: VideoFrame, turn = 0): Promise<RawPicture> {
   const { width, height } = frame.visibleRect ?? { width: frame.codedWidth, height: frame.codedHeight };
   const shifts = SHIFTS[frame.format ?? ''];
   if (shifts === undefined || width * height > MOST_PIXELS) return redrawn(frame, width, height, turn);
-  const data = new Uint8Array(frame.allocationSize());
+  const size = frame.allocationSize();
+  if (room.length !== size) room = new Uint8Array(size);
+  const data = room;
   const layout = await frame.copyTo(data);
   const planes = layout.map(({ offset, stride }) => ({ offset, stride, step: 1 }));
   if (frame.format === 'NV12') {

@@ -1,11 +1,12 @@
 // The worker: the engine, and what decodes for it.
 
-import { Engine } from './engine.js';
+import { Engine, type RawPicture } from './engine.js';
 import { Exporter } from './exporter.js';
 import { showFilm } from './film.js';
 import type { FromWorker, Outcome, Task, ToWorker } from './messages.js';
 import { Elsewhere, sentenceOf, StudioError } from './module.js';
 import { rawOfBitmap, rawOfFrame } from './pictures.js';
+import { smallPicture } from './small.js';
 import type { Captured, Seen } from './types.js';
 
 const SHOWN_EVERY_MS = 66;
@@ -50,26 +51,17 @@ class Showing {
     private readonly engine: Engine,
   ) {}
 
-  async frame(frame: VideoFrame | ImageBitmap | null, share: number, turn = 0): Promise<void> {
+  async frame(picture: RawPicture | null, share: number): Promise<void> {
     if (performance.now() - this.shown < SHOWN_EVERY_MS) return;
     this.shown = performance.now();
     const seen: Seen = this.engine.seen();
-    if (frame !== null) seen.picture = await small(frame, seen, turn);
+    if (picture !== null) {
+      const { data, width, height } = smallPicture(picture, SHOWN_PIXELS);
+      seen.picture = await createImageBitmap(new ImageData(data, width, height));
+    }
     tell({ of: this.of, seen }, seen.picture === undefined ? [] : [seen.picture]);
     if (share >= 0) tell({ of: this.of, progress: { stage: 'capturing', share } });
   }
-}
-
-function small(frame: VideoFrame | ImageBitmap, { width, height }: Seen, turn: number): ImageBitmap {
-  const share = Math.min(1, SHOWN_PIXELS / Math.max(width, height));
-  const [shownWidth, shownHeight] = [Math.max(1, Math.round(width * share)), Math.max(1, Math.round(height * share))];
-  const canvas = new OffscreenCanvas(shownWidth, shownHeight);
-  const on = canvas.getContext('2d')!;
-  on.translate(shownWidth / 2, shownHeight / 2);
-  on.rotate((turn * Math.PI) / 180);
-  const [wide, tall] = turn % 180 === 0 ? [shownWidth, shownHeight] : [shownHeight, shownWidth];
-  on.drawImage(frame, -wide / 2, -tall / 2, wide, tall);
-  return canvas.transferToImageBitmap();
 }
 
 /** A capture that is fed as things happen. */
@@ -151,7 +143,7 @@ let live: Live | null = null;
 
 async function film(of: number, wisp: Engine, file: File, settings: object): Promise<Captured> {
   const showing = new Showing(of, wisp);
-  const warnings = await showFilm(wisp, file, { ...settings, name: file.name }, (frame, share, turn) => showing.frame(frame, share, turn));
+  const warnings = await showFilm(wisp, file, { ...settings, name: file.name }, (picture, share) => showing.frame(picture, share));
   const captured = wisp.finish();
   if (warnings.length > 0) captured.report.warnings = [...(captured.report.warnings ?? []), ...warnings];
   return captured;
@@ -166,9 +158,10 @@ async function pictures(of: number, wisp: Engine, files: File[], rate: number, s
     const bitmap = await createImageBitmap(file, { colorSpaceConversion: 'none' }).catch(() => {
       throw new StudioError(`${file.name} is not a picture that can be read here`);
     });
-    wisp.frame(rawOfBitmap(bitmap), k / rate);
-    await showing.frame(bitmap, (k + 1) / sorted.length);
+    const picture = rawOfBitmap(bitmap);
     bitmap.close();
+    wisp.frame(picture, k / rate);
+    await showing.frame(picture, (k + 1) / sorted.length);
   }
   return wisp.finish();
 }

@@ -3,8 +3,9 @@
 
 import type { Region, Seen } from '@wisp/studio';
 
-/** Pictures; they are small. */
+/** Pictures, and the pixels that each is high at most: together some 90 MB. */
 const MOST = 420;
+export const KEPT_HEIGHT = 200;
 
 /** A kept picture: when it was, seconds, and which part of the film it shows, pixels of the film. */
 export interface Kept {
@@ -46,7 +47,8 @@ export class Reel {
     const share = picture.width / width;
     const part = box === null ? { x: 0, y: 0, width, height } : around(box, width, height);
     const [x, y] = [Math.floor(share * part.x), Math.floor(share * part.y)];
-    createImageBitmap(picture, x, y, Math.max(1, Math.ceil(share * part.width)), Math.max(1, Math.ceil(share * part.height))).then(
+    const [wide, tall] = [Math.max(1, Math.ceil(share * part.width)), Math.max(1, Math.ceil(share * part.height))];
+    createImageBitmap(picture, x, y, wide, tall, { resizeHeight: Math.min(tall, KEPT_HEIGHT), resizeQuality: 'medium' }).then(
       (bitmap) => this.keep({ seconds: frame - 1, bitmap, part }),
       () => undefined,
     );

@@ -8,14 +8,14 @@
 // is filmed. What remains, some tens of milliseconds of each one's own way, learning finds.
 
 import type { LiveCapture, Region } from '@wisp/studio';
+import { KEPT_HEIGHT } from '../reel.js';
 
 /** Why there is no camera, in words for people. */
 export class CameraTrouble extends Error {}
 
 /** More frames than that which wait to be looked at: this machine is too slow for all of them. */
 const MOST_WAITING = 6;
-/** Pixels that kept pictures are high at most, and how many are kept a second. */
-const KEPT_HEIGHT = 200;
+/** Pictures that are kept a second. */
 export const KEPT_RATE = 12;
 
 const VIDEO: MediaTrackConstraints = {

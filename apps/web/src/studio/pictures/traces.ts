@@ -49,6 +49,7 @@ export class Traces {
   private seconds = 0;
   private live: { lean: number[]; loud: number[] } = { lean: [], loud: [] };
   private readonly marker = element('i', { hidden: true });
+  private drawing = 0;
 
   constructor() {
     this.place.append(this.canvas, this.marker);
@@ -63,8 +64,8 @@ export class Traces {
       ...(wind === null ? [] : [{ name: 'Wind', colour: '#7fc4ff', values: wind, ...rangeOf(wind, [0, 1]) }]),
       { name: 'Tip', colour: '#ffb35c', values: lean, ...rangeOf(lean, [-0.2, 0.2]) },
     ];
-    // Once it has its place: one that is taken out and put back the same size tells no observer.
-    requestAnimationFrame(() => this.draw());
+    // One that is taken out and put back the same size tells no observer.
+    this.draw();
   }
 
   /** Begins with nothing: what is seen is added while it comes. */
@@ -95,7 +96,15 @@ export class Traces {
     this.marker.style.left = `${(100 * share).toFixed(2)}%`;
   }
 
+  /** Once it has its place, and once a picture of the screen, however often something is added. */
   private draw(): void {
+    this.drawing ||= requestAnimationFrame(() => {
+      this.drawing = 0;
+      this.drawNow();
+    });
+  }
+
+  private drawNow(): void {
     const surface = surfaceOf(this.canvas);
     if (surface === null || this.lines.length === 0) return;
     const named = this.seconds > 0;
