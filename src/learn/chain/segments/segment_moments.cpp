@@ -3,20 +3,34 @@
 #include <algorithm>
 #include <cmath>
 
+#include "learn/chain/segments/segment_traits.hpp"
+
 namespace wisp::chain {
 namespace {
 
 // Attitude counts as much as velocity and spin together: a jump of attitude is what the eye sees first.
 constexpr double kAttitudeWeight = 1.5;
 
+// Without attitude, how velocity changes says how the body lies in the air, and to which side it turns. Where speed
+// over ground is least, a fall that turns back differs in nothing else from one that goes on.
+JoinMoment moment_without_attitude(const MotionPiece& from, double row, bool heading_free) {
+  const double before = std::max(0.0, row - 1), after = std::min(static_cast<double>(from.rows() - 1), row + 1);
+  Triple velocity = at_row(from.velocity, row), change = at_row(from.velocity, after);
+  const Triple earlier = at_row(from.velocity, before);
+  for (std::size_t axis = 0; axis < 3; ++axis) change[axis] = (change[axis] - earlier[axis]) / (after - before);
+  if (heading_free) {
+    const double heading = std::atan2(velocity[1], velocity[0]);
+    velocity = turned_about_z(velocity, -heading);
+    change = turned_about_z(change, -heading);
+  }
+  return {velocity[0], velocity[1], velocity[2], change[0], change[1], change[2]};
+}
+
 // What must agree at a join, as numbers of one length.
 JoinMoment moment_of(const Motion& motion, std::size_t piece, double row, bool heading_free) {
   const MotionPiece& from = motion.pieces[piece];
+  if (!motion.has_orientation) return moment_without_attitude(from, row, heading_free);
   const Triple velocity = at_row(from.velocity, row);
-  if (!motion.has_orientation) {
-    if (heading_free) return {std::hypot(velocity[0], velocity[1]), velocity[2]};
-    return {velocity.begin(), velocity.end()};
-  }
   const Quad q = at_row(from.orientation, row);
   const Triple spin = at_row(from.spin, row);
   JoinMoment moment;
@@ -53,6 +67,16 @@ std::vector<double> weights_of(const std::vector<JoinMoment>& moments, bool atti
   return weight;
 }
 
+// Bodies that are of several kinds each go on as they are: positions alone do not say which is which at a join.
+void add_traits(const Motion& motion, std::span<const Segment> segments, SegmentMoments& moments) {
+  const auto traits = segment_traits(motion, segments);
+  for (std::size_t k = 0; k < traits.size(); ++k) {
+    for (auto* moment : {&moments.starts[k], &moments.ends[k]}) {
+      moment->insert(moment->end(), traits[k].begin(), traits[k].end());
+    }
+  }
+}
+
 }  // namespace
 
 SegmentMoments segment_moments(const Motion& motion, std::span<const Segment> segments, bool heading_free) {
@@ -67,6 +91,7 @@ SegmentMoments segment_moments(const Motion& motion, std::span<const Segment> se
       for (std::size_t k = 0; k < weight.size(); ++k) moment[k] *= weight[k];
     }
   }
+  if (!motion.has_orientation) add_traits(motion, segments, moments);
   return moments;
 }
 

@@ -11,7 +11,8 @@
 namespace wisp::chain {
 
 /// Attitude, velocity and angular velocity, in the body's own axes where heading does not count, each over its standard
-/// deviation.
+/// deviation. Without attitude: velocity, its change, along and across the heading where that does not count, and the
+/// traits of its stretch.
 using JoinMoment = std::vector<double>;
 
 /// Of all segments, in their order.
