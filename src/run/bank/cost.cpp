@@ -46,7 +46,7 @@ float share_of(Course course, std::uint64_t step) {
   return course == Course::kSwinging ? static_cast<float>(step % kSwing) / kSwing : 1.0f;
 }
 
-// Of one step: the mean over as many as it takes, rounded up, and the most.
+// Of one step: the mean over as many as it takes, rounded to the nearest in sum, and the most.
 struct StepCount {
   OperationCount mean;
   std::int64_t most = 0;
@@ -80,7 +80,9 @@ StepCount count_step(Stepper& stepper, std::span<const CountingReal> regressors,
     all.words += one.words;
     most = std::max(most, one.numbers + one.words);
   }
-  return {{(all.numbers + kFrames - 1) / kFrames, (all.words + kFrames - 1) / kFrames}, most};
+  const auto mean = [](std::int64_t sum) { return (sum + kFrames / 2) / kFrames; };
+  const std::int64_t numbers = mean(all.numbers);
+  return {{numbers, mean(all.numbers + all.words) - numbers}, most};
 }
 
 template <class Stepper>

@@ -86,6 +86,19 @@ class CountedChain {
   Stepper stepper_;
 };
 
+TEST(ChainCost, OperationsAFrameAreTheMeanRoundedOnce) {
+  for (const Model& model : {unblended(), sample_chain(), sample_chain(ChainMotion::kPosition)}) {
+    constexpr int kFrames = ChainStepper<CountingNumbers>::kCountedFrames;
+    CountedChain chain(model);
+    for (int frame = 0; frame < kFrames; ++frame) chain.step();
+    std::int64_t sum = 0;
+    for (int frame = 0; frame < kFrames; ++frame) sum += chain.step();
+    const auto cost = count_operations(model);
+    ASSERT_TRUE(cost);
+    EXPECT_NEAR(static_cast<double>(cost->operations_per_frame), static_cast<double>(sum) / kFrames, 0.51);
+  }
+}
+
 // The most that any frame takes of a long run that is shown `rate` times a second.
 std::int64_t dearest_frame(const Model& model, double rate) {
   CountedChain chain(model);
