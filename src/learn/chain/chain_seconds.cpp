@@ -176,7 +176,10 @@ FallExtremes extremes_of(const Pieces& pieces, double rate_hz) {
 // The largest relative deviation of a percentile: of the two low ones of vertical speed, and of accelerations.
 double tails_apart(const FallExtremes& a, const FallExtremes& b) {
   double most = 0;
-  const auto add = [&](double x, double y) { most = std::max(most, std::abs(y / x - 1)); };
+  const auto add = [&](double x, double y) {
+    const double off = std::abs(y / x - 1);
+    if (!(off <= most)) most = off;  // what can't be told of one stays so
+  };
   for (std::size_t k = 0; k < 2; ++k) add(a.vertical_speed[k], b.vertical_speed[k]);
   for (std::size_t k = 0; k < 2; ++k) add(a.acceleration[k], b.acceleration[k]);
   return most;
@@ -225,7 +228,9 @@ SecondsFidelity seconds_fidelity(const Motion& real, const Motion& synthesized, 
   const FallExtremes half = extremes_of(halves[0], rate), other = extremes_of(halves[1], rate);
   out.tails = {tails_apart(out.real, out.synthesized), tails_apart(half, other),
                tails_apart(out.real, normal_like(all, out.real))};
-  const auto apart = [](double a, double b) { return std::abs(b / a - 1); };
+  const auto apart = [](double a, double b) {
+    return a > kUnseenMetres * kUnseenMetres ? std::abs(b / a - 1) : kNaN;  // what does not spread has no share of it
+  };
   out.spread = {apart(out.real.spread[2], out.synthesized.spread[2]), apart(half.spread[2], other.spread[2]),
                 apart(out.real.spread[2], shuffled_spread(all, rows))};
   return out;

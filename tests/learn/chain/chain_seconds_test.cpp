@@ -44,6 +44,22 @@ TEST(SecondsFidelity, WhatShakesIsSeenInItsSpectra) {
   EXPECT_GT(found.spectra.value, 3 * found.spectra.floor);
 }
 
+TEST(SecondsFidelity, OneFallHasNoFloor) {
+  const Recording fall = made_falls({.falls = 1, .seconds = 12});
+  const Motion motion = *motion_of(std::span(&fall, 1));
+  const SecondsFidelity found = seconds_fidelity(motion, motion, 500, 1);
+  EXPECT_TRUE(std::isnan(found.tails.floor));
+  EXPECT_EQ(found.tails.value, 0);
+}
+
+TEST(SecondsFidelity, WhatFallsStraightHasNoShareOfItsSpread) {
+  Motion straight = motion_made(1);
+  for (MotionPiece& piece : straight.pieces) {
+    for (Triple& at : piece.position) at[0] = at[1] = 1e-9 * at[2];
+  }
+  EXPECT_TRUE(std::isnan(seconds_fidelity(straight, motion_made(1), 500, 1).spread.value));
+}
+
 TEST(SecondsFidelity, FallsShorterThanTwoSecondsHaveNone) {
   Recording falls = made_falls({.falls = 24, .seconds = 1});
   const Motion motion = *motion_of(std::span(&falls, 1));
