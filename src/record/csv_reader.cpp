@@ -75,6 +75,8 @@ std::optional<Role> role_of(const ColumnName& column, const CsvOptions& options)
   if (contains(options.inputs, column.name)) return Role::kInput;
   if (contains(options.outputs, column.name)) return Role::kOutput;
   if (column.role == "m") return Role::kMotion;
+  if (column.role.empty() && contains(options.usual_inputs, column.name)) return Role::kInput;
+  if (column.role.empty() && contains(options.usual_outputs, column.name)) return Role::kOutput;
   const bool chosen = !options.inputs.empty() || !options.outputs.empty();
   if (chosen) return std::nullopt;
   if (column.role == "u") return Role::kInput;

@@ -66,6 +66,28 @@ TEST_F(MotionFlags, AnotherProgramsConventionsAreTakenOver) {
   EXPECT_NEAR(a["fidelity"]["real"]["descent_speed"], b["fidelity"]["real"]["descent_speed"], 1e-6);
 }
 
+TEST_F(MotionFlags, UsualNamesInAPlainTableNeedNoFlag) {
+  const auto same = [](const std::array<double, 7>& r) { return r; };
+  const auto own = falls("own.csv", "episode,y:pos.x[m],y:pos.y[m],y:pos.z[m],y:q.w,y:q.x,y:q.y,y:q.z", same);
+  const auto plain = falls("plain.csv", "episode,pos.x,pos.y,pos.z,q.w,q.x,q.y,q.z", same);
+  EXPECT_EQ(learned(own, "")["segments"], learned(plain, "--rate 60")["segments"]);
+  const Said said = wisp("validate " + at("m.wisp") + " " + plain);
+  EXPECT_EQ(said.status, 0) << said.err;
+}
+
+TEST_F(MotionFlags, UnevenTimeInAPlainTableIsAnErrorWithItsRow) {
+  std::ofstream out(at("uneven.csv"));
+  out << "t_s,X,Y,Z\n";
+  for (int row = 0; row < 200; ++row) {
+    out << row / 60.0 + (row < 150 ? 0 : 0.01);
+    for (std::size_t axis = 0; axis < 3; ++axis) out << ',' << rocking(0, row)[axis];
+    out << '\n';
+  }
+  out.close();
+  EXPECT_THAT(wisp("learn chain " + at("uneven.csv") + " --position X,Y,Z --rate 60 -o " + at("m.wisp")).err,
+              HasSubstr("row 151: time goes on by 0.02"));
+}
+
 TEST_F(MotionFlags, ColumnsThatAreNotThereAreErrors) {
   const auto plain = falls("plain.csv", "episode,y:pos.x[m],y:pos.y[m],y:pos.z[m],y:q.w,y:q.x,y:q.y,y:q.z",
                            [](const std::array<double, 7>& r) { return r; });

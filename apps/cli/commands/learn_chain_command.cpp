@@ -57,7 +57,7 @@ Result<ChainRecipe> recipe_from(const Arguments& arguments) {
 
 // With --skip-bad, recordings that tell no motion are left out here; else learning says what is wrong with them.
 Result<std::vector<Recording>> read_motions(const Arguments& arguments, Terminal& terminal) {
-  auto recordings = read_tables(arguments.positionals(), arguments, terminal);
+  auto recordings = read_tables(arguments.positionals(), arguments, terminal, motion_table(arguments));
   if (!recordings || !arguments.on("skip-bad")) return recordings;
   std::erase_if(*recordings, [&](const Recording& recording) {
     const auto sound = check_motion(recording);

@@ -12,6 +12,7 @@ namespace {
 constexpr std::array<const char*, 3> kPosition = {"pos.x", "pos.y", "pos.z"};
 constexpr std::array<const char*, 4> kOrientation = {"q.w", "q.x", "q.y", "q.z"};
 constexpr std::array<const char*, 3> kWind = {"wind.x", "wind.y", "wind.z"};
+constexpr std::array<const char*, 3> kTime = {"t", "t_s", "time"};
 
 // Gives columns that a flag names the names that learning looks for.
 template <std::size_t kSize>
@@ -93,6 +94,15 @@ Result<std::vector<std::string>> motion_columns(const Arguments& arguments) {
     std::move(names.begin(), names.end(), std::back_inserter(columns));
   }
   return columns;
+}
+
+CsvOptions motion_table(const Arguments& arguments, double rate_hz) {
+  CsvOptions options{.rate_hz = rate_hz, .usual_outputs = {kTime.begin(), kTime.end()}};
+  if (!arguments.has("inputs")) options.usual_inputs = {kWind.begin(), kWind.end()};
+  if (arguments.has("outputs") || arguments.has("position") || arguments.has("orientation")) return options;
+  options.usual_outputs.insert(options.usual_outputs.end(), kPosition.begin(), kPosition.end());
+  options.usual_outputs.insert(options.usual_outputs.end(), kOrientation.begin(), kOrientation.end());
+  return options;
 }
 
 Result<Recording> as_motion(Recording recording, const Arguments& arguments) {

@@ -94,10 +94,10 @@ bool leave_out(const std::string& path, const Error& error, const Arguments& arg
 }
 
 Result<std::vector<Recording>> read_tables(const std::vector<std::string>& paths, const Arguments& arguments,
-                                           Terminal& terminal) {
+                                           Terminal& terminal, const CsvOptions& otherwise) {
   std::vector<Recording> recordings;
   for (const std::string& path : paths) {
-    auto recording = read_table(path, arguments);
+    auto recording = read_table(path, arguments, otherwise);
     if (recording) {
       recordings.push_back(std::move(recording).value());
     } else if (!leave_out(path, recording.error(), arguments, terminal)) {

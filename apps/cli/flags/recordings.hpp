@@ -39,7 +39,7 @@ bool leave_out(const std::string& path, const Error& error, const Arguments& arg
 /// Reads all of them. A bad one is the error, or, with --skip-bad, a warning and an entry of `skipped` in the result.
 /// Errors: also where none is left.
 Result<std::vector<Recording>> read_tables(const std::vector<std::string>& paths, const Arguments& arguments,
-                                           Terminal& terminal);
+                                           Terminal& terminal, const CsvOptions& otherwise = {});
 
 /// Rows of --range (1-based, inclusive), or all of them where the flag is not given.
 /// Errors: the range reaches beyond the recording.

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "films/leaf_film.hpp"
+#include "flags/motion_flags.hpp"
 #include "flags/recordings.hpp"
 #include "reports/chain_figures.hpp"
 #include "wisp/learn/validate.hpp"
@@ -68,9 +69,9 @@ Result<void> check_flags(const Arguments& arguments) {
 }
 
 // The recording, and its twin that differs only in its wind: the second that was given, or REC.calm.csv beside REC.csv.
-Result<std::vector<Recording>> read_recordings(const Arguments& arguments) {
+Result<std::vector<Recording>> read_recordings(const Arguments& arguments, double rate_hz) {
   const auto& paths = arguments.positionals();
-  auto whole = read_table(paths[1], arguments);
+  auto whole = read_table(paths[1], arguments, motion_table(arguments, rate_hz));
   if (!whole) return whole.error();
   auto recording = in_range(std::move(*whole), arguments, "range");
   if (!recording) return recording.error();
@@ -85,7 +86,7 @@ Result<std::vector<Recording>> read_recordings(const Arguments& arguments) {
     }
   }
   if (twin.empty()) return all;
-  auto other = read_table(twin, arguments);
+  auto other = read_table(twin, arguments, motion_table(arguments, rate_hz));
   if (!other) return other.error();
   all.push_back(std::move(*other));
   return all;
@@ -95,7 +96,7 @@ Result<std::vector<Recording>> read_recordings(const Arguments& arguments) {
 
 Result<void> validate_chain(const Model& model, const Arguments& arguments, Terminal& terminal) {
   if (auto ok = check_flags(arguments); !ok) return ok;
-  const auto recordings = read_recordings(arguments);
+  const auto recordings = read_recordings(arguments, model.rate_hz);
   if (!recordings) return recordings.error();
   const ValidationOptions options{.seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
   const auto report = validate(model, *recordings, options, terminal.progress());

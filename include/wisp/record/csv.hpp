@@ -21,9 +21,11 @@ struct Cell;
 /// How to understand a table that does not say so itself. A file's own words win where both speak, except
 /// `inputs` and `outputs`, which, when given, choose the channels to keep and their roles.
 struct CsvOptions {
-  double rate_hz = 0;                  ///< samples a second; 0: the file must state it
-  std::vector<std::string> inputs{};   ///< columns that are inputs
-  std::vector<std::string> outputs{};  ///< columns that are outputs
+  double rate_hz = 0;                        ///< samples a second; 0: the file must state it
+  std::vector<std::string> inputs{};         ///< columns that are inputs
+  std::vector<std::string> outputs{};        ///< columns that are outputs
+  std::vector<std::string> usual_inputs{};   ///< columns that are inputs where a plain table has them
+  std::vector<std::string> usual_outputs{};  ///< and outputs
   std::vector<std::string> columns{};  ///< names of all columns in their order, in place of a header or without one
 };
 

@@ -69,7 +69,8 @@ Result<void> check_time(const Recording& recording) {
         const double found = time[row] - time[row - 1];
         if (std::abs(found - step) <= kMaxJitter * step) continue;
         return Error{place(recording, row) + ": time goes on by " + std::to_string(found) + " s, expected " +
-                     std::to_string(step) + " everywhere: resample the recording to one rate"};
+                     std::to_string(step) +
+                     " everywhere: resample the recording to one rate, or give the rate that it has"};
       }
     }
   }
