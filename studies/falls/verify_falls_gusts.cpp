@@ -160,6 +160,7 @@ void gusts(Bounds& bounds) {
     std::printf("  velocity fits by %.1f %%; carried at most %.2f m (simulated %.2f); left 2 s later: %.1e m/s\n",
                 f.velocity_fit_percent, f.largest_displacement, f.largest_recorded_displacement, f.left_after);
     bounds.at_least("fit of the mean displacement, %", f.fit_percent, 66);
+    bounds.at_most("direction of clear displacements, degrees", f.direction.mean_clear, 15);
     const GustDirection level = direction_of_level(play->ends);
     print("of level gusts", level);
     bounds.at_most("direction of displacements by level gusts, mean, degrees", level.mean, 20);
