@@ -2,14 +2,16 @@
 """How often the verdict of a learned flame is wrong, both ways.
 
 What is right: flames of the candle rig that no limit was fitted to, and films whose outlines are right. What is wrong is
-made from them: outlines that are noise or mostly noise, frames in random order, somebody else's wind, a recording
-that is too short. An outline that jumps is refused by capture, which the scenes try.
+made from them: outlines that are noise or mostly noise, or whose tip is or jumps, frames in random order, somebody else's wind, a
+recording that is too short. An outline that jumps is refused by capture, which the scenes try.
 
-  studies/verdicts/verdicts.py WISP [FILMS.json FOLDER] [--seeds A:B | --rig RECORDING…] [--list]
+  studies/verdicts/verdicts.py WISP [FILMS.json FOLDER] [--seeds A:B | --rig RECORDING…] [--points N] [--half 1|2]
+                               [--kinds WORD] [--list]
 
 FILMS.json and FOLDER: as for ../shared/judges/films.py; films that capture refuses are left out, since `learn` refuses them
-too, and films whose sound is no wind are learned without it. Exit status 1 where less than 95 % of what is wrong is called not
-usable, or more than 5 % of what is right.
+too, and films whose sound is no wind are learned without it. --points: control points; --half: only the first or the second
+half of every recording is learned from, where that has 60 outlines or more; --kinds: only what is wrong in a way whose name
+has WORD. Exit status 1 where less than 95 % of what is wrong is called not usable, or more than 5 % of what is right.
 """
 
 import argparse
@@ -65,14 +67,52 @@ def corruptions(names, rows, random):
         return out
 
     yield "white noise", with_outline(np.nanmean(y, 0) + deviation * random.normal(size=y.shape))
-    yield "frames in random order", with_outline(y[random.permutation(len(y))])
+    seen, mixed = np.flatnonzero(~np.isnan(y).any(1)), y.copy()
+    mixed[seen] = y[random.permutation(seen)]
+    yield "frames in random order", with_outline(mixed)
     yield "mostly noise", with_outline(y + 2 * deviation * random.normal(size=y.shape))
     yield "too short", rows[:40]
+    for kind, made in tip_corruptions(names, y[:, [names[k].startswith("y:p") for k in outline]].copy(), random):
+        out = rows.copy()
+        out[:, [k for k in outline if names[k].startswith("y:p")]] = made
+        yield kind, out
     if wind:
         stranger = rows.copy()
         gusts = np.abs(np.convolve(random.normal(size=len(rows) + 30), np.ones(31) / 31, "valid"))
         stranger[:, wind] = (gusts / gusts.max())[:, None]
         yield STRANGER, stranger
+
+
+def tip_corruptions(names, y, random):
+    """The outline's points with a tip that cannot be learned, about the base; the other points stay."""
+    points = y.shape[1] // 2
+    base = np.tile((y[:, :2] + y[:, -2:]) / 2, points)
+    distance = np.nanmean(np.hypot((y - base)[:, ::2], (y - base)[:, 1::2]), axis=0)
+    farthest = np.sort(np.argsort(-distance)[:2 * max(1, points // 8)])
+    where = np.ravel([2 * farthest, 2 * farthest + 1], "F")
+    tip = (y - base)[:, where]
+    deviation, noise = np.nanstd(tip, axis=0), random.normal(size=tip.shape)
+    seen, other = np.flatnonzero(~np.isnan(tip).any(1)), tip.copy()
+    other[seen] = tip[random.permutation(seen)]
+    jumps = random.random((len(tip), 1)) < 0.3
+    for kind, made in (
+        ("the tip is white noise", np.nanmean(tip, 0) + deviation * noise),
+        ("the tip in random order", other),
+        ("the tip trembles as much as it moves", tip + deviation * noise),
+        ("the tip is elsewhere in 30 % of the frames", np.where(jumps, other, tip)),
+    ):
+        out = y.copy()
+        out[:, where] = made + base[:, where]
+        yield kind, out
+
+
+def half_of(path, half):
+    """Cuts a recording to its first or second half. Returns whether enough is left."""
+    head, names, rows = read(path)
+    seen = np.flatnonzero(~np.isnan(rows[:, outline_columns(names)]).any(1))
+    middle = seen[len(seen) // 2] if len(seen) else 0
+    write(path, head, names, rows[:middle] if half == 1 else rows[middle:])
+    return len(seen) // 2 >= 60
 
 
 class Tally:
@@ -110,8 +150,12 @@ def main():
     asked.add_argument("films", nargs="*")
     asked.add_argument("--seeds", default="11:16")
     asked.add_argument("--rig", nargs="+", default=[])
+    asked.add_argument("--points", default="8")
+    asked.add_argument("--half", type=int, choices=(1, 2))
+    asked.add_argument("--kinds", default="")
     asked.add_argument("--list", action="store_true")
     asked = asked.parse_args()
+    capture = [asked.wisp, "capture", "flame", "--points", asked.points, "--quiet"]
     tally = Tally(asked.wisp, asked.list)
     first, last = map(int, asked.seeds.split(":"))
     with tempfile.TemporaryDirectory() as folder:
@@ -121,15 +165,17 @@ def main():
         for seed in [] if asked.rig else range(first, last + 1):
             clip, recording = os.path.join(folder, f"{seed}.mp4"), os.path.join(folder, f"{seed}.csv")
             subprocess.run([asked.wisp, "simulate", "candle", "-o", clip, "--seconds", "15", "--seed", str(seed), "--quiet"], check=True)
-            subprocess.run([asked.wisp, "capture", "flame", clip, "-o", recording, "--quiet"], check=True, capture_output=True)
+            subprocess.run([*capture, clip, "-o", recording], check=True, capture_output=True)
+            if asked.half:
+                half_of(recording, asked.half)
             tally.learn("rig", False, recording)
             recordings.append((f"rig {seed}", recording))
         if asked.films:
             for film in json.load(open(asked.films[0])):
                 recording = os.path.join(folder, "film.csv" + str(len(recordings)))
-                done = subprocess.run([asked.wisp, "capture", "flame", os.path.join(asked.films[1], film["file"]), "-o", recording + ".csv", "--json", "--quiet"], capture_output=True, text=True)
+                done = subprocess.run([*capture, os.path.join(asked.films[1], film["file"]), "-o", recording + ".csv", "--json"], capture_output=True, text=True)
                 usable = done.returncode == 0 and json.loads(done.stdout)["usable"]["verdict"]
-                if not usable:
+                if not usable or (asked.half and not half_of(recording + ".csv", asked.half)):
                     continue  # `learn` refuses what capture refuses
                 head, names, rows = read(recording + ".csv")
                 kept = [k for k, name in enumerate(names) if not name.startswith("u:")]
@@ -140,6 +186,8 @@ def main():
             head, names, rows = read(recording)
             random = np.random.default_rng(len(rows))
             for kind, made in corruptions(names, rows, random):
+                if asked.kinds not in kind:
+                    continue
                 path = os.path.join(folder, "wrong.csv")
                 write(path, head, names, made)
                 tally.learn(kind, True, path)

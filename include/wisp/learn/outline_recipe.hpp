@@ -70,7 +70,8 @@ struct OutlineRecipe {
   std::optional<int> input_curve = 0;  ///< knots of the input nonlinearity, 3 to 16; 0: none; unset: 3 to 6 or none
   bool one_sided = false;        ///< inputs as they are, no sign and no mirror image: the paper's 192 multiply-adds
   std::optional<bool> mirror{};  ///< learn from the mirror image too; unset: where inputs have signs
-  double holdout = 0.3;          ///< 0 to 0.9: the last part of each recording, kept for judging
+  double holdout = 0.3;          ///< 0 to 0.9, kept for judging: the last part of each recording; where nothing drives
+                                 ///< the outline and `refit` is set, seconds of that share, in turn
   bool refit = true;             ///< after judging, learn the returned model from everything
   std::optional<OutlineNoise> noise{};  ///< unset: kDrawn for at least 10 s with an input, else kMatched: what is short
                                         ///< would be seen to repeat

@@ -7,7 +7,7 @@
 #include "learn/flame/extinction_report.hpp"
 #include "learn/flame/wind_gain.hpp"
 #include "learn/outline/outline_fit.hpp"
-#include "learn/outline/outline_report.hpp"
+#include "learn/outline/report/outline_report.hpp"
 #include "record/verdict.hpp"
 
 namespace wisp {

@@ -1,10 +1,12 @@
 #include "learn/outline/outline_figures.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numeric>
 
+#include "learn/arx/judge/prediction_tally.hpp"
 #include "learn/arx/judge/residual_tests.hpp"
 #include "learn/outline/outline_shape.hpp"
 
@@ -52,18 +54,45 @@ struct Shapes {
 };
 
 // Takes every `stride`-th row.
-Result<void> add_shapes(const ArxModel& model, const Recording& recording, const ChannelChoice& channels,
-                        const OutlineLayout& layout, int steps, std::size_t stride, Shapes& shapes) {
-  const auto series = predict(model, recording, channels, {.steps = steps});
-  if (!series) return series.error();
-  const OutlineCurve curve(layout.knots);
+void add_shapes(const OutlineCurve& curve, const Recording& recording, const OutlineLayout& layout,
+                const Series& predicted, std::size_t stride, Shapes& shapes) {
   for (std::size_t row = 0; row < recording.rows(); row += stride) {
     const auto measured = measured_row(recording, layout, row);
-    const auto predicted = predicted_row(*series, row);
-    if (!measured.empty() && !predicted.empty()) shapes.add(curve, measured, predicted);
+    const auto made = predicted_row(predicted, row);
+    if (!measured.empty() && !made.empty()) shapes.add(curve, measured, made);
   }
-  return {};
 }
+
+// Errors of the rows that were measured and predicted.
+class Errors {
+ public:
+  explicit Errors(std::size_t outputs) : tally(static_cast<int>(outputs), 2) {}
+
+  void add(const Recording& recording, const OutlineLayout& layout, const Series& predicted) {
+    const auto outputs = static_cast<Eigen::Index>(predicted.size());
+    Eigen::MatrixXd errors(static_cast<Eigen::Index>(recording.rows()), outputs);
+    Eigen::MatrixXd deviations(errors.rows(), outputs);
+    Eigen::Index rows = 0;
+    for (std::size_t row = 0; row < recording.rows(); ++row) {
+      const auto measured = measured_row(recording, layout, row);
+      const auto made = predicted_row(predicted, row);
+      if (measured.empty() || made.empty()) continue;
+      if (origin_.empty()) origin_ = measured;
+      for (Eigen::Index i = 0; i < outputs; ++i) {
+        errors(rows, i) = measured[i] - made[i];
+        deviations(rows, i) = measured[i] - origin_[i];
+      }
+      ++rows;
+    }
+    tally.add_errors(errors.topRows(rows));
+    for (Eigen::Index i = 0; i < outputs; ++i) tally.add_output(static_cast<int>(i), deviations.col(i).head(rows));
+  }
+
+  Tally tally;
+
+ private:
+  std::vector<double> origin_;  // a still channel is 0 then, and its spread exactly none
+};
 
 // Fits of x and y to that of the point: errors and spreads add up. A fit of 0 is that of a still channel too, whose
 // spread is then taken for its error: it says nothing either way.
@@ -83,37 +112,56 @@ std::vector<double> point_fits(const PredictionFigures& figures) {
   return fits;
 }
 
+void add_figures(const PredictionFigures& fit, const Shapes& shapes, OutlineFigures& out) {
+  out.rows = std::max(out.rows, fit.rows);
+  out.j.push_back(fit.j);
+  out.point_fit_percent.push_back(point_fits(fit));
+  for (std::size_t i = 0; i < out.channels.size(); ++i) out.channels[i].fit_percent.push_back(fit.fit_percent[i]);
+  const auto rows = static_cast<double>(std::max<std::size_t>(1, shapes.tip_measured.size()));
+  out.tip_fit_percent.push_back(fit_percent(shapes.tip_measured, shapes.tip_predicted));
+  out.tip_absolute_fit_percent.push_back(absolute_fit_percent(shapes.tip_measured, shapes.tip_predicted));
+  out.overlap.push_back(shapes.overlap / rows);
+}
+
 }  // namespace
+
+Result<OutlineFigures> outline_figures(const OutlinePredictor& predicted, std::span<const Recording> recordings,
+                                       const OutlineLayout& layout, const std::vector<int>& steps) {
+  OutlineFigures out;
+  out.steps = steps;
+  for (std::size_t c : layout.outputs) out.channels.push_back({recordings.front().channels[c].name, {}, 1});
+  std::size_t all_rows = 0;
+  for (const Recording& recording : recordings) all_rows += recording.rows();
+  const std::size_t stride = 1 + all_rows / kMaxShapes;
+  const OutlineCurve curve(layout.knots);
+  for (int k : steps) {
+    Shapes shapes;
+    Errors errors(layout.outputs.size());
+    for (std::size_t r = 0; r < recordings.size(); ++r) {
+      const auto series = predicted(r, k);
+      if (!series) return series.error();
+      errors.add(recordings[r], layout, *series);
+      add_shapes(curve, recordings[r], layout, *series, stride, shapes);
+    }
+    if (errors.tally.rows() == 0) {
+      return Error{recordings.front().source + ": no row can be predicted: no stretch without gaps is long enough"};
+    }
+    add_figures(errors.tally.figures(k), shapes, out);
+  }
+  return out;
+}
 
 Result<OutlineFigures> outline_figures(const ArxModel& model, std::span<const Recording> recordings,
                                        const ChannelChoice& channels, const OutlineLayout& layout,
                                        const std::vector<int>& steps) {
-  const auto fits = prediction_figures(model, recordings, channels, {.steps = steps, .group = 2});
-  if (!fits) return fits.error();
-  OutlineFigures out;
-  out.steps = steps;
-  for (const std::string& name : channels.outputs) out.channels.push_back({name, {}, 1});
-  for (const PredictionFigures& fit : *fits) {
-    out.rows = std::max(out.rows, fit.rows);
-    out.j.push_back(fit.j);
-    out.point_fit_percent.push_back(point_fits(fit));
-    for (std::size_t i = 0; i < out.channels.size(); ++i) out.channels[i].fit_percent.push_back(fit.fit_percent[i]);
-  }
-  std::size_t all_rows = 0;
-  for (const Recording& recording : recordings) all_rows += recording.rows();
-  const std::size_t stride = 1 + all_rows / kMaxShapes;
-  for (int k : steps) {
-    Shapes shapes;
-    for (const Recording& recording : recordings) {
-      if (auto ok = add_shapes(model, recording, channels, layout, k, stride, shapes); !ok) return ok.error();
-    }
-    const auto rows = static_cast<double>(std::max<std::size_t>(1, shapes.tip_measured.size()));
-    out.tip_fit_percent.push_back(fit_percent(shapes.tip_measured, shapes.tip_predicted));
-    out.overlap.push_back(shapes.overlap / rows);
-  }
+  const auto predicted = [&](std::size_t recording, int k) {
+    return predict(model, recordings[recording], channels, {.steps = k});
+  };
+  auto out = outline_figures(predicted, recordings, layout, steps);
+  if (!out) return out;
   // Too short to test: nothing speaks against white.
   const auto left = test_residuals(model, recordings, channels, {.lags = kWhitenessLags});
-  for (std::size_t i = 0; left && i < out.channels.size(); ++i) out.channels[i].whiteness_p = left->whiteness[i].p;
+  for (std::size_t i = 0; left && i < out->channels.size(); ++i) out->channels[i].whiteness_p = left->whiteness[i].p;
   return out;
 }
 
@@ -128,6 +176,21 @@ double fit_percent(std::span<const double> measured, std::span<const double> pre
     spread += (measured[t] - mean) * (measured[t] - mean);
   }
   return spread > 0 ? 100 * (1 - std::sqrt(error / spread)) : 0;
+}
+
+double absolute_fit_percent(std::span<const double> measured, std::span<const double> predicted) {
+  assert(measured.size() == predicted.size());
+  if (measured.empty()) return 0;
+  std::vector<double> sorted(measured.begin(), measured.end());
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  double error = 0;
+  double spread = 0;
+  for (std::size_t t = 0; t < measured.size(); ++t) {
+    error += std::abs(measured[t] - predicted[t]);
+    spread += std::abs(measured[t] - *middle);
+  }
+  return spread > 0 ? 100 * (1 - error / spread) : 0;
 }
 
 }  // namespace wisp

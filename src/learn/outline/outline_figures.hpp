@@ -2,6 +2,7 @@
 // How well a model follows recordings of an outline: per channel, per control point, at the tip, and as a filled shape.
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,14 +36,26 @@ struct OutlineFigures {
   std::vector<std::vector<double>> point_fit_percent;  ///< of x and y together, per control point: above 0, the point
                                                        ///< is followed better than by its mean
   std::vector<double> tip_fit_percent;                 ///< of the tip's x
+  std::vector<double> tip_absolute_fit_percent;        ///< of the tip's x, by absolute errors: ten frames of a gust or
+                                                       ///< a blow-out do not outweigh the rest
   std::vector<double> overlap;  ///< mean intersection over union of predicted and captured filled outlines
 };
+
+/// What is predicted of one of several recordings, so many steps ahead: as predict() returns it.
+using OutlinePredictor = std::function<Result<std::vector<std::vector<double>>>(std::size_t recording, int steps)>;
+
+/// Judges predictions of recordings in a model's units. Their residuals are not tested.
+/// Errors: as `predicted`; no row that is measured and predicted.
+///
+/// Preconditions: at least one recording; all have the layout.
+Result<OutlineFigures> outline_figures(const OutlinePredictor& predicted, std::span<const Recording> recordings,
+                                       const OutlineLayout& layout, const std::vector<int>& steps);
 
 /// Judges a model on recordings in its own units, with its regressors as inputs (outline_units.hpp,
 /// outline_inputs.hpp). A model without inputs, simulated freely, is its mean shape: its figures at kFreeRun say how
 /// much the outline moves, not how good the model is. Tip and overlap of long recordings are of at most 2000 frames,
 /// evenly spread.
-/// Errors: as prediction_figures().
+/// Errors: as predict(); no row that is measured and predicted.
 Result<OutlineFigures> outline_figures(const ArxModel& model, std::span<const Recording> recordings,
                                        const ChannelChoice& channels, const OutlineLayout& layout,
                                        const std::vector<int>& steps = kJudgedSteps);
@@ -51,5 +64,10 @@ Result<OutlineFigures> outline_figures(const ArxModel& model, std::span<const Re
 ///
 /// Precondition: the same size.
 double fit_percent(std::span<const double> measured, std::span<const double> predicted);
+
+/// 100(1 − Σ|y − ŷ| / Σ|y − m|) with the median m; 0 where y is constant or empty.
+///
+/// Precondition: the same size.
+double absolute_fit_percent(std::span<const double> measured, std::span<const double> predicted);
 
 }  // namespace wisp

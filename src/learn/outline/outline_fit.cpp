@@ -18,6 +18,7 @@
 #include "learn/outline/outline_preparation.hpp"
 #include "learn/outline/outline_ridge.hpp"
 #include "learn/outline/outline_synthesis.hpp"
+#include "learn/outline/outline_turns.hpp"
 #include "learn/outline/outline_verdict.hpp"
 
 namespace wisp {
@@ -365,7 +366,34 @@ void warn_of_coordinates(const PreparedOutlines& prepared, OutlineSummary& summa
   summary.warnings.insert(summary.warnings.end(), found.warnings.begin(), found.warnings.end());
 }
 
-// Judges a model that has seen only the first part of every recording.
+// Nothing drives a flicker from outside, so that its seconds are alike in what they say: they are held out in turn.
+bool is_judged_in_turn(const PreparedOutlines& prepared, const OutlineRecipe& options) {
+  return prepared.inputs.empty() && options.refit && options.holdout > 0;
+}
+
+// Judges a model of everything by models that have not seen what they predict.
+Result<ArxFit> judge_in_turn(const PreparedOutlines& prepared, const OutlineRecipe& options, OutlineSummary& summary) {
+  const auto turns = std::max<std::size_t>(2, static_cast<std::size_t>(std::lround(1 / options.holdout)));
+  const std::size_t rows = summary.rows_learned + summary.rows_held_out;
+  summary.rows_held_out = rows / turns;
+  summary.rows_learned = rows - summary.rows_held_out;
+  summary.refitted = true;
+  auto fitted = fit(prepared.recordings, prepared, options, summary, summary.ridge.ridge);
+  if (!fitted) return fitted;
+  auto learned = outline_figures(fitted->model, prepared.recordings, prepared.channels, prepared.layout);
+  if (!learned) return learned.error();
+  summary.learned = *std::move(learned);
+  const auto estimate = [&](std::span<const Recording> from) -> Result<ArxModel> {
+    auto one = fit(from, prepared, options, summary, summary.ridge.ridge, false);
+    if (!one) return one.error();
+    return std::move(one->model);
+  };
+  auto held_out = figures_in_turn(estimate, prepared, turns);
+  if (held_out) summary.held_out = *std::move(held_out);
+  return fitted;
+}
+
+// Judges a model that has seen only the first part of every recording, or of a flicker the model of everything.
 Result<ArxFit> judge(const PreparedOutlines& prepared, const OutlineRecipe& options, OutlineSummary& summary) {
   OutlineParts parts = hold_out(prepared.recordings, prepared.channels, options.holdout);
   for (const Recording& part : parts.learned) summary.rows_learned += complete_rows(part, prepared.channels);
@@ -380,6 +408,7 @@ Result<ArxFit> judge(const PreparedOutlines& prepared, const OutlineRecipe& opti
     if (!ridge) return ridge.error();
     summary.ridge = *std::move(ridge);
   }
+  if (is_judged_in_turn(prepared, options)) return judge_in_turn(prepared, options, summary);
   auto fitted = fit(parts.learned, prepared, options, summary, summary.ridge.ridge);
   if (!fitted) return fitted;
   auto learned = outline_figures(fitted->model, parts.learned, prepared.channels, prepared.layout);
@@ -474,7 +503,7 @@ Result<OutlineFit> fit_outline(std::span<const Recording> recordings, const Outl
   auto fitted = judge(*prepared, options, summary);
   if (!fitted) return fitted.error();
   if (!go_on(progress, kStage, 0.6)) return Error{std::string(kStopped)};
-  const bool refit = options.refit && summary.rows_held_out > 0;
+  const bool refit = options.refit && summary.rows_held_out > 0 && !summary.refitted;
   if (refit) {
     if (auto ok = learn_curves(prepared->recordings, *prepared, options, summary); !ok) return ok.error();
   }

@@ -66,14 +66,14 @@ struct OutlineSummary {
   std::size_t points = 0;
   ArxOrders orders;
   OutlineChoice choice;
-  CurveChoice curve_choice;                ///< what bends the inputs, and why; without candidates where none was tried
-  std::vector<CurveEstimate> curves;       ///< one an input, of the returned model; empty: none
-  RidgeChoice ridge;                       ///< where control points hear each other
-  std::vector<InputAlignment> alignment;   ///< of every recording's inputs
-  std::size_t rows_learned = 0;            ///< complete rows before the cut, which the judged model was learned from
-  std::size_t rows_held_out = 0;           ///< and after it
-  bool refitted = false;                   ///< whether the returned model was learned from both
-  OutlineFigures learned;                  ///< on what was learned from
+  CurveChoice curve_choice;               ///< what bends the inputs, and why; without candidates where none was tried
+  std::vector<CurveEstimate> curves;      ///< one an input, of the returned model; empty: none
+  RidgeChoice ridge;                      ///< where control points hear each other
+  std::vector<InputAlignment> alignment;  ///< of every recording's inputs
+  std::size_t rows_learned = 0;   ///< complete rows that a judged model was learned from: before the cut, or in a turn
+  std::size_t rows_held_out = 0;  ///< and those held out
+  bool refitted = false;          ///< whether the returned model was learned from both
+  OutlineFigures learned;         ///< on what was learned from
   std::optional<OutlineFigures> held_out;  ///< on what was held out; nothing where that is too short
   Eigen::MatrixXd free_run_parts;          ///< errors of free simulation on it (arx/judge/free_run_parts.hpp)
   std::vector<OutlineResidual> residuals;  ///< of the returned model, one a channel

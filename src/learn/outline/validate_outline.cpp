@@ -7,8 +7,8 @@
 #include "learn/flame/extinction_report.hpp"
 #include "learn/flame/wind_gain.hpp"
 #include "learn/numeric/spectrum.hpp"
-#include "learn/outline/outline_report.hpp"
 #include "learn/outline/outline_shape.hpp"
+#include "learn/outline/report/outline_report.hpp"
 
 namespace wisp {
 namespace {

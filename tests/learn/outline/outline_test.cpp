@@ -8,6 +8,7 @@
 #include <numeric>
 #include <random>
 
+#include "learn/fidelity/fidelity_marginal.hpp"
 #include "learn/outline/made_outline.hpp"
 #include "learn/outline/outline_knots.hpp"
 #include "learn/outline/outline_synthesis.hpp"
@@ -177,7 +178,7 @@ TEST(Outline, AStillBaseIsNoObstacle) {
 }
 
 TEST(Outline, TheLastPartIsHeldOutAndThenLearnedToo) {
-  const OutlineFit fit = learned({.rows = 1000}, {.holdout = 0.3});
+  const OutlineFit fit = learned({.rows = 1000, .wind = true}, {.holdout = 0.3});
   EXPECT_EQ(fit.summary.rows_learned, 700u);
   EXPECT_EQ(fit.summary.rows_held_out, 300u);
   EXPECT_TRUE(fit.summary.refitted);
@@ -203,7 +204,7 @@ TEST(Outline, WithoutRefittingTheHeldOutPartIsNotLearned) {
 TEST(Outline, TheCutFallsOnAnEpisodesBoundaryWhereOneIsNear) {
   Recording recording = made::outline_recording({.rows = 1000});
   for (std::size_t row = 0; row < 1000; ++row) recording.episode_ids.push_back(row < 660 ? 0 : 1);
-  const auto fit = fit_outline(std::vector{recording});
+  const auto fit = fit_outline(std::vector{recording}, {.refit = false});
   EXPECT_EQ(fit->summary.rows_learned, 660u);
 }
 
@@ -273,6 +274,23 @@ TEST(Outline, FramesInRandomOrderAreNotUsableAndSaySo) {
   EXPECT_FALSE(fit->summary.usable.verdict);
   EXPECT_NE(fit->summary.usable.reason.find("picked at random"), std::string::npos) << fit->summary.usable.reason;
   EXPECT_LT(learned({.rows = 1500}, {.order = 2}).summary.unsteadiness, 0.5);
+}
+
+// Every other point moves as it does, so that the median channel is foretold.
+TEST(Outline, ATipThatIsNoiseIsNotUsable) {
+  Recording recording = made::outline_recording({.points = 10, .rows = 1500});
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> gauss;
+  for (const char* name : {"p4.x", "p4.y", "p5.x", "p5.y"}) {
+    auto& samples = recording.channels[*find_channel(recording, name)].samples;
+    const double sd = standard_deviation(samples);
+    for (double& value : samples) value += 0.8 * sd * gauss(random);
+  }
+  const auto fit = fit_outline(std::vector{recording});
+  ASSERT_TRUE(fit) << fit.error().message;
+  EXPECT_FALSE(fit->summary.usable.verdict);
+  EXPECT_NE(fit->summary.usable.reason.find("where the tip is next"), std::string::npos) << fit->summary.usable.reason;
+  EXPECT_GT(fit->summary.held_out->channels[2].fit_percent[0], 40);
 }
 
 TEST(Outline, AFewDozenFramesAreNotUsableAndSaySo) {

@@ -96,7 +96,7 @@ export function metersOf({ report, judged }: Learned, thing: Thing, outputs: rea
     add('It spreads as it did', near('spread'), 0.9);
     return made;
   }
-  add('The tip, a frame ahead', percent('tip', 'held_out_fit_percent', '1'), 0.5);
+  add('The tip, a frame ahead', percent('tip', 'held_out_absolute_fit_percent', '1'), 0.5);
   // Without wind it flickers in its own time: no play can follow the film for long.
   const inputs = within(report, 'inputs');
   if (Array.isArray(inputs) && inputs.length > 0) {

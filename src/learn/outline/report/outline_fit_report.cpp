@@ -1,7 +1,7 @@
 #include <cstdio>
 
-#include "learn/outline/outline_report.hpp"
-#include "learn/outline/outline_report_parts.hpp"
+#include "learn/outline/report/outline_report.hpp"
+#include "learn/outline/report/outline_report_parts.hpp"
 
 namespace wisp {
 namespace {
@@ -39,12 +39,13 @@ ReportSection data_section(const OutlineSummary& summary) {
     names += (names.empty() ? "" : ", ") + input.name;
     inputs.rows.push_back({input.name, input.unit, input.scale});
   }
-  section.entries = {
-      {"rate_hz", summary.rate_hz, "rate", "frames a second"},
-      {"", names.empty() ? "none: a model of flicker" : names, "inputs", ""},
-      {"points", summary.points, "control points", ""},
-      {"samples.learned", summary.rows_learned, "frames to learn from", ""},
-      {"samples.held_out", summary.rows_held_out, "frames held out", "", {}, "what the figures below are judged on"}};
+  const char* judged = summary.inputs.empty() && summary.refitted ? "at a time: seconds in turn, until all are judged"
+                                                                  : "what the figures below are judged on";
+  section.entries = {{"rate_hz", summary.rate_hz, "rate", "frames a second"},
+                     {"", names.empty() ? "none: a model of flicker" : names, "inputs", ""},
+                     {"points", summary.points, "control points", ""},
+                     {"samples.learned", summary.rows_learned, "frames to learn from", ""},
+                     {"samples.held_out", summary.rows_held_out, "frames held out", "", {}, judged}};
   section.tables.push_back(std::move(inputs));
   add_alignment(summary.alignment, section);
   return section;
@@ -145,6 +146,7 @@ ReportSection fit_section(const OutlineFit& fit) {
                "%", section);
   if (held_out) {
     add_by_steps("tip.held_out_fit_percent", judged.steps, judged.tip_fit_percent, "tip fit", "%", section);
+    add_by_steps("tip.held_out_absolute_fit_percent", judged.steps, judged.tip_absolute_fit_percent, "", "%", section);
   } else {
     section.entries.push_back({"tip.held_out_fit_percent", {}, "", ""});
   }

@@ -1,4 +1,4 @@
-#include "learn/outline/outline_report_parts.hpp"
+#include "learn/outline/report/outline_report_parts.hpp"
 
 #include <cmath>
 #include <limits>

@@ -2,8 +2,8 @@
 #include <cstdio>
 #include <string>
 
-#include "learn/outline/outline_report.hpp"
-#include "learn/outline/outline_report_parts.hpp"
+#include "learn/outline/report/outline_report.hpp"
+#include "learn/outline/report/outline_report_parts.hpp"
 
 namespace wisp {
 namespace {
