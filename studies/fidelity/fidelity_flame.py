@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Can a classifier tell flames that a model plays from recorded ones, over half a second and over two?
 
-usage: fidelity_flame.py [--at-most ACCURACY] RECORDED.csv… -- PLAYED.csv… [-- PLAYED.csv…]…
+usage: fidelity_flame.py [--at-most ACCURACY] [--learned A.csv,B.csv…] RECORDED.csv… -- PLAYED.csv… [-- PLAYED.csv…]…
 
 The k-th file after each -- is what a model plays along the wind of the k-th recording (wisp run --input); each -- begins
 another play. Whole clips are left out in turn, so at least two are wanted; both sides are on the scale of the recording
@@ -10,8 +10,10 @@ another play. Whole clips are left out in turn, so at least two are wanted; both
 Windows: half a second of eight points at equal steps along the outline, and their differences; two seconds of log spectra
 of tip, square root of the area, and a point of each flank, in 13 geometric bands; two seconds of statistics of the same
 signals (correlation with the wind by lag, deviation of differences, kurtosis, peaks, deviation by wind, correlations).
-0.5 is indistinguishable. Beside it the burst: the tip's peak acceleration upwards over its deviation. With --at-most the
-exit status is 1 where any mean over plays is more than that.
+0.5 is indistinguishable. Beside it the burst: the tip's peak acceleration upwards over its deviation; the correlation of the
+square root of the area with the wind 100 ms before, over two seconds; the area's spectrum; and with --learned, the recordings
+that the model was learned from, the longest stretch in wind along which eight points stay on average within 2 % of the flame's
+height of theirs. With --at-most the exit status is 1 where any mean over plays is more than that.
 """
 
 import sys
@@ -29,6 +31,9 @@ CURVE_POINTS = 400
 TIP_POINTS = 8
 LAGS = (0, 2, 4, 6, 9, 12, 18, 30)
 WINDS = ((-1, 0.05), (0.05, 0.4), (0.4, 0.8), (0.8, 9))
+RATE = 60
+BANDS = (0.5, 2.5, 5, 8, 12, 16, 20, 25)  # Hz
+COPY = 0.02  # of the flame's height
 
 
 def number(cell):
@@ -98,6 +103,36 @@ class Clip:
     def burst(self):
         rise = np.diff(self.tip[:, 1], 2)
         return np.nanmax(np.abs(rise)) / np.nanstd(rise)
+
+    def answer(self):
+        """Mean correlation of the square root of the area with the wind 100 ms before, over windows of two seconds."""
+        lag, rows, found = RATE // 10, 2 * RATE, []
+        for first in range(0, len(self.area) - rows, rows // 8):
+            y, u = np.sqrt(self.area[first:first + rows]), self.wind[first:first + rows]
+            if np.isfinite(y).all() and u.std() > 0:
+                found.append(np.mean((y[lag:] - y.mean()) * (u[:-lag] - u.mean())) / (u.std() * y.std()))
+        return np.mean(found)
+
+    def area_power(self):
+        """Power of the area in bands, over windows of two seconds."""
+        rows, powers = 2 * RATE, []
+        for first in range(0, len(self.area) - rows, rows // 2):
+            area = self.area[first:first + rows]
+            if np.isfinite(area).all():
+                powers.append(np.abs(np.fft.rfft((area - area.mean()) * np.hanning(rows))) ** 2)
+        power, at = np.mean(powers, 0), np.fft.rfftfreq(rows, 1 / RATE)
+        return np.array([power[(at >= low) & (at < high)].sum() for low, high in zip(BANDS, BANDS[1:])])
+
+    def copied(self, source):
+        """Seconds of the longest stretch in wind that stays near a stretch of the source: at rest all flames are alike."""
+        height = np.nanmedian(self.tip[:, 1])
+        run, longest = np.zeros(len(source.eight) + 1, int), 0
+        for points, wind in zip(self.eight, self.wind):
+            near = np.hypot(*np.moveaxis(source.eight - points, 2, 0)).mean(1) <= COPY * height
+            near &= abs(wind) > WINDS[0][1]
+            run[1:] = np.where(near, run[:-1] + 1, 0)
+            longest = max(longest, run.max())
+        return longest / RATE
 
 
 def motion(clip, first, rows):
@@ -173,6 +208,9 @@ def main():
     most = 1.0
     if arguments[:1] == ["--at-most"]:
         most, arguments = float(arguments[1]), arguments[2:]
+    learned = []
+    if arguments[:1] == ["--learned"]:
+        learned, arguments = arguments[1].split(","), arguments[2:]
     groups = [[]]
     for argument in arguments:
         if argument == "--":
@@ -182,6 +220,7 @@ def main():
     if len(groups[0]) < 2 or any(len(group) != len(groups[0]) for group in groups) or len(groups) < 2:
         sys.exit(__doc__)
     recorded = [Clip(path) for path in groups[0]]
+    learned = [Clip(path).on_scale_of(recorded[0]) for path in learned]
     plays = [[Clip(path).on_scale_of(real) for path, real in zip(group, recorded)] for group in groups[1:]]
     surely = False
     for judge in JUDGES:
@@ -190,8 +229,16 @@ def main():
         surely |= np.mean(accuracy) > most
         print(f"{judge[0]:36} {np.mean(accuracy):.3f}   plays {min(accuracy):.3f} to {max(accuracy):.3f}, "
               f"{found[0][1]} windows a side")
-    burst = [np.mean([clip.burst() for clip in play]) for play in [recorded, *plays]]
-    print(f"{'peak acceleration over deviation':36} {np.mean(burst[1:]):.2f}   recorded {burst[0]:.2f}")
+    for title, figure in (("peak acceleration over deviation", Clip.burst), ("area with the wind 100 ms before", Clip.answer)):
+        found = [np.mean([figure(clip) for clip in play]) for play in [recorded, *plays]]
+        print(f"{title:36} {np.mean(found[1:]):.2f}   recorded {found[0]:.2f}")
+    power = [np.mean([clip.area_power() for clip in play], 0) for play in [recorded, *plays]]
+    decibels = 10 * np.log10(np.mean(power[1:], 0) / power[0])
+    bands = ", ".join(f"{low:g}–{high:g} Hz {of:+.1f}" for low, high, of in zip(BANDS, BANDS[1:], decibels))
+    print(f"{'power of the area, dB over recorded':36} {bands}")
+    if learned:
+        longest = [max(clip.copied(source) for clip in play for source in learned) for play in [recorded, *plays]]
+        print(f"{'longest copy of what was learned, s':36} {max(longest[1:]):.2f}   recorded {longest[0]:.2f}")
     return int(surely)
 
 
