@@ -98,9 +98,39 @@ function shorterShaders(): Plugin {
   };
 }
 
+/** What a part needs that comes later is fetched with it: its style sheets before it runs. Vite's own does the same for more browsers in 450 bytes more. */
+const FETCH_WITH = `
+const asked = {};
+export const __vitePreload = (load, files = [], from) =>
+  Promise.all(files.map((file) => new URL(file, from).href).map((href) => {
+    if (document.querySelector('link[href="' + href + '"]')) return asked[href];
+    const link = document.createElement('link');
+    const sheet = href.endsWith('.css');
+    link.rel = sheet ? 'stylesheet' : 'modulepreload';
+    link.href = href;
+    document.head.append(link);
+    if (sheet) return asked[href] = new Promise((done, failed) => {
+      link.onload = done;
+      link.onerror = () => {
+        link.remove();
+        failed();
+      };
+    });
+  })).then(load);
+`;
+
+function shorterPreload(): Plugin {
+  return {
+    name: 'wisp-shorter-preload',
+    apply: 'build',
+    enforce: 'pre',
+    load: (id) => (id === '\0vite/preload-helper.js' ? FETCH_WITH : null),
+  };
+}
+
 export default defineConfig({
   base: './',
-  plugins: [policy(), serviceWorker(), licences(), shorterShaders()],
+  plugins: [policy(), serviceWorker(), licences(), shorterShaders(), shorterPreload()],
   worker: {
     format: 'es',
     // The studio's is the only one.
