@@ -9,8 +9,8 @@ import { rawOfBitmap, rawOfFrame } from './pictures.js';
 import { smallPicture } from './small.js';
 import type { Captured, Seen } from './types.js';
 
-const SHOWN_EVERY_MS = 66;
-const SHOWN_PIXELS = 640;
+const SHOWN_EVERY_MS = 100;
+const SHOWN_PIXELS = 512;
 /** Holes in live sound that are longer than this are silence. */
 const LOST_SECONDS = 0.05;
 
