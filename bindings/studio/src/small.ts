@@ -1,5 +1,6 @@
 // The small picture of a frame that is shown while a film is looked at, made of the frame's own planes. Drawn on a canvas, a
-// frame goes through the graphics card: where that is software, it takes four times as long as looking at it does.
+// frame goes through the graphics card: where that is software, it and the worker want both cores, and the page draws five
+// pictures a second.
 
 import type { RawPicture } from './engine.js';
 
