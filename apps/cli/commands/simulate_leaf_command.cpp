@@ -11,6 +11,7 @@
 #include "flags/flag_ranges.hpp"
 #include "reports/learned_model.hpp"
 #include "terminal.hpp"
+#include "wisp/learn/chain_recipe.hpp"
 #include "wisp/record/csv.hpp"
 #include "wisp/simulate/leaf_drops.hpp"
 
@@ -56,7 +57,7 @@ bool is_kind(const std::string& word) {
 // A wind's column of time, where there is one, must go on evenly: rows are taken at the recording's rate.
 Result<void> check_time(const Recording& recording) {
   const double step = 1 / recording.rate_hz;
-  for (const char* name : {"t", "t_s", "time"}) {
+  for (const char* name : kTimeColumns) {
     const auto channel = find_channel(recording, name);
     if (!channel) continue;
     const auto& time = recording.channels[*channel].samples;

@@ -1,4 +1,5 @@
 #include "flags/motion_flags.hpp"
+#include "wisp/learn/chain_recipe.hpp"
 
 #include <array>
 #include <cmath>
@@ -12,7 +13,6 @@ namespace {
 constexpr std::array<const char*, 3> kPosition = {"pos.x", "pos.y", "pos.z"};
 constexpr std::array<const char*, 4> kOrientation = {"q.w", "q.x", "q.y", "q.z"};
 constexpr std::array<const char*, 3> kWind = {"wind.x", "wind.y", "wind.z"};
-constexpr std::array<const char*, 3> kTime = {"t", "t_s", "time"};
 
 // Gives columns that a flag names the names that learning looks for.
 template <std::size_t kSize>
@@ -97,7 +97,7 @@ Result<std::vector<std::string>> motion_columns(const Arguments& arguments) {
 }
 
 CsvOptions motion_table(const Arguments& arguments, double rate_hz) {
-  CsvOptions options{.rate_hz = rate_hz, .usual_outputs = {kTime.begin(), kTime.end()}};
+  CsvOptions options{.rate_hz = rate_hz, .usual_outputs = {kTimeColumns.begin(), kTimeColumns.end()}};
   if (!arguments.has("inputs")) options.usual_inputs = {kWind.begin(), kWind.end()};
   if (arguments.has("outputs") || arguments.has("position") || arguments.has("orientation")) return options;
   options.usual_outputs.insert(options.usual_outputs.end(), kPosition.begin(), kPosition.end());

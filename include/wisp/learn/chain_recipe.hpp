@@ -1,6 +1,7 @@
 #pragma once
 // What a segment chain is learned by. Sources: sections 2.2 and 4 of the paper.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -92,6 +93,9 @@ struct LeafRecipe : ChainRecipe {
     event = {EventKind::kZero, "forward_speed"};
   }
 };
+
+/// Names of a column of seconds, where a recording has one: it must go on evenly.
+inline constexpr std::array<const char*, 3> kTimeColumns = {"t", "t_s", "time"};
 
 /// Whether a recording tells motion. Errors: no position, no stretch that is long enough, no orientation where it
 /// should have one, a position that is not in metres or further than 1000 km away; of one with the attribute `pair`, a

@@ -52,7 +52,7 @@ const STEP_WORDS: Readonly<Record<Thing, Readonly<Record<Step, string>>>> = {
   fall: { gather: 'Film', look: 'Look', learn: 'Learn', blow: 'See' },
 };
 const LEARNING: Readonly<Record<Thing, string>> = {
-  flame: 'What each point of the outline does next is fitted to what it did before, and to the wind. The end of the film is kept back, to judge by.',
+  flame: 'What each point of the outline does next is fitted to what it did before, and to the wind. Some seconds are kept back, to judge by.',
   table: 'What comes out is fitted to its own past and to what went in: once without the last rows, to judge by them, and once from all.',
   fall: 'The motion is cut where it stalls, its pieces are sorted, and which follows which is counted. Some falls are kept back, to judge by.',
 };

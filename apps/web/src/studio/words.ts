@@ -117,11 +117,8 @@ export function metersOf({ report, judged }: Learned, thing: Thing, outputs: rea
   return made;
 }
 
-/** Seconds that were kept back to judge by; null where that is not said. */
-export function heldOutSeconds(report: Report): number | null {
-  const [rows, rate] = [figure(report, 'samples', 'held_out'), figure(report, 'rate_hz')];
-  return rows === null || rate === null || rate <= 0 ? null : rows / rate;
-}
+/** Whether something was kept back to judge by. */
+export const isHeldOut = (report: Report): boolean => (figure(report, 'samples', 'held_out') ?? 0) > 0;
 
 /** What to film to make it better: at most three things, the most telling first. */
 export function adviceOf(captured: readonly Captured[], report: Report | null): string[] {

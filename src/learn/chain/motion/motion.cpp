@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "record/number_text.hpp"
+#include "wisp/learn/chain_recipe.hpp"
 
 namespace wisp::chain {
 namespace {
@@ -19,7 +20,6 @@ constexpr double kMaxJitter = 0.01;  // of a step of time
 
 constexpr const char* kPositions[] = {"pos.x", "pos.y", "pos.z"};
 constexpr const char* kQuaternion[] = {"q.w", "q.x", "q.y", "q.z"};
-constexpr const char* kTimes[] = {"t", "t_s", "time"};
 
 // Where the channels of a recording are.
 struct Layout {
@@ -59,7 +59,7 @@ Result<Layout> layout_of(const Recording& recording) {
 
 // A channel of time, where there is one, must go on evenly within each episode.
 Result<void> check_time(const Recording& recording) {
-  for (const char* name : kTimes) {
+  for (const char* name : kTimeColumns) {
     const auto channel = find_channel(recording, name);
     if (!channel) continue;
     const auto& time = recording.channels[*channel].samples;

@@ -1,20 +1,11 @@
 #include <cstdio>
 
+#include "learn/arx/report/report_values.hpp"
 #include "learn/outline/report/outline_report.hpp"
 #include "learn/outline/report/outline_report_parts.hpp"
 
 namespace wisp {
 namespace {
-
-ReportValue matrix(const OrderMatrix& orders) {
-  ReportList rows;
-  for (int i = 0; i < orders.rows(); ++i) {
-    ReportList row;
-    for (int j = 0; j < orders.columns(); ++j) row.push_back(orders(i, j));
-    rows.push_back(std::move(row));
-  }
-  return rows;
-}
 
 const char* criterion_name(OutlineCriterion by) {
   switch (by) {
@@ -65,9 +56,9 @@ ReportSection structure_section(const OutlineSummary& summary) {
   const OutlineChoice& choice = summary.choice;
   const bool searched = choice.by != OutlineCriterion::kGiven;
   ReportSection section{"Structure"};
-  section.entries = {{"na", matrix(summary.orders.na), "", ""},
-                     {"nb", matrix(summary.orders.nb), "", ""},
-                     {"nk", matrix(summary.orders.nk), "", ""},
+  section.entries = {{"na", arx::list_of(summary.orders.na), "", ""},
+                     {"nb", arx::list_of(summary.orders.nb), "", ""},
+                     {"nk", arx::list_of(summary.orders.nk), "", ""},
                      {"order_and_delay.order", choice.taken().order, "order", ""},
                      {"order_and_delay.delay", choice.taken().delay, "delay", "frames"},
                      {"order_and_delay.by", criterion_name(choice.by), "", ""},

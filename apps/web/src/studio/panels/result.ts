@@ -5,7 +5,7 @@ import { element } from '../../panel/element.js';
 import { plotsOf } from '../pictures/curves.js';
 import { thingOf, type Session } from '../session.js';
 import { takingOf, type TakingEvents } from './taking.js';
-import { adviceOf, heldOutSeconds, metersOf, sentence, verdictOf, type Meter, type Thing } from '../words.js';
+import { adviceOf, isHeldOut, metersOf, sentence, verdictOf, type Meter, type Thing } from '../words.js';
 
 export interface ResultEvents extends TakingEvents {
   blow(): void;
@@ -39,10 +39,7 @@ const TO_PLAY = { flame: ['Blow it out', 'Blow at it all the same'], fall: ['See
 function titleOfMeters(thing: Thing, learned: Learned): string {
   if (thing === 'fall') return 'Beside what was recorded';
   if (learned.judged !== undefined) return 'On the last rows, which a trial had not seen';
-  const held = heldOutSeconds(learned.report);
-  if (held === null) return 'How well it fits what it was learned from';
-  const seconds = Math.max(1, Math.round(held));
-  return seconds === 1 ? 'On the second that it had not seen' : `On the ${seconds} seconds that it had not seen`;
+  return isHeldOut(learned.report) ? 'On seconds that it had not seen' : 'How well it fits what it was learned from';
 }
 
 /** The panel of a session that has learned something. */

@@ -13,8 +13,6 @@ const PICTURES = 9;
 const FEWER = 6;
 /** CSS pixels; a narrower strip shows fewer. */
 const NARROW = 560;
-/** Share of the film at its end that was kept back to judge by. */
-const HELD_BACK = 0.3;
 
 export class Strip {
   readonly place = element('figure', { class: 'strip' });
@@ -26,10 +24,7 @@ export class Strip {
     private readonly outlines: Outlines,
     private readonly model: Uint8Array,
   ) {
-    this.place.append(
-      this.canvas,
-      element('figcaption', {}, 'Recorded above, played below, at the same moments. The last ones it had never seen.'),
-    );
+    this.place.append(this.canvas, element('figcaption', {}, 'Recorded above, played below, at the same moments.'));
     new ResizeObserver(() => this.draw()).observe(this.canvas);
   }
 
@@ -37,7 +32,7 @@ export class Strip {
     const surface = surfaceOf(this.canvas);
     if (surface === null) return;
     const { context, width, height } = surface;
-    const { rows, rate } = this.outlines;
+    const { rate } = this.outlines;
     const play = new Play(this.wisp, this.outlines, this.model);
     const pictures = width < NARROW ? FEWER : PICTURES;
     const rowsShown = this.rowsShown(pictures);
@@ -50,9 +45,6 @@ export class Strip {
       const cell = { x: k * each + 1, width: each - 2, height: height / 2 - 1 };
       this.drawRecorded(context, row, { ...cell, y: 0 });
       this.drawPlayed(context, play, { ...cell, y: height / 2 + 1 });
-      if (row / rows < 1 - HELD_BACK) continue;
-      context.fillStyle = '#9fd8a4';
-      context.fillRect(cell.x, height - 2, cell.width, 2);
     }
     context.fillStyle = '#b9b3ac';
     context.font = '11px ui-sans-serif, system-ui, sans-serif';
