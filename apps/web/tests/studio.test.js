@@ -259,8 +259,11 @@ describe('a table', { skip }, () => {
     assert.ok((await page.textContent(`${panel} .meter`)).includes('temperature'));
     const files = [];
     page.on('download', (download) => files.push(download.suggestedFilename()));
+    // The browser tells of them after the page has asked for them.
+    const both = page.waitForEvent('download', { predicate: () => files.length === 2, timeout: 30_000 });
     await page.click('[data-file=c]');
     await until(page, 'it is saved', () => document.querySelector('[data-file=c]').textContent === 'Saved');
+    await both;
     assert.deepEqual(files.sort(), ['kettle.c', 'kettle.h']);
     await drop(page, 'broken.csv', tableThatBreaks());
     await step(page, 'look');
