@@ -17,7 +17,7 @@ inline const std::vector<Model>& kinds() {
     return std::vector<Model>{gaussian,
                               default_flame_model(),
                               coupled_flame_model(),
-                              flame_model({.points = 5, .drawn_rows = 60}),
+                              flame_model({.points = 5, .resampled_rows = 60}),
                               sample_model(),
                               sample_switched(),
                               sample_switched(Switching::kMarkov),

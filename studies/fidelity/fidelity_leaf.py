@@ -32,7 +32,7 @@ def read(path):
 
 def main():
     names, sides, falls, features = read(sys.argv[1])
-    print(f"== Told apart by {told_apart.TREES}: balanced accuracy, {told_apart.MOST_WINDOWS} windows a side, "
+    print(f"== Told apart by {told_apart.TREES}: balanced accuracy, {told_apart.MAX_WINDOWS} windows a side, "
           f"{told_apart.FOLDS} folds over falls, {SPLITS} splits")
 
     def told(first, second, columns=slice(None), splits=SPLITS):

@@ -37,7 +37,7 @@ class FlameCorpus {
   std::vector<Recording> gusts();
   /// The same, and one of 40 s in calm.
   std::vector<Recording> gusts_and_calm();
-  /// Gusts, and three clips of 40 s in puffs without what is dying, out or catching.
+  /// Gusts, and three clips of 40 s in puffs without what is in decay, extinguished or in re-ignition.
   std::vector<Recording> gusts_and_puffs();
 
   UnseenFlames unseen_gusts();

@@ -126,7 +126,7 @@ void judge_bounds(const std::vector<Recording>& recorded, const std::vector<Reco
   sheet.windows("again", again);
 }
 
-/// What is dying or catching is no measure of how high a flame is.
+/// A flame in decay or re-ignition is no measure of how high a flame is.
 Recording burning_part(const Recording& clip, std::span<const OutlineInput> inputs) {
   if (inputs.empty()) return clip;
   return without_blow_outs(clip, value_or_abort(find_blow_outs(clip, inputs.front().name)));

@@ -70,7 +70,7 @@ TEST_P(FlameClips, AMinuteOfFreePlayFlickersLikeTheRecording) {
   EXPECT_LT(likeness->energy_distance.value, likeness->energy_distance.floor);
 }
 
-TEST_P(FlameClips, InAMillionStepsHardlyAnyIsHeld) {
+TEST_P(FlameClips, InAMillionStepsHardlyAnyIsClamped) {
   const auto play = play_freely(fit.model, 1000000);
   ASSERT_TRUE(play) << play.error().message;
   EXPECT_LT(play->held_share, 1e-3);

@@ -70,7 +70,7 @@ inline Model onward_chain() {
   Model model = sample_chain();
   auto& chain = std::get<ChainModel>(model.dynamics);
   chain.contexts.pop_back();
-  chain.segments.onward = {65535, 13107, 1, 65535, 65535, 65535};
+  chain.segments.successor_weights = {65535, 13107, 1, 65535, 65535, 65535};
   return model;
 }
 

@@ -95,7 +95,7 @@ std::vector<Flag> outline_flags() {
        "what shakes the outline: independent (each channel by itself), residual or matched (shared shocks), drawn (the "
        "residuals themselves, played again where the input is as it was); auto: drawn from 10 s on with an input, else "
        "matched",
-       {"auto", "independent", "residual", "matched", "drawn"}},
+       {"auto", "independent", "residual", "matched", "resampled"}},
       {"seed", Kind::kInteger, "N", "1", "of the trial runs"},
       {"skip-bad", Kind::kSwitch, "", "", "leave bad recordings out, listing them, instead of stopping at the first"},
   };
@@ -119,7 +119,7 @@ Result<OutlineRecipe> outline_recipe(const Arguments& arguments, std::string nam
   if (noise == "independent") recipe.noise = OutlineNoise::kIndependent;
   if (noise == "residual") recipe.noise = OutlineNoise::kResidual;
   if (noise == "matched") recipe.noise = OutlineNoise::kMatched;
-  if (noise == "drawn") recipe.noise = OutlineNoise::kDrawn;
+  if (noise == "resampled") recipe.noise = OutlineNoise::kResampled;
   recipe.light = arguments.on("light");
   recipe.one_sided = arguments.on("one-sided");
   recipe.input_curve = curve_knots_of(arguments);

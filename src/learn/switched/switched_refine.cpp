@@ -144,7 +144,7 @@ Eigen::MatrixXd residual_factor(const MatrixXd& residual, const VectorXd& weight
   return covariance.diagonal().cwiseSqrt().asDiagonal();
 }
 
-Eigen::VectorXd least_variance(const SwitchedRows& rows) {
+Eigen::VectorXd min_variance(const SwitchedRows& rows) {
   const MatrixXd residual = rows.y - rows.phi * weighted_theta(rows, VectorXd::Ones(rows.rows()));
   const VectorXd variance = residual.colwise().squaredNorm().transpose() / static_cast<double>(rows.rows());
   return (variance * kSmallResidual * kSmallResidual).array().max(1e-18);
