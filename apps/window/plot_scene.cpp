@@ -10,7 +10,7 @@ namespace wisp::window {
 namespace {
 
 constexpr std::size_t kKept = 480;      // values of a curve, one a frame
-constexpr std::size_t kMaxCurves = 12;  // more could not be told apart
+constexpr std::size_t kMaxCurves = 12;  // more could not be distinguished
 constexpr Colour kGround{16, 17, 22};
 constexpr std::array<Colour, 6> kPalette{
     {{86, 180, 233}, {240, 228, 66}, {0, 158, 115}, {230, 159, 0}, {204, 121, 167}, {213, 94, 0}}};

@@ -1,5 +1,5 @@
 #pragma once
-// The clips of the rig that flames are learned from and judged on, told apart by what blows.
+// The clips of the rig that flames are learned from and judged on, grouped by what blows.
 
 #include <cstdint>
 #include <filesystem>

@@ -2,7 +2,7 @@
 // Where in a recording a flame went out, and what is left of the recording without that.
 //
 // A recording says nothing of the kind itself: its outline is missing for a while, as it is where a clip fades or a
-// hand covers it. What tells them apart is the wind just before.
+// hand covers it. The wind just before distinguishes them.
 
 #include <span>
 #include <string>

@@ -19,7 +19,7 @@ namespace {
 // Every order where it matters, then wider apart: neighbouring high orders are alike. 25 is the paper's best.
 constexpr int kOrders[] = {1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 25, 32};
 constexpr double kLongestDelay = 0.25;       // seconds: beyond any flame's answer and a camera's lag
-constexpr double kNearlyAsGood = 1.02;       // in root mean square error: what no eye tells apart
+constexpr double kNearlyAsGood = 1.02;       // in root mean square error: below what an eye can distinguish
 constexpr int kMinRowsACoefficient = 4;      // as the verdict asks
 constexpr std::size_t kMinHeldOutRows = 60;  // beside the longest history
 

@@ -16,7 +16,7 @@ constexpr double kLagSeconds[] = {0, 3.0 / 60, 7.0 / 60, 13.0 / 60, 22.0 / 60};
 constexpr double kLongestSeconds = 1.5;       // from one jump to the next: longer would repeat what was recorded
 constexpr double kLongestAloneSeconds = 0.5;  // where no input says when to go elsewhere
 constexpr double kCalm = 0.04;                // of wind 1: less than this does not move what stands still
-constexpr double kMargin = 0.01;  // of wind 1: what no microphone tells apart; more makes the search less sharp
+constexpr double kMargin = 0.01;  // of wind 1: below what a microphone resolves; more makes the search less sharp
 constexpr double kMinSeconds = 1;
 constexpr double kLargestStored = 32767;
 

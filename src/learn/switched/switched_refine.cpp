@@ -60,7 +60,7 @@ MatrixXd improve_regions(const MatrixXd& regions, const SwitchedRows& rows, cons
   return regions;
 }
 
-// Regions are told apart by their dynamics and not by the size of their noise: while they are sought all have the same.
+// Regions are separated by their dynamics and not by the size of their noise: while they are sought all have the same.
 void pool_residuals(const SwitchedRows& rows, const VectorXd& least, RefinedModes& state) {
   const Index n = rows.rows(), count = state.weights.cols();
   MatrixXd residuals(n * count, rows.outputs());

@@ -158,7 +158,7 @@ class ChainChoice {
   }
 
   // Per mode the words of each of the best-joining segments, the best first; what is left belongs to all that join
-  // worse, which are not told apart.
+  // worse; those two are not distinguished.
   void fill_ranks(float temperature, const ChainProgram& program) {
     const auto breadth = static_cast<std::uint32_t>(program.breadth);
     const float ratio = temperature / (1.0f + temperature);

@@ -276,7 +276,7 @@ TEST(Outline, FramesInRandomOrderAreNotUsableAndSaySo) {
   EXPECT_LT(learned({.rows = 1500}, {.order = 2}).summary.unsteadiness, 0.5);
 }
 
-// Every other point moves as it does, so that the median channel is foretold.
+// Every other point moves as it does, so that the median channel is predicted.
 TEST(Outline, ATipThatIsNoiseIsNotUsable) {
   Recording recording = made::outline_recording({.points = 10, .rows = 1500});
   std::mt19937_64 random(3);

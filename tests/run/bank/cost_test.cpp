@@ -87,7 +87,7 @@ Model bent_by_many_knots(Model model) {
   return model;
 }
 
-// Residuals that are resampled, a bent wind, the rule of extinction, and an outline that is looked at.
+// Resampled residuals, an input curve, the rule of extinction, and an outline that is looked at.
 TEST(Cost, TheLightFlameWithEverythingOnTakesFewerThan660Operations) {
   for (const Model& flame : {default_flame_model(), default_flame_model(InputShape::kSplitSignCurve)}) {
     const Cost cost = cost_of(has_curve(flame.inputs[0].shape) ? bent_by_many_knots(flame) : flame, 32);

@@ -1,4 +1,4 @@
-#include "studies/flame/flame_likeness.hpp"
+#include "studies/flame/flame_fidelity.hpp"
 
 #include <algorithm>
 #include <cmath>
