@@ -92,7 +92,7 @@ struct ResidualNoise {
   std::vector<std::array<double, 2>> sd_ci95;  ///< 95 % interval of the residual's standard deviation, per output
   int rank = 0;                                ///< columns of `mixing`: shocks that outputs share
   std::vector<double> mixing;                  ///< ny × rank, row-major
-  ResampledResiduals drawn;                    ///< where it has rows they are e(t), and the rest only tells their size
+  ResampledResiduals resampled;                ///< where it has rows they are e(t), and the rest only tells their size
 };
 
 /// Coefficients of output row i lie together: for each output j its na(i,j) lags of A in the equation's own sign and
