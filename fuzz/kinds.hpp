@@ -22,13 +22,14 @@ inline const std::vector<Model>& kinds() {
                               sample_switched(),
                               sample_switched(Switching::kMarkov),
                               sample_chain(ChainMotion::kPosition),
-                              onward_chain(),
+                              weighted_chain(),
                               steered_chain(),
                               unblended(),
                               windy_chain(),
                               system_chain(1),
                               system_chain(2),
-                              spline_chain()};
+                              spline_chain(),
+                              bounded_chain()};
   }();
   return all;
 }

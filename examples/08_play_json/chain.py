@@ -160,8 +160,9 @@ class Gust:  # what the wind has changed of the velocity
 def play_chain(model, winds, seed=1, noise=True):
     """Yields position and orientation of every frame."""
     d, table = model["dynamics"], model["random"]["normal_table"]
-    if d["motion"] != "pose" or d["systems"]:
-        sys.exit("play.py: the chain moves a point, or its modes are systems; expected one of poses that plays segments or splines")
+    if d["motion"] != "pose" or d["systems"] or d["height"]:
+        sys.exit("play.py: the chain moves a point, its modes are systems, or its height is bounded; expected one of poses that plays "
+                 "segments or splines from where it is")
     of, walk, gust = Segments(model), Walk(d, noise), Gust(d, model) if d["gust"] else None
     blend, none = of.blend, (np.zeros(4, F), np.zeros(4, F), np.zeros(3, F))
     w = words(seed, 0, 1)

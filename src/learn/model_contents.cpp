@@ -118,6 +118,8 @@ void add_dynamics(const ChainModel& chain, ReportSection& section) {
   add(section, id + "rate_scale", segments.rate_scale);
   add(section, id + "follow", rows(segments.follow, static_cast<std::size_t>(segments.breadth)));
   add(section, id + "successor_weights", rows(segments.successor_weights, static_cast<std::size_t>(chain.modes)));
+  add(section, id + "height", list(segments.height));
+  add(section, id + "height_scale", segments.height_scale);
   ReportTable contexts{"dynamics.contexts", "", {{"history", ""}, {"probability", ""}}, {}};
   for (const ChainContext& context : chain.contexts) {
     contexts.rows.push_back({list(context.history), context.probability});

@@ -81,7 +81,7 @@ Result<void> check_follow(const ChainModel& model) {
   return {};
 }
 
-Result<void> check_onward(const ChainModel& model) {
+Result<void> check_successor_weights(const ChainModel& model) {
   const ChainSegments& segments = model.segments;
   if (segments.successor_weights.empty()) return {};
   const std::size_t expected = segments.size() * static_cast<std::size_t>(model.modes);
@@ -91,6 +91,12 @@ Result<void> check_onward(const ChainModel& model) {
     if (share == 0) return Error{"a share of what follows a segment of the chain is 0, expected 1 to 65535"};
   }
   return {};
+}
+
+Result<void> check_heights(const ChainSegments& segments) {
+  if (segments.height.empty()) return {};
+  if (auto ok = check_size(segments.height.size(), segments.size(), "heights"); !ok) return ok;
+  return check_scales({segments.height_scale}, 1, "scale of heights");
 }
 
 // Stored orientations are played as they are: nothing makes them unit on the path of a frame.
@@ -124,7 +130,8 @@ Result<void> check_segments(const ChainModel& model) {
   if (model.motion == ChainMotion::kPose) {
     if (auto ok = check_orientations(segments); !ok) return ok;
   }
-  if (auto ok = check_onward(model); !ok) return ok;
+  if (auto ok = check_successor_weights(model); !ok) return ok;
+  if (auto ok = check_heights(segments); !ok) return ok;
   return check_follow(model);
 }
 

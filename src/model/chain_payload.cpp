@@ -163,6 +163,8 @@ fb::Offset<file::Chain> write_chain(fb::FlatBufferBuilder& builder, const ChainM
   const auto follow = builder.CreateVector(packed_successors(chain));
   const bool leads_on = !segments.successor_weights.empty();
   const auto successor_weights = leads_on ? builder.CreateVector(segments.successor_weights) : 0;
+  const bool bounded = !segments.height.empty();
+  const auto height = bounded ? builder.CreateVector(segments.height) : 0;
   const auto initial = builder.CreateVector(chain.initial);
   const auto lengths = builder.CreateVector(contexts.lengths);
   const auto histories = builder.CreateVector(contexts.modes);
@@ -192,6 +194,10 @@ fb::Offset<file::Chain> write_chain(fb::FlatBufferBuilder& builder, const ChainM
   if (chain.systems) table.add_systems(systems);
   if (leads_on) table.add_successor_weights(successor_weights);
   if (chain.splines) table.add_splines(splines);
+  if (bounded) {
+    table.add_height(height);
+    table.add_height_scale(segments.height_scale);
+  }
   return table.Finish();
 }
 
@@ -211,7 +217,9 @@ Result<ChainModel> read_chain(const file::Chain& stored) {
                     copied(stored.rate_scale()),
                     {},
                     stored.breadth(),
-                    copied(stored.successor_weights())};
+                    copied(stored.successor_weights()),
+                    copied(stored.height()),
+                    stored.height_scale()};
   chain.initial = copied(stored.initial());
   auto contexts = contexts_of(
       {copied(stored.history_lengths()), copied(stored.histories()), copied(stored.probabilities())}, stored.modes());

@@ -1485,7 +1485,9 @@ struct Chain FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
     VT_DRIFT = 36,
     VT_SYSTEMS = 38,
     VT_SPLINES = 40,
-    VT_SUCCESSOR_WEIGHTS = 42
+    VT_SUCCESSOR_WEIGHTS = 42,
+    VT_HEIGHT = 44,
+    VT_HEIGHT_SCALE = 46
   };
   wisp::file::ChainMotion motion() const {
     return static_cast<wisp::file::ChainMotion>(GetField<uint8_t>(VT_MOTION, 0));
@@ -1547,6 +1549,12 @@ struct Chain FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   const flatbuffers::Vector<uint16_t> *successor_weights() const {
     return GetPointer<const flatbuffers::Vector<uint16_t> *>(VT_SUCCESSOR_WEIGHTS);
   }
+  const flatbuffers::Vector<int16_t> *height() const {
+    return GetPointer<const flatbuffers::Vector<int16_t> *>(VT_HEIGHT);
+  }
+  double height_scale() const {
+    return GetField<double>(VT_HEIGHT_SCALE, 0.0);
+  }
   bool Verify(flatbuffers::Verifier &verifier) const {
     return VerifyTableStart(verifier) &&
            VerifyField<uint8_t>(verifier, VT_MOTION, 1) &&
@@ -1584,6 +1592,9 @@ struct Chain FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
            verifier.VerifyTable(splines()) &&
            VerifyOffset(verifier, VT_SUCCESSOR_WEIGHTS) &&
            verifier.VerifyVector(successor_weights()) &&
+           VerifyOffset(verifier, VT_HEIGHT) &&
+           verifier.VerifyVector(height()) &&
+           VerifyField<double>(verifier, VT_HEIGHT_SCALE, 8) &&
            verifier.EndTable();
   }
 };
@@ -1652,6 +1663,12 @@ struct ChainBuilder {
   void add_successor_weights(flatbuffers::Offset<flatbuffers::Vector<uint16_t>> successor_weights) {
     fbb_.AddOffset(Chain::VT_SUCCESSOR_WEIGHTS, successor_weights);
   }
+  void add_height(flatbuffers::Offset<flatbuffers::Vector<int16_t>> height) {
+    fbb_.AddOffset(Chain::VT_HEIGHT, height);
+  }
+  void add_height_scale(double height_scale) {
+    fbb_.AddElement<double>(Chain::VT_HEIGHT_SCALE, height_scale, 0.0);
+  }
   explicit ChainBuilder(flatbuffers::FlatBufferBuilder &_fbb)
         : fbb_(_fbb) {
     start_ = fbb_.StartTable();
@@ -1693,8 +1710,12 @@ inline flatbuffers::Offset<Chain> CreateChain(
     flatbuffers::Offset<wisp::file::ChainDrift> drift = 0,
     flatbuffers::Offset<wisp::file::ModeSystems> systems = 0,
     flatbuffers::Offset<wisp::file::ModeSplines> splines = 0,
-    flatbuffers::Offset<flatbuffers::Vector<uint16_t>> successor_weights = 0) {
+    flatbuffers::Offset<flatbuffers::Vector<uint16_t>> successor_weights = 0,
+    flatbuffers::Offset<flatbuffers::Vector<int16_t>> height = 0,
+    double height_scale = 0.0) {
   ChainBuilder builder_(_fbb);
+  builder_.add_height_scale(height_scale);
+  builder_.add_height(height);
   builder_.add_successor_weights(successor_weights);
   builder_.add_splines(splines);
   builder_.add_systems(systems);
@@ -1744,7 +1765,9 @@ inline flatbuffers::Offset<Chain> CreateChainDirect(
     flatbuffers::Offset<wisp::file::ChainDrift> drift = 0,
     flatbuffers::Offset<wisp::file::ModeSystems> systems = 0,
     flatbuffers::Offset<wisp::file::ModeSplines> splines = 0,
-    const std::vector<uint16_t> *successor_weights = nullptr) {
+    const std::vector<uint16_t> *successor_weights = nullptr,
+    const std::vector<int16_t> *height = nullptr,
+    double height_scale = 0.0) {
   auto segment_mode__ = segment_mode ? _fbb.CreateVector<uint16_t>(*segment_mode) : 0;
   auto segment_steps__ = segment_steps ? _fbb.CreateVector<uint16_t>(*segment_steps) : 0;
   auto packed__ = packed ? _fbb.CreateVector<uint8_t>(*packed) : 0;
@@ -1756,6 +1779,7 @@ inline flatbuffers::Offset<Chain> CreateChainDirect(
   auto histories__ = histories ? _fbb.CreateVector<uint16_t>(*histories) : 0;
   auto probabilities__ = probabilities ? _fbb.CreateVector<double>(*probabilities) : 0;
   auto successor_weights__ = successor_weights ? _fbb.CreateVector<uint16_t>(*successor_weights) : 0;
+  auto height__ = height ? _fbb.CreateVector<int16_t>(*height) : 0;
   return wisp::file::CreateChain(
       _fbb,
       motion,
@@ -1777,7 +1801,9 @@ inline flatbuffers::Offset<Chain> CreateChainDirect(
       drift,
       systems,
       splines,
-      successor_weights__);
+      successor_weights__,
+      height__,
+      height_scale);
 }
 
 struct ArxMode FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {

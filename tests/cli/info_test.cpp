@@ -145,6 +145,8 @@ ChainModel chain_of(const Json& json) {
   chain.segments.follow = flat<std::uint16_t>(json["follow"]);
   put(json["best_of"], chain.segments.breadth);
   chain.segments.successor_weights = flat<std::uint16_t>(json["successor_weights"]);
+  put(json["height"], chain.segments.height);
+  put(json["height_scale"], chain.segments.height_scale);
   put(json["initial"], chain.initial);
   for (const Json& context : json["contexts"]) chain.contexts.push_back({context["history"], context["probability"]});
   put(json["blend_steps"], chain.blend_steps);

@@ -39,6 +39,8 @@ void expect_same(const Model& a, const Model& b) {
   EXPECT_EQ(x.segments.follow, y.segments.follow);
   EXPECT_EQ(x.segments.breadth, y.segments.breadth);
   EXPECT_EQ(x.segments.successor_weights, y.segments.successor_weights);
+  EXPECT_EQ(x.segments.height, y.segments.height);
+  EXPECT_EQ(x.segments.height_scale, y.segments.height_scale);
   EXPECT_EQ(x.initial, y.initial);
   ASSERT_EQ(x.contexts.size(), y.contexts.size());
   for (std::size_t k = 0; k < x.contexts.size(); ++k) {
@@ -55,8 +57,8 @@ void expect_same(const Model& a, const Model& b) {
 }
 
 TEST(ChainModel, WhatIsWrittenIsRead) {
-  for (const Model& model : {sample_chain(), sample_chain(ChainMotion::kPosition), onward_chain(), windy_chain(),
-                             system_chain(1), system_chain(2), spline_chain()}) {
+  for (const Model& model : {sample_chain(), sample_chain(ChainMotion::kPosition), weighted_chain(), bounded_chain(),
+                             windy_chain(), system_chain(1), system_chain(2), spline_chain()}) {
     const auto bytes = model_bytes(model);
     ASSERT_TRUE(bytes) << bytes.error().message;
     const auto read = parse_model(*bytes, "chain.wisp");
@@ -130,6 +132,13 @@ TEST(ChainModel, RowsAndRatesOfAnySizeAreReadAsWritten) {
     ASSERT_TRUE(read) << read.error().message;
     expect_same(*read, model);
   }
+}
+
+TEST(ChainModel, HeightsAreReadAsWritten) {
+  const Model model = bounded_chain();
+  const auto read = parse_model(*model_bytes(model), "chain.wisp");
+  ASSERT_TRUE(read) << read.error().message;
+  expect_same(*read, model);
 }
 
 TEST(ChainModel, MoreSegmentsThanThereCanBeAreNotUnpacked) {
@@ -220,6 +229,14 @@ TEST(ChainModel, WhatIsNotAChainIsRefusedWithAReason) {
          chain(m).segments.successor_weights = {1, 2, 3};
        }},
       {"is 0, expected 1 to 65535", [](Model& m) { chain(m).segments.successor_weights = {1, 2, 3, 4, 5, 0}; }},
+      {"heights",
+       [](Model& m) {
+         chain(m).segments.height = {1, 2};
+       }},
+      {"scale of heights",
+       [](Model& m) {
+         chain(m).segments.height = {1, 2, 3};
+       }},
       {"row scales", [&](Model& m) { chain(m).segments.row_scale[0] = nan; }},
       {"rate scales", [](Model& m) { chain(m).segments.rate_scale[1] = 0; }},
       {"what follows mode 1", [](Model& m) { chain(m).contexts.erase(chain(m).contexts.begin() + 1); }},

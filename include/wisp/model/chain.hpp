@@ -53,6 +53,9 @@ struct ChainSegments {
                                                  ///< ends, over how likely after its mode as a whole; 65535 for the
                                                  ///< most of them, ≥ 1. It is multiplied by what the history says,
                                                  ///< unless a walk is steered. Empty: the history alone counts
+  std::vector<std::int16_t> height;  ///< per segment z where it begins, of motion that stays between a floor and a
+                                     ///< ceiling: joins lead back to it. Empty: z goes on from where it is
+  double height_scale = 0;           ///< metres = scale · height; > 0 where there are heights
 
   std::size_t size() const { return mode.size(); }
 };

@@ -71,14 +71,18 @@ void take_likelihoods(const ModeSequences& learned, const ModeSequences& judged,
   summary.log_likelihood_0 = log_likelihood(memoryless, judged);
 }
 
-std::vector<Output> outputs_of(const Motion& motion) {
+// Positions begin at the origin, but for a height that is bounded.
+std::vector<Output> outputs_of(const Motion& motion, bool bounded_height) {
   std::vector<Output> outputs;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    Output output{std::string("pos.") + "xyz"[axis], "m", 0, 0};
+    const bool bounded = bounded_height && axis == 2;
+    const double start = bounded ? motion.pieces.front().position.front()[axis] : 0;
+    Output output{std::string("pos.") + "xyz"[axis], "m", start, start};
     for (const MotionPiece& piece : motion.pieces) {
+      const double origin = bounded ? 0 : piece.position.front()[axis];
       for (const Triple& at : piece.position) {
-        output.lowest = std::min(output.lowest, at[axis] - piece.position.front()[axis]);
-        output.highest = std::max(output.highest, at[axis] - piece.position.front()[axis]);
+        output.lowest = std::min(output.lowest, at[axis] - origin);
+        output.highest = std::max(output.highest, at[axis] - origin);
       }
     }
     outputs.push_back(output);
@@ -174,7 +178,7 @@ Model model_of(const Motion& motion, ChainModel dynamics, const ChainRecipe& rec
   Model model;
   model.name = recipe.name;
   model.rate_hz = motion.rate_hz;
-  model.outputs = outputs_of(motion);
+  model.outputs = outputs_of(motion, !dynamics.segments.height.empty());
   model.dynamics = std::move(dynamics);
   if (motion.has_orientation) {
     model.view = PoseView{recipe.half_width, recipe.half_length};

@@ -173,8 +173,15 @@ class ChainMover {
   void meet(Lane& lane, const ChainGap<Real>& from) const {
     if (program_.blend_steps == 0) return;
     const std::uint32_t steps = program_.steps(index(lane.segment, program_.segments()));
-    if (steps < 2 * program_.blend_steps) return spread(lane, steps, from, lane.gap);
-    spread(lane, program_.blend_steps, from, {});
+    const bool overlap = steps < 2 * program_.blend_steps;
+    spread(lane, overlap ? steps : program_.blend_steps, from, overlap ? lane.gap : ChainGap<Real>{});
+    if (!program_.height.empty()) lead_back(lane, overlap ? steps : program_.blend_steps);
+  }
+
+  /// Where a segment begins: at the height at which it was recorded, where that is bounded.
+  Vector3<Real> beginning_of(std::uint32_t segment) const {
+    if (program_.height.empty()) return {};
+    return {Real(0.0f), Real(0.0f), height_of(segment)};
   }
 
   /// Places the beginning of a segment as it is, turned by a half turn.
@@ -308,6 +315,19 @@ class ChainMover {
   }
 
  private:
+  Real height_of(std::uint32_t segment) const {
+    return Real(program_.height_scale) * Real(static_cast<float>(program_.height[segment]));
+  }
+
+  // Moves a segment, over so many steps, towards the height at which it was recorded: what joins add to velocities
+  // would else add up to a walk without bounds.
+  void lead_back(Lane& lane, std::uint32_t steps) const {
+    const Real below = height_of(index(lane.segment, program_.segments())) - lane.base[2];
+    const Real way = below * Real(1.0f / static_cast<float>(steps));
+    const Real most(program_.max_return), least(-program_.max_return);
+    lane.slip[0][2] = lane.slip[0][2] + (way > most ? most : way > least ? way : least);
+  }
+
   static Vector3<Real> vector(const std::int16_t* from) {
     return {Real(static_cast<float>(from[0])), Real(static_cast<float>(from[1])), Real(static_cast<float>(from[2]))};
   }

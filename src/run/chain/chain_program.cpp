@@ -16,6 +16,7 @@ constexpr double kMinScale = 1e-12;
 constexpr double kMaxScale = 1e6;
 constexpr float kMinUnit = 1e-6f;
 constexpr double kMaxStored = 32767;
+constexpr float kReturnShare = 0.05f;  // of the usual speed: what leads back to a height is not seen beside it
 
 void fill_thresholds(const std::vector<double>& probability, std::span<std::uint32_t> out) {
   double sum = 0;
@@ -181,6 +182,8 @@ ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double 
   program.mode = copy_of(segments.mode, arena);
   program.follow = copy_of(segments.follow, arena);
   program.successor_weights = copy_of(segments.successor_weights, arena);
+  program.height = copy_of(segments.height, arena);
+  program.height_scale = static_cast<float>(segments.height_scale);
   if (chain.systems) program.systems = make_systems_program(*chain.systems, arena);
   if (chain.drift) {
     take_drift(*chain.drift, program);
@@ -205,6 +208,7 @@ ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double 
   for (std::size_t mode = 0; mode < modes; ++mode) program.first_of_mode[mode + 1] += program.first_of_mode[mode];
   fill_automaton(chain, program);
   program.speed_unit = unit_of(program, 0, program.velocity_scale);
+  program.max_return = kReturnShare * program.speed_unit * program.step_seconds;
   if (pose) program.spin_unit = unit_of(program, 3, program.spin_scale);
   return program;
 }
@@ -238,6 +242,9 @@ std::uint64_t hash_of(const ChainProgram& program, std::uint64_t before) {
                      hash);
   for (std::uint16_t number : program.follow) hash = hash_number(std::uint32_t{number}, hash);
   for (std::uint16_t number : program.successor_weights) hash = hash_number(std::uint32_t{number}, hash);
+  for (std::int16_t number : program.height)
+    hash = hash_number(static_cast<std::uint32_t>(static_cast<std::uint16_t>(number)), hash);
+  if (!program.height.empty()) hash = hash_floats({program.height_scale}, hash);
   for (std::uint32_t number : program.threshold) hash = hash_number(std::uint32_t{number}, hash);
   for (std::uint16_t number : program.next) hash = hash_number(std::uint32_t{number}, hash);
   return hash;

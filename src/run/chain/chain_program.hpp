@@ -47,6 +47,8 @@ struct ChainProgram {
   float spin_scale = 1;
   float step_seconds = 0;
   std::uint32_t blend_steps = 0;  ///< most that a join fades over, on either side; 0: not at all
+  float height_scale = 0;         ///< of the heights at which segments begin
+  float max_return = 0;           ///< metres a step: how fast a join leads back to them at most
   float speed_unit = 1;  ///< root-mean-square of the speeds at joins: what differences of speed are measured in
   float spin_unit = 1;   ///< the same of angular speeds
   GustProgram gust{};
@@ -59,6 +61,7 @@ struct ChainProgram {
   std::span<std::uint16_t> mode;       ///< per segment
   std::span<std::uint16_t> follow;
   std::span<std::uint16_t> successor_weights;  ///< segments × modes; empty: the history alone says what follows
+  std::span<std::int16_t> height;              ///< per segment; empty: height is free
   std::span<std::uint32_t> first_of_mode;      ///< per mode its first segment, and one past the last
   std::span<std::uint32_t> threshold;  ///< states × modes: the first mode whose threshold a word is below is drawn
   std::span<std::uint16_t> next;       ///< states × modes: the state after that mode

@@ -153,7 +153,8 @@ class ChainStepper {
   /// What a frame of the model's own rate reads.
   void show_frame(int block, Real* out) const { show(block, out); }
 
-  /// Starts one lane at the origin with a segment that begins a recording, its heading drawn by chance.
+  /// Starts one lane at the origin, or where its height is bounded above it, with a segment that begins a recording,
+  /// its heading drawn by chance.
   void start(int block, int lane, const Moment<N>& moment) {
     std::uint32_t words[4][kLanes];
     draw(moment, 1, words);
@@ -162,7 +163,7 @@ class ChainStepper {
     if (program_.gust.order > 0) gust_of(block, lane) = {};
     const std::uint32_t segment = mover.draw(life, choice_, {words[0][lane], words[1][lane], 0}, true);
     const HalfTurn<Real> turn = random_turn(words[2][lane], words[3][lane]);
-    mover.place(life, segment, {}, turn.cos, turn.sin);
+    mover.place(life, segment, mover.beginning_of(segment), turn.cos, turn.sin);
     put(block, lane, life);
     lanes_of(block).show_only(lane);
     if (program_.systems.used()) {

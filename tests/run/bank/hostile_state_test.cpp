@@ -33,9 +33,10 @@ std::vector<Kind> kinds() {
           {"Regions", [] { return sample_switched(); }},
           {"Markov", [] { return sample_switched(Switching::kMarkov); }},
           {"Positions", [] { return sample_chain(ChainMotion::kPosition); }},
-          {"Poses", [] { return onward_chain(); }},
+          {"Poses", [] { return weighted_chain(); }},
           {"Landing", [] { return sample_chain(); }},
           {"Steered", [] { return steered_chain(); }},
+          {"Bounded", [] { return bounded_chain(); }},
           {"Windy", [] { return windy_chain(); }},
           {"Systems", [] { return system_chain(2); }},
           {"Splines", [] { return spline_chain(); }}};

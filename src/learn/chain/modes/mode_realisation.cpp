@@ -6,6 +6,7 @@
 #include "learn/chain/modes/mode_parts.hpp"
 #include "learn/chain/modes/mode_splines.hpp"
 #include "learn/chain/modes/mode_systems.hpp"
+#include "learn/chain/motion/height_bound.hpp"
 #include "learn/chain/segments/segment_store.hpp"
 #include "learn/chain/segments/segment_weights.hpp"
 
@@ -15,8 +16,10 @@ namespace {
 constexpr int kMaxPartHistory = 2;  // of halves: a longer one has thousands of rows
 
 RealisedChain stored_chain(const ModeWalk& walk, const ChainRecipe& recipe) {
-  const SegmentStoreOptions storing{
-      .heading_free = recipe.features.heading_free, .max_bytes = recipe.max_bytes, .breadth = recipe.best_of};
+  const SegmentStoreOptions storing{.heading_free = recipe.features.heading_free,
+                                    .max_bytes = recipe.max_bytes,
+                                    .bounded_height = height_is_bounded(walk.motion, walk.segments),
+                                    .breadth = recipe.best_of};
   const auto store = store_segments(walk.motion, walk.segments, walk.cluster, walk.modes, storing);
   RealisedChain out;
   ChainModel& dynamics = out.dynamics;

@@ -77,9 +77,30 @@ void add_traits(const Motion& motion, std::span<const Segment> segments, Segment
   }
 }
 
+// What is bounded is played where it was: a segment is to begin about as high as the one before it ends.
+void add_heights(const Motion& motion, std::span<const Segment> segments, SegmentMoments& moments) {
+  std::vector<double> starts, ends;
+  double sum = 0, square = 0;
+  for (const Segment& one : segments) {
+    const auto& position = motion.pieces[one.piece].position;
+    starts.push_back(at_row(position, one.begin)[2]);
+    ends.push_back(at_row(position, one.end)[2]);
+    sum += starts.back();
+    square += starts.back() * starts.back();
+  }
+  const auto count = static_cast<double>(segments.size());
+  const double variance = square / count - sum / count * (sum / count);
+  const double unit = variance > 0 ? 1 / std::sqrt(variance) : 1;
+  for (std::size_t k = 0; k < segments.size(); ++k) {
+    moments.starts[k].push_back(unit * starts[k]);
+    moments.ends[k].push_back(unit * ends[k]);
+  }
+}
+
 }  // namespace
 
-SegmentMoments segment_moments(const Motion& motion, std::span<const Segment> segments, bool heading_free) {
+SegmentMoments segment_moments(const Motion& motion, std::span<const Segment> segments, bool heading_free,
+                               bool bounded_height) {
   SegmentMoments moments;
   for (const Segment& segment : segments) {
     moments.starts.push_back(moment_of(motion, segment.piece, segment.begin, heading_free));
@@ -92,6 +113,7 @@ SegmentMoments segment_moments(const Motion& motion, std::span<const Segment> se
     }
   }
   if (!motion.has_orientation) add_traits(motion, segments, moments);
+  if (bounded_height) add_heights(motion, segments, moments);
   return moments;
 }
 

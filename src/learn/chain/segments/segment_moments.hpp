@@ -12,7 +12,7 @@ namespace wisp::chain {
 
 /// Attitude, velocity and angular velocity, in the body's own axes where heading does not count, each over its standard
 /// deviation. Without attitude: velocity, its change, along and across the heading where that does not count, and the
-/// traits of its stretch.
+/// traits of its stretch. Where height is bounded, that too.
 using JoinMoment = std::vector<double>;
 
 /// Of all segments, in their order.
@@ -22,7 +22,8 @@ struct SegmentMoments {
 };
 
 /// Precondition: at least one segment.
-SegmentMoments segment_moments(const Motion& motion, std::span<const Segment> segments, bool heading_free);
+SegmentMoments segment_moments(const Motion& motion, std::span<const Segment> segments, bool heading_free,
+                               bool bounded_height = false);
 
 /// The squared distance of two moments.
 double distance_of(const JoinMoment& a, const JoinMoment& b);

@@ -194,7 +194,7 @@ std::vector<double> transitions_of(std::span<const Segment> segments, std::span<
 // What follows each stored segment: which modes, and of each which segments.
 void join_up(const Motion& motion, std::span<const Segment> segments, std::span<const std::uint16_t> cluster, int modes,
              const SegmentStoreOptions& options, SegmentStore& store) {
-  const SegmentMoments moments = segment_moments(motion, segments, options.heading_free);
+  const SegmentMoments moments = segment_moments(motion, segments, options.heading_free, options.bounded_height);
   const std::vector<double> weight = segment_weights(motion, segments);
   SuccessorModes successor_weights =
       successor_modes(moments, cluster, weight, store.source, transitions_of(segments, cluster, weight, modes), modes);
@@ -208,6 +208,20 @@ void join_up(const Motion& motion, std::span<const Segment> segments, std::span<
   ChainSegments& out = store.segments;
   out.follow = best_successors(own, out.mode, modes, options.breadth, own_weight, successor_weights.chances);
   if (modes > 1) out.successor_weights = std::move(successor_weights.share);
+}
+
+// The heights at which stored segments begin.
+void put_heights(const Motion& motion, std::span<const Segment> segments, SegmentStore& store) {
+  std::vector<double> heights;
+  for (std::size_t source : store.source) {
+    const Segment& one = segments[source];
+    heights.push_back(at_row(motion.pieces[one.piece].position, one.begin)[2]);
+  }
+  double highest = 0;
+  for (double height : heights) highest = std::max(highest, std::abs(height));
+  ChainSegments& out = store.segments;
+  out.height_scale = scale_for(highest, out.row_scale[0]);
+  for (double height : heights) put<1>({height}, out.height_scale, out.height);
 }
 
 }  // namespace
@@ -245,6 +259,7 @@ SegmentStore store_segments(const Motion& motion, std::span<const Segment> found
       if (motion.has_orientation) put(pieces[k].spin[end], out.rate_scale[1], out.rates);
     }
   }
+  if (options.bounded_height) put_heights(motion, segments, store);
   out.breadth = options.breadth;
   if (options.breadth > 0) join_up(motion, segments, cluster, modes, options, store);
   return store;

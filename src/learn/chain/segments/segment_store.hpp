@@ -17,6 +17,7 @@ struct SegmentStoreOptions {
   bool heading_free = true;
   std::size_t max_bytes = 4'000'000;  ///< > 0, of all segments: what is over it is left out, as many of each mode as
                                       ///< the rarer ones allow
+  bool bounded_height = false;        ///< segments keep the height at which they begin, and join what ends near it
   int breadth = 4;  ///< 0 … 256: best successors kept for each segment and mode; 0: any segment of the mode follows
                     ///< (the paper's). Fewer join better and leave room for more segments, but repeat themselves sooner
 };
