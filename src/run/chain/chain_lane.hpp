@@ -173,9 +173,14 @@ class ChainMover {
   void meet(Lane& lane, const ChainGap<Real>& from) const {
     if (program_.blend_steps == 0) return;
     const std::uint32_t steps = program_.steps(index(lane.segment, program_.segments()));
-    const bool overlap = steps < 2 * program_.blend_steps;
-    spread(lane, overlap ? steps : program_.blend_steps, from, overlap ? lane.gap : ChainGap<Real>{});
-    if (!program_.height.empty()) lead_back(lane, overlap ? steps : program_.blend_steps);
+    const std::uint32_t blend = program_.blend_steps;
+    if (steps < 2 * blend) {
+      spread(lane, steps, from, lane.gap);
+      lead_back(lane, steps);
+    } else {
+      spread(lane, blend, from, {});
+      lead_back(lane, 2 * blend);
+    }
   }
 
   /// Where a segment begins: at the height at which it was recorded, where that is bounded.
@@ -234,7 +239,10 @@ class ChainMover {
   }
 
   /// Begins the curve towards what follows.
-  void begin_curve(Lane& lane) const { spread(lane, program_.blend_steps, {}, lane.gap); }
+  void begin_curve(Lane& lane) const {
+    spread(lane, program_.blend_steps, {}, lane.gap);
+    lead_back(lane, program_.blend_steps);
+  }
 
   /// Steps that are left of the lane's segment.
   std::uint32_t steps_left(const Lane& lane) const {
@@ -319,9 +327,10 @@ class ChainMover {
     return Real(program_.height_scale) * Real(static_cast<float>(program_.height[segment]));
   }
 
-  // Moves a segment, over so many steps, towards the height at which it was recorded: what joins add to velocities
-  // would else add up to a walk without bounds.
+  // Moves a segment, so that so many steps would bring it there, towards the height at which it was recorded: what joins
+  // add to velocities would else add up to a walk without bounds.
   void lead_back(Lane& lane, std::uint32_t steps) const {
+    if (program_.height.empty()) return;
     const Real below = height_of(index(lane.segment, program_.segments())) - lane.base[2];
     const Real way = below * Real(1.0f / static_cast<float>(steps));
     const Real most(program_.max_return), least(-program_.max_return);

@@ -16,7 +16,7 @@ constexpr double kMinScale = 1e-12;
 constexpr double kMaxScale = 1e6;
 constexpr float kMinUnit = 1e-6f;
 constexpr double kMaxStored = 32767;
-constexpr float kReturnShare = 0.05f;  // of the usual speed: what leads back to a height is not seen beside it
+constexpr double kReturnShare = 0.1;  // of the usual speed: what leads back to a height is hardly seen beside it
 
 void fill_thresholds(const std::vector<double>& probability, std::span<std::uint32_t> out) {
   double sum = 0;
@@ -80,6 +80,19 @@ float unit_of(const ChainProgram& program, std::size_t offset, float scale) {
   }
   const auto unit = static_cast<float>(std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, count)))) * scale;
   return std::max(unit, kMinUnit);
+}
+
+// Root-mean-square way from row to row, metres.
+double usual_step(const ChainProgram& program) {
+  double sum = 0;
+  for (std::uint32_t segment = 0; segment < program.segments(); ++segment) {
+    for (std::uint32_t row = program.first_row[segment]; row + 1 < program.first_row[segment + 1]; ++row) {
+      const std::int16_t* at = program.rows.data() + static_cast<std::size_t>(row) * program.channels;
+      for (std::size_t axis = 0; axis < 3; ++axis) sum += std::pow(at[program.channels + axis] - at[axis], 2);
+    }
+  }
+  const auto steps = program.first_row[program.segments()] - program.segments();
+  return program.position_scale * std::sqrt(sum / steps);
 }
 
 // Differences go on by the first half's second difference m − 1 times and by the latter's n times, from a first one of
@@ -208,7 +221,7 @@ ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double 
   for (std::size_t mode = 0; mode < modes; ++mode) program.first_of_mode[mode + 1] += program.first_of_mode[mode];
   fill_automaton(chain, program);
   program.speed_unit = unit_of(program, 0, program.velocity_scale);
-  program.max_return = kReturnShare * program.speed_unit * program.step_seconds;
+  program.max_return = static_cast<float>(kReturnShare * usual_step(program));
   if (pose) program.spin_unit = unit_of(program, 3, program.spin_scale);
   return program;
 }
