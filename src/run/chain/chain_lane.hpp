@@ -327,8 +327,8 @@ class ChainMover {
     return Real(program_.height_scale) * Real(static_cast<float>(program_.height[segment]));
   }
 
-  // Moves a segment, so that so many steps would bring it there, towards the height at which it was recorded: what joins
-  // add to velocities would else add up to a walk without bounds.
+  // Moves a segment, so that so many steps would bring it there, towards the height at which it was recorded: what
+  // joins add to velocities would else add up to a walk without bounds.
   void lead_back(Lane& lane, std::uint32_t steps) const {
     if (program_.height.empty()) return;
     const Real below = height_of(index(lane.segment, program_.segments())) - lane.base[2];

@@ -51,8 +51,8 @@ TEST(ChainBank, PlaysEachSegmentStepByStep) {
   }
 }
 
-// The sample sinks at 0.75 m/s, and its segments are recorded at heights of 1.85 to 2 m: what leads back to them, at most
-// a tenth of its speed of 0.96 m/s, does not make up for that, but slows the fall by just so much.
+// The sample sinks at 0.75 m/s, and its segments are recorded at heights of 1.85 to 2 m: what leads back to them, at
+// most a tenth of its speed of 0.96 m/s, does not make up for that, but slows the fall by just so much.
 TEST(ChainBank, WhereHeightIsBoundedALifeBeginsThereAndJoinsLeadBack) {
   for (ChainMotion motion : {ChainMotion::kPosition, ChainMotion::kPose}) {
     Bank free = bank_of(sample_chain(motion), 8), bounded = bank_of(bounded_chain(motion), 8);
