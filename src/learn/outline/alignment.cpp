@@ -194,7 +194,7 @@ void judge(Alignment& found, double max_seconds) {
   const double width = found.high_seconds - found.low_seconds;
   if (std::abs(found.correlation) < found.chance) {
     found.reason = "motion and wind have nothing in common that stands out from chance";
-  } else if (found.low_seconds <= -most_seconds || found.high_seconds >= max_seconds) {
+  } else if (found.low_seconds <= -max_seconds || found.high_seconds >= max_seconds) {
     found.reason = "the best offset lies at the search's end; search farther";
   } else if (width > max_seconds) {
     found.reason = "the offset is only known to " + milliseconds(width);
