@@ -19,7 +19,7 @@ constexpr float kGustLoss = 0.03F;
 // at one flame height a second is a wind of so much.
 constexpr float kWindPerSpeed = 0.11F;
 constexpr float kPointerReach = 0.9F;  // flame heights
-constexpr float kMostPointerWind = 1.1F;
+constexpr float kMaxPointerWind = 1.1F;
 
 // Seconds that gas takes for one flame height: what is up there left the wick so long ago.
 constexpr float kRiseSeconds = 0.085F;
@@ -181,7 +181,7 @@ float CandleScene::felt_wind(const Candle& candle) const {
   const float dx = wake_.at().x - candle.place.x / unit_;
   const float dy = wake_.at().y - (candle.place.y / unit_ - 0.5F);
   const float near = std::exp(-(dx * dx + dy * dy) / (kPointerReach * kPointerReach));
-  wind += std::clamp(kWindPerSpeed * wake_.speed().x, -kMostPointerWind, kMostPointerWind) * near;
+  wind += std::clamp(kWindPerSpeed * wake_.speed().x, -kMaxPointerWind, kMaxPointerWind) * near;
   const float carried = (candle.track[0].x - candle.track[6].x) / unit_ / (6 * kTrackStep);
   return wind - kWindPerSpeed * carried;
 }

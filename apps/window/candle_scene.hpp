@@ -16,10 +16,10 @@ namespace wisp::window {
 
 class CandleScene {
  public:
-  /// Errors: as Bank::create(). Precondition: the model's view is an outline; 1 <= candles <= kMostCandles.
+  /// Errors: as Bank::create(). Precondition: the model's view is an outline; 1 <= candles <= kMaxCandles.
   static Result<CandleScene> create(const Model& model, int candles, std::uint64_t seed);
 
-  static constexpr int kMostCandles = 12;
+  static constexpr int kMaxCandles = 12;
 
   /// The picture's size from now on.
   void resize(int width, int height);
@@ -52,8 +52,8 @@ class CandleScene {
   /// The x of the first candle's tip over its base, in flame heights; 0 where it is out.
   float tip() const;
 
-  /// Outputs were held this often, of all.
-  Bank::Held held() const { return bank_.held(); }
+  /// Outputs were clamped this often, of all.
+  Bank::Clamped clamped() const { return bank_.clamped(); }
 
  private:
   struct Candle {

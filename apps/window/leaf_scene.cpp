@@ -19,10 +19,10 @@ constexpr float kLift = 0.006F;       // over the floor, so that what lies is no
 constexpr float kGustMetres = 1.6F;  // metres a second of a wind of 1
 
 constexpr float kPointerReach = 0.22F;  // metres around the pointer that feel it
-constexpr float kMostWake = 2.5F;       // metres a second
+constexpr float kMaxWake = 2.5F;        // metres a second
 constexpr float kKicking = 0.55F;       // wind that lifts what lies, metres a second
-constexpr int kMostKicks = 40;          // a frame: each looks at every segment
-constexpr float kLeastRest = 1.5F;      // seconds on the ground before it begins again
+constexpr int kMaxKicks = 40;           // a frame: each looks at every segment
+constexpr float kMinRest = 1.5F;        // seconds on the ground before it begins again
 constexpr float kMoreRest = 4;
 constexpr float kFade = 0.6F;    // seconds of going before it begins again
 constexpr float kCatch = 0.25F;  // and of appearing
@@ -36,7 +36,7 @@ void put(Bank& bank, int slot, const BodyMoment& body) {
 }  // namespace
 
 Result<LeafScene> LeafScene::create(const Model& model, int leaves, std::uint64_t seed) {
-  auto bank = Bank::create(model, {.capacity = kMostLeaves, .seed = seed});
+  auto bank = Bank::create(model, {.capacity = kMaxLeaves, .seed = seed});
   if (!bank) return bank.error();
   LeafScene scene(std::move(*bank), model, seed);
   scene.set_leaves(leaves);
@@ -79,11 +79,11 @@ void LeafScene::begin(int slot, bool anywhere) {
   body.velocity = {0.3F * (chance() - 0.5F), 0.3F * (chance() - 0.5F), -0.5F};
   put(bank_, slot, body);
   Life& life = lives_[static_cast<std::size_t>(slot)];
-  life = {body.position, body.orientation, 0, kLeastRest + kMoreRest * chance(), 0, life.look, life.size};
+  life = {body.position, body.orientation, 0, kMinRest + kMoreRest * chance(), 0, life.look, life.size};
 }
 
 void LeafScene::set_leaves(int count) {
-  count = std::clamp(count, 1, kMostLeaves);
+  count = std::clamp(count, 1, kMaxLeaves);
   while (bank_.size() > count) bank_.end(bank_.at(bank_.slots() - 1));
   while (bank_.size() < count) {
     const int slot = static_cast<int>(bank_.spawn().slot);
@@ -140,14 +140,14 @@ std::array<float, 3> LeafScene::wind_at(const std::array<float, 3>& place) const
   const float near = std::exp(-(dx * dx + dy * dy) / (kPointerReach * kPointerReach));
   const Point speed = wake_.speed();
   const float size = std::hypot(speed.x, speed.y);
-  const float held = size > kMostWake ? kMostWake / size : 1;
+  const float held = size > kMaxWake ? kMaxWake / size : 1;
   wind[0] += near * held * speed.x;
   wind[2] += near * held * speed.y;
   return wind;
 }
 
 void LeafScene::kick(int slot, const std::array<float, 3>& wind) {
-  if (++kicks_ > kMostKicks) return;
+  if (++kicks_ > kMaxKicks) return;
   Life& life = lives_[static_cast<std::size_t>(slot)];
   BodyMoment body;
   body.position = {life.last[0], life.last[1], kLift + 0.02F};
@@ -159,7 +159,7 @@ void LeafScene::kick(int slot, const std::array<float, 3>& wind) {
   body.spin = {6 * (chance() - 0.5F), 6 * (chance() - 0.5F), 5 * (chance() - 0.5F)};
   put(bank_, slot, body);
   life.rested = 0;
-  life.patience = kLeastRest + kMoreRest * chance();
+  life.patience = kMinRest + kMoreRest * chance();
 }
 
 void LeafScene::read_poses() {

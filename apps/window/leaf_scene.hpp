@@ -14,10 +14,10 @@ namespace wisp::window {
 
 class LeafScene {
  public:
-  /// Errors: as Bank::create(). Precondition: the model's view is a pose or a position; 1 <= leaves <= kMostLeaves.
+  /// Errors: as Bank::create(). Precondition: the model's view is a pose or a position; 1 <= leaves <= kMaxLeaves.
   static Result<LeafScene> create(const Model& model, int leaves, std::uint64_t seed);
 
-  static constexpr int kMostLeaves = 1000;
+  static constexpr int kMaxLeaves = 1000;
 
   void resize(int width, int height);
 
@@ -45,7 +45,7 @@ class LeafScene {
   /// Leaves that lie on the ground.
   int resting() const;
 
-  Bank::Held held() const { return bank_.held(); }
+  Bank::Clamped clamped() const { return bank_.clamped(); }
 
  private:
   // What the bank does not know of a leaf.

@@ -12,7 +12,7 @@
 namespace wisp::window {
 namespace {
 
-constexpr int kLeast = 64, kMost = 8192;
+constexpr int kMin = 64, kMax = 8192;
 constexpr int kCake = 7;
 constexpr int kLeaves = 60;
 constexpr double kNoticeSeconds = 6;
@@ -101,8 +101,8 @@ void Player::show(Scene scene, const Model& model) {
 }
 
 void Player::resize(int width, int height) {
-  width = std::clamp(width, kLeast, kMost);
-  height = std::clamp(height, kLeast, kMost);
+  width = std::clamp(width, kMin, kMax);
+  height = std::clamp(height, kMin, kMax);
   if (image_.width() == width && image_.height() == height) return;
   image_ = Image(width, height);
   if (scene_) std::visit([&](auto& scene) { scene.resize(width, height); }, *scene_);
@@ -214,7 +214,7 @@ void Player::more(int direction) {
     leaves->set_leaves(direction > 0 ? now + std::max(1, now / 2) : now - std::max(1, now / 3));
     notice(std::to_string(leaves->leaves()) + (leaves->leaves() == 1 ? " leaf" : " leaves"));
   } else if (auto* candles = std::get_if<CandleScene>(&*scene_)) {
-    const int wanted = std::clamp(candles->candles() + direction, 1, CandleScene::kMostCandles);
+    const int wanted = std::clamp(candles->candles() + direction, 1, CandleScene::kMaxCandles);
     if (wanted == candles->candles()) return;
     auto made = CandleScene::create(*model_, wanted, options_.seed);
     if (made) show(std::move(*made), *model_);
@@ -328,9 +328,9 @@ const Image& Player::draw() {
 
 PlayerFigures Player::figures() const {
   PlayerFigures figures = figures_;
-  const auto held = std::visit([](const auto& scene) { return scene.held(); }, *scene_);
-  figures.held = held.held;
-  figures.steps = held.steps;
+  const auto clamped = std::visit([](const auto& scene) { return scene.clamped(); }, *scene_);
+  figures.clamped = clamped.clamped;
+  figures.steps = clamped.steps;
   return figures;
 }
 

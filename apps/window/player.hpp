@@ -36,7 +36,7 @@ struct PlayerFigures {
   int frames = 0;
   int went_out = 0;  ///< flames, counted
   int relit = 0;
-  std::uint64_t held = 0, steps = 0;  ///< of the bank that runs now
+  std::uint64_t clamped = 0, steps = 0;  ///< of the bank that runs now
 };
 
 class Player {
@@ -56,7 +56,7 @@ class Player {
   /// The picture of now. Good until the next call.
   const Image& draw();
 
-  /// The picture's size from now on, held to 64 … 8192.
+  /// The picture's size from now on, clamped to 64 … 8192.
   void resize(int width, int height);
 
   /// Says something at the lower edge for a while.

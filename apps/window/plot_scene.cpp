@@ -9,8 +9,8 @@
 namespace wisp::window {
 namespace {
 
-constexpr std::size_t kKept = 480;       // values of a curve, one a frame
-constexpr std::size_t kMostCurves = 12;  // more could not be told apart
+constexpr std::size_t kKept = 480;      // values of a curve, one a frame
+constexpr std::size_t kMaxCurves = 12;  // more could not be distinguished
 constexpr Colour kGround{16, 17, 22};
 constexpr std::array<Colour, 6> kPalette{
     {{86, 180, 233}, {240, 228, 66}, {0, 158, 115}, {230, 159, 0}, {204, 121, 167}, {213, 94, 0}}};
@@ -65,7 +65,7 @@ void PlotScene::draw(Image& image) {
   std::vector<const Curve*> shown;
   for (const Curve& curve : inputs_) shown.push_back(&curve);
   for (const Curve& curve : outputs_) shown.push_back(&curve);
-  shown.resize(std::min(shown.size(), kMostCurves));
+  shown.resize(std::min(shown.size(), kMaxCurves));
   std::vector<LegendEntry> legend;
   const float margin = 0.06F * static_cast<float>(height_);
   const float band = (static_cast<float>(height_) - 2 * margin) / static_cast<float>(shown.size());

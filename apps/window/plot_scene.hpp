@@ -25,7 +25,7 @@ class PlotScene {
   void set_noise(bool on) { bank_.set_noise(on ? 1.0F : 0.0F); }
   void advance(std::chrono::nanoseconds time);
   void draw(Image& image);
-  Bank::Held held() const { return bank_.held(); }
+  Bank::Clamped clamped() const { return bank_.clamped(); }
 
  private:
   struct Curve {

@@ -9,7 +9,7 @@ namespace wisp::window {
 namespace {
 
 // What waits longer than this is old: the window slept.
-constexpr Uint32 kMostWaitingBytes = 4 * 48000 / 2;
+constexpr Uint32 kMaxWaitingBytes = 4 * 48000 / 2;
 
 }  // namespace
 
@@ -42,7 +42,7 @@ void Microphone::close() {
 void Microphone::pass_on(Ear& ear) {
   if (device_ == 0) return;
   block_.resize(static_cast<std::size_t>(kSoundBlock) * channels_);
-  if (SDL_GetQueuedAudioSize(device_) > kMostWaitingBytes) SDL_ClearQueuedAudio(device_);
+  if (SDL_GetQueuedAudioSize(device_) > kMaxWaitingBytes) SDL_ClearQueuedAudio(device_);
   for (;;) {
     const Uint32 bytes = SDL_DequeueAudio(device_, block_.data(), static_cast<Uint32>(4 * block_.size()));
     const std::size_t samples = bytes / 4 / channels_ * channels_;

@@ -19,8 +19,8 @@ namespace wisp::window {
 namespace {
 
 // A picture of more pixels than this is drawn smaller and brought up by the window: a frame must be done in time.
-constexpr double kMostPixels = 1280.0 * 800.0;
-constexpr double kLeastPixels = 240'000;
+constexpr double kMaxPixels = 1280.0 * 800.0;
+constexpr double kMinPixels = 240'000;
 constexpr double kBudgetMs = 13;  // of a frame of 16.7, for step and picture
 
 // A window that is hidden looks this often whether it is shown again.
@@ -120,7 +120,7 @@ class Window {
   bool synced_ = false;
   bool hidden_ = false;
   Uint64 last_ = 0;
-  double most_pixels_ = kMostPixels;
+  double max_pixels_ = kMaxPixels;
   double slow_ = 0;
   PlayReport report_;
 };
@@ -162,7 +162,7 @@ void Window::fit_picture() {
   int width = 0, height = 0;
   if (SDL_GetRendererOutputSize(renderer_.get(), &width, &height) != 0 || width < 1 || height < 1) return;
   const double pixels = static_cast<double>(width) * height;
-  const double scale = std::min(1.0, std::sqrt(most_pixels_ / pixels));
+  const double scale = std::min(1.0, std::sqrt(max_pixels_ / pixels));
   player_.resize(static_cast<int>(std::lround(width * scale)), static_cast<int>(std::lround(height * scale)));
 }
 
@@ -212,7 +212,7 @@ void Window::take(const SDL_Event& event) {
       return;
     case SDL_WINDOWEVENT:
       if (event.window.event == SDL_WINDOWEVENT_SIZE_CHANGED) {
-        most_pixels_ = kMostPixels;
+        max_pixels_ = kMaxPixels;
         fit_picture();
       }
       if (event.window.event == SDL_WINDOWEVENT_MINIMIZED || event.window.event == SDL_WINDOWEVENT_HIDDEN)
@@ -334,8 +334,8 @@ void Window::hold_back(Uint64 began) const {
 void Window::draw_smaller(double milliseconds) {
   if (course_.scripted()) return;
   slow_ += (milliseconds - slow_) / 30;
-  if (slow_ < kBudgetMs || most_pixels_ <= kLeastPixels) return;
-  most_pixels_ = std::max(kLeastPixels, 0.7 * most_pixels_);
+  if (slow_ < kBudgetMs || max_pixels_ <= kMinPixels) return;
+  max_pixels_ = std::max(kMinPixels, 0.7 * max_pixels_);
   slow_ = 0;
   fit_picture();
 }

@@ -16,7 +16,7 @@ def dot(a, b):  # numpy's own adds in another order
 
 def cross(a, b): return vector(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 def turned(cos, sin, q): return vector(cos * q[0] - sin * q[3], cos * q[1] - sin * q[2], cos * q[2] + sin * q[1], cos * q[3] + sin * q[0])
-def held(numbers, most): return np.clip(numbers, -F(most), F(most))
+def clamped(numbers, most): return np.clip(numbers, -F(most), F(most))
 def share_of(word, count): return word * count >> 32
 
 
@@ -82,7 +82,7 @@ class Segments:
         half = F(0.5) * self.dt * self.speed
         lean = turned(*turn.scaled, self.quaternion(before, self.steps[before])) - turned(*next_turn.scaled, self.quaternion(segment, 0))
         rate = turned(*turn.scaled, self.change(before, 1)) - turned(*next_turn.scaled, self.change(segment, 0))
-        return held(lean * F(0.5), 1e9), held(rate, 1e9), held(slip * vector(half / self.place, half / self.place, half), 1e9)
+        return clamped(lean * F(0.5), 1e9), clamped(rate, 1e9), clamped(slip * vector(half / self.place, half / self.place, half), 1e9)
 
 
 class Walk:  # what comes next: a mode by what came before, then a segment of it
@@ -152,7 +152,7 @@ class Gust:  # what the wind has changed of the velocity
                 change[axis] = part if k == 0 else change[axis] + part
                 change[axis] = change[axis] + of_wind * self.winds[k][axis]
                 change[axis] = change[axis] + of_press * self.presses[k][axis]
-        change = held(change, 1e3)
+        change = clamped(change, 1e3)
         self.changes = [change] + self.changes[:-1]
         return change
 
@@ -194,7 +194,7 @@ def play_chain(model, winds, seed=1, noise=True):
         if fades(row):
             q = q + lean[0]
             q = q * (F(1) / np.sqrt(dot(q, q)))
-        return held(place, 1e6), q
+        return clamped(place, 1e6), q
 
     lean, slip = [np.zeros(4, F)] * 4, [np.zeros(3, F)] * 2
     place, q = shown()

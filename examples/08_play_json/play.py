@@ -53,7 +53,7 @@ def play(model, winds, seed=1, noise=True):
     forms = [(item, sign, power) for item in model["inputs"] for sign in ([1, -1] if "split" in item["form"] else [0])
              for power in ([1, 0.5, 2] if "powers" in item["form"] else [1])]
     unit = [unit_of(o) for o in outputs] + [unit_of(item) ** power for item, _, power in forms]
-    held = [[F((edge - mean) / u) for edge in edges(o)] for o, mean, u in zip(outputs, d["output_mean"], unit)]
+    clamped = [[F((edge - mean) / u) for edge in edges(o)] for o, mean, u in zip(outputs, d["output_mean"], unit)]
 
     def row(mode, i):  # of one output: its constant, its taps (weight, channel, lag), its shocks (size, deviate)
         taps = [(-a * unit[j] / unit[i], j, 1 + lag) for j in range(ny) for lag, a in enumerate(mode["A"][i][j])]
@@ -79,7 +79,7 @@ def play(model, winds, seed=1, noise=True):
             total = total + kept(w * (1 / most)) * past[lag][c]
         return total
 
-    past = [[settle(clamp(F(0), *h)) for h in held] + [F(0)] * len(forms) for _ in range(d["history"] + 1)]
+    past = [[settle(clamp(F(0), *h)) for h in clamped] + [F(0)] * len(forms) for _ in range(d["history"] + 1)]
     mode, resampled = None, Resampled(d, unit) if (d.get("noise") or {}).get("resampled") else None
     life = Life(model["extinction"], model) if model.get("extinction") else None
     for step, wind in enumerate(winds):
@@ -102,7 +102,7 @@ def play(model, winds, seed=1, noise=True):
                 total = total + size * deviates[k]
             for weight, channel, lag in taps:
                 total = total + weight * past[lag][channel]
-            now[i] = settle(clamp(total, *held[i]))
+            now[i] = settle(clamp(total, *clamped[i]))
         shown = [clamp(F(mean) + F(u) * z, *map(F, edges(o))) for o, mean, u, z in zip(outputs, d["output_mean"], unit, now)]
         yield life.seen(shown, wind) if life else shown
 

@@ -128,7 +128,7 @@ typedef struct wisp_channel {
   uint32_t reserved;
   const char* name; /* these two live as long as the model */
   const char* unit;
-  double lowest; /* the trained or seen range; held to it and half of it more */
+  double lowest; /* the trained or seen range; clamped to it and half of it more */
   double highest;
   uint32_t splits_sign; /* of inputs: 1 when the dynamics see what is positive and what is negative apart */
   uint32_t has_curve;   /* of inputs: 1 when a curve bends what the dynamics see of them */
@@ -257,8 +257,8 @@ typedef struct wisp_bank_facts {
   uint32_t outputs;
   uint32_t polyline_points; /* 0 where the outputs are not an outline */
   uint32_t reserved;
-  uint64_t held;  /* steps of instances in which an output was held at its range, */
-  uint64_t steps; /* of so many; more than 1 in 1000 on ordinary input: the model is not usable */
+  uint64_t clamped; /* steps of instances in which an output was clamped to its range, */
+  uint64_t steps;   /* of so many; more than 1 in 1000 on ordinary input: the model is not usable */
 } wisp_bank_facts;
 
 /* From here to wisp_bank_restore() is the frame path.
@@ -281,13 +281,13 @@ WISP_API int32_t wisp_bank_alive(const wisp_bank* bank, wisp_instance instance);
 WISP_API wisp_instance wisp_bank_at(const wisp_bank* bank, uint32_t slot);
 
 /* What acts from the next step on, in the inputs' units: on all (slots * inputs), the same on all (inputs), on one
- * (inputs). What is not a number counts as 0; what is beyond the trained range and half of it is held there. */
+ * (inputs). What is not a number counts as 0; what is beyond the trained range and half of it is clamped. */
 WISP_API wisp_status wisp_bank_set_inputs(wisp_bank* bank, const float* values, size_t count);
 WISP_API wisp_status wisp_bank_set_common_inputs(wisp_bank* bank, const float* values, size_t count);
 WISP_API wisp_status wisp_bank_set_instance_inputs(wisp_bank* bank, wisp_instance instance, const float* values,
                                                    size_t count);
 
-/* Scale of the residual noise: 1 as learned, 0 none; held to 0 to 10. A chain has its chance in its walk: at 0 the
+/* Scale of the residual noise: 1 as learned, 0 none; clamped to 0 … 10. A chain has its chance in its walk: at 0 the
  * likeliest mode follows as the segment that joins best, any other scale leaves it as it is. */
 WISP_API wisp_status wisp_bank_set_noise(wisp_bank* bank, float scale);
 

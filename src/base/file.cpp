@@ -72,7 +72,7 @@ extern "C" void remove_pending_files(int signal) {
 
 }  // namespace
 
-Result<std::vector<std::byte>> read_file(const fs::path& path, std::uint64_t most_bytes) {
+Result<std::vector<std::byte>> read_file(const fs::path& path, std::uint64_t max_bytes) {
   std::error_code code;
   if (fs::is_directory(path, code)) return file_error(path, "is a folder, expected a file");
   File file(system::open_file(path, "rb"));
@@ -80,10 +80,10 @@ Result<std::vector<std::byte>> read_file(const fs::path& path, std::uint64_t mos
 
   std::vector<std::byte> bytes;
   // Where addresses have 32 bits, less can be held than files may have.
-  most_bytes = std::min<std::uint64_t>(most_bytes, bytes.max_size() / 2);
+  max_bytes = std::min<std::uint64_t>(max_bytes, bytes.max_size() / 2);
   const std::uintmax_t size = fs::file_size(path, code);
   if (!code) {
-    if (size > most_bytes) return file_error(path, "is too large: " + std::to_string(size) + " bytes");
+    if (size > max_bytes) return file_error(path, "is too large: " + std::to_string(size) + " bytes");
     bytes.reserve(static_cast<std::size_t>(size) + 1);
   }
   // Pipes and /proc files report no size, so the end is found by reading.
@@ -93,7 +93,7 @@ Result<std::vector<std::byte>> read_file(const fs::path& path, std::uint64_t mos
     bytes.resize(before + chunk);
     const std::size_t got = std::fread(bytes.data() + before, 1, chunk, file.get());
     bytes.resize(before + got);
-    if (bytes.size() > most_bytes) return file_error(path, "is too large");
+    if (bytes.size() > max_bytes) return file_error(path, "is too large");
     if (got < chunk) break;
   }
   if (std::ferror(file.get())) return file_error(path, "cannot be read to its end: " + reason());

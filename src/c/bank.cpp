@@ -111,8 +111,8 @@ wisp_status wisp_bank_get_facts(const wisp_bank* bank, wisp_bank_facts* facts) {
   filled.inputs = static_cast<uint32_t>(b.input_count());
   filled.outputs = static_cast<uint32_t>(b.output_count());
   filled.polyline_points = static_cast<uint32_t>(b.polyline_points());
-  filled.held = b.held().held;
-  filled.steps = b.held().steps;
+  filled.clamped = b.clamped().clamped;
+  filled.steps = b.clamped().steps;
   hand_out(filled, facts);
   return WISP_OK;
 }

@@ -197,7 +197,7 @@ wisp_status wisp_model_get_arx(const wisp_model* model, wisp_arx_facts* facts) {
   filled.regressors = static_cast<uint32_t>(arx->orders.inputs());
   filled.history = static_cast<uint32_t>(arx->orders.history());
   filled.shocks = static_cast<uint32_t>(arx->noise.rank);
-  filled.resamples = arx->noise.drawn.empty() ? 0 : 1;
+  filled.resamples = arx->noise.resampled.empty() ? 0 : 1;
   hand_out(filled, facts);
   return WISP_OK;
 }

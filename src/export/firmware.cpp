@@ -53,10 +53,10 @@ void add_mode(const ArxModel& arx, double shock, Lamp& lamp) {
 double shock_of(const ArxModel& arx) {
   double square = arx.noise.sd.empty() ? 0 : arx.noise.sd[0] * arx.noise.sd[0];
   for (const double each : arx.noise.mixing) square += each * each;
-  if (!arx.noise.drawn.empty()) {
+  if (!arx.noise.resampled.empty()) {
     square = 0;
-    for (const std::int16_t row : arx.noise.drawn.rows) square += std::pow(row * arx.noise.drawn.scale[0], 2);
-    square /= static_cast<double>(arx.noise.drawn.row_count());
+    for (const std::int16_t row : arx.noise.resampled.rows) square += std::pow(row * arx.noise.resampled.scale[0], 2);
+    square /= static_cast<double>(arx.noise.resampled.row_count());
   }
   return std::sqrt(square);
 }

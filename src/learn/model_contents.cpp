@@ -34,21 +34,21 @@ void add_noise(const ResidualNoise& noise, ReportSection& section) {
   add(section, id + "sd", noise.sd);
   add(section, id + "sd_ci95", std::move(intervals));
   add(section, id + "mixing", rows(noise.mixing, static_cast<std::size_t>(noise.rank), noise.sd.size()));
-  const DrawnResiduals& drawn = noise.drawn;
-  if (drawn.empty()) return add(section, id + "resampled", {});
+  const ResampledResiduals& resampled = noise.resampled;
+  if (resampled.empty()) return add(section, id + "resampled", {});
   const std::string to = id + "resampled.";
-  add(section, to + "scale", drawn.scale);
-  add(section, to + "rows", rows(drawn.rows, drawn.scale.size()));
-  add(section, to + "ends", list(drawn.ends));
-  add(section, to + "wind_scale", drawn.wind_scale);
-  add(section, to + "winds", list(drawn.winds));
-  add(section, to + "toward", drawn.toward);
-  add(section, to + "against", drawn.against);
-  add(section, to + "lags", list(drawn.lags));
-  add(section, to + "tolerance", drawn.tolerance);
-  add(section, to + "margin", drawn.margin);
-  add(section, to + "longest", drawn.longest);
-  add(section, to + "mirror", list(drawn.mirror));
+  add(section, to + "scale", resampled.scale);
+  add(section, to + "rows", rows(resampled.rows, resampled.scale.size()));
+  add(section, to + "ends", list(resampled.ends));
+  add(section, to + "wind_scale", resampled.wind_scale);
+  add(section, to + "winds", list(resampled.winds));
+  add(section, to + "toward", resampled.toward);
+  add(section, to + "against", resampled.against);
+  add(section, to + "lags", list(resampled.lags));
+  add(section, to + "tolerance", resampled.tolerance);
+  add(section, to + "margin", resampled.margin);
+  add(section, to + "longest", resampled.longest);
+  add(section, to + "mirror", list(resampled.mirror));
 }
 
 void add_dynamics(const ArxModel& arx, ReportSection& section) {
@@ -117,7 +117,7 @@ void add_dynamics(const ChainModel& chain, ReportSection& section) {
   add(section, id + "rates", rows(segments.rates, static_cast<std::size_t>(rate_count(chain.motion))));
   add(section, id + "rate_scale", segments.rate_scale);
   add(section, id + "follow", rows(segments.follow, static_cast<std::size_t>(segments.breadth)));
-  add(section, id + "successor_weights", rows(segments.onward, static_cast<std::size_t>(chain.modes)));
+  add(section, id + "successor_weights", rows(segments.successor_weights, static_cast<std::size_t>(chain.modes)));
   ReportTable contexts{"dynamics.contexts", "", {{"history", ""}, {"probability", ""}}, {}};
   for (const ChainContext& context : chain.contexts) {
     contexts.rows.push_back({list(context.history), context.probability});
@@ -162,8 +162,8 @@ void add_extinction(const std::string& id, const ExtinctionTraining& made, Repor
   add(section, id + ".died", made.died);
   add(section, id + ".gusts", made.gusts);
   add(section, id + ".spared", made.spared);
-  add_ramp(id + ".dying", made.dying, section);
-  add_ramp(id + ".catching", made.catching, section);
+  add_ramp(id + ".decay", made.decay, section);
+  add_ramp(id + ".re_ignition", made.re_ignition, section);
 }
 
 void add_training(const Training& made, ReportSection& section) {
@@ -206,8 +206,8 @@ Report model_contents(const Model& model) {
   }
   std::visit([&](const auto& dynamics) { add_dynamics(dynamics, section); }, model.dynamics);
   if (model.extinction) {
-    add(section, "extinction.dying", model.extinction->dying);
-    add(section, "extinction.catching", model.extinction->catching);
+    add(section, "extinction.decay", model.extinction->decay);
+    add(section, "extinction.re_ignition", model.extinction->re_ignition);
   }
   add_training(model.training, section);
   add(section, "random.generator", "Philox4x32-7");

@@ -17,7 +17,7 @@ namespace wisp {
 namespace {
 
 constexpr std::string_view kFirstLine = "wisp-outline-part 1\n";
-constexpr std::size_t kMostShares = 1'000'000;
+constexpr std::size_t kMaxShares = 1'000'000;
 constexpr std::string_view kAnyVersion = "wisp-outline-part ";
 
 std::uint64_t hash_of(std::string_view text) { return hash_bytes(std::as_bytes(std::span(text.data(), text.size()))); }
@@ -163,7 +163,7 @@ Result<OutlinePart> OutlinePart::from_bytes(std::span<const std::byte> bytes) {
     std::size_t size = 0;
     Result<void> taken = Error{"has a line that begins with \"" + word + "\", expected share or recording"};
     if (word == "share" && line >> share.list >> share.index >> share.count && share.index < share.count &&
-        share.count <= kMostShares) {
+        share.count <= kMaxShares) {
       taken = part.add(share);
     } else if (word == "recording" && line >> size && line.get() == ' ' && std::getline(line, table.source) &&
                size < rest.size()) {

@@ -61,11 +61,11 @@ class ByteSource {
   };
 
   bool unpack(std::span<std::byte> out) {
-    constexpr std::size_t kMost = std::size_t{1} << 30;  // what zlib's counters hold
+    constexpr std::size_t kMax = std::size_t{1} << 30;  // what zlib's counters hold
     packed_->next_out = reinterpret_cast<Bytef*>(out.data());
     packed_->avail_out = static_cast<uInt>(out.size());
     while (packed_->avail_out > 0) {
-      const std::size_t given = std::min(stored_.size(), kMost);
+      const std::size_t given = std::min(stored_.size(), kMax);
       packed_->next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(stored_.data()));
       packed_->avail_in = static_cast<uInt>(given);
       const int code = inflate(packed_.get(), Z_NO_FLUSH);

@@ -19,7 +19,7 @@ constexpr std::size_t kHeader = 128;
 constexpr std::uint32_t kMatrix = 14, kCompressed = 15;
 constexpr unsigned kStruct = 2, kFirstNumeric = 6, kLastNumeric = 15;
 constexpr unsigned kComplex = 0x08;
-constexpr std::size_t kMostDimensions = 32, kMostFields = 4096, kMostName = 4096;
+constexpr std::size_t kMaxDimensions = 32, kMaxFields = 4096, kMaxName = 4096;
 
 // Numbers as they are stored, by the kinds of parts 1 to 13.
 constexpr std::size_t kWidth[] = {0, 1, 1, 2, 2, 4, 4, 4, 0, 8, 0, 0, 8, 8};
@@ -110,7 +110,7 @@ class Reader {
   }
 
   std::optional<Head> head() {
-    const auto flags = part(6, 8), dims = part(5, 4 * kMostDimensions), name = part(1, kMostName);
+    const auto flags = part(6, 8), dims = part(5, 4 * kMaxDimensions), name = part(1, kMaxName);
     if (!flags || flags->size() != 8 || !dims || dims->size() % 4 != 0 || !name) return {};
     const auto word = static_cast<unsigned>(whole(flags->data(), 4, big_));
     Head head{word & 0xff, (word >> 8 & kComplex) != 0, {}, {}};
@@ -128,8 +128,8 @@ class Reader {
     const auto width = part(5, 4);
     if (!width || width->size() != 4) return {};
     const auto size = static_cast<std::size_t>(whole(width->data(), 4, big_));
-    if (size < 1 || size > kMostName) return {};
-    const auto letters = part(1, size * kMostFields);
+    if (size < 1 || size > kMaxName) return {};
+    const auto letters = part(1, size * kMaxFields);
     if (!letters || letters->size() % size != 0) return {};
     std::vector<std::string> names;
     for (std::size_t at = 0; at < letters->size(); at += size) {
@@ -144,7 +144,7 @@ class Reader {
     if (!found || found->kind >= std::size(kWidth) || kWidth[found->kind] == 0) return Miss::kDamaged;
     const std::size_t width = kWidth[found->kind], count = found->bytes / width;
     if (head.dims[0] == 0 || head.dims[1] == 0) return Miss::kNotNumbers;
-    if (head.dims[1] > kMostNumbers / head.dims[0]) return Miss::kTooLarge;
+    if (head.dims[1] > kMaxNumbers / head.dims[0]) return Miss::kTooLarge;
     if (found->bytes % width != 0 || count != head.dims[0] * head.dims[1]) return Miss::kDamaged;
     Table table{head.dims[0], head.dims[1], {}};
     std::array<std::byte, 8192> block;

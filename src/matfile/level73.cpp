@@ -107,10 +107,10 @@ extern "C" herr_t list_one(hid_t group, const char* name, const H5L_info_t* link
 Found numbers_of(hid_t data, std::size_t file_bytes) {
   Table table;
   if (!shape_of(data, table.rows, table.columns) || table.rows == 0 || table.columns == 0) return Miss::kNotNumbers;
-  if (table.rows > kMostNumbers || table.columns > kMostNumbers / table.rows) return Miss::kTooLarge;
+  if (table.rows > kMaxNumbers || table.columns > kMaxNumbers / table.rows) return Miss::kTooLarge;
   const std::size_t count = table.rows * table.columns;
   const Object type(H5Dget_type(data), H5Tclose);
-  if (!lies_here(data) || count > kMostExpansion * file_bytes / std::max<std::size_t>(H5Tget_size(type), 1)) {
+  if (!lies_here(data) || count > kMaxExpansion * file_bytes / std::max<std::size_t>(H5Tget_size(type), 1)) {
     return Miss::kDamaged;
   }
   table.numbers.resize(count);

@@ -91,11 +91,11 @@ std::optional<Reference> parse(std::string text) {
 
 // Enough of them to choose from.
 std::string listed(const File& file) {
-  constexpr std::size_t kMost = 40;
+  constexpr std::size_t kMax = 40;
   std::string list;
   const std::vector<std::string> names = list_variables(file);
-  for (std::size_t k = 0; k < std::min(names.size(), kMost); ++k) list += (k == 0 ? "" : ", ") + names[k];
-  if (names.size() > kMost) list += " and " + std::to_string(names.size() - kMost) + " more";
+  for (std::size_t k = 0; k < std::min(names.size(), kMax); ++k) list += (k == 0 ? "" : ", ") + names[k];
+  if (names.size() > kMax) list += " and " + std::to_string(names.size() - kMax) + " more";
   return list.empty() ? "nothing numeric" : list;
 }
 

@@ -20,7 +20,7 @@ enum class Miss {
   kNoVariable,
   kNoField,
   kNotNumbers,  ///< text, complex, sparse, of three dimensions, empty
-  kTooLarge,    ///< more than kMostNumbers
+  kTooLarge,    ///< more than kMaxNumbers
   kDamaged,
 };
 
@@ -37,12 +37,12 @@ struct Name {
 using Path = std::vector<std::string>;
 
 /// A gigabyte of doubles: more wants another form than one table in memory.
-inline constexpr std::size_t kMostNumbers = std::size_t{1} << 27;
+inline constexpr std::size_t kMaxNumbers = std::size_t{1} << 27;
 
 /// Structures within structures; deeper ones are not looked into.
 inline constexpr int kDeepest = 16;
 
 /// zlib makes at most so many bytes of one: a file cannot hold more than that times its length.
-inline constexpr std::size_t kMostExpansion = 1032;
+inline constexpr std::size_t kMaxExpansion = 1032;
 
 }  // namespace wisp::matfile

@@ -10,7 +10,7 @@
 namespace wisp {
 namespace {
 
-constexpr int kMostChannels = 4096;
+constexpr int kMaxChannels = 4096;
 constexpr int kMaxOrder = 4096;
 
 std::string at(const char* what, int i, int j) {
@@ -20,9 +20,9 @@ std::string at(const char* what, int i, int j) {
 Result<void> check_orders(const ArxOrders& orders) {
   const int ny = orders.outputs();
   const int nu = orders.inputs();
-  if (ny < 1 || ny > kMostChannels)
+  if (ny < 1 || ny > kMaxChannels)
     return Error{"an ARX model has " + std::to_string(ny) + " outputs, expected 1 to 4096"};
-  if (nu > kMostChannels) return Error{"an ARX model has " + std::to_string(nu) + " inputs, expected at most 4096"};
+  if (nu > kMaxChannels) return Error{"an ARX model has " + std::to_string(nu) + " inputs, expected at most 4096"};
   if (orders.na.columns() != ny) return Error{"na is not a square matrix of outputs"};
   if (orders.nb.rows() != ny) return Error{"nb has not one row an output"};
   if (orders.nk.rows() != ny || orders.nk.columns() != nu) return Error{"nk has not the shape of nb"};
@@ -49,63 +49,67 @@ Result<void> check_finite(std::span<const double> values, std::size_t expected, 
   return {};
 }
 
-Result<void> check_ends(const DrawnResiduals& drawn) {
+Result<void> check_ends(const ResampledResiduals& resampled) {
   std::uint32_t before = 0;
-  for (std::uint32_t end : drawn.ends) {
-    if (end <= before) return Error{"a stretch of the drawn residuals ends before it begins"};
+  for (std::uint32_t end : resampled.ends) {
+    if (end <= before) return Error{"a stretch of the resampled residuals ends before it begins"};
     before = end;
   }
-  if (drawn.row_count() <= kMostDrawnRows) return {};
-  return Error{"the drawn residuals have " + std::to_string(drawn.row_count()) + " rows, expected at most 4194304"};
+  if (resampled.row_count() <= kMaxResampledRows) return {};
+  return Error{"the resampled residuals have " + std::to_string(resampled.row_count()) +
+               " rows, expected at most 4194304"};
 }
 
-Result<void> check_mirror(const DrawnResiduals& drawn, std::size_t ny) {
-  if (drawn.mirror.empty()) return {};
-  if (drawn.mirror.size() != ny) return Error{"the drawn residuals' mirror image is not one entry an output"};
-  for (int from : drawn.mirror) {
+Result<void> check_mirror(const ResampledResiduals& resampled, std::size_t ny) {
+  if (resampled.mirror.empty()) return {};
+  if (resampled.mirror.size() != ny) return Error{"the resampled residuals' mirror image is not one entry an output"};
+  for (int from : resampled.mirror) {
     if (from == 0 || std::abs(from) > static_cast<int>(ny))
-      return Error{"the drawn residuals' mirror image takes an output that is not there"};
+      return Error{"the resampled residuals' mirror image takes an output that is not there"};
   }
   return {};
 }
 
-Result<void> check_past(const DrawnResiduals& drawn) {
-  const bool driven = drawn.toward >= 0;
-  const std::vector<int>& lags = drawn.lags;
+Result<void> check_past(const ResampledResiduals& resampled) {
+  const bool driven = resampled.toward >= 0;
+  const std::vector<int>& lags = resampled.lags;
   const bool ascending = std::is_sorted(lags.begin(), lags.end(), std::less_equal<>());
-  if (driven ? lags.empty() || lags.size() > kMaxDrawnLags || lags.front() != 0 || lags.back() > kMaxOrder || !ascending
+  if (driven ? lags.empty() || lags.size() > kMaxResampledLags || lags.front() != 0 || lags.back() > kMaxOrder ||
+                   !ascending
              : !lags.empty()) {
-    return Error{"the drawn residuals' lags are not up to 16 ascending numbers from 0 to 4096"};
+    return Error{"the resampled residuals' lags are not up to 16 ascending numbers from 0 to 4096"};
   }
-  const std::size_t before = driven ? drawn.ends.size() * static_cast<std::size_t>(lags.back()) : 0;
-  if (drawn.winds.size() != (driven ? drawn.row_count() + before : 0)) {
-    return Error{"the drawn residuals have not a number of wind a row and a lag before each stretch"};
+  const std::size_t before = driven ? resampled.ends.size() * static_cast<std::size_t>(lags.back()) : 0;
+  if (resampled.winds.size() != (driven ? resampled.row_count() + before : 0)) {
+    return Error{"the resampled residuals have not a number of wind a row and a lag before each stretch"};
   }
-  const std::array bounds{drawn.wind_scale, drawn.tolerance, drawn.margin};
-  if (auto ok = check_finite(bounds, bounds.size(), "the drawn residuals' wind"); !ok) return ok;
-  if (drawn.wind_scale < 0 || drawn.tolerance < 0 || drawn.margin < 0)
-    return Error{"the drawn residuals' wind has a negative scale"};
+  const std::array bounds{resampled.wind_scale, resampled.tolerance, resampled.margin};
+  if (auto ok = check_finite(bounds, bounds.size(), "the resampled residuals' wind"); !ok) return ok;
+  if (resampled.wind_scale < 0 || resampled.tolerance < 0 || resampled.margin < 0)
+    return Error{"the resampled residuals' wind has a negative scale"};
   return {};
 }
 
-Result<void> check_drawn(const DrawnResiduals& drawn, std::size_t ny, int nu) {
-  if (drawn.empty()) {
-    return drawn.ends.empty() ? Result<void>() : Error{"the drawn residuals have stretches without rows"};
+Result<void> check_resampled(const ResampledResiduals& resampled, std::size_t ny, int nu) {
+  if (resampled.empty()) {
+    return resampled.ends.empty() ? Result<void>() : Error{"the resampled residuals have stretches without rows"};
   }
-  if (auto ok = check_ends(drawn); !ok) return ok;
-  if (drawn.rows.size() != drawn.row_count() * ny) return Error{"the drawn residuals are not one number an output"};
-  if (auto ok = check_finite(drawn.scale, ny, "the drawn residuals' scale"); !ok) return ok;
-  const bool negative = std::any_of(drawn.scale.begin(), drawn.scale.end(), [](double scale) { return scale < 0; });
-  if (negative) return Error{"a scale of the drawn residuals is negative"};
-  if (drawn.toward < -1 || drawn.toward >= nu || drawn.against < -1 || drawn.against >= nu ||
-      (drawn.toward < 0 && drawn.against >= 0)) {
-    return Error{"the drawn residuals hang on an input that is not there"};
+  if (auto ok = check_ends(resampled); !ok) return ok;
+  if (resampled.rows.size() != resampled.row_count() * ny)
+    return Error{"the resampled residuals are not one number an output"};
+  if (auto ok = check_finite(resampled.scale, ny, "the resampled residuals' scale"); !ok) return ok;
+  const bool negative =
+      std::any_of(resampled.scale.begin(), resampled.scale.end(), [](double scale) { return scale < 0; });
+  if (negative) return Error{"a scale of the resampled residuals is negative"};
+  if (resampled.toward < -1 || resampled.toward >= nu || resampled.against < -1 || resampled.against >= nu ||
+      (resampled.toward < 0 && resampled.against >= 0)) {
+    return Error{"the resampled residuals hang on an input that is not there"};
   }
-  if (auto ok = check_past(drawn); !ok) return ok;
-  if (drawn.longest < 1 || drawn.longest > 1000000) {
-    return Error{"the drawn residuals' number of steps is out of range"};
+  if (auto ok = check_past(resampled); !ok) return ok;
+  if (resampled.longest < 1 || resampled.longest > 1000000) {
+    return Error{"the resampled residuals' number of steps is out of range"};
   }
-  return check_mirror(drawn, ny);
+  return check_mirror(resampled, ny);
 }
 
 Result<void> check_noise(const ResidualNoise& noise, std::size_t ny) {
@@ -249,7 +253,7 @@ Result<void> check(const ArxModel& model) {
   if (auto ok = check_finite(model.constant, ny, "the constant term"); !ok) return ok;
   if (auto ok = check_finite(model.output_mean, ny, "the outputs' mean"); !ok) return ok;
   if (auto ok = check_finite(model.input_mean, model.orders.inputs(), "the inputs' mean"); !ok) return ok;
-  if (auto ok = check_drawn(model.noise.drawn, ny, model.orders.inputs()); !ok) return ok;
+  if (auto ok = check_resampled(model.noise.resampled, ny, model.orders.inputs()); !ok) return ok;
   return check_noise(model.noise, ny);
 }
 

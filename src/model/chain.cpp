@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kMaxRounding = 1e-6;  // of a sum of probabilities that were written with at least seven digits
 constexpr double kMaxStretch = 0.005;  // of a quaternion's length: what rounding to 16 bits makes of it, hundredfold
-constexpr std::size_t kMostContexts = 65535;
-constexpr std::size_t kMostHistory = 64;
+constexpr std::size_t kMaxContexts = 65535;
+constexpr std::size_t kMaxHistory = 64;
 constexpr double kLargestScale = 1e9;
 constexpr int kMaxBlendSteps = 4096;
 
@@ -70,12 +70,12 @@ Result<void> check_follow(const ChainModel& model) {
     return Error{"the chain's breadth is " + std::to_string(segments.breadth) + ", expected 0 to 256"};
   }
   const auto breadth = static_cast<std::size_t>(segments.breadth), modes = static_cast<std::size_t>(model.modes);
-  if (auto ok = check_size(segments.follow.size(), segments.size() * modes * breadth, "followers"); !ok) return ok;
+  if (auto ok = check_size(segments.follow.size(), segments.size() * modes * breadth, "successors"); !ok) return ok;
   for (std::size_t k = 0; k < segments.follow.size(); ++k) {
-    const std::size_t mode = k / breadth % modes, follower = segments.follow[k];
-    if (follower >= segments.size() || segments.mode[follower] != mode) {
-      return Error{"follower " + std::to_string(k) + " of the chain is segment " +
-                   found(follower, "one of mode " + std::to_string(mode))};
+    const std::size_t mode = k / breadth % modes, successor = segments.follow[k];
+    if (successor >= segments.size() || segments.mode[successor] != mode) {
+      return Error{"successor " + std::to_string(k) + " of the chain is segment " +
+                   found(successor, "one of mode " + std::to_string(mode))};
     }
   }
   return {};
@@ -83,10 +83,11 @@ Result<void> check_follow(const ChainModel& model) {
 
 Result<void> check_onward(const ChainModel& model) {
   const ChainSegments& segments = model.segments;
-  if (segments.onward.empty()) return {};
+  if (segments.successor_weights.empty()) return {};
   const std::size_t expected = segments.size() * static_cast<std::size_t>(model.modes);
-  if (auto ok = check_size(segments.onward.size(), expected, "shares of what follows a segment"); !ok) return ok;
-  for (std::uint16_t share : segments.onward) {
+  if (auto ok = check_size(segments.successor_weights.size(), expected, "shares of what follows a segment"); !ok)
+    return ok;
+  for (std::uint16_t share : segments.successor_weights) {
     if (share == 0) return Error{"a share of what follows a segment of the chain is 0, expected 1 to 65535"};
   }
   return {};
@@ -109,7 +110,7 @@ Result<void> check_orientations(const ChainSegments& segments) {
 
 Result<void> check_segments(const ChainModel& model) {
   const ChainSegments& segments = model.segments;
-  if (segments.size() == 0 || segments.size() > kMostSegments) {
+  if (segments.size() == 0 || segments.size() > kMaxSegments) {
     return Error{"a chain has " + std::to_string(segments.size()) + " segments, expected 1 to 65535"};
   }
   if (auto ok = check_size(segments.steps.size(), segments.size(), "lengths"); !ok) return ok;
@@ -134,13 +135,13 @@ std::string name_of(const std::vector<std::uint16_t>& history) {
 }
 
 Result<void> check_contexts(const ChainModel& model) {
-  if (model.contexts.size() > kMostContexts) {
+  if (model.contexts.size() > kMaxContexts) {
     return Error{"a chain has " + std::to_string(model.contexts.size()) + " histories, expected at most 65535"};
   }
   std::set<std::vector<std::uint16_t>> seen;
   for (const ChainContext& context : model.contexts) {
     const std::size_t length = context.history.size();
-    if (length == 0 || length > kMostHistory) {
+    if (length == 0 || length > kMaxHistory) {
       return Error{"a history of the chain has " + std::to_string(length) + " modes, expected 1 to 64"};
     }
     for (std::uint16_t mode : context.history) {
@@ -177,7 +178,7 @@ bool dies_away(std::vector<double> change) {
 
 Result<void> check_gust(const GustResponse& gust) {
   const auto order = static_cast<std::size_t>(gust.order());
-  if (order < 1 || order > static_cast<std::size_t>(kMostGustOrder)) {
+  if (order < 1 || order > static_cast<std::size_t>(kMaxGustOrder)) {
     return Error{"the response to gusts has order " + std::to_string(order) + ", expected 1 to 4"};
   }
   for (const GustResponse::Axis* axis : {&gust.ground, &gust.vertical}) {
@@ -263,7 +264,7 @@ Result<void> check(const ChainModel& model) {
   if (model.motion != ChainMotion::kPosition && model.motion != ChainMotion::kPose) {
     return Error{"a chain has a kind of motion that this program does not know"};
   }
-  if (model.modes < 1 || static_cast<std::size_t>(model.modes) > kMostModes) {
+  if (model.modes < 1 || static_cast<std::size_t>(model.modes) > kMaxModes) {
     return Error{"a chain has " + std::to_string(model.modes) + " modes, expected 1 to 256"};
   }
   if (auto ok = check_segments(model); !ok) return ok;

@@ -161,8 +161,8 @@ fb::Offset<file::Chain> write_chain(fb::FlatBufferBuilder& builder, const ChainM
   const auto row_scale = builder.CreateVector(segments.row_scale);
   const auto rate_scale = builder.CreateVector(segments.rate_scale);
   const auto follow = builder.CreateVector(packed_successors(chain));
-  const bool leads_on = !segments.onward.empty();
-  const auto onward = leads_on ? builder.CreateVector(segments.onward) : 0;
+  const bool leads_on = !segments.successor_weights.empty();
+  const auto successor_weights = leads_on ? builder.CreateVector(segments.successor_weights) : 0;
   const auto initial = builder.CreateVector(chain.initial);
   const auto lengths = builder.CreateVector(contexts.lengths);
   const auto histories = builder.CreateVector(contexts.modes);
@@ -190,7 +190,7 @@ fb::Offset<file::Chain> write_chain(fb::FlatBufferBuilder& builder, const ChainM
   if (chain.gust) table.add_gust(gust);
   if (chain.drift) table.add_drift(drift);
   if (chain.systems) table.add_systems(systems);
-  if (leads_on) table.add_onward(onward);
+  if (leads_on) table.add_successor_weights(successor_weights);
   if (chain.splines) table.add_splines(splines);
   return table.Finish();
 }
@@ -211,7 +211,7 @@ Result<ChainModel> read_chain(const file::Chain& stored) {
                     copied(stored.rate_scale()),
                     {},
                     stored.breadth(),
-                    copied(stored.onward())};
+                    copied(stored.successor_weights())};
   chain.initial = copied(stored.initial());
   auto contexts = contexts_of(
       {copied(stored.history_lengths()), copied(stored.histories()), copied(stored.probabilities())}, stored.modes());

@@ -230,7 +230,7 @@ Result<void> unpack_segments(std::span<const std::uint8_t> bytes, ChainModel& ch
   const auto channels = static_cast<std::size_t>(channel_count(chain.motion));
   ChainSegments& segments = chain.segments;
   // So many are counted in 32 bits.
-  if (segments.steps.size() != segments.size() || segments.size() > kMostSegments) return damaged;
+  if (segments.steps.size() != segments.size() || segments.size() > kMaxSegments) return damaged;
   const std::size_t rows = chain.splines ? 0 : std::size_t{segment_rows(segments).back()} * channels;
   const std::size_t rates = segments.size() * 2 * static_cast<std::size_t>(rate_count(chain.motion));
   // A number takes a bit at least: what can't be there takes no memory.

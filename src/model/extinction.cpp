@@ -21,7 +21,7 @@ Result<void> check(const Extinction& rule, std::size_t inputs) {
   }
   for (const Range& range : {Range{"level", rule.level, 1e-6, 1e6}, Range{"seconds", rule.seconds, 1e-3, 3600},
                              Range{"haste", rule.haste, 0, 100}, Range{"recovery", rule.recovery, 1e-3, 3600},
-                             Range{"dying", rule.dying, 0, 60}, Range{"catching", rule.catching, 0, 60}}) {
+                             Range{"dying", rule.decay, 0, 60}, Range{"catching", rule.re_ignition, 0, 60}}) {
     if (range.value >= range.lowest && range.value <= range.highest) continue;
     return Error{std::string("the extinction rule's ") + range.name + " is " + std::to_string(range.value) +
                  ", expected " + std::to_string(range.lowest) + " to " + std::to_string(range.highest)};

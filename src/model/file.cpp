@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::array<char, 8> kMagic = {'\x89', 'W', 'I', 'S', 'P', '\r', '\n', '\x1a'};
 constexpr std::size_t kHeaderSize = 32;
-constexpr std::size_t kMostPayload = std::size_t{1} << 30;
+constexpr std::size_t kMaxPayload = std::size_t{1} << 30;
 
 // Header, little-endian: 8 bytes magic, 4 format version, 4 zero, 8 payload size, 8 hash of the payload.
 struct Header {
@@ -108,7 +108,7 @@ Result<Model> parse_model(std::span<const std::byte> bytes, std::string_view nam
 }
 
 Result<Model> read_model(const std::filesystem::path& path) {
-  const auto bytes = read_file(path, kHeaderSize + kMostPayload);
+  const auto bytes = read_file(path, kHeaderSize + kMaxPayload);
   if (!bytes) return bytes.error();
   return parse_model(*bytes, path_text(path));
 }

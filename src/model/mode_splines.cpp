@@ -13,11 +13,11 @@
 namespace wisp {
 namespace {
 
-constexpr double kMostStored = 32767;
-constexpr double kMostNumber = 1e6;
+constexpr double kMaxStored = 32767;
+constexpr double kMaxNumber = 1e6;
 
 std::int16_t rounded(double x) {
-  const double held = std::clamp(x, -kMostStored, kMostStored);
+  const double held = std::clamp(x, -kMaxStored, kMaxStored);
   return static_cast<std::int16_t>(held < 0 ? held - 0.5 : held + 0.5);
 }
 
@@ -45,14 +45,14 @@ void make_unit(std::span<double> q, double scale) {
 }
 
 bool in_range(const std::vector<float>& numbers) {
-  return std::all_of(numbers.begin(), numbers.end(), [](float x) { return x >= -kMostNumber && x <= kMostNumber; });
+  return std::all_of(numbers.begin(), numbers.end(), [](float x) { return x >= -kMaxNumber && x <= kMaxNumber; });
 }
 
 // Whether segments are so far sound that rows can be made of them.
 bool are_sound(const ChainSegments& segments, int modes, int channels) {
   const auto known = [&](std::uint16_t mode) { return mode < modes; };
   const auto lasts = [](std::uint16_t steps) { return steps > 0; };
-  const auto measures = [](double scale) { return scale >= 1e-12 && scale <= kMostNumber; };
+  const auto measures = [](double scale) { return scale >= 1e-12 && scale <= kMaxNumber; };
   return std::all_of(segments.mode.begin(), segments.mode.end(), known) &&
          std::all_of(segments.steps.begin(), segments.steps.end(), lasts) &&
          std::all_of(segments.row_scale.begin(), segments.row_scale.end(), measures) &&
@@ -98,7 +98,7 @@ Result<void> check(const ModeSplines& splines, const ChainSegments& segments, in
   if (!in_range(splines.mean) || !in_range(splines.component)) {
     return Error{"the splines of a chain's modes hold a number out of range, expected -1e6 to 1e6"};
   }
-  if (segment_rows(segments).back() > kMostSplineRows) {
+  if (segment_rows(segments).back() > kMaxSplineRows) {
     return Error{"the splines of a chain's modes make too many rows, expected at most 1000000"};
   }
   return {};

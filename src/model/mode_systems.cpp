@@ -6,12 +6,12 @@
 namespace wisp {
 namespace {
 
-constexpr double kMostCoefficient = 1e6;
-constexpr double kMostRate = 1e6;
+constexpr double kMaxCoefficient = 1e6;
+constexpr double kMaxRate = 1e6;
 
 bool finite(const std::vector<double>& values) {
   for (double x : values) {
-    if (!(std::abs(x) <= kMostCoefficient)) return false;
+    if (!(std::abs(x) <= kMaxCoefficient)) return false;
   }
   return true;
 }
@@ -42,7 +42,7 @@ Result<void> check(const ModeSystems& systems, int modes) {
     }
     if (!finite(one.coefficient) || !finite(one.noise)) return Error{name + " holds a coefficient out of range"};
     for (std::size_t k = 0; k < kSystemStates; ++k) {
-      if (!(one.lowest[k] >= -kMostRate && one.lowest[k] <= one.highest[k] && one.highest[k] <= kMostRate)) {
+      if (!(one.lowest[k] >= -kMaxRate && one.lowest[k] <= one.highest[k] && one.highest[k] <= kMaxRate)) {
         return Error{name + " has a range that is not one"};
       }
     }

@@ -38,20 +38,20 @@ fb::Offset<fb::Vector<double>> optional_vector(Builder& builder, const std::vect
   return values.empty() ? 0 : builder.CreateVector(values);
 }
 
-fb::Offset<file::DrawnResiduals> write_drawn(Builder& builder, const DrawnResiduals& drawn) {
-  if (drawn.empty()) return 0;
-  const auto scale = builder.CreateVector(drawn.scale);
-  const auto rows = builder.CreateVector(drawn.rows);
-  const auto ends = builder.CreateVector(drawn.ends);
-  const auto winds = drawn.winds.empty() ? 0 : builder.CreateVector(drawn.winds);
-  const std::vector<std::int16_t> sources(drawn.mirror.begin(), drawn.mirror.end());
+fb::Offset<file::ResampledResiduals> write_resampled(Builder& builder, const ResampledResiduals& resampled) {
+  if (resampled.empty()) return 0;
+  const auto scale = builder.CreateVector(resampled.scale);
+  const auto rows = builder.CreateVector(resampled.rows);
+  const auto ends = builder.CreateVector(resampled.ends);
+  const auto winds = resampled.winds.empty() ? 0 : builder.CreateVector(resampled.winds);
+  const std::vector<std::int16_t> sources(resampled.mirror.begin(), resampled.mirror.end());
   const auto mirror = sources.empty() ? 0 : builder.CreateVector(sources);
-  const std::vector<std::uint16_t> past(drawn.lags.begin(), drawn.lags.end());
+  const std::vector<std::uint16_t> past(resampled.lags.begin(), resampled.lags.end());
   const auto lags = past.empty() ? 0 : builder.CreateVector(past);
-  return file::CreateDrawnResiduals(builder, scale, rows, ends, drawn.wind_scale, winds,
-                                    static_cast<std::int16_t>(drawn.toward), static_cast<std::int16_t>(drawn.against),
-                                    lags, drawn.tolerance, drawn.margin, static_cast<std::uint32_t>(drawn.longest),
-                                    mirror);
+  return file::CreateResampledResiduals(builder, scale, rows, ends, resampled.wind_scale, winds,
+                                        static_cast<std::int16_t>(resampled.toward),
+                                        static_cast<std::int16_t>(resampled.against), lags, resampled.tolerance,
+                                        resampled.margin, static_cast<std::uint32_t>(resampled.longest), mirror);
 }
 
 fb::Offset<file::Arx> write_arx(Builder& builder, const ArxModel& arx) {
@@ -66,9 +66,9 @@ fb::Offset<file::Arx> write_arx(Builder& builder, const ArxModel& arx) {
   const auto sd = builder.CreateVector(arx.noise.sd);
   const auto ci = optional_vector(builder, joined(arx.noise.sd_ci95));
   const auto mixing = optional_vector(builder, arx.noise.mixing);
-  const auto drawn = write_drawn(builder, arx.noise.drawn);
+  const auto resampled = write_resampled(builder, arx.noise.resampled);
   return file::CreateArx(builder, na, nb, nk, theta, std_error, constant, output_mean, input_mean, sd, ci,
-                         static_cast<std::uint16_t>(arx.noise.rank), mixing, drawn);
+                         static_cast<std::uint16_t>(arx.noise.rank), mixing, resampled);
 }
 
 fb::Offset<file::ArxMode> write_mode(Builder& builder, const ArxMode& mode) {
@@ -108,10 +108,10 @@ fb::Offset<file::RampTraining> write_ramp(Builder& builder, const RampTraining& 
 fb::Offset<file::ExtinctionTraining> write_extinction_training(Builder& builder,
                                                                const std::optional<ExtinctionTraining>& made) {
   if (!made) return 0;
-  const auto dying = write_ramp(builder, made->dying);
-  const auto catching = write_ramp(builder, made->catching);
+  const auto decay = write_ramp(builder, made->decay);
+  const auto re_ignition = write_ramp(builder, made->re_ignition);
   return file::CreateExtinctionTraining(builder, static_cast<file::Origin>(made->origin), made->deaths, made->died,
-                                        made->gusts, made->spared, dying, catching);
+                                        made->gusts, made->spared, decay, re_ignition);
 }
 
 fb::Offset<file::MotionTraining> write_motion(Builder& builder, const std::optional<MotionTraining>& motion) {
@@ -152,7 +152,7 @@ fb::Offset<file::Training> write_training(Builder& builder, const Training& made
 fb::Offset<file::Extinction> write_extinction(Builder& builder, const std::optional<Extinction>& rule) {
   if (!rule) return 0;
   return file::CreateExtinction(builder, static_cast<std::uint32_t>(rule->input), rule->level, rule->seconds,
-                                rule->haste, rule->recovery, rule->dying, rule->catching);
+                                rule->haste, rule->recovery, rule->decay, rule->re_ignition);
 }
 
 std::string text(const fb::String* string) { return string ? string->str() : std::string(); }
@@ -200,29 +200,29 @@ std::vector<T> integers(const fb::Vector<T>* stored) {
   return stored ? std::vector<T>(stored->begin(), stored->end()) : std::vector<T>();
 }
 
-DrawnResiduals read_drawn(const file::DrawnResiduals& stored) {
+ResampledResiduals read_resampled(const file::ResampledResiduals& stored) {
   constexpr std::uint32_t kLargest = 1U << 30;  // out of every range, and still an int
-  DrawnResiduals drawn;
-  drawn.scale = numbers(stored.scale());
-  drawn.rows = integers(stored.rows());
-  drawn.ends = integers(stored.ends());
-  drawn.wind_scale = stored.wind_scale();
-  drawn.winds = integers(stored.winds());
-  drawn.toward = stored.toward();
-  drawn.against = stored.against();
-  for (std::uint16_t lag : integers(stored.lags())) drawn.lags.push_back(lag);
-  drawn.tolerance = stored.tolerance();
-  drawn.margin = stored.margin();
-  drawn.longest = static_cast<int>(std::min(stored.longest(), kLargest));
-  for (std::int16_t from : integers(stored.mirror())) drawn.mirror.push_back(from);
-  return drawn;
+  ResampledResiduals resampled;
+  resampled.scale = numbers(stored.scale());
+  resampled.rows = integers(stored.rows());
+  resampled.ends = integers(stored.ends());
+  resampled.wind_scale = stored.wind_scale();
+  resampled.winds = integers(stored.winds());
+  resampled.toward = stored.toward();
+  resampled.against = stored.against();
+  for (std::uint16_t lag : integers(stored.lags())) resampled.lags.push_back(lag);
+  resampled.tolerance = stored.tolerance();
+  resampled.margin = stored.margin();
+  resampled.longest = static_cast<int>(std::min(stored.longest(), kLargest));
+  for (std::int16_t from : integers(stored.mirror())) resampled.mirror.push_back(from);
+  return resampled;
 }
 
 Result<void> read_noise(const file::Arx& stored, ResidualNoise& noise) {
   noise.sd = numbers(stored.noise_sd());
   noise.rank = stored.noise_rank();
   noise.mixing = numbers(stored.noise_mixing());
-  if (stored.noise_drawn()) noise.drawn = read_drawn(*stored.noise_drawn());
+  if (stored.noise_resampled()) noise.resampled = read_resampled(*stored.noise_resampled());
   const std::vector<double> ci = numbers(stored.noise_sd_ci95());
   if (!ci.empty() && ci.size() != 2 * noise.sd.size())
     return wrong_size("noise_sd_ci95", ci.size(), 2 * noise.sd.size());
@@ -320,8 +320,8 @@ std::optional<ExtinctionTraining> read_extinction_training(const file::Extinctio
                             stored->died(),
                             stored->gusts(),
                             stored->spared(),
-                            read_ramp(stored->dying()),
-                            read_ramp(stored->catching())};
+                            read_ramp(stored->decay()),
+                            read_ramp(stored->re_ignition())};
 }
 
 std::optional<MotionTraining> read_motion(const file::MotionTraining* stored) {
@@ -447,8 +447,8 @@ Result<void> read_view(const file::Model& stored, Model& model) {
 std::optional<Extinction> read_extinction(const file::Model& stored) {
   const auto* rule = stored.extinction();
   if (!rule) return {};
-  return Extinction{rule->input(),    rule->level(), rule->seconds(), rule->haste(),
-                    rule->recovery(), rule->dying(), rule->catching()};
+  return Extinction{rule->input(),    rule->level(), rule->seconds(),    rule->haste(),
+                    rule->recovery(), rule->decay(), rule->re_ignition()};
 }
 
 fb::Offset<file::Input> write_input(Builder& builder, const Input& input) {

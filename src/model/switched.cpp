@@ -80,7 +80,7 @@ Result<void> check_lyapunov(const SwitchedArxModel& model) {
   }
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const std::string block = "block " + std::to_string(b) + " of the Lyapunov function";
-    if (blocks[b].states > kMostLyapunovStates) return Error{block + " has more than 256 states"};
+    if (blocks[b].states > kMaxLyapunovStates) return Error{block + " has more than 256 states"};
     const auto states = static_cast<std::size_t>(blocks[b].states);
     if (auto ok = check_numbers(model.lyapunov[b], states * states, block); !ok) return ok;
     if (!is_common_lyapunov(blocks[b], model.lyapunov[b])) {
@@ -218,7 +218,7 @@ std::vector<StateBlock> state_blocks(const SwitchedArxModel& model) {
     }
     block.states = order * static_cast<int>(block.outputs.size());
     if (block.states == 0) continue;
-    if (block.states <= kMostLyapunovStates) {
+    if (block.states <= kMaxLyapunovStates) {
       for (const ArxModel& mode : modes) block.companion.push_back(companion(mode, block.outputs, block.states));
     }
     blocks.push_back(std::move(block));
@@ -239,7 +239,7 @@ bool is_common_lyapunov(const StateBlock& block, std::span<const double> lyapuno
 }
 
 Result<void> check(const SwitchedArxModel& model) {
-  if (model.modes.empty() || model.modes.size() > kMostArxModes) {
+  if (model.modes.empty() || model.modes.size() > kMaxArxModes) {
     return Error{"a switched model has " + std::to_string(model.modes.size()) + " modes, expected 1 to 64"};
   }
   for (std::size_t k = 0; k < model.modes.size(); ++k) {

@@ -22,8 +22,8 @@ struct InputBuilder;
 struct Output;
 struct OutputBuilder;
 
-struct DrawnResiduals;
-struct DrawnResidualsBuilder;
+struct ResampledResiduals;
+struct ResampledResidualsBuilder;
 
 struct Arx;
 struct ArxBuilder;
@@ -595,8 +595,8 @@ inline flatbuffers::Offset<Output> CreateOutputDirect(
       highest);
 }
 
-struct DrawnResiduals FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
-  typedef DrawnResidualsBuilder Builder;
+struct ResampledResiduals FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
+  typedef ResampledResidualsBuilder Builder;
   struct Traits;
   enum FlatBuffersVTableOffset FLATBUFFERS_VTABLE_UNDERLYING_TYPE {
     VT_SCALE = 4,
@@ -672,61 +672,61 @@ struct DrawnResiduals FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   }
 };
 
-struct DrawnResidualsBuilder {
-  typedef DrawnResiduals Table;
+struct ResampledResidualsBuilder {
+  typedef ResampledResiduals Table;
   flatbuffers::FlatBufferBuilder &fbb_;
   flatbuffers::uoffset_t start_;
   void add_scale(flatbuffers::Offset<flatbuffers::Vector<double>> scale) {
-    fbb_.AddOffset(DrawnResiduals::VT_SCALE, scale);
+    fbb_.AddOffset(ResampledResiduals::VT_SCALE, scale);
   }
   void add_rows(flatbuffers::Offset<flatbuffers::Vector<int16_t>> rows) {
-    fbb_.AddOffset(DrawnResiduals::VT_ROWS, rows);
+    fbb_.AddOffset(ResampledResiduals::VT_ROWS, rows);
   }
   void add_ends(flatbuffers::Offset<flatbuffers::Vector<uint32_t>> ends) {
-    fbb_.AddOffset(DrawnResiduals::VT_ENDS, ends);
+    fbb_.AddOffset(ResampledResiduals::VT_ENDS, ends);
   }
   void add_wind_scale(double wind_scale) {
-    fbb_.AddElement<double>(DrawnResiduals::VT_WIND_SCALE, wind_scale, 0.0);
+    fbb_.AddElement<double>(ResampledResiduals::VT_WIND_SCALE, wind_scale, 0.0);
   }
   void add_winds(flatbuffers::Offset<flatbuffers::Vector<int16_t>> winds) {
-    fbb_.AddOffset(DrawnResiduals::VT_WINDS, winds);
+    fbb_.AddOffset(ResampledResiduals::VT_WINDS, winds);
   }
   void add_toward(int16_t toward) {
-    fbb_.AddElement<int16_t>(DrawnResiduals::VT_TOWARD, toward, -1);
+    fbb_.AddElement<int16_t>(ResampledResiduals::VT_TOWARD, toward, -1);
   }
   void add_against(int16_t against) {
-    fbb_.AddElement<int16_t>(DrawnResiduals::VT_AGAINST, against, -1);
+    fbb_.AddElement<int16_t>(ResampledResiduals::VT_AGAINST, against, -1);
   }
   void add_lags(flatbuffers::Offset<flatbuffers::Vector<uint16_t>> lags) {
-    fbb_.AddOffset(DrawnResiduals::VT_LAGS, lags);
+    fbb_.AddOffset(ResampledResiduals::VT_LAGS, lags);
   }
   void add_tolerance(double tolerance) {
-    fbb_.AddElement<double>(DrawnResiduals::VT_TOLERANCE, tolerance, 0.0);
+    fbb_.AddElement<double>(ResampledResiduals::VT_TOLERANCE, tolerance, 0.0);
   }
   void add_margin(double margin) {
-    fbb_.AddElement<double>(DrawnResiduals::VT_MARGIN, margin, 0.0);
+    fbb_.AddElement<double>(ResampledResiduals::VT_MARGIN, margin, 0.0);
   }
   void add_longest(uint32_t longest) {
-    fbb_.AddElement<uint32_t>(DrawnResiduals::VT_LONGEST, longest, 0);
+    fbb_.AddElement<uint32_t>(ResampledResiduals::VT_LONGEST, longest, 0);
   }
   void add_mirror(flatbuffers::Offset<flatbuffers::Vector<int16_t>> mirror) {
-    fbb_.AddOffset(DrawnResiduals::VT_MIRROR, mirror);
+    fbb_.AddOffset(ResampledResiduals::VT_MIRROR, mirror);
   }
-  explicit DrawnResidualsBuilder(flatbuffers::FlatBufferBuilder &_fbb)
+  explicit ResampledResidualsBuilder(flatbuffers::FlatBufferBuilder &_fbb)
         : fbb_(_fbb) {
     start_ = fbb_.StartTable();
   }
-  flatbuffers::Offset<DrawnResiduals> Finish() {
+  flatbuffers::Offset<ResampledResiduals> Finish() {
     const auto end = fbb_.EndTable(start_);
-    auto o = flatbuffers::Offset<DrawnResiduals>(end);
-    fbb_.Required(o, DrawnResiduals::VT_SCALE);
-    fbb_.Required(o, DrawnResiduals::VT_ROWS);
-    fbb_.Required(o, DrawnResiduals::VT_ENDS);
+    auto o = flatbuffers::Offset<ResampledResiduals>(end);
+    fbb_.Required(o, ResampledResiduals::VT_SCALE);
+    fbb_.Required(o, ResampledResiduals::VT_ROWS);
+    fbb_.Required(o, ResampledResiduals::VT_ENDS);
     return o;
   }
 };
 
-inline flatbuffers::Offset<DrawnResiduals> CreateDrawnResiduals(
+inline flatbuffers::Offset<ResampledResiduals> CreateResampledResiduals(
     flatbuffers::FlatBufferBuilder &_fbb,
     flatbuffers::Offset<flatbuffers::Vector<double>> scale = 0,
     flatbuffers::Offset<flatbuffers::Vector<int16_t>> rows = 0,
@@ -740,7 +740,7 @@ inline flatbuffers::Offset<DrawnResiduals> CreateDrawnResiduals(
     double margin = 0.0,
     uint32_t longest = 0,
     flatbuffers::Offset<flatbuffers::Vector<int16_t>> mirror = 0) {
-  DrawnResidualsBuilder builder_(_fbb);
+  ResampledResidualsBuilder builder_(_fbb);
   builder_.add_margin(margin);
   builder_.add_tolerance(tolerance);
   builder_.add_wind_scale(wind_scale);
@@ -756,12 +756,12 @@ inline flatbuffers::Offset<DrawnResiduals> CreateDrawnResiduals(
   return builder_.Finish();
 }
 
-struct DrawnResiduals::Traits {
-  using type = DrawnResiduals;
-  static auto constexpr Create = CreateDrawnResiduals;
+struct ResampledResiduals::Traits {
+  using type = ResampledResiduals;
+  static auto constexpr Create = CreateResampledResiduals;
 };
 
-inline flatbuffers::Offset<DrawnResiduals> CreateDrawnResidualsDirect(
+inline flatbuffers::Offset<ResampledResiduals> CreateResampledResidualsDirect(
     flatbuffers::FlatBufferBuilder &_fbb,
     const std::vector<double> *scale = nullptr,
     const std::vector<int16_t> *rows = nullptr,
@@ -781,7 +781,7 @@ inline flatbuffers::Offset<DrawnResiduals> CreateDrawnResidualsDirect(
   auto winds__ = winds ? _fbb.CreateVector<int16_t>(*winds) : 0;
   auto lags__ = lags ? _fbb.CreateVector<uint16_t>(*lags) : 0;
   auto mirror__ = mirror ? _fbb.CreateVector<int16_t>(*mirror) : 0;
-  return wisp::file::CreateDrawnResiduals(
+  return wisp::file::CreateResampledResiduals(
       _fbb,
       scale__,
       rows__,
@@ -813,7 +813,7 @@ struct Arx FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
     VT_NOISE_SD_CI95 = 22,
     VT_NOISE_RANK = 24,
     VT_NOISE_MIXING = 26,
-    VT_NOISE_DRAWN = 28
+    VT_NOISE_RESAMPLED = 28
   };
   const flatbuffers::Vector<uint16_t> *na() const {
     return GetPointer<const flatbuffers::Vector<uint16_t> *>(VT_NA);
@@ -851,8 +851,8 @@ struct Arx FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   const flatbuffers::Vector<double> *noise_mixing() const {
     return GetPointer<const flatbuffers::Vector<double> *>(VT_NOISE_MIXING);
   }
-  const wisp::file::DrawnResiduals *noise_drawn() const {
-    return GetPointer<const wisp::file::DrawnResiduals *>(VT_NOISE_DRAWN);
+  const wisp::file::ResampledResiduals *noise_resampled() const {
+    return GetPointer<const wisp::file::ResampledResiduals *>(VT_NOISE_RESAMPLED);
   }
   bool Verify(flatbuffers::Verifier &verifier) const {
     return VerifyTableStart(verifier) &&
@@ -879,8 +879,8 @@ struct Arx FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
            VerifyField<uint16_t>(verifier, VT_NOISE_RANK, 2) &&
            VerifyOffset(verifier, VT_NOISE_MIXING) &&
            verifier.VerifyVector(noise_mixing()) &&
-           VerifyOffset(verifier, VT_NOISE_DRAWN) &&
-           verifier.VerifyTable(noise_drawn()) &&
+           VerifyOffset(verifier, VT_NOISE_RESAMPLED) &&
+           verifier.VerifyTable(noise_resampled()) &&
            verifier.EndTable();
   }
 };
@@ -925,8 +925,8 @@ struct ArxBuilder {
   void add_noise_mixing(flatbuffers::Offset<flatbuffers::Vector<double>> noise_mixing) {
     fbb_.AddOffset(Arx::VT_NOISE_MIXING, noise_mixing);
   }
-  void add_noise_drawn(flatbuffers::Offset<wisp::file::DrawnResiduals> noise_drawn) {
-    fbb_.AddOffset(Arx::VT_NOISE_DRAWN, noise_drawn);
+  void add_noise_resampled(flatbuffers::Offset<wisp::file::ResampledResiduals> noise_resampled) {
+    fbb_.AddOffset(Arx::VT_NOISE_RESAMPLED, noise_resampled);
   }
   explicit ArxBuilder(flatbuffers::FlatBufferBuilder &_fbb)
         : fbb_(_fbb) {
@@ -961,9 +961,9 @@ inline flatbuffers::Offset<Arx> CreateArx(
     flatbuffers::Offset<flatbuffers::Vector<double>> noise_sd_ci95 = 0,
     uint16_t noise_rank = 0,
     flatbuffers::Offset<flatbuffers::Vector<double>> noise_mixing = 0,
-    flatbuffers::Offset<wisp::file::DrawnResiduals> noise_drawn = 0) {
+    flatbuffers::Offset<wisp::file::ResampledResiduals> noise_resampled = 0) {
   ArxBuilder builder_(_fbb);
-  builder_.add_noise_drawn(noise_drawn);
+  builder_.add_noise_resampled(noise_resampled);
   builder_.add_noise_mixing(noise_mixing);
   builder_.add_noise_sd_ci95(noise_sd_ci95);
   builder_.add_noise_sd(noise_sd);
@@ -998,7 +998,7 @@ inline flatbuffers::Offset<Arx> CreateArxDirect(
     const std::vector<double> *noise_sd_ci95 = nullptr,
     uint16_t noise_rank = 0,
     const std::vector<double> *noise_mixing = nullptr,
-    flatbuffers::Offset<wisp::file::DrawnResiduals> noise_drawn = 0) {
+    flatbuffers::Offset<wisp::file::ResampledResiduals> noise_resampled = 0) {
   auto na__ = na ? _fbb.CreateVector<uint16_t>(*na) : 0;
   auto nb__ = nb ? _fbb.CreateVector<uint16_t>(*nb) : 0;
   auto nk__ = nk ? _fbb.CreateVector<uint16_t>(*nk) : 0;
@@ -1024,7 +1024,7 @@ inline flatbuffers::Offset<Arx> CreateArxDirect(
       noise_sd_ci95__,
       noise_rank,
       noise_mixing__,
-      noise_drawn);
+      noise_resampled);
 }
 
 struct GustResponse FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
@@ -1485,7 +1485,7 @@ struct Chain FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
     VT_DRIFT = 36,
     VT_SYSTEMS = 38,
     VT_SPLINES = 40,
-    VT_ONWARD = 42
+    VT_SUCCESSOR_WEIGHTS = 42
   };
   wisp::file::ChainMotion motion() const {
     return static_cast<wisp::file::ChainMotion>(GetField<uint8_t>(VT_MOTION, 0));
@@ -1544,8 +1544,8 @@ struct Chain FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   const wisp::file::ModeSplines *splines() const {
     return GetPointer<const wisp::file::ModeSplines *>(VT_SPLINES);
   }
-  const flatbuffers::Vector<uint16_t> *onward() const {
-    return GetPointer<const flatbuffers::Vector<uint16_t> *>(VT_ONWARD);
+  const flatbuffers::Vector<uint16_t> *successor_weights() const {
+    return GetPointer<const flatbuffers::Vector<uint16_t> *>(VT_SUCCESSOR_WEIGHTS);
   }
   bool Verify(flatbuffers::Verifier &verifier) const {
     return VerifyTableStart(verifier) &&
@@ -1582,8 +1582,8 @@ struct Chain FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
            verifier.VerifyTable(systems()) &&
            VerifyOffset(verifier, VT_SPLINES) &&
            verifier.VerifyTable(splines()) &&
-           VerifyOffset(verifier, VT_ONWARD) &&
-           verifier.VerifyVector(onward()) &&
+           VerifyOffset(verifier, VT_SUCCESSOR_WEIGHTS) &&
+           verifier.VerifyVector(successor_weights()) &&
            verifier.EndTable();
   }
 };
@@ -1649,8 +1649,8 @@ struct ChainBuilder {
   void add_splines(flatbuffers::Offset<wisp::file::ModeSplines> splines) {
     fbb_.AddOffset(Chain::VT_SPLINES, splines);
   }
-  void add_onward(flatbuffers::Offset<flatbuffers::Vector<uint16_t>> onward) {
-    fbb_.AddOffset(Chain::VT_ONWARD, onward);
+  void add_successor_weights(flatbuffers::Offset<flatbuffers::Vector<uint16_t>> successor_weights) {
+    fbb_.AddOffset(Chain::VT_SUCCESSOR_WEIGHTS, successor_weights);
   }
   explicit ChainBuilder(flatbuffers::FlatBufferBuilder &_fbb)
         : fbb_(_fbb) {
@@ -1693,9 +1693,9 @@ inline flatbuffers::Offset<Chain> CreateChain(
     flatbuffers::Offset<wisp::file::ChainDrift> drift = 0,
     flatbuffers::Offset<wisp::file::ModeSystems> systems = 0,
     flatbuffers::Offset<wisp::file::ModeSplines> splines = 0,
-    flatbuffers::Offset<flatbuffers::Vector<uint16_t>> onward = 0) {
+    flatbuffers::Offset<flatbuffers::Vector<uint16_t>> successor_weights = 0) {
   ChainBuilder builder_(_fbb);
-  builder_.add_onward(onward);
+  builder_.add_successor_weights(successor_weights);
   builder_.add_splines(splines);
   builder_.add_systems(systems);
   builder_.add_drift(drift);
@@ -1744,7 +1744,7 @@ inline flatbuffers::Offset<Chain> CreateChainDirect(
     flatbuffers::Offset<wisp::file::ChainDrift> drift = 0,
     flatbuffers::Offset<wisp::file::ModeSystems> systems = 0,
     flatbuffers::Offset<wisp::file::ModeSplines> splines = 0,
-    const std::vector<uint16_t> *onward = nullptr) {
+    const std::vector<uint16_t> *successor_weights = nullptr) {
   auto segment_mode__ = segment_mode ? _fbb.CreateVector<uint16_t>(*segment_mode) : 0;
   auto segment_steps__ = segment_steps ? _fbb.CreateVector<uint16_t>(*segment_steps) : 0;
   auto packed__ = packed ? _fbb.CreateVector<uint8_t>(*packed) : 0;
@@ -1755,7 +1755,7 @@ inline flatbuffers::Offset<Chain> CreateChainDirect(
   auto history_lengths__ = history_lengths ? _fbb.CreateVector<uint8_t>(*history_lengths) : 0;
   auto histories__ = histories ? _fbb.CreateVector<uint16_t>(*histories) : 0;
   auto probabilities__ = probabilities ? _fbb.CreateVector<double>(*probabilities) : 0;
-  auto onward__ = onward ? _fbb.CreateVector<uint16_t>(*onward) : 0;
+  auto successor_weights__ = successor_weights ? _fbb.CreateVector<uint16_t>(*successor_weights) : 0;
   return wisp::file::CreateChain(
       _fbb,
       motion,
@@ -1777,7 +1777,7 @@ inline flatbuffers::Offset<Chain> CreateChainDirect(
       drift,
       systems,
       splines,
-      onward__);
+      successor_weights__);
 }
 
 struct ArxMode FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
@@ -2624,8 +2624,8 @@ struct ExtinctionTraining FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
     VT_DIED = 8,
     VT_GUSTS = 10,
     VT_SPARED = 12,
-    VT_DYING = 14,
-    VT_CATCHING = 16
+    VT_DECAY = 14,
+    VT_RE_IGNITION = 16
   };
   wisp::file::Origin origin() const {
     return static_cast<wisp::file::Origin>(GetField<uint8_t>(VT_ORIGIN, 0));
@@ -2642,11 +2642,11 @@ struct ExtinctionTraining FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   uint32_t spared() const {
     return GetField<uint32_t>(VT_SPARED, 0);
   }
-  const wisp::file::RampTraining *dying() const {
-    return GetPointer<const wisp::file::RampTraining *>(VT_DYING);
+  const wisp::file::RampTraining *decay() const {
+    return GetPointer<const wisp::file::RampTraining *>(VT_DECAY);
   }
-  const wisp::file::RampTraining *catching() const {
-    return GetPointer<const wisp::file::RampTraining *>(VT_CATCHING);
+  const wisp::file::RampTraining *re_ignition() const {
+    return GetPointer<const wisp::file::RampTraining *>(VT_RE_IGNITION);
   }
   bool Verify(flatbuffers::Verifier &verifier) const {
     return VerifyTableStart(verifier) &&
@@ -2655,10 +2655,10 @@ struct ExtinctionTraining FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
            VerifyField<uint32_t>(verifier, VT_DIED, 4) &&
            VerifyField<uint32_t>(verifier, VT_GUSTS, 4) &&
            VerifyField<uint32_t>(verifier, VT_SPARED, 4) &&
-           VerifyOffset(verifier, VT_DYING) &&
-           verifier.VerifyTable(dying()) &&
-           VerifyOffset(verifier, VT_CATCHING) &&
-           verifier.VerifyTable(catching()) &&
+           VerifyOffset(verifier, VT_DECAY) &&
+           verifier.VerifyTable(decay()) &&
+           VerifyOffset(verifier, VT_RE_IGNITION) &&
+           verifier.VerifyTable(re_ignition()) &&
            verifier.EndTable();
   }
 };
@@ -2682,11 +2682,11 @@ struct ExtinctionTrainingBuilder {
   void add_spared(uint32_t spared) {
     fbb_.AddElement<uint32_t>(ExtinctionTraining::VT_SPARED, spared, 0);
   }
-  void add_dying(flatbuffers::Offset<wisp::file::RampTraining> dying) {
-    fbb_.AddOffset(ExtinctionTraining::VT_DYING, dying);
+  void add_decay(flatbuffers::Offset<wisp::file::RampTraining> decay) {
+    fbb_.AddOffset(ExtinctionTraining::VT_DECAY, decay);
   }
-  void add_catching(flatbuffers::Offset<wisp::file::RampTraining> catching) {
-    fbb_.AddOffset(ExtinctionTraining::VT_CATCHING, catching);
+  void add_re_ignition(flatbuffers::Offset<wisp::file::RampTraining> re_ignition) {
+    fbb_.AddOffset(ExtinctionTraining::VT_RE_IGNITION, re_ignition);
   }
   explicit ExtinctionTrainingBuilder(flatbuffers::FlatBufferBuilder &_fbb)
         : fbb_(_fbb) {
@@ -2706,11 +2706,11 @@ inline flatbuffers::Offset<ExtinctionTraining> CreateExtinctionTraining(
     uint32_t died = 0,
     uint32_t gusts = 0,
     uint32_t spared = 0,
-    flatbuffers::Offset<wisp::file::RampTraining> dying = 0,
-    flatbuffers::Offset<wisp::file::RampTraining> catching = 0) {
+    flatbuffers::Offset<wisp::file::RampTraining> decay = 0,
+    flatbuffers::Offset<wisp::file::RampTraining> re_ignition = 0) {
   ExtinctionTrainingBuilder builder_(_fbb);
-  builder_.add_catching(catching);
-  builder_.add_dying(dying);
+  builder_.add_re_ignition(re_ignition);
+  builder_.add_decay(decay);
   builder_.add_spared(spared);
   builder_.add_gusts(gusts);
   builder_.add_died(died);
@@ -3046,8 +3046,8 @@ struct Extinction FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
     VT_SECONDS = 8,
     VT_HASTE = 10,
     VT_RECOVERY = 12,
-    VT_DYING = 14,
-    VT_CATCHING = 16
+    VT_DECAY = 14,
+    VT_RE_IGNITION = 16
   };
   uint32_t input() const {
     return GetField<uint32_t>(VT_INPUT, 0);
@@ -3064,11 +3064,11 @@ struct Extinction FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   double recovery() const {
     return GetField<double>(VT_RECOVERY, 0.0);
   }
-  double dying() const {
-    return GetField<double>(VT_DYING, 0.0);
+  double decay() const {
+    return GetField<double>(VT_DECAY, 0.0);
   }
-  double catching() const {
-    return GetField<double>(VT_CATCHING, 0.0);
+  double re_ignition() const {
+    return GetField<double>(VT_RE_IGNITION, 0.0);
   }
   bool Verify(flatbuffers::Verifier &verifier) const {
     return VerifyTableStart(verifier) &&
@@ -3077,8 +3077,8 @@ struct Extinction FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
            VerifyField<double>(verifier, VT_SECONDS, 8) &&
            VerifyField<double>(verifier, VT_HASTE, 8) &&
            VerifyField<double>(verifier, VT_RECOVERY, 8) &&
-           VerifyField<double>(verifier, VT_DYING, 8) &&
-           VerifyField<double>(verifier, VT_CATCHING, 8) &&
+           VerifyField<double>(verifier, VT_DECAY, 8) &&
+           VerifyField<double>(verifier, VT_RE_IGNITION, 8) &&
            verifier.EndTable();
   }
 };
@@ -3102,11 +3102,11 @@ struct ExtinctionBuilder {
   void add_recovery(double recovery) {
     fbb_.AddElement<double>(Extinction::VT_RECOVERY, recovery, 0.0);
   }
-  void add_dying(double dying) {
-    fbb_.AddElement<double>(Extinction::VT_DYING, dying, 0.0);
+  void add_decay(double decay) {
+    fbb_.AddElement<double>(Extinction::VT_DECAY, decay, 0.0);
   }
-  void add_catching(double catching) {
-    fbb_.AddElement<double>(Extinction::VT_CATCHING, catching, 0.0);
+  void add_re_ignition(double re_ignition) {
+    fbb_.AddElement<double>(Extinction::VT_RE_IGNITION, re_ignition, 0.0);
   }
   explicit ExtinctionBuilder(flatbuffers::FlatBufferBuilder &_fbb)
         : fbb_(_fbb) {
@@ -3126,11 +3126,11 @@ inline flatbuffers::Offset<Extinction> CreateExtinction(
     double seconds = 0.0,
     double haste = 0.0,
     double recovery = 0.0,
-    double dying = 0.0,
-    double catching = 0.0) {
+    double decay = 0.0,
+    double re_ignition = 0.0) {
   ExtinctionBuilder builder_(_fbb);
-  builder_.add_catching(catching);
-  builder_.add_dying(dying);
+  builder_.add_re_ignition(re_ignition);
+  builder_.add_decay(decay);
   builder_.add_recovery(recovery);
   builder_.add_haste(haste);
   builder_.add_seconds(seconds);

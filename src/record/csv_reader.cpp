@@ -23,10 +23,10 @@ using csv::trimmed;
 
 // What was found, short enough for a message of one line.
 std::string shown(std::string_view text) {
-  constexpr std::size_t kMost = 40;
+  constexpr std::size_t kMax = 40;
   std::string out;
-  for (char c : text.substr(0, kMost)) out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
-  return "\"" + out + (text.size() > kMost ? "…\"" : "\"");
+  for (char c : text.substr(0, kMax)) out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+  return "\"" + out + (text.size() > kMax ? "…\"" : "\"");
 }
 
 bool is_text(std::string_view line) {
@@ -315,9 +315,9 @@ Result<void> CsvReader::read_columns(const CsvOptions& options) {
   return read_units();
 }
 
-Result<std::size_t> CsvReader::read(Recording& recording, std::size_t most_rows) {
+Result<std::size_t> CsvReader::read(Recording& recording, std::size_t max_rows) {
   std::size_t count = 0;
-  while (count < most_rows) {
+  while (count < max_rows) {
     const auto more = next_line();
     if (!more) return more.error();
     if (!*more) break;
@@ -327,9 +327,9 @@ Result<std::size_t> CsvReader::read(Recording& recording, std::size_t most_rows)
   return count;
 }
 
-Result<std::size_t> CsvReader::skip(std::size_t most_rows) {
+Result<std::size_t> CsvReader::skip(std::size_t max_rows) {
   std::size_t count = 0;
-  while (count < most_rows) {
+  while (count < max_rows) {
     const auto more = next_line();
     if (!more) return more.error();
     if (!*more) break;

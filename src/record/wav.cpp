@@ -24,7 +24,7 @@ constexpr unsigned kTagPcm = 1;
 constexpr unsigned kTagFloat = 3;
 constexpr unsigned kTagExtensible = 0xfffe;
 constexpr std::size_t kBlockBytes = 1 << 16;
-constexpr std::uint64_t kMostDataBytes = 0xffffffffU - 128;  // leaves room for the header in RIFF's 32-bit size
+constexpr std::uint64_t kMaxDataBytes = 0xffffffffU - 128;  // leaves room for the header in RIFF's 32-bit size
 
 // The part of an extensible format's 16-byte identity that follows its tag.
 constexpr std::array<unsigned char, 14> kSubformatTail{0x00, 0x00, 0x00, 0x00, 0x10, 0x00, 0x80,
@@ -403,7 +403,7 @@ Result<WavWriter> WavWriter::create(const std::filesystem::path& path, const Wav
 Result<void> WavWriter::write(std::span<const float> interleaved) {
   State& s = *state_;
   const std::size_t bytes = static_cast<std::size_t>(bytes_of(s.format.sample));
-  if (s.data_bytes + interleaved.size() * bytes > kMostDataBytes) {
+  if (s.data_bytes + interleaved.size() * bytes > kMaxDataBytes) {
     return bad(s.path, "would grow past 4 GiB, the most that WAV holds; write several files");
   }
   while (!interleaved.empty()) {

@@ -7,12 +7,12 @@
 
 namespace wisp::wind {
 
-constexpr float kNothingDb = -110;    ///< of loudness: below, no sound comes at all (a muted or starting stream)
-constexpr float kLeastFloorDb = -95;  ///< a floor below this is a gated microphone's, not a room's
-constexpr float kRoomDb = -70;        ///< a room at first hearing: no louder than this, so that a first gust is one
-constexpr float kQuietDb = 6;         ///< of loudness over the floor: no wind below this
-constexpr float kTopDb = 3;           ///< the floor lies at most so far below the loudest that the room was
-constexpr int kWarmHops = 15;         ///< until the 50 ms mean has forgotten its start
+constexpr float kNothingDb = -110;  ///< of loudness: below, no sound comes at all (a muted or starting stream)
+constexpr float kMinFloorDb = -95;  ///< a floor below this is a gated microphone's, not a room's
+constexpr float kRoomDb = -70;      ///< a room at first hearing: no louder than this, so that a first gust is one
+constexpr float kQuietDb = 6;       ///< of loudness over the floor: no wind below this
+constexpr float kTopDb = 3;         ///< the floor lies at most so far below the loudest that the room was
+constexpr int kWarmHops = 15;       ///< until the 50 ms mean has forgotten its start
 
 /// The loudness that the sound keeps coming back to: falls to a softer sound within 50 ms, rises slowly.
 template <class T>
@@ -34,11 +34,11 @@ class Floor {
     } else {
       level_ = loudness_db < level_ + rise ? loudness_db : level_ + rise;
     }
-    if (level_ < T(kLeastFloorDb)) level_ = T(kLeastFloorDb);
+    if (level_ < T(kMinFloorDb)) level_ = T(kMinFloorDb);
   }
 
   void set(T loudness_db) {
-    level_ = loudness_db < T(kLeastFloorDb) ? T(kLeastFloorDb) : loudness_db;
+    level_ = loudness_db < T(kMinFloorDb) ? T(kMinFloorDb) : loudness_db;
     known_ = true;
   }
 
@@ -46,7 +46,7 @@ class Floor {
   T level_db() const { return level_; }
 
  private:
-  T level_ = T(kLeastFloorDb);
+  T level_ = T(kMinFloorDb);
   int warm_ = 0;
   bool known_ = false;
 };
@@ -78,7 +78,7 @@ class QuietMean {
  private:
   T rms_ = T(0.0F);
   T band_power_ = T(0.0F);
-  T loudness_db_ = T(kLeastFloorDb);
+  T loudness_db_ = T(kMinFloorDb);
   float count_ = 0;
 };
 
@@ -90,7 +90,7 @@ class Background {
 
   void end_frame(const Observation<T>& seen, const Design& d) {
     if (room_frames_ > 0) return learn_room(seen);
-    if (room_db_ < T(kLeastFloorDb) && floor_.known()) room_db_ = floor_.level_db();
+    if (room_db_ < T(kMinFloorDb) && floor_.known()) room_db_ = floor_.level_db();
     follow_top(seen.loudness_db, d);
     if (seen.loudness_db < T(kNothingDb) || !floor_.known()) return;
     const T floor = floor_.level_db();
@@ -107,7 +107,7 @@ class Background {
   void calibrate(int frames) {
     room_frames_ = frames;
     room_ = {};
-    top_db_ = T(kLeastFloorDb);
+    top_db_ = T(kMinFloorDb);
   }
 
   int frames_to_calibrate() const { return room_frames_; }
@@ -116,7 +116,7 @@ class Background {
     mean_.set(rms, band_power, loudness_db, d.quiet_span_frames);
     floor_.set(loudness_db);
     room_db_ = last_floor_ = floor_.level_db();
-    top_db_ = T(kLeastFloorDb);
+    top_db_ = T(kMinFloorDb);
     room_frames_ = 0;
   }
 
@@ -144,7 +144,7 @@ class Background {
 
   /// The room's own sounds, not loud enough to be heard as something else, lift what it may swell to.
   void follow_top(T loudness_db, const Design& d) {
-    if (top_db_ < T(kLeastFloorDb + 1)) return;  // never calibrated
+    if (top_db_ < T(kMinFloorDb + 1)) return;  // never calibrated
     if (top_db_ < loudness_db && loudness_db < floor_db() + T(kQuietDb)) {
       const T most = top_db_ + T(d.top_rise_db);
       top_db_ = loudness_db < most ? loudness_db : most;
@@ -155,10 +155,10 @@ class Background {
 
   Floor<T> floor_;
   QuietMean<T> mean_;
-  T top_db_ = T(kLeastFloorDb);  ///< loudest that a calibrated room was
+  T top_db_ = T(kMinFloorDb);  ///< loudest that a calibrated room was
   QuietMean<T> room_;
-  T room_db_ = T(kLeastFloorDb - 1);  ///< the floor when the room was learned; below kLeastFloorDb: it was not
-  T last_floor_ = T(kLeastFloorDb);
+  T room_db_ = T(kMinFloorDb - 1);  ///< the floor when the room was learned; below kMinFloorDb: it was not
+  T last_floor_ = T(kMinFloorDb);
   int run_ = 0;
   int room_frames_ = 0;
 };

@@ -7,9 +7,9 @@
 namespace wisp::wind {
 namespace {
 
-constexpr double kLeastAnalysisHz = 8000;
-constexpr double kLeastBoxedHz = 32000;  // the box's dip at 3.4 kHz stays below 0.2 dB
-constexpr int kTapsPerPhase = 4;         // of the low-pass
+constexpr double kMinAnalysisHz = 8000;
+constexpr double kMinBoxedHz = 32000;  // the box's dip at 3.4 kHz stays below 0.2 dB
+constexpr int kTapsPerPhase = 4;       // of the low-pass
 
 Result<void> in_range(const char* what, double found, double least, double most, const char* unit) {
   if (found >= least && found <= most) return {};
@@ -66,7 +66,7 @@ void set_times(Design& d, const WindOptions& options) {
   d.quiet_span_frames = static_cast<float>(10 * rate);
   d.first_gust_db = decibels(static_cast<float>(options.first_gust_rms * options.first_gust_rms));
   d.gust_rest_frames = rounded(0.25 * rate) + 1;
-  d.least_gust_frames = rounded(0.1 * rate) + 1;
+  d.min_gust_frames = rounded(0.1 * rate) + 1;
 }
 
 }  // namespace
@@ -74,10 +74,10 @@ void set_times(Design& d, const WindOptions& options) {
 Design design(const SoundFormat& format, const WindOptions& options) {
   Design d;
   d.channels = format.channels;
-  d.box = static_cast<int>(format.rate_hz / kLeastBoxedHz);
+  d.box = static_cast<int>(format.rate_hz / kMinBoxedHz);
   if (d.box < 1) d.box = 1;
   const double boxed = format.rate_hz / d.box;
-  d.decimation = static_cast<int>(boxed / kLeastAnalysisHz);
+  d.decimation = static_cast<int>(boxed / kMinAnalysisHz);
   const double rate = boxed / d.decimation;
   d.analysis_rate_hz = rate;
   if (d.decimation > 1) d.taps = windowed_sinc(kTapsPerPhase * d.decimation, 3800 / boxed);
@@ -96,7 +96,7 @@ Design design(const SoundFormat& format, const WindOptions& options) {
 
 Result<void> check(const SoundFormat& format, const WindOptions& options) {
   if (auto ok = in_range("the sound's rate", format.rate_hz, 8000, 192000, " Hz"); !ok) return ok;
-  if (auto ok = in_range("the number of channels", format.channels, 1, kMostChannels, ""); !ok) return ok;
+  if (auto ok = in_range("the number of channels", format.channels, 1, kMaxChannels, ""); !ok) return ok;
   if (auto ok = in_range("the frame rate", options.frame_rate_hz, 1, 1000, " Hz"); !ok) return ok;
   if (auto ok = in_range("the exponent", options.exponent, 0.1, 2, ""); !ok) return ok;
   if (auto ok = in_range("the smoothing", options.smoothing_seconds, 0, 1, " s"); !ok) return ok;

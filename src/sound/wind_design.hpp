@@ -59,10 +59,10 @@ struct Design {
   float quiet_span_frames = 600;  ///< memory of the background (10 s of quiet)
   float first_gust_db = -28;      ///< level of wind 1 before anything is heard
   int gust_rest_frames = 15;      ///< a gust ends when it has not blown for so long (0.25 s)
-  int least_gust_frames = 6;      ///< and is none when it blew for less than this (0.1 s)
+  int min_gust_frames = 6;        ///< and is none when it blew for less than this (0.1 s)
 };
 
-constexpr int kMostChannels = 8;
+constexpr int kMaxChannels = 8;
 
 /// A 16-bit sample with full scale 1.
 inline float from_pcm16(std::int16_t x) { return static_cast<float>(x) * (1.0F / 32768.0F); }

@@ -217,7 +217,7 @@ class Kernel {
   /// Whether there is a sound to judge, and one older than two hops: a voice needs as long to show its period.
   bool judged(T voice_sum) const {
     const T newest = T(d_.power_approach) * voice_sum * per_hop_;
-    return T(kLeastJudged) < mean_.voice * T(d_.voice_gain) && newest < T(0.5F) * mean_.voice;
+    return T(kMinJudged) < mean_.voice * T(d_.voice_gain) && newest < T(0.5F) * mean_.voice;
   }
 
   /// A hop's power over the 50 ms mean that it is part of, at most 1.
@@ -251,8 +251,8 @@ class Kernel {
     features_.peaked = peaked;
   }
 
-  static constexpr float kLeastJudged = 1e-11F;  // −110 dB: nothing is heard
-  static constexpr float kFullScale = 0.999F;    // 16-bit clipping leaves 32767 or, after an encoder, a little less
+  static constexpr float kMinJudged = 1e-11F;  // −110 dB: nothing is heard
+  static constexpr float kFullScale = 0.999F;  // 16-bit clipping leaves 32767 or, after an encoder, a little less
 
   Design d_;
   std::vector<Channel> channels_;

@@ -60,7 +60,7 @@ class Listener {
   void hear_gust(bool blows, T power_db) {
     if (asked_frames_ == 0) return reference_.hear(blows, power_db, d_);
     if (blows) asked_.add(power_db);
-    if (--asked_frames_ > 0 || asked_.frames() < d_.least_gust_frames) return;
+    if (--asked_frames_ > 0 || asked_.frames() < d_.min_gust_frames) return;
     heard_ask_ = true;
     if (ask_ == WindAsk::kBreatheGently) reference_.set_soft(asked_.high_db());
     if (ask_ == WindAsk::kBlowHard) reference_.set_hard(asked_.high_db());

@@ -24,7 +24,7 @@ class GustLevel {
   }
 
   void add(T db) {
-    T place = (db - T(kLeastDb)) * T(1 / kStepDb);
+    T place = (db - T(kMinDb)) * T(1 / kStepDb);
     if (place < T(0.0F)) place = T(0.0F);
     if (T(kBins - 1.0F) < place) place = T(kBins - 1.0F);
     ++counts_[static_cast<std::size_t>(plain(place))];
@@ -38,13 +38,13 @@ class GustLevel {
     int above = frames_ / 5;
     std::size_t bin = counts_.size() - 1;
     while (bin > 0 && above >= counts_[bin]) above -= counts_[bin--];
-    return T(kLeastDb) + T(kStepDb) * T(static_cast<float>(bin) + 0.5F);
+    return T(kMinDb) + T(kStepDb) * T(static_cast<float>(bin) + 0.5F);
   }
 
  private:
   static constexpr int kBins = 120;
   static constexpr float kStepDb = 1;
-  static constexpr float kLeastDb = -100;
+  static constexpr float kMinDb = -100;
 
   std::array<int, kBins> counts_{};
   int frames_ = 0;
@@ -68,7 +68,7 @@ class Reference {
       return;
     }
     if (gust_.frames() == 0 || ++rest_frames_ < d.gust_rest_frames) return;
-    if (gust_.frames() >= d.least_gust_frames) learn(gust_.high_db());
+    if (gust_.frames() >= d.min_gust_frames) learn(gust_.high_db());
     end();
   }
 
@@ -94,7 +94,7 @@ class Reference {
   static constexpr float kSoftDb = 4;      ///< a soft breath under it,
   static constexpr float kSpreadDb = 6;    ///< and how far either scatters
   static constexpr float kNeither = 0.1F;  ///< likelihood of a gust that is neither; it moves little
-  static constexpr float kMostGusts = 6;   ///< memory
+  static constexpr float kMaxGusts = 6;    ///< memory
   static constexpr float kFallDb = 8;      ///< as far below the beginning,
   static constexpr float kRiseDb = 12;     ///< and above it, as microphones differ
 
@@ -107,7 +107,7 @@ class Reference {
     level_db_ = level_db_ + T(1.0F / (learned_ + 1.0F)) * step;
     if (level_db_ < first_db_ - T(kFallDb)) level_db_ = first_db_ - T(kFallDb);
     if (first_db_ + T(kRiseDb) < level_db_) level_db_ = first_db_ + T(kRiseDb);
-    if (learned_ < kMostGusts) learned_ += 1.0F;
+    if (learned_ < kMaxGusts) learned_ += 1.0F;
   }
 
   void set_known() {

@@ -35,8 +35,8 @@ float find_floor(const Seen& seen) {
   for (const auto& one : seen) {
     if (one.loudness_db >= wind::kNothingDb) loudness.push_back(one.loudness_db);
   }
-  if (loudness.empty()) return wind::kLeastFloorDb;
-  return std::max(percentile(std::move(loudness), kFloorShare), wind::kLeastFloorDb);
+  if (loudness.empty()) return wind::kMinFloorDb;
+  return std::max(percentile(std::move(loudness), kFloorShare), wind::kMinFloorDb);
 }
 
 bool is_quiet(const wind::Observation<float>& one, float floor_db) {
@@ -184,7 +184,7 @@ struct WindTracker::State {
   template <class Sample, class Load>
   void feed(std::span<const Sample> samples, Load load) {
     const std::size_t channels = static_cast<std::size_t>(format.channels);
-    float one[wind::kMostChannels];
+    float one[wind::kMaxChannels];
     for (std::size_t i = 0; i + channels <= samples.size(); i += channels) {
       for (std::size_t c = 0; c < channels; ++c) one[c] = load(samples[i + c]);
       hear(one);

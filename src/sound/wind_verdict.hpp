@@ -18,9 +18,9 @@ struct Surroundings {
   T gust_db = T(0.0F);     ///< band power at wind 1
 };
 
-constexpr float kSureDb = 10;          ///< loudness over the floor from which blowing can be told from the room
-constexpr float kPassedDb = 8;         ///< the same for letting wind through: its background is taken off besides
-constexpr float kLeastPower = 1e-12F;  ///< of the band: no wind
+constexpr float kSureDb = 10;        ///< loudness over the floor from which blowing can be told from the room
+constexpr float kPassedDb = 8;       ///< the same for letting wind through: its background is taken off besides
+constexpr float kMinPower = 1e-12F;  ///< of the band: no wind
 
 /// 0 to 1: loudness stands out of the floor.
 template <class T>
@@ -46,7 +46,7 @@ WindFrame verdict(const Observation<T>& seen, const Surroundings<T>& around, flo
   const T power = power_over(seen, around.band_power);
   const T db = decibels(power);
   T speed = T(0.0F);
-  if (T(kLeastPower) < power) speed = exp2_of((db - around.gust_db) * T(power_exponent * 0.3321928095F));
+  if (T(kMinPower) < power) speed = exp2_of((db - around.gust_db) * T(power_exponent * 0.3321928095F));
   WindFrame frame;
   frame.rms = plain(seen.rms);
   frame.rms_clean = around.rms < seen.rms ? plain(seen.rms - around.rms) : 0.0F;

@@ -112,7 +112,7 @@ class Voicing {
       const T product = window_[0].products[k] + window_[1].products[k] + window_[2].products[k];
       const T delayed = window_[0].delayed[k] + window_[1].delayed[k] + window_[2].delayed[k];
       const T square = energy * delayed;
-      if (square < T(kLeastSquare) || product < T(0.0F)) continue;
+      if (square < T(kMinSquare) || product < T(0.0F)) continue;
       const T share = product / sqrt(square);
       if (most < share) most = share;
     }
@@ -127,7 +127,7 @@ class Voicing {
 
   void average(const Hop& hop, T fresh) {
     T most = T(0.0F);
-    const bool heard = T(kLeastEnergy) < hop.energy;
+    const bool heard = T(kMinEnergy) < hop.energy;
     const T scale = heard ? T(1.0F) / hop.energy : T(0.0F);
     const T share = tone_approach_ * fresh;
     for (std::size_t k = 0; k < lags_; ++k) {
@@ -140,8 +140,8 @@ class Voicing {
     hold(tone_, most, fresh);
   }
 
-  static constexpr float kLeastEnergy = 1e-12F;
-  static constexpr float kLeastSquare = 1e-24F;  // below: nothing is heard
+  static constexpr float kMinEnergy = 1e-12F;
+  static constexpr float kMinSquare = 1e-24F;  // below: nothing is heard
 
   int first_lag_;
   int length_;

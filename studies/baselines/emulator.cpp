@@ -106,11 +106,11 @@ class Moments {
 
   void descend(Eigen::Map<Eigen::ArrayXd> weights, const Eigen::Map<const Eigen::ArrayXd>& gradient, double rate,
                int step) {
-    constexpr double kMean = 0.9, kSquare = 0.999, kLeast = 1e-8;
+    constexpr double kMean = 0.9, kSquare = 0.999, kMin = 1e-8;
     mean_ = kMean * mean_ + (1 - kMean) * gradient;
     square_ = kSquare * square_ + (1 - kSquare) * gradient.square();
     const double m = 1 - std::pow(kMean, step), s = 1 - std::pow(kSquare, step);
-    weights -= rate * (mean_ / m) / ((square_ / s).sqrt() + kLeast);
+    weights -= rate * (mean_ / m) / ((square_ / s).sqrt() + kMin);
   }
 
  private:
@@ -196,7 +196,7 @@ void teach(Emulator& net, const Parts& parts, const EmulatorOptions& options) {
   teacher.start();
   Emulator best = net;
   best.held_out_error = mean_square(net, judged);
-  for (int epoch = 1; epoch <= options.most_epochs && epoch - best.epochs <= options.patience; ++epoch) {
+  for (int epoch = 1; epoch <= options.max_epochs && epoch - best.epochs <= options.patience; ++epoch) {
     teacher.epoch(parts.learned);
     net.epochs = epoch;
     net.held_out_error = mean_square(net, judged);

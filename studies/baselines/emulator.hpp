@@ -25,7 +25,7 @@ struct EmulatorOptions {
   double jitter = 0.05;  ///< noise on the history while learning, in standard deviations, >= 0: teaches it to come back
                          ///< from its own errors
   double held_out = 0.2;  ///< last share of every stretch, which says when to stop
-  int most_epochs = 150;
+  int max_epochs = 150;
   int patience = 15;   ///< epochs without a better prediction of what is held out
   double rate = 2e-3;  ///< of learning
   int batch = 128;

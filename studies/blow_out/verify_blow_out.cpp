@@ -1,4 +1,4 @@
-// A flame that is blown out and lit again, two ways: a rule of extinction with dying and catching as ramps, and
+// A flame that is blown out and lit again, two ways: a rule of extinction with decay and re_ignition as ramps, and
 // switched ARX modes over the flame's size, the wind and the tap that lights it, with and without the rule's harm among
 // what the regions see.
 //
@@ -56,9 +56,9 @@ Clip clip_of(const std::string& path) {
   return clip;
 }
 
-std::vector<ExtinctionEvidence> evidence_of(const std::vector<Clip>& clips, double dying) {
+std::vector<ExtinctionEvidence> evidence_of(const std::vector<Clip>& clips, double decay) {
   std::vector<ExtinctionEvidence> out;
-  for (const Clip& clip : clips) out.push_back({&clip.recording, "wind", clip.scale, clip.blow_outs, dying});
+  for (const Clip& clip : clips) out.push_back({&clip.recording, "wind", clip.scale, clip.blow_outs, decay});
   return out;
 }
 
@@ -72,7 +72,7 @@ std::vector<SizeCurve> curves_of(const std::vector<Clip>& clips, SizeChange chan
 
 // Harm of the next row by the rule's definition.
 double harmed(const Extinction& rule, double harm, double wind, double rate_hz) {
-  const double counted = std::min(wind, Extinction::kMostWind * rule.level) / rule.level;
+  const double counted = std::min(wind, Extinction::kMaxWind * rule.level) / rule.level;
   return harm + (counted >= 1 ? (1 + rule.haste * (counted - 1)) / rule.seconds : -1 / rule.recovery) / rate_hz;
 }
 
@@ -165,9 +165,9 @@ double window_error(const SwitchedArxModel& model, const std::vector<Clip>& clip
     const auto rows = [&](double seconds) { return static_cast<std::size_t>(seconds * rate); };
     for (const BlowOut& blow_out : clips[k].blow_outs) {
       if (!blow_out.blown) continue;
-      const bool dying = change == SizeChange::kDying;
-      const std::size_t first = dying ? blow_out.gone - rows(0.6) : blow_out.back;
-      const std::size_t last = dying ? blow_out.gone : std::min(data[k].rows(), blow_out.back + rows(2));
+      const bool decay = change == SizeChange::kDecay;
+      const std::size_t first = decay ? blow_out.gone - rows(0.6) : blow_out.back;
+      const std::size_t last = decay ? blow_out.gone : std::min(data[k].rows(), blow_out.back + rows(2));
       if (first >= last || first < rows(0.5)) continue;
       const std::size_t begin = first - rows(0.5);
       const auto sizes = played(model, data[k], channels, begin, last);
@@ -186,10 +186,10 @@ double median_size(std::vector<double> values) {
   return values.empty() ? 0 : values[values.size() / 2];
 }
 
-void print_row(const std::string& name, int died, int deaths, int spared, int gusts, double off_ms, double dying,
-               double catching, const std::string& verdict) {
+void print_row(const std::string& name, int died, int deaths, int spared, int gusts, double off_ms, double decay,
+               double re_ignition, const std::string& verdict) {
   std::printf("%-34s %3d of %-3d %3d of %-3d %6.0f %8.3f %8.3f  %s\n", name.c_str(), died, deaths, spared, gusts,
-              off_ms, dying, catching, verdict.c_str());
+              off_ms, decay, re_ignition, verdict.c_str());
 }
 
 void judge_switched(const std::string& name, const ChannelChoice& channels, int modes,
@@ -214,8 +214,8 @@ void judge_switched(const std::string& name, const ChannelChoice& channels, int 
   }
   const int gusts = static_cast<int>(all.gusts);
   print_row(name, tally.died, static_cast<int>(all.deaths), std::max(0, gusts - tally.killed), gusts,
-            median_size(tally.late_ms), window_error(fit->model, clips, unseen, channels, SizeChange::kDying),
-            window_error(fit->model, clips, unseen, channels, SizeChange::kCatching),
+            median_size(tally.late_ms), window_error(fit->model, clips, unseen, channels, SizeChange::kDecay),
+            window_error(fit->model, clips, unseen, channels, SizeChange::kReIgnition),
             fit->summary.usable.verdict ? "" : "not usable");
 }
 
@@ -235,36 +235,36 @@ int main(int count, char** words) {
     std::fprintf(stderr, "usage: wisp_verify_blow_out LEARNED.csv... -- UNSEEN.csv...\n");
     return 2;
   }
-  const auto dying = learn_ramp(SizeChange::kDying, curves_of(seen, SizeChange::kDying));
-  const auto catching = learn_ramp(SizeChange::kCatching, curves_of(seen, SizeChange::kCatching));
-  if (!dying || !catching) {
+  const auto decay = learn_ramp(SizeChange::kDecay, curves_of(seen, SizeChange::kDecay));
+  const auto re_ignition = learn_ramp(SizeChange::kReIgnition, curves_of(seen, SizeChange::kReIgnition));
+  if (!decay || !re_ignition) {
     std::fprintf(stderr, "the clips to learn from have no death that is lit again\n");
     return 1;
   }
-  const auto fit = learn_extinction(evidence_of(seen, dying->seconds));
+  const auto fit = learn_extinction(evidence_of(seen, decay->seconds));
   if (!fit) {
     std::fprintf(stderr, "%s\n", fit.error().message.c_str());
     return 1;
   }
   const Extinction& rule = fit->rule;
   std::printf(
-      "learned from %zu deaths: level %.2f, %.3f s, haste %.1f, recovery %.2f s; dying %.3f s (%.3f to %.3f), "
+      "learned from %zu deaths: level %.2f, %.3f s, haste %.1f, recovery %.2f s; decay %.3f s (%.3f to %.3f), "
       "catching %.3f s (%.3f to %.3f)\n\n",
-      fit->agreement.deaths, rule.level, rule.seconds, rule.haste, rule.recovery, dying->seconds,
-      dying->seconds_ci95[0], dying->seconds_ci95[1], catching->seconds, catching->seconds_ci95[0],
-      catching->seconds_ci95[1]);
+      fit->agreement.deaths, rule.level, rule.seconds, rule.haste, rule.recovery, decay->seconds,
+      decay->seconds_ci95[0], decay->seconds_ci95[1], re_ignition->seconds, re_ignition->seconds_ci95[0],
+      re_ignition->seconds_ci95[1]);
   std::printf("%-34s %10s %10s %6s %8s %8s\n", "unseen clips", "deaths", "gusts", "off ms", "dying", "catching");
-  const auto judged = agreement(rule, evidence_of(unseen, dying->seconds));
-  const auto dying_unseen = curves_of(unseen, SizeChange::kDying),
-             catching_unseen = curves_of(unseen, SizeChange::kCatching);
+  const auto judged = agreement(rule, evidence_of(unseen, decay->seconds));
+  const auto decay_unseen = curves_of(unseen, SizeChange::kDecay),
+             re_ignition_unseen = curves_of(unseen, SizeChange::kReIgnition);
   const auto rule_row = [&](const std::string& name, double out, double in) {
     print_row(name, static_cast<int>(judged.died), static_cast<int>(judged.deaths), static_cast<int>(judged.spared),
               static_cast<int>(judged.gusts), 1000 * judged.median_off(),
-              ramp_error(SizeChange::kDying, out, dying_unseen), ramp_error(SizeChange::kCatching, in, catching_unseen),
-              "");
+              ramp_error(SizeChange::kDecay, out, decay_unseen),
+              ramp_error(SizeChange::kReIgnition, in, re_ignition_unseen), "");
   };
-  rule_row("rule, ramps of the default", Extinction{}.dying, Extinction{}.catching);
-  rule_row("rule, ramps learned", dying->seconds, catching->seconds);
+  rule_row("rule, ramps of the default", Extinction{}.decay, Extinction{}.re_ignition);
+  rule_row("rule, ramps learned", decay->seconds, re_ignition->seconds);
   std::vector<Recording> to_learn, to_judge;
   for (const Clip& clip : seen) to_learn.push_back(as_switched(clip, rule));
   for (const Clip& clip : unseen) to_judge.push_back(as_switched(clip, rule));
@@ -283,9 +283,9 @@ int main(int count, char** words) {
   bounds.at_least("share of unseen gusts that it lets the flame come through", share(judged.spared, judged.gusts),
                   0.95);
   bounds.at_most("how far off in time its deaths are, median, s", judged.median_off(), 0.05);
-  bounds.at_most("how far a dying flame's size is off", ramp_error(SizeChange::kDying, dying->seconds, dying_unseen),
+  bounds.at_most("how far a dying flame's size is off", ramp_error(SizeChange::kDecay, decay->seconds, decay_unseen),
                  0.1);
   bounds.at_most("how far a catching flame's size is off",
-                 ramp_error(SizeChange::kCatching, catching->seconds, catching_unseen), 0.1);
+                 ramp_error(SizeChange::kReIgnition, re_ignition->seconds, re_ignition_unseen), 0.1);
   return bounds.missed() == 0 ? 0 : 1;
 }

@@ -43,14 +43,14 @@ double degrees_between(const Triple& a, const Triple& b) {
   return std::abs(std::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1])) * 180 / std::numbers::pi;
 }
 
-// How far what `foretold` says of a gust points from where its recorded clones went.
-template <class Foretold>
-GustDirection direction_of(const std::vector<GustEnd>& ends, Foretold foretold) {
+// How far what `predicted` says of a gust points from where its recorded clones went.
+template <class Predicted>
+GustDirection direction_of(const std::vector<GustEnd>& ends, Predicted predicted) {
   GustDirection out;
   std::vector<double> all;
   double clear = 0;
   for (std::size_t k = 0; k < ends.size(); ++k) {
-    all.push_back(degrees_between(foretold(k), ends[k].recorded));
+    all.push_back(degrees_between(predicted(k), ends[k].recorded));
     out.mean += all.back() / static_cast<double>(ends.size());
     clear += ends[k].clear ? 1 : 0;
     out.mean_clear += ends[k].clear ? all.back() : 0;

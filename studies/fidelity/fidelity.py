@@ -20,8 +20,8 @@ import sys
 
 import numpy as np
 
-import told_apart
-from told_apart import accuracies, thinned
+import two_sample
+from two_sample import accuracies, thinned
 
 CHANNELS = 16
 SETTINGS = {"max_iter": 60, "max_bins": 63}
@@ -76,7 +76,7 @@ def print_table(folder, arguments):
     largest = 0.0
     windows = Windows(folder / "windows.csv")
     print(f"\n{folder.name} ({len(windows.real)} recorded windows)\n\n"
-          "| what plays | energy distance | log-spectral, dB | speeds, sd | told apart | tip's fit, % | operations | bytes |"
+          "| what plays | energy distance | log-spectral, dB | speeds, sd | accuracy | tip's fit, % | operations | bytes |"
           "\n| --- | --- | --- | --- | --- | --- | --- | --- |")
     with open(folder / "figures.csv") as lines:
         for name, *figures in csv.reader(lines):
@@ -101,7 +101,7 @@ def main():
     parser.add_argument("--surely", action="append", default=[])
     parser.add_argument("--at-most", type=float, default=1.0)
     arguments = parser.parse_args()
-    print(f"== Told apart by {told_apart.TREES}: balanced accuracy, {told_apart.FOLDS} folds over blocks; "
+    print(f"== Told apart by {two_sample.TREES}: balanced accuracy, {two_sample.FOLDS} folds over blocks; "
           f"{arguments.splits} splits for the floor and what must be sure, {arguments.few} for the rest")
     folders = sorted(path.parent for path in arguments.folder.glob("*/figures.csv"))
     if not folders:
@@ -110,7 +110,7 @@ def main():
     if arguments.surely and largest == 0:
         sys.exit(f"nothing is called {' or '.join(arguments.surely)}")
     if largest > arguments.at_most:
-        sys.exit(f"told apart at {largest:.3f}, expected at most {arguments.at_most}")
+        sys.exit(f"classifier accuracy {largest:.3f}, expected at most {arguments.at_most}")
 
 
 if __name__ == "__main__":

@@ -14,8 +14,8 @@ import sys
 
 import numpy as np
 
-import told_apart
-from told_apart import accuracies, thinned
+import two_sample
+from two_sample import accuracies, thinned
 
 SPLITS = int(sys.argv[2]) if len(sys.argv) > 2 else 20
 MOST = 0.60
@@ -32,8 +32,8 @@ def read(path):
 
 def main():
     names, sides, falls, features = read(sys.argv[1])
-    print(f"== Told apart by {told_apart.TREES}: balanced accuracy, {told_apart.MOST_WINDOWS} windows a side, "
-          f"{told_apart.FOLDS} folds over falls, {SPLITS} splits")
+    print(f"== Told apart by {two_sample.TREES}: balanced accuracy, {two_sample.MAX_WINDOWS} windows a side, "
+          f"{two_sample.FOLDS} folds over falls, {SPLITS} splits")
 
     def told(first, second, columns=slice(None), splits=SPLITS):
         rows = np.concatenate([thinned(first), thinned(second)])

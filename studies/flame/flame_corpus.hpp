@@ -1,5 +1,5 @@
 #pragma once
-// The clips of the rig that flames are learned from and judged on, told apart by what blows.
+// The clips of the rig that flames are learned from and judged on, grouped by what blows.
 
 #include <cstdint>
 #include <filesystem>
@@ -37,7 +37,7 @@ class FlameCorpus {
   std::vector<Recording> gusts();
   /// The same, and one of 40 s in calm.
   std::vector<Recording> gusts_and_calm();
-  /// Gusts, and three clips of 40 s in puffs without what is dying, out or catching.
+  /// Gusts, and three clips of 40 s in puffs without what is in decay, extinguished or in re-ignition.
   std::vector<Recording> gusts_and_puffs();
 
   UnseenFlames unseen_gusts();

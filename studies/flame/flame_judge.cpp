@@ -13,7 +13,7 @@
 #include "learn/outline/outline_shape.hpp"
 #include "learn/outline/outline_synthesis.hpp"
 #include "learn/outline/outline_units.hpp"
-#include "studies/flame/flame_likeness.hpp"
+#include "studies/flame/flame_fidelity.hpp"
 #include "studies/value_or_abort.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/run/cost.hpp"
@@ -71,9 +71,9 @@ class Sheet {
     }
   }
 
-  void line(const std::string& name, const std::array<double, 3>& likeness, const std::string& rest) {
+  void line(const std::string& name, const std::array<double, 3>& fidelity, const std::string& rest) {
     char text[256];
-    std::snprintf(text, sizeof text, "%s,%.4f,%.2f,%.3f,%s", name.c_str(), likeness[0], likeness[1], likeness[2],
+    std::snprintf(text, sizeof text, "%s,%.4f,%.2f,%.3f,%s", name.c_str(), fidelity[0], fidelity[1], fidelity[2],
                   rest.c_str());
     figures_ << text << '\n' << std::flush;
     std::printf("  %s\n", text);
@@ -126,7 +126,7 @@ void judge_bounds(const std::vector<Recording>& recorded, const std::vector<Reco
   sheet.windows("again", again);
 }
 
-/// What is dying or catching is no measure of how high a flame is.
+/// A flame in decay or re-ignition is no measure of how high a flame is.
 Recording burning_part(const Recording& clip, std::span<const OutlineInput> inputs) {
   if (inputs.empty()) return clip;
   return without_blow_outs(clip, value_or_abort(find_blow_outs(clip, inputs.front().name)));

@@ -29,7 +29,7 @@ std::vector<Piece> pieces() {
       {"independent scaled", {.noise = OutlineNoise::kIndependent}},
       {"residual covariance", {.noise = OutlineNoise::kResidual}},
       {"matched", {.noise = OutlineNoise::kMatched}},
-      {"drawn order 4 points", {.order = 4, .coupling = OutlineCoupling::kPoint, .noise = OutlineNoise::kDrawn}},
+      {"drawn order 4 points", {.order = 4, .coupling = OutlineCoupling::kPoint, .noise = OutlineNoise::kResampled}},
       {"drawn", {.light = true}},
       {"drawn with curve (light)", {.light = true, .input_curve = std::nullopt}},
       {kDefaultPiece, {}},
@@ -48,7 +48,7 @@ std::vector<Piece> flicker_pieces() {
       {"independent scaled", {.noise = OutlineNoise::kIndependent}},
       {"residual covariance", {.noise = OutlineNoise::kResidual}},
       {"matched (the default)", {}},
-      {"drawn", {.order = 4, .coupling = OutlineCoupling::kPoint, .noise = OutlineNoise::kDrawn}},
+      {"drawn", {.order = 4, .coupling = OutlineCoupling::kPoint, .noise = OutlineNoise::kResampled}},
   };
   for (Piece& piece : out) piece.options.inputs.emplace();
   return out;

@@ -58,7 +58,7 @@ class Job:
         self.name, self.output, self.work, self.preload = name, output, work, preload
         self.command = command + (["-o", str(work / "out" / output)] if output else [])
 
-    def run(self, environment=None, most_bytes=None):
+    def run(self, environment=None, max_bytes=None):
         """Status, and what was wrong."""
         out = self.work / "out"
         for old in out.iterdir():
@@ -68,8 +68,8 @@ class Job:
 
         def limits():
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-            if most_bytes is not None:
-                resource.setrlimit(resource.RLIMIT_FSIZE, (most_bytes, most_bytes))
+            if max_bytes is not None:
+                resource.setrlimit(resource.RLIMIT_FSIZE, (max_bytes, max_bytes))
 
         variables = {**os.environ, "LD_PRELOAD": str(self.preload), "OMP_NUM_THREADS": "1", **(environment or {})}
         try:

@@ -108,7 +108,7 @@ Averages many(const Leaf& paper, const Release& release) {
 struct Set {
   const char* name;
   LeafAir air;
-  double most_percent;
+  double max_percent;
 };
 
 struct Measured {
@@ -185,7 +185,7 @@ void against_the_list(Bounds& bounds) {
       worst = std::max(worst, 100 * std::abs(ours.seconds.mean() / row.seconds - 1));
       worst_peaks = std::max(worst_peaks, 100 * std::abs(ours.peak_rate.mean() / row.peak_rate - 1));
     }
-    bounds.at_most(std::string("set ") + set.name + ": fall time off by %", worst, set.most_percent);
+    bounds.at_most(std::string("set ") + set.name + ": fall time off by %", worst, set.max_percent);
     bounds.at_most(std::string("set ") + set.name + ": peaks off by %", worst_peaks, 25);
   }
   Estimate flat;

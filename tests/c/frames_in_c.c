@@ -55,14 +55,14 @@ static const char* save_and_restore(wisp_bank* bank) {
 }
 
 const char* hash_of_life(const void* bytes, size_t size, uint32_t frames, uint32_t hash[2]) {
-  enum { kInstances = 2, kMostInputs = 8, kMostOutputs = 64 };
+  enum { kInstances = 2, kMaxInputs = 8, kMaxOutputs = 64 };
   wisp_model* model = NULL;
   wisp_bank* bank = NULL;
   wisp_bank_options options = wisp_bank_default_options();
   wisp_bank_facts facts;
   wisp_instance instance[kInstances];
   wisp_model_facts about;
-  float wind[kMostInputs], outputs[kInstances * kMostOutputs];
+  float wind[kMaxInputs], outputs[kInstances * kMaxOutputs];
   uint32_t frame, k, state = 1;
   const char* wrong = NULL;
   NEED(wisp_model_load(bytes, size, &model));
@@ -75,7 +75,7 @@ const char* hash_of_life(const void* bytes, size_t size, uint32_t frames, uint32
   for (k = 0; k < kInstances; ++k) NEED(wisp_bank_spawn(bank, &instance[k]));
   facts.size = sizeof facts;
   NEED(wisp_bank_get_facts(bank, &facts));
-  if (facts.inputs > kMostInputs || facts.outputs > kMostOutputs) return "the model is too large for this test";
+  if (facts.inputs > kMaxInputs || facts.outputs > kMaxOutputs) return "the model is too large for this test";
   start(hash);
   for (frame = 0; frame < frames && !wrong; ++frame) {
     if (frame % 7 == 0) {

@@ -79,7 +79,7 @@ const char* whole_life(const void* bytes, size_t size, float outputs[16]) {
   life.size = sizeof life;
   EXPECT(wisp_bank_get_facts(bank, &life) == WISP_OK);
   EXPECT(life.alive == 1 && life.slots == 1 && life.capacity == 2 && life.polyline_points == 12);
-  EXPECT(life.steps == 106 && life.held == 0);
+  EXPECT(life.steps == 106 && life.clamped == 0);
   wisp_bank_free(bank);
   wisp_bank_free(twin);
   return NULL;

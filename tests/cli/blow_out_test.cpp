@@ -99,7 +99,7 @@ TEST_F(BlowOutProgram, WithoutADeathThereIsADefaultAndItCanBeTurnedOff) {
   ASSERT_EQ(learned.status, 0) << learned.err;
   EXPECT_EQ(learned.json()["extinction"]["source"], "default");
   EXPECT_EQ(learned.json()["extinction"]["modes"][3]["source"], "default");
-  EXPECT_EQ(learned.json()["extinction"]["modes"][3]["seconds"], Extinction{}.catching);
+  EXPECT_EQ(learned.json()["extinction"]["modes"][3]["seconds"], Extinction{}.re_ignition);
   EXPECT_GE(learned.json()["extinction"]["level"].get<double>(), 2);
   for (const std::string command : {"learn flame --blow-out off ", "learn outline "}) {
     const Said off = wisp(command + at("rec.csv") + " -o " + at("off.wisp") + " --json");

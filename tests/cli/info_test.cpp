@@ -54,22 +54,22 @@ std::vector<std::vector<double>> theta_of(const Json& json) {
   return theta;
 }
 
-DrawnResiduals drawn_of(const Json& json) {
-  DrawnResiduals drawn;
-  if (json.is_null()) return drawn;
-  drawn.rows = flat<std::int16_t>(json["rows"]);
-  put(json["scale"], drawn.scale);
-  put(json["ends"], drawn.ends);
-  put(json["wind_scale"], drawn.wind_scale);
-  put(json["winds"], drawn.winds);
-  put(json["toward"], drawn.toward);
-  put(json["against"], drawn.against);
-  put(json["lags"], drawn.lags);
-  put(json["tolerance"], drawn.tolerance);
-  put(json["margin"], drawn.margin);
-  put(json["longest"], drawn.longest);
-  put(json["mirror"], drawn.mirror);
-  return drawn;
+ResampledResiduals resampled_of(const Json& json) {
+  ResampledResiduals resampled;
+  if (json.is_null()) return resampled;
+  resampled.rows = flat<std::int16_t>(json["rows"]);
+  put(json["scale"], resampled.scale);
+  put(json["ends"], resampled.ends);
+  put(json["wind_scale"], resampled.wind_scale);
+  put(json["winds"], resampled.winds);
+  put(json["toward"], resampled.toward);
+  put(json["against"], resampled.against);
+  put(json["lags"], resampled.lags);
+  put(json["tolerance"], resampled.tolerance);
+  put(json["margin"], resampled.margin);
+  put(json["longest"], resampled.longest);
+  put(json["mirror"], resampled.mirror);
+  return resampled;
 }
 
 ArxModel arx_of(const Json& json) {
@@ -83,7 +83,7 @@ ArxModel arx_of(const Json& json) {
   put(noise["sd_ci95"], arx.noise.sd_ci95);
   put(json["noise_rank"], arx.noise.rank);
   arx.noise.mixing = flat<double>(noise["mixing"]);
-  arx.noise.drawn = drawn_of(noise["resampled"]);
+  arx.noise.resampled = resampled_of(noise["resampled"]);
   return arx;
 }
 
@@ -144,7 +144,7 @@ ChainModel chain_of(const Json& json) {
   put(json["rate_scale"], chain.segments.rate_scale);
   chain.segments.follow = flat<std::uint16_t>(json["follow"]);
   put(json["best_of"], chain.segments.breadth);
-  chain.segments.onward = flat<std::uint16_t>(json["successor_weights"]);
+  chain.segments.successor_weights = flat<std::uint16_t>(json["successor_weights"]);
   put(json["initial"], chain.initial);
   for (const Json& context : json["contexts"]) chain.contexts.push_back({context["history"], context["probability"]});
   put(json["blend_steps"], chain.blend_steps);
@@ -226,8 +226,8 @@ Model model_of(const Json& json) {
   model.extinction = Extinction{.level = rule["level"], .seconds = rule["seconds"], .haste = rule["haste"]};
   while (model.inputs.at(model.extinction->input).name != rule["input"]) ++model.extinction->input;
   put(rule["recovery"], model.extinction->recovery);
-  put(rule["dying"], model.extinction->dying);
-  put(rule["catching"], model.extinction->catching);
+  put(rule["dying"], model.extinction->decay);
+  put(rule["catching"], model.extinction->re_ignition);
   return model;
 }
 
@@ -250,7 +250,7 @@ TEST_F(Info, AModelIsWrittenAgainFromItsJsonToTheByte) {
   for (const char* name : {"flame-2", "flame-6", "leaf"}) {
     expect_complete(std::string(WISP_SOURCE_DIR "/apps/web/public/models/") + name + ".wisp");
   }
-  const FlameOptions mirrored{.points = 4, .wind = InputShape::kSplitSign, .noise_rank = 2, .drawn_rows = 60};
+  const FlameOptions mirrored{.points = 4, .wind = InputShape::kSplitSign, .noise_rank = 2, .resampled_rows = 60};
   for (const Model& model : {system_chain(2), steered_chain(), flame_model(mirrored)}) {
     ASSERT_TRUE(write_model(at("m.wisp"), model));
     expect_complete(at("m.wisp"));
@@ -312,7 +312,8 @@ TEST_F(InfoPlayed, PowersOfAnInputAndLargeRangesToo) {
 }
 
 TEST_F(InfoPlayed, ResampledResidualsJumpAsInRunWhileTheWindChanges) {
-  ASSERT_TRUE(write_model(at("m.wisp"), flame_model({.points = 4, .wind = InputShape::kSplitSign, .drawn_rows = 60})));
+  ASSERT_TRUE(
+      write_model(at("m.wisp"), flame_model({.points = 4, .wind = InputShape::kSplitSign, .resampled_rows = 60})));
   std::ofstream table(at("wind.csv")), lines(at("wind.txt"));
   table << "# wisp-recording 1\n# rate_hz 30\nu:wind\n";
   for (int t = 0; t < 80; ++t) {
@@ -322,7 +323,7 @@ TEST_F(InfoPlayed, ResampledResidualsJumpAsInRunWhileTheWindChanges) {
   }
   table.close();
   lines.close();
-  for (const std::string& path : {at("m.wisp"), std::string(WISP_SOURCE_DIR "/tests/model/golden/v1-drawn.wisp")}) {
+  for (const std::string& path : {at("m.wisp"), std::string(WISP_SOURCE_DIR "/tests/model/golden/v1-resampled.wisp")}) {
     expect_same_bits(path, "off");
     expect_same_bits(path, "on");
     expect_same_bits(path, "on", at("wind.txt"), "--input " + at("wind.csv"));

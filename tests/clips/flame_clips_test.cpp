@@ -59,18 +59,18 @@ TEST_P(FlameClips, AMinuteOfFreePlayFlickersLikeTheRecording) {
   const auto play = synthesize(fit.model, {.rows = rows});
   ASSERT_TRUE(play) << play.error().message;
   const Recording real = to_model_units(recording, layout, fit.summary.pixels_per_unit);
-  const auto likeness =
+  const auto fidelity =
       fidelity({&real, 1}, {&play->recording, 1}, {.channels = outline_outputs(layout.points), .permutations = 0});
-  ASSERT_TRUE(likeness) << likeness.error().message;
-  for (const ChannelFidelity& channel : likeness->channels) {
+  ASSERT_TRUE(fidelity) << fidelity.error().message;
+  for (const ChannelFidelity& channel : fidelity->channels) {
     EXPECT_NEAR(channel.sd_synthesized / channel.sd_real, 1, 0.25) << channel.name;
     EXPECT_LE(channel.log_spectral_distance.floor_ratio(), 2) << channel.name;
   }
-  EXPECT_LT(likeness->energy_distance.value, 0.05);
-  EXPECT_LT(likeness->energy_distance.value, likeness->energy_distance.floor);
+  EXPECT_LT(fidelity->energy_distance.value, 0.05);
+  EXPECT_LT(fidelity->energy_distance.value, fidelity->energy_distance.floor);
 }
 
-TEST_P(FlameClips, InAMillionStepsHardlyAnyIsHeld) {
+TEST_P(FlameClips, InAMillionStepsHardlyAnyIsClamped) {
   const auto play = play_freely(fit.model, 1000000);
   ASSERT_TRUE(play) << play.error().message;
   EXPECT_LT(play->held_share, 1e-3);

@@ -38,7 +38,7 @@ void expect_same(const Model& a, const Model& b) {
   EXPECT_EQ(x.segments.rate_scale, y.segments.rate_scale);
   EXPECT_EQ(x.segments.follow, y.segments.follow);
   EXPECT_EQ(x.segments.breadth, y.segments.breadth);
-  EXPECT_EQ(x.segments.onward, y.segments.onward);
+  EXPECT_EQ(x.segments.successor_weights, y.segments.successor_weights);
   EXPECT_EQ(x.initial, y.initial);
   ASSERT_EQ(x.contexts.size(), y.contexts.size());
   for (std::size_t k = 0; k < x.contexts.size(); ++k) {
@@ -55,7 +55,7 @@ void expect_same(const Model& a, const Model& b) {
 }
 
 TEST(ChainModel, WhatIsWrittenIsRead) {
-  for (const Model& model : {sample_chain(), sample_chain(ChainMotion::kPosition), onward_chain(), windy_chain(),
+  for (const Model& model : {sample_chain(), sample_chain(ChainMotion::kPosition), weighted_chain(), windy_chain(),
                              system_chain(1), system_chain(2), spline_chain()}) {
     const auto bytes = model_bytes(model);
     ASSERT_TRUE(bytes) << bytes.error().message;
@@ -217,9 +217,9 @@ TEST(ChainModel, WhatIsNotAChainIsRefusedWithAReason) {
       {"follower 2", [](Model& m) { chain(m).segments.follow[2] = 9; }},
       {"shares of what follows",
        [](Model& m) {
-         chain(m).segments.onward = {1, 2, 3};
+         chain(m).segments.successor_weights = {1, 2, 3};
        }},
-      {"is 0, expected 1 to 65535", [](Model& m) { chain(m).segments.onward = {1, 2, 3, 4, 5, 0}; }},
+      {"is 0, expected 1 to 65535", [](Model& m) { chain(m).segments.successor_weights = {1, 2, 3, 4, 5, 0}; }},
       {"row scales", [&](Model& m) { chain(m).segments.row_scale[0] = nan; }},
       {"rate scales", [](Model& m) { chain(m).segments.rate_scale[1] = 0; }},
       {"what follows mode 1", [](Model& m) { chain(m).contexts.erase(chain(m).contexts.begin() + 1); }},

@@ -19,7 +19,7 @@ namespace {
 using testing::HasSubstr;
 
 const std::string kGolden = WISP_SOURCE_DIR "/tests/model/golden/v1.wisp";
-const std::string kGoldenDrawn = WISP_SOURCE_DIR "/tests/model/golden/v1-drawn.wisp";
+const std::string kGoldenResampled = WISP_SOURCE_DIR "/tests/model/golden/v1-resampled.wisp";
 const std::string kGoldenCurve = WISP_SOURCE_DIR "/tests/model/golden/v1-curve.wisp";
 const std::string kGoldenExtinction = WISP_SOURCE_DIR "/tests/model/golden/v1-extinction.wisp";
 
@@ -63,38 +63,38 @@ TEST(ModelFile, WhatIsWrittenIsRead) {
 }
 
 // Two stretches of residuals to be played again, mirrored in a wind from the other side.
-Model drawn_model() {
+Model resampled_model() {
   Model model = sample_model();
-  DrawnResiduals& drawn = std::get<ArxModel>(model.dynamics).noise.drawn;
+  ResampledResiduals& resampled = std::get<ArxModel>(model.dynamics).noise.resampled;
   for (int i = 0; i < 8; ++i) {
-    drawn.scale.push_back(1e-5 * (1 + i));
-    drawn.mirror.push_back(i % 2 == 0 ? -(7 - i) : 9 - i);
+    resampled.scale.push_back(1e-5 * (1 + i));
+    resampled.mirror.push_back(i % 2 == 0 ? -(7 - i) : 9 - i);
   }
-  for (int k = 0; k < 5 * 8; ++k) drawn.rows.push_back(static_cast<std::int16_t>(800 * k - 16000));
-  drawn.ends = {2, 5};
-  drawn.wind_scale = 1e-4;
-  drawn.winds = {0, 0, 0, 100, 100, -7, 3, 9000, 12, 32767, -32768};
-  drawn.toward = 1;
-  drawn.against = 0;
-  drawn.lags = {0, 1, 3};
-  drawn.tolerance = 0.15;
-  drawn.margin = 0.04;
-  drawn.longest = 90;
+  for (int k = 0; k < 5 * 8; ++k) resampled.rows.push_back(static_cast<std::int16_t>(800 * k - 16000));
+  resampled.ends = {2, 5};
+  resampled.wind_scale = 1e-4;
+  resampled.winds = {0, 0, 0, 100, 100, -7, 3, 9000, 12, 32767, -32768};
+  resampled.toward = 1;
+  resampled.against = 0;
+  resampled.lags = {0, 1, 3};
+  resampled.tolerance = 0.15;
+  resampled.margin = 0.04;
+  resampled.longest = 90;
   return model;
 }
 
-void expect_same_drawn(const Model& read, const Model& made = drawn_model()) {
-  const DrawnResiduals& x = std::get<ArxModel>(read.dynamics).noise.drawn;
-  const DrawnResiduals& y = std::get<ArxModel>(made.dynamics).noise.drawn;
+void expect_same_resampled(const Model& read, const Model& made = resampled_model()) {
+  const ResampledResiduals& x = std::get<ArxModel>(read.dynamics).noise.resampled;
+  const ResampledResiduals& y = std::get<ArxModel>(made.dynamics).noise.resampled;
   EXPECT_EQ(std::tie(x.scale, x.rows, x.ends, x.winds, x.mirror), std::tie(y.scale, y.rows, y.ends, y.winds, y.mirror));
   EXPECT_EQ(std::tie(x.wind_scale, x.toward, x.against, x.lags, x.tolerance, x.margin, x.longest),
             std::tie(y.wind_scale, y.toward, y.against, y.lags, y.tolerance, y.margin, y.longest));
 }
 
-TEST(ModelFile, DrawnResidualsAreReadAsTheyWereWritten) {
-  const auto read = parse_model(*model_bytes(drawn_model()), "drawn.wisp");
+TEST(ModelFile, ResampledResidualsAreReadAsTheyWereWritten) {
+  const auto read = parse_model(*model_bytes(resampled_model()), "resampled.wisp");
   ASSERT_TRUE(read) << read.error().message;
-  expect_same_drawn(*read);
+  expect_same_resampled(*read);
 }
 
 TEST(ModelFile, AnInputOfThreePowersIsReadAsItWasWritten) {
@@ -116,53 +116,53 @@ TEST(ModelFile, AnInputOfThreePowersIsReadAsItWasWritten) {
   EXPECT_EQ(std::get<ArxModel>(read->dynamics).theta, arx.theta);
 }
 
-// Written when residuals came to be drawn.
-TEST(ModelFile, TheGoldenFileWithDrawnResidualsStillMeansTheSame) {
+// Written when residuals came to be resampled.
+TEST(ModelFile, TheGoldenFileWithResampledResidualsStillMeansTheSame) {
   if (std::getenv("WISP_WRITE_GOLDEN")) {
-    ASSERT_TRUE(write_model(kGoldenDrawn, drawn_model()));
+    ASSERT_TRUE(write_model(kGoldenResampled, resampled_model()));
   }
-  const auto read = read_model(kGoldenDrawn);
+  const auto read = read_model(kGoldenResampled);
   ASSERT_TRUE(read) << read.error().message;
-  expect_same(*read, drawn_model());
-  expect_same_drawn(*read);
+  expect_same(*read, resampled_model());
+  expect_same_resampled(*read);
 }
 
-TEST(ModelFile, DrawnResidualsThatMeanNothingAreRefused) {
+TEST(ModelFile, ResampledResidualsThatMeanNothingAreRefused) {
   struct Case {
     const char* word;
-    void (*spoil)(DrawnResiduals&);
+    void (*spoil)(ResampledResiduals&);
   };
   const Case cases[] = {
-      {"one number an output", [](DrawnResiduals& d) { d.rows.pop_back(); }},
+      {"one number an output", [](ResampledResiduals& d) { d.rows.pop_back(); }},
       {"ends before it begins",
-       [](DrawnResiduals& d) {
+       [](ResampledResiduals& d) {
          d.ends = {5, 5};
        }},
-      {"without rows", [](DrawnResiduals& d) { d.rows.clear(); }},
-      {"scale", [](DrawnResiduals& d) { d.scale[2] = -1; }},
-      {"number of wind", [](DrawnResiduals& d) { d.winds.pop_back(); }},
-      {"number of wind", [](DrawnResiduals& d) { d.lags.back() = 4; }},
+      {"without rows", [](ResampledResiduals& d) { d.rows.clear(); }},
+      {"scale", [](ResampledResiduals& d) { d.scale[2] = -1; }},
+      {"number of wind", [](ResampledResiduals& d) { d.winds.pop_back(); }},
+      {"number of wind", [](ResampledResiduals& d) { d.lags.back() = 4; }},
       {"lags",
-       [](DrawnResiduals& d) {
+       [](ResampledResiduals& d) {
          d.lags = {0, 3, 3};
        }},
       {"lags",
-       [](DrawnResiduals& d) {
+       [](ResampledResiduals& d) {
          d.lags = {1, 2, 3};
        }},
-      {"lags", [](DrawnResiduals& d) { d.lags.clear(); }},
-      {"input that is not there", [](DrawnResiduals& d) { d.toward = 2; }},
-      {"input that is not there", [](DrawnResiduals& d) { d.against = -2; }},
-      {"wind", [](DrawnResiduals& d) { d.tolerance = NAN; }},
-      {"negative", [](DrawnResiduals& d) { d.margin = -1; }},
-      {"steps", [](DrawnResiduals& d) { d.longest = 0; }},
-      {"mirror", [](DrawnResiduals& d) { d.mirror[0] = 0; }},
-      {"mirror", [](DrawnResiduals& d) { d.mirror[0] = 9; }},
-      {"mirror", [](DrawnResiduals& d) { d.mirror.pop_back(); }},
+      {"lags", [](ResampledResiduals& d) { d.lags.clear(); }},
+      {"input that is not there", [](ResampledResiduals& d) { d.toward = 2; }},
+      {"input that is not there", [](ResampledResiduals& d) { d.against = -2; }},
+      {"wind", [](ResampledResiduals& d) { d.tolerance = NAN; }},
+      {"negative", [](ResampledResiduals& d) { d.margin = -1; }},
+      {"steps", [](ResampledResiduals& d) { d.longest = 0; }},
+      {"mirror", [](ResampledResiduals& d) { d.mirror[0] = 0; }},
+      {"mirror", [](ResampledResiduals& d) { d.mirror[0] = 9; }},
+      {"mirror", [](ResampledResiduals& d) { d.mirror.pop_back(); }},
   };
   for (const Case& one : cases) {
-    Model model = drawn_model();
-    one.spoil(std::get<ArxModel>(model.dynamics).noise.drawn);
+    Model model = resampled_model();
+    one.spoil(std::get<ArxModel>(model.dynamics).noise.resampled);
     const auto ok = check(model);
     ASSERT_FALSE(ok) << one.word;
     EXPECT_THAT(ok.error().message, HasSubstr(one.word));
@@ -319,8 +319,8 @@ TEST(ModelFile, AModelWithoutMeaningIsNeitherWrittenNorRead) {
       {"seconds", [](Model& m) { m.extinction->seconds = -1; }},
       {"haste", [](Model& m) { m.extinction->haste = INFINITY; }},
       {"recovery", [](Model& m) { m.extinction->recovery = 0; }},
-      {"dying", [](Model& m) { m.extinction->dying = -0.1; }},
-      {"catching", [](Model& m) { m.extinction->catching = 1e9; }},
+      {"dying", [](Model& m) { m.extinction->decay = -0.1; }},
+      {"catching", [](Model& m) { m.extinction->re_ignition = 1e9; }},
   };
   for (const auto& [word, harm] : broken) {
     Model model = mortal_model();

@@ -66,11 +66,11 @@ inline Model sample_chain(ChainMotion motion = ChainMotion::kPose) {
 
 /// The sample without long histories, whose segments say what follows them: after the first, mode 0 is five times as
 /// likely as its history has it; after the second there is mode 1.
-inline Model onward_chain() {
+inline Model weighted_chain() {
   Model model = sample_chain();
   auto& chain = std::get<ChainModel>(model.dynamics);
   chain.contexts.pop_back();
-  chain.segments.onward = {65535, 13107, 1, 65535, 65535, 65535};
+  chain.segments.successor_weights = {65535, 13107, 1, 65535, 65535, 65535};
   return model;
 }
 

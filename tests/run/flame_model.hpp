@@ -15,34 +15,35 @@ struct FlameOptions {
   int points = 8;
   InputShape wind = InputShape::kLinear;
   int noise_rank = 0;
-  int drawn_rows = 0;  ///< of residuals to play instead, in two stretches; 0: the noise is Gaussian
+  int resampled_rows = 0;  ///< of residuals to play instead, in two stretches; 0: the noise is Gaussian
 };
 
 /// Made-up residuals of 16-bit noise, beside a wind that swings from 0 to 1 once in so many rows; a wind from the other
 /// side plays their mirror image.
-inline DrawnResiduals drawn_flame_residuals(int outputs, int rows, bool both_sides, int swing = 20) {
-  DrawnResiduals drawn;
-  drawn.scale.assign(outputs, 1e-6);
-  for (int k = 0; k < rows * outputs; ++k) drawn.rows.push_back(static_cast<std::int16_t>(k * 7919 % 20011 - 10005));
-  drawn.ends = {static_cast<std::uint32_t>(rows / 3), static_cast<std::uint32_t>(rows)};
-  drawn.wind_scale = 1e-4;
-  drawn.lags = {0, 1, 2, 4};
+inline ResampledResiduals resampled_flame_residuals(int outputs, int rows, bool both_sides, int swing = 20) {
+  ResampledResiduals resampled;
+  resampled.scale.assign(outputs, 1e-6);
+  for (int k = 0; k < rows * outputs; ++k)
+    resampled.rows.push_back(static_cast<std::int16_t>(k * 7919 % 20011 - 10005));
+  resampled.ends = {static_cast<std::uint32_t>(rows / 3), static_cast<std::uint32_t>(rows)};
+  resampled.wind_scale = 1e-4;
+  resampled.lags = {0, 1, 2, 4};
   int begin = 0;
-  for (std::uint32_t end : drawn.ends) {
-    for (int row = begin - drawn.lags.back(); row < static_cast<int>(end); ++row) {
+  for (std::uint32_t end : resampled.ends) {
+    for (int row = begin - resampled.lags.back(); row < static_cast<int>(end); ++row) {
       const int at = (row + swing) % swing;
-      drawn.winds.push_back(static_cast<std::int16_t>(20000 / swing * std::min(at, swing - at)));
+      resampled.winds.push_back(static_cast<std::int16_t>(20000 / swing * std::min(at, swing - at)));
     }
     begin = static_cast<int>(end);
   }
-  drawn.toward = 0;
-  drawn.tolerance = 0.1;
-  drawn.margin = 0.01;
-  drawn.longest = 40;
-  if (!both_sides) return drawn;
-  drawn.against = 1;
-  for (int p = outputs / 2 - 1; p >= 0; --p) drawn.mirror.insert(drawn.mirror.end(), {-(2 * p + 1), 2 * p + 2});
-  return drawn;
+  resampled.toward = 0;
+  resampled.tolerance = 0.1;
+  resampled.margin = 0.01;
+  resampled.longest = 40;
+  if (!both_sides) return resampled;
+  resampled.against = 1;
+  for (int p = outputs / 2 - 1; p >= 0; --p) resampled.mirror.insert(resampled.mirror.end(), {-(2 * p + 1), 2 * p + 2});
+  return resampled;
 }
 
 /// A stable flame: every channel has the poles 0.75 ± 0.37i, 0.5 and −0.3, a little of its point's other coordinate,
@@ -79,8 +80,8 @@ inline Model flame_model(const FlameOptions& options = {}) {
   }
   arx.input_mean.assign(regressors, 0.1);
   arx.noise.rank = options.noise_rank;
-  if (options.drawn_rows > 0) {
-    arx.noise.drawn = drawn_flame_residuals(outputs, options.drawn_rows, splits_sign(options.wind));
+  if (options.resampled_rows > 0) {
+    arx.noise.resampled = resampled_flame_residuals(outputs, options.resampled_rows, splits_sign(options.wind));
   }
   model.dynamics = arx;
   model.view = OutlineView{uniform_knots(options.points), 0.03, 0};
@@ -92,7 +93,7 @@ inline Model flame_model(const FlameOptions& options = {}) {
 /// alone, a rule of extinction.
 inline Model default_flame_model(InputShape wind = InputShape::kSplitSign) {
   constexpr int kOutputs = 16, kLags = 3;
-  Model model = flame_model({.wind = wind, .drawn_rows = 600});
+  Model model = flame_model({.wind = wind, .resampled_rows = 600});
   auto& arx = std::get<ArxModel>(model.dynamics);
   arx.orders = {OrderMatrix(kOutputs, kOutputs), OrderMatrix(kOutputs, 2, kLags), OrderMatrix(kOutputs, 2)};
   for (int i = 0; i < kOutputs; ++i) {
@@ -101,7 +102,7 @@ inline Model default_flame_model(InputShape wind = InputShape::kSplitSign) {
     arx.theta[i] = {-1.2, 0.6, -0.1, gain, 0.5 * gain, 0.001 * i, i % 2 == 0 ? -gain : gain, 0.004, 0.0001 * i};
   }
   arx.input_mean = {0, 0};
-  auto& rows = arx.noise.drawn.rows;
+  auto& rows = arx.noise.resampled.rows;
   for (int i : {0, 1}) {
     const int other = kOutputs - 2 + i;
     for (int k = 0; k < 3 * kLags; ++k) arx.theta[other][k] = (k < kLags ? 1 : -1) * arx.theta[i][k];
@@ -123,7 +124,7 @@ inline Model coupled_flame_model() {
   arx.orders = {OrderMatrix(kOutputs, kOutputs, kLags), OrderMatrix(kOutputs, kRegressors, kLags),
                 OrderMatrix(kOutputs, kRegressors, 1)};
   arx.input_mean.assign(kRegressors, 0.0);
-  arx.noise.drawn.against = kRegressors / 2;
+  arx.noise.resampled.against = kRegressors / 2;
   for (int i = 0; i < kOutputs; ++i) {
     arx.theta[i].clear();
     const int like = i < kOutputs - 2 ? i : i - (kOutputs - 2);

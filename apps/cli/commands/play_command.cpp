@@ -99,7 +99,7 @@ void tell(const PlayReport& report, const PlayOptions& options, Terminal& termin
   terminal.add("went_out", figures.went_out);
   terminal.add("relit", figures.relit);
   terminal.add("held_share",
-               figures.steps ? static_cast<double>(figures.held) / static_cast<double>(figures.steps) : 0.0);
+               figures.steps ? static_cast<double>(figures.clamped) / static_cast<double>(figures.steps) : 0.0);
   terminal.add("frame_ms.mean", report.draw_ms);
   terminal.add("frame_ms.worst", report.worst_draw_ms);
   if (!report.renderer.empty()) terminal.add("renderer", report.renderer);

@@ -147,7 +147,7 @@ Recording falls(const Play& play, const Bank& bank, Player& player) {
 Result<void> write_falls(const Play& play, const Bank& bank, Player& player, const std::string& path,
                          Terminal& terminal) {
   const auto& pose = std::get<PoseView>(play.model.view);
-  LeafFilmOptions film{.most_seconds = static_cast<double>(play.frames) / play.model.rate_hz};
+  LeafFilmOptions film{.max_seconds = static_cast<double>(play.frames) / play.model.rate_hz};
   // A leaf's long axis is the body's x, across which the pose has its half width.
   if (pose.half_width > 0) film.style.length = static_cast<float>(2 * pose.half_width);
   if (pose.half_length > 0) film.style.width = static_cast<float>(2 * pose.half_length);
@@ -200,7 +200,7 @@ Result<void> check_drive(const Model& model, const Arguments& arguments) {
   return {};
 }
 
-// What blows harder than any wind that a chain was learned in: it is held to that and half of it more.
+// what blows harder than any wind that a chain was learned in: it is clamped to that and half of it more.
 void warn_of_wind(const Play& play, Terminal& terminal) {
   if (!std::holds_alternative<ChainModel>(play.model.dynamics)) return;
   std::vector<float> most(play.model.inputs.size());
@@ -268,11 +268,12 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   if (auto ok = write_run(*play, *bank, player, path, terminal); !ok) return ok;
 
   if (bank->noise() == 0) say_chain_loop(play->model, *walk, terminal);
-  const auto held = bank->held();
+  const auto clamped = bank->clamped();
   terminal.add("frames", play->frames);
   terminal.add("instances", bank->size());
   terminal.add("seed", play->seed);
-  terminal.add("held_share", held.steps ? static_cast<double>(held.held) / static_cast<double>(held.steps) : 0.0);
+  terminal.add("held_share",
+               clamped.steps ? static_cast<double>(clamped.clamped) / static_cast<double>(clamped.steps) : 0.0);
   terminal.add("output", path);
   if (bank->extinction()) {
     const auto& deaths = player.deaths().rows;

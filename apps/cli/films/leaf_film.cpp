@@ -107,7 +107,7 @@ class Film {
   Film(const Recording& recording, const PoseColumns& columns, const LeafFilmOptions& options)
       : columns_(columns), options_(options), rate_(recording.rate_hz) {
     const std::vector<Episode> all = episodes(recording);
-    const std::size_t count = std::min(all.size(), static_cast<std::size_t>(options.most_leaves));
+    const std::size_t count = std::min(all.size(), static_cast<std::size_t>(options.max_leaves));
     for (std::size_t k = 0; k < count; ++k) {
       const float across = count > 1 ? 2 * static_cast<float>(k) / static_cast<float>(count - 1) - 1 : 0;
       // Neighbours of the floor do not follow each other in time, and stand at three depths.
@@ -231,7 +231,7 @@ Result<void> write_leaf_films(const std::filesystem::path& path, std::span<const
   const double own_rate = panels.front().recording->rate_hz;
   LeafFilmOptions narrow = options;
   narrow.width = options.width / static_cast<int>(panels.size());
-  if (panels.size() > 1) narrow.most_leaves = std::max(1, options.most_leaves * 3 / 5);
+  if (panels.size() > 1) narrow.max_leaves = std::max(1, options.max_leaves * 3 / 5);
   std::vector<std::unique_ptr<Side>> sides;
   double longest = 0;
   for (const LeafPanel& panel : panels) {
@@ -249,7 +249,7 @@ Result<void> write_leaf_films(const std::filesystem::path& path, std::span<const
   auto video = VideoWriter::create(
       path, {.width = width, .height = options.height, .rate_hz = rate, .crf = 18, .preset = "fast"});
   if (!video) return video.error();
-  const int frames = std::max(1, static_cast<int>(std::lround(std::min(options.most_seconds, longest) * rate)));
+  const int frames = std::max(1, static_cast<int>(std::lround(std::min(options.max_seconds, longest) * rate)));
   Image image(width, options.height);
   for (int frame = 0; frame < frames; ++frame) {
     for (std::size_t k = 0; k < sides.size(); ++k) {

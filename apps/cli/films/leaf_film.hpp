@@ -15,8 +15,8 @@ struct LeafFilmOptions {
   bool from_above = false;  ///< else from the side
   int width = 1280;         ///< pixels
   int height = 720;
-  double most_seconds = 20;   ///< of the video
-  int most_leaves = 7;        ///< episodes that are seen at once
+  double max_seconds = 20;    ///< of the video
+  int max_leaves = 7;         ///< episodes that are seen at once
   float fall_metres = 1.45F;  ///< a fall ends on the floor after so much; the next begins where it would have gone on
   LeafStyle style{.scale = 1.8F};
 };

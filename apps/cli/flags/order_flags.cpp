@@ -16,12 +16,12 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 }
 
 Result<int> parse_order(std::string_view text, const std::string& flag) {
-  constexpr int kMost = 4096;
+  constexpr int kMax = 4096;
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
   while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
   int value = -1;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (code != std::errc() || end != text.data() + text.size() || value < 0 || value > kMost) {
+  if (code != std::errc() || end != text.data() + text.size() || value < 0 || value > kMax) {
     return Error{"--" + flag + ": found \"" + std::string(text) + "\", expected a whole number from 0 to 4096"};
   }
   return value;

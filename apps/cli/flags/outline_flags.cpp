@@ -60,7 +60,8 @@ std::vector<Flag> outline_flags() {
        "N|auto",
        "0",
        "lags of outputs and inputs in every equation; 0: 2 where all points feed each other (4 of an input whose root "
-       "and square are regressors too), 3 where residuals are drawn, else 4; auto searches 1 to 32 on what is held out",
+       "and square are regressors too), 3 where residuals are resampled, else 4; auto searches 1 to 32 on what is held "
+       "out",
        {"auto"}},
       {"delay",
        Kind::kIntegerOrWord,
@@ -81,7 +82,7 @@ std::vector<Flag> outline_flags() {
        "C",
        "auto",
        "what feeds each other: nothing (coordinate), a point's two coordinates, neighbouring points, all points; auto: "
-       "full where residuals are drawn from at least 20 s, coordinate where from less or with --light, else point",
+       "full where residuals are resampled from at least 20 s, coordinate where from less or with --light, else point",
        {"auto", "coordinate", "point", "band", "full"}},
       {"light", Kind::kSwitch, "", "",
        "a third of the arithmetic a frame, for less fidelity: every coordinate its own system"},
@@ -92,10 +93,12 @@ std::vector<Flag> outline_flags() {
        Kind::kChoice,
        "N",
        "auto",
-       "what shakes the outline: independent (each channel by itself), residual or matched (shared shocks), drawn (the "
-       "residuals themselves, played again where the input is as it was); auto: drawn from 10 s on with an input, else "
+       "what shakes the outline: independent (each channel by itself), residual or matched (shared shocks), resampled "
+       "(the "
+       "residuals themselves, played again where the input is as it was); auto: resampled from 10 s on with an input, "
+       "else "
        "matched",
-       {"auto", "independent", "residual", "matched", "drawn"}},
+       {"auto", "independent", "residual", "matched", "resampled"}},
       {"seed", Kind::kInteger, "N", "1", "of the trial runs"},
       {"skip-bad", Kind::kSwitch, "", "", "leave bad recordings out, listing them, instead of stopping at the first"},
   };
@@ -119,7 +122,7 @@ Result<OutlineRecipe> outline_recipe(const Arguments& arguments, std::string nam
   if (noise == "independent") recipe.noise = OutlineNoise::kIndependent;
   if (noise == "residual") recipe.noise = OutlineNoise::kResidual;
   if (noise == "matched") recipe.noise = OutlineNoise::kMatched;
-  if (noise == "drawn") recipe.noise = OutlineNoise::kDrawn;
+  if (noise == "resampled") recipe.noise = OutlineNoise::kResampled;
   recipe.light = arguments.on("light");
   recipe.one_sided = arguments.on("one-sided");
   recipe.input_curve = curve_knots_of(arguments);

@@ -50,7 +50,7 @@ Result<void> film(const Model& model, const Recording& real, const Arguments& ar
   const auto all = episodes(real);
   std::size_t rows = 0;
   for (const Episode& episode : all) rows = std::max(rows, episode.size());
-  const auto made = played(model, std::min(all.size(), static_cast<std::size_t>(options.most_leaves)), rows,
+  const auto made = played(model, std::min(all.size(), static_cast<std::size_t>(options.max_leaves)), rows,
                            static_cast<std::uint64_t>(arguments.integer("seed")));
   if (!made) return made.error();
   const LeafPanel panels[] = {{&real, "recorded"}, {&*made, "synthesized"}};

@@ -40,7 +40,7 @@ const mutants = [
   [`${page}app.ts`, 'clear: overlay });', 'clear: false });', 'sharing'],
   [`${page}style.css`, 'body.overlay > :not(#stage, #absent) { display: none; }', '', 'sharing'],
   // Trouble
-  [`${page}files.ts`, 'if (file.size > MOST_BYTES)', 'if (file.size < 0)', 'trouble'],
+  [`${page}files.ts`, 'if (file.size > MAX_BYTES)', 'if (file.size < 0)', 'trouble'],
   [`${page}wind/ear.ts`, "denied: 'The microphone was not allowed.", "denied: 'No microphone was found.", 'trouble'],
   [`${page}app.ts`, "absent.hidden = state === 'back';", 'absent.hidden = true;', 'trouble'],
   ['apps/web/service-worker.js', 'cache.addAll(files.filter(wanted))', 'cache.addAll([])', 'trouble'],

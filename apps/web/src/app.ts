@@ -218,8 +218,8 @@ export class App {
     const { playing } = this.player;
     const settings = { ...this.settings };
     if (playing?.shipped === false && settings.model === '') {
-      const { MOST_PACKED_BYTES, packModel } = await this.late;
-      if (playing.bytes.length > MOST_PACKED_BYTES) return 'Too large for a link: save and send it';
+      const { MAX_PACKED_BYTES, packModel } = await this.late;
+      if (playing.bytes.length > MAX_PACKED_BYTES) return 'Too large for a link: save and send it';
       settings.model = await packModel(playing.bytes);
     }
     const link = new URL(linkOf(settings), location.href).href;

@@ -1,7 +1,7 @@
 // Files that people drop here: looked at, and refused in words that help.
 
 /** No model is larger. */
-const MOST_BYTES = 16e6;
+const MAX_BYTES = 16e6;
 
 /** Why a file was not played. */
 export class Refused extends Error {}
@@ -10,7 +10,7 @@ export class Refused extends Error {}
 export async function readDropped(file: File): Promise<Uint8Array> {
   const { name } = file;
   if (file.size === 0) throw new Refused(`${name} is empty. Was it still being saved?`);
-  if (file.size > MOST_BYTES) {
+  if (file.size > MAX_BYTES) {
     throw new Refused(`${name} is ${Math.round(file.size / 1e6)} MB large. Models are a few kilobytes, a megabyte at most.`);
   }
   try {

@@ -13,7 +13,7 @@ import { StudioDoor } from './studio_door.js';
 import { Tuning } from './panel/tuning.js';
 import { Ear } from './wind/ear.js';
 
-export { MOST_PACKED_BYTES, packModel } from './model_link.js';
+export { MAX_PACKED_BYTES, packModel } from './model_link.js';
 
 /** What the page has from then on. */
 export interface Parts {

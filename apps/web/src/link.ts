@@ -1,6 +1,6 @@
 // What a link carries after its #: scene, seed and settings. Nothing of it is kept anywhere else.
 
-import { MOST_LEAVES } from '@wisp/player/parts/leaves/limits';
+import { MAX_LEAVES } from '@wisp/player/parts/leaves/limits';
 
 export type SceneName = 'candle' | 'leaves';
 
@@ -22,7 +22,7 @@ export interface Settings {
   model: string;
 }
 
-export { MOST_LEAVES };
+export { MAX_LEAVES };
 export const ORDERS: readonly number[] = [2, 4, 6];
 
 export const DEFAULTS: Readonly<Settings> = {
@@ -41,7 +41,7 @@ const RANGES: Readonly<Record<Exclude<keyof Settings, 'scene' | 'model'>, readon
   seed: [0, 2 ** 32 - 1, true],
   noise: [0, 2, false],
   candles: [1, 12, true],
-  leaves: [1, MOST_LEAVES, true],
+  leaves: [1, MAX_LEAVES, true],
   order: [2, 6, true],
   history: [0, 8, true],
   detail: [0, 2, false],

@@ -3,7 +3,7 @@
 /** What an address never begins with: the model's own bytes follow, compressed, in base64url. */
 const PACKED = 'packed,';
 /** Longer links are cut by programs that pass them on. */
-export const MOST_PACKED_BYTES = 24_000;
+export const MAX_PACKED_BYTES = 24_000;
 
 async function through(bytes: Uint8Array, stream: CompressionStream | DecompressionStream): Promise<Uint8Array> {
   return new Uint8Array(await new Response(new Blob([bytes.slice()]).stream().pipeThrough(stream)).arrayBuffer());

@@ -189,7 +189,7 @@ export class Bank {
   }
 
   /**
-   * Scale of the residual noise: 1 as learned, 0 none; held to 0 to 10. A chain has its chance in its walk: at 0 the
+   * Scale of the residual noise: 1 as learned, 0 none; clamped to 0 … 10. A chain has its chance in its walk: at 0 the
    * likeliest mode follows as the segment that joins best, any other scale leaves it as it is.
    */
   setNoise(scale: number): void {
@@ -342,9 +342,9 @@ export class Bank {
     });
   }
 
-  /** Steps of instances in which an output was held at its range, of how many. */
-  held(): { held: number; steps: number } {
-    return { held: this.longFact(at.bankFacts.held), steps: this.longFact(at.bankFacts.steps) };
+  /** Steps of instances in which an output was clamped to its range, of how many. */
+  clamped(): { clamped: number; steps: number } {
+    return { clamped: this.longFact(at.bankFacts.clamped), steps: this.longFact(at.bankFacts.steps) };
   }
 
   /** Gives the bank's memory back; twice is fine. */

@@ -53,7 +53,7 @@ export const bankFacts = {
   inputs: 16,
   outputs: 20,
   polylinePoints: 24,
-  held: 32,
+  clamped: 32,
   steps: 40,
 } as const;
 

@@ -59,8 +59,8 @@ declare function registerProcessor(name: string, processor: new (options: AudioW
 type Functions = Record<string, (...values: number[]) => number>;
 
 // A block of 128 samples is all that comes today; engines may let it grow.
-const mostSamples = 4096;
-const mostFrames = 16;
+const maxSamples = 4096;
+const maxFrames = 16;
 const frameBytes = 40;
 
 class Ears {
@@ -79,8 +79,8 @@ class Ears {
     this.functions = instance.exports as unknown as Functions;
     this.memory = instance.exports.memory as WebAssembly.Memory;
     this.functions._initialize?.();
-    this.samples = this.functions.malloc!(mostSamples * 4);
-    this.frames = this.functions.malloc!(mostFrames * frameBytes);
+    this.samples = this.functions.malloc!(maxSamples * 4);
+    this.frames = this.functions.malloc!(maxFrames * frameBytes);
     this.scratch = this.functions.malloc!(64);
     this.wind = this.create(options.frameRate);
     if (options.calibration) this.know(options.calibration);
@@ -97,7 +97,7 @@ class Ears {
       const left = block.length - taken;
       const from = this.samples + 4 * taken;
       this.check(
-        this.functions.wisp_wind_feed!(this.wind, from, left, this.frames, mostFrames, this.scratch, this.scratch + 4),
+        this.functions.wisp_wind_feed!(this.wind, from, left, this.frames, maxFrames, this.scratch, this.scratch + 4),
       );
       const data = new DataView(this.memory.buffer);
       taken += data.getUint32(this.scratch, true);

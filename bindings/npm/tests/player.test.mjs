@@ -177,7 +177,7 @@ test('instances are spawned, lead lives of their own and are ended', () => {
   assert.throws(() => bank.end(second), wrong(Status.notAlive, /not alive/));
   assert.throws(() => bank.flameState(second), wrong(Status.notAlive, /not alive/));
   assert.notEqual(bank.spawn(), second);
-  assert.equal(bank.held().steps, 60);
+  assert.equal(bank.clamped().steps, 60);
   bank.free();
 });
 

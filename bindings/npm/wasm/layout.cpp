@@ -78,7 +78,7 @@ WISP_FIELD(wisp_bank_facts, slots, 12);
 WISP_FIELD(wisp_bank_facts, inputs, 16);
 WISP_FIELD(wisp_bank_facts, outputs, 20);
 WISP_FIELD(wisp_bank_facts, polyline_points, 24);
-WISP_FIELD(wisp_bank_facts, held, 32);
+WISP_FIELD(wisp_bank_facts, clamped, 32);
 WISP_FIELD(wisp_bank_facts, steps, 40);
 
 WISP_SIZE(wisp_flame_state, 32);

@@ -19,10 +19,10 @@ class Words {
   void add(const char* letters) {
     while (*letters) add(*letters++);
   }
-  void add(std::uint64_t number, unsigned base, int least_digits) {
+  void add(std::uint64_t number, unsigned base, int min_digits) {
     char digits[20];
     int count = 0;
-    for (; number > 0 || count < least_digits; number /= base) {
+    for (; number > 0 || count < min_digits; number /= base) {
       digits[count++] = "0123456789abcdef"[number % base];
     }
     while (count > 0) add(digits[--count]);

@@ -3,7 +3,7 @@
 import type { RawPicture } from './engine.js';
 
 /** More pixels than this are made fewer: a flame's edge is known to a tenth of a pixel. */
-const MOST_PIXELS = 3840 * 2160;
+const MAX_PIXELS = 3840 * 2160;
 
 const SHIFTS: Record<string, [number, number]> = { I420: [1, 1], I422: [1, 0], I444: [0, 0], NV12: [1, 1] };
 
@@ -25,7 +25,7 @@ function drawn(width: number, height: number, draw: (on: OffscreenCanvasRenderin
 export async function rawOfFrame(frame: VideoFrame, turn = 0): Promise<RawPicture> {
   const { width, height } = frame.visibleRect ?? { width: frame.codedWidth, height: frame.codedHeight };
   const shifts = SHIFTS[frame.format ?? ''];
-  if (shifts === undefined || width * height > MOST_PIXELS) return redrawn(frame, width, height, turn);
+  if (shifts === undefined || width * height > MAX_PIXELS) return redrawn(frame, width, height, turn);
   const size = frame.allocationSize();
   if (room.length !== size) room = new Uint8Array(size);
   const data = room;
@@ -66,7 +66,7 @@ function turned(picture: RawPicture, quarters: number): RawPicture {
 }
 
 function redrawn(frame: VideoFrame, width: number, height: number, turn: number): RawPicture {
-  const share = Math.min(1, Math.sqrt(MOST_PIXELS / (width * height)));
+  const share = Math.min(1, Math.sqrt(MAX_PIXELS / (width * height)));
   const [wide, tall] = [Math.round(width * share), Math.round(height * share)];
   const sideways = turn % 180 !== 0;
   const [shownWidth, shownHeight] = sideways ? [tall, wide] : [wide, tall];
@@ -79,7 +79,7 @@ function redrawn(frame: VideoFrame, width: number, height: number, turn: number)
 
 /** A still picture. */
 export function rawOfBitmap(bitmap: ImageBitmap): RawPicture {
-  const share = Math.min(1, Math.sqrt(MOST_PIXELS / (bitmap.width * bitmap.height)));
+  const share = Math.min(1, Math.sqrt(MAX_PIXELS / (bitmap.width * bitmap.height)));
   const [width, height] = [Math.round(bitmap.width * share), Math.round(bitmap.height * share)];
   return drawn(width, height, (on) => {
     on.setTransform(1, 0, 0, 1, 0, 0);

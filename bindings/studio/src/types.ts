@@ -105,7 +105,7 @@ export interface Recipe {
   /** an outline with a third of the arithmetic, as `--light` */
   light?: boolean;
   /** noise of an outline */
-  noise?: 'independent' | 'residual' | 'matched' | 'drawn';
+  noise?: 'independent' | 'residual' | 'matched' | 'resampled';
   /** knots of the input curve, 3 to 16; 0: none; not said: found */
   curve?: number;
   /** lags of inputs and delay of an ARX model; names of its channels where the table does not say */

@@ -49,7 +49,7 @@ SomeRecipe outline_recipe(const json& from, SomeRecipe defaults) {
   if (noise == "independent") recipe.noise = OutlineNoise::kIndependent;
   if (noise == "residual") recipe.noise = OutlineNoise::kResidual;
   if (noise == "matched") recipe.noise = OutlineNoise::kMatched;
-  if (noise == "drawn") recipe.noise = OutlineNoise::kDrawn;
+  if (noise == "resampled") recipe.noise = OutlineNoise::kResampled;
   recipe.light = from.value("light", false);
   return recipe;
 }

@@ -15,9 +15,9 @@ namespace wisp {
 
 /// Reads a whole file. Returns its bytes.
 /// Errors: the file cannot be opened (missing, a folder, no permission), cannot be read to its end, or is larger than
-/// `most_bytes`, or than memory can hold.
+/// `max_bytes`, or than memory can hold.
 Result<std::vector<std::byte>> read_file(const std::filesystem::path& path,
-                                         std::uint64_t most_bytes = std::uint64_t{1} << 32);
+                                         std::uint64_t max_bytes = std::uint64_t{1} << 32);
 
 /// Writes a whole file: beside its place first (`.NAME.part-PID`), then renamed over it, so that a reader sees the old
 /// file or the new one and never a half, after a power failure too. A file that is replaced keeps its permissions, and

@@ -72,7 +72,7 @@ struct Flame {
 
 /// Draws candles over what the picture holds, the first one farthest: first every candle, lit by all flames, then
 /// smoke, then the light of all flames. Points that are not finite are left out; an outline of fewer than three points
-/// or without area draws a candle that does not burn. Fields outside their range are held to it.
+/// or without area draws a candle that does not burn. Fields outside their range are clamped to it.
 void draw_flames(Image& image, std::span<const Flame> flames, const FlameStyle& style = {});
 
 /// Whether a model is drawn as a flame: it is an outline that can go out, or that stands on its base and tapers

@@ -64,7 +64,7 @@ struct LeafRoom {
 Image draw_leaf_room(int width, int height, const LeafCamera& camera, const LeafRoom& room = {});
 
 /// Draws leaves, their shadows on the floor and their trails over the picture. What is behind is drawn first.
-/// Poses that are not finite are left out; styles and camera are held to their ranges.
+/// Poses that are not finite are left out; styles and camera are clamped to their ranges.
 ///
 /// Precondition: !image.empty().
 void draw_leaves(Image& image, std::span<const DrawnLeaf> leaves, const LeafCamera& camera, const LeafRoom& room = {});

@@ -12,7 +12,7 @@ namespace wisp {
 /// between them, of a chain with its transitions; view {kind, …}, cost, made {program, sources, options, figures},
 /// extinction {input, level, seconds, haste, recovery, modes [{name, moves, source, seconds, events, seconds_ci95,
 /// error, starts, ends}]}, none where nothing puts the model out. A thing that goes out is a hybrid automaton of the
-/// modes burning, dying, out and catching. The verdict is that of the training.
+/// modes burning, dying, out and catching (decay, extinguished, re-ignition). The verdict is that of the training.
 /// Errors: the model cannot be played.
 Result<Report> model_report(const Model& model);
 

@@ -28,7 +28,7 @@ enum class OutlineNoise {
   kResidual,     ///< shared shocks with the residuals' covariance
   kMatched,      ///< shared shocks under which the whole outline at rest has the recording's covariance; where points
                  ///< feed each other, as kResidual: the coupling itself keeps the shape
-  kDrawn,        ///< resampled residuals (block bootstrap), matched to the input as it was
+  kResampled,    ///< resampled residuals (block bootstrap), matched to the input as it was
 };
 
 /// On which scale the inputs of several recordings are, where they say how loud the sound was at 1.
@@ -73,12 +73,12 @@ struct OutlineRecipe {
   double holdout = 0.3;          ///< 0 to 0.9, kept for judging: the last part of each recording; where nothing drives
                                  ///< the outline and `refit` is set, seconds of that share, in turn
   bool refit = true;             ///< after judging, learn the returned model from everything
-  std::optional<OutlineNoise> noise{};  ///< unset: kDrawn for at least 10 s with an input, else kMatched: what is short
-                                        ///< would be seen to repeat
-  std::size_t drawn_bytes = 256 * 1024;  ///< maximum size of resampled residuals, two bytes a channel and frame
-  int shared_shocks = 4;                 ///< 1 to 64: normal numbers a frame; more changed no figure
-  bool match_variance = true;            ///< scale the noise until every channel at rest has the recording's variance
-  double pixels_per_unit = 0;            ///< 0: each recording's own mean calm height is 1
+  std::optional<OutlineNoise> noise{};  ///< unset: kResampled for at least 10 s with an input, else kMatched: what is
+                                        ///< short would be seen to repeat
+  std::size_t resampled_bytes = 256 * 1024;  ///< maximum size of resampled residuals, two bytes a channel and frame
+  int shared_shocks = 4;                     ///< 1 to 64: normal numbers a frame; more changed no figure
+  bool match_variance = true;  ///< scale the noise until every channel at rest has the recording's variance
+  double pixels_per_unit = 0;  ///< 0: each recording's own mean calm height is 1
   ExtinctionRecipe extinction{};
   std::uint64_t seed = 1;        ///< of the trial runs
   std::string name = "outline";  ///< of the model

@@ -60,7 +60,7 @@ struct ArxOrders {
 /// row together, so that what they share, their memory and their tails stay. An instance plays row after row while its
 /// input has been what it was then, and jumps to a row whose past is nearer when it has not. How far two pasts are
 /// apart is the mean over a few lags of the differences' sizes. A jump moves no output: the dynamics lie between.
-struct DrawnResiduals {
+struct ResampledResiduals {
   std::vector<double> scale;        ///< per output: a stored 1, in the output's unit, >= 0
   std::vector<std::int16_t> rows;   ///< rows × outputs, row-major
   std::vector<std::uint32_t> ends;  ///< one past the last row of every stretch, ascending; the last is the row count
@@ -69,10 +69,10 @@ struct DrawnResiduals {
                                     ///< then one a row
   int toward = -1;                  ///< the regressor that the input is; -1: none, and jumps go anywhere
   int against = -1;                 ///< another one that is subtracted from it: wind from the other side; -1: none
-  std::vector<int> lags;            ///< 1 to kMaxDrawnLags lags, steps, ascending from 0; empty where nothing drives it
-  double tolerance = 0;  ///< by which a row may be farther than the nearest one before a jump, in the regressor's unit
-  double margin = 0;     ///< pasts that differ by less count as alike, in the regressor's unit
-  int longest = 1;       ///< steps from one jump to the next at most, 1 to 1 000 000
+  std::vector<int> lags;  ///< 1 to kMaxResampledLags lags, steps, ascending from 0; empty where nothing drives it
+  double tolerance = 0;   ///< by which a row may be farther than the nearest one before a jump, in the regressor's unit
+  double margin = 0;      ///< pasts that differ by less count as alike, in the regressor's unit
+  int longest = 1;        ///< steps from one jump to the next at most, 1 to 1 000 000
   std::vector<int> mirror;  ///< per output ±(1 + the output whose residual it takes in an input from the other side);
                             ///< empty: that side is no mirror image
 
@@ -80,11 +80,11 @@ struct DrawnResiduals {
   std::size_t row_count() const { return ends.empty() ? 0 : ends.back(); }
 };
 
-/// Most lags of the input's past that drawn residuals look at.
-inline constexpr std::size_t kMaxDrawnLags = 16;
+/// Most lags of the input's past that resampled residuals look at.
+inline constexpr std::size_t kMaxResampledLags = 16;
 
 /// Most rows that residuals are drawn from.
-inline constexpr std::size_t kMostDrawnRows = std::size_t{1} << 22;
+inline constexpr std::size_t kMaxResampledRows = std::size_t{1} << 22;
 
 /// Residual noise e(t) = diag(sd) w(t) + mixing v(t), w and v independent standard normal.
 struct ResidualNoise {
@@ -92,7 +92,7 @@ struct ResidualNoise {
   std::vector<std::array<double, 2>> sd_ci95;  ///< 95 % interval of the residual's standard deviation, per output
   int rank = 0;                                ///< columns of `mixing`: shocks that outputs share
   std::vector<double> mixing;                  ///< ny × rank, row-major
-  DrawnResiduals drawn;                        ///< where it has rows they are e(t), and the rest only tells their size
+  ResampledResiduals resampled;                ///< where it has rows they are e(t), and the rest only tells their size
 };
 
 /// Coefficients of output row i lie together: for each output j its na(i,j) lags of A in the equation's own sign and

@@ -34,9 +34,9 @@ int scale_count(ChainMotion motion);
 /// Numbers of the rates at a segment's end: velocity x, y, z and, for poses, angular velocity x, y, z. 3 or 6.
 int rate_count(ChainMotion motion);
 
-inline constexpr std::size_t kMostSegments = 65535;
-inline constexpr std::size_t kMostModes = 256;
-inline constexpr std::size_t kMostSegmentSteps = 65535;
+inline constexpr std::size_t kMaxSegments = 65535;
+inline constexpr std::size_t kMaxModes = 256;
+inline constexpr std::size_t kMaxSegmentSteps = 65535;
 
 /// All segments, those of one mode together and modes in ascending order.
 struct ChainSegments {
@@ -48,11 +48,11 @@ struct ChainSegments {
   std::vector<double> rate_scale;    ///< of velocities and, for poses, of angular velocities; > 0
   std::vector<std::uint16_t> follow;  ///< segments × modes × breadth: the segments of that mode that join it best, best
                                       ///< first; empty where breadth is 0
-  int breadth = 0;                    ///< 0: any segment of the mode follows
-  std::vector<std::uint16_t> onward;  ///< segments × modes: how likely each mode is after where this segment ends, over
-                                      ///< how likely after its mode as a whole; 65535 for the most of them, ≥ 1. It is
-                                      ///< multiplied by what the history says, unless a walk is steered. Empty: the
-                                      ///< history alone counts
+  int breadth = 0;                               ///< 0: any segment of the mode follows
+  std::vector<std::uint16_t> successor_weights;  ///< segments × modes: how likely each mode is after where this segment
+                                                 ///< ends, over how likely after its mode as a whole; 65535 for the
+                                                 ///< most of them, ≥ 1. It is multiplied by what the history says,
+                                                 ///< unless a walk is steered. Empty: the history alone counts
 
   std::size_t size() const { return mode.size(); }
 };
@@ -81,7 +81,7 @@ struct GustResponse {
   int order() const { return static_cast<int>(ground.change.size()); }
 };
 
-inline constexpr int kMostGustOrder = 4;
+inline constexpr int kMaxGustOrder = 4;
 
 /// Where a walk will be, as far as its present segment tells: what steering weighs the next segment by. A time τ after
 /// the end of segment s the body is, on average, `drift` · τ plus τ / (τ + memory) of s's lead (turned as s is) from

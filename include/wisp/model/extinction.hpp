@@ -4,7 +4,7 @@
 // Wind harms a flame while it is at least `level`, and a flame that is left alone recovers. Harm h goes from 0,
 // unharmed, to 1, where the flame goes out and stays out until it is lit again:
 //
-//   dh/dt =  (1 + haste · (w / level − 1)) / seconds   while w ≥ level, w = |wind|, counted up to kMostWind · level
+//   dh/dt =  (1 + haste · (w / level − 1)) / seconds   while w ≥ level, w = |wind|, counted up to kMaxWind · level
 //   dh/dt =  −1 / recovery                             below it; h is never less than 0
 //
 // So a wind of exactly `level` blows the flame out in `seconds`, a stronger one sooner, a gust that is shorter leaves
@@ -19,7 +19,7 @@ namespace wisp {
 /// A rule of extinction.
 struct Extinction {
   /// Wind counts up to this many levels: a single absurd sample does not blow a flame out.
-  static constexpr double kMostWind = 3;
+  static constexpr double kMaxWind = 3;
 
   std::size_t input = 0;  ///< index of the model's input that blows; its strength counts, not its sign
   double level = 2;       ///< least wind that kills, in the input's unit of 1, 1e-6 … 1e6. 2: twice the strong wind
@@ -29,8 +29,8 @@ struct Extinction {
                      ///< 2 at twice the level: a third of the time
   double recovery = 0.3;  ///< seconds below the level in which a flame on the verge of death recovers, 1e-3 … 3600: the
                           ///< wick stays hot that long
-  double dying = 0.15;    ///< seconds in which what is seen shrinks away, 0 … 60
-  double catching = 0.4;  ///< seconds in which it grows when it is lit again, 0 … 60
+  double decay = 0.15;       ///< seconds in which what is seen shrinks away, 0 … 60
+  double re_ignition = 0.4;  ///< seconds in which it grows when it is lit again, 0 … 60
 
   friend bool operator==(const Extinction&, const Extinction&) = default;
 };

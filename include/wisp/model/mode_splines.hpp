@@ -24,7 +24,7 @@ struct ModeSplines {
 };
 
 /// More rows than this a file can't ask for.
-inline constexpr std::size_t kMostSplineRows = 1'000'000;
+inline constexpr std::size_t kMaxSplineRows = 1'000'000;
 
 /// Rows of all segments as ChainSegments has them: the mean and the components by their scores, at the times of the
 /// steps; quaternions are made unit. The same numbers on every machine.
@@ -32,7 +32,7 @@ inline constexpr std::size_t kMostSplineRows = 1'000'000;
 /// Precondition: check(splines, segments, modes, channels) passes.
 std::vector<std::int16_t> rows_of(const ModeSplines& splines, const ChainSegments& segments, int channels);
 
-/// Errors: shapes, ranges, numbers that are not finite, more rows than kMostSplineRows; modes, lengths or row scales of
+/// Errors: shapes, ranges, numbers that are not finite, more rows than kMaxSplineRows; modes, lengths or row scales of
 /// the segments of which no rows can be made.
 Result<void> check(const ModeSplines& splines, const ChainSegments& segments, int modes, int channels);
 

@@ -21,7 +21,7 @@ inline constexpr std::size_t kSystemDurations = 16;
 /// each of those nine with itself and the later ones. 10 or 55.
 std::size_t system_terms(int degree);
 
-/// One mode: z(t + 1) = coefficient · terms(z(t), up(t)) + noise · e(t), held to [lowest, highest].
+/// One mode: z(t + 1) = coefficient · terms(z(t), up(t)) + noise · e(t), clamped to [lowest, highest].
 struct ModeSystem {
   std::vector<double> coefficient;  ///< 6 × terms, row-major
   std::vector<double> noise;        ///< 6 × 6, lower triangular, row-major: of independent standard normal deviates;

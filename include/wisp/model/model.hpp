@@ -34,7 +34,7 @@ enum class InputShape {
 struct Input {
   std::string name;
   std::string unit;   ///< the unit of 1; empty where it has none
-  double lowest = 0;  ///< the trained range; input beyond it and a margin is held to it
+  double lowest = 0;  ///< the trained range; input beyond it and a margin is clamped
   double highest = 0;
   InputShape shape = InputShape::kLinear;
   InputCurve curve{};  ///< where the shape has one, and else empty
@@ -44,7 +44,7 @@ struct Input {
 struct Output {
   std::string name;
   std::string unit;
-  double lowest = 0;  ///< the seen range; output is held to it and half of it more
+  double lowest = 0;  ///< the seen range; output is clamped to it and half of it more
   double highest = 0;
 };
 

@@ -24,8 +24,8 @@ enum class Switching : std::uint8_t {
   kMarkov,   ///< a Markov chain that takes one step with every sample
 };
 
-inline constexpr std::size_t kMostArxModes = 64;
-inline constexpr int kMostLyapunovStates = 256;  ///< larger blocks of outputs carry no certificate
+inline constexpr std::size_t kMaxArxModes = 64;
+inline constexpr int kMaxLyapunovStates = 256;  ///< larger blocks of outputs carry no certificate
 
 /// One mode. Shapes are those of ArxModel.
 struct ArxMode {
@@ -48,7 +48,7 @@ struct SwitchedArxModel {
   ArxOrders orders;                 ///< of every mode
   std::vector<double> output_mean;  ///< the operating point, per output
   std::vector<double> input_mean;   ///< per regressor input
-  std::vector<ArxMode> modes;       ///< 1 … kMostArxModes
+  std::vector<ArxMode> modes;       ///< 1 … kMaxArxModes
   Switching switching = Switching::kRegions;
 
   /// For kRegions, else empty: per mode the constant and then a weight for each of region_samples(), which are taken as
@@ -60,7 +60,7 @@ struct SwitchedArxModel {
 
   /// Why switching cannot make it diverge. Not empty: per block of state_blocks() a matrix P, states × states,
   /// row-major, such that xᵀPx shrinks in every mode: a common quadratic Lyapunov function. Empty: none was found, and
-  /// it is the range that outputs are held to that bounds it.
+  /// it is the range that outputs are clamped to that bounds it.
   std::vector<std::vector<double>> lyapunov;
 };
 

@@ -77,8 +77,8 @@ struct ExtinctionTraining {
   std::uint32_t died = 0;    ///< and those of them that the rule reproduces
   std::uint32_t gusts = 0;   ///< recorded gusts that were survived,
   std::uint32_t spared = 0;  ///< and those of them that the rule survives too
-  RampTraining dying;
-  RampTraining catching;
+  RampTraining decay;
+  RampTraining re_ignition;
 
   bool operator==(const ExtinctionTraining&) const = default;
 };

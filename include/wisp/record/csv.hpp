@@ -44,17 +44,17 @@ class CsvReader {
   /// The recording without its rows: rate, channels, flags and attributes.
   const Recording& header() const { return header_; }
 
-  /// Appends up to `most_rows` further rows to `recording`, which is the header or what was read before.
+  /// Appends up to `max_rows` further rows to `recording`, which is the header or what was read before.
   /// Returns how many; 0 at the end.
   /// An empty cell, NaN or NA is a missing sample.
   /// Errors: a wrong number of columns, text or infinity where a number belongs, decimal points and commas in one
   /// table, a line longer than 16 MiB.
-  Result<std::size_t> read(Recording& recording, std::size_t most_rows);
+  Result<std::size_t> read(Recording& recording, std::size_t max_rows);
 
-  /// Passes over up to `most_rows` rows without looking at their numbers.
+  /// Passes over up to `max_rows` rows without looking at their numbers.
   /// Returns how many; fewer than asked for at the end only.
   /// Errors: bytes that are not text, a line longer than 16 MiB.
-  Result<std::size_t> skip(std::size_t most_rows);
+  Result<std::size_t> skip(std::size_t max_rows);
 
  private:
   struct Column {

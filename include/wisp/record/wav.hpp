@@ -76,7 +76,7 @@ class WavWriter {
   WavWriter& operator=(WavWriter&&) noexcept;
   ~WavWriter();
 
-  /// Appends samples; PCM is rounded to nearest and held to full scale. Errors: the disk is full, or the file would
+  /// Appends samples; PCM is rounded to nearest and clamped to full scale. Errors: the disk is full, or the file would
   /// pass 4 GiB.
   ///
   /// Precondition: interleaved.size() is a multiple of the channels.

@@ -106,7 +106,7 @@ class Bank {
   InstanceId at(int slot) const;
 
   /// Sets what acts on every instance from the next step on: slots() × input_count(), in the inputs' units. Numbers
-  /// beyond the trained range and kRangeMargin are held to it; what is not a number counts as 0.
+  /// beyond the trained range and kRangeMargin are clamped to it; what is not a number counts as 0.
   void set_inputs(std::span<const float> values);
 
   /// The same inputs for every instance: input_count() values.
@@ -115,7 +115,7 @@ class Bank {
   /// The inputs of one instance: input_count() values. Returns false when `id` is not valid.
   bool set_inputs(InstanceId id, std::span<const float> values);
 
-  /// Scale of the residual noise: 1 as learned, 0 none; held to [0, 10]. At 0 a step costs less.
+  /// Scale of the residual noise: 1 as learned, 0 none; clamped to [0, 10]. At 0 a step costs less.
   /// A segment chain has no residual noise, its chance is in its walk: at 0 the likeliest mode follows, as the segment
   /// that joins best. Instances that are spawned then differ by their first heading alone, and their lives sooner or
   /// later repeat themselves (chain_loop() in wisp/run/chain_facet.hpp computes when). Any other scale leaves a chain
@@ -136,8 +136,9 @@ class Bank {
   /// calling thread.
   void set_crew(const Crew& crew);
 
-  /// Reads all outputs: slots() × output_count(), in the outputs' units, held to the seen range and kRangeMargin (those
-  /// of an instance that is out, or about to be, lie between there and 0). A chain's positions go as far as they go.
+  /// Reads all outputs: slots() × output_count(), in the outputs' units, clamped to the seen range and kRangeMargin
+  /// (those of an instance that is out, or about to be, lie between there and 0). A chain's positions go as far as they
+  /// go.
   void outputs(std::span<float> values) const;
 
   /// Reads the outputs of one instance: output_count() values. Returns false when `id` is not valid.
@@ -166,13 +167,13 @@ class Bank {
   void reset();
 
   /// How many instance-steps there were since the bank was made or restored, and in how many of them at least one
-  /// output of an instance that burns was held at its range. More than 1 in 1000 on ordinary input says that the model
-  /// is not usable. A chain's positions have no range: they are held at 1000 km from the origin.
-  struct Held {
-    std::uint64_t held = 0;
+  /// output of an instance that burns was clamped at its range. More than 1 in 1000 on ordinary input says that the
+  /// model is not usable. A chain's positions have no range: they are clamped at 1000 km from the origin.
+  struct Clamped {
+    std::uint64_t clamped = 0;
     std::uint64_t steps = 0;
   };
-  Held held() const;
+  Clamped clamped() const;
 
   /// Bytes that save() writes for a bank with this model and capacity.
   std::size_t save_bytes() const;

@@ -12,10 +12,10 @@ namespace wisp {
 struct Cost {
   std::int64_t multiply_adds_per_frame = 0;  ///< by the paper's count: coefficients of A and B that are not zero
   std::int64_t operations_per_frame = 0;     ///< all arithmetic: the sum of the five below
-  std::int64_t dynamics_operations = 0;  ///< inputs, filters, and noting what was held: + − × ÷ √ on numbers, logic
-  std::int64_t noise_operations = 0;     ///< from random words to what is added to the outputs, on numbers
-  std::int64_t random_operations = 0;    ///< arithmetic and logic on 32-bit words, for the noise
-  std::int64_t view_operations = 0;      ///< outputs between two steps, in their units, and the polyline; on numbers
+  std::int64_t dynamics_operations = 0;  ///< inputs, filters, and noting what was clamped: + − × ÷ √ on numbers, logic
+  std::int64_t noise_operations = 0;   ///< from random words to what is added to the outputs, on numbers
+  std::int64_t random_operations = 0;  ///< arithmetic and logic on 32-bit words, for the noise
+  std::int64_t view_operations = 0;    ///< outputs between two steps, in their units, and the polyline; on numbers
   std::int64_t worst_operations =
       0;  ///< the most in any frame: one that joins a segment, or searches for another
           ///< residual in an input that swings, or shrinks a flame that goes out; without any of them the same

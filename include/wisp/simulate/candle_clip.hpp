@@ -53,7 +53,7 @@ struct CandleRigOptions {
   double ignition_low = 900;     ///< K: below it nothing burns
   double ignition_high = 1300;   ///< K: above it the reaction has its full rate
   double updraught = 0.25;       ///< m/s, calibrated: the air that rises with a candle
-  double most_expansion = 1500;  ///< 1/s: ∇·u is held to it
+  double max_expansion = 1500;   ///< 1/s: ∇·u is clamped to it
 
   // The wind, and soot as a camera sees it.
   double wind_share = 0.4;    ///< calibrated: how much of the wind reaches the flame, most of it goes around
@@ -115,7 +115,7 @@ enum class WindKind {
 /// The wind. Speeds in m/s.
 struct WindSignalOptions {
   WindKind kind = WindKind::kGusts;
-  double most = 1.0;         ///< what gusts and noise together are held to, 0 … 10; a candle lives through 1 m/s
+  double most = 1.0;         ///< what gusts and noise together are clamped to, 0 … 10; a candle lives through 1 m/s
   double noise = 0.35;       ///< standard deviation of the wideband part while it blows, 0 … 10
   double bandwidth_hz = 6;   ///< of that noise, two poles, 0.1 … 50; slower wind does not show how a flame swings
   double gust = 0.55;        ///< typical peak of a gust, 0 … 10

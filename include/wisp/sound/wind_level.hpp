@@ -97,7 +97,7 @@ class WindLevel {
   ~WindLevel();
 
   /// Takes interleaved samples, full scale ±1, until they are used up or `frames` is full; feed the rest again then.
-  /// NaN counts as 0; beyond ±8 is held there. Returns how many samples were taken and frames written.
+  /// NaN counts as 0; beyond ±8 is clamped. Returns how many samples were taken and frames written.
   ///
   /// Precondition: samples.size() is a multiple of the channels.
   WindFed feed(std::span<const float> samples, std::span<WindFrame> frames);

@@ -32,7 +32,7 @@ constexpr std::size_t kMaxImageBytes = std::size_t{256} << 20;
 
 // A longer hole in the numbers is taken as this long, as in a video: what matters is that an episode ends there.
 constexpr double kLongestGapSeconds = 2;
-constexpr std::size_t kMostDigits = 18;
+constexpr std::size_t kMaxDigits = 18;
 
 std::string lower(std::string text) {
   for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -69,7 +69,7 @@ Result<std::vector<ImageFolder::NumberedImage>> ImageFolder::list(const std::fil
     if (codec_of(entry.path()) == AV_CODEC_ID_NONE) continue;
     const std::string digits = digits_in(entry.path());
     if (digits.empty()) continue;
-    if (digits.size() > kMostDigits) {
+    if (digits.size() > kMaxDigits) {
       return Error{entry.path().string() + ": its number has " + std::to_string(digits.size()) +
                    " digits, expected at most 18; number the images by frames"};
     }
@@ -148,7 +148,7 @@ Result<void> ImageFolder::decode(const std::filesystem::path& path) {
     const AVCodec* codec = avcodec_find_decoder(id);
     codec_.reset(codec == nullptr ? nullptr : avcodec_alloc_context3(codec));
     if (codec_) codec_->thread_count = 1;
-    if (codec_) codec_->max_pixels = kMostPixels;
+    if (codec_) codec_->max_pixels = kMaxPixels;
     if (!codec_ || avcodec_open2(codec_.get(), codec, nullptr) < 0) {
       return Error{path.string() + ": this FFmpeg cannot decode such images; convert them to PNG"};
     }

@@ -66,7 +66,7 @@ Result<CodecOwner> open_decoder(const std::filesystem::path& path, const AVStrea
     return Error{path.string() + ": not enough memory to decode " + coded};
   }
   context->thread_count = threads;
-  context->max_pixels = kMostPixels;
+  context->max_pixels = kMaxPixels;
   context->pkt_timebase = track.time_base;
   if (const int code = avcodec_open2(context.get(), codec, nullptr); code < 0) {
     return Error{path.string() + ": the decoder for " + coded + " does not start (" + libav_message(code) +

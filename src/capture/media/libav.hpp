@@ -47,7 +47,7 @@ using ScalerOwner = std::unique_ptr<SwsContext, ScalerCloser>;
 using ResamplerOwner = std::unique_ptr<SwrContext, ResamplerCloser>;
 
 /// More in a picture is a damaged size, not a camera's: eight times 4K.
-inline constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;
+inline constexpr std::int64_t kMaxPixels = std::int64_t{1} << 26;
 
 /// From now on FFmpeg prints nothing itself.
 void silence_libav();

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kPersistence = 0.6;     // a candidate is there in this share of the pictures
 constexpr std::size_t kMaxRegions = 24;  // of one picture at one level, the largest
-constexpr std::size_t kLeastRows = 3;    // a shape of fewer rows has none
+constexpr std::size_t kMinRows = 3;      // a shape of fewer rows has none
 constexpr double kSurelyMoves = 0.06;    // shapes that differ by this share move for sure
 constexpr double kStillWorth = 0.15;     // … and this is what one is worth that does not
 constexpr double kAloneIsBetter = 0.5;   // what must be cut from its stand, against what stands out alone
@@ -305,7 +305,7 @@ std::vector<Candidate> find_candidates(const PictureGrid& grid, const PictureGri
     Candidate c;
     c.level = level;
     c.stands = evidence.flame && cut_stands(shapes);
-    std::erase_if(shapes, [](const Shape& shape) { return shape.profile.rows.size() < kLeastRows; });
+    std::erase_if(shapes, [](const Shape& shape) { return shape.profile.rows.size() < kMinRows; });
     c.presence = static_cast<double>(shapes.size()) / static_cast<double>(grid.pictures.size());
     if (c.presence < kPersistence) continue;
     std::vector<double> areas, light;

@@ -94,8 +94,8 @@ struct Arc {
 };
 
 void locate_points(const BoundaryWindow& window, std::span<const PixelPosition> boundary, const Arc& arc,
-                   int most_points, std::vector<EdgePoint>& points) {
-  const std::size_t most = static_cast<std::size_t>(std::max(most_points, 2));
+                   int max_points, std::vector<EdgePoint>& points) {
+  const std::size_t most = static_cast<std::size_t>(std::max(max_points, 2));
   const std::size_t stride = (arc.count + most - 1) / most;
   points.clear();
   for (std::size_t k = 0; k < arc.count; k += stride) {
@@ -227,8 +227,8 @@ bool make_edge_cloud(const BoundaryWindow& window, std::span<const PixelPosition
   const Arc under{right, (left + size - right) % size + 1};
   if (over.count < kMinBoundary / 2) return false;
   std::vector<EdgePoint> underside;
-  locate_points(window, boundary, over, options.most_points, cloud.points);
-  locate_points(window, boundary, under, options.most_points, underside);
+  locate_points(window, boundary, over, options.max_points, cloud.points);
+  locate_points(window, boundary, under, options.max_points, underside);
   if (cloud.points.size() < kMinBoundary / 2) return false;
   const double height = length(window.place.width, window.place.height);
   settle_corner(cloud.points, false, to_left, 0.5 * height);

@@ -26,7 +26,7 @@ inline constexpr int kPaceSteps = 64;
 struct EdgeCloudOptions {
   BaseSide base = BaseSide::kBottom;
   bool underside = false;  ///< follow the underside too
-  int most_points = 320;   ///< edge points at most; a longer boundary is taken in even strides: 40 to a control point
+  int max_points = 320;    ///< edge points at most; a longer boundary is taken in even strides: 40 to a control point
                            ///< of 8 are far more than needed, and cost follows them
   /// Where along the cloud the landmarks lie: left corner, tip, right corner; ascending. The corners are 0 and 1 where
   /// the underside is not followed.

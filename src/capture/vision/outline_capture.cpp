@@ -162,7 +162,7 @@ Result<void> OutlineCapture::Stage::decide(bool at_end) {
   for (const auto& held : held_) {
     if (held) pictures.push_back(held->picture());
   }
-  cloud_options_.most_points = std::max(kMinEdgePoints, kEdgePointsEach * options_.points);
+  cloud_options_.max_points = std::max(kMinEdgePoints, kEdgePointsEach * options_.points);
   std::vector<Picture> seen = evenly_from(pictures, kSurveyed);
   for (const OwnedPicture& glimpse : glimpses_) seen.push_back(glimpse.picture());
   auto survey = survey_scene(seen, {options_.channel, options_.dark, options_.region, options_.flame});

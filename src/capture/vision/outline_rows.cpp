@@ -91,12 +91,12 @@ void extend_fades(std::vector<Fate>& fate) {
 
 // How many frames in a row may be filled: a screen shows a picture up to four times, and what happened in lost frames
 // is not known.
-std::size_t most_filled(Fate fate) { return fate == Fate::kDuplicate ? 3 : fate == Fate::kLost ? 1 : 0; }
+std::size_t max_filled(Fate fate) { return fate == Fate::kDuplicate ? 3 : fate == Fate::kLost ? 1 : 0; }
 
 // Fills short gaps between outlines that are a frame's own, in a straight line from one to the other.
 void fill_gaps(std::vector<Fate>& fate, std::vector<double>& controls, std::size_t width) {
   for (std::size_t begin = 1; begin + 1 < fate.size(); ++begin) {
-    const std::size_t most = most_filled(fate[begin]);
+    const std::size_t most = max_filled(fate[begin]);
     if (most == 0 || fate[begin - 1] != Fate::kKept) continue;
     std::size_t end = begin;
     while (end < fate.size() && fate[end] == fate[begin]) ++end;

@@ -97,7 +97,7 @@ void RegionFinder::connect(std::vector<Run>& runs, const std::vector<Run>& above
   }
 }
 
-std::span<const BrightRegion> RegionFinder::find(const ImageView& image, int level, std::int64_t least_area) {
+std::span<const BrightRegion> RegionFinder::find(const ImageView& image, int level, std::int64_t min_area) {
   parent_.clear();
   sums_.clear();
   above_.clear();
@@ -110,7 +110,7 @@ std::span<const BrightRegion> RegionFinder::find(const ImageView& image, int lev
   found_.clear();
   for (std::size_t k = 0; k < sums_.size(); ++k) {
     Sum& sum = sums_[k];
-    if (parent_[k] != static_cast<int>(k) || sum.region.area < least_area) continue;
+    if (parent_[k] != static_cast<int>(k) || sum.region.area < min_area) continue;
     sum.region.centre_x = sum.x / static_cast<double>(sum.region.area);
     sum.region.centre_y = sum.y / static_cast<double>(sum.region.area);
     found_.push_back(sum.region);

@@ -32,9 +32,9 @@ struct PixelPosition {
 /// Finds bright regions; keeps its memory from one picture to the next.
 class RegionFinder {
  public:
-  /// All regions of pixels above `level`, largest first; those under `least_area` pixels are left out.
+  /// All regions of pixels above `level`, largest first; those under `min_area` pixels are left out.
   /// The span is good until the next call.
-  std::span<const BrightRegion> find(const ImageView& image, int level, std::int64_t least_area);
+  std::span<const BrightRegion> find(const ImageView& image, int level, std::int64_t min_area);
 
  private:
   struct Run {

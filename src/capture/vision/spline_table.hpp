@@ -46,7 +46,7 @@ class SplineTable {
   int points() const { return points_; }
   std::span<const double> knots() const { return knots_; }
 
-  /// The four weights at s and the first control point that they belong to; s is held to [0, 1].
+  /// The four weights at s and the first control point that they belong to; s is clamped to [0, 1].
   BasisWeights weights(double s) const;
 
   /// Their derivatives with respect to s.

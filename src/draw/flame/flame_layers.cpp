@@ -9,8 +9,8 @@ namespace wisp::drawing {
 namespace {
 
 // A flame catches within this time of being lit, and dies within the other of going out, in seconds.
-constexpr float kCatching = 0.40F;
-constexpr float kDying = 0.16F;
+constexpr float kReIgnition = 0.40F;
+constexpr float kDecay = 0.16F;
 
 // The area of a calm flame in square model units: a quarter as wide as high, tapering. Its light is 1.
 constexpr float kCalmArea = 0.15F;
@@ -36,19 +36,19 @@ struct Stage {
 };
 
 // Of a flame that grew to the share `grown` since it was lit.
-FlameMood catching(float brightness, float grown) {
+FlameMood re_igniting(float brightness, float grown) {
   return {brightness * (0.5F + 0.5F * grown), 0.25F + 0.75F * smooth_step(0.15F, 0.9F, grown)};
 }
 
 Stage stage_of(const FlameScene& scene) {
   Stage stage;
   if (burns(scene)) {
-    const float grown = scene.size.value_or(smooth_step(0, kCatching, scene.seconds_since_lit));
-    stage.mood = catching(scene.brightness, grown);
+    const float grown = scene.size.value_or(smooth_step(0, kReIgnition, scene.seconds_since_lit));
+    stage.mood = re_igniting(scene.brightness, grown);
     if (!scene.size) stage.scale = 0.22F + 0.78F * grown;
     return stage;
   }
-  const float gone = 1 - scene.size.value_or(1 - smooth_step(0, kDying, scene.seconds_since_out));
+  const float gone = 1 - scene.size.value_or(1 - smooth_step(0, kDecay, scene.seconds_since_out));
   stage.mood = {scene.brightness * (1 - gone), 1 - gone};
   if (!scene.size) stage.scale = 1 - 0.55F * gone;
   return stage;

@@ -9,7 +9,7 @@ namespace wisp::drawing {
 /// What dims or colours a flame as a whole.
 struct FlameMood {
   float brightness = 1;
-  float soot = 1;  ///< 0: blue gas only (catching, dying, tiny), 1: a full yellow flame
+  float soot = 1;  ///< 0: blue gas only (re-ignition, decay, tiny), 1: a full yellow flame
 };
 
 /// Adds the flame's light to the field. `shade` dims it where something dark stands in it (the wick), 0 … 1, over the

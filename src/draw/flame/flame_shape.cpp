@@ -13,7 +13,7 @@ constexpr float kFarthest = 8;
 
 // A cell of the grid that φ is solved on: a hundredth of the flame, but never finer than a pixel.
 constexpr float kCellsPerUnit = 96;
-constexpr int kMostCells = 240;
+constexpr int kMaxCells = 240;
 
 struct Bounds {
   float left = 0, top = 0, right = 0, bottom = 0;
@@ -204,7 +204,7 @@ void measure(FlameShape& shape, std::span<const Point> model) {
 
 void fill_thickness(FlameShape& shape, std::span<const Point> pixels, const Bounds& bounds, float unit) {
   const float finest = std::max(1.0F, unit / kCellsPerUnit);
-  const float cell = std::max({finest, bounds.width() / kMostCells, bounds.height() / kMostCells});
+  const float cell = std::max({finest, bounds.width() / kMaxCells, bounds.height() / kMaxCells});
   const int columns = static_cast<int>(std::ceil(bounds.width() / cell)) + 2;
   const int rows = static_cast<int>(std::ceil(bounds.height() / cell)) + 2;
   const float left = bounds.left - cell;

@@ -11,7 +11,7 @@ namespace {
 // A Gaussian needs no more than this many grid cells a standard deviation to look smooth, so wide ones are blurred on
 // coarse grids: each level halves the one before.
 constexpr float kCellsPerSigma = 1.6F;
-constexpr int kMostLevels = 12;
+constexpr int kMaxLevels = 12;
 
 Plane luminance_of(const LightField& field) {
   Plane plane(field.width(), field.height());
@@ -89,7 +89,7 @@ void add_scaled(const Plane& from, float scale, Plane& to) {
 
 int level_of(const HaloRing& ring) {
   const float cells = std::max(1.0F, ring.sigma / kCellsPerSigma);
-  return std::clamp(static_cast<int>(std::floor(std::log2(cells))), 0, kMostLevels);
+  return std::clamp(static_cast<int>(std::floor(std::log2(cells))), 0, kMaxLevels);
 }
 
 }  // namespace
@@ -128,7 +128,7 @@ float transmitted(float light) {
 }
 
 int finest_level(std::span<const HaloRing> rings) {
-  int finest = kMostLevels;
+  int finest = kMaxLevels;
   for (const HaloRing& ring : rings) finest = std::min(finest, level_of(ring));
   return finest;
 }

@@ -19,7 +19,7 @@ struct LeafMesh {
   std::vector<std::array<int, 3>> triangles;
 };
 
-/// Fields of the style are held to their ranges.
+/// Fields of the style are clamped to their ranges.
 LeafMesh leaf_mesh(const LeafStyle& style);
 
 /// Whether the blade reaches to v at u: its margin has teeth.

@@ -12,7 +12,7 @@
 namespace wisp::arx {
 namespace {
 
-constexpr double kLeastRange = 1e-120;  // of a channel: its square, and that of its square, are numbers
+constexpr double kMinRange = 1e-120;  // of a channel: its square, and that of its square, are numbers
 
 ChannelSpan span_of(const std::string& name, std::span<const Recording> recordings) {
   ChannelSpan span;
@@ -59,7 +59,7 @@ std::string word_of(Coupling coupling) {
 
 Result<void> check_size(const std::string& name, const ChannelSpan& span) {
   const double size = std::max(std::abs(span.lowest), std::abs(span.highest)), range = span.highest - span.lowest;
-  const bool tiny = range > 0 && range<kLeastRange, huge = size> 1 / kLeastRange;
+  const bool tiny = range > 0 && range<kMinRange, huge = size> 1 / kMinRange;
   if (!tiny && !huge) return {};
   return Error{"channel '" + name + "' reaches from " + number_text(span.lowest, 6) + " to " +
                number_text(span.highest, 6) + ", whose squares no number holds: give it in another unit, near 1"};

@@ -93,8 +93,9 @@ class Walk {
     const auto modes = static_cast<std::size_t>(chain_.modes);
     const auto row = transitions.begin() + static_cast<long>(chain_.segments.mode[s] * modes);
     std::vector<double> chance(row, row + static_cast<long>(modes));
-    if (chain_.segments.onward.empty()) return chance;
-    for (std::size_t mode = 0; mode < modes; ++mode) chance[mode] *= chain_.segments.onward[s * modes + mode];
+    if (chain_.segments.successor_weights.empty()) return chance;
+    for (std::size_t mode = 0; mode < modes; ++mode)
+      chance[mode] *= chain_.segments.successor_weights[s * modes + mode];
     const double all = std::accumulate(chance.begin(), chance.end(), 0.0);
     for (double& one : chance) one /= all;
     return chance;

@@ -187,7 +187,7 @@ Model model_of(const Motion& motion, ChainModel dynamics, const ChainRecipe& rec
 }  // namespace
 
 Result<void> check_recipe(const ChainRecipe& recipe) {
-  if (recipe.modes < 0 || recipe.modes > static_cast<int>(kMostModes))
+  if (recipe.modes < 0 || recipe.modes > static_cast<int>(kMaxModes))
     return out_of_range("the number of modes", recipe.modes, "1 to 256, or 0 for auto");
   if (recipe.history < 0 || recipe.history > 16)
     return out_of_range("the chain's history", recipe.history, "1 to 16, or 0 for auto");

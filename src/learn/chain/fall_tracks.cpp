@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kFalls = 12;    // a side: more would hide each other
 constexpr double kShownSeconds = 6;   // of a fall
-constexpr double kMarkedSeconds = 3;  // of one with its events: later ones could not be told apart
+constexpr double kMarkedSeconds = 3;  // of one with its events: later ones could not be distinguished
 
 std::size_t rows_of(const MotionPiece& piece, double seconds, double rate_hz) {
   return std::min(piece.rows(), static_cast<std::size_t>(seconds * rate_hz));

@@ -18,14 +18,14 @@ namespace wisp {
 
 /// How to compare.
 struct FidelityOptions {
-  std::vector<std::string> channels;   ///< which to compare; empty: all outputs of the first real recording
-  std::size_t welch_samples = 64;      ///< even, at least 16; shortened where half of the data has no such stretch
-  double memory_seconds = 2;           ///< > 0: autocorrelation up to this lag, or half of the longest half stretch
-  double window_seconds = 0.5;         ///< > 0: length of a feature window; half a second is a few flickers
-  std::size_t max_windows = 500;       ///< ≥ 2, a side
-  std::size_t permutations = 199;      ///< 0: no p-value; 199 tell 0.005
-  double verbatim_tolerance = 0.02;    ///< in standard deviations of a channel, ≥ 0: what no eye tells apart
-  double long_seconds = 2;             ///< > 0: length of a long window; what a viewer notices takes seconds
+  std::vector<std::string> channels;  ///< which to compare; empty: all outputs of the first real recording
+  std::size_t welch_samples = 64;     ///< even, at least 16; shortened where half of the data has no such stretch
+  double memory_seconds = 2;          ///< > 0: autocorrelation up to this lag, or half of the longest half stretch
+  double window_seconds = 0.5;        ///< > 0: length of a feature window; half a second is a few flickers
+  std::size_t max_windows = 500;      ///< ≥ 2, a side
+  std::size_t permutations = 199;     ///< 0: no p-value; 199 tell 0.005
+  double verbatim_tolerance = 0.02;   ///< in standard deviations of a channel, ≥ 0: below what an eye can distinguish
+  double long_seconds = 2;            ///< > 0: length of a long window; what a viewer notices takes seconds
   std::size_t max_long_windows = 300;  ///< ≥ 2, a side; 0: none are compared
   std::uint64_t seed = 1;
 };

@@ -66,7 +66,7 @@ std::vector<std::pair<std::size_t, std::size_t>> bands_of(std::size_t frequencie
 
 void append_spectra(const Stretch& stretch, std::size_t first, std::size_t rows, const Transform& transform,
                     std::vector<double>& out) {
-  constexpr double kLeast = 1e-12;  // of nothing that moves
+  constexpr double kMin = 1e-12;  // of nothing that moves
   for (std::size_t c = 0; c < stretch.channels; ++c) {
     std::vector<double> samples(rows);
     for (std::size_t t = 0; t < rows; ++t) samples[t] = stretch(first + t, c);
@@ -74,7 +74,7 @@ void append_spectra(const Stretch& stretch, std::size_t first, std::size_t rows,
     for (const auto& [from, to] : bands_of(power.size())) {
       double sum = 0;
       for (std::size_t f = from; f < to; ++f) sum += power[f];
-      out.push_back(std::log(sum / static_cast<double>(to - from) + kLeast));
+      out.push_back(std::log(sum / static_cast<double>(to - from) + kMin));
     }
   }
 }

@@ -14,8 +14,8 @@ constexpr double kMinPresence = 0.15;  // seconds: a shorter sight of something 
 
 Result<void> check(const BlowOutOptions& options, const std::string& source) {
   const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
-  if (within(options.least_gone, 0.05, 60) && within(options.looked_back, 0.1, 10) &&
-      within(options.least_blown, 0.02, 1) && within(options.settling, 0, 10)) {
+  if (within(options.min_gone, 0.05, 60) && within(options.looked_back, 0.1, 10) &&
+      within(options.min_blown, 0.02, 1) && within(options.settling, 0, 10)) {
     return {};
   }
   return Error{source + ": what counts as going out is out of its range"};
@@ -98,10 +98,10 @@ Result<std::vector<BlowOut>> find_blow_outs(const Recording& recording, const st
   const auto channel = find_channel(recording, input);
   if (!channel) return Error{recording.source + ": there is no input " + input + " to find blow-outs by"};
   std::vector<Run> gone = absences(recording, *layout);
-  const std::size_t least = rows_of(options.least_gone, recording.rate_hz);
+  const std::size_t least = rows_of(options.min_gone, recording.rate_hz);
   std::erase_if(gone, [&](const Run& run) { return run.end - run.begin < least; });
   const std::size_t looked_back = rows_of(options.looked_back, recording.rate_hz);
-  const std::size_t window = rows_of(options.least_blown, recording.rate_hz);
+  const std::size_t window = rows_of(options.min_blown, recording.rate_hz);
   const auto wind = averaged(recording.channels[*channel].samples, window);
   const double usual = usual_wind(wind, gone, looked_back);
   std::vector<BlowOut> out;

@@ -33,7 +33,7 @@ struct Shape {
 
   double next(double harm, double wind, double step) const {
     if (wind < level) return std::max(0.0, harm - recovery * step);
-    return harm + step * (1 + haste * (std::min(wind, Extinction::kMostWind * level) / level - 1));
+    return harm + step * (1 + haste * (std::min(wind, Extinction::kMaxWind * level) / level - 1));
   }
 };
 
@@ -140,8 +140,8 @@ Extinction rule_of(const Trial& trial) {
 // Harm of the next row by a whole rule.
 double harmed(const Extinction& rule, double harm, double wind, double step) {
   const Shape shape{rule.level, rule.haste, rule.seconds / rule.recovery};
-  constexpr double kMostHarm = 0.5;  // of a step, as a bank has it
-  return std::min(shape.next(harm * rule.seconds, wind, step) / rule.seconds, harm + kMostHarm);
+  constexpr double kMaxHarm = 0.5;  // of a step, as a bank has it
+  return std::min(shape.next(harm * rule.seconds, wind, step) / rule.seconds, harm + kMaxHarm);
 }
 
 void follow(const Extinction& rule, const FlameLife& life, ExtinctionAgreement& out) {

@@ -24,7 +24,7 @@ struct ExtinctionEvidence {
   std::string input;               ///< the channel that blows
   double scale = 1;                ///< its value that is 1 in the model, > 0
   std::vector<BlowOut> blow_outs;  ///< of find_blow_outs()
-  double dying = 0;                ///< seconds that a flame takes to vanish: that long before it was gone it went out
+  double decay = 0;                ///< seconds that a flame takes to vanish: that long before it was gone it went out
 };
 
 /// How a rule does on recordings. A gust is wind of at least half of what killed, with calmer wind around it; without

@@ -135,9 +135,9 @@ Result<std::optional<LearnedExtinction>> ExtinguishedRecordings::complete(Model&
     return std::optional<LearnedExtinction>();
   }
   const double scale = model.training.inputs[index].scale;
-  const auto decay = ramp_of(evidence(scale, 0), SizeChange::kDying);
+  const auto decay = ramp_of(evidence(scale, 0), SizeChange::kDecay);
   if (!decay) return decay.error();
-  const auto re_ignition = ramp_of(evidence(scale, 0), SizeChange::kCatching);
+  const auto re_ignition = ramp_of(evidence(scale, 0), SizeChange::kReIgnition);
   if (!re_ignition) return re_ignition.error();
   const auto seen = evidence(scale, *decay ? (*decay)->seconds : 0);
   LearnedExtinction out{.input = input_};
@@ -147,8 +147,8 @@ Result<std::optional<LearnedExtinction>> ExtinguishedRecordings::complete(Model&
   out.unexplained = unexplained(seen);
   model.extinction = rule;
   model.training.extinction = training_of(out);
-  model.training.extinction->dying = set_ramp(*decay, model.extinction->dying);
-  model.training.extinction->catching = set_ramp(*re_ignition, model.extinction->catching);
+  model.training.extinction->decay = set_ramp(*decay, model.extinction->decay);
+  model.training.extinction->re_ignition = set_ramp(*re_ignition, model.extinction->re_ignition);
   return std::optional(std::move(out));
 }
 
@@ -161,10 +161,10 @@ Result<std::optional<JudgedExtinction>> judge_extinction(const Model& model, con
   if (!blow_outs) return blow_outs.error();
   const auto scale = scale_for(model, recording, *blow_outs, own_scale);
   if (!scale) return scale.error();
-  const ExtinctionEvidence evidence{&recording, input, *scale, *std::move(blow_outs), rule.dying};
-  const auto decay = judged_ramp(evidence, SizeChange::kDying, rule.dying, Extinction{}.dying);
+  const ExtinctionEvidence evidence{&recording, input, *scale, *std::move(blow_outs), rule.decay};
+  const auto decay = judged_ramp(evidence, SizeChange::kDecay, rule.decay, Extinction{}.decay);
   if (!decay) return decay.error();
-  const auto re_ignition = judged_ramp(evidence, SizeChange::kCatching, rule.catching, Extinction{}.catching);
+  const auto re_ignition = judged_ramp(evidence, SizeChange::kReIgnition, rule.re_ignition, Extinction{}.re_ignition);
   if (!re_ignition) return re_ignition.error();
   return std::optional(
       JudgedExtinction{agreement(rule, {&evidence, 1}), *decay, *re_ignition, unexplained({&evidence, 1})});

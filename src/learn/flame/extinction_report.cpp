@@ -53,11 +53,11 @@ ReportTable modes_of(const Model& model) {
                     {}};
   table.rows = {
       mode_row("burning", "the dynamics", word_of(made.origin), none, "in full size", sentence_of(rule)),
-      mode_row("dying", "its size, in a straight line to nothing", word_of(made.dying.origin),
-               ramp_cells(rule.dying, made.dying), "in the shape of its last step", "with nothing left"),
+      mode_row("dying", "its size, in a straight line to nothing", word_of(made.decay.origin),
+               ramp_cells(rule.decay, made.decay), "in the shape of its last step", "with nothing left"),
       mode_row("out", "nothing", {}, none, "with nothing left", "when it is lit"),
-      mode_row("catching", "the dynamics, its size in a straight line to all of it", word_of(made.catching.origin),
-               ramp_cells(rule.catching, made.catching), "from rest and unharmed", "in full size")};
+      mode_row("catching", "the dynamics, its size in a straight line to all of it", word_of(made.re_ignition.origin),
+               ramp_cells(rule.re_ignition, made.re_ignition), "from rest and unharmed", "in full size")};
   return table;
 }
 
@@ -116,8 +116,8 @@ ReportSection extinction_section(const std::optional<JudgedExtinction>& judged) 
   if (!judged) return {"", {{"extinction", {}, "", ""}}};
   ReportSection section{"Extinction"};
   add_agreement(judged->agreement, "extinction", section);
-  add_ramp(judged->decay, "extinction.dying", "decay", section);
-  add_ramp(judged->re_ignition, "extinction.catching", "re-ignition", section);
+  add_ramp(judged->decay, "extinction.decay", "decay", section);
+  add_ramp(judged->re_ignition, "extinction.re_ignition", "re-ignition", section);
   section.entries.push_back({"extinction.unexplained", judged->unexplained, "", ""});
   return section;
 }

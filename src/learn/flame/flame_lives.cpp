@@ -16,7 +16,7 @@ std::size_t rows_of(double seconds, double rate_hz) {
   return static_cast<std::size_t>(std::max(1L, std::lround(seconds * rate_hz)));
 }
 
-// Rows in which a flame that has gone out is still seen, as a bank shows it: its first step of dying is a row.
+// Rows in which a flame that has gone out is still seen, as a bank shows it: its first step of decay is a row.
 std::size_t vanishing_rows(double seconds, double rate_hz) {
   constexpr double kRounding = 1e-9;
   return static_cast<std::size_t>(std::max(0.0, std::ceil(seconds * rate_hz - kRounding) - 1));
@@ -67,7 +67,7 @@ void FlameLives::add_lives(const ExtinctionEvidence& evidence, const std::vector
     const std::size_t watched = died ? std::max(begin, end - std::min(end, before)) : end;
     lives_.push_back({{wind.data(), begin, end}, rate_hz, died, watched, until});
   };
-  const std::size_t vanishing = vanishing_rows(evidence.dying, rate_hz);
+  const std::size_t vanishing = vanishing_rows(evidence.decay, rate_hz);
   for (const BlowOut& blow_out : evidence.blow_outs) {
     const std::size_t went_out = std::max(begin, blow_out.gone - std::min(blow_out.gone, vanishing));
     const std::size_t after = std::min(blow_out.back, blow_out.gone + rows_of(kWatchedAfter, rate_hz));

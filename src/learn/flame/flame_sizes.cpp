@@ -9,10 +9,10 @@
 namespace wisp {
 namespace {
 
-constexpr double kDyingSeen = 0.6;   // seconds before it is gone; what came before belongs to the gust
-constexpr double kCatchingSeen = 2;  // seconds after it is seen again
-constexpr double kGridStep = 1.02;   // of durations: finer than a row tells
-constexpr double kNormal95 = 1.96;   // standard errors
+constexpr double kDecaySeen = 0.6;     // seconds before it is gone; what came before belongs to the gust
+constexpr double kReIgnitionSeen = 2;  // seconds after it is seen again
+constexpr double kGridStep = 1.02;     // of durations: finer than a row tells
+constexpr double kNormal95 = 1.96;     // standard errors
 
 double size_of(const Recording& recording, const OutlineLayout& layout, std::size_t row) {
   const auto at = [&](std::size_t k) { return recording.channels[layout.outputs[k]].samples[row]; };
@@ -28,7 +28,7 @@ double size_of(const Recording& recording, const OutlineLayout& layout, std::siz
 // A ramp to be fitted. A bank dies in whole steps from a full size; a recorded flame begins anywhere between two rows,
 // in the mean half a row from the first, and what a bank shows of its last step jumps where a duration passes a row.
 double fitted_size(SizeChange change, double seconds, double rate_hz, std::size_t row) {
-  if (change == SizeChange::kCatching) return ramp_size(change, seconds, rate_hz, row);
+  if (change == SizeChange::kReIgnition) return ramp_size(change, seconds, rate_hz, row);
   return std::min(1.0, (static_cast<double>(row) + 0.5) / (seconds * rate_hz));
 }
 
@@ -126,17 +126,17 @@ Result<std::vector<double>> flame_sizes(const Recording& recording, std::span<co
 std::vector<SizeCurve> size_curves(const Recording& recording, std::span<const double> sizes,
                                    std::span<const BlowOut> blow_outs, SizeChange change) {
   std::vector<SizeCurve> curves;
-  const bool dying = change == SizeChange::kDying;
-  const auto most = static_cast<std::size_t>(std::lround((dying ? kDyingSeen : kCatchingSeen) * recording.rate_hz));
+  const bool decay = change == SizeChange::kDecay;
+  const auto most = static_cast<std::size_t>(std::lround((decay ? kDecaySeen : kReIgnitionSeen) * recording.rate_hz));
   for (std::size_t k = 0; k < blow_outs.size(); ++k) {
     const BlowOut& blow_out = blow_outs[k];
     if (!blow_out.blown) continue;
     const std::size_t lit = k > 0 ? blow_outs[k - 1].back : 0;
     const std::size_t next = k + 1 < blow_outs.size() ? blow_outs[k + 1].gone : recording.rows();
-    const std::size_t rows = std::min(most, dying ? blow_out.gone - lit : next - blow_out.back);
+    const std::size_t rows = std::min(most, decay ? blow_out.gone - lit : next - blow_out.back);
     SizeCurve curve{recording.rate_hz, {}};
     for (std::size_t row = 0; row < rows; ++row) {
-      curve.size.push_back(sizes[dying ? blow_out.gone - 1 - row : blow_out.back + row]);
+      curve.size.push_back(sizes[decay ? blow_out.gone - 1 - row : blow_out.back + row]);
     }
     const bool seen = std::any_of(curve.size.begin(), curve.size.end(), [](double size) { return !std::isnan(size); });
     if (seen) curves.push_back(std::move(curve));
@@ -147,7 +147,7 @@ std::vector<SizeCurve> size_curves(const Recording& recording, std::span<const d
 double ramp_size(SizeChange change, double seconds, double rate_hz, std::size_t row) {
   const double steps = std::max(1.0, seconds * rate_hz);
   constexpr double kRounding = 1e-9;
-  const double last = change == SizeChange::kDying ? 1 + steps - std::ceil(steps - kRounding) : 1;  // of a step
+  const double last = change == SizeChange::kDecay ? 1 + steps - std::ceil(steps - kRounding) : 1;  // of a step
   return std::min(1.0, (static_cast<double>(row) + last) / steps);
 }
 

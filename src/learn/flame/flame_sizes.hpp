@@ -1,6 +1,6 @@
 #pragma once
-// Dying and catching as modes of a flame: how its size goes to nothing when it is blown out, and comes back when it is
-// lit, learned from recordings in which that was seen.
+// Decay and re-ignition as modes of a flame: how its size goes to nothing when it is blown out, and comes back when it
+// is lit, learned from recordings in which that was seen.
 //
 // In both modes a bank's flame has dynamics of one number, its size s, that are ARX of the first order with a root at
 // 1, s(t+1) = s(t) ∓ step / seconds, between 0 and 1: a ramp. What is learned is how long it takes.
@@ -19,8 +19,8 @@ namespace wisp {
 
 /// Which way a size goes.
 enum class SizeChange {
-  kDying,     ///< to nothing
-  kCatching,  ///< from nothing
+  kDecay,       ///< to nothing
+  kReIgnition,  ///< from nothing
 };
 
 /// The size of the flame in every row, NaN where it has no outline: the square root of its control points' polygon's
@@ -30,7 +30,7 @@ enum class SizeChange {
 Result<std::vector<double>> flame_sizes(const Recording& recording, std::span<const BlowOut> blow_outs,
                                         const BlowOutOptions& options = {});
 
-/// The sizes seen in one dying or catching, row by row away from where the flame was not there.
+/// The sizes seen in one decay or re-ignition, row by row away from where the flame was not there.
 struct SizeCurve {
   double rate_hz = 0;
   std::vector<double> size;

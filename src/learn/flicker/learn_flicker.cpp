@@ -369,7 +369,7 @@ Result<Fit> fit_light(const Light& light, const FlickerRecipe& recipe, std::span
     const auto found = regress(light.learned, modes, mode, recipe.order);
     if (!found) {
       return Error{recordings.front().source + ": the light has no " + std::to_string(recipe.modes) +
-                   " degrees of restlessness to tell apart; ask for fewer modes, or record calm and draught"};
+                   " degrees of restlessness to distinguish; ask for fewer modes, or record calm and draught"};
     }
     regressions.push_back(*found);
     ArxMode one{.theta = {{}}, .constant = {found->constant}, .shock = {found->shock}};

@@ -8,7 +8,7 @@ namespace wisp {
 namespace {
 
 // Both expansions need some √a terms near the mean; beyond this many the rest is rounding.
-constexpr int kMostTerms = 100000;
+constexpr int kMaxTerms = 100000;
 constexpr double kEnough = 1e-16;
 
 double log_density(double a, double x) { return a * std::log(x) - x - std::lgamma(a); }
@@ -16,7 +16,7 @@ double log_density(double a, double x) { return a * std::log(x) - x - std::lgamm
 double lower_by_series(double a, double x) {
   double term = 1 / a;
   double sum = term;
-  for (int n = 1; n < kMostTerms && std::abs(term) > kEnough * sum; ++n) {
+  for (int n = 1; n < kMaxTerms && std::abs(term) > kEnough * sum; ++n) {
     term *= x / (a + n);
     sum += term;
   }
@@ -29,7 +29,7 @@ double upper_by_fraction(double a, double x) {
   double c = 1 / kTiny;
   double d = 1 / b;
   double value = d;
-  for (int n = 1; n < kMostTerms; ++n) {
+  for (int n = 1; n < kMaxTerms; ++n) {
     const double numerator = -n * (n - a);
     b += 2;
     d = numerator * d + b;

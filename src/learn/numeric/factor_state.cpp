@@ -17,9 +17,9 @@ namespace {
 constexpr std::uint64_t kMagic = 0x3152544350534957;  // "WISPCTR1"
 constexpr std::uint64_t kVersion = 2;
 constexpr std::size_t kHeader = 4 * 8;
-constexpr std::uint64_t kMostChannels = 4096;
-constexpr std::uint64_t kMostName = 65536;
-constexpr std::uint64_t kMostSeen = 1 << 20;
+constexpr std::uint64_t kMaxChannels = 4096;
+constexpr std::uint64_t kMaxName = 65536;
+constexpr std::uint64_t kMaxSeen = 1 << 20;
 
 std::uint64_t hash(std::span<const std::byte> bytes) {
   std::uint64_t value = 0xcbf29ce484222325;
@@ -68,7 +68,7 @@ class Reader {
     return fine_ ? value : 0;
   }
   std::string text() {
-    std::string value(bounded(kMostName), '\0');
+    std::string value(bounded(kMaxName), '\0');
     for (char& c : value) c = static_cast<char>(byte());
     return value;
   }
@@ -77,7 +77,7 @@ class Reader {
     if (!fine_) return {};  // before memory is asked for
     OrderMatrix matrix(rows, columns);
     for (int r = 0; r < rows; ++r) {
-      for (int c = 0; c < columns; ++c) matrix(r, c) = static_cast<int>(bounded(kMostChannels));
+      for (int c = 0; c < columns; ++c) matrix(r, c) = static_cast<int>(bounded(kMaxChannels));
     }
     return matrix;
   }
@@ -99,8 +99,8 @@ class Reader {
 
 FactorOptions read_options(Reader& reader) {
   FactorOptions options;
-  const auto outputs = reader.bounded(kMostChannels);
-  const auto inputs = reader.bounded(kMostChannels);
+  const auto outputs = reader.bounded(kMaxChannels);
+  const auto inputs = reader.bounded(kMaxChannels);
   for (std::uint64_t i = 0; i < outputs && reader.fine(); ++i) options.channels.outputs.push_back(reader.text());
   for (std::uint64_t k = 0; k < inputs && reader.fine(); ++k) options.channels.inputs.push_back(reader.text());
   if (!reader.fine()) return options;
@@ -125,7 +125,7 @@ void write_notes(const FactorNotes& notes, Writer& payload) {
 
 void read_notes(Reader& reader, FactorNotes& notes) {
   notes.jobs = reader.number();
-  const std::uint64_t count = reader.bounded(kMostSeen);
+  const std::uint64_t count = reader.bounded(kMaxSeen);
   for (std::uint64_t k = 0; k < count && reader.fine(); ++k) {
     SeenRows seen{.source = reader.text()};
     for (auto* number : {&seen.hash, &seen.first, &seen.last, &seen.begin, &seen.end, &seen.copy})

@@ -132,7 +132,7 @@ std::vector<double> row_major(const MatrixXd& p) {
 }  // namespace
 
 std::optional<std::vector<double>> find_common_lyapunov(const StateBlock& block) {
-  if (block.states > kMostSearchedStates || block.companion.empty()) return {};
+  if (block.states > kMaxSearchedStates || block.companion.empty()) return {};
   std::vector<MatrixXd> matrices;
   for (const auto& mode : block.companion) {
     matrices.push_back(Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(

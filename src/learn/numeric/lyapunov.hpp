@@ -13,10 +13,10 @@
 
 namespace wisp {
 
-inline constexpr int kMostSearchedStates = 16;  ///< of a block; beyond, the search's unknowns become too many
+inline constexpr int kMaxSearchedStates = 16;  ///< of a block; beyond, the search's unknowns become too many
 
 /// A symmetric positive definite P, states × states, row-major, with AₖᵀPAₖ < P for all of the block's matrices.
-/// Nothing where the search finds none, or where the block is larger than kMostSearchedStates.
+/// Nothing where the search finds none, or where the block is larger than kMaxSearchedStates.
 std::optional<std::vector<double>> find_common_lyapunov(const StateBlock& block);
 
 /// One for every block of the model; empty where one of them has none.

@@ -28,8 +28,8 @@ std::string milliseconds(double seconds) {
 Result<void> check(const AlignmentOptions& o) {
   const auto in = [](double x, double least, double most) { return x >= least && x <= most; };
   if (!in(o.rate_hz, 1e-3, 1e6)) return bad("the rate is " + std::to_string(o.rate_hz) + " Hz, expected above 0");
-  if (!in(o.most_seconds, 0.05, 10)) {
-    return bad("the search is ±" + std::to_string(o.most_seconds) + " s, expected 0.05 to 10");
+  if (!in(o.max_seconds, 0.05, 10)) {
+    return bad("the search is ±" + std::to_string(o.max_seconds) + " s, expected 0.05 to 10");
   }
   if (!in(o.confidence_level, 0.5, 0.999)) {
     return bad("the confidence level is " + std::to_string(o.confidence_level) + ", expected 0.5 to 0.999");
@@ -190,13 +190,13 @@ Interval bootstrap(const BlockSums& sums, const AlignmentOptions& options) {
   return {at(tail), at(1 - tail)};
 }
 
-void judge(Alignment& found, double most_seconds) {
+void judge(Alignment& found, double max_seconds) {
   const double width = found.high_seconds - found.low_seconds;
   if (std::abs(found.correlation) < found.chance) {
     found.reason = "motion and wind have nothing in common that stands out from chance";
-  } else if (found.low_seconds <= -most_seconds || found.high_seconds >= most_seconds) {
+  } else if (found.low_seconds <= -max_seconds || found.high_seconds >= max_seconds) {
     found.reason = "the best offset lies at the search's end; search farther";
-  } else if (width > most_seconds) {
+  } else if (width > max_seconds) {
     found.reason = "the offset is only known to " + milliseconds(width);
   } else {
     found.usable = true;
@@ -220,7 +220,7 @@ Result<Alignment> align_offset(std::span<const double> wind, std::span<const dou
   }
   double pairs = 0;
   for (std::size_t t = 0; t < wind.size(); ++t) pairs += std::isfinite(wind[t]) && std::isfinite(motion[t]) ? 1 : 0;
-  const double least = std::max(4 * options.most_seconds * options.rate_hz, 4.0 * kWhiteningOrder);
+  const double least = std::max(4 * options.max_seconds * options.rate_hz, 4.0 * kWhiteningOrder);
   if (pairs < least) {
     return bad(std::to_string(static_cast<long long>(pairs)) + " samples in which both are known, expected at least " +
                std::to_string(static_cast<long long>(std::ceil(least))) + " (four times the search)");
@@ -233,7 +233,7 @@ Result<Alignment> align_offset(std::span<const double> wind, std::span<const dou
   const auto filter = predictor(centred_wind);
   const Series white_wind = whitened(centred_wind, filter);
   const Series white_motion = whitened(centred_motion, filter);
-  const auto most = static_cast<std::ptrdiff_t>(options.most_seconds * options.rate_hz + 0.5);
+  const auto most = static_cast<std::ptrdiff_t>(options.max_seconds * options.rate_hz + 0.5);
   const auto block = std::max<std::size_t>(static_cast<std::size_t>(options.block_seconds * options.rate_hz + 0.5), 1);
   const BlockSums sums(white_wind, white_motion, most, block);
   const Series all = sums.means(Series(sums.blocks, 1.0));
@@ -248,7 +248,7 @@ Result<Alignment> align_offset(std::span<const double> wind, std::span<const dou
   found.high_seconds = seconds(std::max(interval.high, peak));
   found.correlation = scale > 0 ? all[static_cast<std::size_t>(peak + 0.5)] / scale : 0;
   found.chance = chance_level(white_wind, white_motion, all.size(), pairs);
-  judge(found, options.most_seconds);
+  judge(found, options.max_seconds);
   return found;
 }
 

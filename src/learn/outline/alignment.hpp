@@ -12,7 +12,7 @@ namespace wisp {
 /// How the offset is searched.
 struct AlignmentOptions {
   double rate_hz = 60;             ///< of both series, > 0
-  double most_seconds = 1;         ///< offsets searched: from minus to plus this, 0.05 to 10
+  double max_seconds = 1;          ///< offsets searched: from minus to plus this, 0.05 to 10
   double confidence_level = 0.95;  ///< of the interval, 0.5 to 0.999
   int resamples = 400;             ///< bootstrap resamples for the interval, 50 to 100000
   double block_seconds = 2;        ///< of the bootstrap's blocks, 0.1 to 60: longer than a gust, so that blocks are
@@ -36,7 +36,7 @@ struct Alignment {
 /// motion to wind does. So the offset is that of the recording plus the time that the thing itself takes to answer (a
 /// flame's tip: some 50 ms). Its interval comes from a bootstrap over blocks of time.
 /// Both series have one value a frame; NaN is missing.
-/// Errors: lengths differ; less than four times most_seconds in which both are known; a series that never changes; an
+/// Errors: lengths differ; less than four times max_seconds in which both are known; a series that never changes; an
 /// option outside its range.
 Result<Alignment> align_offset(std::span<const double> wind, std::span<const double> motion,
                                const AlignmentOptions& options = {});

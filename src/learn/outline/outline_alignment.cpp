@@ -45,7 +45,7 @@ AlignmentOptions options_for(const Recording& recording, const std::vector<doubl
   double rows = 0;
   for (std::size_t t = 0; t < input.size(); ++t) rows += std::isnan(input[t]) || std::isnan(motion[t]) ? 0 : 1;
   AlignmentOptions options{.rate_hz = recording.rate_hz};
-  options.most_seconds = std::clamp(rows / recording.rate_hz / 5, kMinSearch, options.most_seconds);
+  options.max_seconds = std::clamp(rows / recording.rate_hz / 5, kMinSearch, options.max_seconds);
   return options;
 }
 

@@ -16,7 +16,7 @@ struct Differences {
   double any = 0;
 };
 
-// Over pairs of whole samples; episodes are not told apart, since one pair in hundreds lies across their ends.
+// Over pairs of whole samples; episodes are not kept separate, since one pair in hundreds lies across their ends.
 Differences differences(const std::vector<double>& samples) {
   double sum = 0, squares = 0, steps = 0, count = 0, pairs = 0;
   for (std::size_t k = 0; k < samples.size(); ++k) {

@@ -11,7 +11,6 @@
 #include "learn/numeric/chi_squared.hpp"
 #include "learn/outline/outline_components.hpp"
 #include "learn/outline/outline_curve.hpp"
-#include "learn/outline/outline_drawn.hpp"
 #include "learn/outline/outline_fidelity.hpp"
 #include "learn/outline/outline_noise.hpp"
 #include "learn/outline/outline_orders.hpp"
@@ -20,6 +19,7 @@
 #include "learn/outline/outline_synthesis.hpp"
 #include "learn/outline/outline_turns.hpp"
 #include "learn/outline/outline_verdict.hpp"
+#include "learn/outline/resampled_residuals.hpp"
 
 namespace wisp {
 namespace {
@@ -64,9 +64,9 @@ OutlineRecipe decided(OutlineRecipe options, const PreparedOutlines& prepared) {
   }
   if (!options.noise) {
     const bool draw = !prepared.inputs.empty() && seconds >= kMinDrawnSeconds;
-    options.noise = draw ? OutlineNoise::kDrawn : OutlineNoise::kMatched;
+    options.noise = draw ? OutlineNoise::kResampled : OutlineNoise::kMatched;
   }
-  const bool drawn = options.noise == OutlineNoise::kDrawn;
+  const bool drawn = options.noise == OutlineNoise::kResampled;
   const bool whole = !options.light && options.mirror.value_or(true) && seconds >= kMinWholeSeconds;
   const OutlineCoupling heard = whole ? OutlineCoupling::kFull : OutlineCoupling::kCoordinate;
   if (!options.coupling) options.coupling = drawn ? heard : OutlineCoupling::kPoint;
@@ -192,11 +192,11 @@ Result<void> set_drawn(std::span<const Recording> recordings, const PreparedOutl
                        const OutlineRecipe& options, ArxModel& model) {
   // Coordinates alone show every jump: they are to jump less often.
   const double tolerance = *options.coupling == OutlineCoupling::kFull ? 0.1 : 0.2;
-  auto drawn = drawn_residuals(
+  auto drawn = resampled_residuals(
       model, recordings, prepared,
-      {.most_bytes = options.drawn_bytes, .tolerance = tolerance, .mirror = mirror_wanted(options, prepared)});
+      {.max_bytes = options.resampled_bytes, .tolerance = tolerance, .mirror = mirror_wanted(options, prepared)});
   if (!drawn) return drawn.error();
-  model.noise.drawn = *std::move(drawn);
+  model.noise.resampled = *std::move(drawn);
   return {};
 }
 
@@ -523,10 +523,10 @@ Result<OutlineFit> fit_outline(std::span<const Recording> recordings, const Outl
   ArxModel arx = fitted->model;
   const auto seen = hold_out(prepared->recordings, prepared->channels, summary.refitted ? 0 : options.holdout).learned;
   if (!prepared->inputs.empty()) centre_on_calm(arx);
-  if (options.noise == OutlineNoise::kDrawn) {
+  if (options.noise == OutlineNoise::kResampled) {
     if (auto ok = set_drawn(seen, *prepared, options, arx); !ok) return ok.error();
   }
-  if (arx.noise.drawn.empty()) {
+  if (arx.noise.resampled.empty()) {
     const auto shaken = to_learn_from(seen, *prepared, options);
     if (auto ok = set_noise(*fitted, shaken, *prepared, options, arx, summary); !ok) return ok.error();
   }

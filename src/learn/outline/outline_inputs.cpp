@@ -42,7 +42,7 @@ Result<Strengths> strengths(std::span<const Recording> recordings, const std::st
 }
 
 // Below this an input is calm: its scale stands for its 95th percentile while it blows, which is near enough to the
-// largest hundredth for the same threshold.
+// 99th percentile for the same threshold.
 double calm_below(const OutlineInput& input) { return kCalmShare * input.scale; }
 
 // NaN stays NaN in all of them.

@@ -17,7 +17,7 @@
 
 namespace wisp {
 
-/// Below this share of its largest hundredth an input counts as calm: microphones and anemometers are never at 0.
+/// Below this share of its 99th percentile an input counts as calm: microphones and anemometers are never at 0.
 inline constexpr double kCalmShare = 0.1;
 
 /// One input of an outline.

@@ -171,7 +171,7 @@ StaticGain static_gain(const std::vector<double>& tip, const std::vector<double>
   return best;
 }
 
-double crossed_share(const Recording& recording, const OutlineLayout& layout) {
+double self_intersection_rate(const Recording& recording, const OutlineLayout& layout) {
   const OutlineCurve curve(layout.knots, 100);
   std::size_t crossed = 0;
   for (std::size_t row = 0; row < recording.rows(); ++row) {
@@ -261,7 +261,7 @@ Result<void> add_fidelity(const OutlineModel& model, const PreparedOutlines& pre
   auto play = synthesize(model.whole, {.rows = rows, .seed = options.seed, .input = &driving});
   if (!play) return play.error();
   out.held_share = play->held_share;
-  out.crossed_share = crossed_share(play->recording, prepared.layout);
+  out.self_intersection_rate = self_intersection_rate(play->recording, prepared.layout);
   if (!model.whole.inputs.empty()) hide_unseen(prepared.recordings.front(), prepared.channels.outputs, play->recording);
   const FidelityOptions how{.channels = prepared.channels.outputs};
   auto found = fidelity(prepared.recordings, {&play->recording, 1}, how);

@@ -47,7 +47,7 @@ struct OutlineJudgement {
   std::optional<StaticGain> static_gain;       ///< for models with inputs
   std::optional<Fidelity> fidelity;            ///< of free play with noise; nothing where the recording is too short
   double held_share = 0;                       ///< of steps of that play in which an output was clamped to its range
-  double crossed_share = 0;                    ///< of its frames in which the outline intersects itself
+  double self_intersection_rate = 0;           ///< of its frames in which the outline intersects itself
   double pixels_per_unit = 0;
   std::vector<std::string> warnings;
 };

@@ -19,7 +19,7 @@ namespace {
 // Every order where it matters, then wider apart: neighbouring high orders are alike. 25 is the paper's best.
 constexpr int kOrders[] = {1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 25, 32};
 constexpr double kLongestDelay = 0.25;       // seconds: beyond any flame's answer and a camera's lag
-constexpr double kNearlyAsGood = 1.02;       // in root mean square error: what no eye tells apart
+constexpr double kNearlyAsGood = 1.02;       // in root mean square error: below what an eye can distinguish
 constexpr int kMinRowsACoefficient = 4;      // as the verdict asks
 constexpr std::size_t kMinHeldOutRows = 60;  // beside the longest history
 
@@ -71,7 +71,7 @@ ArxOrders reduced(const ArxOrders& orders, const Moving& moving) {
   return out;
 }
 
-int most_coefficients(const ArxOrders& orders) {
+int max_coefficients(const ArxOrders& orders) {
   int most = 0;
   for (int i = 0; i < orders.outputs(); ++i) most = std::max(most, orders.row_size(i));
   return most;
@@ -98,7 +98,7 @@ Candidates candidates_for(std::size_t rows, const PreparedOutlines& prepared, co
   Candidates out;
   const auto add = [&](int order, int delay) {
     ArxOrders orders = reduced(outline_orders(order, delay, *options.coupling, prepared), moving);
-    const auto wanted = static_cast<std::size_t>(kMinRowsACoefficient * most_coefficients(orders));
+    const auto wanted = static_cast<std::size_t>(kMinRowsACoefficient * max_coefficients(orders));
     if (!out.list.empty() && rows < wanted + static_cast<std::size_t>(orders.history())) return;
     out.list.push_back({order, delay, 0, 0});
     out.orders.push_back(std::move(orders));

@@ -103,9 +103,9 @@ class Spread {
   std::size_t count_ = 0;
 };
 
-double share(const Bank::Held& before, const Bank::Held& after) {
+double share(const Bank::Clamped& before, const Bank::Clamped& after) {
   const std::uint64_t steps = after.steps - before.steps;
-  return steps == 0 ? 0 : static_cast<double>(after.held - before.held) / static_cast<double>(steps);
+  return steps == 0 ? 0 : static_cast<double>(after.clamped - before.clamped) / static_cast<double>(steps);
 }
 
 }  // namespace
@@ -120,7 +120,7 @@ Result<Synthesis> synthesize(const Model& model, const SynthesisOptions& options
   const std::size_t warm_up = warm_up_steps(model, options);
   Player player(*bank, *inputs, warm_up);
   for (std::size_t t = 0; t < warm_up; ++t) player.step();
-  const Bank::Held before = bank->held();
+  const Bank::Clamped before = bank->clamped();
   const std::size_t rows = options.rows > 0 ? options.rows : inputs->size();
   Synthesis out{empty_recording(model, rows), 0};
   std::vector<float> values(model.outputs.size());
@@ -129,7 +129,7 @@ Result<Synthesis> synthesize(const Model& model, const SynthesisOptions& options
     bank->outputs(id, values);
     for (std::size_t k = 0; k < values.size(); ++k) out.recording.channels[k].samples.push_back(values[k]);
   }
-  out.held_share = share(before, bank->held());
+  out.held_share = share(before, bank->clamped());
   return out;
 }
 
@@ -143,7 +143,7 @@ Result<FreePlay> play_freely(const Model& model, std::size_t steps, const Synthe
   const std::size_t warm_up = warm_up_steps(model, options);
   Player player(*bank, *inputs, warm_up);
   for (std::size_t t = 0; t < warm_up; ++t) player.step();
-  const Bank::Held before = bank->held();
+  const Bank::Clamped before = bank->clamped();
   Spread spread(model);
   std::vector<float> values(kCrowd * model.outputs.size());
   for (std::size_t t = 0; t < steps / kCrowd; ++t) {
@@ -151,7 +151,7 @@ Result<FreePlay> play_freely(const Model& model, std::size_t steps, const Synthe
     bank->outputs(values);
     spread.add(values);
   }
-  return FreePlay{share(before, bank->held()), spread.sd()};
+  return FreePlay{share(before, bank->clamped()), spread.sd()};
 }
 
 }  // namespace wisp

@@ -15,7 +15,7 @@ constexpr int kMinRowsACoefficient = 4;
 constexpr double kMinTipFit = 40;
 constexpr double kMaxUnsteadiness = 0.5;  // films of flames have 0.02 to 0.3; noise as strong as the movement 0.55
 constexpr double kMinFollowed = 5;        // per cent: a short simulation fits a little by where it starts
-constexpr double kMaxHeld = 1e-3;
+constexpr double kMaxClamped = 1e-3;
 constexpr double kMaxLossGrown = 1.2;  // of a repaired model, in variance: beyond it is another model
 constexpr double kMaxSpread = 2;       // playing freely over recorded, of the typical channel, either way
 
@@ -50,7 +50,7 @@ double tip_absolute_fit(const OutlineFigures& figures, int steps) {
   return figures.tip_absolute_fit_percent[at];
 }
 
-int most_coefficients(const ArxOrders& orders) {
+int max_coefficients(const ArxOrders& orders) {
   int most = 0;
   for (int i = 0; i < orders.outputs(); ++i) most = std::max(most, orders.row_size(i));
   return most;
@@ -78,8 +78,8 @@ const char* noise_name(OutlineNoise noise) {
       return "residual";
     case OutlineNoise::kMatched:
       return "matched";
-    case OutlineNoise::kDrawn:
-      return "drawn";
+    case OutlineNoise::kResampled:
+      return "resampled";
   }
   return "";
 }
@@ -140,8 +140,8 @@ Usable outline_verdict(const ArxSummary& fit, const OutlineSummary& summary) {
     return {false, "learned from " + std::to_string(rows) + " frames; at least " + std::to_string(kMinRows) +
                        " are needed to tell flicker from chance: record longer"};
   }
-  if (rows < static_cast<std::size_t>(kMinRowsACoefficient) * most_coefficients(summary.orders)) {
-    return {false, std::to_string(most_coefficients(summary.orders)) + " coefficients an output from " +
+  if (rows < static_cast<std::size_t>(kMinRowsACoefficient) * max_coefficients(summary.orders)) {
+    return {false, std::to_string(max_coefficients(summary.orders)) + " coefficients an output from " +
                        std::to_string(rows) + " frames describe chance more than the thing; at least " +
                        std::to_string(kMinRowsACoefficient) +
                        " frames a coefficient are needed: record longer, or try a lower order or less coupling"};
@@ -156,7 +156,7 @@ Usable outline_verdict(const ArxSummary& fit, const OutlineSummary& summary) {
     return {false, "the estimate was unstable (radius " + rounded(fit.stable.estimated, 4) +
                        ") and became another model by being made stable: try a lower order or more frames"};
   }
-  if (summary.held_share > kMaxHeld) {
+  if (summary.held_share > kMaxClamped) {
     return {false, "its outputs are clamped to their range in " + rounded(1000 * summary.held_share, 1) +
                        " of 1000 frames, more than 1: record longer or try a lower order"};
   }

@@ -25,7 +25,7 @@ struct ModeDifference {
   double most_std_errors = 0;    ///< between the two that are farthest apart
   double noise_ratio = 1;        ///< the second's residuals over the first's, geometric mean over outputs
 
-  /// Whether all that may tell them apart is the size of their noise.
+  /// Whether all that may distinguish them is the size of their noise.
   bool same_coefficients() const { return coefficients == 0; }
 };
 

@@ -28,7 +28,7 @@ Result<void> check_options(const SwitchedOptions& options) {
   const auto wrong = [](const std::string& what, const std::string& found, const std::string& expected) {
     return Error{what + " is " + found + ", expected " + expected};
   };
-  const int most = static_cast<int>(kMostArxModes);
+  const int most = static_cast<int>(kMaxArxModes);
   if (options.max_modes < 1 || options.max_modes > most)
     return wrong("the largest number of modes", std::to_string(options.max_modes), "1 to 64");
   if (options.modes < 0 || options.modes > most)
@@ -52,7 +52,7 @@ int row_size(const SwitchedRows& rows) {
 }
 
 // Modes with more than this are determined.
-double least_rows(const SwitchedRows& rows) { return 1.5 * row_size(rows) + 3; }
+double min_rows(const SwitchedRows& rows) { return 1.5 * row_size(rows) + 3; }
 
 // Modes by how much of the rows is theirs, most first.
 void sort_modes(RefinedModes& found) {
@@ -91,7 +91,7 @@ void settle(const SwitchedRows& rows, const VectorXd& least, RefinedModes& found
 
 Result<RefinedModes> best_of_starts(const SwitchedRows& rows, int modes, const SwitchedOptions& options,
                                     const Progress& progress) {
-  const VectorXd least = least_variance(rows);
+  const VectorXd least = min_variance(rows);
   const int near = options.neighbours > 0 ? options.neighbours : 3 * row_size(rows);
   std::optional<RefinedModes> best;
   const int starts = modes == 1 ? 1 : options.starts;
@@ -155,7 +155,7 @@ Result<Judged> judge(const SwitchedRows& rows, const SwitchedOptions& options, c
   for (int k = 2; options.modes == 0 && k <= options.max_modes; ++k) counts.push_back(k);
   std::vector<double> single, last, chosen;
   for (int count : counts) {
-    if (static_cast<double>(learned.rows()) < count * least_rows(rows)) break;
+    if (static_cast<double>(learned.rows()) < count * min_rows(rows)) break;
     const auto found = best_of_starts(learned, count, options, progress);
     if (!found) return found.error();
     const std::vector<double> row = row_log_likelihoods(found->modes, unseen);
@@ -163,7 +163,7 @@ Result<Judged> judge(const SwitchedRows& rows, const SwitchedOptions& options, c
     SwitchedCandidate candidate{count, found->log_likelihood / static_cast<double>(learned.rows()), mean_of(row)};
     candidate.log_likelihood += likelihood_offset(rows);
     candidate.held_out_log_likelihood += likelihood_offset(rows);
-    candidate.determined = *std::min_element(share.begin(), share.end()) >= least_rows(rows);
+    candidate.determined = *std::min_element(share.begin(), share.end()) >= min_rows(rows);
     if (!last.empty()) candidate.gain_std_error = gain_error(row, last);
     out.candidates.push_back(candidate);
     last = row;
@@ -240,7 +240,7 @@ void finish_modes(const SwitchedRows& rows, const SwitchedOptions& options, cons
     VectorXd own(rows.rows());
     for (Index t = 0; t < rows.rows(); ++t) own(t) = mode[static_cast<std::size_t>(t)] == k ? 1 : 0;
     if (own.sum() > 0)
-      changed.factor[k] = residual_factor(rows.y - rows.phi * changed.theta[k], own, least_variance(rows));
+      changed.factor[k] = residual_factor(rows.y - rows.phi * changed.theta[k], own, min_variance(rows));
   }
   const SwitchedArxModel again = model_of(changed, rows);
   for (std::size_t k = 0; k < again.modes.size(); ++k) fit.model.modes[k].shock = again.modes[k].shock;
@@ -301,7 +301,7 @@ Result<SwitchedFit> fit_switched(std::span<const Recording> recordings, const Ch
   auto rows =
       make_switched_rows(recordings, channels, options.orders, scales_of(recordings, channels, options.subtract_means));
   if (!rows) return rows.error();
-  const double needed = least_rows(*rows) * std::max(1, options.modes) / (1 - options.holdout);
+  const double needed = min_rows(*rows) * std::max(1, options.modes) / (1 - options.holdout);
   if (static_cast<double>(rows->rows()) < needed) {
     return Error{"the recordings have " + std::to_string(rows->rows()) + " usable rows, expected at least " +
                  std::to_string(static_cast<long>(std::ceil(needed))) + ": choose fewer modes or smaller orders"};

@@ -31,7 +31,7 @@ struct SwitchedOptions {
   ArxOrders orders;  ///< of every mode; see make_orders
   Switching switching = Switching::kRegions;
   int modes = 0;               ///< 1 … max_modes; 0: the number that does best on rows held out
-  int max_modes = 6;           ///< 1 … kMostArxModes: the largest number that is tried
+  int max_modes = 6;           ///< 1 … kMaxArxModes: the largest number that is tried
   bool subtract_means = true;  ///< the operating point is each channel's mean, else 0. Modes have constants either way
   double holdout = 0.3;        ///< in (0, 0.9]: share of every stretch, its end, that judges the number of modes
   int starts = 12;             ///< ≥ 1

@@ -14,7 +14,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
 
-constexpr int kMostSteps = 100'000;
+constexpr int kMaxSteps = 100'000;
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 // A model's own operating point; sizes of 1, so that nothing is scaled.
@@ -175,7 +175,7 @@ Result<std::vector<int>> mode_sequence(const SwitchedArxModel& model, const Reco
 
 Result<std::vector<std::vector<double>>> predict_switched(const SwitchedArxModel& model, const Recording& recording,
                                                           const ChannelChoice& channels, int steps) {
-  if (steps < 0 || steps > kMostSteps) {
+  if (steps < 0 || steps > kMaxSteps) {
     return Error{"predictions were asked for " + std::to_string(steps) + " steps ahead, expected 1 to 100000, or free"};
   }
   const auto rows = rows_of(model, {&recording, 1}, channels);

@@ -60,7 +60,7 @@ MatrixXd improve_regions(const MatrixXd& regions, const SwitchedRows& rows, cons
   return regions;
 }
 
-// Regions are told apart by their dynamics and not by the size of their noise: while they are sought all have the same.
+// Regions are separated by their dynamics and not by the size of their noise: while they are sought all have the same.
 void pool_residuals(const SwitchedRows& rows, const VectorXd& least, RefinedModes& state) {
   const Index n = rows.rows(), count = state.weights.cols();
   MatrixXd residuals(n * count, rows.outputs());
@@ -144,7 +144,7 @@ Eigen::MatrixXd residual_factor(const MatrixXd& residual, const VectorXd& weight
   return covariance.diagonal().cwiseSqrt().asDiagonal();
 }
 
-Eigen::VectorXd least_variance(const SwitchedRows& rows) {
+Eigen::VectorXd min_variance(const SwitchedRows& rows) {
   const MatrixXd residual = rows.y - rows.phi * weighted_theta(rows, VectorXd::Ones(rows.rows()));
   const VectorXd variance = residual.colwise().squaredNorm().transpose() / static_cast<double>(rows.rows());
   return (variance * kSmallResidual * kSmallResidual).array().max(1e-18);

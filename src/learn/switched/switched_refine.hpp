@@ -14,7 +14,7 @@ struct RefinedModes {
 };
 
 /// What bounds a mode's residuals from below: a hundredth of the single model's, per output, squared.
-Eigen::VectorXd least_variance(const SwitchedRows& rows);
+Eigen::VectorXd min_variance(const SwitchedRows& rows);
 
 /// Improves a first sorting of the rows until the likelihood grows no more, for at most `rounds` rounds.
 RefinedModes refine(const SwitchedRows& rows, Switching switching, const std::vector<int>& first, int modes,

@@ -16,7 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kRidge = 1e-9;     // of scaled regressors, so that a column that a mode never sees is 0
-constexpr Index kMostLocals = 800;  // local models; clusters need no more
+constexpr Index kMaxLocals = 800;   // local models; clusters need no more
 constexpr double kSureShare = 0.7;  // of local models that vote: others lie across a boundary
 constexpr double kPlaceWeight = 2;  // of a local model's place, against its coefficients in standard errors
 
@@ -143,7 +143,7 @@ Eigen::MatrixXd weighted_theta(const SwitchedRows& rows, const Eigen::VectorXd& 
 
 std::vector<int> clustered_start(const SwitchedRows& rows, Switching switching, int modes, int neighbours,
                                  std::uint64_t seed) {
-  const Index count = std::min<Index>(kMostLocals, rows.rows());
+  const Index count = std::min<Index>(kMaxLocals, rows.rows());
   std::vector<LocalModel> locals;
   for (Index k = 0; k < count; ++k) {
     locals.push_back(local_model(rows, switching, k * rows.rows() / count, neighbours));

@@ -104,13 +104,13 @@ void fill_rows(const Regression& regression, ArxProgram& program) {
   std::copy(regression.constant.begin(), regression.constant.end(), program.constant.begin());
 }
 
-ArxProgram lay_out(const Regression& regression, const DrawnProgram& drawn, Arena& arena) {
+ArxProgram lay_out(const Regression& regression, const ResampledProgram& resampled, Arena& arena) {
   ArxProgram program;
   program.outputs = static_cast<int>(regression.taps.size());
   program.regressors = regression.regressors;
   program.modes = regression.modes;
   program.shock_channels = regression.shock_channels;
-  program.drawn = drawn;
+  program.resampled = resampled;
   program.depth = std::max(regression.history + 1, 2);
   const auto ny = static_cast<std::size_t>(program.outputs), modes = static_cast<std::size_t>(program.modes);
   program.shocks = count(regression.shocks);
@@ -161,7 +161,7 @@ bool taps_mirror(const ArxProgram& program, int a, int b) {
 }
 
 bool noise_mirrors(const ArxProgram& program, int a, int b) {
-  if (!program.drawn.empty()) return residuals_mirror(program.drawn, a, b);
+  if (!program.resampled.empty()) return residuals_mirror(program.resampled, a, b);
   const auto begin = [&](int row) { return row == 0 ? 0U : program.shock_end[row - 1]; };
   const std::uint32_t size = program.shock_end[a] - begin(a);
   if (program.shock_end[b] - begin(b) != size) return false;
@@ -184,7 +184,7 @@ double total(std::span<const float> numbers) {
 
 }  // namespace
 
-float kept(double value) { return std::abs(value) < kLeastCoefficient ? 0.0f : static_cast<float>(value); }
+float kept(double value) { return std::abs(value) < kMinCoefficient ? 0.0f : static_cast<float>(value); }
 
 void keep(std::vector<ModeWeights>& list, ModeWeights weights) {
   const auto counts = [](float weight) { return weight != 0; };
@@ -236,7 +236,7 @@ Regression regression_of(const Model& model, const SwitchedArxModel& switched) {
 }
 
 ArxProgram make_arx_program(const Model& model, const ArxModel& arx, Arena& arena) {
-  return lay_out(regression_of(model, arx), make_drawn_program(model, arx, arena), arena);
+  return lay_out(regression_of(model, arx), make_resampled_program(model, arx, arena), arena);
 }
 
 ArxProgram make_arx_program(const Model& model, const SwitchedArxModel& switched, Arena& arena) {
@@ -267,7 +267,7 @@ std::uint64_t hash_of(const ArxProgram& program, std::uint64_t before) {
   for (const auto numbers : {program.coefficients, program.constant, program.shock_size}) {
     hash = hash_floats(numbers, hash);
   }
-  return hash_of(program.drawn, hash);
+  return hash_of(program.resampled, hash);
 }
 
 Result<void> check_regression(const Regression& regression) {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "run/arx/drawn_program.hpp"
+#include "run/arx/resampled_program.hpp"
 #include "run/bank/arena.hpp"
 #include "run/bank/channels.hpp"
 #include "wisp/model/arx.hpp"
@@ -38,7 +38,7 @@ struct ArxProgram {
   std::span<std::uint32_t> shock;      ///< which of the standard normal numbers
   std::span<std::uint32_t> shock_end;  ///< per output, one past its last
   std::span<float> shock_size;         ///< shocks × modes
-  DrawnProgram drawn;                  ///< residuals to play instead; empty: Gaussian shocks
+  ResampledProgram resampled;          ///< residuals to play instead; empty: Gaussian shocks
 };
 
 /// A number of every mode that one sample is multiplied with, in channel units.

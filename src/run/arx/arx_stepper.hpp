@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "run/arx/arx_program.hpp"
-#include "run/arx/drawn_lanes.hpp"
 #include "run/arx/mode_lanes.hpp"
+#include "run/arx/resampled_lanes.hpp"
 #include "run/bank/channel_history.hpp"
 #include "run/bank/moment.hpp"
 
@@ -45,8 +45,8 @@ class ArxStepper : public ChannelHistory<N> {
   /// Sets the scale of the residual noise. At 0 there is no chance in the modes either.
   void set_noise(float scale) {
     modes_.set_chance(scale > 0);
-    noisy_ = drawn_.set_noise(scale);
-    if (!drawn_.empty()) return;
+    noisy_ = resampled_.set_noise(scale);
+    if (!resampled_.empty()) return;
     std::fill(shaken_.begin(), shaken_.end(), std::uint8_t{0});
     for (std::size_t k = 0; k < shock_size_.size(); ++k) {
       shock_size_[k] = scale * program_.shock_size[k];
@@ -58,7 +58,7 @@ class ArxStepper : public ChannelHistory<N> {
   /// Moves every block's history by one sample; the newest is now to be made.
   void turn() {
     ChannelHistory<N>::turn();
-    drawn_.turn();
+    resampled_.turn();
   }
 
   /// Blocks that step_group() steps at once.
@@ -74,7 +74,7 @@ class ArxStepper : public ChannelHistory<N> {
   /// Puts one lane to the operating point.
   void start(int block, int lane, const Moment<N>&) {
     modes_.start(block, lane);
-    if (!drawn_.empty()) drawn_.start(block, lane);
+    if (!resampled_.empty()) resampled_.start(block, lane);
     this->start_history(block, lane);
   }
 
@@ -90,7 +90,7 @@ class ArxStepper : public ChannelHistory<N> {
   }
 
   /// Numbers of state that one lane holds.
-  std::size_t lane_values() const { return modes_.lane_values() + drawn_.lane_values() + this->history_values(); }
+  std::size_t lane_values() const { return modes_.lane_values() + resampled_.lane_values() + this->history_values(); }
 
   /// Calls visit(value, low, high) for each number of one lane's state, or visit(value, low, high, step) where only
   /// low and whole steps above it are sound, in an order that does not depend on where in the ring it lies: the way to
@@ -99,8 +99,8 @@ class ArxStepper : public ChannelHistory<N> {
   void visit_lane(int block, int lane, Visit visit) {
     std::fill_n(quiet_.begin() + block * program_.regressors, program_.regressors, 0);  // it may be restored
     modes_.visit_lane(block, lane, visit);
-    const auto [low, high] = drawn_bounds();
-    drawn_.visit_lane(block, lane, low, high, visit);
+    const auto [low, high] = resampled_bounds();
+    resampled_.visit_lane(block, lane, low, high, visit);
     this->visit_history(block, lane, visit);
   }
 
@@ -115,7 +115,7 @@ class ArxStepper : public ChannelHistory<N> {
       : ChannelHistory<N>(program, channels, blocks, arena),
         program_(program),
         modes_(modes),
-        drawn_(program.drawn, blocks, arena),
+        resampled_(program.resampled, blocks, arena),
         shared_(arena.take<Real>(static_cast<std::size_t>(blocks) * shared_row())),
         shaken_(arena.take<std::uint8_t>(program.shock_channels)),
         quiet_(arena.take<int>(static_cast<std::size_t>(blocks) * program.regressors)),
@@ -136,11 +136,11 @@ class ArxStepper : public ChannelHistory<N> {
     for (int b = 0; b < kBlocks; ++b) {
       const Moment<N> of = moment.later(b);
       step.quiet &= count_quiet(block + b);
-      if (!drawn_.empty()) drawn_.hear(block + b, this->regressors(block + b));
+      if (!resampled_.empty()) resampled_.hear(block + b, this->regressors(block + b));
       step.choice[b] = modes_.choose(block + b, ring_, of);
       if (noisy_) make_shocks(block + b, step.choice[b], of);
       step.ring[b] = ring_.begin(block + b);
-      step.held[b] = all<Words<N>>(0U);
+      step.clamped[b] = all<Words<N>>(0U);
     }
     Real* newest = ring_.sample(block, 0);
     for (int i = 0; i < program_.outputs;) {
@@ -153,7 +153,7 @@ class ArxStepper : public ChannelHistory<N> {
         make_rows<1>(i++, newest, step);
       }
     }
-    for (int b = 0; b < kBlocks; ++b) store(step.held[b], moment.later(b).held);
+    for (int b = 0; b < kBlocks; ++b) store(step.clamped[b], moment.later(b).clamped);
   }
 
   // What the blocks of a step have in common, and what each of them has, where no store can touch it.
@@ -165,7 +165,7 @@ class ArxStepper : public ChannelHistory<N> {
     std::uint64_t quiet;  // a bit for each of the first regressors
     const Real* ring[kBlocks];
     Choice choice[kBlocks];
-    Words<N> held[kBlocks];
+    Words<N> clamped[kBlocks];
   };
 
   bool has_twin(int i) const { return program_.twin[i] != 0 && channels_.outputs[i + 1].mirrors < 0; }
@@ -199,7 +199,7 @@ class ArxStepper : public ChannelHistory<N> {
       const auto low = all<Reals<N>>(channel.low), high = all<Reals<N>>(channel.high);
       unrolled<kBlocks>([&](auto b) {
         const auto value = hold(sum[row][b], low, high);
-        step.held[b] = step.held[b] | differ(value, sum[row][b]);
+        step.clamped[b] = step.clamped[b] | differ(value, sum[row][b]);
         store(settle(value), newest + b * stride + row * kLanes);
       });
     });
@@ -245,7 +245,7 @@ class ArxStepper : public ChannelHistory<N> {
   // Puts what the sums of a block's outputs start from where the newest sample will be.
   void make_shocks(int block, const Choice& choice, const Moment<N>& moment) {
     Real* newest = ring_.sample(block, 0);
-    if (drawn_.empty()) {
+    if (resampled_.empty()) {
       if (are_few(moment.lanes)) {
         // Empty slots are saved too: they must not get what is left over in memory.
         for (int k = 0; k < program_.shock_channels; ++k) store(all<Reals<N>>(0.0f), shock(block, k));
@@ -264,18 +264,18 @@ class ArxStepper : public ChannelHistory<N> {
       start_all(block, choice);
       return;
     }
-    drawn_.step(block, moment, newest);
+    resampled_.step(block, moment, newest);
     for (int i = 0; i < program_.outputs; ++i, newest += kLanes) {
       if (program_.constant[i] != 0) store(constant(choice, i) + load<Reals<N>>(newest), newest);
     }
   }
 
-  // The lowest and the highest input that drawn residuals hear.
-  std::pair<float, float> drawn_bounds() const {
-    if (!program_.drawn.driven()) return {0.0f, 0.0f};
-    const RegressorChannel& toward = channels_.regressors[program_.drawn.toward];
-    if (program_.drawn.against < 0) return {toward.least, toward.most};
-    const RegressorChannel& against = channels_.regressors[program_.drawn.against];
+  // The lowest and the highest input that resampled residuals hear.
+  std::pair<float, float> resampled_bounds() const {
+    if (!program_.resampled.driven()) return {0.0f, 0.0f};
+    const RegressorChannel& toward = channels_.regressors[program_.resampled.toward];
+    if (program_.resampled.against < 0) return {toward.least, toward.most};
+    const RegressorChannel& against = channels_.regressors[program_.resampled.against];
     return {toward.least - against.most, toward.most - against.least};
   }
 
@@ -360,7 +360,7 @@ class ArxStepper : public ChannelHistory<N> {
 
   ArxProgram program_;
   Modes modes_;
-  DrawnLanes<N> drawn_;
+  ResampledLanes<N> resampled_;
   std::span<Real> shared_;          // [block][channel][lane]: standard normal numbers that outputs share
   std::span<std::uint8_t> shaken_;  // per standard normal number: whether anything is shaken by it
   std::span<int> quiet_;            // [block][regressor]: steps for which it has been 0 in all lanes, up to the depth

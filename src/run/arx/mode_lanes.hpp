@@ -24,7 +24,7 @@ template <class N>
 class SingleMode {
  public:
   using Real = typename N::Real;
-  /// Frames over which a cost is averaged: drawn residuals jump in some of them.
+  /// Frames over which a cost is averaged: resampled residuals jump in some of them.
   static constexpr int kCountedFrames = 60;
 
   SingleMode(const Model&, const ArxModel&, int, Arena&) {}

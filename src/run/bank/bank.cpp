@@ -11,14 +11,14 @@
 namespace wisp {
 namespace {
 
-constexpr int kMostCapacity = 1 << 20;
-constexpr int kMostPolylinePoints = 4096;
+constexpr int kMaxCapacity = 1 << 20;
+constexpr int kMaxPolylinePoints = 4096;
 
 Result<void> check_options(const BankOptions& options) {
-  if (options.capacity < 1 || options.capacity > kMostCapacity) {
+  if (options.capacity < 1 || options.capacity > kMaxCapacity) {
     return Error{"a bank's capacity is " + std::to_string(options.capacity) + ", expected 1 to 1048576"};
   }
-  if (options.polyline_points < 2 || options.polyline_points > kMostPolylinePoints) {
+  if (options.polyline_points < 2 || options.polyline_points > kMaxPolylinePoints) {
     return Error{"a bank's polyline has " + std::to_string(options.polyline_points) + " points, expected 2 to 4096"};
   }
   return {};
@@ -85,7 +85,7 @@ int Bank::output_count() const { return static_cast<int>(state_->channels.output
 int Bank::polyline_points() const { return state_->polyline.points; }
 std::chrono::nanoseconds Bank::step_time() const { return std::chrono::nanoseconds(state_->step_time); }
 bool Bank::valid(InstanceId id) const { return state_->valid(id); }
-Bank::Held Bank::held() const { return state_->held; }
+Bank::Clamped Bank::clamped() const { return state_->clamped; }
 float Bank::noise() const { return state_->noise; }
 
 ChainFacet* Bank::chain() { return state_->chain_stepper() ? &state_->chain_facet : nullptr; }
@@ -149,8 +149,8 @@ bool Bank::set_inputs(InstanceId id, std::span<const float> values) {
 }
 
 void Bank::set_noise(float scale) {
-  const float held = std::min(scale, kMostNoise);
-  state_->set_noise(held >= kLeastNoise ? held : 0.0f);
+  const float clamped = std::min(scale, kMaxNoise);
+  state_->set_noise(clamped >= kMinNoise ? clamped : 0.0f);
 }
 
 void Bank::set_crew(const Crew& crew) {

@@ -21,7 +21,7 @@ constexpr std::uint32_t kChainVersion = 4;  // of chains, whose joins are spread
 constexpr std::uint32_t kFirstVersion = 1;  // without what is set of a chain
 constexpr std::size_t kHeaderSize = 32;
 constexpr std::size_t kChainFields = 4;
-constexpr std::uint64_t kMostAge = std::uint64_t{1} << 48;
+constexpr std::uint64_t kMaxAge = std::uint64_t{1} << 48;
 
 bool is_chain(const Bank::State& s) { return std::holds_alternative<ChainStepper<LiveNumbers>>(s.stepper); }
 std::uint32_t version_of(const Bank::State& s) { return is_chain(s) ? kChainVersion : kVersion; }
@@ -82,7 +82,7 @@ bool life_is_sound(const Bank::State& s, ByteReader& in) {
   for (int k = 0; k < 2; ++k) sound &= within(in.get_float(), 0, 1);
   for (int k = 0; k < 2; ++k) {
     const std::uint64_t age = in.get64();
-    sound &= age == kNeverInSteps || age < kMostAge;
+    sound &= age == kNeverInSteps || age < kMaxAge;
   }
   for (const OutputChannel& channel : s.channels.outputs) {
     sound &= within(in.get_float(), std::min(channel.lowest, 0.0f), std::max(channel.highest, 0.0f));
@@ -95,7 +95,7 @@ bool slot_is_sound(Bank::State& s, ByteReader& in) {
   in.get32();
   bool sound = in.get32() <= 1;
   in.get64();
-  sound &= in.get64() < kMostAge;
+  sound &= in.get64() < kMaxAge;
   for (const RegressorChannel& channel : s.channels.regressors) {
     sound &= within(in.get_float(), channel.least, channel.most);
   }
@@ -126,7 +126,7 @@ void restore_slot(Bank::State& s, int slot, ByteReader& in) {
 }
 
 struct Fields {
-  std::uint64_t model, capacity, seed, spawned, passed, between, noise, held, steps, reserved;
+  std::uint64_t model, capacity, seed, spawned, passed, between, noise, clamped, steps, reserved;
   std::uint64_t ground, history, temperature, reserved_too;
 };
 
@@ -157,7 +157,7 @@ bool chain_is_sound(const Fields& fields) {
 
 bool fields_are_sound(const Bank::State& s, const Fields& fields) {
   const float noise = float_of(fields.noise);
-  return chain_is_sound(fields) && fields.noise >> 32 == 0 && (noise == 0 || within(noise, kLeastNoise, kMostNoise)) &&
+  return chain_is_sound(fields) && fields.noise >> 32 == 0 && (noise == 0 || within(noise, kMinNoise, kMaxNoise)) &&
          fields.between <= 1 && fields.passed < static_cast<std::uint64_t>(s.step_time) && fields.reserved == 0;
 }
 
@@ -218,7 +218,7 @@ void Bank::save(std::span<std::byte> bytes) const {
   ByteWriter out(payload.data());
   for (std::uint64_t field :
        {s.model_hash, static_cast<std::uint64_t>(s.capacity), s.seed, s.spawned, static_cast<std::uint64_t>(s.passed),
-        std::uint64_t{s.between}, bits_of(s.noise), s.held.held, s.held.steps, std::uint64_t{0},
+        std::uint64_t{s.between}, bits_of(s.noise), s.clamped.clamped, s.clamped.steps, std::uint64_t{0},
         bits_of(s.chain.ground), static_cast<std::uint64_t>(s.chain.history), bits_of(s.chain.temperature),
         std::uint64_t{0}}) {
     out.put(field);
@@ -250,7 +250,7 @@ Result<void> Bank::restore(std::span<const std::byte> bytes) {
   s.between = fields.between != 0;
   s.set_noise(float_of(fields.noise));
   s.set_chain(chain_settings(fields));
-  s.held = {fields.held, fields.steps};
+  s.clamped = {fields.clamped, fields.steps};
   s.living = s.rows = s.lowest_free = 0;
   for (int slot = 0; slot < s.capacity; ++slot) restore_slot(s, slot, in);
   s.show();

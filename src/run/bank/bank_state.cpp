@@ -181,9 +181,9 @@ void Bank::State::step_all(bool read) {
   std::visit([](auto& dynamics) { dynamics.turn(); }, stepper);
   std::atomic<std::uint64_t> count = 0;
   share([&](int first, int last) { count.fetch_add(path->step(*this, first, last, read), std::memory_order_relaxed); });
-  held.held += count;
+  clamped.clamped += count;
   ++steps;
-  held.steps += static_cast<std::uint64_t>(living);
+  clamped.steps += static_cast<std::uint64_t>(living);
 }
 
 void Bank::State::show() {

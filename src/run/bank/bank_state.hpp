@@ -14,8 +14,8 @@ namespace wisp {
 
 // No age leads there: moments before a bank was restored lie just below 0, and so near the largest number.
 inline constexpr std::uint64_t kNeverInSteps = std::uint64_t{1} << 63;
-inline constexpr float kMostNoise = 10.0f;
-inline constexpr float kLeastNoise = 1e-6f;  // what is less is none
+inline constexpr float kMaxNoise = 10.0f;
+inline constexpr float kMinNoise = 1e-6f;  // what is less is none
 
 struct Bank::State {
   static constexpr int kLanes = LiveNumbers::kLanes;
@@ -114,7 +114,7 @@ struct Bank::State {
   float noise = 0.0f;
   ChainSettings chain;
   Crew crew;
-  Held held;
+  Clamped clamped;
   ChainFacet chain_facet{*this};
   ExtinctionFacet extinction_facet{*this};
   SwitchedFacet switched_facet{*this};

@@ -13,7 +13,7 @@
 
 namespace wisp {
 
-/// An output: y = mean + scale · z, z held to [low, high]; y, once rounded, to [lowest, highest].
+/// An output: y = mean + scale · z, z clamped to [low, high]; y, once rounded, to [lowest, highest].
 struct OutputChannel {
   float mean;
   float scale;
@@ -48,8 +48,9 @@ struct CurvePiece {
   float value;
 };
 
-/// A regressor: z = (part(u) − mean) · inverse_scale, u held to [low, high] first. Where there is a curve it bends the
-/// part. Of a power it is power(part(u) · inverse_scale) − mean · inverse_scale, so that a square overflows nothing.
+/// A regressor: z = (part(u) − mean) · inverse_scale, u clamped to [low, high] first. Where there is a curve it bends
+/// the part. Of a power it is power(part(u) · inverse_scale) − mean · inverse_scale, so that a square overflows
+/// nothing.
 struct RegressorChannel {
   std::int32_t input;
   RegressorPart part;
@@ -125,10 +126,10 @@ inline Reals<N> power_of(const RegressorChannel& channel, Reals<N> part) {
 template <class N>
 inline Reals<N> regress(const RegressorChannel& channel, const Reals<N>& inputs) {
   const auto zero = all<Reals<N>>(0.0f);
-  const auto held = hold(number_or(inputs, zero), all<Reals<N>>(channel.low), all<Reals<N>>(channel.high));
-  auto part = held;
-  if (channel.part == RegressorPart::kPositive) part = larger(held, zero);
-  if (channel.part == RegressorPart::kNegative) part = zero - smaller(held, zero);
+  const auto clamped = hold(number_or(inputs, zero), all<Reals<N>>(channel.low), all<Reals<N>>(channel.high));
+  auto part = clamped;
+  if (channel.part == RegressorPart::kPositive) part = larger(clamped, zero);
+  if (channel.part == RegressorPart::kNegative) part = zero - smaller(clamped, zero);
   if (!channel.curve.empty()) {
     typename N::Real bent[N::kLanes];
     store(part, bent);

@@ -58,9 +58,9 @@ StepCount count_step(Stepper& stepper, std::span<const CountingReal> regressors,
   constexpr int kFrames = Stepper::kCountedFrames;
   const RandomKeys keys = random_keys(1);
   const std::uint64_t stream = 0, born = 0;
-  std::uint32_t held = 0;
+  std::uint32_t clamped = 0;
   stepper.set_noise(noise);
-  stepper.start(0, 0, {&keys, {&stream, &born, 0}, &held});
+  stepper.start(0, 0, {&keys, {&stream, &born, 0}, &clamped});
   if constexpr (requires { stepper.can_steer(); }) {
     if (course == Course::kSteered) stepper.steer(0, 0, {}, 3.0f * kFrames, 0.1f);
   }
@@ -69,7 +69,7 @@ StepCount count_step(Stepper& stepper, std::span<const CountingReal> regressors,
     for (std::size_t k = 0; k < regressors.size(); ++k) {
       stepper.regressors(0)[k] = CountingReal(share_of(course, step) * regressors[k].value);
     }
-    stepper.step(0, {&keys, {&stream, &born, step}, &held});
+    stepper.step(0, {&keys, {&stream, &born, step}, &clamped});
   };
   for (std::uint64_t step = 0; step < kFrames; ++step) play(step);  // what was before them is not counted
   OperationCount all;

@@ -13,9 +13,9 @@ float share_of_step(double step, double seconds) {
   return static_cast<float>(std::min(1.0, step / std::max(seconds, step)));
 }
 
-float kept(double value) { return std::abs(value) < kLeastCoefficient ? 0.0f : static_cast<float>(value); }
+float kept(double value) { return std::abs(value) < kMinCoefficient ? 0.0f : static_cast<float>(value); }
 
-constexpr double kMostHarm = 0.5;  // of a step: no single sample blows a flame out
+constexpr double kMaxHarm = 0.5;  // of a step: no single sample blows a flame out
 
 }  // namespace
 
@@ -26,15 +26,15 @@ ExtinctionProgram make_extinction_program(const Model& model) {
   const double step = 1.0 / model.rate_hz;
   program.present = true;
   program.input = static_cast<std::int32_t>(rule.input);
-  const double harm = std::min(step / rule.seconds, kMostHarm);  // of a step at the level
-  const double most = std::min(Extinction::kMostWind, 1 + (kMostHarm / harm - 1) / rule.haste);
+  const double harm = std::min(step / rule.seconds, kMaxHarm);  // of a step at the level
+  const double most = std::min(Extinction::kMaxWind, 1 + (kMaxHarm / harm - 1) / rule.haste);
   program.level = static_cast<float>(rule.level);
-  program.most = static_cast<float>((rule.haste > 0 ? most : Extinction::kMostWind) * rule.level);
+  program.most = static_cast<float>((rule.haste > 0 ? most : Extinction::kMaxWind) * rule.level);
   program.base = kept(harm * (1 - rule.haste));
   program.slope = kept(harm * rule.haste / rule.level);
   program.recovery = kept(step / rule.recovery);
-  program.dying = share_of_step(step, rule.dying);
-  program.catching = share_of_step(step, rule.catching);
+  program.decay = share_of_step(step, rule.decay);
+  program.re_ignition = share_of_step(step, rule.re_ignition);
   return program;
 }
 
@@ -42,7 +42,7 @@ std::uint64_t hash_of(const ExtinctionProgram& program, std::uint64_t before) {
   if (!program.present) return before;
   const std::uint64_t hash = hash_number(static_cast<std::uint32_t>(program.input), before);
   return hash_floats(
-      {program.level, program.most, program.base, program.slope, program.recovery, program.dying, program.catching},
+      {program.level, program.most, program.base, program.slope, program.recovery, program.decay, program.re_ignition},
       hash);
 }
 

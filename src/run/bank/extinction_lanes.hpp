@@ -20,8 +20,8 @@ struct ExtinctionProgram {
   float base = 0;      ///< harm of a step at or above the level is base + slope · wind,
   float slope = 0;     ///< of the two
   float recovery = 0;  ///< harm that a step below the level takes back
-  float dying = 0;     ///< of size, a step
-  float catching = 0;
+  float decay = 0;     ///< of size, a step
+  float re_ignition = 0;
 };
 
 ExtinctionProgram make_extinction_program(const Model& model);
@@ -56,7 +56,7 @@ inline void live(const ExtinctionProgram& rule, const LifeLanes<typename N::Real
   const auto done = each(pick, wind, all<Reals<N>>(rule.level), all<Reals<N>>(-rule.recovery), blown);
   const auto next = hold(harm + done, zero, one);
   const auto lit = each(pick, next, one, load<Reals<N>>(life.lit), zero);
-  const auto grown = each(pick, zero, lit, all<Reals<N>>(rule.catching), all<Reals<N>>(-rule.dying));
+  const auto grown = each(pick, zero, lit, all<Reals<N>>(rule.re_ignition), all<Reals<N>>(-rule.decay));
   store(next, life.harm);
   store(lit, life.lit);
   store(hold(load<Reals<N>>(life.size) + grown, zero, one), life.size);

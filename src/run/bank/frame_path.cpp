@@ -81,7 +81,7 @@ std::uint64_t Bank::State::step_blocks(int first, int last, bool read) {
   return count_of_held;
 }
 
-// Instances of a block that live, burn and had an output held.
+// Instances of a block that live, burn and had an output clamped.
 std::uint32_t Bank::State::count_held(int block, const std::uint32_t* flags) const {
   if (!any(load<Words<LiveNumbers>>(flags))) return 0;
   std::uint32_t count = 0;

@@ -23,7 +23,7 @@ struct FramePath {
   void (*set_inputs)(Bank::State& state, const float* values);
   void (*set_common_inputs)(Bank::State& state, const float* values);
   /// Makes the newest samples of blocks and, where they are to be read, shows them while they are at hand; returns of
-  /// how many instances an output was held.
+  /// how many instances an output was clamped.
   std::uint64_t (*step)(Bank::State& state, int first, int last, bool read);
   void (*show)(Bank::State& state, int first, int last);
   void (*polylines)(const Bank::State& state, float* values);

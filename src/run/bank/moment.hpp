@@ -8,16 +8,16 @@ namespace wisp {
 template <class N>
 struct Moment {
   const RandomKeys* keys = nullptr;
-  LaneCounters counters{};        ///< of the block
-  std::uint32_t* held = nullptr;  ///< per lane: not 0 afterwards where an output was held
-  int lanes = N::kLanes;          ///< of the block in use: what moves lanes one by one leaves out the rest
+  LaneCounters counters{};           ///< of the block
+  std::uint32_t* clamped = nullptr;  ///< per lane: not 0 afterwards where an output was clamped
+  int lanes = N::kLanes;             ///< of the block in use: what moves lanes one by one leaves out the rest
 
   /// Of a block that comes later, where this is of the first.
   Moment later(int blocks) const {
     Moment of = *this;
     of.counters.stream += blocks * N::kLanes;
     of.counters.born += blocks * N::kLanes;
-    of.held += blocks * N::kLanes;
+    of.clamped += blocks * N::kLanes;
     return of;
   }
 };

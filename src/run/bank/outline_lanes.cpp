@@ -7,7 +7,7 @@
 namespace wisp {
 namespace {
 
-constexpr double kLeastWeight = 1e-8;  // of a control point: less is lost in rounding
+constexpr double kMinWeight = 1e-8;  // of a control point: less is lost in rounding
 
 // Derivatives of the spline in steps of the polyline: factors of differences. 0 where a knot comes so often that no
 // point is near.
@@ -24,7 +24,7 @@ struct Factors {
   double twist(std::size_t span) const { return of(1, span + 3, span + 4); }
 };
 
-float share(double weight, double factor) { return weight < kLeastWeight ? 0.0f : static_cast<float>(weight / factor); }
+float share(double weight, double factor) { return weight < kMinWeight ? 0.0f : static_cast<float>(weight / factor); }
 
 // A run that begins at s in its span. The basis weights of four control points, said in differences of them; and
 // Taylor's series for one step and for two.

@@ -58,14 +58,14 @@ class ChainChoice {
   /// The same after a segment: what the history says, times what the place where that segment ends says.
   std::uint32_t mode_after(const ChainProgram& program, std::uint32_t state, std::uint32_t before,
                            const ChainWords& words) const {
-    if (program.onward.empty()) return mode(program, state, words);
+    if (program.successor_weights.empty()) return mode(program, state, words);
     const auto modes = static_cast<std::uint32_t>(program.modes);
     const std::uint32_t* threshold = program.threshold.data() + std::size_t{seen(program, state)} * modes;
-    const std::uint16_t* onward = program.onward.data() + std::size_t{before} * modes;
+    const std::uint16_t* successor_weights = program.successor_weights.data() + std::size_t{before} * modes;
     // Below 2^32 in sum, so that a word times the sum fits: of the history's words the upper half counts.
     const auto weight_of = [&](std::uint32_t mode) {
       const std::uint32_t width = threshold[mode] - (mode > 0 ? threshold[mode - 1] : 0);
-      return (width >> 16) * std::uint32_t{onward[mode]};
+      return (width >> 16) * std::uint32_t{successor_weights[mode]};
     };
     std::uint32_t total = 0, most = 0, best = 0;
     for (std::uint32_t mode = 0; mode < modes; ++mode) {
@@ -90,8 +90,8 @@ class ChainChoice {
     return any(program, mode, words.segment);
   }
 
-  std::uint32_t follower(const ChainProgram& program, std::uint32_t before, std::uint32_t mode,
-                         const ChainWords& words) const {
+  std::uint32_t successor(const ChainProgram& program, std::uint32_t before, std::uint32_t mode,
+                          const ChainWords& words) const {
     if (program.breadth == 0) return any(program, mode, words.segment);
     const auto breadth = static_cast<std::uint32_t>(program.breadth);
     const auto modes = static_cast<std::size_t>(program.modes);
@@ -158,7 +158,7 @@ class ChainChoice {
   }
 
   // Per mode the words of each of the best-joining segments, the best first; what is left belongs to all that join
-  // worse, which are not told apart.
+  // worse; those two are not distinguished.
   void fill_ranks(float temperature, const ChainProgram& program) {
     const auto breadth = static_cast<std::uint32_t>(program.breadth);
     const float ratio = temperature / (1.0f + temperature);

@@ -9,7 +9,7 @@
 // curvature, which recorded motion has little of. It takes the next segment to be known while one is
 // played, so what follows is drawn when a segment begins.
 //
-// The curve of each number is two parabolas, held as differences from row to row: two additions a number.
+// The curve of each number is two parabolas, clamped as differences from row to row: two additions a number.
 
 #include <algorithm>
 
@@ -116,10 +116,10 @@ inline void each_played(A& a, B& b, Visit visit) {
 }
 
 /// Stored quaternions of which no turn about z brings one nearer to the other than this, are not turned.
-inline constexpr float kLeastTurn = 1e-3f;
+inline constexpr float kMinTurn = 1e-3f;
 
-/// Differences at joins are held to this.
-inline constexpr float kMostDifference = 1e9f;
+/// Differences at joins are clamped to this.
+inline constexpr float kMaxDifference = 1e9f;
 
 /// What moves lanes of one program.
 template <class Real>
@@ -138,7 +138,7 @@ class ChainMover {
     const std::uint32_t mode =
         begins ? choice.mode(program_, state, words) : choice.mode_after(program_, state, before, words);
     lane.state = Real(static_cast<float>(program_.next[state * static_cast<std::uint32_t>(program_.modes) + mode]));
-    return begins ? choice.beginning(program_, mode, words) : choice.follower(program_, before, mode, words);
+    return begins ? choice.beginning(program_, mode, words) : choice.successor(program_, before, mode, words);
   }
 
   /// Notes what follows a lane's segment: how it will lie, and what differs where they meet.
@@ -299,9 +299,9 @@ class ChainMover {
     return whole < bound ? whole : bound - 1;
   }
 
-  /// Held to what no sound model exceeds: squares of it are no trouble to single precision.
+  /// Clamped to what no sound model exceeds: squares of it are no trouble to single precision.
   template <class Numbers>
-  static Numbers bounded(Numbers numbers, float bound = kMostDifference) {
+  static Numbers bounded(Numbers numbers, float bound = kMaxDifference) {
     const Real most(bound), least(-bound);
     for (Real& x : numbers) x = x > most ? most : x > least ? x : least;
     return numbers;
@@ -361,7 +361,7 @@ class ChainMover {
     const auto start = quaternion(row_of(segment, 0)), end = quaternion(row_of(before, program_.steps(before)));
     if (!program_.heading_free) return dot(start, end) < Real(0.0f) ? LongTurn<Real>{Real(-1.0f), Real(0.0f)} : none;
     const LongTurn<Real> turn = long_turn_between(start, end);
-    const auto is_long = [](const Real& x) { return x > Real(kLeastTurn) || x < Real(-kLeastTurn); };
+    const auto is_long = [](const Real& x) { return x > Real(kMinTurn) || x < Real(-kMinTurn); };
     return is_long(turn.cos) || is_long(turn.sin) ? turn : none;
   }
 

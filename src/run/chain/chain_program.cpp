@@ -12,10 +12,10 @@ namespace wisp {
 namespace {
 
 constexpr double kWords = 4294967296.0;  // 2^32
-constexpr double kLeastScale = 1e-12;
-constexpr double kMostScale = 1e6;
-constexpr float kLeastUnit = 1e-6f;
-constexpr double kMostStored = 32767;
+constexpr double kMinScale = 1e-12;
+constexpr double kMaxScale = 1e6;
+constexpr float kMinUnit = 1e-6f;
+constexpr double kMaxStored = 32767;
 
 void fill_thresholds(const std::vector<double>& probability, std::span<std::uint32_t> out) {
   double sum = 0;
@@ -78,7 +78,7 @@ float unit_of(const ChainProgram& program, std::size_t offset, float scale) {
       sum += static_cast<double>(program.rates[k + axis]) * program.rates[k + axis];
   }
   const auto unit = static_cast<float>(std::sqrt(sum / static_cast<double>(std::max<std::size_t>(1, count)))) * scale;
-  return std::max(unit, kLeastUnit);
+  return std::max(unit, kMinUnit);
 }
 
 // Differences go on by the first half's second difference m − 1 times and by the latter's n times, from a first one of
@@ -99,7 +99,7 @@ void make_unit(ChainProgram& program) {
     std::int16_t* q = program.rows.data() + at;
     double square = 0;
     for (std::size_t k = 0; k < 4; ++k) square += static_cast<double>(q[k]) * q[k];
-    const double factor = square > 0 ? kMostStored / std::sqrt(square) : 0;
+    const double factor = square > 0 ? kMaxStored / std::sqrt(square) : 0;
     for (std::size_t k = 0; k < 4; ++k) {
       const double x = factor * q[k];
       q[k] = static_cast<std::int16_t>(x < 0 ? x - 0.5 : x + 0.5);
@@ -170,7 +170,7 @@ ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double 
   program.heading_free = chain.heading_free;
   program.position_scale = static_cast<float>(segments.row_scale[0]);
   program.velocity_scale = static_cast<float>(segments.rate_scale[0]);
-  program.orientation_scale = pose ? static_cast<float>(1 / kMostStored) : 0.0f;
+  program.orientation_scale = pose ? static_cast<float>(1 / kMaxStored) : 0.0f;
   program.spin_scale = pose ? static_cast<float>(segments.rate_scale[1]) : 0.0f;
   program.step_seconds = static_cast<float>(1.0 / rate_hz);
   program.blend_steps = static_cast<std::uint32_t>(chain.blend_steps);
@@ -180,7 +180,7 @@ ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double 
   program.first_row = copy_of(segment_rows(segments), arena);
   program.mode = copy_of(segments.mode, arena);
   program.follow = copy_of(segments.follow, arena);
-  program.onward = copy_of(segments.onward, arena);
+  program.successor_weights = copy_of(segments.successor_weights, arena);
   if (chain.systems) program.systems = make_systems_program(*chain.systems, arena);
   if (chain.drift) {
     take_drift(*chain.drift, program);
@@ -237,7 +237,7 @@ std::uint64_t hash_of(const ChainProgram& program, std::uint64_t before) {
                       program.spread_height, program.memory},
                      hash);
   for (std::uint16_t number : program.follow) hash = hash_number(std::uint32_t{number}, hash);
-  for (std::uint16_t number : program.onward) hash = hash_number(std::uint32_t{number}, hash);
+  for (std::uint16_t number : program.successor_weights) hash = hash_number(std::uint32_t{number}, hash);
   for (std::uint32_t number : program.threshold) hash = hash_number(std::uint32_t{number}, hash);
   for (std::uint16_t number : program.next) hash = hash_number(std::uint32_t{number}, hash);
   return hash;
@@ -246,7 +246,7 @@ std::uint64_t hash_of(const ChainProgram& program, std::uint64_t before) {
 Result<void> check_chain_program(const ChainModel& chain) {
   for (const auto* scales : {&chain.segments.row_scale, &chain.segments.rate_scale}) {
     for (double scale : *scales) {
-      if (scale < kLeastScale || scale > kMostScale) {
+      if (scale < kMinScale || scale > kMaxScale) {
         return Error{"a scale of the chain's segments is " + std::to_string(scale) +
                      ", expected 1e-12 to 1e6: learn it in another unit"};
       }

@@ -17,8 +17,8 @@ namespace wisp {
 struct GustProgram {
   int order = 0;  ///< 0: none
   // Per lag the coefficients of the change, of the wind, and of a quarter of its press.
-  std::array<std::array<float, 3>, kMostGustOrder> ground{};
-  std::array<std::array<float, 3>, kMostGustOrder> vertical{};
+  std::array<std::array<float, 3>, kMaxGustOrder> ground{};
+  std::array<std::array<float, 3>, kMaxGustOrder> vertical{};
 };
 
 /// The curve over so many steps that goes from one number and slope to others: two parabolas. What their second
@@ -58,13 +58,13 @@ struct ChainProgram {
   std::span<std::uint32_t> first_row;  ///< per segment, and one past the last
   std::span<std::uint16_t> mode;       ///< per segment
   std::span<std::uint16_t> follow;
-  std::span<std::uint16_t> onward;         ///< segments × modes; empty: the history alone says what follows
-  std::span<std::uint32_t> first_of_mode;  ///< per mode its first segment, and one past the last
-  std::span<std::uint32_t> threshold;      ///< states × modes: the first mode whose threshold a word is below is drawn
-  std::span<std::uint16_t> next;           ///< states × modes: the state after that mode
-  std::span<std::uint8_t> length;          ///< per state how many modes it remembers
-  std::span<std::uint16_t> shorter;        ///< per state the one that remembers the longest known part of that
-  std::span<std::int16_t> lead;            ///< segments × 3; empty: it can't be steered
+  std::span<std::uint16_t> successor_weights;  ///< segments × modes; empty: the history alone says what follows
+  std::span<std::uint32_t> first_of_mode;      ///< per mode its first segment, and one past the last
+  std::span<std::uint32_t> threshold;  ///< states × modes: the first mode whose threshold a word is below is drawn
+  std::span<std::uint16_t> next;       ///< states × modes: the state after that mode
+  std::span<std::uint8_t> length;      ///< per state how many modes it remembers
+  std::span<std::uint16_t> shorter;    ///< per state the one that remembers the longest known part of that
+  std::span<std::int16_t> lead;        ///< segments × 3; empty: it can't be steered
   float lead_scale = 0;
   std::array<float, 3> drift{};  ///< metres a second
   float spread_ground = 0;       ///< m² a second

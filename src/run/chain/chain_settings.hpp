@@ -6,7 +6,7 @@
 
 namespace wisp {
 
-/// Positions are held to this many metres from the origin: single precision can't place a body beyond it.
+/// Positions are clamped to this many metres from the origin: single precision can't place a body beyond it.
 inline constexpr float kFarthest = 1e6f;
 
 /// Lower than anything falls.

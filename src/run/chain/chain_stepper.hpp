@@ -88,7 +88,7 @@ class ChainStepper {
   /// Makes the newest sample of a block.
   void step(int block, const Moment<N>& moment) {
     std::copy_n(newest(block), sample_size(), previous_of(block));
-    std::fill_n(moment.held, kLanes, 0U);
+    std::fill_n(moment.clamped, kLanes, 0U);
     if (program_.gust.order > 0) drift(block, moment.lanes);
     if (noisy_) draw_shocks(block, moment);
     ChainCourse<N> course(moment.lanes);
@@ -257,7 +257,7 @@ class ChainStepper {
       visit_difference(*numbers, visit);
     for (auto* numbers : {&life.gap.slip, &life.slip[0], &life.slip[1], &life.laid}) visit_difference(*numbers, visit);
     visit(life.settled, -1.0f, 2.0f);
-    visit(life.left, 0.0f, kMostSlip, 1.0f);
+    visit(life.left, 0.0f, kMaxSlip, 1.0f);
     steered_ |= life.left > Real(0.0f);
     for (Real& x : life.target) visit(x, -kFarthest, kFarthest);
     visit(life.near, 0.0f, kFarthest);
@@ -268,12 +268,12 @@ class ChainStepper {
       GustLane<Real>& gust = gust_of(block, lane);
       gust.press[k] = scaled(gust.press[k], Real(4.0f));  // it is saved whole
       for (auto* vector : {&gust.change[k], &gust.wind[k], &gust.press[k]}) {
-        for (Real& x : *vector) visit(x, -kMostSlip, kMostSlip);
+        for (Real& x : *vector) visit(x, -kMaxSlip, kMaxSlip);
       }
       gust.press[k] = scaled(gust.press[k], Real(0.25f));
     }
     if (program_.systems.used()) {
-      for (Real& x : system_of(block, lane).rates) visit(x, -kMostSlip, kMostSlip);
+      for (Real& x : system_of(block, lane).rates) visit(x, -kMaxSlip, kMaxSlip);
       visit(system_of(block, lane).length, 1.0f, 65535.0f, 1.0f);
     }
     for (Real* sample : {newest_of(block), previous_of(block)}) {
@@ -291,7 +291,7 @@ class ChainStepper {
   using Mover = ChainMover<Real>;
   static constexpr std::size_t kLaneNumbers = 3 + 3 + 2 * 6 + 1 + 6 * 4 + 4 * 3 + 1 + 5 + 4;
   static constexpr std::size_t kShocks = 6;
-  static constexpr float kMostSlip = 1e12f;
+  static constexpr float kMaxSlip = 1e12f;
   static constexpr float kLongest = 1.01f;  // numbers of an orientation: stored ones are of length 1 but for rounding
 
   template <class Visit>
@@ -306,7 +306,7 @@ class ChainStepper {
   template <class Numbers, class Visit>
   static void visit_difference(Numbers& numbers, Visit visit) {
     numbers = Mover::bounded(numbers);
-    for (Real& x : numbers) visit(x, -kMostDifference, kMostDifference);
+    for (Real& x : numbers) visit(x, -kMaxDifference, kMaxDifference);
   }
 
   std::size_t sample_size() const { return static_cast<std::size_t>(program_.channels) * kLanes; }
@@ -391,10 +391,10 @@ class ChainStepper {
     put(block, lane, life);
   }
 
-  // Notes where a position was held.
+  // Notes where a position was clamped.
   void hold_position(int block, int lane, const Moment<N>& moment) {
     if (!is_far(newest_of(block) + lane)) return;
-    moment.held[lane] = 1;
+    moment.clamped[lane] = 1;
     for (LaneNumbers& base : played_of(block).base) {
       const Real& x = base[lane];
       const Real most(2 * kFarthest), least(-2 * kFarthest);
@@ -491,7 +491,7 @@ class ChainStepper {
     put(block, lane, life);
   }
 
-  // Whether a position was held.
+  // Whether a position was clamped.
   static bool is_far(const Real* shown) {
     for (int axis = 0; axis < 3; ++axis) {
       const Real& at = shown[axis * kLanes];

@@ -11,15 +11,15 @@ namespace wisp {
 /// Changes below this and wind below it end a gust: nothing is left to compute until the next.
 inline constexpr float kMinGust = 1e-4f;
 
-/// Changes of velocity are held to this many metres a second.
-inline constexpr float kMostGust = 1e3f;
+/// Changes of velocity are clamped to this many metres a second.
+inline constexpr float kMaxGust = 1e3f;
 
 template <class Real>
 struct GustLane {
   // The newest first.
-  std::array<Vector3<Real>, kMostGustOrder> change{};
-  std::array<Vector3<Real>, kMostGustOrder> wind{};
-  std::array<Vector3<Real>, kMostGustOrder> press{};  ///< a quarter of it
+  std::array<Vector3<Real>, kMaxGustOrder> change{};
+  std::array<Vector3<Real>, kMaxGustOrder> wind{};
+  std::array<Vector3<Real>, kMaxGustOrder> press{};  ///< a quarter of it
 };
 
 template <class Real>
@@ -58,7 +58,7 @@ inline Vector3<Real> blow(const GustProgram& program, GustLane<Real>& lane, cons
       change[axis] = change[axis] + Real(lags[k][1]) * lane.wind[k][axis];
       change[axis] = change[axis] + Real(lags[k][2]) * lane.press[k][axis];
     }
-    const Real most(kMostGust), least(-kMostGust);
+    const Real most(kMaxGust), least(-kMaxGust);
     change[axis] = change[axis] > most ? most : change[axis] < least ? least : change[axis];
   }
   for (int k = program.order - 1; k > 0; --k) {

@@ -1,8 +1,8 @@
 #pragma once
 // Places and turns of rigid bodies, on one number of any kind. Only + − × ÷ and square root, in the order written.
 //
-// Quaternions are w, x, y, z and turn a body's axes to the world's. A rotation away from another is held as its Gibbs
-// vector, the rotation's axis times the tangent of half its angle: adding up parts of it needs no trigonometry.
+// Quaternions are w, x, y, z and turn a body's axes to the world's. A rotation away from another is clamped as its
+// Gibbs vector, the rotation's axis times the tangent of half its angle: adding up parts of it needs no trigonometry.
 
 #include <array>
 #include <cstdint>

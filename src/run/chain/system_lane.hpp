@@ -1,6 +1,6 @@
 #pragma once
 // One instance of a chain whose modes are systems (wisp/model/mode_systems.hpp): its velocities in its own axes, and
-// the step that moves and turns it by them. Bounded, since velocities are held to their range.
+// the step that moves and turns it by them. Bounded, since velocities are clamped to their range.
 
 #include <array>
 #include <span>

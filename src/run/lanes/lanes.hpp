@@ -413,7 +413,7 @@ inline auto smaller(const Pack<Part, kParts>& a, const Pack<Part, kParts>& b) {
   return each([](const Part& x, const Part& y) { return x < y ? x : y; }, a, b);
 }
 
-/// Held to [low, high].
+/// Clamped to [low, high].
 template <class Part, int kParts>
 inline auto hold(const Pack<Part, kParts>& value, const Pack<Part, kParts>& low, const Pack<Part, kParts>& high) {
   return smaller(larger(value, low), high);
@@ -426,10 +426,10 @@ inline auto number_or(const Pack<Part, kParts>& value, const Pack<Part, kParts>&
 }
 
 /// State nearer to zero than this is zero, so that an engine that flushes denormals sees the same numbers. States are
-/// in units of a power of two near the channel's range; coefficients below kLeastCoefficient are zero too. Products are
+/// in units of a power of two near the channel's range; coefficients below kMinCoefficient are zero too. Products are
 /// then multiples of 2^−123 and their sums can't be denormal.
-inline constexpr float kLeastState = 1e-20f;
-inline constexpr float kLeastCoefficient = 1e-10f;
+inline constexpr float kMinState = 1e-20f;
+inline constexpr float kMinCoefficient = 1e-10f;
 
 template <class Part, int kParts>
 inline auto settle(const Pack<Part, kParts>& value) {
@@ -437,8 +437,8 @@ inline auto settle(const Pack<Part, kParts>& value) {
       [](const Part& v) {
         Part zero, least, most;
         spread_part(0.0f, zero);
-        spread_part(kLeastState, least);
-        spread_part(-kLeastState, most);
+        spread_part(kMinState, least);
+        spread_part(-kMinState, most);
         return v < least ? (v > most ? zero : v) : v;
       },
       value);

@@ -12,7 +12,7 @@ namespace {
 constexpr float kGravity = 9.81F;
 constexpr float kLighterTemperature = 1500.0F;
 constexpr float kLighterFuel = 0.6F;  // share of the fuel rate that a lighter's heat draws from the wick
-constexpr int kMostIterations = 40;
+constexpr int kMaxIterations = 40;
 constexpr Float4 kDiffuses = {1.0F, 1.0F, 1.0F, 0.0F};  // soot particles are too large to
 
 }  // namespace
@@ -219,7 +219,7 @@ void CandleFlow::push(float wind) {
 void CandleFlow::set_divergence() {
   const int stride = grid_.stride();
   const float h = grid_.h;
-  const float most = static_cast<float>(options_.most_expansion);
+  const float most = static_cast<float>(options_.max_expansion);
   const float rate = 1.0F / step_;
   constexpr float kHalf = 0.5F / kAmbientTemperature;
   for (int j = 0; j <= grid_.ny; ++j) {
@@ -271,7 +271,7 @@ PressureSolve CandleFlow::project() {
   set_divergence();
   pressure_.prepare();
   const float tolerance = static_cast<float>(options_.pressure_tolerance) * grid_.h * grid_.h;
-  const PressureSolve result = pressure_.solve(tolerance, kMostIterations);
+  const PressureSolve result = pressure_.solve(tolerance, kMaxIterations);
   apply_pressure();
   return result;
 }

@@ -11,7 +11,7 @@
 namespace wisp {
 namespace {
 
-constexpr double kMostWind = 10;  // m/s
+constexpr double kMaxWind = 10;  // m/s
 constexpr double kLighterSeconds = 0.25;
 constexpr double kLitShare = 0.1;
 
@@ -42,7 +42,7 @@ Result<void> check_options(const CandleRigOptions& o) {
                                               {"ignition_low", o.ignition_low, 400, 2000},
                                               {"ignition_high", o.ignition_high, o.ignition_low + 1, 3000},
                                               {"updraught", o.updraught, 0, 2},
-                                              {"most_expansion", o.most_expansion, 100, 1e5},
+                                              {"max_expansion", o.max_expansion, 100, 1e5},
                                               {"wind_share", o.wind_share, 0, 1},
                                               {"wind_rate", o.wind_rate, 0, 1000},
                                               {"soot_rate", o.soot_rate, 0, 1e4},
@@ -133,7 +133,7 @@ void CandleRig::light() {
 
 void CandleRig::step_frame(double wind) {
   Parts& p = *parts_;
-  const double next = std::isnan(wind) ? 0.0 : std::clamp(wind, -kMostWind, kMostWind);
+  const double next = std::isnan(wind) ? 0.0 : std::clamp(wind, -kMaxWind, kMaxWind);
   const int steps = steps_per_frame(p.options);
   const int closed = steps - std::max(1, static_cast<int>(std::lround(p.options.exposure * steps)));
   p.flow.clear_light();

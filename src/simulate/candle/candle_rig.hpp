@@ -54,7 +54,7 @@ class CandleRig {
   ~CandleRig();
 
   /// One frame of 1/rate_hz under a wind in m/s, positive towards +x, that goes in a straight line from the last
-  /// frame's value to this one. Held to ±10 m/s; NaN counts as calm.
+  /// frame's value to this one. Clamped to ±10 m/s; NaN counts as calm.
   void step_frame(double wind);
 
   /// Holds a flame to the wick for a quarter of a second.

@@ -12,7 +12,7 @@ constexpr float kGlowStep = 5.0F;
 constexpr double kGlowActivation = 9000;  // K: second radiation constant over a wavelength of orange-red light, with a
                                           // soot absorption that falls as 1/wavelength folded in; calibrated
 constexpr double kGlowUnit = 1800;        // K: where soot of unit density glows with 1
-constexpr float kMostSoot = 1.2F;
+constexpr float kMaxSoot = 1.2F;
 
 // 0 below a, 1 above a + width, smooth between.
 float smoothstep(float x, float a, float width) {
@@ -58,7 +58,7 @@ void Combustion::soot_cell(Float4& cell, float oxygen) const {
   const float temperature = cell[kTemperature];
   const float made = soot_rate_ * smoothstep(richness, 1.05F, 0.75F) * smoothstep(temperature, 1250.0F, 300.0F);
   const float lost = soot_burnout_ * smoothstep(oxygen, 0.02F, 0.1F) * smoothstep(temperature, 1000.0F, 400.0F);
-  cell[kSoot] = (cell[kSoot] + step_ * made * kMostSoot) / (1.0F + step_ * (made + lost));
+  cell[kSoot] = (cell[kSoot] + step_ * made * kMaxSoot) / (1.0F + step_ * (made + lost));
 }
 
 double Combustion::burn(const FlowGrid& grid, ScalarPlane& cells, Plane* blue) const {

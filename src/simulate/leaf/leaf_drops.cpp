@@ -20,8 +20,8 @@ namespace {
 
 using flow::RandomNumbers;
 
-constexpr double kMostRows = 2147483648.0;
-constexpr double kMostWind = 30;  // m/s
+constexpr double kMaxRows = 2147483648.0;
+constexpr double kMaxWind = 30;  // m/s
 
 // What a random stream is for.
 enum Purpose : std::uint64_t { kStart = 31, kDifference = 32, kGust = 33, kWindSeed = 34 };
@@ -36,14 +36,14 @@ Result<void> check(const LeafDropsOptions& o, double episodes) {
                                                });
   if (!good) return good;
   const double rows = episodes * o.seconds * o.rate_hz;
-  if (rows > kMostRows)
+  if (rows > kMaxRows)
     return Error{"leaf drops: " + std::to_string(rows) +
                  " rows are too many, expected at most 2147483648; take fewer "
                  "drops, fewer seconds or a lower rate"};
   if (!o.track.rows.empty() && !(o.track.rate_hz > 0)) return Error{"leaf drops: the wind's rate is not above 0"};
   for (const auto& row : o.track.rows) {
     for (double speed : row) {
-      if (!(std::abs(speed) <= kMostWind)) return Error{"leaf drops: the wind is not within 30 m/s"};
+      if (!(std::abs(speed) <= kMaxWind)) return Error{"leaf drops: the wind is not within 30 m/s"};
     }
   }
   return wisp::check(o.leaf);

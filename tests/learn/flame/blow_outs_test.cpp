@@ -114,7 +114,7 @@ TEST(BlowOuts, AModelIsLearnedFromBothSidesOfThem) {
 TEST(BlowOuts, WhatCannotBeLookedThroughIsRefused) {
   const auto made = made::blow_out_recording({.shortest = 0.2});
   EXPECT_THAT(find_blow_outs(made.recording, "rain").error().message, HasSubstr("there is no input rain"));
-  EXPECT_FALSE(find_blow_outs(made.recording, "wind", {.least_gone = 0}));
+  EXPECT_FALSE(find_blow_outs(made.recording, "wind", {.min_gone = 0}));
   EXPECT_FALSE(find_blow_outs(made.recording, "wind", {.looked_back = NAN}));
   Recording plain = made.recording;
   plain.channels.erase(plain.channels.begin());

@@ -100,7 +100,7 @@ TEST(LearnedExtinction, AFlameThatVanishesSlowlyWentOutThatMuchBefore) {
   }
   ExtinctionEvidence seen = evidence_of(made.recording);
   for (double late : agreement(recipe.rule, std::span(&seen, 1)).late_seconds) EXPECT_NEAR(late, -11.0 / 60, 1e-9);
-  seen.dying = 0.2;  // the first of its twelve steps is the row in which it went out
+  seen.decay = 0.2;  // the first of its twelve steps is the row in which it went out
   const ExtinctionAgreement found = agreement(recipe.rule, std::span(&seen, 1));
   EXPECT_EQ(found.died, found.deaths);
   for (double late : found.late_seconds) EXPECT_NEAR(late, 0, 1e-9);

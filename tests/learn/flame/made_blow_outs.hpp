@@ -35,7 +35,7 @@ inline constexpr double kWindUnit = 3;
 
 /// Harm of the next row by the definition of the rule.
 inline double next_harm(const Extinction& rule, double harm, double wind, double step) {
-  const double w = std::min(wind, Extinction::kMostWind * rule.level);
+  const double w = std::min(wind, Extinction::kMaxWind * rule.level);
   const double rate = w >= rule.level ? (1 + rule.haste * (w / rule.level - 1)) / rule.seconds : -1 / rule.recovery;
   return std::max(0.0, harm + rate * step);
 }

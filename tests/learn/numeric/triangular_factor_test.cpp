@@ -127,12 +127,12 @@ class EndlessTable : public std::streambuf {
  public:
   explicit EndlessTable(std::size_t rows) : rows_(rows) { take("# wisp-recording 1\n# rate_hz 60\nu:u,y:y1,y:y2\n"); }
 
-  std::size_t most_bytes() const { return most_bytes_; }
+  std::size_t max_bytes() const { return max_bytes_; }
 
  protected:
   int_type underflow() override {
     const struct mallinfo2 heap = mallinfo2();
-    most_bytes_ = std::max(most_bytes_, heap.uordblks + heap.hblkhd);
+    max_bytes_ = std::max(max_bytes_, heap.uordblks + heap.hblkhd);
     if (row_ == rows_) return traits_type::eof();
     std::string text;
     for (int k = 0; k < 100 && row_ < rows_; ++k, ++row_) {
@@ -157,10 +157,10 @@ class EndlessTable : public std::streambuf {
   double y1_ = 0, y2_ = 0;
   std::mt19937 random_{4};
   std::string text_;
-  std::size_t most_bytes_ = 0;
+  std::size_t max_bytes_ = 0;
 };
 
-std::size_t most_bytes_while_reading(std::size_t rows) {
+std::size_t max_bytes_while_reading(std::size_t rows) {
   EndlessTable table(rows);
   std::istream stream(&table);
   auto reader = CsvReader::open(stream, "endless");
@@ -168,13 +168,13 @@ std::size_t most_bytes_while_reading(std::size_t rows) {
   TriangularFactor factor = empty();
   EXPECT_TRUE(factor.add(*reader));
   EXPECT_EQ(factor.rows(), rows - 3);
-  return table.most_bytes();
+  return table.max_bytes();
 }
 
 TEST(TriangularFactor, MemoryDoesNotGrowWithTheTable) {
-  most_bytes_while_reading(200000);  // whatever is allocated once and kept
-  const std::size_t some = most_bytes_while_reading(200000);
-  const std::size_t many = most_bytes_while_reading(1600000);
+  max_bytes_while_reading(200000);  // whatever is allocated once and kept
+  const std::size_t some = max_bytes_while_reading(200000);
+  const std::size_t many = max_bytes_while_reading(1600000);
   // The rows between would be 34 MB as numbers.
   EXPECT_LT(many, some + 100000);
 }

@@ -137,7 +137,7 @@ TEST(Alignment, MissingSamplesAreLeftOut) {
 
 TEST(Alignment, AnOffsetBeyondTheSearchIsNotUsable) {
   const Series fine = fine_wind(60, 6);
-  EXPECT_FALSE(align(frames(fine, 0), frames(fine, 0.5), {.most_seconds = 0.2}).usable);
+  EXPECT_FALSE(align(frames(fine, 0), frames(fine, 0.5), {.max_seconds = 0.2}).usable);
 }
 
 TEST(Alignment, TheSameSeedGivesTheSameInterval) {
@@ -159,7 +159,7 @@ TEST(Alignment, SaysWhatItCannotDo) {
   EXPECT_THAT(message(Series(600, 1.0), some), HasSubstr("the wind never changes"));
   EXPECT_THAT(message(some, Series(600, 1.0)), HasSubstr("the motion never changes"));
   EXPECT_THAT(message(some, some, {.rate_hz = 0}), HasSubstr("the rate is"));
-  EXPECT_THAT(message(some, some, {.most_seconds = 20}), HasSubstr("the search is"));
+  EXPECT_THAT(message(some, some, {.max_seconds = 20}), HasSubstr("the search is"));
   EXPECT_THAT(message(some, some, {.confidence_level = 1}), HasSubstr("the confidence level is"));
   EXPECT_THAT(message(some, some, {.resamples = 1}), HasSubstr("1 resamples"));
   EXPECT_THAT(message(some, some, {.block_seconds = 0}), HasSubstr("blocks of"));

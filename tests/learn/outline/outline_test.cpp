@@ -234,7 +234,7 @@ TEST(Outline, CostsAreThePapers) {
   for (int i = 0; i < 16; ++i) coefficients += both.summary.orders.row_size(i);
   EXPECT_EQ(coefficients, 256);
   EXPECT_EQ(multiply_adds(both), 240);
-  // Drawn residuals hold what more lags and the other coordinate would say.
+  // Resampled residuals hold what more lags and the other coordinate would say.
   EXPECT_EQ(multiply_adds(learned(windy, {.light = true})), 144);
   // Every coordinate hears two lags of 14, and of the wind from either side four, and two of its root and its square.
   EXPECT_EQ(multiply_adds(learned(windy)), 16 * (2 * 14 + 2 * 8));
@@ -276,7 +276,7 @@ TEST(Outline, FramesInRandomOrderAreNotUsableAndSaySo) {
   EXPECT_LT(learned({.rows = 1500}, {.order = 2}).summary.unsteadiness, 0.5);
 }
 
-// Every other point moves as it does, so that the median channel is foretold.
+// Every other point moves as it does, so that the median channel is predicted.
 TEST(Outline, ATipThatIsNoiseIsNotUsable) {
   Recording recording = made::outline_recording({.points = 10, .rows = 1500});
   std::mt19937_64 random(3);

@@ -176,7 +176,7 @@ TEST(Validation, PlayingFreelyIsLikeTheRealThing) {
   EXPECT_LT(out.fidelity->log_spectral_distance.floor_ratio(), 2);
   EXPECT_LT(out.fidelity->energy_distance.value, 0.05);
   EXPECT_EQ(out.held_share, 0);
-  EXPECT_LT(out.crossed_share, 0.05);
+  EXPECT_LT(out.self_intersection_rate, 0.05);
 }
 
 TEST(Validation, FramesOutOfSightHaveAPlayButNoPrediction) {

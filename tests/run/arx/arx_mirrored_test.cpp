@@ -55,9 +55,10 @@ TEST(MirroredOutputs, AreNotThoseThatDifferInAnything) {
   EXPECT_TRUE(differs([](Model&, ArxModel& arx) { arx.constant[15] += 0.01; }));
   EXPECT_TRUE(differs([](Model&, ArxModel& arx) { arx.output_mean[14] += 0.01; }));
   EXPECT_TRUE(differs([](Model&, ArxModel& arx) {
-    for (std::size_t row = 0; row < arx.noise.drawn.rows.size(); row += 16) arx.noise.drawn.rows[row + 14] = 9999;
+    for (std::size_t row = 0; row < arx.noise.resampled.rows.size(); row += 16)
+      arx.noise.resampled.rows[row + 14] = 9999;
   }));
-  EXPECT_TRUE(differs([](Model&, ArxModel& arx) { arx.noise.drawn.mirror[14] = 1; }));
+  EXPECT_TRUE(differs([](Model&, ArxModel& arx) { arx.noise.resampled.mirror[14] = 1; }));
   EXPECT_TRUE(
       differs([](Model& model, ArxModel&) { model.outputs[14].lowest = 0.49, model.outputs[14].highest = 0.5; }));
 }

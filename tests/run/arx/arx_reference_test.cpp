@@ -169,7 +169,7 @@ void expect_agreement(const Model& model) {
       largest_output = std::max(largest_output, std::abs(expected[i]));
     }
   }
-  ASSERT_EQ(bank->held().held, 0U);
+  ASSERT_EQ(bank->clamped().clamped, 0U);
   const double bound = rounding_bound(model, plain, largest_noise, largest_output);
   std::printf("largest difference from double %.3g, bound by analysis %.3g\n", difference, bound);
   EXPECT_LT(difference, bound);

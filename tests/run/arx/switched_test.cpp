@@ -185,7 +185,7 @@ TEST(SwitchedBank, CostsOneModeAndTheRegions) {
   ASSERT_TRUE(regions && markov);
   EXPECT_EQ(markov->multiply_adds_per_frame, 9);
   EXPECT_EQ(regions->multiply_adds_per_frame, 9 + 5 * 3);
-  // The input: −; coefficients: × +; whether each output was held: or. Regions: × +.
+  // The input: −; coefficients: × +; whether each output was clamped: or. Regions: × +.
   EXPECT_EQ(markov->dynamics_operations, 1 + 9 * 2 + 2);
   EXPECT_EQ(regions->dynamics_operations, markov->dynamics_operations + 15 * 2);
   // A deviate for each output, and three shocks of them: × +.

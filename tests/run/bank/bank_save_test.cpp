@@ -83,7 +83,7 @@ TEST(SavedBank, GoesOnWithTheSameBits) {
   ASSERT_TRUE(other.restore(saved(bank)));
   EXPECT_EQ(other.size(), bank.size());
   EXPECT_EQ(other.noise(), bank.noise());
-  EXPECT_EQ(other.held().steps, bank.held().steps);
+  EXPECT_EQ(other.clamped().steps, bank.clamped().steps);
   for (int k = 0; k < 100; ++k) {
     ASSERT_EQ(outputs_of(other), outputs_of(bank)) << k;
     EXPECT_EQ(bank.advance(nanoseconds(17'000'000)), other.advance(nanoseconds(17'000'000)));

@@ -47,7 +47,7 @@ TEST(Curve, IsTheCurveWithinRounding) {
   for (float x = -2; x < 2; x += 0.001f) EXPECT_NEAR(bent(x), value_at(curve, x), 1e-6) << x;
 }
 
-// Knots that single precision can hardly tell apart, and slopes up to a million, are the hard case.
+// Knots that single precision can hardly distinguish, and slopes up to a million, are the hard case.
 TEST(Curve, NeverFallsNotEvenByRounding) {
   const std::vector<InputCurve> curves{
       {{0, 0.3, 0.55, 0.8, 1}, {0, 0.07, 0.32, 0.9, 1}},

@@ -49,7 +49,7 @@ Model smallest_model() {
 TEST(Cost, IsWhatOneCountsByHand) {
   const Cost cost = cost_of(smallest_model());
   EXPECT_EQ(cost.multiply_adds_per_frame, 2);
-  EXPECT_EQ(cost.dynamics_operations, 2 * 2 + 1);  // each coefficient: × +; held or not: or
+  EXPECT_EQ(cost.dynamics_operations, 2 * 2 + 1);  // each coefficient: × +; clamped or not: or
   EXPECT_EQ(cost.noise_operations, 5 + 2);         // a deviate: + of ½, × + × + of the quadratic; its use: × +
   // Four words are made at a time: the counter's group, seven rounds of two products and four exclusive ors. The word
   // that is used: shift, xor, shift, and, and, xor.
@@ -87,7 +87,7 @@ Model bent_by_many_knots(Model model) {
   return model;
 }
 
-// Residuals that are drawn, a bent wind, the rule of extinction, and an outline that is looked at.
+// Resampled residuals, an input curve, the rule of extinction, and an outline that is looked at.
 TEST(Cost, TheLightFlameWithEverythingOnTakesFewerThan660Operations) {
   for (const Model& flame : {default_flame_model(), default_flame_model(InputShape::kSplitSignCurve)}) {
     const Cost cost = cost_of(has_curve(flame.inputs[0].shape) ? bent_by_many_knots(flame) : flame, 32);
@@ -110,7 +110,7 @@ TEST(Cost, TheDefaultFlameTakesAtMost1600OperationsInItsWorstFrame) {
 }
 
 // Each of the two would take three lags of its own and three of the wind that blows (the x only two), products and
-// sums, and whether it was held.
+// sums, and whether it was clamped.
 TEST(Cost, AnOutputThatMirrorsAnotherTakesOneOperationAStepAndOneToBeShown) {
   const Cost cost = cost_of(default_flame_model());
   Model model = default_flame_model();

@@ -39,7 +39,7 @@ Bank full_bank(const Model& model) {
   return std::move(bank).value();
 }
 
-// All that is seen of all instances in `frames` frames, some of them out and lit again; and what was held.
+// All that is seen of all instances in `frames` frames, some of them out and lit again; and what was clamped.
 std::vector<float> lives(Bank& bank, int frames) {
   std::vector<float> all, inputs(static_cast<std::size_t>(kInstances) * bank.input_count());
   std::vector<float> outputs(static_cast<std::size_t>(kInstances) * bank.output_count());
@@ -52,8 +52,8 @@ std::vector<float> lives(Bank& bank, int frames) {
     bank.outputs(outputs);
     all.insert(all.end(), outputs.begin(), outputs.end());
   }
-  all.push_back(static_cast<float>(bank.held().held));
-  all.push_back(static_cast<float>(bank.held().steps));
+  all.push_back(static_cast<float>(bank.clamped().clamped));
+  all.push_back(static_cast<float>(bank.clamped().steps));
   return all;
 }
 

@@ -23,7 +23,7 @@ Model mortal_flame(double haste = 2) {
   Model model = flame_model({.wind = InputShape::kSplitSign, .noise_rank = 1});
   model.rate_hz = 100;
   model.extinction = Extinction{
-      .input = 0, .level = 2, .seconds = 0.2, .haste = haste, .recovery = 0.4, .dying = 0.1, .catching = 0.4};
+      .input = 0, .level = 2, .seconds = 0.2, .haste = haste, .recovery = 0.4, .decay = 0.1, .re_ignition = 0.4};
   return model;
 }
 
@@ -272,14 +272,14 @@ TEST(Extinction, ResettingOrSpawningAnewLightsIt) {
   EXPECT_FALSE(all_zero(outputs_of(bank)));
 }
 
-TEST(Extinction, StepsOfAFlameThatIsOutAreNotCountedAsHeld) {
+TEST(Extinction, StepsOfAFlameThatIsOutAreNotCountedAsClamped) {
   Bank bank = bank_of(mortal_flame());
   bank.spawn();
   bank.set_noise(0);
   steps_to_death(bank, 6);
-  const auto held = bank.held().held;
+  const auto clamped = bank.clamped().clamped;
   blow(bank, 6, 500);
-  EXPECT_EQ(bank.held().held, held);
+  EXPECT_EQ(bank.clamped().clamped, clamped);
 }
 
 // Wind of one frame for one of many instances: gusts of all strengths that now and then kill.
@@ -340,7 +340,7 @@ TEST(Extinction, TheBanksRuleIsTheDefinition) {
     bank.set_inputs(inputs);
     bank.step();
     for (int k = 0; k < 40; ++k) {
-      const double w = std::min<double>(std::abs(inputs[k]), Extinction::kMostWind * rule.level);
+      const double w = std::min<double>(std::abs(inputs[k]), Extinction::kMaxWind * rule.level);
       const double rate = w >= rule.level ? (1 + rule.haste * (w / rule.level - 1)) / rule.seconds : -1 / rule.recovery;
       harm[k] = std::clamp(harm[k] + rate / model.rate_hz, 0.0, 1.0);
       const bool dies = lit[k] && harm[k] >= 1;
@@ -359,7 +359,7 @@ std::vector<std::byte> saved(const Bank& bank) {
   return bytes;
 }
 
-// Some harmed, some dying, some out, some catching.
+// Some harmed, some in decay, some extinguished, some in re-ignition.
 Bank lived_in_bank() {
   Bank bank = bank_of(mortal_flame(), 12);
   for (int k = 0; k < 9; ++k) {

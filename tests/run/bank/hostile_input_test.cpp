@@ -29,7 +29,7 @@ void expect_in_range(const Bank& bank, const Model& model, int step) {
     const Output& output = model.outputs[i % model.outputs.size()];
     const double room = 0.5 * (output.highest - output.lowest);
     auto low = static_cast<float>(output.lowest - room), high = static_cast<float>(output.highest + room);
-    // What is out shrinks to nothing; what falls is held to a million metres, and comes to rest as far beyond.
+    // What is out shrinks to nothing; what falls is clamped to a million metres, and comes to rest as far beyond.
     if (model.extinction) std::tie(low, high) = std::pair(std::min(low, 0.0f), std::max(high, 0.0f));
     if (std::holds_alternative<ChainModel>(model.dynamics)) std::tie(low, high) = std::pair(-2.1e6f, 2.1e6f);
     ASSERT_TRUE(values[i] >= low && values[i] <= high) << output.name << " is " << values[i] << " at step " << step;
@@ -124,7 +124,7 @@ TEST(HostileInput, WindBeyondTheTrainedRangeCountsAsItsEndAndHalfOfTheRange) {
   }
 }
 
-// A model whose noise alone drives it out of the range it was seen in: every such frame is held, and counted.
+// A model whose noise alone drives it out of the range it was seen in: every such frame is clamped, and counted.
 TEST(HostileInput, HeldFramesAreCounted) {
   Model model = flame_model();
   for (Output& output : model.outputs) {
@@ -136,14 +136,14 @@ TEST(HostileInput, HeldFramesAreCounted) {
   ASSERT_TRUE(bank);
   for (int k = 0; k < 3; ++k) bank->spawn();
   for (int step = 0; step < 100; ++step) bank->step();
-  EXPECT_EQ(bank->held().steps, 300U);
-  EXPECT_GT(bank->held().held, 290U);
-  EXPECT_LE(bank->held().held, 300U);
+  EXPECT_EQ(bank->clamped().steps, 300U);
+  EXPECT_GT(bank->clamped().clamped, 290U);
+  EXPECT_LE(bank->clamped().clamped, 300U);
   auto calm = Bank::create(flame_model(), {.capacity = 1});
   ASSERT_TRUE(calm);
   calm->spawn();
   for (int step = 0; step < 100'000; ++step) calm->step();
-  EXPECT_EQ(calm->held().held, 0U);
+  EXPECT_EQ(calm->clamped().clamped, 0U);
 }
 
 }  // namespace

@@ -28,12 +28,12 @@ struct Kind {
 
 std::vector<Kind> kinds() {
   return {{"ResampledMirrored", [] { return default_flame_model(); }},
-          {"Resampled", [] { return flame_model({.drawn_rows = 60}); }},
+          {"Resampled", [] { return flame_model({.resampled_rows = 60}); }},
           {"Gaussian", [] { return flame_model({.points = 4, .noise_rank = 2}); }},
           {"Regions", [] { return sample_switched(); }},
           {"Markov", [] { return sample_switched(Switching::kMarkov); }},
           {"Positions", [] { return sample_chain(ChainMotion::kPosition); }},
-          {"Poses", [] { return onward_chain(); }},
+          {"Poses", [] { return weighted_chain(); }},
           {"Landing", [] { return sample_chain(); }},
           {"Steered", [] { return steered_chain(); }},
           {"Windy", [] { return windy_chain(); }},

@@ -6,7 +6,7 @@
 #
 # CROSS: another machine's compiler, whose programs EMULATOR runs.
 #
-# It last changed when drawn residuals came to be matched by the recent past of their input, and an input could have powers.
+# It last changed when resampled residuals came to be matched by the recent past of their input, and an input could have powers.
 # A change of this hash is a change of what every game sees: CHANGES.md says so on a line of its own.
 set(golden 7ec58e4b63651af2)
 

@@ -75,7 +75,7 @@ void time_frames(std::uint64_t& hash, const Model& model, int capacity, int fram
 
 // Flames that go out now and then, and are lit again.
 void mortal_frames(std::uint64_t& hash, Model model, int capacity, int frames) {
-  model.extinction = Extinction{.level = 1.3, .seconds = 0.15, .haste = 1.7, .recovery = 0.35, .catching = 0.3};
+  model.extinction = Extinction{.level = 1.3, .seconds = 0.15, .haste = 1.7, .recovery = 0.35, .re_ignition = 0.3};
   Bank bank = full_bank(model, capacity, 8);
   std::vector<float> wind(capacity);
   std::vector<float> points(static_cast<std::size_t>(capacity) * bank.polyline_points() * 2), sizes(capacity);
@@ -155,7 +155,7 @@ int main() {
   std::uint64_t hash = 0;
   step_frames(hash, flame_model({.wind = InputShape::kSplitSign, .noise_rank = 2}), 1, 30'000);
   step_frames(hash, sample_model(), 13, 2'000);
-  step_frames(hash, flame_model({.wind = InputShape::kSplitSign, .drawn_rows = 600}), 11, 2'000);
+  step_frames(hash, flame_model({.wind = InputShape::kSplitSign, .resampled_rows = 600}), 11, 2'000);
   step_frames(hash, flame_model({.wind = InputShape::kSplitSignCurve}), 5, 3'000);
   step_frames(hash, flame_model({.wind = InputShape::kCurve}), 9, 1'000);
   time_frames(hash, flame_model(), 37, 1'000);

@@ -151,13 +151,13 @@ Model gusty_chain() {
 TEST(ChainCost, AGustAdds42OperationsToAFrame) {
   const Model model = gusty_chain();
   CountedChain chain(model), calm(model);
-  std::int64_t most = 0, most_calm = 0;
+  std::int64_t most = 0, max_calm = 0;
   for (int step = 0; step < 100'000; ++step) {
     most = std::max(most, chain.step({1, -2, 0.5f}));
-    most_calm = std::max(most_calm, calm.step());
+    max_calm = std::max(max_calm, calm.step());
   }
   // What the body feels of the wind 3, half a normal 10, a quarter of the press 8, three numbers 5 each, 6 to move.
-  EXPECT_EQ(most - most_calm, 3 + 10 + 8 + 15 + 6);
+  EXPECT_EQ(most - max_calm, 3 + 10 + 8 + 15 + 6);
 }
 
 TEST(ChainCost, AfterABodyIsPlacedAFrameTakesAtMost450Operations) {

@@ -89,7 +89,7 @@ std::vector<int> walked(Bank& bank, const Model& model) {
 }
 
 TEST(ChainBank, ASegmentSaysTooWhichModeFollowsIt) {
-  const Model model = onward_chain();
+  const Model model = weighted_chain();
   const auto& chain = std::get<ChainModel>(model.dynamics);
   Bank bank = bank_of(model);
   double seen[3][2] = {};
@@ -110,7 +110,7 @@ TEST(ChainBank, ASegmentSaysTooWhichModeFollowsIt) {
 }
 
 TEST(ChainBank, WithoutChanceTheLikeliestModeAfterASegmentFollows) {
-  Bank bank = bank_of(onward_chain());
+  Bank bank = bank_of(weighted_chain());
   bank.set_noise(0);
   while (bank.chain()->place_of(bank.at(0))->segment != 0) bank.step();
   while (bank.chain()->place_of(bank.at(0))->segment == 0) bank.step();
@@ -203,10 +203,10 @@ TEST(ChainBank, WithoutChanceEveryInstanceLivesTheSameLifeInALoopThatIsKnown) {
 TEST(ChainBank, WhatIsHeldFarFromTheOriginIsCounted) {
   Bank bank = bank_of(sample_chain());
   for (int step = 0; step < 100; ++step) bank.step();
-  EXPECT_EQ(bank.held().held, 0U);
+  EXPECT_EQ(bank.clamped().clamped, 0U);
   bank.chain()->place(bank.at(0), {.position = {999'999.9f, 0, 0}, .velocity = {1, 0, 0}});
   for (int step = 0; step < 100; ++step) bank.step();
-  EXPECT_GT(bank.held().held, 20U);
+  EXPECT_GT(bank.clamped().clamped, 20U);
 }
 
 TEST(ChainBank, FollowersAreThoseOfTheTable) {
@@ -268,7 +268,7 @@ TEST(ChainBank, AWorldFramedChainKeepsItsHeading) {
 }
 
 TEST(ChainBank, BlendedOrientationDoesNotJumpAndAnUnblendedOneDoes) {
-  const auto least_agreement = [](const Model& model) {
+  const auto min_agreement = [](const Model& model) {
     Bank bank = bank_of(model);
     Pose before = pose_of(bank);
     double least = 1;
@@ -280,8 +280,8 @@ TEST(ChainBank, BlendedOrientationDoesNotJumpAndAnUnblendedOneDoes) {
     }
     return least;
   };
-  EXPECT_LT(least_agreement(unblended()), std::cos(0.09));
-  EXPECT_GT(least_agreement(sample_chain()), std::cos(0.09));
+  EXPECT_LT(min_agreement(unblended()), std::cos(0.09));
+  EXPECT_GT(min_agreement(sample_chain()), std::cos(0.09));
 }
 
 // The tilt of a pose: joins turn a segment about z, which leaves it.
@@ -499,8 +499,8 @@ TEST(ChainBank, LanesThatNobodyLivesInAreNotMoved) {
   ChainStepper<LiveNumbers> stepper(model, std::get<ChainModel>(model.dynamics), Channels{}, 1, arena);
   const RandomKeys keys = random_keys(1);
   const std::array<std::uint64_t, LiveNumbers::kLanes> streams{}, born{};
-  std::array<std::uint32_t, LiveNumbers::kLanes> held;
-  Moment<LiveNumbers> moment{&keys, {streams.data(), born.data(), 0}, held.data()};
+  std::array<std::uint32_t, LiveNumbers::kLanes> clamped;
+  Moment<LiveNumbers> moment{&keys, {streams.data(), born.data(), 0}, clamped.data()};
   for (int lane = 0; lane < LiveNumbers::kLanes; ++lane) stepper.start(0, lane, moment);
   moment.lanes = 3;
   std::array<float, 7 * LiveNumbers::kLanes> before, after;
@@ -509,7 +509,7 @@ TEST(ChainBank, LanesThatNobodyLivesInAreNotMoved) {
   stepper.show(0, after.data());
   for (std::size_t lane = 0; lane < LiveNumbers::kLanes; ++lane) {
     EXPECT_EQ(before[lane] == after[lane], lane >= 3) << lane;
-    EXPECT_EQ(held[lane], 0U);
+    EXPECT_EQ(clamped[lane], 0U);
   }
 }
 

@@ -34,7 +34,7 @@ double linear_error(const Frames& frames) {
   return (y - x * theta).squaredNorm() / static_cast<double>(n);
 }
 
-const EmulatorOptions kSmall{.lags = 1, .wind_lags = 1, .hidden = 12, .jitter = 0, .most_epochs = 100, .batch = 32};
+const EmulatorOptions kSmall{.lags = 1, .wind_lags = 1, .hidden = 12, .jitter = 0, .max_epochs = 100, .batch = 32};
 
 TEST(Emulator, FitsAMapThatIsNotLinear) {
   const std::vector<Frames> frames{driven(2000, 1)};
@@ -82,7 +82,7 @@ TEST(Emulator, IsHeldWhereItDiverges) {
 TEST(Emulator, LearnsTheSameFromTheSameSeed) {
   const std::vector<Frames> frames{driven(300, 1)};
   EmulatorOptions few = kSmall;
-  few.most_epochs = 3;
+  few.max_epochs = 3;
   EXPECT_EQ(learn_emulator(frames, few).w1, learn_emulator(frames, few).w1);
 }
 

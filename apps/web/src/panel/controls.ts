@@ -1,6 +1,6 @@
 // The controls over the picture: scenes, how many, blow, the scene's own action.
 
-import { MOST_LEAVES, type SceneName, type Settings } from '../link.js';
+import { MAX_LEAVES, type SceneName, type Settings } from '../link.js';
 import { byId, element } from './element.js';
 
 /** Scenes that have a tab. Another scene is a line here and one in player.ts. */
@@ -9,7 +9,7 @@ const SCENES: readonly { name: SceneName; title: string }[] = [
   { name: 'leaves', title: 'Leaves' },
 ];
 
-const MOST_CANDLES = 12;
+const MAX_CANDLES = 12;
 
 /** What the microphone is doing. */
 export type Hearing = 'off' | 'asking' | 'calibrating' | 'listening';
@@ -58,7 +58,7 @@ export class Controls {
     const many = leaves ? settings.leaves : settings.candles;
     this.countShown.value = many.toLocaleString('en');
     if (document.activeElement !== this.count) {
-      this.count.value = String(leaves ? Math.log(many) / Math.log(MOST_LEAVES) : (many - 1) / (MOST_CANDLES - 1));
+      this.count.value = String(leaves ? Math.log(many) / Math.log(MAX_LEAVES) : (many - 1) / (MAX_CANDLES - 1));
     }
     this.count.setAttribute('aria-valuetext', this.countShown.value);
   }
@@ -67,9 +67,9 @@ export class Controls {
   step(way: 1 | -1, settings: Readonly<Settings>): void {
     if (this.tab === 'leaves') {
       const leaves = Math.round(way > 0 ? settings.leaves * 1.5 + 1 : settings.leaves / 1.5 - 1);
-      this.events.change({ leaves: Math.max(1, Math.min(MOST_LEAVES, leaves)) });
+      this.events.change({ leaves: Math.max(1, Math.min(MAX_LEAVES, leaves)) });
     } else if (this.tab === 'candle') {
-      this.events.change({ candles: Math.max(1, Math.min(MOST_CANDLES, settings.candles + way)) });
+      this.events.change({ candles: Math.max(1, Math.min(MAX_CANDLES, settings.candles + way)) });
     }
   }
 
@@ -102,7 +102,7 @@ export class Controls {
   }
 
   private counted(share: number): Partial<Settings> {
-    if (this.tab === 'leaves') return { leaves: Math.round(MOST_LEAVES ** share) };
-    return { candles: 1 + Math.round(share * (MOST_CANDLES - 1)) };
+    if (this.tab === 'leaves') return { leaves: Math.round(MAX_LEAVES ** share) };
+    return { candles: 1 + Math.round(share * (MAX_CANDLES - 1)) };
   }
 }

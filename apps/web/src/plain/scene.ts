@@ -5,7 +5,7 @@ import { drawToCanvas, Program } from '@wisp/player/parts/stage/gl';
 import type { Acting, Reading, Scene, SceneLook, SceneSettings } from '@wisp/player/parts/stage/scene';
 
 const KEPT = 600;
-const MOST_LINES = 8;
+const MAX_LINES = 8;
 const NANOSECONDS = 1e9;
 
 const VERTEX = `
@@ -45,7 +45,7 @@ export class PlainScene implements Scene {
     this.bank = model.bank({ seed: settings.seed });
     this.bank.setNoise(settings.noise);
     this.id = this.bank.spawn();
-    this.lines = Array.from({ length: Math.min(MOST_LINES, model.outputs.length) }, () => new Float32Array(KEPT));
+    this.lines = Array.from({ length: Math.min(MAX_LINES, model.outputs.length) }, () => new Float32Array(KEPT));
     this.answerName = model.outputs[0]?.name ?? 'output';
   }
 

@@ -1,7 +1,7 @@
 // A learned outline that lives through a recording's wind, row by row, and is shown at the film's own scale.
 
 import type { Bank, Instance, Library } from '@wisp/player';
-import { FlameShape, MOST_POINTS } from '@wisp/player/parts/candle/flame_shape';
+import { FlameShape, MAX_POINTS } from '@wisp/player/parts/candle/flame_shape';
 import type { Outlines } from './outlines.js';
 
 /** Rows; a longer way forward is a jump: it begins anew there. */
@@ -16,12 +16,12 @@ export class Play {
   private readonly one: number;
   private readonly burns: boolean;
   private readonly shape = new FlameShape();
-  private readonly polyline = new Float32Array(2 * MOST_POINTS);
+  private readonly polyline = new Float32Array(2 * MAX_POINTS);
   private row = -1;
 
   constructor(wisp: Library, private readonly outlines: Outlines, bytes: Uint8Array) {
     const model = wisp.model(bytes);
-    this.bank = model.bank({ polylinePoints: MOST_POINTS });
+    this.bank = model.bank({ polylinePoints: MAX_POINTS });
     this.flame = this.bank.spawn();
     this.hasWind = model.inputs.length > 0 && outlines.wind !== null;
     this.burns = model.facts.blowOut !== null;

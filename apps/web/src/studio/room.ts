@@ -61,7 +61,7 @@ const LEARNING: Readonly<Record<Thing, string>> = {
 const KEPT_BACK = 0.25;
 
 /** Bytes of a table: text, its numbers and what is learned from them stand beside each other in memory. */
-const MOST_TABLE_BYTES = 100e6;
+const MAX_TABLE_BYTES = 100e6;
 
 /** Frames between pictures that are kept of a film, at first. */
 const FRAMES_APART = 3;
@@ -543,7 +543,7 @@ export class Room {
   /** A table: its columns are chosen first, unless it is a recording of Wisp's own. */
   private async table(file: File): Promise<void> {
     try {
-      if (file.size > MOST_TABLE_BYTES) throw new Error(`${file.name} has ${Math.round(file.size / 1e6).toLocaleString('en')} MB, and tables of up to ${MOST_TABLE_BYTES / 1e6} MB are read here. Give a part of it.`);
+      if (file.size > MAX_TABLE_BYTES) throw new Error(`${file.name} has ${Math.round(file.size / 1e6).toLocaleString('en')} MB, and tables of up to ${MAX_TABLE_BYTES / 1e6} MB are read here. Give a part of it.`);
       const bytes = new Uint8Array(await file.arrayBuffer());
       const head = headOf(bytes);
       if (head.names.length === 0) throw new Error(`${file.name} is empty.`);

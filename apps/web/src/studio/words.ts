@@ -73,7 +73,7 @@ export interface Meter {
 }
 
 /** Of a table's outputs, those that have bars. */
-const MOST_OUTPUTS = 4;
+const MAX_OUTPUTS = 4;
 
 /** How well it does, on what it has not seen where something was kept back. `outputs`: names of a table's. */
 export function metersOf({ report, judged }: Learned, thing: Thing, outputs: readonly string[]): Meter[] {
@@ -105,12 +105,12 @@ export function metersOf({ report, judged }: Learned, thing: Thing, outputs: rea
   } else add('Outlines that lie over each other, a frame ahead', figure(report, 'overlap_by_steps', '1'), 0.85);
   if (thing === 'flame') return made;
   const kept = judged === undefined ? [] : judgedFits(judged.report);
-  for (const { name, next, free } of kept.slice(0, MOST_OUTPUTS)) {
+  for (const { name, next, free } of kept.slice(0, MAX_OUTPUTS)) {
     add(`${name}, a row ahead`, next / 100, 0.5);
     add(`${name}, played from what goes in alone`, free / 100, 0.4);
   }
   if (kept.length > 0) return made;
-  outputs.slice(0, MOST_OUTPUTS).forEach((name, k) => {
+  outputs.slice(0, MAX_OUTPUTS).forEach((name, k) => {
     add(`${name}, a row ahead`, percent('fit_percent', '1', String(k)), 0.5);
     add(`${name}, played from what goes in alone`, percent('fit_percent', 'inf', String(k)), 0.4);
   });

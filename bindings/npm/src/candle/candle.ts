@@ -8,7 +8,7 @@ import { flameFoot, type Stand } from './room.js';
 /** Wind that a base moving at one flame height a second puts the flame into. */
 const MOTION_WIND = 0.3;
 /** Strongest wind that dragging makes: it bends the flame, and takes a jerk to put it out. */
-const MOST_MOTION_WIND = 1.15;
+const MAX_MOTION_WIND = 1.15;
 
 /** Seconds for which a wick smokes that has gone out. */
 const SMOKES = 4.2;
@@ -59,7 +59,7 @@ export class Candle implements DrawnCandle {
     const speed = (this.stand.x - this.lastX) / seconds / this.stand.unit;
     this.lastX = this.stand.x;
     this.speed += (speed - this.speed) * Math.min(1, seconds / 0.07);
-    return Math.max(-MOST_MOTION_WIND, Math.min(MOST_MOTION_WIND, -MOTION_WIND * this.speed));
+    return Math.max(-MAX_MOTION_WIND, Math.min(MAX_MOTION_WIND, -MOTION_WIND * this.speed));
   }
 
   /** Takes over how the flame looks now. `sinceOut`: seconds, Infinity while it burns. */

@@ -3,7 +3,7 @@
 import type { Model } from '../index.js';
 import { numberOf, SceneElement } from '../stage/element.js';
 import type { Scene, SceneSettings } from '../stage/scene.js';
-import { MOST_CANDLES } from './room.js';
+import { MAX_CANDLES } from './room.js';
 import { CandleScene } from './scene.js';
 
 /**
@@ -25,7 +25,7 @@ export class WispCandle extends SceneElement {
   }
 
   protected count(): number {
-    return Math.round(numberOf(this, 'candles', 1, MOST_CANDLES, 1));
+    return Math.round(numberOf(this, 'candles', 1, MAX_CANDLES, 1));
   }
 
   protected watch(): void {

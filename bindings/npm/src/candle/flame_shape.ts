@@ -1,7 +1,7 @@
 // What is drawn of a flame, from its model's outline: a closed shape with a rounded base, and what it amounts to.
 
 /** Most points of an outline that are drawn. */
-export const MOST_POINTS = 64;
+export const MAX_POINTS = 64;
 
 /** Area of a calm flame in square flame units; its light is 1. */
 const CALM_AREA = 0.17;
@@ -11,7 +11,7 @@ const SHOULDER = 0.2;
 
 export class FlameShape {
   /** x, y and height along the outline (0 base, 1 tip), three numbers a point */
-  readonly points = new Float32Array(3 * MOST_POINTS);
+  readonly points = new Float32Array(3 * MAX_POINTS);
   count = 0;
   /** in flame units; empty when left > right */
   left = 1;
@@ -27,7 +27,7 @@ export class FlameShape {
   light = 0;
   /** mean width of its body */
   width = 0.25;
-  private readonly along = new Float32Array(MOST_POINTS);
+  private readonly along = new Float32Array(MAX_POINTS);
 
   get empty(): boolean {
     return this.count < 3 || this.top - this.bottom < 0.01;
@@ -38,7 +38,7 @@ export class FlameShape {
    * the flame is seen, 0 to 1; its light goes with it.
    */
   update(outline: Float32Array, size: number): void {
-    this.count = Math.min(MOST_POINTS, outline.length >> 1);
+    this.count = Math.min(MAX_POINTS, outline.length >> 1);
     let height = 0;
     for (let k = 0; k < this.count; ++k) height = Math.max(height, outline[2 * k + 1] as number);
     this.roundBase(outline, height);

@@ -4,7 +4,7 @@
 import type { Bank, FlameState, Instance, Model } from '../index.js';
 
 /** Below this size a flame's outline says nothing of how it leans. */
-const LEAST_SIZE = 0.05;
+const MIN_SIZE = 0.05;
 const SETTLES = 2e9;
 
 export class Lender {
@@ -31,7 +31,7 @@ export class Lender {
     const lent = this.bank.polyline(instance);
     const height = heightOf(moved) / heightOf(rest);
     for (let k = 0; k < moved.length; ++k) {
-      const shift = size > LEAST_SIZE ? (lent[k] as number) / size - (rest[k] as number) : 0;
+      const shift = size > MIN_SIZE ? (lent[k] as number) / size - (rest[k] as number) : 0;
       moved[k] = size * ((moved[k] as number) + height * shift);
     }
     return moved;

@@ -6,7 +6,7 @@ import type { After } from './after.js';
 import type { Stirring } from './air.js';
 import type { FlameShape } from './flame_shape.js';
 import type { RoomView, Setting, Stand } from './room.js';
-import { flameFoot, MOST_CANDLES } from './room.js';
+import { flameFoot, MAX_CANDLES } from './room.js';
 import boardVertex from './shaders/board.vert.js';
 import candleFragment from './shaders/candle.frag.js';
 import developFragment from './shaders/develop.frag.js';
@@ -19,13 +19,13 @@ import surfaceFragment from './shaders/surface.frag.js';
 import table from './shaders/table.glsl.js';
 
 /** Most flames that give light: the candles, the match, one to spare. */
-const MOST_LIGHTS = MOST_CANDLES + 2;
+const MAX_LIGHTS = MAX_CANDLES + 2;
 /** How much of the light strays in the eye. */
 const GLARING = 0.13;
 /** How far heat shifts what is behind it, shares of the picture. */
 const SHIMMER = 0.0035;
 /** Least width of rising air, heights of the picture: what is narrower than two cells of its grid does not rise. */
-const LEAST_PLUME = 0.02;
+const MIN_PLUME = 0.02;
 /** What the eye makes of a lit room and of a dark one; and seconds in which it gets used to more light, and to less. */
 const EXPOSURES = { lit: 1, dark: 8, brighter: 0.25, darker: 0.9 };
 
@@ -91,14 +91,14 @@ export class CandleRenderer {
   /** of the room: with nothing on the table, and with a cake, once that has come */
   private readonly rooms: Partial<Record<'table' | 'cake', Room>> = {};
   private readonly warming: Warming;
-  private readonly lights = new Float32Array(4 * MOST_LIGHTS);
-  private readonly halos = new Float32Array(4 * MOST_LIGHTS);
-  private readonly spread = new Float32Array(MOST_LIGHTS);
-  private readonly standNumbers = new Float32Array(4 * MOST_LIGHTS);
-  private readonly sticks = new Float32Array(4 * MOST_CANDLES);
-  private readonly heats = new Float32Array(4 * MOST_LIGHTS);
-  private readonly wicks = new Float32Array(4 * MOST_LIGHTS);
-  private readonly smokeLamps = new Float32Array(4 * MOST_LIGHTS);
+  private readonly lights = new Float32Array(4 * MAX_LIGHTS);
+  private readonly halos = new Float32Array(4 * MAX_LIGHTS);
+  private readonly spread = new Float32Array(MAX_LIGHTS);
+  private readonly standNumbers = new Float32Array(4 * MAX_LIGHTS);
+  private readonly sticks = new Float32Array(4 * MAX_CANDLES);
+  private readonly heats = new Float32Array(4 * MAX_LIGHTS);
+  private readonly wicks = new Float32Array(4 * MAX_LIGHTS);
+  private readonly smokeLamps = new Float32Array(4 * MAX_LIGHTS);
   private readonly lamps: Lamp[] = [];
   private surfaceOf = '';
   private after: After | null = null;
@@ -387,7 +387,7 @@ export class CandleRenderer {
     const add = (x: number, y: number, z: number, unit: number, shape: FlameShape, lit: boolean, smoking: number): void => {
       const scale = (view.scale * view.nearness(z) * unit) / tall;
       const at = [(view.pixelX(x, z) + (lit ? 0.6 * shape.tipX * scale * tall : 0)) / tall, view.pixelY(y, z) / tall + (lit ? 0.8 * shape.tipY * scale : 0)];
-      this.heats.set([...at, Math.max(LEAST_PLUME, (lit ? 0.16 : 0.10) * scale), lit ? 9 * shape.light : 7 * smoking], 4 * count);
+      this.heats.set([...at, Math.max(MIN_PLUME, (lit ? 0.16 : 0.10) * scale), lit ? 9 * shape.light : 7 * smoking], 4 * count);
       this.wicks.set([...at, 0.022 * scale + 0.0012, 26 * smoking], 4 * count);
       count += 1;
     };
@@ -420,7 +420,7 @@ export class CandleRenderer {
     });
     let count = this.lamps.length;
     for (const { stand, ember, shape } of shown.candles) {
-      if (!shape.empty || ember < 0.02 || count >= MOST_LIGHTS) continue;
+      if (!shape.empty || ember < 0.02 || count >= MAX_LIGHTS) continue;
       const scale = (view.scale * view.nearness(stand.z) * stand.unit) / tall;
       const at = [view.pixelX(stand.x + 0.03 * stand.unit, stand.z) / tall, view.pixelY(flameFoot(stand) + 0.08 * stand.unit, stand.z) / tall];
       this.smokeLamps.set([...at, 0.10 * scale, 0.5 * ember], 4 * count);

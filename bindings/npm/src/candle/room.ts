@@ -27,7 +27,7 @@ export interface Setting {
 }
 
 /** Most candles on a cake. */
-export const MOST_CANDLES = 12;
+export const MAX_CANDLES = 12;
 
 /** From the upper end of a candle to the base of its flame, in flame units. */
 const WICK_GAP = 0.085;
@@ -43,7 +43,7 @@ const PASTELS: readonly (readonly [number, number, number])[] = [
   [0.72, 0.54, 0.86],
 ];
 
-/** One candle by itself, or a cake with 2 to MOST_CANDLES of them. */
+/** One candle by itself, or a cake with 2 to MAX_CANDLES of them. */
 export function settingFor(candles: number): Setting {
   if (candles <= 1) {
     const wax = [0.93, 0.86, 0.74] as const;

@@ -6,7 +6,7 @@ import { Candle } from './candle.js';
 import type { Lender } from './lender.js';
 import { Match } from './match.js';
 import { CandleRenderer } from './renderer.js';
-import { MOST_CANDLES, RoomView, settingFor, type Setting } from './room.js';
+import { MAX_CANDLES, RoomView, settingFor, type Setting } from './room.js';
 import { WindDelay } from '../air/delay.js';
 
 /** Points of a flame's outline; smooth at 500 pixels' height. */
@@ -38,7 +38,7 @@ export class CandleScene implements Scene {
     settings: SceneSettings,
   ) {
     this.settings = { ...settings };
-    this.bank = model.bank({ capacity: MOST_CANDLES + 1, polylinePoints: OUTLINE_POINTS, seed: settings.seed });
+    this.bank = model.bank({ capacity: MAX_CANDLES + 1, polylinePoints: OUTLINE_POINTS, seed: settings.seed });
     this.bank.setNoise(settings.noise);
     this.inputs = new Float32Array(Math.max(1, this.bank.inputs));
     this.seat();
@@ -48,7 +48,7 @@ export class CandleScene implements Scene {
   async borrow(from: Model): Promise<void> {
     const { Lender } = await import('./lender.js');
     if (this.disposed) return;
-    this.lender = new Lender(from, MOST_CANDLES + 1, OUTLINE_POINTS);
+    this.lender = new Lender(from, MAX_CANDLES + 1, OUTLINE_POINTS);
     for (const candle of this.candles) candle.lent = this.lender.bank.spawn();
   }
 

@@ -3,7 +3,7 @@
 import type { Model } from '../index.js';
 import { numberOf, SceneElement } from '../stage/element.js';
 import type { Scene, SceneSettings } from '../stage/scene.js';
-import { MOST_LEAVES } from './limits.js';
+import { MAX_LEAVES } from './limits.js';
 import { LeavesScene } from './scene.js';
 
 const USUAL = 200;
@@ -18,7 +18,7 @@ export class WispLeaves extends SceneElement {
   }
 
   protected count(): number {
-    return Math.round(numberOf(this, 'leaves', 1, MOST_LEAVES, USUAL));
+    return Math.round(numberOf(this, 'leaves', 1, MAX_LEAVES, USUAL));
   }
 
   protected watch(): void {

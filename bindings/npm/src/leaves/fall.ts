@@ -14,7 +14,7 @@ const LYING = 0.035;
 const CELL = 0.16;
 const HALF_COLUMNS = 40;
 const LAYER = 0.0045;
-const MOST_LAYERS = 30;
+const MAX_LAYERS = 30;
 /** How much longer leaves lie where heaps are. */
 const LONGER = 6;
 /** Leaves that are placed anew in one frame, at most: each looks through all segments. */
@@ -247,7 +247,7 @@ export class LeafFall {
     const cell = Math.max(0, Math.min(this.heights.length - 1, row * 2 * HALF_COLUMNS + column));
     this.cells[slot] = cell;
     this.layers[slot] = this.heights[cell] as number;
-    this.heights[cell] = Math.min(MOST_LAYERS, (this.heights[cell] as number) + 1);
+    this.heights[cell] = Math.min(MAX_LAYERS, (this.heights[cell] as number) + 1);
   }
 
   private leaveHeap(slot: number): void {

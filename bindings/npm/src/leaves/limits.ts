@@ -1,2 +1,2 @@
 /** Most leaves at once. */
-export const MOST_LEAVES = 10_000;
+export const MAX_LEAVES = 10_000;

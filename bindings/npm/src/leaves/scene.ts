@@ -1,7 +1,7 @@
 // Leaves that fall for ever in autumn light, settle, and are kicked up again.
 
 import type { Bank, Model } from '../index.js';
-import { MOST_LEAVES } from './limits.js';
+import { MAX_LEAVES } from './limits.js';
 import type { Acting, Reading, Scene, SceneLook, SceneSettings } from '../stage/scene.js';
 import { LeafCamera } from './camera.js';
 import { LeafFall, type Gust } from './fall.js';
@@ -34,7 +34,7 @@ export class LeavesScene implements Scene {
     readonly model: Model,
     settings: SceneSettings,
   ) {
-    this.bank = model.bank({ capacity: MOST_LEAVES, seed: settings.seed });
+    this.bank = model.bank({ capacity: MAX_LEAVES, seed: settings.seed });
     this.fall = new LeafFall(this.bank, this.camera, settings.seed);
     this.apply(settings);
   }

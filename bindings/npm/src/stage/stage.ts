@@ -7,8 +7,8 @@ import type { Scene } from './scene.js';
 /** Longest time that a frame stands for; after a pause the scene goes on where it was. */
 const LONGEST_FRAME = 0.1;
 /** Most pixels drawn; more would not be seen and would warm a phone. */
-const MOST_PIXELS = 2.6e6;
-const LEAST_DETAIL = 0.5;
+const MAX_PIXELS = 2.6e6;
+const MIN_DETAIL = 0.5;
 /** Coarser than this, a picture is drawn without what costs most. */
 const PLAIN = 0.6;
 /** A picture every so many seconds is smooth enough; slower ones are drawn coarser. */
@@ -165,7 +165,7 @@ export class Stage {
     const box = this.canvas.getBoundingClientRect();
     this.footer = Math.min(0.4, this.covered / Math.max(1, box.height));
     let share = this.detail > 0 ? this.detail : Math.min(2, window.devicePixelRatio) * this.adapted;
-    share = Math.min(share, Math.sqrt(MOST_PIXELS / Math.max(1, box.width * box.height)));
+    share = Math.min(share, Math.sqrt(MAX_PIXELS / Math.max(1, box.width * box.height)));
     const width = Math.max(1, Math.round(box.width * share));
     const height = Math.max(1, Math.round(box.height * share));
     if (this.canvas.width === width && this.canvas.height === height) return;
@@ -181,7 +181,7 @@ export class Stage {
     const mean = seconds / this.framesSinceLook;
     // Far too slow: all that costs most goes at once.
     const coarser = mean > FAR_TOO_SLOW ? 0.5 : 0.8;
-    if (this.lookedAt > 0 && mean > SMOOTH && mean < 1) this.adapted = Math.max(LEAST_DETAIL, this.adapted * coarser);
+    if (this.lookedAt > 0 && mean > SMOOTH && mean < 1) this.adapted = Math.max(MIN_DETAIL, this.adapted * coarser);
     this.lookedAt = now;
     this.framesSinceLook = 0;
   }

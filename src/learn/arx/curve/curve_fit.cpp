@@ -154,9 +154,9 @@ class Alternation {
   }
 
   // Whether it settled.
-  bool run(int most_passes) {
+  bool run(int max_passes) {
     double before = deviance();
-    for (passes_ = 1; passes_ <= most_passes; ++passes_) {
+    for (passes_ = 1; passes_ <= max_passes; ++passes_) {
       step();
       const double now = deviance();
       if (before - now <= kSettled) return true;
@@ -261,7 +261,7 @@ Result<CurveFit> fit_input_curves(std::span<const Recording> recordings, const C
   const auto data = curve_gram(recordings, channels, options);
   if (!data) return data.error();
   Alternation proportional(*data, power_rises(data->knots, 1)), square(*data, power_rises(data->knots, 2));
-  const bool settled[] = {proportional.run(options.most_passes), square.run(options.most_passes)};
+  const bool settled[] = {proportional.run(options.max_passes), square.run(options.max_passes)};
   const bool bent = square.deviance() < proportional.deviance();
   const Alternation& best = bent ? square : proportional;
   CurveFit out;

@@ -34,8 +34,8 @@ struct CurvedInput {
 struct CurveFitOptions {
   ArxOrders orders;
   std::vector<CurvedInput> inputs;
-  int knots = 4;           ///< of every curve, both ends among them, 3 to kMaxCurveKnots
-  int most_passes = 2000;  ///< of the alternation; it mostly ends within a hundred
+  int knots = 4;          ///< of every curve, both ends among them, 3 to kMaxCurveKnots
+  int max_passes = 2000;  ///< of the alternation; it mostly ends within a hundred
 };
 
 /// A curve and how well it is known.

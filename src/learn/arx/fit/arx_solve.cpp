@@ -123,7 +123,7 @@ SharedSolution solve_with_triangle(const Eigen::MatrixXd& triangle, const Shared
 }
 
 std::optional<SharedSolution> solve_with_gram(const Eigen::MatrixXd& gram, const SharedProblem& problem,
-                                              double most_condition) {
+                                              double max_condition) {
   const auto d = static_cast<Eigen::Index>(problem.columns.size());
   Eigen::VectorXd norm(d);
   std::vector<int> all(problem.columns.size());
@@ -144,7 +144,7 @@ std::optional<SharedSolution> solve_with_gram(const Eigen::MatrixXd& gram, const
   const Eigen::MatrixXd factor = cholesky.matrixU();
   const Eigen::MatrixXd moments = norm.cwiseInverse().asDiagonal() * gram(problem.columns, problem.targets);
   SharedSolution solution = finish(problem, factor, cholesky.matrixL().solve(moments), all, norm);
-  if (!(solution.scaled_condition <= most_condition)) return std::nullopt;
+  if (!(solution.scaled_condition <= max_condition)) return std::nullopt;
   return solution;
 }
 

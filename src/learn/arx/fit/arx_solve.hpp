@@ -38,8 +38,8 @@ struct SharedProblem {
 SharedSolution solve_with_triangle(const Eigen::MatrixXd& triangle, const SharedProblem& problem);
 
 /// Solves with the Gram matrix of the whole regression, or gives up where the scaled condition is above
-/// `most_condition` or the matrix is not positive definite.
+/// `max_condition` or the matrix is not positive definite.
 std::optional<SharedSolution> solve_with_gram(const Eigen::MatrixXd& gram, const SharedProblem& problem,
-                                              double most_condition);
+                                              double max_condition);
 
 }  // namespace wisp

@@ -195,10 +195,10 @@ Height height(const Block& block, const VectorXd& a, double most, double weight)
 
 // Quasi-Newton steps (BFGS) down to where loss and barrier balance.
 VectorXd settle(const Block& block, VectorXd a, double most, double weight) {
-  constexpr int kMostSteps = 40;
+  constexpr int kMaxSteps = 40;
   MatrixXd inverse = 0.5 * block.give();
   Height at = height(block, a, most, weight);
-  for (int step = 0; step < kMostSteps && std::isfinite(at.value); ++step) {
+  for (int step = 0; step < kMaxSteps && std::isfinite(at.value); ++step) {
     const VectorXd direction = -(inverse * at.slope);
     const double descent = at.slope.dot(direction);
     if (!(descent < -1e-10 * std::abs(at.value))) break;
@@ -270,19 +270,19 @@ void write_block(const Block& block, const VectorXd& a, const std::vector<RowCur
 
 }  // namespace
 
-double make_stable(ArxModel& model, const std::vector<RowCurvature>& curvature, double most_radius) {
+double make_stable(ArxModel& model, const std::vector<RowCurvature>& curvature, double max_radius) {
   double loss = 0;
   for (std::vector<int>& outputs : arx::coupled_outputs(model.orders.na)) {
     const Block block(model, curvature, std::move(outputs));
-    if (block.radius(block.start()) <= most_radius) continue;
+    if (block.radius(block.start()) <= max_radius) continue;
     if (block.size() > kMaxExactSize) {
-      const VectorXd scaled = block.feasible(block.start(), most_radius);
+      const VectorXd scaled = block.feasible(block.start(), max_radius);
       loss += block.loss(scaled);
       write_block(block, scaled, curvature, model);
       continue;
     }
-    const VectorXd from_scaled = descend(block, block.feasible(block.start(), most_radius), most_radius);
-    const VectorXd from_inside = descend(block, through_the_inside(block, most_radius), most_radius);
+    const VectorXd from_scaled = descend(block, block.feasible(block.start(), max_radius), max_radius);
+    const VectorXd from_inside = descend(block, through_the_inside(block, max_radius), max_radius);
     const VectorXd& best = block.loss(from_inside) < block.loss(from_scaled) ? from_inside : from_scaled;
     loss += block.loss(best);
     write_block(block, best, curvature, model);

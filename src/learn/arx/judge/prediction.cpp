@@ -12,10 +12,10 @@
 namespace wisp {
 namespace {
 
-constexpr int kMostSteps = 100000;
+constexpr int kMaxSteps = 100000;
 
 Result<void> check_steps(int steps) {
-  if (steps == kFreeRun || (steps >= 1 && steps <= kMostSteps)) return {};
+  if (steps == kFreeRun || (steps >= 1 && steps <= kMaxSteps)) return {};
   return Error{"a prediction of " + std::to_string(steps) + " steps was asked for, expected 1 to 100000"};
 }
 

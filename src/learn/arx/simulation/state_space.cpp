@@ -13,7 +13,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kFewestLags = 8;
+constexpr int kMinLags = 8;
 constexpr int kFeedback = 120;         // samples that an output is predicted from: more outputs remember fewer lags
 constexpr Index kMaxStateRows = 4096;  // that a state is told from
 
@@ -56,7 +56,7 @@ MatrixXd rounded(const MatrixXd& matrix) { return matrix.cast<float>().cast<doub
 
 int arx_lags(int states, int outputs) {
   const int needed = (states + outputs - 1) / outputs;
-  return std::max(needed, std::clamp(kFeedback / outputs, kFewestLags, kStateSpaceLags));
+  return std::max(needed, std::clamp(kFeedback / outputs, kMinLags, kStateSpaceLags));
 }
 
 ArxForm arx_form(const StateSpace& model, int lags) {

@@ -17,12 +17,12 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-constexpr int kFewestRows = 3;     // of past and of future
-constexpr int kMostColumns = 800;  // of both together
+constexpr int kMinRows = 3;       // of past and of future
+constexpr int kMaxColumns = 800;  // of both together
 constexpr double kRowsAColumn = 1.5;
-constexpr double kRidge = 1e-10;      // of every column's own energy: the Gram matrix has no more digits
-constexpr double kNothing = 1e-12;    // a squared strength below this share of the largest is rounding
-constexpr double kLeastNoise = 1e-5;  // in shares of an output's size
+constexpr double kRidge = 1e-10;    // of every column's own energy: the Gram matrix has no more digits
+constexpr double kNothing = 1e-12;  // a squared strength below this share of the largest is rounding
+constexpr double kMinNoise = 1e-5;  // in shares of an output's size
 
 // One lag of outputs and no delay: every row whose inputs are there is simulated.
 ArxOrders one_lag(const Signals& signals, const std::vector<int>& outputs) {
@@ -82,13 +82,13 @@ Subspace::Subspace(const Signals& signals, std::vector<int> outputs, bool consta
     if (scale == 0) return;
   }
   const int channels = block_.size() + block_.inputs();
-  horizon_ = std::min(kStateSpaceLags, kMostColumns / (2 * channels));
-  for (; horizon_ >= kFewestRows; --horizon_) {
+  horizon_ = std::min(kStateSpaceLags, kMaxColumns / (2 * channels));
+  for (; horizon_ >= kMinRows; --horizon_) {
     const Window window(signals, block_.outputs(), 2 * horizon_);
     const RowPlan plan = plan_rows(signals, window.layout, window.layout.history());
     if (static_cast<double>(plan.rows) >= kRowsAColumn * 2 * horizon_ * channels) break;
   }
-  if (horizon_ >= kFewestRows) find_observability(signals);
+  if (horizon_ >= kMinRows) find_observability(signals);
 }
 
 void Subspace::find_observability(const Signals& signals) {
@@ -118,7 +118,7 @@ void Subspace::find_observability(const Signals& signals) {
   const Index first = block_.size();
   const VectorXd energy = gram.diagonal().segment(given, first);
   const VectorXd rest = energy - of_told.leftCols(first).colwise().squaredNorm().transpose();
-  noise_ = rest.cwiseMax(kLeastNoise * kLeastNoise * energy).cwiseSqrt() / std::sqrt(static_cast<double>(plan.rows));
+  noise_ = rest.cwiseMax(kMinNoise * kMinNoise * energy).cwiseSqrt() / std::sqrt(static_cast<double>(plan.rows));
 }
 
 std::optional<StateSpace> Subspace::model(int states, double most) const {

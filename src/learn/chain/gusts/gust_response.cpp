@@ -180,7 +180,7 @@ std::vector<Input> inputs_of(const std::array<const std::vector<double>*, 3>& wi
 }  // namespace
 
 Result<GustFit> learn_gusts(const Recording& windy, const Recording& calm, const GustOptions& options) {
-  if (options.order < 1 || options.order > kMostGustOrder) {
+  if (options.order < 1 || options.order > kMaxGustOrder) {
     return Error{"the order of the response to gusts is " + std::to_string(options.order) + ", expected 1 to 4"};
   }
   const auto pairs = gust_pairs(windy, calm);

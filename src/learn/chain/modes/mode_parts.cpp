@@ -69,7 +69,7 @@ Result<ModeParts> mode_parts(const Motion& motion, std::span<const Segment> segm
     parts.modes += kinds;
     parts.parent.insert(parts.parent.end(), static_cast<std::size_t>(kinds), static_cast<std::uint16_t>(group / 2));
   }
-  if (static_cast<std::size_t>(parts.modes) > kMostModes) {
+  if (static_cast<std::size_t>(parts.modes) > kMaxModes) {
     return Error{"chains of " + std::to_string(modes) + " modes of their own make " + std::to_string(parts.modes) +
                  " kinds of segment, expected at most 256: choose fewer modes"};
   }

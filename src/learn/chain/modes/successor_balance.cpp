@@ -28,13 +28,13 @@ double usual_misfit(const Successors& successors, int breadth) {
 
 std::vector<std::uint16_t> chosen(const Successors& successors, const std::vector<double>& price, int breadth) {
   std::vector<std::uint16_t> follow;
-  std::vector<Successor> dear;
+  std::vector<Successor> priced;
   for (const auto& all : successors) {
-    dear = all;
-    for (Successor& one : dear) one.misfit += price[one.segment];
-    const auto count = std::min(dear.size(), static_cast<std::size_t>(breadth));
-    std::partial_sort(dear.begin(), dear.begin() + static_cast<long>(count), dear.end());
-    for (std::size_t k = 0; k < static_cast<std::size_t>(breadth); ++k) follow.push_back(dear[k % count].segment);
+    priced = all;
+    for (Successor& one : priced) one.misfit += price[one.segment];
+    const auto count = std::min(priced.size(), static_cast<std::size_t>(breadth));
+    std::partial_sort(priced.begin(), priced.begin() + static_cast<long>(count), priced.end());
+    for (std::size_t k = 0; k < static_cast<std::size_t>(breadth); ++k) follow.push_back(priced[k % count].segment);
   }
   return follow;
 }
@@ -83,8 +83,8 @@ std::vector<std::uint16_t> balanced_successors(const Successors& successors, std
     }
     const auto over = overuse(likely, mode, weight, modes);
     for (std::size_t k = 0; k < price.size(); ++k) {
-      const double dearer = kStep * usual * std::log(std::max(over[k], 0.05));
-      price[k] = std::clamp(price[k] + dearer, 0.0, kMaxPrice * usual);
+      const double rise = kStep * usual * std::log(std::max(over[k], 0.05));
+      price[k] = std::clamp(price[k] + rise, 0.0, kMaxPrice * usual);
     }
     follow = chosen(successors, price, breadth);
   }

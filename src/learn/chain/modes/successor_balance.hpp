@@ -24,9 +24,9 @@ struct Successor {
 using Successors = std::vector<std::vector<Successor>>;
 
 /// Chooses `breadth` of each, the best first, the same again where there are fewer. Segments that a long walk plays
-/// oftener, among those of their mode, than as one that stands for `weight` of them are made dearer, until those that
-/// remain too often join much better than the rest. `chances`: segments × modes, how likely each mode is after each
-/// segment.
+/// oftener, among those of their mode, than as one that stands for `weight` of them are made more expensive, until
+/// those that remain too often join much better than the rest. `chances`: segments × modes, how likely each mode is
+/// after each segment.
 std::vector<std::uint16_t> balanced_successors(const Successors& successors, std::span<const std::uint16_t> mode,
                                                std::span<const double> weight, std::span<const double> chances,
                                                int modes, int breadth);

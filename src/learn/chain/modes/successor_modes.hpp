@@ -11,7 +11,7 @@
 namespace wisp::chain {
 
 struct SuccessorModes {
-  std::vector<std::uint16_t> share;  ///< as ChainSegments::onward
+  std::vector<std::uint16_t> share;  ///< as ChainSegments::successor_weights
   std::vector<double> chances;       ///< segments × modes: how likely a walk of order one goes on with each mode
 };
 

@@ -161,7 +161,7 @@ std::vector<std::size_t> kept_segments(const Motion& motion, std::span<const Seg
   }
   const double share = std::min(1.0, static_cast<double>(options.max_bytes) / bytes);
   const auto room = static_cast<std::size_t>(share * static_cast<double>(segments.size()));
-  const std::size_t cap = cap_of(members, std::clamp<std::size_t>(room, 1, kMostSegments - members.size()));
+  const std::size_t cap = cap_of(members, std::clamp<std::size_t>(room, 1, kMaxSegments - members.size()));
   std::vector<std::array<double, 3>> extremes;
   for (const Segment& one : segments) extremes.push_back(extremes_of(motion, one));
   std::vector<std::size_t> kept;
@@ -196,7 +196,7 @@ void join_up(const Motion& motion, std::span<const Segment> segments, std::span<
              const SegmentStoreOptions& options, SegmentStore& store) {
   const SegmentMoments moments = segment_moments(motion, segments, options.heading_free);
   const std::vector<double> weight = segment_weights(motion, segments);
-  SuccessorModes onward =
+  SuccessorModes successor_weights =
       successor_modes(moments, cluster, weight, store.source, transitions_of(segments, cluster, weight, modes), modes);
   SegmentMoments own;
   std::vector<double> own_weight;
@@ -206,8 +206,8 @@ void join_up(const Motion& motion, std::span<const Segment> segments, std::span<
     own_weight.push_back(weight[source]);
   }
   ChainSegments& out = store.segments;
-  out.follow = best_successors(own, out.mode, modes, options.breadth, own_weight, onward.chances);
-  if (modes > 1) out.onward = std::move(onward.share);
+  out.follow = best_successors(own, out.mode, modes, options.breadth, own_weight, successor_weights.chances);
+  if (modes > 1) out.successor_weights = std::move(successor_weights.share);
 }
 
 }  // namespace

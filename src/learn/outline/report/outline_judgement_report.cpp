@@ -107,7 +107,7 @@ ReportSection fidelity_section(const OutlineJudgement& found) {
     section.tables.push_back(std::move(channels));
   }
   section.entries.push_back({"held_share", found.held_share, "share of steps clamped", ""});
-  section.entries.push_back({"crossed_share", found.crossed_share, "self-intersection rate", ""});
+  section.entries.push_back({"crossed_share", found.self_intersection_rate, "self-intersection rate", ""});
   return section;
 }
 

@@ -13,7 +13,7 @@
 namespace wisp {
 namespace {
 
-constexpr double kMost = 0.999;
+constexpr double kMax = 0.999;
 
 ArxModel model_with(std::vector<std::vector<double>> theta, const ArxOrders& orders) {
   ArxModel model;
@@ -35,8 +35,8 @@ TEST(MakeStable, OrderOneGoesToTheBoundaryAndBFollows) {
   ArxModel model = model_with({{-1.1, 2.0}}, orders);
   Eigen::Matrix2d inverse;
   inverse << 2, 0.5, 0.5, 1;
-  make_stable(model, {{inverse, 1}}, kMost);
-  EXPECT_NEAR(model.theta[0][0], -kMost, 1e-9);
+  make_stable(model, {{inverse, 1}}, kMax);
+  EXPECT_NEAR(model.theta[0][0], -kMax, 1e-9);
   EXPECT_NEAR(model.theta[0][1], 2.0 + 0.5 / 2 * 0.101, 1e-9);
 }
 
@@ -46,8 +46,8 @@ TEST(MakeStable, ManyPolesAreScaledInwardsAlike) {
   std::vector<double> theta(kOrder);
   theta[kOrder - 1] = -std::pow(1.02, kOrder);  // poles on a circle of radius 1.02
   ArxModel model = model_with({theta}, orders);
-  make_stable(model, {{Eigen::MatrixXd::Identity(kOrder, kOrder), 1}}, kMost);
-  EXPECT_NEAR(model.theta[0][kOrder - 1], -std::pow(kMost, kOrder), 1e-9);
+  make_stable(model, {{Eigen::MatrixXd::Identity(kOrder, kOrder), 1}}, kMax);
+  EXPECT_NEAR(model.theta[0][kOrder - 1], -std::pow(kMax, kOrder), 1e-9);
 }
 
 TEST(MakeStable, OrderTwoFindsTheLeastLossOfAllStablePolynomials) {
@@ -62,17 +62,17 @@ TEST(MakeStable, OrderTwoFindsTheLeastLossOfAllStablePolynomials) {
     const Eigen::Matrix2d root = Eigen::Matrix2d::NullaryExpr([&] { return normal(generator); });
     const Eigen::Matrix2d inverse = root * root.transpose() + 0.1 * Eigen::Matrix2d::Identity();
     ArxModel model = estimate;
-    make_stable(model, {{inverse, 1}}, kMost);
+    make_stable(model, {{inverse, 1}}, kMax);
     ASSERT_LT(spectral_radius(model), 1);  // in single precision
     // The stable polynomials are a triangle: |a2| <= r², |a1| <= r + a2/r. Its edges in steps of a thousandth.
     double least = std::numeric_limits<double>::infinity();
     for (int step = 0; step <= 1000; ++step) {
-      const double b2 = kMost * kMost * (2 * step / 1000.0 - 1);
-      const double b1 = kMost + b2 / kMost;
+      const double b2 = kMax * kMax * (2 * step / 1000.0 - 1);
+      const double b1 = kMax + b2 / kMax;
       least =
           std::min({least, loss({b1, b2}, estimate.theta[0], inverse), loss({-b1, b2}, estimate.theta[0], inverse)});
-      const double top = 2 * kMost * (2 * step / 1000.0 - 1);
-      least = std::min(least, loss({top, kMost * kMost}, estimate.theta[0], inverse));
+      const double top = 2 * kMax * (2 * step / 1000.0 - 1);
+      least = std::min(least, loss({top, kMax * kMax}, estimate.theta[0], inverse));
     }
     EXPECT_LE(loss(model.theta[0], estimate.theta[0], inverse), least * 1.01) << trial;
   }
@@ -101,15 +101,15 @@ TEST(MakeStable, CoupledOutputsLoseLessThanByScalingAllPoles) {
     }
     ArxModel model = estimate;
     ArxModel scaled = estimate;
-    const double reported = make_stable(model, curvature, kMost);
-    scale_poles(scaled, kMost / radius);
+    const double reported = make_stable(model, curvature, kMax);
+    scale_poles(scaled, kMax / radius);
     double ours = 0;
     double theirs = 0;
     for (int i = 0; i < 2; ++i) {
       ours += loss(model.theta[i], estimate.theta[i], curvature[i].inverse);
       theirs += loss(scaled.theta[i], estimate.theta[i], curvature[i].inverse);
     }
-    EXPECT_LE(spectral_radius(model), kMost + 1e-5);
+    EXPECT_LE(spectral_radius(model), kMax + 1e-5);
     EXPECT_NEAR(reported, ours, 1e-6 * ours);
     EXPECT_LE(ours, theirs * 1.0001);
     gain += std::log(theirs / ours) / 20;
@@ -123,9 +123,9 @@ TEST(MakeStable, BlocksThatAreStableStayAsTheyAre) {
       make_orders({.outputs = 2, .inputs = 0, .na = 1, .nb = 0, .nk = 0, .coupling = Coupling::kDiagonal});
   ArxModel model = model_with({{-0.5}, {-1.2}}, orders);
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(1, 1);
-  make_stable(model, {{one, 1}, {one, 1}}, kMost);
+  make_stable(model, {{one, 1}, {one, 1}}, kMax);
   EXPECT_EQ(model.theta[0][0], -0.5);
-  EXPECT_NEAR(model.theta[1][0], -kMost, 1e-9);
+  EXPECT_NEAR(model.theta[1][0], -kMax, 1e-9);
 }
 
 // A random walk with drift, over which least squares finds a pole outside the circle.

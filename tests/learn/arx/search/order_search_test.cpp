@@ -186,7 +186,7 @@ TEST(OrderSearch, SaysWhatIsWrong) {
 
 // Bytes that malloc had to take from the system for some work: it gives none back here, so this is the most in use.
 template <class Work>
-std::size_t most_bytes(Work work) {
+std::size_t max_bytes(Work work) {
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
   malloc_trim(0);
@@ -208,8 +208,8 @@ TEST(OrderSearch, MemoryDoesNotGrowWithTheNumberOfCandidates) {
   const auto search = [&](const SearchOptions& options) {
     EXPECT_TRUE(search_orders({&recording, 1}, {&recording, 1}, kChannels, options));
   };
-  const std::size_t few = most_bytes([&] { search(ends); });
-  const std::size_t many = most_bytes([&] { search(all); });
+  const std::size_t few = max_bytes([&] { search(ends); });
+  const std::size_t many = max_bytes([&] { search(all); });
   // What is returned for each of the 400: three order matrices and some figures, below 1 kB, twice where the list
   // grows. A Gram matrix of each would be 21 MB.
   EXPECT_LT(many, few + 400 * 2000);

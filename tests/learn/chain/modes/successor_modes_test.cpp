@@ -29,23 +29,25 @@ TEST(SuccessorModes, AModeThatBeginsWhereASegmentEndsIsFarLikelier) {
   const Recorded recorded = two_places();
   const std::size_t kept[] = {0, 1};
   const double transitions[] = {0.5, 0.5, 0.5, 0.5};
-  const SuccessorModes onward = successor_modes(recorded.moments, recorded.mode, one_each(), kept, transitions, 2);
-  ASSERT_EQ(onward.share.size(), 4U);
-  EXPECT_EQ(onward.share[0], 65535);
-  EXPECT_LT(onward.share[1], 65535 / 20);
-  EXPECT_LT(onward.share[2], 65535 / 20);
-  EXPECT_EQ(onward.share[3], 65535);
-  EXPECT_GT(onward.chances[0], 0.95);
-  EXPECT_NEAR(onward.chances[0] + onward.chances[1], 1, 1e-12);
+  const SuccessorModes successor_weights =
+      successor_modes(recorded.moments, recorded.mode, one_each(), kept, transitions, 2);
+  ASSERT_EQ(successor_weights.share.size(), 4U);
+  EXPECT_EQ(successor_weights.share[0], 65535);
+  EXPECT_LT(successor_weights.share[1], 65535 / 20);
+  EXPECT_LT(successor_weights.share[2], 65535 / 20);
+  EXPECT_EQ(successor_weights.share[3], 65535);
+  EXPECT_GT(successor_weights.chances[0], 0.95);
+  EXPECT_NEAR(successor_weights.chances[0] + successor_weights.chances[1], 1, 1e-12);
 }
 
 TEST(SuccessorModes, WhatTheHistoryFindsRareIsRaisedByWhatIsNearby) {
   const Recorded recorded = two_places();
   const std::size_t kept[] = {1};
   const double transitions[] = {0.5, 0.5, 0.95, 0.05};
-  const SuccessorModes onward = successor_modes(recorded.moments, recorded.mode, one_each(), kept, transitions, 2);
-  EXPECT_EQ(onward.share[1], 65535);
-  EXPECT_GT(onward.chances[1], 0.5);
+  const SuccessorModes successor_weights =
+      successor_modes(recorded.moments, recorded.mode, one_each(), kept, transitions, 2);
+  EXPECT_EQ(successor_weights.share[1], 65535);
+  EXPECT_GT(successor_weights.chances[1], 0.5);
 }
 
 TEST(SuccessorModes, WhatStandsForManyCountsAsMany) {
@@ -55,9 +57,10 @@ TEST(SuccessorModes, WhatStandsForManyCountsAsMany) {
   std::vector<double> weight = one_each();
   for (std::size_t k = 1; k < weight.size(); k += 2) weight[k] = 3;
   const SuccessorModes even = successor_modes(recorded.moments, recorded.mode, one_each(), kept, transitions, 2);
-  const SuccessorModes onward = successor_modes(recorded.moments, recorded.mode, weight, kept, transitions, 2);
+  const SuccessorModes successor_weights =
+      successor_modes(recorded.moments, recorded.mode, weight, kept, transitions, 2);
   EXPECT_NEAR(even.chances[1], 0.5, 1e-12);
-  EXPECT_NEAR(onward.chances[1], 0.75, 0.01);
+  EXPECT_NEAR(successor_weights.chances[1], 0.75, 0.01);
 }
 
 }  // namespace

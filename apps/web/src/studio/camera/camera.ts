@@ -14,7 +14,7 @@ import { KEPT_HEIGHT } from '../reel.js';
 export class CameraTrouble extends Error {}
 
 /** More frames than that which wait to be looked at: this machine is too slow for all of them. */
-const MOST_WAITING = 6;
+const MAX_WAITING = 6;
 /** Pictures that are kept a second. */
 export const KEPT_RATE = 12;
 
@@ -139,7 +139,7 @@ export class Camera {
   /** Watches the camera, or the picture in which it is shown: once, until the camera is closed. */
   watch(video: HTMLVideoElement): void {
     if (Processor === undefined) this.watchPicture(video);
-    else void this.watchTrack(new Processor({ track: this.picture, maxBufferSize: MOST_WAITING }).readable.getReader());
+    else void this.watchTrack(new Processor({ track: this.picture, maxBufferSize: MAX_WAITING }).readable.getReader());
   }
 
   private async watchTrack(frames: ReadableStreamDefaultReader<VideoFrame>): Promise<void> {
@@ -150,7 +150,7 @@ export class Camera {
       const seconds = frame.timestamp / 1e6;
       if (!this.heeds) offset = Math.min(offset, performance.now() / 1000 - seconds);
       const { live } = this;
-      if (live !== null && live.waiting < MOST_WAITING && count % this.every === 0) live.frame(frame, seconds + offset);
+      if (live !== null && live.waiting < MAX_WAITING && count % this.every === 0) live.frame(frame, seconds + offset);
       else frame.close();
       if (this.ended) await frames.cancel();
     }
@@ -162,7 +162,7 @@ export class Camera {
       if (this.ended) return;
       frames += 1;
       const { live } = this;
-      if (live !== null && live.waiting < MOST_WAITING && frames % this.every === 0) {
+      if (live !== null && live.waiting < MAX_WAITING && frames % this.every === 0) {
         void this.hand(live, video, (taken?.captureTime ?? now) / 1000);
       }
       this.next(video, frame);

@@ -1,7 +1,7 @@
 // Taking it away: the model, what it was learned from, a link, a tag for a page, a few seconds of film, files for other tools.
 
 import type { ExportSettings } from '@wisp/studio';
-import { MOST_PACKED_BYTES, packModel } from '../../model_link.js';
+import { MAX_PACKED_BYTES, packModel } from '../../model_link.js';
 import { element } from '../../panel/element.js';
 import { telling } from '../../panel/telling.js';
 import { saveFile } from '../../saving.js';
@@ -45,7 +45,7 @@ export function takingOf(session: Session, events: TakingEvents): HTMLElement {
     return Promise.resolve('Saved');
   });
   const link = telling('A link', 'link', '', async () => {
-    if (model.length > MOST_PACKED_BYTES) return 'Too large: learn it light';
+    if (model.length > MAX_PACKED_BYTES) return 'Too large: learn it light';
     const address = new URL(location.href);
     address.hash = new URLSearchParams({ scene: 'candle', seed: '1', model: await packModel(model) }).toString();
     return copy(address.href);

@@ -7,7 +7,7 @@ import { surfaceOf } from './surface.js';
 
 const COLOURS = ['#7fc4ff', '#ffb35c', '#9fd8a4', '#e690b8'];
 const MARGIN = { left: 54, right: 8, top: 8, bottom: 30 };
-const MOST_PLOTS = 6;
+const MAX_PLOTS = 6;
 
 const short = (value: number): string => (value === 0 ? '0' : String(Number(value.toPrecision(Math.abs(value) < 1e-3 ? 2 : 3))).replace('-', '−'));
 
@@ -46,7 +46,7 @@ export function plotsOf(curves: readonly Curve[]): HTMLElement[] {
   }
   return [...groups.entries()]
     .sort(([one], [other]) => parseInt(one) - parseInt(other))
-    .slice(0, MOST_PLOTS)
+    .slice(0, MAX_PLOTS)
     .map(([key, group], _, all) => plotOf(group, FAMILIES[parseInt(key)]?.[1] ?? '', all.map(([, other]) => other)));
 }
 
@@ -66,7 +66,7 @@ const isEdge = ({ id }: Curve): boolean => /\.(low|high|bound)$/.test(id);
 const SHAPES = [0.45, 1.8] as const;
 
 /** Falls that are shown. */
-const MOST_FALLS = 12;
+const MAX_FALLS = 12;
 
 /** A way as seen from the side, from where it begins. */
 function wayOf(id: string, across: readonly number[], up: readonly number[]): Curve {
@@ -78,7 +78,7 @@ function wayOf(id: string, across: readonly number[], up: readonly number[]): Cu
 function fallsOf({ series, episodes, rows }: Captured): Curve[] {
   const [x, z] = ['pos.x', 'pos.z'].map((name) => series.find((one) => one.name === name)?.samples);
   if (x === undefined || z === undefined) return [];
-  return episodes.slice(0, MOST_FALLS).map((begin, k) => {
+  return episodes.slice(0, MAX_FALLS).map((begin, k) => {
     const end = episodes[k + 1] ?? rows;
     return wayOf(`fall.${k}`, [...x.subarray(begin, end)], [...z.subarray(begin, end)]);
   });
@@ -86,7 +86,7 @@ function fallsOf({ series, episodes, rows }: Captured): Curve[] {
 
 /** Falls of a model, as many and as long as those that are shown of the recording. */
 export function fallsPlayed(wisp: Library, bytes: Uint8Array, { episodes, rows }: Captured): Curve[] {
-  const shown = episodes.slice(0, MOST_FALLS);
+  const shown = episodes.slice(0, MAX_FALLS);
   const model = wisp.model(bytes);
   const bank = model.bank({ capacity: Math.max(1, shown.length), seed: 1 });
   const instances = shown.map(() => bank.spawn());

@@ -1,4 +1,4 @@
-#include "learn/outline/outline_drawn.hpp"
+#include "learn/outline/resampled_residuals.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -16,7 +16,7 @@ constexpr double kLagSeconds[] = {0, 3.0 / 60, 7.0 / 60, 13.0 / 60, 22.0 / 60};
 constexpr double kLongestSeconds = 1.5;       // from one jump to the next: longer would repeat what was recorded
 constexpr double kLongestAloneSeconds = 0.5;  // where no input says when to go elsewhere
 constexpr double kCalm = 0.04;                // of wind 1: less than this does not move what stands still
-constexpr double kMargin = 0.01;  // of wind 1: what no microphone tells apart; more makes the search less sharp
+constexpr double kMargin = 0.01;  // of wind 1: below what a microphone resolves; more makes the search less sharp
 constexpr double kMinSeconds = 1;
 constexpr double kLargestStored = 32767;
 
@@ -118,7 +118,7 @@ std::int16_t stored(double value, double scale) {
   return static_cast<std::int16_t>(std::clamp(units, -kLargestStored, kLargestStored));
 }
 
-void find_scales(const std::vector<RowStretch>& stretches, DrawnResiduals& out) {
+void find_scales(const std::vector<RowStretch>& stretches, ResampledResiduals& out) {
   out.scale.assign(stretches.front().rows.front().residual.size(), 0.0);
   const auto grow = [](double& scale, double value) { scale = std::max(scale, std::abs(value) / kLargestStored); };
   for (const RowStretch& stretch : stretches) {
@@ -130,7 +130,7 @@ void find_scales(const std::vector<RowStretch>& stretches, DrawnResiduals& out) 
   }
 }
 
-void store_rows(const std::vector<RowStretch>& stretches, DrawnResiduals& out) {
+void store_rows(const std::vector<RowStretch>& stretches, ResampledResiduals& out) {
   find_scales(stretches, out);
   const auto hear = [&](double wind) {
     if (out.toward >= 0) out.winds.push_back(stored(wind, out.wind_scale));
@@ -167,11 +167,11 @@ std::vector<int> mirror_image(std::size_t points) {
 
 }  // namespace
 
-Result<DrawnResiduals> drawn_residuals(const ArxModel& model, std::span<const Recording> recordings,
-                                       const PreparedOutlines& prepared, const DrawnOptions& options) {
+Result<ResampledResiduals> resampled_residuals(const ArxModel& model, std::span<const Recording> recordings,
+                                               const PreparedOutlines& prepared, const ResamplingOptions& options) {
   const double rate = recordings.front().rate_hz;
   const bool driven = !prepared.inputs.empty();
-  DrawnResiduals out;
+  ResampledResiduals out;
   if (driven) out.lags = lags_of(rate);
   const auto past = static_cast<std::size_t>(driven ? out.lags.back() : 0);
   std::vector<RowStretch> stretches;
@@ -181,8 +181,8 @@ Result<DrawnResiduals> drawn_residuals(const ArxModel& model, std::span<const Re
     for (RowStretch& stretch : *found) stretches.push_back(std::move(stretch));
   }
   const std::size_t bytes_a_row = 2 * prepared.channels.outputs.size();
-  keep_at_most(stretches, std::min(kMostDrawnRows, options.most_bytes / bytes_a_row));
-  if (static_cast<double>(row_count(stretches)) < kMinSeconds * rate) return DrawnResiduals{};
+  keep_at_most(stretches, std::min(kMaxResampledRows, options.max_bytes / bytes_a_row));
+  if (static_cast<double>(row_count(stretches)) < kMinSeconds * rate) return ResampledResiduals{};
   if (driven) out.toward = 0;
   if (driven && prepared.shape.split_sign) out.against = prepared.shape.powers ? 3 : 1;
   if (out.against >= 0 && options.mirror) out.mirror = mirror_image(prepared.layout.points);

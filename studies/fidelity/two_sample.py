@@ -5,16 +5,16 @@ import sklearn
 from sklearn.ensemble import HistGradientBoostingClassifier
 
 FOLDS = 5
-MOST_WINDOWS = 500
+MAX_WINDOWS = 500
 TREES = f"gradient-boosted trees (scikit-learn {sklearn.__version__})"
 
 
 def thinned(where):
-    """At most MOST_WINDOWS of the chosen rows, evenly spread."""
+    """At most MAX_WINDOWS of the chosen rows, evenly spread."""
     chosen = np.flatnonzero(where)
-    if len(chosen) <= MOST_WINDOWS:
+    if len(chosen) <= MAX_WINDOWS:
         return chosen
-    return chosen[np.linspace(0, len(chosen) - 1, MOST_WINDOWS).astype(int)]
+    return chosen[np.linspace(0, len(chosen) - 1, MAX_WINDOWS).astype(int)]
 
 
 def accuracies(x, y, groups, splits, **settings):

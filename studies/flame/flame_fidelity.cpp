@@ -1,4 +1,4 @@
-#include "studies/flame/flame_likeness.hpp"
+#include "studies/flame/flame_fidelity.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kSeenPoints = 8;
 constexpr double kWindowSeconds = 0.5;
-constexpr std::size_t kMostWindows = 500;
+constexpr std::size_t kMaxWindows = 500;
 
 }  // namespace
 
@@ -38,8 +38,8 @@ Recording as_seen(const Recording& recording, const std::vector<double>& knots) 
 void write_windows(std::ostream& out, const std::string& side, std::size_t clip, const Recording& seen) {
   const auto stretches = value_or_abort(stretches_of(seen, outline_outputs(kSeenPoints)));
   const auto rows = static_cast<std::size_t>(std::lround(kWindowSeconds * seen.rate_hz));
-  const std::size_t hop = std::max<std::size_t>(1, total_rows(stretches) / kMostWindows);
-  const FeatureWindows windows = thinned(motion_windows(stretches, rows, hop), kMostWindows);
+  const std::size_t hop = std::max<std::size_t>(1, total_rows(stretches) / kMaxWindows);
+  const FeatureWindows windows = thinned(motion_windows(stretches, rows, hop), kMaxWindows);
   for (std::size_t k = 0; k < windows.size(); ++k) {
     out << side << ',' << clip << ',' << windows.blocks[k];
     for (double value : windows.window(k)) out << ',' << value;

@@ -17,17 +17,16 @@
 namespace wisp {
 
 /// How residuals are kept.
-struct DrawnOptions {
-  std::size_t most_bytes = 256 * 1024;  ///< of rows; of longer recordings the first part of each is kept
-  double tolerance = 0.1;               ///< DrawnResiduals::tolerance, of wind 1
-  bool mirror = false;                  ///< signed inputs: the other side plays mirror images
+struct ResamplingOptions {
+  std::size_t max_bytes = 256 * 1024;  ///< of rows; of longer recordings the first part of each is kept
+  double tolerance = 0.1;              ///< ResampledResiduals::tolerance, of wind 1
+  bool mirror = false;                 ///< signed inputs: the other side plays mirror images
 };
 
-/// What `model` leaves of the prepared recordings one step ahead, ready to be drawn; empty where nothing is left that
-/// could be (less than a second).
-/// Errors: as predict().
-Result<DrawnResiduals> drawn_residuals(const ArxModel& model, std::span<const Recording> recordings,
-                                       const PreparedOutlines& prepared, const DrawnOptions& options);
+/// What `model` leaves of the prepared recordings one step ahead, ready to be resampled; empty where nothing is left
+/// that could be (less than a second). Errors: as predict().
+Result<ResampledResiduals> resampled_residuals(const ArxModel& model, std::span<const Recording> recordings,
+                                               const PreparedOutlines& prepared, const ResamplingOptions& options);
 
 /// The same dynamics about the operating point where all inputs are 0: inputs' means are 0 then, and a regressor that
 /// is 0 adds nothing.

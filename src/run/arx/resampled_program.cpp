@@ -1,4 +1,4 @@
-#include "run/arx/drawn_program.hpp"
+#include "run/arx/resampled_program.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,35 +11,35 @@
 namespace wisp {
 namespace {
 
-constexpr double kMostUnits = 1e9;        // of a residual or a wind, in ranges: no sum overflows
-constexpr std::uint32_t kFewestLeft = 6;  // rows that follow one to which a jump leads, where any has as many
+constexpr double kMaxUnits = 1e9;      // of a residual or a wind, in ranges: no sum overflows
+constexpr std::uint32_t kMinLeft = 6;  // rows that follow one to which a jump leads, where any has as many
 
 float bounded(double value) {
-  if (std::abs(value) < kLeastCoefficient) return 0.0f;
-  return static_cast<float>(std::clamp(value, -kMostUnits, kMostUnits));
+  if (std::abs(value) < kMinCoefficient) return 0.0f;
+  return static_cast<float>(std::clamp(value, -kMaxUnits, kMaxUnits));
 }
 
 // Calls visit(row, left, stretch) for every row.
 template <class Visit>
-void each_row(const DrawnResiduals& drawn, Visit visit) {
+void each_row(const ResampledResiduals& resampled, Visit visit) {
   std::uint32_t begin = 0, stretch = 0;
-  for (std::uint32_t end : drawn.ends) {
+  for (std::uint32_t end : resampled.ends) {
     for (std::uint32_t row = begin; row < end; ++row) visit(row, end - 1 - row, stretch);
     begin = end;
     ++stretch;
   }
 }
 
-std::uint32_t most_left(const DrawnResiduals& drawn) {
+std::uint32_t max_left(const ResampledResiduals& resampled) {
   std::uint32_t most = 0;
-  each_row(drawn, [&](std::uint32_t, std::uint32_t left, std::uint32_t) { most = std::max(most, left); });
-  return std::min(most, kFewestLeft);
+  each_row(resampled, [&](std::uint32_t, std::uint32_t left, std::uint32_t) { most = std::max(most, left); });
+  return std::min(most, kMinLeft);
 }
 
-std::size_t count_targets(const DrawnResiduals& drawn) {
-  const std::uint32_t least = most_left(drawn);
+std::size_t count_targets(const ResampledResiduals& resampled) {
+  const std::uint32_t least = max_left(resampled);
   std::size_t count = 0;
-  each_row(drawn, [&](std::uint32_t, std::uint32_t left, std::uint32_t) { count += left >= least ? 1 : 0; });
+  each_row(resampled, [&](std::uint32_t, std::uint32_t left, std::uint32_t) { count += left >= least ? 1 : 0; });
   return count;
 }
 
@@ -50,17 +50,19 @@ std::size_t count_nodes(std::size_t rows) {
 }
 
 // In the regressor's channel units, as deviations from its mean where the channel is one.
-void fill_winds(const Model& model, const ArxModel& arx, const DrawnResiduals& drawn, DrawnProgram& program) {
-  const double unit = drawn.wind_scale / regressor_scale(model, drawn.toward);
-  const double mean = (arx.input_mean[drawn.toward] - (drawn.against < 0 ? 0 : arx.input_mean[drawn.against])) /
-                      regressor_scale(model, drawn.toward);
-  for (std::size_t k = 0; k < program.wind.size(); ++k) program.wind[k] = bounded(drawn.winds[k] * unit - mean);
-  const auto lags = static_cast<double>(drawn.lags.size());
-  program.tolerance = bounded(lags * drawn.tolerance / regressor_scale(model, drawn.toward));
-  program.margin = bounded(drawn.margin / regressor_scale(model, drawn.toward));
-  std::copy(drawn.lags.begin(), drawn.lags.end(), program.lags.begin());
+void fill_winds(const Model& model, const ArxModel& arx, const ResampledResiduals& resampled,
+                ResampledProgram& program) {
+  const double unit = resampled.wind_scale / regressor_scale(model, resampled.toward);
+  const double mean =
+      (arx.input_mean[resampled.toward] - (resampled.against < 0 ? 0 : arx.input_mean[resampled.against])) /
+      regressor_scale(model, resampled.toward);
+  for (std::size_t k = 0; k < program.wind.size(); ++k) program.wind[k] = bounded(resampled.winds[k] * unit - mean);
+  const auto lags = static_cast<double>(resampled.lags.size());
+  program.tolerance = bounded(lags * resampled.tolerance / regressor_scale(model, resampled.toward));
+  program.margin = bounded(resampled.margin / regressor_scale(model, resampled.toward));
+  std::copy(resampled.lags.begin(), resampled.lags.end(), program.lags.begin());
   const auto before = static_cast<std::uint32_t>(program.depth - 1);
-  each_row(drawn, [&](std::uint32_t row, std::uint32_t, std::uint32_t stretch) {
+  each_row(resampled, [&](std::uint32_t row, std::uint32_t, std::uint32_t stretch) {
     program.now[row] = row + (stretch + 1) * before;
     float sum = 0;
     for (std::uint32_t lag : program.lags) sum = sum + program.wind[program.now[row] - lag];
@@ -71,7 +73,7 @@ void fill_winds(const Model& model, const ArxModel& arx, const DrawnResiduals& d
 // A balanced k-d tree (J. L. Bentley, Communications of the ACM 18 (1975)) over the inputs' pasts.
 class PastTree {
  public:
-  explicit PastTree(DrawnProgram& program) : program_(program) {}
+  explicit PastTree(ResampledProgram& program) : program_(program) {}
 
   void fill(std::size_t node, std::size_t begin, std::size_t end) {
     if (node >= program_.nodes.size()) return;
@@ -118,11 +120,11 @@ class PastTree {
     return best;
   }
 
-  DrawnProgram& program_;
+  ResampledProgram& program_;
 };
 
 // The rows of each leaf, with all that a comparison reads in one piece.
-void fill_leaves(DrawnProgram& program, std::size_t node, std::size_t begin, std::size_t end) {
+void fill_leaves(ResampledProgram& program, std::size_t node, std::size_t begin, std::size_t end) {
   if (node < program.nodes.size()) {
     const std::size_t middle = begin + (end - begin) / 2;
     fill_leaves(program, 2 * node + 1, begin, middle);
@@ -146,36 +148,36 @@ void fill_leaves(DrawnProgram& program, std::size_t node, std::size_t begin, std
   }
 }
 
-void fill_tree(const DrawnResiduals& drawn, DrawnProgram& program) {
-  const std::uint32_t least = most_left(drawn);
+void fill_tree(const ResampledResiduals& resampled, ResampledProgram& program) {
+  const std::uint32_t least = max_left(resampled);
   std::size_t next = 0;
-  each_row(drawn, [&](std::uint32_t row, std::uint32_t left, std::uint32_t) {
+  each_row(resampled, [&](std::uint32_t row, std::uint32_t left, std::uint32_t) {
     if (left >= least) program.order[next++] = row;
   });
   PastTree(program).fill(0, 0, program.order.size());
   fill_leaves(program, 0, 0, program.order.size());
 }
 
-void fill_rows(const Model& model, const DrawnResiduals& drawn, DrawnProgram& program) {
-  for (std::size_t k = 0; k < drawn.rows.size(); ++k) {
-    const std::size_t i = k % drawn.scale.size();
+void fill_rows(const Model& model, const ResampledResiduals& resampled, ResampledProgram& program) {
+  for (std::size_t k = 0; k < resampled.rows.size(); ++k) {
+    const std::size_t i = k % resampled.scale.size();
     const Output& out = model.outputs[i];
-    program.rows[k] = bounded(drawn.rows[k] * (drawn.scale[i] / channel_scale(out.lowest, out.highest)));
+    program.rows[k] = bounded(resampled.rows[k] * (resampled.scale[i] / channel_scale(out.lowest, out.highest)));
   }
-  each_row(drawn, [&](std::uint32_t row, std::uint32_t left, std::uint32_t) { program.left[row] = left; });
+  each_row(resampled, [&](std::uint32_t row, std::uint32_t left, std::uint32_t) { program.left[row] = left; });
 }
 
-void fill_sides(const Model& model, const DrawnResiduals& drawn, DrawnProgram& program) {
+void fill_sides(const Model& model, const ResampledResiduals& resampled, ResampledProgram& program) {
   const auto ny = static_cast<std::size_t>(program.outputs);
   const auto unit = [&](std::size_t i) { return channel_scale(model.outputs[i].lowest, model.outputs[i].highest); };
   for (std::size_t i = 0; i < ny; ++i) {
     program.from[i] = static_cast<std::uint16_t>(i);
     program.factor[i] = 1.0f;
   }
-  for (std::size_t i = 0; i < drawn.mirror.size(); ++i) {
-    const auto from = static_cast<std::size_t>(std::abs(drawn.mirror[i]) - 1);
+  for (std::size_t i = 0; i < resampled.mirror.size(); ++i) {
+    const auto from = static_cast<std::size_t>(std::abs(resampled.mirror[i]) - 1);
     program.from[ny + i] = static_cast<std::uint16_t>(from);
-    program.factor[ny + i] = bounded((drawn.mirror[i] < 0 ? -1 : 1) * unit(from) / unit(i));
+    program.factor[ny + i] = bounded((resampled.mirror[i] < 0 ? -1 : 1) * unit(from) / unit(i));
   }
   if (!program.mirrors()) return;
   // Units are powers of two: it makes no difference that mirror images are made here, and not when they are played.
@@ -189,43 +191,43 @@ void fill_sides(const Model& model, const DrawnResiduals& drawn, DrawnProgram& p
 
 }  // namespace
 
-DrawnProgram make_drawn_program(const Model& model, const ArxModel& arx, Arena& arena) {
-  const DrawnResiduals& drawn = arx.noise.drawn;
-  DrawnProgram program;
-  if (drawn.empty()) return program;
+ResampledProgram make_resampled_program(const Model& model, const ArxModel& arx, Arena& arena) {
+  const ResampledResiduals& resampled = arx.noise.resampled;
+  ResampledProgram program;
+  if (resampled.empty()) return program;
   program.outputs = arx.orders.outputs();
-  program.toward = drawn.toward;
-  program.against = drawn.against;
-  program.longest = static_cast<std::uint32_t>(drawn.longest);
-  program.sides = drawn.mirror.empty() ? 1 : 2;
-  program.depth = drawn.lags.empty() ? 1 : static_cast<int>(drawn.lags.back()) + 1;
-  const std::size_t rows = drawn.row_count(), past = program.driven() ? rows : 0;
-  const std::size_t targets = program.driven() ? count_targets(drawn) : 0;
-  program.lags = arena.take<std::uint32_t>(drawn.lags.size());
-  const std::size_t numbers = static_cast<std::size_t>(program.sides) * drawn.rows.size();
+  program.toward = resampled.toward;
+  program.against = resampled.against;
+  program.longest = static_cast<std::uint32_t>(resampled.longest);
+  program.sides = resampled.mirror.empty() ? 1 : 2;
+  program.depth = resampled.lags.empty() ? 1 : static_cast<int>(resampled.lags.back()) + 1;
+  const std::size_t rows = resampled.row_count(), past = program.driven() ? rows : 0;
+  const std::size_t targets = program.driven() ? count_targets(resampled) : 0;
+  program.lags = arena.take<std::uint32_t>(resampled.lags.size());
+  const std::size_t numbers = static_cast<std::size_t>(program.sides) * resampled.rows.size();
   const auto padded = arena.take<float>(numbers + 3);  // they are read four at a time
   program.rows = padded.first(padded.empty() ? 0 : numbers);
   program.left = arena.take<std::uint32_t>(rows);
-  program.wind = arena.take<float>(drawn.winds.size());
+  program.wind = arena.take<float>(resampled.winds.size());
   program.now = arena.take<std::uint32_t>(past);
   program.turned = arena.take<std::uint8_t>(past);
   const std::size_t nodes = program.driven() ? count_nodes(targets) : 0, leaves = program.driven() ? nodes + 1 : 0;
   program.nodes = arena.take<PastNode>(nodes);
   program.leaves = arena.take<Candidates>(leaves);
-  program.leaf_wind = arena.take<float>(leaves * drawn.lags.size() * kCandidates);
+  program.leaf_wind = arena.take<float>(leaves * resampled.lags.size() * kCandidates);
   program.order = arena.take<std::uint32_t>(targets);
   program.from = arena.take<std::uint16_t>(static_cast<std::size_t>(program.sides) * program.outputs);
   program.factor = arena.take<float>(static_cast<std::size_t>(program.sides) * program.outputs);
   if (arena.measures()) return program;
-  fill_rows(model, drawn, program);
-  fill_sides(model, drawn, program);
+  fill_rows(model, resampled, program);
+  fill_sides(model, resampled, program);
   if (!program.driven()) return program;
-  fill_winds(model, arx, drawn, program);
-  fill_tree(drawn, program);
+  fill_winds(model, arx, resampled, program);
+  fill_tree(resampled, program);
   return program;
 }
 
-bool residuals_mirror(const DrawnProgram& program, int a, int b) {
+bool residuals_mirror(const ResampledProgram& program, int a, int b) {
   const auto ny = static_cast<std::size_t>(program.outputs);
   for (std::size_t row = 0; row < program.rows.size(); row += ny) {
     if (program.rows[row + a] != -program.rows[row + b]) return false;
@@ -234,7 +236,7 @@ bool residuals_mirror(const DrawnProgram& program, int a, int b) {
 }
 
 // What the tree is follows from the rest.
-std::uint64_t hash_of(const DrawnProgram& program, std::uint64_t before) {
+std::uint64_t hash_of(const ResampledProgram& program, std::uint64_t before) {
   if (program.empty()) return before;
   std::uint64_t hash = before;
   for (int number : {program.toward, program.against}) hash = hash_number(static_cast<std::uint32_t>(number), hash);

@@ -29,20 +29,20 @@ Model bare_model(InputShape shape = InputShape::kSplitSign) {
   arx.constant = arx.output_mean = {0, 0};
   arx.noise.sd = {1, 1};
   arx.input_mean.assign(regressors, 0.0);
-  DrawnResiduals& drawn = arx.noise.drawn;
-  drawn = drawn_flame_residuals(2, kRows, splits_sign(shape));
-  drawn.scale = {1, 1};
+  ResampledResiduals& resampled = arx.noise.resampled;
+  resampled = resampled_flame_residuals(2, kRows, splits_sign(shape));
+  resampled.scale = {1, 1};
   for (int row = 0; row < kRows; ++row) {
-    drawn.rows[2 * row] = static_cast<std::int16_t>(row + 1);
-    drawn.rows[2 * row + 1] = 1;
+    resampled.rows[2 * row] = static_cast<std::int16_t>(row + 1);
+    resampled.rows[2 * row + 1] = 1;
   }
-  if (splits_sign(shape)) drawn.mirror = {-1, 2};
+  if (splits_sign(shape)) resampled.mirror = {-1, 2};
   for (const char* name : {"x", "y"}) model.outputs.push_back({name, "", -500, 500});
   model.dynamics = arx;
   return model;
 }
 
-DrawnResiduals& drawn_of(Model& model) { return std::get<ArxModel>(model.dynamics).noise.drawn; }
+ResampledResiduals& resampled_of(Model& model) { return std::get<ArxModel>(model.dynamics).noise.resampled; }
 
 // The swinging wind that the residuals were recorded in.
 float swing(int frame) { return 0.1f * static_cast<float>(frame % 20 < 10 ? frame % 20 : 20 - frame % 20); }
@@ -66,7 +66,7 @@ std::vector<int> rows_played(const Model& model, int frames, Wind wind, std::uin
   return rows;
 }
 
-TEST(DrawnResiduals, GoOnWhileTheWindIsAsItWasThen) {
+TEST(ResampledResiduals, GoOnWhileTheWindIsAsItWasThen) {
   const auto rows = rows_played(bare_model(), 400, swing);
   int jumps = 0, longest = 0, since = 0;
   for (int frame = 30; frame < 400; ++frame) {
@@ -82,7 +82,7 @@ TEST(DrawnResiduals, GoOnWhileTheWindIsAsItWasThen) {
   EXPECT_LT(jumps, 30);
 }
 
-TEST(DrawnResiduals, JumpWhereTheWindWasAlikeWhenItIsNot) {
+TEST(ResampledResiduals, JumpWhereTheWindWasAlikeWhenItIsNot) {
   const auto steady = [](int) { return 0.5f; };
   const auto rows = rows_played(bare_model(), 400, steady);
   std::set<int> seen;
@@ -94,11 +94,11 @@ TEST(DrawnResiduals, JumpWhereTheWindWasAlikeWhenItIsNot) {
   EXPECT_GT(seen.size(), 60u);  // by chance, not the same each time
 }
 
-TEST(DrawnResiduals, NeverCrossTheEndOfAStretch) {
+TEST(ResampledResiduals, NeverCrossTheEndOfAStretch) {
   Model model = bare_model();
-  DrawnResiduals& drawn = drawn_of(model);
-  drawn.tolerance = 10;
-  drawn.longest = 1000;
+  ResampledResiduals& resampled = resampled_of(model);
+  resampled.tolerance = 10;
+  resampled.longest = 1000;
   const auto rows = rows_played(model, 20000, swing);
   int ends = 0, crossed = 0;
   for (std::size_t k = 1; k < rows.size(); ++k) {
@@ -109,7 +109,7 @@ TEST(DrawnResiduals, NeverCrossTheEndOfAStretch) {
   EXPECT_LT(crossed, ends / 5);  // by chance one in 64, the number of rows that are alike
 }
 
-TEST(DrawnResiduals, WindFromTheOtherSidePlaysMirrorImages) {
+TEST(ResampledResiduals, WindFromTheOtherSidePlaysMirrorImages) {
   const auto rows = rows_played(bare_model(), 300, [](int frame) { return -swing(frame); });
   for (int frame = 40; frame < 300; ++frame) {
     if (swing(frame) < 0.35f) continue;  // calm has no side
@@ -118,13 +118,13 @@ TEST(DrawnResiduals, WindFromTheOtherSidePlaysMirrorImages) {
   }
 }
 
-TEST(DrawnResiduals, WithoutAnInputAnyRowMayFollow) {
+TEST(ResampledResiduals, WithoutAnInputAnyRowMayFollow) {
   Model model = bare_model(InputShape::kLinear);
-  DrawnResiduals& drawn = drawn_of(model);
-  drawn.toward = -1;
-  drawn.winds.clear();
-  drawn.lags.clear();
-  drawn.longest = 10;
+  ResampledResiduals& resampled = resampled_of(model);
+  resampled.toward = -1;
+  resampled.winds.clear();
+  resampled.lags.clear();
+  resampled.longest = 10;
   const auto rows = rows_played(model, 2000, swing);
   std::set<int> seen(rows.begin(), rows.end());
   EXPECT_GT(seen.size(), 350u);
@@ -135,16 +135,16 @@ TEST(DrawnResiduals, WithoutAnInputAnyRowMayFollow) {
   }
 }
 
-TEST(DrawnResiduals, AnotherSeedPlaysOtherRows) {
+TEST(ResampledResiduals, AnotherSeedPlaysOtherRows) {
   const auto steady = [](int) { return 0.5f; };
   EXPECT_NE(rows_played(bare_model(), 100, steady, 1), rows_played(bare_model(), 100, steady, 2));
   EXPECT_EQ(rows_played(bare_model(), 100, steady, 1), rows_played(bare_model(), 100, steady, 1));
 }
 
 // The same wind now, after another: 0.5 on the way up is not 0.5 on the way down.
-TEST(DrawnResiduals, JumpWhereTheInputsPastWasAlike) {
+TEST(ResampledResiduals, JumpWhereTheInputsPastWasAlike) {
   Model model = bare_model();
-  drawn_of(model).longest = 1;  // a jump every step
+  resampled_of(model).longest = 1;  // a jump every step
   const auto rows = rows_played(model, 600, swing);
   for (int frame = 40; frame < 600; ++frame) {
     const int row = rows[frame] - 1;
@@ -154,11 +154,11 @@ TEST(DrawnResiduals, JumpWhereTheInputsPastWasAlike) {
 }
 
 // In calm all rows of calm are alike: none of them is favoured, and none is heard again within a second.
-TEST(DrawnResiduals, InAWindThatStaysEveryRowThatIsAlikeHasItsTurn) {
+TEST(ResampledResiduals, InAWindThatStaysEveryRowThatIsAlikeHasItsTurn) {
   Model model = bare_model();
-  DrawnResiduals& drawn = drawn_of(model);
-  std::fill(drawn.winds.begin(), drawn.winds.end(), std::int16_t{0});
-  drawn.longest = 10;
+  ResampledResiduals& resampled = resampled_of(model);
+  std::fill(resampled.winds.begin(), resampled.winds.end(), std::int16_t{0});
+  resampled.longest = 10;
   const auto rows = rows_played(model, 4000, [](int) { return 0.0f; });
   std::set<int> seen;
   for (std::size_t k = 1; k < rows.size(); ++k) {
@@ -169,7 +169,7 @@ TEST(DrawnResiduals, InAWindThatStaysEveryRowThatIsAlikeHasItsTurn) {
   EXPECT_GT(seen.size(), 350u);
 }
 
-TEST(DrawnResiduals, AreScaledByTheNoise) {
+TEST(ResampledResiduals, AreScaledByTheNoise) {
   auto bank = Bank::create(bare_model(), {});
   ASSERT_TRUE(bank);
   const InstanceId id = bank->spawn();
@@ -182,8 +182,8 @@ TEST(DrawnResiduals, AreScaledByTheNoise) {
   }
 }
 
-TEST(DrawnResiduals, AnInstanceLivesTheSameLifeInABankOfAnySizeAndAfterARestore) {
-  const Model model = flame_model({.wind = InputShape::kSplitSign, .drawn_rows = 300});
+TEST(ResampledResiduals, AnInstanceLivesTheSameLifeInABankOfAnySizeAndAfterARestore) {
+  const Model model = flame_model({.wind = InputShape::kSplitSign, .resampled_rows = 300});
   const auto lived = [&](int capacity, bool restored) {
     auto bank = Bank::create(model, {.capacity = capacity});
     EXPECT_TRUE(bank);
@@ -214,12 +214,12 @@ TEST(DrawnResiduals, AnInstanceLivesTheSameLifeInABankOfAnySizeAndAfterARestore)
   EXPECT_EQ(lived(13, true), alone);
 }
 
-TEST(DrawnResiduals, CostAProductAndASumAnOutputAndNowAndThenAJump) {
+TEST(ResampledResiduals, CostAProductAndASumAnOutputAndNowAndThenAJump) {
   const Cost gaussian = *count_operations(flame_model({.wind = InputShape::kSplitSign, .noise_rank = 4}));
-  const Cost drawn = *count_operations(flame_model({.wind = InputShape::kSplitSign, .drawn_rows = 600}));
-  EXPECT_LT(drawn.noise_operations, 16 * 2 + 130);
-  EXPECT_LT(drawn.random_operations, 50);  // in a wind that was never recorded it searches in every step
-  EXPECT_EQ(drawn.dynamics_operations, gaussian.dynamics_operations + 1);  // what blows less what blows against it
+  const Cost resampled = *count_operations(flame_model({.wind = InputShape::kSplitSign, .resampled_rows = 600}));
+  EXPECT_LT(resampled.noise_operations, 16 * 2 + 130);
+  EXPECT_LT(resampled.random_operations, 50);  // in a wind that was never recorded it searches in every step
+  EXPECT_EQ(resampled.dynamics_operations, gaussian.dynamics_operations + 1);  // what blows less what blows against it
 }
 
 }  // namespace

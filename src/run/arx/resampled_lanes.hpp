@@ -1,7 +1,7 @@
 #pragma once
-// Plays residuals as they were (DrawnResiduals), lane by lane. An instance's state is the row that it is at, how long
-// ago it jumped there, the blocks that it played before, and its input's recent past. Jumps are decided by comparisons
-// and taken by counted random words.
+// Plays residuals as they were (ResampledResiduals), lane by lane. An instance's state is the row that it is at, how
+// long ago it jumped there, the blocks that it played before, and its input's recent past. Jumps are decided by
+// comparisons and taken by counted random words.
 //
 // Where a jump leads is a search for the rows whose input's past is nearest (D. Kovar, M. Gleicher, F. Pighin, "Motion
 // Graphs", SIGGRAPH 2002, and S. Clavet, "Motion Matching", GDC 2016, are its kin in animation): one way down a k-d
@@ -13,19 +13,19 @@
 #include <limits>
 #include <span>
 
-#include "run/arx/drawn_program.hpp"
+#include "run/arx/resampled_program.hpp"
 #include "run/bank/moment.hpp"
 #include "run/bank/sample_ring.hpp"
 
 namespace wisp {
 
 template <class N>
-class DrawnLanes {
+class ResampledLanes {
  public:
   using Real = typename N::Real;
   static constexpr int kLanes = N::kLanes;
 
-  DrawnLanes(const DrawnProgram& program, int blocks, Arena& arena) : program_(program) {
+  ResampledLanes(const ResampledProgram& program, int blocks, Arena& arena) : program_(program) {
     if (program.empty()) return;
     state_ = arena.take<Real>(static_cast<std::size_t>(blocks) * kStateValues * kLanes);
     past_ = SampleRing<N>(blocks, program.depth, 1, arena);
@@ -128,7 +128,7 @@ class DrawnLanes {
   // The input's past at each lag, and whether it blew from the other side: there rows are looked for as mirror images,
   // and the past is turned about.
   struct Heard {
-    Real wind[kMaxDrawnLags][kLanes];
+    Real wind[kMaxResampledLags][kLanes];
     bool right[kLanes];
   };
 
@@ -196,12 +196,12 @@ class DrawnLanes {
   }
 
   void draw(const Moment<N>& moment, std::uint32_t (&words)[4][kLanes]) const {
-    Words<N> counters[4], drawn[4];
+    Words<N> counters[4], words_drawn[4];
     random_counters<N>(moment.counters, counters);
-    random_group<N>(*moment.keys, counters, 0, drawn);
+    random_group<N>(*moment.keys, counters, 0, words_drawn);
     for (int k = 0; k < 4; ++k) {
       typename N::Word lanes[kLanes];
-      store(drawn[k], lanes);
+      store(words_drawn[k], lanes);
       for (int lane = 0; lane < kLanes; ++lane) words[k][lane] = value_of(lanes[lane]);
     }
   }
@@ -338,7 +338,7 @@ class DrawnLanes {
     }
   }
 
-  DrawnProgram program_;
+  ResampledProgram program_;
   std::span<Real> state_;
   SampleRing<N> past_;  // of the input
   float scale_ = 0;     // of the noise

@@ -1,5 +1,5 @@
 #pragma once
-// Drawn residuals compiled for stepping: in channel units, with a tree over the input's recent past at every row.
+// Resampled residuals compiled for stepping: in channel units, with a tree over the input's recent past at every row.
 
 #include <array>
 #include <cstdint>
@@ -30,8 +30,8 @@ struct Candidates {
   std::uint32_t count;
 };
 
-struct DrawnProgram {
-  int outputs = 0;  ///< 0: nothing is drawn
+struct ResampledProgram {
+  int outputs = 0;  ///< 0: nothing is resampled
   int sides = 1;    ///< 2: an input from the other side plays mirror images
   int toward = -1;
   int against = -1;
@@ -66,12 +66,12 @@ struct DrawnProgram {
 /// Lays the program out and, unless the arena measures, fills it.
 ///
 /// Precondition: the model has passed check().
-DrawnProgram make_drawn_program(const Model& model, const ArxModel& arx, Arena& arena);
+ResampledProgram make_resampled_program(const Model& model, const ArxModel& arx, Arena& arena);
 
 /// Whether output b always gets the negative of what output a gets.
-bool residuals_mirror(const DrawnProgram& program, int a, int b);
+bool residuals_mirror(const ResampledProgram& program, int a, int b);
 
-/// A hash of the program, over a hash of what came before: the latter itself where nothing is drawn.
-std::uint64_t hash_of(const DrawnProgram& program, std::uint64_t before);
+/// A hash of the program, over a hash of what came before: the latter itself where nothing is resampled.
+std::uint64_t hash_of(const ResampledProgram& program, std::uint64_t before);
 
 }  // namespace wisp

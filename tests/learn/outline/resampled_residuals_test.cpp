@@ -1,6 +1,6 @@
 // What of a recording's residuals is kept to be played again, and about which point.
 
-#include "learn/outline/outline_drawn.hpp"
+#include "learn/outline/resampled_residuals.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,28 +25,28 @@ const ArxModel& dynamics_of(const OutlineFit& fit) { return std::get<ArxModel>(f
 
 TEST(OutlineDrawn, IsTheDefaultWhereAnInputDrivesAtLeastTenSeconds) {
   const OutlineFit fit = learned(kWindy);
-  const DrawnResiduals& drawn = dynamics_of(fit).noise.drawn;
-  EXPECT_GT(drawn.row_count(), 850u);
-  EXPECT_EQ(drawn.toward, 0);
-  EXPECT_EQ(drawn.against, 3);  // after wind, its root and its square
-  EXPECT_EQ(drawn.mirror.size(), drawn.scale.size());
+  const ResampledResiduals& resampled = dynamics_of(fit).noise.resampled;
+  EXPECT_GT(resampled.row_count(), 850u);
+  EXPECT_EQ(resampled.toward, 0);
+  EXPECT_EQ(resampled.against, 3);  // after wind, its root and its square
+  EXPECT_EQ(resampled.mirror.size(), resampled.scale.size());
   made::OutlineRecipe brief = kWindy;
   brief.rows = 200;
-  EXPECT_TRUE(dynamics_of(learned(brief)).noise.drawn.empty());
-  EXPECT_TRUE(dynamics_of(learned({.rows = 900})).noise.drawn.empty());
-  EXPECT_TRUE(dynamics_of(learned(kWindy, {.noise = OutlineNoise::kMatched})).noise.drawn.empty());
+  EXPECT_TRUE(dynamics_of(learned(brief)).noise.resampled.empty());
+  EXPECT_TRUE(dynamics_of(learned({.rows = 900})).noise.resampled.empty());
+  EXPECT_TRUE(dynamics_of(learned(kWindy, {.noise = OutlineNoise::kMatched})).noise.resampled.empty());
 }
 
 TEST(OutlineDrawn, KeepsResidualsToTheirSixteenBits) {
   const OutlineFit fit = learned(kWindy);
   const ArxModel& arx = dynamics_of(fit);
-  const DrawnResiduals& drawn = arx.noise.drawn;
-  const std::size_t ny = drawn.scale.size();
+  const ResampledResiduals& resampled = arx.noise.resampled;
+  const std::size_t ny = resampled.scale.size();
   for (std::size_t i = 0; i < ny; ++i) {
     double square = 0;
-    for (std::size_t row = 0; row < drawn.row_count(); ++row)
-      square += std::pow(drawn.rows[row * ny + i] * drawn.scale[i], 2);
-    const double sd = std::sqrt(square / static_cast<double>(drawn.row_count()));
+    for (std::size_t row = 0; row < resampled.row_count(); ++row)
+      square += std::pow(resampled.rows[row * ny + i] * resampled.scale[i], 2);
+    const double sd = std::sqrt(square / static_cast<double>(resampled.row_count()));
     // The model is learned from mirror images too, and its standard deviations are about both.
     EXPECT_NEAR(sd, arx.noise.sd[i], 0.15 * arx.noise.sd[i]) << i;
   }
@@ -55,11 +55,11 @@ TEST(OutlineDrawn, KeepsResidualsToTheirSixteenBits) {
 // The first gust of a stretch begins it: what stands still in calm is not taken into a gust that it does not feel.
 TEST(OutlineDrawn, WhatWasRecordedInCalmEndsWhereItBeginsToBlow) {
   const OutlineFit fit = learned(kWindy);
-  const DrawnResiduals& drawn = dynamics_of(fit).noise.drawn;
+  const ResampledResiduals& resampled = dynamics_of(fit).noise.resampled;
   std::size_t begin = 0, calm = 0, abated = 0, stretch = 0;
-  for (const std::size_t end : drawn.ends) {
-    const std::size_t before = ++stretch * static_cast<std::size_t>(drawn.lags.back());
-    const auto wind = [&](std::size_t row) { return std::abs(drawn.winds[before + row] * drawn.wind_scale); };
+  for (const std::size_t end : resampled.ends) {
+    const std::size_t before = ++stretch * static_cast<std::size_t>(resampled.lags.back());
+    const auto wind = [&](std::size_t row) { return std::abs(resampled.winds[before + row] * resampled.wind_scale); };
     for (std::size_t row = begin + 1; row < end; ++row) {
       calm += wind(row) <= 0.039 ? 1 : 0;
       abated += wind(row - 1) > 0.041 && wind(row) <= 0.039 ? 1 : 0;
@@ -69,28 +69,28 @@ TEST(OutlineDrawn, WhatWasRecordedInCalmEndsWhereItBeginsToBlow) {
   }
   EXPECT_GT(calm, 100u);
   EXPECT_GT(abated, 2u);
-  EXPECT_GT(drawn.ends.size(), 5u);
+  EXPECT_GT(resampled.ends.size(), 5u);
 }
 
 // What blew before the first row of a stretch is known too: a jump may lead there.
 TEST(OutlineDrawn, EveryStretchHasTheWindBeforeIt) {
   const OutlineFit fit = learned(kWindy);
-  const DrawnResiduals& drawn = dynamics_of(fit).noise.drawn;
-  const auto past = static_cast<std::size_t>(drawn.lags.back());
+  const ResampledResiduals& resampled = dynamics_of(fit).noise.resampled;
+  const auto past = static_cast<std::size_t>(resampled.lags.back());
   EXPECT_GE(past, 23u * 30 / 60);
-  ASSERT_EQ(drawn.winds.size(), drawn.row_count() + drawn.ends.size() * past);
+  ASSERT_EQ(resampled.winds.size(), resampled.row_count() + resampled.ends.size() * past);
   // Stretches that were cut where it began to blow go on where the one before ended.
-  for (std::size_t s = 0; s + 1 < drawn.ends.size(); ++s) {
-    const std::size_t end = drawn.ends[s];
+  for (std::size_t s = 0; s + 1 < resampled.ends.size(); ++s) {
+    const std::size_t end = resampled.ends[s];
     const std::size_t last = end - 1 + (s + 1) * past, before = end + (s + 2) * past - 1;
-    EXPECT_EQ(drawn.winds[before], drawn.winds[last]) << s;
+    EXPECT_EQ(resampled.winds[before], resampled.winds[last]) << s;
   }
 }
 
 TEST(OutlineDrawn, TakesNoMoreBytesThanItMay) {
-  const OutlineFit fit = learned(kWindy, {.drawn_bytes = 6400});
-  EXPECT_LE(dynamics_of(fit).noise.drawn.rows.size() * 2, 6400u);
-  EXPECT_GT(dynamics_of(fit).noise.drawn.rows.size() * 2, 6000u);
+  const OutlineFit fit = learned(kWindy, {.resampled_bytes = 6400});
+  EXPECT_LE(dynamics_of(fit).noise.resampled.rows.size() * 2, 6400u);
+  EXPECT_GT(dynamics_of(fit).noise.resampled.rows.size() * 2, 6000u);
 }
 
 TEST(OutlineDrawn, AModelAboutItsCalmIsTheSameModel) {
