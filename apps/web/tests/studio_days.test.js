@@ -94,6 +94,18 @@ describe('a film out of the ordinary', { skip }, () => {
     await until(page, 'what there is to choose', () => document.querySelector('[data-gather=camera]') !== null);
   });
 
+  it('is looked at to its end though the page draws nothing meanwhile', async () => {
+    await page.evaluate(() => {
+      window.drawsAgain = window.requestAnimationFrame;
+      window.requestAnimationFrame = () => 0;
+    });
+    await drop(page, 'unseen.mp4', readFileSync(shortFilm(film(), folder)));
+    await looked(page, 30_000);
+    await page.evaluate(() => (window.requestAnimationFrame = window.drawsAgain));
+    assert.match(await page.textContent(panel), /in 30 of 30 pictures/);
+    await anew();
+  });
+
   it('whose frames come unevenly has its rows where the program has them', async () => {
     const uneven = unevenFilm(film(), folder);
     await drop(page, 'uneven.mp4', readFileSync(uneven));

@@ -35,7 +35,7 @@ export function gridRate(times: readonly number[]): number {
 /** Why a file shows nothing, and what to do. */
 function unreadable(name: string, error: unknown): StudioError {
   if (error instanceof UnsupportedInputFormatError) {
-    return new StudioError(`${name} is not a film that can be read here, which MP4, MOV, WebM and MKV are: convert it to MP4, or give another`);
+    return new StudioError(`${name} is not a film that can be read here. MP4, MOV, WebM and MKV can: convert it to MP4, or give another`);
   }
   return new StudioError(`${name} is damaged: ${error instanceof Error ? error.message : String(error)}; give another copy of it`);
 }

@@ -19,7 +19,7 @@ import { linesOfFalls } from './falls.js';
 import { madeFiles } from './making.js';
 import { Outlines } from './outlines.js';
 import { pickOf, unfold } from './picks.js';
-import { Reel } from './reel.js';
+import { MOST_OF_FILE, Reel } from './reel.js';
 import { ratePanel } from './panels/rate.js';
 import { resultPanel } from './panels/result.js';
 import type { Format, Moving } from './panels/taking.js';
@@ -247,7 +247,7 @@ export class Room {
     const working = new Working(title, words, (said) => this.announce(said), thing);
     this.working = working;
     this.showPanel(working.panel);
-    const reel = new Reel(FRAMES_APART);
+    const reel = film === null ? new Reel(FRAMES_APART) : new Reel(FRAMES_APART, MOST_OF_FILE);
     if (settings.looks_for !== 'falls') this.traces.begin();
     const looked: Looked = { name, reel, film, settings, again: capture };
     this.looked = looked;
