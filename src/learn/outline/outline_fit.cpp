@@ -190,11 +190,8 @@ double carried(const Covariance& shocks, const Eigen::MatrixXd& factor) {
 // Gives the model its own residuals to play.
 Result<void> set_drawn(std::span<const Recording> recordings, const PreparedOutlines& prepared,
                        const OutlineRecipe& options, ArxModel& model) {
-  // Coordinates alone show every jump: they are to jump less often.
-  const double tolerance = *options.coupling == OutlineCoupling::kFull ? 0.1 : 0.2;
-  auto drawn = drawn_residuals(
-      model, recordings, prepared,
-      {.most_bytes = options.drawn_bytes, .tolerance = tolerance, .mirror = mirror_wanted(options, prepared)});
+  auto drawn = drawn_residuals(model, recordings, prepared,
+                               {.most_bytes = options.drawn_bytes, .mirror = mirror_wanted(options, prepared)});
   if (!drawn) return drawn.error();
   model.noise.drawn = *std::move(drawn);
   return {};
