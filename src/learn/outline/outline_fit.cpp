@@ -190,11 +190,8 @@ double carried(const Covariance& shocks, const Eigen::MatrixXd& factor) {
 // Gives the model its own residuals to play.
 Result<void> set_drawn(std::span<const Recording> recordings, const PreparedOutlines& prepared,
                        const OutlineRecipe& options, ArxModel& model) {
-  // Coordinates alone show every jump: they are to jump less often.
-  const double tolerance = *options.coupling == OutlineCoupling::kFull ? 0.1 : 0.2;
-  auto drawn = resampled_residuals(
-      model, recordings, prepared,
-      {.max_bytes = options.resampled_bytes, .tolerance = tolerance, .mirror = mirror_wanted(options, prepared)});
+  auto drawn = resampled_residuals(model, recordings, prepared,
+                                   {.max_bytes = options.resampled_bytes, .mirror = mirror_wanted(options, prepared)});
   if (!drawn) return drawn.error();
   model.noise.resampled = *std::move(drawn);
   return {};

@@ -11,8 +11,10 @@
 namespace wisp {
 namespace {
 
-// Looked back over 0.4 s, closer together where it is more recent: what blew a moment ago matters most.
-constexpr double kLagSeconds[] = {0, 3.0 / 60, 7.0 / 60, 13.0 / 60, 22.0 / 60};
+// Looked back over 0.15 s, closer together where it is more recent: what blew a moment ago matters most. What blew
+// before that the dynamics carry; to match it too costs jumps, and every jump is noise that was not recorded.
+constexpr double kLagSeconds[] = {0, 1.0 / 60, 3.0 / 60, 5.0 / 60, 9.0 / 60};
+constexpr double kTolerance = 0.2;            // of wind 1: less jumps more often, more plays what does not fit
 constexpr double kLongestSeconds = 1.5;       // from one jump to the next: longer would repeat what was recorded
 constexpr double kLongestAloneSeconds = 0.5;  // where no input says when to go elsewhere
 constexpr double kCalm = 0.04;                // of wind 1: less than this does not move what stands still
@@ -186,7 +188,7 @@ Result<ResampledResiduals> resampled_residuals(const ArxModel& model, std::span<
   if (driven) out.toward = 0;
   if (driven && prepared.shape.split_sign) out.against = prepared.shape.powers ? 3 : 1;
   if (out.against >= 0 && options.mirror) out.mirror = mirror_image(prepared.layout.points);
-  out.tolerance = options.tolerance;
+  out.tolerance = kTolerance;
   out.margin = kMargin;
   out.longest = steps_of(driven ? kLongestSeconds : kLongestAloneSeconds, rate);
   store_rows(stretches, out);

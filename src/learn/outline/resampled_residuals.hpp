@@ -19,7 +19,6 @@ namespace wisp {
 /// How residuals are kept.
 struct ResamplingOptions {
   std::size_t max_bytes = 256 * 1024;  ///< of rows; of longer recordings the first part of each is kept
-  double tolerance = 0.1;              ///< ResampledResiduals::tolerance, of wind 1
   bool mirror = false;                 ///< signed inputs: the other side plays mirror images
 };
 
