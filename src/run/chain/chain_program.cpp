@@ -16,7 +16,7 @@ constexpr double kMinScale = 1e-12;
 constexpr double kMaxScale = 1e6;
 constexpr float kMinUnit = 1e-6f;
 constexpr double kMaxStored = 32767;
-constexpr double kReturnShare = 0.1;  // of the usual speed: what leads back to a height is hardly seen beside it
+constexpr double kReturnShare = 0.2;  // of the usual speed: what leads back to a height is hardly seen beside it
 
 void fill_thresholds(const std::vector<double>& probability, std::span<std::uint32_t> out) {
   double sum = 0;

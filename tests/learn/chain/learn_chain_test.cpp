@@ -58,7 +58,7 @@ bool for_people(const Report& report, std::string_view word) {
 }
 
 // Played a hundred times as long as what was learned differs between the best joins: 12,000 frames, ten times. Heights
-// of the recording are 300 to 301.2 m; a join may add a tenth of the usual speed, 0.25 m/s, for its 0.15 s.
+// of the recording are 300 to 301.2 m; a join may add a fifth of the usual speed, 0.5 m/s, for its 0.15 s.
 TEST(LearnChain, ABallStaysBetweenFloorAndCeiling) {
   ChainRecipe recipe;
   recipe.event = {EventKind::kMaximum, "pos.z"};

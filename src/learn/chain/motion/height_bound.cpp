@@ -6,19 +6,15 @@
 namespace wisp::chain {
 namespace {
 
-constexpr double kShort = 8, kLong = 32;  // windows, segments
-constexpr double kMaxGrowth = 2;          // of the variance from one to the other: midway, as ratios, from 1 to 4
+constexpr std::size_t kParts = 16;   // short windows of the longest stretch; a long one is four
+constexpr double kMinSegments = 32;  // of a long window: in fewer, what wanders slowly has no time to
+constexpr double kMaxGrowth = 2;     // of the variance from one to the other: midway, as ratios, from 1 to 4
 
-// The mean variance of heights within windows of so many rows, side by side; and how many there are.
-struct Spread {
-  double variance = 0;
-  std::size_t windows = 0;
-};
-
-Spread spread_within(const Motion& motion, std::size_t rows) {
-  Spread out;
+// The mean variance of heights within windows of so many rows, side by side.
+double spread_within(const Motion& motion, std::size_t rows) {
+  double variance = 0, windows = 0;
   for (const MotionPiece& piece : motion.pieces) {
-    for (std::size_t begin = 0; begin + rows <= piece.rows(); begin += rows) {
+    for (std::size_t begin = 0; begin + rows <= piece.rows(); begin += rows, ++windows) {
       double sum = 0, square = 0;
       for (std::size_t row = begin; row < begin + rows; ++row) {
         const double z = piece.position[row][2] - piece.position[begin][2];
@@ -26,12 +22,10 @@ Spread spread_within(const Motion& motion, std::size_t rows) {
         square += z * z;
       }
       const auto count = static_cast<double>(rows);
-      out.variance += square / count - sum / count * (sum / count);
-      ++out.windows;
+      variance += square / count - sum / count * (sum / count);
     }
   }
-  out.variance /= static_cast<double>(std::max<std::size_t>(1, out.windows));
-  return out;
+  return variance / windows;
 }
 
 }  // namespace
@@ -39,10 +33,11 @@ Spread spread_within(const Motion& motion, std::size_t rows) {
 bool height_is_bounded(const Motion& motion, std::span<const Segment> segments) {
   double steps = 0;
   for (const Segment& one : segments) steps += one.steps;
-  const double usual = steps / static_cast<double>(segments.size());
-  const auto rows = [&](double count) { return static_cast<std::size_t>(std::ceil(count * usual)); };
-  const Spread far = spread_within(motion, rows(kLong));
-  return far.windows > 0 && far.variance < kMaxGrowth * spread_within(motion, rows(kShort)).variance;
+  std::size_t longest = 0;
+  for (const MotionPiece& piece : motion.pieces) longest = std::max(longest, piece.rows());
+  const std::size_t window = longest / kParts;
+  if (4.0 * static_cast<double>(window) * static_cast<double>(segments.size()) < kMinSegments * steps) return false;
+  return spread_within(motion, 4 * window) < kMaxGrowth * spread_within(motion, window);
 }
 
 }  // namespace wisp::chain

@@ -9,9 +9,9 @@
 
 namespace wisp::chain {
 
-/// Whether heights vary hardly more over 32 usual segments than over 8. By the variance within a window: it is the same
-/// there for what is bounded, four times as large for a random walk, sixteen times for what falls. False where no
-/// stretch is long enough to say.
+/// Whether heights vary hardly more within a quarter of the longest stretch than within a sixteenth. By the variance
+/// within a window: it is the same in both for what is bounded, four times as large for a random walk, sixteen times
+/// for what falls. False where a quarter has fewer than 32 usual segments.
 ///
 /// Precondition: segments are of the motion, not none.
 bool height_is_bounded(const Motion& motion, std::span<const Segment> segments);

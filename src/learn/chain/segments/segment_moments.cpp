@@ -11,6 +11,9 @@ namespace {
 // Attitude counts as much as velocity and spin together: a jump of attitude is what the eye sees first.
 constexpr double kAttitudeWeight = 1.5;
 
+// Differences of velocity and attitude fade within a join; one of height takes as long as it takes to go there.
+constexpr double kHeightWeight = 3;
+
 // Without attitude, how velocity changes says how the body lies in the air, and to which side it turns. Where speed
 // over ground is least, a fall that turns back differs in nothing else from one that goes on.
 JoinMoment moment_without_attitude(const MotionPiece& from, double row, bool heading_free) {
@@ -90,7 +93,7 @@ void add_heights(const Motion& motion, std::span<const Segment> segments, Segmen
   }
   const auto count = static_cast<double>(segments.size());
   const double variance = square / count - sum / count * (sum / count);
-  const double unit = variance > 0 ? 1 / std::sqrt(variance) : 1;
+  const double unit = variance > 0 ? kHeightWeight / std::sqrt(variance) : 1;
   for (std::size_t k = 0; k < segments.size(); ++k) {
     moments.starts[k].push_back(unit * starts[k]);
     moments.ends[k].push_back(unit * ends[k]);
