@@ -10,6 +10,7 @@
 #include "capture/vision/outline_seeker.hpp"
 #include "capture/vision/outline_tracker.hpp"
 #include "capture/vision/outline_verdict.hpp"
+#include "capture/vision/scene_light.hpp"
 #include "record/number_text.hpp"
 
 namespace wisp {
@@ -97,6 +98,7 @@ class OutlineCapture::Stage {
   std::optional<Picture> format_;  // the first picture's layout, without its planes
   std::optional<OutlineSeeker> seeker_;
   std::optional<OutlineTracker> tracker_;
+  SceneLight scene_;
   EdgeCloudOptions cloud_options_;
   EdgeCloud cloud_;
   FrameFindings findings_;
@@ -251,13 +253,14 @@ void OutlineCapture::Stage::look(const Picture& picture) {
   const bool seen = seeker_->seek(picture) && seeker_->edge_points(cloud_options_, cloud_);
   if (seen) {
     const OutlineEstimate& estimate = tracker_->update(cloud_);
+    scene_.remember(picture);
     finding.kind = FrameFinding::Kind::kTracked;
     finding.change = static_cast<float>(seeker_->change());
     finding.brightness = static_cast<float>(seeker_->brightness());
     finding.residual = static_cast<float>(estimate.residual);
     findings_.controls.insert(findings_.controls.end(), estimate.mean.begin(), estimate.mean.end());
   } else {
-    finding.elsewhere = seeker_->elsewhere();
+    finding.elsewhere = seeker_->elsewhere() || scene_.another(picture);
     tracker_->forget();
     findings_.controls.resize(findings_.controls.size() + 2 * static_cast<std::size_t>(options_.points));
   }
