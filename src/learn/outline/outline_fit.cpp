@@ -155,6 +155,16 @@ Result<ArxFit> fit_quickly(std::span<const Recording> recordings, const Prepared
   return std::move(fitted->fit);
 }
 
+// As the recipe's focus says, which the summary is told.
+Result<ArxFit> fit_in_focus(std::span<const Recording> recordings, const PreparedOutlines& prepared,
+                            const OutlineRecipe& options, OutlineSummary& summary, const Progress& progress) {
+  auto fitted = fit(recordings, prepared, options, summary,
+                    {.ridge = summary.ridge.ridge, .focus = options.focus, .progress = progress});
+  if (!fitted) return fitted.error();
+  if (options.focus != ArxFocus::kPrediction) summary.focus = std::move(fitted->outcome);
+  return std::move(fitted->fit);
+}
+
 // The covariance of what the inputs alone leave unexplained: the outline's flicker.
 Result<Covariance> flicker_covariance(const ArxModel& model, std::span<const Recording> recordings,
                                       const ChannelChoice& channels) {
@@ -430,11 +440,8 @@ Result<ArxFit> judge(const PreparedOutlines& prepared, const OutlineRecipe& opti
     summary.ridge = *std::move(ridge);
   }
   if (is_judged_in_turn(prepared, options)) return judge_in_turn(prepared, options, summary);
-  auto focused = fit(parts.learned, prepared, options, summary,
-                     {.ridge = summary.ridge.ridge, .focus = options.focus, .progress = progress});
-  if (!focused) return focused.error();
-  if (options.focus != ArxFocus::kPrediction) summary.focus = std::move(focused->outcome);
-  Result<ArxFit> fitted = std::move(focused->fit);
+  auto fitted = fit_in_focus(parts.learned, prepared, options, summary, progress);
+  if (!fitted) return fitted;
   auto learned = outline_figures(fitted->model, parts.learned, prepared.channels, prepared.layout);
   if (!learned) return learned.error();
   summary.learned = *std::move(learned);
@@ -533,11 +540,8 @@ Result<OutlineFit> fit_outline(std::span<const Recording> recordings, const Outl
   }
   if (!summary.curves.empty()) prepared = bent_preparation(*std::move(prepared), summary.curves);
   if (refit) {
-    auto again = fit(prepared->recordings, *prepared, options, summary,
-                     {.ridge = summary.ridge.ridge, .focus = options.focus, .progress = progress});
-    if (!again) return again.error();
-    if (options.focus != ArxFocus::kPrediction) summary.focus = std::move(again->outcome);
-    fitted = std::move(again->fit);
+    fitted = fit_in_focus(prepared->recordings, *prepared, options, summary, progress);
+    if (!fitted) return fitted.error();
     summary.refitted = true;
   }
   summary.rate_hz = prepared->recordings.front().rate_hz;
