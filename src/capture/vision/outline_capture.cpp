@@ -4,11 +4,13 @@
 #include <cassert>
 #include <cmath>
 
+#include "capture/vision/candidates.hpp"
 #include "capture/vision/knots.hpp"
 #include "capture/vision/outline_rows.hpp"
 #include "capture/vision/outline_seeker.hpp"
 #include "capture/vision/outline_tracker.hpp"
 #include "capture/vision/outline_verdict.hpp"
+#include "capture/vision/scene_light.hpp"
 #include "record/number_text.hpp"
 
 namespace wisp {
@@ -26,6 +28,7 @@ constexpr std::size_t kSamples = 6;    // … and in which outlines are tried
 constexpr double kMinChange = 0.02;
 constexpr double kMinTaper = 0.25;
 constexpr double kMinLight = 0.85;
+constexpr double kSamePlace = 0.5;  // of both places, shared by what is the same thing
 
 // Following the underside takes control points away from the sides and makes them move more: it has to pay, and always,
 // as the clip's first second may be calm where later the flame leaves one foot and then the other.
@@ -66,7 +69,7 @@ class OutlineCapture::Stage {
   double bright(int stored) const;
   Result<void> accept(const Picture& picture);
   Result<void> decide(bool at_end = false);
-  void wait_on();
+  void wait_on(const Result<Survey>& survey);
   struct Samples {
     std::vector<EdgeCloud> above;   // from corner to corner over the tip
     std::vector<EdgeCloud> around;  // with the underside
@@ -85,11 +88,17 @@ class OutlineCapture::Stage {
   std::vector<std::optional<OwnedPicture>> held_;  // nothing: a lost frame
   std::size_t held_bytes_ = 0;
   bool waited_ = false;  // for a flame that was not there at first
+  struct Waited {
+    Region place;
+    std::size_t rows = 0;
+  };
+  std::vector<Waited> stood_still_;  // what was there meanwhile
   std::vector<OwnedPicture> glimpses_;
   std::optional<Survey> survey_;
   std::optional<Picture> format_;  // the first picture's layout, without its planes
   std::optional<OutlineSeeker> seeker_;
   std::optional<OutlineTracker> tracker_;
+  SceneLight scene_;
   EdgeCloudOptions cloud_options_;
   EdgeCloud cloud_;
   FrameFindings findings_;
@@ -146,8 +155,9 @@ void OutlineCapture::Stage::note(FrameFinding::Kind kind) {
 }
 
 // Lets half of the held frames go: there is no flame in them yet. Glimpses of the whole clip have been of no use.
-void OutlineCapture::Stage::wait_on() {
+void OutlineCapture::Stage::wait_on(const Result<Survey>& survey) {
   const std::size_t half = (held_.size() + 1) / 2;
+  if (survey && survey->change < kMinChange) stood_still_.push_back({survey->home, half});
   for (std::size_t k = 0; k < half; ++k) {
     note(held_[k] ? FrameFinding::Kind::kNothing : FrameFinding::Kind::kLost);
     if (held_[k]) held_bytes_ -= held_[k]->bytes();
@@ -170,7 +180,7 @@ Result<void> OutlineCapture::Stage::decide(bool at_end) {
   // A window in which it was lit shows it in too few pictures; the next one shows it in all.
   const bool throughout = survey && (!waited_ || 3 * survey->seen.size() >= 2 * seen.size());
   if (flame && !at_end && !(throughout && burns(*survey))) {
-    wait_on();
+    wait_on(survey);
     return {};
   }
   if (!survey) return complaint(survey.error().message);
@@ -243,12 +253,14 @@ void OutlineCapture::Stage::look(const Picture& picture) {
   const bool seen = seeker_->seek(picture) && seeker_->edge_points(cloud_options_, cloud_);
   if (seen) {
     const OutlineEstimate& estimate = tracker_->update(cloud_);
+    scene_.remember(picture);
     finding.kind = FrameFinding::Kind::kTracked;
     finding.change = static_cast<float>(seeker_->change());
     finding.brightness = static_cast<float>(seeker_->brightness());
     finding.residual = static_cast<float>(estimate.residual);
     findings_.controls.insert(findings_.controls.end(), estimate.mean.begin(), estimate.mean.end());
   } else {
+    finding.elsewhere = seeker_->elsewhere() || scene_.another(picture);
     tracker_->forget();
     findings_.controls.resize(findings_.controls.size() + 2 * static_cast<std::size_t>(options_.points));
   }
@@ -286,6 +298,9 @@ void OutlineCapture::Stage::describe(CapturedOutline& out) const {
   report.facts.solidity = survey_->solidity;
   report.facts.clipped = survey_->clipped;
   report.facts.contrast = survey_->contrast;
+  for (const Waited& waited : stood_still_) {
+    if (shared_share(waited.place, survey_->home) > kSamePlace) report.facts.still += waited.rows;
+  }
   report.rate_hz = options_.rate_hz;
   report.points = options_.points;
   report.channel = survey_->channel;

@@ -112,7 +112,7 @@ void fill_gaps(std::vector<Fate>& fate, std::vector<double>& controls, std::size
   }
 }
 
-const char* reason(Fate fate) {
+const char* reason(Fate fate, bool elsewhere) {
   switch (fate) {
     case Fate::kDuplicate:
       return "duplicate";
@@ -121,7 +121,7 @@ const char* reason(Fate fate) {
     case Fate::kLost:
       return "lost";
     default:
-      return "nothing there";
+      return elsewhere ? "elsewhere" : "nothing there";
   }
 }
 
@@ -131,13 +131,27 @@ void count(const std::vector<Fate>& fate, const FrameFindings& findings, Capture
   report.frames = fate.size();
   double residuals = 0;
   for (std::size_t k = 0; k < fate.size(); ++k) {
-    if (!present(fate[k])) report.dropped.push_back({k, reason(fate[k])});
+    if (!present(fate[k])) report.dropped.push_back({k, reason(fate[k], findings.frames[k].elsewhere)});
     report.filled += fate[k] == Fate::kFilled;
     if (fate[k] != Fate::kKept) continue;
     ++report.tracked;
     residuals += findings.frames[k].residual;
   }
   report.residual = report.tracked == 0 ? 0 : residuals / static_cast<double>(report.tracked);
+}
+
+// Another scene before the first outline, or after the last one: in most of its frames something else stands elsewhere.
+void find_other_scenes(const std::vector<Fate>& fate, const FrameFindings& findings, OutlineFacts& facts) {
+  const auto first = std::find_if(fate.begin(), fate.end(), present),
+             last = std::find_if(fate.rbegin(), fate.rend(), present).base();
+  const auto other = [&](auto from, auto to) {
+    const auto begin = findings.frames.begin();
+    const auto elsewhere = std::count_if(begin + (from - fate.begin()), begin + (to - fate.begin()),
+                                         [](const FrameFinding& finding) { return finding.elsewhere; });
+    return 2 * elsewhere > to - from ? static_cast<std::size_t>(to - from) : 0;
+  };
+  facts.other_before = other(fate.begin(), first);
+  facts.other_after = other(last, fate.end());
 }
 
 void write_channels(const std::vector<Fate>& fate, const std::vector<double>& controls, int points,
@@ -187,6 +201,7 @@ void assemble_rows(const FrameFindings& findings, int points, Recording& recordi
   std::vector<double> controls = findings.controls;
   fill_gaps(fate, controls, 2 * static_cast<std::size_t>(points));
   count(fate, findings, report);
+  find_other_scenes(fate, findings, report.facts);
   write_channels(fate, controls, points, recording);
   write_episodes(fate, recording);
 }

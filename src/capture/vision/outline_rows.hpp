@@ -12,9 +12,10 @@ namespace wisp {
 struct FrameFinding {
   enum class Kind : std::uint8_t { kTracked, kNothing, kLost };
   Kind kind = Kind::kNothing;
-  float change = 0;      ///< mean absolute difference from the frame before, in the thing's neighbourhood
-  float brightness = 0;  ///< of the thing
-  float residual = 0;    ///< root mean square, pixels
+  float change = 0;        ///< mean absolute difference from the frame before, in the thing's neighbourhood
+  float brightness = 0;    ///< of the thing
+  float residual = 0;      ///< root mean square, pixels
+  bool elsewhere = false;  ///< kNothing: something as bright and about as large stands elsewhere
 };
 
 /// Findings and control points of all frames so far.

@@ -88,17 +88,21 @@ bool OutlineSeeker::ours(const Region& box) const {
   });
 }
 
+// Whether what was found is as bright as the thing and about as large: smoke is not, nor is what put it out.
+bool OutlineSeeker::alike() const {
+  const double area = static_cast<double>(found_.area);
+  const bool bright = dark_ || brightness_ >= kAsBright * usual_brightness_;
+  return bright && area < kAsLarge * usual_area_ && area > usual_area_ / kAsLarge;
+}
+
 // Whether what was found may be what was there before. What was there a frame ago is still partly where it was; what is
-// found anew stands where that stood, and is not smoke, nor what put it out.
+// found anew stands where that stood.
 bool OutlineSeeker::plausible(const Region& before) const {
   const Region& box = found_.box;
   if (following_) return area_of(intersection(box, before)) > kStays * std::min(area_of(box), area_of(before));
   const double length = std::max({usual_.width, usual_.height, box.height});
   const PixelPosition at = foot(box, base_);
-  if (std::min(distance(at, last_foot_), distance(at, foot(usual_, base_))) > kAsNear * length) return false;
-  const double area = static_cast<double>(found_.area);
-  const bool bright = dark_ || brightness_ >= kAsBright * usual_brightness_;
-  return bright && area < kAsLarge * usual_area_ && area > usual_area_ / kAsLarge;
+  return std::min(distance(at, last_foot_), distance(at, foot(usual_, base_))) <= kAsNear * length && alike();
 }
 
 // Nearest to what was there before: the overlap of boxes times the area.
@@ -230,6 +234,7 @@ int OutlineSeeker::margin() const { return kMinMargin + static_cast<int>(kMargin
 
 bool OutlineSeeker::seek(const Picture& picture) {
   const BrightRegion before = found_;
+  elsewhere_ = false;
   bool seen = following_ && find_in(picture, grown(found_.box, margin()));
   if (!seen) {
     following_ = false;
@@ -241,6 +246,7 @@ bool OutlineSeeker::seek(const Picture& picture) {
   }
   if (!dark_) measure_brightness(picture);  // a dark thing does not fade: its ground does
   if (!plausible(before.box)) {
+    elsewhere_ = !following_ && alike();
     following_ = false;
     return false;
   }

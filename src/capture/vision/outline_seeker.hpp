@@ -27,6 +27,8 @@ class OutlineSeeker {
   double change() const { return change_; }
   /// Mean brightness of the thing's pixels, 0 to 255.
   double brightness() const { return brightness_; }
+  /// Where nothing was found in its place: whether something as bright and about as large stands elsewhere.
+  bool elsewhere() const { return elsewhere_; }
   const BrightRegion& found() const { return found_; }
 
  private:
@@ -40,6 +42,7 @@ class OutlineSeeker {
   bool part_from_stand();
   void follow();
   bool ours(const Region& box) const;
+  bool alike() const;
   bool plausible(const Region& before) const;
   bool choose(std::span<const BrightRegion> regions, const Region& place);
   int margin() const;
@@ -70,6 +73,7 @@ class OutlineSeeker {
   double change_ = 0;
   double brightness_ = 0;
   double usual_brightness_ = 0;
+  bool elsewhere_ = false;
   RegionFinder finder_;
   std::vector<PixelPosition> boundary_;
   Profile profile_;

@@ -15,6 +15,10 @@ constexpr double kMaxJumps = 0.03;      // share of steps
 constexpr double kJumpShare = 0.35;     // of the height: a base that moves farther in a frame is another one
 constexpr double kJumpRatio = 2.2;      // … and a height that changes so many times
 constexpr double kMaxAtBorder = 0.05;   // share of rows
+constexpr double kMaxElsewhere = 0.1;   // share of the clip's rows: who lights a candle is in the picture for less
+constexpr double kMaxStill = 0.3;       // share of the rows until the last outline
+constexpr double kMisfit = 0.1;         // heights, shared by the control points; few cannot follow a flame as well
+constexpr double kEdgeNoise = 0.3;      // pixels
 constexpr double kMinMovement = 0.006;  // heights
 constexpr double kMinTaper = 0.32;
 constexpr double kMinNarrowing = 0.25;
@@ -211,10 +215,31 @@ std::string irregular(const OutlineFacts& f) {
   return {};
 }
 
+// Why it is not one scene, or nothing.
+std::string cut(const OutlineFacts& f, std::size_t frames) {
+  const std::size_t other = f.other_before + f.other_after;
+  if (static_cast<double>(other) <= kMaxElsewhere * static_cast<double>(frames)) return {};
+  return "in " + percent(static_cast<double>(other) / static_cast<double>(frames)) +
+         " of the frames it is gone and another bright thing is in the picture: the film is cut, or the camera moves "
+         "too far; give frames " +
+         std::to_string(f.seen_from + 1) + " to " + std::to_string(f.seen_from + f.rows) + " alone, or another scene's";
+}
+
+// Why it does not move as a flame does, or nothing.
+std::string rigid(const OutlineFacts& f) {
+  const double still = static_cast<double>(f.still) / static_cast<double>(f.seen_from + f.rows);
+  if (f.movement >= kMinMovement && still <= kMaxStill) return {};
+  return "its edges do not move" + (still > kMaxStill ? " in " + percent(still) + " of the frames" : std::string()) +
+         ": it may be a lamp or a lit thing; film a flame in a dark room";
+}
+
+// Whether the curve follows the edge: a flame's is smooth.
+bool follows(const OutlineFacts& f, int points) { return f.misfit <= kMisfit / points + kEdgeNoise / f.height; }
+
 // Why the shape is not a flame's, or nothing.
-std::string misshapen(const OutlineFacts& f) {
+std::string misshapen(const OutlineFacts& f, int points) {
   const bool taper = f.taper >= kMinTaper && f.narrowing >= kMinNarrowing,
-             solid = f.solidity >= kMinSolidity && f.ragged <= kMaxRagged && f.width <= kMaxWidth;
+             solid = f.solidity >= kMinSolidity && f.ragged <= kMaxRagged && f.width <= kMaxWidth && follows(f, points);
   if (taper && solid) return {};
   if (f.clipped > kFlat) {
     return "it is clipped flat, " + percent(f.clipped) +
@@ -232,8 +257,7 @@ std::string misshapen(const OutlineFacts& f) {
 std::string fault(const OutlineFacts& f, const CaptureReport& report) {
   constexpr std::array<const char*, 4> kSide{"left", "upper", "right", "lower"};
   const bool flame = report.flames > 0;
-  if (f.movement < kMinMovement)
-    return "its edges do not move: it may be a lamp or a lit thing; film a flame in a dark room";
+  if (std::string why = rigid(f); !why.empty()) return why;
   if (flame && f.light < kMinLight) {
     return "other things in the picture are brighter; choose a region around the flame, or film it in a dark room";
   }
@@ -242,6 +266,7 @@ std::string fault(const OutlineFacts& f, const CaptureReport& report) {
            " of 255 levels: it may be a lit wall; film a flame before a dark ground";
   }
   if (std::string why = irregular(f); !why.empty()) return why;
+  if (std::string why = cut(f, report.frames); !why.empty()) return why;
   if (missing_share(f) > kMaxMissing) {
     return "it is missing in " + percent(missing_share(f)) +
            " of the frames; film it steadily, with nothing in between";
@@ -255,7 +280,7 @@ std::string fault(const OutlineFacts& f, const CaptureReport& report) {
     return "it reaches the " + std::string(kSide[side]) + " border of the picture in " + percent(f.border[side]) +
            " of the frames; leave room around it";
   }
-  if (std::string why = flame ? misshapen(f) : ""; !why.empty()) return why;
+  if (std::string why = flame ? misshapen(f, report.points) : ""; !why.empty()) return why;
   if (f.height < kMinHeight)
     return "it is only " + std::to_string(std::lround(f.height)) + " pixels high; film it from nearer";
   return {};
@@ -267,8 +292,12 @@ void give_verdict(CaptureReport& report) {
   report.reason = report.usable ? "an outline was found in " + percent(1 - missing_share(report.facts)) +
                                       " of the frames and moves steadily"
                                 : why;
+  if (static_cast<double>(report.facts.seen_from) > kOutSeconds * report.rate_hz) {
+    report.reason += "; it is seen from frame " + std::to_string(report.facts.seen_from + 1) + " on";
+  }
   if (report.flames > 1) report.reason += "; there are " + std::to_string(report.flames) + " flames, one is followed";
-  if (report.out_at) report.reason += "; the flame is out from frame " + std::to_string(*report.out_at + 1) + " on";
+  if (report.out_at && report.facts.other_after == 0)
+    report.reason += "; the flame is out from frame " + std::to_string(*report.out_at + 1) + " on";
 }
 
 }  // namespace
@@ -298,9 +327,11 @@ void judge_outline(const Recording& recording, const SplineTable& table, Capture
   facts.width = median(widths);
   facts.ragged = ragged_share(shapes);
   facts.movement = movement_of(shapes, facts.height);
+  facts.misfit = report.residual / facts.height;
   facts.jumps = jumps_of(shapes, facts.height);
   facts.border = border_of(shapes, report.width, report.height);
   const std::size_t first = shapes.front().row, last = shapes.back().row;
+  facts.seen_from = first;
   facts.rows = last - first + 1;
   facts.absent = facts.rows - shapes.size();
   report.out_at = out_at(report, last);

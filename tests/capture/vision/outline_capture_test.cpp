@@ -272,6 +272,44 @@ TEST(OutlineCapture, AFlameInAnotherPlaceIsAnotherFlame) {
   ASSERT_TRUE(captured);
   EXPECT_EQ(captured->report.tracked, 30u);
   EXPECT_EQ(captured->report.out_at, 30u);
+  EXPECT_FALSE(captured->report.usable);
+  EXPECT_THAT(captured->report.reason, HasSubstr("the camera moves too far; give frames 1 to 30 alone"));
+}
+
+TEST(OutlineCapture, AFilmThatIsCutToAFlameIsNotUsableAndNamesItsFrames) {
+  const auto captured = capture(90, [](int k) {
+    Flame flame = support::swaying(k);
+    flame.base_x = k < 12 ? 60 : 240;
+    Plane plane = support::flame_picture(flame, 320, 180);
+    add_noise(plane, static_cast<unsigned>(k));
+    return plane;
+  });
+  ASSERT_TRUE(captured);
+  EXPECT_EQ(captured->report.tracked, 78u);
+  EXPECT_FALSE(captured->report.usable);
+  EXPECT_THAT(captured->report.reason, HasSubstr("give frames 13 to 90 alone"));
+}
+
+TEST(OutlineCapture, ALampThatMovesAtLastIsNoFlame) {
+  const auto captured = capture(120, [](int k) {
+    Plane plane = support::flame_picture(support::swaying(std::max(k, 80)));
+    add_noise(plane, static_cast<unsigned>(k));
+    return plane;
+  });
+  ASSERT_TRUE(captured);
+  EXPECT_FALSE(captured->report.usable);
+  EXPECT_THAT(captured->report.reason, HasSubstr("its edges do not move in"));
+}
+
+TEST(OutlineCapture, AFlameThatIsLitLateIsUsableAndSaysFromWhereOn) {
+  const auto captured = capture(160, [](int k) {
+    Plane plane = k < 50 ? Plane(160, 180, 8) : support::flame_picture(support::swaying(k));
+    add_noise(plane, static_cast<unsigned>(k));
+    return plane;
+  });
+  ASSERT_TRUE(captured);
+  EXPECT_TRUE(captured->report.usable) << captured->report.reason;
+  EXPECT_THAT(captured->report.reason, HasSubstr("it is seen from frame 51 on"));
 }
 
 // Two flames, the right one smaller, and what a frame shows of them.

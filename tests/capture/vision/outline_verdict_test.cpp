@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using Outline = std::vector<CurvePoint>;
 
 // Sways above (200, 300); `outline` in pixels, y up.
-CaptureReport judged(const Outline& outline) {
+CaptureReport judged(const Outline& outline, double residual = 0.5) {
   constexpr std::size_t kRows = 60;
   Recording recording;
   recording.rate_hz = 30;
@@ -37,6 +37,8 @@ CaptureReport judged(const Outline& outline) {
   report.width = 400;
   report.height = 320;
   report.flames = 1;
+  report.points = static_cast<int>(outline.size());
+  report.residual = residual;
   report.facts.light = report.facts.solidity = 1;
   report.facts.narrowing = 0.6;
   judge_outline(recording, SplineTable(uniform_knots(static_cast<int>(outline.size()))), report);
@@ -70,6 +72,13 @@ TEST(OutlineVerdict, WhatIsAsWideAsHighIsNoFlame) {
   EXPECT_FALSE(report.usable);
   EXPECT_EQ(report.facts.ragged, 0);
   EXPECT_GT(report.facts.width, 0.8);
+  EXPECT_THAT(report.reason, HasSubstr("its shape is not a flame's"));
+}
+
+TEST(OutlineVerdict, AnEdgeThatTheCurveDoesNotFollowIsNoFlames) {
+  EXPECT_TRUE(judged(kFlame, 1.5).usable);
+  const CaptureReport report = judged(kFlame, 2);  // 0.018 of its height; eight points may miss 0.0125, and noise
+  EXPECT_FALSE(report.usable);
   EXPECT_THAT(report.reason, HasSubstr("its shape is not a flame's"));
 }
 

@@ -38,7 +38,7 @@ struct OutlineCaptureOptions {
 /// Why a frame has no outline.
 struct DroppedFrame {
   std::size_t frame = 0;  ///< 0-based row of the recording
-  std::string reason;     ///< "fade", "nothing there", "duplicate", "lost"
+  std::string reason;     ///< "fade", "nothing there", "elsewhere", "duplicate", "lost"
 };
 
 /// What tells an outline of a flame from one of something else. Shares are of the rows with an outline.
@@ -46,11 +46,16 @@ struct OutlineFacts {
   std::size_t rows = 0;            ///< from the first outline until the flame is out for good
   std::size_t absent = 0;          ///< of them, without an outline
   std::size_t blown = 0;           ///< of those, because the flame was blown out and lit again: see excuse_absence()
+  std::size_t seen_from = 0;       ///< the first row with an outline
+  std::size_t still = 0;           ///< rows before it in which the thing stood there and did not move
+  std::size_t other_before = 0;    ///< rows before it, where most of them show another bright thing elsewhere
+  std::size_t other_after = 0;     ///< … and rows after the last outline
   double lost = 0;                 ///< share of the clip's rows that have no frame, filled or not
   double repeated = 0;             ///< … and whose frame repeats the one before
   double jumps = 0;                ///< share of steps by which base or height change more than a flame's can
   std::array<double, 4> border{};  ///< share that reach the picture's left, upper, right and lower border
   double movement = 0;             ///< how far the shape moves on its base: root mean square over the median height
+  double misfit = 0;               ///< distance of edge points from the curve over the median height, mean
   double taper = 0;                ///< how much narrower it is near its tip than at its middle, median
   double narrowing = 0;            ///< how much narrower its first quarter is than its middle, median of the survey
   double solidity = 0;             ///< its area over its convex hull's, notches from below apart
