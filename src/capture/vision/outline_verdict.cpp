@@ -220,7 +220,8 @@ std::string cut(const OutlineFacts& f, std::size_t frames) {
   const std::size_t other = f.other_before + f.other_after;
   if (static_cast<double>(other) <= kMaxElsewhere * static_cast<double>(frames)) return {};
   return "in " + percent(static_cast<double>(other) / static_cast<double>(frames)) +
-         " of the frames it is gone and another bright thing is in the picture: the film may be cut; give frames " +
+         " of the frames it is gone and another bright thing is in the picture: the film is cut, or the camera moves "
+         "too far; give frames " +
          std::to_string(f.seen_from + 1) + " to " + std::to_string(f.seen_from + f.rows) + " alone, or another scene's";
 }
 

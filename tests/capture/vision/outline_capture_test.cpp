@@ -273,7 +273,7 @@ TEST(OutlineCapture, AFlameInAnotherPlaceIsAnotherFlame) {
   EXPECT_EQ(captured->report.tracked, 30u);
   EXPECT_EQ(captured->report.out_at, 30u);
   EXPECT_FALSE(captured->report.usable);
-  EXPECT_THAT(captured->report.reason, HasSubstr("the film may be cut; give frames 1 to 30 alone"));
+  EXPECT_THAT(captured->report.reason, HasSubstr("the camera moves too far; give frames 1 to 30 alone"));
 }
 
 TEST(OutlineCapture, AFilmThatIsCutToAFlameIsNotUsableAndNamesItsFrames) {
