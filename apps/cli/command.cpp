@@ -30,9 +30,13 @@ std::vector<std::string> Arguments::names(std::string_view flag) const {
   int depth = 0;
   bool quoted = false;
   std::string name;
-  for (char c : all) {
-    if (c == '"') {
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const char c = all[k];
+    const bool doubled = quoted && c == '"' && k + 1 < all.size() && all[k + 1] == '"';
+    if (c == '"' && !doubled && (quoted || name.empty())) {
       quoted = !quoted;
+    } else if (doubled) {
+      name += all[++k];
     } else if (c == ',' && !quoted && depth == 0) {
       if (!name.empty()) names.push_back(std::move(name));
       name.clear();

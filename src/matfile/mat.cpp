@@ -7,6 +7,8 @@
 
 #include "matfile/level5.hpp"
 #include "matfile/level73.hpp"
+#include "record/csv_time.hpp"
+#include "record/number_text.hpp"
 #include "wisp/base/file.hpp"
 
 namespace wisp {
@@ -152,6 +154,24 @@ class Reader {
   const File& file_;
 };
 
+// Samples a second by a variable of time in seconds; 0 where there is none.
+Result<double> rate_by_time(const Reader& reader) {
+  for (const char* name : {"t", "time"}) {
+    const auto table = reader.table(name);
+    if (!table || table->numbers.size() != table->rows || table->rows < 2) continue;
+    const std::vector<double>& times = table->numbers;
+    const auto step = csv::step_of(times, 0, 1);
+    for (std::size_t k = 0; k + 1 < times.size(); ++k) {
+      if (step && std::abs(times[k + 1] - times[k] - step->step) <= step->tolerance) continue;
+      return reader.at(name, "time does not go on evenly: " + number_text(times[k + 1], 12) + " after " +
+                                 number_text(times[k], 12) +
+                                 "; resample to one rate, or give the rate (--rate HZ, --dt S)");
+    }
+    return step->step == 1 ? 0.0 : 1 / step->step;  // 1, 2, 3 may count rows
+  }
+  return 0.0;
+}
+
 Result<void> add_channels(const Reader& reader, const std::string& name, Role role, Recording& recording) {
   auto table = reader.table(name);
   if (!table) return table.error();
@@ -189,8 +209,15 @@ Result<Recording> read_mat(const std::filesystem::path& path, const MatOptions& 
     if (const auto seconds = reader.scalar("Ts")) recording.rate_hz = 1 / *seconds;
     if (const auto rate = reader.scalar("fs")) recording.rate_hz = *rate;
   }
+  if (recording.rate_hz == 0) {
+    const auto rate = rate_by_time(reader);
+    if (!rate) return rate.error();
+    recording.rate_hz = *rate;
+  }
   if (!(recording.rate_hz > 0) || !std::isfinite(recording.rate_hz)) {
-    return Error{path.string() + ": no rate; give it, or store a scalar Ts (seconds) or fs (samples a second)"};
+    return Error{
+        path.string() +
+        ": no rate; give it, or store a scalar Ts (seconds) or fs (samples a second), or a vector t of seconds"};
   }
   for (const auto& [names, role] : {std::pair{&options.inputs, Role::kInput}, {&options.outputs, Role::kOutput}}) {
     for (const std::string& name : *names) {

@@ -58,7 +58,8 @@ std::string text_of(const Cell& cell) {
 }
 
 bool is_missing(const Cell& cell) {
-  static constexpr std::array<std::string_view, 7> kWords = {"nan", "na", "n/a", "#n/a", "null", "none", "-nan"};
+  static constexpr std::array<std::string_view, 8> kWords = {"nan",  "na",   "n/a",  "n.a.",
+                                                             "#n/a", "null", "none", "-nan"};
   if (cell.text.empty()) return true;
   // Numbers are many, and none begins so.
   const char first = cell.text.front();

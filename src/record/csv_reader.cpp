@@ -5,10 +5,13 @@
 #include <istream>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "base/path_text.hpp"
 #include "record/csv_cells.hpp"
 #include "record/csv_dialect.hpp"
+#include "record/csv_time.hpp"
+#include "record/number_text.hpp"
 #include "wisp/record/csv.hpp"
 
 namespace wisp {
@@ -17,6 +20,7 @@ namespace {
 constexpr std::size_t kLongestLine = std::size_t{16} << 20;
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kLookedAt = 3;  // lines that show how a table is written: names, units, a row
+constexpr std::size_t kTimed = 1000;  // rows that show how far apart all are
 
 using csv::Cell;
 using csv::trimmed;
@@ -84,14 +88,20 @@ std::optional<Role> role_of(const ColumnName& column, const CsvOptions& options)
   return std::nullopt;
 }
 
-// As --inputs takes them: a name that holds a comma stands in quotes.
+// As --inputs takes it: a name that holds a comma stands in quotes, with its own doubled.
+std::string as_named(const std::string& name) {
+  if (name.find(',') == std::string::npos && name.front() != '"') return name;
+  std::string text = "\"";
+  for (char c : name) text += c == '"' ? "\"\"" : std::string(1, c);
+  return text + "\"";
+}
+
+// Enough of them to choose from.
 std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t kMax = 40;
   std::string text;
-  for (const std::string& name : names) {
-    const bool quoted = name.find(',') != std::string::npos;
-    text += (text.empty() ? "" : ", ") + (quoted ? "\"" + name + "\"" : name);
-  }
-  return text;
+  for (std::size_t k = 0; k < std::min(names.size(), kMax); ++k) text += (k == 0 ? "" : ", ") + as_named(names[k]);
+  return names.size() > kMax ? text + " and " + std::to_string(names.size() - kMax) + " more" : text;
 }
 
 bool is_utf16(std::string_view line) { return line.substr(0, 2) == "\xff\xfe" || line.substr(0, 2) == "\xfe\xff"; }
@@ -111,6 +121,7 @@ Result<bool> CsvReader::read_line(Line& line) {
     int c = buffer->sbumpc();
     if (c == std::char_traits<char>::eof()) return false;
     for (; c != std::char_traits<char>::eof() && c != '\n'; c = buffer->sbumpc()) {
+      if (c == '\r' && buffer->sgetc() != '\n') break;  // the end of a line by itself, as old programs write it
       if (line.text.size() == kLongestLine) {
         row_ = line.row;
         return at_row("the line is longer than 16 MiB, expected a row of numbers; is this a CSV file?");
@@ -141,8 +152,8 @@ Result<bool> CsvReader::next_line() {
 }
 
 // The texts of line_ and of those after it, which stay to be read.
-Result<std::vector<std::string>> CsvReader::look_ahead() {
-  while (ahead_.size() + 1 < kLookedAt) {
+Result<std::vector<std::string>> CsvReader::look_ahead(std::size_t count) {
+  while (ahead_.size() + 1 < count) {
     const std::size_t row = row_;
     Line line;
     const auto more = read_line(line);
@@ -163,15 +174,25 @@ Result<CsvReader> CsvReader::open(std::istream& stream, std::string_view name, c
   reader.header_.source = name;
   if (auto ok = reader.read_attributes(); !ok) return ok.error();
   if (auto ok = reader.read_columns(options); !ok) return ok.error();
-  if (reader.header_.rate_hz == 0) reader.header_.rate_hz = options.rate_hz;
-  if (reader.header_.rate_hz == 0) {
-    return Error{reader.name_ +
-                 ": states no rate; expected a line \"# rate_hz 30\" above the header, or --rate HZ or --dt S"};
-  }
-  if (!(std::isfinite(reader.header_.rate_hz) && reader.header_.rate_hz > 0)) {
-    return Error{reader.name_ + ": the rate is " + std::to_string(reader.header_.rate_hz) + " Hz, expected above 0"};
-  }
+  if (auto ok = reader.read_rate(options); !ok) return ok.error();
   return reader;
+}
+
+// What the file says, what its reader says, what a column of time says, what is usual.
+Result<void> CsvReader::read_rate(const CsvOptions& options) {
+  if (header_.rate_hz == 0) header_.rate_hz = options.rate_hz;
+  if (header_.rate_hz != 0) time_.reset();
+  if (time_) {
+    if (auto ok = learn_step(); !ok) return ok;
+  }
+  if (header_.rate_hz == 0) header_.rate_hz = options.usual_rate_hz;
+  if (header_.rate_hz == 0) {
+    return Error{name_ +
+                 ": states no rate; expected a line \"# rate_hz 30\" above the header, a column of time in seconds, or "
+                 "--rate HZ or --dt S"};
+  }
+  if (std::isfinite(header_.rate_hz) && header_.rate_hz > 0) return {};
+  return Error{name_ + ": the rate is " + std::to_string(header_.rate_hz) + " Hz, expected above 0"};
 }
 
 // One comment line.
@@ -215,7 +236,7 @@ Result<void> CsvReader::read_attributes() {
 
 // Names of all columns, from the options or from line_, which is then used up.
 Result<std::vector<std::string>> CsvReader::read_names(const CsvOptions& options) {
-  const auto lines = look_ahead();
+  const auto lines = look_ahead(kLookedAt);
   if (!lines) return lines.error();
   if (own_form_) separator_ = ',';
   if (separator_ == '\0') separator_ = csv::separator_of(*lines);
@@ -291,11 +312,21 @@ Result<void> CsvReader::check_columns(const std::vector<std::string>& names, con
                     : "the columns (" + listed(available) + ") state no roles; name them with --inputs and --outputs");
 }
 
+// The first column that says when rows were.
+void CsvReader::find_time(const std::vector<std::string>& names) {
+  for (std::size_t k = 0; !own_form_ && k < names.size(); ++k) {
+    const ColumnName column = split_name(names[k]);
+    if (time_ || !column.role.empty() || !csv::names_time(column.name)) continue;
+    time_ = Time{k, column.name, column.unit.empty() ? csv::unit_in_time_name(column.name) : column.unit};
+  }
+}
+
 // A line below the names that says in what they are measured.
 Result<void> CsvReader::read_units() {
   if (own_form_ || ahead_.size() < 2) return {};
   if (!csv::is_row_of_units(ahead_[0].text, ahead_[1].text, separator_)) return {};
   const std::vector<std::string> units = csv::units_in(ahead_[0].text, separator_);
+  if (time_ && time_->unit.empty() && time_->place < units.size()) time_->unit = units[time_->place];
   for (std::size_t k = 0; k < std::min(units.size(), columns_.size()); ++k) {
     if (columns_[k].kind != Column::Kind::kChannel) continue;
     std::string& unit = header_.channels[columns_[k].index].unit;
@@ -312,7 +343,60 @@ Result<void> CsvReader::read_columns(const CsvOptions& options) {
     if (auto ok = add_column(name, options); !ok) return ok;
   }
   if (auto ok = check_columns(*names, options); !ok) return ok;
+  find_time(*names);
   return read_units();
+}
+
+// The rate, from the first rows' time.
+Result<void> CsvReader::learn_step() {
+  const auto lines = look_ahead(kTimed);
+  if (!lines) return lines.error();
+  std::vector<double> times;
+  double resolution = 1;
+  for (const Line& line : ahead_) {
+    const std::vector<Cell> cells = cells_of(line.text, separator_);
+    const auto time = time_->place < cells.size() ? csv::number_of(cells[time_->place], separator_) : std::nullopt;
+    if (!time || !std::isfinite(*time)) break;
+    times.push_back(*time);
+    resolution = std::min(resolution, csv::resolution_of(cells[time_->place].text));
+  }
+  const std::string column = "column " + shown(time_->name);
+  const auto seconds = time_->unit.empty() ? 1 : csv::seconds_of(time_->unit);
+  const std::string instead = "; say --rate HZ or --dt S instead";
+  if (!seconds) return Error{name_ + ": " + column + " is in " + shown(time_->unit) + ", expected s or ms" + instead};
+  if (times.empty() && !ahead_.empty()) {
+    row_ = ahead_.front().row;
+    return at_row(column + " is no number of seconds" + instead);
+  }
+  if (times.size() < 2) return {};
+  time_->seconds = *seconds;
+  const auto step = csv::step_of(times, resolution, *seconds);
+  if (!step) {
+    row_ = ahead_[1].row;
+    return at_row(column + " does not go on: " + number_text(times[1], 12) + " after " + number_text(times[0], 12) +
+                  "; sort the rows by time, or say --rate HZ or --dt S");
+  }
+  if (time_->unit.empty() && step->step == 1) return {};  // counts rows
+  time_->step = step->step;
+  time_->tolerance = step->tolerance;
+  header_.rate_hz = 1 / (step->step * *seconds);
+  return {};
+}
+
+// A cell of the column that the rate is from.
+Result<void> CsvReader::check_time(const Cell& cell) {
+  const auto now = csv::number_of(cell, separator_);
+  const auto before = std::exchange(time_->before, now);
+  if (now && (!before || std::abs(*now - *before - time_->step) <= time_->tolerance)) return {};
+  const std::string found = now ? "goes on by " + number_text(*now - *before, 6) : "is " + shown(cell.text);
+  std::string message = "column " + shown(time_->name) + " " + found + ", expected steps of " +
+                        number_text(time_->step, 6) + " as above; ";
+  const double missing = now ? std::round((*now - *before) / time_->step) - 1 : 0;
+  if (missing > 0 && std::abs(*now - *before - (missing + 1) * time_->step) <= time_->tolerance) {
+    message += number_text(missing) + (missing > 1 ? " rows are" : " row is") +
+               " missing: put rows with nothing but the time there, ";
+  }
+  return at_row(message + "resample the table to one rate, or say --rate HZ or --dt S");
 }
 
 Result<std::size_t> CsvReader::read(Recording& recording, std::size_t max_rows) {
@@ -335,13 +419,17 @@ Result<std::size_t> CsvReader::skip(std::size_t max_rows) {
     if (!*more) break;
     ++count;
   }
+  if (time_) time_->before.reset();
   return count;
 }
 
 Result<void> CsvReader::add_row(Recording& recording) {
   std::size_t place = 0, filled = 0;
   Result<void> outcome;
+  const bool timed = time_ && time_->step > 0;
+  Cell time;
   csv::for_each_cell(line_, separator_, [&](const Cell& cell) {
+    if (timed && place == time_->place) time = cell;
     if (outcome && place < columns_.size()) outcome = add_cell(recording, columns_[place], cell, place);
     ++place;
     if (!cell.text.empty()) filled = place;
@@ -351,6 +439,7 @@ Result<void> CsvReader::add_row(Recording& recording) {
     return at_row("has " + std::to_string(place) + " columns, the header has " + std::to_string(columns_.size()) +
                   "; a cell that holds a separator stands in quotes");
   }
+  if (timed && outcome) return check_time(time);
   return outcome;
 }
 
@@ -371,6 +460,7 @@ Result<void> CsvReader::add_cell(Recording& recording, const Column& column, con
       if (code != std::errc() || end != cell.text.data() + cell.text.size()) {
         return found("an episode's whole number");
       }
+      if (time_ && !recording.episode_ids.empty() && recording.episode_ids.back() != id) time_->before.reset();
       recording.episode_ids.push_back(id);
       return {};
     }

@@ -82,6 +82,30 @@ TEST_F(Tables, TheSameNumbersGiveTheSameModelHoweverTheyAreWritten) {
   EXPECT_EQ(learned("pandas.csv", "--inputs u --outputs y"), expected);
 }
 
+TEST_F(Tables, AColumnOfTimeGivesTheRateOfLearningAndOfJudging) {
+  const std::string even = write("even.csv", "time,u,y\n", [](std::ostream& out, int t, double u, double y) {
+    out << t * 0.08 << ',' << u << ',' << y << '\n';
+  });
+  const std::string slower = write("slower.csv", "time[ms],u,y\n", [](std::ostream& out, int t, double u, double y) {
+    out << t * 100 << ',' << u << ',' << y << '\n';
+  });
+  const std::string names = " --inputs u --outputs y";
+  ASSERT_EQ(wisp("learn arx " + even + names + " --na 1 --nb 1 -o " + at("timed.wisp")).status, 0);
+  EXPECT_EQ(wisp("info --json " + at("timed.wisp")).json()["rate_hz"], 12.5);
+  EXPECT_EQ(wisp("validate " + at("timed.wisp") + " " + even + " --json").status, 0);
+  const Said other = wisp("validate " + at("timed.wisp") + " " + slower + " --json");
+  EXPECT_EQ(other.status, 1);
+  EXPECT_THAT(other.err, AllOf(HasSubstr("10"), HasSubstr("12.5")));
+}
+
+TEST_F(Tables, ANameMayHoldQuotes) {
+  const std::string table = write("quoted.csv", "\"Air \"\"out\"\"\",\"u, \"\"W\"\"\"\n",
+                                  [](std::ostream& out, int, double u, double y) { out << y << ',' << u << '\n'; });
+  const Said said = wisp("learn arx " + table + " --rate 10 --na 1 --nb 1 --json --outputs 'Air \"out\"' --inputs " +
+                         "'\"u, \"\"W\"\"\"'");
+  EXPECT_EQ(said.status, 0) << said.err;
+}
+
 TEST_F(Tables, ARefusalSaysWhatWouldWork) {
   write("daisy.dat", "",
         [](std::ostream& out, int t, double u, double y) { out << t << " " << u << " " << y << "\n"; });

@@ -143,6 +143,16 @@ TEST_P(MatLevels, SaysWhatIsWrong) {
   EXPECT_THAT(error_of(path, {.rate_hz = 1}), HasSubstr("name the variables"));
 }
 
+TEST_P(MatLevels, AVectorOfTimeGivesTheRate) {
+  auto file = make("timed");
+  file.matrix("t", 4, 1, {0, 0.08, 0.16, 0.24}).matrix("u", 4, 1, {1, 2, 3, 4}).matrix("time", 4, 1, {0, 1, 3, 4});
+  EXPECT_NEAR(read_mat(file.close(), {.outputs = {"u"}})->rate_hz, 12.5, 1e-9);
+  auto uneven = make("untimed");
+  uneven.matrix("time", 4, 1, {0, 1, 3, 4}).matrix("u", 4, 1, {1, 2, 3, 4});
+  EXPECT_THAT(error_of(uneven.close(), {.outputs = {"u"}}),
+              AllOf(HasSubstr("variable time"), HasSubstr("3 after 1"), HasSubstr("--rate")));
+}
+
 TEST_P(MatLevels, EveryCutIsAnErrorOrWhole) {
   auto file = make("cut");
   std::vector<double> numbers(200, 1.5);

@@ -127,6 +127,58 @@ TEST(Csv, WhatIsNotANumberIsNamedWithItsRow) {
   }
 }
 
+double rate_by_time(const std::string& text, double usual = 0) {
+  const auto recording = parse(text, {.usual_rate_hz = usual, .inputs = {"u"}, .outputs = {"y"}});
+  EXPECT_TRUE(recording) << recording.error().message;
+  return recording ? recording->rate_hz : 0;
+}
+
+TEST(Csv, AColumnOfTimeGivesTheRate) {
+  EXPECT_DOUBLE_EQ(rate_by_time("t,u,y\n0,1,2\n0.08,2,3\n0.16,3,4\n"), 12.5);
+  EXPECT_DOUBLE_EQ(rate_by_time("Time (ms),u,y\n0,1,2\n33,2,3\n67,3,4\n100,1,1\n133,1,1\n"), 30);
+  EXPECT_DOUBLE_EQ(rate_by_time("time[ms];u;y\n0;1;2\n2,5;2;3\n5;3;4\n"), 400);
+  EXPECT_DOUBLE_EQ(rate_by_time("time,u,y\nmin,V,K\n0,1,2\n0.5,2,3\n1,3,4\n"), 1 / 30.0);
+  EXPECT_DOUBLE_EQ(rate_by_time("t_s,u,y\n1,1,2\n2,2,3\n3,3,4\n"), 1);
+  EXPECT_DOUBLE_EQ(rate_by_time("t,u,y\n10.1,1,2\n10.2,2,3\n10.3,3,4\n", 25), 10);
+}
+
+TEST(Csv, AColumnOfTimeBeginsAnewWithEveryEpisode) {
+  EXPECT_DOUBLE_EQ(rate_by_time("t,episode,u,y\n0,1,1,2\n0.1,1,2,3\n0,2,2,3\n0.1,2,3,4\n"), 10);
+}
+
+TEST(Csv, ACountOfRowsIsNoTime) {
+  const std::string table = "t,u,y\n1,1,2\n2,2,3\n3,3,4\n";
+  EXPECT_THAT(complaint(table, {.inputs = {"u"}}), HasSubstr("states no rate"));
+  EXPECT_DOUBLE_EQ(rate_by_time(table, 25), 25);
+}
+
+TEST(Csv, TimeThatIsNotEvenIsRefusedWithItsRowUnlessTheRateIsSaid) {
+  const std::string table = "time,u,y\n0,1,2\n0.1,2,3\n0.2,2,3\n0.4,3,4\n0.5,3,4\n";
+  EXPECT_THAT(complaint(table, {.inputs = {"u"}}),
+              AllOf(HasSubstr("row 5: column \"time\" goes on by 0.2, expected steps of 0.1"), HasSubstr("--rate")));
+  EXPECT_THAT(complaint(table, {.inputs = {"u"}}),
+              HasSubstr("1 row is missing: put rows with nothing but the time there"));
+  EXPECT_TRUE(parse(table, {.rate_hz = 10, .inputs = {"u"}}));
+  EXPECT_THAT(complaint("time,u\n0.1,1\n,2\n0.3,3\n", {.inputs = {"u"}}), HasSubstr("states no rate"));
+  EXPECT_THAT(complaint("time,u\n0.1,1\n0.2,2\n,3\n", {.inputs = {"u"}}), HasSubstr("row 4: column \"time\" is"));
+  EXPECT_THAT(complaint("time,u\n0.2,1\n0.1,2\n", {.inputs = {"u"}}), HasSubstr("row 3: column \"time\" does not go"));
+  EXPECT_THAT(complaint("time,u\n2024-01-01 10:00,1.5\n2024-01-01 10:01,2\n", {.inputs = {"u"}}),
+              AllOf(HasSubstr("row 2: column \"time\" is no number of seconds"), HasSubstr("--dt")));
+  EXPECT_THAT(complaint("time[days],u\n0.2,1\n0.3,2\n", {.inputs = {"u"}}), HasSubstr("is in \"days\""));
+}
+
+TEST(Csv, LinesMayEndInCarriageReturnsAlone) {
+  const auto recording = parse("u,y\r1,2\r3,4\r", {.rate_hz = 1, .inputs = {"u"}, .outputs = {"y"}});
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_EQ(recording->channels[1].samples, (std::vector<double>{2, 4}));
+}
+
+TEST(Csv, OfManyColumnsSomeAreListed) {
+  std::string header = "c0";
+  for (int k = 1; k < 100; ++k) header += ",c" + std::to_string(k);
+  EXPECT_THAT(complaint(header + "\n", {.inputs = {"u"}}), HasSubstr("c39 and 60 more"));
+}
+
 TEST(Csv, AFileWithoutRateRowsOrHeaderIsRefused) {
   EXPECT_THAT(complaint("# wisp-recording 1\nu:a\n1\n"), HasSubstr("states no rate"));
   EXPECT_THAT(complaint("# wisp-recording 1\n# rate_hz fast\nu:a\n1\n"), HasSubstr("rate_hz is \"fast\""));

@@ -4,6 +4,7 @@
 
 #include "commands/commands.hpp"
 #include "flags/curve_flag.hpp"
+#include "flags/focus_flag.hpp"
 #include "flags/order_flags.hpp"
 #include "flags/recordings.hpp"
 #include "flags/search_flags.hpp"
@@ -19,11 +20,6 @@ namespace {
 ArxOffset offset_of(const Arguments& arguments) {
   if (arguments.text("offset") == "none") return ArxOffset::kNone;
   return arguments.text("offset") == "estimate" ? ArxOffset::kEstimate : ArxOffset::kMean;
-}
-
-ArxFocus focus_of(const Arguments& arguments) {
-  if (arguments.text("focus") == "auto") return ArxFocus::kAuto;
-  return arguments.text("focus") == "simulation" ? ArxFocus::kSimulation : ArxFocus::kPrediction;
 }
 
 Result<void> take_orders(const Arguments& arguments, ArxRecipe& recipe) {
@@ -149,14 +145,8 @@ std::vector<Flag> flags() {
            "mean",
            "the operating point: mean removes means, none, estimate adds a constant term",
            {"mean", "none", "estimate"}},
-          {"focus",
-           Kind::kChoice,
-           "F",
-           "prediction",
-           "what the coefficients are best at: prediction, the next sample (least squares); simulation, free runs from "
-           "the input; auto, simulation, many lags under a kernel or a subspace estimate where held-out free runs are "
-           "surely better so",
-           {"prediction", "simulation", "auto"}},
+          focus_flag("auto, simulation, many lags under a kernel or a subspace estimate where held-out free runs are "
+                     "surely better so"),
           {"ridge", Kind::kNumber, "R", "0", "weight of the coefficients' size, as a share of each regressor's energy"},
           {"kernel",
            Kind::kChoice,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <utility>
 
 #include "flags/motion_flags.hpp"
 #include "wisp/record/csv.hpp"
@@ -45,6 +46,7 @@ bool is_table(const std::filesystem::path& path) {
 bool is_matlab(const std::filesystem::path& path) { return extension_of(path) == ".mat"; }
 
 Result<CsvOptions> csv_options(const Arguments& arguments, CsvOptions options) {
+  options.usual_rate_hz = std::exchange(options.rate_hz, 0);  // a table's time knows better
   if (arguments.has("inputs")) options.inputs = arguments.names("inputs");
   if (arguments.has("outputs")) options.outputs = arguments.names("outputs");
   const auto motion = motion_columns(arguments);
@@ -69,7 +71,8 @@ Result<Recording> read_matlab(const std::filesystem::path& path, const CsvOption
     return Error{"--columns names columns of a table; of " + path.string() +
                  " name variables with --inputs and --outputs, such as u or u(:,2)"};
   }
-  const MatOptions named{.rate_hz = options.rate_hz, .inputs = options.inputs, .outputs = options.outputs};
+  const double rate_hz = options.rate_hz > 0 ? options.rate_hz : options.usual_rate_hz;
+  const MatOptions named{.rate_hz = rate_hz, .inputs = options.inputs, .outputs = options.outputs};
   if (arguments.has("dt") || arguments.has("rate") || otherwise.rate_hz == 0) return read_mat(path, named);
   auto stated = read_mat(path, {.inputs = options.inputs, .outputs = options.outputs});
   return stated ? std::move(stated) : read_mat(path, named);

@@ -18,8 +18,8 @@ Result<Report> validate_chain(const Model&, std::span<const Recording>, std::uin
 namespace arx {
 
 Result<FocusedFit> focus_fit(std::span<const Recording>, const ChannelChoice&, const ArxOptions&, ArxFit plain,
-                             ArxFocus focus, const Progress&) {
-  if (focus == ArxFocus::kPrediction) return FocusedFit{.fit = std::move(plain)};
+                             const FocusOptions& asked, const Progress&) {
+  if (asked.focus == ArxFocus::kPrediction) return FocusedFit{.fit = std::move(plain)};
   return studio::left_out("coefficients that are refined for simulation");
 }
 

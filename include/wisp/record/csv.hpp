@@ -5,6 +5,7 @@
 #include <deque>
 #include <filesystem>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,7 +22,8 @@ struct Cell;
 /// How to understand a table that does not say so itself. A file's own words win where both speak, except
 /// `inputs` and `outputs`, which, when given, choose the channels to keep and their roles.
 struct CsvOptions {
-  double rate_hz = 0;                        ///< samples a second; 0: the file must state it
+  double rate_hz = 0;                        ///< samples a second; 0: the file must state it, or have a column of time
+  double usual_rate_hz = 0;                  ///< where it does neither; 0: an error then
   std::vector<std::string> inputs{};         ///< columns that are inputs
   std::vector<std::string> outputs{};        ///< columns that are outputs
   std::vector<std::string> usual_inputs{};   ///< columns that are inputs where a plain table has them
@@ -34,7 +36,9 @@ class CsvReader {
  public:
   /// Reads the comment lines and the header. `name` stands for the file in messages.
   /// Tables from elsewhere may be separated by commas, semicolons, tabs or blanks, have decimal commas, a line that
-  /// tells Excel the separator, a line of units, and comment lines that begin with # or %.
+  /// tells Excel the separator, a line of units, and comment lines that begin with # or %. Where nothing else says the
+  /// rate, a column of time does (t, time, seconds, timestamp, in s unless its name or the line of units says ms, us,
+  /// min or h), and every row must go on evenly then; one that counts rows, without a unit, is none.
   /// Errors, each with file and row (1-based, as an editor counts lines): not text, no header and no names, no rate, an
   /// unknown version, an unknown or repeated column.
   ///
@@ -47,8 +51,8 @@ class CsvReader {
   /// Appends up to `max_rows` further rows to `recording`, which is the header or what was read before.
   /// Returns how many; 0 at the end.
   /// An empty cell, NaN or NA is a missing sample.
-  /// Errors: a wrong number of columns, text or infinity where a number belongs, decimal points and commas in one
-  /// table, a line longer than 16 MiB.
+  /// Errors: time that does not go on evenly, a wrong number of columns, text or infinity where a number belongs,
+  /// decimal points and commas in one table, a line longer than 16 MiB.
   Result<std::size_t> read(Recording& recording, std::size_t max_rows);
 
   /// Passes over up to `max_rows` rows without looking at their numbers.
@@ -67,15 +71,30 @@ class CsvReader {
     std::size_t row = 0;
   };
 
+  // A column of time.
+  struct Time {
+    std::size_t place = 0;  // among all columns
+    std::string name;
+    std::string unit;
+    double seconds = 1;  // of one unit
+    double step = 0;     // in units; 0: not looked at
+    double tolerance = 0;
+    std::optional<double> before{};  // in the row before
+  };
+
   Result<bool> read_line(Line& line);
   Result<bool> next_line();
-  Result<std::vector<std::string>> look_ahead();
+  Result<std::vector<std::string>> look_ahead(std::size_t count);
   Result<void> read_attribute();
   Result<void> read_attributes();
   Result<std::vector<std::string>> read_names(const CsvOptions& options);
   Result<void> add_column(const std::string& name, const CsvOptions& options);
   Result<void> check_columns(const std::vector<std::string>& names, const CsvOptions& options) const;
+  void find_time(const std::vector<std::string>& names);
   Result<void> read_units();
+  Result<void> read_rate(const CsvOptions& options);
+  Result<void> learn_step();
+  Result<void> check_time(const csv::Cell& cell);
   Result<void> read_columns(const CsvOptions& options);
   Result<void> add_row(Recording& recording);
   Result<void> add_cell(Recording& recording, const Column& column, const csv::Cell& cell, std::size_t place);
@@ -90,6 +109,7 @@ class CsvReader {
   std::size_t row_ = 0;  // of line_, 1-based
   std::deque<Line> ahead_;
   std::size_t rows_read_ = 0;
+  std::optional<Time> time_;
   char separator_ = '\0';
   bool own_form_ = false;
   bool commas_ = false;  // numbers so far had decimal commas, points

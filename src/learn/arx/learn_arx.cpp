@@ -161,17 +161,19 @@ Result<Fit> learn_arx(std::span<const Recording> recordings, const ArxRecipe& re
   auto plain = fit_arx(seen, channels, options);
   if (!plain) return plain.error();
   const ArxModel squares = plain->model;
-  auto focused = arx::focus_fit(seen, channels, options, std::move(*plain), recipe.focus, progress);
+  auto focused = arx::focus_fit(seen, channels, options, std::move(*plain), {recipe.focus}, progress);
   if (!focused) return focused.error();
   if (auto ok = arx::check_progress(progress, "testing residuals", 0); !ok) return ok.error();
   const ResidualTestOptions testing{.lags = arx::kTestLags, .learned_from_it = true};
   const auto first = test_residuals(squares, seen, channels, testing);
-  const auto tests = focused->refined ? test_residuals(focused->fit.model, seen, channels, testing) : first;
+  const auto tests = focused->outcome.refined ? test_residuals(focused->fit.model, seen, channels, testing) : first;
   arx::judge_use(
       {channels, focused->fit.model.orders, arx::persistence_errors(seen, channels), first ? &*first : nullptr},
       focused->fit.summary);
   Fit fit = arx::finish(focused->fit, recipe, channels, *sources);
-  if (recipe.focus != ArxFocus::kPrediction) arx::add_focus(*focused, channels.outputs, fit.report);
+  if (recipe.focus != ArxFocus::kPrediction) {
+    fit.report.sections.push_back(arx::focus_section(focused->outcome, channels.outputs));
+  }
   fit.report.append(std::move(chosen));
   if (tests) arx::add_tests(*tests, channels, fit.report);  // too short: nothing can be said
   return fit;

@@ -55,6 +55,7 @@ struct HeldOut {
 Result<std::optional<HeldOut>> held_out_error(std::span<const Recording> recordings, OutlineRecipe recipe,
                                               const Progress& progress) {
   recipe.refit = false;
+  recipe.focus = ArxFocus::kPrediction;       // takes time, and says the same of a scale
   recipe.noise = OutlineNoise::kIndependent;  // is not judged here
   recipe.match_variance = false;
   const auto fit = fit_outline(recordings, recipe, progress);

@@ -84,12 +84,14 @@ const char* noise_name(OutlineNoise noise) {
   return "";
 }
 
-std::vector<Note> notes(const OutlineRecipe& options, const OutlineChoice& choice, int knots) {
+std::vector<Note> notes(const OutlineRecipe& options, const OutlineSummary& summary) {
+  const OutlineChoice& choice = summary.choice;
   return {{"order", std::to_string(choice.taken().order)},
           {"delay", std::to_string(choice.taken().delay)},
           {"order_and_delay", choice.reason},
           {"coupling", coupling_name(*options.coupling)},
-          {"input_curve", std::to_string(knots)},
+          {"input_curve", std::to_string(summary.curve_choice.knots)},
+          {"focus", summary.focus.refined ? "simulation" : "prediction"},
           {"one_sided", options.one_sided ? "yes" : "no"},
           {"holdout", rounded(options.holdout, 3)},
           {"refit", options.refit ? "yes" : "no"},
@@ -190,7 +192,7 @@ Training outline_training(std::span<const Recording> recordings, const OutlineRe
                           const OutlineSummary& summary) {
   Training out;
   for (const Recording& recording : recordings) out.sources.push_back(recording.source);
-  out.recipe = notes(options, summary.choice, summary.curve_choice.knots);
+  out.recipe = notes(options, summary);
   const OutlineFigures& judged = summary.held_out ? *summary.held_out : summary.learned;
   out.figures = {{"fpe", summary.fpe},
                  {"radius", summary.stable.radius},

@@ -21,8 +21,9 @@ void add_fit(const ArxFit& fit, const Model& model, Report& report);
 /// All candidates, the best with its runners-up by the criterion, and the best of every output on its own.
 void add_search(const OrderSearch& search, const std::vector<std::string>& outputs, OrderCriterion by, Report& report);
 
-/// Whether the model was refined for free simulation, and how held-out free runs judged that.
-void add_focus(const FocusedFit& focused, const std::vector<std::string>& outputs, Report& report);
+/// Whether the model was refined for free simulation, and how held-out free runs judged that. One choice for all
+/// outputs is named so.
+ReportSection focus_section(const FocusOutcome& focused, const std::vector<std::string>& outputs);
 
 /// How curves were chosen, and those of the inputs that are named.
 void add_curves(const CurveChoice& choice, const std::vector<std::string>& inputs,

@@ -111,7 +111,8 @@ Result<void> scale_channel(Signals& signals, int channel, ArxOffset offset) {
   const double reference = first_present(signals, channel);
   const ChannelSums sums = channel_sums(signals, channel, reference);
   const std::string name = "channel '" + signals.names[channel] + "'";
-  if (sums.count == 0) return Error{name + " has no sample that is not missing"};
+  if (sums.count == 0)
+    return Error{name + " has no sample that is not missing, expected numbers: is it the right column?"};
   if (!std::isfinite(sums.sum) || !std::isfinite(sums.square)) {
     return Error{name + " holds an infinite sample, or samples so large that their squares overflow"};
   }

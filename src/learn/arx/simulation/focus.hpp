@@ -16,6 +16,7 @@ namespace wisp::arx {
 /// One way to choose a block's coefficients, and its errors over held-out free runs.
 struct FocusCandidate {
   std::optional<double> one_step_weight{};  ///< of refined ones; none: least squares
+  bool at_zero = false;                     ///< … about zero: no input at rest means no output
   int kernel_lags = 0;                      ///< of many lags under a kernel (kKernelLags); 0: no kernel
   int states = 0;                           ///< of a subspace estimate in its ARX form (state_space.hpp)
   bool decoupled = false;                   ///< every output remembers itself only
@@ -34,11 +35,22 @@ struct FocusChoice {
   std::vector<FocusCandidate> candidates{};  ///< least squares first; empty where none could be judged
 };
 
+/// What a focus made of a model, and why.
+struct FocusOutcome {
+  bool refined = false;
+  std::string reason{};  ///< one sentence
+  std::vector<FocusChoice> choices{};
+};
+
 struct FocusedFit {
   ArxFit fit;
-  bool refined = false;
-  std::string reason;  ///< one sentence
-  std::vector<FocusChoice> choices{};
+  FocusOutcome outcome{};
+};
+
+/// What is asked for.
+struct FocusOptions {
+  ArxFocus focus = ArxFocus::kAuto;
+  bool keep_orders = false;  ///< refined only: neither kernels nor states, and no output on its own
 };
 
 /// `plain` refined as the focus says: with kSimulation in any case, as far as held-out free runs say; with kAuto where
@@ -48,6 +60,7 @@ struct FocusedFit {
 /// rows are there to hold some out. Errors: as fit_arx, kStopped. Precondition: `plain` is fit_arx() of the same
 /// arguments.
 Result<FocusedFit> focus_fit(std::span<const Recording> recordings, const ChannelChoice& channels,
-                             const ArxOptions& options, ArxFit plain, ArxFocus focus, const Progress& progress);
+                             const ArxOptions& options, ArxFit plain, const FocusOptions& focus,
+                             const Progress& progress);
 
 }  // namespace wisp::arx

@@ -145,8 +145,8 @@ struct Lanes {
   std::vector<Lane> lanes;
   std::vector<int> of_term;
 
-  explicit Lanes(const SimulationBlock& block) {
-    for (const BlockTerm& term : block.terms()) {
+  explicit Lanes(const std::vector<BlockTerm>& terms) {
+    for (const BlockTerm& term : terms) {
       const auto found = std::find_if(lanes.begin(), lanes.end(), [&](const Lane& lane) {
         return lane.row == term.row && lane.channel == term.channel;
       });
@@ -194,8 +194,9 @@ std::span<const double> span_of(const MatrixXd& matrix, Index column, Index firs
 // Products of the terms' derivatives, of the states' and of the error, over stretches of one run and one output.
 class RunProducts {
  public:
-  RunProducts(const SimulationBlock& block, const Lanes& lanes)
+  RunProducts(const SimulationBlock& block, const std::vector<BlockTerm>& terms, const Lanes& lanes)
       : block_(block),
+        terms_(terms),
         lanes_(lanes),
         states_(state_columns(block)),
         with_state_(layout(true)),
@@ -220,8 +221,8 @@ class RunProducts {
  private:
   LagLayout layout(bool states) const {
     std::vector<LaggedChannel> used;
-    for (std::size_t p = 0; p < block_.terms().size(); ++p) {
-      used.push_back({1 + lanes_.of_term[p], block_.terms()[p].lag});
+    for (std::size_t p = 0; p < terms_.size(); ++p) {
+      used.push_back({1 + lanes_.of_term[p], terms_[p].lag});
     }
     const int lanes = static_cast<int>(lanes_.lanes.size());
     for (const auto& [shock, row] : states_) {
@@ -232,8 +233,8 @@ class RunProducts {
 
   std::vector<int> order_of(const LagLayout& columns, bool with_states) const {
     std::vector<int> order;
-    for (std::size_t p = 0; p < block_.terms().size(); ++p) {
-      order.push_back(columns.find({1 + lanes_.of_term[p], block_.terms()[p].lag}));
+    for (std::size_t p = 0; p < terms_.size(); ++p) {
+      order.push_back(columns.find({1 + lanes_.of_term[p], terms_[p].lag}));
     }
     const int lanes = static_cast<int>(lanes_.lanes.size());
     for (const auto& [shock, row] : states_) {
@@ -273,6 +274,7 @@ class RunProducts {
   }
 
   const SimulationBlock& block_;
+  const std::vector<BlockTerm>& terms_;
   const Lanes& lanes_;
   std::vector<std::pair<int, int>> states_;
   LagLayout with_state_;
@@ -334,10 +336,14 @@ void filter_by_feedback(const SimulationBlock& block, const VectorXd& theta, Mat
 }
 
 GaussNewton gauss_newton(const SimulationBlock& block, const BlockSimulation& at) {
+  return gauss_newton(block, at, block.terms());
+}
+
+GaussNewton gauss_newton(const SimulationBlock& block, const BlockSimulation& at, const std::vector<BlockTerm>& moved) {
   const Feedback feedback = feedback_of(block, at.theta);
-  const Lanes lanes(block);
-  const RunProducts products(block, lanes);
-  const Index terms = Index(block.terms().size()), states = products.states();
+  const Lanes lanes(moved);
+  const RunProducts products(block, moved, lanes);
+  const Index terms = Index(moved.size()), states = products.states();
   GaussNewton out{MatrixXd::Zero(terms, terms), VectorXd::Zero(terms)};
   for (std::size_t r = 0; r < block.runs().size(); ++r) {
     const BlockRun& run = block.runs()[r];
@@ -359,8 +365,8 @@ GaussNewton gauss_newton(const SimulationBlock& block, const BlockSimulation& at
 
 MatrixXd batch_gradients(const SimulationBlock& block, const BlockSimulation& at, int batches) {
   const Feedback feedback = feedback_of(block, at.theta);
-  const Lanes lanes(block);
-  const RunProducts products(block, lanes);
+  const Lanes lanes(block.terms());
+  const RunProducts products(block, block.terms(), lanes);
   const Index terms = Index(block.terms().size());
   std::size_t rows = 0, before = 0;
   for (const BlockRun& run : block.runs()) rows += static_cast<std::size_t>(run.rows);

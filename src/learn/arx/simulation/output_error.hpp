@@ -36,6 +36,9 @@ struct GaussNewton {
 
 GaussNewton gauss_newton(const SimulationBlock& block, const BlockSimulation& at);
 
+/// The same of some of the block's terms, the others as they are.
+GaussNewton gauss_newton(const SimulationBlock& block, const BlockSimulation& at, const std::vector<BlockTerm>& moved);
+
 /// Each column through 1/A, from row memory on; the rows before are its past.
 ///
 /// Precondition: the block has one output.

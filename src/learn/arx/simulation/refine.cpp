@@ -73,21 +73,21 @@ MatrixXd OneStepLoss::batch_gradients(const VectorXd& theta, double weight, int 
   return out;
 }
 
-OneStepLoss one_step_loss(const Signals& signals, const SimulationBlock& block, const ArxOrders& orders,
-                          ArxOffset offset, int first_sample) {
-  const ArxDesign design = make_design(orders, offset);
-  OneStepLoss loss{signals, design, plan_rows(signals, design.layout, first_sample)};
+OneStepLoss one_step_loss(const Signals& signals, const SimulationBlock& block, const OneStepOptions& options) {
+  const ArxDesign design = make_design(options.orders, options.offset);
+  OneStepLoss loss{signals, design, plan_rows(signals, design.layout, options.first_sample)};
   const MatrixXd gram = lag_gram(signals, loss.plan, design.layout, wanted_pairs(design));
   loss.best = VectorXd::Zero(Index(block.terms().size()));
   Index at = 0;
   for (int output : block.outputs()) {
     std::vector<int>& columns = loss.columns.emplace_back();
-    for (const LaggedChannel& column : row_regressors(orders, output, offset)) {
+    for (const LaggedChannel& column : row_regressors(options.orders, output, options.offset)) {
       columns.push_back(design.layout.find(column));
     }
     const int target = design.layout.target(output);
     loss.targets.push_back(target);
     MatrixXd products = gram(columns, columns);
+    products.diagonal() *= 1 + options.ridge;
     const VectorXd moment = gram.col(target)(columns);
     const VectorXd own = shortest_solution(products, moment);
     loss.best.segment(at, own.size()) = own;
@@ -140,6 +140,35 @@ Refined refine(const SimulationBlock& block, const OneStepLoss& loss, const Vect
     if (!(gain > options.tolerance)) break;
   }
   return now;
+}
+
+std::vector<Refined> drive_path(const SimulationBlock& block, const OneStepLoss& loss, const VectorXd& start,
+                                std::span<const double> weights) {
+  std::vector<Index> places;
+  std::vector<BlockTerm> drive;
+  for (std::size_t p = 0; p < block.terms().size(); ++p) {
+    if (block.terms()[p].channel < block.size()) continue;
+    places.push_back(Index(p));
+    drive.push_back(block.terms()[p]);
+  }
+  const GaussNewton free = gauss_newton(block, simulate_block(block, start), drive);
+  GaussNewton one_step{MatrixXd::Zero(start.size(), start.size()), VectorXd::Zero(start.size())};
+  loss.add_to(start, 1, one_step);
+  const MatrixXd curvature = one_step.curvature(places, places);
+  const VectorXd gradient = one_step.gradient(places);
+  const auto best_for = [&](double weight) {
+    VectorXd theta = start;
+    theta(places) += shortest_solution(free.curvature + weight * curvature, free.gradient + weight * gradient);
+    return simulate_block(block, theta);
+  };
+  const double unit = best_for(0).cost / static_cast<double>(block.size());
+  std::vector<Refined> path;
+  for (double weight : weights) {
+    Refined one{best_for(weight * unit), 0, weight * unit};
+    one.value = one.simulation.cost + one.one_step_weight * loss.value(one.simulation.theta);
+    path.push_back(std::move(one));
+  }
+  return path;
 }
 
 std::vector<Refined> refined_path(const SimulationBlock& block, const OneStepLoss& loss,

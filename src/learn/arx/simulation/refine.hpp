@@ -37,9 +37,16 @@ struct OneStepLoss {
   Eigen::MatrixXd batch_gradients(const Eigen::VectorXd& theta, double weight, int batches) const;
 };
 
+/// What the loss is of, beside the block.
+struct OneStepOptions {
+  const ArxOrders& orders;
+  ArxOffset offset = ArxOffset::kMean;
+  int first_sample = 0;
+  double ridge = 0;  ///< ArxOptions::ridge: a part of the loss
+};
+
 /// Precondition: the signals outlive it; the block is of them and the orders.
-OneStepLoss one_step_loss(const Signals& signals, const SimulationBlock& block, const ArxOrders& orders,
-                          ArxOffset offset, int first_sample);
+OneStepLoss one_step_loss(const Signals& signals, const SimulationBlock& block, const OneStepOptions& options);
 
 /// How far to go.
 struct RefineOptions {
@@ -65,9 +72,25 @@ Eigen::VectorXd drawn_in(const SimulationBlock& block, Eigen::VectorXd theta, do
 /// Where to descend from, beside `squares`: Steiglitz–McBride's and instrumental variables' estimates, all stable.
 std::vector<Eigen::VectorXd> other_starts(const SimulationBlock& block, const Eigen::VectorXd& squares);
 
+/// Beside those: the best simulation of one order less, with a pole and a zero more at the same place, which cancel. A
+/// slow mode that least squares has missed is found from there only. None where an order is below 2, or the outputs of
+/// the block are several.
+std::vector<Eigen::VectorXd> cancelling_starts(const Signals& signals, const SimulationBlock& block,
+                                               const OneStepOptions& options, const RefineOptions& how);
+
 /// Weights of the error one step ahead, beside a simulation's that is as small as it can be: from nearly least squares
 /// to simulation only.
 inline constexpr double kOneStepWeights[] = {30, 10, 3, 1, 0.3, 0.1, 0.03, 0.01, 0};
+
+/// Coefficients that are refined together. Of more, feedback stays as least squares has it.
+inline constexpr std::size_t kMaxTerms = 120;
+
+/// The coefficients of inputs and the constant that are best for each weight, with the feedback of `start`: a free
+/// simulation is linear in them.
+///
+/// Precondition: the block is refinable, `start` stable.
+std::vector<Refined> drive_path(const SimulationBlock& block, const OneStepLoss& loss, const Eigen::VectorXd& start,
+                                std::span<const double> weights);
 
 /// The coefficients that are best for each weight, the largest first.
 ///

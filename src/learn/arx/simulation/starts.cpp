@@ -1,8 +1,9 @@
-// Steiglitz–McBride's and instrumental variables' estimates of a block of one output.
+// Where to descend from, for a block of one output.
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "learn/arx/simulation/refine.hpp"
 #include "learn/numeric/decompositions.hpp"
@@ -83,6 +84,37 @@ class FilteredRuns {
   int target_ = 0;
 };
 
+// Every order less by one; nothing where one of them is below 2.
+std::optional<ArxOrders> lowered(ArxOrders orders, int output) {
+  if (orders.na(output, output) < 2) return std::nullopt;
+  --orders.na(output, output);
+  for (int k = 0; k < orders.inputs(); ++k) {
+    if (orders.nb(output, k) == 1) return std::nullopt;
+    if (orders.nb(output, k) > 0) --orders.nb(output, k);
+  }
+  return orders;
+}
+
+// A lower block's coefficients as the block's, A, B and the constant times 1 − pole q⁻¹.
+VectorXd with_cancelling_pole(const SimulationBlock& block, const SimulationBlock& lower, const VectorXd& theta,
+                              double pole) {
+  const int constant = block.size() + block.inputs();
+  const auto value = [&](int channel, int lag) {
+    if (channel == 0 && lag == 0) return -1.0;
+    for (std::size_t p = 0; p < lower.terms().size(); ++p) {
+      if (lower.terms()[p].channel == channel && lower.terms()[p].lag == lag) return theta[Index(p)];
+    }
+    return 0.0;
+  };
+  VectorXd out(Index(block.terms().size()));
+  for (std::size_t p = 0; p < block.terms().size(); ++p) {
+    const BlockTerm& term = block.terms()[p];
+    const int before = term.channel == constant ? term.lag : term.lag - 1;
+    out[Index(p)] = value(term.channel, term.lag) - pole * value(term.channel, before);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<VectorXd> other_starts(const SimulationBlock& block, const VectorXd& squares) {
@@ -98,6 +130,23 @@ std::vector<VectorXd> other_starts(const SimulationBlock& block, const VectorXd&
     }
     starts.push_back(std::move(theta));
   }
+  return starts;
+}
+
+std::vector<VectorXd> cancelling_starts(const Signals& signals, const SimulationBlock& block,
+                                        const OneStepOptions& options, const RefineOptions& how) {
+  constexpr double kPoles[] = {0.9, 0.99};  // forgotten within 10 rows, and within 100
+  std::vector<VectorXd> starts;
+  if (block.size() != 1) return starts;
+  const auto orders = lowered(options.orders, block.outputs().front());
+  if (!orders) return starts;
+  const bool constant = options.offset == ArxOffset::kEstimate;
+  const SimulationBlock lower(signals, *orders, block.outputs(), constant, options.first_sample);
+  const OneStepLoss loss = one_step_loss(
+      signals, lower,
+      {.orders = *orders, .offset = options.offset, .first_sample = options.first_sample, .ridge = options.ridge});
+  const Refined best = refine(lower, loss, loss.best, how);
+  for (double pole : kPoles) starts.push_back(with_cancelling_pole(block, lower, best.simulation.theta, pole));
   return starts;
 }
 

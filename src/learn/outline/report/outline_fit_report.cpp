@@ -1,5 +1,6 @@
 #include <cstdio>
 
+#include "learn/arx/report/fit_report.hpp"
 #include "learn/arx/report/report_values.hpp"
 #include "learn/outline/report/outline_report.hpp"
 #include "learn/outline/report/outline_report_parts.hpp"
@@ -167,8 +168,19 @@ ReportSection model_section(const OutlineSummary& summary) {
 }  // namespace
 
 std::vector<ReportSection> report_sections(const OutlineFit& fit) {
-  return {data_section(fit.summary), structure_section(fit.summary), curve_section(fit.summary), fit_section(fit),
-          model_section(fit.summary)};
+  std::vector<ReportSection> sections = {data_section(fit.summary), structure_section(fit.summary),
+                                         curve_section(fit.summary)};
+  if (!fit.summary.focus.reason.empty()) {
+    std::vector<std::string> outputs;
+    for (const Output& output : fit.model.outputs) outputs.push_back(output.name);
+    std::size_t judged = 0;  // of a whole outline its components, which are fewer and have no names
+    for (const arx::FocusChoice& choice : fit.summary.focus.choices) judged += choice.outputs.size();
+    if (judged > 0) outputs.resize(judged);
+    sections.push_back(arx::focus_section(fit.summary.focus, outputs));
+  }
+  sections.push_back(fit_section(fit));
+  sections.push_back(model_section(fit.summary));
+  return sections;
 }
 
 }  // namespace wisp

@@ -226,7 +226,7 @@ arx::FocusedFit focused(const Recording& recording, const ChannelChoice& channel
       .orders = {OrderMatrix(outputs, outputs, order), OrderMatrix(outputs, 2, order), OrderMatrix(outputs, 2, 1)}};
   auto plain = fit_arx({&recording, 1}, channels, options);
   EXPECT_TRUE(plain) << plain.error().message;
-  auto fit = arx::focus_fit({&recording, 1}, channels, options, std::move(*plain), focus, {});
+  auto fit = arx::focus_fit({&recording, 1}, channels, options, std::move(*plain), {focus}, {});
   EXPECT_TRUE(fit) << fit.error().message;
   return std::move(*fit);
 }
@@ -241,9 +241,9 @@ TEST(FocusOnStates, ManyOutputsThatShareFewModesAreSimulatedFromASubspaceEstimat
   const Recording seen = record(truth, 900, 22, 0.1), unseen = record(truth, 500, 23, 0);
   const auto squares = focused(seen, channels, ArxFocus::kPrediction, 2);
   const auto fit = focused(seen, channels, ArxFocus::kAuto, 2);
-  ASSERT_TRUE(fit.refined);
-  ASSERT_EQ(fit.choices.size(), 1U);
-  EXPECT_EQ(fit.choices[0].candidates[fit.choices[0].chosen].states, 6);
+  ASSERT_TRUE(fit.outcome.refined);
+  ASSERT_EQ(fit.outcome.choices.size(), 1U);
+  EXPECT_EQ(fit.outcome.choices[0].candidates[fit.outcome.choices[0].chosen].states, 6);
   EXPECT_LT(fit.fit.summary.effective[0], 12);
   EXPECT_LT(fit.fit.summary.stable.radius, 1);
   const auto before = free_run_fits(squares.fit.model, unseen, channels);
@@ -262,7 +262,7 @@ TEST(FocusOnStates, DataThatDoNotTellAllCoefficientsMayTellAState) {
   EXPECT_FALSE(squares.fit.summary.rank_problems.empty());
   EXPECT_FALSE(squares.fit.summary.usable.verdict);
   const auto fit = focused(seen, channels, ArxFocus::kAuto, 2);
-  ASSERT_TRUE(fit.refined);
+  ASSERT_TRUE(fit.outcome.refined);
   EXPECT_TRUE(fit.fit.summary.usable.verdict) << fit.fit.summary.usable.reason;
   const auto after = free_run_fits(fit.fit.model, unseen, channels);
   EXPECT_GT(*std::min_element(after.begin(), after.end()), 99);
@@ -276,9 +276,9 @@ TEST(FocusOnStates, OutputsThatDoNotRememberEachOtherHaveNoStateInCommon) {
   options.orders.na(0, 3) = options.orders.na(3, 0) = 0;  // a chain
   auto plain = fit_arx({&seen, 1}, channels, options);
   ASSERT_TRUE(plain);
-  const auto fit = arx::focus_fit({&seen, 1}, channels, options, std::move(*plain), ArxFocus::kAuto, {});
+  const auto fit = arx::focus_fit({&seen, 1}, channels, options, std::move(*plain), {ArxFocus::kAuto}, {});
   ASSERT_TRUE(fit);
-  for (const arx::FocusChoice& choice : fit->choices) {
+  for (const arx::FocusChoice& choice : fit->outcome.choices) {
     for (const arx::FocusCandidate& one : choice.candidates) EXPECT_TRUE(one.states == 0 || choice.outputs.size() == 1);
   }
 }

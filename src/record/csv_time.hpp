@@ -1,0 +1,38 @@
+#pragma once
+// A column of a table that says when its rows were: how far apart they are, and whether evenly.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace wisp::csv {
+
+/// Whether a column's name is one of time's: t, time, seconds, timestamp, in any case, with or without a unit after it
+/// (`t_ms`, `Time (s)`).
+bool names_time(std::string_view name);
+
+/// The unit in such a name; empty where it has none.
+std::string unit_in_time_name(std::string_view name);
+
+/// Seconds of one unit (s, ms, us, min, h and their words); nothing where it is not known.
+std::optional<double> seconds_of(std::string_view unit);
+
+/// Steps of time, in the column's unit.
+struct TimeStep {
+  double step = 0;  ///< between rows
+  double tolerance =
+      0;  ///< by which one may differ: a hundredth, or what rounding to the written digits does, at most half a step
+};
+
+/// How far apart rows are, from the first of them, as long as they are even. The shortest number of rows a second, or
+/// of seconds, that the written digits allow: 0.033, 0.067, 0.100 are thirty rows a second. Nothing where time does not
+/// go on from the first row to the second. `resolution`: of the last written digit.
+///
+/// Precondition: two times or more.
+std::optional<TimeStep> step_of(const std::vector<double>& times, double resolution, double seconds);
+
+/// What the last written digit of a number is worth; 0 with an exponent.
+double resolution_of(std::string_view number);
+
+}  // namespace wisp::csv
