@@ -64,12 +64,13 @@ export function sayWrong(app: App, error: unknown): void {
   app.notices.say(`${/[.!?]$/.test(words) ? words : `${words}.`} What plays goes on.`);
 }
 
-/** Plays a model that was dropped or chosen; what can be learned from opens the studio. */
+/** Plays a model that was dropped or chosen. What can be learned from opens the studio, which takes everything else while it is open. */
 export function openDropped(app: App, { files, entries }: Dropped): void {
   const [file] = files;
   if (file === undefined) return;
-  if (isLesson(files, entries)) {
-    app.parts?.door.open({ files, entries });
+  const door = app.parts?.door;
+  if (isLesson(files, entries) || (door?.isInside === true && !/\.wisp$/i.test(file.name))) {
+    door?.open({ files, entries });
     return;
   }
   readDropped(file)
@@ -78,6 +79,9 @@ export function openDropped(app: App, { files, entries }: Dropped): void {
         throw refusalOf(file.name, error);
       }),
     )
-    .then(() => app.notices.say(`Playing ${file.name}.`))
+    .then(() => {
+      door?.leave();
+      app.notices.say(`Playing ${file.name}.`);
+    })
     .catch((error: unknown) => sayWrong(app, error instanceof Refused ? error : refusalOf(file.name, error)));
 }

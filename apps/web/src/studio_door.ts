@@ -47,6 +47,11 @@ export class StudioDoor {
     );
   }
 
+  /** Whether somebody is in it. */
+  get isInside(): boolean {
+    return this.inside;
+  }
+
   private enter(room: Room): void {
     this.inside = true;
     const { app } = this;
@@ -64,7 +69,7 @@ export class StudioDoor {
   }
 
   /** Comes out; what was gathered stays there. */
-  private leave(): void {
+  leave(): void {
     if (!this.inside) return;
     this.inside = false;
     void this.room?.then((room) => room.show(false));

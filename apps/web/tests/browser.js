@@ -95,15 +95,15 @@ export async function until(page, what, holds, argument = null, timeout = 30_000
 /** Drops a file on the page. */
 export const drop = (page, name, bytes) => dropAll(page, { [name]: bytes });
 
-/** Drops files, each by its name. */
+/** Drops files, each by its name. Their bytes go as text: as a list of numbers a film takes a minute. */
 export const dropAll = (page, files) =>
   page.evaluate(
     (all) => {
       const carried = new DataTransfer();
-      for (const [called, values] of all) carried.items.add(new File([new Uint8Array(values)], called));
+      for (const [called, text] of all) carried.items.add(new File([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))], called));
       window.dispatchEvent(new DragEvent('drop', { dataTransfer: carried, bubbles: true, cancelable: true }));
     },
-    Object.entries(files).map(([name, bytes]) => [name, [...bytes]]),
+    Object.entries(files).map(([name, bytes]) => [name, Buffer.from(bytes).toString('base64')]),
   );
 
 /** Opens the drawer, if it is not open. */

@@ -2,8 +2,8 @@
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { appendFileSync, copyFileSync, existsSync, statSync, truncateSync } from 'node:fs';
-import { join } from 'node:path';
+import { appendFileSync, copyFileSync, existsSync, mkdirSync, renameSync, statSync, truncateSync } from 'node:fs';
+import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 const program = process.env.WISP_PROGRAM ?? fileURLToPath(new URL('../../../build/release/bin/wisp', import.meta.url));
@@ -24,10 +24,17 @@ export const noConverter = noFilms || (!runs('ffmpeg') && 'there is no ffmpeg he
 
 const convert = (...values) => execFileSync('ffmpeg', ['-v', 'error', '-y', ...values]);
 
-/** Ten seconds of a candle in gusts, blown out near the end, with the sound of the wind. */
+/** Ten seconds of a candle in gusts, blown out near the end, with the sound of the wind: made once for every program. */
 export function candleFilm(folder) {
   const film = join(folder, 'candle.mp4');
-  execFileSync(program, ['simulate', 'candle', '-o', film, '--seconds', '10', '--rate', '30', '--wind', 'gusts', '--blow-out', '8', '--seed', '5', '--quiet']);
+  const kept = fileURLToPath(new URL('../../../node_modules/.cache/wisp/candle.mp4', import.meta.url));
+  if (!existsSync(kept) || statSync(kept).mtimeMs < statSync(program).mtimeMs) {
+    execFileSync(program, ['simulate', 'candle', '-o', film, '--seconds', '10', '--rate', '30', '--wind', 'gusts', '--blow-out', '8', '--seed', '5', '--quiet']);
+    mkdirSync(dirname(kept), { recursive: true });
+    // Whole or not at all: another test may look for it at the same time.
+    copyFileSync(film, `${kept}.${process.pid}`);
+    renameSync(`${kept}.${process.pid}`, kept);
+  } else copyFileSync(kept, film);
   return film;
 }
 
@@ -72,6 +79,28 @@ export function wallFilm(folder) {
   const film = join(folder, 'wall.mp4');
   convert('-f', 'lavfi', '-i', 'color=c=0x303030:s=320x240:r=30:d=3', '-pix_fmt', 'yuv420p', film);
   return film;
+}
+
+/** Two seconds of it as browsers record: VP9 and Opus in WebM. */
+export function webFilm(film, folder) {
+  const web = join(folder, 'web.webm');
+  convert('-i', film, '-t', '2', '-c:v', 'libvpx-vp9', '-deadline', 'realtime', '-cpu-used', '8', '-crf', '20', '-b:v', '0', '-c:a', 'libopus', web);
+  return web;
+}
+
+/** Its sound alone, in a film's file. */
+export function soundAlone(film, folder) {
+  const sound = join(folder, 'sound.mp4');
+  convert('-i', film, '-t', '1', '-vn', '-c:a', 'copy', sound);
+  return sound;
+}
+
+/** Its beginning, as a copy that was broken off: where MP4 says what is in it is missing. */
+export function brokenOff(film, folder) {
+  const whole = join(folder, 'broken_off.mp4');
+  convert('-i', film, '-t', '1', '-c', 'copy', whole);
+  truncateSync(whole, Math.round(0.6 * statSync(whole).size));
+  return whole;
 }
 
 /** Its first second. */

@@ -8,7 +8,7 @@ import { join } from 'node:path';
 import { after, before, describe, it } from 'node:test';
 import { chromiumPath, drop, openBrowser, until } from './browser.js';
 import { fallsFilm } from '../../../bindings/studio/tests/falls_film.mjs';
-import { asDevices, assertSame, candleFilm, capturedByProgram, hugeFile, hugePicture, noConverter, shortFilm, unevenFilm } from './films.js';
+import { asDevices, assertSame, brokenOff, candleFilm, capturedByProgram, hugeFile, hugePicture, noConverter, shortFilm, soundAlone, unevenFilm, webFilm } from './films.js';
 
 const skip = (chromiumPath === undefined && 'there is no Chromium here') || noConverter;
 const folder = mkdtempSync(join(tmpdir(), 'wisp-days-'));
@@ -54,6 +54,32 @@ describe('a film out of the ordinary', { skip }, () => {
     await anew();
   });
 
+  it('that nobody can read is told apart, and what to do about it', async () => {
+    const strangers = {
+      'diary.mp4': [Buffer.from('Today I lit a candle.'), 'diary.mp4 is not a film that can be read here.*convert it to MP4'],
+      'broken_off.mp4': [readFileSync(brokenOff(film(), folder)), 'broken_off.mp4 is cut off.*copy the whole film'],
+      'sound.mp4': [readFileSync(soundAlone(film(), folder)), 'sound.mp4 has sound and no picture'],
+    };
+    for (const [name, [bytes, words]] of Object.entries(strangers)) {
+      await drop(page, name, bytes);
+      await says(page, `${panel} .verdict.bad`, words, 20_000);
+      // Where no picture was seen, there is none to look at in another way.
+      assert.doesNotMatch(await page.textContent(panel), /The picture stays|something that falls/);
+      await anew();
+    }
+    await drop(page, 'films.zip', Buffer.from('PK'));
+    await says(page, '#notices', 'films.zip is no film.*unpack an archive first');
+    await drop(page, 'diary.txt', Buffer.from('Dear diary,\ntoday I lit a candle.\n'));
+    await says(page, '#notices', 'diary.txt has no column of numbers');
+  });
+
+  it('in WebM with VP9 is followed as any other', async () => {
+    await drop(page, 'web.webm', readFileSync(webFilm(film(), folder)));
+    await looked(page);
+    assert.match(await page.textContent(panel), /The flame is found.*in (59|60|61) of (59|60|61) pictures/s);
+    await page.click('[data-act=leave-out]');
+  });
+
   it('of one second is told to be too short', async () => {
     await drop(page, 'short.mp4', readFileSync(shortFilm(film(), folder)));
     await looked(page);
@@ -66,6 +92,18 @@ describe('a film out of the ordinary', { skip }, () => {
     assert.match(words, /short|frames|not enough|rows|seconds/i);
     await page.$eval('[data-act=choose], [data-act=leave-out], [data-act=anew]', (button) => button.click());
     await until(page, 'what there is to choose', () => document.querySelector('[data-gather=camera]') !== null);
+  });
+
+  it('is looked at to its end though the page draws nothing meanwhile', async () => {
+    await page.evaluate(() => {
+      window.drawsAgain = window.requestAnimationFrame;
+      window.requestAnimationFrame = () => 0;
+    });
+    await drop(page, 'unseen.mp4', readFileSync(shortFilm(film(), folder)));
+    await looked(page, 30_000);
+    await page.evaluate(() => (window.requestAnimationFrame = window.drawsAgain));
+    assert.match(await page.textContent(panel), /in \d+ of 35 pictures/);
+    await anew();
   });
 
   it('whose frames come unevenly has its rows where the program has them', async () => {
@@ -86,12 +124,30 @@ describe('a film out of the ordinary', { skip }, () => {
     await anew();
   });
 
+  it('or a table of a logger: semicolons, commas in its numbers, milliseconds, a name that tells nothing', async () => {
+    const rows = Array.from({ length: 40 }, (_, k) => `${k * 50};${k % 7 < 3 ? '1,5' : '0,0'};${(20 + Math.sin(k)).toFixed(3).replace('.', ',')}`);
+    await drop(page, 'logger.csv', Buffer.from(`time_ms;pwm;temp\r\n${rows.join('\r\n')}\r\n`));
+    await says(page, panel, 'What goes in, what comes out');
+    assert.equal(await page.inputValue('#table-rate'), '20');
+    const pressed = (column) => page.getAttribute(`[data-column="${column}"]`, 'aria-pressed');
+    assert.deepEqual(await Promise.all(['time_ms ignored', 'pwm input', 'temp output'].map(pressed)), ['true', 'true', 'true']);
+    assert.equal(await page.locator('.plots .curves').count(), 2, 'time itself is not plotted');
+    await page.getByRole('button', { name: 'Back' }).click();
+  });
+
   it('is no table of 300 MB', async () => {
     const table = join(folder, 'long.csv');
     writeFileSync(table, 'time,u,y\n');
     truncateSync(table, 300e6);
     await choose(page, 'table', table);
     await says(page, '#notices', 'long.csv has 300 MB');
+  });
+
+  it('or a model, which is played where models play', async () => {
+    await drop(page, 'flame-2.wisp', readFileSync(new URL('../public/models/flame-2.wisp', import.meta.url)));
+    await says(page, '#notices', 'Playing flame-2.wisp');
+    await until(page, 'the candle is seen', () => document.getElementById('studio').hidden && window.wisp.burning?.lit === 1);
+    await page.click('[data-scene=yours]');
   });
 
   it('made no error, and asked no other host', () => assert.deepEqual([page.errors, page.strangers], [[], []]));

@@ -1,6 +1,6 @@
 // Films: taken apart by Mediabunny, decoded by the browser, frame by frame and block by block.
 
-import { AudioSampleSink, BlobSource, EncodedPacketSink, Input, MATROSKA, MP4, QTFF, VideoSampleSink, WEBM, type InputVideoTrack } from 'mediabunny';
+import { AudioSampleSink, BlobSource, EncodedPacketSink, Input, MATROSKA, MP4, QTFF, UnsupportedInputFormatError, VideoSampleSink, WEBM, type InputVideoTrack } from 'mediabunny';
 import type { CaptureSettings, Engine, RawPicture } from './engine.js';
 import { StudioError } from './module.js';
 import { rawOfFrame } from './pictures.js';
@@ -30,6 +30,29 @@ export function gridRate(times: readonly number[]): number {
   const near = RATES.reduce((best, rate) => (Math.abs(rate - nominal) < Math.abs(best - nominal) ? rate : best));
   const rate = Math.abs(near - nominal) < 0.004 * near ? near : nominal;
   return rate / mean < 1.5 ? rate : mean;
+}
+
+/** Why a file shows nothing, and what to do. */
+function unreadable(name: string, error: unknown): StudioError {
+  if (error instanceof UnsupportedInputFormatError) {
+    return new StudioError(`${name} is not a film that can be read here. MP4, MOV, WebM and MKV can: convert it to MP4, or give another`);
+  }
+  return new StudioError(`${name} is damaged: ${error instanceof Error ? error.message : String(error)}; give another copy of it`);
+}
+
+/** Films without one are of sound alone, or end before MP4 says where everything is. */
+async function withoutPicture(name: string, input: Input): Promise<StudioError> {
+  const tracks = await input.getTracks();
+  if (tracks.length > 0) return new StudioError(`${name} has sound and no picture: give a film`);
+  return new StudioError(`${name} is cut off: its end, where it says what is in it, is missing; copy the whole film, or give another`);
+}
+
+/** What cameras call them. */
+const CODECS: Readonly<Record<string, string>> = { hevc: 'HEVC (H.265)', avc: 'H.264', av1: 'AV1', vp8: 'VP8', vp9: 'VP9' };
+
+function undecodable(name: string, codec: string | null): StudioError {
+  const phone = codec === 'hevc' ? '; an iPhone films in H.264 when Camera, Formats says Most Compatible' : '';
+  return new StudioError(`${name} is coded in ${CODECS[codec ?? ''] ?? codec ?? 'a way'}, which this browser cannot decode: convert it to MP4 with H.264, or use another browser${phone}`);
 }
 
 async function timesOf(track: InputVideoTrack): Promise<number[]> {
@@ -80,12 +103,10 @@ export async function showFilm(
   const input = new Input({ source: new BlobSource(file), formats: FORMATS });
   try {
     const track = await input.getPrimaryVideoTrack().catch((error: unknown) => {
-      throw new StudioError(`${settings.name} is not a film that can be read here: ${error instanceof Error ? error.message : String(error)}`);
+      throw unreadable(settings.name, error);
     });
-    if (track === null) throw new StudioError(`${settings.name} has no picture in it: give a film`);
-    if (!(await track.canDecode())) {
-      throw new StudioError(`${settings.name} is coded in ${track.codec ?? 'a way'} that this browser cannot decode: convert it to MP4 with H.264, or use another browser`);
-    }
+    if (track === null) throw await withoutPicture(settings.name, input);
+    if (!(await track.canDecode())) throw undecodable(settings.name, track.codec);
     const times = await timesOf(track);
     const rate = gridRate(times);
     if (!(rate > 0)) throw new StudioError(`${settings.name} has ${times.length === 1 ? 'one frame' : 'no frames'}: give a film of some seconds`);

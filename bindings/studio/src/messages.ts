@@ -14,9 +14,10 @@ export type Task =
   | { do: 'live'; settings: CaptureSettings }
   | { do: 'finish' };
 
-/** A task, or what a live capture is fed; both bear the number of the work that they belong to. */
+/** A task, what a live capture is fed, or that what was seen is on the screen; all bear the number of the work that they belong to. */
 export type ToWorker =
   | { of: number; task: Task }
+  | { of: number; shown: true }
   | { of: number; frame: VideoFrame | ImageBitmap; seconds: number }
   | { of: number; sound: Float32Array; rate: number; seconds: number };
 

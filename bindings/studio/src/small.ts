@@ -12,11 +12,20 @@ export interface SmallPicture {
   data: Uint8ClampedArray<ArrayBuffer>;
 }
 
-/** The picture with at most `most` pixels to a side: each is the mean of those that it stands for. */
+/** Where small pictures and their planes are made: ten a second would else leave ten megabytes to be collected. */
+const rooms: Uint8ClampedArray<ArrayBuffer>[] = [];
+
+/** The k-th, of that many bytes. */
+function roomFor(k: number, bytes: number): Uint8ClampedArray<ArrayBuffer> {
+  const room = rooms[k];
+  return room?.length === bytes ? room : (rooms[k] = new Uint8ClampedArray(bytes));
+}
+
+/** The picture with at most `most` pixels to a side: each is the mean of those that it stands for. It stands until the next. */
 export function smallPicture(picture: RawPicture, most: number): SmallPicture {
   const share = Math.min(1, most / Math.max(picture.width, picture.height));
   const [width, height] = [Math.max(1, Math.round(picture.width * share)), Math.max(1, Math.round(picture.height * share))];
-  const data = new Uint8ClampedArray(4 * width * height).fill(255);
+  const data = roomFor(3, 4 * width * height).fill(255);
   const small = picture.planes.map((_, k) =>
     smallPlane(picture, k, k === 0 || picture.layout === 'rgb' ? [0, 0] : [picture.shiftX ?? 0, picture.shiftY ?? 0], width, height),
   );
@@ -38,7 +47,7 @@ const edges = (from: number, to: number): Int32Array => Int32Array.from({ length
 /** One plane of it, 2^shift times smaller than the picture, as large as the small picture. */
 function smallPlane({ data, planes, width: from, height: high }: RawPicture, k: number, shift: readonly [number, number], width: number, height: number): Uint8ClampedArray {
   const { offset, stride, step } = planes[k]!;
-  const out = new Uint8ClampedArray(width * height);
+  const out = roomFor(k, width * height);
   const columns = edges(-(-from >> shift[0]), width);
   const rows = edges(-(-high >> shift[1]), height);
   for (let j = 0, at = 0; j < height; ++j) {

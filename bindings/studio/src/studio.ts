@@ -30,6 +30,12 @@ interface Pending {
 
 const stopped = (): DOMException => new DOMException('stopped', 'AbortError');
 
+/** Does something once the page has drawn what is there by now; at once where it draws nothing. */
+function afterNextPicture(act: () => void): void {
+  if (document.hidden) act();
+  else requestAnimationFrame(() => requestAnimationFrame(act));
+}
+
 export class Studio {
   private worker: Worker | null = null;
   private readonly pending = new Map<number, Pending>();
@@ -171,6 +177,7 @@ export class Studio {
     else if ('seen' in message) {
       if (work.watch.seen === undefined) message.seen.picture?.close();
       else work.watch.seen(message.seen);
+      afterNextPicture(() => this.worker?.postMessage({ of: message.of, shown: true } satisfies ToWorker));
     } else {
       this.pending.delete(message.of);
       if ('done' in message) work.resolve(message.done);

@@ -5,12 +5,20 @@ import { Exporter } from './exporter.js';
 import { showFilm } from './film.js';
 import type { FromWorker, Outcome, Task, ToWorker } from './messages.js';
 import { Elsewhere, sentenceOf, StudioError } from './module.js';
+import { paced } from './paced_decoder.js';
 import { rawOfBitmap, rawOfFrame } from './pictures.js';
 import { smallPicture } from './small.js';
 import type { Captured, Seen } from './types.js';
 
+// Whatever decodes in this worker does it so; tables are learned where nothing decodes.
+if (typeof VideoDecoder !== 'undefined') globalThis.VideoDecoder = paced(VideoDecoder);
+
 const SHOWN_EVERY_MS = 100;
+/** Share of a film after which something is shown in any case: a strip of a small one, looked at in no time, wants pictures too. */
+const SHOWN_SHARE = 1 / 16;
 const SHOWN_PIXELS = 512;
+/** Longest wait until the page has drawn what was seen: a page that nobody sees draws nothing. */
+const SHOWN_WITHIN_MS = 200;
 /** Holes in live sound that are longer than this are silence. */
 const LOST_SECONDS = 0.05;
 
@@ -42,9 +50,23 @@ engine.catch(() => undefined);
 
 const tell = (message: FromWorker, carried: Transferable[] = []): void => self.postMessage(message, { transfer: carried });
 
+/** Told when the page has drawn what was seen. */
+let shown: () => void = () => undefined;
+
+/** Until then. Where few processors do everything, the page would else draw when the film is over. */
+const drawn = (): Promise<void> =>
+  new Promise((resolve) => {
+    const late = setTimeout(resolve, SHOWN_WITHIN_MS);
+    shown = () => {
+      clearTimeout(late);
+      resolve();
+    };
+  });
+
 /** Tells what is seen now and then, with a small picture of the frame where there is one. */
 class Showing {
   private shown = 0;
+  private share = 0;
 
   constructor(
     private readonly of: number,
@@ -52,15 +74,18 @@ class Showing {
   ) {}
 
   async frame(picture: RawPicture | null, share: number): Promise<void> {
-    if (performance.now() - this.shown < SHOWN_EVERY_MS) return;
-    this.shown = performance.now();
+    if (performance.now() - this.shown < SHOWN_EVERY_MS && share - this.share < SHOWN_SHARE) return;
+    this.share = share;
     const seen: Seen = this.engine.seen();
     if (picture !== null) {
       const { data, width, height } = smallPicture(picture, SHOWN_PIXELS);
       seen.picture = await createImageBitmap(new ImageData(data, width, height));
     }
-    tell({ of: this.of, seen }, seen.picture === undefined ? [] : [seen.picture]);
     if (share >= 0) tell({ of: this.of, progress: { stage: 'capturing', share } });
+    tell({ of: this.of, seen }, seen.picture === undefined ? [] : [seen.picture]);
+    // A camera does not wait.
+    if (picture !== null) await drawn();
+    this.shown = performance.now();
   }
 }
 
@@ -229,6 +254,7 @@ async function answer(of: number, task: Task): Promise<void> {
 
 self.addEventListener('message', ({ data }: MessageEvent<ToWorker>) => {
   if ('task' in data) void answer(data.of, data.task);
+  else if ('shown' in data) shown();
   else if ('frame' in data) {
     if (live !== null) live.frame(data.frame, data.seconds);
     else {

@@ -45,5 +45,5 @@ export function pickOf(files: readonly File[]): Pick {
   const tables = files.filter(isTable);
   if (tables.length > 0) return { kind: 'table', files: tables };
   const [name] = files.map((file) => file.name);
-  return { kind: 'nothing', words: name === undefined ? 'There is no picture in this folder.' : `${name} is no film, no picture and no table.` };
+  return { kind: 'nothing', words: name === undefined ? 'There is no picture in this folder.' : `${name} is no film, no picture and no table. Choose a film (MP4, MOV, WebM, MKV), a folder of numbered pictures, or a table (CSV); unpack an archive first.` };
 }

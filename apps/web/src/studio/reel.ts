@@ -3,8 +3,9 @@
 
 import type { Region, Seen } from '@wisp/studio';
 
-/** Pictures, and the pixels that each is high at most: together some 90 MB. */
+/** Pictures, and the pixels that each is high at most: together some 90 MB; of a film that plays by itself the strip needs a quarter. */
 const MOST = 420;
+export const MAX_OF_FILE = 105;
 export const KEPT_HEIGHT = 200;
 
 /** A kept picture: when it was, seconds, and which part of the film it shows, pixels of the film. */
@@ -19,8 +20,8 @@ export class Reel {
   private every: number;
   private last = -Infinity;
 
-  /** `every`: seconds between pictures, at first */
-  constructor(every = 0) {
+  /** `every`: seconds between pictures, at first; `most`: pictures */
+  constructor(every = 0, private readonly most = MOST) {
     this.every = every;
   }
 
@@ -33,8 +34,8 @@ export class Reel {
   keep(picture: Kept): void {
     this.last = picture.seconds;
     this.pictures.push(picture);
-    if (this.pictures.length < MOST) return;
-    this.every = (2 * ((this.pictures.at(-1) as Kept).seconds - (this.pictures[0] as Kept).seconds)) / MOST;
+    if (this.pictures.length < this.most) return;
+    this.every = (2 * ((this.pictures.at(-1) as Kept).seconds - (this.pictures[0] as Kept).seconds)) / this.most;
     this.pictures = this.pictures.filter(({ bitmap }, k) => {
       if (k % 2 === 1) bitmap.close();
       return k % 2 === 0;

@@ -19,7 +19,7 @@ import { linesOfFalls } from './falls.js';
 import { madeFiles } from './making.js';
 import { Outlines } from './outlines.js';
 import { pickOf, unfold } from './picks.js';
-import { Reel } from './reel.js';
+import { MAX_OF_FILE, Reel } from './reel.js';
 import { ratePanel } from './panels/rate.js';
 import { resultPanel } from './panels/result.js';
 import type { Format, Moving } from './panels/taking.js';
@@ -164,6 +164,11 @@ export class Room {
     this.left.replaceChildren(...parts);
   }
 
+  /** Where there is no film to show. */
+  private invite(): void {
+    this.showLeft(element('div', { class: 'viewer' }, this.invitation.canvas));
+  }
+
   private announce(words: string): void {
     this.spoken.textContent = words;
   }
@@ -187,7 +192,7 @@ export class Room {
     this.clear();
     this.stepTo('gather');
     this.viewer.clear();
-    this.showLeft(element('div', { class: 'viewer' }, this.invitation.canvas));
+    this.invite();
     const { takes } = this.session;
     const more = takes.length === 0 ? null : { count: takes.length, thing: thingOf(this.session), back: () => this.back() };
     this.showPanel(gatherPanel({ camera: () => void this.film(false), falls: () => void this.film(true), files: (files) => this.files(files) }, more));
@@ -242,7 +247,7 @@ export class Room {
     const working = new Working(title, words, (said) => this.announce(said), thing);
     this.working = working;
     this.showPanel(working.panel);
-    const reel = new Reel(FRAMES_APART);
+    const reel = film === null ? new Reel(FRAMES_APART) : new Reel(FRAMES_APART, MAX_OF_FILE);
     if (settings.looks_for !== 'falls') this.traces.begin();
     const looked: Looked = { name, reel, film, settings, again: capture };
     this.looked = looked;
@@ -371,13 +376,17 @@ export class Room {
       return;
     }
     this.engine.renew();
-    this.trouble('Nothing was learned from this', wordsOf(error), 'The picture stays: drag a box around what you mean to look there, or choose something else.');
+    const kept = this.session.takes.length > 0 ? 'What was gathered before is kept.' : '';
+    if (!this.viewer.shows) this.invite();
+    const otherwise = this.viewer.shows ? 'The picture stays: drag a box around what you mean to look there, or choose something else.' : kept;
+    this.trouble('Nothing was learned from this', wordsOf(error), otherwise, this.viewer.shows);
   }
 
-  private trouble(title: string, words: string, otherwise: string): void {
+  /** `seen`: there is a picture, which may be looked at in another way. */
+  private trouble(title: string, words: string, otherwise: string, seen = false): void {
     const falls = element('button', { type: 'button', class: 'tool', 'data-act': 'other' }, 'It is something that falls');
     falls.addEventListener('click', () => this.lookAgain({ ...this.looked?.settings, looks_for: 'falls' }));
-    const again = this.looked !== null && this.looked.again !== null && this.looked.settings.looks_for !== 'falls';
+    const again = seen && this.looked !== null && this.looked.again !== null && this.looked.settings.looks_for !== 'falls';
     const choose = element('button', { type: 'button', class: 'tool main', 'data-act': 'choose' }, 'Choose something else');
     choose.addEventListener('click', () => this.gather());
     this.announce(words);
@@ -386,7 +395,7 @@ export class Room {
         'div',
         { class: 'panel' },
         element('div', { class: 'verdict bad' }, element('h2', { tabindex: '-1' }, title), element('p', {}, words)),
-        element('p', {}, otherwise),
+        ...(otherwise === '' ? [] : [element('p', {}, otherwise)]),
         element('div', { class: 'actions' }, choose, ...(again ? [falls] : [])),
       ),
     );
@@ -547,6 +556,7 @@ export class Room {
       const bytes = new Uint8Array(await file.arrayBuffer());
       const head = headOf(bytes);
       if (head.names.length === 0) throw new Error(`${file.name} is empty.`);
+      if (!head.recording && !head.numeric.includes(true)) throw new Error(`${file.name} has no column of numbers. A table is rows of numbers below the names of their columns.`);
       if (head.recording) {
         await this.tabled(file.name, bytes, undefined);
         return;

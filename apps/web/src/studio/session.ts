@@ -39,6 +39,9 @@ export const smoothRows = (rate: number): number => Math.max(5, 2 * Math.round(r
 /** What a session is about. */
 export const thingOf = ({ recipe }: Session): Thing => (recipe.kind === 'arx' ? 'table' : recipe.kind === 'leaf' || recipe.kind === 'chain' ? 'fall' : 'flame');
 
+/** Names of what comes out. */
+export const outputsOf = ({ takes }: Session): string[] => (takes[0]?.captured.series ?? []).filter(({ role }) => role === 'output').map(({ name }) => name);
+
 export const newSession = (): Session => ({ takes: [], recipe: { kind: 'flame' }, learned: null });
 
 /** The name that files and the model get. */

@@ -28,14 +28,20 @@ function separatorOf(line: string): RegExp {
 }
 
 const cell = (text: string): string => text.trim().replace(/^"(.*)"$/, '$1');
-const isNumber = (text: string): boolean => text === '' || /^(nan|na|n\/a)$/i.test(text) || Number.isFinite(Number(text.replace(',', '.').replace(/d/i, 'e')));
+/** What a cell says, with a comma or a point, and with exponents as Fortran writes them; NaN where it is no number. */
+const numberOf = (text: string): number => (text === '' ? NaN : Number(text.replace(',', '.').replace(/d/i, 'e')));
+const isNumber = (text: string): boolean => text === '' || /^(nan|na|n\/a)$/i.test(text) || Number.isFinite(numberOf(text));
 
-/** The time between rows of a column that counts evenly, as a rate; null where it does not. */
-function rateOfTimes(times: readonly number[]): number | null {
+/** A column of times, as its name says; and whether it counts milliseconds. */
+const isTime = (name: string): boolean => /^(t|time|seconds?|sec|zeit|millis|ms)(?![a-z])/i.test(name);
+const inMilliseconds = (name: string): boolean => /(^|[^a-z])(ms|millis)(?![a-z])/i.test(name);
+
+/** The time between rows of a column that counts evenly, as a rate; null where it does not. `unit`: seconds. */
+function rateOfTimes(times: readonly number[], unit: number): number | null {
   const steps = times.slice(1).map((time, k) => time - (times[k] as number));
   const mean = steps.reduce((sum, step) => sum + step, 0) / Math.max(1, steps.length);
   if (!(mean > 0) || steps.some((step) => Math.abs(step - mean) > 0.05 * mean)) return null;
-  return Number((1 / mean).toPrecision(6));
+  return Number((1 / (unit * mean)).toPrecision(6));
 }
 
 /** Looks at the first lines. */
@@ -50,22 +56,23 @@ export function headOf(bytes: Uint8Array): TableHead {
   const unnamed = first.length > 0 && first.every((name) => name !== '' && isNumber(name));
   const names = unnamed ? first.map((_, k) => `c${k + 1}`) : first;
   const rows = (unnamed ? cells : cells.slice(1)).filter((row) => row.length >= names.length);
-  const numeric = names.map((_, k) => rows.some((row) => row[k] !== '') && rows.slice(1).every((row) => isNumber(row[k] ?? '')));
-  const timed = names.findIndex((name) => /^(t|time|seconds?|sec|zeit)\b/i.test(name));
+  // The first row may say units.
+  const numeric = names.map((_, k) => rows.some((row) => Number.isFinite(numberOf(row[k] ?? ''))) && rows.slice(1).every((row) => isNumber(row[k] ?? '')));
+  const timed = names.findIndex(isTime);
   const said = comments.map((line) => /^# rate_hz (\S+)/.exec(line)?.[1]).find((rate) => rate !== undefined);
-  const times = timed < 0 ? [] : rows.slice(0, -1).map((row) => Number(row[timed])).filter(Number.isFinite);
+  const times = timed < 0 ? [] : rows.slice(0, -1).map((row) => numberOf(row[timed] ?? '')).filter(Number.isFinite);
   return {
     names,
     numeric,
-    rate: said !== undefined ? Number(said) : times.length > 3 ? rateOfTimes(times) : null,
+    rate: said !== undefined ? Number(said) : times.length > 3 ? rateOfTimes(times, inMilliseconds(names[timed] ?? '') ? 1e-3 : 1) : null,
     recording: comments.some((line) => line.startsWith('# wisp-recording')),
     named: unnamed ? withNames(bytes, names, separator) : null,
-    preview: names.flatMap((name, k) => (numeric[k] === true ? [columnOf(name, rows.map((row) => row[k] ?? ''))] : [])),
+    preview: names.flatMap((name, k) => (numeric[k] === true && !isTime(name) ? [columnOf(name, rows.map((row) => row[k] ?? ''))] : [])),
   };
 }
 
 function columnOf(name: string, cells: readonly string[]): Curve {
-  const y = cells.map((text) => (text === '' ? NaN : Number(text.replace(',', '.').replace(/d/i, 'e'))));
+  const y = cells.map(numberOf);
   return { id: `column ${name}`, label: name, x_label: 'row', y_label: '', x: y.map((_, row) => row), y };
 }
 
@@ -94,10 +101,21 @@ export function recipeOfTable({ series }: Captured, { inputs, outputs }: TableSe
   return { kind: 'arx', ...(inputs === undefined ? {} : { inputs }), ...(outputs === undefined ? {} : { outputs }) };
 }
 
-/** What a column is for, as its name suggests. */
-export function roleOf(name: string, numeric: boolean): 'input' | 'output' | 'ignored' {
-  if (!numeric || /^(t|time|seconds?|sec|zeit|date|index|n|k)\b/i.test(name)) return 'ignored';
+export type Role = 'input' | 'output' | 'ignored';
+
+/** What a column is for, as its name suggests; null: it suggests nothing. */
+function suggested(name: string, numeric: boolean): Role | null {
+  if (!numeric || isTime(name) || /^(date|index|n|k)\b/i.test(name)) return 'ignored';
   if (/^(u|in|input|x|power|heat|voltage|wind|force|steam|fuel|valve)/i.test(name)) return 'input';
   if ([...POSITION, ...ORIENTATION].includes(name)) return 'output';
-  return /^(y|out|output|temp|level|speed|angle|pos|v)/i.test(name) ? 'output' : 'ignored';
+  return /^(y|out|output|temp|level|speed|angle|pos|v)/i.test(name) ? 'output' : null;
+}
+
+/** What the columns are for. Where some come out and none goes in, or the other way round, those without a telling name are the
+ * others; but beside positions of something that falls. */
+export function rolesOf({ names, numeric }: TableHead): Role[] {
+  const roles = names.map((name, k) => suggested(name, numeric[k] === true));
+  const [goesIn, comesOut] = [roles.includes('input'), roles.includes('output')];
+  const rest = goesIn === comesOut || POSITION.every((name) => names.includes(name)) ? 'ignored' : goesIn ? 'output' : 'input';
+  return roles.map((role) => role ?? rest);
 }

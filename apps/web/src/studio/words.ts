@@ -128,7 +128,7 @@ export function adviceOf(captured: readonly Captured[], report: Report | null): 
   const heard = captured.some((one) => within(one.report, 'wind', 'heard') === true);
   if (!windy) made.push('Film with sound, and blow close to the microphone: without it only the flicker can be learned, not what wind does.');
   else if (!heard) made.push('Hardly any wind was heard. Blow closer to the microphone, from the side, with pauses.');
-  if (seconds < 30) made.push(`There are ${Math.round(seconds)} s of film. Forty, with a soft breath from the side now and then, make it surer.`);
+  if (seconds < 30) made.push(`Only ${Math.round(seconds)} s were filmed. Forty, with a soft breath from the side now and then, make it surer.`);
   const out = captured.some((one) => figure(one.report, 'out_at') !== null);
   if (report !== null && windy && !out && within(report, 'extinction', 'source') !== 'learned') {
     made.push('It has not been seen to go out. Blow it out once or twice while you film, and light it again.');

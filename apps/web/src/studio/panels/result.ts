@@ -3,7 +3,7 @@
 import type { Learned, Recipe } from '@wisp/studio';
 import { element } from '../../panel/element.js';
 import { plotsOf } from '../pictures/curves.js';
-import { thingOf, type Session } from '../session.js';
+import { outputsOf, thingOf, type Session } from '../session.js';
 import { takingOf, type TakingEvents } from './taking.js';
 import { adviceOf, isHeldOut, metersOf, sentence, verdictOf, type Meter, type Thing } from '../words.js';
 
@@ -50,8 +50,7 @@ export function resultPanel(session: Session, events: ResultEvents): HTMLElement
   const flame = thing === 'flame';
   const { report, curves, text } = learned;
   const { good, title, reason } = verdictOf(learned, thing);
-  const outputs = (takes[0]?.captured.series ?? []).filter(({ role }) => role === 'output').map(({ name }) => name);
-  const meters = metersOf(learned, thing, outputs);
+  const meters = metersOf(learned, thing, outputsOf(session));
   const panel = element(
     'div',
     { class: 'panel result' },

@@ -3,14 +3,14 @@
 import type { TableSettings } from '@wisp/studio';
 import { element } from '../../panel/element.js';
 import { goOrBack, rateField } from './rate.js';
-import { roleOf, type TableHead } from '../table_head.js';
+import { rolesOf, type TableHead } from '../table_head.js';
 
 const ROLES = ['input', 'output', 'ignored'] as const;
 const WORDS = { input: 'goes in', output: 'comes out', ignored: 'ignored' } as const;
 
 /** The panel. `learn` is called with what was chosen. */
 export function tablePanel(name: string, head: TableHead, learn: (settings: TableSettings) => void, back: () => void): HTMLElement {
-  const roles = head.names.map((column, k) => roleOf(column, head.numeric[k] === true));
+  const roles = rolesOf(head);
   const rows = element('div', { class: 'columns' });
   const { input: rate, label } = rateField('table-rate', 'Rows a second', head.rate ?? 1);
   const go = element('button', { type: 'button', class: 'tool main', 'data-act': 'learn' }, 'Learn it');

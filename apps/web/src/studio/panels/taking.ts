@@ -5,7 +5,7 @@ import { MAX_PACKED_BYTES, packModel } from '../../model_link.js';
 import { element } from '../../panel/element.js';
 import { telling } from '../../panel/telling.js';
 import { saveFile } from '../../saving.js';
-import { sessionName, thingOf, type Session } from '../session.js';
+import { outputsOf, sessionName, thingOf, type Session } from '../session.js';
 import type { Thing } from '../words.js';
 
 async function copy(text: string): Promise<string> {
@@ -36,6 +36,7 @@ export function takingOf(session: Session, events: TakingEvents): HTMLElement {
   const name = sessionName(session);
   const thing = thingOf(session);
   const { model } = learned;
+  const outputs = outputsOf(session).length;
   const save = telling('The model', 'wisp', '', () => {
     saveFile(new Blob([model.slice()], { type: 'application/octet-stream' }), `${name}.wisp`);
     return Promise.resolve('Saved');
@@ -59,7 +60,7 @@ export function takingOf(session: Session, events: TakingEvents): HTMLElement {
   const elsewhere: Readonly<Record<Thing, readonly HTMLElement[]>> = {
     flame: [moving('Three seconds', 'film'), moving('As a GIF', 'gif'), file('Flipbook', 'flipbook'), file('glTF', 'glb'), file('Lottie', 'json')],
     fall: [file('glTF', 'glb')],
-    table: [file('C for a microcontroller', 'c')],
+    table: outputs === 1 ? [file('C for a microcontroller', 'c')] : [],
   };
   return element(
     'section',
@@ -68,7 +69,7 @@ export function takingOf(session: Session, events: TakingEvents): HTMLElement {
     element('div', { class: 'actions' }, ...itself[thing]),
     element('p', { class: 'quiet' }, `${Math.round(model.length / 100) / 10} kB. ${WHERE[thing]} The recording can be learned from again.`),
     element('div', { class: 'actions' }, ...elsewhere[thing]),
-    element('p', { class: 'quiet' }, LOOPS[thing]),
+    element('p', { class: 'quiet' }, thing === 'table' && outputs > 1 ? MANY_OUTPUTS : LOOPS[thing]),
   );
 }
 
@@ -78,7 +79,10 @@ const WHERE: Readonly<Record<Thing, string>> = {
   table: 'The model plays in programs and on pages.',
 };
 const LOOPS: Readonly<Record<Thing, string>> = {
-  flame: 'Loops of four seconds without a seam: a flipbook for engines and pages, glTF for Blender and engines, Lottie for apps.',
+  flame:
+    'Loops of four seconds without a seam: a flipbook for engines and pages, glTF for Blender and engines, Lottie for apps. ' +
+    'C for a microcontroller is of one value, a lamp’s light: the program wisp makes it of this film (wisp capture brightness).',
   fall: 'Twenty that fall in a loop of six seconds, for Blender and engines.',
-  table: 'C in whole numbers, without a library: of models with one column that comes out.',
+  table: 'C in whole numbers, without a library.',
 };
+const MANY_OUTPUTS = 'C for a microcontroller is made of models with one column that comes out: learn the table with one.';

@@ -34,8 +34,8 @@ export class Strip {
     const { context, width, height } = surface;
     const { rate } = this.outlines;
     const play = new Play(this.wisp, this.outlines, this.model);
-    const pictures = width < NARROW ? FEWER : PICTURES;
-    const rowsShown = this.rowsShown(pictures);
+    const rowsShown = this.rowsShown(width < NARROW ? FEWER : PICTURES);
+    const pictures = rowsShown.length;
     const each = width / pictures;
     for (let k = 0; k < pictures; ++k) {
       const row = rowsShown[k] as number;
@@ -52,13 +52,14 @@ export class Strip {
     play.free();
   }
 
-  /** Moments of which there are pictures, evenly over the film. */
+  /** Moments of which there are pictures, evenly over the film; fewer than wanted where few pictures were kept. */
   private rowsShown(pictures: number): number[] {
     const { rows, rate } = this.outlines;
-    return Array.from({ length: pictures }, (_, k) => {
+    const wanted = Array.from({ length: pictures }, (_, k) => {
       const seconds = ((k + 0.5) / pictures) * (rows / rate);
       return Math.max(0, Math.min(rows - 1, Math.round((this.take.reel.at(seconds)?.seconds ?? seconds) * rate)));
     });
+    return [...new Set(wanted)];
   }
 
   private inside(context: CanvasRenderingContext2D, cell: Cell, draw: (fit: { scale: number; x: number; y: number }) => void): void {

@@ -18,7 +18,6 @@ const KEY_STEP = 0.03;
 export class Viewer {
   readonly place = element('div', { class: 'viewer' });
   readonly video = element('video', { muted: true, playsinline: true, hidden: true, 'aria-hidden': 'true', tabindex: -1 });
-  private readonly film = element('canvas', { class: 'film', 'aria-hidden': 'true' });
   private readonly over = element('canvas', {
     class: 'over',
     tabindex: 0,
@@ -43,7 +42,7 @@ export class Viewer {
   constructor(private readonly chosen: (region: Region | null) => void) {
     // A camera's own sound is never played.
     this.video.muted = true;
-    this.place.append(this.film, this.video, this.over, this.caption);
+    this.place.append(this.video, this.over, this.caption);
     this.over.addEventListener('pointerdown', (event) => this.begin(event));
     this.over.addEventListener('pointermove', (event) => this.stretch(event));
     this.over.addEventListener('pointerup', () => this.end());
@@ -56,6 +55,11 @@ export class Viewer {
   say(words: string): void {
     this.caption.hidden = words === '';
     if (this.caption.textContent !== words) this.caption.textContent = words;
+  }
+
+  /** Whether there is a picture of a film. */
+  get shows(): boolean {
+    return this.picture !== null;
   }
 
   /** Forgets what it shows. */
@@ -154,27 +158,25 @@ export class Viewer {
     });
   }
 
+  // One canvas for the picture and what lies over it: each more is a layer as large as the screen, drawn anew ten times a
+  // second while a film is looked at.
   private drawNow(): void {
-    this.drawFilm();
     const surface = surfaceOf(this.over);
     const { fit, seen, box } = this;
     if (surface === null || fit === null) return;
     const { context } = surface;
+    if (this.video.hidden) this.drawFilm(context, fit);
     if (seen !== null && seen.outline.length > 2) drawOutline(context, seen.outline, fit);
     for (const line of this.falls) drawOutline(context, line, fit);
     if (seen?.moving != null) drawMoving(context, seen.moving, this.trail, fit);
     if (box !== null) drawBox(context, box, fit, surface.width, surface.height);
   }
 
-  private drawFilm(): void {
-    const surface = surfaceOf(this.film);
-    const { fit, size, picture } = this;
-    if (surface === null || fit === null || size === null || !this.video.hidden) return;
-    if (picture === null) {
-      if (this.kept !== null) drawKept(surface.context, this.kept, fit);
-      return;
-    }
-    surface.context.drawImage(picture, fit.x, fit.y, fit.scale * size.width, fit.scale * size.height);
+  private drawFilm(context: CanvasRenderingContext2D, fit: Fit): void {
+    const { size, picture, kept } = this;
+    if (size === null) return;
+    if (picture !== null) context.drawImage(picture, fit.x, fit.y, fit.scale * size.width, fit.scale * size.height);
+    else if (kept !== null) drawKept(context, kept, fit);
   }
 
   private filmPoint({ offsetX, offsetY }: PointerEvent): { x: number; y: number } | null {
