@@ -14,6 +14,8 @@ import type { Captured, Seen } from './types.js';
 if (typeof VideoDecoder !== 'undefined') globalThis.VideoDecoder = paced(VideoDecoder);
 
 const SHOWN_EVERY_MS = 100;
+/** Share of a film after which something is shown in any case: a strip of a small one, looked at in no time, wants pictures too. */
+const SHOWN_SHARE = 1 / 16;
 const SHOWN_PIXELS = 512;
 /** Longest wait until the page has drawn what was seen: a page that nobody sees draws nothing. */
 const SHOWN_WITHIN_MS = 200;
@@ -64,6 +66,7 @@ const drawn = (): Promise<void> =>
 /** Tells what is seen now and then, with a small picture of the frame where there is one. */
 class Showing {
   private shown = 0;
+  private share = 0;
 
   constructor(
     private readonly of: number,
@@ -71,8 +74,8 @@ class Showing {
   ) {}
 
   async frame(picture: RawPicture | null, share: number): Promise<void> {
-    if (performance.now() - this.shown < SHOWN_EVERY_MS) return;
-    this.shown = performance.now();
+    if (performance.now() - this.shown < SHOWN_EVERY_MS && share - this.share < SHOWN_SHARE) return;
+    this.share = share;
     const seen: Seen = this.engine.seen();
     if (picture !== null) {
       const { data, width, height } = smallPicture(picture, SHOWN_PIXELS);
