@@ -38,6 +38,8 @@ struct Flag {
   std::vector<std::string> words{};
   bool required = false;
   std::vector<std::string> unless{};  ///< flags in whose presence this one is not required
+  /// What an output brings with it: endings in the place of its own, or, of a folder, names in it.
+  std::vector<std::string> brings{};
 };
 
 /// Its help, with the words that it takes.

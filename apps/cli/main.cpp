@@ -6,11 +6,13 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 
 #include "command.hpp"
 #include "terminal.hpp"
 #include "wisp/base/file.hpp"
+#include "wisp/capture/media/video.hpp"
 
 namespace wisp::cli {
 namespace {
@@ -168,18 +170,44 @@ std::vector<std::string> files_read(const Command& command, const Arguments& arg
   return files;
 }
 
-// Writing over what is read would destroy it, whatever name it goes by.
+std::vector<std::filesystem::path> files_written(const Flag& flag, const std::filesystem::path& output) {
+  std::vector<std::filesystem::path> files{output};
+  for (const std::string& name : flag.brings) {
+    std::filesystem::path beside = output;
+    files.push_back(name.starts_with('.') ? beside.replace_extension(name) : output / name);
+  }
+  return files;
+}
+
+// Whether writing a file would destroy what is read, whatever name either goes by: an input, or an image of one.
+bool would_destroy(const std::filesystem::path& written, const std::string& input) {
+  std::error_code none;
+  if (!std::filesystem::exists(written, none) || std::filesystem::is_directory(written, none)) return false;
+  if (!std::filesystem::is_directory(input, none)) return std::filesystem::equivalent(written, input, none);
+  return is_numbered_image(written) && std::filesystem::equivalent(absolute(written).parent_path(), input, none);
+}
+
 Result<void> check_outputs(const Command& command, const Arguments& arguments) {
   for (const Flag& flag : command.flags) {
     if (flag.kind != Kind::kOutput || !arguments.has(flag.name)) continue;
     const std::string& output = arguments.text(flag.name);
-    for (const std::string& input : files_read(command, arguments)) {
-      std::error_code none;
-      if (!std::filesystem::equivalent(input, output, none) || std::filesystem::is_directory(output, none)) continue;
-      return Error{"--" + flag.name + " " + output + " is a file that is read, and would be lost: give another name"};
+    for (const std::filesystem::path& written : files_written(flag, output)) {
+      for (const std::string& input : files_read(command, arguments)) {
+        if (!would_destroy(written, input)) continue;
+        const std::string beside = written == output ? "" : ": " + written.string() + ", which it brings,";
+        return Error{"--" + flag.name + " " + output + beside +
+                     " is a file that is read, and would be lost: give another name"};
+      }
     }
   }
   return {};
+}
+
+int flush_output() {
+  std::cout.flush();  // what CLI11 writes to
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return kDone;
+  std::fputs("wisp: standard output cannot be written; the result is lost\n", stderr);
+  return kBadData;
 }
 
 int run_command(const Wired& wired) {
@@ -194,9 +222,7 @@ int run_command(const Wired& wired) {
     return message.starts_with("--") ? kWrongUsage : kBadData;
   }
   terminal.finish();
-  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return kDone;
-  std::fputs("wisp: standard output cannot be written; the result is lost\n", stderr);
-  return kBadData;
+  return flush_output();
 }
 
 int run_program(int argc, char** argv) {
@@ -213,7 +239,7 @@ int run_program(int argc, char** argv) {
     root.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     // CLI11 has exit codes of its own; ours are 0 for help and 2 for wrong usage.
-    return root.exit(error) == 0 ? kDone : kWrongUsage;
+    return root.exit(error) == 0 ? flush_output() : kWrongUsage;
   }
   for (const auto& wired : all) {
     if (wired->app->parsed()) return run_command(*wired);

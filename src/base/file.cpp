@@ -36,6 +36,28 @@ fs::path pending_name(const fs::path& path) {
   return path.parent_path() / name;
 }
 
+// What a link leads to in the end, which need not be there.
+Result<fs::path> follow_links(fs::path path) {
+  constexpr int kMaxLinks = 40;  // as many as Linux follows
+  std::error_code code;
+  for (int k = 0; k < kMaxLinks; ++k) {
+    if (!fs::is_symlink(path, code)) return path;
+    path = path.parent_path() / fs::read_symlink(path, code);
+    if (code) break;
+  }
+  return file_error(path, "cannot be written: it is a link that leads nowhere; remove it");
+}
+
+// A private file's new contents are not for others to read while they are being written.
+void make_alike(const fs::path& pending, const fs::path& old) {
+  std::error_code code;
+  const fs::file_status status = fs::status(old, code);
+  if (!fs::is_regular_file(status)) return;
+  if (File made(system::open_file(pending, "wb")); made) {
+    fs::permissions(pending, status.permissions() | fs::perms::owner_write, code);
+  }
+}
+
 // Names of pending files as a signal handler may read them: it can neither lock nor allocate. More files at once than
 // there are places are left behind by an interruption, and by nothing else.
 constexpr std::size_t kMaxListed = 32, kMaxName = 4096;
@@ -147,8 +169,9 @@ void PendingFile::discard() {
 Result<PendingFile> PendingFile::create(const fs::path& given) {
   std::error_code code;
   // A link stays a link: what it points to is written.
-  const fs::path target = fs::is_symlink(given, code) ? fs::weakly_canonical(given, code) : given;
-  const fs::path& path = code ? given : target;
+  const auto target = follow_links(given);
+  if (!target) return target.error();
+  const fs::path& path = *target;
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   if (path.filename().empty()) return file_error(path, "names no file to write");
   if (fs::is_directory(path, code)) return file_error(path, "is a folder, expected a file name to write to");
@@ -160,7 +183,9 @@ Result<PendingFile> PendingFile::create(const fs::path& given) {
     return file_error(path, "cannot be written: the folder " + path_text(folder) + " does not exist; make it first");
   }
   if (!system::may_write_into(folder)) return file_error(path, "cannot be written: " + reason());
-  return PendingFile(pending_name(path), path);
+  PendingFile pending(pending_name(path), path);
+  make_alike(pending.path(), path);
+  return pending;
 }
 
 Result<void> PendingFile::commit() {

@@ -112,6 +112,37 @@ TEST_F(FileTest, ASymbolicLinkStaysOneAndItsTargetIsWritten) {
   EXPECT_EQ(text_of(*read_file(folder_ / "there" / "a.txt")), "new");
 }
 
+TEST_F(FileTest, ALinkToAFileThatIsNotThereYetStaysOneToo) {
+  fs::create_directories(folder_ / "there");
+  fs::create_symlink("there/a.txt", folder_ / "first");
+  fs::create_symlink("first", folder_ / "link");
+  ASSERT_TRUE(write_file(folder_ / "link", "new"));
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link"));
+  EXPECT_TRUE(fs::is_symlink(folder_ / "first"));
+  EXPECT_EQ(text_of(*read_file(folder_ / "there" / "a.txt")), "new");
+}
+
+TEST_F(FileTest, LinksInACircleAreNamed) {
+  fs::create_symlink("b", folder_ / "a");
+  fs::create_symlink("a", folder_ / "b");
+  const auto outcome = write_file(folder_ / "a", "text");
+  ASSERT_FALSE(outcome);
+  EXPECT_NE(outcome.error().message.find("it is a link that leads nowhere"), std::string::npos);
+}
+
+TEST_F(FileTest, APrivateFileIsPrivateWhileItIsWritten) {
+  const auto secret = fs::perms::owner_read;  // which may be replaced all the same
+  ASSERT_TRUE(write_file(folder_ / "secret", "old"));
+  fs::permissions(folder_ / "secret", secret);
+  auto pending = PendingFile::create(folder_ / "secret");
+  ASSERT_TRUE(pending);
+  std::ofstream(pending->path()) << "new";
+  EXPECT_EQ(fs::status(pending->path()).permissions(), secret | fs::perms::owner_write);
+  ASSERT_TRUE(pending->commit());
+  EXPECT_EQ(fs::status(folder_ / "secret").permissions(), secret);
+  EXPECT_EQ(text_of(*read_file(folder_ / "secret")), "new");
+}
+
 TEST_F(FileTest, AnInterruptedProcessLeavesTheOldFileAndNothingElse) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     ASSERT_TRUE(write_file(folder_ / "a.txt", "old"));

@@ -65,13 +65,45 @@ TEST_F(Faults, AnOutputThatIsAnInputIsRefusedByAnyNameOfIt) {
   EXPECT_EQ(file_text(at("flame.wisp")), model);
 }
 
+// A film learned from lies where the demo writes one, a model where an export's second file goes.
+TEST_F(Faults, WhatAnOutputBringsAlongReplacesNoInput) {
+  for (const char* name : {"flame.mp4", "a.truth.csv", "b.h", "c.atlas.json"}) std::filesystem::copy(kFlame, at(name));
+  const std::string before = file_text(kFlame);
+  for (const std::string& line :
+       {"demo " + at("flame.mp4") + " -o " + at(""),
+        "simulate candle --seconds 1 --wind " + at("a.truth.csv") + " -o " + at("a.mp4"),
+        "export " + at("b.h") + " -o " + at("b.c"), "export " + at("c.atlas.json") + " -o " + at("c.png")}) {
+    const Said said = wisp(line);
+    EXPECT_EQ(said.status, 2) << line << said.err;
+    EXPECT_THAT(said.err, HasSubstr("which it brings, is a file that is read, and would be lost")) << line;
+  }
+  for (const char* name : {"flame.wisp", "a.mp4", "b.c", "c.png"}) EXPECT_FALSE(std::filesystem::exists(at(name)));
+  for (const char* name : {"flame.mp4", "a.truth.csv", "b.h", "c.atlas.json"}) EXPECT_EQ(file_text(at(name)), before);
+}
+
+TEST_F(Faults, AnImageOfAClipIsReplacedByNothing) {
+  std::ofstream(at("01.pgm")) << "P5\n1 1\n255\n0";
+  const std::string before = file_text(at("01.pgm"));
+  for (const std::string& output : {at("01.pgm"), at("./01.pgm")}) {
+    const Said said = wisp("capture flame " + at("") + " --rate 30 -o " + output);
+    EXPECT_EQ(said.status, 2) << said.err;
+    EXPECT_THAT(said.err, HasSubstr("is a file that is read, and would be lost: give another name"));
+  }
+  EXPECT_EQ(file_text(at("01.pgm")), before);
+  std::ofstream(at("rec.csv")) << "of the last time";
+  EXPECT_THAT(wisp("capture flame " + at("") + " --rate 30 -o " + at("rec.csv")).err,
+              testing::Not(HasSubstr("would be lost")));
+}
+
 TEST_F(Faults, OutputThatCannotBeWrittenIsStatus1) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
-  const std::string line =
-      std::string(WISP_PROGRAM) + " info " + kFlame + " --json >/dev/full 2>" + at("err") + " </dev/null";
-  const int status = std::system(line.c_str());
-  EXPECT_EQ(WEXITSTATUS(status), 1);
-  EXPECT_THAT(file_text(at("err")), HasSubstr("standard output cannot be written"));
+  for (const std::string& words : {std::string("info ") + kFlame + " --json", std::string("--help"),
+                                   std::string("run --help"), std::string("--version")}) {
+    const std::string line = std::string(WISP_PROGRAM) + " " + words + " >/dev/full 2>" + at("err") + " </dev/null";
+    const int status = std::system(line.c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 1) << words;
+    EXPECT_THAT(file_text(at("err")), HasSubstr("standard output cannot be written")) << words;
+  }
 }
 
 // A film of hours, ended as soon as its hidden part is there.

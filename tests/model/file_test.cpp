@@ -305,6 +305,8 @@ TEST(ModelFile, AModelWithoutMeaningIsNeitherWrittenNorRead) {
        [](Model& m) {
          m.view = OutlineView{uniform_knots(5), 0, 0};
        }},
+      {"outline's scale", [](Model& m) { std::get<OutlineView>(m.view).metres_per_unit = -1; }},
+      {"outline's scale", [](Model& m) { std::get<OutlineView>(m.view).pixels_per_unit = NAN; }},
       {"figure", [](Model& m) { m.training.figures[0].value = INFINITY; }},
       {"scales of 2 inputs", [](Model& m) { m.training.inputs.resize(2); }},
       {"scale of the input wind", [](Model& m) { m.training.inputs[0].scale = 0; }},

@@ -88,6 +88,10 @@ TEST(SwitchedModel, WhatMakesNoSenseIsRefusedByName) {
       {[](auto& m) { m.modes[0].shock[1] = 0.1; }, "mode 0: the matrix of shocks is not lower triangular"},
       {[](auto& m) { m.modes[0].shock.pop_back(); }, "mode 0: the size of shocks has 3 values, expected 4"},
       {[](auto& m) { m.modes[1].theta[0][0] = -1.2; }, "mode 1 is unstable in single precision"},
+      {[](auto& m) {
+         m.modes[1].theta = {{-1, 0, 0, 0, 0}, {0, 0, 0, 0}};
+       },
+       "mode 1 is unstable in single precision: spectral radius 1.0"},
       {[](auto& m) { m.regions.pop_back(); }, "the matrix of regions has 20 values, expected 21"},
       {[&](auto& m) { m.regions[3] = nan; }, "the matrix of regions holds a number that is not finite"},
       {[](auto& m) {

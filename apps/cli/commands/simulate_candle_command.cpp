@@ -42,11 +42,6 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   const std::filesystem::path path = arguments.text("output");
   if (path.extension() != ".mp4")
     return Error{path.string() + ": cannot be written, expected a name that ends in .mp4"};
-  std::error_code none;
-  if (std::filesystem::equivalent(arguments.text("wind"), truth_path(path), none)) {
-    return Error{"--wind " + arguments.text("wind") + " would be lost: the truth beside " + path.string() +
-                 " has its name; give another"};
-  }
   const auto truth = write_simulated_clip(path, *options, terminal);
   if (!truth) return truth.error();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -69,7 +64,7 @@ Command simulate_candle_command() {
       "Simulates a candle in wind, films it and listens to it: a clip with sound, and CLIP.truth.csv beside it.",
       {},
       {
-          {"output", Kind::kOutput, "CLIP.mp4", "", "where to write the clip", {}, true},
+          {"output", Kind::kOutput, "CLIP.mp4", "", "where to write the clip", {}, true, {}, {".truth.csv"}},
           {"seconds", Kind::kNumber, "S", "60", "its length"},
           {"rate", Kind::kNumber, "HZ", "60", "frames a second"},
           {"wind", Kind::kText, "W", "gusts", "gusts, calm, or a recording whose input is the wind in m/s"},

@@ -62,13 +62,16 @@ std::string pixels(int width, int height) { return std::to_string(width) + " x "
 
 }  // namespace
 
+bool ImageFolder::reads(const std::filesystem::path& path) {
+  return codec_of(path) != AV_CODEC_ID_NONE && !digits_in(path).empty();
+}
+
 Result<std::vector<ImageFolder::NumberedImage>> ImageFolder::list(const std::filesystem::path& path) {
   std::vector<NumberedImage> images;
   std::error_code code;
   for (const auto& entry : std::filesystem::directory_iterator(path, code)) {
-    if (codec_of(entry.path()) == AV_CODEC_ID_NONE) continue;
+    if (!reads(entry.path())) continue;
     const std::string digits = digits_in(entry.path());
-    if (digits.empty()) continue;
     if (digits.size() > kMaxDigits) {
       return Error{entry.path().string() + ": its number has " + std::to_string(digits.size()) +
                    " digits, expected at most 18; number the images by frames"};

@@ -10,6 +10,7 @@ namespace wisp {
 class ImageFolder {
  public:
   static Result<ImageFolder> open(const std::filesystem::path& path, const VideoOptions& options);
+  static bool reads(const std::filesystem::path& path);
 
   const VideoInfo& info() const { return info_; }
   Result<std::optional<VideoFrame>> next();

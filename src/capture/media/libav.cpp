@@ -1,6 +1,7 @@
 #include "capture/media/libav.hpp"
 
 #include <mutex>
+#include <vector>
 
 namespace wisp {
 namespace {
@@ -14,6 +15,25 @@ struct Options {
   AVDictionary* entries = nullptr;
   ~Options() { av_dict_free(&entries); }
 };
+
+Result<void> check_pictures(const std::string& name, const AVFormatContext& format) {
+  for (unsigned k = 0; k < format.nb_streams; ++k) {
+    const AVCodecParameters& picture = *format.streams[k]->codecpar;
+    if (std::int64_t{picture.width} * picture.height <= kMaxFilmPixels) continue;
+    return Error{name + ": its picture has " + std::to_string(picture.width) + " x " + std::to_string(picture.height) +
+                 " pixels, expected at most 8192 x 4320; make it smaller"};
+  }
+  return {};
+}
+
+// FFmpeg finds out what tracks hold by decoding some of them: no larger pictures than are decoded later.
+int look_at_tracks(AVFormatContext& format) {
+  std::vector<AVDictionary*> options(format.nb_streams, nullptr);
+  for (AVDictionary*& entries : options) av_dict_set_int(&entries, "max_pixels", kMaxFilmPixels, 0);
+  const int code = avformat_find_stream_info(&format, options.data());
+  for (AVDictionary*& entries : options) av_dict_free(&entries);
+  return code;
+}
 
 }  // namespace
 
@@ -50,7 +70,8 @@ Result<FormatOwner> open_media(const std::filesystem::path& path) {
                  "); it is of another kind, or was cut off before its index; give a file that plays"};
   }
   FormatOwner format(raw);
-  code = avformat_find_stream_info(format.get(), nullptr);
+  if (auto ok = check_pictures(name, *format); !ok) return ok.error();
+  code = look_at_tracks(*format);
   if (code < 0) return Error{name + ": no track can be read (" + libav_message(code) + "); give a file that plays"};
   return format;
 }
@@ -66,7 +87,7 @@ Result<CodecOwner> open_decoder(const std::filesystem::path& path, const AVStrea
     return Error{path.string() + ": not enough memory to decode " + coded};
   }
   context->thread_count = threads;
-  context->max_pixels = kMaxPixels;
+  context->max_pixels = kMaxFilmPixels;
   context->pkt_timebase = track.time_base;
   if (const int code = avcodec_open2(context.get(), codec, nullptr); code < 0) {
     return Error{path.string() + ": the decoder for " + coded + " does not start (" + libav_message(code) +

@@ -46,8 +46,12 @@ using PacketOwner = std::unique_ptr<AVPacket, PacketCloser>;
 using ScalerOwner = std::unique_ptr<SwsContext, ScalerCloser>;
 using ResamplerOwner = std::unique_ptr<SwrContext, ResamplerCloser>;
 
-/// More in a picture is a damaged size, not a camera's: eight times 4K.
+/// More in an image is a damaged size, not a camera's: eight times 4K.
 inline constexpr std::int64_t kMaxPixels = std::int64_t{1} << 26;
+
+/// The same of a film's picture: 8K in its widest form, 8192 by 4320. A decoder keeps up to twenty of them, and a
+/// black one of any size takes a few bytes of a file.
+inline constexpr std::int64_t kMaxFilmPixels = 36'000'000;
 
 /// From now on FFmpeg prints nothing itself.
 void silence_libav();

@@ -14,6 +14,8 @@ class VideoReader::Source {
   std::variant<VideoFile, ImageFolder> held;
 };
 
+bool is_numbered_image(const std::filesystem::path& path) { return ImageFolder::reads(path); }
+
 VideoReader::VideoReader(std::unique_ptr<Source> source) : source_(std::move(source)) {}
 VideoReader::VideoReader(VideoReader&&) noexcept = default;
 VideoReader& VideoReader::operator=(VideoReader&&) noexcept = default;

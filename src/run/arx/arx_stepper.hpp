@@ -14,6 +14,7 @@
 #include "run/arx/resampled_lanes.hpp"
 #include "run/bank/channel_history.hpp"
 #include "run/bank/moment.hpp"
+#include "run/lanes/blocks.hpp"
 
 namespace wisp {
 
@@ -123,100 +124,117 @@ class ArxStepper : public ChannelHistory<N> {
     if (arena.measures()) return;
     mark_mirrored(program_, channels_.outputs);
     own_shocks_ = program.shock_channels == program.outputs && program.shocks == channels.outputs.size();
-    for (std::size_t i = 0; own_shocks_ && i < program.shocks; ++i) {
-      own_shocks_ = program.shock[i] == i && program.shock_end[i] == i + 1;
-    }
   }
 
   using Choice = typename Modes::Choice;
 
-  template <int kBlocks>
-  void step_blocks(int block, const Moment<N>& moment) {
-    Step<kBlocks> step{program_.coefficients.data(), modes_.count(), ring_.back(), ~std::uint64_t{0}, {}, {}, {}};
-    for (int b = 0; b < kBlocks; ++b) {
-      const Moment<N> of = moment.later(b);
-      step.quiet &= count_quiet(block + b);
-      if (!resampled_.empty()) resampled_.hear(block + b, this->regressors(block + b));
-      step.choice[b] = modes_.choose(block + b, ring_, of);
-      if (noisy_) make_shocks(block + b, step.choice[b], of);
-      step.ring[b] = ring_.begin(block + b);
-      step.clamped[b] = all<Words<N>>(0U);
-    }
-    Real* newest = ring_.sample(block, 0);
-    for (int i = 0; i < program_.outputs;) {
-      if (channels_.outputs[i].mirrors >= 0) {
-        mirror<kBlocks>(i++, newest);
-      } else if (kGroup > 1 && has_twin(i)) {
-        make_rows<2>(i, newest, step);
-        i += 2;
-      } else {
-        make_rows<1>(i++, newest, step);
-      }
-    }
-    for (int b = 0; b < kBlocks; ++b) store(step.clamped[b], moment.later(b).clamped);
-  }
-
-  // What the blocks of a step have in common, and what each of them has, where no store can touch it.
+  // What the blocks of a step have in common.
   template <int kBlocks>
   struct Step {
     const float* coefficients;
     std::size_t modes;
     const std::uint32_t* back;
-    std::uint64_t quiet;  // a bit for each of the first regressors
-    const Real* ring[kBlocks];
-    Choice choice[kBlocks];
-    Words<N> clamped[kBlocks];
+    const Real* ring;  // of the first block
+    Real* newest;      // its newest sample
+    std::size_t stride;
+    Choice choice;
+    std::uint64_t quiet;     // a bit for each of the first regressors
+    std::uint32_t* clamped;  // a flag a lane
+
+    BlockPlaces<Real, kBlocks> output(int i) const { return {newest + i * kLanes, stride}; }
   };
+
+  template <int kBlocks>
+  void step_blocks(int block, const Moment<N>& moment) {
+    std::uint64_t quiet = ~std::uint64_t{0};
+    for (int b = 0; b < kBlocks; ++b) {
+      quiet &= count_quiet(block + b);
+      if (!resampled_.empty()) resampled_.hear(block + b, this->regressors(block + b));
+    }
+    const Step<kBlocks> step{program_.coefficients.data(),
+                             modes_.count(),
+                             ring_.back(),
+                             ring_.begin(block),
+                             ring_.sample(block, 0),
+                             ring_.stride(),
+                             modes_.choose(block, ring_, moment),
+                             quiet,
+                             moment.clamped};
+    if (noisy_) make_shocks(block, step, moment);
+    std::fill_n(moment.clamped, kBlocks * kLanes, 0U);
+    for (int i = 0; i < program_.outputs;) {
+      if (channels_.outputs[i].mirrors >= 0) {
+        mirror(i++, step);
+      } else if (kTwins<kBlocks> && has_twin(i)) {
+        make_rows<2>(i, step);
+        i += 2;
+      } else {
+        make_rows<1>(i++, step);
+      }
+    }
+  }
+
+  // Two rows at once where registers hold their sums and as much again.
+  template <int kBlocks>
+  static constexpr bool kTwins = kGroup > 1 && 4 * PartsOfBlocks<N, kBlocks>::kParts <= kVectorRegisters;
 
   bool has_twin(int i) const { return program_.twin[i] != 0 && channels_.outputs[i + 1].mirrors < 0; }
 
   template <int kBlocks>
-  void mirror(int i, Real* newest) const {
-    const Real* mirrored = newest + channels_.outputs[i].mirrors * kLanes;
-    newest += i * kLanes;
-    for (int b = 0; b < kBlocks; ++b, mirrored += ring_.stride(), newest += ring_.stride()) {
-      store(negative(load<Reals<N>>(mirrored)), newest);
-    }
+  void mirror(int i, const Step<kBlocks>& step) const {
+    using Values = BlockReals<N, kBlocks>;
+    store_blocks<N>(negative(load_blocks<N, Values>(step.output(channels_.outputs[i].mirrors))), step.output(i));
   }
 
   // Outputs from i on whose sums are over the same samples: each sample is read once for all of them.
   template <int kRows, int kBlocks>
-  void make_rows(int i, Real* newest, Step<kBlocks>& step) const {
-    const std::size_t stride = ring_.stride(), twin = program_.twin[i] * step.modes;
-    newest += i * kLanes;
-    Reals<N> sum[kRows][kBlocks];
-    unrolled<kRows>([&](auto row) {
-      unrolled<kBlocks>([&](auto b) {
-        sum[row][b] = noisy_ ? load<Reals<N>>(newest + b * stride + row * kLanes) : constant(step.choice[b], i + row);
-      });
-    });
+  void make_rows(int i, const Step<kBlocks>& step) const {
+    using Values = BlockReals<N, kBlocks>;
+    const std::size_t twin = program_.twin[i] * step.modes;
+    Values sum[kRows];
+    if (noisy_) {
+      unrolled<kRows>([&](auto row) { sum[row] = load_blocks<N, Values>(step.output(i + row)); });
+    } else {
+      unrolled<kRows>([&](auto row) { sum[row] = constant<Values>(step.choice, i + row); });
+    }
     const TapRun* run = program_.runs.data() + (i == 0 ? 0 : program_.row_end[i - 1]);
     for (const TapRun* end = program_.runs.data() + program_.row_end[i]; run != end; ++run) {
       if (!is_quiet(step.quiet, run->channel)) add_run(step, *run, twin, sum);
     }
+    auto clamped = all<BlockWords<N, kBlocks>>(0U);
     unrolled<kRows>([&](auto row) {
       const OutputChannel& channel = channels_.outputs[i + row];
-      const auto low = all<Reals<N>>(channel.low), high = all<Reals<N>>(channel.high);
-      unrolled<kBlocks>([&](auto b) {
-        const auto value = hold(sum[row][b], low, high);
-        step.clamped[b] = step.clamped[b] | differ(value, sum[row][b]);
-        store(settle(value), newest + b * stride + row * kLanes);
-      });
+      const auto value = hold(sum[row], all<Values>(channel.low), all<Values>(channel.high));
+      clamped = clamped | differ(value, sum[row]);
+      store_blocks<N>(settle(value), step.output(i + row));
     });
+    if (any(clamped)) flag<kBlocks>(clamped, step.clamped);
+  }
+
+  // Seldom: apart from what every step does.
+  template <int kBlocks, class Held>
+  [[gnu::noinline]] static void flag(const Held& clamped, std::uint32_t* flags) {
+    const BlockPlaces<std::uint32_t, kBlocks> places(flags, kLanes);
+    store_blocks<N>(clamped | load_blocks<N, Held>(places), places);
   }
 
   // The run's products are added in the order of its lags, each to what was there before.
   template <int kRows, int kBlocks>
-  static void add_run(const Step<kBlocks>& step, const TapRun& run, std::size_t twin, Reals<N> (&sum)[kRows][kBlocks]) {
+  static void add_run(const Step<kBlocks>& step, const TapRun& run, std::size_t twin,
+                      BlockReals<N, kBlocks> (&sum)[kRows]) {
+    using Values = BlockReals<N, kBlocks>;
     const float* coefficient = step.coefficients + run.coefficient * step.modes;
+    const BlockPlaces<const Real, kBlocks> channel(step.ring + run.channel * kLanes, step.stride);
     const std::uint32_t* back = step.back + run.first_lag;
     for (const std::uint32_t* end = back + run.count; back != end; ++back, coefficient += step.modes) {
-      const std::size_t place = *back + run.channel * kLanes;
-      unrolled<kBlocks>([&](auto b) {
-        auto past = load<Reals<N>>(step.ring[b] + place);
+      const std::size_t sample = *back;
+      Values factor[kRows];
+      unrolled<kRows>([&](auto row) { factor[row] = step.choice.template pick<Values>(coefficient + row * twin); });
+      unrolled<PartsOfBlocks<N, kBlocks>::kParts>([&](auto i) {
+        typename PartsOfBlocks<N, kBlocks>::RealPart past;
+        load_block_part<N>(channel, sample, i, past);
         if (kRows > 1 && kBlocks > 1) hold_in_register(past);
-        unrolled<kRows>(
-            [&](auto row) { sum[row][b] = sum[row][b] + step.choice[b].pick(coefficient + row * twin) * past; });
+        unrolled<kRows>([&](auto row) { sum[row].part[i] = sum[row].part[i] + factor[row].part[i] * past; });
       });
     }
   }
@@ -242,31 +260,41 @@ class ArxStepper : public ChannelHistory<N> {
     return regressor >= 0 && regressor < kQuietBits && (quiet >> regressor & 1) != 0;
   }
 
-  // Puts what the sums of a block's outputs start from where the newest sample will be.
-  void make_shocks(int block, const Choice& choice, const Moment<N>& moment) {
-    Real* newest = ring_.sample(block, 0);
-    if (resampled_.empty()) {
-      if (are_few(moment.lanes)) {
-        // Empty slots are saved too: they must not get what is left over in memory.
-        for (int k = 0; k < program_.shock_channels; ++k) store(all<Reals<N>>(0.0f), shock(block, k));
-        for (int lane = 0; lane < moment.lanes; ++lane) draw_alone(block, lane, moment);
-        start_all(block, choice);
-        return;
-      }
-      if (kGroup > 1 && own_shocks_) {  // a second copy of what draws, worth it where many are stepped
-        draw(moment, [&](int i, const auto& normals) {
-          const auto size = choice.pick(shock_size_.data() + i * modes_.count());
-          store(constant(choice, i) + size * normals, newest + i * kLanes);
-        });
-        return;
-      }
-      draw(moment, [&](int channel, const auto& normals) { store(normals, shock(block, channel)); });
-      start_all(block, choice);
+  // Puts what the sums of the blocks' outputs start from where their newest samples will be.
+  template <int kBlocks>
+  void make_shocks(int block, const Step<kBlocks>& step, const Moment<N>& moment) {
+    constexpr int kAtOnce = PartsOfBlocks<N, kBlocks>::kBlocksAtOnce;
+    using Values = BlockReals<N, kAtOnce>;
+    if (!resampled_.empty()) {
+      for (int b = 0; b < kBlocks; ++b) play_drawn(block + b, step.choice, moment.later(b));
       return;
     }
+    if (kGroup > 1 && own_shocks_ && !(kBlocks == 1 && are_few(moment.lanes))) {
+      draw<kBlocks>(moment, [&](int i, int b, const auto& normals) {
+        const auto size = step.choice.template pick<Values>(shock_size_.data() + i * modes_.count());
+        const BlockPlaces<Real, kAtOnce> places(step.newest + b * step.stride + i * kLanes, step.stride);
+        store_blocks<N>(constant<Values>(step.choice, i) + size * normals, places);
+      });
+      return;
+    }
+    if (kBlocks == 1 && are_few(moment.lanes)) {
+      // Empty slots are saved too: they must not get what is left over in memory.
+      for (int k = 0; k < program_.shock_channels; ++k) store(all<Reals<N>>(0.0f), shock(block, k));
+      for (int lane = 0; lane < moment.lanes; ++lane) draw_alone(block, lane, moment);
+    } else {
+      draw<kBlocks>(moment, [&](int channel, int b, const auto& normals) {
+        const std::size_t stride = channel < program_.outputs ? step.stride : shared_row();
+        store_blocks<N>(normals, BlockPlaces<Real, kAtOnce>(shock(block + b, channel), stride));
+      });
+    }
+    for (int b = 0; b < kBlocks; ++b) start_all(block + b, step.choice);
+  }
+
+  void play_drawn(int block, const Choice& choice, const Moment<N>& moment) {
+    Real* newest = ring_.sample(block, 0);
     resampled_.step(block, moment, newest);
     for (int i = 0; i < program_.outputs; ++i, newest += kLanes) {
-      if (program_.constant[i] != 0) store(constant(choice, i) + load<Reals<N>>(newest), newest);
+      if (program_.constant[i] != 0) store(constant<Reals<N>>(choice, i) + load<Reals<N>>(newest), newest);
     }
   }
 
@@ -297,7 +325,7 @@ class ArxStepper : public ChannelHistory<N> {
       unrolled<4>([&](auto k) { words[k] = own[k]; });
       words[1] = words[1] ^ load<Words<N>>(groups);
       philox<N>(*moment.keys, words);
-      unrolled<4>([&](auto k) { store(normal_lanes<N>(words[k]), normals[k]); });
+      unrolled<4>([&](auto k) { store(normal_lanes(words[k]), normals[k]); });
       const int last = std::min(first + 4 * kLanes, program_.shock_channels);
       for (int channel = first; channel < last; ++channel) {
         shock(block, channel)[lane] = normals[channel % 4][(channel - first) / 4];
@@ -305,32 +333,42 @@ class ArxStepper : public ChannelHistory<N> {
     }
   }
 
-  // Calls take(channel, normals) for every shock that is added to an output. First the words of many channels, then
-  // what is made of them: a word takes so many steps that hang on each other that one after the other would wait.
+  // Calls take(channel, block, normals) for every shock that is added to an output. First the words of many channels,
+  // then what is made of them: a word takes so many steps that hang on each other that one after the other would wait.
   static constexpr int kDrawnAtOnce = 32;
-  template <class Take>
+  template <int kBlocks, class Take>
   void draw(const Moment<N>& moment, Take take) const {
-    typename N::Word words[kDrawnAtOnce][kLanes];
-    Words<N> counters[4], group[4];
-    random_counters<N>(moment.counters, counters);
+    constexpr int kAtOnce = PartsOfBlocks<N, kBlocks>::kBlocksAtOnce;
+    using Bits = BlockWords<N, kAtOnce>;
+    using Word = typename N::Word;
+    Word words[kBlocks][kDrawnAtOnce][kLanes];
     for (int first = 0; first < program_.shock_channels; first += kDrawnAtOnce) {
       const int last = std::min(first + kDrawnAtOnce, program_.shock_channels);
-      for (int channel = first; channel < last; channel += 4) {
-        const auto shaken = shaken_.begin() + channel;
-        if (std::find(shaken, shaken + std::min(4, last - channel), std::uint8_t{1}) ==
-            shaken + std::min(4, last - channel))
-          continue;
-        random_group<N>(*moment.keys, counters, static_cast<std::uint32_t>(channel / 4), group);
-        unrolled<4>([&](auto k) { store(group[k], words[channel - first + k]); });
-      }
+      for (int b = 0; b < kBlocks; ++b) draw_words(moment.later(b), first, last, words[b]);
       for (int channel = first; channel < last; ++channel) {
-        if (shaken_[channel]) take(channel, normal_lanes<N>(load<Words<N>>(words[channel - first])));
+        if (!shaken_[channel]) continue;
+        for (int b = 0; b < kBlocks; b += kAtOnce) {
+          const BlockPlaces<const Word, kAtOnce> places(words[b][channel - first], kDrawnAtOnce * kLanes);
+          take(channel, b, normal_lanes(load_blocks<N, Bits>(places)));
+        }
       }
     }
   }
 
-  Reals<N> constant(const Choice& choice, int i) const {
-    return choice.pick(program_.constant.data() + i * modes_.count());
+  void draw_words(const Moment<N>& moment, int first, int last, typename N::Word (*words)[kLanes]) const {
+    Words<N> counters[4], group[4];
+    random_counters<N>(moment.counters, counters);
+    for (int channel = first; channel < last; channel += 4) {
+      const auto shaken = shaken_.begin() + channel, end = shaken + std::min(4, last - channel);
+      if (std::find(shaken, end, std::uint8_t{1}) == end) continue;
+      random_group<N>(*moment.keys, counters, static_cast<std::uint32_t>(channel / 4), group);
+      unrolled<4>([&](auto k) { store(group[k], words[channel - first + k]); });
+    }
+  }
+
+  template <class Values>
+  Values constant(const Choice& choice, int i) const {
+    return choice.template pick<Values>(program_.constant.data() + i * modes_.count());
   }
 
   // Downwards, since a shock of an output is added to that and later ones.
@@ -341,9 +379,9 @@ class ArxStepper : public ChannelHistory<N> {
 
   // What a sum starts from: the constant and the noise.
   Reals<N> start_shaken(int block, const Choice& choice, int i) {
-    auto sum = constant(choice, i);
+    auto sum = constant<Reals<N>>(choice, i);
     for (std::uint32_t k = i == 0 ? 0 : program_.shock_end[i - 1]; k < program_.shock_end[i]; ++k) {
-      const auto size = choice.pick(shock_size_.data() + k * modes_.count());
+      const auto size = choice.template pick<Reals<N>>(shock_size_.data() + k * modes_.count());
       sum = sum + size * load<Reals<N>>(shock(block, static_cast<int>(program_.shock[k])));
     }
     return sum;

@@ -34,7 +34,10 @@ class SingleMode {
   /// Blocks that can be stepped at once: what they multiply with is the same.
   static constexpr int kGroup = WISP_BLOCKS_AT_ONCE;
   struct Choice {
-    Reals<N> pick(const float* of_mode) const { return all<Reals<N>>(*of_mode); }
+    template <class Values>
+    Values pick(const float* of_mode) const {
+      return all<Values>(*of_mode);
+    }
   };
   Choice choose(int, const SampleRing<N>&, const Moment<N>&) { return {}; }
   void start(int, int) {}
@@ -72,10 +75,11 @@ class ModeLanes {
     std::uint32_t mode[kLanes];
 
     /// Every lane's number of its own mode.
-    Reals<N> pick(const float* of_mode) const {
+    template <class Values>
+    Values pick(const float* of_mode) const {
       Real picked[kLanes];
       for (int lane = 0; lane < kLanes; ++lane) picked[lane] = Real(of_mode[mode[lane]]);
-      return load<Reals<N>>(picked);
+      return load<Values>(picked);
     }
   };
 

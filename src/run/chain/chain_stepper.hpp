@@ -454,7 +454,7 @@ class ChainStepper {
     for (std::uint32_t group : {0U, 1U}) {
       random_group<N>(*moment.keys, counters, 2 + group, words);
       for (std::uint32_t k = 0; k < (group == 0 ? 4U : 2U); ++k) {
-        store(normal_lanes<N>(words[k]), shocks_of(block) + (4 * group + k) * kLanes);
+        store(normal_lanes(words[k]), shocks_of(block) + (4 * group + k) * kLanes);
       }
     }
   }

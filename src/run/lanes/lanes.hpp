@@ -28,6 +28,12 @@ static_assert(FLT_EVAL_METHOD == 0, "float must be computed as float: the frame 
 
 namespace wisp {
 
+#if defined(WISP_LONG_WORDS) && !defined(__AVX512VL__)
+inline constexpr int kVectorRegisters = 16;
+#else
+inline constexpr int kVectorRegisters = 32;
+#endif
+
 // A part is what the machine computes at once: a vector, or one number.
 
 #ifdef WISP_VECTOR_LANES
@@ -216,6 +222,62 @@ inline void columns_part(const float* const* row, std::size_t first, RealPart (&
 }
 #endif
 
+#if defined(WISP_LONG_WORDS) && defined(__AVX512F__) && defined(__AVX512DQ__)
+#define WISP_LONG_PARTS 1
+// Parts of two blocks side by side (run/lanes/blocks.hpp): the longest vectors hold twice as many lanes as a block has.
+using LongRealPart = float __attribute__((vector_size(64)));
+using LongWordPart = std::uint32_t __attribute__((vector_size(64)));
+
+inline void long_part(const void* first, const void* second, LongWordPart& out) {
+  const __m512i low = _mm512_castsi256_si512(_mm256_loadu_si256(static_cast<const __m256i*>(first)));
+  out = (LongWordPart)_mm512_inserti32x8(low, _mm256_loadu_si256(static_cast<const __m256i*>(second)), 1);
+}
+inline void long_part(const void* first, const void* second, LongRealPart& out) {
+  LongWordPart bits;
+  long_part(first, second, bits);
+  out = (LongRealPart)bits;
+}
+template <class Part>
+inline void store_long_part(const Part& part, void* first, void* second) {
+  _mm256_storeu_si256(static_cast<__m256i*>(first), _mm512_castsi512_si256((__m512i)part));
+  _mm256_storeu_si256(static_cast<__m256i*>(second), _mm512_extracti32x8_epi32((__m512i)part, 1));
+}
+
+inline LongRealPart real_of_part(LongWordPart word) { return (LongRealPart)_mm512_cvtepi32_ps((__m512i)word); }
+inline LongWordPart bits_of_part(LongRealPart real) { return (LongWordPart)real; }
+inline LongRealPart real_of_bits_part(LongWordPart bits) { return (LongRealPart)bits; }
+inline LongWordPart spread_sign_part(LongWordPart word) { return (LongWordPart)_mm512_srai_epi32((__m512i)word, 31); }
+inline LongWordPart differ_part(LongRealPart a, LongRealPart b) { return (LongWordPart)(a != b); }
+inline LongRealPart magnitude_part(LongRealPart a) { return (LongRealPart)((LongWordPart)a & 0x7fffffffU); }
+inline void spread_part(float value, LongRealPart& part) { part = (LongRealPart)_mm512_set1_ps(value); }
+inline void spread_part(std::uint32_t value, LongWordPart& part) {
+  part = (LongWordPart)_mm512_set1_epi32(static_cast<int>(value));
+}
+
+template <int stride, std::uint32_t first>
+inline void columns_of_part(const float* table, LongWordPart row, LongRealPart& a, LongRealPart& b, LongRealPart& c) {
+  const auto places = (__m512i)(row * stride);
+  const __m128i quarter[] = {_mm512_castsi512_si128(places), _mm512_extracti32x4_epi32(places, 1),
+                             _mm512_extracti32x4_epi32(places, 2), _mm512_extracti32x4_epi32(places, 3)};
+  const auto row_of = [&](int part, auto lane) {
+    const auto two = static_cast<std::uint64_t>(_mm_extract_epi64(quarter[part], lane / 2));
+    const auto place = static_cast<std::uint32_t>(two >> (lane % 2 * 32));
+    return _mm_loadu_ps(table + (std::size_t{place} - std::size_t{first * stride}));
+  };
+  const auto rows = [&](auto lane) {
+    const __m512 one = _mm512_castps128_ps512(row_of(0, lane)), two = _mm512_insertf32x4(one, row_of(1, lane), 1);
+    return _mm512_insertf32x4(_mm512_insertf32x4(two, row_of(2, lane), 2), row_of(3, lane), 3);
+  };
+  const __m512 r0 = rows(std::integral_constant<int, 0>()), r1 = rows(std::integral_constant<int, 1>());
+  const __m512 r2 = rows(std::integral_constant<int, 2>()), r3 = rows(std::integral_constant<int, 3>());
+  const __m512 ab01 = _mm512_unpacklo_ps(r0, r1), ab23 = _mm512_unpacklo_ps(r2, r3);
+  const __m512 cd01 = _mm512_unpackhi_ps(r0, r1), cd23 = _mm512_unpackhi_ps(r2, r3);
+  a = (LongRealPart)_mm512_shuffle_ps(ab01, ab23, 0x44);
+  b = (LongRealPart)_mm512_shuffle_ps(ab01, ab23, 0xee);
+  c = (LongRealPart)_mm512_shuffle_ps(cd01, cd23, 0x44);
+}
+#endif
+
 /// The numbers of a live bank.
 struct LiveNumbers {
   using Real = float;
@@ -316,12 +378,12 @@ inline void store(const Packed& packed, Value* values) {
 }
 
 /// Keeps the compiler from reading what was loaded again for every use.
-template <class Part, int kParts>
-inline void hold_in_register([[maybe_unused]] Pack<Part, kParts>& packed) {
-#if defined(WISP_LONG_WORDS) && !defined(__wasm__)
-  if constexpr (sizeof(Part) >= 16) {
-    for (Part& part : packed.part) asm("" : "+x"(part));
-  }
+template <class Part>
+inline void hold_in_register([[maybe_unused]] Part& part) {
+#if defined(WISP_LONG_PARTS)
+  if constexpr (sizeof(Part) >= 16) asm("" : "+v"(part));
+#elif defined(WISP_LONG_WORDS) && !defined(__wasm__)
+  if constexpr (sizeof(Part) >= 16) asm("" : "+x"(part));
 #endif
 }
 
@@ -359,15 +421,31 @@ inline auto magnitude(const Pack<Part, kParts>& reals) {
   return each([](const Part& x) { return magnitude_part(x); }, reals);
 }
 
+/// Whether any bit of any lane of a part is set.
+template <class Part>
+inline bool any_part(const Part& set) {
+  std::uint32_t lanes[sizeof set / sizeof(std::uint32_t)], any = 0;
+  std::memcpy(lanes, static_cast<const void*>(&set), sizeof set);
+  for (const std::uint32_t lane : lanes) any |= lane;
+  return any != 0;
+}
+#if defined(WISP_LONG_PARTS)
+inline bool any_part(const LongWordPart& set) { return _mm512_test_epi32_mask((__m512i)set, (__m512i)set) != 0; }
+#endif
+#if defined(__AVX2__)
+inline bool any_part(const WordPart& set) { return _mm256_testz_si256((__m256i)set, (__m256i)set) == 0; }
+#elif defined(WISP_LONG_WORDS)
+inline bool any_part(const WordPart& set) {
+  return _mm_movemask_epi8(_mm_cmpeq_epi32((__m128i)set, _mm_setzero_si128())) != 0xffff;
+}
+#endif
+
 /// Whether any bit of any lane is set.
 template <class Part, int kParts>
 inline bool any(const Pack<Part, kParts>& words) {
   Part set = words.part[0];
   for (int i = 1; i < kParts; ++i) set = set | words.part[i];
-  std::uint32_t lanes[sizeof set / sizeof(std::uint32_t)], any = 0;
-  std::memcpy(lanes, static_cast<const void*>(&set), sizeof set);
-  for (const std::uint32_t lane : lanes) any |= lane;
-  return any != 0;
+  return any_part(set);
 }
 
 /// Four successive numbers, from `first` on, of every lane's row.
@@ -435,11 +513,10 @@ template <class Part, int kParts>
 inline auto settle(const Pack<Part, kParts>& value) {
   return each(
       [](const Part& v) {
-        Part zero, least, most;
+        Part zero, least;
         spread_part(0.0f, zero);
         spread_part(kMinState, least);
-        spread_part(-kMinState, most);
-        return v < least ? (v > most ? zero : v) : v;
+        return magnitude_part(v) < least ? zero : v;
       },
       value);
 }

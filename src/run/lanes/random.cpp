@@ -22,7 +22,7 @@ std::array<std::uint32_t, 4> random_words(const RandomKey& key) {
 
 float normal(std::uint32_t word) {
   float lanes[LiveNumbers::kLanes];
-  store(normal_lanes<LiveNumbers>(all<Words<LiveNumbers>>(word)), lanes);
+  store(normal_lanes(all<Words<LiveNumbers>>(word)), lanes);
   return lanes[0];
 }
 

@@ -122,20 +122,23 @@ inline constexpr std::uint32_t kFirstSegment = 126U << 4;  // the bits of 0.5f a
 /// Normal deviates of one word a lane: the inverse normal distribution at (word + ½) / 2³², by a quadratic on each of
 /// 16 parts of every octave of the smaller tail. Error: 1.12e-6 by the quadratics, half a unit in the last place of c0
 /// and of the result (2.4e-7 each at 6), together below 1.7e-6; the tests find the true maximum.
-template <class N>
-inline Reals<N> normal_lanes(const Words<N>& words) {
-  const Words<N> sign = spread_sign(words);
-  const Words<N> bits = bits_of(real_of(words ^ sign) + all<Reals<N>>(0.5f));
-  const Words<N> segment = bits >> 19;
-  Reals<N> c[3];
-  unrolled<N::kParts>([&](auto i) {
+template <class Word, int kParts>
+inline auto normal_lanes(const Pack<Word, kParts>& words) {
+  const auto sign = spread_sign(words);
+  const auto whole = real_of(words ^ sign);
+  using Values = std::remove_const_t<decltype(whole)>;
+  const auto bits = bits_of(whole + all<Values>(0.5f));
+  const auto segment = bits >> 19;
+  Values c[3];
+  unrolled<kParts>([&](auto i) {
     columns_of_part<kSegmentStride, kFirstSegment>(kNormalSegments[0].c, segment.part[i], c[0].part[i], c[1].part[i],
                                                    c[2].part[i]);
   });
-  const Reals<N> place = real_of(bits & all<Words<N>>(0x7ffffU));
-  const Reals<N> slope = c[1] + place * c[2];
-  const Reals<N> lower = c[0] + place * slope;
-  return real_of_bits(bits_of(lower) ^ (sign & all<Words<N>>(0x80000000U)));
+  using Bits = Pack<Word, kParts>;
+  const Values place = real_of(bits & all<Bits>(0x7ffffU));
+  const Values slope = c[1] + place * c[2];
+  const Values lower = c[0] + place * slope;
+  return real_of_bits(bits_of(lower) ^ (sign & all<Bits>(0x80000000U)));
 }
 
 }  // namespace wisp

@@ -172,6 +172,16 @@ TEST(VideoFile, APlaylistOpensNoOtherFile) {
   }
 }
 
+// A few bytes can hold a black picture of any size, and a decoder keeps up to twenty.
+TEST(VideoFile, APictureLargerThan8KIsNamedBeforeItIsDecoded) {
+  ScratchFolder folder("large");
+  for (const char* size : {"W8193 H4395", "W60000 H601"}) {
+    std::ofstream(folder / "clip.y4m") << "YUV4MPEG2 " << size << " F25:1 Ip C420jpeg\nFRAME\nshort";
+    EXPECT_THAT(error_of(folder / "clip.y4m"), HasSubstr("pixels, expected at most 8192 x 4320; make it smaller"))
+        << size;
+  }
+}
+
 TEST(VideoFile, ANameWithAColonIsAFilesName) {
   ScratchFolder folder("colon");
   {

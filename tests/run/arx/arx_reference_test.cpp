@@ -216,6 +216,13 @@ TEST(ArxReference, UnitsDoNotMatter) {
   }
 }
 
+// The last of all, so that as many shocks are resampled as if it had its own.
+TEST(ArxReference, AnOutputWithoutNoiseStaysWithoutIt) {
+  Model model = flame_model();
+  std::get<ArxModel>(model.dynamics).noise.sd.back() = 0;
+  expect_agreement(model);
+}
+
 // Orders so different that taps come in runs of every length, with delays and gaps of zeros between.
 TEST(ArxReference, SparseAndRaggedModelsAgree) {
   Model model = sample_model();

@@ -122,6 +122,25 @@ TEST(SwitchedBank, WithoutNoiseAMarkovChainTakesTheLikeliestStep) {
   }
 }
 
+TEST(SwitchedBank, TheLikeliestStepMayBeAnyOfThree) {
+  Model model = sample_switched(Switching::kMarkov);
+  std::get<SwitchedArxModel>(model.dynamics).initial = {0.25, 0.3, 0.45};
+  std::get<SwitchedArxModel>(model.dynamics).transitions = {0.3, 0.5, 0.2, 0.6, 0.25, 0.15, 0.2, 0.35, 0.45};
+  Bank bank = bank_of(model, 1);
+  bank.set_noise(0);
+  bank.step();
+  EXPECT_EQ(bank.switched()->mode_of(bank.at(0)), 2);
+  model = sample_switched(Switching::kMarkov);
+  std::get<SwitchedArxModel>(model.dynamics).initial = {1, 0, 0};
+  std::get<SwitchedArxModel>(model.dynamics).transitions = {0.3, 0.5, 0.2, 0.6, 0.25, 0.15, 0.2, 0.35, 0.45};
+  bank = bank_of(model, 1);
+  bank.set_noise(0);
+  for (const int mode : {0, 1, 0, 1}) {
+    bank.step();
+    EXPECT_EQ(bank.switched()->mode_of(bank.at(0)), mode);
+  }
+}
+
 TEST(SwitchedBank, ResidualsHaveTheCovarianceOfTheirMode) {
   Model model = sample_switched(Switching::kMarkov);
   auto& dynamics = std::get<SwitchedArxModel>(model.dynamics);

@@ -77,6 +77,28 @@ TEST(Extinction, WithoutHasteAnyWindAboveTheLevelTakesItsSeconds) {
   }
 }
 
+TEST(Extinction, OfTwoInputsOneKills) {
+  Model model = flame_model();
+  model.rate_hz = 100;
+  model.inputs.push_back({"fan", "", -1, 1});
+  auto& arx = std::get<ArxModel>(model.dynamics);
+  arx.orders.nb = arx.orders.nk = OrderMatrix(16, 2);  // the flame hears the wind, and not the fan
+  for (int i = 0; i < 16; ++i) arx.orders.nb(i, 0) = 4;
+  arx.input_mean.push_back(0);
+  for (const int deadly : {0, 1}) {
+    model.extinction = mortal_flame().extinction;
+    model.extinction->input = deadly;
+    for (const int blown : {0, 1}) {
+      Bank bank = bank_of(model);
+      bank.spawn();
+      const float inputs[] = {blown == 0 ? 2.0f : 0.0f, blown == 1 ? 2.0f : 0.0f};
+      bank.set_common_inputs(inputs);
+      for (int k = 0; k < 30; ++k) bank.step();
+      EXPECT_EQ(bank.extinction()->state_of(bank.at(0))->lit, blown != deadly) << deadly << blown;
+    }
+  }
+}
+
 TEST(Extinction, AWindBelowTheLevelNeverKills) {
   Bank bank = bank_of(mortal_flame());
   bank.spawn();

@@ -47,6 +47,9 @@ struct RgbImage {
   std::vector<std::uint8_t> pixels;
 };
 
+/// Whether a file is read as one of the images where its folder is a clip: by its ending, and a number in its name.
+bool is_numbered_image(const std::filesystem::path& path);
+
 /// Reads a clip in bounded memory.
 class VideoReader {
  public:

@@ -1,0 +1,76 @@
+#pragma once
+// Values of several blocks in a row, that a kernel computes at once: in vectors of two blocks where the machine has
+// them that long, else a block's parts after the other's. Either way every lane does what it does in a block alone.
+
+#include <cstddef>
+
+#include "run/lanes/lanes.hpp"
+
+namespace wisp {
+
+/// What `kBlocks` blocks in a row are computed in.
+template <class N, int kBlocks>
+struct PartsOfBlocks {
+  using RealPart = typename N::RealPart;
+  using WordPart = typename N::WordPart;
+  static constexpr int kBlocksAtOnce = 1;  // that one part belongs to
+  static constexpr int kParts = kBlocks * N::kParts;
+};
+
+#ifdef WISP_LONG_PARTS
+template <int kBlocks>
+requires(kBlocks % 2 == 0) struct PartsOfBlocks<LiveNumbers, kBlocks> {
+  using RealPart = LongRealPart;
+  using WordPart = LongWordPart;
+  static constexpr int kBlocksAtOnce = 2;
+  static constexpr int kParts = kBlocks / 2;
+};
+#endif
+
+template <class N, int kBlocks>
+using BlockReals = Pack<typename PartsOfBlocks<N, kBlocks>::RealPart, PartsOfBlocks<N, kBlocks>::kParts>;
+template <class N, int kBlocks>
+using BlockWords = Pack<typename PartsOfBlocks<N, kBlocks>::WordPart, PartsOfBlocks<N, kBlocks>::kParts>;
+
+/// Where each of the blocks has a value, that of a block `stride` values after that of the block before.
+template <class Value, int kBlocks>
+struct BlockPlaces {
+  Value* of[kBlocks];
+
+  BlockPlaces(Value* first, std::size_t stride) {
+    unrolled<kBlocks>([&](auto b) { of[b] = first + b * stride; });
+  }
+};
+
+/// One part from memory, one value a lane: in each block so many values after its place.
+template <class N, class Part, class Value, int kBlocks>
+inline void load_block_part(const BlockPlaces<Value, kBlocks>& places, std::size_t after, int i, Part& out) {
+  if constexpr (PartsOfBlocks<N, kBlocks>::kBlocksAtOnce == 2) {
+    long_part(places.of[2 * i] + after, places.of[2 * i + 1] + after, out);
+  } else {
+    constexpr int kLanes = N::kLanes / N::kParts;
+    const Value* first = places.of[i / N::kParts] + after + i % N::kParts * kLanes;
+    std::memcpy(static_cast<void*>(&out), static_cast<const void*>(first), sizeof out);
+  }
+}
+
+/// All parts, and back.
+template <class N, class Packed, class Value, int kBlocks>
+inline Packed load_blocks(const BlockPlaces<Value, kBlocks>& places) {
+  Packed out;
+  unrolled<PartsOfBlocks<N, kBlocks>::kParts>([&](auto i) { load_block_part<N>(places, 0, i, out.part[i]); });
+  return out;
+}
+template <class N, class Part, int kParts, class Value, int kBlocks>
+inline void store_blocks(const Pack<Part, kParts>& packed, const BlockPlaces<Value, kBlocks>& places) {
+  unrolled<kParts>([&](auto i) {
+    if constexpr (PartsOfBlocks<N, kBlocks>::kBlocksAtOnce == 2) {
+      store_long_part(packed.part[i], places.of[2 * i], places.of[2 * i + 1]);
+    } else {
+      Value* first = places.of[i / N::kParts] + i % N::kParts * (N::kLanes / N::kParts);
+      std::memcpy(static_cast<void*>(first), static_cast<const void*>(&packed.part[i]), sizeof(Part));
+    }
+  });
+}
+
+}  // namespace wisp
