@@ -212,10 +212,10 @@ class ArxStepper : public ChannelHistory<N> {
   }
 
   // Seldom: apart from what every step does.
-  template <int kBlocks, class Held>
-  [[gnu::noinline]] static void flag(const Held& clamped, std::uint32_t* flags) {
+  template <int kBlocks, class Clamped>
+  [[gnu::noinline]] static void flag(const Clamped& clamped, std::uint32_t* flags) {
     const BlockPlaces<std::uint32_t, kBlocks> places(flags, kLanes);
-    store_blocks<N>(clamped | load_blocks<N, Held>(places), places);
+    store_blocks<N>(clamped | load_blocks<N, Clamped>(places), places);
   }
 
   // The run's products are added in the order of its lags, each to what was there before.

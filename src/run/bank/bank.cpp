@@ -161,7 +161,7 @@ void Bank::set_crew(const Crew& crew) {
 void Bank::step() {
   state_->passed = 0;
   state_->between = false;
-  state_->step_all();
+  state_->step_all(true);
 }
 
 int Bank::advance(std::chrono::nanoseconds time) {
@@ -171,16 +171,15 @@ int Bank::advance(std::chrono::nanoseconds time) {
   const auto steps = static_cast<int>(s.passed / s.step_time);
   s.passed %= s.step_time;
   s.between = true;
-  for (int k = 0; k < steps; ++k) s.step_all();
-  ++s.moment_shown;
+  for (int k = 1; k <= steps; ++k) s.step_all(k == steps);
+  if (steps == 0) s.show();
   return steps;
 }
 
 void Bank::outputs(std::span<float> values) const {
-  State& s = *state_;
+  const State& s = *state_;
   const std::size_t count = s.channels.outputs.size();
   assert(values.size() == s.rows * count);
-  s.show_all();
   for (int slot = 0; slot < s.rows; ++slot) {
     float* row = values.data() + slot * count;
     if (s.alive[slot]) {
@@ -199,14 +198,13 @@ bool Bank::outputs(InstanceId id, std::span<float> values) const {
 }
 
 void Bank::polylines(std::span<float> values) const {
-  State& s = *state_;
+  const State& s = *state_;
   assert(s.polyline.points > 0 && values.size() == static_cast<std::size_t>(s.rows) * s.polyline.points * 2);
-  s.show_all();
   s.path->polylines(s, values.data());
 }
 
 bool Bank::polyline(InstanceId id, std::span<float> values) const {
-  State& s = *state_;
+  const State& s = *state_;
   if (!s.valid(id)) return false;
   assert(s.polyline.points > 0 && values.size() == static_cast<std::size_t>(s.polyline.points) * 2);
   const int block = static_cast<int>(id.slot) / State::kLanes, lane = static_cast<int>(id.slot) % State::kLanes;

@@ -253,7 +253,7 @@ Result<void> Bank::restore(std::span<const std::byte> bytes) {
   s.clamped = {fields.clamped, fields.steps};
   s.living = s.rows = s.lowest_free = 0;
   for (int slot = 0; slot < s.capacity; ++slot) restore_slot(s, slot, in);
-  ++s.moment_shown;
+  s.show();
   return {};
 }
 

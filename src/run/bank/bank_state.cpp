@@ -55,7 +55,6 @@ Bank::State::State(const Model& model, const BankOptions& options, Arena& arena)
   born = arena.take<std::uint64_t>(lanes);
   regressors = arena.take<float>(lanes * regressor_count(model.inputs));
   shown = arena.take<float>(lanes * model.outputs.size());
-  shown_at = arena.take<std::uint64_t>(lanes / kLanes);
   if (extinction.present) {
     for (auto* values : {&wind, &harm, &lit, &size, &previous_size}) *values = arena.take<float>(lanes);
     last_shape = arena.take<float>(lanes * model.outputs.size());
@@ -77,7 +76,7 @@ void Bank::State::start(int slot) {
     lit_at[slot] = out_at[slot] = kNeverInSteps;
     for (std::size_t i = 0; i < channels.outputs.size(); ++i) last_shape_of(block)[i * kLanes + lane] = 0.0f;
   }
-  look_again(block);
+  show_block(block);
 }
 
 // From rest, as a newborn; the random stream goes on, so that it does not repeat its first flicker.
@@ -89,12 +88,11 @@ void Bank::State::relight(int slot) {
   harm[slot] = 0.0f;
   lit[slot] = 1.0f;
   lit_at[slot] = steps;
-  look_again(block);
+  show_block(block);
 }
 
 void Bank::State::extinguish(int slot) {
   if (!burns(slot)) return;
-  look(slot / kLanes);  // it is seen to go out with the next step
   harm[slot] = 1.0f;
   lit[slot] = 0.0f;
   go_out(slot, steps);
@@ -178,23 +176,22 @@ void Bank::State::share(Work work) {
   crew.run(crew.pool, parts, do_part, &task);
 }
 
-void Bank::State::step_all() {
+// What is shown goes by `passed` and `between`, which are set before.
+void Bank::State::step_all(bool read) {
   std::visit([](auto& dynamics) { dynamics.turn(); }, stepper);
   std::atomic<std::uint64_t> count = 0;
-  share([&](int first, int last) { count.fetch_add(path->step(*this, first, last), std::memory_order_relaxed); });
+  share([&](int first, int last) { count.fetch_add(path->step(*this, first, last, read), std::memory_order_relaxed); });
   clamped.clamped += count;
   ++steps;
   clamped.steps += static_cast<std::uint64_t>(living);
-  ++moment_shown;
 }
 
-// Where a crew helps. A single thread looks at one block after the other, while it is at hand.
-void Bank::State::show_all() {
-  if (crew.run) share([this](int first, int last) { path->show(*this, first, last); });
+void Bank::State::show() {
+  share([this](int first, int last) { path->show(*this, first, last); });
 }
 
-void Bank::State::read_outputs(int slot, float* values) {
-  const float* row = look(slot / kLanes) + slot % kLanes;
+void Bank::State::read_outputs(int slot, float* values) const {
+  const float* row = shown_of(slot / kLanes) + slot % kLanes;
   for (std::size_t i = 0; i < channels.outputs.size(); ++i) values[i] = row[i * kLanes];
 }
 

@@ -35,12 +35,6 @@ struct Bank::State {
   float* regressors_of(int block) { return regressors.data() + block * channels.regressors.size() * kLanes; }
   float* shown_of(int block) { return shown.data() + block * channels.outputs.size() * kLanes; }
   const float* shown_of(int block) const { return const_cast<State*>(this)->shown_of(block); }
-  /// What is read of a block: made when it is looked at, once until anything changes.
-  const float* look(int block) {
-    if (shown_at[block] != moment_shown) path->show(*this, block, block + 1);
-    return shown_of(block);
-  }
-  void look_again(int block) { shown_at[block] = 0; }  // something changed
   LifeLanes<float> life_of(int block) {
     const int first = block * kLanes;
     return {wind.data() + first, harm.data() + first, lit.data() + first, size.data() + first};
@@ -55,26 +49,25 @@ struct Bank::State {
   void set_inputs(int block, const float* values, int count);
   void set_common_inputs(int block, const float* values);
   void set_lane_inputs(int slot, const float* values);  // null: zeros
-  void step_all();
-  std::uint64_t step_blocks(int first, int last);
+  void step_all(bool read);
+  std::uint64_t step_blocks(int first, int last, bool read);
   template <class Work>
   void share(Work work);  // work(first block, one past its last), for all blocks
-  std::uint32_t count_held(int block, const std::uint32_t* flags) const;
+  std::uint32_t count_clamped(int block, const std::uint32_t* flags) const;
   void live_block(int block);
   void go_out(int slot, std::uint64_t moment);
   float* last_shape_of(int block) { return last_shape.data() + block * channels.outputs.size() * kLanes; }
-  void show_all();
+  void show();
   void show_block(int block);
   bool is_whole(int block) const;
   void show_life(int block, float share);
   void set_noise(float scale);
   void set_chain(const ChainSettings& settings);  // where it is a chain
-  void read_outputs(int slot, float* values);
+  void read_outputs(int slot, float* values) const;
   template <class Show>
-  void polyline_of(int block, const Show& show) {  // show(2 · point + coordinate, [lane])
-    const float* controls = look(block);
+  void polyline_of(int block, const Show& show) const {  // show(2 · point + coordinate, [lane])
     for (int coordinate : {0, 1}) {
-      polyline_lanes<LiveNumbers>(polyline, coordinate, controls, [&](int point, const auto& values) {
+      polyline_lanes<LiveNumbers>(polyline, coordinate, shown_of(block), [&](int point, const auto& values) {
         float lanes[kLanes];
         store(values, lanes);
         show(2 * point + coordinate, lanes);
@@ -97,10 +90,9 @@ struct Bank::State {
   std::span<std::uint32_t> generation;  // per slot, as are the next three
   std::span<std::uint8_t> alive;
   std::span<std::uint64_t> stream;
-  std::span<std::uint64_t> born;      // value of `steps` when it was spawned or reset
-  std::span<float> regressors;        // [block][regressor][lane]: what acts now
-  std::span<float> shown;             // [block][output][lane]: what is read, where shown_at is moment_shown
-  std::span<std::uint64_t> shown_at;  // per block
+  std::span<std::uint64_t> born;  // value of `steps` when it was spawned or reset
+  std::span<float> regressors;    // [block][regressor][lane]: what acts now
+  std::span<float> shown;         // [block][output][lane]: what is read
 
   // Per slot, and empty where nothing goes out.
   std::span<float> wind;  // strength of what acts now
@@ -116,10 +108,9 @@ struct Bank::State {
   int rows = 0;         // one more than the highest slot in use
   int lowest_free = 0;  // no slot below it is free
   std::uint64_t spawned = 0;
-  std::uint64_t steps = 0;         // of the bank
-  std::int64_t passed = 0;         // nanoseconds since the last step
-  bool between = false;            // what is shown lies between the last two steps, by `passed`
-  std::uint64_t moment_shown = 1;  // another one whenever all that is shown changes
+  std::uint64_t steps = 0;  // of the bank
+  std::int64_t passed = 0;  // nanoseconds since the last step
+  bool between = false;     // what is shown lies between the last two steps, by `passed`
   float noise = 0.0f;
   ChainSettings chain;
   Crew crew;

@@ -43,7 +43,7 @@ bool ChainFacet::place(InstanceId id, const BodyMoment& body) {
   if (!state_->valid(id) || !is_sound(body)) return false;
   const BodyState<float> moved{body.position, unit(body.orientation), {body.velocity, body.spin}};
   state_->chain_stepper()->place(block_of(id), lane_of(id), moved);
-  state_->look_again(block_of(id));
+  state_->show_block(block_of(id));
   return true;
 }
 

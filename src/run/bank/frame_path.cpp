@@ -48,8 +48,8 @@ Moment<LiveNumbers> Bank::State::moment(int block, std::uint32_t* flags) const {
   return {&keys, {stream.data() + first, born.data() + first, steps}, flags, std::min(kLanes, rows - block * kLanes)};
 }
 
-std::uint64_t Bank::State::step_blocks(int first, int last) {
-  std::uint64_t count_of_held = 0;
+std::uint64_t Bank::State::step_blocks(int first, int last, bool read) {
+  std::uint64_t count_of_clamped = 0;
   std::visit(
       [&](auto& dynamics) {
         const std::size_t count = channels.regressors.size() * kLanes;
@@ -72,16 +72,17 @@ std::uint64_t Bank::State::step_blocks(int first, int last) {
           }
           for (int b = 0; b < group; ++b, ++block) {
             if (extinction.present) live_block(block);
-            count_of_held += count_held(block, flags + b * kLanes);
+            count_of_clamped += count_clamped(block, flags + b * kLanes);
+            if (read) show_block(block);
           }
         }
       },
       stepper);
-  return count_of_held;
+  return count_of_clamped;
 }
 
 // Instances of a block that live, burn and had an output clamped.
-std::uint32_t Bank::State::count_held(int block, const std::uint32_t* flags) const {
+std::uint32_t Bank::State::count_clamped(int block, const std::uint32_t* flags) const {
   if (!any(load<Words<LiveNumbers>>(flags))) return 0;
   std::uint32_t count = 0;
   const int first = block * kLanes;
@@ -102,9 +103,7 @@ void Bank::State::live_block(int block) {
   }
 }
 
-// What is shown goes by `passed` and `between`.
 void Bank::State::show_block(int block) {
-  shown_at[block] = moment_shown;
   const float share = static_cast<float>(passed) / static_cast<float>(step_time);
   std::visit(
       [&](const auto& dynamics) {
@@ -156,12 +155,10 @@ void set_common_inputs(Bank::State& s, const float* values) {
 }
 
 void show(Bank::State& s, int first, int last) {
-  for (int block = first; block < last; ++block) {
-    if (s.shown_at[block] != s.moment_shown) s.show_block(block);
-  }
+  for (int block = first; block < last; ++block) s.show_block(block);
 }
 
-void polylines(Bank::State& s, float* values) {
+void polylines(const Bank::State& s, float* values) {
   const std::size_t row = static_cast<std::size_t>(s.polyline.points) * 2;
   for (int block = 0; block < s.blocks(); ++block) {
     const int first = block * s.kLanes;
@@ -183,6 +180,6 @@ extern "C" WISP_INSIDE const wisp::FramePath WISP_FRAME_PATH = {
     WISP_WIDTH_NAME,
     wisp::set_inputs,
     wisp::set_common_inputs,
-    [](wisp::Bank::State& s, int first, int last) { return s.step_blocks(first, last); },
+    [](wisp::Bank::State& s, int first, int last, bool read) { return s.step_blocks(first, last, read); },
     wisp::show,
     wisp::polylines};

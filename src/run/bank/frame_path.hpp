@@ -22,11 +22,11 @@ struct FramePath {
   const char* width;
   void (*set_inputs)(Bank::State& state, const float* values);
   void (*set_common_inputs)(Bank::State& state, const float* values);
-  /// Makes the newest samples of blocks; returns of how many instances an output was clamped.
-  std::uint64_t (*step)(Bank::State& state, int first, int last);
-  /// Makes what is read of blocks, where it is not of this moment.
+  /// Makes the newest samples of blocks and, where they are to be read, shows them while they are at hand; returns of
+  /// how many instances an output was clamped.
+  std::uint64_t (*step)(Bank::State& state, int first, int last, bool read);
   void (*show)(Bank::State& state, int first, int last);
-  void (*polylines)(Bank::State& state, float* values);
+  void (*polylines)(const Bank::State& state, float* values);
 };
 
 /// Those that this machine can run, the narrowest first: it is what the compiler was told to make.
