@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <ostream>
 
+#include "describe/values.hpp"
+
 namespace wisp {
 namespace {
 
@@ -20,10 +22,6 @@ std::string padded(std::string text, std::size_t to) {
   return text;
 }
 
-std::string with_unit(const std::string& text, const std::string& unit) {
-  return unit.empty() ? text : text + " " + unit;
-}
-
 // Percentages of a simulation that runs away: their digits say nothing more.
 bool diverges(const ReportValue& value, const std::string& unit) {
   constexpr double kRunsAway = -1000;
@@ -31,26 +29,15 @@ bool diverges(const ReportValue& value, const std::string& unit) {
   return unit == "%" && number && *number < kRunsAway;
 }
 
-std::string shown_in(const ReportValue& value, const std::string& unit) {
-  if (diverges(value, unit)) return "diverges";
-  const auto* list = std::get_if<ReportList>(static_cast<const ReportValue::Base*>(&value));
-  if (!list) return shown(value);
-  std::string out;
-  for (const ReportValue& each : *list) out += (out.empty() ? "" : ", ") + shown_in(each, unit);
-  return out;
-}
-
 std::string line_of(const ReportEntry& entry, std::size_t label_width) {
-  const std::string value = shown_in(entry.value, entry.unit);
-  std::string line = "  " + padded(entry.label, label_width) + "  ";
-  line += value == "diverges" ? value : with_unit(value, entry.unit);
+  std::string line = "  " + padded(entry.label, label_width) + "  " + shown_with_unit(entry.value, entry.unit);
   if (entry.interval) line += " (95 %: " + shown((*entry.interval)[0]) + " to " + shown((*entry.interval)[1]) + ")";
   if (!entry.meaning.empty()) line += "   " + entry.meaning;
   return line + "\n";
 }
 
 std::string cell_of(const ReportTable& table, const std::vector<ReportValue>& row, std::size_t column) {
-  return shown_in(row[column], table.columns[column].unit);
+  return shown_in_unit(row[column], table.columns[column].unit);
 }
 
 std::string text_of(const ReportTable& table) {
@@ -88,6 +75,24 @@ std::string text_of(const ReportSection& section) {
 }
 
 }  // namespace
+
+std::string with_unit(const std::string& text, const std::string& unit) {
+  return unit.empty() ? text : text + " " + unit;
+}
+
+std::string shown_in_unit(const ReportValue& value, const std::string& unit) {
+  if (diverges(value, unit)) return "diverges";
+  const auto* list = std::get_if<ReportList>(static_cast<const ReportValue::Base*>(&value));
+  if (!list) return shown(value);
+  std::string out;
+  for (const ReportValue& each : *list) out += (out.empty() ? "" : ", ") + shown_in_unit(each, unit);
+  return out;
+}
+
+std::string shown_with_unit(const ReportValue& value, const std::string& unit) {
+  const std::string text = shown_in_unit(value, unit);
+  return text == "diverges" ? text : with_unit(text, unit);
+}
 
 std::string shown(const ReportValue& value, int digits) {
   struct Words {

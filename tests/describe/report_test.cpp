@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "wisp/describe/html.hpp"
 #include "wisp/describe/json.hpp"
 #include "wisp/describe/text.hpp"
 
@@ -27,6 +28,25 @@ Report sample() {
                  .columns = {{"name", "channel"}, {"fit_percent.1", "fit", "%"}, {"hidden", ""}},
                  .rows = {{"tip", 81.25, 1}, {"p0.x", NAN, 2}}}};
   return report;
+}
+
+TEST(ReportAsHtml, SaysWhatTheTextSaysInTables) {
+  EXPECT_EQ(to_html(sample()),
+            "<p class=\"verdict refused\">not usable: too few rows</p>\n"
+            "<ul class=\"warnings\">\n<li>the sound is clipped</li>\n</ul>\n"
+            "<h3>Fit</h3>\n<table class=\"figures\">\n"
+            "<tr><th>spectral radius</th><td>0.9876</td><td>below 1: stable</td></tr>\n"
+            "<tr><th>delay</th><td>0.25 s (95 %: 0.2 to 0.3)</td><td></td></tr>\n"
+            "<tr><th>FPE</th><td>none</td><td></td></tr>\n"
+            "<tr><th>note</th><td>a sentence</td><td></td></tr>\n</table>\n"
+            "<table><caption>channels</caption>\n<tr><th>channel</th><th>fit %</th></tr>\n"
+            "<tr><td>tip</td><td>81.25</td></tr>\n<tr><td>p0.x</td><td>none</td></tr>\n</table>\n");
+}
+
+TEST(ReportAsHtml, TextIsText) {
+  Report report;
+  report.warnings = {"<b> & \"c\""};
+  EXPECT_EQ(to_html(report), "<ul class=\"warnings\">\n<li>&lt;b&gt; &amp; &quot;c&quot;</li>\n</ul>\n");
 }
 
 TEST(Report, JsonNestsDottedIdsAndKeepsMissingFiguresAsNull) {

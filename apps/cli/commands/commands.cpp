@@ -27,6 +27,7 @@ const std::vector<Command>& commands() {
       run_command(),
       export_command(),
       info_command(),
+      report_command(),
       play_command(),
       demo_command(),
       manual_command(),

@@ -24,6 +24,7 @@ Command simulate_leaf_command();
 Command run_command();
 Command export_command();
 Command info_command();
+Command report_command();
 Command play_command();
 Command demo_command();
 Command manual_command();
