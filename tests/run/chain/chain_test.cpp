@@ -58,7 +58,8 @@ TEST(ChainBank, WhereHeightIsBoundedALifeBeginsThereAndJoinsLeadBack) {
     Bank free = bank_of(sample_chain(motion), 8), bounded = bank_of(bounded_chain(motion), 8);
     for (int slot = 0; slot < 8; ++slot) {
       const std::uint32_t segment = bounded.chain()->place_of(bounded.at(slot))->segment;
-      EXPECT_FLOAT_EQ(pose_of(bounded, slot)[2], std::array{2.0f, 1.9f, 1.85f}[segment]);
+      constexpr std::array kHeights{2.0f, 1.9f, 1.85f};
+      EXPECT_FLOAT_EQ(pose_of(bounded, slot)[2], kHeights[segment]);
     }
     for (int step = 0; step < 600; ++step) {
       free.step();
