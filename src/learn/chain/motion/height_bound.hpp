@@ -11,7 +11,7 @@ namespace wisp::chain {
 
 /// Whether heights vary hardly more within a quarter of the longest stretch than within a sixteenth. By the variance
 /// within a window: it is the same in both for what is bounded, four times as large for a random walk, sixteen times
-/// for what falls. False where a quarter has fewer than 32 usual segments.
+/// for what falls. False where a quarter has fewer than 8 usual segments.
 ///
 /// Precondition: segments are of the motion, not none.
 bool height_is_bounded(const Motion& motion, std::span<const Segment> segments);
