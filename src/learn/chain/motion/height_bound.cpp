@@ -6,9 +6,9 @@
 namespace wisp::chain {
 namespace {
 
-constexpr std::size_t kParts = 16;   // short windows of the longest stretch; a long one is four
-constexpr double kMinSegments = 8;   // of a long window: in fewer, what wanders slowly has no time to
-constexpr double kMaxGrowth = 2;     // of the variance from one to the other: midway, as ratios, from 1 to 4
+constexpr std::size_t kParts = 16;  // short windows of the longest stretch; a long one is four
+constexpr double kMinSegments = 8;  // of a long window: in fewer, what wanders slowly has no time to
+constexpr double kMaxGrowth = 2;    // of the variance from one to the other: midway, as ratios, from 1 to 4
 
 // The mean variance of heights within windows of so many rows, side by side.
 double spread_within(const Motion& motion, std::size_t rows) {
