@@ -59,15 +59,15 @@ TEST_P(FlameClips, AMinuteOfFreePlayFlickersLikeTheRecording) {
   const auto play = synthesize(fit.model, {.rows = rows});
   ASSERT_TRUE(play) << play.error().message;
   const Recording real = to_model_units(recording, layout, fit.summary.pixels_per_unit);
-  const auto fidelity =
+  const auto figures =
       fidelity({&real, 1}, {&play->recording, 1}, {.channels = outline_outputs(layout.points), .permutations = 0});
-  ASSERT_TRUE(fidelity) << fidelity.error().message;
-  for (const ChannelFidelity& channel : fidelity->channels) {
+  ASSERT_TRUE(figures) << figures.error().message;
+  for (const ChannelFidelity& channel : figures->channels) {
     EXPECT_NEAR(channel.sd_synthesized / channel.sd_real, 1, 0.25) << channel.name;
     EXPECT_LE(channel.log_spectral_distance.floor_ratio(), 2) << channel.name;
   }
-  EXPECT_LT(fidelity->energy_distance.value, 0.05);
-  EXPECT_LT(fidelity->energy_distance.value, fidelity->energy_distance.floor);
+  EXPECT_LT(figures->energy_distance.value, 0.05);
+  EXPECT_LT(figures->energy_distance.value, figures->energy_distance.floor);
 }
 
 TEST_P(FlameClips, InAMillionStepsHardlyAnyIsClamped) {

@@ -262,7 +262,7 @@ TEST(Flame, DiesWithinASecondAndLeavesAnEmberAndSmoke) {
   FlameScene at = scene();
   const double lit = total_brightness(drawn(drop_outline(), at));
   at.seconds_since_out = 0.05F;
-  const double decay = total_brightness(drawn(drop_outline(), at));
+  const double dying = total_brightness(drawn(drop_outline(), at));
   at.seconds_since_out = 1.0F;
   const Image smoking = drawn(drop_outline(), at);
   EXPECT_LT(dying, lit);
