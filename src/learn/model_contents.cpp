@@ -164,8 +164,8 @@ void add_extinction(const std::string& id, const ExtinctionTraining& made, Repor
   add(section, id + ".died", made.died);
   add(section, id + ".gusts", made.gusts);
   add(section, id + ".spared", made.spared);
-  add_ramp(id + ".decay", made.decay, section);
-  add_ramp(id + ".re_ignition", made.re_ignition, section);
+  add_ramp(id + ".dying", made.decay, section);
+  add_ramp(id + ".catching", made.re_ignition, section);
 }
 
 void add_training(const Training& made, ReportSection& section) {
@@ -208,8 +208,8 @@ Report model_contents(const Model& model) {
   }
   std::visit([&](const auto& dynamics) { add_dynamics(dynamics, section); }, model.dynamics);
   if (model.extinction) {
-    add(section, "extinction.decay", model.extinction->decay);
-    add(section, "extinction.re_ignition", model.extinction->re_ignition);
+    add(section, "extinction.dying", model.extinction->decay);
+    add(section, "extinction.catching", model.extinction->re_ignition);
   }
   add_training(model.training, section);
   add(section, "random.generator", "Philox4x32-7");

@@ -222,8 +222,8 @@ TEST(ChainModel, WhatIsNotAChainIsRefusedWithAReason) {
       {"no steps", [](Model& m) { chain(m).segments.steps[1] = 0; }},
       {"rows hold", [](Model& m) { chain(m).segments.rows.pop_back(); }},
       {"rates hold", [](Model& m) { chain(m).segments.rates.pop_back(); }},
-      {"follower 0", [](Model& m) { chain(m).segments.follow[0] = 2; }},
-      {"follower 2", [](Model& m) { chain(m).segments.follow[2] = 9; }},
+      {"successor 0", [](Model& m) { chain(m).segments.follow[0] = 2; }},
+      {"successor 2", [](Model& m) { chain(m).segments.follow[2] = 9; }},
       {"shares of what follows",
        [](Model& m) {
          chain(m).segments.successor_weights = {1, 2, 3};

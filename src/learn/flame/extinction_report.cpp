@@ -116,8 +116,8 @@ ReportSection extinction_section(const std::optional<JudgedExtinction>& judged) 
   if (!judged) return {"", {{"extinction", {}, "", ""}}};
   ReportSection section{"Extinction"};
   add_agreement(judged->agreement, "extinction", section);
-  add_ramp(judged->decay, "extinction.decay", "decay", section);
-  add_ramp(judged->re_ignition, "extinction.re_ignition", "re-ignition", section);
+  add_ramp(judged->decay, "extinction.dying", "decay", section);
+  add_ramp(judged->re_ignition, "extinction.catching", "re-ignition", section);
   section.entries.push_back({"extinction.unexplained", judged->unexplained, "", ""});
   return section;
 }

@@ -57,8 +57,9 @@ bool for_people(const Report& report, std::string_view word) {
   return false;
 }
 
-// Played a hundred times as long as what was learned differs between the best joins: 12,000 frames, ten times. Heights
-// of the recording are 300 to 301.2 m; a join may add a fifth of the usual speed, 0.5 m/s, for its 0.15 s.
+// 12,000 frames, ten times. Heights of the recording are 300 to 301.2 m. A successor begins a few centimetres higher or
+// lower than the segment before it ends, which is made up for while it is played: a fifth of the range is far beyond
+// that, and far from the metres by which heights would wander.
 TEST(LearnChain, ABallStaysBetweenFloorAndCeiling) {
   ChainRecipe recipe;
   recipe.event = {EventKind::kMaximum, "pos.z"};
@@ -78,8 +79,8 @@ TEST(LearnChain, ABallStaysBetweenFloorAndCeiling) {
       highest = std::max(highest, at[2]);
     }
   }
-  EXPECT_GT(lowest, 300 - 0.04);
-  EXPECT_LT(highest, 301.2 + 0.04);
+  EXPECT_GT(lowest, 300 - 0.24);
+  EXPECT_LT(highest, 301.2 + 0.24);
   EXPECT_NEAR(fit->model.outputs[2].lowest, 300, 0.01);
 }
 

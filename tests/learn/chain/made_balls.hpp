@@ -25,7 +25,7 @@ inline Recording made_ball(const MadeBallOptions& options = {}) {
   recording.source = "ball.csv";
   recording.rate_hz = kRate;
   for (const char* name : {"pos.x", "pos.y", "pos.z"}) recording.channels.push_back({name, "m", Role::kOutput, {}});
-  double x = 0, y = 0, heading = 0, floor = options.floor, speed = 0, since = 1, flight = 0;
+  double x = 0, y = 0, heading = 0, floor = options.floor, speed = 0, since = 0, flight = 0;
   for (int row = 0; row < options.rows; ++row, since += 1 / kRate) {
     if (since >= flight) {
       since = std::max(0.0, since - flight);
