@@ -1,4 +1,4 @@
-#include "wisp/describe/html.hpp"
+#include <string>
 
 #include "describe/values.hpp"
 

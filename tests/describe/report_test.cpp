@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "wisp/describe/html.hpp"
 #include "wisp/describe/json.hpp"
 #include "wisp/describe/text.hpp"
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "wisp/base/file.hpp"
-#include "wisp/describe/html.hpp"
+#include "wisp/describe/text.hpp"
 
 namespace wisp::cli {
 namespace {
