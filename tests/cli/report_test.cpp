@@ -51,7 +51,7 @@ TEST_F(ReportPage, OfAModelAloneSaysWhatItIs) {
 
 TEST_F(ReportPage, HasTheVerdictAndThePlotsOfEachRecordingWithinIt) {
   const Said run = wisp("report " + at("m.wisp") + " " + at("made.csv") + " " + at("made.csv") +
-                       " --rate 10 --json -o " + at("page.html"));
+                        " --rate 10 --json -o " + at("page.html"));
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.json()["recordings"], 2);
   const std::string page = file_text(at("page.html"));
