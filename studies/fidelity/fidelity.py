@@ -101,7 +101,7 @@ def main():
     parser.add_argument("--surely", action="append", default=[])
     parser.add_argument("--at-most", type=float, default=1.0)
     arguments = parser.parse_args()
-    print(f"== Told apart by {two_sample.TREES}: balanced accuracy, {two_sample.FOLDS} folds over blocks; "
+    print(f"== Classifier two-sample test by {two_sample.TREES}: balanced accuracy, {two_sample.FOLDS} folds over blocks; "
           f"{arguments.splits} splits for the floor and what must be sure, {arguments.few} for the rest")
     folders = sorted(path.parent for path in arguments.folder.glob("*/figures.csv"))
     if not folders:

@@ -32,7 +32,7 @@ def read(path):
 
 def main():
     names, sides, falls, features = read(sys.argv[1])
-    print(f"== Told apart by {two_sample.TREES}: balanced accuracy, {two_sample.MAX_WINDOWS} windows a side, "
+    print(f"== Classifier two-sample test by {two_sample.TREES}: balanced accuracy, {two_sample.MAX_WINDOWS} windows a side, "
           f"{two_sample.FOLDS} folds over falls, {SPLITS} splits")
 
     def told(first, second, columns=slice(None), splits=SPLITS):

@@ -54,7 +54,7 @@ describe('a film out of the ordinary', { skip }, () => {
     await anew();
   });
 
-  it('that nobody can read is told apart, and what to do about it', async () => {
+  it('that nobody can read is named, and what to do about it', async () => {
     const strangers = {
       'diary.mp4': [Buffer.from('Today I lit a candle.'), 'diary.mp4 is not a film that can be read here.*convert it to MP4'],
       'broken_off.mp4': [readFileSync(brokenOff(film(), folder)), 'broken_off.mp4 is cut off.*copy the whole film'],

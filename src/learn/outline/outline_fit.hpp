@@ -69,7 +69,7 @@ struct OutlineSummary {
   OutlineChoice choice;
   CurveChoice curve_choice;               ///< what bends the inputs, and why; without candidates where none was tried
   std::vector<CurveEstimate> curves;      ///< one an input, of the returned model; empty: none
-  arx::FocusOutcome focus;                ///< of the returned model; without a reason where none was asked for
+  arx::FocusOutcome focus;                ///< of the returned model; without a reason where least squares was requested
   RidgeChoice ridge;                      ///< where control points hear each other
   std::vector<InputAlignment> alignment;  ///< of every recording's inputs
   std::size_t rows_learned = 0;   ///< complete rows that a judged model was learned from: before the cut, or in a turn

@@ -47,7 +47,7 @@ struct FocusedFit {
   FocusOutcome outcome{};
 };
 
-/// What is asked for.
+/// The request.
 struct FocusOptions {
   ArxFocus focus = ArxFocus::kAuto;
   bool keep_orders = false;  ///< refined only: neither kernels nor states, and no output on its own
