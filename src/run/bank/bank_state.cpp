@@ -105,7 +105,8 @@ void Bank::State::go_out(int slot, std::uint64_t moment) {
   const float* newest = std::visit([&](const auto& dynamics) { return dynamics.newest(block); }, stepper);
   for (std::size_t i = 0; i < channels.outputs.size(); ++i) {
     float values[kLanes];
-    store(present<LiveNumbers>(channels.outputs[i], load<Reals<LiveNumbers>>(newest + i * kLanes)), values);
+    using Values = Reals<LiveNumbers>;
+    store(Presentation<Values>(channels.outputs[i]).of(load<Values>(newest + i * kLanes)), values);
     last_shape_of(block)[i * kLanes + lane] = values[lane];
   }
 }

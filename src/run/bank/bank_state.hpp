@@ -59,6 +59,8 @@ struct Bank::State {
   float* last_shape_of(int block) { return last_shape.data() + block * channels.outputs.size() * kLanes; }
   void show();
   void show_block(int block);
+  template <int kBlocks, class Dynamics>
+  void show_blocks(const Dynamics& dynamics, int first);
   bool is_whole(int block) const;
   void show_life(int block, float share);
   void set_noise(float scale);

@@ -35,10 +35,20 @@ class ChannelHistory {
   const Real* newest(int block) const { return ring_.sample(block, 0); }
   const Real* previous(int block) const { return ring_.sample(block, 1); }
 
-  /// What is read of a block: the newest sample, or a `share` of the way to it from the one before.
-  void show(int block, Real* out) const { show_newest<N>(channels_, newest(block), out); }
+  /// What is read of kBlocks blocks in a row: the newest samples, or a `share` of the way to them from those before.
+  template <int kBlocks = 1>
+  void show(int block, Real* out) const {
+    const BlockPlaces<const Real, kBlocks> to(newest(block), ring_.stride());
+    show_blocks<N, kBlocks>(channels_.outputs, out,
+                            [&](std::size_t after, int i) { return load_part<N>(to, after, i); });
+  }
+  template <int kBlocks = 1>
   void show_between(int block, float share, Real* out) const {
-    wisp::show_between<N>(channels_, previous(block), newest(block), share, out);
+    const BlockPlaces<const Real, kBlocks> from(previous(block), ring_.stride()), to(newest(block), ring_.stride());
+    show_blocks<N, kBlocks>(channels_.outputs, out, [&](std::size_t after, int i) {
+      const auto before = load_part<N>(from, after, i);
+      return before + all<std::remove_const_t<decltype(before)>>(share) * (load_part<N>(to, after, i) - before);
+    });
   }
 
   /// What a frame reads: games have rates of their own.

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "run/bank/arena.hpp"
-#include "run/lanes/lanes.hpp"
+#include "run/lanes/blocks.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/model.hpp"
 
@@ -142,13 +142,23 @@ inline Reals<N> regress(const RegressorChannel& channel, const Reals<N>& inputs)
   return settle(part);
 }
 
-/// An output's values in its own unit.
-template <class N>
-inline Reals<N> present(const OutputChannel& channel, const Reals<N>& z) {
-  const auto deviation = channel.scale == 1 ? z : all<Reals<N>>(channel.scale) * z;
-  const auto y = all<Reals<N>>(channel.mean) + deviation;
-  return hold(y, all<Reals<N>>(channel.lowest), all<Reals<N>>(channel.highest));
-}
+/// Turns an output's deviations to values in its own unit. Holds what it takes, so that it is read once for many.
+template <class Values>
+class Presentation {
+ public:
+  explicit Presentation(const OutputChannel& channel)
+      : mean_(all<Values>(channel.mean)),
+        scale_(all<Values>(channel.scale)),
+        lowest_(all<Values>(channel.lowest)),
+        highest_(all<Values>(channel.highest)),
+        scales_(channel.scale != 1) {}
+
+  Values of(const Values& z) const { return hold(mean_ + (scales_ ? scale_ * z : z), lowest_, highest_); }
+
+ private:
+  Values mean_, scale_, lowest_, highest_;
+  bool scales_;
+};
 
 /// Numbers with their sign turned; 0 stays +0.
 template <class Part, int kParts>
@@ -156,31 +166,28 @@ inline auto negative(const Pack<Part, kParts>& values) {
   return all<Pack<Part, kParts>>(0.0f) - values;
 }
 
-/// What is read of a block, [output][lane], when the newest sample is shown.
-template <class N>
-inline void show_newest(const Channels& channels, const typename N::Real* newest, typename N::Real* out) {
-  for (std::size_t i = 0; i < channels.outputs.size(); ++i) {
-    const OutputChannel& channel = channels.outputs[i];
-    const std::size_t at = i * N::kLanes;
-    const auto shown = channel.mirrors < 0 ? present<N>(channel, load<Reals<N>>(newest + at))
-                                           : negative(load<Reals<N>>(out + channel.mirrors * N::kLanes));
-    store(shown, out + at);
-  }
+/// A part of the values of blocks in a row, `after` numbers from the beginning of each.
+template <class N, class Value, int kBlocks>
+inline auto load_part(const BlockPlaces<Value, kBlocks>& places, std::size_t after, int i) {
+  Pack<typename PartsOfBlocks<N, kBlocks>::RealPart, 1> one;
+  load_block_part<N>(places, after, i, one.part[0]);
+  return one;
 }
 
-/// The same when a `share` of the way from the sample before to the newest is shown.
-template <class N>
-inline void show_between(const Channels& channels, const typename N::Real* previous, const typename N::Real* newest,
-                         float share, typename N::Real* out) {
-  for (std::size_t i = 0; i < channels.outputs.size(); ++i) {
-    const OutputChannel& channel = channels.outputs[i];
-    const std::size_t at = i * N::kLanes;
-    if (channel.mirrors >= 0) {
-      store(negative(load<Reals<N>>(out + channel.mirrors * N::kLanes)), out + at);
-      continue;
-    }
-    const auto from = load<Reals<N>>(previous + at), to = load<Reals<N>>(newest + at);
-    store(present<N>(channel, from + all<Reals<N>>(share) * (to - from)), out + at);
+/// What is read of blocks in a row, [output][lane] each: of every output z(after, i), a part of its values. One part
+/// after the other, since narrow machines have registers for a few.
+template <class N, int kBlocks, class Deviation>
+inline void show_blocks(std::span<const OutputChannel> outputs, typename N::Real* out, Deviation z) {
+  const BlockPlaces<typename N::Real, kBlocks> shown(out, outputs.size() * N::kLanes);
+  std::size_t after = 0;
+  for (const OutputChannel& channel : outputs) {
+    const Presentation<Pack<typename PartsOfBlocks<N, kBlocks>::RealPart, 1>> presentation(channel);
+    unrolled<PartsOfBlocks<N, kBlocks>::kParts>([&](auto i) {
+      const auto y = channel.mirrors < 0 ? presentation.of(z(after, i))
+                                         : negative(load_part<N>(shown, channel.mirrors * N::kLanes, i));
+      store_block_part<N>(y.part[0], shown, after, i);
+    });
+    after += N::kLanes;
   }
 }
 

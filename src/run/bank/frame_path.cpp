@@ -70,11 +70,16 @@ std::uint64_t Bank::State::step_blocks(int first, int last, bool read) {
           } else {
             dynamics.step(block, moment(block, flags));
           }
-          for (int b = 0; b < group; ++b, ++block) {
-            if (extinction.present) live_block(block);
-            count_of_clamped += count_clamped(block, flags + b * kLanes);
-            if (read) show_block(block);
+          for (int b = 0; b < group; ++b) {
+            if (extinction.present) live_block(block + b);
+            count_of_clamped += count_clamped(block + b, flags + b * kLanes);
           }
+          if (read && group == kGroup) {
+            show_blocks<kGroup>(dynamics, block);
+          } else if (read) {
+            show_blocks<1>(dynamics, block);
+          }
+          block += group;
         }
       },
       stepper);
@@ -104,17 +109,19 @@ void Bank::State::live_block(int block) {
 }
 
 void Bank::State::show_block(int block) {
+  std::visit([&](const auto& dynamics) { show_blocks<1>(dynamics, block); }, stepper);
+}
+
+template <int kBlocks, class Dynamics>
+void Bank::State::show_blocks(const Dynamics& dynamics, int first) {
   const float share = static_cast<float>(passed) / static_cast<float>(step_time);
-  std::visit(
-      [&](const auto& dynamics) {
-        if (between) {
-          dynamics.show_between(block, share, shown_of(block));
-        } else {
-          dynamics.show(block, shown_of(block));
-        }
-      },
-      stepper);
-  if (extinction.present) show_life(block, share);
+  if (between) {
+    dynamics.template show_between<kBlocks>(first, share, shown_of(first));
+  } else {
+    dynamics.template show<kBlocks>(first, shown_of(first));
+  }
+  if (!extinction.present) return;
+  for (int block = first; block < first + kBlocks; ++block) show_life(block, share);
 }
 
 // Whether all of a block burns at full size. To shrink it to that would not change a bit.

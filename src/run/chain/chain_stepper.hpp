@@ -134,11 +134,17 @@ class ChainStepper {
   const Real* previous(int block) const { return previous_.data() + block * sample_size(); }
 
   /// What is read of a block: the newest sample.
-  void show(int block, Real* out) const { std::copy_n(newest(block), sample_size(), out); }
+  template <int kBlocks = 1>
+  void show(int block, Real* out) const {
+    static_assert(kBlocks == kGroup);
+    std::copy_n(newest(block), sample_size(), out);
+  }
 
   /// What is read of it a `share` of the way from the sample before: positions in proportion, orientations by
   /// normalised linear interpolation.
+  template <int kBlocks = 1>
   void show_between(int block, float share, Real* out) const {
+    static_assert(kBlocks == kGroup);
     const Real *from = previous(block), *to = newest(block);
     for (std::size_t k = 0; k < sample_size(); ++k) out[k] = from[k] + Real(share) * (to[k] - from[k]);
     if (program_.channels < 7) return;

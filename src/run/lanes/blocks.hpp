@@ -54,6 +54,17 @@ inline void load_block_part(const BlockPlaces<Value, kBlocks>& places, std::size
   }
 }
 
+/// And back.
+template <class N, class Part, class Value, int kBlocks>
+inline void store_block_part(const Part& part, const BlockPlaces<Value, kBlocks>& places, std::size_t after, int i) {
+  if constexpr (PartsOfBlocks<N, kBlocks>::kBlocksAtOnce == 2) {
+    store_long_part(part, places.of[2 * i] + after, places.of[2 * i + 1] + after);
+  } else {
+    Value* first = places.of[i / N::kParts] + after + i % N::kParts * (N::kLanes / N::kParts);
+    std::memcpy(static_cast<void*>(first), static_cast<const void*>(&part), sizeof part);
+  }
+}
+
 /// All parts, and back.
 template <class N, class Packed, class Value, int kBlocks>
 inline Packed load_blocks(const BlockPlaces<Value, kBlocks>& places) {
@@ -63,14 +74,7 @@ inline Packed load_blocks(const BlockPlaces<Value, kBlocks>& places) {
 }
 template <class N, class Part, int kParts, class Value, int kBlocks>
 inline void store_blocks(const Pack<Part, kParts>& packed, const BlockPlaces<Value, kBlocks>& places) {
-  unrolled<kParts>([&](auto i) {
-    if constexpr (PartsOfBlocks<N, kBlocks>::kBlocksAtOnce == 2) {
-      store_long_part(packed.part[i], places.of[2 * i], places.of[2 * i + 1]);
-    } else {
-      Value* first = places.of[i / N::kParts] + i % N::kParts * (N::kLanes / N::kParts);
-      std::memcpy(static_cast<void*>(first), static_cast<const void*>(&packed.part[i]), sizeof(Part));
-    }
-  });
+  unrolled<kParts>([&](auto i) { store_block_part<N>(packed.part[i], places, 0, i); });
 }
 
 }  // namespace wisp

@@ -288,13 +288,20 @@ struct LiveNumbers {
   static constexpr int kParts = kLanes / kPartLanes;
 };
 
+// GCC leaves long unrolled bodies as calls, whose values then pass through memory.
+#if defined(__GNUC__) && !defined(__wasm__)
+#define WISP_UNROLLED __attribute__((always_inline))
+#else
+#define WISP_UNROLLED
+#endif
+
 /// Calls function(0), …, function(count − 1), each with a constant: what a loop holds in an array stays in registers.
 template <int count, class Function>
-inline void unrolled(Function function) {
+WISP_UNROLLED inline void unrolled(Function function) {
 #ifdef __wasm__
   for (int k = 0; k < count; ++k) function(k);  // a page fetches the code before it runs: short goes before fast
 #else
-  [&]<int... k>(std::integer_sequence<int, k...>) { (function(std::integral_constant<int, k>()), ...); }
+  [&]<int... k>(std::integer_sequence<int, k...>) WISP_UNROLLED { (function(std::integral_constant<int, k>()), ...); }
   (std::make_integer_sequence<int, count>());
 #endif
 }
