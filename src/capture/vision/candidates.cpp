@@ -281,19 +281,26 @@ Region PictureGrid::to_pixels(const Region& box) const {
   return intersection({area.x + box.x * step, area.y + box.y * step, box.width * step, box.height * step}, area);
 }
 
-PictureGrid sample_grid(std::span<const Picture> pictures, PixelChannel channel, const Region& area, int most,
-                        bool dark) {
+PictureGrid grid_over(const Region& area, int most) {
   PictureGrid grid{.area = area, .step = std::max(1, (std::max(area.width, area.height) + most - 1) / most)};
   grid.width = (area.width + grid.step - 1) / grid.step;
   grid.height = (area.height + grid.step - 1) / grid.step;
-  for (const Picture& picture : pictures) {
-    std::vector<std::uint8_t> out(grid.size());
-    sample_channel(picture, channel, area, grid.step, out.data());
-    if (dark) {
-      for (std::uint8_t& value : out) value = static_cast<std::uint8_t>(255 - value);
-    }
-    grid.pictures.push_back(std::move(out));
+  return grid;
+}
+
+void add_picture(PictureGrid& grid, const Picture& picture, PixelChannel channel, bool dark) {
+  std::vector<std::uint8_t> out(grid.size());
+  sample_channel(picture, channel, grid.area, grid.step, out.data());
+  if (dark) {
+    for (std::uint8_t& value : out) value = static_cast<std::uint8_t>(255 - value);
   }
+  grid.pictures.push_back(std::move(out));
+}
+
+PictureGrid sample_grid(std::span<const Picture> pictures, PixelChannel channel, const Region& area, int most,
+                        bool dark) {
+  PictureGrid grid = grid_over(area, most);
+  for (const Picture& picture : pictures) add_picture(grid, picture, channel, dark);
   return grid;
 }
 

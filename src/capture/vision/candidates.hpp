@@ -28,7 +28,13 @@ struct PictureGrid {
   Region to_pixels(const Region& box) const;
 };
 
-/// Samples `channel` over `area` at most `most` points wide and high, inverted for dark things.
+/// A grid over `area` at most `most` points wide and high, without pictures.
+PictureGrid grid_over(const Region& area, int most);
+
+/// Samples a picture's `channel`, inverted for dark things.
+void add_picture(PictureGrid& grid, const Picture& picture, PixelChannel channel, bool dark);
+
+/// All of several pictures.
 PictureGrid sample_grid(std::span<const Picture> pictures, PixelChannel channel, const Region& area, int most,
                         bool dark);
 

@@ -81,8 +81,12 @@ Outwards corner_direction(const Axes& axes, int side, double leaning) {
 
 std::size_t farthest(std::span<const PixelPosition> boundary, const Outwards& out) {
   std::size_t best = 0;
+  double reached = out.reach(boundary[0].x, boundary[0].y);
   for (std::size_t k = 1; k < boundary.size(); ++k) {
-    if (out.reach(boundary[k].x, boundary[k].y) > out.reach(boundary[best].x, boundary[best].y)) best = k;
+    const double reach = out.reach(boundary[k].x, boundary[k].y);
+    if (reach <= reached) continue;
+    best = k;
+    reached = reach;
   }
   return best;
 }

@@ -78,27 +78,20 @@ void OutlineTracker::widen(double height) {
   }
 }
 
-void OutlineTracker::Gathered::take(double nx, double ny, double value, double precision) {
-  const double px = precision * nx, py = precision * ny;
-  xx += px * nx;
-  xy += px * ny;
-  yy += py * ny;
-  x += px * value;
-  y += py * value;
-}
-
 // n · curve(s) = value, with that precision (1 / variance): four control points carry the curve at s.
 void OutlineTracker::add(const BasisWeights& weights, const Gathered& gathered) {
   SpanSums& sums = sums_[static_cast<std::size_t>(weights.first)];
-  const std::array<double, 4> block{gathered.xx, gathered.xy, gathered.yy, 0};
-  std::size_t pair = 0;
-  for (int r = 0; r < 4; ++r) {
-    for (int c = 0; c <= r; ++c, ++pair) {
-      const double both = weights.weight[r] * weights.weight[c];
-      for (int k = 0; k < 4; ++k) sums.pairs[pair][k] += both * block[k];
-    }
-    sums.points[r][0] += weights.weight[r] * gathered.x;
-    sums.points[r][1] += weights.weight[r] * gathered.y;
+  const auto& [w0, w1, w2, w3] = weights.weight;
+  const std::array<double, 10> both{w0 * w0, w1 * w0, w1 * w1, w2 * w0, w2 * w1,
+                                    w2 * w2, w3 * w0, w3 * w1, w3 * w2, w3 * w3};
+  for (std::size_t pair = 0; pair < both.size(); ++pair) {
+    sums.xx[pair] += both[pair] * gathered.xx;
+    sums.xy[pair] += both[pair] * gathered.xy;
+    sums.yy[pair] += both[pair] * gathered.yy;
+  }
+  for (std::size_t r = 0; r < sums.x.size(); ++r) {
+    sums.x[r] += weights.weight[r] * gathered.x;
+    sums.y[r] += weights.weight[r] * gathered.y;
   }
 }
 
@@ -111,14 +104,13 @@ void OutlineTracker::spread_sums() {
     for (std::size_t r = 0; r < 4; ++r) {
       double* row = information_.data() + 2 * (first + r) * n + 2 * first;
       for (std::size_t c = 0; c <= r; ++c, ++pair) {
-        const auto& [xx, xy, yy, nothing] = sums.pairs[pair];
-        row[2 * c] += xx;
-        if (c < r) row[2 * c + 1] += xy;
-        row[n + 2 * c] += xy;
-        row[n + 2 * c + 1] += yy;
+        row[2 * c] += sums.xx[pair];
+        if (c < r) row[2 * c + 1] += sums.xy[pair];
+        row[n + 2 * c] += sums.xy[pair];
+        row[n + 2 * c + 1] += sums.yy[pair];
       }
-      vector_[2 * (first + r)] += sums.points[r][0];
-      vector_[2 * (first + r) + 1] += sums.points[r][1];
+      vector_[2 * (first + r)] += sums.x[r];
+      vector_[2 * (first + r) + 1] += sums.y[r];
     }
   }
 }
@@ -134,7 +126,7 @@ void OutlineTracker::measure(const EdgeCloud& cloud, bool along_own_normal) {
     const EdgePoint& edge = cloud.points[k];
     double nx = edge.normal_x, ny = edge.normal_y;
     if (!along_own_normal) {
-      const CurvePoint slope = pieces_.slope(places_[k]);
+      const CurvePoint& slope = slopes_[k];
       const double size = std::max(std::sqrt(slope.x * slope.x + slope.y * slope.y), 1e-9);
       nx = slope.y / size;
       ny = -slope.x / size;
@@ -189,8 +181,10 @@ void OutlineTracker::project(const EdgeCloud& cloud) {
 
 void OutlineTracker::measure_residuals(const EdgeCloud& cloud) {
   residuals_.resize(cloud.points.size());
+  slopes_.resize(cloud.points.size());
   for (std::size_t k = 0; k < residuals_.size(); ++k) {
-    const CurvePoint at = pieces_.at(places_[k]).point;
+    const auto [at, slope] = pieces_.at(places_[k]);
+    slopes_[k] = slope;
     const double dx = cloud.points[k].x - at.x, dy = cloud.points[k].y - at.y;
     residuals_[k] = std::sqrt(dx * dx + dy * dy);
   }
@@ -219,25 +213,20 @@ void OutlineTracker::settle(const EdgeCloud& cloud) {
     measure_residuals(cloud);
     const double now = misfit();
     const bool settled = now > kStillFalling * best && now <= best;
-    const bool better = now < best;
-    if (better) {
+    if (now < best) {
       best = now;
       best_mean_ = estimate_.mean;
       best_places_ = places_;
       hold_precision_ *= 0.5;
     } else {
+      estimate_.mean = best_mean_;
+      places_ = best_places_;
+      table_.pieces(estimate_.mean, pieces_);
+      measure_residuals(cloud);
       hold_precision_ *= 8;
     }
     if (settled) break;
-    if (better) continue;
-    estimate_.mean = best_mean_;
-    places_ = best_places_;
-    table_.pieces(estimate_.mean, pieces_);
   }
-  estimate_.mean = best_mean_;
-  places_ = best_places_;
-  table_.pieces(estimate_.mean, pieces_);
-  measure_residuals(cloud);
 }
 
 // Leaves out edge points that lie far from the curve when most do not. Returns whether there were any.

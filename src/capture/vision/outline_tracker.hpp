@@ -72,12 +72,19 @@ class OutlineTracker {
     double yy = 0;
     double x = 0;
     double y = 0;
-    void take(double nx, double ny, double value, double precision);
+    void take(double nx, double ny, double value, double precision) {
+      const double px = precision * nx, py = precision * ny;
+      xx += px * nx;
+      xy += px * ny;
+      yy += py * ny;
+      x += px * value;
+      y += py * value;
+    }
   };
   /// The same of a span's four control points: their 10 pairs, and themselves.
   struct SpanSums {
-    std::array<std::array<double, 4>, 10> pairs{};  // xx, xy, yy, nothing: four are added at a time
-    std::array<std::array<double, 2>, 4> points{};
+    std::array<double, 10> xx{}, xy{}, yy{};
+    std::array<double, 4> x{}, y{};
   };
   void add(const BasisWeights& weights, const Gathered& gathered);
   void spread_sums();
@@ -111,7 +118,8 @@ class OutlineTracker {
   std::vector<BasisWeights> cloud_weights_;  // at the edge points' places in the cloud
   CurvePieces pieces_;                       // of the mean
   std::vector<double> places_;
-  std::vector<std::uint8_t> out_;  // gated
+  std::vector<CurvePoint> slopes_;  // of the curve there
+  std::vector<std::uint8_t> out_;   // gated
   std::vector<double> residuals_;
 };
 

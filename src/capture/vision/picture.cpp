@@ -52,6 +52,17 @@ void copy_row(const PicturePlane& plane, int x, int y, int width, std::uint8_t* 
   for (int i = 0; i < width; ++i) out[i] = in[static_cast<std::ptrdiff_t>(i) * plane.step];
 }
 
+void append_row(const PicturePlane& plane, int y, int width, std::vector<std::uint8_t>& out) {
+  const std::uint8_t* in = plane_row(plane, 0, y);
+  const std::size_t before = out.size();
+  if (plane.step == 1) {
+    out.insert(out.end(), in, in + width);
+  } else {
+    out.resize(before + static_cast<std::size_t>(width));
+    copy_row(plane, 0, y, width, out.data() + before);
+  }
+}
+
 void luma_row_of_rgb(const Picture& picture, int x, int y, int width, std::uint8_t* out) {
   const auto& [red, green, blue] = picture.planes;
   const std::uint8_t *r = plane_row(red, x, y), *g = plane_row(green, x, y), *b = plane_row(blue, x, y);
@@ -130,12 +141,23 @@ void colour_row_of_yuv(const Picture& picture, const Conversion& to, const Regio
   }
 }
 
-std::uint8_t colour_of_yuv(const Picture& picture, const Conversion& to, int x, int y) {
-  const int cx = x >> picture.chroma_shift_x, cy = y >> picture.chroma_shift_y;
-  const int blue = *plane_row(picture.planes[1], cx, cy) - 128, red = *plane_row(picture.planes[2], cx, cy) - 128;
-  const int colour = to.from_cb * blue + to.from_cr * red + Conversion::kOne / 2;
-  const int scaled = to.scale * (*plane_row(picture.planes[0], x, y) - to.black);
+std::uint8_t colour_of_yuv(const Conversion to, int luma, int cb, int cr) {
+  const int colour = to.from_cb * (cb - 128) + to.from_cr * (cr - 128) + Conversion::kOne / 2;
+  const int scaled = to.scale * (luma - to.black);
   return static_cast<std::uint8_t>(std::clamp(((scaled >> 1) + (colour >> 1)) >> (Conversion::kBits - 1), 0, 255));
+}
+
+// Every `step`-th pixel of a row. Returns where the next one is written.
+std::uint8_t* sample_row_of_yuv(const Picture& picture, const Conversion to, const Region& region, int y, int step,
+                                std::uint8_t* out) {
+  const PicturePlane &lumas = picture.planes[0], &cb = picture.planes[1], &cr = picture.planes[2];
+  const int shift = picture.chroma_shift_x, cy = y >> picture.chroma_shift_y;
+  const std::uint8_t *luma = plane_row(lumas, 0, y), *blue = plane_row(cb, 0, cy), *red = plane_row(cr, 0, cy);
+  for (int x = region.x; x < region.right(); x += step, ++out) {
+    const std::ptrdiff_t at = x, cx = x >> shift;
+    *out = colour_of_yuv(to, luma[at * lumas.step], blue[cx * cb.step], red[cx * cr.step]);
+  }
+  return out;
 }
 
 void extract_row(const Picture& picture, PixelChannel channel, const Conversion& to, const Region& region, int y,
@@ -146,6 +168,27 @@ void extract_row(const Picture& picture, PixelChannel channel, const Conversion&
   }
   if (picture.layout == PictureLayout::kYuv) return colour_row_of_yuv(picture, to, region, y, out);
   copy_row(picture.planes[static_cast<std::size_t>(channel) - 1], region.x, y, region.width, out);
+}
+
+constexpr int kRowsAhead = 6;
+
+// Inlined by force: GCC takes a function that only prefetches for one without effect, and drops its calls.
+[[gnu::always_inline]] inline void prefetch_row([[maybe_unused]] const PicturePlane& plane, [[maybe_unused]] int x,
+                                                [[maybe_unused]] int y, [[maybe_unused]] int width) {
+#ifdef __GNUC__
+  constexpr std::ptrdiff_t kLine = 64;  // bytes
+  const std::uint8_t *at = plane_row(plane, x, y), *end = plane_row(plane, x + width, y);
+  for (; at < end; at += kLine) __builtin_prefetch(at);
+#endif
+}
+
+// A window's rows lie far apart: no processor guesses where the next one begins.
+[[gnu::always_inline]] inline void prefetch(const Picture& picture, PixelChannel channel, const Region& region, int y) {
+  prefetch_row(picture.planes[0], region.x, y, region.width);
+  if (picture.layout != PictureLayout::kYuv || channel == PixelChannel::kLuma) return;
+  const int x = region.x >> picture.chroma_shift_x, width = region.width >> picture.chroma_shift_x;
+  prefetch_row(picture.planes[1], x, y >> picture.chroma_shift_y, width);
+  prefetch_row(picture.planes[2], x, y >> picture.chroma_shift_y, width);
 }
 
 }  // namespace
@@ -181,6 +224,7 @@ void extract_channel(const Picture& picture, PixelChannel channel, const Region&
   assert(has_channel(picture, channel));
   const Conversion to = conversion(picture, channel);
   for (int y = region.y; y < region.bottom(); ++y, out += region.width) {
+    if (y + kRowsAhead < region.bottom()) prefetch(picture, channel, region, y + kRowsAhead);
     extract_row(picture, channel, to, region, y, out);
   }
 }
@@ -191,8 +235,9 @@ void sample_channel(const Picture& picture, PixelChannel channel, const Region& 
   const bool computed = picture.layout == PictureLayout::kYuv && channel != PixelChannel::kLuma;
   const bool mixed = picture.layout == PictureLayout::kRgb && channel == PixelChannel::kLuma;
   for (int y = region.y; y < region.bottom(); y += step) {
+    if (y + step < region.bottom()) prefetch(picture, channel, region, y + step);
     if (computed) {
-      for (int x = region.x; x < region.right(); x += step, ++out) *out = colour_of_yuv(picture, to, x, y);
+      out = sample_row_of_yuv(picture, to, region, y, step, out);
     } else if (mixed) {
       for (int x = region.x; x < region.right(); x += step, ++out) luma_row_of_rgb(picture, x, y, 1, out);
     } else {
@@ -211,19 +256,20 @@ double brightness(const Picture& picture, PixelChannel channel, double stored) {
 
 OwnedPicture::OwnedPicture(const Picture& picture) : picture_(picture) {
   const int planes = picture.layout == PictureLayout::kGrey ? 1 : 3;
-  std::array<std::size_t, 3> offset{};
+  std::array<std::array<int, 2>, 3> size{};
+  std::size_t bytes = 0;
   for (int k = 0; k < planes; ++k) {
     const bool chroma = picture.layout == PictureLayout::kYuv && k > 0;
-    const int width = chroma ? -(-picture.width >> picture.chroma_shift_x) : picture.width;
-    const int height = chroma ? -(-picture.height >> picture.chroma_shift_y) : picture.height;
-    offset[k] = pixels_.size();
-    pixels_.resize(pixels_.size() + static_cast<std::size_t>(width) * height);
-    for (int y = 0; y < height; ++y) {
-      copy_row(picture.planes[k], 0, y, width, pixels_.data() + offset[k] + static_cast<std::size_t>(y) * width);
-    }
-    picture_.planes[k] = {nullptr, width, 1};
+    size[k] = {chroma ? -(-picture.width >> picture.chroma_shift_x) : picture.width,
+               chroma ? -(-picture.height >> picture.chroma_shift_y) : picture.height};
+    bytes += static_cast<std::size_t>(size[k][0]) * size[k][1];
   }
-  for (int k = 0; k < planes; ++k) picture_.planes[k].pixels = pixels_.data() + offset[k];
+  pixels_.reserve(bytes);  // rows are appended: nothing is set to 0 first, nor moved
+  for (int k = 0; k < planes; ++k) {
+    const auto [width, height] = size[k];
+    picture_.planes[k] = {pixels_.data() + pixels_.size(), width, 1};
+    for (int y = 0; y < height; ++y) append_row(picture.planes[k], y, width, pixels_);
+  }
 }
 
 }  // namespace wisp

@@ -11,20 +11,22 @@ namespace {
 constexpr std::uint64_t kAllDark = 0;
 constexpr std::uint64_t kAllBright = 0x0101010101010101ULL;
 
-// The first index at or after `x` whose byte is not `same`, eight bytes at a time while they agree.
+// Whether `Words` times eight bytes all are those of `eight`.
+template <std::size_t Words>
+bool all_same(const std::uint8_t* bright, std::uint64_t eight) {
+  std::array<std::uint64_t, Words> words;
+  std::memcpy(words.data(), bright, sizeof words);
+  std::uint64_t different = 0;
+  for (const std::uint64_t word : words) different |= word ^ eight;
+  return different == 0;
+}
+
+// The first index at or after `x` whose byte is not `same`; many bytes at a time while they agree.
 int end_of_stretch(const std::uint8_t* bright, int x, int width, std::uint8_t same) {
   const std::uint64_t eight = same ? kAllBright : kAllDark;
-  while (x < width && bright[x] == same) {
-    if (x + 8 <= width) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, bright + x, sizeof word);
-      if (word == eight) {
-        x += 8;
-        continue;
-      }
-    }
-    ++x;
-  }
+  while (x + 64 <= width && all_same<8>(bright + x, eight)) x += 64;
+  while (x + 8 <= width && all_same<1>(bright + x, eight)) x += 8;
+  while (x < width && bright[x] == same) ++x;
   return x;
 }
 

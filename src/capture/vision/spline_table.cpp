@@ -4,10 +4,6 @@
 #include <cassert>
 
 namespace wisp {
-namespace {
-constexpr int kCells = 64;
-}  // namespace
-
 SplineTable::SplineTable(std::span<const double> knots) : knots_(knots.begin(), knots.end()) {
   assert(valid_knots(knots));
   points_ = static_cast<int>(knots.size()) - kSplineDegree - 1;
@@ -30,17 +26,17 @@ SplineTable::SplineTable(std::span<const double> knots) : knots_(knots.begin(), 
     }
     spans_.push_back(span);
   }
-  guess_.resize(kCells + 1);
+  guess_.resize(kSplineCells + 1);
   int at = 0;
-  for (int cell = 0; cell <= kCells; ++cell) {
-    const double s = static_cast<double>(cell) / kCells;
+  for (int cell = 0; cell <= kSplineCells; ++cell) {
+    const double s = static_cast<double>(cell) / kSplineCells;
     while (at + 1 < static_cast<int>(spans_.size()) && spans_[at + 1].begin <= s) ++at;
     guess_[cell] = at;
   }
 }
 
 const SplineTable::Span& SplineTable::span_at(double s) const {
-  int at = guess_[static_cast<int>(s * kCells)];
+  int at = guess_[static_cast<int>(s * kSplineCells)];
   while (at + 1 < static_cast<int>(spans_.size()) && spans_[at + 1].begin <= s) ++at;
   return spans_[at];
 }
@@ -100,18 +96,6 @@ void SplineTable::pieces(std::span<const double> controls, CurvePieces& out) con
       out.pieces_[k].power[power] = sum;
     }
   }
-}
-
-CurvePieces::Place CurvePieces::at(double s) const {
-  auto k = static_cast<std::size_t>(guess_[static_cast<std::size_t>(s * kCells)]);
-  while (k + 1 < pieces_.size() && pieces_[k + 1].begin <= s) ++k;
-  const auto& [begin, power] = pieces_[k];
-  const double t = s - begin;
-  const auto point = [&](double a, double b, double c, double d) { return a + t * (b + t * (c + t * d)); };
-  const auto slope = [&](double b, double c, double d) { return b + t * (2 * c + t * 3 * d); };
-  return {
-      {point(power[0].x, power[1].x, power[2].x, power[3].x), point(power[0].y, power[1].y, power[2].y, power[3].y)},
-      {slope(power[1].x, power[2].x, power[3].x), slope(power[1].y, power[2].y, power[3].y)}};
 }
 
 std::vector<CurvePoint> curve_polyline(const SplineTable& table, std::span<const double> controls, int count) {

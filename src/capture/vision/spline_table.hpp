@@ -15,6 +15,9 @@ struct CurvePoint {
   double y = 0;
 };
 
+/// Equal cells of [0, 1], in each of which a table knows the span that it begins in.
+inline constexpr int kSplineCells = 64;
+
 /// One curve as a cubic polynomial a span: the fastest to evaluate, once it is made.
 class CurvePieces {
  public:
@@ -24,8 +27,17 @@ class CurvePieces {
   };
 
   /// The curve and its derivative at s, 0 to 1.
-  Place at(double s) const;
-  CurvePoint slope(double s) const { return at(s).slope; }
+  Place at(double s) const {
+    auto k = static_cast<std::size_t>(guess_[static_cast<std::size_t>(s * kSplineCells)]);
+    while (k + 1 < pieces_.size() && pieces_[k + 1].begin <= s) ++k;
+    const auto& [begin, power] = pieces_[k];
+    const double t = s - begin;
+    const auto point = [t](double a, double b, double c, double d) { return a + t * (b + t * (c + t * d)); };
+    const auto slope = [t](double b, double c, double d) { return b + t * (2 * c + t * 3 * d); };
+    return {
+        {point(power[0].x, power[1].x, power[2].x, power[3].x), point(power[0].y, power[1].y, power[2].y, power[3].y)},
+        {slope(power[1].x, power[2].x, power[3].x), slope(power[1].y, power[2].y, power[3].y)}};
+  }
 
  private:
   friend class SplineTable;

@@ -46,7 +46,14 @@ Grids sample_all(std::span<const Picture> pictures, const Region& area, int most
   Grids grids;
   for (const PixelChannel channel : kChannels) {
     if (!wanted(channel, pictures.front(), options) && channel != PixelChannel::kLuma) continue;
-    grids.channels[static_cast<std::size_t>(channel)] = sample_grid(pictures, channel, area, most, options.dark);
+    grids.channels[static_cast<std::size_t>(channel)] = grid_over(area, most);
+  }
+  // All channels of a picture before the next one: caches hold one picture, not all.
+  for (const Picture& picture : pictures) {
+    for (const PixelChannel channel : kChannels) {
+      auto& grid = grids.channels[static_cast<std::size_t>(channel)];
+      if (grid) add_picture(*grid, picture, channel, options.dark);
+    }
   }
   return grids;
 }
