@@ -70,6 +70,7 @@ class OutlineCapture::Stage {
   Result<void> accept(const Picture& picture);
   Result<void> decide(bool at_end = false);
   void wait_on(const Result<Survey>& survey);
+  std::string too_few(const Survey& survey) const;
   struct Samples {
     std::vector<EdgeCloud> above;   // from corner to corner over the tip
     std::vector<EdgeCloud> around;  // with the underside
@@ -184,6 +185,7 @@ Result<void> OutlineCapture::Stage::decide(bool at_end) {
     return {};
   }
   if (!survey) return complaint(survey.error().message);
+  if (flame && survey->flames < options_.flame) return complaint(too_few(*survey));
   survey_ = std::move(*survey);
   const Region area = options_.region.empty() ? pictures.front().frame() : options_.region;
   cloud_options_.base = options_.base.value_or(survey_->flames > 0 ? BaseSide::kBottom : base_side(*survey_, area));
@@ -201,6 +203,14 @@ Result<void> OutlineCapture::Stage::decide(bool at_end) {
   held_.shrink_to_fit();
   glimpses_.clear();
   return {};
+}
+
+// Fewer flames than asked for, and where they were counted.
+std::string OutlineCapture::Stage::too_few(const Survey& survey) const {
+  return "found " + std::to_string(survey.flames) + (survey.flames == 1 ? " flame" : " flames") + " in frames " +
+         std::to_string(findings_.size() + 1) + " to " + std::to_string(findings_.size() + held_.size()) +
+         ", expected at least " + std::to_string(options_.flame) +
+         "; ask for a smaller number, or give the frames in which there are more";
 }
 
 // The edge points of a few of the pictures and of the glimpses, without and with the underside.

@@ -339,11 +339,8 @@ Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptio
   const std::vector<Candidate> all = scan(grids, pictures.front(), options, evidence);
   if (all.empty()) return nothing_found(options.dark);
   const std::vector<Candidate> things = places(all, options);
-  const std::size_t which = flame ? static_cast<std::size_t>(options.flame) - 1 : 0;
-  if (which >= things.size()) {
-    return Error{"found " + std::to_string(things.size()) + (things.size() == 1 ? " flame" : " flames") +
-                 ", expected at least " + std::to_string(options.flame) + "; ask for a smaller number"};
-  }
+  const auto asked = static_cast<std::size_t>(std::max(options.flame, 1));
+  const std::size_t which = flame && asked <= things.size() ? asked - 1 : 0;
   Survey survey =
       describe(refine(things[which], all, lit.pictures, area, options, evidence), lit.pictures, grids, options.dark);
   if (!flame) return survey;

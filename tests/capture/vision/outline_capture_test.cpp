@@ -362,12 +362,35 @@ TEST(OutlineCapture, AGlintAfterTheFlameWentOutIsLeftOut) {
   EXPECT_THAT(captured->report.reason, HasSubstr("out from frame 51"));
 }
 
-TEST(OutlineCapture, AThirdFlameOfTwoIsAnError) {
+// The smaller one goes out: in the clip's last frames there is one.
+Plane two_flames_then_one(int k) {
+  Plane plane = two_flames(k);
+  if (k >= 60) plane.fill({155, 0, plane.width - 155, plane.height}, 8);
+  return plane;
+}
+
+TEST(OutlineCapture, AFlameBeyondThoseThereAreIsRefusedWithTheNumberThatTheSummaryGives) {
   OutlineCaptureOptions options = options_for();
-  options.flame = 3;
-  const auto captured = capture(60, two_flames, options);
+  const auto first = capture(110, two_flames_then_one, options);
+  ASSERT_TRUE(first) << first.error().message;
+  EXPECT_EQ(first->report.flames, 2);
+  EXPECT_THAT(first->report.reason, HasSubstr("there are 2 flames"));
+  for (const int which : {3, 5}) {
+    options.flame = which;
+    const auto beyond = capture(110, two_flames_then_one, options);
+    ASSERT_FALSE(beyond);
+    EXPECT_THAT(beyond.error().message,
+                HasSubstr("found 2 flames in frames 1 to 40, expected at least " + std::to_string(which)));
+  }
+}
+
+TEST(OutlineCapture, AFlameBeyondOneThatIsLitLaterIsRefusedWhereThatBurns) {
+  OutlineCaptureOptions options = options_for();
+  options.flame = 2;
+  const auto captured = capture(
+      120, [](int k) { return k < 45 ? Plane(160, 180, 8) : noisy_flame(k); }, options);
   ASSERT_FALSE(captured);
-  EXPECT_THAT(captured.error().message, HasSubstr("found 2 flames"));
+  EXPECT_THAT(captured.error().message, HasSubstr("found 1 flame in frames 41 to 80, expected at least 2"));
 }
 
 TEST(OutlineCapture, AFlameIsUsableAndALampIsNot) {
