@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "capture/vision/plane_length.hpp"
 
@@ -25,6 +26,7 @@ constexpr double kMinNarrowing = 0.25;
 constexpr double kMinSolidity = 0.86;
 constexpr double kFilled = 0.8;      // of its convex hull: a flame that leans or bends fills more
 constexpr double kMaxWidth = 0.8;    // heights: flames in films have 0.6 at most
+constexpr double kMaxLean = 45;      // degrees, median: flames in films lean by 2 to 20, one in glare by 36
 constexpr double kMaxRagged = 0.15;  // share of outlines that fill less
 constexpr double kMinLight = 0.85;
 constexpr double kMinContrast = 20;    // levels of 255: flames in films have 40 and more, a wall's bright middle 6
@@ -98,6 +100,11 @@ double full_width(const Shape& shape) {
     high = std::max(high, across);
   }
   return high - low;
+}
+
+// How far it leans to either side, degrees: 0 where its tip lies above its base, 90 beside it, 180 below.
+double lean_of(const Shape& shape) {
+  return std::atan2(std::abs(shape.tip.x - shape.base.x), shape.base.y - shape.tip.y) * 180 / std::numbers::pi;
 }
 
 double taper_of(const Shape& shape) {
@@ -258,6 +265,10 @@ std::string fault(const OutlineFacts& f, const CaptureReport& report) {
   constexpr std::array<const char*, 4> kSide{"left", "upper", "right", "lower"};
   const bool flame = report.flames > 0;
   if (std::string why = rigid(f); !why.empty()) return why;
+  if (flame && f.lean > kMaxLean) {
+    return "it lies on its side, " + std::to_string(std::lround(f.lean)) +
+           " degrees from upright: the film seems to be turned; rotate it so that the flame points upwards";
+  }
   if (flame && f.light < kMinLight) {
     return "other things in the picture are brighter; choose a region around the flame, or film it in a dark room";
   }
@@ -311,7 +322,7 @@ void excuse_absence(CaptureReport& report, std::size_t rows, std::size_t times) 
 
 void judge_outline(const Recording& recording, const SplineTable& table, CaptureReport& report) {
   std::vector<Shape> shapes;
-  std::vector<double> heights, tapers, widths;
+  std::vector<double> heights, tapers, widths, leans;
   for (std::size_t row = 0; row < recording.rows(); ++row) {
     if (std::isnan(recording.channels.front().samples[row])) continue;
     shapes.push_back(shape_of(recording, table, row));
@@ -319,12 +330,14 @@ void judge_outline(const Recording& recording, const SplineTable& table, Capture
     heights.push_back(shape.height);
     tapers.push_back(taper_of(shape));
     widths.push_back(full_width(shape));
+    leans.push_back(lean_of(shape));
   }
   if (shapes.empty()) return;
   OutlineFacts& facts = report.facts;
   facts.height = std::max(median(heights), 1e-9);
   facts.taper = median(tapers);
   facts.width = median(widths);
+  facts.lean = median(leans);
   facts.ragged = ragged_share(shapes);
   facts.movement = movement_of(shapes, facts.height);
   facts.misfit = report.residual / facts.height;

@@ -75,6 +75,25 @@ TEST(OutlineVerdict, WhatIsAsWideAsHighIsNoFlame) {
   EXPECT_THAT(report.reason, HasSubstr("its shape is not a flame's"));
 }
 
+TEST(OutlineVerdict, AFlameThatLiesOnItsSideIsInAFilmThatIsTurned) {
+  for (const int side : {-1, 1}) {
+    Outline outline = kFlame;
+    for (CurvePoint& p : outline) p = {side * p.y, 20 - side * p.x};
+    const CaptureReport report = judged(outline);
+    EXPECT_FALSE(report.usable);
+    EXPECT_NEAR(report.facts.lean, 90, 1);
+    EXPECT_THAT(report.reason, HasSubstr("it lies on its side, 90 degrees from upright"));
+  }
+}
+
+TEST(OutlineVerdict, AFlameThatLeansIsNotOneThatLies) {
+  Outline outline = kFlame;
+  for (CurvePoint& p : outline) p.x += 0.6 * p.y;
+  const CaptureReport report = judged(outline);
+  EXPECT_TRUE(report.usable) << report.reason;
+  EXPECT_NEAR(report.facts.lean, 31, 2);
+}
+
 TEST(OutlineVerdict, AnEdgeThatTheCurveDoesNotFollowIsNoFlames) {
   EXPECT_TRUE(judged(kFlame, 1.5).usable);
   const CaptureReport report = judged(kFlame, 2);  // 0.018 of its height; eight points may miss 0.0125, and noise

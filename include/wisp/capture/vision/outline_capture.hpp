@@ -60,6 +60,7 @@ struct OutlineFacts {
   double narrowing = 0;            ///< how much narrower its first quarter is than its middle, median of the survey
   double solidity = 0;             ///< its area over its convex hull's, notches from below apart
   double ragged = 0;               ///< share of outlines with deep notches: they fill little of their convex hulls
+  double lean = 0;                 ///< from upright, degrees, median: 90 lies on its side
   double width = 0;                ///< across its axis, over its height, median
   double light = 0;                ///< luma over the brightest there is
   double contrast = 255;           ///< its brightness less that of what is around it, levels of 255
