@@ -14,17 +14,8 @@ using namespace drawing;
 
 namespace {
 
-constexpr float kLampRadius = 0.10F;  // of the lamp over its distance: how soft shadows are
 constexpr float kSharpest = 0.0015F;  // metres of blur that even a leaf on the floor has
-constexpr float kDarkest = 0.62F;     // of the floor's light that a shadow takes away
 constexpr float kLargestBlur = 160;   // pixels; wider shadows are too thin to be seen
-
-bool finite(const LeafPose& pose) {
-  float sum = 0, square = 0;
-  for (const float part : pose.position) sum += part;
-  for (const float part : pose.attitude) square += part * part;
-  return std::isfinite(sum) && std::isfinite(square) && square > 1e-12F;
-}
 
 Vec3 towards_lamp(const LeafRoom& room) {
   Vec3 way = vec3(room.lamp);
@@ -121,7 +112,7 @@ void draw_trail(Image& image, const DrawnLeaf& leaf, const LeafView& view) {
   Colour colour = leaf.style.margin;
   const float count = static_cast<float>(leaf.trail.size());
   for (std::size_t k = 1; k < leaf.trail.size(); ++k) {
-    if (!finite(leaf.trail[k - 1]) || !finite(leaf.trail[k])) continue;
+    if (!is_drawable(leaf.trail[k - 1]) || !is_drawable(leaf.trail[k])) continue;
     const Projected a = view(vec3(leaf.trail[k - 1].position)), b = view(vec3(leaf.trail[k].position));
     if (a.depth <= kNear || b.depth <= kNear) continue;
     const float age = 1 - static_cast<float>(k) / count;
@@ -191,7 +182,7 @@ void draw_leaves(Image& image, std::span<const DrawnLeaf> leaves, const LeafCame
   const Vec3 lamp = towards_lamp(room);
   std::vector<const DrawnLeaf*> order;
   for (const DrawnLeaf& leaf : leaves) {
-    if (finite(leaf.pose)) order.push_back(&leaf);
+    if (is_drawable(leaf.pose)) order.push_back(&leaf);
   }
   const auto depth = [&](const DrawnLeaf* leaf) { return dot(vec3(leaf->pose.position) - view.eye(), view.gaze()); };
   std::stable_sort(order.begin(), order.end(), [&](auto* a, auto* b) { return depth(a) > depth(b); });

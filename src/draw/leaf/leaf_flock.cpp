@@ -22,11 +22,9 @@ constexpr int kTextureWidth = 192, kTextureHeight = 120;
 // The card's grid: enough to bend.
 constexpr int kAlong = 6, kAcross = 4;
 
-constexpr int kShadowCell = 4;        // pixels
-constexpr float kLampRadius = 0.10F;  // of the lamp over its distance: how soft shadows are
-constexpr float kDarkest = 0.62F;     // of the floor's light that a shadow takes away
-constexpr float kFaintest = 0.006F;   // what cannot be seen
-constexpr float kBladeArea = 0.62F;   // of the rectangle around the blade
+constexpr int kShadowCell = 4;       // pixels
+constexpr float kFaintest = 0.006F;  // what cannot be seen
+constexpr float kBladeArea = 0.62F;  // of the rectangle around the blade
 
 struct Colours {
   Colour upper, margin, under, vein;
@@ -112,13 +110,6 @@ std::vector<CardVertex> card_of(const LeafStyle& style) {
     }
   }
   return card;
-}
-
-bool finite(const LeafPose& pose) {
-  float sum = 0, square = 0;
-  for (const float part : pose.position) sum += part;
-  for (const float part : pose.attitude) square += part * part;
-  return std::isfinite(sum) && std::isfinite(square) && square > 1e-12F;
 }
 
 // Light on a surface against that on one that lies open under the lamp, as a factor of codes.
@@ -281,7 +272,7 @@ void LeafFlock::draw(Image& image, std::span<const FlockLeaf> leaves) {
   std::fill(state.shadows.values.begin(), state.shadows.values.end(), 0.0F);
   state.order.clear();
   for (const FlockLeaf& leaf : leaves) {
-    if (!finite(leaf.pose)) continue;
+    if (!is_drawable(leaf.pose)) continue;
     state.order.push_back(&leaf);
     state.cast(leaf, vec3(leaf.pose.position), Turn(leaf.pose.attitude));
   }

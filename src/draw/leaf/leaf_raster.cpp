@@ -127,6 +127,13 @@ void for_covered(const Samples& samples, const LeafPatch& patch, Add add) {
 
 }  // namespace
 
+bool is_drawable(const LeafPose& pose) {
+  float sum = 0, square = 0;
+  for (const float part : pose.position) sum += part;
+  for (const float part : pose.attitude) square += part * part;
+  return std::isfinite(sum) && std::isfinite(square) && square > 1e-12F;
+}
+
 LeafPatch leaf_patch(const LeafMesh& mesh, const PlacedLeaf& leaf, const LeafSurface& surface, const LeafView& view,
                      int width, int height) {
   Footprint print =

@@ -18,6 +18,12 @@ struct LeafPatch {
   bool empty() const { return width <= 0 || height <= 0; }
 };
 
+inline constexpr float kLampRadius = 0.10F;  ///< of the lamp over its distance: how soft shadows are
+inline constexpr float kDarkest = 0.62F;     ///< of the floor's light that a shadow takes away
+
+/// Whether a leaf is somewhere, and turned somehow.
+bool is_drawable(const LeafPose& pose);
+
 /// A mesh placed in the room.
 struct PlacedLeaf {
   Vec3 position;

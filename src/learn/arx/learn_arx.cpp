@@ -18,8 +18,6 @@ namespace wisp {
 namespace arx {
 namespace {
 
-constexpr int kTestLags = 20;
-
 std::string word_of(ArxOffset offset) {
   if (offset == ArxOffset::kNone) return "none";
   return offset == ArxOffset::kEstimate ? "estimate" : "mean";
@@ -164,7 +162,7 @@ Result<Fit> learn_arx(std::span<const Recording> recordings, const ArxRecipe& re
   auto focused = arx::focus_fit(seen, channels, options, std::move(*plain), {recipe.focus}, progress);
   if (!focused) return focused.error();
   if (auto ok = arx::check_progress(progress, "testing residuals", 0); !ok) return ok.error();
-  const ResidualTestOptions testing{.lags = arx::kTestLags, .learned_from_it = true};
+  const ResidualTestOptions testing{.lags = kReportedLags, .learned_from_it = true};
   const auto first = test_residuals(squares, seen, channels, testing);
   const auto tests = focused->outcome.refined ? test_residuals(focused->fit.model, seen, channels, testing) : first;
   arx::judge_use(

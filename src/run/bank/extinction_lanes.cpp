@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "run/arx/arx_program.hpp"
 #include "run/bank/model_hash.hpp"
 
 namespace wisp {
@@ -12,8 +13,6 @@ namespace {
 float share_of_step(double step, double seconds) {
   return static_cast<float>(std::min(1.0, step / std::max(seconds, step)));
 }
-
-float kept(double value) { return std::abs(value) < kMinCoefficient ? 0.0f : static_cast<float>(value); }
 
 constexpr double kMaxHarm = 0.5;  // of a step: no single sample blows a flame out
 

@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace wisp::flow {
-namespace {
-constexpr double kPi = 3.14159265358979323846;
-}
-
 Resonance::Resonance(double frequency_hz, double decay_seconds, double rate_hz) {
   const double radius = std::exp(-1 / (decay_seconds * rate_hz));
-  const double angle = 2 * kPi * std::min(frequency_hz, 0.45 * rate_hz) / rate_hz;
+  const double angle = 2 * std::numbers::pi * std::min(frequency_hz, 0.45 * rate_hz) / rate_hz;
   a1_ = 2 * radius * std::cos(angle);
   a2_ = -radius * radius;
   // An impulse rings with an amplitude of about 1.
@@ -62,7 +59,7 @@ double OtherSounds::voice() {
     phase_ -= 1;
     pulse = 1;
   }
-  const double mouth = 0.5 * (1 - std::cos(2 * kPi * t / syllable_seconds_));
+  const double mouth = 0.5 * (1 - std::cos(2 * std::numbers::pi * t / syllable_seconds_));
   const double ends = std::min(1.0, 30 * static_cast<double>(length_ - place_) / rate_hz_);
   return 2.2 * mouth * ends *
          (resonances_[0].next(pulse) + 0.5 * resonances_[1].next(pulse) + 0.25 * resonances_[2].next(pulse));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include "simulate/candle/low_pass.hpp"
@@ -12,8 +13,6 @@
 
 namespace wisp {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 Result<void> check(const VirtualMicrophoneOptions& o) {
   return flow::check_ranges("virtual microphone", {
@@ -59,7 +58,7 @@ Result<VirtualMicrophone> VirtualMicrophone::create(const VirtualMicrophoneOptio
 void VirtualMicrophone::hear(std::span<const float> wind, std::span<float> sound) {
   Parts& p = *parts_;
   const VirtualMicrophoneOptions& o = p.options;
-  const double hum_step = 2 * kPi * 50 / o.rate_hz;
+  const double hum_step = 2 * std::numbers::pi * 50 / o.rate_hz;
   p.other = false;
   for (std::size_t k = 0; k < sound.size(); ++k) {
     const double speed = std::abs(static_cast<double>(wind[k]));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "simulate/candle/low_pass.hpp"
 #include "simulate/option_range.hpp"
@@ -11,7 +12,6 @@
 namespace wisp {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kRate = 240;          // samples a second: forty times the noise's band
 constexpr double kLongest = 86400;     // s
 constexpr double kFadeSeconds = 0.12;  // at both ends of a blow
@@ -45,7 +45,7 @@ double plateau(double t, double length, double rise, double fall) {
   if (t <= 0 || t >= length) return 0;
   const double up = std::min(1.0, t / rise);
   const double down = std::min(1.0, (length - t) / fall);
-  return 0.25 * (1 - std::cos(kPi * up)) * (1 - std::cos(kPi * down));
+  return 0.25 * (1 - std::cos(std::numbers::pi * up)) * (1 - std::cos(std::numbers::pi * down));
 }
 
 // Adds a gust: a quick rise, a slower fall.

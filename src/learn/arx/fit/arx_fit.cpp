@@ -17,8 +17,6 @@ namespace {
 
 using Eigen::Index;
 
-double inverse_or_zero(double value) { return value == 0 ? 0.0 : 1.0 / value; }
-
 // What one scaled coefficient is in the data's units.
 double unit_of(const Signals& signals, int output, const LaggedChannel& column) {
   const double own = inverse_or_zero(signals.scale[output]);

@@ -11,8 +11,6 @@
 namespace wisp {
 namespace {
 
-double inverse_or_zero(double value) { return value == 0 ? 0.0 : 1.0 / value; }
-
 double scale_of(const FitFacts& facts, const LaggedChannel& column) {
   return column.channel == kConstantChannel ? 1.0 : facts.scale[column.channel];
 }

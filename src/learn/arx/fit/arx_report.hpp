@@ -25,6 +25,9 @@ struct FitFacts {
   std::size_t rows_left_out = 0;
 };
 
+/// Of a channel's scale, which is 0 where the channel is constant.
+inline double inverse_or_zero(double value) { return value == 0 ? 0.0 : 1.0 / value; }
+
 /// The model, stable unless the options say otherwise, and its summary; `usable` is judged by judge_fit.
 ArxFit report_fit(const FitFacts& facts, const ArxDesign& design, ArxEstimate estimate);
 

@@ -22,6 +22,9 @@ struct ResidualTestOptions {
                                  ///< of freedom away
 };
 
+/// Lags of the tests in a report.
+inline constexpr int kReportedLags = 20;
+
 /// Whether one output's residual is white.
 struct Whiteness {
   std::vector<double> correlation;  ///< r(1) … r(lags)

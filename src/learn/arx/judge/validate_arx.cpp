@@ -20,8 +20,7 @@ namespace {
 
 constexpr double kSure = 1.959963985;  // standard deviations to either side of 95 %
 constexpr int kSettled = 2000;         // steps after which the noise of free simulation has its full size
-constexpr int kTestLags = 20;
-constexpr int kMaxPlottedSteps = 15;  // a prediction much longer than that is a simulation
+constexpr int kMaxPlottedSteps = 15;   // a prediction much longer than that is a simulation
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr int kErrorSteps = 20;  // of the plot of errors by steps
 
@@ -79,7 +78,7 @@ Result<Judged> judge(const Subject& subject, const Progress& progress) {
     if (!predicted) return predicted.error();
     judged.predictions.push_back(std::move(*predicted));
   }
-  const auto tests = test_residuals(subject.arx, {&subject.recording, 1}, subject.channels, {.lags = kTestLags});
+  const auto tests = test_residuals(subject.arx, {&subject.recording, 1}, subject.channels, {.lags = kReportedLags});
   if (tests) judged.tests = *tests;
   return judged;
 }

@@ -61,10 +61,6 @@ ReportTable rank_problems(const std::vector<RankProblem>& problems) {
   return table;
 }
 
-ReportValue list_or_none(const std::vector<double>& values) {
-  return values.empty() ? ReportValue() : ReportValue(values);
-}
-
 const std::vector<ReportColumn>& candidate_columns() {
   static const std::vector<ReportColumn> columns{{"na", "na"},
                                                  {"nb", "nb"},

@@ -34,6 +34,10 @@ ReportList matrix_of(std::span<const double> values, std::size_t rows) {
   return all;
 }
 
+ReportValue list_or_none(const std::vector<double>& values) {
+  return values.empty() ? ReportValue() : ReportValue(values);
+}
+
 CoefficientLists lists_of(const ArxOrders& orders, const std::vector<std::vector<double>>& rows) {
   CoefficientLists out;
   for (int i = 0; i < orders.outputs(); ++i) {

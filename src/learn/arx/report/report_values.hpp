@@ -21,6 +21,9 @@ void add_line(ReportSection& section, std::string label, ReportValue value, std:
 ReportList list_of(const OrderMatrix& orders);
 ReportList matrix_of(std::span<const double> values, std::size_t rows);
 
+/// Nothing where there are no values.
+ReportValue list_or_none(const std::vector<double>& values);
+
 /// A[i][j] and B[i][k] of coefficients laid out as ArxModel::theta.
 struct CoefficientLists {
   ReportList a;

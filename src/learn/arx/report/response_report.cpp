@@ -93,10 +93,6 @@ void add_places(const std::string& id, const std::string& label, const std::vect
   }
 }
 
-ReportValue list_or_none(const std::vector<double>& values) {
-  return values.empty() ? ReportValue() : ReportValue(values);
-}
-
 // All that is said of one input's effect on one output.
 class Pair {
  public:

@@ -13,9 +13,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// An initial state is told from at most so many rows, and from no row where it has died down to this share.
-constexpr Index kMaxStateRows = 4096;
-constexpr double kForgotten = 1e-9;
+constexpr double kForgotten = 1e-9;  // of an initial state: rows where it has died down to less do not tell it
 
 // What a row takes from its block's past outputs: those of each output by lag.
 struct Feedback {

@@ -17,7 +17,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kMaxRadius = 0.9999;  // of any step
-constexpr double kStartRadius = 0.999;
 
 }  // namespace
 

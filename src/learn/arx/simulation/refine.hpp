@@ -66,6 +66,9 @@ struct Refined {
 Refined refine(const SimulationBlock& block, const OneStepLoss& loss, const Eigen::VectorXd& start,
                const RefineOptions& options);
 
+/// Spectral radius that a descent starts within.
+inline constexpr double kStartRadius = 0.999;
+
 /// Poles beyond `most` drawn in: a coefficient at lag l with a factor to the power of l.
 Eigen::VectorXd drawn_in(const SimulationBlock& block, Eigen::VectorXd theta, double most);
 

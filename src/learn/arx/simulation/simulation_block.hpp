@@ -9,6 +9,9 @@
 
 namespace wisp::arx {
 
+/// An initial state is told from at most so many rows.
+inline constexpr Eigen::Index kMaxStateRows = 4096;
+
 /// Outputs whose rows feed each other, by output; those of different blocks simulate on their own.
 std::vector<std::vector<int>> coupled_outputs(const OrderMatrix& na);
 

@@ -16,8 +16,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kStartRadius = 0.999;
-
 // Output, simulated output and inputs of all runs through 1/A.
 class FilteredRuns {
  public:

@@ -14,8 +14,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kMinLags = 8;
-constexpr int kFeedback = 120;         // samples that an output is predicted from: more outputs remember fewer lags
-constexpr Index kMaxStateRows = 4096;  // that a state is told from
+constexpr int kFeedback = 120;  // samples that an output is predicted from: more outputs remember fewer lags
 
 // c, c a, c a², …, the oldest row first.
 MatrixXd observability(const StateSpace& model, Index rows) {
