@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "cli/program.hpp"
 #include "learn/outline/made_outline.hpp"
 #include "record/loudness.hpp"
@@ -50,6 +52,25 @@ TEST_F(WindGainProgram, OneMicrophoneIsFoundOutAndKept) {
   EXPECT_THAT(told.out + told.err, HasSubstr("--own-gain"));
   ASSERT_EQ(learned("--gain own").status, 0);
   EXPECT_GT(one, tip_fit("later.csv") + 3);
+}
+
+TEST_F(WindGainProgram, ARunHearsARecordingAsLoudAsValidationDoes) {
+  write_heard("soft.csv", 1, 1);
+  write_heard("loud.csv", 2, 2.5);
+  write_heard("later.csv", 3, 1.6);
+  ASSERT_EQ(learned("--gain one").status, 0);
+  const auto strongest = [&](const std::string& name, const std::string& flags = "") {
+    if (name == "run.csv") {
+      const Said said = wisp("run " + at("m.wisp") + " --input " + at("later.csv") + " -o " + at(name) + " " + flags);
+      EXPECT_EQ(said.status, 0) << said.err;
+    }
+    const Recording recording = *read_csv(at(name));
+    const auto& wind = recording.channels[*find_channel(recording, "wind")].samples;
+    return *std::max_element(wind.begin(), wind.end());
+  };
+  const double recorded = strongest("later.csv");
+  EXPECT_NEAR(strongest("run.csv"), 0.64 * recorded, 1e-4 * recorded);  // written with single precision
+  EXPECT_NEAR(strongest("run.csv", "--own-gain"), recorded, 1e-4 * recorded);
 }
 
 TEST_F(WindGainProgram, IsAsGiven) {

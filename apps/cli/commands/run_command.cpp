@@ -296,6 +296,8 @@ std::vector<Flag> all_flags() {
       {"input", Kind::kPath, "REC", "", "a recording, or a WAV of blowing, whose input drives the model"},
       {"inputs", Kind::kNames, "A,B", "",
        "columns of --input that are the model's inputs, in its order, where they have other names"},
+      {"own-gain", Kind::kSwitch, "", "",
+       "input 1 is the recording's own 95th percentile, not as loud as in the training: another microphone"},
       {"columns", Kind::kNames, "A,B,…", "", "names of all columns of a plain table, in their order"},
       {"rate", Kind::kNumber, "HZ", "", "samples a second of a plain table; default: as the model's"},
       {"dt", Kind::kNumber, "S", "", "seconds between samples, instead of --rate"},

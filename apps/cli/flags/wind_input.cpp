@@ -6,6 +6,7 @@
 #include "flags/recordings.hpp"
 #include "terminal.hpp"
 #include "wisp/capture/clip/clip_capture.hpp"
+#include "wisp/learn/validate.hpp"
 #include "wisp/record/wav.hpp"
 #include "wisp/sound/wind_track.hpp"
 
@@ -101,7 +102,8 @@ Result<InputTrack> InputTrack::from(const Model& model, const Arguments& argumen
   if (std::filesystem::path(path).extension() == ".wav") return heard(model, path);
   const auto names = input_names(model, arguments);
   if (!names) return names.error();
-  const auto recording = read_table(path, arguments, {.rate_hz = model.rate_hz, .inputs = *names});
+  auto recording = read_table(path, arguments, {.rate_hz = model.rate_hz, .inputs = *names});
+  if (recording && !arguments.on("own-gain")) recording = at_trained_gain(model, *std::move(recording));
   if (!recording) return recording.error();
   const double frames = static_cast<double>(recording->rows()) * model.rate_hz / recording->rate_hz;
   if (!(frames <= kMaxFrames)) {

@@ -57,6 +57,11 @@ struct PredictionOptions {
 /// predicts no rows; a start that the model cannot have; steps out of range.
 Result<Recording> predict(const Model& model, const Recording& recording, const PredictionOptions& options = {});
 
+/// A recording whose inputs are as loud at 1 as in those that the model was learned from, as validate() and predict()
+/// hear it; as it is where either does not say how loud that was. Errors, naming the recording: what it says of its
+/// loudness is not a positive number.
+Result<Recording> at_trained_gain(const Model& model, Recording recording);
+
 /// A model and what it is called among others.
 struct NamedModel {
   std::string name;

@@ -8,6 +8,7 @@
 #include "learn/arx/judge/free_run_parts.hpp"
 #include "record/loudness.hpp"
 #include "record/number_text.hpp"
+#include "wisp/learn/validate.hpp"
 
 namespace wisp {
 namespace {
