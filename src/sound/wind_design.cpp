@@ -59,7 +59,7 @@ void set_times(Design& d, const WindOptions& options) {
   d.trust_frames = rounded(0.08 * rate);
   d.bridge_delay_frames = rounded(0.05 * rate) + 1;
   d.bridge_keep = static_cast<float>(1 - approach(1 / rate, 0.5));
-  d.sustain_frames = rounded(0.12 * rate) < 1 ? 1 : rounded(0.12 * rate);
+  d.sustain_frames = static_cast<float>(0.24 * rate);
   d.top_rise_db = static_cast<float>(2 / rate);
   d.top_fall_db = static_cast<float>(0.25 / rate);
   d.quiet_run_frames = rounded(0.3 * rate);

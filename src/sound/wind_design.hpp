@@ -47,10 +47,10 @@ struct Design {
   float level_gain = 1;         ///< of that power, so that the level band passes 300 Hz as it is
   float power_exponent = 0.25F;
 
-  int trust_frames = 5;         ///< another sound is one after so many frames (80 ms)
-  int bridge_delay_frames = 4;  ///< and begins so many before it is known for one (50 ms)
-  float bridge_keep = 0.97F;    ///< of the wind under another sound, in one frame (0.5 s)
-  int sustain_frames = 7;       ///< that it must have blown before it is strong (120 ms)
+  int trust_frames = 5;          ///< another sound is one after so many frames (80 ms)
+  int bridge_delay_frames = 4;   ///< and begins so many before it is known for one (50 ms)
+  float bridge_keep = 0.97F;     ///< of the wind under another sound, in one frame (0.5 s)
+  float sustain_frames = 14.4F;  ///< of wind 1 that strong wind must make up before it passes (0.24 s)
 
   float top_rise_db = 0.03F;   ///< of the loudest that the room is, in one frame (2 dB/s)
   float top_fall_db = 0.004F;  ///< and downwards (0.25 dB/s)

@@ -40,6 +40,7 @@ struct Observation {
   T clipped = T(0.0F);         ///< share of samples at full scale
   T loudness_db = T(-120.0F);  ///< as in Features, at the frame's end
   T likeness = T(0.0F);        ///< 0 to 1: sounds like blowing, not talking, whatever its strength
+  T likeness_now = T(0.0F);    ///< the same of the newest hop alone, without a gust's tail
 };
 
 /// 0 to 1: whether features are those of blowing. A layer of rectified sums and a logistic one.
@@ -124,6 +125,7 @@ class Kernel {
     seen.band_power = band_power_;
     seen.loudness_db = features_.loudness_db;
     seen.likeness = likeness_;
+    seen.likeness_now = likeness_now_;
     samples_ = clipped_ = analysed_ = 0;
     power_ = frame_band_ = T(0.0F);
     return seen;
@@ -210,8 +212,8 @@ class Kernel {
     }
     describe();
     const bool sudden = sudden_.end_hop(features_.loudness_db, d_);
-    const T now = sudden && judged(sums.voice) ? likeness_of(features_) : T(0.0F);
-    likeness_ = tail_.end_hop(now, features_.loudness_db);
+    likeness_now_ = sudden && judged(sums.voice) ? likeness_of(features_) : T(0.0F);
+    likeness_ = tail_.end_hop(likeness_now_, features_.loudness_db);
   }
 
   /// Whether there is a sound to judge, and one older than two hops: a voice needs as long to show its period.
@@ -267,6 +269,7 @@ class Kernel {
   Sudden<T> sudden_;
   Tail<T> tail_;
   T likeness_ = T(0.0F);
+  T likeness_now_ = T(0.0F);
 };
 
 }  // namespace wisp::wind

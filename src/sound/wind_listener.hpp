@@ -33,7 +33,7 @@ class Listener {
     hear_gust(blows && T(0.0F) < power, decibels(power));
     WindFrame frame = verdict(seen, {quiet.rms(), quiet.band_power(), floor, reference_.level_db()}, d_.power_exponent);
     const T believed = bridge_.end_frame(heard_speed(T(frame.speed), seen, floor), seen, floor, d_);
-    frame.wind = plain(sustained_.end_frame(believed, d_));
+    frame.wind = plain(sustained_.end_frame(believed, T(kSureLikeness) < seen.likeness_now, d_));
     return frame;
   }
 
@@ -67,7 +67,8 @@ class Listener {
   }
 
   static constexpr float kGustConfidence = 0.8F;
-  static constexpr float kFirstGusts = 0.6F;  ///< what the level of wind 1 weighs before any was heard
+  static constexpr float kSureLikeness = 0.65F;  ///< of one frame: strong wind is believed
+  static constexpr float kFirstGusts = 0.6F;     ///< what the level of wind 1 weighs before any was heard
 
   Design d_;
   Kernel<T> kernel_;

@@ -1,28 +1,35 @@
 #pragma once
-// What is strong must last: a knock, a sneeze, a spark are as loud as hard blowing for a tenth of a second, and the
-// lips that blow a candle out take longer.
-
-#include <algorithm>
+// What is strong must last and sound like blowing all the while: a knock, a sneeze, a spark are as loud as hard blowing
+// for a tenth of a second, and a drum or a plosive sounds like it until the note that follows is known for one.
 
 #include "sound/wind_design.hpp"
 
 namespace wisp::wind {
 
-/// Wind up to 1 passes as it comes; what exceeds it, once that has gone on for 120 ms, and until it has paused for
-/// twice as long. Swings within a gust are no pauses.
+/// Wind up to 1 passes as it comes; what exceeds it, once there was enough of it: 0.24 s of wind 1, or the less time
+/// the stronger it is (0.15 s of 1.6, 0.08 s of 3.2), and until it has paused for as long. Softer blowing is neither.
+/// Wind that is believed for what was heard before it (a gust's tail, wind under another sound) is a pause.
 template <class T>
 class Sustained {
  public:
-  T end_frame(T wind, const Design& d) {
+  /// `blows`: the frame by itself sounds like blowing.
+  T end_frame(T wind, bool blows, const Design& d) {
     const bool strong = T(1.0F) < wind;
-    evidence_ = std::clamp(evidence_ + (strong ? 2 : -1), 0, 2 * d.sustain_frames);
-    if (evidence_ == 2 * d.sustain_frames) lasts_ = true;
-    if (evidence_ == 0) lasts_ = false;
+    if (!blows) evidence_ = evidence_ - T(1.0F);
+    if (blows && strong) evidence_ = evidence_ + wind;
+    if (T(d.sustain_frames) < evidence_) {
+      evidence_ = T(d.sustain_frames);
+      lasts_ = true;
+    }
+    if (evidence_ < T(0.0F)) {
+      evidence_ = T(0.0F);
+      lasts_ = false;
+    }
     return strong && !lasts_ ? T(1.0F) : wind;
   }
 
  private:
-  int evidence_ = 0;  ///< two a strong frame, less one a frame that is not
+  T evidence_ = T(0.0F);  ///< sum of strong wind, less one a frame that does not blow
   bool lasts_ = false;
 };
 
