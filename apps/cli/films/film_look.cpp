@@ -213,7 +213,7 @@ Image FilmLook::draw(std::span<const Point> outline) const {
       colour = mix(colour, mean(still_[pixel]), stillness(pixel, height));
       std::uint32_t code = 0xFF000000U;
       for (int c = 0; c < 3; ++c) {
-        code |= static_cast<std::uint32_t>(std::clamp(colour[c], 0.0F, 255.0F) + 0.5F) << (16 - 8 * c);
+        code |= static_cast<std::uint32_t>(std::lround(std::clamp(colour[c], 0.0F, 255.0F))) << (16 - 8 * c);
       }
       image.row(y)[x] = code;
     }

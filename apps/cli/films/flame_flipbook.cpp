@@ -23,7 +23,7 @@ void fade_edges(float room, Image& image) {
       const float kept = share(x, image.width()) * share(y, image.height());
       std::uint32_t faded = 0;
       for (int shift = 0; shift < 32; shift += 8) {
-        faded |= static_cast<std::uint32_t>(kept * static_cast<float>(pixel >> shift & 0xff) + 0.5F) << shift;
+        faded |= static_cast<std::uint32_t>(std::lround(kept * static_cast<float>(pixel >> shift & 0xff))) << shift;
       }
       pixel = faded;
     }
