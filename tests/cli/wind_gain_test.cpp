@@ -76,7 +76,8 @@ TEST_F(WindGainProgram, ARunHearsARecordingAsLoudAsValidationDoes) {
 TEST_F(WindGainProgram, AFocusOnSimulationIsKeptAndSaysItsWay) {
   write_heard("one.csv", 1, 1);
   const auto learn = [&](const std::string& focus) {
-    const Said said = wisp("learn outline " + at("one.csv") + " -o " + at(focus + ".wisp") + " --json --focus " + focus);
+    const Said said =
+        wisp("learn outline " + at("one.csv") + " -o " + at(focus + ".wisp") + " --json --focus " + focus);
     EXPECT_EQ(said.status, 0) << said.err;
     return said.json();
   };

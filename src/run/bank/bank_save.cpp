@@ -16,17 +16,13 @@ namespace wisp {
 namespace {
 
 constexpr std::array<char, 8> kMagic = {'\x89', 'W', 'I', 'S', 'P', 'B', 'N', 'K'};
-constexpr std::uint32_t kVersion = 2;
-constexpr std::uint32_t kChainVersion = 4;  // of chains, whose joins are spread over both segments
-constexpr std::uint32_t kFirstVersion = 1;  // without what is set of a chain
+constexpr std::uint32_t kVersion = 2, kChainVersion = 4;  // of chains' banks
 constexpr std::size_t kHeaderSize = 32;
-constexpr std::size_t kChainFields = 4;
+constexpr std::size_t kFieldsSize = 14 * 8;
 constexpr std::uint64_t kMaxAge = std::uint64_t{1} << 48;
 
 bool is_chain(const Bank::State& s) { return std::holds_alternative<ChainStepper<LiveNumbers>>(s.stepper); }
 std::uint32_t version_of(const Bank::State& s) { return is_chain(s) ? kChainVersion : kVersion; }
-
-std::size_t fields_size(std::uint32_t version) { return 8 * (10 + (version == kFirstVersion ? 0 : kChainFields)); }
 
 std::size_t record_size(const Bank::State& s) {
   const std::size_t values = std::visit([](const auto& dynamics) { return dynamics.lane_values(); }, s.stepper);
@@ -133,15 +129,9 @@ struct Fields {
 std::uint64_t bits_of(float number) { return std::bit_cast<std::uint32_t>(number); }
 float float_of(std::uint64_t bits) { return std::bit_cast<float>(static_cast<std::uint32_t>(bits)); }
 
-Fields read_fields(ByteReader& in, std::uint32_t version) {
-  Fields fields{in.get64(), in.get64(), in.get64(), in.get64(), in.get64(), in.get64(), in.get64(),
-                in.get64(), in.get64(), in.get64(), 0,          0,          0,          0};
-  const ChainSettings none;
-  fields.ground = bits_of(none.ground);
-  fields.temperature = bits_of(none.temperature);
-  if (version == kFirstVersion) return fields;
-  for (auto* field : {&fields.ground, &fields.history, &fields.temperature, &fields.reserved_too}) *field = in.get64();
-  return fields;
+Fields read_fields(ByteReader& in) {
+  return {in.get64(), in.get64(), in.get64(), in.get64(), in.get64(), in.get64(), in.get64(),
+          in.get64(), in.get64(), in.get64(), in.get64(), in.get64(), in.get64(), in.get64()};
 }
 
 ChainSettings chain_settings(const Fields& fields) {
@@ -163,20 +153,15 @@ bool fields_are_sound(const Bank::State& s, const Fields& fields) {
 
 Error damaged(const std::string& what) { return {"a saved bank is damaged: " + what + "; save it again"}; }
 
-// Returns the version.
-Result<std::uint32_t> check_header(const Bank::State& s, std::span<const std::byte> bytes) {
+Result<void> check_header(const Bank::State& s, std::span<const std::byte> bytes) {
   if (bytes.size() < kHeaderSize || std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0) {
     return Error{"these " + std::to_string(bytes.size()) + " bytes are not a saved bank: they have not its signature"};
   }
   ByteReader in(bytes.data() + kMagic.size());
   const std::uint32_t version = in.get32();
-  if (is_chain(s) && version < kChainVersion) {
-    return Error{"a saved bank has version " + std::to_string(version) +
-                 ", those of chains are read from version 4 on: save it again with this version of Wisp"};
-  }
-  if (version < kFirstVersion || version > version_of(s)) {
-    return Error{"a saved bank has version " + std::to_string(version) + ", this build reads versions " +
-                 (is_chain(s) ? "3" : "1 and 2") + ": update Wisp"};
+  if (version != version_of(s)) {
+    return Error{"a saved bank has version " + std::to_string(version) + ", this build reads " +
+                 std::to_string(version_of(s)) + ": save and restore it with the same version of Wisp"};
   }
   const std::uint32_t reserved = in.get32();
   const std::uint64_t size = in.get64(), hash = in.get64();
@@ -187,7 +172,7 @@ Result<std::uint32_t> check_header(const Bank::State& s, std::span<const std::by
                    std::to_string(size));
   }
   if (hash != hash_bytes(payload)) return damaged("its contents have not the hash that its header says");
-  if (payload.size() < fields_size(version)) return damaged("it is too short to hold a bank");
+  if (payload.size() < kFieldsSize) return damaged("it is too short to hold a bank");
   ByteReader fields(payload.data());
   if (fields.get64() != s.model_hash) {
     return Error{"a saved bank is of another model: make the bank that is restored from the model that was saved"};
@@ -196,19 +181,17 @@ Result<std::uint32_t> check_header(const Bank::State& s, std::span<const std::by
     return Error{"a saved bank has capacity " + std::to_string(capacity) + ", the bank to restore has " +
                  std::to_string(s.capacity) + ": make it with the same"};
   }
-  const std::size_t expected =
-      kHeaderSize + fields_size(version) + static_cast<std::size_t>(s.capacity) * record_size(s);
+  const std::size_t expected = kHeaderSize + kFieldsSize + static_cast<std::size_t>(s.capacity) * record_size(s);
   if (bytes.size() != expected) {
     return damaged("it has " + std::to_string(bytes.size()) + " bytes, expected " + std::to_string(expected));
   }
-  return version;
+  return {};
 }
 
 }  // namespace
 
 std::size_t Bank::save_bytes() const {
-  return kHeaderSize + fields_size(version_of(*state_)) +
-         static_cast<std::size_t>(state_->capacity) * record_size(*state_);
+  return kHeaderSize + kFieldsSize + static_cast<std::size_t>(state_->capacity) * record_size(*state_);
 }
 
 void Bank::save(std::span<std::byte> bytes) const {
@@ -234,11 +217,10 @@ void Bank::save(std::span<std::byte> bytes) const {
 
 Result<void> Bank::restore(std::span<const std::byte> bytes) {
   State& s = *state_;
-  const auto version = check_header(s, bytes);
-  if (!version) return version.error();
-  const std::byte *first = bytes.data() + kHeaderSize, *records = first + fields_size(*version);
+  if (auto ok = check_header(s, bytes); !ok) return ok;
+  const std::byte *first = bytes.data() + kHeaderSize, *records = first + kFieldsSize;
   ByteReader fields_in(first), sound_in(records), in(records);
-  const Fields fields = read_fields(fields_in, *version);
+  const Fields fields = read_fields(fields_in);
   if (!fields_are_sound(s, fields)) return damaged("its time or noise is out of range");
   for (int slot = 0; slot < s.capacity; ++slot) {
     if (!slot_is_sound(s, sound_in)) return damaged("slot " + std::to_string(slot) + " holds what no bank can");

@@ -448,14 +448,15 @@ TEST(ChainBank, IsRestoredInTheMidstOfAJoin) {
   }
 }
 
-TEST(ChainBank, WhatAnOlderWispSavedOfAChainIsRefusedWithAReason) {
+TEST(ChainBank, WhatAnotherVersionSavedIsRefusedWithAReason) {
   Bank bank = bank_of(sample_chain());
   std::vector<std::byte> saved(bank.save_bytes());
   bank.save(saved);
   saved[8] = std::byte{3};
   const auto restored = bank.restore(saved);
   ASSERT_FALSE(restored);
-  EXPECT_THAT(restored.error().message, testing::HasSubstr("those of chains are read from version 4 on"));
+  EXPECT_THAT(restored.error().message,
+              testing::HasSubstr("has version 3, this build reads 4: save and restore it with the same version"));
 }
 
 TEST(ChainBank, AWorldFramedQuaternionsSignNeverFlips) {
