@@ -205,7 +205,7 @@ Result<void> OutlineCapture::Stage::decide(bool at_end) {
   return {};
 }
 
-// Fewer flames than asked for, and where they were counted.
+// That there are fewer than `options_.flame`, and where they were counted.
 std::string OutlineCapture::Stage::too_few(const Survey& survey) const {
   return "found " + std::to_string(survey.flames) + (survey.flames == 1 ? " flame" : " flames") + " in frames " +
          std::to_string(findings_.size() + 1) + " to " + std::to_string(findings_.size() + held_.size()) +

@@ -44,8 +44,8 @@ struct Survey {
   std::vector<Region> others;  ///< the median boxes of the others
 };
 
-/// Surveys pictures of one size. Where there are fewer flames than asked for, the largest is described. Errors: nothing
-/// stands out anywhere (one brightness only).
+/// Surveys pictures of one size. Where there are fewer flames than `options.flame`, the largest is described. Errors:
+/// nothing stands out anywhere (one brightness only).
 ///
 /// Precondition: pictures is not empty; all have one size and layout; region is empty or inside them.
 Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptions& options);
