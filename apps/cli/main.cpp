@@ -5,14 +5,14 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 
 #include "command.hpp"
+#include "outputs.hpp"
 #include "terminal.hpp"
 #include "wisp/base/file.hpp"
-#include "wisp/capture/media/video.hpp"
+#include "wrong_words.hpp"
 
 namespace wisp::cli {
 namespace {
@@ -160,49 +160,6 @@ Arguments arguments_of(const Wired& wired) {
   return arguments;
 }
 
-// What may name files that are read: winds are words or files.
-std::vector<std::string> files_read(const Command& command, const Arguments& arguments) {
-  std::vector<std::string> files = arguments.positionals();
-  for (const Flag& flag : command.flags) {
-    const bool reads = flag.kind == Kind::kPath || flag.kind == Kind::kText;
-    if (reads && arguments.has(flag.name)) files.push_back(arguments.text(flag.name));
-  }
-  return files;
-}
-
-std::vector<std::filesystem::path> files_written(const Flag& flag, const std::filesystem::path& output) {
-  std::vector<std::filesystem::path> files{output};
-  for (const std::string& name : flag.brings) {
-    std::filesystem::path beside = output;
-    files.push_back(name.starts_with('.') ? beside.replace_extension(name) : output / name);
-  }
-  return files;
-}
-
-// Whether writing a file would destroy what is read, whatever name either goes by: an input, or an image of one.
-bool would_destroy(const std::filesystem::path& written, const std::string& input) {
-  std::error_code none;
-  if (!std::filesystem::exists(written, none) || std::filesystem::is_directory(written, none)) return false;
-  if (!std::filesystem::is_directory(input, none)) return std::filesystem::equivalent(written, input, none);
-  return is_numbered_image(written) && std::filesystem::equivalent(absolute(written).parent_path(), input, none);
-}
-
-Result<void> check_outputs(const Command& command, const Arguments& arguments) {
-  for (const Flag& flag : command.flags) {
-    if (flag.kind != Kind::kOutput || !arguments.has(flag.name)) continue;
-    const std::string& output = arguments.text(flag.name);
-    for (const std::filesystem::path& written : files_written(flag, output)) {
-      for (const std::string& input : files_read(command, arguments)) {
-        if (!would_destroy(written, input)) continue;
-        const std::string beside = written == output ? "" : ": " + written.string() + ", which it brings,";
-        return Error{"--" + flag.name + " " + output + beside +
-                     " is a file that is read, and would be lost: give another name"};
-      }
-    }
-  }
-  return {};
-}
-
 int flush_output() {
   std::cout.flush();  // what CLI11 writes to
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good()) return kDone;
@@ -238,6 +195,11 @@ int run_program(int argc, char** argv) {
   try {
     root.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    const std::string wrong = wrong_words(std::vector<std::string>(argv + 1, argv + argc));
+    if (error.get_exit_code() != 0 && !wrong.empty()) {
+      std::fprintf(stderr, "%s\n", wrong.c_str());
+      return kWrongUsage;
+    }
     // CLI11 has exit codes of its own; ours are 0 for help and 2 for wrong usage.
     return root.exit(error) == 0 ? flush_output() : kWrongUsage;
   }

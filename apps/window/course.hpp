@@ -25,7 +25,7 @@ class Course {
   /// Brings what falls into the time up to `seconds` since the start: events go to `deliver`, sound to the player.
   void bring(double seconds, Player& player, const std::function<void(const Event&)>& deliver);
 
-  /// Names of pictures that were asked for in the time brought last.
+  /// Names of pictures that were requested in the time brought last.
   const std::vector<std::string>& wanted() const { return wanted_; }
 
   /// Whether the script asks for pictures at all.

@@ -41,7 +41,7 @@ struct PlayerFigures {
 
 class Player {
  public:
-  /// Errors: a model cannot be read; the first has no view for the scene that was asked for.
+  /// Errors: a model cannot be read; the first has no view for the scene that was requested.
   static Result<Player> create(const PlayerOptions& options);
 
   /// The ear, which whoever brings sound opens, feeds and closes.

@@ -461,7 +461,7 @@ WISP_API int32_t wisp_wind_calibrating(const wisp_wind* wind);
 #define WISP_WIND_BREATHE_GENTLY 1u /* what is to lean a flame and not to put it out */
 #define WISP_WIND_BLOW_HARD 2u      /* what is to put it out */
 
-/* Takes the coming seconds of sound (0.5 to 30 used) for what was asked for. */
+/* Takes the coming seconds of sound (0.5 to 30 used) for what was requested. */
 WISP_API wisp_status wisp_wind_calibrate_for(wisp_wind* wind, uint32_t what, double seconds);
 
 /* 1 when the last calibration is over and heard what it asked for. */

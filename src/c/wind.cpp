@@ -121,7 +121,7 @@ wisp_status wisp_wind_calibrate_for(wisp_wind* wind, uint32_t what, double secon
   if (!wind) return null_argument(__func__);
   if (!std::isfinite(seconds)) return fail(WISP_BAD_ARGUMENT, "%s was given a time that is not finite", __func__);
   if (what > WISP_WIND_BLOW_HARD)
-    return fail(WISP_BAD_ARGUMENT, "%s was asked for %u, expected a WISP_WIND_*, 0 to 2", __func__, what);
+    return fail(WISP_BAD_ARGUMENT, "%s was requested %u, expected a WISP_WIND_*, 0 to 2", __func__, what);
   wind->level.calibrate(seconds, static_cast<wisp::WindAsk>(what));
   return WISP_OK;
 }

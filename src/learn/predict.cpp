@@ -130,7 +130,7 @@ Result<Recording> predict(const Model& model, const Recording& recording, const 
                  "how it lives"};
   }
   if (options.steps < 0 || options.steps > 100'000) {
-    return Error{"predictions were asked for " + std::to_string(options.steps) +
+    return Error{"predictions were requested " + std::to_string(options.steps) +
                  " steps ahead, expected 1 to 100000, or free"};
   }
   const bool outline = std::holds_alternative<OutlineView>(model.view);

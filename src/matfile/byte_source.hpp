@@ -49,7 +49,7 @@ class ByteSource {
     return true;
   }
 
-  /// How many bytes were asked for so far.
+  /// How many bytes were requested so far.
   std::size_t passed() const { return passed_; }
 
  private:

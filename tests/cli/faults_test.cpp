@@ -95,6 +95,21 @@ TEST_F(Faults, AnImageOfAClipIsReplacedByNothing) {
               testing::Not(HasSubstr("would be lost")));
 }
 
+TEST_F(Faults, NamesOfAnotherKindOfFileAreRefused) {
+  for (const std::string& line :
+       {"simulate leaf --drops 1 -o " + at("rec.png"), std::string("capture flame no.mp4 -o ") + at("rec.mp4"),
+        std::string("learn arx no.csv --inputs u --outputs y -o ") + at("model.csv"),
+        std::string("validate ") + kFlame + " no.csv --film-strip " + at("strip.mp4")}) {
+    const Said said = wisp(line);
+    EXPECT_EQ(said.status, 2) << line << said.err;
+    EXPECT_THAT(said.err, HasSubstr("the name is of another kind of file, expected one such as ")) << line;
+  }
+  EXPECT_EQ(wisp(std::string("run ") + kFlame + " --frames 3 -o " + at("play.csv")).status, 0);
+  EXPECT_EQ(wisp("simulate candle --seconds 0.2 -o " + at("a.mp4")).status, 0);
+  // Other endings say nothing of what is in a file.
+  EXPECT_EQ(wisp("capture flame " + at("a.mp4") + " -o " + at("a.txt")).err.find("another kind"), std::string::npos);
+}
+
 TEST_F(Faults, OutputThatCannotBeWrittenIsStatus1) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   for (const std::string& words : {std::string("info ") + kFlame + " --json", std::string("--help"),

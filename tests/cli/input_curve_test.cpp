@@ -67,7 +67,7 @@ TEST_F(InputCurve, IsLearnedDescribedValidatedAndPlayed) {
 }
 
 TEST_F(InputCurve, IsRefusedWhereItMeansNothing) {
-  EXPECT_THAT(learn("m.wisp", "--input-curve 2").err, HasSubstr("a curve of 2 knots was asked for"));
+  EXPECT_THAT(learn("m.wisp", "--input-curve 2").err, HasSubstr("a curve of 2 knots was requested"));
   EXPECT_THAT(learn("m.wisp", "--input-curve 4 --offset none").err, HasSubstr("--offset mean or estimate"));
   EXPECT_THAT(learn("m.wisp", "--input-curve 4 --partial " + at("p.part")).err, HasSubstr("without --partial"));
 }

@@ -122,7 +122,7 @@ TEST_F(LearnArxParts, LargeTablesAreReadAStretchAtATimeToTheSameResult) {
   EXPECT_NEAR(streamed["fit_percent"]["inf"][1], want["fit_percent"]["inf"][1].get<double>(), 1e-9);
   const Said beyond = wisp("learn arx " + whole() + " -o " + at("m.wisp") + " --range 2:4001 --memory 0");
   EXPECT_EQ(beyond.status, 1);
-  EXPECT_THAT(beyond.err, HasSubstr("rows 2:4001 were asked for, which reach beyond its end"));
+  EXPECT_THAT(beyond.err, HasSubstr("rows 2:4001 were requested, which reach beyond its end"));
 }
 
 TEST_F(LearnArxParts, ADamagedPartIsNamedAndNothingIsWritten) {

@@ -26,6 +26,18 @@ TEST_F(Usage, HelpIsStatus0AndWrongUsageIsStatus2) {
   EXPECT_EQ(wisp("learn arx a.csv -o m.wisp --outputs y --range 30:1").status, 2);
 }
 
+TEST_F(Usage, AMistypedWordIsAnsweredWithTheNearest) {
+  EXPECT_THAT(wisp("lern flame a.csv").err, HasSubstr("no command lern; did you mean learn? There are: "));
+  EXPECT_THAT(wisp("learn flam a.csv").err, HasSubstr("wisp learn: there is no flam; did you mean learn flame?"));
+  EXPECT_THAT(wisp("learn").err, HasSubstr("wisp learn: expected one of "));
+  EXPECT_THAT(wisp("learn --json").err, HasSubstr("wisp learn: expected one of "));
+  EXPECT_THAT(wisp("capture flame a.mp4 -o a.csv --pionts=3").err,
+              HasSubstr("wisp capture flame: there is no flag --pionts; did you mean --points?"));
+  EXPECT_THAT(wisp("capture flame a.mp4 -o a.csv --purple").err, HasSubstr("there is no flag --purple. Its flags: "));
+  // What is wrong here is no word.
+  EXPECT_THAT(wisp("capture flame a.mp4").err, HasSubstr("--output is required"));
+}
+
 TEST_F(Usage, AMissingOutputNameIsWrongUsage) {
   EXPECT_EQ(wisp("run a.wisp --frames 10").status, 2);
   EXPECT_EQ(wisp("learn arx a.csv --outputs y").status, 2);

@@ -99,7 +99,11 @@ Result<InputTrack> InputTrack::from(const Model& model, const Arguments& argumen
     return track;
   }
   const std::string& path = arguments.text("input");
-  if (std::filesystem::path(path).extension() == ".wav") return heard(model, path);
+  if (std::filesystem::path(path).extension() == ".wav") {
+    if (arguments.on("own-gain"))
+      return Error{"--own-gain: is for recordings; the wind in a sound has the model's scale"};
+    return heard(model, path);
+  }
   const auto names = input_names(model, arguments);
   if (!names) return names.error();
   auto recording = read_table(path, arguments, {.rate_hz = model.rate_hz, .inputs = *names});

@@ -56,7 +56,7 @@ class CsvReader {
   Result<std::size_t> read(Recording& recording, std::size_t max_rows);
 
   /// Passes over up to `max_rows` rows without looking at their numbers.
-  /// Returns how many; fewer than asked for at the end only.
+  /// Returns how many; fewer than requested at the end only.
   /// Errors: bytes that are not text, a line longer than 16 MiB.
   Result<std::size_t> skip(std::size_t max_rows);
 

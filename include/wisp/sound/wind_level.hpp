@@ -108,7 +108,7 @@ class WindLevel {
   /// The latest frame made; all zero before the first.
   const WindFrame& latest() const;
 
-  /// Takes the coming `seconds` of sound (0.5 to 30 used) for what was asked for. A soft breath at one microphone is as
+  /// Takes the coming `seconds` of sound (0.5 to 30 used) for what was requested. A soft breath at one microphone is as
   /// loud as a hard one at another: ask for stillness, breath and blowing in turn where that matters.
   void calibrate(double seconds = 3, WindAsk ask = WindAsk::kBeStill);
 

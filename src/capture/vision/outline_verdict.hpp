@@ -7,7 +7,7 @@
 namespace wisp {
 
 /// Fills the report's facts (light and solidity come from the survey), `out_at`, `usable` and `reason` from the
-/// recording's outlines and the report's dropped frames. What only flames do (taper, give light) is asked for where
+/// recording's outlines and the report's dropped frames. What only flames do (taper, give light) is requested where
 /// `report.flames` is not 0.
 ///
 /// Precondition: the recording's first channels are the outline's control points, x and y alternating.

@@ -45,7 +45,7 @@ Result<OpenTable> open_table(const Table& table) {
 
 Error beyond(const std::string& name, const TableShare& share) {
   return {name + ": rows " + std::to_string(share.first + 1) + ":" + std::to_string(share.first + share.rows) +
-          " were asked for, which reach beyond its end"};
+          " were requested, which reach beyond its end"};
 }
 
 // How many rows the table's range has. A reading of its own, which looks for ends of lines only.

@@ -21,7 +21,7 @@ Result<Fit> learn_arx(std::span<const Recording> recordings, const ArxRecipe& re
 
 /// Predictions, free simulation and residuals of a plain ARX model on a recording, with the shares of rows within its
 /// own intervals. Series, I an output: `measured.I`, `simulated.I`, `predicted.I` with `.low` and `.high`, all over
-/// seconds; residual tests; and where asked for `error.I` and `error.I.model` over steps, `error.I.inf`, and responses.
+/// seconds; residual tests; and where requested `error.I` and `error.I.model` over steps, `error.I.inf`, and responses.
 /// Errors: the recording has not the model's channels or is too short, steps out of range, kStopped.
 ///
 /// Precondition: the model's dynamics are an ArxModel.

@@ -46,7 +46,7 @@ struct ChainFidelity {
   double window_seconds = 0;
 };
 
-/// Falls made by a model: as many as asked for, each of `rows` rows, as recordings of its rate.
+/// Falls made by a model: as many as requested, each of `rows` rows, as recordings of its rate.
 /// Errors: as Bank::create().
 Result<std::vector<Recording>> synthesize_falls(const Model& model, int falls, std::size_t rows, std::uint64_t seed);
 

@@ -96,7 +96,9 @@ Result<std::vector<BlowOut>> find_blow_outs(const Recording& recording, const st
   const auto layout = outline_layout(recording);
   if (!layout) return layout.error();
   const auto channel = find_channel(recording, input);
-  if (!channel) return Error{recording.source + ": there is no input " + input + " to find blow-outs by"};
+  if (!channel)
+    return Error{recording.source + ": has no channel " + input +
+                 ", which shows what blew the flame out; record the flame together with its sound"};
   std::vector<Run> gone = absences(recording, *layout);
   const std::size_t least = rows_of(options.min_gone, recording.rate_hz);
   std::erase_if(gone, [&](const Run& run) { return run.end - run.begin < least; });

@@ -74,7 +74,7 @@ class Reader {
   }
   OrderMatrix matrix(int rows, int columns) {
     if (static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns) * 8 > left()) fine_ = false;
-    if (!fine_) return {};  // before memory is asked for
+    if (!fine_) return {};  // before memory is allocated
     OrderMatrix matrix(rows, columns);
     for (int r = 0; r < rows; ++r) {
       for (int c = 0; c < columns; ++c) matrix(r, c) = static_cast<int>(bounded(kMaxChannels));
@@ -252,7 +252,7 @@ Result<FactorState> factor_from_bytes(std::span<const std::byte> bytes) {
   const FactorOptions options = read_options(reader);
   if (!reader.fine() || !check_factor_options(options)) return damaged;
   const auto columns = static_cast<std::uint64_t>(make_design(options.orders, ArxOffset::kMean).layout.size());
-  if (columns * (columns + 1) / 2 * 8 > reader.left()) return damaged;  // before memory is asked for
+  if (columns * (columns + 1) / 2 * 8 > reader.left()) return damaged;  // before memory is allocated
   FactorState state(options);
   state.rate_hz = reader.real();
   for (std::uint64_t* count : {&state.rows, &state.episodes_used, &state.episodes_skipped, &state.rows_left_out}) {

@@ -66,7 +66,7 @@ double mean_of(const std::vector<double>& values) {
 
 Result<Fit> learn_switched(std::span<const Recording> recordings, const SwitchedRecipe& recipe,
                            const Progress& progress) {
-  if (recipe.modes == 0) return Error{"0 modes were asked for, expected 1 to 64"};
+  if (recipe.modes == 0) return Error{"0 modes were requested, expected 1 to 64"};
   const ChannelChoice channels{recipe.inputs, recipe.outputs};
   const auto sources = arx::sources_of(recordings, channels);
   if (!sources) return sources.error();
@@ -86,7 +86,7 @@ Result<Report> validate_switched(const Model& model, const Recording& recording,
                                  const Progress& progress) {
   const auto& dynamics = std::get<SwitchedArxModel>(model.dynamics);
   const ChannelChoice channels = arx::channels_of(model);
-  if (options.steps.empty()) return Error{"no number of steps was asked for"};
+  if (options.steps.empty()) return Error{"no number of steps was requested"};
   if (auto ok = arx::check_progress(progress, "predicting", 0); !ok) return ok.error();
   const auto figures = switched_figures(dynamics, recording, channels, options.steps);
   if (!figures) return figures.error();

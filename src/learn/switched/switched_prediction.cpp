@@ -176,7 +176,7 @@ Result<std::vector<int>> mode_sequence(const SwitchedArxModel& model, const Reco
 Result<std::vector<std::vector<double>>> predict_switched(const SwitchedArxModel& model, const Recording& recording,
                                                           const ChannelChoice& channels, int steps) {
   if (steps < 0 || steps > kMaxSteps) {
-    return Error{"predictions were asked for " + std::to_string(steps) + " steps ahead, expected 1 to 100000, or free"};
+    return Error{"predictions were requested " + std::to_string(steps) + " steps ahead, expected 1 to 100000, or free"};
   }
   const auto rows = rows_of(model, {&recording, 1}, channels);
   if (!rows) return rows.error();

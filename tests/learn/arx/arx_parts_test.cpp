@@ -70,7 +70,7 @@ TEST(ArxParts, ATableReadAStretchAtATimeMakesTheModelOfItsRangeAndSimulatesIt) {
   std::filesystem::remove(path);
   ASSERT_TRUE(added) << added.error().message;
   ASSERT_FALSE(beyond);
-  EXPECT_THAT(beyond.error().message, HasSubstr("rows 101:3001 were asked for, which reach beyond its end"));
+  EXPECT_THAT(beyond.error().message, HasSubstr("rows 101:3001 were requested, which reach beyond its end"));
   ASSERT_TRUE(fit) << fit.error().message;
   const Fit want = in_memory(slice(recording, 100, 2100));
   expect_same(fit->model, want.model);

@@ -44,7 +44,7 @@ Result<int> curve_of(const std::string& channel, const CurveFitOptions& options)
     const auto& names = options.inputs[c].channels;
     if (std::find(names.begin(), names.end(), channel) != names.end()) return static_cast<int>(c);
   }
-  return Error{"no curve was asked for input " + channel + ", and all inputs have one or none has"};
+  return Error{"no curve was requested input " + channel + ", and all inputs have one or none has"};
 }
 
 Recording in_pieces(const Recording& recording, const ChannelChoice& channels, const std::vector<Bent>& bent,
@@ -137,7 +137,7 @@ CurveRow row_of(const Expanded& data, const ArxOrders& orders, const Signals& si
 
 Result<void> check_options(const CurveFitOptions& options) {
   if (options.knots >= 3 && options.knots <= static_cast<int>(kMaxCurveKnots)) return {};
-  return Error{"a curve of " + std::to_string(options.knots) + " knots was asked for, expected 3 to 16"};
+  return Error{"a curve of " + std::to_string(options.knots) + " knots was requested, expected 3 to 16"};
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ Result<void> check_options(const ArxOptions& options, const ChannelChoice& chann
 Result<void> check_rows(const RowPlan& plan, const ArxDesign& design) {
   if (plan.rows == 0) {
     return Error{"no row can be predicted: the first sample is " + std::to_string(plan.first_sample) +
-                 " (the longest lag, or what was asked for), and no episode has that many rows and one more without "
+                 " (the longest lag, or what was requested), and no episode has that many rows and one more without "
                  "gaps; use lower orders or delays, or a longer recording"};
   }
   std::size_t most = 0;

@@ -28,7 +28,7 @@ struct ArxEstimate {
   Eigen::VectorXd target_square;       ///< Σ (y − ȳ)² per output
   std::string method;                  ///< which factorisation and why
 
-  Eigen::MatrixXd gram;  ///< of all columns of the layout; empty unless `joint` was asked for
+  Eigen::MatrixXd gram;  ///< of all columns of the layout; empty unless `joint` was requested
 
   /// Σ r_i r_j for other coefficients than the estimate's.
   std::function<Eigen::MatrixXd(const GroupThetas&)> residual_gram_at;

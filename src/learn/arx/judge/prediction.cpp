@@ -16,11 +16,11 @@ constexpr int kMaxSteps = 100000;
 
 Result<void> check_steps(int steps) {
   if (steps == kFreeRun || (steps >= 1 && steps <= kMaxSteps)) return {};
-  return Error{"a prediction of " + std::to_string(steps) + " steps was asked for, expected 1 to 100000"};
+  return Error{"a prediction of " + std::to_string(steps) + " steps was requested, expected 1 to 100000"};
 }
 
 Result<void> check_figures(const ArxModel& model, const FigureOptions& options) {
-  if (options.steps.empty()) return Error{"no number of steps was asked for"};
+  if (options.steps.empty()) return Error{"no number of steps was requested"};
   for (int steps : options.steps) {
     if (auto ok = check_steps(steps); !ok) return ok;
   }

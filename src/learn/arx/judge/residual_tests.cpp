@@ -124,7 +124,7 @@ Independence independence_of(const Pairing& pairing, const VectorXd& cross, cons
 
 Result<void> check(const ResidualTestOptions& options, std::size_t rows) {
   if (options.lags < 1 || options.lags > 10000) {
-    return Error{std::to_string(options.lags) + " lags were asked for, expected 1 to 10000"};
+    return Error{std::to_string(options.lags) + " lags were requested, expected 1 to 10000"};
   }
   if (rows < 4 * static_cast<std::size_t>(options.lags)) {
     return Error{std::to_string(rows) + " rows are too few to test residuals over " + std::to_string(options.lags) +

@@ -49,10 +49,10 @@ struct Judged {
 };
 
 Result<void> check_steps(const std::vector<int>& steps) {
-  if (steps.empty()) return Error{"no number of steps was asked for"};
+  if (steps.empty()) return Error{"no number of steps was requested"};
   for (int step : steps) {
     if (step >= 0 && step <= 100'000) continue;
-    return Error{"predictions were asked for " + std::to_string(step) + " steps ahead, expected 1 to 100000, or free"};
+    return Error{"predictions were requested " + std::to_string(step) + " steps ahead, expected 1 to 100000, or free"};
   }
   return {};
 }

@@ -308,7 +308,7 @@ Result<OrderSearch> search_orders(std::span<const Recording> estimation, std::sp
                                   const ChannelChoice& channels, const SearchOptions& options,
                                   const Progress& progress) {
   if (options.by == OrderCriterion::kValidation && validation.empty()) {
-    return Error{"the best candidate by validation was asked for without validation recordings"};
+    return Error{"the best candidate by validation was requested without validation recordings"};
   }
   auto candidates = list_candidates(channels, options);
   if (!candidates) return candidates.error();

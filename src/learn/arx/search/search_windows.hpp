@@ -21,7 +21,7 @@ class SearchWindows {
   std::size_t rows(int first_sample) const { return rows_[index(first_sample)]; }
   const Eigen::MatrixXd& gram(int first_sample) const { return gram_[index(first_sample)]; }
 
-  /// A triangle of the same window, RᵀR = gram but for rounding. Made when it is first asked for.
+  /// A triangle of the same window, RᵀR = gram but for rounding. Made on first use.
   const Eigen::MatrixXd& triangle(int first_sample);
 
  private:

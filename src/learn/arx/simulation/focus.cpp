@@ -96,7 +96,7 @@ std::string obstacle(const Subject& subject, ArxFocus focus) {
   const auto& nb = subject.options.orders.nb.values();
   const auto& na = subject.options.orders.na.values();
   const auto positive = [](int order) { return order > 0; };
-  if (focus == ArxFocus::kPrediction) return "one step ahead, as asked for";
+  if (focus == ArxFocus::kPrediction) return "one step ahead, as requested";
   if (std::none_of(nb.begin(), nb.end(), positive)) return "no input drives a free simulation";
   if (std::none_of(na.begin(), na.end(), positive)) return "without feedback a prediction is a simulation";
   if (!subject.refines && !subject.subspace) return kRankless;
@@ -259,7 +259,7 @@ Result<FocusedFit> focus_fit(std::span<const Recording> recordings, const Channe
   }
   outcome.choices = choices_of(blocks);
   outcome.reason = !judged                                ? "too few rows to hold some out"
-                   : asked.focus == ArxFocus::kSimulation ? "free simulation, as asked for"
+                   : asked.focus == ArxFocus::kSimulation ? "free simulation, as requested"
                    : changed  ? "held-out free runs are surely better than with least squares"
                    : !refines ? kRankless
                               : "held-out free runs are no better than with least squares";

@@ -158,11 +158,11 @@ TEST(CurveFit, BadRequestsAreNamed) {
   };
   CurveFitOptions options = kOptions;
   options.knots = 2;
-  EXPECT_THAT(error(options), HasSubstr("a curve of 2 knots was asked for, expected 3 to 16"));
+  EXPECT_THAT(error(options), HasSubstr("a curve of 2 knots was requested, expected 3 to 16"));
   EXPECT_THAT(error(kOptions, {{"wind"}, {"y"}}), HasSubstr("wind"));
   options = kOptions;
   options.inputs.clear();
-  EXPECT_THAT(error(options), HasSubstr("no curve was asked for input u"));
+  EXPECT_THAT(error(options), HasSubstr("no curve was requested input u"));
   options = kOptions;
   options.orders.nb(0, 0) = 60;
   EXPECT_THAT(error(options), HasSubstr("record longer"));

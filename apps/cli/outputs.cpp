@@ -1,0 +1,76 @@
+#include "outputs.hpp"
+
+#include <filesystem>
+#include <map>
+
+#include "wisp/capture/media/video.hpp"
+
+namespace wisp::cli {
+namespace {
+
+// What may name files that are read: winds are words or files.
+std::vector<std::string> files_read(const Command& command, const Arguments& arguments) {
+  std::vector<std::string> files = arguments.positionals();
+  for (const Flag& flag : command.flags) {
+    const bool reads = flag.kind == Kind::kPath || flag.kind == Kind::kText;
+    if (reads && arguments.has(flag.name)) files.push_back(arguments.text(flag.name));
+  }
+  return files;
+}
+
+std::vector<std::filesystem::path> files_written(const Flag& flag, const std::filesystem::path& output) {
+  std::vector<std::filesystem::path> files{output};
+  for (const std::string& name : flag.brings) {
+    std::filesystem::path beside = output;
+    files.push_back(name.starts_with('.') ? beside.replace_extension(name) : output / name);
+  }
+  return files;
+}
+
+// Whether writing a file would destroy what is read, whatever name either goes by: an input, or an image of one.
+bool would_destroy(const std::filesystem::path& written, const std::string& input) {
+  std::error_code none;
+  if (!std::filesystem::exists(written, none) || std::filesystem::is_directory(written, none)) return false;
+  if (!std::filesystem::is_directory(input, none)) return std::filesystem::equivalent(written, input, none);
+  return is_numbered_image(written) && std::filesystem::equivalent(absolute(written).parent_path(), input, none);
+}
+
+// The kind of file that an ending stands for; empty: any.
+std::string kind_of(const std::filesystem::path& name) {
+  static const std::map<std::string, std::string> kinds = {
+      {".csv", "table"}, {".wisp", "model"},  {".html", "page"},   {".json", "document"},
+      {".wav", "sound"}, {".png", "picture"}, {".svg", "picture"}, {".mp4", "film"},
+      {".mov", "film"},  {".mkv", "film"},    {".webm", "film"}};
+  const auto known = kinds.find(name.extension().string());
+  return known == kinds.end() ? std::string() : known->second;
+}
+
+// What is written would not be what its name says: a table in a .png.
+bool is_named_for_another_kind(const Flag& flag, const std::string& output) {
+  const std::string expected = kind_of(flag.value), found = kind_of(output);
+  return !expected.empty() && !found.empty() && expected != found;
+}
+
+}  // namespace
+
+Result<void> check_outputs(const Command& command, const Arguments& arguments) {
+  for (const Flag& flag : command.flags) {
+    if (flag.kind != Kind::kOutput || !arguments.has(flag.name)) continue;
+    const std::string& output = arguments.text(flag.name);
+    for (const std::filesystem::path& written : files_written(flag, output)) {
+      for (const std::string& input : files_read(command, arguments)) {
+        if (!would_destroy(written, input)) continue;
+        const std::string beside = written == output ? "" : ": " + written.string() + ", which it brings,";
+        return Error{"--" + flag.name + " " + output + beside +
+                     " is a file that is read, and would be lost: give another name"};
+      }
+    }
+    if (is_named_for_another_kind(flag, output)) {
+      return Error{"--" + flag.name + " " + output + ": the name is of another kind of file, expected one such as " +
+                   flag.value};
+    }
+  }
+  return {};
+}
+
+}  // namespace wisp::cli
