@@ -185,7 +185,7 @@ Interval bootstrap(const BlockSums& sums, const AlignmentOptions& options) {
   std::sort(peaks.begin(), peaks.end());
   const double tail = (1 - options.confidence_level) / 2;
   const auto at = [&](double share) {
-    return peaks[static_cast<std::size_t>(share * static_cast<double>(peaks.size() - 1) + 0.5)];
+    return peaks[static_cast<std::size_t>(std::lround(share * static_cast<double>(peaks.size() - 1)))];
   };
   return {at(tail), at(1 - tail)};
 }
@@ -233,8 +233,8 @@ Result<Alignment> align_offset(std::span<const double> wind, std::span<const dou
   const auto filter = predictor(centred_wind);
   const Series white_wind = whitened(centred_wind, filter);
   const Series white_motion = whitened(centred_motion, filter);
-  const auto most = static_cast<std::ptrdiff_t>(options.max_seconds * options.rate_hz + 0.5);
-  const auto block = std::max<std::size_t>(static_cast<std::size_t>(options.block_seconds * options.rate_hz + 0.5), 1);
+  const auto most = static_cast<std::ptrdiff_t>(std::lround(options.max_seconds * options.rate_hz));
+  const auto block = static_cast<std::size_t>(std::max(std::lround(options.block_seconds * options.rate_hz), 1L));
   const BlockSums sums(white_wind, white_motion, most, block);
   const Series all = sums.means(Series(sums.blocks, 1.0));
 
@@ -246,7 +246,7 @@ Result<Alignment> align_offset(std::span<const double> wind, std::span<const dou
   found.offset_seconds = seconds(peak);
   found.low_seconds = seconds(std::min(interval.low, peak));
   found.high_seconds = seconds(std::max(interval.high, peak));
-  found.correlation = scale > 0 ? all[static_cast<std::size_t>(peak + 0.5)] / scale : 0;
+  found.correlation = scale > 0 ? all[static_cast<std::size_t>(std::lround(peak))] / scale : 0;
   found.chance = chance_level(white_wind, white_motion, all.size(), pairs);
   judge(found, options.max_seconds);
   return found;

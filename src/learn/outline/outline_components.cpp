@@ -119,6 +119,7 @@ ArxModel in_coordinates(const ArxModel& model, const ShapeComponents& components
   out.orders = orders;
   const int ny = orders.outputs();
   std::vector<Eigen::MatrixXd> a;
+  a.reserve(static_cast<std::size_t>(orders.na(0, 0)));
   for (int lag = 0; lag < orders.na(0, 0); ++lag) {
     a.push_back(components.shape * lag_of_a(model, lag) * components.score);
   }
