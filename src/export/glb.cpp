@@ -20,8 +20,8 @@ void append(std::vector<std::byte>& bytes, std::uint32_t word) {
 std::size_t padded(std::size_t size) { return (size + 3) / 4 * 4; }
 
 const char* name_of(Shape shape) {
-  constexpr std::array names{"SCALAR", "VEC2", "VEC3", "VEC4"};
-  return names[static_cast<std::size_t>(shape) - 1];
+  constexpr std::array kNames{"SCALAR", "VEC2", "VEC3", "VEC4"};
+  return kNames[static_cast<std::size_t>(shape) - 1];
 }
 
 }  // namespace

@@ -84,7 +84,8 @@ void show_frame(cairo_t* context, const Image& frame, int x, int y, const Layout
   const int height = std::max(1, static_cast<int>(std::lround(frame.height() * scale)));
   Image small = resized(frame, width, height);
   const CairoSurface surface = surface_of(small);
-  cairo_set_source_surface(context, surface.get(), x + (at.cell_width - width) / 2, y + (at.cell_height - height) / 2);
+  const int left = (at.cell_width - width) / 2, top = (at.cell_height - height) / 2;  // whole: pixels stay sharp
+  cairo_set_source_surface(context, surface.get(), x + left, y + top);
   cairo_paint(context);
 }
 

@@ -77,7 +77,8 @@ void add_measured_starts(const SimulationBlock& block, const BlockRun& run, Inde
   const Index history = block.history();
   const Index starts = std::clamp<Index>(run.rows / kMinRows, 1, kStarts);
   for (Index k = 0; k < starts; ++k) {
-    const Index begin = history + static_cast<Index>(kReach * static_cast<double>(run.rows * k / starts));
+    const Index whole = run.rows * k / starts;
+    const Index begin = history + static_cast<Index>(kReach * static_cast<double>(whole));
     if (!past_is_measured(block, run, begin)) continue;
     add_errors(block, run, begin, before, simulate_from(begin), sums);
   }

@@ -57,6 +57,7 @@ void feed_back_one(const Feedback& feedback, Index begin, Index end, double* x) 
 void feed_back(const Feedback& feedback, Index begin, Index end, Eigen::Ref<MatrixXd> x) {
   if (feedback.outputs == 1) return feed_back_one(feedback, begin, end, x.data());
   std::vector<double*> series;
+  series.reserve(static_cast<std::size_t>(feedback.outputs));
   for (int o = 0; o < feedback.outputs; ++o) series.push_back(x.col(o).data());
   for (Index t = begin; t < end; ++t) {
     for (const auto& tap : feedback.taps) series[tap.row][t] += tap.weight * series[tap.from][t - tap.lag];

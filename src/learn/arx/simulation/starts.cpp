@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 // Output, simulated output and inputs of all runs through 1/A.
 class FilteredRuns {
  public:
-  FilteredRuns(const SimulationBlock& block, const VectorXd& theta) : block_(block) {
+  FilteredRuns(const SimulationBlock& block, const VectorXd& theta) {
     const Index pad = block.memory().front();
     const BlockSimulation simulation = simulate_block(block, theta);
     for (std::size_t r = 0; r < block.runs().size(); ++r) {
@@ -74,7 +74,6 @@ class FilteredRuns {
   }
 
  private:
-  const SimulationBlock& block_;
   std::vector<MatrixXd> series_;
   MatrixXd gram_;
   std::vector<int> regressors_;
