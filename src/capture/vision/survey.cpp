@@ -22,7 +22,7 @@ constexpr double kAsBright = 0.9;    // … and as bright
 constexpr double kAsGood = 0.5;      // at another level it is still the same thing when it is this share as likely
 constexpr double kHalfWay = 0.58;
 constexpr double kNearlyAsLikely = 0.82;  // one that shows more of the same flame is at least this share as likely
-constexpr double kNearlyAsBright = 0.98;  // … and as bright
+constexpr double kNearlyAsBright = 0.95;  // … and as bright
 constexpr double kSameHome = 0.6;         // … and shares this much of its place
 constexpr double kBrightest = 3e-4;       // share of the picture that is as bright as anything
 
