@@ -44,6 +44,16 @@ void step_flames(benchmark::State& state, const Model& model, int instances, flo
   per_instance(state, instances);
 }
 
+// Steps in one call, so many at a time, in the same wind.
+void flame_steps(benchmark::State& state) {
+  const auto instances = static_cast<int>(state.range(0)), count = static_cast<int>(state.range(1));
+  Bank bank = full_bank(flame_model({.wind = InputShape::kSplitSign}), instances);
+  bank.set_inputs(std::vector<float>(instances, 0.3f));
+  for (auto _ : state) bank.step(count);
+  per_instance(state, std::int64_t{instances} * count);
+}
+BENCHMARK(flame_steps)->ArgNames({"flames", "steps"})->ArgsProduct({{1, 1024, 131072, 1048576}, {1, 2, 4, 8}});
+
 void flame_step(benchmark::State& state) {
   step_flames(state, flame_model({.wind = InputShape::kSplitSign}), static_cast<int>(state.range(0)),
               static_cast<float>(state.range(1)));
@@ -180,6 +190,19 @@ void filter(benchmark::State& state) {
   }
 }
 BENCHMARK(filter)->ArgNames({"instances", "noise"})->ArgsProduct({{1, 1000}, {0, 1}})->Unit(benchmark::kMillisecond);
+
+// The same in one call.
+void filter_at_once(benchmark::State& state) {
+  Bank bank = full_bank(filter_model(), 1);
+  bank.set_noise(static_cast<float>(state.range(0)));
+  std::vector<float> input(kFilterSteps), output(kFilterSteps);
+  for (int step = 0; step < kFilterSteps; ++step) input[step] = static_cast<float>(step & 1);
+  for (auto _ : state) {
+    bank.step(kFilterSteps, input, output);
+    benchmark::DoNotOptimize(output.data());
+  }
+}
+BENCHMARK(filter_at_once)->ArgName("noise")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 // The same by direct form II transposed in double, as SciPy's lfilter and Octave's filter do it.
 void filter_plain(benchmark::State& state) {

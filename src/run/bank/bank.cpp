@@ -158,10 +158,17 @@ void Bank::set_crew(const Crew& crew) {
   state_->crew = crew;
 }
 
-void Bank::step() {
-  state_->passed = 0;
-  state_->between = false;
-  state_->step_all(true);
+void Bank::step() { step(1); }
+
+void Bank::step(int count, std::span<const float> inputs, std::span<float> outputs) {
+  State& s = *state_;
+  [[maybe_unused]] const auto all_rows = static_cast<std::size_t>(count) * static_cast<std::size_t>(s.rows);
+  assert(count >= 0 && (inputs.empty() || inputs.size() == all_rows * s.inputs));
+  assert(outputs.empty() || outputs.size() == all_rows * s.channels.outputs.size());
+  if (count == 0) return;
+  s.passed = 0;
+  s.between = false;
+  s.step_all({count, inputs.empty() ? nullptr : inputs.data(), outputs.empty() ? nullptr : outputs.data()});
 }
 
 int Bank::advance(std::chrono::nanoseconds time) {
@@ -171,23 +178,18 @@ int Bank::advance(std::chrono::nanoseconds time) {
   const auto steps = static_cast<int>(s.passed / s.step_time);
   s.passed %= s.step_time;
   s.between = true;
-  for (int k = 1; k <= steps; ++k) s.step_all(k == steps);
-  if (steps == 0) s.show();
+  if (steps > 0) {
+    s.step_all({steps});
+  } else {
+    s.show();
+  }
   return steps;
 }
 
 void Bank::outputs(std::span<float> values) const {
   const State& s = *state_;
-  const std::size_t count = s.channels.outputs.size();
-  assert(values.size() == s.rows * count);
-  for (int slot = 0; slot < s.rows; ++slot) {
-    float* row = values.data() + slot * count;
-    if (s.alive[slot]) {
-      s.read_outputs(slot, row);
-    } else {
-      std::fill_n(row, count, 0.0f);
-    }
-  }
+  assert(values.size() == s.rows * s.channels.outputs.size());
+  for (int block = 0; block < s.blocks(); ++block) s.read_block(block, values.data());
 }
 
 bool Bank::outputs(InstanceId id, std::span<float> values) const {
