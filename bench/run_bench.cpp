@@ -44,7 +44,13 @@ void step_flames(benchmark::State& state, const Model& model, int instances, flo
   per_instance(state, instances);
 }
 
-// Steps in one call, so many at a time, in the same wind.
+void flame_step(benchmark::State& state) {
+  step_flames(state, flame_model({.wind = InputShape::kSplitSign}), static_cast<int>(state.range(0)),
+              static_cast<float>(state.range(1)));
+}
+BENCHMARK(flame_step)->ArgNames({"flames", "noise"})->ArgsProduct({{1, 8, 64, 1024, 16384, 131072, 1048576}, {0, 1}});
+
+// So many steps in one call, with noise, in a wind that stays.
 void flame_steps(benchmark::State& state) {
   const auto instances = static_cast<int>(state.range(0)), count = static_cast<int>(state.range(1));
   Bank bank = full_bank(flame_model({.wind = InputShape::kSplitSign}), instances);
@@ -52,13 +58,22 @@ void flame_steps(benchmark::State& state) {
   for (auto _ : state) bank.step(count);
   per_instance(state, std::int64_t{instances} * count);
 }
-BENCHMARK(flame_steps)->ArgNames({"flames", "steps"})->ArgsProduct({{1, 1024, 131072, 1048576}, {1, 2, 4, 8}});
+BENCHMARK(flame_steps)->ArgNames({"flames", "steps"})->ArgsProduct({{1024, 1048576}, {1, 4, 16}});
 
-void flame_step(benchmark::State& state) {
-  step_flames(state, flame_model({.wind = InputShape::kSplitSign}), static_cast<int>(state.range(0)),
-              static_cast<float>(state.range(1)));
+// A frame at 60 Hz of flames far away, whose model makes fewer steps a second: between them they are interpolated.
+void flame_far(benchmark::State& state) {
+  const auto instances = static_cast<int>(state.range(0));
+  Model model = flame_model({.wind = InputShape::kSplitSign});
+  model.rate_hz = static_cast<double>(state.range(1));
+  Bank bank = full_bank(model, instances);
+  const std::vector<float> wind(instances, 0.3f);
+  for (auto _ : state) {
+    bank.set_inputs(wind);
+    bank.advance(std::chrono::nanoseconds(16'666'667));
+  }
+  per_instance(state, instances);
 }
-BENCHMARK(flame_step)->ArgNames({"flames", "noise"})->ArgsProduct({{1, 8, 64, 1024, 16384, 131072, 1048576}, {0, 1}});
+BENCHMARK(flame_far)->ArgNames({"flames", "rate"})->ArgsProduct({{1024, 1048576}, {60, 15}});
 
 // As wisp learn flame makes them.
 void default_flame_step(benchmark::State& state) {
