@@ -158,17 +158,29 @@ void Bank::set_crew(const Crew& crew) {
   state_->crew = crew;
 }
 
-void Bank::step() { step(1); }
+void Bank::step() {
+  state_->passed = 0;
+  state_->between = false;
+  state_->step_all({});
+}
 
 void Bank::step(int count, std::span<const float> inputs, std::span<float> outputs) {
   State& s = *state_;
-  [[maybe_unused]] const auto all_rows = static_cast<std::size_t>(count) * static_cast<std::size_t>(s.rows);
-  assert(count >= 0 && (inputs.empty() || inputs.size() == all_rows * s.inputs));
-  assert(outputs.empty() || outputs.size() == all_rows * s.channels.outputs.size());
+  const auto row_in = static_cast<std::size_t>(s.rows) * s.inputs;
+  const auto row_out = static_cast<std::size_t>(s.rows) * s.channels.outputs.size();
+  assert(count >= 0 && (inputs.empty() || inputs.size() == static_cast<std::size_t>(count) * row_in));
+  assert(outputs.empty() || outputs.size() == static_cast<std::size_t>(count) * row_out);
   if (count == 0) return;
   s.passed = 0;
   s.between = false;
-  s.step_all({count, inputs.empty() ? nullptr : inputs.data(), outputs.empty() ? nullptr : outputs.data()});
+  if (kAhead) {
+    return s.step_all({count, inputs.empty() ? nullptr : inputs.data(), outputs.empty() ? nullptr : outputs.data()});
+  }
+  for (std::size_t t = 0; t < static_cast<std::size_t>(count); ++t) {
+    if (!inputs.empty()) set_inputs(inputs.subspan(t * row_in, row_in));
+    s.step_all({});
+    if (!outputs.empty()) this->outputs(outputs.subspan(t * row_out, row_out));
+  }
 }
 
 int Bank::advance(std::chrono::nanoseconds time) {
@@ -178,11 +190,12 @@ int Bank::advance(std::chrono::nanoseconds time) {
   const auto steps = static_cast<int>(s.passed / s.step_time);
   s.passed %= s.step_time;
   s.between = true;
-  if (steps > 0) {
-    s.step_all({steps});
+  if (kAhead && steps > 1) {
+    s.step_all({.count = steps});
   } else {
-    s.show();
+    for (int k = 1; k <= steps; ++k) s.step_all({.show = k == steps});
   }
+  if (steps == 0) s.show();
   return steps;
 }
 

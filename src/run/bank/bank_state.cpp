@@ -184,7 +184,7 @@ void Bank::State::step_all(const Steps& made) {
   const auto turn = [](auto& dynamics) { dynamics.turn(); };
   std::visit(turn, stepper);
   clamped.clamped += share([&](int first, int last) { return path->step(*this, first, last, made); });
-  for (int step = 1; step < made.count; ++step) std::visit(turn, stepper);
+  for (int step = 1; kAhead && step < made.count; ++step) std::visit(turn, stepper);
   steps += static_cast<std::uint64_t>(made.count);
   clamped.steps += static_cast<std::uint64_t>(made.count) * static_cast<std::uint64_t>(living);
 }

@@ -14,6 +14,9 @@ namespace wisp {
 
 // No age leads there: moments before a bank was restored lie just below 0, and so near the largest number.
 inline constexpr std::uint64_t kNeverInSteps = std::uint64_t{1} << 63;
+// Whether a block may make many steps before the next makes its first. A build whose size comes first has Steps of one
+// alone, and nothing goes in or out with them.
+inline constexpr bool kAhead = WISP_BLOCKS_AT_ONCE > 1;
 inline constexpr float kMaxNoise = 10.0f;
 inline constexpr float kMinNoise = 1e-6f;  // what is less is none
 

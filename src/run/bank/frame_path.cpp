@@ -87,7 +87,7 @@ std::uint64_t Bank::State::step_blocks(int first, int last, const Steps& made) {
             count_of_clamped +=
                 group == kGroup ? step_group<kGroup>(one, block, made) : step_group<1>(one, block, made);
           };
-          if (made.count == 1) {
+          if (!kAhead || made.count == 1) {
             step(dynamics);
           } else {
             auto&& one = dynamics.ahead();
@@ -104,10 +104,11 @@ template <int kBlocks, class Dynamics>
 std::uint64_t Bank::State::step_group(Dynamics& dynamics, int first, const Steps& made) {
   std::uint64_t count_of_clamped = 0;
   std::uint32_t flags[kBlocks * kLanes];
-  for (int step = 0; step < made.count; ++step) {
+  const int count = kAhead ? made.count : 1;
+  for (int step = 0; step < count; ++step) {
     if (step > 0) dynamics.turn();
     for (int block = first; block < first + kBlocks; ++block) {
-      if (made.inputs) set_inputs(block, made.inputs + static_cast<std::size_t>(step) * rows * inputs);
+      if (kAhead && made.inputs) set_inputs(block, made.inputs + static_cast<std::size_t>(step) * rows * inputs);
       copy_lanes(regressors_of(block), channels.regressors.size(), dynamics.regressors(block));
     }
     dynamics.template step<kBlocks>(first, moment(first, flags, step));
@@ -115,8 +116,9 @@ std::uint64_t Bank::State::step_group(Dynamics& dynamics, int first, const Steps
       if (extinction.present) live_block(block, dynamics.newest(block), steps + static_cast<std::uint64_t>(step) + 1);
       count_of_clamped += count_clamped(block, flags + (block - first) * kLanes);
     }
-    if (made.outputs || (made.show && step + 1 == made.count)) show_blocks<kBlocks>(dynamics, first);
-    for (int block = first; made.outputs && block < first + kBlocks; ++block) {
+    const bool read = kAhead && made.outputs;
+    if (read || (made.show && step + 1 == count)) show_blocks<kBlocks>(dynamics, first);
+    for (int block = first; read && block < first + kBlocks; ++block) {
       read_block(block, made.outputs + static_cast<std::size_t>(step) * rows * channels.outputs.size());
     }
   }
