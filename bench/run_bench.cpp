@@ -50,6 +50,31 @@ void flame_step(benchmark::State& state) {
 }
 BENCHMARK(flame_step)->ArgNames({"flames", "noise"})->ArgsProduct({{1, 8, 64, 1024, 16384, 131072, 1048576}, {0, 1}});
 
+// So many steps in one call, with noise, in a wind that stays.
+void flame_steps(benchmark::State& state) {
+  const auto instances = static_cast<int>(state.range(0)), count = static_cast<int>(state.range(1));
+  Bank bank = full_bank(flame_model({.wind = InputShape::kSplitSign}), instances);
+  bank.set_inputs(std::vector<float>(instances, 0.3f));
+  for (auto _ : state) bank.step(count);
+  per_instance(state, std::int64_t{instances} * count);
+}
+BENCHMARK(flame_steps)->ArgNames({"flames", "steps"})->ArgsProduct({{1024, 1048576}, {1, 4, 16}});
+
+// A frame at 60 Hz of flames far away, whose model makes fewer steps a second: between them they are interpolated.
+void flame_far(benchmark::State& state) {
+  const auto instances = static_cast<int>(state.range(0));
+  Model model = flame_model({.wind = InputShape::kSplitSign});
+  model.rate_hz = static_cast<double>(state.range(1));
+  Bank bank = full_bank(model, instances);
+  const std::vector<float> wind(instances, 0.3f);
+  for (auto _ : state) {
+    bank.set_inputs(wind);
+    bank.advance(std::chrono::nanoseconds(16'666'667));
+  }
+  per_instance(state, instances);
+}
+BENCHMARK(flame_far)->ArgNames({"flames", "rate"})->ArgsProduct({{1024, 1048576}, {60, 15}});
+
 // As wisp learn flame makes them.
 void default_flame_step(benchmark::State& state) {
   step_flames(state, default_flame_model(), static_cast<int>(state.range(0)), 1.0f);
@@ -180,6 +205,19 @@ void filter(benchmark::State& state) {
   }
 }
 BENCHMARK(filter)->ArgNames({"instances", "noise"})->ArgsProduct({{1, 1000}, {0, 1}})->Unit(benchmark::kMillisecond);
+
+// The same in one call.
+void filter_at_once(benchmark::State& state) {
+  Bank bank = full_bank(filter_model(), 1);
+  bank.set_noise(static_cast<float>(state.range(0)));
+  std::vector<float> input(kFilterSteps), output(kFilterSteps);
+  for (int step = 0; step < kFilterSteps; ++step) input[step] = static_cast<float>(step & 1);
+  for (auto _ : state) {
+    bank.step(kFilterSteps, input, output);
+    benchmark::DoNotOptimize(output.data());
+  }
+}
+BENCHMARK(filter_at_once)->ArgName("noise")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 // The same by direct form II transposed in double, as SciPy's lfilter and Octave's filter do it.
 void filter_plain(benchmark::State& state) {

@@ -46,7 +46,8 @@ def peers():
 
 def rows_of(figures):
     """Name of a row and its figure at a width, in nanoseconds an instance and step."""
-    names = [name for name in figures["baseline"] if name.startswith(("flame_step/", "default_flame_step/", "flame_frame/"))]
+    rows = ("flame_step/", "default_flame_step/", "flame_frame/", "flame_steps/", "flame_far/")
+    names = [name for name in figures["baseline"] if name.startswith(rows)]
     return [(name, {width: figures[width][name]["ns_each"] for width in figures}) for name in names]
 
 
@@ -71,13 +72,15 @@ def print_limits(figures):
 
 
 def print_filter(figures, peer):
-    print("\n| order 4, 10⁶ steps, ms | one instance | a bank of 1,000 | SciPy's lfilter | bank : SciPy |")
-    print("| --- | ---: | ---: | ---: | ---: |")
+    print("\n| order 4, 10⁶ steps, ms | one instance | in one call | a bank of 1,000 | SciPy's lfilter | one call : SciPy | bank : SciPy |")
+    print("| --- | ---: | ---: | ---: | ---: | ---: | ---: |")
     widest = figures[list(figures)[-1]]
     for noise, name in ((0, "lfilter_ms"), (1, "lfilter_noise_ms")):
         one, bank = (widest[f"filter/instances:{count}/noise:{noise}"]["cpu_time"] for count in (1, 1000))
+        call = widest[f"filter_at_once/noise:{noise}"]["cpu_time"]
         label = "with Gaussian noise" if noise else "bare"
-        print(f"| {label} | {one:.1f} | {bank:.1f} | {peer[name]:.1f} | {bank / peer[name]:.2f} |")
+        ratios = f"{call / peer[name]:.2f} | {bank / peer[name]:.2f}"
+        print(f"| {label} | {one:.1f} | {call:.1f} | {bank:.1f} | {peer[name]:.1f} | {ratios} |")
 
 
 def main():

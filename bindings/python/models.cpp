@@ -94,11 +94,8 @@ void bind_bank(py::module_& module) {
       .def_property("noise", &Bank::noise, &Bank::set_noise)
       .def("set_inputs", &set_inputs, py::arg("values"), "One row for all instances, or one for each slot.")
       .def(
-          "step",
-          [](Bank& bank, int steps) {
-            for (int k = 0; k < steps; ++k) bank.step();
-          },
-          py::arg("steps") = 1, py::call_guard<py::gil_scoped_release>())
+          "step", [](Bank& bank, int steps) { bank.step(std::max(steps, 0)); }, py::arg("steps") = 1,
+          py::call_guard<py::gil_scoped_release>())
       .def(
           "advance",
           [](Bank& bank, double seconds) {

@@ -126,6 +126,13 @@ class Bank {
   /// One step of the model, for all instances. Outputs read afterwards are those of that step.
   void step();
 
+  /// Many steps in one call, for play offline: the same bits as so many single ones. Row t of `inputs`, slots() ×
+  /// input_count(), is set before step t, and stays set after the last; none: what was set acts on all. Row t of
+  /// `outputs`, slots() × output_count(), is what is read after it; none: nothing is.
+  ///
+  /// Precondition: count >= 0; `inputs` and `outputs` have `count` rows, or none.
+  void step(int count, std::span<const float> inputs = {}, std::span<float> outputs = {});
+
   /// Lets time pass: makes the steps that fall into it, and shows the outputs between the last two steps in proportion
   /// (one step of latency). A negative time counts as none, a longer one than kLongestAdvance as that. Returns the
   /// number of steps made.

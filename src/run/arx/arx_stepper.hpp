@@ -65,12 +65,16 @@ class ArxStepper : public ChannelHistory<N> {
   /// Blocks that step_group() steps at once.
   static constexpr int kGroup = Modes::kGroup;
 
-  /// Makes the newest sample of a block.
-  void step(int block, const Moment<N>& moment) { step_blocks<1>(block, moment); }
+  /// Makes the newest samples of blocks in a row, one or kGroup, of which the moment is the first's: each coefficient
+  /// is read once for all, and sums that do not wait for each other keep the machine busy.
+  template <int kBlocks = 1>
+  void step(int block, const Moment<N>& moment) {
+    step_blocks<kBlocks>(block, moment);
+  }
 
-  /// The same of kGroup blocks in a row, of which the moment is the first's: each coefficient is read once for all, and
-  /// sums that do not wait for each other keep the machine busy.
-  void step_group(int block, const Moment<N>& moment) { step_blocks<kGroup>(block, moment); }
+  /// What makes steps of some blocks before the others make theirs: a copy, of the same memory but with a place in its
+  /// rings of its own.
+  ArxStepper ahead() const { return *this; }
 
   /// Puts one lane to the operating point.
   void start(int block, int lane, const Moment<N>&) {

@@ -161,7 +161,26 @@ void Bank::set_crew(const Crew& crew) {
 void Bank::step() {
   state_->passed = 0;
   state_->between = false;
-  state_->step_all(true);
+  state_->step_all({});
+}
+
+void Bank::step(int count, std::span<const float> inputs, std::span<float> outputs) {
+  State& s = *state_;
+  const auto row_in = static_cast<std::size_t>(s.rows) * s.inputs;
+  const auto row_out = static_cast<std::size_t>(s.rows) * s.channels.outputs.size();
+  assert(count >= 0 && (inputs.empty() || inputs.size() == static_cast<std::size_t>(count) * row_in));
+  assert(outputs.empty() || outputs.size() == static_cast<std::size_t>(count) * row_out);
+  if (count == 0) return;
+  s.passed = 0;
+  s.between = false;
+  if (kAhead) {
+    return s.step_all({count, inputs.empty() ? nullptr : inputs.data(), outputs.empty() ? nullptr : outputs.data()});
+  }
+  for (std::size_t t = 0; t < static_cast<std::size_t>(count); ++t) {
+    if (!inputs.empty()) set_inputs(inputs.subspan(t * row_in, row_in));
+    s.step_all({});
+    if (!outputs.empty()) this->outputs(outputs.subspan(t * row_out, row_out));
+  }
 }
 
 int Bank::advance(std::chrono::nanoseconds time) {
@@ -171,23 +190,19 @@ int Bank::advance(std::chrono::nanoseconds time) {
   const auto steps = static_cast<int>(s.passed / s.step_time);
   s.passed %= s.step_time;
   s.between = true;
-  for (int k = 1; k <= steps; ++k) s.step_all(k == steps);
+  if (kAhead && steps > 1) {
+    s.step_all({.count = steps});
+  } else {
+    for (int k = 1; k <= steps; ++k) s.step_all({.show = k == steps});
+  }
   if (steps == 0) s.show();
   return steps;
 }
 
 void Bank::outputs(std::span<float> values) const {
   const State& s = *state_;
-  const std::size_t count = s.channels.outputs.size();
-  assert(values.size() == s.rows * count);
-  for (int slot = 0; slot < s.rows; ++slot) {
-    float* row = values.data() + slot * count;
-    if (s.alive[slot]) {
-      s.read_outputs(slot, row);
-    } else {
-      std::fill_n(row, count, 0.0f);
-    }
-  }
+  assert(values.size() == s.rows * s.channels.outputs.size());
+  for (int block = 0; block < s.blocks(); ++block) s.read_block(block, values.data());
 }
 
 bool Bank::outputs(InstanceId id, std::span<float> values) const {

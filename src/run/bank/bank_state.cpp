@@ -95,14 +95,14 @@ void Bank::State::extinguish(int slot) {
   if (!burns(slot)) return;
   harm[slot] = 1.0f;
   lit[slot] = 0.0f;
-  go_out(slot, steps);
+  const int block = slot / kLanes;
+  go_out(slot, std::visit([&](const auto& dynamics) { return dynamics.newest(block); }, stepper), steps);
 }
 
 // What is seen of a flame that is out shrinks as it was: a wind that kills is beyond what the dynamics have learned.
-void Bank::State::go_out(int slot, std::uint64_t moment) {
+void Bank::State::go_out(int slot, const float* newest, std::uint64_t moment) {
   const int block = slot / kLanes, lane = slot % kLanes;
   out_at[slot] = moment;
-  const float* newest = std::visit([&](const auto& dynamics) { return dynamics.newest(block); }, stepper);
   for (std::size_t i = 0; i < channels.outputs.size(); ++i) {
     float values[kLanes];
     using Values = Reals<LiveNumbers>;
@@ -154,7 +154,7 @@ void Bank::State::set_chain(const ChainSettings& settings) {
 
 // In parts of whole groups of blocks, so that no two parts write to one cache line.
 template <class Work>
-void Bank::State::share(Work work) {
+std::uint64_t Bank::State::share(Work work) {
   const bool shared = crew.run && std::visit([](const auto& dynamics) { return dynamics.can_be_shared(); }, stepper);
   const int groups = (blocks() + kGroupOfBlocks - 1) / kGroupOfBlocks;
   const int parts = shared ? std::min(crew.parts, groups) : 1;
@@ -164,6 +164,7 @@ void Bank::State::share(Work work) {
     Work& work;
     int groups;
     int parts;
+    std::atomic<std::uint64_t> sum = 0;
 
     int begin(int part) const {
       const auto group = static_cast<int>(static_cast<std::int64_t>(groups) * part / parts);
@@ -171,24 +172,39 @@ void Bank::State::share(Work work) {
     }
   } task{*this, work, groups, parts};
   const auto do_part = [](void* of, int part) {
-    const Task& own = *static_cast<Task*>(of);
-    own.work(own.begin(part), own.begin(part + 1));
+    Task& own = *static_cast<Task*>(of);
+    own.sum.fetch_add(own.work(own.begin(part), own.begin(part + 1)), std::memory_order_relaxed);
   };
   crew.run(crew.pool, parts, do_part, &task);
+  return task.sum;
 }
 
 // What is shown goes by `passed` and `between`, which are set before.
-void Bank::State::step_all(bool read) {
-  std::visit([](auto& dynamics) { dynamics.turn(); }, stepper);
-  std::atomic<std::uint64_t> count = 0;
-  share([&](int first, int last) { count.fetch_add(path->step(*this, first, last, read), std::memory_order_relaxed); });
-  clamped.clamped += count;
-  ++steps;
-  clamped.steps += static_cast<std::uint64_t>(living);
+void Bank::State::step_all(const Steps& made) {
+  const auto turn = [](auto& dynamics) { dynamics.turn(); };
+  std::visit(turn, stepper);
+  clamped.clamped += share([&](int first, int last) { return path->step(*this, first, last, made); });
+  for (int step = 1; kAhead && step < made.count; ++step) std::visit(turn, stepper);
+  steps += static_cast<std::uint64_t>(made.count);
+  clamped.steps += static_cast<std::uint64_t>(made.count) * static_cast<std::uint64_t>(living);
 }
 
 void Bank::State::show() {
-  share([this](int first, int last) { path->show(*this, first, last); });
+  share([this](int first, int last) {
+    path->show(*this, first, last);
+    return std::uint64_t{0};
+  });
+}
+
+void Bank::State::read_block(int block, float* rows_of_all) const {
+  const std::size_t count = channels.outputs.size();
+  const int first = block * kLanes, lanes = std::min(kLanes, rows - first);
+  const float* from = shown_of(block);
+  float* row = rows_of_all + static_cast<std::size_t>(first) * count;
+  for (int lane = 0; lane < lanes; ++lane, row += count) {
+    const bool lives = alive[first + lane];
+    for (std::size_t i = 0; i < count; ++i) row[i] = lives ? from[i * kLanes + lane] : 0.0f;
+  }
 }
 
 void Bank::State::read_outputs(int slot, float* values) const {

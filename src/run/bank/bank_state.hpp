@@ -14,6 +14,9 @@ namespace wisp {
 
 // No age leads there: moments before a bank was restored lie just below 0, and so near the largest number.
 inline constexpr std::uint64_t kNeverInSteps = std::uint64_t{1} << 63;
+// Whether a block may make many steps before the next makes its first. A build whose size comes first has Steps of one
+// alone, and nothing goes in or out with them.
+inline constexpr bool kAhead = WISP_BLOCKS_AT_ONCE > 1;
 inline constexpr float kMaxNoise = 10.0f;
 inline constexpr float kMinNoise = 1e-6f;  // what is less is none
 
@@ -41,21 +44,24 @@ struct Bank::State {
   }
   bool burns(int slot) const { return !extinction.present || lit[slot] != 0.0f; }
 
-  Moment<LiveNumbers> moment(int block, std::uint32_t* flags) const;
+  Moment<LiveNumbers> moment(int block, std::uint32_t* flags, int ahead = 0) const;
   void start(int slot);
   void relight(int slot);
   void extinguish(int slot);
   LitState lit_state(int slot) const;
-  void set_inputs(int block, const float* values, int count);
+  void set_inputs(int block, const float* all_rows);
   void set_common_inputs(int block, const float* values);
   void set_lane_inputs(int slot, const float* values);  // null: zeros
-  void step_all(bool read);
-  std::uint64_t step_blocks(int first, int last, bool read);
+  void step_all(const Steps& made);
+  std::uint64_t step_blocks(int first, int last, const Steps& made);
+  template <int kBlocks, class Dynamics>
+  std::uint64_t step_group(Dynamics& dynamics, int first, const Steps& made);
+  void read_block(int block, float* rows) const;  // slots() × outputs, of the bank: those of the block are written
   template <class Work>
-  void share(Work work);  // work(first block, one past its last), for all blocks
+  std::uint64_t share(Work work);  // the sum of work(first block, one past its last), for all blocks
   std::uint32_t count_clamped(int block, const std::uint32_t* flags) const;
-  void live_block(int block);
-  void go_out(int slot, std::uint64_t moment);
+  void live_block(int block, const float* newest, std::uint64_t moment);
+  void go_out(int slot, const float* newest, std::uint64_t moment);
   float* last_shape_of(int block) { return last_shape.data() + block * channels.outputs.size() * kLanes; }
   void show();
   void show_block(int block);

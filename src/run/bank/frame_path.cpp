@@ -14,11 +14,30 @@
 #endif
 
 namespace wisp {
+namespace {
 
-// Rows of the first `count` lanes of a block; what the others get is cleared when an instance is spawned there.
-void Bank::State::set_inputs(int block, const float* values, int count) {
+// A number in the first lane, 0 in the others; through memory it would wait until what was written there has arrived.
+Reals<LiveNumbers> alone(float value) {
+  auto lanes = all<Reals<LiveNumbers>>(0.0f);
+  first_part(value, lanes.part[0]);
+  return lanes;
+}
+
+// Of a model with few regressors a call would take longer than the copy.
+inline void copy_lanes(const float* from, std::size_t count, float* to) {
+  constexpr int kLanes = LiveNumbers::kLanes;
+  for (std::size_t k = 0; k < count; ++k) store(load<Reals<LiveNumbers>>(from + k * kLanes), to + k * kLanes);
+}
+
+}  // namespace
+
+// From rows of all slots. What lanes beyond them get is cleared when an instance is spawned there.
+void Bank::State::set_inputs(int block, const float* all_rows) {
+  const float* values = all_rows + static_cast<std::size_t>(block) * kLanes * inputs;
+  const int count = std::min(kLanes, rows - block * kLanes);
   const auto lanes_of = [&](int input) {
     if (inputs == 1 && count == kLanes) return load<Reals<LiveNumbers>>(values);  // they lie as lanes do
+    if (count == 1) return alone(values[input]);
     float lanes[kLanes] = {};
     for (int lane = 0; lane < count; ++lane) lanes[lane] = values[lane * inputs + input];
     return load<Reals<LiveNumbers>>(lanes);
@@ -43,46 +62,66 @@ void Bank::State::set_common_inputs(int block, const float* values) {
   store(blowing<LiveNumbers>(extinction, input), wind.data() + block * kLanes);
 }
 
-Moment<LiveNumbers> Bank::State::moment(int block, std::uint32_t* flags) const {
+Moment<LiveNumbers> Bank::State::moment(int block, std::uint32_t* flags, int ahead) const {
   const std::size_t first = static_cast<std::size_t>(block) * kLanes;
-  return {&keys, {stream.data() + first, born.data() + first, steps}, flags, std::min(kLanes, rows - block * kLanes)};
+  return {&keys,
+          {stream.data() + first, born.data() + first, steps + static_cast<std::uint64_t>(ahead)},
+          flags,
+          std::min(kLanes, rows - block * kLanes)};
 }
 
-std::uint64_t Bank::State::step_blocks(int first, int last, bool read) {
+// All steps of some blocks before those of the next: what they remember is then at hand.
+std::uint64_t Bank::State::step_blocks(int first, int last, const Steps& made) {
   std::uint64_t count_of_clamped = 0;
   std::visit(
       [&](auto& dynamics) {
-        const std::size_t count = channels.regressors.size() * kLanes;
         constexpr int kGroup = std::remove_reference_t<decltype(dynamics)>::kGroup;
-        std::uint32_t flags[kGroup * kLanes];
         for (int block = first; block < last;) {
-          const int group = last - block < kGroup ? 1 : kGroup;
           if constexpr (kGroup > 1) {
             if (dynamics.is_far()) {
               for (int b = block + kGroup; b < std::min(block + 2 * kGroup, last); ++b) dynamics.fetch(b);
             }
           }
-          for (int b = block; count > 0 && b < block + group; ++b) {
-            std::copy_n(regressors_of(b), count, dynamics.regressors(b));
-          }
-          if (group == kGroup) {
-            dynamics.step_group(block, moment(block, flags));
+          const int group = last - block < kGroup ? 1 : kGroup;
+          const auto step = [&](auto& one) {
+            count_of_clamped +=
+                group == kGroup ? step_group<kGroup>(one, block, made) : step_group<1>(one, block, made);
+          };
+          if (!kAhead || made.count == 1) {
+            step(dynamics);
           } else {
-            dynamics.step(block, moment(block, flags));
-          }
-          for (int b = 0; b < group; ++b) {
-            if (extinction.present) live_block(block + b);
-            count_of_clamped += count_clamped(block + b, flags + b * kLanes);
-          }
-          if (read && group == kGroup) {
-            show_blocks<kGroup>(dynamics, block);
-          } else if (read) {
-            show_blocks<1>(dynamics, block);
+            auto&& one = dynamics.ahead();
+            step(one);
           }
           block += group;
         }
       },
       stepper);
+  return count_of_clamped;
+}
+
+template <int kBlocks, class Dynamics>
+std::uint64_t Bank::State::step_group(Dynamics& dynamics, int first, const Steps& made) {
+  std::uint64_t count_of_clamped = 0;
+  std::uint32_t flags[kBlocks * kLanes];
+  const int count = kAhead ? made.count : 1;
+  for (int step = 0; step < count; ++step) {
+    if (step > 0) dynamics.turn();
+    for (int block = first; block < first + kBlocks; ++block) {
+      if (kAhead && made.inputs) set_inputs(block, made.inputs + static_cast<std::size_t>(step) * rows * inputs);
+      copy_lanes(regressors_of(block), channels.regressors.size(), dynamics.regressors(block));
+    }
+    dynamics.template step<kBlocks>(first, moment(first, flags, step));
+    for (int block = first; block < first + kBlocks; ++block) {
+      if (extinction.present) live_block(block, dynamics.newest(block), steps + static_cast<std::uint64_t>(step) + 1);
+      count_of_clamped += count_clamped(block, flags + (block - first) * kLanes);
+    }
+    const bool read = kAhead && made.outputs;
+    if (read || (made.show && step + 1 == count)) show_blocks<kBlocks>(dynamics, first);
+    for (int block = first; read && block < first + kBlocks; ++block) {
+      read_block(block, made.outputs + static_cast<std::size_t>(step) * rows * channels.outputs.size());
+    }
+  }
   return count_of_clamped;
 }
 
@@ -97,14 +136,14 @@ std::uint32_t Bank::State::count_clamped(int block, const std::uint32_t* flags) 
   return count;
 }
 
-void Bank::State::live_block(int block) {
+void Bank::State::live_block(int block, const float* newest, std::uint64_t moment) {
   float before[kLanes];
   const LifeLanes<float> life = life_of(block);
   std::copy_n(life.lit, kLanes, before);
   std::copy_n(life.size, kLanes, previous_size.data() + block * kLanes);
   live<LiveNumbers>(extinction, life);
   for (int lane = 0; lane < kLanes; ++lane) {
-    if (before[lane] != life.lit[lane]) go_out(block * kLanes + lane, steps + 1);
+    if (before[lane] != life.lit[lane]) go_out(block * kLanes + lane, newest, moment);
   }
 }
 
@@ -151,10 +190,7 @@ void Bank::State::show_life(int block, float share) {
 namespace {
 
 void set_inputs(Bank::State& s, const float* values) {
-  for (int block = 0; block < s.blocks(); ++block) {
-    const int first = block * s.kLanes;
-    s.set_inputs(block, values + static_cast<std::size_t>(first) * s.inputs, std::min(s.kLanes, s.rows - first));
-  }
+  for (int block = 0; block < s.blocks(); ++block) s.set_inputs(block, values);
 }
 
 void set_common_inputs(Bank::State& s, const float* values) {
@@ -187,6 +223,6 @@ extern "C" WISP_INSIDE const wisp::FramePath WISP_FRAME_PATH = {
     WISP_WIDTH_NAME,
     wisp::set_inputs,
     wisp::set_common_inputs,
-    [](wisp::Bank::State& s, int first, int last, bool read) { return s.step_blocks(first, last, read); },
+    [](wisp::Bank::State& s, int first, int last, const wisp::Steps& made) { return s.step_blocks(first, last, made); },
     wisp::show,
     wisp::polylines};

@@ -18,13 +18,21 @@
 
 namespace wisp {
 
+/// Steps that are made one after the other, and what goes in and out with each.
+struct Steps {
+  int count = 1;
+  const float* inputs = nullptr;  ///< rows of all slots, one set of them a step; null: what was set acts
+  float* outputs = nullptr;       ///< the same of what is read after each; null: nothing is
+  bool show = true;               ///< whether what the last has made can be read
+};
+
 struct FramePath {
   const char* width;
   void (*set_inputs)(Bank::State& state, const float* values);
   void (*set_common_inputs)(Bank::State& state, const float* values);
-  /// Makes the newest samples of blocks and, where they are to be read, shows them while they are at hand; returns of
-  /// how many instances an output was clamped.
-  std::uint64_t (*step)(Bank::State& state, int first, int last, bool read);
+  /// Makes new samples of blocks and, where they are to be read, shows them while they are at hand; returns in how many
+  /// steps of instances an output was clamped.
+  std::uint64_t (*step)(Bank::State& state, int first, int last, const Steps& made);
   void (*show)(Bank::State& state, int first, int last);
   void (*polylines)(const Bank::State& state, float* values);
 };

@@ -83,9 +83,12 @@ class ChainStepper {
 
   /// Joins take most of the time, and are done lane by lane: blocks together would be no faster.
   static constexpr int kGroup = 1;
-  void step_group(int block, const Moment<N>& moment) { step(block, moment); }
+
+  /// What makes steps of some blocks before the others make theirs: blocks share no place in time.
+  ChainStepper& ahead() { return *this; }
 
   /// Makes the newest sample of a block.
+  template <int kBlocks = 1>
   void step(int block, const Moment<N>& moment) {
     std::copy_n(newest(block), sample_size(), previous_of(block));
     std::fill_n(moment.clamped, kLanes, 0U);

@@ -64,6 +64,7 @@ inline RealPart square_root_part(RealPart a) {
 }
 inline void spread_part(float value, RealPart& part) { part = value - RealPart{}; }  // x − 0 is x: nothing is rounded
 inline void spread_part(std::uint32_t value, WordPart& part) { part = value - WordPart{}; }
+inline void first_part(float value, RealPart& part) { part = RealPart{value}; }  // 0 in the other lanes
 #else
 inline constexpr int kPartLanes = 1;
 using RealPart = float;
@@ -78,6 +79,7 @@ inline RealPart magnitude_part(RealPart a) { return std::fabs(a); }
 inline RealPart square_root_part(RealPart a) { return std::sqrt(a); }
 inline void spread_part(float value, RealPart& part) { part = value; }
 inline void spread_part(std::uint32_t value, WordPart& part) { part = value; }
+inline void first_part(float value, RealPart& part) { part = value; }
 #endif
 
 /// High and low words of a product.

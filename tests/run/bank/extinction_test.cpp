@@ -69,6 +69,17 @@ TEST(Extinction, AWindOfTheLevelKillsInItsSecondsAndAStrongerOneSooner) {
   }
 }
 
+// What is far away may be played by a model of fewer steps a second.
+TEST(Extinction, AModelOfAQuarterOfTheRateDiesAfterTheSameSeconds) {
+  for (float wind : {2.0f, 2.5f, 3.0f}) {
+    Model slow = mortal_flame();
+    slow.rate_hz /= 4;
+    Bank near = bank_of(mortal_flame()), far = bank_of(slow);
+    near.spawn(), far.spawn();
+    EXPECT_NEAR(4 * steps_to_death(far, wind), steps_to_death(near, wind), 4) << wind;
+  }
+}
+
 TEST(Extinction, WithoutHasteAnyWindAboveTheLevelTakesItsSeconds) {
   for (float wind : {2.0f, 3.0f, 1e9f}) {
     Bank bank = bank_of(mortal_flame(0));
