@@ -41,9 +41,8 @@ void set_filters(Design& d) {
   d.low_gain = power(d.low.gain);
   d.high_gain = power(d.high.gain);
   const double zero = 1 - approach(1 / rate, 1 / (2 * kPi * kLevelHz));
-  const double slope = magnitude_of_zero(zero, kLevelHz, rate);
   d.level_zero = static_cast<float>(zero);
-  d.level_gain = power(d.high_pass.gain * d.low_pass.gain / slope);
+  d.level_gain = d.voice_gain / static_cast<float>(power_of_zero(zero, kLevelHz, rate));
 }
 
 void set_times(Design& d, const WindOptions& options) {

@@ -1,6 +1,5 @@
 #include "sound/wind_filters.hpp"
 
-#include <cmath>
 #include <cstddef>
 
 namespace wisp::wind {
@@ -87,9 +86,9 @@ Turn turn_of(double share) {
   return {found.sin, found.cos};
 }
 
-double magnitude_of_zero(double zero, double frequency_hz, double rate_hz) {
+double power_of_zero(double zero, double frequency_hz, double rate_hz) {
   const double difference = 2 * sin_cos(kPi * frequency_hz / rate_hz).sin;
-  return std::sqrt((1 - zero) * (1 - zero) + zero * difference * difference);
+  return (1 - zero) * (1 - zero) + zero * difference * difference;
 }
 
 double approach(double step_seconds, double constant_seconds) {

@@ -35,8 +35,8 @@ struct Turn {
 };
 Turn turn_of(double share);
 
-/// Gain of x(t) − zero · x(t−1) at a frequency.
-double magnitude_of_zero(double zero, double frequency_hz, double rate_hz);
+/// Gain in power of x(t) − zero · x(t−1) at a frequency.
+double power_of_zero(double zero, double frequency_hz, double rate_hz);
 
 /// 1 − e^(−steps / time constant): how far an exponential average moves in one step.
 double approach(double step_seconds, double constant_seconds);
