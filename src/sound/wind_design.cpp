@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kMinAnalysisHz = 8000;
 constexpr double kMinBoxedHz = 32000;  // the box's dip at 3.4 kHz stays below 0.2 dB
+constexpr double kLevelHz = 300;       // the level rises above; its gain there is 1
 constexpr int kTapsPerPhase = 4;       // of the low-pass
 
 Result<void> in_range(const char* what, double found, double least, double most, const char* unit) {
@@ -39,8 +40,9 @@ void set_filters(Design& d) {
   d.voice_gain = power(d.high_pass.gain * d.low_pass.gain);
   d.low_gain = power(d.low.gain);
   d.high_gain = power(d.high.gain);
-  const double slope = magnitude_of_difference(300, rate);
-  d.level_gain = power(d.high_pass.gain * d.low_pass.gain / slope);
+  const double zero = 1 - approach(1 / rate, 1 / (2 * kPi * kLevelHz));
+  d.level_zero = static_cast<float>(zero);
+  d.level_gain = d.voice_gain / static_cast<float>(power_of_zero(zero, kLevelHz, rate));
 }
 
 void set_times(Design& d, const WindOptions& options) {

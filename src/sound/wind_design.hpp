@@ -44,7 +44,8 @@ struct Design {
   float floor_fall = 1;         ///< of the floor downwards in one hop (50 ms)
   float floor_rise_db = 0.01F;  ///< of the floor upwards in one hop
   float smoothing = 1;          ///< of the level's band power in one frame
-  float level_gain = 1;         ///< of that power, so that the level band passes 300 Hz as it is
+  float level_zero = 1;         ///< of what levels the band, 1 − zero z⁻¹: flat below 300 Hz, rising above
+  float level_gain = 1;         ///< of the level's power, so that its band passes 300 Hz as it is
   float power_exponent = 0.25F;
 
   int trust_frames = 5;          ///< another sound is one after so many frames (80 ms)

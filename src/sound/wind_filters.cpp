@@ -5,8 +5,6 @@
 namespace wisp::wind {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// sin and cos of x, |x| <= 4, by halving the angle eight times and doubling back; error below 1e-14. The C library's
 /// may differ in the last bit from one machine to the next.
 struct SinCos {
@@ -88,8 +86,9 @@ Turn turn_of(double share) {
   return {found.sin, found.cos};
 }
 
-double magnitude_of_difference(double frequency_hz, double rate_hz) {
-  return 2 * sin_cos(kPi * frequency_hz / rate_hz).sin;
+double power_of_zero(double zero, double frequency_hz, double rate_hz) {
+  const double difference = 2 * sin_cos(kPi * frequency_hz / rate_hz).sin;
+  return (1 - zero) * (1 - zero) + zero * difference * difference;
 }
 
 double approach(double step_seconds, double constant_seconds) {

@@ -5,6 +5,8 @@
 
 namespace wisp::wind {
 
+constexpr double kPi = 3.14159265358979323846;
+
 /// Coefficients of one second-order section: gain · (zeros) / (1 + a1 z⁻¹ + a2 z⁻²), the zeros being those of its kind.
 /// The gain is applied once to what comes of the band (a power), not to every sample.
 struct Section {
@@ -33,8 +35,8 @@ struct Turn {
 };
 Turn turn_of(double share);
 
-/// Gain of x(t) − x(t−1) at a frequency.
-double magnitude_of_difference(double frequency_hz, double rate_hz);
+/// Gain in power of x(t) − zero · x(t−1) at a frequency.
+double power_of_zero(double zero, double frequency_hz, double rate_hz);
 
 /// 1 − e^(−steps / time constant): how far an exponential average moves in one step.
 double approach(double step_seconds, double constant_seconds);

@@ -182,9 +182,10 @@ class Kernel {
     for (auto& channel : channels_) {
       const T voice = channel.bands.push(channel.decimator.value());
       channel.history.push(voice);
-      // The level's band is the voice band with its falling spectrum levelled by a difference: more of the band then
-      // counts, and a frame's level scatters less.
-      const T levelled = voice - channel.before;
+      // The level's band is the voice band, raised above 300 Hz: more of its falling spectrum then counts, and a
+      // frame's level scatters less. What lies below counts as it is, or a microphone that favours it hears no hard
+      // blow.
+      const T levelled = voice - T(d_.level_zero) * channel.before;
       channel.before = voice;
       frame_band_ = frame_band_ + levelled * levelled;
     }

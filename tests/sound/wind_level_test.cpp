@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "sound/wind_sounds.hpp"
@@ -100,6 +101,23 @@ TEST(WindLevel, RmsIsThatOfTheFramesSamples) {
     const double exact = sounds::rms_of(std::span(sound).subspan(k * 1470, 1470));
     // 1470 squares summed in single precision, in pieces: a few roundings of 6e-8 each.
     EXPECT_NEAR(frames[k].rms, exact, 3e-6 * exact);
+  }
+}
+
+// The level band is flat below 300 Hz but for the high-pass at 100 Hz (0.914 at 150 Hz), rises as x(t) − z x(t−1)
+// above, and is 0.914 of that at 600 Hz by the low-pass at 900 Hz.
+TEST(WindLevel, LowSoundCountsNearlyAsMuchAsItsRms) {
+  for (const double rate : {8000.0, 44100.0, 96000.0}) {
+    const auto level_of = [rate](double hz) {
+      Samples sound = sounds::room(2, rate, 1e-4);
+      for (std::size_t i = 0; i < sound.size() / 2; ++i)
+        sound[sound.size() / 2 + i] +=
+            0.1F * static_cast<float>(std::sin(2 * std::numbers::pi * hz * static_cast<double>(i) / rate));
+      return mean_of(hear({rate, 1}, sound), &WindFrame::level, 1.2, 1.6);
+    };
+    EXPECT_NEAR(level_of(300), 0.1 / std::numbers::sqrt2, 0.002) << rate;
+    EXPECT_NEAR(level_of(150) / level_of(300), 0.73, 0.02) << rate;
+    EXPECT_NEAR(level_of(600) / level_of(300), 1.45, 0.05) << rate;
   }
 }
 
