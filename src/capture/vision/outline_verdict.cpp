@@ -34,7 +34,7 @@ constexpr double kMaxLost = 0.1;       // share of rows without a frame of their
 constexpr double kMaxRepeated = 0.35;  // … and that repeat the one before
 constexpr double kFlat = 0.5;          // share of a shape that is clipped: then its form is the camera's
 constexpr double kMinHeight = 10;      // pixels
-constexpr double kOutSeconds = 0.3;    // without a flame until the clip's end: it went out; gaps in films last 0.13 at most
+constexpr double kOutSeconds = 0.3;    // without a flame until the end: it went out; gaps in films last 0.13 at most
 
 constexpr int kCurvePoints = 64;
 

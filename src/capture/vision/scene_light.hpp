@@ -1,8 +1,8 @@
 #pragma once
 // Whether a picture without the thing shows the scene that it stood in, or another one.
 //
-// Where a flame goes out its scene darkens, and nothing becomes brighter: a lamp that stood beside it stays. Where a film
-// is cut to another scene, its light is where none was before.
+// Where a flame goes out its scene darkens, and nothing becomes brighter: a lamp that stood beside it stays. Where a
+// film is cut to another scene, its light is where none was before.
 
 #include <cstdint>
 #include <vector>

@@ -294,7 +294,9 @@ TEST(OutlineCapture, AFlameThatGoesOutBesideALampIsUsableAndOut) {
 TEST(OutlineCapture, AThirdOfASecondInTheDarkIsTheEndOfAFlame) {
   OutlineCaptureOptions options = options_for();
   options.rate_hz = 60;
-  const auto dark_from = [](int first) { return [=](int k) { return k < first ? noisy_flame(k) : Plane(160, 180, 8); }; };
+  const auto dark_from = [](int first) {
+    return [=](int k) { return k < first ? noisy_flame(k) : Plane(160, 180, 8); };
+  };
   EXPECT_EQ(capture(80, dark_from(60), options)->report.out_at, 60u);
   EXPECT_EQ(capture(70, dark_from(60), options)->report.out_at, std::nullopt);
 }
