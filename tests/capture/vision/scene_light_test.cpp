@@ -49,14 +49,5 @@ TEST(SceneLight, WhereTheFlameWasInAnyPictureIsNotNew) {
   EXPECT_FALSE(light.another(grey_picture(scene(100, 230, 20).view())));
 }
 
-TEST(SceneLight, ALampThatStoodBesideTheFlameIsKnownAndOneElsewhereIsNot) {
-  SceneLight light;
-  Plane both = scene(60, 230, 20);
-  both.fill({200, 60, 30, 80}, 240);
-  light.remember(grey_picture(both.view()));
-  EXPECT_TRUE(light.knows(grey_picture(scene(203, 240, 10).view()), {203, 60, 30, 80}));
-  EXPECT_FALSE(light.knows(grey_picture(scene(250, 240, 10).view()), {250, 60, 30, 80}));
-}
-
 }  // namespace
 }  // namespace wisp
