@@ -20,11 +20,12 @@ struct Outcome {
   double tracked = 0;  // share of frames in which it burns
   int elsewhere = 0;   // frames whose outline misses the flame, or is there without one
   bool usable = false;
-  bool out_told = true;
+  bool out_told = true;  // its end, in the right place, or that it has none
   std::string reason;
 };
 
 constexpr std::array<int, 2> kPoints{8, 16};
+constexpr std::ptrdiff_t kMaxEndOff = 2;  // frames: a last glow may still be outlined
 
 Outcome judge(const Scene& scene, const std::vector<SceneFrame>& frames, OutlineCapture& capture, int points) {
   Outcome out;
@@ -54,7 +55,8 @@ Outcome judge(const Scene& scene, const std::vector<SceneFrame>& frames, Outline
   out.tracked = static_cast<double>(seen) / burning;
   out.usable = captured->report.usable;
   out.reason = captured->report.reason;
-  out.out_told = captured->report.out_at.has_value() == (scene.out_from > 0);
+  const auto told = static_cast<std::ptrdiff_t>(captured->report.out_at.value_or(0));
+  out.out_told = std::abs(told - scene.out_from) <= kMaxEndOff;
   return out;
 }
 
@@ -134,7 +136,7 @@ int run(int argc, char** argv) {
     bounds.at_least("mean IoU of fair scenes", t.overlap / t.fair, k == 0 ? 0.93 : 0.96);
     bounds.at_most("frames of fair scenes with an outline elsewhere", t.elsewhere, 0);
     bounds.at_least("verdict right", static_cast<double>(t.right_usable + t.wrong_refused) / all, 0.95);
-    bounds.at_most("scenes in which a flame's end was missed or made up", t.out_untold, 0);
+    bounds.at_most("scenes in which a flame's end was missed, misplaced or made up", t.out_untold, 0);
   }
   return bounds.missed() == 0 ? 0 : 1;
 }

@@ -1,7 +1,9 @@
 #include "capture/media/video_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <new>
 
 namespace wisp {
@@ -19,10 +21,16 @@ double grid_rate(const AVStream& track) {
   return nominal / mean < 1.5 ? nominal : mean;
 }
 
+// Clockwise, as the file says that it is to be shown. A mirrored picture is left mirrored: a flame has no left or
+// right.
 int quarter_turns(const AVStream& track) {
-  const std::uint8_t* matrix = av_stream_get_side_data(&track, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
-  if (matrix == nullptr) return 0;
-  const double degrees = -av_display_rotation_get(reinterpret_cast<const std::int32_t*>(matrix));
+  const std::uint8_t* stated = av_stream_get_side_data(&track, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
+  if (stated == nullptr) return 0;
+  std::array<std::int32_t, 9> matrix;
+  std::memcpy(matrix.data(), stated, sizeof matrix);
+  const bool mirrored = double(matrix[0]) * matrix[4] < double(matrix[1]) * matrix[3];
+  if (mirrored) av_display_matrix_flip(matrix.data(), 1, 0);
+  const double degrees = -av_display_rotation_get(matrix.data());
   if (std::isnan(degrees)) return 0;
   return static_cast<int>(std::lround(degrees / 90) % 4 + 4) % 4;
 }

@@ -270,7 +270,8 @@ void OutlineCapture::Stage::look(const Picture& picture) {
     finding.residual = static_cast<float>(estimate.residual);
     findings_.controls.insert(findings_.controls.end(), estimate.mean.begin(), estimate.mean.end());
   } else {
-    finding.elsewhere = seeker_->elsewhere() || scene_.another(picture);
+    // Something as bright elsewhere counts only before the scene is known: later it may be a lamp, or a lit snuffer.
+    finding.elsewhere = scene_.empty() ? seeker_->elsewhere() : scene_.another(picture);
     tracker_->forget();
     findings_.controls.resize(findings_.controls.size() + 2 * static_cast<std::size_t>(options_.points));
   }

@@ -9,6 +9,10 @@ namespace wisp {
 namespace {
 
 constexpr double kFadeShare = 0.73;  // a thing dimmer than this share of its usual brightness is fading
+// Until it is lost, what a film of 1 to 2 s fades out is dimmer than 0.89 in the last 0.1 s; a snuffed flame 0.94 to
+// 0.98.
+constexpr double kDimShare = 0.92;
+constexpr double kDimSeconds = 0.1;
 constexpr double kDuplicateShare =
     0.35;                               // a frame that changes less than this share of its neighbours repeats the last
 constexpr double kDuplicateMost = 0.5;  // … and by less than half a grey level: a picture taken anew has its own noise
@@ -46,12 +50,15 @@ Fate judge(const FrameFindings& findings, std::size_t row, double usual_brightne
   return duplicate(findings, row) ? Fate::kDuplicate : Fate::kKept;
 }
 
-std::vector<Fate> judge(const FrameFindings& findings) {
+double usual_brightness_of(const FrameFindings& findings) {
   std::vector<float> brightness;
   for (const FrameFinding& frame : findings.frames) {
     if (frame.kind == FrameFinding::Kind::kTracked) brightness.push_back(frame.brightness);
   }
-  const double usual_brightness = median(std::move(brightness));
+  return median(std::move(brightness));
+}
+
+std::vector<Fate> judge(const FrameFindings& findings, double usual_brightness) {
   std::vector<Fate> fate;
   for (std::size_t row = 0; row < findings.size(); ++row) fate.push_back(judge(findings, row, usual_brightness));
   return fate;
@@ -154,6 +161,17 @@ void find_other_scenes(const std::vector<Fate>& fate, const FrameFindings& findi
   facts.other_after = other(last, fate.end());
 }
 
+// Whether the thing was dim for long enough before it was gone: then the film fades. What goes out is gone at once.
+bool fades_out(const std::vector<Fate>& fate, const FrameFindings& findings, double usual_brightness, double rate_hz) {
+  std::size_t end = static_cast<std::size_t>(std::find_if(fate.rbegin(), fate.rend(), present).base() - fate.begin());
+  while (end < fate.size() && findings.frames[end].kind == FrameFinding::Kind::kTracked) ++end;
+  const auto rows = std::max<std::size_t>(2, static_cast<std::size_t>(std::ceil(kDimSeconds * rate_hz)));
+  if (end < rows) return false;
+  return std::all_of(findings.frames.begin() + static_cast<std::ptrdiff_t>(end - rows),
+                     findings.frames.begin() + static_cast<std::ptrdiff_t>(end),
+                     [&](const FrameFinding& f) { return f.brightness < kDimShare * usual_brightness; });
+}
+
 void write_channels(const std::vector<Fate>& fate, const std::vector<double>& controls, int points,
                     Recording& recording) {
   const std::size_t rows = fate.size(), width = 2 * static_cast<std::size_t>(points);
@@ -191,7 +209,8 @@ void write_episodes(const std::vector<Fate>& fate, Recording& recording) {
 }  // namespace
 
 void assemble_rows(const FrameFindings& findings, int points, Recording& recording, CaptureReport& report) {
-  std::vector<Fate> fate = judge(findings);
+  const double usual_brightness = usual_brightness_of(findings);
+  std::vector<Fate> fate = judge(findings, usual_brightness);
   const auto times = [&](Fate one) { return static_cast<std::size_t>(std::count(fate.begin(), fate.end(), one)); };
   report.duplicates = times(Fate::kDuplicate);
   report.facts.repeated = static_cast<double>(report.duplicates) / static_cast<double>(fate.size());
@@ -202,6 +221,7 @@ void assemble_rows(const FrameFindings& findings, int points, Recording& recordi
   fill_gaps(fate, controls, 2 * static_cast<std::size_t>(points));
   count(fate, findings, report);
   find_other_scenes(fate, findings, report.facts);
+  report.facts.fades_out = fades_out(fate, findings, usual_brightness, report.rate_hz);
   write_channels(fate, controls, points, recording);
   write_episodes(fate, recording);
 }

@@ -1,8 +1,8 @@
 #pragma once
 // Whether a picture without the thing shows the scene that it stood in, or another one.
 //
-// Where a flame goes out its scene darkens, and nothing becomes brighter. Where a film is cut to another scene, its
-// light is where none was before.
+// Where a flame goes out its scene darkens, and little becomes brighter: a lamp that stood beside it stays, and what
+// puts it out is small. Where a film is cut to another scene, its light is where none was before.
 
 #include <cstdint>
 #include <vector>
@@ -15,6 +15,9 @@ class SceneLight {
  public:
   /// Takes in a picture that shows the thing.
   void remember(const Picture& picture);
+
+  /// Whether none was taken in.
+  bool empty() const { return brightest_.empty(); }
 
   /// Whether most of the light in a picture is where there was none in those that were taken in.
   bool another(const Picture& picture);

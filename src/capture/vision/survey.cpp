@@ -19,6 +19,7 @@ constexpr double kOtherScene = 64;   // … and differs from the usual picture b
 constexpr double kMinContrast = 12;  // levels between the clusters, of 255: less is noise of one brightness
 constexpr double kAsLikely = 0.35;   // another flame is at least this share as likely as the first
 constexpr double kAsBright = 0.9;    // … and as bright
+constexpr double kMoves = 0.05;      // … and changes by this share, as flames do, or by half as much as the first
 constexpr double kAsGood = 0.5;      // at another level it is still the same thing when it is this share as likely
 constexpr double kHalfWay = 0.58;
 constexpr double kNearlyAsLikely = 0.82;  // one that shows more of the same flame is at least this share as likely
@@ -168,13 +169,14 @@ bool same_place(const Candidate& a, const Candidate& b) {
 }
 
 // The likeliest candidate, and others in its channel and at its level that are nearly as likely: flames of one picture
-// are alike, where what they light is as bright only at other levels. Largest first.
+// are alike, where what they light is as bright only at other levels, and lamps stand still. Largest first.
 std::vector<Candidate> places(const std::vector<Candidate>& candidates, const SurveyOptions& options) {
   std::vector<Candidate> out;
   const Candidate& best = candidates.front();
   for (const Candidate& c : candidates) {
     if (c.channel != best.channel || c.level != best.level) continue;
     if (c.score < kAsLikely * best.score || c.light < kAsBright * best.light) continue;
+    if (c.change < std::min(kMoves, 0.5 * best.change)) continue;  // a lamp, filmed from a hand
     if (std::none_of(out.begin(), out.end(), [&](const Candidate& other) { return same_place(c, other); })) {
       out.push_back(c);
     }

@@ -5,6 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <fstream>
+#include <iterator>
+
 #include "capture/support/clip_files.hpp"
 
 namespace wisp {
@@ -257,6 +261,47 @@ TEST(VideoFile, GlimpsesDoNotDisturbTheFrames) {
     EXPECT_EQ(plane_in_place((*a)->picture, PixelChannel::kLuma).at(340, 300),
               plane_in_place((*b)->picture, PixelChannel::kLuma).at(340, 300));
   }
+}
+
+// A copy of a film that says to be shown by (a b; c d) of its pixels, in the header of its last track.
+std::filesystem::path shown_by(const std::filesystem::path& film, std::array<int, 4> matrix,
+                               const ScratchFolder& folder) {
+  std::ifstream in(film, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const auto put = [](std::string& out, int value) {
+    for (int shift = 24; shift >= 0; shift -= 8) out += static_cast<char>(value >> shift & 255);
+  };
+  const auto stated = [&](std::array<int, 4> m) {
+    std::string out;
+    for (const int value : {m[0] << 16, m[1] << 16, 0, m[2] << 16, m[3] << 16, 0, 0, 0, 1 << 30}) put(out, value);
+    return out;
+  };
+  const std::size_t at = bytes.find(stated({1, 0, 0, 1}), bytes.rfind("tkhd"));
+  bytes.replace(at, 36, stated(matrix));
+  std::ofstream(folder / "shown.mp4", std::ios::binary) << bytes;
+  return folder / "shown.mp4";
+}
+
+TEST(VideoFile, IsSeenTurnedAsItSaysAndNeverUpsideDownBecauseItIsMirrored) {
+  const auto path = support::real_data() / "flame/flame_shaken_1080p60.mp4";
+  WISP_NEEDS(path);
+  ScratchFolder folder("turned");
+  constexpr int kX = 900, kY = 700;
+  const auto first = [&](std::array<int, 4> matrix, int x, int y) {
+    auto reader = VideoReader::open(shown_by(path, matrix, folder));
+    const auto frame = reader->next();
+    return static_cast<int>(plane_in_place((*frame)->picture, PixelChannel::kLuma).at(x, y));
+  };
+  auto plain = VideoReader::open(path);
+  const auto frame = plain->next();
+  const ImageView stored = plane_in_place((*frame)->picture, PixelChannel::kLuma);
+  const int value = stored.at(kX, kY), right = stored.width - 1, bottom = stored.height - 1;
+  ASSERT_NE(value, stored.at(right - kX, bottom - kY));
+  EXPECT_EQ(first({0, 1, -1, 0}, bottom - kY, kX), value);
+  EXPECT_EQ(first({-1, 0, 0, -1}, right - kX, bottom - kY), value);
+  EXPECT_EQ(first({0, -1, 1, 0}, kY, right - kX), value);
+  EXPECT_EQ(first({-1, 0, 0, 1}, kX, kY), value);                   // mirrored left to right: as it is
+  EXPECT_EQ(first({1, 0, 0, -1}, right - kX, bottom - kY), value);  // upside down: turned
 }
 
 TEST(VideoFile, CutInHalfIsReadAsFarAsItGoesWithAWarning) {

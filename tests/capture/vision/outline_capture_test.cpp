@@ -276,6 +276,45 @@ TEST(OutlineCapture, AFlameInAnotherPlaceIsAnotherFlame) {
   EXPECT_THAT(captured->report.reason, HasSubstr("the camera moves too far; give frames 1 to 30 alone"));
 }
 
+TEST(OutlineCapture, AFlameThatGoesOutBesideALampIsUsableAndOut) {
+  const auto captured = capture(90, [](int k) {
+    Plane plane(320, 180, 8);
+    const Flame flame = support::swaying(k);
+    if (k < 60) support::paint(plane, 230, 3.0, [&](double x, double y) { return flame.depth(x, y); });
+    plane.fill({220, 60, 36, 80}, 230);
+    add_noise(plane, static_cast<unsigned>(k));
+    return plane;
+  });
+  ASSERT_TRUE(captured);
+  EXPECT_EQ(captured->report.tracked, 60u);
+  EXPECT_EQ(captured->report.out_at, 60u);
+  EXPECT_TRUE(captured->report.usable) << captured->report.reason;
+}
+
+TEST(OutlineCapture, AThirdOfASecondInTheDarkIsTheEndOfAFlame) {
+  OutlineCaptureOptions options = options_for();
+  options.rate_hz = 60;
+  const auto dark_from = [](int first) {
+    return [=](int k) { return k < first ? noisy_flame(k) : Plane(160, 180, 8); };
+  };
+  EXPECT_EQ(capture(80, dark_from(60), options)->report.out_at, 60u);
+  EXPECT_EQ(capture(70, dark_from(60), options)->report.out_at, std::nullopt);
+}
+
+TEST(OutlineCapture, AFilmThatFadesToBlackIsNotAFlameThatGoesOut) {
+  const auto captured = capture(120, [](int k) {
+    Plane plane = support::flame_picture(support::swaying(k));
+    const double share = std::clamp((110 - k) / 30.0, 0.0, 1.0);  // over a second
+    for (auto& pixel : plane.pixels) pixel = static_cast<std::uint8_t>(std::lround(share * pixel));
+    add_noise(plane, static_cast<unsigned>(k));
+    return plane;
+  });
+  ASSERT_TRUE(captured);
+  EXPECT_TRUE(captured->report.usable) << captured->report.reason;
+  EXPECT_LT(captured->report.tracked, 100u);
+  EXPECT_EQ(captured->report.out_at, std::nullopt);
+}
+
 TEST(OutlineCapture, AFilmThatIsCutToAFlameIsNotUsableAndNamesItsFrames) {
   const auto captured = capture(90, [](int k) {
     Flame flame = support::swaying(k);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <deque>
 
 #include "capture/support/synthetic.hpp"
@@ -73,6 +74,23 @@ TEST(Survey, PicturesOfATitleDoNotCount) {
   ASSERT_TRUE(survey);
   EXPECT_NEAR(survey->level, survey_scene(plain.pictures, {}).value().level, 3);
   EXPECT_EQ(survey->seen.size(), 12u);
+}
+
+TEST(Survey, ALampFilmedFromAHandIsNoOtherFlame) {
+  Clip clip;
+  for (int k = 0; k < 20; ++k) {
+    Flame flame = support::swaying(k);
+    const double x = 4 * std::sin(1.9 * k), y = 4 * std::sin(1.3 * k);
+    flame.base_x = 200 + x, flame.base_y = 130 + y;
+    flame.height *= 0.36, flame.half_width *= 0.3, flame.lean *= 0.5;
+    Plane plane = support::flame_picture(flame, 480, 180);
+    support::paint(plane, 230, 1.0, [&](double px, double py) { return 33 - std::hypot(px - 380 - x, py - 60 - y); });
+    clip.add(std::move(plane));
+  }
+  const auto survey = survey_scene(clip.pictures, {});
+  ASSERT_TRUE(survey);
+  EXPECT_EQ(survey->flames, 1);
+  EXPECT_LT(survey->home.x, 200);
 }
 
 TEST(Survey, DarkThingsAreFoundOnLightGround) {

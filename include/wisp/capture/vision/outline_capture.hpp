@@ -50,6 +50,7 @@ struct OutlineFacts {
   std::size_t still = 0;           ///< rows before it in which the thing stood there and did not move
   std::size_t other_before = 0;    ///< rows before it, where most of them show another bright thing elsewhere
   std::size_t other_after = 0;     ///< … and rows after the last outline
+  bool fades_out = false;          ///< the thing dims before the last outline, as where a film fades to black
   double lost = 0;                 ///< share of the clip's rows that have no frame, filled or not
   double repeated = 0;             ///< … and whose frame repeats the one before
   double jumps = 0;                ///< share of steps by which base or height change more than a flame's can
