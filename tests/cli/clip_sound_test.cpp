@@ -185,7 +185,7 @@ TEST_F(ClipSound, AModelOfWindIsNotHeldAgainstAClipWithout) {
   learned("windy.mp4");
   const Said said = wisp("validate " + at("m.wisp") + " " + at("mute.mp4"));
   EXPECT_EQ(said.status, 1);
-  EXPECT_THAT(said.err, HasSubstr("there is no input wind"));
+  EXPECT_THAT(said.err, HasSubstr("has no input wind, which tells what blew the flame out"));
 }
 
 TEST_F(ClipSound, ACameraThatDropsFramesStaysInStep) {
@@ -212,7 +212,7 @@ TEST_F(ClipSound, EveryMeasureHasANameOfItsOwn) {
   // The last model is of plain RMS: speed does not drive it.
   const Said said = wisp("validate " + at("m.wisp") + " " + at("clip.mp4"));
   EXPECT_EQ(said.status, 1);
-  EXPECT_THAT(said.err, HasSubstr("there is no input wind.rms"));
+  EXPECT_THAT(said.err, HasSubstr("has no input wind.rms, which tells what blew the flame out"));
   EXPECT_EQ(wisp("validate " + at("m.wisp") + " " + at("clip.mp4") + " --wind-measure rms").status, 0);
 }
 

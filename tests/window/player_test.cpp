@@ -295,10 +295,11 @@ TEST(Players, ShowTheSamePicturesForTheSameSeed) {
   EXPECT_FALSE(picture(1) == picture(2));
 }
 
-// From the first sample of blowing to the first picture that differs from one of silence, with sound in blocks as from
-// a microphone, at twelve places of the onset within block and frame.
-TEST(Latency, IsAtMostAFrameABlockAndAModelStep) {
-  const double frame = 1.0 / kFrameRate, block = kSoundBlock / kRate, step = 1.0 / 60;
+// From the first sample of blowing to the first picture of a flame in a wind of a tenth, with sound in blocks as from a
+// microphone, at twelve places of the onset within block and frame. Less wind than that leaks through before it is
+// known for wind, and no eye sees what it does.
+TEST(Latency, IsAtMostAFrameABlockAModelStepAndWhatHearingTakes) {
+  const double frame = 1.0 / kFrameRate, block = kSoundBlock / kRate, step = 1.0 / 60, hearing = 1.0 / 60;
   double longest = 0;
   for (int place = 0; place < 12; ++place) {
     const double onset = 3.5 + place * 0.0031;
@@ -312,12 +313,12 @@ TEST(Latency, IsAtMostAFrameABlockAndAModelStep) {
     ASSERT_EQ(calm.draw(), blown.draw());
     do {
       quiet.frame(), loud.frame();
-    } while (loud.seconds() < 3.95 && calm.draw() == blown.draw());
+    } while (loud.seconds() < 3.95 && (blown.ear().wind() < 0.1F || calm.draw() == blown.draw()));
     longest = std::max(longest, loud.seconds() - onset);
   }
-  std::printf("from sound to a changed picture: at most %.1f ms; frame, block and step are %.1f ms\n", 1000 * longest,
-              1000 * (frame + block + step));
-  EXPECT_LE(longest, frame + block + step);
+  std::printf("from sound to a flame in the wind: at most %.1f ms; frame, block, step and hearing are %.1f ms\n",
+              1000 * longest, 1000 * (frame + block + step + hearing));
+  EXPECT_LE(longest, frame + block + step + hearing);
 }
 
 TEST(Scripts, AreEventsInTheOrderOfTheirTimes) {

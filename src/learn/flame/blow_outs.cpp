@@ -96,9 +96,11 @@ Result<std::vector<BlowOut>> find_blow_outs(const Recording& recording, const st
   const auto layout = outline_layout(recording);
   if (!layout) return layout.error();
   const auto channel = find_channel(recording, input);
-  if (!channel)
-    return Error{recording.source + ": has no channel " + input +
-                 ", which shows what blew the flame out; record the flame together with its sound"};
+  if (!channel) {
+    return Error{recording.source + ": has no input " + input +
+                 ", which tells what blew the flame out; expected the flame filmed with its sound, and the measure of "
+                 "wind that the model takes"};
+  }
   std::vector<Run> gone = absences(recording, *layout);
   const std::size_t least = rows_of(options.min_gone, recording.rate_hz);
   std::erase_if(gone, [&](const Run& run) { return run.end - run.begin < least; });
