@@ -472,6 +472,39 @@ TEST(OutlineCapture, AFlameThatIsLitLaterIsWaitedFor) {
   EXPECT_NEAR(captured->recording.channels[16].samples[100], 80, 1);
 }
 
+TEST(OutlineCapture, WhatHardlyStandsOutIsNotTakenForAFlameThatIsLitLater) {
+  const auto captured = capture(140, [](int k) {
+    Plane plane(160, 180, 60);
+    Flame curtain = support::swaying(k + 9), flame = support::swaying(k);
+    curtain.base_x -= 50;
+    support::paint(plane, 74, 3.0, [&](double x, double y) { return curtain.depth(x, y); });
+    if (k >= 70) support::paint(plane, 230, 3.0, [&](double x, double y) { return flame.depth(x, y); });
+    add_noise(plane, static_cast<unsigned>(k) + 1);
+    return plane;
+  });
+  ASSERT_TRUE(captured) << captured.error().message;
+  EXPECT_TRUE(captured->report.usable) << captured->report.reason;
+  EXPECT_THAT(captured->report.reason, HasSubstr("it is seen from frame 71 on"));
+}
+
+TEST(OutlineCapture, ARoundLampFilmedFromAHandIsNotTakenForAFlameThatIsLitLater) {
+  const auto captured = capture(140, [](int k) {
+    Plane plane(160, 180, 8);
+    const double aside = 3 * std::sin(0.5 * k), down = 3 * std::sin(0.31 * k + 1);
+    support::paint(plane, 230, 2.0,
+                   [&](double x, double y) { return 12 - std::hypot(x - 135 - aside, y - 40 - down); });
+    Flame flame = support::swaying(k);
+    flame.base_x += aside - 20;
+    flame.base_y += down;
+    if (k >= 70) support::paint(plane, 230, 3.0, [&](double x, double y) { return flame.depth(x, y); });
+    add_noise(plane, static_cast<unsigned>(k) + 1);
+    return plane;
+  });
+  ASSERT_TRUE(captured) << captured.error().message;
+  EXPECT_TRUE(captured->report.usable) << captured->report.reason;
+  EXPECT_THAT(captured->report.reason, HasSubstr("it is seen from frame 71 on"));
+}
+
 TEST(OutlineCapture, AClipThatLostManyFramesIsIrregular) {
   OutlineCapture capturing(options_for());
   for (int k = 0; k < 90; ++k) {
