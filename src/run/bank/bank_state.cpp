@@ -198,12 +198,13 @@ void Bank::State::show() {
 
 void Bank::State::read_block(int block, float* rows_of_all) const {
   const std::size_t count = channels.outputs.size();
-  const int first = block * kLanes, lanes = std::min(kLanes, rows - first);
-  const float* from = shown_of(block);
-  float* row = rows_of_all + static_cast<std::size_t>(first) * count;
-  for (int lane = 0; lane < lanes; ++lane, row += count) {
-    const bool lives = alive[first + lane];
-    for (std::size_t i = 0; i < count; ++i) row[i] = lives ? from[i * kLanes + lane] : 0.0f;
+  for (int slot = block * kLanes; slot < std::min((block + 1) * kLanes, rows); ++slot) {
+    float* row = rows_of_all + static_cast<std::size_t>(slot) * count;
+    if (alive[slot]) {
+      read_outputs(slot, row);
+    } else {
+      std::fill_n(row, count, 0.0f);
+    }
   }
 }
 
