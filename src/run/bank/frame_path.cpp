@@ -26,6 +26,10 @@ Reals<LiveNumbers> alone(float value) {
 // Of a model with few regressors a call would take longer than the copy.
 inline void copy_lanes(const float* from, std::size_t count, float* to) {
   constexpr int kLanes = LiveNumbers::kLanes;
+  if (!kAhead) {
+    std::copy_n(from, count * kLanes, to);  // the smaller
+    return;
+  }
   for (std::size_t k = 0; k < count; ++k) store(load<Reals<LiveNumbers>>(from + k * kLanes), to + k * kLanes);
 }
 
@@ -37,7 +41,7 @@ void Bank::State::set_inputs(int block, const float* all_rows) {
   const int count = std::min(kLanes, rows - block * kLanes);
   const auto lanes_of = [&](int input) {
     if (inputs == 1 && count == kLanes) return load<Reals<LiveNumbers>>(values);  // they lie as lanes do
-    if (count == 1) return alone(values[input]);
+    if (kAhead && count == 1) return alone(values[input]);
     float lanes[kLanes] = {};
     for (int lane = 0; lane < count; ++lane) lanes[lane] = values[lane * inputs + input];
     return load<Reals<LiveNumbers>>(lanes);
