@@ -195,10 +195,12 @@ int run_program(int argc, char** argv) {
   try {
     root.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const std::string wrong = wrong_words(std::vector<std::string>(argv + 1, argv + argc));
-    if (error.get_exit_code() != 0 && !wrong.empty()) {
-      std::fprintf(stderr, "%s\n", wrong.c_str());
-      return kWrongUsage;
+    if (error.get_exit_code() != 0) {
+      const std::string wrong = wrong_words(std::vector<std::string>(argv + 1, argv + argc));
+      if (!wrong.empty()) {
+        std::fprintf(stderr, "%s\n", wrong.c_str());
+        return kWrongUsage;
+      }
     }
     // CLI11 has exit codes of its own; ours are 0 for help and 2 for wrong usage.
     return root.exit(error) == 0 ? flush_output() : kWrongUsage;

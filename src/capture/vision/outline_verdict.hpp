@@ -13,7 +13,7 @@ inline constexpr double kMinContrast = 20;  ///< levels of 255: flames in films 
 inline constexpr double kMaxWidth = 0.8;    ///< heights: flames in films have 0.6 at most
 
 /// Fills the report's facts (light and solidity come from the survey), `out_at`, `usable` and `reason` from the
-/// recording's outlines and the report's dropped frames. What only flames do (taper, give light) is requested where
+/// recording's outlines and the report's dropped frames. What only flames do (taper, give light) is checked where
 /// `report.flames` is not 0.
 ///
 /// Precondition: the recording's first channels are the outline's control points, x and y alternating.

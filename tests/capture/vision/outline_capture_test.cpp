@@ -4,50 +4,21 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
-#include <random>
 
+#include "capture/support/made_clip.hpp"
 #include "capture/support/overlap.hpp"
-#include "capture/support/synthetic.hpp"
 
 namespace wisp {
 namespace {
 
+using support::add_noise;
+using support::capture;
 using support::Flame;
+using support::missing;
+using support::noisy_flame;
+using support::options_for;
 using support::Plane;
 using testing::HasSubstr;
-
-OutlineCaptureOptions options_for(int points = 8) {
-  OutlineCaptureOptions options;
-  options.points = points;
-  options.rate_hz = 30;
-  options.source = "made.mp4";
-  return options;
-}
-
-// A camera's noise, so that no two frames are the same picture.
-void add_noise(Plane& plane, unsigned seed) {
-  std::mt19937 random(seed);
-  for (auto& pixel : plane.pixels) {
-    pixel = static_cast<std::uint8_t>(std::clamp(pixel + static_cast<int>(random() % 5) - 2, 0, 255));
-  }
-}
-
-Plane noisy_flame(int k) {
-  Plane plane = support::flame_picture(support::swaying(k));
-  add_noise(plane, static_cast<unsigned>(k) + 1);
-  return plane;
-}
-
-Result<CapturedOutline> capture(int frames, const std::function<Plane(int)>& picture,
-                                const OutlineCaptureOptions& options = options_for()) {
-  OutlineCapture capture(options);
-  for (int k = 0; k < frames; ++k) {
-    const Plane plane = picture(k);
-    if (auto fed = capture.feed(grey_picture(plane.view())); !fed) return fed.error();
-  }
-  return capture.finish();
-}
 
 std::vector<double> controls_at(const CapturedOutline& captured, std::size_t row) {
   std::vector<double> out;
@@ -59,10 +30,6 @@ double overlap_at(const CapturedOutline& captured, const Plane& plane, std::size
   const SplineTable table(captured.report.knots);
   const support::Mask mask = support::region_mask(plane.view(), static_cast<int>(captured.report.threshold));
   return support::overlap(mask, support::curve_mask(table, controls_at(captured, row), plane.width, plane.height));
-}
-
-bool missing(const CapturedOutline& captured, std::size_t row) {
-  return std::isnan(captured.recording.channels[0].samples[row]);
 }
 
 // Clips that share a model follow their underside all, or none: where its ends are is what the base means.
@@ -276,81 +243,6 @@ TEST(OutlineCapture, AFlameInAnotherPlaceIsAnotherFlame) {
   EXPECT_THAT(captured->report.reason, HasSubstr("the camera moves too far; give frames 1 to 30 alone"));
 }
 
-TEST(OutlineCapture, AFlameThatGoesOutBesideALampIsUsableAndOut) {
-  const auto captured = capture(90, [](int k) {
-    Plane plane(320, 180, 8);
-    const Flame flame = support::swaying(k);
-    if (k < 60) support::paint(plane, 230, 3.0, [&](double x, double y) { return flame.depth(x, y); });
-    plane.fill({220, 60, 36, 80}, 230);
-    add_noise(plane, static_cast<unsigned>(k));
-    return plane;
-  });
-  ASSERT_TRUE(captured);
-  EXPECT_EQ(captured->report.tracked, 60u);
-  EXPECT_EQ(captured->report.out_at, 60u);
-  EXPECT_TRUE(captured->report.usable) << captured->report.reason;
-}
-
-TEST(OutlineCapture, AThirdOfASecondInTheDarkIsTheEndOfAFlame) {
-  OutlineCaptureOptions options = options_for();
-  options.rate_hz = 60;
-  const auto dark_from = [](int first) {
-    return [=](int k) { return k < first ? noisy_flame(k) : Plane(160, 180, 8); };
-  };
-  EXPECT_EQ(capture(80, dark_from(60), options)->report.out_at, 60u);
-  EXPECT_EQ(capture(70, dark_from(60), options)->report.out_at, std::nullopt);
-}
-
-TEST(OutlineCapture, AFilmThatFadesToBlackIsNotAFlameThatGoesOut) {
-  const auto captured = capture(120, [](int k) {
-    Plane plane = support::flame_picture(support::swaying(k));
-    const double share = std::clamp((110 - k) / 30.0, 0.0, 1.0);  // over a second
-    for (auto& pixel : plane.pixels) pixel = static_cast<std::uint8_t>(std::lround(share * pixel));
-    add_noise(plane, static_cast<unsigned>(k));
-    return plane;
-  });
-  ASSERT_TRUE(captured);
-  EXPECT_TRUE(captured->report.usable) << captured->report.reason;
-  EXPECT_LT(captured->report.tracked, 100u);
-  EXPECT_EQ(captured->report.out_at, std::nullopt);
-}
-
-TEST(OutlineCapture, AFilmThatIsCutToAFlameIsNotUsableAndNamesItsFrames) {
-  const auto captured = capture(90, [](int k) {
-    Flame flame = support::swaying(k);
-    flame.base_x = k < 12 ? 60 : 240;
-    Plane plane = support::flame_picture(flame, 320, 180);
-    add_noise(plane, static_cast<unsigned>(k));
-    return plane;
-  });
-  ASSERT_TRUE(captured);
-  EXPECT_EQ(captured->report.tracked, 78u);
-  EXPECT_FALSE(captured->report.usable);
-  EXPECT_THAT(captured->report.reason, HasSubstr("give frames 13 to 90 alone"));
-}
-
-TEST(OutlineCapture, ALampThatMovesAtLastIsNoFlame) {
-  const auto captured = capture(120, [](int k) {
-    Plane plane = support::flame_picture(support::swaying(std::max(k, 80)));
-    add_noise(plane, static_cast<unsigned>(k));
-    return plane;
-  });
-  ASSERT_TRUE(captured);
-  EXPECT_FALSE(captured->report.usable);
-  EXPECT_THAT(captured->report.reason, HasSubstr("its edges do not move in"));
-}
-
-TEST(OutlineCapture, AFlameThatIsLitLateIsUsableAndSaysFromWhereOn) {
-  const auto captured = capture(160, [](int k) {
-    Plane plane = k < 50 ? Plane(160, 180, 8) : support::flame_picture(support::swaying(k));
-    add_noise(plane, static_cast<unsigned>(k));
-    return plane;
-  });
-  ASSERT_TRUE(captured);
-  EXPECT_TRUE(captured->report.usable) << captured->report.reason;
-  EXPECT_THAT(captured->report.reason, HasSubstr("it is seen from frame 51 on"));
-}
-
 // Two flames, the right one smaller, and what a frame shows of them.
 Plane two_flames(int k) {
   Plane plane(320, 180, 8);
@@ -456,53 +348,6 @@ TEST(OutlineCapture, WhatIsHardlyBrighterThanItsWallIsNotUsable) {
   ASSERT_TRUE(captured) << captured.error().message;
   EXPECT_FALSE(captured->report.usable);
   EXPECT_THAT(captured->report.reason, HasSubstr("hardly brighter"));
-}
-
-TEST(OutlineCapture, AFlameThatIsLitLaterIsWaitedFor) {
-  const auto captured = capture(140, [](int k) {
-    Plane plane = k < 70 ? Plane(160, 180, 8) : support::flame_picture(support::swaying(k));
-    plane.fill({10, 20, 30, 40}, 120);  // a lit wall, as bright before as after
-    add_noise(plane, static_cast<unsigned>(k) + 1);
-    return plane;
-  });
-  ASSERT_TRUE(captured) << captured.error().message;
-  EXPECT_TRUE(captured->report.usable) << captured->report.reason;
-  EXPECT_TRUE(missing(*captured, 69));
-  EXPECT_FALSE(missing(*captured, 90));
-  EXPECT_NEAR(captured->recording.channels[16].samples[100], 80, 1);
-}
-
-TEST(OutlineCapture, WhatHardlyStandsOutIsNotTakenForAFlameThatIsLitLater) {
-  const auto captured = capture(140, [](int k) {
-    Plane plane(160, 180, 60);
-    Flame curtain = support::swaying(k + 9), flame = support::swaying(k);
-    curtain.base_x -= 50;
-    support::paint(plane, 74, 3.0, [&](double x, double y) { return curtain.depth(x, y); });
-    if (k >= 70) support::paint(plane, 230, 3.0, [&](double x, double y) { return flame.depth(x, y); });
-    add_noise(plane, static_cast<unsigned>(k) + 1);
-    return plane;
-  });
-  ASSERT_TRUE(captured) << captured.error().message;
-  EXPECT_TRUE(captured->report.usable) << captured->report.reason;
-  EXPECT_THAT(captured->report.reason, HasSubstr("it is seen from frame 71 on"));
-}
-
-TEST(OutlineCapture, ARoundLampFilmedFromAHandIsNotTakenForAFlameThatIsLitLater) {
-  const auto captured = capture(140, [](int k) {
-    Plane plane(160, 180, 8);
-    const double aside = 3 * std::sin(0.5 * k), down = 3 * std::sin(0.31 * k + 1);
-    support::paint(plane, 230, 2.0,
-                   [&](double x, double y) { return 12 - std::hypot(x - 135 - aside, y - 40 - down); });
-    Flame flame = support::swaying(k);
-    flame.base_x += aside - 20;
-    flame.base_y += down;
-    if (k >= 70) support::paint(plane, 230, 3.0, [&](double x, double y) { return flame.depth(x, y); });
-    add_noise(plane, static_cast<unsigned>(k) + 1);
-    return plane;
-  });
-  ASSERT_TRUE(captured) << captured.error().message;
-  EXPECT_TRUE(captured->report.usable) << captured->report.reason;
-  EXPECT_THAT(captured->report.reason, HasSubstr("it is seen from frame 71 on"));
 }
 
 TEST(OutlineCapture, AClipThatLostManyFramesIsIrregular) {
