@@ -43,7 +43,7 @@ describe('a candle that hears', { skip: chromiumPath === undefined && 'there is 
     page = await opened.page('#scene=candle&seed=1&noise=0.5&detail=0.5', { viewport: { width: 320, height: 280 } });
     await page.evaluate(record);
     await page.click('#blow');
-    await until(page, 'the strong breath is over', (seconds) => window.course?.at(-1)?.time > seconds, end, 60_000);
+    await until(page, 'the strong breath is over', (seconds) => window.course?.at(-1)?.time > seconds, end);
     course = await page.evaluate(() => window.course);
   });
 

@@ -59,6 +59,7 @@ export async function openBrowser(flags = []) {
     /** The page, playing; its errors are in `page.errors`, what it asked of other hosts in `page.strangers`. */
     async page(hash = '', options = {}) {
       const page = await browser.newPage({ viewport: { width: 360, height: 360 }, serviceWorkers: 'block', ...options });
+      page.setDefaultTimeout(patience);
       page.errors = [];
       page.strangers = [];
       page.on('pageerror', (error) => page.errors.push(error.message));
@@ -71,7 +72,7 @@ export async function openBrowser(flags = []) {
       });
       if (options.before) await page.addInitScript(options.before);
       await page.goto(`${server.address}${hash}`);
-      await until(page, 'the page plays', () => window.wisp?.frames > 2, null, 60_000);
+      await until(page, 'the page plays', () => window.wisp?.frames > 2);
       return page;
     },
     async close() {
@@ -81,16 +82,19 @@ export async function openBrowser(flags = []) {
   };
 }
 
-/**
- * Waits until something holds in the page; `what` says so when it does not. Asks from here, again and again: the page's
- * policy lets no script be made inside it.
- */
-export async function until(page, what, holds, argument = null, timeout = 30_000) {
-  for (const end = Date.now() + timeout; !(await page.evaluate(holds, argument)); ) {
+/** Milliseconds until what does not happen has failed: many times what anything takes, also on a busy machine. */
+const patience = 180_000;
+
+/** Waits until something holds; `what` says so when it does not. */
+export async function seen(what, holds) {
+  for (const end = Date.now() + patience; !(await holds()); ) {
     if (Date.now() > end) throw new Error(`not seen: ${what}`);
-    await page.waitForTimeout(15);
+    await new Promise((resolve) => setTimeout(resolve, 15));
   }
 }
+
+/** The same of the page. Asks from here, again and again: the page's policy lets no script be made inside it. */
+export const until = (page, what, holds, argument = null) => seen(what, () => page.evaluate(holds, argument));
 
 /** Drops a file on the page. */
 export const drop = (page, name, bytes) => dropAll(page, { [name]: bytes });

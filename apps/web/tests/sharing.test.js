@@ -66,11 +66,11 @@ describe('sharing', { skip }, () => {
   it('a picture is saved, and three seconds that move', async () => {
     const [picture] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=picture]')]);
     assert.deepEqual([...readFileSync(await picture.path()).subarray(1, 4)], [...Buffer.from('PNG')]);
-    const [loop] = await Promise.all([page.waitForEvent('download', { timeout: 60_000 }), page.click('[data-file=loop]')]);
+    const [loop] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=loop]')]);
     assert.match(loop.suggestedFilename(), /^wisp\.(webm|mp4)$/);
     const film = readFileSync(await loop.path());
     assert.ok(film.length > 1_000, `${film.length} bytes`);
-    const [gif] = await Promise.all([page.waitForEvent('download', { timeout: 60_000 }), page.click('[data-file=gif]')]);
+    const [gif] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=gif]')]);
     const bytes = readFileSync(await gif.path());
     assert.equal(bytes.subarray(0, 6).toString('latin1'), 'GIF89a');
     assert.ok(bytes.includes('NETSCAPE2.0'), 'it goes on for ever');

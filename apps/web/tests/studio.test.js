@@ -5,7 +5,7 @@ import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, it } from 'node:test';
-import { chromiumPath, drop, dropAll, openBrowser, until } from './browser.js';
+import { chromiumPath, drop, dropAll, openBrowser, seen, until } from './browser.js';
 import { fallsFilm } from '../../../bindings/studio/tests/falls_film.mjs';
 import { asDevices, assertSame, candleFilm, capturedByProgram, fallsByProgram, noConverter, noFilms, recordedFalls, turnedFilm, wallFilm } from './films.js';
 
@@ -15,9 +15,9 @@ after(() => rmSync(folder, { recursive: true }));
 let made;
 const film = () => (made ??= candleFilm(folder));
 
-const step = (page, name, timeout) => until(page, `step ${name}`, (wanted) => document.getElementById('studio')?.dataset.step === wanted, name, timeout);
-const says = (page, where, words, timeout) =>
-  until(page, `${where} says ${words}`, ([place, source]) => new RegExp(source, 'i').test(document.querySelector(place)?.textContent ?? ''), [where, words], timeout);
+const step = (page, name) => until(page, `step ${name}`, (wanted) => document.getElementById('studio')?.dataset.step === wanted, name);
+const says = (page, where, words) =>
+  until(page, `${where} says ${words}`, ([place, source]) => new RegExp(source, 'i').test(document.querySelector(place)?.textContent ?? ''), [where, words]);
 const enter = async (page) => {
   await page.click('[data-scene=yours]');
   await step(page, 'gather');
@@ -82,22 +82,21 @@ describe('a film that is dropped', { skip: skip || noFilms }, () => {
   it('brings the studio, and only then', () => assert.ok(asked.some((path) => path.includes('/assets/studio/'))));
 
   it('is followed by its edge, and says what was found', async () => {
-    await until(page, 'the outline is found', () => document.querySelector('[data-act=learn]') !== null, null, 40_000);
+    await until(page, 'the outline is found', () => document.querySelector('[data-act=learn]') !== null);
     assert.match(await page.textContent(panel), /The flame is found.*(100|9\d) % of the frames/s);
     assert.match(await page.textContent(panel), /heard in/);
-    await page.waitForTimeout(200);
-    const blue = await page.$eval('.traces canvas', (canvas) => {
+    const blue = () => page.$eval('.traces canvas', (canvas) => {
       const { data } = canvas.getContext('2d').getImageData(60, 0, canvas.width - 60, canvas.height / 2);
       let many = 0;
       for (let k = 0; k < data.length; k += 4) if (data[k + 3] > 128 && data[k + 2] > data[k]) many += 1;
       return many;
     });
-    assert.ok(blue > 60, `the wind that was heard is drawn in place of what was traced: ${blue} pixels`);
+    await seen('the wind that was heard, drawn in place of what was traced', async () => (await blue()) > 60);
   });
 
   it('is learned, and the verdict comes first', async () => {
     await page.click('[data-act=learn]');
-    await step(page, 'blow', 30_000);
+    await step(page, 'blow');
     assert.match(await page.textContent(`${panel} h2`), /It learned your flame/);
     assert.match(await page.textContent(panel), /The tip, played freely in the same wind\d+ %/);
   });
@@ -109,17 +108,13 @@ describe('a film that is dropped', { skip: skip || noFilms }, () => {
       for (let k = 0; k < data.length; k += 4) if (data[k] > 200) bright += 1;
       return bright;
     }));
-    for (let look = 0; look < 100; ++look) {
-      if ((await lit()).every((bright) => bright > 100)) return;
-      await page.waitForTimeout(50);
-    }
-    assert.fail(`bright pixels: ${await lit()}`);
+    await seen('both flames', async () => (await lit()).every((bright) => bright > 100));
   });
 
   it('is learned again in another way, and taken away', async () => {
     await page.click('.more summary');
     await page.click('[data-knob="light light, for small machines"]');
-    await step(page, 'blow', 30_000);
+    await step(page, 'blow');
     await until(page, 'it is light', () => document.querySelector('[data-knob="light light, for small machines"]')?.getAttribute('aria-pressed') === 'true');
     const [model] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=wisp]')]);
     assert.equal(model.suggestedFilename(), 'mine.wisp');
@@ -144,8 +139,7 @@ describe('a film that is dropped', { skip: skip || noFilms }, () => {
     const files = {};
     page.on('download', (download) => (files[download.suggestedFilename()] = download.path()));
     await page.click('[data-file=flipbook]');
-    const begun = Date.now();
-    while (Object.keys(files).length < 2 && Date.now() - begun < 20_000) await new Promise((resolve) => setTimeout(resolve, 100));
+    await seen('both files', () => Object.keys(files).length === 2);
     const [sheet, atlas] = await Promise.all([files['mine.png'], files['mine.atlas.json']]);
     const { frames, meta } = JSON.parse(readFileSync(atlas, 'utf8'));
     assert.deepEqual([meta.image, meta.loop, Math.round(frames.length / meta.rate_hz)], ['mine.png', true, 4]);
@@ -187,7 +181,7 @@ describe('a film that lies on its side', { skip: skip || noConverter }, () => {
     await step(page, 'look');
     await until(page, 'it has looked', () => document.querySelector('[data-act=learn]') !== null);
     await page.click('[data-act=learn]');
-    await step(page, 'blow', 30_000);
+    await step(page, 'blow');
     const [recording] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=recording]')]);
     assertSame(readFileSync(await recording.path(), 'utf8'), readFileSync(capturedByProgram(turned, folder), 'utf8'));
     await opened.close();
@@ -215,10 +209,10 @@ describe('a camera', { skip: skip || noConverter }, () => {
     await page.focus('[data-gather=camera]');
     await page.keyboard.press('Enter');
     await until(page, 'the camera is looked through', () => document.querySelector('.record') !== null);
-    await until(page, 'a flame is found', () => document.querySelector('.filming [role=status]')?.textContent === '' && document.querySelector('.viewer video').videoWidth > 0, null, 20_000);
+    await until(page, 'a flame is found', () => document.querySelector('.filming [role=status]')?.textContent === '' && document.querySelector('.viewer video').videoWidth > 0);
     await page.focus('.record');
     await page.keyboard.press('Enter');
-    await says(page, '.caption', 'softly', 10_000);
+    await says(page, '.caption', 'softly');
     // Blue and orange: the sound, and the tip beside its name.
     const traced = () => page.$eval('.traces canvas', (canvas) => {
       const { data } = canvas.getContext('2d').getImageData(60, 0, canvas.width - 60, canvas.height);
@@ -226,18 +220,17 @@ describe('a camera', { skip: skip || noConverter }, () => {
       for (let k = 0; k < data.length; k += 4) if (data[k + 3] > 128) many[data[k] > data[k + 2] ? 1 : 0] += 1;
       return many;
     });
-    await page.waitForTimeout(1000);
-    for (const pixels of await traced()) assert.ok(pixels > 60, `sound and tip are traced while it is filmed: ${await traced()}`);
+    await seen('sound and tip, traced while it is filmed', async () => (await traced()).every((pixels) => pixels > 60));
     await page.waitForTimeout(4000);
     await page.keyboard.press('Enter');
-    await until(page, 'the outline is found', () => document.querySelector('[data-act=learn]') !== null, null, 30_000);
+    await until(page, 'the outline is found', () => document.querySelector('[data-act=learn]') !== null);
     assert.equal(await page.evaluate(() => document.querySelector('.viewer video').srcObject), null);
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'nothing sticks out sideways');
     const right = await page.$$eval('header.top button', (buttons) => Math.max(...buttons.map((button) => button.getBoundingClientRect().right)));
     assert.ok(right <= 390, `a button ends at ${right}`);
     await page.focus('[data-act=learn]');
     await page.keyboard.press('Enter');
-    await until(page, 'it says what came of it', () => document.querySelector('.result .verdict h2') !== null, null, 30_000);
+    await until(page, 'it says what came of it', () => document.querySelector('.result .verdict h2') !== null);
     assert.deepEqual([page.errors, page.strangers], [[], []]);
   });
 });
@@ -255,14 +248,14 @@ describe('a table', { skip }, () => {
     assert.deepEqual(await Promise.all(['time ignored', 'power input', 'temperature output'].map(pressed)), ['true', 'true', 'true']);
     assert.equal(await page.inputValue('#table-rate'), '10');
     await page.click('[data-act=learn]');
-    await step(page, 'blow', 30_000);
+    await step(page, 'blow');
     assert.match(await page.textContent(`${panel} h2`), /It learned how this behaves/);
     await says(page, panel, 'On the last rows');
     assert.ok((await page.textContent(`${panel} .meter`)).includes('temperature'));
     const files = [];
     page.on('download', (download) => files.push(download.suggestedFilename()));
     // The browser tells of them after the page has asked for them.
-    const both = page.waitForEvent('download', { predicate: () => files.length === 2, timeout: 30_000 });
+    const both = page.waitForEvent('download', { predicate: () => files.length === 2 });
     await page.click('[data-file=c]');
     await until(page, 'it is saved', () => document.querySelector('[data-file=c]').textContent === 'Saved');
     await both;
@@ -270,7 +263,7 @@ describe('a table', { skip }, () => {
     await drop(page, 'broken.csv', tableThatBreaks());
     await step(page, 'look');
     await page.click('[data-act=learn]');
-    await step(page, 'blow', 30_000);
+    await step(page, 'blow');
     assert.match(await page.textContent(`${panel} h2`), /not enough to learn from/);
     assert.ok((await page.locator('.plots canvas').count()) > 0);
     assert.deepEqual([page.errors, page.strangers], [[], []]);
@@ -285,7 +278,7 @@ describe('recorded falls', { skip: skip || noFilms }, () => {
     opened = await openBrowser();
     const page = await opened.page('#scene=candle&detail=0.1', { viewport: { width: 1000, height: 700 } });
     await drop(page, 'falls.csv', readFileSync(recordedFalls(folder)));
-    await step(page, 'blow', 60_000);
+    await step(page, 'blow');
     assert.match(await page.textContent(`${panel} h2`), /It learned how this falls/);
     await says(page, panel, 'Beside what was recorded');
     await page.click('[data-act=blow]');
@@ -304,7 +297,7 @@ describe('a film of something that falls', { skip: skip || noConverter }, () => 
     await until(page, 'the page has all of its parts', () => document.querySelector('[data-scene=yours]') !== null);
     await drop(page, 'paper.mp4', readFileSync(fallsFilm(join(folder, 'paper.mp4'), 24)));
     await step(page, 'look');
-    await until(page, 'the falls are found', () => document.querySelector('[data-act=learn]') !== null, null, 40_000);
+    await until(page, 'the falls are found', () => document.querySelector('[data-act=learn]') !== null);
   });
   after(() => opened?.close());
 
@@ -327,12 +320,12 @@ describe('a film of something that falls', { skip: skip || noConverter }, () => 
   it('is looked at again where it is said how much of the wall it shows', async () => {
     await page.fill('#wall-height', '2.4');
     await page.dispatchEvent('#wall-height', 'change');
-    await until(page, 'it is looked at again', () => document.querySelector('#wall-height')?.value === '2.4', null, 40_000);
+    await until(page, 'it is looked at again', () => document.querySelector('#wall-height')?.value === '2.4');
   });
 
   it('is learned, falls in the page, and is taken away as the program would have it', async () => {
     await page.click('[data-act=learn]');
-    await step(page, 'blow', 60_000);
+    await step(page, 'blow');
     assert.match(await page.textContent(`${panel} h2`), /It learned how this falls/);
     const [recording] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=recording]')]);
     const rows = (text) => text.trim().split('\n').filter((line) => !line.startsWith('#')).map((line) => line.split(','));
@@ -421,13 +414,13 @@ describe('a bad day in the studio', { skip }, () => {
 
   it('says that a film cannot be read', async () => {
     await drop(page, 'broken.mp4', Buffer.from('this is no film'));
-    await says(page, `${panel} .verdict.bad`, 'broken.mp4', 20_000);
+    await says(page, `${panel} .verdict.bad`, 'broken.mp4');
     await again();
   });
 
   it('says that there is no flame in a film', { skip: noConverter }, async () => {
     await drop(page, 'wall.mp4', readFileSync(wallFilm(folder)));
-    await says(page, `${panel} .verdict.bad`, 'flame|outline|nothing', 20_000);
+    await says(page, `${panel} .verdict.bad`, 'flame|outline|nothing');
     await again();
   });
 
@@ -444,7 +437,7 @@ describe('a bad day in the studio', { skip }, () => {
     await page.fill('#pictures-rate', '4');
     await says(page, panel, 'They last 0.5 s');
     await page.click('[data-act=look]');
-    await says(page, `${panel} .verdict.bad`, 'f1.png', 20_000);
+    await says(page, `${panel} .verdict.bad`, 'f1.png');
     await again();
   });
 

@@ -17,10 +17,10 @@ let made;
 const film = () => (made ??= candleFilm(folder));
 
 const panel = '#studio .panel';
-const says = (page, where, words, timeout) =>
-  until(page, `${where} says ${words}`, ([place, source]) => new RegExp(source, 'i').test(document.querySelector(place)?.textContent ?? ''), [where, words], timeout);
-const looked = (page, timeout = 90_000) => until(page, 'it has looked', () => document.querySelector('[data-act=learn], .verdict.bad') !== null, null, timeout);
-const step = (page, name, timeout) => until(page, `step ${name}`, (wanted) => document.getElementById('studio')?.dataset.step === wanted, name, timeout);
+const says = (page, where, words) =>
+  until(page, `${where} says ${words}`, ([place, source]) => new RegExp(source, 'i').test(document.querySelector(place)?.textContent ?? ''), [where, words]);
+const looked = (page) => until(page, 'it has looked', () => document.querySelector('[data-act=learn], .verdict.bad') !== null);
+const step = (page, name) => until(page, `step ${name}`, (wanted) => document.getElementById('studio')?.dataset.step === wanted, name);
 
 async function studio(opened, options = {}) {
   const page = await opened.page('#scene=candle&detail=0.1', { viewport: { width: 1000, height: 700 }, ...options });
@@ -62,7 +62,7 @@ describe('a film out of the ordinary', { skip }, () => {
     };
     for (const [name, [bytes, words]] of Object.entries(strangers)) {
       await drop(page, name, bytes);
-      await says(page, `${panel} .verdict.bad`, words, 20_000);
+      await says(page, `${panel} .verdict.bad`, words);
       // Where no picture was seen, there is none to look at in another way.
       assert.doesNotMatch(await page.textContent(panel), /The picture stays|something that falls/);
       await anew();
@@ -86,7 +86,7 @@ describe('a film out of the ordinary', { skip }, () => {
     const learn = await page.$('[data-act=learn]');
     if (learn !== null) {
       await learn.click();
-      await until(page, 'it says what came of it', () => document.querySelector('.verdict.bad, .result') !== null || document.getElementById('notices').textContent !== '', null, 30_000);
+      await until(page, 'it says what came of it', () => document.querySelector('.verdict.bad, .result') !== null || document.getElementById('notices').textContent !== '');
     }
     const words = (await page.textContent(panel)) + (await page.textContent('#notices'));
     assert.match(words, /short|frames|not enough|rows|seconds/i);
@@ -100,7 +100,7 @@ describe('a film out of the ordinary', { skip }, () => {
       window.requestAnimationFrame = () => 0;
     });
     await drop(page, 'unseen.mp4', readFileSync(shortFilm(film(), folder)));
-    await looked(page, 30_000);
+    await looked(page);
     await page.evaluate(() => (window.requestAnimationFrame = window.drawsAgain));
     assert.match(await page.textContent(panel), /in \d+ of 35 pictures/);
     await anew();
@@ -111,7 +111,7 @@ describe('a film out of the ordinary', { skip }, () => {
     await drop(page, 'uneven.mp4', readFileSync(uneven));
     await looked(page);
     await page.click('[data-act=learn]');
-    await step(page, 'blow', 60_000);
+    await step(page, 'blow');
     const [recording] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=recording]')]);
     assertSame(readFileSync(await recording.path(), 'utf8'), readFileSync(capturedByProgram(uneven, folder), 'utf8'));
     await page.click('[data-act=anew]');
@@ -119,7 +119,7 @@ describe('a film out of the ordinary', { skip }, () => {
 
   it('of 8K is looked at, or it is said why not', async () => {
     await choose(page, 'film', hugePicture(film(), folder));
-    await looked(page, 180_000);
+    await looked(page);
     assert.match(await page.textContent(panel), /The flame is found|cannot decode|not enough memory|too short|not seen well/);
     await anew();
   });
@@ -179,7 +179,7 @@ describe('a worker that stops', { skip }, () => {
 
   it('is said to have stopped, and the first film is still there', async () => {
     await meanwhile(() => setTimeout(() => { throw new Error('struck'); }));
-    await says(page, `${panel} .verdict.bad`, 'worker that learns stopped.*what was gathered is kept', 60_000);
+    await says(page, `${panel} .verdict.bad`, 'worker that learns stopped.*what was gathered is kept');
     await kept();
   });
 
@@ -187,7 +187,7 @@ describe('a worker that stops', { skip }, () => {
     await meanwhile(() => {
       Uint8Array.prototype.set = () => { throw new RangeError('Array buffer allocation failed'); };
     });
-    await says(page, `${panel} .verdict.bad`, 'not enough memory.*shorter film', 60_000);
+    await says(page, `${panel} .verdict.bad`, 'not enough memory.*shorter film');
     await kept();
   });
 
@@ -195,13 +195,13 @@ describe('a worker that stops', { skip }, () => {
     await meanwhile(() => {
       Uint8Array.prototype.set = () => { throw new WebAssembly.RuntimeError('unreachable'); };
     });
-    await says(page, `${panel} .verdict.bad`, 'a fault of its own', 60_000);
+    await says(page, `${panel} .verdict.bad`, 'a fault of its own');
     await kept();
   });
 
   it('is followed by another, which learns from what was gathered', async () => {
     await page.click('[data-act=learn]');
-    await step(page, 'blow', 60_000);
+    await step(page, 'blow');
     assert.match(await page.textContent(`${panel} h2`), /It learned your flame/);
   });
 });
@@ -241,9 +241,9 @@ describe('devices that are taken away', { skip }, () => {
   const filming = async () => {
     await page.click('[data-gather=camera]');
     await says(page, panel, 'Film your flame');
-    await until(page, 'a flame is found', () => document.querySelector('.filming [role=status]')?.textContent === '', null, 30_000);
+    await until(page, 'a flame is found', () => document.querySelector('.filming [role=status]')?.textContent === '');
     await page.click('.record');
-    await says(page, '.caption', 'Hold still', 20_000);
+    await says(page, '.caption', 'Hold still');
   };
 
   it('the microphone before filming: the camera alone films', async () => {
@@ -265,7 +265,7 @@ describe('devices that are taken away', { skip }, () => {
     await page.waitForTimeout(2500);
     await page.evaluate(() => window.stream.getVideoTracks()[0].dispatchEvent(new Event('ended')));
     await says(page, '#notices', 'camera is gone; what was filmed till then is kept');
-    await looked(page, 60_000);
+    await looked(page);
     assert.match(await page.textContent(panel), /The flame is|Nothing was learned/);
     assert.deepEqual([page.errors, page.strangers], [[], []]);
   });
@@ -275,7 +275,7 @@ describe('devices that are taken away', { skip }, () => {
     await until(page, 'what there is to choose', () => document.querySelector('[data-gather=camera]') !== null);
     await filming();
     await page.workers()[0].evaluate(() => setTimeout(() => { throw new Error('struck'); }));
-    await says(page, panel, 'worker that learns stopped', 20_000);
+    await says(page, panel, 'worker that learns stopped');
   });
 });
 
@@ -292,16 +292,16 @@ describe('falls before a camera', { skip }, () => {
     assert.deepEqual(await page.evaluate(() => document.querySelector('.viewer video').srcObject.getAudioTracks().length), 0, 'no microphone is wanted');
     await page.fill('#wall-height', '2.4');
     await page.dispatchEvent('#wall-height', 'change');
-    await until(page, 'the camera shows', () => document.querySelector('.viewer video').videoWidth > 0, null, 20_000);
+    await until(page, 'the camera shows', () => document.querySelector('.viewer video').videoWidth > 0);
     await page.click('.record');
-    await says(page, '.caption', '[4-9] falls', 60_000);
+    await says(page, '.caption', '[4-9] falls');
     await page.click('.record');
     await looked(page);
     assert.match(await page.textContent(panel), /The falls are|Falls\d/);
     assert.match(await page.textContent(panel), /Falls[3-9]/);
     assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'nothing sticks out sideways');
     await page.click('[data-act=learn]');
-    await until(page, 'it says what came of it', () => document.querySelector('.result .verdict h2') !== null || document.getElementById('notices').textContent !== '', null, 60_000);
+    await until(page, 'it says what came of it', () => document.querySelector('.result .verdict h2') !== null || document.getElementById('notices').textContent !== '');
     assert.deepEqual([page.errors, page.strangers], [[], []]);
   });
 });

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { after, before, describe, it } from 'node:test';
-import { chromiumPath, openBrowser, until } from './browser.js';
+import { chromiumPath, openBrowser, seen, until } from './browser.js';
 
 const skip = chromiumPath === undefined && 'there is no Chromium here';
 const flame = readFileSync(new URL('../public/models/flame-4.wisp', import.meta.url));
@@ -156,7 +156,7 @@ describe('trouble', { skip }, () => {
     await context.setOffline(false);
     await kept.goto(`${opened.address}#detail=0.25&scene=leaves&leaves=5`);
     await until(kept, 'leaves fall', () => window.wisp?.leaves?.count === 5);
-    for (const end = Date.now() + 20_000; !(await names()).some((name) => name.includes('leaf.wisp')); ) assert.ok(Date.now() < end);
+    await seen('the leaf is kept', async () => (await names()).some((name) => name.includes('leaf.wisp')));
     await context.setOffline(true);
     await kept.reload();
     await until(kept, 'leaves fall', () => window.wisp?.leaves?.count === 5);

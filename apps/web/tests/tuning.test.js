@@ -35,7 +35,7 @@ async function hearing(folder, pieces, options) {
       window.course.push({ time: window.soundTime, wind, answer, lit: burning.lit });
     }, 33);
   });
-  const at = (seconds) => until(page, `${seconds} s of sound`, (time) => window.soundTime > time, seconds, 60_000);
+  const at = (seconds) => until(page, `${seconds} s of sound`, (time) => window.soundTime > time, seconds);
   const between = (from, to) => page.evaluate(([low, high]) => window.course.filter(({ time }) => time > low && time < high), [from, to]);
   return { opened, page, at, between };
 }
@@ -47,8 +47,9 @@ describe('a microphone that is too sensitive', { skip }, () => {
   let heard;
 
   before(async () => {
-    // Still, soft and hard at the times of the three steps, with half a second to spare; then soft, then hard.
-    const pieces = [room(8.8), breath(4.8, SOFT), room(0.3), breath(4.1, HARD), room(2.5), breath(3, SOFT), room(2.5), breath(2, HARD), room(10)];
+    // Still, soft and hard at the times of the three steps, with half a second to spare; the hard one is over before its step
+    // is, or the candle that is tuned by then goes out by the rest. Then soft, then hard.
+    const pieces = [room(8.8), breath(4.8, SOFT), room(0.3), breath(2, HARD), room(4.6), breath(3, SOFT), room(2.5), breath(2, HARD), room(10)];
     heard = await hearing(folder, pieces, phone);
   });
   after(async () => {
@@ -160,7 +161,7 @@ describe('blow after blow that puts nothing out', { skip }, () => {
     const blows = Array.from({ length: 5 }, () => [breath(1, 0.02), room(0.8)]).flat();
     const { opened, page } = await hearing(folder, [room(4), ...blows, room(20)], {});
     await page.click('#blow');
-    await until(page, 'the offer', () => /tuned to your breath/.test(document.getElementById('notices').textContent), null, 40_000);
+    await until(page, 'the offer', () => /tuned to your breath/.test(document.getElementById('notices').textContent));
     assert.equal(await page.evaluate(() => window.wisp.burning.lit), 1);
     await page.click('text=Tune it to my breath');
     assert.equal(await page.isVisible('#tuning'), true);

@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 
-import { executablePath, furnish, models, pack, quiet, serve, skip, until } from './chromium.mjs';
+import { executablePath, furnish, models, pack, patience, quiet, serve, skip, until } from './chromium.mjs';
 import { Chance } from './lives.mjs';
 
 /** Two seconds of a room, two of blowing, as a WAV file. */
@@ -70,6 +70,7 @@ describe('in Chromium', { skip }, () => {
   async function open(browser, name, permissions) {
     const context = await browser.newContext({ permissions });
     const page = await context.newPage();
+    page.setDefaultTimeout(patience);
     const errors = [];
     page.on('pageerror', (error) => errors.push(error.message));
     page.on('console', (message) => message.type() === 'error' && errors.push(message.text()));

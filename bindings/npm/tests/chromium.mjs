@@ -40,13 +40,15 @@ export function pack(work) {
   return join(work, packed.toString().trim());
 }
 
+/** Milliseconds until what does not happen has failed: many times what anything takes, also on a busy machine. */
+export const patience = 180_000;
+
 /** Waits until an expression is true in a page: by asking, since the policy forbids Playwright's own way. */
 export async function until(page, expression) {
-  for (let tries = 0; tries < 200; ++tries) {
-    if (await page.evaluate(`Boolean(${expression})`)) return;
-    await new Promise((resolve) => setTimeout(resolve, 100));
+  for (const end = Date.now() + patience; !(await page.evaluate(`Boolean(${expression})`)); ) {
+    if (Date.now() > end) assert.fail(`never: ${expression}`);
+    await new Promise((resolve) => setTimeout(resolve, 50));
   }
-  assert.fail(`20 seconds, and still not: ${expression}`);
 }
 
 /** A folder with the packed package installed, a page, what both pages share, and the models. */

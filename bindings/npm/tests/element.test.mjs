@@ -7,7 +7,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 
-import { executablePath, furnish, models, pack, quiet, serve, skip, until } from './chromium.mjs';
+import { executablePath, furnish, models, pack, patience, quiet, serve, skip, until } from './chromium.mjs';
 
 const flags = [...quiet, '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--use-fake-device-for-media-stream',
   '--use-fake-ui-for-media-stream', '--autoplay-policy=no-user-gesture-required'];
@@ -44,6 +44,7 @@ describe('elements in Chromium', { skip }, () => {
   /** Opens a page, counting what it fetches; `page.errors` are its errors. */
   async function open(address, watched = (page) => page) {
     const page = await browser.newPage({ viewport: { width: 420, height: 320 } });
+    page.setDefaultTimeout(patience);
     page.errors = [];
     page.modules = 0;
     page.on('pageerror', (error) => page.errors.push(error.message));
@@ -98,11 +99,10 @@ describe('elements in Chromium', { skip }, () => {
   test('its button lies below the candle', async () => {
     const { page } = await open(local(plain));
     await until(page, `${lit('one', 1)} && document.getElementById('one').scene.places().wick[1] > 20`);
-    const wick = () => page.evaluate(`document.getElementById('one').scene.places().wick[1] / document.getElementById('one').shadowRoot.querySelector('canvas').height`);
-    const before = await wick();
+    const wick = `document.getElementById('one').scene.places().wick[1] / document.getElementById('one').shadowRoot.querySelector('canvas').height`;
+    const before = await page.evaluate(wick);
     await page.evaluate(`document.getElementById('one').setAttribute('wind', 'mic')`);
-    await page.waitForTimeout(500);
-    assert.ok((await wick()) > before + 0.05, `${before} ${await wick()}`);
+    await until(page, `${wick} > ${before + 0.05}`);
   });
 
   test('taken out of the page it stands still, put back it goes on', async () => {

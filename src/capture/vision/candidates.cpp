@@ -195,6 +195,7 @@ double solidity_of(const Profile& profile) {
 
 double solidity_of(const std::vector<Shape>& shapes) {
   std::vector<double> values;
+  values.reserve(shapes.size());
   for (const Shape& shape : shapes) values.push_back(solidity_of(shape.profile));
   return middle(std::move(values));
 }
