@@ -24,6 +24,9 @@ struct Clip {
   int points;
 };
 
+// Else a test's name holds the bytes of its pointers, others in each run.
+void PrintTo(const Clip& clip, std::ostream* out) { *out << clip.path << ", " << clip.points << " points"; }
+
 std::filesystem::path data_folder() {
   const char* folder = std::getenv("WISP_DATA");
   return folder != nullptr ? folder : WISP_SOURCE_DIR "/../shared/data";
