@@ -133,11 +133,12 @@ ModeChain estimate_chain(const ModeSequences& sequences, int modes, const ModeCh
     chain.contexts.push_back({history, probability});
     known[history] = std::move(probability);
   };
-  for (std::uint16_t mode = 0; mode < modes; ++mode) {
+  for (std::size_t k = 0; k < size; ++k) {
+    const auto mode = static_cast<std::uint16_t>(k);
     const auto found = counts.find({mode});
     const Followed row =
         found == counts.end() ? Followed{std::vector<std::size_t>(size), std::vector<double>(size)} : found->second;
-    std::copy(row.seen.begin(), row.seen.end(), chain.counts.begin() + static_cast<long>(mode * size));
+    std::copy(row.seen.begin(), row.seen.end(), chain.counts.begin() + static_cast<long>(k * size));
     add({mode}, mixed(row.worth, overall, options.back_off));
   }
   for (std::size_t length = 2; length <= static_cast<std::size_t>(options.history); ++length) {
