@@ -262,8 +262,9 @@ inline void columns_of_part(const float* table, LongWordPart row, LongRealPart& 
   const __m128i quarter[] = {_mm512_castsi512_si128(places), _mm512_extracti32x4_epi32(places, 1),
                              _mm512_extracti32x4_epi32(places, 2), _mm512_extracti32x4_epi32(places, 3)};
   const auto row_of = [&](int part, auto lane) {
-    const auto two = static_cast<std::uint64_t>(_mm_extract_epi64(quarter[part], lane / 2));
-    const auto place = static_cast<std::uint32_t>(two >> (lane % 2 * 32));
+    constexpr int kLane = decltype(lane)::value;  // GCC without optimisation takes no other constant
+    const auto two = static_cast<std::uint64_t>(_mm_extract_epi64(quarter[part], kLane / 2));
+    const auto place = static_cast<std::uint32_t>(two >> (kLane % 2 * 32));
     return _mm_loadu_ps(table + (std::size_t{place} - std::size_t{first * stride}));
   };
   const auto rows = [&](auto lane) {
