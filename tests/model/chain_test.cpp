@@ -269,6 +269,42 @@ TEST(ChainModel, WhatIsNotAChainIsRefusedWithAReason) {
   }
 }
 
+TEST(ChainModel, NumbersOnTheBoundsAreTaken) {
+  const std::vector<std::pair<std::string, std::function<void(Model&)>>> bounds = {
+      {"certain",
+       [](Model& m) {
+         chain(m).initial = {1, 0};
+       }},
+      {"largest scale", [](Model& m) { chain(m).segments.row_scale[0] = chain(m).segments.rate_scale[1] = 1e9; }},
+      {"nothing to choose from",
+       [](Model& m) {
+         chain(m).segments.breadth = 0;
+         chain(m).segments.follow.clear();
+       }},
+      {"longest blend", [](Model& m) { chain(m).blend_steps = 4096; }},
+      {"no blend", [](Model& m) { chain(m).blend_steps = 0; }},
+      {"long memory", [](Model& m) { chain(m).drift->memory_seconds = 1e6; }},
+      {"no memory", [](Model& m) { chain(m).drift->memory_seconds = 0; }},
+      {"smallest spread", [](Model& m) { chain(m).drift->spread_ground = 1e-12; }},
+      {"largest spread", [](Model& m) { chain(m).drift->spread_height = 1e9; }},
+      {"fastest drift", [](Model& m) { chain(m).drift->drift[1] = -1e9; }},
+      {"largest body",
+       [](Model& m) {
+         m.view = PoseView{1e4, 0};
+       }},
+      {"longest history",
+       [](Model& m) {
+         chain(m).contexts.push_back({std::vector<std::uint16_t>(64, 1), {0.5, 0.5}});
+       }},
+  };
+  for (const auto& [what, change] : bounds) {
+    Model model = steered_chain();
+    change(model);
+    const auto ok = check(model);
+    EXPECT_TRUE(ok) << what << ": " << ok.error().message;
+  }
+}
+
 TEST(ChainModel, SystemsThatAreNoneAreRefusedWithAReason) {
   const std::vector<std::pair<std::string, std::function<void(ChainModel&)>>> broken = {
       {"degree 3", [](ChainModel& c) { c.systems->degree = 3; }},
