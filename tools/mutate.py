@@ -177,8 +177,8 @@ def compile_all(chosen, jobs):
                                "wisp_run_frames"], capture_output=True, text=True)
         if made.returncode == 0:
             return
-        wrong = set(re.findall(rf"{TREE}/(src/[\w/.]+):(\d+):\d+: error", made.stdout))
-        wrong |= set(re.findall(rf"{TREE}/(src/[\w/.]+):(\d+):\d+:   required from", made.stdout)) if not wrong else set()
+        place = r"/tree/(src/[\w/.]+):(\d+):\d+"  # a compiler cache may name it from elsewhere
+        wrong = set(re.findall(place + ": error", made.stdout)) or set(re.findall(place + ":   required from", made.stdout))
         before = sum(1 for one in chosen if one[2])
         for k, (name, number, after, shown) in enumerate(chosen):
             if (name, str(number + 1)) in wrong:
