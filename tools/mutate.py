@@ -87,8 +87,8 @@ def mutants_of_line(line):
         yield line[:indent] + "{ if (!MUTANT(K)) " + line[indent:] + " }", "(left out)"
 
 
-DEFINED = {"WISP_VECTOR_LANES": True, "WISP_LONG_WORDS": True, "__AVX2__": False, "__AVX512F__": False, "__wasm__": False,
-           "WISP_WIDE_PATHS": False, "WISP_FRAME_PATH": False}
+DEFINED = {"WISP_VECTOR_LANES": True, "WISP_LONG_WORDS": True, "__AVX2__": False, "__AVX512F__": False, "__AVX512VL__": False,
+           "__wasm__": False, "WISP_WIDE_PATHS": False, "WISP_FRAME_PATH": False, "WISP_LONG_PARTS": False}
 
 
 def compiled(lines):
@@ -96,9 +96,9 @@ def compiled(lines):
     state, numbers = [], set()
     for number, line in enumerate(lines):
         if line.startswith(("#ifdef", "#ifndef", "#if ")):
-            known = next((macro for macro in DEFINED if macro in line), None)
-            holds = known is None or DEFINED[known] != (line.startswith("#ifndef") or "!defined" in line)
-            state.append((holds, known is None))
+            known = [macro for macro in DEFINED if re.search(rf"\b{macro}\b", line)]
+            holds = all(DEFINED[macro] != (line.startswith("#ifndef") or f"!defined({macro})" in line) for macro in known)
+            state.append((holds, not known))
         elif line.startswith(("#else", "#elif")) and state:
             holds, always = state[-1]
             state[-1] = (always or not holds, always)
