@@ -317,6 +317,23 @@ TEST(ChainSteering, PrefersWhatLeadsToTheTarget) {
   EXPECT_GT(back, free + 0.1);
 }
 
+// However much it would help: mode 1, which leads back, never follows mode 0.
+TEST(ChainSteering, TakesNothingThatCannotFollow) {
+  Model model = steered_chain();
+  auto& chain = std::get<ChainModel>(model.dynamics);
+  chain.initial = {1, 0};
+  chain.contexts = {{{0}, {1, 0}}, {{1}, {0.5, 0.5}}};
+  Bank bank = bank_of(model);
+  for (int step = 0; step < 600; ++step) {
+    const Pose pose = pose_of(bank);
+    bank.chain()->steer(
+        bank.at(0),
+        {.position = {pose[0], pose[1], pose[2] + 1000}, .in = std::chrono::milliseconds(500), .near = 0.01f});
+    bank.step();
+    ASSERT_EQ(bank.chain()->place_of(bank.at(0))->mode, 0U) << step;
+  }
+}
+
 TEST(ChainSteering, EndsWithItsTimeWithReleaseAndWithAPlace) {
   const SteerTarget target{.position = {-2, 0, -1}, .in = std::chrono::milliseconds(300)};
   for (int end : {0, 1, 2}) {
