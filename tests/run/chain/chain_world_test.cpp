@@ -291,6 +291,26 @@ TEST(ChainPlace, ComparesSpinsAsTheBodyHeads) {
   }
 }
 
+// Speeds and spins are compared in units of what is usual, whatever a metre is.
+TEST(ChainPlace, WhatFitsDoesNotHangOnTheUnitOfLength) {
+  constexpr float kUnit = 1024;
+  Model large = sample_chain();
+  auto& segments = std::get<ChainModel>(large.dynamics).segments;
+  segments.row_scale[0] *= kUnit;
+  segments.rate_scale[0] *= kUnit;
+  Bank a = bank_of(sample_chain()), b = bank_of(large);
+  std::array<int, 3> chosen{};
+  for (int body = 0; body < 60; ++body) {
+    const float across = 0.01f * static_cast<float>(body % 12), spin = 0.1f * static_cast<float>(body);
+    a.chain()->place(a.at(0), {.velocity = {0.6f, across, -0.75f}, .spin = {0, 0, spin}});
+    b.chain()->place(b.at(0), {.velocity = {0.6f * kUnit, across * kUnit, -0.75f * kUnit}, .spin = {0, 0, spin}});
+    const std::uint32_t segment = a.chain()->place_of(a.at(0))->segment;
+    EXPECT_EQ(segment, b.chain()->place_of(b.at(0))->segment) << body;
+    ++chosen[segment];
+  }
+  for (int count : chosen) EXPECT_GT(count, 3);
+}
+
 // Share of segments of mode 1, which the sample's drift says lead back, while steered ahead or back along x.
 double share_of_mode_one(float target, bool steered = true) {
   Bank bank = bank_of(steered_chain());
@@ -324,13 +344,14 @@ TEST(ChainSteering, TakesNothingThatCannotFollow) {
   chain.initial = {1, 0};
   chain.contexts = {{{0}, {1, 0}}, {{1}, {0.5, 0.5}}};
   Bank bank = bank_of(model);
-  for (int step = 0; step < 600; ++step) {
-    const Pose pose = pose_of(bank);
-    bank.chain()->steer(
-        bank.at(0),
-        {.position = {pose[0], pose[1], pose[2] + 1000}, .in = std::chrono::milliseconds(500), .near = 0.01f});
-    bank.step();
-    ASSERT_EQ(bank.chain()->place_of(bank.at(0))->mode, 0U) << step;
+  for (int fall = 0; fall < 20; ++fall) {
+    bank.chain()->place(bank.at(0), {.velocity = {0.6f, 0, -0.7f}});
+    bank.chain()->steer(bank.at(0), {.position = {-1000, 0, 0}, .in = std::chrono::milliseconds(600), .near = 0.01f});
+    ASSERT_EQ(bank.chain()->place_of(bank.at(0))->mode, 0);
+    for (int step = 0; step < 30; ++step) {
+      bank.step();
+      ASSERT_EQ(bank.chain()->place_of(bank.at(0))->mode, 0) << step;
+    }
   }
 }
 
