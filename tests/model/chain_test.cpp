@@ -275,6 +275,14 @@ TEST(ChainModel, NumbersOnTheBoundsAreTaken) {
        [](Model& m) {
          chain(m).initial = {1, 0};
        }},
+      {"one mode",
+       [](Model& m) {
+         chain(m).modes = 1;
+         chain(m).segments.mode = {0, 0, 0};
+         chain(m).segments.follow = {1, 0, 2, 0, 1, 2};
+         chain(m).initial = {1};
+         chain(m).contexts = {{{0}, {1}}};
+       }},
       {"largest scale", [](Model& m) { chain(m).segments.row_scale[0] = chain(m).segments.rate_scale[1] = 1e9; }},
       {"nothing to choose from",
        [](Model& m) {
