@@ -1,17 +1,19 @@
 #!/usr/bin/env python3
 """Plants small faults in src/run and src/model's checks, one at a time, and sees whether the tests notice.
 
-  tools/mutate.py [--most N] [--only PART-OF-A-PATH] [--jobs N]
+  tools/mutate.py [--most N] [--only PART-OF-A-PATH] [--jobs N] [--these K,K…]
 
 All mutants are compiled at once, into a copy of the tree in build/mutants: each is a branch that the environment
 variable WISP_MUTANT takes (R. H. Untch, A. J. Offutt, M. J. Harrold, "Mutation analysis using mutant schemata", ISSTA
 1993). Conditions are turned round, comparisons and arithmetic changed to their neighbours, statements left out. What
 does not compile is dropped. For each that is left the golden hash and the tests of run and model run until one fails.
-Prints those that survive, and counts; docs/studies/hardening.md has what was found.
+Prints those that survive with their number, and counts; `--these` tries those again after a test was written, and a test
+alone is seen red with WISP_MUTANT=K. docs/studies/hardening.md has what was found.
 """
 
 import argparse
 import collections
+import concurrent.futures
 import os
 import pathlib
 import random
@@ -36,7 +38,7 @@ inline const int wisp_mutant = [] { const char* one = std::getenv("WISP_MUTANT")
 #define MUTANT(k) (wisp_mutant == (k))
 """
 SKIPPED = re.compile(r"constexpr|static_assert|template|#|operator|//|\bcase\b|assert\(|using |enum |std::to_string")
-Mutant = collections.namedtuple("Mutant", "file line before after")
+Mutant = collections.namedtuple("Mutant", "file line after shown")
 
 
 def closing(text, start):
@@ -85,8 +87,8 @@ def mutants_of_line(line):
         yield line[:indent] + "{ if (!MUTANT(K)) " + line[indent:] + " }", "(left out)"
 
 
-DEFINED = {"WISP_VECTOR_LANES": True, "WISP_LONG_WORDS": True, "__AVX2__": False, "__AVX512F__": False, "__wasm__": False,
-           "WISP_WIDE_PATHS": False, "WISP_FRAME_PATH": False}
+DEFINED = {"WISP_VECTOR_LANES": True, "WISP_LONG_WORDS": True, "__AVX2__": False, "__AVX512F__": False, "__AVX512VL__": False,
+           "__wasm__": False, "WISP_WIDE_PATHS": False, "WISP_FRAME_PATH": False, "WISP_LONG_PARTS": False}
 
 
 def compiled(lines):
@@ -94,9 +96,9 @@ def compiled(lines):
     state, numbers = [], set()
     for number, line in enumerate(lines):
         if line.startswith(("#ifdef", "#ifndef", "#if ")):
-            known = next((macro for macro in DEFINED if macro in line), None)
-            holds = known is None or DEFINED[known] != (line.startswith("#ifndef") or "!defined" in line)
-            state.append((holds, known is None))
+            known = [macro for macro in DEFINED if re.search(rf"\b{macro}\b", line)]
+            holds = all(DEFINED[macro] != (line.startswith("#ifndef") or f"!defined({macro})" in line) for macro in known)
+            state.append((holds, not known))
         elif line.startswith(("#else", "#elif")) and state:
             holds, always = state[-1]
             state[-1] = (always or not holds, always)
@@ -122,8 +124,9 @@ def plan(most, only):
                 # One a line, so that they do not stand in each other's way.
                 if choices:
                     after, shown = random.Random(f"{name}{line}").choice(choices)
-                    found.append((name, number, after, shown))
-    random.Random(7).shuffle(found)
+                    found.append(Mutant(name, number, after, shown))
+    # A line that changes changes its own mutant and no other's.
+    found.sort(key=lambda one: random.Random(f"{one[0]}{one[3]}{one[2]}").random())
     return sorted(found[:most])
 
 
@@ -142,16 +145,23 @@ def plant(chosen):
             (TREE / source).write_text(text)
 
 
-def copy_tree():
-    if TREE.exists():
-        shutil.rmtree(TREE)
-    TREE.mkdir(parents=True)
-    listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, check=True).stdout
-    for name in listed.decode().split("\0"):
-        if (ROOT / name).is_file():
-            (TREE / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy2(ROOT / name, TREE / name)
-    (WORK / "mutant.hpp").write_text(HEADER)
+def copy_tree(chosen):
+    """What is the same already stays, so that a new test is all that is compiled again."""
+    listed = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=ROOT, capture_output=True,
+                            check=True).stdout.decode().split("\0")
+    wanted = {name for name in listed if name and (ROOT / name).is_file()}
+    for file in TREE.rglob("*"):
+        if file.is_file() and str(file.relative_to(TREE)) not in wanted:
+            file.unlink()
+    planted = {name for name, *_ in chosen}
+    for name in wanted:
+        source, copy = ROOT / name, TREE / name
+        if copy.exists() and (name in planted or copy.read_bytes() == source.read_bytes()):
+            continue
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(source, copy)
+    if not (WORK / "mutant.hpp").exists():
+        (WORK / "mutant.hpp").write_text(HEADER)
 
 
 def compile_all(chosen, jobs):
@@ -167,12 +177,12 @@ def compile_all(chosen, jobs):
                                "wisp_run_frames"], capture_output=True, text=True)
         if made.returncode == 0:
             return
-        wrong = set(re.findall(rf"{TREE}/(src/[\w/.]+):(\d+):\d+: error", made.stdout))
-        wrong |= set(re.findall(rf"{TREE}/(src/[\w/.]+):(\d+):\d+:   required from", made.stdout)) if not wrong else set()
+        place = r"/tree/(src/[\w/.]+):(\d+):\d+"  # a compiler cache may name it from elsewhere
+        wrong = set(re.findall(place + ": error", made.stdout)) or set(re.findall(place + ":   required from", made.stdout))
         before = sum(1 for one in chosen if one[2])
         for k, (name, number, after, shown) in enumerate(chosen):
             if (name, str(number + 1)) in wrong:
-                chosen[k] = (name, number, None, shown)
+                chosen[k] = Mutant(name, number, None, shown)
         if before == sum(1 for one in chosen if one[2]):
             sys.exit("the tree does not compile:\n" + made.stdout[-4000:])
     sys.exit("what does not compile could not be dropped")
@@ -200,23 +210,26 @@ def main():
     parser.add_argument("--most", type=int, default=300)
     parser.add_argument("--only", default="")
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--these", default="")
     options = parser.parse_args()
     golden = re.search(r"set\(golden (\w+)\)", (ROOT / "tests/run/bits/bits.cmake").read_text()).group(1)
-    copy_tree()
     chosen = plan(options.most, options.only)
+    copy_tree(chosen)
     compile_all(chosen, options.jobs)
     if notices(-1, golden):
         sys.exit("the tests fail without any mutant")
+    these = {int(k) for k in options.these.split(",") if k} or set(range(len(chosen)))
     counts = collections.Counter()
-    for k, (name, number, after, shown) in enumerate(chosen):
-        if not after:
-            counts["did not compile"] += 1
-            continue
-        by = notices(k, golden)
-        counts[by or "survived"] += 1
-        if not by:
-            was = (ROOT / name).read_text().split("\n")[number].strip()
-            print(f"survived: {name}:{number + 1}: {was}  ->  {shown}", flush=True)
+    alive = [k for k in sorted(these) if chosen[k].after]
+    if len(alive) < len(these):
+        counts["did not compile"] = len(these) - len(alive)
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        for k, by in zip(alive, pool.map(lambda k: notices(k, golden), alive)):
+            counts[by or "survived"] += 1
+            if not by:
+                name, line, _, shown = chosen[k]
+                was = (ROOT / name).read_text().split("\n")[line].strip()
+                print(f"survived: {k}: {name}:{line + 1}: {was}  ->  {shown}", flush=True)
     print(", ".join(f"{count} {what}" for what, count in counts.most_common()))
 
 

@@ -43,6 +43,8 @@ TEST(ArxModel, CoupledOutputsAreOneSystem) {
   EXPECT_NEAR(spectral_radius(model), 0.9, 1e-7);
 }
 
+TEST(ArxModel, OneWithoutOutputsIsRefused) { EXPECT_FALSE(check(ArxModel{})); }
+
 TEST(ArxModel, CoefficientsAreFoundByOutputAndInput) {
   const ArxModel model = std::get<ArxModel>(sample_model().dynamics);
   EXPECT_EQ(model.a(1, 0).size(), 1u);

@@ -269,6 +269,50 @@ TEST(ChainModel, WhatIsNotAChainIsRefusedWithAReason) {
   }
 }
 
+TEST(ChainModel, NumbersOnTheBoundsAreTaken) {
+  const std::vector<std::pair<std::string, std::function<void(Model&)>>> bounds = {
+      {"certain",
+       [](Model& m) {
+         chain(m).initial = {1, 0};
+       }},
+      {"one mode",
+       [](Model& m) {
+         chain(m).modes = 1;
+         chain(m).segments.mode = {0, 0, 0};
+         chain(m).segments.follow = {1, 0, 2, 0, 1, 2};
+         chain(m).initial = {1};
+         chain(m).contexts = {{{0}, {1}}};
+       }},
+      {"largest scale", [](Model& m) { chain(m).segments.row_scale[0] = chain(m).segments.rate_scale[1] = 1e9; }},
+      {"nothing to choose from",
+       [](Model& m) {
+         chain(m).segments.breadth = 0;
+         chain(m).segments.follow.clear();
+       }},
+      {"longest blend", [](Model& m) { chain(m).blend_steps = 4096; }},
+      {"no blend", [](Model& m) { chain(m).blend_steps = 0; }},
+      {"long memory", [](Model& m) { chain(m).drift->memory_seconds = 1e6; }},
+      {"no memory", [](Model& m) { chain(m).drift->memory_seconds = 0; }},
+      {"smallest spread", [](Model& m) { chain(m).drift->spread_ground = 1e-12; }},
+      {"largest spread", [](Model& m) { chain(m).drift->spread_height = 1e9; }},
+      {"fastest drift", [](Model& m) { chain(m).drift->drift[1] = -1e9; }},
+      {"largest body",
+       [](Model& m) {
+         m.view = PoseView{1e4, 0};
+       }},
+      {"longest history",
+       [](Model& m) {
+         chain(m).contexts.push_back({std::vector<std::uint16_t>(64, 1), {0.5, 0.5}});
+       }},
+  };
+  for (const auto& [what, change] : bounds) {
+    Model model = steered_chain();
+    change(model);
+    const auto ok = check(model);
+    EXPECT_TRUE(ok) << what << ": " << ok.error().message;
+  }
+}
+
 TEST(ChainModel, SystemsThatAreNoneAreRefusedWithAReason) {
   const std::vector<std::pair<std::string, std::function<void(ChainModel&)>>> broken = {
       {"degree 3", [](ChainModel& c) { c.systems->degree = 3; }},
@@ -286,6 +330,51 @@ TEST(ChainModel, SystemsThatAreNoneAreRefusedWithAReason) {
     ASSERT_FALSE(outcome) << word;
     EXPECT_THAT(outcome.error().message, HasSubstr(word));
   }
+}
+
+TEST(ChainModel, ResponsesToGustsThatAreNoneAreRefusedWithAReason) {
+  const std::vector<std::pair<std::string, std::function<void(GustResponse&)>>> broken = {
+      {"order 0", [](GustResponse& g) { g = {}; }},
+      {"order 5",
+       [](GustResponse& g) {
+         for (auto* axis : {&g.ground, &g.vertical}) axis->change = axis->wind = axis->press = {0, 0, 0, 0, 0};
+       }},
+      {"hold 1, expected 2", [](GustResponse& g) { g.ground.press.pop_back(); }},
+      {"hold 3, expected 2", [](GustResponse& g) { g.vertical.wind.push_back(0); }},
+      {"coefficient", [](GustResponse& g) { g.vertical.wind[1] = 1001; }},
+      {"coefficient", [](GustResponse& g) { g.ground.press[0] = std::numeric_limits<double>::quiet_NaN(); }},
+      {"never dies away",
+       [](GustResponse& g) {
+         g.ground.change = {1, 0};
+       }},
+      {"never dies away",
+       [](GustResponse& g) {
+         g.vertical.change = {1.5, -1};
+       }},
+      {"never dies away",
+       [](GustResponse& g) {
+         g.vertical.change = {1.9, -0.8};
+       }},  // poles 1.27 and 0.63
+  };
+  for (const auto& [word, harm] : broken) {
+    Model model = windy_chain();
+    harm(*chain(model).gust);
+    const auto ok = check(model);
+    ASSERT_FALSE(ok) << word;
+    EXPECT_THAT(ok.error().message, HasSubstr(word));
+  }
+  Model least = windy_chain(), most = windy_chain();
+  for (auto* axis : {&chain(least).gust->ground, &chain(least).gust->vertical}) {
+    axis->change = {0.999};
+    axis->wind = {-1000};
+    axis->press = {1000};
+  }
+  for (auto* axis : {&chain(most).gust->ground, &chain(most).gust->vertical}) {
+    axis->change = {1.9, -0.95, 0, 0};  // a pair of radius 0.975
+    axis->wind = axis->press = {1, 2, 3, 4};
+  }
+  EXPECT_TRUE(check(least));
+  EXPECT_TRUE(check(most));
 }
 
 TEST(ChainModel, SplinesThatWereMadeToHarmAreReadWholeOrNotAtAll) { expect_read_whole_or_not(spline_chain()); }

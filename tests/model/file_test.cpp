@@ -333,6 +333,33 @@ TEST(ModelFile, AModelWithoutMeaningIsNeitherWrittenNorRead) {
   }
 }
 
+TEST(ModelFile, NumbersOnTheBoundsAreTaken) {
+  const std::vector<std::pair<std::string, std::function<void(Model&)>>> bounds = {
+      {"slowest", [](Model& m) { m.rate_hz = 1e-6; }},
+      {"fastest", [](Model& m) { m.rate_hz = 1e6; }},
+      {"no range", [](Model& m) { m.outputs[1].lowest = m.outputs[1].highest; }},
+      {"no noise", [](Model& m) { std::get<ArxModel>(m.dynamics).noise.sd[0] = 0; }},
+      {"an interval of one number",
+       [](Model& m) {
+         std::get<ArxModel>(m.dynamics).noise.sd_ci95[0] = {0.01, 0.01};
+       }},
+      {"no scale", [](Model& m) { std::get<OutlineView>(m.view).metres_per_unit = 0; }},
+      {"silence", [](Model& m) { m.training.inputs[0].one_rms = 0; }},
+      {"no residual", [](Model& m) { m.training.residual_sd[0] = 0; }},
+      {"no least length", [](Model& m) { m.training.motion->min_seconds = 0; }},
+      {"no debounce", [](Model& m) { m.training.motion->debounce = 0; }},
+      {"no cost", [](Model& m) { m.training.multiply_adds_per_frame = m.training.operations_per_frame = 0; }},
+      {"smallest rule", [](Model& m) { m.extinction = Extinction{0, 1e-6, 1e-3, 0, 1e-3, 0, 0}; }},
+      {"largest rule", [](Model& m) { m.extinction = Extinction{0, 1e6, 3600, 100, 3600, 60, 60}; }},
+  };
+  for (const auto& [what, change] : bounds) {
+    Model model = mortal_model();
+    change(model);
+    const auto ok = check(model);
+    EXPECT_TRUE(ok) << what << ": " << ok.error().message;
+  }
+}
+
 // Readers in C would see the name end there, and two names be one.
 TEST(ModelFile, ANameThatHoldsAZeroByteIsRefused) {
   Model model = sample_model();

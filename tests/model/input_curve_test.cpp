@@ -25,6 +25,11 @@ TEST(InputCurve, IsAStraightLineFromKnotToKnotAndTheInputBeyond) {
   EXPECT_EQ(value_at({}, 0.3), 0.3);
 }
 
+TEST(InputCurve, ASlopeOfAMillionIsTaken) {
+  EXPECT_TRUE(check({{0, 1e-6, 1}, {0, 0.5, 1}}, 0, 1));
+  EXPECT_FALSE(check({{0, 0.99e-6, 1}, {0, 0.5, 1}}, 0, 1));
+}
+
 TEST(InputCurve, AModelWithABadOneIsRefused) {
   const std::vector<std::pair<std::string, std::function<void(Input&)>>> broken = {
       {"has a curve that does not bend it", [](Input& i) { i.shape = InputShape::kSplitSign; }},

@@ -89,7 +89,14 @@ TEST(SwitchedModel, WhatMakesNoSenseIsRefusedByName) {
       {[](auto& m) { m.modes[0].shock.pop_back(); }, "mode 0: the size of shocks has 3 values, expected 4"},
       {[](auto& m) { m.modes[1].theta[0][0] = -1.2; }, "mode 1 is unstable in single precision"},
       {[](auto& m) {
-         m.modes[1].theta = {{-1, 0, 0, 0, 0}, {0, 0, 0, 0}};
+         m.orders.na = OrderMatrix(2, 2);
+         m.orders.na(0, 0) = 1;
+         for (ArxMode& mode : m.modes) {
+           mode.theta = {{-0.5, 0, 0}, {0, 0}};
+           mode.std_error.clear();
+         }
+         m.modes[1].theta[0][0] = -1;  // a radius of 1 to the last bit
+         m.regions.assign(15, 0.0);
        },
        "mode 1 is unstable in single precision: spectral radius 1.0"},
       {[](auto& m) { m.regions.pop_back(); }, "the matrix of regions has 20 values, expected 21"},
@@ -139,6 +146,16 @@ TEST(SwitchedModel, OutputsThatDoNotFeedEachOtherAreBlocksOfTheirOwn) {
   EXPECT_EQ(blocks[0].states, 2);
   EXPECT_EQ(blocks[1].states, 1);
   EXPECT_EQ(blocks[0].companion[0], (std::vector<double>{0.5, -0.1f, 1, 0}));
+}
+
+TEST(SwitchedModel, BlocksOfUpTo256StatesHaveTheirMatrices) {
+  for (int states : {256, 257}) {
+    ArxModel arx;
+    arx.orders = {OrderMatrix(1, 1, states), OrderMatrix(1, 0), OrderMatrix(1, 0)};
+    arx.theta = {std::vector<double>(static_cast<std::size_t>(states), 0.0)};
+    arx.constant = arx.output_mean = arx.noise.sd = {0};
+    EXPECT_EQ(state_blocks(switched_of(arx))[0].companion.size(), states == 256 ? 1U : 0U);
+  }
 }
 
 TEST(SwitchedModel, OfAnArxModelHasItsNoise) {

@@ -90,7 +90,7 @@ class PastTree {
     std::make_heap(first, last, before);
     std::sort_heap(first, last, before);
     const std::size_t middle = begin + (end - begin) / 2;
-    const float low = past(program_.order[middle - (middle > begin ? 1 : 0)], lag);
+    const float low = past(program_.order[middle - 1], lag);
     const float high = past(program_.order[middle], lag);
     program_.nodes[node] = {0.5f * (low + high), lag};
     fill(2 * node + 1, begin, middle);

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <new>
 #include <string>
+#include <type_traits>
 
 #include "run/bank/bank_state.hpp"
 #include "wisp/model/file.hpp"
@@ -37,7 +38,7 @@ Result<void> check_all(const Model& model, const BankOptions& options) {
 }  // namespace
 
 void Bank::Release::operator()(State* state) const {
-  std::destroy_at(state);
+  static_assert(std::is_trivially_destructible_v<State>);  // its memory is all that is given back
   if (owned) ::operator delete(static_cast<void*>(state), std::align_val_t(kArenaAlignment));
 }
 

@@ -115,7 +115,7 @@ LitState Bank::State::lit_state(int slot) const {
   const std::int64_t shown_late = between ? step_time - passed : 0;
   const auto since = [&](std::uint64_t then) {
     constexpr auto kLongest = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-    if (then == kNeverInSteps || steps - then > kLongest / static_cast<std::uint64_t>(step_time)) return kNever;
+    if (steps - then > kLongest / static_cast<std::uint64_t>(step_time)) return kNever;  // so it is of kNeverInSteps
     const auto ago = static_cast<std::int64_t>(steps - then) * step_time - shown_late;
     return std::chrono::nanoseconds(std::max<std::int64_t>(ago, 0));
   };

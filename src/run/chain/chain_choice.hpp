@@ -36,7 +36,7 @@ class ChainChoice {
 
   void set(const ChainSettings& settings, const ChainProgram& program) {
     history_ = static_cast<std::uint32_t>(settings.history);
-    ranked_ = program.breadth > 0 && settings.temperature >= 0;
+    ranked_ = settings.temperature >= 0;
     if (ranked_) fill_ranks(settings.temperature, program);
   }
 

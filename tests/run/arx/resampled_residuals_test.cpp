@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <vector>
@@ -220,6 +221,20 @@ TEST(ResampledResiduals, CostAProductAndASumAnOutputAndNowAndThenAJump) {
   EXPECT_LT(resampled.noise_operations, 16 * 2 + 130);
   EXPECT_LT(resampled.random_operations, 50);  // in a wind that was never recorded it searches in every step
   EXPECT_EQ(resampled.dynamics_operations, gaussian.dynamics_operations + 1);  // what blows less what blows against it
+}
+
+// What was recorded in a wind from the other side is the mirror image of what was recorded in one from this side.
+TEST(ResampledResiduals, ARecordingFromTheOtherSideIsPlayedMirrored) {
+  const Model model = bare_model();
+  Model other = model;
+  ResampledResiduals& resampled = resampled_of(other);
+  for (std::int16_t& wind : resampled.winds) wind = static_cast<std::int16_t>(-wind);
+  for (int row = 0; row < kRows; ++row) resampled.rows[2 * row] *= -1;
+  const auto gusts = [](int frame) { return frame / 100 % 2 == 0 ? swing(3 * frame / 2) : -swing(frame); };
+  const std::vector<int> rows = rows_played(model, 1000, gusts);
+  EXPECT_EQ(rows_played(other, 1000, gusts), rows);
+  EXPECT_GT(*std::max_element(rows.begin(), rows.end()), 0);
+  EXPECT_LT(*std::min_element(rows.begin(), rows.end()), 0);
 }
 
 }  // namespace

@@ -87,6 +87,22 @@ TEST(SwitchedBank, RegionsDecideAsTheEquationsSay) {
   EXPECT_GT(*std::min_element(seen.begin(), seen.end()), 2);  // all of them were tried
 }
 
+TEST(SwitchedBank, RegionsMayBeOfAnyScale) {
+  for (const double scale : {1e-30, 1e30}) {
+    Model scaled = sample_switched();
+    for (double& weight : std::get<SwitchedArxModel>(scaled.dynamics).regions) weight *= scale;
+    Bank a = bank_of(sample_switched(), 1), b = bank_of(scaled, 1);
+    for (int step = 0; step < 100; ++step) {
+      const float input = input_at(step, 0);
+      for (Bank* bank : {&a, &b}) {
+        bank->set_common_inputs(std::span(&input, 1));
+        bank->step();
+      }
+      ASSERT_EQ(a.switched()->mode_of(a.at(0)), b.switched()->mode_of(b.at(0))) << step;
+    }
+  }
+}
+
 TEST(SwitchedBank, AMarkovChainVisitsModesAsOftenAsItsProbabilitiesSay) {
   const Model model = sample_switched(Switching::kMarkov);
   constexpr int kInstances = 40, kSteps = 2000;

@@ -47,6 +47,15 @@ TEST(Curve, IsTheCurveWithinRounding) {
   for (float x = -2; x < 2; x += 0.001f) EXPECT_NEAR(bent(x), value_at(curve, x), 1e-6) << x;
 }
 
+TEST(Channels, UnitsArePowersOfTwoWhereARangeIsFarFromOne) {
+  EXPECT_EQ(channel_scale(-0.5, 0.5), 1.0);
+  EXPECT_EQ(channel_scale(0, 128), 1.0);
+  EXPECT_EQ(channel_scale(0, 1.0 / 128), 1.0);
+  EXPECT_EQ(channel_scale(-100, 100), 128.0);
+  EXPECT_EQ(channel_scale(0, 0.001), 0x1p-10);
+  EXPECT_EQ(channel_scale(3, 3), 1.0);
+}
+
 // Knots that single precision can hardly distinguish, and slopes up to a million, are the hard case.
 TEST(Curve, NeverFallsNotEvenByRounding) {
   const std::vector<InputCurve> curves{

@@ -97,6 +97,14 @@ TEST(Crew, RestsWhileAChainIsSteered) {
   ASSERT_TRUE(bank.chain()->steer(bank.at(3), {.position = {1, 2, 3}, .in = std::chrono::seconds(2)}));
   bank.step();
   EXPECT_EQ(threads.runs, before);
+  // So does one that was restored.
+  std::vector<std::byte> saved(bank.save_bytes());
+  bank.save(saved);
+  Bank other = full_bank(windy_chain());
+  ASSERT_TRUE(other.restore(saved));
+  other.set_crew(threads.crew(2));
+  other.step();
+  EXPECT_EQ(threads.runs, before);
 }
 
 TEST(Crew, GoesAndComes) {

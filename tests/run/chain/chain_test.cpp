@@ -318,23 +318,30 @@ double stored_tilt(const ChainModel& chain, std::uint32_t segment, std::uint32_t
 }
 
 TEST(ChainBank, NeighboursMeetHalfWay) {
-  const Model model = sample_chain();
-  const auto& chain = std::get<ChainModel>(model.dynamics);
-  Bank bank = bank_of(model);
-  std::uint32_t segment = bank.chain()->place_of(bank.at(0))->segment;
-  int joins = 0;
-  for (int step = 0; step < 2000; ++step) {
-    bank.step();
-    const ChainPlace place = *bank.chain()->place_of(bank.at(0));
-    if (place.step != 0) continue;
-    // Each segment of the sample is tilted all along, by an angle of its own.
-    const double before = std::acos(stored_tilt(chain, segment, chain.segments.steps[segment]));
-    const double after = std::acos(stored_tilt(chain, place.segment, 0));
-    EXPECT_NEAR(std::acos(tilt_of(pose_of(bank))), (before + after) / 2, 2e-3) << step;
-    if (segment != place.segment) ++joins;
-    segment = place.segment;
+  constexpr int kInstances = 3;
+  for (const int blend : {2, 6, 4096}) {  // shorter than half of any segment, than half of some, and longer
+    Model model = sample_chain();
+    auto& chain = std::get<ChainModel>(model.dynamics);
+    chain.blend_steps = blend;
+    Bank bank = bank_of(model, kInstances);
+    std::array<std::uint32_t, kInstances> segment{};
+    for (int slot = 0; slot < kInstances; ++slot) segment[slot] = bank.chain()->place_of(bank.at(slot))->segment;
+    int joins = 0;
+    for (int step = 0; step < 2000; ++step) {
+      bank.step();
+      for (int slot = 0; slot < kInstances; ++slot) {
+        const ChainPlace place = *bank.chain()->place_of(bank.at(slot));
+        if (place.step != 0) continue;
+        // Each segment of the sample is tilted all along, by an angle of its own.
+        const double before = std::acos(stored_tilt(chain, segment[slot], chain.segments.steps[segment[slot]]));
+        const double after = std::acos(stored_tilt(chain, place.segment, 0));
+        EXPECT_NEAR(std::acos(tilt_of(pose_of(bank, slot))), (before + after) / 2, 2e-3) << blend << ' ' << step;
+        if (segment[slot] != place.segment) ++joins;
+        segment[slot] = place.segment;
+      }
+    }
+    EXPECT_GT(joins, 300);
   }
-  EXPECT_GT(joins, 100);
 }
 
 TEST(ChainBank, AJoinReachesNoFurtherThanItsBlendOnEitherSide) {
@@ -475,6 +482,62 @@ TEST(ChainBank, AWorldFramedQuaternionsSignNeverFlips) {
     ASSERT_GT(before[3] * q[3] + before[4] * q[4] + before[5] * q[5] + before[6] * q[6], 0.9) << step;
     before = q;
   }
+}
+
+// Segments that keep their attitude, one of which is stored with the other sign, or heads the other way.
+TEST(ChainBank, AJoinTurnsBackHowASegmentIsStored) {
+  for (const bool about : {false, true}) {
+    Model model = sample_chain();
+    auto& segments = std::get<ChainModel>(model.dynamics).segments;
+    const auto first = segment_rows(segments);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int16_t* of = &segments.rows[7 * first[k] + 3];
+      const std::array<std::int16_t, 4> q{of[0], of[1], 0, 0};
+      std::array<int, 4> stored{q[0], q[1], 0, 0};
+      if (k == 1) stored = about ? std::array<int, 4>{0, 0, q[1], q[0]} : std::array<int, 4>{-q[0], -q[1], 0, 0};
+      for (std::size_t row = first[k]; row < first[k + 1]; ++row)
+        std::copy_n(stored.begin(), 4, &segments.rows[7 * row + 3]);
+    }
+    for (std::size_t end = 0; end < 6; ++end) segments.rates[6 * end + 5] = 0;
+    Bank bank = bank_of(model);
+    Pose before = pose_of(bank);
+    for (int step = 0; step < 2000; ++step) {
+      bank.step();
+      const Pose q = pose_of(bank);
+      ASSERT_GT(before[3] * q[3] + before[4] * q[4] + before[5] * q[5] + before[6] * q[6], 0.9) << step;
+      before = q;
+    }
+  }
+}
+
+// What moves without an attitude heads where it moves.
+TEST(ChainBank, APositionsHeadingAtTheEndOfASegmentIsThatOfTheNext) {
+  Model model = sample_chain(ChainMotion::kPosition);
+  auto& chain = std::get<ChainModel>(model.dynamics);
+  chain.blend_steps = 0;
+  for (std::size_t k = 0; k < 3; ++k) {  // ends a right angle to the left of how it began
+    std::int16_t* rates = &chain.segments.rates[6 * k];
+    rates[3] = static_cast<std::int16_t>(-rates[1]);
+    rates[4] = rates[0];
+  }
+  Bank bank = bank_of(model);
+  Pose before = pose_of(bank);
+  double heading = 0;
+  int joins = 0;
+  for (int step = 0; step < 500; ++step) {
+    bank.step();
+    const Pose now = pose_of(bank);
+    const double next = std::atan2(now[1] - before[1], now[0] - before[0]);
+    if (bank.chain()->place_of(bank.at(0))->step == 1) {
+      if (joins > 0) {
+        EXPECT_NEAR(std::remainder(next - heading - std::acos(0.0), 4 * std::acos(0.0)), 0, 1e-3);
+      }
+      heading = next;
+      ++joins;
+    }
+    before = now;
+  }
+  EXPECT_GT(joins, 30);
 }
 
 TEST(ChainBank, TimeBetweenStepsIsInterpolatedAndQuaternionsStayUnit) {

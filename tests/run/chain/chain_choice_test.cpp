@@ -1,0 +1,24 @@
+#include "run/chain/chain_choice.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <vector>
+
+namespace wisp {
+namespace {
+
+TEST(ChainChoice, OfModesThatAreAsLikelyTheFirstIsTaken) {
+  std::array<std::uint32_t, 4> threshold{0x20000000U, 0x80000000U, 0xe0000000U, 0xffffffffU};
+  ChainProgram program;
+  program.modes = 4;
+  program.threshold = threshold;
+  std::vector<std::byte> memory(256);
+  Arena arena(memory);
+  ChainChoice choice(program, arena);
+  choice.set_chance(false);
+  EXPECT_EQ(choice.mode(program, 0, {}), 1U);
+}
+
+}  // namespace
+}  // namespace wisp
