@@ -32,6 +32,7 @@ std::vector<fs::path> models_in(const fs::path& folder) {
   }
   std::sort(found.begin(), found.end());
   std::vector<fs::path> paths;
+  paths.reserve(found.size());
   for (auto& [order, path] : found) paths.push_back(path);
   return paths;
 }

@@ -1,5 +1,6 @@
 #include "sound/wind_filters.hpp"
 
+#include <cmath>
 #include <cstddef>
 
 namespace wisp::wind {
@@ -27,7 +28,7 @@ SinCos sin_cos(double x) {
 
 /// sin for any positive angle.
 double sine(double x) {
-  const double turns = static_cast<double>(static_cast<long long>(x / (2 * kPi) + 0.5));
+  const double turns = std::floor(x / (2 * kPi) + 0.5);
   return sin_cos(x - turns * 2 * kPi).sin;
 }
 
