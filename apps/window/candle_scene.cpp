@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace wisp::window {
 namespace {
@@ -257,8 +258,8 @@ std::vector<Point> CandleScene::outline_of(const Candle& candle) {
 void CandleScene::draw(Image& image) {
   std::vector<std::vector<Point>> outlines;
   outlines.reserve(candles_.size());  // flames point into it
-  std::vector<int> order;
-  for (int k = 0; k < candles(); ++k) order.push_back(k);
+  std::vector<int> order(candles_.size());
+  std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
     return candles_[static_cast<std::size_t>(a)].place.y < candles_[static_cast<std::size_t>(b)].place.y;
   });
