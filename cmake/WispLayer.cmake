@@ -2,9 +2,9 @@
 # layers below it.
 #
 #   wisp_layer(NAME [FOLDER src-folder] [USES layer…] [LINKS private-library…]
-#              [OPTIONS private-compiler-option…])
+#              [OPTIONS private-compiler-option…] [PRECOMPILED header…])
 function(wisp_layer name)
-  cmake_parse_arguments(LAYER "" "FOLDER" "USES;LINKS;OPTIONS" ${ARGN})
+  cmake_parse_arguments(LAYER "" "FOLDER" "USES;LINKS;OPTIONS;PRECOMPILED" ${ARGN})
   if(NOT LAYER_FOLDER)
     set(LAYER_FOLDER ${name})
   endif()
@@ -25,7 +25,32 @@ function(wisp_layer name)
   target_link_libraries(${target} PRIVATE ${LAYER_LINKS})
   wisp_exact_arithmetic(${target} ${LAYER_OPTIONS})
   wisp_warnings(${target})
+  # What changes the code of inline functions wants headers read with the same options.
+  if(name STREQUAL base OR LAYER_OPTIONS OR LAYER_PRECOMPILED)
+    wisp_precompiled(${target} ${LAYER_PRECOMPILED})
+  else()
+    wisp_precompiled(${target} REUSE_FROM wisp_base)
+  endif()
   set_property(GLOBAL APPEND PROPERTY WISP_LAYERS ${target})
+endfunction()
+
+# Reading the standard library is half of what compiling one of our sources takes: it is read once for all of a target.
+# Further arguments are more headers of which many sources are made, or another target to take all from. A host's build,
+# and one for another machine, is left as it is.
+function(wisp_precompiled target)
+  if(NOT PROJECT_IS_TOP_LEVEL OR CMAKE_CROSSCOMPILING)
+    return()
+  endif()
+  # The first for ccache. GCC 12 forgets that what it has read beforehand is the system's, and wrongly finds fault with the
+  # moves of its own std::string.
+  target_compile_options(${target} PRIVATE
+    "$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess;-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-array-bounds>")
+  if(ARGV1 STREQUAL REUSE_FROM)
+    target_precompile_headers(${target} ${ARGN})
+  else()
+    target_precompile_headers(${target} PRIVATE ${ARGN} <algorithm> <array> <cmath> <functional> <limits> <map> <optional>
+      <span> <string> <variant> <vector>)
+  endif()
 endfunction()
 
 # A host may build with -ffast-math. A missing sample is a NaN here, and the frame path keeps its bits. Further arguments

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <functional>
 #include <limits>
+#include <ostream>
 #include <vector>
 
 #include "base/hash.hpp"
@@ -25,6 +26,8 @@ struct Kind {
   const char* name;
   std::function<Model()> model;
 };
+
+void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
 
 std::vector<Kind> kinds() {
   return {{"ResampledMirrored", [] { return default_flame_model(); }},
