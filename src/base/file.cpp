@@ -203,11 +203,11 @@ Result<void> PendingFile::commit() {
 
 void remove_pending_files_when_interrupted() {
 #ifdef SIGHUP
-  constexpr std::array signals{SIGINT, SIGTERM, SIGHUP};
+  constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
 #else
-  constexpr std::array signals{SIGINT, SIGTERM};
+  constexpr std::array kSignals{SIGINT, SIGTERM};
 #endif
-  for (const int signal : signals) {
+  for (const int signal : kSignals) {
     if (std::signal(signal, remove_pending_files) == SIG_IGN) std::signal(signal, SIG_IGN);  // nohup stays nohup
   }
 }

@@ -39,7 +39,6 @@ int bytes_of(WavSample sample) {
     case WavSample::kPcm24:
       return 3;
     case WavSample::kPcm32:
-      return 4;
     case WavSample::kFloat32:
       return 4;
     case WavSample::kFloat64:

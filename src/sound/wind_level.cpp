@@ -17,14 +17,15 @@ struct WindLevel::State {
 
   /// First sample after a frame.
   std::int64_t end_of(std::int64_t index) const {
-    return static_cast<std::int64_t>(static_cast<double>(index + 1) * format.rate_hz / options.frame_rate_hz + 0.5);
+    return static_cast<std::int64_t>(
+        std::floor(static_cast<double>(index + 1) * format.rate_hz / options.frame_rate_hz + 0.5));
   }
 
   template <class Sample, class Load>
   WindFed feed(std::span<const Sample> samples, std::span<WindFrame> frames, Load load) {
     const std::size_t channels = static_cast<std::size_t>(format.channels);
     WindFed fed;
-    float one[wind::kMaxChannels];
+    float one[wind::kMaxChannels] = {};
     while (fed.samples + channels <= samples.size()) {
       const bool ends_frame = position + 1 == next_frame_at;
       if (ends_frame && fed.frames == frames.size()) break;

@@ -24,7 +24,8 @@ constexpr float kBlowingConfidence = 0.5F;  // likelier blowing than not
 constexpr float kWindHeard = 0.05F;         // of wind 1: what is told of as wind
 
 float percentile(std::vector<float> values, float share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<float>(values.size() - 1) + 0.5F);
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(std::floor(share * static_cast<float>(values.size() - 1) + 0.5F));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
@@ -172,7 +173,9 @@ struct WindTracker::State {
     next_frame_at = sample_at(end_seconds());
   }
 
-  std::int64_t sample_at(double seconds) const { return static_cast<std::int64_t>(seconds * format.rate_hz + 0.5); }
+  std::int64_t sample_at(double seconds) const {
+    return static_cast<std::int64_t>(std::floor(seconds * format.rate_hz + 0.5));
+  }
 
   /// When the frame that is being heard ends.
   double end_seconds() const {
@@ -184,7 +187,7 @@ struct WindTracker::State {
   template <class Sample, class Load>
   void feed(std::span<const Sample> samples, Load load) {
     const std::size_t channels = static_cast<std::size_t>(format.channels);
-    float one[wind::kMaxChannels];
+    float one[wind::kMaxChannels] = {};
     for (std::size_t i = 0; i + channels <= samples.size(); i += channels) {
       for (std::size_t c = 0; c < channels; ++c) one[c] = load(samples[i + c]);
       hear(one);

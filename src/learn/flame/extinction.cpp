@@ -104,8 +104,8 @@ struct Trial {
 };
 
 std::vector<double> steps_between(double low, double high, int count) {
-  std::vector<double> out;
-  for (int k = 0; k < count; ++k) out.push_back(low * std::pow(high / low, static_cast<double>(k) / (count - 1)));
+  std::vector<double> out(count);
+  for (int k = 0; k < count; ++k) out[k] = low * std::pow(high / low, static_cast<double>(k) / (count - 1));
   return out;
 }
 

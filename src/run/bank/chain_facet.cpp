@@ -51,8 +51,8 @@ bool ChainFacet::can_steer() const { return state_->chain_stepper()->can_steer()
 
 bool ChainFacet::steer(InstanceId id, const SteerTarget& target) {
   if (!state_->valid(id) || !is_sound(target) || !can_steer()) return false;
-  const auto steps = static_cast<float>((target.in.count() + state_->step_time - 1) / state_->step_time);
-  state_->chain_stepper()->steer(block_of(id), lane_of(id), target.position, steps, target.near);
+  const auto steps = (target.in.count() + state_->step_time - 1) / state_->step_time;  // those begun count
+  state_->chain_stepper()->steer(block_of(id), lane_of(id), target.position, static_cast<float>(steps), target.near);
   return true;
 }
 

@@ -148,9 +148,9 @@ class Search {
   }
 
   std::vector<double> losses(const Eigen::MatrixXd& gram, std::size_t rows) const {
-    std::vector<double> out;
+    std::vector<double> out(signals_.outputs);
     for (int i = 0; i < signals_.outputs; ++i) {
-      out.push_back(gram(i, i) / (static_cast<double>(rows) * signals_.scale[i] * signals_.scale[i]));
+      out[i] = gram(i, i) / (static_cast<double>(rows) * signals_.scale[i] * signals_.scale[i]);
     }
     return out;
   }
