@@ -1,6 +1,7 @@
 #include "capture/media/libav.hpp"
 
 #include <mutex>
+#include <new>
 #include <vector>
 
 namespace wisp {
@@ -46,6 +47,11 @@ std::string libav_message(int code) {
   char buffer[AV_ERROR_MAX_STRING_SIZE] = {};
   av_strerror(code, buffer, sizeof buffer);
   return buffer;
+}
+
+int with_memory(int code) {
+  if (code == AVERROR(ENOMEM)) throw std::bad_alloc();
+  return code;
 }
 
 Result<FormatOwner> open_media(const std::filesystem::path& path) {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <new>
 
 namespace wisp {
 namespace {
@@ -42,12 +41,6 @@ std::int64_t stated_frames(const AVFormatContext& format, const AVStream& track,
   }
   if (format.duration == AV_NOPTS_VALUE) return 0;
   return std::llround(static_cast<double>(format.duration) / AV_TIME_BASE * rate);
-}
-
-// Want of memory is no fault of the film's: to leave the frame out would change what is measured.
-int with_memory(int code) {
-  if (code == AVERROR(ENOMEM)) throw std::bad_alloc();
-  return code;
 }
 
 }  // namespace
@@ -149,14 +142,14 @@ Result<std::optional<VideoFrame>> VideoFile::next() {
 // Returns its time.
 std::int64_t VideoFile::decode_key_frame(std::int64_t tick, std::int64_t before) {
   if (av_seek_frame(format_.get(), track_, tick, AVSEEK_FLAG_BACKWARD) < 0) return before;
-  while (av_read_frame(format_.get(), packet_.get()) >= 0) {
+  while (with_memory(av_read_frame(format_.get(), packet_.get())) >= 0) {
     const bool wanted = packet_->stream_index == track_ && (packet_->flags & AV_PKT_FLAG_KEY) != 0;
     const std::int64_t at = packet_->pts;
-    int code = wanted && at != before ? avcodec_send_packet(codec_.get(), packet_.get()) : -1;
+    int code = wanted && at != before ? with_memory(avcodec_send_packet(codec_.get(), packet_.get())) : -1;
     av_packet_unref(packet_.get());
     if (!wanted) continue;
     if (code >= 0) code = avcodec_send_packet(codec_.get(), nullptr);
-    if (code >= 0) code = avcodec_receive_frame(codec_.get(), frame_.get());
+    if (code >= 0) code = with_memory(avcodec_receive_frame(codec_.get(), frame_.get()));
     avcodec_flush_buffers(codec_.get());
     return code >= 0 ? at : before;
   }

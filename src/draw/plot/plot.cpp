@@ -112,10 +112,11 @@ void draw_sheet(cairo_t* context, const PlotSheet& sheet, const SheetLayout& at)
     lefts.push_back(left_of_column(context, sheet, at, column));
   }
   for (std::size_t k = 0; k < sheet.plots.size(); ++k) {
+    const std::size_t column = k % at.columns, row = k / at.columns;
     cairo_save(context);
-    cairo_translate(context, kSheetMargin + static_cast<double>(k % at.columns) * at.plot_width,
-                    kSheetMargin + at.title + static_cast<double>(k / at.columns) * at.plot_height);
-    draw_plot(context, sheet.plots[k], at.plot_width, at.plot_height, lefts[k % at.columns]);
+    cairo_translate(context, kSheetMargin + static_cast<double>(column) * at.plot_width,
+                    kSheetMargin + at.title + static_cast<double>(row) * at.plot_height);
+    draw_plot(context, sheet.plots[k], at.plot_width, at.plot_height, lefts[column]);
     cairo_restore(context);
   }
 }

@@ -94,7 +94,7 @@ Result<OutlineLayout> common_layout(std::span<const Recording> recordings) {
   if (!first) return first;
   for (const Recording& recording : recordings.subspan(1)) {
     const auto layout = outline_layout(recording);
-    if (!layout) return layout;
+    if (!layout) return layout.error();
     if (layout->points != first->points) {
       return Error{recording.source + ": has " + std::to_string(layout->points) + " control points, but " +
                    recordings.front().source + " has " + std::to_string(first->points) +
