@@ -327,7 +327,7 @@ void Window::hold_back(Uint64 began) const {
   const double per_ms = static_cast<double>(SDL_GetPerformanceFrequency()) / 1000;
   const double took = static_cast<double>(SDL_GetPerformanceCounter() - began) / per_ms;
   const double least = synced_ ? kShortestFrameMs : 1000.0 / kFrameRate;
-  if (took < least) SDL_Delay(static_cast<Uint32>(std::lround(least - took)));
+  if (took < least) SDL_Delay(static_cast<Uint32>(least - took + 0.5));
 }
 
 // Where frames take too long for a second, they become smaller.

@@ -17,8 +17,7 @@ struct WindLevel::State {
 
   /// First sample after a frame.
   std::int64_t end_of(std::int64_t index) const {
-    return static_cast<std::int64_t>(
-        std::floor(static_cast<double>(index + 1) * format.rate_hz / options.frame_rate_hz + 0.5));
+    return static_cast<std::int64_t>(static_cast<double>(index + 1) * format.rate_hz / options.frame_rate_hz + 0.5);
   }
 
   template <class Sample, class Load>

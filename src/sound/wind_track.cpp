@@ -24,8 +24,7 @@ constexpr float kBlowingConfidence = 0.5F;  // likelier blowing than not
 constexpr float kWindHeard = 0.05F;         // of wind 1: what is told of as wind
 
 float percentile(std::vector<float> values, float share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(std::floor(share * static_cast<float>(values.size() - 1) + 0.5F));
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<float>(values.size() - 1) + 0.5F);
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
@@ -173,9 +172,7 @@ struct WindTracker::State {
     next_frame_at = sample_at(end_seconds());
   }
 
-  std::int64_t sample_at(double seconds) const {
-    return static_cast<std::int64_t>(std::floor(seconds * format.rate_hz + 0.5));
-  }
+  std::int64_t sample_at(double seconds) const { return static_cast<std::int64_t>(seconds * format.rate_hz + 0.5); }
 
   /// When the frame that is being heard ends.
   double end_seconds() const {
