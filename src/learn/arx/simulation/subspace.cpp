@@ -75,7 +75,7 @@ VectorXcd mirrored(VectorXcd poles, double most) {
 
 }  // namespace
 
-Subspace::Subspace(const Signals& signals, std::vector<int> outputs, bool constant)
+Subspace::Subspace(const Signals& signals, const std::vector<int>& outputs, bool constant)
     : block_(signals, one_lag(signals, outputs), outputs, constant, 1), constant_(constant) {
   if (block_.runs().empty() || !(block_.weight().array() > 0).all() || signals.inputs == 0) return;
   for (double scale : signals.scale) {

@@ -20,7 +20,7 @@ namespace wisp::arx {
 class Subspace {
  public:
   /// `constant`: whether outputs have a level that is estimated. Precondition: the signals are scaled.
-  Subspace(const Signals& signals, std::vector<int> outputs, bool constant);
+  Subspace(const Signals& signals, const std::vector<int>& outputs, bool constant);
 
   /// 0 where rows are too few, or a channel never moves.
   int max_states() const { return static_cast<int>(strength_.size()); }
