@@ -140,7 +140,7 @@ Result<bool> CsvReader::read_line(Line& line) {
 Result<bool> CsvReader::next_line() {
   if (ahead_.empty()) {
     Line line{std::move(line_), 0};
-    const auto more = read_line(line);
+    auto more = read_line(line);
     line_ = std::move(line.text);
     row_ = line.row;
     return more;
@@ -156,7 +156,7 @@ Result<std::vector<std::string>> CsvReader::look_ahead(std::size_t count) {
   while (ahead_.size() + 1 < count) {
     const std::size_t row = row_;
     Line line;
-    const auto more = read_line(line);
+    auto more = read_line(line);
     if (!more) return more.error();
     row_ = row;
     if (!*more) break;
@@ -242,6 +242,7 @@ Result<std::vector<std::string>> CsvReader::read_names(const CsvOptions& options
   if (separator_ == '\0') separator_ = csv::separator_of(*lines);
   const std::vector<Cell> cells = cells_of(line_, separator_);
   std::vector<std::string> names;
+  names.reserve(cells.size());
   for (const Cell& cell : cells) names.push_back(csv::text_of(cell));
   while (names.size() > 1 && names.back().empty()) names.pop_back();
   const bool numbers = csv::is_row(line_, separator_);

@@ -104,6 +104,7 @@ class Kernel {
   /// Takes one sample of every channel. Returns whether a hop has ended, so that features() are new.
   bool push(const float* samples) {
     bool due = false;
+    // NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage): there are as many channels as its caller filled
     for (std::size_t c = 0; c < channels_.size(); ++c) due = take(channels_[c], T(held(samples[c])));
     ++samples_;
     return due && analyse();

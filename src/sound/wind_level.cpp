@@ -24,7 +24,7 @@ struct WindLevel::State {
   WindFed feed(std::span<const Sample> samples, std::span<WindFrame> frames, Load load) {
     const std::size_t channels = static_cast<std::size_t>(format.channels);
     WindFed fed;
-    float one[wind::kMaxChannels] = {};
+    float one[wind::kMaxChannels];
     while (fed.samples + channels <= samples.size()) {
       const bool ends_frame = position + 1 == next_frame_at;
       if (ends_frame && fed.frames == frames.size()) break;

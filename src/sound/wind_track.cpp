@@ -184,7 +184,7 @@ struct WindTracker::State {
   template <class Sample, class Load>
   void feed(std::span<const Sample> samples, Load load) {
     const std::size_t channels = static_cast<std::size_t>(format.channels);
-    float one[wind::kMaxChannels] = {};
+    float one[wind::kMaxChannels];
     for (std::size_t i = 0; i + channels <= samples.size(); i += channels) {
       for (std::size_t c = 0; c < channels; ++c) one[c] = load(samples[i + c]);
       hear(one);
