@@ -16,7 +16,7 @@
 namespace wisp {
 namespace {
 
-constexpr int kStateBits = 29, kWeightBits = 28, kSumBits = 25, kOneBits = 12;
+constexpr int kWeightBits = 28, kSumBits = 25, kOneBits = 12;
 constexpr std::size_t kMaxModes = 16, kMaxLags = 32;
 constexpr double kMaxWeight = 8, kMaxSum = 24;
 // Standard deviation of the sum of four bytes from -128 to 127.

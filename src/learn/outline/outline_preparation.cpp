@@ -53,9 +53,9 @@ Result<void> add(const Recording& recording, double pixels_per_unit, PreparedOut
   if (!(own > 0)) return Error{recording.source + ": has no row with an outline"};
   const double scale = pixels_per_unit > 0 ? pixels_per_unit : own;
   prepared.pixels_per_unit.push_back(scale);
-  Recording units = outputs_first(to_model_units(recording, *layout, scale), *layout);
+  const Recording units = outputs_first(to_model_units(recording, *layout, scale), *layout);
   prepared.rest.push_back(mean_shape(units, prepared.layout, undisturbed));
-  prepared.recordings.push_back(with_regressors(std::move(units), prepared.inputs, prepared.shape));
+  prepared.recordings.push_back(with_regressors(units, prepared.inputs, prepared.shape));
   return {};
 }
 
