@@ -43,7 +43,7 @@ CoefficientLists lists_of(const ArxOrders& orders, const std::vector<std::vector
   for (int i = 0; i < orders.outputs(); ++i) {
     auto next = rows[static_cast<std::size_t>(i)].begin();
     const auto take = [&next](int count) {
-      const ReportList lags(next, next + count);
+      ReportList lags(next, next + count);
       next += count;
       return lags;
     };
