@@ -156,7 +156,7 @@ Result<std::vector<std::string>> CsvReader::look_ahead(std::size_t count) {
   while (ahead_.size() + 1 < count) {
     const std::size_t row = row_;
     Line line;
-    auto more = read_line(line);
+    const auto more = read_line(line);
     if (!more) return more.error();
     row_ = row;
     if (!*more) break;

@@ -88,8 +88,8 @@ std::uint64_t Bank::State::step_blocks(int first, int last, const Steps& made) {
           }
           const int group = last - block < kGroup ? 1 : kGroup;
           const auto step = [&](auto& one) {
-            // NOLINTNEXTLINE(bugprone-branch-clone): one and the same only where a group is one block
             count_of_clamped +=
+                // NOLINTNEXTLINE(bugprone-branch-clone): one and the same only where a group is one block
                 group == kGroup ? step_group<kGroup>(one, block, made) : step_group<1>(one, block, made);
           };
           if (!kAhead || made.count == 1) {
