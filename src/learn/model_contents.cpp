@@ -51,14 +51,14 @@ void add_noise(const ResidualNoise& noise, ReportSection& section) {
   add(section, to + "mirror", list(resampled.mirror));
 }
 
-void add_dynamics(const ArxModel& arx, ReportSection& section) {
+void add_contents(const ArxModel& arx, ReportSection& section) {
   add(section, "dynamics.constant", arx.constant);
   add(section, "dynamics.output_mean", arx.output_mean);
   add(section, "dynamics.input_mean", arx.input_mean);
   add_noise(arx.noise, section);
 }
 
-void add_dynamics(const SwitchedArxModel& switched, ReportSection& section) {
+void add_contents(const SwitchedArxModel& switched, ReportSection& section) {
   ReportList certificates;
   for (const auto& matrix : switched.lyapunov) certificates.push_back(matrix);
   add(section, "dynamics.output_mean", switched.output_mean);
@@ -106,7 +106,7 @@ void add_splines(const ModeSplines& splines, ReportSection& section) {
   add(section, "dynamics.splines.score", list(splines.score));
 }
 
-void add_dynamics(const ChainModel& chain, ReportSection& section) {
+void add_contents(const ChainModel& chain, ReportSection& section) {
   const ChainSegments& segments = chain.segments;
   const std::string id = "dynamics.";
   add(section, id + "motion", chain.motion == ChainMotion::kPose ? "pose" : "position");
@@ -206,7 +206,7 @@ Report model_contents(const Model& model) {
   for (std::size_t k = 0; k < model.inputs.size(); ++k) {
     add(section, element("inputs", k, "form"), form_of(model.inputs[k].shape));
   }
-  std::visit([&](const auto& dynamics) { add_dynamics(dynamics, section); }, model.dynamics);
+  std::visit([&](const auto& dynamics) { add_contents(dynamics, section); }, model.dynamics);
   if (model.extinction) {
     add(section, "extinction.dying", model.extinction->decay);
     add(section, "extinction.catching", model.extinction->re_ignition);

@@ -7,6 +7,7 @@
 #include "learn/arx/curve/arx_curves.hpp"
 #include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/plain_model.hpp"
+#include "learn/numeric/constants.hpp"
 #include "learn/outline/outline_judgement.hpp"
 #include "learn/same_rate.hpp"
 #include "learn/switched/switched_prediction.hpp"
@@ -17,7 +18,6 @@ namespace {
 
 using Series = std::vector<std::vector<double>>;  // one an output
 
-constexpr double kSure = 1.959963985;  // standard deviations to either side of 95 %
 constexpr int kSettled = 2000;         // steps after which the noise of free simulation has its full size
 
 // Half the width of the 95 % interval of every prediction. A free run knows its start: it is as sure as a prediction of
@@ -32,7 +32,7 @@ Series half_widths(const Series& sd, const Recording& recording, const Series& p
         run = std::isnan(predicted[i][row]) ? 0 : run + 1;
         if (run == 0) continue;
         const std::size_t ahead = steps == kFreeRun ? std::min(run, sd[i].size()) : static_cast<std::size_t>(steps);
-        widths[i][row] = kSure * sd[i][ahead - 1];
+        widths[i][row] = kNormal95 * sd[i][ahead - 1];
       }
     }
   }

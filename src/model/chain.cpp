@@ -25,7 +25,7 @@ Result<void> check_size(std::size_t size, std::size_t expected, const std::strin
   return Error{"the chain's " + what + " hold " + found(size, std::to_string(expected)) + " values"};
 }
 
-Result<void> check_probabilities(const std::vector<double>& row, int modes, const std::string& what) {
+Result<void> check_row(const std::vector<double>& row, int modes, const std::string& what) {
   if (auto ok = check_size(row.size(), static_cast<std::size_t>(modes), what); !ok) return ok;
   double sum = 0;
   for (double p : row) {
@@ -158,7 +158,7 @@ Result<void> check_contexts(const ChainModel& model) {
     }
     const std::string name = name_of(context.history);
     if (!seen.insert(context.history).second) return Error{"the chain holds its " + name + " twice"};
-    if (auto ok = check_probabilities(context.probability, model.modes, name); !ok) return ok;
+    if (auto ok = check_row(context.probability, model.modes, name); !ok) return ok;
   }
   for (int mode = 0; mode < model.modes; ++mode) {
     if (!seen.count({static_cast<std::uint16_t>(mode)})) {
@@ -275,7 +275,7 @@ Result<void> check(const ChainModel& model) {
     return Error{"a chain has " + std::to_string(model.modes) + " modes, expected 1 to 256"};
   }
   if (auto ok = check_segments(model); !ok) return ok;
-  if (auto ok = check_probabilities(model.initial, model.modes, "initial probabilities"); !ok) return ok;
+  if (auto ok = check_row(model.initial, model.modes, "initial probabilities"); !ok) return ok;
   if (auto ok = check_contexts(model); !ok) return ok;
   if (model.blend_steps < 0 || model.blend_steps > kMaxBlendSteps) {
     return Error{"a chain spreads joins over " + std::to_string(model.blend_steps) + " steps, expected 0 to 4096"};

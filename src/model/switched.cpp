@@ -138,7 +138,7 @@ std::vector<int> block_of(int first, const OrderMatrix& na, std::vector<bool>& t
   return block;
 }
 
-std::vector<double> companion(const ArxModel& mode, const std::vector<int>& outputs, int states) {
+std::vector<double> companion_of(const ArxModel& mode, const std::vector<int>& outputs, int states) {
   const int ny = static_cast<int>(outputs.size());
   std::vector<double> matrix(static_cast<std::size_t>(states) * states, 0.0);
   for (int r = 0; r < ny; ++r) {
@@ -219,7 +219,7 @@ std::vector<StateBlock> state_blocks(const SwitchedArxModel& model) {
     block.states = order * static_cast<int>(block.outputs.size());
     if (block.states == 0) continue;
     if (block.states <= kMaxLyapunovStates) {
-      for (const ArxModel& mode : modes) block.companion.push_back(companion(mode, block.outputs, block.states));
+      for (const ArxModel& mode : modes) block.companion.push_back(companion_of(mode, block.outputs, block.states));
     }
     blocks.push_back(std::move(block));
   }

@@ -69,7 +69,7 @@ Result<void> run_many(const ClipCapture& options, const Arguments& arguments, Te
   return {};
 }
 
-Result<void> run(const Arguments& arguments, Terminal& terminal) {
+Result<void> run_capture(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
   const auto options = capture_options(arguments);
   if (!options) return options.error();
@@ -164,7 +164,7 @@ Command capturing(std::string name, const std::string& flame, std::string summar
   flags.push_back(
       {"skip-bad", Kind::kSwitch, "", "", "of several: leave bad clips out, listing them, instead of stopping"});
   return {std::move(name),  std::move(summary),  {{"CLIP", "video files, or folders of numbered images", true}},
-          std::move(flags), std::move(examples), run};
+          std::move(flags), std::move(examples), run_capture};
 }
 
 }  // namespace

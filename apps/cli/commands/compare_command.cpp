@@ -59,7 +59,7 @@ PlotSheet sheet_of(const Report& report) {
   return sheet;
 }
 
-Result<void> run(const Arguments& arguments, Terminal& terminal) {
+Result<void> run_compare(const Arguments& arguments, Terminal& terminal) {
   const std::vector<std::string> paths(arguments.positionals().begin() + 1, arguments.positionals().end());
   const auto models = read_models(paths);
   if (!models) return models.error();
@@ -102,7 +102,7 @@ Command compare_command() {
           {"wisp compare hairdryer.csv order2.wisp order4.wisp --range 501:1000 -o compared.png",
            "Which order simulates unseen rows best"},
       },
-      run,
+      run_compare,
   };
 }
 

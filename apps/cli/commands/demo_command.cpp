@@ -208,7 +208,7 @@ void say_what_next(const Places& places, Terminal& terminal) {
   terminal.say("  script/web serve                      the same in a browser; drop flame.wisp onto the page");
 }
 
-Result<void> run(const Arguments& arguments, Terminal& terminal) {
+Result<void> run_demo(const Arguments& arguments, Terminal& terminal) {
   const Places places{arguments.text("output")};
   std::error_code code;
   fs::create_directories(places.folder, code);
@@ -253,7 +253,7 @@ Command demo_command() {
       },
       {{"wisp demo candle.mp4", "A film of a candle to a living model, in out/demo"},
        {"wisp demo", "The same without a camera: the candle is simulated"}},
-      run,
+      run_demo,
   };
 }
 

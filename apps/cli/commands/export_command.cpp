@@ -77,7 +77,7 @@ Result<void> check_flags(const Arguments& arguments, const std::string& extensio
   return refuse("instances", "1", "holds one");
 }
 
-Result<void> run(const Arguments& arguments, Terminal& terminal) {
+Result<void> run_export(const Arguments& arguments, Terminal& terminal) {
   static const std::map<std::string, std::function<Result<void>(const Job&, const Take&)>> writers = {
       {".glb", write_gltf},      {".json", write_lottie},   {".png", write_pictures},
       {".apng", write_pictures}, {".webm", write_pictures},
@@ -140,7 +140,7 @@ Command export_command() {
           {"wisp export flame.wisp --loop 3 -o flame.json", "The outline as a Lottie animation"},
           {"wisp export light.wisp -o candle.c", "A lamp that flickers, in fixed point, for a microcontroller"},
       },
-      run,
+      run_export,
   };
 }
 

@@ -9,7 +9,7 @@
 namespace wisp::cli {
 namespace {
 
-Result<void> run(const Arguments& arguments, Terminal& terminal) {
+Result<void> run_info(const Arguments& arguments, Terminal& terminal) {
   const auto bytes = read_file(arguments.positional());
   if (!bytes) return bytes.error();
   const auto model = parse_model(*bytes, arguments.positional());
@@ -32,7 +32,7 @@ Command info_command() {
       {{"MODEL", "the model, a .wisp file"}},
       {},
       {{"wisp info flame.wisp", "The facts of a model"}},
-      run,
+      run_info,
   };
 }
 

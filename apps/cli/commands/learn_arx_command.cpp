@@ -108,7 +108,7 @@ Result<Fit> learned(const ArxRecipe& recipe, const Arguments& arguments, Termina
   return all->part.finish(recipe, all->sources, terminal.progress());
 }
 
-Result<void> run(const Arguments& arguments, Terminal& terminal) {
+Result<void> run_learn_arx(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
   const auto recipe = recipe_of(arguments);
   if (!recipe) return recipe.error();
@@ -127,7 +127,7 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
                (std::filesystem::exists(output) ? "; the file of that name is an older one" : "")};
 }
 
-std::vector<Flag> flags() {
+std::vector<Flag> arx_flags() {
   std::vector<Flag> all = {
       output_flag({"partial"}),
       {"inputs", Kind::kNames, "A,B", "", "channels that are inputs; none: a model of the outputs alone"},
@@ -187,7 +187,7 @@ Command learn_arx_command() {
       {{"REC",
         "recordings: CSV files, or MATLAB files whose variables --inputs and --outputs name; with --merge, parts",
         true}},
-      flags(),
+      arx_flags(),
       {
           {"wisp learn arx hairdryer.csv -o dryer.wisp --inputs u1 --outputs y1 --dt 0.08 --na 2 --nb 2 --nk 3 --range "
            "1:300",
@@ -200,7 +200,7 @@ Command learn_arx_command() {
            "-o long.wisp",
            "One of eight jobs, each with its share of the rows, and what makes one model of all of them"},
       },
-      run,
+      run_learn_arx,
   };
 }
 

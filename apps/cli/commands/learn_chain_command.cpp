@@ -67,7 +67,7 @@ Result<std::vector<Recording>> read_motions(const Arguments& arguments, Terminal
   return recordings;
 }
 
-Result<void> run(const Arguments& arguments, Terminal& terminal) {
+Result<void> run_learn_chain(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
   const auto recipe = recipe_from(arguments);
   if (!recipe) return recipe.error();
@@ -143,7 +143,7 @@ Command learn_chain_command() {
       flags("min:horizontal_speed", "velocity,length,direction"),
       {{"wisp learn chain falls.csv -o disc.wisp --event min:horizontal_speed --smooth 7",
         "Tracks of falling paper: positions only"}},
-      run,
+      run_learn_chain,
   };
 }
 
@@ -157,7 +157,7 @@ Command learn_leaf_command() {
        {"wisp learn leaf drops.csv gusts.csv gusts.calm.csv -o leaf.wisp",
         "The same with its response to gusts, from `wisp simulate leaf --pairs`"},
        {"wisp learn leaf drops.csv -o paper.wisp --history 1 --best-of 0 --blend 0", "The paper's own chain"}},
-      run,
+      run_learn_chain,
   };
 }
 

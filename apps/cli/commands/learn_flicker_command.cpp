@@ -11,7 +11,7 @@
 namespace wisp::cli {
 namespace {
 
-Result<void> run(const Arguments& arguments, Terminal& terminal) {
+Result<void> run_learn_flicker(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
   const auto recordings = read_tables(arguments.positionals(), arguments, terminal);
   if (!recordings) return recordings.error();
@@ -51,7 +51,7 @@ Command learn_flicker_command() {
        {"wisp capture brightness photodiode.csv --columns time,brightness --rate 100 -o light.csv && "
         "wisp learn flicker light.csv -o light.wisp",
         "From a photodiode"}},
-      run,
+      run_learn_flicker,
   };
 }
 

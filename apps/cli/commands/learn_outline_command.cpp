@@ -15,7 +15,7 @@
 namespace wisp::cli {
 namespace {
 
-Result<void> run(const Arguments& arguments, Terminal& terminal) {
+Result<void> run_learn_outline(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
   if (arguments.has("partial")) return write_outline_part(arguments, terminal);
   const std::string path = model_path(arguments);
@@ -49,7 +49,7 @@ Command learn(std::string name, std::string summary, const Preset& preset, std::
           {{"CLIP_OR_REC", "clips, folders of images, or recordings (.csv); with --merge, parts", true}},
           std::move(flags),
           std::move(examples),
-          run};
+          run_learn_outline};
 }
 
 }  // namespace

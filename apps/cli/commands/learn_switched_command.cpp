@@ -12,7 +12,7 @@
 namespace wisp::cli {
 namespace {
 
-Result<SwitchedRecipe> recipe_of(const Arguments& arguments) {
+Result<SwitchedRecipe> switched_recipe(const Arguments& arguments) {
   if (arguments.text("nk") == "auto") {
     return Error{"--nk is auto, which `learn switched` does not find: `learn arx --nk auto` does, for a single model"};
   }
@@ -37,9 +37,9 @@ Result<SwitchedRecipe> recipe_of(const Arguments& arguments) {
       .seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
 }
 
-Result<void> run(const Arguments& arguments, Terminal& terminal) {
+Result<void> run_learn_switched(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
-  const auto recipe = recipe_of(arguments);
+  const auto recipe = switched_recipe(arguments);
   if (!recipe) return recipe.error();
   auto whole = read_tables(arguments.positionals(), arguments, terminal);
   if (!whole) return whole.error();
@@ -51,7 +51,7 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
   return hand_over(*fit, model_path(arguments), start, terminal);
 }
 
-std::vector<Flag> flags() {
+std::vector<Flag> switched_flags() {
   std::vector<Flag> all = {
       output_flag(),
       {"inputs", Kind::kNames, "A,B", "", "channels that are inputs; none: a model of the outputs alone"},
@@ -95,14 +95,14 @@ Command learn_switched_command() {
       "learn switched",
       "Estimates several ARX modes, and the regions or the Markov chain that decide which of them acts.",
       {{"REC", "recordings: CSV files, or MATLAB files whose variables --inputs and --outputs name", true}},
-      flags(),
+      switched_flags(),
       {
           {"wisp learn switched tanks.csv -o tanks.wisp --inputs u1 --outputs y1 --dt 4 --na 2 --nb 2 --nk 1",
            "A tank that overflows: as many regions as rows held out ask for"},
           {"wisp learn switched gusts.csv -o gusts.wisp --inputs u --outputs y --switching markov --modes 3",
            "Three modes that follow each other by chance"},
       },
-      run,
+      run_learn_switched,
   };
 }
 

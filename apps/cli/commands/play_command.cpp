@@ -114,7 +114,7 @@ void tell(const PlayReport& report, const PlayOptions& options, Terminal& termin
     terminal.say("wrote " + std::to_string(report.pictures.size()) + " pictures to " + options.pictures->string());
 }
 
-Result<void> run(const Arguments& arguments, Terminal& terminal) {
+Result<void> run_play(const Arguments& arguments, Terminal& terminal) {
   const auto options = options_of(arguments);
   if (!options) return options.error();
   std::signal(SIGINT, interrupt);
@@ -128,7 +128,7 @@ Result<void> run(const Arguments& arguments, Terminal& terminal) {
 
 #else
 
-Result<void> run(const Arguments&, Terminal&) {
+Result<void> run_play(const Arguments&, Terminal&) {
   return Error{"this build has no window: it was made with -DWISP_BUILD_WINDOW=OFF"};
 }
 
@@ -164,7 +164,7 @@ Command play_command() {
           {"wisp play flame.wisp --sound breath.wav --headless-frames 300 --png frames",
            "What a recorded breath does to it, as 300 pictures, without a window"},
       },
-      run,
+      run_play,
   };
 }
 

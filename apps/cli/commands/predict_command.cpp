@@ -20,7 +20,7 @@ Result<Recording> recording_for(const Model& model, const std::string& path, con
   return in_range(std::move(*whole), arguments, "range");
 }
 
-Result<void> run(const Arguments& arguments, Terminal& terminal) {
+Result<void> run_predict(const Arguments& arguments, Terminal& terminal) {
   const auto model = read_model(arguments.positionals()[0]);
   if (!model) return model.error();
   const auto steps = steps_of(arguments.text("steps"));
@@ -64,7 +64,7 @@ Command predict_command() {
           {"wisp predict dryer.wisp hairdryer.csv --steps inf --initial zero -o free.csv",
            "What the heater alone says of the temperature, from rest"},
       },
-      run,
+      run_predict,
   };
 }
 

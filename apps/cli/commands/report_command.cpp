@@ -67,7 +67,7 @@ Result<PagePart> judged(const Model& model, const std::string& recording, const 
   return PagePart{"On " + fs::path(recording).filename().string(), std::move(unseen.result()), pictures_in(folder)};
 }
 
-Result<void> run(const Arguments& arguments, Terminal& terminal) {
+Result<void> run_report(const Arguments& arguments, Terminal& terminal) {
   const auto model = read_model(arguments.positional());
   if (!model) return model.error();
   auto facts = model_report(*model);
@@ -114,7 +114,7 @@ Command report_command() {
       {{"wisp report flame.wisp -o flame.html", "What the model is, and how it was made"},
        {"wisp report dryer.wisp hairdryer.csv --dt 0.08 --range 501:1000 -o dryer.html",
         "With how it does on rows that it has not seen"}},
-      run,
+      run_report,
   };
 }
 

@@ -253,7 +253,7 @@ Result<void> run_loop(const Arguments& arguments, Terminal& terminal) {
   return model ? write_loop(*model, arguments, terminal) : model.error();
 }
 
-Result<void> run(const Arguments& arguments, Terminal& terminal) {
+Result<void> run_run(const Arguments& arguments, Terminal& terminal) {
   if (arguments.has("loop")) return run_loop(arguments, terminal);
   const auto play = prepare(arguments);
   if (!play) return play.error();
@@ -335,7 +335,7 @@ Command run_command() {
           {"wisp run flame.wisp --input puff.csv --frames 600 --relight 5 -o out.mp4",
            "A flame that a puff blows out, its smoke, and how it is lit again after five seconds"},
       },
-      run,
+      run_run,
   };
 }
 

@@ -35,7 +35,7 @@ Result<CandleClipOptions> options_from(const Arguments& arguments) {
   return options;
 }
 
-Result<void> run(const Arguments& arguments, Terminal& terminal) {
+Result<void> run_simulate_candle(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
   const auto options = options_from(arguments);
   if (!options) return options.error();
@@ -78,7 +78,7 @@ Command simulate_candle_command() {
            "of the camera's and the microphone's noise, if it is not to be the seed: another take in the same wind"},
       },
       {{"wisp simulate candle -o clip.mp4 --seconds 60 --wind gusts", "A minute of a candle in gusts"}},
-      run,
+      run_simulate_candle,
   };
 }
 

@@ -22,7 +22,7 @@ constexpr double kGramsPerKilogram = 1000;
 constexpr double kMinPairSeconds = 0.7;  // half a second to the onset, give or take a fifth, and some of the gust
 constexpr double kMaxJitter = 0.01;      // of a step of a wind's time
 
-Result<void> check_flags(const Arguments& arguments) {
+Result<void> check_leaf_flags(const Arguments& arguments) {
   static constexpr FlagRange kRanges[] = {
       {"drops", 1, 100000},
       {"seconds", 0.1, 3600},
@@ -177,9 +177,9 @@ Result<Recording> write_pairs(const std::filesystem::path& path, const LeafPairs
   return std::move(pairs->windy);
 }
 
-Result<void> run(const Arguments& arguments, Terminal& terminal) {
+Result<void> run_simulate_leaf(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
-  if (auto good = check_flags(arguments); !good) return good;
+  if (auto good = check_leaf_flags(arguments); !good) return good;
   const auto found = options_from(arguments, terminal);
   if (!found) return found.error();
   const LeafPairsOptions& options = *found;
@@ -259,7 +259,7 @@ Command simulate_leaf_command() {
       {{"wisp simulate leaf -o leaf.csv --drops 200 --seconds 20", "What a leaf's chain is learned from"},
        {"wisp simulate leaf -o gusts.csv --pairs --drops 200 --seconds 1.5",
         "What its answer to wind is learned from"}},
-      run,
+      run_simulate_leaf,
   };
 }
 

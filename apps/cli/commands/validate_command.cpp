@@ -62,7 +62,7 @@ Result<std::optional<Recording>> truth_for(const ValidationSubject& subject, con
   return std::optional(slice(*truth, first, std::min(truth->rows(), first + subject.recording.rows())));
 }
 
-Result<void> run(const Arguments& arguments, Terminal& terminal) {
+Result<void> run_validate(const Arguments& arguments, Terminal& terminal) {
   const auto& positionals = arguments.positionals();
   const auto model = read_model(positionals[0]);
   if (!model) return model.error();
@@ -135,7 +135,7 @@ Command validate_command() {
         "What gusts do to it, from `wisp simulate leaf --pairs`"},
        {"wisp validate dryer.wisp hairdryer.csv --dt 0.08 --range 501:1000 --steps 1,10,inf",
         "An ARX model on unseen rows"}},
-      run,
+      run_validate,
   };
 }
 

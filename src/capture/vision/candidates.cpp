@@ -16,8 +16,6 @@ constexpr double kAloneIsBetter = 0.5;   // what must be cut from its stand, aga
 constexpr double kLightPower = 8;        // what is a tenth dimmer than the brightest is half as likely
 constexpr double kSolidPower = 4;        // a flame has no notches; what has run together with something has
 
-double area_of(const Region& region) { return region.empty() ? 0 : static_cast<double>(region.width) * region.height; }
-
 // One region from picture to picture.
 struct Track {
   std::vector<std::size_t> pictures;
@@ -268,8 +266,8 @@ double score_of(const Candidate& c, const Evidence& evidence) {
 }  // namespace
 
 double shared_share(const Region& a, const Region& b) {
-  const double shared = area_of(intersection(a, b));
-  return shared == 0 ? 0 : shared / (area_of(a) + area_of(b) - shared);
+  const double shared = intersection(a, b).area();
+  return shared == 0 ? 0 : shared / (a.area() + b.area() - shared);
 }
 
 double middle(std::vector<double> values) {

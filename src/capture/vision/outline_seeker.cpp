@@ -25,8 +25,6 @@ constexpr double kAsLarge = 4;     // … at most so many times larger or smalle
 constexpr double kAsNear = 0.35;   // … and stands at most this share of its length away
 constexpr double kStays = 0.2;     // of the smaller box, what is followed shares with where it was a frame ago
 
-double area_of(const Region& region) { return region.empty() ? 0 : static_cast<double>(region.width) * region.height; }
-
 // The middle of a box's end towards the base.
 PixelPosition foot(const Region& box, BaseSide side) {
   const int edge = base_edge(box, side);
@@ -99,7 +97,7 @@ bool OutlineSeeker::alike() const {
 // found anew stands where that stood.
 bool OutlineSeeker::plausible(const Region& before) const {
   const Region& box = found_.box;
-  if (following_) return area_of(intersection(box, before)) > kStays * std::min(area_of(box), area_of(before));
+  if (following_) return intersection(box, before).area() > kStays * std::min(box.area(), before.area());
   const double length = std::max({usual_.width, usual_.height, box.height});
   const PixelPosition at = foot(box, base_);
   return std::min(distance(at, last_foot_), distance(at, foot(usual_, base_))) <= kAsNear * length && alike();
@@ -115,8 +113,8 @@ bool OutlineSeeker::choose(std::span<const BrightRegion> regions, const Region& 
     moved.box.x += place.x;
     moved.box.y += place.y;
     if (!ours(moved.box)) continue;
-    const double shared = area_of(intersection(moved.box, expected));
-    const double likeness = (shared + 1) / (area_of(moved.box) + area_of(expected) - shared);
+    const double shared = intersection(moved.box, expected).area();
+    const double likeness = (shared + 1) / (moved.box.area() + expected.area() - shared);
     const double score = static_cast<double>(region.area) * likeness;
     if (score <= best) continue;
     best = score;

@@ -13,7 +13,7 @@ namespace {
 // Calibrated on the scenes of studies/scenes and on films; wisp_verify_scenes prints how often they are wrong.
 constexpr double kMaxMissing = 0.04;    // share of rows
 constexpr double kMaxJumps = 0.03;      // share of steps
-constexpr double kJumpShare = 0.35;     // of the height: a base that moves farther in a frame is another one
+constexpr double kMoveShare = 0.35;     // of the height: a base that moves farther in a frame is another one
 constexpr double kJumpRatio = 2.2;      // … and a height that changes so many times
 constexpr double kMaxAtBorder = 0.05;   // share of rows
 constexpr double kMaxElsewhere = 0.1;   // share of the clip's rows: who lights a candle is in the picture for less
@@ -42,7 +42,7 @@ double median(std::vector<double> values) {
 }
 
 // One row's outline.
-struct Shape {
+struct OutlineRow {
   std::size_t row = 0;
   std::vector<CurvePoint> curve;
   CurvePoint base;
@@ -50,10 +50,10 @@ struct Shape {
   double height = 0;
 };
 
-Shape shape_of(const Recording& recording, const SplineTable& table, std::size_t row) {
+OutlineRow shape_of(const Recording& recording, const SplineTable& table, std::size_t row) {
   std::vector<double> controls(2 * static_cast<std::size_t>(table.points()));
   for (std::size_t i = 0; i < controls.size(); ++i) controls[i] = recording.channels[i].samples[row];
-  Shape shape{.row = row, .curve = curve_polyline(table, controls, kCurvePoints), .base = {}, .tip = {}};
+  OutlineRow shape{.row = row, .curve = curve_polyline(table, controls, kCurvePoints), .base = {}, .tip = {}};
   const CurvePoint first = shape.curve.front(), last = shape.curve.back();
   shape.base = {0.5 * (first.x + last.x), 0.5 * (first.y + last.y)};
   for (const CurvePoint& p : shape.curve) {
@@ -71,7 +71,7 @@ double turn(const CurvePoint& a, const CurvePoint& b, const CurvePoint& c) {
 }
 
 // How wide a shape is across its axis at a share of its height above the base.
-double width_at(const Shape& shape, double share) {
+double width_at(const OutlineRow& shape, double share) {
   const double ax = (shape.tip.x - shape.base.x) / shape.height, ay = (shape.tip.y - shape.base.y) / shape.height;
   double low = 1e30, high = -1e30;
   for (std::size_t k = 0; k < shape.curve.size(); ++k) {
@@ -88,7 +88,7 @@ double width_at(const Shape& shape, double share) {
 }
 
 // How wide a shape is across its axis where it is widest, in heights.
-double full_width(const Shape& shape) {
+double full_width(const OutlineRow& shape) {
   double low = 1e30, high = -1e30;
   for (const CurvePoint& p : shape.curve) {
     const double across = turn(shape.base, shape.tip, p) / (shape.height * shape.height);
@@ -99,11 +99,11 @@ double full_width(const Shape& shape) {
 }
 
 // How far it leans to either side, degrees: 0 where its tip lies above its base, 90 beside it, 180 below.
-double lean_of(const Shape& shape) {
+double lean_of(const OutlineRow& shape) {
   return std::atan2(std::abs(shape.tip.x - shape.base.x), shape.base.y - shape.tip.y) * 180 / std::numbers::pi;
 }
 
-double taper_of(const Shape& shape) {
+double taper_of(const OutlineRow& shape) {
   const double body = width_at(shape, 0.4);
   return body <= 0 ? 0 : 1 - width_at(shape, 0.88) / body;
 }
@@ -131,18 +131,18 @@ std::vector<CurvePoint> convex_hull(std::vector<CurvePoint> points) {
   return hull;
 }
 
-double ragged_share(const std::vector<Shape>& shapes) {
-  const auto ragged = std::count_if(shapes.begin(), shapes.end(), [](const Shape& shape) {
+double ragged_share(const std::vector<OutlineRow>& shapes) {
+  const auto ragged = std::count_if(shapes.begin(), shapes.end(), [](const OutlineRow& shape) {
     return area_of(shape.curve) < kFilled * area_of(convex_hull(shape.curve));
   });
   return static_cast<double>(ragged) / static_cast<double>(shapes.size());
 }
 
-double movement_of(const std::vector<Shape>& shapes, double height) {
+double movement_of(const std::vector<OutlineRow>& shapes, double height) {
   double squares = 0;
   for (int k = 0; k < kCurvePoints; ++k) {
     double x = 0, y = 0, xx = 0, yy = 0;
-    for (const Shape& s : shapes) {
+    for (const OutlineRow& s : shapes) {
       const double dx = s.curve[static_cast<std::size_t>(k)].x - s.base.x,
                    dy = s.curve[static_cast<std::size_t>(k)].y - s.base.y;
       x += dx;
@@ -156,24 +156,24 @@ double movement_of(const std::vector<Shape>& shapes, double height) {
   return std::sqrt(squares) / height;
 }
 
-double jumps_of(const std::vector<Shape>& shapes, double height) {
+double jumps_of(const std::vector<OutlineRow>& shapes, double height) {
   std::size_t steps = 0, jumps = 0;
   for (std::size_t k = 1; k < shapes.size(); ++k) {
-    const Shape &a = shapes[k - 1], &b = shapes[k];
+    const OutlineRow &a = shapes[k - 1], &b = shapes[k];
     if (b.row != a.row + 1) continue;
     ++steps;
     const double ratio = std::max(a.height, b.height) / std::min(a.height, b.height);
-    jumps += length(b.base.x - a.base.x, b.base.y - a.base.y) > kJumpShare * height || ratio > kJumpRatio;
+    jumps += length(b.base.x - a.base.x, b.base.y - a.base.y) > kMoveShare * height || ratio > kJumpRatio;
   }
   return steps == 0 ? 0 : static_cast<double>(jumps) / static_cast<double>(steps);
 }
 
 // Shares of rows in which the curve reaches a border, but for the border on which both of its ends lie: there the
 // picture cuts off what holds it, as a flag's mast.
-std::array<double, 4> border_of(const std::vector<Shape>& shapes, int width, int height) {
+std::array<double, 4> border_of(const std::vector<OutlineRow>& shapes, int width, int height) {
   constexpr double kNear = 1.5;  // pixels
   std::array<double, 4> out{};
-  for (const Shape& shape : shapes) {
+  for (const OutlineRow& shape : shapes) {
     const auto at = [&](const CurvePoint& p) -> std::array<bool, 4> {
       return {p.x<kNear, p.y<kNear, p.x> width - 1 - kNear, p.y> height - 1 - kNear};
     };
@@ -317,12 +317,12 @@ void excuse_absence(CaptureReport& report, std::size_t rows, std::size_t times) 
 }
 
 void judge_outline(const Recording& recording, const SplineTable& table, CaptureReport& report) {
-  std::vector<Shape> shapes;
+  std::vector<OutlineRow> shapes;
   std::vector<double> heights, tapers, widths, leans;
   for (std::size_t row = 0; row < recording.rows(); ++row) {
     if (std::isnan(recording.channels.front().samples[row])) continue;
     shapes.push_back(shape_of(recording, table, row));
-    const Shape& shape = shapes.back();
+    const OutlineRow& shape = shapes.back();
     heights.push_back(shape.height);
     tapers.push_back(taper_of(shape));
     widths.push_back(full_width(shape));

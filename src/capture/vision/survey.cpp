@@ -18,7 +18,7 @@ constexpr double kLitShare = 0.7;    // a picture counts when its brightest is t
 constexpr double kOtherScene = 64;   // … and differs from the usual picture by less than this, mean over its points
 constexpr double kMinContrast = 12;  // levels between the clusters, of 255: less is noise of one brightness
 constexpr double kAsLikely = 0.35;   // another flame is at least this share as likely as the first
-constexpr double kAsBright = 0.9;    // … and as bright
+constexpr double kAsBrightAsBest = 0.9;    // … and as bright
 constexpr double kMoves = 0.05;      // … and changes by this share, as flames do, or by half as much as the first
 constexpr double kAsGood = 0.5;      // at another level it is still the same thing when it is this share as likely
 constexpr double kHalfWay = 0.58;
@@ -175,7 +175,7 @@ std::vector<Candidate> places(const std::vector<Candidate>& candidates, const Su
   const Candidate& best = candidates.front();
   for (const Candidate& c : candidates) {
     if (c.channel != best.channel || c.level != best.level) continue;
-    if (c.score < kAsLikely * best.score || c.light < kAsBright * best.light) continue;
+    if (c.score < kAsLikely * best.score || c.light < kAsBrightAsBest * best.light) continue;
     if (c.change < std::min(kMoves, 0.5 * best.change)) continue;  // a lamp, filmed from a hand
     if (std::none_of(out.begin(), out.end(), [&](const Candidate& other) { return same_place(c, other); })) {
       out.push_back(c);
@@ -256,7 +256,7 @@ Candidate refine(const Candidate& coarse, const std::vector<Candidate>& all, std
 // Share of a thing that is as bright in every channel as that channel gets anywhere in it: there the camera tells no
 // more of it. That need not be white: tone curves end below.
 double flat_share(const Candidate& thing, std::span<const Picture> pictures, bool dark) {
-  constexpr int kFlat = 5;  // levels: coding errors of a flat area
+  constexpr int kCoding = 5;  // levels: coding errors of a flat area
   if (dark) return 0;
   const auto grid_of = [&](PixelChannel channel) {
     return sample_grid(pictures, channel, thing.home, kFineGrid, false);
@@ -281,7 +281,7 @@ double flat_share(const Candidate& thing, std::span<const Picture> pictures, boo
     std::vector<double> sorted = values;
     const auto high = sorted.begin() + static_cast<std::ptrdiff_t>(9 * count / 10);
     std::nth_element(sorted.begin(), high, sorted.end());
-    for (std::size_t k = 0; k < count; ++k) flat[k] &= values[k] >= *high - kFlat;
+    for (std::size_t k = 0; k < count; ++k) flat[k] &= values[k] >= *high - kCoding;
   }
   return static_cast<double>(std::count(flat.begin(), flat.end(), 1)) / static_cast<double>(count);
 }
@@ -356,7 +356,7 @@ Result<Survey> survey_scene(std::span<const Picture> pictures, const SurveyOptio
 namespace {
 
 // Mean distance of values from their mean.
-double spread(std::span<const double> values) {
+double mean_distance(std::span<const double> values) {
   double mean = 0, away = 0;
   for (const double value : values) mean += value / static_cast<double>(values.size());
   for (const double value : values) away += std::abs(value - mean) / static_cast<double>(values.size());
@@ -374,8 +374,8 @@ BaseSide steady_end(const Survey& survey) {
     width += box.width;
     height += box.height;
   }
-  if (width < kLying * height || spread(left) == spread(right)) return BaseSide::kBottom;
-  return spread(left) < spread(right) ? BaseSide::kLeft : BaseSide::kRight;
+  if (width < kLying * height || mean_distance(left) == mean_distance(right)) return BaseSide::kBottom;
+  return mean_distance(left) < mean_distance(right) ? BaseSide::kLeft : BaseSide::kRight;
 }
 
 }  // namespace

@@ -1,10 +1,7 @@
 #include "wisp/draw/film_strip.hpp"
 
 extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
 #include <libavutil/opt.h>
-#include <libswscale/swscale.h>
 }
 
 #include <algorithm>
@@ -14,6 +11,7 @@ extern "C" {
 
 #include "base/json_text.hpp"
 #include "base/path_text.hpp"
+#include "draw/film/libav_owners.hpp"
 #include "record/number_text.hpp"
 #include "wisp/base/file.hpp"
 
@@ -22,18 +20,7 @@ namespace {
 
 constexpr int kLargestAtlas = 16384;
 
-struct FreeLibav {
-  void operator()(AVCodecContext* context) const { avcodec_free_context(&context); }
-  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
-  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-  void operator()(SwsContext* scaler) const { sws_freeContext(scaler); }
-  void operator()(AVFormatContext* format) const {
-    if (format->pb) avio_closep(&format->pb);
-    avformat_free_context(format);
-  }
-};
-template <class T>
-using Owned = std::unique_ptr<T, FreeLibav>;
+using drawing::Owned;
 
 Error failed(const std::filesystem::path& path, const std::string& what) {
   return {path.string() + ": cannot be written: " + what};

@@ -1,11 +1,8 @@
 #include "wisp/draw/video_writer.hpp"
 
 extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavformat/avformat.h>
 #include <libavutil/channel_layout.h>
 #include <libavutil/opt.h>
-#include <libswscale/swscale.h>
 }
 
 #include <algorithm>
@@ -16,23 +13,13 @@ extern "C" {
 #include <string_view>
 #include <vector>
 
+#include "draw/film/libav_owners.hpp"
 #include "wisp/base/file.hpp"
 
 namespace wisp {
 namespace {
 
-struct FreeFfmpeg {
-  void operator()(AVCodecContext* context) const { avcodec_free_context(&context); }
-  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
-  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-  void operator()(SwsContext* scaler) const { sws_freeContext(scaler); }
-  void operator()(AVFormatContext* format) const {
-    if (format->pb != nullptr) avio_closep(&format->pb);
-    avformat_free_context(format);
-  }
-};
-template <class T>
-using Owned = std::unique_ptr<T, FreeFfmpeg>;
+using drawing::Owned;
 
 // x264 and AAC tell about themselves at the level of information, which a library must not print; errors still come
 // through. The muxer has no level of its own, so there the program's level is held down for the call.

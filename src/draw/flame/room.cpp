@@ -11,13 +11,13 @@ namespace wisp::drawing {
 namespace {
 
 // Shares of the picture's height: where the table ends at the wall, and where its plane vanishes.
-constexpr float kEdge = 0.70F, kHorizon = 0.46F;
+constexpr float kTableEdge = 0.70F, kHorizon = 0.46F;
 
 // The wall is this far behind the flames, in model units; it looks no farther, since it is not in focus.
 constexpr float kBehind = 1.7F;
 
 // The eye is so much nearer to the table's plane than to the candle, as the ellipse of a candle's top says.
-constexpr float kFlatness = 0.24F;
+constexpr float kTableFlatness = 0.24F;
 
 constexpr Light kPlaster{0.120F, 0.057F, 0.027F};
 constexpr Light kWood{0.260F, 0.098F, 0.036F};
@@ -63,7 +63,7 @@ float pane_at(float x, float y) {
 }
 
 // Where a pixel of the table lies, from the middle of the picture at the depth of a foot, in model units.
-struct Spot {
+struct TableSpot {
   float x = 0;
   float z = 0;  // towards the eye
 };
@@ -73,10 +73,10 @@ class TableView {
   TableView(const Stand& stand, int width, int height)
       : middle_(0.5F * static_cast<float>(width)), horizon_(kHorizon * static_cast<float>(height)), unit_(stand.unit) {
     drop_ = std::max(0.1F * static_cast<float>(height), stand.foot.y - horizon_);
-    distance_ = drop_ / unit_ / kFlatness;
+    distance_ = drop_ / unit_ / kTableFlatness;
   }
 
-  Spot at(float x, float y) const {
+  TableSpot at(float x, float y) const {
     const float share = drop_ / std::max(1.0F, y - horizon_);
     return {(x - middle_) / unit_ * share, distance_ * (1 - share)};
   }
@@ -110,14 +110,14 @@ Room::Room(int width, int height)
     for (int i = 0; i < wood_.width(); ++i) {
       const float x = kCell * (static_cast<float>(i) + 0.5F), y = kCell * (static_cast<float>(j) + 0.5F);
       const float u = (x - 0.5F * wide) / tall, v = y / tall;
-      const float table = smooth_step(kEdge - 0.004F, kEdge + 0.004F, v);
+      const float table = smooth_step(kTableEdge - 0.004F, kTableEdge + 0.004F, v);
       const float far = 1 / std::max(0.05F, v - kHorizon);
       const float mottled = 0.9F + 0.2F * noise_at(9 * u + 50, 9 * v, 3);
       const float wood = grain_at(0.55F * u * far, -0.42F * far);
       // Where wall and table meet neither the flame's light nor the moon's comes well.
-      const float corner = 1 - 0.6F * std::exp(-std::max(0.0F, kEdge - v) / 0.05F);
-      const float sheen = 0.35F * smooth_step(1.0F, kEdge, v);
-      const float behind = smooth_step(kEdge, kEdge + 0.05F, v);
+      const float corner = 1 - 0.6F * std::exp(-std::max(0.0F, kTableEdge - v) / 0.05F);
+      const float sheen = 0.35F * smooth_step(1.0F, kTableEdge, v);
+      const float behind = smooth_step(kTableEdge, kTableEdge + 0.05F, v);
       const Light back = (1 - table) * mottled * corner * kPlaster + table * behind * wood * kWood;
       const float aspect = std::min(1.0F, wide / tall);
       const Light dark = (1 - table) * (kNight + pane_at(0.5F + u / std::max(1.0F, 1.2F * aspect), v) * kMoon) +
@@ -130,7 +130,7 @@ Room::Room(int width, int height)
 
 void Room::light_wall(std::span<const Stand> stands) {
   constexpr int kPixels = 2 * kCell;
-  const int rows = std::min(flames_.height, static_cast<int>(kEdge * static_cast<float>(height_)) / kPixels + 1);
+  const int rows = std::min(flames_.height, static_cast<int>(kTableEdge * static_cast<float>(height_)) / kPixels + 1);
   for (const Stand& stand : stands) {
     if (stand.lamp.power <= 0) continue;
     const float per = 1 / stand.unit;
@@ -153,15 +153,15 @@ void Room::light_table(const Stand& stand) {
   constexpr int kPixels = 2 * kCell;
   if (stand.lamp.power <= 0) return;
   const TableView view(stand, width_, height_);
-  const Spot foot = view.at(stand.foot.x, stand.foot.y);
+  const TableSpot foot = view.at(stand.foot.x, stand.foot.y);
   const float high = std::max(0.3F, (stand.foot.y - stand.lamp.place.y) / stand.unit);
   const float aside = foot.x + (stand.lamp.place.x - stand.foot.x) / stand.unit;
   const float rim = std::min(0.95F, stand.height / high);
-  for (int j = std::max(0, static_cast<int>(kEdge * static_cast<float>(height_)) / kPixels + 1); j < flames_.height;
+  for (int j = std::max(0, static_cast<int>(kTableEdge * static_cast<float>(height_)) / kPixels + 1); j < flames_.height;
        ++j) {
     float* out = flames_.row(j);
     for (int i = 0; i < flames_.width; ++i) {
-      const Spot p = view.at(kPixels * (static_cast<float>(i) + 0.5F), kPixels * (static_cast<float>(j) + 0.5F));
+      const TableSpot p = view.at(kPixels * (static_cast<float>(i) + 0.5F), kPixels * (static_cast<float>(j) + 0.5F));
       const float dx = p.x - aside, dz = p.z - foot.z;
       const float square = dx * dx + dz * dz + high * high;
       // Where that way crosses the rim's height.

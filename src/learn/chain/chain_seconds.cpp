@@ -9,11 +9,11 @@
 
 #include "learn/fidelity/fidelity_energy.hpp"
 #include "learn/fidelity/fidelity_shuffle.hpp"
+#include "learn/numeric/constants.hpp"
 
 namespace wisp::chain {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array kLags = {0.5, 1.0, 2.0};                                            // seconds
 constexpr std::array kBandEdges = {0.25, 0.75, 1.25, 2.25, 3.75, 5.75, 8.75, 12.25};     // Hz
 constexpr double kUnseenMetres = 0.3e-3, kUnseenRadians = 0.2 * std::numbers::pi / 180;  // no eye sees less
@@ -127,13 +127,13 @@ FeatureWindows spectral_windows(const Pieces& pieces, double rate_hz, std::size_
 double distance_of(FeatureWindows x, FeatureWindows y, std::size_t most, std::uint64_t seed) {
   x = thinned(x, most);
   y = thinned(y, most);
-  if (x.size() < 2 || y.size() < 2) return kNaN;
+  if (x.size() < 2 || y.size() < 2) return kMissing;
   standardise(x, y);
   return energy_test(x, y, 0, seed).distance;
 }
 
 double quantile(std::vector<double>& values, double share) {
-  if (values.empty()) return kNaN;
+  if (values.empty()) return kMissing;
   const auto at = static_cast<long>(std::lround(share * static_cast<double>(values.size() - 1)));
   std::nth_element(values.begin(), values.begin() + at, values.end());
   return values[static_cast<std::size_t>(at)];
@@ -148,7 +148,7 @@ double spread_of(const Pieces& pieces, std::size_t lag) {
       sum += (to[0] - from[0]) * (to[0] - from[0]) + (to[1] - from[1]) * (to[1] - from[1]);
     }
   }
-  return count > 0 ? sum / count : kNaN;
+  return count > 0 ? sum / count : kMissing;
 }
 
 std::size_t rows_in(double seconds, double rate_hz) { return static_cast<std::size_t>(std::lround(seconds * rate_hz)); }
@@ -229,7 +229,7 @@ SecondsFidelity seconds_fidelity(const Motion& real, const Motion& synthesized, 
   out.tails = {tails_apart(out.real, out.synthesized), tails_apart(half, other),
                tails_apart(out.real, normal_like(all, out.real))};
   const auto apart = [](double a, double b) {
-    return a > kUnseenMetres * kUnseenMetres ? std::abs(b / a - 1) : kNaN;  // what does not spread has no share of it
+    return a > kUnseenMetres * kUnseenMetres ? std::abs(b / a - 1) : kMissing;  // what does not spread has no share of it
   };
   out.spread = {apart(out.real.spread[2], out.synthesized.spread[2]), apart(half.spread[2], other.spread[2]),
                 apart(out.real.spread[2], shuffled_spread(all, rows))};

@@ -57,18 +57,18 @@ void add_marked(const Motion& motion, const Segmentation& cut, ReportSection& se
 }
 
 // One fall of the model, the mode of every row, and the rows of its joins.
-struct Walk {
+struct FallWalk {
   MotionPiece piece;
   std::vector<int> mode;
   std::vector<double> joins;
 };
 
-Result<Walk> walk_of(const Model& model, std::size_t rows, std::uint64_t seed) {
+Result<FallWalk> fall_walk(const Model& model, std::size_t rows, std::uint64_t seed) {
   auto bank = Bank::create(model, {.capacity = 1, .seed = seed});
   if (!bank) return bank.error();
   const InstanceId id = bank->spawn();
   const auto& segments = std::get<ChainModel>(model.dynamics).segments;
-  Walk walk;
+  FallWalk walk;
   std::vector<float> values(model.outputs.size());
   for (std::size_t row = 0; row < rows; ++row) {
     if (row > 0) bank->step();
@@ -82,7 +82,7 @@ Result<Walk> walk_of(const Model& model, std::size_t rows, std::uint64_t seed) {
 }
 
 // The parts of a walk that are of one mode.
-ReportSeries mode_track(const Walk& walk, int mode) {
+ReportSeries mode_track(const FallWalk& walk, int mode) {
   const std::string number = std::to_string(mode);
   ReportSeries track{"segments.synthesized.mode_" + number, "mode " + number, "x, m", "height, m", {}, {}};
   for (std::size_t row = 0; row + 1 < walk.mode.size(); ++row) {
@@ -110,7 +110,7 @@ Result<ReportSection> fall_tracks(const Model& model, std::span<const Recording>
   if (!falls) return falls.error();
   const auto made = motion_of(*falls, options.smooth_rows);
   if (!made) return made.error();
-  const auto walk = walk_of(model, rows_of(first, kMarkedSeconds, seen->rate_hz), options.seed);
+  const auto walk = fall_walk(model, rows_of(first, kMarkedSeconds, seen->rate_hz), options.seed);
   if (!walk) return walk.error();
   ReportSection section;
   add_tracks(*seen, "recorded", section);

@@ -8,13 +8,13 @@
 #include "learn/fidelity/fidelity_marginal.hpp"
 #include "learn/fidelity/fidelity_stretch.hpp"
 #include "learn/fidelity/fidelity_verbatim.hpp"
+#include "learn/numeric/constants.hpp"
 #include "learn/numeric/spectrum.hpp"
 
 namespace wisp {
 namespace {
 
 constexpr std::size_t kMinRows = 16;
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 using Stretches = std::vector<Stretch>;
 
@@ -35,7 +35,7 @@ struct ChannelDistances {
 
 struct Distances {
   std::vector<ChannelDistances> channels;
-  EnergyTest energy{kNothing, kNothing};
+  EnergyTest energy{kMissing, kMissing};
   std::size_t windows_a = 0;
   std::size_t windows_b = 0;
 };
@@ -68,7 +68,7 @@ std::vector<double> speeds(const std::vector<std::vector<double>>& stretches) {
 
 // Over the standard deviation of the first; a channel that never changes there is compared as it is.
 double marginal_distance(const std::vector<double>& a, const std::vector<double>& b) {
-  if (a.empty() || b.empty()) return kNothing;
+  if (a.empty() || b.empty()) return kMissing;
   const double scale = standard_deviation(a);
   return wasserstein1(a, b) / (scale > 0 ? scale : 1);
 }
@@ -231,7 +231,7 @@ void take_verbatim(const Sides& sides, double tolerance, Fidelity& out) {
 }
 
 void take_long(const Sides& sides, const Stretches& pieces, const FidelityOptions& options, Fidelity& out) {
-  out.long_motion = out.long_spectra = out.tails = {kNothing, kNothing, kNothing};
+  out.long_motion = out.long_spectra = out.tails = {kMissing, kMissing, kMissing};
   if (options.max_long_windows == 0) return;
   const LongOptions how{sides.rate_hz, options.long_seconds, options.max_long_windows};
   const LongDistances value = long_distances(sides.real, pieces, how);

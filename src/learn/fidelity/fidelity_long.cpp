@@ -7,12 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "learn/numeric/constants.hpp"
+
 namespace wisp {
 namespace {
 
 constexpr double kThinnedHz = 15;
 constexpr int kBands = 13;
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMinWindows = 8;           // a side: fewer tell chance
 constexpr double kTailShares[] = {0.99, 0.999};  // of the sizes of second differences
 constexpr std::size_t kMinTail = 1000;           // rows that a percentile of 99.9 wants
@@ -92,7 +93,7 @@ std::vector<Stretch> every(std::span<const Stretch> stretches, std::size_t step)
 }
 
 double energy_of(FeatureWindows x, FeatureWindows y) {
-  if (x.size() < kMinWindows || y.size() < kMinWindows) return kNothing;
+  if (x.size() < kMinWindows || y.size() < kMinWindows) return kMissing;
   standardise(x, y);
   return energy_test(x, y, 0, 1).distance;
 }
@@ -112,7 +113,7 @@ double tails_apart(std::span<const Stretch> a, std::span<const Stretch> b) {
   double sum = 0, count = 0;
   for (std::size_t c = 0; c < a.front().channels; ++c) {
     const std::vector<double> x = accelerations(a, c), y = accelerations(b, c);
-    if (x.size() < kMinTail || y.size() < kMinTail) return kNothing;
+    if (x.size() < kMinTail || y.size() < kMinTail) return kMissing;
     for (double share : kTailShares) {
       const auto at = [share](const std::vector<double>& sorted) {
         return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
@@ -149,7 +150,7 @@ FeatureWindows spectral_windows(std::span<const Stretch> stretches, std::size_t 
 
 LongDistances long_distances(std::span<const Stretch> a, std::span<const Stretch> b, const LongOptions& options) {
   const auto rows = static_cast<std::size_t>(std::lround(options.window_seconds * options.rate_hz));
-  if (rows < 8) return {kNothing, kNothing, tails_apart(a, b)};
+  if (rows < 8) return {kMissing, kMissing, tails_apart(a, b)};
   const auto hop_of = [&](std::span<const Stretch> side, std::size_t step) {
     return std::max<std::size_t>(1, total_rows(side) / step / options.max_windows);
   };

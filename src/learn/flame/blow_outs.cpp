@@ -21,10 +21,6 @@ Result<void> check(const BlowOutOptions& options, const std::string& source) {
   return Error{source + ": what counts as going out is out of its range"};
 }
 
-std::size_t rows_of(double seconds, double rate_hz) {
-  return static_cast<std::size_t>(std::max(1L, std::lround(seconds * rate_hz)));
-}
-
 struct Run {
   std::size_t begin = 0;
   std::size_t end = 0;
@@ -89,6 +85,10 @@ std::size_t onset(const Recording& recording, const BlowOut& blow_out, const Blo
 }
 
 }  // namespace
+
+std::size_t rows_of(double seconds, double rate_hz) {
+  return static_cast<std::size_t>(std::max(1L, std::lround(seconds * rate_hz)));
+}
 
 Result<std::vector<BlowOut>> find_blow_outs(const Recording& recording, const std::string& input,
                                             const BlowOutOptions& options) {

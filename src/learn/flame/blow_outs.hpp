@@ -30,6 +30,9 @@ struct BlowOut {
   bool blown = false;    ///< whether that is more than 95 % of what the flame was seen to live in
 };
 
+/// Rows of so many seconds, at least one.
+std::size_t rows_of(double seconds, double rate_hz);
+
 /// Finds the stretches without an outline that are long enough, in their order. One at the recording's start is left
 /// out: nobody saw the flame go.
 /// Errors: not a recording of an outline, no such input, an option out of its range.

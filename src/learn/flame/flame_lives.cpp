@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "learn/flame/blow_outs.hpp"
+
 namespace wisp {
 namespace {
 
@@ -11,10 +13,6 @@ constexpr double kWatchedAfter = 0.5;   // and after: capture loses a dying flam
 constexpr double kAveraged = 0.15;      // seconds
 constexpr double kGustShare = 0.5;      // of the weakest wind that killed
 constexpr double kOneGust = 0.15;       // seconds of calmer wind within a gust
-
-std::size_t rows_of(double seconds, double rate_hz) {
-  return static_cast<std::size_t>(std::max(1L, std::lround(seconds * rate_hz)));
-}
 
 // Rows in which a flame that has gone out is still seen, as a bank shows it: its first step of decay is a row.
 std::size_t vanishing_rows(double seconds, double rate_hz) {

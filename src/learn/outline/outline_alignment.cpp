@@ -5,13 +5,13 @@
 #include <cstdio>
 #include <limits>
 
+#include "learn/numeric/constants.hpp"
 #include "learn/outline/outline_shape.hpp"
 #include "learn/outline/outline_units.hpp"
 
 namespace wisp {
 namespace {
 
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMinSearch = 0.05;  // seconds either way; align_offset() takes no less
 
 // The tip beside and above the middle of its base, row by row.
@@ -27,8 +27,8 @@ TipMotion tip_motion(const Recording& recording, const OutlineLayout& layout) {
     std::vector<double> control;
     for (std::size_t c : layout.outputs) control.push_back(recording.channels[c].samples[row]);
     if (std::any_of(control.begin(), control.end(), [](double value) { return std::isnan(value); })) {
-      out.sway.push_back(kNothing);
-      out.height.push_back(kNothing);
+      out.sway.push_back(kMissing);
+      out.height.push_back(kMissing);
       continue;
     }
     const OutlinePoint tip = tip_of(curve.polyline(control));
@@ -76,7 +76,7 @@ void move_earlier(Recording& recording, std::size_t channel, int frames) {
     const auto end = samples.begin() + static_cast<std::ptrdiff_t>(episode.end);
     const auto kept = std::min(static_cast<std::ptrdiff_t>(frames), end - begin);
     std::copy(begin + kept, end, begin);
-    std::fill(end - kept, end, kNothing);
+    std::fill(end - kept, end, kMissing);
   }
 }
 

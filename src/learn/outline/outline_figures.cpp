@@ -16,10 +16,10 @@ namespace {
 constexpr int kWhitenessLags = 20;
 constexpr std::size_t kMaxShapes = 2000;  // neighbouring frames say the same
 
-using Series = std::vector<std::vector<double>>;  // [output][row]
+using Predicted = std::vector<std::vector<double>>;  // [output][row]
 
 // One row of series, or of the outputs of a recording; empty where a sample is missing.
-std::vector<double> predicted_row(const Series& series, std::size_t row) {
+std::vector<double> predicted_row(const Predicted& series, std::size_t row) {
   std::vector<double> control;
   for (const auto& samples : series) {
     if (std::isnan(samples[row])) return {};
@@ -55,7 +55,7 @@ struct Shapes {
 
 // Takes every `stride`-th row.
 void add_shapes(const OutlineCurve& curve, const Recording& recording, const OutlineLayout& layout,
-                const Series& predicted, std::size_t stride, Shapes& shapes) {
+                const Predicted& predicted, std::size_t stride, Shapes& shapes) {
   for (std::size_t row = 0; row < recording.rows(); row += stride) {
     const auto measured = measured_row(recording, layout, row);
     const auto made = predicted_row(predicted, row);
@@ -68,7 +68,7 @@ class Errors {
  public:
   explicit Errors(std::size_t outputs) : tally(static_cast<int>(outputs), 2) {}
 
-  void add(const Recording& recording, const OutlineLayout& layout, const Series& predicted) {
+  void add(const Recording& recording, const OutlineLayout& layout, const Predicted& predicted) {
     const auto outputs = static_cast<Eigen::Index>(predicted.size());
     Eigen::MatrixXd errors(static_cast<Eigen::Index>(recording.rows()), outputs);
     Eigen::MatrixXd deviations(errors.rows(), outputs);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "learn/flame/wind_gain.hpp"
+#include "learn/numeric/constants.hpp"
 #include "learn/outline/outline_preparation.hpp"
 #include "learn/outline/outline_shape.hpp"
 #include "learn/outline/outline_synthesis.hpp"
@@ -15,8 +16,7 @@
 namespace wisp {
 namespace {
 
-constexpr double kLongestDelay = 0.5;  // seconds that a static gain may lag
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double kLongestLag = 0.5;  // seconds that a static gain may lag
 
 // What validation needs of a model, after it was found to be an outline.
 struct OutlineModel {
@@ -136,7 +136,7 @@ std::vector<double> tips(const Recording& recording, const OutlineLayout& layout
     std::vector<double> control;
     for (std::size_t c : layout.outputs) control.push_back(recording.channels[c].samples[row]);
     const bool missing = std::any_of(control.begin(), control.end(), [](double value) { return std::isnan(value); });
-    out.push_back(missing ? kNothing : tip_of(curve.polyline(control))[0]);
+    out.push_back(missing ? kMissing : tip_of(curve.polyline(control))[0]);
   }
   return out;
 }
@@ -163,7 +163,7 @@ double gain_fit(const std::vector<double>& y, const std::vector<double>& u, std:
 
 StaticGain static_gain(const std::vector<double>& tip, const std::vector<double>& input, double rate_hz) {
   StaticGain best;
-  const auto longest = static_cast<std::size_t>(kLongestDelay * rate_hz);
+  const auto longest = static_cast<std::size_t>(kLongestLag * rate_hz);
   for (std::size_t delay = 0; delay <= longest; ++delay) {
     const double fit = gain_fit(tip, input, delay);
     if (fit > best.fit_percent) best = {static_cast<double>(delay) / rate_hz, fit};
@@ -249,7 +249,7 @@ void hide_unseen(const Recording& recorded, const std::vector<std::string>& outp
     const auto& seen = recorded.channels[*find_channel(recorded, name)].samples;
     auto& samples = play.channels[*find_channel(play, name)].samples;
     for (std::size_t row = 0; row < samples.size(); ++row) {
-      if (std::isnan(seen[row % seen.size()])) samples[row] = kNothing;
+      if (std::isnan(seen[row % seen.size()])) samples[row] = kMissing;
     }
   }
 }

@@ -12,6 +12,7 @@
 
 #include "learn/arx/rows/arx_orders.hpp"
 #include "learn/arx/search/order_search.hpp"
+#include "learn/outline/outline_verdict.hpp"
 
 namespace wisp {
 namespace {
@@ -20,7 +21,6 @@ namespace {
 constexpr int kOrders[] = {1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20, 25, 32};
 constexpr double kLongestDelay = 0.25;       // seconds: beyond any flame's answer and a camera's lag
 constexpr double kNearlyAsGood = 1.02;       // in root mean square error: below what an eye can distinguish
-constexpr int kMinRowsACoefficient = 4;      // as the verdict asks
 constexpr std::size_t kMinHeldOutRows = 60;  // beside the longest history
 
 // Channels that move at all: a search has no use for the others.
@@ -69,18 +69,6 @@ ArxOrders reduced(const ArxOrders& orders, const Moving& moving) {
     }
   }
   return out;
-}
-
-int max_coefficients(const ArxOrders& orders) {
-  int most = 0;
-  for (int i = 0; i < orders.outputs(); ++i) most = std::max(most, orders.row_size(i));
-  return most;
-}
-
-std::size_t rows_of(std::span<const Recording> recordings, const ChannelChoice& channels) {
-  std::size_t rows = 0;
-  for (const Recording& recording : recordings) rows += complete_rows(recording, channels);
-  return rows;
 }
 
 // What is compared, and the order matrices beside it.
@@ -165,7 +153,7 @@ OutlineCriterion criterion_for(std::span<const Recording> held_out, const Moving
                                const Candidates& candidates) {
   int history = 0;
   for (const ArxOrders& orders : candidates.orders) history = std::max(history, orders.history());
-  if (rows_of(held_out, moving.channels) < kMinHeldOutRows + static_cast<std::size_t>(history)) {
+  if (complete_rows(held_out, moving.channels) < kMinHeldOutRows + static_cast<std::size_t>(history)) {
     return OutlineCriterion::kFpe;
   }
   return moving.inputs.empty() ? OutlineCriterion::kHeldOutStep : OutlineCriterion::kHeldOutFreeRun;
@@ -220,7 +208,7 @@ Result<OutlineChoice> choose_orders(std::span<const Recording> learned, std::spa
     return choice;
   }
   const Moving moving = moving_channels(learned, prepared.channels);
-  Candidates candidates = candidates_for(rows_of(learned, moving.channels), prepared, moving, options);
+  Candidates candidates = candidates_for(complete_rows(learned, moving.channels), prepared, moving, options);
   choice.by = criterion_for(held_out, moving, candidates);
   const bool by_fpe = choice.by == OutlineCriterion::kFpe;
   SearchOptions search{.candidates = candidates.orders,

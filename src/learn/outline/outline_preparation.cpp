@@ -139,6 +139,12 @@ std::size_t complete_rows(const Recording& recording, const ChannelChoice& chann
   return count;
 }
 
+std::size_t complete_rows(std::span<const Recording> recordings, const ChannelChoice& channels) {
+  std::size_t rows = 0;
+  for (const Recording& recording : recordings) rows += complete_rows(recording, channels);
+  return rows;
+}
+
 OutlineParts hold_out(std::span<const Recording> recordings, const ChannelChoice& channels, double share) {
   OutlineParts parts;
   for (const Recording& recording : recordings) {

@@ -44,6 +44,9 @@ Result<PreparedOutlines> prepare_outline(const Recording& recording, const std::
 /// Rows with all outputs and all regressors.
 std::size_t complete_rows(const Recording& recording, const ChannelChoice& channels);
 
+/// The same of several.
+std::size_t complete_rows(std::span<const Recording> recordings, const ChannelChoice& channels);
+
 /// Both sides of the cuts.
 struct OutlineParts {
   std::vector<Recording> learned;

@@ -14,12 +14,6 @@ namespace {
 constexpr double kRidges[] = {0, 1e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1};
 constexpr double kUntried = 1e-3;  // where too little is held out to try any
 
-std::size_t rows_of(std::span<const Recording> recordings, const ChannelChoice& channels) {
-  std::size_t rows = 0;
-  for (const Recording& recording : recordings) rows += complete_rows(recording, channels);
-  return rows;
-}
-
 Result<RidgeCandidate> tried(const RidgeFit& fit, std::span<const Recording> held_out, const PreparedOutlines& prepared,
                              double ridge) {
   const auto fitted = fit(ridge);
@@ -45,7 +39,7 @@ bool better(const RidgeCandidate& a, const RidgeCandidate& b) {
 Result<RidgeChoice> choose_ridge(const RidgeFit& fit, std::span<const Recording> held_out,
                                  const PreparedOutlines& prepared, const ArxOrders& orders) {
   constexpr std::size_t kMinHeldOut = 50;  // rows beside a history
-  if (rows_of(held_out, prepared.channels) < kMinHeldOut + static_cast<std::size_t>(orders.history())) {
+  if (complete_rows(held_out, prepared.channels) < kMinHeldOut + static_cast<std::size_t>(orders.history())) {
     return RidgeChoice{{}, kUntried, "ridge " + number_text(kUntried, 2) + ": too little is held out to try others"};
   }
   RidgeChoice out;

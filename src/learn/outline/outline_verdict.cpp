@@ -10,7 +10,6 @@ namespace wisp {
 namespace {
 
 constexpr std::size_t kMinRows = 50;
-constexpr int kMinRowsACoefficient = 4;
 // Per cent, one step ahead: a tip whose noise has half the variance of its movement comes to 100(1 − √⅓) = 42 at best.
 constexpr double kMinTipFit = 40;
 constexpr double kMaxUnsteadiness = 0.5;  // films of flames have 0.02 to 0.3; noise as strong as the movement 0.55
@@ -48,12 +47,6 @@ double tip_fit(const OutlineFigures& figures, int steps) {
 double tip_absolute_fit(const OutlineFigures& figures, int steps) {
   const auto at = std::find(figures.steps.begin(), figures.steps.end(), steps) - figures.steps.begin();
   return figures.tip_absolute_fit_percent[at];
-}
-
-int max_coefficients(const ArxOrders& orders) {
-  int most = 0;
-  for (int i = 0; i < orders.outputs(); ++i) most = std::max(most, orders.row_size(i));
-  return most;
 }
 
 const char* coupling_name(OutlineCoupling coupling) {
@@ -133,6 +126,12 @@ std::string unpredicted(const OutlineFigures& judged) {
 }
 
 }  // namespace
+
+int max_coefficients(const ArxOrders& orders) {
+  int most = 0;
+  for (int i = 0; i < orders.outputs(); ++i) most = std::max(most, orders.row_size(i));
+  return most;
+}
 
 Usable outline_verdict(const ArxSummary& fit, const OutlineSummary& summary) {
   const std::size_t rows = summary.rows_learned + (summary.refitted ? summary.rows_held_out : 0);

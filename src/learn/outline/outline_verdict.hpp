@@ -8,6 +8,12 @@
 
 namespace wisp {
 
+/// Rows that a coefficient of an output wants, at least.
+inline constexpr int kMinRowsACoefficient = 4;
+
+/// Coefficients of the output that has most.
+int max_coefficients(const ArxOrders& orders);
+
 /// Whether the model may be used, with the first reason against it or a sentence in its favour.
 Usable outline_verdict(const ArxSummary& fit, const OutlineSummary& summary);
 

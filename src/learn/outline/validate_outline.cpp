@@ -25,7 +25,7 @@ std::vector<double> control_points(const Recording& recording, const OutlineLayo
   return control;
 }
 
-Result<OutlineRows> rows_of(const Recording& recording) {
+Result<OutlineRows> outline_rows(const Recording& recording) {
   const auto layout = outline_layout(recording);
   if (!layout) return layout.error();
   const OutlineCurve curve(layout->knots);
@@ -88,7 +88,7 @@ Result<ReportSection> tip_series(const OutlineJudgement& found, const ValidatedO
   add("tip.captured", "captured", out.captured);
   add("tip.simulated", out.simulated_label, out.simulated);
   if (const PredictedOutlines* next = one_step(found)) {
-    const auto rows = rows_of(next->recording);
+    const auto rows = outline_rows(next->recording);
     if (!rows) return rows.error();
     add("tip.predicted", label_of(*next), *rows);
   }
@@ -155,11 +155,11 @@ ReportSection gain_section(double factor) {
 }
 
 Result<void> add_outlines(const Recording& recording, const OutlineJudgement& found, ValidatedOutline& out) {
-  auto captured = rows_of(recording);
+  auto captured = outline_rows(recording);
   if (!captured) return captured.error();
-  auto simulated = rows_of(shown(found).recording);
+  auto simulated = outline_rows(shown(found).recording);
   if (!simulated) return simulated.error();
-  auto played = rows_of(found.played);
+  auto played = outline_rows(found.played);
   if (!played) return played.error();
   out.captured = *std::move(captured);
   out.simulated = *std::move(simulated);

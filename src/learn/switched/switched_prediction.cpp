@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "learn/numeric/constants.hpp"
 #include "learn/switched/switched_rows.hpp"
 
 namespace wisp {
@@ -15,7 +16,6 @@ using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
 
 constexpr int kMaxSteps = 100'000;
-constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
 // A model's own operating point; sizes of 1, so that nothing is scaled.
 SwitchedScales scales_of(const SwitchedArxModel& model) {

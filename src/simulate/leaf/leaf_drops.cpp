@@ -21,7 +21,7 @@ namespace {
 using flow::RandomNumbers;
 
 constexpr double kMaxRows = 2147483648.0;
-constexpr double kMaxWind = 30;  // m/s
+constexpr double kMaxGust = 30;  // m/s
 
 // What a random stream is for.
 enum Purpose : std::uint64_t { kStart = 31, kDifference = 32, kGust = 33, kWindSeed = 34 };
@@ -43,7 +43,7 @@ Result<void> check(const LeafDropsOptions& o, double episodes) {
   if (!o.track.rows.empty() && !(o.track.rate_hz > 0)) return Error{"leaf drops: the wind's rate is not above 0"};
   for (const auto& row : o.track.rows) {
     for (double speed : row) {
-      if (!(std::abs(speed) <= kMaxWind)) return Error{"leaf drops: the wind is not within 30 m/s"};
+      if (!(std::abs(speed) <= kMaxGust)) return Error{"leaf drops: the wind is not within 30 m/s"};
     }
   }
   return wisp::check(o.leaf);

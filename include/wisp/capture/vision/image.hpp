@@ -34,6 +34,8 @@ struct Region {
   int right() const { return x + width; }
   int bottom() const { return y + height; }
   bool empty() const { return width <= 0 || height <= 0; }
+  /// Pixels.
+  double area() const { return empty() ? 0 : static_cast<double>(width) * height; }
   friend bool operator==(const Region&, const Region&) = default;
 };
 

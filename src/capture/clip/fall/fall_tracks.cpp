@@ -8,7 +8,7 @@ namespace wisp::fall {
 namespace {
 
 constexpr double kMinSeconds = 0.3;
-constexpr std::size_t kMinRows = 8;    // of a stretch that a chain is learned from
+constexpr std::size_t kMinStretch = 8;    // of a stretch that a chain is learned from
 constexpr double kMinDescent = 0.25;   // heights of the picture
 constexpr double kPieceDescent = 0.1;  // heights: what sinks by so much and is no fall is a piece of one
 constexpr double kAtRest = 0.01;       // heights: nearer to where it began or ended, it hangs or lies
@@ -54,7 +54,7 @@ Candidate trimmed(Track track, double height) {
 
 bool is_long(const Candidate& fall, const Scale& scale) {
   const std::size_t rows = fall.end() - fall.begin() + 1;
-  return rows >= kMinRows && static_cast<double>(rows - 1) >= kMinSeconds * scale.rate_hz;
+  return rows >= kMinStretch && static_cast<double>(rows - 1) >= kMinSeconds * scale.rate_hz;
 }
 
 bool is_fall(const Candidate& fall, const Scale& scale) {

@@ -12,7 +12,7 @@ namespace wisp {
 namespace {
 
 constexpr double kMinGap = 1e-3;  // of the curve's length: knots that are nearer are one
-constexpr double kRidge = 1e-12;  // of a column's own product: sides that never blow are nobody's
+constexpr double kSideRidge = 1e-12;  // of a column's own product: sides that never blow are nobody's
 
 // How far an input has come from a knot to the next, 0 to 1; NaN stays NaN.
 double climbed(double input, double from, double to) {
@@ -97,7 +97,7 @@ Eigen::MatrixXd left_over(const Eigen::MatrixXd& gram, const std::vector<int>& k
   Eigen::MatrixXd left = gram(kept, kept);
   if (taken.empty()) return left;
   Eigen::MatrixXd own = gram(taken, taken);
-  own.diagonal() *= 1 + kRidge;
+  own.diagonal() *= 1 + kSideRidge;
   own.diagonal().array() += (own.diagonal().array() == 0).cast<double>();
   const Eigen::MatrixXd shared = gram(taken, kept);
   left.noalias() -= shared.transpose() * own.ldlt().solve(shared);

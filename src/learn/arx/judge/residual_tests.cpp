@@ -6,6 +6,7 @@
 
 #include "learn/arx/fit/arx_errors.hpp"
 #include "learn/numeric/chi_squared.hpp"
+#include "learn/numeric/constants.hpp"
 
 namespace wisp {
 namespace {
@@ -69,7 +70,7 @@ VectorXd products(const std::vector<Stretch>& stretches, double rows, int first,
 
 Whiteness whiteness_of(const VectorXd& auto_covariance, double rows, double taken) {
   Whiteness test;
-  test.bound = 1.959963985 / std::sqrt(rows);
+  test.bound = kNormal95 / std::sqrt(rows);
   const auto lags = auto_covariance.size() - 1;
   for (Index lag = 1; lag <= lags; ++lag) {
     const double r = auto_covariance[0] > 0 ? auto_covariance[lag] / auto_covariance[0] : 0.0;
@@ -109,7 +110,7 @@ Independence independence_of(const Pairing& pairing, const VectorXd& cross, cons
   if (!(scale > 0)) return test;
   const Index count = lags + 1;
   const VectorXd spread = product_covariance(residual, input, count, pairing.rows);
-  test.bound = 1.959963985 * std::sqrt(spread[0]) / scale;
+  test.bound = kNormal95 * std::sqrt(spread[0]) / scale;
   MatrixXd covariance(count, count);
   for (Index r = 0; r < count; ++r) {
     for (Index c = 0; c < count; ++c) covariance(r, c) = spread[std::abs(r - c)];

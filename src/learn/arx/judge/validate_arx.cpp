@@ -12,16 +12,15 @@
 #include "learn/arx/report/fit_report.hpp"
 #include "learn/arx/report/report_values.hpp"
 #include "learn/arx/report/response_report.hpp"
+#include "learn/numeric/constants.hpp"
 #include "record/number_text.hpp"
 
 namespace wisp {
 namespace arx {
 namespace {
 
-constexpr double kSure = 1.959963985;  // standard deviations to either side of 95 %
 constexpr int kSettled = 2000;         // steps after which the noise of free simulation has its full size
 constexpr int kMaxPlottedSteps = 15;   // a prediction much longer than that is a simulation
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr int kErrorSteps = 20;  // of the plot of errors by steps
 
 // All that is judged with.
@@ -90,7 +89,7 @@ double share_inside(const std::vector<double>& measured, const std::vector<doubl
     const double error = measured[t] - predicted[t];
     if (!std::isfinite(error)) continue;
     ++rows;
-    inside += std::abs(error) <= kSure * sd;
+    inside += std::abs(error) <= kNormal95 * sd;
   }
   return rows > 0 ? static_cast<double>(inside) / static_cast<double>(rows) : 0;
 }
@@ -121,8 +120,8 @@ ReportTable channel_table(const Subject& subject, const Judged& judged) {
     auto& row = table.rows.emplace_back();
     row.emplace_back(subject.channels.outputs[i]);
     for (const PredictionFigures& figure : judged.figures) row.emplace_back(figure.fit_percent[i]);
-    row.emplace_back(judged.tests ? judged.tests->whiteness[i].p : kNone);
-    if (!judged.tests) row.emplace_back(kNone);
+    row.emplace_back(judged.tests ? judged.tests->whiteness[i].p : kMissing);
+    if (!judged.tests) row.emplace_back(kMissing);
     for (std::size_t k = 0; judged.tests && k < subject.channels.inputs.size(); ++k) {
       row.emplace_back(judged.tests->independence[i][k].p);
     }
@@ -156,8 +155,8 @@ void add_plots(const Subject& subject, const Judged& judged, ReportSection& sect
       if (steps[s] == kFreeRun) plot("simulated" + place, "simulated from the input" + fit, predicted);
       if (steps[s] != ahead || ahead == 0) continue;
       std::vector<double> low = predicted, high = predicted;
-      for (double& y : low) y -= kSure * subject.sd_of(i, ahead);
-      for (double& y : high) y += kSure * subject.sd_of(i, ahead);
+      for (double& y : low) y -= kNormal95 * subject.sd_of(i, ahead);
+      for (double& y : high) y += kNormal95 * subject.sd_of(i, ahead);
       const std::string samples = std::to_string(ahead) + (ahead == 1 ? " sample ahead" : " samples ahead");
       plot("predicted" + place, samples, predicted);
       plot("predicted" + place + ".low", samples, std::move(low));

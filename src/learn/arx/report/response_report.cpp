@@ -6,11 +6,11 @@
 
 #include "learn/arx/judge/response.hpp"
 #include "learn/arx/report/report_values.hpp"
+#include "learn/numeric/constants.hpp"
 
 namespace wisp::arx {
 namespace {
 
-constexpr double kSure = 1.959963985;  // standard deviations to either side of 95 %
 constexpr int kFrequencies = 240;
 
 // Until what the slowest pole remembers is below a hundredth.
@@ -46,7 +46,7 @@ struct Curve {
 Curve step_curve(const StepResponse& step) {
   Curve curve;
   for (std::size_t t = 0; t < step.value.size(); ++t) {
-    const double wide = step.sd.empty() ? 0 : kSure * step.sd[t];
+    const double wide = step.sd.empty() ? 0 : kNormal95 * step.sd[t];
     curve.push(step.value[t], step.value[t] - wide, step.value[t] + wide);
   }
   return curve;
@@ -58,7 +58,7 @@ Curve amplitude_curve(const FrequencyResponse& response) {
   for (std::size_t f = 0; f < response.value.size(); ++f) {
     const double amplitude = std::abs(response.value[f]);
     const double sd = response.amplitude_sd.empty() ? 0 : response.amplitude_sd[f];
-    const double ratio = amplitude > 0 ? std::exp(kSure * std::min(sd / amplitude, 2.0)) : 1;
+    const double ratio = amplitude > 0 ? std::exp(kNormal95 * std::min(sd / amplitude, 2.0)) : 1;
     curve.push(amplitude, amplitude / ratio, amplitude * ratio);
   }
   return curve;
@@ -77,7 +77,7 @@ Curve phase_curve(const FrequencyResponse& response) {
       degrees += jump;
     }
     const double sd = response.phase_sd.empty() ? 0 : response.phase_sd[f];
-    const double wide = std::min(kSure * kDegrees * sd, 180.0);
+    const double wide = std::min(kNormal95 * kDegrees * sd, 180.0);
     curve.push(degrees, degrees - wide, degrees + wide);
   }
   return curve;

@@ -17,7 +17,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-constexpr int kMinRows = 3;       // of past and of future
+constexpr int kMinHorizon = 3;       // of past and of future
 constexpr int kMaxColumns = 800;  // of both together
 constexpr double kRowsAColumn = 1.5;
 constexpr double kRidge = 1e-10;    // of every column's own energy: the Gram matrix has no more digits
@@ -83,12 +83,12 @@ Subspace::Subspace(const Signals& signals, const std::vector<int>& outputs, bool
   }
   const int channels = block_.size() + block_.inputs();
   horizon_ = std::min(kStateSpaceLags, kMaxColumns / (2 * channels));
-  for (; horizon_ >= kMinRows; --horizon_) {
+  for (; horizon_ >= kMinHorizon; --horizon_) {
     const Window window(signals, block_.outputs(), 2 * horizon_);
     const RowPlan plan = plan_rows(signals, window.layout, window.layout.history());
     if (static_cast<double>(plan.rows) >= kRowsAColumn * 2 * horizon_ * channels) break;
   }
-  if (horizon_ >= kMinRows) find_observability(signals);
+  if (horizon_ >= kMinHorizon) find_observability(signals);
 }
 
 void Subspace::find_observability(const Signals& signals) {
