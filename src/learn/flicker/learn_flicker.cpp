@@ -15,6 +15,7 @@
 #include "learn/arx/learn_arx.hpp"
 #include "learn/arx/report/report_values.hpp"
 #include "learn/flicker/restlessness.hpp"
+#include "learn/numeric/decompositions.hpp"
 #include "learn/numeric/spectrum.hpp"
 #include "record/number_text.hpp"
 #include "wisp/run/bank.hpp"
@@ -143,7 +144,7 @@ double radius_of(const std::vector<double>& theta) {
   Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index k = 0; k < n; ++k) companion(0, k) = theta[static_cast<std::size_t>(k)];
   for (Eigen::Index k = 1; k < n; ++k) companion(k, k - 1) = 1;
-  return companion.eigenvalues().cwiseAbs().maxCoeff();
+  return eigenvalues(companion).cwiseAbs().maxCoeff();
 }
 
 std::optional<Regression> regress(const Traces& traces, const std::vector<std::vector<int>>& modes, int mode,

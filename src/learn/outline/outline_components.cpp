@@ -1,6 +1,6 @@
 #include "learn/outline/outline_components.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +8,7 @@
 
 #include "learn/arx/rows/arx_orders.hpp"
 #include "learn/numeric/chi_squared.hpp"
+#include "learn/numeric/decompositions.hpp"
 
 namespace wisp {
 namespace {
@@ -187,8 +188,8 @@ ShapeComponents shape_components(std::span<const Recording> recordings, const Pr
     covariance += (row - mean) * (row - mean).transpose();
     ++rows;
   });
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> found(covariance / std::max(1.0, rows));
-  const Eigen::VectorXd sd = found.eigenvalues().cwiseMax(0).cwiseSqrt();
+  const SymmetricEigensystem found = symmetric_eigensystem(covariance / std::max(1.0, rows));
+  const Eigen::VectorXd sd = found.values.cwiseMax(0).cwiseSqrt();
   Eigen::Index m = 0;
   while (m < ny && sd[ny - 1 - m] > kMinSd * sd[ny - 1]) ++m;
   m = std::max<Eigen::Index>(1, std::min(m, ny - 2));
@@ -196,8 +197,8 @@ ShapeComponents shape_components(std::span<const Recording> recordings, const Pr
   out.score.resize(m, ny);
   for (Eigen::Index c = 0; c < m; ++c) {
     const double size = std::max(sd[ny - 1 - c], std::numeric_limits<double>::min());
-    out.shape.col(c) = found.eigenvectors().col(ny - 1 - c) * size;
-    out.score.row(c) = found.eigenvectors().col(ny - 1 - c).transpose() / size;
+    out.shape.col(c) = found.vectors.col(ny - 1 - c) * size;
+    out.score.row(c) = found.vectors.col(ny - 1 - c).transpose() / size;
     out.names.push_back("component " + std::to_string(c));
   }
   for (Eigen::Index k = 0; k < 2; ++k) {
