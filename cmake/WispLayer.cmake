@@ -54,9 +54,12 @@ function(wisp_precompiled target)
   endif()
 endfunction()
 
-# With CMAKE_UNITY_BUILD, which the optimised presets have, up to five sources of one folder are compiled as one: what
-# they read and instantiate in common is half of their work. More would make what is compiled after a change too long.
+# Up to five sources of one folder are compiled as one: what they read and instantiate in common is a third of their work.
+# More would make what is compiled after a change too long. Names of one folder's sources must differ for it.
 function(wisp_unity target)
+  if(NOT WISP_UNITY_BUILD)
+    return()
+  endif()
   get_target_property(sources ${target} SOURCES)
   get_target_property(root ${target} SOURCE_DIR)
   list(SORT sources)
@@ -70,12 +73,10 @@ function(wisp_unity target)
     math(EXPR group "(${place} + 4) / 5")
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder}_${group})
   endforeach()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
-  # A source that another includes looks to GCC like a header, and what is inlined there makes it see ghosts.
-  if(CMAKE_UNITY_BUILD)
-    target_compile_options(${target} PRIVATE
-      $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage> $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
-  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # A source that another includes looks to GCC like a header, and where it inlines more it sees ghosts.
+  target_compile_options(${target} PRIVATE
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage> $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 endfunction()
 
 # A host may build with -ffast-math. A missing sample is a NaN here, and the frame path keeps its bits. Further arguments

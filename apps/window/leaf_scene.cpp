@@ -19,10 +19,10 @@ constexpr float kLift = 0.006F;       // over the floor, so that what lies is no
 constexpr float kGustMetres = 1.6F;  // metres a second of a wind of 1
 
 constexpr float kPushReach = 0.22F;  // metres around the pointer that feel it
-constexpr float kMaxWake = 2.5F;        // metres a second
-constexpr float kKicking = 0.55F;       // wind that lifts what lies, metres a second
-constexpr int kMaxKicks = 40;           // a frame: each looks at every segment
-constexpr float kMinRest = 1.5F;        // seconds on the ground before it begins again
+constexpr float kMaxWake = 2.5F;     // metres a second
+constexpr float kKicking = 0.55F;    // wind that lifts what lies, metres a second
+constexpr int kMaxKicks = 40;        // a frame: each looks at every segment
+constexpr float kMinRest = 1.5F;     // seconds on the ground before it begins again
 constexpr float kMoreRest = 4;
 constexpr float kFade = 0.6F;    // seconds of going before it begins again
 constexpr float kCatch = 0.25F;  // and of appearing

@@ -18,7 +18,7 @@ namespace {
 
 using Series = std::vector<std::vector<double>>;  // one an output
 
-constexpr int kSettled = 2000;         // steps after which the noise of free simulation has its full size
+constexpr int kSettled = 2000;  // steps after which the noise of free simulation has its full size
 
 // Half the width of the 95 % interval of every prediction. A free run knows its start: it is as sure as a prediction of
 // as many steps as it has run.

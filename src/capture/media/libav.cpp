@@ -1,5 +1,6 @@
 #include "capture/media/libav.hpp"
 
+#include <cerrno>
 #include <mutex>
 #include <new>
 #include <vector>
@@ -50,7 +51,10 @@ std::string libav_message(int code) {
 }
 
 int with_memory(int code) {
-  if (code == AVERROR(ENOMEM)) throw std::bad_alloc();
+  // The decoder of H.264 keeps to itself that it had none for a picture; the allocator's own word of it is in errno.
+  const bool none = code == AVERROR(ENOMEM) || errno == ENOMEM;
+  errno = 0;
+  if (none) throw std::bad_alloc();
   return code;
 }
 
@@ -99,6 +103,7 @@ Result<CodecOwner> open_decoder(const std::filesystem::path& path, const AVStrea
     return Error{path.string() + ": the decoder for " + coded + " does not start (" + libav_message(code) +
                  "); convert it to H.264"};
   }
+  errno = 0;  // for with_memory()
   return context;
 }
 

@@ -59,8 +59,8 @@ void silence_libav();
 /// FFmpeg's words for one of its error codes.
 std::string libav_message(int code);
 
-/// Gives one of its codes back, unless it says that there was no memory, which is no fault of the file's: to leave out
-/// what could not be decoded would change what is measured. Throws std::bad_alloc.
+/// Gives one of its codes back, unless that or errno, since the call before, says that there was no memory, which is no
+/// fault of the file's: to leave out what could not be decoded would change what is measured. Throws std::bad_alloc.
 int with_memory(int code);
 
 /// Opens a media file and reads what tracks it has. FFmpeg's own chatter on standard error is silenced: what matters

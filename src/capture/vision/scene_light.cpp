@@ -5,9 +5,9 @@
 namespace wisp {
 namespace {
 
-constexpr int kSparseGrid = 96;              // points wide and high, at most
-constexpr int kDark = 24;              // levels: coding errors and a camera's noise lie below
-constexpr double kMaxIsNew = 0.4;      // of the light above them: cuts 0.6 to 1, a snuffed candle 0.2
+constexpr int kSparseGrid = 96;          // points wide and high, at most
+constexpr int kDark = 24;                // levels: coding errors and a camera's noise lie below
+constexpr double kMaxIsNew = 0.4;        // of the light above them: cuts 0.6 to 1, a snuffed candle 0.2
 constexpr double kLeastLight = 3 * 255;  // of all points: less is a spark
 
 }  // namespace

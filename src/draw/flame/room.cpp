@@ -157,8 +157,8 @@ void Room::light_table(const Stand& stand) {
   const float high = std::max(0.3F, (stand.foot.y - stand.lamp.place.y) / stand.unit);
   const float aside = foot.x + (stand.lamp.place.x - stand.foot.x) / stand.unit;
   const float rim = std::min(0.95F, stand.height / high);
-  for (int j = std::max(0, static_cast<int>(kTableEdge * static_cast<float>(height_)) / kPixels + 1); j < flames_.height;
-       ++j) {
+  for (int j = std::max(0, static_cast<int>(kTableEdge * static_cast<float>(height_)) / kPixels + 1);
+       j < flames_.height; ++j) {
     float* out = flames_.row(j);
     for (int i = 0; i < flames_.width; ++i) {
       const TableSpot p = view.at(kPixels * (static_cast<float>(i) + 0.5F), kPixels * (static_cast<float>(j) + 0.5F));

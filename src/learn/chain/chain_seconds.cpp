@@ -229,7 +229,8 @@ SecondsFidelity seconds_fidelity(const Motion& real, const Motion& synthesized, 
   out.tails = {tails_apart(out.real, out.synthesized), tails_apart(half, other),
                tails_apart(out.real, normal_like(all, out.real))};
   const auto apart = [](double a, double b) {
-    return a > kUnseenMetres * kUnseenMetres ? std::abs(b / a - 1) : kMissing;  // what does not spread has no share of it
+    return a > kUnseenMetres * kUnseenMetres ? std::abs(b / a - 1)
+                                             : kMissing;  // what does not spread has no share of it
   };
   out.spread = {apart(out.real.spread[2], out.synthesized.spread[2]), apart(half.spread[2], other.spread[2]),
                 apart(out.real.spread[2], shuffled_spread(all, rows))};

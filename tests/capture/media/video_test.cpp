@@ -6,12 +6,17 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cerrno>
 #include <fstream>
 #include <iterator>
+#include <new>
 
 #include "capture/support/clip_files.hpp"
 
 namespace wisp {
+
+int with_memory(int code);  // of capture/media/libav.hpp, which wants FFmpeg's headers
+
 namespace {
 
 using support::Plane;
@@ -45,6 +50,15 @@ Seen see(VideoReader& reader) {
     seen.index.push_back((*frame)->index);
     seen.pixel.push_back(plane_in_place((*frame)->picture, PixelChannel::kLuma).at(3, 2));
   }
+}
+
+// FFmpeg's decoder of H.264 leaves out a picture that it has no memory for and answers that all is well.
+TEST(Decoding, WithoutMemoryIsToldThoughTheDecoderKeepsItToItself) {
+  errno = ENOMEM;
+  EXPECT_THROW(with_memory(0), std::bad_alloc);
+  EXPECT_EQ(with_memory(0), 0);
+  errno = EINTR;
+  EXPECT_EQ(with_memory(-5), -5);
 }
 
 TEST(ImageFolder, IsReadInTheOrderOfItsNumbers) {

@@ -11,7 +11,7 @@
 namespace wisp {
 namespace {
 
-constexpr double kMinGap = 1e-3;  // of the curve's length: knots that are nearer are one
+constexpr double kMinGap = 1e-3;      // of the curve's length: knots that are nearer are one
 constexpr double kSideRidge = 1e-12;  // of a column's own product: sides that never blow are nobody's
 
 // How far an input has come from a knot to the next, 0 to 1; NaN stays NaN.

@@ -19,9 +19,9 @@ namespace wisp {
 namespace arx {
 namespace {
 
-constexpr int kSettled = 2000;         // steps after which the noise of free simulation has its full size
-constexpr int kMaxPlottedSteps = 15;   // a prediction much longer than that is a simulation
-constexpr int kErrorSteps = 20;  // of the plot of errors by steps
+constexpr int kSettled = 2000;        // steps after which the noise of free simulation has its full size
+constexpr int kMaxPlottedSteps = 15;  // a prediction much longer than that is a simulation
+constexpr int kErrorSteps = 20;       // of the plot of errors by steps
 
 // All that is judged with.
 struct Subject {

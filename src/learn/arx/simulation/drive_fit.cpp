@@ -13,7 +13,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-constexpr Index kRows = 512;          // that are summed at a time
+constexpr Index kRows = 512;     // that are summed at a time
 constexpr double kDied = 1e-30;  // an initial state that has died down to this share
 constexpr double kColumnRidge = 1e-11;
 

@@ -12,9 +12,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kStarts = 8;       // from measured samples
-constexpr double kReach = 0.75;  // the last one starts here
-constexpr Index kRowsAStart = 20;   // that a start is worth
+constexpr int kStarts = 8;         // from measured samples
+constexpr double kReach = 0.75;    // the last one starts here
+constexpr Index kRowsAStart = 20;  // that a start is worth
 constexpr double kMaxError = 1e6;
 
 // Sums of squared errors by parts of all rows.

@@ -17,7 +17,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-constexpr int kMinHorizon = 3;       // of past and of future
+constexpr int kMinHorizon = 3;    // of past and of future
 constexpr int kMaxColumns = 800;  // of both together
 constexpr double kRowsAColumn = 1.5;
 constexpr double kRidge = 1e-10;    // of every column's own energy: the Gram matrix has no more digits
