@@ -35,6 +35,9 @@ function(wisp_layer name)
   set_property(GLOBAL APPEND PROPERTY WISP_LAYERS ${target})
 endfunction()
 
+# The first for ccache. The second lets GCC use a gigabyte before it tidies up: 8 % of its time, for some 200 MB more.
+set(wisp_precompiling "$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess;--param=ggc-min-heapsize=1000000>")
+
 # Reading the standard library is half of what compiling one of our sources takes: it is read once for all of a target.
 # Further arguments are more headers of which many sources are made, or another target to take all from. A host's build,
 # and one for another machine, is left as it is.
@@ -42,10 +45,10 @@ function(wisp_precompiled target)
   if(NOT PROJECT_IS_TOP_LEVEL OR CMAKE_CROSSCOMPILING)
     return()
   endif()
-  # The first for ccache. GCC 12 forgets that what it has read beforehand is the system's, and wrongly finds fault with the
-  # moves of its own std::string.
-  target_compile_options(${target} PRIVATE
-    "$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess;-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-array-bounds>")
+  # GCC 12 forgets that what it has read beforehand is the system's, and wrongly finds fault with the moves of its own
+  # std::string.
+  target_compile_options(${target} PRIVATE ${wisp_precompiling}
+    "$<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-array-bounds>")
   if(ARGV1 STREQUAL REUSE_FROM)
     target_precompile_headers(${target} ${ARGN})
   else()
