@@ -35,7 +35,8 @@ function(wisp_layer name)
   set_property(GLOBAL APPEND PROPERTY WISP_LAYERS ${target})
 endfunction()
 
-# The first for ccache. The second lets GCC use a gigabyte before it tidies up: 8 % of its time, for some 200 MB more.
+# The first for ccache. The second is the size of its heap from which GCC collects garbage, in kB: some 200 MB more for 8 %
+# less time.
 set(wisp_precompiling "$<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess;--param=ggc-min-heapsize=1000000>")
 
 # Reading the standard library is half of what compiling one of our sources takes: it is read once for all of a target.
@@ -57,15 +58,15 @@ function(wisp_precompiled target)
   endif()
 endfunction()
 
-# Up to five sources of one folder are compiled as one: what they read and instantiate in common is a third of their work.
-# More would make what is compiled after a change too long. Names of one folder's sources must differ for it.
+# With WISP_UNITY_BUILD up to five sources of a folder are one translation unit: headers and template instances that they
+# share are a third of the time. Larger units would recompile too much after a change. Names in anonymous namespaces must
+# be unique within a folder; an overload that another source's replaces is an unused function, which is an error.
 function(wisp_unity target)
   if(NOT WISP_UNITY_BUILD)
     return()
   endif()
   get_target_property(sources ${target} SOURCES)
   get_target_property(root ${target} SOURCE_DIR)
-  list(SORT sources)
   foreach(source IN LISTS sources)
     cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${root} OUTPUT_VARIABLE folder)
     cmake_path(GET folder PARENT_PATH folder)
@@ -77,7 +78,7 @@ function(wisp_unity target)
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder}_${group})
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  # A source that another includes looks to GCC like a header, and where it inlines more it sees ghosts.
+  # GCC takes a source that is included for a header, and -Wmaybe-uninitialized has false positives where it inlines more.
   target_compile_options(${target} PRIVATE
     $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage> $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 endfunction()

@@ -18,11 +18,11 @@ constexpr float kLift = 0.006F;       // over the floor, so that what lies is no
 
 constexpr float kGustMetres = 1.6F;  // metres a second of a wind of 1
 
-constexpr float kPushReach = 0.22F;  // metres around the pointer that feel it
-constexpr float kMaxWake = 2.5F;     // metres a second
-constexpr float kKicking = 0.55F;    // wind that lifts what lies, metres a second
-constexpr int kMaxKicks = 40;        // a frame: each looks at every segment
-constexpr float kMinRest = 1.5F;     // seconds on the ground before it begins again
+constexpr float kPointerMetres = 0.22F;  // metres around the pointer that feel it
+constexpr float kMaxWake = 2.5F;         // metres a second
+constexpr float kKicking = 0.55F;        // wind that lifts what lies, metres a second
+constexpr int kMaxKicks = 40;            // a frame: each looks at every segment
+constexpr float kMinRest = 1.5F;         // seconds on the ground before it begins again
 constexpr float kMoreRest = 4;
 constexpr float kFade = 0.6F;    // seconds of going before it begins again
 constexpr float kCatch = 0.25F;  // and of appearing
@@ -122,7 +122,7 @@ void LeafScene::pointer_pressed(Point pixel) {
     const auto at = painter_->pixel_of(life.last);
     if (!at || life.last[2] > 0.05F) continue;
     const float away = std::hypot(at->x - pixel.x, at->y - pixel.y) / painter_->pixels_per_metre();
-    if (away < kPushReach) kick(slot, {1.2F * (chance() - 0.5F), 0.6F * (chance() - 0.5F), 1.2F});
+    if (away < kPointerMetres) kick(slot, {1.2F * (chance() - 0.5F), 0.6F * (chance() - 0.5F), 1.2F});
   }
 }
 
@@ -137,7 +137,7 @@ std::array<float, 3> LeafScene::wind_at(const std::array<float, 3>& place) const
   if (!at) return wind;
   const float metre = painter_->pixels_per_metre();
   const float dx = (at->x - pointer_.x) / metre, dy = (at->y - pointer_.y) / metre;
-  const float near = std::exp(-(dx * dx + dy * dy) / (kPushReach * kPushReach));
+  const float near = std::exp(-(dx * dx + dy * dy) / (kPointerMetres * kPointerMetres));
   const Point speed = wake_.speed();
   const float size = std::hypot(speed.x, speed.y);
   const float held = size > kMaxWake ? kMaxWake / size : 1;

@@ -52,7 +52,7 @@ float depth_of(Point p, std::span<const Point> outline, float reach) {
 }
 
 // Where a pixel lies in the flame of an outline.
-struct Within {
+struct FlamePlace {
   float height = 0;  // 0 at the base, 1 at the outline's top
   float depth = 0;   // inside the outline, mean flame heights
 };
@@ -69,7 +69,7 @@ class Places {
     tall_ = std::max(0.2F * view.unit, view.base.y - top);
   }
 
-  Within at(int x, int y) const {
+  FlamePlace at(int x, int y) const {
     const Point p{static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F};
     const float reach = -kOutside * view_.unit;
     const float height = std::max(0.0F, (view_.base.y - p.y) / tall_);
@@ -156,7 +156,7 @@ void FilmLook::learn(const Image& frame, std::span<const Point> outline) {
     const auto row = frame.row(y);
     for (int x = 0; x < view_.width; ++x) {
       const std::size_t pixel = static_cast<std::size_t>(y) * view_.width + x;
-      const Within place = places.at(x, y);
+      const FlamePlace place = places.at(x, y);
       add(still_[pixel], row[x]);
       squares_[pixel] += square(light_of(row[x]));
       // The farther the flame was, the surer; where it never was far, what is known counts all the same.
@@ -207,7 +207,7 @@ Image FilmLook::draw(std::span<const Point> outline) const {
     const float height = (view_.base.y - static_cast<float>(y)) / view_.unit;
     for (int x = 0; x < view_.width; ++x) {
       const std::size_t pixel = static_cast<std::size_t>(y) * view_.width + x;
-      const Within place = places.at(x, y);
+      const FlamePlace place = places.at(x, y);
       const Sum flame = bilinear(colours, height_index(place.height), depth_index(place.depth));
       Sum colour = mix(plate[pixel], flame, smooth(kGlowEnds, kGlowWhole, place.depth));
       colour = mix(colour, mean(still_[pixel]), stillness(pixel, height));

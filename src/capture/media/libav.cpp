@@ -51,10 +51,10 @@ std::string libav_message(int code) {
 }
 
 int with_memory(int code) {
-  // The decoder of H.264 keeps to itself that it had none for a picture; the allocator's own word of it is in errno.
-  const bool none = code == AVERROR(ENOMEM) || errno == ENOMEM;
+  // FFmpeg's H.264 decoder returns success where an allocation for a picture failed; malloc reports it in errno.
+  const bool out_of_memory = code == AVERROR(ENOMEM) || errno == ENOMEM;
   errno = 0;
-  if (none) throw std::bad_alloc();
+  if (out_of_memory) throw std::bad_alloc();
   return code;
 }
 

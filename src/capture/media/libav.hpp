@@ -59,8 +59,9 @@ void silence_libav();
 /// FFmpeg's words for one of its error codes.
 std::string libav_message(int code);
 
-/// Gives one of its codes back, unless that or errno, since the call before, says that there was no memory, which is no
-/// fault of the file's: to leave out what could not be decoded would change what is measured. Throws std::bad_alloc.
+/// Returns one of FFmpeg's codes. Throws std::bad_alloc where the code, or errno since the call before, says that an
+/// allocation failed: the file is not at fault, and leaving frames out would change what is measured. errno belongs to
+/// the calling thread: what fails in decoding threads is only seen where FFmpeg returns it.
 int with_memory(int code);
 
 /// Opens a media file and reads what tracks it has. FFmpeg's own chatter on standard error is silenced: what matters

@@ -66,20 +66,20 @@ std::vector<Fate> judge(const FrameFindings& findings, double usual_brightness) 
 
 // What flashes up briefly between longer stretches of nothing is a glint, not the thing.
 void leave_out_glints(std::vector<Fate>& fate) {
-  struct Same {
+  struct Span {
     bool nothing = false;
     std::size_t begin = 0;
     std::size_t end = 0;
     std::size_t size() const { return end - begin; }
   };
-  std::vector<Same> stretches;
+  std::vector<Span> stretches;
   for (std::size_t k = 0; k < fate.size(); ++k) {
     const bool nothing = fate[k] == Fate::kNothing;
     if (stretches.empty() || stretches.back().nothing != nothing) stretches.push_back({nothing, k, k});
     stretches.back().end = k + 1;
   }
   for (std::size_t k = 1; k + 1 < stretches.size(); ++k) {
-    const Same& now = stretches[k];
+    const Span& now = stretches[k];
     if (now.nothing || now.size() > kGlint) continue;
     if (std::min(stretches[k - 1].size(), stretches[k + 1].size()) <= now.size()) continue;
     for (std::size_t row = now.begin; row < now.end; ++row) fate[row] = Fate::kNothing;

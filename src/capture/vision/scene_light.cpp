@@ -5,15 +5,15 @@
 namespace wisp {
 namespace {
 
-constexpr int kSparseGrid = 96;          // points wide and high, at most
-constexpr int kDark = 24;                // levels: coding errors and a camera's noise lie below
-constexpr double kMaxIsNew = 0.4;        // of the light above them: cuts 0.6 to 1, a snuffed candle 0.2
-constexpr double kLeastLight = 3 * 255;  // of all points: less is a spark
+constexpr int kMaxPoints = 96;              // points wide and high, at most
+constexpr int kDark = 24;                   // levels: coding errors and a camera's noise lie below
+constexpr double kMaxIsNew = 0.4;           // of the light above them: cuts 0.6 to 1, a snuffed candle 0.2
+constexpr double kMinTotalLight = 3 * 255;  // of all points: less is a spark
 
 }  // namespace
 
 void SceneLight::sample(const Picture& picture) {
-  const int step = std::max(1, (std::max(picture.width, picture.height) + kSparseGrid - 1) / kSparseGrid);
+  const int step = std::max(1, (std::max(picture.width, picture.height) + kMaxPoints - 1) / kMaxPoints);
   const auto points = [step](int pixels) { return static_cast<std::size_t>((pixels + step - 1) / step); };
   now_.resize(points(picture.width) * points(picture.height));
   sample_channel(picture, PixelChannel::kLuma, picture.frame(), step, now_.data());
@@ -34,7 +34,7 @@ bool SceneLight::another(const Picture& picture) {
     light += std::max(0, now_[k] - kDark);
     fresh += std::max(0, now_[k] - std::max<int>(brightest_[k], kDark));
   }
-  return light > kLeastLight && fresh > kMaxIsNew * light;
+  return light > kMinTotalLight && fresh > kMaxIsNew * light;
 }
 
 }  // namespace wisp

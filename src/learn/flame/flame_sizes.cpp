@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "learn/numeric/constants.hpp"
 #include "learn/outline/outline_units.hpp"
 
 namespace wisp {
@@ -12,7 +13,6 @@ namespace {
 constexpr double kDecaySeen = 0.6;     // seconds before it is gone; what came before belongs to the gust
 constexpr double kReIgnitionSeen = 2;  // seconds after it is seen again
 constexpr double kGridStep = 1.02;     // of durations: finer than a row tells
-constexpr double kNormal95 = 1.96;     // standard errors
 
 double size_of(const Recording& recording, const OutlineLayout& layout, std::size_t row) {
   const auto at = [&](std::size_t k) { return recording.channels[layout.outputs[k]].samples[row]; };

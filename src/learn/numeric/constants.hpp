@@ -1,5 +1,5 @@
 #pragma once
-// Numbers that many rooms name.
+// Constants that several folders use.
 
 #include <limits>
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 
 #include "learn/numeric/constants.hpp"
 #include "learn/outline/outline_shape.hpp"

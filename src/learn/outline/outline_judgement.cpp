@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <string>
 
 #include "learn/flame/wind_gain.hpp"
@@ -16,7 +15,7 @@
 namespace wisp {
 namespace {
 
-constexpr double kLongestLag = 0.5;  // seconds that a static gain may lag
+constexpr double kMaxLag = 0.5;  // seconds that a static gain may lag
 
 // What validation needs of a model, after it was found to be an outline.
 struct OutlineModel {
@@ -163,7 +162,7 @@ double gain_fit(const std::vector<double>& y, const std::vector<double>& u, std:
 
 StaticGain static_gain(const std::vector<double>& tip, const std::vector<double>& input, double rate_hz) {
   StaticGain best;
-  const auto longest = static_cast<std::size_t>(kLongestLag * rate_hz);
+  const auto longest = static_cast<std::size_t>(kMaxLag * rate_hz);
   for (std::size_t delay = 0; delay <= longest; ++delay) {
     const double fit = gain_fit(tip, input, delay);
     if (fit > best.fit_percent) best = {static_cast<double>(delay) / rate_hz, fit};

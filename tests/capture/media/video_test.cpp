@@ -52,8 +52,8 @@ Seen see(VideoReader& reader) {
   }
 }
 
-// FFmpeg's decoder of H.264 leaves out a picture that it has no memory for and answers that all is well.
-TEST(Decoding, WithoutMemoryIsToldThoughTheDecoderKeepsItToItself) {
+// FFmpeg's H.264 decoder drops a picture for which an allocation failed and returns success.
+TEST(Decoding, FailedAllocationInErrnoThrows) {
   errno = ENOMEM;
   EXPECT_THROW(with_memory(0), std::bad_alloc);
   EXPECT_EQ(with_memory(0), 0);

@@ -8,17 +8,17 @@ namespace wisp::fall {
 namespace {
 
 constexpr double kMinSeconds = 0.3;
-constexpr std::size_t kMinStretch = 8;  // of a stretch that a chain is learned from
-constexpr double kMinDescent = 0.25;    // heights of the picture
-constexpr double kPieceDescent = 0.1;   // heights: what sinks by so much and is no fall is a piece of one
-constexpr double kAtRest = 0.01;        // heights: nearer to where it began or ended, it hangs or lies
-constexpr std::size_t kRests = 3;       // frames
-constexpr double kApart = 0.03;         // heights: what keeps its distance as closely is a part, or a shadow
-constexpr double kRound = 1.3;          // aspect: less long, it has no direction
-constexpr double kNearEnd = 0.1;        // heights: so much of a fall may be wanting at its end
-constexpr double kNearSide = 2;         // small pixels
-constexpr std::size_t kAhead = 3;       // frames: what will have crossed the picture's side by then has left there
-constexpr double kSameSeconds = 0.5;    // pieces that follow each other as closely are of one fall
+constexpr std::size_t kMinStretchRows = 8;  // of a stretch that a chain is learned from
+constexpr double kMinDescent = 0.25;        // heights of the picture
+constexpr double kPieceDescent = 0.1;       // heights: what sinks by so much and is no fall is a piece of one
+constexpr double kAtRest = 0.01;            // heights: nearer to where it began or ended, it hangs or lies
+constexpr std::size_t kRests = 3;           // frames
+constexpr double kApart = 0.03;             // heights: what keeps its distance as closely is a part, or a shadow
+constexpr double kRound = 1.3;              // aspect: less long, it has no direction
+constexpr double kNearEnd = 0.1;            // heights: so much of a fall may be wanting at its end
+constexpr double kNearSide = 2;             // small pixels
+constexpr std::size_t kAhead = 3;           // frames: what will have crossed the picture's side by then has left there
+constexpr double kSameSeconds = 0.5;        // pieces that follow each other as closely are of one fall
 
 // A track from where the thing begins to move until it lies, or leaves.
 struct Candidate {
@@ -54,7 +54,7 @@ Candidate trimmed(Track track, double height) {
 
 bool is_long(const Candidate& fall, const Scale& scale) {
   const std::size_t rows = fall.end() - fall.begin() + 1;
-  return rows >= kMinStretch && static_cast<double>(rows - 1) >= kMinSeconds * scale.rate_hz;
+  return rows >= kMinStretchRows && static_cast<double>(rows - 1) >= kMinSeconds * scale.rate_hz;
 }
 
 bool is_fall(const Candidate& fall, const Scale& scale) {

@@ -13,9 +13,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-constexpr Index kRows = 512;     // that are summed at a time
-constexpr double kDied = 1e-30;  // an initial state that has died down to this share
-constexpr double kColumnRidge = 1e-11;
+constexpr Index kRows = 512;           // that are summed at a time
+constexpr double kNegligible = 1e-30;  // an initial state that has died down to this share
+constexpr double kDriveRidge = 1e-11;
 
 // Products of one run's series over its rows: of every mode driven by every input, of every mode by itself, of the
 // inputs themselves and 1.
@@ -48,7 +48,7 @@ RunSums sums_of(const BlockRun& run, Index history, const VectorXcd& modes, Inde
         part = (part.array() * modes.array() + u[k]).matrix();
       }
       own = own.cwiseProduct(modes);
-      own = (own.cwiseAbs().array() < kDied).select(VectorXcd::Zero(n), own);
+      own = (own.cwiseAbs().array() < kNegligible).select(VectorXcd::Zero(n), own);
     }
     sums.products.selfadjointView<Eigen::Lower>().rankUpdate(series.leftCols(rows).conjugate());
     sums.moments += series.leftCols(rows).conjugate() * outputs.topRows(rows);
@@ -100,7 +100,7 @@ class Normal {
       right_.segment(at, direct_) += weight_[o] * sums.moments.col(o).tail(direct_);
     }
     MatrixXcd own = sums.products.block(driven, driven, n, n).cwiseProduct(between_);
-    own.diagonal().array() += kColumnRidge * own.diagonal().cwiseAbs().maxCoeff() + 1e-300;
+    own.diagonal().array() += kDriveRidge * own.diagonal().cwiseAbs().maxCoeff() + 1e-300;
     const Eigen::LDLT<MatrixXcd> solver(own);
     const MatrixXcd rows = weighted(driven);
     matrix_ -= rows.adjoint() * solver.solve(rows);
@@ -108,7 +108,7 @@ class Normal {
   }
 
   VectorXcd solution() {
-    matrix_.diagonal() *= 1 + kColumnRidge;
+    matrix_.diagonal() *= 1 + kDriveRidge;
     matrix_.diagonal().array() += 1e-300;
     return matrix_.ldlt().solve(right_);
   }

@@ -12,9 +12,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kStarts = 8;         // from measured samples
-constexpr double kReach = 0.75;    // the last one starts here
-constexpr Index kRowsAStart = 20;  // that a start is worth
+constexpr int kStarts = 8;              // from measured samples
+constexpr double kReach = 0.75;         // the last one starts here
+constexpr Index kMinRowsPerStart = 20;  // that a start is worth
 constexpr double kMaxError = 1e6;
 
 // Sums of squared errors by parts of all rows.
@@ -75,7 +75,7 @@ template <class SimulateFrom>
 void add_measured_starts(const SimulationBlock& block, const BlockRun& run, Index before,
                          const SimulateFrom& simulate_from, PartSums& sums) {
   const Index history = block.history();
-  const Index starts = std::clamp<Index>(run.rows / kRowsAStart, 1, kStarts);
+  const Index starts = std::clamp<Index>(run.rows / kMinRowsPerStart, 1, kStarts);
   for (Index k = 0; k < starts; ++k) {
     const Index whole = run.rows * k / starts;
     const Index begin = history + static_cast<Index>(kReach * static_cast<double>(whole));
