@@ -22,7 +22,7 @@ struct FlameClip {
 
 /// What blows.
 enum class FlameWind {
-  kCalm,
+  kCalm,  ///< a closed room's draughts, which are hardly heard
   kGusts,
   kPuffs,  ///< every five seconds, of which some kill; where it went out the candle is lit again
 };

@@ -27,7 +27,17 @@ Recording with_wind(const Recording& outline, const std::string& unit, std::vect
 
 WindSignalOptions wind_of(const FlameClipChoice& choice) {
   WindSignalOptions wind{.seed = choice.wind_seed};
-  if (choice.wind == FlameWind::kCalm) wind.kind = WindKind::kCalm;
+  if (choice.wind == FlameWind::kCalm) {
+    // Draughts of a closed room: the flame's brightness varies by a few percent, as a candle's does in still air.
+    // Without any it would not move at all, and be refused as a lamp.
+    wind = {.most = 0.1,
+            .noise = 0.03,
+            .bandwidth_hz = 1,
+            .gust = 0,
+            .rest_share = 0,
+            .both_sides = true,
+            .seed = choice.wind_seed};
+  }
   if (choice.wind == FlameWind::kPuffs) wind.puff_every = kPuffSeconds;
   return wind;
 }
@@ -57,7 +67,13 @@ FlameClip make_flame_clip(const FlameClipChoice& choice) {
   FlameClip clip;
   clip.truth = value_or_abort(simulate_candle(options, outputs));
   clip.processor_seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  clip.outline = value_or_abort(capture.finish()).recording;
+  CapturedOutline captured = value_or_abort(capture.finish());
+  // Where it is blown out, the sound excuses that later.
+  if (!captured.report.usable && choice.wind != FlameWind::kPuffs) {
+    std::printf("  seed %llu is not usable: %s\n", static_cast<unsigned long long>(choice.wind_seed),
+                captured.report.reason.c_str());
+  }
+  clip.outline = std::move(captured.recording);
   WindTrack track = value_or_abort(tracker.finish());
   clip.wind = std::move(track.frames);
   clip.one_rms = track.one_rms;

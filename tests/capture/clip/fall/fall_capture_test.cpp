@@ -145,7 +145,7 @@ TEST(FallCapture, PositionsAndTiltOfAStripAreThoseItWasDrawnWith) {
   EXPECT_EQ(clip->recording.channels[0].unit, "m");
 }
 
-TEST(FallCapture, ALightThingBeforeADarkWallIsTrackedAsWell) {
+TEST(FallsOnFilm, ALightThingBeforeADarkWallIsTrackedAsWell) {
   const Film film{.wall = 40, .thing = 180, .noise = 4};
   const auto clip = captured(film);
   ASSERT_TRUE(clip) << clip.error().message;
@@ -153,7 +153,7 @@ TEST(FallCapture, ALightThingBeforeADarkWallIsTrackedAsWell) {
   EXPECT_LT(errors_of(*clip, film).position, 0.005 * kMetres);
 }
 
-TEST(FallCapture, FilmsOf25And240FramesASecondAreTracked) {
+TEST(FallsOnFilm, FilmsOf25And240FramesASecondAreTracked) {
   for (const double rate : {25.0, 240.0}) {
     const Film film{.falls = 2, .rate_hz = rate, .frames_a_fall = static_cast<int>(2.2 * rate)};
     const auto clip = captured(film);
@@ -163,7 +163,7 @@ TEST(FallCapture, FilmsOf25And240FramesASecondAreTracked) {
   }
 }
 
-TEST(FallCapture, AFallBeginsWhereTheHandLetsGo) {
+TEST(FallsOnFilm, AFallBeginsWhereTheHandLetsGo) {
   const Film film{.falls = 6, .frames_a_fall = 96};
   constexpr int kHeld = 30;  // frames
   const auto strip = [&](int frame) {
@@ -187,7 +187,7 @@ TEST(FallCapture, AFallBeginsWhereTheHandLetsGo) {
   }
 }
 
-TEST(FallCapture, WhatLeavesThePictureIsTrackedUntilItTouchesTheEdge) {
+TEST(FallsOnFilm, WhatLeavesThePictureIsTrackedUntilItTouchesTheEdge) {
   const Film film;
   const auto clip = captured(film);
   ASSERT_TRUE(clip) << clip.error().message;
@@ -197,7 +197,7 @@ TEST(FallCapture, WhatLeavesThePictureIsTrackedUntilItTouchesTheEdge) {
   EXPECT_LT(last, 0.08 * kMetres);
 }
 
-TEST(FallCapture, TwoThingsThatFallAtOnceAreTwoEpisodes) {
+TEST(FallsOnFilm, TwoThingsThatFallAtOnceAreTwoEpisodes) {
   const Film film{.falls = 3};
   const auto other = [&](int frame) {
     Strip strip = fluttering(3 - frame / film.frames_a_fall, frame % film.frames_a_fall / kRate);
@@ -216,7 +216,7 @@ TEST(FallCapture, TwoThingsThatFallAtOnceAreTwoEpisodes) {
   EXPECT_EQ(falls_of(*clip), 6u);
 }
 
-TEST(FallCapture, AShadowThatFallsAlongIsNoFallOfItsOwn) {
+TEST(FallsOnFilm, AShadowThatFallsAlongIsNoFallOfItsOwn) {
   const Film film{.falls = 2};
   const auto clip = captured(film.frames(), kRate, [&](int frame) {
     Plane plane(kWidth, kHeight, 200);
@@ -232,7 +232,7 @@ TEST(FallCapture, AShadowThatFallsAlongIsNoFallOfItsOwn) {
   EXPECT_LT(errors_of(*clip, film).position, 0.005 * kMetres);
 }
 
-TEST(FallCapture, WhatIsRoundHasAPositionButNoTilt) {
+TEST(FallsOnFilm, WhatIsRoundHasAPositionButNoTilt) {
   const Film film{.falls = 5};
   const auto clip = captured(film.frames(), kRate, [&](int frame) {
     Plane plane(kWidth, kHeight, 200);
@@ -247,7 +247,7 @@ TEST(FallCapture, WhatIsRoundHasAPositionButNoTilt) {
   EXPECT_THAT(std::get<std::string>(clip->report.find("tilt_reason")->value), HasSubstr("too round"));
 }
 
-TEST(FallCapture, AFrameThatIsMissingOrShownTwiceIsFilledBetweenItsNeighbours) {
+TEST(FallsOnFilm, AFrameThatIsMissingOrShownTwiceIsFilledBetweenItsNeighbours) {
   const Film film;
   auto capture = FallCapture::create({"paper.mp4", kRate}, {.height_metres = kMetres});
   ASSERT_TRUE(capture);
@@ -266,7 +266,7 @@ TEST(FallCapture, AFrameThatIsMissingOrShownTwiceIsFilledBetweenItsNeighbours) {
   EXPECT_GT(std::get<std::int64_t>(clip->report.find("filled")->value), 20);
 }
 
-TEST(FallCapture, ARegionLeavesOutWhatMovesBesideIt) {
+TEST(FallsOnFilm, ARegionLeavesOutWhatMovesBesideIt) {
   const Film film;
   const auto clip = captured(film.frames(), kRate,
                              [&](int frame) {
@@ -280,7 +280,7 @@ TEST(FallCapture, ARegionLeavesOutWhatMovesBesideIt) {
   EXPECT_LT(errors_of(*clip, film).position, 0.005 * kMetres);
 }
 
-TEST(FallCapture, WithoutAHeightOneMetreIsTakenAndSaid) {
+TEST(FallsOnFilm, WithoutAHeightOneMetreIsTakenAndSaid) {
   const auto clip = captured(Film{}, {});
   ASSERT_TRUE(clip) << clip.error().message;
   ASSERT_EQ(clip->report.warnings.size(), 1u);
@@ -288,7 +288,7 @@ TEST(FallCapture, WithoutAHeightOneMetreIsTakenAndSaid) {
   EXPECT_NEAR(sample(clip->recording, "pos.z", 0), 1 - 70.0 / kHeight, 0.03);
 }
 
-TEST(FallCapture, AFewFallsAreNotUsableAndSaySo) {
+TEST(FallsOnFilm, AFewFallsAreNotUsableAndSaySo) {
   const auto clip = captured(Film{.falls = 2});
   ASSERT_TRUE(clip) << clip.error().message;
   EXPECT_FALSE(clip->report.verdict->usable);
@@ -318,7 +318,7 @@ Plane wall_with(const std::optional<Strip>& strip, int frame) {
   return plane;
 }
 
-TEST(FallCapture, FallsThatThePicturesSidesCutAreNotUsable) {
+TEST(FallsOnFilm, FallsThatThePicturesSidesCutAreNotUsable) {
   const Film film{.falls = 12};
   const auto straying = [&](int frame) {
     auto at = film.strip(frame);
@@ -333,7 +333,7 @@ TEST(FallCapture, FallsThatThePicturesSidesCutAreNotUsable) {
   EXPECT_THAT(reason_of(*clip), HasSubstr("from further away"));
 }
 
-TEST(FallCapture, WhatIsOutOfSightForAMomentIsOneFall) {
+TEST(FallsOnFilm, WhatIsOutOfSightForAMomentIsOneFall) {
   const Film film;
   const auto clip = captured(film.frames(), kRate, [&](int frame) {
     const int since = frame % film.frames_a_fall;
@@ -345,7 +345,7 @@ TEST(FallCapture, WhatIsOutOfSightForAMomentIsOneFall) {
   EXPECT_LT(errors_of(*clip, film).position, 0.02 * kMetres);
 }
 
-TEST(FallCapture, FallsThatAreLostFromViewAtAnyHeightAreNotUsable) {
+TEST(FallsOnFilm, FallsThatAreLostFromViewAtAnyHeightAreNotUsable) {
   const Film film{.falls = 9};
   const auto clip = captured(film.frames(), kRate, [&](int frame) {
     const int fall = frame / film.frames_a_fall;
@@ -357,7 +357,7 @@ TEST(FallCapture, FallsThatAreLostFromViewAtAnyHeightAreNotUsable) {
   EXPECT_THAT(reason_of(*clip), HasSubstr("lost from view"));
 }
 
-TEST(FallCapture, FallsThatEndOnATableAreWhole) {
+TEST(FallsOnFilm, FallsThatEndOnATableAreWhole) {
   const Film film;
   const auto clip = captured(film.frames(), kRate, [&](int frame) {
     auto at = film.strip(frame);
@@ -369,7 +369,7 @@ TEST(FallCapture, FallsThatEndOnATableAreWhole) {
   EXPECT_EQ(std::get<std::int64_t>(clip->report.find("whole")->value), 6);
 }
 
-TEST(FallCapture, ThingsThatMayBeTakenForEachOtherAreLeftOut) {
+TEST(FallsOnFilm, ThingsThatMayBeTakenForEachOtherAreLeftOut) {
   const Film film{.falls = 4};
   const auto clip = captured(film.frames(), kRate, [&](int frame) {
     Plane plane = film.picture(frame);
@@ -391,7 +391,7 @@ TEST(FallCapture, WhatIsOverAtOnceSaysHowToFilmIt) {
   expect_refused(clip, "60 frames a second");
 }
 
-TEST(FallCapture, AnAxisThatJumpsFromFrameToFrameIsNoTilt) {
+TEST(FallsOnFilm, AnAxisThatJumpsFromFrameToFrameIsNoTilt) {
   const Film film;
   const auto clip = captured(film.frames(), kRate, [&](int frame) {
     auto at = film.strip(frame);
@@ -407,7 +407,7 @@ TEST(FallCapture, AFilmOfAWallSaysThatNothingMoves) {
   expect_refused(captured(90, kRate, empty_wall), "nothing moves");
 }
 
-TEST(FallCapture, ACameraThatShakesSaysThatEverythingMoves) {
+TEST(FallsOnFilm, ACameraThatShakesSaysThatEverythingMoves) {
   std::mt19937 random(1);
   const auto shaken = [&](int) {
     const int dx = static_cast<int>(random() % 21), dy = static_cast<int>(random() % 21);
@@ -420,7 +420,7 @@ TEST(FallCapture, ACameraThatShakesSaysThatEverythingMoves) {
   expect_refused(captured(90, kRate, shaken), "everything moves");
 }
 
-TEST(FallCapture, ACameraThatTremblesBeforeAWallWithMarksIsNotUsable) {
+TEST(FallsOnFilm, ACameraThatTremblesBeforeAWallWithMarksIsNotUsable) {
   const Film film;
   std::mt19937 random(3);
   const auto trembling = [&](int frame) {
@@ -448,7 +448,7 @@ TEST(FallCapture, AHandThatOnlyReachesInIsNoFall) {
   expect_refused(captured(180, kRate, waving), "picture's edge");
 }
 
-TEST(FallCapture, WhatHoversIsNoFall) {
+TEST(FallsOnFilm, WhatHoversIsNoFall) {
   const auto hovering = [](int frame) {
     Plane plane = empty_wall(frame);
     paint_strip(plane, {.x = 60.0 + frame, .y = 150 + 20 * std::sin(0.2 * frame)}, 80);
