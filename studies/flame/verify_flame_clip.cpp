@@ -30,13 +30,11 @@ WindSignalOptions wind_of(const FlameClipChoice& choice) {
   if (choice.wind == FlameWind::kCalm) {
     // Draughts of a closed room: the flame's brightness varies by a few percent, as a candle's does in still air.
     // Without any it would not move at all, and be refused as a lamp.
-    wind = {.most = 0.1,
-            .noise = 0.03,
-            .bandwidth_hz = 1,
-            .gust = 0,
-            .rest_share = 0,
-            .both_sides = true,
-            .seed = choice.wind_seed};
+    wind.most = 0.1;
+    wind.noise = 0.03;
+    wind.bandwidth_hz = 1;
+    wind.gust = wind.rest_share = 0;
+    wind.both_sides = true;
   }
   if (choice.wind == FlameWind::kPuffs) wind.puff_every = kPuffSeconds;
   return wind;

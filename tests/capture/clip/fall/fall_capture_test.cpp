@@ -145,6 +145,7 @@ TEST(FallCapture, PositionsAndTiltOfAStripAreThoseItWasDrawnWith) {
   EXPECT_EQ(clip->recording.channels[0].unit, "m");
 }
 
+// FallsOnFilm are long: with sanitizers script/verify runs them, not script/test.
 TEST(FallsOnFilm, ALightThingBeforeADarkWallIsTrackedAsWell) {
   const Film film{.wall = 40, .thing = 180, .noise = 4};
   const auto clip = captured(film);
