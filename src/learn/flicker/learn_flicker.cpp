@@ -167,7 +167,7 @@ std::optional<Regression> regress(const Traces& traces, const std::vector<std::v
   if (rows < 4.0 * static_cast<double>(width)) return {};
   // As little as rounding asks for: a still mode has hardly any energy.
   gram.diagonal().array() += 1e-12 * gram.trace() / static_cast<double>(width);
-  const Eigen::VectorXd solution = gram.ldlt().solve(right);
+  const Eigen::VectorXd solution = symmetric_solution(gram, right);
   Regression out;
   for (int lag = 0; lag < order; ++lag) out.theta.push_back(solution(lag));
   out.constant = solution(order);

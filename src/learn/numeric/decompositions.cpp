@@ -1,6 +1,7 @@
 #include "learn/numeric/decompositions.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 
 namespace wisp {
 
@@ -9,7 +10,15 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
-VectorXd singular_values(const MatrixXd& matrix) { return Eigen::BDCSVD<MatrixXd>(matrix).singularValues(); }
+// Source: G. H. Golub and C. F. Van Loan, Matrix Computations, section 8.6: they are the positive eigenvalues of
+// [0 A; Aᵀ 0].
+VectorXd singular_values(const MatrixXd& matrix) {
+  const Eigen::Index rows = matrix.rows(), all = rows + matrix.cols();
+  MatrixXd both = MatrixXd::Zero(all, all);
+  both.topRightCorner(rows, matrix.cols()) = matrix;
+  both.bottomLeftCorner(matrix.cols(), rows) = matrix.transpose();
+  return symmetric_eigenvalues(both).tail(std::min(rows, matrix.cols())).reverse().cwiseMax(0);
+}
 
 VectorXcd eigenvalues(const MatrixXd& matrix) { return matrix.eigenvalues(); }
 
@@ -36,9 +45,16 @@ std::optional<VectorXd> generalized_eigenvalues(const MatrixXd& matrix, const Ma
 
 MatrixXd pseudo_inverse(const MatrixXd& matrix) { return matrix.completeOrthogonalDecomposition().pseudoInverse(); }
 
-VectorXd shortest_solution(const MatrixXd& matrix, const VectorXd& right) {
-  return matrix.completeOrthogonalDecomposition().solve(right);
+VectorXd shortest_solution(const MatrixXd& matrix, const VectorXd& right) { return ranked_solution(matrix, right).x; }
+
+RankedSolution ranked_solution(const MatrixXd& matrix, const VectorXd& right) {
+  const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(matrix);
+  return {solver.solve(right), solver.rank()};
 }
+
+VectorXd symmetric_solution(const MatrixXd& matrix, const VectorXd& right) { return matrix.ldlt().solve(right); }
+
+MatrixXd symmetric_solutions(const MatrixXd& matrix, const MatrixXd& right) { return matrix.ldlt().solve(right); }
 
 MatrixXcd complex_inverse(const MatrixXcd& matrix) { return matrix.inverse(); }
 

@@ -7,7 +7,8 @@
 
 namespace wisp {
 
-/// The largest first.
+/// The largest first, each within rounding of the largest. Takes eight times what bidiagonalising would, which itself
+/// takes half a minute to compile.
 Eigen::VectorXd singular_values(const Eigen::MatrixXd& matrix);
 
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
@@ -38,6 +39,18 @@ Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix);
 
 /// Of all x with the least |`matrix` x − `right`| the shortest.
 Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
+
+struct RankedSolution {
+  Eigen::VectorXd x;
+  Eigen::Index rank;  ///< of the matrix
+};
+
+/// The same, and how many columns count.
+RankedSolution ranked_solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
+
+/// Of a symmetric matrix that is not indefinite, of which only the lower triangle is read.
+Eigen::VectorXd symmetric_solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
+Eigen::MatrixXd symmetric_solutions(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right);
 
 Eigen::MatrixXcd complex_inverse(const Eigen::MatrixXcd& matrix);
 

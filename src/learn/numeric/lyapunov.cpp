@@ -58,7 +58,7 @@ class Centres {
   MatrixXd centre(MatrixXd p, double bound) const {
     for (int step = 0; step < kNewtonSteps; ++step) {
       const auto [gradient, hessian] = derivatives(p, bound);
-      const VectorXd move = -hessian.ldlt().solve(gradient);
+      const VectorXd move = -symmetric_solution(hessian, gradient);
       const double decrement = -gradient.dot(move);
       if (!(decrement > 1e-8)) break;
       MatrixXd along = MatrixXd::Zero(n_, n_);

@@ -1,6 +1,6 @@
 #include "learn/outline/outline_noise.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -150,7 +150,7 @@ Matrix solved(const Matrix& map, const Matrix& wanted) {
   const double weight = 1e-4 * normal.trace() / static_cast<double>(normal.rows());
   const Matrix weighted = normal + weight * Matrix::Identity(normal.rows(), normal.cols());
   const Eigen::VectorXd stacked = wanted.transpose().reshaped();  // rows first
-  const Eigen::VectorXd found = weighted.ldlt().solve(map.transpose() * stacked);
+  const Eigen::VectorXd found = symmetric_solution(weighted, map.transpose() * stacked);
   return found.reshaped(wanted.cols(), wanted.rows()).transpose();
 }
 

@@ -1,12 +1,13 @@
 #include "learn/switched/switched_fit.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
 
 #include "learn/arx/fit/arx_stability.hpp"
+#include "learn/numeric/decompositions.hpp"
 #include "learn/numeric/lyapunov.hpp"
 #include "learn/switched/switched_prediction.hpp"
 #include "learn/switched/switched_refine.hpp"
@@ -193,7 +194,7 @@ ModeErrors errors_of(const SwitchedRows& rows, const MatrixXd& theta, const Vect
     const MatrixXd x = rows.phi(Eigen::all, columns);
     MatrixXd gram = x.transpose() * weights.asDiagonal() * x;
     gram.diagonal().array() += 1e-9 * (1 + weights.sum());
-    MatrixXd inverse = gram.ldlt().solve(MatrixXd::Identity(gram.rows(), gram.cols()));
+    MatrixXd inverse = symmetric_solutions(gram, MatrixXd::Identity(gram.rows(), gram.cols()));
     const VectorXd residual = rows.y.col(i) - rows.phi * theta.col(i);
     const double free = std::max(1.0, weights.sum() - static_cast<double>(columns.size()));
     const double variance = (residual.array().square() * weights.array()).sum() / free;

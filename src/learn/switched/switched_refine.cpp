@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "learn/numeric/decompositions.hpp"
 #include "learn/switched/switched_start.hpp"
 
 namespace wisp {
@@ -49,7 +50,7 @@ MatrixXd improve_regions(const MatrixXd& regions, const SwitchedRows& rows, cons
   curvature.diagonal().array() += kRegionRidge;
   VectorXd gradient(modes * width);
   for (Index k = 0; k < modes; ++k) gradient.segment(k * width, width) = slope.row(k).transpose();
-  const VectorXd move = curvature.ldlt().solve(gradient);
+  const VectorXd move = symmetric_solution(curvature, gradient);
   const double before = region_objective(regions, rows, weights);
   double length = 1;
   for (int halving = 0; halving < 12; ++halving, length /= 2) {

@@ -1,12 +1,13 @@
 #include "learn/switched/switched_start.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
 
 #include "learn/numeric/clustering.hpp"
+#include "learn/numeric/decompositions.hpp"
 
 namespace wisp {
 namespace {
@@ -55,11 +56,10 @@ LocalModel local_model(const SwitchedRows& rows, Switching switching, Index cent
     const VectorXd y = rows.y(near, i);
     MatrixXd gram = x.transpose() * x;
     gram.diagonal().array() += 1e-6 * static_cast<double>(near.size());
-    const Eigen::LDLT<MatrixXd> solver(gram);
-    const VectorXd theta = solver.solve(x.transpose() * y);
+    const VectorXd theta = symmetric_solution(gram, x.transpose() * y);
     const double free = std::max<double>(1, static_cast<double>(near.size()) - static_cast<double>(columns.size()));
     const double variance = (y - x * theta).squaredNorm() / free + 1e-12;
-    const VectorXd spread = solver.solve(MatrixXd::Identity(gram.rows(), gram.cols())).diagonal();
+    const VectorXd spread = symmetric_solutions(gram, MatrixXd::Identity(gram.rows(), gram.cols())).diagonal();
     for (std::size_t c = 0; c < columns.size(); ++c) {
       local.theta(columns[c], i) = theta(static_cast<Index>(c));
       local.variance(columns[c], i) = variance * spread(static_cast<Index>(c));
@@ -135,7 +135,7 @@ Eigen::MatrixXd weighted_theta(const SwitchedRows& rows, const Eigen::VectorXd& 
   for (int i = 0; i < rows.outputs(); ++i) {
     const auto& columns = rows.columns[i];
     const MatrixXd own = gram(columns, columns);
-    const VectorXd solved = own.ldlt().solve(VectorXd(right(columns, i)));
+    const VectorXd solved = symmetric_solution(own, right(columns, i));
     for (std::size_t c = 0; c < columns.size(); ++c) theta(columns[c], i) = solved(static_cast<Index>(c));
   }
   return theta;

@@ -1,11 +1,12 @@
 #include "learn/arx/curve/curve_fit.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "learn/arx/curve/curve_gram.hpp"
+#include "learn/numeric/decompositions.hpp"
 
 namespace wisp {
 namespace {
@@ -48,7 +49,7 @@ Rises power_rises(const std::vector<std::vector<double>>& knots, int power) {
 VectorXd solved(MatrixXd gram, const VectorXd& right) {
   gram.diagonal() *= 1 + kRidge;
   gram.diagonal().array() += (gram.diagonal().array() == 0).cast<double>();
-  return gram.ldlt().solve(right);
+  return symmetric_solution(gram, right);
 }
 
 // arg min x'Gx/2 − r'x over x ≥ 0, from a point where that holds: solve on the free ones, stop where one would fall
@@ -182,11 +183,11 @@ class Alternation {
       MatrixXd own = tap.transpose() * row.gram() * tap;
       own.diagonal() *= 1 + kRidge;
       own.diagonal().array() += (own.diagonal().array() == 0).cast<double>();
-      information +=
-          (rise.transpose() * row.gram() * rise - shared.transpose() * own.ldlt().solve(shared)) / row.variance();
+      information += (rise.transpose() * row.gram() * rise - shared.transpose() * symmetric_solutions(own, shared)) /
+                     row.variance();
     }
     const MatrixXd free = kept_sums();
-    const MatrixXd covariance = free * (free.transpose() * information * free).ldlt().solve(free.transpose());
+    const MatrixXd covariance = free * symmetric_solutions(free.transpose() * information * free, free.transpose());
     std::vector<std::vector<double>> out;
     for (std::size_t c = 0; c < rises_.first.size(); ++c) {
       out.emplace_back(1, 0.0);

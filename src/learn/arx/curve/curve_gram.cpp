@@ -1,11 +1,12 @@
 #include "learn/arx/curve/curve_gram.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include "learn/arx/fit/arx_check.hpp"
 #include "learn/arx/rows/arx_design.hpp"
+#include "learn/numeric/decompositions.hpp"
 #include "learn/numeric/lag_gram.hpp"
 
 namespace wisp {
@@ -100,7 +101,7 @@ Eigen::MatrixXd left_over(const Eigen::MatrixXd& gram, const std::vector<int>& k
   own.diagonal() *= 1 + kSideRidge;
   own.diagonal().array() += (own.diagonal().array() == 0).cast<double>();
   const Eigen::MatrixXd shared = gram(taken, kept);
-  left.noalias() -= shared.transpose() * own.ldlt().solve(shared);
+  left.noalias() -= shared.transpose() * symmetric_solutions(own, shared);
   return left;
 }
 

@@ -1,12 +1,13 @@
 #include "learn/arx/judge/residual_tests.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include "learn/arx/fit/arx_errors.hpp"
 #include "learn/numeric/chi_squared.hpp"
 #include "learn/numeric/constants.hpp"
+#include "learn/numeric/decompositions.hpp"
 
 namespace wisp {
 namespace {
@@ -116,10 +117,10 @@ Independence independence_of(const Pairing& pairing, const VectorXd& cross, cons
     for (Index c = 0; c < count; ++c) covariance(r, c) = spread[std::abs(r - c)];
   }
   const VectorXd tested = cross.segment(lags + delay, count);
-  const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(covariance);
-  test.statistic = tested.dot(solver.solve(tested));
+  const RankedSolution weighed = ranked_solution(covariance, tested);
+  test.statistic = tested.dot(weighed.x);
   const double taken = pairing.options.learned_from_it ? pairing.model.orders.nb(output, k) : 0;
-  test.p = chi_squared_tail(test.statistic, std::max(1.0, static_cast<double>(solver.rank()) - taken));
+  test.p = chi_squared_tail(test.statistic, std::max(1.0, static_cast<double>(weighed.rank) - taken));
   return test;
 }
 

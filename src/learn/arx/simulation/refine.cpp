@@ -126,7 +126,7 @@ Refined refine(const SimulationBlock& block, const OneStepLoss& loss, const Vect
     for (; damping < kMaxDamping; damping *= 4) {
       MatrixXd damped = model.curvature;
       damped.diagonal() += damping * (size.array() + 1e-12 * size.maxCoeff()).matrix();
-      const VectorXd theta = now.simulation.theta + damped.ldlt().solve(model.gradient);
+      const VectorXd theta = now.simulation.theta + symmetric_solution(damped, model.gradient);
       if (!theta.allFinite() || !(block.radius(theta) < kMaxRadius)) continue;
       BlockSimulation next = simulate_block(block, theta);
       const double value = value_of(next);

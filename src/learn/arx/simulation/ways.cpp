@@ -1,12 +1,13 @@
 #include "learn/arx/simulation/ways.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "learn/arx/fit/given_rows.hpp"
 #include "learn/arx/simulation/subspace.hpp"
+#include "learn/numeric/decompositions.hpp"
 
 namespace wisp::arx {
 namespace {
@@ -206,8 +207,7 @@ MatrixXd covariance_of(const SimulationBlock& block, const OneStepLoss& loss, co
   }
   gradients.colwise() -= gradients.rowwise().mean().eval();
   const MatrixXd scatter = gradients * gradients.transpose() * (batches / (batches - 1.0));
-  const Eigen::LDLT<MatrixXd> solver(model.curvature);
-  return solver.solve(solver.solve(scatter).transpose());
+  return symmetric_solutions(model.curvature, symmetric_solutions(model.curvature, scatter).transpose());
 }
 
 // The best for all rows: of many, from what is best for some of them.

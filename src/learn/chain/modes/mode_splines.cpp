@@ -1,6 +1,6 @@
 #include "learn/chain/modes/mode_splines.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -34,7 +34,7 @@ MatrixXd smoother(int steps, const ModeSplineOptions& options) {
   MatrixXd right = weights.middleCols(1, inner).transpose();
   right.col(0) -= normal.block(1, 0, inner, 1);
   right.col(rows - 1) -= normal.block(1, points - 1, inner, 1);
-  out.middleRows(1, inner) = normal.block(1, 1, inner, inner).ldlt().solve(right);
+  out.middleRows(1, inner) = symmetric_solutions(normal.block(1, 1, inner, inner), right);
   return out;
 }
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "learn/numeric/decompositions.hpp"
+
 namespace wisp::chain {
 namespace {
 
@@ -87,7 +89,7 @@ ModeSystem fit(const Motion& motion, const Rows& rows, const ModeSystemOptions& 
   }
   const double usual = gram.trace() / static_cast<double>(terms);
   gram.diagonal() = (1 + kRidge) * gram.diagonal().array() + kMinRidge * usual;
-  const Eigen::MatrixXd found = gram.ldlt().solve(cross);
+  const Eigen::MatrixXd found = symmetric_solutions(gram, cross);
   ModeSystem system;
   for (Eigen::Index k = 0; k < found.cols(); ++k) {
     for (Eigen::Index i = 0; i < terms; ++i) system.coefficient.push_back(found(i, k));
