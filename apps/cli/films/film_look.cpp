@@ -30,26 +30,47 @@ float smooth(float low, float high, float value) {
   return t * t * (3 - 2 * t);
 }
 
-float square_distance(Point p, Point a, Point b) {
-  const float dx = b.x - a.x, dy = b.y - a.y;
-  const float length = dx * dx + dy * dy;
-  const float along = length > 0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / length, 0.0F, 1.0F) : 0;
-  const float x = a.x + along * dx - p.x, y = a.y + along * dy - p.y;
-  return x * x + y * y;
-}
+float square(float value) { return value * value; }
 
-// How deep a pixel lies inside the outline: positive inside, in pixels, not below −`reach`.
-float depth_of(Point p, std::span<const Point> outline, float reach) {
-  float nearest = reach * reach;
-  bool inside = false;
-  for (std::size_t k = 0; k < outline.size(); ++k) {
-    const Point a = outline[k], b = outline[(k + 1) % outline.size()];
-    nearest = std::min(nearest, square_distance(p, a, b));
-    const bool crosses = (a.y > p.y) != (b.y > p.y);
-    if (crosses && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
+// An edge of an outline, as the distance to it is computed.
+struct Edge {
+  Point from, along;  // `along` to its other end
+  float inverse = 0;  // of its squared length
+
+  float square_distance(Point p) const {
+    const float x = p.x - from.x, y = p.y - from.y;
+    const float share = std::clamp((x * along.x + y * along.y) * inverse, 0.0F, 1.0F);
+    return square(x - share * along.x) + square(y - share * along.y);
   }
-  return inside ? std::sqrt(nearest) : -std::sqrt(nearest);
-}
+};
+
+// How deep the pixels of one row lie inside an outline, by the edges that come near the row.
+class Depths {
+ public:
+  Depths(std::span<const Point> outline, float y, float reach) : y_(y), reach_(reach) {
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+      const Point a = outline[k], b = outline[(k + 1) % outline.size()];
+      if (std::max(a.y, b.y) < y - reach || std::min(a.y, b.y) > y + reach) continue;
+      const Point along{b.x - a.x, b.y - a.y};
+      const float length = square(along.x) + square(along.y);
+      near_.push_back({a, along, length > 0 ? 1 / length : 0});
+      if ((a.y > y) != (b.y > y)) crossings_.push_back(a.x + (y - a.y) / along.y * along.x);
+    }
+  }
+
+  // Positive inside, in pixels; not below −`reach`, and where it is deeper inside than that it is `reach`.
+  float at(float x) const {
+    float nearest = square(reach_);
+    for (const Edge& edge : near_) nearest = std::min(nearest, edge.square_distance({x, y_}));
+    const auto beyond = std::ranges::count_if(crossings_, [x](float crossing) { return x < crossing; });
+    return beyond % 2 != 0 ? std::sqrt(nearest) : -std::sqrt(nearest);
+  }
+
+ private:
+  float y_, reach_;
+  std::vector<Edge> near_;
+  std::vector<float> crossings_;  // x, where the outline crosses the row
+};
 
 // Where a pixel lies in the flame of an outline.
 struct FlamePlace {
@@ -57,38 +78,38 @@ struct FlamePlace {
   float depth = 0;   // inside the outline, mean flame heights
 };
 
+// Where the pixels of one row lie.
 class Places {
  public:
-  Places(const FilmView& view, std::span<const Point> outline) : view_(view), outline_(outline) {
-    float top = outline[0].y;
-    for (const Point p : outline) {
-      top = std::min(top, p.y);
-      left_ = std::min(left_, p.x);
-      right_ = std::max(right_, p.x);
-    }
-    tall_ = std::max(0.2F * view.unit, view.base.y - top);
+  Places(const FilmView& view, std::span<const Point> outline, int y)
+      : view_(view), reach_(-kOutside * view.unit), depths_(outline, static_cast<float>(y) + 0.5F, reach_) {
+    const auto [left, right] = std::ranges::minmax_element(outline, {}, &Point::x);
+    left_ = left->x - reach_;
+    right_ = right->x + reach_;
+    const float top = std::ranges::min_element(outline, {}, &Point::y)->y;
+    const float middle = static_cast<float>(y) + 0.5F, tall = std::max(0.2F * view.unit, view.base.y - top);
+    height_ = std::max(0.0F, (view.base.y - middle) / tall);
+    above_ = middle < view.base.y - tall - reach_;
   }
 
-  FlamePlace at(int x, int y) const {
-    const Point p{static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F};
-    const float reach = -kOutside * view_.unit;
-    const float height = std::max(0.0F, (view_.base.y - p.y) / tall_);
-    if (p.x < left_ - reach || p.x > right_ + reach || p.y < view_.base.y - tall_ - reach) return {height, kOutside};
-    return {height, depth_of(p, outline_, reach) / view_.unit};
+  FlamePlace at(int x) const {
+    const float middle = static_cast<float>(x) + 0.5F;
+    if (above_ || middle < left_ || middle > right_) return {height_, kOutside};
+    return {height_, depths_.at(middle) / view_.unit};
   }
 
  private:
   const FilmView& view_;
-  std::span<const Point> outline_;
-  float left_ = 1e9F, right_ = -1e9F, tall_ = 1;
+  float reach_;
+  Depths depths_;
+  float left_ = 0, right_ = 0, height_ = 0;
+  bool above_ = false;  // so far over the flame that nothing of it is near
 };
 
 float height_index(float height) { return std::clamp(height / kTop, 0.0F, 1.0F) * (kHeights - 1); }
 float depth_index(float depth) {
   return std::clamp((depth - kOutside) / (kInside - kOutside), 0.0F, 1.0F) * (kDepths - 1);
 }
-
-float square(float value) { return value * value; }
 
 float light_of(std::uint32_t pixel) {
   return static_cast<float>((pixel >> 16 & 0xFFU) + (pixel >> 8 & 0xFFU) + (pixel & 0xFFU)) / 3;
@@ -151,12 +172,12 @@ FilmLook::FilmLook(const FilmView& view)
 
 void FilmLook::learn(const Image& frame, std::span<const Point> outline) {
   assert(frame.width() == view_.width && frame.height() == view_.height && outline.size() >= 3);
-  const Places places(view_, outline);
   for (int y = 0; y < view_.height; ++y) {
+    const Places places(view_, outline, y);
     const auto row = frame.row(y);
     for (int x = 0; x < view_.width; ++x) {
       const std::size_t pixel = static_cast<std::size_t>(y) * view_.width + x;
-      const FlamePlace place = places.at(x, y);
+      const FlamePlace place = places.at(x);
       add(still_[pixel], row[x]);
       squares_[pixel] += square(light_of(row[x]));
       // The farther the flame was, the surer; where it never was far, what is known counts all the same.
@@ -202,12 +223,12 @@ Image FilmLook::draw(std::span<const Point> outline) const {
   const std::vector<Sum> colours = flame_colours(), plate = surroundings();
   Image image(view_.width, view_.height);
   if (outline.size() < 3) return image;
-  const Places places(view_, outline);
   for (int y = 0; y < view_.height; ++y) {
+    const Places places(view_, outline, y);
     const float height = (view_.base.y - static_cast<float>(y)) / view_.unit;
     for (int x = 0; x < view_.width; ++x) {
       const std::size_t pixel = static_cast<std::size_t>(y) * view_.width + x;
-      const FlamePlace place = places.at(x, y);
+      const FlamePlace place = places.at(x);
       const Sum flame = bilinear(colours, height_index(place.height), depth_index(place.depth));
       Sum colour = mix(plate[pixel], flame, smooth(kGlowEnds, kGlowWhole, place.depth));
       colour = mix(colour, mean(still_[pixel]), stillness(pixel, height));
