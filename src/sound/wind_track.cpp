@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -22,6 +23,10 @@ constexpr float kQuietSeconds = 0.25F;      // a stretch without wind lasts at l
 constexpr float kSilentDb = -80;            // loudness of a track on which nothing is heard
 constexpr float kBlowingConfidence = 0.5F;  // likelier blowing than not
 constexpr float kWindHeard = 0.05F;         // of wind 1: what is told of as wind
+constexpr float kStrong = 1.5F;             // of wind 1
+constexpr float kFarTooStrong = 6;          // of wind 1: what is that strong lasts
+constexpr double kShortestPuff = 0.1;       // seconds above half of its strongest, from there on
+constexpr double kLongestKnock = 0.3;       // seconds until no more than strong wind is heard of it
 
 float percentile(std::vector<float> values, float share) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<float>(values.size() - 1) + 0.5F);
@@ -139,6 +144,29 @@ std::vector<WindFrame> frames_of(const Seen& seen, const wind::Surroundings<floa
   return frames;
 }
 
+/// A knock on the table beside hardly any wind is heard as many times the strongest of it. It fades while it sounds;
+/// nobody blows that shortly: the wind is what blew before it or after, whichever is more. `seconds_at` says when a
+/// frame begins.
+template <class SecondsAt>
+void pass_over_knocks(std::vector<WindFrame>& frames, const SecondsAt& seconds_at) {
+  using Place = std::vector<WindFrame>::iterator;
+  const auto above = [](float wind) { return [wind](const WindFrame& frame) { return frame.wind > wind; }; };
+  const auto seconds = [&](Place from, Place to) {
+    return seconds_at(to - frames.begin()) - seconds_at(from - frames.begin());
+  };
+  for (auto end = frames.begin(); end != frames.end();) {
+    const auto begin = std::find_if(end, frames.end(), above(kStrong));
+    end = std::find_if_not(begin, frames.end(), above(kStrong));
+    if (begin == end || seconds(begin, end) > kLongestKnock) continue;
+    const auto peak = std::ranges::max_element(begin, end, {}, &WindFrame::wind);
+    const auto faded = std::find_if_not(peak, end, above(peak->wind / 2));
+    if (peak->wind < kFarTooStrong || seconds(peak, faded) > kShortestPuff) continue;
+    const float before = begin == frames.begin() ? 0 : std::prev(begin)->wind;
+    const float around = std::max(before, end == frames.end() ? 0 : end->wind);
+    std::for_each(begin, end, [around](WindFrame& frame) { frame.wind = around; });
+  }
+}
+
 std::string decimal(double x) {
   std::string text = std::to_string(x);
   while (text.size() > 1 && text.back() == '0') text.pop_back();
@@ -175,9 +203,7 @@ struct WindTracker::State {
   std::int64_t sample_at(double seconds) const { return static_cast<std::int64_t>(seconds * format.rate_hz + 0.5); }
 
   /// When the frame that is being heard ends.
-  double end_seconds() const {
-    return times.empty() ? static_cast<double>(seen.size() + 1) / options.frame_rate_hz : times[seen.size() + 1];
-  }
+  double end_seconds() const { return seconds_at(seen.size() + 1); }
 
   bool wants_more() const { return times.empty() || seen.size() + 1 < times.size(); }
 
@@ -205,6 +231,11 @@ struct WindTracker::State {
       const auto hop = kernel.voice_hop(c);
       bands[c].insert(bands[c].end(), hop.begin(), hop.end());
     }
+  }
+
+  /// When frame k begins, and the one before ends.
+  double seconds_at(std::size_t k) const {
+    return times.empty() ? static_cast<double>(k) / options.frame_rate_hz : times[k];
   }
 
   wind::Spectra spectra() const {
@@ -276,6 +307,7 @@ Result<WindTrack> WindTracker::finish() const {
   track.one_rms = std::sqrt(wind::from_decibels(around.gust_db));
   const wind::Spectra spectra = state_->spectra();
   track.frames = frames_of(seen, around, state_->design, spectra, band_means(spectra, seen, stretches, around));
+  pass_over_knocks(track.frames, [&](std::ptrdiff_t k) { return state_->seconds_at(static_cast<std::size_t>(k)); });
   const float share = 1 / static_cast<float>(seen.size());
   track.silent = true;
   for (std::size_t k = 0; k < seen.size(); ++k) {

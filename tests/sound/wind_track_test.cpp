@@ -126,6 +126,31 @@ TEST(WindTrack, SoundShorterThanTheVideoGivesFewerFrames) {
   EXPECT_EQ(track_of(sounds::room(1.99, 44100, 1e-3)).frames.size(), 119U);
 }
 
+// Gusts so faint that what is put beside them is many times wind 1.
+Samples faint_gusts() {
+  Samples sound = sounds::room(14, 44100, 1e-5);
+  for (int k = 0; k < 4; ++k) {
+    sounds::add(sound, sounds::steady_blowing(2, 44100, 5e-4, 8 + static_cast<std::uint64_t>(k)), 1 + 3 * k, 44100);
+  }
+  return sound;
+}
+
+float strongest(const WindTrack& track) { return std::ranges::max_element(track.frames, {}, &WindFrame::wind)->wind; }
+
+TEST(WindTrack, AKnockBesideFaintWindIsNoWind) {
+  Samples sound = faint_gusts();
+  sounds::add(sound, sounds::knocks(1, 44100, 0.9), 1.5, 44100);
+  const WindTrack track = track_of(sound);
+  EXPECT_GT(std::ranges::max_element(track.frames, {}, &WindFrame::speed)->speed, 6);  // it is heard
+  EXPECT_LT(strongest(track), 2);
+}
+
+TEST(WindTrack, AHardPuffBesideFaintWindIsWind) {
+  Samples sound = faint_gusts();
+  sounds::add(sound, sounds::steady_blowing(0.2, 44100, 0.3, 20), 8, 44100);
+  EXPECT_GT(strongest(track_of(sound)), 6);
+}
+
 TEST(WindTrack, ASilentTrackSaysSo) {
   const WindTrack track = track_of(Samples(44100, 0.0F));
   EXPECT_TRUE(track.silent);
