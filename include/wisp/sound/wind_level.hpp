@@ -53,8 +53,9 @@ struct WindFrame {
   float speed = 0;         ///< proportional to wind speed; 1 lies between soft breath and hard blowing (in a
                            ///< recording: the 95th percentile while it blows)
   float wind = 0;          ///< a model's input: speed where it sounds like blowing, 0 where nothing is heard, and under
-                           ///< another sound no more than the wind before it (in a recording: and after it); live at
-                           ///< most 1 until wind above 1 that sounds like blowing adds up to 0.24 s of wind 1
+                           ///< another sound no more than the wind before it (in a recording: and after it, and under a
+                           ///< knock far above wind 1); live at most 1 until wind above 1 that sounds like blowing adds
+                           ///< up to 0.24 s of wind 1
   float confidence = 0;    ///< 0 to 1: this is blowing, not talking
   float background = 0;    ///< the plain RMS of the background as known at this frame
   float clipped = 0;       ///< share of samples at full scale, 0 to 1
