@@ -151,6 +151,7 @@ template <class SecondsAt>
 void pass_over_knocks(std::vector<WindFrame>& frames, const SecondsAt& seconds_at) {
   using Place = std::vector<WindFrame>::iterator;
   const auto above = [](float wind) { return [wind](const WindFrame& frame) { return frame.wind > wind; }; };
+  const auto weaker = [](const WindFrame& a, const WindFrame& b) { return a.wind < b.wind; };
   const auto seconds = [&](Place from, Place to) {
     return seconds_at(to - frames.begin()) - seconds_at(from - frames.begin());
   };
@@ -158,7 +159,7 @@ void pass_over_knocks(std::vector<WindFrame>& frames, const SecondsAt& seconds_a
     const auto begin = std::find_if(end, frames.end(), above(kStrong));
     end = std::find_if_not(begin, frames.end(), above(kStrong));
     if (begin == end || seconds(begin, end) > kLongestKnock) continue;
-    const auto peak = std::ranges::max_element(begin, end, {}, &WindFrame::wind);
+    const auto peak = std::max_element(begin, end, weaker);
     const auto faded = std::find_if_not(peak, end, above(peak->wind / 2));
     if (peak->wind < kFarTooStrong || seconds(peak, faded) > kShortestPuff) continue;
     const float before = begin == frames.begin() ? 0 : std::prev(begin)->wind;
