@@ -25,7 +25,7 @@ constexpr float kBlowingConfidence = 0.5F;  // likelier blowing than not
 constexpr float kWindHeard = 0.05F;         // of wind 1: what is told of as wind
 constexpr float kStrong = 1.5F;             // of wind 1
 constexpr float kFarTooStrong = 6;          // of wind 1: what is that strong lasts
-constexpr double kShortestPuff = 0.1;       // seconds above half of its strongest, from there on
+constexpr double kShortestPuff = 0.1;       // seconds above half of its strongest
 constexpr double kLongestKnock = 0.3;       // seconds until no more than strong wind is heard of it
 
 float percentile(std::vector<float> values, float share) {
@@ -160,8 +160,9 @@ void pass_over_knocks(std::vector<WindFrame>& frames, const SecondsAt& seconds_a
     end = std::find_if_not(begin, frames.end(), above(kStrong));
     if (begin == end || seconds(begin, end) > kLongestKnock) continue;
     const auto peak = std::max_element(begin, end, weaker);
+    const auto risen = std::find_if(begin, end, above(peak->wind / 2));
     const auto faded = std::find_if_not(peak, end, above(peak->wind / 2));
-    if (peak->wind < kFarTooStrong || seconds(peak, faded) > kShortestPuff) continue;
+    if (peak->wind < kFarTooStrong || seconds(risen, faded) > kShortestPuff) continue;
     const float before = begin == frames.begin() ? 0 : std::prev(begin)->wind;
     const float around = std::max(before, end == frames.end() ? 0 : end->wind);
     std::for_each(begin, end, [around](WindFrame& frame) { frame.wind = around; });

@@ -146,9 +146,11 @@ TEST(WindTrack, AKnockBesideFaintWindIsNoWind) {
 }
 
 TEST(WindTrack, AHardPuffBesideFaintWindIsWind) {
-  Samples sound = faint_gusts();
-  sounds::add(sound, sounds::steady_blowing(0.2, 44100, 0.3, 20), 8, 44100);
-  EXPECT_GT(strongest(track_of(sound)), 6);
+  for (std::uint64_t seed = 20; seed < 28; ++seed) {  // where in the puff its strongest frame lies is chance
+    Samples sound = faint_gusts();
+    sounds::add(sound, sounds::steady_blowing(0.2, 44100, 0.3, seed), 8, 44100);
+    EXPECT_GT(strongest(track_of(sound)), 6) << seed;
+  }
 }
 
 TEST(WindTrack, ASilentTrackSaysSo) {
