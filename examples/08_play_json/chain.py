@@ -1,7 +1,7 @@
 """A chain of recorded segments: a walk over modes, each of them a segment, that meet half-way."""
 import itertools, math, sys
 import numpy as np
-from shared import F, normal, regress, unit_of, words
+from shared import F, normals, regress, unit_of, words
 
 
 def vector(*numbers): return np.array(numbers, F)
@@ -159,7 +159,7 @@ class Gust:  # what the wind has changed of the velocity
 
 def play_chain(model, winds, seed=1, noise=True):
     """Yields position and orientation of every frame."""
-    d, table = model["dynamics"], model["random"]["normal_table"]
+    d = model["dynamics"]
     if d["motion"] != "pose" or d["systems"] or d["height"]:
         sys.exit("play.py: the chain moves a point, its modes are systems, or its height is bounded; expected one of poses that plays "
                  "segments or splines from where it is")
@@ -167,7 +167,7 @@ def play_chain(model, winds, seed=1, noise=True):
     blend, none = of.blend, (np.zeros(4, F), np.zeros(4, F), np.zeros(3, F))
     w = words(seed, 0, 1)
     segment, row, base, turn = walk.draw(None, w), 0, np.zeros(3, F), of.turn(F(1), F(0))
-    x, y = normal(w[2], table), normal(w[3], table)
+    x, y = normals(w[2])[0], normals(w[3])[0]
     size = np.sqrt(x * x + y * y)
     if of.free and size > F(1e-6):
         turn = of.turn(x / size, y / size)

@@ -10,7 +10,7 @@ says the same in words. Here are ARX and switched models; resampled.py and chain
 import itertools, json, math, sys
 from chain import play_chain
 from resampled import Resampled
-from shared import F, clamp, edges, kept, normal, regress, settle, unit_of, words
+from shared import F, clamp, edges, kept, normals, regress, settle, unit_of, words
 
 
 def likely(chances, word):  # a step of a Markov chain; without a word the likeliest
@@ -67,7 +67,7 @@ def play(model, winds, seed=1, noise=True):
             [(kept(size / unit[i]), k) for k, size in shocks]
 
     rows = [[row(mode, i) for i in range(ny)] for mode in d.get("modes", [d])]
-    groups = 1 + max(k for mode in rows for _, _, shocks in mode for _, k in shocks) // 4
+    groups = 1 + max(k for mode in rows for _, _, shocks in mode for _, k in shocks) // 8
     names = [name.strip(")").split("(t-") for name in d.get("region_columns", [])[1:]]
     samples = [(int(name[1:]) + (ny if name[0] == "u" else 0), int(lag)) for name, lag in names]
     regions = [[r[0]] + [w * unit[c] for w, (c, _) in zip(r[1:], samples)] for r in d.get("regions", [])]
@@ -88,13 +88,13 @@ def play(model, winds, seed=1, noise=True):
         if regions:
             mode = max(range(len(regions)), key=lambda k: (score(regions[k]), -k))
         elif "transitions" in d:
-            word = words(seed, step, (ny + 3) // 4)[0] if noise else None
+            word = words(seed, step, (ny + 7) // 8)[0] if noise else None
             mode = likely(d["initial"] if mode is None else d["transitions"][mode], word)
         drawn = None
         if resampled:
             resampled.hear(now[ny:])
             drawn = resampled.step(words(seed, step, 0)) if noise else [F(0)] * ny
-        deviates = [] if resampled else [normal(w, model["random"]["normal_table"]) for g in range(groups) for w in words(seed, step, g)]
+        deviates = [] if resampled else [z for g in range(groups) for w in words(seed, step, g) for z in normals(w)]
         for i, (total, taps, shocks) in enumerate(rows[mode or 0]):
             if drawn:
                 total = total + drawn[i]

@@ -55,8 +55,13 @@ def words(seed, step, group, stream=0):  # Philox4x32 of 7 rounds: four random w
     return w
 
 
-def normal(word, table):  # the deviate that a word stands for
-    bits = int((F(word ^ 0xFFFFFFFF if word >> 31 else word) + F(0.5)).view(np.uint32))
-    c0, c1, c2 = map(F, table[(bits >> 19) - (126 << 4)])
-    z = c0 + F(bits & 0x7FFFF) * (c1 + F(bits & 0x7FFFF) * c2)
-    return -z if word >> 31 else z
+def normals(word):  # the two deviates that a word stands for
+    def polynomial(x, *c): return F(c[0]) + x * polynomial(x, *c[1:]) if c[1:] else F(c[0])
+    bits = int((F(word & 0xFFFFF) + F(0.5)).view(np.uint32)) - 0x3F3504F3 - (20 << 23)
+    place = np.uint32((bits & 0x7FFFFF) + 0x3F3504F3).view(F) - F(1)
+    size = np.sqrt(F(-1.38629436) * F(bits >> 23) + place * polynomial(
+        place, -2.00002551, 0.999701023, -0.664517462, 0.509449303, -0.446601391, 0.28639704))
+    size = -size if word >> 20 & 1 else size
+    angle = F((word >> 21) - (word >> 31 << 11)) + F(0.5)
+    cosine = polynomial(angle * angle, 0.999993324, -1.17634249e-06, 2.29720431e-13, -1.65629298e-20)
+    return size * cosine, size * (angle * polynomial(angle * angle, 0.00153397559, -6.015346e-10, 7.0551869e-17, -3.67027436e-24))

@@ -3,7 +3,6 @@
 
 #include "learn/arx/report/report_values.hpp"
 #include "wisp/learn/model_report.hpp"
-#include "wisp/run/random.hpp"
 
 namespace wisp {
 namespace {
@@ -213,9 +212,7 @@ Report model_contents(const Model& model) {
   }
   add_training(model.training, section);
   add(section, "random.generator", "Philox4x32-7");
-  ReportList table;
-  for (const auto& part : normal_table()) table.push_back(list(part));
-  add(section, "random.normal_table", std::move(table));
+  add(section, "random.deviates", "Box-Muller");
   return report;
 }
 

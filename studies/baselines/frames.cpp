@@ -42,7 +42,7 @@ std::uint32_t NormalStream::word() {
   return random_words({.seed = seed_, .stream = 0, .step = at / 4, .group = 0})[at % 4];
 }
 
-double NormalStream::next() { return normal(word()); }
+double NormalStream::next() { return normal_pair(word())[0]; }
 
 double NormalStream::uniform() { return word() / 4294967296.0; }
 

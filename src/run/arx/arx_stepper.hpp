@@ -311,28 +311,37 @@ class ArxStepper : public ChannelHistory<N> {
     return {toward.least - against.most, toward.most - against.least};
   }
 
+  // Of lanes that draw for themselves a part has numbers of so many groups.
+  static constexpr int kPartGroups = kLanes / N::kParts;
+  static constexpr int kPartChannels = kPartGroups * kGroupChannels;
+
   // Whether random numbers are fewer when each lane draws for itself, many channels at once.
   bool are_few(int lanes) const {
     if constexpr (kGroup == 1 || kLanes == 1) return false;
-    const int rounds = (program_.shock_channels + 4 * kLanes - 1) / (4 * kLanes);
-    return 4 * rounds * lanes <= program_.shock_channels;
+    const int parts = (program_.shock_channels + kPartChannels - 1) / kPartChannels;
+    return parts * lanes * kGroupChannels <= program_.shock_channels * N::kParts;
   }
 
   // The standard normal numbers of one lane, each to where it belongs.
   void draw_alone(int block, int lane, const Moment<N>& moment) {
-    typename N::Word groups[kLanes];
-    Words<N> own[4], words[4];
-    random_counters_of<N>(moment.counters, lane, own);
-    Real normals[4][kLanes];
-    for (int first = 0; first < program_.shock_channels; first += 4 * kLanes) {
-      for (int k = 0; k < kLanes; ++k) groups[k] = static_cast<std::uint32_t>(first / 4 + k);
+    using Bits = Pack<typename N::WordPart, 1>;
+    typename N::Word groups[kPartGroups];
+    Bits own[4], words[4];
+    random_counters_of(moment.counters, lane, own);
+    Real normals[kGroupChannels][kPartGroups];
+    for (int first = 0; first < program_.shock_channels; first += kPartChannels) {
+      for (int k = 0; k < kPartGroups; ++k) groups[k] = static_cast<std::uint32_t>(first / kGroupChannels + k);
       unrolled<4>([&](auto k) { words[k] = own[k]; });
-      words[1] = words[1] ^ load<Words<N>>(groups);
-      philox<N>(*moment.keys, words);
-      unrolled<4>([&](auto k) { store(normal_lanes(words[k]), normals[k]); });
-      const int last = std::min(first + 4 * kLanes, program_.shock_channels);
+      words[1] = words[1] ^ load<Bits>(groups);
+      philox(*moment.keys, words);
+      unrolled<4>([&](auto k) {
+        const auto pair = normal_lanes(words[k]);
+        store(pair.first, normals[2 * k]);
+        store(pair.second, normals[2 * k + 1]);
+      });
+      const int last = std::min(first + kPartChannels, program_.shock_channels);
       for (int channel = first; channel < last; ++channel) {
-        shock(block, channel)[lane] = normals[channel % 4][(channel - first) / 4];
+        shock(block, channel)[lane] = normals[channel % kGroupChannels][(channel - first) / kGroupChannels];
       }
     }
   }
@@ -345,15 +354,18 @@ class ArxStepper : public ChannelHistory<N> {
     constexpr int kAtOnce = PartsOfBlocks<N, kBlocks>::kBlocksAtOnce;
     using Bits = BlockWords<N, kAtOnce>;
     using Word = typename N::Word;
-    Word words[kBlocks][kDrawnAtOnce][kLanes];
+    Word words[kBlocks][kDrawnAtOnce / 2][kLanes];
     for (int first = 0; first < program_.shock_channels; first += kDrawnAtOnce) {
       const int last = std::min(first + kDrawnAtOnce, program_.shock_channels);
       for (int b = 0; b < kBlocks; ++b) draw_words(moment.later(b), first, last, words[b]);
-      for (int channel = first; channel < last; ++channel) {
-        if (!shaken_[channel]) continue;
+      for (int channel = first; channel < last; channel += 2) {
+        const bool second = channel + 1 < last && shaken_[channel + 1];
+        if (!shaken_[channel] && !second) continue;
         for (int b = 0; b < kBlocks; b += kAtOnce) {
-          const BlockPlaces<const Word, kAtOnce> places(words[b][channel - first], kDrawnAtOnce * kLanes);
-          take(channel, b, normal_lanes(load_blocks<N, Bits>(places)));
+          const BlockPlaces<const Word, kAtOnce> places(words[b][(channel - first) / 2], kDrawnAtOnce / 2 * kLanes);
+          const auto pair = normal_lanes(load_blocks<N, Bits>(places));
+          if (shaken_[channel]) take(channel, b, pair.first);
+          if (second) take(channel + 1, b, pair.second);
         }
       }
     }
@@ -362,11 +374,11 @@ class ArxStepper : public ChannelHistory<N> {
   void draw_words(const Moment<N>& moment, int first, int last, typename N::Word (*words)[kLanes]) const {
     Words<N> counters[4], group[4];
     random_counters<N>(moment.counters, counters);
-    for (int channel = first; channel < last; channel += 4) {
-      const auto shaken = shaken_.begin() + channel, end = shaken + std::min(4, last - channel);
+    for (int channel = first; channel < last; channel += kGroupChannels, words += 4) {
+      const auto shaken = shaken_.begin() + channel, end = shaken + std::min(kGroupChannels, last - channel);
       if (std::find(shaken, end, std::uint8_t{1}) == end) continue;
-      random_group<N>(*moment.keys, counters, static_cast<std::uint32_t>(channel / 4), group);
-      unrolled<4>([&](auto k) { store(group[k], words[channel - first + k]); });
+      random_group<N>(*moment.keys, counters, static_cast<std::uint32_t>(channel / kGroupChannels), group);
+      unrolled<4>([&](auto k) { store(group[k], words[k]); });
     }
   }
 

@@ -144,7 +144,8 @@ class ModeLanes {
     if (chance_) {
       Words<N> counters[4], words[4];
       random_counters<N>(moment.counters, counters);
-      random_group<N>(*moment.keys, counters, static_cast<std::uint32_t>(program_.outputs + 3) / 4, words);
+      const int group = (program_.outputs + kGroupChannels - 1) / kGroupChannels;
+      random_group<N>(*moment.keys, counters, static_cast<std::uint32_t>(group), words);
       store(words[0], word);
     }
     for (int lane = 0; lane < kLanes; ++lane) {

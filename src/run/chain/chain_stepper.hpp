@@ -461,11 +461,11 @@ class ChainStepper {
   void draw_shocks(int block, const Moment<N>& moment) {
     Words<N> counters[4], words[4];
     random_counters<N>(moment.counters, counters);
-    for (std::uint32_t group : {0U, 1U}) {
-      random_group<N>(*moment.keys, counters, 2 + group, words);
-      for (std::uint32_t k = 0; k < (group == 0 ? 4U : 2U); ++k) {
-        store(normal_lanes(words[k]), shocks_of(block) + (4 * group + k) * kLanes);
-      }
+    random_group<N>(*moment.keys, counters, 2, words);
+    for (int k = 0; k < 3; ++k) {
+      const auto pair = normal_lanes(words[k]);
+      store(pair.first, shocks_of(block) + 2 * k * kLanes);
+      store(pair.second, shocks_of(block) + (2 * k + 1) * kLanes);
     }
   }
 
@@ -570,7 +570,7 @@ class ChainStepper {
   // A direction without preference: two normal deviates, made a unit; the identity where the heading is to be kept.
   HalfTurn<Real> random_turn(std::uint32_t a, std::uint32_t b) const {
     if (!program_.heading_free) return {Real(1.0f), Real(0.0f), Real(1.0f)};
-    const Real x(normal(a)), y(normal(b));
+    const Real x(normal_pair(a)[0]), y(normal_pair(b)[0]);
     const Real size = square_root(x * x + y * y);
     if (!(size > Real(1e-6f))) return {Real(1.0f), Real(0.0f), Real(1.0f)};
     return {x / size, y / size, Real(1.0f)};

@@ -54,17 +54,22 @@ inline CountingWord counted(std::uint32_t value) {
 inline CountingWord operator^(CountingWord a, CountingWord b) { return counted(a.value ^ b.value); }
 inline CountingWord operator&(CountingWord a, CountingWord b) { return counted(a.value & b.value); }
 inline CountingWord operator|(CountingWord a, CountingWord b) { return counted(a.value | b.value); }
-inline CountingWord operator>>(CountingWord a, int bits) { return counted(a.value >> bits); }
+inline CountingWord operator+(CountingWord a, CountingWord b) { return counted(a.value + b.value); }
+inline CountingWord operator-(CountingWord a, CountingWord b) { return counted(a.value - b.value); }
+inline CountingWord operator<<(CountingWord a, int bits) { return counted(a.value << bits); }
 
-// Conversions and comparisons, as lanes.hpp has them for live numbers. They are not arithmetic, but a sign is spread by
-// a shift, and a wide product is one multiplication.
+// Conversions and comparisons, as lanes.hpp has them for live numbers. They are not arithmetic, but a signed shift and
+// a wide product are.
 
 inline CountingReal real_of_part(CountingWord word) {
   return CountingReal(static_cast<float>(static_cast<std::int32_t>(word.value)));
 }
 inline CountingWord bits_of_part(CountingReal real) { return {std::bit_cast<std::uint32_t>(real.value)}; }
 inline CountingReal real_of_bits_part(CountingWord bits) { return CountingReal(std::bit_cast<float>(bits.value)); }
-inline CountingWord spread_sign_part(CountingWord word) { return counted(word.value >> 31 ? 0xffffffffU : 0U); }
+template <int bits>
+inline CountingWord signed_shift_part(CountingWord word) {
+  return counted(static_cast<std::uint32_t>(static_cast<std::int32_t>(word.value) >> bits));
+}
 inline CountingWord differ_part(CountingReal a, CountingReal b) { return {a == b ? 0U : 0xffffffffU}; }
 inline CountingReal magnitude_part(CountingReal a) { return CountingReal(std::fabs(a.value)); }
 inline void columns_part(const float* const* row, std::size_t first, CountingReal (&column)[4]) {
@@ -75,14 +80,6 @@ inline void spread_part(std::uint32_t value, CountingWord& part) { part = {value
 inline WideProduct<CountingWord> wide_product_part(CountingWord a, std::uint32_t b) {
   const std::uint64_t product = static_cast<std::uint64_t>(a.value) * b;
   return {counted(static_cast<std::uint32_t>(product >> 32)), {static_cast<std::uint32_t>(product)}};
-}
-
-template <int stride, std::uint32_t first>
-inline void columns_of_part(const float* table, CountingWord row, CountingReal& a, CountingReal& b, CountingReal& c) {
-  const float* numbers = table + stride * (row.value - first);
-  a = CountingReal(numbers[0]);
-  b = CountingReal(numbers[1]);
-  c = CountingReal(numbers[2]);
 }
 
 inline std::uint32_t value_of(CountingWord word) { return word.value; }

@@ -49,7 +49,10 @@ using SignedPart = std::int32_t __attribute__((vector_size(4 * kPartLanes)));
 inline RealPart real_of_part(WordPart word) { return __builtin_convertvector((SignedPart)word, RealPart); }
 inline WordPart bits_of_part(RealPart real) { return (WordPart)real; }
 inline RealPart real_of_bits_part(WordPart bits) { return (RealPart)bits; }
-inline WordPart spread_sign_part(WordPart word) { return (WordPart)((SignedPart)word >> 31); }
+template <int bits>
+inline WordPart signed_shift_part(WordPart word) {
+  return (WordPart)((SignedPart)word >> bits);
+}
 inline WordPart differ_part(RealPart a, RealPart b) { return (WordPart)(a != b); }
 inline RealPart magnitude_part(RealPart a) { return (RealPart)((WordPart)a & 0x7fffffffU); }
 inline RealPart square_root_part(RealPart a) {
@@ -73,7 +76,10 @@ using WordPart = std::uint32_t;
 inline RealPart real_of_part(WordPart word) { return static_cast<float>(static_cast<std::int32_t>(word)); }
 inline WordPart bits_of_part(RealPart real) { return std::bit_cast<std::uint32_t>(real); }
 inline RealPart real_of_bits_part(WordPart bits) { return std::bit_cast<float>(bits); }
-inline WordPart spread_sign_part(WordPart word) { return word >> 31 ? 0xffffffffU : 0U; }
+template <int bits>
+inline WordPart signed_shift_part(WordPart word) {
+  return static_cast<std::uint32_t>(static_cast<std::int32_t>(word) >> bits);
+}
 inline WordPart differ_part(RealPart a, RealPart b) { return a != b ? 0xffffffffU : 0U; }
 inline RealPart magnitude_part(RealPart a) { return std::fabs(a); }
 inline RealPart square_root_part(RealPart a) { return std::sqrt(a); }
@@ -193,32 +199,7 @@ inline void columns_part(const float* const* row, std::size_t first, RealPart (&
   column[3] = __builtin_shufflevector(cd01, cd23, 2, 3, 6, 7);
 #endif
 }
-
-/// Row k begins at table[stride · k]; the table's first row is row `first`.
-template <int stride, std::uint32_t first>
-inline void columns_of_part(const float* table, WordPart row, RealPart& a, RealPart& b, RealPart& c) {
-  std::uint32_t place[kPartLanes];
-  const WordPart places = row * stride;
-  std::memcpy(place, &places, sizeof place);
-  const float* rows[kPartLanes];
-  for (int lane = 0; lane < kPartLanes; ++lane) {
-    rows[lane] = table + (std::size_t{place[lane]} - std::size_t{first * stride});
-  }
-  RealPart column[4];
-  columns_part(rows, 0, column);
-  a = column[0];
-  b = column[1];
-  c = column[2];
-}
 #else
-template <int stride, std::uint32_t first>
-inline void columns_of_part(const float* table, WordPart row, RealPart& a, RealPart& b, RealPart& c) {
-  const float* numbers = table + stride * (row - first);
-  a = numbers[0];
-  b = numbers[1];
-  c = numbers[2];
-}
-
 inline void columns_part(const float* const* row, std::size_t first, RealPart (&column)[4]) {
   for (std::size_t k = 0; k < 4; ++k) column[k] = row[0][first + k];
 }
@@ -248,36 +229,16 @@ inline void store_long_part(const Part& part, void* first, void* second) {
 inline LongRealPart real_of_part(LongWordPart word) { return (LongRealPart)_mm512_cvtepi32_ps((__m512i)word); }
 inline LongWordPart bits_of_part(LongRealPart real) { return (LongWordPart)real; }
 inline LongRealPart real_of_bits_part(LongWordPart bits) { return (LongRealPart)bits; }
-inline LongWordPart spread_sign_part(LongWordPart word) { return (LongWordPart)_mm512_srai_epi32((__m512i)word, 31); }
+template <int bits>
+inline LongWordPart signed_shift_part(LongWordPart word) {
+  return (LongWordPart)_mm512_srai_epi32((__m512i)word, bits);
+}
+inline LongRealPart square_root_part(LongRealPart a) { return (LongRealPart)_mm512_sqrt_ps((__m512)a); }
 inline LongWordPart differ_part(LongRealPart a, LongRealPart b) { return (LongWordPart)(a != b); }
 inline LongRealPart magnitude_part(LongRealPart a) { return (LongRealPart)((LongWordPart)a & 0x7fffffffU); }
 inline void spread_part(float value, LongRealPart& part) { part = (LongRealPart)_mm512_set1_ps(value); }
 inline void spread_part(std::uint32_t value, LongWordPart& part) {
   part = (LongWordPart)_mm512_set1_epi32(static_cast<int>(value));
-}
-
-template <int stride, std::uint32_t first>
-inline void columns_of_part(const float* table, LongWordPart row, LongRealPart& a, LongRealPart& b, LongRealPart& c) {
-  const auto places = (__m512i)(row * stride);
-  const __m128i quarter[] = {_mm512_castsi512_si128(places), _mm512_extracti32x4_epi32(places, 1),
-                             _mm512_extracti32x4_epi32(places, 2), _mm512_extracti32x4_epi32(places, 3)};
-  const auto row_of = [&](int part, auto lane) {
-    constexpr int kLane = decltype(lane)::value;  // GCC without optimisation takes no other constant
-    const auto two = static_cast<std::uint64_t>(_mm_extract_epi64(quarter[part], kLane / 2));
-    const auto place = static_cast<std::uint32_t>(two >> (kLane % 2 * 32));
-    return _mm_loadu_ps(table + (std::size_t{place} - std::size_t{first * stride}));
-  };
-  const auto rows = [&](auto lane) {
-    const __m512 one = _mm512_castps128_ps512(row_of(0, lane)), two = _mm512_insertf32x4(one, row_of(1, lane), 1);
-    return _mm512_insertf32x4(_mm512_insertf32x4(two, row_of(2, lane), 2), row_of(3, lane), 3);
-  };
-  const __m512 r0 = rows(std::integral_constant<int, 0>()), r1 = rows(std::integral_constant<int, 1>());
-  const __m512 r2 = rows(std::integral_constant<int, 2>()), r3 = rows(std::integral_constant<int, 3>());
-  const __m512 ab01 = _mm512_unpacklo_ps(r0, r1), ab23 = _mm512_unpacklo_ps(r2, r3);
-  const __m512 cd01 = _mm512_unpackhi_ps(r0, r1), cd23 = _mm512_unpackhi_ps(r2, r3);
-  a = (LongRealPart)_mm512_shuffle_ps(ab01, ab23, 0x44);
-  b = (LongRealPart)_mm512_shuffle_ps(ab01, ab23, 0xee);
-  c = (LongRealPart)_mm512_shuffle_ps(cd01, cd23, 0x44);
 }
 #endif
 
@@ -356,8 +317,8 @@ inline auto operator|(const Pack<Part, kParts>& a, const Pack<Part, kParts>& b) 
   return each([](const Part& x, const Part& y) { return x | y; }, a, b);
 }
 template <class Part, int kParts>
-inline auto operator>>(const Pack<Part, kParts>& a, int bits) {
-  return each([bits](const Part& x) { return x >> bits; }, a);
+inline auto operator<<(const Pack<Part, kParts>& a, int bits) {
+  return each([bits](const Part& x) { return x << bits; }, a);
 }
 
 /// The same value in every lane.
@@ -406,17 +367,16 @@ inline auto real_of_bits(const Pack<Part, kParts>& bits) {
   return each([](const Part& x) { return real_of_bits_part(x); }, bits);
 }
 
-/// Words as numbers, rounded to nearest. Precondition: words < 2^31 (signed conversion is an instruction of every
-/// machine, unsigned is not).
+/// Words as signed numbers, rounded to nearest.
 template <class Part, int kParts>
 inline auto real_of(const Pack<Part, kParts>& words) {
   return each([](const Part& x) { return real_of_part(x); }, words);
 }
 
-/// All ones where the highest bit is set, zeros elsewhere.
-template <class Part, int kParts>
-inline auto spread_sign(const Pack<Part, kParts>& words) {
-  return each([](const Part& x) { return spread_sign_part(x); }, words);
+/// Shifted to the right; what comes in at the left is like the highest bit.
+template <int bits, class Part, int kParts>
+inline auto signed_shift(const Pack<Part, kParts>& words) {
+  return each([](const Part& x) { return signed_shift_part<bits>(x); }, words);
 }
 
 /// All ones where two numbers differ, zeros elsewhere.

@@ -1,7 +1,5 @@
 #include "wisp/run/random.hpp"
 
-#include <iterator>
-
 #include "run/lanes/random_lanes.hpp"
 
 namespace wisp {
@@ -20,22 +18,12 @@ std::array<std::uint32_t, 4> random_words(const RandomKey& key) {
   return out;
 }
 
-float normal(std::uint32_t word) {
-  float lanes[LiveNumbers::kLanes];
-  store(normal_lanes(all<Words<LiveNumbers>>(word)), lanes);
-  return lanes[0];
-}
-
-std::span<const std::array<float, 3>> normal_table() {
-  static constexpr std::size_t kCount = std::size(kNormalSegments) - 1;  // the last one only pads
-  static constexpr auto kTable = [] {
-    std::array<std::array<float, 3>, kCount> table{};
-    for (std::size_t k = 0; k < kCount; ++k) {
-      for (int c = 0; c < 3; ++c) table[k][c] = kNormalSegments[k].c[c];
-    }
-    return table;
-  }();
-  return kTable;
+std::array<float, 2> normal_pair(std::uint32_t word) {
+  const auto pair = normal_lanes(all<Words<LiveNumbers>>(word));
+  float first[LiveNumbers::kLanes], second[LiveNumbers::kLanes];
+  store(pair.first, first);
+  store(pair.second, second);
+  return {first[0], second[0]};
 }
 
 }  // namespace wisp

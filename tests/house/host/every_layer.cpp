@@ -42,7 +42,7 @@ int main() {
   count += complaints(wisp::VideoWriter::create("nowhere/film.mp4", {}));
 
   const bool report = wisp::to_text(wisp::Report{}).size() < 100;
-  const bool random = wisp::normal(0) < 0;
+  const bool random = wisp::normal_pair(0)[0] > 5;
   const bool rig = wisp::candle_rig_options(wisp::CandleGrid{}).pressure_tolerance > 0;
   const bool vision = !wisp::channel_name(wisp::PixelChannel{}).empty();
   return count == 9 && report && random && rig && vision && wisp_version() > 0 ? 0 : 1;

@@ -92,11 +92,11 @@ class PlainArx {
 std::vector<double> noise_of(const Model& model, std::uint64_t step) {
   const auto& arx = std::get<ArxModel>(model.dynamics);
   const int ny = arx.orders.outputs(), rank = arx.noise.rank;
-  std::vector<double> shocks(ny + rank + 3);
-  for (int channel = 0; channel < ny + rank; channel += 4) {
-    const auto words =
-        random_words({.seed = 1, .stream = 0, .step = step, .group = static_cast<std::uint32_t>(channel / 4)});
-    for (int k = 0; k < 4 && channel + k < ny + rank; ++k) shocks[channel + k] = normal(words[k]);
+  std::vector<double> shocks;
+  for (std::uint32_t group = 0; shocks.size() < static_cast<std::size_t>(ny + rank); ++group) {
+    for (const std::uint32_t word : random_words({.seed = 1, .stream = 0, .step = step, .group = group})) {
+      for (const float deviate : normal_pair(word)) shocks.push_back(deviate);
+    }
   }
   std::vector<double> noise(ny);
   for (int i = 0; i < ny; ++i) {

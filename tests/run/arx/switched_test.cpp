@@ -223,9 +223,9 @@ TEST(SwitchedBank, CostsOneModeAndTheRegions) {
   // The input: −; coefficients: × +; whether each output was clamped: or. Regions: × +.
   EXPECT_EQ(markov->dynamics_operations, 1 + 9 * 2 + 2);
   EXPECT_EQ(regions->dynamics_operations, markov->dynamics_operations + 15 * 2);
-  // A deviate for each output, and three shocks of them: × +.
-  EXPECT_EQ(regions->noise_operations, 2 * 5 + 3 * 2);
-  EXPECT_EQ(regions->random_operations, 1 + 7 * 6 + 2 * 6);
+  // Two deviates, one for each output, and three shocks of them: × +.
+  EXPECT_EQ(regions->noise_operations, 33 + 3 * 2);
+  EXPECT_EQ(regions->random_operations, 1 + 7 * 6 + 9);
   EXPECT_EQ(markov->random_operations, regions->random_operations + 1 + 7 * 6);  // a word for the chain
 }
 

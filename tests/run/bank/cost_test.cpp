@@ -50,10 +50,12 @@ TEST(Cost, IsWhatOneCountsByHand) {
   const Cost cost = cost_of(smallest_model());
   EXPECT_EQ(cost.multiply_adds_per_frame, 2);
   EXPECT_EQ(cost.dynamics_operations, 2 * 2 + 1);  // each coefficient: × +; clamped or not: or
-  EXPECT_EQ(cost.noise_operations, 5 + 2);         // a deviate: + of ½, × + × + of the quadratic; its use: × +
+  // Two deviates: + of ½ twice, − of 1, the logarithm's 6 × and 5 +, × + of its octave, √, the square of the angle, 3 ×
+  // and 3 + of sine and cosine, × by the angle, × × by the length; the use of one: × +
+  EXPECT_EQ(cost.noise_operations, (3 + 11 + 2 + 1 + 1 + 2 * 6 + 3) + 2);
   // Four words are made at a time: the counter's group, seven rounds of two products and four exclusive ors. The word
-  // that is used: shift, xor, shift, and, and, xor.
-  EXPECT_EQ(cost.random_operations, 1 + 7 * 6 + 6);
+  // that is used: and, −, shift, and, +, shift, and, xor, shift.
+  EXPECT_EQ(cost.random_operations, 1 + 7 * 6 + 9);
   EXPECT_EQ(cost.view_operations, 3 + 1);  // between two steps: − × +; from the mean: +
   EXPECT_EQ(cost.operations_per_frame,
             cost.dynamics_operations + cost.noise_operations + cost.random_operations + cost.view_operations);
