@@ -8,7 +8,6 @@
 // tree to a leaf, whose rows are compared. It is done only in steps in which going on costs more than the tolerance.
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -163,10 +162,12 @@ class ResampledLanes {
     Heard heard;
     hear_past(block, heard);
     descend(heard, words[0], seekers);
+    Nearest nearest;
+    find_nearest(block, heard, seekers, nearest);
     for (int k = 0; k < seekers.count; ++k) {
       const int lane = seekers.lane[k];
       const Real* on = places.forced[lane] ? nullptr : &ahead[lane];
-      places.next[lane] = jump(block, lane, seekers.leaf[k], heard, words[1][lane], on);
+      places.next[lane] = jump(block, lane, seekers.leaf[k], heard.right[lane], nearest, k, words[1][lane], on);
     }
   }
 
@@ -241,28 +242,29 @@ class ResampledLanes {
     }
   }
 
-  // Rows that a lane has played just now, or will play if it goes on: above `low`, up to `high`.
+  // Rows that the lanes have played just now, or will play if they go on: above `low`, up to `high`. That half of a
+  // mirrored place is half a row above its row lets no other row in.
   struct Recent {
-    float low[1 + kRecentBlocks];
-    float high[1 + kRecentBlocks];
+    float low[1 + kRecentBlocks][kLanes];
+    float high[1 + kRecentBlocks][kLanes];
   };
-  Recent recent(int block, int lane) const {
-    Recent out;
+  void find_recent(int block, Recent& recent) const {
     for (int k = 0; k <= kRecentBlocks; ++k) {
-      const auto row = static_cast<float>(whole(state(block, 2 * k + kPlace)[lane]) / 2);
-      const float steps = value_of(state(block, 2 * k + kAge)[lane]);
-      out.low[k] = row - steps;
-      out.high[k] = steps > 0 ? row + 1 : -1.0f;
+      const Real *place = state(block, 2 * k + kPlace), *steps = state(block, 2 * k + kAge);
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const float row = 0.5f * value_of(place[lane]);
+        recent.low[k][lane] = row - value_of(steps[lane]);
+        recent.high[k][lane] = value_of(steps[lane]) > 0 ? row + 1 : -1.0f;
+      }
     }
-    return out;
   }
 
   // How far a lane's past is from those of a leaf's rows: infinitely far from what is none, or was played just now.
-  void compare(int block, int lane, std::uint32_t leaf, const Heard& heard, Real (&apart)[kCandidates]) const {
+  void compare(int lane, std::uint32_t leaf, const Heard& heard, const Recent& recent,
+               float (&apart)[kCandidates]) const {
     const Candidates& rows = program_.leaves[leaf];
     const std::size_t lags = program_.lags.size();
     const float* winds = program_.leaf_wind.data() + leaf * lags * kCandidates;
-    const Recent recently = recent(block, lane);
     const auto never = all<Reals<N>>(kNever);
     const auto pick = [](const auto& x, const auto& low, const auto& high, const auto& yes, const auto& no) {
       return x > low ? (x > high ? no : yes) : no;
@@ -276,48 +278,77 @@ class ResampledLanes {
       if (!(first < rows.count)) sum = never;
       const auto row = load<Reals<N>>(rows.row.data() + first);
       unrolled<1 + kRecentBlocks>([&](auto k) {
-        sum = each(pick, row, all<Reals<N>>(recently.low[k]), all<Reals<N>>(recently.high[k]), never, sum);
+        const auto low = all<Reals<N>>(recent.low[k][lane]), high = all<Reals<N>>(recent.high[k][lane]);
+        sum = each(pick, row, low, high, never, sum);
       });
       store(sum, apart + first);
     }
   }
 
-  // The nearest of a leaf's rows, the best first. Distances are not negative: their bits are in their order. Below
-  // them stands which row it is, so that of two that are as near the first comes first.
+  // The nearest of a leaf's rows, the best first, of every seeker: how far, and which candidate. Of two that are as
+  // near the first comes first.
   struct Nearest {
-    static constexpr std::uint64_t kNone = std::uint64_t{std::bit_cast<std::uint32_t>(kNever)} << 32;
-    std::uint64_t best[kNearestRows] = {kNone, kNone, kNone};
+    float apart[kNearestRows][kLanes];
+    float candidate[kNearestRows][kLanes];
 
-    void take(float apart, std::uint32_t candidate) {
-      std::uint64_t one = std::uint64_t{std::bit_cast<std::uint32_t>(apart)} << 32 | candidate;
-      unrolled<kNearestRows>([&](auto rank) {
-        const bool nearer = one < best[rank];
-        const std::uint64_t farther = nearer ? best[rank] : one;
-        best[rank] = nearer ? one : best[rank];
-        one = farther;
+    std::uint32_t count(int seeker) const {
+      std::uint32_t there = 0;
+      for (const auto& rank : apart) there += rank[seeker] < kNever ? 1 : 0;
+      return there;
+    }
+  };
+
+  void find_nearest(int block, const Heard& heard, const Seekers& seekers, Nearest& nearest) const {
+    Recent recent;
+    find_recent(block, recent);
+    float apart[kLanes][kCandidates];
+    const float* row[kLanes];
+    for (int k = 0; k < kLanes; ++k) row[k] = apart[k < seekers.count ? k : 0];
+    for (int k = 0; k < seekers.count; ++k) compare(seekers.lane[k], seekers.leaf[k], heard, recent, apart[k]);
+    for (int first = 0; first < seekers.count; first += kPartLanes) rank_part(row + first, nearest, first);
+  }
+
+  // What is written for seekers that are not there is not read.
+  static constexpr int kPartLanes = kLanes / N::kParts;
+  static void rank_part(const float* const* row, Nearest& nearest, int first) {
+    using Values = Pack<typename N::RealPart, 1>;
+    Values best[kNearestRows], which[kNearestRows];
+    for (Values& one : best) one = all<Values>(kNever);
+    for (Values& one : which) one = all<Values>(0.0f);
+    const auto first_if = [](const auto& x, const auto& y, const auto& yes, const auto& no) {
+      return x < y ? yes : no;
+    };
+    for (std::uint32_t at = 0; at < kCandidates; at += 4) {
+      typename N::RealPart columns[4];
+      columns_part(row, at, columns);
+      unrolled<4>([&](auto k) {
+        const Values apart{{columns[k]}}, number = all<Values>(static_cast<float>(at + k));
+        // From the last rank on: what a nearer one drives out of a rank goes to the next.
+        unrolled<kNearestRows>([&](auto back) {
+          const int rank = kNearestRows - 1 - back;
+          const auto pushed = rank > 0 ? each(first_if, apart, best[rank - 1], best[rank - 1], apart) : apart;
+          const auto of = rank > 0 ? each(first_if, apart, best[rank - 1], which[rank - 1], number) : number;
+          which[rank] = each(first_if, apart, best[rank], of, which[rank]);
+          best[rank] = each(first_if, apart, best[rank], pushed, best[rank]);
+        });
       });
     }
-    std::uint32_t count() const {
-      return static_cast<std::uint32_t>(std::count_if(best, best + kNearestRows, [](auto one) { return one < kNone; }));
+    for (int rank = 0; rank < kNearestRows; ++rank) {
+      store(best[rank], nearest.apart[rank] + first);
+      store(which[rank], nearest.candidate[rank] + first);
     }
-    float apart() const { return std::bit_cast<float>(static_cast<std::uint32_t>(best[0] >> 32)); }
-    std::uint32_t candidate(std::uint32_t rank) const { return static_cast<std::uint32_t>(best[rank]); }
-  };
+  }
 
   // Where to go from a leaf: on, where `ahead` says what that costs and it is not worse than the best by more than the
   // tolerance, else to one of the nearest.
-  std::uint32_t jump(int block, int lane, std::uint32_t leaf, const Heard& heard, std::uint32_t word,
-                     const Real* ahead) const {
+  std::uint32_t jump(int block, int lane, std::uint32_t leaf, bool right, const Nearest& nearest, int seeker,
+                     std::uint32_t word, const Real* ahead) const {
     const Candidates& rows = program_.leaves[leaf];
-    Real apart[kCandidates];
-    compare(block, lane, leaf, heard, apart);
-    Nearest nearest;
-    unrolled<kCandidates>([&](auto k) { nearest.take(value_of(apart[k]), static_cast<std::uint32_t>(k)); });
-    const std::uint32_t on = whole(state(block, kPlace)[lane]) + 2, about = heard.right[lane] ? 1 : 0;
-    const std::uint32_t count = nearest.count();
+    const std::uint32_t on = whole(state(block, kPlace)[lane]) + 2, about = right ? 1 : 0;
+    const std::uint32_t count = nearest.count(seeker);
     if (count == 0) return ahead ? on : rows.place[rows.count - 1] ^ about;
-    if (ahead && value_of(*ahead - Real(nearest.apart())) <= program_.tolerance) return on;
-    return rows.place[nearest.candidate(scaled(word, count))] ^ about;
+    if (ahead && value_of(*ahead - Real(nearest.apart[0][seeker])) <= program_.tolerance) return on;
+    return rows.place[static_cast<std::uint32_t>(nearest.candidate[scaled(word, count)][seeker])] ^ about;
   }
 
   // A word as a whole number below `count`.
