@@ -30,7 +30,11 @@ CandlePictures::CandlePictures(const Model& model, const Bank& bank)
 }
 
 CandlePictures::CandlePictures(const Model& model, int count, int points)
-    : flame_(is_flame(model)), width_(std::min(kLoneWidth + 220 * (count - 1), kWidest)), height_(kHeight) {
+    : flame_(is_flame(model)),
+      width_(std::min(kLoneWidth + 220 * (count - 1), kWidest)),
+      height_(kHeight),
+      candles_(width_, height_),
+      image_(width_, height_) {
   for (int k = 0; k < count; ++k) {
     FlameScene scene = framed(width_, height_);
     const double spacing = static_cast<double>(width_) / (count + 1);
@@ -41,7 +45,6 @@ CandlePictures::CandlePictures(const Model& model, int count, int points)
   }
   drifts_.resize(scenes_.size());
   points_.resize(scenes_.size() * static_cast<std::size_t>(points));
-  image_ = Image(width_, height_);
 }
 
 void CandlePictures::blow(const Bank& bank, float wind) {
@@ -81,8 +84,7 @@ const Image& CandlePictures::draw(std::span<const float> outlines) {
     draw_shapes(image_, flames);
     return image_;
   }
-  draw_room(image_, flames);
-  draw_flames(image_, flames);
+  candles_.draw(image_, flames);
   return image_;
 }
 

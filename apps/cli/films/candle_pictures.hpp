@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "wisp/draw/flame.hpp"
+#include "wisp/draw/live_flames.hpp"
 #include "wisp/run/bank.hpp"
 
 namespace wisp::cli {
@@ -47,6 +47,7 @@ class CandlePictures {
   std::vector<Drift> drifts_;
   std::vector<float> polylines_;
   std::vector<Point> points_;
+  LiveFlames candles_;
   Image image_;
 };
 

@@ -17,7 +17,6 @@ Result<Recording> write_simulated_clip(const std::filesystem::path& path, const 
                                  .height = options.camera.height,
                                  .rate_hz = options.rig.rate_hz,
                                  .crf = 12,  // the sensor's noise survives, so that a calm flame is not a still picture
-                                 .preset = "veryfast",
                                  .sound_rate_hz = static_cast<int>(options.microphone.rate_hz)});
   if (!film) return film.error();
   CandleClipOutputs outputs;
