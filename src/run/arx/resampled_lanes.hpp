@@ -135,7 +135,7 @@ class ResampledLanes {
   // for every number that it reads.
   struct Seekers {
     int lane[kLanes];
-    std::uint32_t leaf[kLanes];
+    std::uint32_t leaf[kLanes] = {};
     int count = 0;
   };
 
