@@ -1,8 +1,6 @@
 #include "capture/media/libav.hpp"
 
-#include <cerrno>
 #include <mutex>
-#include <new>
 #include <vector>
 
 namespace wisp {
@@ -50,14 +48,6 @@ std::string libav_message(int code) {
   return buffer;
 }
 
-int with_memory(int code) {
-  // FFmpeg's H.264 decoder returns success where an allocation for a picture failed; malloc reports it in errno.
-  const bool out_of_memory = code == AVERROR(ENOMEM) || errno == ENOMEM;
-  errno = 0;
-  if (out_of_memory) throw std::bad_alloc();
-  return code;
-}
-
 Result<FormatOwner> open_media(const std::filesystem::path& path) {
   silence_libav();
   const std::string name = path.string();
@@ -103,7 +93,6 @@ Result<CodecOwner> open_decoder(const std::filesystem::path& path, const AVStrea
     return Error{path.string() + ": the decoder for " + coded + " does not start (" + libav_message(code) +
                  "); convert it to H.264"};
   }
-  errno = 0;  // for with_memory()
   return context;
 }
 

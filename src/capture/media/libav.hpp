@@ -59,11 +59,6 @@ void silence_libav();
 /// FFmpeg's words for one of its error codes.
 std::string libav_message(int code);
 
-/// Returns one of FFmpeg's codes. Throws std::bad_alloc where the code, or errno since the call before, says that an
-/// allocation failed: the file is not at fault, and leaving frames out would change what is measured. errno belongs to
-/// the calling thread: what fails in decoding threads is only seen where FFmpeg returns it.
-int with_memory(int code);
-
 /// Opens a media file and reads what tracks it has. FFmpeg's own chatter on standard error is silenced: what matters
 /// comes back as errors and warnings.
 /// Nothing but the file itself is read, whatever it says: playlists and scripts are not media files here.

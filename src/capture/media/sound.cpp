@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "capture/media/libav.hpp"
+#include "capture/media/with_memory.hpp"
 
 namespace wisp {
 namespace {
@@ -37,10 +38,10 @@ bool start_resampler(SoundTrack& track) {
   AVFrame& frame = *track.frame;
   SwrContext* raw = nullptr;
   const auto format = static_cast<AVSampleFormat>(frame.format);
-  const int code = swr_alloc_set_opts2(&raw, &frame.ch_layout, AV_SAMPLE_FMT_FLT, frame.sample_rate, &frame.ch_layout,
-                                       format, frame.sample_rate, 0, nullptr);
+  const int code = with_memory(swr_alloc_set_opts2, &raw, &frame.ch_layout, AV_SAMPLE_FMT_FLT, frame.sample_rate,
+                               &frame.ch_layout, format, frame.sample_rate, 0, nullptr);
   track.resampler.reset(raw);
-  return with_memory(code) >= 0 && with_memory(swr_init(raw)) >= 0;
+  return code >= 0 && with_memory(swr_init, raw) >= 0;
 }
 
 // Returns whether to go on.
@@ -50,8 +51,8 @@ bool hand_out(SoundTrack& track, const SoundBlock& block) {
   if (frame.ch_layout.nb_channels != track.info.channels) return true;  // a stray block of another make
   track.samples.resize(static_cast<std::size_t>(frame.nb_samples) * track.info.channels);
   std::uint8_t* out[1] = {reinterpret_cast<std::uint8_t*>(track.samples.data())};
-  const int got = with_memory(swr_convert(track.resampler.get(), out, frame.nb_samples,
-                                          const_cast<const std::uint8_t**>(frame.extended_data), frame.nb_samples));
+  const int got = with_memory(swr_convert, track.resampler.get(), out, frame.nb_samples,
+                              const_cast<const std::uint8_t**>(frame.extended_data), frame.nb_samples);
   if (got < 0) return true;
   track.samples.resize(static_cast<std::size_t>(got) * track.info.channels);
   for (float& sample : track.samples) {
@@ -63,16 +64,16 @@ bool hand_out(SoundTrack& track, const SoundBlock& block) {
 }
 
 bool drain(SoundTrack& track, const SoundBlock& block) {
-  while (with_memory(avcodec_receive_frame(track.codec.get(), track.frame.get())) >= 0) {
+  while (with_memory(avcodec_receive_frame, track.codec.get(), track.frame.get()) >= 0) {
     if (!hand_out(track, block)) return false;
   }
   return true;
 }
 
 void decode_all(SoundTrack& track, const SoundBlock& block) {
-  while (with_memory(av_read_frame(track.format.get(), track.packet.get())) >= 0) {
+  while (with_memory(av_read_frame, track.format.get(), track.packet.get()) >= 0) {
     if (track.packet->stream_index == track.track) {
-      with_memory(avcodec_send_packet(track.codec.get(), track.packet.get()));
+      with_memory(avcodec_send_packet, track.codec.get(), track.packet.get());
     }
     av_packet_unref(track.packet.get());
     if (!drain(track, block)) return;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "capture/media/with_memory.hpp"
+
 namespace wisp {
 namespace {
 
@@ -80,7 +82,7 @@ Result<VideoFile> VideoFile::open(const std::filesystem::path& path, const Video
 // Feeds the decoder one packet of the track. Returns false once there are none.
 bool VideoFile::send_packet() {
   while (true) {
-    const int code = with_memory(av_read_frame(format_.get(), packet_.get()));
+    const int code = with_memory(av_read_frame, format_.get(), packet_.get());
     if (code < 0) {
       read_error_ = code != AVERROR_EOF;
       avcodec_send_packet(codec_.get(), nullptr);
@@ -89,7 +91,7 @@ bool VideoFile::send_packet() {
     const bool ours = packet_->stream_index == track_;
     const bool whole = (packet_->flags & AV_PKT_FLAG_CORRUPT) == 0;
     if (ours && !whole) ++broken_;
-    if (ours && whole && with_memory(avcodec_send_packet(codec_.get(), packet_.get())) < 0) ++broken_;
+    if (ours && whole && with_memory(avcodec_send_packet, codec_.get(), packet_.get()) < 0) ++broken_;
     av_packet_unref(packet_.get());
     if (ours) return true;
   }
@@ -98,7 +100,7 @@ bool VideoFile::send_packet() {
 // The next whole frame into frame_. Returns false at the end.
 bool VideoFile::decode() {
   while (true) {
-    const int code = with_memory(avcodec_receive_frame(codec_.get(), frame_.get()));
+    const int code = with_memory(avcodec_receive_frame, codec_.get(), frame_.get());
     if (code == AVERROR(EAGAIN)) {
       if (!ended_) ended_ = !send_packet();
       continue;
@@ -142,14 +144,14 @@ Result<std::optional<VideoFrame>> VideoFile::next() {
 // Returns its time.
 std::int64_t VideoFile::decode_key_frame(std::int64_t tick, std::int64_t before) {
   if (av_seek_frame(format_.get(), track_, tick, AVSEEK_FLAG_BACKWARD) < 0) return before;
-  while (with_memory(av_read_frame(format_.get(), packet_.get())) >= 0) {
+  while (with_memory(av_read_frame, format_.get(), packet_.get()) >= 0) {
     const bool wanted = packet_->stream_index == track_ && (packet_->flags & AV_PKT_FLAG_KEY) != 0;
     const std::int64_t at = packet_->pts;
-    int code = wanted && at != before ? with_memory(avcodec_send_packet(codec_.get(), packet_.get())) : -1;
+    int code = wanted && at != before ? with_memory(avcodec_send_packet, codec_.get(), packet_.get()) : -1;
     av_packet_unref(packet_.get());
     if (!wanted) continue;
     if (code >= 0) code = avcodec_send_packet(codec_.get(), nullptr);
-    if (code >= 0) code = with_memory(avcodec_receive_frame(codec_.get(), frame_.get()));
+    if (code >= 0) code = with_memory(avcodec_receive_frame, codec_.get(), frame_.get());
     avcodec_flush_buffers(codec_.get());
     return code >= 0 ? at : before;
   }
