@@ -326,7 +326,8 @@ Result<void> write_overlay(const std::filesystem::path& out, const ClipFrames& c
   if (!height) return height.error();
   const Layout layout{.times = enlargement(*height), .legend = roomier_corner(content.captured, *width)};
   const int film_width = *width * layout.times, film_height = *height * layout.times;
-  auto film = VideoWriter::create(out, {.width = film_width, .height = film_height, .rate_hz = recording.rate_hz});
+  auto film =
+      VideoWriter::create(out, {.width = film_width, .height = film_height, .rate_hz = recording.rate_hz, .crf = 17});
   if (!film) return film.error();
   if (clip.path.empty()) return overlay_on_black(*film, film_width, film_height, layout, content);
   return overlay_on_clip(*film, clip, content, recording.rate_hz, layout, terminal);
