@@ -59,9 +59,9 @@ function(wisp_precompiled target)
 endfunction()
 
 # With WISP_UNITY_BUILD up to twelve sources of a folder are one translation unit: headers and template instances that they
-# share are four tenths of the time. After a change much is compiled again, so the preset `dev` does without. Names in
+# share are four tenths of the time. After a change the whole unit is compiled again. Names in
 # anonymous namespaces must be unique within a folder; an overload that another source's replaces is an unused function,
-# which is an error.
+# which is an error. Sources of the folders named below share so little that twelve are compiled no faster than five.
 function(wisp_unity target)
   if(NOT WISP_UNITY_BUILD)
     return()
@@ -75,7 +75,11 @@ function(wisp_unity target)
     string(MAKE_C_IDENTIFIER "${folder}" folder)
     list(APPEND in_${folder} ${source})
     list(LENGTH in_${folder} place)
-    math(EXPR group "(${place} + 11) / 12")
+    set(together 12)
+    if(folder MATCHES "^src_learn_(numeric|arx_simulation)$")
+      set(together 5)
+    endif()
+    math(EXPR group "(${place} + ${together} - 1) / ${together}")
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder}_${group})
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)

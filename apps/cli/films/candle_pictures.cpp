@@ -30,11 +30,8 @@ CandlePictures::CandlePictures(const Model& model, const Bank& bank)
 }
 
 CandlePictures::CandlePictures(const Model& model, int count, int points)
-    : flame_(is_flame(model)),
-      width_(std::min(kLoneWidth + 220 * (count - 1), kWidest)),
-      height_(kHeight),
-      candles_(width_, height_),
-      image_(width_, height_) {
+    : width_(std::min(kLoneWidth + 220 * (count - 1), kWidest)), height_(kHeight), image_(width_, height_) {
+  if (is_flame(model)) candles_.emplace(width_, height_);
   for (int k = 0; k < count; ++k) {
     FlameScene scene = framed(width_, height_);
     const double spacing = static_cast<double>(width_) / (count + 1);
@@ -80,11 +77,11 @@ const Image& CandlePictures::draw(std::span<const float> outlines) {
   for (std::size_t k = 0; k < scenes_.size(); ++k) {
     flames.push_back({std::span(points_).subspan(k * each, each), scenes_[k]});
   }
-  if (!flame_) {
+  if (candles_) {
+    candles_->draw(image_, flames);
+  } else {
     draw_shapes(image_, flames);
-    return image_;
   }
-  candles_.draw(image_, flames);
   return image_;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Pictures of a bank of outlines: flames as candles side by side, smoke and all; other things as plain shapes.
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -40,14 +41,13 @@ class CandlePictures {
     float count = 0;
   };
 
-  bool flame_;
   int width_;
   int height_;
   std::vector<FlameScene> scenes_;
   std::vector<Drift> drifts_;
   std::vector<float> polylines_;
   std::vector<Point> points_;
-  LiveFlames candles_;
+  std::optional<LiveFlames> candles_;  // of what is a flame
   Image image_;
 };
 

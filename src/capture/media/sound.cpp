@@ -78,7 +78,7 @@ void decode_all(SoundTrack& track, const SoundBlock& block) {
     av_packet_unref(track.packet.get());
     if (!drain(track, block)) return;
   }
-  avcodec_send_packet(track.codec.get(), nullptr);
+  with_memory(avcodec_send_packet, track.codec.get(), nullptr);
   drain(track, block);
 }
 

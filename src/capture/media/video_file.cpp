@@ -85,7 +85,7 @@ bool VideoFile::send_packet() {
     const int code = with_memory(av_read_frame, format_.get(), packet_.get());
     if (code < 0) {
       read_error_ = code != AVERROR_EOF;
-      avcodec_send_packet(codec_.get(), nullptr);
+      with_memory(avcodec_send_packet, codec_.get(), nullptr);
       return false;
     }
     const bool ours = packet_->stream_index == track_;
@@ -143,14 +143,14 @@ Result<std::optional<VideoFrame>> VideoFile::next() {
 // The key frame at or before a time, alone: it is decoded without what follows, unless it is the one of time `before`.
 // Returns its time.
 std::int64_t VideoFile::decode_key_frame(std::int64_t tick, std::int64_t before) {
-  if (av_seek_frame(format_.get(), track_, tick, AVSEEK_FLAG_BACKWARD) < 0) return before;
+  if (with_memory(av_seek_frame, format_.get(), track_, tick, AVSEEK_FLAG_BACKWARD) < 0) return before;
   while (with_memory(av_read_frame, format_.get(), packet_.get()) >= 0) {
     const bool wanted = packet_->stream_index == track_ && (packet_->flags & AV_PKT_FLAG_KEY) != 0;
     const std::int64_t at = packet_->pts;
     int code = wanted && at != before ? with_memory(avcodec_send_packet, codec_.get(), packet_.get()) : -1;
     av_packet_unref(packet_.get());
     if (!wanted) continue;
-    if (code >= 0) code = avcodec_send_packet(codec_.get(), nullptr);
+    if (code >= 0) code = with_memory(avcodec_send_packet, codec_.get(), nullptr);
     if (code >= 0) code = with_memory(avcodec_receive_frame, codec_.get(), frame_.get());
     avcodec_flush_buffers(codec_.get());
     return code >= 0 ? at : before;
