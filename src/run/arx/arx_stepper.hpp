@@ -11,6 +11,7 @@
 
 #include "run/arx/arx_program.hpp"
 #include "run/arx/mode_lanes.hpp"
+#include "run/arx/output_lanes.hpp"
 #include "run/arx/resampled_lanes.hpp"
 #include "run/bank/channel_history.hpp"
 #include "run/bank/moment.hpp"
@@ -53,6 +54,7 @@ class ArxStepper : public ChannelHistory<N> {
       shock_size_[k] = scale * program_.shock_size[k];
       if (shock_size_[k] != 0) shaken_[program_.shock[k / modes_.count()]] = 1;
     }
+    few_.set_shocks(shock_size_);
     noisy_ = std::find(shaken_.begin(), shaken_.end(), std::uint8_t{1}) != shaken_.end();
   }
 
@@ -60,6 +62,7 @@ class ArxStepper : public ChannelHistory<N> {
   void turn() {
     ChannelHistory<N>::turn();
     resampled_.turn();
+    few_.turn();
   }
 
   /// Blocks that step_group() steps at once.
@@ -69,6 +72,10 @@ class ArxStepper : public ChannelHistory<N> {
   /// is read once for all, and sums that do not wait for each other keep the machine busy.
   template <int kBlocks = 1>
   void step(int block, const Moment<N>& moment) {
+    if constexpr (kBlocks == 1 && kGroup > 1 && OutputLanes<N>::kMost > 0) {
+      if (block == 0 && few_.takes(moment.lanes)) return step_few(moment);
+    }
+    if (block == 0) few_.fall_behind();
     step_blocks<kBlocks>(block, moment);
   }
 
@@ -81,6 +88,7 @@ class ArxStepper : public ChannelHistory<N> {
     modes_.start(block, lane);
     if (!resampled_.empty()) resampled_.start(block, lane);
     this->start_history(block, lane);
+    if (block == 0) few_.fall_behind();
   }
 
   /// Whether ranges of blocks can be stepped at once.
@@ -107,6 +115,7 @@ class ArxStepper : public ChannelHistory<N> {
     const auto [low, high] = resampled_bounds();
     resampled_.visit_lane(block, lane, low, high, visit);
     this->visit_history(block, lane, visit);
+    if (block == 0) few_.fall_behind();
   }
 
   /// Goes into the hash that tells models apart.
@@ -121,6 +130,7 @@ class ArxStepper : public ChannelHistory<N> {
         program_(program),
         modes_(modes),
         resampled_(program.resampled, blocks, arena),
+        few_(program.side_by_side, channels, program.depth, program.shock_channels, arena),
         shared_(arena.take<Real>(static_cast<std::size_t>(blocks) * shared_row())),
         shaken_(arena.take<std::uint8_t>(program.shock_channels)),
         quiet_(arena.take<int>(static_cast<std::size_t>(blocks) * program.regressors)),
@@ -176,6 +186,17 @@ class ArxStepper : public ChannelHistory<N> {
         make_rows<1>(i++, step);
       }
     }
+  }
+
+  // As step_blocks(), for the only block of a bank in which few instances live.
+  void step_few(const Moment<N>& moment) {
+    std::fill_n(quiet_.begin(), program_.regressors, 0);  // nobody counts
+    std::fill_n(moment.clamped, kLanes, 0U);
+    if (!resampled_.empty()) {
+      resampled_.hear(0, this->regressors(0));
+      if (noisy_) resampled_.step(0, moment);
+    }
+    few_.step(ring_, moment, noisy_, resampled_);
   }
 
   // Two rows at once where registers hold their sums and as much again.
@@ -273,7 +294,7 @@ class ArxStepper : public ChannelHistory<N> {
       for (int b = 0; b < kBlocks; ++b) play_drawn(block + b, step.choice, moment.later(b));
       return;
     }
-    if (kGroup > 1 && own_shocks_ && !(kBlocks == 1 && are_few(moment.lanes))) {
+    if (kGroup > 1 && own_shocks_) {
       draw<kBlocks>(moment, [&](int i, int b, const auto& normals) {
         const auto size = step.choice.template pick<Values>(shock_size_.data() + i * modes_.count());
         const BlockPlaces<Real, kAtOnce> places(step.newest + b * step.stride + i * kLanes, step.stride);
@@ -281,22 +302,17 @@ class ArxStepper : public ChannelHistory<N> {
       });
       return;
     }
-    if (kBlocks == 1 && are_few(moment.lanes)) {
-      // Empty slots are saved too: they must not get what is left over in memory.
-      for (int k = 0; k < program_.shock_channels; ++k) store(all<Reals<N>>(0.0f), shock(block, k));
-      for (int lane = 0; lane < moment.lanes; ++lane) draw_alone(block, lane, moment);
-    } else {
-      draw<kBlocks>(moment, [&](int channel, int b, const auto& normals) {
-        const std::size_t stride = channel < program_.outputs ? step.stride : shared_row();
-        store_blocks<N>(normals, BlockPlaces<Real, kAtOnce>(shock(block + b, channel), stride));
-      });
-    }
+    draw<kBlocks>(moment, [&](int channel, int b, const auto& normals) {
+      const std::size_t stride = channel < program_.outputs ? step.stride : shared_row();
+      store_blocks<N>(normals, BlockPlaces<Real, kAtOnce>(shock(block + b, channel), stride));
+    });
     for (int b = 0; b < kBlocks; ++b) start_all(block + b, step.choice);
   }
 
   void play_drawn(int block, const Choice& choice, const Moment<N>& moment) {
     Real* newest = ring_.sample(block, 0);
-    resampled_.step(block, moment, newest);
+    resampled_.step(block, moment);
+    resampled_.play(block, newest);
     for (int i = 0; i < program_.outputs; ++i, newest += kLanes) {
       if (program_.constant[i] != 0) store(constant<Reals<N>>(choice, i) + load<Reals<N>>(newest), newest);
     }
@@ -309,41 +325,6 @@ class ArxStepper : public ChannelHistory<N> {
     if (program_.resampled.against < 0) return {toward.least, toward.most};
     const RegressorChannel& against = channels_.regressors[program_.resampled.against];
     return {toward.least - against.most, toward.most - against.least};
-  }
-
-  // Of lanes that draw for themselves a part has numbers of so many groups.
-  static constexpr int kPartGroups = kLanes / N::kParts;
-  static constexpr int kPartChannels = kPartGroups * kGroupChannels;
-
-  // Whether random numbers are fewer when each lane draws for itself, many channels at once.
-  bool are_few(int lanes) const {
-    if constexpr (kGroup == 1 || kLanes == 1) return false;
-    const int parts = (program_.shock_channels + kPartChannels - 1) / kPartChannels;
-    return parts * lanes * kGroupChannels <= program_.shock_channels * N::kParts;
-  }
-
-  // The standard normal numbers of one lane, each to where it belongs.
-  void draw_alone(int block, int lane, const Moment<N>& moment) {
-    using Bits = Pack<typename N::WordPart, 1>;
-    typename N::Word groups[kPartGroups];
-    Bits own[4], words[4];
-    random_counters_of(moment.counters, lane, own);
-    Real normals[kGroupChannels][kPartGroups];
-    for (int first = 0; first < program_.shock_channels; first += kPartChannels) {
-      for (int k = 0; k < kPartGroups; ++k) groups[k] = static_cast<std::uint32_t>(first / kGroupChannels + k);
-      unrolled<4>([&](auto k) { words[k] = own[k]; });
-      words[1] = words[1] ^ load<Bits>(groups);
-      philox(*moment.keys, words);
-      unrolled<4>([&](auto k) {
-        const auto pair = normal_lanes(words[k]);
-        store(pair.first, normals[2 * k]);
-        store(pair.second, normals[2 * k + 1]);
-      });
-      const int last = std::min(first + kPartChannels, program_.shock_channels);
-      for (int channel = first; channel < last; ++channel) {
-        shock(block, channel)[lane] = normals[channel % kGroupChannels][(channel - first) / kGroupChannels];
-      }
-    }
   }
 
   // Calls take(channel, block, normals) for every shock that is added to an output. First the words of many channels,
@@ -415,6 +396,7 @@ class ArxStepper : public ChannelHistory<N> {
   ArxProgram program_;
   Modes modes_;
   ResampledLanes<N> resampled_;
+  OutputLanes<N> few_;
   std::span<Real> shared_;          // [block][channel][lane]: standard normal numbers that outputs share
   std::span<std::uint8_t> shaken_;  // per standard normal number: whether anything is shaken by it
   std::span<int> quiet_;            // [block][regressor]: steps for which it has been 0 in all lanes, up to the depth

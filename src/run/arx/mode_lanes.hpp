@@ -12,11 +12,6 @@
 #include "run/lanes/random_lanes.hpp"
 #include "wisp/model/arx.hpp"
 
-// A build whose size comes first steps one block at a time, with the same bits: the kernel is there once, not twice.
-#ifndef WISP_BLOCKS_AT_ONCE
-#define WISP_BLOCKS_AT_ONCE 4
-#endif
-
 namespace wisp {
 
 /// An ARX model's: there is nothing to choose, and nothing of it is kept.

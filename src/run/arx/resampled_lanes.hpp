@@ -56,9 +56,8 @@ class ResampledLanes {
     store(wind, past(block, 0));
   }
 
-  /// Moves every lane of a block that is in use on, and puts what is added to the outputs into `shocks`,
-  /// [output][lane].
-  void step(int block, const Moment<N>& moment, Real* shocks) {
+  /// Moves every lane of a block that is in use on.
+  void step(int block, const Moment<N>& moment) {
     Places places;
     for (int lane = 0; lane < kLanes; ++lane) {
       const std::uint32_t at = whole(state(block, kPlace)[lane]);
@@ -77,8 +76,25 @@ class ResampledLanes {
       }
       state(block, kPlace)[lane] = Real(static_cast<float>(next));
     }
-    play(places.next, shocks);
   }
+
+  /// Puts what is added to the outputs of a block, [output][lane], into `shocks`.
+  void play(int block, Real* shocks) const {
+    const float* row[kLanes];
+    for (int lane = 0; lane < kLanes; ++lane) row[lane] = played(block, lane);
+    const auto scale = all<Reals<N>>(scale_);
+    for (int i = 0; i < program_.outputs; i += 4) {
+      Reals<N> columns[4];
+      columns_of<N>(row, static_cast<std::size_t>(i), columns);
+      for (int k = 0; k < 4 && i + k < program_.outputs; ++k, shocks += kLanes) {
+        store(scale_ == 1 ? columns[k] : scale * columns[k], shocks);
+      }
+    }
+  }
+
+  /// What a lane plays, one number an output, and what it is multiplied with.
+  const float* played(int block, int lane) const { return program_.played(whole(state(block, kPlace)[lane])); }
+  float scale() const { return scale_; }
 
   std::size_t lane_values() const {
     return empty() ? 0 : static_cast<std::size_t>(kStateValues) + static_cast<std::size_t>(past_.depth());
@@ -167,7 +183,7 @@ class ResampledLanes {
     for (int k = 0; k < seekers.count; ++k) {
       const int lane = seekers.lane[k];
       const Real* on = places.forced[lane] ? nullptr : &ahead[lane];
-      places.next[lane] = jump(block, lane, seekers.leaf[k], heard.right[lane], nearest, k, words[1][lane], on);
+      places.next[lane] = jump(block, k, seekers, heard, nearest, words[1][lane], on);
     }
   }
 
@@ -305,11 +321,10 @@ class ResampledLanes {
     const float* row[kLanes];
     for (int k = 0; k < kLanes; ++k) row[k] = apart[k < seekers.count ? k : 0];
     for (int k = 0; k < seekers.count; ++k) compare(seekers.lane[k], seekers.leaf[k], heard, recent, apart[k]);
-    for (int first = 0; first < seekers.count; first += kPartLanes) rank_part(row + first, nearest, first);
+    for (int first = 0; first < seekers.count; first += N::kPartLanes) rank_part(row + first, nearest, first);
   }
 
   // What is written for seekers that are not there is not read.
-  static constexpr int kPartLanes = kLanes / N::kParts;
   static void rank_part(const float* const* row, Nearest& nearest, int first) {
     using Values = Pack<typename N::RealPart, 1>;
     Values best[kNearestRows], which[kNearestRows];
@@ -341,10 +356,11 @@ class ResampledLanes {
 
   // Where to go from a leaf: on, where `ahead` says what that costs and it is not worse than the best by more than the
   // tolerance, else to one of the nearest.
-  std::uint32_t jump(int block, int lane, std::uint32_t leaf, bool right, const Nearest& nearest, int seeker,
+  std::uint32_t jump(int block, int seeker, const Seekers& seekers, const Heard& heard, const Nearest& nearest,
                      std::uint32_t word, const Real* ahead) const {
-    const Candidates& rows = program_.leaves[leaf];
-    const std::uint32_t on = whole(state(block, kPlace)[lane]) + 2, about = right ? 1 : 0;
+    const int lane = seekers.lane[seeker];
+    const Candidates& rows = program_.leaves[seekers.leaf[seeker]];
+    const std::uint32_t on = whole(state(block, kPlace)[lane]) + 2, about = heard.right[lane] ? 1 : 0;
     const std::uint32_t count = nearest.count(seeker);
     if (count == 0) return ahead ? on : rows.place[rows.count - 1] ^ about;
     if (ahead && value_of(*ahead - Real(nearest.apart[0][seeker])) <= program_.tolerance) return on;
@@ -354,19 +370,6 @@ class ResampledLanes {
   // A word as a whole number below `count`.
   static std::uint32_t scaled(std::uint32_t word, std::uint32_t count) {
     return static_cast<std::uint32_t>((static_cast<std::uint64_t>(word) * count) >> 32);
-  }
-
-  void play(const std::uint32_t (&places)[kLanes], Real* shock) const {
-    const float* row[kLanes];
-    for (int lane = 0; lane < kLanes; ++lane) row[lane] = program_.played(places[lane]);
-    const auto scale = all<Reals<N>>(scale_);
-    for (int i = 0; i < program_.outputs; i += 4) {
-      Reals<N> columns[4];
-      columns_of<N>(row, static_cast<std::size_t>(i), columns);
-      for (int k = 0; k < 4 && i + k < program_.outputs; ++k, shock += kLanes) {
-        store(scale_ == 1 ? columns[k] : scale * columns[k], shock);
-      }
-    }
   }
 
   ResampledProgram program_;

@@ -6,6 +6,11 @@
 
 #include "run/lanes/lanes.hpp"
 
+// A build whose size comes first steps one block at a time, with the same bits: the kernel is there once, not twice.
+#ifndef WISP_BLOCKS_AT_ONCE
+#define WISP_BLOCKS_AT_ONCE 4
+#endif
+
 namespace wisp {
 
 /// What `kBlocks` blocks in a row are computed in.
@@ -48,8 +53,7 @@ inline void load_block_part(const BlockPlaces<Value, kBlocks>& places, std::size
   if constexpr (PartsOfBlocks<N, kBlocks>::kBlocksAtOnce == 2) {
     long_part(places.of[2 * i] + after, places.of[2 * i + 1] + after, out);
   } else {
-    constexpr int kLanes = N::kLanes / N::kParts;
-    const Value* first = places.of[i / N::kParts] + after + i % N::kParts * kLanes;
+    const Value* first = places.of[i / N::kParts] + after + i % N::kParts * N::kPartLanes;
     std::memcpy(static_cast<void*>(&out), static_cast<const void*>(first), sizeof out);
   }
 }
@@ -60,7 +64,7 @@ inline void store_block_part(const Part& part, const BlockPlaces<Value, kBlocks>
   if constexpr (PartsOfBlocks<N, kBlocks>::kBlocksAtOnce == 2) {
     store_long_part(part, places.of[2 * i] + after, places.of[2 * i + 1] + after);
   } else {
-    Value* first = places.of[i / N::kParts] + after + i % N::kParts * (N::kLanes / N::kParts);
+    Value* first = places.of[i / N::kParts] + after + i % N::kParts * N::kPartLanes;
     std::memcpy(static_cast<void*>(first), static_cast<const void*>(&part), sizeof part);
   }
 }

@@ -91,6 +91,7 @@ struct CountingNumbers {
   using RealPart = CountingReal;
   using WordPart = CountingWord;
   static constexpr int kLanes = 1;
+  static constexpr int kPartLanes = 1;
   static constexpr int kParts = 1;
 };
 

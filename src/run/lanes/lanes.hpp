@@ -68,6 +68,14 @@ inline RealPart square_root_part(RealPart a) {
 inline void spread_part(float value, RealPart& part) { part = value - RealPart{}; }  // x − 0 is x: nothing is rounded
 inline void spread_part(std::uint32_t value, WordPart& part) { part = value - WordPart{}; }
 inline void first_part(float value, RealPart& part) { part = RealPart{value}; }  // 0 in the other lanes
+inline void gather_part(const float* from, const std::uint32_t* place, RealPart& part) {
+#ifdef __AVX2__
+  part = RealPart{from[place[0]], from[place[1]], from[place[2]], from[place[3]],
+                  from[place[4]], from[place[5]], from[place[6]], from[place[7]]};
+#else
+  part = RealPart{from[place[0]], from[place[1]], from[place[2]], from[place[3]]};
+#endif
+}
 #else
 inline constexpr int kPartLanes = 1;
 using RealPart = float;
@@ -86,6 +94,7 @@ inline RealPart square_root_part(RealPart a) { return std::sqrt(a); }
 inline void spread_part(float value, RealPart& part) { part = value; }
 inline void spread_part(std::uint32_t value, WordPart& part) { part = value; }
 inline void first_part(float value, RealPart& part) { part = value; }
+inline void gather_part(const float* from, const std::uint32_t* place, RealPart& part) { part = from[*place]; }
 #endif
 
 /// High and low words of a product.
@@ -249,6 +258,7 @@ struct LiveNumbers {
   using RealPart = wisp::RealPart;
   using WordPart = wisp::WordPart;
   static constexpr int kLanes = 8;
+  static constexpr int kPartLanes = wisp::kPartLanes;
   static constexpr int kParts = kLanes / kPartLanes;
 };
 
@@ -423,9 +433,17 @@ template <class N>
 inline void columns_of(const float* const (&row)[N::kLanes], std::size_t first, Reals<N> (&columns)[4]) {
   unrolled<N::kParts>([&](auto i) {
     typename N::RealPart part[4];
-    columns_part(row + i * (N::kLanes / N::kParts), first, part);
+    columns_part(row + i * N::kPartLanes, first, part);
     unrolled<4>([&](auto k) { columns[k].part[i] = part[k]; });
   });
+}
+
+/// A number from each of several places.
+template <class N>
+inline Reals<N> gathered(const typename N::Real* from, const std::uint32_t* place) {
+  Reals<N> out;
+  unrolled<N::kParts>([&](auto i) { gather_part(from, place + i * N::kPartLanes, out.part[i]); });
+  return out;
 }
 
 template <class Part, int kParts>
