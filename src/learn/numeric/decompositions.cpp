@@ -5,9 +5,7 @@
 
 namespace wisp {
 
-using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
-using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
 // Source: G. H. Golub and C. F. Van Loan, Matrix Computations, section 8.6: they are the positive eigenvalues of
@@ -18,14 +16,6 @@ VectorXd singular_values(const MatrixXd& matrix) {
   both.topRightCorner(rows, matrix.cols()) = matrix;
   both.bottomLeftCorner(matrix.cols(), rows) = matrix.transpose();
   return symmetric_eigenvalues(both).tail(std::min(rows, matrix.cols())).reverse().cwiseMax(0);
-}
-
-VectorXcd eigenvalues(const MatrixXd& matrix) { return matrix.eigenvalues(); }
-
-Eigensystem eigensystem(const MatrixXd& matrix) {
-  const Eigen::EigenSolver<MatrixXd> solver(matrix);
-  const MatrixXcd right = solver.eigenvectors();
-  return {solver.eigenvalues(), right, right.fullPivLu().inverse()};
 }
 
 VectorXd symmetric_eigenvalues(const MatrixXd& matrix) {
@@ -55,7 +45,5 @@ RankedSolution ranked_solution(const MatrixXd& matrix, const VectorXd& right) {
 VectorXd symmetric_solution(const MatrixXd& matrix, const VectorXd& right) { return matrix.ldlt().solve(right); }
 
 MatrixXd symmetric_solutions(const MatrixXd& matrix, const MatrixXd& right) { return matrix.ldlt().solve(right); }
-
-MatrixXcd complex_inverse(const MatrixXcd& matrix) { return matrix.inverse(); }
 
 }  // namespace wisp
