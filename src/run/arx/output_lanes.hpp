@@ -3,7 +3,6 @@
 // instances do, so that lanes are not empty. Every output adds up what it adds in a block, in the same order.
 
 #include <algorithm>
-#include <cfloat>
 #include <cstdint>
 #include <span>
 
@@ -37,9 +36,8 @@ class OutputLanes {
     behind_[0] = 1;
     for (std::size_t k = 0; k < low_.size(); ++k) {
       const OutputChannel& channel = channels.outputs[program.output[k]];
-      const bool empty = k % kOutputsAtOnce >= program.count[k / kOutputsAtOnce];
-      low_[k] = empty ? -FLT_MAX : channel.low;
-      high_[k] = empty ? FLT_MAX : channel.high;
+      low_[k] = channel.low;
+      high_[k] = channel.high;
     }
   }
 

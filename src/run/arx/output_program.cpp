@@ -55,7 +55,7 @@ std::vector<Group> groups_of(const Regression& regression) {
   return {};
 }
 
-// A group's outputs; empty places repeat the first.
+// A group's outputs; empty places are the first once more, so that its column is what others look back at.
 Row<std::uint32_t> outputs_of(const Group& group) {
   Row<std::uint32_t> outputs;
   for (std::size_t place = 0; place < kOutputsAtOnce; ++place) outputs[place] = group[place < group.size() ? place : 0];
@@ -81,11 +81,11 @@ void add_taps(const Regression& regression, const Group& group, Parts& parts) {
   const Row<std::uint32_t> outputs = outputs_of(group);
   for (std::size_t k = 0; k < regression.taps[group[0]].size(); ++k) {
     Row<std::uint32_t> channels;
-    Row<float> coefficients{};
+    Row<float> coefficients;
     for (std::size_t place = 0; place < kOutputsAtOnce; ++place) {
       const ModeWeights& tap = regression.taps[outputs[place]][k];
       channels[place] = tap.channel;
-      if (place < group.size()) coefficients[place] = tap.of_mode[0];
+      coefficients[place] = tap.of_mode[0];
     }
     const auto found = std::find(parts.channel.begin(), parts.channel.end(), places_of(channels));
     const auto column = static_cast<std::uint32_t>(found - parts.channel.begin());
@@ -112,14 +112,15 @@ std::uint32_t first_shock(const Regression& regression, std::uint32_t output) {
 void add_shocks(const Regression& regression, const Group& group, Parts& parts) {
   std::size_t most = 0;
   for (std::uint32_t output : group) most = std::max(most, regression.shocks[output].size());
+  const Row<std::uint32_t> outputs = outputs_of(group);
   const std::uint32_t none = first_shock(regression, static_cast<std::uint32_t>(regression.shocks.size()));
   for (std::size_t k = 0; k < most; ++k) {
     Row<std::uint32_t> shock, place_of{};
     shock.fill(none);
-    for (std::size_t place = 0; place < group.size(); ++place) {
-      const auto& own = regression.shocks[group[place]];
+    for (std::size_t place = 0; place < kOutputsAtOnce; ++place) {
+      const auto& own = regression.shocks[outputs[place]];
       if (k >= own.size()) continue;
-      shock[place] = first_shock(regression, group[place]) + static_cast<std::uint32_t>(k);
+      shock[place] = first_shock(regression, outputs[place]) + static_cast<std::uint32_t>(k);
       place_of[place] = normal_place(own[k].channel);
     }
     parts.shock.push_back(shock);
@@ -170,12 +171,9 @@ std::span<Number> laid_out(const std::vector<Number>& numbers, Arena& arena) {
 
 template <class Number>
 std::span<Number> laid_out(const std::vector<Row<Number>>& rows, Arena& arena) {
-  const auto out = arena.take<Number>(rows.size() * kOutputsAtOnce);
-  auto to = out.begin();
-  for (const Row<Number>& row : rows) {
-    if (!arena.measures()) to = std::copy(row.begin(), row.end(), to);
-  }
-  return out;
+  std::vector<Number> numbers;
+  for (const Row<Number>& row : rows) numbers.insert(numbers.end(), row.begin(), row.end());
+  return laid_out(numbers, arena);
 }
 
 }  // namespace

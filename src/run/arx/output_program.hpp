@@ -35,8 +35,8 @@ enum class ColumnSource : std::uint8_t {
 };
 
 /// Groups of up to kOutputsAtOnce outputs whose sums go over the same lags in the same order, each over its own
-/// channels. A column holds, of one run of a group, every output's channel. Places that a group leaves empty repeat its
-/// first output's, with coefficients of 0.
+/// channels. A column holds, of one run of a group, every output's channel. Places that a group leaves empty make its
+/// first output once more: what a group makes may be another's column too.
 struct OutputProgram {
   std::size_t groups = 0;            ///< known while measuring, when all arrays are empty; 0: blocks are as fast
   std::size_t columns = 0;           ///< the same

@@ -38,6 +38,21 @@ Model with_one_of_its_own() {
   return model;
 }
 
+// All points look back at output 0, which looks back at itself alone: its group of one and theirs have a column in
+// common.
+Model with_one_that_leads() {
+  Model model = flame_model({.points = 5, .wind = InputShape::kSplitSign, .noise_rank = 1});
+  ArxModel& arx = arx_of(model);
+  for (int i = 0; i < 10; ++i) {
+    for (int j = 0; j < 10; ++j) arx.orders.na(i, j) = j == i || j == 0 ? 2 : 0;
+    const std::vector<double> winds(arx.theta[i].begin() + 8, arx.theta[i].end());
+    arx.theta[i] = {-0.9, 0.2};
+    if (i > 0) arx.theta[i].insert(arx.theta[i].begin(), {0.05, -0.02});
+    arx.theta[i].insert(arx.theta[i].end(), winds.begin(), winds.end());
+  }
+  return model;
+}
+
 Model with_shocks_that_some_lack() {
   Model model = flame_model({.points = 8, .wind = InputShape::kSplitSign, .noise_rank = 2});
   ArxModel& arx = arx_of(model);
@@ -54,6 +69,7 @@ const struct {
                {"fewer", flame_model({.points = 5, .wind = InputShape::kSplitSign, .noise_rank = 1})},
                {"more", flame_model({.points = 13, .noise_rank = 2})},
                {"one output goes with no other", with_one_of_its_own()},
+               {"all look back at one", with_one_that_leads()},
                {"some shocks are none", with_shocks_that_some_lack()},
                {"residuals", flame_model({.wind = InputShape::kSplitSign, .resampled_rows = 300})},
                {"an end that mirrors the other", default_flame_model()},
