@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
 #include <vector>
 
 #include "run/arx/arx_program.hpp"
@@ -62,6 +63,31 @@ Model with_shocks_that_some_lack() {
   return model;
 }
 
+// Who looks back at whom, how far, and whose shocks are none, by chance; coefficients so small that all are stable.
+Model of_chance(unsigned seed) {
+  std::mt19937 random(seed);
+  const auto below = [&](int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); };
+  Model model = flame_model({.points = 4 + below(6), .wind = InputShape::kSplitSign, .noise_rank = below(3)});
+  ArxModel& arx = arx_of(model);
+  const int outputs = static_cast<int>(model.outputs.size()), kinds = 1 + below(3), leaders = below(3);
+  for (int i = 0; i < outputs; ++i) {
+    const int kind = below(kinds);
+    arx.theta[i].clear();
+    const auto add = [&] { arx.theta[i].push_back(0.001 * (below(80) - 40)); };
+    for (int j = 0; j < outputs; ++j) {
+      arx.orders.na(i, j) = j == i || j < leaders || j == (i ^ 1) ? kind : 0;
+      for (int lag = 0; lag < arx.orders.na(i, j); ++lag) add();
+    }
+    for (int k = 0; k < 2; ++k) {
+      arx.orders.nb(i, k) = 1 + kind;
+      arx.orders.nk(i, k) = kind % 2;
+      for (int lag = 0; lag <= kind; ++lag) add();
+    }
+    if (below(4) == 0) arx.noise.sd[i] = 0;
+  }
+  return model;
+}
+
 const struct {
   const char* name;
   Model model;
@@ -101,6 +127,16 @@ TEST(OutputLanes, AnInstanceAloneLivesAsInABlock) {
     const std::vector<float> in_a_block = life(model, 8, 8, kAlone);
     for (int instances : {1, 2, 3}) EXPECT_EQ(life(model, 8, instances, kAlone), in_a_block) << name << instances;
   }
+}
+
+TEST(OutputLanes, WhateverLooksBackAtWhatever) {
+  int side_by_side = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const Model model = of_chance(seed);
+    side_by_side += groups_of(model) > 0 ? 1 : 0;
+    EXPECT_EQ(life(model, 8, 1, kAlone), life(model, 8, 8, kAlone)) << seed;
+  }
+  EXPECT_GT(side_by_side, 30);
 }
 
 TEST(OutputLanes, AnInstanceLivesTheSameWhoeverComesAndGoes) {
