@@ -56,9 +56,10 @@ def play(model, winds, seed=1, noise=True):
     clamped = [[F((edge - mean) / u) for edge in edges(o)] for o, mean, u in zip(outputs, d["output_mean"], unit)]
 
     def row(mode, i):  # of one output: its constant, its taps (weight, channel, lag), its shocks (size, deviate)
-        taps = [(-a * unit[j] / unit[i], j, 1 + lag) for j in range(ny) for lag, a in enumerate(mode["A"][i][j])]
-        taps += [(b * unit[ny + k] / unit[i], ny + k, d["nk"][i][k] + lag)
-                 for k in range(len(forms)) for lag, b in enumerate(mode["B"][i][k])]
+        taps = [(b * unit[ny + k] / unit[i], ny + k, d["nk"][i][k] + lag)
+                for k in range(len(forms)) for lag, b in reversed(list(enumerate(mode["B"][i][k])))]
+        taps += [(-a * unit[j] / unit[i], j, 1 + lag)
+                 for j in range(ny) for lag, a in reversed(list(enumerate(mode["A"][i][j])))]
         if "shock" in mode:
             shocks = list(enumerate(mode["shock"][i][: i + 1]))
         else:

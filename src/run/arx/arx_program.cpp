@@ -18,23 +18,30 @@ struct ModeRows {
   const std::vector<double>& constant;
 };
 
+// Inputs first, then past outputs, the newest last: of what a step adds up, one product waits for the step before.
 std::vector<ModeWeights> taps_of(const ArxOrders& orders, std::span<const ModeRows> modes,
                                  const std::vector<double>& units, int i) {
   std::vector<ModeWeights> taps;
-  std::size_t at = 0;  // in the row of theta
-  const auto add = [&](int channel, int lag, double sign) {
-    ModeWeights weights{static_cast<std::uint32_t>(channel), static_cast<std::uint32_t>(lag), {}};
-    for (const ModeRows& mode : modes) {
-      weights.of_mode.push_back(kept(sign * mode.theta[i][at] * units[channel] / units[i]));
+  // `at`: one past the channel's in the row of theta, where its lags ascend.
+  const auto add = [&](int channel, int first_lag, int count, double sign, std::size_t at) {
+    for (int lag = first_lag + count - 1; lag >= first_lag; --lag) {
+      ModeWeights weights{static_cast<std::uint32_t>(channel), static_cast<std::uint32_t>(lag), {}};
+      --at;
+      for (const ModeRows& mode : modes) {
+        weights.of_mode.push_back(kept(sign * mode.theta[i][at] * units[channel] / units[i]));
+      }
+      keep(taps, std::move(weights));
     }
-    ++at;
-    keep(taps, std::move(weights));
   };
-  for (int j = 0; j < orders.outputs(); ++j) {
-    for (int lag = 1; lag <= orders.na(i, j); ++lag) add(j, lag, -1);
-  }
+  std::size_t past = 0, end = 0;  // of the row: coefficients of outputs come first
+  for (int j = 0; j < orders.outputs(); ++j) end += static_cast<std::size_t>(orders.na(i, j));
   for (int k = 0; k < orders.inputs(); ++k) {
-    for (int l = 0; l < orders.nb(i, k); ++l) add(orders.outputs() + k, orders.nk(i, k) + l, 1);
+    end += static_cast<std::size_t>(orders.nb(i, k));
+    add(orders.outputs() + k, orders.nk(i, k), orders.nb(i, k), 1, end);
+  }
+  for (int j = 0; j < orders.outputs(); ++j) {
+    past += static_cast<std::size_t>(orders.na(i, j));
+    add(j, 1, orders.na(i, j), -1, past);
   }
   return taps;
 }
@@ -58,7 +65,7 @@ std::size_t count(const std::vector<std::vector<ModeWeights>>& rows) {
 }
 
 bool continues(const TapRun& run, const ModeWeights& tap) {
-  return run.channel == tap.channel && run.first_lag + run.count == tap.lag;
+  return run.channel == tap.channel && run.first_lag == tap.lag + run.count;
 }
 
 std::vector<TapRun> runs_of(const std::vector<ModeWeights>& taps, std::uint32_t first_coefficient) {

@@ -16,10 +16,10 @@
 
 namespace wisp {
 
-/// Successive lags of one channel with coefficients that are not zero in every mode.
+/// Lags of one channel, each one less than the one before, with coefficients that are not zero in every mode.
 struct TapRun {
-  std::uint32_t channel;  ///< outputs first, then regressors
-  std::uint32_t first_lag;
+  std::uint32_t channel;    ///< outputs first, then regressors
+  std::uint32_t first_lag;  ///< the longest
   std::uint32_t count;
   std::uint32_t coefficient;  ///< index of the first, in taps
 };

@@ -13,6 +13,7 @@
 #include "run/arx/mode_lanes.hpp"
 #include "run/arx/output_lanes.hpp"
 #include "run/arx/resampled_lanes.hpp"
+#include "run/arx/time_lanes.hpp"
 #include "run/bank/channel_history.hpp"
 #include "run/bank/moment.hpp"
 #include "run/lanes/blocks.hpp"
@@ -58,11 +59,11 @@ class ArxStepper : public ChannelHistory<N> {
     noisy_ = std::find(shaken_.begin(), shaken_.end(), std::uint8_t{1}) != shaken_.end();
   }
 
-  /// Moves every block's history by one sample; the newest is now to be made.
-  void turn() {
-    ChannelHistory<N>::turn();
-    resampled_.turn();
-    few_.turn();
+  /// Moves every block's history by so many samples; the newest is now to be made.
+  void turn(int samples = 1) {
+    ChannelHistory<N>::turn(samples);
+    resampled_.turn(samples);
+    few_.turn(samples);
   }
 
   /// Blocks that step_group() steps at once.
@@ -77,6 +78,31 @@ class ArxStepper : public ChannelHistory<N> {
     }
     if (block == 0) few_.fall_behind();
     step_blocks<kBlocks>(block, moment);
+  }
+
+  /// Whether step_alone() makes the steps of a bank's only instance.
+  bool steps_alone() const { return alone_.there(); }
+
+  /// Makes `count` steps of it, two or more, as so many calls of step() with a turn() between. For each regressor,
+  /// fill(k, first, of, out) writes those of `of` steps from `first` on; take(first, of, deviations) gets what was
+  /// made. Returns in how many an output was clamped.
+  template <class Fill, class Take>
+  std::uint64_t step_alone(const Moment<N>& moment, int count, Fill fill, Take take) {
+    const std::span<const float> shocks = noisy_ ? shock_size_ : std::span<const float>();
+    std::uint64_t clamped = 0;
+    Moment<N> now = moment;
+    alone_.begin(ring_);
+    for (int first = 0; first < count; first += TimeLanes<N>::kAtOnce) {
+      const int of = std::min(count - first, TimeLanes<N>::kAtOnce);
+      for (int k = 0; k < program_.regressors; ++k) fill(k, first, of, alone_.regressors(k));
+      take(first, of, alone_.step(program_, channels_.outputs[0], shocks, now, of, clamped));
+      alone_.turn(of);
+      now.counters.step += static_cast<std::uint64_t>(of);
+    }
+    ring_.turn(count - 1);
+    alone_.end(ring_);
+    std::fill_n(quiet_.begin(), program_.regressors, 0);  // nobody counts
+    return clamped;
   }
 
   /// What makes steps of some blocks before the others make theirs: a copy, of the same memory but with a place in its
@@ -131,6 +157,7 @@ class ArxStepper : public ChannelHistory<N> {
         modes_(modes),
         resampled_(program.resampled, blocks, arena),
         few_(program.side_by_side, channels, program.depth, program.shock_channels, arena),
+        alone_(program, arena),
         shared_(arena.take<Real>(static_cast<std::size_t>(blocks) * shared_row())),
         shaken_(arena.take<std::uint8_t>(program.shock_channels)),
         quiet_(arena.take<int>(static_cast<std::size_t>(blocks) * program.regressors)),
@@ -251,7 +278,7 @@ class ArxStepper : public ChannelHistory<N> {
     const float* coefficient = step.coefficients + run.coefficient * step.modes;
     const BlockPlaces<const Real, kBlocks> channel(step.ring + run.channel * kLanes, step.stride);
     const std::uint32_t* back = step.back + run.first_lag;
-    for (const std::uint32_t* end = back + run.count; back != end; ++back, coefficient += step.modes) {
+    for (const std::uint32_t* end = back - run.count; back != end; --back, coefficient += step.modes) {
       const std::size_t sample = *back;
       Values factor[kRows];
       unrolled<kRows>([&](auto row) { factor[row] = step.choice.template pick<Values>(coefficient + row * twin); });
@@ -397,6 +424,7 @@ class ArxStepper : public ChannelHistory<N> {
   Modes modes_;
   ResampledLanes<N> resampled_;
   OutputLanes<N> few_;
+  TimeLanes<N> alone_;
   std::span<Real> shared_;          // [block][channel][lane]: standard normal numbers that outputs share
   std::span<std::uint8_t> shaken_;  // per standard normal number: whether anything is shaken by it
   std::span<int> quiet_;            // [block][regressor]: steps for which it has been 0 in all lanes, up to the depth

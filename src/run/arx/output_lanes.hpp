@@ -51,7 +51,7 @@ class OutputLanes {
     }
   }
 
-  void turn() { columns_.turn(); }
+  void turn(int samples = 1) { columns_.turn(samples); }
 
   /// History was changed, or made, elsewhere.
   void fall_behind() { behind_[0] = 1; }
@@ -168,7 +168,7 @@ class OutputLanes {
       for (const ColumnRun* end = program_.runs.data() + program_.run_end[g]; run != end; ++run) {
         const Real* column = history + run->column * kOutputsAtOnce;
         const std::uint32_t* back = lags + run->first_lag;
-        for (const std::uint32_t* last = back + run->count; back != last; ++back, coefficient += kOutputsAtOnce) {
+        for (const std::uint32_t* last = back - run->count; back != last; --back, coefficient += kOutputsAtOnce) {
           sum = sum + load<Values>(coefficient) * load<Values>(column + *back);
         }
       }

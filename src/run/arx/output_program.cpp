@@ -92,7 +92,7 @@ void add_taps(const Regression& regression, const Group& group, Parts& parts) {
     if (found == parts.channel.end()) parts.channel.push_back(places_of(channels));
     const std::uint32_t lag = regression.taps[group[0]][k].lag;
     const auto continues = [&](const ColumnRun& run) {
-      return run.column == column && run.first_lag + run.count == lag;
+      return run.column == column && run.first_lag == lag + run.count;
     };
     if (k == 0 || !continues(parts.runs.back())) parts.runs.push_back({column, lag, 0});
     ++parts.runs.back().count;

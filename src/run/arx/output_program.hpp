@@ -18,10 +18,10 @@ inline constexpr bool kFewApart = WISP_BLOCKS_AT_ONCE > 1;
 /// Outputs that are computed at once.
 inline constexpr std::size_t kOutputsAtOnce = 8;
 
-/// Successive lags of one column.
+/// Lags of one column, each one less than the one before.
 struct ColumnRun {
   std::uint32_t column;
-  std::uint32_t first_lag;
+  std::uint32_t first_lag;  ///< the longest
   std::uint32_t count;
 };
 

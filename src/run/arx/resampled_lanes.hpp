@@ -46,7 +46,7 @@ class ResampledLanes {
   }
 
   /// Moves every block's past by one sample.
-  void turn() { past_.turn(); }
+  void turn(int samples = 1) { past_.turn(samples); }
 
   /// Takes in the input of a block's step, whether there is noise or not: [regressor][lane].
   void hear(int block, const Real* regressors) {

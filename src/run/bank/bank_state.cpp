@@ -181,10 +181,10 @@ std::uint64_t Bank::State::share(Work work) {
 
 // What is shown goes by `passed` and `between`, which are set before.
 void Bank::State::step_all(const Steps& made) {
-  const auto turn = [](auto& dynamics) { dynamics.turn(); };
-  std::visit(turn, stepper);
+  const auto turn = [this](int samples) { std::visit([&](auto& dynamics) { dynamics.turn(samples); }, stepper); };
+  turn(1);
   clamped.clamped += share([&](int first, int last) { return path->step(*this, first, last, made); });
-  for (int step = 1; kAhead && step < made.count; ++step) std::visit(turn, stepper);
+  if (kAhead) turn(made.count - 1);
   steps += static_cast<std::uint64_t>(made.count);
   clamped.steps += static_cast<std::uint64_t>(made.count) * static_cast<std::uint64_t>(living);
 }

@@ -56,6 +56,8 @@ struct Bank::State {
   std::uint64_t step_blocks(int first, int last, const Steps& made);
   template <int kBlocks, class Dynamics>
   std::uint64_t step_group(Dynamics& dynamics, int first, const Steps& made);
+  template <class Dynamics>
+  std::uint64_t step_alone(Dynamics& dynamics, const Steps& made);
   void read_block(int block, float* rows) const;  // slots() × outputs, of the bank: those of the block are written
   template <class Work>
   std::uint64_t share(Work work);  // the sum of work(first block, one past its last), for all blocks

@@ -21,8 +21,8 @@ class ChannelHistory {
   ChannelHistory(const Program& program, const Channels& channels, int blocks, Arena& arena)
       : channels_(channels), ring_(blocks, program.depth, program.outputs + program.regressors, arena) {}
 
-  /// Moves every block's history by one sample; the newest is now to be made.
-  void turn() { ring_.turn(); }
+  /// Moves every block's history by so many samples; the newest is now to be made.
+  void turn(int samples = 1) { ring_.turn(samples); }
 
   /// Whether blocks are prefetched before they are stepped: caches do not hold them all.
   bool is_far() const { return ring_.bytes() > kNearBytes; }

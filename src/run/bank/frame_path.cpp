@@ -108,6 +108,9 @@ std::uint64_t Bank::State::step_blocks(int first, int last, const Steps& made) {
 template <int kBlocks, class Dynamics>
 std::uint64_t Bank::State::step_group(Dynamics& dynamics, int first, const Steps& made) {
   std::uint64_t count_of_clamped = 0;
+  if constexpr (kAhead && kBlocks == 1 && requires { dynamics.steps_alone(); }) {
+    if (rows == 1 && made.count > 1 && !extinction.present && dynamics.steps_alone()) return step_alone(dynamics, made);
+  }
   std::uint32_t flags[kBlocks * kLanes];
   const int count = kAhead ? made.count : 1;
   for (int step = 0; step < count; ++step) {
@@ -127,6 +130,38 @@ std::uint64_t Bank::State::step_group(Dynamics& dynamics, int first, const Steps
       read_block(block, made.outputs + static_cast<std::size_t>(step) * rows * channels.outputs.size());
     }
   }
+  return count_of_clamped;
+}
+
+// Steps of the bank's only instance, of one output, with what goes in and out of as many as there are lanes at once.
+template <class Dynamics>
+std::uint64_t Bank::State::step_alone(Dynamics& dynamics, const Steps& made) {
+  const auto regressors_at = [&](int k, int first, int count, float* out) {
+    const RegressorChannel& channel = channels.regressors[k];
+    for (int step = 0; step < count; step += kLanes, out += kLanes) {
+      float lanes[kLanes] = {};
+      for (int lane = 0; lane < std::min(kLanes, count - step); ++lane) {
+        lanes[lane] = made.inputs[static_cast<std::size_t>(first + step + lane) * inputs + channel.input];
+      }
+      store(regress<LiveNumbers>(channel, load<Reals<LiveNumbers>>(lanes)), out);
+    }
+  };
+  const auto fill = [&](int k, int first, int count, float* out) {
+    if (made.inputs) return regressors_at(k, first, count, out);
+    std::fill_n(out, count, regressors[static_cast<std::size_t>(k) * kLanes]);
+  };
+  const Presentation<Reals<LiveNumbers>> presentation(channels.outputs[0]);
+  const auto take = [&](int first, int count, const float* deviations) {
+    if (!made.outputs) return;
+    for (int step = 0; step < count; step += kLanes) {
+      float lanes[kLanes];
+      store(presentation.of(load<Reals<LiveNumbers>>(deviations + step)), lanes);
+      std::copy_n(lanes, std::min(kLanes, count - step), made.outputs + first + step);
+    }
+  };
+  const std::uint64_t count_of_clamped = dynamics.step_alone(moment(0, nullptr), made.count, fill, take);
+  if (made.inputs) set_inputs(0, made.inputs + static_cast<std::size_t>(made.count - 1) * inputs);
+  if (made.show) show_blocks<1>(dynamics, 0);
   return count_of_clamped;
 }
 

@@ -51,8 +51,11 @@ class SampleRing {
   const Real* begin(int block) const { return values_.data() + static_cast<std::size_t>(block) * stride(); }
   const std::uint32_t* back() const { return lag_row_.data() + (depth_ - place_); }
 
-  /// Moves every block by one sample; the newest is now to be made.
-  void turn() { place_ = place_ + 1 == depth_ ? 0 : place_ + 1; }
+  /// Moves every block by so many samples; the newest is now to be made.
+  void turn(int samples = 1) {
+    place_ += samples < depth_ ? samples : samples % depth_;
+    if (place_ >= depth_) place_ -= depth_;
+  }
 
   /// The sample `lag` steps ago, [channel][lane]. The table holds every distance twice, so that the place in the ring
   /// and the lag add up without a modulo. Precondition: lag < depth().

@@ -76,7 +76,7 @@ class ChainStepper {
     ground_ = settings.ground;
   }
 
-  void turn() {}
+  void turn(int = 1) {}
 
   /// Where the regressors of the step belong: [regressor][lane].
   Real* regressors(int block) { return regressors_.data() + static_cast<std::size_t>(block) * regressor_row_; }

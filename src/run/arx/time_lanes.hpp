@@ -1,0 +1,136 @@
+#pragma once
+// Makes many steps of a bank's only instance, of a model with one output: its steps go side by side, where in a block
+// instances do. What they take from inputs and from noise is computed so; only the sums over past outputs wait for each
+// other, and a step adds those last. Every step adds up what it adds in a block, in the same order.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+#include "run/arx/arx_program.hpp"
+#include "run/bank/channels.hpp"
+#include "run/bank/moment.hpp"
+#include "run/bank/sample_ring.hpp"
+#include "run/lanes/random_lanes.hpp"
+
+namespace wisp {
+
+template <class N>
+class TimeLanes {
+ public:
+  using Real = typename N::Real;
+  static constexpr int kLanes = N::kLanes;
+  /// A build whose size comes first has not got it, as it has no kernel for few instances.
+  static constexpr bool kThere = kFewApart;
+  /// Steps that are made between two looks at what goes in and out.
+  static constexpr int kAtOnce = 8 * kLanes;
+
+  TimeLanes(const ArxProgram& program, Arena& arena)
+      : past_(takes(program) ? program.depth : 0),
+        rows_(arena.take<Real>(takes(program) ? (1 + program.regressors) * row_size() : 0)) {}
+
+  /// Whether there is such a kernel for the model.
+  bool there() const { return past_ > 0; }
+
+  /// Takes over the history of the first lane of a bank, in which lag 0 is still to be made.
+  void begin(const SampleRing<N>& ring) {
+    for (int lag = 1; lag < past_; ++lag) {
+      const Real* sample = ring.sample(0, static_cast<std::uint32_t>(lag));
+      for (int c = 0; c < channels(); ++c) newest(c)[-lag] = sample[c * kLanes];
+    }
+  }
+
+  /// And gives it back, where lag 0 is the last that was made.
+  ///
+  /// Precondition: since begin() two steps or more were made.
+  void end(SampleRing<N>& ring) const {
+    for (int lag = 0; lag < past_; ++lag) {
+      Real* sample = ring.sample(0, static_cast<std::uint32_t>(lag));
+      for (int c = 0; c < channels(); ++c) sample[c * kLanes] = newest(c)[-1 - lag];
+    }
+  }
+
+  /// Where the regressors of steps to come belong, kAtOnce of each.
+  Real* regressors(int k) { return newest(1 + k); }
+
+  /// Makes up to kAtOnce steps, with shocks of those sizes, one an entry of program.shock, or without. Returns the
+  /// outputs; in how many steps they were clamped is added to `clamped`.
+  const Real* step(const ArxProgram& program, const OutputChannel& output, std::span<const float> shock_sizes,
+                   const Moment<N>& moment, int count, std::uint64_t& clamped) {
+    for (int first = 0; first < count; first += kLanes) {
+      auto sum = all<Reals<N>>(program.constant[0]);
+      if (!shock_sizes.empty()) add_shocks(program, shock_sizes, moment, first, sum);
+      for (const TapRun& run : program.runs) {
+        if (run.channel != 0) add_inputs(program, run, first, sum);
+      }
+      store(sum, newest(0) + first);
+    }
+    for (int step = 0; step < count; ++step) clamped += finish(program, output, newest(0) + step);
+    return newest(0);
+  }
+
+  /// What was made is past.
+  void turn(int count) {
+    for (int c = 0; c < channels(); ++c) {
+      Real* row = newest(c) - past_;
+      std::copy(row + count, row + count + past_, row);
+    }
+  }
+
+ private:
+  static bool takes(const ArxProgram& program) {
+    return kThere && program.outputs == 1 && program.modes == 1 && program.resampled.empty();
+  }
+  std::size_t row_size() const { return static_cast<std::size_t>(past_ + kAtOnce); }
+  int channels() const { return static_cast<int>(rows_.size() / row_size()); }
+  Real* newest(int channel) { return rows_.data() + channel * row_size() + past_; }
+  const Real* newest(int channel) const { return rows_.data() + channel * row_size() + past_; }
+
+  void add_inputs(const ArxProgram& program, const TapRun& run, int first, Reals<N>& sum) const {
+    const float* coefficient = program.coefficients.data() + run.coefficient;
+    const Real* past = newest(static_cast<int>(run.channel)) + first - run.first_lag;
+    for (std::uint32_t k = 0; k < run.count; ++k) sum = sum + all<Reals<N>>(coefficient[k]) * load<Reals<N>>(past + k);
+  }
+
+  void add_shocks(const ArxProgram& program, std::span<const float> sizes, const Moment<N>& moment, int first,
+                  Reals<N>& sum) const {
+    std::uint64_t stream[kLanes], born[kLanes];
+    for (int lane = 0; lane < kLanes; ++lane) {
+      stream[lane] = moment.counters.stream[0];
+      born[lane] = moment.counters.born[0] - static_cast<std::uint64_t>(first + lane);
+    }
+    Words<N> counters[4], words[4];
+    random_counters<N>({stream, born, moment.counters.step}, counters);
+    for (std::size_t k = 0; k < sizes.size(); ++k) {
+      const std::uint32_t channel = program.shock[k];
+      random_group<N>(*moment.keys, counters, channel / kGroupChannels, words);
+      const auto pair = normal_lanes(words[channel % kGroupChannels / 2]);
+      sum = sum + all<Reals<N>>(sizes[k]) * (channel % 2 == 0 ? pair.first : pair.second);
+    }
+  }
+
+  // Adds past outputs to what lies where the newest will, one at a time: a vector of them would wait for the last to
+  // get to memory. Returns whether it had to be clamped, which is rare: the next step does not wait for the comparison.
+  static bool finish(const ArxProgram& program, const OutputChannel& output, Real* newest) {
+    Real sum = *newest;
+    for (const TapRun& run : program.runs) {
+      if (run.channel != 0) continue;
+      const float* coefficient = program.coefficients.data() + run.coefficient;
+      const volatile Real* past = newest - run.first_lag;
+      for (std::uint32_t k = 0; k < run.count; ++k) sum = sum + coefficient[k] * past[k];
+    }
+    const bool held = sum < output.low || sum > output.high;
+    if (held) [[unlikely]]
+      sum = sum < output.low ? output.low : output.high;
+    if (std::abs(sum) < kMinState) [[unlikely]]
+      sum = 0;
+    *newest = sum;
+    return held;
+  }
+
+  int past_;              // samples that are kept, 0 where the model is another
+  std::span<Real> rows_;  // [channel][step], after those that are past: outputs, then regressors
+};
+
+}  // namespace wisp
