@@ -7,6 +7,7 @@
 #include "learn/arx/curve/arx_curves.hpp"
 #include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/plain_model.hpp"
+#include "learn/flame/wind_gain.hpp"
 #include "learn/numeric/constants.hpp"
 #include "learn/outline/outline_judgement.hpp"
 #include "learn/same_rate.hpp"

@@ -107,7 +107,7 @@ Result<InputTrack> InputTrack::from(const Model& model, const Arguments& argumen
   const auto names = input_names(model, arguments);
   if (!names) return names.error();
   auto recording = read_table(path, arguments, {.rate_hz = model.rate_hz, .inputs = *names});
-  if (recording && !arguments.on("own-gain")) recording = at_trained_gain(model, *std::move(recording));
+  if (recording) recording = in_model_units(model, *std::move(recording), *names, arguments.on("own-gain"));
   if (!recording) return recording.error();
   const double frames = static_cast<double>(recording->rows()) * model.rate_hz / recording->rate_hz;
   if (!(frames <= kMaxFrames)) {
@@ -115,9 +115,8 @@ Result<InputTrack> InputTrack::from(const Model& model, const Arguments& argumen
                  " frames of the model, expected at most " + shown(kMaxFrames) + ": is the rate right?"};
   }
   for (const std::string& name : *names) {
-    const auto channel = find_channel(*recording, name);
-    if (!channel) return Error{path + ": has no channel " + name + ", which the model takes as input"};
-    track.tracks_.push_back(at_rate(recording->channels[*channel].samples, recording->rate_hz, model.rate_hz));
+    const auto& samples = recording->channels[*find_channel(*recording, name)].samples;
+    track.tracks_.push_back(at_rate(samples, recording->rate_hz, model.rate_hz));
     track.rows_ = std::max(track.rows_, track.tracks_.back().size());
   }
   return track;

@@ -57,10 +57,16 @@ struct PredictionOptions {
 /// predicts no rows; a start that the model cannot have; steps out of range.
 Result<Recording> predict(const Model& model, const Recording& recording, const PredictionOptions& options = {});
 
-/// A recording whose inputs are as loud at 1 as in those that the model was learned from, as validate() and predict()
-/// hear it; as it is where either does not say how loud that was. Errors, naming the recording: what it says of its
-/// loudness is not a positive number.
-Result<Recording> at_trained_gain(const Model& model, Recording recording);
+/// A recording whose channels `names`, one an input of the model, are in the units of those inputs, as validate() and
+/// predict() hear them: as loud as the microphone of the training heard them, where both say how loud 1 was, over what
+/// was 1 when the model was learned. `own_gain`: over the recording's own 95th percentile while it blows, where the
+/// model is one of an outline: another microphone heard it. What already has an input's unit stays as it is: a model
+/// played it. Errors, naming the recording: a channel that it has not; what it says of its loudness is not a positive
+/// number.
+///
+/// Precondition: as many names as inputs.
+Result<Recording> in_model_units(const Model& model, Recording recording, std::span<const std::string> names,
+                                 bool own_gain = false);
 
 /// A model and what it is called among others.
 struct NamedModel {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "learn/arx/judge/free_run_parts.hpp"
+#include "learn/outline/outline_inputs.hpp"
 #include "record/loudness.hpp"
 #include "record/number_text.hpp"
 #include "wisp/learn/validate.hpp"
@@ -98,6 +99,19 @@ Result<void> compare(std::span<const Recording> recordings, const OutlineRecipe&
   return {};
 }
 
+// What of a recording's channel is 1 in an input; 1 where neither says.
+double value_of_one(const Model& model, std::size_t input, const Recording& recording, std::size_t channel,
+                    bool own_gain) {
+  const Channel& heard = recording.channels[channel];
+  if (!heard.unit.empty() && heard.unit == model.inputs[input].unit) return 1;
+  if (own_gain) {
+    if (!std::holds_alternative<OutlineView>(model.view)) return 1;
+    const auto own = scaled_input({&recording, 1}, heard.name);
+    return own ? own->scale : 1;  // in a calm one
+  }
+  return input < model.training.inputs.size() ? model.training.inputs[input].scale : 1;
+}
+
 }  // namespace
 
 Result<std::vector<Recording>> at_common_gain(std::vector<Recording> recordings) {
@@ -148,6 +162,24 @@ Result<Recording> at_trained_gain(const Model& model, Recording recording) {
     auto heard = heard_at(std::move(recording), model.inputs[k].name, trained);
     if (!heard) return heard.error();
     recording = *std::move(heard);
+  }
+  return recording;
+}
+
+Result<Recording> in_model_units(const Model& model, Recording recording, std::span<const std::string> names,
+                                 bool own_gain) {
+  if (!own_gain) {
+    auto heard = at_trained_gain(model, std::move(recording));
+    if (!heard) return heard.error();
+    recording = *std::move(heard);
+  }
+  for (std::size_t k = 0; k < model.inputs.size(); ++k) {
+    const auto found = find_channel(recording, names[k]);
+    if (!found) return Error{recording.source + ": has no channel " + names[k] + ", which the model takes as input"};
+    const double one = value_of_one(model, k, recording, *found, own_gain);
+    Channel& channel = recording.channels[*found];
+    for (double& value : channel.samples) value /= one;
+    channel.unit = model.inputs[k].unit;
   }
   return recording;
 }

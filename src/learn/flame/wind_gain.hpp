@@ -35,4 +35,8 @@ Result<WindGain> choose_wind_gain(std::span<const Recording> recordings, const O
 /// where either does not say. Errors: as one_rms().
 Result<double> factor_to_trained_gain(const Model& model, const Recording& recording);
 
+/// A recording whose inputs are as loud at 1 as in those that the model was learned from; as it is where either does
+/// not say how loud that was. Errors: as one_rms().
+Result<Recording> at_trained_gain(const Model& model, Recording recording);
+
 }  // namespace wisp

@@ -102,6 +102,30 @@ TEST(WindGain, ARecordingIsValidatedAsLoudAsTheTraining) {
   EXPECT_EQ(wind_at(*at_trained_gain(fit.model, silent), 40), wind_at(later, 40));
 }
 
+const std::string kWind[] = {"wind"};
+
+TEST(WindGain, InModelUnitsTheTrainingsOneIsOne) {
+  const auto fit = *fit_outline(std::vector{heard(1, 1, 1)}, kQuick);
+  const double scale = fit.model.training.inputs[0].scale;
+  EXPECT_GT(std::abs(scale - 1), 0.05);
+  const Recording later = heard(3, 2.5, 1);
+  const Recording driving = *in_model_units(fit.model, later, kWind);
+  EXPECT_NEAR(wind_at(driving, 40), 2.5 * wind_at(later, 40) / scale, 1e-9);
+  EXPECT_EQ(wind_at(*in_model_units(fit.model, driving, kWind), 40), wind_at(driving, 40));  // it is in them
+  const Recording own = *in_model_units(fit.model, later, kWind, true);
+  const Recording louder = *in_model_units(fit.model, heard(3, 1, 1), kWind, true);
+  EXPECT_NEAR(wind_at(own, 40), wind_at(louder, 40), 1e-9);
+}
+
+TEST(WindGain, ACalmRecordingHasNoGainOfItsOwn) {
+  const auto fit = *fit_outline(std::vector{heard(1, 1, 1)}, kQuick);
+  Recording calm = heard(3, 1, 1);
+  for (double& value : calm.channels[*find_channel(calm, "wind")].samples) value = 0;
+  EXPECT_EQ(wind_at(*in_model_units(fit.model, calm, kWind, true), 40), 0);
+  const std::string other[] = {"breath"};
+  EXPECT_NE(in_model_units(fit.model, calm, other).error().message.find("has no channel breath"), std::string::npos);
+}
+
 TEST(WindGain, AModelOfScalesOfTheirOwnKnowsNoLoudness) {
   const auto fit = *fit_outline(std::vector{heard(1, 1, 1), heard(2, 2, 1)}, kQuick);
   const Recording later = heard(3, 2.5, 1);
