@@ -204,6 +204,15 @@ void bind_recipes(py::module_& module) {
       py::arg("model"), py::arg("recording"), py::arg("options") = ValidationOptions{}, py::kw_only(),
       py::arg("progress") = py::none(), "Holds a model against a recording that it was not learned from.");
   module.attr("FREE_RUN") = kFreeRun;
+  module.def(
+      "in_model_units",
+      [](const Model& model, const Recording& recording, bool own_gain) {
+        std::vector<std::string> names;
+        for (const Input& input : model.inputs) names.push_back(input.name);
+        return unwrapped(in_model_units(model, recording, names, own_gain));
+      },
+      py::arg("model"), py::arg("recording"), py::kw_only(), py::arg("own_gain") = false,
+      "A recording whose inputs are in the model's units: what a bank takes.");
 }
 
 }  // namespace wisp::python

@@ -219,6 +219,7 @@ class ValidationOptions:
     seed: int
 
 def validate(model: Model, recording: Recording, options: ValidationOptions = ..., *, progress: Progress = None) -> Report: ...
+def in_model_units(model: Model, recording: Recording, *, own_gain: bool = False) -> Recording: ...
 
 class Bank:
     """Living instances of one model, stepped together. Rows of arrays are slots."""

@@ -317,7 +317,7 @@ TEST_F(InfoPlayed, ResampledResidualsJumpAsInRunWhileTheWindChanges) {
   ASSERT_TRUE(
       write_model(at("m.wisp"), flame_model({.points = 4, .wind = InputShape::kSplitSign, .resampled_rows = 60})));
   std::ofstream table(at("wind.csv")), lines(at("wind.txt"));
-  table << "# wisp-recording 1\n# rate_hz 30\nu:wind\n";
+  table << "# wisp-recording 1\n# rate_hz 30\nu:wind[m/s]\n";  // the golden model's unit: taken as it is
   for (int t = 0; t < 80; ++t) {
     const double wind = t % 40 < 15 ? 0 : std::sin(0.3 * t);
     table << wind << '\n';

@@ -293,7 +293,9 @@ std::vector<Flag> all_flags() {
       {"output", Kind::kOutput, "OUT", "", "what to write: OUT.csv, OUT.png or OUT.mp4", {}, true},
       {"frames", Kind::kInteger, "N", "", "frames at the model's rate; default: as many as --input has"},
       loop_flag(),
-      {"input", Kind::kPath, "REC", "", "a recording, or a WAV of blowing, whose input drives the model"},
+      {"input", Kind::kPath, "REC", "",
+       "a recording, heard as validate hears it unless its column has the input's own unit, or a WAV of blowing: the "
+       "inputs"},
       {"inputs", Kind::kNames, "A,B", "",
        "columns of --input that are the model's inputs, in its order, where they have other names"},
       {"own-gain", Kind::kSwitch, "", "",

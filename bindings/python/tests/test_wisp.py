@@ -145,6 +145,20 @@ class Playing(unittest.TestCase):
         two.step(50)
         np.testing.assert_array_equal(one.outputs(), two.outputs())
 
+    def test_a_recording_drives_it_as_the_programs_does(self):
+        with tempfile.TemporaryDirectory() as folder:
+            clip, played = pathlib.Path(folder) / "candle.mp4", pathlib.Path(folder) / "played.csv"
+            run("simulate", "candle", "-o", clip, "--seconds", "4", "--seed", "5", "--quiet")
+            captured = wisp.capture(clip)
+            model = wisp.learn(captured.recording, wisp.FlameRecipe()).model
+            path, recorded = pathlib.Path(folder) / "model.wisp", pathlib.Path(folder) / "candle.csv"
+            path.write_bytes(bytes(model))
+            run("capture", "flame", clip, "-o", recorded, "--quiet")
+            run("run", path, "--input", recorded, "-o", played, "--quiet")
+            wind = wisp.in_model_units(model, captured.recording)["wind"]
+            self.assertFalse(np.array_equal(wind, captured.recording["wind"]))
+            np.testing.assert_allclose(wisp.read_csv(played)["wind"], wind, rtol=1e-6)
+
     def test_strong_wind_puts_it_out(self):
         bank = wisp.Bank(wisp.read_model(flame))
         bank.set_inputs([3.0])
