@@ -100,16 +100,30 @@ Result<void> compare(std::span<const Recording> recordings, const OutlineRecipe&
 }
 
 // What of a recording's channel is 1 in an input; 1 where neither says.
-double value_of_one(const Model& model, std::size_t input, const Recording& recording, std::size_t channel,
-                    bool own_gain) {
-  const Channel& heard = recording.channels[channel];
-  if (!heard.unit.empty() && heard.unit == model.inputs[input].unit) return 1;
+Result<double> value_of_one(const Model& model, std::size_t input, const Recording& recording, const Channel& heard,
+                            bool own_gain) {
+  if (!heard.unit.empty() && heard.unit == model.inputs[input].unit) return 1.0;
   if (own_gain) {
-    if (!std::holds_alternative<OutlineView>(model.view)) return 1;
+    if (!std::holds_alternative<OutlineView>(model.view)) return 1.0;
     const auto own = scaled_input({&recording, 1}, heard.name);
-    return own ? own->scale : 1;  // in a calm one
+    return own ? own->scale : 1.0;  // in a calm one
   }
-  return input < model.training.inputs.size() ? model.training.inputs[input].scale : 1;
+  if (input >= model.training.inputs.size()) return 1.0;
+  const InputTraining& trained = model.training.inputs[input];
+  if (trained.one_rms == 0) return trained.scale;
+  const auto factor = factor_at(recording, heard.name, trained.one_rms);
+  if (!factor) return factor.error();
+  return trained.scale / *factor;
+}
+
+// Divides a channel, and says how loud its 1 is then.
+Result<void> divide(Recording& recording, Channel& channel, double one) {
+  if (one == 1) return {};
+  for (double& value : channel.samples) value /= one;
+  const auto rms = one_rms(recording, channel.name);
+  if (!rms) return rms.error();
+  if (*rms) set_one_rms(recording, channel.name, **rms * one * one);
+  return {};
 }
 
 }  // namespace
@@ -168,17 +182,13 @@ Result<Recording> at_trained_gain(const Model& model, Recording recording) {
 
 Result<Recording> in_model_units(const Model& model, Recording recording, std::span<const std::string> names,
                                  bool own_gain) {
-  if (!own_gain) {
-    auto heard = at_trained_gain(model, std::move(recording));
-    if (!heard) return heard.error();
-    recording = *std::move(heard);
-  }
   for (std::size_t k = 0; k < model.inputs.size(); ++k) {
     const auto found = find_channel(recording, names[k]);
     if (!found) return Error{recording.source + ": has no channel " + names[k] + ", which the model takes as input"};
-    const double one = value_of_one(model, k, recording, *found, own_gain);
     Channel& channel = recording.channels[*found];
-    for (double& value : channel.samples) value /= one;
+    const auto one = value_of_one(model, k, recording, channel, own_gain);
+    if (!one) return one.error();
+    if (auto ok = divide(recording, channel, *one); !ok) return ok.error();
     channel.unit = model.inputs[k].unit;
   }
   return recording;

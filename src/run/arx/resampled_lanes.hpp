@@ -45,7 +45,7 @@ class ResampledLanes {
     for (int lag = 0; lag < past_.depth(); ++lag) past(block, static_cast<std::uint32_t>(lag))[lane] = Real(0.0f);
   }
 
-  /// Moves every block's past by one sample.
+  /// Moves every block's past by so many samples.
   void turn(int samples = 1) { past_.turn(samples); }
 
   /// Takes in the input of a block's step, whether there is noise or not: [regressor][lane].

@@ -117,6 +117,31 @@ TEST(WindGain, InModelUnitsTheTrainingsOneIsOne) {
   EXPECT_NEAR(wind_at(own, 40), wind_at(louder, 40), 1e-9);
 }
 
+TEST(WindGain, AColumnOfAnotherNameIsHeardAsLoud) {
+  const auto fit = *fit_outline(std::vector{heard(1, 1, 1)}, kQuick);
+  const Recording later = heard(3, 2.5, 1);
+  Recording renamed = later;
+  Channel& channel = renamed.channels[*find_channel(renamed, "wind")];
+  channel.name = "breath";
+  set_one_rms(renamed, "breath", **one_rms(later, "wind"));
+  const std::string name[] = {"breath"};
+  ASSERT_TRUE(in_model_units(fit.model, renamed, name));
+  const Recording driving = *in_model_units(fit.model, renamed, name);
+  EXPECT_NEAR(driving.channels[*find_channel(driving, "breath")].samples[40],
+              wind_at(*in_model_units(fit.model, later, kWind), 40), 1e-9);
+}
+
+TEST(WindGain, InModelUnitsARecordingStillSaysHowLoudItIs) {
+  const auto fit = *fit_outline(std::vector{heard(1, 1, 1)}, kQuick);
+  const Recording later = heard(3, 2.5, 1);
+  const auto found = *judge_outline(fit.model, *in_model_units(fit.model, later, kWind), {.fidelity = false});
+  const auto same = *judge_outline(fit.model, later, {.fidelity = false});
+  EXPECT_NEAR(found.figures.tip_fit_percent.back(), same.figures.tip_fit_percent.back(), 1e-6);
+  Recording bad = later;
+  bad.attributes = {{"wind.one_rms", "-2"}};
+  EXPECT_FALSE(in_model_units(fit.model, bad, kWind));
+}
+
 TEST(WindGain, ACalmRecordingHasNoGainOfItsOwn) {
   const auto fit = *fit_outline(std::vector{heard(1, 1, 1)}, kQuick);
   Recording calm = heard(3, 1, 1);

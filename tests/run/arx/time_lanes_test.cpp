@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <random>
 #include <vector>
 
+#include "run/bank/bits_of.hpp"
 #include "run/flame_model.hpp"
 #include "wisp/run/bank.hpp"
 
@@ -79,16 +79,6 @@ std::vector<float> single_steps(Bank& bank, int count, std::span<const float> in
     bank.outputs(std::span(all).subspan(static_cast<std::size_t>(step) * bank.slots(), bank.slots()));
   }
   return all;
-}
-
-std::vector<std::byte> saved(const Bank& bank) {
-  std::vector<std::byte> bytes(bank.save_bytes());
-  bank.save(bytes);
-  return bytes;
-}
-
-bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
 TEST(TimeLanes, AreThereForOneOutputThatPlaysNoRecordedResiduals) {

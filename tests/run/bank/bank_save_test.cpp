@@ -8,6 +8,7 @@
 
 #include "base/hash.hpp"
 #include "model/sample_model.hpp"
+#include "run/bank/bits_of.hpp"
 #include "run/flame_model.hpp"
 #include "wisp/run/bank.hpp"
 
@@ -21,12 +22,6 @@ Bank bank_of(const Model& model, int capacity, std::uint64_t seed = 1) {
   auto bank = Bank::create(model, {.capacity = capacity, .seed = seed});
   EXPECT_TRUE(bank) << bank.error().message;
   return std::move(bank).value();
-}
-
-std::vector<std::byte> saved(const Bank& bank) {
-  std::vector<std::byte> bytes(bank.save_bytes());
-  bank.save(bytes);
-  return bytes;
 }
 
 std::vector<float> outputs_of(const Bank& bank) {

@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <thread>
 #include <vector>
 
 #include "model/sample_chain.hpp"
 #include "model/sample_switched.hpp"
+#include "run/bank/bits_of.hpp"
 #include "run/flame_model.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/extinction_facet.hpp"
@@ -52,16 +52,6 @@ std::vector<float> single_steps(Bank& bank, const std::vector<float>& winds) {
     bank.outputs(std::span(all).subspan(step * row_out, row_out));
   }
   return all;
-}
-
-std::vector<std::byte> saved(const Bank& bank) {
-  std::vector<std::byte> bytes(bank.save_bytes());
-  bank.save(bytes);
-  return bytes;
-}
-
-bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
 void run_threads(void*, int parts, void (*task)(void* of, int part), void* of) {

@@ -3,12 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <cstring>
 #include <thread>
 #include <vector>
 
 #include "model/sample_chain.hpp"
 #include "model/sample_switched.hpp"
+#include "run/bank/bits_of.hpp"
 #include "run/flame_model.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/chain_facet.hpp"
@@ -55,10 +55,6 @@ std::vector<float> lives(Bank& bank, int frames) {
   all.push_back(static_cast<float>(bank.clamped().clamped));
   all.push_back(static_cast<float>(bank.clamped().steps));
   return all;
-}
-
-bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
 TEST(Crew, GivesTheBitsOfOneThread) {

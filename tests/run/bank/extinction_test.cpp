@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/hash.hpp"
+#include "run/bank/bits_of.hpp"
 #include "run/flame_model.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/cost.hpp"
@@ -384,12 +385,6 @@ TEST(Extinction, TheBanksRuleIsTheDefinition) {
     }
   }
   EXPECT_GT(deaths, 10);
-}
-
-std::vector<std::byte> saved(const Bank& bank) {
-  std::vector<std::byte> bytes(bank.save_bytes());
-  bank.save(bytes);
-  return bytes;
 }
 
 // Some harmed, some in decay, some extinguished, some in re-ignition.

@@ -13,6 +13,7 @@
 #include "base/hash.hpp"
 #include "model/sample_chain.hpp"
 #include "model/sample_switched.hpp"
+#include "run/bank/bits_of.hpp"
 #include "run/flame_model.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/chain_facet.hpp"
@@ -59,12 +60,6 @@ class HostileState : public testing::TestWithParam<Kind> {
     }
     for (int k = 0; k < 11; ++k) made->step();
     return std::move(made).value();
-  }
-
-  static std::vector<std::byte> saved(const Bank& bank) {
-    std::vector<std::byte> bytes(bank.save_bytes());
-    bank.save(bytes);
-    return bytes;
   }
 
   static std::vector<std::byte> harmed(std::vector<std::byte> bytes, std::size_t at, float number) {
