@@ -123,6 +123,7 @@ TEST(WindGain, AColumnOfAnotherNameIsHeardAsLoud) {
   Recording renamed = later;
   Channel& channel = renamed.channels[*find_channel(renamed, "wind")];
   channel.name = "breath";
+  renamed.attributes.clear();
   set_one_rms(renamed, "breath", **one_rms(later, "wind"));
   const std::string name[] = {"breath"};
   ASSERT_TRUE(in_model_units(fit.model, renamed, name));
