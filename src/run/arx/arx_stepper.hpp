@@ -80,7 +80,7 @@ class ArxStepper : public ChannelHistory<N> {
     step_blocks<kBlocks>(block, moment);
   }
 
-  /// Whether step_alone() makes the steps of a bank's only instance.
+  /// Whether step_alone() makes the steps of a bank's only instance. It knows nothing of modes: not where kGroup is 1.
   bool steps_alone() const { return alone_.there(); }
 
   /// Makes `count` steps of it, two or more, as so many calls of step() with a turn() between. For each regressor,

@@ -108,7 +108,7 @@ std::uint64_t Bank::State::step_blocks(int first, int last, const Steps& made) {
 template <int kBlocks, class Dynamics>
 std::uint64_t Bank::State::step_group(Dynamics& dynamics, int first, const Steps& made) {
   std::uint64_t count_of_clamped = 0;
-  if constexpr (kAhead && kBlocks == 1 && requires { dynamics.steps_alone(); }) {
+  if constexpr (kAhead && kBlocks == 1 && Dynamics::kGroup > 1) {
     if (rows == 1 && made.count > 1 && !extinction.present && dynamics.steps_alone()) return step_alone(dynamics, made);
   }
   std::uint32_t flags[kBlocks * kLanes];

@@ -247,5 +247,20 @@ TEST(SwitchedBank, ASingleModeHasTheBitsOfItsArxModel) {
   }
 }
 
+TEST(SwitchedBank, ManyStepsOfOneOutputKnowTheirMode) {
+  Model filter;
+  filter.rate_hz = 30;
+  filter.outputs = {{"y", "", -1, 1}};
+  ArxModel arx;
+  arx.orders = {OrderMatrix(1, 1, 2), OrderMatrix(1, 0), OrderMatrix(1, 0)};
+  arx.theta = {{-1.2, 0.5}};
+  arx.constant = arx.output_mean = {0};
+  arx.noise.sd = {0.1};
+  filter.dynamics = switched_of(arx);
+  Bank bank = bank_of(filter, 1);
+  bank.step(20);
+  EXPECT_EQ(bank.switched()->mode_of(bank.at(0)), 0);
+}
+
 }  // namespace
 }  // namespace wisp
