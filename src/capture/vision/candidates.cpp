@@ -252,15 +252,19 @@ Region box_of(const Profile& profile, BaseSide base) {
   return {begin, all.low, length, all.width()};
 }
 
-double score_of(const Candidate& c, const Evidence& evidence) {
-  const double moves = kStillWorth + (1 - kStillWorth) * std::min(1.0, c.change / kSurelyMoves);
-  const double general =
-      c.presence * moves * std::min(1.0, 2 * (1 - c.change)) * std::exp(-c.softness) * (c.stands ? kAloneIsBetter : 1);
+// What a still picture tells.
+double likeness_of(const Candidate& c, const Evidence& evidence) {
+  const double general = c.presence * std::exp(-c.softness) * (c.stands ? kAloneIsBetter : 1);
   if (!evidence.flame) return general * std::sqrt(std::sqrt(c.area));
   // A higher level leaves more room for what the flame lights to become brighter later.
   const double room = c.level / 255.0;
-  return general * room * std::pow(c.light, kLightPower) * std::pow(c.solidity, kSolidPower) * c.taper * c.steadiness *
-         c.steadiness;
+  return general * room * std::pow(c.light, kLightPower) * std::pow(c.solidity, kSolidPower) * c.taper;
+}
+
+// What its movement adds.
+double liveliness_of(const Candidate& c, const Evidence& evidence) {
+  const double moves = kStillWorth + (1 - kStillWorth) * std::min(1.0, c.change / kSurelyMoves);
+  return moves * std::min(1.0, 2 * (1 - c.change)) * (evidence.flame ? c.steadiness * c.steadiness : 1);
 }
 
 }  // namespace
@@ -352,7 +356,8 @@ void weigh(std::vector<Candidate>& candidates, const std::vector<Candidate>* bel
     const double wider = std::max(area_in(below, c, 2 * c.area), c.area);
     const double narrower = std::min(area_in(above, c, 0), c.area);
     c.softness = (wider - narrower) / c.area;
-    c.score = score_of(c, evidence);
+    c.likeness = likeness_of(c, evidence);
+    c.score = c.likeness * liveliness_of(c, evidence);
   }
 }
 

@@ -61,14 +61,16 @@ struct Candidate {
   double steadiness = 0;     ///< how much less its base moves than its tip: 0 only the base moves, 1 only the tip
   double contrast = 255;     ///< its brightness less that of what is around it, levels, once its level has settled
   double softness = 0;       ///< share of its area that comes or goes with a level's change
-  double score = 0;          ///< all of these in one: more is likelier
+  double likeness = 0;       ///< what a still picture tells of all these, in one: more is likelier
+  double score = 0;          ///< … and how it moves
 };
 
 /// All candidates in one channel at one level.
 std::vector<Candidate> find_candidates(const PictureGrid& grid, const PictureGrid& luma, int level,
                                        const Evidence& evidence);
 
-/// Sets `softness` from the candidates of the levels below and above (that below may be null), and the score.
+/// Sets `softness` from the candidates of the levels below and above (that below may be null), the likeness and the
+/// score.
 void weigh(std::vector<Candidate>& candidates, const std::vector<Candidate>* below, const std::vector<Candidate>* above,
            const Evidence& evidence);
 

@@ -22,7 +22,7 @@ constexpr double kAsBrightAsBest = 0.9;  // … and as bright
 constexpr double kMoves = 0.05;          // … and changes by this share, as flames do, or by half as much as the first
 constexpr double kAsGood = 0.5;          // at another level it is still the same thing when it is this share as likely
 constexpr double kHalfWay = 0.58;
-constexpr double kNearlyAsLikely = 0.82;  // one that shows more of the same flame is at least this share as likely
+constexpr double kNearlyAsLikely = 0.75;  // one that shows more of the same flame is at least this share as likely
 constexpr double kNearlyAsBright = 0.95;  // … and as bright
 constexpr double kSameHome = 0.6;         // … and shares this much of its place
 constexpr double kBrightest = 3e-4;       // share of the picture that is as bright as anything
@@ -216,7 +216,7 @@ int half_way(const Brightness& bright) {
 Candidate settle_level(const Candidate& thing, const std::vector<Candidate>& candidates, int wanted) {
   Candidate best = thing;
   for (const Candidate& c : candidates) {
-    if (c.channel != thing.channel || c.stands != thing.stands || c.score < kAsGood * thing.score) continue;
+    if (c.channel != thing.channel || c.stands != thing.stands || c.likeness < kAsGood * thing.likeness) continue;
     if (c.seen.size() < thing.seen.size() || shared_share(c.home, thing.home) < kSameHome) continue;
     if (std::abs(c.level - wanted) < std::abs(best.level - wanted)) best = c;
   }
@@ -224,16 +224,48 @@ Candidate settle_level(const Candidate& thing, const std::vector<Candidate>& can
   return best;
 }
 
-// The largest that is as good as a thing and in its place: where a channel shows only a flame's bright core, or its
-// feet parted by the wick, another shows the whole of it; a glow or wax would be larger too, but with a softer rim.
-Candidate whole(const Candidate& thing, const std::vector<Candidate>& candidates) {
-  Candidate best = thing;
+// Whether it is as good a view of a thing. Not by how they move: a part moves more than the whole, and where a flame
+// stands nearly still it is chance.
+bool as_good(const Candidate& c, const Candidate& thing) {
+  return c.stands == thing.stands && c.likeness >= kNearlyAsLikely * thing.likeness &&
+         c.light >= kNearlyAsBright * thing.light && c.softness <= thing.softness && c.seen.size() >= thing.seen.size();
+}
+
+Candidate settled(const Candidate& thing, const std::vector<Candidate>& candidates, std::span<const Picture> pictures,
+                  const Region& area, bool dark) {
+  const auto bright = brightness_of(thing, pictures, area, dark);
+  Candidate out = settle_level(thing, candidates, bright ? half_way(*bright) : thing.level);
+  if (bright) out.contrast = bright->inside - bright->outside;
+  return out;
+}
+
+// The likeliest good view of a thing in each channel, about where `home` is.
+std::array<const Candidate*, 4> views_of(const Candidate& thing, const Region& home,
+                                         const std::vector<Candidate>& candidates) {
+  std::array<const Candidate*, 4> views{};
   for (const Candidate& c : candidates) {
-    if (c.stands != thing.stands || c.score < kNearlyAsLikely * thing.score ||
-        c.light < kNearlyAsBright * thing.light || c.softness > thing.softness)
-      continue;
-    if (c.seen.size() < thing.seen.size() || shared_share(c.home, thing.home) < kSameHome) continue;
-    if (c.area > best.area) best = c;
+    if (!as_good(c, thing) || shared_share(c.home, home) < kSameHome) continue;
+    const Candidate*& view = views[static_cast<std::size_t>(c.channel)];
+    if (view == nullptr || c.likeness > view->likeness) view = &c;
+  }
+  return views;
+}
+
+// A thing at its level in the channel that shows most of it: where one shows only a flame's bright core, or its feet
+// parted by the wick, another shows the whole, and clips of one camera are looked at alike. A glow or wax would be
+// larger too, but with a softer rim. From a larger view once more, since a core shares little of the whole's place.
+Candidate whole(const Candidate& thing, const std::vector<Candidate>& candidates, std::span<const Picture> pictures,
+                const Region& area, bool dark) {
+  Candidate best = settled(thing, candidates, pictures, area, dark);
+  for (bool larger = true; larger;) {
+    larger = false;
+    for (const Candidate* view : views_of(thing, best.home, candidates)) {
+      if (view == nullptr || view->channel == best.channel) continue;
+      Candidate other = settled(*view, candidates, pictures, area, dark);
+      if (other.area <= best.area) continue;
+      best = std::move(other);
+      larger = true;
+    }
   }
   return best;
 }
@@ -246,11 +278,7 @@ Candidate refine(const Candidate& coarse, const std::vector<Candidate>& all, std
   const std::vector<Candidate> fine =
       finer ? scan(sample_all(pictures, around, kFineGrid, options), pictures.front(), options, evidence) : all;
   const auto found = std::find_if(fine.begin(), fine.end(), [&](const Candidate& c) { return same_place(c, coarse); });
-  const Candidate thing = whole(found == fine.end() || !finer ? coarse : *found, fine);
-  const auto bright = brightness_of(thing, pictures, area, options.dark);
-  Candidate settled = settle_level(thing, fine, bright ? half_way(*bright) : thing.level);
-  if (bright) settled.contrast = bright->inside - bright->outside;
-  return settled;
+  return whole(found == fine.end() || !finer ? coarse : *found, fine, pictures, area, options.dark);
 }
 
 // Share of a thing that is as bright in every channel as that channel gets anywhere in it: there the camera tells no

@@ -93,6 +93,34 @@ TEST(Survey, ALampFilmedFromAHandIsNoOtherFlame) {
   EXPECT_LT(survey->home.x, 200);
 }
 
+// A flame that is wider in red than in green, over twenty pictures in which its tip sways by `sway` pixels, and its
+// green by `green` times as much.
+PixelChannel channel_of_coloured(double sway, double green) {
+  std::deque<std::vector<std::uint8_t>> kept;
+  std::vector<Picture> pictures;
+  for (int k = 0; k < 20; ++k) {
+    Flame red, core;
+    red.lean = sway * std::sin(0.9 * k);
+    core.half_width = 0.8 * red.half_width, core.height = 0.9 * red.height;
+    core.lean = green * red.lean;
+    const Plane wide = support::flame_picture(red, 160, 180, 250), narrow = support::flame_picture(core, 160, 180, 250);
+    std::vector<std::uint8_t> rgb;
+    for (std::size_t i = 0; i < wide.pixels.size(); ++i) {
+      rgb.insert(rgb.end(), {wide.pixels[i], narrow.pixels[i], std::uint8_t{8}});
+    }
+    kept.push_back(std::move(rgb));
+    pictures.push_back(rgb_picture({kept.back().data(), 160, 180, 3 * 160}, 3));
+  }
+  return survey_scene(pictures, {}).value().channel;
+}
+
+TEST(Survey, AFlameThatStandsNearlyStillIsLookedAtInTheChannelThatShowsMostOfIt) {
+  EXPECT_EQ(channel_of_coloured(15, 1), PixelChannel::kRed);
+  EXPECT_EQ(channel_of_coloured(2, 1), PixelChannel::kRed);
+  EXPECT_EQ(channel_of_coloured(2, 2), PixelChannel::kRed);
+  EXPECT_EQ(channel_of_coloured(1, 3), PixelChannel::kRed);
+}
+
 TEST(Survey, DarkThingsAreFoundOnLightGround) {
   Clip clip;
   for (int k = 0; k < 10; ++k) {
