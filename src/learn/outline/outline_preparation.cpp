@@ -59,6 +59,18 @@ Result<void> add(const Recording& recording, double pixels_per_unit, PreparedOut
   return {};
 }
 
+// The same edge lies elsewhere in another colour: a flame is narrower in green than in red.
+void warn_of_other_colours(std::span<const Recording> recordings, PreparedOutlines& prepared) {
+  const auto first = find_attribute(recordings.front(), "channel");
+  for (const Recording& recording : recordings.subspan(1)) {
+    const auto own = find_attribute(recording, "channel");
+    if (!first || !own || *own == *first) continue;
+    prepared.warnings.push_back(recording.source + ": its outlines were found in " + std::string(*own) + ", those of " +
+                                recordings.front().source + " in " + std::string(*first) +
+                                ", so that they are not as wide; capture both with the same --channel");
+  }
+}
+
 // Where the outputs of prepared recordings lie.
 OutlineLayout prepared_layout(const std::vector<double>& knots) {
   OutlineLayout layout{knots.size() - kSplineDegree - 1, knots, {}};
@@ -117,6 +129,7 @@ Result<PreparedOutlines> prepare_outlines(std::span<const Recording> recordings,
   for (const Recording& recording : recordings) {
     if (auto ok = add(recording, options.pixels_per_unit, prepared); !ok) return ok.error();
   }
+  warn_of_other_colours(recordings, prepared);
   return prepared;
 }
 

@@ -319,6 +319,23 @@ TEST(Outline, AClipWithItsOwnKnotsIsExpressedInTheFirstOnes) {
   EXPECT_NE(fit->summary.warnings[0].find("made 2: its knots are not the model's"), std::string::npos);
 }
 
+TEST(Outline, AClipInAnotherColourIsWarnedOf) {
+  std::vector recordings{made::outline_recording({.rows = 600}), made::outline_recording({.rows = 600, .seed = 2}),
+                         made::outline_recording({.rows = 600, .seed = 3})};
+  recordings[0].attributes.push_back({"channel", "red"});
+  recordings[1].attributes.push_back({"channel", "red"});
+  const auto alike = fit_outline(recordings);
+  ASSERT_TRUE(alike) << alike.error().message;
+  EXPECT_TRUE(alike->summary.warnings.empty());
+  recordings[1].attributes.back() = {"channel", "green"};
+  const auto other = fit_outline(recordings);
+  ASSERT_TRUE(other) << other.error().message;
+  ASSERT_EQ(other->summary.warnings.size(), 1u);
+  EXPECT_EQ(other->summary.warnings[0],
+            "made 2: its outlines were found in green, those of made 1 in red, so that they are not as wide; capture "
+            "both with the same --channel");
+}
+
 TEST(Outline, RecordingsOfDifferentOutlinesAreRefused) {
   const std::vector recordings{made::outline_recording({.rows = 200}),
                                made::outline_recording({.points = 8, .rows = 200, .seed = 2})};
