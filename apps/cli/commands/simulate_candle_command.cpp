@@ -26,7 +26,7 @@ Result<CandleClipOptions> options_from(const Arguments& arguments) {
   options.wind.puff_every = arguments.number("puffs");
   const std::string& wind = arguments.text("wind");
   if (wind == "calm") {
-    options.wind.kind = WindKind::kCalm;
+    options.wind.kind = WindKind::kDraughts;
   } else if (wind != "gusts") {
     auto recording = read_table(wind, arguments);
     if (!recording) return recording.error();
@@ -67,7 +67,8 @@ Command simulate_candle_command() {
           {"output", Kind::kOutput, "CLIP.mp4", "", "where to write the clip", {}, true, {}, {".truth.csv"}},
           {"seconds", Kind::kNumber, "S", "60", "its length"},
           {"rate", Kind::kNumber, "HZ", "60", "frames a second"},
-          {"wind", Kind::kText, "W", "gusts", "gusts, calm, or a recording whose input is the wind in m/s"},
+          {"wind", Kind::kText, "W", "gusts",
+           "gusts, calm (a closed room's draughts), or a recording whose input is the wind in m/s"},
           {"both-sides", Kind::kSwitch, "", "", "gusts from the right as well"},
           {"blow-out", Kind::kNumber, "T", "", "blow the flame out after T seconds, and light it again"},
           {"puffs", Kind::kNumber, "S", "0",

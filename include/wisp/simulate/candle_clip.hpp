@@ -108,8 +108,10 @@ struct FlameOutlineRecipe {
 
 /// What the wind does.
 enum class WindKind {
-  kCalm,   ///< nothing
-  kGusts,  ///< wideband noise and gusts of all lengths, with rests: what a learner needs to see
+  kCalm,      ///< nothing: a flame that does not move at all
+  kDraughts,  ///< a closed room's still air: a few cm/s from either side, by which the flame's brightness varies by 1
+              ///< %, as an undisturbed candle's does (cpldcpu/RealCandle, a photodiode's record)
+  kGusts,     ///< wideband noise and gusts of all lengths, with rests: what a learner needs to see
 };
 
 /// The wind. Speeds in m/s.

@@ -53,6 +53,21 @@ TEST(WindSignal, IsTheSameForASeedAndAnotherForAnother) {
   EXPECT_NE(WindSignal::generate({.seed = 4}, 10)->samples(), WindSignal::generate({.seed = 5}, 10)->samples());
 }
 
+TEST(WindSignal, DraughtsAreWeakAndSlowAndFromBothSidesWhateverTheGusts) {
+  const WindSignal wind = *WindSignal::generate({.kind = WindKind::kDraughts, .most = 5, .gust = 2, .seed = 3}, 60);
+  EXPECT_LT(*std::min_element(wind.samples().begin(), wind.samples().end()), -0.02);
+  EXPECT_GE(*std::min_element(wind.samples().begin(), wind.samples().end()), -0.05);
+  EXPECT_GT(*std::max_element(wind.samples().begin(), wind.samples().end()), 0.02);
+  EXPECT_LE(*std::max_element(wind.samples().begin(), wind.samples().end()), 0.05);
+  double change = 0, square = 0;
+  for (double t = 0; t < 59; t += 0.05) {
+    change += std::pow(wind.at(t + 1.0 / 12) - wind.at(t), 2);
+    square += std::pow(wind.at(t), 2);
+  }
+  EXPECT_LT(change, 0.3 * square);
+  EXPECT_NE(wind.samples(), WindSignal::generate({.kind = WindKind::kDraughts, .seed = 4}, 60)->samples());
+}
+
 TEST(WindSignal, CalmIsCalm) {
   const WindSignal wind = *WindSignal::generate({.kind = WindKind::kCalm}, 5);
   EXPECT_EQ(std::count(wind.samples().begin(), wind.samples().end(), 0.0),
