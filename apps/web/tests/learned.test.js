@@ -1,5 +1,5 @@
 // What the page says of models, and what it makes of one that has never felt wind.
-// tests/models/calm.wisp: 15 s of a simulated flame without any wind (`wisp simulate candle --wind ZERO.csv --seed 2`), without its sound, through `wisp learn flame`.
+// tests/models/calm.wisp: 15 s of the simulated candle without any wind (WindKind::kCalm, seed 2), without its sound, through `wisp learn flame`.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';

@@ -109,8 +109,8 @@ struct FlameOutlineRecipe {
 /// What the wind does.
 enum class WindKind {
   kCalm,      ///< nothing: a flame that does not move at all
-  kDraughts,  ///< a closed room's still air: a few cm/s from either side, by which the flame's brightness varies by 1
-              ///< %, as an undisturbed candle's does (cpldcpu/RealCandle, a photodiode's record)
+  kDraughts,  ///< a closed room's still air: a few cm/s from either side, by which the brightness varies by 1 %, as
+              ///< an undisturbed candle's does (cpldcpu/RealCandle, a photodiode's record)
   kGusts,     ///< wideband noise and gusts of all lengths, with rests: what a learner needs to see
 };
 

@@ -84,8 +84,7 @@ std::vector<double> gusts(const WindSignalOptions& o, std::size_t count) {
 }
 
 // What moves in a closed room, whatever the options say of gusts: the brightness then varies by 0.6 to 1.6 % over ten
-// seconds, by 1.0 % on average of eight. Where it varies by less than 0.55 % a flame stands so still that it is refused
-// as a lamp.
+// seconds, by 1.0 % on average of eight. With draughts a third as strong the flame is refused as a lamp.
 WindSignalOptions draughts(const WindSignalOptions& o) {
   return {
       .most = 0.05, .noise = 0.015, .bandwidth_hz = 1, .gust = 0, .rest_share = 0, .both_sides = true, .seed = o.seed};
