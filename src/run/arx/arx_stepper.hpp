@@ -68,13 +68,14 @@ class ArxStepper : public ChannelHistory<N> {
 
   /// Blocks that step_group() steps at once.
   static constexpr int kGroup = Modes::kGroup;
+  static constexpr bool kGroupsVary = false;
 
   /// Makes the newest samples of blocks in a row, one or kGroup, of which the moment is the first's: each coefficient
   /// is read once for all, and sums that do not wait for each other keep the machine busy.
   template <int kBlocks = 1>
   void step(int block, const Moment<N>& moment) {
     if constexpr (kBlocks == 1 && kGroup > 1 && OutputLanes<N>::kMost > 0) {
-      if (block == 0 && few_.takes(moment.lanes)) return step_few(moment);
+      if (block == 0 && few_.takes(moment.lanes())) return step_few(moment);
     }
     if (block == 0) few_.fall_behind();
     step_blocks<kBlocks>(block, moment);

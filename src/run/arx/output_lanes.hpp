@@ -59,8 +59,8 @@ class OutputLanes {
   /// Makes the newest samples of the first lanes of a bank's only block, whose history is `ring`, with noise or
   /// without, and sets the flags of lanes in which an output was clamped.
   void step(SampleRing<N>& ring, const Moment<N>& moment, bool noisy, const ResampledLanes<N>& residuals) {
-    if (behind_[0] != 0) catch_up(ring, moment.lanes);
-    for (int lane = 0; lane < moment.lanes; ++lane) {
+    if (behind_[0] != 0) catch_up(ring, moment.lanes());
+    for (int lane = 0; lane < moment.lanes(); ++lane) {
       Noise noise{noisy && !residuals.empty() ? residuals.played(0, lane) : nullptr, residuals.scale()};
       if (noisy && !noise.row) {
         draw(moment, lane);

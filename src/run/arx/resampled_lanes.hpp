@@ -61,12 +61,12 @@ class ResampledLanes {
     Places places;
     for (int lane = 0; lane < kLanes; ++lane) {
       const std::uint32_t at = whole(state(block, kPlace)[lane]);
-      const bool used = lane < moment.lanes, last = program_.left[at / 2] == 0;
+      const bool used = lane < moment.lanes(), last = program_.left[at / 2] == 0;
       places.next[lane] = used ? at + 2 : at;
       places.forced[lane] = used && (last || whole(state(block, kAge)[lane]) >= program_.longest);
     }
     search(block, moment, places);
-    for (int lane = 0; lane < moment.lanes; ++lane) {
+    for (int lane = 0; lane < moment.lanes(); ++lane) {
       const std::uint32_t at = whole(state(block, kPlace)[lane]), next = places.next[lane];
       if (next == at + 2 && !places.forced[lane]) {
         state(block, kAge)[lane] = Real(static_cast<float>(whole(state(block, kAge)[lane]) + 1));
@@ -160,7 +160,7 @@ class ResampledLanes {
     Seekers seekers;
     Real ahead[kLanes];
     if (program_.driven()) go_on(block, places, ahead);
-    for (int lane = 0; lane < moment.lanes; ++lane) {
+    for (int lane = 0; lane < moment.lanes(); ++lane) {
       const bool seeks = places.forced[lane] || (program_.driven() && value_of(ahead[lane]) > program_.tolerance);
       seekers.lane[seekers.count] = lane;
       seekers.count += seeks ? 1 : 0;

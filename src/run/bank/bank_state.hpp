@@ -55,10 +55,12 @@ struct Bank::State {
   void step_all(const Steps& made);
   std::uint64_t step_blocks(int first, int last, const Steps& made);
   template <int kBlocks, class Dynamics>
-  std::uint64_t step_group(Dynamics& dynamics, int first, const Steps& made);
+  std::uint64_t step_group(Dynamics& dynamics, int first, const Steps& made, int blocks = kBlocks);
   template <class Dynamics>
   std::uint64_t step_alone(Dynamics& dynamics, const Steps& made);
   void read_block(int block, float* rows) const;  // slots() × outputs, of the bank: those of the block are written
+  bool lives_whole(int block) const;
+  void read_whole_block(int block, float* rows) const;
   template <class Work>
   std::uint64_t share(Work work);  // the sum of work(first block, one past its last), for all blocks
   std::uint32_t count_clamped(int block, const std::uint32_t* flags) const;

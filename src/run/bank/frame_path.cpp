@@ -71,26 +71,31 @@ Moment<LiveNumbers> Bank::State::moment(int block, std::uint32_t* flags, int ahe
   return {&keys,
           {stream.data() + first, born.data() + first, steps + static_cast<std::uint64_t>(ahead)},
           flags,
-          std::min(kLanes, rows - block * kLanes)};
+          rows - block * kLanes};
 }
 
 // All steps of some blocks before those of the next: what they remember is then at hand.
 std::uint64_t Bank::State::step_blocks(int first, int last, const Steps& made) {
   std::uint64_t count_of_clamped = 0;
   std::visit(
-      [&](auto& dynamics) {
-        constexpr int kGroup = std::remove_reference_t<decltype(dynamics)>::kGroup;
-        for (int block = first; block < last;) {
-          if constexpr (kGroup > 1) {
-            if (dynamics.is_far()) {
+      [&]<class Dynamics>(Dynamics& dynamics) {
+        constexpr int kGroup = Dynamics::kGroup;
+        for (int block = first, group = 0; block < last; block += group) {
+          if constexpr (requires { dynamics.fetch(block); }) {
+            if (kGroup > 1 && dynamics.is_far()) {
               for (int b = block + kGroup; b < std::min(block + 2 * kGroup, last); ++b) dynamics.fetch(b);
             }
           }
-          const int group = last - block < kGroup ? 1 : kGroup;
+          group = std::min(kGroup, last - block);
+          if (group < kGroup && !Dynamics::kGroupsVary) group = 1;
           const auto step = [&](auto& one) {
-            count_of_clamped +=
-                // NOLINTNEXTLINE(bugprone-branch-clone): one and the same only where a group is one block
-                group == kGroup ? step_group<kGroup>(one, block, made) : step_group<1>(one, block, made);
+            if constexpr (Dynamics::kGroupsVary) {
+              count_of_clamped += step_group<kGroup>(one, block, made, group);
+            } else {
+              count_of_clamped +=
+                  // NOLINTNEXTLINE(bugprone-branch-clone): one and the same only where a group is one block
+                  group == kGroup ? step_group<kGroup>(one, block, made) : step_group<1>(one, block, made);
+            }
           };
           if (!kAhead || made.count == 1) {
             step(dynamics);
@@ -98,7 +103,6 @@ std::uint64_t Bank::State::step_blocks(int first, int last, const Steps& made) {
             auto&& one = dynamics.ahead();
             step(one);
           }
-          block += group;
         }
       },
       stepper);
@@ -106,27 +110,34 @@ std::uint64_t Bank::State::step_blocks(int first, int last, const Steps& made) {
 }
 
 template <int kBlocks, class Dynamics>
-std::uint64_t Bank::State::step_group(Dynamics& dynamics, int first, const Steps& made) {
+std::uint64_t Bank::State::step_group(Dynamics& dynamics, int first, const Steps& made, int blocks) {
   std::uint64_t count_of_clamped = 0;
   if constexpr (kAhead && kBlocks == 1 && Dynamics::kGroup > 1) {
     if (rows == 1 && made.count > 1 && !extinction.present && dynamics.steps_alone()) return step_alone(dynamics, made);
   }
   std::uint32_t flags[kBlocks * kLanes];
-  const int count = kAhead ? made.count : 1;
+  const int count = kAhead ? made.count : 1, last = first + blocks;
   for (int step = 0; step < count; ++step) {
     if (step > 0) dynamics.turn();
-    for (int block = first; block < first + kBlocks; ++block) {
+    for (int block = first; block < last; ++block) {
       if (kAhead && made.inputs) set_inputs(block, made.inputs + static_cast<std::size_t>(step) * rows * inputs);
       copy_lanes(regressors_of(block), channels.regressors.size(), dynamics.regressors(block));
     }
-    dynamics.template step<kBlocks>(first, moment(first, flags, step));
-    for (int block = first; block < first + kBlocks; ++block) {
+    if constexpr (Dynamics::kGroupsVary) {
+      dynamics.step(first, blocks, moment(first, flags, step));
+    } else {
+      dynamics.template step<kBlocks>(first, moment(first, flags, step));
+    }
+    for (int block = first; block < last; ++block) {
       if (extinction.present) live_block(block, dynamics.newest(block), steps + static_cast<std::uint64_t>(step) + 1);
       count_of_clamped += count_clamped(block, flags + (block - first) * kLanes);
     }
     const bool read = kAhead && made.outputs;
-    if (read || (made.show && step + 1 == count)) show_blocks<kBlocks>(dynamics, first);
-    for (int block = first; read && block < first + kBlocks; ++block) {
+    if (read || (made.show && step + 1 == count)) {
+      constexpr int kShown = Dynamics::kGroupsVary ? 1 : kBlocks;
+      for (int block = first; block < last; block += kShown) show_blocks<kShown>(dynamics, block);
+    }
+    for (int block = first; read && block < last; ++block) {
       read_block(block, made.outputs + static_cast<std::size_t>(step) * rows * channels.outputs.size());
     }
   }

@@ -10,7 +10,10 @@ struct Moment {
   const RandomKeys* keys = nullptr;
   LaneCounters counters{};           ///< of the block
   std::uint32_t* clamped = nullptr;  ///< per lane: not 0 afterwards where an output was clamped
-  int lanes = N::kLanes;             ///< of the block in use: what moves lanes one by one leaves out the rest
+  int used = N::kLanes;              ///< lanes in use from the block's first on, those of later blocks too
+
+  /// Lanes of the block in use: what moves lanes one by one leaves out the rest.
+  int lanes() const { return used < N::kLanes ? used : N::kLanes; }
 
   /// Of a block that comes later, where this is of the first.
   Moment later(int blocks) const {
@@ -18,6 +21,7 @@ struct Moment {
     of.counters.stream += blocks * N::kLanes;
     of.counters.born += blocks * N::kLanes;
     of.clamped += blocks * N::kLanes;
+    of.used -= blocks * N::kLanes;
     return of;
   }
 };

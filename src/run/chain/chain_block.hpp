@@ -10,24 +10,24 @@
 
 namespace wisp {
 
-/// What a step does with each lane of a block: 1 or 0.
+/// What a step does with each lane of a block: 1 or 0. A step has room for many, so nothing is set at first.
 template <class N>
 struct ChainCourse {
   using Real = typename N::Real;
   using Mask = Real[N::kLanes];
 
-  explicit ChainCourse(int lanes) {
-    for (int lane = 0; lane < lanes; ++lane) used[lane] = Real(1.0f);
+  void use(int lanes) {
+    for (int lane = 0; lane < N::kLanes; ++lane) used[lane] = Real(lane < lanes ? 1.0f : 0.0f);
   }
 
-  Mask used = {};
-  Mask shown = {};   ///< it falls: what is shown is made anew
-  Mask ends = {};    ///< its segment does
-  Mask begins = {};  ///< the curve towards what follows does
-  Mask moved = {};   ///< it is between joins: what is added moves
-  Mask turned = {};  ///< the latter half of its curve begins
-  Mask faded = {};   ///< something is added to what is shown
-  const std::int16_t* row[N::kLanes] = {};
+  Mask used;
+  Mask shown;   ///< it falls: what is shown is made anew
+  Mask ends;    ///< its segment does
+  Mask begins;  ///< the curve towards what follows does
+  Mask moved;   ///< it is between joins: what is added moves
+  Mask turned;  ///< the latter half of its curve begins
+  Mask faded;   ///< something is added to what is shown
+  const std::int16_t* row[N::kLanes];
 };
 
 template <class N>
@@ -70,11 +70,8 @@ class ChainBlock {
 
   /// Where the lanes of a block go. Those that rest, and empty ones, stay where they are.
   void go(ChainCourse<N>& course) {
-    Real after[kLanes];
-    for (int lane = 0; lane < kLanes; ++lane) {
-      after[lane] = Real(std::min(value_of(played_.row[lane]) + 1.0f, value_of(segments_.steps[lane])));
-    }
-    const auto zero = all<Reals<N>>(0.0f), row = number(played_.row), next = load<Reals<N>>(after);
+    const auto zero = all<Reals<N>>(0.0f), row = number(played_.row);
+    const auto next = smaller(next_of(row), number(segments_.steps));
     const auto below = [](const auto& x, const auto& y, const auto& yes, const auto& no) { return x < y ? yes : no; };
     const auto outside = [](const auto& x, const auto& low, const auto& high, const auto& yes, const auto& no) {
       return x < low ? yes : x > high ? yes : no;
@@ -92,8 +89,9 @@ class ChainBlock {
     store(turned, course.turned);
     store(each(below, next, number(segments_.steps), zero, shown), course.ends);
     store(each(same, row, number(segments_.curve), shown, zero), course.begins);
-    store(chosen(shown, next, row), played_.row.data());
-    find_rows(course);
+    const auto at = chosen(shown, next, row);
+    store(at, played_.row.data());
+    find_rows(at, course);
     const auto left = number(played_.left), steered = chosen(left, shown, zero);
     if (!any(bits_of(steered))) return;
     store(chosen(steered, left - all<Reals<N>>(1.0f), left), played_.left.data());
@@ -124,23 +122,17 @@ class ChainBlock {
   void show_only(int lane) {
     const float row = value_of(played_.row[lane]);
     const bool faded = row < value_of(segments_.quiet_from[lane]) || row > value_of(segments_.quiet_to[lane]);
-    ChainCourse<N> course(0);
+    ChainCourse<N> course{};
     course.shown[lane] = Real(1.0f);
     course.faded[lane] = Real(faded ? 1.0f : 0.0f);
-    find_rows(course);
+    find_rows(number(played_.row), course);
     show(course);
   }
 
   /// Shows the lanes that fall: position, then, for poses, orientation.
   void show(const ChainCourse<N>& course) {
-    float rows[kLanes][kRowReach];
-    const float* row[kLanes];
-    for (int lane = 0; lane < kLanes; ++lane) {
-      widen(course.row[lane], rows[lane]);
-      row[lane] = rows[lane];
-    }
-    Reals<N> first[4], last[4];
-    columns_of<N>(row, 0, first);
+    Reals<N> stored[kRowReach];
+    columns_of<N>(course.row, stored);
     const auto shown = load<Reals<N>>(course.shown);
     const auto put = [&](int channel, const Reals<N>& value) {
       Real* out = newest_ + channel * kLanes;
@@ -149,13 +141,12 @@ class ChainBlock {
     const auto cos = number(played_.turn.cos_scale), sin = number(played_.turn.sin_scale);
     const auto scale = all<Reals<N>>(program_.position_scale);
     const auto most = all<Reals<N>>(kFarthest), least = all<Reals<N>>(-kFarthest);
-    put(0, hold(number(played_.base[0]) + (cos * first[0] - sin * first[1]), least, most));
-    put(1, hold(number(played_.base[1]) + (sin * first[0] + cos * first[1]), least, most));
-    put(2, hold(number(played_.base[2]) + scale * first[2], least, most));
+    put(0, hold(number(played_.base[0]) + (cos * stored[0] - sin * stored[1]), least, most));
+    put(1, hold(number(played_.base[1]) + (sin * stored[0] + cos * stored[1]), least, most));
+    put(2, hold(number(played_.base[2]) + scale * stored[2], least, most));
     if (program_.channels < 7) return;
-    columns_of<N>(row, 4, last);
     auto q = turned<Reals<N>>(number(played_.turn.half_cos_scale), number(played_.turn.half_sin_scale),
-                              {first[3], last[0], last[1], last[2]});
+                              {stored[3], stored[4], stored[5], stored[6]});
     if (any_lane<N>(course.faded)) {
       const auto faded = load<Reals<N>>(course.faded);
       const auto& lean = played_.lean[0];
@@ -169,12 +160,13 @@ class ChainBlock {
  private:
   static Reals<N> number(const LaneNumbers& numbers) { return load<Reals<N>>(numbers.data()); }
 
-  // The stored rows that the lanes are at.
-  void find_rows(ChainCourse<N>& course) const {
+  // The stored rows that the lanes are at; a saved bank that was made to harm may say that one rests beyond the last.
+  void find_rows(const Reals<N>& at, ChainCourse<N>& course) const {
+    typename N::Word own[kLanes];
+    store(whole(smaller(at, number(segments_.steps))), own);
     for (int lane = 0; lane < kLanes; ++lane) {
-      const float own = std::min(value_of(played_.row[lane]), value_of(segments_.steps[lane]));
-      const std::size_t at = segments_.first_row[lane] + static_cast<std::uint32_t>(own);
-      course.row[lane] = program_.rows.data() + at * static_cast<std::uint32_t>(program_.channels);
+      const std::size_t row = segments_.first_row[lane] + value_of(own[lane]);
+      course.row[lane] = program_.rows.data() + row * static_cast<std::uint32_t>(program_.channels);
     }
   }
 

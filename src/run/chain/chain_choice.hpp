@@ -3,6 +3,7 @@
 // words. Words and whole numbers only.
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -63,23 +64,20 @@ class ChainChoice {
     const std::uint32_t* threshold = program.threshold.data() + std::size_t{seen(program, state)} * modes;
     const std::uint16_t* successor_weights = program.successor_weights.data() + std::size_t{before} * modes;
     // Below 2^32 in sum, so that a word times the sum fits: of the history's words the upper half counts.
-    const auto weight_of = [&](std::uint32_t mode) {
-      const std::uint32_t width = threshold[mode] - (mode > 0 ? threshold[mode - 1] : 0);
-      return (width >> 16) * std::uint32_t{successor_weights[mode]};
-    };
-    std::uint32_t total = 0, most = 0, best = 0;
+    std::array<std::uint32_t, kMaxModes> weight;
+    std::uint32_t total = 0, below = 0;
     for (std::uint32_t mode = 0; mode < modes; ++mode) {
-      const std::uint32_t weight = weight_of(mode);
-      total += weight;
-      best = weight > most ? mode : best;
-      most = std::max(most, weight);
+      weight[mode] = ((threshold[mode] - below) >> 16) * std::uint32_t{successor_weights[mode]};
+      below = threshold[mode];
+      total += weight[mode];
     }
-    if (!chance_) return best;
+    if (!chance_)
+      return static_cast<std::uint32_t>(std::max_element(weight.data(), weight.data() + modes) - weight.data());
     // How many sums of weights, the last left out, are not above what was drawn.
     const std::uint32_t drawn = share_of(words.mode, total);
     std::uint32_t mode = 0, sum = 0;
     for (std::uint32_t k = 0; k + 1 < modes; ++k) {
-      sum += weight_of(k);
+      sum += weight[k];
       mode += drawn < sum ? 0 : 1;
     }
     return mode;

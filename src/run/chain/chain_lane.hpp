@@ -1,15 +1,6 @@
 #pragma once
 // One instance of a segment chain: where it is in which segment, where that segment lies, and what is added to it so
-// that it meets its neighbours. All arithmetic of a frame is here, on one number of any kind.
-//
-// Neighbours meet half-way: at a join attitude, its rate and velocity are the means of what one segment ends with and
-// the other begins with. What that takes off either is spread over the whole segment: by a smooth curve for each number
-// of a quaternion, in the world's frame, made unit when shown, and by a velocity that changes evenly. Half of the
-// difference over twice the time of fading it on one side (D. Bollo, Inertialization, GDC 2018) has an eighth of its
-// curvature, which recorded motion has little of. It takes the next segment to be known while one is
-// played, so what follows is drawn when a segment begins.
-//
-// The curve of each number is two parabolas, clamped as differences from row to row: two additions a number.
+// that it meets its neighbours (run/chain/chain_joins.hpp).
 
 #include <algorithm>
 
@@ -55,6 +46,13 @@ struct ChainGap {
   Vector3<Real> slip{};
 };
 
+/// What follows a segment: how it will lie, and what differs where they meet.
+template <class Number>
+struct ChainAhead {
+  ChainTurn<Number> turn{};
+  ChainGap<Number> gap{};
+};
+
 /// What every step reads or moves. A bank has these numbers side by side, those of a block's lanes as one `Number`.
 template <class Number>
 struct ChainPlayed {
@@ -74,43 +72,65 @@ struct ChainPlayed {
   Number left{};
 };
 
-/// What only joins, the ground and steering need.
+/// What only joins, the ground and steering need. Joins read what is ahead of several lanes side by side, four numbers
+/// of each at a time, so it comes first, and three more that it is read with.
 template <class Real>
 struct ChainPlan {
+  ChainAhead<Real> ahead{};
+  Real next{};   ///< the number of the segment that follows and 1; 0: not drawn yet
   Real state{};  ///< in the chain; a whole number
-  // What follows: the segment's number and 1, 0: not drawn yet; how it will lie; and what differs where it joins.
-  Real next{};
-  ChainTurn<Real> next_turn{};
-  ChainGap<Real> gap{};
+  Real near{};   ///< steering: how near it should come, metres
   // The pose in which it touched the ground, and the Gibbs vector that lays it flat.
   Quaternion<Real> touched{};
   Vector3<Real> laid{};
-  // Steering: where it should be; and how near, metres.
-  Vector3<Real> target{};
-  Real near{};
+  Vector3<Real> target{};  ///< steering: where it should be
 };
+
+/// Numbers of what is ahead, with those that it is read with.
+inline constexpr std::size_t kAheadNumbers = 20;
 
 template <class Real>
 struct ChainLane : ChainPlayed<Real>, ChainPlan<Real> {};
 
-/// Calls visit(number of a, number of b) for each number that is played.
+/// Calls visit(number of a, number of b) for each number of a turn, a gap or what is added to a segment.
 template <class A, class B, class Visit>
-inline void each_played(A& a, B& b, Visit visit) {
-  visit(a.segment, b.segment);
-  visit(a.row, b.row);
-  for (std::size_t k = 0; k < 3; ++k) visit(a.base[k], b.base[k]);
-  visit(a.turn.half_cos, b.turn.half_cos);
-  visit(a.turn.half_sin, b.turn.half_sin);
-  visit(a.turn.cos_scale, b.turn.cos_scale);
-  visit(a.turn.sin_scale, b.turn.sin_scale);
-  visit(a.turn.half_cos_scale, b.turn.half_cos_scale);
-  visit(a.turn.half_sin_scale, b.turn.half_sin_scale);
+inline void each_number(ChainTurn<A>& a, B& b, Visit visit) {
+  visit(a.half_cos, b.half_cos);
+  visit(a.half_sin, b.half_sin);
+  visit(a.cos_scale, b.cos_scale);
+  visit(a.sin_scale, b.sin_scale);
+  visit(a.half_cos_scale, b.half_cos_scale);
+  visit(a.half_sin_scale, b.half_sin_scale);
+}
+template <class A, class B, class Visit>
+inline void each_number(ChainGap<A>& a, B& b, Visit visit) {
+  for (std::size_t k = 0; k < 4; ++k) visit(a.lean[k], b.lean[k]);
+  for (std::size_t k = 0; k < 4; ++k) visit(a.lean_rate[k], b.lean_rate[k]);
+  for (std::size_t k = 0; k < 3; ++k) visit(a.slip[k], b.slip[k]);
+}
+template <class A, class B, class Visit>
+inline void each_number(ChainAhead<A>& a, B& b, Visit visit) {
+  each_number(a.turn, b.turn, visit);
+  each_number(a.gap, b.gap, visit);
+}
+template <class A, class B, class Visit>
+inline void each_added(A& a, B& b, Visit visit) {
   for (std::size_t i = 0; i < a.lean.size(); ++i) {
     for (std::size_t k = 0; k < 4; ++k) visit(a.lean[i][k], b.lean[i][k]);
   }
   for (std::size_t i = 0; i < a.slip.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) visit(a.slip[i][k], b.slip[i][k]);
   }
+}
+
+/// The same for each number that is played.
+template <class A, class B, class Visit>
+inline void each_played(A& a, B& b, Visit visit) {
+  visit(a.segment, b.segment);
+  visit(a.row, b.row);
+  for (std::size_t k = 0; k < 3; ++k) visit(a.base[k], b.base[k]);
+  each_number(a.turn, b.turn, visit);
+  each_added(a, b, visit);
   visit(a.settled, b.settled);
   visit(a.left, b.left);
 }
@@ -120,6 +140,19 @@ inline constexpr float kMinTurn = 1e-3f;
 
 /// Differences at joins are clamped to this.
 inline constexpr float kMaxDifference = 1e9f;
+
+/// A half turn with the scales of what it turns; number(x) is x in every lane.
+template <class Values, class Number>
+inline ChainTurn<Values> turn_of(const Values& half_cos, const Values& half_sin, const ChainProgram& program,
+                                 Number number) {
+  const Values quaternion_scale = number(program.orientation_scale);
+  return {half_cos,
+          half_sin,
+          (half_cos * half_cos - half_sin * half_sin) * number(program.position_scale),
+          half_cos * half_sin * number(2.0f * program.position_scale),
+          half_cos * quaternion_scale,
+          half_sin * quaternion_scale};
+}
 
 /// What moves lanes of one program.
 template <class Real>
@@ -131,56 +164,26 @@ class ChainMover {
 
   explicit ChainMover(const ChainProgram& program) : program_(program) {}
 
-  /// Draws the segment that begins, or that follows the lane's, and moves its history on.
-  std::uint32_t draw(Lane& lane, const ChainChoice& choice, const ChainWords& words, bool begins) const {
-    const std::uint32_t state = begins ? 0 : index(lane.state, program_.states());
-    const std::uint32_t before = index(lane.segment, program_.segments());
-    const std::uint32_t mode =
-        begins ? choice.mode(program_, state, words) : choice.mode_after(program_, state, before, words);
-    lane.state = Real(static_cast<float>(program_.next[state * static_cast<std::uint32_t>(program_.modes) + mode]));
-    return begins ? choice.beginning(program_, mode, words) : choice.successor(program_, before, mode, words);
+  /// Draws the segment that begins, and moves the history in `of_state` on.
+  std::uint32_t draw_first(Real& of_state, const ChainChoice& choice, const ChainWords& words) const {
+    const std::uint32_t mode = choice.mode(program_, 0, words);
+    of_state = state_after(0, mode);
+    return choice.beginning(program_, mode, words);
   }
 
-  /// Notes what follows a lane's segment: how it will lie, and what differs where they meet.
-  void prepare(Lane& lane, std::uint32_t next) const {
-    const std::uint32_t before = index(lane.segment, program_.segments());
-    lane.next = Real(static_cast<float>(next + 1));
-    lane.next_turn = turn_after(lane.turn, before, next);
-    if (program_.blend_steps == 0) return;
-    const auto slip =
-        taken(turned_row(lane.turn, rates_at(before, true)), turned_row(lane.next_turn, rates_at(next, false)));
-    const float half_step = 0.5f * program_.step_seconds * program_.velocity_scale;
-    const Real over_ground(half_step / program_.position_scale);
-    lane.gap.slip = bounded(Vector3<Real>{over_ground * slip[0], over_ground * slip[1], Real(half_step) * slip[2]});
-    if (program_.channels < 7) return;
-    const auto end = oriented(lane.turn, quaternion(row_of(before, program_.steps(before))));
-    const auto start = oriented(lane.next_turn, quaternion(row_of(next, 0)));
-    lane.gap.lean = bounded(scaled(taken(end, start), Real(0.5f)));
-    lane.gap.lean_rate =
-        bounded(taken(oriented(lane.turn, change_at(before, true)), oriented(lane.next_turn, change_at(next, false))));
+  /// Draws the mode that follows a segment, and moves the history in `of_state` on.
+  std::uint32_t draw_mode(Real& of_state, std::uint32_t before, const ChainChoice& choice,
+                          const ChainWords& words) const {
+    const std::uint32_t state = index(of_state, program_.states());
+    const std::uint32_t mode = choice.mode_after(program_, state, before, words);
+    of_state = state_after(state, mode);
+    return mode;
   }
 
-  /// Places the beginning of what was prepared where a body is shown.
-  void join(Lane& lane, const Vector3<Real>& position) const {
-    lane.segment = Real(static_cast<float>(index(lane.next, program_.segments() + 1) - 1));
-    lane.row = Real(0.0f);
-    lane.next = Real(0.0f);
-    lane.base = position;
-    lane.turn = lane.next_turn;
-  }
-
-  /// Lets a lane's segment meet what came before it, to which it lacks `from`, and what follows, by its gap.
-  void meet(Lane& lane, const ChainGap<Real>& from) const {
-    if (program_.blend_steps == 0) return;
-    const std::uint32_t steps = program_.steps(index(lane.segment, program_.segments()));
-    const std::uint32_t blend = program_.blend_steps;
-    if (steps < 2 * blend) {
-      spread(lane, steps, from, lane.gap);
-      lead_back(lane, steps);
-    } else {
-      spread(lane, blend, from, {});
-      lead_back(lane, 2 * blend);
-    }
+  /// The same, and a segment of that mode.
+  std::uint32_t draw(Real& of_state, std::uint32_t before, const ChainChoice& choice, const ChainWords& words) const {
+    const std::uint32_t mode = draw_mode(of_state, before, choice, words);
+    return choice.successor(program_, before, mode, words);
   }
 
   /// Where a segment begins: at the height at which it was recorded, where that is bounded.
@@ -196,15 +199,15 @@ class ChainMover {
     lane.next = Real(0.0f);
     lane.settled = Real(-1.0f);
     lane.base = position;
-    lane.turn = turn_of(half_cos, half_sin);
+    lane.turn = turn_of(half_cos, half_sin, program_, [](float x) { return Real(x); });
   }
 
-  /// Places the beginning of a segment where a body is, so that what differs fades.
-  void place(Lane& lane, std::uint32_t segment, const Body& body) const {
+  /// Places the beginning of a segment where a body is; returns by how much that differs.
+  ChainGap<Real> place(Lane& lane, std::uint32_t segment, const Body& body) const {
     const HalfTurn<Real> turn = turn_to(segment, body);
     place(lane, segment, body.position, turn.cos, turn.sin);
-    if (program_.blend_steps == 0) return;
     ChainGap<Real> gap;
+    if (program_.blend_steps == 0) return gap;
     const auto begins = turned_velocity(lane.turn, rates_at(segment, false));
     gap.slip = bounded(scaled(taken(body.rates.velocity, begins), Real(program_.step_seconds)));
     if (program_.channels >= 7) {
@@ -216,7 +219,7 @@ class ChainMover {
       gap.lean_rate =
           bounded(taken(scaled(quaternion_rate(body.rates.spin, shown), Real(program_.step_seconds)), change));
     }
-    meet(lane, gap);
+    return gap;
   }
 
   /// At which rows of a segment what is added to it changes: whole numbers, −1 for none.
@@ -238,12 +241,6 @@ class ChainMover {
     return {last, number(blend), number(steps - blend), turn, number(steps - blend) + turn, number(steps - blend)};
   }
 
-  /// Begins the curve towards what follows.
-  void begin_curve(Lane& lane) const {
-    spread(lane, program_.blend_steps, {}, lane.gap);
-    lead_back(lane, program_.blend_steps);
-  }
-
   /// Steps that are left of the lane's segment.
   std::uint32_t steps_left(const Lane& lane) const {
     const std::uint32_t steps = program_.steps(index(lane.segment, program_.segments()));
@@ -251,7 +248,7 @@ class ChainMover {
   }
 
   /// Whether it is known what follows.
-  static bool is_prepared(const Lane& lane) { return lane.next > Real(0.0f); }
+  static bool is_prepared(const ChainPlan<Real>& plan) { return plan.next > Real(0.0f); }
 
   /// How a lane's segment will have ended, but for what is added to it: where a walk goes on.
   Body end_of(const Lane& lane) const {
@@ -323,75 +320,16 @@ class ChainMover {
   }
 
  private:
+  Real state_after(std::uint32_t state, std::uint32_t mode) const {
+    return Real(static_cast<float>(program_.next[state * static_cast<std::uint32_t>(program_.modes) + mode]));
+  }
+
   Real height_of(std::uint32_t segment) const {
     return Real(program_.height_scale) * Real(static_cast<float>(program_.height[segment]));
   }
 
-  // Moves a segment, so that so many steps would bring it there, towards the height at which it was recorded: what
-  // joins add to velocities would else add up to a walk without bounds.
-  void lead_back(Lane& lane, std::uint32_t steps) const {
-    if (program_.height.empty()) return;
-    const Real below = height_of(index(lane.segment, program_.segments())) - lane.base[2];
-    const Real way = below * Real(1.0f / static_cast<float>(steps));
-    const Real most(program_.max_return), least(-program_.max_return);
-    lane.slip[0][2] = lane.slip[0][2] + (way > most ? most : way > least ? way : least);
-  }
-
   static Vector3<Real> vector(const std::int16_t* from) {
     return {Real(static_cast<float>(from[0])), Real(static_cast<float>(from[1])), Real(static_cast<float>(from[2]))};
-  }
-
-  // The curves over so many steps from what is lacking at the beginning to what is too much at the end.
-  void spread(Lane& lane, std::uint32_t steps, const ChainGap<Real>& from, const ChainGap<Real>& to) const {
-    const ChainSpread& spread = program_.spread[steps];
-    lane.slip[1] = scaled(added(to.slip, from.slip), Real(spread.slope));
-    lane.slip[0] = from.slip;
-    if (program_.channels < 7) return;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const Real way = to.lean[k] + from.lean[k] + Real(static_cast<float>(steps)) * from.lean_rate[k];
-      const Real change = to.lean_rate[k] + from.lean_rate[k];
-      lane.lean[2][k] = Real(spread.way[0]) * way + Real(spread.change[0]) * change;
-      lane.lean[3][k] = Real(spread.way[1]) * way + Real(spread.change[1]) * change;
-      lane.lean[1][k] = from.lean_rate[k] + Real(0.5f) * lane.lean[2][k];
-    }
-    lane.lean[0] = from.lean;
-  }
-
-  ChainTurn<Real> turn_of(Real half_cos, Real half_sin) const {
-    const Real quaternion_scale(program_.orientation_scale);
-    return {half_cos,
-            half_sin,
-            (half_cos * half_cos - half_sin * half_sin) * Real(program_.position_scale),
-            half_cos * half_sin * Real(2.0f * program_.position_scale),
-            half_cos * quaternion_scale,
-            half_sin * quaternion_scale};
-  }
-
-  // How a segment lies that follows another. Where heading is kept, a whole turn keeps the quaternion's sign from
-  // jumping.
-  ChainTurn<Real> turn_after(const ChainTurn<Real>& turn, std::uint32_t before, std::uint32_t segment) const {
-    const LongTurn<Real> more = turn_between_segments(before, segment);
-    const Real cos = turn.half_cos * more.cos - turn.half_sin * more.sin;
-    const Real sin = turn.half_cos * more.sin + turn.half_sin * more.cos;
-    const Real square = cos * cos + sin * sin;
-    if (!(square > Real(1e-12f))) return turn;  // a saved bank that was made to harm
-    const Real inverse = Real(1.0f) / square_root(square);
-    return turn_of(cos * inverse, sin * inverse);
-  }
-
-  // The same as half a turn against the other, of any length.
-  LongTurn<Real> turn_between_segments(std::uint32_t before, std::uint32_t segment) const {
-    const LongTurn<Real> none{Real(1.0f), Real(0.0f)};
-    if (program_.channels < 7) {
-      if (!program_.heading_free) return none;
-      const HalfTurn<Real> turn = turn_between(vector(rates_at(segment, false)), vector(rates_at(before, true)));
-      return {turn.cos, turn.sin};
-    }
-    const auto start = quaternion(row_of(segment, 0)), end = quaternion(row_of(before, program_.steps(before)));
-    if (!program_.heading_free) return dot(start, end) < Real(0.0f) ? LongTurn<Real>{Real(-1.0f), Real(0.0f)} : none;
-    const LongTurn<Real> turn = long_turn_between(start, end);
-    const auto is_long = [](const Real& x) { return x > Real(kMinTurn) || x < Real(-kMinTurn); };
-    return is_long(turn.cos) || is_long(turn.sin) ? turn : none;
   }
 
   // Stored quaternions, or their changes, in the world.
@@ -399,13 +337,7 @@ class ChainMover {
     return turned<Real>(turn.half_cos_scale, turn.half_sin_scale, stored);
   }
 
-  // A stored velocity in the world, in the units of positions.
-  static Vector3<Real> turned_row(const ChainTurn<Real>& turn, const std::int16_t* stored) {
-    const auto v = vector(stored);
-    return {turn.cos_scale * v[0] - turn.sin_scale * v[1], turn.sin_scale * v[0] + turn.cos_scale * v[1], v[2]};
-  }
-
-  // The same, metres a second.
+  // A stored velocity in the world, metres a second.
   Vector3<Real> turned_velocity(const ChainTurn<Real>& turn, const std::int16_t* stored) const {
     const Real scale(program_.velocity_scale / program_.position_scale);
     const auto v = vector(stored);

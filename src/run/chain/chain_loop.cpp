@@ -21,14 +21,14 @@ std::optional<ChainLoop> chain_loop(const Model& model, int history) {
   choice.set_chance(false);
   choice.set({.history = history}, program);
   const ChainMover<float> mover(program);
-  ChainLane<float> lane;
+  float state = 0;
+  std::uint32_t segment = 0;
   std::map<std::pair<float, std::uint32_t>, std::size_t> seen;  // by what it remembers and plays
   std::vector<double> began;                                    // seconds, per segment
   double now = 0;
   for (bool begins = true;; begins = false) {
-    const std::uint32_t segment = mover.draw(lane, choice, {}, begins);
-    lane.segment = static_cast<float>(segment);
-    const auto [before, fresh] = seen.try_emplace({lane.state, segment}, began.size());
+    segment = begins ? mover.draw_first(state, choice, {}) : mover.draw(state, segment, choice, {});
+    const auto [before, fresh] = seen.try_emplace({state, segment}, began.size());
     if (!fresh) {
       const std::size_t lead = before->second;
       return ChainLoop{lead, began.size() - lead, began[lead], now - began[lead]};

@@ -190,7 +190,7 @@ ChainProgram make_chain_program(const ChainModel& chain, double rate_hz, double 
   program.blend_steps = static_cast<std::uint32_t>(chain.blend_steps);
   if (chain.gust) program.gust = gust_program(*chain.gust, wind_unit);
   program.rows = copy_of(segments.rows, arena, kRowReach);
-  program.rates = copy_of(segments.rates, arena);
+  program.rates = copy_of(segments.rates, arena, kRowReach);
   program.first_row = copy_of(segment_rows(segments), arena);
   program.mode = copy_of(segments.mode, arena);
   program.follow = copy_of(segments.follow, arena);

@@ -1,10 +1,11 @@
 #pragma once
 // Steps blocks of instances of a segment chain. Source: section 4.3 of the paper (the walk over the modes, each
 // realised by one of its segments); section 2.2 for histories longer than one. Lanes of a block are in different places
-// of different segments, but move and are shown alike, side by side; what happens now and then, as a join, is done for
-// one lane at a time.
+// of different segments, but move and are shown alike, side by side. Of what happens now and then, joins are made for
+// lanes of several blocks side by side, the rest for one lane at a time.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -12,6 +13,7 @@
 #include "run/bank/channels.hpp"
 #include "run/bank/moment.hpp"
 #include "run/chain/chain_block.hpp"
+#include "run/chain/chain_joins.hpp"
 #include "run/chain/chain_lane.hpp"
 #include "run/chain/chain_steering.hpp"
 #include "run/chain/ground_lane.hpp"
@@ -31,6 +33,7 @@ class ChainStepper {
   static constexpr int kLanes = N::kLanes;
   using LaneNumbers = std::array<Real, kLanes>;
   using Played = ChainPlayed<LaneNumbers>;
+  using Party = ChainParty<PartNumbers<N>>;
   /// Frames over which a cost is averaged: joins come now and then.
   static constexpr int kCountedFrames = 8192;
 
@@ -81,55 +84,30 @@ class ChainStepper {
   /// Where the regressors of the step belong: [regressor][lane].
   Real* regressors(int block) { return regressors_.data() + static_cast<std::size_t>(block) * regressor_row_; }
 
-  /// Joins take most of the time, and are done lane by lane: blocks together would be no faster.
-  static constexpr int kGroup = 1;
+  /// Most blocks that step() takes at once: a segment ends every few steps, so that of these blocks some four times as
+  /// many lanes join as go side by side.
+  static constexpr int kGroup = 32;
+  static constexpr bool kGroupsVary = true;
 
   /// What makes steps of some blocks before the others make theirs: blocks share no place in time.
   ChainStepper& ahead() { return *this; }
 
-  /// Makes the newest sample of a block.
-  template <int kBlocks = 1>
-  void step(int block, const Moment<N>& moment) {
-    std::copy_n(newest(block), sample_size(), previous_of(block));
-    std::fill_n(moment.clamped, kLanes, 0U);
-    if (program_.gust.order > 0) drift(block, moment.lanes);
-    if (noisy_) draw_shocks(block, moment);
-    ChainCourse<N> course(moment.lanes);
-    if (program_.systems.used()) {
-      for (int lane = 0; lane < moment.lanes; ++lane) {
-        if (falls(block, lane) && move_system(block, lane)) course.ends[lane] = Real(1.0f);
-      }
-    } else {
-      ChainBlock<N> lanes = lanes_of(block);
-      lanes.go(course);
-      begin_curves(block, course);
-      lanes.move(course);
-      lanes.show(course);
+  void step(int block, const Moment<N>& moment) { step(block, 1, moment); }
+
+  /// Makes the newest samples of blocks in a row, at most kGroup, of which the moment is the first's.
+  void step(int first, int count, const Moment<N>& moment) {
+    ChainCourse<N> courses[kGroup];
+    for (int b = 0; b < count; ++b) set_out(first + b, moment.later(b), courses[b]);
+    Gathering gathering(*this, first, moment);
+    if (!program_.systems.used()) {
+      for (int b = 0; b < count; ++b) gathering.take(first + b, courses[b].begins, &ChainStepper::leave);
+      gathering.end(&ChainStepper::leave);
     }
-    Real eventful[kLanes];
-    if (!find_events(block, course, eventful)) return;
-    const Mover mover(program_);
-    std::uint32_t words[4][kLanes];
-    bool drawn = false;
-    for (int lane = 0; lane < moment.lanes; ++lane) {
-      if (!(eventful[lane] > Real(0.0f))) continue;
-      if (!falls(block, lane)) {
-        settle(block, lane);
-        continue;
-      }
-      hold_position(block, lane, moment);
-      if (const auto reach = reach_touching(program_, newest_of(block) + lane, kLanes, ground_)) {
-        land(block, lane, *reach);
-        continue;
-      }
-      if (!(course.ends[lane] > Real(0.0f))) continue;
-      const auto chance = [&](std::uint32_t group) -> ChainWords {
-        if (!drawn || group != 0) draw(moment, group, words);
-        drawn = group == 0;
-        return {words[0][lane], words[1][lane], words[2][lane]};
-      };
-      go_on(mover, block, lane, chance);
+    for (int b = 0; b < count; ++b) {
+      arrive(first + b, moment.later(b), courses[b]);
+      gathering.take(first + b, courses[b].ends, &ChainStepper::go_on);
     }
+    gathering.end(&ChainStepper::go_on);
   }
 
   /// Outputs of the last step, and of the one before: [output][lane].
@@ -139,15 +117,13 @@ class ChainStepper {
   /// What is read of a block: the newest sample.
   template <int kBlocks = 1>
   void show(int block, Real* out) const {
-    static_assert(kBlocks == kGroup);
-    std::copy_n(newest(block), sample_size(), out);
+    copy_sample(newest(block), sample_size(), out);
   }
 
   /// What is read of it a `share` of the way from the sample before: positions in proportion, orientations by
   /// normalised linear interpolation.
   template <int kBlocks = 1>
   void show_between(int block, float share, Real* out) const {
-    static_assert(kBlocks == kGroup);
     const Real *from = previous(block), *to = newest(block);
     for (std::size_t k = 0; k < sample_size(); ++k) out[k] = from[k] + Real(share) * (to[k] - from[k]);
     if (program_.channels < 7) return;
@@ -165,28 +141,24 @@ class ChainStepper {
   /// Starts one lane at the origin, or where its height is bounded above it, with a segment that begins a recording,
   /// its heading drawn by chance.
   void start(int block, int lane, const Moment<N>& moment) {
-    std::uint32_t words[4][kLanes];
-    draw(moment, 1, words);
+    const Party party = Party::of(block, lane);
+    const Drawn words = draw(party, block, moment, 1);
     const Mover mover(program_);
     Lane life;
     if (program_.gust.order > 0) gust_of(block, lane) = {};
-    const std::uint32_t segment = mover.draw(life, choice_, {words[0][lane], words[1][lane], 0}, true);
-    const HalfTurn<Real> turn = random_turn(words[2][lane], words[3][lane]);
+    const std::uint32_t segment = mover.draw_first(life.state, choice_, {words[0][0], words[1][0], 0});
+    const HalfTurn<Real> turn = random_turn(words[2][0], words[3][0]);
     mover.place(life, segment, mover.beginning_of(segment), turn.cos, turn.sin);
     put(block, lane, life);
     lanes_of(block).show_only(lane);
     if (program_.systems.used()) {
       take_rates(system_of(block, lane), shown_orientation(block, lane), mover.rates_of(life, segment, false));
-      system_of(block, lane).length = Real(duration_of(program_.systems, program_.mode[segment], words[1][lane]));
+      system_of(block, lane).length = Real(duration_of(program_.systems, program_.mode[segment], words[1][0]));
     } else {
-      draw(moment, 2, words);
-      prepare(mover, life, {words[0][lane], words[1][lane], words[2][lane]});
-      mover.meet(life, {});
+      catch_up(block, lane, draw(party, block, moment, 2));
+      meet_one(block, lane, {});
     }
-    put(block, lane, life);
-    for (int k = 0; k < program_.channels; ++k) {
-      previous_of(block)[k * kLanes + lane] = newest_of(block)[k * kLanes + lane];
-    }
+    begin_at(block, lane);
   }
 
   /// Where a lane is in the chain.
@@ -226,10 +198,11 @@ class ChainStepper {
       least = misfit;
     }
     Lane life;
-    mover.place(life, best, body);
+    const ChainGap<Real> gap = mover.place(life, best, body);
     life.state = Real(static_cast<float>(program_.next[program_.mode[best]]));
     put(block, lane, life);
     if (program_.gust.order > 0) gust_of(block, lane) = {};
+    if (!program_.systems.used()) meet_one(block, lane, gap);
     lanes_of(block).show_only(lane);
     if (program_.systems.used()) {
       for (int k = 0; k < 4; ++k)
@@ -237,9 +210,7 @@ class ChainStepper {
       take_rates(system_of(block, lane), body.orientation, body.rates);
       system_of(block, lane).length = Real(duration_of(program_.systems, program_.mode[best], 0x80000000U));
     }
-    for (int k = 0; k < program_.channels; ++k) {
-      previous_of(block)[k * kLanes + lane] = newest_of(block)[k * kLanes + lane];
-    }
+    begin_at(block, lane);
   }
 
   /// A chain multiplies by no coefficients of A and B.
@@ -261,11 +232,12 @@ class ChainStepper {
     for (Real& x : life.base) visit(x, -2 * kFarthest, 2 * kFarthest);
     visit_turn(life.turn, visit);
     visit(life.next, 0.0f, static_cast<float>(program_.segments()), 1.0f);
-    visit_turn(life.next_turn, visit);
+    visit_turn(life.ahead.turn, visit);
     for (auto* numbers :
-         {&life.gap.lean, &life.gap.lean_rate, &life.lean[0], &life.lean[1], &life.lean[2], &life.lean[3]})
+         {&life.ahead.gap.lean, &life.ahead.gap.lean_rate, &life.lean[0], &life.lean[1], &life.lean[2], &life.lean[3]})
       visit_difference(*numbers, visit);
-    for (auto* numbers : {&life.gap.slip, &life.slip[0], &life.slip[1], &life.laid}) visit_difference(*numbers, visit);
+    for (auto* numbers : {&life.ahead.gap.slip, &life.slip[0], &life.slip[1], &life.laid})
+      visit_difference(*numbers, visit);
     visit(life.settled, -1.0f, 2.0f);
     visit(life.left, 0.0f, kMaxSlip, 1.0f);
     steered_ |= life.left > Real(0.0f);
@@ -299,6 +271,10 @@ class ChainStepper {
 
  private:
   using Mover = ChainMover<Real>;
+  using Joins = ChainJoins<PartNumbers<N>>;
+  using Values = typename Joins::Values;  // of the members of a party
+  static constexpr int kMembers = Party::kMost;
+  using Drawn = std::array<std::array<std::uint32_t, kMembers>, 4>;  // [word][member]
   static constexpr std::size_t kLaneNumbers = 3 + 3 + 2 * 6 + 1 + 6 * 4 + 4 * 3 + 1 + 5 + 4;
   static constexpr std::size_t kShocks = 6;
   static constexpr float kMaxSlip = 1e12f;
@@ -337,7 +313,7 @@ class ChainStepper {
     plan_of(block, lane) = life;
     const std::uint32_t segment = Mover::index(life.segment, program_.segments());
     segments_[static_cast<std::size_t>(block)].note(lane, program_, segment);
-    each_played(life, played_of(block), [&](const Real& one, LaneNumbers& all) { all[lane] = one; });
+    each_played(played_of(block), life, [&](LaneNumbers& all, const Real& one) { all[lane] = one; });
   }
   bool falls(int block, int lane) { return played_of(block).settled[lane] < Real(0.0f); }
 
@@ -361,18 +337,77 @@ class ChainStepper {
     return channel_scale(lowest, highest);
   }
 
-  void begin_curves(int block, const ChainCourse<N>& course) {
-    if (!any_lane<N>(course.begins)) return;
+  // Gathers lanes of blocks at which the same happens, and lets it happen to as many at once as go side by side.
+  class Gathering {
+   public:
+    using Happen = void (ChainStepper::*)(const Party& party, int first, const Moment<N>& moment);
+
+    Gathering(ChainStepper& stepper, int first, const Moment<N>& moment)
+        : stepper_(stepper), first_(first), moment_(moment) {}
+
+    void take(int block, const typename ChainCourse<N>::Mask& mask, Happen happen) {
+      if (!any_lane<N>(mask)) return;
+      for (int lane = 0; lane < kLanes; ++lane) {
+        if (!(mask[lane] > Real(0.0f))) continue;
+        party_.add(block, lane);
+        if (party_.is_full()) end(happen);
+      }
+    }
+
+    void end(Happen happen) {
+      if (party_.count == 0) return;
+      (stepper_.*happen)(party_, first_, moment_);
+      party_.count = 0;
+    }
+
+   private:
+    ChainStepper& stepper_;
+    Party party_;
+    int first_;
+    const Moment<N>& moment_;
+  };
+
+  // Lets the lanes of a block go on by a step.
+  void set_out(int block, const Moment<N>& moment, ChainCourse<N>& course) {
+    copy_sample(newest(block), sample_size(), previous_of(block));
+    std::fill_n(moment.clamped, kLanes, 0U);
+    const int lanes = moment.lanes();
+    if (program_.gust.order > 0) drift(block, lanes);
+    if (noisy_) draw_shocks(block, moment);
+    course.use(lanes);
+    if (!program_.systems.used()) return lanes_of(block).go(course);
     for (int lane = 0; lane < kLanes; ++lane) {
-      if (!(course.begins[lane] > Real(0.0f))) continue;
-      Lane life = lane_of(block, lane);
-      Mover(program_).begin_curve(life);
-      put(block, lane, life);
+      const bool ends = lane < lanes && falls(block, lane) && move_system(block, lane);
+      course.ends[lane] = Real(ends ? 1.0f : 0.0f);
     }
   }
 
-  // Finds the lanes of which a step makes more than it shows: those that come to rest, are too far away, are near the
-  // ground, or at the end of a segment. Returns whether there are any.
+  // Shows them where they have got to, and leaves among those that end whichever join.
+  void arrive(int block, const Moment<N>& moment, ChainCourse<N>& course) {
+    if (!program_.systems.used()) {
+      ChainBlock<N> lanes = lanes_of(block);
+      lanes.move(course);
+      lanes.show(course);
+    }
+    Real eventful[kLanes];
+    if (!find_events(block, course, eventful)) return;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      if (!(eventful[lane] > Real(0.0f))) continue;
+      if (!falls(block, lane)) {
+        settle(block, lane);
+        course.ends[lane] = Real(0.0f);
+        continue;
+      }
+      hold_position(block, lane, moment);
+      if (const auto reach = reach_touching(program_, newest_of(block) + lane, kLanes, ground_)) {
+        land(block, lane, *reach);
+        course.ends[lane] = Real(0.0f);
+      }
+    }
+  }
+
+  // Finds the lanes of which a step makes more than it shows and lets join: those that come to rest, are too far away,
+  // or near the ground. Returns whether there are any.
   bool find_events(int block, const ChainCourse<N>& course, Real (&eventful)[kLanes]) {
     const auto zero = all<Reals<N>>(0.0f), one = all<Reals<N>>(1.0f), used = load<Reals<N>>(course.used);
     const auto inside = [](const auto& x, const auto& low, const auto& high, const auto& yes, const auto& no) {
@@ -381,8 +416,7 @@ class ChainStepper {
     const auto beyond = [](const auto& x, const auto& low, const auto& high, const auto& yes, const auto& no) {
       return x > low ? (x < high ? no : yes) : yes;
     };
-    auto found = chosen(load<Reals<N>>(course.ends), used,
-                        each(inside, load<Reals<N>>(played_of(block).settled.data()), zero, one, used, zero));
+    auto found = each(inside, load<Reals<N>>(played_of(block).settled.data()), zero, one, used, zero);
     const float nearest[3] = {-kFarthest, -kFarthest,
                               std::max(-kFarthest, ground_ + (program_.half_width + program_.half_length))};
     for (int axis = 0; axis < 3; ++axis) {
@@ -510,61 +544,220 @@ class ChainStepper {
     return false;
   }
 
-  static void draw(const Moment<N>& moment, std::uint32_t group, std::uint32_t (&out)[4][kLanes]) {
-    Words<N> counters[4], words[4];
-    random_counters<N>(moment.counters, counters);
-    random_group<N>(*moment.keys, counters, group, words);
-    for (int k = 0; k < 4; ++k) store(words[k], out[k]);
+  // Random words of one group of each member of a party; the moment is that of the block `first`.
+  static Drawn draw(const Party& party, int first, const Moment<N>& moment, std::uint32_t group) {
+    std::array<std::uint64_t, kMembers> stream{}, born{};
+    for (std::size_t k = 0; k < static_cast<std::size_t>(party.count); ++k) {
+      const int at = (party.block[k] - first) * kLanes + party.lane[k];
+      stream[k] = moment.counters.stream[at];
+      born[k] = moment.counters.born[at];
+    }
+    Words<PartNumbers<N>> counters[4], words[4];
+    random_counters<PartNumbers<N>>({stream.data(), born.data(), moment.counters.step}, counters);
+    random_group<PartNumbers<N>>(*moment.keys, counters, group, words);
+    Drawn drawn;
+    for (std::size_t k = 0; k < 4; ++k) store(words[k], drawn[k].data());
+    return drawn;
   }
 
   // What comes after a segment's last step.
-  template <class Chance>
-  void go_on(const Mover& mover, int block, int lane, Chance chance) {
-    Lane life = lane_of(block, lane);
-    if (program_.systems.used()) {
-      change_system(mover, block, lane, life, chance(0));
-    } else {
-      follow(mover, life, chance, newest_of(block) + lane);
+  void go_on(const Party& party, int first, const Moment<N>& moment) {
+    if (!program_.systems.used()) return follow(party, first, moment);
+    const Drawn words = draw(party, first, moment, 0);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(party.count); ++k) {
+      change_system(party.block[k], party.lane[k], {words[0][k], words[1][k], words[2][k]});
     }
-    put(block, lane, life);
   }
 
   // Lets the next mode of a lane begin, whose modes are systems.
-  void change_system(const Mover& mover, int block, int lane, Lane& life, const ChainWords& words) {
-    const std::uint32_t next = mover.draw(life, choice_, words, false);
+  void change_system(int block, int lane, const ChainWords& words) {
+    Lane life = lane_of(block, lane);
+    const std::uint32_t before = Mover::index(life.segment, program_.segments());
+    const std::uint32_t next = Mover(program_).draw(life.state, before, choice_, words);
     life.segment = Real(static_cast<float>(next));
     life.row = Real(0.0f);
     const std::uint32_t word = choice_.has_chance() ? words.segment : 0x80000000U;
     system_of(block, lane).length = Real(duration_of(program_.systems, program_.mode[next], word));
+    put(block, lane, life);
   }
 
-  // Joins the next segment where the lane's own ends, and draws what follows that. Where a body was placed, nothing was
-  // drawn yet: then all that differs is left to the new segment.
-  template <class Chance>
-  void follow(const Mover& mover, Lane& life, Chance chance, const Real* shown) {
-    const bool known = Mover::is_prepared(life);
-    if (!known) prepare(mover, life, chance(2));
-    ChainGap<Real> from = life.gap;
-    if (!known)
-      from = {added(from.lean, from.lean), added(from.lean_rate, from.lean_rate), added(from.slip, from.slip)};
-    mover.join(life, {shown[0], shown[kLanes], shown[2 * kLanes]});
-    prepare(mover, life, chance(0));
-    mover.meet(life, from);
+  // Joins the next segments where the lanes' own end, and draws what follows those.
+  void follow(const Party& party, int first, const Moment<N>& moment) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(party.count); ++k) {
+      const int block = party.block[k], lane = party.lane[k];
+      if (Mover::is_prepared(plan_of(block, lane))) continue;
+      // Where a body was placed, nothing was drawn yet: then all that differs is left to the new segment.
+      catch_up(block, lane, draw(Party::of(block, lane), first, moment, 2));
+      ChainGap<Real>& gap = plan_of(block, lane).ahead.gap;
+      each_number(gap, gap, [](Real& half, const Real&) { half = half + half; });
+    }
+    const ChainAhead<Values> begun = ahead_of(party);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(party.count); ++k) join(party.block[k], party.lane[k]);
+    const ChainAhead<Values> ahead = prepare(party, begun.turn, draw(party, first, moment, 0));
+    if (program_.blend_steps == 0) return;
+    add(party, Joins(program_).meeting(segments_of(party), heights_of(party), begun.gap, ahead.gap));
   }
 
-  // Draws what follows a lane's segment.
-  void prepare(const Mover& mover, Lane& life, const ChainWords& words) {
-    const bool steered = life.left > Real(static_cast<float>(mover.steps_left(life))) && !program_.lead.empty();
-    mover.prepare(life, steered ? draw_steered(mover, life, words) : mover.draw(life, choice_, words, false));
+  // Places the beginning of what was prepared where the body is shown.
+  void join(int block, int lane) {
+    Played& played = played_of(block);
+    const ChainPlan<Real>& plan = plan_of(block, lane);
+    const std::uint32_t segment = Mover::index(plan.next, program_.segments() + 1) - 1;
+    played.segment[lane] = Real(static_cast<float>(segment));
+    played.row[lane] = Real(0.0f);
+    for (int k = 0; k < 3; ++k) played.base[static_cast<std::size_t>(k)][lane] = newest(block)[k * kLanes + lane];
+    each_number(played.turn, plan.ahead.turn, [&](LaneNumbers& all, const Real& one) { all[lane] = one; });
+    segments_[static_cast<std::size_t>(block)].note(lane, program_, segment);
   }
 
-  // The same towards a target: from where the segment will have ended.
-  std::uint32_t draw_steered(const Mover& mover, Lane& life, const ChainWords& words) {
-    Lane end = life;
-    end.left = life.left - Real(static_cast<float>(mover.steps_left(life)));
-    const std::uint32_t next = steering_.draw(mover, program_, choice_, end, mover.end_of(life), words);
-    life.state = end.state;
+  // Draws what follows the lanes' segments, which lie as turned, and notes what is ahead.
+  ChainAhead<Values> prepare(const Party& party, const ChainTurn<Values>& turn, const Drawn& words) {
+    const typename Joins::Segments next = draw_next(party, words);
+    const ChainAhead<Values> ahead = Joins(program_).ahead(turn, segments_of(party), next);
+    put_ahead(party, ahead);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(party.count); ++k) {
+      plan_of(party.block[k], party.lane[k]).next = Real(static_cast<float>(next[k] + 1));
+    }
+    return ahead;
+  }
+
+  // The same of one lane, as it lies.
+  void catch_up(int block, int lane, const Drawn& words) {
+    ChainTurn<Values> turn;
+    each_number(turn, played_of(block).turn,
+                [&](Values& to, const LaneNumbers& all) { to = wisp::all<Values>(value_of(all[lane])); });
+    prepare(Party::of(block, lane), turn, words);
+  }
+
+  // First the modes of all, then their segments: what is far in memory is then waited for together.
+  typename Joins::Segments draw_next(const Party& party, const Drawn& words) {
+    const Mover mover(program_);
+    typename Joins::Segments mode{}, next{};
+    std::array<bool, kMembers> steered{};
+    const auto words_of = [&](std::size_t k) { return ChainWords{words[0][k], words[1][k], words[2][k]}; };
+    for (std::size_t k = 0; k < static_cast<std::size_t>(party.count); ++k) {
+      const int block = party.block[k], lane = party.lane[k];
+      steered[k] = is_steered(mover, block, lane);
+      if (steered[k]) {
+        next[k] = draw_steered(mover, block, lane, words_of(k));
+      } else {
+        mode[k] = mover.draw_mode(plan_of(block, lane).state, segment_of(block, lane), choice_, words_of(k));
+      }
+    }
+    for (std::size_t k = 0; k < static_cast<std::size_t>(party.count); ++k) {
+      if (steered[k]) continue;
+      next[k] = choice_.successor(program_, segment_of(party.block[k], party.lane[k]), mode[k], words_of(k));
+    }
     return next;
+  }
+
+  // Whether a lane's segment ends before it should be where it is steered to.
+  bool is_steered(const Mover& mover, int block, int lane) {
+    const Real& left = played_of(block).left[lane];
+    if (program_.lead.empty() || !(left > Real(0.0f))) return false;
+    return left > Real(static_cast<float>(mover.steps_left(lane_of(block, lane))));
+  }
+
+  // Draws towards a target: from where the segment will have ended.
+  std::uint32_t draw_steered(const Mover& mover, int block, int lane, const ChainWords& words) {
+    Lane end = lane_of(block, lane);
+    end.left = end.left - Real(static_cast<float>(mover.steps_left(end)));
+    const std::uint32_t next = steering_.draw(mover, program_, choice_, end, mover.end_of(end), words);
+    plan_of(block, lane).state = end.state;
+    return next;
+  }
+
+  // Lets a lane's segment meet what came before it, to which it lacks `from`, and what follows.
+  void meet_one(int block, int lane, const ChainGap<Real>& from) {
+    if (program_.blend_steps == 0) return;
+    const Party one = Party::of(block, lane);
+    ChainGap<Values> lacking;
+    each_number(lacking, from, [](Values& to, const Real& x) { to = all<Values>(value_of(x)); });
+    add(one, Joins(program_).meeting(segments_of(one), heights_of(one), lacking, ahead_of(one).gap));
+  }
+
+  // Begins the curves towards what follows.
+  void leave(const Party& party, int, const Moment<N>&) {
+    add(party, Joins(program_).leaving(segments_of(party), heights_of(party), ahead_of(party).gap));
+  }
+
+  // Numbers of a plan in a row, as it is laid out.
+  static_assert(offsetof(ChainPlan<float>, near) == (kAheadNumbers - 1) * sizeof(float));
+
+  // What is ahead of the lanes; of those that a party lacks, the first member's.
+  ChainAhead<Values> ahead_of(const Party& party) {
+    const Real* row[kMembers];
+    for (std::size_t k = 0; k < kMembers; ++k) {
+      const std::size_t member = k < static_cast<std::size_t>(party.count) ? k : 0;
+      row[k] = reinterpret_cast<const Real*>(&plan_of(party.block[member], party.lane[member]));
+    }
+    Values c[kAheadNumbers / 4][4];
+    unrolled<kAheadNumbers / 4>([&](auto k) { columns_of<PartNumbers<N>>(row, 4 * k, c[k]); });
+    return {{c[0][0], c[0][1], c[0][2], c[0][3], c[1][0], c[1][1]},
+            {{c[1][2], c[1][3], c[2][0], c[2][1]}, {c[2][2], c[2][3], c[3][0], c[3][1]}, {c[3][2], c[3][3], c[4][0]}}};
+  }
+
+  void put_ahead(const Party& party, const ChainAhead<Values>& ahead) {
+    ChainPlan<Real> none;
+    Real* row[kMembers];
+    for (std::size_t k = 0; k < kMembers; ++k) {
+      const bool is_member = k < static_cast<std::size_t>(party.count);
+      row[k] = reinterpret_cast<Real*>(is_member ? &plan_of(party.block[k], party.lane[k]) : &none);
+    }
+    const auto& [turn, gap] = ahead;
+    rows_of<PartNumbers<N>>({turn.half_cos, turn.half_sin, turn.cos_scale, turn.sin_scale}, 0, row);
+    rows_of<PartNumbers<N>>({turn.half_cos_scale, turn.half_sin_scale, gap.lean[0], gap.lean[1]}, 4, row);
+    rows_of<PartNumbers<N>>({gap.lean[2], gap.lean[3], gap.lean_rate[0], gap.lean_rate[1]}, 8, row);
+    rows_of<PartNumbers<N>>({gap.lean_rate[2], gap.lean_rate[3], gap.slip[0], gap.slip[1]}, 12, row);
+    Real last[kMembers];  // behind it, others follow
+    store(gap.slip[2], last);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(party.count); ++k) row[k][16] = last[k];
+  }
+
+  // The heights at which the lanes' segments lie.
+  Values heights_of(const Party& party) {
+    Real height[kMembers] = {};
+    for (std::size_t k = 0; k < static_cast<std::size_t>(party.count); ++k) {
+      height[k] = played_of(party.block[k]).base[2][party.lane[k]];
+    }
+    return load<Values>(height);
+  }
+
+  // Adds curves to the lanes' segments in place of what was added to them.
+  void add(const Party& party, const typename Joins::Curves& curves) {
+    using Numbers = std::array<Real, kMembers>;
+    struct {
+      std::array<Quaternion<Numbers>, 4> lean;
+      std::array<Vector3<Numbers>, 2> slip;
+    } added;
+    each_added(added, curves, [](Numbers& to, const Values& x) { store(x, to.data()); });
+    for (std::size_t k = 0; k < static_cast<std::size_t>(party.count); ++k) {
+      const int lane = party.lane[k];
+      each_added(played_of(party.block[k]), added, [&](LaneNumbers& to, const Numbers& all) { to[lane] = all[k]; });
+    }
+  }
+
+  std::uint32_t segment_of(int block, int lane) {
+    return Mover::index(played_of(block).segment[lane], program_.segments());
+  }
+  typename Joins::Segments segments_of(const Party& party) {
+    typename Joins::Segments segments{};
+    for (std::size_t k = 0; k < static_cast<std::size_t>(party.count); ++k) {
+      segments[k] = segment_of(party.block[k], party.lane[k]);
+    }
+    return segments;
+  }
+
+  // The life of a lane begins with what is shown of it.
+  void begin_at(int block, int lane) {
+    for (int k = 0; k < program_.channels; ++k) {
+      previous_of(block)[k * kLanes + lane] = newest_of(block)[k * kLanes + lane];
+    }
+  }
+
+  // In vectors: a call would take longer.
+  static void copy_sample(const Real* from, std::size_t count, Real* to) {
+    for (std::size_t k = 0; k < count; k += kLanes) store(load<Reals<N>>(from + k), to + k);
   }
 
   // A direction without preference: two normal deviates, made a unit; the identity where the heading is to be kept.

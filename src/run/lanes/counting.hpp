@@ -65,6 +65,8 @@ inline CountingReal real_of_part(CountingWord word) {
   return CountingReal(static_cast<float>(static_cast<std::int32_t>(word.value)));
 }
 inline CountingWord bits_of_part(CountingReal real) { return {std::bit_cast<std::uint32_t>(real.value)}; }
+inline CountingWord whole_part(CountingReal real) { return {static_cast<std::uint32_t>(real.value)}; }
+inline CountingReal next_part(CountingReal real) { return CountingReal(real.value + 1.0f); }
 inline CountingReal real_of_bits_part(CountingWord bits) { return CountingReal(std::bit_cast<float>(bits.value)); }
 template <int bits>
 inline CountingWord signed_shift_part(CountingWord word) {
@@ -74,6 +76,12 @@ inline CountingWord differ_part(CountingReal a, CountingReal b) { return {a == b
 inline CountingReal magnitude_part(CountingReal a) { return CountingReal(std::fabs(a.value)); }
 inline void columns_part(const float* const* row, std::size_t first, CountingReal (&column)[4]) {
   for (std::size_t k = 0; k < 4; ++k) column[k] = CountingReal(row[0][first + k]);
+}
+inline void columns_part(const CountingReal* const* row, std::size_t first, CountingReal (&column)[4]) {
+  for (std::size_t k = 0; k < 4; ++k) column[k] = row[0][first + k];
+}
+inline void rows_part(const CountingReal (&column)[4], std::size_t first, CountingReal* const* row) {
+  for (std::size_t k = 0; k < 4; ++k) row[0][first + k] = column[k];
 }
 inline void spread_part(float value, CountingReal& part) { part = CountingReal(value); }
 inline void spread_part(std::uint32_t value, CountingWord& part) { part = {value}; }

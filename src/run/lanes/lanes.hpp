@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 #include <utility>
 
 #if defined(__GNUC__) && !defined(WISP_PLAIN_LANES)
@@ -53,6 +54,8 @@ template <int bits>
 inline WordPart signed_shift_part(WordPart word) {
   return (WordPart)((SignedPart)word >> bits);
 }
+inline WordPart whole_part(RealPart real) { return (WordPart) __builtin_convertvector(real, SignedPart); }
+inline RealPart next_part(RealPart real) { return real + 1.0f; }
 inline WordPart differ_part(RealPart a, RealPart b) { return (WordPart)(a != b); }
 inline RealPart magnitude_part(RealPart a) { return (RealPart)((WordPart)a & 0x7fffffffU); }
 inline RealPart square_root_part(RealPart a) {
@@ -88,6 +91,8 @@ template <int bits>
 inline WordPart signed_shift_part(WordPart word) {
   return static_cast<std::uint32_t>(static_cast<std::int32_t>(word) >> bits);
 }
+inline WordPart whole_part(RealPart real) { return static_cast<std::uint32_t>(static_cast<std::int32_t>(real)); }
+inline RealPart next_part(RealPart real) { return real + 1.0f; }
 inline WordPart differ_part(RealPart a, RealPart b) { return a != b ? 0xffffffffU : 0U; }
 inline RealPart magnitude_part(RealPart a) { return std::fabs(a); }
 inline RealPart square_root_part(RealPart a) { return std::sqrt(a); }
@@ -208,9 +213,40 @@ inline void columns_part(const float* const* row, std::size_t first, RealPart (&
   column[3] = __builtin_shufflevector(cd01, cd23, 2, 3, 6, 7);
 #endif
 }
+
+// And back to the rows.
+inline void rows_part(const RealPart (&column)[4], std::size_t first, float* const* row) {
+  const auto put = [&](int lane, const Quad& quad) { std::memcpy(row[lane] + first, &quad, sizeof quad); };
+#ifdef __AVX2__
+  const auto ab01 = __builtin_shufflevector(column[0], column[1], 0, 8, 1, 9, 4, 12, 5, 13);
+  const auto ab23 = __builtin_shufflevector(column[0], column[1], 2, 10, 3, 11, 6, 14, 7, 15);
+  const auto cd01 = __builtin_shufflevector(column[2], column[3], 0, 8, 1, 9, 4, 12, 5, 13);
+  const auto cd23 = __builtin_shufflevector(column[2], column[3], 2, 10, 3, 11, 6, 14, 7, 15);
+  const auto put_two = [&](int lane, const RealPart& two) {
+    put(lane, __builtin_shufflevector(two, two, 0, 1, 2, 3));
+    put(lane + 4, __builtin_shufflevector(two, two, 4, 5, 6, 7));
+  };
+  put_two(0, __builtin_shufflevector(ab01, cd01, 0, 1, 8, 9, 4, 5, 12, 13));
+  put_two(1, __builtin_shufflevector(ab01, cd01, 2, 3, 10, 11, 6, 7, 14, 15));
+  put_two(2, __builtin_shufflevector(ab23, cd23, 0, 1, 8, 9, 4, 5, 12, 13));
+  put_two(3, __builtin_shufflevector(ab23, cd23, 2, 3, 10, 11, 6, 7, 14, 15));
+#else
+  const Quad ab01 = __builtin_shufflevector(column[0], column[1], 0, 4, 1, 5);
+  const Quad ab23 = __builtin_shufflevector(column[0], column[1], 2, 6, 3, 7);
+  const Quad cd01 = __builtin_shufflevector(column[2], column[3], 0, 4, 1, 5);
+  const Quad cd23 = __builtin_shufflevector(column[2], column[3], 2, 6, 3, 7);
+  put(0, __builtin_shufflevector(ab01, cd01, 0, 1, 4, 5));
+  put(1, __builtin_shufflevector(ab01, cd01, 2, 3, 6, 7));
+  put(2, __builtin_shufflevector(ab23, cd23, 0, 1, 4, 5));
+  put(3, __builtin_shufflevector(ab23, cd23, 2, 3, 6, 7));
+#endif
+}
 #else
 inline void columns_part(const float* const* row, std::size_t first, RealPart (&column)[4]) {
   for (std::size_t k = 0; k < 4; ++k) column[k] = row[0][first + k];
+}
+inline void rows_part(const RealPart (&column)[4], std::size_t first, float* const* row) {
+  for (std::size_t k = 0; k < 4; ++k) row[0][first + k] = column[k];
 }
 #endif
 
@@ -261,6 +297,17 @@ struct LiveNumbers {
   static constexpr int kPartLanes = wisp::kPartLanes;
   static constexpr int kParts = kLanes / kPartLanes;
 };
+
+template <class N>
+struct OnePart : N {
+  static constexpr int kLanes = N::kPartLanes;
+  static constexpr int kParts = 1;
+};
+
+/// The same numbers, as many side by side as the machine computes at once; where that is one, a block's, whose
+/// functions are there anyway.
+template <class N>
+using PartNumbers = std::conditional_t<(N::kPartLanes > 1), OnePart<N>, N>;
 
 // GCC leaves long unrolled bodies as calls, whose values then pass through memory.
 #if defined(__GNUC__) && !defined(__wasm__)
@@ -383,6 +430,18 @@ inline auto real_of(const Pack<Part, kParts>& words) {
   return each([](const Part& x) { return real_of_part(x); }, words);
 }
 
+/// Whole numbers as words. Precondition: they are in [0, 2³¹).
+template <class Part, int kParts>
+inline auto whole(const Pack<Part, kParts>& reals) {
+  return each([](const Part& x) { return whole_part(x); }, reals);
+}
+
+/// The next whole numbers. To go on to the next row of a table is not counted as arithmetic, as finding one is not.
+template <class Part, int kParts>
+inline auto next_of(const Pack<Part, kParts>& reals) {
+  return each([](const Part& x) { return next_part(x); }, reals);
+}
+
 /// Shifted to the right; what comes in at the left is like the highest bit.
 template <int bits, class Part, int kParts>
 inline auto signed_shift(const Pack<Part, kParts>& words) {
@@ -429,13 +488,74 @@ inline bool any(const Pack<Part, kParts>& words) {
 }
 
 /// Four successive numbers, from `first` on, of every lane's row.
-template <class N>
-inline void columns_of(const float* const (&row)[N::kLanes], std::size_t first, Reals<N> (&columns)[4]) {
+template <class N, class Number>
+inline void columns_of(const Number* const (&row)[N::kLanes], std::size_t first, Reals<N> (&columns)[4]) {
   unrolled<N::kParts>([&](auto i) {
     typename N::RealPart part[4];
     columns_part(row + i * N::kPartLanes, first, part);
     unrolled<4>([&](auto k) { columns[k].part[i] = part[k]; });
   });
+}
+
+/// And back to the rows.
+template <class N>
+inline void rows_of(const Reals<N> (&columns)[4], std::size_t first, typename N::Real* const (&row)[N::kLanes]) {
+  unrolled<N::kParts>([&](auto i) {
+    typename N::RealPart part[4];
+    unrolled<4>([&](auto k) { part[k] = columns[k].part[i]; });
+    rows_part(part, first, row + i * N::kPartLanes);
+  });
+}
+
+#ifdef WISP_VECTOR_LANES
+using Eight = std::int16_t __attribute__((vector_size(16)));
+
+inline void real_parts(const Eight& words, RealPart* parts) {
+#ifdef __AVX2__
+  parts[0] = (RealPart)_mm256_cvtepi32_ps(_mm256_cvtepi16_epi32((__m128i)words));
+#else
+  const auto real = [](const Eight& twice) { return __builtin_convertvector((SignedPart)twice >> 16, RealPart); };
+  parts[0] = real(__builtin_shufflevector(words, words, 0, 0, 1, 1, 2, 2, 3, 3));
+  parts[1] = real(__builtin_shufflevector(words, words, 4, 4, 5, 5, 6, 6, 7, 7));
+#endif
+}
+#endif
+
+/// Eight successive whole numbers of 16 bits of every lane's row, as real ones.
+template <class N>
+inline void columns_of(const std::int16_t* const (&row)[N::kLanes], Reals<N> (&columns)[8]) {
+#ifdef WISP_VECTOR_LANES
+  // Rows half of them apart are interleaved; after as many times as they can be halved, numbers are rows and lanes are
+  // columns, of which four lanes fill half.
+  if constexpr (N::kPartLanes > 1) {
+    constexpr int kRows = N::kLanes, kHalf = kRows / 2;
+    static_assert(kRows == 8 || kRows == 4);
+    Eight words[kRows], mixed[kRows];
+    unrolled<kRows>([&](auto lane) { std::memcpy(&words[lane], row[lane], sizeof words[lane]); });
+    unrolled<kRows == 8 ? 3 : 2>([&](auto) {
+      unrolled<kHalf>([&](auto k) {
+        mixed[2 * k] = __builtin_shufflevector(words[k], words[k + kHalf], 0, 8, 1, 9, 2, 10, 3, 11);
+        mixed[2 * k + 1] = __builtin_shufflevector(words[k], words[k + kHalf], 4, 12, 5, 13, 6, 14, 7, 15);
+      });
+      unrolled<kRows>([&](auto k) { words[k] = mixed[k]; });
+    });
+    if constexpr (kRows == 8) {
+      unrolled<8>([&](auto k) { real_parts(words[k], columns[k].part); });
+    } else {
+      unrolled<4>([&](auto k) {
+        typename N::RealPart both[2];
+        real_parts(words[k], both);
+        columns[2 * k].part[0] = both[0];
+        columns[2 * k + 1].part[0] = both[1];
+      });
+    }
+  }
+#endif
+  if constexpr (N::kPartLanes == 1) {
+    for (int lane = 0; lane < N::kLanes; ++lane) {
+      for (int k = 0; k < 8; ++k) columns[k].part[lane] = typename N::Real(static_cast<float>(row[lane][k]));
+    }
+  }
 }
 
 /// A number from each of several places.
@@ -456,17 +576,6 @@ template <class Part, int kParts>
 inline auto chosen(const Pack<Part, kParts>& mask, const Pack<Part, kParts>& yes, const Pack<Part, kParts>& no) {
   return each([](const Part& m, const Part& zero, const Part& x, const Part& y) { return m > zero ? x : y; }, mask,
               all<Pack<Part, kParts>>(0.0f), yes, no);
-}
-
-/// Eight whole numbers of 16 bits as real ones.
-inline void widen(const std::int16_t* from, float* to) {
-#ifdef WISP_LONG_WORDS
-  const __m128i words = _mm_loadu_si128(reinterpret_cast<const __m128i*>(from));
-  _mm_storeu_ps(to, _mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpacklo_epi16(words, words), 16)));
-  _mm_storeu_ps(to + 4, _mm_cvtepi32_ps(_mm_srai_epi32(_mm_unpackhi_epi16(words, words), 16)));
-#else
-  for (int k = 0; k < 8; ++k) to[k] = static_cast<float>(from[k]);
-#endif
 }
 
 /// The larger and the smaller of two numbers; the second where the first is not a number.

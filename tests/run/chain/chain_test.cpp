@@ -347,7 +347,7 @@ TEST(ChainBank, LanesThatNobodyLivesInAreNotMoved) {
   std::array<std::uint32_t, LiveNumbers::kLanes> clamped;
   Moment<LiveNumbers> moment{&keys, {streams.data(), born.data(), 0}, clamped.data()};
   for (int lane = 0; lane < LiveNumbers::kLanes; ++lane) stepper.start(0, lane, moment);
-  moment.lanes = 3;
+  moment.used = 3;
   std::array<float, 7 * LiveNumbers::kLanes> before, after;
   stepper.show(0, before.data());
   stepper.step(0, moment);

@@ -1,0 +1,251 @@
+#pragma once
+// What happens to lanes of a chain where one segment follows another: how the next one will lie, and the curves by
+// which neighbours meet. Joins come now and then, so lanes of several blocks have theirs side by side.
+//
+// Neighbours meet half-way: at a join attitude, its rate and velocity are the means of what one segment ends with and
+// the other begins with. What that takes off either is spread over the whole segment: by a smooth curve for each number
+// of a quaternion, in the world's frame, made unit when shown, and by a velocity that changes evenly. Half of the
+// difference over twice the time of fading it on one side (D. Bollo, Inertialization, GDC 2018) has an eighth of its
+// curvature, which recorded motion has little of. It takes the next segment to be known while one is
+// played, so what follows is drawn when a segment begins.
+//
+// The curve of each number is two parabolas, clamped as differences from row to row: two additions a number.
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "run/chain/chain_lane.hpp"
+
+namespace wisp {
+
+/// Lanes of some blocks at which the same happens, as many as go side by side.
+template <class N>
+struct ChainParty {
+  static constexpr int kMost = N::kLanes;
+
+  int count = 0;
+  std::array<int, N::kLanes> block{};
+  std::array<int, N::kLanes> lane{};
+
+  static ChainParty of(int block, int lane) {
+    ChainParty party;
+    party.add(block, lane);
+    return party;
+  }
+
+  bool is_full() const { return count == kMost; }
+
+  /// Precondition: !is_full().
+  void add(int of_block, int of_lane) {
+    block[static_cast<std::size_t>(count)] = of_block;
+    lane[static_cast<std::size_t>(count)] = of_lane;
+    ++count;
+  }
+};
+
+template <class N>
+class ChainJoins {
+ public:
+  using Real = typename N::Real;
+  using Values = Reals<N>;
+  static constexpr int kLanes = N::kLanes;
+  using Segments = std::array<std::uint32_t, kLanes>;
+
+  explicit ChainJoins(const ChainProgram& program) : program_(program) {}
+
+  /// What is ahead of segments that lie as turned, where others follow.
+  ChainAhead<Values> ahead(const ChainTurn<Values>& turn, const Segments& before, const Segments& next) const {
+    const Edge end = edge_of(before, true), start = edge_of(next, false);
+    const ChainTurn<Values> next_turn = turn_after(turn, end, start);
+    if (program_.blend_steps == 0) return {next_turn, {}};
+    const auto slip = taken(turned_velocity(turn, end.velocity), turned_velocity(next_turn, start.velocity));
+    const float half_step = 0.5f * program_.step_seconds * program_.velocity_scale;
+    const auto over_ground = number(half_step / program_.position_scale);
+    const auto slipped =
+        bounded(Vector3<Values>{over_ground * slip[0], over_ground * slip[1], number(half_step) * slip[2]});
+    if (program_.channels < 7) return {next_turn, {{}, {}, slipped}};
+    const auto ended = oriented(turn, end.attitude), started = oriented(next_turn, start.attitude);
+    return {next_turn,
+            {bounded(scaled(taken(ended, started), number(0.5f))),
+             bounded(taken(oriented(turn, end.change), oriented(next_turn, start.change))), slipped}};
+  }
+
+  /// What is added to segments, as in ChainPlayed.
+  struct Curves {
+    std::array<Quaternion<Values>, 4> lean;
+    std::array<Vector3<Values>, 2> slip;
+  };
+
+  /// Lets segments that begin at some height meet what came before them, to which they lack `from`, and, short ones,
+  /// what follows.
+  Curves meeting(const Segments& segments, const Values& height, const ChainGap<Values>& from,
+                 const ChainGap<Values>& to) const {
+    Segments over{}, led{};
+    Real is_short[kLanes] = {};
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const std::uint32_t steps = program_.steps(segments[lane]), blend = program_.blend_steps;
+      is_short[lane] = Real(steps < 2 * blend ? 1.0f : 0.0f);
+      over[lane] = steps < 2 * blend ? steps : blend;
+      led[lane] = std::min(steps, 2 * blend);
+    }
+    const auto mask = load<Values>(is_short), none = number(0.0f);
+    ChainGap<Values> met;
+    each_number(met, to, [&](Values& out, const Values& gap) { out = chosen(mask, gap, none); });
+    Curves curves = spread(over, from, met);
+    lead_back(segments, height, led, curves);
+    return curves;
+  }
+
+  /// Begins the curves of longer ones towards what follows.
+  Curves leaving(const Segments& segments, const Values& height, const ChainGap<Values>& to) const {
+    Segments over;
+    over.fill(program_.blend_steps);
+    ChainGap<Values> none;
+    each_number(none, to, [&](Values& out, const Values&) { out = number(0.0f); });
+    Curves curves = spread(over, none, to);
+    lead_back(segments, height, over, curves);
+    return curves;
+  }
+
+ private:
+  // Where segments begin or end, as stored.
+  struct Edge {
+    Quaternion<Values> attitude;
+    Quaternion<Values> change;
+    Vector3<Values> velocity;
+  };
+
+  // Of any length, half as long as the turn.
+  using Turn = LongTurn<Values>;
+
+  static Values number(float value) { return all<Values>(value); }
+
+  static Values above(const Values& x, const Values& bound, const Values& yes, const Values& no) {
+    return each([](const auto& a, const auto& b, const auto& y, const auto& n) { return a > b ? y : n; }, x, bound, yes,
+                no);
+  }
+
+  template <class Numbers>
+  static Numbers bounded(Numbers numbers) {
+    for (Values& x : numbers) x = hold(x, number(-kMaxDifference), number(kMaxDifference));
+    return numbers;
+  }
+
+  Edge edge_of(const Segments& segments, bool end) const {
+    const std::int16_t *row[kLanes], *rate[kLanes];
+    const float* change[kLanes];
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const std::uint32_t segment = segments[lane];
+      const std::size_t edge = std::size_t{2} * segment + (end ? 1 : 0);
+      const std::size_t at = program_.first_row[segment] + (end ? program_.steps(segment) : 0);
+      row[lane] = program_.rows.data() + at * static_cast<std::size_t>(program_.channels);
+      rate[lane] = program_.rates.data() + edge * static_cast<std::size_t>(program_.rate_count);
+      change[lane] = program_.changes.data() + 4 * edge;
+    }
+    Values rates[kRowReach], attitude[kRowReach], changes[4];
+    columns_of<N>(rate, rates);
+    if (program_.channels < 7) return {{}, {}, {rates[0], rates[1], rates[2]}};
+    columns_of<N>(row, attitude);
+    columns_of<N>(change, 0, changes);
+    return {{attitude[3], attitude[4], attitude[5], attitude[6]},
+            {changes[0], changes[1], changes[2], changes[3]},
+            {rates[0], rates[1], rates[2]}};
+  }
+
+  // How a segment lies that follows another. Where heading is kept, a whole turn keeps the quaternion's sign from
+  // jumping.
+  ChainTurn<Values> turn_after(const ChainTurn<Values>& turn, const Edge& end, const Edge& start) const {
+    const Turn more = turn_between_edges(start, end);
+    const auto cos = turn.half_cos * more.cos - turn.half_sin * more.sin;
+    const auto sin = turn.half_cos * more.sin + turn.half_sin * more.cos;
+    const auto square = cos * cos + sin * sin;
+    const auto inverse = number(1.0f) / square_root(square);
+    ChainTurn<Values> out = turn_of(cos * inverse, sin * inverse, program_, number);
+    const auto least = number(1e-12f);  // what is below is a saved bank that was made to harm
+    each_number(out, turn, [&](Values& x, const Values& as_before) { x = above(square, least, x, as_before); });
+    return out;
+  }
+
+  // The same as half a turn against the other, of any length.
+  Turn turn_between_edges(const Edge& start, const Edge& end) const {
+    const auto zero = number(0.0f), one = number(1.0f);
+    if (program_.channels < 7) {
+      if (!program_.heading_free) return {one, zero};
+      return turn_between_velocities(start.velocity, end.velocity);
+    }
+    if (!program_.heading_free) return {above(zero, dot(start.attitude, end.attitude), number(-1.0f), one), zero};
+    const Turn turn = long_turn_between(start.attitude, end.attitude);
+    const auto least = number(kMinTurn);
+    const auto is_long = above(magnitude(turn.cos), least, one, above(magnitude(turn.sin), least, one, zero));
+    return {chosen(is_long, turn.cos, one), chosen(is_long, turn.sin, zero)};
+  }
+
+  // As turn_between() of one lane: half of an angle, whichever of cosine and sine is larger first.
+  static Turn turn_between_velocities(const Vector3<Values>& from, const Vector3<Values>& to) {
+    const auto zero = number(0.0f), half = number(0.5f);
+    const auto along = to[0] * from[0] + to[1] * from[1];
+    const auto across = to[1] * from[0] - to[0] * from[1];
+    const auto size = square_root(along * along + across * across);
+    const auto cos = along / size, sin = across / size;
+    const auto larger = square_root(half + half * magnitude(cos)), other = half * sin / larger;
+    const auto least = number(1e-12f);
+    return {above(size, least, above(cos, zero, larger, other), number(1.0f)),
+            above(size, least, above(cos, zero, other, larger), zero)};
+  }
+
+  // Stored quaternions, or their changes, in the world.
+  static Quaternion<Values> oriented(const ChainTurn<Values>& turn, const Quaternion<Values>& stored) {
+    return turned<Values>(turn.half_cos_scale, turn.half_sin_scale, stored);
+  }
+
+  // A stored velocity in the world, in the units of positions.
+  static Vector3<Values> turned_velocity(const ChainTurn<Values>& turn, const Vector3<Values>& stored) {
+    return turned<Values>(turn.cos_scale, turn.sin_scale, stored);
+  }
+
+  // The curves over so many steps from what is lacking at the beginning to what is too much at the end.
+  Curves spread(const Segments& steps, const ChainGap<Values>& from, const ChainGap<Values>& to) const {
+    Real slope[kLanes], count[kLanes];
+    const float* row[kLanes];
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      const ChainSpread& spread = program_.spread[steps[lane]];
+      row[lane] = spread.way.data();
+      slope[lane] = Real(spread.slope);
+      count[lane] = Real(static_cast<float>(steps[lane]));
+    }
+    Curves out;
+    out.slip[1] = scaled(added(to.slip, from.slip), load<Values>(slope));
+    out.slip[0] = from.slip;
+    if (program_.channels < 7) return out;
+    Values shares[4];
+    columns_of<N>(row, 0, shares);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto way = to.lean[k] + from.lean[k] + load<Values>(count) * from.lean_rate[k];
+      const auto change = to.lean_rate[k] + from.lean_rate[k];
+      out.lean[2][k] = shares[0] * way + shares[2] * change;
+      out.lean[3][k] = shares[1] * way + shares[3] * change;
+      out.lean[1][k] = from.lean_rate[k] + number(0.5f) * out.lean[2][k];
+    }
+    out.lean[0] = from.lean;
+    return out;
+  }
+
+  // Moves segments, so that so many steps would bring them there, towards the heights at which they were recorded: what
+  // joins add to velocities would else add up to a walk without bounds.
+  void lead_back(const Segments& segments, const Values& height, const Segments& steps, Curves& curves) const {
+    if (program_.height.empty()) return;
+    Real recorded[kLanes], share[kLanes];
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      recorded[lane] = Real(static_cast<float>(program_.height[segments[lane]]));
+      share[lane] = Real(1.0f / static_cast<float>(steps[lane]));
+    }
+    const auto below = number(program_.height_scale) * load<Values>(recorded) - height;
+    const auto way = hold(below * load<Values>(share), number(-program_.max_return), number(program_.max_return));
+    curves.slip[0][2] = curves.slip[0][2] + way;
+  }
+
+  const ChainProgram& program_;
+};
+
+}  // namespace wisp
