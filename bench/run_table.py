@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """One table of what stepping costs: every width of vectors, beside the machine's limits and SciPy's filter.
 
-  bench/run_table.py build/release/bin/wisp_bench_run [FIGURES.json]     needs python3-numpy and python3-scipy
+  bench/run_table.py build/release/bin/wisp_bench_run [FIGURES.json [PLOT.svg]]     needs python3-numpy and python3-scipy
 
-Prints Markdown; all figures are processor time. With a second argument, the figures as JSON too.
+Prints Markdown; all figures are processor time. With a second argument, the figures as JSON too; with a third, a plot of
+what a step costs an instance in banks of 1 to 2^20 (needs python3-matplotlib).
 """
 
 import json
@@ -83,6 +84,35 @@ def print_filter(figures, peer):
         print(f"| {label} | {one:.1f} | {call:.1f} | {bank:.1f} | {peer[name]:.1f} | {ratios} |")
 
 
+def draw(steps, path):
+    """What a step costs an instance, by how many a bank has; `steps`: as rows_of() names them."""
+    import matplotlib
+
+    matplotlib.use("svg")
+    matplotlib.rcParams.update({"svg.hashsalt": "wisp", "svg.fonttype": "none", "font.size": 10})
+    from matplotlib import pyplot
+
+    figure, axes = pyplot.subplots(figsize=(7, 4.2), layout="constrained")
+    for width, color in zip(WIDTHS, ("tab:blue", "tab:orange", "tab:green")):
+        for noise, line in ((1, "-o"), (0, "--o")):
+            points = sorted((int(found[1]), at[width]) for name, at in steps.items() if width in at
+                            and (found := re.fullmatch(rf"flame_step/flames:(\d+)/noise:{noise}", name)))
+            if points:
+                label = f"{width}, {'with' if noise else 'without'} noise"
+                axes.plot(*zip(*points), line, color=color, markersize=3.5, linewidth=1.4, label=label)
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel("flames in a bank")
+    axes.set_ylabel("ns a flame and step")
+    ticks = (15, 20, 30, 50, 75, 100, 150, 200)
+    axes.set_yticks(ticks, [str(tick) for tick in ticks])
+    axes.minorticks_off()
+    axes.grid(alpha=0.3)
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.legend(frameon=False, ncols=3, fontsize=9)
+    figure.savefig(path, metadata={"Date": None})
+
+
 def main():
     rounds = [{width: result for width in WIDTHS if (result := run(sys.argv[1], width))} for _ in range(ROUNDS)]
     figures = {width: median([one[width] for one in rounds]) for width in rounds[0]}
@@ -93,6 +123,8 @@ def main():
     if len(sys.argv) > 2:
         kept = {"steps": dict(rows_of(figures)), "peers": peer, "benchmarks": figures}
         pathlib.Path(sys.argv[2]).write_text(json.dumps(kept, indent=1) + "\n")
+    if len(sys.argv) > 3:
+        draw(dict(rows_of(figures)), sys.argv[3])
 
 
 if __name__ == "__main__":
