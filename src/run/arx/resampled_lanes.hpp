@@ -15,6 +15,7 @@
 #include "run/arx/resampled_program.hpp"
 #include "run/bank/moment.hpp"
 #include "run/bank/sample_ring.hpp"
+#include "run/lanes/columns.hpp"
 
 namespace wisp {
 

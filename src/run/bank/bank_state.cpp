@@ -1,4 +1,5 @@
 #include "run/bank/bank_state.hpp"
+#include "run/lanes/columns.hpp"
 
 #include <algorithm>
 #include <atomic>

@@ -134,9 +134,11 @@ std::uint64_t Bank::State::step_group(Dynamics& dynamics, int first, const Steps
     }
     const bool read = kAhead && made.outputs;
     if (read || (made.show && step + 1 == count)) {
-      // NOLINTNEXTLINE(bugprone-branch-clone): one and the same only where a group is one block
-      constexpr int kShown = Dynamics::kGroupsVary ? 1 : kBlocks;
-      for (int block = first; block < last; block += kShown) show_blocks<kShown>(dynamics, block);
+      if constexpr (Dynamics::kGroupsVary) {
+        for (int block = first; block < last; ++block) show_blocks<1>(dynamics, block);
+      } else {
+        show_blocks<kBlocks>(dynamics, first);
+      }
     }
     for (int block = first; read && block < last; ++block) {
       read_block(block, made.outputs + static_cast<std::size_t>(step) * rows * channels.outputs.size());

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "run/chain/chain_lane.hpp"
+#include "run/lanes/columns.hpp"
 
 namespace wisp {
 

@@ -16,6 +16,7 @@
 #include <cstdint>
 
 #include "run/chain/chain_lane.hpp"
+#include "run/lanes/columns.hpp"
 
 namespace wisp {
 
@@ -24,7 +25,7 @@ template <class N>
 struct ChainParty {
   static constexpr int kMost = N::kLanes;
 
-  int count = 0;
+  std::size_t count = 0;
   std::array<int, N::kLanes> block{};
   std::array<int, N::kLanes> lane{};
 
@@ -38,8 +39,8 @@ struct ChainParty {
 
   /// Precondition: !is_full().
   void add(int of_block, int of_lane) {
-    block[static_cast<std::size_t>(count)] = of_block;
-    lane[static_cast<std::size_t>(count)] = of_lane;
+    block[count] = of_block;
+    lane[count] = of_lane;
     ++count;
   }
 };
@@ -134,24 +135,28 @@ class ChainJoins {
 
   Edge edge_of(const Segments& segments, bool end) const {
     const std::int16_t *row[kLanes], *rate[kLanes];
-    const float* change[kLanes];
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-      const std::uint32_t segment = segments[lane];
-      const std::size_t edge = std::size_t{2} * segment + (end ? 1 : 0);
-      const std::size_t at = program_.first_row[segment] + (end ? program_.steps(segment) : 0);
+      const std::size_t at = program_.first_row[segments[lane]] + (end ? program_.steps(segments[lane]) : 0);
       row[lane] = program_.rows.data() + at * static_cast<std::size_t>(program_.channels);
-      rate[lane] = program_.rates.data() + edge * static_cast<std::size_t>(program_.rate_count);
-      change[lane] = program_.changes.data() + 4 * edge;
+      rate[lane] =
+          program_.rates.data() + edge_number(segments[lane], end) * static_cast<std::size_t>(program_.rate_count);
     }
-    Values rates[kRowReach], attitude[kRowReach], changes[4];
+    Values rates[kRowReach];
     columns_of<N>(rate, rates);
     if (program_.channels < 7) return {{}, {}, {rates[0], rates[1], rates[2]}};
+    const float* change[kLanes];
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+      change[lane] = program_.changes.data() + 4 * edge_number(segments[lane], end);
+    }
+    Values attitude[kRowReach], changes[4];
     columns_of<N>(row, attitude);
     columns_of<N>(change, 0, changes);
     return {{attitude[3], attitude[4], attitude[5], attitude[6]},
             {changes[0], changes[1], changes[2], changes[3]},
             {rates[0], rates[1], rates[2]}};
   }
+
+  static std::size_t edge_number(std::uint32_t segment, bool end) { return std::size_t{2} * segment + (end ? 1 : 0); }
 
   // How a segment lies that follows another. Where heading is kept, a whole turn keeps the quaternion's sign from
   // jumping.

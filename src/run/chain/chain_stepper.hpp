@@ -5,7 +5,6 @@
 // lanes of several blocks side by side, the rest for one lane at a time.
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -13,8 +12,9 @@
 #include "run/bank/channels.hpp"
 #include "run/bank/moment.hpp"
 #include "run/chain/chain_block.hpp"
-#include "run/chain/chain_joins.hpp"
+#include "run/chain/chain_joining.hpp"
 #include "run/chain/chain_lane.hpp"
+#include "run/chain/chain_lives.hpp"
 #include "run/chain/chain_steering.hpp"
 #include "run/chain/ground_lane.hpp"
 #include "run/chain/gust_lane.hpp"
@@ -25,15 +25,16 @@
 namespace wisp {
 
 template <class N>
-class ChainStepper {
+class ChainStepper : private ChainLives<N> {
  public:
   using Real = typename N::Real;
   using Lane = ChainLane<Real>;
   using Body = BodyState<Real>;
   static constexpr int kLanes = N::kLanes;
-  using LaneNumbers = std::array<Real, kLanes>;
-  using Played = ChainPlayed<LaneNumbers>;
-  using Party = ChainParty<PartNumbers<N>>;
+  using typename ChainLives<N>::LaneNumbers;
+  using typename ChainLives<N>::Played;
+  using ChainLives<N>::newest;
+  using ChainLives<N>::previous;
   /// Frames over which a cost is averaged: joins come now and then.
   static constexpr int kCountedFrames = 8192;
 
@@ -48,22 +49,16 @@ class ChainStepper {
   static Result<void> check(const Model&, const ChainModel& chain) { return check_chain_program(chain); }
 
   ChainStepper(const Model& model, const ChainModel& chain, const Channels&, int blocks, Arena& arena)
-      : program_(make_chain_program(chain, model.rate_hz, wind_unit(model), arena)),
+      : ChainLives<N>(made_program(model, chain, arena), blocks, arena),
         choice_(program_, arena),
         steering_(program_, chain.drift.has_value(), arena) {
-    take_size(model.view, program_);
     const auto lanes = static_cast<std::size_t>(blocks) * kLanes;
-    played_ = arena.take<Played>(static_cast<std::size_t>(blocks));
-    segments_ = arena.take<ChainSegmentRows<N>>(static_cast<std::size_t>(blocks));
-    plans_ = arena.take<ChainPlan<Real>>(lanes);
     stirred_ = arena.take<std::uint8_t>(static_cast<std::size_t>(blocks));
     if (program_.gust.order > 0) gusts_ = arena.take<GustLane<Real>>(lanes);
     if (chain.systems) {
       systems_ = arena.take<SystemLane<Real>>(lanes);
       shocks_ = arena.take<Real>(kShocks * lanes);
     }
-    newest_ = arena.take<Real>(lanes * static_cast<std::size_t>(program_.channels));
-    previous_ = arena.take<Real>(lanes * static_cast<std::size_t>(program_.channels));
     regressor_row_ = regressor_count(model.inputs) * kLanes;
     regressors_ = arena.take<Real>(static_cast<std::size_t>(blocks) * regressor_row_);
   }
@@ -92,6 +87,7 @@ class ChainStepper {
   /// What makes steps of some blocks before the others make theirs: blocks share no place in time.
   ChainStepper& ahead() { return *this; }
 
+  /// Makes the newest sample of a block.
   void step(int block, const Moment<N>& moment) { step(block, 1, moment); }
 
   /// Makes the newest samples of blocks in a row, at most kGroup, of which the moment is the first's.
@@ -109,10 +105,6 @@ class ChainStepper {
     }
     gathering.end(&ChainStepper::go_on);
   }
-
-  /// Outputs of the last step, and of the one before: [output][lane].
-  const Real* newest(int block) const { return newest_.data() + block * sample_size(); }
-  const Real* previous(int block) const { return previous_.data() + block * sample_size(); }
 
   /// What is read of a block: the newest sample.
   template <int kBlocks = 1>
@@ -142,7 +134,7 @@ class ChainStepper {
   /// its heading drawn by chance.
   void start(int block, int lane, const Moment<N>& moment) {
     const Party party = Party::of(block, lane);
-    const Drawn words = draw(party, block, moment, 1);
+    const Drawn words = Joining::draw(party, block, moment, 1);
     const Mover mover(program_);
     Lane life;
     if (program_.gust.order > 0) gust_of(block, lane) = {};
@@ -155,15 +147,15 @@ class ChainStepper {
       take_rates(system_of(block, lane), shown_orientation(block, lane), mover.rates_of(life, segment, false));
       system_of(block, lane).length = Real(duration_of(program_.systems, program_.mode[segment], words[1][0]));
     } else {
-      catch_up(block, lane, draw(party, block, moment, 2));
-      meet_one(block, lane, {});
+      joining().prepare_one(block, lane, Joining::draw(party, block, moment, 2));
+      joining().meet_one(block, lane, {});
     }
     begin_at(block, lane);
   }
 
   /// Where a lane is in the chain.
   ChainPlace place_of(int block, int lane) const {
-    const Played& played = played_[static_cast<std::size_t>(block)];
+    const Played& played = played_of(block);
     const std::uint32_t segment = Mover::index(played.segment[lane], program_.segments());
     const std::uint32_t row = Mover::index(played.row[lane], program_.systems.used() ? 65536 : program_.steps(segment));
     return {segment, row, program_.mode[segment]};
@@ -202,7 +194,7 @@ class ChainStepper {
     life.state = Real(static_cast<float>(program_.next[program_.mode[best]]));
     put(block, lane, life);
     if (program_.gust.order > 0) gust_of(block, lane) = {};
-    if (!program_.systems.used()) meet_one(block, lane, gap);
+    if (!program_.systems.used()) joining().meet_one(block, lane, gap);
     lanes_of(block).show_only(lane);
     if (program_.systems.used()) {
       for (int k = 0; k < 4; ++k)
@@ -271,10 +263,19 @@ class ChainStepper {
 
  private:
   using Mover = ChainMover<Real>;
-  using Joins = ChainJoins<PartNumbers<N>>;
-  using Values = typename Joins::Values;  // of the members of a party
-  static constexpr int kMembers = Party::kMost;
-  using Drawn = std::array<std::array<std::uint32_t, kMembers>, 4>;  // [word][member]
+  using Joining = ChainJoining<N>;
+  using Party = typename Joining::Party;
+  using Drawn = typename Joining::Drawn;
+  using ChainLives<N>::falls;
+  using ChainLives<N>::lane_of;
+  using ChainLives<N>::lanes_of;
+  using ChainLives<N>::newest_of;
+  using ChainLives<N>::plan_of;
+  using ChainLives<N>::played_of;
+  using ChainLives<N>::previous_of;
+  using ChainLives<N>::program_;
+  using ChainLives<N>::put;
+  using ChainLives<N>::sample_size;
   static constexpr std::size_t kLaneNumbers = 3 + 3 + 2 * 6 + 1 + 6 * 4 + 4 * 3 + 1 + 5 + 4;
   static constexpr std::size_t kShocks = 6;
   static constexpr float kMaxSlip = 1e12f;
@@ -295,36 +296,17 @@ class ChainStepper {
     for (Real& x : numbers) visit(x, -kMaxDifference, kMaxDifference);
   }
 
-  std::size_t sample_size() const { return static_cast<std::size_t>(program_.channels) * kLanes; }
-  Played& played_of(int block) { return played_[static_cast<std::size_t>(block)]; }
-  ChainBlock<N> lanes_of(int block) {
-    return {program_, played_of(block), segments_[static_cast<std::size_t>(block)], newest_of(block)};
-  }
-  ChainPlan<Real>& plan_of(int block, int lane) { return plans_[static_cast<std::size_t>(block) * kLanes + lane]; }
-
-  // All of a lane, taken from among the others of its block, and put there.
-  Lane lane_of(int block, int lane) {
-    Lane life;
-    static_cast<ChainPlan<Real>&>(life) = plan_of(block, lane);
-    each_played(life, played_of(block), [&](Real& one, const LaneNumbers& all) { one = all[lane]; });
-    return life;
-  }
-  void put(int block, int lane, const Lane& life) {
-    plan_of(block, lane) = life;
-    const std::uint32_t segment = Mover::index(life.segment, program_.segments());
-    segments_[static_cast<std::size_t>(block)].note(lane, program_, segment);
-    each_played(played_of(block), life, [&](LaneNumbers& all, const Real& one) { all[lane] = one; });
-  }
-  bool falls(int block, int lane) { return played_of(block).settled[lane] < Real(0.0f); }
-
-  Real* newest_of(int block) { return newest_.data() + block * sample_size(); }
-  Real* previous_of(int block) { return previous_.data() + block * sample_size(); }
-
   Real* shocks_of(int block) { return shocks_.data() + static_cast<std::size_t>(block) * kShocks * kLanes; }
 
   SystemLane<Real>& system_of(int block, int lane) { return systems_[static_cast<std::size_t>(block) * kLanes + lane]; }
 
   GustLane<Real>& gust_of(int block, int lane) { return gusts_[static_cast<std::size_t>(block) * kLanes + lane]; }
+
+  static ChainProgram made_program(const Model& model, const ChainModel& chain, Arena& arena) {
+    ChainProgram program = make_chain_program(chain, model.rate_hz, wind_unit(model), arena);
+    take_size(model.view, program);
+    return program;
+  }
 
   // What the channels measure the wind in: the same for x, y and z, which have one range.
   static double wind_unit(const Model& model) {
@@ -544,27 +526,16 @@ class ChainStepper {
     return false;
   }
 
-  // Random words of one group of each member of a party; the moment is that of the block `first`.
-  static Drawn draw(const Party& party, int first, const Moment<N>& moment, std::uint32_t group) {
-    std::array<std::uint64_t, kMembers> stream{}, born{};
-    for (std::size_t k = 0; k < static_cast<std::size_t>(party.count); ++k) {
-      const int at = (party.block[k] - first) * kLanes + party.lane[k];
-      stream[k] = moment.counters.stream[at];
-      born[k] = moment.counters.born[at];
-    }
-    Words<PartNumbers<N>> counters[4], words[4];
-    random_counters<PartNumbers<N>>({stream.data(), born.data(), moment.counters.step}, counters);
-    random_group<PartNumbers<N>>(*moment.keys, counters, group, words);
-    Drawn drawn;
-    for (std::size_t k = 0; k < 4; ++k) store(words[k], drawn[k].data());
-    return drawn;
-  }
+  Joining joining() { return {*this, choice_, steering_}; }
+
+  // Begins the curves towards what follows.
+  void leave(const Party& party, int, const Moment<N>&) { joining().leave(party); }
 
   // What comes after a segment's last step.
   void go_on(const Party& party, int first, const Moment<N>& moment) {
-    if (!program_.systems.used()) return follow(party, first, moment);
-    const Drawn words = draw(party, first, moment, 0);
-    for (std::size_t k = 0; k < static_cast<std::size_t>(party.count); ++k) {
+    if (!program_.systems.used()) return joining().follow(party, first, moment);
+    const Drawn words = Joining::draw(party, first, moment, 0);
+    for (std::size_t k = 0; k < party.count; ++k) {
       change_system(party.block[k], party.lane[k], {words[0][k], words[1][k], words[2][k]});
     }
   }
@@ -579,173 +550,6 @@ class ChainStepper {
     const std::uint32_t word = choice_.has_chance() ? words.segment : 0x80000000U;
     system_of(block, lane).length = Real(duration_of(program_.systems, program_.mode[next], word));
     put(block, lane, life);
-  }
-
-  // Joins the next segments where the lanes' own end, and draws what follows those.
-  void follow(const Party& party, int first, const Moment<N>& moment) {
-    for (std::size_t k = 0; k < static_cast<std::size_t>(party.count); ++k) {
-      const int block = party.block[k], lane = party.lane[k];
-      if (Mover::is_prepared(plan_of(block, lane))) continue;
-      // Where a body was placed, nothing was drawn yet: then all that differs is left to the new segment.
-      catch_up(block, lane, draw(Party::of(block, lane), first, moment, 2));
-      ChainGap<Real>& gap = plan_of(block, lane).ahead.gap;
-      each_number(gap, gap, [](Real& half, const Real&) { half = half + half; });
-    }
-    const ChainAhead<Values> begun = ahead_of(party);
-    for (std::size_t k = 0; k < static_cast<std::size_t>(party.count); ++k) join(party.block[k], party.lane[k]);
-    const ChainAhead<Values> ahead = prepare(party, begun.turn, draw(party, first, moment, 0));
-    if (program_.blend_steps == 0) return;
-    add(party, Joins(program_).meeting(segments_of(party), heights_of(party), begun.gap, ahead.gap));
-  }
-
-  // Places the beginning of what was prepared where the body is shown.
-  void join(int block, int lane) {
-    Played& played = played_of(block);
-    const ChainPlan<Real>& plan = plan_of(block, lane);
-    const std::uint32_t segment = Mover::index(plan.next, program_.segments() + 1) - 1;
-    played.segment[lane] = Real(static_cast<float>(segment));
-    played.row[lane] = Real(0.0f);
-    for (int k = 0; k < 3; ++k) played.base[static_cast<std::size_t>(k)][lane] = newest(block)[k * kLanes + lane];
-    each_number(played.turn, plan.ahead.turn, [&](LaneNumbers& all, const Real& one) { all[lane] = one; });
-    segments_[static_cast<std::size_t>(block)].note(lane, program_, segment);
-  }
-
-  // Draws what follows the lanes' segments, which lie as turned, and notes what is ahead.
-  ChainAhead<Values> prepare(const Party& party, const ChainTurn<Values>& turn, const Drawn& words) {
-    const typename Joins::Segments next = draw_next(party, words);
-    const ChainAhead<Values> ahead = Joins(program_).ahead(turn, segments_of(party), next);
-    put_ahead(party, ahead);
-    for (std::size_t k = 0; k < static_cast<std::size_t>(party.count); ++k) {
-      plan_of(party.block[k], party.lane[k]).next = Real(static_cast<float>(next[k] + 1));
-    }
-    return ahead;
-  }
-
-  // The same of one lane, as it lies.
-  void catch_up(int block, int lane, const Drawn& words) {
-    ChainTurn<Values> turn;
-    each_number(turn, played_of(block).turn,
-                [&](Values& to, const LaneNumbers& all) { to = wisp::all<Values>(value_of(all[lane])); });
-    prepare(Party::of(block, lane), turn, words);
-  }
-
-  // First the modes of all, then their segments: what is far in memory is then waited for together.
-  typename Joins::Segments draw_next(const Party& party, const Drawn& words) {
-    const Mover mover(program_);
-    typename Joins::Segments mode{}, next{};
-    std::array<bool, kMembers> steered{};
-    const auto words_of = [&](std::size_t k) { return ChainWords{words[0][k], words[1][k], words[2][k]}; };
-    for (std::size_t k = 0; k < static_cast<std::size_t>(party.count); ++k) {
-      const int block = party.block[k], lane = party.lane[k];
-      steered[k] = is_steered(mover, block, lane);
-      if (steered[k]) {
-        next[k] = draw_steered(mover, block, lane, words_of(k));
-      } else {
-        mode[k] = mover.draw_mode(plan_of(block, lane).state, segment_of(block, lane), choice_, words_of(k));
-      }
-    }
-    for (std::size_t k = 0; k < static_cast<std::size_t>(party.count); ++k) {
-      if (steered[k]) continue;
-      next[k] = choice_.successor(program_, segment_of(party.block[k], party.lane[k]), mode[k], words_of(k));
-    }
-    return next;
-  }
-
-  // Whether a lane's segment ends before it should be where it is steered to.
-  bool is_steered(const Mover& mover, int block, int lane) {
-    const Real& left = played_of(block).left[lane];
-    if (program_.lead.empty() || !(left > Real(0.0f))) return false;
-    return left > Real(static_cast<float>(mover.steps_left(lane_of(block, lane))));
-  }
-
-  // Draws towards a target: from where the segment will have ended.
-  std::uint32_t draw_steered(const Mover& mover, int block, int lane, const ChainWords& words) {
-    Lane end = lane_of(block, lane);
-    end.left = end.left - Real(static_cast<float>(mover.steps_left(end)));
-    const std::uint32_t next = steering_.draw(mover, program_, choice_, end, mover.end_of(end), words);
-    plan_of(block, lane).state = end.state;
-    return next;
-  }
-
-  // Lets a lane's segment meet what came before it, to which it lacks `from`, and what follows.
-  void meet_one(int block, int lane, const ChainGap<Real>& from) {
-    if (program_.blend_steps == 0) return;
-    const Party one = Party::of(block, lane);
-    ChainGap<Values> lacking;
-    each_number(lacking, from, [](Values& to, const Real& x) { to = all<Values>(value_of(x)); });
-    add(one, Joins(program_).meeting(segments_of(one), heights_of(one), lacking, ahead_of(one).gap));
-  }
-
-  // Begins the curves towards what follows.
-  void leave(const Party& party, int, const Moment<N>&) {
-    add(party, Joins(program_).leaving(segments_of(party), heights_of(party), ahead_of(party).gap));
-  }
-
-  // Numbers of a plan in a row, as it is laid out.
-  static_assert(offsetof(ChainPlan<float>, near) == (kAheadNumbers - 1) * sizeof(float));
-
-  // What is ahead of the lanes; of those that a party lacks, the first member's.
-  ChainAhead<Values> ahead_of(const Party& party) {
-    const Real* row[kMembers];
-    for (std::size_t k = 0; k < kMembers; ++k) {
-      const std::size_t member = k < static_cast<std::size_t>(party.count) ? k : 0;
-      row[k] = reinterpret_cast<const Real*>(&plan_of(party.block[member], party.lane[member]));
-    }
-    Values c[kAheadNumbers / 4][4];
-    unrolled<kAheadNumbers / 4>([&](auto k) { columns_of<PartNumbers<N>>(row, 4 * k, c[k]); });
-    return {{c[0][0], c[0][1], c[0][2], c[0][3], c[1][0], c[1][1]},
-            {{c[1][2], c[1][3], c[2][0], c[2][1]}, {c[2][2], c[2][3], c[3][0], c[3][1]}, {c[3][2], c[3][3], c[4][0]}}};
-  }
-
-  void put_ahead(const Party& party, const ChainAhead<Values>& ahead) {
-    ChainPlan<Real> none;
-    Real* row[kMembers];
-    for (std::size_t k = 0; k < kMembers; ++k) {
-      const bool is_member = k < static_cast<std::size_t>(party.count);
-      row[k] = reinterpret_cast<Real*>(is_member ? &plan_of(party.block[k], party.lane[k]) : &none);
-    }
-    const auto& [turn, gap] = ahead;
-    rows_of<PartNumbers<N>>({turn.half_cos, turn.half_sin, turn.cos_scale, turn.sin_scale}, 0, row);
-    rows_of<PartNumbers<N>>({turn.half_cos_scale, turn.half_sin_scale, gap.lean[0], gap.lean[1]}, 4, row);
-    rows_of<PartNumbers<N>>({gap.lean[2], gap.lean[3], gap.lean_rate[0], gap.lean_rate[1]}, 8, row);
-    rows_of<PartNumbers<N>>({gap.lean_rate[2], gap.lean_rate[3], gap.slip[0], gap.slip[1]}, 12, row);
-    Real last[kMembers];  // behind it, others follow
-    store(gap.slip[2], last);
-    for (std::size_t k = 0; k < static_cast<std::size_t>(party.count); ++k) row[k][16] = last[k];
-  }
-
-  // The heights at which the lanes' segments lie.
-  Values heights_of(const Party& party) {
-    Real height[kMembers] = {};
-    for (std::size_t k = 0; k < static_cast<std::size_t>(party.count); ++k) {
-      height[k] = played_of(party.block[k]).base[2][party.lane[k]];
-    }
-    return load<Values>(height);
-  }
-
-  // Adds curves to the lanes' segments in place of what was added to them.
-  void add(const Party& party, const typename Joins::Curves& curves) {
-    using Numbers = std::array<Real, kMembers>;
-    struct {
-      std::array<Quaternion<Numbers>, 4> lean;
-      std::array<Vector3<Numbers>, 2> slip;
-    } added;
-    each_added(added, curves, [](Numbers& to, const Values& x) { store(x, to.data()); });
-    for (std::size_t k = 0; k < static_cast<std::size_t>(party.count); ++k) {
-      const int lane = party.lane[k];
-      each_added(played_of(party.block[k]), added, [&](LaneNumbers& to, const Numbers& all) { to[lane] = all[k]; });
-    }
-  }
-
-  std::uint32_t segment_of(int block, int lane) {
-    return Mover::index(played_of(block).segment[lane], program_.segments());
-  }
-  typename Joins::Segments segments_of(const Party& party) {
-    typename Joins::Segments segments{};
-    for (std::size_t k = 0; k < static_cast<std::size_t>(party.count); ++k) {
-      segments[k] = segment_of(party.block[k], party.lane[k]);
-    }
-    return segments;
   }
 
   // The life of a lane begins with what is shown of it.
@@ -769,20 +573,14 @@ class ChainStepper {
     return {x / size, y / size, Real(1.0f)};
   }
 
-  ChainProgram program_;
   ChainChoice choice_;
   ChainSteering<Real> steering_;
-  std::span<Played> played_;                 // per block
-  std::span<ChainSegmentRows<N>> segments_;  // per block
-  std::span<ChainPlan<Real>> plans_;         // per lane
-  std::span<std::uint8_t> stirred_;          // per block: whether something may be left of a wind
+  std::span<std::uint8_t> stirred_;  // per block: whether something may be left of a wind
   std::span<GustLane<Real>> gusts_;
   std::span<SystemLane<Real>> systems_;
   std::span<Real> shocks_;  // [block][deviate][lane], of one step
   bool noisy_ = false;
   bool steered_ = false;  // now or once
-  std::span<Real> newest_;
-  std::span<Real> previous_;
   std::span<Real> regressors_;
   std::size_t regressor_row_ = 0;
   float ground_ = kNoGround;
