@@ -26,26 +26,44 @@ endif()
 separate_arguments(OPTIONS)
 
 # What is compiled anew each time: all that computes on a frame's path, or for it. The rest, once.
-file(GLOB_RECURSE computing ${SOURCE}/src/run/*.cpp)
+file(GLOB_RECURSE computing RELATIVE ${SOURCE}/src ${SOURCE}/src/run/*.cpp)
 list(FILTER computing EXCLUDE REGEX "/(cost|chain_loop)[^/]*$")
-list(APPEND computing ${SOURCE}/src/model/bspline.cpp ${SOURCE}/src/model/mode_splines.cpp
-  ${SOURCE}/tests/run/bits/frames.cpp)
-file(GLOB ground ${SOURCE}/src/model/*.cpp)
+list(APPEND computing model/bspline.cpp model/mode_splines.cpp)
+file(GLOB ground RELATIVE ${SOURCE}/src ${SOURCE}/src/model/*.cpp)
 list(FILTER ground EXCLUDE REGEX "/(bspline|mode_splines|file|.*payload)\\.cpp$")  # on the path; not needed
-list(APPEND ground ${SOURCE}/src/base/hash.cpp)
+list(APPEND ground base/hash.cpp)
 
-# Compiles sources into `folder` and appends the objects to `objects`.
-function(compile folder compiler flags sources)
-  file(MAKE_DIRECTORY ${folder})
+# One translation unit a folder, as the library has them: most of a small source's compilation is reading headers.
+function(units name sources)
   foreach(source IN LISTS sources)
-    file(RELATIVE_PATH object ${SOURCE} ${source})
-    string(MAKE_C_IDENTIFIER ${object} object)
+    cmake_path(GET source PARENT_PATH folder)
+    string(MAKE_C_IDENTIFIER ${folder} folder)
+    list(APPEND folders ${folder})
+    string(APPEND in_${folder} "#include \"${source}\"\n")
+  endforeach()
+  list(REMOVE_DUPLICATES folders)
+  foreach(folder IN LISTS folders)
+    file(CONFIGURE OUTPUT ${WORK}/units/${name}_${folder}.cpp CONTENT "${in_${folder}}" @ONLY)
+    list(APPEND made ${WORK}/units/${name}_${folder}.cpp)
+  endforeach()
+  set(${name} ${made} PARENT_SCOPE)
+endfunction()
+
+units(computing "${computing}")
+units(ground "${ground}")
+list(APPEND computing ${SOURCE}/tests/run/bits/frames.cpp)
+
+# Compiles units into `folder` and appends the objects to `objects`.
+function(compile folder compiler flags units)
+  file(MAKE_DIRECTORY ${folder})
+  foreach(unit IN LISTS units)
+    cmake_path(GET unit STEM object)
     execute_process(
       COMMAND ${LAUNCHER} ${compiler} -std=c++20 -DNDEBUG ${flags} -I${SOURCE}/include -I${SOURCE}/src
-              -I${SOURCE}/tests -c ${source} -o ${folder}/${object}.o
+              -I${SOURCE}/tests -c ${unit} -o ${folder}/${object}.o
       RESULT_VARIABLE failed ERROR_VARIABLE errors)
     if(failed)
-      message(FATAL_ERROR "${compiler} ${flags}: ${source} does not compile:\n${errors}")
+      message(FATAL_ERROR "${compiler} ${flags}: ${unit} does not compile:\n${errors}")
     endif()
     list(APPEND objects ${folder}/${object}.o)
   endforeach()
