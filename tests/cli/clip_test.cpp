@@ -208,5 +208,11 @@ TEST_F(Clip, TheDemoLeavesItsResultsInAFolder) {
   EXPECT_THAT(said.out, HasSubstr("What to try next"));
 }
 
-}  // namespace
+TEST_F(Clip, ADemoOfAClipThatIsRefusedLeavesNoEmptyFolder) {
+  write_clip("short.mp4", 4);
+  EXPECT_EQ(wisp("demo " + at("short.mp4") + " -o " + at("demo")).status, 1);
+  EXPECT_FALSE(fs::exists(at("demo")));
+}
+
+}  // namespace clip_test
 }  // namespace wisp

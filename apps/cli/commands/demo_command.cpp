@@ -211,7 +211,7 @@ void say_what_next(const Places& places, Terminal& terminal) {
 Result<void> run_demo(const Arguments& arguments, Terminal& terminal) {
   const Places places{arguments.text("output")};
   std::error_code code;
-  fs::create_directories(places.folder, code);
+  const bool made = fs::create_directories(places.folder, code);
   if (code) return Error{places.folder.string() + ": cannot be made: " + code.message()};
   Clips clips;
   if (arguments.positionals().empty()) {
@@ -221,7 +221,10 @@ Result<void> run_demo(const Arguments& arguments, Terminal& terminal) {
   } else {
     clips = {arguments.positional(), arguments.positional()};
   }
-  if (auto ok = all_steps(places, clips, arguments, terminal); !ok) return ok;
+  if (auto ok = all_steps(places, clips, arguments, terminal); !ok) {
+    if (made) fs::remove(places.folder, code);  // as long as nothing is in it
+    return ok;
+  }
   if (auto ok = write_file(places.at("summary.json"), to_json(terminal.result(), 1) + "\n"); !ok) return ok;
   say_what_next(places, terminal);
   if (!arguments.on("window")) return {};
