@@ -85,7 +85,7 @@ function(wisp_unity target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   # GCC takes a source that is included for a header, and -Wmaybe-uninitialized has false positives where it inlines more.
   target_compile_options(${target} PRIVATE
-    $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage> $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+    "$<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage;-Wno-maybe-uninitialized>")
 endfunction()
 
 # A host may build with -ffast-math. A missing sample is a NaN here, and the frame path keeps its bits. Further arguments

@@ -11,7 +11,7 @@
 #include "folder_test.hpp"
 
 namespace wisp {
-namespace {
+namespace file_test {
 
 namespace fs = std::filesystem;
 
@@ -176,5 +176,5 @@ TEST_F(FileTest, PendingFilesBeyondTheListWorkLikeTheOthers) {
   EXPECT_EQ(files(), 100u);
 }
 
-}  // namespace
+}  // namespace file_test
 }  // namespace wisp

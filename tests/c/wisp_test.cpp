@@ -19,7 +19,7 @@
 #include "wisp/run/bank.hpp"
 
 namespace wisp {
-namespace {
+namespace wisp_test {
 
 std::vector<std::byte> flame_bytes() { return std::move(model_bytes(flame_model())).value(); }
 
@@ -209,5 +209,5 @@ TEST(C, TheWindOfASoundHasTheBitsThatItHasEverywhere) {
   EXPECT_EQ(hex(hash), hex(golden.hash));
 }
 
-}  // namespace
+}  // namespace wisp_test
 }  // namespace wisp

@@ -10,7 +10,7 @@
 #include "wisp/model/file.hpp"
 
 namespace wisp {
-namespace {
+namespace wisp_learn_test {
 
 struct Table {
   std::vector<double> wind, lean;
@@ -151,5 +151,5 @@ TEST_F(CLearn, MisuseHasItsStatus) {
   wisp_recording_free(nullptr);
 }
 
-}  // namespace
+}  // namespace wisp_learn_test
 }  // namespace wisp

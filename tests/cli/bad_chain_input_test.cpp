@@ -14,7 +14,7 @@
 #include "wisp/model/file.hpp"
 
 namespace wisp {
-namespace {
+namespace bad_chain_input_test {
 
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -330,5 +330,5 @@ TEST_F(BadChainInput, WhatHasNoInputIsNotDriven) {
   EXPECT_EQ(wisp("run " + at("leaf.wisp") + " --frames 9 --wind 0 -o " + at("o.csv")).status, 0);
 }
 
-}  // namespace
+}  // namespace bad_chain_input_test
 }  // namespace wisp

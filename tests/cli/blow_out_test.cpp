@@ -11,7 +11,7 @@
 #include "wisp/record/csv.hpp"
 
 namespace wisp {
-namespace {
+namespace blow_out_test {
 
 using nlohmann::json;
 using testing::HasSubstr;
@@ -176,5 +176,5 @@ TEST_F(BlowOutProgram, AFilmedFlameThatIsBlownOutAndLitAgainIsLearnedFromBothSid
   EXPECT_GT(learned.json()["samples"]["learned"].get<int>() + learned.json()["samples"]["held_out"].get<int>(), 400);
 }
 
-}  // namespace
+}  // namespace blow_out_test
 }  // namespace wisp

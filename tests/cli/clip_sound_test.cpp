@@ -16,7 +16,7 @@
 #include "wisp/record/csv.hpp"
 
 namespace wisp {
-namespace {
+namespace clip_sound_test {
 
 using testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -248,5 +248,5 @@ TEST_F(ClipSound, OrderAndDelayAreSearchedAndTheTruthIsComparedWith) {
   EXPECT_GT(validated.json()["static_gain"]["tip_fit_percent"].get<double>(), 0);
 }
 
-}  // namespace
+}  // namespace clip_sound_test
 }  // namespace wisp

@@ -13,7 +13,7 @@
 #include "wisp/record/csv.hpp"
 
 namespace wisp {
-namespace {
+namespace clip_test {
 
 using testing::HasSubstr;
 namespace fs = std::filesystem;

@@ -10,7 +10,7 @@
 #include "wisp/record/csv.hpp"
 
 namespace wisp {
-namespace {
+namespace fall_test {
 
 using testing::HasSubstr;
 
@@ -84,5 +84,5 @@ TEST_F(FallFilm, OfTooFewFallsTeachesNoModelThatIsCalledUsable) {
   EXPECT_THAT(learned.json()["usable"]["reason"].get<std::string>(), HasSubstr("captured as not usable: only 2 falls"));
 }
 
-}  // namespace
+}  // namespace fall_test
 }  // namespace wisp

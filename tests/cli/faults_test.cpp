@@ -12,7 +12,7 @@
 #include "cli/program.hpp"
 
 namespace wisp {
-namespace {
+namespace faults_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -143,5 +143,5 @@ TEST_F(Faults, ASignalLeavesTheOldFileAloneAndItsOwnStatus) {
   }
 }
 
-}  // namespace
+}  // namespace faults_test
 }  // namespace wisp

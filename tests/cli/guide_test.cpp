@@ -9,7 +9,7 @@
 #include "paths.hpp"
 
 namespace wisp {
-namespace {
+namespace guide_test {
 
 // Lines of an indented block that begin with "wisp ", lines that end in a backslash joined to the next.
 std::vector<std::string> commands_of(const std::string& page) {
@@ -47,5 +47,5 @@ TEST_F(Guide, AnHourWithTheHairDryerRuns) {
   }
 }
 
-}  // namespace
+}  // namespace guide_test
 }  // namespace wisp

@@ -9,7 +9,7 @@
 #include "wisp/record/csv.hpp"
 
 namespace wisp {
-namespace {
+namespace info_test {
 
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
@@ -369,5 +369,5 @@ TEST_F(InfoPlayed, WhatIsNotPlayedIsRefusedInASentence) {
   EXPECT_NE(why.find("the chain moves a point"), std::string::npos) << why;
 }
 
-}  // namespace
+}  // namespace info_test
 }  // namespace wisp

@@ -9,7 +9,7 @@
 #include "wisp/record/csv.hpp"
 
 namespace wisp {
-namespace {
+namespace input_curve_test {
 
 using testing::HasSubstr;
 
@@ -72,5 +72,5 @@ TEST_F(InputCurve, IsRefusedWhereItMeansNothing) {
   EXPECT_THAT(learn("m.wisp", "--input-curve 4 --partial " + at("p.part")).err, HasSubstr("without --partial"));
 }
 
-}  // namespace
+}  // namespace input_curve_test
 }  // namespace wisp

@@ -12,7 +12,7 @@
 #include "wisp/record/csv.hpp"
 
 namespace wisp {
-namespace {
+namespace learn_arx_cases_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -338,5 +338,5 @@ TEST_F(LearnArxData, TheHairDryerHasItsPublishedModelDelayAndOrders) {
   EXPECT_EQ(best["nk"], 3);
 }
 
-}  // namespace
+}  // namespace learn_arx_cases_test
 }  // namespace wisp

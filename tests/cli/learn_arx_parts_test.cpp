@@ -10,7 +10,7 @@
 #include "wisp/record/csv.hpp"
 
 namespace wisp {
-namespace {
+namespace learn_arx_parts_test {
 
 using testing::HasSubstr;
 
@@ -239,5 +239,5 @@ TEST_P(LearnArxExample, LeavesNoModelWhereAWorkerIsKilled) {
   }
 }
 
-}  // namespace
+}  // namespace learn_arx_parts_test
 }  // namespace wisp

@@ -10,7 +10,7 @@
 #include "wisp/record/csv.hpp"
 
 namespace wisp {
-namespace {
+namespace learn_arx_test {
 
 using testing::HasSubstr;
 
@@ -123,5 +123,5 @@ TEST_F(LearnArx, ModesThatSwitchAreLearnedRunAndExplained) {
   EXPECT_EQ(wisp(learn + " --modes 0").status, 2);
 }
 
-}  // namespace
+}  // namespace learn_arx_test
 }  // namespace wisp

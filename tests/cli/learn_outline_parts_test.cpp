@@ -8,7 +8,7 @@
 #include "wisp/record/csv.hpp"
 
 namespace wisp {
-namespace {
+namespace learn_outline_parts_test {
 
 using testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -100,5 +100,5 @@ TEST_F(LearnFlameParts, APartTakesWholeRecordings) {
   EXPECT_FALSE(fs::exists(part(1)));
 }
 
-}  // namespace
+}  // namespace learn_outline_parts_test
 }  // namespace wisp

@@ -11,7 +11,7 @@
 #include "cli/program.hpp"
 
 namespace wisp {
-namespace {
+namespace motion_flags_test {
 
 using testing::HasSubstr;
 
@@ -97,5 +97,5 @@ TEST_F(MotionFlags, ColumnsThatAreNotThereAreErrors) {
               HasSubstr("has no column \"X\""));
 }
 
-}  // namespace
+}  // namespace motion_flags_test
 }  // namespace wisp

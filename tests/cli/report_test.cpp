@@ -9,7 +9,7 @@
 #include "cli/program.hpp"
 
 namespace wisp {
-namespace {
+namespace report_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -69,5 +69,5 @@ TEST_F(ReportPage, WhatCannotBeJudgedIsOneSentenceAndNoPage) {
   EXPECT_FALSE(std::filesystem::exists(at("page.html")));
 }
 
-}  // namespace
+}  // namespace report_test
 }  // namespace wisp

@@ -10,7 +10,7 @@
 #include "wisp/record/csv.hpp"
 
 namespace wisp {
-namespace {
+namespace run_chain_test {
 
 using testing::HasSubstr;
 
@@ -104,5 +104,5 @@ TEST_F(RunChain, ARealisationThatIsNoneIsAnError) {
   EXPECT_EQ(wisp("learn leaf drops.csv -o " + at("m.wisp") + " --realisation fourier").status, 2);
 }
 
-}  // namespace
+}  // namespace run_chain_test
 }  // namespace wisp

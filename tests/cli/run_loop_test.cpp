@@ -9,7 +9,7 @@
 #include "wisp/record/csv.hpp"
 
 namespace wisp {
-namespace {
+namespace run_loop_test {
 
 using testing::HasSubstr;
 
@@ -84,5 +84,5 @@ TEST_F(RunLoop, WhatDoesNotGoWithItIsSaid) {
   refused("flame-4", "2", "a.png", 1, "expected a name that ends in .csv or .mp4");
 }
 
-}  // namespace
+}  // namespace run_loop_test
 }  // namespace wisp

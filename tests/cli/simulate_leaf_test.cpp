@@ -8,7 +8,7 @@
 #include "wisp/record/csv.hpp"
 
 namespace wisp {
-namespace {
+namespace simulate_leaf_test {
 
 using testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -179,5 +179,5 @@ TEST_F(SimulateLeaf, AWindFileThatIsNoneIsExplained) {
   }
 }
 
-}  // namespace
+}  // namespace simulate_leaf_test
 }  // namespace wisp

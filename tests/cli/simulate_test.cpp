@@ -7,7 +7,7 @@
 #include "wisp/record/csv.hpp"
 
 namespace wisp {
-namespace {
+namespace simulate_test {
 
 using testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -61,5 +61,5 @@ TEST_F(Simulate, WhatCannotBeSimulatedIsExplained) {
   EXPECT_FALSE(fs::exists(at("clip.truth.csv")));
 }
 
-}  // namespace
+}  // namespace simulate_test
 }  // namespace wisp

@@ -10,7 +10,7 @@
 #include "wisp/record/csv.hpp"
 
 namespace wisp {
-namespace {
+namespace tables_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -235,5 +235,5 @@ TEST_F(Tables, RunGoesAlongAPlainTable) {
               HasSubstr("is the rate right?"));
 }
 
-}  // namespace
+}  // namespace tables_test
 }  // namespace wisp

@@ -7,7 +7,7 @@
 #include "paths.hpp"
 
 namespace wisp {
-namespace {
+namespace usage_test {
 
 using testing::HasSubstr;
 
@@ -73,5 +73,5 @@ TEST_F(Usage, TheManualInDocsIsTheProgramsOwn) {
       << "make it again: wisp manual > docs/reference/cli.md";
 }
 
-}  // namespace
+}  // namespace usage_test
 }  // namespace wisp

@@ -11,7 +11,7 @@
 #include "wisp/record/csv.hpp"
 
 namespace wisp {
-namespace {
+namespace wind_gain_test {
 
 using testing::HasSubstr;
 
@@ -136,5 +136,5 @@ TEST_F(WindGainProgram, ABadLoudnessStopsBeforeAnythingIsWritten) {
   EXPECT_FALSE(std::filesystem::exists(at("m.wisp")));
 }
 
-}  // namespace
+}  // namespace wind_gain_test
 }  // namespace wisp

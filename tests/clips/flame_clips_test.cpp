@@ -15,7 +15,7 @@
 #include "paths.hpp"
 
 namespace wisp {
-namespace {
+namespace flame_clips_test {
 
 struct Clip {
   const char* name;
@@ -109,5 +109,5 @@ INSTANTIATE_TEST_SUITE_P(
                     Clip{"Red", "red_candle_720p25.mp4", 0, 8}, Clip{"Red", "red_candle_720p25.mp4", 0, 16}),
     clip_name);
 
-}  // namespace
+}  // namespace flame_clips_test
 }  // namespace wisp

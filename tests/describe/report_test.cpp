@@ -8,7 +8,7 @@
 #include "wisp/describe/text.hpp"
 
 namespace wisp {
-namespace {
+namespace report_test {
 
 Report sample() {
   Report report;
@@ -100,5 +100,5 @@ TEST(Report, FindAndAppendSeeAllSections) {
   EXPECT_EQ(report.warnings.size(), 2u);
 }
 
-}  // namespace
+}  // namespace report_test
 }  // namespace wisp

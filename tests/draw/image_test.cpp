@@ -6,7 +6,7 @@
 #include "wisp/base/file.hpp"
 
 namespace wisp {
-namespace {
+namespace image_test {
 
 Image gradient(int width, int height) {
   std::vector<std::uint8_t> rgb;
@@ -106,5 +106,5 @@ TEST(Image, PngThatCannotBeWrittenNamesTheFileAndLeavesNothing) {
   EXPECT_TRUE(folder.empty());
 }
 
-}  // namespace
+}  // namespace image_test
 }  // namespace wisp

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace wisp::drawing {
-namespace {
+namespace tone_test {
 
 TEST(Tone, EveryCodeComesBackWhateverTheDither) {
   const Tone& tone = Tone::get();
@@ -38,5 +38,5 @@ TEST(Tone, LightBeyondWhiteIsWhite) {
   EXPECT_EQ(pixel, 0xFFFFFFFFU);
 }
 
-}  // namespace
+}  // namespace tone_test
 }  // namespace wisp::drawing

@@ -16,7 +16,7 @@
 #include "wisp/run/bank.hpp"
 
 namespace wisp {
-namespace {
+namespace export_test {
 
 using Json = nlohmann::json;
 
@@ -207,5 +207,5 @@ TEST(Export, WhatHasNoShapeIsRefusedWithAReason) {
   EXPECT_NE(lottie_text(flame, *taken, 3).error().message.find("expected 16 to 8192"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace export_test
 }  // namespace wisp

@@ -18,7 +18,7 @@
 #include "wisp/run/bank.hpp"
 
 namespace wisp {
-namespace {
+namespace firmware_test {
 
 // A light that is calm and restless by turns, as `wisp learn flicker` makes them.
 Model light() {
@@ -232,5 +232,5 @@ TEST_F(Firmware, WhatFixedPointDoesNotHoldIsSaid) {
   says(slow, "32 lags");
 }
 
-}  // namespace
+}  // namespace firmware_test
 }  // namespace wisp

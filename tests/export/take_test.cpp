@@ -11,7 +11,7 @@
 #include "wisp/run/bank.hpp"
 
 namespace wisp {
-namespace {
+namespace take_test {
 
 Model leaf() {
   const auto model = read_model(WISP_SOURCE_DIR "/apps/web/public/models/leaf.wisp");
@@ -202,5 +202,5 @@ TEST(Take, WhatCannotBeTakenIsSaid) {
   EXPECT_NE(take(mortal, {.loop = true, .inputs = {2}}).error().message.find("goes out"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace take_test
 }  // namespace wisp

@@ -6,7 +6,7 @@
 #include "paths.hpp"
 
 namespace wisp::house {
-namespace {
+namespace arrow_test {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -153,5 +153,5 @@ TEST(Arrow, ALinkThatRunsBackUpIsFound) {
                           "src/CMakeLists.txt: cloud is no layer of docs/architecture.md"));
 }
 
-}  // namespace
+}  // namespace arrow_test
 }  // namespace wisp::house

@@ -8,7 +8,7 @@
 #include "paths.hpp"
 
 namespace wisp::house {
-namespace {
+namespace dependencies_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -111,5 +111,5 @@ TEST(Dependencies, AForgottenOneIsFound) {
   EXPECT_THAT(listed_packages("| a | Debian packages |\n| --- | --- |\n| `no` | `x`, `y` |\n"), ElementsAre("x", "y"));
 }
 
-}  // namespace
+}  // namespace dependencies_test
 }  // namespace wisp::house

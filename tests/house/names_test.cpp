@@ -10,7 +10,7 @@
 #include "paths.hpp"
 
 namespace wisp::house {
-namespace {
+namespace names_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -107,5 +107,5 @@ TEST(MachinePaths, AreFound) {
   EXPECT_THAT(machine_paths(tree.root()), ElementsAre("docs/a.md:2", "script/b:1", "src/c.cpp:1"));
 }
 
-}  // namespace
+}  // namespace names_test
 }  // namespace wisp::house

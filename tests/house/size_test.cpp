@@ -11,7 +11,7 @@
 #include "paths.hpp"
 
 namespace wisp::house {
-namespace {
+namespace size_test {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -108,5 +108,5 @@ TEST(Size, FullFoldersAndManyHeadersAreFound) {
   EXPECT_EQ(public_headers(tree.root()), 3);
 }
 
-}  // namespace
+}  // namespace size_test
 }  // namespace wisp::house

@@ -11,7 +11,7 @@
 #include <limits>
 
 namespace wisp {
-namespace {
+namespace mat_test {
 
 using ::testing::AllOf;
 using ::testing::ElementsAre;
@@ -279,5 +279,5 @@ TEST(Mat, RefusesWhatIsNotAMatlabFile) {
   EXPECT_THAT(error_of(path, {.rate_hz = 1, .outputs = {"y"}}), HasSubstr("no such file"));
 }
 
-}  // namespace
+}  // namespace mat_test
 }  // namespace wisp

@@ -7,7 +7,7 @@
 #include "model/sample_model.hpp"
 
 namespace wisp {
-namespace {
+namespace arx_test {
 
 ArxModel scalar(std::vector<double> a) {
   ArxModel model;
@@ -55,5 +55,5 @@ TEST(ArxModel, CoefficientsAreFoundByOutputAndInput) {
   EXPECT_EQ(model.orders.row_size(0), 5);
 }
 
-}  // namespace
+}  // namespace arx_test
 }  // namespace wisp

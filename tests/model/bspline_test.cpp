@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace wisp {
-namespace {
+namespace bspline_test {
 
 double sum(const BasisWeights& weights) {
   double total = 0;
@@ -63,5 +63,5 @@ TEST(BSpline, KnotVectorsThatAreNotOnesAreRefused) {
   EXPECT_FALSE(valid_knots(std::vector<double>{0, 0, 0, 0, 2, 2, 2, 2}));
 }
 
-}  // namespace
+}  // namespace bspline_test
 }  // namespace wisp

@@ -15,7 +15,7 @@
 #include "wisp/model/file.hpp"
 
 namespace wisp {
-namespace {
+namespace chain_test {
 
 using testing::HasSubstr;
 
@@ -438,5 +438,5 @@ TEST(ChainModel, TransitionsAreThoseAfterOneMode) {
   EXPECT_EQ(chain(model).history(), 2);
 }
 
-}  // namespace
+}  // namespace chain_test
 }  // namespace wisp

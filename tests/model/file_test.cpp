@@ -14,7 +14,7 @@
 #include "wisp/base/file.hpp"
 
 namespace wisp {
-namespace {
+namespace file_test {
 
 using testing::HasSubstr;
 
@@ -369,5 +369,5 @@ TEST(ModelFile, ANameThatHoldsAZeroByteIsRefused) {
   EXPECT_THAT(outcome.error().message, HasSubstr("holds a zero byte"));
 }
 
-}  // namespace
+}  // namespace file_test
 }  // namespace wisp

@@ -10,7 +10,7 @@
 #include "wisp/model/file.hpp"
 
 namespace wisp {
-namespace {
+namespace input_curve_test {
 
 using testing::HasSubstr;
 
@@ -69,5 +69,5 @@ TEST(InputCurve, AModelWithABadOneIsRefused) {
   }
 }
 
-}  // namespace
+}  // namespace input_curve_test
 }  // namespace wisp

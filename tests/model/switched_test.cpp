@@ -15,7 +15,7 @@
 #include "wisp/model/file.hpp"
 
 namespace wisp {
-namespace {
+namespace switched_test {
 
 using testing::HasSubstr;
 
@@ -173,5 +173,5 @@ TEST(SwitchedModel, OfAnArxModelHasItsNoise) {
   EXPECT_TRUE(check(switched_of(arx)));
 }
 
-}  // namespace
+}  // namespace switched_test
 }  // namespace wisp

@@ -4,7 +4,7 @@
 #include "wisp/record/recording.hpp"
 
 namespace wisp {
-namespace {
+namespace attribute_test {
 
 TEST(Attribute, NumbersRoundTripBitForBit) {
   Recording recording;
@@ -23,5 +23,5 @@ TEST(Attribute, WhatIsNotANumberIsNamed) {
   EXPECT_THAT(outcome.error().message, testing::AllOf(testing::HasSubstr("a.csv"), testing::HasSubstr("\"two\"")));
 }
 
-}  // namespace
+}  // namespace attribute_test
 }  // namespace wisp

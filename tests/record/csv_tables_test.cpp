@@ -9,7 +9,7 @@
 #include "wisp/record/csv.hpp"
 
 namespace wisp {
-namespace {
+namespace csv_tables_test {
 
 using testing::AllOf;
 using testing::ElementsAre;
@@ -147,5 +147,5 @@ TEST(CsvTable, AColumnOfNumbersAloneMayHaveDecimalCommas) {
   EXPECT_THAT(recording->channels[0].samples, ElementsAre(1.5, 2.5));
 }
 
-}  // namespace
+}  // namespace csv_tables_test
 }  // namespace wisp

@@ -11,7 +11,7 @@
 #include <sstream>
 
 namespace wisp {
-namespace {
+namespace csv_test {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -246,5 +246,5 @@ TEST(Csv, ABadRecordingIsNotWritten) {
   EXPECT_FALSE(std::filesystem::exists(path));
 }
 
-}  // namespace
+}  // namespace csv_test
 }  // namespace wisp

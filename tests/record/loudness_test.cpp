@@ -8,7 +8,7 @@
 #include <limits>
 
 namespace wisp {
-namespace {
+namespace loudness_test {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
@@ -55,5 +55,5 @@ TEST(Loudness, AnythingButOneNumberAboveZeroIsRefused) {
   EXPECT_FALSE(one_rms(recording, "wind"));
 }
 
-}  // namespace
+}  // namespace loudness_test
 }  // namespace wisp

@@ -7,7 +7,7 @@
 #include <limits>
 
 namespace wisp {
-namespace {
+namespace number_text_test {
 
 TEST(NumberText, IsTheShortestThatReadsBack) {
   EXPECT_EQ(number_text(0.1), "0.1");
@@ -28,5 +28,5 @@ TEST(NumberText, SaysWhatIsNoNumber) {
   EXPECT_EQ(number_text(-std::numeric_limits<double>::infinity(), 3), "-inf");
 }
 
-}  // namespace
+}  // namespace number_text_test
 }  // namespace wisp

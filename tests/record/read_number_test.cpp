@@ -17,7 +17,7 @@
 #undef wisp
 
 namespace wisp {
-namespace {
+namespace read_number_test {
 
 struct Read {
   std::ptrdiff_t length = 0;
@@ -62,5 +62,5 @@ TEST(ReadNumber, KnowsWhatIsNoNumberAndWhatNoDoubleHolds) {
     expect_as_from_chars(text);
 }
 
-}  // namespace
+}  // namespace read_number_test
 }  // namespace wisp

@@ -16,7 +16,7 @@
 #include "wisp/base/file.hpp"
 
 namespace wisp {
-namespace {
+namespace wav_test {
 
 using ::testing::AllOf;
 using ::testing::ElementsAre;
@@ -301,5 +301,5 @@ TEST_F(Wav, RealFilesAreRead) {
   EXPECT_NEAR(static_cast<double>(breath->samples.size()) / 44100, 19.99, 0.01);
 }
 
-}  // namespace
+}  // namespace wav_test
 }  // namespace wisp

@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace wisp::flow {
-namespace {
+namespace random_numbers_test {
 
 TEST(RandomNumbers, AreTheSameWordsForEver) {
   RandomNumbers numbers(1, 2);
@@ -49,5 +49,5 @@ TEST(RandomNumbers, AreEvenOverTheUnitInterval) {
   EXPECT_NEAR(sum / 100000, 0.5, 5 * std::sqrt(1.0 / 12 / 100000));
 }
 
-}  // namespace
+}  // namespace random_numbers_test
 }  // namespace wisp::flow

@@ -13,7 +13,7 @@
 #endif
 
 namespace wisp {
-namespace {
+namespace wind_bits_test {
 
 /// Four seconds made of integers only: a soft hiss, gusts of low noise, pulses like a voice's, and nothing at all.
 std::vector<std::int16_t> made_sound(int rate_hz) {
@@ -74,5 +74,5 @@ TEST(WindBits, AreTheSameWhereDenormalsAreFlushed) {
 #endif
 }
 
-}  // namespace
+}  // namespace wind_bits_test
 }  // namespace wisp

@@ -11,7 +11,7 @@
 #include "wisp/sound/wind_level.hpp"
 
 namespace wisp {
-namespace {
+namespace wind_confidence_test {
 
 using sounds::Samples;
 
@@ -147,5 +147,5 @@ TEST(WindConfidence, AStreamThatBeginsWithNothingAtAllIsNoQuietRoom) {
   EXPECT_GT(share_below(hear(16000, sound), 0.2F), 0.97);
 }
 
-}  // namespace
+}  // namespace wind_confidence_test
 }  // namespace wisp

@@ -11,7 +11,7 @@
 #include "sound/wind_sounds.hpp"
 
 namespace wisp {
-namespace {
+namespace wind_cost_test {
 
 std::int64_t operations = 0;
 
@@ -72,5 +72,5 @@ TEST(WindCost, TwoChannelsCostAtMostTwoMillionUpTo48Kilohertz) {
   }
 }
 
-}  // namespace
+}  // namespace wind_cost_test
 }  // namespace wisp

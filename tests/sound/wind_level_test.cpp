@@ -12,7 +12,7 @@
 #include "sound/wind_sounds.hpp"
 
 namespace wisp {
-namespace {
+namespace wind_level_test {
 
 using sounds::Samples;
 using ::testing::HasSubstr;
@@ -412,5 +412,5 @@ TEST(WindLevel, SaysWhatItCannotDo) {
   EXPECT_EQ(message({8000, 8}, {.frame_rate_hz = 1000}), "");
 }
 
-}  // namespace
+}  // namespace wind_level_test
 }  // namespace wisp

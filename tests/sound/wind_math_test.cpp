@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace wisp::wind {
-namespace {
+namespace wind_math_test {
 
 TEST(WindMath, Log2IsWithinItsStatedError) {
   for (int exponent = -126; exponent < 127; ++exponent) {
@@ -46,5 +46,5 @@ TEST(WindMath, SigmoidRunsFromZeroToOne) {
   EXPECT_EQ(sigmoid(200.0F), 1.0F);
 }
 
-}  // namespace
+}  // namespace wind_math_test
 }  // namespace wisp::wind

@@ -12,7 +12,7 @@
 #include "sound/wind_sounds.hpp"
 
 namespace wisp {
-namespace {
+namespace wind_track_test {
 
 using sounds::Samples;
 using ::testing::HasSubstr;
@@ -213,5 +213,5 @@ TEST(WindTrack, SaysWhatItCannotDo) {
   EXPECT_THAT(message({0, std::numeric_limits<double>::infinity()}), HasSubstr("frame time 1"));
 }
 
-}  // namespace
+}  // namespace wind_track_test
 }  // namespace wisp

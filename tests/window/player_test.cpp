@@ -14,7 +14,7 @@
 #include "window/course.hpp"
 
 namespace wisp::window {
-namespace {
+namespace player_test {
 
 using std::chrono::nanoseconds;
 using testing::HasSubstr;
@@ -350,5 +350,5 @@ TEST(Scripts, ThatAreWrongAreNamedByTheirLine) {
   EXPECT_FALSE(read_script(scratch("absent.txt")));
 }
 
-}  // namespace
+}  // namespace player_test
 }  // namespace wisp::window

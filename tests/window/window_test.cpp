@@ -15,7 +15,7 @@
 #include "wisp/record/wav.hpp"
 
 namespace wisp {
-namespace {
+namespace window_test {
 
 using testing::HasSubstr;
 
@@ -232,5 +232,5 @@ TEST_F(PlayInAWindow, GoesOnWhenTheMicrophoneIsLost) {
   EXPECT_TRUE(is_whole(folder_ / "png" / "end.png"));
 }
 
-}  // namespace
+}  // namespace window_test
 }  // namespace wisp

@@ -10,7 +10,7 @@
 #include "capture/support/synthetic.hpp"
 
 namespace wisp {
-namespace {
+namespace clip_capture_test {
 
 using support::Plane;
 using testing::HasSubstr;
@@ -134,5 +134,5 @@ TEST(OutlineSeen, IsEmptyUntilPlaceAndLevelAreDecidedAndThenShowsTheOutline) {
   EXPECT_TRUE(picture.seen().polyline.empty());
 }
 
-}  // namespace
+}  // namespace clip_capture_test
 }  // namespace wisp

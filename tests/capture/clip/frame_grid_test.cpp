@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace wisp {
-namespace {
+namespace frame_grid_test {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -52,5 +52,5 @@ TEST(FrameGrid, FollowsWhereATimeIsNotKnown) {
   EXPECT_EQ(grid.follow(), 1);
 }
 
-}  // namespace
+}  // namespace frame_grid_test
 }  // namespace wisp

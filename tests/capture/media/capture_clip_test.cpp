@@ -9,7 +9,7 @@
 #include "capture/support/overlap.hpp"
 
 namespace wisp {
-namespace {
+namespace capture_clip_test {
 
 using support::ScratchFolder;
 using testing::HasSubstr;
@@ -178,5 +178,5 @@ TEST(CaptureClip, AFlagSeenEdgeOnIsADarkLineHeldOnTheLeft) {
   EXPECT_GT(captured->recording.channels[6].samples[5], 300);
 }
 
-}  // namespace
+}  // namespace capture_clip_test
 }  // namespace wisp

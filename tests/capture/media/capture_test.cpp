@@ -8,7 +8,7 @@
 #include "capture/support/clip_files.hpp"
 
 namespace wisp {
-namespace {
+namespace capture_test {
 
 using support::ScratchFolder;
 using testing::HasSubstr;
@@ -74,5 +74,5 @@ TEST_F(Capture, OnlyOutlinesHaveACurve) {
   EXPECT_FALSE(curve_of(broken));
 }
 
-}  // namespace
+}  // namespace capture_test
 }  // namespace wisp

@@ -16,7 +16,7 @@
 
 namespace wisp {
 
-namespace {
+namespace video_test {
 
 using support::Plane;
 using support::RawVideo;
@@ -341,5 +341,5 @@ TEST(VideoFile, CutInHalfIsReadAsFarAsItGoesWithAWarning) {
   EXPECT_THAT(reader->warnings().back(), HasSubstr("cut off"));
 }
 
-}  // namespace
+}  // namespace video_test
 }  // namespace wisp

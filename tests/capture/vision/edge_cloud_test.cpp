@@ -7,7 +7,7 @@
 #include "capture/support/seen_flame.hpp"
 
 namespace wisp {
-namespace {
+namespace edge_cloud_test {
 
 using support::cloud_of;
 using support::Flame;
@@ -138,5 +138,5 @@ TEST(EdgeCloud, ASpeckIsNoOutline) {
   EXPECT_TRUE(cloud_of(plane, 100).points.empty());
 }
 
-}  // namespace
+}  // namespace edge_cloud_test
 }  // namespace wisp

@@ -7,7 +7,7 @@
 #include "capture/support/synthetic.hpp"
 
 namespace wisp {
-namespace {
+namespace edges_test {
 
 using support::Plane;
 
@@ -50,5 +50,5 @@ TEST(LocateEdge, OnThePicturesBorderTheBorderIsTheEdge) {
   EXPECT_DOUBLE_EQ(locate_edge(plane.view(), 100, {10, 19}).y, 19.5);
 }
 
-}  // namespace
+}  // namespace edges_test
 }  // namespace wisp

@@ -6,7 +6,7 @@
 #include "model/bspline.hpp"
 
 namespace wisp {
-namespace {
+namespace knots_test {
 
 using support::cloud_of;
 using support::Flame;
@@ -58,5 +58,5 @@ TEST(Knots, APaceAscendsFromNoughtToOne) {
   for (std::size_t k = 1; k < shape.pace.size(); ++k) EXPECT_GT(shape.pace[k], shape.pace[k - 1]);
 }
 
-}  // namespace
+}  // namespace knots_test
 }  // namespace wisp

@@ -9,7 +9,7 @@
 #include "capture/support/overlap.hpp"
 
 namespace wisp {
-namespace {
+namespace outline_capture_test {
 
 using support::add_noise;
 using support::capture;
@@ -455,5 +455,5 @@ TEST(OutlineCapture, TheSameFramesGiveTheSameRecording) {
   }
 }
 
-}  // namespace
+}  // namespace outline_capture_test
 }  // namespace wisp

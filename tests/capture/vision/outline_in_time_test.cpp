@@ -8,7 +8,7 @@
 #include "capture/support/made_clip.hpp"
 
 namespace wisp {
-namespace {
+namespace outline_in_time_test {
 
 using support::add_noise;
 using support::capture;
@@ -151,5 +151,5 @@ TEST(OutlineCapture, ARoundLampFilmedFromAHandIsNotTakenForAFlameThatIsLitLater)
   });
 }
 
-}  // namespace
+}  // namespace outline_in_time_test
 }  // namespace wisp

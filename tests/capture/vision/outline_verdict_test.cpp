@@ -9,7 +9,7 @@
 #include "model/bspline.hpp"
 
 namespace wisp {
-namespace {
+namespace outline_verdict_test {
 
 using testing::HasSubstr;
 
@@ -101,5 +101,5 @@ TEST(OutlineVerdict, AnEdgeThatTheCurveDoesNotFollowIsNoFlames) {
   EXPECT_THAT(report.reason, HasSubstr("its shape is not a flame's"));
 }
 
-}  // namespace
+}  // namespace outline_verdict_test
 }  // namespace wisp

@@ -7,7 +7,7 @@
 #include <random>
 
 namespace wisp {
-namespace {
+namespace picture_test {
 
 // A 4:2:0 picture of random luma and colours, as a decoder lays it out.
 struct RandomYuv {
@@ -150,5 +150,5 @@ TEST(OwnedPicture, KeepsThePictureWhenTheOriginalIsGone) {
   EXPECT_EQ(before, after);
 }
 
-}  // namespace
+}  // namespace picture_test
 }  // namespace wisp

@@ -8,7 +8,7 @@
 #include "capture/support/synthetic.hpp"
 
 namespace wisp {
-namespace {
+namespace region_test {
 
 using support::Plane;
 
@@ -118,5 +118,5 @@ TEST(FollowBoundary, EndsOnAnyShapeAndStaysInIt) {
   }
 }
 
-}  // namespace
+}  // namespace region_test
 }  // namespace wisp

@@ -5,7 +5,7 @@
 #include "capture/support/synthetic.hpp"
 
 namespace wisp {
-namespace {
+namespace scene_light_test {
 
 using support::Plane;
 
@@ -49,5 +49,5 @@ TEST(SceneLight, WhereTheFlameWasInAnyPictureIsNotNew) {
   EXPECT_FALSE(light.another(grey_picture(scene(100, 230, 20).view())));
 }
 
-}  // namespace
+}  // namespace scene_light_test
 }  // namespace wisp

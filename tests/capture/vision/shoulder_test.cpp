@@ -5,7 +5,7 @@
 #include "capture/support/synthetic.hpp"
 
 namespace wisp {
-namespace {
+namespace shoulder_test {
 
 using support::Plane;
 
@@ -67,5 +67,5 @@ TEST(Shoulder, IsFoundOnAnySide) {
   EXPECT_LE(edge, 39);
 }
 
-}  // namespace
+}  // namespace shoulder_test
 }  // namespace wisp

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace wisp {
-namespace {
+namespace spline_table_test {
 
 // Knots that lie close together amplify rounding by the ratio of their spans: 0.02 of 0.3 here.
 constexpr double kRounding = 1e-11;
@@ -38,5 +38,5 @@ TEST(SplineTable, TheCurveBeginsAndEndsAtItsOutermostPoints) {
   EXPECT_EQ(curve_polyline(table, controls, 7).size(), 7u);
 }
 
-}  // namespace
+}  // namespace spline_table_test
 }  // namespace wisp

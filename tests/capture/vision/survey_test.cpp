@@ -8,7 +8,7 @@
 #include "capture/support/synthetic.hpp"
 
 namespace wisp {
-namespace {
+namespace survey_test {
 
 using support::Flame;
 using support::Plane;
@@ -159,5 +159,5 @@ TEST(BaseSide, OfAThingThatLiesOnItsSideIsTheEndThatMovesLess) {
   EXPECT_EQ(base_side(survey, {0, 0, 100, 100}), BaseSide::kRight);
 }
 
-}  // namespace
+}  // namespace survey_test
 }  // namespace wisp

@@ -7,7 +7,7 @@
 #include "capture/support/synthetic.hpp"
 
 namespace wisp {
-namespace {
+namespace threshold_test {
 
 TEST(Threshold, LiesBetweenTwoClusters) {
   Histogram histogram{};
@@ -48,5 +48,5 @@ TEST(Threshold, HistogramCountsEveryStepthPixel) {
   EXPECT_EQ(some[5] + some[9], 10u * 7u);
 }
 
-}  // namespace
+}  // namespace threshold_test
 }  // namespace wisp

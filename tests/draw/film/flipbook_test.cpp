@@ -9,7 +9,7 @@
 #include "folder_test.hpp"
 
 namespace wisp {
-namespace {
+namespace flipbook_test {
 
 namespace fs = std::filesystem;
 
@@ -94,5 +94,5 @@ TEST_F(FlipbookTest, WhatCannotBeWrittenIsSaid) {
   EXPECT_NE(write_atlas(folder_ / "a.png", book_).error().message.find("several sizes"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace flipbook_test
 }  // namespace wisp

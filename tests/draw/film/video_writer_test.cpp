@@ -11,7 +11,7 @@
 #include "wisp/base/file.hpp"
 
 namespace wisp {
-namespace {
+namespace video_writer_test {
 
 Image moving_square(int width, int height, int frame) {
   Image image(width, height, {20, 30, 60, 255});
@@ -352,5 +352,5 @@ TEST(VideoWriter, SaysNothingOnTheTerminal) {
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
-}  // namespace
+}  // namespace video_writer_test
 }  // namespace wisp

@@ -8,7 +8,7 @@
 #include "draw/draw_test_pictures.hpp"
 
 namespace wisp {
-namespace {
+namespace flame_test {
 
 constexpr int kWidth = 240;
 constexpr int kHeight = 320;
@@ -467,5 +467,5 @@ TEST(Framed, LeavesRoomForAFlameOfTwiceItsHeight) {
   }
 }
 
-}  // namespace
+}  // namespace flame_test
 }  // namespace wisp

@@ -5,7 +5,7 @@
 #include <numeric>
 
 namespace wisp::drawing {
-namespace {
+namespace light_field_test {
 
 double total(const Plane& plane) { return std::accumulate(plane.values.begin(), plane.values.end(), 0.0); }
 
@@ -74,5 +74,5 @@ TEST(LightField, LightOnlyBrightens) {
   }
 }
 
-}  // namespace
+}  // namespace light_field_test
 }  // namespace wisp::drawing

@@ -7,7 +7,7 @@
 #include "draw/draw_test_pictures.hpp"
 
 namespace wisp {
-namespace {
+namespace live_flames_test {
 
 constexpr int kWidth = 401;  // no multiple of the grid's cells
 constexpr int kHeight = 303;
@@ -86,5 +86,5 @@ TEST(LiveFlames, ForgetThePictureBefore) {
   EXPECT_EQ(image, night);
 }
 
-}  // namespace
+}  // namespace live_flames_test
 }  // namespace wisp

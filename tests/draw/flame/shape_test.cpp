@@ -7,7 +7,7 @@
 #include "wisp/model/model.hpp"
 
 namespace wisp {
-namespace {
+namespace shape_test {
 
 // An outline model whose control points lie there, in the middle of their ranges.
 Model outline_of(const std::vector<std::array<double, 2>>& points) {
@@ -48,5 +48,5 @@ TEST(Shape, ThereIsNoCandleUnderAPlainShape) {
   EXPECT_EQ(at(150, 125), at(10, 10));
 }
 
-}  // namespace
+}  // namespace shape_test
 }  // namespace wisp

@@ -10,7 +10,7 @@
 #include "wisp/draw/overlay.hpp"
 
 namespace wisp {
-namespace {
+namespace leaf_flock_test {
 
 constexpr int kWidth = 240;
 constexpr int kHeight = 200;
@@ -128,5 +128,5 @@ TEST(Note, IsAPlateOfLinesInItsCorner) {
   EXPECT_EQ(image, blank);
 }
 
-}  // namespace
+}  // namespace leaf_flock_test
 }  // namespace wisp

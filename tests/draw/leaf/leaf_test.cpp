@@ -8,7 +8,7 @@
 #include <limits>
 
 namespace wisp {
-namespace {
+namespace leaf_test {
 
 constexpr int kWidth = 240, kHeight = 160;
 
@@ -164,5 +164,5 @@ TEST(DrawLeaf, HoldsAbsurdStylesAndCameras) {
   EXPECT_EQ(image.width(), 16);
 }
 
-}  // namespace
+}  // namespace leaf_test
 }  // namespace wisp

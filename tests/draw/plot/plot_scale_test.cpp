@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace wisp::drawing {
-namespace {
+namespace plot_scale_test {
 
 using ::testing::ElementsAre;
 
@@ -61,5 +61,5 @@ TEST(PlotScale, PlacesAreLinearOrLogarithmic) {
   EXPECT_TRUE(linear.shows(0));
 }
 
-}  // namespace
+}  // namespace plot_scale_test
 }  // namespace wisp::drawing

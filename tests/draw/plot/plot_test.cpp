@@ -13,7 +13,7 @@ extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig"; }
 
 namespace wisp {
-namespace {
+namespace plot_test {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr Colour kRed{220, 0, 0, 255};
@@ -294,5 +294,5 @@ TEST(Plot, AxesBelowEachOtherAreAligned) {
   EXPECT_EQ(leftmost(both, kRed, 0, middle), leftmost(both, kRed, middle, both.height()));
 }
 
-}  // namespace
+}  // namespace plot_test
 }  // namespace wisp

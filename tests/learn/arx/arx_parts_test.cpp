@@ -10,7 +10,7 @@
 #include "learn/arx/made_system.hpp"
 
 namespace wisp {
-namespace {
+namespace arx_parts_test {
 
 using testing::HasSubstr;
 
@@ -103,5 +103,5 @@ TEST(ArxParts, WhatNeedsAllRecordingsInMemoryIsRefused) {
   EXPECT_THAT(ArxPart::create(recipe).error().message, HasSubstr("search first"));
 }
 
-}  // namespace
+}  // namespace arx_parts_test
 }  // namespace wisp

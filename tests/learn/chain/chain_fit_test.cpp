@@ -12,7 +12,7 @@
 #include "wisp/run/chain_facet.hpp"
 
 namespace wisp::chain {
-namespace {
+namespace chain_fit_test {
 
 using testing::HasSubstr;
 
@@ -209,5 +209,5 @@ TEST(FitChain, CopiedStretchesAreFound) {
   EXPECT_GT(copied, 2 * longest_verbatim_seconds(mixed->model, mixed->origin, 200, 1));
 }
 
-}  // namespace
+}  // namespace chain_fit_test
 }  // namespace wisp::chain

@@ -12,7 +12,7 @@
 #include "wisp/run/bank.hpp"
 
 namespace wisp::chain {
-namespace {
+namespace learn_chain_test {
 
 using testing::HasSubstr;
 
@@ -237,5 +237,5 @@ TEST(ValidateChain, WhatIsNoChainOrSaysNotHowItWasCutIsAnError) {
               HasSubstr("is not a segment chain"));
 }
 
-}  // namespace
+}  // namespace learn_chain_test
 }  // namespace wisp::chain

@@ -9,7 +9,7 @@
 #include "learn/numeric/made_series.hpp"
 
 namespace wisp {
-namespace {
+namespace fidelity_energy_test {
 
 Stretch interleaved(const std::vector<double>& a, const std::vector<double>& b, std::size_t first, std::size_t last) {
   Stretch out{2, {}};
@@ -125,5 +125,5 @@ TEST(FidelityEnergy, StandardisedFeaturesHaveMeanZeroAndDeviationOne) {
   EXPECT_EQ(y.values, (std::vector<double>{3, 2}));
 }
 
-}  // namespace
+}  // namespace fidelity_energy_test
 }  // namespace wisp

@@ -8,7 +8,7 @@
 #include <random>
 
 namespace wisp {
-namespace {
+namespace fidelity_long_test {
 
 constexpr LongOptions kOptions{.rate_hz = 60};
 
@@ -70,5 +70,5 @@ TEST(FidelityLong, ASpectrumHasThePowerInItsBand) {
   EXPECT_LT(loudest + 1, windows.features);
 }
 
-}  // namespace
+}  // namespace fidelity_long_test
 }  // namespace wisp

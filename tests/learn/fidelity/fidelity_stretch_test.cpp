@@ -7,7 +7,7 @@
 #include <string>
 
 namespace wisp {
-namespace {
+namespace fidelity_stretch_test {
 
 Recording two_channels() {
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -68,5 +68,5 @@ TEST(FidelityStretch, TheSameSeedShufflesAlike) {
   EXPECT_NE(shuffled(stretches, 4).front().values, shuffled(stretches, 5).front().values);
 }
 
-}  // namespace
+}  // namespace fidelity_stretch_test
 }  // namespace wisp

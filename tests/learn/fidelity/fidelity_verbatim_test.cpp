@@ -5,7 +5,7 @@
 #include <vector>
 
 namespace wisp {
-namespace {
+namespace fidelity_verbatim_test {
 
 TEST(FidelityVerbatim, ACopiedRunIsFoundWhereverItStands) {
   const std::vector real{Stretch{1, {0, 3, 1, 4, 1, 5, 9, 2, 6}}};
@@ -32,5 +32,5 @@ TEST(FidelityVerbatim, ARunDoesNotCrossFromOneStretchToTheNext) {
   EXPECT_EQ(longest_verbatim_run(real, cut, 0), 2u);
 }
 
-}  // namespace
+}  // namespace fidelity_verbatim_test
 }  // namespace wisp

@@ -9,7 +9,7 @@
 #include "learn/outline/outline_fit.hpp"
 
 namespace wisp {
-namespace {
+namespace blow_outs_test {
 
 using testing::HasSubstr;
 
@@ -122,5 +122,5 @@ TEST(BlowOuts, WhatCannotBeLookedThroughIsRefused) {
   EXPECT_FALSE(find_blow_outs(plain, "wind"));
 }
 
-}  // namespace
+}  // namespace blow_outs_test
 }  // namespace wisp

@@ -6,7 +6,7 @@
 #include "learn/flame/made_blow_outs.hpp"
 
 namespace wisp {
-namespace {
+namespace extinction_test {
 
 using made::blow_out_recording;
 using made::BlowOutRecipe;
@@ -168,5 +168,5 @@ TEST(ExtinctionAgreement, CountsDeathsAndGustsAndHowLateTheRuleIs) {
   EXPECT_EQ(agreement(always, seen).spared, 0U);
 }
 
-}  // namespace
+}  // namespace extinction_test
 }  // namespace wisp

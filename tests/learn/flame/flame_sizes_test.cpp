@@ -12,7 +12,7 @@
 #include "wisp/run/extinction_facet.hpp"
 
 namespace wisp {
-namespace {
+namespace flame_sizes_test {
 
 using testing::HasSubstr;
 
@@ -132,5 +132,5 @@ TEST(FlameSizes, AStretchThatNobodyBlewIsNoDeath) {
   EXPECT_THAT(flame_sizes({.source = "numbers"}, {}).error().message, HasSubstr("numbers"));
 }
 
-}  // namespace
+}  // namespace flame_sizes_test
 }  // namespace wisp

@@ -9,7 +9,7 @@
 #include "wisp/model/file.hpp"
 
 namespace wisp {
-namespace {
+namespace learn_flicker_test {
 
 // Three minutes and more of a light whose restless stretches swing at 5 Hz.
 Recording light(double rate_hz, std::uint64_t seed, double seconds = 400) {
@@ -96,5 +96,5 @@ TEST(LearnFlicker, WhatCannotBeLearnedFromIsSaid) {
   says(dark, {}, "not above 0");
 }
 
-}  // namespace
+}  // namespace learn_flicker_test
 }  // namespace wisp

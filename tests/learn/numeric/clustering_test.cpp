@@ -7,7 +7,7 @@
 #include <random>
 
 namespace wisp {
-namespace {
+namespace clustering_test {
 
 // Points around the corners of a cube.
 std::vector<double> corners(std::size_t each, double spread) {
@@ -105,5 +105,5 @@ TEST(KMeans, MoreClustersThanRowsIsAnError) {
   EXPECT_FALSE(k_means(rows, 3, {.clusters = 1, .restarts = 0}));
 }
 
-}  // namespace
+}  // namespace clustering_test
 }  // namespace wisp

@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace wisp {
-namespace {
+namespace decompositions_test {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -54,5 +54,5 @@ TEST(Decompositions, ARankedSolutionIsTheShortestAndCountsColumns) {
   EXPECT_LT((reflection(5, 3).bottomRows(2) * found.x).norm(), 1e-13);
 }
 
-}  // namespace
+}  // namespace decompositions_test
 }  // namespace wisp

@@ -11,7 +11,7 @@
 #include "learn/arx/rows/arx_triangle.hpp"
 
 namespace wisp {
-namespace {
+namespace lag_gram_test {
 
 Recording noise(std::size_t rows, int outputs, int inputs, unsigned seed) {
   std::mt19937 generator(seed);
@@ -105,5 +105,5 @@ TEST(LagGram, LeavesOutRowsThatMissingSamplesEnter) {
   EXPECT_EQ(plan.rows, 400u - 3 - 9);
 }
 
-}  // namespace
+}  // namespace lag_gram_test
 }  // namespace wisp

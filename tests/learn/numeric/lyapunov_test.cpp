@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace wisp {
-namespace {
+namespace lyapunov_test {
 
 using Eigen::MatrixXd;
 using Numbers = std::vector<double>;
@@ -98,5 +98,5 @@ TEST(CommonLyapunov, IsFoundUpToWhereThePairBeginsToDiverge) {
   EXPECT_FALSE(find_common_lyapunov(pair(0.6401)));
 }
 
-}  // namespace
+}  // namespace lyapunov_test
 }  // namespace wisp

@@ -10,7 +10,7 @@
 #include "learn/numeric/made_series.hpp"
 
 namespace wisp {
-namespace {
+namespace spectrum_test {
 
 using Series = std::vector<std::vector<double>>;
 
@@ -97,5 +97,5 @@ TEST(Spectrum, TheMeanOfEachStretchIsItsOwn) {
   for (std::size_t k = 0; k < 20; ++k) EXPECT_NEAR(one[k], both[k], 1e-9);
 }
 
-}  // namespace
+}  // namespace spectrum_test
 }  // namespace wisp

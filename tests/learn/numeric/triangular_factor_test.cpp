@@ -12,7 +12,7 @@
 #include "learn/arx/rows/arx_orders.hpp"
 
 namespace wisp {
-namespace {
+namespace triangular_factor_test {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
@@ -266,5 +266,5 @@ TEST(PartRows, ShareOutAllRowsOnce) {
   EXPECT_EQ(next, 100u);
 }
 
-}  // namespace
+}  // namespace triangular_factor_test
 }  // namespace wisp

@@ -9,7 +9,7 @@
 #include <vector>
 
 namespace wisp {
-namespace {
+namespace alignment_test {
 
 using ::testing::HasSubstr;
 using Series = std::vector<double>;
@@ -165,5 +165,5 @@ TEST(Alignment, SaysWhatItCannotDo) {
   EXPECT_THAT(message(some, some, {.block_seconds = 0}), HasSubstr("blocks of"));
 }
 
-}  // namespace
+}  // namespace alignment_test
 }  // namespace wisp

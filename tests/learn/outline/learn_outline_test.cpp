@@ -11,7 +11,7 @@
 #include "wisp/learn/validate_outline.hpp"
 
 namespace wisp {
-namespace {
+namespace learn_outline_test {
 
 using testing::HasSubstr;
 using testing::IsSupersetOf;
@@ -199,5 +199,5 @@ TEST(ValidateOutline, CanBeStopped) {
   EXPECT_FALSE(validate_outline(fit.model, windy(7), {.steps = {}}));
 }
 
-}  // namespace
+}  // namespace learn_outline_test
 }  // namespace wisp

@@ -11,7 +11,7 @@
 #include "learn/outline/outline_judgement.hpp"
 
 namespace wisp {
-namespace {
+namespace outline_alignment_test {
 
 using testing::HasSubstr;
 
@@ -120,5 +120,5 @@ TEST(OutlineAlignment, LearningAndValidatingBringSoundIntoStep) {
   EXPECT_GT(validated->alignment.front().frames_moved, 0);
 }
 
-}  // namespace
+}  // namespace outline_alignment_test
 }  // namespace wisp

@@ -14,7 +14,7 @@
 #include "learn/outline/outline_orders.hpp"
 
 namespace wisp {
-namespace {
+namespace outline_components_test {
 
 constexpr made::OutlineRecipe kWindy{.points = 6, .rows = 1500, .shock = 0.003, .wind = true};
 
@@ -117,5 +117,5 @@ TEST(OutlineComponents, WarningsNameCoordinates) {
   EXPECT_THAT(all, testing::Not(testing::HasSubstr("component")));
 }
 
-}  // namespace
+}  // namespace outline_components_test
 }  // namespace wisp

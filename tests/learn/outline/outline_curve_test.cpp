@@ -11,7 +11,7 @@
 #include "wisp/run/cost.hpp"
 
 namespace wisp {
-namespace {
+namespace outline_curve_test {
 
 using testing::HasSubstr;
 
@@ -77,5 +77,5 @@ TEST(OutlineCurve, OptionsOutOfRangeAreRefused) {
               HasSubstr("is 2, expected 0 (no curve) or 3 to 16"));
 }
 
-}  // namespace
+}  // namespace outline_curve_test
 }  // namespace wisp

@@ -10,7 +10,7 @@
 #include "learn/outline/outline_fit.hpp"
 
 namespace wisp {
-namespace {
+namespace outline_figures_test {
 
 TEST(OutlineFigures, FitIsTheShareOfTheDeviationThatIsExplained) {
   const std::vector<double> y{1, 2, 3, 4};
@@ -61,5 +61,5 @@ TEST(OutlineFigures, AFreeRunWithoutInputIsTheMeanShape) {
   EXPECT_NEAR(fit->summary.learned.tip_fit_percent.back(), 0, 2);
 }
 
-}  // namespace
+}  // namespace outline_figures_test
 }  // namespace wisp

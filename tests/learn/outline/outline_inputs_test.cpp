@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace wisp {
-namespace {
+namespace outline_inputs_test {
 
 Recording windy(std::vector<double> wind) {
   Recording recording;
@@ -141,5 +141,5 @@ TEST(OutlineInputs, MirroredTwiceIsTheSame) {
     EXPECT_EQ(twice.channels[c].samples, split.channels[c].samples);
 }
 
-}  // namespace
+}  // namespace outline_inputs_test
 }  // namespace wisp

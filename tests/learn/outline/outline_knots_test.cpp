@@ -10,7 +10,7 @@
 #include "model/bspline.hpp"
 
 namespace wisp {
-namespace {
+namespace outline_knots_test {
 
 std::vector<double> control_of(const Recording& recording, std::size_t row) {
   std::vector<double> control;
@@ -52,5 +52,5 @@ TEST(OutlineKnots, MissingRowsStayMissing) {
   EXPECT_FALSE(std::isnan(other.recording.channels[3].samples[3]));
 }
 
-}  // namespace
+}  // namespace outline_knots_test
 }  // namespace wisp

@@ -7,7 +7,7 @@
 #include "learn/outline/outline_fit.hpp"
 
 namespace wisp {
-namespace {
+namespace outline_orders_test {
 
 using testing::HasSubstr;
 
@@ -106,5 +106,5 @@ TEST(OutlineOrders, EveryCouplingCanBeSearched) {
   }
 }
 
-}  // namespace
+}  // namespace outline_orders_test
 }  // namespace wisp

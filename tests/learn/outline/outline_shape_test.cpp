@@ -8,7 +8,7 @@
 #include "model/bspline.hpp"
 
 namespace wisp {
-namespace {
+namespace outline_shape_test {
 
 using Polygon = std::vector<OutlinePoint>;
 
@@ -104,5 +104,5 @@ TEST(OutlineShape, NothingOverlapsNothing) {
   EXPECT_EQ(area_of(line), 0);
 }
 
-}  // namespace
+}  // namespace outline_shape_test
 }  // namespace wisp

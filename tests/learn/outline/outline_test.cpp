@@ -17,7 +17,7 @@
 #include "wisp/run/cost.hpp"
 
 namespace wisp {
-namespace {
+namespace outline_test {
 
 OutlineFit learned(const made::OutlineRecipe& recipe, const OutlineRecipe& options = {}) {
   const std::vector recordings{made::outline_recording(recipe)};
@@ -342,5 +342,5 @@ TEST(Outline, RecordingsOfDifferentOutlinesAreRefused) {
   EXPECT_EQ(refused(recordings), "made 2: has 8 control points, but made 1 has 6; capture both with the same --points");
 }
 
-}  // namespace
+}  // namespace outline_test
 }  // namespace wisp

@@ -11,7 +11,7 @@
 #include "learn/outline/outline_fit.hpp"
 
 namespace wisp {
-namespace {
+namespace resampled_residuals_test {
 
 constexpr made::OutlineRecipe kWindy{.rows = 900, .wind = true};
 
@@ -117,5 +117,5 @@ TEST(OutlineDrawn, AModelAboutItsCalmIsTheSameModel) {
   for (int t = 5; t < 50; ++t) EXPECT_NEAR((*a)[0][t], (*b)[0][t], 1e-12) << t;
 }
 
-}  // namespace
+}  // namespace resampled_residuals_test
 }  // namespace wisp

@@ -15,7 +15,7 @@
 #include "model/bspline.hpp"
 
 namespace wisp {
-namespace {
+namespace validation_test {
 
 constexpr made::OutlineRecipe kWindy{.rows = 1200, .shock = 0.003, .wind = true};
 constexpr made::OutlineRecipe kCalm{.rows = 1200};
@@ -266,5 +266,5 @@ TEST(Validation, WhatDoesNotFitTheModelIsRefused) {
   EXPECT_NE(judge_outline(plain, unseen(kCalm)).error().message.find("not an outline model"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace validation_test
 }  // namespace wisp

@@ -7,7 +7,7 @@
 #include "learn/switched/switched_fit.hpp"
 
 namespace wisp {
-namespace {
+namespace learn_switched_test {
 
 using testing::HasSubstr;
 
@@ -64,5 +64,5 @@ TEST(LearnSwitched, StopsBetweenStarts) {
   EXPECT_EQ(calls, 5);
 }
 
-}  // namespace
+}  // namespace learn_switched_test
 }  // namespace wisp

@@ -7,7 +7,7 @@
 #include "learn/switched/switched_fit.hpp"
 
 namespace wisp {
-namespace {
+namespace mode_difference_test {
 
 using testing::HasSubstr;
 
@@ -69,5 +69,5 @@ TEST(ModeDifference, EveryPairIsComparedByItsOwnErrors) {
   EXPECT_NEAR(pairs[1].noise_ratio, 0.9 / 0.5, 1e-9);
 }
 
-}  // namespace
+}  // namespace mode_difference_test
 }  // namespace wisp

@@ -12,7 +12,7 @@
 #include "learn/switched/switched_prediction.hpp"
 
 namespace wisp {
-namespace {
+namespace switched_test {
 
 using testing::HasSubstr;
 
@@ -216,5 +216,5 @@ TEST(CommonLyapunov, IsNotFoundWhereSwitchingDiverges) {
   EXPECT_TRUE(find_common_lyapunov(model).empty());
 }
 
-}  // namespace
+}  // namespace switched_test
 }  // namespace wisp

@@ -9,7 +9,7 @@
 #include "wisp/run/bank.hpp"
 
 namespace wisp {
-namespace {
+namespace arx_mirrored_test {
 
 // Outputs and polylines of some seconds in a wind that swings from side to side.
 std::vector<float> played(const Model& model) {
@@ -63,5 +63,5 @@ TEST(MirroredOutputs, AreNotThoseThatDifferInAnything) {
       differs([](Model& model, ArxModel&) { model.outputs[14].lowest = 0.49, model.outputs[14].highest = 0.5; }));
 }
 
-}  // namespace
+}  // namespace arx_mirrored_test
 }  // namespace wisp

@@ -13,7 +13,7 @@
 #include "wisp/run/random.hpp"
 
 namespace wisp {
-namespace {
+namespace arx_reference_test {
 
 // What an input is made into, as model/model.hpp says.
 std::vector<double> regressors_of(const Model& model, double input) {
@@ -247,5 +247,5 @@ TEST(ArxReference, SparseAndRaggedModelsAgree) {
   expect_agreement(model);
 }
 
-}  // namespace
+}  // namespace arx_reference_test
 }  // namespace wisp

@@ -8,7 +8,7 @@
 #include "model/sample_switched.hpp"
 
 namespace wisp {
-namespace {
+namespace mode_program_test {
 
 // No word leads to a mode whose probability is 0, however sums of probabilities are rounded.
 TEST(ModeProgram, TheLastModeThatCanFollowTakesAllWordsThatAreLeft) {
@@ -25,5 +25,5 @@ TEST(ModeProgram, TheLastModeThatCanFollowTakesAllWordsThatAreLeft) {
                                                        kAnyWord, kAnyWord, 0U, kHalf, kAnyWord));
 }
 
-}  // namespace
+}  // namespace mode_program_test
 }  // namespace wisp

@@ -12,7 +12,7 @@
 #include "wisp/run/bank.hpp"
 
 namespace wisp {
-namespace {
+namespace output_lanes_test {
 
 ArxModel& arx_of(Model& model) { return std::get<ArxModel>(model.dynamics); }
 
@@ -219,5 +219,5 @@ TEST(OutputLanes, NumbersOfAllChannelsAreDrawnToPlacesOfTheirOwn) {
   }
 }
 
-}  // namespace
+}  // namespace output_lanes_test
 }  // namespace wisp

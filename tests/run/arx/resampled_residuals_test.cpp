@@ -12,7 +12,7 @@
 #include "wisp/run/cost.hpp"
 
 namespace wisp {
-namespace {
+namespace resampled_residuals_test {
 
 constexpr int kRows = 400;
 
@@ -237,5 +237,5 @@ TEST(ResampledResiduals, ARecordingFromTheOtherSideIsPlayedMirrored) {
   EXPECT_LT(*std::min_element(rows.begin(), rows.end()), 0);
 }
 
-}  // namespace
+}  // namespace resampled_residuals_test
 }  // namespace wisp

@@ -13,7 +13,7 @@
 #include "wisp/run/switched_facet.hpp"
 
 namespace wisp {
-namespace {
+namespace switched_test {
 
 const SwitchedArxModel& switched(const Model& model) { return std::get<SwitchedArxModel>(model.dynamics); }
 
@@ -262,5 +262,5 @@ TEST(SwitchedBank, ManyStepsOfOneOutputKnowTheirMode) {
   EXPECT_EQ(bank.switched()->mode_of(bank.at(0)), 0);
 }
 
-}  // namespace
+}  // namespace switched_test
 }  // namespace wisp

@@ -12,7 +12,7 @@
 #include "wisp/run/bank.hpp"
 
 namespace wisp {
-namespace {
+namespace time_lanes_test {
 
 bool is_there(const Model& model) {
   Arena measured;
@@ -169,5 +169,5 @@ TEST(TimeLanes, CompanyThatComesAndGoesChangesNothing) {
   }
 }
 
-}  // namespace
+}  // namespace time_lanes_test
 }  // namespace wisp

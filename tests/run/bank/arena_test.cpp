@@ -5,7 +5,7 @@
 #include <vector>
 
 namespace wisp {
-namespace {
+namespace arena_test {
 
 TEST(Arena, AnArrayTakesWholeCacheLinesAndNoMore) {
   for (const auto& [count, bytes] :
@@ -20,5 +20,5 @@ TEST(Arena, AnArrayTakesWholeCacheLinesAndNoMore) {
   }
 }
 
-}  // namespace
+}  // namespace arena_test
 }  // namespace wisp

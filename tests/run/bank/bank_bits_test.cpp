@@ -10,7 +10,7 @@
 #include "wisp/run/bank.hpp"
 
 namespace wisp {
-namespace {
+namespace bank_bits_test {
 
 const Model kFlame = flame_model({.wind = InputShape::kSplitSign, .noise_rank = 2});
 
@@ -136,5 +136,5 @@ TEST(BankBits, NoiseDoesNotRepeatItself) {
   }
 }
 
-}  // namespace
+}  // namespace bank_bits_test
 }  // namespace wisp

@@ -13,7 +13,7 @@
 #include "wisp/run/bank.hpp"
 
 namespace wisp {
-namespace {
+namespace bank_save_test {
 
 using std::chrono::nanoseconds;
 using testing::HasSubstr;
@@ -199,5 +199,5 @@ TEST(SavedBank, DamageBehindAGoodHashNeverLeavesTheRange) {
   EXPECT_GT(refused, 1000);
 }
 
-}  // namespace
+}  // namespace bank_save_test
 }  // namespace wisp

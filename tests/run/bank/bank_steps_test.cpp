@@ -13,7 +13,7 @@
 #include "wisp/run/extinction_facet.hpp"
 
 namespace wisp {
-namespace {
+namespace bank_steps_test {
 
 constexpr int kInstances = 150, kSteps = 37;
 
@@ -107,5 +107,5 @@ TEST(BankSteps, AFlameGoesOutAtTheSameStepInALongFrame) {
   EXPECT_EQ(saved(bank), saved(expected));
 }
 
-}  // namespace
+}  // namespace bank_steps_test
 }  // namespace wisp

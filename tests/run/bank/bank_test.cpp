@@ -10,7 +10,7 @@
 #include "run/flame_model.hpp"
 
 namespace wisp {
-namespace {
+namespace bank_test {
 
 using std::chrono::nanoseconds;
 using testing::Each;
@@ -394,5 +394,5 @@ TEST(Bank, MovesAsAValue) {
   EXPECT_EQ(moved.output_count(), 8);
 }
 
-}  // namespace
+}  // namespace bank_test
 }  // namespace wisp

@@ -9,7 +9,7 @@
 #include "wisp/model/input_curve.hpp"
 
 namespace wisp {
-namespace {
+namespace channels_test {
 
 // The pieces of a curve, as a bank has them.
 class Pieces {
@@ -78,5 +78,5 @@ TEST(Curve, NeverFallsNotEvenByRounding) {
   }
 }
 
-}  // namespace
+}  // namespace channels_test
 }  // namespace wisp

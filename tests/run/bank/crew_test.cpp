@@ -14,7 +14,7 @@
 #include "wisp/run/chain_facet.hpp"
 
 namespace wisp {
-namespace {
+namespace crew_test {
 
 constexpr int kInstances = 531;
 
@@ -114,5 +114,5 @@ TEST(Crew, GoesAndComes) {
   EXPECT_EQ(threads.runs, before);
 }
 
-}  // namespace
+}  // namespace crew_test
 }  // namespace wisp

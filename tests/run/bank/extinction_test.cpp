@@ -15,7 +15,7 @@
 #include "wisp/run/extinction_facet.hpp"
 
 namespace wisp {
-namespace {
+namespace extinction_test {
 
 using std::chrono::nanoseconds;
 
@@ -494,5 +494,5 @@ TEST(Extinction, ItsCostIsCountedAndSmall) {
   EXPECT_EQ(cost->multiply_adds_per_frame, without->multiply_adds_per_frame);
 }
 
-}  // namespace
+}  // namespace extinction_test
 }  // namespace wisp

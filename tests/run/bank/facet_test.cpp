@@ -11,7 +11,7 @@
 #include "wisp/run/switched_facet.hpp"
 
 namespace wisp {
-namespace {
+namespace facet_test {
 
 Bank bank_of(const Model& model) {
   auto bank = Bank::create(model);
@@ -65,5 +65,5 @@ TEST(Facets, TheModeOfAPlaceIsThatOfItsSegment) {
   }
 }
 
-}  // namespace
+}  // namespace facet_test
 }  // namespace wisp

@@ -12,7 +12,7 @@
 #include "run/flame_model.hpp"
 
 namespace wisp {
-namespace {
+namespace frame_path_choice_test {
 
 using testing::HasSubstr;
 
@@ -103,5 +103,5 @@ TEST(FramePathChoice, OfAWidthThatIsNotThereIsAnError) {
   EXPECT_THAT(bank.error().message, HasSubstr("WISP_WIDTH is 'mmx', this machine has baseline"));
 }
 
-}  // namespace
+}  // namespace frame_path_choice_test
 }  // namespace wisp

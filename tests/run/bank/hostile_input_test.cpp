@@ -13,7 +13,7 @@
 #include "wisp/run/bank.hpp"
 
 namespace wisp {
-namespace {
+namespace hostile_input_test {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
@@ -146,5 +146,5 @@ TEST(HostileInput, HeldFramesAreCounted) {
   EXPECT_EQ(calm->clamped().clamped, 0U);
 }
 
-}  // namespace
+}  // namespace hostile_input_test
 }  // namespace wisp

@@ -19,7 +19,7 @@
 #include "wisp/run/chain_facet.hpp"
 
 namespace wisp {
-namespace {
+namespace hostile_state_test {
 
 constexpr std::size_t kHeader = 32, kFields = 14 * 8, kSlot = 24;
 
@@ -129,5 +129,5 @@ TEST(HostileChain, WhatFollowsIsAWholeNumber) {
   }
 }
 
-}  // namespace
+}  // namespace hostile_state_test
 }  // namespace wisp

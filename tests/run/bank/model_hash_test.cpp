@@ -14,7 +14,7 @@
 #include "wisp/run/bank.hpp"
 
 namespace wisp {
-namespace {
+namespace model_hash_test {
 
 // What is changed, and how.
 using Changes = std::vector<std::pair<std::string, std::function<void(Model&)>>>;
@@ -173,5 +173,5 @@ TEST(ModelHash, TellsSystemsApart) {
                 });
 }
 
-}  // namespace
+}  // namespace model_hash_test
 }  // namespace wisp

@@ -11,7 +11,7 @@
 #include "wisp/run/random.hpp"
 
 namespace wisp {
-namespace {
+namespace outline_lanes_test {
 
 constexpr int kLanes = LiveNumbers::kLanes;
 
@@ -90,5 +90,5 @@ TEST(Polyline, BeginsAndEndsInControlPoints) {
   EXPECT_EQ(ends, 3);
 }
 
-}  // namespace
+}  // namespace outline_lanes_test
 }  // namespace wisp

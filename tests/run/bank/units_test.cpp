@@ -12,7 +12,7 @@
 #include "wisp/run/bank.hpp"
 
 namespace wisp {
-namespace {
+namespace units_test {
 
 // What a number becomes where the unit is so many times smaller.
 struct Units {
@@ -121,5 +121,5 @@ TEST(Units, NoUnitChangesWhatIsPlayed) {
   }
 }
 
-}  // namespace
+}  // namespace units_test
 }  // namespace wisp

@@ -12,7 +12,7 @@
 #include "wisp/run/cost.hpp"
 
 namespace wisp {
-namespace {
+namespace chain_cost_test {
 
 TEST(ChainCost, PlacementAsThePaperJoinsTakesAtMost31OperationsAFrame) {
   Model model = unblended();
@@ -195,5 +195,5 @@ TEST(ChainCost, ComingToRestTakesAtMost300OperationsAFrame) {
   }
 }
 
-}  // namespace
+}  // namespace chain_cost_test
 }  // namespace wisp

@@ -13,7 +13,7 @@
 #include "wisp/run/chain_facet.hpp"
 
 namespace wisp {
-namespace {
+namespace chain_crowd_test {
 
 using poses::bank_of;
 
@@ -118,5 +118,5 @@ TEST(ChainCrowd, AnInstanceLivesTheSameLifeAmongManyAsAlone) {
   }
 }
 
-}  // namespace
+}  // namespace chain_crowd_test
 }  // namespace wisp

@@ -16,7 +16,7 @@
 #include "wisp/run/chain_facet.hpp"
 
 namespace wisp {
-namespace {
+namespace chain_joins_test {
 
 using poses::agreement;
 using poses::bank_of;
@@ -247,5 +247,5 @@ TEST(ChainBank, APositionsHeadingAtTheEndOfASegmentIsThatOfTheNext) {
   EXPECT_GT(joins, 30);
 }
 
-}  // namespace
+}  // namespace chain_joins_test
 }  // namespace wisp

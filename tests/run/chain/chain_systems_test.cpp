@@ -12,7 +12,7 @@
 #include "wisp/run/cost.hpp"
 
 namespace wisp {
-namespace {
+namespace chain_systems_test {
 
 using Pose = std::array<float, 7>;
 
@@ -103,5 +103,5 @@ TEST(ChainSystems, CostWhatTheirTermsDo) {
   EXPECT_EQ(ode->operations_per_frame - linear->operations_per_frame, 45 * 13);
 }
 
-}  // namespace
+}  // namespace chain_systems_test
 }  // namespace wisp

@@ -16,7 +16,7 @@
 #include "wisp/run/chain_facet.hpp"
 
 namespace wisp {
-namespace {
+namespace chain_test {
 
 using poses::bank_of;
 using poses::Pose;
@@ -358,5 +358,5 @@ TEST(ChainBank, LanesThatNobodyLivesInAreNotMoved) {
   }
 }
 
-}  // namespace
+}  // namespace chain_test
 }  // namespace wisp

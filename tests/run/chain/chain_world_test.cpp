@@ -11,7 +11,7 @@
 #include "wisp/run/chain_facet.hpp"
 
 namespace wisp {
-namespace {
+namespace chain_world_test {
 
 using Pose = std::array<float, 7>;
 
@@ -420,5 +420,5 @@ TEST(ChainPlace, RefusesWhatIsNoBody) {
   EXPECT_TRUE(bank.chain()->place(id, {}));
 }
 
-}  // namespace
+}  // namespace chain_world_test
 }  // namespace wisp

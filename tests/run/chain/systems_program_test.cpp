@@ -7,7 +7,7 @@
 #include "model/sample_chain.hpp"
 
 namespace wisp {
-namespace {
+namespace systems_program_test {
 
 TEST(SystemsProgram, HoldsAllOfEachMode) {
   ModeSystems systems = *std::get<ChainModel>(system_chain(2).dynamics).systems;
@@ -37,5 +37,5 @@ TEST(SystemsProgram, HoldsAllOfEachMode) {
   }
 }
 
-}  // namespace
+}  // namespace systems_program_test
 }  // namespace wisp

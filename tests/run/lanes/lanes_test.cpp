@@ -7,7 +7,7 @@
 #include <cstdint>
 
 namespace wisp {
-namespace {
+namespace lanes_test {
 
 std::array<float, LiveNumbers::kLanes> settled(float value) {
   std::array<float, LiveNumbers::kLanes> lanes{};
@@ -24,5 +24,5 @@ TEST(Lanes, WhatIsNearlyZeroIsZeroOfNoSign) {
   }
 }
 
-}  // namespace
+}  // namespace lanes_test
 }  // namespace wisp

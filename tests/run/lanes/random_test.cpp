@@ -9,7 +9,7 @@
 #include "run/lanes/random_lanes.hpp"
 
 namespace wisp {
-namespace {
+namespace random_test {
 
 using Block = std::array<std::uint32_t, 4>;
 
@@ -158,5 +158,5 @@ TEST(NormalPair, NeighboursAreNotCorrelated) {
   for (const double sum : {by_step, by_stream, by_word, within, squares}) EXPECT_LT(std::abs(sum) / kPairs, bound);
 }
 
-}  // namespace
+}  // namespace random_test
 }  // namespace wisp

@@ -6,7 +6,7 @@
 #include <limits>
 
 namespace wisp::flow {
-namespace {
+namespace advection_test {
 
 const FlowGrid kGrid{20, 16, 0.5F};
 
@@ -102,5 +102,5 @@ TEST(Advection, RoundsToZeroWhatIsFarBelowAnything) {
   EXPECT_EQ(to[kGrid.at(10, 10)][kFuel], 0.0F);
 }
 
-}  // namespace
+}  // namespace advection_test
 }  // namespace wisp::flow

@@ -10,7 +10,7 @@
 #include "simulate/candle/candle_rig.hpp"
 
 namespace wisp {
-namespace {
+namespace candle_clip_test {
 
 using testing::HasSubstr;
 
@@ -151,5 +151,5 @@ TEST(CandleClip, ACandleInTheMiddleHasRoomOnBothSides) {
   EXPECT_DOUBLE_EQ(options.camera.wick_x, 0.5);
 }
 
-}  // namespace
+}  // namespace candle_clip_test
 }  // namespace wisp

@@ -11,7 +11,7 @@
 // What takes minutes (both grids, all winds, long runs, resolution) is in studies/rig/verify_rig.cpp.
 
 namespace wisp {
-namespace {
+namespace candle_rig_test {
 
 using testing::HasSubstr;
 
@@ -127,5 +127,5 @@ TEST(CandleRig, SaysWhichOptionIsWrong) {
   EXPECT_THAT(CandleRig::create(options).error().message, HasSubstr("more rows"));
 }
 
-}  // namespace
+}  // namespace candle_rig_test
 }  // namespace wisp

@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace wisp::flow {
-namespace {
+namespace contour_test {
 
 std::vector<float> hill(int columns, int rows, double x, double y, double radius) {
   std::vector<float> values;
@@ -38,5 +38,5 @@ TEST(Contour, OfASaddleFollowsTheSquaresMean) {
   EXPECT_EQ(closed_contours(apart, 4, 4, 0.4F).size(), 1U);
 }
 
-}  // namespace
+}  // namespace contour_test
 }  // namespace wisp::flow

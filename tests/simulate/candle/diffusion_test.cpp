@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace wisp::flow {
-namespace {
+namespace diffusion_test {
 
 const FlowGrid kGrid{32, 24, 1.0F};
 
@@ -78,5 +78,5 @@ TEST(Diffusion, LeavesLanesAloneThatDoNotDiffuse) {
   EXPECT_FLOAT_EQ(values[kGrid.at(11, 10)][kFuel], values[kGrid.at(9, 10)][kFuel]);
 }
 
-}  // namespace
+}  // namespace diffusion_test
 }  // namespace wisp::flow

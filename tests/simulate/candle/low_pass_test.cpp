@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace wisp::flow {
-namespace {
+namespace low_pass_test {
 
 double gain_at(double frequency_hz) {
   LowPass filter(300, 44100);
@@ -35,5 +35,5 @@ TEST(LowPass, KeepsThePowerOfWhiteNoise) {
   EXPECT_NEAR(energy, 1, 1e-9);
 }
 
-}  // namespace
+}  // namespace low_pass_test
 }  // namespace wisp::flow

@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace wisp {
-namespace {
+namespace virtual_camera_test {
 
 using testing::HasSubstr;
 
@@ -106,5 +106,5 @@ TEST(VirtualCamera, SaysWhichOptionIsWrong) {
   EXPECT_THAT(VirtualCamera::create({.gain = -1}).error().message, HasSubstr("gain"));
 }
 
-}  // namespace
+}  // namespace virtual_camera_test
 }  // namespace wisp

@@ -7,7 +7,7 @@
 #include <vector>
 
 namespace wisp {
-namespace {
+namespace virtual_microphone_test {
 
 using testing::HasSubstr;
 
@@ -103,5 +103,5 @@ TEST(VirtualMicrophone, SaysWhichOptionIsWrong) {
   EXPECT_THAT(VirtualMicrophone::create({.rate_hz = 8000, .corner_hz = 4500}).error().message, HasSubstr("corner_hz"));
 }
 
-}  // namespace
+}  // namespace virtual_microphone_test
 }  // namespace wisp

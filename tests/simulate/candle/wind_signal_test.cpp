@@ -8,7 +8,7 @@
 #include <limits>
 
 namespace wisp {
-namespace {
+namespace wind_signal_test {
 
 using testing::HasSubstr;
 
@@ -130,5 +130,5 @@ TEST(WindSignal, SaysWhichOptionIsWrong) {
   EXPECT_THAT(WindSignal::generate({.rest_share = 1}, 5).error().message, HasSubstr("rest_share"));
 }
 
-}  // namespace
+}  // namespace wind_signal_test
 }  // namespace wisp

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace wisp {
-namespace {
+namespace leaf_cost_test {
 
 TEST(LeafCost, OfAnEvaluationIsAFewHundredOperations) {
   const LeafCost cost = count_leaf_operations({}, LeafMethod::kRalston);
@@ -29,5 +29,5 @@ TEST(LeafCost, OfAStepIsItsEvaluationsAndALittle) {
   }
 }
 
-}  // namespace
+}  // namespace leaf_cost_test
 }  // namespace wisp

@@ -8,7 +8,7 @@
 #include <cmath>
 
 namespace wisp {
-namespace {
+namespace leaf_drops_test {
 
 using testing::HasSubstr;
 
@@ -169,5 +169,5 @@ TEST(LeafDrops, ThatCannotBeMadeAreExplained) {
   EXPECT_THAT(simulate_leaf_pairs(pairs).error().message, HasSubstr("clones"));
 }
 
-}  // namespace
+}  // namespace leaf_drops_test
 }  // namespace wisp

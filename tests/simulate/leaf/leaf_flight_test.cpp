@@ -8,7 +8,7 @@
 #include <cmath>
 
 namespace wisp {
-namespace {
+namespace leaf_flight_test {
 
 using testing::HasSubstr;
 
@@ -151,5 +151,5 @@ TEST(LeafFlight, AStrongWindCarriesTheLeafAlong) {
   }
 }
 
-}  // namespace
+}  // namespace leaf_flight_test
 }  // namespace wisp

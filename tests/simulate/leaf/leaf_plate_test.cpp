@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 namespace wisp {
-namespace {
+namespace leaf_plate_test {
 
 using testing::HasSubstr;
 
@@ -62,5 +62,5 @@ TEST(Plate, ThatCannotBeWatchedIsExplained) {
   EXPECT_THAT(watch_plate(1, 300, 200).error().message, HasSubstr("from"));
 }
 
-}  // namespace
+}  // namespace leaf_plate_test
 }  // namespace wisp

@@ -11,7 +11,7 @@
 #include "simulate/random_numbers.hpp"
 
 namespace wisp {
-namespace {
+namespace leaf_test {
 
 using testing::HasSubstr;
 
@@ -148,5 +148,5 @@ TEST(LeafCheck, NamesWhatIsOutOfRange) {
   EXPECT_EQ(message([](Leaf&) {}), "good");
 }
 
-}  // namespace
+}  // namespace leaf_test
 }  // namespace wisp

@@ -8,7 +8,7 @@
 #include <cmath>
 
 namespace wisp {
-namespace {
+namespace leaf_wind_test {
 
 using testing::HasSubstr;
 using Triple = std::array<double, 3>;
@@ -124,5 +124,5 @@ TEST(LeafWind, ThatCannotBlowIsExplained) {
   EXPECT_THAT(LeafWind::create(options, 1).error().message, HasSubstr("gust_seconds"));
 }
 
-}  // namespace
+}  // namespace leaf_wind_test
 }  // namespace wisp

@@ -11,7 +11,7 @@
 #include <vector>
 
 namespace wisp::baselines {
-namespace {
+namespace dynamic_texture_test {
 
 constexpr Eigen::Index kFrames = 20000;
 
@@ -86,5 +86,5 @@ TEST(DynamicTexture, IsMadeStable) {
   EXPECT_LE(texture.a.eigenvalues().cwiseAbs().maxCoeff(), 0.999 + 1e-12);
 }
 
-}  // namespace
+}  // namespace dynamic_texture_test
 }  // namespace wisp::baselines

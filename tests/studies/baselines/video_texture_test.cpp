@@ -8,7 +8,7 @@
 #include <numbers>
 
 namespace wisp::baselines {
-namespace {
+namespace video_texture_test {
 
 constexpr int kTurn = 40;  // frames a turn
 
@@ -79,5 +79,5 @@ TEST(VideoTexture, SteeredGoesWhereTheWindIsAsItIsNow) {
   }
 }
 
-}  // namespace
+}  // namespace video_texture_test
 }  // namespace wisp::baselines

@@ -11,7 +11,7 @@
 #include "wisp/capture/clip/clip_capture.hpp"
 
 namespace wisp {
-namespace {
+namespace fall_capture_test {
 
 using support::Plane;
 using testing::HasSubstr;
@@ -487,5 +487,5 @@ TEST(FallCapture, WhatMovesIsSeenWhileItIsFilmed) {
   EXPECT_GE(seen.moving.bottom(), at.y);
 }
 
-}  // namespace
+}  // namespace fall_capture_test
 }  // namespace wisp

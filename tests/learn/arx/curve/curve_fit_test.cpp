@@ -14,7 +14,7 @@
 #include "learn/arx/fit/arx_fit.hpp"
 
 namespace wisp {
-namespace {
+namespace curve_fit_test {
 
 using testing::HasSubstr;
 
@@ -212,5 +212,5 @@ TEST(CurveChoice, AnInputOfTwoValuesHasNone) {
   EXPECT_THAT(choice.reason, HasSubstr("too few values"));
 }
 
-}  // namespace
+}  // namespace curve_fit_test
 }  // namespace wisp

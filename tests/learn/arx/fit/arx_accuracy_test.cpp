@@ -11,7 +11,7 @@
 #include "learn/arx/rows/arx_orders.hpp"
 
 namespace wisp {
-namespace {
+namespace arx_accuracy_test {
 
 using Wide = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<60>>;
 
@@ -202,5 +202,5 @@ TEST(ArxAccuracy, ConditionOfTenMillionFromAnOversampledSystemCostsFewDigits) {
   EXPECT_LT(got.loss, 1e-7);
 }
 
-}  // namespace
+}  // namespace arx_accuracy_test
 }  // namespace wisp

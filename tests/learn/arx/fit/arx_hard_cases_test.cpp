@@ -11,7 +11,7 @@
 #include "learn/arx/rows/arx_orders.hpp"
 
 namespace wisp {
-namespace {
+namespace arx_hard_cases_test {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -239,5 +239,5 @@ TEST(ArxHardCases, FirstSampleBeforeTheLongestLagIsAnError) {
   EXPECT_EQ(fit(second_order(300), early).summary.samples_used, 290u);
 }
 
-}  // namespace
+}  // namespace arx_hard_cases_test
 }  // namespace wisp

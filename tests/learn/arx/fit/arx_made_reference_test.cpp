@@ -15,7 +15,7 @@
 #include "paths.hpp"
 
 namespace wisp {
-namespace {
+namespace arx_made_reference_test {
 
 using shared::Json;
 
@@ -188,5 +188,5 @@ TEST(ArxMadeReference, AGridOfOrdersAgreesInAllRows) {
             (std::vector<double>(best.begin(), best.begin() + 3)));
 }
 
-}  // namespace
+}  // namespace arx_made_reference_test
 }  // namespace wisp

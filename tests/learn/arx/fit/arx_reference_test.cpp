@@ -16,7 +16,7 @@
 #include "learn/shared_files.hpp"
 
 namespace wisp {
-namespace {
+namespace arx_reference_test {
 
 ChannelChoice channels_of(const Recording& recording) {
   ChannelChoice choice;
@@ -217,5 +217,5 @@ TEST_F(ArxReference, OneStepFitOfRobotArmAndFlutterHidesBadFreeSimulationAndIsWa
   }
 }
 
-}  // namespace
+}  // namespace arx_reference_test
 }  // namespace wisp

@@ -11,7 +11,7 @@
 #include "learn/arx/rows/arx_orders.hpp"
 
 namespace wisp {
-namespace {
+namespace arx_stability_test {
 
 constexpr double kMax = 0.999;
 
@@ -191,5 +191,5 @@ TEST(StableFit, UnstableEstimateIsLeftAloneWhereAskedAndIsNotUsable) {
   EXPECT_NE(fit->summary.usable.reason.find("unstable"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace arx_stability_test
 }  // namespace wisp

@@ -10,7 +10,7 @@
 #include "learn/arx/rows/arx_orders.hpp"
 
 namespace wisp {
-namespace {
+namespace arx_statistics_test {
 
 // Coefficients of Π (1 − p q⁻¹) without the leading 1.
 std::vector<double> polynomial(const std::vector<std::complex<double>>& poles) {
@@ -167,5 +167,5 @@ TEST(ArxStatistics, NoiseCovarianceIsThatOfTheNoise) {
   }
 }
 
-}  // namespace
+}  // namespace arx_statistics_test
 }  // namespace wisp

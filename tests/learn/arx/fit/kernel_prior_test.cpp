@@ -11,7 +11,7 @@
 #include "learn/arx/rows/arx_orders.hpp"
 
 namespace wisp::arx {
-namespace {
+namespace kernel_prior_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -106,5 +106,5 @@ TEST(KernelPrior, FindsAStepResponseThatLeastSquaresLosesInNoise) {
   EXPECT_LT(error_with(ArxKernel::kTc), 0.15) << "of a gain of 1";
 }
 
-}  // namespace
+}  // namespace kernel_prior_test
 }  // namespace wisp::arx

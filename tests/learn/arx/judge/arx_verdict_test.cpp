@@ -8,7 +8,7 @@
 #include "learn/arx/learn_arx.hpp"
 
 namespace wisp {
-namespace {
+namespace arx_verdict_test {
 
 using testing::HasSubstr;
 
@@ -117,5 +117,5 @@ TEST(ArxVerdict, ASimulationThatRunsAwayIsToldInAWord) {
   EXPECT_THAT(summary.usable.reason, HasSubstr("it diverges"));
 }
 
-}  // namespace
+}  // namespace arx_verdict_test
 }  // namespace wisp

@@ -10,7 +10,7 @@
 #include "learn/arx/rows/arx_orders.hpp"
 
 namespace wisp {
-namespace {
+namespace free_run_judge_test {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
@@ -91,5 +91,5 @@ TEST(FreeRunJudge, NothingThatCanBeSimulatedIsAnError) {
   EXPECT_FALSE(judge.figures());
 }
 
-}  // namespace
+}  // namespace free_run_judge_test
 }  // namespace wisp

@@ -8,7 +8,7 @@
 #include <limits>
 
 namespace wisp::arx {
-namespace {
+namespace free_run_parts_test {
 
 // y(t) = a y(t-1) + u(t-1), u a square wave.
 Recording made(double a, std::size_t rows) {
@@ -70,5 +70,5 @@ TEST(FreeRunParts, WhatIsBetterInEveryPartIsSure) {
   EXPECT_NEAR(standard_errors_below(mixed, one), 0, 1e-12);
 }
 
-}  // namespace
+}  // namespace free_run_parts_test
 }  // namespace wisp::arx

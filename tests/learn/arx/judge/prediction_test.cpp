@@ -9,7 +9,7 @@
 #include "learn/arx/rows/arx_orders.hpp"
 
 namespace wisp {
-namespace {
+namespace prediction_test {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kHistory = 3;  // of made_system
@@ -215,5 +215,5 @@ TEST(PredictionSd, IntervalsHoldAsOftenAsTheySay) {
   }
 }
 
-}  // namespace
+}  // namespace prediction_test
 }  // namespace wisp

@@ -9,7 +9,7 @@
 #include "learn/arx/rows/arx_orders.hpp"
 
 namespace wisp {
-namespace {
+namespace residual_tests_test {
 
 struct Truth {
   double a1 = -1.2;
@@ -103,5 +103,5 @@ TEST(ResidualTests, NeedRowsEnough) {
   EXPECT_NE(tests.error().message.find("59 rows"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace residual_tests_test
 }  // namespace wisp

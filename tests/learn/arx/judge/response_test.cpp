@@ -9,7 +9,7 @@
 #include "learn/arx/rows/arx_orders.hpp"
 
 namespace wisp {
-namespace {
+namespace response_test {
 
 using Complex = std::complex<double>;
 
@@ -143,5 +143,5 @@ TEST(FrequencyResponse, DeviationsAreThoseOfTheLinearisedResponse) {
   }
 }
 
-}  // namespace
+}  // namespace response_test
 }  // namespace wisp

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace wisp {
-namespace {
+namespace arx_orders_test {
 
 std::vector<int> values(const OrderMatrix& matrix) { return {matrix.values().begin(), matrix.values().end()}; }
 
@@ -24,5 +24,5 @@ TEST(MakeOrders, BandCouplingReachesNearestNeighbours) {
   EXPECT_EQ(values(orders.na), std::vector<int>({1, 1, 0, 0, 1, 1, 1, 0, 0, 1, 1, 1, 0, 0, 1, 1}));
 }
 
-}  // namespace
+}  // namespace arx_orders_test
 }  // namespace wisp

@@ -11,7 +11,7 @@
 #include "learn/arx/made_system.hpp"
 
 namespace wisp {
-namespace {
+namespace order_search_test {
 
 using ::testing::HasSubstr;
 
@@ -227,5 +227,5 @@ TEST(EstimateDelays, FindsEveryInputsDelayToEveryOutput) {
   EXPECT_EQ(*delays, nk);
 }
 
-}  // namespace
+}  // namespace order_search_test
 }  // namespace wisp

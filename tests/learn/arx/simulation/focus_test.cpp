@@ -17,7 +17,7 @@
 #include "learn/arx/simulation/refine.hpp"
 
 namespace wisp {
-namespace {
+namespace focus_test {
 
 using testing::HasSubstr;
 
@@ -417,5 +417,5 @@ TEST(Refine, EveryStepIsStableAndLessensTheCriterion) {
   }
 }
 
-}  // namespace
+}  // namespace focus_test
 }  // namespace wisp

@@ -17,7 +17,7 @@
 #include "learn/arx/simulation/held_out.hpp"
 
 namespace wisp {
-namespace {
+namespace subspace_test {
 
 using arx::StateSpace;
 using Eigen::Index;
@@ -283,5 +283,5 @@ TEST(FocusOnStates, OutputsThatDoNotRememberEachOtherHaveNoStateInCommon) {
   }
 }
 
-}  // namespace
+}  // namespace subspace_test
 }  // namespace wisp

@@ -12,7 +12,7 @@
 #include "learn/chain/made_falls.hpp"
 
 namespace wisp::chain {
-namespace {
+namespace gust_response_test {
 
 using testing::HasSubstr;
 
@@ -165,5 +165,5 @@ TEST(GustPlay, AModelWithoutAResponseIsAnError) {
   EXPECT_THAT(play_gusts(model, pairs.windy, pairs.calm).error().message, HasSubstr("no response"));
 }
 
-}  // namespace
+}  // namespace gust_response_test
 }  // namespace wisp::chain

@@ -7,7 +7,7 @@
 #include <random>
 
 namespace wisp::chain {
-namespace {
+namespace mode_chain_test {
 
 using testing::ElementsAre;
 
@@ -102,5 +102,5 @@ TEST(ModeChain, LikelihoodIsThatOfTheTransitions) {
   EXPECT_NEAR(log_likelihood(chain, {{0, 0}}), std::log(1e-6), 1e-9);
 }
 
-}  // namespace
+}  // namespace mode_chain_test
 }  // namespace wisp::chain

@@ -11,7 +11,7 @@
 #include "wisp/model/file.hpp"
 
 namespace wisp::chain {
-namespace {
+namespace mode_splines_test {
 
 ChainModel& chain(Model& model) { return std::get<ChainModel>(model.dynamics); }
 
@@ -100,5 +100,5 @@ TEST(ModeSplines, OfFallsTakeLessRoomAndFitBetterTheMoreComponentsThereAre) {
   EXPECT_LT(model_bytes(model)->size(), model_bytes(fit->model)->size());
 }
 
-}  // namespace
+}  // namespace mode_splines_test
 }  // namespace wisp::chain

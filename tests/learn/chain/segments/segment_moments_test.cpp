@@ -5,7 +5,7 @@
 #include <cmath>
 
 namespace wisp::chain {
-namespace {
+namespace segment_moments_test {
 
 // A stretch without attitude that sets out in a direction and turns by so much a row.
 MotionPiece turning(double heading, double turn) {
@@ -35,5 +35,5 @@ TEST(SegmentMoments, WithoutAttitudeDoNotSayWhereNorthWas) {
   EXPECT_NEAR(distance_of(moments.starts[0], moments.starts[1]), 0, 1e-12);
 }
 
-}  // namespace
+}  // namespace segment_moments_test
 }  // namespace wisp::chain

@@ -8,7 +8,7 @@
 #include <random>
 
 namespace wisp::chain {
-namespace {
+namespace segment_traits_test {
 
 struct Falls {
   Motion motion;
@@ -50,5 +50,5 @@ TEST(SegmentTraits, AreNoneWhereStretchesDifferByChance) {
   for (const Traits& one : segment_traits(seen.motion, seen.segments)) EXPECT_NEAR(one[2], 0, 0.3);
 }
 
-}  // namespace
+}  // namespace segment_traits_test
 }  // namespace wisp::chain

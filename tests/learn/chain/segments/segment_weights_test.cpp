@@ -6,7 +6,7 @@
 #include <random>
 
 namespace wisp::chain {
-namespace {
+namespace segment_weights_test {
 
 struct Watched {
   Motion motion;
@@ -70,5 +70,5 @@ TEST(SegmentWeights, InLongRecordingsEachStandsForItself) {
   for (double one : segment_weights(watched.motion, watched.segments)) EXPECT_EQ(one, 1);
 }
 
-}  // namespace
+}  // namespace segment_weights_test
 }  // namespace wisp::chain

@@ -8,7 +8,7 @@
 #include "learn/chain/made_falls.hpp"
 
 namespace wisp::chain {
-namespace {
+namespace segmentation_test {
 
 using testing::DoubleNear;
 using testing::ElementsAre;
@@ -106,5 +106,5 @@ TEST(Segmentation, EventsAreWrittenAsKindAndSignal) {
   for (const char* wrong : {"", "zero", "zero:", "mean:speed", ":speed"}) EXPECT_FALSE(parse_event(wrong)) << wrong;
 }
 
-}  // namespace
+}  // namespace segmentation_test
 }  // namespace wisp::chain
