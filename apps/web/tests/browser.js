@@ -45,7 +45,7 @@ export async function serve() {
       response.end();
     }
   });
-  await new Promise((resolve) => server.listen(0, 'localhost', resolve));
+  await new Promise((resolve, reject) => server.once('error', reject).listen(0, 'localhost', resolve));
   return { address: `http://localhost:${server.address().port}/`, close: () => server.close() };
 }
 

@@ -29,7 +29,7 @@ export function serve(folder) {
     });
     response.end(readFileSync(file));
   });
-  return new Promise((resolve) => server.listen(0, 'localhost', () => resolve(server)));
+  return new Promise((resolve, reject) => server.once('error', reject).listen(0, 'localhost', () => resolve(server)));
 }
 
 export const skip = existsSync(executablePath) ? false : `there is no ${executablePath}`;
