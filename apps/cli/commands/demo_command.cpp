@@ -208,11 +208,8 @@ void say_what_next(const Places& places, Terminal& terminal) {
   terminal.say("  script/web serve                      the same in a browser; drop flame.wisp onto the page");
 }
 
-Result<void> run_demo(const Arguments& arguments, Terminal& terminal) {
-  const Places places{arguments.text("output")};
-  std::error_code code;
-  const bool made = fs::create_directories(places.folder, code);
-  if (code) return Error{places.folder.string() + ": cannot be made: " + code.message()};
+// All of the demo, into a folder that is there.
+Result<void> fill(const Places& places, const Arguments& arguments, Terminal& terminal) {
   Clips clips;
   if (arguments.positionals().empty()) {
     auto simulated = simulate_clips(places, static_cast<std::uint64_t>(arguments.integer("seed")), terminal);
@@ -221,15 +218,22 @@ Result<void> run_demo(const Arguments& arguments, Terminal& terminal) {
   } else {
     clips = {arguments.positional(), arguments.positional()};
   }
-  if (auto ok = all_steps(places, clips, arguments, terminal); !ok) {
-    if (made) fs::remove(places.folder, code);  // as long as nothing is in it
-    return ok;
-  }
+  if (auto ok = all_steps(places, clips, arguments, terminal); !ok) return ok;
   if (auto ok = write_file(places.at("summary.json"), to_json(terminal.result(), 1) + "\n"); !ok) return ok;
   say_what_next(places, terminal);
   if (!arguments.on("window")) return {};
   return step("play", "play " + places.at("flame.wisp"), terminal,
               [&] { return run_command_with(play_command(), {}, places.at("flame.wisp"), terminal); });
+}
+
+Result<void> run_demo(const Arguments& arguments, Terminal& terminal) {
+  const Places places{arguments.text("output")};
+  std::error_code code;
+  const bool made = fs::create_directories(places.folder, code);
+  if (code) return Error{places.folder.string() + ": cannot be made: " + code.message()};
+  const auto filled = fill(places, arguments, terminal);
+  if (!filled && made) fs::remove(places.folder, code);  // as long as nothing is in it
+  return filled;
 }
 
 }  // namespace
