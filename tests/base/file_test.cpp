@@ -10,8 +10,8 @@
 
 #include "folder_test.hpp"
 
-namespace wisp {
-namespace file_test {
+namespace wisp::file_test {
+namespace {
 
 namespace fs = std::filesystem;
 
@@ -176,5 +176,5 @@ TEST_F(FileTest, PendingFilesBeyondTheListWorkLikeTheOthers) {
   EXPECT_EQ(files(), 100u);
 }
 
-}  // namespace file_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::file_test

@@ -18,8 +18,8 @@
 #include "wisp/model/file.hpp"
 #include "wisp/run/bank.hpp"
 
-namespace wisp {
-namespace wisp_test {
+namespace wisp::wisp_test {
+namespace {
 
 std::vector<std::byte> flame_bytes() { return std::move(model_bytes(flame_model())).value(); }
 
@@ -209,5 +209,5 @@ TEST(C, TheWindOfASoundHasTheBitsThatItHasEverywhere) {
   EXPECT_EQ(hex(hash), hex(golden.hash));
 }
 
-}  // namespace wisp_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::wisp_test

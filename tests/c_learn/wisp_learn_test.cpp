@@ -9,8 +9,8 @@
 #include "wisp/learn/learn.hpp"
 #include "wisp/model/file.hpp"
 
-namespace wisp {
-namespace wisp_learn_test {
+namespace wisp::wisp_learn_test {
+namespace {
 
 struct Table {
   std::vector<double> wind, lean;
@@ -151,5 +151,5 @@ TEST_F(CLearn, MisuseHasItsStatus) {
   wisp_recording_free(nullptr);
 }
 
-}  // namespace wisp_learn_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::wisp_learn_test

@@ -13,8 +13,8 @@
 #include "model/sample_model.hpp"
 #include "wisp/model/file.hpp"
 
-namespace wisp {
-namespace bad_chain_input_test {
+namespace wisp::bad_chain_input_test {
+namespace {
 
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -330,5 +330,5 @@ TEST_F(BadChainInput, WhatHasNoInputIsNotDriven) {
   EXPECT_EQ(wisp("run " + at("leaf.wisp") + " --frames 9 --wind 0 -o " + at("o.csv")).status, 0);
 }
 
-}  // namespace bad_chain_input_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::bad_chain_input_test

@@ -10,8 +10,8 @@
 #include "learn/flame/made_blow_outs.hpp"
 #include "wisp/record/csv.hpp"
 
-namespace wisp {
-namespace blow_out_test {
+namespace wisp::blow_out_test {
+namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
@@ -176,5 +176,5 @@ TEST_F(BlowOutProgram, AFilmedFlameThatIsBlownOutAndLitAgainIsLearnedFromBothSid
   EXPECT_GT(learned.json()["samples"]["learned"].get<int>() + learned.json()["samples"]["held_out"].get<int>(), 400);
 }
 
-}  // namespace blow_out_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::blow_out_test

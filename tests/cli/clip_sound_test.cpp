@@ -15,8 +15,8 @@
 #include "wisp/draw/video_writer.hpp"
 #include "wisp/record/csv.hpp"
 
-namespace wisp {
-namespace clip_sound_test {
+namespace wisp::clip_sound_test {
+namespace {
 
 using testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -248,5 +248,5 @@ TEST_F(ClipSound, OrderAndDelayAreSearchedAndTheTruthIsComparedWith) {
   EXPECT_GT(validated.json()["static_gain"]["tip_fit_percent"].get<double>(), 0);
 }
 
-}  // namespace clip_sound_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::clip_sound_test

@@ -12,8 +12,8 @@
 #include "wisp/model/file.hpp"
 #include "wisp/record/csv.hpp"
 
-namespace wisp {
-namespace clip_test {
+namespace wisp::clip_test {
+namespace {
 
 using testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -214,5 +214,5 @@ TEST_F(Clip, ADemoOfAClipThatIsRefusedLeavesNoEmptyFolder) {
   EXPECT_FALSE(fs::exists(at("demo")));
 }
 
-}  // namespace clip_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::clip_test

@@ -7,8 +7,8 @@
 #include "model/sample_chain.hpp"
 #include "wisp/model/file.hpp"
 
-namespace wisp {
-namespace export_test {
+namespace wisp::export_test {
+namespace {
 
 using testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -95,5 +95,5 @@ TEST_F(Export, WhatCannotBeWrittenIsOneSentenceAndNoFile) {
   EXPECT_FALSE(fs::exists(at("a.glb")) || fs::exists(at("a.png")) || fs::exists(at("a.json")));
 }
 
-}  // namespace export_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::export_test

@@ -9,8 +9,8 @@
 #include "wisp/draw/video_writer.hpp"
 #include "wisp/record/csv.hpp"
 
-namespace wisp {
-namespace fall_test {
+namespace wisp::fall_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -84,5 +84,5 @@ TEST_F(FallFilm, OfTooFewFallsTeachesNoModelThatIsCalledUsable) {
   EXPECT_THAT(learned.json()["usable"]["reason"].get<std::string>(), HasSubstr("captured as not usable: only 2 falls"));
 }
 
-}  // namespace fall_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::fall_test

@@ -11,8 +11,8 @@
 
 #include "cli/program.hpp"
 
-namespace wisp {
-namespace faults_test {
+namespace wisp::faults_test {
+namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -143,5 +143,5 @@ TEST_F(Faults, ASignalLeavesTheOldFileAloneAndItsOwnStatus) {
   }
 }
 
-}  // namespace faults_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::faults_test

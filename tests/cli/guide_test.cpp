@@ -8,8 +8,8 @@
 #include "cli/program.hpp"
 #include "paths.hpp"
 
-namespace wisp {
-namespace guide_test {
+namespace wisp::guide_test {
+namespace {
 
 // Lines of an indented block that begin with "wisp ", lines that end in a backslash joined to the next.
 std::vector<std::string> commands_of(const std::string& page) {
@@ -47,5 +47,5 @@ TEST_F(Guide, AnHourWithTheHairDryerRuns) {
   }
 }
 
-}  // namespace guide_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::guide_test

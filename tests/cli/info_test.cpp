@@ -8,8 +8,8 @@
 #include "wisp/model/file.hpp"
 #include "wisp/record/csv.hpp"
 
-namespace wisp {
-namespace info_test {
+namespace wisp::info_test {
+namespace {
 
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
@@ -369,5 +369,5 @@ TEST_F(InfoPlayed, WhatIsNotPlayedIsRefusedInASentence) {
   EXPECT_NE(why.find("the chain moves a point"), std::string::npos) << why;
 }
 
-}  // namespace info_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::info_test

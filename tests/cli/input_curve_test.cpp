@@ -8,8 +8,8 @@
 #include "cli/program.hpp"
 #include "wisp/record/csv.hpp"
 
-namespace wisp {
-namespace input_curve_test {
+namespace wisp::input_curve_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -72,5 +72,5 @@ TEST_F(InputCurve, IsRefusedWhereItMeansNothing) {
   EXPECT_THAT(learn("m.wisp", "--input-curve 4 --partial " + at("p.part")).err, HasSubstr("without --partial"));
 }
 
-}  // namespace input_curve_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::input_curve_test

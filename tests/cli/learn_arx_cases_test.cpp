@@ -11,8 +11,8 @@
 #include "cli/program.hpp"
 #include "wisp/record/csv.hpp"
 
-namespace wisp {
-namespace learn_arx_cases_test {
+namespace wisp::learn_arx_cases_test {
+namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -338,5 +338,5 @@ TEST_F(LearnArxData, TheHairDryerHasItsPublishedModelDelayAndOrders) {
   EXPECT_EQ(best["nk"], 3);
 }
 
-}  // namespace learn_arx_cases_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::learn_arx_cases_test

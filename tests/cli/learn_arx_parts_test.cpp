@@ -9,8 +9,8 @@
 #include "paths.hpp"
 #include "wisp/record/csv.hpp"
 
-namespace wisp {
-namespace learn_arx_parts_test {
+namespace wisp::learn_arx_parts_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -239,5 +239,5 @@ TEST_P(LearnArxExample, LeavesNoModelWhereAWorkerIsKilled) {
   }
 }
 
-}  // namespace learn_arx_parts_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::learn_arx_parts_test

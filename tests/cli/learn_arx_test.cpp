@@ -9,8 +9,8 @@
 #include "wisp/model/file.hpp"
 #include "wisp/record/csv.hpp"
 
-namespace wisp {
-namespace learn_arx_test {
+namespace wisp::learn_arx_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -123,5 +123,5 @@ TEST_F(LearnArx, ModesThatSwitchAreLearnedRunAndExplained) {
   EXPECT_EQ(wisp(learn + " --modes 0").status, 2);
 }
 
-}  // namespace learn_arx_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::learn_arx_test

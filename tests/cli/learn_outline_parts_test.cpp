@@ -7,8 +7,8 @@
 #include "learn/outline/made_outline.hpp"
 #include "wisp/record/csv.hpp"
 
-namespace wisp {
-namespace learn_outline_parts_test {
+namespace wisp::learn_outline_parts_test {
+namespace {
 
 using testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -100,5 +100,5 @@ TEST_F(LearnFlameParts, APartTakesWholeRecordings) {
   EXPECT_FALSE(fs::exists(part(1)));
 }
 
-}  // namespace learn_outline_parts_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::learn_outline_parts_test

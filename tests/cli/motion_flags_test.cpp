@@ -10,8 +10,8 @@
 
 #include "cli/program.hpp"
 
-namespace wisp {
-namespace motion_flags_test {
+namespace wisp::motion_flags_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -97,5 +97,5 @@ TEST_F(MotionFlags, ColumnsThatAreNotThereAreErrors) {
               HasSubstr("has no column \"X\""));
 }
 
-}  // namespace motion_flags_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::motion_flags_test

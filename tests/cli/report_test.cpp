@@ -8,8 +8,8 @@
 
 #include "cli/program.hpp"
 
-namespace wisp {
-namespace report_test {
+namespace wisp::report_test {
+namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -69,5 +69,5 @@ TEST_F(ReportPage, WhatCannotBeJudgedIsOneSentenceAndNoPage) {
   EXPECT_FALSE(std::filesystem::exists(at("page.html")));
 }
 
-}  // namespace report_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::report_test

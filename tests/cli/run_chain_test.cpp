@@ -9,8 +9,8 @@
 #include "wisp/model/file.hpp"
 #include "wisp/record/csv.hpp"
 
-namespace wisp {
-namespace run_chain_test {
+namespace wisp::run_chain_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -104,5 +104,5 @@ TEST_F(RunChain, ARealisationThatIsNoneIsAnError) {
   EXPECT_EQ(wisp("learn leaf drops.csv -o " + at("m.wisp") + " --realisation fourier").status, 2);
 }
 
-}  // namespace run_chain_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::run_chain_test

@@ -8,8 +8,8 @@
 #include "cli/program.hpp"
 #include "wisp/record/csv.hpp"
 
-namespace wisp {
-namespace run_loop_test {
+namespace wisp::run_loop_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -84,5 +84,5 @@ TEST_F(RunLoop, WhatDoesNotGoWithItIsSaid) {
   refused("flame-4", "2", "a.png", 1, "expected a name that ends in .csv or .mp4");
 }
 
-}  // namespace run_loop_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::run_loop_test

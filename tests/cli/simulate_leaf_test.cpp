@@ -7,8 +7,8 @@
 #include "wisp/capture/media/video.hpp"
 #include "wisp/record/csv.hpp"
 
-namespace wisp {
-namespace simulate_leaf_test {
+namespace wisp::simulate_leaf_test {
+namespace {
 
 using testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -179,5 +179,5 @@ TEST_F(SimulateLeaf, AWindFileThatIsNoneIsExplained) {
   }
 }
 
-}  // namespace simulate_leaf_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::simulate_leaf_test

@@ -6,8 +6,8 @@
 #include "cli/program.hpp"
 #include "wisp/record/csv.hpp"
 
-namespace wisp {
-namespace simulate_test {
+namespace wisp::simulate_test {
+namespace {
 
 using testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -61,5 +61,5 @@ TEST_F(Simulate, WhatCannotBeSimulatedIsExplained) {
   EXPECT_FALSE(fs::exists(at("clip.truth.csv")));
 }
 
-}  // namespace simulate_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::simulate_test

@@ -9,8 +9,8 @@
 #include "cli/program.hpp"
 #include "wisp/record/csv.hpp"
 
-namespace wisp {
-namespace tables_test {
+namespace wisp::tables_test {
+namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -235,5 +235,5 @@ TEST_F(Tables, RunGoesAlongAPlainTable) {
               HasSubstr("is the rate right?"));
 }
 
-}  // namespace tables_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::tables_test

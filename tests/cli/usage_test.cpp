@@ -6,8 +6,8 @@
 #include "cli/program.hpp"
 #include "paths.hpp"
 
-namespace wisp {
-namespace usage_test {
+namespace wisp::usage_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -73,5 +73,5 @@ TEST_F(Usage, TheManualInDocsIsTheProgramsOwn) {
       << "make it again: wisp manual > docs/reference/cli.md";
 }
 
-}  // namespace usage_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::usage_test

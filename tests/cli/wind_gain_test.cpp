@@ -10,8 +10,8 @@
 #include "record/loudness.hpp"
 #include "wisp/record/csv.hpp"
 
-namespace wisp {
-namespace wind_gain_test {
+namespace wisp::wind_gain_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -136,5 +136,5 @@ TEST_F(WindGainProgram, ABadLoudnessStopsBeforeAnythingIsWritten) {
   EXPECT_FALSE(std::filesystem::exists(at("m.wisp")));
 }
 
-}  // namespace wind_gain_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::wind_gain_test

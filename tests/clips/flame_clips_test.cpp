@@ -14,8 +14,8 @@
 #include "learn/outline/outline_synthesis.hpp"
 #include "paths.hpp"
 
-namespace wisp {
-namespace flame_clips_test {
+namespace wisp::flame_clips_test {
+namespace {
 
 struct Clip {
   const char* name;
@@ -109,5 +109,5 @@ INSTANTIATE_TEST_SUITE_P(
                     Clip{"Red", "red_candle_720p25.mp4", 0, 8}, Clip{"Red", "red_candle_720p25.mp4", 0, 16}),
     clip_name);
 
-}  // namespace flame_clips_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::flame_clips_test

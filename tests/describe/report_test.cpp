@@ -7,8 +7,8 @@
 #include "wisp/describe/json.hpp"
 #include "wisp/describe/text.hpp"
 
-namespace wisp {
-namespace report_test {
+namespace wisp::report_test {
+namespace {
 
 Report sample() {
   Report report;
@@ -100,5 +100,5 @@ TEST(Report, FindAndAppendSeeAllSections) {
   EXPECT_EQ(report.warnings.size(), 2u);
 }
 
-}  // namespace report_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::report_test

@@ -5,8 +5,8 @@
 #include "draw/draw_test_pictures.hpp"
 #include "wisp/base/file.hpp"
 
-namespace wisp {
-namespace image_test {
+namespace wisp::image_test {
+namespace {
 
 Image gradient(int width, int height) {
   std::vector<std::uint8_t> rgb;
@@ -106,5 +106,5 @@ TEST(Image, PngThatCannotBeWrittenNamesTheFileAndLeavesNothing) {
   EXPECT_TRUE(folder.empty());
 }
 
-}  // namespace image_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::image_test

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-namespace wisp::drawing {
-namespace tone_test {
+namespace wisp::drawing::tone_test {
+namespace {
 
 TEST(Tone, EveryCodeComesBackWhateverTheDither) {
   const Tone& tone = Tone::get();
@@ -38,5 +38,5 @@ TEST(Tone, LightBeyondWhiteIsWhite) {
   EXPECT_EQ(pixel, 0xFFFFFFFFU);
 }
 
-}  // namespace tone_test
-}  // namespace wisp::drawing
+}  // namespace
+}  // namespace wisp::drawing::tone_test

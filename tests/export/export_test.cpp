@@ -15,8 +15,8 @@
 #include "wisp/model/file.hpp"
 #include "wisp/run/bank.hpp"
 
-namespace wisp {
-namespace export_test {
+namespace wisp::export_test {
+namespace {
 
 using Json = nlohmann::json;
 
@@ -207,5 +207,5 @@ TEST(Export, WhatHasNoShapeIsRefusedWithAReason) {
   EXPECT_NE(lottie_text(flame, *taken, 3).error().message.find("expected 16 to 8192"), std::string::npos);
 }
 
-}  // namespace export_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::export_test

@@ -17,8 +17,8 @@
 #include "wisp/model/file.hpp"
 #include "wisp/run/bank.hpp"
 
-namespace wisp {
-namespace firmware_test {
+namespace wisp::firmware_test {
+namespace {
 
 // A light that is calm and restless by turns, as `wisp learn flicker` makes them.
 Model light() {
@@ -232,5 +232,5 @@ TEST_F(Firmware, WhatFixedPointDoesNotHoldIsSaid) {
   says(slow, "32 lags");
 }
 
-}  // namespace firmware_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::firmware_test

@@ -10,8 +10,8 @@
 #include "wisp/model/file.hpp"
 #include "wisp/run/bank.hpp"
 
-namespace wisp {
-namespace take_test {
+namespace wisp::take_test {
+namespace {
 
 Model leaf() {
   const auto model = read_model(WISP_SOURCE_DIR "/apps/web/public/models/leaf.wisp");
@@ -202,5 +202,5 @@ TEST(Take, WhatCannotBeTakenIsSaid) {
   EXPECT_NE(take(mortal, {.loop = true, .inputs = {2}}).error().message.find("goes out"), std::string::npos);
 }
 
-}  // namespace take_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::take_test

@@ -5,8 +5,8 @@
 
 #include "paths.hpp"
 
-namespace wisp::house {
-namespace arrow_test {
+namespace wisp::house::arrow_test {
+namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -153,5 +153,5 @@ TEST(Arrow, ALinkThatRunsBackUpIsFound) {
                           "src/CMakeLists.txt: cloud is no layer of docs/architecture.md"));
 }
 
-}  // namespace arrow_test
-}  // namespace wisp::house
+}  // namespace
+}  // namespace wisp::house::arrow_test

@@ -7,8 +7,8 @@
 #include "house/sources.hpp"
 #include "paths.hpp"
 
-namespace wisp::house {
-namespace dependencies_test {
+namespace wisp::house::dependencies_test {
+namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -111,5 +111,5 @@ TEST(Dependencies, AForgottenOneIsFound) {
   EXPECT_THAT(listed_packages("| a | Debian packages |\n| --- | --- |\n| `no` | `x`, `y` |\n"), ElementsAre("x", "y"));
 }
 
-}  // namespace dependencies_test
-}  // namespace wisp::house
+}  // namespace
+}  // namespace wisp::house::dependencies_test

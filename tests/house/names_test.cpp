@@ -9,8 +9,8 @@
 #include "house/sources.hpp"
 #include "paths.hpp"
 
-namespace wisp::house {
-namespace names_test {
+namespace wisp::house::names_test {
+namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -107,5 +107,5 @@ TEST(MachinePaths, AreFound) {
   EXPECT_THAT(machine_paths(tree.root()), ElementsAre("docs/a.md:2", "script/b:1", "src/c.cpp:1"));
 }
 
-}  // namespace names_test
-}  // namespace wisp::house
+}  // namespace
+}  // namespace wisp::house::names_test

@@ -10,8 +10,8 @@
 
 #include "paths.hpp"
 
-namespace wisp::house {
-namespace size_test {
+namespace wisp::house::size_test {
+namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
@@ -108,5 +108,5 @@ TEST(Size, FullFoldersAndManyHeadersAreFound) {
   EXPECT_EQ(public_headers(tree.root()), 3);
 }
 
-}  // namespace size_test
-}  // namespace wisp::house
+}  // namespace
+}  // namespace wisp::house::size_test

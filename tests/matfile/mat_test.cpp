@@ -10,8 +10,8 @@
 #include <iterator>
 #include <limits>
 
-namespace wisp {
-namespace mat_test {
+namespace wisp::mat_test {
+namespace {
 
 using ::testing::AllOf;
 using ::testing::ElementsAre;
@@ -279,5 +279,5 @@ TEST(Mat, RefusesWhatIsNotAMatlabFile) {
   EXPECT_THAT(error_of(path, {.rate_hz = 1, .outputs = {"y"}}), HasSubstr("no such file"));
 }
 
-}  // namespace mat_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::mat_test

@@ -6,8 +6,8 @@
 
 #include "model/sample_model.hpp"
 
-namespace wisp {
-namespace arx_test {
+namespace wisp::arx_test {
+namespace {
 
 ArxModel scalar(std::vector<double> a) {
   ArxModel model;
@@ -55,5 +55,5 @@ TEST(ArxModel, CoefficientsAreFoundByOutputAndInput) {
   EXPECT_EQ(model.orders.row_size(0), 5);
 }
 
-}  // namespace arx_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::arx_test

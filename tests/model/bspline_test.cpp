@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-namespace wisp {
-namespace bspline_test {
+namespace wisp::bspline_test {
+namespace {
 
 double sum(const BasisWeights& weights) {
   double total = 0;
@@ -63,5 +63,5 @@ TEST(BSpline, KnotVectorsThatAreNotOnesAreRefused) {
   EXPECT_FALSE(valid_knots(std::vector<double>{0, 0, 0, 0, 2, 2, 2, 2}));
 }
 
-}  // namespace bspline_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::bspline_test

@@ -14,8 +14,8 @@
 #include "paths.hpp"
 #include "wisp/model/file.hpp"
 
-namespace wisp {
-namespace chain_test {
+namespace wisp::chain_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -438,5 +438,5 @@ TEST(ChainModel, TransitionsAreThoseAfterOneMode) {
   EXPECT_EQ(chain(model).history(), 2);
 }
 
-}  // namespace chain_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::chain_test

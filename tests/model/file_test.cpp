@@ -13,8 +13,8 @@
 #include "paths.hpp"
 #include "wisp/base/file.hpp"
 
-namespace wisp {
-namespace file_test {
+namespace wisp::file_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -369,5 +369,5 @@ TEST(ModelFile, ANameThatHoldsAZeroByteIsRefused) {
   EXPECT_THAT(outcome.error().message, HasSubstr("holds a zero byte"));
 }
 
-}  // namespace file_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::file_test

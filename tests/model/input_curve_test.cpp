@@ -9,8 +9,8 @@
 #include "model/sample_model.hpp"
 #include "wisp/model/file.hpp"
 
-namespace wisp {
-namespace input_curve_test {
+namespace wisp::input_curve_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -69,5 +69,5 @@ TEST(InputCurve, AModelWithABadOneIsRefused) {
   }
 }
 
-}  // namespace input_curve_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::input_curve_test

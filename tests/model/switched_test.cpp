@@ -14,8 +14,8 @@
 #include "paths.hpp"
 #include "wisp/model/file.hpp"
 
-namespace wisp {
-namespace switched_test {
+namespace wisp::switched_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -173,5 +173,5 @@ TEST(SwitchedModel, OfAnArxModelHasItsNoise) {
   EXPECT_TRUE(check(switched_of(arx)));
 }
 
-}  // namespace switched_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::switched_test

@@ -3,8 +3,8 @@
 
 #include "wisp/record/recording.hpp"
 
-namespace wisp {
-namespace attribute_test {
+namespace wisp::attribute_test {
+namespace {
 
 TEST(Attribute, NumbersRoundTripBitForBit) {
   Recording recording;
@@ -23,5 +23,5 @@ TEST(Attribute, WhatIsNotANumberIsNamed) {
   EXPECT_THAT(outcome.error().message, testing::AllOf(testing::HasSubstr("a.csv"), testing::HasSubstr("\"two\"")));
 }
 
-}  // namespace attribute_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::attribute_test

@@ -8,8 +8,8 @@
 
 #include "wisp/record/csv.hpp"
 
-namespace wisp {
-namespace csv_tables_test {
+namespace wisp::csv_tables_test {
+namespace {
 
 using testing::AllOf;
 using testing::ElementsAre;
@@ -147,5 +147,5 @@ TEST(CsvTable, AColumnOfNumbersAloneMayHaveDecimalCommas) {
   EXPECT_THAT(recording->channels[0].samples, ElementsAre(1.5, 2.5));
 }
 
-}  // namespace csv_tables_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::csv_tables_test

@@ -10,8 +10,8 @@
 #include <random>
 #include <sstream>
 
-namespace wisp {
-namespace csv_test {
+namespace wisp::csv_test {
+namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
@@ -246,5 +246,5 @@ TEST(Csv, ABadRecordingIsNotWritten) {
   EXPECT_FALSE(std::filesystem::exists(path));
 }
 
-}  // namespace csv_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::csv_test

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-namespace wisp {
-namespace loudness_test {
+namespace wisp::loudness_test {
+namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
@@ -55,5 +55,5 @@ TEST(Loudness, AnythingButOneNumberAboveZeroIsRefused) {
   EXPECT_FALSE(one_rms(recording, "wind"));
 }
 
-}  // namespace loudness_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::loudness_test

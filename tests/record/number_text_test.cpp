@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <limits>
 
-namespace wisp {
-namespace number_text_test {
+namespace wisp::number_text_test {
+namespace {
 
 TEST(NumberText, IsTheShortestThatReadsBack) {
   EXPECT_EQ(number_text(0.1), "0.1");
@@ -28,5 +28,5 @@ TEST(NumberText, SaysWhatIsNoNumber) {
   EXPECT_EQ(number_text(-std::numeric_limits<double>::infinity(), 3), "-inf");
 }
 
-}  // namespace number_text_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::number_text_test

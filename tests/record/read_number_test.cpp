@@ -16,8 +16,8 @@
 #include "record/number_text.cpp"  // NOLINT(bugprone-suspicious-include)
 #undef wisp
 
-namespace wisp {
-namespace read_number_test {
+namespace wisp::read_number_test {
+namespace {
 
 struct Read {
   std::ptrdiff_t length = 0;
@@ -62,5 +62,5 @@ TEST(ReadNumber, KnowsWhatIsNoNumberAndWhatNoDoubleHolds) {
     expect_as_from_chars(text);
 }
 
-}  // namespace read_number_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::read_number_test

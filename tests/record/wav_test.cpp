@@ -15,8 +15,8 @@
 #include "paths.hpp"
 #include "wisp/base/file.hpp"
 
-namespace wisp {
-namespace wav_test {
+namespace wisp::wav_test {
+namespace {
 
 using ::testing::AllOf;
 using ::testing::ElementsAre;
@@ -301,5 +301,5 @@ TEST_F(Wav, RealFilesAreRead) {
   EXPECT_NEAR(static_cast<double>(breath->samples.size()) / 44100, 19.99, 0.01);
 }
 
-}  // namespace wav_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::wav_test

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-namespace wisp::flow {
-namespace random_numbers_test {
+namespace wisp::flow::random_numbers_test {
+namespace {
 
 TEST(RandomNumbers, AreTheSameWordsForEver) {
   RandomNumbers numbers(1, 2);
@@ -49,5 +49,5 @@ TEST(RandomNumbers, AreEvenOverTheUnitInterval) {
   EXPECT_NEAR(sum / 100000, 0.5, 5 * std::sqrt(1.0 / 12 / 100000));
 }
 
-}  // namespace random_numbers_test
-}  // namespace wisp::flow
+}  // namespace
+}  // namespace wisp::flow::random_numbers_test

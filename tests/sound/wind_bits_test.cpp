@@ -12,8 +12,8 @@
 #include <immintrin.h>
 #endif
 
-namespace wisp {
-namespace wind_bits_test {
+namespace wisp::wind_bits_test {
+namespace {
 
 /// Four seconds made of integers only: a soft hiss, gusts of low noise, pulses like a voice's, and nothing at all.
 std::vector<std::int16_t> made_sound(int rate_hz) {
@@ -74,5 +74,5 @@ TEST(WindBits, AreTheSameWhereDenormalsAreFlushed) {
 #endif
 }
 
-}  // namespace wind_bits_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::wind_bits_test

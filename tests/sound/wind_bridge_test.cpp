@@ -11,8 +11,8 @@
 #include "wisp/sound/wind_level.hpp"
 #include "wisp/sound/wind_track.hpp"
 
-namespace wisp {
-namespace wind_bridge_test {
+namespace wisp::wind_bridge_test {
+namespace {
 
 using sounds::Samples;
 
@@ -99,5 +99,5 @@ TEST(WindBridge, ARecordingThatIsTalkThroughoutHasNoWind) {
   EXPECT_LT(mean(known(sounds::voice(6, kRate, 130, 0.1)), &WindFrame::wind, 0.5, 5.5), 0.02);
 }
 
-}  // namespace wind_bridge_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::wind_bridge_test

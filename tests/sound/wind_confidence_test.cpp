@@ -10,8 +10,8 @@
 #include "sound/wind_sounds.hpp"
 #include "wisp/sound/wind_level.hpp"
 
-namespace wisp {
-namespace wind_confidence_test {
+namespace wisp::wind_confidence_test {
+namespace {
 
 using sounds::Samples;
 
@@ -147,5 +147,5 @@ TEST(WindConfidence, AStreamThatBeginsWithNothingAtAllIsNoQuietRoom) {
   EXPECT_GT(share_below(hear(16000, sound), 0.2F), 0.97);
 }
 
-}  // namespace wind_confidence_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::wind_confidence_test

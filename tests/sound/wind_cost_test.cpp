@@ -10,8 +10,8 @@
 #include "sound/wind_listener.hpp"
 #include "sound/wind_sounds.hpp"
 
-namespace wisp {
-namespace wind_cost_test {
+namespace wisp::wind_cost_test {
+namespace {
 
 std::int64_t operations = 0;
 
@@ -72,5 +72,5 @@ TEST(WindCost, TwoChannelsCostAtMostTwoMillionUpTo48Kilohertz) {
   }
 }
 
-}  // namespace wind_cost_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::wind_cost_test

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <numeric>
 
-namespace wisp::wind {
-namespace wind_filters_test {
+namespace wisp::wind::wind_filters_test {
+namespace {
 
 /// RMS gain of a filter at a frequency, measured on one second of a sine after 0.5 s.
 template <class Pass>
@@ -97,5 +97,5 @@ TEST(WindFilters, SilenceLeavesNothingInAFilter) {
   EXPECT_EQ(filter.band(0), 0.0F);
 }
 
-}  // namespace wind_filters_test
-}  // namespace wisp::wind
+}  // namespace
+}  // namespace wisp::wind::wind_filters_test

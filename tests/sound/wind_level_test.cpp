@@ -11,8 +11,8 @@
 
 #include "sound/wind_sounds.hpp"
 
-namespace wisp {
-namespace wind_level_test {
+namespace wisp::wind_level_test {
+namespace {
 
 using sounds::Samples;
 using ::testing::HasSubstr;
@@ -412,5 +412,5 @@ TEST(WindLevel, SaysWhatItCannotDo) {
   EXPECT_EQ(message({8000, 8}, {.frame_rate_hz = 1000}), "");
 }
 
-}  // namespace wind_level_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::wind_level_test

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-namespace wisp::wind {
-namespace wind_math_test {
+namespace wisp::wind::wind_math_test {
+namespace {
 
 TEST(WindMath, Log2IsWithinItsStatedError) {
   for (int exponent = -126; exponent < 127; ++exponent) {
@@ -46,5 +46,5 @@ TEST(WindMath, SigmoidRunsFromZeroToOne) {
   EXPECT_EQ(sigmoid(200.0F), 1.0F);
 }
 
-}  // namespace wind_math_test
-}  // namespace wisp::wind
+}  // namespace
+}  // namespace wisp::wind::wind_math_test

@@ -11,8 +11,8 @@
 
 #include "sound/wind_sounds.hpp"
 
-namespace wisp {
-namespace wind_track_test {
+namespace wisp::wind_track_test {
+namespace {
 
 using sounds::Samples;
 using ::testing::HasSubstr;
@@ -213,5 +213,5 @@ TEST(WindTrack, SaysWhatItCannotDo) {
   EXPECT_THAT(message({0, std::numeric_limits<double>::infinity()}), HasSubstr("frame time 1"));
 }
 
-}  // namespace wind_track_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::wind_track_test

@@ -13,8 +13,8 @@
 #include "sound/wind_sounds.hpp"
 #include "window/course.hpp"
 
-namespace wisp::window {
-namespace player_test {
+namespace wisp::window::player_test {
+namespace {
 
 using std::chrono::nanoseconds;
 using testing::HasSubstr;
@@ -350,5 +350,5 @@ TEST(Scripts, ThatAreWrongAreNamedByTheirLine) {
   EXPECT_FALSE(read_script(scratch("absent.txt")));
 }
 
-}  // namespace player_test
-}  // namespace wisp::window
+}  // namespace
+}  // namespace wisp::window::player_test

@@ -14,8 +14,8 @@
 #include "window/window.hpp"
 #include "wisp/record/wav.hpp"
 
-namespace wisp {
-namespace window_test {
+namespace wisp::window_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -232,5 +232,5 @@ TEST_F(PlayInAWindow, GoesOnWhenTheMicrophoneIsLost) {
   EXPECT_TRUE(is_whole(folder_ / "png" / "end.png"));
 }
 
-}  // namespace window_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::window_test

@@ -9,8 +9,8 @@
 
 #include "capture/support/synthetic.hpp"
 
-namespace wisp {
-namespace clip_capture_test {
+namespace wisp::clip_capture_test {
+namespace {
 
 using support::Plane;
 using testing::HasSubstr;
@@ -134,5 +134,5 @@ TEST(OutlineSeen, IsEmptyUntilPlaceAndLevelAreDecidedAndThenShowsTheOutline) {
   EXPECT_TRUE(picture.seen().polyline.empty());
 }
 
-}  // namespace clip_capture_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::clip_capture_test

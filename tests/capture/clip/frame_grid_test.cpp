@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace wisp {
-namespace frame_grid_test {
+namespace wisp::frame_grid_test {
+namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -52,5 +52,5 @@ TEST(FrameGrid, FollowsWhereATimeIsNotKnown) {
   EXPECT_EQ(grid.follow(), 1);
 }
 
-}  // namespace frame_grid_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::frame_grid_test

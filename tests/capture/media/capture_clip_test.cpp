@@ -8,8 +8,8 @@
 #include "capture/support/clip_files.hpp"
 #include "capture/support/overlap.hpp"
 
-namespace wisp {
-namespace capture_clip_test {
+namespace wisp::capture_clip_test {
+namespace {
 
 using support::ScratchFolder;
 using testing::HasSubstr;
@@ -178,5 +178,5 @@ TEST(CaptureClip, AFlagSeenEdgeOnIsADarkLineHeldOnTheLeft) {
   EXPECT_GT(captured->recording.channels[6].samples[5], 300);
 }
 
-}  // namespace capture_clip_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::capture_clip_test

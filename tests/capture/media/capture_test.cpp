@@ -7,8 +7,8 @@
 
 #include "capture/support/clip_files.hpp"
 
-namespace wisp {
-namespace capture_test {
+namespace wisp::capture_test {
+namespace {
 
 using support::ScratchFolder;
 using testing::HasSubstr;
@@ -74,5 +74,5 @@ TEST_F(Capture, OnlyOutlinesHaveACurve) {
   EXPECT_FALSE(curve_of(broken));
 }
 
-}  // namespace capture_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::capture_test

@@ -7,8 +7,8 @@
 
 #include "capture/support/clip_files.hpp"
 
-namespace wisp {
-namespace sound_test {
+namespace wisp::sound_test {
+namespace {
 
 using support::Plane;
 using support::ScratchFolder;
@@ -87,5 +87,5 @@ TEST(Sound, TheShakenFlamesTrackIsThereAndSilent) {
   EXPECT_NEAR(static_cast<double>((*sound)->info.samples) / (*sound)->info.rate_hz, 4.4, 0.2);
 }
 
-}  // namespace sound_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::sound_test

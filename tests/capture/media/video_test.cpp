@@ -14,9 +14,8 @@
 #include "capture/media/with_memory.hpp"
 #include "capture/support/clip_files.hpp"
 
-namespace wisp {
-
-namespace video_test {
+namespace wisp::video_test {
+namespace {
 
 using support::Plane;
 using support::RawVideo;
@@ -341,5 +340,5 @@ TEST(VideoFile, CutInHalfIsReadAsFarAsItGoesWithAWarning) {
   EXPECT_THAT(reader->warnings().back(), HasSubstr("cut off"));
 }
 
-}  // namespace video_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::video_test

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-namespace wisp {
-namespace crossing_test {
+namespace wisp::crossing_test {
+namespace {
 
 bool crosses(const std::vector<CurvePoint>& polyline) { return crosses_itself(polyline); }
 
@@ -15,5 +15,5 @@ TEST(Crossing, ALoopAtTheTipDoes) { EXPECT_TRUE(crosses({{0, 0}, {3, 4}, {2, 5},
 
 TEST(Crossing, EndsThatMeetDoNot) { EXPECT_FALSE(crosses({{0, 0}, {1, 3}, {2, 0}, {0, 0}})); }
 
-}  // namespace crossing_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::crossing_test

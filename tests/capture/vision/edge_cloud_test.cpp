@@ -6,8 +6,8 @@
 
 #include "capture/support/seen_flame.hpp"
 
-namespace wisp {
-namespace edge_cloud_test {
+namespace wisp::edge_cloud_test {
+namespace {
 
 using support::cloud_of;
 using support::Flame;
@@ -138,5 +138,5 @@ TEST(EdgeCloud, ASpeckIsNoOutline) {
   EXPECT_TRUE(cloud_of(plane, 100).points.empty());
 }
 
-}  // namespace edge_cloud_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::edge_cloud_test

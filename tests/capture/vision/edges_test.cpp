@@ -6,8 +6,8 @@
 
 #include "capture/support/synthetic.hpp"
 
-namespace wisp {
-namespace edges_test {
+namespace wisp::edges_test {
+namespace {
 
 using support::Plane;
 
@@ -50,5 +50,5 @@ TEST(LocateEdge, OnThePicturesBorderTheBorderIsTheEdge) {
   EXPECT_DOUBLE_EQ(locate_edge(plane.view(), 100, {10, 19}).y, 19.5);
 }
 
-}  // namespace edges_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::edges_test

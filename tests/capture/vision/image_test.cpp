@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-namespace wisp {
-namespace image_test {
+namespace wisp::image_test {
+namespace {
 
 TEST(Region, IntersectionIsWhatBothShare) {
   EXPECT_EQ(intersection({0, 0, 10, 10}, {5, 6, 10, 10}), (Region{5, 6, 5, 4}));
@@ -33,5 +33,5 @@ TEST(PixelChannel, NamesGoBothWays) {
   EXPECT_FALSE(channel_from_name("purple"));
 }
 
-}  // namespace image_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::image_test

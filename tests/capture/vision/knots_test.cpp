@@ -5,8 +5,8 @@
 #include "capture/support/seen_flame.hpp"
 #include "model/bspline.hpp"
 
-namespace wisp {
-namespace knots_test {
+namespace wisp::knots_test {
+namespace {
 
 using support::cloud_of;
 using support::Flame;
@@ -58,5 +58,5 @@ TEST(Knots, APaceAscendsFromNoughtToOne) {
   for (std::size_t k = 1; k < shape.pace.size(); ++k) EXPECT_GT(shape.pace[k], shape.pace[k - 1]);
 }
 
-}  // namespace knots_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::knots_test

@@ -8,8 +8,8 @@
 #include "capture/support/made_clip.hpp"
 #include "capture/support/overlap.hpp"
 
-namespace wisp {
-namespace outline_capture_test {
+namespace wisp::outline_capture_test {
+namespace {
 
 using support::add_noise;
 using support::capture;
@@ -455,5 +455,5 @@ TEST(OutlineCapture, TheSameFramesGiveTheSameRecording) {
   }
 }
 
-}  // namespace outline_capture_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::outline_capture_test

@@ -7,8 +7,8 @@
 
 #include "capture/support/made_clip.hpp"
 
-namespace wisp {
-namespace outline_in_time_test {
+namespace wisp::outline_in_time_test {
+namespace {
 
 using support::add_noise;
 using support::capture;
@@ -151,5 +151,5 @@ TEST(OutlineCapture, ARoundLampFilmedFromAHandIsNotTakenForAFlameThatIsLitLater)
   });
 }
 
-}  // namespace outline_in_time_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::outline_in_time_test

@@ -7,8 +7,8 @@
 
 #include "capture/support/seen_flame.hpp"
 
-namespace wisp {
-namespace outline_tracker_test {
+namespace wisp::outline_tracker_test {
+namespace {
 
 // Edge points of a known curve, with noise.
 EdgeCloud points_on(const SplineTable& table, std::span<const double> controls, int count, double noise,
@@ -149,5 +149,5 @@ TEST(OutlineTracker, ForgettingMakesTheNextFrameTheFirst) {
   EXPECT_EQ(used.update(cloud).mean, fresh.update(cloud).mean);
 }
 
-}  // namespace outline_tracker_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::outline_tracker_test

@@ -8,8 +8,8 @@
 
 #include "model/bspline.hpp"
 
-namespace wisp {
-namespace outline_verdict_test {
+namespace wisp::outline_verdict_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -101,5 +101,5 @@ TEST(OutlineVerdict, AnEdgeThatTheCurveDoesNotFollowIsNoFlames) {
   EXPECT_THAT(report.reason, HasSubstr("its shape is not a flame's"));
 }
 
-}  // namespace outline_verdict_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::outline_verdict_test

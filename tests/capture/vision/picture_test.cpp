@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-namespace wisp {
-namespace picture_test {
+namespace wisp::picture_test {
+namespace {
 
 // A 4:2:0 picture of random luma and colours, as a decoder lays it out.
 struct RandomYuv {
@@ -150,5 +150,5 @@ TEST(OwnedPicture, KeepsThePictureWhenTheOriginalIsGone) {
   EXPECT_EQ(before, after);
 }
 
-}  // namespace picture_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::picture_test

@@ -7,8 +7,8 @@
 #include "capture/support/overlap.hpp"
 #include "capture/support/synthetic.hpp"
 
-namespace wisp {
-namespace region_test {
+namespace wisp::region_test {
+namespace {
 
 using support::Plane;
 
@@ -118,5 +118,5 @@ TEST(FollowBoundary, EndsOnAnyShapeAndStaysInIt) {
   }
 }
 
-}  // namespace region_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::region_test

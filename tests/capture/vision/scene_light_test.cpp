@@ -4,8 +4,8 @@
 
 #include "capture/support/synthetic.hpp"
 
-namespace wisp {
-namespace scene_light_test {
+namespace wisp::scene_light_test {
+namespace {
 
 using support::Plane;
 
@@ -49,5 +49,5 @@ TEST(SceneLight, WhereTheFlameWasInAnyPictureIsNotNew) {
   EXPECT_FALSE(light.another(grey_picture(scene(100, 230, 20).view())));
 }
 
-}  // namespace scene_light_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::scene_light_test

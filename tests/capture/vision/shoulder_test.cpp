@@ -4,8 +4,8 @@
 
 #include "capture/support/synthetic.hpp"
 
-namespace wisp {
-namespace shoulder_test {
+namespace wisp::shoulder_test {
+namespace {
 
 using support::Plane;
 
@@ -67,5 +67,5 @@ TEST(Shoulder, IsFoundOnAnySide) {
   EXPECT_LE(edge, 39);
 }
 
-}  // namespace shoulder_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::shoulder_test

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-namespace wisp {
-namespace spline_table_test {
+namespace wisp::spline_table_test {
+namespace {
 
 // Knots that lie close together amplify rounding by the ratio of their spans: 0.02 of 0.3 here.
 constexpr double kRounding = 1e-11;
@@ -38,5 +38,5 @@ TEST(SplineTable, TheCurveBeginsAndEndsAtItsOutermostPoints) {
   EXPECT_EQ(curve_polyline(table, controls, 7).size(), 7u);
 }
 
-}  // namespace spline_table_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::spline_table_test

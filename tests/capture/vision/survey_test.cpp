@@ -7,8 +7,8 @@
 
 #include "capture/support/synthetic.hpp"
 
-namespace wisp {
-namespace survey_test {
+namespace wisp::survey_test {
+namespace {
 
 using support::Flame;
 using support::Plane;
@@ -159,5 +159,5 @@ TEST(BaseSide, OfAThingThatLiesOnItsSideIsTheEndThatMovesLess) {
   EXPECT_EQ(base_side(survey, {0, 0, 100, 100}), BaseSide::kRight);
 }
 
-}  // namespace survey_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::survey_test

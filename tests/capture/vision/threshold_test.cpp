@@ -6,8 +6,8 @@
 
 #include "capture/support/synthetic.hpp"
 
-namespace wisp {
-namespace threshold_test {
+namespace wisp::threshold_test {
+namespace {
 
 TEST(Threshold, LiesBetweenTwoClusters) {
   Histogram histogram{};
@@ -48,5 +48,5 @@ TEST(Threshold, HistogramCountsEveryStepthPixel) {
   EXPECT_EQ(some[5] + some[9], 10u * 7u);
 }
 
-}  // namespace threshold_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::threshold_test

@@ -4,8 +4,8 @@
 
 #include "draw/draw_test_pictures.hpp"
 
-namespace wisp {
-namespace film_strip_test {
+namespace wisp::film_strip_test {
+namespace {
 
 constexpr Colour kRed{200, 10, 10, 255};
 constexpr Colour kGreen{10, 200, 10, 255};
@@ -120,5 +120,5 @@ TEST(FilmStrip, DrawsTheSameTwice) {
   EXPECT_TRUE(*draw_film_strip(strip) == *draw_film_strip(strip));
 }
 
-}  // namespace film_strip_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::film_strip_test

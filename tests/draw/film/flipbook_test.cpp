@@ -8,8 +8,8 @@
 #include "draw/draw_test_pictures.hpp"
 #include "folder_test.hpp"
 
-namespace wisp {
-namespace flipbook_test {
+namespace wisp::flipbook_test {
+namespace {
 
 namespace fs = std::filesystem;
 
@@ -94,5 +94,5 @@ TEST_F(FlipbookTest, WhatCannotBeWrittenIsSaid) {
   EXPECT_NE(write_atlas(folder_ / "a.png", book_).error().message.find("several sizes"), std::string::npos);
 }
 
-}  // namespace flipbook_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::flipbook_test

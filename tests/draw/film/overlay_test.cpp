@@ -7,8 +7,8 @@
 
 #include "draw/draw_test_pictures.hpp"
 
-namespace wisp {
-namespace overlay_test {
+namespace wisp::overlay_test {
+namespace {
 
 constexpr Colour kGray{120, 120, 120, 255};
 const std::vector<Point> kSquare{{20, 20}, {80, 20}, {80, 80}, {20, 80}};
@@ -137,5 +137,5 @@ TEST(Overlay, DrawsTheSameTwice) {
   EXPECT_TRUE(drawn() == drawn());
 }
 
-}  // namespace overlay_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::overlay_test

@@ -10,8 +10,8 @@
 #include "draw/draw_test_pictures.hpp"
 #include "wisp/base/file.hpp"
 
-namespace wisp {
-namespace video_writer_test {
+namespace wisp::video_writer_test {
+namespace {
 
 Image moving_square(int width, int height, int frame) {
   Image image(width, height, {20, 30, 60, 255});
@@ -352,5 +352,5 @@ TEST(VideoWriter, SaysNothingOnTheTerminal) {
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
-}  // namespace video_writer_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::video_writer_test

@@ -7,8 +7,8 @@
 
 #include "draw/draw_test_pictures.hpp"
 
-namespace wisp {
-namespace flame_test {
+namespace wisp::flame_test {
+namespace {
 
 constexpr int kWidth = 240;
 constexpr int kHeight = 320;
@@ -467,5 +467,5 @@ TEST(Framed, LeavesRoomForAFlameOfTwiceItsHeight) {
   }
 }
 
-}  // namespace flame_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::flame_test

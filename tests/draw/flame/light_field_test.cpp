@@ -4,8 +4,8 @@
 
 #include <numeric>
 
-namespace wisp::drawing {
-namespace light_field_test {
+namespace wisp::drawing::light_field_test {
+namespace {
 
 double total(const Plane& plane) { return std::accumulate(plane.values.begin(), plane.values.end(), 0.0); }
 
@@ -74,5 +74,5 @@ TEST(LightField, LightOnlyBrightens) {
   }
 }
 
-}  // namespace light_field_test
-}  // namespace wisp::drawing
+}  // namespace
+}  // namespace wisp::drawing::light_field_test

@@ -6,8 +6,8 @@
 
 #include "draw/draw_test_pictures.hpp"
 
-namespace wisp {
-namespace live_flames_test {
+namespace wisp::live_flames_test {
+namespace {
 
 constexpr int kWidth = 401;  // no multiple of the grid's cells
 constexpr int kHeight = 303;
@@ -86,5 +86,5 @@ TEST(LiveFlames, ForgetThePictureBefore) {
   EXPECT_EQ(image, night);
 }
 
-}  // namespace live_flames_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::live_flames_test

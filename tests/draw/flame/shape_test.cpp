@@ -6,8 +6,8 @@
 #include "wisp/draw/flame.hpp"
 #include "wisp/model/model.hpp"
 
-namespace wisp {
-namespace shape_test {
+namespace wisp::shape_test {
+namespace {
 
 // An outline model whose control points lie there, in the middle of their ranges.
 Model outline_of(const std::vector<std::array<double, 2>>& points) {
@@ -48,5 +48,5 @@ TEST(Shape, ThereIsNoCandleUnderAPlainShape) {
   EXPECT_EQ(at(150, 125), at(10, 10));
 }
 
-}  // namespace shape_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::shape_test

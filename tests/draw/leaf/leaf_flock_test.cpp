@@ -9,8 +9,8 @@
 #include "draw/textured.hpp"
 #include "wisp/draw/overlay.hpp"
 
-namespace wisp {
-namespace leaf_flock_test {
+namespace wisp::leaf_flock_test {
+namespace {
 
 constexpr int kWidth = 240;
 constexpr int kHeight = 200;
@@ -128,5 +128,5 @@ TEST(Note, IsAPlateOfLinesInItsCorner) {
   EXPECT_EQ(image, blank);
 }
 
-}  // namespace leaf_flock_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::leaf_flock_test

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-namespace wisp {
-namespace leaf_test {
+namespace wisp::leaf_test {
+namespace {
 
 constexpr int kWidth = 240, kHeight = 160;
 
@@ -164,5 +164,5 @@ TEST(DrawLeaf, HoldsAbsurdStylesAndCameras) {
   EXPECT_EQ(image.width(), 16);
 }
 
-}  // namespace leaf_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::leaf_test

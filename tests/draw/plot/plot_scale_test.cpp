@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace wisp::drawing {
-namespace plot_scale_test {
+namespace wisp::drawing::plot_scale_test {
+namespace {
 
 using ::testing::ElementsAre;
 
@@ -61,5 +61,5 @@ TEST(PlotScale, PlacesAreLinearOrLogarithmic) {
   EXPECT_TRUE(linear.shows(0));
 }
 
-}  // namespace plot_scale_test
-}  // namespace wisp::drawing
+}  // namespace
+}  // namespace wisp::drawing::plot_scale_test

@@ -12,8 +12,8 @@
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfig"; }
 
-namespace wisp {
-namespace plot_test {
+namespace wisp::plot_test {
+namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr Colour kRed{220, 0, 0, 255};
@@ -294,5 +294,5 @@ TEST(Plot, AxesBelowEachOtherAreAligned) {
   EXPECT_EQ(leftmost(both, kRed, 0, middle), leftmost(both, kRed, middle, both.height()));
 }
 
-}  // namespace plot_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::plot_test

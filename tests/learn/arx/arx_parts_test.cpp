@@ -9,8 +9,8 @@
 #include "learn/arx/learn_arx.hpp"
 #include "learn/arx/made_system.hpp"
 
-namespace wisp {
-namespace arx_parts_test {
+namespace wisp::arx_parts_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -103,5 +103,5 @@ TEST(ArxParts, WhatNeedsAllRecordingsInMemoryIsRefused) {
   EXPECT_THAT(ArxPart::create(recipe).error().message, HasSubstr("search first"));
 }
 
-}  // namespace arx_parts_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::arx_parts_test

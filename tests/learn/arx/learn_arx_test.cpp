@@ -7,8 +7,8 @@
 
 #include "learn/arx/made_system.hpp"
 
-namespace wisp {
-namespace learn_arx_test {
+namespace wisp::learn_arx_test {
+namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -241,5 +241,5 @@ TEST(LearnArx, ValidationRefusesAStrangerAndStepsOutOfRange) {
   EXPECT_THAT(validate_arx(fit.model, other).error().message, HasSubstr("has no channel 'y2'"));
 }
 
-}  // namespace learn_arx_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::learn_arx_test

@@ -11,8 +11,8 @@
 #include "wisp/run/bank.hpp"
 #include "wisp/run/chain_facet.hpp"
 
-namespace wisp::chain {
-namespace chain_fit_test {
+namespace wisp::chain::chain_fit_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -209,5 +209,5 @@ TEST(FitChain, CopiedStretchesAreFound) {
   EXPECT_GT(copied, 2 * longest_verbatim_seconds(mixed->model, mixed->origin, 200, 1));
 }
 
-}  // namespace chain_fit_test
-}  // namespace wisp::chain
+}  // namespace
+}  // namespace wisp::chain::chain_fit_test

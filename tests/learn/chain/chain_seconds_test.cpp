@@ -6,8 +6,8 @@
 
 #include "learn/chain/made_falls.hpp"
 
-namespace wisp::chain {
-namespace chain_seconds_test {
+namespace wisp::chain::chain_seconds_test {
+namespace {
 
 Motion motion_made(double scale, std::uint64_t seed = 1) {
   Recording falls = made_falls({.falls = 24, .seconds = 12, .seed = seed});
@@ -66,5 +66,5 @@ TEST(SecondsFidelity, FallsShorterThanTwoSecondsHaveNone) {
   EXPECT_TRUE(std::isnan(seconds_fidelity(motion, motion, 500, 1).spectra.value));
 }
 
-}  // namespace chain_seconds_test
-}  // namespace wisp::chain
+}  // namespace
+}  // namespace wisp::chain::chain_seconds_test

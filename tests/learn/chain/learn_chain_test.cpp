@@ -11,8 +11,8 @@
 #include "wisp/model/file.hpp"
 #include "wisp/run/bank.hpp"
 
-namespace wisp::chain {
-namespace learn_chain_test {
+namespace wisp::chain::learn_chain_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -237,5 +237,5 @@ TEST(ValidateChain, WhatIsNoChainOrSaysNotHowItWasCutIsAnError) {
               HasSubstr("is not a segment chain"));
 }
 
-}  // namespace learn_chain_test
-}  // namespace wisp::chain
+}  // namespace
+}  // namespace wisp::chain::learn_chain_test

@@ -8,8 +8,8 @@
 
 #include "learn/numeric/made_series.hpp"
 
-namespace wisp {
-namespace fidelity_energy_test {
+namespace wisp::fidelity_energy_test {
+namespace {
 
 Stretch interleaved(const std::vector<double>& a, const std::vector<double>& b, std::size_t first, std::size_t last) {
   Stretch out{2, {}};
@@ -125,5 +125,5 @@ TEST(FidelityEnergy, StandardisedFeaturesHaveMeanZeroAndDeviationOne) {
   EXPECT_EQ(y.values, (std::vector<double>{3, 2}));
 }
 
-}  // namespace fidelity_energy_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::fidelity_energy_test

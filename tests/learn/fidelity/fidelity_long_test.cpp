@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
-namespace wisp {
-namespace fidelity_long_test {
+namespace wisp::fidelity_long_test {
+namespace {
 
 constexpr LongOptions kOptions{.rate_hz = 60};
 
@@ -70,5 +70,5 @@ TEST(FidelityLong, ASpectrumHasThePowerInItsBand) {
   EXPECT_LT(loudest + 1, windows.features);
 }
 
-}  // namespace fidelity_long_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::fidelity_long_test

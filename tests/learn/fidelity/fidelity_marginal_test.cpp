@@ -4,8 +4,8 @@
 
 #include "learn/numeric/made_series.hpp"
 
-namespace wisp {
-namespace fidelity_marginal_test {
+namespace wisp::fidelity_marginal_test {
+namespace {
 
 TEST(FidelityMarginal, AShiftIsItsOwnDistance) { EXPECT_DOUBLE_EQ(wasserstein1({3, 1, 2}, {6, 5, 4}), 3); }
 
@@ -24,5 +24,5 @@ TEST(FidelityMarginal, StandardDeviationDividesByN) {
   EXPECT_DOUBLE_EQ(standard_deviation(samples), 1);
 }
 
-}  // namespace fidelity_marginal_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::fidelity_marginal_test

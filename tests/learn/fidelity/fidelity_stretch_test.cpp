@@ -6,8 +6,8 @@
 #include <limits>
 #include <string>
 
-namespace wisp {
-namespace fidelity_stretch_test {
+namespace wisp::fidelity_stretch_test {
+namespace {
 
 Recording two_channels() {
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -68,5 +68,5 @@ TEST(FidelityStretch, TheSameSeedShufflesAlike) {
   EXPECT_NE(shuffled(stretches, 4).front().values, shuffled(stretches, 5).front().values);
 }
 
-}  // namespace fidelity_stretch_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::fidelity_stretch_test

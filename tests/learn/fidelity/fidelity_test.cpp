@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
-namespace wisp {
-namespace fidelity_test {
+namespace wisp::fidelity_test {
+namespace {
 
 // Two channels of a damped resonance, shaken by noise.
 Recording resonance(std::size_t rows, double frequency_hz, std::uint64_t seed, double amplitude = 1) {
@@ -110,5 +110,5 @@ TEST(Fidelity, TheSameSeedGivesTheSameFigures) {
   EXPECT_EQ(fidelity(real, made)->energy_p_value, fidelity(real, made)->energy_p_value);
 }
 
-}  // namespace fidelity_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::fidelity_test

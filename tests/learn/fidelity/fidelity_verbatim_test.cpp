@@ -4,8 +4,8 @@
 
 #include <vector>
 
-namespace wisp {
-namespace fidelity_verbatim_test {
+namespace wisp::fidelity_verbatim_test {
+namespace {
 
 TEST(FidelityVerbatim, ACopiedRunIsFoundWhereverItStands) {
   const std::vector real{Stretch{1, {0, 3, 1, 4, 1, 5, 9, 2, 6}}};
@@ -32,5 +32,5 @@ TEST(FidelityVerbatim, ARunDoesNotCrossFromOneStretchToTheNext) {
   EXPECT_EQ(longest_verbatim_run(real, cut, 0), 2u);
 }
 
-}  // namespace fidelity_verbatim_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::fidelity_verbatim_test

@@ -8,8 +8,8 @@
 #include "learn/flame/made_blow_outs.hpp"
 #include "learn/outline/outline_fit.hpp"
 
-namespace wisp {
-namespace blow_outs_test {
+namespace wisp::blow_outs_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -122,5 +122,5 @@ TEST(BlowOuts, WhatCannotBeLookedThroughIsRefused) {
   EXPECT_FALSE(find_blow_outs(plain, "wind"));
 }
 
-}  // namespace blow_outs_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::blow_outs_test

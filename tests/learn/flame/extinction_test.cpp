@@ -5,8 +5,8 @@
 
 #include "learn/flame/made_blow_outs.hpp"
 
-namespace wisp {
-namespace extinction_test {
+namespace wisp::extinction_test {
+namespace {
 
 using made::blow_out_recording;
 using made::BlowOutRecipe;
@@ -168,5 +168,5 @@ TEST(ExtinctionAgreement, CountsDeathsAndGustsAndHowLateTheRuleIs) {
   EXPECT_EQ(agreement(always, seen).spared, 0U);
 }
 
-}  // namespace extinction_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::extinction_test

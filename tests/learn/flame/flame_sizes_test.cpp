@@ -11,8 +11,8 @@
 #include "wisp/run/bank.hpp"
 #include "wisp/run/extinction_facet.hpp"
 
-namespace wisp {
-namespace flame_sizes_test {
+namespace wisp::flame_sizes_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -132,5 +132,5 @@ TEST(FlameSizes, AStretchThatNobodyBlewIsNoDeath) {
   EXPECT_THAT(flame_sizes({.source = "numbers"}, {}).error().message, HasSubstr("numbers"));
 }
 
-}  // namespace flame_sizes_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::flame_sizes_test

@@ -10,8 +10,8 @@
 #include "learn/outline/outline_judgement.hpp"
 #include "record/loudness.hpp"
 
-namespace wisp {
-namespace wind_gain_test {
+namespace wisp::wind_gain_test {
+namespace {
 
 // A recording in which the tracker called 1 what is `gusts` times the strength of the other's, heard by a microphone of
 // `gain`.
@@ -158,5 +158,5 @@ TEST(WindGain, AModelOfScalesOfTheirOwnKnowsNoLoudness) {
   EXPECT_EQ(wind_at(*at_trained_gain(fit.model, later), 40), wind_at(later, 40));
 }
 
-}  // namespace wind_gain_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::wind_gain_test

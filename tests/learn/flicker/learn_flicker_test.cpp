@@ -8,8 +8,8 @@
 #include "wisp/learn/learn.hpp"
 #include "wisp/model/file.hpp"
 
-namespace wisp {
-namespace learn_flicker_test {
+namespace wisp::learn_flicker_test {
+namespace {
 
 // Three minutes and more of a light whose restless stretches swing at 5 Hz.
 Recording light(double rate_hz, std::uint64_t seed, double seconds = 400) {
@@ -96,5 +96,5 @@ TEST(LearnFlicker, WhatCannotBeLearnedFromIsSaid) {
   says(dark, {}, "not above 0");
 }
 
-}  // namespace learn_flicker_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::learn_flicker_test

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-namespace wisp {
-namespace chi_squared_test {
+namespace wisp::chi_squared_test {
+namespace {
 
 // Values of R's pchisq and qchisq.
 TEST(ChiSquared, TailAgreesWithTables) {
@@ -22,5 +22,5 @@ TEST(ChiSquared, QuantileIsTheInverseOfTheTail) {
   EXPECT_NEAR(chi_squared_quantile(0.95, 1), 3.841458820694124, 1e-10);
 }
 
-}  // namespace chi_squared_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::chi_squared_test

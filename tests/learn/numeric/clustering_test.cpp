@@ -6,8 +6,8 @@
 #include <limits>
 #include <random>
 
-namespace wisp {
-namespace clustering_test {
+namespace wisp::clustering_test {
+namespace {
 
 // Points around the corners of a cube.
 std::vector<double> corners(std::size_t each, double spread) {
@@ -105,5 +105,5 @@ TEST(KMeans, MoreClustersThanRowsIsAnError) {
   EXPECT_FALSE(k_means(rows, 3, {.clusters = 1, .restarts = 0}));
 }
 
-}  // namespace clustering_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::clustering_test

@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 #include <limits>
 
-namespace wisp {
-namespace decompositions_test {
+namespace wisp::decompositions_test {
+namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
@@ -54,5 +54,5 @@ TEST(Decompositions, ARankedSolutionIsTheShortestAndCountsColumns) {
   EXPECT_LT((reflection(5, 3).bottomRows(2) * found.x).norm(), 1e-13);
 }
 
-}  // namespace decompositions_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::decompositions_test

@@ -10,8 +10,8 @@
 #include "learn/arx/rows/arx_orders.hpp"
 #include "learn/arx/rows/arx_triangle.hpp"
 
-namespace wisp {
-namespace lag_gram_test {
+namespace wisp::lag_gram_test {
+namespace {
 
 Recording noise(std::size_t rows, int outputs, int inputs, unsigned seed) {
   std::mt19937 generator(seed);
@@ -105,5 +105,5 @@ TEST(LagGram, LeavesOutRowsThatMissingSamplesEnter) {
   EXPECT_EQ(plan.rows, 400u - 3 - 9);
 }
 
-}  // namespace lag_gram_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::lag_gram_test

@@ -8,8 +8,8 @@
 #include <Eigen/Eigenvalues>
 #include <vector>
 
-namespace wisp {
-namespace lyapunov_test {
+namespace wisp::lyapunov_test {
+namespace {
 
 using Eigen::MatrixXd;
 using Numbers = std::vector<double>;
@@ -98,5 +98,5 @@ TEST(CommonLyapunov, IsFoundUpToWhereThePairBeginsToDiverge) {
   EXPECT_FALSE(find_common_lyapunov(pair(0.6401)));
 }
 
-}  // namespace lyapunov_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::lyapunov_test

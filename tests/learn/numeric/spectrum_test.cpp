@@ -9,8 +9,8 @@
 
 #include "learn/numeric/made_series.hpp"
 
-namespace wisp {
-namespace spectrum_test {
+namespace wisp::spectrum_test {
+namespace {
 
 using Series = std::vector<std::vector<double>>;
 
@@ -97,5 +97,5 @@ TEST(Spectrum, TheMeanOfEachStretchIsItsOwn) {
   for (std::size_t k = 0; k < 20; ++k) EXPECT_NEAR(one[k], both[k], 1e-9);
 }
 
-}  // namespace spectrum_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::spectrum_test

@@ -11,8 +11,8 @@
 
 #include "learn/arx/rows/arx_orders.hpp"
 
-namespace wisp {
-namespace triangular_factor_test {
+namespace wisp::triangular_factor_test {
+namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
@@ -266,5 +266,5 @@ TEST(PartRows, ShareOutAllRowsOnce) {
   EXPECT_EQ(next, 100u);
 }
 
-}  // namespace triangular_factor_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::triangular_factor_test

@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-namespace wisp {
-namespace alignment_test {
+namespace wisp::alignment_test {
+namespace {
 
 using ::testing::HasSubstr;
 using Series = std::vector<double>;
@@ -165,5 +165,5 @@ TEST(Alignment, SaysWhatItCannotDo) {
   EXPECT_THAT(message(some, some, {.block_seconds = 0}), HasSubstr("blocks of"));
 }
 
-}  // namespace alignment_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::alignment_test

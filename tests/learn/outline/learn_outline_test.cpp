@@ -10,8 +10,8 @@
 #include "record/loudness.hpp"
 #include "wisp/learn/validate_outline.hpp"
 
-namespace wisp {
-namespace learn_outline_test {
+namespace wisp::learn_outline_test {
+namespace {
 
 using testing::HasSubstr;
 using testing::IsSupersetOf;
@@ -199,5 +199,5 @@ TEST(ValidateOutline, CanBeStopped) {
   EXPECT_FALSE(validate_outline(fit.model, windy(7), {.steps = {}}));
 }
 
-}  // namespace learn_outline_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::learn_outline_test

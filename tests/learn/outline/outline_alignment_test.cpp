@@ -10,8 +10,8 @@
 #include "learn/outline/outline_fit.hpp"
 #include "learn/outline/outline_judgement.hpp"
 
-namespace wisp {
-namespace outline_alignment_test {
+namespace wisp::outline_alignment_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -120,5 +120,5 @@ TEST(OutlineAlignment, LearningAndValidatingBringSoundIntoStep) {
   EXPECT_GT(validated->alignment.front().frames_moved, 0);
 }
 
-}  // namespace outline_alignment_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::outline_alignment_test

@@ -13,8 +13,8 @@
 #include "learn/outline/outline_fit.hpp"
 #include "learn/outline/outline_orders.hpp"
 
-namespace wisp {
-namespace outline_components_test {
+namespace wisp::outline_components_test {
+namespace {
 
 constexpr made::OutlineRecipe kWindy{.points = 6, .rows = 1500, .shock = 0.003, .wind = true};
 
@@ -117,5 +117,5 @@ TEST(OutlineComponents, WarningsNameCoordinates) {
   EXPECT_THAT(all, testing::Not(testing::HasSubstr("component")));
 }
 
-}  // namespace outline_components_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::outline_components_test

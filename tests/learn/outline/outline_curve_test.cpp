@@ -10,8 +10,8 @@
 #include "learn/outline/outline_judgement.hpp"
 #include "wisp/run/cost.hpp"
 
-namespace wisp {
-namespace outline_curve_test {
+namespace wisp::outline_curve_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -77,5 +77,5 @@ TEST(OutlineCurve, OptionsOutOfRangeAreRefused) {
               HasSubstr("is 2, expected 0 (no curve) or 3 to 16"));
 }
 
-}  // namespace outline_curve_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::outline_curve_test

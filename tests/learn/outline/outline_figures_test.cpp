@@ -9,8 +9,8 @@
 #include "learn/outline/made_outline.hpp"
 #include "learn/outline/outline_fit.hpp"
 
-namespace wisp {
-namespace outline_figures_test {
+namespace wisp::outline_figures_test {
+namespace {
 
 TEST(OutlineFigures, FitIsTheShareOfTheDeviationThatIsExplained) {
   const std::vector<double> y{1, 2, 3, 4};
@@ -61,5 +61,5 @@ TEST(OutlineFigures, AFreeRunWithoutInputIsTheMeanShape) {
   EXPECT_NEAR(fit->summary.learned.tip_fit_percent.back(), 0, 2);
 }
 
-}  // namespace outline_figures_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::outline_figures_test

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-namespace wisp {
-namespace outline_inputs_test {
+namespace wisp::outline_inputs_test {
+namespace {
 
 Recording windy(std::vector<double> wind) {
   Recording recording;
@@ -141,5 +141,5 @@ TEST(OutlineInputs, MirroredTwiceIsTheSame) {
     EXPECT_EQ(twice.channels[c].samples, split.channels[c].samples);
 }
 
-}  // namespace outline_inputs_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::outline_inputs_test

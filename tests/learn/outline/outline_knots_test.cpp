@@ -9,8 +9,8 @@
 #include "learn/outline/outline_shape.hpp"
 #include "model/bspline.hpp"
 
-namespace wisp {
-namespace outline_knots_test {
+namespace wisp::outline_knots_test {
+namespace {
 
 std::vector<double> control_of(const Recording& recording, std::size_t row) {
   std::vector<double> control;
@@ -52,5 +52,5 @@ TEST(OutlineKnots, MissingRowsStayMissing) {
   EXPECT_FALSE(std::isnan(other.recording.channels[3].samples[3]));
 }
 
-}  // namespace outline_knots_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::outline_knots_test

@@ -8,8 +8,8 @@
 
 #include "learn/arx/rows/arx_orders.hpp"
 
-namespace wisp {
-namespace outline_noise_test {
+namespace wisp::outline_noise_test {
+namespace {
 
 // Independent channels y(t) = poles[i] · y(t−1) + e(t).
 ArxModel first_order(const std::vector<double>& poles) {
@@ -145,5 +145,5 @@ TEST(OutlineNoise, ASimulationHasTheVarianceThatWasPromised) {
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(squares[i] / kSteps / some_covariance()(i, i), 1, 0.06) << i;
 }
 
-}  // namespace outline_noise_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::outline_noise_test

@@ -6,8 +6,8 @@
 #include "learn/outline/made_outline.hpp"
 #include "learn/outline/outline_fit.hpp"
 
-namespace wisp {
-namespace outline_orders_test {
+namespace wisp::outline_orders_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -106,5 +106,5 @@ TEST(OutlineOrders, EveryCouplingCanBeSearched) {
   }
 }
 
-}  // namespace outline_orders_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::outline_orders_test

@@ -7,8 +7,8 @@
 #include "learn/outline/made_outline.hpp"
 #include "learn/outline/outline_fit.hpp"
 
-namespace wisp {
-namespace outline_ridge_test {
+namespace wisp::outline_ridge_test {
+namespace {
 
 // Control points that are shaken nearly alike: what one says its neighbours say too.
 std::vector<Recording> nearly_alike() {
@@ -48,5 +48,5 @@ TEST(OutlineRidge, PointsAloneHaveNone) {
   EXPECT_TRUE(choice.candidates.empty());
 }
 
-}  // namespace outline_ridge_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::outline_ridge_test

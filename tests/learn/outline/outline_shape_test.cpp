@@ -7,8 +7,8 @@
 
 #include "model/bspline.hpp"
 
-namespace wisp {
-namespace outline_shape_test {
+namespace wisp::outline_shape_test {
+namespace {
 
 using Polygon = std::vector<OutlinePoint>;
 
@@ -104,5 +104,5 @@ TEST(OutlineShape, NothingOverlapsNothing) {
   EXPECT_EQ(area_of(line), 0);
 }
 
-}  // namespace outline_shape_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::outline_shape_test

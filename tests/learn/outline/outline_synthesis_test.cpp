@@ -9,8 +9,8 @@
 #include "learn/arx/rows/arx_orders.hpp"
 #include "learn/fidelity/fidelity_marginal.hpp"
 
-namespace wisp {
-namespace outline_synthesis_test {
+namespace wisp::outline_synthesis_test {
+namespace {
 
 // y(t) = 0.5 y(t−1) + wind(t) + sd w(t), held between −2 − 2 and 2 + 2.
 Model first_order(double sd) {
@@ -101,5 +101,5 @@ TEST(OutlineSynthesis, AnInputThatIsNotThereIsRefused) {
   EXPECT_EQ(synthesize(first_order(0), {.input = &rain}).error().message, "rain.csv: there is no input wind");
 }
 
-}  // namespace outline_synthesis_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::outline_synthesis_test

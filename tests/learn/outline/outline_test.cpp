@@ -16,8 +16,8 @@
 #include "wisp/model/file.hpp"
 #include "wisp/run/cost.hpp"
 
-namespace wisp {
-namespace outline_test {
+namespace wisp::outline_test {
+namespace {
 
 OutlineFit learned(const made::OutlineRecipe& recipe, const OutlineRecipe& options = {}) {
   const std::vector recordings{made::outline_recording(recipe)};
@@ -342,5 +342,5 @@ TEST(Outline, RecordingsOfDifferentOutlinesAreRefused) {
   EXPECT_EQ(refused(recordings), "made 2: has 8 control points, but made 1 has 6; capture both with the same --points");
 }
 
-}  // namespace outline_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::outline_test

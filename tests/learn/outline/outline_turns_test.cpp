@@ -9,8 +9,8 @@
 #include "learn/outline/outline_fit.hpp"
 #include "learn/outline/outline_orders.hpp"
 
-namespace wisp {
-namespace outline_turns_test {
+namespace wisp::outline_turns_test {
+namespace {
 
 // Slow at first, from the cut on a flutter of nearly half the frame rate.
 Recording calm_then_fluttering(std::size_t rows, std::size_t cut) {
@@ -68,5 +68,5 @@ TEST(OutlineTurns, WhatIsJudgedInTurnIsLearnedFromAllOfIt) {
   EXPECT_EQ(std::get<ArxModel>(in_turn->model.dynamics).theta, std::get<ArxModel>(of_everything->model.dynamics).theta);
 }
 
-}  // namespace outline_turns_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::outline_turns_test

@@ -7,8 +7,8 @@
 
 #include "model/bspline.hpp"
 
-namespace wisp {
-namespace outline_units_test {
+namespace wisp::outline_units_test {
+namespace {
 
 // Four control points of a leaning outline in pixels, base moving to the right.
 Recording captured(std::size_t rows = 3) {
@@ -139,5 +139,5 @@ TEST(OutlineUnits, HeightIsThatOfTheChosenRows) {
   EXPECT_EQ(mean_height_pixels(recording, layout, std::vector<std::uint8_t>{0, 0, 0}), 0);
 }
 
-}  // namespace outline_units_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::outline_units_test

@@ -9,8 +9,8 @@
 #include "learn/outline/outline_fit.hpp"
 #include "learn/outline/outline_synthesis.hpp"
 
-namespace wisp {
-namespace outline_wind_test {
+namespace wisp::outline_wind_test {
+namespace {
 
 constexpr made::OutlineRecipe kWindy{.points = 6, .rows = 2400, .shock = 0.003, .wind = true};
 constexpr made::OutlineRecipe kFromBothSides{
@@ -167,5 +167,5 @@ TEST(OutlineWind, TheCalmHeightIsTheUnitHoweverHardItBlows) {
   EXPECT_NEAR(learned(hard).summary.pixels_per_unit / still, 1, 0.01);
 }
 
-}  // namespace outline_wind_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::outline_wind_test

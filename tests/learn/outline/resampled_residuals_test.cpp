@@ -10,8 +10,8 @@
 #include "learn/outline/made_outline.hpp"
 #include "learn/outline/outline_fit.hpp"
 
-namespace wisp {
-namespace resampled_residuals_test {
+namespace wisp::resampled_residuals_test {
+namespace {
 
 constexpr made::OutlineRecipe kWindy{.rows = 900, .wind = true};
 
@@ -117,5 +117,5 @@ TEST(OutlineDrawn, AModelAboutItsCalmIsTheSameModel) {
   for (int t = 5; t < 50; ++t) EXPECT_NEAR((*a)[0][t], (*b)[0][t], 1e-12) << t;
 }
 
-}  // namespace resampled_residuals_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::resampled_residuals_test

@@ -14,8 +14,8 @@
 #include "learn/outline/outline_synthesis.hpp"
 #include "model/bspline.hpp"
 
-namespace wisp {
-namespace validation_test {
+namespace wisp::validation_test {
+namespace {
 
 constexpr made::OutlineRecipe kWindy{.rows = 1200, .shock = 0.003, .wind = true};
 constexpr made::OutlineRecipe kCalm{.rows = 1200};
@@ -266,5 +266,5 @@ TEST(Validation, WhatDoesNotFitTheModelIsRefused) {
   EXPECT_NE(judge_outline(plain, unseen(kCalm)).error().message.find("not an outline model"), std::string::npos);
 }
 
-}  // namespace validation_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::validation_test

@@ -6,8 +6,8 @@
 #include "learn/switched/made_switched.hpp"
 #include "learn/switched/switched_fit.hpp"
 
-namespace wisp {
-namespace learn_switched_test {
+namespace wisp::learn_switched_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -64,5 +64,5 @@ TEST(LearnSwitched, StopsBetweenStarts) {
   EXPECT_EQ(calls, 5);
 }
 
-}  // namespace learn_switched_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::learn_switched_test

@@ -6,8 +6,8 @@
 #include "learn/switched/made_switched.hpp"
 #include "learn/switched/switched_fit.hpp"
 
-namespace wisp {
-namespace mode_difference_test {
+namespace wisp::mode_difference_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -69,5 +69,5 @@ TEST(ModeDifference, EveryPairIsComparedByItsOwnErrors) {
   EXPECT_NEAR(pairs[1].noise_ratio, 0.9 / 0.5, 1e-9);
 }
 
-}  // namespace mode_difference_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::mode_difference_test

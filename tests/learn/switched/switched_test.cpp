@@ -11,8 +11,8 @@
 #include "learn/switched/made_switched.hpp"
 #include "learn/switched/switched_prediction.hpp"
 
-namespace wisp {
-namespace switched_test {
+namespace wisp::switched_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -216,5 +216,5 @@ TEST(CommonLyapunov, IsNotFoundWhereSwitchingDiverges) {
   EXPECT_TRUE(find_common_lyapunov(model).empty());
 }
 
-}  // namespace switched_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::switched_test

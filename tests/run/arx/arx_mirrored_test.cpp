@@ -8,8 +8,8 @@
 #include "run/flame_model.hpp"
 #include "wisp/run/bank.hpp"
 
-namespace wisp {
-namespace arx_mirrored_test {
+namespace wisp::arx_mirrored_test {
+namespace {
 
 // Outputs and polylines of some seconds in a wind that swings from side to side.
 std::vector<float> played(const Model& model) {
@@ -63,5 +63,5 @@ TEST(MirroredOutputs, AreNotThoseThatDifferInAnything) {
       differs([](Model& model, ArxModel&) { model.outputs[14].lowest = 0.49, model.outputs[14].highest = 0.5; }));
 }
 
-}  // namespace arx_mirrored_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::arx_mirrored_test

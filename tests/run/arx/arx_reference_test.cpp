@@ -12,8 +12,8 @@
 #include "wisp/run/bank.hpp"
 #include "wisp/run/random.hpp"
 
-namespace wisp {
-namespace arx_reference_test {
+namespace wisp::arx_reference_test {
+namespace {
 
 // What an input is made into, as model/model.hpp says.
 std::vector<double> regressors_of(const Model& model, double input) {
@@ -247,5 +247,5 @@ TEST(ArxReference, SparseAndRaggedModelsAgree) {
   expect_agreement(model);
 }
 
-}  // namespace arx_reference_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::arx_reference_test

@@ -7,8 +7,8 @@
 
 #include "model/sample_switched.hpp"
 
-namespace wisp {
-namespace mode_program_test {
+namespace wisp::mode_program_test {
+namespace {
 
 // No word leads to a mode whose probability is 0, however sums of probabilities are rounded.
 TEST(ModeProgram, TheLastModeThatCanFollowTakesAllWordsThatAreLeft) {
@@ -25,5 +25,5 @@ TEST(ModeProgram, TheLastModeThatCanFollowTakesAllWordsThatAreLeft) {
                                                        kAnyWord, kAnyWord, 0U, kHalf, kAnyWord));
 }
 
-}  // namespace mode_program_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::mode_program_test

@@ -11,8 +11,8 @@
 #include "wisp/run/bank.hpp"
 #include "wisp/run/cost.hpp"
 
-namespace wisp {
-namespace resampled_residuals_test {
+namespace wisp::resampled_residuals_test {
+namespace {
 
 constexpr int kRows = 400;
 
@@ -237,5 +237,5 @@ TEST(ResampledResiduals, ARecordingFromTheOtherSideIsPlayedMirrored) {
   EXPECT_LT(*std::min_element(rows.begin(), rows.end()), 0);
 }
 
-}  // namespace resampled_residuals_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::resampled_residuals_test

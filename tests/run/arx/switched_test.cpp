@@ -12,8 +12,8 @@
 #include "wisp/run/cost.hpp"
 #include "wisp/run/switched_facet.hpp"
 
-namespace wisp {
-namespace switched_test {
+namespace wisp::switched_test {
+namespace {
 
 const SwitchedArxModel& switched(const Model& model) { return std::get<SwitchedArxModel>(model.dynamics); }
 
@@ -262,5 +262,5 @@ TEST(SwitchedBank, ManyStepsOfOneOutputKnowTheirMode) {
   EXPECT_EQ(bank.switched()->mode_of(bank.at(0)), 0);
 }
 
-}  // namespace switched_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::switched_test

@@ -11,8 +11,8 @@
 #include "run/flame_model.hpp"
 #include "wisp/run/bank.hpp"
 
-namespace wisp {
-namespace time_lanes_test {
+namespace wisp::time_lanes_test {
+namespace {
 
 bool is_there(const Model& model) {
   Arena measured;
@@ -169,5 +169,5 @@ TEST(TimeLanes, CompanyThatComesAndGoesChangesNothing) {
   }
 }
 
-}  // namespace time_lanes_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::time_lanes_test

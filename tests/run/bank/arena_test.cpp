@@ -4,8 +4,8 @@
 
 #include <vector>
 
-namespace wisp {
-namespace arena_test {
+namespace wisp::arena_test {
+namespace {
 
 TEST(Arena, AnArrayTakesWholeCacheLinesAndNoMore) {
   for (const auto& [count, bytes] :
@@ -20,5 +20,5 @@ TEST(Arena, AnArrayTakesWholeCacheLinesAndNoMore) {
   }
 }
 
-}  // namespace arena_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::arena_test

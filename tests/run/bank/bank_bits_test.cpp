@@ -9,8 +9,8 @@
 #include "run/flame_model.hpp"
 #include "wisp/run/bank.hpp"
 
-namespace wisp {
-namespace bank_bits_test {
+namespace wisp::bank_bits_test {
+namespace {
 
 const Model kFlame = flame_model({.wind = InputShape::kSplitSign, .noise_rank = 2});
 
@@ -136,5 +136,5 @@ TEST(BankBits, NoiseDoesNotRepeatItself) {
   }
 }
 
-}  // namespace bank_bits_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::bank_bits_test

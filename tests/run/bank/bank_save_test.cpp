@@ -12,8 +12,8 @@
 #include "run/flame_model.hpp"
 #include "wisp/run/bank.hpp"
 
-namespace wisp {
-namespace bank_save_test {
+namespace wisp::bank_save_test {
+namespace {
 
 using std::chrono::nanoseconds;
 using testing::HasSubstr;
@@ -199,5 +199,5 @@ TEST(SavedBank, DamageBehindAGoodHashNeverLeavesTheRange) {
   EXPECT_GT(refused, 1000);
 }
 
-}  // namespace bank_save_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::bank_save_test

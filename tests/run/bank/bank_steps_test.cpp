@@ -12,8 +12,8 @@
 #include "wisp/run/bank.hpp"
 #include "wisp/run/extinction_facet.hpp"
 
-namespace wisp {
-namespace bank_steps_test {
+namespace wisp::bank_steps_test {
+namespace {
 
 constexpr int kInstances = 150, kSteps = 37;
 
@@ -107,5 +107,5 @@ TEST(BankSteps, AFlameGoesOutAtTheSameStepInALongFrame) {
   EXPECT_EQ(saved(bank), saved(expected));
 }
 
-}  // namespace bank_steps_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::bank_steps_test

@@ -9,8 +9,8 @@
 #include "model/sample_model.hpp"
 #include "run/flame_model.hpp"
 
-namespace wisp {
-namespace bank_test {
+namespace wisp::bank_test {
+namespace {
 
 using std::chrono::nanoseconds;
 using testing::Each;
@@ -394,5 +394,5 @@ TEST(Bank, MovesAsAValue) {
   EXPECT_EQ(moved.output_count(), 8);
 }
 
-}  // namespace bank_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::bank_test

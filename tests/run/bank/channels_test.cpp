@@ -8,8 +8,8 @@
 
 #include "wisp/model/input_curve.hpp"
 
-namespace wisp {
-namespace channels_test {
+namespace wisp::channels_test {
+namespace {
 
 // The pieces of a curve, as a bank has them.
 class Pieces {
@@ -78,5 +78,5 @@ TEST(Curve, NeverFallsNotEvenByRounding) {
   }
 }
 
-}  // namespace channels_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::channels_test

@@ -4,8 +4,8 @@
 
 #include "run/flame_model.hpp"
 
-namespace wisp {
-namespace cost_test {
+namespace wisp::cost_test {
+namespace {
 
 Cost cost_of(const Model& model, int polyline_points = 0) {
   const auto cost = count_operations(model, polyline_points);
@@ -150,5 +150,5 @@ TEST(Cost, ABadModelHasNone) {
   EXPECT_FALSE(count_operations(model));
 }
 
-}  // namespace cost_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::cost_test

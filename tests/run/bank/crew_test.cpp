@@ -13,8 +13,8 @@
 #include "wisp/run/bank.hpp"
 #include "wisp/run/chain_facet.hpp"
 
-namespace wisp {
-namespace crew_test {
+namespace wisp::crew_test {
+namespace {
 
 constexpr int kInstances = 531;
 
@@ -114,5 +114,5 @@ TEST(Crew, GoesAndComes) {
   EXPECT_EQ(threads.runs, before);
 }
 
-}  // namespace crew_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::crew_test

@@ -14,8 +14,8 @@
 #include "wisp/run/cost.hpp"
 #include "wisp/run/extinction_facet.hpp"
 
-namespace wisp {
-namespace extinction_test {
+namespace wisp::extinction_test {
+namespace {
 
 using std::chrono::nanoseconds;
 
@@ -494,5 +494,5 @@ TEST(Extinction, ItsCostIsCountedAndSmall) {
   EXPECT_EQ(cost->multiply_adds_per_frame, without->multiply_adds_per_frame);
 }
 
-}  // namespace extinction_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::extinction_test

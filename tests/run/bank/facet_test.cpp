@@ -10,8 +10,8 @@
 #include "wisp/run/extinction_facet.hpp"
 #include "wisp/run/switched_facet.hpp"
 
-namespace wisp {
-namespace facet_test {
+namespace wisp::facet_test {
+namespace {
 
 Bank bank_of(const Model& model) {
   auto bank = Bank::create(model);
@@ -65,5 +65,5 @@ TEST(Facets, TheModeOfAPlaceIsThatOfItsSegment) {
   }
 }
 
-}  // namespace facet_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::facet_test

@@ -11,8 +11,8 @@
 #include "run/bank/frame_path.hpp"
 #include "run/flame_model.hpp"
 
-namespace wisp {
-namespace frame_path_choice_test {
+namespace wisp::frame_path_choice_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -103,5 +103,5 @@ TEST(FramePathChoice, OfAWidthThatIsNotThereIsAnError) {
   EXPECT_THAT(bank.error().message, HasSubstr("WISP_WIDTH is 'mmx', this machine has baseline"));
 }
 
-}  // namespace frame_path_choice_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::frame_path_choice_test

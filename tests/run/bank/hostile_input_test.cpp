@@ -12,8 +12,8 @@
 #include "run/flame_model.hpp"
 #include "wisp/run/bank.hpp"
 
-namespace wisp {
-namespace hostile_input_test {
+namespace wisp::hostile_input_test {
+namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
@@ -146,5 +146,5 @@ TEST(HostileInput, HeldFramesAreCounted) {
   EXPECT_EQ(calm->clamped().clamped, 0U);
 }
 
-}  // namespace hostile_input_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::hostile_input_test

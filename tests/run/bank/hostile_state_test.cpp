@@ -18,8 +18,8 @@
 #include "wisp/run/bank.hpp"
 #include "wisp/run/chain_facet.hpp"
 
-namespace wisp {
-namespace hostile_state_test {
+namespace wisp::hostile_state_test {
+namespace {
 
 constexpr std::size_t kHeader = 32, kFields = 14 * 8, kSlot = 24;
 
@@ -129,5 +129,5 @@ TEST(HostileChain, WhatFollowsIsAWholeNumber) {
   }
 }
 
-}  // namespace hostile_state_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::hostile_state_test

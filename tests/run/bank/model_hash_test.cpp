@@ -13,8 +13,8 @@
 #include "run/flame_model.hpp"
 #include "wisp/run/bank.hpp"
 
-namespace wisp {
-namespace model_hash_test {
+namespace wisp::model_hash_test {
+namespace {
 
 // What is changed, and how.
 using Changes = std::vector<std::pair<std::string, std::function<void(Model&)>>>;
@@ -173,5 +173,5 @@ TEST(ModelHash, TellsSystemsApart) {
                 });
 }
 
-}  // namespace model_hash_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::model_hash_test

@@ -10,8 +10,8 @@
 #include "model/bspline.hpp"
 #include "wisp/run/random.hpp"
 
-namespace wisp {
-namespace outline_lanes_test {
+namespace wisp::outline_lanes_test {
+namespace {
 
 constexpr int kLanes = LiveNumbers::kLanes;
 
@@ -90,5 +90,5 @@ TEST(Polyline, BeginsAndEndsInControlPoints) {
   EXPECT_EQ(ends, 3);
 }
 
-}  // namespace outline_lanes_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::outline_lanes_test

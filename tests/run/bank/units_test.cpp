@@ -11,8 +11,8 @@
 #include "run/flame_model.hpp"
 #include "wisp/run/bank.hpp"
 
-namespace wisp {
-namespace units_test {
+namespace wisp::units_test {
+namespace {
 
 // What a number becomes where the unit is so many times smaller.
 struct Units {
@@ -121,5 +121,5 @@ TEST(Units, NoUnitChangesWhatIsPlayed) {
   }
 }
 
-}  // namespace units_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::units_test

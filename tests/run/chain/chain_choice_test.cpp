@@ -5,8 +5,8 @@
 #include <array>
 #include <vector>
 
-namespace wisp {
-namespace chain_choice_test {
+namespace wisp::chain_choice_test {
+namespace {
 
 TEST(ChainChoice, OfModesThatAreAsLikelyTheFirstIsTaken) {
   std::array<std::uint32_t, 4> threshold{0x20000000U, 0x80000000U, 0xe0000000U, 0xffffffffU};
@@ -20,5 +20,5 @@ TEST(ChainChoice, OfModesThatAreAsLikelyTheFirstIsTaken) {
   EXPECT_EQ(choice.mode(program, 0, {}), 1U);
 }
 
-}  // namespace chain_choice_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::chain_choice_test

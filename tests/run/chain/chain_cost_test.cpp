@@ -11,8 +11,8 @@
 #include "run/lanes/counting.hpp"
 #include "wisp/run/cost.hpp"
 
-namespace wisp {
-namespace chain_cost_test {
+namespace wisp::chain_cost_test {
+namespace {
 
 TEST(ChainCost, PlacementAsThePaperJoinsTakesAtMost31OperationsAFrame) {
   Model model = unblended();
@@ -195,5 +195,5 @@ TEST(ChainCost, ComingToRestTakesAtMost300OperationsAFrame) {
   }
 }
 
-}  // namespace chain_cost_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::chain_cost_test

@@ -12,8 +12,8 @@
 #include "wisp/run/bank.hpp"
 #include "wisp/run/chain_facet.hpp"
 
-namespace wisp {
-namespace chain_crowd_test {
+namespace wisp::chain_crowd_test {
+namespace {
 
 using poses::bank_of;
 
@@ -118,5 +118,5 @@ TEST(ChainCrowd, AnInstanceLivesTheSameLifeAmongManyAsAlone) {
   }
 }
 
-}  // namespace chain_crowd_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::chain_crowd_test

@@ -15,8 +15,8 @@
 #include "wisp/run/bank.hpp"
 #include "wisp/run/chain_facet.hpp"
 
-namespace wisp {
-namespace chain_joins_test {
+namespace wisp::chain_joins_test {
+namespace {
 
 using poses::agreement;
 using poses::bank_of;
@@ -247,5 +247,5 @@ TEST(ChainBank, APositionsHeadingAtTheEndOfASegmentIsThatOfTheNext) {
   EXPECT_GT(joins, 30);
 }
 
-}  // namespace chain_joins_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::chain_joins_test

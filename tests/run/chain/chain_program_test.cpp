@@ -7,8 +7,8 @@
 
 #include "model/sample_chain.hpp"
 
-namespace wisp {
-namespace chain_program_test {
+namespace wisp::chain_program_test {
+namespace {
 
 class Program {
  public:
@@ -45,5 +45,5 @@ TEST(ChainProgram, MeanStepsAreThoseOfItsSegments) {
   EXPECT_FLOAT_EQ(Program(steered_chain())->mean_steps, (8 + 5 + 12) / 3.0f);
 }
 
-}  // namespace chain_program_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::chain_program_test

@@ -11,8 +11,8 @@
 #include "wisp/run/chain_facet.hpp"
 #include "wisp/run/cost.hpp"
 
-namespace wisp {
-namespace chain_systems_test {
+namespace wisp::chain_systems_test {
+namespace {
 
 using Pose = std::array<float, 7>;
 
@@ -103,5 +103,5 @@ TEST(ChainSystems, CostWhatTheirTermsDo) {
   EXPECT_EQ(ode->operations_per_frame - linear->operations_per_frame, 45 * 13);
 }
 
-}  // namespace chain_systems_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::chain_systems_test

@@ -15,8 +15,8 @@
 #include "wisp/run/bank.hpp"
 #include "wisp/run/chain_facet.hpp"
 
-namespace wisp {
-namespace chain_test {
+namespace wisp::chain_test {
+namespace {
 
 using poses::bank_of;
 using poses::Pose;
@@ -358,5 +358,5 @@ TEST(ChainBank, LanesThatNobodyLivesInAreNotMoved) {
   }
 }
 
-}  // namespace chain_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::chain_test

@@ -10,8 +10,8 @@
 #include "wisp/run/bank.hpp"
 #include "wisp/run/chain_facet.hpp"
 
-namespace wisp {
-namespace chain_world_test {
+namespace wisp::chain_world_test {
+namespace {
 
 using Pose = std::array<float, 7>;
 
@@ -420,5 +420,5 @@ TEST(ChainPlace, RefusesWhatIsNoBody) {
   EXPECT_TRUE(bank.chain()->place(id, {}));
 }
 
-}  // namespace chain_world_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::chain_world_test

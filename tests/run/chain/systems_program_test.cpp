@@ -6,8 +6,8 @@
 
 #include "model/sample_chain.hpp"
 
-namespace wisp {
-namespace systems_program_test {
+namespace wisp::systems_program_test {
+namespace {
 
 TEST(SystemsProgram, HoldsAllOfEachMode) {
   ModeSystems systems = *std::get<ChainModel>(system_chain(2).dynamics).systems;
@@ -37,5 +37,5 @@ TEST(SystemsProgram, HoldsAllOfEachMode) {
   }
 }
 
-}  // namespace systems_program_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::systems_program_test

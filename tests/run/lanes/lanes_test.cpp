@@ -6,8 +6,8 @@
 #include <bit>
 #include <cstdint>
 
-namespace wisp {
-namespace lanes_test {
+namespace wisp::lanes_test {
+namespace {
 
 std::array<float, LiveNumbers::kLanes> settled(float value) {
   std::array<float, LiveNumbers::kLanes> lanes{};
@@ -24,5 +24,5 @@ TEST(Lanes, WhatIsNearlyZeroIsZeroOfNoSign) {
   }
 }
 
-}  // namespace lanes_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::lanes_test

@@ -8,8 +8,8 @@
 
 #include "run/lanes/random_lanes.hpp"
 
-namespace wisp {
-namespace random_test {
+namespace wisp::random_test {
+namespace {
 
 using Block = std::array<std::uint32_t, 4>;
 
@@ -158,5 +158,5 @@ TEST(NormalPair, NeighboursAreNotCorrelated) {
   for (const double sum : {by_step, by_stream, by_word, within, squares}) EXPECT_LT(std::abs(sum) / kPairs, bound);
 }
 
-}  // namespace random_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::random_test

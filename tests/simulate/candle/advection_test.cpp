@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-namespace wisp::flow {
-namespace advection_test {
+namespace wisp::flow::advection_test {
+namespace {
 
 const FlowGrid kGrid{20, 16, 0.5F};
 
@@ -102,5 +102,5 @@ TEST(Advection, RoundsToZeroWhatIsFarBelowAnything) {
   EXPECT_EQ(to[kGrid.at(10, 10)][kFuel], 0.0F);
 }
 
-}  // namespace advection_test
-}  // namespace wisp::flow
+}  // namespace
+}  // namespace wisp::flow::advection_test

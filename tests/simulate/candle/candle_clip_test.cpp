@@ -9,8 +9,8 @@
 
 #include "simulate/candle/candle_rig.hpp"
 
-namespace wisp {
-namespace candle_clip_test {
+namespace wisp::candle_clip_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -151,5 +151,5 @@ TEST(CandleClip, ACandleInTheMiddleHasRoomOnBothSides) {
   EXPECT_DOUBLE_EQ(options.camera.wick_x, 0.5);
 }
 
-}  // namespace candle_clip_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::candle_clip_test

@@ -10,8 +10,8 @@
 
 // What takes minutes (both grids, all winds, long runs, resolution) is in studies/rig/verify_rig.cpp.
 
-namespace wisp {
-namespace candle_rig_test {
+namespace wisp::candle_rig_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -127,5 +127,5 @@ TEST(CandleRig, SaysWhichOptionIsWrong) {
   EXPECT_THAT(CandleRig::create(options).error().message, HasSubstr("more rows"));
 }
 
-}  // namespace candle_rig_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::candle_rig_test

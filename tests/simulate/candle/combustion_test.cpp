@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-namespace wisp::flow {
-namespace combustion_test {
+namespace wisp::flow::combustion_test {
+namespace {
 
 const FlowGrid kGrid{16, 16, 1e-3F};
 constexpr float kStep = 1.0F / 1200;
@@ -56,5 +56,5 @@ TEST(Combustion, GlowsWithItsTemperature) {
   EXPECT_EQ(light[kGrid.at(3, 1)], 0.0F);
 }
 
-}  // namespace combustion_test
-}  // namespace wisp::flow
+}  // namespace
+}  // namespace wisp::flow::combustion_test

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-namespace wisp::flow {
-namespace contour_test {
+namespace wisp::flow::contour_test {
+namespace {
 
 std::vector<float> hill(int columns, int rows, double x, double y, double radius) {
   std::vector<float> values;
@@ -38,5 +38,5 @@ TEST(Contour, OfASaddleFollowsTheSquaresMean) {
   EXPECT_EQ(closed_contours(apart, 4, 4, 0.4F).size(), 1U);
 }
 
-}  // namespace contour_test
-}  // namespace wisp::flow
+}  // namespace
+}  // namespace wisp::flow::contour_test

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-namespace wisp::flow {
-namespace diffusion_test {
+namespace wisp::flow::diffusion_test {
+namespace {
 
 const FlowGrid kGrid{32, 24, 1.0F};
 
@@ -78,5 +78,5 @@ TEST(Diffusion, LeavesLanesAloneThatDoNotDiffuse) {
   EXPECT_FLOAT_EQ(values[kGrid.at(11, 10)][kFuel], values[kGrid.at(9, 10)][kFuel]);
 }
 
-}  // namespace diffusion_test
-}  // namespace wisp::flow
+}  // namespace
+}  // namespace wisp::flow::diffusion_test

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-namespace wisp {
-namespace flame_outline_test {
+namespace wisp::flame_outline_test {
+namespace {
 
 // Light that is 1 inside a teardrop of given height leaning by an angle, with an edge two cells wide.
 FlameLight teardrop(double height, double lean_degrees) {
@@ -80,5 +80,5 @@ TEST(FlameOutline, OfAFlameThatLeavesTheGridIsClosedAlongItsRim) {
   EXPECT_NEAR(outline.tip.y, 20, 1);
 }
 
-}  // namespace flame_outline_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::flame_outline_test

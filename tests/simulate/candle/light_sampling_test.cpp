@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-namespace wisp::flow {
-namespace light_sampling_test {
+namespace wisp::flow::light_sampling_test {
+namespace {
 
 double sampled(const std::vector<float>& values, int columns, int rows, double x, double y) {
   const SamplePlaces across = sample_places(1, x, 1, columns);
@@ -30,5 +30,5 @@ TEST(LightSampling, FadesToNothingOutside) {
   EXPECT_EQ(sampled(values, 8, 8, 3.5, 40), 0);
 }
 
-}  // namespace light_sampling_test
-}  // namespace wisp::flow
+}  // namespace
+}  // namespace wisp::flow::light_sampling_test

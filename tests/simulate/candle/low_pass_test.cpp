@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-namespace wisp::flow {
-namespace low_pass_test {
+namespace wisp::flow::low_pass_test {
+namespace {
 
 double gain_at(double frequency_hz) {
   LowPass filter(300, 44100);
@@ -35,5 +35,5 @@ TEST(LowPass, KeepsThePowerOfWhiteNoise) {
   EXPECT_NEAR(energy, 1, 1e-9);
 }
 
-}  // namespace low_pass_test
-}  // namespace wisp::flow
+}  // namespace
+}  // namespace wisp::flow::low_pass_test

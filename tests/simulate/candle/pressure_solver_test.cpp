@@ -6,8 +6,8 @@
 
 #include "simulate/random_numbers.hpp"
 
-namespace wisp::flow {
-namespace pressure_solver_test {
+namespace wisp::flow::pressure_solver_test {
+namespace {
 
 // Hot gas in the middle, a solid block below it, walls at the bottom, open elsewhere: what a candle makes of it.
 void set_candle_like(const FlowGrid& grid, PressureSolver& solver) {
@@ -101,5 +101,5 @@ TEST(PressureSolver, WorksOnSidesThatCannotBeHalved) {
   EXPECT_LE(solver.solve(1e-3F, 400).residual, 1e-3F);
 }
 
-}  // namespace pressure_solver_test
-}  // namespace wisp::flow
+}  // namespace
+}  // namespace wisp::flow::pressure_solver_test

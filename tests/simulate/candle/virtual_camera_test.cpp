@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-namespace wisp {
-namespace virtual_camera_test {
+namespace wisp::virtual_camera_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -106,5 +106,5 @@ TEST(VirtualCamera, SaysWhichOptionIsWrong) {
   EXPECT_THAT(VirtualCamera::create({.gain = -1}).error().message, HasSubstr("gain"));
 }
 
-}  // namespace virtual_camera_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::virtual_camera_test

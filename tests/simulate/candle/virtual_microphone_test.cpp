@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-namespace wisp {
-namespace virtual_microphone_test {
+namespace wisp::virtual_microphone_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -103,5 +103,5 @@ TEST(VirtualMicrophone, SaysWhichOptionIsWrong) {
   EXPECT_THAT(VirtualMicrophone::create({.rate_hz = 8000, .corner_hz = 4500}).error().message, HasSubstr("corner_hz"));
 }
 
-}  // namespace virtual_microphone_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::virtual_microphone_test

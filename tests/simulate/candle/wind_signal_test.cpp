@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-namespace wisp {
-namespace wind_signal_test {
+namespace wisp::wind_signal_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -130,5 +130,5 @@ TEST(WindSignal, SaysWhichOptionIsWrong) {
   EXPECT_THAT(WindSignal::generate({.rest_share = 1}, 5).error().message, HasSubstr("rest_share"));
 }
 
-}  // namespace wind_signal_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::wind_signal_test

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-namespace wisp {
-namespace leaf_cost_test {
+namespace wisp::leaf_cost_test {
+namespace {
 
 TEST(LeafCost, OfAnEvaluationIsAFewHundredOperations) {
   const LeafCost cost = count_leaf_operations({}, LeafMethod::kRalston);
@@ -29,5 +29,5 @@ TEST(LeafCost, OfAStepIsItsEvaluationsAndALittle) {
   }
 }
 
-}  // namespace leaf_cost_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::leaf_cost_test

@@ -7,8 +7,8 @@
 
 #include <cmath>
 
-namespace wisp {
-namespace leaf_drops_test {
+namespace wisp::leaf_drops_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -169,5 +169,5 @@ TEST(LeafDrops, ThatCannotBeMadeAreExplained) {
   EXPECT_THAT(simulate_leaf_pairs(pairs).error().message, HasSubstr("clones"));
 }
 
-}  // namespace leaf_drops_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::leaf_drops_test

@@ -7,8 +7,8 @@
 
 #include <cmath>
 
-namespace wisp {
-namespace leaf_flight_test {
+namespace wisp::leaf_flight_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -151,5 +151,5 @@ TEST(LeafFlight, AStrongWindCarriesTheLeafAlong) {
   }
 }
 
-}  // namespace leaf_flight_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::leaf_flight_test

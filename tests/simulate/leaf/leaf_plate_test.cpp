@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace wisp {
-namespace leaf_plate_test {
+namespace wisp::leaf_plate_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -62,5 +62,5 @@ TEST(Plate, ThatCannotBeWatchedIsExplained) {
   EXPECT_THAT(watch_plate(1, 300, 200).error().message, HasSubstr("from"));
 }
 
-}  // namespace leaf_plate_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::leaf_plate_test

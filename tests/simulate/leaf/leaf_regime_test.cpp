@@ -8,8 +8,8 @@
 #include "simulate/leaf/leaf_flight.hpp"
 #include "simulate/random_numbers.hpp"
 
-namespace wisp {
-namespace leaf_regime_test {
+namespace wisp::leaf_regime_test {
+namespace {
 
 constexpr double kFrame = 1.0 / 60;
 
@@ -107,5 +107,5 @@ TEST(LeafRegime, IsTheSameByTheStiffMethodAndByFixedSteps) {
   EXPECT_NEAR(mean(fixed, &Fall::stalls), mean(stiff, &Fall::stalls), 4 * 0.35 * std::sqrt(1 / 60.0 + 1 / 30.0));
 }
 
-}  // namespace leaf_regime_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::leaf_regime_test

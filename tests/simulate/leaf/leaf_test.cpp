@@ -10,8 +10,8 @@
 
 #include "simulate/random_numbers.hpp"
 
-namespace wisp {
-namespace leaf_test {
+namespace wisp::leaf_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -148,5 +148,5 @@ TEST(LeafCheck, NamesWhatIsOutOfRange) {
   EXPECT_EQ(message([](Leaf&) {}), "good");
 }
 
-}  // namespace leaf_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::leaf_test

@@ -7,8 +7,8 @@
 
 #include <cmath>
 
-namespace wisp {
-namespace leaf_wind_test {
+namespace wisp::leaf_wind_test {
+namespace {
 
 using testing::HasSubstr;
 using Triple = std::array<double, 3>;
@@ -124,5 +124,5 @@ TEST(LeafWind, ThatCannotBlowIsExplained) {
   EXPECT_THAT(LeafWind::create(options, 1).error().message, HasSubstr("gust_seconds"));
 }
 
-}  // namespace leaf_wind_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::leaf_wind_test

@@ -10,8 +10,8 @@
 #include <complex>
 #include <vector>
 
-namespace wisp::baselines {
-namespace dynamic_texture_test {
+namespace wisp::baselines::dynamic_texture_test {
+namespace {
 
 constexpr Eigen::Index kFrames = 20000;
 
@@ -86,5 +86,5 @@ TEST(DynamicTexture, IsMadeStable) {
   EXPECT_LE(texture.a.eigenvalues().cwiseAbs().maxCoeff(), 0.999 + 1e-12);
 }
 
-}  // namespace dynamic_texture_test
-}  // namespace wisp::baselines
+}  // namespace
+}  // namespace wisp::baselines::dynamic_texture_test

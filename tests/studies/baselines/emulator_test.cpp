@@ -7,8 +7,8 @@
 #include <Eigen/LU>
 #include <cmath>
 
-namespace wisp::baselines {
-namespace emulator_test {
+namespace wisp::baselines::emulator_test {
+namespace {
 
 // Known: y(t) = 0.8 y(t−1) + 0.5 tanh(3 u(t)) − 0.2 u(t)², which no linear model follows.
 double known(double y, double wind) { return 0.8 * y + 0.5 * std::tanh(3 * wind) - 0.2 * wind * wind; }
@@ -86,5 +86,5 @@ TEST(Emulator, LearnsTheSameFromTheSameSeed) {
   EXPECT_EQ(learn_emulator(frames, few).w1, learn_emulator(frames, few).w1);
 }
 
-}  // namespace emulator_test
-}  // namespace wisp::baselines
+}  // namespace
+}  // namespace wisp::baselines::emulator_test

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-namespace wisp::baselines {
-namespace video_texture_test {
+namespace wisp::baselines::video_texture_test {
+namespace {
 
 constexpr int kTurn = 40;  // frames a turn
 
@@ -79,5 +79,5 @@ TEST(VideoTexture, SteeredGoesWhereTheWindIsAsItIsNow) {
   }
 }
 
-}  // namespace video_texture_test
-}  // namespace wisp::baselines
+}  // namespace
+}  // namespace wisp::baselines::video_texture_test

@@ -10,8 +10,8 @@
 #include "record/verdict.hpp"
 #include "wisp/capture/clip/clip_capture.hpp"
 
-namespace wisp {
-namespace fall_capture_test {
+namespace wisp::fall_capture_test {
+namespace {
 
 using support::Plane;
 using testing::HasSubstr;
@@ -487,5 +487,5 @@ TEST(FallCapture, WhatMovesIsSeenWhileItIsFilmed) {
   EXPECT_GE(seen.moving.bottom(), at.y);
 }
 
-}  // namespace fall_capture_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::fall_capture_test

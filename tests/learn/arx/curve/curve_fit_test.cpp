@@ -13,8 +13,8 @@
 #include "learn/arx/curve/curve_choice.hpp"
 #include "learn/arx/fit/arx_fit.hpp"
 
-namespace wisp {
-namespace curve_fit_test {
+namespace wisp::curve_fit_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -212,5 +212,5 @@ TEST(CurveChoice, AnInputOfTwoValuesHasNone) {
   EXPECT_THAT(choice.reason, HasSubstr("too few values"));
 }
 
-}  // namespace curve_fit_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::curve_fit_test

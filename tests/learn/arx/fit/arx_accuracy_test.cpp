@@ -10,8 +10,8 @@
 #include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/rows/arx_orders.hpp"
 
-namespace wisp {
-namespace arx_accuracy_test {
+namespace wisp::arx_accuracy_test {
+namespace {
 
 using Wide = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<60>>;
 
@@ -202,5 +202,5 @@ TEST(ArxAccuracy, ConditionOfTenMillionFromAnOversampledSystemCostsFewDigits) {
   EXPECT_LT(got.loss, 1e-7);
 }
 
-}  // namespace arx_accuracy_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::arx_accuracy_test

@@ -7,8 +7,8 @@
 
 #include "learn/arx/rows/arx_orders.hpp"
 
-namespace wisp {
-namespace arx_fit_test {
+namespace wisp::arx_fit_test {
+namespace {
 
 // y(t) = 1.5 y(t−1) − 0.7 y(t−2) + u(t−1) + 0.5 u(t−2), without noise, about an operating point.
 Recording second_order(std::size_t rows) {
@@ -42,5 +42,5 @@ TEST(ArxFit, FindsTheCoefficientsOfNoiselessData) {
   EXPECT_TRUE(check(fit->model));
 }
 
-}  // namespace arx_fit_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::arx_fit_test

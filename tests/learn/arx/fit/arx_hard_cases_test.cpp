@@ -10,8 +10,8 @@
 #include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/rows/arx_orders.hpp"
 
-namespace wisp {
-namespace arx_hard_cases_test {
+namespace wisp::arx_hard_cases_test {
+namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
@@ -239,5 +239,5 @@ TEST(ArxHardCases, FirstSampleBeforeTheLongestLagIsAnError) {
   EXPECT_EQ(fit(second_order(300), early).summary.samples_used, 290u);
 }
 
-}  // namespace arx_hard_cases_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::arx_hard_cases_test

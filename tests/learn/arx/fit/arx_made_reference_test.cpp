@@ -14,8 +14,8 @@
 #include "learn/shared_files.hpp"
 #include "paths.hpp"
 
-namespace wisp {
-namespace arx_made_reference_test {
+namespace wisp::arx_made_reference_test {
+namespace {
 
 using shared::Json;
 
@@ -188,5 +188,5 @@ TEST(ArxMadeReference, AGridOfOrdersAgreesInAllRows) {
             (std::vector<double>(best.begin(), best.begin() + 3)));
 }
 
-}  // namespace arx_made_reference_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::arx_made_reference_test

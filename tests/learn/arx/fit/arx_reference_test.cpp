@@ -15,8 +15,8 @@
 #include "learn/arx/search/order_search.hpp"
 #include "learn/shared_files.hpp"
 
-namespace wisp {
-namespace arx_reference_test {
+namespace wisp::arx_reference_test {
+namespace {
 
 ChannelChoice channels_of(const Recording& recording) {
   ChannelChoice choice;
@@ -217,5 +217,5 @@ TEST_F(ArxReference, OneStepFitOfRobotArmAndFlutterHidesBadFreeSimulationAndIsWa
   }
 }
 
-}  // namespace arx_reference_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::arx_reference_test

@@ -10,8 +10,8 @@
 #include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/rows/arx_orders.hpp"
 
-namespace wisp {
-namespace arx_stability_test {
+namespace wisp::arx_stability_test {
+namespace {
 
 constexpr double kMax = 0.999;
 
@@ -191,5 +191,5 @@ TEST(StableFit, UnstableEstimateIsLeftAloneWhereAskedAndIsNotUsable) {
   EXPECT_NE(fit->summary.usable.reason.find("unstable"), std::string::npos);
 }
 
-}  // namespace arx_stability_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::arx_stability_test

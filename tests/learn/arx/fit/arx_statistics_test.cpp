@@ -9,8 +9,8 @@
 #include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/rows/arx_orders.hpp"
 
-namespace wisp {
-namespace arx_statistics_test {
+namespace wisp::arx_statistics_test {
+namespace {
 
 // Coefficients of Π (1 − p q⁻¹) without the leading 1.
 std::vector<double> polynomial(const std::vector<std::complex<double>>& poles) {
@@ -167,5 +167,5 @@ TEST(ArxStatistics, NoiseCovarianceIsThatOfTheNoise) {
   }
 }
 
-}  // namespace arx_statistics_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::arx_statistics_test

@@ -10,8 +10,8 @@
 #include "learn/arx/judge/response.hpp"
 #include "learn/arx/rows/arx_orders.hpp"
 
-namespace wisp::arx {
-namespace kernel_prior_test {
+namespace wisp::arx::kernel_prior_test {
+namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -106,5 +106,5 @@ TEST(KernelPrior, FindsAStepResponseThatLeastSquaresLosesInNoise) {
   EXPECT_LT(error_with(ArxKernel::kTc), 0.15) << "of a gain of 1";
 }
 
-}  // namespace kernel_prior_test
-}  // namespace wisp::arx
+}  // namespace
+}  // namespace wisp::arx::kernel_prior_test

@@ -7,8 +7,8 @@
 
 #include "learn/arx/learn_arx.hpp"
 
-namespace wisp {
-namespace arx_verdict_test {
+namespace wisp::arx_verdict_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -117,5 +117,5 @@ TEST(ArxVerdict, ASimulationThatRunsAwayIsToldInAWord) {
   EXPECT_THAT(summary.usable.reason, HasSubstr("it diverges"));
 }
 
-}  // namespace arx_verdict_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::arx_verdict_test

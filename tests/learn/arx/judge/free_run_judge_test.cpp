@@ -9,8 +9,8 @@
 
 #include "learn/arx/rows/arx_orders.hpp"
 
-namespace wisp {
-namespace free_run_judge_test {
+namespace wisp::free_run_judge_test {
+namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
@@ -91,5 +91,5 @@ TEST(FreeRunJudge, NothingThatCanBeSimulatedIsAnError) {
   EXPECT_FALSE(judge.figures());
 }
 
-}  // namespace free_run_judge_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::free_run_judge_test

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-namespace wisp::arx {
-namespace free_run_parts_test {
+namespace wisp::arx::free_run_parts_test {
+namespace {
 
 // y(t) = a y(t-1) + u(t-1), u a square wave.
 Recording made(double a, std::size_t rows) {
@@ -70,5 +70,5 @@ TEST(FreeRunParts, WhatIsBetterInEveryPartIsSure) {
   EXPECT_NEAR(standard_errors_below(mixed, one), 0, 1e-12);
 }
 
-}  // namespace free_run_parts_test
-}  // namespace wisp::arx
+}  // namespace
+}  // namespace wisp::arx::free_run_parts_test

@@ -8,8 +8,8 @@
 #include "learn/arx/made_system.hpp"
 #include "learn/arx/rows/arx_orders.hpp"
 
-namespace wisp {
-namespace prediction_test {
+namespace wisp::prediction_test {
+namespace {
 
 constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kHistory = 3;  // of made_system
@@ -215,5 +215,5 @@ TEST(PredictionSd, IntervalsHoldAsOftenAsTheySay) {
   }
 }
 
-}  // namespace prediction_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::prediction_test

@@ -8,8 +8,8 @@
 #include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/rows/arx_orders.hpp"
 
-namespace wisp {
-namespace residual_tests_test {
+namespace wisp::residual_tests_test {
+namespace {
 
 struct Truth {
   double a1 = -1.2;
@@ -103,5 +103,5 @@ TEST(ResidualTests, NeedRowsEnough) {
   EXPECT_NE(tests.error().message.find("59 rows"), std::string::npos);
 }
 
-}  // namespace residual_tests_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::residual_tests_test

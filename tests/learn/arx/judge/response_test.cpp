@@ -8,8 +8,8 @@
 
 #include "learn/arx/rows/arx_orders.hpp"
 
-namespace wisp {
-namespace response_test {
+namespace wisp::response_test {
+namespace {
 
 using Complex = std::complex<double>;
 
@@ -143,5 +143,5 @@ TEST(FrequencyResponse, DeviationsAreThoseOfTheLinearisedResponse) {
   }
 }
 
-}  // namespace response_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::response_test

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-namespace wisp {
-namespace arx_orders_test {
+namespace wisp::arx_orders_test {
+namespace {
 
 std::vector<int> values(const OrderMatrix& matrix) { return {matrix.values().begin(), matrix.values().end()}; }
 
@@ -24,5 +24,5 @@ TEST(MakeOrders, BandCouplingReachesNearestNeighbours) {
   EXPECT_EQ(values(orders.na), std::vector<int>({1, 1, 0, 0, 1, 1, 1, 0, 0, 1, 1, 1, 0, 0, 1, 1}));
 }
 
-}  // namespace arx_orders_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::arx_orders_test

@@ -10,8 +10,8 @@
 #include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/made_system.hpp"
 
-namespace wisp {
-namespace order_search_test {
+namespace wisp::order_search_test {
+namespace {
 
 using ::testing::HasSubstr;
 
@@ -227,5 +227,5 @@ TEST(EstimateDelays, FindsEveryInputsDelayToEveryOutput) {
   EXPECT_EQ(*delays, nk);
 }
 
-}  // namespace order_search_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::order_search_test

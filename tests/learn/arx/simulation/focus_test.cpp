@@ -16,8 +16,8 @@
 #include "learn/arx/simulation/output_error.hpp"
 #include "learn/arx/simulation/refine.hpp"
 
-namespace wisp {
-namespace focus_test {
+namespace wisp::focus_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -417,5 +417,5 @@ TEST(Refine, EveryStepIsStableAndLessensTheCriterion) {
   }
 }
 
-}  // namespace focus_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::focus_test

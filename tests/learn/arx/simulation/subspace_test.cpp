@@ -16,8 +16,8 @@
 #include "learn/arx/simulation/focus.hpp"
 #include "learn/arx/simulation/held_out.hpp"
 
-namespace wisp {
-namespace subspace_test {
+namespace wisp::subspace_test {
+namespace {
 
 using arx::StateSpace;
 using Eigen::Index;
@@ -283,5 +283,5 @@ TEST(FocusOnStates, OutputsThatDoNotRememberEachOtherHaveNoStateInCommon) {
   }
 }
 
-}  // namespace subspace_test
-}  // namespace wisp
+}  // namespace
+}  // namespace wisp::subspace_test

@@ -11,8 +11,8 @@
 #include "learn/chain/learn_chain.hpp"
 #include "learn/chain/made_falls.hpp"
 
-namespace wisp::chain {
-namespace gust_response_test {
+namespace wisp::chain::gust_response_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -165,5 +165,5 @@ TEST(GustPlay, AModelWithoutAResponseIsAnError) {
   EXPECT_THAT(play_gusts(model, pairs.windy, pairs.calm).error().message, HasSubstr("no response"));
 }
 
-}  // namespace gust_response_test
-}  // namespace wisp::chain
+}  // namespace
+}  // namespace wisp::chain::gust_response_test

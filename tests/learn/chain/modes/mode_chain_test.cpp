@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-namespace wisp::chain {
-namespace mode_chain_test {
+namespace wisp::chain::mode_chain_test {
+namespace {
 
 using testing::ElementsAre;
 
@@ -102,5 +102,5 @@ TEST(ModeChain, LikelihoodIsThatOfTheTransitions) {
   EXPECT_NEAR(log_likelihood(chain, {{0, 0}}), std::log(1e-6), 1e-9);
 }
 
-}  // namespace mode_chain_test
-}  // namespace wisp::chain
+}  // namespace
+}  // namespace wisp::chain::mode_chain_test

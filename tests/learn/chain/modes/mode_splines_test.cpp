@@ -10,8 +10,8 @@
 #include "model/sample_chain.hpp"
 #include "wisp/model/file.hpp"
 
-namespace wisp::chain {
-namespace mode_splines_test {
+namespace wisp::chain::mode_splines_test {
+namespace {
 
 ChainModel& chain(Model& model) { return std::get<ChainModel>(model.dynamics); }
 
@@ -100,5 +100,5 @@ TEST(ModeSplines, OfFallsTakeLessRoomAndFitBetterTheMoreComponentsThereAre) {
   EXPECT_LT(model_bytes(model)->size(), model_bytes(fit->model)->size());
 }
 
-}  // namespace mode_splines_test
-}  // namespace wisp::chain
+}  // namespace
+}  // namespace wisp::chain::mode_splines_test

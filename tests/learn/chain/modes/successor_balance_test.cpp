@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-namespace wisp::chain {
-namespace successor_balance_test {
+namespace wisp::chain::successor_balance_test {
+namespace {
 
 // Twelve segments of one mode. Any may follow any; the first joins best, after everything.
 Successors one_that_all_like() {
@@ -62,5 +62,5 @@ TEST(FollowerBalance, FewerThanAskedForAreRepeated) {
   EXPECT_EQ(balanced_successors(successors, mode, weight, chances, 1, 2), (std::vector<std::uint16_t>{1, 1, 0, 0}));
 }
 
-}  // namespace successor_balance_test
-}  // namespace wisp::chain
+}  // namespace
+}  // namespace wisp::chain::successor_balance_test

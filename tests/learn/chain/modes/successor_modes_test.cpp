@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-namespace wisp::chain {
-namespace successor_modes_test {
+namespace wisp::chain::successor_modes_test {
+namespace {
 
 // Forty segments of two modes: those of mode 0 begin near 0, those of mode 1 near 10. The first ends near 0, the second
 // near 10, the third between them.
@@ -63,5 +63,5 @@ TEST(SuccessorModes, WhatStandsForManyCountsAsMany) {
   EXPECT_NEAR(successor_weights.chances[1], 0.75, 0.01);
 }
 
-}  // namespace successor_modes_test
-}  // namespace wisp::chain
+}  // namespace
+}  // namespace wisp::chain::successor_modes_test

@@ -5,8 +5,8 @@
 #include "learn/chain/made_balls.hpp"
 #include "learn/chain/made_falls.hpp"
 
-namespace wisp::chain {
-namespace height_bound_test {
+namespace wisp::chain::height_bound_test {
+namespace {
 
 bool bounded(const Recording& recording, const EventSpec& event = {EventKind::kMaximum, "pos.z"}) {
   const auto motion = motion_of(std::span(&recording, 1));
@@ -35,5 +35,5 @@ TEST(HeightBound, WhatFallsHasNone) {
 
 TEST(HeightBound, AStretchThatIsTooShortDoesNotSay) { EXPECT_FALSE(bounded(made_ball({.rows = 900}))); }
 
-}  // namespace height_bound_test
-}  // namespace wisp::chain
+}  // namespace
+}  // namespace wisp::chain::height_bound_test

@@ -7,8 +7,8 @@
 
 #include "learn/chain/made_falls.hpp"
 
-namespace wisp::chain {
-namespace motion_test {
+namespace wisp::chain::motion_test {
+namespace {
 
 using testing::HasSubstr;
 
@@ -153,5 +153,5 @@ TEST(Motion, WhatRestsAndThenMovesDoesNotJump) {
   EXPECT_TRUE(motion_of_one(recording));
 }
 
-}  // namespace motion_test
-}  // namespace wisp::chain
+}  // namespace
+}  // namespace wisp::chain::motion_test

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-namespace wisp::chain {
-namespace segment_moments_test {
+namespace wisp::chain::segment_moments_test {
+namespace {
 
 // A stretch without attitude that sets out in a direction and turns by so much a row.
 MotionPiece turning(double heading, double turn) {
@@ -35,5 +35,5 @@ TEST(SegmentMoments, WithoutAttitudeDoNotSayWhereNorthWas) {
   EXPECT_NEAR(distance_of(moments.starts[0], moments.starts[1]), 0, 1e-12);
 }
 
-}  // namespace segment_moments_test
-}  // namespace wisp::chain
+}  // namespace
+}  // namespace wisp::chain::segment_moments_test

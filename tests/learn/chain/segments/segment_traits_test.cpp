@@ -7,8 +7,8 @@
 #include <functional>
 #include <random>
 
-namespace wisp::chain {
-namespace segment_traits_test {
+namespace wisp::chain::segment_traits_test {
+namespace {
 
 struct Falls {
   Motion motion;
@@ -50,5 +50,5 @@ TEST(SegmentTraits, AreNoneWhereStretchesDifferByChance) {
   for (const Traits& one : segment_traits(seen.motion, seen.segments)) EXPECT_NEAR(one[2], 0, 0.3);
 }
 
-}  // namespace segment_traits_test
-}  // namespace wisp::chain
+}  // namespace
+}  // namespace wisp::chain::segment_traits_test

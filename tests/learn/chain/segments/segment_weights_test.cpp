@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <random>
 
-namespace wisp::chain {
-namespace segment_weights_test {
+namespace wisp::chain::segment_weights_test {
+namespace {
 
 struct Watched {
   Motion motion;
@@ -70,5 +70,5 @@ TEST(SegmentWeights, InLongRecordingsEachStandsForItself) {
   for (double one : segment_weights(watched.motion, watched.segments)) EXPECT_EQ(one, 1);
 }
 
-}  // namespace segment_weights_test
-}  // namespace wisp::chain
+}  // namespace
+}  // namespace wisp::chain::segment_weights_test

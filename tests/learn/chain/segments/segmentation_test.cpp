@@ -7,8 +7,8 @@
 
 #include "learn/chain/made_falls.hpp"
 
-namespace wisp::chain {
-namespace segmentation_test {
+namespace wisp::chain::segmentation_test {
+namespace {
 
 using testing::DoubleNear;
 using testing::ElementsAre;
@@ -106,5 +106,5 @@ TEST(Segmentation, EventsAreWrittenAsKindAndSignal) {
   for (const char* wrong : {"", "zero", "zero:", "mean:speed", ":speed"}) EXPECT_FALSE(parse_event(wrong)) << wrong;
 }
 
-}  // namespace segmentation_test
-}  // namespace wisp::chain
+}  // namespace
+}  // namespace wisp::chain::segmentation_test
