@@ -208,10 +208,12 @@ TEST_F(Clip, TheDemoLeavesItsResultsInAFolder) {
   EXPECT_THAT(said.out, HasSubstr("What to try next"));
 }
 
-TEST_F(Clip, ADemoOfAClipThatIsRefusedLeavesNoEmptyFolder) {
+TEST_F(Clip, ADemoOfAClipThatIsRefusedLeavesNoFolderThatItMade) {
   write_clip("short.mp4", 4);
-  EXPECT_EQ(wisp("demo " + at("short.mp4") + " -o " + at("demo")).status, 1);
-  EXPECT_FALSE(fs::exists(at("demo")));
+  fs::create_directory(at("mine"));
+  EXPECT_EQ(wisp("demo " + at("short.mp4") + " -o " + at("mine/out/demo")).status, 1);
+  EXPECT_TRUE(fs::exists(at("mine")));
+  EXPECT_FALSE(fs::exists(at("mine/out")));
 }
 
 }  // namespace

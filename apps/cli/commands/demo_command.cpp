@@ -226,13 +226,25 @@ Result<void> fill(const Places& places, const Arguments& arguments, Terminal& te
               [&] { return run_command_with(play_command(), {}, places.at("flame.wisp"), terminal); });
 }
 
+// The outermost of a folder and those that it lies in that is not there; empty where all are.
+fs::path first_missing(fs::path folder) {
+  fs::path missing;
+  std::error_code ignored;
+  for (; !folder.empty() && !fs::exists(folder, ignored); folder = folder.parent_path()) missing = folder;
+  return missing;
+}
+
 Result<void> run_demo(const Arguments& arguments, Terminal& terminal) {
   const Places places{arguments.text("output")};
+  const fs::path missing = first_missing(places.folder);
   std::error_code code;
-  const bool made = fs::create_directories(places.folder, code);
+  fs::create_directories(places.folder, code);
   if (code) return Error{places.folder.string() + ": cannot be made: " + code.message()};
-  const auto filled = fill(places, arguments, terminal);
-  if (!filled && made) fs::remove(places.folder, code);  // as long as nothing is in it
+  auto filled = fill(places, arguments, terminal);
+  if (!filled && !missing.empty()) {
+    // What was made for it goes, as long as nothing is in it.
+    for (fs::path folder = places.folder; fs::remove(folder, code) && folder != missing;) folder = folder.parent_path();
+  }
   return filled;
 }
 
