@@ -31,7 +31,8 @@ inline const std::map<std::string, Layer>& layers() {
       {"base",
        {{},
         {"fcntl.h", "unistd.h", "io.h", "process.h"},
-        {"base/hash.hpp", "base/json_text.hpp", "base/path_text.hpp"}}},
+        {"base/hash.hpp", "base/json_text.hpp", "base/path_text.hpp", "base/statistics.hpp", "base/verdict.hpp",
+         "base/words.hpp"}}},
       {"model", {{"base"}, {"flatbuffers/", "wisp_generated.h"}, {"model/bspline.hpp"}}},
       // The compiler's own header of the processor's vector instructions.
       {"run", {{"base", "model"}, {"immintrin.h"}}},

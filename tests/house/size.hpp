@@ -5,6 +5,8 @@
 #include <cctype>
 #include <filesystem>
 #include <map>
+#include <regex>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -101,8 +103,8 @@ inline std::vector<Function> functions_of(const std::string& text) {
 
 /// The house proper: what is counted. Tests, studies, tools and examples are beside it.
 inline bool in_the_house(const std::string& file) {
-  return is_cpp_source(file) &&
-         (file.starts_with("include/") || file.starts_with("src/") || file.starts_with("apps/cli/"));
+  return is_cpp_source(file) && (file.starts_with("include/") || file.starts_with("src/") ||
+                                 file.starts_with("apps/cli/") || file.starts_with("apps/window/"));
 }
 
 struct NamedFunction {
@@ -138,15 +140,38 @@ inline int public_headers(const std::filesystem::path& root) {
   }));
 }
 
-/// Lines of include/, src/ and apps/cli/, by their first folders.
+/// Lines of include/, src/, apps/cli/ and apps/window/, by their first folders; those of src/learn once more by
+/// themselves.
 inline std::map<std::string, int> lines_by_folder(const std::filesystem::path& root) {
   std::map<std::string, int> count;
   for (const std::string& file : project_files(root)) {
     if (!in_the_house(file)) continue;
-    const std::string top = file.starts_with("apps/cli/") ? "apps/cli" : file.substr(0, file.find('/'));
-    count[top] += static_cast<int>(lines_of(read_text(root / file)).size());
+    const std::size_t after = file.starts_with("apps/") ? std::string("apps/").size() : 0;
+    const int lines = static_cast<int>(lines_of(read_text(root / file)).size());
+    count[file.substr(0, file.find('/', after))] += lines;
+    if (file.starts_with("src/learn/")) count["src/learn"] += lines;
   }
   return count;
+}
+
+/// Lines written by hand of the whole house.
+inline int lines_together(const std::filesystem::path& root) {
+  int total = 0;
+  for (const auto& [folder, lines] : lines_by_folder(root)) total += folder == "src/learn" ? 0 : lines;
+  return total;
+}
+
+/// The flags of every command, as the manual (docs/reference/cli.md) lists them.
+inline std::map<std::string, std::set<std::string>> flags_by_command(const std::string& manual) {
+  std::map<std::string, std::set<std::string>> flags;
+  std::string command;
+  for (const std::string& line : lines_of(manual)) {
+    static const std::regex row(R"(^\| `(?:-\w, )?(--[\w-]+))");
+    std::smatch match;
+    if (line.starts_with("## ")) command = line.substr(3);
+    if (!command.empty() && std::regex_search(line, match, row)) flags[command].insert(match[1]);
+  }
+  return flags;
 }
 
 }  // namespace wisp::house

@@ -20,6 +20,34 @@ using ::testing::IsEmpty;
 constexpr int kFunctionLines = 60;
 constexpr int kFolderSources = 25;
 constexpr int kPublicHeaders = 58;
+constexpr int kLinesTogether = 84'300;
+constexpr int kLinesOfLearn = 30'100;
+constexpr int kFlagsTogether = 113;
+constexpr std::size_t kFlagsOfACommand = 20;
+// Commands that have more flags than they should.
+const std::map<std::string, std::size_t> kTooManyFlags{
+    {"wisp learn outline", 28}, {"wisp learn flame", 28}, {"wisp learn arx", 32}, {"wisp learn chain", 28},
+    {"wisp learn leaf", 28},    {"wisp validate", 28},    {"wisp report", 25}};
+
+std::string manual() { return read_text(std::filesystem::path(WISP_SOURCE_DIR) / "docs/reference/cli.md"); }
+
+std::vector<std::string> overloaded_commands(const std::string& manual,
+                                             const std::map<std::string, std::size_t>& allowed) {
+  std::vector<std::string> found;
+  for (const auto& [command, flags] : flags_by_command(manual)) {
+    const auto more = allowed.find(command);
+    if (flags.size() > (more == allowed.end() ? kFlagsOfACommand : more->second)) {
+      found.push_back(command + " has " + std::to_string(flags.size()) + " flags");
+    }
+  }
+  return found;
+}
+
+std::size_t flags_together(const std::string& manual) {
+  std::set<std::string> all;
+  for (const auto& [command, flags] : flags_by_command(manual)) all.insert(flags.begin(), flags.end());
+  return all.size();
+}
 
 std::vector<std::string> long_functions(const std::filesystem::path& root, int most) {
   std::vector<std::string> found;
@@ -40,12 +68,12 @@ std::vector<std::string> full_folders(const std::filesystem::path& root, int mos
 }
 
 TEST(Size, Figures) {
-  int total = 0;
   for (const auto& [top, lines] : lines_by_folder(WISP_SOURCE_DIR)) {
     std::cout << "lines of " << top << ": " << lines << "\n";
-    total += lines;
   }
-  std::cout << "lines together: " << total << "\npublic headers: " << public_headers(WISP_SOURCE_DIR) << "\n";
+  std::cout << "lines together: " << lines_together(WISP_SOURCE_DIR)
+            << "\npublic headers: " << public_headers(WISP_SOURCE_DIR)
+            << "\nflags of all commands: " << flags_together(manual()) << "\n";
   std::vector<std::pair<int, std::string>> folders;
   for (const auto& [folder, count] : sources_by_folder(WISP_SOURCE_DIR)) folders.emplace_back(-count, folder);
   std::sort(folders.begin(), folders.end());
@@ -65,6 +93,35 @@ TEST(Size, FunctionsAreShort) { EXPECT_THAT(long_functions(WISP_SOURCE_DIR, kFun
 TEST(Size, FoldersAreNotFull) { EXPECT_THAT(full_folders(WISP_SOURCE_DIR, kFolderSources), IsEmpty()); }
 
 TEST(Size, PublicHeadersAreFew) { EXPECT_LE(public_headers(WISP_SOURCE_DIR), kPublicHeaders); }
+
+TEST(Size, TheHouseIsSmall) {
+  EXPECT_LE(lines_together(WISP_SOURCE_DIR), kLinesTogether);
+  EXPECT_LE(lines_by_folder(WISP_SOURCE_DIR)["src/learn"], kLinesOfLearn);
+}
+
+TEST(Size, CommandsHaveFewFlags) {
+  EXPECT_THAT(overloaded_commands(manual(), kTooManyFlags), IsEmpty());
+  EXPECT_LE(flags_together(manual()), static_cast<std::size_t>(kFlagsTogether));
+}
+
+TEST(Size, EveryLineOfTheHouseIsCountedOnce) {
+  ScratchTree tree;
+  tree.add("include/wisp/a.hpp", "1\n2\n").add("src/learn/fit/a.cpp", "1\n2\n3\n").add("src/run/a.cpp", "1\n");
+  tree.add("apps/cli/a.cpp", "1\n").add("apps/window/a.cpp", "1\n2\n").add("tests/run/a_test.cpp", "1\n");
+  tree.add("src/model/wisp_generated.h", "1\n").add("apps/web/a.ts", "1\n");
+  EXPECT_EQ(lines_together(tree.root()), 9);
+  EXPECT_EQ(lines_by_folder(tree.root())["src/learn"], 3);
+  EXPECT_EQ(lines_by_folder(tree.root())["apps/window"], 2);
+}
+
+TEST(Size, CommandsWithManyFlagsAreFound) {
+  std::string text = "Every command\n| `--json` | | text |\n## wisp one\n\n| flag | default | meaning |\n";
+  for (char c = 'a'; c <= 'u'; ++c) text += std::string("| `-o, --flag-") + c + " N` | `1` | what |\n";
+  text += "\n## wisp two\n| `--flag-a` | | see `--other` |\n";
+  EXPECT_THAT(overloaded_commands(text, {}), ElementsAre("wisp one has 21 flags"));
+  EXPECT_THAT(overloaded_commands(text, {{"wisp one", 21}}), IsEmpty());
+  EXPECT_EQ(flags_together(text), 21u);
+}
 
 TEST(Size, LongFunctionsAreFound) {
   ScratchTree tree;

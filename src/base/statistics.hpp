@@ -1,0 +1,54 @@
+#pragma once
+// Location and spread of samples, once for the whole house.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <span>
+#include <vector>
+
+namespace wisp {
+
+/// The sample of the nearest rank to `share` (0 smallest, 0.5 median, 1 largest), reordering `values`; 0 of none.
+///
+/// `share` in [0, 1]; no sample is NaN.
+template <class T>
+T quantile_in_place(std::span<T> values, double share) {
+  if (values.empty()) return T(0);
+  const auto at = values.begin() + std::lround(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/// As quantile_in_place(), of a copy.
+template <class T>
+T quantile(std::vector<T> values, double share) {
+  return quantile_in_place(std::span<T>(values), share);
+}
+
+/// The middle sample, the upper one of an even number of samples; 0 of none.
+template <class T>
+T median(std::vector<T> values) {
+  if (values.empty()) return T(0);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// The arithmetic mean; 0 of none.
+inline double mean(std::span<const double> values) {
+  if (values.empty()) return 0;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// The standard deviation about the mean, divided by the number of samples; 0 of none.
+inline double deviation(std::span<const double> values) {
+  if (values.empty()) return 0;
+  const double middle = mean(values);
+  double sum = 0;
+  for (const double value : values) sum += (value - middle) * (value - middle);
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+}  // namespace wisp

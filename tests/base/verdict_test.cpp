@@ -1,0 +1,47 @@
+#include "base/verdict.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "base/words.hpp"
+
+namespace wisp::verdict_test {
+namespace {
+
+constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
+
+TEST(Verdict, NamesTheFirstCriterionThatIsMissedWithItsNumbers) {
+  const Criterion criteria[] = {{40, Bound::kAtLeast, 30, "too few rows"},
+                                {12.345, Bound::kAtLeast, 20, "the fit is {figure} %, at least {limit}"},
+                                {9, Bound::kAtMost, 1, "never reached"}};
+  EXPECT_EQ(first_missed(criteria), "the fit is 12.3 %, at least 20.0");
+}
+
+TEST(Verdict, ABoundItselfIsNotMissed) {
+  const Criterion criteria[] = {{20, Bound::kAtLeast, 20, "low"}, {1, Bound::kAtMost, 1, "high"}};
+  EXPECT_FALSE(first_missed(criteria));
+}
+
+TEST(Verdict, AFigureAboveItsLimitIsMissed) {
+  const Criterion criteria[] = {{0.126, Bound::kAtMost, 0.05, "{figure} of at most {limit}, not {figure}", 2}};
+  EXPECT_EQ(first_missed(criteria), "0.13 of at most 0.05, not 0.13");
+}
+
+TEST(Verdict, AFigureThatWasNotMeasuredAbstains) {
+  const Criterion criteria[] = {{kNotMeasured, Bound::kAtLeast, 1, "low"}, {kNotMeasured, Bound::kAtMost, 1, "high"}};
+  EXPECT_FALSE(first_missed(criteria));
+}
+
+enum class Fruit { kApple, kPear, kPlum };
+constexpr Words<Fruit, 3> kFruits = {{{"apple", Fruit::kApple}, {"pear", Fruit::kPear}, {"plum", Fruit::kPlum}}};
+
+TEST(Words, AreReadAndPrintedFromOneTable) {
+  EXPECT_EQ(word_of(kFruits, Fruit::kPear), "pear");
+  EXPECT_EQ(value_of(kFruits, "plum"), Fruit::kPlum);
+  EXPECT_FALSE(value_of(kFruits, "Plum"));
+  EXPECT_EQ(list_of(kFruits), "apple, pear or plum");
+}
+
+}  // namespace
+}  // namespace wisp::verdict_test

@@ -1,0 +1,92 @@
+// Within a layer, too, the arrow has one direction.
+
+#include "house/rooms.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "paths.hpp"
+
+namespace wisp::house::rooms_test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::Pair;
+
+// What still runs against the order of rooms. Lines are only ever taken out.
+const std::set<Climb> kAllowed{
+    "learn/arx -> learn/",
+    "learn/arx -> learn/arx/report",
+    "learn/arx/curve -> learn/",
+    "learn/arx/curve -> learn/arx",
+    "learn/arx/curve -> learn/arx/report",
+    "learn/arx/curve -> learn/arx/simulation",
+    "learn/arx/fit -> learn/",
+    "learn/arx/fit -> learn/arx/judge",
+    "learn/arx/fit -> learn/arx/simulation",
+    "learn/arx/judge -> learn/",
+    "learn/arx/judge -> learn/arx",
+    "learn/arx/judge -> learn/arx/curve",
+    "learn/arx/judge -> learn/arx/report",
+    "learn/arx/report -> learn/",
+    "learn/arx/rows -> learn/arx/fit",
+    "learn/arx/search -> learn/",
+    "learn/numeric -> learn/",
+    "learn/numeric -> learn/arx/fit",
+    "learn/numeric -> learn/arx/rows",
+    "learn/outline -> learn/",
+    "learn/outline -> learn/flame",
+    "learn/switched -> learn/",
+    "run/arx -> run/bank",
+    "run/chain -> run/bank",
+};
+
+std::vector<std::string> new_climbs(const std::filesystem::path& root) {
+  std::vector<std::string> found;
+  for (const auto& [climb, file] : climbs(root)) {
+    if (!kAllowed.contains(climb)) found.push_back(file + ": " + climb);
+  }
+  return found;
+}
+
+TEST(Rooms, NoneIncludesOneThatStandsAbove) { EXPECT_THAT(new_climbs(WISP_SOURCE_DIR), IsEmpty()); }
+
+TEST(Rooms, WhatIsAllowedIsStillThere) {
+  const auto found = climbs(WISP_SOURCE_DIR);
+  std::vector<std::string> gone;
+  for (const Climb& climb : kAllowed) {
+    if (!found.contains(climb)) gone.push_back(climb);
+  }
+  EXPECT_THAT(gone, IsEmpty()) << "take these lines out of the list";
+}
+
+TEST(Rooms, AnIncludeOfARoomBelowIsFine) {
+  ScratchTree tree;
+  tree.add("src/learn/flame/a.cpp", "#include \"learn/numeric/b.hpp\"\n#include \"c.hpp\"\n");
+  tree.add("src/learn/flame/c.hpp", "").add("src/learn/numeric/b.hpp", "");
+  EXPECT_THAT(climbs(tree.root()), IsEmpty());
+}
+
+TEST(Rooms, AnIncludeOfARoomAboveIsFoundHoweverItIsWritten) {
+  ScratchTree tree;
+  tree.add("src/learn/numeric/a.cpp", "#include \"learn/fit/b.hpp\"\n").add("src/learn/fit/b.hpp", "");
+  tree.add("src/run/lanes/a.cpp", "#include \"../bank/b.hpp\"\n").add("src/run/bank/b.hpp", "");
+  EXPECT_THAT(climbs(tree.root()), ElementsAre(Pair("learn/numeric -> learn/fit", "src/learn/numeric/a.cpp"),
+                                               Pair("run/lanes -> run/bank", "src/run/lanes/a.cpp")));
+}
+
+TEST(Rooms, TwoRoomsOfOneFloorDoNotIncludeEachOther) {
+  ScratchTree tree;
+  tree.add("src/run/chain/a.cpp", "#include \"run/arx/b.hpp\"\n").add("src/run/arx/b.hpp", "");
+  EXPECT_THAT(climbs(tree.root()), ElementsAre(Pair("run/chain -> run/arx", "src/run/chain/a.cpp")));
+}
+
+TEST(Rooms, AFolderWithoutAFloorIsFound) {
+  ScratchTree tree;
+  tree.add("src/learn/attic/a.cpp", "").add("src/learn/chain/gusts/b.cpp", "");
+  EXPECT_THAT(climbs(tree.root()), ElementsAre(Pair("learn/attic has no floor", "src/learn/attic/a.cpp")));
+}
+
+}  // namespace
+}  // namespace wisp::house::rooms_test
