@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include "cli/program.hpp"
 #include "wisp/capture/media/video.hpp"
@@ -113,6 +114,29 @@ TEST_F(SimulateLeaf, ItsFallsTeachAChainWhoseOwnFallsAreFilmed) {
   const Said filmed = InFolder::wisp(run + at("falls.mp4"));
   ASSERT_EQ(filmed.status, 0) << filmed.err;
   EXPECT_GT(fs::file_size(at("falls.mp4")), 1000u);
+}
+
+// The most that a child of this process has had in memory at once, kB.
+long peak_of_children() {
+  rusage used{};
+  ::getrusage(RUSAGE_CHILDREN, &used);
+  return used.ru_maxrss;
+}
+
+TEST_F(SimulateLeaf, MemoryOfLearningGrowsWithTheFallsAndNotWithTheirSquare) {
+  // 110 MB of 60 falls; 912 MB where the lists of candidates for a join kept room for all segments.
+  ASSERT_EQ(wisp("-o " + at("rec.csv") + " --drops 60").status, 0);
+  ASSERT_EQ(InFolder::wisp("learn leaf " + at("rec.csv") + " -o " + at("leaf.wisp")).status, 0);
+  EXPECT_LT(peak_of_children(), 600'000);
+}
+
+TEST_F(SimulateLeaf, OnlyTheRowsOfARangeAreLearnedFrom) {
+  ASSERT_EQ(wisp("-o " + at("rec.csv") + " --drops 12 --seconds 6").status, 0);
+  const std::string learn = "learn leaf " + at("rec.csv") + " --json -o " + at("leaf.wisp");
+  const Said all = InFolder::wisp(learn), part = InFolder::wisp(learn + " --range 1:2160");
+  ASSERT_EQ(part.status, 0) << part.err;
+  EXPECT_LT(part.json()["segments"].get<int>(), 0.6 * all.json()["segments"].get<int>());
+  EXPECT_THAT(InFolder::wisp(learn + " --range 1:4321").err, HasSubstr("--range 1:4321 reaches beyond its 4320 rows"));
 }
 
 TEST_F(SimulateLeaf, ItsFallsTeachSplinesThatTakeLessRoom) {

@@ -55,6 +55,17 @@ Result<ChainRecipe> recipe_from(const Arguments& arguments) {
                      .seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
 }
 
+// The rows of --range of falls; a pair stays whole, since its gusts have as many clones each.
+Result<std::vector<Recording>> falls_in_range(std::vector<Recording> recordings, const Arguments& arguments) {
+  for (Recording& recording : recordings) {
+    if (find_attribute(recording, "pair")) continue;
+    auto part = in_range(std::move(recording), arguments, "range");
+    if (!part) return part.error();
+    recording = std::move(*part);
+  }
+  return recordings;
+}
+
 // With --skip-bad, recordings that tell no motion are left out here; else learning says what is wrong with them.
 Result<std::vector<Recording>> read_motions(const Arguments& arguments, Terminal& terminal) {
   auto recordings = read_tables(arguments.positionals(), arguments, terminal, motion_table(arguments));
@@ -73,7 +84,9 @@ Result<void> run_learn_chain(const Arguments& arguments, Terminal& terminal) {
   if (!recipe) return recipe.error();
   const std::string output = model_path(arguments);
   if (auto ok = check_writable(output); !ok) return ok;
-  const auto recordings = read_motions(arguments, terminal);
+  auto read = read_motions(arguments, terminal);
+  if (!read) return read.error();
+  const auto recordings = falls_in_range(std::move(*read), arguments);
   if (!recordings) return recordings.error();
   const auto fit = learn(*recordings, *recipe, terminal.progress());
   if (!fit) return fit.error();
@@ -121,6 +134,7 @@ std::vector<Flag> flags(const std::string& event, const std::string& features) {
       {"holdout", Kind::kNumber, "SHARE", "0.2", "share of the stretches kept for judging"},
       {"restarts", Kind::kInteger, "N", "10", "starts of the clustering; the best is taken"},
       {"seed", Kind::kInteger, "N", "1", "of all chance"},
+      {"range", Kind::kSamples, "A:B", "", "rows to learn falls from, 1-based and inclusive"},
       {"inputs", Kind::kNames, "A,B", "", "columns of a plain table that are inputs"},
       {"outputs", Kind::kNames, "C,D", "", "columns of a plain table that are outputs"},
   };

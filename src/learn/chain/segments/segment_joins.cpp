@@ -1,7 +1,6 @@
 #include "learn/chain/segments/segment_joins.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "learn/chain/modes/successor_balance.hpp"
 
@@ -26,22 +25,24 @@ Successors candidates_of(const SegmentMoments& moments, std::span<const std::uin
   std::vector<std::vector<std::uint16_t>> members(static_cast<std::size_t>(modes));
   for (std::size_t k = 0; k < mode.size(); ++k) members[mode[k]].push_back(static_cast<std::uint16_t>(k));
   Successors candidates;
+  // One buffer for all: each list that is kept has kLookedAt at most, not room for all of its mode.
+  std::vector<Successor> near;
   for (std::size_t from = 0; from < mode.size(); ++from) {
     for (const auto& all : members) {
-      std::vector<Successor> near;
+      near.clear();
       for (std::uint16_t to : all) {
         if (to == from && all.size() > 1) continue;
         near.push_back({distance_of(moments.ends[from], moments.starts[to]), to});
       }
       const std::size_t looked_at = std::min(near.size(), kLookedAt);
       std::partial_sort(near.begin(), near.begin() + static_cast<long>(looked_at), near.end());
-      near.resize(looked_at);
+      near.resize(looked_at);  // keeps its room
       for (Successor& one : near) {
         // Of two that stood beside each other in a plane of moments, the nearer one would be as much nearer.
         one.misfit /= weight[one.segment];
         if (gain_of(moments.ends[from], moments.starts[one.segment]) > kMaxGain) one.misfit *= kGainCost;
       }
-      candidates.push_back(std::move(near));
+      candidates.emplace_back(near.begin(), near.end());
     }
   }
   return candidates;
