@@ -12,7 +12,7 @@
 
 #include "learn/chain/learn_chain.hpp"
 #include "simulate/leaf/leaf.hpp"
-#include "simulate/leaf/leaf_cost.hpp"
+#include "studies/leaf/leaf_cost.hpp"
 #include "simulate/leaf/leaf_flight.hpp"
 #include "simulate/leaf/leaf_wind.hpp"
 #include "wisp/run/bank.hpp"

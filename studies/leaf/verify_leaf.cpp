@@ -9,7 +9,7 @@
 #include <array>
 #include <cstdio>
 
-#include "simulate/leaf/leaf_plate.hpp"
+#include "studies/leaf/leaf_plate.hpp"
 #include "simulate/random_numbers.hpp"
 
 namespace wisp::verify {

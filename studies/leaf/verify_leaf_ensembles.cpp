@@ -6,7 +6,7 @@
 #include <ctime>
 #include <numbers>
 
-#include "simulate/leaf/leaf_cost.hpp"
+#include "studies/leaf/leaf_cost.hpp"
 #include "studies/leaf/verify_leaf.hpp"
 
 namespace wisp::verify {

@@ -1,4 +1,4 @@
-#include "simulate/leaf/leaf_cost.hpp"
+#include "studies/leaf/leaf_cost.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "simulate/leaf/leaf_plate.hpp"
+#include "studies/leaf/leaf_plate.hpp"
 
 #include <algorithm>
 #include <cmath>
