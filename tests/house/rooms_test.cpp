@@ -38,8 +38,6 @@ const std::set<Climb> kAllowed{
     "learn/outline -> learn/",
     "learn/outline -> learn/flame",
     "learn/switched -> learn/",
-    "run/arx -> run/bank",
-    "run/chain -> run/bank",
 };
 
 std::vector<std::string> new_climbs(const std::filesystem::path& root) {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "run/bank/model_hash.hpp"
+#include "run/state/model_hash.hpp"
 
 namespace wisp {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "run/arx/output_program.hpp"
 #include "run/arx/resampled_program.hpp"
-#include "run/bank/arena.hpp"
-#include "run/bank/channels.hpp"
+#include "run/state/arena.hpp"
+#include "run/state/channels.hpp"
 #include "wisp/model/arx.hpp"
 #include "wisp/model/switched.hpp"
 

@@ -14,9 +14,9 @@
 #include "run/arx/output_lanes.hpp"
 #include "run/arx/resampled_lanes.hpp"
 #include "run/arx/time_lanes.hpp"
-#include "run/bank/channel_history.hpp"
-#include "run/bank/moment.hpp"
 #include "run/lanes/blocks.hpp"
+#include "run/state/channel_history.hpp"
+#include "run/state/moment.hpp"
 
 namespace wisp {
 

@@ -7,9 +7,9 @@
 #include <span>
 
 #include "run/arx/mode_program.hpp"
-#include "run/bank/moment.hpp"
-#include "run/bank/sample_ring.hpp"
 #include "run/lanes/random_lanes.hpp"
+#include "run/state/moment.hpp"
+#include "run/state/sample_ring.hpp"
 #include "wisp/model/arx.hpp"
 
 namespace wisp {

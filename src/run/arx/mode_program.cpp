@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "run/arx/arx_program.hpp"
-#include "run/bank/model_hash.hpp"
+#include "run/state/model_hash.hpp"
 
 namespace wisp {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "run/arx/output_program.hpp"
 #include "run/arx/resampled_lanes.hpp"
-#include "run/bank/channels.hpp"
-#include "run/bank/moment.hpp"
-#include "run/bank/sample_ring.hpp"
 #include "run/lanes/random_lanes.hpp"
+#include "run/state/channels.hpp"
+#include "run/state/moment.hpp"
+#include "run/state/sample_ring.hpp"
 
 namespace wisp {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "run/bank/arena.hpp"
 #include "run/lanes/blocks.hpp"
+#include "run/state/arena.hpp"
 
 namespace wisp {
 

@@ -13,9 +13,9 @@
 #include <span>
 
 #include "run/arx/resampled_program.hpp"
-#include "run/bank/moment.hpp"
-#include "run/bank/sample_ring.hpp"
 #include "run/lanes/columns.hpp"
+#include "run/state/moment.hpp"
+#include "run/state/sample_ring.hpp"
 
 namespace wisp {
 

@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <limits>
 
-#include "run/bank/channels.hpp"
-#include "run/bank/model_hash.hpp"
+#include "run/state/channels.hpp"
+#include "run/state/model_hash.hpp"
 
 namespace wisp {
 namespace {

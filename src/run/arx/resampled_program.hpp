@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "run/bank/arena.hpp"
+#include "run/state/arena.hpp"
 #include "wisp/model/model.hpp"
 
 namespace wisp {

@@ -10,7 +10,7 @@
 
 #include "base/hash.hpp"
 #include "run/bank/bank_state.hpp"
-#include "run/bank/little_endian.hpp"
+#include "run/state/little_endian.hpp"
 
 namespace wisp {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "run/arx/arx_program.hpp"
-#include "run/bank/model_hash.hpp"
+#include "run/state/model_hash.hpp"
 
 namespace wisp {
 namespace {

@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <span>
 
-#include "run/bank/arena.hpp"
 #include "run/lanes/lanes.hpp"
+#include "run/state/arena.hpp"
 #include "wisp/model/model.hpp"
 
 namespace wisp {

@@ -6,12 +6,12 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "run/bank/moment.hpp"
 #include "run/chain/chain_choice.hpp"
 #include "run/chain/chain_joins.hpp"
 #include "run/chain/chain_lives.hpp"
 #include "run/chain/chain_steering.hpp"
 #include "run/lanes/columns.hpp"
+#include "run/state/moment.hpp"
 
 namespace wisp {
 

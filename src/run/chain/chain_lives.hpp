@@ -7,10 +7,10 @@
 #include <span>
 #include <utility>
 
-#include "run/bank/arena.hpp"
 #include "run/chain/chain_block.hpp"
 #include "run/chain/chain_lane.hpp"
 #include "run/chain/chain_program.hpp"
+#include "run/state/arena.hpp"
 
 namespace wisp {
 

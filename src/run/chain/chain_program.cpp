@@ -5,8 +5,8 @@
 #include <map>
 #include <string>
 
-#include "run/bank/model_hash.hpp"
 #include "run/chain/rigid.hpp"
+#include "run/state/model_hash.hpp"
 
 namespace wisp {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <span>
 
-#include "run/bank/arena.hpp"
 #include "run/chain/systems_program.hpp"
+#include "run/state/arena.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/model.hpp"
 

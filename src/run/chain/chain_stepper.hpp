@@ -9,8 +9,6 @@
 #include <optional>
 #include <span>
 
-#include "run/bank/channels.hpp"
-#include "run/bank/moment.hpp"
 #include "run/chain/chain_block.hpp"
 #include "run/chain/chain_joining.hpp"
 #include "run/chain/chain_lane.hpp"
@@ -19,6 +17,8 @@
 #include "run/chain/ground_lane.hpp"
 #include "run/chain/gust_lane.hpp"
 #include "run/chain/system_lane.hpp"
+#include "run/state/channels.hpp"
+#include "run/state/moment.hpp"
 #include "wisp/run/chain_facet.hpp"
 #include "wisp/run/random.hpp"
 

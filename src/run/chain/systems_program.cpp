@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "run/bank/model_hash.hpp"
+#include "run/state/model_hash.hpp"
 
 namespace wisp {
 

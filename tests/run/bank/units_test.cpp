@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "model/sample_switched.hpp"
-#include "run/bank/channels.hpp"
 #include "run/flame_model.hpp"
+#include "run/state/channels.hpp"
 #include "wisp/run/bank.hpp"
 
 namespace wisp::units_test {

@@ -1,4 +1,4 @@
-#include "run/bank/channels.hpp"
+#include "run/state/channels.hpp"
 
 #include <gtest/gtest.h>
 

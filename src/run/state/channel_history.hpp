@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "run/bank/channels.hpp"
-#include "run/bank/sample_ring.hpp"
+#include "run/state/channels.hpp"
+#include "run/state/sample_ring.hpp"
 
 namespace wisp {
 

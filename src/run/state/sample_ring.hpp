@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "run/bank/arena.hpp"
+#include "run/state/arena.hpp"
 
 namespace wisp {
 

@@ -1,4 +1,4 @@
-#include "run/bank/arena.hpp"
+#include "run/state/arena.hpp"
 
 #include <gtest/gtest.h>
 

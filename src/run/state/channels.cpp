@@ -1,4 +1,4 @@
-#include "run/bank/channels.hpp"
+#include "run/state/channels.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "run/bank/model_hash.hpp"
+#include "run/state/model_hash.hpp"
 #include "wisp/run/bank.hpp"
 
 namespace wisp {

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "base/hash.hpp"
-#include "run/bank/little_endian.hpp"
+#include "run/state/little_endian.hpp"
 
 namespace wisp {
 
