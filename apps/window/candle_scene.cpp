@@ -11,37 +11,27 @@ constexpr int kPolylinePoints = 96;
 constexpr float kTrackStep = 1.0F / 120;
 constexpr std::size_t kTrackSteps = 90;
 
-// How fast a gust goes along a row of candles, flame heights a second, and what each height takes from it. Real breath
-// is faster; this can be seen.
+// Speed of a gust along a row of candles, flame heights a second, and its loss per height. Real breath is too fast to
+// see.
 constexpr float kGustSpeed = 14;
 constexpr float kGustLoss = 0.03F;
 
-// Moving air past a resting flame and a flame through resting air are one thing: a candle carried, or a pointer moved,
-// at one flame height a second is a wind of so much.
+// Wind that corresponds to a candle or a pointer moving at one flame height a second.
 constexpr float kWindPerSpeed = 0.11F;
 constexpr float kPointerReach = 0.9F;  // flame heights
 constexpr float kMaxPointerWind = 1.1F;
 
-// Seconds that gas takes for one flame height: what is up there left the wick so long ago.
+// Seconds in which gas rises by one flame height.
 constexpr float kRiseSeconds = 0.085F;
 
-// How far a wind of 1 carries smoke, in flame heights a second. Real smoke would be gone at once.
-constexpr float kSmokeCarried = 1.5F;
-
-// How deep a ring of candles looks, in shares of the picture's width: the eye is a little above it.
+// Apparent depth of a ring of candles seen from slightly above, as a share of the picture's width.
 constexpr float kRingDepth = 0.07F;
 
 constexpr float kClickPixels = 5;
 
-float seconds_of(std::chrono::nanoseconds age) {
-  return age == kNever ? kLongAgo : std::chrono::duration<float>(age).count();
-}
-
 FlameStyle style_of(int candles) {
   FlameStyle style;
-  if (candles > 1) {
-    style.candle_width = 0.36F;
-  }
+  if (candles > 1) style.candle_width = 0.36F;
   return style;
 }
 
@@ -68,7 +58,7 @@ CandleScene::CandleScene(Bank bank, const Model& model, int candles) : bank_(std
   resize(width_, height_);
 }
 
-// Two thirds as hard again as what puts it out when it lasts: it goes out while the puff lasts.
+// Well above the level of extinction, so that the flame goes out during the puff.
 float CandleScene::strong() const { return 1.7F * level_; }
 
 void CandleScene::resize(int width, int height) {
@@ -88,7 +78,7 @@ void CandleScene::arrange() {
     Candle& candle = candles_[static_cast<std::size_t>(k)];
     const float across = static_cast<float>(k) - 0.5F * static_cast<float>(count - 1);
     candle.home = {frame.base.x + spacing * across, frame.base.y};
-    // In a ring, as somebody put them on a cake: by turns behind and in front, evenly side by side as they are seen.
+    // In a ring as on a cake: alternately behind and in front, evenly spaced across the picture.
     if (count > 1) {
       const float turn = across / (0.5F * static_cast<float>(count));
       const float deep = std::sqrt(1 - turn * turn) * (k % 2 == 0 ? 1.0F : -1.0F);
@@ -114,7 +104,7 @@ int CandleScene::nearest(Point pixel) const {
 void CandleScene::pointer_moved(Point pixel) {
   pointer_ = pixel;
   if (carried_ && std::hypot(pixel.x - pressed_.x, pixel.y - pressed_.y) > kClickPixels) moved_ = true;
-  // A candle that is carried makes its own wind.
+  // A carried candle makes its own wind.
   if (carried_) {
     wake_.leave();
   } else {
@@ -168,7 +158,7 @@ int CandleScene::burning() const {
       std::count_if(candles_.begin(), candles_.end(), [&](const auto& c) { return state_of(c).lit; }));
 }
 
-// The wind as it comes along the row: later and weaker the farther it has come.
+// The wind at a candle: later and weaker along the row.
 float CandleScene::heard_wind(const Candle& candle) const {
   const float edge = wind_ < 0 ? candles_.back().place.x : candles_.front().place.x;
   const float away = candles() > 1 ? std::abs(candle.place.x - edge) / unit_ : 0;
@@ -178,7 +168,7 @@ float CandleScene::heard_wind(const Candle& candle) const {
 
 float CandleScene::felt_wind(const Candle& candle) const {
   float wind = heard_wind(candle);
-  // The pointer's wake is felt by the flame, half a height above its base.
+  // The pointer's wake acts half a flame height above the base.
   const float dx = wake_.at().x - candle.place.x / unit_;
   const float dy = wake_.at().y - (candle.place.y / unit_ - 0.5F);
   const float near = std::exp(-(dx * dx + dy * dy) / (kPointerReach * kPointerReach));
@@ -194,7 +184,7 @@ void CandleScene::carry(float seconds) {
     const Point to{
         std::clamp(pointer_.x + grip_.x, 0.0F, static_cast<float>(width_)),
         std::clamp(pointer_.y + grip_.y, 0.35F * static_cast<float>(height_), 0.97F * static_cast<float>(height_))};
-    // A hand is not a mouse: what it carries follows a little later.
+    // The candle follows the pointer with a short delay, as a hand would.
     const float share = 1 - std::exp(-seconds / 0.03F);
     candle.place = {candle.place.x + share * (to.x - candle.place.x), candle.place.y + share * (to.y - candle.place.y)};
   }
@@ -210,17 +200,8 @@ void CandleScene::remember_wind(float seconds) {
     }
     winds_[0] = wind_;
   }
-  // Whoever stands first feels what blows now, not at the last whole step.
+  // The first candle feels the present wind, not that of the last whole step.
   winds_[0] = wind_;
-}
-
-void CandleScene::drift_smoke(Candle& candle) const {
-  const LitState state = state_of(candle);
-  if (state.since_out == kNever) return;
-  if (state.since_out <= bank_.step_time()) candle.drift_sum = candle.drift_count = 0;
-  candle.drift_sum += candle.wind;
-  candle.drift_count += 1;
-  candle.scene.wind = kSmokeCarried * candle.drift_sum / candle.drift_count;
 }
 
 void CandleScene::advance(std::chrono::nanoseconds time) {
@@ -236,7 +217,9 @@ void CandleScene::advance(std::chrono::nanoseconds time) {
     }
   }
   bank_.advance(time);
-  for (Candle& candle : candles_) drift_smoke(candle);
+  for (Candle& candle : candles_) {
+    candle.smoke.blow(candle.wind, state_of(candle), bank_.step_time(), candle.scene);
+  }
 }
 
 std::vector<Point> CandleScene::outline_of(const Candle& candle) {
@@ -244,7 +227,7 @@ std::vector<Point> CandleScene::outline_of(const Candle& candle) {
   std::vector<Point> points(kPolylinePoints);
   for (std::size_t k = 0; k < points.size(); ++k) {
     Point p{polyline_[2 * k], polyline_[2 * k + 1]};
-    // What burns up there left the wick a while ago, where the wick then was.
+    // Gas at this height left the wick some time ago, where the wick then was.
     const float back = std::max(0.0F, p.y) * kRiseSeconds / kTrackStep;
     const auto at = std::min(static_cast<std::size_t>(back), kTrackSteps - 2);
     const float part = std::min(1.0F, back - static_cast<float>(at));
@@ -266,11 +249,8 @@ void CandleScene::draw(Image& image) {
   std::vector<Flame> flames;
   for (int k : order) {
     Candle& candle = candles_[static_cast<std::size_t>(k)];
-    const LitState state = state_of(candle);
     candle.scene.base = candle.place;
-    candle.scene.seconds_since_lit = seconds_of(state.since_lit);
-    candle.scene.seconds_since_out = seconds_of(state.since_out);
-    candle.scene.size = state.size;
+    show_state(state_of(candle), candle.scene);
     outlines.push_back(outline_of(candle));
     flames.push_back({outlines.back(), candle.scene});
   }

@@ -1,6 +1,6 @@
 #pragma once
-// Candles in a dark room: one, or many on a cake. Wind from the left reaches the leftmost first; a candle that is
-// carried leaves its flame behind; what is out smokes, and is lit by a click.
+// Candles in a dark room: one, or several on a cake. Wind from the left reaches the leftmost candle first; the flame of
+// a carried candle trails behind it; an extinguished candle smokes, and a click lights it.
 
 #include <chrono>
 #include <memory>
@@ -27,7 +27,7 @@ class CandleScene {
   /// Wind over the whole scene from now on, 1 a strong gust to the right.
   void blow(float wind) { wind_ = wind; }
 
-  /// A wind that puts a candle of this model out.
+  /// A wind that extinguishes a candle of this model.
   float strong() const;
 
   void pointer_moved(Point pixel);
@@ -37,7 +37,7 @@ class CandleScene {
   void reset();
   void set_noise(bool on) { bank_.set_noise(on ? 1.0F : 0.0F); }
 
-  /// Lets time pass.
+  /// Advances the scene by `time`.
   void advance(std::chrono::nanoseconds time);
 
   void draw(Image& image);
@@ -52,7 +52,7 @@ class CandleScene {
   /// The x of the first candle's tip over its base, in flame heights; 0 where it is out.
   float tip() const;
 
-  /// Outputs were clamped this often, of all.
+  /// How many outputs were clamped, of all.
   Bank::Clamped clamped() const { return bank_.clamped(); }
 
  private:
@@ -61,10 +61,9 @@ class CandleScene {
     Point home{};   // pixel of the flame's base, unless carried
     Point place{};  // where it is
     FlameScene scene{};
-    // Where the base was, newest first, one entry each kTrackStep: hot gas goes on from where it left the wick.
+    // Past places of the base, newest first, one each kTrackStep: hot gas rises from where it left the wick.
     std::vector<Point> track;
-    float drift_sum = 0;  // wind since it went out: what its smoke went through
-    float drift_count = 0;
+    SmokeDrift smoke;
     float wind = 0;
   };
 
@@ -74,27 +73,26 @@ class CandleScene {
   float heard_wind(const Candle& candle) const;
   float felt_wind(const Candle& candle) const;
   void carry(float seconds);
-  void drift_smoke(Candle& candle) const;
   std::vector<Point> outline_of(const Candle& candle);
   int nearest(Point pixel) const;
   void relight(const Candle& candle);
   LitState state_of(const Candle& candle) const;
 
   Bank bank_;
-  bool flame_;  // else a plain shape is drawn
+  bool flame_;  // otherwise drawn as a plain shape
   std::size_t wind_input_ = 0;
   float level_ = 2;
   std::vector<Candle> candles_;
   int width_ = 1280, height_ = 800;
   float unit_ = 300;
   float wind_ = 0;
-  std::vector<float> winds_;  // of the scene, newest first, one each kTrackStep
-  float passed_ = 0;          // of the current kTrackStep
+  std::vector<float> winds_;  // past winds of the scene, newest first, one each kTrackStep
+  float passed_ = 0;          // seconds passed of the current kTrackStep
   PointerWake wake_;
   Point pointer_{};
   Point pressed_{};
   std::optional<int> carried_;
-  Point grip_{};  // from the pointer to the base of what is carried
+  Point grip_{};  // from the pointer to the carried candle's base
   bool moved_ = false;
   std::unique_ptr<LiveFlames> painter_;
   std::vector<float> polyline_;

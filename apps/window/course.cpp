@@ -1,9 +1,111 @@
 #include "course.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
 #include <ctime>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <utility>
 
 namespace wisp::window {
+namespace {
+
+constexpr const char* kWords = "key, down, up, move, press, release, click, drop, picture, unplug or close";
+
+std::optional<Point> place_in(std::istringstream& words) {
+  Point at;
+  if (words >> at.x >> at.y && std::isfinite(at.x) && std::isfinite(at.y)) return at;
+  return {};
+}
+
+// What one line says; nothing where its words are wrong.
+std::vector<std::variant<Event, PictureTaken>> meaning(const std::string& word, std::istringstream& words) {
+  if (word == "close") return {Event{Closed{}}};
+  if (word == "unplug") return {Event{MicrophoneLost{}}};
+  if (word == "key" || word == "down" || word == "up") {
+    std::string name;
+    words >> name;
+    const Key key = key_named(name);
+    if (key == Key::kNone) return {};
+    if (word == "key") return {Event{KeyTurned{key, true}}, Event{KeyTurned{key, false}}};
+    return {Event{KeyTurned{key, word == "down"}}};
+  }
+  if (word == "drop" || word == "picture") {
+    std::string rest;
+    std::getline(words >> std::ws, rest);
+    if (rest.empty()) return {};
+    if (word == "drop") return {Event{FileDropped{rest}}};
+    if (rest.find('/') != std::string::npos) return {};
+    return {PictureTaken{rest}};
+  }
+  const auto at = place_in(words);
+  if (!at) return {};
+  if (word == "move") return {Event{PointerMoved{*at}}};
+  if (word == "press") return {Event{PointerTurned{*at, true}}};
+  if (word == "release") return {Event{PointerTurned{*at, false}}};
+  if (word == "click") return {Event{PointerTurned{*at, true}}, Event{PointerTurned{*at, false}}};
+  return {};
+}
+
+std::string frame_name(int frame) {
+  char name[32];
+  std::snprintf(name, sizeof name, "frame-%05d", frame);
+  return name;
+}
+
+}  // namespace
+
+Key key_named(std::string_view name) {
+  constexpr std::array<std::pair<std::string_view, Key>, 17> kNames{{
+      {"left", Key::kLeft},
+      {"right", Key::kRight},
+      {"up", Key::kUp},
+      {"down", Key::kDown},
+      {"space", Key::kSpace},
+      {"enter", Key::kEnter},
+      {"tab", Key::kTab},
+      {"plus", Key::kPlus},
+      {"minus", Key::kMinus},
+      {"c", Key::kC},
+      {"g", Key::kG},
+      {"h", Key::kH},
+      {"m", Key::kM},
+      {"n", Key::kN},
+      {"q", Key::kQ},
+      {"r", Key::kR},
+      {"f11", Key::kF11},
+  }};
+  for (const auto& [word, key] : kNames) {
+    if (word == name) return key;
+  }
+  return Key::kNone;
+}
+
+Result<std::vector<TimedEvent>> read_script(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  if (!file) return Error{path.string() + ": cannot be read; expected a script of events"};
+  std::vector<TimedEvent> events;
+  std::string line;
+  for (int number = 1; std::getline(file, line); ++number) {
+    line.resize(std::min(line.size(), line.find('#')));
+    std::istringstream words(line);
+    if ((words >> std::ws).eof()) continue;
+    double seconds = 0;
+    std::string word;
+    const bool timed = static_cast<bool>(words >> seconds >> word) && seconds >= 0 && seconds <= 1e6;
+    const auto what = timed ? meaning(word, words) : std::vector<std::variant<Event, PictureTaken>>{};
+    if (what.empty()) {
+      return Error{path.string() + ":" + std::to_string(number) + ": found \"" + line +
+                   "\", expected SECONDS and one of " + kWords + " with what belongs to it"};
+    }
+    for (const auto& one : what) events.push_back({seconds, one});
+  }
+  std::stable_sort(events.begin(), events.end(), [](auto& a, auto& b) { return a.seconds < b.seconds; });
+  return events;
+}
 
 Result<Course> Course::open(const PlayOptions& options, Player& player) {
   Course course;
@@ -58,6 +160,35 @@ void FrameCosts::add(double milliseconds) {
 void FrameCosts::report(PlayReport& report) const {
   report.draw_ms = frames_ > 0 ? sum_ / frames_ : 0;
   report.worst_draw_ms = worst_;
+}
+
+Result<PlayReport> play_without_display(const PlayOptions& options) {
+  auto player = Player::create(options.player);
+  if (!player) return player.error();
+  auto course = Course::open(options, *player);
+  if (!course) return course.error();
+  PlayReport report;
+  FrameCosts costs;
+  for (int frame = 1; frame <= options.frames && !player->closed(); ++frame) {
+    if (options.interrupted && *options.interrupted) break;
+    const auto now = time_of_frame(frame);
+    course->bring(std::chrono::duration<double>(now).count(), *player, [&](const Event& e) { player->handle(e); });
+    const double before = thread_milliseconds();
+    player->advance(now - time_of_frame(frame - 1));
+    const Image& image = player->draw();
+    costs.add(thread_milliseconds() - before);
+    if (!options.pictures) continue;
+    std::vector<std::string> names = course->wanted();
+    if (!course->takes_pictures()) names = {frame_name(frame)};
+    for (const std::string& name : names) {
+      if (auto ok = write_png(*options.pictures / (name + ".png"), image); !ok) return ok.error();
+      report.pictures.push_back({name, frame, player->state()});
+    }
+  }
+  costs.report(report);
+  report.figures = player->figures();
+  report.state = player->state();
+  return report;
 }
 
 }  // namespace wisp::window

@@ -1,5 +1,5 @@
 #pragma once
-// What a person does at the window, as plain values: from SDL, or from a script.
+// User input as plain values, from SDL or from a script.
 
 #include <string>
 #include <string_view>
@@ -9,7 +9,7 @@
 
 namespace wisp::window {
 
-/// Keys that mean something.
+/// Keys with a function.
 enum class Key {
   kLeft,
   kRight,
@@ -31,7 +31,7 @@ enum class Key {
   kNone,  ///< any other
 };
 
-/// The key of a name as scripts write it ("left", "space", "c", "f11", …); kNone where there is none of that name.
+/// Returns the key that scripts call `name` ("left", "space", "c", "f11", …); kNone for an unknown name.
 Key key_named(std::string_view name);
 
 /// A key went down or up. Repeats by holding it down are not events.

@@ -7,13 +7,13 @@ namespace wisp::window {
 namespace {
 
 constexpr float kArrowWind = 0.75F;
-constexpr float kArrowSeconds = 0.18F;  // in which a held arrow's wind comes and goes
+constexpr float kArrowSeconds = 0.18F;  // time constant of a held arrow's wind
 constexpr float kPuffRise = 0.10F;
 constexpr float kPuffHold = 0.55F;
 constexpr float kPuffFall = 0.25F;
-constexpr float kWakeSeconds = 0.16F;  // in which the air that the pointer dragged along comes to rest
+constexpr float kWakeSeconds = 0.16F;  // time constant of the wake's decay
 
-// From where one is towards where one should be, after some time.
+// Exponential approach of `from` to `to` after `seconds`, with time constant `within`.
 float towards(float from, float to, float seconds, float within) {
   return to + (from - to) * std::exp(-seconds / within);
 }
@@ -45,7 +45,7 @@ void PointerWake::advance(float seconds) {
   if (seconds <= 0) return;
   const Point now{moved_.x / seconds, moved_.y / seconds};
   moved_ = {};
-  // Air is taken along at once and let go of slowly.
+  // The wake follows the pointer at once and decays slowly.
   const auto drag = [&](float speed, float pulled) {
     const float resting = towards(speed, 0, seconds, kWakeSeconds);
     return std::abs(pulled) > std::abs(resting) ? towards(speed, pulled, seconds, 0.03F) : resting;

@@ -1,5 +1,5 @@
 #pragma once
-// What blows in a scene, from every source that is not sound: keys held, puffs, the pointer's wake.
+// Wind in a scene from sources other than sound: arrow keys, puffs, the pointer's wake.
 
 #include <optional>
 
@@ -11,7 +11,7 @@ namespace wisp::window {
 /// 1 is a strong gust.
 class KeyWind {
  public:
-  /// How hard the arrows blow: −1, 0 or 1 for left, none or both, right.
+  /// Sets the direction of the held arrows: −1 left, 0 none or both, 1 right.
   void hold(int direction) { direction_ = direction; }
 
   /// A strong blow of `strength`, from the left unless the left arrow is held.
@@ -21,7 +21,7 @@ class KeyWind {
 
   float wind() const { return held_ + puff_; }
 
-  /// Nothing blows any more.
+  /// Stops all wind at once.
   void calm();
 
  private:
@@ -32,14 +32,13 @@ class KeyWind {
   float puff_age_ = 10;
 };
 
-/// The wind that a moving pointer drags along: the pointer's own speed, dying away when it rests. Lengths are what the
-/// scene measures in.
+/// The wind behind a moving pointer: the pointer's own speed, decaying when it rests. Lengths are in the scene's unit.
 class PointerWake {
  public:
-  /// The pointer is there now.
+  /// Moves the pointer to `at`.
   void move(Point at);
 
-  /// The pointer left; its wake dies away.
+  /// The pointer left the scene; its wake decays.
   void leave() { last_.reset(); }
 
   void advance(float seconds);

@@ -9,23 +9,23 @@
 namespace wisp::window {
 namespace {
 
-// The room: what is in view, metres.
+// Height of the visible room, metres.
 constexpr float kViewHeight = 1.5F;
 constexpr float kDepth = 0.55F;       // leaves fall this far before and behind the middle
 constexpr float kAbove = 0.12F;       // over the picture's upper edge
 constexpr float kShownLarger = 1.5F;  // a leaf in a room is a few pixels
-constexpr float kLift = 0.006F;       // over the floor, so that what lies is not cut by it
+constexpr float kLift = 0.006F;       // over the floor, so that the floor does not cut a resting leaf
 
 constexpr float kGustMetres = 1.6F;  // metres a second of a wind of 1
 
 constexpr float kPointerMetres = 0.22F;  // metres around the pointer that feel it
 constexpr float kMaxWake = 2.5F;         // metres a second
-constexpr float kKicking = 0.55F;        // wind that lifts what lies, metres a second
-constexpr int kMaxKicks = 40;            // a frame: each looks at every segment
+constexpr float kKicking = 0.55F;        // wind that lifts a resting leaf, metres a second
+constexpr int kMaxKicks = 40;            // a frame, since each searches all segments
 constexpr float kMinRest = 1.5F;         // seconds on the ground before it begins again
 constexpr float kMoreRest = 4;
-constexpr float kFade = 0.6F;    // seconds of going before it begins again
-constexpr float kCatch = 0.25F;  // and of appearing
+constexpr float kFade = 0.6F;    // seconds of fading out before a restart
+constexpr float kCatch = 0.25F;  // seconds of fading in
 
 float room_width(int width, int height) { return kViewHeight * static_cast<float>(width) / static_cast<float>(height); }
 
@@ -56,7 +56,7 @@ LeafScene::LeafScene(Bank bank, const Model& model, std::uint64_t seed) : bank_(
   resize(width_, height_);
 }
 
-// A number in [0, 1) of the scene's own chance.
+// A random number in [0, 1) of the scene's own stream.
 float LeafScene::chance() {
   const std::uint32_t word = random_words({.seed = seed_, .stream = 0x1EAF, .step = drawn_++})[0];
   return static_cast<float>(word >> 8) / 16777216.0F;
@@ -68,7 +68,7 @@ void LeafScene::resize(int width, int height) {
   painter_ = std::make_unique<LeafFlock>(width, height, leaf_camera_from_side(kViewHeight), style_);
 }
 
-// Sets a leaf above the picture, or anywhere in the air.
+// Starts a leaf above the picture, or anywhere in the air.
 void LeafScene::begin(int slot, bool anywhere) {
   const float half = 0.62F * room_width(width_, height_);
   BodyMoment body;
@@ -128,7 +128,7 @@ void LeafScene::pointer_pressed(Point pixel) {
 
 std::array<float, 3> LeafScene::wind_at(const std::array<float, 3>& place) const {
   std::array<float, 3> wind{kGustMetres * wind_, 0, 0};
-  // A gust has eddies: it is not one wall of air.
+  // Eddies, so that a gust is not uniform.
   const float eddy = std::sin(3.1F * place[0] - 7.7F * seconds_ + 2.3F * place[1]) +
                      std::sin(5.3F * place[2] + 4.1F * seconds_ - 3.7F * place[1]);
   wind[0] *= 1 + 0.22F * eddy;
@@ -153,7 +153,7 @@ void LeafScene::kick(int slot, const std::array<float, 3>& wind) {
   body.position = {life.last[0], life.last[1], kLift + 0.02F};
   body.orientation = life.attitude;
   const float strength = std::hypot(wind[0], wind[1], wind[2]);
-  // Wind that meets the floor has nowhere to go but up.
+  // The floor turns wind upwards.
   body.velocity = {(0.5F + 0.3F * chance()) * wind[0], wind[1] + 0.5F * (chance() - 0.5F) * strength,
                    (0.55F + 0.7F * chance()) * strength};
   body.spin = {6 * (chance() - 0.5F), 6 * (chance() - 0.5F), 5 * (chance() - 0.5F)};
@@ -167,7 +167,7 @@ void LeafScene::read_poses() {
   bank_.outputs(outputs_);
 }
 
-// A leaf that has lain long enough, or fell out of view, begins again.
+// Restarts a leaf that has rested long enough or left the view.
 void LeafScene::renew(int slot, float seconds) {
   Life& life = lives_[static_cast<std::size_t>(slot)];
   const float* row = outputs_.data() + static_cast<std::ptrdiff_t>(slot) * bank_.output_count();
@@ -211,7 +211,7 @@ void LeafScene::draw(Image& image) {
     const float going = std::clamp((life.patience - life.rested) / kFade, 0.0F, 1.0F);
     const float coming = std::clamp(life.age / kCatch, 0.0F, 1.0F);
     FlockLeaf leaf{{life.last, life.attitude}, life.look, life.size, going * coming};
-    // What lies is bent, and stands on its rim.
+    // A resting leaf is bent and stands on its rim.
     leaf.pose.position[2] = std::max(leaf.pose.position[2], kLift);
     leaves.push_back(leaf);
   }

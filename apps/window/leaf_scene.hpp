@@ -1,6 +1,6 @@
 #pragma once
-// Leaves that fall for ever in light: they land, rest, and are kicked up by wind or begin again above. Works for any
-// chain that moves a position or a pose.
+// Endlessly falling leaves: they land, rest, and are kicked up by wind or start again above the picture. Works for any
+// chain whose view is a position or a pose.
 
 #include <chrono>
 #include <memory>
@@ -26,7 +26,7 @@ class LeafScene {
 
   void pointer_moved(Point pixel);
 
-  /// A click kicks up what lies there.
+  /// Kicks up the leaves that lie near the pixel.
   void pointer_pressed(Point pixel);
 
   void reset();
@@ -39,7 +39,7 @@ class LeafScene {
   void advance(std::chrono::nanoseconds time);
   void draw(Image& image);
 
-  /// Whether wind moves what is in the air; what lies is kicked up by any wind.
+  /// Whether wind moves leaves in the air. Resting leaves are kicked up in any case.
   bool feels_wind() const { return bank_.input_count() >= 3; }
 
   /// Leaves that lie on the ground.
@@ -48,7 +48,7 @@ class LeafScene {
   Bank::Clamped clamped() const { return bank_.clamped(); }
 
  private:
-  // What the bank does not know of a leaf.
+  // State of a leaf that the bank does not hold.
   struct Life {
     std::array<float, 3> last{};  // where it was shown last
     std::array<float, 4> attitude{1, 0, 0, 0};

@@ -18,14 +18,14 @@ constexpr int kLeaves = 60;
 constexpr double kNoticeSeconds = 6;
 constexpr std::size_t kNoticeBytes = 76;  // of a line
 
-// How hard the space bar blows where the model does not say what puts it out.
+// Strength of the space bar's puff where the model has no rule of extinction.
 constexpr float kPuff = 2;
 
 Point pixel_of(Point share, const Image& image) {
   return {share.x * static_cast<float>(image.width()), share.y * static_cast<float>(image.height())};
 }
 
-// Words in lines of at most that many bytes.
+// Wraps `text` into lines of at most `longest` bytes.
 std::vector<std::string> wrapped(const std::string& text, std::size_t longest) {
   std::vector<std::string> lines(1);
   std::istringstream words(text);
@@ -234,7 +234,7 @@ void Player::next_model() {
   drop(options_.models[model_index_].string());
 }
 
-// What cannot be shown is said, and the scene goes on.
+// A model that cannot be shown leaves a notice, and the scene goes on.
 void Player::drop(const std::string& path) {
   const std::string file = std::filesystem::path(path).filename().string();
   if (auto ok = load(path, {}); !ok) {

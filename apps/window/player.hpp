@@ -1,6 +1,5 @@
 #pragma once
-// All that happens in the window but the window: scenes, events, sound and time in, a picture out. It runs the same
-// with a display and without.
+// The player without the window: events, sound and time in, a picture out. It runs the same with a display and without.
 
 #include <chrono>
 #include <filesystem>
@@ -18,10 +17,10 @@
 
 namespace wisp::window {
 
-/// What a scene shows, where the model leaves a choice.
+/// The scene, where a model can be shown in several.
 enum class SceneKind { kCandle, kCake, kLeaves };
 
-/// What a player begins with.
+/// A player's start.
 struct PlayerOptions {
   std::vector<std::filesystem::path> models;  ///< Tab goes from one to the next; at least one
   std::optional<SceneKind> scene{};           ///< unset: by the first model's view
@@ -31,7 +30,7 @@ struct PlayerOptions {
   bool hints = true;  ///< a line for beginners at the start
 };
 
-/// What became of a run.
+/// Counts of a run.
 struct PlayerFigures {
   int frames = 0;
   int went_out = 0;  ///< flames, counted
@@ -44,25 +43,25 @@ class Player {
   /// Errors: a model cannot be read; the first has no view for the scene that was requested.
   static Result<Player> create(const PlayerOptions& options);
 
-  /// The ear, which whoever brings sound opens, feeds and closes.
+  /// The ear. The source of sound opens, feeds and closes it.
   Ear& ear() { return ear_; }
 
-  /// Takes what a person did.
+  /// Handles user input.
   void handle(const Event& event);
 
-  /// Lets time pass, with the wind as it is heard now.
+  /// Advances the scene by `time`, with the wind heard now.
   void advance(std::chrono::nanoseconds time);
 
-  /// The picture of now. Good until the next call.
+  /// Draws the current picture. Valid until the next call.
   const Image& draw();
 
   /// The picture's size from now on, clamped to 64 … 8192.
   void resize(int width, int height);
 
-  /// Says something at the lower edge for a while.
+  /// Shows a text at the lower edge for some seconds.
   void notice(std::string text);
 
-  /// What was said last.
+  /// The last notice.
   const std::string& said() const { return notice_; }
 
   bool closed() const { return closed_; }
@@ -73,7 +72,7 @@ class Player {
 
   PlayerFigures figures() const;
 
-  /// One line on the state for tests and logs: what burns, lies, leans.
+  /// One line on the state for tests and logs: flames burning, leaves resting, the tip's lean.
   std::string state() const;
 
   const std::string& model_name() const { return name_; }

@@ -1,5 +1,5 @@
 #pragma once
-// Models that are nothing but numbers: what went in and what came out, as curves that move.
+// Inputs and outputs of a model of plain numbers, as moving curves.
 
 #include <chrono>
 #include <deque>

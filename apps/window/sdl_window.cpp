@@ -18,15 +18,15 @@
 namespace wisp::window {
 namespace {
 
-// A picture of more pixels than this is drawn smaller and brought up by the window: a frame must be done in time.
+// Larger pictures are drawn at this size and scaled up by the window, so that a frame is ready in time.
 constexpr double kMaxPixels = 1280.0 * 800.0;
 constexpr double kMinPixels = 240'000;
 constexpr double kBudgetMs = 13;  // of a frame of 16.7, for step and picture
 
-// A window that is hidden looks this often whether it is shown again.
+// Interval at which a hidden window checks whether it is shown again.
 constexpr int kHiddenMs = 500;
 
-// No screen is faster than this; where vertical sync does not hold a frame back, this does.
+// Minimum length of a frame, in case vertical sync does not limit the rate.
 constexpr double kShortestFrameMs = 1000.0 / 150;
 
 constexpr std::array<std::pair<SDL_Keycode, Key>, 24> kKeys{{
@@ -76,7 +76,7 @@ struct Destroy {
   void operator()(SDL_Texture* texture) const { SDL_DestroyTexture(texture); }
 };
 
-// SDL's parts, given back in the right order whatever happens.
+// Shuts SDL down after the members that use it.
 struct Session {
   Session() { SDL_SetMainReady(); }
   ~Session() { SDL_Quit(); }
@@ -134,7 +134,7 @@ Result<void> Window::open() {
     const Silence silence;
     if (SDL_Init(SDL_INIT_VIDEO) != 0) return no_display();
   }
-  // Where there is no screen, SDL takes a driver that shows nothing to anybody; that is for who asks for it.
+  // Without a screen SDL chooses a driver that shows nothing; accept it only where it was requested.
   const std::string_view driver = SDL_GetCurrentVideoDriver();
   if ((driver == "offscreen" || driver == "dummy") && std::getenv("SDL_VIDEODRIVER") == nullptr) return no_display();
   SDL_SetHint(SDL_HINT_RENDER_SCALE_QUALITY, "linear");
@@ -157,7 +157,7 @@ Result<void> Window::open() {
   return {};
 }
 
-// The picture's size follows the window's, within what can be drawn in time.
+// Fits the picture to the window, within what can be drawn in time.
 void Window::fit_picture() {
   int width = 0, height = 0;
   if (SDL_GetRendererOutputSize(renderer_.get(), &width, &height) != 0 || width < 1 || height < 1) return;
@@ -239,7 +239,7 @@ void Window::take_events() {
   }
 }
 
-// A script's events go the way of a person's: through SDL's queue.
+// A script's events pass through SDL's queue, like a person's.
 void Window::push(const Event& event) const {
   SDL_Event sdl{};
   int width = 1, height = 1;
@@ -273,7 +273,7 @@ void Window::toggle_full_screen() {
   SDL_SetWindowFullscreen(window_.get(), full ? 0 : SDL_WINDOW_FULLSCREEN_DESKTOP);
 }
 
-// Sleeps while nobody can see anything. Returns whether it slept.
+// Sleeps while the window is hidden. Returns whether it slept.
 bool Window::wait_while_hidden() {
   if (!hidden_ || course_.scripted()) return false;
   SDL_Event event;
@@ -304,7 +304,7 @@ Result<void> Window::show(const Image& image) {
   return {};
 }
 
-// Reads back what the window shows, before it is presented.
+// Saves the rendered picture before it is presented.
 Result<void> Window::keep(const std::vector<std::string>& names, int frame) {
   if (names.empty() || !options_.pictures) return {};
   int width = 0, height = 0;
@@ -321,7 +321,7 @@ Result<void> Window::keep(const std::vector<std::string>& names, int frame) {
   return {};
 }
 
-// Without vertical sync, and where it does not hold, a frame still takes its time.
+// Limits the frame rate where vertical sync does not.
 void Window::hold_back(Uint64 began) const {
   if (course_.scripted()) return;
   const double per_ms = static_cast<double>(SDL_GetPerformanceFrequency()) / 1000;
@@ -330,7 +330,7 @@ void Window::hold_back(Uint64 began) const {
   if (took < least) SDL_Delay(static_cast<Uint32>(least - took + 0.5));
 }
 
-// Where frames take too long for a second, they become smaller.
+// Reduces the picture's size after about a second of slow frames.
 void Window::draw_smaller(double milliseconds) {
   if (course_.scripted()) return;
   slow_ += (milliseconds - slow_) / 30;

@@ -11,7 +11,7 @@
 
 namespace wisp::window {
 
-/// A picture that was kept.
+/// A saved picture.
 struct KeptPicture {
   std::string name;
   int frame = 0;      ///< counted from 1
@@ -28,11 +28,11 @@ struct PlayOptions {
   const volatile int* interrupted = nullptr;  ///< not 0: end after the frame
 };
 
-/// How a run went.
+/// The result of a run.
 struct PlayReport {
   PlayerFigures figures{};
   std::vector<KeptPicture> pictures{};
-  std::vector<std::string> said{};  ///< what could not be had: a microphone, vertical sync
+  std::vector<std::string> said{};  ///< notices: no microphone, no vertical sync
   double draw_ms = 0;               ///< of the processor, mean of a frame's step and picture
   double worst_draw_ms = 0;         ///< but for the first ten frames
   std::string renderer{};           ///< of the window; empty without one

@@ -52,17 +52,6 @@ Image Image::from_rgb(std::span<const std::uint8_t> rgb, int width, int height, 
   return image;
 }
 
-Image Image::from_gray(std::span<const std::uint8_t> gray, int width, int height, std::size_t row_bytes) {
-  Image image(width, height);
-  if (row_bytes == 0) row_bytes = static_cast<std::size_t>(width);
-  assert(gray.size() >= (height - 1) * row_bytes + width);
-  for (int y = 0; y < height; ++y) {
-    const std::uint8_t* from = gray.data() + y * row_bytes;
-    for (std::uint32_t& pixel : image.row(y)) pixel = kOpaque | *from++ * 0x010101U;
-  }
-  return image;
-}
-
 Colour Image::at(int x, int y) const {
   const std::uint32_t pixel = row(y)[static_cast<std::size_t>(x)];
   const std::uint32_t opacity = pixel >> 24;

@@ -38,7 +38,7 @@ Image flame_frame(int frame) {
   std::normal_distribution<double> tremble(0, 0.01);
   const double lean = 0.5 * wind_at(frame / kRate - 0.05) + tremble(random);
   constexpr double kBaseX = 60, kBaseY = 180, kUnit = 120;
-  std::vector<std::uint8_t> gray(static_cast<std::size_t>(kWidth) * kHeight);
+  std::vector<std::uint8_t> rgb(3 * static_cast<std::size_t>(kWidth) * kHeight);
   for (int y = 0; y < kHeight; ++y) {
     const double up = (kBaseY - y - 0.5) / kUnit;
     if (up < 0 || up > 1) continue;
@@ -46,10 +46,11 @@ Image flame_frame(int frame) {
                  middle = kBaseX + kUnit * lean * up * up;
     for (int x = 0; x < kWidth; ++x) {
       const double covered = std::clamp(half_width - std::abs(x + 0.5 - middle) + 0.5, 0.0, 1.0);
-      gray[static_cast<std::size_t>(y) * kWidth + x] = static_cast<std::uint8_t>(std::lround(250 * covered));
+      const auto level = static_cast<std::uint8_t>(std::lround(250 * covered));
+      std::fill_n(rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(y) * kWidth + x), 3, level);
     }
   }
-  return Image::from_gray(gray, kWidth, kHeight);
+  return Image::from_rgb(rgb, kWidth, kHeight);
 }
 
 // How the wind sounds.

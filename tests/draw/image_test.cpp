@@ -33,10 +33,6 @@ TEST(Image, StepsOverTheGapBetweenRows) {
   const std::vector<std::uint8_t> rgb{1, 2, 3, 99, 99, 4, 5, 6};
   const Image image = Image::from_rgb(rgb, 1, 2, 5);
   EXPECT_EQ(image.at(0, 1), (Colour{4, 5, 6, 255}));
-  const std::vector<std::uint8_t> gray{10, 20, 77, 30, 40};
-  const Image levels = Image::from_gray(gray, 2, 2, 3);
-  EXPECT_EQ(levels.at(1, 0), (Colour{20, 20, 20, 255}));
-  EXPECT_EQ(levels.at(0, 1), (Colour{30, 30, 30, 255}));
 }
 
 TEST(Image, StoresColoursPremultipliedAndGivesThemBackStraight) {

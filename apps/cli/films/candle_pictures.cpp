@@ -1,8 +1,6 @@
 #include "films/candle_pictures.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 
 #include "wisp/run/extinction_facet.hpp"
 
@@ -10,15 +8,8 @@ namespace wisp::cli {
 namespace {
 
 constexpr int kHeight = 720;
-constexpr int kLoneWidth = 640;  // room for one flame to lean either way
+constexpr int kLoneWidth = 640;  // leaves room for one flame to lean either way
 constexpr int kWidest = 1920;
-
-// How far a wind of 1 carries smoke, in flame heights a second. Real smoke would be gone at once.
-constexpr float kSmokeCarried = 1.5F;
-
-float seconds(std::chrono::nanoseconds age) {
-  return age == kNever ? kLongAgo : std::chrono::duration<float>(age).count();
-}
 
 }  // namespace
 
@@ -49,11 +40,7 @@ void CandlePictures::blow(const Bank& bank, float wind) {
   if (!extinction) return;
   for (std::size_t k = 0; k < drifts_.size(); ++k) {
     const auto state = extinction->state_of(bank.at(static_cast<int>(k)));
-    if (!state || state->since_out == kNever) continue;
-    if (state->since_out <= bank.step_time()) drifts_[k] = {};
-    drifts_[k].sum += wind;
-    drifts_[k].count += 1;
-    scenes_[k].wind = kSmokeCarried * drifts_[k].sum / drifts_[k].count;
+    if (state) drifts_[k].blow(wind, *state, bank.step_time(), scenes_[k]);
   }
 }
 
@@ -63,9 +50,7 @@ const Image& CandlePictures::draw(const Bank& bank) {
   for (std::size_t k = 0; k < scenes_.size(); ++k) {
     const LitState state =
         extinction ? extinction->state_of(bank.at(static_cast<int>(k))).value_or(LitState{}) : LitState{};
-    scenes_[k].seconds_since_lit = seconds(state.since_lit);
-    scenes_[k].seconds_since_out = seconds(state.since_out);
-    scenes_[k].size = state.size;
+    show_state(state, scenes_[k]);
   }
   return draw(polylines_);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures of a bank of outlines: flames as candles side by side, smoke and all; other things as plain shapes.
+// Pictures of a bank of outlines: flames as candles side by side, with smoke; other things as plain shapes.
 
 #include <optional>
 #include <span>
@@ -17,7 +17,7 @@ class CandlePictures {
   /// Precondition: bank.polyline_points() > 0 and bank.size() > 0.
   CandlePictures(const Model& model, const Bank& bank);
 
-  /// Sized for so many outlines of so many points, which need no bank.
+  /// Sized for `count` outlines of `points` points, without a bank.
   ///
   /// Precondition: the view is an outline, count > 0 and points >= 2.
   CandlePictures(const Model& model, int count, int points);
@@ -25,29 +25,23 @@ class CandlePictures {
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /// Notes the wind of one step of the bank, in the model's units: it carries the smoke.
+  /// Takes the wind of one step of the bank, in the model's units, which carries the smoke.
   void blow(const Bank& bank, float wind);
 
-  /// The bank as it is now. The picture is good until the next call.
+  /// Draws the bank's present state. The picture is valid until the next call.
   const Image& draw(const Bank& bank);
 
-  /// Outlines, one after the other, count × points × (x, y), that all burn.
+  /// Draws burning flames from outlines one after the other, count × points × (x, y).
   const Image& draw(std::span<const float> outlines);
 
  private:
-  // The mean wind since a flame went out: what its smoke has gone through.
-  struct Drift {
-    float sum = 0;
-    float count = 0;
-  };
-
   int width_;
   int height_;
   std::vector<FlameScene> scenes_;
-  std::vector<Drift> drifts_;
+  std::vector<SmokeDrift> drifts_;
   std::vector<float> polylines_;
   std::vector<Point> points_;
-  std::optional<LiveFlames> candles_;  // of what is a flame
+  std::optional<LiveFlames> candles_;  // unset: plain shapes are drawn
   Image image_;
 };
 

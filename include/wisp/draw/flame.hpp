@@ -1,17 +1,19 @@
 #pragma once
-// The cartoon candle: a flame filled from its outline, its glow, its candle, and the smoke when it is out.
+// The cartoon candle: a flame filled from its outline, its glow, its candle, and the smoke of an extinguished one.
 //
-// Light is added up in linear intensities and shown through one exposure curve, so that glows overlap as real ones do
-// and nothing clips. How thick the glowing body is at each pixel follows from the outline alone (the chord of a body of
-// revolution, from a Poisson equation inside the outline), so layers move as smoothly as the outline does, whatever its
-// shape. The same call draws the same bytes.
+// Light is summed in linear intensities and shown through one exposure curve, so that glows overlap as real ones do and
+// nothing clips. The thickness of the glowing body at each pixel follows from the outline alone (the chord of a body of
+// revolution, from a Poisson equation inside the outline), so layers move as smoothly as the outline. The same call
+// draws the same bytes.
 
+#include <chrono>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
 
 #include "wisp/draw/image.hpp"
+#include "wisp/run/extinction_facet.hpp"
 
 namespace wisp {
 
@@ -29,7 +31,7 @@ struct FlameStyle {
   float glow = 1.0F;        ///< strength of the halo, 0 … 4; 0 leaves it out
   float glow_reach = 1.0F;  ///< size of the halo, 0.25 … 4; 1 reaches about one flame height
 
-  bool candle = true;           ///< draw the candle; without it only the flame's own light and smoke
+  bool candle = true;           ///< draw the candle; without it only the flame's light and smoke
   Colour wax{240, 226, 200};    ///< the candle's colour by daylight
   float candle_width = 0.62F;   ///< 0.05 … 4; 22 mm under a flame of 35 mm
   float candle_height = 0.95F;  ///< 0.05 … 20; what does not fit is cut off by the picture
@@ -38,33 +40,47 @@ struct FlameStyle {
   float ambient = 0.06F;        ///< light of the room on the candle, 0 … 1: it stays visible when the flame is out
 };
 
-/// The age of what never happened.
+/// The age of an event that never happened.
 inline constexpr float kLongAgo = std::numeric_limits<float>::infinity();
 
 /// Where a candle stands in the picture and what happens to it.
 ///
-/// It burns unless it went out more recently than it was lit. A flame that catches or dies is drawn over a few tenths
-/// of a second (go on giving its outline for that long), or as its `size` says; smoke rises from the wick between going
-/// out and being lit again, and drifts on afterwards.
+/// It burns unless it went out more recently than it was lit. Decay and re-ignition are drawn over a few tenths of a
+/// second (keep giving the outline for that long), or by `size`. Smoke rises from the wick until it is lit again, and
+/// drifts on afterwards.
 struct FlameScene {
   Point base{};                 ///< pixel of the outline's origin, the middle of the flame's base; y down
   float pixels_per_unit = 200;  ///< pixels of the mean flame height, 1 … 10000
   float brightness = 1;         ///< of this flame against the style's, 0 … 4
   float seconds_since_lit = kLongAgo;
   float seconds_since_out = kLongAgo;
-  std::optional<float> size{};  ///< of a flame whose outline shrinks and grows by itself, as a bank's does
-                                ///< (LitState::size), 0 … 1; unset: the outline is that of the full flame, and is
-                                ///< shrunk here by the times above
-  float wind = 0;  ///< carries the smoke, all of it alike (a slow mean): units a second, to the right, −8 … 8
+  std::optional<float> size{};  ///< 0 … 1, of a flame whose outline shrinks and grows by itself, as a bank's does
+                                ///< (LitState::size); unset: the outline is the full flame's and is scaled by the
+                                ///< times above
+  float wind = 0;               ///< carries all smoke alike (a slow mean): units a second, to the right, −8 … 8
   std::uint64_t seed = 1;  ///< chooses the smoke's curls and the wick's bend
 };
 
 /// Whether the scene's flame burns: it never went out, or was lit since.
 bool burns(const FlameScene& scene);
 
+/// Copies a bank's state of a flame into its scene: since when it burns or is out, and its size.
+void show_state(const LitState& state, FlameScene& scene);
+
+/// The mean wind since a flame went out, which carries its smoke.
+class SmokeDrift {
+ public:
+  /// Adds the wind of one step of the bank, in the model's units, and sets the scene's wind.
+  void blow(float wind, const LitState& state, std::chrono::nanoseconds step_time, FlameScene& scene);
+
+ private:
+  float sum_ = 0;
+  float count_ = 0;
+};
+
 /// A candle of a picture with several: its outline is a polyline in model units (origin at the middle of the base,
 /// x right, y up, mean height 1) from the base's left over the tip to the base's right. Its lowest sixth is
-/// drawn as a drop around the wick, since what a camera sees there is chance.
+/// drawn as a drop around the wick, since a camera's outline there is unreliable.
 struct Flame {
   std::span<const Point> outline{};
   FlameScene scene{};
@@ -79,8 +95,8 @@ void draw_flames(Image& image, std::span<const Flame> flames, const FlameStyle& 
 /// upwards, in the middle of its range.
 bool is_flame(const Model& model);
 
-/// Draws outlines of other things, each where its scene puts it: filled shapes on a plain ground. Times, smoke and size
-/// mean nothing to them.
+/// Draws outlines of other things as filled shapes on a plain ground, each at its scene's place. Times, smoke and size
+/// are ignored.
 void draw_shapes(Image& image, std::span<const Flame> shapes);
 
 /// Draws one candle.

@@ -57,12 +57,6 @@ class Image {
   /// Precondition: rgb.size() >= (height − 1) × row_bytes + 3 × width.
   static Image from_rgb(std::span<const std::uint8_t> rgb, int width, int height, std::size_t row_bytes = 0);
 
-  /// From 8-bit gray bytes, `row_bytes` from row to row (0: rows follow without gaps).
-  ///
-  /// Precondition: 1 <= width, height <= kLargestImageSide.
-  /// Precondition: gray.size() >= (height − 1) × row_bytes + width.
-  static Image from_gray(std::span<const std::uint8_t> gray, int width, int height, std::size_t row_bytes = 0);
-
   int width() const { return width_; }
   int height() const { return height_; }
   bool empty() const { return pixels_.empty(); }

@@ -1,5 +1,5 @@
 #pragma once
-// Outlines, control points and labels over a video frame.
+// Outlines and labels over a video frame.
 
 #include <span>
 #include <string>
@@ -26,9 +26,6 @@ struct LineStyle {
 /// the line.
 void draw_outline(Image& image, std::span<const Point> outline, const LineStyle& style = {});
 
-/// Draws control points as small rings joined by a thin line, in pixels (y down).
-void draw_control_polygon(Image& image, std::span<const Point> points, Colour colour = kCapturedColour);
-
 enum class Corner { kTopLeft, kTopRight, kBottomLeft, kBottomRight };
 
 /// One line of a legend.
@@ -44,8 +41,8 @@ void draw_legend(Image& image, std::span<const LegendEntry> entries, Corner corn
 /// Draws a line of text on a translucent dark plate (frame number, time).
 void draw_label(Image& image, std::string_view text, Corner corner = Corner::kBottomLeft, float text_height = 0);
 
-/// Draws lines of text under each other on a translucent dark plate; what stands before a tab in a line is a column of
-/// its own. `opacity` of all of it, 0 … 1.
+/// Draws lines of text on a translucent dark plate. A tab divides a line into two columns. `opacity` of the whole note,
+/// 0 … 1.
 void draw_note(Image& image, std::span<const std::string> lines, Corner corner = Corner::kTopLeft,
                float text_height = 0, float opacity = 1);
 

@@ -42,14 +42,6 @@ struct PlotMark {
   Dash dash = Dash::kDashed;
 };
 
-/// A shaded stretch of x from edge to edge: a gust, an episode.
-struct PlotSpan {
-  double from = 0;
-  double to = 0;
-  std::string label{};             ///< at its top; empty: none
-  std::optional<Colour> colour{};  ///< unset: a light gray
-};
-
 /// One axis. Unset ends follow the data, rounded to ticks.
 struct PlotAxis {
   std::string label{};
@@ -66,7 +58,6 @@ struct Plot {
   PlotAxis y{};
   std::vector<PlotSeries> series{};  ///< later ones are drawn over earlier ones
   std::vector<PlotMark> marks{};
-  std::vector<PlotSpan> spans{};
   bool equal_units = false;  ///< one unit is as long in x as in y (trajectories)
   Image picture{};           ///< where not empty, it fills the panel instead of axes
 };

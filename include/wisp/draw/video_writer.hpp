@@ -18,15 +18,14 @@ struct VideoWriterOptions {
   int height = 0;
   double rate_hz = 0;  ///< frames a second, 0.1 … 1000; 30000/1001 and its like are kept exactly
   int crf = 15;        ///< x264's constant rate factor, 0 (lossless) … 51; at 15 soft glows keep their dither
-  /// x264's speed: "ultrafast" … "veryslow". "medium" at 17 looks the same for twice the work and three fifths of the
-  /// file.
+  /// x264's speed: "ultrafast" … "veryslow". "medium" at 17 looks the same, for twice the work and three fifths
+  /// of the file.
   std::string preset = "veryfast";
-  bool full_range = false;  ///< luma 0 … 255, marked so in the file: what write_gray() stores is then exact
-  int sound_rate_hz = 0;    ///< samples a second of a mono sound track, such as 44100; 0: no sound track
-  int threads = 0;          ///< of the video encoder; 0: one a core. The bytes depend on it
+  int sound_rate_hz = 0;  ///< samples a second of a mono sound track, such as 44100; 0: no sound track
+  int threads = 0;        ///< of the video encoder; 0: one a core. The bytes depend on it
 };
 
-/// An MP4 file in the making, written beside its name and renamed by finish(). Destroyed before that, nothing is left.
+/// Writes an MP4 file under a temporary name; finish() renames it. Destroyed before that, no file is left.
 class VideoWriter {
  public:
   /// Opens the file. Errors: options out of range, the folder is missing or not writable, no H.264 or AAC encoder in
@@ -39,10 +38,6 @@ class VideoWriter {
 
   /// Appends a frame; opacity is ignored. Errors: a frame of another size, the encoder or the disk fails.
   Result<void> write(const Image& image);
-
-  /// Appends a frame of gray bytes as luma, `row_bytes` from row to row (0: rows follow without gaps): width × height
-  /// of them, 0 … 255 where `full_range` is set and scaled to 16 … 235 otherwise. Errors: as write(), too few bytes.
-  Result<void> write_gray(std::span<const std::uint8_t> gray, std::size_t row_bytes = 0);
 
   /// Appends sound, −1 … 1, any number of samples at any time; what is beyond is clipped, NaN is silence.
   /// Errors: there is no sound track, the encoder or the disk fails.

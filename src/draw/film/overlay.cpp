@@ -115,23 +115,6 @@ void draw_outline(Image& image, std::span<const Point> outline, const LineStyle&
   stroke(context.get(), style, line_width(image, style.width));
 }
 
-void draw_control_polygon(Image& image, std::span<const Point> points, Colour colour) {
-  if (image.empty()) return;
-  const CairoContext context = context_of(image);
-  const double width = line_width(image, 0);
-  Colour faint = colour;
-  faint.opacity = static_cast<std::uint8_t>(colour.opacity / 2);
-  trace(context.get(), points, false);
-  stroke(context.get(), {.colour = faint, .casing = 0.6F}, 0.5 * width);
-  for (const Point p : points) {
-    if (!finite(p)) continue;
-    cairo_new_path(context.get());
-    cairo_arc(context.get(), std::clamp(p.x, -kFarthest, kFarthest), std::clamp(p.y, -kFarthest, kFarthest),
-              1.6 * width, 0, 2 * std::numbers::pi);
-    stroke(context.get(), {.colour = colour, .casing = 1}, 0.75 * width);
-  }
-}
-
 void draw_legend(Image& image, std::span<const LegendEntry> entries, Corner corner, float text_height) {
   if (image.empty() || entries.empty()) return;
   const CairoContext context = context_of(image);

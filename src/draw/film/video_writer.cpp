@@ -21,8 +21,8 @@ namespace {
 
 using drawing::Owned;
 
-// x264 and AAC tell about themselves at the level of information, which a library must not print; errors still come
-// through. The muxer has no level of its own, so there the program's level is held down for the call.
+// Silences the information messages of x264 and AAC, but not their errors. The muxer has no log level of its own:
+// QuietMuxer lowers the process's level for one call.
 constexpr int kQuieter = AV_LOG_DEBUG - AV_LOG_INFO + 1;
 
 class QuietMuxer {
@@ -50,7 +50,7 @@ struct Track {
   std::int64_t next = 0;  // time of the next frame, in the encoder's time base
 };
 
-// x264 names them itself, but complains about others on the terminal.
+// Checked here, since x264 reports a wrong preset on the terminal.
 constexpr std::array<std::string_view, 9> kPresets{"ultrafast", "superfast", "veryfast", "faster",  "fast",
                                                    "medium",    "slow",      "slower",   "veryslow"};
 
@@ -149,7 +149,7 @@ Result<void> VideoWriter::Encoder::open_video() {
   context.pix_fmt = AV_PIX_FMT_YUV420P;
   context.framerate = av_d2q(options.rate_hz, 1001000);
   context.time_base = av_inv_q(context.framerate);
-  context.color_range = options.full_range ? AVCOL_RANGE_JPEG : AVCOL_RANGE_MPEG;
+  context.color_range = AVCOL_RANGE_MPEG;
   context.color_primaries = AVCOL_PRI_BT709;
   context.color_trc = AVCOL_TRC_BT709;
   context.colorspace = AVCOL_SPC_BT709;
@@ -212,8 +212,7 @@ Result<void> VideoWriter::Encoder::open_scaler() {
                               nullptr, nullptr));
   if (!scaler) return option_error(path, "no conversion from pictures to video");
   const int* coefficients = sws_getCoefficients(SWS_CS_ITU709);
-  sws_setColorspaceDetails(scaler.get(), coefficients, 1, coefficients, options.full_range ? 1 : 0, 0, 1 << 16,
-                           1 << 16);
+  sws_setColorspaceDetails(scaler.get(), coefficients, 1, coefficients, 0, 0, 1 << 16, 1 << 16);
   return {};
 }
 
@@ -295,34 +294,6 @@ Result<void> VideoWriter::write(const Image& image) {
   }
   sws_scale(e.scaler.get(), rows, strides, 0, e.padded_height(), e.video.frame->data, e.video.frame->linesize);
   return e.send(e.video, e.video.frame.get());
-}
-
-Result<void> VideoWriter::write_gray(std::span<const std::uint8_t> gray, std::size_t row_bytes) {
-  Encoder& e = *encoder_;
-  const int width = e.options.width;
-  const int height = e.options.height;
-  if (row_bytes == 0) row_bytes = static_cast<std::size_t>(width);
-  if (row_bytes < static_cast<std::size_t>(width) || gray.size() < (height - 1) * row_bytes + width) {
-    return Error{e.path.string() + ": frame " + std::to_string(e.video.next) + " has " + std::to_string(gray.size()) +
-                 " bytes, expected " + std::to_string(width) + " x " + std::to_string(height)};
-  }
-  if (auto ready = e.next_frame(); !ready) return ready;
-  AVFrame& frame = *e.video.frame;
-  for (int y = 0; y < e.padded_height(); ++y) {
-    const std::uint8_t* from = gray.data() + std::min(y, height - 1) * row_bytes;
-    std::uint8_t* to = frame.data[0] + static_cast<std::ptrdiff_t>(y) * frame.linesize[0];
-    for (int x = 0; x < e.padded_width(); ++x) {
-      const int value = from[std::min(x, width - 1)];
-      to[x] = static_cast<std::uint8_t>(e.options.full_range ? value : 16 + (value * 219 + 127) / 255);
-    }
-  }
-  for (int plane : {1, 2}) {
-    for (int y = 0; y < e.padded_height() / 2; ++y) {
-      std::memset(frame.data[plane] + static_cast<std::ptrdiff_t>(y) * frame.linesize[plane], 128,
-                  static_cast<std::size_t>(e.padded_width()) / 2);
-    }
-  }
-  return e.send(e.video, &frame);
 }
 
 Result<void> VideoWriter::write_sound(std::span<const float> samples) {

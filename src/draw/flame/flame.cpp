@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "draw/flame/cells.hpp"
 #include "draw/flame/flame_layers.hpp"
 #include "draw/flame/room.hpp"
 
@@ -22,11 +21,30 @@ void expose(LightField& field, float exposure) {
 
 }  // namespace
 
+void show_state(const LitState& state, FlameScene& scene) {
+  const auto seconds = [](std::chrono::nanoseconds age) {
+    return age == kNever ? kLongAgo : std::chrono::duration<float>(age).count();
+  };
+  scene.seconds_since_lit = seconds(state.since_lit);
+  scene.seconds_since_out = seconds(state.since_out);
+  scene.size = state.size;
+}
+
+void SmokeDrift::blow(float wind, const LitState& state, std::chrono::nanoseconds step_time, FlameScene& scene) {
+  // A wind of 1 carries smoke by this, in flame heights a second; real smoke would leave the picture at once.
+  constexpr float kSmokeCarried = 1.5F;
+  if (state.since_out == kNever) return;
+  if (state.since_out <= step_time) sum_ = count_ = 0;
+  sum_ += wind;
+  count_ += 1;
+  scene.wind = kSmokeCarried * sum_ / count_;
+}
+
 bool burns(const FlameScene& scene) { return scene.seconds_since_lit <= scene.seconds_since_out; }
 
 void draw_flames(Image& image, std::span<const Flame> flames, const FlameStyle& asked) {
   if (image.empty() || flames.empty()) return;
-  const FlameStyle style = held(asked);
+  const FlameStyle style = clamped(asked);
   std::vector<Candle> candles;
   for (const Flame& flame : flames) candles.push_back(prepared(flame, style, image.width(), image.height()));
   draw_behind(image, candles, style);
@@ -44,7 +62,7 @@ void draw_flame(Image& image, std::span<const Point> outline, const FlameScene& 
 
 void draw_room(Image& image, std::span<const Flame> flames, const FlameStyle& asked) {
   if (image.empty()) return;
-  const FlameStyle style = held(asked);
+  const FlameStyle style = clamped(asked);
   std::vector<Stand> stands;
   for (const Flame& flame : flames) stands.push_back(stand_of(flame.scene, style, lamp_of(flame)));
   Room room(image.width(), image.height());

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "draw/flame/smoke.hpp"
+#include <vector>
 
 namespace wisp::drawing {
 namespace {
@@ -15,17 +14,17 @@ constexpr float kDecay = 0.16F;
 // The area of a calm flame in square model units: a quarter as wide as high, tapering. Its light is 1.
 constexpr float kCalmArea = 0.15F;
 
-float held(float value, float low, float high) { return std::isnan(value) ? low : std::clamp(value, low, high); }
+float clamped(float value, float low, float high) { return std::isnan(value) ? low : std::clamp(value, low, high); }
 
-FlameScene held(FlameScene scene) {
-  scene.base.x = held(scene.base.x, -1e5F, 1e5F);
-  scene.base.y = held(scene.base.y, -1e5F, 1e5F);
-  scene.pixels_per_unit = held(scene.pixels_per_unit, 1, 10000);
-  scene.brightness = held(scene.brightness, 0, 4);
-  scene.seconds_since_lit = held(scene.seconds_since_lit, 0, kLongAgo);
-  scene.seconds_since_out = held(scene.seconds_since_out, 0, kLongAgo);
-  if (scene.size) scene.size = held(*scene.size, 0, 1);
-  scene.wind = held(scene.wind, -8, 8);
+FlameScene clamped(FlameScene scene) {
+  scene.base.x = clamped(scene.base.x, -1e5F, 1e5F);
+  scene.base.y = clamped(scene.base.y, -1e5F, 1e5F);
+  scene.pixels_per_unit = clamped(scene.pixels_per_unit, 1, 10000);
+  scene.brightness = clamped(scene.brightness, 0, 4);
+  scene.seconds_since_lit = clamped(scene.seconds_since_lit, 0, kLongAgo);
+  scene.seconds_since_out = clamped(scene.seconds_since_out, 0, kLongAgo);
+  if (scene.size) scene.size = clamped(*scene.size, 0, 1);
+  scene.wind = clamped(scene.wind, -8, 8);
   return scene;
 }
 
@@ -61,6 +60,81 @@ Lamp lamp_of(const FlameShape& shape, const FlameMood& mood) {
   const float area = std::min(3.0F, shape.area / kCalmArea);
   const float glowing = mood.brightness * (0.06F + 0.94F * mood.soot);
   return {shape.middle, glowing * std::pow(area, 0.7F)};
+}
+
+// Light over how much glowing soot is in view (0 none … 1 the thickest part): rim, body, core, each melting into the
+// next, so that layers have a visible edge and no line.
+class SootRamp {
+ public:
+  explicit SootRamp(const FlameStyle& style) {
+    const Light rim = emission_of(style.rim);
+    const Light body = emission_of(style.body);
+    const Light core = emission_of(style.core);
+    for (int k = 0; k <= kSteps; ++k) {
+      const float v = static_cast<float>(k) / kSteps;
+      const float to_rim = smooth_step(0.0F, 0.42F, v);
+      const float to_body = smooth_step(0.30F, 0.66F, v);
+      const float to_core = smooth_step(0.56F, 0.94F, v);
+      Light light = to_rim * rim;
+      light = (1 - to_body) * light + to_body * body;
+      table_[k] = (1 - to_core) * light + to_core * core;
+    }
+  }
+
+  Light at(float soot) const {
+    const float x = std::clamp(soot, 0.0F, 1.0F) * kSteps;
+    const int k = std::min(static_cast<int>(x), kSteps - 1);
+    const float part = x - static_cast<float>(k);
+    return (1 - part) * table_[k] + part * table_[k + 1];
+  }
+
+ private:
+  static constexpr int kSteps = 256;
+  std::array<Light, kSteps + 1> table_{};
+};
+
+// How much of the fuel glows as soot at the share t of the way from the base to the tip: the dark zone around the wick,
+// the luminous zone, and the tip where it burns off.
+float soot_profile(float t) {
+  const float rise = 0.04F + 0.34F * smooth_step(0.04F, 0.22F, t) + 0.62F * smooth_step(0.14F, 0.44F, t);
+  const float burn_off = 1 - 0.55F * smooth_step(0.74F, 1.04F, t);
+  return rise * burn_off;
+}
+
+// Soot fills the whole flame above, but low down it is only inside the blue mantle, which would turn purple with it.
+float soot_depth(float t, float thick) {
+  const float shell = 0.50F * (1 - smooth_step(0.05F, 0.34F, t));
+  return std::max(0.0F, thick - shell) / (1 - shell);
+}
+
+// The blue mantle: a thin shell of burning gas, seen edge-on at the sides, that fades upwards.
+float mantle(float t, float thick) {
+  const float shell = std::exp(-7.0F * thick * thick) + 0.05F;
+  return shell * (1 - smooth_step(0.00F, 0.27F, t));
+}
+
+// Adds the flame's light to the field. `shade` dims it where the wick stands in it, 0 … 1, over the shape's box; an
+// empty plane dims nothing.
+void add_flame_light(LightField& field, const FlameShape& shape, const FlameMood& mood, const FlameStyle& style,
+                     const Plane& shade) {
+  if (shape.empty() || shape.thickest <= 0) return;
+  const SootRamp ramp(style);
+  const Light blue = emission_of(style.base);
+  const float per_reach = 1 / std::max(1e-3F, shape.reach);
+  for (int y = 0; y < shape.box.height; ++y) {
+    for (int x = 0; x < shape.box.width; ++x) {
+      const float covered = shape.coverage.row(y)[x];
+      if (covered == 0) continue;
+      const float thick = std::min(1.0F, shape.thickness.row(y)[x] / shape.thickest);
+      const float dx = static_cast<float>(shape.box.x + x) + 0.5F - shape.base.x;
+      const float dy = static_cast<float>(shape.box.y + y) + 0.5F - shape.base.y;
+      const float t = std::sqrt(dx * dx + dy * dy) * per_reach;
+      const Light soot = ramp.at(mood.soot * soot_depth(t, thick) * soot_profile(t));
+      const Light light = soot + 0.26F * mantle(t, thick) * blue;
+      const float clear = shade.values.empty() ? 1 : 1 - shade.row(y)[x];
+      field.add(shape.box.x + x, shape.box.y + y, mood.brightness * covered * clear * light);
+    }
+  }
 }
 
 // The wick hides what burns behind it, and most of what burns before it is thin there.
@@ -110,21 +184,21 @@ std::vector<Lamp> lamps_but(std::span<const Candle> candles, std::size_t own) {
 
 }  // namespace
 
-FlameStyle held(FlameStyle style) {
-  style.exposure = held(style.exposure, 0, 8);
-  style.glow = held(style.glow, 0, 4);
-  style.glow_reach = held(style.glow_reach, 0.25F, 4);
-  style.candle_width = held(style.candle_width, 0.05F, 4);
-  style.candle_height = held(style.candle_height, 0.05F, 20);
-  style.wick_gap = held(style.wick_gap, 0, 1);
-  style.wick_height = held(style.wick_height, 0, 1);
-  style.ambient = held(style.ambient, 0, 1);
+FlameStyle clamped(FlameStyle style) {
+  style.exposure = clamped(style.exposure, 0, 8);
+  style.glow = clamped(style.glow, 0, 4);
+  style.glow_reach = clamped(style.glow_reach, 0.25F, 4);
+  style.candle_width = clamped(style.candle_width, 0.05F, 4);
+  style.candle_height = clamped(style.candle_height, 0.05F, 20);
+  style.wick_gap = clamped(style.wick_gap, 0, 1);
+  style.wick_height = clamped(style.wick_height, 0, 1);
+  style.ambient = clamped(style.ambient, 0, 1);
   return style;
 }
 
 Candle prepared(const Flame& flame, const FlameStyle& style, int width, int height) {
   Candle candle;
-  candle.scene = held(flame.scene);
+  candle.scene = clamped(flame.scene);
   const Stage stage = stage_of(candle.scene);
   candle.mood = stage.mood;
   candle.wick = make_wick(candle.scene, style, width, height);
@@ -137,7 +211,7 @@ Candle prepared(const Flame& flame, const FlameStyle& style, int width, int heig
 }
 
 Lamp lamp_of(const Flame& flame) {
-  const FlameScene scene = held(flame.scene);
+  const FlameScene scene = clamped(flame.scene);
   Stage stage = stage_of(scene);
   if (stage.mood.brightness <= 0) return {};
   const FlameShape shape = measured_shape(flame.outline, scene, stage.scale);

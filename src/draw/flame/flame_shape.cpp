@@ -1,9 +1,14 @@
-#include "draw/flame/flame_shape.hpp"
+// The shape of a flame in a picture: which pixels it covers, and how thick the glowing body is behind each.
+//
+// The flame is a body of revolution. Where its half width is w, the chord of light at distance d from the edge is
+// 2 √(d (2w − d)); and in a long strip φ = d (2w − d) / 2 solves ∇²φ = −1 with φ = 0 at the edge. So half the chord is
+// √(2φ) with φ solved inside the outline, whatever its shape. It is smooth and moves as smoothly as the outline.
 
 #include <algorithm>
 #include <cmath>
 
 #include "draw/cairo.hpp"
+#include "draw/flame/flame_layers.hpp"
 
 namespace wisp::drawing {
 namespace {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <vector>
 
-#include "draw/flame/cells.hpp"
 #include "draw/flame/flame_layers.hpp"
 #include "draw/flame/room.hpp"
 
@@ -90,7 +89,7 @@ void merge_meeting(std::vector<PixelBox>& boxes) {
 
 struct LiveFlames::State {
   State(int width, int height, const FlameStyle& asked)
-      : style(held(asked)),
+      : style(clamped(asked)),
         room(width, height),
         behind(width, height),
         dither(width, height),

@@ -1,13 +1,50 @@
 #pragma once
-// The room in which candles stand: a wall and a table, lit by the flames from where they are, and a little by the moon.
+// The dark room in which candles stand: a wall and a table, lit by the flames and a little by the moon. Soft light is
+// computed on a grid of cells of 4 × 4 pixels and interpolated, a sixteenth of the work.
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
-#include "draw/flame/candle.hpp"
-#include "draw/flame/light_field.hpp"
+#include "draw/flame/flame_layers.hpp"
 
 namespace wisp::drawing {
+
+inline constexpr int kHalvings = 2;
+inline constexpr int kCell = 1 << kHalvings;
+
+inline int cells(int pixels) { return (pixels + kCell - 1) / kCell; }
+
+/// One row of a grid, or the place between two, as values of the picture's row.
+struct Between {
+  Between(int pixel, int count) {
+    const float at = (static_cast<float>(pixel) + 0.5F) / kCell - 0.5F;
+    const int below = static_cast<int>(std::floor(at));
+    share = at - static_cast<float>(below);
+    first = std::clamp(below, 0, count - 1);
+    second = std::clamp(below + 1, 0, count - 1);
+  }
+  int first = 0, second = 0;
+  float share = 0;
+};
+
+/// The three channels of a row of a picture, with room for the groups of pixels that hang over both edges.
+struct Row {
+  explicit Row(int width) {
+    for (auto& channel : channels) channel.resize(static_cast<std::size_t>(width) + 2 * kCell);
+  }
+  const float* operator[](int channel) const { return channels[channel].data() + kCell / 2; }
+  std::array<std::vector<float>, 3> channels;
+};
+
+/// Spreads a row of cells over pixels, linear between the middles of cells. `scratch` has two values more than the grid
+/// has columns.
+void spread(const LightField& grid, const Between& y, std::vector<float>& scratch, Row& row, int width);
+
+/// Writes codes with their fraction as pixels, rounded by `dither`.
+void write_codes(const Row& codes, const float* dither, std::uint32_t* out, int first, int last);
 
 /// A flame, and the candle under it that shades the table.
 struct Stand {
@@ -22,7 +59,7 @@ Stand stand_of(const FlameScene& scene, const FlameStyle& style, const Lamp& lam
 
 class Room {
  public:
-  /// Of a picture of that size, on its cells (draw/flame/cells.hpp).
+  /// Of a picture of that size.
   Room(int width, int height);
 
   /// Light that the room sends to the eye, in cells.

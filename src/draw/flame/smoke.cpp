@@ -1,11 +1,9 @@
-#include "draw/flame/smoke.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "draw/flame/light_field.hpp"
+#include "draw/flame/flame_layers.hpp"
 #include "draw/random.hpp"
 
 namespace wisp::drawing {

@@ -8,8 +8,7 @@
 #include <cmath>
 
 #include "draw/cairo.hpp"
-#include "draw/plot/plot_axes.hpp"
-#include "draw/plot/plot_series.hpp"
+#include "draw/plot/plot_parts.hpp"
 #include "draw/text.hpp"
 #include "wisp/base/file.hpp"
 
@@ -77,7 +76,6 @@ void draw_plot(cairo_t* context, const Plot& plot, double width, double height, 
   }
   const Axes axes = make_axes(context, plot, width, height, left);
   draw_title(context, plot.title, axes.box);
-  draw_spans(context, plot, axes);
   draw_grid(context, axes);
   cairo_save(context);
   cairo_rectangle(context, axes.box.left, axes.box.top - 1, axes.box.width(), axes.box.height() + 2);

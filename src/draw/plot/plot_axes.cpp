@@ -1,11 +1,10 @@
-#include "draw/plot/plot_axes.hpp"
+#include "draw/plot/plot_parts.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "draw/cairo.hpp"
-#include "draw/plot/plot_series.hpp"
 #include "draw/text.hpp"
 
 namespace wisp::drawing {
@@ -17,7 +16,6 @@ constexpr Colour kTick{92, 93, 99};
 constexpr Colour kAxis{120, 121, 128};
 constexpr Colour kGrid{233, 233, 237};
 constexpr Colour kMark{192, 38, 45};
-constexpr Colour kSpan{240, 238, 232};
 
 constexpr Font kTitleFont{11, true};
 constexpr Font kLabelFont{9.5};
@@ -235,19 +233,6 @@ void draw_axes(cairo_t* context, const Plot& plot, const Axes& axes) {
   cairo_rotate(context, -std::numbers::pi / 2);
   show_text(context, plot.y.label, 0, 0, kLabelFont, kLabel, Align::kCentre);
   cairo_restore(context);
-}
-
-void draw_spans(cairo_t* context, const Plot& plot, const Axes& axes) {
-  for (const PlotSpan& span : plot.spans) {
-    if (!axes.x.shows(span.from) || !axes.x.shows(span.to)) continue;
-    const double left = std::clamp(axes.x(std::min(span.from, span.to)), axes.box.left, axes.box.right);
-    const double right = std::clamp(axes.x(std::max(span.from, span.to)), axes.box.left, axes.box.right);
-    if (right <= left) continue;
-    cairo_rectangle(context, left, axes.box.top, right - left, axes.box.height());
-    set_colour(context, span.colour.value_or(kSpan));
-    cairo_fill(context);
-    show_text(context, span.label, (left + right) / 2, axes.box.top + 11, kNoteFont, kTick, Align::kCentre);
-  }
 }
 
 void draw_marks(cairo_t* context, const Plot& plot, const Axes& axes) {

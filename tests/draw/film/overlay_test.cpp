@@ -61,7 +61,6 @@ TEST(Overlay, PointsFarOutsideDoNoHarm) {
   Image image(50, 50, kGray);
   const float far = std::numeric_limits<float>::max();
   draw_outline(image, std::vector<Point>{{-far, 25}, {far, 25}, {25, -far}}, {.width = 2});
-  draw_control_polygon(image, std::vector<Point>{{-far, far}, {25, 25}});
   EXPECT_NE(image.at(25, 25), kGray);
 }
 
@@ -69,23 +68,13 @@ TEST(Overlay, NothingToDrawChangesNothing) {
   Image image(50, 50, kGray);
   const Image before = image;
   draw_outline(image, {});
-  draw_control_polygon(image, {});
   draw_legend(image, {});
   draw_label(image, "");
   EXPECT_TRUE(image == before);
   Image empty;
   draw_outline(empty, kSquare);
-  draw_control_polygon(empty, kSquare);
   draw_label(empty, "text");
   EXPECT_TRUE(empty.empty());
-}
-
-TEST(Overlay, ControlPointsAreRingsAroundTheirPlaces) {
-  Image image(100, 100, kGray);
-  draw_control_polygon(image, kSquare, {0, 255, 255});
-  EXPECT_GT(changed_pixels(image, {14, 14, 12, 12}), 20);
-  EXPECT_GT(changed_pixels(image, {74, 74, 12, 12}), 20);
-  EXPECT_EQ(image.at(50, 50), kGray);
 }
 
 TEST(Overlay, LegendAndLabelsStayInTheirCorners) {

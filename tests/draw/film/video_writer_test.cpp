@@ -107,43 +107,6 @@ TEST(VideoWriter, SaysThatItsColoursAreBt709) {
   EXPECT_NE(text.find("color_primaries=bt709"), std::string::npos);
 }
 
-TEST(VideoWriter, LosslessGrayComesBackByteForByte) {
-  REQUIRE_FFMPEG();
-  const TestFolder folder("video-gray");
-  std::vector<std::uint8_t> frames;
-  auto writer =
-      VideoWriter::create(folder / "a.mp4", {.width = 64, .height = 32, .rate_hz = 60, .crf = 0, .full_range = true});
-  ASSERT_TRUE(writer) << writer.error().message;
-  for (int frame = 0; frame < 5; ++frame) {
-    std::vector<std::uint8_t> gray(64 * 32);
-    for (std::size_t k = 0; k < gray.size(); ++k)
-      gray[k] = static_cast<std::uint8_t>(k * 37 + frame * 101 + k * k / 64);
-    ASSERT_TRUE(writer->write_gray(gray));
-    frames.insert(frames.end(), gray.begin(), gray.end());
-  }
-  ASSERT_TRUE(writer->finish());
-  EXPECT_NE(probed(folder / "a.mp4", "v:0", "color_range").find("color_range=pc"), std::string::npos);
-  EXPECT_EQ(decoded(folder / "a.mp4", "gray"), frames);
-}
-
-TEST(VideoWriter, GrayRowsMayHaveGaps) {
-  REQUIRE_FFMPEG();
-  const TestFolder folder("video-gaps");
-  auto writer =
-      VideoWriter::create(folder / "a.mp4", {.width = 5, .height = 3, .rate_hz = 60, .crf = 0, .full_range = true});
-  ASSERT_TRUE(writer);
-  std::vector<std::uint8_t> gray(3 * 9, 200);
-  for (int y = 0; y < 3; ++y) std::fill_n(gray.begin() + y * 9, 5, static_cast<std::uint8_t>(40 * (y + 1)));
-  ASSERT_TRUE(writer->write_gray(gray, 9));
-  ASSERT_TRUE(writer->finish());
-  const auto back = decoded(folder / "a.mp4", "gray");
-  ASSERT_EQ(back.size(), 6U * 4);
-  EXPECT_EQ(back[0], 40);
-  EXPECT_EQ(back[5], 40);  // the padding repeats the last column
-  EXPECT_EQ(back[6], 80);
-  EXPECT_EQ(back[23], 120);  // and the last row
-}
-
 TEST(VideoWriter, SoundHasItsLengthAndPitch) {
   REQUIRE_FFMPEG();
   const TestFolder folder("video-sound");
@@ -247,9 +210,6 @@ TEST(VideoWriter, AFrameOfAnotherSizeIsNamed) {
   const auto other = writer->write(Image(32, 48));
   ASSERT_FALSE(other);
   EXPECT_NE(other.error().message.find("frame 1 is 32 x 48 pixels, expected 64 x 48"), std::string::npos);
-  const std::vector<std::uint8_t> few(100);
-  EXPECT_FALSE(writer->write_gray(few));
-  EXPECT_FALSE(writer->write_gray(std::vector<std::uint8_t>(64 * 48), 10));
 }
 
 TEST(VideoWriter, WhatCannotBeIsRefusedBeforeAnyFile) {

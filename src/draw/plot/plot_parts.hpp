@@ -1,5 +1,5 @@
 #pragma once
-// Everything of a plot but its data: room, axes, grid, title, marks, legend.
+// The parts of a plot: range and room, axes, grid, title, marks, legend, and the data.
 
 #include <cairo.h>
 
@@ -33,10 +33,22 @@ Axes make_axes(cairo_t* context, const Plot& plot, double width, double height, 
 void draw_title(cairo_t* context, const std::string& title, const PlotBox& box);
 void draw_grid(cairo_t* context, const Axes& axes);
 void draw_axes(cairo_t* context, const Plot& plot, const Axes& axes);
-void draw_spans(cairo_t* context, const Plot& plot, const Axes& axes);
 void draw_marks(cairo_t* context, const Plot& plot, const Axes& axes);
 
 /// The legend of the series stands in a line above the data, where it cannot hide any.
 void draw_keys(cairo_t* context, const Plot& plot, const Axes& axes);
+
+/// The colour that a series has when it names none: the palette's, by its place among the series.
+Colour series_colour(const PlotSeries& series, std::size_t place);
+
+void draw_series(cairo_t* context, const PlotSeries& series, Colour colour, const Scale& x, const Scale& y);
+
+/// The series as it looks, in a legend: from (x, y) to the right.
+void draw_sample(cairo_t* context, const PlotSeries& series, Colour colour, double x, double y, double width);
+
+void set_dash(cairo_t* context, Dash dash, double width);
+
+/// How wide bars are, in data units: the smallest step between them; 1 for a single one.
+double bar_width(const PlotSeries& series);
 
 }  // namespace wisp::drawing
