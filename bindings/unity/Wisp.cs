@@ -1,6 +1,6 @@
 // Wisp for C# and for Unity: a thin cover of the C ABI (include/wisp/wisp.h), one file to copy into Assets/ beside the
-// native library (Assets/Plugins: libwisp.so, wisp.dll, libwisp.dylib). What runs every frame allocates nothing: arrays
-// are the caller's. Everything is used by one thread at a time.
+// native library (Assets/Plugins: libwisp.so, wisp.dll, libwisp.dylib). Calls of a frame allocate nothing: the caller
+// owns the arrays. An object may be used by one thread at a time.
 //
 //     var model = Model.Read("flame.wisp");
 //     var bank = new Bank(model, capacity: 100);
@@ -15,7 +15,7 @@ using System.Text;
 
 namespace Wisp
 {
-    /// <summary>What the library refused, in its one sentence.</summary>
+    /// <summary>An error of the library, with its message.</summary>
     public sealed class WispException : Exception
     {
         public readonly int Status;
@@ -168,20 +168,20 @@ namespace Wisp
         }
     }
 
-    /// <summary>What the outputs of a model mean.</summary>
+    /// <summary>The meaning of a model's outputs.</summary>
     public enum View { Plain = 0, Outline = 1, Pose = 2, Position = 3 }
 
-    /// <summary>What moves the outputs.</summary>
+    /// <summary>The kind of dynamics.</summary>
     public enum Dynamics { Arx = 1, Chain = 2, Switched = 3 }
 
-    /// <summary>An input or an output: what it is called, and its range.</summary>
+    /// <summary>Name and range of an input or output.</summary>
     public struct Channel
     {
         public string Name, Unit;
         public double Lowest, Highest;
     }
 
-    /// <summary>A model of how a thing behaves. Banks that were made from it live on when it is disposed of.</summary>
+    /// <summary>A model. Its banks stay valid after it is disposed.</summary>
     public sealed class Model : IDisposable
     {
         internal IntPtr Handle;
@@ -268,7 +268,7 @@ namespace Wisp
             return facts;
         }
 
-        /// <summary>Starts an instance. Its slot is the lower half of what names it.</summary>
+        /// <summary>Starts an instance. The lower half of its id is its slot.</summary>
         public ulong Spawn()
         {
             ulong instance;
@@ -276,7 +276,7 @@ namespace Wisp
             return instance;
         }
 
-        /// <summary>The same with a random stream of its own: the same stream and inputs live the same life.</summary>
+        /// <summary>Starts an instance with a given random stream: the same stream and inputs give the same play.</summary>
         public ulong Spawn(ulong stream)
         {
             ulong instance;
@@ -287,17 +287,17 @@ namespace Wisp
         public void End(ulong instance) { Native.Check(Native.wisp_bank_end(handle, instance)); }
         public bool IsAlive(ulong instance) { return Native.wisp_bank_alive(handle, instance) != 0; }
 
-        /// <summary>What acts from the next step on: for all, slots x inputs; the same for all; for one.</summary>
+        /// <summary>Sets inputs from the next step on: slots x inputs; one row for all; one instance's.</summary>
         public void SetInputs(float[] values) { Native.Check(Native.wisp_bank_set_inputs(handle, values, Native.Count(values))); }
         public void SetCommonInputs(params float[] values) { Native.Check(Native.wisp_bank_set_common_inputs(handle, values, Native.Count(values))); }
         public void SetInputs(ulong instance, float[] values) { Native.Check(Native.wisp_bank_set_instance_inputs(handle, instance, values, Native.Count(values))); }
 
-        /// <summary>1 as learned, 0 none.</summary>
+        /// <summary>Scale of the noise: 1 as learned, 0 none.</summary>
         public void SetNoise(float scale) { Native.Check(Native.wisp_bank_set_noise(handle, scale)); }
 
         public void Step() { Native.Check(Native.wisp_bank_step(handle)); }
 
-        /// <summary>Lets time pass, such as Time.deltaTime. Returns the steps made.</summary>
+        /// <summary>Advances by a time such as Time.deltaTime. Returns the number of steps.</summary>
         public int Advance(double seconds)
         {
             int steps;
@@ -305,15 +305,15 @@ namespace Wisp
             return steps;
         }
 
-        /// <summary>Outputs into an array of slots x outputs, or of one instance.</summary>
+        /// <summary>Writes outputs into an array of slots x outputs, or one instance's.</summary>
         public void Outputs(float[] values) { Native.Check(Native.wisp_bank_outputs(handle, values, Native.Count(values))); }
         public void Outputs(ulong instance, float[] values) { Native.Check(Native.wisp_bank_instance_outputs(handle, instance, values, Native.Count(values))); }
 
-        /// <summary>Outlines as points, x and y in turn: slots x points x 2, or of one instance.</summary>
+        /// <summary>Writes outlines as x, y, x, y, …: slots x points x 2, or one instance's.</summary>
         public void Polylines(float[] values) { Native.Check(Native.wisp_bank_polylines(handle, values, Native.Count(values))); }
         public void Polyline(ulong instance, float[] values) { Native.Check(Native.wisp_bank_polyline(handle, instance, values, Native.Count(values))); }
 
-        /// <summary>Whether an instance burns; only of models that wind puts out.</summary>
+        /// <summary>Whether an instance burns; for models with extinction only.</summary>
         public bool IsLit(ulong instance)
         {
             var state = new Native.FlameState { Size = (uint)Marshal.SizeOf(typeof(Native.FlameState)) };
@@ -334,7 +334,7 @@ namespace Wisp
         ~Bank() { Native.wisp_bank_free(handle); }
     }
 
-    /// <summary>The wind during one frame of sound, as wisp_wind_frame has it.</summary>
+    /// <summary>The wind during one frame of sound: wisp_wind_frame.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct WindFrame
     {
@@ -342,7 +342,7 @@ namespace Wisp
         public float Rms, RmsClean, Level, Speed, Wind, Confidence, Background, Clipped;
     }
 
-    /// <summary>Wind heard by a microphone: OnAudioFilterRead's or Microphone's samples in, a model's input out.</summary>
+    /// <summary>Converts a microphone's samples (OnAudioFilterRead, Microphone) to wind, a model's input.</summary>
     public sealed class WindLevel : IDisposable
     {
         private readonly WindFrame[] frames = new WindFrame[64];
@@ -360,7 +360,7 @@ namespace Wisp
         /// <summary>The latest frame.</summary>
         public WindFrame Latest { get; private set; }
 
-        /// <summary>Takes interleaved samples, full scale +-1. Returns the frames that they made.</summary>
+        /// <summary>Takes interleaved samples, full scale +-1. Returns the number of completed frames.</summary>
         public int Feed(float[] samples)
         {
             UIntPtr taken, made;
@@ -373,13 +373,13 @@ namespace Wisp
                 if (count > 0) Latest = frames[count - 1];
                 all += count;
                 if (used == block.Length) return all;
-                var rest = new float[block.Length - used];  // more than 64 frames in one block: not every frame
+                var rest = new float[block.Length - used];  // only for more than 64 frames in one block
                 Array.Copy(block, used, rest, 0, rest.Length);
                 block = rest;
             }
         }
 
-        /// <summary>Takes the coming seconds as the room without wind.</summary>
+        /// <summary>Calibrates on the next seconds, which must be without wind.</summary>
         public void Calibrate(double seconds) { Native.Check(Native.wisp_wind_calibrate(handle, seconds)); }
         public bool Calibrating { get { return Native.wisp_wind_calibrating(handle) != 0; } }
 
@@ -392,13 +392,13 @@ namespace Wisp
 
         ~WindLevel() { Native.wisp_wind_free(handle); }
     }
-    /// <summary>What a channel of a recording is.</summary>
+    /// <summary>The role of a channel.</summary>
     public enum Role { Input = 0, Output = 1, Motion = 2 }
 
-    /// <summary>What is learned, as wisp.h has it.</summary>
+    /// <summary>The recipe, as in wisp.h.</summary>
     public enum Recipe { Arx = 1, Outline = 2, Flame = 3, Chain = 4, Leaf = 5, Flicker = 6 }
 
-    /// <summary>What is learned from: channels at one rate, all of one length. NaN is a missing sample.</summary>
+    /// <summary>A recording: channels of one rate and length. NaN is a missing sample.</summary>
     public sealed class Recording : IDisposable
     {
         internal IntPtr Handle;
@@ -410,7 +410,7 @@ namespace Wisp
             Native.Check(Native.wisp_recording_add(Handle, (uint)role, Native.Utf8(name), Native.Utf8(unit), samples, Native.Count(samples)));
         }
 
-        /// <summary>One number a row; no history crosses from one number to the next.</summary>
+        /// <summary>The episode of each row; no history crosses from one episode to the next.</summary>
         public void SetEpisodes(long[] ids) { Native.Check(Native.wisp_recording_set_episodes(Handle, ids, Native.Count(ids))); }
 
         public void Dispose()
@@ -423,15 +423,15 @@ namespace Wisp
         ~Recording() { Native.wisp_recording_free(Handle); }
     }
 
-    /// <summary>What was learned: the bytes of a model's file, and whether it is fit for use. Takes seconds: for an editor or a
-    /// thread of its own. A library that was built without learning throws EntryPointNotFoundException.</summary>
+    /// <summary>A fit: the bytes of a model's file, and its verdict. Learning takes seconds: run it in an editor or on its own
+    /// thread. A library built without learning throws EntryPointNotFoundException.</summary>
     public sealed class Fit
     {
         public readonly byte[] Bytes;
         public readonly bool Usable;
         public readonly string Reason;
 
-        /// <summary>na, nb and nk (-1: found) count for Recipe.Arx, which has them of the library where they are not given.</summary>
+        /// <summary>na, nb and nk (-1: estimated) apply to Recipe.Arx; the defaults are the library's.</summary>
         public Fit(Recipe recipe, Recording[] recordings, int? na = null, int? nb = null, int? nk = null)
         {
             Native.Recipe chosen = Native.wisp_recipe_default((uint)recipe);

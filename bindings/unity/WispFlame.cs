@@ -1,5 +1,5 @@
 // A flame in Unity: put this on an object with a MeshFilter and a MeshRenderer, and drag a model (flame.wisp renamed to
-// flame.wisp.bytes) into Model. Not run here, where no Unity is; Wisp.cs is, under mono.
+// flame.wisp.bytes) into Model. Untested in Unity; Wisp.cs is tested under Mono.
 #if UNITY_5_3_OR_NEWER
 using UnityEngine;
 

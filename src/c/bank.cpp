@@ -18,7 +18,7 @@ std::size_t rows(const wisp_bank* bank, int columns) {
   return static_cast<std::size_t>(bank->bank.slots()) * static_cast<std::size_t>(columns);
 }
 
-// What the caller knows of the options, over the defaults.
+// Copies the option fields that the caller knows over the defaults.
 std::optional<wisp::BankOptions> options_of(const char* function, const wisp_bank_options* given) {
   wisp_bank_options known = wisp_bank_default_options();
   if (given) {
@@ -47,14 +47,14 @@ bool has_outline(const char* function, const wisp_bank* bank) {
   return false;
 }
 
-// What goes out, or the reason why nothing does.
+// Returns the bank's extinction, or the error that it has none.
 wisp::ExtinctionFacet* extinction_of(const char* function, wisp_bank* bank) {
   wisp::ExtinctionFacet* extinction = bank->bank.extinction();
   if (!extinction) fail(WISP_BAD_ARGUMENT, "%s: the model has no rule of extinction", function);
   return extinction;
 }
 
-// What never goes out burns.
+// A model without extinction always burns.
 std::optional<wisp::LitState> state_of(const wisp_bank* bank, InstanceId id) {
   if (const wisp::ExtinctionFacet* extinction = bank->bank.extinction()) return extinction->state_of(id);
   return bank->bank.valid(id) ? std::optional<wisp::LitState>(wisp::LitState{}) : std::nullopt;

@@ -6,7 +6,7 @@
 namespace wisp::c {
 namespace {
 
-// Fixed room, so that even a failure on the frame path allocates nothing.
+// A fixed buffer, so that an error on the frame path allocates nothing.
 thread_local char last_error[512] = "";
 
 }  // namespace

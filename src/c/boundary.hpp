@@ -1,5 +1,5 @@
 #pragma once
-// What every function of the C ABI does at its door: words for what was wrong, structs of other sizes, no exceptions.
+// Common checks of the C ABI: error messages, structs of other sizes, no exceptions.
 
 #include <algorithm>
 #include <cstddef>
@@ -10,7 +10,7 @@
 #include "wisp/base/result.hpp"
 #include "wisp/wisp.h"
 
-// Format strings are C99's, which MinGW's own printf would not know.
+// C99 format strings, which MinGW's own printf does not support.
 #if defined(__MINGW32__) && !defined(__clang__)
 #define WISP_FORMAT __attribute__((format(gnu_printf, 2, 3)))
 #elif defined(__GNUC__)
@@ -21,23 +21,23 @@
 
 namespace wisp::c {
 
-/// Keeps a sentence as this thread's last error. Returns `status`. Allocates nothing.
+/// Stores a message as this thread's last error. Returns `status`. Allocates nothing.
 wisp_status fail(wisp_status status, const char* format, ...) WISP_FORMAT;
 wisp_status fail(wisp_status status, const Error& error);
 
 wisp_status null_argument(const char* function);
 wisp_status not_alive(const char* function);
 
-/// Whether a buffer is there and has the stated number of values; says what is wrong otherwise.
+/// Checks that a buffer is not null and has the stated number of values; stores an error otherwise.
 bool buffer_is_right(const char* function, const void* values, std::size_t found, std::size_t expected);
 
-/// Whether an index is below a count; says so otherwise.
+/// Checks that an index is below a count; stores an error otherwise.
 bool index_is_right(const char* function, std::uint32_t index, std::size_t count);
 
-/// Whether the size field of a struct can be one; says so otherwise.
+/// Checks the size field of a struct; stores an error otherwise.
 bool size_is_right(const char* function, std::uint32_t size);
 
-/// Runs what may throw; nothing but the want of memory can. Where exceptions are switched off, want of memory ends the
+/// Runs a function that may throw for lack of memory, and for nothing else. Without exceptions, lack of memory ends the
 /// program.
 template <class Work>
 wisp_status guarded(const char* function, Work work) {
@@ -55,20 +55,20 @@ wisp_status guarded(const char* function, Work work) {
 #endif
 }
 
-/// Fills a struct of a caller that may know fewer fields, or more, than this build.
+/// Fills a struct of a caller compiled against an older or newer version of it.
 template <class Struct>
 void hand_out(Struct filled, Struct* out) {
   filled.size = out->size;
   std::memcpy(out, &filled, std::min<std::size_t>(out->size, sizeof(Struct)));
 }
 
-/// Takes over into `known`, which holds the defaults, the fields that the caller of `given` knows.
+/// Copies the fields that the caller of `given` knows into `known`, which holds the defaults.
 template <class Struct>
 void take_in(const Struct* given, Struct& known) {
   std::memcpy(&known, given, std::min<std::size_t>(given->size, sizeof known));
 }
 
-/// Fills an array whose count must be right.
+/// Fills an array; its count must match.
 template <class Values, class Value>
 wisp_status hand_out_values(const char* function, const Values& from, Value* values, std::size_t count) {
   if (!buffer_is_right(function, values, count, from.size())) return WISP_BAD_ARGUMENT;

@@ -1,4 +1,4 @@
-// Instances of a chain: where they are, and where a body puts them.
+// Instances of a chain: their segment, placing, steering and ground.
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 
 using namespace wisp::c;
 
-// The bank's chain, const where the bank is, or the reason why there is none.
+// Returns the bank's chain (const for a const bank), or the error that it has none.
 template <class Handle>
 auto* chain_of(const char* function, Handle* bank) {
   auto* chain = bank->bank.chain();

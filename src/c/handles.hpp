@@ -1,5 +1,5 @@
 #pragma once
-// What the opaque handles of the C ABI are.
+// The types behind the opaque handles of the C ABI.
 
 #include <cstdint>
 

@@ -1,4 +1,4 @@
-// Models: from the bytes of a file, and what they say of themselves.
+// Models: reading from bytes, and their properties.
 
 #include <utility>
 
@@ -81,7 +81,7 @@ wisp_status hand_out_orders(const char* function, const wisp_model* model, wisp:
 }
 
 #ifdef WISP_COST_AS_LEARNED
-// Counting takes every kernel a second time, a fifth of a module that travels: this one says what the learner counted.
+// Returns the count of the learner: counting here would instantiate every kernel twice, a fifth of the wasm module.
 wisp::Result<wisp::Cost> cost_of(const wisp::Model& model) {
   wisp::Cost cost;
   cost.multiply_adds_per_frame = model.training.multiply_adds_per_frame;
@@ -246,7 +246,7 @@ wisp_status wisp_model_chain_transitions(const wisp_model* model, double* values
   if (!model) return null_argument(__func__);
   const wisp::ChainModel* chain = chain_of(__func__, model);
   if (!chain) return WISP_BAD_ARGUMENT;
-  const char* const call = __func__;  // within the lambda it would be operator()
+  const char* const call = __func__;  // within the lambda __func__ is operator()
   return guarded(call, [&] { return hand_out_values(call, chain->transitions(), values, count); });
 }
 

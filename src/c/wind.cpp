@@ -24,7 +24,7 @@ wisp_wind_frame frame_of(const wisp::WindFrame& frame) {
           frame.wind,  frame.confidence, frame.background, frame.clipped};
 }
 
-// In pieces of a few frames, so that nothing is allocated and no struct passes for another.
+// Converted a few frames at a time, which needs no allocation and no reinterpretation of structs.
 template <class Sample>
 wisp_status feed(const char* function, wisp_wind* wind, std::span<const Sample> samples, wisp_wind_frame* frames,
                  std::size_t room, std::size_t* taken, std::size_t* made) {

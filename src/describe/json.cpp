@@ -32,12 +32,12 @@ Json json_of(const ReportValue& value) {
       static_cast<const ReportValue::Base&>(value));
 }
 
-// The field that an id names, made on the way: a.b is a field of a field, a[2] an element, and a backslash takes the
-// next character as it is.
+// Returns the field that an id names, creating it if needed: a.b is a field of a field, a[2] an element, and a
+// backslash escapes the next character.
 Json& field(Json& object, std::string_view id) {
   Json* at = &object;
   std::string name;
-  bool element = false;  // what was read last: its place is found already
+  bool element = false;  // the last token was an element, which is resolved already
   const auto step = [&] {
     if (!element) at = &(*at)[name];
     name.clear();
@@ -77,7 +77,7 @@ std::string to_json(const Report& report, int indent) {
   Json out = Json::object();
   for (const ReportSection& section : report.sections) {
     for (const ReportEntry& entry : section.entries) {
-      if (entry.id.empty()) continue;  // a sentence for people
+      if (entry.id.empty()) continue;  // plain text, not in the JSON
       field(out, entry.id) = json_of(entry.value);
       if (entry.interval)
         field(out, entry.id + "_ci95") = {json_of((*entry.interval)[0]), json_of((*entry.interval)[1])};

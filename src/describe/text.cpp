@@ -22,7 +22,7 @@ std::string padded(std::string text, std::size_t to) {
   return text;
 }
 
-// Percentages of a simulation that runs away: their digits say nothing more.
+// Below this a percentage is of a diverging simulation and is shown as "diverges".
 bool diverges(const ReportValue& value, const std::string& unit) {
   constexpr double kRunsAway = -1000;
   const auto* number = std::get_if<double>(static_cast<const ReportValue::Base*>(&value));

@@ -1,5 +1,5 @@
 #pragma once
-// Values of a report as people read them, in text and on a page.
+// Formats the values of a report for text and HTML.
 
 #include <string>
 
@@ -7,14 +7,13 @@
 
 namespace wisp {
 
-/// The text with its unit behind it, where there is one.
+/// Returns the text followed by its unit, if any.
 std::string with_unit(const std::string& text, const std::string& unit);
 
-/// A value of that unit, without it: "diverges" for percentages of a simulation that runs away, whose digits say
-/// nothing more.
+/// Formats a value without its unit; "diverges" for percentages of a diverging simulation.
 std::string shown_in_unit(const ReportValue& value, const std::string& unit);
 
-/// The same with its unit.
+/// Formats a value with its unit.
 std::string shown_with_unit(const ReportValue& value, const std::string& unit);
 
 }  // namespace wisp

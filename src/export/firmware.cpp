@@ -1,6 +1,6 @@
-// Fixed point: the state is in 2^-29 of a power of two that holds all it may reach, coefficients are in 2^-28, and sums
-// are in 2^-25, so that a product is the upper half of 32 by 32 bits. Shocks: the sum of four uniform bytes
-// (Irwin-Hall), from G. Marsaglia's xorshift32 (Journal of Statistical Software 8, 2003).
+// Fixed point: the state is in units of 2^-29 of a power of two above its range, coefficients in 2^-28, and sums in
+// 2^-25, so that a product is the upper half of 32 by 32 bits. Shocks: the sum of four uniform bytes (Irwin-Hall), from
+// G. Marsaglia's xorshift32 (Journal of Statistical Software 8, 2003).
 
 #include <algorithm>
 #include <cctype>
@@ -22,7 +22,7 @@ constexpr double kMaxWeight = 8, kMaxSum = 24;
 // Standard deviation of the sum of four bytes from -128 to 127.
 const double kBytesSd = std::sqrt(4.0 * (256 * 256 - 1) / 12);
 
-// A model as numbers of one output.
+// The coefficients of a model with one output.
 struct Lamp {
   std::vector<std::vector<double>> feedback;  // per mode and lag, sign of the prediction
   std::vector<std::vector<double>> input;     // per mode and tap
@@ -49,7 +49,7 @@ void add_mode(const ArxModel& arx, double shock, Lamp& lamp) {
   lamp.mean = arx.output_mean[0];
 }
 
-// Size of what shakes a single ARX model.
+// Standard deviation of the shocks of a single ARX model.
 double shock_of(const ArxModel& arx) {
   double square = arx.noise.sd.empty() ? 0 : arx.noise.sd[0] * arx.noise.sd[0];
   for (const double each : arx.noise.mixing) square += each * each;
@@ -92,7 +92,7 @@ Result<Lamp> lamp_of(const Model& model) {
   return lamp;
 }
 
-// What fixed point and a small memory hold.
+// Limits of fixed point and a small memory.
 Result<void> check(const Lamp& lamp) {
   if (lamp.feedback.size() > kMaxModes || lamp.lags > kMaxLags || lamp.taps + lamp.delay > kMaxLags) {
     return Error{"the model has more than 16 modes or 32 lags; learn a smaller one"};
@@ -119,7 +119,7 @@ bool is_name(std::string_view name) {
 
 std::string whole(double value) { return std::to_string(static_cast<std::int64_t>(std::llround(value))); }
 
-// Rows of numbers as C writes them.
+// Formats rows of numbers as C initialisers.
 template <class Value>
 std::string table(const std::string& type, const std::string& name, std::size_t rows, std::size_t columns,
                   Value value) {
@@ -307,17 +307,17 @@ Result<FirmwareSource> firmware_source(const Model& model, std::string_view name
   const Output& output = model.outputs[0];
   const double margin = kRangeMargin * (output.highest - output.lowest), one = 1 << kOneBits;
   const double below = output.lowest - margin, highest = output.highest + margin;
-  const double lowest = output.lowest >= 0 ? std::max(0.0, below) : below;  // no light is darker than none
+  const double lowest = output.lowest >= 0 ? std::max(0.0, below) : below;  // light is never negative
   const double reach = std::max({highest - lamp->mean, lamp->mean - lowest, 1e-6});
   const int exponent = static_cast<int>(std::ceil(std::log2(reach)));
-  // All that is shown fits into 16 bits then.
+  // The shown range then fits into 16 bits.
   if (exponent > 2 || exponent < -8 || std::abs(lamp->mean) > 3.9) {
     return Error{"the output is about " + std::to_string(lamp->mean) + " and moves by " + std::to_string(reach) +
                  ", expected at most 3.9 and 0.004 to 4; learn it with mean 1"};
   }
   const double sum_one = std::ldexp(1, kSumBits - exponent);
   const std::size_t modes = lamp->feedback.size();
-  // What the input's mean takes away stands in the constant.
+  // The constant contains the contribution of the input's mean.
   const auto constant = [&](std::size_t mode, std::size_t column) {
     double value = lamp->constant[mode];
     for (const double b : lamp->input[mode]) value -= b * lamp->input_mean;
@@ -348,7 +348,7 @@ Result<FirmwareSource> firmware_source(const Model& model, std::string_view name
                              {"GUARD", upper + "_H"},
                              {"UPPER", upper},
                              {"MODEL", called},
-                             // Not written out above: what this file includes is read line by line.
+                             // Split, since the includes of this file are read line by line.
                              {"INCLUDE", "#include"},
                              {"NAME", std::string(name)}});
   FirmwareSource out{filled(kHeader, words), filled(kSource, words), 0};

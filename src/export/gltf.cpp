@@ -1,23 +1,141 @@
 // Binary glTF 2.0 (ISO/IEC 12113:2022) of bodies and outlines, with the extension KHR_materials_unlit.
 
-#include "wisp/export/export.hpp"
-
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <numbers>
 #include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
-#include "export/glb.hpp"
+#include "base/json_text.hpp"
 #include "export/outline.hpp"
+#include "wisp/export/export.hpp"
 #include "wisp/run/bank.hpp"
 
 namespace wisp {
 namespace {
 
+// The number of components of a value.
+enum class Shape { kScalar = 1, kVector2 = 2, kVector3 = 3, kVector4 = 4 };
+
+class Buffer {
+ public:
+  /// Adds numbers; returns the index of their accessor.
+  int add(std::span<const float> values, Shape shape);
+  /// Adds an attribute of vertices.
+  int add_vertices(std::span<const float> values, Shape shape);
+  /// Adds indices of vertices.
+  int add_indices(std::span<const std::uint16_t> indices);
+
+  /// Writes "accessors", "bufferViews" and "buffers" into an open object.
+  void describe(JsonText& json) const;
+
+  /// The whole file: header, `json` and the numbers.
+  std::vector<std::byte> file(std::string json) const;
+
+ private:
+  struct Accessor {
+    std::size_t offset = 0;
+    std::size_t bytes = 0;
+    std::size_t count = 0;
+    Shape shape = Shape::kScalar;
+    int target = 0;  // glTF buffer target; 0: none
+    std::vector<float> lowest, highest;
+  };
+
+  std::vector<Accessor> accessors_;
+  std::vector<std::byte> bytes_;
+};
+
+// glTF 2.0 Specification (ISO/IEC 12113:2022), sections 3.6 and 4.4.
+
+constexpr int kFloat = 5126, kShort = 5123, kVertices = 34962, kIndices = 34963;
+constexpr std::uint32_t kMagic = 0x46546c67, kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
+
+void append(std::vector<std::byte>& bytes, std::uint32_t word) {
+  for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::byte>(word >> shift & 0xff));
+}
+
+std::size_t padded(std::size_t size) { return (size + 3) / 4 * 4; }
+
+const char* name_of(Shape shape) {
+  constexpr std::array kNames{"SCALAR", "VEC2", "VEC3", "VEC4"};
+  return kNames[static_cast<std::size_t>(shape) - 1];
+}
+
+int Buffer::add(std::span<const float> values, Shape shape) {
+  const auto width = static_cast<std::size_t>(shape);
+  Accessor accessor{bytes_.size(), values.size() * 4, values.size() / width, shape, 0, {}, {}};
+  accessor.lowest.assign(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(width));
+  accessor.highest = accessor.lowest;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    accessor.lowest[k % width] = std::min(accessor.lowest[k % width], values[k]);
+    accessor.highest[k % width] = std::max(accessor.highest[k % width], values[k]);
+    append(bytes_, std::bit_cast<std::uint32_t>(values[k]));
+  }
+  accessors_.push_back(std::move(accessor));
+  return static_cast<int>(accessors_.size()) - 1;
+}
+
+int Buffer::add_vertices(std::span<const float> values, Shape shape) {
+  const int index = add(values, shape);
+  accessors_.back().target = kVertices;
+  return index;
+}
+
+int Buffer::add_indices(std::span<const std::uint16_t> indices) {
+  accessors_.push_back({bytes_.size(), indices.size() * 2, indices.size(), Shape::kScalar, kIndices, {}, {}});
+  for (const std::uint16_t index : indices) {
+    bytes_.push_back(static_cast<std::byte>(index & 0xff));
+    bytes_.push_back(static_cast<std::byte>(index >> 8));
+  }
+  bytes_.resize(padded(bytes_.size()));
+  return static_cast<int>(accessors_.size()) - 1;
+}
+
+void Buffer::describe(JsonText& json) const {
+  json.list("accessors");
+  for (std::size_t k = 0; k < accessors_.size(); ++k) {
+    const Accessor& accessor = accessors_[k];
+    json.object().value(k, "bufferView").value(accessor.target == kIndices ? kShort : kFloat, "componentType");
+    json.value(accessor.count, "count").value(name_of(accessor.shape), "type");
+    if (accessor.target != kIndices) json.values(accessor.lowest, "min").values(accessor.highest, "max");
+    json.end();
+  }
+  json.end().list("bufferViews");
+  for (const Accessor& accessor : accessors_) {
+    json.object().value(0, "buffer").value(accessor.offset, "byteOffset").value(accessor.bytes, "byteLength");
+    if (accessor.target != 0) json.value(accessor.target, "target");
+    json.end();
+  }
+  json.end().list("buffers").object().value(bytes_.size(), "byteLength").end().end();
+}
+
+std::vector<std::byte> Buffer::file(std::string json) const {
+  json.resize(padded(json.size()), ' ');
+  std::vector<std::byte> out;
+  append(out, kMagic);
+  append(out, 2);
+  append(out, static_cast<std::uint32_t>(12 + 8 + json.size() + 8 + bytes_.size()));
+  append(out, static_cast<std::uint32_t>(json.size()));
+  append(out, kJsonChunk);
+  const auto text = std::as_bytes(std::span(json));
+  out.insert(out.end(), text.begin(), text.end());
+  append(out, static_cast<std::uint32_t>(bytes_.size()));
+  append(out, kBinaryChunk);
+  out.insert(out.end(), bytes_.begin(), bytes_.end());
+  return out;
+}
+
 using namespace exporting;
 
-// What is written into "meshes" beside the numbers.
+// A mesh's accessors and properties.
 struct Mesh {
   int positions = 0, normals = -1, coordinates = -1, indices = 0;
   std::vector<int> targets;
@@ -31,7 +149,7 @@ struct Track {
   int translation = -1, rotation = -1, weights = -1;
 };
 
-// Everything of a file before it is text.
+// The contents of a file.
 struct Document {
   Buffer buffer;
   Mesh mesh;
@@ -71,7 +189,7 @@ Mesh body_mesh(double half_width, double half_length, Buffer& buffer) {
   return mesh;
 }
 
-// The keys of a body. Quaternions are unit, x first, and never take the long way from key to key.
+// The keys of a body. Quaternions are unit, x first, with signs chosen for the shorter rotation between keys.
 Track body_track(const Take& take, std::size_t instance, Buffer& buffer) {
   std::vector<float> places, turns;
   for (std::size_t key = 0; key < key_count(take); ++key) {
@@ -107,7 +225,7 @@ Document body_document(const Take& take, double half_width, double half_length) 
   return document;
 }
 
-// The weight of a target: where its output is in all that a bank lets it reach. Tools keep weights in 0 … 1.
+// The weight of a target: the position of its output in the range of the bank, since tools clamp weights to 0 … 1.
 double weight_of(const Mesh& mesh, std::size_t output, double value) {
   const double range = mesh.highest[output] - mesh.lowest[output];
   return range > 0 ? std::clamp((value - mesh.lowest[output]) / range, 0.0, 1.0) : 0;
@@ -123,7 +241,7 @@ void set_ranges(const Model& model, Mesh& mesh) {
   }
 }
 
-// A strip between the two sides of the outline, and how each output moves its points.
+// A strip between the two sides of the outline, with a morph target for each output.
 Mesh outline_mesh(const Model& model, const std::vector<double>& knots, Buffer& buffer) {
   constexpr int kPoints = 32;
   Mesh mesh{.colour = {1, 0.62, 0.2, 1}};
@@ -180,7 +298,7 @@ void write_nodes(const Document& document, const Take& take, JsonText& json) {
     json.object().value("instance " + std::to_string(k), "name").value(0, "mesh");
     if (document.apart > 0) json.values(std::array{document.apart * static_cast<double>(k), 0.0, 0.0}, "translation");
     if (!take.travel.empty()) {
-      // As exact as the keys: digits beyond are the C library's.
+      // Rounded to the precision of the keys: further digits depend on the C library.
       const auto [x, y, z] = take.travel[k];
       const std::array travel{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)};
       json.object("extras").values(travel, "travel").end();
@@ -210,7 +328,7 @@ void write_mesh(const Mesh& mesh, const Model& model, JsonText& json) {
   json.end().end();
   json.list("materials").object().value("shape", "name").object("pbrMetallicRoughness");
   json.values(mesh.colour, "baseColorFactor").value(0, "metallicFactor").end().value(true, "doubleSided");
-  // A flame is light, and is not lit.
+  // A flame emits light and is drawn unlit.
   if (mesh.normals < 0) json.object("extensions").object("KHR_materials_unlit").end().end();
   json.end().end();
 }

@@ -15,13 +15,13 @@ using namespace exporting;
 
 constexpr int kShapeLayer = 4;
 
-// Where the outline stands in the picture.
+// Position and scale of the outline in the picture.
 struct Frame {
   double left = 0, top = 0, scale = 1;
   int width = 0, height = 0;
 };
 
-// A picture that holds all that the model's outputs reach, with a little room around it.
+// A picture that contains the range of the model's outputs and a margin.
 Frame frame_of(const Take& take, int height) {
   constexpr double kRoom = 0.05;
   double low[2] = {1e30, 0}, high[2] = {-1e30, -1e30};
@@ -41,7 +41,7 @@ Frame frame_of(const Take& take, int height) {
   return frame;
 }
 
-// One path: vertices, and beside each the ways in and out of it.
+// One path: vertices with their incoming and outgoing tangents.
 void write_path(const std::vector<double>& knots, std::span<const float> control, const Frame& frame, JsonText& json) {
   auto points = bezier_points(knots, control);
   for (auto& point : points) point = {frame.left + frame.scale * point[0], frame.top - frame.scale * point[1]};
@@ -63,10 +63,10 @@ void write_path(const std::vector<double>& knots, std::span<const float> control
   json.value(true, "c");
 }
 
-// A key says where it begins and where it ends, which old players ask for; the last one only when.
+// A key has its start and end value, which old players need; the last one only its time.
 void write_key(const OutlineView& view, const Take& take, std::size_t key, const Frame& frame, JsonText& json) {
   json.object().value(key, "t");
-  // Straight from key to key.
+  // Linear interpolation between keys.
   json.object("o").values(std::vector{0}, "x").values(std::vector{0}, "y").end();
   json.object("i").values(std::vector{1}, "x").values(std::vector{1}, "y").end();
   for (const std::size_t end : {0, 1}) {

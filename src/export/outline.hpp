@@ -1,5 +1,5 @@
 #pragma once
-// Outlines of a take: points on them, and what they are about.
+// Outlines of a take: points of the spline, Bézier curves, operating point.
 
 #include <array>
 #include <span>
@@ -18,7 +18,7 @@ std::vector<float> outline_points(const std::vector<double>& knots, std::span<co
 /// first.
 std::vector<std::array<double, 2>> bezier_points(const std::vector<double>& knots, std::span<const float> control);
 
-/// What the outputs of an ARX or switched model are deviations from.
+/// Returns the operating point of the outputs of an ARX or switched model.
 std::vector<double> operating_point(const Model& model);
 
 /// Errors: the take has other outputs than the model, or no frames.

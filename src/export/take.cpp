@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "export/orbit.hpp"
-#include "export/walk_loop.hpp"
+#include "export/loops.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/extinction_facet.hpp"
@@ -50,14 +49,14 @@ Error went_out(double seconds) {
           " s in that input; what is exported burns: ask for less"};
 }
 
-// A bank of what is taken, settled.
+// A bank of the requested instances, after settling.
 Result<Bank> settled_bank(const Model& model, const TakeOptions& options) {
   auto bank = Bank::create(model, {.capacity = options.instances, .seed = options.seed});
   if (!bank) return bank;
   bank->set_noise(options.noise ? 1.0F : 0.0F);
   for (int k = 0; k < options.instances; ++k) bank->spawn();
   bank->set_common_inputs(inputs_of(model, options));
-  // A body is taken from where it starts to fall.
+  // A body's take begins where it starts to fall.
   if (bank->chain()) return bank;
   for (int step = 0; step < kSettle * model.rate_hz; ++step) bank->step();
   return bank;
@@ -84,7 +83,7 @@ Result<Take> plain_take(const Model& model, const TakeOptions& options, Take tak
   return taken;
 }
 
-// What a bank would show: the orbit may lead a little beyond the range in which its play was held.
+// Clamps as a bank does, since the orbit may exceed the range of its play slightly.
 float held_to(const Output& output, double value) {
   const double room = kRangeMargin * (output.highest - output.lowest);
   return static_cast<float>(std::clamp(value, output.lowest - room, output.highest + room));

@@ -9,7 +9,6 @@
 #include "films/candle_pictures.hpp"
 #include "films/leaf_film.hpp"
 #include "films/looped.hpp"
-#include "films/played.hpp"
 #include "flags/recordings.hpp"
 #include "flags/wind_input.hpp"
 #include "reports/chain_walk.hpp"

@@ -7,18 +7,18 @@
 namespace wisp::cli {
 namespace {
 
-// The table of the flame's colours. Height is in heights of the outline that burns, since a flame that stretches
-// stretches its colours; depth is in mean flame heights, since glow and edge are the camera's and not the flame's.
+// The table of the flame's colours. Height is relative to the outline's own height, since a stretched flame stretches
+// its colours; depth is in mean flame heights, since the widths of glow and edge depend on the camera.
 constexpr int kHeights = 40;
 constexpr float kTop = 1.6F;
 constexpr int kDepths = 48;
 constexpr float kOutside = -0.30F, kInside = 0.18F;
 
-// Farther outside than this the flame's glow is lost in the surroundings.
+// Beyond this distance outside, the surroundings are shown without glow.
 constexpr float kGlowEnds = -0.26F, kGlowWhole = -0.10F;
 
-// Under the base stands what does not sway; up to the other height, in mean flame heights, what is found not to: wick,
-// foot.
+// Below kUnder the picture is taken as still; up to kFootEnds (mean flame heights) only pixels of low variance are,
+// such as the wick.
 constexpr float kUnder = -0.04F, kFootBegins = 0.05F, kFootEnds = 0.22F;
 
 // Standard deviations, in codes, of a pixel that is still and of one that is not.
@@ -32,7 +32,7 @@ float smooth(float low, float high, float value) {
 
 float square(float value) { return value * value; }
 
-// An edge of an outline, as the distance to it is computed.
+// An edge of an outline, prepared for computing distances.
 struct Edge {
   Point from, along;  // `along` to its other end
   float inverse = 0;  // of its squared length
@@ -44,7 +44,7 @@ struct Edge {
   }
 };
 
-// How deep the pixels of one row lie inside an outline, by the edges that come near the row.
+// Signed distance of the pixels of one row to an outline, from the edges near the row.
 class Depths {
  public:
   Depths(std::span<const Point> outline, float y, float reach) : y_(y), reach_(reach) {
@@ -72,13 +72,13 @@ class Depths {
   std::vector<float> crossings_;  // x, where the outline crosses the row
 };
 
-// Where a pixel lies in the flame of an outline.
+// Position of a pixel relative to an outline.
 struct FlamePlace {
   float height = 0;  // 0 at the base, 1 at the outline's top
   float depth = 0;   // inside the outline, mean flame heights
 };
 
-// Where the pixels of one row lie.
+// Positions of the pixels of one row.
 class Places {
  public:
   Places(const FilmView& view, std::span<const Point> outline, int y)
@@ -103,7 +103,7 @@ class Places {
   float reach_;
   Depths depths_;
   float left_ = 0, right_ = 0, height_ = 0;
-  bool above_ = false;  // so far over the flame that nothing of it is near
+  bool above_ = false;  // far above the flame
 };
 
 float height_index(float height) { return std::clamp(height / kTop, 0.0F, 1.0F) * (kHeights - 1); }
@@ -134,7 +134,7 @@ Sum mix(const Sum& a, const Sum& b, float share) {
   return out;
 }
 
-// Gives every empty place of a row or column what its nearest filled neighbours have, in proportion.
+// Fills gaps of a row or column by linear interpolation between filled neighbours.
 template <class Sum>
 void fill_gaps(Sum* line, int count, int stride) {
   int before = -1;
@@ -180,7 +180,7 @@ void FilmLook::learn(const Image& frame, std::span<const Point> outline) {
       const FlamePlace place = places.at(x);
       add(still_[pixel], row[x]);
       squares_[pixel] += square(light_of(row[x]));
-      // The farther the flame was, the surer; where it never was far, what is known counts all the same.
+      // Weighted by the distance to the flame, with a minimum for pixels that the flame never left.
       if (place.depth <= kGlowWhole) add(around_[pixel], row[x], 0.001F + smooth(kGlowWhole, kOutside, place.depth));
       if (place.height <= 0) continue;
       const auto i = static_cast<std::size_t>(std::lround(height_index(place.height)));
@@ -199,7 +199,7 @@ std::vector<FilmLook::Sum> FilmLook::flame_colours() const {
   return table;
 }
 
-// Where a flame always was, what is behind it is guessed from both sides.
+// Pixels always behind the flame are interpolated from both sides.
 std::vector<FilmLook::Sum> FilmLook::surroundings() const {
   std::vector<Sum> plate(around_.size());
   std::ranges::transform(around_, plate.begin(), [](const Sum& sum) { return mean(sum); });
@@ -210,7 +210,7 @@ std::vector<FilmLook::Sum> FilmLook::surroundings() const {
   return plate;
 }
 
-// How surely what a pixel shows is not the flame that sways: 0 to 1. Height is over the base, in mean flame heights.
+// Confidence, 0 to 1, that a pixel shows no moving flame. Height above the base is in mean flame heights.
 float FilmLook::stillness(std::size_t pixel, float height) const {
   const Sum code = mean(still_[pixel]);
   const float variance = squares_[pixel] / still_[pixel][3] - square((code[0] + code[1] + code[2]) / 3);

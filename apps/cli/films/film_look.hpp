@@ -1,6 +1,6 @@
 #pragma once
-// How a clip shows its flame: colours by place about the outline, and what stands around it. Another outline drawn with
-// them looks as if the same camera had filmed it: the clip's own wax, room and exposure.
+// The look of a clip: colours by position relative to the outline, and the surroundings. Another outline drawn with it
+// looks as if the same camera had filmed it, with the clip's own wax, room and exposure.
 
 #include <array>
 #include <span>
@@ -23,15 +23,15 @@ class FilmLook {
   /// Precondition: width, height >= 1 and unit > 0.
   explicit FilmLook(const FilmView& view);
 
-  /// Takes a frame's view and the outline that was captured in it, both in the view's pixels.
+  /// Learns from a frame's view and its captured outline, both in the view's pixels.
   ///
   /// Precondition: the frame has the view's size, and the outline at least three points.
   void learn(const Image& frame, std::span<const Point> outline);
 
-  /// Whether there was any frame to learn from.
+  /// Whether any frame was learned from.
   bool known() const { return frames_ > 0; }
 
-  /// That view with another outline burning in it.
+  /// Draws the view with another outline burning in it.
   ///
   /// Precondition: known().
   Image draw(std::span<const Point> outline) const;

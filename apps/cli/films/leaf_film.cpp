@@ -16,9 +16,9 @@ namespace wisp::cli {
 namespace {
 
 constexpr double kMaxFramesASecond = 60;
-constexpr double kRestSeconds = 2.2;     // on the floor
-constexpr double kFadeSeconds = 0.6;     // the last of it
-constexpr double kSettleSeconds = 0.12;  // from the pose it landed in to lying flat
+constexpr double kRestSeconds = 2.2;     // rest on the floor
+constexpr double kFadeSeconds = 0.6;     // fade at the end of the rest
+constexpr double kSettleSeconds = 0.12;  // transition from the landing pose to lying flat
 constexpr double kTrailSeconds = 0.9;
 constexpr double kRounding = 1e-6;        // rows
 constexpr double kStaggerSeconds = 0.45;  // between the first falls of two leaves
@@ -43,7 +43,7 @@ LeafPose pose_at(const PoseColumns& columns, std::size_t row) {
   return {{at(0), at(1), at(2)}, {at(3), at(4), at(5), at(6)}};
 }
 
-// Flat on the floor, on the side that it fell on, its midrib where it pointed.
+// Flat on the floor, with the same side up and the same heading of the midrib.
 LeafPose lying(const LeafPose& landed) {
   const auto& q = landed.attitude;
   const bool face_up = 1 - 2 * (q[1] * q[1] + q[2] * q[2]) >= 0;
@@ -54,7 +54,7 @@ LeafPose lying(const LeafPose& landed) {
   return pose;
 }
 
-// From one attitude towards another, by the shorter way.
+// Interpolates between two attitudes by the shorter way.
 LeafPose between(const LeafPose& a, const LeafPose& b, float share) {
   float along = 0;
   for (std::size_t k = 0; k < 4; ++k) along += a.attitude[k] * b.attitude[k];
@@ -64,7 +64,7 @@ LeafPose between(const LeafPose& a, const LeafPose& b, float share) {
   return pose;
 }
 
-// One fall from the top to the floor: rows of an episode, and where it is put in the room.
+// One fall from the top to the floor: rows of an episode, and its shift into the room.
 struct Fall {
   std::size_t first = 0, last = 0;  // row of the start, row of the landing (or the episode's last)
   bool lands = false;
@@ -72,7 +72,7 @@ struct Fall {
   std::array<float, 3> shift{};
 };
 
-// Cuts an episode into falls that are centred around a place of the floor.
+// Cuts an episode into falls, each centred over `place`.
 std::vector<Fall> falls_of(const PoseColumns& columns, const Episode& episode, double rate, float metres, Point place,
                            double begins) {
   std::vector<Fall> falls;
@@ -88,15 +88,15 @@ std::vector<Fall> falls_of(const PoseColumns& columns, const Episode& episode, d
     }
     fall.shift = {place.x - (low_x + high_x) / 2, place.y - (low_y + high_y) / 2, metres - start.position[2]};
     falls.push_back(fall);
-    begins += static_cast<double>(fall.last - row) / rate + kSettleSeconds;  // nothing moves from then on
+    begins += static_cast<double>(fall.last - row) / rate + kSettleSeconds;  // at rest from then on
     row = fall.last + 1;
   }
   return falls;
 }
 
-constexpr float kSideways = 0.38F;  // metres: most falls stay within it
+constexpr float kSideways = 0.38F;  // metres: the sideways extent of most falls
 
-// How far from the middle leaves begin: so that most stay in the picture.
+// Largest distance of a start from the middle, such that most falls stay in the picture.
 float reach_of(const LeafFilmOptions& options) {
   const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
   return std::max(0.0F, 0.55F * options.fall_metres * aspect - kSideways);
@@ -110,7 +110,7 @@ class Film {
     const std::size_t count = std::min(all.size(), static_cast<std::size_t>(options.max_leaves));
     for (std::size_t k = 0; k < count; ++k) {
       const float across = count > 1 ? 2 * static_cast<float>(k) / static_cast<float>(count - 1) - 1 : 0;
-      // Neighbours of the floor do not follow each other in time, and stand at three depths.
+      // Neighbours start at different times and at three depths.
       const Point place{reach_of(options) * across, 0.16F * static_cast<float>(static_cast<int>(k * 2 % 3) - 1)};
       const double begins = kStaggerSeconds * static_cast<double>(k * 3 % count);
       for (const Fall& fall : falls_of(columns, all[k], rate_, options.fall_metres, place, begins))
@@ -141,14 +141,14 @@ class Film {
   }
 
   DrawnLeaf flying(const Fall& fall, double since) {
-    // A time that is a row's but for rounding is that row's: else one row is shown twice and the next one never.
+    // A tolerance for rounding, without which a row could be shown twice and the next one skipped.
     const auto row = std::min(fall.last, fall.first + static_cast<std::size_t>(since * rate_ + kRounding));
     const auto back = static_cast<std::size_t>(kTrailSeconds * rate_);
     std::vector<LeafPose> trail;
     for (std::size_t k = std::max(fall.first + back, row) - back; k <= row; ++k) trail.push_back(placed(fall, k));
     trails_.push_back(std::move(trail));
     DrawnLeaf leaf{placed(fall, row), options_.style, 1, trails_.back()};
-    // It comes into being rather than appearing.
+    // Fades in.
     leaf.opacity = static_cast<float>(std::min(1.0, since / 0.2));
     return leaf;
   }
@@ -173,7 +173,7 @@ double longest_episode(const Recording& recording) {
   return static_cast<double>(rows) / recording.rate_hz;
 }
 
-// One side of a film: the room as this camera sees it, and the leaves in it.
+// One side of a film: the room from its camera, and the leaves.
 class Side {
  public:
   Side(const LeafPanel& panel, const PoseColumns& columns, const LeafFilmOptions& options)
@@ -203,10 +203,10 @@ class Side {
   LeafCamera camera_;
   LeafRoom room_;
   Image empty_;
-  Film film_;  // keeps references to the two first
+  Film film_;  // refers to options_ and columns_
 };
 
-// A line between two sides.
+// Draws a line between two sides.
 void divide(Image& image, int x) {
   for (int y = 0; y < image.height(); ++y) std::fill_n(image.row(y).begin() + x - 1, 2, 0xFFFFFFFFU);
 }

@@ -16,12 +16,12 @@ struct LeafFilmOptions {
   int width = 1280;         ///< pixels
   int height = 720;
   double max_seconds = 20;    ///< of the video
-  int max_leaves = 7;         ///< episodes that are seen at once
-  float fall_metres = 1.45F;  ///< a fall ends on the floor after so much; the next begins where it would have gone on
+  int max_leaves = 7;         ///< episodes shown at once
+  float fall_metres = 1.45F;  ///< height of a fall; the next one begins at the row after it
   LeafStyle style{.scale = 1.8F};
 };
 
-/// Whether a film of that name can be written: asked before work that takes long.
+/// Checks that a film of that name can be written, before long work.
 /// Errors: the name does not end in .mp4, or its folder is missing or not writable.
 Result<void> check_film_name(const std::string& path);
 
@@ -30,14 +30,14 @@ Result<void> check_film_name(const std::string& path);
 Result<void> write_leaf_film(const std::filesystem::path& path, const Recording& recording,
                              const LeafFilmOptions& options, Terminal& terminal);
 
-/// What one side of a film shows.
+/// One side of a film.
 struct LeafPanel {
   const Recording* recording = nullptr;
   std::string caption{};  ///< empty: none
 };
 
-/// The same with several recordings side by side, each in its share of the width and as many of its leaves as have
-/// room. Errors: as write_leaf_film(); rates that differ.
+/// The same with several recordings side by side, in equal shares of the width, with as many leaves as fit. Errors: as
+/// write_leaf_film(); rates that differ.
 ///
 /// Precondition: !panels.empty().
 Result<void> write_leaf_films(const std::filesystem::path& path, std::span<const LeafPanel> panels,

@@ -3,14 +3,13 @@
 #include <filesystem>
 
 #include "films/candle_pictures.hpp"
-#include "films/played.hpp"
 #include "wisp/draw/video_writer.hpp"
 #include "wisp/record/csv.hpp"
 
 namespace wisp::cli {
 namespace {
 
-// A loop is of one steady play: these flags would make another.
+// Flags that contradict a loop, which is a steady play.
 Result<void> check_flags(const Arguments& arguments) {
   for (const char* flag : {"frames", "input", "relight", "history", "temperature", "steer"}) {
     if (arguments.has(flag)) {
@@ -106,6 +105,42 @@ Result<void> write_loop(const Model& model, const Arguments& arguments, Terminal
   terminal.say("wrote " + path + ": a loop of " + std::to_string(taken->frames) + " frames at " +
                shown(taken->rate_hz, 5) + " a second, seed " + arguments.text("seed"));
   return {};
+}
+
+Recording played_channels(const Model& model, int instances, const std::string& seed) {
+  Recording recording;
+  recording.rate_hz = model.rate_hz;
+  recording.attributes = {{"model", model.name}, {"seed", seed}};
+  if (const auto* outline = std::get_if<OutlineView>(&model.view)) {
+    set_numbers_attribute(recording, "knots", outline->knots);
+  }
+  for (const Input& input : model.inputs) recording.channels.push_back({input.name, input.unit, Role::kInput, {}});
+  for (int k = 0; k < instances; ++k) {
+    const std::string prefix = instances == 1 ? "" : "i" + std::to_string(k) + ".";
+    for (const Output& output : model.outputs) {
+      recording.channels.push_back({prefix + output.name, output.unit, Role::kOutput, {}});
+    }
+  }
+  return recording;
+}
+
+Recording one_after_the_other(const Recording& side_by_side, const Model& model, int instances,
+                              const std::string& seed) {
+  const std::size_t inputs = model.inputs.size(), outputs = model.outputs.size();
+  Recording recording = played_channels(model, 1, seed);
+  for (int k = 0; k < instances; ++k) {
+    for (std::size_t c = 0; c < recording.channels.size(); ++c) {
+      const std::size_t from = c < inputs ? c : c + static_cast<std::size_t>(k) * outputs;
+      const std::vector<double>& samples = side_by_side.channels[from].samples;
+      recording.channels[c].samples.insert(recording.channels[c].samples.end(), samples.begin(), samples.end());
+    }
+    recording.episode_ids.insert(recording.episode_ids.end(), side_by_side.rows(), k);
+  }
+  return recording;
+}
+
+bool are_bodies(const Model& model, int instances) {
+  return instances > 1 && std::holds_alternative<ChainModel>(model.dynamics);
 }
 
 }  // namespace wisp::cli

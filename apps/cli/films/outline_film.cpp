@@ -16,9 +16,9 @@
 namespace wisp::cli {
 namespace {
 
-constexpr int kStripCellHeight = 220;  // pixels on the strip; frames are drawn at twice that
+constexpr int kStripCellHeight = 220;  // pixels on the strip; frames are drawn at twice this size
 
-// Visits frames of the clip with their row in the recording, up to `last_row`.
+// Visits the clip's frames that have a row in the recording, up to `last_row`.
 Result<void> for_each_row(const ClipFrames& clip, std::size_t last_row,
                           const std::function<Result<void>(std::size_t, const std::function<Image()>&)>& visit) {
   auto reader = VideoReader::open(clip.path, {.rate_hz = clip.rate_hz});
@@ -38,13 +38,13 @@ Result<void> for_each_row(const ClipFrames& clip, std::size_t last_row,
   }
 }
 
-// Lines and letters need room: a small clip is drawn larger.
+// A small clip is enlarged, so that lines and letters have room.
 constexpr int kMinOverlayHeight = 480;
 int enlargement(int height) { return std::max(1, (kMinOverlayHeight + height - 1) / height); }
 
 using Outline = std::vector<std::array<double, 2>>;
 
-// A pixel's centre is at whole numbers for capture and at halves for drawing.
+// Converts from capture, where pixel centres are at integers, to drawing, where they are at halves.
 std::vector<Point> enlarged(const Outline& outline, int times) {
   std::vector<Point> points;
   for (const auto& [x, y] : outline) {
@@ -55,11 +55,11 @@ std::vector<Point> enlarged(const Outline& outline, int times) {
 
 // How an overlay is laid out.
 struct Layout {
-  int times = 1;  // what the clip is enlarged by
+  int times = 1;  // enlargement of the clip
   Corner legend = Corner::kTopLeft;
 };
 
-// The upper corner that the outlines are farther from on the whole.
+// The upper corner farther from the outlines on average.
 Corner roomier_corner(const OutlineRows& captured, int width) {
   double across = 0;
   for (const Outline& outline : captured) {
@@ -146,8 +146,8 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
-// Where a film strip's view of a frame lies. A camera that stands still shows a base that does, but for what its
-// threshold makes of the wick; one that is shaken, or a candle that is carried, shows one that moves.
+// Where a film strip's view of a frame is centred: on the median base for a fixed camera, whose base varies only by
+// threshold noise, and on each row's base where camera or candle moves.
 class Bases {
  public:
   Bases(const OutlineRows& captured, double unit) {
@@ -171,7 +171,7 @@ class Bases {
   bool stands_ = true;
 };
 
-// A film strip's view of one frame, in the clip's pixels: as much around the base as all flames need and the clip has.
+// Size of a film strip's view, in the clip's pixels: large enough for all flames, within the clip.
 struct Cell {
   double width = 0;
   double height = 0;
@@ -181,7 +181,7 @@ struct Cell {
 Cell cell_of(const StripContent& content, const Bases& bases) {
   const double unit = content.pixels_per_unit;
   double highest = 1, widest = 0.4;
-  Cell room{.width = 1e9, .height = 1e9, .below_base = 1e9};  // what the clip has
+  Cell room{.width = 1e9, .height = 1e9, .below_base = 1e9};  // limits of the clip
   const auto look = [&](const Outline& outline) {
     for (const auto& point : in_units(outline, unit)) {
       highest = std::max(highest, point[1]);
@@ -203,7 +203,7 @@ Cell cell_of(const StripContent& content, const Bases& bases) {
   return {std::clamp(room.width, 2.1 * widest * unit, 2.6 * widest * unit), above + below, below};
 }
 
-// How a strip draws flames.
+// A strip's layout and look.
 struct Strip {
   const StripContent& content;
   Bases bases;
@@ -233,7 +233,7 @@ std::vector<Point> in_view(const Outline& units, const FilmView& view) {
   return points;
 }
 
-// The same of an outline that was captured, in pixels of the clip: where it was about what the view is cut around.
+// A captured outline (pixels of the clip) in pixels of the view.
 std::vector<Point> captured_in_view(const Outline& outline, const Strip& strip) {
   const Place base = strip.bases.at(outline);
   Outline units = outline;
@@ -264,14 +264,14 @@ Image cartoon(const Outline& pixels, const Strip& strip) {
   return image;
 }
 
-// The model's outline as the clip's camera would have shown it; as a cartoon where there is no clip, or no flame.
+// Draws a synthesized outline with the clip's look, or as a cartoon without a clip or for other shapes.
 Image synthesized(const Outline& pixels, const Strip& strip) {
   if (pixels.empty()) return {};
   if (!strip.look.known() || !strip.content.flame) return cartoon(pixels, strip);
   return strip.look.draw(in_view(in_units(pixels, strip.content.pixels_per_unit), strip.view));
 }
 
-// The filmed frame around the base.
+// Cuts the view around the base from a filmed frame.
 Image filmed(const Outline& outline, const Image& frame, const Strip& strip) {
   const Place base = strip.bases.at(outline);
   const Cell& cell = strip.cell;
@@ -281,7 +281,7 @@ Image filmed(const Outline& outline, const Image& frame, const Strip& strip) {
   return resized(crop(frame, {left, top, width, height}), strip.view.width, strip.view.height);
 }
 
-// Rows whose frames teach what the flame looks like: those that are shown, and others of the clip's first minute.
+// Rows whose frames the look is learned from: those shown, and others of the clip's first minute.
 std::vector<std::size_t> lesson_of(const StripContent& content) {
   constexpr std::size_t kLessons = 48, kLast = 1800;
   std::vector<std::size_t> rows = content.rows;
@@ -292,8 +292,7 @@ std::vector<std::size_t> lesson_of(const StripContent& content) {
   return rows;
 }
 
-// Looks at the clip: learns its look, and keeps the views that are shown. Of a row whose frame was lost, the next
-// frame.
+// Learns the clip's look and returns the views shown. A row whose frame was lost takes the next frame.
 Result<std::map<std::size_t, Image>> watch(const ClipFrames& clip, Strip& strip) {
   std::map<std::size_t, Image> shown;
   const StripContent& content = strip.content;

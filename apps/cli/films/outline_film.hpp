@@ -11,7 +11,7 @@
 
 namespace wisp::cli {
 
-/// What an overlay shows, row by row.
+/// Outlines of an overlay, row by row.
 struct OverlayContent {
   const OutlineRows& captured;
   const OutlineRows& simulated;
@@ -30,10 +30,10 @@ struct ClipFrames {
 Result<void> write_overlay(const std::filesystem::path& out, const ClipFrames& clip, const Recording& recording,
                            const OverlayContent& content, Terminal& terminal);
 
-/// What a film strip shows: columns of a recording above, moments of a synthesized life in a like state below.
+/// Contents of a film strip: moments of the recording above, similar moments of the synthesized play below.
 struct StripContent {
   std::vector<std::size_t> rows;              ///< of the recording, one a column
-  std::vector<std::size_t> synthesized_rows;  ///< of the synthesized life, as many
+  std::vector<std::size_t> synthesized_rows;  ///< of the synthesized play, as many
   double rate_hz = 0;                         ///< of both
   const OutlineRows& captured;                ///< all rows, in pixels
   const OutlineRows& synthesized;             ///< likewise

@@ -16,7 +16,7 @@ Result<Recording> write_simulated_clip(const std::filesystem::path& path, const 
       VideoWriter::create(path, {.width = options.camera.width,
                                  .height = options.camera.height,
                                  .rate_hz = options.rig.rate_hz,
-                                 .crf = 12,  // the sensor's noise survives, so that a calm flame is not a still picture
+                                 .crf = 12,  // keeps the sensor's noise, so that a calm flame is not a still picture
                                  .sound_rate_hz = static_cast<int>(options.microphone.rate_hz)});
   if (!film) return film.error();
   CandleClipOutputs outputs;

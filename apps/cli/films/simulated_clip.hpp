@@ -1,5 +1,5 @@
 #pragma once
-// The candle rig joined to the encoder.
+// Simulated clips as files.
 
 #include <filesystem>
 

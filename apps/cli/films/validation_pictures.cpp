@@ -1,12 +1,209 @@
 #include "films/validation_pictures.hpp"
-#include "wisp/draw/flame.hpp"
 
-#include "films/like_moments.hpp"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <limits>
+#include <vector>
+
 #include "reports/clip_figures.hpp"
-#include "reports/validation_figures.hpp"
+#include "wisp/base/report.hpp"
+#include "wisp/base/result.hpp"
+#include "wisp/draw/flame.hpp"
+#include "wisp/draw/plot.hpp"
+#include "wisp/learn/validate_outline.hpp"
+#include "wisp/model/model.hpp"
+#include "wisp/record/recording.hpp"
 
 namespace wisp::cli {
 namespace {
+
+// The plots of `wisp validate --figures` for outlines.
+
+namespace fs = std::filesystem;
+
+Result<void> make_folder(const fs::path& folder) {
+  std::error_code code;
+  fs::create_directories(folder, code);
+  if (code) return Error{folder.string() + ": cannot be made: " + code.message()};
+  return {};
+}
+
+// The residual standard deviation of a channel; the middle of its interval where the training does not state it.
+double residual_sd(const Model& model, std::size_t channel) {
+  if (!model.training.residual_sd.empty()) return model.training.residual_sd[channel];
+  const auto& interval = std::get<ArxModel>(model.dynamics).noise.sd_ci95[channel];
+  return (interval[0] + interval[1]) / 2;
+}
+
+// One coordinate's residual standard deviation over the control points, with its interval.
+PlotSeries residual_series(const Model& model, std::size_t coordinate, const std::string& label, Dash dash) {
+  const auto& intervals = std::get<ArxModel>(model.dynamics).noise.sd_ci95;
+  PlotSeries series{.label = label, .dash = dash, .marker = Marker::kDot};
+  for (std::size_t point = 0; 2 * point < intervals.size(); ++point) {
+    const auto& interval = intervals[2 * point + coordinate];
+    series.x.push_back(static_cast<double>(point));
+    series.y.push_back(residual_sd(model, 2 * point + coordinate));
+    series.low.push_back(interval[0]);
+    series.high.push_back(interval[1]);
+  }
+  return series;
+}
+
+PlotSheet residual_sheet(const Model& model) {
+  Plot plot{.title = "Residual noise, with 95 % intervals",
+            .x = {.label = "control point", .whole_numbers = true},
+            .y = {.label = "standard deviation, flame heights", .lowest = 0.0}};
+  plot.series = {residual_series(model, 1, "vertical", Dash::kSolid),
+                 residual_series(model, 0, "horizontal", Dash::kDashed)};
+  return {.plots = {std::move(plot)}};
+}
+
+// A plot for every section with series whose ids begin with `prefix`.
+std::vector<Plot> plots_of(const Report& report, std::string_view prefix) {
+  std::vector<Plot> plots;
+  for (const ReportSection& section : report.sections) {
+    if (section.series.empty() || !section.series.front().id.starts_with(prefix)) continue;
+    const ReportSeries& first = section.series.front();
+    Plot plot{.title = section.title, .x = {.label = first.x_label}, .y = {.label = first.y_label}};
+    for (const ReportSeries& series : section.series) {
+      const Dash dash = &series == &first ? Dash::kSolid : Dash::kDashed;
+      plot.series.push_back({.label = series.label, .x = series.x, .y = series.y, .dash = dash});
+    }
+    plots.push_back(std::move(plot));
+  }
+  return plots;
+}
+
+PlotSheet time_sheet(const Report& report) {
+  PlotSheet sheet{.plots = plots_of(report, "tip."), .columns = 1, .plot_width = 900, .plot_height = 260};
+  for (Plot& plot : plots_of(report, "input.")) sheet.plots.push_back(std::move(plot));
+  return sheet;
+}
+
+PlotSheet spectrum_sheet(const Report& report) {
+  PlotSheet sheet{.plots = plots_of(report, "flicker.")};
+  for (Plot& plot : sheet.plots) plot.y.logarithmic = true;
+  return sheet;
+}
+
+// Writes residual standard deviations per control point with their 95 % intervals, and the series of the report of
+// validate_outline(): the tip and the inputs over time, spectra of the tip. Into a folder (made where it is missing),
+// each as PNG and SVG.
+// Errors: a file cannot be written.
+Result<void> write_validation_figures(const fs::path& folder, const Model& model, const Report& report) {
+  if (auto ok = make_folder(folder); !ok) return ok;
+  if (auto ok = write_figure(folder, "residual-noise", residual_sheet(model)); !ok) return ok;
+  if (auto ok = write_figure(folder, "tip", time_sheet(report)); !ok) return ok;
+  return write_figure(folder, "flicker", spectrum_sheet(report));
+}
+
+// Moments of a recording and moments of the play in a similar state, so that the pictures compare shape and motion and
+// not chance.
+
+// Rows of the recording, and of what was played along its inputs.
+struct LikeMoments {
+  std::vector<std::size_t> recorded;
+  std::vector<std::size_t> played;
+};
+
+constexpr std::size_t kColumns = 12;
+
+// Weight of the wind: similar outlines in different winds are not similar moments.
+constexpr double kWindCounts = 4;
+
+// The tip's lean and height over the base, and the inputs; NaN where there is no outline.
+using State = std::vector<double>;
+
+State outline_state(const std::vector<std::array<double, 2>>& outline) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  if (outline.empty()) return {kNone, kNone};
+  const auto& tip = outline[outline.size() / 2];
+  return {tip[0] - (outline.front()[0] + outline.back()[0]) / 2, (outline.front()[1] + outline.back()[1]) / 2 - tip[1]};
+}
+
+std::vector<State> states_of(const Recording& recording, const OutlineRows& rows) {
+  std::vector<State> states;
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    State& state = states.emplace_back(outline_state(rows[row]));
+    for (const Channel& channel : recording.channels) {
+      if (channel.role == Role::kInput) state.push_back(row < channel.samples.size() ? channel.samples[row] : 0);
+    }
+  }
+  return states;
+}
+
+// Weights of the components of a state: the inverse of their variance.
+std::vector<double> weights_of(const std::vector<State>& states) {
+  std::vector<double> weights(states.empty() ? 0 : states[0].size());
+  for (std::size_t c = 0; c < weights.size(); ++c) {
+    double sum = 0, squares = 0, count = 0;
+    for (const State& state : states) {
+      if (!std::isfinite(state[c])) continue;
+      sum += state[c];
+      squares += state[c] * state[c];
+      ++count;
+    }
+    const double variance = count > 0 ? squares / count - sum / count * (sum / count) : 0;
+    weights[c] = variance > 0 ? (c < 2 ? 1 : kWindCounts) / variance : 0;
+  }
+  return weights;
+}
+
+double difference(const State& a, const State& b, const std::vector<double>& weights) {
+  constexpr double kOneIsOut = 100;
+  if (std::isfinite(a[0]) != std::isfinite(b[0])) return kOneIsOut;
+  double sum = 0;
+  for (std::size_t c = 0; c < weights.size(); ++c) {
+    const double between = a[c] - b[c];
+    if (std::isfinite(between)) sum += weights[c] * between * between;
+  }
+  return sum;
+}
+
+std::vector<std::size_t> rows_from(std::size_t first, std::size_t apart, std::size_t count) {
+  std::vector<std::size_t> rows;
+  for (std::size_t k = 0; k < count; ++k) rows.push_back(first + k * apart);
+  return rows;
+}
+
+// The stretch in which the tip moves most, among those with an outline in every row shown.
+std::size_t liveliest(const std::vector<State>& states, std::size_t apart, std::size_t count) {
+  std::size_t best = 0;
+  double most = -1;
+  for (std::size_t begin = 0; begin + (count - 1) * apart < states.size(); begin += apart) {
+    double motion = 0;
+    for (std::size_t k = 1; k < count; ++k)
+      motion += std::abs(states[begin + k * apart][0] - states[begin + (k - 1) * apart][0]);
+    if (motion > most) best = begin, most = motion;  // NaN is not more
+  }
+  return best;
+}
+
+// Twelve moments an eighth of a second apart, where the outline's tip moves most, and the stretch of the played life
+// whose inputs, tip and height are nearest to theirs all along. Fewer where the recording is shorter.
+//
+// Precondition: captured and played have the recording's rows.
+LikeMoments like_moments(const Recording& recording, const OutlineRows& captured, const OutlineRows& played) {
+  const auto apart = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(recording.rate_hz / 8)));
+  const std::size_t count = std::min(kColumns, (captured.size() + apart - 1) / apart);
+  if (count == 0) return {};
+  const auto states = states_of(recording, captured), lived = states_of(recording, played);
+  const auto weights = weights_of(states);
+  LikeMoments moments{.recorded = rows_from(liveliest(states, apart, count), apart, count), .played = {}};
+  std::size_t best = moments.recorded.front();
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t begin = 0; begin + (count - 1) * apart < lived.size(); ++begin) {
+    double sum = 0;
+    for (std::size_t k = 0; k < count; ++k)
+      sum += difference(states[moments.recorded[k]], lived[begin + k * apart], weights);
+    if (sum < least) best = begin, least = sum;
+  }
+  moments.played = rows_from(best, apart, count);
+  return moments;
+}
 
 // Pixels of the clip that a recording was captured from; 0 where it does not say.
 int clip_size(const Recording& recording, const char* side) {

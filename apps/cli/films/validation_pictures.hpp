@@ -13,14 +13,14 @@
 
 namespace wisp::cli {
 
-/// A recording and, where there is one, the clip whose frames its rows are.
+/// A recording and the clip that it was captured from, if any.
 struct ValidationSubject {
   Recording recording{};
   ClipFrames clip{};
-  std::optional<Report> captured{};  ///< of capture(), where it was captured just now
+  std::optional<Report> captured{};  ///< report of capture(), if it was captured just now
 };
 
-/// Where to write what; empty: not wanted.
+/// Paths of the pictures; empty: not written.
 struct ValidationPictures {
   std::string overlay;
   std::string film_strip;

@@ -40,7 +40,7 @@ class Figures {
   std::size_t outputs() const { return std::min(model_.outputs.size(), kMaxOutputs); }
   std::size_t inputs() const { return model_.inputs.size(); }
 
-  // What stands after a figure's name where there is one an output.
+  // Suffix of a figure's name where each output has its own.
   std::string of_output(std::size_t output) const {
     return model_.outputs.size() == 1 ? "" : "-" + model_.outputs[output].name;
   }
@@ -117,7 +117,7 @@ PlotSheet pole_sheet(const Figures& figures, const ReportSeries& poles) {
   return sheet;
 }
 
-// A curve, with its band where there is one.
+// A curve with its band, if it has one.
 PlotSeries curve_of(const Figures& figures, const ReportSeries& series, const std::string& band) {
   PlotSeries curve{.x = series.x, .y = series.y};
   const ReportSeries* low = figures.find(series.id + ".low");
@@ -214,7 +214,7 @@ PlotSeries rows_of(PlotSeries series, std::size_t first, std::size_t rows) {
   return series;
 }
 
-// Measured beside simulated, or beside predicted.
+// Measured and simulated, or measured and predicted, outputs.
 PlotSheet tracking_sheet(const Figures& figures, const char* id) {
   PlotSheet sheet{.columns = 1, .plot_width = 900, .plot_height = 260};
   const bool simulated = std::string_view(id) == "simulated";
@@ -247,7 +247,7 @@ PlotSheet tracking_sheet(const Figures& figures, const char* id) {
   return sheet;
 }
 
-// The paper's figure of prediction: error against the number of steps, beside what the model itself expects.
+// The paper's figure of prediction: error against the number of steps, with the error that the model expects.
 PlotSheet error_sheet(const Figures& figures) {
   PlotSheet sheet{.columns = static_cast<int>(std::min<std::size_t>(3, figures.outputs()))};
   for (std::size_t i = 0; i < figures.outputs(); ++i) {

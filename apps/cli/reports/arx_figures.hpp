@@ -1,6 +1,6 @@
 #pragma once
-// The plots that identification people look at, drawn from the series of a report: poles and zeros, step and frequency
-// responses with their bands, what the residuals still know, predictions.
+// Plots of an identification, drawn from the series of a report: poles and zeros, step and frequency responses with their
+// bands, residual correlations, predictions.
 
 #include <filesystem>
 
@@ -13,7 +13,7 @@ namespace wisp::cli {
 
 /// Writes what the report has series for into a folder (made where it is missing), each as PNG and SVG: `poles-zeros`,
 /// per output `step` and `frequency`, `residuals`, and of a validation `simulation`, `prediction` and
-/// `prediction-error`. Models of more than four outputs have those of the first four, which is said.
+/// `prediction-error`. Models of more than four outputs have those of the first four, with a note.
 /// Errors: a file cannot be written.
 Result<void> write_arx_figures(const std::filesystem::path& folder, const Model& model, const Report& report,
                                Terminal& terminal);

@@ -11,13 +11,13 @@ namespace wisp::cli {
 
 namespace {
 
-// A channel of the table, and the model's channel that it stands for.
+// A channel of the table, and the model's name for it.
 struct Renamed {
   std::size_t channel = 0;
   std::string name;
 };
 
-// Finds the channels that stand for the model's: those that the flag names, or those of the same names.
+// Matches the model's channels to the table's: those that the flag names, or those of the same names.
 Result<void> find_renamed(const Recording& recording, const std::vector<std::string>& given,
                           const std::vector<std::string>& own, const std::string& flag, std::vector<Renamed>& renamed) {
   if (!given.empty() && given.size() != own.size()) {
@@ -27,7 +27,7 @@ Result<void> find_renamed(const Recording& recording, const std::vector<std::str
   for (std::size_t k = 0; k < own.size(); ++k) {
     const std::string& name = given.empty() ? own[k] : given[k];
     const auto channel = find_channel(recording, name);
-    if (!channel && given.empty()) continue;  // who reads the recording says so
+    if (!channel && given.empty()) continue;  // validate() reports it
     if (!channel) return Error{recording.source + ": has no channel " + name + ", which --" + flag + " names"};
     for (const Renamed& one : renamed) {
       if (one.channel != *channel) continue;

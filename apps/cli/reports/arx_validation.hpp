@@ -1,5 +1,5 @@
 #pragma once
-// `wisp validate` for models whose outputs stand for themselves.
+// `wisp validate` for models of plain numbers.
 
 #include <vector>
 
@@ -10,14 +10,14 @@
 
 namespace wisp::cli {
 
-/// Holds a model against a table: fit, J and errors per number of steps, how often the model's own intervals hold, and
+/// Validates a model on a table: fit, J and errors per number of steps, how often the model's own intervals hold, and
 /// residual tests; with --figures the plots of them.
 /// Errors: the table cannot be read or has not the model's channels; a flag that is only for outlines.
 Result<void> validate_plain(const Model& model, const std::vector<int>& steps, const Arguments& arguments,
                             Terminal& terminal);
 
-/// The recording that such a model is judged on, its --range. Where --inputs or --outputs are given they name, in the
-/// model's order, the columns that stand for its channels; a table that states no rate has the model's.
+/// Reads the recording that such a model is validated on, within --range. --inputs and --outputs, if given, name the
+/// columns of the model's channels in the model's order; a table without a rate has the model's.
 /// Errors: as read_table() and in_range(); another number of names than the model has channels.
 Result<Recording> table_for(const Model& model, const std::string& path, const Arguments& arguments);
 

@@ -34,7 +34,7 @@ PlotSheet histogram_sheet(const Report& captured) {
   return sheet;
 }
 
-// Sound as a picture sees it: the lowest and highest sample of every few milliseconds.
+// The envelope of a sound: the lowest and highest sample of every few milliseconds.
 class Envelope {
  public:
   void feed(const SoundInfo& info, std::span<const float> samples) {

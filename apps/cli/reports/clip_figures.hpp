@@ -1,5 +1,5 @@
 #pragma once
-// Plots of what a clip gave: its brightness, and its sound.
+// Plots of a clip's brightness and sound.
 
 #include <filesystem>
 
@@ -8,9 +8,9 @@
 
 namespace wisp::cli {
 
-/// Writes what capture() reported of a clip: the brightness histogram with the threshold, and, where the clip has
-/// sound, the sound as it is beside its root mean square frame by frame, into a folder that exists. Errors: the clip's
-/// sound cannot be read, a file cannot be written.
+/// Writes plots of a captured clip into an existing folder: the brightness histogram with the threshold and, if the
+/// clip has sound, its waveform and its root mean square a frame. Errors: the clip's sound cannot be read, a file
+/// cannot be written.
 Result<void> write_clip_figures(const std::filesystem::path& folder, const std::filesystem::path& clip,
                                 const Report& captured);
 

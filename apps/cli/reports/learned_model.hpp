@@ -1,5 +1,5 @@
 #pragma once
-// How the commands hand over what they learned.
+// Output of the commands that learn.
 
 #include <chrono>
 #include <string>
@@ -15,15 +15,14 @@ namespace wisp::cli {
 /// `-o` of a command that learns: required unless one of these flags or --json is given.
 Flag output_flag(std::vector<std::string> unless = {});
 
-/// Where the model is to be written; empty: nowhere. And what it is called then.
+/// The path of the model, empty for none, and the model's name.
 std::string model_path(const Arguments& arguments);
 std::string model_name(const Arguments& arguments);
 
-/// Whether a file of that name, where there is one, can be written: asked before work that takes long. Errors: as
-/// write_file().
+/// Checks that a file of that name can be written, before long work; an empty name is fine. Errors: as write_file().
 Result<void> check_writable(const std::string& path);
 
-/// Shows the report and writes the model where `path` is not empty, with where and how long since `start` it took.
+/// Shows the report, and writes the model if `path` is not empty. Reports the path and the time since `start`.
 /// Errors: as write_model().
 Result<void> hand_over(const Fit& fit, const std::string& path, std::chrono::steady_clock::time_point start,
                        Terminal& terminal);

@@ -10,7 +10,7 @@
 
 namespace wisp::cli {
 
-/// What the named part files know together. Errors: a file that cannot be read, is not a part, was damaged, or cannot
+/// Reads and merges the named part files. Errors: a file that cannot be read, is not a part, was damaged, or cannot
 /// be merged with the first, each named; another number of parts than --expect.
 template <class Part>
 Result<Part> merged_part(const Arguments& arguments) {

@@ -12,9 +12,9 @@ namespace wisp::cli {
 /// --partial, --part, --merge, --expect.
 std::vector<Flag> outline_part_flags();
 
-/// Captures or reads the share of --part of what is named (or, with --merge, takes in the parts that are) and writes it
-/// to the file of --partial, whole or not at all.
-/// Errors: as outline_recordings() and merged_recordings(), more shares than recordings, a file that cannot be written.
+/// Captures or reads the recordings of the share --part (with --merge: reads the named parts) and writes them to the
+/// file of --partial, whole or not at all. Errors: as outline_recordings() and merged_recordings(), more shares than
+/// recordings, a file that cannot be written.
 Result<void> write_outline_part(const Arguments& arguments, Terminal& terminal);
 
 /// The recordings in the named parts. Errors: a file that cannot be read, is not a part, was damaged, or holds what

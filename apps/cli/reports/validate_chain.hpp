@@ -7,8 +7,8 @@
 
 namespace wisp::cli {
 
-/// Shows how a chain's falls compare with recorded ones, or its response with that of a pair, and draws both.
-/// Errors: the recording can't be read or compared, a flag that only outlines have.
+/// Compares a chain's falls with recorded ones, or its response to gusts with that of a pair of recordings, and draws
+/// both. Errors: the recording can't be read or compared, a flag that only outlines have.
 Result<void> validate_chain(const Model& model, const Arguments& arguments, Terminal& terminal);
 
 }  // namespace wisp::cli

@@ -1,9 +1,9 @@
 #pragma once
-// Candles in a dark room, drawn again and again: the picture of draw_room() and draw_flames(), for a window.
+// Candles in a dark room at a window's frame rate: the picture of draw_room() and draw_flames(), computed faster.
 //
-// What glows softly is computed on a grid of a quarter of the picture's size and brought up to it, already as codes of
-// the screen, where nothing but the dark room is behind; memory and room are kept. At 1280 × 800 that takes a seventh
-// of the time, and no pixel differs by more than a few codes.
+// Soft light is computed on a grid of a quarter of the picture's size and interpolated as screen codes where only the
+// dark room is behind it; memory and room are reused. At 1280 × 800 that takes a seventh of the time, and no pixel
+// differs by more than a few codes.
 
 #include <memory>
 #include <span>
@@ -23,7 +23,7 @@ class LiveFlames {
   ~LiveFlames();
 
   /// Draws the dark room and the candles in it over all of the picture, the first candle farthest; flames as for
-  /// draw_flames(). A picture of another size is made anew.
+  /// draw_flames(). A picture of another size is reallocated.
   void draw(Image& image, std::span<const Flame> flames);
 
  private:

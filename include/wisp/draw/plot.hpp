@@ -13,7 +13,7 @@ namespace wisp {
 
 enum class SeriesShape { kLine, kPoints, kBars };
 enum class Dash { kSolid, kDashed, kDotted };
-enum class Marker { kNone, kDot, kRing, kSquare };
+enum class Marker { kNone, kDot, kRing };
 enum class IntervalShape { kBars, kBand };
 
 /// One set of data of a plot. x and y have one length; y that is not finite breaks the line.
@@ -23,7 +23,6 @@ struct PlotSeries {
   std::vector<double> y{};
   std::vector<double> low{};  ///< ends of intervals around y, as long as y; empty: none
   std::vector<double> high{};
-  std::vector<Colour> colours{};  ///< of each line's segment, point or bar in its turn; empty: `colour` for all
   SeriesShape shape = SeriesShape::kLine;
   std::optional<Colour> colour{};  ///< unset: the palette's next
   double width = 1.6;              ///< of lines, in points; 0.1 … 20
@@ -59,7 +58,6 @@ struct Plot {
   std::vector<PlotSeries> series{};  ///< later ones are drawn over earlier ones
   std::vector<PlotMark> marks{};
   bool equal_units = false;  ///< one unit is as long in x as in y (trajectories)
-  Image picture{};           ///< where not empty, it fills the panel instead of axes
 };
 
 /// Gives both plots the ends that hold the data of both, 0 included, so that the eye compares sizes.

@@ -1,5 +1,5 @@
 #pragma once
-// A model played once and kept, and files of it that other tools open: glTF and Lottie.
+// A recorded play of a model, and files of it for other tools: glTF and Lottie.
 
 #include <array>
 #include <cstddef>
@@ -14,21 +14,21 @@
 
 namespace wisp {
 
-/// How long, how many, and in what input.
+/// Length, instances and inputs of a take.
 struct TakeOptions {
   double seconds = 4;            ///< above 0, at most an hour
   bool loop = false;             ///< the frame after the last one is the first one, in value and in speed
-  int instances = 1;             ///< 1 to 1000, each with its own chance
-  std::uint64_t seed = 1;        ///< of all chance
+  int instances = 1;             ///< 1 to 1000, each with its own random stream
+  std::uint64_t seed = 1;        ///< of the random streams
   bool noise = true;             ///< the residual noise; a loop without it stands still
-  std::vector<double> inputs{};  ///< constant, per input of the model, in its unit; what is missing is 0
+  std::vector<double> inputs{};  ///< constant, per input of the model, in its unit; missing ones are 0
 };
 
-/// Frames of a model at its own rate. Play begins where the model has forgotten how it started.
+/// Frames of a model at its own rate, recorded after the model has settled.
 struct Take {
   double rate_hz = 0;
   bool loop = false;
-  std::size_t frames = 0;  ///< of a loop: of one round, without the first one once more
+  std::size_t frames = 0;  ///< of a loop: one round, without repeating the first frame
   std::size_t instances = 0;
   std::size_t outputs = 0;
   std::vector<float> values;  ///< frames × instances × outputs

@@ -19,8 +19,8 @@ enum class CandleGrid {
   kFine,    ///< 112 × 192 cells of 0.417 mm, 600 steps a second
 };
 
-/// The rig. Lengths in millimetres, all else in SI units. "Calibrated" is said where a number was chosen for the
-/// flame to look and lean like a real one, not taken from a property of matter.
+/// The rig. Lengths in millimetres, all else in SI units. "Calibrated" values were chosen so that the flame looks and
+/// leans like a real one; the others are properties of matter.
 struct CandleRigOptions {
   // The grid and its time.
   int columns = 64;              ///< 16 … 1024
@@ -38,9 +38,9 @@ struct CandleRigOptions {
   double wick_width_mm = 5;       ///< calibrated: of that box; at 6 mm the flame is near puffing
   double wick_height_mm = 4;      ///< calibrated
   double wick_damping = 80;       ///< 1/s, calibrated: drag of the wick; without it the flame dies at 0.5 m/s
-  double wick_time = 0.15;        ///< s, calibrated: how slowly the fuel follows the wick's heat
-  double wick_cold = 500;         ///< K, calibrated: surroundings of the wick at which it gives off nothing
-  double wick_warm = 900;         ///< K, calibrated: and at which it gives off all it can
+  double wick_time = 0.15;        ///< s, calibrated: time constant of the fuel behind the wick's heat
+  double wick_cold = 500;         ///< K, calibrated: temperature around the wick at which it emits nothing
+  double wick_warm = 900;         ///< K, calibrated: and at which it emits fuel_rate
   double fuel_rate = 1.35e-4;     ///< m²/s, calibrated: volume of cold vapour a second per depth of a warm wick
   double fuel_temperature = 600;  ///< K
 
@@ -62,7 +62,7 @@ struct CandleRigOptions {
   double soot_burnout = 400;  ///< 1/s, calibrated
   double exposure = 0.5;      ///< share of a frame's time that its shutter is open, (0, 1]
 
-  double pressure_tolerance = 0.5;  ///< 1/s, root mean square of what the flow still diverges too much
+  double pressure_tolerance = 0.5;  ///< 1/s, root mean square of the remaining divergence error
 };
 
 /// The options of a calibrated grid.
@@ -91,22 +91,21 @@ struct VirtualMicrophoneOptions {
   double level = 0.12;     ///< root mean square of the sound of 1 m/s, full scale 1, 1e-6 … 1; gusts go beyond 1 m/s
   double corner_hz = 300;  ///< the spectrum is flat below and falls with 12 dB an octave above, 20 … 5000
   double hiss = 4e-4;      ///< root mean square of the background, white, 0 … 0.1
-  double hum = 0;          ///< amplitude of a 50 Hz hum, 0 … 0.1
   double other_sounds = 0.05;  ///< sounds that are not wind, a second on average, 0 … 10: half voice, half knocks
   double other_level = 0.05;   ///< their typical root mean square, 0 … 1
   std::uint64_t seed = 1;
 };
 
-/// How the outline is taken.
+/// Extraction of the outline.
 struct FlameOutlineRecipe {
   double level = 0.3;  ///< light of glowing soot at the contour; 0.3 is about half of full brightness in a picture of
                        ///< the default camera, (0, 10]
   int points = 8;      ///< control points of the cubic B-spline, 4 … 32
   double cut = 0.03;   ///< the base lies this share of the flame's height above its lowest point, [0, 0.5): the round
-                       ///< bottom of a contour has no corners that a control point could hold on to
+                       ///< bottom of a contour has no corners to fix control points to
 };
 
-/// What the wind does.
+/// Kinds of wind.
 enum class WindKind {
   kCalm,      ///< nothing: a flame that does not move at all
   kDraughts,  ///< a closed room's still air: a few cm/s from either side, by which the brightness varies by 1 %, as
@@ -117,13 +116,13 @@ enum class WindKind {
 /// The wind. Speeds in m/s.
 struct WindSignalOptions {
   WindKind kind = WindKind::kGusts;
-  double most = 1.0;         ///< what gusts and noise together are clamped to, 0 … 10; a candle lives through 1 m/s
+  double most = 1.0;         ///< clamp of gusts and noise together, 0 … 10; a candle survives 1 m/s
   double noise = 0.35;       ///< standard deviation of the wideband part while it blows, 0 … 10
   double bandwidth_hz = 6;   ///< of that noise, two poles, 0.1 … 50; slower wind does not show how a flame swings
   double gust = 0.55;        ///< typical peak of a gust, 0 … 10
   double rest_share = 0.25;  ///< of the time that is calm, 0 … 0.9
   bool both_sides = false;   ///< gusts from the right as well (negative); a microphone hears only strength
-  double blow_out_at = -1;   ///< seconds: a puff of 3 m/s for 0.3 s that kills the flame; negative: none
+  double blow_out_at = -1;   ///< seconds: a puff of 3 m/s for 0.3 s that extinguishes the flame; negative: none
   double puff_every = 0;     ///< seconds between puffs of 1.2 to 4 m/s that last 0.05 to 0.6 s, of which some kill and
                              ///< some do not: what blowing out is learned from; 0: none, else 2 … 86400
   double relight_after = 2;  ///< seconds from a blow-out or a puff until the candle is lit again; negative: never
@@ -149,7 +148,7 @@ struct CandleClipOptions {
 /// both sides, for a wind with `both_sides`.
 void centre_candle(CandleClipOptions& options);
 
-/// A frame on its way out.
+/// A frame of the clip.
 struct CandleFrame {
   std::uint64_t index = 0;
   double seconds = 0;  ///< since the clip's start
@@ -158,7 +157,7 @@ struct CandleFrame {
   std::span<const std::uint8_t> picture;  ///< rows from the top, RGB, width × height × 3; valid during the call only
 };
 
-/// What the clip leaves by. Each is called from the thread that called simulate_candle, in the order of time: a
+/// Outputs of the clip. Each is called from the thread that called simulate_candle, in the order of time: a
 /// frame's picture first, then the sound that was heard while it lasted. An error ends the clip and is passed on.
 struct CandleClipOutputs {
   std::function<Result<void>(const CandleFrame&)> on_frame;

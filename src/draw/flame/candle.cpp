@@ -10,7 +10,7 @@
 namespace wisp::drawing {
 namespace {
 
-// The eye is a little above the candle's top: its circle is seen as an ellipse this flat.
+// Flatness of the candle's top, seen from slightly above.
 constexpr float kFlatness = 0.17F;
 
 // A candle laid out in pixels.
@@ -33,7 +33,7 @@ Body body_of(const FlameScene& scene, const FlameStyle& style) {
   return body;
 }
 
-// A place on the candle as the shading sees it.
+// A point of the candle in coordinates of the shading.
 struct Spot {
   float across = 0;  // −1 … 1 from the left silhouette to the right
   float facing = 0;  // how far the surface turns to the eye, 0 … 1
@@ -42,7 +42,7 @@ struct Spot {
   float front = 0;   // on the top: −1 far … 1 near
 };
 
-// Light that enters the wax at the top and seeps down inside: short ways stay yellow, long ways redden.
+// Light that enters the wax at the top and scatters downwards; it reddens with the distance.
 Light seeping(const Spot& spot, const Light& wax, float width, float lean) {
   const float scale = std::sqrt(width / 0.62F);
   const Light way{std::exp(-spot.depth / (0.38F * scale)), std::exp(-spot.depth / (0.22F * scale)),
@@ -75,7 +75,7 @@ Light room_light(const Spot& spot, const Light& wax, float ambient, bool top) {
   return ambient * lit * (wax * Light{0.58F, 0.76F, 1.25F});
 }
 
-// What a neighbour's flame adds: light from one side that wraps around, since wax lets it through.
+// Light of a neighbour's flame from one side; it wraps around, since wax is translucent.
 Light neighbour_light(const Spot& spot, const Light& wax, const Lamp& lamp, const Body& body) {
   const float dx = (lamp.place.x - body.middle) / body.unit;
   const float dy = (body.top - lamp.place.y) / body.unit + spot.depth;
@@ -97,7 +97,7 @@ std::vector<Drip> drips_of(std::uint64_t seed, float width) {
   std::vector<Drip> drips;
   const int count = 2 + static_cast<int>(2 * random_at(seed, 2));
   for (int k = 0; k < count; ++k) {
-    // One in each share of the side, so that they do not lie over each other.
+    // One in each section of the side, so that they do not overlap.
     const float place = (static_cast<float>(k) + 0.2F + 0.6F * random_at(seed, 4 + 3 * k)) / static_cast<float>(count);
     const float half = 0.085F + 0.045F * random_at(seed, 5 + 3 * k);
     const float fall = random_at(seed, 6 + 3 * k);
@@ -126,7 +126,7 @@ class Shader {
         drips_(drips_of(seed, style.candle_width)),
         pixel_(1 / (0.1F * body.half)) {
     lean_ = std::clamp((own.place.x - body.middle) / (0.5F * body.unit), -1.0F, 1.0F);
-    // Beyond a few flame heights a neighbour adds less than a code.
+    // Farther neighbours add less than a code.
     for (const Lamp& lamp : others) {
       if (lamp.power > 0 && std::abs(lamp.place.x - body.middle) < 5 * body.unit) near_.push_back(lamp);
     }
@@ -141,7 +141,7 @@ class Shader {
     for (const Drip& drip : drips_) {
       const float inside = inside_drip(drip, spot, 0.5F * style_.candle_width);
       if (inside < -1) continue;
-      // Beside the drip the side is in its shade; on it, the surface turns from left to right once more.
+      // The side is shaded beside a drip; on the drip the surface curves again from left to right.
       const float shade = 0.16F * smooth_step(-0.9F, 0, inside);
       light = (1 - shade) * light;
       const float on = std::clamp(0.5F + inside / pixel_, 0.0F, 1.0F);
@@ -163,7 +163,7 @@ class Shader {
   }
 
  private:
-  // What wall and table give back of the flame's light.
+  // Light of the flame reflected by wall and table.
   Light bounced(const Spot& spot) const { return (0.05F + 0.035F * (1 - spot.facing)) * wax_; }
 
   Light side_light(const Spot& spot) const {
@@ -178,7 +178,7 @@ class Shader {
     const float turn = std::clamp((spot.across - drip.across) / drip.half, -1.0F, 1.0F);
     bent.across = std::clamp(spot.across + 0.35F * turn, -1.0F, 1.0F);
     bent.facing = std::min(1.0F, 0.75F * spot.facing + 0.35F * std::min(1.0F, inside));
-    // Wax that stands out catches more of the light that leaks over the rim.
+    // Protruding wax catches more of the light from the rim.
     bent.depth = 0.86F * spot.depth;
     return 1.06F * side_light(bent);
   }
@@ -295,7 +295,7 @@ Wick make_wick(const FlameScene& scene, const FlameStyle& style, int width, int 
   if (length <= 0) return wick;
   wick.width = 0.032F * unit;
   wick.root = {scene.base.x, scene.base.y + style.wick_gap * unit};
-  // Wicks curl over as they burn; which way is chance.
+  // Wicks curl over as they burn, in a random direction.
   const float bend = (random_at(scene.seed, 0) < 0.5F ? -1.0F : 1.0F) * (0.16F + 0.16F * random_at(scene.seed, 1));
   constexpr int kSteps = 14;
   std::vector<Point> left;

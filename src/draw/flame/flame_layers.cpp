@@ -7,7 +7,7 @@
 namespace wisp::drawing {
 namespace {
 
-// A flame catches within this time of being lit, and dies within the other of going out, in seconds.
+// Durations of re-ignition and decay, in seconds.
 constexpr float kReIgnition = 0.40F;
 constexpr float kDecay = 0.16F;
 
@@ -28,13 +28,13 @@ FlameScene clamped(FlameScene scene) {
   return scene;
 }
 
-// How far a flame has grown or shrunk: its outline's scale, and its light.
+// Scale of the outline and light of a growing or shrinking flame.
 struct Stage {
   float scale = 1;
   FlameMood mood;
 };
 
-// Of a flame that grew to the share `grown` since it was lit.
+// Mood of a flame that has grown to the share `grown`.
 FlameMood re_igniting(float brightness, float grown) {
   return {brightness * (0.5F + 0.5F * grown), 0.25F + 0.75F * smooth_step(0.15F, 0.9F, grown)};
 }
@@ -62,8 +62,8 @@ Lamp lamp_of(const FlameShape& shape, const FlameMood& mood) {
   return {shape.middle, glowing * std::pow(area, 0.7F)};
 }
 
-// Light over how much glowing soot is in view (0 none … 1 the thickest part): rim, body, core, each melting into the
-// next, so that layers have a visible edge and no line.
+// Light as a function of the glowing soot in view (0 none … 1 the thickest part): rim, body and core with soft
+// transitions.
 class SootRamp {
  public:
   explicit SootRamp(const FlameStyle& style) {
@@ -93,15 +93,15 @@ class SootRamp {
   std::array<Light, kSteps + 1> table_{};
 };
 
-// How much of the fuel glows as soot at the share t of the way from the base to the tip: the dark zone around the wick,
-// the luminous zone, and the tip where it burns off.
+// Share of glowing soot at the share t of the way from base to tip: the dark zone around the wick, the luminous zone,
+// and the tip where soot burns off.
 float soot_profile(float t) {
   const float rise = 0.04F + 0.34F * smooth_step(0.04F, 0.22F, t) + 0.62F * smooth_step(0.14F, 0.44F, t);
   const float burn_off = 1 - 0.55F * smooth_step(0.74F, 1.04F, t);
   return rise * burn_off;
 }
 
-// Soot fills the whole flame above, but low down it is only inside the blue mantle, which would turn purple with it.
+// Depth of soot: the whole flame above, only the inside of the blue mantle below, which soot would turn purple.
 float soot_depth(float t, float thick) {
   const float shell = 0.50F * (1 - smooth_step(0.05F, 0.34F, t));
   return std::max(0.0F, thick - shell) / (1 - shell);
@@ -137,7 +137,7 @@ void add_flame_light(LightField& field, const FlameShape& shape, const FlameMood
   }
 }
 
-// The wick hides what burns behind it, and most of what burns before it is thin there.
+// The wick hides most of the flame's light, since the gas before it is thin.
 Plane wick_shade(const Candle& candle) {
   constexpr float kHides = 0.82F;
   const PixelBox& box = candle.shape.box;
@@ -148,12 +148,12 @@ Plane wick_shade(const Candle& candle) {
   return shade;
 }
 
-// The glowing end of the wick: hidden in the flame's light while it burns, fading for seconds when it is out.
+// The glowing end of the wick: hidden by the burning flame, fading for seconds after extinction.
 void add_ember(LightField& field, const Candle& candle) {
   const FlameScene& scene = candle.scene;
   if (candle.wick.empty() || (burns(scene) && candle.shape.empty())) return;
   const float out = scene.seconds_since_out;
-  // It shows as the flame lets go of it.
+  // It becomes visible as the flame shrinks.
   const float bare = 1 - 0.8F * scene.size.value_or(0.0F);
   const float heat = burns(scene) ? 0.16F : bare * (0.75F * std::exp(-out / 0.7F) + 0.25F * std::exp(-out / 2.6F));
   if (heat < 0.004F) return;
@@ -168,7 +168,7 @@ void add_ember(LightField& field, const Candle& candle) {
       const float dx = static_cast<float>(x) + 0.5F - candle.wick.end.x;
       const float dy = static_cast<float>(y) + 0.5F - candle.wick.end.y - 0.5F * radius;
       const float near = std::exp(-1.6F * (dx * dx + dy * dy) / (radius * radius));
-      // While it burns only the wick's own end glows: a flame that leans away leaves no light of it beside it.
+      // While the flame burns only the wick's own end glows, without a halo beside a leaning flame.
       field.add(x, y, near * (halo + (1 - halo) * wick_at(candle.wick, x, y)) * glow);
     }
   }

@@ -13,10 +13,10 @@
 namespace wisp::drawing {
 namespace {
 
-// No flame is larger than this many model units; it keeps absurd outlines from asking for absurd memory.
+// Limit of a flame's size in model units, which bounds memory for absurd outlines.
 constexpr float kFarthest = 8;
 
-// A cell of the grid that φ is solved on: a hundredth of the flame, but never finer than a pixel.
+// Resolution of the grid for φ: about a hundredth of the flame, at most a pixel.
 constexpr float kCellsPerUnit = 96;
 constexpr int kMaxCells = 240;
 
@@ -57,11 +57,11 @@ Bounds bounds_of(std::span<const Point> points) {
   return b;
 }
 
-// One side of the flame where its rounded base takes over.
+// Junction of one side of the flame with its rounded base.
 struct Shoulder {
   std::ptrdiff_t rest = 0;  // points of the outline's end that the base replaces
   Point at;
-  Point way;  // how the side runs down there, of length 1
+  Point way;  // unit direction of the side there
 };
 
 // Follows the outline from one of its ends to where it first rises through `height`. Where that is not near the end (a
@@ -78,7 +78,7 @@ Shoulder shoulder_of(const Points& begin, std::ptrdiff_t size, float height) {
     above = k;
     break;
   }
-  // The direction over a tenth of the outline: one sample would pass every wobble on.
+  // The direction over a tenth of the outline, which averages wobbles.
   const Point from = begin[std::min(size - 1, above + std::max<std::ptrdiff_t>(1, size / 10))];
   const Point down{shoulder.at.x - from.x, shoulder.at.y - from.y};
   const float length = std::hypot(down.x, down.y);

@@ -94,8 +94,8 @@ int level_of(const HaloRing& ring) {
 
 }  // namespace
 
-// By the kernel 1-3-3-1 over 8: it keeps the middle of what it halves in place, so that the halo of a flame that sways
-// follows it smoothly and not from cell to cell.
+// Uses the kernel 1-3-3-1 over 8, which keeps the centre in place, so that the halo follows a swaying flame smoothly
+// and not from cell to cell.
 Plane halved(const Plane& fine) {
   Plane across((fine.width + 1) / 2, fine.height);
   std::vector<float> padded(2 * across.width + 2);
@@ -142,7 +142,7 @@ void add_halo(Plane luminance, std::span<const HaloRing> rings, LightField& fiel
   levels.push_back(std::move(luminance));
   while (static_cast<int>(levels.size()) <= top) levels.push_back(halved(levels.back()));
 
-  // From the coarsest grid down, each level's rings are added to what came from above.
+  // From the coarsest grid down, each level's rings are added to the sum of the coarser levels.
   LightField sum(levels.back().width, levels.back().height);
   for (int level = top;; --level) {
     const Plane& plane = levels[level];
@@ -167,7 +167,7 @@ void add_halo(Plane luminance, std::span<const HaloRing> rings, LightField& fiel
 
 void add_light(Image& image, const LightField& field) {
   assert(image.width() == field.width() && image.height() == field.height());
-  // A thousandth of the darkest code: nothing that anyone could see.
+  // A thousandth of the darkest code, which is invisible.
   constexpr float kDarkest = 3e-7F;
   const Tone& tone = Tone::get();
   for (int y = 0; y < image.height(); ++y) {
@@ -186,7 +186,7 @@ void add_light(Image& image, const LightField& field) {
       const std::uint32_t r = lit(16, red[x]);
       const std::uint32_t g = lit(8, green[x]);
       const std::uint32_t b = lit(0, blue[x]);
-      // Light on a transparent picture covers what will be put behind it as far as it outshines that.
+      // On a transparent picture the opacity is at least the brightest channel.
       const std::uint32_t opacity = std::max({before >> 24, r, g, b});
       pixels[x] = opacity << 24 | r << 16 | g << 8 | b;
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Light to be added to a picture: linear, unbounded, one value a pixel and channel.
+// Linear, unbounded light that is added to a picture, one value a pixel and channel.
 
 #include <span>
 #include <vector>
@@ -39,7 +39,7 @@ struct LightField {
   Plane blue;
 };
 
-/// One ring of the halo: how wide, and what light it spreads for each unit of luminance.
+/// One ring of the halo: its width, and its light for each unit of luminance.
 struct HaloRing {
   float sigma = 1;  ///< standard deviation of the Gaussian, pixels
   Light tint;
@@ -48,22 +48,22 @@ struct HaloRing {
 /// Adds the field's own luminance, blurred by each ring's Gaussian and tinted, to the field.
 void add_halo(LightField& field, std::span<const HaloRing> rings);
 
-/// The same from a luminance that is already there, added to `field`, which may be coarser than a picture.
+/// The same from a given luminance; `field` may be coarser than a picture.
 ///
 /// Precondition: luminance and field have one size.
 void add_halo(Plane luminance, std::span<const HaloRing> rings, LightField& field);
 
-/// The finest grid that the rings need, as halvings of the picture's: they are as smooth on it as on the picture's own.
+/// Returns the finest grid that the rings need, as a number of halvings of the picture's size.
 int finest_level(std::span<const HaloRing> rings);
 
-/// Half the size in both directions, rounded up; its middle stays in place. What lies outside is dark.
+/// Halves the size in both directions, rounded up, about the middle. Outside is dark.
 Plane halved(const Plane& fine);
 
-/// What light of that strength leaves of what is behind it: e^(−light) or nearly so.
+/// Returns the share of the background that stays visible behind light of that strength, about e^(−light).
 float transmitted(float light);
 
-/// Shows the light on the picture: what is there already is seen through the film's curve, 1 − (1 − there)·e^(−light)
-/// or nearly so. Pixels that get no light keep their bytes.
+/// Adds the light to the picture by the exposure curve 1 − (1 − there)·e^(−light), approximately. Pixels without light
+/// keep their bytes.
 ///
 /// Precondition: the field has the picture's size.
 void add_light(Image& image, const LightField& field);

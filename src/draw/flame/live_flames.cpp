@@ -15,10 +15,7 @@ using namespace drawing;
 
 namespace {
 
-// Rings of the glow that are too narrow for the soft grid are added around the flames only, in the picture's own
-// pixels.
-
-// Beyond this many standard deviations a ring adds nothing that could be seen.
+// Beyond this many standard deviations a ring of the glow is invisible.
 constexpr float kRingReach = 3.5F;
 
 PixelBox grown(PixelBox box, int by, int width, int height) {
@@ -28,7 +25,7 @@ PixelBox grown(PixelBox box, int by, int width, int height) {
   return {left, top, right - left, bottom - top};
 }
 
-// Grown to whole cells, and by as much as halving spreads light.
+// Grows a box to whole cells, and by the spread of halving.
 PixelBox on_grid(PixelBox box, int width, int height) {
   const int left = std::max(0, box.x / kCell - 2) * kCell, top = std::max(0, box.y / kCell - 2) * kCell;
   const int right = std::min(width, (cells(box.x + box.width) + 2) * kCell);
@@ -59,7 +56,7 @@ PixelBox around(PixelBox a, PixelBox b) {
   return {left, top, right - left, bottom - top};
 }
 
-// Pixels where a candle's own light may be: flame and ember.
+// Box of a candle's own light: flame and ember.
 PixelBox own_light_box(const Candle& candle, int width, int height) {
   const PixelBox& flame = candle.shape.box;
   const PixelBox& wick = candle.wick.box;
@@ -73,7 +70,7 @@ bool meet(PixelBox a, PixelBox b) {
   return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
 }
 
-// Boxes that meet become one, until none do: what is added within a box is added to a pixel once.
+// Merges overlapping boxes, so that light is added to each pixel once.
 void merge_meeting(std::vector<PixelBox>& boxes) {
   for (std::size_t k = 0; k < boxes.size(); ++k) {
     for (std::size_t other = k + 1; other < boxes.size(); ++other) {
@@ -119,7 +116,7 @@ struct LiveFlames::State {
 
   FlameStyle style;
   Room room;
-  const LightField* room_light = nullptr;  // of this picture
+  const LightField* room_light = nullptr;  // of the present picture
   Image behind;                            // the room alone
   Plane dither;
   LightField own;   // flames and embers, in pixels; dark outside `lit`
@@ -138,7 +135,7 @@ void LiveFlames::State::gather(Plane& luminance, PixelBox box) const {
   for (int k = 0; k < kHalvings; ++k) soft = halved(soft);
   const int left = part.x / kCell, top = part.y / kCell;
   for (int y = 0; y < soft.height; ++y) {
-    // At a part's edge the light of a neighbouring part is missing, which has it all.
+    // Parts overlap at their edges, where one of them lacks the other's light; the larger value is complete.
     float* out = luminance.row(top + y) + left;
     for (int x = 0; x < soft.width; ++x) out[x] = std::max(out[x], soft.row(y)[x]);
   }
@@ -194,7 +191,7 @@ void LiveFlames::State::draw_room(std::span<const Candle> candles) {
   }
 }
 
-// What the room and the glow look like where nothing else is.
+// Screen codes of room and glow without anything before them.
 void LiveFlames::State::make_codes() {
   const Tone& tone = Tone::get();
   for (int y = 0; y < glow.height(); ++y) {

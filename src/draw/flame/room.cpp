@@ -13,10 +13,10 @@ namespace {
 // Shares of the picture's height: where the table ends at the wall, and where its plane vanishes.
 constexpr float kTableEdge = 0.70F, kHorizon = 0.46F;
 
-// The wall is this far behind the flames, in model units; it looks no farther, since it is not in focus.
+// Distance of the wall behind the flames, in model units.
 constexpr float kBehind = 1.7F;
 
-// The eye is so much nearer to the table's plane than to the candle, as the ellipse of a candle's top says.
+// Flatness of a circle on the table in the picture.
 constexpr float kTableFlatness = 0.24F;
 
 constexpr Light kPlaster{0.120F, 0.057F, 0.027F};
@@ -24,7 +24,7 @@ constexpr Light kWood{0.260F, 0.098F, 0.036F};
 constexpr Light kNight{0.0052F, 0.0062F, 0.0098F};
 constexpr Light kMoon{0.0115F, 0.0140F, 0.0210F};
 
-// An eye in a dark room opens, and in a bright one narrows: so much for no flame, and for each flame less.
+// Adaptation of the eye: brightening of a room without flames, and dimming by bright flames.
 constexpr float kOpens = 1.9F, kNarrows = 1.3F;
 
 // Smooth noise over a plane, 0 to 1.
@@ -62,7 +62,7 @@ float pane_at(float x, float y) {
   return bar(u) * bar(v);
 }
 
-// Where a pixel of the table lies, from the middle of the picture at the depth of a foot, in model units.
+// A pixel's position on the table, relative to the middle of the picture at the depth of a foot, in model units.
 struct TableSpot {
   float x = 0;
   float z = 0;  // towards the eye
@@ -146,7 +146,7 @@ Room::Room(int width, int height)
       const float far = 1 / std::max(0.05F, v - kHorizon);
       const float mottled = 0.9F + 0.2F * noise_at(9 * u + 50, 9 * v, 3);
       const float wood = grain_at(0.55F * u * far, -0.42F * far);
-      // Where wall and table meet neither the flame's light nor the moon's comes well.
+      // The corner of wall and table is dimmer.
       const float corner = 1 - 0.6F * std::exp(-std::max(0.0F, kTableEdge - v) / 0.05F);
       const float sheen = 0.35F * smooth_step(1.0F, kTableEdge, v);
       const float behind = smooth_step(kTableEdge, kTableEdge + 0.05F, v);
@@ -179,7 +179,7 @@ void Room::light_wall(std::span<const Stand> stands) {
   }
 }
 
-// The shadow of the candle's rim lies where the way to the flame goes through the rim's circle: it moves against the
+// The candle's shadow lies where the line to the flame passes through the circle of its rim, so it moves against the
 // flame.
 void Room::light_table(const Stand& stand) {
   constexpr int kPixels = 2 * kCell;
@@ -196,7 +196,7 @@ void Room::light_table(const Stand& stand) {
       const TableSpot p = view.at(kPixels * (static_cast<float>(i) + 0.5F), kPixels * (static_cast<float>(j) + 0.5F));
       const float dx = p.x - aside, dz = p.z - foot.z;
       const float square = dx * dx + dz * dz + high * high;
-      // Where that way crosses the rim's height.
+      // Intersection of that line with the plane of the rim.
       const float qx = p.x + rim * (aside - p.x) - foot.x, qz = (1 - rim) * dz;
       const float open = stand.height > 0 ? smooth_step(0.75F, 1.35F, std::sqrt(qx * qx + qz * qz) / stand.half) : 1;
       out[i] += stand.lamp.power * (0.08F + 0.92F * open) * 2.2F * high / (square * std::sqrt(square));
@@ -213,7 +213,7 @@ const LightField& Room::lit(std::span<const Stand> stands) {
   const float dark = 1 + (kOpens - 1) * std::max(0.0F, 1 - power);
   const float bright = (1 + kNarrows) / (std::max(1.0F, power) + kNarrows);
   for (int j = 0; j < light_.height(); ++j) {
-    // Twice as fine, linear between the middles of the coarse cells.
+    // Linear interpolation to the grid of twice the resolution.
     const float v = 0.5F * (static_cast<float>(j) + 0.5F) - 0.5F;
     const int above = std::max(0, static_cast<int>(std::floor(v)));
     const float b = std::clamp(v - static_cast<float>(above), 0.0F, 1.0F);

@@ -17,7 +17,7 @@ inline constexpr int kCell = 1 << kHalvings;
 
 inline int cells(int pixels) { return (pixels + kCell - 1) / kCell; }
 
-/// One row of a grid, or the place between two, as values of the picture's row.
+/// Interpolation position of a picture's row between two rows of the grid.
 struct Between {
   Between(int pixel, int count) {
     const float at = (static_cast<float>(pixel) + 0.5F) / kCell - 0.5F;
@@ -30,7 +30,7 @@ struct Between {
   float share = 0;
 };
 
-/// The three channels of a row of a picture, with room for the groups of pixels that hang over both edges.
+/// The three channels of a row of a picture, with a margin for groups of pixels that extend over the edges.
 struct Row {
   explicit Row(int width) {
     for (auto& channel : channels) channel.resize(static_cast<std::size_t>(width) + 2 * kCell);
@@ -46,7 +46,7 @@ void spread(const LightField& grid, const Between& y, std::vector<float>& scratc
 /// Writes codes with their fraction as pixels, rounded by `dither`.
 void write_codes(const Row& codes, const float* dither, std::uint32_t* out, int first, int last);
 
-/// A flame, and the candle under it that shades the table.
+/// A flame and its candle, which shades the table.
 struct Stand {
   Lamp lamp;
   Point foot;        ///< pixel of the middle of the candle's foot, on the table
@@ -62,7 +62,7 @@ class Room {
   /// Of a picture of that size.
   Room(int width, int height);
 
-  /// Light that the room sends to the eye, in cells.
+  /// Returns the light from the room, in cells.
   const LightField& lit(std::span<const Stand> stands);
 
  private:
@@ -70,8 +70,8 @@ class Room {
   void light_table(const Stand& stand);
 
   int width_, height_;
-  LightField wood_;  // how much of a flame's light comes back
-  LightField moon_;  // what is there without flames
+  LightField wood_;  // reflectance for a flame's light
+  LightField moon_;  // light without flames
   Plane flames_;     // light of all flames, on a grid twice as coarse
   LightField light_;
 };

@@ -1,4 +1,4 @@
-// What is not a flame: a filled shape on a plain ground.
+// Outlines that are no flames: filled shapes on a plain ground.
 
 #include <algorithm>
 #include <cmath>

@@ -11,16 +11,15 @@ namespace {
 
 constexpr float kTau = 2 * std::numbers::pi_v<float>;
 
-// The oldest smoke that can still be seen, and for how long a wick smokes, in seconds.
+// Age of the oldest visible smoke, and duration of smoking, in seconds.
 constexpr float kOldest = 4.0F;
 constexpr float kSmoulders = 4.5F;
 
-// The ribbon is drawn as threads side by side. Where it folds they lie over each other, which is what makes smoke look
-// like smoke.
+// The ribbon is drawn as parallel threads, which overlap where it folds.
 constexpr int kThreads = 9;
 constexpr float kThreadSeconds = 1.0F / 200;
 
-// One swing of the ribbon: smoke that leaves at different times is carried aside differently.
+// One oscillation of the ribbon: the sideways displacement varies with the time at which smoke left the wick.
 struct Swing {
   float rate_hz;
   float across;  // model units, when fully grown
@@ -31,16 +30,16 @@ struct Swing {
 
 std::array<Swing, 4> swings_of(std::uint64_t seed) {
   const auto phase = [&](int k) { return random_at(seed, 16 + k); };
-  // Nothing of a swing may overtake what rises before it: the ribbon would fold into rungs.
+  // Upward amplitudes are small enough that smoke never overtakes the smoke above it.
   return {{{0.50F, 0.135F, 0.012F, phase(0), 0.10F},
            {1.05F, 0.052F, 0.014F, phase(1), 0.20F},
            {1.90F, 0.017F, 0.007F, phase(2), -0.26F},
            {3.60F, 0.004F, 0.002F, phase(3), 0.4F}}};
 }
 
-// Where smoke of that age is that left the wick at `left` seconds after it went out: model units from the wick's end.
+// Position of smoke of an age that left the wick `left` seconds after extinction: model units from the wick's end.
 Point drift(float left, float age, float side, float wind, std::span<const Swing> swings) {
-  // Hot smoke starts fast, and is slowed by the air that it takes with it.
+  // Hot smoke starts fast and is slowed by entrained air.
   const float rise = 0.75F * age + 0.30F * (1 - std::exp(-age / 0.35F));
   constexpr float kTakesUpWind = 0.35F;
   const float carried = wind * (age - kTakesUpWind * (1 - std::exp(-age / kTakesUpWind)));
@@ -86,7 +85,7 @@ void dab(Plume& plume, float x, float y, float radius, float amount) {
   }
 }
 
-// All smoke that is in the air, on a grid of `cell` pixels, of a wick that smoked for `smoking` seconds.
+// Density of all smoke in the air on a grid of `cell` pixels, of a wick that smoked for `smoking` seconds.
 Plume risen(const Image& image, const FlameScene& scene, Point wick_end, float cell, float smoking) {
   Plume plume;
   plume.density = Plane(static_cast<int>(std::ceil(static_cast<float>(image.width()) / cell)) + 1,
@@ -136,7 +135,7 @@ void draw_smoke(Image& image, const FlameScene& scene, Point wick_end, std::span
   if (plume.right < 0) return;
   const Plane& density = plume.density;
   const Light light = smoke_light(scene, wick_end, lamps);
-  // Interpolation reaches one cell beyond those that hold smoke.
+  // Interpolation reaches one cell beyond the smoke.
   const auto pixel = [&](int cells) { return static_cast<int>(static_cast<float>(cells) * cell); };
   const int end_y = std::min(image.height(), pixel(plume.bottom + 2));
   const int end_x = std::min(image.width(), pixel(plume.right + 2));

@@ -48,32 +48,7 @@ SheetLayout lay_out(const PlotSheet& sheet) {
   return at;
 }
 
-void draw_picture(cairo_t* context, const Image& picture, const PlotBox& box) {
-  Image pixels = picture;
-  const double scale = std::min(box.width() / picture.width(), box.height() / picture.height());
-  const double width = scale * picture.width();
-  const double height = scale * picture.height();
-  const double x = box.left + (box.width() - width) / 2;
-  const double y = box.top + (box.height() - height) / 2;
-  const CairoSurface surface = surface_of(pixels);
-  cairo_save(context);
-  cairo_translate(context, x, y);
-  cairo_scale(context, scale, scale);
-  cairo_set_source_surface(context, surface.get(), 0, 0);
-  cairo_pattern_set_filter(cairo_get_source(context), CAIRO_FILTER_GOOD);
-  cairo_pattern_set_extend(cairo_get_source(context), CAIRO_EXTEND_PAD);
-  cairo_rectangle(context, 0, 0, picture.width(), picture.height());
-  cairo_fill(context);
-  cairo_restore(context);
-}
-
 void draw_plot(cairo_t* context, const Plot& plot, double width, double height, double left) {
-  if (!plot.picture.empty()) {
-    const PlotBox box{12, 30, width - 12, height - 14};
-    draw_title(context, plot.title, box);
-    draw_picture(context, plot.picture, box);
-    return;
-  }
   const Axes axes = make_axes(context, plot, width, height, left);
   draw_title(context, plot.title, axes.box);
   draw_grid(context, axes);
@@ -89,11 +64,10 @@ void draw_plot(cairo_t* context, const Plot& plot, double width, double height, 
   draw_keys(context, plot, axes);
 }
 
-// Where the data of a column's plots begin: below each other they begin at the same place.
+// Left end of the data of a column's plots, which is common to them.
 double left_of_column(cairo_t* context, const PlotSheet& sheet, const SheetLayout& at, std::size_t column) {
   double left = 0;
   for (std::size_t k = column; k < sheet.plots.size(); k += at.columns) {
-    if (!sheet.plots[k].picture.empty()) continue;
     left = std::max(left, make_axes(context, sheet.plots[k], at.plot_width, at.plot_height).box.left);
   }
   return left;

@@ -24,18 +24,11 @@ bool shown(const PlotSeries& series, std::size_t k, const Scale& x, const Scale&
   return x.shows(series.x[k]) && y.shows(series.y[k]);
 }
 
-Colour colour_of(const PlotSeries& series, std::size_t k, Colour fallback) {
-  return k < series.colours.size() ? series.colours[k] : fallback;
-}
-
 void mark(cairo_t* context, Marker marker, double x, double y, double size, Colour colour) {
   if (marker == Marker::kNone) return;
   const double half = size / 2;
   cairo_new_path(context);
-  if (marker == Marker::kSquare)
-    cairo_rectangle(context, x - half, y - half, size, size);
-  else
-    cairo_arc(context, x, y, half, 0, 2 * std::numbers::pi);
+  cairo_arc(context, x, y, half, 0, 2 * std::numbers::pi);
   if (marker == Marker::kRing) {
     set_colour(context, {255, 255, 255});
     cairo_fill_preserve(context);
@@ -50,12 +43,11 @@ void mark(cairo_t* context, Marker marker, double x, double y, double size, Colo
 
 bool dense(const PlotSeries& series, const Scale& x) {
   const double width = std::abs(x.to - x.from);
-  return series.colours.empty() && static_cast<double>(size_of(series)) > kDensest * width &&
-         std::is_sorted(series.x.begin(), series.x.end());
+  return static_cast<double>(size_of(series)) > kDensest * width && std::is_sorted(series.x.begin(), series.x.end());
 }
 
-// Per narrow column: in at the first sample, down and up over all of them, out at the last. What is seen is the same
-// as with every sample drawn, and the file stays small.
+// Draws, for each narrow column, its first, lowest, highest and last sample. The picture is the same as with every
+// sample, and the file stays small.
 void trace_envelope(cairo_t* context, const PlotSeries& series, const Scale& x, const Scale& y) {
   const std::size_t size = size_of(series);
   bool broken = true;
@@ -96,54 +88,34 @@ void draw_line(cairo_t* context, const PlotSeries& series, Colour colour, const 
     cairo_stroke(context);
     return;
   }
-  // A segment takes the colour of the sample that it leads to; segments of one colour are one stroke.
   bool broken = true;
-  Colour running = colour;
   for (std::size_t k = 0; k < size_of(series); ++k) {
     if (!shown(series, k, x, y)) {
       broken = true;
       continue;
     }
-    const Colour wanted = colour_of(series, k, colour);
-    if (!broken && wanted != running) {
-      double at_x = 0, at_y = 0;
-      cairo_get_current_point(context, &at_x, &at_y);
-      set_colour(context, running);
-      cairo_stroke(context);
-      cairo_move_to(context, at_x, at_y);
-    }
     if (broken) {
-      set_colour(context, running);
-      cairo_stroke(context);
       cairo_move_to(context, x(series.x[k]), y(series.y[k]));
     } else {
       cairo_line_to(context, x(series.x[k]), y(series.y[k]));
     }
-    running = wanted;
     broken = false;
   }
-  set_colour(context, running);
+  set_colour(context, colour);
   cairo_stroke(context);
 }
 
 void draw_bars(cairo_t* context, const PlotSeries& series, Colour colour, const Scale& x, const Scale& y) {
   const double half = bar_width(series) / 2;
   const double floor = y.logarithmic ? y.from : y(0);
-  // Bars of one colour are one path: neighbours that touch show no seam.
-  Colour running = colour;
+  // All bars are one path, so that touching neighbours show no seam.
   for (std::size_t k = 0; k < size_of(series); ++k) {
     if (!shown(series, k, x, y)) continue;
-    const Colour wanted = colour_of(series, k, colour);
-    if (wanted != running) {
-      set_colour(context, running);
-      cairo_fill(context);
-      running = wanted;
-    }
     const double left = x(series.x[k] - half);
     const double top = y(series.y[k]);
     cairo_rectangle(context, left, std::min(top, floor), x(series.x[k] + half) - left, std::abs(floor - top));
   }
-  set_colour(context, running);
+  set_colour(context, colour);
   cairo_fill(context);
 }
 
@@ -188,7 +160,7 @@ void draw_interval_bars(cairo_t* context, const PlotSeries& series, Colour colou
       cairo_move_to(context, at - kCap, end);
       cairo_line_to(context, at + kCap, end);
     }
-    set_colour(context, colour_of(series, k, colour));
+    set_colour(context, colour);
     cairo_stroke(context);
   }
 }
@@ -231,7 +203,7 @@ void draw_series(cairo_t* context, const PlotSeries& series, Colour colour, cons
   const double size = std::clamp(series.marker_size, 0.5, 50.0);
   for (std::size_t k = 0; k < size_of(series); ++k) {
     if (!shown(series, k, x, y)) continue;
-    mark(context, marker, x(series.x[k]), y(series.y[k]), size, colour_of(series, k, colour));
+    mark(context, marker, x(series.x[k]), y(series.y[k]), size, colour);
   }
 }
 

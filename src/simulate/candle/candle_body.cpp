@@ -14,7 +14,7 @@ struct Box {
 };
 
 // A smooth hump over the box's inscribed ellipse, reaching a little beyond it, averaged over cell (i, j): 0 outside,
-// 1 in the middle. A box with corners shows them in the flame's base as soon as the wind presses the flame against it.
+// 1 in the middle. A box with corners would show them in the flame's base in wind.
 double hump(int i, int j, const Box& box) {
   constexpr int kSamples = 4;
   const double across = kReach * (box.right - box.left) / 2;

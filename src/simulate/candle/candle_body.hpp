@@ -1,5 +1,5 @@
 #pragma once
-// What stands in the flow: the candle's wax, which is solid, and the box around the wick, which gives off fuel.
+// Obstacles and sources in the flow: the solid wax and the box around the wick, which emits fuel.
 
 #include <vector>
 
@@ -11,7 +11,7 @@ namespace wisp::flow {
 struct CandleBody {
   Plane open_x, open_y;         ///< 1 on faces that air passes, 0 on those of the wax
   Plane fuel_share;             ///< per cell, 1/m²: sums to 1 over the area
-  Plane drag;                   ///< per cell, 0 … 1: how much of it lies in the wick's box
+  Plane drag;                   ///< per cell, 0 … 1: its share in the wick's box
   std::vector<int> fuel_cells;  ///< cells with a fuel share
   std::vector<int> near_wick;   ///< cells within 2 mm of the box and not in the wax
   float axis = 0;               ///< metres from the left edge

@@ -21,16 +21,16 @@
 namespace wisp {
 namespace {
 
-constexpr std::size_t kFramesAhead = 16;  // that the simulation may be ahead of the camera
+constexpr std::size_t kFramesAhead = 16;  // by which the simulation may lead the camera
 
-// What the rig hands over after each frame.
+// Output of the rig after each frame.
 struct Shot {
   FlameLight light;
   CandleState state;
   double wind = 0;
 };
 
-// Frames on their way from the thread that simulates to the one that films.
+// Queue of frames from the simulating thread to the filming thread.
 class ShotQueue {
  public:
   /// Waits for room. Returns false once the reader has gone.
@@ -147,7 +147,7 @@ class Truth {
   Recording recording_;
 };
 
-// Everything that watches and listens to the candle.
+// Camera, microphone and the record of the truth.
 class Crew {
  public:
   Crew(const CandleClipOptions& options, const CandleClipOutputs& outputs, VirtualCamera camera,

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulate/candle/advection.hpp"
-#include "simulate/candle/diffusion.hpp"
+#include "simulate/candle/transport.hpp"
 
 namespace wisp::flow {
 namespace {
@@ -13,7 +12,7 @@ constexpr float kGravity = 9.81F;
 constexpr float kLighterTemperature = 1500.0F;
 constexpr float kLighterFuel = 0.6F;  // share of the fuel rate that a lighter's heat draws from the wick
 constexpr int kMaxIterations = 40;
-constexpr Float4 kDiffuses = {1.0F, 1.0F, 1.0F, 0.0F};  // soot particles are too large to
+constexpr Float4 kDiffuses = {1.0F, 1.0F, 1.0F, 0.0F};  // soot does not diffuse
 
 }  // namespace
 
@@ -35,7 +34,7 @@ CandleFlow::CandleFlow(const CandleRigOptions& options)
   set_drag();
 }
 
-// What is left of a velocity after one step of the wick's drag; nothing on the wax.
+// Sets the factors of the wick's drag on velocity in one step; 0 on the wax.
 void CandleFlow::set_drag() {
   keep_u_ = body_.open_x;
   keep_v_ = body_.open_y;
@@ -110,7 +109,7 @@ void CandleFlow::take_temperature() {
   std::copy_n(temperature_.begin() + grid_.at(0, grid_.ny - 1), grid_.nx, temperature_.begin() + grid_.at(0, grid_.ny));
 }
 
-// Conductance (T/T0)^0.75 of cells and corners; none outside, so that nothing diffuses through the rim.
+// Sets the conductance (T/T0)^0.75 of cells and corners; 0 outside, so that nothing diffuses through the rim.
 void CandleFlow::set_conductance() {
   const int stride = grid_.stride();
   for (int j = 0; j < grid_.ny; ++j) {
@@ -179,8 +178,8 @@ void CandleFlow::mix() {
   diffuse(grid_, {nx, ny + 1, corner_.data(), conductance_.data() - grid_.stride()}, scale_, stages, v_, v_scratch_);
 }
 
-// Fuel vapour comes in as cold gas that takes the room of hot gas: by volume it is T/T0 times as much. Without that
-// factor a wick that has cooled would give off three times too much.
+// Fuel vapour displaces hot gas, so its volume source has the factor T/T0. Without it a cooled wick would emit three
+// times too much.
 void CandleFlow::release_fuel() {
   const Float4 vapour = {1.0F, 1.0F, static_cast<float>(options_.fuel_temperature), 0.0F};
   for (const int k : body_.fuel_cells) {
@@ -291,7 +290,7 @@ float CandleFlow::fastest() const {
 }
 
 bool CandleFlow::finite() const {
-  // A sum carries any NaN or infinity along.
+  // A sum propagates any NaN or infinity.
   float sum = 0;
   for (std::size_t k = 0; k < cells_.size(); ++k) {
     const Float4 c = cells_[k];

@@ -1,5 +1,5 @@
 #pragma once
-// The candle's flow, advanced by one time step: the state of the grid and the order of its parts.
+// The candle's flow: the state of the grid, advanced by one time step.
 
 #include "simulate/candle/candle_body.hpp"
 #include "simulate/candle/candle_rig.hpp"
@@ -19,10 +19,10 @@ class CandleFlow {
  public:
   explicit CandleFlow(const CandleRigOptions& options);
 
-  /// One step under a wind in m/s. While `exposed`, light is added up.
+  /// Advances one step under a wind in m/s. While `exposed`, light is accumulated.
   FlowStep step(float wind, bool exposed);
 
-  /// Keeps the surroundings of the wick at 1500 K at least, and gives it fuel.
+  /// Heats the surroundings of the wick to at least 1500 K and gives it fuel, as a lighter does.
   void hold_flame_to_wick();
 
   const FlowGrid& grid() const { return grid_; }
@@ -33,7 +33,7 @@ class CandleFlow {
   float fastest() const;
   bool finite() const;
 
-  /// Light added up since the last call of clear_light(), over `exposed_steps` steps.
+  /// Light accumulated since the last call of clear_light(), over `exposed_steps` steps.
   const Plane& glow() const { return glow_; }
   const Plane& blue() const { return blue_; }
   int exposed_steps() const { return exposed_steps_; }
@@ -65,8 +65,8 @@ class CandleFlow {
   Plane u_, v_, u_scratch_, v_scratch_;
   Plane way_x_, way_y_;
   Plane temperature_;              // of cells, with copies of the rim around it
-  Plane moved_temperature_;        // after moving, before anything heats it
-  Plane keep_u_, keep_v_;          // what drag leaves of a velocity in a step
+  Plane moved_temperature_;        // after advection, before combustion
+  Plane keep_u_, keep_v_;          // factor of drag on a velocity in one step
   Plane conductance_, corner_;     // (T/T0)^0.75 in cells, and at their lower left corners
   Plane flux_x_, flux_y_, scale_;  // of diffusion
   Plane fuel_source_;              // 1/s

@@ -18,7 +18,7 @@ namespace wisp {
 /// Steps that a frame is simulated in.
 int steps_per_frame(const CandleRigOptions& options);
 
-/// Light that the flame gave off while the shutter was open, cell by cell from the lower left, and where it was.
+/// Light of the flame while the shutter was open, cell by cell from the lower left, and the candle's place.
 struct FlameLight {
   int columns = 0;
   int rows = 0;
@@ -29,12 +29,12 @@ struct FlameLight {
   std::vector<float> blue;  ///< faint blue of the reaction itself, 1/s of fuel burnt
 };
 
-/// What the rig is doing, as of the last frame.
+/// State of the rig after the last frame.
 struct CandleState {
   double seconds = 0;              ///< since the rig was made
   bool lit = false;                ///< burns at least a tenth of what a calm flame burns
-  double fuel = 0;                 ///< what the wick gives off, as a share of fuel_rate
-  double burning = 0;              ///< what is burnt, as a share of a calm flame's fuel
+  double fuel = 0;                 ///< emitted by the wick, as a share of fuel_rate
+  double burning = 0;              ///< fuel burnt, as a share of a calm flame's
   double wick_temperature = 0;     ///< K, mean within 2 mm of the wick's box
   double hottest = 0;              ///< K
   double fastest = 0;              ///< m/s
@@ -42,10 +42,10 @@ struct CandleState {
   double pressure_iterations = 0;  ///< mean a step
 };
 
-/// One candle. Results are the same bits for the same options and wind.
+/// One candle. The same options and wind give the same bits.
 class CandleRig {
  public:
-  /// A lit candle in still air that has just been lit; it burns evenly after about a second.
+  /// A candle lit just now in still air; it burns evenly after about a second.
   /// Errors: an option outside its range, or a candle that does not fit into the grid.
   static Result<CandleRig> create(const CandleRigOptions& options = {});
 

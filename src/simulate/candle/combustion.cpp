@@ -20,8 +20,8 @@ float smoothstep(float x, float a, float width) {
   return t * t * (3.0F - 2.0F * t);
 }
 
-// 1 − e^(−x) for x ≥ 0 to 0.2 % at 1 and never above 1: only its first unit of x matters here, and no library's
-// exponential makes its way into the result.
+// Approximates 1 − e^(−x) for x ≥ 0, to 0.2 % at 1 and never above 1, without a library's exponential, whose bits
+// differ between machines.
 float share_of_step(float x) {
   return 1.0F - 1.0F / (1.0F + x * (1.0F + x * (0.5F + x * (1.0F / 6 + x * (1.0F / 24)))));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// One-step combustion of a mixture fraction, soot, and the light that both give off.
+// One-step combustion of a mixture fraction, soot, and the light of both.
 
 #include "simulate/candle/candle_rig.hpp"
 #include "simulate/candle/flow_grid.hpp"
@@ -9,11 +9,11 @@ namespace wisp::flow {
 struct Combustion {
   explicit Combustion(const CandleRigOptions& options, float step);
 
-  /// Burns fuel, makes and burns soot, in all hot cells. Where `blue` is given, adds to it the fuel burnt a second.
-  /// Returns the fuel burnt, as a volume of cold gas, summed over cells.
+  /// Burns fuel, forms and burns soot in all hot cells. Adds the fuel burnt a second to `blue`, if given.
+  /// Returns the volume of cold fuel burnt, summed over cells.
   double burn(const FlowGrid& grid, ScalarPlane& cells, Plane* blue) const;
 
-  /// Adds to `light` what soot of that temperature glows.
+  /// Adds the glow of hot soot to `light`.
   void add_glow(const FlowGrid& grid, const ScalarPlane& cells, Plane& light) const;
 
  private:

@@ -1,7 +1,7 @@
 #pragma once
 // Closed contours of a lattice of values, by marching squares.
 //
-// Source: W. Lorensen & H. Cline, Marching Cubes (SIGGRAPH 1987), in the plane; saddles are settled by the square's
+// Source: W. Lorensen & H. Cline, Marching Cubes (SIGGRAPH 1987), in the plane; saddles are resolved by the square's
 // mean.
 
 #include <span>

@@ -19,13 +19,13 @@ constexpr int kTones = 8192;
 constexpr float kBrightest = 25.0F;  // exposure that the tables end at, where every channel is white
 constexpr int kNoiseValues = 1 << 14;
 
-// How much each channel sees of glowing soot and of the reaction's own light.
+// Sensitivity of each channel to glowing soot and to the reaction's own light.
 constexpr std::array<float, 3> kSootColour = {1.0F, 0.56F, 0.21F};
 constexpr std::array<float, 3> kBlueColour = {0.15F, 0.36F, 1.0F};
 constexpr float kBlueGain = 0.013F;  // of exposure, per 1/s of fuel burnt
-constexpr float kBlueVeil = 5.0F;    // soot outshines it
+constexpr float kBlueVeil = 5.0F;    // soot hides the blue
 constexpr double kBlueFullMm = 4;    // above the rim; a candle's blue is at its base,
-constexpr double kBlueGoneMm = 16;   // farther up the planar rig would show a rim that a camera does not see
+constexpr double kBlueGoneMm = 16;   // a planar flow has more of it than a camera sees
 constexpr double kGlowReachMm = 2.5;
 constexpr float kDark = 2e-4F;  // light that no channel can show
 
@@ -130,7 +130,7 @@ void VirtualCamera::Parts::set_places(const FlameLight& light) {
   mixed_blue.resize(light.columns);
 }
 
-// Light scattered in the lens: three running means make a bell.
+// Light scattered in the lens: three running means approximate a Gaussian.
 void VirtualCamera::Parts::scatter(const FlameLight& light) {
   soot = light.soot;
   if (options.glow <= 0) return;

@@ -1,6 +1,5 @@
 #pragma once
-// A video camera that looks at the rig, exposed for the flame alone: glowing soot, a faint blue base, black around it,
-// sensor noise.
+// A video camera exposed for the flame alone: glowing soot, a faint blue base, black surroundings, sensor noise.
 
 #include <cstdint>
 #include <memory>
@@ -12,7 +11,7 @@
 
 namespace wisp {
 
-/// Where millimetres of the rig (x from the candle's axis, y up from its upper rim) are in the picture.
+/// Maps millimetres of the rig (x from the candle's axis, y up from its upper rim) to pixels.
 struct CameraView {
   double origin_x = 0;  ///< pixels from the left edge, of the axis; the middle of the first pixel is at 0
   double origin_y = 0;  ///< pixels from the upper edge, of the rim
@@ -22,7 +21,7 @@ struct CameraView {
   double pixel_y(double mm) const;
 };
 
-/// Turns light into pictures.
+/// Renders light as pictures.
 class VirtualCamera {
  public:
   /// Errors: an option outside its range.

@@ -18,9 +18,9 @@ constexpr double kFadeSeconds = 0.12;  // at both ends of a blow
 constexpr double kBlowOutSpeed = 3;    // m/s
 constexpr double kBlowOutSeconds = 0.3;
 constexpr double kBlowOutRamp = 0.03;  // s
-constexpr double kQuietBefore = 0.5;   // s of calm before a blow-out, so that it is the puff that kills
-constexpr double kQuietAfter = 1.0;    // s of calm after lighting, so that the flame lives
-constexpr double kWeakestPuff = 1.2;   // m/s: a candle lives through it
+constexpr double kQuietBefore = 0.5;   // s of calm before a blow-out, so that the puff alone extinguishes
+constexpr double kQuietAfter = 1.0;    // s of calm after lighting, so that the flame survives
+constexpr double kWeakestPuff = 1.2;   // m/s: a candle survives it
 constexpr double kStrongestPuff = 4;
 constexpr double kShortestPuff = 0.05;  // s
 constexpr double kLongestPuff = 0.6;
@@ -57,7 +57,7 @@ void add_gust(std::vector<double>& wind, flow::RandomNumbers& random, double sta
     wind[k] += peak * plateau(static_cast<double>(k - first) / kRate, length, rise, length - rise);
 }
 
-// Blows and rests by turns: within a blow there is a steady part, wideband noise and a few gusts.
+// Alternates blows and rests. A blow has a steady part, wideband noise and a few gusts.
 std::vector<double> gusts(const WindSignalOptions& o, std::size_t count) {
   std::vector<double> wind(count, 0.0);
   flow::LowPass band(o.bandwidth_hz, kRate);
@@ -83,7 +83,7 @@ std::vector<double> gusts(const WindSignalOptions& o, std::size_t count) {
   return wind;
 }
 
-// What moves in a closed room, whatever the options say of gusts: the brightness then varies by 0.6 to 1.6 % over ten
+// Draughts of a closed room, independent of the options for gusts: the brightness then varies by 0.6 to 1.6 % over ten
 // seconds, by 1.0 % on average of eight. With draughts a third as strong the flame is refused as a lamp.
 WindSignalOptions draughts(const WindSignalOptions& o) {
   return {

@@ -22,14 +22,14 @@ class WindSignal {
   /// Errors: no such channel, or nothing but missing samples. `channel` may be empty where there is one input only.
   static Result<WindSignal> from_recording(const Recording& recording, const std::string& channel = {});
 
-  /// Wind at a time, in a straight line between samples; the ends are held.
+  /// Returns the wind at a time, interpolated linearly and constant beyond the ends.
   double at(double seconds) const;
 
   double seconds() const;
   double rate_hz() const { return rate_hz_; }
   const std::vector<double>& samples() const { return samples_; }
 
-  /// When the candle is lit again if it is out then: ascending, in seconds.
+  /// Times at which an extinguished candle is lit again, ascending, in seconds.
   const std::vector<double>& relights() const { return relights_; }
 
  private:

@@ -86,21 +86,6 @@ TEST(Plot, ALineBreaksWhereASampleIsMissing) {
   EXPECT_NEAR(static_cast<double>(rest) / all, 0.5, 0.05);
 }
 
-TEST(Plot, SegmentsPointsAndBarsHaveColoursOfTheirOwn) {
-  for (const SeriesShape shape : {SeriesShape::kLine, SeriesShape::kPoints, SeriesShape::kBars}) {
-    PlotSeries series = line({0, 1, 2, 3}, {1, 1, 1, 1}, {0, 120, 0});
-    series.shape = shape;
-    series.marker_size = 12;
-    series.colours = {kRed, kRed, kBlue, kBlue};
-    Plot plot;
-    plot.series = {series};
-    const Image image = draw_plots(sheet_of(plot));
-    EXPECT_GT(pixels_of(image, kRed), 100);
-    EXPECT_GT(pixels_of(image, kBlue), 100);
-    EXPECT_EQ(pixels_of(image, {0, 120, 0, 255}), 0);
-  }
-}
-
 TEST(Plot, IntervalsAreDrawnAndHaveRoom) {
   Plot plot;
   plot.series = {line({0, 1, 2}, {1, 1, 1})};
@@ -140,12 +125,6 @@ TEST(Plot, AMarkStandsAtItsValue) {
   }
   EXPECT_LT(right - left, 6);
   EXPECT_NEAR(static_cast<double>(left - blue_left) / (blue_right - blue_left), 0.75, 0.02);
-}
-
-TEST(Plot, APictureFillsItsPanel) {
-  Plot plot;
-  plot.picture = Image(40, 30, kBlue);
-  EXPECT_GT(pixels_of(draw_plots(sheet_of(plot)), kBlue), 100000);
 }
 
 TEST(Plot, AnythingCanBePlotted) {
@@ -247,7 +226,6 @@ TEST(Plot, DrawsTheSameTwice) {
   plot.series[0].label = "x";
   PlotSheet sheet = sheet_of(plot);
   sheet.plots.emplace_back();
-  sheet.plots[1].picture = Image(40, 30, kBlue);
   EXPECT_TRUE(draw_plots(sheet) == draw_plots(sheet));
   ASSERT_TRUE(write_plots(folder / "a.svg", sheet));
   ASSERT_TRUE(write_plots(folder / "b.svg", sheet));

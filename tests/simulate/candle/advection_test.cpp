@@ -1,4 +1,4 @@
-#include "simulate/candle/advection.hpp"
+#include "simulate/candle/transport.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "export/walk_loop.hpp"
+#include "export/loops.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +10,54 @@
 namespace wisp::exporting {
 namespace {
 
+// A stable linear model driven by periodic shocks has one periodic orbit (W. J. Rugh, Linear System Theory, 2nd ed.,
+// chapter 5). It is the play plus the free response to the mismatch of its ends, summed over all rounds.
+
+// y(t) = Σ weight · y'(t − lag) for one output of one mode.
+struct Tap {
+  std::size_t output = 0;
+  std::size_t lag = 1;
+  double weight = 0;
+};
+using Rows = std::vector<std::vector<Tap>>;  // per output
+
+Rows taps_of(const ArxModel& arx) {
+  Rows rows(static_cast<std::size_t>(arx.orders.outputs()));
+  for (int i = 0; i < arx.orders.outputs(); ++i) {
+    for (int j = 0; j < arx.orders.outputs(); ++j) {
+      const auto a = arx.a(i, j);
+      for (std::size_t lag = 0; lag < a.size(); ++lag) {
+        if (a[lag] != 0) rows[i].push_back({static_cast<std::size_t>(j), lag + 1, -a[lag]});
+      }
+    }
+  }
+  return rows;
+}
+
+std::vector<Rows> taps_of(const Model& model) {
+  std::vector<Rows> modes;
+  if (const auto* arx = std::get_if<ArxModel>(&model.dynamics)) modes.push_back(taps_of(*arx));
+  if (const auto* switched = std::get_if<SwitchedArxModel>(&model.dynamics)) {
+    for (std::size_t mode = 0; mode < switched->modes.size(); ++mode) {
+      modes.push_back(taps_of(mode_model(*switched, mode)));
+    }
+  }
+  return modes;
+}
+
+// Appends one row of the response without shocks.
+void respond(const Rows& taps, std::size_t row, std::vector<double>& response) {
+  const std::size_t outputs = taps.size();
+  for (std::size_t i = 0; i < outputs; ++i) {
+    double sum = 0;
+    for (const Tap& tap : taps[i]) sum += tap.weight * response[(row - tap.lag) * outputs + tap.output];
+    response[row * outputs + i] = sum;
+  }
+}
+
 constexpr int kWalks = 64;       // side by side
-constexpr double kSeconds = 80;  // of each, beside the loop
-constexpr double kSettled = 4;   // seconds after which a walk has forgotten how it began, and a wind has blown in
+constexpr double kSeconds = 80;  // of each walk, in addition to the loop
+constexpr double kSettled = 4;   // seconds until a walk is independent of its start and has reached its response to the wind
 constexpr int kMaxRounds = 8;
 
 using Vector = std::array<double, 3>;
@@ -77,13 +122,13 @@ Vector turned(const Vector& v, const Quaternion& by) {
 Quaternion attitude(const std::vector<float>& rows, std::size_t outputs, std::size_t frame) {
   const float* stored = &rows[frame * outputs + 3];
   const Quaternion q{stored[0], stored[1], stored[2], stored[3]};
-  // Square roots are the same on every machine; what C libraries have for lengths is not.
+  // std::sqrt is exact on every machine, std::hypot is not.
   const double size = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   return {q[0] / size, q[1] / size, q[2] / size, q[3] / size};
 }
 
-// By how much frame `b` is turned against frame `a`, about the vertical or as a whole: of attitudes, or of velocities
-// where there are none.
+// The rotation from frame `a` to frame `b`, about the vertical or in full: of attitudes, or of velocities for positions
+// alone.
 Vector turn_between(const std::vector<float>& rows, std::size_t outputs, std::size_t a, std::size_t b) {
   if (outputs < 7) {
     const Vector va = velocity(rows, outputs, a), vb = velocity(rows, outputs, b);
@@ -99,13 +144,13 @@ Vector turn_between(const std::vector<float>& rows, std::size_t outputs, std::si
 struct Return {
   const Walk* walk = nullptr;
   std::size_t frame = 0;
-  Vector turn{};  // from its first frame to the one that is to be it again
-  Vector jump{};  // of the velocity, when that is turned back
+  Vector turn{};  // from the first frame to the returning frame
+  Vector jump{};  // of the velocity after undoing the turn
   double cost = 0;
 };
 
-// The return that is turned least about the vertical, of those that are nearly the same otherwise: what joins a segment
-// to its neighbours differs from visit to visit.
+// The return with the smallest turn about the vertical among nearly equal ones. Visits of the same row differ, since
+// joins to the neighbouring segments differ.
 std::optional<Return> best_return(const std::vector<Walk>& walks, std::size_t outputs, std::size_t frames) {
   constexpr double kSame = 0.1, kWeight = 20;
   std::optional<Return> best;
@@ -126,7 +171,7 @@ std::optional<Return> best_return(const std::vector<Walk>& walks, std::size_t ou
   return best;
 }
 
-// What is left of turn and jump is taken back evenly over the round.
+// Spreads the remaining turn and jump evenly over the loop.
 WalkLoop loop_of(const Return& found, std::size_t outputs, std::size_t frames) {
   WalkLoop loop;
   const std::vector<float>& rows = found.walk->rows;
@@ -154,6 +199,42 @@ WalkLoop loop_of(const Return& found, std::size_t outputs, std::size_t frames) {
 }
 
 }  // namespace
+
+std::size_t output_lags(const Model& model) {
+  std::size_t longest = 1;
+  for (const Rows& rows : taps_of(model)) {
+    for (const auto& taps : rows) {
+      for (const Tap& tap : taps) longest = std::max(longest, tap.lag);
+    }
+  }
+  return longest;
+}
+
+bool close_orbit(const Model& model, std::span<const std::size_t> mode, std::size_t lags, std::vector<double>& rows) {
+  constexpr double kClosed = 1e-12;  // relative to the largest value: far below single precision
+  constexpr std::size_t kMaxRows = 20'000'000;
+  const auto modes = taps_of(model);
+  const std::size_t outputs = model.outputs.size(), count = rows.size() / outputs, frames = count - lags;
+  double largest = 0;
+  for (double value : rows) largest = std::max(largest, std::abs(value));
+  std::vector<double> response(rows.size(), 0.0);
+  for (std::size_t done = 0; done < kMaxRows; done += count) {
+    // The rows before the loop must equal those at its end.
+    double change = 0;
+    for (std::size_t k = 0; k < lags * outputs; ++k) {
+      const std::size_t end = k + frames * outputs;
+      const double needed = rows[end] + response[end] - rows[k];
+      change = std::max(change, std::abs(needed - response[k]));
+      response[k] = needed;
+    }
+    for (std::size_t row = lags; row < count; ++row) respond(modes[modes.size() > 1 ? mode[row] : 0], row, response);
+    if (!(change > kClosed * largest)) {
+      for (std::size_t k = 0; k < rows.size(); ++k) rows[k] += response[k];
+      return true;
+    }
+  }
+  return false;
+}
 
 std::optional<WalkLoop> find_walk_loop(const Model& model, std::size_t frames, std::uint64_t seed,
                                        const std::vector<float>& inputs) {
