@@ -213,7 +213,7 @@ void listen(Host& host, Source& source) {
   std::size_t taken = 0, made = 0;
   wisp_wind_feed(host.wind, samples.data(), source.take<std::uint16_t>() % 513, frames.data(), frames.size(), &taken,
                  &made);
-  wisp_wind_calibrate_for(host.wind, source.take<std::uint8_t>() % 5, source.take<double>());
+  wisp_wind_calibrate(host.wind, source.take<std::uint8_t>() % 5, source.take<double>());
   wisp_wind_frame latest;
   wisp_wind_latest(host.wind, &latest);
   (void)wisp_wind_latency(host.wind);

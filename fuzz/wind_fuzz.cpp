@@ -56,10 +56,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     whole->set_calibration(known);
     cut->set_calibration(known);
   }
-  if (const auto ask = source.take<std::uint8_t>() % 8; ask < 3) {
+  if (const auto ask = source.take<std::uint8_t>() % 8; ask < 2) {
     const double seconds = source.take<float>();
-    whole->calibrate(seconds, static_cast<wisp::WindAsk>(ask));
-    cut->calibrate(seconds, static_cast<wisp::WindAsk>(ask));
+    whole->calibrate(static_cast<wisp::WindAsk>(ask), seconds);
+    cut->calibrate(static_cast<wisp::WindAsk>(ask), seconds);
   }
   const std::size_t block = static_cast<std::size_t>(format.channels) * (1 + source.take<std::uint8_t>());
   const auto manner = source.take<std::uint8_t>();

@@ -7,8 +7,6 @@
 namespace wisp::window {
 namespace {
 
-constexpr double kRoomSeconds = 3;
-
 // Wind frames a second: twice a screen's, so that waiting for the end of one costs half a frame at most.
 constexpr double kWindRate = 120;
 
@@ -18,11 +16,7 @@ Result<void> Ear::open(const SoundFormat& format, std::optional<WindCalibration>
   auto level = WindLevel::create(format, {.frame_rate_hz = kWindRate});
   if (!level) return level.error();
   level_.emplace(std::move(*level));
-  if (known) {
-    level_->set_calibration(*known);
-  } else {
-    level_->calibrate(kRoomSeconds);
-  }
+  if (known) level_->set_calibration(*known);
   return {};
 }
 
@@ -41,7 +35,7 @@ void Ear::hear(std::span<const float> samples) {
   }
 }
 
-float Ear::wind() const { return state() == EarState::kListening ? level_->latest().wind : 0.0F; }
+float Ear::wind() const { return level_ ? level_->latest().wind : 0.0F; }
 
 float Ear::loudness() const {
   if (!level_) return 0;
@@ -50,10 +44,7 @@ float Ear::loudness() const {
   return std::clamp(1 + 20 * std::log10(rms) / 60, 0.0F, 1.0F);
 }
 
-EarState Ear::state() const {
-  if (!level_) return closed_;
-  return level_->calibrating() ? EarState::kCalibrating : EarState::kListening;
-}
+EarState Ear::state() const { return level_ ? EarState::kListening : closed_; }
 
 std::optional<WindCalibration> Ear::calibration() const {
   if (!level_) return {};

@@ -14,16 +14,15 @@ namespace wisp::window {
 
 /// Where sound comes from.
 enum class EarState {
-  kOff,          ///< nobody asked for it, or it was switched off
-  kCalibrating,  ///< learning the room; its wind is 0 until then
+  kOff,  ///< nobody asked for it, or it was switched off
   kListening,
   kMissing,  ///< there is no microphone, or it was lost
 };
 
-/// The wind in a stream of sound, with a calibration of the room at its start.
+/// The wind in a stream of sound.
 class Ear {
  public:
-  /// Begins with the room's calibration. Where `known` is given it is taken instead of a new one.
+  /// Begins with what was known of the microphone, if anything.
   /// Errors: as WindLevel::create().
   Result<void> open(const SoundFormat& format, std::optional<WindCalibration> known = {});
 

@@ -277,9 +277,6 @@ void Player::draw_indicator() {
     case EarState::kMissing:
       text = "no microphone";
       break;
-    case EarState::kCalibrating:
-      text = "listening to the room: be still for three seconds";
-      break;
     case EarState::kListening:
       // A meter of the wind as it is heard, eight steps to a gust of 2.
       text = "microphone ";

@@ -45,7 +45,6 @@ py::dict feed(WindLevel& level, const Samples& samples) {
 
 void bind_sound(py::module_& module) {
   py::enum_<WindAsk>(module, "WindAsk")
-      .value("BE_STILL", WindAsk::kBeStill)
       .value("BREATHE_GENTLY", WindAsk::kBreatheGently)
       .value("BLOW_HARD", WindAsk::kBlowHard);
   py::class_<WindLevel>(module, "WindLevel", "The wind that a microphone hears, as its sound comes.")
@@ -55,7 +54,7 @@ void bind_sound(py::module_& module) {
            py::arg("rate_hz") = 44100.0, py::arg("channels") = 1, py::arg("frame_rate_hz") = 60.0)
       .def("feed", &feed, py::arg("samples"),
            "Takes samples, full scale 1, interleaved; returns arrays with a value for each frame that they complete.")
-      .def("calibrate", &WindLevel::calibrate, py::arg("seconds") = 3.0, py::arg("ask") = WindAsk::kBeStill)
+      .def("calibrate", &WindLevel::calibrate, py::arg("ask"), py::arg("seconds") = 3.0)
       .def_property_readonly("calibrating", &WindLevel::calibrating)
       .def_property_readonly("calibrated", &WindLevel::calibrated)
       .def_property_readonly("room_rise_db", &WindLevel::room_rise_db);

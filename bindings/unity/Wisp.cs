@@ -129,8 +129,6 @@ namespace Wisp
         [DllImport(Library, CallingConvention = C)] internal static extern int wisp_wind_create(ref WindOptions options, out IntPtr wind);
         [DllImport(Library, CallingConvention = C)] internal static extern void wisp_wind_free(IntPtr wind);
         [DllImport(Library, CallingConvention = C)] internal static extern int wisp_wind_feed(IntPtr wind, float[] samples, UIntPtr count, [Out] WindFrame[] frames, UIntPtr room, out UIntPtr taken, out UIntPtr made);
-        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_wind_calibrate(IntPtr wind, double seconds);
-        [DllImport(Library, CallingConvention = C)] internal static extern int wisp_wind_calibrating(IntPtr wind);
 
         [DllImport(Library, CallingConvention = C)] internal static extern int wisp_recording_create(double rateHz, out IntPtr recording);
         [DllImport(Library, CallingConvention = C)] internal static extern void wisp_recording_free(IntPtr recording);
@@ -378,10 +376,6 @@ namespace Wisp
                 block = rest;
             }
         }
-
-        /// <summary>Calibrates on the next seconds, which must be without wind.</summary>
-        public void Calibrate(double seconds) { Native.Check(Native.wisp_wind_calibrate(handle, seconds)); }
-        public bool Calibrating { get { return Native.wisp_wind_calibrating(handle) != 0; } }
 
         public void Dispose()
         {

@@ -450,25 +450,22 @@ WISP_API wisp_status wisp_wind_feed_int16(wisp_wind* wind, const int16_t* sample
 /* The latest frame made; all zero before the first. */
 WISP_API wisp_status wisp_wind_latest(const wisp_wind* wind, wisp_wind_frame* frame);
 
-/* Takes the coming seconds of sound (0.5 to 30 used) as the room without wind. */
-WISP_API wisp_status wisp_wind_calibrate(wisp_wind* wind, double seconds);
+/* What a guided calibration asks for. The room needs none. */
+#define WISP_WIND_BREATHE_GENTLY 0u /* what is to lean a flame and not to put it out */
+#define WISP_WIND_BLOW_HARD 1u      /* what is to put it out */
+
+/* Takes the coming seconds of sound (0.5 to 30 used) for what was requested. */
+WISP_API wisp_status wisp_wind_calibrate(wisp_wind* wind, uint32_t what, double seconds);
 
 /* 1 while that time is still running, else 0. */
 WISP_API int32_t wisp_wind_calibrating(const wisp_wind* wind);
 
-/* What a guided calibration asks for. */
-#define WISP_WIND_BE_STILL 0u       /* the room: what is steady in it is no wind then; as wisp_wind_calibrate() */
-#define WISP_WIND_BREATHE_GENTLY 1u /* what is to lean a flame and not to put it out */
-#define WISP_WIND_BLOW_HARD 2u      /* what is to put it out */
-
-/* Takes the coming seconds of sound (0.5 to 30 used) for what was requested. */
-WISP_API wisp_status wisp_wind_calibrate_for(wisp_wind* wind, uint32_t what, double seconds);
-
 /* 1 when the last calibration is over and heard what it asked for. */
 WISP_API int32_t wisp_wind_calibrated(const wisp_wind* wind);
 
-/* How much louder the room is by now than when it was calibrated or first heard, dB, not below 0. From 6 on something
- * steady has begun (rain, a fan, an engine) that may be taken for wind: calibrate again. 0 for NULL. */
+/* How much louder the room is by now than in its first seconds or ever since, dB, not below 0. From 6 on something
+ * steady has begun (rain, a fan, an engine) that may be taken for wind; after wisp_wind_reset() it is the room. 0 for
+ * NULL. */
 WISP_API double wisp_wind_room_rise(const wisp_wind* wind);
 
 /* What a microphone in a room was found to be: kept, it spares the next start the finding. */

@@ -113,16 +113,12 @@ wisp_status wisp_wind_latest(const wisp_wind* wind, wisp_wind_frame* frame) {
   return WISP_OK;
 }
 
-wisp_status wisp_wind_calibrate(wisp_wind* wind, double seconds) {
-  return wisp_wind_calibrate_for(wind, WISP_WIND_BE_STILL, seconds);
-}
-
-wisp_status wisp_wind_calibrate_for(wisp_wind* wind, uint32_t what, double seconds) {
+wisp_status wisp_wind_calibrate(wisp_wind* wind, uint32_t what, double seconds) {
   if (!wind) return null_argument(__func__);
   if (!std::isfinite(seconds)) return fail(WISP_BAD_ARGUMENT, "%s was given a time that is not finite", __func__);
   if (what > WISP_WIND_BLOW_HARD)
-    return fail(WISP_BAD_ARGUMENT, "%s was requested %u, expected a WISP_WIND_*, 0 to 2", __func__, what);
-  wind->level.calibrate(seconds, static_cast<wisp::WindAsk>(what));
+    return fail(WISP_BAD_ARGUMENT, "%s was requested %u, expected a WISP_WIND_*, 0 or 1", __func__, what);
+  wind->level.calibrate(static_cast<wisp::WindAsk>(what), seconds);
   return WISP_OK;
 }
 

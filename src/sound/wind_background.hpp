@@ -7,18 +7,16 @@
 
 namespace wisp::wind {
 
-constexpr float kNothingDb = -110;  ///< of loudness: below, no sound comes at all (a muted or starting stream)
 constexpr float kMinFloorDb = -95;  ///< a floor below this is a gated microphone's, not a room's
-constexpr float kRoomDb = -70;      ///< a room at first hearing: no louder than this, so that a first gust is one
 constexpr float kQuietDb = 6;       ///< of loudness over the floor: no wind below this
-constexpr float kTopDb = 3;         ///< the floor lies at most so far below the loudest that the room was
-constexpr int kWarmHops = 15;       ///< until the 50 ms mean has forgotten its start
+constexpr float kSwellDb = 3;       ///< the floor lies at most so far below the loudest that the room was of late
 
-/// The loudness that the sound keeps coming back to: falls to a softer sound within 50 ms, rises slowly.
+/// The loudness that the sound keeps coming back to. It starts at what is heard first, falls to a softer sound within
+/// 50 ms, and rises: fast under what does not sound like blowing, slowly under what does.
 template <class T>
 class Floor {
  public:
-  void follow(T loudness_db, const Design& d) {
+  void follow(T loudness_db, bool blows, const Design& d) {
     if (loudness_db < T(kNothingDb)) {
       warm_ = 0;
       return;
@@ -26,9 +24,9 @@ class Floor {
     if (warm_ < kWarmHops) {
       ++warm_;
       if (known_ || warm_ < kWarmHops) return;
-      set(loudness_db < T(kRoomDb) ? loudness_db : T(kRoomDb));
+      set(loudness_db);
     }
-    const T rise = T(d.floor_rise_db);
+    const T rise = T(blows ? d.floor_rise_db : d.room_rise_db);
     if (loudness_db < level_) {
       level_ = level_ + T(d.floor_fall) * (loudness_db - level_);
     } else {
@@ -63,6 +61,7 @@ class QuietMean {
     loudness_db_ = loudness_db_ + share * (seen.loudness_db - loudness_db_);
   }
 
+  /// What was known of it before; its loudness now is heard.
   void set(T rms, T band_power, T loudness_db, float count) {
     rms_ = rms;
     band_power_ = band_power;
@@ -82,16 +81,20 @@ class QuietMean {
   float count_ = 0;
 };
 
-/// Floor and quiet means together, and their calibration.
+/// Floor and quiet means together.
 template <class T>
 class Background {
  public:
-  void end_hop(T loudness_db, const Design& d) { floor_.follow(loudness_db, d); }
+  /// `sudden`: the sound began suddenly and goes on; `blows`: and it sounds like blowing.
+  void end_hop(T loudness_db, bool sudden, bool blows, const Design& d) {
+    floor_.follow(loudness_db, blows, d);
+    if (!floor_.known()) return;
+    follow_room(d);
+    if (!sudden && swell_db_ < loudness_db) swell_db_ = loudness_db;
+    if (floor_.level_db() < swell_db_) swell_db_ = swell_db_ + T(d.swell_fall) * (floor_.level_db() - swell_db_);
+  }
 
   void end_frame(const Observation<T>& seen, const Design& d) {
-    if (room_frames_ > 0) return learn_room(seen);
-    if (room_db_ < T(kMinFloorDb) && floor_.known()) room_db_ = floor_.level_db();
-    follow_top(seen.loudness_db, d);
     if (seen.loudness_db < T(kNothingDb) || !floor_.known()) return;
     const T floor = floor_.level_db();
     const bool quiet = seen.loudness_db < floor + T(kQuietDb) && last_floor_ < floor + T(1.0F);
@@ -103,64 +106,39 @@ class Background {
     mean_.add(seen, d.quiet_span_frames);
   }
 
-  /// Takes the coming frames as the room without wind.
-  void calibrate(int frames) {
-    room_frames_ = frames;
-    room_ = {};
-    top_db_ = T(kMinFloorDb);
-  }
-
-  int frames_to_calibrate() const { return room_frames_; }
-
+  /// What was known of it before; its loudness now is heard.
   void set(T rms, T band_power, T loudness_db, const Design& d) {
     mean_.set(rms, band_power, loudness_db, d.quiet_span_frames);
-    floor_.set(loudness_db);
-    room_db_ = last_floor_ = floor_.level_db();
-    top_db_ = T(kMinFloorDb);
-    room_frames_ = 0;
   }
 
-  /// Loudness of the room. One that was calibrated may swell as it did then: the sea, a fan that labours.
+  /// Loudness of the room; one that swells (the sea, a fan that labours) may do so again.
   T floor_db() const {
-    const T swell = top_db_ - T(kTopDb);
+    const T swell = swell_db_ - T(kSwellDb);
     return floor_.level_db() < swell ? swell : floor_.level_db();
   }
 
-  /// How far the floor has risen since the room was learned, dB, not below 0.
+  /// How far the floor has risen above the room's, dB, not below 0.
   T rise_db() const { return room_db_ < floor_.level_db() ? floor_.level_db() - room_db_ : T(0.0F); }
 
   const QuietMean<T>& mean() const { return mean_; }
 
  private:
-  void learn_room(const Observation<T>& seen) {
-    room_.add(seen, 1e9F);
-    if (top_db_ < seen.loudness_db) top_db_ = seen.loudness_db;
-    mean_ = room_;
-    floor_.set(room_.loudness_db());
-    room_db_ = last_floor_ = floor_.level_db();
-    run_ = 0;
-    --room_frames_;
-  }
-
-  /// The room's own sounds, not loud enough to be heard as something else, lift what it may swell to.
-  void follow_top(T loudness_db, const Design& d) {
-    if (top_db_ < T(kMinFloorDb + 1)) return;  // never calibrated
-    if (top_db_ < loudness_db && loudness_db < floor_db() + T(kQuietDb)) {
-      const T most = top_db_ + T(d.top_rise_db);
-      top_db_ = loudness_db < most ? loudness_db : most;
-    } else if (loudness_db < top_db_) {
-      top_db_ = top_db_ - T(d.top_fall_db);
-    }
+  /// The room's floor: the mean over the first seconds, later only lower.
+  void follow_room(const Design& d) {
+    const T floor = floor_.level_db();
+    if (room_hops_ == 0) room_db_ = floor;
+    if (room_hops_ < d.room_hops) ++room_hops_;
+    const float share = room_hops_ < d.room_hops ? 1.0F / static_cast<float>(room_hops_) : d.room_fall;
+    if (floor < room_db_ || room_hops_ < d.room_hops) room_db_ = room_db_ + T(share) * (floor - room_db_);
   }
 
   Floor<T> floor_;
   QuietMean<T> mean_;
-  T top_db_ = T(kMinFloorDb);  ///< loudest that a calibrated room was
-  QuietMean<T> room_;
-  T room_db_ = T(kMinFloorDb - 1);  ///< the floor when the room was learned; below kMinFloorDb: it was not
+  T swell_db_ = T(kMinFloorDb);  ///< loudest that it was of late without beginning suddenly
+  T room_db_ = T(kMinFloorDb);
   T last_floor_ = T(kMinFloorDb);
   int run_ = 0;
-  int room_frames_ = 0;
+  int room_hops_ = 0;
 };
 
 }  // namespace wisp::wind

@@ -14,7 +14,8 @@
 
 namespace wisp::wind {
 
-constexpr float kHeardDb = 8;  ///< loudness over the floor from which a sound counts as one
+constexpr float kHeardDb = 8;    ///< loudness over the floor from which a sound counts as one
+constexpr float kForeignDb = 3;  ///< and live, from which it may be another than the room's
 constexpr float kBlowingLikeness = 0.5F;
 
 template <class T>
@@ -42,7 +43,7 @@ template <class T>
 class LiveBridge {
  public:
   T end_frame(T speed, const Observation<T>& seen, T floor_db, const Design& d) {
-    const bool heard = is_heard(seen, floor_db);
+    const bool heard = floor_db + T(kForeignDb) < seen.loudness_db;
     if (!heard || sounds_like_blowing(seen)) {
       believed_frames_ = heard ? d.trust_frames : 0;
       foreign_frames_ = 0;

@@ -10,6 +10,7 @@ namespace {
 constexpr double kMinAnalysisHz = 8000;
 constexpr double kMinBoxedHz = 32000;  // the box's dip at 3.4 kHz stays below 0.2 dB
 constexpr double kLevelHz = 300;       // the level rises above; its gain there is 1
+constexpr float kOtherRise = 9;        // how much faster the floor rises under what does not sound like blowing
 constexpr int kTapsPerPhase = 4;       // of the low-pass
 
 Result<void> in_range(const char* what, double found, double least, double most, const char* unit) {
@@ -54,6 +55,10 @@ void set_times(Design& d, const WindOptions& options) {
   d.slow_fall = static_cast<float>(approach(hop_seconds, 0.100));
   d.floor_fall = static_cast<float>(approach(hop_seconds, 0.050));
   d.floor_rise_db = static_cast<float>(options.floor_rise_db_per_second * hop_seconds);
+  d.room_rise_db = kOtherRise * d.floor_rise_db;
+  d.room_fall = static_cast<float>(approach(hop_seconds, 2));
+  d.swell_fall = static_cast<float>(approach(hop_seconds, 6));
+  d.room_hops = rounded(3 / hop_seconds);
 
   const double rate = options.frame_rate_hz;
   d.smoothing = static_cast<float>(approach(1 / rate, options.smoothing_seconds));
@@ -62,8 +67,6 @@ void set_times(Design& d, const WindOptions& options) {
   d.bridge_delay_frames = rounded(0.05 * rate) + 1;
   d.bridge_keep = static_cast<float>(1 - approach(1 / rate, 0.5));
   d.sustain_frames = static_cast<float>(0.24 * rate);
-  d.top_rise_db = static_cast<float>(2 / rate);
-  d.top_fall_db = static_cast<float>(0.25 / rate);
   d.quiet_run_frames = rounded(0.3 * rate);
   d.quiet_span_frames = static_cast<float>(10 * rate);
   d.first_gust_db = decibels(static_cast<float>(options.first_gust_rms * options.first_gust_rms));

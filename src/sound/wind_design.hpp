@@ -42,7 +42,11 @@ struct Design {
   float slow_rise = 1;          ///< of the level that a sudden sound exceeds, in one hop (0.35 s)
   float slow_fall = 1;          ///< downwards (100 ms)
   float floor_fall = 1;         ///< of the floor downwards in one hop (50 ms)
-  float floor_rise_db = 0.01F;  ///< of the floor upwards in one hop
+  float floor_rise_db = 0.01F;  ///< of the floor upwards in one hop, under what sounds like blowing (1 dB/s)
+  float room_rise_db = 0.09F;   ///< and under what does not (9 dB/s)
+  float room_fall = 1;          ///< of the room's floor downwards in one hop, once it is known (2 s)
+  float swell_fall = 1;         ///< of the loudest that the room was of late, in one hop (6 s)
+  int room_hops = 300;          ///< in which it is found (3 s)
   float smoothing = 1;          ///< of the level's band power in one frame
   float level_zero = 1;         ///< of what levels the band, 1 − zero z⁻¹: flat below 300 Hz, rising above
   float level_gain = 1;         ///< of the level's power, so that its band passes 300 Hz as it is
@@ -52,9 +56,6 @@ struct Design {
   int bridge_delay_frames = 4;   ///< and begins so many before it is known for one (50 ms)
   float bridge_keep = 0.97F;     ///< of the wind under another sound, in one frame (0.5 s)
   float sustain_frames = 14.4F;  ///< of wind 1 that strong wind must make up before it passes (0.24 s)
-
-  float top_rise_db = 0.03F;   ///< of the loudest that the room is, in one frame (2 dB/s)
-  float top_fall_db = 0.004F;  ///< and downwards (0.25 dB/s)
 
   int quiet_run_frames = 18;      ///< quiet must last so long before it counts (0.3 s)
   float quiet_span_frames = 600;  ///< memory of the background (10 s of quiet)

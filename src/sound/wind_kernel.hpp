@@ -134,9 +134,10 @@ class Kernel {
 
   const Features<T>& features() const { return features_; }
   T likeness() const { return likeness_; }
+  bool began_suddenly() const { return began_suddenly_; }
 
-  /// What is heard now is the room: nothing of it began suddenly.
-  void be_still() { sudden_.be_still(); }
+  /// The stream begins in the middle of whatever sounds.
+  void begin_unknown() { sudden_.begin_unknown(); }
 
   /// A channel's voice band in the hop that has just ended, differenced, at the rate of voices.
   std::span<const T> voice_hop(std::size_t channel) const {
@@ -213,8 +214,8 @@ class Kernel {
       channel.history.end_hop();
     }
     describe();
-    const bool sudden = sudden_.end_hop(features_.loudness_db, d_);
-    likeness_now_ = sudden && judged(sums.voice) ? likeness_of(features_) : T(0.0F);
+    began_suddenly_ = sudden_.end_hop(features_.loudness_db, d_);
+    likeness_now_ = began_suddenly_ && judged(sums.voice) ? likeness_of(features_) : T(0.0F);
     likeness_ = tail_.end_hop(likeness_now_, features_.loudness_db);
   }
 
@@ -269,6 +270,7 @@ class Kernel {
   BandSums<T> mean_;
   Features<T> features_;
   Sudden<T> sudden_;
+  bool began_suddenly_ = false;
   Tail<T> tail_;
   T likeness_ = T(0.0F);
   T likeness_now_ = T(0.0F);

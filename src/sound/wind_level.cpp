@@ -75,7 +75,7 @@ WindFed WindLevel::feed(std::span<const std::int16_t> samples, std::span<WindFra
 
 const WindFrame& WindLevel::latest() const { return state_->latest; }
 
-void WindLevel::calibrate(double seconds, WindAsk ask) {
+void WindLevel::calibrate(WindAsk ask, double seconds) {
   const double used = seconds >= 0.5 ? std::min(seconds, 30.0) : 0.5;
   state_->listener.calibrate(ask, static_cast<int>(std::ceil(used * state_->options.frame_rate_hz)));
 }

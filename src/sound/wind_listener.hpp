@@ -16,11 +16,16 @@ namespace wisp::wind {
 template <class T>
 class Listener {
  public:
-  explicit Listener(const Design& d) : d_(d), kernel_(d) { reference_.start(T(d.first_gust_db), kFirstGusts); }
+  explicit Listener(const Design& d) : d_(d), kernel_(d) {
+    reference_.start(T(d.first_gust_db), kFirstGusts);
+    kernel_.begin_unknown();
+  }
 
   /// Takes one sample of every channel.
   void push(const float* samples) {
-    if (kernel_.push(samples)) background_.end_hop(kernel_.features().loudness_db, d_);
+    if (!kernel_.push(samples)) return;
+    background_.end_hop(kernel_.features().loudness_db, kernel_.began_suddenly(),
+                        T(kBlowingLikeness) < kernel_.likeness(), d_);
   }
 
   WindFrame end_frame() {
@@ -29,7 +34,7 @@ class Listener {
     const QuietMean<T>& quiet = background_.mean();
     const T floor = background_.floor_db();
     const T power = power_over(seen, quiet.band_power());
-    const bool blows = background_.frames_to_calibrate() == 0 && T(kGustConfidence) < confidence_of(seen, floor);
+    const bool blows = T(kGustConfidence) < confidence_of(seen, floor);
     hear_gust(blows && T(0.0F) < power, decibels(power));
     WindFrame frame = verdict(seen, {quiet.rms(), quiet.band_power(), floor, reference_.level_db()}, d_.power_exponent);
     const T believed = bridge_.end_frame(heard_speed(T(frame.speed), seen, floor), seen, floor, d_);
@@ -40,15 +45,12 @@ class Listener {
   /// Takes the coming frames for what was asked for.
   void calibrate(WindAsk ask, int frames) {
     ask_ = ask;
-    asked_frames_ = ask == WindAsk::kBeStill ? 0 : frames;
+    asked_frames_ = frames;
     asked_.clear();
-    heard_ask_ = ask == WindAsk::kBeStill;
-    if (ask != WindAsk::kBeStill) return;
-    background_.calibrate(frames);
-    kernel_.be_still();
+    heard_ask_ = false;
   }
 
-  bool calibrating() const { return background_.frames_to_calibrate() > 0 || asked_frames_ > 0; }
+  bool calibrating() const { return asked_frames_ > 0; }
   bool calibrated() const { return heard_ask_ && !calibrating(); }
 
   Background<T>& background() { return background_; }
@@ -77,7 +79,7 @@ class Listener {
   LiveBridge<T> bridge_;
   Sustained<T> sustained_;
   GustLevel<T> asked_;  ///< what is heard of what a guided calibration asked for
-  WindAsk ask_ = WindAsk::kBeStill;
+  WindAsk ask_ = WindAsk::kBreatheGently;
   int asked_frames_ = 0;
   bool heard_ask_ = false;
 };

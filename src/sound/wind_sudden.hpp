@@ -6,18 +6,26 @@
 
 namespace wisp::wind {
 
+constexpr float kNothingDb = -110;  ///< of loudness: below, no sound comes at all (a muted or starting stream)
+constexpr int kWarmHops = 15;       ///< until the 50 ms mean has forgotten its start
+
 /// Whether the sound that is heard began suddenly, whatever it is: what starts under a voice and goes on after it did.
 template <class T>
 class Sudden {
  public:
-  /// What is heard now is the room.
-  void be_still() {
-    sounding_ = false;
-    slow_db_ = T(0.0F);
+  /// The stream begins in the middle of whatever sounds: the first that is heard is taken for the room. A stream that
+  /// gives nothing for half a second is a gated microphone's, whose room is silent.
+  void begin_unknown() {
+    heard_hops_ = 0;
+    nothing_hops_ = 0;
   }
 
   /// Takes a hop's loudness. Returns whether the sound began suddenly and has not ended since.
   bool end_hop(T loudness_db, const Design& d) {
+    if (heard_hops_ < kWarmHops) {
+      begin(loudness_db);
+      return false;
+    }
     if (sounding_ && loudness_db < before_db_ + T(kEndDb)) sounding_ = false;
     if (!sounding_ && slow_db_ + T(kStartDb) < loudness_db) {
       sounding_ = true;
@@ -29,15 +37,28 @@ class Sudden {
   }
 
  private:
-  // Before anything was heard a room is taken to be no louder than this, so that a gust that a stream begins with is
-  // one.
+  void begin(T loudness_db) {
+    sounding_ = false;
+    slow_db_ = T(kRoomDb);
+    if (loudness_db < T(kNothingDb)) {
+      if (++nothing_hops_ == kGatedHops) heard_hops_ = kWarmHops;
+      return;
+    }
+    ++heard_hops_;
+    slow_db_ = loudness_db;
+  }
+
+  // A recording's room is no louder than this before anything was heard, so that a gust that it begins with is one.
   static constexpr float kRoomDb = -73;
+  static constexpr int kGatedHops = 50;
   static constexpr float kStartDb = 6.5F;  ///< over what it was in the last third of a second
   static constexpr float kEndDb = 3;       ///< over what it was before the sound
 
   T slow_db_ = T(kRoomDb);
   T before_db_ = T(kRoomDb);
   bool sounding_ = false;
+  int heard_hops_ = kWarmHops;
+  int nothing_hops_ = 0;
 };
 
 }  // namespace wisp::wind

@@ -1,7 +1,7 @@
 // Whoever blows hard puts the candle out, at once and first thing; whoever breathes, talks or plays music does not.
 //
-// Every recording of breath is replayed behind three seconds of a quiet room that the estimator was told of, and what
-// it makes of them blows on the candle that the page ships.
+// Every recording of breath is replayed behind a quiet room, or after a first sound that comes at once, and what the
+// estimator makes of them blows on the candle that the page ships.
 
 #include <map>
 
@@ -20,7 +20,7 @@ namespace {
 using sounds::Samples;
 
 constexpr double kFrames = 60;
-constexpr double kRoom = 3;  ///< seconds of calibration before anything is heard
+constexpr double kRoom = 3;  ///< seconds of a quiet room before anything else is heard
 
 /// The candle that the page ships.
 class Candle {
@@ -48,33 +48,32 @@ class Candle {
 };
 
 struct Heard {
-  std::vector<double> out;  ///< seconds after the calibration
-  double wind = 0;          ///< share of frames after it
+  std::vector<double> out;  ///< seconds after the room
+  double wind = 0;          ///< share of frames with wind
   double most = 0;
   float rise = 0;  ///< of the room by the end, dB
 };
 
-/// Plays a room, then the sound; `steady` is there from the start and goes on.
-Heard play(const Samples& sound, const Samples& steady = {}) {
+/// Plays `room` seconds of a quiet room, then the sound; `steady` is there from the start and goes on.
+Heard play(const Samples& sound, const Samples& steady = {}, double room = kRoom) {
   auto level = WindLevel::create({kSoundRate, 1}, {.frame_rate_hz = kFrames});
   if (!level) std::abort();
-  const double seconds = kRoom + static_cast<double>(sound.size()) / kSoundRate + 0.5;
+  const double seconds = room + static_cast<double>(sound.size()) / kSoundRate + 0.5;
   Samples all = sounds::room(seconds, kSoundRate, 3e-4);
-  sounds::add(all, sound, kRoom, kSoundRate);
+  sounds::add(all, sound, room, kSoundRate);
   for (std::size_t i = 0; i < all.size() && !steady.empty(); ++i) all[i] += steady[i % steady.size()];
-  level->calibrate(kRoom - 0.5);
   std::vector<WindFrame> frames(static_cast<std::size_t>(seconds * kFrames) + 1);
   frames.resize(level->feed(std::span<const float>(all), frames).frames);
   Heard heard;
   Candle candle;
-  for (std::size_t k = static_cast<std::size_t>(kRoom * kFrames); k < frames.size(); ++k) {
+  for (std::size_t k = 0; k < frames.size(); ++k) {
     const double wind = static_cast<double>(frames[k].wind);
-    if (candle.step(frames[k].wind)) heard.out.push_back(static_cast<double>(k + 1) / kFrames - kRoom);
+    if (candle.step(frames[k].wind)) heard.out.push_back(static_cast<double>(k + 1) / kFrames - room);
     heard.wind += wind > 0.1 ? 1 : 0;
     heard.most = std::max(heard.most, wind);
   }
   heard.rise = level->room_rise_db();
-  heard.wind /= std::max(1.0, static_cast<double>(frames.size()) - kRoom * kFrames);
+  heard.wind /= static_cast<double>(frames.size());
   return heard;
 }
 
@@ -204,6 +203,70 @@ void natural_breath(Bounds& bounds) {
   bounds.at_most("natural breathing puts it out", table.share(), 0.02);
 }
 
+/// The loudest stretch of that length, RMS 1, with soft ends.
+Samples loudest(const Samples& sound, double seconds) {
+  const std::size_t n = std::min(sound.size(), static_cast<std::size_t>(seconds * kSoundRate));
+  std::size_t best = 0;
+  for (std::size_t i = 0; i + n <= sound.size(); i += static_cast<std::size_t>(kSoundRate) / 8)
+    if (sounds::rms_of({sound.data() + i, n}) > sounds::rms_of({sound.data() + best, n})) best = i;
+  const auto begin = sound.begin() + static_cast<std::ptrdiff_t>(best);
+  Samples cut(begin, begin + static_cast<std::ptrdiff_t>(n));
+  sounds::scale_to(cut, 1);
+  const std::size_t ends = std::min(n / 2, static_cast<std::size_t>(0.02 * kSoundRate));
+  for (std::size_t i = 0; i < ends; ++i) {
+    const float fade = static_cast<float>(i) / static_cast<float>(ends);
+    cut[i] *= fade;
+    cut[n - 1 - i] *= fade;
+  }
+  return cut;
+}
+
+/// What somebody may do as soon as the microphone is open: short and long puffs, words, sneezes; a clock.
+std::vector<KnownSound> first_sounds() {
+  std::vector<KnownSound> all;
+  for (const KnownSound& blow : blows()) {
+    all.push_back({"puff of 0.3 s", blow.from, loudest(blow.samples, 0.3)});
+    all.push_back({"blow of 1 s", blow.from, blow.samples});
+  }
+  for (const KnownSound& breath : breaths())
+    all.push_back({"breath of 2.8 s", breath.from, loudest(breath.samples, 2.8)});
+  for (const KnownSound& puff : puffs()) all.push_back({"made puff", puff.from, puff.samples});
+  for (const KnownSound& one : other_sounds())
+    if (one.kind == "speech" || one.kind == "sneeze" || one.kind == "clock")
+      all.push_back({one.kind, one.from, loudest(one.samples, 2)});
+  return all;
+}
+
+/// Whoever presses Blow and blows, talks or sneezes at once: the hard blows that follow, 3, 6 and 9 s after it.
+void eager(Bounds& bounds) {
+  const std::vector<KnownSound> hard = blows();
+  Table by_sound;
+  Table by_start;
+  std::size_t turn = 0;
+  for (const KnownSound& first : first_sounds()) {
+    for (const double rms : {0.03, 0.1, 0.3}) {
+      for (const double start : {0.0, 0.3, 1.0, 2.5, 4.0}) {
+        const double rest = static_cast<double>(first.samples.size()) / kSoundRate + 3;
+        Samples sound = at_rms(first.samples, rms);
+        for (int k = 0; k < 3; ++k, ++turn) {
+          const Samples blow = at_rms(hard[turn % hard.size()].samples, turn % 2 == 0 ? 0.1 : 0.3);
+          sounds::add(sound, blow, rest + 3 * k, kSoundRate);
+        }
+        const Heard heard = play(sound, {}, start);
+        for (int k = 0; k < 3; ++k) {
+          const bool out = went_out(heard, rest + 3 * k, rest + 3 * k + 0.7);
+          by_sound.count(first.kind, out, heard);
+          by_start.count("after " + std::to_string(start).substr(0, 3) + " s", out, heard);
+        }
+      }
+    }
+  }
+  by_sound.print("Hard blows after a first sound that comes at once");
+  by_start.print("The same, by when that begins");
+  std::printf("\n");
+  bounds.at_least("hard blows after a first sound put it out in 0.7 s", by_sound.share(), 0.95);
+}
+
 /// The sound again and again, for so long.
 Samples goes_on(const Samples& sound, double seconds) {
   Samples all(static_cast<std::size_t>(seconds * kSoundRate));
@@ -217,6 +280,8 @@ void others(Bounds& bounds) {
     for (const double rms : {0.02, 0.05, 0.1}) {
       const Heard heard = play(at_rms(one.samples, rms));
       short_ones.count(one.kind, !heard.out.empty(), heard);
+      const Heard at_once = play(at_rms(one.samples, rms), {}, 0.2);
+      short_ones.count(one.kind, !at_once.out.empty(), at_once);
     }
   }
   short_ones.print("Other sounds");
@@ -267,6 +332,7 @@ void blowing(Bounds& bounds) {
     return;
   }
   hard_blows(bounds);
+  eager(bounds);
   puffs_at_the_microphone(bounds);
   natural_breath(bounds);
   others(bounds);

@@ -15,7 +15,7 @@ extern "C" {
 /* Two instances of a model in wind that changes every seventh frame, through saving, restoring and relighting. */
 const char* hash_of_life(const void* bytes, size_t size, uint32_t frames, uint32_t hash[2]);
 
-/* Half-second gusts that rumble over a soft hiss, 48 kHz, 60 frames a second, after a calibration. */
+/* Half-second gusts that rumble over a soft hiss, 48 kHz, 60 frames a second. */
 const char* hash_of_wind(uint32_t seconds, uint32_t hash[2]);
 
 #ifdef __cplusplus

@@ -111,7 +111,7 @@ Seen look(const Image& image) {
   return seen;
 }
 
-// Three seconds of room for the calibration, two more of it, then a soft breath and a hard blow, each as loud as it is
+// Five seconds of room, then a soft breath and a hard blow, each as loud as it is
 // at a usual microphone: wind 1 is no longer whatever the first gust was, so their levels are absolute.
 sounds::Samples room_breath_strong() {
   const auto swells = [](double seconds, double rise) {

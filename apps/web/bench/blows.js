@@ -24,14 +24,14 @@ const opened = await openBrowser([
 ]);
 const page = await opened.page('#scene=candle&seed=1&noise=1&detail=0.3', { viewport: { width: 320, height: 280 } });
 await page.evaluate(() => {
-  // Timed by the sound itself: there are sixty frames of wind a second, after three seconds of calibration. What is out
+  // Timed by the sound itself: there are sixty frames of wind a second from when it listens. What is out
   // is lit again after a second.
   window.deaths = [];
   let out = 0;
   let pressed = false;
   setInterval(() => {
     const { burning, sound } = window.wisp;
-    const now = 3 + sound.heard / 60;
+    const now = sound.heard / 60;
     if (burning.lit === 1) [out, pressed] = [0, false];
     else if (out === 0) window.deaths.push((out = now));
     if (out > 0 && now > out + 1 && !pressed) {
@@ -42,7 +42,7 @@ await page.evaluate(() => {
 });
 await page.click('#blow');
 const end = blows.at(-1).at + 2;
-await until(page, 'all was blown', (seconds) => 3 + window.wisp.sound.heard / 60 > seconds, end, 1000 * (end + 60));
+await until(page, 'all was blown', (seconds) => window.wisp.sound.heard / 60 > seconds, end, 1000 * (end + 60));
 const deaths = await page.evaluate(() => window.deaths);
 await opened.close();
 

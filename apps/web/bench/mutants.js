@@ -47,10 +47,9 @@ const mutants = [
   ['apps/web/vite.config.ts', '"connect-src \'self\'"', '"connect-src *"', 'weight'],
   // Breath
   [`${page}wind/ear.ts`, 'this.microphone?.stop();', '', 'breath'],
-  [`${page}wind/ear.ts`, 'const CALIBRATION = 3;', 'const CALIBRATION = 0.5;', 'breath'],
   [`${npm}air/breath.ts`, 'this.path.usedAtFrame = frame;', 'this.path.usedAtFrame = frame + 2;', 'breath'],
   [`${page}wind/ear.ts`, 'if (!silent) this.events.wind(wind);', 'this.events.wind(wind);', 'tuning: a microphone'],
-  [`${page}panel/tuning.ts`, 'this.ear.listenFor(step.asked, step.seconds)', "this.ear.listenFor('be still', step.seconds)", 'tuning: a microphone'],
+  [`${page}panel/tuning.ts`, 'this.ear.listenFor(step.asked, step.seconds)', "this.ear.listenFor('blow hard', step.seconds)", 'tuning: a microphone'],
   [`${page}panel/tuning.ts`, 'this.returnTo.focus();', '', 'tuning: a microphone'],
   [`${page}wind/ear.ts`, '++this.vain >= VAIN_BLOWS', '++this.vain >= 99', 'tuning: blow after blow'],
   // The scenes

@@ -120,15 +120,3 @@ describe('what was learned', { skip }, () => {
 
   it('made no error and asked no other host', () => assert.deepEqual([page.errors, page.strangers], [[], []]));
 });
-
-describe('the ring of Blow', { skip }, () => {
-  it('is drawn as far as calibration is', async () => {
-    const opened = await openBrowser(['--use-fake-ui-for-media-stream', '--use-fake-device-for-media-stream', '--autoplay-policy=no-user-gesture-required']);
-    const page = await opened.page('#scene=candle&detail=0.1');
-    const drawn = () => parseFloat(getComputedStyle(document.getElementById('blow-ring')).strokeDasharray);
-    assert.equal(await page.evaluate(drawn), 0);
-    await page.click('#blow');
-    await until(page, 'half of the ring', () => parseFloat(getComputedStyle(document.getElementById('blow-ring')).strokeDasharray) > 50);
-    await opened.close();
-  });
-});

@@ -71,7 +71,7 @@ describe('trouble', { skip }, () => {
   it('says that the microphone is gone when it is unplugged', async () => {
     await page.evaluate(() => (window.microphone = 'made'));
     await page.keyboard.press('b');
-    await until(page, 'it listens to the room', () => window.wisp.hearing === 'calibrating');
+    await until(page, 'it listens', () => window.wisp.hearing === 'listening');
     await page.evaluate(() => window.stream.getAudioTracks()[0].dispatchEvent(new Event('ended')));
     await said('microphone is gone');
     assert.equal(await page.evaluate(() => window.wisp.hearing), 'off');

@@ -36,8 +36,6 @@ export interface MicrophoneOptions {
   onLost?: (error: MicrophoneError) => void;
   /** Called when a calibration has ended; `heard` says whether the requested sound was heard. */
   onCalibrated?: (calibration: WindCalibration, heard: boolean) => void;
-  /** Seconds of the room to listen to at the start; default 3, 0: none. */
-  calibrate?: number;
   /** What was known of this microphone and room before. */
   calibration?: WindCalibration;
   /** An audio context of yours; it is not closed by `stop()`. */
@@ -63,15 +61,13 @@ export interface Microphone {
   readonly settings: MicrophoneSettings;
   /** Whether the sound is as the microphone gave it: nothing of what browsers do to speech is known to be on. */
   readonly raw: boolean;
-  /** Whether the room is being listened to. */
-  readonly calibrating: boolean;
   /** The latest frame; null before the first. */
   readonly latest: Wind | null;
   /**
-   * Listens for 0.5 to 30 s to the room, or to the requested sound; `onCalibrated` tells when it is known. Ask for
-   * stillness, gentle breath and hard blowing in turn where soft breath at a sensitive microphone must stay soft.
+   * Listens for 0.5 to 30 s for the requested sound; `onCalibrated` tells whether it was heard. Ask for gentle breath
+   * and hard blowing in turn where soft breath at a sensitive microphone must stay soft.
    */
-  calibrate(seconds?: number, ask?: WindAsk): void;
+  calibrate(ask: WindAsk, seconds?: number): void;
   /** What is known of microphone and room by now. */
   calibration(): Promise<WindCalibration>;
   /** Forgets what was heard. */
@@ -128,7 +124,6 @@ function settingsOf(track: MediaStreamTrack, context: AudioContext): MicrophoneS
 
 class OpenMicrophone implements Microphone {
   readonly settings: MicrophoneSettings;
-  calibrating: boolean;
   latest: Wind | null = null;
   private readonly node: AudioWorkletNode;
   private readonly source: MediaStreamAudioSourceNode;
@@ -153,9 +148,6 @@ class OpenMicrophone implements Microphone {
     this.source.connect(this.node);
     this.track.addEventListener('ended', this.ended);
     navigator.mediaDevices.addEventListener('devicechange', this.devicesChanged);
-    const seconds = options.calibrate ?? 3;
-    this.calibrating = seconds > 0;
-    if (seconds > 0) this.tell({ type: 'calibrate', seconds, ask: 0 });
   }
 
   get raw(): boolean {
@@ -163,8 +155,7 @@ class OpenMicrophone implements Microphone {
     return !echoCancellation && !noiseSuppression && !autoGainControl;
   }
 
-  calibrate(seconds = 3, ask: WindAsk = 'be still'): void {
-    this.calibrating = true;
+  calibrate(ask: WindAsk, seconds = 3): void {
     this.tell({ type: 'calibrate', seconds, ask: windAsks.indexOf(ask) });
   }
 
@@ -195,7 +186,6 @@ class OpenMicrophone implements Microphone {
     if (message.type === 'failed') return this.lose('failed', message.message);
     if (message.type === 'wind') {
       this.latest = message;
-      this.calibrating = message.calibrating;
       this.options.onWind?.(message);
       return;
     }

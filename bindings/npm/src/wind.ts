@@ -47,7 +47,7 @@ export interface WindCalibration {
 }
 
 /** What a guided calibration asks of whoever sits at the microphone, in the order of WISP_WIND_*. */
-export const windAsks = ['be still', 'breathe gently', 'blow hard'] as const;
+export const windAsks = ['breathe gently', 'blow hard'] as const;
 export type WindAsk = (typeof windAsks)[number];
 
 const samplesAtOnce = 4096;
@@ -128,9 +128,9 @@ export class WindLevel {
     return this.frameAt(this.frames);
   }
 
-  /** Takes the coming seconds of sound, 0.5 to 30, as the requested sound: the room without wind, unless told otherwise. */
-  calibrate(seconds = 3, ask: WindAsk = 'be still'): void {
-    this.check(this.native.functions.wisp_wind_calibrate_for!(this.pointer, windAsks.indexOf(ask), seconds));
+  /** Takes the coming seconds of sound, 0.5 to 30, as the requested sound. The room needs no calibration. */
+  calibrate(ask: WindAsk, seconds = 3): void {
+    this.check(this.native.functions.wisp_wind_calibrate!(this.pointer, windAsks.indexOf(ask), seconds));
   }
 
   /** Whether that time is still running. */
@@ -144,8 +144,8 @@ export class WindLevel {
   }
 
   /**
-   * How much louder the room is by now than when it was calibrated or first heard, dB, not below 0. From 6 on something
-   * steady has begun (rain, a fan) that may be taken for wind: calibrate again.
+   * How much louder the room is by now than in its first seconds or ever since, dB, not below 0. From 6 on something
+   * steady has begun (rain, a fan) that may be taken for wind; after reset() it is the room.
    */
   get roomRise(): number {
     return this.native.functions.wisp_wind_room_rise!(this.pointer);

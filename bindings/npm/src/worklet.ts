@@ -25,10 +25,8 @@ export type WindMessage =
       rms: number;
       background: number;
       clipped: number;
-      /** How much louder the room is than when it was calibrated, dB. */
+      /** How much louder the room is than it was, dB. */
       roomRise: number;
-      /** Whether the room is being listened to. */
-      calibrating: boolean;
       /** The audio clock at the end of the block that completed the frame, seconds. */
       time: number;
     }
@@ -107,7 +105,7 @@ class Ears {
   }
 
   calibrate(seconds: number, ask: number): void {
-    this.check(this.functions.wisp_wind_calibrate_for!(this.wind, ask, seconds));
+    this.check(this.functions.wisp_wind_calibrate!(this.wind, ask, seconds));
   }
 
   get calibrated(): boolean {
@@ -194,7 +192,6 @@ class WindProcessor extends AudioWorkletProcessor {
         background: number(32),
         clipped: number(36),
         roomRise: ears.roomRise,
-        calibrating: ears.calibrating,
         time: currentTime + channels[0]!.length / sampleRate,
       });
     });

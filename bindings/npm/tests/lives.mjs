@@ -75,7 +75,6 @@ export function* gusts(seconds) {
 /** The hash of the wind of so many seconds of sound. */
 export function hashOfWind(wisp, seconds) {
   const wind = wisp.windLevel({ sampleRate: 48000 });
-  wind.calibrate(1);
   const hash = new Hash();
   for (const block of gusts(seconds)) {
     for (const f of wind.feed(block)) {

@@ -36,7 +36,8 @@ struct WindOptions {
   double smoothing_seconds = 0;
 
   /// How fast the background is believed to grow, dB a second, 0 to 60. At 1 a fan that is switched on passes for wind
-  /// for ten to thirty seconds, and wind that never pauses for that long passes for a fan. 0: as calibrated, for ever.
+  /// for ten to thirty seconds, and wind that never pauses for that long passes for a fan. Under a sound that is no
+  /// blowing it grows nine times as fast. 0: as first heard, for ever.
   double floor_rise_db_per_second = 1;
 
   /// Wind 1 before any blowing was heard: this RMS of the band, full scale 1, 1e-6 to 8. It moves after each gust, by
@@ -63,7 +64,6 @@ struct WindFrame {
 
 /// What a guided calibration asks of whoever sits at the microphone.
 enum class WindAsk {
-  kBeStill,        ///< the room: what is steady in it (rain, a fan) is no wind then
   kBreatheGently,  ///< what is to lean a flame and not to put it out
   kBlowHard,       ///< what is to put it out
 };
@@ -110,8 +110,9 @@ class WindLevel {
   const WindFrame& latest() const;
 
   /// Takes the coming `seconds` of sound (0.5 to 30 used) for what was requested. A soft breath at one microphone is as
-  /// loud as a hard one at another: ask for stillness, breath and blowing in turn where that matters.
-  void calibrate(double seconds = 3, WindAsk ask = WindAsk::kBeStill);
+  /// loud as a hard one at another: ask for breath and blowing in turn where that matters. The room needs no
+  /// calibration.
+  void calibrate(WindAsk ask, double seconds = 3);
 
   /// Whether calibrate()'s time is still running.
   bool calibrating() const;
@@ -119,15 +120,16 @@ class WindLevel {
   /// Whether the last calibration is over and heard what it asked for: 0.1 s of blowing, where that was it.
   bool calibrated() const;
 
-  /// How much louder the room is by now than when it was calibrated or first heard, dB, not below 0: what goes on
-  /// without a pause and is no breath. From 6 on something steady has begun (rain, a fan, an engine) that may be taken
-  /// for wind: calibrate again.
+  /// How much louder the room is by now than in its first seconds or ever since, dB, not below 0: what goes on without
+  /// a pause and is no breath. From 6 on something steady has begun (rain, a fan, an engine) that may be taken for
+  /// wind; after reset() it is the room.
   float room_rise_db() const;
 
   /// What is known of microphone and room by now.
   WindCalibration calibration() const;
 
-  /// Starts from what was known of this microphone and room before.
+  /// Starts from what was known of this microphone and room before: wind 1 and the background's means. How loud the
+  /// room is now, is heard.
   void set_calibration(const WindCalibration& known);
 
   /// Forgets everything but the options.

@@ -12,7 +12,7 @@ const SCENES: readonly { name: SceneName; title: string }[] = [
 const MAX_CANDLES = 12;
 
 /** What the microphone is doing. */
-export type Hearing = 'off' | 'asking' | 'calibrating' | 'listening';
+export type Hearing = 'off' | 'asking' | 'listening';
 
 export interface ControlEvents {
   change(change: Partial<Settings>): void;
@@ -78,20 +78,19 @@ export class Controls {
     if (this.act.disabled === able) this.act.disabled = !able;
   }
 
-  /** What the microphone does. `level`, 0 to 1: how far calibration is, or how strong the breath is. */
+  /** What the microphone does. `level`, 0 to 1: how strong the breath is. */
   hear(state: Hearing, level: number): void {
     const words: Readonly<Record<Hearing, string>> = {
       off: 'Blow',
       asking: 'May I listen?',
-      calibrating: 'Hush…',
       listening: 'Listening',
     };
     if (this.word !== state) {
       this.word = state;
       this.blowWord.textContent = words[state];
-      this.blow.setAttribute('aria-pressed', String(state === 'calibrating' || state === 'listening'));
+      this.blow.setAttribute('aria-pressed', String(state === 'listening'));
       this.blow.setAttribute('aria-label', state === 'off' ? 'Blow: microphone on' : `${words[state]}: microphone off`);
-      this.blow.classList.toggle('live', state === 'calibrating' || state === 'listening');
+      this.blow.classList.toggle('live', state === 'listening');
       this.blow.classList.toggle('small-word', state !== 'off');
       this.tune.hidden = state !== 'listening';
     }

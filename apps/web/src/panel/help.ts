@@ -16,7 +16,7 @@ const KEYS: readonly (readonly [string[], string])[] = [
   [['Space'], 'blow hard'],
   [['L'], 'carry the match to a candle; kick leaves up'],
   [['B'], 'microphone on and off'],
-  [['T'], 'tune it to your breath: be still, breathe gently, blow hard'],
+  [['T'], 'tune it to your breath: breathe gently, blow hard'],
   [['−', '+'], 'fewer, more'],
   [['1', '2', '3'], 'candle, leaves, a flame of your own'],
   [['I'], 'what was learned'],

@@ -1,18 +1,17 @@
-// The guided calibration: be still, breathe gently, blow hard. After it a soft breath leans the flame, and a hard one puts it
-// out, however sensitive the microphone is.
+// The guided calibration: breathe gently, blow hard. After it a soft breath leans the flame, and a hard one puts it out,
+// however sensitive the microphone is.
 
 import type { Asked, Ear } from '../wind/ear.js';
 import { element } from './element.js';
 
 interface Step {
-  asked: NonNullable<Asked>;
+  asked: Asked;
   title: string;
   words: string;
   seconds: number;
 }
 
 const STEPS: readonly Step[] = [
-  { asked: 'be still', title: 'Be still', words: 'I listen to the room.', seconds: 2 },
   { asked: 'breathe gently', title: 'Breathe gently', words: 'As on a cold window: the flame is to lean and burn on.', seconds: 3 },
   { asked: 'blow hard', title: 'Blow hard', words: 'As on a birthday cake.', seconds: 2.5 },
 ];
@@ -53,7 +52,7 @@ export class Tuning {
     this.turn += 1;
     this.place.hidden = false;
     document.body.classList.add('tuning-on');
-    this.show(null, 'Tune it to your breath', 'Three short sounds, so that a soft breath leans the flame and a hard one puts it out.');
+    this.show(null, 'Tune it to your breath', 'Two short sounds, so that a soft breath leans the flame and a hard one puts it out.');
     this.offer(['Begin', () => void this.begin()], ['Not now', () => this.close()]);
   }
 

@@ -5,14 +5,14 @@ import type { Library } from '@wisp/player';
 import { MicrophoneError, openMicrophone, type Microphone, type MicrophoneTrouble, type Wind } from '@wisp/player/microphone';
 import type { Hearing } from '../panel/controls.js';
 
-/** Seconds that the room is listened to before it counts. */
-const CALIBRATION = 3;
-
 /** A room that is so much louder than it was, dB, has something steady in it that passes for wind. */
 const LOUDER = 6;
 
 /** Wind at which a blow begins, and at which it is over. */
 const BLOW = { from: 0.35, to: 0.1 };
+
+/** Sound as loud as this (RMS of the wind's band), for so long without a gap, counts as a blow whatever it sounds like. */
+const LOUD = { level: 0.03, seconds: 0.4 };
 
 /** Blows that put nothing out until tuning is offered. */
 const VAIN_BLOWS = 3;
@@ -21,7 +21,7 @@ const VAIN_BLOWS = 3;
 const CLIPPED = 0.02;
 
 const STEADY =
-  'It has become louder here since I listened to the room: a fan, rain or an engine may pass for breath. Press Blow twice to listen anew.';
+  'It has become louder here: a fan, rain or an engine may pass for breath. Press Blow twice, and I take it for the room.';
 
 export interface EarEvents {
   wind(wind: number): void;
@@ -34,7 +34,7 @@ export interface EarEvents {
 }
 
 /** What a guided calibration asks for. */
-export type Asked = Parameters<Microphone['calibrate']>[1];
+export type Asked = Parameters<Microphone['calibrate']>[0];
 
 type Calibration = Awaited<ReturnType<Microphone['calibration']>>;
 
@@ -53,7 +53,6 @@ export class Ear {
   state: Hearing = 'off';
   private microphone: Microphone | null = null;
   private wind = 0;
-  private since = 0;
   private louder = false;
   /** what a guided calibration has found out: kept for when the microphone is opened again */
   private known: Calibration | null = null;
@@ -62,6 +61,7 @@ export class Ear {
   /** how strong a breath is, also while nothing of it reaches the scene */
   private heard = 0;
   private blowing = false;
+  private loudSince = 0;
   private vain = 0;
   private offered = false;
   /** counts openings: one that was closed again before it was allowed is dropped */
@@ -72,9 +72,8 @@ export class Ear {
     private readonly events: EarEvents,
   ) {}
 
-  /** How far the calibration is, or how strong the breath is: 0 to 1. */
+  /** How strong the breath is: 0 to 1. */
   get level(): number {
-    if (this.state === 'calibrating') return (performance.now() - this.since) / 1000 / CALIBRATION;
     return this.state === 'listening' ? (this.tuning ? this.heard : this.wind) / 1.5 : 0;
   }
 
@@ -85,7 +84,6 @@ export class Ear {
     this.state = 'asking';
     try {
       const microphone = await openMicrophone(this.wisp, {
-        calibrate: CALIBRATION,
         ...(this.known === null ? {} : { calibration: this.known }),
         onWind: (frame) => {
           this.hear(frame);
@@ -103,8 +101,7 @@ export class Ear {
         return;
       }
       this.microphone = microphone;
-      this.state = 'calibrating';
-      this.since = performance.now();
+      this.state = 'listening';
       if (!microphone.raw) {
         this.events.trouble('This browser or system smooths the sound of the microphone: blow a little harder.');
       }
@@ -136,7 +133,7 @@ export class Ear {
   listenFor(asked: Asked, seconds: number): Promise<boolean> {
     this.answered(false);
     if (this.microphone === null) return Promise.resolve(false);
-    this.microphone.calibrate(seconds, asked);
+    this.microphone.calibrate(asked, seconds);
     return new Promise((resolve) => (this.answer = resolve));
   }
 
@@ -152,20 +149,20 @@ export class Ear {
     answer?.(heard);
   }
 
-  private hear({ wind, speed, confidence, calibrating }: Wind): void {
-    const silent = calibrating || this.tuning;
+  private hear({ wind, speed, confidence }: Wind): void {
     this.heard = confidence > 0.5 ? speed : 0;
-    this.wind = silent ? 0 : wind;
-    if (this.microphone !== null) this.state = calibrating && !this.tuning ? 'calibrating' : 'listening';
-    if (!silent) this.events.wind(wind);
+    this.wind = this.tuning ? 0 : wind;
+    if (!this.tuning) this.events.wind(wind);
   }
 
   /** Offers tuning where a microphone is overdriven by breath, or where blow after blow puts nothing out. */
-  private watchBlows({ wind, clipped, confidence }: Wind): void {
+  private watchBlows({ wind, clipped, confidence, level, time }: Wind): void {
     if (this.offered || this.tuning || this.state !== 'listening') return;
     if (clipped > CLIPPED && confidence > 0.5) return this.offer('too easy');
-    if (this.blowing && wind < BLOW.to && ++this.vain >= VAIN_BLOWS) return this.offer('too hard');
-    if (wind > BLOW.from) this.blowing = true;
+    if (this.blowing && wind < BLOW.to && level < LOUD.level && ++this.vain >= VAIN_BLOWS) return this.offer('too hard');
+    if (level < LOUD.level) this.loudSince = time;
+    const loud = time > this.loudSince + LOUD.seconds;
+    if (wind > BLOW.from || loud) this.blowing = true;
     else if (wind < BLOW.to) this.blowing = false;
   }
 

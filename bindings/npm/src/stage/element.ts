@@ -24,8 +24,6 @@ p { position: absolute; inset: 30% 8% auto; margin: 0; text-align: center; font:
 
 /** CSS pixels that the button covers at the lower edge. */
 const BUTTON = 56;
-/** Seconds that the room is listened to before it counts. */
-const CALIBRATION = 3;
 
 let wisp: Promise<Library> | null = null;
 
@@ -203,9 +201,7 @@ export abstract class SceneElement extends HTMLElement {
       // Fetched when somebody wants to blow, not before.
       const [library, { openMicrophone }] = await Promise.all([shared(), import('../microphone.js')]);
       const microphone = await openMicrophone(library, {
-        calibrate: CALIBRATION,
-        onWind: ({ wind, calibrating }) => this.wind.hear(calibrating ? 0 : wind, this.stage?.frames ?? 0),
-        onCalibrated: () => this.showButton('Listening'),
+        onWind: ({ wind }) => this.wind.hear(wind, this.stage?.frames ?? 0),
         onLost: (error) => {
           this.closeMicrophone();
           this.showButton(error.message);
@@ -216,7 +212,7 @@ export abstract class SceneElement extends HTMLElement {
         return;
       }
       this.microphone = microphone;
-      this.showButton('Hush…');
+      this.showButton('Listening');
     } catch (error) {
       this.showButton(error instanceof Error ? error.message : String(error));
     }

@@ -36,13 +36,11 @@ export function offer({ load, openMicrophone }, worker) {
     /** Opens the microphone; says what it is, or why there is none. */
     async listen(options) {
       page.lost = null;
-      page.calibrated = null;
       try {
         microphone = await openMicrophone(wisp, {
           ...options,
           onWind: (wind) => winds.push(wind),
           onLost: (error) => (page.lost = error.trouble),
-          onCalibrated: (known) => (page.calibrated = known),
         });
         return { raw: microphone.raw, settings: microphone.settings };
       } catch (error) {
