@@ -1,5 +1,5 @@
 #pragma once
-// The bands that tell blowing from talking, and their powers over a hop.
+// The bands that distinguish blowing from speech, and their powers over a hop.
 
 #include "sound/wind_design.hpp"
 #include "sound/wind_math.hpp"
@@ -47,7 +47,7 @@ class Bands {
 
   const BandSums<T>& sums() const { return sums_; }
 
-  /// Ends the hop. What is too small to hear leaves the filters, before it becomes a number that some machines flush.
+  /// Ends the hop. Sets inaudible filter state to 0, before it becomes a number that some machines flush.
   void end_hop() {
     sums_ = {};
     high_pass_.hush();

@@ -1,5 +1,5 @@
 #pragma once
-// What to take for the wind while something else is heard.
+// The wind under another sound.
 //
 // Another sound can only add to the level: under a voice or a knock the wind is at most what is measured, and most
 // likely what it was just before (and, where that is known, what it is just after).
@@ -67,7 +67,7 @@ class LiveBridge {
     return sum / T(static_cast<float>(n));
   }
 
-  std::array<T, 128> before_{};  ///< frames that passed; at most 101 are looked at
+  std::array<T, 128> before_{};  ///< past frames; at most 101 are used
   std::size_t at_ = 0;
   int believed_frames_ = 0;
   int foreign_frames_ = 0;

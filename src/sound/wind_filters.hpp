@@ -8,7 +8,7 @@ namespace wisp::wind {
 constexpr double kPi = 3.14159265358979323846;
 
 /// Coefficients of one second-order section: gain · (zeros) / (1 + a1 z⁻¹ + a2 z⁻²), the zeros being those of its kind.
-/// The gain is applied once to what comes of the band (a power), not to every sample.
+/// The gain is applied once to the band's power, not to every sample.
 struct Section {
   float a1 = 0;
   float a2 = 0;
@@ -38,10 +38,10 @@ Turn turn_of(double share);
 /// Gain in power of x(t) − zero · x(t−1) at a frequency.
 double power_of_zero(double zero, double frequency_hz, double rate_hz);
 
-/// 1 − e^(−steps / time constant): how far an exponential average moves in one step.
+/// 1 − e^(−steps / time constant): the weight of an exponential average for one step.
 double approach(double step_seconds, double constant_seconds);
 
-/// A section at work (direct form II), without its gain.
+/// State of a section (direct form II), without its gain.
 template <class T>
 class Filter {
  public:
@@ -71,7 +71,7 @@ class Filter {
     return y;
   }
 
-  /// Forgets what is below −300 dB. Called often enough, no number gets so small that some machines flush it to zero
+  /// Sets state below −300 dB to 0. Called often enough, no number gets so small that some machines flush it to zero
   /// and others do not: even the fastest filter here loses less than 18 digits in a hop.
   void hush() {
     const T least = T(1e-15F);

@@ -1,10 +1,9 @@
 #pragma once
-// How strong blowing is at this microphone: the level that is wind 1.
+// The gust level of this microphone: the level of wind 1.
 //
-// A gust cannot tell what it is to be measured by: whoever blows hard from the start would teach the estimator that
-// this is how one blows. So the level begins with what is usual for microphones at arm's length, stays as it is while
-// it blows, and moves after each gust: towards what makes it a soft breath or a hard blow, whichever it is likelier to
-// have been.
+// A gust must not be its own reference: a person who blows hard from the start would calibrate the estimator to hard
+// blowing. So the level begins with a usual value for microphones at arm's length, is constant during a gust, and moves
+// after each gust, towards the level by which the gust was a soft breath or a hard blow, whichever is likelier.
 
 #include <array>
 #include <cstddef>
@@ -53,14 +52,14 @@ class GustLevel {
 template <class T>
 class Reference {
  public:
-  /// Begins with a level that is believed as firmly as `gusts` of them would make it.
+  /// Starts with a level that has the weight of `gusts` gusts.
   void start(T db, float gusts) {
     first_db_ = level_db_ = db;
     learned_ = gusts;
     end();
   }
 
-  /// Takes a frame: whether it blows for sure, and how strong, dB.
+  /// Takes a frame: whether it surely blows, and its level, dB.
   void hear(bool blows, T db, const Design& d) {
     if (blows) {
       rest_frames_ = 0;
@@ -87,7 +86,7 @@ class Reference {
 
   T level_db() const { return level_db_; }
 
-  static constexpr float kKnownGusts = 3;  ///< what a level that was given or calibrated weighs
+  static constexpr float kKnownGusts = 3;  ///< weight of a given or calibrated level, in gusts
 
  private:
   static constexpr float kHardDb = 17;     ///< a hard blow over wind 1,

@@ -31,7 +31,7 @@ class Spectra {
   std::vector<float> powers_;
 };
 
-/// What wind and room sound like in those bands.
+/// Spectra of wind and room in those bands.
 struct BandMeans {
   std::vector<double> wind;  ///< at power 1, less the room's
   std::vector<double> room;

@@ -8,11 +8,11 @@ namespace wisp::wind {
 
 /// Wind up to 1 passes as it comes; what exceeds it, once there was enough of it: 0.24 s of wind 1, or the less time
 /// the stronger it is (0.15 s of 1.6, 0.08 s of 3.2), and until it has paused for as long. Softer blowing is neither.
-/// Wind that is believed for what was heard before it (a gust's tail, wind under another sound) is a pause.
+/// Wind inferred from earlier sound (a gust's tail, wind under another sound) is a pause.
 template <class T>
 class Sustained {
  public:
-  /// `blows`: the frame by itself sounds like blowing.
+  /// `blows`: whether the frame by itself sounds like blowing.
   T end_frame(T wind, bool blows, const Design& d) {
     const bool strong = T(1.0F) < wind;
     if (!blows) evidence_ = evidence_ - T(1.0F);

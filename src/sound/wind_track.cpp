@@ -96,7 +96,7 @@ bool find_gusts(const Seen& seen, const wind::Surroundings<float>& around, float
   return true;
 }
 
-/// What wind and room sound like: from frames that surely blow and from the quiet ones.
+/// Spectra of wind and room, from frames that surely blow and from quiet ones.
 wind::BandMeans band_means(const wind::Spectra& spectra, const Seen& seen, const std::vector<bool>& quiet,
                            const wind::Surroundings<float>& around) {
   wind::BandMeans means;
@@ -204,7 +204,7 @@ struct WindTracker::State {
 
   std::int64_t sample_at(double seconds) const { return static_cast<std::int64_t>(seconds * format.rate_hz + 0.5); }
 
-  /// When the frame that is being heard ends.
+  /// End of the present frame.
   double end_seconds() const { return seconds_at(seen.size() + 1); }
 
   bool wants_more() const { return times.empty() || seen.size() + 1 < times.size(); }
@@ -235,7 +235,7 @@ struct WindTracker::State {
     }
   }
 
-  /// When frame k begins, and the one before ends.
+  /// Beginning of frame k, and end of the one before.
   double seconds_at(std::size_t k) const {
     return times.empty() ? static_cast<double>(k) / options.frame_rate_hz : times[k];
   }

@@ -1,5 +1,5 @@
 #pragma once
-// An observation set against background and gusts: the frame that is handed out.
+// Converts an observation, given background and gust level, to a wind frame.
 
 #include <cmath>
 
@@ -9,7 +9,7 @@
 
 namespace wisp::wind {
 
-/// What observations are set against.
+/// References for observations.
 template <class T>
 struct Surroundings {
   T rms = T(0.0F);         ///< of the background
@@ -18,11 +18,11 @@ struct Surroundings {
   T gust_db = T(0.0F);     ///< band power at wind 1
 };
 
-constexpr float kSureDb = 10;        ///< loudness over the floor from which blowing can be told from the room
-constexpr float kPassedDb = 8;       ///< the same for letting wind through: its background is taken off besides
+constexpr float kSureDb = 10;        ///< loudness over the floor from which blowing is distinguished from the room
+constexpr float kPassedDb = 8;       ///< the same for passing wind, whose background is subtracted
 constexpr float kMinPower = 1e-12F;  ///< of the band: no wind
 
-/// 0 to 1: loudness stands out of the floor.
+/// Confidence, 0 to 1, that loudness exceeds the floor.
 template <class T>
 T audible(T over_floor_db, float sure_db, float width_db) {
   return sigmoid((over_floor_db - T(sure_db)) * T(1 / width_db));
@@ -39,7 +39,7 @@ T power_over(const Observation<T>& seen, T background) {
   return background < seen.band_power ? seen.band_power - background : T(0.0F);
 }
 
-/// All of a frame but its wind.
+/// Fills all of a frame but its wind.
 template <class T>
 WindFrame verdict(const Observation<T>& seen, const Surroundings<T>& around, float power_exponent) {
   using std::sqrt;

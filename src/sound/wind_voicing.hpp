@@ -46,7 +46,7 @@ class VoiceHistory {
   T before_ = T(0.0F);
 };
 
-/// What the normalised autocorrelation over periods of 70 to 400 Hz tells.
+/// Voicing and tone, from the normalised autocorrelation over periods of 70 to 400 Hz.
 ///
 /// Voicing is its largest value in the last three hops (30 ms). Tone is the largest value of its mean over 150 ms:
 /// noise, however low, averages out, while chords stay, that have no common period short enough for voicing. A peak of
@@ -119,7 +119,7 @@ class Voicing {
     return most < T(1.0F) ? most : T(1.0F);
   }
 
-  /// A peak is taken at once and let go in 300 ms.
+  /// Follows a rise at once and decays in 300 ms.
   void hold(T& held, T now, T fresh) const {
     held = held < now ? now : held + release_ * fresh * (now - held);
     if (held < T(1e-6F)) held = T(0.0F);

@@ -17,7 +17,7 @@ namespace wisp {
 /// Errors: a field outside its range.
 Result<void> check(const Leaf& leaf);
 
-/// Where the leaf is and how it moves. The body's axes: x along the midrib, y across, z the leaf's upper side.
+/// Pose and motion of the leaf. The body's axes: x along the midrib, y across, z the leaf's upper side.
 struct LeafState {
   std::array<double, 4> attitude{1, 0, 0, 0};  ///< unit quaternion, w first, leaf to world
   std::array<double, 3> position{};            ///< metres, z up
@@ -36,15 +36,15 @@ struct LeafInertia {
 /// Precondition: check(leaf) is good.
 LeafInertia leaf_inertia(const Leaf& leaf);
 
-/// How a state changes, in a state's own layout: attitude per second, position per second, and so on.
+/// The rate of change of a state, in the same layout.
 using LeafRate = LeafState;
 
-/// The equations of motion. The attitude need not be a unit quaternion: its direction counts.
+/// The equations of motion. The attitude may have any length but zero.
 ///
 /// Precondition: check(leaf) is good.
 LeafRate leaf_rate(const Leaf& leaf, const LeafState& state, const WindSample& wind);
 
-/// Energy of leaf and carried air, in joules: of motion, and of height above z = 0. Never grows in still air.
+/// Kinetic and potential energy of leaf and carried air, in joules, relative to z = 0. Never grows in still air.
 double leaf_energy(const Leaf& leaf, const LeafState& state);
 
 /// Velocity in the world's axes, m/s.

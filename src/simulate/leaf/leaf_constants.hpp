@@ -1,5 +1,5 @@
 #pragma once
-// A leaf made ready for its equations.
+// Precomputed constants of a leaf.
 
 #include "simulate/leaf/leaf.hpp"
 #include "simulate/leaf/leaf_equations.hpp"

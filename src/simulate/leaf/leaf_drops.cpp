@@ -23,7 +23,7 @@ using flow::RandomNumbers;
 constexpr double kMaxRows = 2147483648.0;
 constexpr double kMaxGust = 30;  // m/s
 
-// What a random stream is for.
+// Purposes of random streams.
 enum Purpose : std::uint64_t { kStart = 31, kDifference = 32, kGust = 33, kWindSeed = 34 };
 
 Result<void> check(const LeafDropsOptions& o, double episodes) {
@@ -53,7 +53,7 @@ std::size_t rows_of(const LeafDropsOptions& o) {
   return static_cast<std::size_t>(std::max(2.0, std::round(o.seconds * o.rate_hz)));
 }
 
-// Any attitude, and motion of about the speeds of a fall.
+// A random attitude, and velocities typical of a fall.
 LeafState random_start(RandomNumbers random) {
   LeafState state;
   for (double& part : state.attitude) part = random.normal();
@@ -140,7 +140,7 @@ Result<void> record(LeafFlight& flight, const LeafWind& wind, const LeafDropsOpt
   return {};
 }
 
-// From a random start to where the recording begins.
+// Settles from a random start until the recording begins.
 Result<LeafFlight> settled(const LeafDropsOptions& o, const LeafWind& wind, std::uint64_t drop) {
   RandomNumbers random(o.seed, (kStart << 32) + drop);
   auto flight = LeafFlight::begin(o.leaf, wind, random_start(random), o.stepping);
@@ -194,7 +194,7 @@ Result<void> in_parallel(const LeafDropsOptions& o, std::size_t count, Work work
   return {};
 }
 
-// One gust that hits at about the lead, as the train's gusts are.
+// One gust with onset at about the lead time, with the properties of a train's gusts.
 Gust one_gust(const LeafPairsOptions& o, std::uint64_t index) {
   LeafWindOptions options = o.drops.wind;
   options.kind = LeafWindKind::kGusts;
@@ -203,7 +203,7 @@ Gust one_gust(const LeafPairsOptions& o, std::uint64_t index) {
   Gust gust = LeafWind::create(options, 2 * options.rest_seconds)->gusts().front();
   RandomNumbers random(o.drops.seed, (kGust << 32) + index);
   gust.start = o.lead_seconds * random.uniform(0.8, 1.2);
-  // Up and down too, all directions alike: a train's gusts blow over ground.
+  // Uniform over all directions, up and down included, unlike a train's gusts.
   const double up = random.uniform(-1, 1), over_ground = std::sqrt(1 - up * up);
   for (auto* vector : {&gust.velocity, &gust.slowness}) {
     auto& [x, y, z] = *vector;

@@ -7,7 +7,7 @@
 
 namespace wisp::leaf {
 
-/// All that does not change while a leaf falls, with every product that can be taken beforehand taken.
+/// Constants of a leaf, with products precomputed.
 template <class Real>
 struct Constants {
   Vec<Real> carried;       // added mass
@@ -28,17 +28,17 @@ struct State {
   Vec<Real> position, velocity, spin;
 };
 
-/// Wind where the leaf is, and how fast it changes there for one who goes along with the leaf; in the world's axes.
+/// Wind at the leaf, and its rate of change along the leaf's path; in the world's axes.
 template <class Real>
 struct Air {
   Vec<Real> wind, change;
 };
 
-/// Force of the air that moves past, in the body's axes. `v` is the leaf's velocity through the air.
+/// Force of the relative air flow, in the body's axes. `v` is the leaf's velocity through the air.
 template <class Real>
 Vec<Real> air_force(const Constants<Real>& c, Vec<Real> v, Real speed, Vec<Real> spin) {
   const Real along2 = v.x * v.x + v.y * v.y, normal2 = v.z * v.z;
-  // At rest nothing pulls; the ratios below would have no value.
+  // No force at rest, where the ratios below are undefined.
   const Real over = Real(1) / (speed + Real(1e-12));
   const Real lift = c.lift * v.z * over;
   const Real drag = c.drag * speed + c.drag_normal * normal2 * over;

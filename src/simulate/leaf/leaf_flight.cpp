@@ -74,7 +74,7 @@ struct LeafFlight::Course {
       seconds += by;
       evaluations = stiff->evaluations();
     } else {
-      // A hair's breadth of rounding is no reason for one step more.
+      // A tolerance for rounding, which would add a step.
       const double steps = std::max(1.0, std::ceil(by / stepping.longest_step - 1e-9));
       for (int k = 0; k < static_cast<int>(steps); ++k) step(by / steps);
     }

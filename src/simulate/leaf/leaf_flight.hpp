@@ -1,5 +1,5 @@
 #pragma once
-// One leaf on its way down, by a stiff integrator or by the cheapest fixed step that gives the same statistics.
+// The fall of one leaf, by a stiff integrator or by fixed steps with the same statistics.
 //
 // Falls are chaotic: two methods give two paths, and the same statistics. docs/studies/leaf.md has both methods' side
 // by side.
@@ -25,7 +25,7 @@ class LeafFlight {
   LeafFlight& operator=(LeafFlight&&) noexcept;
   ~LeafFlight();
 
-  /// Moves on; a fixed step divides `seconds` evenly.
+  /// Advances by `seconds`, divided evenly into fixed steps.
   /// Errors: the integrator gives up, or the leaf's state is no longer finite.
   ///
   /// Precondition: seconds > 0.
@@ -34,8 +34,8 @@ class LeafFlight {
   const LeafState& state() const;
   double seconds() const;
 
-  /// When it stalled so far: zeros of the forward speed, in seconds. The stiff method finds them to its tolerance, the
-  /// others in a straight line between steps.
+  /// Times of the stalls so far (zeros of the forward speed), in seconds. The stiff method finds them to its tolerance,
+  /// the others in a straight line between steps.
   const std::vector<double>& stalls() const;
 
   /// Evaluations of the equations so far.

@@ -75,7 +75,7 @@ struct StiffIntegrator::Solver {
     return 0;
   }
 
-  // What is to be added to bring the attitude back to length 1, and the error estimate's part along it taken out.
+  // The correction that restores the attitude's length 1; removes the error estimate's component along it.
   static int project(double, N_Vector y, N_Vector correction, double, N_Vector error, void*) {
     const double* q = N_VGetArrayPointer(y);
     const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);

@@ -45,8 +45,7 @@ Vec random_direction(flow::RandomNumbers& random) {
   return {across * std::cos(angle), across * std::sin(angle), z};
 }
 
-// Through four rows that follow each other, from the second (0) to the third (1): Catmull and Rom's cubic, whose slope
-// has no jumps.
+// Catmull and Rom's cubic between the second (0) and third (1) of four consecutive rows; its slope is continuous.
 struct Cubic {
   double value;
   double slope;  // a row
@@ -139,7 +138,7 @@ void LeafWind::add_eddies(const LeafWindOptions& o) {
     const Vec wave = 2 * std::numbers::pi / (o.eddy_metres * random.uniform(0.5, 2)) * random_direction(random);
     Vec across = leaf::cross(wave, random_direction(random));
     across = amplitude / std::sqrt(leaf::dot(across, across)) * across;
-    // Carried along by the steady wind, and turning over by itself in about its length over its speed.
+    // Advected by the steady wind, with its own turnover time of about its length over its speed.
     const double turnover = o.turbulence * std::sqrt(leaf::dot(wave, wave)) * random.normal();
     eddies_.push_back({array_of(across), array_of(wave), turnover - leaf::dot(wave, vec_of(mean_)),
                        random.uniform(0, 2 * std::numbers::pi)});

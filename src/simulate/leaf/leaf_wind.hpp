@@ -1,5 +1,5 @@
 #pragma once
-// Wind over a leaf's fall, as a function of place and time, with how it changes along the leaf's way.
+// Wind as a function of place and time, with its rate of change along a leaf's path.
 
 #include <array>
 #include <cstdint>
@@ -10,10 +10,10 @@
 
 namespace wisp {
 
-/// What a leaf feels of the wind, in the world's axes.
+/// The wind at a leaf, in the world's axes.
 struct WindSample {
   std::array<double, 3> velocity{};  ///< m/s
-  std::array<double, 3> change{};    ///< m/s², for one who goes along with the leaf
+  std::array<double, 3> change{};    ///< m/s², along the leaf's path
 };
 
 /// One gust of a train: its front passes the origin at `start`.
@@ -28,7 +28,7 @@ struct Gust {
 /// The wind at any place and time.
 class LeafWind {
  public:
-  /// Nothing blows.
+  /// No wind.
   LeafWind() = default;
 
   /// Wind of the given kind, gusts for `seconds`.
@@ -40,18 +40,18 @@ class LeafWind {
   /// Precondition: seconds > 0 and 0 < edge <= seconds / 2 for each.
   static LeafWind of_gusts(std::vector<Gust> gusts);
 
-  /// What was measured.
+  /// A measured wind.
   ///
   /// Precondition: rate_hz > 0, all rows finite.
   static LeafWind of_track(MeasuredWind track);
 
-  /// The wind where a leaf is, and how fast it changes for a leaf that moves so (world's axes).
+  /// Returns the wind at a place and its rate of change for a leaf of that velocity (world's axes).
   WindSample at(const std::array<double, 3>& place, const std::array<double, 3>& moving, double seconds) const;
 
-  /// Nothing blows anywhere, ever.
+  /// Whether there is no wind at any place and time.
   bool calm() const { return !steady_ && gusts_.empty() && eddies_.empty() && track_.rows.empty(); }
 
-  /// The greatest speed of the steady wind, the gusts or the rows that were measured, m/s; eddies apart.
+  /// The greatest speed of steady wind, gusts and measured rows, m/s, without eddies.
   double fastest() const;
 
   const std::vector<Gust>& gusts() const { return gusts_; }
