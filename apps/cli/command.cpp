@@ -10,7 +10,7 @@ double Arguments::number(std::string_view flag) const { return std::strtod(text(
 
 namespace {
 
-// Whether all that is opened is closed again: then a comma within belongs to a name.
+// Whether quotes and brackets are balanced; a comma within them is part of a name.
 bool is_balanced(std::string_view text) {
   int depth = 0;
   for (char c : text) {
@@ -61,7 +61,7 @@ std::string help_of(const Flag& flag) {
     words += (words.empty() ? "" : ", ") + word;
     signs += (signs.empty() ? "" : "|") + word;
   }
-  // Some say it in the name of their value.
+  // Some flags list their words in `value`.
   if (words.empty() || flag.value == signs || flag.kind != Kind::kChoice) return flag.help;
   return flag.help + " (one of " + words + ")";
 }

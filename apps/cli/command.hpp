@@ -1,5 +1,5 @@
 #pragma once
-// What a command of the program is: one entry of the table from which parser, help and docs/reference/cli.md are made.
+// A command of the program: an entry of the table from which parser, help and docs/reference/cli.md are made.
 
 #include <functional>
 #include <map>
@@ -14,9 +14,9 @@ namespace wisp::cli {
 
 class Terminal;
 
-/// What a flag takes, so that wrong usage is found before any work is done.
+/// The type of a flag's value, by which wrong usage is found before any work.
 enum class Kind {
-  kSwitch,         ///< nothing: it is there or not
+  kSwitch,         ///< no value
   kText,           ///< any text
   kPath,           ///< a file or folder name
   kOutput,         ///< a file or folder that is written; never one that is read
@@ -32,20 +32,20 @@ enum class Kind {
 struct Flag {
   std::string name;  ///< without the dashes
   Kind kind = Kind::kSwitch;
-  std::string value;     ///< how help names its value
+  std::string value;     ///< name of its value in the help
   std::string fallback;  ///< its default as text; empty: none
   std::string help;
   std::vector<std::string> words{};
   bool required = false;
-  std::vector<std::string> unless{};  ///< flags in whose presence this one is not required
-  /// What an output brings with it: endings in the place of its own, or, of a folder, names in it.
+  std::vector<std::string> unless{};  ///< flags that make this one optional
+  /// Further files of an output: extensions that replace its own or, for a folder, names in it.
   std::vector<std::string> brings{};
 };
 
-/// Its help, with the words that it takes.
+/// The flag's help, with the words that it accepts.
 std::string help_of(const Flag& flag);
 
-/// What stands without dashes.
+/// Arguments without dashes.
 struct Positional {
   std::string name;
   std::string help;
@@ -58,13 +58,13 @@ struct Example {
   std::string what;
 };
 
-/// 1-based and inclusive, as identification people write them.
+/// 1-based and inclusive, as in identification literature.
 struct SampleRange {
   std::size_t first = 1;
   std::size_t last = 0;
 };
 
-/// What the user gave, defaults filled in. Values were checked against their Kind by the parser.
+/// The user's values and the defaults. The parser has checked values against their Kind.
 class Arguments {
  public:
   bool has(std::string_view flag) const { return values_.count(std::string(flag)) > 0; }
@@ -85,7 +85,7 @@ class Arguments {
   std::vector<std::string> positionals_;
 };
 
-/// A command: its words (`learn arx`), what it takes, and what it does. `run` returns the error of exit status 1.
+/// A command: its words (`learn arx`), arguments, flags and function. `run` returns the error of exit status 1.
 struct Command {
   std::string name;
   std::string summary;

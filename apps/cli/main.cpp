@@ -1,4 +1,4 @@
-// The program `wisp`: one command of the table, run.
+// The program `wisp`: parses the command line and runs one command of the table.
 //
 // Exit status: 0 done, 1 the data or a file was bad, 2 wrong usage.
 
@@ -47,7 +47,7 @@ std::string words_of(const Flag& flag) {
   return all;
 }
 
-// What is wrong with a flag's value; empty: nothing.
+// Returns what is wrong with a flag's value; empty if nothing.
 std::string complaint(const Flag& flag, const std::string& text) {
   const std::string found = "found \"" + text + "\", expected ";
   switch (flag.kind) {
@@ -72,7 +72,7 @@ std::string complaint(const Flag& flag, const std::string& text) {
   return {};
 }
 
-// A command wired into the parser: where CLI11 leaves what the user gave.
+// A command registered with CLI11, and the storage for its values.
 struct Wired {
   const Command* command = nullptr;
   CLI::App* app = nullptr;
@@ -94,7 +94,7 @@ void add_flag(Wired& wired, const Flag& flag) {
   if (flag.required && flag.unless.empty()) option->required();
 }
 
-// Flags that are required unless another is given.
+// Checks flags that are required unless another one is given.
 void check_required(const Wired& wired) {
   for (const Flag& flag : wired.command->flags) {
     if (!flag.required || flag.unless.empty() || wired.app->count("--" + flag.name) > 0) continue;
@@ -175,7 +175,9 @@ int run_command(const Wired& wired) {
   if (!outcome) {
     const std::string& message = outcome.error().message;
     terminal.fail(message);
-    // What a command finds wrong with a flag's value, which its kind could not tell, begins with the flag.
+    // Prefixes an error about a flag's value with the flag's name. Used where the value passed the type check and the
+    // command
+    // rejected it.
     return message.starts_with("--") ? kWrongUsage : kBadData;
   }
   terminal.finish();
@@ -202,7 +204,7 @@ int run_program(int argc, char** argv) {
         return kWrongUsage;
       }
     }
-    // CLI11 has exit codes of its own; ours are 0 for help and 2 for wrong usage.
+    // Maps CLI11's exit codes to 0 for help and 2 for wrong usage.
     return root.exit(error) == 0 ? flush_output() : kWrongUsage;
   }
   for (const auto& wired : all) {

@@ -8,7 +8,7 @@
 namespace wisp::cli {
 namespace {
 
-// What may name files that are read: winds are words or files.
+// Flags whose values may name input files; a wind is a word or a file.
 std::vector<std::string> files_read(const Command& command, const Arguments& arguments) {
   std::vector<std::string> files = arguments.positionals();
   for (const Flag& flag : command.flags) {
@@ -27,7 +27,7 @@ std::vector<std::filesystem::path> files_written(const Flag& flag, const std::fi
   return files;
 }
 
-// Whether writing a file would destroy what is read, whatever name either goes by: an input, or an image of one.
+// Whether writing a file would overwrite an input or an image of an input folder, under any name.
 bool would_destroy(const std::filesystem::path& written, const std::string& input) {
   std::error_code none;
   if (!std::filesystem::exists(written, none) || std::filesystem::is_directory(written, none)) return false;
@@ -35,7 +35,7 @@ bool would_destroy(const std::filesystem::path& written, const std::string& inpu
   return is_numbered_image(written) && std::filesystem::equivalent(absolute(written).parent_path(), input, none);
 }
 
-// The kind of file that an ending stands for; empty: any.
+// The kind of file of an extension; empty: any.
 std::string kind_of(const std::filesystem::path& name) {
   static const std::map<std::string, std::string> kinds = {
       {".csv", "table"}, {".wisp", "model"},  {".html", "page"},   {".json", "document"},
@@ -45,7 +45,7 @@ std::string kind_of(const std::filesystem::path& name) {
   return known == kinds.end() ? std::string() : known->second;
 }
 
-// What is written would not be what its name says: a table in a .png.
+// Rejects names whose extension contradicts the contents, such as a table in a .png.
 bool is_named_for_another_kind(const Flag& flag, const std::string& output) {
   const std::string expected = kind_of(flag.value), found = kind_of(output);
   return !expected.empty() && !found.empty() && expected != found;

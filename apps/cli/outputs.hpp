@@ -1,13 +1,12 @@
 #pragma once
-// What a command would write, looked at before it does any work.
+// Checks a command's outputs before any work.
 
 #include "command.hpp"
 #include "wisp/base/result.hpp"
 
 namespace wisp::cli {
 
-/// Errors: an output, or what it brings with it, is a file that the command reads; or its name is of another kind of
-/// file than what is written.
+/// Errors: an output or one of its further files is also an input, or its extension is of another kind of file.
 Result<void> check_outputs(const Command& command, const Arguments& arguments);
 
 }  // namespace wisp::cli

@@ -12,10 +12,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The flame that is offered first: the order of the paper's, as on the page.
+// The first flame has the paper's order, as on the page.
 constexpr const char* kFirst = "flame-4.wisp";
 
-// The order in which they are offered: a flame, then what is something else, then flames of other orders.
+// Order of the list: the first flame, other kinds, then flames of other orders.
 int rank(const fs::path& path, const View& view) {
   if (path.filename() == kFirst) return 0;
   if (std::holds_alternative<PlainView>(view)) return 3;

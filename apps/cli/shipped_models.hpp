@@ -6,12 +6,12 @@
 
 namespace wisp::cli {
 
-/// Folders that are looked into, in this order: $WISP_MODELS; share/wisp/models beside the installed program; the
+/// Folders searched, in this order: $WISP_MODELS; share/wisp/models beside the installed program; the
 /// source tree that it was built from; out/demo, where `wisp demo` leaves its model.
 std::vector<std::filesystem::path> model_folders();
 
-/// The models in the first of them that has any: flames first, then what falls, then others, by name within each. Files
-/// that are no model are passed over.
+/// The models of the first folder that has any: flames, falling things, others, each by name. Skips files that are no
+/// models.
 std::vector<std::filesystem::path> shipped_models();
 
 }  // namespace wisp::cli

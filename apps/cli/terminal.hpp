@@ -1,5 +1,5 @@
 #pragma once
-// What the user sees: progress on standard error, the result on standard output.
+// Output for the user: progress on standard error, the result on standard output.
 
 #include <string>
 #include <string_view>
@@ -21,36 +21,36 @@ class Terminal {
   /// Only drawn on a terminal.
   void progress(std::string_view what, double done);
 
-  /// The same, as the library takes it.
+  /// The progress bar as the library's callback.
   Progress progress();
 
   /// A report as the command's result: as text at once, or as part of the JSON document at the end. Its warnings go to
   /// standard error too.
   void show(const Report& report);
 
-  /// A figure of the result for programs only.
+  /// Adds a figure to the JSON result only.
   void add(std::string id, ReportValue value);
 
-  /// Rows for programs only; they follow those of the same id.
+  /// Adds rows to the JSON result only, after those of the same id.
   void add(ReportTable table);
 
-  /// The verdict of something that was made on the way to the result, for people.
+  /// Prints the verdict of an intermediate result, for people.
   void verdict(const std::string& of, const Report& report);
 
-  /// Something the user should know though the command goes on; one line on standard error.
+  /// Prints a warning, one line on standard error; the command goes on.
   void warn(std::string_view text);
 
-  /// One line of the result for people; silent with --json.
+  /// Prints one line of the result for people; silent with --json.
   void say(std::string_view text);
 
   /// The result so far, which finish() prints as one JSON document with --json. A command of several steps takes each
   /// step's result out and puts the whole in.
   Report& result() { return result_; }
 
-  /// Ends the progress bar, and prints the JSON document where asked for.
+  /// Ends the progress bar, and prints the JSON document with --json.
   void finish();
 
-  /// The one line for a failure.
+  /// Prints the error line.
   void fail(std::string_view message);
 
   bool json() const { return options_.json; }
@@ -66,7 +66,7 @@ class Terminal {
   Report result_;
 };
 
-/// A number for people, with `digits` significant digits.
+/// Formats a number with `digits` significant digits.
 std::string shown(double value, int digits = 3);
 
 }  // namespace wisp::cli

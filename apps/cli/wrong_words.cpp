@@ -10,7 +10,7 @@
 namespace wisp::cli {
 namespace {
 
-// Letters to insert, leave out or replace until one word is the other (V. I. Levenshtein, 1966).
+// Edit distance of two words (V. I. Levenshtein, 1966).
 std::size_t distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -25,7 +25,7 @@ std::size_t distance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
-// As a question, where one is near enough for a slip of the hand; ends the sentence.
+// Ends the sentence, with a suggestion where a word is near enough for a typing error.
 std::string nearest(const std::string& word, const std::vector<std::string>& known, const std::string& before) {
   const auto nearer = [&](const std::string& a, const std::string& b) { return distance(word, a) < distance(word, b); };
   const auto best = std::min_element(known.begin(), known.end(), nearer);
@@ -39,7 +39,7 @@ std::string listed(const std::vector<std::string>& words) {
   return all;
 }
 
-// The words that may come first, or after the first of those that have two.
+// Words allowed first, or second in commands of two words.
 std::vector<std::string> next_words(const std::string& first) {
   std::vector<std::string> words;
   for (const Command& command : commands()) {

@@ -1,13 +1,13 @@
 #pragma once
-// What a command line that the parser refused was probably meant to be.
+// Suggestions for a command line that the parser rejected.
 
 #include <span>
 #include <string>
 
 namespace wisp::cli {
 
-/// One line about the first word (after the program's name) that is no command or no flag of its command, with the
-/// nearest that there is. Empty: all words are known, and something else is wrong.
+/// Returns one line about the first unknown command or flag, with the nearest known one. Empty if all words are known
+/// and something else is wrong.
 std::string wrong_words(std::span<const std::string> words);
 
 }  // namespace wisp::cli
