@@ -23,10 +23,10 @@ struct PastNode {
   std::uint32_t lag;
 };
 
-/// The rows of a leaf, side by side, as they are compared.
+/// The rows of one leaf of the tree, side by side for the comparison.
 struct Candidates {
-  std::array<float, kCandidates> row;            ///< its number
-  std::array<std::uint32_t, kCandidates> place;  ///< twice that, and 1 more where it lies there as its mirror image
+  std::array<float, kCandidates> row;            ///< index of the residual row
+  std::array<std::uint32_t, kCandidates> place;  ///< 2 · row, plus 1 for the mirror image
   std::uint32_t count;
 };
 

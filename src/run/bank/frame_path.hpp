@@ -18,12 +18,12 @@
 
 namespace wisp {
 
-/// Steps that are made one after the other, and what goes in and out with each.
+/// Consecutive steps of a bank, with the inputs and outputs of each.
 struct Steps {
   int count = 1;
-  const float* inputs = nullptr;  ///< rows of all slots, one set of them a step; null: what was set acts
-  float* outputs = nullptr;       ///< the same of what is read after each; null: nothing is
-  bool show = true;               ///< whether what the last has made can be read
+  const float* inputs = nullptr;  ///< rows of all slots, one set of rows a step; null: inputs stay as set
+  float* outputs = nullptr;       ///< outputs after each step, in the same layout; null: not written
+  bool show = true;               ///< whether the outputs of the last step become readable
 };
 
 struct FramePath {

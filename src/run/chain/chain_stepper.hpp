@@ -442,7 +442,7 @@ class ChainStepper : private ChainLives<N> {
     }
   }
 
-  // Whether no lane hears a wind.
+  // Whether the wind is calm in every lane.
   bool is_calm(int block) {
     const Real* wind = regressors(block);
     auto most = magnitude(load<Reals<N>>(wind));
@@ -451,7 +451,7 @@ class ChainStepper : private ChainLives<N> {
     return !any(differ(larger(most, least), least));
   }
 
-  // Of one lane. Returns whether something of the wind is left.
+  // Moves the segment of one lane. Returns whether its response to the wind lasts.
   bool drift_lane(int block, int lane) {
     const Real* at = regressors(block) + lane;
     const Vector3<Real> wind{at[0], at[kLanes], at[2 * kLanes]};

@@ -8,7 +8,7 @@
 
 namespace wisp {
 
-/// What coming to rest takes: less than the eye follows, more than a jump.
+/// Duration of coming to rest: longer than a jump, shorter than the eye follows.
 inline constexpr float kSettleSeconds = 0.35f;
 
 /// How far below its middle a body reaches: the lowest corner of a flat rectangle of its size.
