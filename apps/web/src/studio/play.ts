@@ -1,8 +1,8 @@
 // A learned outline that lives through a recording's wind, row by row, and is shown at the film's own scale.
 
-import type {Bank, Instance, Library} from '@wisp/player';
-import {FlameShape, MAX_POINTS} from '@wisp/player/parts/candle/flame_shape';
-import type {Outlines} from './outlines.js';
+import type { Bank, Instance, Library } from '@wisp/player';
+import { FlameShape, MAX_POINTS } from '@wisp/player/parts/candle/flame_shape';
+import type { Outlines } from './outlines.js';
 
 /** Rows; a longer way forward is a jump: it begins anew there. */
 const JUMP = 240;
@@ -21,18 +21,20 @@ export class Play {
 
   constructor(wisp: Library, private readonly outlines: Outlines, bytes: Uint8Array) {
     const model = wisp.model(bytes);
-    this.bank = model.bank({polylinePoints: MAX_POINTS});
+    this.bank = model.bank({ polylinePoints: MAX_POINTS });
     this.flame = this.bank.spawn();
     this.hasWind = model.inputs.length > 0 && outlines.wind !== null;
     this.burns = model.facts.blowOut !== null;
-    this.unit = model.provenance.figures.find(({name}) => name === 'pixels_per_unit')?.value ?? outlines.height;
+    this.unit = model.provenance.figures.find(({ name }) => name === 'pixels_per_unit')?.value ?? outlines.height;
     // Its unit says so: 0.95 1 is 0.95 of the recording's.
     this.one = parseFloat(model.inputs[0]?.unit ?? '') || 1;
     model.free();
   }
 
   /** How much of it burns, 0 to 1. */
-  get size(): number { return this.burns ? this.bank.flameState(this.flame).flameSize : 1; }
+  get size(): number {
+    return this.burns ? this.bank.flameState(this.flame).flameSize : 1;
+  }
 
   /** Plays on to that row; restarts for an earlier row or one far ahead. */
   goTo(row: number): void {
@@ -51,7 +53,7 @@ export class Play {
 
   /** Its outline in pixels of the film, x and y by turns. The next call writes over it. */
   line(): Float32Array {
-    const {shape, outlines} = this;
+    const { shape, outlines } = this;
     shape.update(this.bank.polyline(this.flame), this.size);
     for (let k = 0; k < shape.count; ++k) {
       this.polyline[2 * k] = outlines.base.x + this.unit * (shape.points[3 * k] as number);
@@ -60,11 +62,13 @@ export class Play {
     return this.polyline;
   }
 
-  free(): void { this.bank.free(); }
+  free(): void {
+    this.bank.free();
+  }
 
   // Once the wind that put it out has passed, a film that still shows a flame was not blown out then, or was lit again.
   private filmBurns(): boolean {
-    const {lean, wind} = this.outlines;
+    const { lean, wind } = this.outlines;
     return Number.isFinite(lean[this.row]) && (wind?.[this.row] ?? 0) < 0.2;
   }
 }
