@@ -20,7 +20,6 @@ inline const std::vector<Model>& kinds() {
                               flame_model({.points = 5, .resampled_rows = 60}),
                               sample_model(),
                               sample_switched(),
-                              sample_switched(Switching::kMarkov),
                               sample_chain(ChainMotion::kPosition),
                               weighted_chain(),
                               steered_chain(),

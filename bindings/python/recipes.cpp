@@ -31,7 +31,6 @@ void bind_words(py::module_& module) {
       .value("AICC", OrderCriterion::kAicc)
       .value("BIC", OrderCriterion::kBic)
       .value("VALIDATION", OrderCriterion::kValidation);
-  py::enum_<Switching>(module, "Switching").value("REGIONS", Switching::kRegions).value("MARKOV", Switching::kMarkov);
   py::enum_<InitialState>(module, "InitialState")
       .value("MEASURED", InitialState::kMeasured)
       .value("ZERO", InitialState::kZero)
@@ -88,10 +87,7 @@ void bind_arx(py::module_& module) {
       .def_readwrite("name", &SwitchedRecipe::name)
       .def_readwrite("inputs", &SwitchedRecipe::inputs)
       .def_readwrite("outputs", &SwitchedRecipe::outputs)
-      .def_readwrite("switching", &SwitchedRecipe::switching)
       .def_readwrite("modes", &SwitchedRecipe::modes)
-      .def_readwrite("max_modes", &SwitchedRecipe::max_modes)
-      .def_readwrite("holdout", &SwitchedRecipe::holdout)
       .def_readwrite("seed", &SwitchedRecipe::seed);
   options<FlickerRecipe>(module, "FlickerRecipe")
       .def_readwrite("name", &FlickerRecipe::name)
@@ -99,7 +95,6 @@ void bind_arx(py::module_& module) {
       .def_readwrite("rate_hz", &FlickerRecipe::rate_hz)
       .def_readwrite("modes", &FlickerRecipe::modes)
       .def_readwrite("order", &FlickerRecipe::order)
-      .def_readwrite("holdout", &FlickerRecipe::holdout)
       .def_readwrite("seed", &FlickerRecipe::seed);
 }
 

@@ -67,10 +67,6 @@ class OrderCriterion(Enum):
     BIC = ...
     VALIDATION = ...
 
-class Switching(Enum):
-    REGIONS = ...
-    MARKOV = ...
-
 class InitialState(Enum):
     MEASURED = ...
     ZERO = ...
@@ -122,10 +118,7 @@ class SwitchedRecipe:
     name: str
     inputs: list[str]
     outputs: list[str]
-    switching: Switching
     modes: Optional[int]
-    max_modes: int
-    holdout: float
     seed: int
 
 class FlickerRecipe:
@@ -135,7 +128,6 @@ class FlickerRecipe:
     rate_hz: float
     modes: int
     order: int
-    holdout: float
     seed: int
 
 class OutlineRecipe:

@@ -69,26 +69,13 @@ def play(model, winds, seed=1, noise=True):
 
     rows = [[row(mode, i) for i in range(ny)] for mode in d.get("modes", [d])]
     groups = 1 + max(k for mode in rows for _, _, shocks in mode for _, k in shocks) // 8
-    names = [name.strip(")").split("(t-") for name in d.get("region_columns", [])[1:]]
-    samples = [(int(name[1:]) + (ny if name[0] == "u" else 0), int(lag)) for name, lag in names]
-    regions = [[r[0]] + [w * unit[c] for w, (c, _) in zip(r[1:], samples)] for r in d.get("regions", [])]
-    most = max((abs(w) for r in regions for w in r), default=0) or 1
-
-    def score(region):  # of a mode's region: an affine function of the past
-        total = kept(region[0] * (1 / most))
-        for w, (c, lag) in zip(region[1:], samples):
-            total = total + kept(w * (1 / most)) * past[lag][c]
-        return total
-
     past = [[settle(clamp(F(0), *h)) for h in clamped] + [F(0)] * len(forms) for _ in range(d["history"] + 1)]
     mode, resampled = None, Resampled(d, unit) if (d.get("noise") or {}).get("resampled") else None
     life = Life(model["extinction"], model) if model.get("extinction") else None
     for step, wind in enumerate(winds):
         now = [F(0)] * ny + [regress(*form, mean, wind[model["inputs"].index(form[0])]) for form, mean in zip(forms, d["input_mean"])]
         past = [now] + past[:-1]
-        if regions:
-            mode = max(range(len(regions)), key=lambda k: (score(regions[k]), -k))
-        elif "transitions" in d:
+        if "transitions" in d:
             word = words(seed, step, (ny + 7) // 8)[0] if noise else None
             mode = likely(d["initial"] if mode is None else d["transitions"][mode], word)
         drawn = None

@@ -77,11 +77,6 @@ Result<Lamp> lamp_of(const Model& model) {
     add_mode(*arx, shock_of(*arx), lamp);
     lamp.transitions = {1};
   } else if (const auto* switched = std::get_if<SwitchedArxModel>(&model.dynamics)) {
-    if (switched->switching != Switching::kMarkov) {
-      return Error{
-          "the model's modes are switched by regions, which has no fixed-point form; learn it with "
-          "--switching markov, or with `wisp learn flicker`"};
-    }
     for (std::size_t mode = 0; mode < switched->modes.size(); ++mode) {
       add_mode(mode_model(*switched, mode), switched->modes[mode].shock[0], lamp);
     }

@@ -58,11 +58,8 @@ void add_contents(const ArxModel& arx, ReportSection& section) {
 }
 
 void add_contents(const SwitchedArxModel& switched, ReportSection& section) {
-  ReportList certificates;
-  for (const auto& matrix : switched.lyapunov) certificates.push_back(matrix);
   add(section, "dynamics.output_mean", switched.output_mean);
   add(section, "dynamics.input_mean", switched.input_mean);
-  add(section, "dynamics.lyapunov_matrices", std::move(certificates));
 }
 
 void add_gust(const GustResponse& gust, ReportSection& section) {

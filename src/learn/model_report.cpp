@@ -6,7 +6,7 @@
 #include "learn/arx/report/report_values.hpp"
 #include "learn/complete.hpp"
 #include "learn/flame/extinction_report.hpp"
-#include "learn/switched/learn_switched.hpp"
+#include "learn/markov/learn_markov.hpp"
 #include "record/number_text.hpp"
 #include "wisp/run/cost.hpp"
 
@@ -79,15 +79,13 @@ void add_dynamics(const ArxModel& arx, ReportSection& section) {
 }
 
 void add_dynamics(const SwitchedArxModel& switching, ReportSection& section) {
-  const bool markov = switching.switching == Switching::kMarkov;
   add(section, "dynamics.kind", "switched arx");
-  add(section, "dynamics.switching", markov ? "markov" : "regions");
   add_orders(switching.orders, section);
   add(section, "",
-      "arx of " + std::to_string(switching.modes.size()) + " modes switched by " +
-          (markov ? "a Markov chain" : "regions") + ", " + samples(switching.orders.history()),
+      "arx of " + std::to_string(switching.modes.size()) + " modes switched by a Markov chain, " +
+          samples(switching.orders.history()),
       "dynamics");
-  switched::describe(switching, "dynamics.", section);
+  markov::describe(switching, "dynamics.", section);
 }
 
 const char* realisation_of(const ChainModel& chain) {

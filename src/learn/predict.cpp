@@ -8,10 +8,10 @@
 #include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/plain_model.hpp"
 #include "learn/flame/wind_gain.hpp"
+#include "learn/markov/markov_prediction.hpp"
 #include "learn/numeric/constants.hpp"
 #include "learn/outline/outline_judgement.hpp"
 #include "learn/same_rate.hpp"
-#include "learn/switched/switched_prediction.hpp"
 #include "wisp/learn/validate.hpp"
 
 namespace wisp {
@@ -91,7 +91,7 @@ Result<Recording> predict_modes(const Model& model, const Recording& recording, 
   const ChannelChoice channels = arx::channels_of(model);
   if (const auto found = arx::sources_of({&recording, 1}, channels); !found) return found.error();
   const auto& dynamics = std::get<SwitchedArxModel>(model.dynamics);
-  const auto predicted = predict_switched(dynamics, recording, channels, options.steps);
+  const auto predicted = markov::predict(dynamics, recording, channels, options.steps);
   if (!predicted) return predicted.error();
   return table_of(recording, channels, *predicted, {});
 }

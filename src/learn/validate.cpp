@@ -2,8 +2,8 @@
 
 #include "learn/arx/learn_arx.hpp"
 #include "learn/chain/learn_chain.hpp"
+#include "learn/markov/learn_markov.hpp"
 #include "learn/same_rate.hpp"
-#include "learn/switched/learn_switched.hpp"
 #include "wisp/learn/validate_outline.hpp"
 
 namespace wisp {

@@ -82,22 +82,15 @@ fb::Offset<file::ArxMode> write_mode(Builder& builder, const ArxMode& mode) {
 fb::Offset<file::SwitchedArx> write_switched(Builder& builder, const SwitchedArxModel& model) {
   std::vector<fb::Offset<file::ArxMode>> modes;
   for (const ArxMode& mode : model.modes) modes.push_back(write_mode(builder, mode));
-  std::vector<fb::Offset<file::Lyapunov>> blocks;
-  for (const auto& block : model.lyapunov) blocks.push_back(file::CreateLyapunovDirect(builder, &block));
   const auto na = builder.CreateVector(flat(model.orders.na));
   const auto nb = builder.CreateVector(flat(model.orders.nb));
   const auto nk = builder.CreateVector(flat(model.orders.nk));
   const auto output_mean = builder.CreateVector(model.output_mean);
   const auto input_mean = builder.CreateVector(model.input_mean);
   const auto modes_at = builder.CreateVector(modes);
-  const auto regions = optional_vector(builder, model.regions);
-  const auto initial = optional_vector(builder, model.initial);
-  const auto transitions = optional_vector(builder, model.transitions);
-  const auto lyapunov =
-      blocks.empty() ? fb::Offset<fb::Vector<fb::Offset<file::Lyapunov>>>() : builder.CreateVector(blocks);
-  const auto switching = model.switching == Switching::kMarkov ? file::Switching::Markov : file::Switching::Regions;
-  return file::CreateSwitchedArx(builder, na, nb, nk, output_mean, input_mean, modes_at, switching, regions, initial,
-                                 transitions, lyapunov);
+  const auto initial = builder.CreateVector(model.initial);
+  const auto transitions = builder.CreateVector(model.transitions);
+  return file::CreateSwitchedArx(builder, na, nb, nk, output_mean, input_mean, modes_at, initial, transitions);
 }
 
 fb::Offset<file::RampTraining> write_ramp(Builder& builder, const RampTraining& ramp) {
@@ -281,10 +274,6 @@ Result<SwitchedArxModel> read_switched(const file::SwitchedArx& stored, int ny, 
   auto orders = read_all_orders(stored, ny, nu);
   if (!orders) return orders.error();
   model.orders = std::move(*orders);
-  if (stored.switching() != file::Switching::Regions && stored.switching() != file::Switching::Markov) {
-    return Error{"switches in a way that this program does not know; update Wisp"};
-  }
-  model.switching = stored.switching() == file::Switching::Markov ? Switching::kMarkov : Switching::kRegions;
   for (const auto* stored_mode : *stored.modes()) {
     auto mode = read_mode(*stored_mode, model.orders);
     if (!mode) return mode.error();
@@ -292,12 +281,8 @@ Result<SwitchedArxModel> read_switched(const file::SwitchedArx& stored, int ny, 
   }
   model.output_mean = numbers(stored.output_mean());
   model.input_mean = numbers(stored.input_mean());
-  model.regions = numbers(stored.regions());
   model.initial = numbers(stored.initial());
   model.transitions = numbers(stored.transitions());
-  if (stored.lyapunov()) {
-    for (const auto* block : *stored.lyapunov()) model.lyapunov.push_back(numbers(block->matrix()));
-  }
   return model;
 }
 

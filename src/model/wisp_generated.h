@@ -46,9 +46,6 @@ struct ChainBuilder;
 struct ArxMode;
 struct ArxModeBuilder;
 
-struct Lyapunov;
-struct LyapunovBuilder;
-
 struct SwitchedArx;
 struct SwitchedArxBuilder;
 
@@ -155,36 +152,6 @@ inline const char *EnumNameChainMotion(ChainMotion e) {
   if (flatbuffers::IsOutRange(e, ChainMotion::Position, ChainMotion::Pose)) return "";
   const size_t index = static_cast<size_t>(e);
   return EnumNamesChainMotion()[index];
-}
-
-enum class Switching : uint8_t {
-  Regions = 0,
-  Markov = 1,
-  MIN = Regions,
-  MAX = Markov
-};
-
-inline const Switching (&EnumValuesSwitching())[2] {
-  static const Switching values[] = {
-    Switching::Regions,
-    Switching::Markov
-  };
-  return values;
-}
-
-inline const char * const *EnumNamesSwitching() {
-  static const char * const names[3] = {
-    "Regions",
-    "Markov",
-    nullptr
-  };
-  return names;
-}
-
-inline const char *EnumNameSwitching(Switching e) {
-  if (flatbuffers::IsOutRange(e, Switching::Regions, Switching::Markov)) return "";
-  const size_t index = static_cast<size_t>(e);
-  return EnumNamesSwitching()[index];
 }
 
 enum class Dynamics : uint8_t {
@@ -1908,64 +1875,6 @@ inline flatbuffers::Offset<ArxMode> CreateArxModeDirect(
       shock__);
 }
 
-struct Lyapunov FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
-  typedef LyapunovBuilder Builder;
-  struct Traits;
-  enum FlatBuffersVTableOffset FLATBUFFERS_VTABLE_UNDERLYING_TYPE {
-    VT_MATRIX = 4
-  };
-  const flatbuffers::Vector<double> *matrix() const {
-    return GetPointer<const flatbuffers::Vector<double> *>(VT_MATRIX);
-  }
-  bool Verify(flatbuffers::Verifier &verifier) const {
-    return VerifyTableStart(verifier) &&
-           VerifyOffsetRequired(verifier, VT_MATRIX) &&
-           verifier.VerifyVector(matrix()) &&
-           verifier.EndTable();
-  }
-};
-
-struct LyapunovBuilder {
-  typedef Lyapunov Table;
-  flatbuffers::FlatBufferBuilder &fbb_;
-  flatbuffers::uoffset_t start_;
-  void add_matrix(flatbuffers::Offset<flatbuffers::Vector<double>> matrix) {
-    fbb_.AddOffset(Lyapunov::VT_MATRIX, matrix);
-  }
-  explicit LyapunovBuilder(flatbuffers::FlatBufferBuilder &_fbb)
-        : fbb_(_fbb) {
-    start_ = fbb_.StartTable();
-  }
-  flatbuffers::Offset<Lyapunov> Finish() {
-    const auto end = fbb_.EndTable(start_);
-    auto o = flatbuffers::Offset<Lyapunov>(end);
-    fbb_.Required(o, Lyapunov::VT_MATRIX);
-    return o;
-  }
-};
-
-inline flatbuffers::Offset<Lyapunov> CreateLyapunov(
-    flatbuffers::FlatBufferBuilder &_fbb,
-    flatbuffers::Offset<flatbuffers::Vector<double>> matrix = 0) {
-  LyapunovBuilder builder_(_fbb);
-  builder_.add_matrix(matrix);
-  return builder_.Finish();
-}
-
-struct Lyapunov::Traits {
-  using type = Lyapunov;
-  static auto constexpr Create = CreateLyapunov;
-};
-
-inline flatbuffers::Offset<Lyapunov> CreateLyapunovDirect(
-    flatbuffers::FlatBufferBuilder &_fbb,
-    const std::vector<double> *matrix = nullptr) {
-  auto matrix__ = matrix ? _fbb.CreateVector<double>(*matrix) : 0;
-  return wisp::file::CreateLyapunov(
-      _fbb,
-      matrix__);
-}
-
 struct SwitchedArx FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   typedef SwitchedArxBuilder Builder;
   struct Traits;
@@ -1976,11 +1885,8 @@ struct SwitchedArx FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
     VT_OUTPUT_MEAN = 10,
     VT_INPUT_MEAN = 12,
     VT_MODES = 14,
-    VT_SWITCHING = 16,
-    VT_REGIONS = 18,
-    VT_INITIAL = 20,
-    VT_TRANSITIONS = 22,
-    VT_LYAPUNOV = 24
+    VT_INITIAL = 16,
+    VT_TRANSITIONS = 18
   };
   const flatbuffers::Vector<uint16_t> *na() const {
     return GetPointer<const flatbuffers::Vector<uint16_t> *>(VT_NA);
@@ -2000,20 +1906,11 @@ struct SwitchedArx FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   const flatbuffers::Vector<flatbuffers::Offset<wisp::file::ArxMode>> *modes() const {
     return GetPointer<const flatbuffers::Vector<flatbuffers::Offset<wisp::file::ArxMode>> *>(VT_MODES);
   }
-  wisp::file::Switching switching() const {
-    return static_cast<wisp::file::Switching>(GetField<uint8_t>(VT_SWITCHING, 0));
-  }
-  const flatbuffers::Vector<double> *regions() const {
-    return GetPointer<const flatbuffers::Vector<double> *>(VT_REGIONS);
-  }
   const flatbuffers::Vector<double> *initial() const {
     return GetPointer<const flatbuffers::Vector<double> *>(VT_INITIAL);
   }
   const flatbuffers::Vector<double> *transitions() const {
     return GetPointer<const flatbuffers::Vector<double> *>(VT_TRANSITIONS);
-  }
-  const flatbuffers::Vector<flatbuffers::Offset<wisp::file::Lyapunov>> *lyapunov() const {
-    return GetPointer<const flatbuffers::Vector<flatbuffers::Offset<wisp::file::Lyapunov>> *>(VT_LYAPUNOV);
   }
   bool Verify(flatbuffers::Verifier &verifier) const {
     return VerifyTableStart(verifier) &&
@@ -2030,16 +1927,10 @@ struct SwitchedArx FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
            VerifyOffsetRequired(verifier, VT_MODES) &&
            verifier.VerifyVector(modes()) &&
            verifier.VerifyVectorOfTables(modes()) &&
-           VerifyField<uint8_t>(verifier, VT_SWITCHING, 1) &&
-           VerifyOffset(verifier, VT_REGIONS) &&
-           verifier.VerifyVector(regions()) &&
-           VerifyOffset(verifier, VT_INITIAL) &&
+           VerifyOffsetRequired(verifier, VT_INITIAL) &&
            verifier.VerifyVector(initial()) &&
-           VerifyOffset(verifier, VT_TRANSITIONS) &&
+           VerifyOffsetRequired(verifier, VT_TRANSITIONS) &&
            verifier.VerifyVector(transitions()) &&
-           VerifyOffset(verifier, VT_LYAPUNOV) &&
-           verifier.VerifyVector(lyapunov()) &&
-           verifier.VerifyVectorOfTables(lyapunov()) &&
            verifier.EndTable();
   }
 };
@@ -2066,20 +1957,11 @@ struct SwitchedArxBuilder {
   void add_modes(flatbuffers::Offset<flatbuffers::Vector<flatbuffers::Offset<wisp::file::ArxMode>>> modes) {
     fbb_.AddOffset(SwitchedArx::VT_MODES, modes);
   }
-  void add_switching(wisp::file::Switching switching) {
-    fbb_.AddElement<uint8_t>(SwitchedArx::VT_SWITCHING, static_cast<uint8_t>(switching), 0);
-  }
-  void add_regions(flatbuffers::Offset<flatbuffers::Vector<double>> regions) {
-    fbb_.AddOffset(SwitchedArx::VT_REGIONS, regions);
-  }
   void add_initial(flatbuffers::Offset<flatbuffers::Vector<double>> initial) {
     fbb_.AddOffset(SwitchedArx::VT_INITIAL, initial);
   }
   void add_transitions(flatbuffers::Offset<flatbuffers::Vector<double>> transitions) {
     fbb_.AddOffset(SwitchedArx::VT_TRANSITIONS, transitions);
-  }
-  void add_lyapunov(flatbuffers::Offset<flatbuffers::Vector<flatbuffers::Offset<wisp::file::Lyapunov>>> lyapunov) {
-    fbb_.AddOffset(SwitchedArx::VT_LYAPUNOV, lyapunov);
   }
   explicit SwitchedArxBuilder(flatbuffers::FlatBufferBuilder &_fbb)
         : fbb_(_fbb) {
@@ -2094,6 +1976,8 @@ struct SwitchedArxBuilder {
     fbb_.Required(o, SwitchedArx::VT_OUTPUT_MEAN);
     fbb_.Required(o, SwitchedArx::VT_INPUT_MEAN);
     fbb_.Required(o, SwitchedArx::VT_MODES);
+    fbb_.Required(o, SwitchedArx::VT_INITIAL);
+    fbb_.Required(o, SwitchedArx::VT_TRANSITIONS);
     return o;
   }
 };
@@ -2106,23 +1990,17 @@ inline flatbuffers::Offset<SwitchedArx> CreateSwitchedArx(
     flatbuffers::Offset<flatbuffers::Vector<double>> output_mean = 0,
     flatbuffers::Offset<flatbuffers::Vector<double>> input_mean = 0,
     flatbuffers::Offset<flatbuffers::Vector<flatbuffers::Offset<wisp::file::ArxMode>>> modes = 0,
-    wisp::file::Switching switching = wisp::file::Switching::Regions,
-    flatbuffers::Offset<flatbuffers::Vector<double>> regions = 0,
     flatbuffers::Offset<flatbuffers::Vector<double>> initial = 0,
-    flatbuffers::Offset<flatbuffers::Vector<double>> transitions = 0,
-    flatbuffers::Offset<flatbuffers::Vector<flatbuffers::Offset<wisp::file::Lyapunov>>> lyapunov = 0) {
+    flatbuffers::Offset<flatbuffers::Vector<double>> transitions = 0) {
   SwitchedArxBuilder builder_(_fbb);
-  builder_.add_lyapunov(lyapunov);
   builder_.add_transitions(transitions);
   builder_.add_initial(initial);
-  builder_.add_regions(regions);
   builder_.add_modes(modes);
   builder_.add_input_mean(input_mean);
   builder_.add_output_mean(output_mean);
   builder_.add_nk(nk);
   builder_.add_nb(nb);
   builder_.add_na(na);
-  builder_.add_switching(switching);
   return builder_.Finish();
 }
 
@@ -2139,21 +2017,16 @@ inline flatbuffers::Offset<SwitchedArx> CreateSwitchedArxDirect(
     const std::vector<double> *output_mean = nullptr,
     const std::vector<double> *input_mean = nullptr,
     const std::vector<flatbuffers::Offset<wisp::file::ArxMode>> *modes = nullptr,
-    wisp::file::Switching switching = wisp::file::Switching::Regions,
-    const std::vector<double> *regions = nullptr,
     const std::vector<double> *initial = nullptr,
-    const std::vector<double> *transitions = nullptr,
-    const std::vector<flatbuffers::Offset<wisp::file::Lyapunov>> *lyapunov = nullptr) {
+    const std::vector<double> *transitions = nullptr) {
   auto na__ = na ? _fbb.CreateVector<uint16_t>(*na) : 0;
   auto nb__ = nb ? _fbb.CreateVector<uint16_t>(*nb) : 0;
   auto nk__ = nk ? _fbb.CreateVector<uint16_t>(*nk) : 0;
   auto output_mean__ = output_mean ? _fbb.CreateVector<double>(*output_mean) : 0;
   auto input_mean__ = input_mean ? _fbb.CreateVector<double>(*input_mean) : 0;
   auto modes__ = modes ? _fbb.CreateVector<flatbuffers::Offset<wisp::file::ArxMode>>(*modes) : 0;
-  auto regions__ = regions ? _fbb.CreateVector<double>(*regions) : 0;
   auto initial__ = initial ? _fbb.CreateVector<double>(*initial) : 0;
   auto transitions__ = transitions ? _fbb.CreateVector<double>(*transitions) : 0;
-  auto lyapunov__ = lyapunov ? _fbb.CreateVector<flatbuffers::Offset<wisp::file::Lyapunov>>(*lyapunov) : 0;
   return wisp::file::CreateSwitchedArx(
       _fbb,
       na__,
@@ -2162,11 +2035,8 @@ inline flatbuffers::Offset<SwitchedArx> CreateSwitchedArxDirect(
       output_mean__,
       input_mean__,
       modes__,
-      switching,
-      regions__,
       initial__,
-      transitions__,
-      lyapunov__);
+      transitions__);
 }
 
 struct Outline FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {

@@ -91,7 +91,6 @@ SwitchedArxModel switched_of(const Json& json) {
   SwitchedArxModel model{.orders = orders_of(json)};
   put(json["output_mean"], model.output_mean);
   put(json["input_mean"], model.input_mean);
-  put(json["lyapunov_matrices"], model.lyapunov);
   for (const Json& from : json["modes"]) {
     ArxMode& mode = model.modes.emplace_back();
     mode.theta = theta_of(from);
@@ -99,11 +98,6 @@ SwitchedArxModel switched_of(const Json& json) {
     put(from["constant"], mode.constant);
     mode.shock = flat<double>(from["shock"]);
   }
-  if (json["switching"] == "regions") {
-    model.regions = flat<double>(json["regions"]);
-    return model;
-  }
-  model.switching = Switching::kMarkov;
   put(json["initial"], model.initial);
   model.transitions = flat<double>(json["transitions"]);
   return model;
@@ -300,7 +294,7 @@ class InfoPlayed : public Info {
 
 TEST_F(InfoPlayed, GaussianAndSwitchedModelsInPythonAreRunsToTheBit) {
   const std::string golden = WISP_SOURCE_DIR "/tests/model/golden/";
-  for (const char* name : {"v1.wisp", "v1-curve.wisp", "v1_switched.wisp", "v1_switched_markov.wisp"}) {
+  for (const char* name : {"v1.wisp", "v1-curve.wisp", "v1_switched_markov.wisp"}) {
     for (const char* noise : {"on", "off"}) expect_same_bits(golden + name, noise);
   }
 }

@@ -22,7 +22,7 @@ namespace {
 
 // A light that is calm and restless by turns, as `wisp learn flicker` makes them.
 Model light() {
-  SwitchedArxModel dynamics{.switching = Switching::kMarkov};
+  SwitchedArxModel dynamics;
   dynamics.orders = {OrderMatrix(1, 1, 4), OrderMatrix(1, 0), OrderMatrix(1, 0)};
   dynamics.output_mean = {1};
   // Poles of size 0.88, 0.31 and 0.20, in a mode that is shaken hardly and in one that is.
@@ -186,13 +186,6 @@ TEST_F(Firmware, WhatNoLampCanPlayIsSaid) {
   };
   says(flame_model(), "16 outputs, a lamp has one");
   says(light(), "no name in C", "my lamp");
-  Model regions = light();
-  auto& dynamics = std::get<SwitchedArxModel>(regions.dynamics);
-  dynamics.switching = Switching::kRegions;
-  dynamics.transitions.clear();
-  dynamics.initial.clear();
-  dynamics.regions.assign(10, 0.0);
-  says(regions, "switched by regions");
   Model far = light();
   std::get<SwitchedArxModel>(far.dynamics).output_mean = {90};
   says(far, "expected at most 3.9");

@@ -37,7 +37,6 @@ const std::set<Climb> kAllowed{
     "learn/numeric -> learn/arx/rows",
     "learn/outline -> learn/",
     "learn/outline -> learn/flame",
-    "learn/switched -> learn/",
 };
 
 std::vector<std::string> new_climbs(const std::filesystem::path& root) {

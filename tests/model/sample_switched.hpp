@@ -5,14 +5,13 @@
 
 namespace wisp {
 
-inline Model sample_switched(Switching switching = Switching::kRegions) {
+inline Model sample_switched() {
   SwitchedArxModel switched;
   switched.orders = {OrderMatrix(2, 2, 1), OrderMatrix(2, 1, 2), OrderMatrix(2, 1)};
   switched.orders.na(0, 0) = 2;
   switched.orders.nk(1, 0) = 1;
   switched.output_mean = {0.25, -0.5};
   switched.input_mean = {0.125};
-  switched.switching = switching;
   const double own[] = {-0.5, 0.25, 0.7};
   for (double a : own) {
     switched.modes.push_back({{{a, 0.1, 0.05, 0.3, a}, {0.05, -a, 0.2, -0.1}},
@@ -20,13 +19,8 @@ inline Model sample_switched(Switching switching = Switching::kRegions) {
                               {0.1 * a, -0.2},
                               {0.05, 0, 0.01 * a, 0.04}});
   }
-  if (switching == Switching::kRegions) {
-    // Looked at are y1 at lags 1 and 2, y2 at lag 1, u at lags 0, 1 and 2.
-    switched.regions = {0.1, 1, 0, 0, 0.5, 0, 0, 0, 0, 0, 1, 0, 0, 0, -0.1, -1, 0.2, 0, 0, 0, 0.25};
-  } else {
-    switched.initial = {0, 0.5, 0.5};
-    switched.transitions = {0.9, 0.1, 0, 0, 0.8, 0.2, 0.125, 0, 0.875};
-  }
+  switched.initial = {0, 0.5, 0.5};
+  switched.transitions = {0.9, 0.1, 0, 0, 0.8, 0.2, 0.125, 0, 0.875};
   Model model;
   model.name = "sample switched";
   model.rate_hz = 20;
@@ -35,6 +29,16 @@ inline Model sample_switched(Switching switching = Switching::kRegions) {
   model.dynamics = std::move(switched);
   model.training = {"wisp 0.1.0", {"tank.csv"}, {{"modes", "3"}}, {{"held_out", 1.5}}, {true, "made up"}};
   return model;
+}
+
+/// An ARX model without shared shocks as a switched one of a single mode.
+inline SwitchedArxModel switched_of(const ArxModel& model) {
+  const std::size_t ny = model.noise.sd.size();
+  std::vector<double> shock(ny * ny, 0.0);
+  for (std::size_t i = 0; i < ny; ++i) shock[i * ny + i] = model.noise.sd[i];
+  return {
+      model.orders, model.output_mean, model.input_mean, {{model.theta, model.std_error, model.constant, shock}}, {1},
+      {1}};
 }
 
 }  // namespace wisp

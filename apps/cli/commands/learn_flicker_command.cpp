@@ -20,7 +20,6 @@ Result<void> run_learn_flicker(const Arguments& arguments, Terminal& terminal) {
                              .rate_hz = arguments.number("steps-a-second"),
                              .modes = arguments.integer("modes"),
                              .order = arguments.integer("order"),
-                             .holdout = arguments.number("holdout"),
                              .seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
   const auto fit = learn(*recordings, recipe, terminal.progress());
   if (!fit) return fit.error();
@@ -37,7 +36,6 @@ Command learn_flicker_command() {
        "what the lamp steps at; faster recordings are averaged down to it"},
       {"modes", Kind::kInteger, "K", "3", "degrees of restlessness, 2 to 8"},
       {"order", Kind::kInteger, "N", "4", "lags in every mode, 1 to 8"},
-      {"holdout", Kind::kNumber, "SHARE", "0.3", "the last part of each stretch, kept for judging"},
       {"seed", Kind::kInteger, "N", "1", "of the play that shocks are matched by"},
   };
   for (Flag& flag : recording_flags()) flags.push_back(std::move(flag));

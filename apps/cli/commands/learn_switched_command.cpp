@@ -1,4 +1,4 @@
-// `wisp learn switched`: several ARX modes, and what decides between them.
+// `wisp learn switched`: several ARX modes that a Markov chain switches.
 
 #include <chrono>
 
@@ -29,11 +29,7 @@ Result<SwitchedRecipe> switched_recipe(const Arguments& arguments) {
       .nb = std::move(*nb),
       .nk = std::move(*nk),
       .coupling = coupling_of(arguments),
-      .switching = arguments.text("switching") == "markov" ? Switching::kMarkov : Switching::kRegions,
       .modes = arguments.text("modes") == "auto" ? std::nullopt : std::optional(arguments.integer("modes")),
-      .max_modes = arguments.integer("most-modes"),
-      .holdout = arguments.number("holdout"),
-      .subtract_means = arguments.text("offset") == "mean",
       .seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
 }
 
@@ -58,32 +54,16 @@ std::vector<Flag> switched_flags() {
       {"outputs", Kind::kNames, "C,D", "", "channels that are outputs", {}, true},
   };
   for (Flag& flag : order_flags({"2", " in every mode"})) all.push_back(std::move(flag));
-  all.insert(
-      all.end(),
-      {
-          {"switching",
-           Kind::kChoice,
-           "S",
-           "regions",
-           "what decides which mode acts: regions of the regressors, or a Markov chain",
-           {"regions", "markov"}},
-          {"modes",
-           Kind::kIntegerOrWord,
-           "K",
-           "auto",
-           "how many, or auto: as many as predict rows held out surely better",
-           {"auto"}},
-          {"most-modes", Kind::kInteger, "K", "6", "the largest number that auto tries"},
-          {"holdout", Kind::kNumber, "P", "0.3", "share of each stretch, its end, that judges the number of modes"},
-          {"range", Kind::kSamples, "A:B", "", "rows to learn from, 1-based and inclusive"},
-          {"offset",
-           Kind::kChoice,
-           "O",
-           "mean",
-           "the operating point: mean removes means, none does not; every mode has a constant either way",
-           {"mean", "none"}},
-          {"seed", Kind::kInteger, "N", "1", "of the starts that are tried"},
-      });
+  all.insert(all.end(), {
+                            {"modes",
+                             Kind::kIntegerOrWord,
+                             "K",
+                             "auto",
+                             "how many, or auto: as many, up to 6, as predict held-out rows surely better",
+                             {"auto"}},
+                            {"range", Kind::kSamples, "A:B", "", "rows to learn from, 1-based and inclusive"},
+                            {"seed", Kind::kInteger, "N", "1", "of the starts that are tried"},
+                        });
   for (Flag& flag : recording_flags()) all.push_back(std::move(flag));
   return all;
 }
@@ -93,13 +73,11 @@ std::vector<Flag> switched_flags() {
 Command learn_switched_command() {
   return {
       "learn switched",
-      "Estimates several ARX modes, and the regions or the Markov chain that decide which of them acts.",
+      "Estimates several ARX modes and the Markov chain that switches them.",
       {{"REC", "recordings: CSV files, or MATLAB files whose variables --inputs and --outputs name", true}},
       switched_flags(),
       {
-          {"wisp learn switched tanks.csv -o tanks.wisp --inputs u1 --outputs y1 --dt 4 --na 2 --nb 2 --nk 1",
-           "A tank that overflows: as many regions as rows held out ask for"},
-          {"wisp learn switched gusts.csv -o gusts.wisp --inputs u --outputs y --switching markov --modes 3",
+          {"wisp learn switched gusts.csv -o gusts.wisp --inputs u --outputs y --modes 3",
            "Three modes that follow each other by chance"},
       },
       run_learn_switched,

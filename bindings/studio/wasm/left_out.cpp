@@ -3,7 +3,7 @@
 // quarter of the code.
 
 #include "learn/flicker/learn_flicker.hpp"
-#include "learn/switched/learn_switched.hpp"
+#include "learn/markov/learn_markov.hpp"
 #include "learns.hpp"
 
 namespace wisp {

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "wisp/model/arx.hpp"
-#include "wisp/model/switched.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {
@@ -105,7 +104,8 @@ struct ArxRecipe {
   bool responses = false;  ///< report step and frequency responses with 95 % bands, which cost d_total² memory
 };
 
-/// Several ARX models of the same orders, each with a constant of its own, and what decides which of them acts.
+/// Several ARX modes of the same orders, each with a constant of its own, and a Markov chain that switches them. The
+/// operating point is the mean of every channel.
 struct SwitchedRecipe {
   std::string name{};
   std::vector<std::string> inputs{};
@@ -114,11 +114,7 @@ struct SwitchedRecipe {
   OrderChoice nb = 2;
   OrderChoice nk = 1;
   Coupling coupling = Coupling::kFull;
-  Switching switching = Switching::kRegions;
-  std::optional<int> modes{};  ///< 1 to 64; unset: as many as predict held-out rows surely better
-  int max_modes = 6;           ///< 1 to 64: the largest number that is tried where it is open
-  double holdout = 0.3;        ///< in (0, 0.9]: share of every stretch, its end, that judges the number of modes
-  bool subtract_means = true;  ///< about each channel's mean, else about 0; every mode has a constant either way
+  std::optional<int> modes{};  ///< 1 to 64; unset: as many, up to 6, as predict held-out rows surely better
   std::uint64_t seed = 1;      ///< of the starts that are tried
 };
 
@@ -131,7 +127,6 @@ struct FlickerRecipe {
                            ///< whole part of their rate
   int modes = 3;           ///< 2 to 8
   int order = 4;           ///< lags, 1 to 8: two damped resonances
-  double holdout = 0.3;    ///< in (0, 0.9]: share of every stretch, its end, that judges
   std::uint64_t seed = 1;  ///< of the play that shocks are matched by
 };
 

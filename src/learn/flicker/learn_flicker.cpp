@@ -5,7 +5,6 @@
 
 #include "learn/flicker/learn_flicker.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,8 +13,8 @@
 
 #include "learn/arx/learn_arx.hpp"
 #include "learn/arx/report/report_values.hpp"
-#include "learn/flicker/restlessness.hpp"
-#include "learn/numeric/decompositions.hpp"
+#include "learn/markov/markov_rows.hpp"
+#include "learn/numeric/clustering.hpp"
 #include "learn/numeric/spectrum.hpp"
 #include "record/number_text.hpp"
 #include "wisp/run/bank.hpp"
@@ -27,7 +26,91 @@ namespace {
 
 using Traces = std::vector<std::vector<double>>;
 constexpr double kMinSeconds = 20, kMaxRadius = 0.995;
+constexpr double kHoldout = 0.3;                           // share of every stretch, its end, that judges
 constexpr double kBands[] = {0.3, 1, 2, 4, 6, 8, 12, 20};  // Hz
+
+// Below this standard deviation within half a second, of a mean of 1, a light looks still: a few times what an eye can
+// see.
+constexpr double kCalm = 0.02;
+
+// Below this a photodiode's own noise is all there is.
+double level(double restless) { return std::log(restless + 1e-5); }
+
+std::size_t nearest(double value, std::span<const double> levels) {
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < levels.size(); ++k) {
+    if (std::abs(value - levels[k]) < std::abs(value - levels[best])) best = k;
+  }
+  return best;
+}
+
+// Rows of half a second.
+std::size_t half_second(double rate_hz) { return static_cast<std::size_t>(std::max(4.0, std::round(rate_hz / 2))); }
+
+// Standard deviation around each row of a trace, over `window` of its rows.
+std::vector<double> restlessness(std::span<const double> trace, std::size_t window) {
+  // Sums about a value of the trace lose nothing to cancellation.
+  const double origin = trace.front();
+  std::vector<double> sum{0}, square{0};
+  for (const double value : trace) {
+    sum.push_back(sum.back() + value - origin);
+    square.push_back(square.back() + (value - origin) * (value - origin));
+  }
+  std::vector<double> out;
+  const auto n = static_cast<double>(window);
+  for (std::size_t row = 0; row < trace.size(); ++row) {
+    const std::size_t begin = std::min(row - std::min(row, window / 2), trace.size() - window);
+    const double mean = (sum[begin + window] - sum[begin]) / n;
+    out.push_back(std::sqrt(std::max(0.0, (square[begin + window] - square[begin]) / n - mean * mean)));
+  }
+  return out;
+}
+
+struct Figures {
+  double mean = 0;
+  double sd = 0;
+  double calm_share = 0;  // of consecutive half seconds: those calmer than kCalm
+};
+
+Figures figures_of(const Traces& traces, double rate_hz) {
+  Figures figures;
+  const std::size_t window = half_second(rate_hz);
+  double sum = 0, square = 0, rows = 0, calm = 0, windows = 0;
+  for (const auto& trace : traces) {
+    for (const double value : trace) sum += value;
+    rows += static_cast<double>(trace.size());
+  }
+  figures.mean = sum / rows;
+  for (const auto& trace : traces) {
+    for (const double value : trace) square += (value - figures.mean) * (value - figures.mean);
+    if (trace.size() < window) continue;
+    const auto restless = restlessness(trace, window);
+    for (std::size_t middle = window / 2; middle + window - window / 2 <= trace.size(); middle += window) {
+      calm += restless[middle] < kCalm * figures.mean;
+      windows += 1;
+    }
+  }
+  figures.sd = std::sqrt(square / rows);
+  figures.calm_share = calm / windows;
+  return figures;
+}
+
+// Centroids of k-means of the logarithm of restlessness, calmest first.
+std::vector<double> levels_of(const Traces& restless, int modes, std::uint64_t seed) {
+  std::vector<double> values;
+  for (const auto& trace : restless) {
+    for (const double value : trace) values.push_back(level(value));
+  }
+  auto levels = k_means(values, 1, {.clusters = modes, .seed = seed})->centroids;
+  std::sort(levels.begin(), levels.end());
+  return levels;
+}
+
+std::vector<int> nearest_levels(std::span<const double> restless, std::span<const double> levels) {
+  std::vector<int> out;
+  for (const double value : restless) out.push_back(static_cast<int>(nearest(level(value), levels)));
+  return out;
+}
 
 struct Light {
   double rate_hz = 0;
@@ -74,8 +157,6 @@ Result<void> check(const FlickerRecipe& recipe) {
   if (!(recipe.rate_hz >= 10 && recipe.rate_hz <= 1000)) return wrong("the rate", recipe.rate_hz, "10 to 1000");
   if (recipe.modes < 2 || recipe.modes > 8) return wrong("the number of modes", recipe.modes, "2 to 8");
   if (recipe.order < 1 || recipe.order > 8) return wrong("the order", recipe.order, "1 to 8");
-  if (!(recipe.holdout > 0 && recipe.holdout <= 0.9))
-    return wrong("the holdout", recipe.holdout, "above 0, at most 0.9");
   return {};
 }
 
@@ -98,9 +179,9 @@ Result<Light> gathered(std::span<const Recording> recordings, const FlickerRecip
 }
 
 // The last part of each stretch is held out; half a second at least lies on either side of the cut.
-void hold_out(double share, Light& light) {
+void hold_out(Light& light) {
   for (auto& trace : light.learned) {
-    const auto kept = static_cast<std::ptrdiff_t>((1 - share) * static_cast<double>(trace.size()));
+    const auto kept = static_cast<std::ptrdiff_t>((1 - kHoldout) * static_cast<double>(trace.size()));
     light.held_out.emplace_back(trace.begin() + kept, trace.end());
     trace.resize(static_cast<std::size_t>(kept));
   }
@@ -109,8 +190,7 @@ void hold_out(double share, Light& light) {
 Result<Light> light_of(std::span<const Recording> recordings, const FlickerRecipe& recipe) {
   auto light = gathered(recordings, recipe);
   if (!light) return light;
-  const double parts = std::max(4.0, 1 / std::min(recipe.holdout, 1 - recipe.holdout));
-  const double shortest = std::ceil(parts * static_cast<double>(half_second(light->rate_hz))) + 1;
+  const double shortest = 4 * static_cast<double>(half_second(light->rate_hz)) + 1;
   std::erase_if(light->learned, [&](const auto& trace) { return static_cast<double>(trace.size()) < shortest; });
   double sum = 0, rows = 0;
   for (const auto& trace : light->learned) {
@@ -127,59 +207,32 @@ Result<Light> light_of(std::span<const Recording> recordings, const FlickerRecip
   for (auto& trace : light->learned) {
     for (double& value : trace) value /= sum / rows;
   }
-  hold_out(recipe.holdout, *light);
+  hold_out(*light);
   return light;
 }
 
-// Rows that one mode made, as a regression on the rows before them, about 1.
-struct Regression {
-  std::vector<double> theta;  // of past rows, sign of the prediction
-  double constant = 0;
-  double shock = 0;
-  double radius = 0;
-};
-
-double radius_of(const std::vector<double>& theta) {
-  const auto n = static_cast<Eigen::Index>(theta.size());
-  Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(n, n);
-  for (Eigen::Index k = 0; k < n; ++k) companion(0, k) = theta[static_cast<std::size_t>(k)];
-  for (Eigen::Index k = 1; k < n; ++k) companion(k, k - 1) = 1;
-  return eigenvalues(companion).cwiseAbs().maxCoeff();
+// The regression of the rows that one mode made on the rows before them, about 1; nothing where they are too few.
+std::optional<ArxMode> regress(const markov::Rows& rows, const std::vector<int>& modes, int mode) {
+  Eigen::VectorXd weights(rows.rows());
+  for (Eigen::Index t = 0; t < rows.rows(); ++t) {
+    weights(t) = modes[rows.places[static_cast<std::size_t>(t)].row] == mode ? 1 : 0;
+  }
+  if (weights.sum() < 4.0 * static_cast<double>(rows.design.groups[0].columns.size())) return {};
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(1);
+  markov::Mode found = markov::fit_mode(rows, weights, none);
+  markov::limit_radius(kMaxRadius, rows, weights, none, found);
+  return markov::model_mode(found, rows);
 }
 
-std::optional<Regression> regress(const Traces& traces, const std::vector<std::vector<int>>& modes, int mode,
-                                  int order) {
-  const Eigen::Index width = order + 1;
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(width, width);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(width), row = Eigen::VectorXd::Ones(width);
-  double energy = 0, rows = 0;
-  for (std::size_t t = 0; t < traces.size(); ++t) {
-    for (std::size_t k = static_cast<std::size_t>(order); k < traces[t].size(); ++k) {
-      if (modes[t][k] != mode) continue;
-      for (int lag = 1; lag <= order; ++lag) row(lag - 1) = traces[t][k - static_cast<std::size_t>(lag)] - 1;
-      const double value = traces[t][k] - 1;
-      gram += row * row.transpose();
-      right += value * row;
-      energy += value * value;
-      rows += 1;
-    }
+// All traces as one recording, an episode each.
+Recording recording_of(const Traces& traces, double rate_hz) {
+  Recording recording{.source = "light", .rate_hz = rate_hz, .channels = {{"brightness", "", Role::kOutput, {}}}};
+  for (std::size_t k = 0; k < traces.size(); ++k) {
+    auto& samples = recording.channels[0].samples;
+    samples.insert(samples.end(), traces[k].begin(), traces[k].end());
+    recording.episode_ids.resize(samples.size(), static_cast<std::int64_t>(k));
   }
-  if (rows < 4.0 * static_cast<double>(width)) return {};
-  // As little as rounding asks for: a still mode has hardly any energy.
-  gram.diagonal().array() += 1e-12 * gram.trace() / static_cast<double>(width);
-  const Eigen::VectorXd solution = symmetric_solution(gram, right);
-  Regression out;
-  for (int lag = 0; lag < order; ++lag) out.theta.push_back(solution(lag));
-  out.constant = solution(order);
-  out.shock = std::sqrt(std::max(0.0, (energy - right.dot(solution)) / rows));
-  out.radius = radius_of(out.theta);
-  // Poles are pulled in together where a mode would wander.
-  if (out.radius > kMaxRadius) {
-    double power = 1;
-    for (double& weight : out.theta) weight *= power *= kMaxRadius / out.radius;
-    out.radius = kMaxRadius;
-  }
-  return out;
+  return recording;
 }
 
 // The chain of modes as it was seen.
@@ -275,9 +328,7 @@ Model plain(const Light& light, const FlickerRecipe& recipe, std::span<const Rec
   }
   model.outputs = {output};
   for (const Recording& recording : recordings) model.training.sources.push_back(recording.source);
-  model.training.recipe = {{"modes", std::to_string(recipe.modes)},
-                           {"order", std::to_string(recipe.order)},
-                           {"holdout", number_text(recipe.holdout, 6)}};
+  model.training.recipe = {{"modes", std::to_string(recipe.modes)}, {"order", std::to_string(recipe.order)}};
   return model;
 }
 
@@ -339,7 +390,7 @@ void judge(const Light& light, const FlickerRecipe& recipe, Fit& fit) {
   fit.report.verdict = ReportVerdict{usable.verdict, usable.reason};
 }
 
-ReportSection modes_section(const SwitchedArxModel& model, const std::vector<Regression>& regressions, double rate_hz) {
+ReportSection modes_section(const SwitchedArxModel& model, double rate_hz) {
   ReportSection section{"Modes"};
   ReportTable table{
       "modes",
@@ -349,8 +400,8 @@ ReportSection modes_section(const SwitchedArxModel& model, const std::vector<Reg
   const std::size_t count = model.modes.size();
   for (std::size_t k = 0; k < count; ++k) {
     const double leaves = 1 - model.transitions[k * count + k];
-    table.rows.push_back(
-        {model.initial[k], leaves > 0 ? 1 / (leaves * rate_hz) : 0.0, regressions[k].radius, model.modes[k].shock[0]});
+    table.rows.push_back({model.initial[k], leaves > 0 ? 1 / (leaves * rate_hz) : 0.0,
+                          spectral_radius(mode_model(model, k)), model.modes[k].shock[0]});
   }
   section.tables.push_back(std::move(table));
   return section;
@@ -361,29 +412,31 @@ Result<Fit> fit_light(const Light& light, const FlickerRecipe& recipe, std::span
   for (const auto& trace : light.learned) restless.push_back(restlessness(trace, half_second(light.rate_hz)));
   const auto levels = levels_of(restless, recipe.modes, recipe.seed);
   std::vector<std::vector<int>> modes;
-  for (const auto& trace : restless) modes.push_back(nearest_levels(trace, levels));
-  SwitchedArxModel dynamics{.switching = Switching::kMarkov};
-  dynamics.orders = {OrderMatrix(1, 1, recipe.order), OrderMatrix(1, 0), OrderMatrix(1, 0)};
-  dynamics.output_mean = {1};
-  std::vector<Regression> regressions;
+  std::vector<int> all_modes;
+  for (const auto& trace : restless) {
+    modes.push_back(nearest_levels(trace, levels));
+    all_modes.insert(all_modes.end(), modes.back().begin(), modes.back().end());
+  }
+  SwitchedArxModel dynamics{
+      {OrderMatrix(1, 1, recipe.order), OrderMatrix(1, 0), OrderMatrix(1, 0)}, {1}, {}, {}, {}, {}};
+  const Recording together = recording_of(light.learned, light.rate_hz);
+  const auto rows = markov::make_rows({&together, 1}, {{}, {"brightness"}}, dynamics.orders, {1});
+  if (!rows) return rows.error();
   for (int mode = 0; mode < recipe.modes; ++mode) {
-    const auto found = regress(light.learned, modes, mode, recipe.order);
+    auto found = regress(*rows, all_modes, mode);
     if (!found) {
       return Error{recordings.front().source + ": the light has no " + std::to_string(recipe.modes) +
                    " degrees of restlessness to distinguish; ask for fewer modes, or record calm and draught"};
     }
-    regressions.push_back(*found);
-    ArxMode one{.theta = {{}}, .constant = {found->constant}, .shock = {found->shock}};
-    for (const double weight : found->theta) one.theta[0].push_back(-weight);
-    dynamics.modes.push_back(std::move(one));
+    dynamics.modes.push_back(std::move(*found));
   }
   count_transitions(modes, dynamics);
   Fit fit{plain(light, recipe, recordings), {}};
   fit.model.dynamics = std::move(dynamics);
-  if (auto ok = wisp::check(std::get<SwitchedArxModel>(fit.model.dynamics)); !ok) return ok.error();
+  const auto& learned = std::get<SwitchedArxModel>(fit.model.dynamics);
+  if (auto ok = wisp::check(learned); !ok) return ok.error();
   match_shocks(light, modes, recipe.seed, fit.model);
-  fit.report.sections.push_back(
-      modes_section(std::get<SwitchedArxModel>(fit.model.dynamics), regressions, light.rate_hz));
+  fit.report.sections.push_back(modes_section(learned, light.rate_hz));
   return fit;
 }
 

@@ -27,12 +27,6 @@ SymmetricEigensystem symmetric_eigensystem(const MatrixXd& matrix) {
   return {solver.eigenvalues(), solver.eigenvectors()};
 }
 
-std::optional<VectorXd> generalized_eigenvalues(const MatrixXd& matrix, const MatrixXd& metric) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(matrix, metric, Eigen::EigenvaluesOnly);
-  if (solver.info() != Eigen::Success) return std::nullopt;
-  return solver.eigenvalues();
-}
-
 MatrixXd pseudo_inverse(const MatrixXd& matrix) { return matrix.completeOrthogonalDecomposition().pseudoInverse(); }
 
 VectorXd shortest_solution(const MatrixXd& matrix, const VectorXd& right) { return ranked_solution(matrix, right).x; }

@@ -3,7 +3,6 @@
 // twenty seconds.
 
 #include <Eigen/Core>
-#include <optional>
 
 namespace wisp {
 
@@ -30,10 +29,6 @@ struct SymmetricEigensystem {
 };
 
 SymmetricEigensystem symmetric_eigensystem(const Eigen::MatrixXd& matrix);
-
-/// The λ of `matrix` v = λ `metric` v, the smallest first, for two symmetric matrices of which the second is positive
-/// definite; nothing where it is not.
-std::optional<Eigen::VectorXd> generalized_eigenvalues(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& metric);
 
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix);
 

@@ -126,7 +126,7 @@ class ArxStepper : public ChannelHistory<N> {
 
   /// Coefficients that a step multiplies by: those of A and B of one mode, and what the choice of a mode takes.
   std::int64_t multiply_adds() const {
-    return static_cast<std::int64_t>(program_.coefficients.size() / modes_.count()) + modes_.multiply_adds();
+    return static_cast<std::int64_t>(program_.coefficients.size() / modes_.count());
   }
 
   /// Numbers of state that one lane holds.
@@ -199,7 +199,7 @@ class ArxStepper : public ChannelHistory<N> {
                              ring_.begin(block),
                              ring_.sample(block, 0),
                              ring_.stride(),
-                             modes_.choose(block, ring_, moment),
+                             modes_.choose(block, moment),
                              quiet,
                              moment.clamped};
     if (noisy_) make_shocks(block, step, moment);

@@ -1,6 +1,6 @@
 #pragma once
 // Which mode of an ARX model acts in every lane of a block: the only one, or one of those of a switched model, chosen
-// by regions or by a Markov chain.
+// by a Markov chain.
 
 #include <cstdint>
 #include <optional>
@@ -9,8 +9,7 @@
 #include "run/arx/mode_program.hpp"
 #include "run/lanes/random_lanes.hpp"
 #include "run/state/moment.hpp"
-#include "run/state/sample_ring.hpp"
-#include "wisp/model/arx.hpp"
+#include "wisp/model/model.hpp"
 
 namespace wisp {
 
@@ -34,10 +33,9 @@ class SingleMode {
       return all<Values>(*of_mode);
     }
   };
-  Choice choose(int, const SampleRing<N>&, const Moment<N>&) { return {}; }
+  Choice choose(int, const Moment<N>&) { return {}; }
   void start(int, int) {}
   std::optional<int> mode(int, int) const { return 0; }
-  std::int64_t multiply_adds() const { return 0; }
   std::size_t lane_values() const { return 0; }
   template <class Visit>
   void visit_lane(int, int, Visit) {}
@@ -45,7 +43,7 @@ class SingleMode {
 };
 
 /// A switched model's. Numbers are picked lane by lane, so that the arithmetic is that of a single mode, however many
-/// there are. By regions, the affine functions of all modes come on top; by a Markov chain, one random word.
+/// there are. The chain takes one random word.
 template <class N>
 class ModeLanes {
  public:
@@ -54,8 +52,8 @@ class ModeLanes {
   /// Every frame costs the same.
   static constexpr int kCountedFrames = 1;
 
-  ModeLanes(const Model& model, const SwitchedArxModel& switched, int blocks, Arena& arena)
-      : program_(make_mode_program(model, switched, arena)),
+  ModeLanes(const Model&, const SwitchedArxModel& switched, int blocks, Arena& arena)
+      : program_(make_mode_program(switched, arena)),
         modes_(arena.take<Real>(static_cast<std::size_t>(blocks) * kLanes)) {}
 
   std::size_t count() const { return static_cast<std::size_t>(program_.modes); }
@@ -78,8 +76,8 @@ class ModeLanes {
     }
   };
 
-  Choice choose(int block, const SampleRing<N>& ring, const Moment<N>& moment) {
-    const Choice choice = program_.markov ? walk(block, moment) : classify(block, ring);
+  Choice choose(int block, const Moment<N>& moment) {
+    const Choice choice = walk(block, moment);
     for (int lane = 0; lane < kLanes; ++lane) {
       modes_[block * kLanes + lane] = Real(static_cast<float>(choice.mode[lane]));
     }
@@ -96,9 +94,6 @@ class ModeLanes {
     return mode;
   }
 
-  /// Coefficients of the regions of all modes.
-  std::int64_t multiply_adds() const { return static_cast<std::int64_t>(program_.region_weights.size()); }
-
   std::size_t lane_values() const { return 1; }
 
   template <class Visit>
@@ -110,26 +105,6 @@ class ModeLanes {
 
  private:
   static constexpr float kNoMode = -1.0f;
-
-  // Of the affine functions the largest, of equal ones the first.
-  Choice classify(int block, const SampleRing<N>& ring) const {
-    Choice choice{};
-    Real best[kLanes], score[kLanes];
-    const float* weight = program_.region_weights.data();
-    for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(program_.modes); ++k) {
-      auto sum = all<Reals<N>>(program_.region_constant[k]);
-      for (const RegionTap& tap : program_.region_taps) {
-        sum = sum + all<Reals<N>>(*weight++) * load<Reals<N>>(ring.sample(block, tap.lag) + tap.channel * kLanes);
-      }
-      store(sum, score);
-      for (int lane = 0; lane < kLanes; ++lane) {
-        if (k > 0 && !(score[lane] > best[lane])) continue;
-        best[lane] = score[lane];
-        choice.mode[lane] = k;
-      }
-    }
-    return choice;
-  }
 
   // One step of every lane's Markov chain. Its word comes after those of the shocks.
   Choice walk(int block, const Moment<N>& moment) const {

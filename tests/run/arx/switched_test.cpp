@@ -26,45 +26,31 @@ Bank bank_of(const Model& model, int instances) {
 
 float input_at(int step, int instance) { return static_cast<float>(2.2 * std::sin(0.3 * step + instance)) + 0.5f; }
 
-// y, u as deviations, newest last.
-double sample_of(const RegionSample& sample, const std::vector<std::vector<double>>& y, const std::vector<double>& u) {
-  const auto& channel = sample.input ? u : y[static_cast<std::size_t>(sample.channel)];
-  // The inputs of the step are there already, its outputs are not.
-  const std::size_t back = static_cast<std::size_t>(sample.lag) + (sample.input ? 1 : 0);
-  return back <= channel.size() ? channel[channel.size() - back] : 0.0;
+// `lag` steps before the newest, 0 before the first.
+double past(const std::vector<double>& samples, int lag) {
+  const auto back = static_cast<std::size_t>(lag);
+  return back < samples.size() ? samples[samples.size() - 1 - back] : 0.0;
 }
 
-int region_of(const SwitchedArxModel& model, const std::vector<std::vector<double>>& y, const std::vector<double>& u) {
-  const auto samples = region_samples(model.orders);
-  std::vector<double> scores;
-  for (std::size_t k = 0; k < model.modes.size(); ++k) {
-    const double* row = model.regions.data() + k * (1 + samples.size());
-    double score = row[0];
-    for (std::size_t s = 0; s < samples.size(); ++s) score += row[1 + s] * sample_of(samples[s], y, u);
-    scores.push_back(score);
-  }
-  return static_cast<int>(std::max_element(scores.begin(), scores.end()) - scores.begin());
-}
-
+// y and u as deviations, newest last; the inputs of the step are there already, its outputs are not.
 double next_of(const SwitchedArxModel& model, int mode, int i, const std::vector<std::vector<double>>& y,
                const std::vector<double>& u) {
   const ArxModel arx = mode_model(model, static_cast<std::size_t>(mode));
   double sum = arx.constant[i];
   for (int j = 0; j < 2; ++j) {
     const auto a = arx.a(i, j);
-    for (int l = 0; l < static_cast<int>(a.size()); ++l) sum -= a[l] * sample_of({false, j, l + 1}, y, u);
+    for (int l = 0; l < static_cast<int>(a.size()); ++l) sum -= a[l] * past(y[j], l);
   }
   const auto b = arx.b(i, 0);
-  for (int l = 0; l < static_cast<int>(b.size()); ++l)
-    sum += b[l] * sample_of({true, 0, arx.orders.nk(i, 0) + l}, y, u);
+  for (int l = 0; l < static_cast<int>(b.size()); ++l) sum += b[l] * past(u, arx.orders.nk(i, 0) + l);
   return sum;
 }
 
-TEST(SwitchedBank, RegionsDecideAsTheEquationsSay) {
-  const Model model = sample_switched();
+TEST(SwitchedBank, EveryModeStepsAsTheEquationsSay) {
+  Model model = sample_switched();
+  for (ArxMode& mode : std::get<SwitchedArxModel>(model.dynamics).modes) mode.shock.assign(4, 0.0);
   const SwitchedArxModel& dynamics = switched(model);
   Bank bank = bank_of(model, 1);
-  bank.set_noise(0);
   std::vector<std::vector<double>> y(2);
   std::vector<double> u;
   std::vector<int> seen(3, 0);
@@ -72,10 +58,9 @@ TEST(SwitchedBank, RegionsDecideAsTheEquationsSay) {
     const float input = input_at(step, 0);
     bank.set_inputs(bank.at(0), std::span(&input, 1));
     bank.step();
-    u.push_back(input - dynamics.input_mean[0]);
-    const int mode = region_of(dynamics, y, u);
+    u.push_back(std::clamp<double>(input, -2.5, 3.5) - dynamics.input_mean[0]);
+    const int mode = *bank.switched()->mode_of(bank.at(0));
     ++seen[mode];
-    ASSERT_EQ(bank.switched()->mode_of(bank.at(0)), mode) << step;
     const double next[] = {next_of(dynamics, mode, 0, y, u), next_of(dynamics, mode, 1, y, u)};
     float shown[2];
     bank.outputs(bank.at(0), shown);
@@ -84,27 +69,11 @@ TEST(SwitchedBank, RegionsDecideAsTheEquationsSay) {
       ASSERT_NEAR(shown[i], dynamics.output_mean[i] + next[i], 1e-5) << step;
     }
   }
-  EXPECT_GT(*std::min_element(seen.begin(), seen.end()), 2);  // all of them were tried
-}
-
-TEST(SwitchedBank, RegionsMayBeOfAnyScale) {
-  for (const double scale : {1e-30, 1e30}) {
-    Model scaled = sample_switched();
-    for (double& weight : std::get<SwitchedArxModel>(scaled.dynamics).regions) weight *= scale;
-    Bank a = bank_of(sample_switched(), 1), b = bank_of(scaled, 1);
-    for (int step = 0; step < 100; ++step) {
-      const float input = input_at(step, 0);
-      for (Bank* bank : {&a, &b}) {
-        bank->set_common_inputs(std::span(&input, 1));
-        bank->step();
-      }
-      ASSERT_EQ(a.switched()->mode_of(a.at(0)), b.switched()->mode_of(b.at(0))) << step;
-    }
-  }
+  EXPECT_GT(*std::min_element(seen.begin(), seen.end()), 2);  // all of them acted
 }
 
 TEST(SwitchedBank, AMarkovChainVisitsModesAsOftenAsItsProbabilitiesSay) {
-  const Model model = sample_switched(Switching::kMarkov);
+  const Model model = sample_switched();
   constexpr int kInstances = 40, kSteps = 2000;
   Bank bank = bank_of(model, kInstances);
   std::vector<int> first(3, 0), from(3, 0), counts(9, 0);
@@ -129,7 +98,7 @@ TEST(SwitchedBank, AMarkovChainVisitsModesAsOftenAsItsProbabilitiesSay) {
 }
 
 TEST(SwitchedBank, WithoutNoiseAMarkovChainTakesTheLikeliestStep) {
-  Bank bank = bank_of(sample_switched(Switching::kMarkov), 2);
+  Bank bank = bank_of(sample_switched(), 2);
   bank.set_noise(0);
   EXPECT_FALSE(bank.switched()->mode_of(bank.at(0)));
   for (int step = 0; step < 50; ++step) {
@@ -139,14 +108,14 @@ TEST(SwitchedBank, WithoutNoiseAMarkovChainTakesTheLikeliestStep) {
 }
 
 TEST(SwitchedBank, TheLikeliestStepMayBeAnyOfThree) {
-  Model model = sample_switched(Switching::kMarkov);
+  Model model = sample_switched();
   std::get<SwitchedArxModel>(model.dynamics).initial = {0.25, 0.3, 0.45};
   std::get<SwitchedArxModel>(model.dynamics).transitions = {0.3, 0.5, 0.2, 0.6, 0.25, 0.15, 0.2, 0.35, 0.45};
   Bank bank = bank_of(model, 1);
   bank.set_noise(0);
   bank.step();
   EXPECT_EQ(bank.switched()->mode_of(bank.at(0)), 2);
-  model = sample_switched(Switching::kMarkov);
+  model = sample_switched();
   std::get<SwitchedArxModel>(model.dynamics).initial = {1, 0, 0};
   std::get<SwitchedArxModel>(model.dynamics).transitions = {0.3, 0.5, 0.2, 0.6, 0.25, 0.15, 0.2, 0.35, 0.45};
   bank = bank_of(model, 1);
@@ -158,7 +127,7 @@ TEST(SwitchedBank, TheLikeliestStepMayBeAnyOfThree) {
 }
 
 TEST(SwitchedBank, ResidualsHaveTheCovarianceOfTheirMode) {
-  Model model = sample_switched(Switching::kMarkov);
+  Model model = sample_switched();
   auto& dynamics = std::get<SwitchedArxModel>(model.dynamics);
   dynamics.orders.na = OrderMatrix(2, 2);
   for (ArxMode& mode : dynamics.modes) {
@@ -183,50 +152,43 @@ TEST(SwitchedBank, ResidualsHaveTheCovarianceOfTheirMode) {
 }
 
 TEST(SwitchedBank, AnInstancePlaysTheSameAloneAndAmongOthersAndAfterBeingRestored) {
-  for (Switching switching : {Switching::kRegions, Switching::kMarkov}) {
-    const Model model = sample_switched(switching);
-    Bank alone = bank_of(model, 0 + 1), many = bank_of(model, 13);
-    std::vector<std::byte> saved(many.save_bytes());
-    alone.end(alone.at(0));
-    const InstanceId one = alone.spawn(11);  // the twelfth's random stream
-    for (int step = 0; step < 200; ++step) {
-      for (int k = 0; k < 13; ++k) {
-        const float input = input_at(step, k);
-        many.set_inputs(many.at(k), std::span(&input, 1));
-        if (k == 11) alone.set_inputs(one, std::span(&input, 1));
-      }
-      alone.step();
-      many.step();
-      if (step % 50 == 20) {
-        many.save(saved);
-        many.step();
-        ASSERT_TRUE(many.restore(saved));
-      }
-      float a[2], b[2];
-      alone.outputs(one, a);
-      many.outputs(many.at(11), b);
-      ASSERT_EQ(a[0], b[0]) << step;
-      ASSERT_EQ(a[1], b[1]) << step;
-      ASSERT_EQ(alone.switched()->mode_of(one), many.switched()->mode_of(many.at(11)));
+  const Model model = sample_switched();
+  Bank alone = bank_of(model, 0 + 1), many = bank_of(model, 13);
+  std::vector<std::byte> saved(many.save_bytes());
+  alone.end(alone.at(0));
+  const InstanceId one = alone.spawn(11);  // the twelfth's random stream
+  for (int step = 0; step < 200; ++step) {
+    for (int k = 0; k < 13; ++k) {
+      const float input = input_at(step, k);
+      many.set_inputs(many.at(k), std::span(&input, 1));
+      if (k == 11) alone.set_inputs(one, std::span(&input, 1));
     }
+    alone.step();
+    many.step();
+    if (step % 50 == 20) {
+      many.save(saved);
+      many.step();
+      ASSERT_TRUE(many.restore(saved));
+    }
+    float a[2], b[2];
+    alone.outputs(one, a);
+    many.outputs(many.at(11), b);
+    ASSERT_EQ(a[0], b[0]) << step;
+    ASSERT_EQ(a[1], b[1]) << step;
+    ASSERT_EQ(alone.switched()->mode_of(one), many.switched()->mode_of(many.at(11)));
   }
 }
 
-// Five and four coefficients of one mode, and the weights of the three regions that are not zero for some mode, which
-// make five columns of three.
-TEST(SwitchedBank, CostsOneModeAndTheRegions) {
-  const auto regions = count_operations(sample_switched(), 0),
-             markov = count_operations(sample_switched(Switching::kMarkov), 0);
-  ASSERT_TRUE(regions && markov);
-  EXPECT_EQ(markov->multiply_adds_per_frame, 9);
-  EXPECT_EQ(regions->multiply_adds_per_frame, 9 + 5 * 3);
-  // The input: −; coefficients: × +; whether each output was clamped: or. Regions: × +.
-  EXPECT_EQ(markov->dynamics_operations, 1 + 9 * 2 + 2);
-  EXPECT_EQ(regions->dynamics_operations, markov->dynamics_operations + 15 * 2);
+// Five and four coefficients of one mode.
+TEST(SwitchedBank, CostsOneModeAndAWord) {
+  const auto cost = count_operations(sample_switched(), 0);
+  ASSERT_TRUE(cost);
+  EXPECT_EQ(cost->multiply_adds_per_frame, 9);
+  // The input: −; coefficients: × +; whether each output was clamped: or.
+  EXPECT_EQ(cost->dynamics_operations, 1 + 9 * 2 + 2);
   // Two deviates, one for each output, and three shocks of them: × +.
-  EXPECT_EQ(regions->noise_operations, 33 + 3 * 2);
-  EXPECT_EQ(regions->random_operations, 1 + 7 * 6 + 9);
-  EXPECT_EQ(markov->random_operations, regions->random_operations + 1 + 7 * 6);  // a word for the chain
+  EXPECT_EQ(cost->noise_operations, 33 + 3 * 2);
+  EXPECT_EQ(cost->random_operations, 2 * (1 + 7 * 6) + 9);  // words of the shocks, and one for the chain
 }
 
 TEST(SwitchedBank, ASingleModeHasTheBitsOfItsArxModel) {

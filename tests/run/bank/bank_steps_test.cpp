@@ -32,8 +32,7 @@ std::vector<Model> models() {
           default_flame_model(),
           windy_chain(),
           system_chain(1),
-          sample_switched(),
-          sample_switched(Switching::kMarkov)};
+          sample_switched()};
 }
 
 // Other winds for every instance and step, some of which blow flames out.

@@ -62,12 +62,8 @@ std::vector<float> lives(const Model& model, const char* width) {
 }
 
 TEST(FramePathChoice, GivesTheSameBitsAtEveryWidth) {
-  const Model models[] = {flame_model({.wind = InputShape::kSplitSign}),
-                          flame_model({.noise_rank = 2}),
-                          default_flame_model(),
-                          windy_chain(),
-                          sample_switched(),
-                          sample_switched(Switching::kMarkov)};
+  const Model models[] = {flame_model({.wind = InputShape::kSplitSign}), flame_model({.noise_rank = 2}),
+                          default_flame_model(), windy_chain(), sample_switched()};
   for (const Model& model : models) {
     const auto narrow = lives(model, "baseline");
     for (const FramePath* path : frame_paths()) {

@@ -149,9 +149,7 @@ struct Stage {
   }
 
   // One of every kind of dynamics, and of every way to switch.
-  static std::vector<Model> models() {
-    return {mortal_flame(), windy_chain(), system_chain(), sample_switched(), sample_switched(Switching::kMarkov)};
-  }
+  static std::vector<Model> models() { return {mortal_flame(), windy_chain(), system_chain(), sample_switched()}; }
 
   Model model;
   std::vector<std::byte> memory;

@@ -70,8 +70,7 @@ TEST(HostileInput, TenMillionStepsOfEveryKindNeverLeaveTheRange) {
       {default_flame_model(), 1.0f},
       {coupled_flame_model(), 10.0f},
       {sample_model(), 10.0f},
-      {sample_switched(), 1.0f},
-      {sample_switched(Switching::kMarkov), 10.0f},
+      {sample_switched(), 10.0f},
       {windy_chain(), 1.0f}};
   for (const auto& [model, noise] : kinds) {
     SCOPED_TRACE(model.name);

@@ -100,22 +100,18 @@ TEST(ModelHash, TellsResampledResidualsApart) {
 
 TEST(ModelHash, TellsSwitchedModelsApart) {
   expect_others(sample_switched(), {
-                                       {"region", [](Model& m) { switched(m).regions[9] += 0.01; }},
-                                       {"region's constant", [](Model& m) { switched(m).regions[7] += 0.01; }},
                                        {"coefficient", [](Model& m) { switched(m).modes[2].theta[0][1] += 0.01; }},
                                        {"shock", [](Model& m) { switched(m).modes[1].shock[0] += 0.01; }},
+                                       {"first mode",
+                                        [](Model& m) {
+                                          switched(m).initial = {0.25, 0.25, 0.5};
+                                        }},
+                                       {"transition",
+                                        [](Model& m) {
+                                          switched(m).transitions[0] -= 0.01;
+                                          switched(m).transitions[1] += 0.01;
+                                        }},
                                    });
-  expect_others(sample_switched(Switching::kMarkov), {
-                                                         {"first mode",
-                                                          [](Model& m) {
-                                                            switched(m).initial = {0.25, 0.25, 0.5};
-                                                          }},
-                                                         {"transition",
-                                                          [](Model& m) {
-                                                            switched(m).transitions[0] -= 0.01;
-                                                            switched(m).transitions[1] += 0.01;
-                                                          }},
-                                                     });
 }
 
 TEST(ModelHash, TellsChainsApart) {

@@ -76,11 +76,6 @@ Model in_units(Model model, Units units) {
   }
   scale(switched.output_mean, units.output);
   scale(switched.input_mean, units.input);
-  const auto samples = region_samples(switched.orders);
-  for (std::size_t k = 0; k < switched.regions.size(); ++k) {
-    const std::size_t sample = k % (1 + samples.size());
-    if (sample > 0) switched.regions[k] /= samples[sample - 1].input ? units.input : units.output;
-  }
   return model;
 }
 

@@ -166,8 +166,7 @@ int main() {
   falling_frames(hash, sample_chain(ChainMotion::kPosition), 5, 2'000);
   falling_frames(hash, spline_chain(), 9, 2'000);
   for (int degree : {1, 2}) falling_frames(hash, system_chain(degree), 9, 2'000);
-  step_frames(hash, sample_switched(), 11, 2'000);
-  step_frames(hash, sample_switched(Switching::kMarkov), 3, 4'000);
+  step_frames(hash, sample_switched(), 3, 4'000);
   std::uint64_t flushed = hash;
   fading_frames(hash, 5'000);
 #ifdef __SSE2__

@@ -43,15 +43,7 @@ MadeSwitched record_switched(const std::vector<MadeMode>& modes, std::size_t row
   return {std::move(recording), std::move(acted)};
 }
 
-inline const std::vector<MadeMode> kMadeRegions{{-0.4, 1, 1.5}, {0.5, -1, -0.5}, {-0.3, 0.5, -1.7}};
 inline const std::vector<MadeMode> kMadeChain{{0.9, 1, 0}, {-0.5, 2, 1}, {0.2, -1, -1}};
-
-/// Piecewise affine, with jumps between the regions.
-inline MadeSwitched made_regions(std::size_t rows, unsigned seed) {
-  return record_switched(kMadeRegions, rows, seed, 0.28, [](int, double y, double u, double) {
-    return 4 * y - u + 10 < 0 ? 0 : 5 * y + u - 6 < 0 ? 1 : 2;
-  });
-}
 
 /// A Markov chain that stays in its mode for twenty steps on average.
 inline MadeSwitched made_chain(std::size_t rows, unsigned seed) {

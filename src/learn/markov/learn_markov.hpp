@@ -1,5 +1,5 @@
 #pragma once
-// From recordings and a recipe to a switched model and its report; and a model on a recording.
+// From recordings and a recipe to a Markov-switched model and its report; and a model on a recording.
 
 #include <span>
 
@@ -11,23 +11,22 @@
 
 namespace wisp {
 
-/// Errors: no recordings, channels that they have not, settings out of range, too few rows, kStopped.
+/// Errors: no recordings, channels that they do not have, settings out of range, too few rows, kStopped.
 Result<Fit> learn_switched(std::span<const Recording> recordings, const SwitchedRecipe& recipe,
                            const Progress& progress = {});
 
 /// Predictions, free simulation, likelihood, and how often each mode acts.
-/// Errors: the recording has not the model's channels or is too short, steps out of range, kStopped.
+/// Errors: the recording does not have the model's channels or is too short, steps out of range, kStopped.
 ///
 /// Precondition: the model's dynamics are a SwitchedArxModel.
 Result<Report> validate_switched(const Model& model, const Recording& recording, const ValidationOptions& options = {},
                                  const Progress& progress = {});
 
-namespace switched {
+namespace markov {
 
-/// For programs, their ids after `prefix`: `modes` [{A, B, constant, shock, radius, std_error}], `region_columns` and
-/// `regions`, or `initial` and `transitions`; `lyapunov` (whether there is a common Lyapunov function) and
-/// `bounded_by`, a sentence, also for people.
+/// For programs, their ids after `prefix`: `modes` [{A, B, constant, shock, radius, std_error}], `initial` and
+/// `transitions`.
 void describe(const SwitchedArxModel& model, const std::string& prefix, ReportSection& section);
 
-}  // namespace switched
+}  // namespace markov
 }  // namespace wisp
