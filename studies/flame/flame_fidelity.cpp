@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "learn/fidelity/fidelity_energy.hpp"
+#include "learn/fidelity/fidelity_distance.hpp"
 #include "learn/outline/outline_shape.hpp"
 #include "learn/outline/outline_units.hpp"
 #include "studies/value_or_abort.hpp"

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "learn/fidelity/fidelity_energy.hpp"
+#include "learn/fidelity/fidelity_distance.hpp"
 #include "learn/outline/outline_fit.hpp"
 #include "learn/outline/outline_judgement.hpp"
 #include "learn/outline/outline_synthesis.hpp"

@@ -294,7 +294,7 @@ class InfoPlayed : public Info {
 
 TEST_F(InfoPlayed, GaussianAndSwitchedModelsInPythonAreRunsToTheBit) {
   const std::string golden = WISP_SOURCE_DIR "/tests/model/golden/";
-  for (const char* name : {"v1.wisp", "v1-curve.wisp", "v1_switched_markov.wisp"}) {
+  for (const char* name : {"v1.wisp", "v1-curve.wisp", "v1_switched.wisp"}) {
     for (const char* noise : {"on", "off"}) expect_same_bits(golden + name, noise);
   }
 }

@@ -19,7 +19,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::string kGolden = WISP_SOURCE_DIR "/tests/model/golden/v1_switched_markov.wisp";
+const std::string kGolden = WISP_SOURCE_DIR "/tests/model/golden/v1_switched.wisp";
 
 SwitchedArxModel& switched(Model& model) { return std::get<SwitchedArxModel>(model.dynamics); }
 
@@ -47,7 +47,9 @@ TEST(SwitchedModel, WhatIsWrittenIsRead) {
 
 // Written when switched models came into the format; it must load, and mean the same, for ever.
 TEST(SwitchedModel, TheGoldenFileStillMeansTheSame) {
-  if (std::getenv("WISP_WRITE_GOLDEN")) ASSERT_TRUE(write_model(kGolden, sample_switched()));
+  if (std::getenv("WISP_WRITE_GOLDEN")) {
+    ASSERT_TRUE(write_model(kGolden, sample_switched()));
+  }
   const auto read = read_model(kGolden);
   ASSERT_TRUE(read) << read.error().message;
   expect_same(*read, sample_switched());

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <random>
 
-#include "learn/fidelity/fidelity_energy.hpp"
-#include "learn/fidelity/fidelity_shuffle.hpp"
+#include "learn/fidelity/fidelity_distance.hpp"
+#include "learn/fidelity/fidelity_stretch.hpp"
 #include "learn/numeric/constants.hpp"
 
 namespace wisp::chain {

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <random>
 
-#include "learn/fidelity/fidelity_shuffle.hpp"
+#include "learn/fidelity/fidelity_stretch.hpp"
 
 namespace wisp::chain {
 namespace {

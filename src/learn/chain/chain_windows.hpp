@@ -10,7 +10,7 @@
 
 #include "learn/chain/motion/motion.hpp"
 #include "learn/chain/segments/segmentation.hpp"
-#include "learn/fidelity/fidelity_energy.hpp"
+#include "learn/fidelity/fidelity_distance.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp::chain {

@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "learn/fidelity/fidelity_energy.hpp"
-#include "learn/fidelity/fidelity_long.hpp"
-#include "learn/fidelity/fidelity_marginal.hpp"
-#include "learn/fidelity/fidelity_stretch.hpp"
-#include "learn/fidelity/fidelity_verbatim.hpp"
+#include "base/statistics.hpp"
+#include "learn/fidelity/fidelity_distance.hpp"
 #include "learn/numeric/constants.hpp"
 #include "learn/numeric/spectrum.hpp"
 
@@ -69,7 +66,7 @@ std::vector<double> speeds(const std::vector<std::vector<double>>& stretches) {
 // Over the standard deviation of the first; a channel that never changes there is compared as it is.
 double marginal_distance(const std::vector<double>& a, const std::vector<double>& b) {
   if (a.empty() || b.empty()) return kMissing;
-  const double scale = standard_deviation(a);
+  const double scale = deviation(a);
   return wasserstein1(a, b) / (scale > 0 ? scale : 1);
 }
 
@@ -210,8 +207,8 @@ void take_channels(const Sides& sides, const Distances& value, const Distances& 
   for (std::size_t c = 0; c < sides.names.size(); ++c) {
     ChannelFidelity& channel = out.channels.emplace_back();
     channel.name = sides.names[c];
-    channel.sd_real = standard_deviation(joined(channel_of(sides.real, c)));
-    channel.sd_synthesized = standard_deviation(joined(channel_of(sides.synthesized, c)));
+    channel.sd_real = deviation(joined(channel_of(sides.real, c)));
+    channel.sd_synthesized = deviation(joined(channel_of(sides.synthesized, c)));
     channel.log_spectral_distance = bounded(value, floor, ceiling, c, &ChannelDistances::log_spectral);
     channel.autocorrelation_distance = bounded(value, floor, ceiling, c, &ChannelDistances::autocorrelation);
     channel.wasserstein_value = bounded(value, floor, ceiling, c, &ChannelDistances::value);

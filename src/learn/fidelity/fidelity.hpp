@@ -65,7 +65,7 @@ struct Fidelity {
   Bounded energy_distance;  ///< normalised, in [0, 1], over standardised windows of all channels and their velocities
   double energy_p_value = std::numeric_limits<double>::quiet_NaN();  ///< of the value, by exchange of whole blocks
 
-  // Over two seconds (fidelity_long.hpp). NaN where the recording has too few such windows.
+  // Over two seconds (long_distances()). NaN where the recording has too few such windows.
   Bounded long_motion;   ///< normalised energy distance of windows of all channels and their velocities
   Bounded long_spectra;  ///< the same of log spectra in geometric bands
   Bounded tails;         ///< mean |ln| of the ratio of the 99th and 99.9th percentile of accelerations

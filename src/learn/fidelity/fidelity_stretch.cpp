@@ -5,8 +5,6 @@
 #include <cstdint>
 #include <numeric>
 
-#include "learn/fidelity/fidelity_shuffle.hpp"
-
 namespace wisp {
 namespace {
 

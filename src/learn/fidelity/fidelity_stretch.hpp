@@ -1,16 +1,28 @@
 #pragma once
-// Stretches: what measures of behaviour look at, consecutive complete rows of some channels.
+// Stretches: consecutive complete rows of some channels, which measures of behaviour compare; and random order that is
+// the same on every machine.
 
 #include <cstddef>
 #include <cstdint>
+#include <random>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "wisp/base/result.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {
+
+/// A number below `bound`. The modulo's bias is below bound / 2^64.
+inline std::size_t below(std::mt19937_64& random, std::size_t bound) { return random() % bound; }
+
+/// Fisher–Yates: std::shuffle leaves its method to the library.
+template <class T>
+void shuffle(std::span<T> items, std::mt19937_64& random) {
+  for (std::size_t left = items.size(); left > 1; --left) std::swap(items[left - 1], items[below(random, left)]);
+}
 
 /// Consecutive rows without a missing sample, all of one episode.
 struct Stretch {

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
+
+#include "base/statistics.hpp"
 
 namespace wisp {
 namespace {
@@ -45,12 +46,8 @@ struct Fourier {
   std::vector<double> sine_;
 };
 
-double mean_of(std::span<const double> samples) {
-  return std::accumulate(samples.begin(), samples.end(), 0.0) / static_cast<double>(samples.size());
-}
-
 std::vector<double> without_mean(std::span<const double> samples) {
-  const double mean = mean_of(samples);
+  const double mean = wisp::mean(samples);
   std::vector<double> out(samples.begin(), samples.end());
   for (double& value : out) value -= mean;
   return out;

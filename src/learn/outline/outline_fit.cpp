@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "base/statistics.hpp"
 #include "learn/arx/fit/arx_report.hpp"
 #include "learn/arx/judge/free_run_parts.hpp"
-#include "learn/fidelity/fidelity_marginal.hpp"
 #include "learn/numeric/chi_squared.hpp"
 #include "learn/outline/outline_components.hpp"
 #include "learn/outline/outline_curve.hpp"
@@ -470,7 +470,7 @@ double recorded_sd(const std::string& name, const Recording& recording) {
   for (double value : recording.channels[*find_channel(recording, name)].samples) {
     if (!std::isnan(value)) samples.push_back(value);
   }
-  return standard_deviation(samples);
+  return deviation(samples);
 }
 
 // The recording in which most moves: one of calm among others tells nothing of what the inputs do.

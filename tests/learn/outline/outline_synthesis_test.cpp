@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/statistics.hpp"
 #include "learn/arx/rows/arx_orders.hpp"
-#include "learn/fidelity/fidelity_marginal.hpp"
 
 namespace wisp::outline_synthesis_test {
 namespace {

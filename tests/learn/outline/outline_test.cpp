@@ -8,7 +8,7 @@
 #include <numeric>
 #include <random>
 
-#include "learn/fidelity/fidelity_marginal.hpp"
+#include "base/statistics.hpp"
 #include "learn/outline/made_outline.hpp"
 #include "learn/outline/outline_knots.hpp"
 #include "learn/outline/outline_synthesis.hpp"
@@ -283,7 +283,7 @@ TEST(Outline, ATipThatIsNoiseIsNotUsable) {
   std::normal_distribution<double> gauss;
   for (const char* name : {"p4.x", "p4.y", "p5.x", "p5.y"}) {
     auto& samples = recording.channels[*find_channel(recording, name)].samples;
-    const double sd = standard_deviation(samples);
+    const double sd = deviation(samples);
     for (double& value : samples) value += 0.8 * sd * gauss(random);
   }
   const auto fit = fit_outline(std::vector{recording});

@@ -1,15 +1,29 @@
-#include "learn/fidelity/fidelity_energy.hpp"
+#include "learn/fidelity/fidelity_distance.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <random>
+#include <vector>
 
 #include "learn/numeric/made_series.hpp"
 
-namespace wisp::fidelity_energy_test {
+namespace wisp::fidelity_distance_test {
 namespace {
+
+TEST(FidelityMarginal, AShiftIsItsOwnDistance) { EXPECT_DOUBLE_EQ(wasserstein1({3, 1, 2}, {6, 5, 4}), 3); }
+
+TEST(FidelityMarginal, SamplesOfDifferentSizeAreComparedByQuantiles) {
+  // Half of {0, 1} stays, half of each quarter moves: quantiles 0 0 1 1 against 0 1 1 1.
+  EXPECT_DOUBLE_EQ(wasserstein1({0, 1}, {0, 1, 1, 1}), 0.25);
+}
+
+TEST(FidelityMarginal, WassersteinAgreesWithNumpy) {
+  auto y = made::second_series(130);
+  EXPECT_NEAR(wasserstein1(made::first_series(), y), 0.08601030644615586, 1e-12);
+}
 
 Stretch interleaved(const std::vector<double>& a, const std::vector<double>& b, std::size_t first, std::size_t last) {
   Stretch out{2, {}};
@@ -125,5 +139,90 @@ TEST(FidelityEnergy, StandardisedFeaturesHaveMeanZeroAndDeviationOne) {
   EXPECT_EQ(y.values, (std::vector<double>{3, 2}));
 }
 
+constexpr LongOptions kOptions{.rate_hz = 60};
+
+// Two channels of one resonance each; now and then one is hit.
+Stretch resonances(std::size_t rows, std::uint64_t seed, double damping, double hit) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> gauss;
+  Stretch out{2, {}};
+  double now[2] = {}, before[2] = {};
+  for (std::size_t t = 0; t < rows; ++t) {
+    for (int c = 0; c < 2; ++c) {
+      double shock = gauss(random);
+      if (hit > 0 && random() % 200 == 0) shock *= hit;
+      const double next = 1.6 * now[c] - damping * before[c] + shock;
+      before[c] = now[c];
+      now[c] = next;
+      out.values.push_back(next);
+    }
+  }
+  return out;
+}
+
+LongDistances apart(const Stretch& a, const Stretch& b) { return long_distances({&a, 1}, {&b, 1}, kOptions); }
+
+TEST(FidelityLong, TheSameProcessIsNear) {
+  const LongDistances found = apart(resonances(6000, 1, 0.8, 0), resonances(6000, 2, 0.8, 0));
+  EXPECT_LT(found.motion, 0.02);
+  EXPECT_LT(found.spectra, 0.02);
+  EXPECT_LT(found.tails, 0.1);
+}
+
+TEST(FidelityLong, SpectraTellAnotherRhythm) {
+  const Stretch real = resonances(6000, 1, 0.8, 0);
+  const double same = apart(real, resonances(6000, 2, 0.8, 0)).spectra;
+  EXPECT_GT(apart(real, resonances(6000, 3, 0.9, 0)).spectra, 5 * same);
+}
+
+TEST(FidelityLong, TailsTellBurstsThatAreMissing) {
+  const Stretch real = resonances(6000, 1, 0.8, 12);
+  EXPECT_GT(apart(real, resonances(6000, 2, 0.8, 0)).tails, 0.3);
+}
+
+TEST(FidelityLong, TooFewWindowsAreNoDistance) {
+  const LongDistances found = apart(resonances(100, 1, 0.8, 0), resonances(100, 2, 0.8, 0));
+  EXPECT_TRUE(std::isnan(found.motion) && std::isnan(found.spectra) && std::isnan(found.tails));
+}
+
+TEST(FidelityLong, ASpectrumHasThePowerInItsBand) {
+  Stretch wave{1, {}};
+  for (int t = 0; t < 120; ++t) wave.values.push_back(std::sin(2 * 3.14159265358979 * 30 * t / 120));
+  const FeatureWindows windows = spectral_windows({&wave, 1}, 120, 1);
+  ASSERT_EQ(windows.size(), 1u);
+  std::size_t loudest = 0;
+  for (std::size_t f = 0; f < windows.features; ++f) {
+    if (windows.values[f] > windows.values[loudest]) loudest = f;
+  }
+  // 30 of 60 frequencies lies in the last band but one, or the one before.
+  EXPECT_GE(loudest + 4, windows.features);
+  EXPECT_LT(loudest + 1, windows.features);
+}
+
+TEST(FidelityVerbatim, ACopiedRunIsFoundWhereverItStands) {
+  const std::vector real{Stretch{1, {0, 3, 1, 4, 1, 5, 9, 2, 6}}};
+  const std::vector copy{Stretch{1, {7, 7, 7, 4, 1, 5, 9, 7, 7}}};
+  EXPECT_EQ(longest_verbatim_run(real, copy, 0), 4u);
+}
+
+TEST(FidelityVerbatim, EveryChannelMustAgree) {
+  const std::vector real{Stretch{2, {0, 0, 1, 1, 2, 2, 3, 3}}};
+  const std::vector half{Stretch{2, {0, 9, 1, 9, 2, 9, 3, 9}}};
+  EXPECT_EQ(longest_verbatim_run(real, half, 0), 0u);
+}
+
+TEST(FidelityVerbatim, ToleranceIsAShareOfTheStandardDeviation) {
+  const std::vector real{Stretch{1, {-1, 1, -1, 1}}};
+  const std::vector near{Stretch{1, {-0.95, 1.04}}};
+  EXPECT_EQ(longest_verbatim_run(real, near, 0.06), 2u);
+  EXPECT_EQ(longest_verbatim_run(real, near, 0.03), 0u);
+}
+
+TEST(FidelityVerbatim, ARunDoesNotCrossFromOneStretchToTheNext) {
+  const std::vector real{Stretch{1, {1, 2, 3, 4}}};
+  const std::vector cut{Stretch{1, {1, 2}}, Stretch{1, {3, 4}}};
+  EXPECT_EQ(longest_verbatim_run(real, cut, 0), 2u);
+}
+
 }  // namespace
-}  // namespace wisp::fidelity_energy_test
+}  // namespace wisp::fidelity_distance_test
