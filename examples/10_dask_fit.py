@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""One model from many clips, on as many machines as Dask has workers: each clip is captured, and what it has to say about
-the model written down, by whichever worker is free; the parts are merged as a tree, which is the same wherever its
-tasks run and however often one is run again. So is the model, to the byte.
+"""One model from many clips, on as many machines as Dask has workers: each clip is captured by whichever worker is free.
+Of an ARX model each recording then becomes a small part, and parts are merged as a tree; a flame or an outline is learned
+from the folder of recordings. The result is the same wherever its tasks run and however often one is run again.
 
     10_dask_fit.py FOLDER MODEL.wisp CLIP_OR_REC… [--kind flame] [--scheduler tcp://HOST:8786] [--workers N]
                    [-- flags of wisp learn KIND]
@@ -31,39 +31,46 @@ def captured(folder, clip):
     return str(recording)
 
 
-def part_of(kind, folder, recording, flags):
-    """What a recording has to say about the model: of an ARX model a small file, however long it is."""
+def part_of(folder, recording, flags):
+    """The products of a recording's rows: a small file, however long it is."""
     part = pathlib.Path(folder, pathlib.Path(recording).stem + ".part")
-    wisp("learn", kind, recording, "--partial", part, *flags)
+    wisp("learn", "arx", recording, "--partial", part, *flags)
     return str(part)
 
 
-def merged(kind, folder, name, *parts):
+def merged(folder, name, *parts):
     """Two parts as one."""
     both = pathlib.Path(folder, name + ".part")
-    wisp("learn", kind, "--merge", *parts, "--partial", both)
+    wisp("learn", "arx", "--merge", *parts, "--partial", both)
     return str(both)
 
 
-def finished(kind, part, model, count, flags):
-    wisp("learn", kind, "--merge", part, "--expect", count, "-o", model, *flags)
+def finished(part, model, count):
+    wisp("learn", "arx", "--merge", part, "--expect", count, "-o", model)
+    return str(model)
+
+
+def learned(kind, model, flags, *recordings):
+    """A model of all recordings, in the order of their names."""
+    wisp("learn", kind, *sorted(recordings), "-o", model, *flags)
     return str(model)
 
 
 def graph(do, kind, folder, model, clips, flags):
     """All tasks, handed to do(function, …), which returns what the next ones take."""
-    # An ARX part is of one model; what an outline's model shall be is said where it is learned from all of them.
-    first, last = (flags, []) if kind == "arx" else ([], flags)
-    parts = [do(part_of, kind, folder, do(captured, folder, clip), first) for clip in clips]
+    recordings = [do(captured, folder, clip) for clip in clips]
+    if kind != "arx":
+        return do(learned, kind, model, flags, *recordings)
+    parts = [do(part_of, folder, recording, flags) for recording in recordings]
     level = 0
     while len(parts) > 1:
         level += 1
         pairs = [parts[k : k + 2] for k in range(0, len(parts), 2)]
         parts = [
-            do(merged, kind, folder, f"level{level}_{k}", *pair) if len(pair) == 2 else pair[0]
+            do(merged, folder, f"level{level}_{k}", *pair) if len(pair) == 2 else pair[0]
             for k, pair in enumerate(pairs)
         ]
-    return do(finished, kind, parts[0], model, len(clips), last)
+    return do(finished, parts[0], model, len(clips))
 
 
 def on_cluster(client, *task):

@@ -8,7 +8,6 @@
 #include "flags/curve_flag.hpp"
 #include "flags/outline_flags.hpp"
 #include "reports/learned_model.hpp"
-#include "reports/outline_parts.hpp"
 #include "terminal.hpp"
 #include "wisp/learn/learn.hpp"
 
@@ -17,12 +16,10 @@ namespace {
 
 Result<void> run_learn_outline(const Arguments& arguments, Terminal& terminal) {
   const auto start = std::chrono::steady_clock::now();
-  if (arguments.has("partial")) return write_outline_part(arguments, terminal);
   const std::string path = model_path(arguments);
   const auto recipe = outline_recipe(arguments, model_name(arguments));
   if (!recipe) return recipe.error();
-  const auto recordings = arguments.on("merge") ? merged_recordings(arguments)
-                                                : outline_recordings(arguments.positionals(), arguments, terminal);
+  const auto recordings = outline_recordings(arguments.positionals(), arguments, terminal);
   if (!recordings) return recordings.error();
   const auto fit = wisp::learn(*recordings, *recipe, terminal.progress());
   if (!fit) return fit.error();
@@ -37,19 +34,16 @@ struct Preset {
 };
 
 Command learn(std::string name, std::string summary, const Preset& preset, std::vector<Example> examples) {
-  std::vector<Flag> flags = {output_flag({"partial"}), extinction_flag(preset.extinction),
+  std::vector<Flag> flags = {output_flag(), extinction_flag(preset.extinction),
                              curve_flag(preset.input_curve,
                                         "; where all points feed each other auto is none, as the input's root and "
                                         "square are regressors")};
-  for (const std::vector<Flag>& more : {outline_flags(), outline_part_flags(), capture_flags(preset.flame)}) {
+  for (const std::vector<Flag>& more : {outline_flags(), capture_flags(preset.flame)}) {
     flags.insert(flags.end(), more.begin(), more.end());
   }
-  return {std::move(name),
-          std::move(summary),
-          {{"CLIP_OR_REC", "clips, folders of images, or recordings (.csv); with --merge, parts", true}},
-          std::move(flags),
-          std::move(examples),
-          run_learn_outline};
+  return {
+      std::move(name),  std::move(summary),  {{"CLIP_OR_REC", "clips, folders of images, or recordings (.csv)", true}},
+      std::move(flags), std::move(examples), run_learn_outline};
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include "reports/arx_parts.hpp"
 
-#include "flags/part_flags.hpp"
+#include <charconv>
+
 #include "flags/recordings.hpp"
-#include "reports/merged_part.hpp"
 #include "wisp/base/file.hpp"
 
 namespace wisp::cli {
@@ -10,14 +10,28 @@ namespace {
 
 // --part "2/8", the second of eight, of the rows of --range.
 Result<TableShare> table_share(const Arguments& arguments) {
-  const auto part = share_of(arguments);
-  if (!part) return part.error();
-  TableShare share{.index = part->index, .count = part->count};
+  const std::string& text = arguments.text("part");
+  const Error bad{"--part: found \"" + text + "\", expected K/N with 1 <= K <= N, such as 2/8"};
+  TableShare share;
+  const char* const end = text.data() + text.size();
+  const auto [slash, code] = std::from_chars(text.data(), end, share.index);
+  if (code != std::errc() || slash == end || *slash != '/') return bad;
+  const auto [rest, count_code] = std::from_chars(slash + 1, end, share.count);
+  if (count_code != std::errc() || rest != end || share.index < 1 || share.index > share.count) return bad;
+  --share.index;
   if (!arguments.has("range")) return share;
   const SampleRange range = arguments.samples("range");
   share.first = range.first - 1;
   share.rows = range.last - range.first + 1;
   return share;
+}
+
+Result<ArxPart> read_part(const std::string& path) {
+  const auto bytes = read_file(path);
+  if (!bytes) return bytes.error();
+  auto part = ArxPart::from_bytes(*bytes);
+  if (!part) return Error{path + ": " + part.error().message};
+  return part;
 }
 
 Result<void> take(const std::string& path, const TableShare& share, const Arguments& arguments, ArxPart& part) {
@@ -44,10 +58,14 @@ ReportList list_of(const OrderMatrix& orders) {
 }  // namespace
 
 std::vector<Flag> arx_part_flags() {
-  return part_flags(
-      "write a part of a fit instead of a model: what these rows have to say, a small file however many they are",
-      "with --partial: take the K-th of N equal shares of every recording's rows",
-      "what is named are parts written with --partial, in any order; they say what the channels and orders are");
+  return {
+      {"partial", Kind::kOutput, "P", "",
+       "write a part of a fit instead of a model: the products of these rows, a small file however many they are"},
+      {"part", Kind::kText, "K/N", "1/1", "with --partial: take the K-th of N equal shares of every recording's rows"},
+      {"merge", Kind::kSwitch, "", "",
+       "what is named are parts written with --partial, in any order; they say what the channels and orders are"},
+      {"expect", Kind::kInteger, "N", "", "with --merge: how many parts there must be, so that none is forgotten"},
+  };
 }
 
 bool too_large(const Arguments& arguments) {
@@ -79,8 +97,20 @@ Result<NamedPart> part_of_tables(const ArxRecipe& recipe, const Arguments& argum
 }
 
 Result<NamedPart> merged_parts(const Arguments& arguments) {
-  auto whole = merged_part<ArxPart>(arguments);
+  const auto& paths = arguments.positionals();
+  auto whole = read_part(paths.front());
   if (!whole) return whole.error();
+  for (std::size_t k = 1; k < paths.size(); ++k) {
+    const auto part = read_part(paths[k]);
+    if (!part) return part.error();
+    if (auto ok = whole->merge(*part); !ok) {
+      return Error{paths[k] + ": cannot be merged with " + paths.front() + ": " + ok.error().message};
+    }
+  }
+  if (arguments.has("expect") && static_cast<std::size_t>(arguments.integer("expect")) != whole->jobs()) {
+    return Error{"found " + std::to_string(whole->jobs()) + " parts, expected " + arguments.text("expect") +
+                 ": did every job end well, and are all parts named?"};
+  }
   auto sources = whole->sources();
   return NamedPart{std::move(*whole), std::move(sources)};
 }

@@ -1,10 +1,10 @@
 #pragma once
-// Fits in parts: of tables larger than memory, or spread over processes and machines. Parts are merged in any order.
+// An ARX fit in parts: of tables larger than memory, or spread over processes and machines. Parts are merged in any
+// order.
 //
-// What rows have to say about an ARX model is a small triangle, however many they are, and the fit is that of all rows
-// in memory but for rounding. An outline's scale, delays, curves and residuals are told from all recordings together,
-// at a small share of what capturing them takes: its part holds the recordings themselves, and the fit is the same to
-// the bit.
+// A part holds the triangle of its rows' regression, which is small however many rows there are. The fit of merged
+// parts is that of all rows in memory but for rounding. Other models are learned from recordings in one place: jobs
+// capture clips, and one of them learns from the folder of recordings.
 //
 // Source: J. Demmel et al., SIAM J. Sci. Comput. 34 (2012), tall-skinny QR.
 
@@ -85,58 +85,6 @@ class ArxPart {
   struct State;
   explicit ArxPart(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
-};
-
-/// Which of the jobs that share a list of clips or recordings: `index` (0-based) of `count`.
-struct ListShare {
-  std::vector<std::string> names;  ///< the whole list, the same for all of them
-  std::size_t index = 0;
-  std::size_t count = 1;  ///< > index, at most as many as there are names
-
-  /// The names that are this job's.
-  std::vector<std::string> own() const;
-};
-
-/// A part of an outline's or a flame's fit: recordings, and which jobs made it.
-class OutlinePart {
- public:
-  /// What a job has recorded. Errors: as check() of a recording, the same recording twice.
-  static Result<OutlinePart> create(const std::vector<Recording>& recordings, const ListShare& share);
-
-  /// Takes in all that another part holds; of an error nothing.
-  /// Errors: a recording or a share that is in both, another share of the same list.
-  Result<void> merge(const OutlinePart& other);
-
-  /// Parts that were merged, itself counted.
-  std::size_t jobs() const { return shares_.size(); }
-
-  /// What learn() takes, in the order of their names, whatever order they were merged in.
-  /// Errors: a share of a list that is missing.
-  Result<std::vector<Recording>> recordings() const;
-
-  /// As bytes, the same on every machine, with a hash.
-  std::vector<std::byte> bytes() const;
-
-  /// From bytes. Errors: not a part, cut short, changed, of another version.
-  static Result<OutlinePart> from_bytes(std::span<const std::byte> bytes);
-
- private:
-  struct Share {
-    std::uint64_t list = 0;  // hash of its names
-    std::size_t index = 0;
-    std::size_t count = 1;
-  };
-
-  struct Table {
-    std::string source;
-    std::string text;  // as CSV
-  };
-
-  Result<void> add(const Table& table);
-  Result<void> add(const Share& share);
-
-  std::vector<Share> shares_;
-  std::vector<Table> tables_;
 };
 
 }  // namespace wisp
