@@ -106,7 +106,6 @@ void bind_outlines(py::module_& module) {
       .def_readwrite("coupling", &OutlineRecipe::coupling)
       .def_readwrite("inputs", &OutlineRecipe::inputs)
       .def_readwrite("input_curve", &OutlineRecipe::input_curve)
-      .def_readwrite("focus", &OutlineRecipe::focus)
       .def_readwrite("one_sided", &OutlineRecipe::one_sided)
       .def_readwrite("mirror", &OutlineRecipe::mirror)
       .def_readwrite("holdout", &OutlineRecipe::holdout)

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "learn/arx/curve/arx_curves.hpp"
+#include "learn/arx/arx_curves.hpp"
 #include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/plain_model.hpp"
 #include "learn/flame/wind_gain.hpp"

@@ -98,22 +98,6 @@ TEST_F(WindGainProgram, ARunMovesAsFarAsThePredictionDoes) {
   }
 }
 
-TEST_F(WindGainProgram, AFocusOnSimulationIsKeptAndSaysItsWay) {
-  write_heard("one.csv", 1, 1);
-  const auto learn = [&](const std::string& focus) {
-    const Said said =
-        wisp("learn outline " + at("one.csv") + " -o " + at(focus + ".wisp") + " --json --focus " + focus);
-    EXPECT_EQ(said.status, 0) << said.err;
-    return said.json();
-  };
-  EXPECT_FALSE(learn("prediction").contains("focus"));
-  EXPECT_EQ(learn("simulation")["focus"]["chosen"].get<std::string>(), "simulation");
-  EXPECT_NE(file_text(at("prediction.wisp")), file_text(at("simulation.wisp")));
-  const Said said = wisp("learn outline " + at("one.csv") + " -o " + at("m.wisp") + " --focus tip");
-  EXPECT_EQ(said.status, 2);
-  EXPECT_THAT(said.err, HasSubstr("expected one of prediction, simulation, auto"));
-}
-
 TEST_F(WindGainProgram, IsAsGiven) {
   write_heard("soft.csv", 1, 1);
   write_heard("loud.csv", 2, 2.5);

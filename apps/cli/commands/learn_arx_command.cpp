@@ -145,8 +145,7 @@ std::vector<Flag> arx_flags() {
            "mean",
            "the operating point: mean removes means, none, estimate adds a constant term",
            {"mean", "none", "estimate"}},
-          focus_flag("auto, simulation, many lags under a kernel or a subspace estimate where held-out free runs are "
-                     "surely better so"),
+          focus_flag(),
           {"ridge", Kind::kNumber, "R", "0", "weight of the coefficients' size, as a share of each regressor's energy"},
           {"kernel",
            Kind::kChoice,

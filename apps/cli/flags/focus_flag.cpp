@@ -2,14 +2,14 @@
 
 namespace wisp::cli {
 
-Flag focus_flag(const std::string& more) {
+Flag focus_flag() {
   return {"focus",
           Kind::kChoice,
           "F",
           "prediction",
-          "what the coefficients are best at: prediction, the next sample (least squares); simulation, free runs from "
-          "the input; " +
-              more,
+          "what the coefficients are best at: prediction, the next sample (least squares at the given orders); "
+          "simulation, the better of that and 15 lags under a kernel in free runs of held-out rows; auto, the latter "
+          "only where it is surely better",
           {"prediction", "simulation", "auto"}};
 }
 

@@ -8,8 +8,8 @@
 
 namespace wisp::cli {
 
-/// --focus; `more` ends its help.
-Flag focus_flag(const std::string& more);
+/// --focus.
+Flag focus_flag();
 
 ArxFocus focus_of(const Arguments& arguments);
 

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "flags/curve_flag.hpp"
-#include "flags/focus_flag.hpp"
 #include "wisp/model/extinction.hpp"
 
 namespace wisp::cli {
@@ -87,9 +86,6 @@ std::vector<Flag> outline_flags() {
        {"auto", "coordinate", "point", "band", "full"}},
       {"light", Kind::kSwitch, "", "",
        "a third of the arithmetic a frame, for less fidelity: every coordinate its own system"},
-      focus_flag(
-          "auto, simulation where held-out free runs are surely better so; where all points feed each other only "
-          "the answer to inputs is refined"),
       {"one-sided", Kind::kSwitch, "", "", "inputs as they are: no sign, no mirror image"},
       {"holdout", Kind::kNumber, "SHARE", "0.3",
        "kept for judging: the last part of each recording, or of a flicker without inputs seconds in turn"},
@@ -128,7 +124,6 @@ Result<OutlineRecipe> outline_recipe(const Arguments& arguments, std::string nam
   if (noise == "matched") recipe.noise = OutlineNoise::kMatched;
   if (noise == "resampled") recipe.noise = OutlineNoise::kResampled;
   recipe.light = arguments.on("light");
-  recipe.focus = focus_of(arguments);
   recipe.one_sided = arguments.on("one-sided");
   recipe.input_curve = curve_knots_of(arguments);
   recipe.holdout = arguments.number("holdout");

@@ -1,7 +1,5 @@
-// What studio.wasm leaves out: chains, which the other module learns, and coefficients that are refined for simulation,
-// which no recipe of the studio has.
+// What studio.wasm leaves out: chains, which the other module learns.
 
-#include "learn/arx/simulation/focus.hpp"
 #include "learn/chain/learn_chain.hpp"
 #include "learns.hpp"
 
@@ -15,13 +13,4 @@ Result<Report> validate_chain(const Model&, std::span<const Recording>, std::uin
   return Error{};
 }
 
-namespace arx {
-
-Result<FocusedFit> focus_fit(std::span<const Recording>, const ChannelChoice&, const ArxOptions&, ArxFit plain,
-                             const FocusOptions& asked, const Progress&) {
-  if (asked.focus == ArxFocus::kPrediction) return FocusedFit{.fit = std::move(plain)};
-  return studio::left_out("coefficients that are refined for simulation");
-}
-
-}  // namespace arx
 }  // namespace wisp

@@ -32,8 +32,8 @@ enum class Coupling {
 /// What coefficients are best at.
 enum class ArxFocus {
   kPrediction,  ///< the next sample: least squares
-  kSimulation,  ///< free simulation: least squares refined, as far as held-out free runs say
-  kAuto,        ///< simulation for outputs whose held-out free runs are surely better so, else prediction
+  kSimulation,  ///< free simulation: least squares or 15 lags under a kernel, whichever simulates held-out rows better
+  kAuto,        ///< least squares, or 15 lags under a kernel where that simulates held-out rows surely better
 };
 
 /// What is known of the coefficients before any data.

@@ -69,9 +69,7 @@ struct OutlineRecipe {
   bool light = false;  ///< a third of the arithmetic: every coordinate its own system, an input nonlinearity in the
                        ///< place of powers of the input
   std::optional<std::vector<std::string>> inputs{};  ///< names; unset: all of the recordings; empty: none, flicker only
-  std::optional<int> input_curve = 0;      ///< knots of the input nonlinearity, 3 to 16; 0: none; unset: 3 to 6 or none
-  ArxFocus focus = ArxFocus::kPrediction;  ///< of what inputs drive; where all coordinates hear each other the answer
-                                           ///< to inputs is refined and the feedback stays
+  std::optional<int> input_curve = 0;  ///< knots of the input nonlinearity, 3 to 16; 0: none; unset: 3 to 6 or none
   bool one_sided = false;        ///< inputs as they are, no sign and no mirror image: the paper's 192 multiply-adds
   std::optional<bool> mirror{};  ///< learn from the mirror image too; unset: where inputs have signs
   double holdout = 0.3;          ///< 0 to 0.9, kept for judging: the last part of each recording; where nothing drives

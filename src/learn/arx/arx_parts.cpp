@@ -4,13 +4,13 @@
 #include <fstream>
 
 #include "base/hash.hpp"
+#include "learn/arx/fit/triangular_factor.hpp"
 #include "learn/arx/judge/arx_verdict.hpp"
 #include "learn/arx/judge/free_run_judge.hpp"
 #include "learn/arx/learn_arx.hpp"
 #include "learn/arx/plain_model.hpp"
 #include "learn/arx/report/report_values.hpp"
-#include "learn/numeric/seen_rows.hpp"
-#include "learn/numeric/triangular_factor.hpp"
+#include "learn/arx/rows/seen_rows.hpp"
 
 namespace wisp {
 namespace {

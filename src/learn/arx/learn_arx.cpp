@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "learn/arx/curve/arx_curves.hpp"
+#include "learn/arx/arx_curves.hpp"
 #include "learn/arx/judge/arx_verdict.hpp"
 #include "learn/arx/judge/residual_tests.hpp"
 #include "learn/arx/report/fit_report.hpp"
 #include "learn/arx/report/report_values.hpp"
 #include "learn/arx/report/response_report.hpp"
 #include "learn/arx/search/order_search.hpp"
-#include "learn/arx/simulation/focus.hpp"
-#include "learn/arx/simulation/simulation_block.hpp"
+#include "learn/choose/focus.hpp"
 #include "record/number_text.hpp"
 
 namespace wisp {
@@ -159,12 +158,12 @@ Result<Fit> learn_arx(std::span<const Recording> recordings, const ArxRecipe& re
   auto plain = fit_arx(seen, channels, options);
   if (!plain) return plain.error();
   const ArxModel squares = plain->model;
-  auto focused = arx::focus_fit(seen, channels, options, std::move(*plain), {recipe.focus}, progress);
+  auto focused = arx::focus_fit(seen, channels, options, std::move(*plain), recipe.focus, progress);
   if (!focused) return focused.error();
   if (auto ok = arx::check_progress(progress, "testing residuals", 0); !ok) return ok.error();
   const ResidualTestOptions testing{.lags = kReportedLags, .learned_from_it = true};
   const auto first = test_residuals(squares, seen, channels, testing);
-  const auto tests = focused->outcome.refined ? test_residuals(focused->fit.model, seen, channels, testing) : first;
+  const auto tests = focused->outcome.changed ? test_residuals(focused->fit.model, seen, channels, testing) : first;
   arx::judge_use(
       {channels, focused->fit.model.orders, arx::persistence_errors(seen, channels), first ? &*first : nullptr},
       focused->fit.summary);

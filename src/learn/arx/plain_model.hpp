@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "learn/channel_choice.hpp"
-#include "learn/numeric/triangular_factor.hpp"
+#include "learn/arx/fit/triangular_factor.hpp"
+#include "learn/arx/rows/channel_choice.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/arx_recipe.hpp"
 #include "wisp/model/input_curve.hpp"

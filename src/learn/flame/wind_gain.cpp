@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "learn/arx/judge/free_run_parts.hpp"
+#include "learn/arx/judge/held_out.hpp"
 #include "learn/outline/outline_inputs.hpp"
 #include "record/loudness.hpp"
 #include "record/number_text.hpp"
@@ -57,7 +57,6 @@ struct HeldOut {
 Result<std::optional<HeldOut>> held_out_error(std::span<const Recording> recordings, OutlineRecipe recipe,
                                               const Progress& progress) {
   recipe.refit = false;
-  recipe.focus = ArxFocus::kPrediction;       // takes time, and says the same of a scale
   recipe.noise = OutlineNoise::kIndependent;  // is not judged here
   recipe.match_variance = false;
   const auto fit = fit_outline(recordings, recipe, progress);

@@ -212,8 +212,8 @@ ShapeComponents shape_components(std::span<const Recording> recordings, const Pr
   return out;
 }
 
-Result<arx::FocusedFit> fit_components(std::span<const Recording> recordings, const PreparedOutlines& prepared,
-                                       const ComponentOptions& options, const Progress& progress) {
+Result<ArxFit> fit_components(std::span<const Recording> recordings, const PreparedOutlines& prepared,
+                              const ComponentOptions& options) {
   const ShapeComponents components = shape_components(recordings, prepared);
   std::vector<Recording> rows;
   for (const Recording& one : recordings) rows.push_back(in_components(one, prepared, components, 1));
@@ -229,13 +229,11 @@ Result<arx::FocusedFit> fit_components(std::span<const Recording> recordings, co
                        .ridge = options.ridge,
                        .judge_free_run = false};  // nobody knows components by name
   const ChannelChoice channels{prepared.channels.inputs, components.names};
-  auto plain = fit_arx(rows, channels, arx);
-  if (!plain) return plain.error();
-  auto fitted = arx::focus_fit(rows, channels, arx, std::move(*plain), options.focus, progress);
+  auto fitted = fit_arx(rows, channels, arx);
   if (!fitted) return fitted;
-  ArxModel model = in_coordinates(fitted->fit.model, components, options.orders);
-  set_noise(components, weight, fitted->fit, model);
-  fitted->fit.model = std::move(model);
+  ArxModel model = in_coordinates(fitted->model, components, options.orders);
+  set_noise(components, weight, *fitted, model);
+  fitted->model = std::move(model);
   return fitted;
 }
 

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "learn/arx/simulation/focus.hpp"
+#include "learn/arx/fit/arx_fit.hpp"
 #include "learn/outline/outline_preparation.hpp"
 #include "wisp/base/result.hpp"
 
@@ -31,10 +31,9 @@ struct ShapeComponents {
 
 /// How the dynamics are estimated.
 struct ComponentOptions {
-  ArxOrders orders;           ///< of the coordinates: outline_orders() with OutlineCoupling::kFull
-  double ridge = 0;           ///< ArxOptions::ridge
-  arx::FocusOptions focus{};  ///< of the components
-  double mirror_weight = 0;   ///< 0 to 1: of the mirror image of every row; 0: none is learned from
+  ArxOrders orders;          ///< of the coordinates: outline_orders() with OutlineCoupling::kFull
+  double ridge = 0;          ///< ArxOptions::ridge
+  double mirror_weight = 0;  ///< 0 to 1: of the mirror image of every row; 0: none is learned from
 };
 
 /// The components of what moves in prepared recordings.
@@ -42,12 +41,11 @@ struct ComponentOptions {
 /// Precondition: there is a complete row.
 ShapeComponents shape_components(std::span<const Recording> recordings, const PreparedOutlines& prepared);
 
-/// Fits an ARX model of all coordinates through their shape components. Standard errors are not known; choices of the
-/// focus are of components.
-/// Errors: as fit_arx(), kStopped.
+/// Fits an ARX model of all coordinates through their shape components. Standard errors are not known.
+/// Errors: as fit_arx().
 ///
 /// Precondition: the recordings are the prepared ones or parts of them, in their order.
-Result<arx::FocusedFit> fit_components(std::span<const Recording> recordings, const PreparedOutlines& prepared,
-                                       const ComponentOptions& options, const Progress& progress = {});
+Result<ArxFit> fit_components(std::span<const Recording> recordings, const PreparedOutlines& prepared,
+                              const ComponentOptions& options);
 
 }  // namespace wisp

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "learn/arx/judge/prediction.hpp"
-#include "learn/channel_choice.hpp"
+#include "learn/arx/rows/channel_choice.hpp"
 #include "learn/outline/outline_units.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/arx.hpp"

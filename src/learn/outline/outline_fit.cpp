@@ -7,7 +7,7 @@
 
 #include "base/statistics.hpp"
 #include "learn/arx/fit/arx_report.hpp"
-#include "learn/arx/judge/free_run_parts.hpp"
+#include "learn/arx/judge/held_out.hpp"
 #include "learn/numeric/chi_squared.hpp"
 #include "learn/outline/outline_components.hpp"
 #include "learn/outline/outline_curve.hpp"
@@ -123,46 +123,29 @@ void count_frames_once(ArxFit& fitted) {
 // How a fit is made, beside its structure.
 struct FitOptions {
   double ridge = 0;
-  ArxFocus focus = ArxFocus::kPrediction;
   bool judge_free_run = true;
-  Progress progress{};
 };
 
-Result<arx::FocusedFit> fit(std::span<const Recording> recordings, const PreparedOutlines& prepared,
-                            const OutlineRecipe& options, const OutlineSummary& summary, const FitOptions& how) {
+Result<ArxFit> fit(std::span<const Recording> recordings, const PreparedOutlines& prepared,
+                   const OutlineRecipe& options, const OutlineSummary& summary, const FitOptions& how) {
   const OutlineCandidate& chosen = summary.choice.taken();
   const ArxOrders orders = outline_orders(chosen.order, chosen.delay, *options.coupling, prepared);
   const bool mirror = mirror_wanted(options, prepared);
-  const arx::FocusOptions focus{how.focus, true};
   if (*options.coupling == OutlineCoupling::kFull) {
     const double weight = mirror ? mirror_weight(prepared) : 0;
-    return fit_components(recordings, prepared, {orders, how.ridge, focus, weight}, how.progress);
+    return fit_components(recordings, prepared, {orders, how.ridge, weight});
   }
   const ArxOptions arx{.orders = orders, .ridge = how.ridge, .judge_free_run = how.judge_free_run};
   const std::vector<Recording> seen = to_learn_from(recordings, prepared, options);
-  auto plain = fit_arx(seen, prepared.channels, arx);
-  if (!plain) return plain.error();
-  auto fitted = arx::focus_fit(seen, prepared.channels, arx, std::move(*plain), focus, how.progress);
-  if (fitted && mirror) count_frames_once(fitted->fit);
+  auto fitted = fit_arx(seen, prepared.channels, arx);
+  if (fitted && mirror) count_frames_once(*fitted);
   return fitted;
 }
 
-// One of many: without the figures of free simulation, and without a focus.
+// One of many: without the figures of free simulation.
 Result<ArxFit> fit_quickly(std::span<const Recording> recordings, const PreparedOutlines& prepared,
                            const OutlineRecipe& options, const OutlineSummary& summary, double ridge) {
-  auto fitted = fit(recordings, prepared, options, summary, {.ridge = ridge, .judge_free_run = false});
-  if (!fitted) return fitted.error();
-  return std::move(fitted->fit);
-}
-
-// As the recipe's focus says, which the summary is told.
-Result<ArxFit> fit_in_focus(std::span<const Recording> recordings, const PreparedOutlines& prepared,
-                            const OutlineRecipe& options, OutlineSummary& summary, const Progress& progress) {
-  auto fitted = fit(recordings, prepared, options, summary,
-                    {.ridge = summary.ridge.ridge, .focus = options.focus, .progress = progress});
-  if (!fitted) return fitted.error();
-  if (options.focus != ArxFocus::kPrediction) summary.focus = std::move(fitted->outcome);
-  return std::move(fitted->fit);
+  return fit(recordings, prepared, options, summary, {.ridge = ridge, .judge_free_run = false});
 }
 
 // The covariance of what the inputs alone leave unexplained: the outline's flicker.
@@ -407,7 +390,7 @@ Result<ArxFit> judge_in_turn(const PreparedOutlines& prepared, const OutlineReci
   summary.refitted = true;
   auto fitted = fit(prepared.recordings, prepared, options, summary, {.ridge = summary.ridge.ridge});
   if (!fitted) return fitted.error();
-  auto learned = outline_figures(fitted->fit.model, prepared.recordings, prepared.channels, prepared.layout);
+  auto learned = outline_figures(fitted->model, prepared.recordings, prepared.channels, prepared.layout);
   if (!learned) return learned.error();
   summary.learned = *std::move(learned);
   const auto estimate = [&](std::span<const Recording> from) -> Result<ArxModel> {
@@ -417,12 +400,11 @@ Result<ArxFit> judge_in_turn(const PreparedOutlines& prepared, const OutlineReci
   };
   auto held_out = figures_in_turn(estimate, prepared, turns);
   if (held_out) summary.held_out = *std::move(held_out);
-  return std::move(fitted->fit);
+  return fitted;
 }
 
 // Judges a model that has seen only the first part of every recording, or of a flicker the model of everything.
-Result<ArxFit> judge(const PreparedOutlines& prepared, const OutlineRecipe& options, OutlineSummary& summary,
-                     const Progress& progress) {
+Result<ArxFit> judge(const PreparedOutlines& prepared, const OutlineRecipe& options, OutlineSummary& summary) {
   OutlineParts parts = hold_out(prepared.recordings, prepared.channels, options.holdout);
   for (const Recording& part : parts.learned) summary.rows_learned += complete_rows(part, prepared.channels);
   for (const Recording& part : parts.held_out) summary.rows_held_out += complete_rows(part, prepared.channels);
@@ -437,7 +419,7 @@ Result<ArxFit> judge(const PreparedOutlines& prepared, const OutlineRecipe& opti
     summary.ridge = *std::move(ridge);
   }
   if (is_judged_in_turn(prepared, options)) return judge_in_turn(prepared, options, summary);
-  auto fitted = fit_in_focus(parts.learned, prepared, options, summary, progress);
+  auto fitted = fit(parts.learned, prepared, options, summary, {.ridge = summary.ridge.ridge});
   if (!fitted) return fitted;
   auto learned = outline_figures(fitted->model, parts.learned, prepared.channels, prepared.layout);
   if (!learned) return learned.error();
@@ -528,7 +510,7 @@ Result<OutlineFit> fit_outline(std::span<const Recording> recordings, const Outl
     if (!prepared) return prepared.error();
   }
   if (auto ok = check_rows(*prepared, options); !ok) return ok.error();
-  auto fitted = judge(*prepared, options, summary, progress);
+  auto fitted = judge(*prepared, options, summary);
   if (!fitted) return fitted.error();
   if (!go_on(progress, kStage, 0.6)) return Error{std::string(kStopped)};
   const bool refit = options.refit && summary.rows_held_out > 0 && !summary.refitted;
@@ -537,7 +519,7 @@ Result<OutlineFit> fit_outline(std::span<const Recording> recordings, const Outl
   }
   if (!summary.curves.empty()) prepared = bent_preparation(*std::move(prepared), summary.curves);
   if (refit) {
-    fitted = fit_in_focus(prepared->recordings, *prepared, options, summary, progress);
+    fitted = fit(prepared->recordings, *prepared, options, summary, {.ridge = summary.ridge.ridge});
     if (!fitted) return fitted.error();
     summary.refitted = true;
   }

@@ -14,7 +14,6 @@
 
 #include "learn/arx/curve/curve_choice.hpp"
 #include "learn/arx/fit/arx_fit.hpp"
-#include "learn/arx/simulation/focus.hpp"
 #include "learn/fidelity/fidelity.hpp"
 #include "learn/outline/outline_alignment.hpp"
 #include "learn/outline/outline_figures.hpp"
@@ -69,7 +68,6 @@ struct OutlineSummary {
   OutlineChoice choice;
   CurveChoice curve_choice;               ///< what bends the inputs, and why; without candidates where none was tried
   std::vector<CurveEstimate> curves;      ///< one an input, of the returned model; empty: none
-  arx::FocusOutcome focus;                ///< of the returned model; without a reason where least squares was requested
   RidgeChoice ridge;                      ///< where control points hear each other
   std::vector<InputAlignment> alignment;  ///< of every recording's inputs
   std::size_t rows_learned = 0;   ///< complete rows that a judged model was learned from: before the cut, or in a turn
@@ -77,7 +75,7 @@ struct OutlineSummary {
   bool refitted = false;          ///< whether the returned model was learned from both
   OutlineFigures learned;         ///< on what was learned from
   std::optional<OutlineFigures> held_out;  ///< on what was held out; nothing where that is too short
-  Eigen::MatrixXd free_run_parts;          ///< errors of free simulation on it (arx/judge/free_run_parts.hpp)
+  Eigen::MatrixXd free_run_parts;          ///< errors of free simulation on it (arx/judge/held_out.hpp)
   std::vector<OutlineResidual> residuals;  ///< of the returned model, one a channel
   double fpe = 0;                          ///< of the returned model, mean over rows of V·(1 + d/n)/(1 − d/n)
   ArxStability stable;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "learn/channel_choice.hpp"
+#include "learn/arx/rows/channel_choice.hpp"
 #include "learn/outline/outline_inputs.hpp"
 #include "learn/outline/outline_units.hpp"
 

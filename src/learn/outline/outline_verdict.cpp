@@ -84,7 +84,6 @@ std::vector<Note> notes(const OutlineRecipe& options, const OutlineSummary& summ
           {"order_and_delay", choice.reason},
           {"coupling", coupling_name(*options.coupling)},
           {"input_curve", std::to_string(summary.curve_choice.knots)},
-          {"focus", summary.focus.refined ? "simulation" : "prediction"},
           {"one_sided", options.one_sided ? "yes" : "no"},
           {"holdout", rounded(options.holdout, 3)},
           {"refit", options.refit ? "yes" : "no"},

@@ -54,37 +54,6 @@ TEST(LearnOutline, TheReportHasEveryPromisedField) {
   EXPECT_EQ(fit.report.verdict->usable, fit.model.training.usable.verdict);
 }
 
-TEST(LearnOutline, WithAFocusItSaysHowHeldOutFreeRunsJudge) {
-  for (const OutlineCoupling coupling : {OutlineCoupling::kCoordinate, OutlineCoupling::kFull}) {
-    const Fit fit = learned({windy()}, {.coupling = coupling, .focus = ArxFocus::kSimulation});
-    EXPECT_EQ(figure<std::string>(fit.report, "focus.chosen"), "simulation");
-    const Fit plain = learned({windy()}, {.coupling = coupling});
-    EXPECT_EQ(plain.report.find("focus.chosen"), nullptr);
-    const auto &refined = std::get<ArxModel>(fit.model.dynamics), &squares = std::get<ArxModel>(plain.model.dynamics);
-    EXPECT_TRUE(refined.orders == squares.orders);
-    EXPECT_NE(refined.theta, squares.theta);
-    EXPECT_LT(figure<double>(fit.report, "stable.radius"), 1);
-  }
-}
-
-// Where all coordinates hear each other only the answer to inputs is refined.
-TEST(LearnOutline, TheFocusOfAWholeOutlineKeepsItsFeedback) {
-  const OutlineRecipe recipe{.coupling = OutlineCoupling::kFull, .focus = ArxFocus::kSimulation};
-  const Fit fit = learned({windy()}, recipe), plain = learned({windy()}, {.coupling = OutlineCoupling::kFull});
-  const auto &refined = std::get<ArxModel>(fit.model.dynamics), &squares = std::get<ArxModel>(plain.model.dynamics);
-  const int outputs = refined.orders.outputs();
-  double moved = 0;
-  for (int i = 0; i < outputs; ++i) {
-    for (int j = 0; j < outputs; ++j) {
-      for (std::size_t l = 0; l < refined.a(i, j).size(); ++l) {
-        EXPECT_NEAR(refined.a(i, j)[l], squares.a(i, j)[l], 1e-9) << i << ' ' << j;
-      }
-    }
-    for (std::size_t l = 0; l < refined.b(i, 0).size(); ++l) moved += std::abs(refined.b(i, 0)[l] - squares.b(i, 0)[l]);
-  }
-  EXPECT_GT(moved, 0);
-}
-
 TEST(LearnOutline, AnOutlineIsNotExtinguishedAndAFlameIs) {
   const Recording recording = windy();
   EXPECT_FALSE(learned({recording}, {}).model.extinction);

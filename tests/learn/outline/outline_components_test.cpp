@@ -47,9 +47,9 @@ TEST(OutlineComponents, TogetherTheyAreTheOutline) {
 
 Result<ArxFit> fitted(const PreparedOutlines& outlines, double mirror_weight) {
   const ArxOrders orders = outline_orders(2, 0, OutlineCoupling::kFull, outlines);
-  auto fit = fit_components(outlines.recordings, outlines, {orders, 1e-4, {ArxFocus::kPrediction}, mirror_weight});
+  auto fit = fit_components(outlines.recordings, outlines, {orders, 1e-4, mirror_weight});
   if (!fit) return fit.error();
-  return std::move(fit->fit);
+  return std::move(*fit);
 }
 
 TEST(OutlineComponents, TheLastPointMirrorsTheFirstToTheLastBit) {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "learn/arx/fit/arx_fit.hpp"
-#include "learn/arx/judge/free_run_parts.hpp"
+#include "learn/arx/judge/held_out.hpp"
 #include "record/number_text.hpp"
 
 namespace wisp {

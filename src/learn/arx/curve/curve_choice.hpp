@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "learn/arx/curve/curve_fit.hpp"
-#include "learn/arx/simulation/held_out.hpp"
+#include "learn/arx/judge/held_out.hpp"
 
 namespace wisp {
 

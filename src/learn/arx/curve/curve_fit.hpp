@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "learn/channel_choice.hpp"
+#include "learn/arx/rows/channel_choice.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/arx.hpp"
 #include "wisp/model/input_curve.hpp"

@@ -6,8 +6,8 @@
 
 #include "learn/arx/fit/arx_check.hpp"
 #include "learn/arx/rows/arx_design.hpp"
+#include "learn/arx/rows/lag_gram.hpp"
 #include "learn/numeric/decompositions.hpp"
-#include "learn/numeric/lag_gram.hpp"
 
 namespace wisp {
 namespace {

@@ -28,11 +28,17 @@ Eigen::MatrixXd prior_of(const SharedRows& rows, const ArxDesign& design, const 
       blocks);
 }
 
+bool has_kernel(const SharedRows& rows, const EstimateOptions& options) {
+  const std::vector<int>& chosen = options.kernel_outputs;
+  if (options.kernel == ArxKernel::kNone) return false;
+  return chosen.empty() || std::find(chosen.begin(), chosen.end(), rows.outputs.front()) != chosen.end();
+}
+
 SharedProblem problem_of(const SharedRows& rows, const std::vector<double>& scale, const ArxDesign& design,
                          const EstimateOptions& options, const Eigen::MatrixXd& products) {
   SharedProblem problem{
       rows.columns, {}, Eigen::VectorXd(static_cast<Eigen::Index>(rows.columns.size())), options.ridge, {}};
-  if (options.kernel == ArxKernel::kTc) problem.prior = prior_of(rows, design, products);
+  if (has_kernel(rows, options)) problem.prior = prior_of(rows, design, products);
   for (int output : rows.outputs) problem.targets.push_back(design.layout.target(output));
   for (std::size_t p = 0; p < rows.columns.size(); ++p) {
     const int channel = design.layout[rows.columns[p]].channel;

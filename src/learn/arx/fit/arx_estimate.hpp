@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "learn/arx/fit/arx_solve.hpp"
-#include "learn/arx/judge/residual_pass.hpp"
+#include "learn/arx/fit/residual_pass.hpp"
 #include "learn/arx/rows/arx_design.hpp"
 #include "learn/arx/rows/arx_rows.hpp"
 
@@ -41,6 +41,7 @@ struct EstimateOptions {
   double ridge = 0;
   bool joint = false;                   ///< also the products that tie rows of different groups together
   ArxKernel kernel = ArxKernel::kNone;  ///< with one, every group has one output
+  std::vector<int> kernel_outputs{};    ///< outputs that have the kernel; empty: all
 };
 
 /// From the data. The estimate keeps references to its arguments.

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "learn/channel_choice.hpp"
+#include "learn/arx/rows/channel_choice.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/learn/arx_recipe.hpp"
 #include "wisp/model/arx.hpp"
@@ -27,6 +27,7 @@ struct ArxOptions {
   ArxOffset offset = ArxOffset::kMean;  ///< a linear model describes deviations from an operating point
   double ridge = 0;  ///< ≥ 0, no unit: weight of every coefficient's size, as a share of its regressor's own energy
   ArxKernel kernel = ArxKernel::kNone;  ///< a prior on every output's coefficients, found by its marginal likelihood
+  std::vector<int> kernel_outputs{};    ///< outputs that have the prior; empty: all
   std::optional<int> first_sample;      ///< first row of an episode to be predicted, 0-based, at least the longest lag;
                                         ///< unset: the longest lag, max(na, nb + nk − 1)
   bool stabilise = true;                ///< re-estimate an unstable model under the constraint that it is stable

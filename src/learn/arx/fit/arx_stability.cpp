@@ -16,7 +16,7 @@
 #include <numeric>
 #include <optional>
 
-#include "learn/arx/simulation/simulation_block.hpp"
+#include "learn/arx/rows/arx_orders.hpp"
 #include "learn/numeric/decompositions.hpp"
 
 namespace wisp {

@@ -7,7 +7,7 @@
 
 #include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/judge/prediction.hpp"
-#include "learn/channel_choice.hpp"
+#include "learn/arx/rows/channel_choice.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/record/csv.hpp"
 

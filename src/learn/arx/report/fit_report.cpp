@@ -160,7 +160,7 @@ void add_search(const OrderSearch& search, const std::vector<std::string>& outpu
 
 ReportSection focus_section(const FocusOutcome& focused, const std::vector<std::string>& outputs) {
   ReportSection section{"Focus"};
-  add(section, "focus.chosen", focused.refined ? "simulation" : "prediction", "focus", "", focused.reason);
+  add(section, "focus.chosen", focused.changed ? "simulation" : "prediction", "focus", "", focused.reason);
   add(section, "focus.reason", focused.reason);
   ReportTable table{
       "focus.outputs",
@@ -179,11 +179,7 @@ ReportSection focus_section(const FocusOutcome& focused, const std::vector<std::
     for (int output : all ? std::vector<int>{} : choice.outputs)
       names += (names.empty() ? "" : ", ") + outputs[std::size_t(output)];
     const FocusCandidate &own = choice.candidates[choice.chosen], &squares = choice.candidates.front();
-    std::string word = own.kernel_lags > 0 ? std::to_string(own.kernel_lags) + " lags under a kernel" : "least squares";
-    if (own.states > 0)
-      word = "subspace estimate, " + std::to_string(own.states) + (own.states > 1 ? " states" : " state");
-    if (own.one_step_weight) word = "simulation, one step weighs " + number_text(*own.one_step_weight, 3);
-    if (own.at_zero) word += ", about zero";
+    std::string word = own.kernel ? std::to_string(kKernelLags) + " lags under a kernel" : "least squares";
     if (own.decoupled) word += ", on its own";
     table.rows.push_back({names, word, 100 * own.estimated_error, 100 * own.measured_error,
                           100 * squares.estimated_error, 100 * squares.measured_error});

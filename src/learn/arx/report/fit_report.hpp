@@ -9,7 +9,7 @@
 #include "learn/arx/fit/arx_fit.hpp"
 #include "learn/arx/judge/residual_tests.hpp"
 #include "learn/arx/search/order_search.hpp"
-#include "learn/arx/simulation/focus.hpp"
+#include "learn/choose/focus.hpp"
 #include "wisp/base/report.hpp"
 
 namespace wisp::arx {

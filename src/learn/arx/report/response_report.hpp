@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "learn/channel_choice.hpp"
+#include "learn/arx/rows/channel_choice.hpp"
 #include "wisp/base/report.hpp"
 #include "wisp/model/arx.hpp"
 

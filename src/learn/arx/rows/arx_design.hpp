@@ -4,9 +4,10 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "learn/arx/fit/arx_fit.hpp"
-#include "learn/numeric/lag_gram.hpp"
+#include "learn/arx/rows/lag_gram.hpp"
 #include "learn/numeric/lag_layout.hpp"
+#include "wisp/learn/arx_recipe.hpp"
+#include "wisp/model/arx.hpp"
 
 namespace wisp {
 

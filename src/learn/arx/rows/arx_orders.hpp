@@ -1,5 +1,7 @@
 #pragma once
-// Order matrices from a few numbers: who listens to whom.
+// Order matrices from a few numbers: which channels appear in which output's equation.
+
+#include <vector>
 
 #include "wisp/learn/arx_recipe.hpp"
 #include "wisp/model/arx.hpp"
@@ -22,5 +24,12 @@ struct UniformOrders {
 ///
 /// Precondition: the fields are in the ranges beside them.
 ArxOrders make_orders(const UniformOrders& uniform);
+
+namespace arx {
+
+/// Outputs whose equations feed each other, as blocks of output indices. Different blocks simulate independently.
+std::vector<std::vector<int>> coupled_outputs(const OrderMatrix& na);
+
+}  // namespace arx
 
 }  // namespace wisp

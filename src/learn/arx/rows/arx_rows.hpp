@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "learn/arx/fit/arx_fit.hpp"
+#include "learn/arx/rows/channel_choice.hpp"
 #include "learn/numeric/lag_layout.hpp"
 #include "wisp/base/result.hpp"
+#include "wisp/learn/arx_recipe.hpp"
+#include "wisp/record/recording.hpp"
 
 namespace wisp {
 

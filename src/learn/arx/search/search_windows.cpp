@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "learn/arx/rows/arx_triangle.hpp"
-#include "learn/numeric/lag_gram.hpp"
+#include "learn/arx/rows/lag_gram.hpp"
 
 namespace wisp {
 

@@ -170,14 +170,6 @@ ReportSection model_section(const OutlineSummary& summary) {
 std::vector<ReportSection> report_sections(const OutlineFit& fit) {
   std::vector<ReportSection> sections = {data_section(fit.summary), structure_section(fit.summary),
                                          curve_section(fit.summary)};
-  if (!fit.summary.focus.reason.empty()) {
-    std::vector<std::string> outputs;
-    for (const Output& output : fit.model.outputs) outputs.push_back(output.name);
-    std::size_t judged = 0;  // of a whole outline its components, which are fewer and have no names
-    for (const arx::FocusChoice& choice : fit.summary.focus.choices) judged += choice.outputs.size();
-    if (judged > 0) outputs.resize(judged);
-    sections.push_back(arx::focus_section(fit.summary.focus, outputs));
-  }
   sections.push_back(fit_section(fit));
   sections.push_back(model_section(fit.summary));
   return sections;

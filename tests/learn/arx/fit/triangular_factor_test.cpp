@@ -1,4 +1,4 @@
-#include "learn/numeric/triangular_factor.hpp"
+#include "learn/arx/fit/triangular_factor.hpp"
 
 #include <gtest/gtest.h>
 #include <malloc.h>

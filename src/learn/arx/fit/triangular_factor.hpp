@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "learn/arx/fit/arx_fit.hpp"
-#include "learn/channel_choice.hpp"
-#include "learn/numeric/seen_rows.hpp"
+#include "learn/arx/rows/channel_choice.hpp"
+#include "learn/arx/rows/seen_rows.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/record/csv.hpp"
 #include "wisp/record/recording.hpp"

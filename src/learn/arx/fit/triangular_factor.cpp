@@ -1,4 +1,4 @@
-#include "learn/numeric/triangular_factor.hpp"
+#include "learn/arx/fit/triangular_factor.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -7,10 +7,10 @@
 #include "learn/arx/fit/arx_check.hpp"
 #include "learn/arx/fit/arx_estimate.hpp"
 #include "learn/arx/fit/arx_report.hpp"
+#include "learn/arx/fit/factor_state.hpp"
 #include "learn/arx/rows/arx_design.hpp"
 #include "learn/arx/rows/arx_rows.hpp"
 #include "learn/arx/rows/arx_triangle.hpp"
-#include "learn/numeric/factor_state.hpp"
 
 namespace wisp {
 namespace {

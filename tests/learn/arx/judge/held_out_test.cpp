@@ -1,13 +1,13 @@
 // Whether one way simulates what was held out surely better than another.
 
-#include "learn/arx/judge/free_run_parts.hpp"
+#include "learn/arx/judge/held_out.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-namespace wisp::arx::free_run_parts_test {
+namespace wisp::arx::held_out_test {
 namespace {
 
 // y(t) = a y(t-1) + u(t-1), u a square wave.
@@ -70,5 +70,31 @@ TEST(FreeRunParts, WhatIsBetterInEveryPartIsSure) {
   EXPECT_NEAR(standard_errors_below(mixed, one), 0, 1e-12);
 }
 
+TEST(HeldOut, NoFoldLearnsFromRowsThatFollowWhatItHoldsOut) {
+  Recording recording;
+  recording.rate_hz = 1;
+  recording.channels = {{"y", "", Role::kOutput, std::vector<double>(100)}};
+  auto& samples = recording.channels[0].samples;
+  for (std::size_t t = 0; t < samples.size(); ++t) samples[t] = static_cast<double>(t);
+  const auto folds = folds_of({&recording, 1});
+  ASSERT_EQ(folds.size(), 3U);
+  for (std::size_t k = 0; k < folds.size(); ++k) {
+    const auto &learned = folds[k].learned[0].channels[0].samples, &held_out = folds[k].held_out[0].channels[0].samples;
+    EXPECT_EQ(learned.size(), 40 + 20 * k);
+    EXPECT_EQ(held_out.size(), 20U);
+    EXPECT_EQ(held_out.front(), learned.back() + 1);
+  }
+}
+
+TEST(HeldOut, BetterInTheMeanIsNotSurelyBetterWhereItIsByChance) {
+  const Eigen::VectorXd others = Eigen::VectorXd::Ones(3 * kParts);
+  Eigen::VectorXd errors = 0.5 * others;
+  errors[3] = 0.6;
+  EXPECT_TRUE(surely_better(errors, others));
+  EXPECT_FALSE(surely_better(others, others));
+  for (Eigen::Index k = 0; k < errors.size(); ++k) errors[k] = k % 2 == 0 ? 0.4 : 2;  // 0.89 in the mean logarithm
+  EXPECT_FALSE(surely_better(errors, others));
+}
+
 }  // namespace
-}  // namespace wisp::arx::free_run_parts_test
+}  // namespace wisp::arx::held_out_test

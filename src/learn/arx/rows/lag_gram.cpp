@@ -1,4 +1,4 @@
-#include "learn/numeric/lag_gram.hpp"
+#include "learn/arx/rows/lag_gram.hpp"
 
 #include "learn/numeric/stream_kernels.hpp"
 

@@ -1,4 +1,4 @@
-#include "learn/numeric/seen_rows.hpp"
+#include "learn/arx/rows/seen_rows.hpp"
 
 #include <algorithm>
 #include <tuple>

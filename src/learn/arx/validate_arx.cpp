@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "learn/arx/curve/arx_curves.hpp"
+#include "learn/arx/arx_curves.hpp"
 #include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/judge/residual_tests.hpp"
 #include "learn/arx/learn_arx.hpp"

@@ -1,4 +1,4 @@
-#include "learn/arx/judge/residual_pass.hpp"
+#include "learn/arx/fit/residual_pass.hpp"
 
 #include "learn/numeric/stream_kernels.hpp"
 

@@ -1,4 +1,4 @@
-#include "learn/arx/curve/arx_curves.hpp"
+#include "learn/arx/arx_curves.hpp"
 
 #include <algorithm>
 #include <cmath>

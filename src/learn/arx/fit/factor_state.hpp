@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "learn/arx/fit/triangular_factor.hpp"
 #include "learn/arx/rows/arx_design.hpp"
-#include "learn/numeric/triangular_factor.hpp"
 #include "wisp/base/result.hpp"
 
 namespace wisp {
