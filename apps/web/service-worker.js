@@ -1,5 +1,5 @@
-// Keeps the page's own files, so that it opens without a network. What it keeps is listed at build time; a new version
-// replaces the old one whole.
+// Keeps the page's own files, so that it opens without a network. What it keeps is listed at build time. A new version
+// replaces the old one whole, once no page is open that may still want a piece of it.
 
 const cacheName = 'wisp-' + 'VERSION';
 const files = ['FILES'];
@@ -25,16 +25,20 @@ self.addEventListener('install', (event) => {
 });
 
 async function dropOthers() {
+  const open = await self.clients.matchAll({ type: 'window', includeUncontrolled: true });
+  if (open.length > 0) return;
   const names = await caches.keys();
   await Promise.all(names.filter((name) => name.startsWith('wisp-') && name !== cacheName).map((name) => caches.delete(name)));
-  await self.clients.claim();
 }
 
-self.addEventListener('activate', (event) => event.waitUntil(dropOthers()));
+self.addEventListener('activate', (event) => event.waitUntil(self.clients.claim().then(dropOthers)));
 
 async function answer(request) {
   const kept = await caches.match(request, { ignoreSearch: true, cacheName });
   if (kept !== undefined) return kept;
+  // A page that was open before this version came asks for pieces of its own.
+  const before = request.mode === 'navigate' ? undefined : await caches.match(request);
+  if (before !== undefined) return before;
   const fetched = await fetch(request);
   if (fetched.ok && onDemand.test(request.url)) {
     const cache = await caches.open(cacheName);
@@ -46,5 +50,6 @@ async function answer(request) {
 self.addEventListener('fetch', (event) => {
   const { request } = event;
   if (request.method !== 'GET' || new URL(request.url).origin !== self.location.origin) return;
+  if (request.mode === 'navigate') event.waitUntil(dropOthers());
   event.respondWith(answer(request));
 });

@@ -1,6 +1,7 @@
 // The page as a whole: stage, player, microphone and controls, and what passes between them.
 
 import type { Library } from '@wisp/player';
+import { Part } from './part.js';
 import { CandleScene } from '@wisp/player/parts/candle/scene';
 import { watchDrops } from './drops.js';
 import { linkOf, settingsFromLink, type Settings } from './link.js';
@@ -40,7 +41,7 @@ export class App {
   parts: Parts | null = null;
   /** what keys do; what comes later adds its own */
   keys: Record<string, () => void> = {};
-  private readonly late: Promise<Late>;
+  private readonly late: Part<Late>;
   private bring: () => void = () => undefined;
   private touched = false;
   private wasLit = true;
@@ -65,8 +66,14 @@ export class App {
       blow: () => this.toggleMicrophone(),
       act: () => this.act(),
     });
-    this.late = new Promise<void>((resolve) => (this.bring = resolve)).then(() => import('./late.js'));
-    void this.late.then((late) => (this.parts = late.furnish(this)));
+    const played = new Promise<void>((resolve) => (this.bring = resolve));
+    this.late = new Part(async () => {
+      await played;
+      const late = await import('./late.js');
+      this.parts ??= late.furnish(this);
+      return late;
+    });
+    this.soon(() => undefined);
     this.probe = this.makeProbe();
     window.wisp = this.probe;
     this.listen();
@@ -85,7 +92,7 @@ export class App {
     byId('share', HTMLButtonElement).addEventListener('click', () => void this.share());
     byId('open-help', HTMLButtonElement).addEventListener('click', () => this.showHelp());
     this.drawerButton.addEventListener('click', () => this.toggleDrawer());
-    watchDrops(byId('drop', HTMLElement), (dropped) => void this.late.then((late) => late.openDropped(this, dropped)));
+    watchDrops(byId('drop', HTMLElement), (dropped) => this.soon((late) => late.openDropped(this, dropped)));
     window.addEventListener('hashchange', () => this.change(settingsFromLink(location.hash, this.settings)));
     const scene = (name: Settings['scene']) => () => this.change({ scene: name });
     listenToKeys(
@@ -133,7 +140,7 @@ export class App {
     } catch (error) {
       // What comes late comes once something plays.
       if (this.player.playing === null) await this.player.playShipped();
-      (await this.late).sayWrong(this, error);
+      this.soon((late) => late.sayWrong(this, error));
     }
   }
 
@@ -143,6 +150,11 @@ export class App {
     this.parts?.drawer.fill(playing, this.settings);
     this.wasLit = true;
     if (this.touched) this.hint.hide();
+  }
+
+  /** Does it with what comes late, or says that this did not come. */
+  private soon(act: (late: Late) => void): void {
+    this.late.get().then(act, (error: Error) => this.notices.say(error.message));
   }
 
   private act(): void {
@@ -158,8 +170,9 @@ export class App {
 
   toggleMicrophone(): void {
     this.touch();
-    void this.late.then(() => {
+    this.soon(() => {
       const ear = this.parts?.ear;
+      if (ear?.state === 'asleep') return; // the press has woken it
       if (ear?.state === 'off') void ear.open();
       else ear?.close();
     });
@@ -185,11 +198,11 @@ export class App {
   }
 
   private showHelp(): void {
-    void this.late.then(() => this.help.showModal());
+    this.soon(() => this.help.showModal());
   }
 
   private toggleDrawer(): void {
-    void this.late.then(() => this.showDrawer(this.parts?.drawer.open !== true));
+    this.soon(() => this.showDrawer(this.parts?.drawer.open !== true));
   }
 
   showDrawer(open: boolean): void {
@@ -218,7 +231,7 @@ export class App {
     const { playing } = this.player;
     const settings = { ...this.settings };
     if (playing?.shipped === false && settings.model === '') {
-      const { MAX_PACKED_BYTES, packModel } = await this.late;
+      const { MAX_PACKED_BYTES, packModel } = await this.late.get();
       if (playing.bytes.length > MAX_PACKED_BYTES) return 'Too large for a link: save and send it';
       settings.model = await packModel(playing.bytes);
     }

@@ -1,5 +1,6 @@
 // What plays: which model, in which scene, with which settings.
 
+import { fetchPart } from './part.js';
 import type { Model, Library } from '@wisp/player';
 import { CandleScene } from '@wisp/player/parts/candle/scene';
 import { DEFAULTS, type SceneName, type Settings } from './link.js';
@@ -35,7 +36,7 @@ export class Player {
       return;
     }
     const turn = ++this.opening;
-    const { fetchModel } = await import('./model_link.js');
+    const { fetchModel } = await fetchPart(() => import('./model_link.js'));
     const { bytes, file } = await fetchModel(model);
     if (turn === this.opening) await this.play(bytes, file, false, turn);
   }
@@ -106,10 +107,10 @@ export class Player {
       return { scene: new CandleScene(model, this.sceneSettings('candle')), tab: 'candle' };
     }
     if (model.view === 'pose' || model.view === 'position') {
-      const { LeavesScene } = await import('@wisp/player/parts/leaves/scene');
+      const { LeavesScene } = await fetchPart(() => import('@wisp/player/parts/leaves/scene'));
       return { scene: new LeavesScene(model, this.sceneSettings('leaves')), tab: 'leaves' };
     }
-    const { PlainScene } = await import('./plain/scene.js');
+    const { PlainScene } = await fetchPart(() => import('./plain/scene.js'));
     return { scene: new PlainScene(model, this.sceneSettings(null)), tab: null };
   }
 }

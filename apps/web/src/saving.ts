@@ -1,5 +1,6 @@
 // What is to be kept of the picture: a still, or three seconds that move, as a film or as a GIF. Made here; nothing is sent anywhere.
 
+import { fetchPart } from './part.js';
 import type { Stage } from '@wisp/player/parts/stage/stage';
 
 const SECONDS = 3;
@@ -30,7 +31,7 @@ export async function savePicture(stage: Stage): Promise<string> {
 
 /** Saves what the next seconds of a canvas show, as a GIF. */
 export async function saveGif(canvas: HTMLCanvasElement): Promise<string> {
-  const { gifOf } = await import('./gif.js');
+  const { gifOf } = await fetchPart(() => import('./gif.js'));
   saveFile(await gifOf(canvas, SECONDS), 'wisp.gif');
   return 'Saved';
 }

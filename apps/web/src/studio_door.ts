@@ -2,6 +2,7 @@
 
 import type { App } from './app.js';
 import type { Dropped } from './drops.js';
+import { Part } from './part.js';
 import { byId, element } from './panel/element.js';
 import { saveGif, saveLoop } from './saving.js';
 import type { Room } from './studio/room.js';
@@ -11,7 +12,7 @@ const LIT = 900;
 
 export class StudioDoor {
   private readonly tab = element('button', { type: 'button', 'data-scene': 'yours', 'aria-current': 'false' }, 'Yours');
-  private room: Promise<Room> | null = null;
+  private readonly room = new Part(() => import('./studio/room.js').then(({ Room }) => new Room(this.host())));
   private inside = false;
 
   constructor(private readonly app: App) {
@@ -34,16 +35,12 @@ export class StudioDoor {
 
   /** Goes in, with something to learn from. */
   open(dropped?: Dropped): void {
-    this.room ??= import('./studio/room.js').then(({ Room }) => new Room(this.host()));
-    this.room.then(
+    this.room.get().then(
       (room) => {
         if (!this.inside) this.enter(room);
         if (dropped !== undefined) room.take(dropped);
       },
-      () => {
-        this.room = null;
-        this.app.notices.say('The studio could not be fetched. Is there a network? Press Yours to try again.');
-      },
+      () => this.app.notices.say('The studio could not be fetched. Is there a network? Press Yours to try again.'),
     );
   }
 
@@ -72,7 +69,7 @@ export class StudioDoor {
   leave(): void {
     if (!this.inside) return;
     this.inside = false;
-    void this.room?.then((room) => room.show(false));
+    void this.room.get().then((room) => room.show(false));
     document.body.classList.remove('studying');
     this.tab.setAttribute('aria-current', 'false');
     // Shows its own tab again.

@@ -34,6 +34,11 @@ export interface MicrophoneOptions {
   onWind?: (wind: Wind) => void;
   /** Called once when the microphone goes away by itself, or the estimator fails; it is closed then. */
   onLost?: (error: MicrophoneError) => void;
+  /**
+   * Called when no sound comes any more though the microphone is open (a telephone call, a locked screen, a muted track),
+   * and when it comes again. It wakes by itself at the next click or key, or when the page is seen again.
+   */
+  onAsleep?: (asleep: boolean) => void;
   /** Called when a calibration has ended; `heard` says whether the requested sound was heard. */
   onCalibrated?: (calibration: WindCalibration, heard: boolean) => void;
   /** What was known of this microphone and room before. */
@@ -61,6 +66,8 @@ export interface Microphone {
   readonly settings: MicrophoneSettings;
   /** Whether the sound is as the microphone gave it: nothing of what browsers do to speech is known to be on. */
   readonly raw: boolean;
+  /** Whether it is open and yet no sound comes. */
+  readonly asleep: boolean;
   /** The latest frame; null before the first. */
   readonly latest: Wind | null;
   /**
@@ -86,6 +93,7 @@ const troubleOf: Record<string, [MicrophoneTrouble, string]> = {
 };
 
 function refusal(error: unknown): MicrophoneError {
+  if (error instanceof MicrophoneError) return error;
   const name = error instanceof Error || error instanceof DOMException ? error.name : '';
   const [trouble, message] = troubleOf[name] ?? ['failed', `The microphone could not be opened: ${String(error)}`];
   return new MicrophoneError(trouble, message, { cause: error });
@@ -122,21 +130,40 @@ function settingsOf(track: MediaStreamTrack, context: AudioContext): MicrophoneS
   };
 }
 
+/** Milliseconds between looks at whether sound comes; after two without any it sleeps, and after two more awake ones without any it is opened anew. */
+const LOOK_EVERY = 500;
+const ASLEEP = 2;
+const STUCK = 4;
+
+/** What may wake a sound that was interrupted. */
+const WAKES = ['pointerdown', 'keydown', 'visibilitychange'] as const;
+
 class OpenMicrophone implements Microphone {
-  readonly settings: MicrophoneSettings;
+  settings!: MicrophoneSettings;
+  asleep = false;
   latest: Wind | null = null;
-  private readonly node: AudioWorkletNode;
-  private readonly source: MediaStreamAudioSourceNode;
-  private readonly track: MediaStreamTrack;
+  private node!: AudioWorkletNode;
+  private source!: MediaStreamAudioSourceNode;
+  private track!: MediaStreamTrack;
   private readonly asked: ((known: WindCalibration) => void)[] = [];
   private open = true;
+  private silentLooks = 0;
+  private reopening = false;
+  private readonly looks = setInterval(() => this.look(), LOOK_EVERY);
 
   constructor(
-    wisp: Library,
-    private readonly stream: MediaStream,
-    private readonly context: AudioContext,
+    private readonly wisp: Library,
+    private stream: MediaStream,
+    private context: AudioContext,
     private readonly options: MicrophoneOptions,
   ) {
+    this.attach();
+    navigator.mediaDevices.addEventListener('devicechange', this.devicesChanged);
+    for (const name of WAKES) document.addEventListener(name, this.wake, { capture: true, passive: true });
+  }
+
+  private attach(): void {
+    const { wisp, context, options, stream } = this;
     this.track = stream.getAudioTracks()[0]!;
     this.settings = settingsOf(this.track, context);
     const processorOptions: WindProcessorOptions = { module: wisp.module, frameRate: options.frameRate ?? 60 };
@@ -147,7 +174,57 @@ class OpenMicrophone implements Microphone {
     this.source = context.createMediaStreamSource(stream);
     this.source.connect(this.node);
     this.track.addEventListener('ended', this.ended);
-    navigator.mediaDevices.addEventListener('devicechange', this.devicesChanged);
+    context.addEventListener('statechange', this.wake);
+  }
+
+  private detach(): void {
+    this.track.removeEventListener('ended', this.ended);
+    this.context.removeEventListener('statechange', this.wake);
+    this.tell({ type: 'stop' });
+    this.node.port.onmessage = null;
+    this.source.disconnect();
+    for (const track of this.stream.getTracks()) track.stop();
+    if (this.options.context === undefined) void this.context.close();
+  }
+
+  private readonly wake = (): void => {
+    if (this.asleep && this.context.state !== 'closed') this.context.resume().catch(() => {});
+  };
+
+  /** Whether sound came since the last look. A muted track sends silence: it is as deaf. */
+  private look(): void {
+    this.silentLooks += 1;
+    const asleep = this.silentLooks > ASLEEP || this.track.muted;
+    if (asleep !== this.asleep) {
+      this.asleep = asleep;
+      this.options.onAsleep?.(asleep);
+    }
+    if (!asleep) return;
+    this.wake();
+    // A context that runs, or says so, and whose clock stands still never goes on by itself.
+    const stuck = this.context.state === 'running' && !this.track.muted && this.silentLooks > STUCK;
+    if (stuck && document.visibilityState === 'visible') void this.reopen();
+  }
+
+  private async reopen(): Promise<void> {
+    if (this.reopening || this.options.context !== undefined) return;
+    this.reopening = true;
+    try {
+      const { stream, context } = await openSound(this.options);
+      if (!this.open) {
+        for (const track of stream.getTracks()) track.stop();
+        return void context.close();
+      }
+      this.detach();
+      [this.stream, this.context] = [stream, context];
+      this.attach();
+      this.silentLooks = 0;
+    } catch (error) {
+      const { trouble, message } = refusal(error);
+      this.lose(trouble, message);
+    } finally {
+      this.reopening = false;
+    }
   }
 
   get raw(): boolean {
@@ -173,19 +250,17 @@ class OpenMicrophone implements Microphone {
   stop(): void {
     if (!this.open) return;
     this.open = false;
-    this.track.removeEventListener('ended', this.ended);
+    clearInterval(this.looks);
     navigator.mediaDevices.removeEventListener('devicechange', this.devicesChanged);
-    this.tell({ type: 'stop' });
-    this.node.port.onmessage = null;
-    this.source.disconnect();
-    for (const track of this.stream.getTracks()) track.stop();
-    if (this.options.context === undefined) void this.context.close();
+    for (const name of WAKES) document.removeEventListener(name, this.wake, { capture: true });
+    this.detach();
   }
 
   private hear(message: WindMessage): void {
     if (message.type === 'failed') return this.lose('failed', message.message);
     if (message.type === 'wind') {
       this.latest = message;
+      this.silentLooks = 0;
       this.options.onWind?.(message);
       return;
     }
@@ -220,13 +295,18 @@ class OpenMicrophone implements Microphone {
  * Throws a MicrophoneError that says why there is none.
  */
 export async function openMicrophone(wisp: Library, options: MicrophoneOptions = {}): Promise<Microphone> {
+  const { stream, context } = await openSound(options);
+  return new OpenMicrophone(wisp, stream, context, options);
+}
+
+async function openSound(options: MicrophoneOptions): Promise<{ stream: MediaStream; context: AudioContext }> {
   const stream = await askForSound(options.deviceId);
   const context = options.context ?? new AudioContext({ latencyHint: 'interactive' });
   try {
     await context.audioWorklet.addModule(options.workletUrl ?? new URL('./worklet.js', import.meta.url));
     // Not waited for: without a click or key a browser lets it hang, and starts the sound at the next one.
     context.resume().catch(() => {});
-    return new OpenMicrophone(wisp, stream, context, options);
+    return { stream, context };
   } catch (error) {
     for (const track of stream.getTracks()) track.stop();
     if (options.context === undefined) void context.close();

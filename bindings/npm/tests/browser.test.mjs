@@ -104,6 +104,8 @@ describe('in Chromium', { skip }, () => {
       await page.evaluate("page.start('models/flame.wisp')");
       await page.evaluate(`(() => {
         const media = navigator.mediaDevices, ask = media.getUserMedia.bind(media);
+        window.resumes = AudioContext.prototype.resume;
+        window.AudioContext = class extends AudioContext { constructor(options) { super(options); window.heardBy = this; } };
         media.getUserMedia = async (wish) => (window.stream = await ask(window.wish = wish));
       })()`);
       const opened = await page.evaluate('page.listen({ frameRate: 30 })');
@@ -114,6 +116,12 @@ describe('in Chromium', { skip }, () => {
       await until(page, 'page.strongest() > 0.3');
       const known = await page.evaluate('page.calibration()');
       assert.ok(known.gustRms > 0);
+      // Interrupted, as by a telephone call: it is told, and wakes at a key.
+      await page.evaluate('AudioContext.prototype.resume = () => new Promise(() => {}), heardBy.suspend()');
+      await until(page, 'page.slept.at(-1) === true');
+      await page.evaluate('delete AudioContext.prototype.resume, AudioContext.prototype.resume = resumes');
+      await page.keyboard.press('x');
+      await until(page, 'page.slept.at(-1) === false');
       await page.evaluate("stream.getTracks()[0].dispatchEvent(new Event('ended'))");
       assert.equal(await page.evaluate('page.lost'), 'lost');
       assert.equal(await page.evaluate('stream.getTracks()[0].readyState'), 'ended');

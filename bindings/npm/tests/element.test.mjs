@@ -25,6 +25,7 @@ describe('elements in Chromium', { skip }, () => {
     plain = await serve(folder);
     const project = furnish(work, tarball, 'element_vite');
     await build({ root: project, logLevel: 'error', configFile: join(project, 'vite.config.js') });
+    cpSync(models, join(project, 'dist', 'models'), { recursive: true });
     vite = await serve(join(project, 'dist'));
     // Another origin, which only frames the plain page.
     framing = createServer((_request, response) => {
@@ -73,7 +74,7 @@ describe('elements in Chromium', { skip }, () => {
     for (const id of ['one', 'two']) {
       await page.evaluate(`document.getElementById('${id}').shadowRoot.querySelector('canvas').focus()`);
       await page.keyboard.down('Space');
-      if (id === 'one') await until(page, lit('one', 0));
+      if (id === 'one') await until(page, lit('one', 0) + ` && document.getElementById('one').shadowRoot.querySelector('canvas').ariaLabel === 'The candle is out.'`);
       else await page.waitForTimeout(1500);
       await page.keyboard.up('Space');
     }
@@ -114,6 +115,19 @@ describe('elements in Chromium', { skip }, () => {
     assert.equal(await page.evaluate('frames'), 0);
     await page.evaluate('document.body.append(kept)');
     await until(page, 'frames > 2');
+  });
+
+  test('after twenty others came and went, the one that stayed has its picture', async () => {
+    const { page } = await open(local(plain));
+    await until(page, lit('one', 1));
+    for (let k = 0; k < 20; ++k) {
+      await page.evaluate(`document.body.append(window.passing = Object.assign(document.createElement('wisp-candle'), { id: 'passing' }))`);
+      await until(page, lit('passing', 1));
+      await page.evaluate('passing.remove()');
+    }
+    assert.equal(await page.evaluate(`document.getElementById('one').shadowRoot.querySelector('canvas').getContext('webgl2').isContextLost()`), false);
+    await page.evaluate(`document.body.append(passing)`);
+    await until(page, `!passing.shadowRoot.querySelector('canvas').getContext('webgl2').isContextLost()`);
   });
 
   test('burns in a frame of another origin', async () => {

@@ -51,6 +51,12 @@ test('it says the wind that WindLevel says, and when a calibration has ended', (
   level.free();
 });
 
+test('a server that renders pages can import the elements', async () => {
+  assert.equal(globalThis.HTMLElement, undefined);
+  assert.equal(typeof (await import('../dist/candle/element.js')).WispCandle, 'function');
+  assert.equal(typeof (await import('../dist/leaves/element.js')).WispLeaves, 'function');
+});
+
 test('two channels are heard as their mean, and none is silence', () => {
   const [one, two] = [make(), make()];
   play(one, 1);

@@ -12,7 +12,7 @@ const SCENES: readonly { name: SceneName; title: string }[] = [
 const MAX_CANDLES = 12;
 
 /** What the microphone is doing. */
-export type Hearing = 'off' | 'asking' | 'listening';
+export type Hearing = 'off' | 'asking' | 'listening' | 'asleep';
 
 export interface ControlEvents {
   change(change: Partial<Settings>): void;
@@ -84,6 +84,7 @@ export class Controls {
       off: 'Blow',
       asking: 'May I listen?',
       listening: 'Listening',
+      asleep: 'Tap to wake',
     };
     if (this.word !== state) {
       this.word = state;

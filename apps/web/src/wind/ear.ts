@@ -94,6 +94,11 @@ export class Ear {
           if (this.tuning && heard) this.known = known;
           this.answered(heard);
         },
+        onAsleep: (asleep) => {
+          if (this.state !== 'off') this.state = asleep ? 'asleep' : 'listening';
+          if (asleep) this.wind = this.heard = 0;
+          if (asleep) this.events.ended();
+        },
         onLost: (error) => this.fail(error),
       });
       if (turn !== this.turn) {

@@ -1,7 +1,7 @@
 // <wisp-candle>: a candle, or a cake with several, on anybody's page.
 
 import type { Model } from '../index.js';
-import { numberOf, SceneElement } from '../stage/element.js';
+import { define, numberOf, SceneElement, type SceneAttributes } from '../stage/element.js';
 import type { Scene, SceneSettings } from '../stage/scene.js';
 import { MAX_CANDLES } from './room.js';
 import { CandleScene } from './scene.js';
@@ -32,18 +32,25 @@ export class WispCandle extends SceneElement {
     const { lit, of } = this.burning;
     if (this.lit && lit === 0 && of > 0) {
       this.lit = false;
+      this.relabel();
       this.dispatchEvent(new Event('extinguish'));
     } else if (!this.lit && lit === of) {
       this.lit = true;
+      this.relabel();
       this.dispatchEvent(new Event('light'));
     }
   }
 }
 
-if (!customElements.get('wisp-candle')) customElements.define('wisp-candle', WispCandle);
+define('wisp-candle', WispCandle);
 
 declare global {
   interface HTMLElementTagNameMap {
     'wisp-candle': WispCandle;
+  }
+  namespace JSX {
+    interface IntrinsicElements {
+      'wisp-candle': SceneAttributes & { candles?: number | string };
+    }
   }
 }

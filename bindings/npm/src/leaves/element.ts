@@ -1,7 +1,7 @@
 // <wisp-leaves>: leaves that fall, on anybody's page.
 
 import type { Model } from '../index.js';
-import { numberOf, SceneElement } from '../stage/element.js';
+import { define, numberOf, SceneElement, type SceneAttributes } from '../stage/element.js';
 import type { Scene, SceneSettings } from '../stage/scene.js';
 import { MAX_LEAVES } from './limits.js';
 import { LeavesScene } from './scene.js';
@@ -26,10 +26,15 @@ export class WispLeaves extends SceneElement {
   }
 }
 
-if (!customElements.get('wisp-leaves')) customElements.define('wisp-leaves', WispLeaves);
+define('wisp-leaves', WispLeaves);
 
 declare global {
   interface HTMLElementTagNameMap {
     'wisp-leaves': WispLeaves;
+  }
+  namespace JSX {
+    interface IntrinsicElements {
+      'wisp-leaves': SceneAttributes & { leaves?: number | string };
+    }
   }
 }

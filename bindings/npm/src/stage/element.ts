@@ -15,15 +15,23 @@ const STYLE = `
 :host([hidden]) { display: none; }
 canvas { width: 100%; height: 100%; display: block; touch-action: pan-y; outline: none; }
 canvas:focus-visible { box-shadow: inset 0 0 0 2px #ffb35c; }
-button { position: absolute; left: 50%; bottom: 10px; transform: translateX(-50%); padding: 8px 18px; min-height: 40px;
+button { position: absolute; left: 50%; bottom: 10px; transform: translateX(-50%); padding: 8px 18px; min-height: 44px;
   border: 1px solid rgb(255 240 220 / 30%); border-radius: 999px; background: rgb(14 14 19 / 78%); color: inherit; font: inherit; cursor: pointer; }
 button:focus-visible { outline: 2px solid #ffb35c; outline-offset: 2px; }
 button[aria-pressed=true]::before { content: ''; display: inline-block; width: 8px; height: 8px; margin-right: 8px; border-radius: 50%; background: #ff6b57; }
-p { position: absolute; inset: 30% 8% auto; margin: 0; text-align: center; font: inherit; }
+p { position: absolute; inset: auto 6% 62px; margin: 0; text-align: center; font: inherit; font-size: 14px; text-shadow: 0 0 4px #000, 0 0 8px #000; }
 [hidden] { display: none; }`;
 
 /** CSS pixels that the button covers at the lower edge. */
 const BUTTON = 56;
+
+/** Where there is no document (a server that renders pages) the module can be imported all the same. */
+const Base = (globalThis.HTMLElement ?? class {}) as typeof HTMLElement;
+
+/** Names an element, once, where there are elements. */
+export function define(name: string, element: typeof SceneElement & (new () => SceneElement)): void {
+  if (globalThis.customElements !== undefined && !customElements.get(name)) customElements.define(name, element);
+}
 
 let wisp: Promise<Library> | null = null;
 
@@ -31,6 +39,16 @@ let wisp: Promise<Library> | null = null;
 export function shared(): Promise<Library> {
   wisp ??= loadLibrary();
   return wisp;
+}
+
+/** What a tag of an element takes in JSX. */
+export interface SceneAttributes {
+  src?: string;
+  wind?: 'pointer' | 'mic' | 'none';
+  seed?: number | string;
+  noise?: number | string;
+  clear?: boolean;
+  [attribute: string]: unknown;
 }
 
 /** A number of an attribute, in a range; `otherwise` where there is none. */
@@ -44,7 +62,7 @@ export function numberOf(element: Element, name: string, low: number, high: numb
  * An element that plays a model. Attributes: `src`, the model's address; `wind`: `pointer` (default), `mic` or `none`;
  * `seed`; `noise`; `clear`: on a transparent canvas. Keys, where it has the focus: arrows and Space blow, Enter acts.
  */
-export abstract class SceneElement extends HTMLElement {
+export abstract class SceneElement extends Base {
   static readonly observedAttributes: readonly string[] = ['src', 'wind', 'seed', 'noise', 'candles', 'leaves'];
 
   private readonly canvas = document.createElement('canvas');
@@ -99,6 +117,7 @@ export abstract class SceneElement extends HTMLElement {
       },
       { clear: this.hasAttribute('clear') },
     );
+    this.stage.take();
     this.stage.start();
     // What nobody sees costs nothing.
     this.seen = new IntersectionObserver(([entry]) => {
@@ -114,6 +133,10 @@ export abstract class SceneElement extends HTMLElement {
     this.seen?.disconnect();
     this.stage?.stop();
     this.closeMicrophone();
+    // A browser has some sixteen contexts. One that is only moved within the page is connected again by then.
+    setTimeout(() => {
+      if (!this.isConnected) this.stage?.giveBack();
+    });
   }
 
   attributeChangedCallback(name: string, before: string | null, now: string | null): void {
@@ -164,6 +187,11 @@ export abstract class SceneElement extends HTMLElement {
     }
   }
 
+  /** Says anew what is to be seen: out, or burning. */
+  protected relabel(): void {
+    if (this.scene !== null) this.canvas.setAttribute('aria-label', this.scene.describe());
+  }
+
   private say(words: string): void {
     this.words.textContent = words;
     this.words.hidden = words === '';
@@ -192,19 +220,22 @@ export abstract class SceneElement extends HTMLElement {
   }
 
   private async toggleMicrophone(): Promise<void> {
-    if (this.microphone !== null) {
-      this.closeMicrophone();
-      return;
-    }
+    if (this.microphone?.asleep === true) return; // the click has woken it
+    if (this.microphone !== null) return this.closeMicrophone();
     const asked = ++this.asked;
+    this.say('');
     try {
       // Fetched when somebody wants to blow, not before.
       const [library, { openMicrophone }] = await Promise.all([shared(), import('../microphone.js')]);
       const microphone = await openMicrophone(library, {
         onWind: ({ wind }) => this.wind.hear(wind, this.stage?.frames ?? 0),
+        onAsleep: (asleep) => {
+          this.wind.deafen();
+          this.showButton(asleep ? 'Tap to wake' : 'Listening');
+        },
         onLost: (error) => {
           this.closeMicrophone();
-          this.showButton(error.message);
+          this.say(error.message);
         },
       });
       if (asked !== this.asked || !this.isConnected) {
@@ -214,7 +245,7 @@ export abstract class SceneElement extends HTMLElement {
       this.microphone = microphone;
       this.showButton('Listening');
     } catch (error) {
-      this.showButton(error instanceof Error ? error.message : String(error));
+      this.say(error instanceof Error ? error.message : String(error));
     }
   }
 

@@ -56,6 +56,8 @@ export class Stage {
   detail = 0;
   private footer = 0;
   private gl: WebGL2RenderingContext | null = null;
+  private given = false;
+  private loser: WEBGL_lose_context | null = null;
   private scene: Scene | null = null;
   /** nothing that passes makes wind */
   still = false;
@@ -104,6 +106,19 @@ export class Stage {
     this.loop.stop();
   }
 
+  /** Gives the graphics card's context back: a browser has few of them. take() brings it again. */
+  giveBack(): void {
+    this.given = true;
+    this.loser ??= this.gl?.getExtension('WEBGL_lose_context') ?? null;
+    this.loser?.loseContext();
+  }
+
+  take(): void {
+    if (!this.given) return;
+    this.given = false;
+    this.restore();
+  }
+
   /** The next picture as a file. */
   snapshot(): Promise<Blob> {
     return new Promise((resolve, reject) => {
@@ -123,7 +138,14 @@ export class Stage {
 
   private lose(event: Event): void {
     event.preventDefault();
+    if (this.given) return;
     this.events.context('lost');
+    // It was given back and is wanted again before its loss was told.
+    if (this.loser !== null) setTimeout(() => this.restore());
+  }
+
+  private restore(): void {
+    if (this.gl?.isContextLost() === true) this.loser?.restoreContext();
   }
 
   private regain(): void {

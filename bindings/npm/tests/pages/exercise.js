@@ -36,10 +36,12 @@ export function offer({ load, openMicrophone }, worker) {
     /** Opens the microphone; says what it is, or why there is none. */
     async listen(options) {
       page.lost = null;
+      page.slept = [];
       try {
         microphone = await openMicrophone(wisp, {
           ...options,
           onWind: (wind) => winds.push(wind),
+          onAsleep: (asleep) => page.slept.push(asleep),
           onLost: (error) => (page.lost = error.trouble),
         });
         return { raw: microphone.raw, settings: microphone.settings };

@@ -1,0 +1,35 @@
+// Pieces of the page that come late. One that is lost on its way (a lift, a deploy) is asked for again.
+
+/** Milliseconds before each further try. */
+const WAITS = [300, 1200];
+
+/** Fetches a piece, again where that fails. Throws a sentence for people. */
+export async function fetchPart<T>(bring: () => Promise<T>): Promise<T> {
+  for (const wait of WAITS) {
+    try {
+      return await bring();
+    } catch {
+      await new Promise((resolve) => setTimeout(resolve, wait));
+    }
+  }
+  try {
+    return await bring();
+  } catch (error) {
+    throw new Error('A piece of this page could not be fetched. Is there a network? Press again, or load the page anew.', { cause: error });
+  }
+}
+
+/** A piece that is fetched once, and asked for anew after a failure. */
+export class Part<T> {
+  private coming: Promise<T> | null = null;
+
+  constructor(private readonly bring: () => Promise<T>) {}
+
+  get(): Promise<T> {
+    this.coming ??= fetchPart(this.bring).catch((error: unknown) => {
+      this.coming = null;
+      throw error;
+    });
+    return this.coming;
+  }
+}
