@@ -27,7 +27,6 @@ constexpr double kSureGain = 2;          // standard errors by which a further m
 constexpr double kSmallResidual = 0.01;  // share of the single model's
 constexpr double kGain = 1e-6;           // a round that gains less per row is the last
 constexpr double kUnseenSteps = 0.1;     // added to each count of transitions: none is impossible
-constexpr double kStay = 0.95;           // probability at the start
 constexpr double kMaxRadius = 0.9999;    // of a mode that was unstable
 constexpr double kUsableFit = 10;        // per cent, one step ahead
 constexpr double kDifferent = 3;         // standard errors; by chance 1 in 370
@@ -95,9 +94,12 @@ State drawn_start(const Rows& rows, const VectorXd& least, int modes, Index near
     error.row(t).minCoeff(&best);
     state.weights(t, best) = 1;
   }
-  const double leave = (1 - kStay) / std::max(1, modes - 1);
-  const MatrixXd steps = MatrixXd::Constant(modes, modes, leave) + (kStay - leave) * MatrixXd::Identity(modes, modes);
-  maximise(rows, least, steps * static_cast<double>(rows.rows()), state);
+  MatrixXd steps = MatrixXd::Zero(modes, modes);
+  for (const auto& run : rows.runs) {
+    for (Index t = run.begin + 1; t < run.end; ++t)
+      steps += state.weights.row(t - 1).transpose() * state.weights.row(t);
+  }
+  maximise(rows, least, steps, state);
   return state;
 }
 
@@ -108,7 +110,7 @@ Result<State> best_of_starts(const Rows& rows, int modes, std::uint64_t seed, co
   for (int start = 0; start < starts; ++start) {
     const std::string stage = "trying " + std::to_string(modes) + (modes == 1 ? " mode" : " modes");
     if (!go_on(progress, stage, static_cast<double>(start) / starts)) return Error{std::string(kStopped)};
-    const Index near = Index{3} * row_size(rows) << (start % 3);
+    const Index near = Index{3} * row_size(rows) << (start % 2);
     State found = drawn_start(rows, least, modes, near, seed * 1000 + static_cast<std::uint64_t>(start));
     alternate(rows, least, kFirstRounds, found);
     if (found.log_likelihood > best.log_likelihood) best = std::move(found);
