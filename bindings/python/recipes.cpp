@@ -35,11 +35,6 @@ void bind_words(py::module_& module) {
       .value("MEASURED", InitialState::kMeasured)
       .value("ZERO", InitialState::kZero)
       .value("ESTIMATED", InitialState::kEstimated);
-  py::enum_<OutlineCoupling>(module, "OutlineCoupling")
-      .value("COORDINATE", OutlineCoupling::kCoordinate)
-      .value("POINT", OutlineCoupling::kPoint)
-      .value("BAND", OutlineCoupling::kBand)
-      .value("FULL", OutlineCoupling::kFull);
 }
 
 void bind_arx(py::module_& module) {
@@ -100,16 +95,10 @@ void bind_arx(py::module_& module) {
 
 void bind_outlines(py::module_& module) {
   options<OutlineRecipe>(module, "OutlineRecipe")
-      .def_readwrite("order", &OutlineRecipe::order)
-      .def_readwrite("delay", &OutlineRecipe::delay)
+      .def_readwrite("paper", &OutlineRecipe::paper)
       .def_readwrite("align", &OutlineRecipe::align)
-      .def_readwrite("coupling", &OutlineRecipe::coupling)
       .def_readwrite("inputs", &OutlineRecipe::inputs)
-      .def_readwrite("input_curve", &OutlineRecipe::input_curve)
-      .def_readwrite("one_sided", &OutlineRecipe::one_sided)
-      .def_readwrite("mirror", &OutlineRecipe::mirror)
       .def_readwrite("holdout", &OutlineRecipe::holdout)
-      .def_readwrite("refit", &OutlineRecipe::refit)
       .def_readwrite("seed", &OutlineRecipe::seed)
       .def_readwrite("name", &OutlineRecipe::name);
   options<FlameRecipe, OutlineRecipe>(module, "FlameRecipe");

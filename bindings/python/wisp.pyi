@@ -72,12 +72,6 @@ class InitialState(Enum):
     ZERO = ...
     ESTIMATED = ...
 
-class OutlineCoupling(Enum):
-    COORDINATE = ...
-    POINT = ...
-    BAND = ...
-    FULL = ...
-
 class OrderRange:
     def __init__(self, first: int, last: int) -> None: ...
     first: int
@@ -132,16 +126,10 @@ class FlickerRecipe:
 
 class OutlineRecipe:
     def __init__(self, **fields: Any) -> None: ...
-    order: Optional[int]
-    delay: Optional[int]
+    paper: int
     align: bool
-    coupling: Optional[OutlineCoupling]
     inputs: Optional[list[str]]
-    input_curve: Optional[int]
-    one_sided: bool
-    mirror: Optional[bool]
     holdout: float
-    refit: bool
     seed: int
     name: str
 

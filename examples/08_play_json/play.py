@@ -44,9 +44,35 @@ class Life:
         return shown
 
 
+def points_of(shape, components):
+    """Control points of a shape: rest + basis · components in pairs of flanks, symmetric coordinates first."""
+    points, even, odd = len(shape["rest"]) // 2, shape["symmetric"], shape["antisymmetric"]
+
+    def coordinate(i):
+        first, own = (i * even, components[:even]) if i < points else (points * even + (i - points) * odd, components[even:])
+        total = kept(shape["rest"][i])
+        for k, z in enumerate(own):
+            weight = kept(shape["basis"][first + k])
+            total = total + weight * z if weight != 0 else total
+        return clamp(total, *map(kept, shape["coordinates"][i]))
+
+    out = [F(0)] * (2 * points)
+    for p in range(points // 2):
+        for axis in range(2):
+            even_one, odd_one = coordinate(2 * p + axis), coordinate(points + 2 * p + axis)
+            half, middle = (even_one, odd_one) if axis == 0 else (odd_one, even_one)
+            out[2 * p + axis], out[2 * (points - 1 - p) + axis] = settle(middle - half), settle(middle + half)
+    if points % 2:
+        out[points - 1], out[points] = settle(coordinate(2 * points - 1)), settle(coordinate(points - 1))
+    return out
+
+
 def play(model, winds, seed=1, noise=True):
     """Yields the outputs of every frame; `winds` has the inputs of each."""
-    d, outputs, ny = model["dynamics"], model["outputs"], len(model["outputs"])
+    d, outputs, shape = model["dynamics"], model["outputs"], (model.get("view") or {}).get("shape")
+    if shape:  # the dynamics move components of it
+        outputs = [{"range": r} for r in shape["components"]]
+    ny = len(outputs)
     if d["kind"] == "chain":
         yield from play_chain(model, winds, seed, noise)
         return
@@ -92,6 +118,7 @@ def play(model, winds, seed=1, noise=True):
                 total = total + weight * past[lag][channel]
             now[i] = settle(clamp(total, *clamped[i]))
         shown = [clamp(F(mean) + F(u) * z, *map(F, edges(o))) for o, mean, u, z in zip(outputs, d["output_mean"], unit, now)]
+        shown = points_of(shape, shown) if shape else shown
         yield life.seen(shown, wind) if life else shown
 
 

@@ -62,6 +62,9 @@ std::vector<std::array<double, 2>> bezier_points(const std::vector<double>& knot
 }
 
 std::vector<double> operating_point(const Model& model) {
+  if (const auto* outline = std::get_if<OutlineView>(&model.view); outline && !outline->shape.empty()) {
+    return control_points(outline->shape, std::vector<double>(outline->shape.count(), 0.0));
+  }
   if (const auto* arx = std::get_if<ArxModel>(&model.dynamics)) return arx->output_mean;
   if (const auto* switched = std::get_if<SwitchedArxModel>(&model.dynamics)) return switched->output_mean;
   return std::vector<double>(model.outputs.size(), 0.0);

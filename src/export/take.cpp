@@ -124,6 +124,31 @@ Result<Take> orbit_take(const Model& model, const TakeOptions& options, Take tak
   return taken;
 }
 
+// The components of an outline's shape as a model of their own: their dynamics are linear, the shape's clamps are not.
+Model model_of_components(const Model& model, const ShapeComponents& shape) {
+  Model out = model;
+  out.view = PlainView{};
+  out.training = {};
+  out.outputs.clear();
+  for (const ValueRange& range : shape.components) {
+    out.outputs.push_back({"c" + std::to_string(out.outputs.size()), "", range.lowest, range.highest});
+  }
+  return out;
+}
+
+Result<Take> shape_take(const Model& model, const ShapeComponents& shape, const TakeOptions& options, Take taken) {
+  Take moved = taken;
+  moved.outputs = shape.count();
+  const auto orbit = orbit_take(model_of_components(model, shape), options, std::move(moved));
+  if (!orbit) return orbit;
+  for (std::size_t row = 0; row < taken.frames * taken.instances; ++row) {
+    const auto from = orbit->values.begin() + static_cast<std::ptrdiff_t>(row * shape.count());
+    const std::vector<double> components(from, from + static_cast<std::ptrdiff_t>(shape.count()));
+    for (double value : control_points(shape, components)) taken.values.push_back(static_cast<float>(value));
+  }
+  return taken;
+}
+
 Result<Take> walk_take(const Model& model, const TakeOptions& options, Take taken) {
   if (std::get<ChainModel>(model.dynamics).systems) {
     return Error{
@@ -157,6 +182,9 @@ Result<Take> take(const Model& model, const TakeOptions& options) {
   taken.outputs = model.outputs.size();
   if (!options.loop) return plain_take(model, options, std::move(taken));
   if (std::holds_alternative<ChainModel>(model.dynamics)) return walk_take(model, options, std::move(taken));
+  if (const auto* outline = std::get_if<OutlineView>(&model.view); outline && !outline->shape.empty()) {
+    return shape_take(model, outline->shape, options, std::move(taken));
+  }
   return orbit_take(model, options, std::move(taken));
 }
 

@@ -4,8 +4,8 @@
 #include "learn/chain/learn_chain.hpp"
 #include "learn/complete.hpp"
 #include "learn/flicker/learn_flicker.hpp"
+#include "learn/flame/learn_outline.hpp"
 #include "learn/markov/learn_markov.hpp"
-#include "learn/outline/learn_outline.hpp"
 
 namespace wisp {
 namespace {

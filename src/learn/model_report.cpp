@@ -93,6 +93,21 @@ const char* realisation_of(const ChainModel& chain) {
   return chain.systems ? "systems" : "segments";
 }
 
+void add_shape(const ShapeComponents& shape, ReportSection& section) {
+  if (shape.empty()) return add(section, "view.shape", {});
+  const auto ends = [](const std::vector<ValueRange>& ranges) {
+    ReportList list;
+    for (const ValueRange& range : ranges) list.push_back(ReportList{range.lowest, range.highest});
+    return list;
+  };
+  add(section, "view.shape.symmetric", shape.symmetric);
+  add(section, "view.shape.antisymmetric", shape.antisymmetric);
+  add(section, "view.shape.rest", shape.rest);
+  add(section, "view.shape.basis", shape.basis);
+  add(section, "view.shape.coordinates", ends(shape.coordinates));
+  add(section, "view.shape.components", ends(shape.components));
+}
+
 void add_dynamics(const ChainModel& chain, ReportSection& section) {
   add(section, "dynamics.kind", "chain");
   add(section, "dynamics.played_as", realisation_of(chain));
@@ -130,6 +145,7 @@ struct ViewFields {
     kind("outline");
     add(section, "view.points", model.outputs.size() / 2);
     add(section, "view.knots", outline.knots);
+    add_shape(outline.shape, section);
     add(section, "view.metres_per_unit", outline.metres_per_unit);
     add(section, "view.pixels_per_unit", outline.pixels_per_unit);
   }

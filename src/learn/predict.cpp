@@ -7,10 +7,10 @@
 #include "learn/arx/arx_curves.hpp"
 #include "learn/arx/judge/prediction.hpp"
 #include "learn/arx/plain_model.hpp"
-#include "learn/flame/wind_gain.hpp"
 #include "learn/markov/markov_prediction.hpp"
 #include "learn/numeric/constants.hpp"
 #include "learn/outline/outline_judgement.hpp"
+#include "learn/outline/wind_gain.hpp"
 #include "learn/same_rate.hpp"
 #include "wisp/learn/validate.hpp"
 
@@ -115,7 +115,8 @@ Result<Recording> predict_outline(const Model& model, const Recording& recording
   for (const std::string& name : channels.outputs) {
     predicted.push_back(said.channels[*find_channel(said, name)].samples);
   }
-  Series sd = sd_of(std::get<ArxModel>(model.dynamics), options.steps);
+  const OutlineDynamics dynamics{std::get<ArxModel>(model.dynamics), std::get<OutlineView>(model.view).shape};
+  Series sd = outline_prediction_sd(dynamics, options.steps == kFreeRun ? kSettled : options.steps);
   for (auto& one : sd) {
     for (double& x : one) x *= found->pixels_per_unit;
   }

@@ -54,9 +54,12 @@ Result<void> check_curves(const std::vector<Input>& inputs) {
 }
 
 Result<void> check_channels_of(const Model& model, const ArxOrders& orders) {
-  if (static_cast<std::size_t>(orders.outputs()) != model.outputs.size()) {
+  const auto* outline = std::get_if<OutlineView>(&model.view);
+  const bool shaped = outline != nullptr && !outline->shape.empty();
+  const std::size_t moved = shaped ? outline->shape.count() : model.outputs.size();
+  if (static_cast<std::size_t>(orders.outputs()) != moved) {
     return Error{"the dynamics have " + std::to_string(orders.outputs()) + " outputs, the model names " +
-                 std::to_string(model.outputs.size())};
+                 std::to_string(moved) + (shaped ? " components" : "")};
   }
   const std::size_t seen = regressor_count(model.inputs);
   if (static_cast<std::size_t>(orders.inputs()) != seen) {
@@ -115,7 +118,10 @@ Result<void> check_view(const Model& model, const OutlineView& outline) {
   for (double scale : {outline.metres_per_unit, outline.pixels_per_unit}) {
     if (!std::isfinite(scale) || scale < 0) return Error{"the outline's scale is not a positive number"};
   }
-  return {};
+  if (!outline.shape.empty() && !std::holds_alternative<ArxModel>(model.dynamics)) {
+    return Error{"the outline has a shape of components, which only ARX dynamics move"};
+  }
+  return check(outline.shape, points);
 }
 
 Result<void> check_view(const Model&, const PlainView&) { return {}; }

@@ -398,7 +398,10 @@ Result<void> read_dynamics(const file::Model& stored, Model& model) {
     model.dynamics = std::move(*read);
     return {};
   }
-  const int ny = static_cast<int>(model.outputs.size()), nu = static_cast<int>(regressor_count(model.inputs));
+  const auto* outline = stored.view_as_Outline();
+  const auto* shape = outline ? outline->shape() : nullptr;
+  const int ny = shape ? shape->symmetric() + shape->antisymmetric() : static_cast<int>(model.outputs.size());
+  const int nu = static_cast<int>(regressor_count(model.inputs));
   if (const auto* switched = stored.dynamics_as_SwitchedArx()) {
     auto read = read_switched(*switched, ny, nu);
     if (!read) return read.error();
@@ -413,6 +416,20 @@ Result<void> read_dynamics(const file::Model& stored, Model& model) {
   return {};
 }
 
+std::vector<ValueRange> ranges(const fb::Vector<double>* stored) {
+  std::vector<ValueRange> out;
+  for (std::size_t k = 0; stored && k + 1 < stored->size(); k += 2) {
+    out.push_back({stored->Get(static_cast<fb::uoffset_t>(k)), stored->Get(static_cast<fb::uoffset_t>(k + 1))});
+  }
+  return out;
+}
+
+ShapeComponents read_shape(const file::ShapeComponents* stored) {
+  if (!stored) return {};
+  return {stored->symmetric(),      stored->antisymmetric(),       numbers(stored->rest()),
+          numbers(stored->basis()), ranges(stored->coordinates()), ranges(stored->components())};
+}
+
 Result<void> read_view(const file::Model& stored, Model& model) {
   if (stored.view_type() == file::View::NONE) return {};
   if (const auto* pose = stored.view_as_Pose()) {
@@ -425,7 +442,8 @@ Result<void> read_view(const file::Model& stored, Model& model) {
   }
   const auto* outline = stored.view_as_Outline();
   if (!outline) return Error{"has a view that this program does not know; update Wisp"};
-  model.view = OutlineView{numbers(outline->knots()), outline->metres_per_unit(), outline->pixels_per_unit()};
+  model.view = OutlineView{numbers(outline->knots()), outline->metres_per_unit(), outline->pixels_per_unit(),
+                           read_shape(outline->shape())};
   return {};
 }
 
@@ -465,8 +483,24 @@ Member<file::Dynamics> write_dynamics(Builder& builder, const ChainModel& chain)
 
 Member<file::View> write_view(Builder&, const PlainView&) { return {}; }
 
+std::vector<double> flat(const std::vector<ValueRange>& ranges) {
+  std::vector<double> out;
+  for (const ValueRange& range : ranges) out.insert(out.end(), {range.lowest, range.highest});
+  return out;
+}
+
+fb::Offset<file::ShapeComponents> write_shape(Builder& builder, const ShapeComponents& shape) {
+  if (shape.empty()) return 0;
+  const std::vector<double> coordinates = flat(shape.coordinates), components = flat(shape.components);
+  return file::CreateShapeComponentsDirect(builder, static_cast<std::uint16_t>(shape.symmetric),
+                                           static_cast<std::uint16_t>(shape.antisymmetric), &shape.rest, &shape.basis,
+                                           &coordinates, &components);
+}
+
 Member<file::View> write_view(Builder& builder, const OutlineView& outline) {
-  const auto at = file::CreateOutlineDirect(builder, &outline.knots, outline.metres_per_unit, outline.pixels_per_unit);
+  const auto shape = write_shape(builder, outline.shape);
+  const auto at =
+      file::CreateOutlineDirect(builder, &outline.knots, outline.metres_per_unit, outline.pixels_per_unit, shape);
   return {file::View::Outline, at.Union()};
 }
 

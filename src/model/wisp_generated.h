@@ -49,6 +49,9 @@ struct ArxModeBuilder;
 struct SwitchedArx;
 struct SwitchedArxBuilder;
 
+struct ShapeComponents;
+struct ShapeComponentsBuilder;
+
 struct Outline;
 struct OutlineBuilder;
 
@@ -582,8 +585,8 @@ struct ResampledResiduals FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   const flatbuffers::Vector<double> *scale() const {
     return GetPointer<const flatbuffers::Vector<double> *>(VT_SCALE);
   }
-  const flatbuffers::Vector<int16_t> *rows() const {
-    return GetPointer<const flatbuffers::Vector<int16_t> *>(VT_ROWS);
+  const flatbuffers::Vector<int8_t> *rows() const {
+    return GetPointer<const flatbuffers::Vector<int8_t> *>(VT_ROWS);
   }
   const flatbuffers::Vector<uint32_t> *ends() const {
     return GetPointer<const flatbuffers::Vector<uint32_t> *>(VT_ENDS);
@@ -646,7 +649,7 @@ struct ResampledResidualsBuilder {
   void add_scale(flatbuffers::Offset<flatbuffers::Vector<double>> scale) {
     fbb_.AddOffset(ResampledResiduals::VT_SCALE, scale);
   }
-  void add_rows(flatbuffers::Offset<flatbuffers::Vector<int16_t>> rows) {
+  void add_rows(flatbuffers::Offset<flatbuffers::Vector<int8_t>> rows) {
     fbb_.AddOffset(ResampledResiduals::VT_ROWS, rows);
   }
   void add_ends(flatbuffers::Offset<flatbuffers::Vector<uint32_t>> ends) {
@@ -696,7 +699,7 @@ struct ResampledResidualsBuilder {
 inline flatbuffers::Offset<ResampledResiduals> CreateResampledResiduals(
     flatbuffers::FlatBufferBuilder &_fbb,
     flatbuffers::Offset<flatbuffers::Vector<double>> scale = 0,
-    flatbuffers::Offset<flatbuffers::Vector<int16_t>> rows = 0,
+    flatbuffers::Offset<flatbuffers::Vector<int8_t>> rows = 0,
     flatbuffers::Offset<flatbuffers::Vector<uint32_t>> ends = 0,
     double wind_scale = 0.0,
     flatbuffers::Offset<flatbuffers::Vector<int16_t>> winds = 0,
@@ -731,7 +734,7 @@ struct ResampledResiduals::Traits {
 inline flatbuffers::Offset<ResampledResiduals> CreateResampledResidualsDirect(
     flatbuffers::FlatBufferBuilder &_fbb,
     const std::vector<double> *scale = nullptr,
-    const std::vector<int16_t> *rows = nullptr,
+    const std::vector<int8_t> *rows = nullptr,
     const std::vector<uint32_t> *ends = nullptr,
     double wind_scale = 0.0,
     const std::vector<int16_t> *winds = nullptr,
@@ -743,7 +746,7 @@ inline flatbuffers::Offset<ResampledResiduals> CreateResampledResidualsDirect(
     uint32_t longest = 0,
     const std::vector<int16_t> *mirror = nullptr) {
   auto scale__ = scale ? _fbb.CreateVector<double>(*scale) : 0;
-  auto rows__ = rows ? _fbb.CreateVector<int16_t>(*rows) : 0;
+  auto rows__ = rows ? _fbb.CreateVector<int8_t>(*rows) : 0;
   auto ends__ = ends ? _fbb.CreateVector<uint32_t>(*ends) : 0;
   auto winds__ = winds ? _fbb.CreateVector<int16_t>(*winds) : 0;
   auto lags__ = lags ? _fbb.CreateVector<uint16_t>(*lags) : 0;
@@ -2039,13 +2042,141 @@ inline flatbuffers::Offset<SwitchedArx> CreateSwitchedArxDirect(
       transitions__);
 }
 
+struct ShapeComponents FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
+  typedef ShapeComponentsBuilder Builder;
+  struct Traits;
+  enum FlatBuffersVTableOffset FLATBUFFERS_VTABLE_UNDERLYING_TYPE {
+    VT_SYMMETRIC = 4,
+    VT_ANTISYMMETRIC = 6,
+    VT_REST = 8,
+    VT_BASIS = 10,
+    VT_COORDINATES = 12,
+    VT_COMPONENTS = 14
+  };
+  uint16_t symmetric() const {
+    return GetField<uint16_t>(VT_SYMMETRIC, 0);
+  }
+  uint16_t antisymmetric() const {
+    return GetField<uint16_t>(VT_ANTISYMMETRIC, 0);
+  }
+  const flatbuffers::Vector<double> *rest() const {
+    return GetPointer<const flatbuffers::Vector<double> *>(VT_REST);
+  }
+  const flatbuffers::Vector<double> *basis() const {
+    return GetPointer<const flatbuffers::Vector<double> *>(VT_BASIS);
+  }
+  const flatbuffers::Vector<double> *coordinates() const {
+    return GetPointer<const flatbuffers::Vector<double> *>(VT_COORDINATES);
+  }
+  const flatbuffers::Vector<double> *components() const {
+    return GetPointer<const flatbuffers::Vector<double> *>(VT_COMPONENTS);
+  }
+  bool Verify(flatbuffers::Verifier &verifier) const {
+    return VerifyTableStart(verifier) &&
+           VerifyField<uint16_t>(verifier, VT_SYMMETRIC, 2) &&
+           VerifyField<uint16_t>(verifier, VT_ANTISYMMETRIC, 2) &&
+           VerifyOffsetRequired(verifier, VT_REST) &&
+           verifier.VerifyVector(rest()) &&
+           VerifyOffsetRequired(verifier, VT_BASIS) &&
+           verifier.VerifyVector(basis()) &&
+           VerifyOffsetRequired(verifier, VT_COORDINATES) &&
+           verifier.VerifyVector(coordinates()) &&
+           VerifyOffsetRequired(verifier, VT_COMPONENTS) &&
+           verifier.VerifyVector(components()) &&
+           verifier.EndTable();
+  }
+};
+
+struct ShapeComponentsBuilder {
+  typedef ShapeComponents Table;
+  flatbuffers::FlatBufferBuilder &fbb_;
+  flatbuffers::uoffset_t start_;
+  void add_symmetric(uint16_t symmetric) {
+    fbb_.AddElement<uint16_t>(ShapeComponents::VT_SYMMETRIC, symmetric, 0);
+  }
+  void add_antisymmetric(uint16_t antisymmetric) {
+    fbb_.AddElement<uint16_t>(ShapeComponents::VT_ANTISYMMETRIC, antisymmetric, 0);
+  }
+  void add_rest(flatbuffers::Offset<flatbuffers::Vector<double>> rest) {
+    fbb_.AddOffset(ShapeComponents::VT_REST, rest);
+  }
+  void add_basis(flatbuffers::Offset<flatbuffers::Vector<double>> basis) {
+    fbb_.AddOffset(ShapeComponents::VT_BASIS, basis);
+  }
+  void add_coordinates(flatbuffers::Offset<flatbuffers::Vector<double>> coordinates) {
+    fbb_.AddOffset(ShapeComponents::VT_COORDINATES, coordinates);
+  }
+  void add_components(flatbuffers::Offset<flatbuffers::Vector<double>> components) {
+    fbb_.AddOffset(ShapeComponents::VT_COMPONENTS, components);
+  }
+  explicit ShapeComponentsBuilder(flatbuffers::FlatBufferBuilder &_fbb)
+        : fbb_(_fbb) {
+    start_ = fbb_.StartTable();
+  }
+  flatbuffers::Offset<ShapeComponents> Finish() {
+    const auto end = fbb_.EndTable(start_);
+    auto o = flatbuffers::Offset<ShapeComponents>(end);
+    fbb_.Required(o, ShapeComponents::VT_REST);
+    fbb_.Required(o, ShapeComponents::VT_BASIS);
+    fbb_.Required(o, ShapeComponents::VT_COORDINATES);
+    fbb_.Required(o, ShapeComponents::VT_COMPONENTS);
+    return o;
+  }
+};
+
+inline flatbuffers::Offset<ShapeComponents> CreateShapeComponents(
+    flatbuffers::FlatBufferBuilder &_fbb,
+    uint16_t symmetric = 0,
+    uint16_t antisymmetric = 0,
+    flatbuffers::Offset<flatbuffers::Vector<double>> rest = 0,
+    flatbuffers::Offset<flatbuffers::Vector<double>> basis = 0,
+    flatbuffers::Offset<flatbuffers::Vector<double>> coordinates = 0,
+    flatbuffers::Offset<flatbuffers::Vector<double>> components = 0) {
+  ShapeComponentsBuilder builder_(_fbb);
+  builder_.add_components(components);
+  builder_.add_coordinates(coordinates);
+  builder_.add_basis(basis);
+  builder_.add_rest(rest);
+  builder_.add_antisymmetric(antisymmetric);
+  builder_.add_symmetric(symmetric);
+  return builder_.Finish();
+}
+
+struct ShapeComponents::Traits {
+  using type = ShapeComponents;
+  static auto constexpr Create = CreateShapeComponents;
+};
+
+inline flatbuffers::Offset<ShapeComponents> CreateShapeComponentsDirect(
+    flatbuffers::FlatBufferBuilder &_fbb,
+    uint16_t symmetric = 0,
+    uint16_t antisymmetric = 0,
+    const std::vector<double> *rest = nullptr,
+    const std::vector<double> *basis = nullptr,
+    const std::vector<double> *coordinates = nullptr,
+    const std::vector<double> *components = nullptr) {
+  auto rest__ = rest ? _fbb.CreateVector<double>(*rest) : 0;
+  auto basis__ = basis ? _fbb.CreateVector<double>(*basis) : 0;
+  auto coordinates__ = coordinates ? _fbb.CreateVector<double>(*coordinates) : 0;
+  auto components__ = components ? _fbb.CreateVector<double>(*components) : 0;
+  return wisp::file::CreateShapeComponents(
+      _fbb,
+      symmetric,
+      antisymmetric,
+      rest__,
+      basis__,
+      coordinates__,
+      components__);
+}
+
 struct Outline FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   typedef OutlineBuilder Builder;
   struct Traits;
   enum FlatBuffersVTableOffset FLATBUFFERS_VTABLE_UNDERLYING_TYPE {
     VT_KNOTS = 4,
     VT_METRES_PER_UNIT = 6,
-    VT_PIXELS_PER_UNIT = 8
+    VT_PIXELS_PER_UNIT = 8,
+    VT_SHAPE = 10
   };
   const flatbuffers::Vector<double> *knots() const {
     return GetPointer<const flatbuffers::Vector<double> *>(VT_KNOTS);
@@ -2056,12 +2187,17 @@ struct Outline FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {
   double pixels_per_unit() const {
     return GetField<double>(VT_PIXELS_PER_UNIT, 0.0);
   }
+  const wisp::file::ShapeComponents *shape() const {
+    return GetPointer<const wisp::file::ShapeComponents *>(VT_SHAPE);
+  }
   bool Verify(flatbuffers::Verifier &verifier) const {
     return VerifyTableStart(verifier) &&
            VerifyOffsetRequired(verifier, VT_KNOTS) &&
            verifier.VerifyVector(knots()) &&
            VerifyField<double>(verifier, VT_METRES_PER_UNIT, 8) &&
            VerifyField<double>(verifier, VT_PIXELS_PER_UNIT, 8) &&
+           VerifyOffset(verifier, VT_SHAPE) &&
+           verifier.VerifyTable(shape()) &&
            verifier.EndTable();
   }
 };
@@ -2079,6 +2215,9 @@ struct OutlineBuilder {
   void add_pixels_per_unit(double pixels_per_unit) {
     fbb_.AddElement<double>(Outline::VT_PIXELS_PER_UNIT, pixels_per_unit, 0.0);
   }
+  void add_shape(flatbuffers::Offset<wisp::file::ShapeComponents> shape) {
+    fbb_.AddOffset(Outline::VT_SHAPE, shape);
+  }
   explicit OutlineBuilder(flatbuffers::FlatBufferBuilder &_fbb)
         : fbb_(_fbb) {
     start_ = fbb_.StartTable();
@@ -2095,10 +2234,12 @@ inline flatbuffers::Offset<Outline> CreateOutline(
     flatbuffers::FlatBufferBuilder &_fbb,
     flatbuffers::Offset<flatbuffers::Vector<double>> knots = 0,
     double metres_per_unit = 0.0,
-    double pixels_per_unit = 0.0) {
+    double pixels_per_unit = 0.0,
+    flatbuffers::Offset<wisp::file::ShapeComponents> shape = 0) {
   OutlineBuilder builder_(_fbb);
   builder_.add_pixels_per_unit(pixels_per_unit);
   builder_.add_metres_per_unit(metres_per_unit);
+  builder_.add_shape(shape);
   builder_.add_knots(knots);
   return builder_.Finish();
 }
@@ -2112,13 +2253,15 @@ inline flatbuffers::Offset<Outline> CreateOutlineDirect(
     flatbuffers::FlatBufferBuilder &_fbb,
     const std::vector<double> *knots = nullptr,
     double metres_per_unit = 0.0,
-    double pixels_per_unit = 0.0) {
+    double pixels_per_unit = 0.0,
+    flatbuffers::Offset<wisp::file::ShapeComponents> shape = 0) {
   auto knots__ = knots ? _fbb.CreateVector<double>(*knots) : 0;
   return wisp::file::CreateOutline(
       _fbb,
       knots__,
       metres_per_unit,
-      pixels_per_unit);
+      pixels_per_unit,
+      shape);
 }
 
 struct Pose FLATBUFFERS_FINAL_CLASS : private flatbuffers::Table {

@@ -107,8 +107,7 @@ FlamePlayer emulator(const std::vector<Frames>& frames, double jitter, const Set
 }
 
 std::vector<FlamePlayer> players_of(const std::vector<Recording>& clips, const FlameUnits& units) {
-  // As `wisp learn flame` does: a curve on the wind where held-out rows say so.
-  const Model wisp = value_or_abort(fit_outline(clips, {.input_curve = std::nullopt})).model;
+  const Model wisp = value_or_abort(fit_outline(clips)).model;
   const Setting setting{outline_outputs(units.knots.size() - 4), view_operations(wisp)};
   const auto frames = frames_in(clips, units, setting);
   return {player_of("Wisp", wisp),

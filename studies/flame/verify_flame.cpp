@@ -146,16 +146,6 @@ void differ(const char* what, const std::vector<Score>& a, const std::vector<Sco
               least(tips), most(tips), mean(j), least(j), most(j));
 }
 
-void print_choices(const Clips& clips) {
-  std::printf("\nWhat was found on the way, clip by clip\n");
-  for (const FlameClip& clip : clips.learn) {
-    const auto fit = value_or_abort(
-        fit_outline(std::vector{driven_by_sound(clip, WindMeasure::kSpeed)}, {.order = {}, .delay = {}}));
-    std::printf("  %s: %s\n", clip.outline.source.c_str(), fit.summary.choice.reason.c_str());
-    for (const InputAlignment& one : fit.summary.alignment) std::printf("    %s\n", one.note().c_str());
-  }
-}
-
 void bound(const std::vector<Score>& sound, const std::vector<Score>& truth, Bounds& bounds) {
   std::printf("\n");
   bounds.at_least("tip's fit from sound, %, mean", mean(all(sound, &Score::tip)), 60);
@@ -242,24 +232,18 @@ int main(int count, char** arguments) {
   }
   const Clips clips = simulate_all();
   header();
-  const auto sound = try_way({.name = "as it is: speed, order 4", .fidelity = true}, clips);
+  const auto sound = try_way({.name = "as it is: speed", .fidelity = true}, clips);
   const auto truth = try_way({.name = "true wind", .truth = true}, clips);
-  const auto high = try_way({.name = "order 25", .options = {.order = 25}}, clips);
-  try_way({.name = "order and delay searched", .options = {.order = {}, .delay = {}}}, clips);
   const auto heard = try_way({.name = "speed, other sounds too", .measure = WindMeasure::kHeard}, clips);
   const auto rms = try_way({.name = "plain RMS", .measure = WindMeasure::kRms}, clips);
-  const auto one_sided = try_way({.name = "one-sided", .options = {.one_sided = true}}, clips);
-  try_way({.name = "one-sided, plain RMS: the paper", .measure = WindMeasure::kRms, .options = {.one_sided = true}},
-          clips);
-  try_way({.name = "band coupling", .options = {.coupling = OutlineCoupling::kBand}}, clips);
+  const auto paper = try_way({.name = "the paper's points", .options = {.paper = 4}}, clips);
+  try_way({.name = "the paper's points, plain RMS", .measure = WindMeasure::kRms, .options = {.paper = 4}}, clips);
 
   std::printf("\nPair by pair (least to most)\n");
-  differ("order 25 over order 4", high, sound);
+  differ("components over points", sound, paper);
   differ("speed over plain RMS", sound, rms);
   differ("speed over speed with other sounds", sound, heard);
-  differ("one-sided over signed", one_sided, sound);
   differ("the true wind over sound", truth, sound);
-  print_choices(clips);
   Bounds bounds;
   bound(sound, truth, bounds);
   std::printf("\n%s\n", bounds.missed() == 0 ? "all bounds held" : "bounds were missed");

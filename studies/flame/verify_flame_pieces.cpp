@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <optional>
 
 #include "learn/outline/outline_fit.hpp"
 #include "learn/outline/outline_judgement.hpp"
@@ -20,21 +19,9 @@ struct Piece {
   OutlineRecipe options;
 };
 
-constexpr const char* kDefaultPiece = "drawn all points with powers (the default)";  // of `wisp learn flame`
+constexpr const char* kDefaultPiece = "components of the shape (the default)";  // of `wisp learn flame`
 
-/// One after the other, each beside the one before.
-std::vector<Piece> pieces() {
-  return {
-      {"independent (the paper)", {.noise = OutlineNoise::kIndependent, .match_variance = false}},
-      {"independent scaled", {.noise = OutlineNoise::kIndependent}},
-      {"residual covariance", {.noise = OutlineNoise::kResidual}},
-      {"matched", {.noise = OutlineNoise::kMatched}},
-      {"drawn order 4 points", {.order = 4, .coupling = OutlineCoupling::kPoint, .noise = OutlineNoise::kResampled}},
-      {"drawn", {.light = true}},
-      {"drawn with curve (light)", {.light = true, .input_curve = std::nullopt}},
-      {kDefaultPiece, {}},
-  };
-}
+std::vector<Piece> pieces() { return {{"points (the paper)", {.paper = 4}}, {kDefaultPiece, {}}}; }
 
 bool is_asked(const PieceQuestion& question, const std::string& name) {
   return question.names.empty() ||
@@ -43,13 +30,7 @@ bool is_asked(const PieceQuestion& question, const std::string& name) {
 
 /// What there is without an input.
 std::vector<Piece> flicker_pieces() {
-  std::vector<Piece> out{
-      {"independent (the paper)", {.noise = OutlineNoise::kIndependent, .match_variance = false}},
-      {"independent scaled", {.noise = OutlineNoise::kIndependent}},
-      {"residual covariance", {.noise = OutlineNoise::kResidual}},
-      {"matched (the default)", {}},
-      {"drawn", {.order = 4, .coupling = OutlineCoupling::kPoint, .noise = OutlineNoise::kResampled}},
-  };
+  std::vector<Piece> out = pieces();
   for (Piece& piece : out) piece.options.inputs.emplace();
   return out;
 }

@@ -57,7 +57,7 @@ std::vector<std::vector<double>> theta_of(const Json& json) {
 ResampledResiduals resampled_of(const Json& json) {
   ResampledResiduals resampled;
   if (json.is_null()) return resampled;
-  resampled.rows = flat<std::int16_t>(json["rows"]);
+  resampled.rows = flat<std::int8_t>(json["rows"]);
   put(json["scale"], resampled.scale);
   put(json["ends"], resampled.ends);
   put(json["wind_scale"], resampled.wind_scale);
@@ -162,8 +162,22 @@ Dynamics dynamics_of(const Json& json) {
   return switched_of(json);
 }
 
+std::vector<ValueRange> ranges_of(const Json& json) {
+  std::vector<ValueRange> ranges;
+  for (const Json& range : json) ranges.push_back({range[0], range[1]});
+  return ranges;
+}
+
+ShapeComponents shape_of(const Json& json) {
+  if (json.is_null()) return {};
+  return {json["symmetric"], json["antisymmetric"],          json["rest"],
+          json["basis"],     ranges_of(json["coordinates"]), ranges_of(json["components"])};
+}
+
 View view_of(const Json& json) {
-  if (json["kind"] == "outline") return OutlineView{json["knots"], json["metres_per_unit"], json["pixels_per_unit"]};
+  if (json["kind"] == "outline") {
+    return OutlineView{json["knots"], json["metres_per_unit"], json["pixels_per_unit"], shape_of(json["shape"])};
+  }
   if (json["kind"] == "pose") return PoseView{json["half_width"], json["half_length"]};
   if (json["kind"] == "position") return PositionView{json["half_width"]};
   return PlainView{};

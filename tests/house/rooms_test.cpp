@@ -18,7 +18,6 @@ using ::testing::Pair;
 const std::set<Climb> kAllowed{
     "learn/arx -> learn/arx/report",
     "learn/arx/fit -> learn/arx/judge",
-    "learn/outline -> learn/flame",
 };
 
 std::vector<std::string> new_climbs(const std::filesystem::path& root) {

@@ -52,6 +52,7 @@ void expect_same(const Model& a, const Model& b) {
   EXPECT_EQ(a.inputs.at(0).shape, b.inputs.at(0).shape);
   EXPECT_EQ(a.outputs.at(3).name, b.outputs.at(3).name);
   EXPECT_EQ(std::get<OutlineView>(a.view).knots, std::get<OutlineView>(b.view).knots);
+  EXPECT_EQ(std::get<OutlineView>(a.view).shape, std::get<OutlineView>(b.view).shape);
   EXPECT_EQ(a.training, b.training);
   EXPECT_EQ(a.extinction, b.extinction);
 }
@@ -62,6 +63,47 @@ TEST(ModelFile, WhatIsWrittenIsRead) {
   expect_same(*read, sample_model());
 }
 
+// The sample's four control points as two symmetric components and one antisymmetric one.
+Model shaped_model() {
+  Model model = sample_model();
+  auto& arx = std::get<ArxModel>(model.dynamics);
+  const int inputs = arx.orders.inputs();
+  arx.orders = {OrderMatrix(3, 3, 1), OrderMatrix(3, inputs), OrderMatrix(3, inputs)};
+  arx.theta.assign(3, {-0.1, 0.2, 0.1});
+  arx.std_error.clear();
+  arx.constant = arx.output_mean = arx.noise.sd = {0, 0.5, 1};
+  arx.noise.sd_ci95.clear();
+  arx.noise.rank = 0;
+  arx.noise.mixing.clear();
+  ShapeComponents& shape = std::get<OutlineView>(model.view).shape;
+  shape.symmetric = 2;
+  shape.antisymmetric = 1;
+  shape.rest = {0.1, 0, 0.05, 1, 0, 0, 0.01, 0};
+  shape.basis = {0.01, 0, 0, 0, 0.02, 0.1, 0.3, 0, 0, 0.01, 0.2, 0.1};
+  shape.coordinates.assign(8, {-2, 2});
+  shape.components.assign(3, {-4, 4.5});
+  return model;
+}
+
+TEST(ModelFile, AShapeOfComponentsIsKept) {
+  const Model model = shaped_model();
+  ASSERT_TRUE(check(model)) << check(model).error().message;
+  const auto bytes = model_bytes(model);
+  ASSERT_TRUE(bytes);
+  const auto read = parse_model(*bytes, "shaped.wisp");
+  ASSERT_TRUE(read) << read.error().message;
+  expect_same(*read, model);
+  Model bad = model;
+  std::get<OutlineView>(bad.view).shape.basis.pop_back();
+  EXPECT_FALSE(check(bad));
+  bad = model;
+  std::get<OutlineView>(bad.view).shape.antisymmetric = 2;
+  EXPECT_FALSE(check(bad));
+  bad = model;
+  std::get<OutlineView>(bad.view).shape.coordinates[3] = {2, 1};
+  EXPECT_FALSE(check(bad));
+}
+
 // Two stretches of residuals to be played again, mirrored in a wind from the other side.
 Model resampled_model() {
   Model model = sample_model();
@@ -70,7 +112,7 @@ Model resampled_model() {
     resampled.scale.push_back(1e-5 * (1 + i));
     resampled.mirror.push_back(i % 2 == 0 ? -(7 - i) : 9 - i);
   }
-  for (int k = 0; k < 5 * 8; ++k) resampled.rows.push_back(static_cast<std::int16_t>(800 * k - 16000));
+  for (int k = 0; k < 5 * 8; ++k) resampled.rows.push_back(static_cast<std::int8_t>(6 * k - 120));
   resampled.ends = {2, 5};
   resampled.wind_scale = 1e-4;
   resampled.winds = {0, 0, 0, 100, 100, -7, 3, 9000, 12, 32767, -32768};

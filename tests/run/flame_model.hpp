@@ -22,9 +22,9 @@ struct FlameOptions {
 /// side plays their mirror image.
 inline ResampledResiduals resampled_flame_residuals(int outputs, int rows, bool both_sides, int swing = 20) {
   ResampledResiduals resampled;
-  resampled.scale.assign(outputs, 1e-6);
+  resampled.scale.assign(outputs, 1e-4);
   for (int k = 0; k < rows * outputs; ++k)
-    resampled.rows.push_back(static_cast<std::int16_t>(k * 7919 % 20011 - 10005));
+    resampled.rows.push_back(static_cast<std::int8_t>(k * 7919 % 201 - 100));
   resampled.ends = {static_cast<std::uint32_t>(rows / 3), static_cast<std::uint32_t>(rows)};
   resampled.wind_scale = 1e-4;
   resampled.lags = {0, 1, 2, 4};
@@ -107,7 +107,7 @@ inline Model default_flame_model(InputShape wind = InputShape::kSplitSign) {
     const int other = kOutputs - 2 + i;
     for (int k = 0; k < 3 * kLags; ++k) arx.theta[other][k] = (k < kLags ? 1 : -1) * arx.theta[i][k];
     for (std::size_t row = 0; row < rows.size(); row += kOutputs) {
-      rows[row + other] = static_cast<std::int16_t>(-rows[row + i]);
+      rows[row + other] = static_cast<std::int8_t>(-rows[row + i]);
     }
   }
   model.extinction = Extinction{};

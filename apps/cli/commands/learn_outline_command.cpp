@@ -5,7 +5,6 @@
 
 #include "commands/commands.hpp"
 #include "flags/capture_flags.hpp"
-#include "flags/curve_flag.hpp"
 #include "flags/outline_flags.hpp"
 #include "reports/learned_model.hpp"
 #include "terminal.hpp"
@@ -29,15 +28,11 @@ Result<void> run_learn_outline(const Arguments& arguments, Terminal& terminal) {
 // What differs between the presets.
 struct Preset {
   const char* extinction;
-  const char* input_curve;
   const char* flame;
 };
 
 Command learn(std::string name, std::string summary, const Preset& preset, std::vector<Example> examples) {
-  std::vector<Flag> flags = {output_flag(), extinction_flag(preset.extinction),
-                             curve_flag(preset.input_curve,
-                                        "; where all points feed each other auto is none, as the input's root and "
-                                        "square are regressors")};
+  std::vector<Flag> flags = {output_flag(), extinction_flag(preset.extinction)};
   for (const std::vector<Flag>& more : {outline_flags(), capture_flags(preset.flame)}) {
     flags.insert(flags.end(), more.begin(), more.end());
   }
@@ -49,13 +44,13 @@ Command learn(std::string name, std::string summary, const Preset& preset, std::
 }  // namespace
 
 Command learn_outline_command() {
-  return learn("learn outline", "Learns how an outline moves, by itself and driven by its inputs.", {"off", "0", "0"},
+  return learn("learn outline", "Learns how an outline moves, by itself and driven by its inputs.", {"off", "0"},
                {{"wisp learn outline flag.mp4 --dark --points 12 -o flag.wisp", "Straight from a clip"}});
 }
 
 Command learn_flame_command() {
   return learn(
-      "learn flame", "Learns a flame: `learn outline` with a flame's settings.", {"auto", "auto", "1"},
+      "learn flame", "Learns a flame: `learn outline` with a flame's settings.", {"auto", "1"},
       {{"wisp learn flame candle.csv -o flame.wisp", "From a captured recording"},
        {"wisp learn flame candle.mp4 --points 16 -o flame.wisp", "Straight from a clip, sixteen control points"},
        {"wisp learn flame candle.csv --blow-out 1.5,0.3 -o flame.wisp",

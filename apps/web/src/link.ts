@@ -12,7 +12,7 @@ export interface Settings {
   noise: number;
   candles: number;
   leaves: number;
-  /** order of the flame's model, one of those that are shipped */
+  /** 0: the flame as it is learned today; else the order of the paper's point systems, one of those that are shipped */
   order: number;
   /** longest history of the leaf's chain; 0: as learned */
   history: number;
@@ -23,6 +23,7 @@ export interface Settings {
 }
 
 export { MAX_LEAVES };
+/** Of the point systems that are shipped for lessons. */
 export const ORDERS: readonly number[] = [2, 4, 6];
 
 export const DEFAULTS: Readonly<Settings> = {
@@ -31,7 +32,7 @@ export const DEFAULTS: Readonly<Settings> = {
   noise: 1,
   candles: 1,
   leaves: 400,
-  order: 4,
+  order: 0,
   history: 0,
   detail: 0,
   model: '',
@@ -42,7 +43,7 @@ const RANGES: Readonly<Record<Exclude<keyof Settings, 'scene' | 'model'>, readon
   noise: [0, 2, false],
   candles: [1, 12, true],
   leaves: [1, MAX_LEAVES, true],
-  order: [2, 6, true],
+  order: [0, 6, true],
   history: [0, 8, true],
   detail: [0, 2, false],
 };
@@ -60,7 +61,7 @@ export function settingsFromLink(hash: string, otherwise: Readonly<Settings> = D
     if (!(value >= low && value <= high) || (whole && !Number.isInteger(value))) continue;
     settings[name as keyof typeof RANGES] = value;
   }
-  if (!ORDERS.includes(settings.order)) settings.order = otherwise.order;
+  if (settings.order !== 0 && !ORDERS.includes(settings.order)) settings.order = otherwise.order;
   return settings;
 }
 

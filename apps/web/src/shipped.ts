@@ -6,9 +6,10 @@ export interface Shipped {
   file: string;
 }
 
-/** The flame of that order. */
+/** The flame of the default recipe (0), or of point systems of that order. */
 export function shippedFlame(order: number): Shipped {
-  return { url: `./models/flame-${order}.wisp`, file: `flame-${order}.wisp` };
+  const file = order === 0 ? 'flame.wisp' : `flame-${order}.wisp`;
+  return { url: `./models/${file}`, file };
 }
 
 export const SHIPPED_LEAF: Shipped = { url: './models/leaf.wisp', file: 'leaf.wisp' };

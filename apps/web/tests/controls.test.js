@@ -211,6 +211,8 @@ describe('the drawer', { skip }, () => {
       await until(page, `order ${order}`, (wanted) => document.querySelector(`[data-order="${wanted}"]`)?.ariaPressed === 'true', order);
       assert.match(await page.textContent('#drawer'), new RegExp(`Looks back${order} steps`));
     }
+    await page.click('[data-order="0"]');
+    await until(page, 'the shape', () => document.querySelector('[data-order="0"]')?.ariaPressed === 'true');
   });
 
   it('gives other chance, and the link carries it', async () => {
@@ -224,8 +226,8 @@ describe('the drawer', { skip }, () => {
 
   it('saves the model as it is', async () => {
     const [download] = await Promise.all([page.waitForEvent('download'), page.click('[data-file=save]')]);
-    assert.equal(download.suggestedFilename(), 'flame-4.wisp');
-    assert.deepEqual(readFileSync(await download.path()), readFileSync(model('flame-4.wisp')));
+    assert.equal(download.suggestedFilename(), 'flame.wisp');
+    assert.deepEqual(readFileSync(await download.path()), readFileSync(model('flame.wisp')));
   });
 
   it('opens a model that is chosen', async () => {

@@ -100,14 +100,10 @@ export interface Recipe {
   seed?: number;
   /** of falls: odd, rows that velocities are taken over, where positions are noisy; 0 */
   smooth?: number;
-  /** lags of outputs and inputs; 0: the default */
+  /** lags of outputs and inputs of an ARX model; 0: the default */
   order?: number;
-  /** an outline with a third of the arithmetic, as `--light` */
-  light?: boolean;
-  /** noise of an outline */
-  noise?: 'independent' | 'residual' | 'matched' | 'resampled';
-  /** knots of the input curve, 3 to 16; 0: none; not said: found */
-  curve?: number;
+  /** an outline as in the paper: order of the systems, one a control point; 0: components of the shape */
+  paper?: number;
   /** lags of inputs and delay of an ARX model; names of its channels where the table does not say */
   nb?: number;
   nk?: number;

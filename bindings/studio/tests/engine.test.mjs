@@ -268,11 +268,11 @@ describe('against the program', { skip: existsSync(program) ? false : 'the progr
     assert.ok(bytes.equals(engine.table('rig.csv', bytes).csv));
   });
 
-  for (const light of [false, true]) {
-    test(`the same recording gives the same ${light ? 'light ' : ''}model`, () => {
-      const flags = light ? ['--light'] : [];
+  for (const paper of [0, 4]) {
+    test(`the same recording gives the same ${paper ? 'point systems' : 'shape'}`, () => {
+      const flags = paper ? ['--paper', '4'] : [];
       const report = JSON.parse(wisp('learn', 'flame', recording, ...flags, '-o', join(folder, 'rig.wisp'), '--json'));
-      const fit = engine.learn([readFileSync(recording)], { kind: 'flame', name: 'rig', light });
+      const fit = engine.learn([readFileSync(recording)], { kind: 'flame', name: 'rig', paper });
       assert.deepEqual(fit.report.usable, report.usable);
       const theirs = numbersIn(report);
       const ours = numbersIn(fit.report);

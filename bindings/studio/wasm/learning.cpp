@@ -43,14 +43,7 @@ SomeRecipe named(const json& from, SomeRecipe recipe) {
 template <class SomeRecipe>
 SomeRecipe outline_recipe(const json& from, SomeRecipe defaults) {
   SomeRecipe recipe = named(from, std::move(defaults));
-  if (const auto order = whole(from, "order")) recipe.order = *order;
-  if (const auto knots = whole(from, "curve")) recipe.input_curve = *knots;
-  const std::string noise = from.value("noise", "");
-  if (noise == "independent") recipe.noise = OutlineNoise::kIndependent;
-  if (noise == "residual") recipe.noise = OutlineNoise::kResidual;
-  if (noise == "matched") recipe.noise = OutlineNoise::kMatched;
-  if (noise == "resampled") recipe.noise = OutlineNoise::kResampled;
-  recipe.light = from.value("light", false);
+  if (const auto order = whole(from, "paper")) recipe.paper = *order;
   return recipe;
 }
 

@@ -4,7 +4,7 @@
 #include "learn/arx/learn_arx.hpp"
 #include "learn/chain/gusts/gust_report.hpp"
 #include "learn/chain/modes/mode_systems.hpp"
-#include "learn/outline/learn_outline.hpp"
+#include "learn/flame/learn_outline.hpp"
 #include "learns.hpp"
 #include "wisp/learn/validate_outline.hpp"
 

@@ -62,7 +62,7 @@ struct ArxOrders {
 /// apart is the mean over a few lags of the differences' sizes. A jump moves no output: the dynamics lie between.
 struct ResampledResiduals {
   std::vector<double> scale;        ///< per output: a stored 1, in the output's unit, >= 0
-  std::vector<std::int16_t> rows;   ///< rows × outputs, row-major
+  std::vector<std::int8_t> rows;    ///< rows × outputs, row-major
   std::vector<std::uint32_t> ends;  ///< one past the last row of every stretch, ascending; the last is the row count
   double wind_scale = 0;            ///< a stored 1 of `winds`, in the regressor's unit
   std::vector<std::int16_t> winds;  ///< the input: of every stretch as many samples before it as the last lag says,

@@ -15,6 +15,7 @@
 #include "wisp/model/chain.hpp"
 #include "wisp/model/extinction.hpp"
 #include "wisp/model/input_curve.hpp"
+#include "wisp/model/shape_components.hpp"
 #include "wisp/model/switched.hpp"
 #include "wisp/model/training.hpp"
 
@@ -54,6 +55,7 @@ struct OutlineView {
   std::vector<double> knots;   ///< full, clamped, cubic: outputs/2 + 4 values
   double metres_per_unit = 0;  ///< 0 where it is not known
   double pixels_per_unit = 0;  ///< of the clip that it was learned from; 0 where there was none
+  ShapeComponents shape{};     ///< what the dynamics move; empty: the control points themselves
 };
 
 /// The outputs stand for nothing but themselves.

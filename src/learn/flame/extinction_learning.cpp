@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "learn/outline/outline_inputs.hpp"
-#include "learn/outline/trained_scale.hpp"
+#include "learn/outline/outline_inputs.hpp"
 
 namespace wisp {
 namespace {

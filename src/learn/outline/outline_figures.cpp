@@ -6,14 +6,13 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/statistics.hpp"
 #include "learn/arx/judge/prediction_tally.hpp"
-#include "learn/arx/judge/residual_tests.hpp"
 #include "learn/outline/outline_shape.hpp"
 
 namespace wisp {
 namespace {
 
-constexpr int kWhitenessLags = 20;
 constexpr std::size_t kMaxShapes = 2000;  // neighbouring frames say the same
 
 using Predicted = std::vector<std::vector<double>>;  // [output][row]
@@ -129,7 +128,7 @@ Result<OutlineFigures> outline_figures(const OutlinePredictor& predicted, std::s
                                        const OutlineLayout& layout, const std::vector<int>& steps) {
   OutlineFigures out;
   out.steps = steps;
-  for (std::size_t c : layout.outputs) out.channels.push_back({recordings.front().channels[c].name, {}, 1});
+  for (std::size_t c : layout.outputs) out.channels.push_back({recordings.front().channels[c].name, {}});
   std::size_t all_rows = 0;
   for (const Recording& recording : recordings) all_rows += recording.rows();
   const std::size_t stride = 1 + all_rows / kMaxShapes;
@@ -151,18 +150,12 @@ Result<OutlineFigures> outline_figures(const OutlinePredictor& predicted, std::s
   return out;
 }
 
-Result<OutlineFigures> outline_figures(const ArxModel& model, std::span<const Recording> recordings,
-                                       const ChannelChoice& channels, const OutlineLayout& layout,
-                                       const std::vector<int>& steps) {
+Result<OutlineFigures> outline_figures(const OutlineDynamics& dynamics, std::span<const Recording> recordings,
+                                       const PreparedOutlines& prepared, const std::vector<int>& steps) {
   const auto predicted = [&](std::size_t recording, int k) {
-    return predict(model, recordings[recording], channels, {.steps = k});
+    return predict_outline(dynamics, recordings[recording], prepared, {.steps = k});
   };
-  auto out = outline_figures(predicted, recordings, layout, steps);
-  if (!out) return out;
-  // Too short to test: nothing speaks against white.
-  const auto left = test_residuals(model, recordings, channels, {.lags = kWhitenessLags});
-  for (std::size_t i = 0; left && i < out->channels.size(); ++i) out->channels[i].whiteness_p = left->whiteness[i].p;
-  return out;
+  return outline_figures(predicted, recordings, prepared.layout, steps);
 }
 
 double fit_percent(std::span<const double> measured, std::span<const double> predicted) {
@@ -181,14 +174,12 @@ double fit_percent(std::span<const double> measured, std::span<const double> pre
 double absolute_fit_percent(std::span<const double> measured, std::span<const double> predicted) {
   assert(measured.size() == predicted.size());
   if (measured.empty()) return 0;
-  std::vector<double> sorted(measured.begin(), measured.end());
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
+  const double middle = median(std::vector<double>(measured.begin(), measured.end()));
   double error = 0;
   double spread = 0;
   for (std::size_t t = 0; t < measured.size(); ++t) {
     error += std::abs(measured[t] - predicted[t]);
-    spread += std::abs(measured[t] - *middle);
+    spread += std::abs(measured[t] - middle);
   }
   return spread > 0 ? 100 * (1 - error / spread) : 0;
 }

@@ -7,11 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "learn/arx/judge/prediction.hpp"
-#include "learn/arx/rows/channel_choice.hpp"
+#include "learn/outline/outline_dynamics.hpp"
 #include "learn/outline/outline_units.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/model/arx.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {
@@ -23,8 +21,6 @@ inline const std::vector<int> kJudgedSteps{1, 5, 15, kFreeRun};
 struct OutlineChannelFigures {
   std::string name;
   std::vector<double> fit_percent;  ///< 100(1 − ‖y − ŷ‖/‖y − ȳ‖), one a number of steps
-  double whiteness_p = 1;  ///< Ljung–Box over 20 lags of the one-step residual: small where something is left to
-                           ///< model; 1 where there are too few rows to tell
 };
 
 /// Everything one entry a number of steps unless it says otherwise.
@@ -44,21 +40,19 @@ struct OutlineFigures {
 /// What is predicted of one of several recordings, so many steps ahead: as predict() returns it.
 using OutlinePredictor = std::function<Result<std::vector<std::vector<double>>>(std::size_t recording, int steps)>;
 
-/// Judges predictions of recordings in a model's units. Their residuals are not tested.
+/// Judges predictions of recordings in a model's units.
 /// Errors: as `predicted`; no row that is measured and predicted.
 ///
 /// Preconditions: at least one recording; all have the layout.
 Result<OutlineFigures> outline_figures(const OutlinePredictor& predicted, std::span<const Recording> recordings,
                                        const OutlineLayout& layout, const std::vector<int>& steps);
 
-/// Judges a model on recordings in its own units, with its regressors as inputs (outline_units.hpp,
-/// outline_inputs.hpp). A model without inputs, simulated freely, is its mean shape: its figures at kFreeRun say how
-/// much the outline moves, not how good the model is. Tip and overlap of long recordings are of at most 2000 frames,
-/// evenly spread.
-/// Errors: as predict(); no row that is measured and predicted.
-Result<OutlineFigures> outline_figures(const ArxModel& model, std::span<const Recording> recordings,
-                                       const ChannelChoice& channels, const OutlineLayout& layout,
-                                       const std::vector<int>& steps = kJudgedSteps);
+/// Judges dynamics on prepared recordings. Without inputs, simulated freely, they are their mean shape: figures at
+/// kFreeRun say how much the outline moves, not how good the dynamics are. Tip and overlap of long recordings are of at
+/// most 2000 frames, evenly spread.
+/// Errors: as predict_outline(); no row that is measured and predicted.
+Result<OutlineFigures> outline_figures(const OutlineDynamics& dynamics, std::span<const Recording> recordings,
+                                       const PreparedOutlines& prepared, const std::vector<int>& steps = kJudgedSteps);
 
 /// 100(1 − ‖y − ŷ‖/‖y − ȳ‖); 0 where y is constant or empty.
 ///

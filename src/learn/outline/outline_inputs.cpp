@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/statistics.hpp"
+
 namespace wisp {
 namespace {
 
@@ -11,12 +13,6 @@ constexpr double kLargest = 0.99;
 
 // Fewer calm rows than this say little about the calm height; then all rows are taken.
 constexpr double kCalmSeconds = 0.5;
-
-double percentile(std::vector<double>& values, double share) {
-  const auto at = static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)));
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
-  return values[at];
-}
 
 struct Strengths {
   std::vector<double> all;  // |sample|, missing ones left out
@@ -65,7 +61,6 @@ std::vector<Form> forms_of(RegressorShape shape) {
     return {{"+", positive, whole}, {"+ root", positive, root}, {"+ square", positive, square},
             {"-", negative, whole}, {"- root", negative, root}, {"- square", negative, square}};
   }
-  if (shape.split_sign) return {{"+", positive, whole}, {"-", negative, whole}};
   return {{"", whole, whole}};
 }
 
@@ -76,12 +71,12 @@ Result<OutlineInput> scaled_input(std::span<const Recording> recordings, const s
   if (!found) return found.error();
   const std::string& source = recordings.front().source;
   if (found->all.empty()) return Error{source + ": its input " + name + " has no sample"};
-  const double calm = kCalmShare * percentile(found->all, kLargest);
+  const double calm = kCalmShare * quantile(found->all, kLargest);
   std::erase_if(found->all, [&](double strength) { return !(strength > calm); });
   if (found->all.empty()) {
     return Error{source + ": its input " + name + " is 0 throughout; learn without inputs instead"};
   }
-  OutlineInput input{name, found->unit, percentile(found->all, kWindOne), 0, 0};
+  OutlineInput input{name, found->unit, quantile(found->all, kWindOne), 0, 0};
   input.lowest = found->lowest / input.scale;
   input.highest = found->highest / input.scale;
   return input;
@@ -126,8 +121,7 @@ double resting_height_pixels(const Recording& recording, const OutlineLayout& la
                              std::span<const OutlineInput> inputs) {
   const auto rows = undisturbed_rows(recording, inputs);
   if (inputs.empty() || rows.empty()) return mean_height_pixels(recording, layout, rows);
-  std::vector<double> heights = heights_pixels(recording, layout, rows);
-  return heights.empty() ? 0 : percentile(heights, 0.5);
+  return quantile(heights_pixels(recording, layout, rows), 0.5);
 }
 
 std::vector<std::string> regressor_names(std::span<const OutlineInput> inputs, RegressorShape shape) {
@@ -146,8 +140,7 @@ Recording with_regressors(const Recording& recording, std::span<const OutlineInp
     for (const Form& form : forms_of(shape)) {
       Channel channel{input.name + form.suffix, "", Role::kInput, {}};
       for (double u : samples) {
-        const double plain = form.power(form.part(u / input.scale));
-        channel.samples.push_back(shape.curve ? value_at(input.curve, plain) : plain);
+        channel.samples.push_back(form.power(form.part(u / input.scale)));
       }
       out.channels.push_back(std::move(channel));
     }
@@ -170,27 +163,12 @@ std::vector<double> mean_shape(const Recording& recording, const OutlineLayout& 
   return sum;
 }
 
-Recording mirrored(const Recording& recording, const OutlineLayout& layout, std::span<const OutlineInput> inputs,
-                   std::span<const double> rest) {
-  Recording out = recording;
-  out.source += " (mirrored)";
-  for (std::size_t k = 0; k < 2 * layout.points; ++k) {
-    const bool is_x = k % 2 == 0;
-    const std::size_t other = 2 * (layout.points - 1 - k / 2) + k % 2;
-    const double sign = is_x ? -1 : 1;
-    const double shift = rest.empty() ? 0 : rest[k] - sign * rest[other];
-    auto& samples = out.channels[layout.outputs[k]].samples;
-    samples = recording.channels[layout.outputs[other]].samples;
-    for (double& value : samples) value = shift + sign * value;
+Result<double> trained_scale(const Model& model, const std::string& input) {
+  for (std::size_t k = 0; k < model.training.inputs.size(); ++k) {
+    if (model.inputs[k].name == input) return model.training.inputs[k].scale;
   }
-  for (const OutlineInput& input : inputs) {
-    for (const char* power : {"", " root", " square"}) {
-      const auto plus = find_channel(out, input.name + "+" + power);
-      const auto minus = find_channel(out, input.name + "-" + power);
-      if (plus && minus) std::swap(out.channels[*plus].samples, out.channels[*minus].samples);
-    }
-  }
-  return out;
+  return Error{model.name + ": does not say what its input " + input + " was in recordings, expected a model that " +
+               "was learned from some; learn it with this program"};
 }
 
 }  // namespace wisp

@@ -1,7 +1,7 @@
 #pragma once
 // What drives an outline: inputs in the model's units, signs, and the mirror image.
 //
-// A wind of 1 is the 95th percentile of the training wind while it blows. Sign is carried as two non-negative inputs,
+// A wind of 1 is the 95th percentile of the training wind while it blows. Its sign is carried as two non-negative inputs,
 // NAME+ and NAME-, so that a linear model does not answer a gust from the right by a flame that grows where a gust from
 // the left makes it shrink.
 
@@ -12,7 +12,7 @@
 
 #include "learn/outline/outline_units.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/model/input_curve.hpp"
+#include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp {
@@ -27,13 +27,16 @@ struct OutlineInput {
   double scale = 1;    ///< the recording's value that is 1 in the model, > 0
   double lowest = 0;   ///< seen, in the model's units
   double highest = 0;  ///< seen, in the model's units
-  InputCurve curve{};  ///< in the model's units; empty: linear
 };
 
 /// The 95th percentile of |input| over all rows of all recordings where it is above kCalmShare of its 99th percentile.
 /// Returns the input with its scale and seen range.
 /// Errors: a recording without that channel, no sample, an input that is 0 throughout.
 Result<OutlineInput> scaled_input(std::span<const Recording> recordings, const std::string& name);
+
+/// What of a recording's input was 1 when a model was learned.
+/// Errors: the model has no input of that name, or was not learned from recordings.
+Result<double> trained_scale(const Model& model, const std::string& input);
 
 /// One byte a row: 1 where every input is calm (all rows where there are no inputs).
 std::vector<std::uint8_t> calm_rows(const Recording& recording, std::span<const OutlineInput> inputs);
@@ -57,10 +60,7 @@ double resting_height_pixels(const Recording& recording, const OutlineLayout& la
 
 /// Which regressors inputs make.
 struct RegressorShape {
-  bool split_sign = false;  ///< NAME+ and NAME- instead of NAME
-  bool curve = false;       ///< each passed through its input's curve; names stay the same
-  bool powers = false;      ///< each followed by its square root and its square, NAME+ root and NAME+ square; signs are
-                            ///< split then
+  bool powers = false;  ///< NAME+, its square root and its square, then those of NAME-, instead of NAME
 };
 
 /// Names of the regressors that inputs make, in the model's order (regressor_count(InputShape)).
@@ -77,14 +77,5 @@ Recording with_regressors(const Recording& recording, std::span<const OutlineInp
 /// Precondition: `rows` is empty or has one entry a row.
 std::vector<double> mean_shape(const Recording& recording, const OutlineLayout& layout,
                                std::span<const std::uint8_t> rows);
-
-/// The mirror image of a recording in model units with split regressors: x negated, control points in reverse order
-/// (the base's left is the base's right then), NAME+ and NAME- exchanged. With a shape at rest it
-/// is the deviations from it that are mirrored: a wick that stands askew stays askew, and only the answer to wind has
-/// two equal sides.
-///
-/// Precondition: layout is the recording's; `rest` is empty or has one value an output.
-Recording mirrored(const Recording& recording, const OutlineLayout& layout, std::span<const OutlineInput> inputs,
-                   std::span<const double> rest = {});
 
 }  // namespace wisp

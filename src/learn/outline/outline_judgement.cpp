@@ -5,12 +5,11 @@
 #include <cstdio>
 #include <string>
 
-#include "learn/flame/wind_gain.hpp"
+#include "learn/outline/wind_gain.hpp"
 #include "learn/numeric/constants.hpp"
 #include "learn/outline/outline_preparation.hpp"
 #include "learn/outline/outline_shape.hpp"
 #include "learn/outline/outline_synthesis.hpp"
-#include "learn/outline/trained_scale.hpp"
 
 namespace wisp {
 namespace {
@@ -20,7 +19,7 @@ constexpr double kMaxLag = 0.5;  // seconds that a static gain may lag
 // What validation needs of a model, after it was found to be an outline.
 struct OutlineModel {
   const Model& whole;
-  const ArxModel& arx;
+  OutlineDynamics dynamics;
   const OutlineView& view;
 };
 
@@ -28,7 +27,7 @@ Result<OutlineModel> outline_model(const Model& model) {
   const auto* arx = std::get_if<ArxModel>(&model.dynamics);
   const auto* view = std::get_if<OutlineView>(&model.view);
   if (arx == nullptr || view == nullptr) return Error{model.name + ": is not an outline model"};
-  return OutlineModel{model, *arx, *view};
+  return OutlineModel{model, {*arx, view->shape}, *view};
 }
 
 Result<void> check_match(const OutlineModel& model, const Recording& recording) {
@@ -60,7 +59,6 @@ Result<std::vector<OutlineInput>> inputs_of(const Model& model, const Recording&
       if (!own) return own.error();
       scaled = *std::move(own);
     }
-    scaled.curve = input.curve;
     inputs.push_back(std::move(scaled));
   }
   return inputs;
@@ -74,11 +72,7 @@ std::vector<std::string> input_names(const Model& model) {
 
 RegressorShape shape_of(const Model& model) {
   RegressorShape shape;
-  for (const Input& input : model.inputs) {
-    shape.split_sign |= splits_sign(input.shape);
-    shape.curve |= has_curve(input.shape);
-    shape.powers |= has_powers(input.shape);
-  }
+  for (const Input& input : model.inputs) shape.powers |= has_powers(input.shape);
   return shape;
 }
 
@@ -100,7 +94,7 @@ Result<std::vector<PredictedOutlines>> predictions(const OutlineModel& model, co
                                                    const Recording& original, const std::vector<int>& steps) {
   std::vector<PredictedOutlines> out;
   for (int k : steps) {
-    const auto series = predict(model.arx, prepared.recordings.front(), prepared.channels, {.steps = k});
+    const auto series = predict_outline(model.dynamics, prepared.recordings.front(), prepared, {.steps = k});
     if (!series) return series.error();
     out.push_back({k, in_pixels(prepared, original, *series)});
   }
@@ -219,8 +213,7 @@ Result<TrueInputFigures> true_input_figures(const OutlineModel& model, const Rec
   const auto prepared =
       prepare_outline(*driven, model.view.knots, *inputs, shape_of(model.whole), options.pixels_per_unit);
   if (!prepared) return prepared.error();
-  const auto figures =
-      outline_figures(model.arx, prepared->recordings, prepared->channels, prepared->layout, {kFreeRun});
+  const auto figures = outline_figures(model.dynamics, prepared->recordings, *prepared, {kFreeRun});
   if (!figures) return figures.error();
   return TrueInputFigures{figures->tip_fit_percent.front(), figures->overlap.front()};
 }
@@ -296,8 +289,7 @@ Result<OutlineJudgement> judge_outline(const Model& model, const Recording& give
   out.alignment = std::move(in_step->inputs);
   out.pixels_per_unit = prepared->pixels_per_unit.front();
   out.warnings = prepared->warnings;
-  auto figures =
-      outline_figures(outline->arx, prepared->recordings, prepared->channels, prepared->layout, options.steps);
+  auto figures = outline_figures(outline->dynamics, prepared->recordings, *prepared, options.steps);
   if (!figures) return figures.error();
   out.figures = *std::move(figures);
   if (!go_on(progress, kStage, 0.4)) return Error{std::string(kStopped)};

@@ -170,12 +170,4 @@ OutlineParts hold_out(std::span<const Recording> recordings, const ChannelChoice
   return parts;
 }
 
-std::vector<Recording> with_mirror_images(std::span<const Recording> recordings, const PreparedOutlines& prepared) {
-  std::vector<Recording> out(recordings.begin(), recordings.end());
-  for (std::size_t r = 0; r < recordings.size(); ++r) {
-    out.push_back(mirrored(recordings[r], prepared.layout, prepared.inputs, prepared.rest[r]));
-  }
-  return out;
-}
-
 }  // namespace wisp

@@ -15,7 +15,7 @@ namespace wisp {
 /// What decides how a recording is prepared.
 struct PreparationOptions {
   std::optional<std::vector<std::string>> inputs;  ///< unset: all inputs of the first recording
-  RegressorShape shape{.split_sign = true};
+  RegressorShape shape{.powers = true};
   double pixels_per_unit = 0;  ///< 0: each recording's own mean calm height is 1
 };
 
@@ -56,10 +56,5 @@ struct OutlineParts {
 /// Cuts the last `share` off every recording: at the boundary of episodes nearest to there, where one lies within a
 /// tenth of the recording, and otherwise in time. The last rows without an outline do not count.
 OutlineParts hold_out(std::span<const Recording> recordings, const ChannelChoice& channels, double share);
-
-/// The recordings and after them their mirror images about their shapes at rest.
-///
-/// Precondition: they are the prepared recordings or parts of them, in their order.
-std::vector<Recording> with_mirror_images(std::span<const Recording> recordings, const PreparedOutlines& prepared);
 
 }  // namespace wisp

@@ -1,6 +1,5 @@
 #include "learn/outline/resampled_residuals.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,7 +19,9 @@ constexpr double kLongestAloneSeconds = 0.5;  // where no input says when to go 
 constexpr double kCalm = 0.04;                // of wind 1: less than this does not move what stands still
 constexpr double kMargin = 0.01;  // of wind 1: below what a microphone resolves; more makes the search less sharp
 constexpr double kMinSeconds = 1;
-constexpr double kLargestStored = 32767;
+constexpr double kLargestWind = 32767;
+constexpr double kLargestResidual = 127;
+constexpr std::size_t kMaxBytes = 256 * 1024;  // of rows; of longer recordings the first part of each stretch is kept
 
 // One row's residuals and its wind, NaN where one is missing.
 struct Row {
@@ -49,7 +50,6 @@ const std::vector<double>& samples(const Recording& recording, const std::string
 std::vector<double> signed_input(const Recording& recording, const PreparedOutlines& prepared) {
   if (prepared.inputs.empty()) return std::vector<double>(recording.rows(), 0.0);
   const std::string& name = prepared.inputs.front().name;
-  if (!prepared.shape.split_sign) return samples(recording, name);
   std::vector<double> out = samples(recording, name + "+");
   const std::vector<double>& other = samples(recording, name + "-");
   for (std::size_t row = 0; row < out.size(); ++row) out[row] -= other[row];
@@ -78,9 +78,11 @@ void add_row(const std::vector<double>& wind, std::size_t row, std::size_t past,
 }
 
 // Complete rows in stretches.
-Result<std::vector<RowStretch>> stretches_left(const ArxModel& model, const Recording& recording,
+Result<std::vector<RowStretch>> stretches_left(const OutlineDynamics& dynamics, const Recording& given,
                                                const PreparedOutlines& prepared, std::size_t past) {
-  const auto predicted = predict(model, recording, prepared.channels, {.steps = 1});
+  const Recording recording = moved_recording(dynamics.shape, given, prepared);
+  const ChannelChoice channels = moved_channels(dynamics.shape, prepared);
+  const auto predicted = predict(dynamics.arx, recording, channels, {.steps = 1});
   if (!predicted) return predicted.error();
   const std::vector<double> wind = signed_input(recording, prepared);
   std::vector<RowStretch> out;
@@ -88,8 +90,8 @@ Result<std::vector<RowStretch>> stretches_left(const ArxModel& model, const Reco
     bool goes_on = false;
     for (std::size_t row = episode.begin + past; row < episode.end; ++row) {
       Row one{{}, wind[row]};
-      for (std::size_t i = 0; i < prepared.channels.outputs.size(); ++i) {
-        one.residual.push_back(samples(recording, prepared.channels.outputs[i])[row] - (*predicted)[i][row]);
+      for (std::size_t i = 0; i < channels.outputs.size(); ++i) {
+        one.residual.push_back(recording.channels[i].samples[row] - (*predicted)[i][row]);
       }
       add_row(wind, row, past, std::move(one), out, goes_on);
     }
@@ -115,19 +117,21 @@ void keep_at_most(std::vector<RowStretch>& stretches, std::size_t rows) {
   std::erase_if(stretches, [](const RowStretch& stretch) { return stretch.rows.size() < 2; });
 }
 
-std::int16_t stored(double value, double scale) {
+double stored(double value, double scale, double largest) {
   const double units = scale > 0 ? std::round(value / scale) : 0;
-  return static_cast<std::int16_t>(std::clamp(units, -kLargestStored, kLargestStored));
+  return std::clamp(units, -largest, largest);
 }
 
 void find_scales(const std::vector<RowStretch>& stretches, ResampledResiduals& out) {
   out.scale.assign(stretches.front().rows.front().residual.size(), 0.0);
-  const auto grow = [](double& scale, double value) { scale = std::max(scale, std::abs(value) / kLargestStored); };
+  const auto grow = [](double& scale, double value, double largest) {
+    scale = std::max(scale, std::abs(value) / largest);
+  };
   for (const RowStretch& stretch : stretches) {
-    for (double wind : stretch.before) grow(out.wind_scale, wind);
+    for (double wind : stretch.before) grow(out.wind_scale, wind, kLargestWind);
     for (const Row& row : stretch.rows) {
-      for (std::size_t i = 0; i < out.scale.size(); ++i) grow(out.scale[i], row.residual[i]);
-      grow(out.wind_scale, row.wind);
+      for (std::size_t i = 0; i < out.scale.size(); ++i) grow(out.scale[i], row.residual[i], kLargestResidual);
+      grow(out.wind_scale, row.wind, kLargestWind);
     }
   }
 }
@@ -135,12 +139,16 @@ void find_scales(const std::vector<RowStretch>& stretches, ResampledResiduals& o
 void store_rows(const std::vector<RowStretch>& stretches, ResampledResiduals& out) {
   find_scales(stretches, out);
   const auto hear = [&](double wind) {
-    if (out.toward >= 0) out.winds.push_back(stored(wind, out.wind_scale));
+    if (out.toward >= 0) {
+      out.winds.push_back(static_cast<std::int16_t>(stored(wind, out.wind_scale, kLargestWind)));
+    }
   };
   for (const RowStretch& stretch : stretches) {
     for (double wind : stretch.before) hear(wind);
     for (const Row& row : stretch.rows) {
-      for (std::size_t i = 0; i < out.scale.size(); ++i) out.rows.push_back(stored(row.residual[i], out.scale[i]));
+      for (std::size_t i = 0; i < out.scale.size(); ++i) {
+        out.rows.push_back(static_cast<std::int8_t>(stored(row.residual[i], out.scale[i], kLargestResidual)));
+      }
       hear(row.wind);
     }
     out.ends.push_back(static_cast<std::uint32_t>(out.row_count() + stretch.rows.size()));
@@ -156,21 +164,19 @@ std::vector<int> lags_of(double rate_hz) {
   return lags;
 }
 
-// x of the point opposite negated, y as it is.
-std::vector<int> mirror_image(std::size_t points) {
+// Antisymmetric components change their sign.
+std::vector<int> mirror_image(const ShapeComponents& shape) {
   std::vector<int> out;
-  for (std::size_t p = 0; p < points; ++p) {
-    const auto x = static_cast<int>(2 * (points - 1 - p));
-    out.push_back(-(1 + x));
-    out.push_back(1 + x + 1);
+  for (int k = 1; k <= static_cast<int>(shape.count()); ++k) {
+    out.push_back(k <= static_cast<int>(shape.symmetric) ? k : -k);
   }
   return out;
 }
 
 }  // namespace
 
-Result<ResampledResiduals> resampled_residuals(const ArxModel& model, std::span<const Recording> recordings,
-                                               const PreparedOutlines& prepared, const ResamplingOptions& options) {
+Result<ResampledResiduals> resampled_residuals(const OutlineDynamics& dynamics, std::span<const Recording> recordings,
+                                               const PreparedOutlines& prepared) {
   const double rate = recordings.front().rate_hz;
   const bool driven = !prepared.inputs.empty();
   ResampledResiduals out;
@@ -178,41 +184,20 @@ Result<ResampledResiduals> resampled_residuals(const ArxModel& model, std::span<
   const auto past = static_cast<std::size_t>(driven ? out.lags.back() : 0);
   std::vector<RowStretch> stretches;
   for (const Recording& recording : recordings) {
-    auto found = stretches_left(model, recording, prepared, past);
+    auto found = stretches_left(dynamics, recording, prepared, past);
     if (!found) return found.error();
     for (RowStretch& stretch : *found) stretches.push_back(std::move(stretch));
   }
-  const std::size_t bytes_a_row = 2 * prepared.channels.outputs.size();
-  keep_at_most(stretches, std::min(kMaxResampledRows, options.max_bytes / bytes_a_row));
+  keep_at_most(stretches, kMaxBytes / dynamics.shape.count());
   if (static_cast<double>(row_count(stretches)) < kMinSeconds * rate) return ResampledResiduals{};
   if (driven) out.toward = 0;
-  if (driven && prepared.shape.split_sign) out.against = prepared.shape.powers ? 3 : 1;
-  if (out.against >= 0 && options.mirror) out.mirror = mirror_image(prepared.layout.points);
+  if (driven) out.against = 3;  // after the first side's size, root and square
+  if (driven) out.mirror = mirror_image(dynamics.shape);
   out.tolerance = kTolerance;
   out.margin = kMargin;
   out.longest = steps_of(driven ? kLongestSeconds : kLongestAloneSeconds, rate);
   store_rows(stretches, out);
   return out;
-}
-
-void centre_on_calm(ArxModel& model) {
-  const int ny = model.orders.outputs();
-  Eigen::MatrixXd feedback = Eigen::MatrixXd::Identity(ny, ny);
-  Eigen::VectorXd push(ny);
-  for (int i = 0; i < ny; ++i) {
-    for (int j = 0; j < ny; ++j) {
-      for (double a : model.a(i, j)) feedback(i, j) += a;
-    }
-    push[i] = model.constant[i];
-    for (int k = 0; k < model.orders.inputs(); ++k) {
-      for (double b : model.b(i, k)) push[i] -= b * model.input_mean[k];
-    }
-  }
-  const Eigen::VectorXd shift = feedback.partialPivLu().solve(push);
-  if (!shift.allFinite()) return;
-  for (int i = 0; i < ny; ++i) model.output_mean[i] += shift[i];
-  std::fill(model.constant.begin(), model.constant.end(), 0.0);
-  std::fill(model.input_mean.begin(), model.input_mean.end(), 0.0);
 }
 
 }  // namespace wisp

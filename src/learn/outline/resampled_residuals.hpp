@@ -10,27 +10,18 @@
 
 #include <span>
 
-#include "learn/outline/outline_preparation.hpp"
+#include "learn/outline/outline_dynamics.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/arx.hpp"
 
 namespace wisp {
 
-/// How residuals are kept.
-struct ResamplingOptions {
-  std::size_t max_bytes = 256 * 1024;  ///< of rows; of longer recordings the first part of each is kept
-  bool mirror = false;                 ///< signed inputs: the other side plays mirror images
-};
-
-/// What `model` leaves of the prepared recordings one step ahead, ready to be resampled; empty where nothing is left
-/// that could be (less than a second). Errors: as predict().
-Result<ResampledResiduals> resampled_residuals(const ArxModel& model, std::span<const Recording> recordings,
-                                               const PreparedOutlines& prepared, const ResamplingOptions& options);
-
-/// The same dynamics about the operating point where all inputs are 0: inputs' means are 0 then, and a regressor that
-/// is 0 adds nothing.
+/// What dynamics of a shape leave of the prepared recordings one step ahead, in 8 bits a component, ready to be
+/// resampled: an input from the other side plays mirror images. Empty where less than a second is left.
+/// Errors: as predict().
 ///
-/// Precondition: the model is stable.
-void centre_on_calm(ArxModel& model);
+/// Precondition: the dynamics have a shape.
+Result<ResampledResiduals> resampled_residuals(const OutlineDynamics& dynamics, std::span<const Recording> recordings,
+                                               const PreparedOutlines& prepared);
 
 }  // namespace wisp

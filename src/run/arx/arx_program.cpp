@@ -201,7 +201,7 @@ void keep(std::vector<ModeWeights>& list, ModeWeights weights) {
 
 std::vector<double> channel_units(const Model& model) {
   std::vector<double> units;
-  for (const Output& output : model.outputs) units.push_back(channel_scale(output.lowest, output.highest));
+  for (const ValueRange& range : moved_ranges(model)) units.push_back(channel_scale(range.lowest, range.highest));
   const auto regressors = static_cast<int>(regressor_count(model.inputs));
   for (int k = 0; k < regressors; ++k) units.push_back(regressor_scale(model, k));
   return units;

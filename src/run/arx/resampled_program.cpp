@@ -159,17 +159,19 @@ void fill_tree(const ResampledResiduals& resampled, ResampledProgram& program) {
 }
 
 void fill_rows(const Model& model, const ResampledResiduals& resampled, ResampledProgram& program) {
+  const std::vector<ValueRange> ranges = moved_ranges(model);
   for (std::size_t k = 0; k < resampled.rows.size(); ++k) {
     const std::size_t i = k % resampled.scale.size();
-    const Output& out = model.outputs[i];
-    program.rows[k] = bounded(resampled.rows[k] * (resampled.scale[i] / channel_scale(out.lowest, out.highest)));
+    const double unit = channel_scale(ranges[i].lowest, ranges[i].highest);
+    program.rows[k] = bounded(resampled.rows[k] * (resampled.scale[i] / unit));
   }
   each_row(resampled, [&](std::uint32_t row, std::uint32_t left, std::uint32_t) { program.left[row] = left; });
 }
 
 void fill_sides(const Model& model, const ResampledResiduals& resampled, ResampledProgram& program) {
   const auto ny = static_cast<std::size_t>(program.outputs);
-  const auto unit = [&](std::size_t i) { return channel_scale(model.outputs[i].lowest, model.outputs[i].highest); };
+  const std::vector<ValueRange> ranges = moved_ranges(model);
+  const auto unit = [&](std::size_t i) { return channel_scale(ranges[i].lowest, ranges[i].highest); };
   for (std::size_t i = 0; i < ny; ++i) {
     program.from[i] = static_cast<std::uint16_t>(i);
     program.factor[i] = 1.0f;

@@ -82,7 +82,7 @@ int Bank::capacity() const { return state_->capacity; }
 int Bank::size() const { return state_->living; }
 int Bank::slots() const { return state_->rows; }
 int Bank::input_count() const { return state_->inputs; }
-int Bank::output_count() const { return static_cast<int>(state_->channels.outputs.size()); }
+int Bank::output_count() const { return static_cast<int>(state_->visible); }
 int Bank::polyline_points() const { return state_->polyline.points; }
 std::chrono::nanoseconds Bank::step_time() const { return std::chrono::nanoseconds(state_->step_time); }
 bool Bank::valid(InstanceId id) const { return state_->valid(id); }
@@ -168,7 +168,7 @@ void Bank::step() {
 void Bank::step(int count, std::span<const float> inputs, std::span<float> outputs) {
   State& s = *state_;
   const auto row_in = static_cast<std::size_t>(s.rows) * s.inputs;
-  const auto row_out = static_cast<std::size_t>(s.rows) * s.channels.outputs.size();
+  const auto row_out = static_cast<std::size_t>(s.rows) * s.visible;
   assert(count >= 0 && (inputs.empty() || inputs.size() == static_cast<std::size_t>(count) * row_in));
   assert(outputs.empty() || outputs.size() == static_cast<std::size_t>(count) * row_out);
   if (count == 0) return;
@@ -202,13 +202,13 @@ int Bank::advance(std::chrono::nanoseconds time) {
 
 void Bank::outputs(std::span<float> values) const {
   const State& s = *state_;
-  assert(values.size() == s.rows * s.channels.outputs.size());
+  assert(values.size() == s.rows * s.visible);
   for (int block = 0; block < s.blocks(); ++block) s.read_block(block, values.data());
 }
 
 bool Bank::outputs(InstanceId id, std::span<float> values) const {
   if (!valid(id)) return false;
-  assert(values.size() == state_->channels.outputs.size());
+  assert(values.size() == state_->visible);
   state_->read_outputs(static_cast<int>(id.slot), values.data());
   return true;
 }

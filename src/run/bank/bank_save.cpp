@@ -26,7 +26,7 @@ std::uint32_t version_of(const Bank::State& s) { return is_chain(s) ? kChainVers
 
 std::size_t record_size(const Bank::State& s) {
   const std::size_t values = std::visit([](const auto& dynamics) { return dynamics.lane_values(); }, s.stepper);
-  const std::size_t life = s.extinction.present ? 5 * 4 + 2 * 8 + 4 * s.channels.outputs.size() : 0;
+  const std::size_t life = s.extinction.present ? 5 * 4 + 2 * 8 + 4 * s.visible : 0;
   return 3 * 8 + 4 * (s.channels.regressors.size() + values) + life;
 }
 
@@ -42,14 +42,14 @@ void save_life(Bank::State& s, int slot, ByteWriter& out) {
   for (const auto* values : {&s.wind, &s.harm, &s.lit, &s.size, &s.previous_size}) out.put((*values)[slot]);
   for (const auto* moments : {&s.lit_at, &s.out_at}) out.put(age_of((*moments)[slot], s.steps));
   const float* shape = s.last_shape_of(slot / s.kLanes) + slot % s.kLanes;
-  for (std::size_t i = 0; i < s.channels.outputs.size(); ++i) out.put(shape[i * s.kLanes]);
+  for (std::size_t i = 0; i < s.visible; ++i) out.put(shape[i * s.kLanes]);
 }
 
 void restore_life(Bank::State& s, int slot, ByteReader& in) {
   for (auto* values : {&s.wind, &s.harm, &s.lit, &s.size, &s.previous_size}) (*values)[slot] = in.get_float();
   for (auto* moments : {&s.lit_at, &s.out_at}) (*moments)[slot] = moment_of(in.get64(), s.steps);
   float* shape = s.last_shape_of(slot / s.kLanes) + slot % s.kLanes;
-  for (std::size_t i = 0; i < s.channels.outputs.size(); ++i) shape[i * s.kLanes] = in.get_float();
+  for (std::size_t i = 0; i < s.visible; ++i) shape[i * s.kLanes] = in.get_float();
 }
 
 void save_slot(Bank::State& s, int slot, ByteWriter& out) {

@@ -44,21 +44,24 @@ Bank::State::State(const Model& model, const BankOptions& options, Arena& arena)
       step_time(wisp::step_time(model).count()),
       channels(make_channels(model, operating_point(model), arena)),
       stepper(make_stepper(model, channels, (capacity + kLanes - 1) / kLanes, arena)),
+      shape(make_shape_program(model, arena)),
+      visible(model.outputs.size()),
       polyline(make_view(model, options.polyline_points, arena)),
       extinction(make_extinction_program(model)) {
   const std::size_t lanes = static_cast<std::size_t>((capacity + kLanes - 1) / kLanes) * kLanes;
   model_hash = std::visit([&](const auto& dynamics) { return dynamics.hash(hash_of(channels, step_time)); }, stepper);
-  model_hash = hash_of(extinction, model_hash);
+  model_hash = hash_of(extinction, hash_of(shape, model_hash));
   set_noise(1.0f);
   generation = arena.take<std::uint32_t>(lanes);
   alive = arena.take<std::uint8_t>(lanes);
   stream = arena.take<std::uint64_t>(lanes);
   born = arena.take<std::uint64_t>(lanes);
   regressors = arena.take<float>(lanes * regressor_count(model.inputs));
-  shown = arena.take<float>(lanes * model.outputs.size());
+  shown = arena.take<float>(lanes * visible);
+  components = arena.take<float>(lanes * shape.components());
   if (extinction.present) {
     for (auto* values : {&wind, &harm, &lit, &size, &previous_size}) *values = arena.take<float>(lanes);
-    last_shape = arena.take<float>(lanes * model.outputs.size());
+    last_shape = arena.take<float>(lanes * visible);
     lit_at = arena.take<std::uint64_t>(lanes);
     out_at = arena.take<std::uint64_t>(lanes);
   }
@@ -75,7 +78,7 @@ void Bank::State::start(int slot) {
     harm[slot] = 0.0f;
     lit[slot] = size[slot] = previous_size[slot] = 1.0f;
     lit_at[slot] = out_at[slot] = kNeverInSteps;
-    for (std::size_t i = 0; i < channels.outputs.size(); ++i) last_shape_of(block)[i * kLanes + lane] = 0.0f;
+    for (std::size_t i = 0; i < visible; ++i) last_shape_of(block)[i * kLanes + lane] = 0.0f;
   }
   show_block(block);
 }
@@ -104,12 +107,21 @@ void Bank::State::extinguish(int slot) {
 void Bank::State::go_out(int slot, const float* newest, std::uint64_t moment) {
   const int block = slot / kLanes, lane = slot % kLanes;
   out_at[slot] = moment;
-  for (std::size_t i = 0; i < channels.outputs.size(); ++i) {
+  using Values = Reals<LiveNumbers>;
+  const auto take = [&](std::size_t i, const Values& shown_values) {
     float values[kLanes];
-    using Values = Reals<LiveNumbers>;
-    store(Presentation<Values>(channels.outputs[i]).of(load<Values>(newest + i * kLanes)), values);
+    store(shown_values, values);
     last_shape_of(block)[i * kLanes + lane] = values[lane];
+  };
+  for (std::size_t i = 0; i < channels.outputs.size(); ++i) {
+    const auto values = Presentation<Values>(channels.outputs[i]).of(load<Values>(newest + i * kLanes));
+    if (shape.empty()) {
+      take(i, values);
+    } else {
+      store(values, components_of(block) + i * kLanes);
+    }
   }
+  if (!shape.empty()) shape_lanes<LiveNumbers>(shape, components_of(block), take);
 }
 
 LitState Bank::State::lit_state(int slot) const {
@@ -198,7 +210,7 @@ void Bank::State::show() {
 }
 
 void Bank::State::read_block(int block, float* rows_of_all) const {
-  const std::size_t count = channels.outputs.size();
+  const std::size_t count = visible;
   if (kAhead && count >= 4 && lives_whole(block)) return read_whole_block(block, rows_of_all);
   for (int slot = block * kLanes; slot < std::min((block + 1) * kLanes, rows); ++slot) {
     float* row = rows_of_all + static_cast<std::size_t>(slot) * count;
@@ -219,7 +231,7 @@ bool Bank::State::lives_whole(int block) const {
 // Four outputs of all lanes at once; of a number that is no multiple of four, some of the last twice.
 void Bank::State::read_whole_block(int block, float* rows_of_all) const {
   using Values = Reals<LiveNumbers>;
-  const std::size_t count = channels.outputs.size();
+  const std::size_t count = visible;
   const float* values = shown_of(block);
   float* row[kLanes];
   unrolled<kLanes>(
@@ -235,7 +247,7 @@ void Bank::State::read_whole_block(int block, float* rows_of_all) const {
 
 void Bank::State::read_outputs(int slot, float* values) const {
   const float* row = shown_of(slot / kLanes) + slot % kLanes;
-  for (std::size_t i = 0; i < channels.outputs.size(); ++i) values[i] = row[i * kLanes];
+  for (std::size_t i = 0; i < visible; ++i) values[i] = row[i * kLanes];
 }
 
 }  // namespace wisp

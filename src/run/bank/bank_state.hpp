@@ -4,6 +4,7 @@
 #include "run/bank/extinction_lanes.hpp"
 #include "run/bank/frame_path.hpp"
 #include "run/bank/outline_lanes.hpp"
+#include "run/bank/shape_lanes.hpp"
 #include "run/bank/stepper.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/chain_facet.hpp"
@@ -36,7 +37,7 @@ struct Bank::State {
     return std::get_if<SwitchedStepper<LiveNumbers>>(&stepper);
   }
   float* regressors_of(int block) { return regressors.data() + block * channels.regressors.size() * kLanes; }
-  float* shown_of(int block) { return shown.data() + block * channels.outputs.size() * kLanes; }
+  float* shown_of(int block) { return shown.data() + block * visible * kLanes; }
   const float* shown_of(int block) const { return const_cast<State*>(this)->shown_of(block); }
   LifeLanes<float> life_of(int block) {
     const int first = block * kLanes;
@@ -66,7 +67,8 @@ struct Bank::State {
   std::uint32_t count_clamped(int block, const std::uint32_t* flags) const;
   void live_block(int block, const float* newest, std::uint64_t moment);
   void go_out(int slot, const float* newest, std::uint64_t moment);
-  float* last_shape_of(int block) { return last_shape.data() + block * channels.outputs.size() * kLanes; }
+  float* last_shape_of(int block) { return last_shape.data() + block * visible * kLanes; }
+  float* components_of(int block) { return components.data() + block * shape.components() * kLanes; }
   void show();
   void show_block(int block);
   template <int kBlocks, class Dynamics>
@@ -96,6 +98,8 @@ struct Bank::State {
   std::uint64_t model_hash;
   Channels channels;
   Stepper stepper;
+  ShapeProgram shape;
+  std::size_t visible;  // outputs that are read: control points, where the dynamics move components of a shape
   PolylineProgram polyline;
   ExtinctionProgram extinction;
 
@@ -105,6 +109,7 @@ struct Bank::State {
   std::span<std::uint64_t> born;  // value of `steps` when it was spawned or reset
   std::span<float> regressors;    // [block][regressor][lane]: what acts now
   std::span<float> shown;         // [block][output][lane]: what is read
+  std::span<float> components;    // [block][component][lane]: what it was made from, where there is a shape
 
   // Per slot, and empty where nothing goes out.
   std::span<float> wind;  // strength of what acts now

@@ -5,6 +5,7 @@
 
 #include "run/bank/extinction_lanes.hpp"
 #include "run/bank/outline_lanes.hpp"
+#include "run/bank/shape_lanes.hpp"
 #include "run/bank/stepper.hpp"
 #include "run/lanes/counting.hpp"
 #include "wisp/run/bank.hpp"
@@ -86,10 +87,16 @@ StepCount count_step(Stepper& stepper, std::span<const CountingReal> regressors,
 }
 
 template <class Stepper>
-OperationCount count_view(const Channels& channels, const Stepper& stepper, const PolylineProgram& polyline) {
-  std::vector<CountingReal> shown(channels.outputs.size());
+OperationCount count_view(const Channels& channels, const Stepper& stepper, const ShapeProgram& shape,
+                          const PolylineProgram& polyline) {
+  std::vector<CountingReal> made(channels.outputs.size()), points(2 * shape.points);
+  std::vector<CountingReal>& shown = shape.empty() ? made : points;
   return count([&] {
-    stepper.show_frame(0, shown.data());
+    stepper.show_frame(0, made.data());
+    if (!shape.empty()) {
+      shape_lanes<CountingNumbers>(shape, made.data(),
+                                   [&](std::size_t i, const auto& value) { store(value, &points[i]); });
+    }
     if (polyline.points == 0) return;
     for (int coordinate : {0, 1}) {
       polyline_lanes<CountingNumbers>(polyline, coordinate, shown.data(), [](int, const auto&) {});
@@ -128,7 +135,8 @@ ExtinctionCount count_extinction(const Model& model) {
 }
 
 template <class Stepper, class Kind>
-Cost count_frame(const Model& model, const Kind& dynamics, const Channels& channels, const PolylineProgram& polyline) {
+Cost count_frame(const Model& model, const Kind& dynamics, const Channels& channels, const ShapeProgram& shape,
+                 const PolylineProgram& polyline) {
   Arena measured;
   Stepper(model, dynamics, channels, 1, measured);
   std::vector<std::byte> memory = room_for(measured);
@@ -144,7 +152,7 @@ Cost count_frame(const Model& model, const Kind& dynamics, const Channels& chann
   cost.dynamics_operations = inputs.numbers + quiet.numbers + quiet.words;
   cost.noise_operations = noisy.numbers - quiet.numbers;
   cost.random_operations = noisy.words - quiet.words;
-  cost.view_operations = count_view(channels, stepper, polyline).numbers;
+  cost.view_operations = count_view(channels, stepper, shape, polyline).numbers;
   const ExtinctionCount extinction = count_extinction(model);
   cost.extinction_operations = extinction.burning;
   cost.operations_per_frame = cost.dynamics_operations + cost.noise_operations + cost.random_operations +
@@ -161,11 +169,12 @@ Cost count_frame(const Model& model, const Kind& dynamics, const Channels& chann
 // What the stepper stands on, laid out and filled: its channels, and the polyline of `points` (0: none).
 struct Surroundings {
   Surroundings(const Model& model, const OperatingPoint& point, int points, Arena& arena)
-      : channels(make_channels(model, point, arena)) {
+      : channels(make_channels(model, point, arena)), shape(make_shape_program(model, arena)) {
     if (points > 0) polyline = make_polyline(std::get<OutlineView>(model.view), points, arena);
   }
 
   Channels channels;
+  ShapeProgram shape;
   PolylineProgram polyline;
 };
 
@@ -183,7 +192,7 @@ Result<Cost> count_operations(const Model& model, int polyline_points) {
     std::vector<std::byte> memory = room_for(measured);
     Arena arena(memory);
     const Surroundings around(model, point, points, arena);
-    return count_frame<Type>(model, dynamics, around.channels, around.polyline);
+    return count_frame<Type>(model, dynamics, around.channels, around.shape, around.polyline);
   };
   return visit_dynamics<CountingNumbers>(model, count_kind);
 }

@@ -141,7 +141,7 @@ std::uint64_t Bank::State::step_group(Dynamics& dynamics, int first, const Steps
       }
     }
     for (int block = first; read && block < last; ++block) {
-      read_block(block, made.outputs + static_cast<std::size_t>(step) * rows * channels.outputs.size());
+      read_block(block, made.outputs + static_cast<std::size_t>(step) * rows * visible);
     }
   }
   return count_of_clamped;
@@ -208,10 +208,16 @@ void Bank::State::show_block(int block) {
 template <int kBlocks, class Dynamics>
 void Bank::State::show_blocks(const Dynamics& dynamics, int first) {
   const float share = static_cast<float>(passed) / static_cast<float>(step_time);
+  float* out = shape.empty() ? shown_of(first) : components_of(first);
   if (between) {
-    dynamics.template show_between<kBlocks>(first, share, shown_of(first));
+    dynamics.template show_between<kBlocks>(first, share, out);
   } else {
-    dynamics.template show<kBlocks>(first, shown_of(first));
+    dynamics.template show<kBlocks>(first, out);
+  }
+  for (int block = first; !shape.empty() && block < first + kBlocks; ++block) {
+    float* points = shown_of(block);
+    shape_lanes<LiveNumbers>(shape, components_of(block),
+                             [&](std::size_t i, const auto& values) { store(values, points + i * kLanes); });
   }
   if (!extinction.present) return;
   for (int block = first; block < first + kBlocks; ++block) show_life(block, share);
@@ -230,7 +236,7 @@ void Bank::State::show_life(int block, float share) {
   if (is_whole(block)) return;
   for (int lane = 0; lane < kLanes; ++lane) {
     if (lit[block * kLanes + lane] != 0.0f) continue;
-    for (std::size_t k = lane; k < channels.outputs.size() * kLanes; k += kLanes) {
+    for (std::size_t k = lane; k < visible * kLanes; k += kLanes) {
       shown_of(block)[k] = last_shape_of(block)[k];
     }
   }
@@ -238,7 +244,7 @@ void Bank::State::show_life(int block, float share) {
   if (between) {
     seen = size_between<LiveNumbers>(load<Reals<LiveNumbers>>(previous_size.data() + block * kLanes), seen, share);
   }
-  shrink<LiveNumbers>(seen, channels.outputs.size(), shown_of(block));
+  shrink<LiveNumbers>(seen, visible, shown_of(block));
 }
 
 namespace {

@@ -27,7 +27,7 @@ float regress(const RegressorChannel& channel, float input) {
   return first_lane(wisp::regress<LiveNumbers>(channel, all<Reals<LiveNumbers>>(input)));
 }
 
-OutputChannel make_output(const Output& output, double mean) {
+OutputChannel make_output(const ValueRange& output, double mean) {
   const double scale = channel_scale(output.lowest, output.highest);
   const double room = margin(output.lowest, output.highest);
   const double lowest = output.lowest - room, highest = output.highest + room;
@@ -142,14 +142,21 @@ std::uint64_t hash_of(const Channels& channels, std::uint64_t before) {
   return hash;
 }
 
+std::vector<ValueRange> moved_ranges(const Model& model) {
+  const auto* outline = std::get_if<OutlineView>(&model.view);
+  if (outline && !outline->shape.empty()) return outline->shape.components;
+  std::vector<ValueRange> ranges;
+  for (const Output& output : model.outputs) ranges.push_back({output.lowest, output.highest});
+  return ranges;
+}
+
 Channels make_channels(const Model& model, const OperatingPoint& point, Arena& arena) {
-  Channels channels{arena.take<OutputChannel>(model.outputs.size()),
+  const std::vector<ValueRange> ranges = moved_ranges(model);
+  Channels channels{arena.take<OutputChannel>(ranges.size()),
                     arena.take<RegressorChannel>(regressor_count(model.inputs))};
   auto pieces = arena.take<CurvePiece>(piece_count(model));
   if (arena.measures()) return channels;
-  for (std::size_t i = 0; i < model.outputs.size(); ++i) {
-    channels.outputs[i] = make_output(model.outputs[i], point.outputs[i]);
-  }
+  for (std::size_t i = 0; i < ranges.size(); ++i) channels.outputs[i] = make_output(ranges[i], point.outputs[i]);
   std::size_t next = 0;
   for (std::size_t k = 0; k < model.inputs.size(); ++k) {
     const Input& input = model.inputs[k];
@@ -167,10 +174,11 @@ Channels make_channels(const Model& model, const OperatingPoint& point, Arena& a
 }
 
 Result<void> check_channels(const Model& model, const OperatingPoint& point) {
-  for (std::size_t i = 0; i < model.outputs.size(); ++i) {
-    const Output& output = model.outputs[i];
-    if (auto ok = check_channel("output " + output.name, output.lowest, output.highest, point.outputs[i]); !ok)
-      return ok;
+  const std::vector<ValueRange> ranges = moved_ranges(model);
+  const bool shaped = ranges.size() != model.outputs.size();
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const std::string what = shaped ? "component " + std::to_string(i) : "output " + model.outputs[i].name;
+    if (auto ok = check_channel(what, ranges[i].lowest, ranges[i].highest, point.outputs[i]); !ok) return ok;
   }
   std::size_t next = 0;
   for (const Input& input : model.inputs) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "run/lanes/blocks.hpp"
 #include "run/state/arena.hpp"
@@ -77,6 +78,9 @@ double regressor_unit(const Input& input, RegressorPower power);
 
 /// The same of a regressor by its place among all of a model's.
 double regressor_scale(const Model& model, int regressor);
+
+/// Ranges of what the dynamics move: of the components of an outline's shape where there are some, else of the outputs.
+std::vector<ValueRange> moved_ranges(const Model& model);
 
 /// The operating point of each channel, as the dynamics know it.
 struct OperatingPoint {

@@ -61,16 +61,18 @@ TEST(OutlineInputs, CalmRowsAreThoseBelowATenth) {
   EXPECT_EQ(calm_rows(windy({0, 5}), {}), (std::vector<std::uint8_t>{1, 1}));
 }
 
-TEST(OutlineInputs, SignIsSplitIntoTwoNonNegativeRegressors) {
+TEST(OutlineInputs, AnInputBecomesPowersOfItsSides) {
   const std::vector input{OutlineInput{"wind", "m/s", 2, -1, 1}};
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const Recording split = with_regressors(windy({1, -4, nan}), input, {.split_sign = true});
-  EXPECT_EQ(regressor_names(input, {.split_sign = true}), (std::vector<std::string>{"wind+", "wind-"}));
+  const Recording split = with_regressors(windy({1, -4, nan}), input, {.powers = true});
+  EXPECT_EQ(regressor_names(input, {.powers = true}),
+            (std::vector<std::string>{"wind+", "wind+ root", "wind+ square", "wind-", "wind- root", "wind- square"}));
   EXPECT_FALSE(find_channel(split, "wind"));
   EXPECT_EQ(samples(split, "wind+")[0], 0.5);
   EXPECT_EQ(samples(split, "wind-")[0], 0);
   EXPECT_EQ(samples(split, "wind+")[1], 0);
   EXPECT_EQ(samples(split, "wind-")[1], 2);
+  EXPECT_EQ(samples(split, "wind- square")[1], 4);
   EXPECT_TRUE(std::isnan(samples(split, "wind+")[2]));
   EXPECT_TRUE(std::isnan(samples(split, "wind-")[2]));
 }
@@ -78,33 +80,6 @@ TEST(OutlineInputs, SignIsSplitIntoTwoNonNegativeRegressors) {
 TEST(OutlineInputs, OneSidedInputsAreOnlyScaled) {
   const std::vector input{OutlineInput{"wind", "m/s", 2, 0, 1}};
   EXPECT_EQ(samples(with_regressors(windy({1, 4}), input, {}), "wind"), (std::vector<double>{0.5, 2}));
-}
-
-TEST(OutlineInputs, TheMirrorExchangesSidesAndSigns) {
-  const std::vector input{OutlineInput{"wind", "m/s", 1, 0, 1}};
-  Recording split = with_regressors(windy({1, 0}), input, {.split_sign = true});
-  split.channels[*find_channel(split, "p0.x")].samples = {-0.3, -0.2};
-  split.channels[*find_channel(split, "p3.y")].samples = {0.7, 0.8};
-  const Recording mirror = mirrored(split, *outline_layout(split), input);
-  EXPECT_EQ(samples(mirror, "p3.x"), (std::vector<double>{0.3, 0.2}));
-  EXPECT_EQ(samples(mirror, "p0.y"), (std::vector<double>{0.7, 0.8}));
-  EXPECT_EQ(samples(mirror, "wind+"), (std::vector<double>{0, 0}));
-  EXPECT_EQ(samples(mirror, "wind-"), (std::vector<double>{1, 0}));
-}
-
-TEST(OutlineInputs, WhatStandsAskewAtRestStaysAskew) {
-  Recording split = with_regressors(windy({1, 0}), {}, {.split_sign = true});
-  split.channels[*find_channel(split, "p0.x")].samples = {-0.3, -0.2};
-  split.channels[*find_channel(split, "p3.x")].samples = {0.5, 0.4};
-  const OutlineLayout layout = *outline_layout(split);
-  std::vector<double> rest(8, 0.0);
-  rest[0] = -0.2;
-  rest[6] = 0.4;
-  const Recording mirror = mirrored(split, layout, {}, rest);
-  EXPECT_NEAR(samples(mirror, "p0.x")[1], -0.2, 1e-15);
-  EXPECT_NEAR(samples(mirror, "p3.x")[1], 0.4, 1e-15);
-  EXPECT_NEAR(samples(mirror, "p0.x")[0], -0.3, 1e-15);  // p3 went 0.1 to the right
-  EXPECT_NEAR(samples(mirror, "p3.x")[0], 0.5, 1e-15);
 }
 
 // What was blown aside takes a while to come back: its lean must not pass for its shape at rest.
@@ -129,16 +104,6 @@ TEST(OutlineInputs, TheMeanShapeIsThatOfTheChosenRows) {
   const OutlineLayout layout = *outline_layout(split);
   EXPECT_EQ(mean_shape(split, layout, std::vector<std::uint8_t>{0, 1, 1})[3], 2);
   EXPECT_TRUE(mean_shape(split, layout, std::vector<std::uint8_t>{0, 0, 0}).empty());
-}
-
-TEST(OutlineInputs, MirroredTwiceIsTheSame) {
-  const std::vector input{OutlineInput{"wind", "m/s", 1, 0, 1}};
-  Recording split = with_regressors(windy({1, -0.5}), input, {.split_sign = true});
-  split.channels[*find_channel(split, "p1.x")].samples = {-0.3, -0.2};
-  const auto layout = *outline_layout(split);
-  const Recording twice = mirrored(mirrored(split, layout, input), layout, input);
-  for (std::size_t c = 0; c < split.channels.size(); ++c)
-    EXPECT_EQ(twice.channels[c].samples, split.channels[c].samples);
 }
 
 }  // namespace

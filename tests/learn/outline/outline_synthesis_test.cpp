@@ -67,7 +67,7 @@ TEST(OutlineSynthesis, NoiseHasItsStationarySize) {
   // Variance sd²/(1 − 0.25); over 20 000 samples with a memory of 3 its relative error is near sqrt(2·1.67/20000) =
   // 0.013.
   const auto play = synthesize(first_order(0.3), {.rows = 20000});
-  EXPECT_NEAR(standard_deviation(play->recording.channels[0].samples), 0.3 / std::sqrt(0.75), 0.02);
+  EXPECT_NEAR(deviation(play->recording.channels[0].samples), 0.3 / std::sqrt(0.75), 0.02);
   const auto crowd = play_freely(first_order(0.3), 100000);
   EXPECT_NEAR(crowd->sd[0], 0.3 / std::sqrt(0.75), 0.01);
   EXPECT_EQ(crowd->held_share, 0);

@@ -16,8 +16,8 @@ namespace {
 
 constexpr int kRows = 400;
 
-// Two outputs that are nothing but their residuals: what is read is the row that is played. The x of a row is its
-// number, the y of all rows is 1; wind from the other side turns x about and leaves y.
+// Three outputs that are nothing but their residuals: what is read is the row that is played. x and hundreds of a row
+// are its number in 8 bits each, the y of all rows is 1; wind from the other side turns the number about and leaves y.
 Model bare_model(InputShape shape = InputShape::kSplitSign) {
   const int regressors = regressor_count(shape);
   Model model;
@@ -25,20 +25,21 @@ Model bare_model(InputShape shape = InputShape::kSplitSign) {
   model.rate_hz = 60;
   model.inputs = {{"wind", "", splits_sign(shape) ? -2.0 : 0.0, 2.0, shape}};
   ArxModel arx;
-  arx.orders = {OrderMatrix(2, 2), OrderMatrix(2, regressors), OrderMatrix(2, regressors)};
-  arx.theta.resize(2);
-  arx.constant = arx.output_mean = {0, 0};
-  arx.noise.sd = {1, 1};
+  arx.orders = {OrderMatrix(3, 3), OrderMatrix(3, regressors), OrderMatrix(3, regressors)};
+  arx.theta.resize(3);
+  arx.constant = arx.output_mean = {0, 0, 0};
+  arx.noise.sd = {1, 1, 1};
   arx.input_mean.assign(regressors, 0.0);
   ResampledResiduals& resampled = arx.noise.resampled;
-  resampled = resampled_flame_residuals(2, kRows, splits_sign(shape));
-  resampled.scale = {1, 1};
+  resampled = resampled_flame_residuals(3, kRows, splits_sign(shape));
+  resampled.scale = {1, 1, 1};
   for (int row = 0; row < kRows; ++row) {
-    resampled.rows[2 * row] = static_cast<std::int16_t>(row + 1);
-    resampled.rows[2 * row + 1] = 1;
+    resampled.rows[3 * row] = static_cast<std::int8_t>((row + 1) % 100);
+    resampled.rows[3 * row + 1] = 1;
+    resampled.rows[3 * row + 2] = static_cast<std::int8_t>((row + 1) / 100);
   }
-  if (splits_sign(shape)) resampled.mirror = {-1, 2};
-  for (const char* name : {"x", "y"}) model.outputs.push_back({name, "", -500, 500});
+  if (splits_sign(shape)) resampled.mirror = {-1, 2, -3};
+  for (const char* name : {"x", "y", "hundreds"}) model.outputs.push_back({name, "", -500, 500});
   model.dynamics = arx;
   return model;
 }
@@ -59,10 +60,10 @@ std::vector<int> rows_played(const Model& model, int frames, Wind wind, std::uin
     const float now = wind(frame);
     bank->set_common_inputs({&now, 1});
     bank->step();
-    float values[2];
+    float values[3];
     bank->outputs(id, values);
     EXPECT_EQ(values[1], 1.0f);
-    rows.push_back(static_cast<int>(std::lround(values[0])));
+    rows.push_back(static_cast<int>(std::lround(values[0] + 100 * values[2])));
   }
   return rows;
 }
@@ -174,7 +175,7 @@ TEST(ResampledResiduals, AreScaledByTheNoise) {
   auto bank = Bank::create(bare_model(), {});
   ASSERT_TRUE(bank);
   const InstanceId id = bank->spawn();
-  float values[2];
+  float values[3];
   for (float noise : {0.5f, 0.0f}) {
     bank->set_noise(noise);
     bank->step();
@@ -229,7 +230,10 @@ TEST(ResampledResiduals, ARecordingFromTheOtherSideIsPlayedMirrored) {
   Model other = model;
   ResampledResiduals& resampled = resampled_of(other);
   for (std::int16_t& wind : resampled.winds) wind = static_cast<std::int16_t>(-wind);
-  for (int row = 0; row < kRows; ++row) resampled.rows[2 * row] *= -1;
+  for (int row = 0; row < kRows; ++row) {
+    resampled.rows[3 * row] *= -1;
+    resampled.rows[3 * row + 2] *= -1;
+  }
   const auto gusts = [](int frame) { return frame / 100 % 2 == 0 ? swing(3 * frame / 2) : -swing(frame); };
   const std::vector<int> rows = rows_played(model, 1000, gusts);
   EXPECT_EQ(rows_played(other, 1000, gusts), rows);

@@ -199,8 +199,9 @@ export class Drawer {
 
   private orders(now: number): HTMLElement {
     const choice = element('div', { class: 'choice', role: 'group', 'aria-label': 'Order' }, 'Order');
-    for (const order of ORDERS) {
-      const button = element('button', { type: 'button', 'aria-pressed': String(order === now), 'data-order': order }, String(order));
+    for (const order of [0, ...ORDERS]) {
+      const words = order === 0 ? 'shape' : String(order);
+      const button = element('button', { type: 'button', 'aria-pressed': String(order === now), 'data-order': order }, words);
       button.addEventListener('click', () => this.events.change({ order }));
       choice.append(button);
     }

@@ -26,7 +26,8 @@ function wind(model: Model, borrows: boolean): string {
 export function introductionTo(model: Model, shipped: boolean, borrows: boolean): string {
   if (model.view === 'outline') {
     const order = Math.max(...(model.arx?.na.flat() ?? [0]));
-    return `Nothing here is animated by hand. Each point of the outline follows an equation in its last ${order} steps${
+    const what = model.arx && model.arx.na.length !== model.outputs.length ? 'Each component of the shape' : 'Each point of the outline';
+    return `Nothing here is animated by hand. ${what} follows an equation in its last ${order} steps${
       model.inputs.length > 0 ? ' and the wind' : ''
     }. ${taught(model, shipped)}${wind(model, borrows)}`;
   }

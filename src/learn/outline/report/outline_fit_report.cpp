@@ -1,5 +1,4 @@
-#include <cstdio>
-
+#include "base/statistics.hpp"
 #include "learn/arx/report/fit_report.hpp"
 #include "learn/arx/report/report_values.hpp"
 #include "learn/outline/report/outline_report.hpp"
@@ -7,20 +6,6 @@
 
 namespace wisp {
 namespace {
-
-const char* criterion_name(OutlineCriterion by) {
-  switch (by) {
-    case OutlineCriterion::kGiven:
-      return "given";
-    case OutlineCriterion::kFpe:
-      return "fpe";
-    case OutlineCriterion::kHeldOutStep:
-      return "held_out_step";
-    case OutlineCriterion::kHeldOutFreeRun:
-      return "held_out_free_run";
-  }
-  return "";
-}
 
 // What was learned from.
 ReportSection data_section(const OutlineSummary& summary) {
@@ -31,82 +16,41 @@ ReportSection data_section(const OutlineSummary& summary) {
     names += (names.empty() ? "" : ", ") + input.name;
     inputs.rows.push_back({input.name, input.unit, input.scale});
   }
-  const char* judged = summary.inputs.empty() && summary.refitted ? "at a time: seconds in turn, until all are judged"
-                                                                  : "what the figures below are judged on";
   section.entries = {{"rate_hz", summary.rate_hz, "rate", "frames a second"},
                      {"", names.empty() ? "none: a model of flicker" : names, "inputs", ""},
                      {"points", summary.points, "control points", ""},
                      {"samples.learned", summary.rows_learned, "frames to learn from", ""},
-                     {"samples.held_out", summary.rows_held_out, "frames held out", "", {}, judged}};
+                     {"samples.held_out", summary.rows_held_out, "frames held out", "", {}, "what the fit is judged on"}};
   section.tables.push_back(std::move(inputs));
   add_alignment(summary.alignment, section);
   return section;
 }
 
-void add_ridge(const RidgeChoice& choice, ReportSection& section) {
-  if (choice.reason.empty()) return;
-  section.entries.push_back({"ridge.value", choice.ridge, "", ""});
-  section.entries.push_back({"ridge.reason", choice.reason, "regularised by", ""});
-  ReportTable candidates{"ridge.candidates", "", {{"ridge", ""}, {"held_out_error", ""}, {"stable", ""}}, {}};
-  for (const RidgeCandidate& one : choice.candidates) candidates.rows.push_back({one.ridge, one.error, one.stable});
-  section.tables.push_back(std::move(candidates));
-}
-
-// The structure of the equations, and how it was chosen.
+// The structure of the equations.
 ReportSection structure_section(const OutlineSummary& summary) {
-  const OutlineChoice& choice = summary.choice;
-  const bool searched = choice.by != OutlineCriterion::kGiven;
-  ReportSection section{"Structure"};
-  section.entries = {{"na", arx::list_of(summary.orders.na), "", ""},
-                     {"nb", arx::list_of(summary.orders.nb), "", ""},
-                     {"nk", arx::list_of(summary.orders.nk), "", ""},
-                     {"order_and_delay.order", choice.taken().order, "order", ""},
-                     {"order_and_delay.delay", choice.taken().delay, "delay", "frames"},
-                     {"order_and_delay.by", criterion_name(choice.by), "", ""},
-                     {"order_and_delay.reason", choice.reason, searched ? "chosen as" : "", ""}};
-  ReportTable candidates{
-      "order_and_delay.candidates", "", {{"order", ""}, {"delay", ""}, {"fpe", ""}, {"error", ""}}, {}};
-  for (const OutlineCandidate& one : choice.candidates) {
-    if (searched) candidates.rows.push_back({one.order, one.delay, one.fpe, one.error});
-  }
-  section.tables.push_back(std::move(candidates));
-  add_ridge(summary.ridge, section);
-  return section;
-}
-
-std::string curve_text(const InputCurve& curve) {
-  std::string text;
-  for (std::size_t k = 0; k < curve.at.size(); ++k) {
-    char knot[64];
-    std::snprintf(knot, sizeof knot, "%s%.3g → %.3g", k > 0 ? ", " : "", curve.at[k], curve.value[k]);
-    text += knot;
-  }
-  return text;
-}
-
-ReportSection curve_section(const OutlineSummary& summary) {
-  const CurveChoice& choice = summary.curve_choice;
-  ReportSection section{"Input nonlinearity",
-                        {{"input_curve.knots", choice.knots, "", ""},
-                         {"input_curve.reason", choice.reason, choice.reason.empty() ? "" : "chosen as", ""}}};
-  ReportTable candidates{
-      "input_curve.candidates", "", {{"knots", ""}, {"held_out_gain", ""}, {"standard_errors", ""}}, {}};
-  for (const CurveCandidate& one : choice.candidates) {
-    candidates.rows.push_back({one.knots, one.gain, one.sureness});
-  }
-  ReportTable curves{"input_curve.curves", "", {{"input", ""}, {"at", ""}, {"value", ""}, {"std_error", ""}}, {}};
-  for (std::size_t k = 0; k < summary.curves.size(); ++k) {
-    const CurveEstimate& one = summary.curves[k];
-    section.entries.push_back({"", curve_text(one.curve), "curve of " + summary.inputs[k].name, ""});
-    curves.rows.push_back({summary.inputs[k].name, one.curve.at, one.curve.value, one.std_error});
-  }
-  section.tables = {std::move(candidates), std::move(curves)};
-  return section;
+  const OutlineDynamics& dynamics = summary.dynamics;
+  const ShapeComponents& shape = dynamics.shape;
+  const std::string text = shape.empty()
+                               ? "one system a control point, as in the paper"
+                               : std::to_string(shape.symmetric) + " symmetric and " +
+                                     std::to_string(shape.antisymmetric) + " antisymmetric components of the shape";
+  const std::string noise =
+      summary.resampled_rows > 0 ? std::to_string(summary.resampled_rows) + " resampled residuals" : "Gaussian";
+  return {"Structure",
+          {{"na", arx::list_of(dynamics.arx.orders.na), "", ""},
+           {"nb", arx::list_of(dynamics.arx.orders.nb), "", ""},
+           {"nk", arx::list_of(dynamics.arx.orders.nk), "", ""},
+           {"", text, "dynamics", ""},
+           {"components.symmetric", shape.symmetric, "", ""},
+           {"components.antisymmetric", shape.antisymmetric, "", ""},
+           {"ridge", dynamics.ridge, "", ""},
+           {"noise.rows", summary.resampled_rows, "", ""},
+           {"", noise, "noise", ""}}};
 }
 
 ReportTable channels_table(const OutlineFit& fit) {
   const OutlineSummary& summary = fit.summary;
-  ReportTable table{"channels", "", {{"name", ""}, {"residual_sd", ""}, {"residual_sd_ci95", ""}}, {}};
+  ReportTable table{"channels", "", {{"name", ""}, {"residual_sd", ""}}, {}};
   add_step_columns("fit_percent", summary.learned.steps, table);
   if (summary.held_out) {
     add_step_columns("held_out_fit_percent", summary.held_out->steps, table);
@@ -114,9 +58,7 @@ ReportTable channels_table(const OutlineFit& fit) {
     table.columns.push_back({"held_out_fit_percent", ""});
   }
   for (std::size_t k = 0; k < fit.model.outputs.size(); ++k) {
-    const OutlineResidual& residual = summary.residuals[k];
-    std::vector<ReportValue> row{fit.model.outputs[k].name, residual.sd,
-                                 ReportList{residual.sd_ci95[0], residual.sd_ci95[1]}};
+    std::vector<ReportValue> row{fit.model.outputs[k].name, summary.residual_sd[k]};
     for (double value : summary.learned.channels[k].fit_percent) row.push_back(value);
     if (summary.held_out) {
       for (double value : summary.held_out->channels[k].fit_percent) row.push_back(value);
@@ -152,27 +94,32 @@ ReportSection fit_section(const OutlineFit& fit) {
   return section;
 }
 
-ReportSection model_section(const OutlineSummary& summary) {
-  const ArxStability& stable = summary.stable;
-  return {
-      "Model",
-      {{"fpe", summary.fpe, "final prediction error", ""},
-       {"stable.radius", stable.radius, "spectral radius", "", {}, stable.changed ? "made stable" : ""},
-       {"stable.changed", stable.changed, "", ""},
-       {"stable.estimated_radius", stable.estimated, "", ""},
-       {"stable.loss_factor", stable.loss_factor, "", ""},
-       {"stable.moved_std_errors", stable.moved, "", ""},
-       {"held_share", summary.held_share, "share of steps clamped", "", {}, "playing freely; at most 0.001 is good"}}};
+// What is seen of free play.
+ReportSection play_section(const OutlineSummary& summary) {
+  const OutlineTrial& trial = summary.trial;
+  ReportSection section{
+      "Free play beside the recording",
+      {{"stable.radius", summary.radius, "spectral radius", "", {}, summary.dynamics.stabilised ? "made stable" : ""},
+       {"stable.changed", summary.dynamics.stabilised, "", ""},
+       {"spread", median(trial.sd_ratio), "spread, played over recorded", "", {}, "0.8 to 1.25 is good"},
+       {"outside_share", trial.outside, "shapes that the recording has not", "", {}, "at most 0.03 is good"},
+       {"crossed_share", trial.crossed, "outlines that cross themselves", ""},
+       {"held_share", trial.held_share, "share of steps clamped", "", {}, "at most 0.001 is good"}}};
+  const auto add = [&](const char* id, const char* label, const std::optional<Bounded>& distance) {
+    if (!distance) return;
+    section.entries.push_back({std::string(id) + ".value", distance->value, label, ""});
+    section.entries.push_back({std::string(id) + ".floor", distance->floor, "", ""});
+    section.entries.push_back({std::string(id) + ".ceiling", distance->ceiling, "", ""});
+  };
+  add("play.half_second", "energy distance over half a second", trial.half_second);
+  add("play.two_seconds", "energy distance over two seconds", trial.two_seconds);
+  return section;
 }
 
 }  // namespace
 
 std::vector<ReportSection> report_sections(const OutlineFit& fit) {
-  std::vector<ReportSection> sections = {data_section(fit.summary), structure_section(fit.summary),
-                                         curve_section(fit.summary)};
-  sections.push_back(fit_section(fit));
-  sections.push_back(model_section(fit.summary));
-  return sections;
+  return {data_section(fit.summary), structure_section(fit.summary), fit_section(fit), play_section(fit.summary)};
 }
 
 }  // namespace wisp

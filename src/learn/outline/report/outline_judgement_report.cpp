@@ -11,11 +11,9 @@ namespace {
 ReportTable channels_table(const OutlineFigures& figures) {
   ReportTable table{"channels", "", {{"name", ""}}, {}};
   add_step_columns("fit_percent", figures.steps, table);
-  table.columns.push_back({"whiteness_p", ""});
   for (const OutlineChannelFigures& channel : figures.channels) {
     std::vector<ReportValue> row{channel.name};
     for (double value : channel.fit_percent) row.push_back(value);
-    row.push_back(channel.whiteness_p);
     table.rows.push_back(std::move(row));
   }
   return table;

@@ -85,10 +85,7 @@ export function resultPanel(session: Session, events: ResultEvents): HTMLElement
 type Option = readonly [string, Partial<Recipe>];
 
 const FLAME_KNOBS: readonly (readonly [string, keyof Recipe, readonly Option[]])[] = [
-  ['Remembers', 'order', [['as usual', { order: 0 }], ['2', { order: 2 }], ['4', { order: 4 }], ['6', { order: 6 }], ['8', { order: 8 }]]],
-  ['Flicker', 'noise', [['found', {}], ['as it was', { noise: 'resampled' }], ['matched', { noise: 'matched' }], ['shared', { noise: 'residual' }], ['each point', { noise: 'independent' }]]],
-  ['Wind curve', 'curve', [['found', {}], ['none', { curve: 0 }], ['3', { curve: 3 }], ['6', { curve: 6 }]]],
-  ['Weight', 'light', [['full', { light: false }], ['light, for small machines', { light: true }]]],
+  ['Moves', 'paper', [['as a shape', { paper: 0 }], ['point by point, as in the paper', { paper: 4 }]]],
 ];
 
 const TABLE_KNOBS: typeof FLAME_KNOBS = [

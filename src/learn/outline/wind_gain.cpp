@@ -1,11 +1,9 @@
-#include "learn/flame/wind_gain.hpp"
+#include "learn/outline/wind_gain.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <numeric>
 #include <utility>
 
-#include "learn/arx/judge/held_out.hpp"
 #include "learn/outline/outline_inputs.hpp"
 #include "record/loudness.hpp"
 #include "record/number_text.hpp"
@@ -14,7 +12,7 @@
 namespace wisp {
 namespace {
 
-constexpr double kSame = 0.02;  // factors nearer to 1 than this are no choice
+constexpr double kSame = 0.02;  // factors nearer to 1 than this are the same
 
 // The inputs that say in every recording how loud they are, and the loudest of each.
 struct Loudest {
@@ -45,57 +43,6 @@ std::vector<double> factors_of(std::span<const Recording> recordings, const Loud
     out.push_back(*factor_at(recording, loudest.input, loudest.rms));  // says how loud it was: loudest_inputs()
   }
   return out;
-}
-
-// What free simulation of held-out data says of a model.
-struct HeldOut {
-  double error = 0;       // mean over control points, model units
-  Eigen::MatrixXd parts;  // squared, part by part
-};
-
-// Nothing where too little is held out.
-Result<std::optional<HeldOut>> held_out_error(std::span<const Recording> recordings, OutlineRecipe recipe,
-                                              const Progress& progress) {
-  recipe.refit = false;
-  recipe.noise = OutlineNoise::kIndependent;  // is not judged here
-  recipe.match_variance = false;
-  const auto fit = fit_outline(recordings, recipe, progress);
-  if (!fit) return fit.error();
-  const Eigen::MatrixXd& parts = fit->summary.free_run_parts;
-  if (!fit->summary.held_out || parts.size() == 0) return std::optional<HeldOut>();
-  const std::vector<double>& free = fit->summary.held_out->j.back();
-  return std::optional(
-      HeldOut{std::accumulate(free.begin(), free.end(), 0.0) / static_cast<double>(free.size()), parts});
-}
-
-std::string scale_words(const std::vector<double>& factors, bool common) {
-  const auto [min, max] = std::minmax_element(factors.begin(), factors.end());
-  if (!common) return "per-recording gain: the wind of every recording on a scale of its own";
-  return "common gain: the winds of all recordings on one scale, as one microphone hears them (times " +
-         number_text(*min, 3) + " to " + number_text(*max, 3) + ")";
-}
-
-Result<void> compare(std::span<const Recording> recordings, const OutlineRecipe& recipe, const Progress& progress,
-                     WindGain& gain) {
-  const auto together = at_common_gain({recordings.begin(), recordings.end()});
-  if (!together) return together.error();
-  const auto common = held_out_error(*together, recipe, progress);
-  if (!common) return common.error();
-  const auto own = held_out_error(recordings, recipe, progress);
-  if (!own) return own.error();
-  if (!*common || !*own) {
-    gain.reason = "; too little is held out to compare it with per-recording gain";
-    return {};
-  }
-  gain.common_error = (*common)->error;
-  gain.own_error = (*own)->error;
-  const auto relative = [&](const HeldOut& one) { return arx::relative_errors(one.parts, (*common)->parts); };
-  const double sureness = arx::standard_errors_below(relative(**own), relative(**common));
-  gain.common = gain.common_error <= gain.own_error || sureness < arx::kSurelyBetter;
-  gain.reason = "; free simulation of held-out data errs by " + number_text(gain.common_error, 3) +
-                " with the common gain, by " + number_text(gain.own_error, 3) + " with per-recording gain" +
-                (gain.common && gain.own_error < gain.common_error ? ", which is not surely better" : "");
-  return {};
 }
 
 // What of a recording's channel is 1 in an input; 1 where neither says.
@@ -140,24 +87,13 @@ Result<std::vector<Recording>> at_common_gain(std::vector<Recording> recordings)
   return recordings;
 }
 
-Result<WindGain> choose_wind_gain(std::span<const Recording> recordings, const OutlineRecipe& recipe,
-                                  const Progress& progress) {
-  WindGain gain{.common = recipe.gain != InputGain::kPerRecording, .factors = {}, .reason = {}};
+Result<std::vector<double>> common_gain_factors(std::span<const Recording> recordings) {
   const auto inputs = loudest_inputs(recordings);
   if (!inputs) return inputs.error();
-  if (inputs->empty() || (recipe.inputs && recipe.inputs->empty())) return gain;
-  gain.factors = factors_of(recordings, inputs->front());
-  if (*std::min_element(gain.factors.begin(), gain.factors.end()) > 1 - kSame) {
-    gain.factors.clear();
-    return gain;
-  }
-  if (recipe.gain != InputGain::kAuto) {
-    gain.reason = ", as given";
-  } else if (auto ok = compare(recordings, recipe, progress, gain); !ok) {
-    return ok.error();
-  }
-  gain.reason = scale_words(gain.factors, gain.common) + gain.reason;
-  return gain;
+  if (inputs->empty()) return std::vector<double>();
+  std::vector<double> factors = factors_of(recordings, inputs->front());
+  if (*std::min_element(factors.begin(), factors.end()) > 1 - kSame) factors.clear();
+  return factors;
 }
 
 Result<double> factor_to_trained_gain(const Model& model, const Recording& recording) {

@@ -1,11 +1,11 @@
-#include "learn/outline/learn_outline.hpp"
+#include "learn/flame/learn_outline.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "learn/flame/extinction_learning.hpp"
 #include "learn/flame/extinction_report.hpp"
-#include "learn/flame/wind_gain.hpp"
+#include "learn/outline/wind_gain.hpp"
 #include "learn/outline/outline_fit.hpp"
 #include "learn/outline/report/outline_report.hpp"
 #include "record/verdict.hpp"
@@ -13,28 +13,9 @@
 namespace wisp {
 namespace {
 
-ReportSection gain_section(const WindGain& gain) {
-  if (gain.factors.empty()) return {"", {{"gain", {}, "", ""}}};
-  return {"Gain of the inputs",
-          {{"gain.one", gain.common, "", ""},
-           {"gain.factors", gain.factors, "", ""},
-           {"gain.held_out_error.one", gain.common_error, "", ""},
-           {"gain.held_out_error.own", gain.own_error, "", ""},
-           {"gain.reason", gain.reason, "chosen as", ""}}};
-}
-
-// What is learned from: all recordings on one scale, or each on its own.
-Result<ExtinguishedRecordings> on_chosen_scale(std::span<const Recording> recordings, const OutlineRecipe& recipe,
-                                               const Progress& progress, WindGain& gain) {
-  auto own = ExtinguishedRecordings::find({recordings.begin(), recordings.end()}, recipe.extinction);
-  if (!own) return own.error();
-  auto chosen = choose_wind_gain(own->burning(), recipe, progress);
-  if (!chosen) return chosen.error();
-  gain = *std::move(chosen);
-  if (!gain.common) return own;
-  auto common = at_common_gain({recordings.begin(), recordings.end()});
-  if (!common) return common.error();
-  return ExtinguishedRecordings::find(*std::move(common), recipe.extinction);
+ReportSection gain_section(const std::vector<double>& factors) {
+  if (factors.empty()) return {"", {{"gain", {}, "", ""}}};
+  return {"Gain of the inputs", {{"gain.factors", factors, "winds on one scale, times", ""}}};
 }
 
 // Whether no input of any recording stands out from chance in the motion.
@@ -103,8 +84,11 @@ void refuse_what_capture_refused(std::span<const Recording> recordings, OutlineF
 Result<Fit> learn_outline(std::span<const Recording> recordings, const OutlineRecipe& recipe,
                           const Progress& progress) {
   if (recordings.empty()) return Error{"there is no recording to learn from; expected at least one"};
-  WindGain gain;
-  const auto seen = on_chosen_scale(recordings, recipe, progress, gain);
+  const auto factors = common_gain_factors(recordings);
+  if (!factors) return factors.error();
+  auto on_one_scale = at_common_gain({recordings.begin(), recordings.end()});
+  if (!on_one_scale) return on_one_scale.error();
+  const auto seen = ExtinguishedRecordings::find(*std::move(on_one_scale), recipe.extinction);
   if (!seen) return seen.error();
   auto fit = fit_what_drives(seen->burning(), recipe, progress);
   if (!fit) return fit.error();
@@ -116,7 +100,7 @@ Result<Fit> learn_outline(std::span<const Recording> recordings, const OutlineRe
   report.warnings = fit->summary.warnings;
   if (*extinction && (*extinction)->warning) report.warnings.push_back(*(*extinction)->warning);
   report.sections = report_sections(*fit);
-  report.sections.push_back(gain_section(gain));
+  report.sections.push_back(gain_section(*factors));
   report.sections.push_back(extinction_section(fit->model, *extinction));
   return Fit{std::move(fit->model), std::move(report)};
 }

@@ -1,12 +1,13 @@
 // One scale for all recordings, or each its own: what one microphone heard, and what two did.
 
-#include "learn/flame/wind_gain.hpp"
+#include "learn/outline/wind_gain.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "learn/outline/made_outline.hpp"
+#include "learn/outline/outline_fit.hpp"
 #include "learn/outline/outline_judgement.hpp"
 #include "record/loudness.hpp"
 
@@ -26,7 +27,7 @@ double wind_at(const Recording& recording, std::size_t row) {
   return recording.channels[*find_channel(recording, "wind")].samples[row];
 }
 
-const OutlineRecipe kQuick{.noise = OutlineNoise::kMatched};
+const OutlineRecipe kQuick{.paper = 4};
 
 TEST(WindGain, CommonGainIsThatOfTheLoudest) {
   const std::vector recordings{heard(1, 1, 1), heard(2, 2, 1)};
@@ -36,54 +37,21 @@ TEST(WindGain, CommonGainIsThatOfTheLoudest) {
   EXPECT_EQ(*one_rms(together[0], "wind"), *one_rms(together[1], "wind"));
 }
 
-TEST(WindGain, OneMicrophoneIsGivenTheCommonGain) {
-  const auto gain = *choose_wind_gain(std::vector{heard(1, 1, 1), heard(2, 2.5, 1)}, kQuick);
-  EXPECT_TRUE(gain.common);
-  EXPECT_LT(gain.common_error, 0.8 * gain.own_error);
-  EXPECT_NEAR(gain.factors[0], 0.4, 1e-12);
-  EXPECT_NEAR(gain.factors[1], 1, 1e-12);
-  EXPECT_NE(gain.reason.find("common gain"), std::string::npos);
-}
-
-TEST(WindGain, TwoMicrophonesKeepPerRecordingGain) {
-  const auto gain = *choose_wind_gain(std::vector{heard(1, 1, 1), heard(2, 1, 9)}, kQuick);
-  EXPECT_FALSE(gain.common);
-  EXPECT_LT(gain.own_error, 0.8 * gain.common_error);
-}
-
-TEST(WindGain, AGivenGainIsTakenUntried) {
-  const std::vector recordings{heard(1, 1, 1), heard(2, 2, 1)};
-  for (const InputGain given : {InputGain::kPerRecording, InputGain::kCommon}) {
-    OutlineRecipe recipe = kQuick;
-    recipe.gain = given;
-    const auto gain = *choose_wind_gain(recordings, recipe);
-    EXPECT_EQ(gain.common, given == InputGain::kCommon);
-    EXPECT_EQ(gain.common_error, 0);
-  }
-}
-
 TEST(WindGain, ThereIsNothingToChooseWhereOneIsSilentAboutIt) {
   std::vector recordings{heard(1, 1, 1), heard(2, 2, 1)};
   recordings[1].attributes.clear();
-  EXPECT_TRUE(choose_wind_gain(recordings, kQuick)->factors.empty());
+  EXPECT_TRUE(common_gain_factors(recordings)->empty());
   EXPECT_EQ(wind_at(at_common_gain(recordings)->front(), 40), wind_at(recordings[0], 40));
   const std::vector alike{heard(1, 1, 1), heard(2, 1.01, 1)};
-  EXPECT_TRUE(choose_wind_gain(alike, kQuick)->factors.empty());
-  EXPECT_TRUE(choose_wind_gain(std::vector{heard(1, 1, 1)}, kQuick)->factors.empty());
-}
-
-TEST(WindGain, TooLittleHeldOutLeavesTheCommonGain) {
-  OutlineRecipe options = kQuick;
-  options.holdout = 0;
-  const auto gain = *choose_wind_gain(std::vector{heard(1, 1, 1), heard(2, 2, 1)}, options);
-  EXPECT_TRUE(gain.common);
-  EXPECT_NE(gain.reason.find("too little is held out"), std::string::npos);
+  EXPECT_TRUE(common_gain_factors(alike)->empty());
+  EXPECT_TRUE(common_gain_factors(std::vector{heard(1, 1, 1)})->empty());
+  EXPECT_NEAR(common_gain_factors(std::vector{heard(1, 1, 1), heard(2, 2.5, 1)})->front(), 0.4, 1e-12);
 }
 
 TEST(WindGain, ABadLoudnessIsAnError) {
   std::vector recordings{heard(1, 1, 1), heard(2, 2, 1)};
   recordings[1].attributes = {{"wind.one_rms", "-2"}};
-  EXPECT_FALSE(choose_wind_gain(recordings, kQuick));
+  EXPECT_FALSE(common_gain_factors(recordings));
   EXPECT_FALSE(at_common_gain(recordings));
 }
 

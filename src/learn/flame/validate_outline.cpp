@@ -5,7 +5,7 @@
 
 #include "learn/arx/report/response_report.hpp"
 #include "learn/flame/extinction_report.hpp"
-#include "learn/flame/wind_gain.hpp"
+#include "learn/outline/wind_gain.hpp"
 #include "learn/numeric/spectrum.hpp"
 #include "learn/outline/outline_shape.hpp"
 #include "learn/outline/report/outline_report.hpp"

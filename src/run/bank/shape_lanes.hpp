@@ -1,0 +1,69 @@
+#pragma once
+// Control points of an outline from the components that its dynamics move (wisp/model/shape_components.hpp), for a
+// block of instances: half of the products of a full basis, since every coordinate has components of one kind.
+
+#include <cstdint>
+#include <span>
+
+#include "run/state/arena.hpp"
+#include "run/lanes/lanes.hpp"
+#include "wisp/model/model.hpp"
+
+namespace wisp {
+
+/// A shape compiled for showing.
+struct ShapeProgram {
+  std::size_t points = 0;  ///< 0: what the dynamics move is shown as it is
+  std::size_t symmetric = 0;
+  std::size_t antisymmetric = 0;
+  std::span<float> rest;     ///< per coordinate
+  std::span<float> lowest;   ///< per coordinate
+  std::span<float> highest;  ///< per coordinate
+  std::span<float> basis;    ///< points × symmetric, then points × antisymmetric
+
+  bool empty() const { return points == 0; }
+  std::size_t components() const { return symmetric + antisymmetric; }
+};
+
+/// Lays the program out and, unless the arena measures, fills it. It is empty where the model has no such shape.
+ShapeProgram make_shape_program(const Model& model, Arena& arena);
+
+/// A hash of the program, over a hash of what came before: the latter itself where it is empty.
+std::uint64_t hash_of(const ShapeProgram& program, std::uint64_t before);
+
+/// A shape coordinate for components [component][lane].
+template <class N>
+inline Reals<N> shape_coordinate(const ShapeProgram& program, std::size_t i, const typename N::Real* components) {
+  const bool symmetric = i < program.points;
+  const std::size_t count = symmetric ? program.symmetric : program.antisymmetric;
+  const float* basis = symmetric ? program.basis.data() + i * count
+                                 : program.basis.data() + program.points * program.symmetric +
+                                       (i - program.points) * count;
+  if (!symmetric) components += program.symmetric * N::kLanes;
+  auto sum = all<Reals<N>>(program.rest[i]);
+  for (std::size_t k = 0; k < count; ++k, components += N::kLanes) {
+    if (basis[k] != 0) sum = sum + all<Reals<N>>(basis[k]) * load<Reals<N>>(components);
+  }
+  return hold(sum, all<Reals<N>>(program.lowest[i]), all<Reals<N>>(program.highest[i]));
+}
+
+/// Calls show(output, values) for every coordinate of every control point; `components` is [component][lane].
+template <class N, class Show>
+inline void shape_lanes(const ShapeProgram& program, const typename N::Real* components, const Show& show) {
+  const std::size_t points = program.points;
+  for (std::size_t p = 0; p < points / 2; ++p) {
+    const std::size_t right = points - 1 - p;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const auto even = shape_coordinate<N>(program, 2 * p + axis, components);
+      const auto odd = shape_coordinate<N>(program, points + 2 * p + axis, components);
+      const auto &half = axis == 0 ? even : odd, &middle = axis == 0 ? odd : even;
+      show(2 * p + axis, settle(middle - half));
+      show(2 * right + axis, settle(middle + half));
+    }
+  }
+  if (points % 2 == 0) return;
+  show(points - 1, settle(shape_coordinate<N>(program, 2 * points - 1, components)));
+  show(points, settle(shape_coordinate<N>(program, points - 1, components)));
+}
+
+}  // namespace wisp
