@@ -101,7 +101,14 @@ const std::vector<Command>& commands();
 /// Flags that every command has.
 const std::vector<Flag>& common_flags();
 
-/// docs/reference/cli.md, made from the table.
-std::string manual();
+/// What the program says of itself, made from the table, in the form `markdown` (docs/reference/cli.md), `man`, `bash`,
+/// `zsh` or `fish`; nothing for another word.
+std::optional<std::string> manual(const std::string& form);
+
+/// What to type first.
+std::string first_steps();
+
+/// Help about the command or the group of commands that these words name, else about the program.
+std::string help(std::string words);
 
 }  // namespace wisp::cli

@@ -3,6 +3,7 @@
 // Exit status: 0 done, 1 the data or a file was bad, 2 wrong usage.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -72,6 +73,15 @@ std::string complaint(const Flag& flag, const std::string& text) {
   return {};
 }
 
+bool is_command(const std::string& words) {
+  return std::any_of(commands().begin(), commands().end(), [&](const Command& one) { return one.name == words; });
+}
+
+bool is_group(const std::string& word) {
+  return std::any_of(commands().begin(), commands().end(),
+                     [&](const Command& one) { return one.name.starts_with(word + " "); });
+}
+
 // A command registered with CLI11, and the storage for its values.
 struct Wired {
   const Command* command = nullptr;
@@ -84,13 +94,12 @@ struct Wired {
 
 void add_flag(Wired& wired, const Flag& flag) {
   if (flag.kind == Kind::kSwitch) {
-    wired.app->add_flag("--" + flag.name, wired.switches[flag.name], flag.help);
+    wired.app->add_flag("--" + flag.name, wired.switches[flag.name]);
     return;
   }
   const std::string short_name = flag.name == "output" ? "-o," : "";
-  auto* option = wired.app->add_option(short_name + "--" + flag.name, wired.values[flag.name], help_of(flag));
-  option->type_name(flag.value)->check(CLI::Validator([flag](std::string& text) { return complaint(flag, text); }, ""));
-  if (!flag.fallback.empty()) option->default_str(flag.fallback);
+  auto* option = wired.app->add_option(short_name + "--" + flag.name, wired.values[flag.name]);
+  option->check(CLI::Validator([flag](std::string& text) { return complaint(flag, text); }, ""));
   if (flag.required && flag.unless.empty()) option->required();
 }
 
@@ -107,18 +116,10 @@ void add_positionals(Wired& wired) {
   wired.single.resize(wired.command->positionals.size());
   for (std::size_t k = 0; k < wired.command->positionals.size(); ++k) {
     const Positional& positional = wired.command->positionals[k];
-    CLI::Option* option = positional.many ? wired.app->add_option(positional.name, wired.positionals, positional.help)
-                                          : wired.app->add_option(positional.name, wired.single[k], positional.help);
-    option->type_name("");
+    CLI::Option* option = positional.many ? wired.app->add_option(positional.name, wired.positionals)
+                                          : wired.app->add_option(positional.name, wired.single[k]);
     if (!positional.optional) option->required();
   }
-}
-
-std::string footer(const Command& command) {
-  if (command.examples.empty()) return {};
-  std::string text = "Examples:";
-  for (const Example& example : command.examples) text += "\n  " + example.line + "\n      " + example.what;
-  return text;
 }
 
 CLI::App* subcommand(CLI::App& root, const std::string& name) {
@@ -132,8 +133,6 @@ CLI::App* subcommand(CLI::App& root, const std::string& name) {
 
 void wire(CLI::App& root, Wired& wired) {
   wired.app = subcommand(root, wired.command->name);
-  wired.app->description(wired.command->summary);
-  wired.app->footer(footer(*wired.command));
   add_positionals(wired);
   for (const Flag& flag : wired.command->flags) add_flag(wired, flag);
   for (const Flag& flag : common_flags()) add_flag(wired, flag);
@@ -142,7 +141,9 @@ void wire(CLI::App& root, Wired& wired) {
 
 Arguments arguments_of(const Wired& wired) {
   Arguments arguments;
-  for (const Flag& flag : wired.command->flags) {
+  std::vector<Flag> flags = wired.command->flags;
+  flags.insert(flags.end(), common_flags().begin(), common_flags().end());
+  for (const Flag& flag : flags) {
     if (flag.kind == Kind::kSwitch) {
       if (wired.switches.at(flag.name)) arguments.set(flag.name, "on");
     } else if (const std::string& given = wired.values.at(flag.name); !given.empty()) {
@@ -184,9 +185,38 @@ int run_command(const Wired& wired) {
   return flush_output();
 }
 
+// The words before the first flag, joined.
+std::string leading(const std::vector<std::string>& words) {
+  std::string all;
+  for (const std::string& word : words) {
+    if (word.starts_with('-')) break;
+    all += (all.empty() ? "" : " ") + word;
+  }
+  return all;
+}
+
+// Help as it is asked for: `wisp help WORDS`. Nothing where it is not, or about what is not there.
+std::optional<int> answer_help(std::vector<std::string> words) {
+  if (words.empty()) {
+    std::fputs(first_steps().c_str(), stderr);
+    return kWrongUsage;
+  }
+  if (words.front() != "help") return {};
+  words.erase(words.begin());
+  const std::string about = leading(words);
+  if (const std::string wrong = about.empty() || is_group(about) ? "" : wrong_words(words); !wrong.empty()) {
+    std::fprintf(stderr, "%s\n", wrong.c_str());
+    return kWrongUsage;
+  }
+  std::fputs(help(about).c_str(), stdout);
+  return flush_output();
+}
+
 int run_program(int argc, char** argv) {
-  CLI::App root("Wisp learns how a thing behaves from recordings of it and plays that behaviour live.", "wisp");
-  root.set_version_flag("--version", "wisp " WISP_VERSION);
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  if (const auto answered = answer_help(words)) return *answered;
+  CLI::App root("", "wisp");
+  root.set_version_flag("-V,--version", "wisp " WISP_VERSION);
   root.require_subcommand(1);
   std::vector<std::unique_ptr<Wired>> all;
   for (const Command& command : commands()) {
@@ -196,9 +226,15 @@ int run_program(int argc, char** argv) {
   }
   try {
     root.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    std::string about = leading(words);
+    while (!about.empty() && !is_command(about) && !is_group(about))
+      about.erase(std::min(about.size(), about.rfind(' ')));
+    std::fputs(help(about).c_str(), stdout);
+    return flush_output();
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() != 0) {
-      const std::string wrong = wrong_words(std::vector<std::string>(argv + 1, argv + argc));
+      const std::string wrong = wrong_words(words);
       if (!wrong.empty()) {
         std::fprintf(stderr, "%s\n", wrong.c_str());
         return kWrongUsage;

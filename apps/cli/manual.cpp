@@ -1,9 +1,15 @@
-// docs/reference/cli.md from the table of commands.
+// What the program says of itself, from the table of commands: help, docs/reference/cli.md, a man page, completion.
+
+#include <algorithm>
+#include <sstream>
 
 #include "command.hpp"
 
 namespace wisp::cli {
 namespace {
+
+constexpr std::size_t kWidth = 100;  // letters of a line of help
+constexpr std::size_t kColumn = 26;  // at which explanations begin
 
 std::string usage(const Command& command) {
   std::string line = "wisp " + command.name;
@@ -14,17 +20,19 @@ std::string usage(const Command& command) {
   return line + " [flags]";
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (char c : text) out += c == '|' ? std::string("\\|") : std::string(1, c);
-  return out;
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  for (auto at = text.find(what); at != text.npos; at = text.find(what, at + by.size()))
+    text.replace(at, what.size(), by);
+  return text;
 }
 
+std::string dashes(const Flag& flag) { return flag.name == "output" ? "-o, --output" : "--" + flag.name; }
+
 std::string flag_row(const Flag& flag) {
-  const std::string dashes = flag.name == "output" ? "-o, --output" : "--" + flag.name;
   const std::string value = flag.value.empty() ? "" : " " + flag.value;
-  return "| `" + dashes + escaped(value) + "` | " + (flag.fallback.empty() ? "" : "`" + flag.fallback + "`") + " | " +
-         escaped(help_of(flag)) + " |\n";
+  return "| `" + dashes(flag) + replaced(value, "|", "\\|") + "` | " +
+         (flag.fallback.empty() ? "" : "`" + flag.fallback + "`") + " | " + replaced(help_of(flag), "|", "\\|") +
+         " |\n";
 }
 
 std::string section(const Command& command) {
@@ -41,12 +49,147 @@ std::string section(const Command& command) {
   return text;
 }
 
-}  // namespace
+// Letters that are seen, of UTF-8.
+std::size_t width_of(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+}
 
-std::string manual() {
+// A word or flag on the left, what it means on the right, in lines of kWidth.
+std::string entry(const std::string& left, const std::string& right) {
+  std::string line = "  " + left, text;
+  if (width_of(line) + 2 > kColumn) {
+    text = line + "\n";
+    line.clear();
+  }
+  line += std::string(kColumn - width_of(line), ' ');
+  std::istringstream words(right);
+  bool first = true;
+  for (std::string word; words >> word; first = false) {
+    if (!first && width_of(line) + 1 + width_of(word) > kWidth) {
+      text += line + "\n";
+      line = std::string(kColumn, ' ');
+      first = true;
+    }
+    line += (first ? "" : " ") + word;
+  }
+  return text + line + "\n";
+}
+
+std::string flag_entry(const Flag& flag) {
+  std::string help = help_of(flag);
+  if (!flag.fallback.empty()) help += " [" + flag.fallback + "]";
+  if (flag.required) help += flag.unless.empty() ? " (required)" : " (required unless --" + flag.unless.front() + ")";
+  return entry(dashes(flag) + (flag.value.empty() ? "" : " " + flag.value), help);
+}
+
+std::string help_of(const Command& command) {
+  std::string text = entry("", command.summary).substr(kColumn);
+  text = replaced(text, "\n" + std::string(kColumn, ' '), "\n") + "\nUsage: " + usage(command) + "\n";
+  for (const Positional& positional : command.positionals) text += entry(positional.name, positional.help);
+  text += "\nFlags:\n";
+  for (const Flag& flag : command.flags) text += flag_entry(flag);
+  for (const Flag& flag : common_flags()) text += flag_entry(flag);
+  text += entry("-h, --help", "print this");
+  if (!command.examples.empty()) text += "\nExamples:\n";
+  for (const Example& example : command.examples) text += "  " + example.line + "\n      " + example.what + "\n";
+  return text;
+}
+
+bool begins_with(const Command& command, const std::string& words) {
+  return command.name == words || command.name.starts_with(words + " ");
+}
+
+// Text as troff reads it.
+std::string troff(const std::string& text) {
+  const std::string safe = replaced(replaced(text, "\\", "\\e"), "-", "\\-");
+  return safe.starts_with('.') || safe.starts_with('\'') ? "\\&" + safe : safe;
+}
+
+std::string man_page() {
+  std::string text =
+      ".TH WISP 1\n.SH NAME\nwisp \\- learns how a thing behaves from recordings, and plays it live\n"
+      ".SH SYNOPSIS\n.B wisp\nCOMMAND [flags]\n.SH COMMANDS\n";
+  for (const Command& command : commands()) {
+    text += ".SS " + troff(usage(command)) + "\n" + troff(command.summary) + "\n";
+    for (const Flag& flag : command.flags) {
+      text += ".TP\n.B " + troff(dashes(flag) + " " + flag.value) + "\n" + troff(help_of(flag)) + "\n";
+    }
+    for (const Example& example : command.examples)
+      text += ".PP\n" + troff(example.what) + ":\n.RS\n" + troff(example.line) + "\n.RE\n";
+  }
+  text += ".SH EXIT STATUS\n0 done, 1 the data or a file was bad, 2 wrong usage.\n";
+  return text;
+}
+
+std::vector<std::string> first_words() {
+  std::vector<std::string> words{"help"};
+  for (const Command& command : commands()) words.push_back(command.name.substr(0, command.name.find(' ')));
+  words.erase(std::unique(words.begin(), words.end()), words.end());
+  return words;
+}
+
+std::string bash_completion() {
+  std::string text =
+      "_wisp() {\n  local now=${COMP_WORDS[COMP_CWORD]} line=\"${COMP_WORDS[*]:1} \" words=\n"
+      "  case $line in\n";
+  std::string groups;
+  for (const std::string& word : first_words()) {
+    std::string second;
+    for (const Command& command : commands()) {
+      if (command.name.starts_with(word + " ")) second += command.name.substr(word.size() + 1) + " ";
+    }
+    if (!second.empty()) groups += "    " + word + ") words='" + second + "' ;;\n";
+  }
+  for (const Command& command : commands()) {
+    text += "    '" + command.name + " '*) words='";
+    for (const Flag& flag : command.flags) text += "--" + flag.name + " ";
+    for (const Flag& flag : common_flags()) text += "--" + flag.name + " ";
+    text += "--help' ;;\n";
+  }
+  text += "  esac\n  if [ \"$COMP_CWORD\" = 1 ]; then words='";
+  for (const std::string& word : first_words()) text += word + " ";
+  text += "--help --version'; fi\n  if [ \"$COMP_CWORD\" = 2 ]; then case ${COMP_WORDS[1]} in\n" + groups +
+          "  esac; fi\n"
+          "  COMPREPLY=($(compgen -W \"$words\" -- \"$now\"))\n"
+          "  case $now in -*) ;; *) [ -n \"${COMPREPLY[*]}\" ] && [ \"$COMP_CWORD\" -lt 3 ] ||\n"
+          "    COMPREPLY=($(compgen -f -- \"$now\")) ;; esac\n}\n"
+          "complete -o filenames -F _wisp wisp\n";
+  return text;
+}
+
+std::string fish_completion() {
+  const auto quoted = [](const std::string& text) {
+    return "'" + replaced(replaced(text, "\\", "\\\\"), "'", "\\'") + "'";
+  };
+  std::string text;
+  for (const Command& command : commands()) {
+    const std::size_t space = command.name.find(' ');
+    const std::string first = command.name.substr(0, space);
+    std::string seen = "__fish_seen_subcommand_from " + first;
+    if (space == std::string::npos) {
+      text += "complete -c wisp -n __fish_use_subcommand -a " + first + " -d " + quoted(command.summary) + "\n";
+    } else {
+      const std::string second = command.name.substr(space + 1);
+      text += "complete -c wisp -n __fish_use_subcommand -a " + first + "\ncomplete -c wisp -n " + quoted(seen) +
+              " -a " + second + " -d " + quoted(command.summary) + "\n";
+      seen += "; and __fish_seen_subcommand_from " + second;
+    }
+    for (const Flag& flag : command.flags) {
+      text += "complete -c wisp -n " + quoted(seen) + " -l " + flag.name + (flag.kind == Kind::kSwitch ? "" : " -r") +
+              " -d " + quoted(flag.help) + "\n";
+    }
+  }
+  return text;
+}
+
+std::string markdown() {
   std::string text =
       "# The command line\n\n"
-      "This page is printed by `wisp manual`; the program's help and parser are made from the same table.\n\n"
+      "This page is printed by `wisp manual`; the program's help and parser are made from the same table. `wisp manual "
+      "man` prints a man page; `wisp manual bash`, `zsh` and `fish` print what completes commands and flags in a "
+      "shell, "
+      "to be read at its start: `source <(wisp manual bash)`, `source <(wisp manual zsh)`, `wisp manual fish | "
+      "source`.\n\n"
       "Exit status: 0 done, 1 the data or a file was bad (one line on standard error says which, where, what was "
       "found, "
       "what was expected and what to do), 2 wrong usage. Output files appear whole or not at all. Sample and frame "
@@ -58,6 +201,43 @@ std::string manual() {
   for (const Command& command : commands()) text += section(command);
   text.pop_back();
   return text;
+}
+
+}  // namespace
+
+std::optional<std::string> manual(const std::string& form) {
+  if (form == "markdown") return markdown();
+  if (form == "man") return man_page();
+  if (form == "bash") return bash_completion();
+  if (form == "zsh")
+    return "autoload -U +X compinit && compinit\nautoload -U +X bashcompinit && bashcompinit\n" + bash_completion();
+  if (form == "fish") return fish_completion();
+  return {};
+}
+
+std::string first_steps() {
+  return "Wisp learns how a thing behaves from recordings of it and plays that behaviour live.\n\n"
+         "To begin with:\n" +
+         entry("wisp demo", "a simulated candle, filmed, learned, judged and played, in out/demo (minutes)") +
+         entry("wisp demo candle.mp4", "the same from a film of your own") +
+         entry("wisp play", "a flame that is learned already, live in a window") +
+         entry("wisp help", "all commands; wisp help learn arx: one of them");
+}
+
+std::string help(std::string words) {
+  std::vector<const Command*> meant;
+  for (const Command& command : commands()) {
+    if (!words.empty() && begins_with(command, words)) meant.push_back(&command);
+  }
+  if (meant.size() == 1 && meant.front()->name == words) return help_of(*meant.front());
+  std::string text = first_steps() + "\nUsage: wisp COMMAND [flags]\n\n";
+  if (meant.empty()) {
+    for (const Command& command : commands()) meant.push_back(&command);
+  } else {
+    text = "Usage: wisp " + words + " …\n\n";
+  }
+  for (const Command* command : meant) text += entry(command->name, command->summary);
+  return text + "\nwisp COMMAND --help explains one; wisp --version says which version this is.\n";
 }
 
 }  // namespace wisp::cli

@@ -51,9 +51,26 @@ bool is_named_for_another_kind(const Flag& flag, const std::string& output) {
   return !expected.empty() && !found.empty() && expected != found;
 }
 
+// A table of figures and a model name what they were made of, a line each.
+Result<void> check_names(const Command& command, const Arguments& arguments) {
+  std::vector<std::pair<std::string, std::string>> names;
+  for (const std::string& name : arguments.positionals()) names.push_back({"", name});
+  for (const Flag& flag : command.flags) {
+    const bool path = flag.kind == Kind::kPath || flag.kind == Kind::kOutput;
+    if (path && arguments.has(flag.name)) names.push_back({"--" + flag.name + " ", arguments.text(flag.name)});
+  }
+  for (const auto& [flag, name] : names) {
+    const std::size_t line = name.find_first_of("\n\r");
+    if (line == name.npos) continue;
+    return Error{flag + name.substr(0, line) + "…: the name has a line break in it; rename the file"};
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<void> check_outputs(const Command& command, const Arguments& arguments) {
+  if (auto ok = check_names(command, arguments); !ok) return ok;
   for (const Flag& flag : command.flags) {
     if (flag.kind != Kind::kOutput || !arguments.has(flag.name)) continue;
     const std::string& output = arguments.text(flag.name);

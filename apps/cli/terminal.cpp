@@ -21,6 +21,8 @@ void Terminal::progress(std::string_view what, double done) {
   constexpr int kWidth = 30;
   const int percent = done < 0 ? -1 : static_cast<int>(100 * std::min(done, 1.0));
   if (bar_shown_ && percent == last_percent_ && what == last_what_) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (what != last_what_ || percent < last_percent_) begun_ = now;
   last_percent_ = percent;
   last_what_ = what;
   bar_shown_ = true;
@@ -29,7 +31,11 @@ void Terminal::progress(std::string_view what, double done) {
   if (percent < 0) {
     std::fprintf(stderr, "\r\033[K%.*s …", static_cast<int>(what.size()), what.data());
   } else {
-    std::fprintf(stderr, "\r\033[K%.*s %s %3d %%", static_cast<int>(what.size()), what.data(), bar.c_str(), percent);
+    const double passed = std::chrono::duration<double>(now - begun_).count();
+    const std::string left =
+        passed > 2 && percent > 0 ? ", " + shown(passed * (100 - percent) / percent, 2) + " s left" : std::string();
+    std::fprintf(stderr, "\r\033[K%.*s %s %3d %%%s", static_cast<int>(what.size()), what.data(), bar.c_str(), percent,
+                 left.c_str());
   }
   std::fflush(stderr);
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Output for the user: progress on standard error, the result on standard output.
 
+#include <chrono>
 #include <string>
 #include <string_view>
 
@@ -62,6 +63,7 @@ class Terminal {
   bool terminal_ = false;
   bool bar_shown_ = false;
   int last_percent_ = -1;
+  std::chrono::steady_clock::time_point begun_{};  // what is shown
   std::string last_what_;
   Report result_;
 };

@@ -179,6 +179,10 @@ Result<PendingFile> PendingFile::create(const fs::path& given) {
   if (fs::exists(path, code) && !fs::is_regular_file(path, code)) {
     return file_error(path, "is no plain file but a device or a pipe, expected the name of a file");
   }
+  if (constexpr auto kAnyWrite = fs::perms::owner_write | fs::perms::group_write | fs::perms::others_write;
+      fs::exists(path, code) && (fs::status(path, code).permissions() & kAnyWrite) == fs::perms::none) {
+    return file_error(path, "is read-only; give another name, or allow writing it");
+  }
   if (!fs::is_directory(folder, code)) {
     return file_error(path, "cannot be written: the folder " + path_text(folder) + " does not exist; make it first");
   }
@@ -203,7 +207,7 @@ Result<void> PendingFile::commit() {
 
 void remove_pending_files_when_interrupted() {
 #ifdef SIGHUP
-  constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
+  constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGXFSZ};
 #else
   constexpr std::array kSignals{SIGINT, SIGTERM};
 #endif

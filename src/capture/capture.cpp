@@ -1,5 +1,6 @@
 #include "wisp/capture/capture.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -16,6 +17,14 @@ Result<void> check_frames(const std::filesystem::path& path, const std::optional
   if (!frames || last >= frames->last) return {};
   return Error{path.string() + ": frames " + std::to_string(frames->first) + ":" + std::to_string(frames->last) +
                " reach beyond its end, frame " + std::to_string(last)};
+}
+
+// Of the rows that were captured.
+ClipTimes times_of(const VideoReader& reader, const ClipCapture& options) {
+  ClipTimes times = reader.times();
+  const auto skipped = static_cast<std::size_t>(options.frames ? options.frames->first - 1 : 0);
+  times.offsets = times.offsets.subspan(std::min(skipped, times.offsets.size()));
+  return times;
 }
 
 // Hands a clip's sound on. Returns whether there was any.
@@ -42,11 +51,11 @@ Result<Captured> capture(const std::filesystem::path& path, const ClipCapture& o
   if (auto read = read_into(*reader, live->picture(), progress); !read) return read.error();
   if (!info.images) {
     const auto heard = hear_sound(path, [&](const SoundFormat& format, double begin, std::span<const float> samples) {
-      return live->hear(format, begin, samples);
+      return live->hear(format, begin - reader->info().begin, samples);
     });
     if (!heard) return heard.error();
   }
-  auto captured = live->finish();
+  auto captured = live->finish(times_of(*reader, options));
   if (!captured) return captured;
   if (auto ok = check_frames(path, options.frames, captured->recording.rows()); !ok) return ok.error();
   for (std::string& warning : reader->warnings()) captured->report.warnings.push_back(std::move(warning));
@@ -60,11 +69,11 @@ Result<ClipWind> hear_wind(const std::filesystem::path& path, double rate_hz, st
   };
   const auto heard = hear_sound(path, [&](const SoundFormat& format, double begin, std::span<const float> samples) {
     if (!ear) {
-      auto made = ClipEar::create(format, begin, rate_hz);
+      auto made = ClipEar::create(format, rate_hz);
       if (!made) return Result<void>(unusable(made.error()));
       ear.emplace(std::move(*made));
     }
-    ear->feed(samples);
+    ear->feed(begin, samples);
     return Result<void>();
   });
   if (!heard) return heard.error();

@@ -4,13 +4,15 @@
 
 #include "matfile/level5.hpp"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
-
-#include "matfile/byte_source.hpp"
+#include <memory>
+#include <optional>
 
 namespace wisp::matfile {
 namespace {
@@ -19,7 +21,9 @@ constexpr std::size_t kHeader = 128;
 constexpr std::uint32_t kMatrix = 14, kCompressed = 15;
 constexpr unsigned kStruct = 2, kFirstNumeric = 6, kLastNumeric = 15;
 constexpr unsigned kComplex = 0x08;
-constexpr std::size_t kMaxDimensions = 32, kMaxFields = 4096, kMaxName = 4096;
+constexpr std::size_t kMaxDimensions = 32, kMaxFields = 4096, kMaxName = 256;
+constexpr std::size_t kMaxNames = 10'000;  // that are listed: packed structures could hold millions
+constexpr int kDeepest = 16;               // structures within structures
 
 // Numbers as they are stored, by the kinds of parts 1 to 13.
 constexpr std::size_t kWidth[] = {0, 1, 1, 2, 2, 4, 4, 4, 0, 8, 0, 0, 8, 8};
@@ -43,6 +47,76 @@ double number(const std::byte* at, std::uint32_t kind, bool big) {
   const int unused = 64 - 8 * static_cast<int>(kWidth[kind]);
   return static_cast<double>(static_cast<std::int64_t>(bits << unused) >> unused);
 }
+
+// Bytes one after the other, as they are stored or as zlib unpacks them.
+class ByteSource {
+ public:
+  explicit ByteSource(std::span<const std::byte> stored) : stored_(stored) {}
+
+  /// Unpacks `packed`. It gives nothing where that is no zlib stream.
+  static ByteSource unpacking(std::span<const std::byte> packed) {
+    ByteSource source(packed);
+    source.packed_.reset(new z_stream{});
+    if (inflateInit(source.packed_.get()) != Z_OK) source = ByteSource(std::span<const std::byte>());
+    return source;
+  }
+
+  /// The next bytes. Returns false where there are fewer.
+  bool read(std::span<std::byte> out) {
+    passed_ += out.size();
+    if (packed_) return unpack(out);
+    if (out.size() > stored_.size()) return false;
+    if (!out.empty()) std::memcpy(out.data(), stored_.data(), out.size());
+    stored_ = stored_.subspan(out.size());
+    return true;
+  }
+
+  /// Passes over the next bytes, without memory for them.
+  bool skip(std::size_t count) {
+    passed_ += count;
+    if (!packed_) {
+      if (count > stored_.size()) return false;
+      stored_ = stored_.subspan(count);
+      return true;
+    }
+    std::array<std::byte, 4096> passed;
+    for (; count > 0; count -= std::min(count, passed.size())) {
+      if (!unpack(std::span(passed).first(std::min(count, passed.size())))) return false;
+    }
+    return true;
+  }
+
+  /// How many bytes were requested so far.
+  std::size_t passed() const { return passed_; }
+
+ private:
+  struct End {
+    void operator()(z_stream* stream) const {
+      inflateEnd(stream);
+      delete stream;
+    }
+  };
+
+  bool unpack(std::span<std::byte> out) {
+    constexpr std::size_t kMax = std::size_t{1} << 30;  // what zlib's counters hold
+    packed_->next_out = reinterpret_cast<Bytef*>(out.data());
+    packed_->avail_out = static_cast<uInt>(out.size());
+    while (packed_->avail_out > 0) {
+      const std::size_t given = std::min(stored_.size(), kMax);
+      packed_->next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(stored_.data()));
+      packed_->avail_in = static_cast<uInt>(given);
+      const int code = inflate(packed_.get(), Z_NO_FLUSH);
+      stored_ = stored_.subspan(given - packed_->avail_in);
+      if (code == Z_STREAM_END && packed_->avail_out == 0) return true;
+      if (code != Z_OK) return false;
+    }
+    return true;
+  }
+
+  std::span<const std::byte> stored_;
+  std::size_t passed_ = 0;
+  std::unique_ptr<z_stream, End> packed_;
+};
 
 struct Tag {
   std::uint32_t kind = 0;
@@ -139,12 +213,12 @@ class Reader {
     return names;
   }
 
-  Found numbers(const Head& head) {
+  Found numbers(const Head& head, std::size_t max_numbers) {
     const auto found = tag();
     if (!found || found->kind >= std::size(kWidth) || kWidth[found->kind] == 0) return Miss::kDamaged;
     const std::size_t width = kWidth[found->kind], count = found->bytes / width;
     if (head.dims[0] == 0 || head.dims[1] == 0) return Miss::kNotNumbers;
-    if (head.dims[1] > kMaxNumbers / head.dims[0]) return Miss::kTooLarge;
+    if (head.dims[1] > max_numbers / head.dims[0]) return Miss::kTooLarge;
     if (found->bytes % width != 0 || count != head.dims[0] * head.dims[1]) return Miss::kDamaged;
     Table table{head.dims[0], head.dims[1], {}};
     std::array<std::byte, 8192> block;
@@ -191,7 +265,7 @@ void for_each_variable(std::span<const std::byte> file, Visit visit) {
 // Every numeric array within one whose head was read. Returns false where it is damaged.
 bool list(Reader& reader, const Head& head, const std::string& name, int depth, std::vector<Name>& names) {
   if (head.numeric()) names.push_back({name, head.dims[0], head.dims[1]});
-  if (!head.single_struct() || depth == kDeepest) return true;
+  if (!head.single_struct() || depth == kDeepest || names.size() >= kMaxNames) return true;
   const auto fields = reader.fields();
   if (!fields) return false;
   for (const std::string& field : *fields) {
@@ -205,8 +279,8 @@ bool list(Reader& reader, const Head& head, const std::string& name, int depth, 
 }
 
 // What the path leads to from an array whose head was read; `at` names of it are behind.
-Found find(Reader& reader, const Head& head, const Path& path, std::size_t at) {
-  if (at == path.size()) return head.numeric() ? reader.numbers(head) : Miss::kNotNumbers;
+Found find(Reader& reader, const Head& head, const Path& path, std::size_t at, std::size_t max_numbers) {
+  if (at == path.size()) return head.numeric() ? reader.numbers(head, max_numbers) : Miss::kNotNumbers;
   if (!head.single_struct()) return Miss::kNoField;
   const auto fields = reader.fields();
   if (!fields) return Miss::kDamaged;
@@ -219,7 +293,7 @@ Found find(Reader& reader, const Head& head, const Path& path, std::size_t at) {
   if (!part || part->kind != kMatrix) return Miss::kDamaged;
   if (part->bytes == 0) return Miss::kNotNumbers;
   const auto inner = reader.head();
-  return inner ? find(reader, *inner, path, at + 1) : Miss::kDamaged;
+  return inner ? find(reader, *inner, path, at + 1, max_numbers) : Miss::kDamaged;
 }
 
 }  // namespace
@@ -240,17 +314,17 @@ std::vector<Name> names_in_level5(std::span<const std::byte> file) {
   std::vector<Name> names;
   for_each_variable(file, [&](Reader& reader) {
     if (const auto head = reader.head()) list(reader, *head, head->name, 0, names);
-    return true;
+    return names.size() < kMaxNames;
   });
   return names;
 }
 
-Found read_level5(std::span<const std::byte> file, const Path& path) {
+Found read_level5(std::span<const std::byte> file, const Path& path, std::size_t max_numbers) {
   Found found = Miss::kNoVariable;
   for_each_variable(file, [&](Reader& reader) {
     const auto head = reader.head();
     if (!head || head->name != path.front()) return true;
-    found = find(reader, *head, path, 1);
+    found = find(reader, *head, path, 1, max_numbers);
     return false;
   });
   return found;

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <cstring>
 #include <optional>
 
 #include "matfile/level5.hpp"
-#include "matfile/level73.hpp"
 #include "record/csv_time.hpp"
 #include "record/number_text.hpp"
 #include "wisp/base/file.hpp"
@@ -17,43 +16,62 @@ namespace {
 using matfile::Found;
 using matfile::Miss;
 using matfile::Name;
+using matfile::Path;
 using matfile::Table;
 
-// A file of either level.
+// What a file may take in memory once it is unpacked. zlib packs zeros 1000 to one; recordings, hardly more than ten.
+constexpr std::size_t kMostUnpacked = std::size_t{1} << 30, kAlwaysUnpacked = std::size_t{1} << 26;
+constexpr std::size_t kExpansion = 64;
+
 class File {
  public:
-  static Result<File> open(const std::filesystem::path& path) {
+  static Result<File> open(const std::filesystem::path& path, std::size_t max_bytes = 0) {
     if (!std::filesystem::is_regular_file(path)) return Error{path.string() + ": there is no such file"};
     auto bytes = read_file(path);
     if (!bytes) return bytes.error();
-    File file(path);
-    if (matfile::is_level73(*bytes)) {
-      file.level73_ = matfile::Level73::open(path);
-      if (!file.level73_) return Error{path.string() + ": the file is cut short or damaged: HDF5 cannot open it"};
-      return file;
+    if (is_level73(*bytes)) {
+      return Error{path.string() + ": this is a MATLAB file of level 7.3, which is HDF5; save it with -v7, or as CSV"};
     }
     if (!matfile::is_level5(*bytes)) {
-      return Error{path.string() + ": this is not a MATLAB file of level 5 or 7.3; save it with -v7 or -v7.3"};
+      return Error{path.string() + ": this is not a MATLAB file of level 5; save it with -v7"};
     }
     if (!matfile::is_whole_level5(*bytes)) {
       return Error{path.string() + ": the file is cut short or damaged: its parts do not end where it ends"};
     }
-    file.bytes_ = std::move(*bytes);
-    return file;
+    const std::size_t usual = std::clamp(kExpansion * bytes->size(), kAlwaysUnpacked, kMostUnpacked);
+    return File(path, std::move(*bytes), max_bytes > 0 ? max_bytes : usual);
   }
 
-  std::vector<Name> names() const { return level73_ ? level73_->names() : matfile::names_in_level5(bytes_); }
+  std::vector<Name> names() const { return matfile::names_in_level5(bytes_); }
 
-  Found read(const matfile::Path& at) const { return level73_ ? level73_->read(at) : matfile::read_level5(bytes_, at); }
+  // What is read counts against the file's budget.
+  Found read(const Path& at) {
+    Found found = matfile::read_level5(bytes_, at, (max_bytes_ - unpacked_) / sizeof(double));
+    if (const auto* table = std::get_if<Table>(&found)) unpacked_ += table->numbers.size() * sizeof(double);
+    return found;
+  }
 
   const std::filesystem::path& path() const { return path_; }
 
+  std::string budget() const {
+    return "more than " + std::to_string(max_bytes_ >> 20) + " MB of numbers would be unpacked from a file of " +
+           std::to_string(std::max<std::size_t>(bytes_.size() >> 10, 1)) +
+           " kB; if it is what it should be, raise the limit with --memory GB";
+  }
+
  private:
-  explicit File(std::filesystem::path path) : path_(std::move(path)) {}
+  File(std::filesystem::path path, std::vector<std::byte> bytes, std::size_t max_bytes)
+      : path_(std::move(path)), bytes_(std::move(bytes)), max_bytes_(max_bytes) {}
+
+  static bool is_level73(std::span<const std::byte> file) {
+    const std::string_view mark("\0\2IM", 4);
+    return file.size() >= 128 && std::memcmp(&file[124], mark.data(), mark.size()) == 0;
+  }
 
   std::filesystem::path path_;
   std::vector<std::byte> bytes_;
-  std::unique_ptr<matfile::Level73> level73_;
+  std::size_t max_bytes_;
+  std::size_t unpacked_ = 0;
 };
 
 std::vector<std::string> list_variables(const File& file) {
@@ -103,16 +121,16 @@ std::string listed(const File& file) {
 
 class Reader {
  public:
-  explicit Reader(const File& file) : file_(file) {}
+  explicit Reader(File& file) : file_(file) {}
 
   Result<Table> table(const std::string& name) const {
     const auto reference = parse(name);
     if (!reference) return at(name, "expected a variable such as u, data.u or u(:,2)");
     Found found = file_.read(reference->path);
     if (const auto* miss = std::get_if<Miss>(&found)) return at(name, words_of(*miss));
-    Table table = std::get<Table>(std::move(found));
+    auto& table = std::get<Table>(found);
     if (table.rows == 1) std::swap(table.rows, table.columns);
-    if (!reference->column) return table;
+    if (!reference->column) return std::move(table);
     if (*reference->column < 1 || *reference->column > table.columns) {
       return at(name, "the variable has " + std::to_string(table.columns) + " columns");
     }
@@ -143,15 +161,14 @@ class Reader {
       case Miss::kNotNumbers:
         return "expected a real, full, numeric vector or matrix of two dimensions; the file has: " + listed(file_);
       case Miss::kTooLarge:
-        return "it has more than 2^27 numbers; save fewer, or write the recording as CSV, which is read a stretch at a "
-               "time";
+        return file_.budget();
       case Miss::kDamaged:
         break;
     }
     return "its data is damaged or cut short";
   }
 
-  const File& file_;
+  File& file_;
 };
 
 // Samples a second by a variable of time in seconds; 0 where there is none.
@@ -184,7 +201,11 @@ Result<void> add_channels(const Reader& reader, const std::string& name, Role ro
     channel.name = table->columns == 1 ? name : name + std::to_string(c + 1);
     channel.role = role;
     const auto first = table->numbers.begin() + static_cast<std::ptrdiff_t>(c * table->rows);
-    channel.samples.assign(first, first + static_cast<std::ptrdiff_t>(table->rows));
+    if (table->columns == 1) {
+      channel.samples = std::move(table->numbers);
+    } else {
+      channel.samples.assign(first, first + static_cast<std::ptrdiff_t>(table->rows));
+    }
     for (std::size_t t = 0; t < channel.samples.size(); ++t) {
       if (std::isinf(channel.samples[t])) return reader.at(name, "sample " + std::to_string(t + 1) + " is infinite");
     }
@@ -196,7 +217,7 @@ Result<void> add_channels(const Reader& reader, const std::string& name, Role ro
 }  // namespace
 
 Result<Recording> read_mat(const std::filesystem::path& path, const MatOptions& options) {
-  const auto file = File::open(path);
+  auto file = File::open(path, options.max_bytes);
   if (!file) return file.error();
   if (options.inputs.empty() && options.outputs.empty()) {
     return Error{path.string() + ": name the variables that are inputs and outputs; the file has: " + listed(*file)};

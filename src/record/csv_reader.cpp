@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -104,6 +105,19 @@ std::string listed(const std::vector<std::string>& names) {
   return names.size() > kMax ? text + " and " + std::to_string(names.size() - kMax) + " more" : text;
 }
 
+// A line between rows that is none.
+bool is_comment(std::string_view line) {
+  const std::string_view text = trimmed(line);
+  return text == "#" || text.substr(0, 2) == "# " || text.substr(0, 1) == "%";  // #N/A and #DIV/0! are cells
+}
+
+// One to three digits, a comma and three digits: a thousand, or little more than one.
+bool may_be_thousands(std::string_view text) {
+  if (!text.empty() && (text.front() == '-' || text.front() == '+')) text.remove_prefix(1);
+  const std::size_t comma = text.find(',');
+  return comma >= 1 && comma <= 3 && text.size() == comma + 4 && text.front() != '0';
+}
+
 bool is_utf16(std::string_view line) { return line.substr(0, 2) == "\xff\xfe" || line.substr(0, 2) == "\xfe\xff"; }
 
 }  // namespace
@@ -128,7 +142,10 @@ Result<bool> CsvReader::read_line(Line& line) {
       }
       line.text.push_back(static_cast<char>(c));
     }
-    if (is_text(line.text)) continue;
+    if (is_text(line.text)) {
+      if (in_table_ && is_comment(line.text)) line.text.clear();
+      continue;
+    }
     row_ = line.row;
     if (line.row == 1 && is_utf16(line.text)) return at_row("is UTF-16; save it as UTF-8 (Excel: \"CSV UTF-8\")");
     return at_row("holds bytes that are not text; expected a CSV file");
@@ -229,6 +246,7 @@ Result<void> CsvReader::read_attributes() {
     } else if (trimmed(line_).front() == '#' || trimmed(line_).front() == '%') {
       if (auto ok = read_attribute(); !ok) return ok;
     } else {
+      in_table_ = true;
       return {};
     }
   }
@@ -405,7 +423,10 @@ Result<std::size_t> CsvReader::read(Recording& recording, std::size_t max_rows) 
   while (count < max_rows) {
     const auto more = next_line();
     if (!more) return more.error();
-    if (!*more) break;
+    if (!*more) {
+      if (auto ok = check_thousands(); !ok) return ok.error();
+      break;
+    }
     if (auto ok = add_row(recording); !ok) return ok.error();
     ++count;
   }
@@ -450,7 +471,8 @@ Result<void> CsvReader::add_cell(Recording& recording, const Column& column, con
   };
   switch (column.kind) {
     case Column::Kind::kSkip:
-      return {};
+      if (cell.text.find_first_of(".,") == cell.text.npos || !csv::number_of(cell, separator_)) return {};
+      return check_mark(cell, place);
     case Column::Kind::kFlag:
       if (cell.text != "0" && cell.text != "1") return found("a flag, 0 or 1");
       recording.flags[column.index].rows.push_back(cell.text == "1");
@@ -480,20 +502,40 @@ Result<void> CsvReader::add_cell(Recording& recording, const Column& column, con
     return {};
   }
   if (!std::isfinite(*value)) return found("a finite number; leave the cell empty where a sample is missing");
-  if (auto ok = check_mark(cell); !ok) return ok;
+  if (auto ok = check_mark(cell, place); !ok) return ok;
   samples.push_back(*value);
   return {};
 }
 
 // 1,234 is a thousand to some and little more than one to others: a table writes it in one way.
-Result<void> CsvReader::check_mark(const Cell& cell) {
-  if (separator_ == ',' && !cell.quoted) return {};
+Result<void> CsvReader::check_mark(const Cell& cell, std::size_t place) {
   const bool comma = csv::has_comma(cell), point = cell.text.find('.') != std::string_view::npos;
   commas_ |= comma;
   points_ |= point;
+  if (marks_.size() <= place) marks_.resize(columns_.size());
+  Marks& marks = marks_[place];
+  if (comma && !may_be_thousands(cell.text)) decimals_ = true;
+  if (comma && marks.thousand == 0) marks.thousand = row_;
+  if (!comma && !point && marks.hundred == 0 && cell.text.size() >= 3 &&
+      std::isdigit(static_cast<unsigned char>(cell.text.back())) != 0) {
+    marks.hundred = row_;
+  }
   if (!commas_ || !points_) return {};
   return at_row("found " + shown(cell.text) + " though numbers above have a decimal " + (comma ? "point" : "comma") +
                 "; write all numbers in one way, without separators of thousands");
+}
+
+// A column of 987 and 1,012 has separators of thousands, unless a comma elsewhere can only be a decimal one.
+Result<void> CsvReader::check_thousands() {
+  for (std::size_t k = 0; k < marks_.size() && !decimals_; ++k) {
+    if (marks_[k].thousand == 0 || marks_[k].hundred == 0) continue;
+    row_ = marks_[k].thousand;
+    return at_row("column " + std::to_string(k + 1) + " has numbers such as 1,012 and, in row " +
+                  std::to_string(marks_[k].hundred) +
+                  ", whole ones of three digits and more: are they thousands or decimals? Write all numbers without "
+                  "separators of thousands");
+  }
+  return {};
 }
 
 Result<Recording> read_csv(std::istream& stream, std::string_view name, const CsvOptions& options) {

@@ -95,6 +95,14 @@ TEST_F(FileTest, APipeIsNotReplacedByAFile) {
   EXPECT_EQ(files(), 1u);
 }
 
+TEST_F(FileTest, AReadOnlyFileIsNotReplaced) {
+  ASSERT_TRUE(write_file(folder_ / "kept", "old"));
+  fs::permissions(folder_ / "kept", fs::perms::owner_read);
+  const auto written = write_file(folder_ / "kept", "new");
+  ASSERT_FALSE(written);
+  EXPECT_THAT(written.error().message, testing::HasSubstr("kept: is read-only"));
+}
+
 TEST_F(FileTest, AReplacedFileKeepsItsPermissions) {
   ASSERT_TRUE(write_file(folder_ / "secret", "old"));
   fs::permissions(folder_ / "secret", fs::perms::owner_read | fs::perms::owner_write);
@@ -131,7 +139,7 @@ TEST_F(FileTest, LinksInACircleAreNamed) {
 }
 
 TEST_F(FileTest, APrivateFileIsPrivateWhileItIsWritten) {
-  const auto secret = fs::perms::owner_read;  // which may be replaced all the same
+  const auto secret = fs::perms::owner_write;
   ASSERT_TRUE(write_file(folder_ / "secret", "old"));
   fs::permissions(folder_ / "secret", secret);
   auto pending = PendingFile::create(folder_ / "secret");
@@ -144,7 +152,7 @@ TEST_F(FileTest, APrivateFileIsPrivateWhileItIsWritten) {
 }
 
 TEST_F(FileTest, AnInterruptedProcessLeavesTheOldFileAndNothingElse) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGXFSZ}) {
     ASSERT_TRUE(write_file(folder_ / "a.txt", "old"));
     const auto interrupted = [&] {
       std::signal(signal, SIG_DFL);  // what a shell starts in the background ignores some

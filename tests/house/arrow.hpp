@@ -41,7 +41,7 @@ inline const std::map<std::string, Layer>& layers() {
       {"c_learn", {{"base", "model", "record", "learn", "c"}, {}}},
       {"record",
        {{"base"}, {}, {"record/csv_time.hpp", "record/loudness.hpp", "record/number_text.hpp", "record/verdict.hpp"}}},
-      {"matfile", {{"base", "record"}, {"hdf5.h", "zlib.h"}}},
+      {"matfile", {{"base", "record"}, {"zlib.h"}}},
       {"umbrella",
        {{"base", "model", "run", "sound", "record", "learn", "capture", "capture/vision", "capture/clip",
          "capture/media", "describe"},

@@ -141,6 +141,27 @@ TEST(CsvTable, RowsAreCountedAsAnEditorDoes) {
   EXPECT_THAT(complaint("# note\n\nu,y\nW,V\n\n1,2\nx,3\n"), HasSubstr("row 7"));
 }
 
+TEST(CsvTable, CommasThatMaySeparateThousandsAreRefused) {
+  EXPECT_THAT(
+      complaint("k;u;y\n1;1;1,012\n2;1;987\n3;0;1,003\n"),
+      AllOf(HasSubstr("row 2"), HasSubstr("column 3"), HasSubstr("in row 3"), HasSubstr("thousands or decimals?")));
+  EXPECT_THAT(complaint("k,u,y\n1,1,\"1,012\"\n2,1,987\n"), HasSubstr("thousands or decimals?"));
+  EXPECT_EQ(complaint("k;u;y\n1;1;1,012\n2;1;987\n3;0;1,5\n"),
+            "no complaint");                                                  // decimals: nobody writes 1,5 thousands
+  EXPECT_EQ(complaint("k;u;y\n100;1;1,012\n101;1;0,987\n"), "no complaint");  // another column's whole numbers
+}
+
+TEST(CsvTable, AllColumnsWriteNumbersInOneWayAlsoThoseThatAreNotUsed) {
+  for (const char* text : {"t,u,y\n0.0,1,\"1,012\"\n0.1,1,\"1,064\"\n", "t;u;y\n0.0;1;1,000\n0.1;1;1,064\n"})
+    EXPECT_THAT(complaint(text), AllOf(HasSubstr("row 2"), HasSubstr("numbers above have a decimal point")));
+  EXPECT_EQ(complaint("when;u;y\n1.12.2026;1;0,5\n2.12.2026;1;0,7\n"), "no complaint");  // a date is no number
+}
+
+TEST(CsvTable, ACommentBetweenRowsIsPassedOver) {
+  EXPECT_EQ(complaint("u,y\n1,2\n# lamp switched on, a little late\n3,4\n% done\n#\n"), "no complaint");
+  EXPECT_THAT(complaint("u,y\n1,2\n# here\n3,x\n"), HasSubstr("row 4"));
+}
+
 TEST(CsvTable, AColumnOfNumbersAloneMayHaveDecimalCommas) {
   const auto recording = parse("y\n1,5\n2,5\n", {.rate_hz = 1, .outputs = {"y"}});
   ASSERT_TRUE(recording) << recording.error().message;

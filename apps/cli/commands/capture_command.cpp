@@ -26,7 +26,7 @@ bool goes_to_folder(const Arguments& arguments) {
 // Where each of several clips is written: under its own name in the folder. Errors: two of one name, no folder.
 Result<std::vector<std::filesystem::path>> tables_in(const std::string& folder, const std::vector<std::string>& clips) {
   if (is_table(folder)) {
-    return Error{folder + " is the name of one recording, expected a folder for those of " +
+    return Error{"--output " + folder + " is the name of one recording, expected a folder for those of " +
                  std::to_string(clips.size()) + " clips"};
   }
   std::vector<std::filesystem::path> tables;

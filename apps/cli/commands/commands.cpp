@@ -37,15 +37,20 @@ const std::vector<Command>& commands() {
 
 Command manual_command() {
   return {"manual",
-          "Prints this page: all commands and flags, as Markdown.",
+          "Prints this page, or it as a man page, or what completes commands and flags in a shell.",
+          {{"FORM", "markdown, man, bash, zsh or fish", false, true}},
           {},
           {},
-          {},
-          [](const Arguments&, Terminal& terminal) -> Result<void> {
+          [](const Arguments& arguments, Terminal& terminal) -> Result<void> {
+            const bool named = !arguments.positionals().empty();
+            const auto text = manual(named ? arguments.positional() : "markdown");
+            if (!text)
+              return Error{"--: there is no form " + arguments.positional() +
+                           "; there are markdown, man, bash, zsh and fish"};
             if (terminal.json()) {
-              terminal.add("manual", manual());
+              terminal.add("manual", *text);
             } else {
-              std::fputs(manual().c_str(), stdout);
+              std::fputs(text->c_str(), stdout);
             }
             return {};
           }};

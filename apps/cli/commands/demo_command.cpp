@@ -1,5 +1,9 @@
 // `wisp demo`: the whole job, with the commands that would do it by hand.
 
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstring>
 #include <filesystem>
 #include <functional>
 #include <utility>
@@ -7,6 +11,7 @@
 #include "commands/commands.hpp"
 #include "films/simulated_clip.hpp"
 #include "films/validation_pictures.hpp"
+#include "flags/capture_flags.hpp"
 #include "reports/learned_model.hpp"
 #include "terminal.hpp"
 #include "wisp/base/file.hpp"
@@ -56,6 +61,28 @@ struct Places {
   std::string at(const char* name) const { return (folder / name).string(); }
 };
 
+// A name as a shell takes it.
+std::string quoted(const std::string& name) {
+  const auto plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::strchr("/._-+=:,@%", c) != nullptr;
+  };
+  if (!name.empty() && std::all_of(name.begin(), name.end(), plain)) return name;
+  std::string text = "'";
+  for (const char c : name) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+// Flags of capture that the demo takes, and those of them that were given, as words.
+constexpr std::array kCaptureFlags{"points", "channel", "flame", "region", "frames", "rate"};
+
+std::string capture_words(const Arguments& arguments) {
+  std::string words;
+  for (const char* flag : kCaptureFlags) {
+    if (arguments.has(flag)) words += " --" + std::string(flag) + " " + quoted(arguments.text(flag));
+  }
+  return words;
+}
+
 // What the model is learned from, and what it is validated on.
 struct Clips {
   std::string learn;
@@ -76,8 +103,8 @@ Result<void> simulate(const std::string& path, double seconds, std::uint64_t see
 Result<Clips> simulate_clips(const Places& places, std::uint64_t seed, Terminal& terminal) {
   const Clips clips{places.at("training.mp4"), places.at("validation.mp4"), places.at("validation.truth.csv")};
   const auto one = [&](const std::string& name, const std::string& path, int seconds, std::uint64_t clip_seed) {
-    const std::string line =
-        "simulate candle -o " + path + " --seconds " + std::to_string(seconds) + " --seed " + std::to_string(clip_seed);
+    const std::string line = "simulate candle -o " + quoted(path) + " --seconds " + std::to_string(seconds) +
+                             " --seed " + std::to_string(clip_seed);
     return step(name, line, terminal, [&] { return simulate(path, seconds, clip_seed, terminal); });
   };
   if (auto ok = one("simulate_training", clips.learn, 40, seed); !ok) return ok.error();
@@ -86,11 +113,10 @@ Result<Clips> simulate_clips(const Places& places, std::uint64_t seed, Terminal&
 }
 
 Result<Recording> capture_step(const Places& places, const std::string& clip, const ClipCapture& options,
-                               const std::string& rate, Terminal& terminal) {
+                               const std::string& words, Terminal& terminal) {
   const std::string path = places.at("recording.csv");
   Recording recording;
-  const std::string line =
-      "capture flame " + clip + " -o " + path + " --points " + std::to_string(options.points) + rate;
+  const std::string line = "capture flame " + quoted(clip) + " -o " + quoted(path) + words;
   auto ok = step("capture", line, terminal, [&]() -> Result<void> {
     auto captured = capture(clip, options, terminal.progress());
     if (!captured) return captured.error();
@@ -108,15 +134,16 @@ Result<Recording> capture_step(const Places& places, const std::string& clip, co
 Result<Model> learn_step(const Places& places, const Recording& recording, Terminal& terminal) {
   const std::string path = places.at("flame.wisp");
   Model model;
-  auto ok = step("learn", "learn flame " + places.at("recording.csv") + " -o " + path, terminal, [&]() -> Result<void> {
-    FlameRecipe recipe;
-    recipe.name = "flame";
-    auto fit = learn(recording, recipe, terminal.progress());
-    if (!fit) return fit.error();
-    model = std::move(fit->model);
-    terminal.show(fit->report);
-    return write_model(path, model);
-  });
+  auto ok = step("learn", "learn flame " + quoted(places.at("recording.csv")) + " -o " + quoted(path), terminal,
+                 [&]() -> Result<void> {
+                   FlameRecipe recipe;
+                   recipe.name = "flame";
+                   auto fit = learn(recording, recipe, terminal.progress());
+                   if (!fit) return fit.error();
+                   model = std::move(fit->model);
+                   terminal.show(fit->report);
+                   return write_model(path, model);
+                 });
   if (!ok) return ok.error();
   return model;
 }
@@ -139,18 +166,19 @@ Result<void> validate(const Places& places, const Clips& clips, const Model& mod
                                       terminal.progress());
   if (!found) return found.error();
   terminal.show(found->report);
-  const ValidationSubject subject{
+  ValidationSubject subject{
       std::move(captured->recording), {clips.validate, options.rate_hz}, std::move(captured->report)};
+  if (options.frames) subject.clip.first_frame = static_cast<std::size_t>(options.frames->first - 1);
   return draw_validation(*found, model, subject,
                          {places.at("overlay.mp4"), places.at("film-strip.png"), places.at("figures")}, terminal);
 }
 
 Result<void> validate_step(const Places& places, const Clips& clips, const Model& model, const ClipCapture& options,
-                           const std::string& rate, Terminal& terminal) {
-  const std::string line = "validate " + places.at("flame.wisp") + " " + clips.validate + rate +
-                           (clips.truth.empty() ? "" : " --truth " + clips.truth) + " --overlay " +
-                           places.at("overlay.mp4") + " --film-strip " + places.at("film-strip.png") + " --figures " +
-                           places.at("figures");
+                           const std::string& words, Terminal& terminal) {
+  const std::string line = "validate " + quoted(places.at("flame.wisp")) + " " + quoted(clips.validate) + words +
+                           (clips.truth.empty() ? "" : " --truth " + quoted(clips.truth)) + " --overlay " +
+                           quoted(places.at("overlay.mp4")) + " --film-strip " + quoted(places.at("film-strip.png")) +
+                           " --figures " + quoted(places.at("figures"));
   return step("validate", line, terminal, [&] { return validate(places, clips, model, options, terminal); });
 }
 
@@ -170,25 +198,21 @@ Result<void> film_step(const Places& places, const Model& model, Terminal& termi
   const std::string frames = std::to_string(std::max(1, static_cast<int>(20 * model.rate_hz)));
   std::vector<std::pair<std::string, std::string>> flags{{"frames", frames}, {"output", places.at("flame.mp4")}};
   if (!model.inputs.empty()) flags.push_back({"input", places.at("recording.csv")});
-  std::string line = "run " + places.at("flame.wisp") + " --frames " + frames;
-  if (!model.inputs.empty()) line += " --input " + places.at("recording.csv");
-  return step("run", line + " -o " + places.at("flame.mp4"), terminal,
+  std::string line = "run " + quoted(places.at("flame.wisp")) + " --frames " + frames;
+  if (!model.inputs.empty()) line += " --input " + quoted(places.at("recording.csv"));
+  return step("run", line + " -o " + quoted(places.at("flame.mp4")), terminal,
               [&] { return run_command_with(run_command(), flags, places.at("flame.wisp"), terminal); });
 }
 
 Result<void> all_steps(const Places& places, const Clips& clips, const Arguments& arguments, Terminal& terminal) {
-  FlameCapture options;
-  options.points = arguments.integer("points");
-  std::string rate;
-  if (arguments.has("rate")) {
-    options.rate_hz = arguments.number("rate");
-    rate = " --rate " + arguments.text("rate");
-  }
-  const auto recording = capture_step(places, clips.learn, options, rate, terminal);
+  const auto options = capture_options(arguments);
+  if (!options) return options.error();
+  const std::string words = capture_words(arguments);
+  const auto recording = capture_step(places, clips.learn, *options, words, terminal);
   if (!recording) return recording.error();
   const auto model = learn_step(places, *recording, terminal);
   if (!model) return model.error();
-  if (auto ok = validate_step(places, clips, *model, options, rate, terminal); !ok) return ok;
+  if (auto ok = validate_step(places, clips, *model, *options, words, terminal); !ok) return ok;
   return film_step(places, *model, terminal);
 }
 
@@ -202,9 +226,11 @@ void say_what_next(const Places& places, Terminal& terminal) {
   terminal.say("  summary.json    all figures");
   terminal.say("What to try next:");
   terminal.say("  wisp demo YOUR_CLIP.mp4 --points 16                 a clip of your own, finer");
-  terminal.say("  wisp run " + places.at("flame.wisp") + " --frames 600 --instances 5 -o cake.mp4   five candles");
-  terminal.say("  wisp info " + places.at("flame.wisp") + "             what the file holds and what a frame costs");
-  terminal.say("  wisp play " + places.at("flame.wisp") + "             blow on it, live, in a window");
+  terminal.say("  wisp run " + quoted(places.at("flame.wisp")) +
+               " --frames 600 --instances 5 -o cake.mp4   five candles");
+  terminal.say("  wisp info " + quoted(places.at("flame.wisp")) +
+               "             what the file holds and what a frame costs");
+  terminal.say("  wisp play " + quoted(places.at("flame.wisp")) + "             blow on it, live, in a window");
   terminal.say("  script/web serve                      the same in a browser; drop flame.wisp onto the page");
 }
 
@@ -222,7 +248,7 @@ Result<void> fill(const Places& places, const Arguments& arguments, Terminal& te
   if (auto ok = write_file(places.at("summary.json"), to_json(terminal.result(), 1) + "\n"); !ok) return ok;
   say_what_next(places, terminal);
   if (!arguments.on("window")) return {};
-  return step("play", "play " + places.at("flame.wisp"), terminal,
+  return step("play", "play " + quoted(places.at("flame.wisp")), terminal,
               [&] { return run_command_with(play_command(), {}, places.at("flame.wisp"), terminal); });
 }
 
@@ -251,26 +277,29 @@ Result<void> run_demo(const Arguments& arguments, Terminal& terminal) {
 }  // namespace
 
 Command demo_command() {
+  std::vector<Flag> flags{
+      {"output",
+       Kind::kOutput,
+       "DIR",
+       "out/demo",
+       "the folder for all that is made",
+       {},
+       false,
+       {},
+       {"recording.csv", "flame.wisp", "overlay.mp4", "film-strip.png", "flame.mp4", "summary.json"}}};
+  for (Flag& flag : capture_flags("1")) {
+    if (std::find(kCaptureFlags.begin(), kCaptureFlags.end(), flag.name) != kCaptureFlags.end())
+      flags.push_back(std::move(flag));
+  }
+  flags.push_back({"window", Kind::kSwitch, "", "", "opens the window with the model at the end, as wisp play does"});
+  flags.push_back({"seed", Kind::kInteger, "N", "1", "of all chance"});
   return {
       "demo",
       "The whole job: from a clip of a flame to a model and its pictures. Without a clip it simulates one.",
       {{"CLIP", "a video of a flame, or a folder of numbered images", false, true}},
-      {
-          {"output",
-           Kind::kOutput,
-           "DIR",
-           "out/demo",
-           "the folder for all that is made",
-           {},
-           false,
-           {},
-           {"recording.csv", "flame.wisp", "overlay.mp4", "film-strip.png", "flame.mp4", "summary.json"}},
-          {"points", Kind::kInteger, "N", "8", "control points of the outline"},
-          {"rate", Kind::kNumber, "HZ", "", "frames a second of a folder of images"},
-          {"window", Kind::kSwitch, "", "", "opens the window with the model at the end, as wisp play does"},
-          {"seed", Kind::kInteger, "N", "1", "of all chance"},
-      },
+      std::move(flags),
       {{"wisp demo candle.mp4", "A film of a candle to a living model, in out/demo"},
+       {"wisp demo candle.mp4 --region 300,100,200,400", "Looking only at one of the candles"},
        {"wisp demo", "The same without a camera: the candle is simulated"}},
       run_demo,
   };

@@ -24,7 +24,7 @@ using window::SceneKind;
 // Asked to end by a signal: the frame is finished first, so that no picture is left half written.
 volatile int interrupted = 0;
 
-void interrupt(int) { interrupted = 1; }
+void interrupt(int signal) { interrupted = signal; }
 
 Result<void> set_size(const std::string& text, window::PlayerOptions& player) {
   int width = 0, height = 0;
@@ -123,6 +123,12 @@ Result<void> run_play(const Arguments& arguments, Terminal& terminal) {
   if (!report) return report.error();
   for (const std::string& line : report->said) terminal.warn(line);
   tell(*report, *options, terminal);
+  if (interrupted == 0 || options->frames == 0) return {};
+  // Not all of the frames were drawn that were to be: whoever waits for them is told as by any other program.
+  terminal.finish();
+  std::fflush(stdout);
+  std::signal(interrupted, SIG_DFL);
+  std::raise(interrupted);
   return {};
 }
 

@@ -40,8 +40,7 @@ Result<void> run_simulate_candle(const Arguments& arguments, Terminal& terminal)
   const auto options = options_from(arguments);
   if (!options) return options.error();
   const std::filesystem::path path = arguments.text("output");
-  if (path.extension() != ".mp4")
-    return Error{path.string() + ": cannot be written, expected a name that ends in .mp4"};
+  if (path.extension() != ".mp4") return Error{"--output " + path.string() + ": expected a name that ends in .mp4"};
   const auto truth = write_simulated_clip(path, *options, terminal);
   if (!truth) return truth.error();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

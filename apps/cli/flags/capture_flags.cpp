@@ -75,7 +75,11 @@ Result<ClipCapture> capture_options(const Arguments& arguments) {
     const SampleRange frames = arguments.samples("frames");
     options.frames = FrameRange{static_cast<std::int64_t>(frames.first), static_cast<std::int64_t>(frames.last)};
   }
-  if (arguments.has("rate")) options.rate_hz = arguments.number("rate");
+  const FlagRange rate{"rate", 0.01, 1e5};
+  if (arguments.has("rate")) {
+    if (auto ok = check_ranges(arguments, {&rate, 1}); !ok) return ok.error();
+    options.rate_hz = arguments.number("rate");
+  }
   if (arguments.has("wind-measure")) options.wind = wind_measure(arguments);
   return options;
 }

@@ -30,6 +30,9 @@ std::vector<Flag> recording_flags() {
 
 namespace {
 
+// Samples a second of what is recorded of things that move: once in eleven days to a radio's.
+constexpr double kMinRate = 1e-6, kMaxRate = 1e7;
+
 std::string extension_of(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -59,6 +62,10 @@ Result<CsvOptions> csv_options(const Arguments& arguments, CsvOptions options) {
     options.rate_hz = 1 / seconds;
   }
   if (arguments.has("rate")) options.rate_hz = arguments.number("rate");
+  if (options.rate_hz != 0 && !(options.rate_hz >= kMinRate && options.rate_hz <= kMaxRate)) {
+    return Error{std::string(arguments.has("rate") ? "--rate" : "--dt") + ": " + shown(options.rate_hz) +
+                 " samples a second, expected 1e-6 to 1e7"};
+  }
   return options;
 }
 
@@ -72,9 +79,10 @@ Result<Recording> read_matlab(const std::filesystem::path& path, const CsvOption
                  " name variables with --inputs and --outputs, such as u or u(:,2)"};
   }
   const double rate_hz = options.rate_hz > 0 ? options.rate_hz : options.usual_rate_hz;
-  const MatOptions named{.rate_hz = rate_hz, .inputs = options.inputs, .outputs = options.outputs};
+  const auto most = static_cast<std::size_t>(arguments.has("memory") ? arguments.number("memory") * 1e9 : 0);
+  const MatOptions named{.rate_hz = rate_hz, .max_bytes = most, .inputs = options.inputs, .outputs = options.outputs};
   if (arguments.has("dt") || arguments.has("rate") || otherwise.rate_hz == 0) return read_mat(path, named);
-  auto stated = read_mat(path, {.inputs = options.inputs, .outputs = options.outputs});
+  auto stated = read_mat(path, {.max_bytes = most, .inputs = options.inputs, .outputs = options.outputs});
   return stated ? std::move(stated) : read_mat(path, named);
 }
 

@@ -67,10 +67,11 @@ Result<void> take_in(Desk& all, const Picture& picture, double seconds) {
 
 // A film of falls is told by them: of a film of a flame nothing usable comes out as falls.
 Result<Captured> finished(Desk& all) {
-  if (!all.falls) return all.capture->finish();
+  const ClipTimes times{.offsets = all.grid->offsets(), .shortened = all.grid->shortened()};
+  if (!all.falls) return all.capture->finish(times);
   auto falls = all.falls->finish();
   if (!all.capture || (falls && falls->report.verdict->usable)) return falls;
-  return all.capture->finish();
+  return all.capture->finish(times);
 }
 
 }  // namespace
@@ -129,7 +130,7 @@ int studio_frame(int layout, int width, int height, const std::uint8_t* first, i
   return fed ? kDone : fail(fed.error());
 }
 
-// Interleaved samples; the first block says when the sound begins, seconds after the first frame.
+// Interleaved samples that begin so many seconds after the first frame.
 WISP_STUDIO(sound)
 int studio_sound(const float* samples, std::size_t count, int channels, double rate, double begin) {
   Desk& all = desk();

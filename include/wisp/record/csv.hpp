@@ -36,11 +36,11 @@ class CsvReader {
  public:
   /// Reads the comment lines and the header. `name` stands for the file in messages.
   /// Tables from elsewhere may be separated by commas, semicolons, tabs or blanks, have decimal commas, a line that
-  /// tells Excel the separator, a line of units, and comment lines that begin with # or %. Where nothing else says the
-  /// rate, a column of time does (t, time, seconds, timestamp, in s unless its name or the line of units says ms, us,
-  /// min or h), and every row must go on evenly then; one that counts rows, without a unit, is none.
-  /// Errors, each with file and row (1-based, as an editor counts lines): not text, no header and no names, no rate, an
-  /// unknown version, an unknown or repeated column.
+  /// tells Excel the separator, a line of units, and comment lines that begin with # or %, also between rows. Where
+  /// nothing else says the rate, a column of time does (t, time, seconds, timestamp, in s unless its name or the line
+  /// of units says ms, us, min or h), and every row must go on evenly then; one that counts rows, without a unit, is
+  /// none. Errors, each with file and row (1-based, as an editor counts lines): not text, no header and no names, no
+  /// rate, an unknown version, an unknown or repeated column.
   ///
   /// Precondition: `stream` outlives the reader.
   static Result<CsvReader> open(std::istream& stream, std::string_view name, const CsvOptions& options = {});
@@ -52,7 +52,7 @@ class CsvReader {
   /// Returns how many; 0 at the end.
   /// An empty cell, NaN or NA is a missing sample.
   /// Errors: time that does not go on evenly, a wrong number of columns, text or infinity where a number belongs,
-  /// decimal points and commas in one table, a line longer than 16 MiB.
+  /// decimal points and commas in one table, commas that may separate thousands, a line longer than 16 MiB.
   Result<std::size_t> read(Recording& recording, std::size_t max_rows);
 
   /// Passes over up to `max_rows` rows without looking at their numbers.
@@ -82,6 +82,12 @@ class CsvReader {
     std::optional<double> before{};  // in the row before
   };
 
+  // What a column's commas may be.
+  struct Marks {
+    std::size_t thousand = 0;  // row of the first number such as 1,012; 0: none
+    std::size_t hundred = 0;   // and of the first such as 987
+  };
+
   Result<bool> read_line(Line& line);
   Result<bool> next_line();
   Result<std::vector<std::string>> look_ahead(std::size_t count);
@@ -98,7 +104,8 @@ class CsvReader {
   Result<void> read_columns(const CsvOptions& options);
   Result<void> add_row(Recording& recording);
   Result<void> add_cell(Recording& recording, const Column& column, const csv::Cell& cell, std::size_t place);
-  Result<void> check_mark(const csv::Cell& cell);
+  Result<void> check_mark(const csv::Cell& cell, std::size_t place);
+  Result<void> check_thousands();
   Error at_row(const std::string& what) const;
 
   std::istream* stream_ = nullptr;
@@ -112,8 +119,11 @@ class CsvReader {
   std::optional<Time> time_;
   char separator_ = '\0';
   bool own_form_ = false;
-  bool commas_ = false;  // numbers so far had decimal commas, points
+  bool in_table_ = false;  // the header was found: comments are passed over
+  bool commas_ = false;    // numbers so far had decimal commas, points
   bool points_ = false;
+  bool decimals_ = false;     // a comma so far cannot separate thousands
+  std::vector<Marks> marks_;  // a column
 };
 
 /// Reads a recording from a CSV file.

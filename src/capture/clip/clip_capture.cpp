@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/verdict.hpp"
 #include "capture/clip/clip_ear.hpp"
 #include "model/bspline.hpp"
 #include "record/loudness.hpp"
@@ -76,8 +77,61 @@ void warn_of_sound(const ClipSource& source, const ClipWind& wind, Report& repor
     report.warnings.push_back("the sound ends " + std::to_string(wind.uncovered) +
                               " frames before the picture; the wind there is missing");
   }
+  if (wind.holes > 0) {
+    report.warnings.push_back("the sound does not reach " + std::to_string(wind.holes) +
+                              " frames at its beginning or in holes; the wind there is missing");
+  }
   if (wind.clipped_share > kClippedShare) {
     report.warnings.push_back("the sound is clipped; record it more quietly for a truer wind");
+  }
+}
+
+// What makes a clip's rows wrong although its outlines are right.
+std::optional<std::string> missed_times(const ClipWind& wind, const ClipTimes& times) {
+  float worst = 0;
+  for (const float offset : times.offsets) worst = std::max(worst, std::abs(offset));
+  const double frames = static_cast<double>(std::max<std::size_t>(1, wind.frames.size()));
+  const Criterion criteria[] = {
+      {worst, Bound::kAtMost, 3,
+       "its frames come up to {figure} places from where they should be, at most {limit} can be interpolated; film at "
+       "a fixed rate"},
+      {wind.frames.empty() ? 0.0 : times.shortened, Bound::kAtMost, 0,
+       "its picture has holes of more than 2 s ({figure}), and the wind after them is not where it was; cut the film "
+       "there with --frames",
+       0},
+      {100 * static_cast<double>(wind.uncovered + wind.holes) / frames, Bound::kAtMost, 50,
+       "its sound is missing for {figure} % of the frames, at most {limit} % may be; film with sound throughout", 0},
+      {100 * wind.clipped_share, Bound::kAtMost, 20,
+       "{figure} % of its sound is clipped, at most {limit} % may be; record it more quietly", 0}};
+  return first_missed(criteria);
+}
+
+// Outlines are smooth: where frames were not in their places, they are interpolated there, between the two frames
+// around a place. Rows that were filled take no part.
+void put_in_place(std::span<const float> offsets, Recording& recording) {
+  constexpr float kThere = 0.1F;  // of a row
+  if (std::all_of(offsets.begin(), offsets.end(), [](float offset) { return std::abs(offset) < kThere; })) return;
+  const std::vector<double> outline = recording.channels[0].samples;
+  const std::vector<std::uint8_t>& filled = recording.flags[0].rows;
+  const auto time = [&](std::size_t row) {
+    return static_cast<double>(row) + (row < offsets.size() ? static_cast<double>(offsets[row]) : 0.0);
+  };
+  for (std::size_t begin = 0, end = 0; begin < outline.size(); begin = end + 1) {
+    std::vector<std::size_t> own;
+    for (end = begin; end < outline.size() && !std::isnan(outline[end]); ++end) {
+      if (filled[end] == 0 && (own.empty() || time(end) > time(own.back()))) own.push_back(end);
+    }
+    if (own.size() < 2) continue;
+    for (Channel& channel : recording.channels) {
+      const std::vector<double> before = channel.samples;
+      std::size_t k = 1;
+      for (std::size_t row = begin; row < end; ++row) {
+        while (k + 1 < own.size() && time(own[k]) < static_cast<double>(row)) ++k;
+        const double from = time(own[k - 1]), to = time(own[k]);
+        const double share = std::clamp((static_cast<double>(row) - from) / (to - from), 0.0, 1.0);
+        channel.samples[row] = before[own[k - 1]] + share * (before[own[k]] - before[own[k - 1]]);
+      }
+    }
   }
 }
 
@@ -169,11 +223,11 @@ Result<LiveCapture> LiveCapture::create(const ClipSource& source, const ClipCapt
 
 Result<void> LiveCapture::hear(const SoundFormat& format, double begin, std::span<const float> samples) {
   if (!ear_) {
-    auto ear = ClipEar::create(format, begin, source_.rate_hz);
+    auto ear = ClipEar::create(format, source_.rate_hz);
     if (!ear) return Error{source_.name + ": its sound cannot be used: " + ear.error().message};
     ear_ = std::make_unique<ClipEar>(std::move(*ear));
   }
-  ear_->feed(samples);
+  ear_->feed(begin, samples);
   return {};
 }
 
@@ -193,15 +247,17 @@ Result<ClipWind> LiveCapture::wind_of(std::size_t rows) const {
   return wind;
 }
 
-Result<Captured> LiveCapture::finish() {
+Result<Captured> LiveCapture::finish(const ClipTimes& times) {
   auto picture = picture_.finish();
   if (!picture) return picture.error();
+  put_in_place(times.offsets, picture->recording);
   const auto wind = wind_of(picture->report.frames);
   if (!wind) return wind.error();
   Captured out{std::move(picture->recording), {}};
   excuse_blown_out(*wind, out.recording, picture->report);
-  out.report.verdict = ReportVerdict{picture->report.usable, picture->report.reason};
-  set_verdict(out.recording, picture->report.usable, picture->report.reason);
+  const auto missed = picture->report.usable ? missed_times(*wind, times) : std::nullopt;
+  out.report.verdict = ReportVerdict{picture->report.usable && !missed, missed ? *missed : picture->report.reason};
+  set_verdict(out.recording, out.report.verdict->usable, out.report.verdict->reason);
   join_wind(*wind, measure_, out.recording);
   out.report.warnings = std::move(picture->report.warnings);
   warn_of_sound(source_, *wind, out.report);

@@ -8,6 +8,7 @@ namespace wisp {
 namespace {
 
 constexpr float kSilence = 1e-4F;  // −80 dB of full scale
+constexpr double kJitter = 0.05;   // seconds by which blocks may be stamped off their samples
 
 WindFrame missing_frame(std::size_t index) {
   constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
@@ -43,22 +44,68 @@ double wind_value(const WindFrame& frame, WindMeasure measure) {
   return 0;
 }
 
-// Sound that begins after the picture is led in by silence, what began earlier loses its start.
-Result<ClipEar> ClipEar::create(const SoundFormat& format, double begin, double rate_hz) {
+Result<ClipEar> ClipEar::create(const SoundFormat& format, double rate_hz) {
   auto tracker = WindTracker::create(format, {.frame_rate_hz = rate_hz});
   if (!tracker) return tracker.error();
-  ClipEar ear(std::move(*tracker));
-  const auto samples = static_cast<std::int64_t>(std::llround(begin * format.rate_hz)) * format.channels;
-  if (samples > 0) ear.tracker_.feed(std::vector<float>(static_cast<std::size_t>(samples), 0.0F));
-  ear.to_skip_ = static_cast<std::size_t>(std::max<std::int64_t>(0, -samples));
-  return ear;
+  return ClipEar(std::move(*tracker), format, rate_hz);
 }
 
-void ClipEar::feed(std::span<const float> samples) {
+void ClipEar::be_silent(double samples) {
+  const auto count = static_cast<std::int64_t>(std::llround(samples)) * format_.channels;
+  if (count <= 0) return;
+  tracker_.feed(std::vector<float>(static_cast<std::size_t>(count), 0.0F));
+  fed_ += static_cast<double>(count / format_.channels);
+}
+
+// The tracker hears no silence in place of a hole, which would pass for the room's: only the frames at its two ends are
+// filled up, and those between are missing.
+void ClipEar::pass_over(double seconds) {
+  const double frame = format_.rate_hz / rate_hz_, hole = seconds * format_.rate_hz;
+  const double to_next = (std::ceil(fed_ / frame - 1e-9) * frame - fed_);
+  if (hole < to_next + frame) return be_silent(hole);
+  const double frames = std::floor((hole - to_next) / frame + 1e-9);
+  be_silent(to_next);
+  holes_.push_back({static_cast<std::size_t>(std::llround(fed_ / frame)), frames});
+  be_silent(hole - to_next - frames * frame);
+}
+
+void ClipEar::feed(double begin, std::span<const float> samples) {
   for (const float sample : samples) peak_ = std::max(peak_, std::abs(sample));
-  const std::size_t skipped = std::min(to_skip_, samples.size());
-  to_skip_ -= skipped;
-  tracker_.feed(samples.subspan(skipped));
+  const double gap = begin - heard_to_;
+  if (!begun_ ? gap > 0 : gap > kJitter) {
+    pass_over(gap);
+    heard_to_ = begin;
+  }
+  // What began before the picture, or repeats what was heard, is left out.
+  std::size_t skipped = 0;
+  if (!begun_ ? gap < 0 : gap < -kJitter) {
+    const double early = std::min(-gap * format_.rate_hz, static_cast<double>(samples.size()) / format_.channels);
+    skipped = static_cast<std::size_t>(std::llround(early)) * static_cast<std::size_t>(format_.channels);
+  }
+  samples = samples.subspan(skipped);
+  begun_ = begun_ || !samples.empty();
+  const double count = static_cast<double>(samples.size()) / format_.channels;
+  tracker_.feed(samples);
+  fed_ += count;
+  heard_to_ += count / format_.rate_hz;
+}
+
+// Puts what was heard where it belongs, holes between. Returns the end of the last frame that was.
+std::size_t ClipEar::place(std::span<const WindFrame> heard, std::size_t frames, std::vector<WindFrame>& placed) const {
+  placed.clear();
+  for (std::size_t k = 0; k < frames; ++k) placed.push_back(missing_frame(k));
+  double shift = 0;
+  auto hole = holes_.begin();
+  std::size_t end = 0;
+  for (std::size_t k = 0; k < heard.size(); ++k) {
+    for (; hole != holes_.end() && hole->at <= k; ++hole) shift += hole->frames;
+    const double at = static_cast<double>(k) + shift;
+    if (!(at < static_cast<double>(frames))) break;
+    placed[static_cast<std::size_t>(at)] = heard[k];
+    placed[static_cast<std::size_t>(at)].index = static_cast<std::int64_t>(at);
+    end = static_cast<std::size_t>(at) + 1;
+  }
+  return end;
 }
 
 Result<ClipWind> ClipEar::finish(std::size_t frames) const {
@@ -69,13 +116,13 @@ Result<ClipWind> ClipEar::finish(std::size_t frames) const {
   }
   auto track = tracker_.finish();
   if (!track) return track.error();
-  wind.frames = std::move(track->frames);
   wind.background = track->calibration.background_rms;
   wind.one_rms = track->one_rms;
   wind.clipped_share = track->clipped_share;
-  wind.uncovered = frames - std::min(frames, wind.frames.size());
-  wind.frames.resize(frames);
-  for (std::size_t k = frames - wind.uncovered; k < frames; ++k) wind.frames[k] = missing_frame(k);
+  wind.uncovered = frames - std::min(frames, place(track->frames, frames, wind.frames));
+  wind.holes = static_cast<std::size_t>(std::count_if(wind.frames.begin(), wind.frames.end(),
+                                                      [](const WindFrame& one) { return std::isnan(one.rms); })) -
+               wind.uncovered;
   wind.note =
       "heard in " + std::to_string(static_cast<int>(std::lround(100 * track->blowing_share))) + " % of the clip";
   return wind;

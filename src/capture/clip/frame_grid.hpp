@@ -18,10 +18,16 @@ class FrameGrid {
   std::int64_t place(double seconds);
 
   /// The place of the next frame, whose time is not known.
-  std::int64_t follow() { return ++last_; }
+  std::int64_t follow();
 
   /// The last frame's; -1 before the first.
   std::int64_t last() const { return last_; }
+
+  /// How far each place's frame was from it, in places, later positive; 0 where none is.
+  const std::vector<float>& offsets() const { return offsets_; }
+
+  /// How many holes were shortened.
+  int shortened() const { return long_gaps_; }
 
   /// What was odd about the times, one sentence each about `name`.
   std::vector<std::string> warnings(const std::string& name) const;
@@ -30,8 +36,8 @@ class FrameGrid {
   double rate_hz_;
   std::optional<double> first_;  // time of place 0
   std::int64_t last_ = -1;
+  std::vector<float> offsets_;
   int long_gaps_ = 0;
-  double worst_ = 0;  // distance of a frame from its place, places
 };
 
 }  // namespace wisp

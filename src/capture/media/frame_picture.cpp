@@ -1,6 +1,7 @@
 #include "capture/media/frame_picture.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace wisp {
 namespace {
@@ -58,14 +59,14 @@ void turn_plane(const PicturePlane& in, int width, int height, int quarters, std
   }
 }
 
-// A frame of that format for a picture of the same size, kept from call to call. Returns false without memory.
-bool take_frame(FrameOwner& kept, const AVFrame& like, AVPixelFormat format) {
+// A frame of that format and size, kept from call to call. Returns false without memory.
+bool take_frame(FrameOwner& kept, std::pair<int, int> size, AVPixelFormat format) {
   if (!kept) kept.reset(av_frame_alloc());
   if (!kept) return false;
-  if (kept->width == like.width && kept->height == like.height && kept->format == format) return true;
+  if (kept->width == size.first && kept->height == size.second && kept->format == format) return true;
   av_frame_unref(kept.get());
-  kept->width = like.width;
-  kept->height = like.height;
+  kept->width = size.first;
+  kept->height = size.second;
   kept->format = format;
   if (av_frame_get_buffer(kept.get(), 0) >= 0) return true;
   av_frame_unref(kept.get());
@@ -74,17 +75,31 @@ bool take_frame(FrameOwner& kept, const AVFrame& like, AVPixelFormat format) {
 
 }  // namespace
 
+// To square pixels: the shorter way grows.
+std::pair<int, int> FramePictures::stretched(int width, int height) const {
+  if (aspect_ > 1) return {static_cast<int>(std::lround(width * aspect_)), height};
+  return {width, static_cast<int>(std::lround(height / aspect_))};
+}
+
+std::pair<int, int> FramePictures::shown(int width, int height) const {
+  auto [wide, high] = stretched(width, height);
+  if (quarter_turns_ % 2 != 0) std::swap(wide, high);
+  return {wide, high};
+}
+
 Result<const AVFrame*> FramePictures::plain(const AVFrame& frame) {
   const AVPixFmtDescriptor& format = *descriptor(frame);
-  if (plain_bytes(format)) return &frame;
+  const auto size = stretched(frame.width, frame.height);
+  const bool square = size == std::pair(frame.width, frame.height);
+  if (plain_bytes(format) && square) return &frame;
   const bool rgb = (format.flags & (AV_PIX_FMT_FLAG_RGB | AV_PIX_FMT_FLAG_PAL)) != 0;
   const AVPixelFormat target = format.nb_components < 3 && !rgb ? AV_PIX_FMT_GRAY8
                                : rgb                            ? AV_PIX_FMT_RGB24
                                                                 : AV_PIX_FMT_YUV444P;
-  if (!take_frame(plain_, frame, target)) return Error{"not enough memory for a frame"};
+  if (!take_frame(plain_, size, target)) return Error{"not enough memory for a frame"};
   to_plain_.reset(sws_getCachedContext(to_plain_.release(), frame.width, frame.height,
-                                       static_cast<AVPixelFormat>(frame.format), frame.width, frame.height, target,
-                                       SWS_POINT, nullptr, nullptr, nullptr));
+                                       static_cast<AVPixelFormat>(frame.format), size.first, size.second, target,
+                                       square ? SWS_POINT : SWS_BILINEAR, nullptr, nullptr, nullptr));
   if (!to_plain_) return Error{std::string("pixel format ") + format.name + " cannot be converted"};
   sws_scale(to_plain_.get(), frame.data, frame.linesize, 0, frame.height, plain_->data, plain_->linesize);
   plain_->colorspace = frame.colorspace;
@@ -121,13 +136,14 @@ Result<Picture> FramePictures::view(const AVFrame& frame) {
 }
 
 RgbImage FramePictures::rgb(const AVFrame& frame) {
-  RgbImage out{frame.width, frame.height, {}};
-  const std::size_t row_bytes = 3 * static_cast<std::size_t>(frame.width);
-  out.pixels.resize(row_bytes * frame.height);
+  const auto size = stretched(frame.width, frame.height);
+  RgbImage out{size.first, size.second, {}};
+  const std::size_t row_bytes = 3 * static_cast<std::size_t>(out.width);
+  out.pixels.resize(row_bytes * static_cast<std::size_t>(out.height));
   to_rgb_.reset(sws_getCachedContext(to_rgb_.release(), frame.width, frame.height,
-                                     static_cast<AVPixelFormat>(frame.format), frame.width, frame.height,
-                                     AV_PIX_FMT_RGB24, SWS_BILINEAR, nullptr, nullptr, nullptr));
-  if (!to_rgb_ || !take_frame(rgb_, frame, AV_PIX_FMT_RGB24)) return out;
+                                     static_cast<AVPixelFormat>(frame.format), out.width, out.height, AV_PIX_FMT_RGB24,
+                                     SWS_BILINEAR, nullptr, nullptr, nullptr));
+  if (!to_rgb_ || !take_frame(rgb_, size, AV_PIX_FMT_RGB24)) return out;
   if (frame.colorspace == AVCOL_SPC_BT709) {
     const int* matrix = sws_getCoefficients(SWS_CS_ITU709);
     sws_setColorspaceDetails(to_rgb_.get(), matrix, frame.color_range == AVCOL_RANGE_JPEG, matrix, 1, 0, 1 << 16,
@@ -135,7 +151,7 @@ RgbImage FramePictures::rgb(const AVFrame& frame) {
   }
   // The scaler writes whole vectors, past a row's end: into a frame that has room there, and from that row by row.
   sws_scale(to_rgb_.get(), frame.data, frame.linesize, 0, frame.height, rgb_->data, rgb_->linesize);
-  for (int y = 0; y < frame.height; ++y) {
+  for (int y = 0; y < out.height; ++y) {
     std::copy_n(rgb_->data[0] + static_cast<std::ptrdiff_t>(y) * rgb_->linesize[0], row_bytes,
                 out.pixels.data() + static_cast<std::size_t>(y) * row_bytes);
   }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <span>
+#include <string_view>
 
 #include "wisp/base/file.hpp"
 
@@ -58,12 +60,23 @@ std::string digits_in(const std::filesystem::path& path) {
   return stem.substr(begin, end - begin);
 }
 
+// Whether an image lacks its end: decoders show what there is of it, and grey below.
+bool is_cut(std::span<const std::byte> bytes, AVCodecID codec) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const auto last = [&](std::string_view mark) { return text.rfind(mark); };
+  if (codec == AV_CODEC_ID_PNG) return last("IDAT") != text.npos && last("IEND") == text.npos;
+  if (codec != AV_CODEC_ID_MJPEG) return false;
+  const std::size_t scan = last("\xff\xda"), end = last("\xff\xd9");
+  return scan != text.npos && (end == text.npos || end < scan);
+}
+
 std::string pixels(int width, int height) { return std::to_string(width) + " x " + std::to_string(height) + " pixels"; }
 
 }  // namespace
 
 bool ImageFolder::reads(const std::filesystem::path& path) {
-  return codec_of(path) != AV_CODEC_ID_NONE && !digits_in(path).empty();
+  // Other systems leave notes beside images that they copy: ._001.jpg
+  return codec_of(path) != AV_CODEC_ID_NONE && !digits_in(path).empty() && !path.filename().string().starts_with('.');
 }
 
 Result<std::vector<ImageFolder::NumberedImage>> ImageFolder::list(const std::filesystem::path& path) {
@@ -147,6 +160,7 @@ Result<void> ImageFolder::decode(const std::filesystem::path& path) {
   const auto bytes = read_file(path, kMaxImageBytes);
   if (!bytes) return bytes.error();
   const AVCodecID id = codec_of(path);
+  if (is_cut(*bytes, id)) return Error{path.string() + ": the image is cut short; remove or replace it"};
   if (!codec_ || codec_->codec_id != id) {
     const AVCodec* codec = avcodec_find_decoder(id);
     codec_.reset(codec == nullptr ? nullptr : avcodec_alloc_context3(codec));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "capture/media/libav.hpp"
 #include "capture/media/with_memory.hpp"
@@ -20,17 +21,33 @@ struct SoundTrack {
   FrameOwner frame{av_frame_alloc()};
   int track = -1;
   SoundInfo info;
+  double first_picture = 0;   // seconds on the file's clock
+  std::optional<double> now;  // when the next sample is, on that clock
   std::vector<float> samples;
 };
 
-double begin_of(const AVFormatContext& format, const AVStream& sound) {
-  if (sound.start_time == AV_NOPTS_VALUE) return 0;
-  const double begin = static_cast<double>(sound.start_time) * av_q2d(sound.time_base);
-  const int video = av_find_best_stream(const_cast<AVFormatContext*>(&format), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
-  if (video < 0) return 0;
-  const AVStream& pictures = *format.streams[video];
-  if (pictures.start_time == AV_NOPTS_VALUE) return begin;
-  return begin - static_cast<double>(pictures.start_time) * av_q2d(pictures.time_base);
+constexpr double kJitter = 0.05;  // seconds: times that are off their samples by less are not a hole
+
+double start_of(const AVStream& track) {
+  return track.start_time == AV_NOPTS_VALUE ? 0 : static_cast<double>(track.start_time) * av_q2d(track.time_base);
+}
+
+// The time of the clip's first picture, or of the sound where it has none, on the file's clock.
+double first_picture(AVFormatContext& format, const AVStream& sound) {
+  const int video = av_find_best_stream(&format, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
+  return start_of(video < 0 ? sound : *format.streams[video]);
+}
+
+// Samples follow each other, and times that are stamped on them jitter; where those are far off, sound was lost.
+void take_time(SoundTrack& track) {
+  const AVFrame& frame = *track.frame;
+  if (frame.best_effort_timestamp != AV_NOPTS_VALUE) {
+    const double stamped =
+        static_cast<double>(frame.best_effort_timestamp) * av_q2d(track.codec->pkt_timebase) - track.first_picture;
+    if (!track.now || std::abs(stamped - *track.now) > kJitter) track.now = stamped;
+  }
+  track.info.begin = track.now.value_or(track.info.begin);
+  track.now = track.info.begin + static_cast<double>(frame.nb_samples) / track.info.rate_hz;
 }
 
 // Planar or packed samples of any kind to packed floats, rate and channels unchanged.
@@ -49,6 +66,7 @@ bool hand_out(SoundTrack& track, const SoundBlock& block) {
   const AVFrame& frame = *track.frame;
   if (!track.resampler && !start_resampler(track)) return false;
   if (frame.ch_layout.nb_channels != track.info.channels) return true;  // a stray block of another make
+  take_time(track);
   track.samples.resize(static_cast<std::size_t>(frame.nb_samples) * track.info.channels);
   std::uint8_t* out[1] = {reinterpret_cast<std::uint8_t*>(track.samples.data())};
   const int got = with_memory(swr_convert, track.resampler.get(), out, frame.nb_samples,
@@ -100,11 +118,14 @@ Result<std::optional<SoundInfo>> stream_sound(const std::filesystem::path& path,
   track.codec = std::move(codec).value();
   track.info.rate_hz = track.codec->sample_rate;
   track.info.channels = track.codec->ch_layout.nb_channels;
-  track.info.begin = begin_of(*track.format, sound);
+  track.first_picture = first_picture(*track.format, sound);
+  track.info.begin = start_of(sound) - track.first_picture;
   if (track.info.channels < 1 || track.info.rate_hz <= 0) {
     return Error{path.string() + ": the sound track states no rate or no channels; convert it to WAV"};
   }
+  const double begin = track.info.begin;
   decode_all(track, block);
+  track.info.begin = begin;
   return std::optional<SoundInfo>(track.info);
 }
 

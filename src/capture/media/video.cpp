@@ -53,6 +53,10 @@ RgbImage VideoReader::rgb() {
   return std::visit([](auto& clip) { return clip.rgb(); }, source_->held);
 }
 
+ClipTimes VideoReader::times() const {
+  return std::visit([](const auto& clip) { return clip.times(); }, source_->held);
+}
+
 std::vector<std::string> VideoReader::warnings() const {
   return std::visit([](const auto& clip) { return clip.warnings(); }, source_->held);
 }

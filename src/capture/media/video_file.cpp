@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "capture/media/with_memory.hpp"
+#include "record/number_text.hpp"
 
 namespace wisp {
 namespace {
@@ -13,13 +14,71 @@ namespace {
 // Above this, a frame rate is a file's clock, not a camera's.
 constexpr double kHighestRate = 1000;
 
+// Pixels that are wider or higher than this are a damaged header's.
+constexpr double kWidestPixel = 8;
+
+// Seconds at which a track's frames are shown, in their order, without decoding any.
+std::vector<double> frame_times(const std::filesystem::path& path, int track) {
+  std::vector<double> times;
+  auto format = open_media(path);
+  if (!format) return times;
+  const double tick = av_q2d((*format)->streams[track]->time_base);
+  const PacketOwner packet(av_packet_alloc());
+  while (with_memory(av_read_frame, format->get(), packet.get()) >= 0) {
+    const bool shown = packet->stream_index == track && (packet->flags & AV_PKT_FLAG_DISCARD) == 0;
+    if (shown && packet->pts != AV_NOPTS_VALUE) times.push_back(static_cast<double>(packet->pts) * tick);
+    av_packet_unref(packet.get());
+  }
+  std::sort(times.begin(), times.end());
+  return times;
+}
+
+// The rate at which most frames of an uneven film come. Times are often rounded to milliseconds.
+double usual_rate(const std::vector<double>& times, double nominal, double mean) {
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < times.size(); ++k) {
+    if (times[k] > times[k - 1]) steps.push_back(times[k] - times[k - 1]);
+  }
+  if (steps.empty()) return mean > 0 ? mean : nominal;
+  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
+  // Jitter may go either way; a frame that was lost, or a lower rate in the dark, takes twice as long.
+  const double median = steps[steps.size() / 2];
+  double sum = 0, count = 0;
+  for (const double one : steps) {
+    if (one < 0.4 * median || one > 1.6 * median) continue;
+    sum += one;
+    count += 1;
+  }
+  const double step = sum / count;
+  const auto near = [&](double rate, double share) { return rate > 0 && std::abs(rate * step - 1) < share; };
+  for (int part = 1; part <= 8; ++part) {
+    if (nominal < kHighestRate && near(nominal / part, 0.01)) return nominal / part;
+  }
+  if (near(mean, 0.01)) return mean;
+  for (const double rate : {24.0, 25.0, 30.0, 48.0, 50.0, 60.0, 100.0, 120.0, 240.0}) {
+    if (near(rate, 0.05)) return rate;
+  }
+  return 1 / step;
+}
+
 // The rate of the grid that frames lie on. A camera's nominal rate (the lowest in which all times can be written) is
-// right while not too many of its frames were lost; else the mean rate is.
-double grid_rate(const AVStream& track) {
+// right while not too many of its frames were lost; else the usual one is.
+double grid_rate(const std::filesystem::path& path, const AVStream& track) {
   const double nominal = av_q2d(track.r_frame_rate), mean = av_q2d(track.avg_frame_rate);
-  if (!(nominal > 0) || nominal > kHighestRate) return mean;
-  if (!(mean > 0)) return nominal;
-  return nominal / mean < 1.5 ? nominal : mean;
+  const bool plausible = nominal > 0 && nominal <= kHighestRate;
+  if (plausible && (!(mean > 0) || nominal / mean < 1.5)) return nominal;
+  return usual_rate(frame_times(path, track.index), nominal, mean);
+}
+
+// How wide a pixel is shown, over its height.
+Result<double> pixel_aspect(const std::filesystem::path& path, AVFormatContext& format, AVStream& track) {
+  const double aspect = av_q2d(av_guess_sample_aspect_ratio(&format, &track, nullptr));
+  if (!(aspect > 0) || std::abs(aspect - 1) < 0.005) return 1.0;
+  const double pixels = double(track.codecpar->width) * track.codecpar->height * std::max(aspect, 1 / aspect);
+  if (aspect <= kWidestPixel && aspect >= 1 / kWidestPixel && pixels <= double(kMaxFilmPixels)) return aspect;
+  return Error{path.string() + ": states pixels that are " + number_text(aspect, 3) +
+               " times as wide as high; convert it to square ones, for example: ffmpeg -i IN -vf "
+               "scale=iw*sar:ih,setsar=1 OUT.mp4"};
 }
 
 // Clockwise, as the file says that it is to be shown. A mirrored picture is left mirrored: a flame has no left or
@@ -36,13 +95,28 @@ int quarter_turns(const AVStream& track) {
   return static_cast<int>(std::lround(degrees / 90) % 4 + 4) % 4;
 }
 
+// Frames that are in the file and not shown: a phone that trims a film writes an edit list and leaves all frames there.
+std::int64_t cut_out(const AVFormatContext& format, const AVStream& track) {
+  if (std::strstr(format.iformat->name, "mov") == nullptr) return 0;
+  auto& indexed = const_cast<AVStream&>(track);
+  const int listed = avformat_index_get_entries_count(&track);
+  std::int64_t shown = 0;
+  for (int k = 0; k < listed; ++k) {
+    shown += (avformat_index_get_entry(&indexed, k)->flags & AVINDEX_DISCARD_FRAME) == 0;
+  }
+  return listed > 0 && shown < track.nb_frames ? track.nb_frames - shown : 0;
+}
+
 std::int64_t stated_frames(const AVFormatContext& format, const AVStream& track, double rate) {
-  if (track.nb_frames > 0) return track.nb_frames;
+  if (track.nb_frames > 0) return track.nb_frames - cut_out(format, track);
   if (track.duration != AV_NOPTS_VALUE) {
     return std::llround(static_cast<double>(track.duration) * av_q2d(track.time_base) * rate);
   }
   if (format.duration == AV_NOPTS_VALUE) return 0;
-  return std::llround(static_cast<double>(format.duration) / AV_TIME_BASE * rate);
+  // Matroska's duration counts from 0, whenever the first frame is.
+  const bool from_zero = std::strstr(format.iformat->name, "matroska") != nullptr;
+  const std::int64_t before = from_zero && format.start_time != AV_NOPTS_VALUE ? format.start_time : 0;
+  return std::max<std::int64_t>(0, std::llround(static_cast<double>(format.duration - before) / AV_TIME_BASE * rate));
 }
 
 }  // namespace
@@ -62,15 +136,19 @@ Result<VideoFile> VideoFile::open(const std::filesystem::path& path, const Video
   file.codec_ = std::move(codec).value();
   file.seconds_per_tick_ = av_q2d(track.time_base);
   VideoInfo& info = file.info_;
-  info.rate_hz = options.rate_hz > 0 ? options.rate_hz : grid_rate(track);
+  info.rate_hz = options.rate_hz > 0 ? options.rate_hz : grid_rate(path, track);
   if (!(info.rate_hz > 0)) return Error{path.string() + ": states no frame rate; give it as --rate"};
   const int turns = quarter_turns(track);
+  const auto aspect = pixel_aspect(path, *file.format_, *file.format_->streams[file.track_]);
+  if (!aspect) return aspect.error();
+  file.aspect_ = *aspect;
   file.grid_.emplace(info.rate_hz);
-  info.width = turns % 2 == 0 ? track.codecpar->width : track.codecpar->height;
-  info.height = turns % 2 == 0 ? track.codecpar->height : track.codecpar->width;
+  file.pictures_ = FramePictures(turns, *aspect);
+  const auto [width, height] = file.pictures_.shown(track.codecpar->width, track.codecpar->height);
+  info.width = width;
+  info.height = height;
   info.frames = stated_frames(*file.format_, track, info.rate_hz);
   info.has_sound = av_find_best_stream(file.format_.get(), AVMEDIA_TYPE_AUDIO, -1, -1, nullptr, 0) >= 0;
-  file.pictures_ = FramePictures(turns);
   file.packet_.reset(av_packet_alloc());
   file.frame_.reset(av_frame_alloc());
   for (unsigned k = 0; k < file.format_->nb_streams; ++k) {
@@ -119,6 +197,10 @@ bool VideoFile::decode() {
 
 std::int64_t VideoFile::place_on_grid() {
   const std::int64_t tick = frame_->best_effort_timestamp;
+  const std::int64_t start = format_->streams[track_]->start_time;
+  if (grid_->last() < 0 && tick != AV_NOPTS_VALUE && start != AV_NOPTS_VALUE) {
+    info_.begin = static_cast<double>(tick - start) * seconds_per_tick_;
+  }
   if (tick == AV_NOPTS_VALUE || options_.rate_hz > 0) return grid_->follow();
   return grid_->place(static_cast<double>(tick) * seconds_per_tick_);
 }
@@ -195,6 +277,11 @@ std::vector<std::string> VideoFile::warnings() const {
   if (to_the_end && (read_error_ || found < least)) {
     out.push_back(name + ": cut off: found " + std::to_string(decoded_) + " frames of " + std::to_string(info_.frames) +
                   " stated; what is there is used");
+  }
+  if (aspect_ != 1) {
+    out.push_back(name + ": its pixels are " + number_text(aspect_, 3) +
+                  " times as wide as high; places are in square ones, in a picture of " + std::to_string(info_.width) +
+                  " x " + std::to_string(info_.height));
   }
   for (std::string& warning : grid_->warnings(name)) out.push_back(std::move(warning));
   return out;

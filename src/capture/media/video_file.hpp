@@ -17,6 +17,7 @@ class VideoFile {
   std::vector<OwnedPicture> glimpses(int count);
   RgbImage rgb() { return pictures_.rgb(*frame_); }
   std::vector<std::string> warnings() const;
+  ClipTimes times() const { return {grid_->offsets(), grid_->shortened()}; }
 
  private:
   bool decode();
@@ -33,6 +34,7 @@ class VideoFile {
   FrameOwner frame_;
   FramePictures pictures_;
   int track_ = 0;
+  double aspect_ = 1;
   double seconds_per_tick_ = 0;
   bool ended_ = false;
   bool read_error_ = false;

@@ -57,7 +57,7 @@ std::size_t missing_wind(const Recording& recording) {
 
 TEST(LiveCapture, JoinsWhatIsSeenWithWhatIsHeard) {
   LiveCapture live = live_flame();
-  for (const auto& block : {rushing(2), rushing(2)}) ASSERT_TRUE(live.hear(kSound, 0, block));
+  for (const double begin : {0.0, 2.0}) ASSERT_TRUE(live.hear(kSound, begin, rushing(2)));
   const auto captured = live.finish();
   ASSERT_TRUE(captured) << captured.error().message;
   EXPECT_EQ(captured->recording.rows(), kFrames);
@@ -76,14 +76,63 @@ TEST(LiveCapture, LeavesTheWindMissingWhereTheSoundHasEnded) {
 }
 
 TEST(LiveCapture, CountsSoundFromTheFirstFrame) {
-  // Half a second of it came before the first frame, or a whole second is missing there.
-  for (const auto& [begin, covered] : {std::pair{-0.5, 45U}, {1.0, 90U}}) {
+  // Half a second of it came before the first frame, or a whole second is missing there and is missing in the wind.
+  for (const auto& [begin, covered] : {std::pair{-0.5, 45U}, {1.0, 60U}}) {
     LiveCapture live = live_flame();
     ASSERT_TRUE(live.hear(kSound, begin, rushing(2)));
     const auto captured = live.finish();
     ASSERT_TRUE(captured) << captured.error().message;
     EXPECT_EQ(missing_wind(captured->recording), kFrames - covered) << begin;
   }
+}
+
+TEST(LiveCapture, LeavesTheWindMissingInAHoleOfTheSound) {
+  const auto wind_of = [](double second_begins) {
+    LiveCapture live = live_flame();
+    const auto sound = rushing(2);
+    const std::size_t half = sound.size() / 2;
+    EXPECT_TRUE(live.hear(kSound, 0, std::span(sound).first(half)));
+    EXPECT_TRUE(live.hear(kSound, second_begins, std::span(sound).subspan(half)));
+    const auto captured = live.finish();
+    return captured->recording.channels[*find_channel(captured->recording, "wind")].samples;
+  };
+  const auto whole = wind_of(1.02), holed = wind_of(2);  // a jitter is no hole
+  for (std::size_t row = 0; row < 30; ++row) {
+    EXPECT_EQ(holed[row], whole[row]) << row;
+    EXPECT_TRUE(std::isnan(holed[row + 30])) << row;
+    EXPECT_EQ(holed[row + 60], whole[row + 30]) << row;
+  }
+}
+
+TEST(LiveCapture, LeavesOutSoundThatComesTwice) {
+  LiveCapture live = live_flame();
+  ASSERT_TRUE(live.hear(kSound, 0, rushing(3)));
+  ASSERT_TRUE(live.hear(kSound, 0, rushing(3)));
+  const auto captured = live.finish();
+  ASSERT_TRUE(captured) << captured.error().message;
+  EXPECT_EQ(captured->recording.rows(), kFrames);
+}
+
+TEST(LiveCapture, InterpolatesOutlinesOfFramesThatWereNotInTheirPlaces) {
+  const auto even = live_flame().finish();
+  std::vector<float> offsets(kFrames, 0.5F);  // each came half a frame late
+  const auto late = live_flame().finish({.offsets = offsets});
+  ASSERT_TRUE(late) << late.error().message;
+  const auto& before = even->recording.channels[0].samples;
+  const auto& after = late->recording.channels[0].samples;
+  for (std::size_t row = 20; row < 40; ++row) EXPECT_NEAR(after[row], 0.5 * (before[row - 1] + before[row]), 1e-9);
+  offsets.assign(kFrames, 4);
+  const auto far = live_flame().finish({.offsets = offsets});
+  EXPECT_FALSE(far->report.verdict->usable);
+  EXPECT_THAT(far->report.verdict->reason, HasSubstr("up to 4.0 places from where they should be, at most 3.0"));
+}
+
+TEST(LiveCapture, IsNotUsableWithSoundWhereAHoleInThePictureWasShortened) {
+  LiveCapture live = live_flame();
+  ASSERT_TRUE(live.hear(kSound, 0, rushing(4)));
+  const auto captured = live.finish({.shortened = 1});
+  EXPECT_FALSE(captured->report.verdict->usable);
+  EXPECT_THAT(captured->report.verdict->reason, HasSubstr("holes of more than 2 s (1)"));
 }
 
 TEST(LiveCapture, WithoutSoundSaysThatOnlyFlickerIsLeft) {

@@ -55,6 +55,7 @@ struct ClipWind {
   double one_rms = 0;             ///< of the wind's band where speed is 1, full scale 1
   double clipped_share = 0;       ///< of samples at full scale
   std::size_t uncovered = 0;      ///< frames of the picture that the sound does not reach: their wind is missing (NaN)
+  std::size_t holes = 0;          ///< … and others that lie before or in holes of the sound: missing too
   std::string note;               ///< one clause for people: what was heard, or why nothing was
 };
 
@@ -105,6 +106,12 @@ struct ClipSource {
   bool pictures = false;  ///< pictures, which have no sound: that none is heard is no defect
 };
 
+/// When a clip's frames came, where they came unevenly.
+struct ClipTimes {
+  std::span<const float> offsets{};  ///< a row: how far its frame was from its place, in rows; empty: all were there
+  int shortened = 0;                 ///< holes that were made shorter than they were
+};
+
 /// Captures a clip whose frames and sound come one after the other, in bounded memory.
 class LiveCapture {
  public:
@@ -117,13 +124,14 @@ class LiveCapture {
   /// What takes the frames, in their order; of `options.frames` only those in the range.
   OutlineCapture& picture() { return picture_; }
 
-  /// Takes the next block of interleaved samples, full scale ±1. The first one says what the sound is and when it
-  /// began: `begin` seconds after the clip's first frame (not the range's), or before it, negative.
+  /// Takes the next block of interleaved samples, full scale ±1, which begins `begin` seconds after the clip's first
+  /// frame (not the range's), or before it, negative. The first one says what the sound is.
   /// Errors: sound that cannot be used.
   Result<void> hear(const SoundFormat& format, double begin, std::span<const float> samples);
 
-  /// Ends the clip. Errors: as OutlineCapture, and sound that is shorter than a frame.
-  Result<Captured> finish();
+  /// Ends the clip; outlines of frames that were not in their places are interpolated there.
+  /// Errors: as OutlineCapture, and sound that is shorter than a frame.
+  Result<Captured> finish(const ClipTimes& times = {});
 
  private:
   LiveCapture(ClipSource source, const ClipCapture& options);

@@ -16,7 +16,7 @@ struct SoundInfo {
   double rate_hz = 0;  ///< samples a second
   int channels = 0;
   std::size_t samples = 0;  ///< a channel, as decoded
-  double begin = 0;         ///< seconds after the clip's first frame at which it begins; may be negative
+  double begin = 0;         ///< seconds after the clip's first frame at which it, or a block, begins; may be negative
   float peak = 0;           ///< largest absolute sample, full scale 1
 
   /// Nothing can be heard: below −80 dB of full scale.

@@ -26,12 +26,13 @@ struct VideoOptions {
 
 /// What a clip says of itself.
 struct VideoInfo {
-  int width = 0;  ///< pixels, as shown (after rotation)
+  int width = 0;  ///< square pixels, as shown (after rotation)
   int height = 0;
   double rate_hz = 0;       ///< frames a second
   std::int64_t frames = 0;  ///< as stated, or as guessed from its duration; 0 where unknown
   bool images = false;      ///< a folder of images
   bool has_sound = false;   ///< a sound track is there (it may be silent)
+  double begin = 0;         ///< of the first frame that was read, seconds after the first of the track
 };
 
 /// One decoded frame; its picture is good until the next call of the reader.
@@ -77,6 +78,9 @@ class VideoReader {
   ///
   /// Precondition: next() has given a frame.
   RgbImage rgb();
+
+  /// When frames came that were not in their places, from the clip's first frame on; good until the next call.
+  ClipTimes times() const;
 
   /// What was found wrong and got over, one sentence each; complete after the last frame.
   std::vector<std::string> warnings() const;

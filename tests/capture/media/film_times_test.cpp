@@ -1,0 +1,214 @@
+// Films whose times, rates, pixels and headers are not what a counter of frames would think, made by FFmpeg's program.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <random>
+
+#include "capture/support/clip_files.hpp"
+#include "capture/support/made_clip.hpp"
+#include "wisp/capture/capture.hpp"
+#include "wisp/capture/media/video.hpp"
+
+namespace wisp::film_times_test {
+namespace {
+
+using support::Plane;
+using support::RawVideo;
+using support::ScratchFolder;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+constexpr int kFrames = 100;
+constexpr int kRate = 25;
+
+class FilmTimes : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::system("ffmpeg -version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no ffmpeg program to make films with";
+  }
+
+  // A swaying flame; `bright` is the frame in which the whole picture is lit, if any.
+  void film(const std::string& name, int bright = -1) {
+    RawVideo video(folder_ / name, 160, 180, kRate);
+    for (int k = 0; k < kFrames; ++k) {
+      video.add(k == bright ? Plane(160, 180, 235) : support::noisy_flame(k));
+    }
+  }
+
+  // Quiet, with a puff of loud noise.
+  void sound(const std::string& name, double puff_begin, double puff_end, double seconds = 4) {
+    std::mt19937 random(5);
+    std::vector<std::int16_t> samples(static_cast<std::size_t>(seconds * 16000));
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      const double at = static_cast<double>(k) / 16000;
+      const int loud = at >= puff_begin && at < puff_end ? 12000 : 60;
+      samples[k] = static_cast<std::int16_t>(static_cast<int>(random() % static_cast<unsigned>(2 * loud)) - loud);
+    }
+    support::write_wav(folder_ / name, 16000, 1, samples);
+  }
+
+  // The last word of `how` is the film's name.
+  void made(const std::string& how) {
+    const std::string command = "cd '" + folder_.path().string() + "' && ffmpeg -v error -y " + how + " 2>&1";
+    ASSERT_EQ(std::system(command.c_str()), 0) << command;
+  }
+
+  Captured captured(const std::string& name) {
+    FlameCapture options;
+    options.wind = WindMeasure::kRms;
+    auto clip = capture(folder_ / name, options);
+    EXPECT_TRUE(clip) << (clip ? "" : clip.error().message);
+    return *std::move(clip);
+  }
+
+  ScratchFolder folder_{"times"};
+};
+
+std::vector<double> samples_of(const Captured& clip, const std::string& name) {
+  return clip.recording.channels[*find_channel(clip.recording, name)].samples;
+}
+
+// The first row of the puff.
+std::size_t first_wind(const Captured& clip) {
+  const auto wind = samples_of(clip, "wind.rms");
+  return static_cast<std::size_t>(std::find_if(wind.begin(), wind.end(), [](double x) { return x > 0.1; }) -
+                                  wind.begin());
+}
+
+std::vector<std::int64_t> places(VideoReader& reader) {
+  std::vector<std::int64_t> out;
+  while (true) {
+    auto frame = reader.next();
+    if (!frame || !frame->has_value()) return out;
+    out.push_back((*frame)->index);
+  }
+}
+
+TEST_F(FilmTimes, AHoleInTheSoundKeepsItsTime) {
+  film("flame.y4m");
+  sound("puff.wav", 3, 3.6);
+  made("-i flame.y4m -i puff.wav -af \"aselect='not(between(t,1,2))'\" -c:a aac -pix_fmt yuv420p gap.mp4");
+  const Captured clip = captured("gap.mp4");
+  EXPECT_NEAR(static_cast<double>(first_wind(clip)), 75, 2);
+  const auto wind = samples_of(clip, "wind.rms");
+  EXPECT_TRUE(std::isnan(wind[37]));
+  EXPECT_FALSE(std::isnan(wind[20]));
+  EXPECT_FALSE(std::isnan(wind[60]));
+  EXPECT_THAT(clip.report.warnings, Contains(HasSubstr("in holes; the wind there is missing")));
+}
+
+TEST_F(FilmTimes, AFilmMostlyWithoutItsSoundIsNotUsable) {
+  film("flame.y4m");
+  sound("puff.wav", 0.3, 0.6, 1);
+  made("-i flame.y4m -i puff.wav -c:a aac -pix_fmt yuv420p short.mp4");
+  const Captured clip = captured("short.mp4");
+  EXPECT_FALSE(clip.report.verdict->usable);
+  EXPECT_THAT(clip.report.verdict->reason, HasSubstr("its sound is missing for 7"));
+}
+
+// A phone lowers its rate in the dark: 30 frames a second, then 12. The sound does not.
+TEST_F(FilmTimes, FramesAndSoundArePlacedByTheirTimesWhereTheRateChanges) {
+  film("flame.y4m", 80);
+  const double lit = 50 / 30.0 + 30 / 12.0;
+  sound("puff.wav", lit, lit + 0.6, 6);
+  made(
+      "-i flame.y4m -i puff.wav -vf \"settb=1/600,setpts='if(lt(N,50),N*20,1000+(N-50)*50)'\" -vsync passthrough "
+      "-enc_time_base 1/600 -c:a aac -pix_fmt yuv420p dim.mp4");
+  auto reader = VideoReader::open(folder_ / "dim.mp4");
+  ASSERT_TRUE(reader) << reader.error().message;
+  EXPECT_DOUBLE_EQ(reader->info().rate_hz, 30);
+  const auto rows = places(*reader);
+  ASSERT_EQ(rows.size(), static_cast<std::size_t>(kFrames));
+  EXPECT_NEAR(static_cast<double>(rows[80]), lit * 30, 1);
+  const Captured clip = captured("dim.mp4");
+  EXPECT_NEAR(static_cast<double>(first_wind(clip)), lit * 30, 3);
+  EXPECT_FALSE(clip.report.verdict->usable);
+  EXPECT_THAT(clip.report.verdict->reason, HasSubstr("its frames come irregularly"));
+}
+
+// Times that jitter by a third of a frame: an outline that moves evenly is measured as moving evenly.
+TEST_F(FilmTimes, OutlinesAreInterpolatedToEvenTimes) {
+  const auto seconds = [](int k) { return (std::round(24.0 * k) + (k % 2 == 0 ? 0 : 8)) / 600; };
+  {
+    RawVideo video(folder_ / "flame.y4m", 160, 180, kRate);
+    for (int k = 0; k < kFrames; ++k) {
+      support::Flame flame;
+      flame.base_x = 50 + 15 * seconds(k);
+      Plane plane = support::flame_picture(flame);
+      support::add_noise(plane, static_cast<unsigned>(k) + 1);
+      video.add(plane);
+    }
+  }
+  made(
+      "-i flame.y4m -vf \"settb=1/600,setpts='24*N+8*mod(N,2)'\" -vsync passthrough -enc_time_base 1/600 -crf 4 "
+      "-pix_fmt yuv420p even.mp4");
+  const Captured clip = captured("even.mp4");
+  EXPECT_NEAR(std::get<double>(static_cast<const ReportValue::Base&>(clip.report.find("rate_hz")->value)), kRate, 0.3);
+  const auto base = samples_of(clip, "base.x");
+  double to_and_fro = 0, rows = 0;
+  for (std::size_t k = 11; k + 10 < base.size(); ++k, ++rows) {
+    to_and_fro += (k % 2 == 0 ? 1 : -1) * (base[k + 1] - 2 * base[k] + base[k - 1]);
+  }
+  EXPECT_LT(std::abs(to_and_fro / rows), 0.1);  // uneven times make it 0.4
+}
+
+// A phone that trims a film keeps all frames in the file and says which to show.
+TEST_F(FilmTimes, AFilmThatWasTrimmedIsNotCutOff) {
+  film("flame.y4m");
+  made("-i flame.y4m -g 50 -pix_fmt yuv420p whole.mp4");
+  made("-ss 1.3 -i whole.mp4 -c copy trimmed.mp4");
+  auto reader = VideoReader::open(folder_ / "trimmed.mp4");
+  ASSERT_TRUE(reader) << reader.error().message;
+  const auto rows = places(*reader);
+  EXPECT_LT(rows.size(), static_cast<std::size_t>(kFrames));
+  EXPECT_EQ(reader->info().frames, static_cast<std::int64_t>(rows.size()));
+  EXPECT_THAT(reader->warnings(), IsEmpty());
+}
+
+TEST_F(FilmTimes, AFilmThatBeginsLateIsNotCutOff) {
+  film("flame.y4m");
+  made("-i flame.y4m -pix_fmt yuv420p -output_ts_offset 95443 late.mkv");
+  auto reader = VideoReader::open(folder_ / "late.mkv");
+  ASSERT_TRUE(reader) << reader.error().message;
+  EXPECT_NEAR(static_cast<double>(reader->info().frames), kFrames, 2);
+  EXPECT_EQ(places(*reader).size(), static_cast<std::size_t>(kFrames));
+  EXPECT_THAT(reader->warnings(), IsEmpty());
+}
+
+TEST_F(FilmTimes, PixelsThatAreNotSquareAreStretched) {
+  film("flame.y4m");
+  made("-i flame.y4m -vf setsar=2 -pix_fmt yuv420p wide.mp4");
+  made("-i flame.y4m -vf setsar=1/2 -pix_fmt yuv420p high.mp4");
+  made("-i flame.y4m -pix_fmt yuv420p plain.mp4");
+  const auto width = [&](const Captured& clip) {
+    const auto left = samples_of(clip, "p0.x"), right = samples_of(clip, "p7.x");
+    return right[50] - left[50];
+  };
+  const Captured plain = captured("plain.mp4"), wide = captured("wide.mp4"), high = captured("high.mp4");
+  EXPECT_NEAR(width(wide) / width(plain), 2, 0.1);
+  EXPECT_NEAR(samples_of(high, "base.y")[50] / samples_of(plain, "base.y")[50], 2, 0.02);
+  EXPECT_NEAR(width(high) / width(plain), 1, 0.05);
+  EXPECT_THAT(wide.report.warnings, Contains(HasSubstr("its pixels are 2 times as wide as high; places are in square "
+                                                       "ones, in a picture of 320 x 180")));
+  auto reader = VideoReader::open(folder_ / "wide.mp4");
+  ASSERT_TRUE(*reader->next());
+  EXPECT_EQ(reader->rgb().width, 320);
+  made("-i flame.y4m -vf setsar=20 -pix_fmt yuv420p absurd.mp4");
+  const auto refused = VideoReader::open(folder_ / "absurd.mp4");
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("20 times as wide as high; convert it to square ones"));
+}
+
+TEST_F(FilmTimes, AnEvenFilmIsLeftAsItIs) {
+  film("flame.y4m");
+  made("-i flame.y4m -pix_fmt yuv420p even.mkv");
+  EXPECT_THAT(captured("even.mkv").report.warnings, Not(Contains(HasSubstr("irregular"))));
+}
+
+}  // namespace
+}  // namespace wisp::film_times_test
