@@ -70,7 +70,7 @@ const std::vector<Flag>& common_flags() {
   static const std::vector<Flag> flags = {
       {"json", Kind::kSwitch, "", "", "print one JSON document on standard output, and nothing else there"},
       {"quiet", Kind::kSwitch, "", "", "no progress bars"},
-      {"memory", Kind::kNumber, "GB", "",
+      {"unpacked", Kind::kNumber, "GB", "",
        "of numbers that a packed MATLAB file may hold; 64 times the file and at most 1 otherwise"},
   };
   return flags;

@@ -56,7 +56,7 @@ class File {
   std::string budget() const {
     return "more than " + std::to_string(max_bytes_ >> 20) + " MB of numbers would be unpacked from a file of " +
            std::to_string(std::max<std::size_t>(bytes_.size() >> 10, 1)) +
-           " kB; if it is what it should be, raise the limit with --memory GB";
+           " kB; if it is what it should be, raise the limit with --unpacked GB";
   }
 
  private:

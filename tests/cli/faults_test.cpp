@@ -123,7 +123,7 @@ TEST_F(Faults, OutputThatCannotBeWrittenIsStatus1) {
 
 // A film of hours, ended as soon as its hidden part is there.
 TEST_F(Faults, ASignalLeavesTheOldFileAloneAndItsOwnStatus) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU, SIGUSR1}) {
     std::ofstream(at("film.mp4")) << "old";
     const pid_t child = fork();
     ASSERT_GE(child, 0);

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include "cli/program.hpp"
 #include "paths.hpp"
 
@@ -11,7 +13,10 @@ namespace {
 
 using testing::HasSubstr;
 
-class Usage : public InFolder {};
+class Usage : public InFolder {
+ protected:
+  std::string at_file() const { return at("completed"); }
+};
 
 TEST_F(Usage, HelpIsStatus0AndWrongUsageIsStatus2) {
   EXPECT_EQ(wisp("--help").status, 0);
@@ -66,6 +71,58 @@ TEST_F(Usage, EveryCommandHasHelpWithAnExample) {
     EXPECT_THAT(said.out, HasSubstr("Examples:")) << command;
     EXPECT_THAT(said.out, HasSubstr("--json")) << command;
   }
+}
+
+TEST_F(Usage, HelpListsAllCommandsWithWhatTheyDoInLinesOfAHundredLetters) {
+  const Said said = wisp("--help");
+  for (const char* command : {"capture flame ", "learn arx ", "simulate leaf ", "manual "}) {
+    EXPECT_THAT(said.out, testing::ContainsRegex("\n  " + std::string(command) + " *[A-Z]")) << command;
+  }
+  EXPECT_EQ(wisp("help").out, said.out);
+  EXPECT_EQ(wisp("help learn arx").out, wisp("learn arx --help").out);
+  EXPECT_THAT(wisp("help learn").out, testing::AllOf(HasSubstr("learn leaf"), testing::Not(HasSubstr("capture"))));
+  EXPECT_EQ(wisp("learn --help").out, wisp("help learn").out);
+  EXPECT_EQ(wisp("-V").out, wisp("--version").out);
+  EXPECT_EQ(wisp("help lern").status, 2);
+  for (const char* about : {"", "capture flame", "learn arx", "learn leaf", "validate", "run", "export"}) {
+    std::istringstream lines(wisp("help " + std::string(about)).out);
+    for (std::string line; std::getline(lines, line);) {
+      if (!line.starts_with("  wisp ")) EXPECT_LE(line.size(), 110u) << line;  // an example is for copying
+    }
+  }
+}
+
+TEST_F(Usage, AloneItSaysWhatToTypeFirst) {
+  const Said said = wisp("");
+  EXPECT_EQ(said.status, 2);
+  EXPECT_THAT(said.err, testing::AllOf(HasSubstr("wisp demo"), HasSubstr("wisp play"), HasSubstr("wisp help")));
+}
+
+TEST_F(Usage, TheManualIsAlsoAManPageAndCompletion) {
+  EXPECT_THAT(wisp("manual man").out, testing::AllOf(HasSubstr(".TH WISP 1"), HasSubstr(".SS wisp learn arx ")));
+  EXPECT_THAT(wisp("manual fish").out, HasSubstr("-a arx"));
+  EXPECT_THAT(wisp("manual zsh").out, HasSubstr("bashcompinit"));
+  EXPECT_EQ(wisp("manual runes").status, 2);
+  const std::string complete = "bash -c 'source <(" WISP_PROGRAM " manual bash); COMP_WORDS=(wisp ";
+  const auto completed = [&](const std::string& words, int at) {
+    const std::string line =
+        complete + words + "); COMP_CWORD=" + std::to_string(at) + "; _wisp; echo \"${COMPREPLY[*]}\"' >" + at_file();
+    EXPECT_EQ(std::system(line.c_str()), 0) << line;
+    return file_text(at_file());
+  };
+  EXPECT_EQ(completed("le", 1), "learn\n");
+  EXPECT_EQ(completed("learn ar", 2), "arx\n");
+  EXPECT_EQ(completed("learn arx --coup", 3), "--coupling\n");
+}
+
+TEST_F(Usage, WhatIsWrongWithAFlagIsStatus2BeforeAnyWork) {
+  EXPECT_EQ(wisp("simulate candle -o clip.avi").status, 2);
+  EXPECT_EQ(wisp("capture flame a.mp4 b.mp4 -o one.csv").status, 2);
+  EXPECT_EQ(wisp("capture flame frames --rate 1e9 -o a.csv").status, 2);
+  EXPECT_EQ(wisp("learn arx a.csv --outputs y --na 0 --nb 0 -o m.wisp").status, 2);
+  EXPECT_EQ(wisp("learn arx a.csv --outputs y --rate 1e9 -o m.wisp").status, 2);
+  EXPECT_THAT(wisp("capture flame \"$(printf 'a\\nb.mp4')\" -o a.csv").err,
+              HasSubstr("the name has a line break in it"));
 }
 
 TEST_F(Usage, TheManualInDocsIsTheProgramsOwn) {

@@ -265,7 +265,7 @@ TEST(Mat, APackedFileUnpacksTo64TimesItsLengthUnlessMoreIsAllowed) {
   const auto& path = file.close();
   ASSERT_LT(std::filesystem::file_size(path), 100'000u);
   EXPECT_THAT(error_of(path, {.rate_hz = 1, .outputs = {"u"}}),
-              AllOf(HasSubstr("more than 64 MB of numbers would be unpacked"), HasSubstr("--memory GB")));
+              AllOf(HasSubstr("more than 64 MB of numbers would be unpacked"), HasSubstr("--unpacked GB")));
   EXPECT_TRUE(read_mat(path, {.rate_hz = 1, .max_bytes = 100'000'000, .outputs = {"u"}}));
 }
 

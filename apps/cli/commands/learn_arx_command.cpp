@@ -26,6 +26,10 @@ Result<void> take_orders(const Arguments& arguments, ArxRecipe& recipe) {
   auto na = order_choice(arguments, "na"), nb = order_choice(arguments, "nb");
   if (!na) return na.error();
   if (!nb) return nb.error();
+  const auto none = [](const OrderChoice& order) {
+    return std::holds_alternative<int>(order) && std::get<int>(order) == 0;
+  };
+  if (none(*na) && none(*nb)) return Error{"--na 0 --nb 0 leaves a model without a term; give one of them at least 1"};
   recipe.na = std::move(*na);
   recipe.nb = std::move(*nb);
   recipe.nk.reset();

@@ -79,7 +79,7 @@ Result<Recording> read_matlab(const std::filesystem::path& path, const CsvOption
                  " name variables with --inputs and --outputs, such as u or u(:,2)"};
   }
   const double rate_hz = options.rate_hz > 0 ? options.rate_hz : options.usual_rate_hz;
-  const auto most = static_cast<std::size_t>(arguments.has("memory") ? arguments.number("memory") * 1e9 : 0);
+  const auto most = static_cast<std::size_t>(arguments.has("unpacked") ? arguments.number("unpacked") * 1e9 : 0);
   const MatOptions named{.rate_hz = rate_hz, .max_bytes = most, .inputs = options.inputs, .outputs = options.outputs};
   if (arguments.has("dt") || arguments.has("rate") || otherwise.rate_hz == 0) return read_mat(path, named);
   auto stated = read_mat(path, {.max_bytes = most, .inputs = options.inputs, .outputs = options.outputs});

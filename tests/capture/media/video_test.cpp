@@ -154,6 +154,27 @@ TEST(ImageFolder, ABrokenImageIsNamed) {
   EXPECT_THAT(error_of(folder.path(), kThirty), HasSubstr("001.pgm"));
 }
 
+TEST(ImageFolder, AnImageThatIsCutShortIsNamed) {
+  if (std::system("ffmpeg -version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no ffmpeg program to make images with";
+  for (const char* name : {"1.jpg", "1.png"}) {
+    ScratchFolder folder("cut");
+    write_pgm(folder / "picture.pgm", support::flame_picture(support::Flame{}));
+    const std::string made =
+        "ffmpeg -v error -i '" + (folder / "picture.pgm").string() + "' '" + (folder / name).string() + "'";
+    ASSERT_EQ(std::system(made.c_str()), 0);
+    EXPECT_EQ(error_of(folder.path(), kThirty), "") << name;
+    std::filesystem::resize_file(folder / name, std::filesystem::file_size(folder / name) * 2 / 3);
+    EXPECT_THAT(error_of(folder.path(), kThirty), HasSubstr("the image is cut short; remove or replace it")) << name;
+  }
+}
+
+TEST(ImageFolder, NotesThatOtherSystemsLeaveBesideImagesAreNone) {
+  ScratchFolder folder("notes");
+  write_pgm(folder / "001.pgm", Plane(16, 12));
+  std::ofstream(folder / "._001.pgm") << "Mac OS X";
+  EXPECT_EQ(error_of(folder.path(), kThirty), "");
+}
+
 TEST(ImageFolder, TwoImagesOfOneNumberAreAnError) {
   ScratchFolder folder("twice");
   write_pgm(folder / "a001.pgm", Plane(16, 12));
