@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "base/path_text.hpp"
-#include "wisp/base/file.hpp"
 
 namespace wisp {
 namespace {
@@ -24,7 +23,6 @@ constexpr unsigned kTagPcm = 1;
 constexpr unsigned kTagFloat = 3;
 constexpr unsigned kTagExtensible = 0xfffe;
 constexpr std::size_t kBlockBytes = 1 << 16;
-constexpr std::uint64_t kMaxDataBytes = 0xffffffffU - 128;  // leaves room for the header in RIFF's 32-bit size
 
 // The part of an extensible format's 16-byte identity that follows its tag.
 constexpr std::array<unsigned char, 14> kSubformatTail{0x00, 0x00, 0x00, 0x00, 0x10, 0x00, 0x80,
@@ -47,20 +45,10 @@ int bytes_of(WavSample sample) {
   return 2;
 }
 
-bool is_float(WavSample sample) { return sample == WavSample::kFloat32 || sample == WavSample::kFloat64; }
-
 std::uint64_t little(const unsigned char* bytes, int count) {
   std::uint64_t value = 0;
   for (int i = count - 1; i >= 0; --i) value = (value << 8) | bytes[i];
   return value;
-}
-
-void put_little(std::uint64_t value, int count, std::vector<unsigned char>& out) {
-  for (int i = 0; i < count; ++i) out.push_back(static_cast<unsigned char>(value >> (8 * i)));
-}
-
-void put_text(std::string_view text, std::vector<unsigned char>& out) {
-  for (const char letter : text) out.push_back(static_cast<unsigned char>(letter));
 }
 
 /// Four letters as they can be shown in a message.
@@ -132,29 +120,6 @@ float decode(const unsigned char* at, WavSample sample) {
       return static_cast<float>(std::bit_cast<double>(little(at, 8)));
   }
   return 0;
-}
-
-std::int64_t quantized(float x, double scale) {
-  if (std::isnan(x)) return 0;
-  const double scaled = std::floor(static_cast<double>(x) * scale + 0.5);
-  return static_cast<std::int64_t>(std::clamp(scaled, -scale, scale - 1));
-}
-
-void encode(float x, WavSample sample, std::vector<unsigned char>& out) {
-  switch (sample) {
-    case WavSample::kPcm8:
-      return put_little(static_cast<std::uint64_t>(quantized(x, 128) + 128), 1, out);
-    case WavSample::kPcm16:
-      return put_little(static_cast<std::uint64_t>(quantized(x, 32768)), 2, out);
-    case WavSample::kPcm24:
-      return put_little(static_cast<std::uint64_t>(quantized(x, 8388608)), 3, out);
-    case WavSample::kPcm32:
-      return put_little(static_cast<std::uint64_t>(quantized(x, 2147483648.0)), 4, out);
-    case WavSample::kFloat32:
-      return put_little(std::bit_cast<std::uint32_t>(x), 4, out);
-    case WavSample::kFloat64:
-      return put_little(std::bit_cast<std::uint64_t>(static_cast<double>(x)), 8, out);
-  }
 }
 
 }  // namespace
@@ -299,140 +264,6 @@ Result<WavSound> read_wav(const std::filesystem::path& path) {
   auto count = reader->read(sound.samples);
   if (!count) return count.error();
   return sound;
-}
-
-Result<Recording> read_wav_recording(const std::filesystem::path& path) {
-  auto sound = read_wav(path);
-  if (!sound) return sound.error();
-  Recording recording;
-  recording.source = path_text(path);
-  recording.rate_hz = sound->format.rate_hz;
-  const std::size_t channels = static_cast<std::size_t>(sound->format.channels);
-  const std::size_t rows = sound->samples.size() / channels;
-  for (std::size_t c = 0; c < channels; ++c) {
-    Channel channel;
-    channel.name = channels == 1 ? "sound" : "sound." + std::to_string(c);
-    channel.role = Role::kInput;
-    channel.samples.reserve(rows);
-    for (std::size_t row = 0; row < rows; ++row) {
-      const float x = sound->samples[row * channels + c];
-      if (!std::isfinite(x)) {
-        return bad(path, "sample " + std::to_string(row + 1) + " of channel " + std::to_string(c + 1) +
-                             " is not a finite number");
-      }
-      channel.samples.push_back(static_cast<double>(x));
-    }
-    recording.channels.push_back(std::move(channel));
-  }
-  return recording;
-}
-
-struct WavWriter::State {
-  explicit State(PendingFile file) : pending(std::move(file)) {}
-
-  std::filesystem::path path;
-  PendingFile pending;
-  std::ofstream stream;
-  WavFormat format;
-  std::uint64_t data_bytes = 0;
-  std::vector<unsigned char> block;
-
-  std::vector<unsigned char> header() const;
-  Result<void> put(const std::vector<unsigned char>& bytes) {
-    stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    if (!stream) return bad(path, "cannot be written: is the disk full?");
-    return {};
-  }
-};
-
-std::vector<unsigned char> WavWriter::State::header() const {
-  const int bytes = bytes_of(format.sample);
-  const unsigned tag = is_float(format.sample) ? kTagFloat : kTagPcm;
-  const bool extensible = format.channels > 2;
-  const std::uint64_t rate = static_cast<std::uint64_t>(format.rate_hz);
-  const std::uint64_t frame = static_cast<std::uint64_t>(bytes * format.channels);
-  std::vector<unsigned char> chunk;
-  put_little(extensible ? kTagExtensible : tag, 2, chunk);
-  put_little(static_cast<std::uint64_t>(format.channels), 2, chunk);
-  put_little(rate, 4, chunk);
-  put_little(std::min<std::uint64_t>(rate * frame, 0xffffffffU), 4, chunk);
-  put_little(frame, 2, chunk);
-  put_little(static_cast<std::uint64_t>(8 * bytes), 2, chunk);
-  if (extensible) {
-    put_little(22, 2, chunk);
-    put_little(static_cast<std::uint64_t>(8 * bytes), 2, chunk);
-    put_little(0, 4, chunk);  // no loudspeaker positions
-    put_little(tag, 2, chunk);
-    chunk.insert(chunk.end(), kSubformatTail.begin(), kSubformatTail.end());
-  }
-  std::vector<unsigned char> all;
-  put_text("RIFF", all);
-  put_little(4 + 8 + chunk.size() + 8 + data_bytes + data_bytes % 2, 4, all);
-  put_text("WAVEfmt ", all);
-  put_little(chunk.size(), 4, all);
-  all.insert(all.end(), chunk.begin(), chunk.end());
-  put_text("data", all);
-  put_little(data_bytes, 4, all);
-  return all;
-}
-
-WavWriter::WavWriter(std::unique_ptr<State> state) : state_(std::move(state)) {}
-WavWriter::WavWriter(WavWriter&&) noexcept = default;
-WavWriter& WavWriter::operator=(WavWriter&&) noexcept = default;
-WavWriter::~WavWriter() = default;
-
-Result<WavWriter> WavWriter::create(const std::filesystem::path& path, const WavFormat& format) {
-  if (!(format.rate_hz >= 1 && format.rate_hz <= 4294967295.0) || format.rate_hz != std::floor(format.rate_hz)) {
-    return bad(path, "a rate of " + std::to_string(format.rate_hz) + " Hz cannot be written, expected a whole number");
-  }
-  if (format.channels < 1 || format.channels * bytes_of(format.sample) > 65535) {
-    return bad(path, std::to_string(format.channels) + " channels cannot be written, expected 1 to 8191");
-  }
-  auto pending = PendingFile::create(path);
-  if (!pending) return pending.error();
-  auto state = std::make_unique<State>(std::move(*pending));
-  state->path = path;
-  state->format = format;
-  state->stream.open(state->pending.path(), std::ios::binary | std::ios::trunc);
-  if (!state->stream) return bad(path, "cannot be opened for writing");
-  if (auto ok = state->put(state->header()); !ok) return ok.error();
-  return WavWriter(std::move(state));
-}
-
-Result<void> WavWriter::write(std::span<const float> interleaved) {
-  State& s = *state_;
-  const std::size_t bytes = static_cast<std::size_t>(bytes_of(s.format.sample));
-  if (s.data_bytes + interleaved.size() * bytes > kMaxDataBytes) {
-    return bad(s.path, "would grow past 4 GiB, the most that WAV holds; write several files");
-  }
-  while (!interleaved.empty()) {
-    const std::size_t count = std::min(interleaved.size(), kBlockBytes / bytes);
-    s.block.clear();
-    for (const float x : interleaved.first(count)) encode(x, s.format.sample, s.block);
-    if (auto ok = s.put(s.block); !ok) return ok;
-    s.data_bytes += count * bytes;
-    interleaved = interleaved.subspan(count);
-  }
-  return {};
-}
-
-Result<void> WavWriter::commit() {
-  State& s = *state_;
-  if (s.data_bytes % 2 == 1) {
-    if (auto ok = s.put({0}); !ok) return ok;
-  }
-  s.stream.seekp(0);
-  if (auto ok = s.put(s.header()); !ok) return ok;
-  s.stream.close();
-  if (!s.stream) return bad(s.path, "cannot be written: is the disk full?");
-  return s.pending.commit();
-}
-
-Result<void> write_wav(const std::filesystem::path& path, const WavSound& sound) {
-  auto writer = WavWriter::create(path, sound.format);
-  if (!writer) return writer.error();
-  if (auto ok = writer->write(sound.samples); !ok) return ok;
-  return writer->commit();
 }
 
 }  // namespace wisp

@@ -3,13 +3,15 @@
 // Every recording of breath is replayed behind a quiet room, or after a first sound that comes at once, and what the
 // estimator makes of them blows on the candle that the page ships.
 
+#include <bit>
+#include <fstream>
 #include <map>
+#include <utility>
 
 #include "studies/value_or_abort.hpp"
 #include "studies/wind/blowing_sounds.hpp"
 #include "studies/wind/verify_wind.hpp"
 #include "wisp/model/file.hpp"
-#include "wisp/record/wav.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/extinction_facet.hpp"
 #include "wisp/sound/wind_level.hpp"
@@ -320,10 +322,21 @@ void write_blows(const std::filesystem::path& path) {
     sounds::add(sound, at_rms(all[k].samples, kRms[k % 4]), at, kSoundRate);
     std::printf("%g %g %s\n", at, kRms[k % 4], all[k].from.c_str());
   }
-  WavSound file;
-  file.format = {.rate_hz = kSoundRate, .channels = 1};
-  file.samples.assign(sound.begin(), sound.end());
-  if (auto ok = write_wav(path, file); !ok) std::printf("%s\n", ok.error().message.c_str());
+  // A WAV file of one track of 32-bit floats.
+  std::ofstream file(path, std::ios::binary);
+  const auto put = [&](std::size_t value, int bytes) {
+    for (int k = 0; k < bytes; ++k) file.put(static_cast<char>(value >> (8 * k) & 255));
+  };
+  const auto rate = static_cast<std::size_t>(kSoundRate);
+  file << "RIFF";
+  put(36 + 4 * sound.size(), 4);
+  file << "WAVEfmt ";
+  for (const auto& [value, bytes] :
+       {std::pair{std::size_t{16}, 4}, {3, 2}, {1, 2}, {rate, 4}, {4 * rate, 4}, {4, 2}, {32, 2}})
+    put(value, bytes);
+  file << "data";
+  put(4 * sound.size(), 4);
+  for (const float value : sound) put(std::bit_cast<std::uint32_t>(value), 4);
 }
 
 void blowing(Bounds& bounds) {

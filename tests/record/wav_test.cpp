@@ -42,11 +42,6 @@ class Wav : public ::testing::Test {
     return file(name);
   }
 
-  std::string get(const std::filesystem::path& path) const {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
-
   std::filesystem::path folder_;
 };
 
@@ -67,6 +62,14 @@ std::string format_chunk(unsigned tag, unsigned channels, unsigned rate, unsigne
 }
 
 std::string riff(const std::string& chunks) { return "RIFF" + little(4 + chunks.size(), 4) + "WAVE" + chunks; }
+
+// An extensible file of three tracks of 24 bits.
+std::string three_tracks(int samples) {
+  const std::string identity("\x01\0\0\0\0\0\x10\0\x80\0\0\xaa\0\x38\x9b\x71", 16);
+  const std::string format = little(0xfffe, 2) + little(3, 2) + little(44100, 4) + little(44100 * 9, 4) + little(9, 2) +
+                             little(24, 2) + little(22, 2) + little(24, 2) + little(7, 4) + identity;
+  return riff(chunk("fmt ", format) + chunk("data", std::string(static_cast<std::size_t>(3 * samples), '\x31')));
+}
 
 std::string error_of(const std::filesystem::path& path) {
   auto sound = read_wav(path);
@@ -109,37 +112,6 @@ TEST_F(Wav, FloatsAreTakenAsTheyAre) {
   EXPECT_THAT(wide->samples, ElementsAre(-0.25F));
 }
 
-TEST_F(Wav, EveryFormatComesBackAsItWasWritten) {
-  for (const WavSample sample : {WavSample::kPcm8, WavSample::kPcm16, WavSample::kPcm24, WavSample::kPcm32,
-                                 WavSample::kFloat32, WavSample::kFloat64}) {
-    for (const int channels : {1, 2, 6}) {
-      for (const double rate : {1.0, 8000.0, 44100.0, 192000.0, 4294967295.0}) {
-        WavSound sound{{rate, channels, sample}, {}};
-        for (int i = 0; i < 30; ++i) sound.samples.push_back(static_cast<float>(i * 4 - 60) / 128);
-        ASSERT_TRUE(write_wav(file("a.wav"), sound));
-        const auto back = read_wav(file("a.wav"));
-        ASSERT_TRUE(back) << back.error().message;
-        EXPECT_EQ(back->format.rate_hz, rate);
-        EXPECT_EQ(back->format.channels, channels);
-        EXPECT_EQ(back->format.sample, sample);
-        EXPECT_EQ(back->samples, sound.samples);
-      }
-    }
-  }
-}
-
-TEST_F(Wav, WhatIsBeyondFullScaleIsHeldAndWhatIsNoNumberIsSilence) {
-  const float infinity = std::numeric_limits<float>::infinity();
-  ASSERT_TRUE(write_wav(file("a.wav"), {{8000, 1, WavSample::kPcm16}, {2, -2, infinity, -infinity, std::nanf("")}}));
-  EXPECT_THAT(read_wav(file("a.wav"))->samples, ElementsAre(32767.0F / 32768, -1.0F, 32767.0F / 32768, -1.0F, 0.0F));
-}
-
-TEST_F(Wav, MoreThanTwoChannelsAreWrittenExtensible) {
-  ASSERT_TRUE(write_wav(file("a.wav"), {{8000, 3, WavSample::kPcm24}, {0, 0, 0}}));
-  EXPECT_EQ(get(file("a.wav")).substr(20, 2), "\xfe\xff");
-  EXPECT_TRUE(read_wav(file("a.wav")));
-}
-
 TEST_F(Wav, OtherChunksArePassedOver) {
   const std::string junk = chunk("LIST", "odd") + chunk("bext", std::string(602, 'x'));
   const auto sound = read_wav(put("a.wav", riff(junk + format_chunk(1, 1, 8000, 16) + junk +
@@ -167,8 +139,12 @@ TEST_F(Wav, Rf64HasItsSizeInAChunkOfItsOwn) {
 
 TEST_F(Wav, ReadsInBlocksOfAnySize) {
   WavSound sound{{48000, 2, WavSample::kFloat32}, {}};
-  for (int i = 0; i < 50000; ++i) sound.samples.push_back(static_cast<float>(i));
-  ASSERT_TRUE(write_wav(file("a.wav"), sound));
+  std::string bytes;
+  for (int i = 0; i < 50000; ++i) {
+    sound.samples.push_back(static_cast<float>(i));
+    bytes += little(std::bit_cast<std::uint32_t>(sound.samples.back()), 4);
+  }
+  put("a.wav", riff(format_chunk(3, 2, 48000, 32) + chunk("data", bytes)));
   for (const std::size_t size : {2U, 7U, 30000U, 200000U}) {
     auto reader = WavReader::open(file("a.wav"));
     ASSERT_TRUE(reader);
@@ -190,24 +166,6 @@ TEST_F(Wav, AFileWithoutSamplesIsShortAndFine) {
   const auto sound = read_wav(put("a.wav", riff(format_chunk(1, 2, 8000, 16) + chunk("data", ""))));
   ASSERT_TRUE(sound) << sound.error().message;
   EXPECT_TRUE(sound->samples.empty());
-}
-
-TEST_F(Wav, IsARecordingWithOneChannelATrack) {
-  ASSERT_TRUE(write_wav(file("a.wav"), {{100, 2, WavSample::kFloat32}, {1, 2, 3, 4}}));
-  const auto recording = read_wav_recording(file("a.wav"));
-  ASSERT_TRUE(recording) << recording.error().message;
-  EXPECT_EQ(recording->rate_hz, 100);
-  ASSERT_EQ(recording->channels.size(), 2U);
-  EXPECT_EQ(recording->channels[1].name, "sound.1");
-  EXPECT_EQ(recording->channels[1].role, Role::kInput);
-  EXPECT_THAT(recording->channels[1].samples, ElementsAre(2, 4));
-  EXPECT_TRUE(check(*recording));
-}
-
-TEST_F(Wav, ARecordingHasNoInfiniteSample) {
-  ASSERT_TRUE(write_wav(file("a.wav"), {{100, 1, WavSample::kFloat32}, {1, std::numeric_limits<float>::infinity()}}));
-  EXPECT_THAT(read_wav_recording(file("a.wav")).error().message,
-              HasSubstr("sample 2 of channel 1 is not a finite number"));
 }
 
 TEST_F(Wav, SaysThatAFileIsNoWav) {
@@ -246,8 +204,7 @@ TEST_F(Wav, SaysWhenSizesAreWrong) {
 }
 
 TEST_F(Wav, EveryCutOfAFileIsReadOrRefusedAndNeverMore) {
-  ASSERT_TRUE(write_wav(file("whole.wav"), {{44100, 3, WavSample::kPcm24}, {0.1F, 0.2F, 0.3F, 0.4F, 0.5F, 0.6F}}));
-  const std::string whole = get(file("whole.wav"));
+  const std::string whole = three_tracks(6);
   for (std::size_t length = 0; length < whole.size(); ++length) {
     const std::string message = error_of(put("cut.wav", whole.substr(0, length)));
     EXPECT_THAT(message, StartsWith(file("cut.wav").string() + ": ")) << length;
@@ -256,8 +213,7 @@ TEST_F(Wav, EveryCutOfAFileIsReadOrRefusedAndNeverMore) {
 }
 
 TEST_F(Wav, EveryWrongByteOfAHeaderIsReadOrRefused) {
-  ASSERT_TRUE(write_wav(file("whole.wav"), {{44100, 3, WavSample::kPcm24}, {0.1F, 0.2F, 0.3F}}));
-  const std::string whole = get(file("whole.wav"));
+  const std::string whole = three_tracks(3);
   for (std::size_t at = 0; at < 68; ++at) {
     for (const int value : {0, 1, 127, 128, 255}) {
       std::string wrong = whole;
@@ -268,27 +224,6 @@ TEST_F(Wav, EveryWrongByteOfAHeaderIsReadOrRefused) {
       }
     }
   }
-}
-
-TEST_F(Wav, AppearsOnlyWhenItIsComplete) {
-  {
-    auto writer = WavWriter::create(file("a.wav"), {8000, 1, WavSample::kPcm16});
-    ASSERT_TRUE(writer);
-    ASSERT_TRUE(writer->write(std::vector<float>(100)));
-    EXPECT_FALSE(std::filesystem::exists(file("a.wav")));
-  }
-  EXPECT_TRUE(std::filesystem::is_empty(folder_));
-}
-
-TEST_F(Wav, SaysWhatItCannotWrite) {
-  const auto message = [&](const std::filesystem::path& path, const WavFormat& format) {
-    auto writer = WavWriter::create(path, format);
-    return writer ? std::string("fine") : writer.error().message;
-  };
-  EXPECT_THAT(message(file("a.wav"), {0, 1, WavSample::kPcm16}), HasSubstr("cannot be written"));
-  EXPECT_THAT(message(file("a.wav"), {44100.5, 1, WavSample::kPcm16}), HasSubstr("expected a whole number"));
-  EXPECT_THAT(message(file("a.wav"), {44100, 0, WavSample::kPcm16}), HasSubstr("0 channels cannot be written"));
-  EXPECT_THAT(message(file("missing") / "a.wav", {44100, 1, WavSample::kPcm16}), HasSubstr("missing"));
 }
 
 TEST_F(Wav, RealFilesAreRead) {

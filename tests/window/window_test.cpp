@@ -6,13 +6,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <thread>
 
+#include "capture/support/clip_files.hpp"
 #include "cli/program.hpp"
 #include "paths.hpp"
 #include "sound/wind_sounds.hpp"
 #include "window/window.hpp"
-#include "wisp/record/wav.hpp"
 
 namespace wisp::window_test {
 namespace {
@@ -195,7 +196,9 @@ TEST_F(PlayInAWindow, ShowsWhatPicturesWithoutAWindowShow) {
   // A soft breath by its level, which leans the flame: a hard blow would put out the cake that comes during it, too.
   sounds::Samples sound = sounds::room(5, 48000, 0.001);
   sounds::add(sound, sounds::steady_blowing(1, 48000, 0.01), 3.4, 48000);
-  ASSERT_TRUE(write_wav(at("sound.wav"), {{.rate_hz = 48000, .channels = 1}, sound}));
+  std::vector<std::int16_t> samples;
+  for (const float value : sound) samples.push_back(static_cast<std::int16_t>(std::lround(value * 32767)));
+  support::write_wav(at("sound.wav"), 48000, 1, samples);
   script(
       "1 picture calm\n1.2 down left\n1.6 picture leaning\n1.7 up left\n1.8 key space\n2.9 picture smoking\n"
       "3 click 0.5 0.5\n3.3 picture lit\n3.9 picture blown\n4 key c\n4.2 picture cake\n4.3 key h\n4.4 picture help\n"

@@ -1,5 +1,5 @@
 #pragma once
-// Sound as WAV files (RIFF WAVE): read and written in bounded memory.
+// Sound as WAV files (RIFF WAVE): read in bounded memory.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "wisp/base/result.hpp"
-#include "wisp/record/recording.hpp"
 
 namespace wisp {
 
@@ -61,37 +60,5 @@ struct WavSound {
 
 /// Reads a whole file. Errors: as WavReader.
 Result<WavSound> read_wav(const std::filesystem::path& path);
-
-/// Reads a whole file as a recording: one input channel a track, named `sound` or `sound.0`, `sound.1`, ….
-/// Errors: as WavReader; a sample that is not finite.
-Result<Recording> read_wav_recording(const std::filesystem::path& path);
-
-/// Writes a WAV file block by block, whole or not at all: it appears under its name when commit() is called.
-class WavWriter {
- public:
-  /// Errors: rate or channels that WAV cannot hold, the folder is missing or not writable.
-  static Result<WavWriter> create(const std::filesystem::path& path, const WavFormat& format);
-
-  WavWriter(WavWriter&&) noexcept;
-  WavWriter& operator=(WavWriter&&) noexcept;
-  ~WavWriter();
-
-  /// Appends samples; PCM is rounded to nearest and clamped to full scale. Errors: the disk is full, or the file would
-  /// pass 4 GiB.
-  ///
-  /// Precondition: interleaved.size() is a multiple of the channels.
-  Result<void> write(std::span<const float> interleaved);
-
-  /// Completes the header and gives the file its name. Errors: as write().
-  Result<void> commit();
-
- private:
-  struct State;
-  explicit WavWriter(std::unique_ptr<State> state);
-  std::unique_ptr<State> state_;
-};
-
-/// Writes a whole file, whole or not at all. Errors: as WavWriter.
-Result<void> write_wav(const std::filesystem::path& path, const WavSound& sound);
 
 }  // namespace wisp
