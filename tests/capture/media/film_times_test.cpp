@@ -137,7 +137,7 @@ TEST_F(FilmTimes, OutlinesAreInterpolatedToEvenTimes) {
   {
     RawVideo video(folder_ / "flame.y4m", 160, 180, kRate);
     for (int k = 0; k < kFrames; ++k) {
-      support::Flame flame;
+      support::Flame flame = support::swaying(k);
       flame.base_x = 50 + 15 * seconds(k);
       Plane plane = support::flame_picture(flame);
       support::add_noise(plane, static_cast<unsigned>(k) + 1);
@@ -151,9 +151,13 @@ TEST_F(FilmTimes, OutlinesAreInterpolatedToEvenTimes) {
   EXPECT_NEAR(std::get<double>(static_cast<const ReportValue::Base&>(clip.report.find("rate_hz")->value)), kRate, 0.3);
   const auto base = samples_of(clip, "base.x");
   double to_and_fro = 0, rows = 0;
-  for (std::size_t k = 11; k + 10 < base.size(); ++k, ++rows) {
-    to_and_fro += (k % 2 == 0 ? 1 : -1) * (base[k + 1] - 2 * base[k] + base[k - 1]);
+  for (std::size_t k = 11; k + 10 < base.size(); ++k) {
+    const double bend = base[k + 1] - 2 * base[k] + base[k - 1];
+    if (std::isnan(bend)) continue;
+    to_and_fro += (k % 2 == 0 ? 1 : -1) * bend;
+    rows += 1;
   }
+  EXPECT_GT(rows, 50);
   EXPECT_LT(std::abs(to_and_fro / rows), 0.1);  // uneven times make it 0.4
 }
 
