@@ -131,36 +131,6 @@ TEST_F(FilmTimes, FramesAndSoundArePlacedByTheirTimesWhereTheRateChanges) {
   EXPECT_THAT(clip.report.verdict->reason, HasSubstr("its frames come irregularly"));
 }
 
-// Times that jitter by a third of a frame: an outline that moves evenly is measured as moving evenly.
-TEST_F(FilmTimes, OutlinesAreInterpolatedToEvenTimes) {
-  const auto seconds = [](int k) { return (std::round(24.0 * k) + (k % 2 == 0 ? 0 : 8)) / 600; };
-  {
-    RawVideo video(folder_ / "flame.y4m", 160, 180, kRate);
-    for (int k = 0; k < kFrames; ++k) {
-      support::Flame flame = support::swaying(k);
-      flame.base_x = 50 + 15 * seconds(k);
-      Plane plane = support::flame_picture(flame);
-      support::add_noise(plane, static_cast<unsigned>(k) + 1);
-      video.add(plane);
-    }
-  }
-  made(
-      "-i flame.y4m -vf \"settb=1/600,setpts='24*N+8*mod(N,2)'\" -vsync passthrough -enc_time_base 1/600 -crf 4 "
-      "-pix_fmt yuv420p even.mp4");
-  const Captured clip = captured("even.mp4");
-  EXPECT_NEAR(std::get<double>(static_cast<const ReportValue::Base&>(clip.report.find("rate_hz")->value)), kRate, 0.3);
-  const auto base = samples_of(clip, "base.x");
-  double to_and_fro = 0, rows = 0;
-  for (std::size_t k = 11; k + 10 < base.size(); ++k) {
-    const double bend = base[k + 1] - 2 * base[k] + base[k - 1];
-    if (std::isnan(bend)) continue;
-    to_and_fro += (k % 2 == 0 ? 1 : -1) * bend;
-    rows += 1;
-  }
-  EXPECT_GT(rows, 50);
-  EXPECT_LT(std::abs(to_and_fro / rows), 0.1);  // uneven times make it 0.4
-}
-
 // A phone that trims a film keeps all frames in the file and says which to show.
 TEST_F(FilmTimes, AFilmThatWasTrimmedIsNotCutOff) {
   film("flame.y4m");
