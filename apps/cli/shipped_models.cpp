@@ -12,8 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The first flame has the paper's order, as on the page.
-constexpr const char* kFirst = "flame-4.wisp";
+// The first flame is that of the default recipe, as on the page.
+constexpr const char* kFirst = "flame.wisp";
 
 // Order of the list: the first flame, other kinds, then flames of other orders.
 int rank(const fs::path& path, const View& view) {
