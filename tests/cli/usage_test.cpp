@@ -87,7 +87,8 @@ TEST_F(Usage, HelpListsAllCommandsWithWhatTheyDoInLinesOfAHundredLetters) {
   for (const char* about : {"", "capture flame", "learn arx", "learn leaf", "validate", "run", "export"}) {
     std::istringstream lines(wisp("help " + std::string(about)).out);
     for (std::string line; std::getline(lines, line);) {
-      if (!line.starts_with("  wisp ")) EXPECT_LE(line.size(), 110u) << line;  // an example is for copying
+      if (line.starts_with("  wisp ")) continue;  // an example is for copying
+      EXPECT_LE(line.size(), 110u) << line;
     }
   }
 }
