@@ -21,10 +21,9 @@ int number_or_auto(const Arguments& arguments, std::string_view flag) {
 
 Result<void> check_flags(const Arguments& arguments) {
   static constexpr std::array kRanges = {
-      FlagRange{"modes", 1, 256},     FlagRange{"history", 1, 16},  FlagRange{"best-of", 0, 256},
-      FlagRange{"blend", 0, 0.5},     FlagRange{"shortest", 0, 60}, FlagRange{"debounce", 0, 100},
-      FlagRange{"smooth", 0, 10001},  FlagRange{"holdout", 0, 0.9}, FlagRange{"restarts", 1, 10000},
-      FlagRange{"max-bytes", 1, 1e9},
+      FlagRange{"modes", 1, 256},    FlagRange{"history", 1, 2},   FlagRange{"best-of", 0, 256},
+      FlagRange{"blend", 0, 0.5},    FlagRange{"shortest", 0, 60}, FlagRange{"debounce", 0, 100},
+      FlagRange{"smooth", 0, 10001}, FlagRange{"holdout", 0, 0.9}, FlagRange{"max-bytes", 1, 1e9},
   };
   return check_ranges(arguments, kRanges);
 }
@@ -42,7 +41,7 @@ Result<ChainRecipe> recipe_from(const Arguments& arguments) {
                      .event = std::move(*event),
                      .features = *features,
                      .modes = number_or_auto(arguments, "modes"),
-                     .history = number_or_auto(arguments, "history"),
+                     .history = arguments.integer("history"),
                      .realisation = *realisation,
                      .best_of = arguments.integer("best-of"),
                      .blend = arguments.number("blend"),
@@ -51,7 +50,6 @@ Result<ChainRecipe> recipe_from(const Arguments& arguments) {
                      .smooth_rows = arguments.integer("smooth"),
                      .max_bytes = static_cast<std::size_t>(arguments.integer("max-bytes")),
                      .holdout = arguments.number("holdout"),
-                     .restarts = arguments.integer("restarts"),
                      .seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
 }
 
@@ -99,30 +97,31 @@ std::vector<Flag> flags(const std::string& event, const std::string& features) {
       {"event", Kind::kText, "SPEC", event,
        "where motion is cut: zero:, min: or max: of a channel, or of speed, horizontal_speed, forward_speed"},
       {"features", Kind::kNames, "LIST", features,
-       "what tells segments apart: velocity, length, direction, spin, tilt, duration"},
+       "what tells kinds of segment apart: velocity, length, direction, spin, tilt, duration"},
       {"frame",
        Kind::kChoice,
        "world|heading",
        "heading",
        "whether directions are the world's, or a segment's own, so that the chain does not learn which way was north",
        {"world", "heading"}},
-      {"modes", Kind::kIntegerOrWord, "K|auto", "6", "how many kinds of segment", {"auto"}},
-      {"history",
+      {"modes",
        Kind::kIntegerOrWord,
-       "H|auto",
+       "K|auto",
        "auto",
-       "how many modes back the next one depends on; auto: as many as unseen recordings profit from",
+       "kinds of segment, one of the next of which follows; auto: none, or 6 where there is no orientation",
        {"auto"}},
+      {"history", Kind::kInteger, "H", "1", "how many kinds back the next one depends on, 1 or 2"},
       {"realisation",
        Kind::kChoice,
        "HOW",
        "segments",
-       "of a mode: its segments; a spline that varies as they do; a linear system with noise, or a differential "
-       "equation "
-       "(ode), of its velocities; or a chain of its own",
+       "what segments are: recorded ones; splines that vary as those of their kind do; made by a linear system with "
+       "noise, "
+       "or by a differential equation (ode), of each kind; or halves, each kind a chain of its own",
        {"segments", "spline", "linear", "ode", "chain"}},
       {"best-of", Kind::kInteger, "N", "4",
-       "a segment is followed by one of its N best-joining ones of the mode; 0: by any of the mode"},
+       "where orientation is known a segment is followed by one of its N best-joining ones; 0: by any, of the next "
+       "kind"},
       {"blend", Kind::kNumber, "S", "0.15",
        "most seconds on either side that a join is spread over, 0 to 0.5; 0: joins stay as they are"},
       {"shortest", Kind::kNumber, "S", "0.04", "seconds; events nearer to the one before do not count"},
@@ -132,7 +131,6 @@ std::vector<Flag> flags(const std::string& event, const std::string& features) {
       {"max-bytes", Kind::kInteger, "N", "4000000",
        "of stored segments; of what is more, evenly by dive, speed and turn, some are left out"},
       {"holdout", Kind::kNumber, "SHARE", "0.2", "share of the stretches kept for judging"},
-      {"restarts", Kind::kInteger, "N", "10", "starts of the clustering; the best is taken"},
       {"seed", Kind::kInteger, "N", "1", "of all chance"},
       {"range", Kind::kSamples, "A:B", "", "rows to learn falls from, 1-based and inclusive"},
       {"inputs", Kind::kNames, "A,B", "", "columns of a plain table that are inputs"},
@@ -170,7 +168,7 @@ Command learn_leaf_command() {
       {{"wisp learn leaf drops.csv -o leaf.wisp", "From `wisp simulate leaf`"},
        {"wisp learn leaf drops.csv gusts.csv gusts.calm.csv -o leaf.wisp",
         "The same with its response to gusts, from `wisp simulate leaf --pairs`"},
-       {"wisp learn leaf drops.csv -o paper.wisp --history 1 --best-of 0 --blend 0", "The paper's own chain"}},
+       {"wisp learn leaf drops.csv -o paper.wisp --modes 6 --best-of 0 --blend 0", "The paper's own chain"}},
       run_learn_chain,
   };
 }

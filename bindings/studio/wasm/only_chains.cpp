@@ -1,9 +1,8 @@
 // What chains.wasm leaves out: everything that is no chain, and of chains a fall's answer to gusts, which wants pairs
-// of recordings, and modes that are systems.
+// of recordings.
 
 #include "learn/arx/learn_arx.hpp"
 #include "learn/chain/gusts/gust_report.hpp"
-#include "learn/chain/modes/mode_systems.hpp"
 #include "learn/flame/learn_outline.hpp"
 #include "learns.hpp"
 #include "wisp/learn/validate_outline.hpp"
@@ -36,11 +35,6 @@ Result<GustPlay> play_gusts(const Model&, const Recording&, const Recording&, co
 ReportSection gusts_section(const GustFigures&) { return {}; }
 ReportSection gusts_section(const GustPlayFigures&) { return {}; }
 ReportSection scene_section(const GustScene&, std::size_t) { return {}; }
-
-Result<ModeSystems> fit_mode_systems(const Motion&, std::span<const Segment>, std::span<const std::uint16_t>, int,
-                                     const ModeSystemOptions&) {
-  return left_out("modes that are systems");
-}
 
 }  // namespace chain
 

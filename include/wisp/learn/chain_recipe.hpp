@@ -40,13 +40,13 @@ struct FeatureChoice {
 /// Errors: another word.
 Result<FeatureChoice> parse_features(std::string_view text);
 
-/// The realisation of a mode.
+/// The realisation of a mode: what its segments are.
 enum class Realisation {
-  kSegments,  ///< one of its recorded segments
-  kLinear,    ///< a linear system with noise, from where the mode before ended
-  kOde,       ///< a differential equation with products of velocities, likewise
-  kChain,     ///< a chain of its own, of parts of segments
-  kSpline,    ///< one spline that varies as its segments do
+  kSegments,  ///< recorded ones
+  kLinear,    ///< made by a linear system with noise, from where recorded ones begin
+  kOde,       ///< made by a differential equation with products of velocities, likewise
+  kChain,     ///< halves of recorded ones, a mode being a chain of its own
+  kSpline,    ///< splines that vary as the recorded ones do
 };
 
 /// `segments`, `linear`, `ode`, `chain` or `spline`.
@@ -65,12 +65,12 @@ struct ChainRecipe {
   std::string name = "chain";  ///< of the model
   EventSpec event{EventKind::kMinimum, "horizontal_speed"};
   FeatureChoice features{};
-  int modes = 6;    ///< 1 … 256; 0: as many as make held-out segments likeliest, 2 … 12
-  int history = 0;  ///< modes that the next one depends on, 1 … 16; 0: variable order with back-off, as long as
-                    ///< held-out segments profit
+  int modes = 0;    ///< 1 … 256: kinds of segment, one of the next kind follows, as in the paper. 0: none where
+                    ///< orientation is known, else 6
+  int history = 1;  ///< modes that the next one depends on, 1 or 2
   Realisation realisation = Realisation::kSegments;
-  int best_of = 4;  ///< 0 … 256: best-joining successors kept for each segment and mode; 0: any segment of the mode
-                    ///< follows (the paper's). Fewer join better, but repeat themselves sooner
+  int best_of = 4;  ///< 0 … 256, where orientation is known: best-joining successors kept for each segment and mode; 0:
+                    ///< any segment of the mode follows (the paper's), as without orientation
   double blend = 0.15;  ///< seconds on either side that a join may be spread over, 0 … 0.5; 0: joins stay as they are
   double min_seconds = 0.04;  ///< ≥ 0, shortest segment: events nearer to the one before are left out
   double debounce = 0.1;  ///< ≥ 0: how far, in standard deviations of the signal, it must go beyond a zero on both
@@ -79,7 +79,6 @@ struct ChainRecipe {
   std::size_t max_bytes = 4'000'000;  ///< > 0, of stored segments; what is over it is left out, in strata by dive,
                                       ///< speed and turn. A leaf for the web has 900'000
   double holdout = 0.2;    ///< 0 … 0.9: share of the stretches, the last ones, kept from learning and judged on
-  int restarts = 10;       ///< ≥ 1, of k-means
   double half_width = 0;   ///< metres of the body along its first axis, for who draws it; 0: as the first recording's
   double half_length = 0;  ///< attribute leaf_length_width_density says. And along its second
   std::uint64_t seed = 1;

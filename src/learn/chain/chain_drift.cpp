@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numeric>
 #include <span>
 
 namespace wisp::chain {
@@ -88,23 +87,10 @@ class Walk {
     return std::abs(half) > 0 ? half * half / std::norm(half) : 1;
   }
 
-  // How likely each mode is after a segment.
-  std::vector<double> chances(std::size_t s, const std::vector<double>& transitions) const {
-    const auto modes = static_cast<std::size_t>(chain_.modes);
-    const auto row = transitions.begin() + static_cast<long>(chain_.segments.mode[s] * modes);
-    std::vector<double> chance(row, row + static_cast<long>(modes));
-    if (chain_.segments.successor_weights.empty()) return chance;
-    for (std::size_t mode = 0; mode < modes; ++mode)
-      chance[mode] *= chain_.segments.successor_weights[s * modes + mode];
-    const double all = std::accumulate(chance.begin(), chance.end(), 0.0);
-    for (double& one : chance) one /= all;
-    return chance;
-  }
-
   std::vector<Next> successors(std::size_t s, const std::vector<double>& transitions) const {
     const ChainSegments& segments = chain_.segments;
     const auto modes = static_cast<std::size_t>(chain_.modes), breadth = static_cast<std::size_t>(segments.breadth);
-    const auto chance = chances(s, transitions);
+    const auto chance = std::span(transitions).subspan(segments.mode[s] * modes, modes);
     std::vector<Next> out;
     for (std::size_t mode = 0; mode < modes; ++mode) {
       const double probability = chance[mode];

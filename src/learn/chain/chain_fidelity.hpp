@@ -8,7 +8,7 @@
 
 #include "learn/chain/chain_seconds.hpp"
 #include "learn/chain/join_defect.hpp"
-#include "learn/chain/segments/segmentation.hpp"
+#include "learn/chain/motion/segmentation.hpp"
 #include "learn/fidelity/fidelity.hpp"
 #include "wisp/base/result.hpp"
 #include "wisp/model/model.hpp"

@@ -4,27 +4,27 @@
 #include <cmath>
 #include <filesystem>
 
-#include "learn/chain/modes/mode_chain.hpp"
-#include "learn/chain/modes/mode_realisation.hpp"
-#include "learn/chain/modes/mode_sorting.hpp"
-#include "learn/chain/segments/segment_weights.hpp"
+#include "learn/chain/chain_drift.hpp"
+#include "learn/chain/motion/height_bound.hpp"
+#include "learn/chain/segments/modes.hpp"
+#include "learn/chain/segments/realisations.hpp"
+#include "learn/chain/segments/segment_store.hpp"
 #include "wisp/model/file.hpp"
 
 namespace wisp::chain {
 namespace {
 
-constexpr int kMaxHistory = 6;
+constexpr int kModesWithoutOrientation = 6;
 constexpr std::size_t kMinSegments = 30;  // with fewer, transitions are anecdotes
 
-Error out_of_range(const char* what, double found, const char* expected) {
+Error out_of_range(const char* what, double found, const std::string& expected) {
   return {std::string(what) + " is " + std::to_string(found) + ", expected " + expected};
 }
 
-// A part of the data, cut and described.
+// The data, cut.
 struct Cut {
   Motion motion;
   Segmentation segmentation;
-  FeatureTable features;
   std::size_t learned_pieces = 0;    // the first ones: the others are held out
   std::size_t learned_segments = 0;  // those of the learned pieces
 
@@ -41,34 +41,12 @@ Result<Cut> cut(std::span<const Recording> recordings, const ChainRecipe& recipe
   if (!motion) return motion.error();
   auto segmentation = segment(*motion, recordings, segmentation_of(recipe));
   if (!segmentation) return segmentation.error();
-  auto features = segment_features(*motion, segmentation->segments, recipe.features);
-  if (!features) return features.error();
-  Cut out{std::move(*motion), std::move(*segmentation), std::move(*features)};
+  Cut out{std::move(*motion), std::move(*segmentation)};
   const std::size_t pieces = out.motion.pieces.size();
   out.learned_pieces = static_cast<std::size_t>(std::ceil(static_cast<double>(pieces) * (1 - recipe.holdout)));
   if (segments_of(out.segments(), out.learned_pieces) == 0) out.learned_pieces = pieces;
   out.learned_segments = segments_of(out.segments(), out.learned_pieces);
   return out;
-}
-
-void take_likelihoods(const ModeSequences& learned, const ModeSequences& judged, int modes, const ModeChain& chain,
-                      ChainSummary& summary) {
-  summary.log_likelihood = log_likelihood(chain, judged);
-  summary.log_likelihood_1 = log_likelihood(estimate_chain(learned, modes, {.history = 1}), judged);
-  summary.log_likelihood_2 = log_likelihood(estimate_chain(learned, modes, {.history = 2}), judged);
-  ModeChain memoryless = chain;
-  std::vector<double> overall(static_cast<std::size_t>(modes));
-  double total = 0;
-  for (const auto& sequence : learned) {
-    for (std::uint16_t mode : sequence) {
-      ++overall[mode];
-      ++total;
-    }
-  }
-  for (double& p : overall) p /= total;
-  memoryless.contexts.resize(static_cast<std::size_t>(modes));
-  for (ChainContext& context : memoryless.contexts) context.probability = overall;
-  summary.log_likelihood_0 = log_likelihood(memoryless, judged);
 }
 
 // Positions begin at the origin, but for a height that is bounded.
@@ -102,25 +80,18 @@ Training training_of(std::span<const Recording> recordings, const ChainRecipe& r
   made.recipe = {{"features", word_of(recipe.features)},
                  {"frame", recipe.features.heading_free ? "heading" : "world"},
                  {"modes", recipe.modes > 0 ? std::to_string(recipe.modes) : "auto"},
-                 {"history", recipe.history > 0 ? std::to_string(recipe.history) : "auto"},
+                 {"history", std::to_string(recipe.history)},
                  {"realisation", std::string(word_of(recipe.realisation))}};
   made.figures = {{"segments", static_cast<double>(summary.segments)},
                   {"mean_segment_seconds", summary.mean_segment_seconds}};
   if (std::isfinite(summary.silhouette)) made.figures.push_back({"silhouette", summary.silhouette});
   if (std::isfinite(summary.log_likelihood)) made.figures.push_back({"log_likelihood", summary.log_likelihood});
   const bool enough = summary.segments >= kMinSegments;
-  made.usable = {
-      enough, enough
-                  ? std::to_string(summary.segments) + " segments in " + std::to_string(summary.modes) + " modes"
-                  : "only " + std::to_string(summary.segments) + " segments, expected at least 30: record for longer"};
+  made.usable = {enough, enough ? std::to_string(summary.segments) + " segments" +
+                                      (summary.modes > 1 ? " in " + std::to_string(summary.modes) + " modes" : "")
+                                : "only " + std::to_string(summary.segments) +
+                                      " segments, expected at least 30: record for longer"};
   return made;
-}
-
-std::vector<double> first_order(const ModeChain& chain, int modes) {
-  ChainModel model;
-  model.modes = modes;
-  model.contexts = chain.contexts;
-  return model.transitions();
 }
 
 Error too_few_segments(const Recording& first, const Cut& data, const ChainRecipe& recipe) {
@@ -130,44 +101,125 @@ Error too_few_segments(const Recording& first, const Cut& data, const ChainRecip
           " that are learned from: record for longer, hold out less, or ask for fewer modes"};
 }
 
-// How the modes that were learned from follow each other.
-struct Walks {
-  ModeSequences learned;
-  ModeSequences judged;  // those held out, or, where none are, those learned
-  ModeChain chain;
-};
-
-Walks walks_of(const Cut& data, std::span<const std::uint16_t> cluster, int modes, const ChainRecipe& recipe) {
-  const std::size_t learned = data.learned_segments;
-  Walks walks{by_stretch(data.segments().first(learned), cluster.first(learned)),
-              by_stretch(data.segments().subspan(learned), cluster.subspan(learned)),
-              {}};
-  if (walks.judged.empty()) walks.judged = walks.learned;
-  const ModeChainOptions order = recipe.history > 0 ? ModeChainOptions{.history = recipe.history}
-                                                    : best_history(walks.learned, modes, kMaxHistory);
-  const auto segments = data.segments().first(learned);
-  walks.chain =
-      estimate_chain(walks.learned, modes, order, by_stretch<double>(segments, segment_weights(data.motion, segments)));
-  return walks;
+// A segment is followed by one of its best-joining ones where orientation says how the body lies in the air. Without it
+// successors that join well are too often short ones, and modes are what keeps the mean.
+Result<Modes> modes_of(const Cut& data, const ChainRecipe& recipe) {
+  const std::span segments = data.segments();
+  if (recipe.modes == 0 && data.motion.has_orientation) {
+    return Modes{1, std::vector<std::uint16_t>(segments.size()), {data.learned_segments}, 0};
+  }
+  const auto features = segment_features(data.motion, segments, recipe.features);
+  if (!features) return features.error();
+  const int modes =
+      recipe.modes > 0 ? recipe.modes : std::min(kModesWithoutOrientation, static_cast<int>(data.learned_segments));
+  return sorted_into_modes(*features, data.learned_segments, modes, recipe.seed);
 }
 
-ChainSummary summary_of(const Cut& data, const KMeans& found, const Walks& walks, const ChainModel& dynamics) {
+// How modes follow each other, and the segments that play them.
+struct FittedWalk {
+  ModeChain chain;
+  double log_likelihood = 0;  // of the stretches that were held out, or, where none are, of those learned
+  ChainModel dynamics;
+  std::vector<std::uint64_t> origin;  // as ChainFit's
+};
+
+ModeChain chain_of(const Cut& data, const Modes& modes, const ChainRecipe& recipe, double& likelihood) {
+  const std::size_t learned = data.learned_segments;
+  const std::span of(modes.of);
+  const auto told = by_stretch(data.segments().first(learned), of.first(learned));
+  const auto judged = by_stretch(data.segments().subspan(learned), of.subspan(learned));
+  ModeChain chain = counted_chain(told, modes.count, recipe.history);
+  likelihood = log_likelihood(chain, judged.empty() ? told : judged);
+  return chain;
+}
+
+// What follows each mode and, where the history is 2, each two.
+std::vector<ChainContext> contexts_of(const ModeChain& chain, int modes) {
+  const auto count = static_cast<std::size_t>(modes);
+  std::vector<ChainContext> contexts;
+  for (std::size_t row = 0; row * count < chain.probabilities.size(); ++row) {
+    const auto last = static_cast<std::uint16_t>(row % count);
+    const auto first = chain.probabilities.begin() + static_cast<long>(row * count);
+    ChainContext context{{last}, {first, first + static_cast<long>(count)}};
+    if (row >= count) context.history.insert(context.history.begin(), static_cast<std::uint16_t>(row / count - 1));
+    contexts.push_back(std::move(context));
+  }
+  return contexts;
+}
+
+ChainModel stored_chain(const SortedSegments& from, ModeChain chain, const ChainRecipe& recipe,
+                        std::vector<std::uint64_t>& origin) {
+  const bool bounded_height = height_is_bounded(from.motion, from.segments);
+  auto store = store_segments(from.motion, from.segments, from.mode, from.modes,
+                              {.heading_free = recipe.features.heading_free,
+                               .max_bytes = recipe.max_bytes,
+                               .bounded_height = bounded_height,
+                               .breadth = from.motion.has_orientation || bounded_height ? recipe.best_of : 0});
+  ChainModel dynamics;
+  dynamics.motion = from.motion.has_orientation ? ChainMotion::kPose : ChainMotion::kPosition;
+  dynamics.heading_free = recipe.features.heading_free;
+  dynamics.modes = from.modes;
+  dynamics.segments = std::move(store.segments);
+  dynamics.initial = std::move(chain.initial);
+  dynamics.contexts = contexts_of(chain, from.modes);
+  dynamics.blend_steps = static_cast<int>(std::lround(recipe.blend * from.motion.rate_hz));
+  dynamics.drift = drift_of(dynamics, from.motion.rate_hz);
+  origin.clear();
+  for (std::size_t source : store.source) origin.push_back(source + from.segments[source].piece);
+  return dynamics;
+}
+
+Result<RealisedSegments> realised(const SortedSegments& from, const ChainRecipe& recipe) {
+  switch (recipe.realisation) {
+    case Realisation::kSpline:
+      return spline_segments(from, recipe.features.heading_free);
+    case Realisation::kLinear:
+      return system_segments(from, 1, recipe.seed);
+    case Realisation::kOde:
+      return system_segments(from, 2, recipe.seed);
+    default:
+      return half_segments(from, recipe.features, recipe.seed);
+  }
+}
+
+Result<FittedWalk> walk_of(const Cut& data, const Modes& modes, const ChainRecipe& recipe) {
+  FittedWalk walk;
+  walk.chain = chain_of(data, modes, recipe, walk.log_likelihood);
+  const std::size_t learned = data.learned_segments;
+  const SortedSegments recorded{data.motion, data.segments().first(learned), std::span(modes.of).first(learned),
+                                modes.count};
+  if (recipe.realisation == Realisation::kSegments) {
+    walk.dynamics = stored_chain(recorded, walk.chain, recipe, walk.origin);
+    return walk;
+  }
+  const auto made = realised(recorded, recipe);
+  if (!made) return made.error();
+  const bool kinds = recipe.realisation == Realisation::kChain;
+  const ModeChain chain =
+      kinds ? counted_chain(by_stretch<std::uint16_t>(made->segments, made->mode), made->modes, recipe.history)
+            : walk.chain;
+  walk.dynamics = stored_chain({made->motion, made->segments, made->mode, made->modes}, chain, recipe, walk.origin);
+  return walk;
+}
+
+ChainSummary summary_of(const Cut& data, const Modes& modes, const FittedWalk& walk) {
   const std::size_t learned = data.learned_segments;
   ChainSummary summary;
   summary.segments = learned;
-  summary.stored = dynamics.segments.size();
+  summary.stored = walk.dynamics.segments.size();
   summary.stretches_learned = data.learned_pieces;
   summary.stretches_held_out = data.motion.pieces.size() - data.learned_pieces;
-  summary.modes = static_cast<int>(found.sizes.size());
-  summary.mode_sizes = found.sizes;
-  summary.history = dynamics.history();
-  summary.initial = walks.chain.initial;
-  summary.transitions = first_order(walks.chain, summary.modes);
+  summary.modes = modes.count;
+  summary.mode_sizes = modes.sizes;
+  summary.history = walk.chain.history;
+  summary.initial = walk.chain.initial;
+  const auto count = static_cast<std::size_t>(modes.count);
+  summary.transitions.assign(walk.chain.probabilities.begin(),
+                             walk.chain.probabilities.begin() + static_cast<long>(count * count));
   for (const Segment& one : data.segments().first(learned)) summary.mean_segment_seconds += one.end - one.begin;
   summary.mean_segment_seconds /= static_cast<double>(learned) * data.motion.rate_hz;
-  const FeatureTable& table = data.features;
-  summary.silhouette = silhouette(std::span(table.values).first(learned * table.features), table.features, found);
-  take_likelihoods(walks.learned, walks.judged, summary.modes, walks.chain, summary);
+  summary.silhouette = modes.silhouette;
+  summary.log_likelihood = walk.log_likelihood;
   summary.warnings = data.motion.warnings;
   const auto& more = data.segmentation.warnings;
   summary.warnings.insert(summary.warnings.end(), more.begin(), more.end());
@@ -192,9 +244,8 @@ Model model_of(const Motion& motion, ChainModel dynamics, const ChainRecipe& rec
 
 Result<void> check_recipe(const ChainRecipe& recipe) {
   if (recipe.modes < 0 || recipe.modes > static_cast<int>(kMaxModes))
-    return out_of_range("the number of modes", recipe.modes, "1 to 256, or 0 for auto");
-  if (recipe.history < 0 || recipe.history > 16)
-    return out_of_range("the chain's history", recipe.history, "1 to 16, or 0 for auto");
+    return out_of_range("the number of modes", recipe.modes, "1 to " + std::to_string(kMaxModes) + ", or 0 for auto");
+  if (recipe.history < 1 || recipe.history > 2) return out_of_range("the chain's history", recipe.history, "1 or 2");
   if (!(recipe.holdout >= 0 && recipe.holdout <= 0.9))
     return out_of_range("the share that is held out", recipe.holdout, "0 to 0.9");
   if (!(recipe.blend >= 0 && recipe.blend <= 0.5))
@@ -213,25 +264,21 @@ Result<ChainFit> fit_chain(std::span<const Recording> recordings, const ChainRec
   if (!go_on(progress, "sorting segments", 0)) return Error{std::string(kStopped)};
   const std::size_t learned = data->learned_segments;
   if (learned < static_cast<std::size_t>(recipe.modes)) return too_few_segments(recordings.front(), *data, recipe);
-  const auto sorted = sorted_segments(data->features, learned, data->segments(), recipe, progress);
-  if (!sorted) return sorted.error();
+  const auto modes = modes_of(*data, recipe);
+  if (!modes) return modes.error();
   if (!go_on(progress, "joining segments", 0)) return Error{std::string(kStopped)};
-  const int modes = static_cast<int>(sorted->found.sizes.size());
-  const Walks walks = walks_of(*data, sorted->cluster, modes, recipe);
-  auto realised = realised_chain(
-      {data->motion, data->segments().first(learned), std::span(sorted->cluster).first(learned), modes, walks.chain},
-      recipe);
-  if (!realised) return realised.error();
+  auto walk = walk_of(*data, *modes, recipe);
+  if (!walk) return walk.error();
 
   ChainFit fit;
-  fit.summary = summary_of(*data, sorted->found, walks, realised->dynamics);
-  fit.origin = std::move(realised->origin);
+  fit.summary = summary_of(*data, *modes, *walk);
+  fit.origin = std::move(walk->origin);
   for (std::size_t k = 0; k < data->motion.pieces.size(); ++k) {
     const MotionPiece& piece = data->motion.pieces[k];
     auto part = slice(recordings[piece.recording], piece.first_row, piece.first_row + piece.rows());
     (k < data->learned_pieces ? fit.learned : fit.held_out).push_back(std::move(part));
   }
-  fit.model = model_of(data->motion, std::move(realised->dynamics), recipe);
+  fit.model = model_of(data->motion, std::move(walk->dynamics), recipe);
   fit.model.training = training_of(recordings, recipe, fit.summary);
   if (auto ok = check(fit.model); !ok) return ok.error();
   return fit;

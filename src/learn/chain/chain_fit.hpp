@@ -2,8 +2,8 @@
 // From recordings of something that moves to a segment chain: cut at events, described, sorted into modes, counted,
 // stored. Source: sections 2.2 and 4 of the paper.
 //
-// Departs from it where data are stored (as many segments as fit, each with those that join it best) and in the
-// chain's order, which may vary.
+// Departs from it where orientation is known and no modes are asked for: a segment is then followed by one of those
+// that join it best.
 
 #include <cstddef>
 #include <cstdint>
@@ -31,11 +31,8 @@ struct ChainSummary {
   std::vector<double> transitions;  ///< modes × modes
   double mean_segment_seconds = 0;
   double silhouette = 0;
-  double log_likelihood = 0;    ///< nats a segment, of held-out mode sequences (of the learned ones where
-                                ///< nothing was held out)
-  double log_likelihood_1 = 0;  ///< the same of orders 1 and 2 without back-off
-  double log_likelihood_2 = 0;
-  double log_likelihood_0 = 0;  ///< of modes drawn without history
+  double log_likelihood = 0;  ///< nats a segment, of held-out mode sequences (of the learned ones where nothing was
+                              ///< held out)
   std::vector<std::string> warnings;
 };
 
@@ -52,7 +49,8 @@ struct ChainFit {
 Result<void> check_recipe(const ChainRecipe& recipe);
 
 /// Fits a chain to falls, gusts apart.
-/// Errors: as check_recipe(), motion_of(), segment(), segment_features(), k_means(); stopped by `progress`.
+/// Errors: as check_recipe(), motion_of(), segment(), segment_features(), k_means(), system_segments(); stopped by
+/// `progress`.
 Result<ChainFit> fit_chain(std::span<const Recording> recordings, const ChainRecipe& recipe,
                            const Progress& progress = {});
 

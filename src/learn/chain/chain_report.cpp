@@ -114,18 +114,21 @@ ReportSection segments_section(const ChainSummary& summary) {
       {"mean_segment_seconds", summary.mean_segment_seconds, "mean duration", "s"},
       {"stretches.learned", summary.stretches_learned, "stretches learned from", ""},
       {"stretches.held_out", summary.stretches_held_out, "stretches held out", ""},
-      {"modes", summary.modes, "modes", ""},
-      {"mode_sizes", ReportList(summary.mode_sizes.begin(), summary.mode_sizes.end()), "segments of each mode", ""},
-      {"history", summary.history, "history", "modes", {}, "the longest"},
+      {"modes", summary.modes, modes > 1 ? "modes" : "", ""},
+      {"mode_sizes", ReportList(summary.mode_sizes.begin(), summary.mode_sizes.end()),
+       modes > 1 ? "segments of each mode" : "", ""},
+      {"history", summary.history, modes > 1 ? "history" : "", "modes"},
       {"initial", summary.initial, "", ""},
       {"transitions", transitions, "", ""},
-      {"silhouette", summary.silhouette, "silhouette", "", {}, "-1 to 1; high where modes are tight and apart"},
-      {"log_likelihood.chosen", summary.log_likelihood, "log-likelihood", "nats a segment", {}, "of held-out modes"},
-      {"log_likelihood.0", summary.log_likelihood_0, "  without history", "nats a segment"},
-      {"log_likelihood.1", summary.log_likelihood_1, "  of order 1", "nats a segment"},
-      {"log_likelihood.2", summary.log_likelihood_2, "  of order 2", "nats a segment"},
+      {"silhouette", summary.silhouette, modes > 1 ? "silhouette" : "", "", {}, "-1 to 1; high where modes are tight"},
+      {"log_likelihood",
+       summary.log_likelihood,
+       modes > 1 ? "log-likelihood" : "",
+       "nats a segment",
+       {},
+       "of held-out modes"},
   };
-  for (std::size_t from = 0; from < modes; ++from) {
+  for (std::size_t from = 0; modes > 1 && from < modes; ++from) {
     entries.push_back({"", transitions[from], "probabilities after mode " + std::to_string(from), ""});
   }
   return section;

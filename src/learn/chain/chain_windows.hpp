@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "learn/chain/motion/motion.hpp"
-#include "learn/chain/segments/segmentation.hpp"
+#include "learn/chain/motion/segmentation.hpp"
 #include "learn/fidelity/fidelity_distance.hpp"
 #include "wisp/record/recording.hpp"
 

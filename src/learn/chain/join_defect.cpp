@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "learn/chain/segments/join_jumps.hpp"
+#include "learn/chain/motion/join_jumps.hpp"
 
 namespace wisp::chain {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "learn/chain/motion/motion.hpp"
-#include "learn/chain/segments/segmentation.hpp"
+#include "learn/chain/motion/segmentation.hpp"
 
 namespace wisp::chain {
 

@@ -21,7 +21,6 @@ const EventSpec kHorizontal{EventKind::kMinimum, "horizontal_speed"};
 // Cut where a leaf stalls.
 Result<ChainFit> learned(const Recording& recording, ChainRecipe recipe = {}, EventSpec event = {}) {
   recipe.event = std::move(event);
-  recipe.restarts = 3;
   return fit_chain(std::span(&recording, 1), recipe);
 }
 
@@ -123,17 +122,15 @@ TEST(FitChain, WhatIsSteeredComesNearerToItsTarget) {
 TEST(FitChain, ModesAreRealisedInOtherWaysToo) {
   const Recording recording = made_falls({.falls = 40});
   for (Realisation realisation : {Realisation::kLinear, Realisation::kOde, Realisation::kChain, Realisation::kSpline}) {
-    const auto fit = learned(recording, {.modes = 3, .realisation = realisation});
+    const auto fit = learned(recording, {.modes = 3, .realisation = realisation, .best_of = 0});
     ASSERT_TRUE(fit) << fit.error().message;
     const auto fidelity = chain_fidelity(fit->model, fit->held_out, {.permutations = 1});
     ASSERT_TRUE(fidelity) << fidelity.error().message;
     EXPECT_NEAR(fidelity->synthesized.descent_speed, fidelity->real.descent_speed, 0.3 * fidelity->real.descent_speed)
         << word_of(realisation);
     const auto& chain = std::get<ChainModel>(fit->model.dynamics);
-    EXPECT_EQ(chain.systems.has_value(), realisation == Realisation::kLinear || realisation == Realisation::kOde);
-    EXPECT_EQ(chain.splines.has_value(), realisation == Realisation::kSpline);
-    // Systems have no segments to choose among.
-    EXPECT_EQ(chain.drift.has_value(), !chain.systems.has_value());
+    EXPECT_TRUE(chain.drift);
+    EXPECT_GE(chain.modes, realisation == Realisation::kChain ? 4 : 3);
     EXPECT_EQ(fit->summary.modes, 3);
   }
 }
@@ -162,7 +159,7 @@ TEST(FitChain, TheStoreStaysBelowMaxBytes) {
 
 TEST(FitChain, ASingleSegmentIsPlayedForEver) {
   const Recording recording = made_falls({.falls = 1, .seconds = 1.1});
-  const auto fit = learned(recording, {.modes = 1, .holdout = 0});
+  const auto fit = learned(recording, {.holdout = 0});
   ASSERT_TRUE(fit) << fit.error().message;
   EXPECT_EQ(fit->summary.segments, 1U);
   EXPECT_FALSE(fit->model.training.usable.verdict);
@@ -181,11 +178,20 @@ TEST(FitChain, MoreModesThanSegmentsIsAnError) {
   EXPECT_THAT(fit.error().message, HasSubstr("segments in all, expected at least as many as modes, 50"));
 }
 
-TEST(FitChain, ModesOnTheirOwnAreAFew) {
-  const auto fit = learned(made_falls({.falls = 30}), {.modes = 0});
+TEST(FitChain, WithOrientationASegmentIsFollowedByOneOfItsBestJoiningOnes) {
+  const auto fit = learned(made_falls({.falls = 30}));
   ASSERT_TRUE(fit) << fit.error().message;
-  EXPECT_GE(fit->summary.modes, 2);
-  EXPECT_LE(fit->summary.modes, 12);
+  const auto& chain = std::get<ChainModel>(fit->model.dynamics);
+  EXPECT_EQ(chain.modes, 1);
+  EXPECT_EQ(chain.segments.breadth, 4);
+}
+
+TEST(FitChain, WithoutOrientationASegmentOfTheNextModeFollows) {
+  const auto fit = learned(made_falls({.falls = 30, .orientation = false}), {}, kHorizontal);
+  ASSERT_TRUE(fit) << fit.error().message;
+  const auto& chain = std::get<ChainModel>(fit->model.dynamics);
+  EXPECT_EQ(chain.modes, 6);
+  EXPECT_EQ(chain.segments.breadth, 0);
 }
 
 TEST(FitChain, OptionsOutOfRangeAreErrors) {
@@ -202,10 +208,10 @@ TEST(FitChain, OptionsOutOfRangeAreErrors) {
 TEST(FitChain, CopiedStretchesAreFound) {
   // One recording and nothing but natural successors: the walk repeats it.
   const Recording recording = made_falls({.falls = 1, .seconds = 20});
-  const auto fit = learned(recording, {.modes = 1, .best_of = 1, .holdout = 0});
+  const auto fit = learned(recording, {.best_of = 1, .holdout = 0});
   ASSERT_TRUE(fit);
   const double copied = longest_verbatim_seconds(fit->model, fit->origin, 200, 1);
-  const auto mixed = learned(recording, {.modes = 1, .best_of = 0, .holdout = 0});
+  const auto mixed = learned(recording, {.best_of = 0, .holdout = 0});
   EXPECT_GT(copied, 2 * longest_verbatim_seconds(mixed->model, mixed->origin, 200, 1));
 }
 

@@ -19,7 +19,6 @@ using testing::HasSubstr;
 LeafRecipe quick(int modes = 3) {
   LeafRecipe recipe;
   recipe.modes = modes;
-  recipe.restarts = 2;
   return recipe;
 }
 

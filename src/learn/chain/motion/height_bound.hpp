@@ -5,7 +5,7 @@
 #include <span>
 
 #include "learn/chain/motion/motion.hpp"
-#include "learn/chain/segments/segmentation.hpp"
+#include "learn/chain/motion/segmentation.hpp"
 
 namespace wisp::chain {
 

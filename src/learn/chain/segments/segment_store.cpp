@@ -2,14 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
-#include "learn/chain/modes/successor_modes.hpp"
+#include "learn/chain/segments/joins.hpp"
 #include "learn/chain/segments/segment_features.hpp"
-#include "learn/chain/segments/segment_joins.hpp"
-#include "learn/chain/segments/segment_moments.hpp"
-#include "learn/chain/segments/segment_weights.hpp"
 
 namespace wisp::chain {
 namespace {
@@ -153,8 +149,7 @@ std::vector<std::size_t> kept_segments(const Motion& motion, std::span<const Seg
                                        const SegmentStoreOptions& options) {
   std::vector<std::vector<std::size_t>> members(static_cast<std::size_t>(modes));
   double bytes = 0;
-  const double successors =
-      options.breadth > 0 ? (kSuccessorBytes * options.breadth + 2) * modes + 6 : 0;  // with weights of modes and leads
+  const double successors = kSuccessorBytes * options.breadth * modes + 6;  // with leads
   for (std::size_t k = 0; k < segments.size(); ++k) {
     members[cluster[k]].push_back(k);
     bytes += bytes_of(segments[k], pose, successors);
@@ -172,42 +167,6 @@ std::vector<std::size_t> kept_segments(const Motion& motion, std::span<const Seg
     kept.insert(kept.end(), mode.begin(), mode.end());
   }
   return kept;
-}
-
-// Shares of the modes that follow each mode, modes × modes.
-std::vector<double> transitions_of(std::span<const Segment> segments, std::span<const std::uint16_t> cluster,
-                                   std::span<const double> weight, int modes) {
-  const auto count = static_cast<std::size_t>(modes);
-  std::vector<double> share(count * count);
-  for (std::size_t k = 1; k < segments.size(); ++k) {
-    if (segments[k].piece == segments[k - 1].piece) share[cluster[k - 1] * count + cluster[k]] += weight[k];
-  }
-  for (std::size_t from = 0; from < count; ++from) {
-    const auto row = std::span(share).subspan(from * count, count);
-    const double all = std::accumulate(row.begin(), row.end(), 0.0);
-    // One that was only ever the last is followed by any.
-    for (double& one : row) one = all > 0 ? one / all : 1.0 / modes;
-  }
-  return share;
-}
-
-// What follows each stored segment: which modes, and of each which segments.
-void join_up(const Motion& motion, std::span<const Segment> segments, std::span<const std::uint16_t> cluster, int modes,
-             const SegmentStoreOptions& options, SegmentStore& store) {
-  const SegmentMoments moments = segment_moments(motion, segments, options.heading_free, options.bounded_height);
-  const std::vector<double> weight = segment_weights(motion, segments);
-  SuccessorModes successor_weights =
-      successor_modes(moments, cluster, weight, store.source, transitions_of(segments, cluster, weight, modes), modes);
-  SegmentMoments own;
-  std::vector<double> own_weight;
-  for (std::size_t source : store.source) {
-    own.starts.push_back(moments.starts[source]);
-    own.ends.push_back(moments.ends[source]);
-    own_weight.push_back(weight[source]);
-  }
-  ChainSegments& out = store.segments;
-  out.follow = best_successors(own, out.mode, modes, options.breadth, own_weight, successor_weights.chances);
-  if (modes > 1) out.successor_weights = std::move(successor_weights.share);
 }
 
 // The heights at which stored segments begin.
@@ -261,7 +220,12 @@ SegmentStore store_segments(const Motion& motion, std::span<const Segment> found
   }
   if (options.bounded_height) put_heights(motion, segments, store);
   out.breadth = options.breadth;
-  if (options.breadth > 0) join_up(motion, segments, cluster, modes, options, store);
+  if (options.breadth > 0) {
+    std::vector<Segment> kept;
+    for (std::size_t source : store.source) kept.push_back(segments[source]);
+    out.follow =
+        best_successors(motion, kept, out.mode, {options.heading_free, options.bounded_height, options.breadth});
+  }
   return store;
 }
 

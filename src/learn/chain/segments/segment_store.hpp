@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "learn/chain/motion/motion.hpp"
-#include "learn/chain/segments/segmentation.hpp"
+#include "learn/chain/motion/segmentation.hpp"
 #include "wisp/model/chain.hpp"
 
 namespace wisp::chain {
@@ -18,8 +18,8 @@ struct SegmentStoreOptions {
   std::size_t max_bytes = 4'000'000;  ///< > 0, of all segments: what is over it is left out, as many of each mode as
                                       ///< the rarer ones allow
   bool bounded_height = false;        ///< segments keep the height at which they begin, and join what ends near it
-  int breadth = 4;  ///< 0 … 256: best successors kept for each segment and mode; 0: any segment of the mode follows
-                    ///< (the paper's). Fewer join better and leave room for more segments, but repeat themselves sooner
+  int breadth = 0;  ///< 0 … 256: best-joining successors kept for each segment and mode; 0: any segment of the mode
+                    ///< follows
 };
 
 struct SegmentStore {
@@ -29,7 +29,8 @@ struct SegmentStore {
 
 /// `cluster` gives each segment's mode.
 ///
-/// Precondition: as many clusters as segments, all below `modes`, each mode with a segment.
+/// Precondition: as many clusters as segments, all below `modes`, each mode with a segment; with best-joining
+/// successors orientation.
 SegmentStore store_segments(const Motion& motion, std::span<const Segment> segments,
                             std::span<const std::uint16_t> cluster, int modes, const SegmentStoreOptions& options);
 

@@ -98,7 +98,7 @@ TEST(GustResponse, PairsThatDoNotMatchAreErrors) {
 
 // A chain of the calm falls with the response that was learned of the windy ones.
 Model blown_model(const MadePairs& pairs) {
-  auto chain = fit_chain(std::span(&pairs.calm, 1), {.event = {}, .modes = 3, .holdout = 0, .restarts = 2});
+  auto chain = fit_chain(std::span(&pairs.calm, 1), {.event = {}, .modes = 3, .holdout = 0});
   auto gusts = learn_gusts(pairs.windy, pairs.calm, {.holdout = 0});
   std::get<ChainModel>(chain->model.dynamics).gust = gusts->response;
   chain->model.inputs = gusts->inputs;

@@ -1,4 +1,4 @@
-#include "learn/chain/segments/join_jumps.hpp"
+#include "learn/chain/motion/join_jumps.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "learn/chain/segments/segmentation.hpp"
+#include "learn/chain/motion/segmentation.hpp"
 
 #include <algorithm>
 #include <cmath>
