@@ -12,9 +12,9 @@
 
 #include "learn/chain/learn_chain.hpp"
 #include "simulate/leaf/leaf.hpp"
-#include "studies/leaf/leaf_cost.hpp"
 #include "simulate/leaf/leaf_flight.hpp"
 #include "simulate/leaf/leaf_wind.hpp"
+#include "studies/leaf/leaf_cost.hpp"
 #include "wisp/run/bank.hpp"
 #include "wisp/run/cost.hpp"
 #include "wisp/simulate/leaf_drops.hpp"

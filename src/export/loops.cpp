@@ -57,7 +57,8 @@ void respond(const Rows& taps, std::size_t row, std::vector<double>& response) {
 
 constexpr int kWalks = 64;       // side by side
 constexpr double kSeconds = 80;  // of each walk, in addition to the loop
-constexpr double kSettled = 4;   // seconds until a walk is independent of its start and has reached its response to the wind
+constexpr double kSettled =
+    4;  // seconds until a walk is independent of its start and has reached its response to the wind
 constexpr int kMaxRounds = 8;
 
 using Vector = std::array<double, 3>;

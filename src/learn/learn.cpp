@@ -3,8 +3,8 @@
 #include "learn/arx/learn_arx.hpp"
 #include "learn/chain/learn_chain.hpp"
 #include "learn/complete.hpp"
-#include "learn/flicker/learn_flicker.hpp"
 #include "learn/flame/learn_outline.hpp"
+#include "learn/flicker/learn_flicker.hpp"
 #include "learn/markov/learn_markov.hpp"
 
 namespace wisp {

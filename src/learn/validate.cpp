@@ -4,7 +4,6 @@
 #include "learn/chain/learn_chain.hpp"
 #include "learn/markov/learn_markov.hpp"
 #include "learn/same_rate.hpp"
-#include "wisp/learn/validate_outline.hpp"
 
 namespace wisp {
 Result<Report> validate(const Model& model, const Recording& recording, const ValidationOptions& options,

@@ -9,8 +9,8 @@
 #include <array>
 #include <cstdio>
 
-#include "studies/leaf/leaf_plate.hpp"
 #include "simulate/random_numbers.hpp"
+#include "studies/leaf/leaf_plate.hpp"
 
 namespace wisp::verify {
 

@@ -76,7 +76,7 @@ TEST_F(Clip, SeveralBecomeRecordingsInAFolder) {
       wisp("capture flame " + good + " " + at("black.mp4") + " --skip-bad -o " + at("left") + " --json");
   EXPECT_EQ(skipped.status, 0) << skipped.err;
   EXPECT_EQ(skipped.json()["skipped"].size() + skipped.json()["clips"].size(), 3U);
-  expect_refused("capture flame " + good, "expected a folder for those of 2 clips");
+  expect_refused("capture flame " + good, "expected a folder for those of 2 clips", 2);
   const Said same = wisp("capture flame " + at("one.mp4") + " " + at("more/one.mp4") + " -o " + at("two"));
   EXPECT_EQ(same.status, 1);
   EXPECT_THAT(same.err, HasSubstr("would both be written as"));

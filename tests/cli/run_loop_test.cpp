@@ -34,7 +34,7 @@ double seam(const std::vector<double>& values) {
 }
 
 TEST_F(RunLoop, OfAFlameMeetsItsBeginAndIsTheSameAgain) {
-  const Said said = run("flame-4", "4 --seed 2", "a.csv");
+  const Said said = run("flame", "4 --seed 2", "a.csv");
   ASSERT_EQ(said.status, 0) << said.err;
   EXPECT_EQ(said.json()["frames"], 240);
   const auto recording = read_csv(at("a.csv"));
@@ -45,7 +45,7 @@ TEST_F(RunLoop, OfAFlameMeetsItsBeginAndIsTheSameAgain) {
       EXPECT_LT(seam(channel.samples), 1.2) << channel.name;
     }
   }
-  ASSERT_EQ(run("flame-4", "4 --seed 2", "b.csv").status, 0);
+  ASSERT_EQ(run("flame", "4 --seed 2", "b.csv").status, 0);
   EXPECT_EQ(file_text(at("a.csv")), file_text(at("b.csv")));
 }
 

@@ -232,7 +232,7 @@ TEST_F(Tables, RunGoesAlongAPlainTable) {
   ASSERT_EQ(wisp("run " + m + " --noise off --input " + plain() + " -o " + at("same.csv")).status, 0);
   EXPECT_EQ(samples(recording("same.csv"), "y"), samples(ran, "y"));
   EXPECT_THAT(wisp("run " + m + " --input " + plain() + " --rate 1e-12 -o " + at("x.csv")).err,
-              HasSubstr("is the rate right?"));
+              HasSubstr("1e-12 samples a second, expected 1e-6 to 1e7"));
 }
 
 }  // namespace

@@ -28,7 +28,6 @@ class WindGainProgram : public InFolder {
   Said learned(const std::string& flags = "") {
     return wisp("learn flame " + at("soft.csv") + " " + at("loud.csv") + " -o " + at("m.wisp") + " --json " + flags);
   }
-
 };
 
 TEST_F(WindGainProgram, OneMicrophoneIsFoundOutAndKept) {

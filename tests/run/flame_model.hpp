@@ -23,8 +23,7 @@ struct FlameOptions {
 inline ResampledResiduals resampled_flame_residuals(int outputs, int rows, bool both_sides, int swing = 20) {
   ResampledResiduals resampled;
   resampled.scale.assign(outputs, 1e-4);
-  for (int k = 0; k < rows * outputs; ++k)
-    resampled.rows.push_back(static_cast<std::int8_t>(k * 7919 % 201 - 100));
+  for (int k = 0; k < rows * outputs; ++k) resampled.rows.push_back(static_cast<std::int8_t>(k * 7919 % 201 - 100));
   resampled.ends = {static_cast<std::uint32_t>(rows / 3), static_cast<std::uint32_t>(rows)};
   resampled.wind_scale = 1e-4;
   resampled.lags = {0, 1, 2, 4};

@@ -102,7 +102,7 @@ TEST_F(Play, LeavesWholePicturesOrNoneWhenItIsInterrupted) {
   const std::string first = at("frames") + "/frame-00003.png";
   const std::string line = WISP_PROGRAM " play " + kFlame + " --headless-frames 100000 --png " + at("frames") +
                            " >/dev/null 2>&1 & pid=$!; until [ -e " + first +
-                           " ]; do sleep 0.01; done; kill -TERM $pid; wait $pid";
+                           " ]; do sleep 0.01; done; kill -TERM $pid; wait $pid; test $? = 143";  // 128 + SIGTERM
   EXPECT_EQ(std::system(line.c_str()), 0);
   const auto names = files("frames");
   EXPECT_GE(names.size(), 3U);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "terminal.hpp"
-#include "wisp/learn/validate_outline.hpp"
+#include "wisp/learn/validate.hpp"
 #include "wisp/record/recording.hpp"
 
 namespace wisp::cli {

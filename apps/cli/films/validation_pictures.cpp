@@ -13,7 +13,7 @@
 #include "wisp/base/result.hpp"
 #include "wisp/draw/flame.hpp"
 #include "wisp/draw/plot.hpp"
-#include "wisp/learn/validate_outline.hpp"
+#include "wisp/learn/validate.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"
 

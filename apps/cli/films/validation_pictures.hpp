@@ -7,7 +7,7 @@
 #include "films/outline_film.hpp"
 #include "terminal.hpp"
 #include "wisp/base/report.hpp"
-#include "wisp/learn/validate_outline.hpp"
+#include "wisp/learn/validate.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
-// Plots of an identification, drawn from the series of a report: poles and zeros, step and frequency responses with their
-// bands, residual correlations, predictions.
+// Plots of an identification, drawn from the series of a report: poles and zeros, step and frequency responses with
+// their bands, residual correlations, predictions.
 
 #include <filesystem>
 

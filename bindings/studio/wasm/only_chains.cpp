@@ -5,7 +5,7 @@
 #include "learn/chain/gusts/gust_report.hpp"
 #include "learn/flame/learn_outline.hpp"
 #include "learns.hpp"
-#include "wisp/learn/validate_outline.hpp"
+#include "wisp/learn/validate.hpp"
 
 namespace wisp {
 

@@ -58,7 +58,7 @@ struct FlameScene {
                                 ///< (LitState::size); unset: the outline is the full flame's and is scaled by the
                                 ///< times above
   float wind = 0;               ///< carries all smoke alike (a slow mean): units a second, to the right, −8 … 8
-  std::uint64_t seed = 1;  ///< chooses the smoke's curls and the wick's bend
+  std::uint64_t seed = 1;       ///< chooses the smoke's curls and the wick's bend
 };
 
 /// Whether the scene's flame burns: it never went out, or was lit since.

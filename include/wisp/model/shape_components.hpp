@@ -1,6 +1,7 @@
 #pragma once
 // An outline as a shape at rest and a few components of its deviation from it: principal components in the space of
-// shape coordinates (T. Cootes and C. Taylor, "Active shape models", Computer Vision and Image Understanding 61 (1995)).
+// shape coordinates (T. Cootes and C. Taylor, "Active shape models", Computer Vision and Image Understanding 61
+// (1995)).
 //
 // Shape coordinates pair the control points of the left flank with those of the right one: half their distance and
 // their mean height are the same in the mirror image, their mean x and half the difference of their heights change
@@ -25,10 +26,10 @@ struct ValueRange {
 /// Shape coordinates = rest + basis · components, each clamped to the range that was recorded, so that flanks neither
 /// cross each other nor leave the base.
 struct ShapeComponents {
-  std::size_t symmetric = 0;      ///< components that are the same in the mirror image; they come first
-  std::size_t antisymmetric = 0;  ///< components that change sign there
-  std::vector<double> rest;       ///< 2N shape coordinates
-  std::vector<double> basis;      ///< N × symmetric, then N × antisymmetric, row-major
+  std::size_t symmetric = 0;            ///< components that are the same in the mirror image; they come first
+  std::size_t antisymmetric = 0;        ///< components that change sign there
+  std::vector<double> rest;             ///< 2N shape coordinates
+  std::vector<double> basis;            ///< N × symmetric, then N × antisymmetric, row-major
   std::vector<ValueRange> coordinates;  ///< 2N
   std::vector<ValueRange> components;   ///< one a component: to this and half of it more a component is clamped
 

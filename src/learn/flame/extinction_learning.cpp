@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "learn/outline/outline_inputs.hpp"
-#include "learn/outline/outline_inputs.hpp"
 
 namespace wisp {
 namespace {

@@ -5,9 +5,9 @@
 
 #include "learn/flame/extinction_learning.hpp"
 #include "learn/flame/extinction_report.hpp"
-#include "learn/outline/wind_gain.hpp"
 #include "learn/outline/outline_fit.hpp"
 #include "learn/outline/report/outline_report.hpp"
+#include "learn/outline/wind_gain.hpp"
 #include "record/verdict.hpp"
 
 namespace wisp {

@@ -1,14 +1,14 @@
-#include "wisp/learn/validate_outline.hpp"
+#include "wisp/learn/validate.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "learn/arx/report/response_report.hpp"
 #include "learn/flame/extinction_report.hpp"
-#include "learn/outline/wind_gain.hpp"
 #include "learn/numeric/spectrum.hpp"
 #include "learn/outline/outline_shape.hpp"
 #include "learn/outline/report/outline_report.hpp"
+#include "learn/outline/wind_gain.hpp"
 
 namespace wisp {
 namespace {

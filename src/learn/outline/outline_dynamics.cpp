@@ -17,15 +17,17 @@ using Matrix = Eigen::MatrixXd;
 using ControlSeries = std::vector<std::vector<double>>;
 
 constexpr int kOrder = 2;
-constexpr int kInputLags = 6;              // 0 to 5: more, out to 20 frames, gain nothing that lasts
+constexpr int kInputLags = 6;  // 0 to 5: more, out to 20 frames, gain nothing that lasts
 constexpr Eigen::Index kMaxComponents = 14;
-constexpr double kLeastPower = 1e-7;       // of the largest component's: less is rounding, such as the base's height
-constexpr double kRidge = 1.5;             // rows of whitened components; a mirror image would count as another row
+constexpr Eigen::Index kMaxUndriven =
+    8;                                // without inputs: films are short, and finer parts play shapes that no flame has
+constexpr double kLeastPower = 1e-7;  // of the largest component's: less is rounding, such as the base's height
+constexpr double kRidge = 1.5;        // rows of whitened components; a mirror image would count as another row
 constexpr double kMaxRidge = 1e9;
 constexpr double kStable = 0.999;
 constexpr double kLeastMotion = 1e-9;  // heights: what moves less does so by rounding
 constexpr Eigen::Index kMinRows = 30;
-constexpr std::size_t kPowers = 3;         // an input, its root and its square (regressor_names())
+constexpr std::size_t kPowers = 3;  // an input, its root and its square (regressor_names())
 
 const std::vector<double>& samples_of(const Recording& recording, const std::string& name) {
   return recording.channels[*find_channel(recording, name)].samples;
@@ -73,7 +75,7 @@ Matrix deviations(std::span<const Recording> recordings, const std::vector<doubl
   const auto columns = static_cast<Eigen::Index>(rest.size());
   const auto rows = static_cast<Eigen::Index>(all.size()) / columns;
   return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(all.data(), rows,
-                                                                                                 columns);
+                                                                                                  columns);
 }
 
 // Principal components of one kind, the strongest first, each scaled to a standard deviation of 1.
@@ -101,11 +103,11 @@ struct Components {
 };
 
 // The least power of the components that are kept, of both kinds together.
-double least_power(const Components& even, const Components& odd) {
+double least_power(const Components& even, const Components& odd, Eigen::Index count) {
   std::vector<double> all(even.power.begin(), even.power.end());
   all.insert(all.end(), odd.power.begin(), odd.power.end());
   std::sort(all.begin(), all.end(), std::greater<>());
-  const double last = all[static_cast<std::size_t>(std::min<Eigen::Index>(kMaxComponents, std::ssize(all))) - 1];
+  const double last = all[static_cast<std::size_t>(std::min<Eigen::Index>(count, std::ssize(all))) - 1];
   return std::max({last, kLeastPower * all.front(), std::numeric_limits<double>::min()});
 }
 
@@ -140,7 +142,7 @@ Result<ShapeComponents> find_shape(std::span<const Recording> recordings, const 
     return Error{recordings.front().source + ": its outline never moves; there is nothing to learn"};
   }
   const Components even(moved.leftCols(points)), odd(moved.rightCols(points));
-  const double least = least_power(even, odd);
+  const double least = least_power(even, odd, prepared.inputs.empty() ? kMaxUndriven : kMaxComponents);
   shape.symmetric = even.count(least);
   shape.antisymmetric = odd.count(least);
   even.append(shape.symmetric, shape.basis);
@@ -201,7 +203,8 @@ struct Products {
   double rows = 0;
 
   Products(Eigen::Index regressors, Eigen::Index outputs)
-      : gram(Matrix::Zero(regressors, regressors)), right(Matrix::Zero(regressors, outputs)),
+      : gram(Matrix::Zero(regressors, regressors)),
+        right(Matrix::Zero(regressors, outputs)),
         squares(Matrix::Zero(outputs, 1)) {}
 
   void add(const Recording& recording, const RowsOf& rows_of, bool symmetric) {
@@ -361,10 +364,10 @@ ChannelChoice moved_channels(const ShapeComponents& shape, const PreparedOutline
 }
 
 Result<ControlSeries> predict_outline(const OutlineDynamics& dynamics, const Recording& recording,
-                               const PreparedOutlines& prepared, const PredictOptions& options) {
+                                      const PreparedOutlines& prepared, const PredictOptions& options) {
   const ShapeComponents& shape = dynamics.shape;
-  auto moved = predict(dynamics.arx, moved_recording(shape, recording, prepared), moved_channels(shape, prepared),
-                       options);
+  auto moved =
+      predict(dynamics.arx, moved_recording(shape, recording, prepared), moved_channels(shape, prepared), options);
   if (!moved || shape.empty()) return moved;
   ControlSeries out(shape.rest.size(), std::vector<double>(recording.rows(), kMissing));
   std::vector<double> components(shape.count());

@@ -22,12 +22,12 @@ struct OutlineSummary {
   double rate_hz = 0;
   std::vector<OutlineInput> inputs;
   std::size_t points = 0;
-  OutlineDynamics dynamics;               ///< of the returned model, without its noise's rows
-  double radius = 0;                      ///< spectral
-  std::vector<InputAlignment> alignment;  ///< of every recording's inputs
-  std::size_t rows_learned = 0;           ///< complete rows that the judged dynamics were learned from,
-  std::size_t rows_held_out = 0;          ///< and those held out; the returned model is learned from both
-  OutlineFigures learned;                 ///< on what was learned from
+  OutlineDynamics dynamics;                ///< of the returned model, without its noise's rows
+  double radius = 0;                       ///< spectral
+  std::vector<InputAlignment> alignment;   ///< of every recording's inputs
+  std::size_t rows_learned = 0;            ///< complete rows that the judged dynamics were learned from,
+  std::size_t rows_held_out = 0;           ///< and those held out; the returned model is learned from both
+  OutlineFigures learned;                  ///< on what was learned from
   std::optional<OutlineFigures> held_out;  ///< on what was held out; nothing where that is too short
   std::vector<double> residual_sd;         ///< one step ahead, one an output
   std::size_t resampled_rows = 0;          ///< of residuals; 0: Gaussian noise

@@ -1,9 +1,9 @@
 #pragma once
 // What drives an outline: inputs in the model's units, signs, and the mirror image.
 //
-// A wind of 1 is the 95th percentile of the training wind while it blows. Its sign is carried as two non-negative inputs,
-// NAME+ and NAME-, so that a linear model does not answer a gust from the right by a flame that grows where a gust from
-// the left makes it shrink.
+// A wind of 1 is the 95th percentile of the training wind while it blows. Its sign is carried as two non-negative
+// inputs, NAME+ and NAME-, so that a linear model does not answer a gust from the right by a flame that grows where a
+// gust from the left makes it shrink.
 
 #include <cstdint>
 #include <span>

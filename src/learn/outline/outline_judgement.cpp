@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <string>
 
-#include "learn/outline/wind_gain.hpp"
 #include "learn/numeric/constants.hpp"
 #include "learn/outline/outline_preparation.hpp"
 #include "learn/outline/outline_shape.hpp"
 #include "learn/outline/outline_synthesis.hpp"
+#include "learn/outline/wind_gain.hpp"
 
 namespace wisp {
 namespace {

@@ -11,7 +11,7 @@
 #include "learn/outline/outline_figures.hpp"
 #include "wisp/base/progress.hpp"
 #include "wisp/base/result.hpp"
-#include "wisp/learn/validate_outline.hpp"
+#include "wisp/learn/validate.hpp"
 #include "wisp/model/model.hpp"
 #include "wisp/record/recording.hpp"
 

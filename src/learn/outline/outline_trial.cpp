@@ -11,8 +11,8 @@
 namespace wisp {
 namespace {
 
-constexpr std::size_t kWindows = 120;      // a side: the distance is known to 0.01 then, for a hundredth of a second
-constexpr double kPlayed = 30;             // seconds at least
+constexpr std::size_t kWindows = 120;       // a side: the distance is known to 0.01 then, for a hundredth of a second
+constexpr double kPlayed = 30;              // seconds at least
 constexpr std::size_t kMaxRecorded = 2000;  // outlines that others are compared with
 constexpr std::size_t kMaxPlayed = 500;
 constexpr std::size_t kPlaces = 12;  // along an outline
@@ -50,7 +50,8 @@ std::size_t liveliest(const PreparedOutlines& prepared) {
   double most = -1;
   for (std::size_t r = 0; r < prepared.recordings.size(); ++r) {
     double sum = 0;
-    for (const std::string& name : prepared.channels.outputs) sum += deviation(seen(channel_samples(prepared.recordings[r], name)));
+    for (const std::string& name : prepared.channels.outputs)
+      sum += deviation(seen(channel_samples(prepared.recordings[r], name)));
     if (sum > most) best = r, most = sum;
   }
   return best;
@@ -60,8 +61,8 @@ using Outline = std::vector<OutlinePoint>;
 
 // Outlines of at most so many rows, evenly spread, as points at equal steps of their length; and how many of them cross
 // themselves.
-std::vector<Outline> outlines(std::span<const Recording> recordings, const PreparedOutlines& prepared,
-                              std::size_t most, double* crossed = nullptr) {
+std::vector<Outline> outlines(std::span<const Recording> recordings, const PreparedOutlines& prepared, std::size_t most,
+                              double* crossed = nullptr) {
   const OutlineCurve curve(prepared.layout.knots, 100);
   std::size_t rows = 0, crossings = 0;
   for (const Recording& recording : recordings) rows += recording.rows();
@@ -70,7 +71,8 @@ std::vector<Outline> outlines(std::span<const Recording> recordings, const Prepa
   for (const Recording& recording : recordings) {
     for (std::size_t row = 0; row < recording.rows(); row += stride) {
       std::vector<double> control;
-      for (const std::string& name : prepared.channels.outputs) control.push_back(channel_samples(recording, name)[row]);
+      for (const std::string& name : prepared.channels.outputs)
+        control.push_back(channel_samples(recording, name)[row]);
       if (std::any_of(control.begin(), control.end(), [](double value) { return std::isnan(value); })) continue;
       const auto polyline = curve.polyline(control);
       if (crossed) crossings += crosses_itself(polyline) ? 1 : 0;

@@ -12,10 +12,10 @@ namespace wisp {
 
 /// Figures of a free play along the recording in which most moves.
 struct OutlineTrial {
-  double unsteadiness = 0;       ///< of the recordings: mean square difference of neighbouring frames over that of frames
-                                 ///< picked at random; 0 moves steadily, 1 is frames in random order (half the ratio of
-                                 ///< J. von Neumann, Annals of Mathematical Statistics 12 (1941))
-  double held_share = 0;         ///< of steps in which something was clamped to its range
+  double unsteadiness = 0;  ///< of the recordings: mean square difference of neighbouring frames over that of frames
+                            ///< picked at random; 0 moves steadily, 1 is frames in random order (half the ratio of
+                            ///< J. von Neumann, Annals of Mathematical Statistics 12 (1941))
+  double held_share = 0;    ///< of steps in which something was clamped to its range
   std::vector<double> sd_ratio;  ///< per output, played over recorded; 1 where nothing moves
   double crossed = 0;            ///< share of played outlines that cross themselves
   double outside = 0;            ///< share of played outlines farther from every recorded one than 99 % of those of the

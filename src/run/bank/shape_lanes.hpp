@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "run/state/arena.hpp"
 #include "run/lanes/lanes.hpp"
+#include "run/state/arena.hpp"
 #include "wisp/model/model.hpp"
 
 namespace wisp {
@@ -36,9 +36,9 @@ template <class N>
 inline Reals<N> shape_coordinate(const ShapeProgram& program, std::size_t i, const typename N::Real* components) {
   const bool symmetric = i < program.points;
   const std::size_t count = symmetric ? program.symmetric : program.antisymmetric;
-  const float* basis = symmetric ? program.basis.data() + i * count
-                                 : program.basis.data() + program.points * program.symmetric +
-                                       (i - program.points) * count;
+  const float* basis = symmetric
+                           ? program.basis.data() + i * count
+                           : program.basis.data() + program.points * program.symmetric + (i - program.points) * count;
   if (!symmetric) components += program.symmetric * N::kLanes;
   auto sum = all<Reals<N>>(program.rest[i]);
   for (std::size_t k = 0; k < count; ++k, components += N::kLanes) {

@@ -8,7 +8,7 @@
 #include "learn/flame/made_blow_outs.hpp"
 #include "learn/outline/made_outline.hpp"
 #include "record/loudness.hpp"
-#include "wisp/learn/validate_outline.hpp"
+#include "wisp/learn/validate.hpp"
 
 namespace wisp::learn_outline_test {
 namespace {
@@ -46,8 +46,8 @@ T figure(const Report& report, const std::string& id) {
 TEST(LearnOutline, TheReportHasEveryPromisedField) {
   const Fit fit = learned({windy()}, {});
   EXPECT_THAT(fields(fit.report), IsSupersetOf({"rate_hz", "inputs", "points", "na", "nb", "nk", "samples", "channels",
-                                                "J", "tip", "overlap", "stable", "gain", "extinction",
-                                                "alignment", "components", "outside_share", "crossed_share"}));
+                                                "J", "tip", "overlap", "stable", "gain", "extinction", "alignment",
+                                                "components", "outside_share", "crossed_share"}));
   EXPECT_EQ(figure<std::int64_t>(fit.report, "points"), 6);
   EXPECT_GT(figure<double>(fit.report, "tip.held_out_fit_percent.inf"), 50);
   ASSERT_TRUE(fit.report.verdict);

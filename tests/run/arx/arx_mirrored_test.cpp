@@ -55,8 +55,7 @@ TEST(MirroredOutputs, AreNotThoseThatDifferInAnything) {
   EXPECT_TRUE(differs([](Model&, ArxModel& arx) { arx.constant[15] += 0.01; }));
   EXPECT_TRUE(differs([](Model&, ArxModel& arx) { arx.output_mean[14] += 0.01; }));
   EXPECT_TRUE(differs([](Model&, ArxModel& arx) {
-    for (std::size_t row = 0; row < arx.noise.resampled.rows.size(); row += 16)
-      arx.noise.resampled.rows[row + 14] = 99;
+    for (std::size_t row = 0; row < arx.noise.resampled.rows.size(); row += 16) arx.noise.resampled.rows[row + 14] = 99;
   }));
   EXPECT_TRUE(differs([](Model&, ArxModel& arx) { arx.noise.resampled.mirror[14] = 1; }));
   EXPECT_TRUE(

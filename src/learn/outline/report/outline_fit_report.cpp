@@ -16,11 +16,12 @@ ReportSection data_section(const OutlineSummary& summary) {
     names += (names.empty() ? "" : ", ") + input.name;
     inputs.rows.push_back({input.name, input.unit, input.scale});
   }
-  section.entries = {{"rate_hz", summary.rate_hz, "rate", "frames a second"},
-                     {"", names.empty() ? "none: a model of flicker" : names, "inputs", ""},
-                     {"points", summary.points, "control points", ""},
-                     {"samples.learned", summary.rows_learned, "frames to learn from", ""},
-                     {"samples.held_out", summary.rows_held_out, "frames held out", "", {}, "what the fit is judged on"}};
+  section.entries = {
+      {"rate_hz", summary.rate_hz, "rate", "frames a second"},
+      {"", names.empty() ? "none: a model of flicker" : names, "inputs", ""},
+      {"points", summary.points, "control points", ""},
+      {"samples.learned", summary.rows_learned, "frames to learn from", ""},
+      {"samples.held_out", summary.rows_held_out, "frames held out", "", {}, "what the fit is judged on"}};
   section.tables.push_back(std::move(inputs));
   add_alignment(summary.alignment, section);
   return section;
