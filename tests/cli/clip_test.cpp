@@ -93,7 +93,7 @@ TEST_F(Clip, BecomesARecordingAModelAndPictures) {
 
   const Said learned = wisp("learn flame " + at("rec.csv") + " -o " + at("m.wisp") + " --json");
   ASSERT_EQ(learned.status, 0) << learned.err;
-  EXPECT_EQ(learned.json()["cost"]["multiply_adds_per_frame"], 2 * 7 * 7 * 2);
+  EXPECT_EQ(learned.json()["cost"]["multiply_adds_per_frame"], 2 * 4 * 4 * 2);
   EXPECT_EQ(learned.json()["channels"].size(), 16u);
   EXPECT_LT(learned.json()["stable"]["radius"].get<double>(), 1);
 

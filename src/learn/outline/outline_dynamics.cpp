@@ -19,8 +19,9 @@ using ControlSeries = std::vector<std::vector<double>>;
 constexpr int kOrder = 2;
 constexpr int kInputLags = 6;  // 0 to 5: more, out to 20 frames, gain nothing that lasts
 constexpr Eigen::Index kMaxComponents = 14;
-constexpr Eigen::Index kMaxUndriven =
-    8;                                // without inputs: films are short, and finer parts play shapes that no flame has
+// Without inputs and in fewer rows than kLong, finer components play shapes that no flame has.
+constexpr Eigen::Index kMaxOfShort = 8;
+constexpr Eigen::Index kLong = 1000;
 constexpr double kLeastPower = 1e-7;  // of the largest component's: less is rounding, such as the base's height
 constexpr double kRidge = 1.5;        // rows of whitened components; a mirror image would count as another row
 constexpr double kMaxRidge = 1e9;
@@ -142,7 +143,8 @@ Result<ShapeComponents> find_shape(std::span<const Recording> recordings, const 
     return Error{recordings.front().source + ": its outline never moves; there is nothing to learn"};
   }
   const Components even(moved.leftCols(points)), odd(moved.rightCols(points));
-  const double least = least_power(even, odd, prepared.inputs.empty() ? kMaxUndriven : kMaxComponents);
+  const double least =
+      least_power(even, odd, prepared.inputs.empty() && moved.rows() < kLong ? kMaxOfShort : kMaxComponents);
   shape.symmetric = even.count(least);
   shape.antisymmetric = odd.count(least);
   even.append(shape.symmetric, shape.basis);
