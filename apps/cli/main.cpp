@@ -195,7 +195,7 @@ std::string leading(const std::vector<std::string>& words) {
   return all;
 }
 
-// Help as it is asked for: `wisp help WORDS`. Nothing where it is not, or about what is not there.
+// Prints what `wisp` alone or `wisp help WORDS` asks for and returns the exit status; nothing for any other arguments.
 std::optional<int> answer_help(std::vector<std::string> words) {
   if (words.empty()) {
     std::fputs(first_steps().c_str(), stderr);

@@ -1,4 +1,4 @@
-// Pieces of the page that come late. One that is lost on its way (a lift, a deploy) is asked for again.
+// Parts of the page that are fetched after it has started. A fetch that fails is tried again.
 
 /** Milliseconds before each further try. */
 const WAITS = [300, 1200];
