@@ -74,12 +74,6 @@ LeafCost count_leaf_operations(const Leaf& leaf, LeafMethod method) {
   cost.evaluation = count([&] { rate(state, 0); });
   const Counted h(1.0 / 60);
   switch (method) {
-    case LeafMethod::kMidpoint:
-      cost.step = count([&] { leaf::midpoint_step(state, h, rate); });
-      break;
-    case LeafMethod::kRalston:
-      cost.step = count([&] { leaf::ralston_step(state, h, rate); });
-      break;
     case LeafMethod::kClassical:
       cost.step = count([&] { leaf::classical_step(state, h, rate); });
       break;

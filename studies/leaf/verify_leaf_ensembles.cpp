@@ -124,9 +124,6 @@ void integrators(Bounds& bounds) {
       {"classical, 0.5 ms", {LeafMethod::kClassical, 0.0005}, true},
       {"classical, 1/240 s", {LeafMethod::kClassical, kFrame / 4}, true},
       {"classical, 1/60 s", {LeafMethod::kClassical, kFrame}, true},
-      {"Ralston, 1/120 s", {LeafMethod::kRalston, kFrame / 2}, true},
-      {"Ralston, 1/60 s", {LeafMethod::kRalston, kFrame}, false},
-      {"midpoint, 1/60 s", {LeafMethod::kMidpoint, kFrame}, false},
   };
   std::vector<FallFigures> all;
   for (const Method& method : methods) {

@@ -20,14 +20,16 @@ using ::testing::IsEmpty;
 constexpr int kFunctionLines = 60;
 constexpr int kFolderSources = 25;
 constexpr int kPublicHeaders = 58;
-constexpr int kLinesTogether = 77'400;
+constexpr int kLinesTogether = 77'250;
 constexpr int kLinesOfLearn = 24'000;
-constexpr int kFlagsTogether = 107;
+constexpr int kFlagsTogether = 96;
 constexpr std::size_t kFlagsOfACommand = 20;
 // Commands that have more flags than they should.
-const std::map<std::string, std::size_t> kTooManyFlags{
-    {"wisp learn outline", 28}, {"wisp learn flame", 28}, {"wisp learn arx", 32}, {"wisp learn chain", 28},
-    {"wisp learn leaf", 28},    {"wisp validate", 28},    {"wisp report", 25}};
+const std::map<std::string, std::size_t> kTooManyFlags{{"wisp learn arx", 31},
+                                                       {"wisp learn chain", 27},
+                                                       {"wisp learn leaf", 27},
+                                                       {"wisp validate", 28},
+                                                       {"wisp report", 25}};
 
 std::string manual() { return read_text(std::filesystem::path(WISP_SOURCE_DIR) / "docs/reference/cli.md"); }
 

@@ -17,7 +17,6 @@ Result<void> run_learn_flicker(const Arguments& arguments, Terminal& terminal) {
   if (!recordings) return recordings.error();
   const FlickerRecipe recipe{.name = model_name(arguments),
                              .output = arguments.has("channel") ? arguments.text("channel") : "",
-                             .rate_hz = arguments.number("steps-a-second"),
                              .modes = arguments.integer("modes"),
                              .order = arguments.integer("order"),
                              .seed = static_cast<std::uint64_t>(arguments.integer("seed"))};
@@ -32,8 +31,6 @@ Command learn_flicker_command() {
   std::vector<Flag> flags = {
       output_flag(),
       {"channel", Kind::kText, "NAME", "", "the channel of light; default: brightness, or the only output"},
-      {"steps-a-second", Kind::kNumber, "HZ", "50",
-       "what the lamp steps at; faster recordings are averaged down to it"},
       {"modes", Kind::kInteger, "K", "3", "degrees of restlessness, 2 to 8"},
       {"order", Kind::kInteger, "N", "4", "lags in every mode, 1 to 8"},
       {"seed", Kind::kInteger, "N", "1", "of the play that shocks are matched by"},

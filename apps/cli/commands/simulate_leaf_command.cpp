@@ -18,30 +18,15 @@
 namespace wisp::cli {
 namespace {
 
-constexpr double kGramsPerKilogram = 1000;
 constexpr double kMinPairSeconds = 0.7;  // half a second to the onset, give or take a fifth, and some of the gust
 constexpr double kMaxJitter = 0.01;      // of a step of a wind's time
 
 Result<void> check_leaf_flags(const Arguments& arguments) {
   static constexpr FlagRange kRanges[] = {
-      {"drops", 1, 100000},
-      {"seconds", 0.1, 3600},
-      {"rate", 1, 10000},
-      {"settle", 0, 60},
-      {"wind-speed", 0, 30},
-      {"gust-seconds", 0.02, 60},
-      {"wind-direction", -360, 360},
-      {"clones", 1, 10000},
-      {"length", 0.001, 1},
-      {"width", 0.001, 1},
-      {"density", 1, 10000},
-      {"threads", 0, 256},
+      {"drops", 1, 100000},  {"seconds", 0.1, 3600},        {"rate", 1, 10000},
+      {"wind-speed", 0, 30}, {"wind-direction", -360, 360},
   };
-  if (auto good = check_ranges(arguments, kRanges); !good) return good;
-  if (arguments.number("width") > arguments.number("length"))
-    return Error{"--width is " + arguments.text("width") + ", expected at most the leaf's length of " +
-                 arguments.text("length") + "; the midrib runs along the long axis"};
-  return {};
+  return check_ranges(arguments, kRanges);
 }
 
 LeafWindKind wind_kind(const std::string& word) {
@@ -135,24 +120,15 @@ Result<void> take_wind(const Arguments& arguments, LeafDropsOptions& drops) {
 
 Result<LeafPairsOptions> options_from(const Arguments& arguments, Terminal& terminal) {
   LeafPairsOptions options;
-  options.clones = arguments.integer("clones");
   LeafDropsOptions& drops = options.drops;
-  drops.leaf.length = arguments.number("length");
-  drops.leaf.width = arguments.number("width");
-  drops.leaf.areal_density = arguments.number("density") / kGramsPerKilogram;
-  if (arguments.text("air") == "vertical") drops.leaf.air = leaf_air_vertical();
   if (auto good = take_wind(arguments, drops); !good) return good.error();
   if (auto good = check_pairs(arguments); !good) return good.error();
   drops.wind.speed = arguments.number("wind-speed");
   drops.wind.direction = arguments.number("wind-direction");
-  drops.wind.gust_seconds = arguments.number("gust-seconds");
-  if (arguments.text("method") == "stiff") drops.stepping.method = LeafMethod::kStiff;
   drops.drops = arguments.integer("drops");
   drops.seconds = arguments.number("seconds");
   drops.rate_hz = arguments.number("rate");
-  drops.settle_seconds = arguments.number("settle");
   drops.seed = static_cast<std::uint64_t>(arguments.integer("seed"));
-  drops.threads = arguments.integer("threads");
   drops.on_progress = [&terminal](double share) { terminal.progress("falling", share); };
   return options;
 }
@@ -194,7 +170,7 @@ Result<void> run_simulate_leaf(const Arguments& arguments, Terminal& terminal) {
   const auto recording = pairs ? write_pairs(path, options, terminal) : write_drops(path, options);
   if (!recording) return recording.error();
   if (arguments.has("video")) {
-    LeafFilmOptions film{.from_above = arguments.text("view") == "above"};
+    LeafFilmOptions film;
     film.style.length = static_cast<float>(options.drops.leaf.length);
     film.style.width = static_cast<float>(options.drops.leaf.width);
     if (auto good = write_leaf_film(arguments.text("video"), *recording, film, terminal); !good) return good;
@@ -225,35 +201,15 @@ Command simulate_leaf_command() {
           {"drops", Kind::kInteger, "N", "200", "falls; with --pairs, gusts"},
           {"seconds", Kind::kNumber, "S", "20", "recorded of each"},
           {"rate", Kind::kNumber, "HZ", "60", "rows a second"},
-          {"settle", Kind::kNumber, "S", "2", "seconds of each fall before the recording begins"},
           {"wind", Kind::kText, "W", "calm",
            "calm, constant, gusts, turbulence, or a recording FILE.csv of wind.x, wind.y, wind.z or a single input, "
            "m/s"},
           {"wind-speed", Kind::kNumber, "M/S", "1", "of the steady wind, or of a typical gust"},
           {"wind-direction", Kind::kNumber, "DEG", "0",
            "where it blows to, from x towards y; gusts come from all sides"},
-          {"gust-seconds", Kind::kNumber, "S", "0.3", "a typical gust's length"},
           {"pairs", Kind::kSwitch, "", "",
            "one gust an episode, each with many clones of a fall, and in REC.calm.csv the same falls without it"},
-          {"clones", Kind::kInteger, "N", "32", "falls a gust with --pairs, alike but for a little"},
-          {"length", Kind::kNumber, "M", "0.073", "the leaf's long axis, metres"},
-          {"width", Kind::kNumber, "M", "0.049", "its short axis"},
-          {"density", Kind::kNumber, "G/M2", "70", "its areal density"},
-          {"air",
-           Kind::kChoice,
-           "SET",
-           "joint",
-           "coefficients: joint, or vertical (fitted to vertical release only)",
-           {"joint", "vertical"}},
-          {"method",
-           Kind::kChoice,
-           "M",
-           "fixed",
-           "fixed steps, or the stiff reference with an error bound",
-           {"fixed", "stiff"}},
-          {"threads", Kind::kInteger, "N", "0", "0: one a core; the result does not depend on it"},
           {"video", Kind::kOutput, "CLIP.mp4", "", "and film the first few drops, up to 20 s"},
-          {"view", Kind::kChoice, "V", "side", "where from: side, or above", {"side", "above"}},
           {"seed", Kind::kInteger, "N", "1", "of all chance"},
       },
       {{"wisp simulate leaf -o leaf.csv --drops 200 --seconds 20", "What a leaf's chain is learned from"},

@@ -180,10 +180,8 @@ class Side {
       : options_(options),
         columns_(columns),
         caption_(panel.caption),
-        camera_(options.from_above ? leaf_camera_from_above({0, 0, 0}, 1.7F)
-                                   : leaf_camera_from_side(1.1F * options.fall_metres)),
+        camera_(leaf_camera_from_side(1.1F * options.fall_metres)),
         film_(*panel.recording, columns_, options_) {
-    if (options.from_above) room_.grid_metres = 0.25F;
     empty_ = draw_leaf_room(options.width, options.height, camera_, room_);
   }
   Side(const Side&) = delete;

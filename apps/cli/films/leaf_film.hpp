@@ -12,8 +12,7 @@
 namespace wisp::cli {
 
 struct LeafFilmOptions {
-  bool from_above = false;  ///< else from the side
-  int width = 1280;         ///< pixels
+  int width = 1280;  ///< pixels
   int height = 720;
   double max_seconds = 20;    ///< of the video
   int max_leaves = 7;         ///< episodes shown at once

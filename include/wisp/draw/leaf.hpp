@@ -55,7 +55,6 @@ struct LeafRoom {
   Colour floor{219, 216, 209};
   Colour backdrop{243, 241, 236};
   std::array<float, 3> lamp{-0.35F, -0.45F, 1};  ///< towards the light; need not be of length 1, z > 0
-  float grid_metres = 0;                         ///< lines on the floor, so far apart; 0: none
 };
 
 /// An empty room, to be copied for every frame of a camera that stands still.

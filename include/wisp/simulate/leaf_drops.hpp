@@ -11,7 +11,8 @@
 
 namespace wisp {
 
-/// A fitted set of coefficients of the air's forces, without dimension where nothing else is said.
+/// Coefficients of the air's forces, without dimension where nothing else is said. The default is fitted to discs let
+/// go vertically and, apart from that, horizontally.
 struct LeafAir {
   double rotational_lift = 0.33;     ///< C_R, 0 … 10
   double translational_lift = 2.66;  ///< C_T, 0 … 10
@@ -21,11 +22,6 @@ struct LeafAir {
   double damping_by_spin = 5.7;      ///< C_r, of rotation in still air, 0 … 100
   double spin_drag = 0.05;           ///< C_3, of rotation in the leaf's own plane, 0 … 20
 };
-
-/// Fitted to discs let go vertically and, apart from that, horizontally: the default.
-LeafAir leaf_air_joint();
-/// Fitted to discs let go vertically only.
-LeafAir leaf_air_vertical();
 
 /// The leaf and the air it falls in. The default is the leaf of the training recordings.
 struct Leaf {
@@ -70,9 +66,8 @@ struct MeasuredWind {
 
 /// How the equations are integrated.
 enum class LeafMethod {
-  kClassical,  ///< four evaluations a step, fourth order: the cheapest whose statistics agree at 1/60 s a step
-  kRalston,    ///< three evaluations a step, third order: 0.7 % fewer stalls at 1/60 s
-  kMidpoint,   ///< two evaluations a step, second order: falls 4 % too fast at 1/60 s
+  kClassical,  ///< four evaluations a step, fourth order: the cheapest whose statistics agree at 1/60 s a step (a third
+               ///< order has 0.7 % fewer stalls there, a second one falls 4 % too fast)
   kStiff,      ///< backward differentiation of variable order and step, with an error bound, by SUNDIALS' CVODE
 };
 

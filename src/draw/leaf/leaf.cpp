@@ -125,16 +125,6 @@ void draw_trail(Image& image, const DrawnLeaf& leaf, const LeafView& view) {
   }
 }
 
-// How much of a line of the floor's grid is under a place, seen from where a pixel covers `reach` metres.
-float grid_at(Vec3 floor, float spacing, float reach) {
-  const auto nearness = [&](float at) {
-    const float off = std::abs(at / spacing - std::round(at / spacing)) * spacing;
-    return 1 - smooth_step(0.5F, 1.5F, off / std::max(0.0012F, 0.5F * reach));
-  };
-  const float fine = std::min(1.0F, spacing / (6 * reach));
-  return fine * std::max(nearness(floor.x), nearness(floor.y));
-}
-
 }  // namespace
 
 LeafCamera leaf_camera_from_side(float height) {
@@ -165,9 +155,7 @@ Image draw_leaf_room(int width, int height, const LeafCamera& camera, const Leaf
         const float far = std::hypot(there.x - target.x, there.y - target.y) / reach;
         const float away = smooth_step(0.5F, 2.2F, far);
         const float pool = 1 - 0.07F * smooth_step(0.2F, 1.8F, far);
-        Light ground = pool * floor;
-        const float pixel = along / (view.scale_at(1) * std::max(0.05F, std::abs(unit(ray).z)));
-        if (room.grid_metres > 0) ground = (1 - 0.15F * grid_at(there, room.grid_metres, pixel)) * ground;
+        const Light ground = pool * floor;
         const bool steep = view.gaze().z < -0.999F;
         light = steep ? ground : (1 - away) * ground + away * backdrop;
       }

@@ -36,17 +36,6 @@ LambIntegrals lamb_integrals(double a, double b) {
 
 }  // namespace
 
-LeafAir leaf_air_joint() { return {}; }
-
-LeafAir leaf_air_vertical() {
-  return {.rotational_lift = 0.57,
-          .translational_lift = 1.87,
-          .drag_broadside = 2.84,
-          .drag_edgewise = 0.18,
-          .damping_by_speed = 0.36,
-          .damping_by_spin = 4.5};
-}
-
 Result<void> check(const Leaf& leaf) {
   return flow::check_ranges("leaf", {
                                         {"length in metres", leaf.length, 0.001, 1},

@@ -50,17 +50,7 @@ struct LeafFlight::Course {
   void step(double h) {
     const auto slope = [this, h](const leaf::State<double>& s, double share) { return rate(s, seconds + share * h); };
     const double before = inside.velocity.y;
-    switch (stepping.method) {
-      case LeafMethod::kMidpoint:
-        inside = leaf::midpoint_step(inside, h, slope);
-        break;
-      case LeafMethod::kRalston:
-        inside = leaf::ralston_step(inside, h, slope);
-        break;
-      default:
-        inside = leaf::classical_step(inside, h, slope);
-        break;
-    }
+    inside = leaf::classical_step(inside, h, slope);
     const double after = inside.velocity.y;
     if (before * after < 0) stalls.push_back(seconds + h * before / (before - after));
     seconds += h;

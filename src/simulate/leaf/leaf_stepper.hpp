@@ -30,22 +30,6 @@ State<Real> with_unit_attitude(State<Real> s) {
 // `rate` is called with a state and the share of the step that has passed.
 
 template <class Real, class Rate>
-State<Real> midpoint_step(const State<Real>& s, Real h, Rate rate) {
-  return with_unit_attitude(moved(s, h, rate(moved(s, Real(0.5) * h, rate(s, 0.0)), 0.5)));
-}
-
-/// A. Ralston, Runge–Kutta methods with minimum error bounds, Math. Comp. 16 (1962), third order.
-template <class Real, class Rate>
-State<Real> ralston_step(const State<Real>& s, Real h, Rate rate) {
-  const State<Real> first = rate(s, 0.0);
-  const State<Real> second = rate(moved(s, Real(0.5) * h, first), 0.5);
-  const State<Real> third = rate(moved(s, Real(0.75) * h, second), 0.75);
-  const Real ninth = Real(1.0 / 9) * h;
-  return with_unit_attitude(
-      moved(moved(moved(s, Real(2) * ninth, first), Real(3) * ninth, second), Real(4) * ninth, third));
-}
-
-template <class Real, class Rate>
 State<Real> classical_step(const State<Real>& s, Real h, Rate rate) {
   const State<Real> first = rate(s, 0.0);
   const State<Real> second = rate(moved(s, Real(0.5) * h, first), 0.5);

@@ -37,8 +37,6 @@ TEST(LeafFlight, ComesToTheSamePlaceByEveryMethodWhereStepsAreSmall) {
   // Before chaos has grown anything: a third of a second.
   const LeafState reference = after(0.3, stiff(1e-11));
   EXPECT_LT(distance(reference, after(0.3, {LeafMethod::kClassical, 1e-3})), 1e-8);
-  EXPECT_LT(distance(reference, after(0.3, {LeafMethod::kRalston, 2e-4})), 1e-8);
-  EXPECT_LT(distance(reference, after(0.3, {LeafMethod::kMidpoint, 2e-4})), 1e-5);
 }
 
 TEST(LeafFlight, HasTheOrderOfItsMethod) {
@@ -46,8 +44,6 @@ TEST(LeafFlight, HasTheOrderOfItsMethod) {
   const auto gain = [&](LeafMethod method) {
     return distance(reference, after(0.2, {method, 4e-3})) / distance(reference, after(0.2, {method, 2e-3}));
   };
-  EXPECT_NEAR(std::log2(gain(LeafMethod::kMidpoint)), 2, 0.4);
-  EXPECT_NEAR(std::log2(gain(LeafMethod::kRalston)), 3, 0.4);
   EXPECT_NEAR(std::log2(gain(LeafMethod::kClassical)), 4, 0.5);
 }
 
