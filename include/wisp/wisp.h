@@ -106,8 +106,8 @@ typedef struct wisp_model_facts {
   double metres_per_unit; /* of an outline; 0 where it is not known */
   int64_t step_nanoseconds;
   int64_t multiply_adds_per_frame; /* by the paper's count: coefficients that are not zero */
-  int64_t operations_per_frame;    /* all arithmetic, noise and a polyline of 32 points included. WebAssembly does not
-                                      count: it says of both what the learner wrote into the file, 0 if nothing */
+  int64_t operations_per_frame;    /* all arithmetic, noise and a polyline of 32 points included. Both are what
+                                      the learner wrote into the file, 0 if nothing */
   double blow_out_level;   /* wind of this strength blows an instance out, in the unit of its input; 0: nothing does, */
   double blow_out_seconds; /* when it lasts so long; stronger wind takes less */
   uint32_t dynamics;       /* one of WISP_DYNAMICS_* */

@@ -5,12 +5,10 @@
 
 #include "wisp/model/model.hpp"
 #include "wisp/run/bank.hpp"
-#include "wisp/run/cost.hpp"
 #include "wisp/wisp.h"
 
 struct wisp_model {
   wisp::Model model;
-  wisp::Cost cost;
 };
 
 struct wisp_bank {

@@ -80,18 +80,6 @@ wisp_status hand_out_orders(const char* function, const wisp_model* model, wisp:
   return hand_out_values(function, (arx->orders.*which).values(), values, count);
 }
 
-#ifdef WISP_COST_AS_LEARNED
-// Returns the count of the learner: counting here would instantiate every kernel twice, a fifth of the wasm module.
-wisp::Result<wisp::Cost> cost_of(const wisp::Model& model) {
-  wisp::Cost cost;
-  cost.multiply_adds_per_frame = model.training.multiply_adds_per_frame;
-  cost.operations_per_frame = model.training.operations_per_frame;
-  return cost;
-}
-#else
-wisp::Result<wisp::Cost> cost_of(const wisp::Model& model) { return wisp::count_operations(model); }
-#endif
-
 }  // namespace
 
 extern "C" {
@@ -101,9 +89,7 @@ wisp_status wisp_model_load(const void* bytes, size_t size, wisp_model** model) 
   return guarded(__func__, [&]() -> wisp_status {
     auto parsed = wisp::parse_model({static_cast<const std::byte*>(bytes), size}, "the model");
     if (!parsed) return fail(WISP_BAD_DATA, parsed.error());
-    const auto cost = cost_of(*parsed);
-    if (!cost) return fail(WISP_BAD_DATA, cost.error());
-    *model = new wisp_model{std::move(parsed).value(), *cost};
+    *model = new wisp_model{std::move(parsed).value()};
     return WISP_OK;
   });
 }
@@ -119,8 +105,8 @@ wisp_status wisp_model_get_facts(const wisp_model* model, wisp_model_facts* fact
   filled.usable = model->model.training.usable.verdict ? 1 : 0;
   filled.rate_hz = model->model.rate_hz;
   filled.step_nanoseconds = wisp::step_time(model->model).count();
-  filled.multiply_adds_per_frame = model->cost.multiply_adds_per_frame;
-  filled.operations_per_frame = model->cost.operations_per_frame;
+  filled.multiply_adds_per_frame = model->model.training.multiply_adds_per_frame;
+  filled.operations_per_frame = model->model.training.operations_per_frame;
   filled.dynamics = std::visit([](const auto& dynamics) { return kind_of(dynamics); }, model->model.dynamics);
   std::visit([&](const auto& view) { describe(view, filled); }, model->model.view);
   if (model->model.extinction) describe(*model->model.extinction, filled);

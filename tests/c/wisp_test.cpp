@@ -17,6 +17,7 @@
 #include "wisp/base/file.hpp"
 #include "wisp/model/file.hpp"
 #include "wisp/run/bank.hpp"
+#include "wisp/run/cost.hpp"
 
 namespace wisp::wisp_test {
 namespace {
@@ -26,7 +27,11 @@ std::vector<std::byte> flame_bytes() { return std::move(model_bytes(flame_model(
 std::string text(const char* wrong) { return wrong ? std::string(wrong) + " · " + wisp_last_error() : ""; }
 
 TEST(C, AWholeLifeIsTheOneThatCppHas) {
-  const std::vector<std::byte> bytes = flame_bytes();
+  Model learned = flame_model();
+  const Cost counted = count_operations(learned).value();
+  learned.training.multiply_adds_per_frame = counted.multiply_adds_per_frame;
+  learned.training.operations_per_frame = counted.operations_per_frame;
+  const std::vector<std::byte> bytes = model_bytes(learned).value();
   std::vector<float> from_c(16), from_cpp(16);
   ASSERT_EQ(text(whole_life(bytes.data(), bytes.size(), from_c.data())), "");
   auto bank = Bank::create(flame_model(), {.capacity = 1, .seed = 3});

@@ -184,7 +184,8 @@ Result<void> ImageFolder::decode(const std::filesystem::path& path) {
     code = avcodec_receive_frame(codec_.get(), frame_.get());
   }
   if (code < 0) {
-    return Error{path.string() + ": the image cannot be decoded (" + libav_message(code) + "); remove or replace it"};
+    return Error{path.string() + ": the image cannot be decoded (" + libav_message(code) +
+                 "): it is damaged, or larger than 8192 x 8192 pixels; remove or replace it"};
   }
   return {};
 }
